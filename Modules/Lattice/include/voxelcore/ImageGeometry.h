@@ -1,0 +1,38 @@
+#pragma once
+// Where the voxels of a scan lie in the patient: LPS millimetres, as ITK has them.
+
+#include <array>
+#include <cstdint>
+
+namespace voxelcore
+{
+
+using Vector3 = std::array<double, 3>;
+
+/** physical = origin + direction * (spacing .* index); index (0,0,0) is the centre of the first voxel. */
+struct ImageGeometry
+{
+  std::array<std::int64_t, 3> size{ 0, 0, 0 };                        ///< voxels along i, j, k
+  Vector3                     spacing{ 1, 1, 1 };                     ///< mm
+  Vector3                     origin{ 0, 0, 0 };                      ///< LPS mm of the centre of voxel (0,0,0)
+  std::array<double, 9>       direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }; ///< row-major; its columns are the axes
+};
+
+/** LPS mm of a point given in lattice coordinates (lattice = voxel index + 1/2). */
+Vector3
+LatticeToPhysical(const ImageGeometry & geometry, const Vector3 & lattice);
+
+/** The inverse of LatticeToPhysical. The direction must be invertible. */
+Vector3
+PhysicalToLattice(const ImageGeometry & geometry, const Vector3 & physical);
+
+/** True when the map from index to LPS mirrors: polygons must then be reversed to keep their orientation. */
+bool
+IsLeftHanded(const ImageGeometry & geometry);
+
+/** How far the direction is from orthonormal: the largest deviation of an angle between two axes from 90 degrees, in
+ *  degrees, or of an axis' length from 1 expressed as asin of the excess, whichever is greater. */
+double
+OrthonormalityDeviationDegrees(const ImageGeometry & geometry);
+
+} // namespace voxelcore

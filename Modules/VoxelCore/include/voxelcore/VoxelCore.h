@@ -1,0 +1,26 @@
+#pragma once
+// The voxel core of a voxel shape (Yan, Letscher, Ju: "Voxel Cores", SIGGRAPH 2018, sections 3.2 and 4).
+
+#include "voxelcore/DelaunayCells.h"
+#include "voxelcore/MedialComplex.h"
+
+namespace voxelcore
+{
+
+/** The core as the dual of the Delaunay cells inside the shape (Definition 3.2): a vertex per cell, an edge per inner
+ *  facet, a face per Delaunay edge that is not on the boundary. `points` are the boundary vertices the cells refer to.
+ *  \throws CertificateError when the cells do not fit together (an engine's fault). */
+MedialComplex
+BuildVoxelCore(const VoxelShape &                shape,
+               const std::vector<LatticePoint> & points,
+               const DelaunayCells &             cells,
+               const SpacingWeights &            weights);
+
+/** Boundary vertices, Delaunay cells and core in one call. Empty for an empty shape. */
+MedialComplex
+ComputeVoxelCore(const VoxelShape &       shape,
+                 const SpacingWeights &   weights,
+                 Engine                   engine = Engine::Auto,
+                 const ProgressCallback & progress = {});
+
+} // namespace voxelcore
