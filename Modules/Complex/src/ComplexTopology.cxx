@@ -1,0 +1,213 @@
+#include "voxelcore/ComplexTopology.h"
+
+#include "voxelcore/UnionFind.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr ElementIndex none = 0xFFFFFFFFU;
+
+// Removes free faces until every edge has no live face or at least two: a 2-cycle cannot contain them. Returns the
+// flags of the faces left; `cofaces` and `cofaceXor` describe the live faces of each edge.
+std::vector<std::uint8_t>
+DropFreeFaces(const CellComplex & complex, std::vector<ElementIndex> & cofaces, std::vector<ElementIndex> & cofaceXor)
+{
+  std::vector<std::uint8_t> live(complex.FaceCount(), 1);
+  for (std::size_t face = 0; face < complex.FaceCount(); ++face)
+  {
+    for (const ElementIndex edge : complex.FaceEdges(face))
+    {
+      ++cofaces[edge];
+      cofaceXor[edge] ^= static_cast<ElementIndex>(face);
+    }
+  }
+  std::vector<ElementIndex> open;
+  for (std::size_t edge = 0; edge < cofaces.size(); ++edge)
+  {
+    if (cofaces[edge] == 1)
+    {
+      open.push_back(static_cast<ElementIndex>(edge));
+    }
+  }
+  while (!open.empty())
+  {
+    const ElementIndex edge = open.back();
+    open.pop_back();
+    if (cofaces[edge] != 1)
+    {
+      continue;
+    }
+    const ElementIndex face = cofaceXor[edge];
+    live[face] = 0;
+    for (const ElementIndex side : complex.FaceEdges(face))
+    {
+      cofaceXor[side] ^= face;
+      if (--cofaces[side] == 1)
+      {
+        open.push_back(side);
+      }
+    }
+  }
+  return live;
+}
+
+using Equation = std::vector<ElementIndex>; // sorted; the sum of these unknowns is zero over GF(2)
+
+// Keeps what occurs an odd number of times.
+void
+ReduceModTwo(Equation & equation)
+{
+  std::sort(equation.begin(), equation.end());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < equation.size();)
+  {
+    std::size_t j = i;
+    while (j < equation.size() && equation[j] == equation[i])
+    {
+      ++j;
+    }
+    if ((j - i) % 2 == 1)
+    {
+      equation[kept++] = equation[i];
+    }
+    i = j;
+  }
+  equation.resize(kept);
+}
+
+// Rank over GF(2) by elimination on the greatest unknown.
+std::int64_t
+Rank(std::vector<Equation> & equations)
+{
+  std::unordered_map<ElementIndex, std::size_t> pivotRow;
+  std::int64_t                                  rank = 0;
+  Equation                                      sum;
+  for (std::size_t row = 0; row < equations.size(); ++row)
+  {
+    Equation & equation = equations[row];
+    while (!equation.empty())
+    {
+      const auto [found, isNew] = pivotRow.try_emplace(equation.back(), row);
+      if (isNew)
+      {
+        ++rank;
+        break;
+      }
+      const Equation & pivot = equations[found->second];
+      sum.clear();
+      std::set_symmetric_difference(equation.begin(),
+                                    equation.end(),
+                                    pivot.begin(),
+                                    pivot.end(),
+                                    std::back_inserter(sum));
+      equation.swap(sum);
+    }
+  }
+  return rank;
+}
+
+// The dimension of the space of 2-cycles: sets of faces that meet every edge an even number of times.
+std::int64_t
+SecondBetti(const CellComplex & complex)
+{
+  std::vector<ElementIndex>       cofaces(complex.edges.size(), 0);
+  std::vector<ElementIndex>       cofaceXor(complex.edges.size(), 0);
+  const std::vector<std::uint8_t> live = DropFreeFaces(complex, cofaces, cofaceXor);
+
+  // Two faces that alone share an edge are in a cycle together or not at all: they form one sheet, one unknown.
+  UnionFind                 sheets(complex.FaceCount());
+  std::vector<ElementIndex> seamOf(complex.edges.size(), none);
+  std::vector<Equation>     seams;
+  std::int64_t              unknowns = 0;
+  for (std::size_t face = 0; face < complex.FaceCount(); ++face)
+  {
+    if (!live[face])
+    {
+      continue;
+    }
+    ++unknowns;
+    for (const ElementIndex edge : complex.FaceEdges(face))
+    {
+      if (cofaces[edge] == 2)
+      {
+        sheets.Unite(face, face ^ cofaceXor[edge]);
+      }
+      else
+      {
+        if (seamOf[edge] == none)
+        {
+          seamOf[edge] = static_cast<ElementIndex>(seams.size());
+          seams.emplace_back();
+        }
+        seams[seamOf[edge]].push_back(static_cast<ElementIndex>(face));
+      }
+    }
+  }
+  if (unknowns == 0)
+  {
+    return 0;
+  }
+
+  // Each seam edge is an equation on sheets. One with a single sheet makes it zero, one with two unites them, and both
+  // may shorten others; what is left is small.
+  std::vector<std::uint8_t> zero(complex.FaceCount(), 0);
+  for (bool changed = true; changed;)
+  {
+    changed = false;
+    for (Equation & seam : seams)
+    {
+      for (ElementIndex & sheet : seam)
+      {
+        sheet = sheets.Find(sheet);
+      }
+      std::erase_if(seam, [&](ElementIndex sheet) { return zero[sheet] != 0; });
+      ReduceModTwo(seam);
+      if (seam.size() == 1)
+      {
+        zero[seam[0]] = 1;
+        changed = true;
+      }
+      else if (seam.size() == 2)
+      {
+        sheets.Unite(seam[0], seam[1]);
+        changed = true;
+      }
+    }
+    std::erase_if(seams, [](const Equation & seam) { return seam.size() < 3; });
+    std::sort(seams.begin(), seams.end());
+    seams.erase(std::unique(seams.begin(), seams.end()), seams.end());
+  }
+  unknowns = 0;
+  for (std::size_t face = 0; face < complex.FaceCount(); ++face)
+  {
+    unknowns += live[face] && sheets.Find(face) == face && !zero[face];
+  }
+  return unknowns - Rank(seams);
+}
+
+} // namespace
+
+TopologyNumbers
+ComputeComplexTopology(const CellComplex & complex)
+{
+  UnionFind components(complex.vertexCount);
+  for (const auto & edge : complex.edges)
+  {
+    components.Unite(edge[0], edge[1]);
+  }
+  TopologyNumbers numbers;
+  numbers.euler = static_cast<std::int64_t>(complex.vertexCount) - static_cast<std::int64_t>(complex.edges.size()) +
+                  static_cast<std::int64_t>(complex.FaceCount());
+  numbers.betti[0] = static_cast<std::int64_t>(components.Count());
+  numbers.betti[2] = SecondBetti(complex);
+  numbers.betti[1] = numbers.betti[0] + numbers.betti[2] - numbers.euler;
+  return numbers;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,214 @@
+#include "voxelcore/SimplePairCollapse.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+struct Pair
+{
+  double        measure;       // of e
+  double        cofaceMeasure; // of f
+  std::uint32_t isEdge;        // dimension of e: 0 vertex, 1 edge
+  ElementIndex  element;       // e
+
+  friend bool
+  operator>(const Pair & a, const Pair & b)
+  {
+    return std::tie(a.measure, a.cofaceMeasure, a.isEdge, a.element) >
+           std::tie(b.measure, b.cofaceMeasure, b.isEdge, b.element);
+  }
+};
+
+} // namespace
+
+SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
+                                       std::span<const double> vertexMeasure,
+                                       std::span<const double> edgeMeasure,
+                                       std::span<const double> faceMeasure)
+  : m_Complex(&complex)
+  , m_VertexMeasure(vertexMeasure)
+  , m_EdgeMeasure(edgeMeasure)
+  , m_FaceMeasure(faceMeasure)
+  , m_Live{ std::vector<std::uint8_t>(complex.vertexCount, 1),
+            std::vector<std::uint8_t>(complex.edges.size(), 1),
+            std::vector<std::uint8_t>(complex.FaceCount(), 1) }
+  , m_VertexCofaces(complex.vertexCount, 0)
+  , m_VertexCofaceXor(complex.vertexCount, 0)
+  , m_EdgeCofaces(complex.edges.size(), 0)
+  , m_EdgeCofaceXor(complex.edges.size(), 0)
+{
+  for (std::size_t edge = 0; edge < complex.edges.size(); ++edge)
+  {
+    for (const ElementIndex vertex : complex.edges[edge])
+    {
+      ++m_VertexCofaces[vertex];
+      m_VertexCofaceXor[vertex] ^= static_cast<ElementIndex>(edge);
+    }
+  }
+  for (std::size_t face = 0; face < complex.FaceCount(); ++face)
+  {
+    for (const ElementIndex edge : complex.FaceEdges(face))
+    {
+      ++m_EdgeCofaces[edge];
+      m_EdgeCofaceXor[edge] ^= static_cast<ElementIndex>(face);
+    }
+  }
+}
+
+void
+SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & progress)
+{
+  std::priority_queue<Pair, std::vector<Pair>, std::greater<>> pairs;
+  // A vertex in one edge is in no face, as a face would need two edges there; so cofaces one dimension up suffice.
+  const auto offerVertex = [&](ElementIndex vertex) {
+    if (m_VertexCofaces[vertex] == 1 && m_VertexMeasure[vertex] < threshold)
+    {
+      const double coface = m_EdgeMeasure[m_VertexCofaceXor[vertex]];
+      if (coface < threshold)
+      {
+        pairs.push({ m_VertexMeasure[vertex], coface, 0, vertex });
+      }
+    }
+  };
+  const auto offerEdge = [&](ElementIndex edge) {
+    if (m_EdgeCofaces[edge] == 1 && m_EdgeMeasure[edge] < threshold)
+    {
+      const double coface = m_FaceMeasure[m_EdgeCofaceXor[edge]];
+      if (coface < threshold)
+      {
+        pairs.push({ m_EdgeMeasure[edge], coface, 1, edge });
+      }
+    }
+  };
+  const auto dropEdge = [&](ElementIndex edge) {
+    m_Live.edges[edge] = 0;
+    for (const ElementIndex vertex : m_Complex->edges[edge])
+    {
+      --m_VertexCofaces[vertex];
+      m_VertexCofaceXor[vertex] ^= edge;
+      if (m_Live.vertices[vertex])
+      {
+        offerVertex(vertex);
+      }
+    }
+  };
+
+  for (std::size_t vertex = 0; vertex < m_VertexCofaces.size(); ++vertex)
+  {
+    if (m_Live.vertices[vertex])
+    {
+      offerVertex(static_cast<ElementIndex>(vertex));
+    }
+  }
+  for (std::size_t edge = 0; edge < m_EdgeCofaces.size(); ++edge)
+  {
+    if (m_Live.edges[edge])
+    {
+      offerEdge(static_cast<ElementIndex>(edge));
+    }
+  }
+
+  std::size_t count = 0;
+  while (!pairs.empty())
+  {
+    if ((++count & 0xFFFFU) == 0)
+    {
+      ReportProgress(progress, "prune", 0.0);
+    }
+    const Pair pair = pairs.top();
+    pairs.pop();
+    if (pair.isEdge)
+    {
+      // Its face may have gone with another of its edges in the meantime.
+      if (!m_Live.edges[pair.element] || m_EdgeCofaces[pair.element] != 1)
+      {
+        continue;
+      }
+      const ElementIndex face = m_EdgeCofaceXor[pair.element];
+      m_Live.faces[face] = 0;
+      for (const ElementIndex edge : m_Complex->FaceEdges(face))
+      {
+        --m_EdgeCofaces[edge];
+        m_EdgeCofaceXor[edge] ^= face;
+        if (edge != pair.element)
+        {
+          offerEdge(edge);
+        }
+      }
+      dropEdge(pair.element);
+    }
+    else
+    {
+      if (!m_Live.vertices[pair.element] || m_VertexCofaces[pair.element] != 1)
+      {
+        continue;
+      }
+      m_Live.vertices[pair.element] = 0;
+      dropEdge(m_VertexCofaceXor[pair.element]);
+    }
+  }
+}
+
+CellComplex
+ExtractLive(const CellComplex &         complex,
+            const LiveElements &        live,
+            std::vector<ElementIndex> & vertexIds,
+            std::vector<ElementIndex> & edgeIds,
+            std::vector<ElementIndex> & faceIds)
+{
+  const auto collect = [](const std::vector<std::uint8_t> & flags, std::vector<ElementIndex> & ids) {
+    ids.clear();
+    ids.reserve(static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1)));
+    std::vector<ElementIndex> renumbered(flags.size(), 0);
+    for (std::size_t element = 0; element < flags.size(); ++element)
+    {
+      if (flags[element])
+      {
+        renumbered[element] = static_cast<ElementIndex>(ids.size());
+        ids.push_back(static_cast<ElementIndex>(element));
+      }
+    }
+    return renumbered;
+  };
+  const auto vertexNumbers = collect(live.vertices, vertexIds);
+  const auto edgeNumbers = collect(live.edges, edgeIds);
+  collect(live.faces, faceIds);
+
+  CellComplex result;
+  result.vertexCount = vertexIds.size();
+  result.edges.reserve(edgeIds.size());
+  for (const ElementIndex edge : edgeIds)
+  {
+    const auto & ends = complex.edges[edge];
+    result.edges.push_back({ vertexNumbers[ends[0]], vertexNumbers[ends[1]] });
+  }
+  result.faceOffsets.reserve(faceIds.size() + 1);
+  std::uint64_t corners = 0;
+  for (const ElementIndex face : faceIds)
+  {
+    corners += complex.faceOffsets[face + 1] - complex.faceOffsets[face];
+    result.faceOffsets.push_back(corners);
+  }
+  result.faceVertices.reserve(corners);
+  result.faceEdges.reserve(corners);
+  for (const ElementIndex face : faceIds)
+  {
+    for (const ElementIndex vertex : complex.FaceVertices(face))
+    {
+      result.faceVertices.push_back(vertexNumbers[vertex]);
+    }
+    for (const ElementIndex edge : complex.FaceEdges(face))
+    {
+      result.faceEdges.push_back(edgeNumbers[edge]);
+    }
+  }
+  return result;
+}
+
+} // namespace voxelcore

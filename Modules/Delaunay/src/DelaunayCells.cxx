@@ -1,0 +1,55 @@
+#include "voxelcore/DelaunayCells.h"
+
+#include "RawCells.h"
+#include "TetGenEngine.h"
+
+#include "voxelcore/Predicates.h"
+
+#include <algorithm>
+
+namespace voxelcore
+{
+
+bool
+HasEngine(Engine engine)
+{
+#ifdef VOXELCORE_HAS_TETGEN
+  return engine == Engine::Auto || engine == Engine::TetGen;
+#else
+  static_cast<void>(engine);
+  return false;
+#endif
+}
+
+DelaunayCells
+ComputeDelaunayCells(const VoxelShape &                shape,
+                     const std::vector<LatticePoint> & points,
+                     const SpacingWeights &            weights,
+                     Engine                            engine,
+                     const ProgressCallback &          progress)
+{
+  if (!HasEngine(engine))
+  {
+    throw Error("this build has no Delaunay engine; configure it with -DVOXELCORE_TETGEN=ON");
+  }
+  const auto & size = shape.Box().size;
+  if (!ExactRangeAllows(*std::max_element(size.begin(), size.end()), weights))
+  {
+    throw InputError(
+      "the shape is too large for exact arithmetic at this spacing; crop it, or give a simpler --spacing");
+  }
+  DelaunayCells cells;
+  if (points.empty())
+  {
+    return cells;
+  }
+  ReportProgress(progress, "delaunay", 0.0);
+#ifdef VOXELCORE_HAS_TETGEN
+  cells = TetGenCells(shape, points, weights, progress);
+#endif
+  MakeCanonical(cells, points, weights);
+  ReportProgress(progress, "delaunay", 1.0);
+  return cells;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,87 @@
+#include "voxelcore/BoundaryVertices.h"
+
+#include <bit>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Calls visit(y, z, word, bits) for every word of lattice corners that holds boundary vertices, in scan order; y and z
+// are box-relative lattice rows, bit b of word w is the corner at box-relative x = 64 w + b.
+template <typename TVisit>
+void
+VisitBoundaryWords(const VoxelShape & shape, TVisit visit)
+{
+  const auto &      size = shape.Box().size;
+  const std::size_t words = shape.WordsPerRow();
+  if (words == 0 || size[1] == 0 || size[2] == 0)
+  {
+    return;
+  }
+  const std::vector<std::uint64_t>     empty(words, 0);
+  const std::span<const std::uint64_t> background(empty);
+  const auto                           rowAt = [&](std::int32_t y, std::int32_t z) {
+    return y < 0 || z < 0 || y >= size[1] || z >= size[2] ? background : shape.Row(y, z);
+  };
+  for (std::int32_t z = 0; z <= size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y <= size[1]; ++y)
+    {
+      const auto    a = rowAt(y - 1, z - 1);
+      const auto    b = rowAt(y, z - 1);
+      const auto    c = rowAt(y - 1, z);
+      const auto    d = rowAt(y, z);
+      std::uint64_t carryAny = 0;
+      std::uint64_t carryAll = 0;
+      for (std::size_t word = 0; word < words; ++word)
+      {
+        const std::uint64_t any = a[word] | b[word] | c[word] | d[word];
+        const std::uint64_t all = a[word] & b[word] & c[word] & d[word];
+        // Corner x lies between voxels x - 1 and x.
+        const std::uint64_t boundary = (any | (any << 1) | carryAny) & ~(all & ((all << 1) | carryAll));
+        carryAny = any >> 63;
+        carryAll = all >> 63;
+        if (boundary != 0)
+        {
+          visit(y, z, word, boundary);
+        }
+      }
+      if (carryAny != 0) // only when the box is a multiple of 64 wide: the corner behind its last voxel
+      {
+        visit(y, z, words, std::uint64_t{ 1 });
+      }
+    }
+  }
+}
+
+} // namespace
+
+std::uint64_t
+CountBoundaryVertices(const VoxelShape & shape)
+{
+  std::uint64_t count = 0;
+  VisitBoundaryWords(shape, [&](std::int32_t, std::int32_t, std::size_t, std::uint64_t bits) {
+    count += static_cast<std::uint64_t>(std::popcount(bits));
+  });
+  return count;
+}
+
+std::vector<LatticePoint>
+BoundaryVertices(const VoxelShape & shape)
+{
+  std::vector<LatticePoint> points;
+  points.reserve(CountBoundaryVertices(shape));
+  const auto & lower = shape.Box().lower;
+  VisitBoundaryWords(shape, [&](std::int32_t y, std::int32_t z, std::size_t word, std::uint64_t bits) {
+    for (; bits != 0; bits &= bits - 1)
+    {
+      const auto x = static_cast<std::int32_t>(64 * word) + std::countr_zero(bits);
+      points.push_back({ lower[0] + x, lower[1] + y, lower[2] + z });
+    }
+  });
+  return points;
+}
+
+} // namespace voxelcore
