@@ -1,0 +1,144 @@
+#include "voxelcore/MedialModel.h"
+
+#include "ModelCells.h"
+#include "ModelFormats.h"
+
+#include "voxelcore/Error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore
+{
+namespace
+{
+
+std::string
+FormatOf(const std::filesystem::path & path)
+{
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return extension;
+}
+
+void
+CheckModel(const MedialModel & model, bool keepEdges)
+{
+  for (std::size_t i = 0; i < model.parts.size(); ++i)
+  {
+    const MedialComplex & core = model.parts[i].core;
+    const CellComplex &   cells = core.cells;
+    if (i > 0 && model.parts[i - 1].label >= model.parts[i].label)
+    {
+      throw Error("the parts of a model must be sorted by label, each label once");
+    }
+    if (core.positions.size() != cells.vertexCount || core.radius.size() != cells.vertexCount ||
+        core.vertexLambda.size() != cells.vertexCount || core.edgeLambda.size() != cells.edges.size() ||
+        core.faceLambda.size() != cells.FaceCount() || cells.faceEdges.size() != cells.faceVertices.size() ||
+        !std::is_sorted(cells.edges.begin(), cells.edges.end()))
+    {
+      throw Error("a part of a model is incomplete or not in canonical order");
+    }
+    if (keepEdges)
+    {
+      const std::vector<std::uint8_t> onFace = EdgesOnFaces(cells);
+      for (std::size_t edge = 0; edge < onFace.size(); ++edge)
+      {
+        if (onFace[edge] && std::isnan(core.edgeLambda[edge]))
+        {
+          throw UsageError(
+            "the measures of the edges on faces are not known (the model was read from a file written "
+            "without --keep-edges), so they cannot be written");
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
+ModelPart
+ToPhysical(MedialComplex core, const ImageGeometry & geometry, std::int64_t label)
+{
+  for (auto & position : core.positions)
+  {
+    position = LatticeToPhysical(geometry, position);
+  }
+  if (IsLeftHanded(geometry))
+  {
+    CellComplex & cells = core.cells;
+    for (std::size_t face = 0; face < cells.FaceCount(); ++face)
+    {
+      const auto begin = static_cast<std::ptrdiff_t>(cells.faceOffsets[face]);
+      const auto end = static_cast<std::ptrdiff_t>(cells.faceOffsets[face + 1]);
+      if (begin != end)
+      {
+        // The first corner stays the first; edge i joins corner i and the next, so all edges turn round.
+        std::reverse(cells.faceVertices.begin() + begin + 1, cells.faceVertices.begin() + end);
+        std::reverse(cells.faceEdges.begin() + begin, cells.faceEdges.begin() + end);
+      }
+    }
+  }
+  return { label, std::move(core) };
+}
+
+bool
+IsModelPath(const std::filesystem::path & path)
+{
+  const std::string format = FormatOf(path);
+  return format == ".vtp" || format == ".vtk" || format == ".ply" || format == ".obj" || format == ".stl" ||
+         format == ".ma";
+}
+
+ModelOmissions
+WriteModel(const std::filesystem::path & path,
+           const std::filesystem::path & formatOf,
+           const MedialModel &           model,
+           const ModelOptions &          options)
+{
+  const std::string format = FormatOf(formatOf);
+  if (!IsModelPath(formatOf))
+  {
+    throw UsageError("cannot write '" + formatOf.string() +
+                     "': the extension must be .vtp, .vtk, .ply, .obj, .stl or .ma");
+  }
+  CheckModel(model, options.keepEdges);
+  if (options.triangles || format == ".stl" || format == ".ma")
+  {
+    MedialModel triangles{ {}, model.provenance, model.hasEdges };
+    for (const ModelPart & part : model.parts)
+    {
+      triangles.parts.push_back({ part.label, Triangulated(part.core) });
+    }
+    if (format == ".stl")
+    {
+      return WriteStl(path, triangles);
+    }
+    if (format == ".ma")
+    {
+      return WriteMa(path, triangles);
+    }
+    return WriteModel(path, formatOf, triangles, { false, options.keepEdges });
+  }
+  if (format == ".ply")
+  {
+    return WritePly(path, model);
+  }
+  if (format == ".obj")
+  {
+    return WriteObj(path, model);
+  }
+  if (format == ".vtk")
+  {
+    WriteVtk(path, model, options.keepEdges);
+  }
+  else
+  {
+    WriteVtp(path, model, options.keepEdges);
+  }
+  return {};
+}
+
+} // namespace voxelcore

@@ -1,0 +1,28 @@
+#pragma once
+// What the formats need to know about the cells of a core: which stand alone, and the same core in triangles.
+
+#include "voxelcore/MedialComplex.h"
+
+namespace voxelcore
+{
+
+/** The vertices on no edge, in order. */
+std::vector<ElementIndex>
+IsolatedVertices(const CellComplex & cells);
+
+/** A flag (0 or 1) per edge: whether it lies on a face. */
+std::vector<std::uint8_t>
+EdgesOnFaces(const CellComplex & cells);
+
+/** Makes the edges of a complex anew, in canonical order (by first, then second vertex; smaller index first), from the
+ *  corners of its faces and from its edges on no face (any order of ends). Sets `edges` and `faceEdges`.
+ *  \throws Error when there are more than an ElementIndex can count. */
+void
+BuildEdges(CellComplex & cells, std::span<const std::array<ElementIndex, 2>> looseEdges);
+
+/** The same core with each polygon cut into the fan of triangles from its first vertex, in the order of the polygons.
+ *  A diagonal lies within its face and has the face's two nearest boundary vertices: so its measure is the face's. */
+MedialComplex
+Triangulated(const MedialComplex & core);
+
+} // namespace voxelcore

@@ -1,0 +1,124 @@
+#include "OutputFile.h"
+
+#include "voxelcore/Error.h"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+namespace voxelcore
+{
+namespace
+{
+
+void
+RemoveRegularFile(const std::filesystem::path & path)
+{
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) // never a device or a pipe
+  {
+    std::filesystem::remove(path, ignored);
+  }
+}
+
+std::FILE *
+OpenForWriting(const std::filesystem::path & path)
+{
+  std::error_code ignored;
+  const auto      status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+  {
+    throw OutputError("cannot write '" + path.string() + "': it exists and is not a regular file; choose another name");
+  }
+  errno = 0;
+  std::FILE * file = std::fopen(path.c_str(), "wb");
+  if (!file)
+  {
+    FailOutput(path, errno);
+  }
+  return file;
+}
+
+} // namespace
+
+void
+FailOutput(const std::filesystem::path & path, int errorNumber)
+{
+  RemoveRegularFile(path);
+  std::string message = "cannot write '" + path.string() + "'";
+  if (errorNumber != 0)
+  {
+    message += std::string(": ") + std::strerror(errorNumber);
+  }
+  switch (errorNumber)
+  {
+    case ENOENT:
+    case ENOTDIR:
+      message += "; create the folder first";
+      break;
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      message += "; choose a folder you may write to";
+      break;
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      message += "; free some space or write elsewhere";
+      break;
+    default:
+      message += "; check the disk or write elsewhere";
+  }
+  throw OutputError(message);
+}
+
+void
+CheckWritable(const std::filesystem::path & path)
+{
+  if (std::fclose(OpenForWriting(path)) != 0)
+  {
+    FailOutput(path, errno);
+  }
+}
+
+OutputFile::OutputFile(const std::filesystem::path & path)
+  : m_Path(path)
+  , m_File(OpenForWriting(path))
+{
+  std::setvbuf(m_File, nullptr, _IOFBF, std::size_t{ 1 } << 20);
+}
+
+OutputFile::~OutputFile()
+{
+  if (m_File)
+  {
+    std::fclose(m_File);
+    RemoveRegularFile(m_Path);
+  }
+}
+
+void
+OutputFile::Write(const void * data, std::size_t bytes)
+{
+  if (bytes != 0 && std::fwrite(data, 1, bytes, m_File) != bytes)
+  {
+    FailOutput(m_Path, errno);
+  }
+}
+
+void
+OutputFile::Finish()
+{
+  // What is still buffered is written here: a full disk may show only now.
+  std::FILE * file = m_File;
+  m_File = nullptr;
+  const bool flushed = std::fflush(file) == 0;
+  const int  flushError = errno;
+  const bool closed = std::fclose(file) == 0;
+  if (!flushed || !closed)
+  {
+    FailOutput(m_Path, flushed ? errno : flushError);
+  }
+}
+
+} // namespace voxelcore

@@ -1,0 +1,336 @@
+#include "ModelCells.h"
+#include "ModelFormats.h"
+#include "OutputFile.h"
+#include "VtkMessages.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataWriter.h>
+#include <vtkStringArray.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <limits>
+
+namespace voxelcore
+{
+namespace
+{
+
+/** One part's place in the file and its cells of dimension 0 and 1. */
+struct PartCells
+{
+  const ModelPart *         part;
+  std::uint64_t             firstPoint;
+  std::vector<ElementIndex> isolated;   ///< vertices on no edge
+  std::vector<std::uint8_t> onFace;     ///< per edge
+  std::uint64_t             looseEdges; ///< edges on no face
+};
+
+std::vector<PartCells>
+FindCells(const MedialModel & model)
+{
+  std::vector<PartCells> all;
+  std::uint64_t          points = 0;
+  for (const ModelPart & part : model.parts)
+  {
+    const CellComplex & cells = part.core.cells;
+    PartCells           one{ &part, points, IsolatedVertices(cells), EdgesOnFaces(cells), 0 };
+    one.looseEdges = static_cast<std::uint64_t>(std::count(one.onFace.begin(), one.onFace.end(), std::uint8_t{ 0 }));
+    points += cells.vertexCount;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+void
+AddString(vtkFieldData * fields, const char * name, const std::string & value)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  fields->AddArray(array);
+}
+
+/** An array of `tuples` with `components`; its values are written through the pointer. */
+template <typename ArrayType>
+auto *
+Allocate(ArrayType & array, const char * name, std::uint64_t tuples, int components = 1)
+{
+  array.SetName(name);
+  array.SetNumberOfComponents(components);
+  array.SetNumberOfTuples(static_cast<vtkIdType>(tuples));
+  return array.GetPointer(0);
+}
+
+void
+AddPoints(vtkPolyData * data, const std::vector<PartCells> & parts)
+{
+  const std::uint64_t count = parts.empty() ? 0 : parts.back().firstPoint + parts.back().part->core.cells.vertexCount;
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkDoubleArray> radius;
+  vtkNew<vtkDoubleArray> lambda;
+  double *               p = Allocate(*positions, "Points", count, 3);
+  double *               r = Allocate(*radius, "Radius", count);
+  double *               l = Allocate(*lambda, "Lambda", count);
+  for (const PartCells & one : parts)
+  {
+    const MedialComplex & core = one.part->core;
+    for (const auto & position : core.positions)
+    {
+      p = std::copy(position.begin(), position.end(), p);
+    }
+    r = std::copy(core.radius.begin(), core.radius.end(), r);
+    l = std::copy(core.vertexLambda.begin(), core.vertexLambda.end(), l);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetData(positions);
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(radius);
+  data->GetPointData()->AddArray(lambda);
+}
+
+/** Verts, lines and polys with 32 or 64 bit indices. */
+template <typename ArrayType>
+void
+AddCells(vtkPolyData * data, const std::vector<PartCells> & parts)
+{
+  using Index = typename ArrayType::ValueType;
+  std::uint64_t verts = 0;
+  std::uint64_t lines = 0;
+  std::uint64_t polys = 0;
+  std::uint64_t corners = 0;
+  for (const PartCells & one : parts)
+  {
+    verts += one.isolated.size();
+    lines += one.looseEdges;
+    polys += one.part->core.cells.FaceCount();
+    corners += one.part->core.cells.faceVertices.size();
+  }
+  const auto makeCells = [&](std::uint64_t cells, std::uint64_t size, auto && fill) {
+    vtkNew<ArrayType> offsets;
+    vtkNew<ArrayType> connectivity;
+    Index *           offset = Allocate(*offsets, "offsets", cells + 1);
+    Index *           point = Allocate(*connectivity, "connectivity", size);
+    *offset = 0;
+    for (const PartCells & one : parts)
+    {
+      fill(one, static_cast<Index>(one.firstPoint), offset, point);
+    }
+    vtkNew<vtkCellArray> array;
+    array->SetData(offsets.Get(), connectivity.Get());
+    return vtkSmartPointer<vtkCellArray>(array);
+  };
+  data->SetVerts(makeCells(verts, verts, [](const PartCells & one, Index first, Index *& offset, Index *& point) {
+    for (const ElementIndex vertex : one.isolated)
+    {
+      *point++ = first + static_cast<Index>(vertex);
+      offset[1] = offset[0] + 1;
+      ++offset;
+    }
+  }));
+  data->SetLines(makeCells(lines, 2 * lines, [](const PartCells & one, Index first, Index *& offset, Index *& point) {
+    const auto & edges = one.part->core.cells.edges;
+    for (std::size_t edge = 0; edge < edges.size(); ++edge)
+    {
+      if (!one.onFace[edge])
+      {
+        *point++ = first + static_cast<Index>(edges[edge][0]);
+        *point++ = first + static_cast<Index>(edges[edge][1]);
+        offset[1] = offset[0] + 2;
+        ++offset;
+      }
+    }
+  }));
+  data->SetPolys(makeCells(polys, corners, [](const PartCells & one, Index first, Index *& offset, Index *& point) {
+    const CellComplex & cells = one.part->core.cells;
+    for (std::size_t face = 0; face < cells.FaceCount(); ++face)
+    {
+      const auto vertices = cells.FaceVertices(face);
+      for (const ElementIndex vertex : vertices)
+      {
+        *point++ = first + static_cast<Index>(vertex);
+      }
+      offset[1] = offset[0] + static_cast<Index>(vertices.size());
+      ++offset;
+    }
+  }));
+}
+
+void
+AddCellArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
+{
+  const auto                count = static_cast<std::uint64_t>(data->GetNumberOfCells());
+  vtkNew<vtkDoubleArray>    lambda;
+  vtkNew<vtkTypeInt64Array> label;
+  double *                  measure = Allocate(*lambda, "Lambda", count);
+  auto *                    value = Allocate(*label, "Label", count);
+  for (const PartCells & one : parts)
+  {
+    for (const ElementIndex vertex : one.isolated)
+    {
+      *measure++ = one.part->core.vertexLambda[vertex];
+    }
+    value = std::fill_n(value, one.isolated.size(), one.part->label);
+  }
+  for (const PartCells & one : parts)
+  {
+    for (std::size_t edge = 0; edge < one.onFace.size(); ++edge)
+    {
+      if (!one.onFace[edge])
+      {
+        *measure++ = one.part->core.edgeLambda[edge];
+      }
+    }
+    value = std::fill_n(value, one.looseEdges, one.part->label);
+  }
+  for (const PartCells & one : parts)
+  {
+    const auto & measures = one.part->core.faceLambda;
+    measure = std::copy(measures.begin(), measures.end(), measure);
+    value = std::fill_n(value, measures.size(), one.part->label);
+  }
+  data->GetCellData()->AddArray(lambda);
+  data->GetCellData()->AddArray(label);
+}
+
+void
+AddEdgeArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
+{
+  std::uint64_t count = 0;
+  for (const PartCells & one : parts)
+  {
+    count += one.onFace.size() - one.looseEdges;
+  }
+  if (count == 0)
+  {
+    return; // nothing is missing, with or without --keep-edges: the file should not depend on it
+  }
+  vtkNew<vtkTypeInt64Array> vertices;
+  vtkNew<vtkDoubleArray>    lambda;
+  auto *                    vertex = Allocate(*vertices, "EdgeVertices", count, 2);
+  double *                  measure = Allocate(*lambda, "EdgeLambda", count);
+  for (const PartCells & one : parts)
+  {
+    const MedialComplex & core = one.part->core;
+    for (std::size_t edge = 0; edge < one.onFace.size(); ++edge)
+    {
+      if (one.onFace[edge])
+      {
+        *vertex++ = static_cast<std::int64_t>(one.firstPoint + core.cells.edges[edge][0]);
+        *vertex++ = static_cast<std::int64_t>(one.firstPoint + core.cells.edges[edge][1]);
+        *measure++ = core.edgeLambda[edge];
+      }
+    }
+  }
+  data->GetFieldData()->AddArray(vertices);
+  data->GetFieldData()->AddArray(lambda);
+}
+
+vtkSmartPointer<vtkPolyData>
+MakePolyData(const MedialModel & model, bool keepEdges)
+{
+  const std::vector<PartCells> parts = FindCells(model);
+  vtkNew<vtkPolyData>          data;
+  AddPoints(data, parts);
+  std::uint64_t largest = static_cast<std::uint64_t>(data->GetNumberOfPoints());
+  std::uint64_t corners = 0;
+  for (const PartCells & one : parts)
+  {
+    corners += one.part->core.cells.faceVertices.size() + 2 * one.looseEdges;
+  }
+  largest = std::max(largest, corners);
+  if (largest < static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))
+  {
+    AddCells<vtkTypeInt32Array>(data, parts); // half the size of what VTK would take by itself
+  }
+  else
+  {
+    AddCells<vtkTypeInt64Array>(data, parts);
+  }
+  AddCellArrays(data, parts);
+  AddString(data->GetFieldData(), "SPACE", "LPS");
+  AddString(data->GetFieldData(), "Units", "mm");
+  if (!model.provenance.empty())
+  {
+    AddString(data->GetFieldData(), "Provenance", model.provenance);
+  }
+  if (keepEdges)
+  {
+    AddEdgeArrays(data, parts);
+  }
+  return data;
+}
+
+/** Whether the file ends as a complete one does. */
+bool
+EndsWith(const std::filesystem::path & path, std::string_view ending)
+{
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto    size = static_cast<std::streamoff>(file.tellg());
+  if (!file || size < static_cast<std::streamoff>(ending.size()))
+  {
+    return false;
+  }
+  std::string tail(ending.size(), '\0');
+  file.seekg(size - static_cast<std::streamoff>(ending.size()));
+  return file.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == ending;
+}
+
+} // namespace
+
+void
+WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
+{
+  CheckWritable(path); // VTK would not say why, and on a full disk it removes whatever stands at the path
+  const VtkMessages            messages;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(MakePolyData(model, keepEdges));
+  writer->SetFileName(path.c_str());
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  writer->SetByteOrderToLittleEndian();
+  errno = 0;
+  const bool written = writer->Write() == 1;
+  const int  errorNumber = errno;
+  const bool complete = written && writer->GetErrorCode() == vtkErrorCode::NoError && messages.First().empty() &&
+                        EndsWith(path, "</VTKFile>\n");
+  if (!complete)
+  {
+    FailOutput(path, writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError ? ENOSPC : errorNumber);
+  }
+}
+
+void
+WriteVtk(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
+{
+  OutputFile                file(path);
+  const VtkMessages         messages;
+  vtkNew<vtkPolyDataWriter> writer;
+  writer->SetInputData(MakePolyData(model, keepEdges));
+  writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2); // as Slicer writes; 5.1 is new to many tools
+  writer->SetFileTypeToBinary();
+  writer->SetHeader("VoxelCore medial surface. SPACE=LPS Units=mm");
+  writer->WriteToOutputStringOn();
+  if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError || !messages.First().empty())
+  {
+    FailOutput(path, ENOMEM);
+  }
+  file.Write(writer->GetOutputString(), static_cast<std::size_t>(writer->GetOutputStringLength()));
+  file.Finish();
+}
+
+} // namespace voxelcore
