@@ -1,67 +1,21 @@
 #include "ModelCells.h"
-#include "VtkMessages.h"
+#include "VtpFile.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/MedialModel.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkTypeInt64Array.h>
-#include <vtkXMLPolyDataReader.h>
-
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <new>
+#include <span>
 
 namespace voxelcore
 {
 namespace
 {
-
-/** Ends reading: damaged, or not one of ours. */
-struct Unfit
-{
-  std::string reason;
-};
-
-void
-Require(bool condition, const char * reason)
-{
-  if (!condition)
-  {
-    throw Unfit{ reason };
-  }
-}
-
-/** The values of an array with the given type and shape; Unfit when it is missing or other. */
-template <typename ArrayType>
-std::span<const typename ArrayType::ValueType>
-Values(vtkFieldData * fields, const char * name, std::int64_t tuples, int components = 1)
-{
-  auto * array = ArrayType::FastDownCast(fields->GetAbstractArray(name));
-  if (!array || array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != tuples)
-  {
-    throw Unfit{ std::string("its array ") + name + " is missing or has the wrong type or length" };
-  }
-  return { array->GetPointer(0), static_cast<std::size_t>(array->GetNumberOfValues()) };
-}
-
-std::string
-Text(vtkFieldData * fields, const char * name)
-{
-  auto * array = vtkStringArray::SafeDownCast(fields->GetAbstractArray(name));
-  return array && array->GetNumberOfValues() == 1 ? std::string(array->GetValue(0)) : std::string();
-}
 
 /** The cells of one kind, whatever width of index the file has. */
 struct CellList
@@ -82,38 +36,27 @@ struct CellList
 };
 
 CellList
-ReadCells(vtkCellArray * cells, std::int64_t pointCount, std::int64_t fewest, std::int64_t most)
+ReadCells(VtpFile & file, const std::string & section, std::int64_t pointCount, std::int64_t fewest, std::int64_t most)
 {
-  CellList   list;
-  const auto take = [&](auto * offsets, auto * points) {
-    list.offsets.assign(offsets->GetPointer(0), offsets->GetPointer(0) + offsets->GetNumberOfValues());
-    list.points.assign(points->GetPointer(0), points->GetPointer(0) + points->GetNumberOfValues());
-  };
-  if (cells->IsStorage64Bit())
-  {
-    take(cells->GetOffsetsArray64(), cells->GetConnectivityArray64());
-  }
-  else
-  {
-    take(cells->GetOffsetsArray32(), cells->GetConnectivityArray32());
-  }
-  if (list.offsets.empty())
-  {
-    list.offsets.push_back(0);
-  }
-  Require(list.offsets.front() == 0 && list.offsets.back() == static_cast<std::int64_t>(list.points.size()),
-          "the offsets of its cells do not match their points");
+  CellList list;
+  // The file gives the end of each cell, not the beginning of the first.
+  list.offsets = file.ReadIndices(section, "offsets");
+  list.offsets.insert(list.offsets.begin(), 0);
+  list.points = file.ReadIndices(section, "connectivity");
+  RequireFit(list.Count() == file.PieceCount("NumberOf" + section), "its numbers of cells do not add up");
+  RequireFit(list.offsets.back() == static_cast<std::int64_t>(list.points.size()),
+             "the offsets of its cells do not match their points");
   for (std::size_t cell = 0; cell < list.Count(); ++cell)
   {
-    Require(list.offsets[cell + 1] >= list.offsets[cell] &&
-              list.offsets[cell + 1] <= static_cast<std::int64_t>(list.points.size()),
-            "the offsets of its cells do not match their points");
+    RequireFit(list.offsets[cell + 1] >= list.offsets[cell] &&
+                 list.offsets[cell + 1] <= static_cast<std::int64_t>(list.points.size()),
+               "the offsets of its cells do not match their points");
     const std::int64_t size = list.offsets[cell + 1] - list.offsets[cell];
-    Require(size >= fewest && size <= most, "a cell is neither a vertex, an edge nor a polygon");
+    RequireFit(size >= fewest && size <= most, "a cell is neither a vertex, an edge nor a polygon");
   }
   for (const std::int64_t point : list.points)
   {
-    Require(point >= 0 && point < pointCount, "a cell names a point that is not there");
+    RequireFit(point >= 0 && point < pointCount, "a cell names a point that is not there");
   }
   return list;
 }
@@ -128,7 +71,7 @@ struct LabelRange
 };
 
 std::map<std::int64_t, LabelRange>
-FindLabels(const std::array<CellList, 3> & kinds, std::span<const vtkTypeInt64> labels, std::int64_t pointCount)
+FindLabels(const std::array<CellList, 3> & kinds, const std::vector<std::int64_t> & labels, std::int64_t pointCount)
 {
   std::map<std::int64_t, LabelRange> ranges;
   std::vector<std::uint8_t>          used(static_cast<std::size_t>(pointCount), 0);
@@ -140,7 +83,7 @@ FindLabels(const std::array<CellList, 3> & kinds, std::span<const vtkTypeInt64> 
     {
       if (cell == 0 || labels[index] != labels[index - 1])
       {
-        Require(cell == 0 || labels[index] > labels[index - 1], "its cells are not sorted by label");
+        RequireFit(cell == 0 || labels[index] > labels[index - 1], "its cells are not sorted by label");
         range = &ranges[labels[index]];
         range->firstCell[kind] = cell;
       }
@@ -153,11 +96,11 @@ FindLabels(const std::array<CellList, 3> & kinds, std::span<const vtkTypeInt64> 
       }
     }
   }
-  Require(std::find(used.begin(), used.end(), 0) == used.end(), "a point belongs to no cell");
+  RequireFit(std::find(used.begin(), used.end(), 0) == used.end(), "a point belongs to no cell");
   std::int64_t next = 0;
   for (const auto & [label, range] : ranges)
   {
-    Require(range.firstPoint == next, "its points are not sorted by label");
+    RequireFit(range.firstPoint == next, "its points are not sorted by label");
     next = range.lastPoint + 1;
   }
   return ranges;
@@ -176,7 +119,8 @@ ReadComplex(const std::array<CellList, 3> & kinds, const LabelRange & range)
   {
     const auto line = kinds[1][range.firstCell[1] + i];
     lines[i] = { local(line[0]), local(line[1]) };
-    Require(lines[i][0] < lines[i][1] && (i == 0 || lines[i - 1] < lines[i]), "its lines are not in canonical order");
+    RequireFit(lines[i][0] < lines[i][1] && (i == 0 || lines[i - 1] < lines[i]),
+               "its lines are not in canonical order");
   }
   std::vector<ElementIndex> sorted;
   cells.faceOffsets.reserve(range.cells[2] + 1);
@@ -190,7 +134,7 @@ ReadComplex(const std::array<CellList, 3> & kinds, const LabelRange & range)
     const auto corners = cells.FaceVertices(i);
     sorted.assign(corners.begin(), corners.end());
     std::sort(sorted.begin(), sorted.end());
-    Require(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end(), "a polygon has the same corner twice");
+    RequireFit(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end(), "a polygon has the same corner twice");
   }
   BuildEdges(cells, lines);
 
@@ -200,57 +144,65 @@ ReadComplex(const std::array<CellList, 3> & kinds, const LabelRange & range)
   {
     loose += onFace[edge] ? 0 : 1;
   }
-  Require(loose == lines.size(), "a line lies on a polygon");
+  RequireFit(loose == lines.size(), "a line lies on a polygon");
   const std::vector<ElementIndex> isolated = IsolatedVertices(cells);
-  Require(isolated.size() == range.cells[0], "its vertex cells are not its isolated vertices");
+  RequireFit(isolated.size() == range.cells[0], "its vertex cells are not its isolated vertices");
   for (std::size_t i = 0; i < isolated.size(); ++i)
   {
-    Require(kinds[0][range.firstCell[0] + i][0] - range.firstPoint == isolated[i],
-            "its vertex cells are not its isolated vertices");
+    RequireFit(kinds[0][range.firstCell[0] + i][0] - range.firstPoint == isolated[i],
+               "its vertex cells are not its isolated vertices");
   }
   return cells;
 }
 
-MedialModel
-ReadPolyData(vtkPolyData * data)
+/** An array that must have a value for each point or cell. */
+template <typename Value>
+std::vector<Value>
+ReadValues(VtpFile & file, const char * section, const char * name, std::int64_t tuples, int components = 1)
 {
-  vtkFieldData *     fields = data->GetFieldData();
-  const std::int64_t pointCount = data->GetNumberOfPoints();
-  const std::int64_t cellCount = data->GetNumberOfCells();
-  Require(Text(fields, "SPACE") == "LPS" && Text(fields, "Units") == "mm",
-          "its field data do not say SPACE = LPS and Units = mm");
-  Require(data->GetNumberOfStrips() == 0, "it has triangle strips");
-  constexpr std::int64_t        many = std::numeric_limits<std::int64_t>::max();
-  const std::array<CellList, 3> kinds{ ReadCells(data->GetVerts(), pointCount, 1, 1),
-                                       ReadCells(data->GetLines(), pointCount, 2, 2),
-                                       ReadCells(data->GetPolys(), pointCount, 3, many) };
-  Require(static_cast<std::int64_t>(kinds[0].Count() + kinds[1].Count() + kinds[2].Count()) == cellCount,
-          "its cells do not add up");
-
-  const auto              radius = Values<vtkDoubleArray>(data->GetPointData(), "Radius", pointCount);
-  const auto              pointLambda = Values<vtkDoubleArray>(data->GetPointData(), "Lambda", pointCount);
-  const auto              cellLambda = Values<vtkDoubleArray>(data->GetCellData(), "Lambda", cellCount);
-  const auto              labels = Values<vtkTypeInt64Array>(data->GetCellData(), "Label", cellCount);
-  std::span<const double> positions;
-  if (pointCount > 0)
+  std::vector<Value> values = file.Read<Value>(section, name, components);
+  if (values.size() != static_cast<std::size_t>(tuples) * static_cast<std::size_t>(components))
   {
-    auto * array = vtkDoubleArray::FastDownCast(data->GetPoints()->GetData());
-    Require(array && array->GetNumberOfComponents() == 3, "its points are not in double precision");
-    positions = { array->GetPointer(0), static_cast<std::size_t>(array->GetNumberOfValues()) };
+    throw UnfitFile{ std::string("its array ") + section + "/" + name + " has the wrong length" };
   }
-  std::span<const vtkTypeInt64> edgeVertices;
-  std::span<const double>       edgeLambda;
-  const bool                    hasEdgeArrays = fields->HasArray("EdgeVertices") || fields->HasArray("EdgeLambda");
+  return values;
+}
+
+MedialModel
+ReadParts(VtpFile & file)
+{
+  RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && file.ReadText("FieldData", "Units") == "mm",
+             "its field data do not say SPACE = LPS and Units = mm");
+  RequireFit(file.PieceCount("NumberOfStrips") == 0, "it has triangle strips");
+  const std::vector<double> positions = file.Read<double>("Points", "Points", 3);
+  const auto                pointCount = static_cast<std::int64_t>(positions.size() / 3);
+  RequireFit(file.PieceCount("NumberOfPoints") == static_cast<std::uint64_t>(pointCount),
+             "its number of points is damaged");
+  constexpr std::int64_t        many = std::numeric_limits<std::int64_t>::max();
+  const std::array<CellList, 3> kinds{ ReadCells(file, "Verts", pointCount, 1, 1),
+                                       ReadCells(file, "Lines", pointCount, 2, 2),
+                                       ReadCells(file, "Polys", pointCount, 3, many) };
+  const auto cellCount = static_cast<std::int64_t>(kinds[0].Count() + kinds[1].Count() + kinds[2].Count());
+  const auto radius = ReadValues<double>(file, "PointData", "Radius", pointCount);
+  const auto pointLambda = ReadValues<double>(file, "PointData", "Lambda", pointCount);
+  const auto cellLambda = ReadValues<double>(file, "CellData", "Lambda", cellCount);
+  const auto labels = ReadValues<std::int64_t>(file, "CellData", "Label", cellCount);
+
+  std::vector<std::int64_t> edgeVertices;
+  std::vector<double>       edgeLambda;
+  const bool hasEdgeArrays = file.Has("FieldData", "EdgeVertices") || file.Has("FieldData", "EdgeLambda");
   if (hasEdgeArrays)
   {
-    auto *             array = fields->GetAbstractArray("EdgeLambda");
-    const std::int64_t edges = array ? array->GetNumberOfTuples() : 0;
-    edgeVertices = Values<vtkTypeInt64Array>(fields, "EdgeVertices", edges, 2);
-    edgeLambda = Values<vtkDoubleArray>(fields, "EdgeLambda", edges);
+    edgeLambda = file.Read<double>("FieldData", "EdgeLambda");
+    edgeVertices =
+      ReadValues<std::int64_t>(file, "FieldData", "EdgeVertices", static_cast<std::int64_t>(edgeLambda.size()), 2);
   }
 
   MedialModel model;
-  model.provenance = Text(fields, "Provenance");
+  if (file.Has("FieldData", "Provenance"))
+  {
+    model.provenance = file.ReadText("FieldData", "Provenance");
+  }
   std::size_t edgesRead = 0;
   bool        edgesMissing = false;
   for (const auto & [label, range] : FindLabels(kinds, labels, pointCount))
@@ -265,18 +217,18 @@ ReadPolyData(vtkPolyData * data)
     {
       std::copy_n(positions.begin() + static_cast<std::ptrdiff_t>(3 * (first + v)), 3, core.positions[v].begin());
     }
-    const auto slice = [](auto values, std::size_t begin, std::size_t size) {
-      const auto part_ = values.subspan(begin, size);
-      return std::vector<double>(part_.begin(), part_.end());
+    const auto slice = [](const std::vector<double> & values, std::size_t begin, std::size_t size) {
+      const auto from = values.begin() + static_cast<std::ptrdiff_t>(begin);
+      return std::vector<double>(from, from + static_cast<std::ptrdiff_t>(size));
     };
     core.radius = slice(radius, first, count);
     core.vertexLambda = slice(pointLambda, first, count);
     for (std::size_t i = 0; i < range.cells[0]; ++i)
     {
       const auto vertex = static_cast<std::size_t>(kinds[0][range.firstCell[0] + i][0]);
-      Require(std::bit_cast<std::uint64_t>(cellLambda[range.firstCell[0] + i]) ==
-                std::bit_cast<std::uint64_t>(pointLambda[vertex]),
-              "an isolated vertex has two measures");
+      RequireFit(std::bit_cast<std::uint64_t>(cellLambda[range.firstCell[0] + i]) ==
+                   std::bit_cast<std::uint64_t>(pointLambda[vertex]),
+                 "an isolated vertex has two measures");
     }
     core.faceLambda = slice(cellLambda, kinds[0].Count() + kinds[1].Count() + range.firstCell[2], range.cells[2]);
 
@@ -296,16 +248,16 @@ ReadPolyData(vtkPolyData * data)
       }
       else
       {
-        Require(edgesRead < edgeLambda.size() &&
-                  edgeVertices[2 * edgesRead] == range.firstPoint + core.cells.edges[edge][0] &&
-                  edgeVertices[2 * edgesRead + 1] == range.firstPoint + core.cells.edges[edge][1],
-                "EdgeVertices are not the edges of its polygons");
+        RequireFit(edgesRead < edgeLambda.size() &&
+                     edgeVertices[2 * edgesRead] == range.firstPoint + core.cells.edges[edge][0] &&
+                     edgeVertices[2 * edgesRead + 1] == range.firstPoint + core.cells.edges[edge][1],
+                   "EdgeVertices are not the edges of its polygons");
         core.edgeLambda[edge] = edgeLambda[edgesRead++];
       }
     }
     model.parts.push_back(std::move(part));
   }
-  Require(edgesRead == edgeLambda.size(), "EdgeVertices are not the edges of its polygons");
+  RequireFit(edgesRead == edgeLambda.size(), "EdgeVertices are not the edges of its polygons");
   model.hasEdges = !edgesMissing;
   return model;
 }
@@ -324,33 +276,22 @@ ReadModel(const std::filesystem::path & path)
   {
     throw InputError("cannot read '" + path.string() + "': there is no such file");
   }
-  if (!std::filesystem::is_regular_file(path, ignored) || !std::ifstream(path))
+  if (!std::filesystem::is_regular_file(path, ignored))
   {
-    throw InputError("cannot read '" + path.string() + "': it is not a file that can be opened");
+    throw InputError("cannot read '" + path.string() + "': it is not a file");
   }
-  const VtkMessages messages;
   try
   {
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->SetFileName(path.c_str());
-    if (!reader->CanReadFile(path.c_str()))
-    {
-      throw Unfit{ "it is no VTK polydata file in XML" };
-    }
-    reader->Update();
-    if (const std::string message = messages.First(); !message.empty())
-    {
-      throw Unfit{ "it is damaged (" + message + ")" };
-    }
-    return ReadPolyData(reader->GetOutput());
+    VtpFile file(path);
+    return ReadParts(file);
   }
-  catch (const Unfit & unfit)
+  catch (const UnfitFile & unfit)
   {
     throw fail(unfit.reason);
   }
   catch (const std::bad_alloc &)
   {
-    throw fail("it is damaged, or larger than the memory");
+    throw fail("it is larger than the memory");
   }
 }
 

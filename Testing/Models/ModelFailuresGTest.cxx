@@ -1,0 +1,247 @@
+#include "Models/ModelFixtures.h"
+
+#include "voxelcore/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <random>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace voxelcore;
+using namespace voxelcore::testing;
+
+namespace
+{
+
+const std::vector<std::string> kFormats{ "a.vtp", "a.vtk", "a.ply", "a.obj", "a.stl", "a.ma" };
+
+template <typename ErrorType, typename Function>
+std::string
+MessageOf(Function && function)
+{
+  try
+  {
+    function();
+  }
+  catch (const ErrorType & error)
+  {
+    return error.what();
+  }
+  return "(nothing thrown)";
+}
+
+std::string
+Quoted(const std::filesystem::path & path)
+{
+  std::string quoted = "'";
+  quoted += path.string();
+  quoted += "'";
+  return quoted;
+}
+
+void
+WriteBytes(const std::filesystem::path & path, const std::string & bytes)
+{
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/** Reading must give InputError in one line that names the file, and print nothing. */
+void
+ExpectUnreadable(const std::filesystem::path & path)
+{
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  const std::string message = MessageOf<InputError>([&] { ReadModel(path); });
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_NE(message.find(Quoted(path)), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+std::string
+Replaced(std::string bytes, const std::string & what, const std::string & with)
+{
+  const auto at = bytes.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return at == std::string::npos ? bytes : bytes.replace(at, what.size(), with);
+}
+
+} // namespace
+
+TEST(ModelFailures, MissingAndForeignFilesAreRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  ExpectUnreadable(folder / "missing.vtp");
+  ExpectUnreadable(folder.Path());
+  WriteBytes(folder / "empty.vtp", "");
+  ExpectUnreadable(folder / "empty.vtp");
+  WriteBytes(folder / "text.vtp", "hello\n");
+  ExpectUnreadable(folder / "text.vtp");
+  WriteModel(folder / "a.vtk", "a.vtk", MixedModel());
+  std::filesystem::rename(folder / "a.vtk", folder / "legacy.vtp");
+  ExpectUnreadable(folder / "legacy.vtp");
+  WriteBytes(folder / "foreign.vtp",
+             "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece NumberOfPoints=\"1\" NumberOfVerts=\"1\">"
+             "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points>"
+             "<Verts><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0</DataArray>"
+             "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">1</DataArray></Verts>"
+             "</Piece></PolyData></VTKFile>");
+  ExpectUnreadable(folder / "foreign.vtp");
+  WriteBytes(folder / "grid.vtp", "<VTKFile type=\"ImageData\" version=\"0.1\"></VTKFile>");
+  ExpectUnreadable(folder / "grid.vtp");
+}
+
+TEST(ModelFailures, ATruncatedFileIsRefusedWhereverItEnds)
+{
+  const TemporaryFolder folder;
+  WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
+  const std::string bytes = ReadBytes(folder / "a.vtp");
+  // The very last bytes close the XML elements; before them the data must be all there.
+  const auto data = bytes.rfind("\n  </AppendedData>");
+  ASSERT_NE(data, std::string::npos);
+  for (std::size_t length = 0; length < data; length += length < 100 ? 9 : 61)
+  {
+    SCOPED_TRACE(length);
+    WriteBytes(folder / "b.vtp", bytes.substr(0, length));
+    ExpectUnreadable(folder / "b.vtp");
+  }
+  WriteBytes(folder / "b.vtp", bytes.substr(0, data - 1));
+  ExpectUnreadable(folder / "b.vtp");
+}
+
+TEST(ModelFailures, MissingArraysAndWrongSpaceAreRefused)
+{
+  const TemporaryFolder folder;
+  WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
+  const std::string bytes = ReadBytes(folder / "a.vtp");
+  for (const auto & [what, with] :
+       std::vector<std::pair<std::string, std::string>>{ { "Name=\"Radius\"", "Name=\"radius\"" },
+                                                         { "Name=\"Lambda\"", "Name=\"lambda\"" },
+                                                         { "Name=\"Label\"", "Name=\"label\"" },
+                                                         { "Name=\"SPACE\"", "Name=\"SPACf\"" },
+                                                         { "Name=\"Units\"", "Name=\"units\"" },
+                                                         { "Name=\"EdgeLambda\"", "Name=\"EdgelAmbda\"" },
+                                                         { "Name=\"EdgeVertices\"", "Name=\"EdgeVErtices\"" },
+                                                         { "LPS", "RAS" },
+                                                         { "type=\"PolyData\"", "type=\"PolyDatx\"" } })
+  {
+    SCOPED_TRACE(what);
+    WriteBytes(folder / "b.vtp", Replaced(bytes, what, with));
+    ExpectUnreadable(folder / "b.vtp");
+  }
+}
+
+TEST(ModelFailures, FlippedBitsNeverCrashNorPrint)
+{
+  const TemporaryFolder folder;
+  WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
+  const std::string bytes = ReadBytes(folder / "a.vtp");
+  std::mt19937_64   random(20);
+  std::cout << "seed 20\n";
+  int refused = 0;
+  ::testing::internal::CaptureStderr();
+  for (int run = 0; run < 1500; ++run)
+  {
+    std::string damaged = bytes;
+    for (std::uint64_t flips = 1 + random() % 3; flips > 0; --flips)
+    {
+      damaged[random() % damaged.size()] ^= static_cast<char>(1U << (random() % 8));
+    }
+    WriteBytes(folder / "b.vtp", damaged);
+    try
+    {
+      const MedialModel read = ReadModel(folder / "b.vtp");
+      WriteModel(folder / "c.vtp", "c.vtp", read); // what is accepted fits together
+    }
+    catch (const InputError & error)
+    {
+      ++refused;
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_GT(refused, 300); // most of the file is numbers any of which could be meant
+}
+
+TEST(ModelFailures, UnwritablePathsAreOneLineAndNoFile)
+{
+  const TemporaryFolder folder;
+  WriteBytes(folder / "file", "x");
+  for (const std::string & format : kFormats)
+  {
+    for (const auto & path : { folder / "no/such/folder/a", folder / "file/a", folder.Path() })
+    {
+      ::testing::internal::CaptureStderr();
+      const std::string message = MessageOf<OutputError>([&] { WriteModel(path, format, MixedModel()); });
+      EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+      EXPECT_NE(message.find(Quoted(path)), std::string::npos) << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+  }
+  EXPECT_EQ(ReadBytes(folder / "file"), "x");
+}
+
+TEST(ModelFailures, DevicesAreRefusedAndLeftAlone)
+{
+  for (const std::string & format : kFormats)
+  {
+    EXPECT_THROW(WriteModel("/dev/full", format, MixedModel()), OutputError);
+  }
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(ModelFailures, AFullDiskLeavesNoFile)
+{
+  const TemporaryFolder folder;
+  const MedialModel     model = RandomModel(3, 24, 2);
+  for (const std::string & format : kFormats)
+  {
+    WriteModel(folder / "whole", format, model);
+    const auto size = std::filesystem::file_size(folder / "whole");
+    ASSERT_GT(size, 200000U);
+    for (const auto limit : { size - 1, size / 2, std::uintmax_t{ 100 } })
+    {
+      // In a child of its own: the limit on file sizes cannot be told from a full disk by those who write.
+      const pid_t child = fork();
+      if (child == 0)
+      {
+        std::signal(SIGXFSZ, SIG_IGN);
+        if (!std::freopen((folder / "stderr").c_str(), "w", stderr))
+        {
+          _exit(9);
+        }
+        const rlimit rule{ limit, limit };
+        setrlimit(RLIMIT_FSIZE, &rule);
+        const std::string message = MessageOf<OutputError>([&] { WriteModel(folder / "part", format, model); });
+        const bool good = message.find("cannot write") == 0 && message.find("free some space") != std::string::npos &&
+                          message.find('\n') == std::string::npos;
+        std::fflush(stderr);
+        _exit(good ? 0 : 8);
+      }
+      int status = 0;
+      ASSERT_EQ(waitpid(child, &status, 0), child);
+      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        << format << " limit " << limit << " status " << status;
+      EXPECT_FALSE(std::filesystem::exists(folder / "part")) << format << " limit " << limit;
+      EXPECT_EQ(ReadBytes(folder / "stderr"), "") << format << " limit " << limit;
+    }
+  }
+}
+
+TEST(ModelFailures, ModelsThatDoNotFitTogetherAreRefused)
+{
+  const TemporaryFolder folder;
+  MedialModel           twice = MixedModel();
+  twice.parts[1].label = 3;
+  EXPECT_THROW(WriteModel(folder / "a.vtp", "a.vtp", twice), Error);
+  MedialModel shorter = MixedModel();
+  shorter.parts[0].core.radius.pop_back();
+  EXPECT_THROW(WriteModel(folder / "a.vtp", "a.vtp", shorter), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.vtp"));
+}
