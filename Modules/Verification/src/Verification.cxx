@@ -1,0 +1,244 @@
+#include "voxelcore/Verification.h"
+
+#include "Checks.h"
+#include "voxelcore/BettiReduction.h"
+#include "voxelcore/OctantScan.h"
+#include "voxelcore/ShapeTopology.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace voxelcore
+{
+namespace verification
+{
+
+std::string
+Describe(double value)
+{
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
+  text << value;
+  return text.str();
+}
+
+std::string
+Describe(const LatticePoint & point)
+{
+  std::ostringstream text;
+  text << "(" << point.x << ", " << point.y << ", " << point.z << ")";
+  return text.str();
+}
+
+std::string
+Describe(const Position & position)
+{
+  std::ostringstream text;
+  text.precision(12);
+  text << "(" << position[0] << ", " << position[1] << ", " << position[2] << ")";
+  return text.str();
+}
+
+std::string
+DescribeVertex(const Subject & subject, std::size_t vertex)
+{
+  return "vertex " + std::to_string(vertex) + " at " + Describe(subject.input.positions[vertex]);
+}
+
+std::string
+DescribeEdge(const Subject & subject, std::size_t edge)
+{
+  const auto & ends = subject.cells.edges[edge];
+  return "edge " + std::to_string(edge) + " (vertices " + std::to_string(ends[0]) + ", " + std::to_string(ends[1]) +
+         ")";
+}
+
+std::string
+DescribeFace(const Subject & subject, std::size_t face)
+{
+  return "face " + std::to_string(face) + " (first corner " +
+         DescribeVertex(subject, subject.cells.FaceVertices(face)[0]) + ")";
+}
+
+namespace
+{
+
+std::string
+Describe(const TopologyNumbers & numbers)
+{
+  return "chi " + std::to_string(numbers.euler) + ", b0 " + std::to_string(numbers.betti[0]) + ", b1 " +
+         std::to_string(numbers.betti[1]) + ", b2 " + std::to_string(numbers.betti[2]);
+}
+
+/** A description starts its sentence. */
+void
+Capitalize(VerificationReport & report)
+{
+  for (VerificationCheck & check : report.checks)
+  {
+    if (!check.firstOffender.empty() && check.firstOffender[0] >= 'a' && check.firstOffender[0] <= 'z')
+    {
+      check.firstOffender[0] = static_cast<char>(check.firstOffender[0] - 'a' + 'A');
+    }
+  }
+}
+
+void
+RequireExactRange(const VoxelBox & box, const SpacingWeights & weights)
+{
+  double side = 1;
+  double weight = 1;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    side = std::max<double>(side, box.size[a]);
+    weight = std::max(weight, static_cast<double>(weights.weight[a]));
+  }
+  if (72 * weight * weight * std::pow(side, 5) >= std::ldexp(1.0, 127))
+  {
+    throw InputError(
+      "The shape is too large to be verified exactly at these spacings: crop it or coarsen the "
+      "spacing's ratio.");
+  }
+}
+
+void
+CheckTopology(VerificationReport & report, const VoxelShape & shape, std::int64_t recount)
+{
+  report.shapeTopology = ComputeShapeTopology(shape);
+  const bool counts = report.shapeTopology.euler == recount;
+  report.checks.push_back({ "shape Euler number",
+                            counts,
+                            counts ? 0U : 1U,
+                            counts ? std::string()
+                                   : "The shape's Euler number is " + std::to_string(report.shapeTopology.euler) +
+                                       ", but corner by corner it is " + std::to_string(recount) + "." });
+  const bool equal = report.shapeTopology == report.complexTopology;
+  report.checks.push_back({ "topology",
+                            equal,
+                            equal ? 0U : 1U,
+                            equal ? std::string()
+                                  : "The shape has " + Describe(report.shapeTopology) + ", the complex " +
+                                      Describe(report.complexTopology) + "." });
+}
+
+constexpr std::array<const char *, 28> kAllChecks{ "arrays",
+                                                   "numbers",
+                                                   "edge ends",
+                                                   "polygons",
+                                                   "polygon edges",
+                                                   "distinct vertices",
+                                                   "distinct edges",
+                                                   "distinct faces",
+                                                   "vertices inside",
+                                                   "vertices equidistant",
+                                                   "nothing nearer",
+                                                   "radius",
+                                                   "edges dual",
+                                                   "faces dual",
+                                                   "faces planar",
+                                                   "faces convex",
+                                                   "faces oriented",
+                                                   "vertex measures",
+                                                   "edge measures",
+                                                   "face measures",
+                                                   "measures monotone",
+                                                   "vertex order",
+                                                   "edge order",
+                                                   "face order",
+                                                   "completeness",
+                                                   "pruning",
+                                                   "shape Euler number",
+                                                   "topology" };
+
+/** Adds the checks that were not run. */
+void
+AddUnchecked(VerificationReport & report)
+{
+  for (std::size_t i = report.checks.size(); i < kAllChecks.size(); ++i)
+  {
+    report.checks.push_back({ kAllChecks[i], false, 0, "Not checked: what it builds on is damaged." });
+  }
+}
+
+void
+CheckGeometry(VerificationReport &      report,
+              const VerificationInput & input,
+              const BoundaryTree &      tree,
+              const ProgressCallback &  progress)
+{
+  // Even a position straight from a computation is rounded once, and so is the centre it is compared with.
+  double largest = 1;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double lower = input.shape->Box().lower[a];
+    largest = std::max({ largest, std::abs(lower), std::abs(lower + input.shape->Box().size[a]) });
+  }
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * largest;
+  Subject      subject{ input, *input.cells, tree, std::max(rounding, input.positionTolerance), {}, {}, {} };
+  ReportProgress(progress, "verify", 0.2);
+  subject.sets = FindNearestSets(tree, input.weights, input.positions, subject.tolerance);
+  FindDualEdges(subject);
+  ReportProgress(progress, "verify", 0.5);
+  CheckDistinct(report, subject);
+  CheckVertices(report, subject);
+  CheckDuals(report, subject);
+  CheckPolygons(report, subject);
+  ReportProgress(progress, "verify", 0.6);
+  CheckMeasures(report, subject);
+  CheckOrder(report, subject);
+  ReportProgress(progress, "verify", 0.8);
+  CheckCompleteness(report, subject);
+  CheckPruning(report, subject);
+}
+
+} // namespace
+} // namespace verification
+
+double
+PositionTolerance(const ImageGeometry & geometry)
+{
+  double largest = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    largest = std::max(largest, std::abs(geometry.origin[a]));
+  }
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    largest += geometry.spacing[a] * static_cast<double>(geometry.size[a] + 1);
+  }
+  const double finest = *std::min_element(geometry.spacing.begin(), geometry.spacing.end());
+  return 64 * std::numeric_limits<double>::epsilon() * largest / finest;
+}
+
+VerificationReport
+VerifyComplex(const VerificationInput & input, const ProgressCallback & progress)
+{
+  using namespace verification;
+  RequireExactRange(input.shape->Box(), input.weights);
+  VerificationReport report;
+  ReportProgress(progress, "verify", 0.0);
+  OctantScan   scan = ScanOctants(*input.shape);
+  const bool   usable = CheckArrays(report, input) && CheckIncidences(report, *input.cells);
+  BoundaryTree tree(std::move(scan.boundary), input.weights);
+  if (usable)
+  {
+    CheckGeometry(report, input, tree, progress);
+    ReportProgress(progress, "verify", 0.9);
+    report.complexTopology = ReduceToTopologyNumbers(*input.cells);
+    CheckTopology(report, *input.shape, scan.euler);
+  }
+  else
+  {
+    AddUnchecked(report);
+  }
+  for (const VerificationCheck & check : report.checks)
+  {
+    report.passed = report.passed && check.passed;
+  }
+  Capitalize(report);
+  ReportProgress(progress, "verify", 1.0);
+  return report;
+}
+
+} // namespace voxelcore
