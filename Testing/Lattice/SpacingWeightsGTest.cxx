@@ -1,0 +1,198 @@
+#include "voxelcore/SpacingWeights.h"
+
+#include "VoxelCoreTesting/Random.h"
+
+#include "voxelcore/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace voxelcore
+{
+namespace
+{
+
+using Weights = std::array<std::int64_t, 3>;
+
+long double
+DeviationOf(const Weights & weight, const std::array<double, 3> & spacing)
+{
+  long double worst = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    for (std::size_t b = 0; b < 3; ++b)
+    {
+      const long double have = static_cast<long double>(weight[a]) / static_cast<long double>(weight[b]);
+      const long double want = static_cast<long double>(spacing[a]) / static_cast<long double>(spacing[b]);
+      worst = std::max(worst, have / want - 1);
+    }
+  }
+  return worst;
+}
+
+// All weights whose greatest is `greatest` and that could be best: each of the others rounded down or up.
+template <typename TVisit>
+void
+VisitCandidates(const std::array<double, 3> & spacing, std::int64_t greatest, TVisit visit)
+{
+  const double longest = std::max({ spacing[0], spacing[1], spacing[2] });
+  for (unsigned choice = 0; choice < 8; ++choice)
+  {
+    Weights weight{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double share = spacing[axis] / longest * static_cast<double>(greatest);
+      weight[axis] = static_cast<std::int64_t>(std::floor(share)) + ((choice >> axis) & 1U);
+    }
+    if (std::min({ weight[0], weight[1], weight[2] }) >= 1 && std::max({ weight[0], weight[1], weight[2] }) == greatest)
+    {
+      visit(weight);
+    }
+  }
+}
+
+TEST(SpacingWeights, ThinSlicesOfHalfAMillimetreAreOneToFour)
+{
+  const SpacingWeights weights = ComputeSpacingWeights({ 0.5, 0.5, 2.0 });
+  EXPECT_EQ(weights.weight, (Weights{ 1, 1, 4 }));
+  EXPECT_EQ(weights.unit, 0.5);
+  EXPECT_EQ(weights.deviation, 0.0);
+}
+
+TEST(SpacingWeights, AreInLowestTerms)
+{
+  EXPECT_EQ(ComputeSpacingWeights({ 3, 3, 7 }).weight, (Weights{ 3, 3, 7 }));
+  EXPECT_EQ(ComputeSpacingWeights({ 6, 6, 14 }).weight, (Weights{ 3, 3, 7 }));
+  EXPECT_EQ(ComputeSpacingWeights({ 0.48828125, 0.48828125, 2.5 }).weight, (Weights{ 25, 25, 128 }));
+  EXPECT_EQ(ComputeSpacingWeights({ 2, 1, 3 }).weight, (Weights{ 2, 1, 3 }));
+  EXPECT_EQ(ComputeSpacingWeights({ 0.9, 0.6, 0.3 }).weight, (Weights{ 3, 2, 1 }));
+}
+
+TEST(SpacingWeights, CubesKeepTheirSideAsTheUnitToTheLastBit)
+{
+  for (const double side : { 1.0, 0.1, 0.7, 1.0 / 3.0, 0.9765625, 123.456 })
+  {
+    const SpacingWeights weights = ComputeSpacingWeights({ side, side, side });
+    EXPECT_EQ(weights.weight, (Weights{ 1, 1, 1 }));
+    EXPECT_EQ(weights.unit, side);
+    EXPECT_EQ(weights.deviation, 0.0);
+  }
+}
+
+TEST(SpacingWeights, AbsoluteSizeDoesNotMatter)
+{
+  for (const double scale : { 1e-9, 0.00065, 0.001, 1.0, 1e6 })
+  {
+    const SpacingWeights weights = ComputeSpacingWeights({ 2 * scale, 2 * scale, 5 * scale });
+    EXPECT_EQ(weights.weight, (Weights{ 2, 2, 5 })) << scale;
+    EXPECT_NEAR(weights.unit / scale, 1.0, 1e-14);
+    EXPECT_LE(weights.deviation, 1e-14);
+  }
+}
+
+TEST(SpacingWeights, SinglePrecisionNoiseOfAFileHeaderIsNoRatio)
+{
+  const SpacingWeights weights = ComputeSpacingWeights({ 0.4f, 0.4f, 1.2f });
+  EXPECT_EQ(weights.weight, (Weights{ 1, 1, 3 }));
+  EXPECT_LE(weights.deviation, 1e-6);
+  EXPECT_GT(weights.deviation, 0.0);
+}
+
+TEST(SpacingWeights, AreTheSmallestWithinTheTolerance)
+{
+  // 1000001 : 1000000 is just within 1e-6 of 1 : 1; a little more is not.
+  EXPECT_EQ(ComputeSpacingWeights({ 1.0, 1.0, 1.0 + 0.9e-6 }).weight, (Weights{ 1, 1, 1 }));
+  EXPECT_NE(ComputeSpacingWeights({ 1.0, 1.0, 1.0 + 400e-6 }).weight, (Weights{ 1, 1, 1 }));
+  testing::Random random(20181);
+  for (int round = 0; round < 200; ++round)
+  {
+    std::array<double, 3> spacing{};
+    for (double & s : spacing)
+    {
+      s = static_cast<double>(random.Between(1, 400)) * 0.0125;
+    }
+    const SpacingWeights weights = ComputeSpacingWeights(spacing);
+    const auto           greatest = std::max({ weights.weight[0], weights.weight[1], weights.weight[2] });
+    ASSERT_LE(weights.deviation, 1e-6) << round;
+    for (std::int64_t smaller = 1; smaller < greatest; ++smaller)
+    {
+      VisitCandidates(spacing, smaller, [&](const Weights & weight) {
+        ASSERT_GT(DeviationOf(weight, spacing), 1e-6L) << "round " << round << ", greatest weight " << smaller;
+      });
+    }
+  }
+}
+
+TEST(SpacingWeights, RatiosWithoutSmallIntegersGetTheBestUpTo4096AndSayHowFarOff)
+{
+  const std::array<double, 3> irrational{ 1.0, std::sqrt(2.0), std::acos(-1.0) };
+  testing::Random             random(20182);
+  for (int round = 0; round < 300; ++round)
+  {
+    std::array<double, 3> spacing = irrational;
+    if (round > 0)
+    {
+      for (double & s : spacing)
+      {
+        s = 0.1 + random.Unit() * (round % 2 == 0 ? 2.0 : 0.1);
+      }
+    }
+    SCOPED_TRACE(round);
+    const SpacingWeights weights = ComputeSpacingWeights(spacing);
+    const long double    own = DeviationOf(weights.weight, spacing);
+    EXPECT_NEAR(weights.deviation, static_cast<double>(own), 1e-12);
+    ASSERT_LE(std::max({ weights.weight[0], weights.weight[1], weights.weight[2] }), 4096);
+    if (weights.deviation <= 1e-6)
+    {
+      continue;
+    }
+    long double best = std::numeric_limits<long double>::infinity();
+    for (std::int64_t greatest = 1; greatest <= 4096; ++greatest)
+    {
+      VisitCandidates(spacing, greatest, [&](const Weights & weight) {
+        best = std::min(best, DeviationOf(weight, spacing));
+      });
+    }
+    EXPECT_LE(own, best + 1e-15L);
+  }
+}
+
+TEST(SpacingWeights, ExtremeSlabsStillHaveWeightsOfAtLeastOne)
+{
+  const SpacingWeights weights = ComputeSpacingWeights({ 0.001, 1.0, 100.0 });
+  EXPECT_EQ(weights.weight[0], 1);
+  EXPECT_EQ(weights.weight[2], 4096);
+  EXPECT_GT(weights.deviation, 1.0);
+}
+
+TEST(SpacingWeights, TheUnitIsTheGeometricMeanOfSpacingOverWeight)
+{
+  const std::array<double, 3> spacing{ 1.0, std::sqrt(2.0), std::acos(-1.0) };
+  const SpacingWeights        weights = ComputeSpacingWeights(spacing);
+  long double                 product = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    product *= static_cast<long double>(spacing[axis]) / static_cast<long double>(weights.weight[axis]);
+  }
+  EXPECT_NEAR(weights.unit, static_cast<double>(std::cbrt(product)), 1e-15);
+}
+
+TEST(SpacingWeights, WithoutSenseAreRefused)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double bad : { 0.0, -0.0, -1.0, nan, infinite, -infinite })
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      std::array<double, 3> spacing{ 1, 1, 1 };
+      spacing[axis] = bad;
+      EXPECT_THROW(ComputeSpacingWeights(spacing), InputError) << bad << " on axis " << axis;
+    }
+  }
+}
+
+} // namespace
+} // namespace voxelcore
