@@ -175,7 +175,7 @@ CheckGeometry(VerificationReport &      report,
     largest = std::max({ largest, std::abs(lower), std::abs(lower + input.shape->Box().size[a]) });
   }
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * largest;
-  Subject      subject{ input, *input.cells, tree, std::max(rounding, input.positionTolerance), {}, {}, {} };
+  Subject      subject{ input, *input.cells, tree, rounding + input.positionTolerance, {}, {}, {} };
   ReportProgress(progress, "verify", 0.2);
   subject.sets = FindNearestSets(tree, input.weights, input.positions, subject.tolerance);
   FindDualEdges(subject);

@@ -1,0 +1,314 @@
+#include "Complex/ComplexFixtures.h"
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/SimplePairCollapse.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <random>
+#include <tuple>
+
+using namespace voxelcore;
+using namespace voxelcore::testing;
+
+namespace
+{
+
+struct Measures
+{
+  std::vector<double> vertex;
+  std::vector<double> edge;
+  std::vector<double> face;
+};
+
+/** Whole numbers below `levels`, so that many are equal; monotone as radius measures are, or not. */
+Measures
+RandomMeasures(const CellComplex & complex, std::mt19937 & generator, unsigned levels, bool isMonotone)
+{
+  const auto draw = [&] { return static_cast<double>(generator() % levels); };
+  Measures   measures{ std::vector<double>(complex.vertexCount),
+                     std::vector<double>(complex.edges.size()),
+                     std::vector<double>(complex.FaceCount()) };
+  std::generate(measures.face.begin(), measures.face.end(), draw);
+  std::generate(measures.edge.begin(), measures.edge.end(), draw);
+  std::generate(measures.vertex.begin(), measures.vertex.end(), draw);
+  if (isMonotone)
+  {
+    for (std::size_t f = 0; f < complex.FaceCount(); ++f)
+    {
+      for (const ElementIndex edge : complex.FaceEdges(f))
+      {
+        measures.edge[edge] = std::max(measures.edge[edge], measures.face[f]);
+      }
+    }
+    for (std::size_t e = 0; e < complex.edges.size(); ++e)
+    {
+      for (const ElementIndex vertex : complex.edges[e])
+      {
+        measures.vertex[vertex] = std::max(measures.vertex[vertex], measures.edge[e]);
+      }
+    }
+  }
+  return measures;
+}
+
+/** The definition, word for word: look at all pairs, remove the smallest, look again. */
+LiveElements
+CollapseByRescanning(const CellComplex & complex, const Measures & measures, LiveElements live, double threshold)
+{
+  using Pair =
+    std::tuple<double, double, int, std::size_t, std::size_t>; // measures, dimension and index of e, index of f
+  while (true)
+  {
+    std::optional<Pair> smallest;
+    const auto          offer = [&](const Pair & pair) {
+      if (std::get<0>(pair) < threshold && std::get<1>(pair) < threshold && (!smallest || pair < *smallest))
+      {
+        smallest = pair;
+      }
+    };
+    for (std::size_t v = 0; v < complex.vertexCount; ++v)
+    {
+      std::vector<std::size_t> bounded;
+      for (std::size_t e = 0; e < complex.edges.size(); ++e)
+      {
+        if (live.edges[e] != 0 && (complex.edges[e][0] == v || complex.edges[e][1] == v))
+        {
+          bounded.push_back(e);
+        }
+      }
+      bool inFace = false;
+      for (std::size_t f = 0; f < complex.FaceCount(); ++f)
+      {
+        const auto corners = complex.FaceVertices(f);
+        inFace = inFace || (live.faces[f] != 0 && std::find(corners.begin(), corners.end(), v) != corners.end());
+      }
+      if (live.vertices[v] != 0 && bounded.size() == 1 && !inFace)
+      {
+        offer({ measures.vertex[v], measures.edge[bounded[0]], 0, v, bounded[0] });
+      }
+    }
+    for (std::size_t e = 0; e < complex.edges.size(); ++e)
+    {
+      std::vector<std::size_t> bounded;
+      for (std::size_t f = 0; f < complex.FaceCount(); ++f)
+      {
+        const auto edges = complex.FaceEdges(f);
+        if (live.faces[f] != 0 && std::find(edges.begin(), edges.end(), e) != edges.end())
+        {
+          bounded.push_back(f);
+        }
+      }
+      if (live.edges[e] != 0 && bounded.size() == 1)
+      {
+        offer({ measures.edge[e], measures.face[bounded[0]], 1, e, bounded[0] });
+      }
+    }
+    if (!smallest)
+    {
+      return live;
+    }
+    const auto [lower, upper, dimension, element, coface] = *smallest;
+    (dimension == 0 ? live.vertices : live.edges)[element] = 0;
+    (dimension == 0 ? live.edges : live.faces)[coface] = 0;
+  }
+}
+
+LiveElements
+AllLive(const CellComplex & complex)
+{
+  return { std::vector<std::uint8_t>(complex.vertexCount, 1),
+           std::vector<std::uint8_t>(complex.edges.size(), 1),
+           std::vector<std::uint8_t>(complex.FaceCount(), 1) };
+}
+
+void
+ExpectSame(const LiveElements & a, const LiveElements & b)
+{
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_EQ(a.edges, b.edges);
+  EXPECT_EQ(a.faces, b.faces);
+}
+
+CellComplex
+RandomComplex(std::uint32_t seed)
+{
+  const unsigned facePercent = 20 + seed * 13 % 80;
+  return seed % 2 == 0 ? RandomCubicalComplex(seed, 1 + seed % 3, facePercent, seed % 60)
+                       : RandomSimplicialComplex(seed, 1, facePercent, seed % 60);
+}
+
+constexpr double kAll = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+TEST(SimplePairCollapse, ADiscWithNothingToKeepBecomesOneVertex)
+{
+  const CellComplex         disc = MakeComplex(4, { { 0, 1, 2, 3 } });
+  const std::vector<double> vertices{ 1, 2, 3, 4 };
+  const std::vector<double> edges(4, 1);
+  const std::vector<double> faces(1, 1);
+  SimplePairCollapse        collapse(disc, vertices, edges, faces);
+  collapse.CollapseBelow(10);
+  // Vertices go by increasing measure from the loose ends; the one with the greatest stays.
+  EXPECT_EQ(collapse.Live().vertices, (std::vector<std::uint8_t>{ 0, 0, 0, 1 }));
+  EXPECT_EQ(collapse.Live().edges, (std::vector<std::uint8_t>{ 0, 0, 0, 0 }));
+  EXPECT_EQ(collapse.Live().faces, (std::vector<std::uint8_t>{ 0 }));
+}
+
+TEST(SimplePairCollapse, MeasuresEqualToTheThresholdStay)
+{
+  const CellComplex         segment = MakeComplex(2, {}, { { 0, 1 } });
+  const std::vector<double> vertices{ 1, 5 };
+  const std::vector<double> edges{ 1 };
+  SimplePairCollapse        collapse(segment, vertices, edges, {});
+  collapse.CollapseBelow(1);
+  EXPECT_EQ(collapse.Live().edges[0], 1);
+  collapse.CollapseBelow(std::nextafter(1.0, 2.0));
+  EXPECT_EQ(collapse.Live().edges[0], 0);
+  EXPECT_EQ(collapse.Live().vertices, (std::vector<std::uint8_t>{ 0, 1 }));
+}
+
+TEST(SimplePairCollapse, BothMeasuresMustLieBelow)
+{
+  const CellComplex         segment = MakeComplex(2, {}, { { 0, 1 } });
+  const std::vector<double> vertices{ 1, 1 };
+  const std::vector<double> edges{ 5 };
+  SimplePairCollapse        collapse(segment, vertices, edges, {});
+  collapse.CollapseBelow(3);
+  EXPECT_EQ(collapse.Live().vertices, (std::vector<std::uint8_t>{ 1, 1 }));
+}
+
+TEST(SimplePairCollapse, ACircleAndASphereStayWhole)
+{
+  for (const CellComplex & complex : { MakeComplex(3, {}, { { 0, 1 }, { 1, 2 }, { 0, 2 } }), CubeSurface(), Torus() })
+  {
+    const std::vector<double>     zeros(100, 0);
+    const std::span<const double> all(zeros);
+    SimplePairCollapse            collapse(complex,
+                                all.first(complex.vertexCount),
+                                all.first(complex.edges.size()),
+                                all.first(complex.FaceCount()));
+    collapse.CollapseBelow(kAll);
+    ExpectSame(collapse.Live(), AllLive(complex));
+  }
+}
+
+TEST(SimplePairCollapse, RandomComplexesCollapseAsByRescanning)
+{
+  std::size_t removed = 0;
+  for (std::uint32_t seed = 1; seed <= 240; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const CellComplex  complex = RandomComplex(seed);
+    std::mt19937       generator(seed);
+    const Measures     measures = RandomMeasures(complex, generator, seed % 3 == 0 ? 3 : 12, seed % 4 < 2);
+    const double       threshold = seed % 5 == 0 ? kAll : static_cast<double>(generator() % 13);
+    SimplePairCollapse collapse(complex, measures.vertex, measures.edge, measures.face);
+    collapse.CollapseBelow(threshold);
+    const LiveElements expected = CollapseByRescanning(complex, measures, AllLive(complex), threshold);
+    ExpectSame(collapse.Live(), expected);
+    removed += static_cast<std::size_t>(std::count(expected.edges.begin(), expected.edges.end(), 0));
+    if (::testing::Test::HasFailure())
+    {
+      break;
+    }
+  }
+  std::cout << "seeds 1 to 240: " << removed << " edges removed in all\n";
+  EXPECT_GT(removed, 1000U);
+}
+
+TEST(SimplePairCollapse, NestedThresholdsEqualTheGreatestAtOnce)
+{
+  for (std::uint32_t seed = 1; seed <= 200; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const CellComplex  complex = RandomComplex(seed);
+    std::mt19937       generator(seed);
+    const Measures     measures = RandomMeasures(complex, generator, 10, true);
+    SimplePairCollapse nested(complex, measures.vertex, measures.edge, measures.face);
+    for (const double threshold : { 0.0, 2.0, 5.0, 5.0, 8.0 })
+    {
+      nested.CollapseBelow(threshold);
+      SimplePairCollapse direct(complex, measures.vertex, measures.edge, measures.face);
+      direct.CollapseBelow(threshold);
+      ExpectSame(nested.Live(), direct.Live());
+    }
+    ASSERT_FALSE(::testing::Test::HasFailure());
+  }
+}
+
+TEST(SimplePairCollapse, TopologyIsKeptAndOrderToo)
+{
+  for (std::uint32_t seed = 1; seed <= 200; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const CellComplex  complex = RandomComplex(seed);
+    std::mt19937       generator(seed);
+    const Measures     measures = RandomMeasures(complex, generator, 10, seed % 2 == 0);
+    SimplePairCollapse collapse(complex, measures.vertex, measures.edge, measures.face);
+    collapse.CollapseBelow(seed % 3 == 0 ? kAll : 6);
+    std::vector<ElementIndex> vertexIds;
+    std::vector<ElementIndex> edgeIds;
+    std::vector<ElementIndex> faceIds;
+    const CellComplex         left = ExtractLive(complex, collapse.Live(), vertexIds, edgeIds, faceIds);
+    // The live elements are a complex with the same numbers as the whole, by the slow sure way.
+    TopologyNumbers before = DenseTopology(complex);
+    TopologyNumbers after = DenseTopology(left);
+    EXPECT_EQ(before, after);
+    // Elements keep their order, and each refers to what it referred to before.
+    EXPECT_TRUE(std::is_sorted(vertexIds.begin(), vertexIds.end()));
+    EXPECT_TRUE(std::is_sorted(edgeIds.begin(), edgeIds.end()));
+    EXPECT_TRUE(std::is_sorted(faceIds.begin(), faceIds.end()));
+    const auto & live = collapse.Live();
+    ASSERT_EQ(vertexIds.size(), static_cast<std::size_t>(std::count(live.vertices.begin(), live.vertices.end(), 1)));
+    ASSERT_EQ(left.vertexCount, vertexIds.size());
+    ASSERT_EQ(left.edges.size(), edgeIds.size());
+    ASSERT_EQ(left.FaceCount(), faceIds.size());
+    for (std::size_t e = 0; e < left.edges.size(); ++e)
+    {
+      EXPECT_EQ(live.edges[edgeIds[e]], 1);
+      EXPECT_EQ(vertexIds.at(left.edges[e][0]), complex.edges[edgeIds[e]][0]);
+      EXPECT_EQ(vertexIds.at(left.edges[e][1]), complex.edges[edgeIds[e]][1]);
+    }
+    for (std::size_t f = 0; f < left.FaceCount(); ++f)
+    {
+      const auto corners = left.FaceVertices(f);
+      const auto edges = left.FaceEdges(f);
+      const auto oldCorners = complex.FaceVertices(faceIds[f]);
+      const auto oldEdges = complex.FaceEdges(faceIds[f]);
+      ASSERT_EQ(corners.size(), oldCorners.size());
+      for (std::size_t i = 0; i < corners.size(); ++i)
+      {
+        EXPECT_EQ(vertexIds.at(corners[i]), oldCorners[i]);
+        EXPECT_EQ(edgeIds.at(edges[i]), oldEdges[i]);
+      }
+    }
+    ASSERT_FALSE(::testing::Test::HasFailure());
+  }
+}
+
+TEST(SimplePairCollapse, WhatIsLeftHasNoPairToRemove)
+{
+  for (std::uint32_t seed = 1; seed <= 60; ++seed)
+  {
+    const CellComplex  complex = RandomComplex(seed);
+    std::mt19937       generator(seed);
+    const Measures     measures = RandomMeasures(complex, generator, 6, true);
+    SimplePairCollapse collapse(complex, measures.vertex, measures.edge, measures.face);
+    collapse.CollapseBelow(4);
+    ExpectSame(CollapseByRescanning(complex, measures, collapse.Live(), 4), collapse.Live());
+    // Everything with a measure of the threshold or more is still there.
+    for (std::size_t e = 0; e < complex.edges.size(); ++e)
+    {
+      EXPECT_TRUE(collapse.Live().edges[e] == 1 || measures.edge[e] < 4) << "seed " << seed;
+    }
+    for (std::size_t f = 0; f < complex.FaceCount(); ++f)
+    {
+      EXPECT_TRUE(collapse.Live().faces[f] == 1 || measures.face[f] < 4) << "seed " << seed;
+    }
+  }
+}
