@@ -72,8 +72,8 @@ TEST(ShapeTopology, AShellHasACavity)
 
 TEST(ShapeTopology, ACavityThatTouchesTheOutsideAlongAnEdgeIsNone)
 {
-  // The paper's figure 2 (a) in 3-D. The background is connected over edges and corners: a missing corner voxel of the shell opens the cavity, and the
-  // shape's boundary is then one piece.
+  // The paper's figure 2 (a) in 3-D. The background is connected over edges and corners: a missing corner voxel of the
+  // shell opens the cavity, and the shape's boundary is then one piece.
   const auto shellWithout = [](int cx, int cy, int cz) {
     return ShapeWhere({ 3, 3, 3 }, [=](int x, int y, int z) {
       return (x != 1 || y != 1 || z != 1) && (x != cx || y != cy || z != cz);
