@@ -1,0 +1,120 @@
+#pragma once
+// From rows of stored values to one packed shape a label, in one pass, whatever the number of labels.
+
+#include "LabelNames.h"
+#include "ScanFile.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Rows come slab by slab; runs of equal values are found, sorted by label, and packed at the end of a slab as runs or
+ *  bits, whichever is smaller. So the memory beyond the shapes themselves stays near one slab. */
+class LabelCollector
+{
+public:
+  /** \throws UsageError when options contradict each other. The scan must outlive the object. */
+  LabelCollector(const ScanFile & scan, const ReadOptions & options);
+
+  /** A slab: `rowCount` rows from row `firstRow` (y + size[1] * z) on, in this machine's byte order.
+   *  \throws InputError naming the first value that is no label, and its voxel. */
+  void
+  AddRows(const std::byte * rows, std::uint64_t firstRow, std::size_t rowCount);
+
+  /** The shapes that were asked for, sorted by value. \throws InputError when one of them, or anything but background,
+   *  is missing. */
+  std::vector<LabelShape>
+  TakeShapes();
+
+  const LabelBook &
+  Book() const
+  {
+    return m_Book;
+  }
+
+private:
+  struct Run
+  {
+    std::int32_t x, end, y, z;
+  };
+
+  /** A shape within one slab. */
+  struct Piece
+  {
+    std::vector<Run> runs;
+    VoxelShape       bits;
+  };
+
+  /** A value found in the scan. */
+  struct Found
+  {
+    LabelBook::Label label;
+    std::int32_t     target = -1; ///< which shape its voxels go into; -1: not asked for
+  };
+
+  struct Target
+  {
+    LabelBook::Label            label;
+    bool                        touched = false; ///< in this slab
+    std::vector<Run>            runs;            ///< of this slab
+    std::array<std::int32_t, 3> lower{ INT32_MAX, INT32_MAX, INT32_MAX };
+    std::array<std::int32_t, 3> upper{ -1, -1, -1 }; ///< inclusive
+    std::uint64_t               bytes = 0;           ///< that its final shape takes as far as is known
+    std::vector<Piece>          pieces;
+  };
+
+  struct Table ///< of one layer: stored bits -> index in m_Found, or kBackground
+  {
+    std::vector<std::int32_t>                       dense; ///< 8 and 16 bits
+    std::unordered_map<std::uint64_t, std::int32_t> sparse;
+    std::uint64_t                                   lastBits = 0;
+    std::int32_t                                    last = -2;
+  };
+
+  template <typename U>
+  void
+  AddRowsOf(const std::byte * rows, std::uint64_t firstRow, std::size_t rowCount);
+  template <typename U>
+  void
+  ScanRow(const U * row, std::size_t layer, std::int32_t y, std::int32_t z);
+  template <typename T>
+  void
+  ThresholdRow(const std::byte * row, std::int32_t y, std::int32_t z);
+  template <typename U>
+  std::int32_t
+  Lookup(U bits, std::size_t layer, std::int32_t x, std::int32_t y, std::int32_t z);
+  std::int32_t
+  Classify(std::uint64_t bits, std::size_t layer, std::int32_t x, std::int32_t y, std::int32_t z);
+  std::int64_t
+  WholeNumber(std::uint64_t bits, std::int32_t x, std::int32_t y, std::int32_t z) const;
+  double
+  Value(std::uint64_t bits) const;
+  [[noreturn]] void
+  RefuseValue(double value, const char * what, std::int32_t x, std::int32_t y, std::int32_t z) const;
+  std::int32_t
+  NewTarget(const LabelBook::Label & label);
+  void
+  Emit(Target & target, std::int32_t x, std::int32_t end, std::int32_t y, std::int32_t z);
+  void
+  FinishSlab();
+
+  const ScanFile &                         m_Scan;
+  LabelBook                                m_Book;
+  bool                                     m_Binary;
+  std::optional<std::pair<double, double>> m_Threshold;
+  bool                                     m_ZeroIsBackground;
+  std::vector<Table>                       m_Tables;
+  std::vector<Found>                       m_Found;
+  std::vector<Target>                      m_Targets;
+  std::vector<std::int32_t>                m_Touched;
+  std::uint64_t                            m_Bytes = 0; ///< that all final shapes take as far as is known
+  std::vector<std::byte>                   m_Layer;     ///< one row of one layer
+};
+
+} // namespace voxelcore

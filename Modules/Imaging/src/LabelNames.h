@@ -1,0 +1,67 @@
+#pragma once
+// What a stored value is called, and whether it was asked for.
+
+#include "ScanFile.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** value -> name from "<scan without .gz>.txt" or "<scan without extensions>.txt" beside the scan: a line each, the
+ *  value, blank or tab, the name; columns of numbers behind the name that every line has are dropped, lines that do not
+ *  begin with a number are ignored. Empty when there is no such file. */
+std::map<std::int64_t, std::string>
+ReadLabelNames(const std::filesystem::path & scan);
+
+class LabelBook
+{
+public:
+  struct Label
+  {
+    std::int64_t value = 0;
+    std::string  name;
+  };
+
+  /** \throws UsageError when options.labels makes no sense. */
+  LabelBook(const ScanFile & scan, const ReadOptions & options);
+
+  /** The label that a value above 0 in a layer stands for. Layers may use a value twice: then segments are numbered
+   *  from 1 in the order of the file. */
+  Label
+  Identify(std::size_t layer, std::int64_t value);
+
+  /** Whether it was asked for. */
+  bool
+  IsWanted(const Label & label);
+
+  /** True when segments had to be numbered anew. */
+  bool
+  IsRenumbered() const
+  {
+    return m_Renumbered;
+  }
+
+  /** \throws InputError when something asked for did not turn up among `present`. */
+  void
+  RefuseMissing(const std::filesystem::path & path, const std::vector<Label> & present) const;
+
+private:
+  struct Wish
+  {
+    std::string text;
+    bool        met = false;
+  };
+
+  std::map<std::int64_t, std::string>                   m_Names;
+  std::map<std::pair<std::size_t, std::int64_t>, Label> m_Segments;
+  std::int64_t                                          m_NextNumber = 1;
+  bool                                                  m_Renumbered = false;
+  bool                                                  m_All = false;
+  std::vector<Wish>                                     m_Wishes;
+};
+
+} // namespace voxelcore

@@ -1,0 +1,311 @@
+// MetaImage: .mha (data behind the header) and .mhd (data in files of their own).
+//
+// Read here and not by itk::MetaImageIO: MetaIO copies header words into fixed buffers, believes any size, and takes
+// missing data for zeros.
+
+#include "DataSource.h"
+#include "ScanFile.h"
+#include "TextFields.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+
+namespace voxelcore
+{
+namespace
+{
+
+constexpr std::size_t kLongestHeader = 1U << 20;
+
+struct MetaHeader
+{
+  std::map<std::string, std::string> fields; ///< by name in lower case
+  std::vector<std::string>           list;   ///< lines after ElementDataFile = LIST
+  std::uint64_t                      end = 0;
+
+  std::string
+  Field(std::initializer_list<const char *> names) const
+  {
+    for (const char * name : names)
+    {
+      if (const auto found = fields.find(name); found != fields.end())
+      {
+        return found->second;
+      }
+    }
+    return {};
+  }
+};
+
+MetaHeader
+ReadHeader(const std::filesystem::path & path)
+{
+  std::string text(kLongestHeader, '\0');
+  text.resize(OpenBytes(path, 0, Packing::Plain)->ReadSome(reinterpret_cast<std::byte *>(text.data()), text.size()));
+  MetaHeader header;
+  bool       inList = false;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t      newline = std::min(text.find('\n', at), text.size());
+    const std::string_view line = Trim(std::string_view(text).substr(at, newline - at));
+    at = newline + 1;
+    if (inList)
+    {
+      if (!line.empty())
+      {
+        header.list.emplace_back(line);
+      }
+      continue;
+    }
+    if (line.empty())
+    {
+      continue;
+    }
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos || line.size() > 65536 || line.find('\0') != std::string_view::npos)
+    {
+      Refuse(path, Text("not a MetaImage header ('", Printable(line, 30), "')"), "check what kind of file it is");
+    }
+    const std::string name = LowerCase(Trim(line.substr(0, equals)));
+    header.fields[name] = std::string(Trim(line.substr(equals + 1)));
+    if (name == "elementdatafile")
+    {
+      header.end = std::min(at, text.size());
+      inList = LowerCase(header.fields[name]).starts_with("list");
+      if (!inList)
+      {
+        return header;
+      }
+    }
+  }
+  if (!inList)
+  {
+    Refuse(path, "not a MetaImage header: it has no ElementDataFile", "the file is damaged or of another kind");
+  }
+  return header;
+}
+
+PixelType
+TypeOf(const std::filesystem::path & path, const std::string & text)
+{
+  static const std::map<std::string, PixelType> known{
+    { "MET_UCHAR", PixelType::UInt8 },
+    { "MET_CHAR", PixelType::Int8 },
+    { "MET_USHORT", PixelType::UInt16 },
+    { "MET_SHORT", PixelType::Int16 },
+    { "MET_UINT", PixelType::UInt32 },
+    { "MET_INT", PixelType::Int32 },
+    { "MET_ULONG_LONG", PixelType::UInt64 },
+    { "MET_LONG_LONG", PixelType::Int64 },
+    { "MET_FLOAT", PixelType::Float32 },
+    { "MET_DOUBLE", PixelType::Float64 },
+    // MetaIO stores its "long" in four bytes whatever the machine's has.
+    { "MET_ULONG", PixelType::UInt32 },
+    { "MET_LONG", PixelType::Int32 },
+  };
+  const auto found = known.find(text);
+  if (found == known.end())
+  {
+    const bool colour = text.find("ARRAY") != std::string::npos;
+    Refuse(path,
+           colour ? Text("several values a voxel (", Printable(text, 30), ")")
+                  : Text("voxels of type '", Printable(text, 30), "' are no whole numbers"),
+           "one whole number a voxel is needed");
+  }
+  return found->second;
+}
+
+std::vector<double>
+Reals(const std::filesystem::path & path, const char * name, const std::string & text, std::size_t count)
+{
+  std::vector<double> values;
+  for (const auto word : Words(text))
+  {
+    const auto value = ParseReal(LowerCase(word));
+    if (!value)
+    {
+      break;
+    }
+    values.push_back(*value);
+  }
+  if (values.size() != count)
+  {
+    Refuse(path, Text(name, " should have ", count, " numbers ('", Printable(text), "')"), "mend the header");
+  }
+  return values;
+}
+
+bool
+IsTrue(const std::string & text)
+{
+  return !text.empty() && (text[0] == 'T' || text[0] == 't' || text[0] == '1');
+}
+
+void
+ReadGeometry(const MetaHeader & header, std::size_t dimensions, const ReadOptions & options, ScanFile & scan)
+{
+  std::array<Vector3, 3> directions{ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+  Vector3                spacing{ 1, 1, 1 };
+  Vector3                origin{ 0, 0, 0 };
+  if (const auto text = header.Field({ "elementspacing", "elementsize" }); !text.empty())
+  {
+    const auto values = Reals(scan.path, "ElementSpacing", text, dimensions);
+    std::copy_n(values.begin(), 3, spacing.begin());
+  }
+  else
+  {
+    scan.notes.push_back("the file states no voxel spacing: 1 mm is taken");
+  }
+  if (const auto text = header.Field({ "offset", "position", "origin" }); !text.empty())
+  {
+    const auto values = Reals(scan.path, "Offset", text, dimensions);
+    std::copy_n(values.begin(), 3, origin.begin());
+  }
+  if (const auto text = header.Field({ "transformmatrix", "rotation", "orientation" }); !text.empty())
+  {
+    // One axis after the other: the direction of i in space, that of j, that of k.
+    const auto values = Reals(scan.path, "TransformMatrix", text, dimensions * dimensions);
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      for (std::size_t c = 0; c < 3; ++c)
+      {
+        directions[a][c] = values[a * dimensions + c];
+      }
+    }
+  }
+  if (const auto unit = header.Field({ "distanceunits" }); !unit.empty())
+  {
+    const auto millimetres = MillimetresIn(unit);
+    if (millimetres && *millimetres != 1.0)
+    {
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        spacing[a] *= *millimetres;
+        origin[a] *= *millimetres;
+      }
+      scan.notes.push_back(Text("lengths were converted to mm from ", Printable(unit, 20)));
+    }
+  }
+  SetGeometry(scan, directions, spacing, origin, options);
+}
+
+DataSource
+FindData(const std::filesystem::path & path, const MetaHeader & header)
+{
+  DataSource source;
+  source.packing = IsTrue(header.Field({ "compresseddata" })) ? Packing::Deflate : Packing::Plain;
+  const auto binary = header.Field({ "binarydata" });
+  source.ascii = !binary.empty() && !IsTrue(binary);
+  const auto        name = header.Field({ "elementdatafile" });
+  const std::string lower = LowerCase(name);
+  if (lower == "local")
+  {
+    source.files = { path };
+    source.offset = header.end;
+  }
+  else if (lower.starts_with("list"))
+  {
+    for (const auto & file : header.list)
+    {
+      source.files.push_back(BesideHeader(path, file));
+    }
+  }
+  else if (auto files = FilesOfPattern(path, name))
+  {
+    source.files = std::move(*files);
+  }
+  else
+  {
+    source.files = { BesideHeader(path, name) };
+  }
+  if (source.files.empty() || name.empty())
+  {
+    Refuse(path, "it names no data file", "mend the header");
+  }
+  if (const auto text = header.Field({ "headersize" }); !text.empty())
+  {
+    const auto skip = ParseInteger(text);
+    if (!skip || *skip < -1 || *skip > (std::int64_t{ 1 } << 50))
+    {
+      Refuse(path, Text("HeaderSize = ", Printable(text, 20), " makes no sense"), "mend the header");
+    }
+    if (lower != "local")
+    {
+      if (*skip > 0)
+      {
+        source.offset = static_cast<std::uint64_t>(*skip);
+      }
+      source.byteSkip = *skip == -1 ? -1 : 0;
+    }
+  }
+  return source;
+}
+
+} // namespace
+
+ScanFile
+OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
+{
+  const MetaHeader header = ReadHeader(path);
+  ScanFile         scan;
+  scan.path = path;
+  scan.format = "MetaImage";
+  const auto dimensions = ParseInteger(header.Field({ "ndims" }));
+  if (!dimensions || *dimensions < 1 || *dimensions > 10)
+  {
+    Refuse(path, Text("NDims = ", Printable(header.Field({ "ndims" }), 20), " makes no sense"), "mend the header");
+  }
+  const auto n = static_cast<std::size_t>(*dimensions);
+  if (n < 3)
+  {
+    Refuse(path, Text(n, "-D image"), "a volume with three axes in space is needed");
+  }
+  const std::string         dimSize = header.Field({ "dimsize" });
+  const auto                words = Words(dimSize);
+  std::vector<std::int64_t> sizes;
+  for (const auto word : words)
+  {
+    sizes.push_back(ParseInteger(word).value_or(0));
+  }
+  if (sizes.size() != n)
+  {
+    Refuse(path, Text("DimSize should have ", n, " numbers ('", Printable(dimSize), "')"), "mend the header");
+  }
+  std::copy_n(sizes.begin(), 3, scan.geometry.size.begin());
+  std::uint64_t volumes = 1;
+  for (std::size_t a = 3; a < n; ++a)
+  {
+    if (sizes[a] < 1 || sizes[a] > (1 << 30) || volumes > (1U << 30))
+    {
+      Refuse(path, Text("DimSize = ", Printable(dimSize), " makes no sense"), "mend the header");
+    }
+    volumes *= static_cast<std::uint64_t>(sizes[a]);
+  }
+  if (const auto channels = header.Field({ "elementnumberofchannels" }); !channels.empty() && channels != "1")
+  {
+    Refuse(path,
+           Text("colour image or vectors (", Printable(channels, 20), " values a voxel)"),
+           "one whole number a voxel is needed");
+  }
+  scan.type = TypeOf(path, header.Field({ "elementtype" }));
+  const std::uint64_t volume = ChooseVolume(path, volumes, options);
+
+  const DataSource    source = FindData(path, header);
+  const std::uint64_t possible = LargestData(source, scan.type);
+  const std::uint64_t voxels = CheckSize(path, scan.geometry.size, PixelBytes(scan.type), possible);
+  const std::uint64_t bytes = voxels * PixelBytes(scan.type);
+  if (volumes > std::max<std::uint64_t>(1, possible / bytes))
+  {
+    Refuse(path, "its header gives more volumes than its data can hold", "the file is truncated: write it anew");
+  }
+  const bool big = IsTrue(header.Field({ "binarydatabyteordermsb", "elementbyteordermsb" }));
+  scan.swapBytes = !source.ascii && big != (std::endian::native == std::endian::big);
+  ReadGeometry(header, n, options, scan);
+  scan.voxels = OpenData(path, source, scan.type, bytes * volumes);
+  scan.moreVolumes = volumes > 1;
+  scan.voxels->Skip(volume * bytes);
+  return scan;
+}
+
+} // namespace voxelcore

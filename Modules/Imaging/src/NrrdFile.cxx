@@ -1,0 +1,523 @@
+// NRRD, its detached headers, and the segmentations 3D Slicer keeps in it.
+//
+// The header is read here and not by itk::NrrdImageIO, which drops space units (5 um becomes 5 mm), turns a leading
+// list axis (layers of overlapping segments) into one grey value, and places the space LAS half a turn off.
+
+#include "DataSource.h"
+#include "NrrdHeader.h"
+#include "ScanFile.h"
+#include "TextFields.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace voxelcore
+{
+namespace
+{
+
+constexpr std::uint64_t kMostLayers = 4096;
+
+PixelType
+TypeOf(const std::filesystem::path & path, std::string_view text)
+{
+  std::string type = LowerCase(text);
+  for (const std::string_view noise : { "signed ", " int" })
+  {
+    // "unsigned" keeps its own "signed ".
+    if (const std::size_t at = type.find(noise); at != std::string::npos && (at == 0 || noise[0] == ' '))
+    {
+      type.erase(at, noise.size());
+    }
+  }
+  static constexpr std::array<std::pair<std::string_view, PixelType>, 34> known{ {
+    { "char", PixelType::Int8 },           { "int8", PixelType::Int8 },
+    { "int8_t", PixelType::Int8 },         { "uchar", PixelType::UInt8 },
+    { "unsigned char", PixelType::UInt8 }, { "uint8", PixelType::UInt8 },
+    { "uint8_t", PixelType::UInt8 },       { "short", PixelType::Int16 },
+    { "int16", PixelType::Int16 },         { "int16_t", PixelType::Int16 },
+    { "ushort", PixelType::UInt16 },       { "unsigned short", PixelType::UInt16 },
+    { "uint16", PixelType::UInt16 },       { "uint16_t", PixelType::UInt16 },
+    { "int", PixelType::Int32 },           { "int32", PixelType::Int32 },
+    { "int32_t", PixelType::Int32 },       { "uint", PixelType::UInt32 },
+    { "unsigned", PixelType::UInt32 },     { "unsigned int", PixelType::UInt32 },
+    { "uint32", PixelType::UInt32 },       { "uint32_t", PixelType::UInt32 },
+    { "long long", PixelType::Int64 },     { "longlong", PixelType::Int64 },
+    { "int64", PixelType::Int64 },         { "int64_t", PixelType::Int64 },
+    { "ulonglong", PixelType::UInt64 },    { "unsigned long long", PixelType::UInt64 },
+    { "uint64", PixelType::UInt64 },       { "uint64_t", PixelType::UInt64 },
+    { "float", PixelType::Float32 },       { "float32", PixelType::Float32 },
+    { "double", PixelType::Float64 },      { "float64", PixelType::Float64 },
+  } };
+  for (const auto & [name, pixel] : known)
+  {
+    if (type == name)
+    {
+      return pixel;
+    }
+  }
+  Refuse(path,
+         Text("voxels of type '", Printable(text, 30), "' are no numbers"),
+         "save it with a type of whole numbers");
+}
+
+/** Which axes of the file are i, j, k, and what the others are. */
+struct Axes
+{
+  std::array<std::size_t, 3> spatial{};
+  std::uint64_t              before = 1; ///< values a voxel, on axes faster than i
+  std::uint64_t              after = 1;  ///< volumes, on axes slower than k
+  std::string                kindBefore; ///< of the axis with more than one value
+};
+
+bool
+IsRangeKind(const std::string & kind)
+{
+  return !kind.empty() && kind != "domain" && kind != "space" && kind != "???" && kind != "none";
+}
+
+Axes
+SortAxes(const std::filesystem::path &                           path,
+         const std::vector<std::int64_t> &                       sizes,
+         const std::vector<std::string> &                        kinds,
+         const std::vector<std::optional<std::vector<double>>> & directions)
+{
+  std::vector<std::size_t> spatial;
+  for (std::size_t a = 0; a < sizes.size(); ++a)
+  {
+    const bool none = !directions.empty() && !directions[a];
+    if (!none && !(a < kinds.size() && IsRangeKind(kinds[a])))
+    {
+      spatial.push_back(a);
+    }
+  }
+  if (spatial.size() > 3)
+  {
+    spatial.resize(3); // a fourth axis without further word is that of a series
+  }
+  if (spatial.size() < 3)
+  {
+    Refuse(path, Text(spatial.size(), "-D image"), "a volume with three axes in space is needed");
+  }
+  Axes axes;
+  std::copy(spatial.begin(), spatial.end(), axes.spatial.begin());
+  for (std::size_t a = 0; a < sizes.size(); ++a)
+  {
+    if (std::find(spatial.begin(), spatial.end(), a) != spatial.end() || sizes[a] == 1)
+    {
+      continue;
+    }
+    const auto size = static_cast<std::uint64_t>(sizes[a]);
+    if (a < spatial[0])
+    {
+      axes.before *= size;
+      axes.kindBefore = a < kinds.size() ? kinds[a] : "";
+    }
+    else if (a > spatial[2])
+    {
+      axes.after *= size;
+    }
+    else
+    {
+      Refuse(path, "its axes in space are interrupted by another axis", "permute the axes: space first");
+    }
+    if (axes.before > kMostLayers || axes.after > (1U << 30))
+    {
+      Refuse(path, Text("an axis of ", size, " values that is not in space"), "this is no label volume");
+    }
+  }
+  return axes;
+}
+
+void
+ReadSegments(const NrrdHeader & header, ScanFile & scan)
+{
+  for (std::size_t n = 0; n < 100000; ++n)
+  {
+    const std::string prefix = Text("Segment", n, "_");
+    const auto        name = header.keys.find(prefix + "Name");
+    const auto        value = header.keys.find(prefix + "LabelValue");
+    const auto        layer = header.keys.find(prefix + "Layer");
+    if (name == header.keys.end() && value == header.keys.end() && header.keys.count(prefix + "ID") == 0)
+    {
+      break;
+    }
+    Segment segment;
+    segment.name = name == header.keys.end() ? "" : Printable(Trim(name->second), 200);
+    // Files from before Slicer 4.11 have no LabelValue: there segment N carries N + 1.
+    const auto number = value == header.keys.end() ? std::optional<std::int64_t>(static_cast<std::int64_t>(n) + 1)
+                                                   : ParseInteger(Trim(value->second));
+    const auto at = layer == header.keys.end() ? std::optional<std::int64_t>(0) : ParseInteger(Trim(layer->second));
+    if (!number || !at || *at < 0 || static_cast<std::uint64_t>(*at) >= scan.interleaved)
+    {
+      Refuse(scan.path, Text("segment ", n, " has a label value or layer that makes no sense"), "mend the header");
+    }
+    segment.value = *number;
+    segment.layer = static_cast<std::size_t>(*at);
+    scan.segments.push_back(std::move(segment));
+  }
+}
+
+/** +1 or -1 for each coordinate of the file's space: what brings it to LPS. */
+Vector3
+ToLps(std::string_view field, ScanFile & scan)
+{
+  std::string space = LowerCase(Trim(field));
+  if (space.ends_with("-time"))
+  {
+    space.resize(space.size() - 5);
+  }
+  if (space == "left-posterior-superior" || space == "lps" || space == "lpst")
+  {
+    return { 1, 1, 1 };
+  }
+  if (space == "right-anterior-superior" || space == "ras" || space == "rast")
+  {
+    return { -1, -1, 1 };
+  }
+  if (space == "left-anterior-superior" || space == "las" || space == "last")
+  {
+    scan.warnings.push_back(
+      "the file's space is left-anterior-superior, which ITK 5 and programs built on it (3D "
+      "Slicer) place half a turn about the body's axis away from where it belongs");
+    return { 1, -1, 1 };
+  }
+  scan.notes.push_back(field.empty() ? "the file names no anatomical space: its axes are taken as LPS"
+                                     : Text("the space '", Printable(field, 30), "' is taken as LPS"));
+  return { 1, 1, 1 };
+}
+
+/** Millimetres in each unit of a list such as "mm" "mm" "um"; 1 where none is stated. */
+Vector3
+UnitsInMillimetres(std::string_view                   text,
+                   const std::array<std::size_t, 3> & which,
+                   const ReadOptions &                options,
+                   ScanFile &                         scan)
+{
+  const auto units = ParseNrrdQuoted(text);
+  Vector3    scale{ 1, 1, 1 };
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const std::string unit = which[a] < units.size() ? std::string(Trim(units[which[a]])) : std::string();
+    if (unit.empty())
+    {
+      continue;
+    }
+    const auto millimetres = MillimetresIn(unit);
+    if (!millimetres && !options.spacing)
+    {
+      Refuse(scan.path,
+             Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
+             "give the voxel spacing with --spacing x,y,z in mm");
+    }
+    scale[a] = millimetres.value_or(1.0);
+  }
+  if (scale != Vector3{ 1, 1, 1 })
+  {
+    scan.notes.push_back(Text("lengths were converted to mm from ", Printable(text)));
+  }
+  return scale;
+}
+
+std::vector<double>
+Reals(const std::filesystem::path & path, std::string_view field, std::string_view text, std::size_t count)
+{
+  std::vector<double> values;
+  for (const auto word : Words(text))
+  {
+    const auto value = ParseReal(LowerCase(word));
+    if (!value)
+    {
+      Refuse(path, Text("the header field '", field, "' makes no sense ('", Printable(text), "')"), "mend the header");
+    }
+    values.push_back(*value);
+  }
+  if (values.size() != count)
+  {
+    Refuse(path,
+           Text("the header field '", field, "' has ", values.size(), " numbers, not ", count),
+           "mend the header");
+  }
+  return values;
+}
+
+/** Without space directions: `spacings` along the axes, or the extent `axis mins` to `axis maxs`. */
+void
+GeometryFromSpacings(const NrrdHeader &  header,
+                     const Axes &        axes,
+                     std::size_t         dimension,
+                     const ReadOptions & options,
+                     ScanFile &          scan)
+{
+  const std::array<Vector3, 3> identity{ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+  const Vector3                sign = ToLps(header.Field("space"), scan);
+  Vector3                      spacing{ 1, 1, 1 };
+  Vector3                      origin{ 0, 0, 0 };
+  if (const auto text = header.Field("spacings"); !text.empty())
+  {
+    const auto values = Reals(scan.path, "spacings", text, dimension);
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      spacing[a] = values[axes.spatial[a]];
+    }
+    scan.notes.push_back("the file has spacings but no directions: its axes are taken as those of the space");
+  }
+  else
+  {
+    scan.notes.push_back("the file states no voxel spacing: 1 mm is taken");
+  }
+  if (const auto text = header.Field("axismins"); !text.empty())
+  {
+    // As ITK: samples lie in the middle of cells unless the header says they lie on nodes.
+    const auto mins = Reals(scan.path, "axis mins", text, dimension);
+    const auto centers = Words(header.Field("centers"));
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const std::size_t axis = axes.spatial[a];
+      const bool        node = axis < centers.size() && LowerCase(centers[axis]) == "node";
+      origin[a] = std::isfinite(mins[axis]) ? mins[axis] + (node ? 0.0 : spacing[a] / 2) : 0.0;
+    }
+  }
+  if (const auto text = header.Field("spaceorigin"); !text.empty())
+  {
+    const auto vectors = ParseNrrdVectors(scan.path, "space origin", text);
+    if (vectors.size() == 1 && vectors[0] && vectors[0]->size() >= 3 && std::isfinite((*vectors[0])[0]))
+    {
+      std::copy_n(vectors[0]->begin(), 3, origin.begin());
+    }
+  }
+  const bool             perAxis = !header.Field("units").empty();
+  const Vector3          scale = UnitsInMillimetres(header.Field(perAxis ? "units" : "spaceunits"),
+                                           perAxis ? axes.spatial : std::array<std::size_t, 3>{ 0, 1, 2 },
+                                           options,
+                                           scan);
+  std::array<Vector3, 3> directions = identity;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    spacing[a] *= scale[a];
+    origin[a] *= scale[a] * sign[a];
+    directions[a][a] = sign[a];
+  }
+  SetGeometry(scan, directions, spacing, origin, options);
+}
+
+void
+GeometryFromDirections(const NrrdHeader &                                      header,
+                       const std::vector<std::optional<std::vector<double>>> & steps,
+                       const Axes &                                            axes,
+                       const ReadOptions &                                     options,
+                       ScanFile &                                              scan)
+{
+  const Vector3          sign = ToLps(header.Field("space"), scan);
+  const Vector3          scale = UnitsInMillimetres(header.Field("spaceunits"), { 0, 1, 2 }, options, scan);
+  std::array<Vector3, 3> directions{};
+  Vector3                spacing{};
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const auto & step = *steps[axes.spatial[a]];
+    if (step.size() < 3)
+    {
+      Refuse(scan.path, Text(step.size(), "-D space"), "a volume in three-dimensional space is needed");
+    }
+    double square = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      directions[a][c] = step[c] * sign[c] * scale[c];
+      square += directions[a][c] * directions[a][c];
+    }
+    spacing[a] = std::sqrt(square);
+  }
+  Vector3    origin{ 0, 0, 0 };
+  const auto vectors = ParseNrrdVectors(scan.path, "space origin", header.Field("spaceorigin"));
+  if (vectors.size() == 1 && vectors[0] && vectors[0]->size() >= 3)
+  {
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      origin[c] = (*vectors[0])[c] * sign[c] * scale[c];
+    }
+  }
+  else
+  {
+    scan.notes.push_back("the file states no origin: 0 is taken");
+  }
+  SetGeometry(scan, directions, spacing, origin, options);
+}
+
+DataSource
+FindData(const std::filesystem::path & path, const NrrdHeader & header)
+{
+  DataSource        source;
+  const std::string encoding = LowerCase(header.Field("encoding"));
+  if (encoding == "gzip" || encoding == "gz")
+  {
+    source.packing = Packing::Deflate;
+  }
+  else if (encoding == "bzip2" || encoding == "bz2")
+  {
+    source.packing = Packing::Bzip2;
+  }
+  else if (encoding == "hex")
+  {
+    source.packing = Packing::Hex;
+  }
+  else if (encoding == "ascii" || encoding == "text" || encoding == "txt")
+  {
+    source.ascii = true;
+  }
+  else if (encoding != "raw")
+  {
+    Refuse(path, Text("its encoding '", Printable(encoding, 20), "' is not known here"), "save it as raw or gzip");
+  }
+  const auto skips = [&](std::string_view name, std::int64_t least) -> std::int64_t {
+    const auto text = header.Field(name);
+    const auto value = text.empty() ? std::optional<std::int64_t>(0) : ParseInteger(text);
+    if (!value || *value < least || *value > (std::int64_t{ 1 } << 50))
+    {
+      Refuse(path,
+             Text("the header field '", name, "' makes no sense ('", Printable(text, 20), "')"),
+             "mend the header");
+    }
+    return *value;
+  };
+  source.lineSkip = static_cast<std::uint64_t>(skips("lineskip", 0));
+  source.byteSkip = skips("byteskip", -1);
+  const auto name = header.Field("datafile");
+  if (name.empty())
+  {
+    if (!header.ended)
+    {
+      Refuse(path, "its header ends without a blank line and names no data file", "the file is truncated");
+    }
+    source.files = { path };
+    source.offset = header.dataOffset;
+  }
+  else if (LowerCase(Words(name).front()) == "list")
+  {
+    for (const auto & file : header.dataFiles)
+    {
+      source.files.push_back(BesideHeader(path, file));
+    }
+  }
+  else if (auto files = FilesOfPattern(path, name))
+  {
+    source.files = std::move(*files);
+  }
+  else
+  {
+    source.files = { BesideHeader(path, name) };
+  }
+  if (source.files.empty())
+  {
+    Refuse(path, "it lists no data files", "mend the header");
+  }
+  return source;
+}
+
+} // namespace
+
+ScanFile
+OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
+{
+  const NrrdHeader header = ReadNrrdHeader(path);
+  ScanFile         scan;
+  scan.path = path;
+  scan.format = "NRRD";
+  for (const std::string_view needed : { "type", "dimension", "sizes", "encoding" })
+  {
+    if (header.Field(needed).empty())
+    {
+      Refuse(path, Text("its header has no field '", needed, "'"), "the file is damaged or no NRRD");
+    }
+  }
+  scan.type = TypeOf(path, header.Field("type"));
+
+  std::vector<std::int64_t> sizes;
+  for (const auto word : Words(header.Field("sizes")))
+  {
+    const auto size = ParseInteger(word);
+    if (!size || *size < 1)
+    {
+      Refuse(path, Text("a side of ", Printable(word, 20), " voxels"), "the file is damaged");
+    }
+    sizes.push_back(*size);
+  }
+  const auto dimension = ParseInteger(header.Field("dimension"));
+  if (!dimension || *dimension != static_cast<std::int64_t>(sizes.size()) || sizes.size() > 16)
+  {
+    Refuse(path, "its header fields 'dimension' and 'sizes' contradict each other", "mend the header");
+  }
+  std::vector<std::string> kinds;
+  for (const auto word : Words(header.Field("kinds")))
+  {
+    kinds.push_back(LowerCase(word));
+  }
+  const auto steps = ParseNrrdVectors(path, "space directions", header.Field("spacedirections"));
+  if (!steps.empty() && steps.size() != sizes.size())
+  {
+    Refuse(path,
+           Text("its header has ", steps.size(), " space directions for ", sizes.size(), " axes"),
+           "mend the header");
+  }
+  const Axes axes = SortAxes(path, sizes, kinds, steps);
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    scan.geometry.size[a] = sizes[axes.spatial[a]];
+  }
+  scan.interleaved = static_cast<std::size_t>(axes.before);
+  ReadSegments(header, scan);
+  std::uint64_t volume = 0;
+  if (axes.before > 1 && scan.segments.empty())
+  {
+    if (axes.kindBefore.find("color") != std::string::npos)
+    {
+      Refuse(path, Text("colour image (", axes.before, " values a voxel)"), "save its labels as one number a voxel");
+    }
+    if (axes.kindBefore != "list" && axes.kindBefore != "time" && IsRangeKind(axes.kindBefore))
+    {
+      Refuse(path,
+             Text(axes.before, " values a voxel (", Printable(axes.kindBefore, 20), ")"),
+             "one whole number a voxel is needed");
+    }
+    scan.component = static_cast<std::ptrdiff_t>(ChooseVolume(path, axes.before, options));
+  }
+  else
+  {
+    volume = ChooseVolume(path, axes.after, options);
+  }
+
+  const DataSource    source = FindData(path, header);
+  const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * axes.before;
+  const std::uint64_t possible = LargestData(source, scan.type);
+  const std::uint64_t voxels = CheckSize(path, scan.geometry.size, bytesPerVoxel, possible);
+  // CheckSize bounds the first factor by `possible`.
+  if (axes.after > std::max<std::uint64_t>(1, possible / (voxels * bytesPerVoxel)))
+  {
+    Refuse(path, "its header gives more volumes than its data can hold", "the file is truncated: write it anew");
+  }
+
+  if (PixelBytes(scan.type) > 1 && !source.ascii)
+  {
+    const std::string endian = LowerCase(header.Field("endian"));
+    if (endian != "little" && endian != "big")
+    {
+      Refuse(path, "its header does not say whether values are little or big endian", "mend the header");
+    }
+    scan.swapBytes = (endian == "big") != (std::endian::native == std::endian::big);
+  }
+  if (steps.empty())
+  {
+    GeometryFromSpacings(header, axes, sizes.size(), options, scan);
+  }
+  else
+  {
+    GeometryFromDirections(header, steps, axes, options, scan);
+  }
+  scan.voxels = OpenData(path, source, scan.type, voxels * bytesPerVoxel * axes.after);
+  scan.moreVolumes = axes.after > 1;
+  scan.voxels->Skip(volume * voxels * bytesPerVoxel);
+  return scan;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,149 @@
+#include "ScanFile.h"
+#include "TextFields.h"
+
+namespace voxelcore
+{
+
+void
+Refuse(const std::filesystem::path & path, std::string_view wrong, std::string_view remedy)
+{
+  throw InputError(Text(Printable(path.string(), 4096), ": ", wrong, "; ", remedy));
+}
+
+std::size_t
+PixelBytes(PixelType type)
+{
+  switch (type)
+  {
+    case PixelType::UInt8:
+    case PixelType::Int8:
+      return 1;
+    case PixelType::UInt16:
+    case PixelType::Int16:
+      return 2;
+    case PixelType::UInt32:
+    case PixelType::Int32:
+    case PixelType::Float32:
+      return 4;
+    case PixelType::UInt64:
+    case PixelType::Int64:
+    case PixelType::Float64:
+      break;
+  }
+  return 8;
+}
+
+const char *
+PixelName(PixelType type)
+{
+  switch (type)
+  {
+    case PixelType::UInt8:
+      return "uint8";
+    case PixelType::Int8:
+      return "int8";
+    case PixelType::UInt16:
+      return "uint16";
+    case PixelType::Int16:
+      return "int16";
+    case PixelType::UInt32:
+      return "uint32";
+    case PixelType::Int32:
+      return "int32";
+    case PixelType::UInt64:
+      return "uint64";
+    case PixelType::Int64:
+      return "int64";
+    case PixelType::Float32:
+      return "float32";
+    case PixelType::Float64:
+      break;
+  }
+  return "float64";
+}
+
+std::uint64_t
+CheckSize(const std::filesystem::path &       path,
+          const std::array<std::int64_t, 3> & size,
+          std::uint64_t                       bytesPerVoxel,
+          std::uint64_t                       bytesPossible)
+{
+  __extension__ using Wide = unsigned __int128;
+  Wide total = 1;
+  for (const std::int64_t side : size)
+  {
+    if (side < 1 || side > (std::int64_t{ 1 } << 30))
+    {
+      Refuse(path, Text("its header gives a side of ", side, " voxels"), "the file is damaged or no volume");
+    }
+    total *= static_cast<Wide>(side);
+  }
+  // Three sides of 2^30 and 2^20 bytes a voxel stay below 2^128.
+  if (bytesPerVoxel > (1U << 20) || total * bytesPerVoxel > bytesPossible)
+  {
+    Refuse(path,
+           Text("its header gives ", size[0], " x ", size[1], " x ", size[2], " voxels, more than its data can hold"),
+           "the file is truncated or its header damaged: fetch or write it anew");
+  }
+  return static_cast<std::uint64_t>(total);
+}
+
+std::uint64_t
+ChooseVolume(const std::filesystem::path & path, std::uint64_t volumes, const ReadOptions & options)
+{
+  if (!options.volume)
+  {
+    if (volumes > 1)
+    {
+      Refuse(path,
+             Text("4-D file with ", volumes, " volumes"),
+             Text("choose one with --volume 0 to --volume ", volumes - 1));
+    }
+    return 0;
+  }
+  if (*options.volume < 0 || static_cast<std::uint64_t>(*options.volume) >= volumes)
+  {
+    Refuse(path,
+           Text("there is no volume ", *options.volume, ", it has ", volumes),
+           Text("volumes are counted from 0 to ", volumes - 1));
+  }
+  return static_cast<std::uint64_t>(*options.volume);
+}
+
+ScanFile
+OpenScan(const std::filesystem::path & path, const ReadOptions & options)
+{
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored) || (!std::filesystem::exists(path, ignored) && IsSlicePattern(path)))
+  {
+    return OpenSlices(path, options);
+  }
+  const std::uint64_t bytes = FileSize(path);
+  if (bytes == 0)
+  {
+    Refuse(path, "the file is empty", "fetch or write it anew");
+  }
+  const std::string name = LowerCase(path.filename().string());
+  const auto        ends = [&name](std::string_view extension) { return name.ends_with(extension); };
+  if (ends(".nrrd") || ends(".nhdr"))
+  {
+    return OpenNrrd(path, options);
+  }
+  if (ends(".nii") || ends(".nii.gz") || ends(".hdr") || ends(".hdr.gz") || ends(".img") || ends(".img.gz"))
+  {
+    return OpenNifti(path, options);
+  }
+  if (ends(".mha") || ends(".mhd"))
+  {
+    return OpenMetaImage(path, options);
+  }
+  if (ends(".tif") || ends(".tiff"))
+  {
+    return OpenTiff(path, options);
+  }
+  Refuse(path,
+         "unknown kind of scan",
+         "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF slices");
+}
+
+} // namespace voxelcore

@@ -1,0 +1,130 @@
+#pragma once
+// A scan that has been opened: what its header says, in one form for all formats, and its voxels as a stream.
+
+#include "ByteStream.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/LabelVolume.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Throws InputError: one line "<file>: <what is wrong>; <what to do>". */
+[[noreturn]] void
+Refuse(const std::filesystem::path & path, std::string_view wrong, std::string_view remedy);
+
+enum class PixelType : std::uint8_t
+{
+  UInt8,
+  Int8,
+  UInt16,
+  Int16,
+  UInt32,
+  Int32,
+  UInt64,
+  Int64,
+  Float32,
+  Float64
+};
+
+std::size_t
+PixelBytes(PixelType type);
+
+/** "uint8", "float32", ... */
+const char *
+PixelName(PixelType type);
+
+inline bool
+IsFloat(PixelType type)
+{
+  return type == PixelType::Float32 || type == PixelType::Float64;
+}
+
+/** A named segment of a .seg.nrrd. */
+struct Segment
+{
+  std::string  name;
+  std::size_t  layer = 0;
+  std::int64_t value = 0;
+};
+
+struct ScanFile
+{
+  std::filesystem::path    path;
+  std::string              format;     ///< as LabelVolume::format
+  std::string              storedType; ///< as LabelVolume::pixelType; empty: PixelName(type)
+  PixelType                type = PixelType::UInt8;
+  bool                     swapBytes = false; ///< the stream's byte order is not this machine's
+  ImageGeometry            geometry;
+  std::size_t              interleaved = 1; ///< values a voxel in the stream, the fastest axis
+  std::ptrdiff_t           component = -1;  ///< which of them to take; -1: all are layers of a segmentation
+  double                   slope = 1;       ///< value = slope * stored + intercept
+  double                   intercept = 0;
+  std::vector<Segment>     segments;
+  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
+
+  bool                        moreVolumes = false; ///< the stream goes on behind the volume that is read
+  std::unique_ptr<ByteStream> voxels;              ///< i fastest, then j, then k, from the first voxel on
+
+  bool
+  IsScaled() const
+  {
+    return slope != 1 || intercept != 0;
+  }
+};
+
+/** One opener a format. \throws InputError */
+ScanFile
+OpenNrrd(const std::filesystem::path & path, const ReadOptions & options);
+ScanFile
+OpenNifti(const std::filesystem::path & path, const ReadOptions & options);
+ScanFile
+OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options);
+ScanFile
+OpenTiff(const std::filesystem::path & path, const ReadOptions & options);
+/** A folder, or a pattern in the last part of the path: `*` stands for anything, `%d`, `%04d` or a run of `#` for a
+ *  number. */
+ScanFile
+OpenSlices(const std::filesystem::path & path, const ReadOptions & options);
+bool
+IsSlicePattern(const std::filesystem::path & path);
+
+/** By the extension. */
+ScanFile
+OpenScan(const std::filesystem::path & path, const ReadOptions & options);
+
+/** Sides as a header claims them, checked: each 1 to 2^30, and their product (times bytesPerVoxel) at most
+ *  bytesPossible. Returns the product. */
+std::uint64_t
+CheckSize(const std::filesystem::path &       path,
+          const std::array<std::int64_t, 3> & size,
+          std::uint64_t                       bytesPerVoxel,
+          std::uint64_t                       bytesPossible);
+
+/** Sets spacing (mm), origin (LPS mm) and direction of scan.geometry, the latter from the directions (LPS, any length) of
+ *  the axes i, j, k; applies options.spacing and options.orthonormalize. \throws InputError when they are no geometry */
+void
+SetGeometry(ScanFile &                     scan,
+            const std::array<Vector3, 3> & directions,
+            const Vector3 &                spacing,
+            const Vector3 &                origin,
+            const ReadOptions &            options);
+
+/** The largest cosine between two of the three directions: 0 when they are orthogonal. */
+double
+LargestCosine(const std::array<Vector3, 3> & directions);
+
+/** Checks options.volume against the volumes there are and returns the one to read.
+ *  \throws InputError when there are several and none was chosen, or there is none of that number. */
+std::uint64_t
+ChooseVolume(const std::filesystem::path & path, std::uint64_t volumes, const ReadOptions & options);
+
+} // namespace voxelcore

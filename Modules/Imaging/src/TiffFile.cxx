@@ -1,0 +1,513 @@
+#include "TiffFile.h"
+#include "TextFields.h"
+
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+
+namespace voxelcore
+{
+namespace
+{
+
+/** A file opened with handlers of its own: libtiff prints nothing, and no global state is touched. */
+class TiffHandle
+{
+public:
+  explicit TiffHandle(const std::filesystem::path & path)
+    : m_Path(path)
+  {
+    TIFFOpenOptions * options = TIFFOpenOptionsAlloc();
+    TIFFOpenOptionsSetErrorHandlerExtR(options, &TiffHandle::OnError, this);
+    TIFFOpenOptionsSetWarningHandlerExtR(options, &TiffHandle::OnWarning, nullptr);
+    // m: no memory mapping, where a file cut short meanwhile would end the process.
+    m_Tiff = TIFFOpenExt(path.c_str(), "rm", options);
+    TIFFOpenOptionsFree(options);
+    if (m_Tiff == nullptr)
+    {
+      RefuseDamaged("not a TIFF file");
+    }
+  }
+  TiffHandle(const TiffHandle &) = delete;
+  TiffHandle &
+  operator=(const TiffHandle &) = delete;
+  ~TiffHandle()
+  {
+    if (m_Tiff != nullptr)
+    {
+      TIFFClose(m_Tiff);
+    }
+  }
+
+  TIFF *
+  Get() const
+  {
+    return m_Tiff;
+  }
+
+  bool
+  HasError() const
+  {
+    return !m_Error.empty();
+  }
+
+  template <typename T>
+  T
+  Field(std::uint32_t tag, T otherwise) const
+  {
+    T value{};
+    return TIFFGetFieldDefaulted(m_Tiff, tag, &value) == 1 ? value : otherwise;
+  }
+
+  std::string
+  Description() const
+  {
+    const char * text = nullptr;
+    return TIFFGetField(m_Tiff, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text != nullptr ? text : "";
+  }
+
+  [[noreturn]] void
+  RefuseDamaged(std::string_view what) const
+  {
+    Refuse(m_Path,
+           m_Error.empty() ? std::string(what) : Text(what, " (", m_Error, ")"),
+           "the file is damaged, truncated or of another kind: write it anew");
+  }
+
+private:
+  static int
+  OnError(TIFF *, void * self, const char *, const char * format, va_list arguments)
+  {
+    auto & error = static_cast<TiffHandle *>(self)->m_Error;
+    if (error.empty())
+    {
+      std::array<char, 400> text{};
+      std::vsnprintf(text.data(), text.size(), format, arguments);
+      error = Printable(text.data(), 120);
+    }
+    return 1;
+  }
+  static int
+  OnWarning(TIFF *, void *, const char *, const char *, va_list)
+  {
+    return 1;
+  }
+
+  std::filesystem::path m_Path;
+  TIFF *                m_Tiff = nullptr;
+  std::string           m_Error;
+};
+
+/** The most bytes that one stored byte may stand for. */
+std::uint64_t
+Expansion(std::uint16_t compression, std::uint32_t width)
+{
+  switch (compression)
+  {
+    case COMPRESSION_NONE:
+      return 1;
+    case COMPRESSION_PACKBITS:
+      return 128;
+    case COMPRESSION_LZW:
+    case COMPRESSION_DEFLATE:
+    case COMPRESSION_ADOBE_DEFLATE:
+      return 4096;
+    case COMPRESSION_CCITTRLE:
+    case COMPRESSION_CCITTRLEW:
+    case COMPRESSION_CCITTFAX3:
+    case COMPRESSION_CCITTFAX4:
+      return std::uint64_t{ width } + 8; // an empty row of width / 8 bytes in one bit
+    default:
+      return 1U << 17;
+  }
+}
+
+std::uint64_t
+StoredBytes(const TiffHandle & tiff, std::uint64_t & largestPart)
+{
+  const std::uint32_t parts = TIFFIsTiled(tiff.Get()) ? TIFFNumberOfTiles(tiff.Get()) : TIFFNumberOfStrips(tiff.Get());
+  std::uint64_t       bytes = 0;
+  for (std::uint32_t part = 0; part < parts && !tiff.HasError(); ++part)
+  {
+    const std::uint64_t count = TIFFGetStrileByteCount(tiff.Get(), part);
+    largestPart = std::max(largestPart, count);
+    bytes += std::min<std::uint64_t>(count, std::uint64_t{ 1 } << 50);
+  }
+  return bytes;
+}
+
+/** One page's sizes and type. */
+TiffPages
+ReadPage(const std::filesystem::path & path, const TiffHandle & tiff, std::uint64_t fileBytes)
+{
+  TiffPages page;
+  page.width = tiff.Field<std::uint32_t>(TIFFTAG_IMAGEWIDTH, 0);
+  page.height = tiff.Field<std::uint32_t>(TIFFTAG_IMAGELENGTH, 0);
+  page.bits = tiff.Field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
+  const auto samples = tiff.Field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
+  const auto format = tiff.Field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+  const auto photometric = tiff.Field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  const auto compression = tiff.Field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  if (samples > 1 || photometric == PHOTOMETRIC_RGB || photometric == PHOTOMETRIC_YCBCR ||
+      photometric == PHOTOMETRIC_SEPARATED)
+  {
+    Refuse(path, Text("colour image (", samples, " values a pixel)"), "save its labels as one whole number a pixel");
+  }
+  if (photometric == PHOTOMETRIC_PALETTE)
+  {
+    Refuse(path, "palette colour image", "save its labels as a grey-level image");
+  }
+  if (photometric != PHOTOMETRIC_MINISBLACK && photometric != PHOTOMETRIC_MINISWHITE)
+  {
+    Refuse(path, Text("pixels of photometric kind ", photometric), "save it as a grey-level image of whole numbers");
+  }
+  page.minIsWhite = photometric == PHOTOMETRIC_MINISWHITE;
+  page.lossy = compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG || compression == COMPRESSION_WEBP;
+  if (const auto orientation = tiff.Field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+      orientation != ORIENTATION_TOPLEFT)
+  {
+    Refuse(path, Text("pages are stored mirrored or turned (orientation ", orientation, ")"), "save it top row first");
+  }
+
+  const bool isSigned = format == SAMPLEFORMAT_INT;
+  const bool isFloat = format == SAMPLEFORMAT_IEEEFP;
+  const bool isWhole = format == SAMPLEFORMAT_UINT || isSigned || format == SAMPLEFORMAT_VOID;
+  if (isWhole && !isSigned && (page.bits == 1 || page.bits == 2 || page.bits == 4))
+  {
+    page.type = PixelType::UInt8;
+  }
+  else if (isWhole && page.bits == 8)
+  {
+    page.type = isSigned ? PixelType::Int8 : PixelType::UInt8;
+  }
+  else if (isWhole && page.bits == 16)
+  {
+    page.type = isSigned ? PixelType::Int16 : PixelType::UInt16;
+  }
+  else if (isWhole && page.bits == 32)
+  {
+    page.type = isSigned ? PixelType::Int32 : PixelType::UInt32;
+  }
+  else if (isWhole && page.bits == 64)
+  {
+    page.type = isSigned ? PixelType::Int64 : PixelType::UInt64;
+  }
+  else if (isFloat && (page.bits == 32 || page.bits == 64))
+  {
+    page.type = page.bits == 32 ? PixelType::Float32 : PixelType::Float64;
+  }
+  else
+  {
+    Refuse(path,
+           Text("pixels of ", page.bits, " bits (sample format ", format, ") cannot be read"),
+           "save it with 8, 16 or 32 bits a pixel");
+  }
+
+  if (TIFFIsCODECConfigured(compression) == 0)
+  {
+    Refuse(path, Text("compression ", compression, " is not in this libtiff"), "save it with LZW or deflate");
+  }
+  std::uint64_t       largestPart = 0;
+  const std::uint64_t stored = std::min(StoredBytes(tiff, largestPart), fileBytes);
+  const std::uint64_t possible = stored * Expansion(compression, page.width) + 64;
+  const std::uint64_t rows = std::uint64_t{ page.height } * ((std::uint64_t{ page.width } * page.bits + 7) / 8);
+  const std::uint64_t part = TIFFIsTiled(tiff.Get()) ? TIFFTileSize64(tiff.Get()) : TIFFStripSize64(tiff.Get());
+  if (page.width == 0 || page.height == 0 || rows > possible || part == 0 ||
+      part > std::min(largestPart, fileBytes) * Expansion(compression, page.width) + 64)
+  {
+    tiff.RefuseDamaged(
+      Text("its header gives pages of ", page.width, " x ", page.height, ", its data cannot hold them"));
+  }
+  return page;
+}
+
+/** Programs for microscopes put channels and moments into the same row of pages: not one volume. */
+void
+RefuseHyperstack(const std::filesystem::path & path, const std::string & description, std::size_t pages)
+{
+  const auto number = [&](std::string_view key) -> std::int64_t {
+    const std::size_t at = description.find(key);
+    if (at == std::string::npos)
+    {
+      return 1;
+    }
+    const std::size_t from = at + key.size();
+    const std::size_t end = std::min(description.find_first_not_of("0123456789", from), description.size());
+    return ParseInteger(std::string_view(description).substr(from, end - from)).value_or(1);
+  };
+  if (description.starts_with("ImageJ="))
+  {
+    if (number("channels=") > 1 || number("frames=") > 1)
+    {
+      Refuse(path, "hyperstack of ImageJ with several channels or frames", "save one channel of one frame as a stack");
+    }
+    if (number("images=") > static_cast<std::int64_t>(pages))
+    {
+      Refuse(path,
+             Text("ImageJ says it holds ", number("images="), " pages, it lists ", pages, " (stacks above 4 GB do)"),
+             "save it as BigTIFF or NRRD");
+    }
+  }
+  if (number("SizeC=\"") > 1 || number("SizeT=\"") > 1)
+  {
+    Refuse(path, "OME-TIFF with several channels or moments", "save one channel of one moment as a stack");
+  }
+}
+
+class TiffStream : public ByteStream
+{
+public:
+  TiffStream(const std::filesystem::path & path, TiffPages pages)
+    : ByteStream(path)
+    , m_Tiff(path)
+    , m_Pages(std::move(pages))
+  {}
+
+  std::size_t
+  ReadSome(std::byte * to, std::size_t count) override
+  {
+    std::size_t done = 0;
+    while (done < count)
+    {
+      if (m_At == m_Page.size())
+      {
+        if (m_Next == m_Pages.offsets.size())
+        {
+          break;
+        }
+        DecodePage(m_Pages.offsets[m_Next++]);
+        m_At = 0;
+      }
+      const std::size_t now = std::min(count - done, m_Page.size() - m_At);
+      std::memcpy(to + done, m_Page.data() + m_At, now);
+      done += now;
+      m_At += now;
+    }
+    return done;
+  }
+
+  void
+  Skip(std::uint64_t count) override
+  {
+    const std::uint64_t pageBytes = m_Pages.PageBytes();
+    while (count >= pageBytes && m_At == m_Page.size() && m_Next < m_Pages.offsets.size())
+    {
+      ++m_Next;
+      count -= pageBytes;
+    }
+    ByteStream::Skip(count);
+  }
+
+  bool
+  Finish() override
+  {
+    return false;
+  }
+
+private:
+  /** Values of a row of a strip or tile, from `fromX` on, into the page. */
+  void
+  PutRow(const std::byte * row, std::uint32_t x, std::uint32_t y, std::uint32_t count)
+  {
+    const std::size_t bytes = PixelBytes(m_Pages.type);
+    std::byte *       to = m_Page.data() + (std::size_t{ y } * m_Pages.width + x) * bytes;
+    if (m_Pages.bits >= 8)
+    {
+      std::memcpy(to, row, count * bytes);
+      return;
+    }
+    const unsigned perByte = 8U / m_Pages.bits;
+    const unsigned mask = (1U << m_Pages.bits) - 1U;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+      const unsigned shift = 8U - m_Pages.bits * (i % perByte + 1U);
+      to[i] = static_cast<std::byte>((std::to_integer<unsigned>(row[i / perByte]) >> shift) & mask);
+    }
+  }
+
+  void
+  DecodePage(std::uint64_t offset)
+  {
+    TIFF * tiff = m_Tiff.Get();
+    if (TIFFSetSubDirectory(tiff, offset) == 0)
+    {
+      m_Tiff.RefuseDamaged(Text("page ", m_Next, " cannot be read"));
+    }
+    const std::uint32_t width = m_Pages.width;
+    const std::uint32_t height = m_Pages.height;
+    m_Page.resize(static_cast<std::size_t>(m_Pages.PageBytes()));
+    if (TIFFIsTiled(tiff) != 0)
+    {
+      const auto tileWidth = m_Tiff.Field<std::uint32_t>(TIFFTAG_TILEWIDTH, 0);
+      const auto tileHeight = m_Tiff.Field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
+      const auto size = static_cast<std::size_t>(TIFFTileSize64(tiff));
+      const auto rowBytes = static_cast<std::size_t>(TIFFTileRowSize64(tiff));
+      m_Part.resize(size);
+      for (std::uint32_t y = 0; y < height; y += tileHeight)
+      {
+        for (std::uint32_t x = 0; x < width; x += tileWidth)
+        {
+          Decode(
+            TIFFReadEncodedTile(tiff, TIFFComputeTile(tiff, x, y, 0, 0), m_Part.data(), static_cast<tmsize_t>(size)),
+            size);
+          const std::uint32_t columns = std::min(tileWidth, width - x);
+          for (std::uint32_t row = 0; row < std::min(tileHeight, height - y); ++row)
+          {
+            PutRow(m_Part.data() + row * rowBytes, x, y + row, columns);
+          }
+          if (width - x <= tileWidth)
+          {
+            break; // x + tileWidth might overflow
+          }
+        }
+        if (height - y <= tileHeight)
+        {
+          break;
+        }
+      }
+      return;
+    }
+    const std::uint32_t perStrip = std::min(m_Tiff.Field<std::uint32_t>(TIFFTAG_ROWSPERSTRIP, height), height);
+    const auto          rowBytes = static_cast<std::size_t>(TIFFScanlineSize64(tiff));
+    m_Part.resize(static_cast<std::size_t>(TIFFStripSize64(tiff)));
+    for (std::uint32_t y = 0; y < height; y += perStrip)
+    {
+      const std::uint32_t rows = std::min(perStrip, height - y);
+      const std::size_t   size = rows * rowBytes;
+      Decode(TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, y, 0), m_Part.data(), static_cast<tmsize_t>(size)),
+             size);
+      for (std::uint32_t row = 0; row < rows; ++row)
+      {
+        PutRow(m_Part.data() + row * rowBytes, 0, y + row, width);
+      }
+      if (height - y <= perStrip)
+      {
+        break;
+      }
+    }
+  }
+
+  void
+  Decode(tmsize_t got, std::size_t needed) const
+  {
+    // Some decoders report what is wrong and go on: what they give then is no measurement.
+    if (got < 0 || static_cast<std::size_t>(got) != needed || m_Tiff.HasError())
+    {
+      m_Tiff.RefuseDamaged(Text("page ", m_Next, " cannot be read in full"));
+    }
+  }
+
+  TiffHandle             m_Tiff;
+  TiffPages              m_Pages;
+  std::vector<std::byte> m_Page;
+  std::vector<std::byte> m_Part;
+  std::size_t            m_At = 0;
+  std::size_t            m_Next = 0;
+};
+
+} // namespace
+
+TiffPages
+InspectTiff(const std::filesystem::path & path)
+{
+  const std::uint64_t fileBytes = FileSize(path);
+  const TiffHandle    tiff(path);
+  TiffPages           pages = ReadPage(path, tiff, fileBytes);
+  const std::string   description = tiff.Description();
+  pages.offsets.push_back(TIFFCurrentDirOffset(tiff.Get()));
+  while (TIFFLastDirectory(tiff.Get()) == 0)
+  {
+    if (TIFFReadDirectory(tiff.Get()) == 0 || tiff.HasError())
+    {
+      tiff.RefuseDamaged(Text("the page after page ", pages.offsets.size(), " cannot be found"));
+    }
+    const TiffPages page = ReadPage(path, tiff, fileBytes);
+    if (page.width != pages.width || page.height != pages.height || page.type != pages.type ||
+        page.bits != pages.bits || page.minIsWhite != pages.minIsWhite)
+    {
+      Refuse(path,
+             Text("page ",
+                  pages.offsets.size() + 1,
+                  " (",
+                  page.width,
+                  " x ",
+                  page.height,
+                  ", ",
+                  page.bits,
+                  " bits) is not like the first (",
+                  pages.width,
+                  " x ",
+                  pages.height,
+                  ", ",
+                  pages.bits,
+                  " bits)"),
+             "a volume needs equal slices");
+    }
+    pages.lossy = pages.lossy || page.lossy;
+    pages.offsets.push_back(TIFFCurrentDirOffset(tiff.Get()));
+    if (pages.offsets.size() * 8 > fileBytes)
+    {
+      tiff.RefuseDamaged("its pages go in circles");
+    }
+  }
+  if (tiff.HasError())
+  {
+    tiff.RefuseDamaged("its directory is damaged");
+  }
+  RefuseHyperstack(path, description, pages.offsets.size());
+  return pages;
+}
+
+std::unique_ptr<ByteStream>
+OpenTiffPages(const std::filesystem::path & path, const TiffPages & pages)
+{
+  return std::make_unique<TiffStream>(path, pages);
+}
+
+void
+DescribeTiff(const TiffPages & pages, ScanFile & scan)
+{
+  scan.type = pages.type;
+  if (pages.bits < 8)
+  {
+    scan.storedType = Text("uint", pages.bits);
+  }
+  if (pages.minIsWhite)
+  {
+    scan.notes.push_back("pages show 0 as white; values are taken as stored");
+  }
+  if (pages.lossy)
+  {
+    scan.warnings.push_back("the compression of its pages may have changed values when it was written");
+  }
+}
+
+ScanFile
+OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
+{
+  const TiffPages pages = InspectTiff(path);
+  if (pages.offsets.size() == 1)
+  {
+    Refuse(path, "2-D image (one page)", "a volume is needed: a TIFF of many pages, or name the folder of slices");
+  }
+  ScanFile scan;
+  scan.path = path;
+  scan.format = "TIFF";
+  DescribeTiff(pages, scan);
+  scan.geometry.size = { pages.width, pages.height, static_cast<std::int64_t>(pages.offsets.size()) };
+  ChooseVolume(path, 1, options);
+  CheckSize(path, scan.geometry.size, PixelBytes(pages.type), ~std::uint64_t{ 0 });
+  if (!options.spacing)
+  {
+    // Resolution tags say how large to print a page, and nothing about slices.
+    scan.notes.push_back("TIFF states no voxel spacing: 1 mm is taken (--spacing x,y,z gives the true one)");
+  }
+  SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, { 1, 1, 1 }, { 0, 0, 0 }, options);
+  scan.voxels = OpenTiffPages(path, pages);
+  return scan;
+}
+
+} // namespace voxelcore

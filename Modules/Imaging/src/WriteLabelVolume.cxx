@@ -1,0 +1,362 @@
+#include "ScanFile.h"
+#include "TextFields.h"
+#include "TiffWriter.h"
+#include "voxelcore/LabelVolume.h"
+
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+namespace voxelcore
+{
+namespace
+{
+
+enum class Kind
+{
+  Nrrd,
+  Nifti,
+  Meta,
+  Tiff
+};
+
+Kind
+KindOf(const std::filesystem::path & path)
+{
+  const std::string name = LowerCase(path.filename().string());
+  const auto        ends = [&name](std::string_view extension) {
+    return name.size() > extension.size() && name.ends_with(extension);
+  };
+  if (ends(".nrrd"))
+  {
+    return Kind::Nrrd;
+  }
+  if (ends(".nii") || ends(".nii.gz"))
+  {
+    return Kind::Nifti;
+  }
+  if (ends(".mha") || ends(".mhd"))
+  {
+    return Kind::Meta;
+  }
+  if (ends(".tif") || ends(".tiff"))
+  {
+    return Kind::Tiff;
+  }
+  throw UsageError(
+    Text(Printable(path.string(), 4096), ": unknown extension; give .nrrd .nii .nii.gz .mha .mhd or .tif"));
+}
+
+PixelType
+SmallestType(const std::vector<LabelShape> & labels, const std::filesystem::path & path)
+{
+  std::int64_t largest = 0;
+  for (const LabelShape & label : labels)
+  {
+    if (label.value < 1)
+    {
+      throw UsageError(Text(path.string(), ": label ", label.value, " cannot be written; labels are 1 and above"));
+    }
+    largest = std::max(largest, label.value);
+  }
+  if (largest <= UINT8_MAX)
+  {
+    return PixelType::UInt8;
+  }
+  if (largest <= UINT16_MAX)
+  {
+    return PixelType::UInt16;
+  }
+  return largest <= UINT32_MAX ? PixelType::UInt32 : PixelType::UInt64;
+}
+
+/** All voxels, i fastest. */
+template <typename T>
+void
+FillVoxels(const std::filesystem::path &       path,
+           const std::array<std::int64_t, 3> & size,
+           const std::vector<LabelShape> &     labels,
+           std::vector<std::byte> &            bytes)
+{
+  auto * const voxels = reinterpret_cast<T *>(bytes.data());
+  for (const LabelShape & label : labels)
+  {
+    const VoxelBox & box = label.shape.Box();
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      if (box.size[a] > 0 && (box.lower[a] < 0 || std::int64_t{ box.lower[a] } + box.size[a] > size[a]))
+      {
+        throw UsageError(Text(path.string(), ": label ", label.value, " reaches beyond the volume it is written into"));
+      }
+    }
+    for (std::int32_t z = 0; z < box.size[2]; ++z)
+    {
+      for (std::int32_t y = 0; y < box.size[1]; ++y)
+      {
+        const auto row = label.shape.Row(y, z);
+        T * const  to = voxels + ((z + box.lower[2]) * size[1] + (y + box.lower[1])) * size[0] + box.lower[0];
+        for (std::size_t w = 0; w < row.size(); ++w)
+        {
+          for (std::uint64_t bits = row[w]; bits != 0; bits &= bits - 1)
+          {
+            T & voxel = to[w * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
+            if (voxel != 0)
+            {
+              throw UsageError(Text(path.string(),
+                                    ": labels ",
+                                    +voxel,
+                                    " and ",
+                                    label.value,
+                                    " overlap; one volume holds one label a voxel: write them apart"));
+            }
+            voxel = static_cast<T>(label.value);
+          }
+        }
+      }
+    }
+  }
+}
+
+itk::ImageIOBase::Pointer
+NewImageIO(Kind kind)
+{
+  switch (kind)
+  {
+    case Kind::Nrrd:
+      return itk::NrrdImageIO::New().GetPointer();
+    case Kind::Nifti:
+      return itk::NiftiImageIO::New().GetPointer();
+    default:
+      return itk::MetaImageIO::New().GetPointer();
+  }
+}
+
+itk::IOComponentEnum
+ComponentOf(PixelType type)
+{
+  switch (type)
+  {
+    case PixelType::UInt8:
+      return itk::IOComponentEnum::UCHAR;
+    case PixelType::UInt16:
+      return itk::IOComponentEnum::USHORT;
+    case PixelType::UInt32:
+      return itk::IOComponentEnum::UINT;
+    default:
+      return itk::IOComponentEnum::ULONGLONG;
+  }
+}
+
+void
+WriteWithItk(const std::filesystem::path &  path,
+             Kind                           kind,
+             const ImageGeometry &          geometry,
+             PixelType                      type,
+             const std::vector<std::byte> & voxels,
+             bool                           compress)
+{
+  const itk::ImageIOBase::Pointer io = NewImageIO(kind);
+  io->SetFileName(path.string());
+  io->SetNumberOfDimensions(3);
+  for (unsigned a = 0; a < 3; ++a)
+  {
+    io->SetDimensions(a, static_cast<itk::SizeValueType>(geometry.size[a]));
+    io->SetSpacing(a, geometry.spacing[a]);
+    io->SetOrigin(a, geometry.origin[a]);
+    io->SetDirection(a, { geometry.direction[a], geometry.direction[3 + a], geometry.direction[6 + a] });
+  }
+  io->SetPixelType(itk::IOPixelEnum::SCALAR);
+  io->SetNumberOfComponents(1);
+  io->SetComponentType(ComponentOf(type));
+  io->SetUseCompression(compress);
+  itk::ImageIORegion region(3);
+  for (unsigned a = 0; a < 3; ++a)
+  {
+    region.SetSize(a, static_cast<itk::SizeValueType>(geometry.size[a]));
+  }
+  io->SetIORegion(region);
+  io->WriteImageInformation();
+  io->Write(voxels.data());
+}
+
+/** Reads the file back: writers that meet a full disk, or a number their format cannot hold, do not always say so. */
+void
+CheckWritten(const std::filesystem::path &  path,
+             Kind                           kind,
+             const ImageGeometry &          geometry,
+             PixelType                      type,
+             const std::vector<std::byte> & voxels)
+{
+  ReadOptions    options;
+  const ScanFile scan = OpenScan(path, options);
+  bool           same = scan.geometry.size == geometry.size && scan.type == type && !scan.IsScaled();
+  // NIfTI keeps single precision, TIFF nothing.
+  const double tolerance = kind == Kind::Nifti ? 1e-5 : 1e-9;
+  for (std::size_t a = 0; a < 3 && kind != Kind::Tiff; ++a)
+  {
+    same = same && std::abs(scan.geometry.spacing[a] - geometry.spacing[a]) <= tolerance * geometry.spacing[a] &&
+           std::abs(scan.geometry.origin[a] - geometry.origin[a]) <= tolerance * (1 + std::abs(geometry.origin[a]));
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      same = same && std::abs(scan.geometry.direction[3 * c + a] - geometry.direction[3 * c + a]) <= 10 * tolerance;
+    }
+  }
+  std::vector<std::byte> part(std::min<std::size_t>(voxels.size(), 4U << 20));
+  for (std::size_t at = 0; same && at < voxels.size(); at += part.size())
+  {
+    const std::size_t now = std::min(part.size(), voxels.size() - at);
+    scan.voxels->Read(part.data(), now);
+    if (scan.swapBytes)
+    {
+      break; // never on files written here; the sizes have been checked
+    }
+    same = std::memcmp(part.data(), voxels.data() + at, now) == 0;
+  }
+  if (!same)
+  {
+    throw OutputError(
+      Text("what was written reads back differently; choose another format (.nrrd holds everything) "
+           "and check the disk"));
+  }
+}
+
+/** A folder beside the result in which it comes to be: a killed run leaves no half file under the final name. */
+class Workshop
+{
+public:
+  explicit Workshop(const std::filesystem::path & result)
+    : m_Result(result)
+  {
+    const auto  parent = result.has_parent_path() ? result.parent_path() : std::filesystem::path(".");
+    std::string name = (parent / ".voxelcore-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+    {
+      throw OutputError(Text(Printable(result.string(), 4096),
+                             ": cannot be written (",
+                             std::strerror(errno),
+                             "); check that the folder exists and may be written to"));
+    }
+    m_Folder = name;
+  }
+  Workshop(const Workshop &) = delete;
+  Workshop &
+  operator=(const Workshop &) = delete;
+  ~Workshop()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(m_Folder, ignored);
+  }
+
+  std::filesystem::path
+  File() const
+  {
+    return m_Folder / m_Result.filename();
+  }
+
+  /** Moves what was made to its place, the named file last: a header never stands without its data. */
+  void
+  Publish() const
+  {
+    for (const auto & entry : std::filesystem::directory_iterator(m_Folder))
+    {
+      if (entry.path() != File())
+      {
+        std::filesystem::rename(entry.path(), m_Result.parent_path() / entry.path().filename());
+      }
+    }
+    std::filesystem::rename(File(), m_Result);
+  }
+
+private:
+  std::filesystem::path m_Result;
+  std::filesystem::path m_Folder;
+};
+
+std::string
+OneLine(std::string text)
+{
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return Printable(Trim(text), 200);
+}
+
+} // namespace
+
+void
+WriteLabelVolume(const std::filesystem::path &   path,
+                 const ImageGeometry &           geometry,
+                 const std::vector<LabelShape> & labels,
+                 bool                            compress)
+{
+  const Kind      kind = KindOf(path);
+  const PixelType type = SmallestType(labels, path);
+  const auto &    size = geometry.size;
+  const auto      longest = std::max({ size[0], size[1], size[2] });
+  if (std::min({ size[0], size[1], size[2] }) < 1 || longest > (std::int64_t{ 1 } << 30))
+  {
+    throw UsageError(Text(path.string(), ": a volume of ", size[0], " x ", size[1], " x ", size[2], " voxels"));
+  }
+  if (kind == Kind::Nifti && longest > INT16_MAX)
+  {
+    throw UsageError(Text(path.string(), ": NIfTI-1 holds sides up to 32767 voxels; write .nrrd"));
+  }
+  if (kind == Kind::Tiff && size[2] < 2)
+  {
+    throw UsageError(Text(path.string(), ": one page is a picture, not a volume; write .nrrd"));
+  }
+  std::vector<std::byte> voxels(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+                                static_cast<std::size_t>(size[2]) * PixelBytes(type));
+  switch (type)
+  {
+    case PixelType::UInt8:
+      FillVoxels<std::uint8_t>(path, size, labels, voxels);
+      break;
+    case PixelType::UInt16:
+      FillVoxels<std::uint16_t>(path, size, labels, voxels);
+      break;
+    case PixelType::UInt32:
+      FillVoxels<std::uint32_t>(path, size, labels, voxels);
+      break;
+    default:
+      FillVoxels<std::uint64_t>(path, size, labels, voxels);
+      break;
+  }
+
+  const Workshop workshop(path);
+  const auto     fail = [&path](const std::string & why) {
+    throw OutputError(
+      Text(Printable(path.string(), 4096), ": cannot be written (", OneLine(why), "); check permissions and disk"));
+  };
+  try
+  {
+    if (kind == Kind::Tiff)
+    {
+      WriteTiff(workshop.File(), size, type, voxels, compress);
+    }
+    else
+    {
+      WriteWithItk(workshop.File(), kind, geometry, type, voxels, compress);
+    }
+    CheckWritten(workshop.File(), kind, geometry, type, voxels);
+    workshop.Publish();
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    fail(error.GetDescription());
+  }
+  catch (const std::filesystem::filesystem_error & error)
+  {
+    fail(error.code().message());
+  }
+  catch (const Error & error)
+  {
+    fail(error.what());
+  }
+}
+
+} // namespace voxelcore
