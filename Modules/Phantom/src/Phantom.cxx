@@ -1,0 +1,132 @@
+#include "voxelcore/Phantom.h"
+
+#include "Kinds.h"
+
+#include "voxelcore/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace voxelcore
+{
+namespace
+{
+
+constexpr std::array<PhantomKind, 13> kKinds{ {
+  { "ellipsoid", "an ellipsoid with semi-axes 0.45, 0.30 and 0.20 of the sides", "" },
+  { "ball", "a ball", "radius (0.45 of the shortest side)" },
+  { "capsule", "a straight rod along x with round ends", "radius (0.15 of the shortest side)" },
+  { "box", "a box of 0.8 of the sides", "" },
+  { "plate", "a flat plate across z, 0.9 of the sides x and y", "thickness (0.1 of the side z)" },
+  { "rod", "a cylinder along z with flat ends, 0.9 of the side z", "radius (0.1 of the shortest side)" },
+  { "torus", "a ring around z of radius 0.3 of the shortest side: one loop", "radius of the tube (0.12 of it)" },
+  { "shell", "a ball with a cavity", "radius (0.45 of the shortest side), thickness (a third of the radius)" },
+  { "tanglecube", "eight lumps joined along the edges of a cube: five loops", "" },
+  { "gyroid",
+    "a sheet along the gyroid, a surface that divides space",
+    "period (0.35 of the shortest side), "
+    "thickness (an eighth of the period)" },
+  { "porous",
+    "smooth noise above a threshold, as foam or bone",
+    "density (0.5), period (a sixteenth of the shortest "
+    "side, at least 2 voxels), seed" },
+  { "noise", "each voxel in or out by chance, on its own", "density (0.5), seed" },
+  { "root",
+    "a branching root system along z: stem, laterals and their laterals",
+    "seed, radius of the stem (0.045 of "
+    "the shortest side), laterals, "
+    "sublaterals, detail" },
+} };
+
+void
+CheckLength(const std::optional<double> & value, const char * name)
+{
+  if (value && !(std::isfinite(*value) && *value > 0))
+  {
+    throw UsageError(std::string("the ") + name + " of a phantom must be a number of mm above 0");
+  }
+}
+
+void
+CheckOptions(const PhantomOptions & options)
+{
+  for (const std::int32_t side : options.size)
+  {
+    if (side < 1 || side > (1 << 20))
+    {
+      throw UsageError("the size of a phantom must be 1 to 1048576 voxels along each axis");
+    }
+  }
+  for (const double spacing : options.spacing)
+  {
+    if (!(std::isfinite(spacing) && spacing > 0))
+    {
+      throw UsageError("the spacing of a phantom must be a number of mm above 0 along each axis");
+    }
+  }
+  CheckLength(options.radius, "radius");
+  CheckLength(options.thickness, "thickness");
+  CheckLength(options.period, "period");
+  CheckLength(options.detail, "detail");
+  if (options.density && !(*options.density >= 0 && *options.density <= 1))
+  {
+    throw UsageError("the density of a phantom must be between 0 and 1");
+  }
+  for (const std::optional<int> & count : { options.laterals, options.subLaterals })
+  {
+    if (count && (*count < 0 || *count > 10000))
+    {
+      throw UsageError("the number of laterals of a root must be between 0 and 10000");
+    }
+  }
+}
+
+} // namespace
+
+std::span<const PhantomKind>
+PhantomKinds()
+{
+  return kKinds;
+}
+
+VoxelShape
+MakePhantom(const PhantomOptions & options)
+{
+  CheckOptions(options);
+  if (std::optional<VoxelShape> solid = MakeSolid(options))
+  {
+    return std::move(*solid);
+  }
+  if (options.kind == "porous")
+  {
+    return MakePorous(options);
+  }
+  if (options.kind == "noise")
+  {
+    return MakeNoise(options);
+  }
+  if (options.kind == "root")
+  {
+    return MakeRoot(options);
+  }
+  std::string names;
+  for (const PhantomKind & kind : kKinds)
+  {
+    names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  throw UsageError("there is no phantom '" + options.kind + "'; the kinds are " + names);
+}
+
+std::vector<CentreLinePoint>
+RootCentreLines(const PhantomOptions & options)
+{
+  CheckOptions(options);
+  if (options.kind != "root")
+  {
+    throw UsageError("only the phantom 'root' has known centre lines");
+  }
+  return CentreLinesOfRoot(options);
+}
+
+} // namespace voxelcore
