@@ -1,6 +1,8 @@
 #include "Models/ModelFixtures.h"
 
+#include "voxelcore/ComplexTopology.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/VoxelCore.h"
 
 #include <gtest/gtest.h>
 
@@ -254,6 +256,49 @@ TEST(MedialModel, TrianglesAreFansAndFormACoreOfTheirOwn)
   }
   const auto & f = before.faceLambda;
   EXPECT_EQ(core.faceLambda, (std::vector<double>{ f[0], f[0], f[1], f[1], f[1] }));
+}
+
+TEST(MedialModel, ARealCoreReadsBackEveryBitAndKeepsItsTopologyInTriangles)
+{
+  if (!HasEngine(Engine::Auto))
+  {
+    GTEST_SKIP() << "this build has no Delaunay engine";
+  }
+  // A block 9 x 8 x 6 with a hole through it and a cavity.
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 9, 8, 6 } });
+  for (std::int32_t z = 0; z < 6; ++z)
+  {
+    for (std::int32_t y = 0; y < 8; ++y)
+    {
+      for (std::int32_t x = 0; x < 9; ++x)
+      {
+        const bool hole = (x == 2 || x == 3) && y == 3;
+        const bool cavity = x == 6 && y == 4 && z == 3;
+        if (!hole && !cavity)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  ImageGeometry geometry;
+  geometry.spacing = { 0.7, 0.9, 2.1 };
+  geometry.origin = { -31.4, 8.25, 100 };
+  geometry.direction = { -1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  const MedialComplex core = ComputeVoxelCore(shape, ComputeSpacingWeights(geometry.spacing));
+  ASSERT_GT(core.cells.FaceCount(), 50U);
+  MedialModel model;
+  model.parts.push_back(ToPhysical(core, geometry, 17));
+
+  const TemporaryFolder folder;
+  WriteModel(folder / "a.vtp", "a.vtp", model, { .triangles = false, .keepEdges = true });
+  EXPECT_TRUE(SameBits(ReadModel(folder / "a.vtp"), model));
+  WriteModel(folder / "b.vtp", "b.vtp", model, { .triangles = true, .keepEdges = true });
+  const MedialModel triangles = ReadModel(folder / "b.vtp");
+  EXPECT_GT(triangles.parts[0].core.cells.FaceCount(), core.cells.FaceCount());
+  const TopologyNumbers expected{ 1 - 1 + 1, { 1, 1, 1 } };
+  EXPECT_EQ(ComputeComplexTopology(core.cells), expected);
+  EXPECT_EQ(ComputeComplexTopology(triangles.parts[0].core.cells), expected);
 }
 
 TEST(MedialModel, PolygonNormalsPointTheSameWayInEveryGeometry)

@@ -246,6 +246,26 @@ TEST(Phantom, OneVoxelGridsWork)
   }
 }
 
+TEST(Phantom, MakingCanBeWatchedAndStopped)
+{
+  for (const PhantomKind & kind : PhantomKinds())
+  {
+    const PhantomOptions options = Options(std::string(kind.name), { 40, 40, 40 });
+    double               last = -1;
+    std::string          lastStage;
+    const VoxelShape     shape = MakePhantom(options, [&](std::string_view stage, double fraction) {
+      EXPECT_TRUE(stage != lastStage || fraction >= last) << kind.name;
+      EXPECT_TRUE(0 <= fraction && fraction <= 1) << kind.name;
+      last = fraction;
+      lastStage = stage;
+      return true;
+    });
+    EXPECT_GT(last, 0.5) << kind.name;
+    EXPECT_TRUE(SameVoxels(shape, MakePhantom(options))) << kind.name;
+    EXPECT_THROW(MakePhantom(options, [](std::string_view, double fraction) { return fraction < 0.3; }), Cancelled);
+  }
+}
+
 TEST(Phantom, ValuesWithoutSenseAreRefused)
 {
   EXPECT_THROW(MakePhantom(Options("cow", { 8, 8, 8 })), UsageError);

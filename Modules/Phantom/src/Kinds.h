@@ -40,11 +40,12 @@ Centres(const PhantomOptions & options, std::size_t axis)
  *  in. */
 template <typename MakeRow>
 VoxelShape
-FillRows(const PhantomOptions & options, MakeRow && makeRow)
+FillRows(const PhantomOptions & options, const ProgressCallback & progress, MakeRow && makeRow)
 {
   VoxelShape shape(VoxelBox{ { 0, 0, 0 }, options.size });
   for (std::int32_t z = 0; z < options.size[2]; ++z)
   {
+    ReportProgress(progress, "sampling", static_cast<double>(z) / options.size[2]);
     for (std::int32_t y = 0; y < options.size[1]; ++y)
     {
       auto       inside = makeRow(static_cast<std::size_t>(y), static_cast<std::size_t>(z));
@@ -60,16 +61,16 @@ FillRows(const PhantomOptions & options, MakeRow && makeRow)
 
 /** ellipsoid, ball, capsule, box, plate, rod, torus, shell, tanglecube, gyroid; empty for another kind. */
 std::optional<VoxelShape>
-MakeSolid(const PhantomOptions & options);
+MakeSolid(const PhantomOptions & options, const ProgressCallback & progress);
 
 VoxelShape
-MakePorous(const PhantomOptions & options);
+MakePorous(const PhantomOptions & options, const ProgressCallback & progress);
 
 VoxelShape
-MakeNoise(const PhantomOptions & options);
+MakeNoise(const PhantomOptions & options, const ProgressCallback & progress);
 
 VoxelShape
-MakeRoot(const PhantomOptions & options);
+MakeRoot(const PhantomOptions & options, const ProgressCallback & progress);
 
 std::vector<CentreLinePoint>
 CentreLinesOfRoot(const PhantomOptions & options);

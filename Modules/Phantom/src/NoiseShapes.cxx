@@ -80,7 +80,7 @@ private:
 } // namespace
 
 VoxelShape
-MakePorous(const PhantomOptions & options)
+MakePorous(const PhantomOptions & options, const ProgressCallback & progress)
 {
   const double coarsest = std::max(options.spacing[0], std::max(options.spacing[1], options.spacing[2]));
   const double pitch = options.period.value_or(std::max(ShortestSide(options) / 16, 2 * coarsest));
@@ -101,6 +101,7 @@ MakePorous(const PhantomOptions & options)
   };
   for (std::int32_t z = 0; z < options.size[2]; ++z)
   {
+    ReportProgress(progress, "measuring", static_cast<double>(z) / options.size[2]);
     for (std::int32_t y = 0; y < options.size[1]; ++y)
     {
       forRow(static_cast<std::size_t>(y), static_cast<std::size_t>(z));
@@ -118,18 +119,18 @@ MakePorous(const PhantomOptions & options)
   {
     inside += histogram[--threshold];
   }
-  return FillRows(options, [&](std::size_t y, std::size_t z) {
+  return FillRows(options, progress, [&](std::size_t y, std::size_t z) {
     forRow(y, z);
     return [&](std::size_t x) -> bool { return binOf(valueOf(x)) >= threshold; };
   });
 }
 
 VoxelShape
-MakeNoise(const PhantomOptions & options)
+MakeNoise(const PhantomOptions & options, const ProgressCallback & progress)
 {
   SplitMix64   random(options.seed, 3);
   const double density = options.density.value_or(0.5);
-  return FillRows(options, [&](std::size_t, std::size_t) {
+  return FillRows(options, progress, [&](std::size_t, std::size_t) {
     return [&](std::size_t) -> bool { return random.Uniform() < density; };
   });
 }

@@ -91,24 +91,24 @@ PhantomKinds()
 }
 
 VoxelShape
-MakePhantom(const PhantomOptions & options)
+MakePhantom(const PhantomOptions & options, const ProgressCallback & progress)
 {
   CheckOptions(options);
-  if (std::optional<VoxelShape> solid = MakeSolid(options))
+  if (std::optional<VoxelShape> solid = MakeSolid(options, progress))
   {
     return std::move(*solid);
   }
   if (options.kind == "porous")
   {
-    return MakePorous(options);
+    return MakePorous(options, progress);
   }
   if (options.kind == "noise")
   {
-    return MakeNoise(options);
+    return MakeNoise(options, progress);
   }
   if (options.kind == "root")
   {
-    return MakeRoot(options);
+    return MakeRoot(options, progress);
   }
   std::string names;
   for (const PhantomKind & kind : kKinds)

@@ -379,13 +379,18 @@ GrowRoot(const PhantomOptions & options)
 } // namespace
 
 VoxelShape
-MakeRoot(const PhantomOptions & options)
+MakeRoot(const PhantomOptions & options, const ProgressCallback & progress)
 {
   VoxelShape                    shape(VoxelBox{ { 0, 0, 0 }, options.size });
   const std::vector<GrownPoint> points = GrowRoot(options);
-  for (const GrownPoint & point : points)
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    PaintCone(shape, options, point.parent < 0 ? point : points[static_cast<std::size_t>(point.parent)], point);
+    if (i % 64 == 0)
+    {
+      ReportProgress(progress, "sampling", static_cast<double>(i) / static_cast<double>(points.size()));
+    }
+    const std::int64_t parent = points[i].parent;
+    PaintCone(shape, options, points[parent < 0 ? i : static_cast<std::size_t>(parent)], points[i]);
   }
   return shape;
 }

@@ -17,12 +17,12 @@ Square(double x)
 /** A body given by a function of the place in mm from the middle. */
 template <typename Inside>
 VoxelShape
-FillBody(const PhantomOptions & options, Inside && inside)
+FillBody(const PhantomOptions & options, const ProgressCallback & progress, Inside && inside)
 {
   const std::vector<double> xs = Centres(options, 0);
   const std::vector<double> ys = Centres(options, 1);
   const std::vector<double> zs = Centres(options, 2);
-  return FillRows(options, [&](std::size_t yIndex, std::size_t zIndex) {
+  return FillRows(options, progress, [&](std::size_t yIndex, std::size_t zIndex) {
     return [&, y = ys[yIndex], z = zs[zIndex]](std::size_t xIndex) -> bool { return inside(xs[xIndex], y, z); };
   });
 }
@@ -65,7 +65,7 @@ OfTurns(double turns)
 }
 
 VoxelShape
-MakeGyroid(const PhantomOptions & options)
+MakeGyroid(const PhantomOptions & options, const ProgressCallback & progress)
 {
   const double                           period = options.period.value_or(0.35 * ShortestSide(options));
   const double                           half = options.thickness.value_or(period / 8) / 2;
@@ -79,7 +79,7 @@ MakeGyroid(const PhantomOptions & options)
   }
   // The distance to the surface g = 0 is |g| / |grad g| to first order: a sheet of even thickness.
   const double scale = Square(half * 6.283185307179586 / period);
-  return FillRows(options, [&](std::size_t yIndex, std::size_t zIndex) {
+  return FillRows(options, progress, [&](std::size_t yIndex, std::size_t zIndex) {
     return [&, y = waves[1][yIndex], z = waves[2][zIndex]](std::size_t xIndex) -> bool {
       const SineCosine x = waves[0][xIndex];
       const double     g = x.sine * y.cosine + y.sine * z.cosine + z.sine * x.cosine;
@@ -94,7 +94,7 @@ MakeGyroid(const PhantomOptions & options)
 } // namespace
 
 std::optional<VoxelShape>
-MakeSolid(const PhantomOptions & options)
+MakeSolid(const PhantomOptions & options, const ProgressCallback & progress)
 {
   const std::string & kind = options.kind;
   const Vector3       sides = Sides(options);
@@ -102,49 +102,51 @@ MakeSolid(const PhantomOptions & options)
   if (kind == "ellipsoid")
   {
     const Vector3 axes{ 0.45 * sides[0], 0.30 * sides[1], 0.20 * sides[2] };
-    return FillBody(options, [=](double x, double y, double z) {
+    return FillBody(options, progress, [=](double x, double y, double z) {
       return Square(x / axes[0]) + Square(y / axes[1]) + Square(z / axes[2]) <= 1;
     });
   }
   if (kind == "ball")
   {
     const double squared = Square(options.radius.value_or(0.45 * shortest));
-    return FillBody(options, [=](double x, double y, double z) { return x * x + y * y + z * z <= squared; });
+    return FillBody(options, progress, [=](double x, double y, double z) { return x * x + y * y + z * z <= squared; });
   }
   if (kind == "shell")
   {
     const double radius = options.radius.value_or(0.45 * shortest);
     const double inner = std::max(0.0, radius - options.thickness.value_or(radius / 3));
-    return FillBody(options, [outer2 = radius * radius, inner2 = inner * inner](double x, double y, double z) {
-      const double squared = x * x + y * y + z * z;
-      return squared <= outer2 && squared > inner2;
-    });
+    return FillBody(options,
+                    progress,
+                    [outer2 = radius * radius, inner2 = inner * inner](double x, double y, double z) {
+                      const double squared = x * x + y * y + z * z;
+                      return squared <= outer2 && squared > inner2;
+                    });
   }
   if (kind == "capsule")
   {
     const double radius = options.radius.value_or(0.15 * shortest);
     const double half = std::max(0.0, 0.45 * sides[0] - radius);
-    return FillBody(options, [=](double x, double y, double z) {
+    return FillBody(options, progress, [=](double x, double y, double z) {
       return Square(std::max(0.0, std::abs(x) - half)) + y * y + z * z <= radius * radius;
     });
   }
   if (kind == "box")
   {
-    return FillBody(options, [=](double x, double y, double z) {
+    return FillBody(options, progress, [=](double x, double y, double z) {
       return std::abs(x) <= 0.4 * sides[0] && std::abs(y) <= 0.4 * sides[1] && std::abs(z) <= 0.4 * sides[2];
     });
   }
   if (kind == "plate")
   {
     const double half = options.thickness.value_or(0.1 * sides[2]) / 2;
-    return FillBody(options, [=](double x, double y, double z) {
+    return FillBody(options, progress, [=](double x, double y, double z) {
       return std::abs(x) <= 0.45 * sides[0] && std::abs(y) <= 0.45 * sides[1] && std::abs(z) <= half;
     });
   }
   if (kind == "rod")
   {
     const double squared = Square(options.radius.value_or(0.1 * shortest));
-    return FillBody(options, [=](double x, double y, double z) {
+    return FillBody(options, progress, [=](double x, double y, double z) {
       return x * x + y * y <= squared && std::abs(z) <= 0.45 * sides[2];
     });
   }
@@ -152,7 +154,7 @@ MakeSolid(const PhantomOptions & options)
   {
     const double ring = 0.3 * shortest;
     const double squared = Square(options.radius.value_or(0.12 * shortest));
-    return FillBody(options, [=](double x, double y, double z) {
+    return FillBody(options, progress, [=](double x, double y, double z) {
       return Square(std::sqrt(x * x + y * y) - ring) + z * z <= squared;
     });
   }
@@ -160,14 +162,14 @@ MakeSolid(const PhantomOptions & options)
   {
     // x^4 - 5 x^2 + y^4 - 5 y^2 + z^4 - 5 z^2 + 11.8 <= 0 reaches to 2.27; the grid's side is 5.
     const Vector3 scale{ 5 / sides[0], 5 / sides[1], 5 / sides[2] };
-    return FillBody(options, [=](double x, double y, double z) {
+    return FillBody(options, progress, [=](double x, double y, double z) {
       const auto term = [](double u) { return (u * u - 5) * (u * u); };
       return term(x * scale[0]) + term(y * scale[1]) + term(z * scale[2]) + 11.8 <= 0;
     });
   }
   if (kind == "gyroid")
   {
-    return MakeGyroid(options);
+    return MakeGyroid(options, progress);
   }
   return std::nullopt;
 }

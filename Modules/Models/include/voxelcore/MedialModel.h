@@ -22,15 +22,15 @@ struct ModelPart
 /** A file's content. */
 struct MedialModel
 {
-  std::vector<ModelPart> parts;           ///< by label
-  std::string            provenance;      ///< JSON text of the field array Provenance; may be empty
-  bool                   hasEdges = true; ///< reading: the measures of edges on faces were stored (--keep-edges)
+  std::vector<ModelPart> parts;      ///< by label, each label once
+  std::string            provenance; ///< JSON text of the field array Provenance; may be empty
+  bool hasEdges = true;              ///< reading: no edge's measure is missing (--keep-edges, or no edge on a face)
 };
 
 /** How to write. */
 struct ModelOptions
 {
-  bool triangles = false; ///< polygons as triangles
+  bool triangles = false; ///< polygons as fans of triangles; a diagonal has the measure of its face
   bool keepEdges = false; ///< store the measures of edges that lie on faces (EdgeVertices, EdgeLambda)
 };
 
@@ -52,15 +52,21 @@ bool
 IsModelPath(const std::filesystem::path & path);
 
 /** Writes `model` to the file `path` in the format of `formatOf`'s extension (so that a temporary name can be given).
+ *  .vtp (raw appended data) and .vtk (version 4.2, binary) hold everything; .ply doubles, without Provenance and the
+ *  measures of edges on faces; .obj places, cells and labels as groups; .ma the balls, all edges and triangles; .stl
+ *  triangles in single precision. Equal models give equal bytes.
  *  \throws OutputError with one line when it cannot be written completely; a broken file is removed.
- *  \throws UsageError for an unknown extension. */
+ *  \throws UsageError for an unknown extension, or when edges are to be kept whose measures are not known.
+ *  \throws Error when parts are not sorted by label or not in canonical order. */
 ModelOmissions
 WriteModel(const std::filesystem::path & path,
            const std::filesystem::path & formatOf,
            const MedialModel &           model,
            const ModelOptions &          options = {});
 
-/** Reads a .vtp that WriteModel wrote (polygons, not triangles), with every bit as it was written.
+/** Reads a .vtp that WriteModel wrote, with every bit as it was written; writing it again gives the same bytes. Edges
+ *  come back in canonical order; without hasEdges the measures of those on faces are NaN. A part without vertices leaves
+ *  no trace in a file. Written with `triangles`, the triangles are the faces.
  *  \throws InputError when it is missing, damaged, or was not written by VoxelCore. */
 MedialModel
 ReadModel(const std::filesystem::path & path);

@@ -6,6 +6,7 @@
 // C library is used whose last bit may differ (of those that round, only sqrt).
 
 #include "voxelcore/ImageGeometry.h"
+#include "voxelcore/Progress.h"
 #include "voxelcore/VoxelShape.h"
 
 #include <cstdint>
@@ -48,9 +49,9 @@ struct PhantomOptions
 };
 
 /** The voxels, in a box that begins at 0 and has the given size.
- *  \throws UsageError for an unknown kind or a value without sense. */
+ *  \throws UsageError for an unknown kind or a value without sense; Cancelled when the callback says so. */
 VoxelShape
-MakePhantom(const PhantomOptions & options);
+MakePhantom(const PhantomOptions & options, const ProgressCallback & progress = {});
 
 /** A point of a known centre line. */
 struct CentreLinePoint
