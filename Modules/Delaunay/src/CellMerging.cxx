@@ -1,4 +1,6 @@
-#include "TetGenEngine.h"
+#include "Tetrahedra.h"
+
+#include "voxelcore/Error.h"
 
 #include "voxelcore/Predicates.h"
 #include "voxelcore/UnionFind.h"
@@ -12,24 +14,6 @@ namespace voxelcore
 namespace
 {
 
-// A tetrahedron lies wholly inside or outside (Theorem 3.1), so the voxel that holds its centroid decides; where the
-// centroid lies between voxels all of them agree.
-bool
-LiesInside(const std::array<std::uint32_t, 4> & t, const std::vector<LatticePoint> & p, const VoxelShape & shape)
-{
-  const auto floorOfQuarter = [](std::int64_t sum) { return static_cast<std::int32_t>(sum >> 2); };
-  const auto sum = [&](std::int32_t LatticePoint::*axis) {
-    return std::int64_t{ p[t[0]].*axis } + p[t[1]].*axis + p[t[2]].*axis + p[t[3]].*axis;
-  };
-  return shape.Contains(floorOfQuarter(sum(&LatticePoint::x)),
-                        floorOfQuarter(sum(&LatticePoint::y)),
-                        floorOfQuarter(sum(&LatticePoint::z)));
-}
-
-// The faces of a tetrahedron, each opposite to the corner of its number, counter-clockwise from outside when
-// orient(corner 0, 1, 2, 3) = det(1 - 0, 2 - 0, 3 - 0) is positive.
-constexpr int faceCorners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-
 bool
 IsPositive(const std::array<std::uint32_t, 4> & t, const std::vector<LatticePoint> & p)
 {
@@ -41,32 +25,19 @@ IsPositive(const std::array<std::uint32_t, 4> & t, const std::vector<LatticePoin
   return det > 0;
 }
 
-// A triangle between two cells, or between a cell and the outside. Triangles of one facet have the same cells and,
-// where several boundary squares bound a cell, the same square.
+// A triangle between two cells, or between a cell and the outside. Those of one cell with the same key are one facet.
 struct Triangle
 {
   std::uint32_t                beyond;
-  std::uint32_t                squareAxis;
-  LatticePoint                 squareCorner;
+  std::uint64_t                wall;
   std::array<std::uint32_t, 3> points;
 
   auto
   Key() const
   {
-    return std::tie(beyond, squareAxis, squareCorner);
+    return std::tie(beyond, wall);
   }
 };
-
-// Names the boundary square: the axis it is perpendicular to and its least corner (three corners of four give it).
-void
-NameSquare(Triangle & triangle, const std::vector<LatticePoint> & points)
-{
-  const LatticePoint & a = points[triangle.points[0]];
-  const LatticePoint & b = points[triangle.points[1]];
-  const LatticePoint & c = points[triangle.points[2]];
-  triangle.squareAxis = a.x == b.x && a.x == c.x ? 0 : a.y == b.y && a.y == c.y ? 1 : 2;
-  triangle.squareCorner = { std::min({ a.x, b.x, c.x }), std::min({ a.y, b.y, c.y }), std::min({ a.z, b.z, c.z }) };
-}
 
 // Appends the outline of coplanar triangles with consistent orientation: sides that are not met the other way round.
 void
@@ -149,17 +120,13 @@ UniteCospherical(const Tetrahedra &                tetrahedra,
 
 DelaunayCells
 MergeTetrahedra(Tetrahedra                        tetrahedra,
-                const VoxelShape &                shape,
+                const std::vector<std::uint8_t> & inside,
                 const std::vector<LatticePoint> & points,
-                const SpacingWeights &            weights)
+                const SpacingWeights &            weights,
+                const NameWall &                  nameWall,
+                std::vector<std::uint64_t> *      walls)
 {
-  const std::size_t         count = tetrahedra.corners.size();
-  std::vector<std::uint8_t> inside(count);
-#pragma omp parallel for schedule(static)
-  for (std::size_t t = 0; t < count; ++t)
-  {
-    inside[t] = LiesInside(tetrahedra.corners[t], points, shape);
-  }
+  const std::size_t          count = tetrahedra.corners.size();
   DelaunayCells              cells;
   std::vector<std::uint32_t> cellOf(count, kOutside);
   {
@@ -219,14 +186,14 @@ MergeTetrahedra(Tetrahedra                        tetrahedra,
       {
         continue;
       }
-      Triangle triangle{ beyond, 0, { 0, 0, 0 }, {} };
+      Triangle triangle{ beyond, 0, {} };
       for (std::size_t j = 0; j < 3; ++j)
       {
-        triangle.points[positive ? j : 2 - j] = tetrahedra.corners[t][static_cast<std::size_t>(faceCorners[i][j])];
+        triangle.points[positive ? j : 2 - j] = tetrahedra.corners[t][tetrahedronFaces[i][j]];
       }
       if (beyond == kOutside)
       {
-        NameSquare(triangle, points);
+        triangle.wall = nameWall(t, i, triangle.points);
       }
       triangles[start[cellOf[t] + 1]++] = triangle;
     }
@@ -246,6 +213,10 @@ MergeTetrahedra(Tetrahedra                        tetrahedra,
       AppendOutline(own.subspan(first, last - first), cells.facetPoints);
       cells.facetCells.push_back({ static_cast<std::uint32_t>(cell), own[first].beyond });
       cells.facetOffsets.push_back(cells.facetPoints.size());
+      if (walls != nullptr && own[first].beyond == kOutside)
+      {
+        walls->push_back(own[first].wall);
+      }
     }
   }
   return cells;

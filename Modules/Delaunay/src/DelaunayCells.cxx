@@ -1,5 +1,6 @@
 #include "voxelcore/DelaunayCells.h"
 
+#include "LatticeEngine.h"
 #include "RawCells.h"
 #include "TetGenEngine.h"
 
@@ -11,13 +12,12 @@ namespace voxelcore
 {
 
 bool
-HasEngine(Engine engine)
+HasEngine([[maybe_unused]] Engine engine)
 {
 #ifdef VOXELCORE_HAS_TETGEN
-  return engine == Engine::Auto || engine == Engine::TetGen;
+  return true;
 #else
-  static_cast<void>(engine);
-  return false;
+  return engine != Engine::TetGen;
 #endif
 }
 
@@ -30,7 +30,7 @@ ComputeDelaunayCells(const VoxelShape &                shape,
 {
   if (!HasEngine(engine))
   {
-    throw Error("this build has no Delaunay engine; configure it with -DVOXELCORE_TETGEN=ON");
+    throw Error("this build has no TetGen engine; configure it with -DVOXELCORE_TETGEN=ON, or use another engine");
   }
   const auto & size = shape.Box().size;
   if (!ExactRangeAllows(*std::max_element(size.begin(), size.end()), weights))
@@ -45,8 +45,15 @@ ComputeDelaunayCells(const VoxelShape &                shape,
   }
   ReportProgress(progress, "delaunay", 0.0);
 #ifdef VOXELCORE_HAS_TETGEN
-  cells = TetGenCells(shape, points, weights, progress);
+  if (engine != Engine::Lattice)
+  {
+    cells = TetGenCells(shape, points, weights, progress);
+  }
+  else
 #endif
+  {
+    cells = LatticeCells(shape, points, weights, progress);
+  }
   MakeCanonical(cells, points, weights);
   ReportProgress(progress, "delaunay", 1.0);
   return cells;

@@ -2,7 +2,7 @@
 
 #include <tetgen.h>
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -82,6 +82,39 @@ RunTetGen(Run & run)
   }
 }
 
+// A tetrahedron lies wholly inside or outside (Theorem 3.1), so the voxel that holds its centroid decides; where the
+// centroid lies between voxels all of them agree.
+bool
+LiesInside(const std::array<std::uint32_t, 4> & t, const std::vector<LatticePoint> & p, const VoxelShape & shape)
+{
+  const auto floorOfQuarter = [](std::int64_t sum) { return static_cast<std::int32_t>(sum >> 2); };
+  const auto sum = [&](std::int32_t LatticePoint::*axis) {
+    return std::int64_t{ p[t[0]].*axis } + p[t[1]].*axis + p[t[2]].*axis + p[t[3]].*axis;
+  };
+  return shape.Contains(floorOfQuarter(sum(&LatticePoint::x)),
+                        floorOfQuarter(sum(&LatticePoint::y)),
+                        floorOfQuarter(sum(&LatticePoint::z)));
+}
+
+// The faces of a tetrahedron, each opposite to the corner of its number, counter-clockwise from outside when
+// orient(corner 0, 1, 2, 3) = det(1 - 0, 2 - 0, 3 - 0) is positive.
+constexpr int faceCorners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+
+// Names a boundary square: the axis it is perpendicular to and its least corner, which three corners of four give.
+// Coordinates take 20 bits each: the exact range ends at sides of 2^20.
+std::uint64_t
+NameSquare(const std::array<std::uint32_t, 3> & triangle, const std::vector<LatticePoint> & points)
+{
+  const LatticePoint & a = points[triangle[0]];
+  const LatticePoint & b = points[triangle[1]];
+  const LatticePoint & c = points[triangle[2]];
+  const std::uint64_t  axis = a.x == b.x && a.x == c.x ? 0 : a.y == b.y && a.y == c.y ? 1 : 2;
+  const auto           least = [](std::int32_t p, std::int32_t q, std::int32_t r) {
+    return static_cast<std::uint64_t>(std::min({ p, q, r })) & 0xFFFFFU;
+  };
+  return axis << 60 | least(a.x, b.x, c.x) << 40 | least(a.y, b.y, c.y) << 20 | least(a.z, b.z, c.z);
+}
+
 } // namespace
 
 Tetrahedra
@@ -139,7 +172,17 @@ TetGenCells(const VoxelShape &                shape,
             const SpacingWeights &            weights,
             const ProgressCallback &          progress)
 {
-  return MergeTetrahedra(TetGenTetrahedra(points, weights, progress), shape, points, weights);
+  Tetrahedra                tetrahedra = TetGenTetrahedra(points, weights, progress);
+  std::vector<std::uint8_t> inside(tetrahedra.corners.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < inside.size(); ++t)
+  {
+    inside[t] = LiesInside(tetrahedra.corners[t], points, shape);
+  }
+  const auto nameWall = [&](std::size_t, std::size_t, const std::array<std::uint32_t, 3> & triangle) {
+    return NameSquare(triangle, points);
+  };
+  return MergeTetrahedra(std::move(tetrahedra), inside, points, weights, nameWall);
 }
 
 } // namespace voxelcore

@@ -56,8 +56,9 @@ struct DelaunayCells
 /** The Delaunay engines a build can have. */
 enum class Engine
 {
-  Auto,  ///< the best one this build has
-  TetGen ///< TetGen 1.5: exact, sequential, AGPL-3
+  Auto,    ///< the best one this build has
+  Lattice, ///< made for voxel shapes; parallel
+  TetGen   ///< TetGen 1.5: exact, sequential, AGPL-3
 };
 
 /** Whether this build has the engine (Auto: any). */

@@ -1,0 +1,18 @@
+#pragma once
+// Delaunay tetrahedralization of lattice points by incremental insertion (Bowyer 1981, Watson 1981), exact.
+
+#include "Tetrahedra.h"
+
+namespace voxelcore
+{
+
+/** The Delaunay tetrahedra of distinct points that are not all in one plane. Deterministic.
+ *  A point's cavity is what its insertion strictly conflicts with: then no symbolic perturbation is needed, for a cavity
+ *  face coplanar with the new point would have its outer sphere strictly contain the point too.
+ *  Extents must pass ExactRangeAllows(). \throws Cancelled. */
+Tetrahedra
+BowyerWatson(const std::vector<LatticePoint> & points,
+             const SpacingWeights &            weights,
+             const ProgressCallback &          progress);
+
+} // namespace voxelcore

@@ -1,0 +1,472 @@
+#include "CellTracer.h"
+
+#include "VoxelCells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxelcore
+{
+
+namespace
+{
+constexpr std::int32_t halo = LatticeWindow::halo;
+constexpr std::int32_t brickWidth = LatticeWindow::brick;
+constexpr double       unknown = -std::numeric_limits<double>::infinity();
+} // namespace
+
+CellTracer::CellTracer(const TracingInput & input, std::size_t first, std::size_t last)
+  : m_Input(input)
+  , m_First(first)
+  , m_Last(last)
+  , m_Pending(last - first)
+  , m_Done(last - first, 0)
+{
+  const auto & w = input.weights.weight;
+  m_Wide = std::max({ w[0], w[1], w[2] }) > 1;
+  m_Limit = 14.9 * static_cast<double>(std::min({ w[0], w[1], w[2] }));
+}
+
+Tracing
+CellTracer::Trace(const ProgressCallback & progress)
+{
+  // A brick has seeds only where it touches a boundary vertex; a vertex on its lower sides belongs to others too.
+  std::vector<std::uint8_t> occupied(m_Last - m_First, 0);
+  for (const LatticePoint & p : m_Input.points)
+  {
+    for (std::int32_t corner = 0; corner < 8; ++corner)
+    {
+      const std::size_t brick = m_Input.grid.At(p.x - (corner & 1), p.y - ((corner >> 1) & 1), p.z - (corner >> 2));
+      if (brick >= m_First && brick < m_Last)
+      {
+        occupied[brick - m_First] = 1;
+      }
+    }
+  }
+  for (std::size_t brick = m_First; brick < m_Last; ++brick)
+  {
+    const bool seed = occupied[brick - m_First] != 0;
+    if (seed || !m_Pending[brick - m_First].empty())
+    {
+      ReportProgress(progress,
+                     "delaunay",
+                     static_cast<double>(brick - m_First) / static_cast<double>(m_Last - m_First));
+      ProcessBrick(brick, seed);
+    }
+    m_Done[brick - m_First] = 1;
+  }
+  ProcessPending(progress);
+  return Finish();
+}
+
+Tracing
+CellTracer::Continue(Tracing tracing, const ProgressCallback & progress)
+{
+  m_Result = std::move(tracing.cells);
+  m_Deep = std::move(tracing.deep);
+  std::fill(m_Done.begin(), m_Done.end(), std::uint8_t{ 1 });
+  for (const auto * list : { &tracing.open, &m_Deep, &tracing.unmet })
+  {
+    for (const std::uint32_t facet : *list)
+    {
+      m_Table.Insert(KeyOf(m_Result.FacetPoints(facet)), facet);
+    }
+  }
+  for (const std::uint32_t facet : tracing.open)
+  {
+    const LatticePoint & p = m_Input.points[m_Result.FacetPoints(facet)[0]];
+    Defer(m_Input.grid.At(p.x, p.y, p.z), { facet, unknown });
+  }
+  ProcessPending(progress);
+  return Finish();
+}
+
+void
+CellTracer::ProcessPending(const ProgressCallback & progress)
+{
+  while (!m_Revisit.empty())
+  {
+    const std::size_t brick = m_Revisit.back();
+    m_Revisit.pop_back();
+    if (!m_Pending[brick - m_First].empty())
+    {
+      ReportProgress(progress, "delaunay", 1.0);
+      ProcessBrick(brick, false);
+    }
+  }
+}
+
+Tracing
+CellTracer::Finish()
+{
+  Tracing tracing;
+  for (const std::uint32_t facet : m_Deep)
+  {
+    if (IsOpen(facet) && m_Table.Take(KeyOf(m_Result.FacetPoints(facet))) != FacetTable::none)
+    {
+      tracing.deep.push_back(facet);
+    }
+  }
+  m_Table.ForEach([&](std::uint32_t facet) { (IsOpen(facet) ? tracing.open : tracing.unmet).push_back(facet); });
+  tracing.cells = std::move(m_Result);
+  return tracing;
+}
+
+void
+CellTracer::Defer(std::size_t brick, const Pending & pending)
+{
+  if (brick < m_First || brick >= m_Last)
+  {
+    return; // stays open for whoever has that brick
+  }
+  if (m_Done[brick - m_First] && m_Pending[brick - m_First].empty())
+  {
+    m_Revisit.push_back(brick);
+  }
+  m_Pending[brick - m_First].push_back(pending);
+}
+
+void
+CellTracer::ProcessBrick(std::size_t brick, bool seed)
+{
+  m_Brick = brick;
+  m_Window.Fill(m_Input.shape, m_Input.rows, m_Input.grid.Corner(brick));
+  if (seed)
+  {
+    FindVoxelCells();
+    SeedVoxelCells();
+    Drain();
+  }
+  // Facets handed over by other bricks come last: most have met their other side by now.
+  while (!m_Pending[brick - m_First].empty())
+  {
+    m_Stack.swap(m_Pending[brick - m_First]);
+    Drain();
+  }
+}
+
+void
+CellTracer::Drain()
+{
+  while (!m_Stack.empty())
+  {
+    const Pending pending = m_Stack.back();
+    m_Stack.pop_back();
+    if (IsOpen(pending.facet))
+    {
+      m_Wide ? TraceFacet<__int128>(pending) : TraceFacet<std::int64_t>(pending);
+    }
+  }
+}
+
+std::uint8_t
+CellTracer::CornerMask(std::int32_t x, std::int32_t y, std::int32_t z) const
+{
+  const auto pair = [&](std::int32_t row, std::int32_t layer) {
+    return static_cast<unsigned>(m_Window.vertex[LatticeWindow::Row(row, layer)] >> x) & 3U;
+  };
+  return static_cast<std::uint8_t>(pair(y, z) | (pair(y + 1, z) << 2) | (pair(y, z + 1) << 4) |
+                                   (pair(y + 1, z + 1) << 6));
+}
+
+// Marks the brick's voxels that have a cell of their own and numbers those cells ahead.
+void
+CellTracer::FindVoxelCells()
+{
+  const auto & table = VoxelCells();
+  auto         next = static_cast<std::uint32_t>(m_Result.CellCount());
+  for (std::int32_t z = 0; z < brickWidth; ++z)
+  {
+    for (std::int32_t y = 0; y < brickWidth; ++y)
+    {
+      const auto          row = static_cast<std::size_t>(z * brickWidth + y);
+      const std::size_t   corner = LatticeWindow::Row(y + halo, z + halo);
+      const std::size_t   layer = corner + LatticeWindow::width;
+      const std::uint64_t touched =
+        m_Window.vertex[corner] | m_Window.vertex[corner + 1] | m_Window.vertex[layer] | m_Window.vertex[layer + 1];
+      std::uint32_t candidates =
+        static_cast<std::uint32_t>((m_Window.voxel[corner] & (touched | (touched >> 1))) >> halo);
+      std::uint32_t found = 0;
+      for (; candidates != 0; candidates &= candidates - 1)
+      {
+        const int x = std::countr_zero(candidates);
+        if (table[CornerMask(x + halo, y + halo, z + halo)].spansSpace)
+        {
+          found |= std::uint32_t{ 1 } << x;
+        }
+      }
+      m_VoxelBits[row] = found;
+      m_VoxelFirst[row] = next;
+      next += static_cast<std::uint32_t>(std::popcount(found));
+    }
+  }
+}
+
+void
+CellTracer::SeedVoxelCells()
+{
+  constexpr std::array<std::array<std::int32_t, 3>, 6> beyondStep{
+    { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 }, { 0, 0, 1 } }
+  };
+  const auto & table = VoxelCells();
+  for (std::int32_t z = halo; z < halo + brickWidth; ++z)
+  {
+    for (std::int32_t y = halo; y < halo + brickWidth; ++y)
+    {
+      const auto row = static_cast<std::size_t>((z - halo) * brickWidth + y - halo);
+      for (std::uint32_t bits = m_VoxelBits[row]; bits != 0; bits &= bits - 1)
+      {
+        const std::int32_t           x = halo + std::countr_zero(bits);
+        const unsigned               mask = CornerMask(x, y, z);
+        const VoxelCell &            shape = table[mask];
+        std::array<std::uint32_t, 8> index{};
+        for (unsigned c = 0; c < 8; ++c)
+        {
+          if ((mask >> c) & 1U)
+          {
+            index[c] = m_Window.IndexOf(x + static_cast<int>(c & 1U),
+                                        y + static_cast<int>((c >> 1) & 1U),
+                                        z + static_cast<int>(c >> 2));
+          }
+        }
+        const auto   cell = static_cast<std::uint32_t>(m_Result.CellCount());
+        const auto & t = shape.tetrahedron;
+        m_Result.tetrahedra.push_back({ index[t[0]], index[t[1]], index[t[2]], index[t[3]] });
+        for (std::size_t facet = 0; facet < shape.facets.size(); ++facet)
+        {
+          m_Polygon.clear();
+          for (const std::uint8_t corner : shape.facets[facet])
+          {
+            m_Polygon.push_back(index[corner]);
+          }
+          const std::uint8_t side = shape.sides[facet];
+          if (side == 6)
+          {
+            AddFacet(cell, m_Polygon);
+            continue;
+          }
+          const std::int32_t bx = x + beyondStep[side][0];
+          const std::int32_t by = y + beyondStep[side][1];
+          const std::int32_t bz = z + beyondStep[side][2];
+          if (((m_Window.voxel[LatticeWindow::Row(by, bz)] >> bx) & 1U) == 0)
+          {
+            NewFacet(cell, kOutside, m_Polygon);
+            continue;
+          }
+          const std::int32_t rx = bx - halo;
+          const std::int32_t ry = by - halo;
+          const std::int32_t rz = bz - halo;
+          const auto         inBrick = [](std::int32_t r) { return r >= 0 && r < brickWidth; };
+          if (inBrick(rx) && inBrick(ry) && inBrick(rz))
+          {
+            const auto beyondRow = static_cast<std::size_t>(rz * brickWidth + ry);
+            if ((m_VoxelBits[beyondRow] >> rx) & 1U)
+            {
+              // Both voxels have a cell: they share this facet, and the first of the two makes it.
+              if (side % 2 == 1)
+              {
+                const std::uint32_t below = (std::uint32_t{ 1 } << rx) - 1;
+                NewFacet(cell,
+                         m_VoxelFirst[beyondRow] +
+                           static_cast<std::uint32_t>(std::popcount(m_VoxelBits[beyondRow] & below)),
+                         m_Polygon);
+              }
+              continue;
+            }
+          }
+          AddFacet(cell, m_Polygon);
+        }
+      }
+      // Inside voxels that meet the boundary in one square only: their square starts a trace.
+      for (std::uint32_t rest =
+             static_cast<std::uint32_t>(m_Window.voxel[LatticeWindow::Row(y, z)] >> halo) & ~m_VoxelBits[row];
+           rest != 0;
+           rest &= rest - 1)
+      {
+        const std::int32_t x = halo + std::countr_zero(rest);
+        const unsigned     mask = CornerMask(x, y, z);
+        if (std::popcount(mask) == 4)
+        {
+          SeedSquare(x, y, z, mask);
+        }
+      }
+    }
+  }
+}
+
+void
+CellTracer::SeedSquare(std::int32_t x, std::int32_t y, std::int32_t z, unsigned mask)
+{
+  const auto side = static_cast<std::size_t>(
+    std::find(voxelSideMasks.begin(), voxelSideMasks.end(), static_cast<std::uint8_t>(mask)) - voxelSideMasks.begin());
+  if (side == voxelSideMasks.size())
+  {
+    return;
+  }
+  const std::array<std::int32_t, 3> step{ side / 2 == 0 ? 1 : 0, side / 2 == 1 ? 1 : 0, side / 2 == 2 ? 1 : 0 };
+  const std::int32_t                sign = side % 2 == 0 ? -1 : 1;
+  const std::size_t                 beyond = LatticeWindow::Row(y + sign * step[1], z + sign * step[2]);
+  if ((m_Window.voxel[beyond] >> (x + sign * step[0])) & 1U)
+  {
+    return; // not on the boundary: the voxel beyond is in
+  }
+  // The whole voxel's cell lists its sides counter-clockwise from outside.
+  const VoxelCell & cube = VoxelCells()[255];
+  m_Polygon.clear();
+  for (std::size_t facet = 0; facet < cube.facets.size(); ++facet)
+  {
+    if (cube.sides[facet] == side)
+    {
+      for (const std::uint8_t c : cube.facets[facet])
+      {
+        m_Polygon.push_back(m_Window.IndexOf(x + (c & 1), y + ((c >> 1) & 1), z + (c >> 2)));
+      }
+    }
+  }
+  const FacetKey key = KeyOf(m_Polygon);
+  if (m_Table.Take(key) != FacetTable::none)
+  {
+    return; // a cell found earlier has this square, and knows that it is on the boundary
+  }
+  const std::uint32_t facet = NewFacet(kOpen, kOutside, m_Polygon);
+  m_Table.Insert(key, facet);
+  m_Stack.push_back({ facet, 0.0 }); // the square's smallest sphere is empty
+}
+
+std::uint32_t
+CellTracer::NewFacet(std::uint32_t first, std::uint32_t second, std::span<const std::uint32_t> polygon)
+{
+  const auto facet = static_cast<std::uint32_t>(m_Result.FacetCount());
+  m_Result.facetCells.push_back({ first, second });
+  m_Result.facetPoints.insert(m_Result.facetPoints.end(), polygon.begin(), polygon.end());
+  m_Result.facetOffsets.push_back(m_Result.facetPoints.size());
+  return facet;
+}
+
+void
+CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon)
+{
+  const FacetKey      key = KeyOf(polygon);
+  const std::uint32_t met = m_Table.Take(key);
+  if (met != FacetTable::none)
+  {
+    Close(met, cell);
+    return;
+  }
+  // A boundary square that is not in the table belongs to a voxel whose brick has not been seeded.
+  if (IsBoundarySquare(polygon))
+  {
+    m_Table.Insert(key, NewFacet(cell, kOutside, polygon));
+    return;
+  }
+  const std::uint32_t facet = NewFacet(cell, kOpen, polygon);
+  m_Table.Insert(key, facet);
+  m_Stack.push_back({ facet, unknown });
+}
+
+bool
+CellTracer::IsBoundarySquare(std::span<const std::uint32_t> polygon) const
+{
+  if (polygon.size() != 4)
+  {
+    return false;
+  }
+  const LatticePoint & a = m_Input.points[polygon[0]];
+  const LatticePoint & b = m_Input.points[polygon[1]];
+  const LatticePoint & c = m_Input.points[polygon[2]];
+  const LatticePoint   u{ b.x - a.x, b.y - a.y, b.z - a.z };
+  const LatticePoint   v{ c.x - b.x, c.y - b.y, c.z - b.z };
+  if (std::abs(u.x) + std::abs(u.y) + std::abs(u.z) != 1 || std::abs(v.x) + std::abs(v.y) + std::abs(v.z) != 1)
+  {
+    return false;
+  }
+  // The voxel on the outer side: the square's least corner, one step back where the normal points down.
+  const LatticePoint normal{ u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x };
+  const LatticePoint least{ std::min(a.x, c.x), std::min(a.y, c.y), std::min(a.z, c.z) };
+  return !m_Input.shape.Contains(least.x + std::min(normal.x, 0),
+                                 least.y + std::min(normal.y, 0),
+                                 least.z + std::min(normal.z, 0));
+}
+
+Tracing
+JoinTracings(std::vector<Tracing> parts)
+{
+  Tracing    joined;
+  FacetTable table;
+  for (Tracing & part : parts)
+  {
+    DelaunayCells & to = joined.cells;
+    DelaunayCells & from = part.cells;
+    const auto      cellShift = static_cast<std::uint32_t>(to.CellCount());
+    const auto      facetShift = static_cast<std::uint32_t>(to.FacetCount());
+    const auto      pointShift = static_cast<std::uint64_t>(to.facetPoints.size());
+    to.tetrahedra.insert(to.tetrahedra.end(), from.tetrahedra.begin(), from.tetrahedra.end());
+    for (const auto & sides : from.facetCells)
+    {
+      to.facetCells.push_back(
+        { sides[0] < kOpen ? sides[0] + cellShift : sides[0], sides[1] < kOpen ? sides[1] + cellShift : sides[1] });
+    }
+    for (std::size_t i = 1; i < from.facetOffsets.size(); ++i)
+    {
+      to.facetOffsets.push_back(from.facetOffsets[i] + pointShift);
+    }
+    to.facetPoints.insert(to.facetPoints.end(), from.facetPoints.begin(), from.facetPoints.end());
+    from = {};
+    for (const auto * list : { &part.open, &part.deep, &part.unmet })
+    {
+      const std::uint32_t kind = list == &part.deep ? 1U : 0U;
+      for (const std::uint32_t facet : *list)
+      {
+        const std::uint32_t own = facet + facetShift;
+        const FacetKey      key = KeyOf(to.FacetPoints(own));
+        const std::uint32_t met = table.Take(key);
+        if (met == FacetTable::none)
+        {
+          table.Insert(key, own);
+          if (kind == 1U)
+          {
+            joined.deep.push_back(own);
+          }
+          continue;
+        }
+        // The two halves become one; the other is left without a cell, to be dropped with its like at the end.
+        auto &              a = to.facetCells[met];
+        auto &              b = to.facetCells[own];
+        const std::uint32_t cell = b[0] < kOpen ? b[0] : b[1];
+        if (a[0] == kOpen)
+        {
+          a[0] = cell < kOpen ? cell : kOpen;
+        }
+        else if (a[1] == kOpen)
+        {
+          a[1] = cell;
+        }
+        b = { kOpen, kOpen };
+      }
+    }
+  }
+  std::vector<std::uint8_t> isDeep(joined.cells.FacetCount(), 0);
+  for (const std::uint32_t facet : joined.deep)
+  {
+    isDeep[facet] = 1;
+  }
+  table.ForEach([&](std::uint32_t facet) {
+    const auto & sides = joined.cells.facetCells[facet];
+    if (!isDeep[facet] && (sides[0] == kOpen || sides[1] == kOpen))
+    {
+      joined.open.push_back(facet);
+    }
+    else if (!isDeep[facet])
+    {
+      joined.unmet.push_back(facet);
+    }
+  });
+  std::erase_if(joined.deep, [&](std::uint32_t facet) {
+    const auto & sides = joined.cells.facetCells[facet];
+    return sides[0] != kOpen && sides[1] != kOpen;
+  });
+  return joined;
+}
+
+} // namespace voxelcore

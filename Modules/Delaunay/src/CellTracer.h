@@ -1,0 +1,138 @@
+#pragma once
+// Small Delaunay cells inside a voxel shape, found one from another across their facets.
+//
+// Boundary squares are facets (Theorem 3.1). From a facet whose inner side is unknown, the next cell is fixed by the
+// boundary vertex that minimises the pencil parameter of the spheres through the facet's circle; a growing ball on the
+// bits of a window finds it, exact integers decide. The smallest cells, the corners of single voxels, come from a table.
+
+#include "BrickGrid.h"
+#include "CellHull.h"
+#include "FacetTable.h"
+#include "LatticeWindow.h"
+
+#include "voxelcore/DelaunayCells.h"
+
+namespace voxelcore
+{
+
+/** In facetCells: the cell on this side is not known yet. */
+inline constexpr std::uint32_t kOpen = 0xFFFFFFFEU;
+
+/** What all tracers of one shape share. */
+struct TracingInput
+{
+  const VoxelShape &                shape;
+  const std::vector<LatticePoint> & points;
+  const SpacingWeights &            weights;
+  const VertexRows &                rows;
+  const BrickGrid &                 grid;
+};
+
+/** Cells and facets in any order, centres not filled in; and what is still to be found. */
+struct Tracing
+{
+  DelaunayCells              cells;
+  std::vector<std::uint32_t> open;  ///< facets with kOpen on a side, beyond which someone else has to look
+  std::vector<std::uint32_t> deep;  ///< facets with kOpen on a side, beyond which the sphere exceeds the tracer's limit
+  std::vector<std::uint32_t> unmet; ///< complete boundary squares whose voxel lies in a brick of someone else
+};
+
+/** Puts the tracings of disjoint ranges of bricks together: facets that two of them left open may close each other. */
+Tracing
+JoinTracings(std::vector<Tracing> parts);
+
+/** Finds the cells of radius up to 14.9 times the smallest weight whose centres lie in the bricks first to last - 1,
+ *  as far as they can be reached within them. Not for use by two threads at once. */
+class CellTracer
+{
+public:
+  CellTracer(const TracingInput & input, std::size_t first, std::size_t last);
+
+  /** Starts at the bricks' own boundary. \throws Cancelled. */
+  Tracing
+  Trace(const ProgressCallback & progress);
+
+  /** Goes on from facets left open. \throws Cancelled. */
+  Tracing
+  Continue(Tracing tracing, const ProgressCallback & progress);
+
+private:
+  struct Pending
+  {
+    std::uint32_t facet;
+    double        from; ///< distance of centre from circle below which no sphere is left to look at; -inf at first
+  };
+
+  void
+  ProcessBrick(std::size_t brick, bool seed);
+  void
+  ProcessPending(const ProgressCallback & progress);
+  Tracing
+  Finish();
+  std::uint8_t
+  CornerMask(std::int32_t x, std::int32_t y, std::int32_t z) const;
+  void
+  FindVoxelCells();
+  void
+  SeedVoxelCells();
+  void
+  SeedSquare(std::int32_t x, std::int32_t y, std::int32_t z, unsigned mask);
+  void
+  Drain();
+  template <typename TNumber>
+  void
+  TraceFacet(Pending pending);
+  void
+  CreateCell(std::span<const std::uint32_t> facet);
+  void
+  AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon);
+  bool
+  IsBoundarySquare(std::span<const std::uint32_t> polygon) const;
+  std::uint32_t
+  NewFacet(std::uint32_t first, std::uint32_t second, std::span<const std::uint32_t> polygon);
+  void
+  Close(std::uint32_t facet, std::uint32_t cell)
+  {
+    auto & sides = m_Result.facetCells[facet];
+    sides[sides[0] == kOpen ? 0 : 1] = cell;
+  }
+  bool
+  IsOpen(std::uint32_t facet) const
+  {
+    return m_Result.facetCells[facet][0] == kOpen || m_Result.facetCells[facet][1] == kOpen;
+  }
+  /** The brick of a centre in window coordinates; none when it is so near to a side of the range that rounding could
+   *  make two tracers disagree. */
+  std::size_t
+  BrickOf(const std::array<double, 3> & centre) const;
+  void
+  Defer(std::size_t brick, const Pending & pending);
+
+  TracingInput  m_Input;
+  std::size_t   m_First;
+  std::size_t   m_Last;
+  bool          m_Wide;  // weights beyond 1: numbers need 128 bits
+  double        m_Limit; // radius, in units of length
+  LatticeWindow m_Window;
+  std::size_t   m_Brick = 0;
+  DelaunayCells m_Result;
+  FacetTable    m_Table;
+  HullMemo      m_Hulls;
+
+  std::vector<Pending>              m_Stack;
+  std::vector<std::vector<Pending>> m_Pending; // per brick of this tracer
+  std::vector<std::uint8_t>         m_Done;    // per brick of this tracer
+  std::vector<std::size_t>          m_Revisit;
+  std::vector<std::uint32_t>        m_Deep;
+
+  std::vector<LatticePoint>  m_Apexes;  // the best candidates of the running trace, in window coordinates
+  std::vector<LatticePoint>  m_Points;  // of the cell being made, in window coordinates, sorted
+  std::vector<std::uint32_t> m_Indices; // of the same
+  std::vector<std::uint32_t> m_Polygon;
+
+  // Voxels of the brick with a cell of their own: one bit each per row, and the number of the row's first cell.
+  std::array<std::uint32_t, 32 * 32> m_VoxelBits{};
+  std::array<std::uint32_t, 32 * 32> m_VoxelFirst{};
+};
+
+} // namespace voxelcore

@@ -1,0 +1,195 @@
+#include "DeepCells.h"
+
+#include "BowyerWatson.h"
+
+#include "voxelcore/Predicates.h"
+
+#include <algorithm>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr std::uint32_t none = 0xFFFFFFFFU;
+
+// The open facets around each of their points.
+class WallFinder
+{
+public:
+  WallFinder(const Tracing & tracing, const std::vector<std::uint32_t> & used, std::size_t pointCount)
+    : m_Start(used.size() + 1, 0)
+  {
+    std::vector<std::uint32_t> number(pointCount, none);
+    for (std::size_t i = 0; i < used.size(); ++i)
+    {
+      number[used[i]] = static_cast<std::uint32_t>(i);
+    }
+    for (const std::uint32_t facet : tracing.deep)
+    {
+      for (const std::uint32_t p : tracing.cells.FacetPoints(facet))
+      {
+        ++m_Start[number[p] + 1];
+      }
+    }
+    for (std::size_t i = 1; i < m_Start.size(); ++i)
+    {
+      m_Start[i] += m_Start[i - 1];
+    }
+    m_Facets.resize(m_Start.back());
+    std::vector<std::uint32_t> next(m_Start.begin(), m_Start.end() - 1);
+    for (const std::uint32_t facet : tracing.deep) // ascending within each list
+    {
+      for (const std::uint32_t p : tracing.cells.FacetPoints(facet))
+      {
+        m_Facets[next[number[p]]++] = facet;
+      }
+    }
+  }
+
+  // The open facet that holds three points (numbers among the used ones), or none: two facets share at most two.
+  std::uint32_t
+  Find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
+  {
+    for (std::uint32_t i = m_Start[a], j = m_Start[b]; i < m_Start[a + 1] && j < m_Start[b + 1];)
+    {
+      if (m_Facets[i] != m_Facets[j])
+      {
+        m_Facets[i] < m_Facets[j] ? ++i : ++j;
+        continue;
+      }
+      if (std::binary_search(m_Facets.begin() + m_Start[c], m_Facets.begin() + m_Start[c + 1], m_Facets[i]))
+      {
+        return m_Facets[i];
+      }
+      ++i;
+      ++j;
+    }
+    return none;
+  }
+
+private:
+  std::vector<std::uint32_t> m_Start;
+  std::vector<std::uint32_t> m_Facets;
+};
+
+} // namespace
+
+void
+AddDeepCells(Tracing &                         tracing,
+             const std::vector<LatticePoint> & points,
+             const SpacingWeights &            weights,
+             const ProgressCallback &          progress)
+{
+  if (tracing.deep.empty())
+  {
+    return;
+  }
+  std::sort(tracing.deep.begin(), tracing.deep.end());
+  std::vector<std::uint32_t> used;
+  for (const std::uint32_t facet : tracing.deep)
+  {
+    const auto polygon = tracing.cells.FacetPoints(facet);
+    used.insert(used.end(), polygon.begin(), polygon.end());
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<LatticePoint> deepPoints(used.size());
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    deepPoints[i] = points[used[i]];
+  }
+  Tetrahedra tetrahedra = BowyerWatson(deepPoints, weights, progress);
+
+  // Tetrahedra at the far side of an open facet are in the region, and so is what is reached from them without
+  // crossing one.
+  const WallFinder                          finder(tracing, used, points.size());
+  const std::size_t                         count = tetrahedra.corners.size();
+  std::vector<std::array<std::uint32_t, 4>> wall(count);
+  std::vector<std::uint8_t>                 inside(count, 0);
+  std::vector<std::uint32_t>                region;
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    const auto & corners = tetrahedra.corners[t];
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const auto & f = tetrahedronFaces[i];
+      wall[t][i] = finder.Find(corners[f[0]], corners[f[1]], corners[f[2]]);
+      if (wall[t][i] == none)
+      {
+        continue;
+      }
+      const auto   polygon = tracing.cells.FacetPoints(wall[t][i]);
+      const Int128 side =
+        Orientation(points[polygon[0]], points[polygon[1]], points[polygon[2]], deepPoints[corners[i]]);
+      const bool inwards = tracing.cells.facetCells[wall[t][i]][0] == kOpen;
+      if ((side > 0) != inwards && !inside[t])
+      {
+        inside[t] = 1;
+        region.push_back(static_cast<std::uint32_t>(t));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < region.size(); ++i)
+  {
+    const std::uint32_t t = region[i];
+    for (std::size_t face = 0; face < 4; ++face)
+    {
+      if (wall[t][face] != none)
+      {
+        continue;
+      }
+      const std::uint32_t neighbour = tetrahedra.neighbours[t][face];
+      if (neighbour == kOutside)
+      {
+        throw CertificateError("the deep Delaunay cells do not close; please report this input");
+      }
+      if (!inside[neighbour])
+      {
+        inside[neighbour] = 1;
+        region.push_back(neighbour);
+      }
+    }
+  }
+
+  // The walls of the region are the open facets themselves: only the cells behind them are new.
+  const auto nameWall = [&](std::size_t t, std::size_t face, const std::array<std::uint32_t, 3> &) {
+    return std::uint64_t{ wall[t][face] };
+  };
+  std::vector<std::uint64_t> walls;
+  const DelaunayCells deep = MergeTetrahedra(std::move(tetrahedra), inside, deepPoints, weights, nameWall, &walls);
+  DelaunayCells &     cells = tracing.cells;
+  const auto          shift = static_cast<std::uint32_t>(cells.CellCount());
+  for (const auto & t : deep.tetrahedra)
+  {
+    cells.tetrahedra.push_back({ used[t[0]], used[t[1]], used[t[2]], used[t[3]] });
+  }
+  std::size_t nextWall = 0;
+  for (std::size_t facet = 0; facet < deep.FacetCount(); ++facet)
+  {
+    const auto & sides = deep.facetCells[facet];
+    if (sides[1] == kOutside)
+    {
+      auto & open = cells.facetCells[walls[nextWall++]];
+      open[open[0] == kOpen ? 0 : 1] = sides[0] + shift;
+      continue;
+    }
+    cells.facetCells.push_back({ sides[0] + shift, sides[1] + shift });
+    for (const std::uint32_t p : deep.FacetPoints(facet))
+    {
+      cells.facetPoints.push_back(used[p]);
+    }
+    cells.facetOffsets.push_back(cells.facetPoints.size());
+  }
+  for (const std::uint32_t facet : tracing.deep)
+  {
+    if (cells.facetCells[facet][0] == kOpen || cells.facetCells[facet][1] == kOpen)
+    {
+      throw CertificateError("the deep Delaunay cells do not close; please report this input");
+    }
+  }
+  tracing.deep.clear();
+}
+
+} // namespace voxelcore

@@ -1,0 +1,152 @@
+#pragma once
+// Facets known from one side only, found again by their points when the other side turns up.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Names a convex polygon among the facets of one Delaunay tessellation: its smallest point and the two points beside
+ *  it, the smaller first. Different facets share at most two points. */
+using FacetKey = std::array<std::uint32_t, 3>;
+
+inline FacetKey
+KeyOf(std::span<const std::uint32_t> polygon)
+{
+  const auto least = static_cast<std::size_t>(std::min_element(polygon.begin(), polygon.end()) - polygon.begin());
+  const std::uint32_t before = polygon[least == 0 ? polygon.size() - 1 : least - 1];
+  const std::uint32_t behind = polygon[least + 1 == polygon.size() ? 0 : least + 1];
+  return { polygon[least], std::min(before, behind), std::max(before, behind) };
+}
+
+/** A hash table from FacetKey to a number, by linear probing. */
+class FacetTable
+{
+public:
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
+
+  FacetTable()
+    : m_Slots(1024, Slot{ {}, none })
+  {}
+
+  std::size_t
+  Size() const
+  {
+    return m_Size;
+  }
+
+  /** The number stored under the key, or none. */
+  std::uint32_t
+  Find(const FacetKey & key) const
+  {
+    for (std::size_t at = Home(key);; at = Next(at))
+    {
+      if (m_Slots[at].value == none || m_Slots[at].key == key)
+      {
+        return m_Slots[at].value;
+      }
+    }
+  }
+
+  /** Takes the number stored under the key out and returns it, or none. */
+  std::uint32_t
+  Take(const FacetKey & key)
+  {
+    std::size_t at = Home(key);
+    for (; m_Slots[at].value == none || m_Slots[at].key != key; at = Next(at))
+    {
+      if (m_Slots[at].value == none)
+      {
+        return none;
+      }
+    }
+    const std::uint32_t value = m_Slots[at].value;
+    // Close the gap with entries that may stand there, so that probing needs no tombstones.
+    for (std::size_t gap = at, from = Next(at);; from = Next(from))
+    {
+      if (m_Slots[from].value == none)
+      {
+        m_Slots[gap].value = none;
+        break;
+      }
+      const std::size_t mask = m_Slots.size() - 1;
+      if (((from - Home(m_Slots[from].key)) & mask) >= ((from - gap) & mask))
+      {
+        m_Slots[gap] = m_Slots[from];
+        gap = from;
+      }
+    }
+    --m_Size;
+    return value;
+  }
+
+  /** Stores a number under a key that is not there yet. */
+  void
+  Insert(const FacetKey & key, std::uint32_t value)
+  {
+    if (2 * (m_Size + 1) > m_Slots.size())
+    {
+      std::vector<Slot> old(2 * m_Slots.size(), Slot{ {}, none });
+      old.swap(m_Slots);
+      m_Size = 0;
+      for (const Slot & slot : old)
+      {
+        if (slot.value != none)
+        {
+          Insert(slot.key, slot.value);
+        }
+      }
+    }
+    std::size_t at = Home(key);
+    while (m_Slots[at].value != none)
+    {
+      at = Next(at);
+    }
+    m_Slots[at] = { key, value };
+    ++m_Size;
+  }
+
+  /** Calls visit(value) for every entry, in no particular order. */
+  template <typename TVisit>
+  void
+  ForEach(TVisit visit) const
+  {
+    for (const Slot & slot : m_Slots)
+    {
+      if (slot.value != none)
+      {
+        visit(slot.value);
+      }
+    }
+  }
+
+private:
+  struct Slot
+  {
+    FacetKey      key;
+    std::uint32_t value;
+  };
+
+  std::size_t
+  Home(const FacetKey & key) const
+  {
+    std::uint64_t h = (std::uint64_t{ key[0] } << 32 | key[1]) * 0x9E3779B97F4A7C15U;
+    h = (h ^ (h >> 29) ^ key[2]) * 0xD6E8FEB86659FD93U;
+    return static_cast<std::size_t>(h >> 20) & (m_Slots.size() - 1);
+  }
+  std::size_t
+  Next(std::size_t at) const
+  {
+    return (at + 1) & (m_Slots.size() - 1);
+  }
+
+  std::vector<Slot> m_Slots;
+  std::size_t       m_Size = 0;
+};
+
+} // namespace voxelcore

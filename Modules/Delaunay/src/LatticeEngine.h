@@ -1,0 +1,17 @@
+#pragma once
+// The engine made for voxel shapes: small cells by tracing from the boundary, the deep rest by Bowyer-Watson.
+
+#include "voxelcore/DelaunayCells.h"
+
+namespace voxelcore
+{
+
+/** Merged Delaunay cells inside the shape, not yet in canonical order. Uses all OpenMP threads; the cells do not depend
+ *  on their number. \throws Cancelled. */
+DelaunayCells
+LatticeCells(const VoxelShape &                shape,
+             const std::vector<LatticePoint> & points,
+             const SpacingWeights &            weights,
+             const ProgressCallback &          progress);
+
+} // namespace voxelcore

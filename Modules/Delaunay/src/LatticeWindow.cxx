@@ -1,0 +1,113 @@
+#include "LatticeWindow.h"
+
+#include <algorithm>
+
+namespace voxelcore
+{
+
+VertexRows::VertexRows(const VoxelShape & shape, const std::vector<LatticePoint> & points)
+  : m_Points(&points)
+  , m_Lower(shape.Box().lower)
+  , m_RowsY(static_cast<std::size_t>(shape.Box().size[1]) + 1)
+  , m_Start(m_RowsY * (static_cast<std::size_t>(shape.Box().size[2]) + 1) + 1, 0)
+{
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const std::size_t own =
+      static_cast<std::size_t>(points[i].z - m_Lower[2]) * m_RowsY + static_cast<std::size_t>(points[i].y - m_Lower[1]);
+    while (row < own)
+    {
+      m_Start[++row] = static_cast<std::uint32_t>(i);
+    }
+  }
+  while (++row < m_Start.size())
+  {
+    m_Start[row] = static_cast<std::uint32_t>(points.size());
+  }
+}
+
+std::uint32_t
+VertexRows::FirstAt(std::int32_t x, std::int32_t y, std::int32_t z) const
+{
+  const std::size_t row = static_cast<std::size_t>(z - m_Lower[2]) * m_RowsY + static_cast<std::size_t>(y - m_Lower[1]);
+  const auto        begin = m_Points->begin() + m_Start[row];
+  const auto        end = m_Points->begin() + m_Start[row + 1];
+  const auto        at =
+    std::lower_bound(begin, end, x, [](const LatticePoint & p, std::int32_t value) { return p.x < value; });
+  return static_cast<std::uint32_t>(at - m_Points->begin());
+}
+
+namespace
+{
+
+// 64 voxels of a row from bit `offset` on, which may lie anywhere; beyond the row is background.
+std::uint64_t
+Extract(std::span<const std::uint64_t> row, std::int64_t offset)
+{
+  const std::int64_t word = offset >> 6;
+  const auto         shift = static_cast<unsigned>(offset & 63);
+  const auto         at = [&](std::int64_t w) {
+    return w < 0 || w >= static_cast<std::int64_t>(row.size()) ? 0 : row[static_cast<std::size_t>(w)];
+  };
+  return shift == 0 ? at(word) : (at(word) >> shift) | (at(word + 1) << (64 - shift));
+}
+
+} // namespace
+
+void
+LatticeWindow::Fill(const VoxelShape & shape, const VertexRows & rows, const LatticePoint & brickCorner)
+{
+  origin = { brickCorner.x - halo, brickCorner.y - halo, brickCorner.z - halo };
+  const auto &       box = shape.Box();
+  const std::int64_t offset = std::int64_t{ origin.x } - box.lower[0];
+  // The two voxels at a corner's sides along x, for the rows one below the window and its 64: any and both.
+  struct Pair
+  {
+    std::uint64_t any;
+    std::uint64_t both;
+  };
+  std::array<std::array<Pair, 65>, 2> layers;
+  for (std::int32_t z = -1; z < width; ++z)
+  {
+    auto &             layer = layers[static_cast<std::size_t>(z & 1)];
+    const std::int32_t boxZ = origin.z + z - box.lower[2];
+    for (std::int32_t y = -1; y < width; ++y)
+    {
+      const std::int32_t boxY = origin.y + y - box.lower[1];
+      const bool         exists = boxY >= 0 && boxZ >= 0 && boxY < box.size[1] && boxZ < box.size[2];
+      std::uint64_t      here = 0;
+      std::uint64_t      before = 0;
+      if (exists)
+      {
+        const auto row = shape.Row(boxY, boxZ);
+        here = Extract(row, offset);
+        before = Extract(row, offset - 1);
+      }
+      layer[static_cast<std::size_t>(y + 1)] = { here | before, here & before };
+      if (y >= 0 && z >= 0)
+      {
+        voxel[Row(y, z)] = here;
+      }
+    }
+    if (z < 0)
+    {
+      continue;
+    }
+    const auto & below = layers[static_cast<std::size_t>((z - 1) & 1)];
+    for (std::int32_t y = 0; y < width; ++y)
+    {
+      const auto          i = static_cast<std::size_t>(y);
+      const std::uint64_t any = layer[i].any | layer[i + 1].any | below[i].any | below[i + 1].any;
+      const std::uint64_t all = layer[i].both & layer[i + 1].both & below[i].both & below[i + 1].both;
+      const std::size_t   row = Row(y, z);
+      vertex[row] = any & ~all;
+      if (vertex[row] != 0)
+      {
+        first[row] = rows.FirstAt(origin.x, origin.y + y, origin.z + z);
+      }
+    }
+  }
+}
+
+} // namespace voxelcore
