@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
+# usage: install-packages.sh GROUP...     groups: build, demo (a real scan), test
+set -euo pipefail
+
+packages_of() {
+  case "$1" in
+    build) echo g++ cmake ninja-build ccache libinsighttoolkit5-dev libvtk9-dev libtet1.5-dev libtiff-dev zlib1g-dev \
+                libbz2-dev libcli11-dev nlohmann-json3-dev ;;
+    demo) echo mricron-data ;;
+    test) echo libgtest-dev libgmock-dev python3-nibabel python3-numpy mricron-data ;;
+    *) echo "install-packages.sh: unknown group '$1'; there are build, demo and test" >&2; return 2 ;;
+  esac
+}
+
+missing=()
+for group in "$@"; do
+  names=$(packages_of "$group")
+  for name in $names; do
+    if [ "$(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null || true)" != installed ]; then
+      missing+=("$name")
+    fi
+  done
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+stop() {
+  echo "Cannot install packages here: $1." >&2
+  echo "These Debian 12 packages are missing: ${missing[*]}" >&2
+  exit 1
+}
+
+command -v apt-get >/dev/null || stop "there is no apt-get"
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || stop "neither root nor sudo"
+  as_root=(sudo)
+  # Without a terminal nobody can type a password.
+  [ -t 0 ] || as_root=(sudo -n)
+  "${as_root[@]}" true || stop "sudo refused"
+fi
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y -q "$@" </dev/null
+}
+
+echo "Installing ${missing[*]}"
+apt update || stop "'apt-get update' failed"
+apt install --no-install-recommends "${missing[@]}" || stop "'apt-get install' failed"

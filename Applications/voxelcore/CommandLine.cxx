@@ -1,0 +1,138 @@
+#include "CommandLine.h"
+
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/Error.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr const char * kFooter = R"(
+'voxelcore COMMAND --help' tells more, with examples. Lengths are in mm, positions in files are LPS.
+Exit codes: 0 done; 1 failed, e.g. unwritable output; 2 wrong usage; 3 input unreadable or unfit; 4 a certificate failed
+or 'verify' disagrees; 130 interrupted. Results appear complete or not at all.
+Example: voxelcore core scan.nii.gz -o medial.vtp)";
+
+std::string
+Quoted(const std::string & word)
+{
+  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                              "_-./:,=+%@") == std::string::npos)
+  {
+    return word;
+  }
+  std::string text = "'";
+  for (const char c : word)
+  {
+    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return text + "'";
+}
+
+void
+AddParameter(CLI::App & app, const Parameter & parameter, ParameterValues & values)
+{
+  const std::string name(parameter.name);
+  const std::string description(parameter.description);
+  if (parameter.kind == ParameterKind::Flag)
+  {
+    app.add_flag_callback(
+      std::string(parameter.flags),
+      [&values, name] { values[name] = "true"; },
+      description);
+    return;
+  }
+  const std::string flags(parameter.flags.empty() ? parameter.placeholder : parameter.flags);
+  CLI::Option *     option = app.add_option_function<std::string>(
+    flags,
+    [&values, name](const std::string & value) { values[name] = value; },
+    description);
+  option->type_name(parameter.flags.empty() ? "" : std::string(parameter.placeholder));
+  option->required(parameter.required);
+  if (!parameter.defaultValue.empty())
+  {
+    option->default_str(std::string(parameter.defaultValue));
+  }
+}
+
+/** First line only: some of CLI11's messages run on. */
+std::string
+FirstLine(const std::string & text)
+{
+  return text.substr(0, text.find('\n'));
+}
+
+} // namespace
+
+CommandLine
+ParseCommandLine(int argc, char ** argv)
+{
+  CommandLine line;
+  for (int i = 0; i < argc; ++i)
+  {
+    line.whole += (i > 0 ? " " : "") + Quoted(argv[i]);
+  }
+  CLI::App app("Certified medial surfaces of segmented CT and MRI volumes", "voxelcore");
+  app.set_version_flag("--version", "voxelcore " + VoxelCoreVersion());
+  app.footer(kFooter);
+  app.require_subcommand(0, 1);
+  app.get_formatter()->column_width(34);
+  std::map<CommandId, CLI::App *> commands;
+  for (const Command & command : Commands())
+  {
+    CLI::App * sub = app.add_subcommand(std::string(command.name), std::string(command.description));
+    sub->footer("\n" + std::string(command.footer));
+    commands[command.id] = sub;
+    for (const Parameter & parameter : Parameters())
+    {
+      if (BelongsTo(parameter, command.id))
+      {
+        AddParameter(*sub, parameter, line.values);
+      }
+    }
+  }
+  std::string helpHint = "; see 'voxelcore --help'";
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::CallForHelp &)
+  {
+    const auto chosen = app.get_subcommands();
+    line.text = chosen.empty() ? app.help() : chosen.front()->help();
+    return line;
+  }
+  catch (const CLI::CallForVersion & version)
+  {
+    line.text = std::string(version.what()) + "\n";
+    return line;
+  }
+  catch (const CLI::ParseError & error)
+  {
+    const auto chosen = app.get_subcommands();
+    if (!chosen.empty())
+    {
+      helpHint = "; see 'voxelcore " + chosen.front()->get_name() + " --help'";
+    }
+    throw UsageError(FirstLine(error.what()) + helpHint);
+  }
+  for (const auto & [id, sub] : commands)
+  {
+    if (sub->parsed())
+    {
+      line.command = id;
+    }
+  }
+  if (!line.command)
+  {
+    throw UsageError("no command given" + helpHint);
+  }
+  return line;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,87 @@
+#include "Console.h"
+
+#include <cstdlib>
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+void
+WriteAll(int descriptor, const std::string & text)
+{
+  for (std::size_t done = 0; done < text.size();)
+  {
+    const ssize_t written = write(descriptor, text.data() + done, text.size() - done);
+    if (written <= 0)
+    {
+      return; // nobody listens
+    }
+    done += static_cast<std::size_t>(written);
+  }
+}
+
+} // namespace
+
+Console::Console()
+  : m_Output(STDOUT_FILENO)
+  , m_Error(STDERR_FILENO)
+{
+  if (std::getenv("VOXELCORE_LIBRARY_MESSAGES") != nullptr)
+  {
+    return;
+  }
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0)
+  {
+    return;
+  }
+  // Above 2, so that a library that opens a file never gets a descriptor it takes for a standard stream. A stream that
+  // was closed from the start stays closed: then the copy fails and writes to it do, too.
+  m_Output = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+  m_Error = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  if (nowhere > STDERR_FILENO)
+  {
+    close(nowhere);
+  }
+}
+
+void
+Console::Print(const std::string & text) const
+{
+  WriteAll(m_Output, text);
+}
+
+void
+Console::PrintError(const std::string & message) const
+{
+  std::string line = "voxelcore: " + message;
+  for (char & c : line)
+  {
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F)
+    {
+      c = ' ';
+    }
+  }
+  line.erase(line.find_last_not_of(' ') + 1);
+  WriteAll(m_Error, line + "\n");
+}
+
+void
+Console::PrintProgress(const std::string & text) const
+{
+  WriteAll(m_Error, text);
+}
+
+bool
+Console::ErrorIsTerminal() const
+{
+  return isatty(m_Error) == 1;
+}
+
+} // namespace voxelcore

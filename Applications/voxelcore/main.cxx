@@ -1,0 +1,235 @@
+// The program voxelcore: parses, calls module Pipeline, prints.
+
+#include "CommandLine.h"
+#include "Console.h"
+#include "ProgressPrinter.h"
+#include "Signals.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/ReportTable.h"
+
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <omp.h>
+
+namespace
+{
+
+using namespace voxelcore; // NOLINT: a program's only file speaks its library's language
+
+enum ExitCode
+{
+  kDone = 0,
+  kFailed = 1,
+  kUsage = 2,
+  kInput = 3,
+  kDisagreement = 4,
+  kInterrupted = 130
+};
+
+/** What every command needs at hand. */
+struct Run
+{
+  const CommandLine & line;
+  const Console &     console;
+  const JobContext &  context;
+  ProgressPrinter &   progress;
+  bool                quiet;
+  int                 threads;
+
+  void
+  Print(const std::string & text) const
+  {
+    progress.Clear();
+    if (!quiet)
+    {
+      console.Print(text);
+    }
+  }
+  void
+  Warn(const std::vector<std::string> & warnings) const
+  {
+    progress.Clear();
+    for (const std::string & warning : warnings)
+    {
+      if (!quiet)
+      {
+        console.PrintError("warning: " + warning);
+      }
+    }
+  }
+  void
+  PrintNotes(const std::vector<std::string> & notes) const
+  {
+    for (const std::string & note : notes)
+    {
+      Print(note + "\n");
+    }
+  }
+};
+
+int
+RunCore(const Run & run)
+{
+  CoreOptions options = CoreOptionsFrom(run.line.values);
+  options.threads = run.threads;
+  options.command = run.line.whole;
+  const CoreResult result = RunCoreJob(options, run.context);
+  run.Warn(result.warnings);
+  run.Print(ReportTable(result.report));
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
+RunPrune(const Run & run)
+{
+  PruneOptions options = PruneOptionsFrom(run.line.values);
+  options.threads = run.threads;
+  options.command = run.line.whole;
+  const PruneResult result = RunPruneJob(options, run.context);
+  run.Print(ReportTable(result.report));
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
+RunInfo(const Run & run)
+{
+  const ScanInfo info = RunInfoJob(InfoOptionsFrom(run.line.values), run.context);
+  run.Warn(info.warnings);
+  run.Print(run.line.values.contains("json") ? InfoJson(info) : InfoText(info));
+  return kDone;
+}
+
+int
+RunVerify(const Run & run)
+{
+  const VerifyOptions options = VerifyOptionsFrom(run.line.values);
+  const VerifyResult  result = RunVerifyJob(options, run.context);
+  run.Print(VerifyText(result));
+  if (!result.passed)
+  {
+    throw CertificateError(options.core.string() + ": does not agree with " + options.scan.string());
+  }
+  return kDone;
+}
+
+int
+RunPhantom(const Run & run)
+{
+  if (ValueOf(run.line.values, CommandId::Phantom, "kind") == "list")
+  {
+    run.Print(PhantomList());
+    return kDone;
+  }
+  run.Print(RunPhantomJob(PhantomOptionsFrom(run.line.values), run.context) + "\n");
+  return kDone;
+}
+
+int
+Dispatch(const Run & run)
+{
+  switch (*run.line.command)
+  {
+    case CommandId::Core:
+      return RunCore(run);
+    case CommandId::Info:
+      return RunInfo(run);
+    case CommandId::Verify:
+      return RunVerify(run);
+    case CommandId::Prune:
+      return RunPrune(run);
+    case CommandId::Phantom:
+      return RunPhantom(run);
+  }
+  return kUsage;
+}
+
+ProgressPrinter::Style
+StyleOf(const std::string & word, bool quiet, const Console & console)
+{
+  if (word == "plain")
+  {
+    return ProgressPrinter::Style::Plain;
+  }
+  if (word == "json")
+  {
+    return ProgressPrinter::Style::Json;
+  }
+  if (word != "bar" && !word.empty() && word != "none")
+  {
+    throw UsageError("--progress " + word + ": expected one of bar|plain|json|none");
+  }
+  return word != "none" && !quiet && console.ErrorIsTerminal() ? ProgressPrinter::Style::Bar
+                                                               : ProgressPrinter::Style::None;
+}
+
+int
+Main(int argc, char ** argv, const Console & console, TemporaryRegistry & temporaries)
+{
+  const CommandLine line = ParseCommandLine(argc, argv);
+  if (!line.command)
+  {
+    console.Print(line.text);
+    return kDone;
+  }
+  const bool quiet = line.values.contains("quiet");
+  const int  threads = ThreadsFrom(line.values, *line.command);
+  if (threads > 0)
+  {
+    omp_set_num_threads(threads);
+  }
+  ProgressPrinter printer(console, StyleOf(ValueOf(line.values, *line.command, "progress"), quiet, console));
+  JobContext      context;
+  context.temporaries = &temporaries;
+  context.progress = [&printer](std::string_view stage, double fraction) {
+    printer.Show(stage, fraction);
+    return !WasInterrupted();
+  };
+  return Dispatch({ line, console, context, printer, quiet, omp_get_max_threads() });
+}
+
+} // namespace
+
+int
+main(int argc, char ** argv)
+{
+  static TemporaryRegistry temporaries; // a signal may come during exit, too
+  const Console            console;
+  HandleSignals(temporaries, console.ErrorDescriptor());
+  const auto fail = [&console](int code, const std::string & message) {
+    console.PrintError(message);
+    return code;
+  };
+  try
+  {
+    return Main(argc, argv, console, temporaries);
+  }
+  catch (const Cancelled &)
+  {
+    console.PrintError("interrupted; nothing was written");
+    std::_Exit(kInterrupted); // an engine's thread may still run: no destructors under its feet
+  }
+  catch (const UsageError & error)
+  {
+    return fail(kUsage, error.what());
+  }
+  catch (const InputError & error)
+  {
+    return fail(kInput, error.what());
+  }
+  catch (const CertificateError & error)
+  {
+    return fail(kDisagreement, error.what());
+  }
+  catch (const std::bad_alloc &)
+  {
+    return fail(kFailed,
+                "not enough memory for this scan; nothing was written; work on single --labels, or on another machine");
+  }
+  catch (const std::exception & error)
+  {
+    return fail(kFailed, error.what());
+  }
+}

@@ -1,0 +1,67 @@
+#pragma once
+// `voxelcore core`: a scan in, certified medial surfaces out.
+
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/DelaunayCells.h"
+#include "voxelcore/JobContext.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/LambdaPruning.h"
+#include "voxelcore/MedialModel.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct CoreOptions
+{
+  std::filesystem::path                scan;
+  ReadOptions                          reading;
+  std::vector<Lambda>                  lambdas; ///< at least one; ParseLambdas gives them
+  std::filesystem::path                output;  ///< a model file, or a folder (IsFolderOutput)
+  std::optional<std::filesystem::path> report;
+  ModelOptions                         model;
+  Engine                               engine = Engine::Auto;
+  int                                  threads = 0; ///< only recorded
+  bool                                 force = false;
+  std::string                          command; ///< only recorded
+};
+
+struct CoreResult
+{
+  CoreReport               report;
+  std::vector<std::string> warnings; ///< about the scan; a user must see them
+  std::vector<std::string> notes;    ///< what a file format could not hold
+};
+
+/** Reads, computes label by label, certifies, writes. Either everything is written or nothing.
+ *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
+CoreResult
+RunCoreJob(const CoreOptions & options, const JobContext & context = {});
+
+/** One label's share of a job. */
+struct LabelOutcome
+{
+  LabelRecord            record;
+  std::vector<ModelPart> parts; ///< one per lambda, in LPS mm
+  StageSeconds           seconds;
+};
+
+/** Everything between reading and writing for one label; depends on nothing but its arguments.
+ *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape. */
+LabelOutcome
+ProcessLabel(LabelShape                  label,
+             const ImageGeometry &       geometry,
+             const SpacingWeights &      weights,
+             const std::vector<Lambda> & lambdas,
+             Engine                      engine,
+             const ProgressCallback &    progress = {});
+
+/** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
+bool
+IsEnclosed(const MedialComplex & core, const VoxelShape & shape);
+
+} // namespace voxelcore

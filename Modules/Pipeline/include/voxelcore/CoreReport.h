@@ -1,0 +1,136 @@
+#pragma once
+// What a job of `voxelcore core` did and found: the report, and the provenance inside the files it wrote.
+
+#include "voxelcore/ImageGeometry.h"
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/SpacingWeights.h"
+#include "voxelcore/TopologyNumbers.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct InputRecord
+{
+  std::string              path;
+  std::string              sha256;
+  std::string              format;
+  ImageGeometry            geometry;
+  std::vector<std::string> notes;
+};
+
+/** Every option that changes the result, and how the work was done. */
+struct ParameterRecord
+{
+  std::vector<std::int64_t>                labels; ///< values of the labels worked on
+  bool                                     binary = false;
+  std::optional<std::pair<double, double>> threshold;
+  std::optional<std::int64_t>              volume;
+  std::optional<Vector3>                   spacing; ///< as given, mm
+  bool                                     orthonormalize = false;
+  std::string                              niftiForm = "auto";
+  std::vector<std::string>                 lambda;
+  ModelOptions                             model;
+  std::string                              engine;
+  int                                      threads = 0;
+  SpacingWeights                           weights;
+};
+
+/** Size and topology of a complex. */
+struct ComplexRecord
+{
+  std::uint64_t   vertices = 0;
+  std::uint64_t   edges = 0;
+  std::uint64_t   faces = 0;
+  TopologyNumbers topology;
+  double          areaMm2 = 0;
+  double          maxRadiusMm = 0;
+};
+
+struct PrunedRecord
+{
+  std::string   lambda;
+  double        lambdaMm = 0;
+  ComplexRecord complex;
+  std::string   output; ///< the file
+};
+
+struct LabelRecord
+{
+  std::int64_t              label = 0;
+  std::string               name;
+  std::uint64_t             voxels = 0;
+  double                    volumeMm3 = 0;
+  VoxelBox                  box; ///< tight
+  std::uint64_t             boundaryVertices = 0;
+  TopologyNumbers           shape;
+  ComplexRecord             core;
+  std::vector<PrunedRecord> pruned; ///< one per lambda, in the order given
+  bool                      topologyEqual = false;
+  bool                      enclosed = false;
+  double                    seconds = 0; ///< for the table
+
+  bool
+  Passed() const
+  {
+    return topologyEqual && enclosed;
+  }
+};
+
+/** Wall-clock seconds. */
+struct StageSeconds
+{
+  double read = 0;
+  double shape = 0;
+  double delaunay = 0;
+  double core = 0;
+  double prune = 0;
+  double write = 0;
+  double total = 0;
+};
+
+struct CoreReport
+{
+  std::string              command;
+  InputRecord              input;
+  ParameterRecord          parameters;
+  std::vector<LabelRecord> labels;
+  StageSeconds             seconds;
+  double                   peakMemoryMb = 0;
+};
+
+/** The version all reports name. */
+std::string
+VoxelCoreVersion();
+
+/** The report as indented JSON with a final newline. Keys stand in a fixed order. */
+std::string
+ReportJson(const CoreReport & report);
+
+/** The part of a report that goes into the file holding these labels (positions in report.labels) pruned to lambda
+ *  number `lambda`: without times, memory, threads, paths, command, engine and output, on one line. It names only what
+ *  is in this file, so a file does not depend on what else was made in the same run. */
+std::string
+ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t lambda);
+
+/** The inverse of ProvenanceJson; `where` names the file in errors.
+ *  \throws InputError when something is missing. */
+CoreReport
+ParseProvenance(const std::string & json, const std::string & where);
+
+/** Counts, area (in the unit of its positions, squared) and greatest radius. */
+ComplexRecord
+DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology);
+
+/** The most memory this process has had resident, in 2^20 bytes. */
+double
+PeakMemoryMb();
+
+} // namespace voxelcore

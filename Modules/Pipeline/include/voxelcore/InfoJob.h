@@ -1,0 +1,62 @@
+#pragma once
+// `voxelcore info`: what is in a scan.
+
+#include "voxelcore/JobContext.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/TopologyNumbers.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct InfoOptions
+{
+  std::filesystem::path scan;
+  ReadOptions           reading;
+};
+
+struct LabelInfo
+{
+  std::int64_t    label = 0;
+  std::string     name;
+  std::uint64_t   voxels = 0;
+  double          volumeMm3 = 0;
+  VoxelBox        box;
+  TopologyNumbers topology;         ///< of the voxel shape: 6-connected, b0 its components
+  std::int64_t    components26 = 0; ///< 26-connected components
+  std::uint64_t   boundaryVertices = 0;
+};
+
+struct ScanInfo
+{
+  std::string              path;
+  std::string              format;
+  std::string              pixelType;
+  ImageGeometry            geometry;
+  std::string              orientation; ///< OrientationLetters()
+  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
+  std::vector<LabelInfo>   labels;
+};
+
+/** \throws InputError, Cancelled */
+ScanInfo
+RunInfoJob(const InfoOptions & options, const JobContext & context = {});
+
+/** For i, j and k the direction of the patient they mostly run to: R, L, A, P, S or I. "LPS" for the identity. */
+std::string
+OrientationLetters(const ImageGeometry & geometry);
+
+/** For people: a few lines and a table. */
+std::string
+InfoText(const ScanInfo & info);
+
+/** For programs: indented JSON with a final newline. */
+std::string
+InfoJson(const ScanInfo & info);
+
+} // namespace voxelcore

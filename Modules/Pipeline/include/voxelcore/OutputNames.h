@@ -1,0 +1,44 @@
+#pragma once
+// What result files are called.
+
+#include "voxelcore/LambdaPruning.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Whether `-o` means a folder: it ends in a slash or is one already. */
+bool
+IsFolderOutput(const std::filesystem::path & output);
+
+/** A scan's name without folder and extensions: "aal" of "/data/aal.nii.gz"; characters that shells or other systems
+ *  dislike in names become "_". */
+std::string
+ScanName(const std::filesystem::path & scan);
+
+/** "0", "1mm", "2.5vox", "2.5pct". */
+std::string
+LambdaTag(const Lambda & lambda);
+
+/** Comma-separated thresholds; a bare number gets its unit, mm. In the order given.
+ *  \throws UsageError for one that is empty, wrong, or given twice. */
+std::vector<Lambda>
+ParseLambdas(std::string_view text);
+
+/** `output` itself for one threshold; of several, "OUT_lambda-1mm.vtp" for "OUT.vtp". */
+std::filesystem::path
+FileOutputPath(const std::filesystem::path & output, const std::vector<Lambda> & lambdas, std::size_t which);
+
+/** "<folder>/<scan>_label-<value>_medial.vtp", of several thresholds "..._medial_lambda-<tag>.vtp". */
+std::filesystem::path
+FolderOutputPath(const std::filesystem::path & folder,
+                 const std::filesystem::path & scan,
+                 std::int64_t                  label,
+                 const std::vector<Lambda> &   lambdas,
+                 std::size_t                   which);
+
+} // namespace voxelcore

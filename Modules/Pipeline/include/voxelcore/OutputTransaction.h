@@ -1,0 +1,107 @@
+#pragma once
+// Results appear under their final names all at once and complete, or not at all.
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** The temporary files of running jobs, in a form that a signal handler may read. Entries live as long as the
+ *  registry; adding is safe from any thread. */
+class TemporaryRegistry
+{
+public:
+  TemporaryRegistry() = default;
+  TemporaryRegistry(const TemporaryRegistry &) = delete;
+  TemporaryRegistry &
+  operator=(const TemporaryRegistry &) = delete;
+  ~TemporaryRegistry();
+
+  /** Remembers `path` (a file, or a directory that will be empty by its turn) until Forget(). */
+  void
+  Add(const std::filesystem::path & path);
+
+  void
+  Forget(const std::filesystem::path & path);
+
+  /** Removes every remembered file, youngest first. Async-signal-safe. */
+  void
+  RemoveAllNow() const;
+
+private:
+  struct Entry;
+  std::atomic<Entry *> m_Head{ nullptr };
+};
+
+/** Writes go to temporary names beside the final ones; Commit() renames them all. Whatever was not committed is
+ *  removed by the destructor, directories it made included. */
+class OutputTransaction
+{
+public:
+  /** `force`: existing files may be replaced. */
+  explicit OutputTransaction(bool force, TemporaryRegistry * registry = nullptr);
+  OutputTransaction(const OutputTransaction &) = delete;
+  OutputTransaction &
+  operator=(const OutputTransaction &) = delete;
+  ~OutputTransaction();
+
+  /** Names a file that no result may replace: the input. */
+  void
+  Protect(const std::filesystem::path & input);
+
+  /** Makes the directory, parents included, when it is not there.
+   *  \throws OutputError */
+  void
+  MakeDirectory(const std::filesystem::path & directory);
+
+  /** Refuses, before hours of work, what could not be written in the end.
+   *  \throws OutputError when the directory is missing or not writable, or the file exists and may not be replaced. */
+  void
+  CheckTarget(const std::filesystem::path & target) const;
+
+  /** The temporary name to write `target` under: `<target>.part<process id>`.
+   *  \throws OutputError as CheckTarget; UsageError when two results would get one name. */
+  std::filesystem::path
+  Stage(const std::filesystem::path & target);
+
+  /** For writers that name companion files after their own (.mhd and its data): the file's own name in a temporary
+   *  directory beside; Commit() moves whatever lies there. */
+  std::filesystem::path
+  StageWithCompanions(const std::filesystem::path & target);
+
+  /** Gives every staged file its final name. On failure those that got theirs are removed again.
+   *  \throws OutputError */
+  void
+  Commit();
+
+private:
+  struct Item
+  {
+    std::filesystem::path temporary;
+    std::filesystem::path target;
+    bool                  isDirectory = false;
+  };
+  void
+  RefuseSecondUse(const std::filesystem::path & target) const;
+  void
+  AddCompanions();
+  void
+  Remember(const std::filesystem::path & path);
+  void
+  Forget(const std::filesystem::path & path);
+
+  bool                               m_Force;
+  TemporaryRegistry *                m_Registry;
+  std::vector<Item>                  m_Items;
+  std::vector<std::filesystem::path> m_Protected;
+  std::vector<std::filesystem::path> m_Directories; ///< made here, outermost first
+};
+
+/** Writes a text file completely or throws OutputError. */
+void
+WriteTextFile(const std::filesystem::path & path, const std::string & text);
+
+} // namespace voxelcore

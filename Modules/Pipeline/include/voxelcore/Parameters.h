@@ -1,0 +1,100 @@
+#pragma once
+// Every option of the program in one table: the parser, the help and descriptions for other programs come from it.
+
+#include "voxelcore/CoreJob.h"
+#include "voxelcore/InfoJob.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/PhantomJob.h"
+#include "voxelcore/PruneJob.h"
+#include "voxelcore/VerifyJob.h"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace voxelcore
+{
+
+/** A subcommand. Values are bits. */
+enum class CommandId : std::uint32_t
+{
+  Core = 1,
+  Info = 2,
+  Verify = 4,
+  Prune = 8,
+  Phantom = 16
+};
+
+struct Command
+{
+  CommandId        id;
+  std::string_view name;
+  std::string_view description; ///< one line
+  std::string_view footer;      ///< examples, and what must be known to use it well
+};
+
+enum class ParameterKind
+{
+  Input,   ///< a path that is read
+  Output,  ///< a path that is written
+  Text,    ///< checked by the job
+  Integer, ///< a whole number
+  Real,    ///< a number
+  Choice,  ///< one of the words in `placeholder`, separated by |
+  Flag     ///< no value
+};
+
+/** An option or, without flags, a positional argument. */
+struct Parameter
+{
+  std::string_view name;         ///< key of ParameterValues
+  std::string_view flags;        ///< "-o,--output"; empty: positional
+  ParameterKind    kind;         ///< of its value
+  std::string_view placeholder;  ///< stands for the value in help texts, with its unit
+  std::string_view defaultValue; ///< empty: none
+  bool             required;     ///< must be given
+  std::uint32_t    commands;     ///< bits of CommandId
+  std::string_view description;  ///< one line
+};
+
+std::span<const Command>
+Commands();
+
+std::span<const Parameter>
+Parameters();
+
+inline bool
+BelongsTo(const Parameter & parameter, CommandId command)
+{
+  return (parameter.commands & static_cast<std::uint32_t>(command)) != 0;
+}
+
+/** What was given, as text, by Parameter::name; a flag that was given is "true". */
+using ParameterValues = std::map<std::string, std::string, std::less<>>;
+
+/** The value given, else the default of the table for this command. */
+std::string
+ValueOf(const ParameterValues & values, CommandId command, std::string_view name);
+
+/** `--threads`: 0 means all processors.
+ *  \throws UsageError unless it is a whole number from 0 to 4096 */
+int
+ThreadsFrom(const ParameterValues & values, CommandId command);
+
+/** Each throws UsageError, naming the option, for a value without sense. */
+ReadOptions
+ReadOptionsFrom(const ParameterValues & values, CommandId command);
+CoreOptions
+CoreOptionsFrom(const ParameterValues & values);
+InfoOptions
+InfoOptionsFrom(const ParameterValues & values);
+VerifyOptions
+VerifyOptionsFrom(const ParameterValues & values);
+PruneOptions
+PruneOptionsFrom(const ParameterValues & values);
+PhantomJobOptions
+PhantomOptionsFrom(const ParameterValues & values);
+
+} // namespace voxelcore

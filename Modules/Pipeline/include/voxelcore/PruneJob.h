@@ -1,0 +1,40 @@
+#pragma once
+// `voxelcore prune`: a finished core to other thresholds, without its scan.
+
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/JobContext.h"
+#include "voxelcore/LambdaPruning.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct PruneOptions
+{
+  std::filesystem::path                core; ///< .vtp written with --keep-edges
+  std::vector<Lambda>                  lambdas;
+  std::filesystem::path                output; ///< a model file
+  std::optional<std::filesystem::path> report;
+  ModelOptions                         model;
+  int                                  threads = 0; ///< only recorded
+  bool                                 force = false;
+  std::string                          command; ///< only recorded
+};
+
+struct PruneResult
+{
+  CoreReport               report;
+  std::vector<std::string> notes;
+};
+
+/** Writes, to the last bit, what `voxelcore core` would have written at these thresholds.
+ *  \throws InputError when the file lacks the measures of its edges, or is pruned further than asked;
+ *  and whatever RunCoreJob throws. */
+PruneResult
+RunPruneJob(const PruneOptions & options, const JobContext & context = {});
+
+} // namespace voxelcore

@@ -1,0 +1,45 @@
+#pragma once
+// `voxelcore verify`: a finished file rechecked against its scan.
+
+#include "voxelcore/JobContext.h"
+#include "voxelcore/Verification.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct VerifyOptions
+{
+  std::filesystem::path scan;
+  std::filesystem::path core; ///< .vtp
+};
+
+struct LabelVerification
+{
+  std::int64_t       label = 0;
+  std::string        name;
+  double             lambdaMm = 0;
+  VerificationReport report;
+};
+
+struct VerifyResult
+{
+  bool                           passed = true;
+  std::vector<std::string>       notes; ///< e.g. that the scan's file is not the one the core was made from
+  std::vector<LabelVerification> labels;
+};
+
+/** Reads the scan with the options recorded in the file and checks label by label.
+ *  \throws InputError when either cannot be read or a label is missing in the scan; Cancelled */
+VerifyResult
+RunVerifyJob(const VerifyOptions & options, const JobContext & context = {});
+
+/** A line per label and check; with one label per check, otherwise failed checks only. */
+std::string
+VerifyText(const VerifyResult & result);
+
+} // namespace voxelcore

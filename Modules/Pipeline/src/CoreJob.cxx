@@ -1,0 +1,375 @@
+#include "voxelcore/CoreJob.h"
+
+#include "JobTools.h"
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/OutputNames.h"
+#include "voxelcore/Sha256.h"
+#include "voxelcore/ShapeTopology.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <cmath>
+#include <future>
+#include <numeric>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+/** Where in a label's work each stage ends, as the shares of time usually are. */
+constexpr double kShapeEnds = 0.03;
+constexpr double kDelaunayEnds = 0.80;
+constexpr double kCoreEnds = 0.92;
+
+std::string
+EngineName(Engine engine)
+{
+  return engine == Engine::TetGen || (engine == Engine::Auto && HasEngine(Engine::TetGen)) ? "tetgen" : "auto";
+}
+
+bool
+ContainsAround(const VoxelShape & shape, const std::array<double, 3> & point)
+{
+  // Every voxel whose closed cube holds the point must be in: only then the point is inside the *open* shape.
+  std::array<std::int32_t, 3> first;
+  std::array<std::int32_t, 3> last;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double floor = std::floor(point[k]);
+    last[k] = static_cast<std::int32_t>(floor);
+    first[k] = last[k] - (floor == point[k] ? 1 : 0);
+  }
+  for (std::int32_t z = first[2]; z <= last[2]; ++z)
+  {
+    for (std::int32_t y = first[1]; y <= last[1]; ++y)
+    {
+      for (std::int32_t x = first[0]; x <= last[0]; ++x)
+      {
+        if (!shape.Contains(x, y, z))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/** The core of a label, described and certified, in LPS mm. Frees what it does not need any longer as it goes: the
+ *  points and the cells, and the shape at its end. */
+ModelPart
+ComputeWholeCore(VoxelShape               shape,
+                 const ImageGeometry &    geometry,
+                 const SpacingWeights &   weights,
+                 Engine                   engine,
+                 const std::string &      labelText,
+                 LabelOutcome &           outcome,
+                 const ProgressCallback & progress)
+{
+  LabelRecord & record = outcome.record;
+  Stopwatch     watch;
+  ReportProgress(progress, "shape", 0);
+  record.shape = ComputeShapeTopology(shape);
+  MedialComplex core;
+  {
+    const std::vector<LatticePoint> points = BoundaryVertices(shape);
+    record.boundaryVertices = points.size();
+    outcome.seconds.shape += watch.Lap();
+
+    const DelaunayCells cells = ComputeDelaunayCells(shape,
+                                                     points,
+                                                     weights,
+                                                     engine,
+                                                     PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds));
+    outcome.seconds.delaunay += watch.Lap();
+
+    ReportProgress(progress, "core", kDelaunayEnds);
+    core = BuildVoxelCore(shape, points, cells, weights);
+  }
+  const TopologyNumbers topology = ComputeComplexTopology(core.cells);
+  RequireEqualTopology(record.shape, topology, "its core", labelText);
+  record.topologyEqual = true;
+  record.enclosed = IsEnclosed(core, shape);
+  if (!record.enclosed)
+  {
+    throw CertificateError(labelText +
+                           ": certificate failed: a vertex of the core lies outside the shape; nothing was "
+                           "written; this is a fault of VoxelCore, please report it with the scan");
+  }
+  shape = VoxelShape();
+  ModelPart part = ToPhysical(std::move(core), geometry, record.label);
+  // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last bit.
+  record.core = DescribeComplex(part.core, topology);
+  outcome.seconds.core += watch.Lap();
+  ReportProgress(progress, "prune", kCoreEnds);
+  return part;
+}
+
+InputRecord
+DescribeInput(const CoreOptions & options, const LabelVolume & volume, std::string digest)
+{
+  return { options.scan.string(), std::move(digest), volume.format, volume.geometry, volume.notes };
+}
+
+ParameterRecord
+DescribeParameters(const CoreOptions & options, const LabelVolume & volume, const SpacingWeights & weights)
+{
+  ParameterRecord parameters;
+  for (const LabelShape & label : volume.labels)
+  {
+    parameters.labels.push_back(label.value);
+  }
+  parameters.binary = options.reading.binary;
+  parameters.threshold = options.reading.threshold;
+  parameters.volume = options.reading.volume;
+  parameters.spacing = options.reading.spacing;
+  parameters.orthonormalize = options.reading.orthonormalize;
+  parameters.niftiForm = options.reading.niftiForm;
+  for (const Lambda & lambda : options.lambdas)
+  {
+    parameters.lambda.push_back(lambda.text);
+  }
+  parameters.model = options.model;
+  parameters.engine = EngineName(options.engine);
+  parameters.threads = options.threads;
+  parameters.weights = weights;
+  return parameters;
+}
+
+/** Everything a user could have given wrong that can be seen before reading. */
+void
+CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & transaction)
+{
+  if (options.lambdas.empty())
+  {
+    throw UsageError("no --lambda given");
+  }
+  transaction.Protect(options.scan);
+  if (toFolder)
+  {
+    transaction.MakeDirectory(options.output);
+  }
+  else
+  {
+    if (!IsModelPath(options.output))
+    {
+      throw UsageError(options.output.string() +
+                       ": unknown extension; use .vtp .vtk .ply .obj .stl or .ma, or a folder ending in /");
+    }
+    for (std::size_t i = 0; i < options.lambdas.size(); ++i)
+    {
+      transaction.CheckTarget(FileOutputPath(options.output, options.lambdas, i));
+    }
+  }
+  if (options.report)
+  {
+    transaction.CheckTarget(*options.report);
+  }
+}
+
+/** The result files of a run, in memory until their turn to be written. */
+class ResultFiles
+{
+public:
+  ResultFiles(const CoreOptions & options, bool toFolder, OutputTransaction & transaction, CoreResult & result)
+    : m_Options(options)
+    , m_ToFolder(toFolder)
+    , m_Transaction(transaction)
+    , m_Result(result)
+    , m_Models(options.lambdas.size())
+  {}
+
+  /** Takes a label's cores; in a folder they go to disk at once. */
+  void
+  Add(LabelOutcome outcome)
+  {
+    for (std::size_t i = 0; i < m_Options.lambdas.size(); ++i)
+    {
+      outcome.record.pruned[i].output = Target(outcome.record.label, i).string();
+      m_Models[i].parts.push_back(std::move(outcome.parts[i]));
+    }
+    m_Result.report.labels.push_back(std::move(outcome.record));
+    if (m_ToFolder)
+    {
+      Write({ m_Result.report.labels.size() - 1 });
+    }
+  }
+
+  /** Writes what Add() kept. */
+  void
+  Finish()
+  {
+    if (!m_ToFolder)
+    {
+      std::vector<std::size_t> all(m_Result.report.labels.size());
+      std::iota(all.begin(), all.end(), std::size_t{ 0 });
+      Write(all);
+    }
+  }
+
+private:
+  fs::path
+  Target(std::int64_t label, std::size_t lambda) const
+  {
+    return m_ToFolder ? FolderOutputPath(m_Options.output, m_Options.scan, label, m_Options.lambdas, lambda)
+                      : FileOutputPath(m_Options.output, m_Options.lambdas, lambda);
+  }
+
+  void
+  Write(const std::vector<std::size_t> & labels)
+  {
+    Stopwatch watch;
+    for (std::size_t i = 0; i < m_Models.size(); ++i)
+    {
+      MedialModel & model = m_Models[i];
+      model.provenance = ProvenanceJson(m_Result.report, labels, i);
+      model.hasEdges = m_Options.model.keepEdges;
+      const std::int64_t label = m_Result.report.labels[labels.front()].label;
+      WriteStagedModel(m_Transaction, Target(label, i), model, m_Options.model, m_Result.notes);
+      model = MedialModel();
+    }
+    m_Result.report.seconds.write += watch.Lap();
+  }
+
+  const CoreOptions &      m_Options;
+  bool                     m_ToFolder;
+  OutputTransaction &      m_Transaction;
+  CoreResult &             m_Result;
+  std::vector<MedialModel> m_Models; ///< one per lambda
+};
+
+} // namespace
+
+bool
+IsEnclosed(const MedialComplex & core, const VoxelShape & shape)
+{
+  for (const auto & position : core.positions)
+  {
+    if (!ContainsAround(shape, position))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+LabelOutcome
+ProcessLabel(LabelShape                  label,
+             const ImageGeometry &       geometry,
+             const SpacingWeights &      weights,
+             const std::vector<Lambda> & lambdas,
+             Engine                      engine,
+             const ProgressCallback &    progress)
+{
+  LabelOutcome      outcome;
+  LabelRecord &     record = outcome.record;
+  const std::string labelText = LabelText(label.value, label.name);
+  Stopwatch         watch;
+  record.label = label.value;
+  record.name = label.name;
+  record.voxels = label.voxels;
+  record.volumeMm3 =
+    static_cast<double>(label.voxels) * (geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2]);
+  record.box = label.shape.Box();
+
+  ModelPart part = ComputeWholeCore(std::move(label.shape), geometry, weights, engine, labelText, outcome, progress);
+
+  Stopwatch           pruneWatch;
+  std::vector<double> thresholds;
+  for (const Lambda & lambda : lambdas)
+  {
+    thresholds.push_back(LambdaInMillimetres(lambda, weights, geometry.spacing, record.box));
+  }
+  auto pruned = PruneAndCertify(std::move(part),
+                                record.core,
+                                0,
+                                lambdas,
+                                thresholds,
+                                record.shape,
+                                labelText,
+                                PartOfProgress(progress, "prune", kCoreEnds, 1));
+  for (PrunedCore & one : pruned)
+  {
+    record.pruned.push_back(std::move(one.record));
+    outcome.parts.push_back(std::move(one.part));
+  }
+  outcome.seconds.prune += pruneWatch.Lap();
+  record.seconds = watch.Lap();
+  return outcome;
+}
+
+CoreResult
+RunCoreJob(const CoreOptions & options, const JobContext & context)
+{
+  // Shares of the whole job's time: reading, the labels, writing.
+  constexpr double  kReadEnds = 0.05;
+  constexpr double  kLabelsEnd = 0.95;
+  Stopwatch         total;
+  Stopwatch         watch;
+  CoreResult        result;
+  CoreReport &      report = result.report;
+  OutputTransaction transaction(options.force, context.temporaries);
+  const bool        toFolder = IsFolderOutput(options.output);
+  CheckTargets(options, toFolder, transaction);
+
+  // The digest runs beside the reading; a scan that cannot be read is reported by the reader.
+  auto        digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
+  LabelVolume volume =
+    ReadLabelVolume(options.scan, options.reading, PartOfProgress(context.progress, "reading", 0, kReadEnds));
+  const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
+  report.command = options.command;
+  report.input = DescribeInput(options, volume, digest.get());
+  report.parameters = DescribeParameters(options, volume, weights);
+  result.warnings = volume.warnings;
+  report.seconds.read = watch.Lap();
+
+  ResultFiles   files(options, toFolder, transaction, result);
+  std::uint64_t allVoxels = 0;
+  std::uint64_t doneVoxels = 0;
+  for (const LabelShape & label : volume.labels)
+  {
+    allVoxels += label.voxels;
+  }
+  for (std::size_t i = 0; i < volume.labels.size(); ++i)
+  {
+    LabelShape & label = volume.labels[i];
+    const auto   share = [&](std::uint64_t voxels) {
+      return kReadEnds + (kLabelsEnd - kReadEnds) * static_cast<double>(voxels) / static_cast<double>(allVoxels);
+    };
+    const double from = share(doneVoxels);
+    doneVoxels += label.voxels;
+    const std::string name = volume.labels.size() == 1 ? label.name
+                                                       : label.name + " (" + std::to_string(i + 1) + "/" +
+                                                           std::to_string(volume.labels.size()) + ")";
+    LabelOutcome      outcome = ProcessLabel(std::move(label),
+                                        volume.geometry,
+                                        weights,
+                                        options.lambdas,
+                                        options.engine,
+                                        NamedPartOfProgress(context.progress, name, from, share(doneVoxels)));
+    report.seconds.shape += outcome.seconds.shape;
+    report.seconds.delaunay += outcome.seconds.delaunay;
+    report.seconds.core += outcome.seconds.core;
+    report.seconds.prune += outcome.seconds.prune;
+    files.Add(std::move(outcome));
+  }
+  ReportProgress(context.progress, "writing", kLabelsEnd);
+  files.Finish();
+  report.seconds.total = total.Lap();
+  report.peakMemoryMb = PeakMemoryMb();
+  if (options.report)
+  {
+    WriteTextFile(transaction.Stage(*options.report), ReportJson(report));
+  }
+  ReportProgress(context.progress, "done", 1); // the last moment at which an interruption is heeded
+  transaction.Commit();
+  return result;
+}
+
+} // namespace voxelcore

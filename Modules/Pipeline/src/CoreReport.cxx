@@ -1,0 +1,367 @@
+#include "voxelcore/CoreReport.h"
+
+#include "voxelcore/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <sys/resource.h>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+Json
+TopologyJson(const TopologyNumbers & topology)
+{
+  return { { "euler", topology.euler }, { "betti", topology.betti } };
+}
+
+void
+AddComplex(Json & json, const ComplexRecord & complex)
+{
+  json["vertices"] = complex.vertices;
+  json["edges"] = complex.edges;
+  json["faces"] = complex.faces;
+  json.update(TopologyJson(complex.topology));
+  json["area_mm2"] = complex.areaMm2;
+  json["max_radius_mm"] = complex.maxRadiusMm;
+}
+
+Json
+InputJson(const InputRecord & input, bool inFile)
+{
+  Json json = Json::object();
+  if (!inFile)
+  {
+    json["path"] = input.path;
+  }
+  json["sha256"] = input.sha256;
+  json["format"] = input.format;
+  json["size"] = input.geometry.size;
+  json["spacing_mm"] = input.geometry.spacing;
+  json["origin_mm"] = input.geometry.origin;
+  json["direction"] = input.geometry.direction;
+  json["notes"] = input.notes;
+  return json;
+}
+
+Json
+ParametersJson(const ParameterRecord & parameters, bool inFile)
+{
+  Json json = Json::object();
+  json["labels"] = parameters.labels;
+  json["binary"] = parameters.binary;
+  json["threshold"] = parameters.threshold ? Json(*parameters.threshold) : Json(nullptr);
+  json["volume"] = parameters.volume ? Json(*parameters.volume) : Json(nullptr);
+  json["spacing"] = parameters.spacing ? Json(*parameters.spacing) : Json(nullptr);
+  json["orthonormalize"] = parameters.orthonormalize;
+  json["nifti_form"] = parameters.niftiForm;
+  json["lambda"] = parameters.lambda;
+  json["triangles"] = parameters.model.triangles;
+  json["keep_edges"] = parameters.model.keepEdges;
+  if (!inFile)
+  {
+    json["engine"] = parameters.engine;
+    json["threads"] = parameters.threads;
+  }
+  json["lattice_weights"] = parameters.weights.weight;
+  json["lattice_unit_mm"] = parameters.weights.unit;
+  json["lattice_deviation"] = parameters.weights.deviation;
+  return json;
+}
+
+Json
+LabelJson(const LabelRecord & label, bool inFile)
+{
+  Json json = Json::object();
+  json["label"] = label.label;
+  json["name"] = label.name;
+  json["voxels"] = label.voxels;
+  json["volume_mm3"] = label.volumeMm3;
+  json["bounding_box"] = { { "lower", label.box.lower }, { "size", label.box.size } };
+  json["boundary_vertices"] = label.boundaryVertices;
+  json["shape"] = TopologyJson(label.shape);
+  json["core"] = Json::object();
+  AddComplex(json["core"], label.core);
+  json["pruned"] = Json::array();
+  for (const PrunedRecord & pruned : label.pruned)
+  {
+    Json one = { { "lambda", pruned.lambda }, { "lambda_mm", pruned.lambdaMm } };
+    AddComplex(one, pruned.complex);
+    if (!inFile)
+    {
+      one["output"] = pruned.output;
+    }
+    json["pruned"].push_back(std::move(one));
+  }
+  json["certificate"] = { { "topology", label.topologyEqual },
+                          { "enclosed", label.enclosed },
+                          { "passed", label.Passed() } };
+  return json;
+}
+
+Json
+WholeJson(const CoreReport & report, bool inFile)
+{
+  Json json = Json::object();
+  json["voxelcore"] = { { "version", VoxelCoreVersion() } };
+  if (!inFile)
+  {
+    json["voxelcore"]["command"] = report.command;
+  }
+  json["input"] = InputJson(report.input, inFile);
+  json["parameters"] = ParametersJson(report.parameters, inFile);
+  json["labels"] = Json::array();
+  for (const LabelRecord & label : report.labels)
+  {
+    json["labels"].push_back(LabelJson(label, inFile));
+  }
+  return json;
+}
+
+/** Names out of scans may hold bytes that are no UTF-8. */
+std::string
+Dump(const Json & json)
+{
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/** Indented, but lists of plain values stay on one line. */
+void
+Indent(const Json & json, const std::string & margin, std::string & text)
+{
+  const bool plain = std::none_of(json.begin(), json.end(), [](const Json & item) { return item.is_structured(); });
+  if (!json.is_structured() || json.empty() || (json.is_array() && plain))
+  {
+    text += Dump(json);
+    return;
+  }
+  const std::string inner = margin + "  ";
+  text += json.is_object() ? "{" : "[";
+  std::string separator = "\n";
+  for (const auto & [key, value] : json.items())
+  {
+    text += separator + inner + (json.is_object() ? Dump(Json(key)) + ": " : std::string());
+    Indent(value, inner, text);
+    separator = ",\n";
+  }
+  text += "\n" + margin + (json.is_object() ? "}" : "]");
+}
+
+double
+Milliseconds(double seconds)
+{
+  return std::round(seconds * 1000) / 1000;
+}
+
+TopologyNumbers
+ReadTopology(const Json & json)
+{
+  TopologyNumbers topology;
+  json.at("euler").get_to(topology.euler);
+  json.at("betti").get_to(topology.betti);
+  return topology;
+}
+
+ComplexRecord
+ReadComplex(const Json & json)
+{
+  ComplexRecord complex;
+  json.at("vertices").get_to(complex.vertices);
+  json.at("edges").get_to(complex.edges);
+  json.at("faces").get_to(complex.faces);
+  complex.topology = ReadTopology(json);
+  json.at("area_mm2").get_to(complex.areaMm2);
+  json.at("max_radius_mm").get_to(complex.maxRadiusMm);
+  return complex;
+}
+
+template <typename T>
+void
+ReadOptional(const Json & json, std::optional<T> & value)
+{
+  if (!json.is_null())
+  {
+    value = json.get<T>();
+  }
+}
+
+InputRecord
+ReadInput(const Json & json)
+{
+  InputRecord input;
+  json.at("sha256").get_to(input.sha256);
+  json.at("format").get_to(input.format);
+  json.at("size").get_to(input.geometry.size);
+  json.at("spacing_mm").get_to(input.geometry.spacing);
+  json.at("origin_mm").get_to(input.geometry.origin);
+  json.at("direction").get_to(input.geometry.direction);
+  json.at("notes").get_to(input.notes);
+  return input;
+}
+
+ParameterRecord
+ReadParameters(const Json & json)
+{
+  ParameterRecord parameters;
+  json.at("labels").get_to(parameters.labels);
+  json.at("binary").get_to(parameters.binary);
+  ReadOptional(json.at("threshold"), parameters.threshold);
+  ReadOptional(json.at("volume"), parameters.volume);
+  ReadOptional(json.at("spacing"), parameters.spacing);
+  json.at("orthonormalize").get_to(parameters.orthonormalize);
+  json.at("nifti_form").get_to(parameters.niftiForm);
+  json.at("lambda").get_to(parameters.lambda);
+  json.at("triangles").get_to(parameters.model.triangles);
+  json.at("keep_edges").get_to(parameters.model.keepEdges);
+  json.at("lattice_weights").get_to(parameters.weights.weight);
+  json.at("lattice_unit_mm").get_to(parameters.weights.unit);
+  json.at("lattice_deviation").get_to(parameters.weights.deviation);
+  return parameters;
+}
+
+LabelRecord
+ReadLabel(const Json & json)
+{
+  LabelRecord label;
+  json.at("label").get_to(label.label);
+  json.at("name").get_to(label.name);
+  json.at("voxels").get_to(label.voxels);
+  json.at("volume_mm3").get_to(label.volumeMm3);
+  json.at("bounding_box").at("lower").get_to(label.box.lower);
+  json.at("bounding_box").at("size").get_to(label.box.size);
+  json.at("boundary_vertices").get_to(label.boundaryVertices);
+  label.shape = ReadTopology(json.at("shape"));
+  label.core = ReadComplex(json.at("core"));
+  for (const Json & one : json.at("pruned"))
+  {
+    label.pruned.push_back(
+      { one.at("lambda").get<std::string>(), one.at("lambda_mm").get<double>(), ReadComplex(one), {} });
+  }
+  json.at("certificate").at("topology").get_to(label.topologyEqual);
+  json.at("certificate").at("enclosed").get_to(label.enclosed);
+  return label;
+}
+
+} // namespace
+
+std::string
+VoxelCoreVersion()
+{
+  return VOXELCORE_VERSION;
+}
+
+std::string
+ReportJson(const CoreReport & report)
+{
+  Json                 json = WholeJson(report, false);
+  const StageSeconds & seconds = report.seconds;
+  json["seconds"] = { { "read", Milliseconds(seconds.read) },         { "shape", Milliseconds(seconds.shape) },
+                      { "delaunay", Milliseconds(seconds.delaunay) }, { "core", Milliseconds(seconds.core) },
+                      { "prune", Milliseconds(seconds.prune) },       { "write", Milliseconds(seconds.write) },
+                      { "total", Milliseconds(seconds.total) } };
+  json["peak_memory_mb"] = std::round(report.peakMemoryMb * 10) / 10;
+  std::string text;
+  Indent(json, "", text);
+  return text + "\n";
+}
+
+std::string
+ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t lambda)
+{
+  CoreReport part;
+  part.input = report.input;
+  part.parameters = report.parameters;
+  part.parameters.labels.clear();
+  part.parameters.lambda = { report.parameters.lambda.at(lambda) };
+  for (const std::size_t index : labels)
+  {
+    LabelRecord label = report.labels.at(index);
+    label.pruned = { report.labels[index].pruned.at(lambda) };
+    part.parameters.labels.push_back(label.label);
+    part.labels.push_back(std::move(label));
+  }
+  return Dump(WholeJson(part, true));
+}
+
+CoreReport
+ParseProvenance(const std::string & text, const std::string & where)
+{
+  try
+  {
+    const Json json = Json::parse(text);
+    CoreReport report;
+    report.input = ReadInput(json.at("input"));
+    report.parameters = ReadParameters(json.at("parameters"));
+    for (const Json & label : json.at("labels"))
+    {
+      report.labels.push_back(ReadLabel(label));
+    }
+    return report;
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    throw InputError(where + ": its field Provenance is missing or damaged; make the file again with 'voxelcore core'");
+  }
+}
+
+ComplexRecord
+DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology)
+{
+  ComplexRecord record;
+  record.vertices = complex.cells.vertexCount;
+  record.edges = complex.cells.edges.size();
+  record.faces = complex.cells.FaceCount();
+  record.topology = topology;
+  for (std::size_t face = 0; face < complex.cells.FaceCount(); ++face)
+  {
+    const auto            corners = complex.cells.FaceVertices(face);
+    std::array<double, 3> sum{ 0, 0, 0 };
+    const auto &          first = complex.positions[corners[0]];
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    {
+      std::array<double, 3> a;
+      std::array<double, 3> b;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        a[k] = complex.positions[corners[i]][k] - first[k];
+        b[k] = complex.positions[corners[i + 1]][k] - first[k];
+      }
+      sum[0] += a[1] * b[2] - a[2] * b[1];
+      sum[1] += a[2] * b[0] - a[0] * b[2];
+      sum[2] += a[0] * b[1] - a[1] * b[0];
+    }
+    record.areaMm2 += std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / 2;
+  }
+  if (!complex.radius.empty())
+  {
+    record.maxRadiusMm = *std::max_element(complex.radius.begin(), complex.radius.end());
+  }
+  return record;
+}
+
+double
+PeakMemoryMb()
+{
+  // VmHWM begins anew with the program; ru_maxrss would count what the starting process had.
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+  {
+    if (line.starts_with("VmHWM:"))
+    {
+      return std::stod(line.substr(6)) / 1024;
+    }
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,173 @@
+#include "voxelcore/InfoJob.h"
+
+#include "JobTools.h"
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/ReportTable.h"
+#include "voxelcore/ShapeTopology.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** As few digits as tell the value to nine places. */
+std::string
+Number(double value)
+{
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.9g", value);
+  return text;
+}
+
+std::string
+Decimals(double value, int decimals)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  return text;
+}
+
+std::string
+BoxText(const VoxelBox & box)
+{
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    text += (k > 0 ? " " : "") + std::to_string(box.lower[k]) + ".." + std::to_string(box.lower[k] + box.size[k] - 1);
+  }
+  return text;
+}
+
+} // namespace
+
+std::string
+OrientationLetters(const ImageGeometry & geometry)
+{
+  // LPS: the first coordinate grows to the Left, the second to the Posterior, the third to the Superior.
+  static constexpr char positive[] = "LPS";
+  static constexpr char negative[] = "RAI";
+  std::string           letters;
+  std::array<bool, 3>   taken{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    std::size_t best = 3;
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      // Axes at 45 degrees: no letter twice.
+      if (!taken[row] &&
+          (best == 3 || std::abs(geometry.direction[3 * row + axis]) > std::abs(geometry.direction[3 * best + axis])))
+      {
+        best = row;
+      }
+    }
+    taken[best] = true;
+    letters += geometry.direction[3 * best + axis] >= 0 ? positive[best] : negative[best];
+  }
+  return letters;
+}
+
+ScanInfo
+RunInfoJob(const InfoOptions & options, const JobContext & context)
+{
+  LabelVolume volume =
+    ReadLabelVolume(options.scan, options.reading, PartOfProgress(context.progress, "reading", 0, 0.5));
+  ScanInfo info;
+  info.path = options.scan.string();
+  info.format = std::move(volume.format);
+  info.pixelType = std::move(volume.pixelType);
+  info.geometry = volume.geometry;
+  info.orientation = OrientationLetters(info.geometry);
+  info.notes = std::move(volume.notes);
+  info.warnings = std::move(volume.warnings);
+  const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
+  for (const LabelShape & label : volume.labels)
+  {
+    ReportProgress(context.progress,
+                   "counting",
+                   0.5 + 0.5 * static_cast<double>(info.labels.size()) / static_cast<double>(volume.labels.size()));
+    LabelInfo one;
+    one.label = label.value;
+    one.name = label.name;
+    one.voxels = label.voxels;
+    one.volumeMm3 = static_cast<double>(label.voxels) * voxelMm3;
+    one.box = label.shape.Box();
+    one.topology = ComputeShapeTopology(label.shape);
+    one.components26 = CountComponents26(label.shape);
+    one.boundaryVertices = CountBoundaryVertices(label.shape);
+    info.labels.push_back(std::move(one));
+  }
+  return info;
+}
+
+std::string
+InfoText(const ScanInfo & info)
+{
+  const auto & geometry = info.geometry;
+  std::string  text = info.path + "\n";
+  text += "format       " + info.format + ", " + info.pixelType + "\n";
+  text += "size         " + std::to_string(geometry.size[0]) + " x " + std::to_string(geometry.size[1]) + " x " +
+          std::to_string(geometry.size[2]) + " voxels\n";
+  text += "spacing      " + Number(geometry.spacing[0]) + " x " + Number(geometry.spacing[1]) + " x " +
+          Number(geometry.spacing[2]) + " mm\n";
+  text += "origin       " + Number(geometry.origin[0]) + ", " + Number(geometry.origin[1]) + ", " +
+          Number(geometry.origin[2]) + " mm (LPS)\n";
+  text += "orientation  " + info.orientation + " (where i, j and k run to)\n";
+  for (const std::string & note : info.notes)
+  {
+    text += "note         " + note + "\n";
+  }
+  std::vector<std::vector<std::string>> rows{
+    { "label", "name", "voxels", "volume mm3", "voxel box", "b0/b1/b2", "26-components", "boundary vertices" }
+  };
+  for (const LabelInfo & label : info.labels)
+  {
+    const auto & betti = label.topology.betti;
+    rows.push_back({ std::to_string(label.label),
+                     label.name,
+                     std::to_string(label.voxels),
+                     Decimals(label.volumeMm3, 3),
+                     BoxText(label.box),
+                     std::to_string(betti[0]) + "/" + std::to_string(betti[1]) + "/" + std::to_string(betti[2]),
+                     std::to_string(label.components26),
+                     std::to_string(label.boundaryVertices) });
+  }
+  return text + "\n" + FormatTable(rows);
+}
+
+std::string
+InfoJson(const ScanInfo & info)
+{
+  using Json = nlohmann::ordered_json;
+  Json labels = Json::array();
+  for (const LabelInfo & label : info.labels)
+  {
+    labels.push_back({ { "label", label.label },
+                       { "name", label.name },
+                       { "voxels", label.voxels },
+                       { "volume_mm3", label.volumeMm3 },
+                       { "bounding_box", { { "lower", label.box.lower }, { "size", label.box.size } } },
+                       { "euler", label.topology.euler },
+                       { "betti", label.topology.betti },
+                       { "components_26", label.components26 },
+                       { "boundary_vertices", label.boundaryVertices } });
+  }
+  const Json json = { { "path", info.path },
+                      { "format", info.format },
+                      { "pixel_type", info.pixelType },
+                      { "size", info.geometry.size },
+                      { "spacing_mm", info.geometry.spacing },
+                      { "origin_mm", info.geometry.origin },
+                      { "direction", info.geometry.direction },
+                      { "orientation", info.orientation },
+                      { "notes", info.notes },
+                      { "labels", labels } };
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace voxelcore

@@ -1,0 +1,126 @@
+#include "JobTools.h"
+
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/ReportTable.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace voxelcore
+{
+
+ProgressCallback
+PartOfProgress(const ProgressCallback & outer, std::string stage, double from, double to)
+{
+  if (!outer)
+  {
+    return {};
+  }
+  return [outer, stage = std::move(stage), from, to](std::string_view, double fraction) {
+    return outer(stage, from + (to - from) * std::clamp(fraction, 0.0, 1.0));
+  };
+}
+
+ProgressCallback
+NamedPartOfProgress(const ProgressCallback & outer, std::string name, double from, double to)
+{
+  if (!outer)
+  {
+    return {};
+  }
+  return [outer, name = std::move(name), from, to](std::string_view stage, double fraction) {
+    return outer(name + ": " + std::string(stage), from + (to - from) * std::clamp(fraction, 0.0, 1.0));
+  };
+}
+
+std::string
+LabelText(std::int64_t value, const std::string & name)
+{
+  return "label " + std::to_string(value) + " (" + name + ")";
+}
+
+void
+RequireEqualTopology(const TopologyNumbers & shape,
+                     const TopologyNumbers & complex,
+                     const std::string &     what,
+                     const std::string &     labelText)
+{
+  if (!(shape == complex))
+  {
+    throw CertificateError(labelText + ": certificate failed: the shape has chi/b0/b1/b2 " + TopologyText(shape) +
+                           ", " + what + " has " + TopologyText(complex) +
+                           "; nothing was written; this is a fault of VoxelCore, please report it with the scan");
+  }
+}
+
+std::vector<PrunedCore>
+PruneAndCertify(ModelPart                   whole,
+                const ComplexRecord &       wholeRecord,
+                double                      doneMm,
+                const std::vector<Lambda> & lambdas,
+                const std::vector<double> & thresholdsMm,
+                const TopologyNumbers &     shape,
+                const std::string &         labelText,
+                const ProgressCallback &    progress)
+{
+  std::vector<double> ascending = thresholdsMm;
+  std::sort(ascending.begin(), ascending.end());
+  ascending.erase(std::unique(ascending.begin(), ascending.end()), ascending.end());
+  std::erase_if(ascending, [doneMm](double threshold) { return threshold <= doneMm; });
+
+  std::vector<MedialComplex> complexes;
+  if (!ascending.empty())
+  {
+    complexes = PruneByLambda(whole.core, ascending, PartOfProgress(progress, "prune", 0, 0.8));
+  }
+  std::vector<PrunedCore> results(lambdas.size());
+  for (std::size_t i = 0; i < lambdas.size(); ++i)
+  {
+    ReportProgress(progress, "prune", 0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(lambdas.size()));
+    const double threshold = thresholdsMm[i];
+    const auto   place = std::lower_bound(ascending.begin(), ascending.end(), threshold) - ascending.begin();
+    const bool   unchanged = threshold <= doneMm;
+    auto &       source = unchanged ? whole.core : complexes[static_cast<std::size_t>(place)];
+    // Two lambdas may come to the same threshold; the last one takes the complex, the others a copy.
+    const bool neededAgain =
+      std::any_of(thresholdsMm.begin() + static_cast<std::ptrdiff_t>(i) + 1, thresholdsMm.end(), [&](double later) {
+        return later == threshold || (unchanged && later <= doneMm);
+      });
+    PrunedCore & result = results[i];
+    result.part.label = whole.label;
+    result.part.core = neededAgain ? source : std::move(source);
+    const TopologyNumbers topology = unchanged ? wholeRecord.topology : ComputeComplexTopology(result.part.core.cells);
+    RequireEqualTopology(shape, topology, "its core pruned at " + lambdas[i].text, labelText);
+    result.record.lambda = lambdas[i].text;
+    result.record.lambdaMm = threshold;
+    result.record.complex = unchanged ? wholeRecord : DescribeComplex(result.part.core, topology);
+  }
+  return results;
+}
+
+void
+WriteStagedModel(OutputTransaction &           transaction,
+                 const std::filesystem::path & target,
+                 const MedialModel &           model,
+                 const ModelOptions &          options,
+                 std::vector<std::string> &    notes)
+{
+  const ModelOmissions omitted = WriteModel(transaction.Stage(target), target, model, options);
+  std::string          text;
+  const auto           add = [&text](std::uint64_t count, const std::string & what) {
+    if (count > 0)
+    {
+      text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+    }
+  };
+  add(omitted.vertices, "isolated vertices left out");
+  add(omitted.edges, "edges on no face left out");
+  add(omitted.labels, "labels merged into one");
+  if (!text.empty())
+  {
+    notes.push_back(target.string() + ": what this format cannot hold: " + text + " (.vtp holds everything)");
+  }
+}
+
+} // namespace voxelcore

@@ -1,0 +1,120 @@
+#include "voxelcore/OutputNames.h"
+
+#include "voxelcore/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+bool
+IsFolderOutput(const fs::path & output)
+{
+  return !output.has_filename() || fs::is_directory(output);
+}
+
+std::string
+ScanName(const fs::path & scan)
+{
+  std::string name = scan.has_filename() ? scan.filename().string() : scan.parent_path().filename().string();
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  // Longest first: "x.seg.nrrd" is "x".
+  static constexpr std::array<std::string_view, 12> extensions{ ".seg.nrrd", ".nii.gz", ".nrrd", ".nhdr",
+                                                                ".nii",      ".mha",    ".mhd",  ".tiff",
+                                                                ".tif",      ".hdr",    ".img",  ".gz" };
+  for (const std::string_view extension : extensions)
+  {
+    if (lower.ends_with(extension) && lower.size() > extension.size())
+    {
+      name.resize(name.size() - extension.size());
+      break;
+    }
+  }
+  for (char & c : name)
+  {
+    const auto byte = static_cast<unsigned char>(c);
+    // Bytes of UTF-8 letters stay.
+    if (byte < 0x80U && std::isalnum(byte) == 0 && std::string_view("._-+").find(c) == std::string_view::npos)
+    {
+      c = '_';
+    }
+  }
+  return name.empty() || name == "." || name == ".." ? "scan" : name;
+}
+
+std::string
+LambdaTag(const Lambda & lambda)
+{
+  std::string tag = lambda.text;
+  if (tag.ends_with('%'))
+  {
+    tag.replace(tag.size() - 1, 1, "pct");
+  }
+  return tag;
+}
+
+std::vector<Lambda>
+ParseLambdas(std::string_view text)
+{
+  std::vector<Lambda> lambdas;
+  for (std::size_t at = 0; at <= text.size();)
+  {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    Lambda            lambda = ParseLambda(text.substr(at, comma - at));
+    if (lambda.value == 0)
+    {
+      lambda.text = "0"; // the same in every unit
+    }
+    else if (lambda.unit == Lambda::Unit::Millimetre && !lambda.text.ends_with("mm"))
+    {
+      lambda.text += "mm";
+    }
+    for (const Lambda & other : lambdas)
+    {
+      if (other.text == lambda.text)
+      {
+        throw UsageError("--lambda " + std::string(text) + ": " + lambda.text + " is given twice");
+      }
+    }
+    lambdas.push_back(lambda);
+    at = comma + 1;
+  }
+  return lambdas;
+}
+
+namespace
+{
+
+std::string
+LambdaSuffix(const std::vector<Lambda> & lambdas, std::size_t which)
+{
+  return lambdas.size() > 1 ? "_lambda-" + LambdaTag(lambdas[which]) : "";
+}
+
+} // namespace
+
+fs::path
+FileOutputPath(const fs::path & output, const std::vector<Lambda> & lambdas, std::size_t which)
+{
+  fs::path name = output.parent_path() / output.stem();
+  name += LambdaSuffix(lambdas, which) + output.extension().string();
+  return name;
+}
+
+fs::path
+FolderOutputPath(const fs::path &            folder,
+                 const fs::path &            scan,
+                 std::int64_t                label,
+                 const std::vector<Lambda> & lambdas,
+                 std::size_t                 which)
+{
+  return folder /
+         (ScanName(scan) + "_label-" + std::to_string(label) + "_medial" + LambdaSuffix(lambdas, which) + ".vtp");
+}
+
+} // namespace voxelcore

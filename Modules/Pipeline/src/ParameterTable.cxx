@@ -1,0 +1,182 @@
+#include "voxelcore/Parameters.h"
+
+#include <array>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr std::uint32_t kCore = static_cast<std::uint32_t>(CommandId::Core);
+constexpr std::uint32_t kInfo = static_cast<std::uint32_t>(CommandId::Info);
+constexpr std::uint32_t kVerify = static_cast<std::uint32_t>(CommandId::Verify);
+constexpr std::uint32_t kPrune = static_cast<std::uint32_t>(CommandId::Prune);
+constexpr std::uint32_t kPhantom = static_cast<std::uint32_t>(CommandId::Phantom);
+constexpr std::uint32_t kReads = kCore | kInfo;
+constexpr std::uint32_t kModels = kCore | kPrune;
+constexpr std::uint32_t kWrites = kModels | kPhantom;
+constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom;
+
+constexpr std::string_view kCoreFooter =
+  R"(Lambda says how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart.
+A value needs a unit: 1.5mm, 2.5vox (times the smallest spacing), 2.5% (of the longest side of the label's box); a bare
+number is mm; 0 keeps the whole voxel core. Pruning never changes the topology.
+  1.5vox, the default, clears most of the staircase noise and keeps parts three voxels thick.
+  Above 2.44vox (cubic voxels) the pruned core is proven to converge as scans get finer, but thin parts shrink to curves.
+  On thick slices the smallest spacing does not clear the staircase across slices; give mm there, about 1.5 slices.
+
+Examples:
+  voxelcore core scan.nii.gz -o medial.vtp --report medial.json
+  voxelcore core scan.seg.nrrd --labels liver,4 --lambda 0,1mm,2.5% -o medial.vtp
+  voxelcore core atlas.nii.gz -o surfaces/
+  voxelcore core ct.nrrd --threshold 300:3000 --lambda 2vox -o bone.vtp
+  voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp)";
+
+constexpr std::string_view kInfoFooter = R"(Examples:
+  voxelcore info scan.nii.gz
+  voxelcore info ct.nrrd --threshold 300:3000 --json)";
+
+constexpr std::string_view kVerifyFooter =
+  R"(Checks by other means than those that made the file: every vertex inside the shape and equidistant to its nearest
+boundary vertices, none nearer; faces planar and convex; measures; order; topology. Exit code 4 when a check fails.
+The scan is read with the options recorded in the file.
+
+Example:
+  voxelcore verify scan.nii.gz medial.vtp)";
+
+constexpr std::string_view kPruneFooter = R"(Gives the same bits as 'voxelcore core' at that lambda, without the scan.
+
+Example:
+  voxelcore core scan.nii.gz --lambda 0 --keep-edges -o whole.vtp
+  voxelcore prune whole.vtp --lambda 1.5mm,3mm -o medial.vtp)";
+
+constexpr std::string_view kPhantomFooter = R"(Examples:
+  voxelcore phantom ellipsoid --size 64 -o ellipsoid.nrrd
+  voxelcore phantom root --size 256,256,512 --spacing 0.1,0.1,0.1 --seed 7 -o root.nii.gz)";
+
+constexpr std::array<Command, 5> kCommands{ {
+  { CommandId::Core, "core", "Medial surface of one, several or all labels of a scan", kCoreFooter },
+  { CommandId::Info, "info", "What is in a scan: geometry, labels, their sizes and topology", kInfoFooter },
+  { CommandId::Verify, "verify", "Recheck a finished file against its scan", kVerifyFooter },
+  { CommandId::Prune, "prune", "Prune a file made with --keep-edges to other lambdas", kPruneFooter },
+  { CommandId::Phantom, "phantom", "Make a synthetic volume", kPhantomFooter },
+} };
+
+using enum ParameterKind;
+
+constexpr auto kParameters = std::to_array<Parameter>({
+  { "scan",
+    "",
+    Input,
+    "SCAN",
+    "",
+    true,
+    kReads | kVerify,
+    "Scan: .nrrd .nhdr .seg.nrrd .nii .nii.gz .mha .mhd .tif, or a folder or 'pattern*' of TIFF slices" },
+  { "core", "", Input, "CORE.vtp", "", true, kVerify | kPrune, "File that 'voxelcore core' wrote" },
+  { "kind", "", Text, "KIND", "", true, kPhantom, "What to make; 'list' names the kinds" },
+  { "output",
+    "-o,--output",
+    Output,
+    "OUT",
+    "",
+    true,
+    kCore,
+    "Result: .vtp .vtk .ply .obj .stl .ma; or a folder, DIR/, for one .vtp per label" },
+  { "output", "-o,--output", Output, "OUT", "", true, kPrune, "Result: .vtp .vtk .ply .obj .stl .ma" },
+  { "output", "-o,--output", Output, "OUT", "", false, kPhantom, "Volume: .nrrd .nii .nii.gz .mha .mhd .tif" },
+  { "lambda",
+    "-l,--lambda",
+    Text,
+    "L[,L..]",
+    "1.5vox",
+    false,
+    kCore,
+    "Pruning threshold with its unit: 1.5mm, 2.5vox, 2.5%, 0; several give OUT_lambda-1mm.vtp and so on" },
+  { "lambda",
+    "-l,--lambda",
+    Text,
+    "L[,L..]",
+    "",
+    true,
+    kPrune,
+    "Pruning threshold with its unit: 1.5mm, 2.5vox, 2.5%; several give OUT_lambda-1mm.vtp and so on" },
+  { "labels",
+    "--labels",
+    Text,
+    "all|N,NAME,..",
+    "all",
+    false,
+    kReads,
+    "Labels to work on, by value or name; all means all but 0" },
+  { "binary", "--binary", Flag, "", "", false, kReads, "All values but 0 are one shape" },
+  { "threshold", "--threshold", Text, "LO:HI", "", false, kReads, "Grey scan: voxels with LO <= value <= HI" },
+  { "volume", "--volume", Integer, "N", "", false, kReads, "Which volume of a 4-D file, from 0" },
+  { "spacing", "--spacing", Text, "X,Y,Z", "", false, kReads, "Voxel size in mm, instead of the file's" },
+  { "orthonormalize",
+    "--orthonormalize",
+    Flag,
+    "",
+    "",
+    false,
+    kReads,
+    "Accept skewed axes: take the nearest orthonormal ones, and record it" },
+  { "nifti-form",
+    "--nifti-form",
+    Choice,
+    "auto|sform|qform",
+    "auto",
+    false,
+    kReads,
+    "Which of a NIfTI file's two geometries; auto does as ITK and Slicer do" },
+  { "keep-edges",
+    "--keep-edges",
+    Flag,
+    "",
+    "",
+    false,
+    kModels,
+    "Store the measures of all edges, so that 'voxelcore prune' can work on the file" },
+  { "triangles", "--triangles", Flag, "", "", false, kModels, "Write triangles instead of polygons" },
+  { "report", "--report", Output, "OUT.json", "", false, kModels, "Write what was done and found as JSON" },
+  { "size", "--size", Text, "N|X,Y,Z", "64", false, kPhantom, "Size in voxels" },
+  { "spacing", "--spacing", Text, "X,Y,Z", "1,1,1", false, kPhantom, "Voxel size in mm" },
+  { "seed", "--seed", Integer, "N", "1", false, kPhantom, "For the kinds that use chance: porous, noise, root" },
+  { "radius", "--radius", Real, "MM", "", false, kPhantom, "Radius; the default depends on the kind" },
+  { "thickness", "--thickness", Real, "MM", "", false, kPhantom, "Thickness; the default depends on the kind" },
+  { "period", "--period", Real, "MM", "", false, kPhantom, "Period of the gyroid, or distance of porous' grains" },
+  { "density", "--density", Real, "0..1", "", false, kPhantom, "Part of the volume that is in, for porous and noise" },
+  { "detail", "--detail", Real, "MM", "", false, kPhantom, "Smallest radius of a root" },
+  { "laterals", "--laterals", Integer, "N", "", false, kPhantom, "Laterals on the stem of a root" },
+  { "sub-laterals", "--sub-laterals", Integer, "N", "", false, kPhantom, "Laterals on each of these" },
+  { "engine", "--engine", Choice, "auto|tetgen", "auto", false, kCore, "Delaunay engine; the result is the same" },
+  { "threads", "--threads", Integer, "N", "0", false, kAll, "Processors to use; 0 means all" },
+  { "json", "--json", Flag, "", "", false, kInfo, "Print JSON" },
+  { "force", "--force", Flag, "", "", false, kWrites, "Replace existing files" },
+  { "progress",
+    "--progress",
+    Choice,
+    "bar|plain|json|none",
+    "",
+    false,
+    kAll,
+    "Progress on stderr; by default a bar on a terminal, else none" },
+  { "quiet", "-q,--quiet", Flag, "", "", false, kAll, "Print nothing but errors" },
+});
+
+} // namespace
+
+std::span<const Command>
+Commands()
+{
+  return kCommands;
+}
+
+std::span<const Parameter>
+Parameters()
+{
+  return kParameters;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,355 @@
+#include "voxelcore/Parameters.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/OutputNames.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+std::optional<double>
+ParseReal(std::string_view text)
+{
+  double value = 0;
+  // from_chars takes no leading plus.
+  text.remove_prefix(text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || std::isnan(value))
+  {
+    return std::nullopt;
+  }
+  return value;
+}
+
+/** The values given to one command, read with its defaults. */
+class Reader
+{
+public:
+  Reader(const ParameterValues & values, CommandId command)
+    : m_Values(values)
+    , m_Command(command)
+  {}
+
+  const Parameter &
+  Describe(std::string_view name) const
+  {
+    for (const Parameter & parameter : Parameters())
+    {
+      if (parameter.name == name && BelongsTo(parameter, m_Command))
+      {
+        return parameter;
+      }
+    }
+    throw std::logic_error("no such parameter: " + std::string(name));
+  }
+
+  std::string
+  Text(std::string_view name) const
+  {
+    const auto found = m_Values.find(name);
+    return found != m_Values.end() ? found->second : std::string(Describe(name).defaultValue);
+  }
+
+  bool
+  IsSet(std::string_view name) const
+  {
+    return Text(name) == "true";
+  }
+
+  bool
+  IsGiven(std::string_view name) const
+  {
+    return m_Values.find(name) != m_Values.end();
+  }
+
+  [[noreturn]] void
+  Refuse(std::string_view name, const std::string & expected) const
+  {
+    const Parameter & parameter = Describe(name);
+    const auto        comma = parameter.flags.find(',');
+    const auto        flag = comma == std::string_view::npos ? parameter.flags : parameter.flags.substr(comma + 1);
+    throw UsageError((flag.empty() ? std::string(parameter.placeholder) : std::string(flag)) + " " + Text(name) +
+                     ": expected " + expected);
+  }
+
+  std::int64_t
+  Whole(std::string_view name, std::int64_t least, std::int64_t most) const
+  {
+    const std::string text = Text(name);
+    std::int64_t      value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
+    {
+      Refuse(name,
+             "a whole number from " + std::to_string(least) +
+               (most < std::numeric_limits<std::int64_t>::max() ? " to " + std::to_string(most) : " up"));
+    }
+    return value;
+  }
+
+  /** A finite number; none when it is not given. */
+  std::optional<double>
+  Real(std::string_view name) const
+  {
+    if (!IsGiven(name))
+    {
+      return std::nullopt;
+    }
+    const auto value = ParseReal(Text(name));
+    if (!value || !std::isfinite(*value))
+    {
+      Refuse(name, "a number");
+    }
+    return value;
+  }
+
+  std::string
+  Choice(std::string_view name) const
+  {
+    const std::string text = Text(name);
+    const auto        words = "|" + std::string(Describe(name).placeholder) + "|";
+    if (text.empty() || text.find('|') != std::string::npos || words.find("|" + text + "|") == std::string::npos)
+    {
+      Refuse(name, "one of " + words.substr(1, words.size() - 2));
+    }
+    return text;
+  }
+
+private:
+  const ParameterValues & m_Values;
+  CommandId               m_Command;
+};
+
+std::vector<std::string>
+Split(const std::string & text, char separator)
+{
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+  {
+    if (c == separator)
+    {
+      parts.emplace_back();
+    }
+    else
+    {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+Vector3
+SpacingFrom(const Reader & reader)
+{
+  const auto parts = Split(reader.Text("spacing"), ',');
+  Vector3    spacing{};
+  bool       good = parts.size() == 3;
+  for (std::size_t k = 0; good && k < 3; ++k)
+  {
+    const auto value = ParseReal(parts[k]);
+    good = value && *value > 0 && std::isfinite(*value);
+    spacing[k] = value.value_or(0);
+  }
+  if (!good)
+  {
+    reader.Refuse("spacing", "three positive numbers in mm, such as 0.5,0.5,2");
+  }
+  return spacing;
+}
+
+std::array<std::int32_t, 3>
+SizeFrom(const Reader & reader)
+{
+  auto parts = Split(reader.Text("size"), ',');
+  if (parts.size() == 1)
+  {
+    parts.resize(3, parts.front());
+  }
+  std::array<std::int32_t, 3> size{};
+  bool                        good = parts.size() == 3;
+  for (std::size_t k = 0; good && k < 3; ++k)
+  {
+    const auto value = ParseReal(parts[k]);
+    good = value && *value >= 1 && *value <= 32768 && std::floor(*value) == *value;
+    size[k] = good ? static_cast<std::int32_t>(*value) : 0;
+  }
+  if (!good)
+  {
+    reader.Refuse("size", "one or three whole numbers of voxels from 1 to 32768, such as 64 or 64,64,32");
+  }
+  return size;
+}
+
+std::optional<std::filesystem::path>
+ReportFrom(const Reader & reader)
+{
+  if (!reader.IsGiven("report"))
+  {
+    return std::nullopt;
+  }
+  if (reader.Text("report").empty())
+  {
+    reader.Refuse("report", "a file name");
+  }
+  return reader.Text("report");
+}
+
+std::filesystem::path
+OutputFrom(const Reader & reader)
+{
+  if (reader.Text("output").empty())
+  {
+    reader.Refuse("output", "a file name");
+  }
+  return reader.Text("output");
+}
+
+ModelOptions
+ModelOptionsFrom(const Reader & reader)
+{
+  ModelOptions model;
+  model.triangles = reader.IsSet("triangles");
+  model.keepEdges = reader.IsSet("keep-edges");
+  return model;
+}
+
+std::pair<double, double>
+ThresholdFrom(const Reader & reader)
+{
+  const auto parts = Split(reader.Text("threshold"), ':');
+  const auto low = ParseReal(parts.front());
+  const auto high = ParseReal(parts.back());
+  if (parts.size() != 2 || !low || !high || *low > *high)
+  {
+    reader.Refuse("threshold", "LO:HI with LO <= HI, such as 300:3000 (inf is allowed)");
+  }
+  return { *low, *high };
+}
+
+} // namespace
+
+std::string
+ValueOf(const ParameterValues & values, CommandId command, std::string_view name)
+{
+  return Reader(values, command).Text(name);
+}
+
+int
+ThreadsFrom(const ParameterValues & values, CommandId command)
+{
+  return static_cast<int>(Reader(values, command).Whole("threads", 0, 4096));
+}
+
+ReadOptions
+ReadOptionsFrom(const ParameterValues & values, CommandId command)
+{
+  const Reader reader(values, command);
+  ReadOptions  reading;
+  reading.labels = reader.Text("labels");
+  reading.binary = reader.IsSet("binary");
+  if (reader.IsGiven("threshold"))
+  {
+    reading.threshold = ThresholdFrom(reader);
+  }
+  if (reader.IsGiven("volume"))
+  {
+    reading.volume = reader.Whole("volume", 0, std::numeric_limits<std::int64_t>::max());
+  }
+  if (reader.IsGiven("spacing"))
+  {
+    reading.spacing = SpacingFrom(reader);
+  }
+  reading.orthonormalize = reader.IsSet("orthonormalize");
+  reading.niftiForm = reader.Choice("nifti-form");
+  if (reading.labels.empty())
+  {
+    reader.Refuse("labels", "'all', or values or names separated by commas");
+  }
+  const int ways = (reading.labels != "all" ? 1 : 0) + (reading.binary ? 1 : 0) + (reading.threshold ? 1 : 0);
+  if (ways > 1)
+  {
+    throw UsageError("--labels, --binary and --threshold exclude each other; give one");
+  }
+  return reading;
+}
+
+CoreOptions
+CoreOptionsFrom(const ParameterValues & values)
+{
+  const Reader reader(values, CommandId::Core);
+  CoreOptions  options;
+  options.scan = reader.Text("scan");
+  options.reading = ReadOptionsFrom(values, CommandId::Core);
+  options.lambdas = ParseLambdas(reader.Text("lambda"));
+  options.output = OutputFrom(reader);
+  options.report = ReportFrom(reader);
+  options.model = ModelOptionsFrom(reader);
+  options.engine = reader.Choice("engine") == "tetgen" ? Engine::TetGen : Engine::Auto;
+  options.threads = ThreadsFrom(values, CommandId::Core);
+  options.force = reader.IsSet("force");
+  return options;
+}
+
+InfoOptions
+InfoOptionsFrom(const ParameterValues & values)
+{
+  return { ValueOf(values, CommandId::Info, "scan"), ReadOptionsFrom(values, CommandId::Info) };
+}
+
+VerifyOptions
+VerifyOptionsFrom(const ParameterValues & values)
+{
+  return { ValueOf(values, CommandId::Verify, "scan"), ValueOf(values, CommandId::Verify, "core") };
+}
+
+PruneOptions
+PruneOptionsFrom(const ParameterValues & values)
+{
+  const Reader reader(values, CommandId::Prune);
+  PruneOptions options;
+  options.core = reader.Text("core");
+  options.lambdas = ParseLambdas(reader.Text("lambda"));
+  options.output = OutputFrom(reader);
+  options.report = ReportFrom(reader);
+  options.model = ModelOptionsFrom(reader);
+  options.threads = ThreadsFrom(values, CommandId::Prune);
+  options.force = reader.IsSet("force");
+  return options;
+}
+
+PhantomJobOptions
+PhantomOptionsFrom(const ParameterValues & values)
+{
+  const Reader      reader(values, CommandId::Phantom);
+  PhantomJobOptions options;
+  options.phantom.kind = reader.Text("kind");
+  options.phantom.size = SizeFrom(reader);
+  options.phantom.spacing = SpacingFrom(reader);
+  options.phantom.seed = static_cast<std::uint64_t>(reader.Whole("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  options.phantom.radius = reader.Real("radius");
+  options.phantom.thickness = reader.Real("thickness");
+  options.phantom.period = reader.Real("period");
+  options.phantom.density = reader.Real("density");
+  options.phantom.detail = reader.Real("detail");
+  if (reader.IsGiven("laterals"))
+  {
+    options.phantom.laterals = static_cast<int>(reader.Whole("laterals", 0, 100000));
+  }
+  if (reader.IsGiven("sub-laterals"))
+  {
+    options.phantom.subLaterals = static_cast<int>(reader.Whole("sub-laterals", 0, 100000));
+  }
+  options.output = OutputFrom(reader);
+  options.force = reader.IsSet("force");
+  return options;
+}
+
+} // namespace voxelcore

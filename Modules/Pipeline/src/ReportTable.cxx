@@ -1,0 +1,102 @@
+#include "voxelcore/ReportTable.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+std::size_t
+Width(const std::string & text)
+{
+  return static_cast<std::size_t>(
+    std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string
+Seconds(double seconds)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f", seconds);
+  return text;
+}
+
+} // namespace
+
+std::string
+FormatTable(const std::vector<std::vector<std::string>> & rows)
+{
+  std::vector<std::size_t> widths;
+  for (const auto & row : rows)
+  {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t column = 0; column < row.size(); ++column)
+    {
+      widths[column] = std::max(widths[column], Width(row[column]));
+    }
+  }
+  std::string text;
+  for (const auto & row : rows)
+  {
+    std::string line;
+    for (std::size_t column = 0; column < row.size(); ++column)
+    {
+      const std::string pad(widths[column] - Width(row[column]), ' ');
+      line += (column > 0 ? "  " : "") + (column == 1 ? row[column] + pad : pad + row[column]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string
+TopologyText(const TopologyNumbers & topology)
+{
+  return std::to_string(topology.euler) + "/" + std::to_string(topology.betti[0]) + "/" +
+         std::to_string(topology.betti[1]) + "/" + std::to_string(topology.betti[2]);
+}
+
+std::string
+ReportTable(const CoreReport & report)
+{
+  std::vector<std::string> head{ "label", "name", "voxels", "boundary vertices", "core faces" };
+  for (const std::string & lambda : report.parameters.lambda)
+  {
+    head.push_back("faces at " + lambda);
+  }
+  for (const char * title : { "shape chi/b0/b1/b2", "core chi/b0/b1/b2", "certificate", "seconds" })
+  {
+    head.emplace_back(title);
+  }
+  std::vector<std::vector<std::string>> rows{ head };
+  std::uint64_t                         boundaryVertices = 0;
+  for (const LabelRecord & label : report.labels)
+  {
+    std::vector<std::string> row{ std::to_string(label.label),
+                                  label.name,
+                                  std::to_string(label.voxels),
+                                  std::to_string(label.boundaryVertices),
+                                  std::to_string(label.core.faces) };
+    for (const PrunedRecord & pruned : label.pruned)
+    {
+      row.push_back(std::to_string(pruned.complex.faces));
+    }
+    row.push_back(TopologyText(label.shape));
+    row.push_back(TopologyText(label.core.topology));
+    row.emplace_back(label.Passed() ? "passed" : "FAILED");
+    row.push_back(Seconds(label.seconds));
+    rows.push_back(std::move(row));
+    boundaryVertices += label.boundaryVertices;
+  }
+  char peak[32];
+  std::snprintf(peak, sizeof(peak), "%.0f", report.peakMemoryMb);
+  return FormatTable(rows) + std::to_string(report.labels.size()) +
+         (report.labels.size() == 1 ? " label, " : " labels, ") + std::to_string(boundaryVertices) +
+         " boundary vertices, " + Seconds(report.seconds.total) + " s, peak memory " + peak + " MB\n";
+}
+
+} // namespace voxelcore

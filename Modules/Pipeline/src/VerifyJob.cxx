@@ -1,0 +1,174 @@
+#include "voxelcore/VerifyJob.h"
+
+#include "JobTools.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/Sha256.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** How the scan was read when the core was made. */
+ReadOptions
+RecordedReading(const ParameterRecord & parameters)
+{
+  ReadOptions reading;
+  reading.binary = parameters.binary;
+  reading.threshold = parameters.threshold;
+  reading.volume = parameters.volume;
+  reading.spacing = parameters.spacing;
+  reading.orthonormalize = parameters.orthonormalize;
+  reading.niftiForm = parameters.niftiForm;
+  if (!reading.binary && !reading.threshold)
+  {
+    reading.labels.clear();
+    for (const std::int64_t label : parameters.labels)
+    {
+      reading.labels += (reading.labels.empty() ? "" : ",") + std::to_string(label);
+    }
+  }
+  return reading;
+}
+
+VerificationReport
+VerifyPart(ModelPart                part,
+           const VoxelShape &       shape,
+           const ImageGeometry &    geometry,
+           double                   lambdaMm,
+           const ProgressCallback & progress)
+{
+  for (auto & position : part.core.positions)
+  {
+    position = PhysicalToLattice(geometry, position);
+  }
+  VerificationInput input;
+  input.shape = &shape;
+  input.weights = ComputeSpacingWeights(geometry.spacing);
+  input.cells = &part.core.cells;
+  input.positions = part.core.positions;
+  input.radius = part.core.radius;
+  input.vertexLambda = part.core.vertexLambda;
+  input.edgeLambda = part.core.edgeLambda;
+  input.faceLambda = part.core.faceLambda;
+  input.positionTolerance = PositionTolerance(geometry);
+  input.polygonsReversed = IsLeftHanded(geometry);
+  input.threshold = lambdaMm;
+  return VerifyComplex(input, progress);
+}
+
+/** The threshold a label's cells are pruned to. */
+double
+RecordedLambda(const CoreReport & made, std::size_t label, const std::string & where)
+{
+  if (label >= made.labels.size() || made.labels[label].pruned.size() != 1)
+  {
+    throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
+  }
+  return made.labels[label].pruned.front().lambdaMm;
+}
+
+/** A property of the file as a whole. */
+VerificationCheck
+CheckProvenance(const LabelRecord & recorded, const LabelShape & label, const VerificationReport & report)
+{
+  VerificationCheck check{ "provenance", true, 0, {} };
+  if (recorded.label != label.value || recorded.voxels != label.voxels || !(recorded.shape == report.shapeTopology) ||
+      !(recorded.pruned.front().complex.topology == report.complexTopology))
+  {
+    check = { "provenance", false, 1, "the record in the file does not fit the scan and the cells" };
+  }
+  return check;
+}
+
+} // namespace
+
+VerifyResult
+RunVerifyJob(const VerifyOptions & options, const JobContext & context)
+{
+  ReportProgress(context.progress, "reading", 0);
+  MedialModel      model = ReadModel(options.core);
+  const CoreReport made = ParseProvenance(model.provenance, options.core.string());
+  LabelVolume      volume = ReadLabelVolume(options.scan,
+                                       RecordedReading(made.parameters),
+                                       PartOfProgress(context.progress, "reading", 0, 0.1));
+  VerifyResult     result;
+  if (ScanSha256(options.scan) != made.input.sha256)
+  {
+    result.notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +
+                           " was made from (another SHA-256); checked all the same");
+  }
+  for (std::size_t i = 0; i < model.parts.size(); ++i)
+  {
+    const std::int64_t value = model.parts[i].label;
+    const auto found = std::find_if(volume.labels.begin(), volume.labels.end(), [value](const LabelShape & label) {
+      return label.value == value;
+    });
+    if (found == volume.labels.end())
+    {
+      throw InputError(options.scan.string() + ": label " + std::to_string(value) + " of " + options.core.string() +
+                       " does not occur in this scan");
+    }
+    const double      from = 0.1 + 0.9 * static_cast<double>(i) / static_cast<double>(model.parts.size());
+    const double      to = 0.1 + 0.9 * static_cast<double>(i + 1) / static_cast<double>(model.parts.size());
+    LabelVerification one;
+    one.label = value;
+    one.name = found->name;
+    one.lambdaMm = RecordedLambda(made, i, options.core.string());
+    one.report = VerifyPart(std::move(model.parts[i]),
+                            found->shape,
+                            volume.geometry,
+                            one.lambdaMm,
+                            NamedPartOfProgress(context.progress, found->name, from, to));
+    one.report.checks.push_back(CheckProvenance(made.labels[i], *found, one.report));
+    one.report.passed = one.report.passed && one.report.checks.back().passed;
+    result.passed = result.passed && one.report.passed;
+    result.labels.push_back(std::move(one));
+    *found = LabelShape(); // its memory is not needed any longer
+    found->value = value;
+  }
+  // A label that the record names and the file lacks would otherwise go unnoticed.
+  if (made.labels.size() != model.parts.size())
+  {
+    throw InputError(options.core.string() + ": its field Provenance names " + std::to_string(made.labels.size()) +
+                     " labels, its cells have " + std::to_string(model.parts.size()) + "; make the file again");
+  }
+  return result;
+}
+
+std::string
+VerifyText(const VerifyResult & result)
+{
+  std::string text;
+  for (const std::string & note : result.notes)
+  {
+    text += "note: " + note + "\n";
+  }
+  for (const LabelVerification & label : result.labels)
+  {
+    const auto & checks = label.report.checks;
+    const auto   failed = std::count_if(checks.begin(), checks.end(), [](const auto & check) { return !check.passed; });
+    text += LabelText(label.label, label.name) + ": " + std::to_string(checks.size()) + " checks, " +
+            (failed == 0 ? std::string("all passed") : std::to_string(failed) + " FAILED") + "\n";
+    for (const VerificationCheck & check : checks)
+    {
+      if (!check.passed)
+      {
+        text += "  FAILED  " + check.name + ": " + check.firstOffender +
+                (check.offenders > 1 ? " (and " + std::to_string(check.offenders - 1) + " more)" : "") + "\n";
+      }
+      else if (result.labels.size() == 1)
+      {
+        text += "  passed  " + check.name + "\n";
+      }
+    }
+  }
+  return text;
+}
+
+} // namespace voxelcore

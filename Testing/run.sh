@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds everything with warnings as errors, runs the tests. Non-zero when one fails.
+# usage: run.sh [--heavy]    --heavy also runs the long tests
+# VOXELCORE_BUILD_DIR: where to build (build/). VOXELCORE_TEST_DATA: folder of foreign scans; tests that need it are
+# skipped without it.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+leave_out=(-LE "heavy|sanitizer|browser|package|cluster|fuzz")
+case "${1:-}" in
+  "") ;;
+  --heavy) leave_out=() ;;
+  *) echo "run.sh: unknown option '$1'; there is --heavy" >&2; exit 2 ;;
+esac
+
+bash Applications/install-packages.sh build test
+
+build=${VOXELCORE_BUILD_DIR:-build}
+cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DVOXELCORE_WERROR=ON
+cmake --build "$build"
+ctest --test-dir "$build" "${leave_out[@]}" -j "$(nproc)" --output-on-failure --no-tests=error </dev/null
