@@ -154,7 +154,7 @@ FindDualEdges(Subject & subject)
 {
   const CellComplex & cells = subject.cells;
   subject.dualEdges.assign(cells.FaceCount(), { kNoPoint, kNoPoint });
-#pragma omp parallel
+#pragma omp parallel if (cells.FaceCount() > 4096)
   {
     std::vector<std::uint32_t> common;
     std::vector<std::uint32_t> next;

@@ -45,7 +45,7 @@ AddCheck(VerificationReport & report, std::string name, std::size_t count, Offen
 {
   std::uint64_t offenders = 0;
   std::uint64_t first = count;
-#pragma omp parallel for schedule(dynamic, 1024) reduction(+ : offenders) reduction(min : first)
+#pragma omp parallel for schedule(dynamic, 1024) reduction(+ : offenders) reduction(min : first) if (count > 4096)
   for (std::size_t i = 0; i < count; ++i)
   {
     if (offends(i))

@@ -13,6 +13,10 @@ namespace
 
 using Basis = std::array<std::uint32_t, 4>;
 
+/** Beyond so many candidates that are not all cospherical, trying all spheres would take too long. Large cospherical
+ *  sets are those of centres with small denominators, where the next point is far away for any sensible tolerance. */
+constexpr std::size_t kMostAmbiguous = 64;
+
 std::array<LatticePoint, 4>
 PointsOf(const BoundaryTree & tree, const Basis & basis)
 {
@@ -44,7 +48,8 @@ public:
   {
     set.clear();
     const double distance = m_Tree.FindNearest(position, m_Slack, m_Found);
-    if (m_Found.size() < 4)
+    // From infinitely far away all points are equally near.
+    if (m_Found.size() < 4 || !std::isfinite(distance))
     {
       return distance;
     }
@@ -63,8 +68,11 @@ public:
       }
     }
     // Other points lie so close to the sphere that doubles cannot tell: try all spheres through four candidates.
-    const auto sphere = BestEmptySphere(position, basis);
-    if (sphere)
+    if (m_Found.size() > kMostAmbiguous)
+    {
+      return distance;
+    }
+    if (const auto sphere = BestEmptySphere(position, basis))
     {
       for (const auto & candidate : m_Found)
       {
@@ -175,7 +183,7 @@ FindNearestSets(const BoundaryTree &                   tree,
   sets.basis.resize(count);
   sets.distance.resize(count);
   std::vector<std::vector<std::uint32_t>> blocks((count + blockSize - 1) / blockSize);
-#pragma omp parallel
+#pragma omp parallel if (blocks.size() > 2)
   {
     SetFinder                  finder(tree, weights, tolerance);
     std::vector<std::uint32_t> set;

@@ -33,7 +33,8 @@ struct NearestSets
 };
 
 /** Finds, for each position, the points whose distance is smallest within what the tolerance (lattice units) allows,
- *  and among them, exactly, the cospherical set whose centre the position is. */
+ *  and among them, exactly, the cospherical set whose centre the position is. A tolerance so coarse that more than 64
+ *  points come into question without all being cospherical leaves a set unknown. */
 NearestSets
 FindNearestSets(const BoundaryTree &                   tree,
                 const SpacingWeights &                 weights,
