@@ -36,7 +36,7 @@ constexpr std::array<PhantomKind, 13> kKinds{ {
     "a branching root system along z: stem, laterals and their laterals",
     "seed, radius of the stem (0.045 of "
     "the shortest side), laterals, "
-    "sublaterals, detail" },
+    "sub-laterals, detail" },
 } };
 
 void
