@@ -35,7 +35,7 @@ SortedCells(const DelaunayCells & cells, const std::vector<LatticePoint> & point
 {
   const auto         greatest = static_cast<double>(*std::max_element(weights.weight.begin(), weights.weight.end()));
   std::vector<Entry> order(cells.CellCount());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (order.size() > 10000)
   for (std::size_t cell = 0; cell < order.size(); ++cell)
   {
     const auto         index = static_cast<std::uint32_t>(cell);
@@ -135,7 +135,7 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
     const std::uint32_t * p = cells.facetPoints.data() + cells.facetOffsets[facet];
     return std::make_tuple(cells.facetCells[facet][1], p[0], p[1], p[2]); // two facets of a cell share two points
   };
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (order.size() > 10000)
   for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
   {
     std::sort(order.begin() + static_cast<std::ptrdiff_t>(bucketEnd[cell]),

@@ -13,7 +13,10 @@ namespace
 {
 constexpr std::int32_t halo = LatticeWindow::halo;
 constexpr std::int32_t brickWidth = LatticeWindow::brick;
-constexpr double       unknown = -std::numeric_limits<double>::infinity();
+// Up to 14.9 a ball about a point of the brick fits the window; beyond about 9 voxels looking for a cell costs more
+// than Bowyer-Watson takes for it.
+constexpr double largestRadius = 9.0;
+constexpr double unknown = -std::numeric_limits<double>::infinity();
 } // namespace
 
 CellTracer::CellTracer(const TracingInput & input, std::size_t first, std::size_t last)
@@ -25,7 +28,7 @@ CellTracer::CellTracer(const TracingInput & input, std::size_t first, std::size_
 {
   const auto & w = input.weights.weight;
   m_Wide = std::max({ w[0], w[1], w[2] }) > 1;
-  m_Limit = 14.9 * static_cast<double>(std::min({ w[0], w[1], w[2] }));
+  m_Limit = largestRadius * static_cast<double>(std::min({ w[0], w[1], w[2] }));
 }
 
 Tracing

@@ -14,7 +14,7 @@ namespace voxelcore
  *  points to (height > 0) lies on the sphere with parameter value(q) / height(q), and inside all those with a greater
  *  one; with m the circle's centre, D = |ab x ac|^2 and . the weighted product (q, m from a):
  *    height = det(ab, ac, q),   value = D (|q|^2 - 2 m.q) = D |q|^2 - vv (uu - uv) (u.q) - uu (vv - uv) (v.q).
- *  TNumber holds value * height: with differences up to 63 in a facet up to 2 * 14.9 w across (w the least weight, W
+ *  TNumber holds value * height: with differences up to 63 in a facet up to 30 w across (w the least weight, W
  *  the greatest), D <= (900 w^2)^2, |q|^2 <= 3 (63 W)^2, so value <= 3.0e10 w^4 W^2 and height <= 1.7e5: 2^53 for
  *  weights 1 (64 bits), 2^125 for weights up to 4096 (128 bits). */
 template <typename TNumber>

@@ -38,6 +38,7 @@ ScanBall(const LatticeWindow &         window,
                                  static_cast<double>(weights.weight[1]),
                                  static_cast<double>(weights.weight[2]) };
   const double                grown2 = radius2 * (1.0 + 1e-9);
+  const double                inverse2 = 1.0 / (w[0] * w[0]);
   const double                reachZ = std::sqrt(grown2) / w[2];
   const auto                  bound = [](double value) { return std::clamp(value, 0.0, 63.0); };
   const auto                  zFirst = static_cast<std::int32_t>(std::ceil(bound(centre[2] - reachZ)));
@@ -66,34 +67,40 @@ ScanBall(const LatticeWindow &         window,
       {
         continue;
       }
-      const double reachX = std::sqrt(rest) / w[0];
-      const auto   xFirst = static_cast<std::int32_t>(std::ceil(bound(centre[0] - reachX)));
-      const auto   xLast = static_cast<std::int32_t>(bound(centre[0] + reachX));
-      if (xFirst > xLast)
-      {
-        continue;
-      }
-      std::uint64_t bits = row & (~std::uint64_t{ 0 } << xFirst) & (~std::uint64_t{ 0 } >> (63 - xLast));
-      for (; bits != 0; bits &= bits - 1)
-      {
-        const LatticePoint q{ std::countr_zero(bits), y, z };
+      // The row's vertices from the centre outwards, to either side, as long as they lie in the ball.
+      const double        rest2 = rest * inverse2;
+      const auto          middle = static_cast<std::int32_t>(bound(centre[0]));
+      const std::uint64_t upper = row & (~std::uint64_t{ 1 } << middle);
+      const std::uint64_t lower = row & ~(~std::uint64_t{ 1 } << middle);
+      const auto          offer = [&](std::int32_t x) {
+        const double dx = x - centre[0];
+        if (dx * dx > rest2)
+        {
+          return false;
+        }
+        const LatticePoint q{ x, y, z };
         const std::int64_t height = pencil.Height(q);
-        if (height <= 0)
+        if (height > 0)
         {
-          continue;
+          const TNumber value = pencil.Value(q);
+          const TNumber difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
+          if (difference < 0)
+          {
+            best = { value, height };
+            apexes.clear();
+          }
+          if (difference <= 0)
+          {
+            apexes.push_back(q);
+          }
         }
-        const TNumber value = pencil.Value(q);
-        const TNumber difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
-        if (difference < 0)
-        {
-          best = { value, height };
-          apexes.clear();
-        }
-        if (difference <= 0)
-        {
-          apexes.push_back(q);
-        }
-      }
+        return true;
+      };
+      for (std::uint64_t bits = upper; bits != 0 && offer(std::countr_zero(bits)); bits &= bits - 1)
+      {}
+      for (std::uint64_t bits = lower; bits != 0 && offer(63 - std::countl_zero(bits));
+           bits &= ~(std::uint64_t{ 1 } << (63 - std::countl_zero(bits))))
+      {}
     }
   }
 }
@@ -157,7 +164,7 @@ CellTracer::TraceFacet(Pending pending)
     }
   }
 
-  const double smallest = m_Limit / 14.9;
+  const double smallest = static_cast<double>(std::min({ weights.weight[0], weights.weight[1], weights.weight[2] }));
   const double furthest = std::sqrt(std::max(0.0, m_Limit * m_Limit - pencil.circle2));
   double       step = 0.75 * smallest;
   for (double at = pending.from;;)
