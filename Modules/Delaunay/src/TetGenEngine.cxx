@@ -174,7 +174,7 @@ TetGenCells(const VoxelShape &                shape,
 {
   Tetrahedra                tetrahedra = TetGenTetrahedra(points, weights, progress);
   std::vector<std::uint8_t> inside(tetrahedra.corners.size());
-#pragma omp parallel for schedule(static) if (count > 10000)
+#pragma omp parallel for schedule(static) if (inside.size() > 10000)
   for (std::size_t t = 0; t < inside.size(); ++t)
   {
     inside[t] = LiesInside(tetrahedra.corners[t], points, shape);
