@@ -1,6 +1,6 @@
 #include "voxelcore/Verification.h"
 
-#include "Verification/VerificationFixtures.h"
+#include "Verification/DamagedCores.h"
 #include "voxelcore/ImageGeometry.h"
 
 #include <gtest/gtest.h>
@@ -67,14 +67,9 @@ SendThroughMillimetres(VerificationCase & subject, const ImageGeometry & geometr
   subject.positionTolerance = PositionTolerance(geometry);
   if (IsLeftHanded(geometry))
   {
-    // The first corner stays first; the edge from each corner to the next moves with it.
-    CellComplex & cells = subject.core.cells;
-    for (std::size_t f = 0; f < cells.FaceCount(); ++f)
+    for (std::size_t f = 0; f < subject.core.cells.FaceCount(); ++f)
     {
-      const auto first = static_cast<std::ptrdiff_t>(cells.faceOffsets[f]);
-      const auto last = static_cast<std::ptrdiff_t>(cells.faceOffsets[f + 1]);
-      std::reverse(cells.faceVertices.begin() + first + 1, cells.faceVertices.begin() + last);
-      std::reverse(cells.faceEdges.begin() + first, cells.faceEdges.begin() + last);
+      ReversePolygon(subject.core.cells, f);
     }
     subject.polygonsReversed = true;
   }
