@@ -82,7 +82,8 @@ CheckSize(const std::filesystem::path &       path,
   if (bytesPerVoxel > (1U << 20) || total * bytesPerVoxel > bytesPossible)
   {
     Refuse(path,
-           Text("its header gives ", size[0], " x ", size[1], " x ", size[2], " voxels, more than its data can hold"),
+           Text("its header gives ", size[0], " x ", size[1], " x ", size[2], " voxels of ", bytesPerVoxel,
+                " bytes, its data hold at most ", bytesPossible),
            "the file is truncated or its header damaged: fetch or write it anew");
   }
   return static_cast<std::uint64_t>(total);

@@ -22,7 +22,7 @@ public:
   {
     TIFFOpenOptions * options = TIFFOpenOptionsAlloc();
     TIFFOpenOptionsSetErrorHandlerExtR(options, &TiffHandle::OnError, this);
-    TIFFOpenOptionsSetWarningHandlerExtR(options, &TiffHandle::OnWarning, nullptr);
+    TIFFOpenOptionsSetWarningHandlerExtR(options, &TiffHandle::OnWarning, this);
     // m: no memory mapping, where a file cut short meanwhile would end the process.
     m_Tiff = TIFFOpenExt(path.c_str(), "rm", options);
     TIFFOpenOptionsFree(options);
@@ -91,8 +91,13 @@ private:
     return 1;
   }
   static int
-  OnWarning(TIFF *, void *, const char *, const char *, va_list)
+  OnWarning(TIFF * tiff, void * self, const char * module, const char * format, va_list arguments)
   {
+    // libtiff replaces byte counts that do not fit by what should be there, and reads on into other data.
+    if (std::strstr(format, "ByteCount") != nullptr)
+    {
+      OnError(tiff, self, module, format, arguments);
+    }
     return 1;
   }
 

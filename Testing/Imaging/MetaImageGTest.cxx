@@ -1,0 +1,138 @@
+#include "ScanBytes.h"
+
+using namespace voxelcore;
+using namespace voxelcore::testing;
+
+namespace
+{
+
+const std::vector<int> kValues{ 0, 1, 2, 3, 0, 7, 0, 0, 0, 2, 2, 120 }; // 3 x 2 x 2
+const std::string      kData = RawAll<std::uint8_t>(kValues);
+
+std::vector<std::string>
+Lines(const std::string & type = "MET_UCHAR")
+{
+  return { "ObjectType = Image",
+           "NDims = 3",
+           "BinaryData = True",
+           "BinaryDataByteOrderMSB = False",
+           "CompressedData = False",
+           "Offset = 0 0 0",
+           "DimSize = 3 2 2",
+           "ElementSpacing = 1 1 1",
+           "TransformMatrix = 1 0 0 0 1 0 0 0 1",
+           "ElementType = " + type };
+}
+
+std::vector<std::string>
+With(std::vector<std::string> lines, const std::string & field, const std::string & value)
+{
+  std::erase_if(lines, [&](const std::string & line) { return line.starts_with(field + " ="); });
+  lines.push_back(field + " = " + value);
+  return lines;
+}
+
+void
+ExpectValues(const LabelVolume & volume)
+{
+  EXPECT_EQ(AllValues(volume), std::vector<std::int64_t>(kValues.begin(), kValues.end()));
+}
+
+} // namespace
+
+TEST(MetaImage, TypesAndByteOrders)
+{
+  const TempFolder folder;
+  const auto       check = [&](const std::string & type, bool big, const std::string & data) {
+    const auto lines = With(Lines(type), "BinaryDataByteOrderMSB", big ? "True" : "False");
+    ExpectValues(ReadLabelVolume(folder.Write("a.mha", Meta(lines, data))));
+  };
+  for (const bool big : { false, true })
+  {
+    check("MET_UCHAR", big, kData);
+    check("MET_CHAR", big, RawAll<std::int8_t>(kValues, big));
+    check("MET_SHORT", big, RawAll<std::int16_t>(kValues, big));
+    check("MET_USHORT", big, RawAll<std::uint16_t>(kValues, big));
+    check("MET_INT", big, RawAll<std::int32_t>(kValues, big));
+    check("MET_UINT", big, RawAll<std::uint32_t>(kValues, big));
+    check("MET_LONG_LONG", big, RawAll<std::int64_t>(kValues, big));
+    check("MET_ULONG_LONG", big, RawAll<std::uint64_t>(kValues, big));
+    check("MET_FLOAT", big, RawAll<float>(kValues, big));
+    check("MET_DOUBLE", big, RawAll<double>(kValues, big));
+  }
+}
+
+TEST(MetaImage, CompressedTextAndDetachedData)
+{
+  const TempFolder folder;
+  ExpectValues(ReadLabelVolume(folder.Write("z.mha", Meta(With(Lines(), "CompressedData", "True"), Zlib(kData)))));
+  ExpectValues(
+    ReadLabelVolume(folder.Write("t.mha", Meta(With(Lines(), "BinaryData", "False"), "0 1 2 3 0 7 0 0 0 2 2 120"))));
+  const auto detached = [](std::vector<std::string> lines, const std::string & file) {
+    std::string text;
+    for (const auto & line : lines)
+    {
+      text += line + "\n";
+    }
+    return text + "ElementDataFile = " + file + "\n";
+  };
+  folder.Write("all.raw", "xyz" + kData);
+  folder.Write("s1.raw", kData.substr(0, 6));
+  folder.Write("s2.raw", kData.substr(6));
+  ExpectValues(ReadLabelVolume(folder.Write("a.mhd", detached(With(Lines(), "HeaderSize", "3"), "all.raw"))));
+  ExpectValues(ReadLabelVolume(folder.Write("b.mhd", detached(With(Lines(), "HeaderSize", "-1"), "all.raw"))));
+  ExpectValues(ReadLabelVolume(folder.Write("c.mhd", detached(Lines(), "LIST\ns1.raw\ns2.raw"))));
+  ExpectValues(ReadLabelVolume(folder.Write("d.mhd", detached(Lines(), "s%01d.raw 1 2 1"))));
+  EXPECT_THROW(ReadLabelVolume(folder.Write("e.mhd", detached(Lines(), "nowhere.raw"))), InputError);
+}
+
+TEST(MetaImage, GeometryIsLpsAndTheMatrixHoldsOneAxisAfterTheOther)
+{
+  const TempFolder folder;
+  auto             lines = With(Lines(), "ElementSpacing", "2 3 0.5");
+  lines = With(lines, "Offset", "1 2 3");
+  lines = With(lines, "TransformMatrix", "0.6 0.8 0 -0.8 0.6 0 0 0 -1");
+  const LabelVolume volume = ReadLabelVolume(folder.Write("a.mha", Meta(lines, kData)));
+  ExpectNear(CentreOf(volume, 2, 1, 1), { 1 + 2.4 - 2.4, 2 + 3.2 + 1.8, 2.5 }, 1e-12);
+  EXPECT_TRUE(IsLeftHanded(volume.geometry));
+  const LabelVolume micro = ReadLabelVolume(folder.Write("b.mha", Meta(With(lines, "DistanceUnits", "um"), kData)));
+  ExpectNear(micro.geometry.spacing, { 0.002, 0.003, 0.0005 }, 1e-15);
+  ExpectNear(micro.geometry.origin, { 0.001, 0.002, 0.003 }, 1e-15);
+  ExpectRefused(folder.Write("c.mha", Meta(With(lines, "TransformMatrix", "1 0 0 0.1 1 0 0 0 1"), kData)),
+                { "5.71", "--orthonormalize" });
+  ExpectRefused(folder.Write("d.mha", Meta(With(lines, "ElementSpacing", "2 0 1"), kData)), { "axis j" });
+}
+
+TEST(MetaImage, SeriesColoursAndPictures)
+{
+  const TempFolder folder;
+  auto             lines = With(With(Lines(), "NDims", "4"), "DimSize", "3 2 2 2");
+  lines = With(With(lines, "Offset", "10 20 30 0"), "ElementSpacing", "2 3 4 1");
+  lines = With(lines, "TransformMatrix", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1");
+  const auto path = folder.Write("a.mha", Meta(lines, std::string(12, '\5') + kData));
+  ExpectRefused(path, { "4-D", "--volume" });
+  ReadOptions options;
+  options.volume = 1;
+  const LabelVolume volume = ReadLabelVolume(path, options);
+  ExpectValues(volume);
+  ExpectNear(CentreOf(volume, 2, 1, 1), { 14, 23, 34 });
+  ExpectRefused(folder.Write("b.mha", Meta(With(Lines(), "ElementNumberOfChannels", "3"), kData + kData + kData)),
+                { "colour", "3 values" });
+  const auto flat = With(With(Lines(), "NDims", "2"), "DimSize", "6 2");
+  ExpectRefused(folder.Write("c.mha", Meta(flat, kData)), { "2-D" });
+}
+
+TEST(MetaImage, DamagedFilesAreRefused)
+{
+  const TempFolder folder;
+  ExpectRefused(folder.Write("a.mha", Meta(Lines(), kData.substr(1))), { "truncated" });
+  const std::string packed = Meta(With(Lines(), "CompressedData", "True"), Zlib(kData));
+  ExpectRefused(folder.Write("b.mha", packed.substr(0, packed.size() - 2)), { "truncated" });
+  ExpectRefused(folder.Write("c.mha", "hello, I am a text\n"), { "not a MetaImage" });
+  for (const char * size : { "16384 16384 4096", "-3 2 2", "3 2", "9999999999999999999999 1 1", "0 0 0" })
+  {
+    ExpectRefused(folder.Write("d.mha", Meta(With(Lines(), "DimSize", size), kData)), {});
+  }
+  ExpectRefused(folder.Write("e.mha", Meta(With(Lines(), "NDims", "1000000"), kData)), { "NDims" });
+  ExpectRefused(folder.Write("f.mha", Meta(With(Lines(), "ElementType", "MET_NONE"), kData)), { "MET_NONE" });
+}
