@@ -1,0 +1,320 @@
+#include "RootGrowth.h"
+#include "SplitMix64.h"
+
+#include "voxelcore/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace voxelcore
+{
+namespace
+{
+
+double
+Distance(const Vector3 & a, const Vector3 & b)
+{
+  const Vector3 d = Sum(a, b, -1);
+  return std::sqrt(Dot(d, d));
+}
+
+Vector3
+Direction(const Vector3 & a)
+{
+  const double length = std::sqrt(Dot(a, a));
+  return length > 0 ? Vector3{ a[0] / length, a[1] / length, a[2] / length } : Vector3{ 0, 0, -1 };
+}
+
+/** Evenly spread over the ball of radius 1. */
+Vector3
+RandomInBall(SplitMix64 & random)
+{
+  for (;;)
+  {
+    const Vector3 v{ random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1) };
+    if (Dot(v, v) <= 1)
+    {
+      return v;
+    }
+  }
+}
+
+/** How one branch grows. */
+struct Growth
+{
+  Vector3 start{};
+  Vector3 direction{};
+  double  length = 0;
+  double  baseRadius = 0;
+  double  tipRadius = 0;
+  double  wander = 0;  ///< how much each step may turn
+  double  gravity = 0; ///< how much each step turns down
+};
+
+/** Grows the branches one after another, each keeping clear of what is there, so that the system stays a tree. */
+class RootGrower
+{
+public:
+  explicit RootGrower(const PhantomOptions & options)
+    : m_Seed(options.seed)
+    , m_Sides(Sides(options))
+    , m_Shortest(ShortestSide(options))
+    , m_Detail(options.detail.value_or(0.501 * std::sqrt(Dot(options.spacing, options.spacing))))
+    , m_Step(m_Shortest / 200)
+    , m_StemRadius(std::max(options.radius.value_or(0.045 * m_Shortest), m_Detail))
+    , m_CellSide(2 * (m_StemRadius + 4 * m_Detail + m_Step))
+  {
+    // As many as there is room for between them at this detail.
+    const double room = m_Sides[2] / m_Detail;
+    m_Laterals = options.laterals.value_or(static_cast<int>(std::clamp(room / 16, 3.0, 50.0)));
+    m_SubLaterals = options.subLaterals.value_or(static_cast<int>(std::clamp(m_Shortest / m_Detail / 60, 1.0, 8.0)));
+  }
+
+  std::vector<GrownPoint>
+  Grow()
+  {
+    const std::size_t stem = GrowStem();
+    if (m_Points.empty())
+    {
+      return {};
+    }
+    const std::vector<std::size_t> laterals = GrowOn(stem, m_Laterals, 1);
+    for (const std::size_t lateral : laterals)
+    {
+      GrowOn(lateral, m_SubLaterals, 2);
+    }
+    return std::move(m_Points);
+  }
+
+private:
+  /** Points of a branch lie together: [first, last). */
+  struct Branch
+  {
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+
+  std::size_t
+  GrowStem()
+  {
+    const double margin = m_StemRadius + 2 * m_Detail;
+    Growth       growth;
+    growth.start = { m_Sides[0] / 2, m_Sides[1] / 2, m_Sides[2] - margin };
+    growth.direction = { 0, 0, -1 };
+    growth.length = std::max(0.0, m_Sides[2] - 2 * margin);
+    growth.baseRadius = m_StemRadius;
+    growth.tipRadius = m_StemRadius / 4;
+    growth.wander = 0.05;
+    growth.gravity = 0.02;
+    SplitMix64 random(m_Seed, 0);
+    return Accept(Trace(growth, random), -1, 0);
+  }
+
+  /** Lets laterals spring from a branch; gives those that grew. */
+  std::vector<std::size_t>
+  GrowOn(std::size_t parentBranch, int count, std::int32_t order)
+  {
+    std::vector<std::size_t> grown;
+    const Branch             parent = m_Branches[parentBranch];
+    const double             points = static_cast<double>(parent.last - parent.first);
+    for (int i = 0; i < count; ++i)
+    {
+      std::vector<GrownPoint> best;
+      std::size_t             bestOrigin = 0;
+      double                  bestPart = 0;
+      for (std::uint64_t attempt = 0; attempt < 12 && bestPart < 1; ++attempt)
+      {
+        // A stream for each attempt: whether one is needed must not change the branches that come after.
+        SplitMix64   random(m_Seed, (((parentBranch + 1) << 20) + static_cast<std::uint64_t>(i)) * 64 + attempt + 1);
+        const double along =
+          order == 1 ? 0.04 + 0.9 * (i + random.Uniform()) / count : 0.2 + 0.7 * (i + random.Uniform()) / count;
+        const std::size_t origin = std::min(parent.last - 1, parent.first + static_cast<std::size_t>(along * points));
+        const Growth      growth = GrowthAt(origin, along, order, random);
+        if (growth.length <= 0)
+        {
+          continue;
+        }
+        std::vector<GrownPoint> points_ = Trace(growth, random);
+        const std::size_t       wanted = points_.size();
+        points_.resize(FreeLength(points_, origin, parentBranch));
+        const double part = static_cast<double>(points_.size()) / static_cast<double>(wanted);
+        if (part > bestPart && points_.size() > 3)
+        {
+          best = std::move(points_);
+          bestOrigin = origin;
+          bestPart = part;
+        }
+      }
+      if (bestPart > 0.2)
+      {
+        grown.push_back(Accept(std::move(best), static_cast<std::int64_t>(bestOrigin), order));
+      }
+    }
+    return grown;
+  }
+
+  Growth
+  GrowthAt(std::size_t origin, double along, std::int32_t order, SplitMix64 & random) const
+  {
+    const GrownPoint & from = m_Points[origin];
+    const Vector3      tangent = Direction(
+      Sum(from.position, m_Points[static_cast<std::size_t>(std::max<std::int64_t>(from.parent, 0))].position, -1));
+    Vector3 sideways = RandomInBall(random);
+    sideways = Direction(Sum(sideways, tangent, -Dot(sideways, tangent)));
+    Growth growth;
+    growth.start = from.position;
+    growth.direction = Direction(Sum(sideways, tangent, order == 1 ? 0.35 : 0.7));
+    growth.length = order == 1 ? (0.6 - 0.3 * along) * m_Shortest * random.Uniform(0.7, 1.2)
+                               : (0.24 - 0.1 * along) * m_Shortest * random.Uniform(0.5, 1.2);
+    growth.baseRadius = (order == 1 ? 0.45 : 0.6) * from.radius * random.Uniform(0.8, 1.0);
+    growth.tipRadius = 0.35 * growth.baseRadius;
+    growth.wander = order == 1 ? 0.12 : 0.18;
+    growth.gravity = order == 1 ? 0.012 : 0.006;
+    return growth;
+  }
+
+  /** The points of a branch, from its start on: straight on, a little astray, a little down. It ends at the margin. */
+  std::vector<GrownPoint>
+  Trace(const Growth & growth, SplitMix64 & random) const
+  {
+    std::vector<GrownPoint> points;
+    const int               steps = std::max(1, static_cast<int>(growth.length / m_Step));
+    Vector3                 position = growth.start;
+    Vector3                 direction = growth.direction;
+    Vector3                 turn{ 0, 0, 0 };
+    for (int i = 0; i <= steps; ++i)
+    {
+      const double t = static_cast<double>(i) / steps;
+      GrownPoint   point;
+      point.position = position;
+      point.radius = std::max(m_Detail, growth.baseRadius + t * (growth.tipRadius - growth.baseRadius));
+      const double margin = point.radius + m_Detail;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        if (position[axis] < margin || position[axis] > m_Sides[axis] - margin)
+        {
+          return points;
+        }
+      }
+      points.push_back(point);
+      // The turning itself changes slowly: the line is smooth.
+      turn = Sum({ 0.8 * turn[0], 0.8 * turn[1], 0.8 * turn[2] }, RandomInBall(random), 0.3 * growth.wander);
+      direction = Direction(Sum(Sum(direction, turn), { 0, 0, -1 }, growth.gravity));
+      position = Sum(position, direction, m_Step);
+    }
+    return points;
+  }
+
+  /** How many points a branch has before it comes too near to another, or back to the one it springs from. */
+  std::size_t
+  FreeLength(const std::vector<GrownPoint> & points, std::size_t origin, std::size_t parentBranch) const
+  {
+    const GrownPoint & from = m_Points[origin];
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const GrownPoint & point = points[i];
+      const double       away = Distance(point.position, from.position);
+      if (away < from.radius + point.radius)
+      {
+        continue; // still within the parent
+      }
+      const bool  leftParent = away > 2.5 * (from.radius + point.radius) + 4 * m_Detail;
+      std::size_t blocked = 0;
+      ForNeighbours(point.position, [&](std::size_t index) {
+        const GrownPoint & other = m_Points[index];
+        if (static_cast<std::size_t>(other.branch) == parentBranch && !leftParent)
+        {
+          return;
+        }
+        if (Distance(point.position, other.position) < point.radius + other.radius + 3 * m_Detail + m_Step / 2)
+        {
+          ++blocked;
+        }
+      });
+      if (blocked > 0)
+      {
+        return i;
+      }
+    }
+    return points.size();
+  }
+
+  /** Adds a branch whose first point follows the point `parent`. */
+  std::size_t
+  Accept(std::vector<GrownPoint> points, std::int64_t parent, std::int32_t order)
+  {
+    const std::size_t branch = m_Branches.size();
+    m_Branches.push_back({ m_Points.size(), m_Points.size() + points.size() });
+    for (GrownPoint & point : points)
+    {
+      point.parent = parent;
+      point.branch = static_cast<std::int32_t>(branch);
+      point.order = order;
+      parent = static_cast<std::int64_t>(m_Points.size());
+      m_Cells[CellOf(point.position, { 0, 0, 0 })].push_back(m_Points.size());
+      m_Points.push_back(point);
+    }
+    return branch;
+  }
+
+  std::uint64_t
+  CellOf(const Vector3 & position, const std::array<int, 3> & shift) const
+  {
+    std::uint64_t key = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto cell = static_cast<std::int64_t>(position[axis] / m_CellSide) + shift[axis] + 1;
+      key = (key << 21) | (static_cast<std::uint64_t>(cell) & 0x1FFFFF);
+    }
+    return key;
+  }
+
+  template <typename Visit>
+  void
+  ForNeighbours(const Vector3 & position, Visit && visit) const
+  {
+    for (int dz = -1; dz <= 1; ++dz)
+    {
+      for (int dy = -1; dy <= 1; ++dy)
+      {
+        for (int dx = -1; dx <= 1; ++dx)
+        {
+          const auto cell = m_Cells.find(CellOf(position, { dx, dy, dz }));
+          if (cell != m_Cells.end())
+          {
+            std::for_each(cell->second.begin(), cell->second.end(), visit);
+          }
+        }
+      }
+    }
+  }
+
+  std::uint64_t                                               m_Seed;
+  Vector3                                                     m_Sides;
+  double                                                      m_Shortest;
+  double                                                      m_Detail; ///< smallest radius
+  double                                                      m_Step;   ///< between points
+  double                                                      m_StemRadius;
+  double                                                      m_CellSide;
+  int                                                         m_Laterals = 0;
+  int                                                         m_SubLaterals = 0;
+  std::vector<GrownPoint>                                     m_Points;
+  std::vector<Branch>                                         m_Branches;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> m_Cells; ///< points by coarse cells
+};
+
+} // namespace
+
+std::vector<GrownPoint>
+GrowRoot(const PhantomOptions & options)
+{
+  std::vector<GrownPoint> points = RootGrower(options).Grow();
+  if (points.empty())
+  {
+    throw UsageError("a root does not fit into a grid this small; enlarge its size or give a smaller detail");
+  }
+  return points;
+}
+
+} // namespace voxelcore
