@@ -4,6 +4,7 @@
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace voxelcore
@@ -29,24 +30,19 @@ struct Entry
   std::uint32_t         cell;
 };
 
-// Cells by exact centre. Rounding is monotone, so doubles decide unless they are equal.
-std::vector<Entry>
-SortedCells(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+// Compares exact centres. Rounding is monotone, so doubles decide unless they are equal.
+class CentreOrder
 {
-  const auto         greatest = static_cast<double>(*std::max_element(weights.weight.begin(), weights.weight.end()));
-  std::vector<Entry> order(cells.CellCount());
-#pragma omp parallel for schedule(static) if (order.size() > 10000)
-  for (std::size_t cell = 0; cell < order.size(); ++cell)
+public:
+  CentreOrder(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+    : m_Cells(cells)
+    , m_Points(points)
+    , m_Weights(weights)
+  {}
+
+  int
+  Compare(const Entry & a, const Entry & b) const
   {
-    const auto         index = static_cast<std::uint32_t>(cell);
-    const CircumSphere sphere = SphereOf(cells, index, points, weights);
-    order[cell] = { { CentreCoordinate(sphere, 0, weights),
-                      CentreCoordinate(sphere, 1, weights),
-                      CentreCoordinate(sphere, 2, weights) },
-                    2.0 * static_cast<double>(sphere.det) * greatest * greatest,
-                    index };
-  }
-  const auto compare = [&](const Entry & a, const Entry & b) {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       if (a.centre[axis] != b.centre[axis])
@@ -58,51 +54,97 @@ SortedCells(const DelaunayCells & cells, const std::vector<LatticePoint> & point
       {
         continue;
       }
-      const int sign = CompareCentreCoordinates(SphereOf(cells, a.cell, points, weights),
-                                                SphereOf(cells, b.cell, points, weights),
+      const int sign = CompareCentreCoordinates(SphereOf(m_Cells, a.cell, m_Points, m_Weights),
+                                                SphereOf(m_Cells, b.cell, m_Points, m_Weights),
                                                 axis,
-                                                weights);
+                                                m_Weights);
       if (sign != 0)
       {
         return sign;
       }
     }
     return 0;
-  };
-  std::sort(order.begin(), order.end(), [&](const Entry & a, const Entry & b) { return compare(a, b) < 0; });
-  for (std::size_t i = 1; i < order.size(); ++i)
+  }
+
+private:
+  const DelaunayCells &             m_Cells;
+  const std::vector<LatticePoint> & m_Points;
+  const SpacingWeights &            m_Weights;
+};
+
+// Cells by exact centre: first into slabs of one lattice step along x, then sorted slab by slab.
+std::vector<Entry>
+SortedCells(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+{
+  const auto         greatest = static_cast<double>(*std::max_element(weights.weight.begin(), weights.weight.end()));
+  const auto         count = static_cast<std::ptrdiff_t>(cells.CellCount());
+  std::vector<Entry> entries(cells.CellCount());
+#pragma omp parallel for schedule(static) if (count > 10000)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
   {
-    if (compare(order[i - 1], order[i]) == 0)
+    const auto         cell = static_cast<std::uint32_t>(i);
+    const CircumSphere sphere = SphereOf(cells, cell, points, weights);
+    entries[cell] = { { CentreCoordinate(sphere, 0, weights),
+                        CentreCoordinate(sphere, 1, weights),
+                        CentreCoordinate(sphere, 2, weights) },
+                      2.0 * static_cast<double>(sphere.det) * greatest * greatest,
+                      cell };
+  }
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  for (const Entry & entry : entries)
+  {
+    low = std::min(low, entry.centre[0]);
+    high = std::max(high, entry.centre[0]);
+  }
+  const auto slabOf = [&](const Entry & entry) { return static_cast<std::size_t>(entry.centre[0] - std::floor(low)); };
+  const auto slabs = entries.empty() ? 0 : static_cast<std::size_t>(high - std::floor(low)) + 1;
+  std::vector<std::size_t> start(slabs + 1, 0);
+  for (const Entry & entry : entries)
+  {
+    ++start[slabOf(entry) + 1];
+  }
+  for (std::size_t slab = 0; slab < slabs; ++slab)
+  {
+    start[slab + 1] += start[slab];
+  }
+  std::vector<Entry> order(entries.size());
+  {
+    std::vector<std::size_t> next(start.begin(), start.end() - 1);
+    for (const Entry & entry : entries)
     {
-      throw CertificateError("two Delaunay cells have the same centre; please report this input");
+      order[next[slabOf(entry)]++] = entry;
     }
+  }
+  const CentreOrder centreOrder(cells, points, weights);
+  bool              twins = false;
+#pragma omp parallel for schedule(dynamic) reduction(|| : twins) if (count > 10000)
+  for (std::size_t slab = 0; slab < slabs; ++slab)
+  {
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(start[slab]);
+    const auto last = order.begin() + static_cast<std::ptrdiff_t>(start[slab + 1]);
+    std::sort(first, last, [&](const Entry & a, const Entry & b) { return centreOrder.Compare(a, b) < 0; });
+    for (auto at = first; at != last && at + 1 != last; ++at)
+    {
+      twins = twins || centreOrder.Compare(*at, *(at + 1)) == 0;
+    }
+  }
+  if (twins)
+  {
+    throw CertificateError("two Delaunay cells have the same centre; please report this input");
   }
   return order;
 }
 
-} // namespace
-
+// Renumbers the cells of each facet, puts the smaller first and starts its polygon at the smallest point.
 void
-MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+TurnFacets(DelaunayCells & cells, const std::vector<std::uint32_t> & rank)
 {
-  std::vector<std::uint32_t> rank(cells.CellCount());
+  const auto facets = static_cast<std::ptrdiff_t>(cells.FacetCount());
+#pragma omp parallel for schedule(static) if (facets > 10000)
+  for (std::ptrdiff_t i = 0; i < facets; ++i)
   {
-    const std::vector<Entry>                  order = SortedCells(cells, points, weights);
-    std::vector<std::array<std::uint32_t, 4>> tetrahedra(order.size());
-    cells.centres.resize(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-      rank[order[i].cell] = static_cast<std::uint32_t>(i);
-      cells.centres[i] = order[i].centre;
-      tetrahedra[i] = cells.tetrahedra[order[i].cell];
-    }
-    cells.tetrahedra.swap(tetrahedra);
-  }
-
-  const std::size_t          facets = cells.FacetCount();
-  std::vector<std::uint64_t> bucketEnd(cells.CellCount() + 1, 0);
-  for (std::size_t facet = 0; facet < facets; ++facet)
-  {
+    const auto facet = static_cast<std::size_t>(i);
     auto &     pair = cells.facetCells[facet];
     const auto first = cells.facetPoints.begin() + static_cast<std::ptrdiff_t>(cells.facetOffsets[facet]);
     const auto last = cells.facetPoints.begin() + static_cast<std::ptrdiff_t>(cells.facetOffsets[facet + 1]);
@@ -117,45 +159,92 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
       }
     }
     std::rotate(first, std::min_element(first, last), last);
-    ++bucketEnd[pair[0] + 1];
   }
-  for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
+}
+
+// The facets' canonical order, by buckets of their first cell.
+std::vector<std::uint32_t>
+FacetOrder(const DelaunayCells & cells)
+{
+  const std::size_t          cellCount = cells.CellCount();
+  const std::size_t          facets = cells.FacetCount();
+  std::vector<std::uint32_t> start(cellCount + 2, 0);
+  for (const auto & pair : cells.facetCells)
   {
-    bucketEnd[cell + 1] += bucketEnd[cell];
+    ++start[pair[0] + 2];
+  }
+  for (std::size_t cell = 2; cell < start.size(); ++cell)
+  {
+    start[cell] += start[cell - 1];
   }
   std::vector<std::uint32_t> order(facets);
+  for (std::size_t facet = 0; facet < facets; ++facet)
   {
-    std::vector<std::uint64_t> next(bucketEnd.begin(), bucketEnd.end() - 1);
-    for (std::size_t facet = 0; facet < facets; ++facet)
-    {
-      order[next[cells.facetCells[facet][0]]++] = static_cast<std::uint32_t>(facet);
-    }
+    order[start[cells.facetCells[facet][0] + 1]++] = static_cast<std::uint32_t>(facet);
   }
   const auto key = [&](std::uint32_t facet) {
     const std::uint32_t * p = cells.facetPoints.data() + cells.facetOffsets[facet];
     return std::make_tuple(cells.facetCells[facet][1], p[0], p[1], p[2]); // two facets of a cell share two points
   };
-#pragma omp parallel for schedule(static) if (order.size() > 10000)
-  for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
+#pragma omp parallel for schedule(static) if (facets > 10000)
+  for (std::size_t cell = 0; cell < cellCount; ++cell)
   {
-    std::sort(order.begin() + static_cast<std::ptrdiff_t>(bucketEnd[cell]),
-              order.begin() + static_cast<std::ptrdiff_t>(bucketEnd[cell + 1]),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::sort(order.begin() + start[cell], order.begin() + start[cell + 1], [&](std::uint32_t a, std::uint32_t b) {
+      return key(a) < key(b);
+    });
+  }
+  return order;
+}
+
+} // namespace
+
+void
+MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+{
+  {
+    std::vector<std::uint32_t> rank(cells.CellCount());
+    {
+      const std::vector<Entry>                  order = SortedCells(cells, points, weights);
+      std::vector<std::array<std::uint32_t, 4>> tetrahedra(order.size());
+      cells.centres.resize(order.size());
+      for (std::size_t i = 0; i < order.size(); ++i)
+      {
+        rank[order[i].cell] = static_cast<std::uint32_t>(i);
+        cells.centres[i] = order[i].centre;
+        tetrahedra[i] = cells.tetrahedra[order[i].cell];
+      }
+      cells.tetrahedra.swap(tetrahedra);
+    }
+    TurnFacets(cells, rank);
   }
 
-  std::vector<std::array<std::uint32_t, 2>> facetCells(facets);
-  std::vector<std::uint64_t>                offsets(facets + 1, 0);
-  std::vector<std::uint32_t>                facetPoints(cells.facetPoints.size());
-  for (std::size_t i = 0; i < facets; ++i)
+  // One array after the other, so that never more than one of them is there twice.
+  const std::vector<std::uint32_t> order = FacetOrder(cells);
+  const auto                       facets = static_cast<std::ptrdiff_t>(order.size());
+  std::vector<std::uint64_t>       offsets(order.size() + 1, 0);
+  for (std::size_t i = 0; i < order.size(); ++i)
   {
-    const auto from = cells.FacetPoints(order[i]);
+    offsets[i + 1] = offsets[i] + cells.facetOffsets[order[i] + 1] - cells.facetOffsets[order[i]];
+  }
+  {
+    std::vector<std::uint32_t> facetPoints(offsets.back());
+#pragma omp parallel for schedule(static) if (facets > 10000)
+    for (std::ptrdiff_t i = 0; i < facets; ++i)
+    {
+      const auto polygon = cells.FacetPoints(order[static_cast<std::size_t>(i)]);
+      std::copy(polygon.begin(),
+                polygon.end(),
+                facetPoints.begin() + static_cast<std::ptrdiff_t>(offsets[static_cast<std::size_t>(i)]));
+    }
+    cells.facetPoints.swap(facetPoints);
+  }
+  cells.facetOffsets.swap(offsets);
+  std::vector<std::array<std::uint32_t, 2>> facetCells(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
     facetCells[i] = cells.facetCells[order[i]];
-    offsets[i + 1] = offsets[i] + from.size();
-    std::copy(from.begin(), from.end(), facetPoints.begin() + static_cast<std::ptrdiff_t>(offsets[i]));
   }
   cells.facetCells.swap(facetCells);
-  cells.facetOffsets.swap(offsets);
-  cells.facetPoints.swap(facetPoints);
 }
 
 } // namespace voxelcore

@@ -26,6 +26,15 @@ CellTracer::CellTracer(const TracingInput & input, std::size_t first, std::size_
   , m_Pending(last - first)
   , m_Done(last - first, 0)
 {
+  // Room for the usual number of cells and facets a vertex, so that arrays need not move: what is not touched costs
+  // nothing.
+  const auto share =
+    static_cast<std::size_t>(3.0 * static_cast<double>(input.points.size()) * static_cast<double>(last - first) /
+                             static_cast<double>(input.grid.Size()));
+  m_Result.tetrahedra.reserve(share / 2);
+  m_Result.facetCells.reserve(share * 3 / 2);
+  m_Result.facetOffsets.reserve(share * 3 / 2);
+  m_Result.facetPoints.reserve(share * 5);
   const auto & w = input.weights.weight;
   m_Wide = std::max({ w[0], w[1], w[2] }) > 1;
   m_Limit = largestRadius * static_cast<double>(std::min({ w[0], w[1], w[2] }));
