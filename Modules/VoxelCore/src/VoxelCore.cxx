@@ -7,6 +7,7 @@
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace voxelcore
 {
@@ -18,8 +19,13 @@ namespace
 struct Side
 {
   std::uint32_t q;
-  ElementIndex  edge;
-  std::uint32_t forward; // 1 when the face, seen against the direction p -> q, passes the edge from end 0 to end 1
+  std::uint32_t turn; // twice the edge, plus 1 when the face, seen against p -> q, passes it from end 0 to end 1
+
+  ElementIndex
+  Edge() const
+  {
+    return turn >> 1;
+  }
 };
 
 // Whether the Delaunay edge between two points lies on the boundary: then it is a side of a voxel, and not all of the
@@ -52,32 +58,29 @@ IsBoundaryEdge(const LatticePoint & a, const LatticePoint & b, const VoxelShape 
   return false;
 }
 
-// The sides of all faces, bucketed by the lexicographically smaller end p of their Delaunay edge.
-struct Sides
-{
-  std::vector<std::uint64_t> start; // points + 1
-  std::vector<Side>          side;
-};
-
+// Calls visit(p, side) for every side of a face of the core; in parallel, in any order.
 template <typename TVisit>
 void
 VisitSides(const VoxelShape &                shape,
            const std::vector<LatticePoint> & points,
            const DelaunayCells &             cells,
+           const std::vector<ElementIndex> & edgeOf,
            TVisit                            visit)
 {
-  ElementIndex edge = 0;
-  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
+  const auto facets = static_cast<std::ptrdiff_t>(cells.FacetCount());
+#pragma omp parallel for schedule(static) if (facets > 10000)
+  for (std::ptrdiff_t i = 0; i < facets; ++i)
   {
+    const auto facet = static_cast<std::size_t>(i);
     if (cells.facetCells[facet][1] == kOutside)
     {
       continue;
     }
     const auto polygon = cells.FacetPoints(facet);
-    for (std::size_t i = 0; i < polygon.size(); ++i)
+    for (std::size_t j = 0; j < polygon.size(); ++j)
     {
-      const std::uint32_t u = polygon[i];
-      const std::uint32_t v = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+      const std::uint32_t u = polygon[j];
+      const std::uint32_t v = polygon[j + 1 == polygon.size() ? 0 : j + 1];
       if (IsBoundaryEdge(points[u], points[v], shape))
       {
         continue;
@@ -85,28 +88,62 @@ VisitSides(const VoxelShape &                shape,
       // The facet's normal points from cell 0 to cell 1. A facet that runs p -> q lies on the left of that direction,
       // so going round it counter-clockwise passes from cell 0 to cell 1.
       const bool forward = points[u] < points[v];
-      visit(forward ? u : v, Side{ forward ? v : u, edge, forward ? 1U : 0U });
+      visit(forward ? u : v, Side{ forward ? v : u, edgeOf[facet] << 1 | (forward ? 1U : 0U) });
     }
-    ++edge;
   }
 }
 
+// The sides of all faces, bucketed by p, the lexicographically smaller end of their Delaunay edge.
+struct Sides
+{
+  std::vector<std::uint64_t> start; // points + 1
+  std::vector<Side>          side;
+};
+
 Sides
-CollectSides(const VoxelShape & shape, const std::vector<LatticePoint> & points, const DelaunayCells & cells)
+CollectSides(const VoxelShape &                shape,
+             const std::vector<LatticePoint> & points,
+             const DelaunayCells &             cells,
+             const std::vector<ElementIndex> & edgeOf)
 {
   Sides sides;
   sides.start.assign(points.size() + 2, 0);
-  VisitSides(shape, points, cells, [&](std::uint32_t p, const Side &) { ++sides.start[p + 2]; });
+  VisitSides(shape, points, cells, edgeOf, [&](std::uint32_t p, const Side &) {
+    std::atomic_ref(sides.start[p + 2]).fetch_add(1, std::memory_order_relaxed);
+  });
   for (std::size_t p = 2; p < sides.start.size(); ++p)
   {
     sides.start[p] += sides.start[p - 1];
   }
   sides.side.resize(sides.start.back());
-  VisitSides(shape, points, cells, [&](std::uint32_t p, const Side & side) {
-    sides.side[sides.start[p + 1]++] = side;
+  VisitSides(shape, points, cells, edgeOf, [&](std::uint32_t p, const Side & side) {
+    sides.side[std::atomic_ref(sides.start[p + 1]).fetch_add(1, std::memory_order_relaxed)] = side;
   });
   sides.start.pop_back();
   return sides;
+}
+
+// The sides of one face, next to each other in a bucket.
+struct Group
+{
+  std::array<ElementIndex, 3> smallest; // vertices of the face: they decide its place, as faces share at most an edge
+  std::uint32_t               p;
+  std::uint32_t               first; // in p's bucket
+  std::uint32_t               count;
+};
+
+using Edges = std::vector<std::array<ElementIndex, 2>>;
+
+ElementIndex
+Tail(const Side & side, const Edges & edges)
+{
+  return edges[side.Edge()][1 - (side.turn & 1U)];
+}
+
+ElementIndex
+Head(const Side & side, const Edges & edges)
+{
+  return edges[side.Edge()][side.turn & 1U];
 }
 
 [[noreturn]] void
@@ -115,116 +152,154 @@ FailOpenFace()
   throw CertificateError("the Delaunay cells around an edge do not close; please report this input");
 }
 
-// Faces in the order they are found, with what their canonical order needs.
-struct Faces
+// Sorts each bucket by q, which makes groups; a vertex of a face is the tail of one side.
+std::vector<Group>
+GroupSides(Sides & sides, const Edges & edges)
 {
-  std::vector<std::uint64_t> offsets{ 0 };
-  std::vector<ElementIndex>  vertices;
-  std::vector<ElementIndex>  edges;
-  std::vector<Int128>        squaredLength; // of the Delaunay edge
-};
-
-// Chains the sides of one face head to tail, starting at its smallest vertex.
-void
-AppendFace(std::span<Side> sides, const std::vector<std::array<ElementIndex, 2>> & coreEdges, Faces & faces)
-{
-  if (sides.size() < 3)
+  constexpr std::size_t           chunk = 1U << 14;
+  const std::size_t               buckets = sides.start.size() - 1;
+  const std::size_t               chunks = (buckets + chunk - 1) / chunk;
+  std::vector<std::vector<Group>> parts(chunks);
+  bool                            open = false;
+#pragma omp parallel for schedule(dynamic) reduction(|| : open) if (chunks > 1)
+  for (std::size_t part = 0; part < chunks; ++part)
+  {
+    for (std::size_t p = part * chunk; p < std::min(buckets, (part + 1) * chunk); ++p)
+    {
+      const std::span<Side> own{ sides.side.data() + sides.start[p], sides.side.data() + sides.start[p + 1] };
+      std::sort(own.begin(), own.end(), [](const Side & a, const Side & b) { return a.q < b.q; });
+      for (std::size_t first = 0, last = 0; first < own.size(); first = last)
+      {
+        constexpr ElementIndex      none = 0xFFFFFFFFU;
+        std::array<ElementIndex, 3> smallest{ none, none, none };
+        for (; last < own.size() && own[last].q == own[first].q; ++last)
+        {
+          ElementIndex vertex = Tail(own[last], edges);
+          for (ElementIndex & place : smallest)
+          {
+            if (vertex < place)
+            {
+              std::swap(vertex, place);
+            }
+          }
+        }
+        open = open || last - first < 3;
+        parts[part].push_back({ smallest,
+                                static_cast<std::uint32_t>(p),
+                                static_cast<std::uint32_t>(first),
+                                static_cast<std::uint32_t>(last - first) });
+      }
+    }
+  }
+  if (open)
   {
     FailOpenFace();
   }
-  const auto tail = [&](const Side & side) { return coreEdges[side.edge][side.forward ? 0 : 1]; };
-  const auto head = [&](const Side & side) { return coreEdges[side.edge][side.forward ? 1 : 0]; };
-  std::iter_swap(sides.begin(), std::min_element(sides.begin(), sides.end(), [&](const Side & a, const Side & b) {
-                   return tail(a) < tail(b);
-                 }));
-  for (std::size_t i = 0; i < sides.size(); ++i)
+  std::vector<Group> groups;
+  std::size_t        count = 0;
+  for (const auto & part : parts)
   {
-    faces.vertices.push_back(tail(sides[i]));
-    faces.edges.push_back(sides[i].edge);
-    const ElementIndex next = head(sides[i]);
-    if (i + 1 == sides.size())
-    {
-      if (next != tail(sides[0]))
-      {
-        FailOpenFace();
-      }
-      break;
-    }
-    const auto follower = std::find_if(sides.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                       sides.end(),
-                                       [&](const Side & s) { return tail(s) == next; });
-    if (follower == sides.end())
-    {
-      FailOpenFace();
-    }
-    std::iter_swap(sides.begin() + static_cast<std::ptrdiff_t>(i) + 1, follower);
+    count += part.size();
   }
-  faces.offsets.push_back(faces.vertices.size());
+  groups.reserve(count);
+  for (auto & part : parts)
+  {
+    groups.insert(groups.end(), part.begin(), part.end());
+    std::vector<Group>().swap(part);
+  }
+  return groups;
 }
 
-Faces
-CollectFaces(Sides                                            sides,
-             const std::vector<LatticePoint> &                points,
-             const std::vector<std::array<ElementIndex, 2>> & coreEdges,
-             const SpacingWeights &                           weights)
+// Groups in the canonical order of their faces, by buckets of the smallest vertex.
+std::vector<std::uint32_t>
+CanonicalFaceOrder(const std::vector<Group> & groups, std::size_t vertexCount)
 {
-  Faces faces;
-  faces.vertices.reserve(sides.side.size());
-  faces.edges.reserve(sides.side.size());
-  for (std::size_t p = 0; p + 1 < sides.start.size(); ++p)
+  std::vector<std::uint32_t> start(vertexCount + 2, 0);
+  for (const Group & group : groups)
   {
-    const std::span<Side> own{ sides.side.data() + sides.start[p], sides.side.data() + sides.start[p + 1] };
-    std::sort(own.begin(), own.end(), [](const Side & a, const Side & b) { return a.q < b.q; });
-    for (std::size_t first = 0, last = 0; first < own.size(); first = last)
-    {
-      while (last < own.size() && own[last].q == own[first].q)
-      {
-        ++last;
-      }
-      AppendFace(own.subspan(first, last - first), coreEdges, faces);
-      faces.squaredLength.push_back(SquaredDistance(points[p], points[own[first].q], weights));
-    }
-  }
-  return faces;
-}
-
-// Faces by their sorted vertices. Two faces share at most one edge, so the three smallest vertices decide.
-std::vector<ElementIndex>
-CanonicalFaceOrder(const Faces & faces, std::size_t vertexCount)
-{
-  const std::size_t                        count = faces.offsets.size() - 1;
-  std::vector<std::array<ElementIndex, 2>> behind(count); // second and third smallest vertex
-  std::vector<std::uint64_t>               start(vertexCount + 2, 0);
-  for (std::size_t face = 0; face < count; ++face)
-  {
-    const std::span<const ElementIndex> polygon{ faces.vertices.data() + faces.offsets[face],
-                                                 faces.vertices.data() + faces.offsets[face + 1] };
-    ElementIndex                        second = 0xFFFFFFFFU;
-    ElementIndex                        third = 0xFFFFFFFFU;
-    for (const ElementIndex vertex : polygon.subspan(1))
-    {
-      third = std::min(third, std::max(second, vertex));
-      second = std::min(second, vertex);
-    }
-    behind[face] = { second, third };
-    ++start[polygon[0] + 2];
+    ++start[group.smallest[0] + 2];
   }
   for (std::size_t vertex = 2; vertex < start.size(); ++vertex)
   {
     start[vertex] += start[vertex - 1];
   }
-  std::vector<ElementIndex> order(count);
-  for (std::size_t face = 0; face < count; ++face)
+  std::vector<std::uint32_t> order(groups.size());
+  for (std::size_t i = 0; i < groups.size(); ++i)
   {
-    order[start[faces.vertices[faces.offsets[face]] + 1]++] = static_cast<ElementIndex>(face);
+    order[start[groups[i].smallest[0] + 1]++] = static_cast<std::uint32_t>(i);
   }
+#pragma omp parallel for schedule(static) if (vertexCount > 10000)
   for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
   {
-    std::sort(order.begin() + static_cast<std::ptrdiff_t>(start[vertex]),
-              order.begin() + static_cast<std::ptrdiff_t>(start[vertex + 1]),
-              [&](ElementIndex a, ElementIndex b) { return behind[a] < behind[b]; });
+    std::sort(order.begin() + start[vertex], order.begin() + start[vertex + 1], [&](std::uint32_t a, std::uint32_t b) {
+      return groups[a].smallest < groups[b].smallest;
+    });
   }
   return order;
+}
+
+// Chains the sides of one face head to tail from its smallest vertex on; false when they do not close.
+bool
+WriteFace(std::span<Side> sides,
+          const Edges &   edges,
+          ElementIndex    smallest,
+          ElementIndex *  vertices,
+          ElementIndex *  faceEdges)
+{
+  ElementIndex at = smallest;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    const auto next = std::find_if(sides.begin() + static_cast<std::ptrdiff_t>(i), sides.end(), [&](const Side & side) {
+      return Tail(side, edges) == at;
+    });
+    if (next == sides.end())
+    {
+      return false;
+    }
+    std::iter_swap(sides.begin() + static_cast<std::ptrdiff_t>(i), next);
+    vertices[i] = at;
+    faceEdges[i] = sides[i].Edge();
+    at = Head(sides[i], edges);
+  }
+  return at == smallest;
+}
+
+// The faces of the core in canonical order, with their measures.
+void
+WriteFaces(Sides sides, const std::vector<LatticePoint> & points, const SpacingWeights & weights, MedialComplex & core)
+{
+  CellComplex &                    complex = core.cells;
+  const std::vector<Group>         groups = GroupSides(sides, complex.edges);
+  const std::vector<std::uint32_t> order = CanonicalFaceOrder(groups, complex.vertexCount);
+  complex.faceOffsets.assign(order.size() + 1, 0);
+  for (std::size_t face = 0; face < order.size(); ++face)
+  {
+    complex.faceOffsets[face + 1] = complex.faceOffsets[face] + groups[order[face]].count;
+  }
+  complex.faceVertices.resize(complex.faceOffsets.back());
+  complex.faceEdges.resize(complex.faceOffsets.back());
+  core.faceLambda.resize(order.size());
+  bool open = false;
+#pragma omp parallel for schedule(static) reduction(|| : open) if (order.size() > 10000)
+  for (std::size_t face = 0; face < order.size(); ++face)
+  {
+    const Group &         group = groups[order[face]];
+    const std::span<Side> own{ sides.side.data() + sides.start[group.p] + group.first, group.count };
+    const std::uint32_t   q = own[0].q;
+    const auto            at = static_cast<std::ptrdiff_t>(complex.faceOffsets[face]);
+    open = !WriteFace(own,
+                      complex.edges,
+                      group.smallest[0],
+                      complex.faceVertices.data() + at,
+                      complex.faceEdges.data() + at) ||
+           open;
+    const Int128 squared = SquaredDistance(points[group.p], points[q], weights);
+    core.faceLambda[face] = ToMillimetres(RatioToDouble(static_cast<UInt128>(squared), 4), weights);
+  }
+  if (open)
+  {
+    FailOpenFace();
+  }
 }
 
 } // namespace
@@ -232,50 +307,54 @@ CanonicalFaceOrder(const Faces & faces, std::size_t vertexCount)
 MedialComplex
 BuildVoxelCore(const VoxelShape &                shape,
                const std::vector<LatticePoint> & points,
-               const DelaunayCells &             cells,
+               DelaunayCells                     cells,
                const SpacingWeights &            weights)
 {
   MedialComplex core;
-  core.positions = cells.centres;
   core.cells.vertexCount = cells.CellCount();
+  std::size_t edgeCount = 0;
   {
-    const CellMeasures measures = MeasureCells(cells, points, weights);
-    core.radius.resize(cells.CellCount());
-    core.vertexLambda.resize(cells.CellCount());
-    for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
+    CellMeasures measures = MeasureCells(cells, points, weights);
+    for (std::vector<double> * values : { &measures.sphere, &measures.cell, &measures.facet })
     {
-      core.radius[cell] = ToMillimetres(measures.sphere[cell], weights);
-      core.vertexLambda[cell] = ToMillimetres(measures.cell[cell], weights);
-    }
-    // Facets are sorted by their cells, so the edges come out in canonical order.
-    for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
-    {
-      if (cells.facetCells[facet][1] != kOutside)
+      for (double & value : *values)
       {
-        core.cells.edges.push_back(cells.facetCells[facet]);
-        core.edgeLambda.push_back(ToMillimetres(measures.facet[facet], weights));
+        value = ToMillimetres(value, weights);
       }
     }
+    core.radius = std::move(measures.sphere);
+    core.vertexLambda = std::move(measures.cell);
+    core.edgeLambda = std::move(measures.facet);
   }
-
-  const Faces faces = CollectFaces(CollectSides(shape, points, cells), points, core.cells.edges, weights);
-  const auto  order = CanonicalFaceOrder(faces, core.cells.vertexCount);
-  core.cells.faceOffsets.reserve(order.size() + 1);
-  core.cells.faceVertices.reserve(faces.vertices.size());
-  core.cells.faceEdges.reserve(faces.edges.size());
-  core.faceLambda.reserve(order.size());
-  for (const ElementIndex face : order)
+  std::vector<std::array<std::uint32_t, 4>>().swap(cells.tetrahedra);
+  // Facets are sorted by their cells, so the edges come out in canonical order.
+  std::vector<ElementIndex> edgeOf(cells.FacetCount());
+  for (std::size_t facet = 0; facet < edgeOf.size(); ++facet)
   {
-    const auto first = static_cast<std::ptrdiff_t>(faces.offsets[face]);
-    const auto last = static_cast<std::ptrdiff_t>(faces.offsets[face + 1]);
-    core.cells.faceVertices.insert(core.cells.faceVertices.end(),
-                                   faces.vertices.begin() + first,
-                                   faces.vertices.begin() + last);
-    core.cells.faceEdges.insert(core.cells.faceEdges.end(), faces.edges.begin() + first, faces.edges.begin() + last);
-    core.cells.faceOffsets.push_back(core.cells.faceVertices.size());
-    core.faceLambda.push_back(
-      ToMillimetres(RatioToDouble(static_cast<UInt128>(faces.squaredLength[face]), 4), weights));
+    edgeOf[facet] = static_cast<ElementIndex>(edgeCount);
+    edgeCount += cells.facetCells[facet][1] != kOutside;
   }
+  if (edgeCount >= std::size_t{ 1 } << 31)
+  {
+    throw InputError("the core has more than 2^31 edges; crop or split the shape");
+  }
+  core.cells.edges.reserve(edgeCount);
+  for (std::size_t facet = 0; facet < edgeOf.size(); ++facet)
+  {
+    if (cells.facetCells[facet][1] != kOutside)
+    {
+      core.edgeLambda[edgeOf[facet]] = core.edgeLambda[facet];
+      core.cells.edges.push_back(cells.facetCells[facet]);
+    }
+  }
+  core.edgeLambda.resize(edgeCount);
+  core.edgeLambda.shrink_to_fit();
+
+  Sides sides = CollectSides(shape, points, cells, edgeOf);
+  core.positions = std::move(cells.centres);
+  cells = {};
+  std::vector<ElementIndex>().swap(edgeOf);
+  WriteFaces(std::move(sides), points, weights, core);
   return core;
 }
 
@@ -286,8 +365,7 @@ ComputeVoxelCore(const VoxelShape &       shape,
                  const ProgressCallback & progress)
 {
   const std::vector<LatticePoint> points = BoundaryVertices(shape);
-  const DelaunayCells             cells = ComputeDelaunayCells(shape, points, weights, engine, progress);
-  return BuildVoxelCore(shape, points, cells, weights);
+  return BuildVoxelCore(shape, points, ComputeDelaunayCells(shape, points, weights, engine, progress), weights);
 }
 
 } // namespace voxelcore
