@@ -117,7 +117,7 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
   std::size_t count = 0;
   while (!pairs.empty())
   {
-    if ((++count & 0xFFFFU) == 0)
+    if ((count++ & 0xFFFFU) == 0)
     {
       ReportProgress(progress, "prune", 0.0);
     }

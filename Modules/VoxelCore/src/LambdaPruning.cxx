@@ -89,13 +89,20 @@ Extract(const MedialComplex & core, const LiveElements & live)
 Lambda
 ParseLambda(std::string_view text)
 {
-  Lambda lambda;
+  // Blanks around the number and before the unit are the user's; one within a number could mean anything.
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  Lambda     lambda;
   lambda.text.clear();
-  for (const char c : text)
+  for (std::size_t i = 0; i < text.size(); ++i)
   {
-    if (c != ' ' && c != '\t')
+    if (!blank(text[i]))
     {
-      lambda.text.push_back(c);
+      lambda.text.push_back(text[i]);
+    }
+    else if (!lambda.text.empty() && i + 1 < text.size() &&
+             std::string_view("0123456789.").find(text[i + 1]) != std::string_view::npos)
+    {
+      RefuseLambda(text, "has a blank before a digit");
     }
   }
   const char * first = lambda.text.data();

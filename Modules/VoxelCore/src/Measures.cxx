@@ -47,7 +47,7 @@ MeasureCells(const DelaunayCells & cells, const std::vector<LatticePoint> & poin
 {
   CellMeasures result;
   result.facet.resize(cells.FacetCount());
-#pragma omp parallel for schedule(static, 4096)
+#pragma omp parallel for schedule(static, 4096) if (cells.FacetCount() > 10000)
   for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
   {
     result.facet[facet] = MeasureFacet(cells.FacetPoints(facet), points, weights);
@@ -89,7 +89,7 @@ MeasureCells(const DelaunayCells & cells, const std::vector<LatticePoint> & poin
 
   result.sphere.resize(cells.CellCount());
   result.cell.resize(cells.CellCount());
-#pragma omp parallel for schedule(static, 4096)
+#pragma omp parallel for schedule(static, 4096) if (cells.CellCount() > 10000)
   for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
   {
     const auto & t = cells.tetrahedra[cell];
