@@ -1,0 +1,224 @@
+#include "voxelcore/LambdaPruning.h"
+
+#include "VoxelCoreTesting/Cores.h"
+
+#include "voxelcore/ComplexTopology.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+namespace voxelcore
+{
+namespace
+{
+
+using testing::CoreOf;
+using testing::ExpectSameCore;
+
+// A free element and its only coface, both below lambda, by looking at all of them; empty when there is none.
+std::string
+SimplePairBelow(const MedialComplex & core, double lambda)
+{
+  std::vector<std::vector<std::size_t>> edgesAt(core.cells.vertexCount);
+  std::vector<std::vector<std::size_t>> facesAt(core.cells.edges.size());
+  for (std::size_t edge = 0; edge < core.cells.edges.size(); ++edge)
+  {
+    edgesAt[core.cells.edges[edge][0]].push_back(edge);
+    edgesAt[core.cells.edges[edge][1]].push_back(edge);
+  }
+  for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
+  {
+    for (const ElementIndex edge : core.cells.FaceEdges(face))
+    {
+      facesAt[edge].push_back(face);
+    }
+  }
+  for (std::size_t edge = 0; edge < facesAt.size(); ++edge)
+  {
+    if (facesAt[edge].size() == 1 && core.edgeLambda[edge] < lambda && core.faceLambda[facesAt[edge][0]] < lambda)
+    {
+      return "edge " + std::to_string(edge) + " and its face";
+    }
+  }
+  for (std::size_t vertex = 0; vertex < edgesAt.size(); ++vertex)
+  {
+    if (edgesAt[vertex].size() == 1 && core.vertexLambda[vertex] < lambda &&
+        core.edgeLambda[edgesAt[vertex][0]] < lambda)
+    {
+      return "vertex " + std::to_string(vertex) + " and its edge";
+    }
+  }
+  return {};
+}
+
+// Elements by the places of their corners, so that those of a part can be found in the whole.
+using Places = std::vector<std::array<double, 3>>;
+
+struct Elements
+{
+  std::map<Places, double> vertices, edges, faces;
+};
+
+Elements
+ElementsOf(const MedialComplex & core)
+{
+  Elements   elements;
+  const auto places = [&](auto indices) {
+    Places result;
+    for (const ElementIndex index : indices)
+    {
+      result.push_back(core.positions[index]);
+    }
+    return result;
+  };
+  for (ElementIndex vertex = 0; vertex < core.cells.vertexCount; ++vertex)
+  {
+    elements.vertices[places(std::array<ElementIndex, 1>{ vertex })] = core.vertexLambda[vertex];
+  }
+  for (std::size_t edge = 0; edge < core.cells.edges.size(); ++edge)
+  {
+    elements.edges[places(core.cells.edges[edge])] = core.edgeLambda[edge];
+  }
+  for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
+  {
+    elements.faces[places(core.cells.FaceVertices(face))] = core.faceLambda[face];
+  }
+  return elements;
+}
+
+// `part` holds nothing but elements of `whole`, and all of those with a measure of at least lambda.
+void
+ExpectLambdaSubset(const std::map<Places, double> & whole, const std::map<Places, double> & part, double lambda)
+{
+  for (const auto & [places, measure] : part)
+  {
+    const auto found = whole.find(places);
+    ASSERT_TRUE(found != whole.end() && found->second == measure) << "an element that was not there before";
+  }
+  for (const auto & [places, measure] : whole)
+  {
+    ASSERT_TRUE(measure < lambda || part.contains(places)) << "an element of measure " << measure << " is gone";
+  }
+}
+
+std::vector<testing::RandomVolume>
+Volumes(std::uint64_t firstSeed, int count)
+{
+  std::cout << "seeds from " << firstSeed << '\n';
+  std::vector<testing::RandomVolume> volumes;
+  for (int i = 0; i < count; ++i)
+  {
+    volumes.push_back(testing::MakeRandomVolume(firstSeed + static_cast<std::uint64_t>(i), 3, 10));
+    if (i % 2 == 0) // dense ones have thick parts and with them large measures
+    {
+      testing::Random random(volumes.back().seed);
+      volumes.back().density = 0.97;
+      volumes.back().shape = testing::RandomShape(random, volumes.back().shape.Box().size, 0.97);
+    }
+  }
+  return volumes;
+}
+
+// Thresholds that fall on measures as well as between them.
+std::vector<double>
+Thresholds(const MedialComplex & core, testing::Random & random)
+{
+  std::vector<double> thresholds{ 0 };
+  for (int i = 0; i < 4 && !core.edgeLambda.empty(); ++i)
+  {
+    const auto at = static_cast<std::size_t>(random.Between(0, static_cast<std::int64_t>(core.edgeLambda.size()) - 1));
+    thresholds.push_back(core.edgeLambda[at] * (i % 2 == 0 ? 1.0 : 1.01));
+  }
+  std::sort(thresholds.begin(), thresholds.end());
+  thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
+  return thresholds;
+}
+
+TEST(LambdaPruning, ToZeroLeavesTheWholeCore)
+{
+  for (const auto & volume : Volumes(300, 20))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const MedialComplex core = CoreOf(volume.shape, volume.spacing);
+    ASSERT_NO_FATAL_FAILURE(ExpectSameCore(PruneByLambda(core, { 0.0 }).front(), core));
+  }
+}
+
+TEST(LambdaPruning, OfNothingIsNothing)
+{
+  const auto pruned = PruneByLambda(MedialComplex{}, { 0.0, 1.0 });
+  ASSERT_EQ(pruned.size(), 2U);
+  EXPECT_EQ(pruned[1].cells.vertexCount, 0U);
+}
+
+TEST(LambdaPruning, KeepsWhatMeasuresLambdaAndLeavesNoSimplePairBelow)
+{
+  for (const auto & volume : Volumes(400, 120))
+  {
+    SCOPED_TRACE(volume.Describe());
+    testing::Random     random(volume.seed);
+    const MedialComplex core = CoreOf(volume.shape, volume.spacing);
+    const Elements      whole = ElementsOf(core);
+    const auto          thresholds = Thresholds(core, random);
+    const auto          pruned = PruneByLambda(core, thresholds);
+    ASSERT_EQ(pruned.size(), thresholds.size());
+    for (std::size_t i = 0; i < thresholds.size(); ++i)
+    {
+      const Elements part = ElementsOf(pruned[i]);
+      ASSERT_NO_FATAL_FAILURE(ExpectLambdaSubset(whole.vertices, part.vertices, thresholds[i]));
+      ASSERT_NO_FATAL_FAILURE(ExpectLambdaSubset(whole.edges, part.edges, thresholds[i]));
+      ASSERT_NO_FATAL_FAILURE(ExpectLambdaSubset(whole.faces, part.faces, thresholds[i]));
+      ASSERT_EQ(SimplePairBelow(pruned[i], thresholds[i]), "") << "at " << thresholds[i];
+      ASSERT_EQ(ComputeComplexTopology(pruned[i].cells), ComputeComplexTopology(core.cells));
+    }
+  }
+}
+
+TEST(LambdaPruning, OnToAGreaterLambdaEqualsPruningToTheGreater)
+{
+  for (const auto & volume : Volumes(600, 120))
+  {
+    SCOPED_TRACE(volume.Describe());
+    testing::Random     random(volume.seed);
+    const MedialComplex core = CoreOf(volume.shape, volume.spacing);
+    const auto          thresholds = Thresholds(core, random);
+    const auto          together = PruneByLambda(core, thresholds);
+    for (std::size_t i = 0; i < thresholds.size(); ++i)
+    {
+      ASSERT_NO_FATAL_FAILURE(ExpectSameCore(PruneByLambda(core, { thresholds[i] }).front(), together[i]));
+      if (i > 0)
+      {
+        ASSERT_NO_FATAL_FAILURE(ExpectSameCore(PruneByLambda(together[i - 1], { thresholds[i] }).front(), together[i]));
+      }
+    }
+  }
+}
+
+TEST(LambdaPruning, ToInfinityLeavesNoFreeElement)
+{
+  for (const auto & volume : Volumes(800, 30))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const MedialComplex core = CoreOf(volume.shape, volume.spacing);
+    const auto          pruned = PruneByLambda(core, { HUGE_VAL }).front();
+    ASSERT_EQ(SimplePairBelow(pruned, HUGE_VAL), "");
+    const TopologyNumbers numbers = ComputeComplexTopology(pruned.cells);
+    ASSERT_EQ(numbers, ComputeComplexTopology(core.cells));
+    if (numbers.betti[1] == 0 && numbers.betti[2] == 0)
+    {
+      ASSERT_LE(pruned.cells.vertexCount, core.cells.vertexCount);
+    }
+  }
+}
+
+TEST(LambdaPruning, CanBeCancelled)
+{
+  const MedialComplex core = CoreOf(testing::Ellipsoid(24));
+  EXPECT_THROW(PruneByLambda(core, { 1.5, 3.0 }, [](std::string_view, double) { return false; }), Cancelled);
+}
+
+} // namespace
+} // namespace voxelcore
