@@ -43,22 +43,9 @@ CellTracer::CellTracer(const TracingInput & input, std::size_t first, std::size_
 Tracing
 CellTracer::Trace(const ProgressCallback & progress)
 {
-  // A brick has seeds only where it touches a boundary vertex; a vertex on its lower sides belongs to others too.
-  std::vector<std::uint8_t> occupied(m_Last - m_First, 0);
-  for (const LatticePoint & p : m_Input.points)
-  {
-    for (std::int32_t corner = 0; corner < 8; ++corner)
-    {
-      const std::size_t brick = m_Input.grid.At(p.x - (corner & 1), p.y - ((corner >> 1) & 1), p.z - (corner >> 2));
-      if (brick >= m_First && brick < m_Last)
-      {
-        occupied[brick - m_First] = 1;
-      }
-    }
-  }
   for (std::size_t brick = m_First; brick < m_Last; ++brick)
   {
-    const bool seed = occupied[brick - m_First] != 0;
+    const bool seed = m_Input.load[brick] != 0;
     if (seed || !m_Pending[brick - m_First].empty())
     {
       ReportProgress(progress,

@@ -21,11 +21,12 @@ inline constexpr std::uint32_t kOpen = 0xFFFFFFFEU;
 /** What all tracers of one shape share. */
 struct TracingInput
 {
-  const VoxelShape &                shape;
-  const std::vector<LatticePoint> & points;
-  const SpacingWeights &            weights;
-  const VertexRows &                rows;
-  const BrickGrid &                 grid;
+  const VoxelShape &                 shape;
+  const std::vector<LatticePoint> &  points;
+  const SpacingWeights &             weights;
+  const VertexRows &                 rows;
+  const BrickGrid &                  grid;
+  const std::vector<std::uint32_t> & load; ///< per brick: boundary vertices that it or a side of it holds
 };
 
 /** Cells and facets in any order, centres not filled in; and what is still to be found. */
