@@ -32,11 +32,11 @@ struct Case
   std::vector<CircumSphere>               spheres;
   std::vector<std::vector<std::uint32_t>> cellPoints; // sorted
 
-  Case(const VoxelShape & itsShape, const testing::Spacing3 & spacing)
+  Case(Engine engine, const VoxelShape & itsShape, const testing::Spacing3 & spacing)
     : shape(itsShape)
     , weights(ComputeSpacingWeights(spacing))
     , points(BoundaryVertices(itsShape))
-    , cells(ComputeDelaunayCells(itsShape, points, weights, Engine::Auto))
+    , cells(ComputeDelaunayCells(itsShape, points, weights, engine))
     , cellPoints(cells.CellCount())
   {
     for (const auto & t : cells.tetrahedra)
@@ -258,24 +258,43 @@ ExpectAllOf(const Case & c)
   ASSERT_NO_FATAL_FAILURE(ExpectBoundarySquaresAsFacets(c));
 }
 
-TEST(DelaunayCells, ThisBuildHasAnEngine)
+TEST(DelaunayEngines, TheBestOneIsThere)
 {
   EXPECT_TRUE(HasEngine(Engine::Auto));
 }
 
-TEST(DelaunayCells, OfNothingAreNone)
+// Whatever engine makes them, cells must have these properties, and they leave no freedom.
+class DelaunayCellsOf : public ::testing::TestWithParam<Engine>
+{
+protected:
+  void
+  SetUp() override
+  {
+    if (!HasEngine(GetParam()))
+    {
+      GTEST_SKIP() << "this build lacks the engine";
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Engines,
+                         DelaunayCellsOf,
+                         ::testing::Values(Engine::Lattice, Engine::TetGen),
+                         [](const auto & engine) { return engine.param == Engine::Lattice ? "Lattice" : "TetGen"; });
+
+TEST_P(DelaunayCellsOf, OfNothingAreNone)
 {
   const DelaunayCells cells =
-    ComputeDelaunayCells(VoxelShape(VoxelBox{ { 0, 0, 0 }, { 4, 4, 4 } }), {}, SpacingWeights{}, Engine::Auto);
+    ComputeDelaunayCells(VoxelShape(VoxelBox{ { 0, 0, 0 }, { 4, 4, 4 } }), {}, SpacingWeights{}, GetParam());
   EXPECT_EQ(cells.CellCount(), 0U);
   EXPECT_EQ(cells.FacetCount(), 0U);
 }
 
-TEST(DelaunayCells, AVoxelIsOneCellWithSixSquares)
+TEST_P(DelaunayCellsOf, AVoxelIsOneCellWithSixSquares)
 {
   for (const auto & spacing : testing::TestSpacings())
   {
-    const Case c(Box({ 1, 1, 1 }, { 7, 8, 9 }), spacing);
+    const Case c(GetParam(), Box({ 1, 1, 1 }, { 7, 8, 9 }), spacing);
     ASSERT_EQ(c.cells.CellCount(), 1U);
     EXPECT_EQ(c.cells.FacetCount(), 6U);
     EXPECT_EQ(c.cellPoints[0].size(), 8U);
@@ -284,19 +303,19 @@ TEST(DelaunayCells, AVoxelIsOneCellWithSixSquares)
   }
 }
 
-TEST(DelaunayCells, ARodIsOneCellAVoxel)
+TEST_P(DelaunayCellsOf, ARodIsOneCellAVoxel)
 {
-  const Case c(Box({ 1, 1, 5 }), { 1, 1, 2 });
+  const Case c(GetParam(), Box({ 1, 1, 5 }), { 1, 1, 2 });
   EXPECT_EQ(c.cells.CellCount(), 5U);
   EXPECT_EQ(c.cells.FacetCount(), 22U + 4U);
   ExpectAllOf(c);
 }
 
-TEST(DelaunayCells, ABlockOfTwoVoxelsASideIsOneCell)
+TEST_P(DelaunayCellsOf, ABlockOfTwoVoxelsASideIsOneCell)
 {
   // Twenty-six boundary vertices; the sphere about the middle passes the eight corners only when nothing is nearer:
   // the six centres of sides are, so the cell about the middle is the octahedron they make.
-  const Case                  c(Box({ 2, 2, 2 }), { 1, 1, 1 });
+  const Case                  c(GetParam(), Box({ 2, 2, 2 }), { 1, 1, 1 });
   const std::array<double, 3> middle{ 1, 1, 1 };
   const auto                  at = std::find(c.cells.centres.begin(), c.cells.centres.end(), middle);
   ASSERT_NE(at, c.cells.centres.end());
@@ -304,15 +323,15 @@ TEST(DelaunayCells, ABlockOfTwoVoxelsASideIsOneCell)
   ExpectAllOf(c);
 }
 
-TEST(DelaunayCells, TwoVoxelsAlongAnEdgeHaveNoCommonFacet)
+TEST_P(DelaunayCellsOf, TwoVoxelsAlongAnEdgeHaveNoCommonFacet)
 {
-  const Case c(ShapeWhere({ 2, 2, 1 }, [](int x, int y, int) { return x == y; }), { 1, 1, 1 });
+  const Case c(GetParam(), ShapeWhere({ 2, 2, 1 }, [](int x, int y, int) { return x == y; }), { 1, 1, 1 });
   EXPECT_EQ(c.cells.CellCount(), 2U);
   EXPECT_EQ(c.cells.FacetCount(), 12U);
   ExpectAllOf(c);
 }
 
-TEST(DelaunayCells, FillRandomShapesWithMaximalEmptySpheres)
+TEST_P(DelaunayCellsOf, FillRandomShapesWithMaximalEmptySpheres)
 {
   constexpr std::uint64_t firstSeed = 5000;
   std::cout << "seeds from " << firstSeed << '\n';
@@ -320,47 +339,47 @@ TEST(DelaunayCells, FillRandomShapesWithMaximalEmptySpheres)
   {
     const testing::RandomVolume volume = testing::MakeRandomVolume(seed, 1, 8);
     SCOPED_TRACE(volume.Describe());
-    ASSERT_NO_FATAL_FAILURE(ExpectAllOf(Case(volume.shape, volume.spacing)));
+    ASSERT_NO_FATAL_FAILURE(ExpectAllOf(Case(GetParam(), volume.shape, volume.spacing)));
   }
 }
 
-TEST(DelaunayCells, FillSmoothAndThickShapesWithMaximalEmptySpheres)
+TEST_P(DelaunayCellsOf, FillSmoothAndThickShapesWithMaximalEmptySpheres)
 {
   for (const auto & spacing : testing::TestSpacings())
   {
-    ASSERT_NO_FATAL_FAILURE(ExpectAllOf(Case(testing::Ellipsoid(20), spacing)));
-    ASSERT_NO_FATAL_FAILURE(ExpectAllOf(Case(Box({ 9, 8, 7 }), spacing)));
+    ASSERT_NO_FATAL_FAILURE(ExpectAllOf(Case(GetParam(), testing::Ellipsoid(20), spacing)));
+    ASSERT_NO_FATAL_FAILURE(ExpectAllOf(Case(GetParam(), Box({ 9, 8, 7 }), spacing)));
   }
 }
 
-TEST(DelaunayCells, DoNotDependOnThePlace)
+TEST_P(DelaunayCellsOf, DoNotDependOnThePlace)
 {
   Random           random(91);
   const VoxelShape shape = RandomShape(random, { 7, 6, 5 }, 0.6);
   const VoxelShape moved =
     ShapeWhere({ 7, 6, 5 }, [&](int x, int y, int z) { return shape.Contains(x, y, z); }, { 500000, 300000, 1000 });
-  const Case a(shape, { 3, 3, 7 });
-  const Case b(moved, { 3, 3, 7 });
+  const Case a(GetParam(), shape, { 3, 3, 7 });
+  const Case b(GetParam(), moved, { 3, 3, 7 });
   EXPECT_EQ(a.cells.facetCells, b.cells.facetCells);
   EXPECT_EQ(a.cells.facetOffsets, b.cells.facetOffsets);
   EXPECT_EQ(a.cells.facetPoints, b.cells.facetPoints);
   ExpectAllOf(b);
 }
 
-TEST(DelaunayCells, BeyondTheExactRangeAreRefused)
+TEST_P(DelaunayCellsOf, BeyondTheExactRangeAreRefused)
 {
   // Two voxels, 2^25 steps apart.
   VoxelShape far(VoxelBox{ { 0, 0, 0 }, { 1 << 25, 1, 1 } });
   far.Insert(0, 0, 0);
   far.Insert((1 << 25) - 1, 0, 0);
-  EXPECT_THROW(ComputeDelaunayCells(far, BoundaryVertices(far), SpacingWeights{}, Engine::Auto), InputError);
+  EXPECT_THROW(ComputeDelaunayCells(far, BoundaryVertices(far), SpacingWeights{}, GetParam()), InputError);
   VoxelShape wide(VoxelBox{ { 0, 0, 0 }, { 1 << 20, 1, 1 } });
   wide.Insert(0, 0, 0);
   wide.Insert((1 << 20) - 1, 0, 0);
   SpacingWeights heavy;
   heavy.weight = { 4096, 1, 1 };
-  EXPECT_THROW(ComputeDelaunayCells(wide, BoundaryVertices(wide), heavy, Engine::Auto), InputError);
-  EXPECT_EQ(ComputeDelaunayCells(wide, BoundaryVertices(wide), SpacingWeights{}, Engine::Auto).CellCount(), 2U);
+  EXPECT_THROW(ComputeDelaunayCells(wide, BoundaryVertices(wide), heavy, GetParam()), InputError);
+  EXPECT_EQ(ComputeDelaunayCells(wide, BoundaryVertices(wide), SpacingWeights{}, GetParam()).CellCount(), 2U);
 }
 
 } // namespace
