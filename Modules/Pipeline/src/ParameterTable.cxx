@@ -150,7 +150,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
   { "detail", "--detail", Real, "MM", "", false, kPhantom, "Smallest radius of a root" },
   { "laterals", "--laterals", Integer, "N", "", false, kPhantom, "Laterals on the stem of a root" },
   { "sub-laterals", "--sub-laterals", Integer, "N", "", false, kPhantom, "Laterals on each of these" },
-  { "engine", "--engine", Choice, "auto|tetgen", "auto", false, kCore, "Delaunay engine; the result is the same" },
+  { "engine", "--engine", Choice, "auto|lattice|tetgen", "auto", false, kCore, "Delaunay engine; the result is the same" },
   { "threads", "--threads", Integer, "N", "0", false, kAll, "Processors to use; 0 means all" },
   { "json", "--json", Flag, "", "", false, kInfo, "Print JSON" },
   { "force", "--force", Flag, "", "", false, kWrites, "Replace existing files" },

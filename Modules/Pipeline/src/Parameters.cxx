@@ -292,7 +292,8 @@ CoreOptionsFrom(const ParameterValues & values)
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
   options.model = ModelOptionsFrom(reader);
-  options.engine = reader.Choice("engine") == "tetgen" ? Engine::TetGen : Engine::Auto;
+  const std::string engine = reader.Choice("engine");
+  options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
   options.threads = ThreadsFrom(values, CommandId::Core);
   options.force = reader.IsSet("force");
   return options;

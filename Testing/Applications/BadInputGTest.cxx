@@ -1,0 +1,311 @@
+// Whatever is wrong: one clear line, the right exit code, no output, no crash.
+
+#include "Pipeline/TemporaryFolder.h"
+#include "Program.h"
+#include "Scans.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <unistd.h>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using Names = std::set<std::string>;
+
+ProgramLimits
+FileLimit(std::uint64_t bytes)
+{
+  ProgramLimits limits;
+  limits.fileBytes = bytes;
+  return limits;
+}
+
+class BadInput : public ::testing::Test
+{
+protected:
+  /** `voxelcore core <name> -o out.vtp` must be refused for the scan, which the line must name. */
+  void
+  ExpectUnfit(const std::string & name, const std::vector<std::string> & words = {}, const std::string & option = "")
+  {
+    const Names              before = m_Folder.Names();
+    std::vector<std::string> arguments{ "core", m_Folder / name, "-o", m_Folder / "out.vtp" };
+    if (!option.empty())
+    {
+      arguments.push_back(option);
+    }
+    std::vector<std::string> all = words;
+    all.push_back(name);
+    ExpectRefusal(RunProgram(arguments), 3, all);
+    EXPECT_EQ(m_Folder.Names(), before);
+    ExpectRefusal(RunProgram({ "info", m_Folder / name }), 3, { name });
+  }
+
+  TemporaryFolder m_Folder;
+};
+
+TEST_F(BadInput, MissingFile)
+{
+  ExpectUnfit("none.nrrd");
+  ExpectUnfit("none.nii.gz");
+  ExpectUnfit("none.tif");
+}
+
+TEST_F(BadInput, EmptyFile)
+{
+  for (const char * name : { "a.nrrd", "a.nhdr", "a.nii", "a.nii.gz", "a.mha", "a.mhd", "a.tif" })
+  {
+    WriteAll(m_Folder / name, "");
+    ExpectUnfit(name);
+  }
+}
+
+TEST_F(BadInput, FolderWithoutSlices)
+{
+  std::filesystem::create_directory(m_Folder / "slices");
+  WriteAll(m_Folder / "slices/readme.txt", "no slices here");
+  ExpectUnfit("slices");
+}
+
+TEST_F(BadInput, TruncatedGzip)
+{
+  const std::filesystem::path atlas = "/usr/share/mricron/templates/aal.nii.gz";
+  if (!std::filesystem::exists(atlas))
+  {
+    GTEST_SKIP() << "mricron-data is not installed";
+  }
+  const std::string whole = ReadAll(atlas);
+  WriteAll(m_Folder / "cut.nii.gz", whole.substr(0, whole.size() / 2));
+  ExpectUnfit("cut.nii.gz");
+}
+
+TEST_F(BadInput, TruncatedRawData)
+{
+  WriteNrrd(m_Folder / "cut.nrrd", "type: uint8\ndimension: 3\nsizes: 4 4 4\n", std::string(40, '\1'));
+  ExpectUnfit("cut.nrrd");
+}
+
+TEST_F(BadInput, TextFileNamedNrrd)
+{
+  WriteAll(m_Folder / "text.nrrd", "Dear reader,\nthis is a letter and no scan.\n");
+  ExpectUnfit("text.nrrd");
+}
+
+TEST_F(BadInput, UnknownExtension)
+{
+  WriteAll(m_Folder / "scan.xyz", "1 2 3\n");
+  ExpectUnfit("scan.xyz");
+}
+
+TEST_F(BadInput, FlatImage)
+{
+  WriteNrrd(m_Folder / "flat.nrrd", "type: uint8\ndimension: 2\nsizes: 4 4\n", std::string(16, '\1'));
+  ExpectUnfit("flat.nrrd");
+}
+
+TEST_F(BadInput, ColourImage)
+{
+  WriteNrrd(m_Folder / "colour.nrrd",
+            "type: uint8\ndimension: 4\nsizes: 3 4 4 4\nkinds: RGB-color domain domain domain\n",
+            std::string(192, '\1'));
+  ExpectUnfit("colour.nrrd");
+}
+
+TEST_F(BadInput, NegativeLabels)
+{
+  std::string bytes(64, '\1');
+  bytes[21] = '\xFF';
+  WriteNrrd(m_Folder / "negative.nrrd", "type: int8\ndimension: 3\nsizes: 4 4 4\n", bytes);
+  ExpectUnfit("negative.nrrd", { "-1" });
+}
+
+TEST_F(BadInput, FractionalLabels)
+{
+  std::vector<float> values(64, 1.0F);
+  values[5] = 0.75F;
+  WriteNrrd(m_Folder / "fraction.nrrd",
+            "type: float\ndimension: 3\nsizes: 4 4 4\nendian: little\n",
+            { reinterpret_cast<const char *>(values.data()), values.size() * sizeof(float) });
+  ExpectUnfit("fraction.nrrd", { "0.75" });
+}
+
+TEST_F(BadInput, NothingButBackground)
+{
+  WriteNrrd(m_Folder / "empty.nrrd", TestScan({ 4, 5, 6 }));
+  ExpectUnfit("empty.nrrd");
+}
+
+TEST_F(BadInput, LabelThatDoesNotOccur)
+{
+  WriteNrrd(m_Folder / "a.nrrd", ThreeBlocks());
+  for (const char * labels : { "3", "1,77", "liver" })
+  {
+    const std::string wrong = std::string(labels) == "1,77" ? "77" : labels;
+    ExpectRefusal(RunProgram({ "core", m_Folder / "a.nrrd", "--labels", labels, "-o", m_Folder / "out.vtp" }),
+                  3,
+                  { "a.nrrd", wrong });
+  }
+  EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" });
+}
+
+class BadUsage : public BadInput
+{
+protected:
+  BadUsage()
+  {
+    WriteNrrd(m_Folder / "a.nrrd", ThreeBlocks());
+  }
+  void
+  ExpectUsageError(std::vector<std::string> arguments, const std::vector<std::string> & words)
+  {
+    ExpectRefusal(RunProgram(arguments), 2, words);
+    EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" });
+  }
+  std::vector<std::string>
+  Core(const std::vector<std::string> & more)
+  {
+    std::vector<std::string> arguments{ "core", m_Folder / "a.nrrd", "-o", m_Folder / "out.vtp" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+};
+
+TEST_F(BadUsage, LambdaWithoutSense)
+{
+  ExpectUsageError(Core({ "--lambda", "3apples" }), { "3apples", "mm", "vox", "%" });
+  ExpectUsageError(Core({ "--lambda", "-1" }), { "-1" });
+  ExpectUsageError(Core({ "--lambda=-1mm" }), { "-1mm" });
+  ExpectUsageError(Core({ "--lambda", "" }), { "ambda" });
+  ExpectUsageError(Core({ "--lambda", "1,1mm" }), { "1mm", "twice" });
+}
+
+TEST_F(BadUsage, OptionsWithoutSense)
+{
+  ExpectUsageError(Core({ "--threads", "-1" }), { "--threads" });
+  ExpectUsageError(Core({ "--threads", "many" }), { "--threads", "many" });
+  ExpectUsageError(Core({ "--spacing", "1,2" }), { "--spacing", "1,2" });
+  ExpectUsageError(Core({ "--threshold", "9:1" }), { "--threshold", "9:1" });
+  ExpectUsageError(Core({ "--nifti-form", "xform" }), { "--nifti-form", "sform" });
+  ExpectUsageError(Core({ "--engine", "cgal" }), { "--engine", "tetgen" });
+  ExpectUsageError(Core({ "--progress", "loud" }), { "--progress", "plain" });
+  ExpectUsageError(Core({ "--binary", "--labels", "2" }), { "--binary", "--labels" });
+  ExpectUsageError(Core({ "--colour" }), { "--colour" });
+  ExpectUsageError(Core({ "--lambda" }), { "--lambda" });
+  ExpectUsageError(Core({ "surplus" }), { "surplus" });
+  ExpectUsageError(Core({ "two\nlines" }), {});
+}
+
+TEST_F(BadUsage, MissingOrUnknownParts)
+{
+  ExpectUsageError({}, { "--help" });
+  ExpectUsageError({ "shrink" }, { "shrink" });
+  ExpectUsageError({ "core" }, { "SCAN" });
+  ExpectUsageError({ "core", m_Folder / "a.nrrd" }, { "--output" });
+  ExpectUsageError({ "core", m_Folder / "a.nrrd", "-o", "" }, { "--output" });
+  ExpectUsageError({ "core", m_Folder / "a.nrrd", "-o", m_Folder / "out.xyz" }, { "out.xyz", ".vtp" });
+  ExpectUsageError({ "core", m_Folder / "a.nrrd", "-o", m_Folder / "out" }, { "out", ".vtp" });
+  ExpectUsageError({ "phantom", "moebius", "-o", m_Folder / "out.nrrd" }, { "moebius" });
+  ExpectUsageError({ "phantom", "ball", "-o", m_Folder / "out.xyz" }, { "out.xyz" });
+  ExpectUsageError({ "phantom", "ball" }, { "--output" });
+  ExpectUsageError({ "prune", m_Folder / "a.nrrd", "-o", m_Folder / "out.vtp" }, { "--lambda" });
+}
+
+class BadOutput : public BadUsage
+{
+protected:
+  void
+  ExpectUnwritable(const std::string &              output,
+                   const std::vector<std::string> & words,
+                   const ProgramLimits &            limits = {})
+  {
+    ExpectRefusal(RunProgram({ "core", m_Folder / "a.nrrd", "--lambda", "0", "-o", output }, limits), 1, words);
+  }
+};
+
+TEST_F(BadOutput, FolderThatIsNotThere)
+{
+  ExpectUnwritable(m_Folder / "none/out.vtp", { "none", "does not exist" });
+  EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" });
+}
+
+TEST_F(BadOutput, FolderThatTakesNoFiles)
+{
+  ExpectUnwritable("/proc/out.vtp", { "/proc/out.vtp" });
+  ExpectUnwritable("/proc/new/", { "/proc/new" });
+}
+
+TEST_F(BadOutput, FolderWithoutTheRight)
+{
+  if (geteuid() == 0)
+  {
+    GTEST_SKIP() << "root may write everywhere";
+  }
+  std::filesystem::create_directory(m_Folder / "locked");
+  std::filesystem::permissions(m_Folder / "locked", std::filesystem::perms::owner_read);
+  ExpectUnwritable(m_Folder / "locked/out.vtp", { "locked", "ermission" });
+}
+
+TEST_F(BadOutput, ExistingFileWithoutForce)
+{
+  WriteAll(m_Folder / "out.vtp", "precious");
+  ExpectUnwritable(m_Folder / "out.vtp", { "out.vtp", "--force" });
+  EXPECT_EQ(ReadAll(m_Folder / "out.vtp"), "precious");
+}
+
+TEST_F(BadOutput, FileSizeLimit)
+{
+  ExpectUnwritable(m_Folder / "out.vtp", { "out.vtp" }, FileLimit(2000));
+  EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" });
+  for (const char * extension : { "vtk", "ply", "obj", "stl", "ma" })
+  {
+    ExpectUnwritable(m_Folder / (std::string("out.") + extension), { "out." }, FileLimit(200));
+    EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" }) << extension;
+  }
+  for (const char * name : { "out.nrrd", "out.nii.gz", "out.nii", "out.mha", "out.mhd", "out.tif" })
+  {
+    ExpectRefusal(RunProgram({ "phantom", "noise", "--size", "40", "-o", m_Folder / name }, FileLimit(1000)),
+                  1,
+                  { name });
+    EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" }) << name;
+  }
+}
+
+TEST_F(BadOutput, DiskFull)
+{
+  const std::filesystem::path disk = m_Folder / "disk";
+  std::filesystem::create_directory(disk);
+  if (mount("none", disk.c_str(), "tmpfs", 0, "size=8k") != 0)
+  {
+    GTEST_SKIP() << "cannot mount a small tmpfs here";
+  }
+  struct Unmount
+  {
+    std::filesystem::path path;
+    ~Unmount()
+    {
+      umount(path.c_str());
+    }
+  };
+  const Unmount unmount{ disk };
+  ExpectUnwritable(disk / "out.vtp", { "out.vtp" });
+  EXPECT_TRUE(std::filesystem::is_empty(disk));
+}
+
+TEST_F(BadOutput, NotEnoughMemory)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need address space of their own";
+#endif
+  ProgramLimits limits;
+  limits.memoryBytes = std::uint64_t{ 1 } << 30U;
+  ExpectRefusal(RunProgram({ "phantom", "ball", "--size", "4000", "-o", m_Folder / "big.nrrd" }, limits),
+                1,
+                { "memory" });
+  EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" });
+}
+
+} // namespace
+} // namespace voxelcore::testing

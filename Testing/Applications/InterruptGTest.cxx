@@ -1,0 +1,114 @@
+// A run that is stopped leaves nothing under a final name.
+
+#include "Pipeline/TemporaryFolder.h"
+#include "Program.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using Names = std::set<std::string>;
+
+class Interrupt : public ::testing::Test
+{
+protected:
+  Interrupt()
+  {
+    // Some seconds of work.
+    EXPECT_EQ(RunProgram({ "phantom", "gyroid", "--size", "128", "-o", m_Folder / "g.nrrd" }).code, 0);
+  }
+
+  /** Runs the job and sends the signals, a moment apart, once `stage` shows on stderr. */
+  ProgramResult
+  StopAt(const std::string & stage, const std::vector<int> & signals)
+  {
+    m_Sent = 0;
+    return RunProgram({ "core",
+                        m_Folder / "g.nrrd",
+                        "-o",
+                        m_Folder / "out.vtp",
+                        "--report",
+                        m_Folder / "out.json",
+                        "--lambda",
+                        "0,1.5vox",
+                        "--progress",
+                        "plain" },
+                      {},
+                      [&](pid_t process, const std::string & error) {
+                        if (error.find(stage) != std::string::npos && m_Sent < signals.size())
+                        {
+                          kill(process, signals[m_Sent++]);
+                        }
+                      });
+  }
+
+  std::string
+  LastLine(const std::string & text)
+  {
+    const auto end = text.find_last_not_of('\n');
+    return text.substr(text.rfind('\n', end) + 1);
+  }
+
+  TemporaryFolder m_Folder;
+  std::size_t     m_Sent = 0;
+};
+
+TEST_F(Interrupt, CtrlCDuringLongWorkLeavesNothingAndIsPrompt)
+{
+  for (const int signal : { SIGINT, SIGTERM })
+  {
+    const ProgramResult result = StopAt("delaunay", { signal });
+    ASSERT_EQ(m_Sent, 1U);
+    EXPECT_EQ(result.code, 130);
+    EXPECT_EQ(LastLine(result.error), "voxelcore: interrupted; nothing was written\n");
+    EXPECT_EQ(m_Folder.Names(), Names{ "g.nrrd" });
+  }
+}
+
+TEST_F(Interrupt, CtrlCDuringPruningLeavesNothing)
+{
+  const ProgramResult result = StopAt("prune", { SIGINT });
+  EXPECT_EQ(result.code, 130);
+  EXPECT_EQ(m_Folder.Names(), Names{ "g.nrrd" });
+}
+
+TEST_F(Interrupt, CtrlCWhileWritingLeavesNothing)
+{
+  const ProgramResult result = StopAt("writing", { SIGINT });
+  EXPECT_EQ(result.code, 130);
+  EXPECT_EQ(m_Folder.Names(), Names{ "g.nrrd" });
+}
+
+TEST_F(Interrupt, ASecondCtrlCEndsAtOnceAndStillLeavesNothing)
+{
+  const ProgramResult result = StopAt("writing", { SIGINT, SIGINT });
+  EXPECT_EQ(result.code, 130);
+  EXPECT_EQ(m_Folder.Names(), Names{ "g.nrrd" });
+}
+
+TEST_F(Interrupt, AKilledRunLeavesNoFileUnderItsFinalName)
+{
+  for (const char * stage : { "delaunay", "writing" })
+  {
+    const ProgramResult result = StopAt(stage, { SIGKILL });
+    EXPECT_EQ(result.signal, SIGKILL);
+    for (const std::string & name : m_Folder.Names())
+    {
+      EXPECT_TRUE(name == "g.nrrd" || name.find(".part") != std::string::npos) << name;
+    }
+  }
+}
+
+TEST_F(Interrupt, ARunThatMayEndLeavesItsFilesAndNothingElse)
+{
+  const ProgramResult result = StopAt("no such stage", {});
+  EXPECT_EQ(result.code, 0) << result.error;
+  EXPECT_EQ(m_Folder.Names(), (Names{ "g.nrrd", "out.json", "out_lambda-0.vtp", "out_lambda-1.5vox.vtp" }));
+}
+
+} // namespace
+} // namespace voxelcore::testing

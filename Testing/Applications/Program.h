@@ -1,0 +1,42 @@
+#pragma once
+// Runs the real program and looks at what it leaves.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace voxelcore::testing
+{
+
+struct ProgramResult
+{
+  int         code = -1;  ///< exit code; -1 when a signal ended it
+  int         signal = 0; ///< that signal
+  std::string output;     ///< stdout
+  std::string error;      ///< stderr
+  double      seconds = 0;
+};
+
+struct ProgramLimits
+{
+  std::optional<std::uint64_t> fileBytes;   ///< RLIMIT_FSIZE
+  std::optional<std::uint64_t> memoryBytes; ///< RLIMIT_AS
+  std::chrono::seconds         time{ 300 }; ///< then it is killed
+};
+
+/** Called again and again while the program runs, with its process id and what it printed on stderr so far. */
+using Watcher = std::function<void(pid_t, const std::string &)>;
+
+ProgramResult
+RunProgram(const std::vector<std::string> & arguments, const ProgramLimits & limits = {}, const Watcher & watcher = {});
+
+/** Fails the test unless the program ended with `code`, said exactly one line on stderr, and nothing on stdout. The line
+ *  must hold each of `words`. */
+void
+ExpectRefusal(const ProgramResult & result, int code, const std::vector<std::string> & words);
+
+} // namespace voxelcore::testing

@@ -1,0 +1,203 @@
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/Error.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace voxelcore
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+ComplexRecord
+MakeComplex(std::uint64_t faces, double area)
+{
+  ComplexRecord complex;
+  complex.vertices = faces + 2;
+  complex.edges = 2 * faces + 1;
+  complex.faces = faces;
+  complex.topology = { 1, { 1, 0, 0 } };
+  complex.areaMm2 = area;
+  complex.maxRadiusMm = 2.5;
+  return complex;
+}
+
+/** Two labels, two lambdas, awkward numbers. */
+CoreReport
+MakeReport()
+{
+  CoreReport report;
+  report.command = "voxelcore core a.nii.gz -o x.vtp";
+  report.input = { "/data/a.nii.gz", std::string(64, 'a'), "NIfTI-1", {}, { "a note" } };
+  report.input.geometry.size = { 3, 4, 5 };
+  report.input.geometry.spacing = { 0.1, 1.0 / 3, 2 };
+  report.input.geometry.origin = { -1e-17, 12345.678901234567, 0 };
+  report.parameters.labels = { 1, 7 };
+  report.parameters.lambda = { "0", "1.5vox" };
+  report.parameters.threshold = { { -100.5, 3000 } };
+  report.parameters.engine = "tetgen";
+  report.parameters.threads = 2;
+  report.parameters.weights.weight = { 3, 10, 60 };
+  for (const std::int64_t value : { 1, 7 })
+  {
+    LabelRecord label;
+    label.label = value;
+    label.name = "N" + std::to_string(value);
+    label.voxels = 60;
+    label.volumeMm3 = 0.1 + 0.2;
+    label.box = { { 1, 2, 3 }, { 4, 5, 6 } };
+    label.boundaryVertices = 120;
+    label.shape = { 1, { 1, 0, 0 } };
+    label.core = MakeComplex(9, 1.0 / 7);
+    label.pruned = { { "0", 0, MakeComplex(9, 1.0 / 7), "x_lambda-0.vtp" },
+                     { "1.5vox", 0.15, MakeComplex(4, 1.0 / 9), "x_lambda-1.5vox.vtp" } };
+    label.topologyEqual = true;
+    label.enclosed = true;
+    label.seconds = 0.5;
+    report.labels.push_back(label);
+  }
+  report.seconds.total = 1.23456;
+  report.peakMemoryMb = 123.456;
+  return report;
+}
+
+std::vector<std::string>
+Keys(const Json & json)
+{
+  std::vector<std::string> keys;
+  for (const auto & [key, value] : json.items())
+  {
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+using Texts = std::vector<std::string>;
+
+TEST(CoreReport, HasTheDocumentedKeysInTheirOrder)
+{
+  const Json json = Json::parse(ReportJson(MakeReport()));
+  EXPECT_EQ(Keys(json), (Texts{ "voxelcore", "input", "parameters", "labels", "seconds", "peak_memory_mb" }));
+  EXPECT_EQ(Keys(json["voxelcore"]), (Texts{ "version", "command" }));
+  EXPECT_EQ(Keys(json["input"]),
+            (Texts{ "path", "sha256", "format", "size", "spacing_mm", "origin_mm", "direction", "notes" }));
+  const Json & label = json["labels"][1];
+  EXPECT_EQ(Keys(label),
+            (Texts{ "label",
+                    "name",
+                    "voxels",
+                    "volume_mm3",
+                    "bounding_box",
+                    "boundary_vertices",
+                    "shape",
+                    "core",
+                    "pruned",
+                    "certificate" }));
+  EXPECT_EQ(Keys(label["shape"]), (Texts{ "euler", "betti" }));
+  EXPECT_EQ(Keys(label["core"]),
+            (Texts{ "vertices", "edges", "faces", "euler", "betti", "area_mm2", "max_radius_mm" }));
+  EXPECT_EQ(Keys(label["pruned"][1]),
+            (Texts{ "lambda",
+                    "lambda_mm",
+                    "vertices",
+                    "edges",
+                    "faces",
+                    "euler",
+                    "betti",
+                    "area_mm2",
+                    "max_radius_mm",
+                    "output" }));
+  EXPECT_EQ(Keys(label["certificate"]), (Texts{ "topology", "enclosed", "passed" }));
+  EXPECT_EQ(Keys(json["seconds"]), (Texts{ "read", "shape", "delaunay", "core", "prune", "write", "total" }));
+  EXPECT_EQ(json["parameters"]["lattice_weights"], (Json{ 3, 10, 60 }));
+  EXPECT_EQ(json["parameters"]["engine"], "tetgen");
+  EXPECT_EQ(json["labels"].size(), 2U);
+  EXPECT_EQ(json["labels"][0]["pruned"].size(), 2U);
+}
+
+TEST(CoreReport, ProvenanceLeavesOutWhatChangesFromRunToRun)
+{
+  CoreReport        one = MakeReport();
+  CoreReport        two = MakeReport();
+  const std::string text = ProvenanceJson(one, { 0, 1 }, 1);
+  two.command = "another";
+  two.input.path = "elsewhere.nii.gz";
+  two.parameters.engine = "other";
+  two.parameters.threads = 64;
+  two.labels[0].pruned[1].output = "y.vtp";
+  two.labels[0].seconds = 99;
+  two.seconds.total = 99;
+  two.peakMemoryMb = 99;
+  EXPECT_EQ(ProvenanceJson(two, { 0, 1 }, 1), text);
+  two.labels[0].voxels += 1;
+  EXPECT_NE(ProvenanceJson(two, { 0, 1 }, 1), text);
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+}
+
+TEST(CoreReport, ProvenanceNamesOnlyWhatIsInTheFile)
+{
+  const Json json = Json::parse(ProvenanceJson(MakeReport(), { 1 }, 0));
+  ASSERT_EQ(json["labels"].size(), 1U);
+  EXPECT_EQ(json["labels"][0]["label"], 7);
+  ASSERT_EQ(json["labels"][0]["pruned"].size(), 1U);
+  EXPECT_EQ(json["labels"][0]["pruned"][0]["lambda"], "0");
+  EXPECT_EQ(json["parameters"]["lambda"], Json{ "0" });
+  EXPECT_EQ(json["parameters"]["labels"], Json{ 7 });
+}
+
+TEST(CoreReport, ProvenanceSurvivesReadingToTheLastBit)
+{
+  const std::string text = ProvenanceJson(MakeReport(), { 0, 1 }, 1);
+  const CoreReport  read = ParseProvenance(text, "a.vtp");
+  EXPECT_EQ(ProvenanceJson(read, { 0, 1 }, 0), text);
+  EXPECT_EQ(read.labels[1].volumeMm3, 0.1 + 0.2);
+  EXPECT_EQ(read.input.geometry.spacing[1], 1.0 / 3);
+  ASSERT_TRUE(read.parameters.threshold.has_value());
+  EXPECT_EQ(read.parameters.threshold->first, -100.5);
+  EXPECT_FALSE(read.parameters.spacing.has_value());
+}
+
+TEST(CoreReport, DamagedProvenanceIsRefused)
+{
+  for (const char * text : { "", "no json", "{}", "[]", "{\"input\":{}}" })
+  {
+    EXPECT_THROW(ParseProvenance(text, "a.vtp"), InputError) << text;
+  }
+  std::string missing = ProvenanceJson(MakeReport(), { 0 }, 0);
+  missing.replace(missing.find("\"euler\""), 7, "\"euled\"");
+  EXPECT_THROW(ParseProvenance(missing, "a.vtp"), InputError);
+}
+
+TEST(CoreReport, NamesThatAreNoUtf8DoNotBreakIt)
+{
+  CoreReport report = MakeReport();
+  report.labels[0].name = "h\xE4lfte \"x\"";
+  EXPECT_NO_THROW(Json::parse(ReportJson(report)));
+  EXPECT_NO_THROW(ParseProvenance(ProvenanceJson(report, { 0 }, 0), "a.vtp"));
+}
+
+TEST(CoreReport, DescribesAreaAndRadius)
+{
+  // A unit square, and a triangle of area 2 standing on one of its sides.
+  MedialComplex complex;
+  complex.positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0.5, 0, 4 } };
+  complex.radius = { 1, 2, 3, 2, 1 };
+  complex.cells.vertexCount = 5;
+  complex.cells.faceOffsets = { 0, 4, 7 };
+  complex.cells.faceVertices = { 0, 1, 2, 3, 0, 1, 4 };
+  const ComplexRecord record = DescribeComplex(complex, { 1, { 1, 0, 0 } });
+  EXPECT_DOUBLE_EQ(record.areaMm2, 3);
+  EXPECT_EQ(record.maxRadiusMm, 3);
+  EXPECT_EQ(record.faces, 2U);
+}
+
+TEST(CoreReport, PeakMemoryIsPlausible)
+{
+  EXPECT_GT(PeakMemoryMb(), 1);
+  EXPECT_LT(PeakMemoryMb(), 100000);
+}
+
+} // namespace
+} // namespace voxelcore

@@ -1,0 +1,131 @@
+#include "voxelcore/Error.h"
+#include "voxelcore/Parameters.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+#include <set>
+
+namespace voxelcore
+{
+namespace
+{
+
+ParameterValues
+CoreValues(const ParameterValues & more)
+{
+  ParameterValues values{ { "scan", "a.nrrd" }, { "output", "a.vtp" } };
+  for (const auto & [name, value] : more)
+  {
+    values[name] = value;
+  }
+  return values;
+}
+
+TEST(ParameterTable, NamesAndFlagsAreUniqueWithinACommand)
+{
+  for (const Command & command : Commands())
+  {
+    std::set<std::string_view> names;
+    std::set<std::string_view> flags;
+    bool                       optionsBegan = false;
+    for (const Parameter & parameter : Parameters())
+    {
+      if (!BelongsTo(parameter, command.id))
+      {
+        continue;
+      }
+      EXPECT_TRUE(names.insert(parameter.name).second) << command.name << " " << parameter.name;
+      EXPECT_TRUE(flags.insert(parameter.flags.empty() ? parameter.placeholder : parameter.flags).second)
+        << command.name << " " << parameter.flags;
+      EXPECT_FALSE(parameter.description.empty()) << parameter.name;
+      EXPECT_EQ(parameter.description.find('\n'), std::string_view::npos) << parameter.name;
+      EXPECT_EQ(parameter.kind == ParameterKind::Flag, parameter.placeholder.empty()) << parameter.name;
+      EXPECT_FALSE(optionsBegan && parameter.flags.empty()) << "positionals come first: " << parameter.name;
+      optionsBegan = optionsBegan || !parameter.flags.empty();
+    }
+    EXPECT_FALSE(names.empty()) << command.name;
+    EXPECT_NE(command.footer.find("voxelcore " + std::string(command.name)), std::string_view::npos)
+      << command.name << " has no example";
+  }
+}
+
+TEST(Parameters, DefaultsAreThoseOfTheTable)
+{
+  const CoreOptions options = CoreOptionsFrom(CoreValues({}));
+  EXPECT_EQ(options.scan, "a.nrrd");
+  ASSERT_EQ(options.lambdas.size(), 1U);
+  EXPECT_EQ(options.lambdas[0].text, "1.5vox");
+  EXPECT_EQ(options.reading.labels, "all");
+  EXPECT_FALSE(options.reading.threshold || options.reading.spacing || options.reading.volume || options.report);
+  EXPECT_FALSE(options.reading.binary || options.reading.orthonormalize || options.force);
+  EXPECT_FALSE(options.model.triangles || options.model.keepEdges);
+  EXPECT_EQ(options.threads, 0);
+  EXPECT_EQ(options.engine, Engine::Auto);
+}
+
+TEST(Parameters, ValuesArriveWhereTheyBelong)
+{
+  const CoreOptions options = CoreOptionsFrom(CoreValues({ { "threshold", "-100.5:inf" },
+                                                           { "spacing", "0.5,0.25,2" },
+                                                           { "volume", "3" },
+                                                           { "nifti-form", "qform" },
+                                                           { "triangles", "true" },
+                                                           { "engine", "tetgen" },
+                                                           { "threads", "7" },
+                                                           { "report", "r.json" } }));
+  ASSERT_TRUE(options.reading.threshold && options.reading.spacing && options.reading.volume && options.report);
+  EXPECT_EQ(options.reading.threshold->first, -100.5);
+  EXPECT_EQ(options.reading.threshold->second, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(*options.reading.spacing, (Vector3{ 0.5, 0.25, 2 }));
+  EXPECT_EQ(*options.reading.volume, 3);
+  EXPECT_EQ(options.reading.niftiForm, "qform");
+  EXPECT_TRUE(options.model.triangles);
+  EXPECT_EQ(options.engine, Engine::TetGen);
+  EXPECT_EQ(options.threads, 7);
+  EXPECT_EQ(*options.report, "r.json");
+}
+
+TEST(Parameters, ValuesWithoutSenseAreUsageErrorsThatNameTheOption)
+{
+  const std::vector<std::pair<std::string, std::string>> wrong{
+    { "threads", "-1" },       { "threads", "two" },     { "threads", "1.5" },     { "threads", "" },
+    { "threads", "99999" },    { "spacing", "1,1" },     { "spacing", "1,1,0" },   { "spacing", "1,1,-1" },
+    { "spacing", "1,1,inf" },  { "spacing", "1,1,1,1" }, { "spacing", "1;1;1" },   { "threshold", "5" },
+    { "threshold", "5:1" },    { "threshold", "a:b" },   { "threshold", "1:2:3" }, { "threshold", "nan:2" },
+    { "nifti-form", "rform" }, { "volume", "-1" },       { "engine", "cgal" },     { "engine", "auto|tetgen" },
+    { "labels", "" },          { "lambda", "3apples" },  { "lambda", "-2mm" },     { "output", "" },
+    { "report", "" },
+  };
+  for (const auto & [name, value] : wrong)
+  {
+    try
+    {
+      CoreOptionsFrom(CoreValues({ { name, value } }));
+      ADD_FAILURE() << "--" << name << " " << value << " was accepted";
+    }
+    catch (const UsageError & error)
+    {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find(name == "lambda" ? value : name), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Parameters, WaysToChooseVoxelsExcludeEachOther)
+{
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "binary", "true" }, { "labels", "3" } })), UsageError);
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "binary", "true" }, { "threshold", "1:2" } })), UsageError);
+}
+
+TEST(Parameters, PhantomSizesMayBeOneOrThree)
+{
+  const ParameterValues one{ { "kind", "ball" }, { "output", "a.nrrd" }, { "size", "12" } };
+  const ParameterValues three{ { "kind", "ball" }, { "output", "a.nrrd" }, { "size", "12,13,14" } };
+  const ParameterValues none{ { "kind", "ball" }, { "output", "a.nrrd" }, { "size", "0" } };
+  EXPECT_EQ(PhantomOptionsFrom(one).phantom.size[2], 12);
+  EXPECT_EQ(PhantomOptionsFrom(three).phantom.size[1], 13);
+  EXPECT_THROW(PhantomOptionsFrom(none), UsageError);
+}
+
+} // namespace
+} // namespace voxelcore

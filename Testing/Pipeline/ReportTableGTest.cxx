@@ -1,0 +1,49 @@
+#include "voxelcore/ReportTable.h"
+
+#include <gtest/gtest.h>
+
+namespace voxelcore
+{
+namespace
+{
+
+TEST(ReportTable, ColumnsAreAlignedAlsoWithLettersOfSeveralBytes)
+{
+  EXPECT_EQ(FormatTable({ { "n", "name", "v" }, { "10", "Hälfte", "7" }, { "1", "x", "1234" } }),
+            " n  name       v\n"
+            "10  Hälfte     7\n"
+            " 1  x       1234\n");
+}
+
+TEST(ReportTable, HasARowPerLabelAndAColumnPerLambda)
+{
+  CoreReport report;
+  report.parameters.lambda = { "0", "2mm" };
+  LabelRecord label;
+  label.label = 7;
+  label.name = "Liver";
+  label.voxels = 11;
+  label.boundaryVertices = 22;
+  label.shape = { -1, { 1, 2, 0 } };
+  label.core.faces = 33;
+  label.core.topology = { -1, { 1, 2, 0 } };
+  label.pruned.resize(2);
+  label.pruned[0].complex.faces = 33;
+  label.pruned[1].complex.faces = 5;
+  label.topologyEqual = label.enclosed = true;
+  label.seconds = 1.234;
+  report.labels = { label };
+  report.seconds.total = 2;
+  report.peakMemoryMb = 3;
+  EXPECT_EQ(ReportTable(report),
+            "label  name   voxels  boundary vertices  core faces  faces at 0  faces at 2mm  shape chi/b0/b1/b2  core "
+            "chi/b0/b1/b2  certificate  seconds\n"
+            "    7  Liver      11                 22          33          33             5            -1/1/2/0       "
+            "    -1/1/2/0       passed     1.23\n"
+            "1 label, 22 boundary vertices, 2.00 s, peak memory 3 MB\n");
+  report.labels[0].enclosed = false;
+  EXPECT_NE(ReportTable(report).find("FAILED"), std::string::npos);
+}
+
+} // namespace
+} // namespace voxelcore
