@@ -1,8 +1,6 @@
 #include "voxelcore/SimplePairCollapse.h"
 
 #include <algorithm>
-#include <queue>
-#include <tuple>
 
 namespace voxelcore
 {
@@ -18,11 +16,76 @@ struct Pair
   ElementIndex  element;       // e
 
   friend bool
-  operator>(const Pair & a, const Pair & b)
+  operator<(const Pair & a, const Pair & b)
   {
-    return std::tie(a.measure, a.cofaceMeasure, a.isEdge, a.element) >
-           std::tie(b.measure, b.cofaceMeasure, b.isEdge, b.element);
+    if (a.measure != b.measure)
+    {
+      return a.measure < b.measure;
+    }
+    if (a.cofaceMeasure != b.cofaceMeasure)
+    {
+      return a.cofaceMeasure < b.cofaceMeasure;
+    }
+    return a.isEdge != b.isEdge ? a.isEdge < b.isEdge : a.element < b.element;
   }
+};
+
+// A heap with four children a node: half as deep as a binary one, and siblings share a cache line or two.
+class PairHeap
+{
+public:
+  bool
+  IsEmpty() const
+  {
+    return m_Pairs.empty();
+  }
+
+  void
+  Push(const Pair & pair)
+  {
+    std::size_t at = m_Pairs.size();
+    m_Pairs.push_back(pair);
+    while (at > 0)
+    {
+      const std::size_t parent = (at - 1) / 4;
+      if (!(pair < m_Pairs[parent]))
+      {
+        break;
+      }
+      m_Pairs[at] = m_Pairs[parent];
+      at = parent;
+    }
+    m_Pairs[at] = pair;
+  }
+
+  Pair
+  Pop()
+  {
+    const Pair top = m_Pairs.front();
+    const Pair last = m_Pairs.back();
+    m_Pairs.pop_back();
+    const std::size_t count = m_Pairs.size();
+    for (std::size_t at = 0; count > 0;)
+    {
+      const std::size_t first = 4 * at + 1;
+      std::size_t       least = first;
+      for (std::size_t child = first + 1; child < std::min(first + 4, count); ++child)
+      {
+        least = m_Pairs[child] < m_Pairs[least] ? child : least;
+      }
+      if (first >= count || !(m_Pairs[least] < last))
+      {
+        m_Pairs[at] = last;
+        break;
+      }
+      m_Pairs[at] = m_Pairs[least];
+      at = least;
+    }
+    return top;
+  }
+
+private:
+  std::vector<Pair> m_Pairs;
 };
 
 } // namespace
@@ -38,25 +101,23 @@ SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
   , m_Live{ std::vector<std::uint8_t>(complex.vertexCount, 1),
             std::vector<std::uint8_t>(complex.edges.size(), 1),
             std::vector<std::uint8_t>(complex.FaceCount(), 1) }
-  , m_VertexCofaces(complex.vertexCount, 0)
-  , m_VertexCofaceXor(complex.vertexCount, 0)
-  , m_EdgeCofaces(complex.edges.size(), 0)
-  , m_EdgeCofaceXor(complex.edges.size(), 0)
+  , m_VertexCofaces(complex.vertexCount)
+  , m_EdgeCofaces(complex.edges.size())
 {
   for (std::size_t edge = 0; edge < complex.edges.size(); ++edge)
   {
     for (const ElementIndex vertex : complex.edges[edge])
     {
-      ++m_VertexCofaces[vertex];
-      m_VertexCofaceXor[vertex] ^= static_cast<ElementIndex>(edge);
+      ++m_VertexCofaces[vertex].count;
+      m_VertexCofaces[vertex].exclusiveOr ^= static_cast<ElementIndex>(edge);
     }
   }
   for (std::size_t face = 0; face < complex.FaceCount(); ++face)
   {
     for (const ElementIndex edge : complex.FaceEdges(face))
     {
-      ++m_EdgeCofaces[edge];
-      m_EdgeCofaceXor[edge] ^= static_cast<ElementIndex>(face);
+      ++m_EdgeCofaces[edge].count;
+      m_EdgeCofaces[edge].exclusiveOr ^= static_cast<ElementIndex>(face);
     }
   }
 }
@@ -64,25 +125,25 @@ SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
 void
 SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & progress)
 {
-  std::priority_queue<Pair, std::vector<Pair>, std::greater<>> pairs;
+  PairHeap pairs;
   // A vertex in one edge is in no face, as a face would need two edges there; so cofaces one dimension up suffice.
   const auto offerVertex = [&](ElementIndex vertex) {
-    if (m_VertexCofaces[vertex] == 1 && m_VertexMeasure[vertex] < threshold)
+    if (m_VertexCofaces[vertex].count == 1 && m_VertexMeasure[vertex] < threshold)
     {
-      const double coface = m_EdgeMeasure[m_VertexCofaceXor[vertex]];
+      const double coface = m_EdgeMeasure[m_VertexCofaces[vertex].exclusiveOr];
       if (coface < threshold)
       {
-        pairs.push({ m_VertexMeasure[vertex], coface, 0, vertex });
+        pairs.Push({ m_VertexMeasure[vertex], coface, 0, vertex });
       }
     }
   };
   const auto offerEdge = [&](ElementIndex edge) {
-    if (m_EdgeCofaces[edge] == 1 && m_EdgeMeasure[edge] < threshold)
+    if (m_EdgeCofaces[edge].count == 1 && m_EdgeMeasure[edge] < threshold)
     {
-      const double coface = m_FaceMeasure[m_EdgeCofaceXor[edge]];
+      const double coface = m_FaceMeasure[m_EdgeCofaces[edge].exclusiveOr];
       if (coface < threshold)
       {
-        pairs.push({ m_EdgeMeasure[edge], coface, 1, edge });
+        pairs.Push({ m_EdgeMeasure[edge], coface, 1, edge });
       }
     }
   };
@@ -90,8 +151,8 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
     m_Live.edges[edge] = 0;
     for (const ElementIndex vertex : m_Complex->edges[edge])
     {
-      --m_VertexCofaces[vertex];
-      m_VertexCofaceXor[vertex] ^= edge;
+      --m_VertexCofaces[vertex].count;
+      m_VertexCofaces[vertex].exclusiveOr ^= edge;
       if (m_Live.vertices[vertex])
       {
         offerVertex(vertex);
@@ -115,27 +176,26 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
   }
 
   std::size_t count = 0;
-  while (!pairs.empty())
+  while (!pairs.IsEmpty())
   {
     if ((count++ & 0xFFFFU) == 0)
     {
       ReportProgress(progress, "prune", 0.0);
     }
-    const Pair pair = pairs.top();
-    pairs.pop();
+    const Pair pair = pairs.Pop();
     if (pair.isEdge)
     {
       // Its face may have gone with another of its edges in the meantime.
-      if (!m_Live.edges[pair.element] || m_EdgeCofaces[pair.element] != 1)
+      if (!m_Live.edges[pair.element] || m_EdgeCofaces[pair.element].count != 1)
       {
         continue;
       }
-      const ElementIndex face = m_EdgeCofaceXor[pair.element];
+      const ElementIndex face = m_EdgeCofaces[pair.element].exclusiveOr;
       m_Live.faces[face] = 0;
       for (const ElementIndex edge : m_Complex->FaceEdges(face))
       {
-        --m_EdgeCofaces[edge];
-        m_EdgeCofaceXor[edge] ^= face;
+        --m_EdgeCofaces[edge].count;
+        m_EdgeCofaces[edge].exclusiveOr ^= face;
         if (edge != pair.element)
         {
           offerEdge(edge);
@@ -145,12 +205,12 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
     }
     else
     {
-      if (!m_Live.vertices[pair.element] || m_VertexCofaces[pair.element] != 1)
+      if (!m_Live.vertices[pair.element] || m_VertexCofaces[pair.element].count != 1)
       {
         continue;
       }
       m_Live.vertices[pair.element] = 0;
-      dropEdge(m_VertexCofaceXor[pair.element]);
+      dropEdge(m_VertexCofaces[pair.element].exclusiveOr);
     }
   }
 }

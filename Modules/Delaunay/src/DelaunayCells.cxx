@@ -45,7 +45,7 @@ ComputeDelaunayCells(const VoxelShape &                shape,
   }
   ReportProgress(progress, "delaunay", 0.0);
 #ifdef VOXELCORE_HAS_TETGEN
-  if (engine != Engine::Lattice)
+  if (engine == Engine::TetGen)
   {
     cells = TetGenCells(shape, points, weights, progress);
   }

@@ -50,8 +50,13 @@ private:
   std::span<const double> m_FaceMeasure;
   LiveElements            m_Live;
   // Number of live cofaces and the exclusive-or of their indices: with one left, that is its index.
-  std::vector<ElementIndex> m_VertexCofaces, m_VertexCofaceXor;
-  std::vector<ElementIndex> m_EdgeCofaces, m_EdgeCofaceXor;
+  struct Cofaces
+  {
+    ElementIndex count = 0;
+    ElementIndex exclusiveOr = 0;
+  };
+  std::vector<Cofaces> m_VertexCofaces;
+  std::vector<Cofaces> m_EdgeCofaces;
 };
 
 /** The live part as a complex of its own; the order of elements is kept.

@@ -56,7 +56,7 @@ struct DelaunayCells
 /** The Delaunay engines a build can have. */
 enum class Engine
 {
-  Auto,    ///< the best one this build has
+  Auto,    ///< the best one: lattice
   Lattice, ///< made for voxel shapes; parallel
   TetGen   ///< TetGen 1.5: exact, sequential, AGPL-3
 };
