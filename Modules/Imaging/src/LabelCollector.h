@@ -39,6 +39,9 @@ public:
   }
 
 private:
+  static constexpr std::int32_t kUnseen = -2; ///< not classified yet
+  static constexpr std::int32_t kBackground = -1;
+
   struct Run
   {
     std::int32_t x, end, y, z;
@@ -74,7 +77,7 @@ private:
     std::vector<std::int32_t>                       dense; ///< 8 and 16 bits
     std::unordered_map<std::uint64_t, std::int32_t> sparse;
     std::uint64_t                                   lastBits = 0;
-    std::int32_t                                    last = -2;
+    std::int32_t                                    last = kUnseen;
   };
 
   template <typename U>

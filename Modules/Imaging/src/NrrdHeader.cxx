@@ -20,7 +20,8 @@ HeaderText(const std::filesystem::path & path, std::size_t & end, bool & ended)
 {
   const auto  stream = OpenBytes(path, 0, Packing::Plain);
   std::string text;
-  std::size_t line = 0; // start of the line that is being looked for the end of
+  std::size_t line = 0; // start of the line whose end is looked for
+  std::size_t seen = 0; // no line ends between `line` and here
   for (;;)
   {
     const std::size_t before = text.size();
@@ -30,7 +31,8 @@ HeaderText(const std::filesystem::path & path, std::size_t & end, bool & ended)
     {
       Refuse(path, "not an NRRD file (it does not begin with NRRD)", "check what kind of file it is");
     }
-    for (std::size_t newline; (newline = text.find('\n', line)) != std::string::npos; line = newline + 1)
+    for (std::size_t newline; (newline = text.find('\n', std::max(line, seen))) != std::string::npos;
+         line = newline + 1)
     {
       if (newline == line || (newline == line + 1 && text[line] == '\r'))
       {
@@ -40,6 +42,7 @@ HeaderText(const std::filesystem::path & path, std::size_t & end, bool & ended)
         return text;
       }
     }
+    seen = text.size();
     if (text.size() == before)
     {
       end = text.size();

@@ -82,8 +82,16 @@ CheckSize(const std::filesystem::path &       path,
   if (bytesPerVoxel > (1U << 20) || total * bytesPerVoxel > bytesPossible)
   {
     Refuse(path,
-           Text("its header gives ", size[0], " x ", size[1], " x ", size[2], " voxels of ", bytesPerVoxel,
-                " bytes, its data hold at most ", bytesPossible),
+           Text("its header gives ",
+                size[0],
+                " x ",
+                size[1],
+                " x ",
+                size[2],
+                " voxels of ",
+                bytesPerVoxel,
+                " bytes, its data hold at most ",
+                bytesPossible),
            "the file is truncated or its header damaged: fetch or write it anew");
   }
   return static_cast<std::uint64_t>(total);

@@ -1,0 +1,172 @@
+// The voxels of TIFF pages, page by page.
+
+#include "TiffFile.h"
+#include "TiffHandle.h"
+
+#include <algorithm>
+
+namespace voxelcore
+{
+namespace
+{
+
+class TiffStream : public ByteStream
+{
+public:
+  TiffStream(const std::filesystem::path & path, TiffPages pages)
+    : ByteStream(path)
+    , m_Tiff(path)
+    , m_Pages(std::move(pages))
+  {}
+
+  std::size_t
+  ReadSome(std::byte * to, std::size_t count) override
+  {
+    std::size_t done = 0;
+    while (done < count)
+    {
+      if (m_At == m_Page.size())
+      {
+        if (m_Next == m_Pages.offsets.size())
+        {
+          break;
+        }
+        DecodePage(m_Pages.offsets[m_Next++]);
+        m_At = 0;
+      }
+      const std::size_t now = std::min(count - done, m_Page.size() - m_At);
+      std::memcpy(to + done, m_Page.data() + m_At, now);
+      done += now;
+      m_At += now;
+    }
+    return done;
+  }
+
+  void
+  Skip(std::uint64_t count) override
+  {
+    const std::uint64_t pageBytes = m_Pages.PageBytes();
+    while (count >= pageBytes && m_At == m_Page.size() && m_Next < m_Pages.offsets.size())
+    {
+      ++m_Next;
+      count -= pageBytes;
+    }
+    ByteStream::Skip(count);
+  }
+
+  bool
+  Finish() override
+  {
+    return false;
+  }
+
+private:
+  /** Values of a row of a strip or tile, from `fromX` on, into the page. */
+  void
+  PutRow(const std::byte * row, std::uint32_t x, std::uint32_t y, std::uint32_t count)
+  {
+    const std::size_t bytes = PixelBytes(m_Pages.type);
+    std::byte *       to = m_Page.data() + (std::size_t{ y } * m_Pages.width + x) * bytes;
+    if (m_Pages.bits >= 8)
+    {
+      std::memcpy(to, row, count * bytes);
+      return;
+    }
+    const unsigned perByte = 8U / m_Pages.bits;
+    const unsigned mask = (1U << m_Pages.bits) - 1U;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+      const unsigned shift = 8U - m_Pages.bits * (i % perByte + 1U);
+      to[i] = static_cast<std::byte>((std::to_integer<unsigned>(row[i / perByte]) >> shift) & mask);
+    }
+  }
+
+  void
+  DecodePage(std::uint64_t offset)
+  {
+    TIFF * tiff = m_Tiff.Get();
+    if (TIFFSetSubDirectory(tiff, offset) == 0)
+    {
+      m_Tiff.RefuseDamaged(Text("page ", m_Next, " cannot be read"));
+    }
+    const std::uint32_t width = m_Pages.width;
+    const std::uint32_t height = m_Pages.height;
+    m_Page.resize(static_cast<std::size_t>(m_Pages.PageBytes()));
+    if (TIFFIsTiled(tiff) != 0)
+    {
+      const auto tileWidth = m_Tiff.Field<std::uint32_t>(TIFFTAG_TILEWIDTH, 0);
+      const auto tileHeight = m_Tiff.Field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
+      const auto size = static_cast<std::size_t>(TIFFTileSize64(tiff));
+      const auto rowBytes = static_cast<std::size_t>(TIFFTileRowSize64(tiff));
+      m_Part.resize(size);
+      for (std::uint32_t y = 0; y < height; y += tileHeight)
+      {
+        for (std::uint32_t x = 0; x < width; x += tileWidth)
+        {
+          Decode(
+            TIFFReadEncodedTile(tiff, TIFFComputeTile(tiff, x, y, 0, 0), m_Part.data(), static_cast<tmsize_t>(size)),
+            size);
+          const std::uint32_t columns = std::min(tileWidth, width - x);
+          for (std::uint32_t row = 0; row < std::min(tileHeight, height - y); ++row)
+          {
+            PutRow(m_Part.data() + row * rowBytes, x, y + row, columns);
+          }
+          if (width - x <= tileWidth)
+          {
+            break; // x + tileWidth might overflow
+          }
+        }
+        if (height - y <= tileHeight)
+        {
+          break;
+        }
+      }
+      return;
+    }
+    const std::uint32_t perStrip = std::min(m_Tiff.Field<std::uint32_t>(TIFFTAG_ROWSPERSTRIP, height), height);
+    const auto          rowBytes = static_cast<std::size_t>(TIFFScanlineSize64(tiff));
+    m_Part.resize(static_cast<std::size_t>(TIFFStripSize64(tiff)));
+    for (std::uint32_t y = 0; y < height; y += perStrip)
+    {
+      const std::uint32_t rows = std::min(perStrip, height - y);
+      const std::size_t   size = rows * rowBytes;
+      Decode(TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, y, 0), m_Part.data(), static_cast<tmsize_t>(size)),
+             size);
+      for (std::uint32_t row = 0; row < rows; ++row)
+      {
+        PutRow(m_Part.data() + row * rowBytes, 0, y + row, width);
+      }
+      if (height - y <= perStrip)
+      {
+        break;
+      }
+    }
+  }
+
+  void
+  Decode(tmsize_t got, std::size_t needed) const
+  {
+    // Some decoders report what is wrong and go on: what they give then is no measurement.
+    if (got < 0 || static_cast<std::size_t>(got) != needed || m_Tiff.HasError())
+    {
+      m_Tiff.RefuseDamaged(Text("page ", m_Next, " cannot be read in full"));
+    }
+  }
+
+  TiffHandle             m_Tiff;
+  TiffPages              m_Pages;
+  std::vector<std::byte> m_Page;
+  std::vector<std::byte> m_Part;
+  std::size_t            m_At = 0;
+  std::size_t            m_Next = 0;
+};
+
+} // namespace
+
+std::unique_ptr<ByteStream>
+OpenTiffPages(const std::filesystem::path & path, const TiffPages & pages)
+{
+  return std::make_unique<TiffStream>(path, pages);
+}
+
+} // namespace voxelcore

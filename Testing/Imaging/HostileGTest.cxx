@@ -1,0 +1,202 @@
+// Files made to do harm: whatever a byte is changed to, reading ends in time, with a volume or with InputError, and
+// takes memory in proportion to the file.
+
+#include "ScanBytes.h"
+
+#include <chrono>
+#include <iostream>
+#include <random>
+#include <sys/resource.h>
+
+using namespace voxelcore;
+using namespace voxelcore::testing;
+
+namespace
+{
+
+struct Seed
+{
+  const char * name;
+  std::string  bytes;
+};
+
+std::vector<Seed>
+Seeds()
+{
+  std::vector<int> values(6 * 5 * 4, 0);
+  for (std::size_t i = 0; i < values.size(); i += 3)
+  {
+    values[i] = static_cast<int>(i % 7);
+  }
+  const std::string bytes = RawAll<std::uint8_t>(values);
+  const std::string words = RawAll<std::int16_t>(values);
+  auto              lines = NrrdLines("short", { 6, 5, 4 });
+  auto              packed = lines;
+  packed[7] = "encoding: gzip";
+  auto text = lines;
+  text[7] = "encoding: ascii";
+  std::string written;
+  for (const int value : values)
+  {
+    written += std::to_string(value) + " ";
+  }
+  std::vector<std::string> layers{ "type: uchar",
+                                   "dimension: 4",
+                                   "space: RAS",
+                                   "sizes: 2 6 5 2",
+                                   "space directions: none (1,0,0) (0,1,0) (0,0,1)",
+                                   "kinds: list domain domain domain",
+                                   "encoding: raw",
+                                   "space units: \"um\" \"um\" \"um\"",
+                                   "Segment0_Name:=a",
+                                   "Segment0_LabelValue:=1",
+                                   "Segment0_Layer:=0",
+                                   "Segment1_Name:=b",
+                                   "Segment1_LabelValue:=3",
+                                   "Segment1_Layer:=1" };
+  NiftiFields              nifti;
+  nifti.dim = { 6, 5, 4 };
+  nifti.datatype = 4;
+  nifti.bitpix = 16;
+  nifti.qformCode = 1;
+  nifti.sformCode = 1;
+  nifti.srow = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+  NiftiFields nifti2 = nifti;
+  nifti2.version = 2;
+  nifti2.big = true;
+  const std::vector<std::string> meta{ "ObjectType = Image",      "NDims = 3",
+                                       "DimSize = 6 5 4",         "ElementSpacing = 1 1 1",
+                                       "ElementType = MET_SHORT", "BinaryDataByteOrderMSB = False" };
+  auto                           metaPacked = meta;
+  metaPacked.emplace_back("CompressedData = True");
+
+  std::vector<TiffPage> strips(4);
+  for (std::size_t p = 0; p < 4; ++p)
+  {
+    strips[p].width = 6;
+    strips[p].height = 5;
+    strips[p].rowsPerStrip = 3;
+    strips[p].compression = 5;
+    strips[p].parts = { Lzw(bytes.substr(30 * p, 18)), Lzw(bytes.substr(30 * p + 18, 12)) };
+  }
+  auto bits = strips;
+  for (TiffPage & page : bits)
+  {
+    page.compression = 32773;
+    page.parts = { PackBits(page.parts[0] + std::string(18, 'x')).substr(0, 19), PackBits(std::string(12, '\1')) };
+  }
+  std::vector<TiffPage> tiles(2);
+  for (TiffPage & page : tiles)
+  {
+    page.width = 20;
+    page.height = 18;
+    page.tileWidth = 16;
+    page.tileHeight = 16;
+    page.compression = 8;
+    page.parts.assign(4, Zlib(std::string(256, '\2')));
+  }
+  return { { "raw.nrrd", Nrrd(lines, words) },
+           { "gzip.nrrd", Nrrd(packed, Gzip(words)) },
+           { "ascii.nrrd", Nrrd(text, written) },
+           { "layers.seg.nrrd", Nrrd(layers, bytes) },
+           { "one.nii", Nifti(nifti, words) },
+           { "two.nii", Nifti(nifti2, RawAll<std::int16_t>(values, true)) },
+           { "packed.nii.gz", Gzip(Nifti(nifti, words)) },
+           { "raw.mha", Meta(meta, words) },
+           { "packed.mha", Meta(metaPacked, Zlib(words)) },
+           { "strips.tif", Tiff(strips) },
+           { "bits.tif", Tiff(bits, { true, false }) },
+           { "tiles.tif", Tiff(tiles, { false, true }) } };
+}
+
+long
+PeakMegabytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+void
+ReadMutations(std::size_t countOfEach)
+{
+  const TempFolder folder;
+  const unsigned   seed = std::random_device()();
+  std::cout << "seed " << seed << "\n";
+  ::testing::Test::RecordProperty("seed", std::to_string(seed));
+  std::mt19937 random(seed);
+  const long   before = PeakMegabytes();
+  std::size_t  read = 0;
+  std::size_t  refused = 0;
+  for (const Seed & original : Seeds())
+  {
+    ASSERT_NO_THROW(ReadLabelVolume(folder.Write(original.name, original.bytes))) << original.name;
+    for (std::size_t i = 0; i < countOfEach; ++i)
+    {
+      std::string bytes = original.bytes;
+      for (std::size_t changes = 1 + (i % 4 == 0 ? random() % 4 : 0); changes > 0; --changes)
+      {
+        bytes[random() % bytes.size()] = static_cast<char>(random());
+      }
+      if (i % 16 == 0)
+      {
+        bytes.resize(random() % bytes.size() + 1);
+      }
+      const auto path = folder.Write(original.name, bytes);
+      const auto begin = std::chrono::steady_clock::now();
+      try
+      {
+        ReadLabelVolume(path);
+        ++read;
+      }
+      catch (const InputError & error)
+      {
+        ++refused;
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      }
+      catch (const std::exception & error)
+      {
+        std::filesystem::copy_file(path, std::filesystem::temp_directory_path() / original.name);
+        FAIL() << original.name << " change " << i << ": " << error.what();
+      }
+      ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << original.name << " change " << i;
+    }
+    EXPECT_LT(PeakMegabytes() - before, 400) << original.name;
+  }
+  std::cout << read << " read, " << refused << " refused\n";
+  EXPECT_GT(read, 0U);
+  EXPECT_GT(refused, 0U);
+}
+
+} // namespace
+
+TEST(Hostile, SmallFilesWithAByteChanged)
+{
+  ReadMutations(400);
+}
+
+TEST(HeavyHostile, TenThousandSmallFilesOfEachFormatWithAByteChanged)
+{
+  ReadMutations(10000);
+}
+
+TEST(Hostile, ABombEndsWithItsVolumeNotWithItsBytes)
+{
+  // 100 MB of zeros in 100 kB, of which the header speaks of 27 bytes: more are left over than are worth unpacking.
+  const TempFolder folder;
+  auto             lines = NrrdLines("uchar", { 3, 3, 3 });
+  lines[7] = "encoding: gzip";
+  std::string zeros(100U << 20, '\0');
+  zeros[3] = 1;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, Gzip(zeros))));
+  EXPECT_TRUE(HasNote(volume.warnings, "more data"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+TEST(Hostile, AHeaderWithoutEndIsRefused)
+{
+  const TempFolder folder;
+  ExpectRefused(folder.Write("a.nrrd", "NRRD0004\n" + std::string(70U << 20, 'x')), { "no end" });
+  ExpectRefused(folder.Write("a.mha", "NDims = 3\n" + std::string(3U << 20, 'x')), { "not a MetaImage" });
+}
