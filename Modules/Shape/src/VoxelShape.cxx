@@ -1,7 +1,10 @@
 #include "voxelcore/VoxelShape.h"
 
+#include "ShapeBits.h"
+
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace voxelcore
 {
@@ -23,8 +26,8 @@ VoxelShape::CountVoxels() const
   return count;
 }
 
-VoxelShape
-CropToVoxels(const VoxelShape & shape)
+VoxelBox
+TightBox(const VoxelShape & shape)
 {
   const VoxelBox &            box = shape.Box();
   std::array<std::int32_t, 3> first{ box.size };
@@ -49,7 +52,7 @@ CropToVoxels(const VoxelShape & shape)
   }
   if (last[0] < 0)
   {
-    return VoxelShape(VoxelBox{ box.lower, { 0, 0, 0 } });
+    return { box.lower, { 0, 0, 0 } };
   }
   VoxelBox tight;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -57,13 +60,22 @@ CropToVoxels(const VoxelShape & shape)
     tight.lower[axis] = box.lower[axis] + first[axis];
     tight.size[axis] = last[axis] - first[axis] + 1;
   }
-  VoxelShape     result(tight);
-  const auto     shift = static_cast<unsigned>(first[0]) & 63U;
-  const auto     skip = static_cast<std::size_t>(first[0]) / 64;
-  const unsigned tailBits = static_cast<unsigned>(tight.size[0]) & 63U;
-  for (std::int32_t z = 0; z < tight.size[2]; ++z)
+  return tight;
+}
+
+VoxelShape
+CopyBox(const VoxelShape & shape, const VoxelBox & box)
+{
+  const std::array<std::int32_t, 3> first{ box.lower[0] - shape.Box().lower[0],
+                                           box.lower[1] - shape.Box().lower[1],
+                                           box.lower[2] - shape.Box().lower[2] };
+  VoxelShape                        result(box);
+  const auto                        shift = static_cast<unsigned>(first[0]) & 63U;
+  const auto                        skip = static_cast<std::size_t>(first[0]) / 64;
+  const unsigned                    tailBits = static_cast<unsigned>(box.size[0]) & 63U;
+  for (std::int32_t z = 0; z < box.size[2]; ++z)
   {
-    for (std::int32_t y = 0; y < tight.size[1]; ++y)
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
       const auto from = shape.Row(y + first[1], z + first[2]);
       const auto to = result.Row(y, z);
@@ -83,6 +95,19 @@ CropToVoxels(const VoxelShape & shape)
     }
   }
   return result;
+}
+
+VoxelShape
+Tightened(VoxelShape shape)
+{
+  const VoxelBox tight = TightBox(shape);
+  return tight.size == shape.Box().size ? std::move(shape) : CopyBox(shape, tight);
+}
+
+VoxelShape
+CropToVoxels(const VoxelShape & shape)
+{
+  return CopyBox(shape, TightBox(shape));
 }
 
 } // namespace voxelcore

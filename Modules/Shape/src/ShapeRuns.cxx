@@ -1,0 +1,176 @@
+#include "ShapeRuns.h"
+
+#include <bit>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+void
+AppendVoxelRuns(std::span<const std::uint64_t> row, Runs & runs)
+{
+  std::int32_t start = -1;
+  for (std::size_t word = 0; word < row.size(); ++word)
+  {
+    const auto          base = static_cast<std::int32_t>(64 * word);
+    const std::uint64_t bits = row[word];
+    for (std::int32_t at = 0; at < 64;)
+    {
+      const std::uint64_t rest = (start < 0 ? bits : ~bits) >> at;
+      if (rest == 0)
+      {
+        break;
+      }
+      at += std::countr_zero(rest);
+      if (start < 0)
+      {
+        start = base + at;
+      }
+      else
+      {
+        runs.begin.push_back(start);
+        runs.end.push_back(base + at);
+        start = -1;
+      }
+    }
+  }
+  if (start >= 0)
+  {
+    runs.begin.push_back(start);
+    runs.end.push_back(static_cast<std::int32_t>(64 * row.size()));
+  }
+}
+
+// Unites the runs of two rows that overlap when one is grown by `reach` voxels at both ends.
+void
+UniteRows(const Runs & runs, std::size_t rowA, std::size_t rowB, std::int32_t reach, UnionFind & sets)
+{
+  std::size_t a = runs.rowStart[rowA];
+  std::size_t b = runs.rowStart[rowB];
+  while (a < runs.rowStart[rowA + 1] && b < runs.rowStart[rowB + 1])
+  {
+    if (runs.end[a] + reach <= runs.begin[b])
+    {
+      ++a;
+    }
+    else if (runs.end[b] + reach <= runs.begin[a])
+    {
+      ++b;
+    }
+    else
+    {
+      sets.Unite(a, b);
+      runs.end[a] < runs.end[b] ? ++a : ++b;
+    }
+  }
+}
+
+} // namespace
+
+Runs
+VoxelRuns(const VoxelShape & shape)
+{
+  Runs runs;
+  runs.rowsY = shape.Box().size[1];
+  runs.rowsZ = shape.Box().size[2];
+  runs.rowStart.push_back(0);
+  for (std::int32_t z = 0; z < shape.Box().size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < shape.Box().size[1]; ++y)
+    {
+      AppendVoxelRuns(shape.Row(y, z), runs);
+      runs.rowStart.push_back(runs.begin.size());
+    }
+  }
+  return runs;
+}
+
+Runs
+BackgroundRuns(const VoxelShape & shape)
+{
+  const auto & size = shape.Box().size;
+  const Runs   voxels = VoxelRuns(shape);
+  Runs         runs;
+  runs.rowsY = size[1] + 2;
+  runs.rowsZ = size[2] + 2;
+  runs.rowStart.push_back(0);
+  for (std::int32_t z = -1; z <= size[2]; ++z)
+  {
+    for (std::int32_t y = -1; y <= size[1]; ++y)
+    {
+      std::int32_t from = -1;
+      if (y >= 0 && z >= 0 && y < size[1] && z < size[2])
+      {
+        const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(y);
+        for (std::size_t run = voxels.rowStart[row]; run < voxels.rowStart[row + 1]; ++run)
+        {
+          // begin >= 0 > from for the first one, so no run is empty.
+          runs.begin.push_back(from);
+          runs.end.push_back(voxels.begin[run]);
+          from = voxels.end[run];
+        }
+      }
+      runs.begin.push_back(from);
+      runs.end.push_back(size[0] + 1);
+      runs.rowStart.push_back(runs.begin.size());
+    }
+  }
+  return runs;
+}
+
+UnionFind
+UniteRuns(const Runs & runs, bool diagonals)
+{
+  UnionFind          sets(runs.begin.size());
+  const std::int32_t reach = diagonals ? 1 : 0;
+  const auto         rowOf = [&](std::int32_t y, std::int32_t z) {
+    return static_cast<std::size_t>(z) * static_cast<std::size_t>(runs.rowsY) + static_cast<std::size_t>(y);
+  };
+  for (std::int32_t z = 0; z < runs.rowsZ; ++z)
+  {
+    for (std::int32_t y = 0; y < runs.rowsY; ++y)
+    {
+      if (y > 0)
+      {
+        UniteRows(runs, rowOf(y, z), rowOf(y - 1, z), reach, sets);
+      }
+      if (z > 0)
+      {
+        UniteRows(runs, rowOf(y, z), rowOf(y, z - 1), reach, sets);
+        if (diagonals && y > 0)
+        {
+          UniteRows(runs, rowOf(y, z), rowOf(y - 1, z - 1), reach, sets);
+        }
+        if (diagonals && y + 1 < runs.rowsY)
+        {
+          UniteRows(runs, rowOf(y, z), rowOf(y + 1, z - 1), reach, sets);
+        }
+      }
+    }
+  }
+  return sets;
+}
+
+void
+SetRun(std::span<std::uint64_t> row, std::int32_t begin, std::int32_t end, bool in)
+{
+  const auto first = static_cast<std::size_t>(begin) / 64;
+  const auto last = static_cast<std::size_t>(end - 1) / 64;
+  for (std::size_t word = first; word <= last; ++word)
+  {
+    std::uint64_t mask = ~std::uint64_t{ 0 };
+    if (word == first)
+    {
+      mask &= ~std::uint64_t{ 0 } << (static_cast<unsigned>(begin) & 63U);
+    }
+    if (word == last)
+    {
+      mask &= ~std::uint64_t{ 0 } >> (63U - (static_cast<unsigned>(end - 1) & 63U));
+    }
+    row[word] = in ? row[word] | mask : row[word] & ~mask;
+  }
+}
+
+} // namespace voxelcore

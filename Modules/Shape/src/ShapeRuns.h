@@ -1,0 +1,48 @@
+#pragma once
+// A shape or its background as runs of voxels along x, and the components that runs make.
+
+#include "voxelcore/UnionFind.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Runs of equal voxels, [begin, end) along x, row by row in scan order: run i comes before run i + 1. */
+struct Runs
+{
+  std::int32_t              rowsY = 0;
+  std::int32_t              rowsZ = 0;
+  std::vector<std::int32_t> begin;
+  std::vector<std::int32_t> end;
+  std::vector<std::size_t>  rowStart; ///< rowsY * rowsZ + 1; row (y, z) is number z * rowsY + y
+};
+
+/** The voxels, box-relative. */
+Runs
+VoxelRuns(const VoxelShape & shape);
+
+/** The complement in the box grown by one voxel on every side, so that the outside is one component, that of run 0.
+ *  Row (0, 0) is the box-relative row (-1, -1); x stays box-relative. */
+Runs
+BackgroundRuns(const VoxelShape & shape);
+
+/** Sets of runs that touch over faces, or with `diagonals` over faces, edges or corners. A set's representative is its
+ *  first run in scan order. */
+UnionFind
+UniteRuns(const Runs & runs, bool diagonals);
+
+inline std::int64_t
+CountComponents(const Runs & runs, bool diagonals)
+{
+  return static_cast<std::int64_t>(UniteRuns(runs, diagonals).Count());
+}
+
+/** Puts the voxels [begin, end) of a row in, or out. */
+void
+SetRun(std::span<std::uint64_t> row, std::int32_t begin, std::int32_t end, bool in);
+
+} // namespace voxelcore
