@@ -1,37 +1,12 @@
 // Whether edges and faces are dual to facets and edges of the Delaunay cells, and polygons are planar, convex, oriented.
 #include "Checks.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace voxelcore::verification
 {
 namespace
 {
-
-Position
-Minus(const Position & a, const Position & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double
-Dot(const Position & a, const Position & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Position
-Cross(const Position & a, const Position & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double
-Length(const Position & a)
-{
-  return std::sqrt(Dot(a, a));
-}
 
 /** A polygon in the metric of the weights, relative to its first corner. */
 struct Polygon
@@ -49,12 +24,7 @@ PolygonOf(const Subject & subject, std::size_t face)
   const SpacingWeights & weights = subject.input.weights;
   const Position &       origin = subject.input.positions[corners[0]];
   Polygon                polygon;
-  double                 squared = 0;
-  for (const std::int64_t weight : weights.weight)
-  {
-    squared += static_cast<double>(weight) * static_cast<double>(weight);
-  }
-  polygon.tolerance = 2 * subject.tolerance * std::sqrt(squared);
+  polygon.tolerance = 2 * Reach(weights, subject.tolerance);
   for (const ElementIndex v : corners)
   {
     Position p = Minus(subject.input.positions[v], origin);

@@ -67,12 +67,7 @@ CheckVertices(VerificationReport & report, const Subject & subject)
              " is not equally far from four affinely independent nearest boundary vertices.";
     });
   // The distance of a rounded position is off by no more than the position is.
-  double squared = 0;
-  for (const std::int64_t weight : input.weights.weight)
-  {
-    squared += static_cast<double>(weight) * static_cast<double>(weight);
-  }
-  const double reach = subject.tolerance * std::sqrt(squared) * unit;
+  const double reach = Reach(input.weights, subject.tolerance) * unit;
   AddCheck(
     report,
     "nothing nearer",

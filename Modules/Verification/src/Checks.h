@@ -2,18 +2,16 @@
 // What the checks share: the input with its nearest sets, and how offenders are found and told.
 
 #include "NearestSets.h"
+#include "Vectors.h"
 #include "voxelcore/Verification.h"
 
 #include <algorithm>
-#include <atomic>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace voxelcore::verification
 {
-
-using Position = std::array<double, 3>;
 
 /** The input, its nearest sets, and what several checks need. */
 struct Subject
@@ -23,8 +21,6 @@ struct Subject
   const BoundaryTree &      tree;
   double                    tolerance; ///< of a coordinate, lattice units
   NearestSets               sets;
-  /** Whether an edge lies on a face. */
-  std::vector<std::uint8_t> edgeHasFace;
   /** The two ends of a face's dual edge; both kNoPoint when its corners do not share exactly two. */
   std::vector<std::array<std::uint32_t, 2>> dualEdges;
 

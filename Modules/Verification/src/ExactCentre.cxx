@@ -15,7 +15,7 @@ Difference(const LatticePoint & a, const LatticePoint & b)
   return { std::int64_t{ a.x } - b.x, std::int64_t{ a.y } - b.y, std::int64_t{ a.z } - b.z };
 }
 
-/** u0 v1 - u1 v0 style minors, for a 3x3 determinant with 64-bit entries that may be as large as 3 w^2 N^2. */
+/** Entries up to N, those of one column up to 3 w^2 N^2. */
 Int128
 Determinant(const std::array<std::array<Int128, 3>, 3> & m)
 {
@@ -174,19 +174,6 @@ CompareCentres(const ExactCentre & a, const ExactCentre & b, const SpacingWeight
     }
   }
   return 0;
-}
-
-bool
-AreCoplanar(const LatticePoint & a, const LatticePoint & b, const LatticePoint & c, const LatticePoint & d)
-{
-  std::array<std::array<Int128, 3>, 3> rows{};
-  const std::array<LatticePoint, 3>    ends{ b, c, d };
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const Offset offset = Difference(ends[i], a);
-    rows[i] = { offset[0], offset[1], offset[2] };
-  }
-  return Determinant(rows) == 0;
 }
 
 } // namespace voxelcore::verification

@@ -42,8 +42,4 @@ Radius(const ExactCentre & sphere, const SpacingWeights & weights);
 int
 CompareCentres(const ExactCentre & a, const ExactCentre & b, const SpacingWeights & weights);
 
-/** Whether four points lie in a plane. */
-bool
-AreCoplanar(const LatticePoint & a, const LatticePoint & b, const LatticePoint & c, const LatticePoint & d);
-
 } // namespace voxelcore::verification

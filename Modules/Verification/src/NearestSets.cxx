@@ -1,5 +1,7 @@
 #include "NearestSets.h"
 
+#include "Vectors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -33,13 +35,8 @@ public:
     , m_Weights(weights)
     , m_Tolerance(tolerance)
   {
-    double squared = 0;
-    for (const std::int64_t weight : weights.weight)
-    {
-      squared += static_cast<double>(weight) * static_cast<double>(weight);
-    }
-    // A position off by the tolerance along each axis is off by `reach`; so are the distances, one up and one down.
-    m_Slack = 2 * tolerance * std::sqrt(squared);
+    // A position off by the tolerance along each axis is off by the reach; so are the distances, one up and one down.
+    m_Slack = 2 * Reach(weights, tolerance);
   }
 
   /** Returns the smallest distance; the set is empty when the position is no such centre. */
@@ -174,39 +171,51 @@ NearestSets
 FindNearestSets(const BoundaryTree &                   tree,
                 const SpacingWeights &                 weights,
                 std::span<const std::array<double, 3>> positions,
-                double                                 tolerance)
+                double                                 tolerance,
+                const std::function<void(double)> &    progress)
 {
-  constexpr std::size_t blockSize = 1024;
+  constexpr std::size_t blockSize = 512;
+  constexpr std::size_t blocksAtOnce = 128;
   const std::size_t     count = positions.size();
   NearestSets           sets;
-  sets.offsets.resize(count + 1);
+  sets.offsets.reserve(count + 1);
   sets.basis.resize(count);
   sets.distance.resize(count);
-  std::vector<std::vector<std::uint32_t>> blocks((count + blockSize - 1) / blockSize);
-#pragma omp parallel if (blocks.size() > 2)
+  // In batches, so that someone watching can stop it, with a list of points and set sizes per block of vertices.
+  for (std::size_t first = 0; first < count; first += blockSize * blocksAtOnce)
   {
-    SetFinder                  finder(tree, weights, tolerance);
-    std::vector<std::uint32_t> set;
-#pragma omp for schedule(dynamic)
-    for (std::size_t block = 0; block < blocks.size(); ++block)
+    const std::size_t                       last = std::min(count, first + blockSize * blocksAtOnce);
+    const std::size_t                       blocks = (last - first + blockSize - 1) / blockSize;
+    std::vector<std::vector<std::uint32_t>> points(blocks);
+    std::vector<std::vector<std::size_t>>   sizes(blocks);
+#pragma omp parallel if (blocks > 4)
     {
-      for (std::size_t v = block * blockSize; v < std::min(count, (block + 1) * blockSize); ++v)
+      SetFinder                  finder(tree, weights, tolerance);
+      std::vector<std::uint32_t> set;
+#pragma omp for schedule(dynamic)
+      for (std::size_t block = 0; block < blocks; ++block)
       {
-        sets.distance[v] = finder.Find(positions[v], set, sets.basis[v]);
-        sets.offsets[v + 1] = set.size();
-        blocks[block].insert(blocks[block].end(), set.begin(), set.end());
+        const std::size_t begin = first + block * blockSize;
+        for (std::size_t v = begin; v < std::min(last, begin + blockSize); ++v)
+        {
+          sets.distance[v] = finder.Find(positions[v], set, sets.basis[v]);
+          sizes[block].push_back(set.size());
+          points[block].insert(points[block].end(), set.begin(), set.end());
+        }
       }
     }
-  }
-  for (std::size_t v = 0; v < count; ++v)
-  {
-    sets.offsets[v + 1] += sets.offsets[v];
-  }
-  sets.points.reserve(sets.offsets[count]);
-  for (std::vector<std::uint32_t> & block : blocks)
-  {
-    sets.points.insert(sets.points.end(), block.begin(), block.end());
-    std::vector<std::uint32_t>().swap(block);
+    for (std::size_t block = 0; block < blocks; ++block)
+    {
+      for (const std::size_t size : sizes[block])
+      {
+        sets.offsets.push_back(sets.offsets.back() + size);
+      }
+      sets.points.insert(sets.points.end(), points[block].begin(), points[block].end());
+    }
+    if (progress)
+    {
+      progress(static_cast<double>(last) / static_cast<double>(count));
+    }
   }
   return sets;
 }

@@ -5,6 +5,7 @@
 #include "voxelcore/BoundaryTree.h"
 #include "voxelcore/CellComplex.h"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,12 +35,14 @@ struct NearestSets
 
 /** Finds, for each position, the points whose distance is smallest within what the tolerance (lattice units) allows,
  *  and among them, exactly, the cospherical set whose centre the position is. A tolerance so coarse that more than 64
- *  points come into question without all being cospherical leaves a set unknown. */
+ *  points come into question without all being cospherical leaves a set unknown.
+ *  `progress` is told the fraction done, now and then, and may throw. */
 NearestSets
 FindNearestSets(const BoundaryTree &                   tree,
                 const SpacingWeights &                 weights,
                 std::span<const std::array<double, 3>> positions,
-                double                                 tolerance);
+                double                                 tolerance,
+                const std::function<void(double)> &    progress = {});
 
 /** The exact centre of a vertex whose set is known. */
 ExactCentre

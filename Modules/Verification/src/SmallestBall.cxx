@@ -1,6 +1,7 @@
 #include "SmallestBall.h"
 
-#include <cmath>
+#include "Vectors.h"
+
 #include <cstddef>
 
 namespace voxelcore::verification
@@ -8,82 +9,63 @@ namespace voxelcore::verification
 namespace
 {
 
-using Vector = std::array<double, 3>;
-using Points = std::span<const Vector>;
+using Points = std::span<const Position>;
 
 struct Ball
 {
-  Vector centre{ 0, 0, 0 };
-  double squaredRadius = 0;
+  Position centre{ 0, 0, 0 };
+  double   squaredRadius = 0;
 };
-
-Vector
-Minus(const Vector & a, const Vector & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double
-Dot(const Vector & a, const Vector & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector
-Cross(const Vector & a, const Vector & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
 
 /** Cospherical points outside a support's ball are further out than this by far, those on it never. */
 bool
-IsOutside(const Ball & ball, const Vector & point)
+IsOutside(const Ball & ball, const Position & point)
 {
-  const Vector d = Minus(point, ball.centre);
+  const Position d = Minus(point, ball.centre);
   return Dot(d, d) > ball.squaredRadius * (1 + 1e-11);
 }
 
 Ball
-BallAt(const Vector & origin, const Vector & offset)
+BallAt(const Position & origin, const Position & offset)
 {
   return { { origin[0] + offset[0], origin[1] + offset[1], origin[2] + offset[2] }, Dot(offset, offset) };
 }
 
 Ball
-BallOfTwo(const Vector & p, const Vector & q)
+BallOfTwo(const Position & p, const Position & q)
 {
-  const Vector a = Minus(q, p);
+  const Position a = Minus(q, p);
   return BallAt(p, { a[0] / 2, a[1] / 2, a[2] / 2 });
 }
 
 Ball
-BallOfThree(const Vector & p, const Vector & q, const Vector & r)
+BallOfThree(const Position & p, const Position & q, const Position & r)
 {
-  const Vector a = Minus(q, p);
-  const Vector b = Minus(r, p);
-  const Vector normal = Cross(a, b);
-  const double aa = Dot(a, a);
-  const double bb = Dot(b, b);
-  const Vector mixed{ aa * b[0] - bb * a[0], aa * b[1] - bb * a[1], aa * b[2] - bb * a[2] };
-  const Vector numerator = Cross(mixed, normal);
-  const double denominator = 2 * Dot(normal, normal);
+  const Position a = Minus(q, p);
+  const Position b = Minus(r, p);
+  const Position normal = Cross(a, b);
+  const double   aa = Dot(a, a);
+  const double   bb = Dot(b, b);
+  const Position mixed{ aa * b[0] - bb * a[0], aa * b[1] - bb * a[1], aa * b[2] - bb * a[2] };
+  const Position numerator = Cross(mixed, normal);
+  const double   denominator = 2 * Dot(normal, normal);
   return BallAt(p, { numerator[0] / denominator, numerator[1] / denominator, numerator[2] / denominator });
 }
 
 Ball
-BallOfFour(const Vector & p, const Vector & q, const Vector & r, const Vector & s)
+BallOfFour(const Position & p, const Position & q, const Position & r, const Position & s)
 {
-  const Vector a = Minus(q, p);
-  const Vector b = Minus(r, p);
-  const Vector c = Minus(s, p);
-  const Vector bc = Cross(b, c);
-  const Vector ca = Cross(c, a);
-  const Vector ab = Cross(a, b);
-  const double denominator = 2 * Dot(a, bc);
-  const double aa = Dot(a, a);
-  const double bb = Dot(b, b);
-  const double cc = Dot(c, c);
-  Vector       offset{};
+  const Position a = Minus(q, p);
+  const Position b = Minus(r, p);
+  const Position c = Minus(s, p);
+  const Position bc = Cross(b, c);
+  const Position ca = Cross(c, a);
+  const Position ab = Cross(a, b);
+  const double   denominator = 2 * Dot(a, bc);
+  const double   aa = Dot(a, a);
+  const double   bb = Dot(b, b);
+  const double   cc = Dot(c, c);
+  Position       offset{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     offset[axis] = (aa * bc[axis] + bb * ca[axis] + cc * ab[axis]) / denominator;
@@ -92,10 +74,10 @@ BallOfFour(const Vector & p, const Vector & q, const Vector & r, const Vector & 
 }
 
 Ball
-WithThreeOnBoundary(Points points, const Vector & p, const Vector & q, const Vector & r)
+WithThreeOnBoundary(Points points, const Position & p, const Position & q, const Position & r)
 {
   Ball ball = BallOfThree(p, q, r);
-  for (const Vector & s : points)
+  for (const Position & s : points)
   {
     if (IsOutside(ball, s))
     {
@@ -106,7 +88,7 @@ WithThreeOnBoundary(Points points, const Vector & p, const Vector & q, const Vec
 }
 
 Ball
-WithTwoOnBoundary(Points points, const Vector & p, const Vector & q)
+WithTwoOnBoundary(Points points, const Position & p, const Position & q)
 {
   Ball ball = BallOfTwo(p, q);
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -120,7 +102,7 @@ WithTwoOnBoundary(Points points, const Vector & p, const Vector & q)
 }
 
 Ball
-WithOneOnBoundary(Points points, const Vector & p)
+WithOneOnBoundary(Points points, const Position & p)
 {
   Ball ball{ p, 0 };
   for (std::size_t i = 0; i < points.size(); ++i)

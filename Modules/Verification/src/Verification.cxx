@@ -175,11 +175,12 @@ CheckGeometry(VerificationReport &      report,
     largest = std::max({ largest, std::abs(lower), std::abs(lower + input.shape->Box().size[a]) });
   }
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * largest;
-  Subject      subject{ input, *input.cells, tree, rounding + input.positionTolerance, {}, {}, {} };
+  Subject      subject{ input, *input.cells, tree, rounding + input.positionTolerance, {}, {} };
   ReportProgress(progress, "verify", 0.2);
-  subject.sets = FindNearestSets(tree, input.weights, input.positions, subject.tolerance);
+  subject.sets = FindNearestSets(tree, input.weights, input.positions, subject.tolerance, [&](double fraction) {
+    ReportProgress(progress, "verify", 0.2 + 0.3 * fraction);
+  });
   FindDualEdges(subject);
-  ReportProgress(progress, "verify", 0.5);
   CheckDistinct(report, subject);
   CheckVertices(report, subject);
   CheckDuals(report, subject);
@@ -189,6 +190,7 @@ CheckGeometry(VerificationReport &      report,
   CheckOrder(report, subject);
   ReportProgress(progress, "verify", 0.8);
   CheckCompleteness(report, subject);
+  ReportProgress(progress, "verify", 0.85);
   CheckPruning(report, subject);
 }
 
