@@ -24,12 +24,26 @@ operator-(const LatticePoint & a, const LatticePoint & b)
   return { std::int64_t{ a.x } - b.x, std::int64_t{ a.y } - b.y, std::int64_t{ a.z } - b.z };
 }
 
+// At least the greatest absolute value, at most twice that plus one.
+std::uint64_t
+Magnitude(const Difference & d)
+{
+  return static_cast<std::uint64_t>(std::abs(d.x)) | static_cast<std::uint64_t>(std::abs(d.y)) |
+         static_cast<std::uint64_t>(std::abs(d.z));
+}
+
 Int128
 Dot(const Difference & a, const Difference & b, const SpacingWeights & weights)
 {
-  return Int128{ a.x * b.x } * (weights.weight[0] * weights.weight[0]) +
-         Int128{ a.y * b.y } * (weights.weight[1] * weights.weight[1]) +
-         Int128{ a.z * b.z } * (weights.weight[2] * weights.weight[2]);
+  const auto & w = weights.weight;
+  // Three terms below 2^36 * 2^24 each fit 64 bits.
+  const std::uint64_t reach = Magnitude(a) | Magnitude(b);
+  if (reach < (std::uint64_t{ 1 } << 18) && (w[0] | w[1] | w[2]) <= 4096)
+  {
+    return a.x * b.x * (w[0] * w[0]) + a.y * b.y * (w[1] * w[1]) + a.z * b.z * (w[2] * w[2]);
+  }
+  return Int128{ a.x * b.x } * (w[0] * w[0]) + Int128{ a.y * b.y } * (w[1] * w[1]) +
+         Int128{ a.z * b.z } * (w[2] * w[2]);
 }
 
 int
@@ -125,6 +139,10 @@ Orientation(const LatticePoint & a, const LatticePoint & b, const LatticePoint &
   const Difference u = b - a;
   const Difference v = c - a;
   const Difference w = d - a;
+  if ((Magnitude(u) | Magnitude(v) | Magnitude(w)) < (std::uint64_t{ 1 } << 20)) // 6 N^3 < 2^63
+  {
+    return u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) + u.z * (v.x * w.y - v.y * w.x);
+  }
   return Int128{ u.x } * (v.y * w.z - v.z * w.y) + Int128{ u.y } * (v.z * w.x - v.x * w.z) +
          Int128{ u.z } * (v.x * w.y - v.y * w.x);
 }
@@ -144,19 +162,34 @@ MakeCircumSphere(const LatticePoint &   a,
   const Int128     sv = Dot(v, v, weights);
   const Int128     sw = Dot(w, w, weights);
 
-  const auto minor = [](std::int64_t p, std::int64_t q, std::int64_t r, std::int64_t s) {
-    return Int128{ p * s - q * r };
-  };
-  const std::array<Int128, 3> vw{ minor(v.y, v.z, w.y, w.z), minor(v.z, v.x, w.z, w.x), minor(v.x, v.y, w.x, w.y) };
-  const std::array<Int128, 3> wu{ minor(w.y, w.z, u.y, u.z), minor(w.z, w.x, u.z, u.x), minor(w.x, w.y, u.x, u.y) };
-  const std::array<Int128, 3> uv{ minor(u.y, u.z, v.y, v.z), minor(u.z, u.x, v.z, v.x), minor(u.x, u.y, v.x, v.y) };
+  const auto minor = [](std::int64_t p, std::int64_t q, std::int64_t r, std::int64_t s) { return p * s - q * r; };
+  const std::array<std::int64_t, 3> vw{ minor(v.y, v.z, w.y, w.z),
+                                        minor(v.z, v.x, w.z, w.x),
+                                        minor(v.x, v.y, w.x, w.y) };
+  const std::array<std::int64_t, 3> wu{ minor(w.y, w.z, u.y, u.z),
+                                        minor(w.z, w.x, u.z, u.x),
+                                        minor(w.x, w.y, u.x, u.y) };
+  const std::array<std::int64_t, 3> uv{ minor(u.y, u.z, v.y, v.z),
+                                        minor(u.z, u.x, v.z, v.x),
+                                        minor(u.x, u.y, v.x, v.y) };
 
   CircumSphere sphere;
   sphere.base = a;
-  sphere.det = u.x * vw[0] + u.y * vw[1] + u.z * vw[2];
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  sphere.det = Orientation(a, b, c, d);
+  if (std::max({ su, sv, sw }) < (Int128{ 1 } << 30)) // minors <= 2 * 2^30, so three products stay below 2^63
   {
-    sphere.n[axis] = su * vw[axis] + sv * wu[axis] + sw * uv[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      sphere.n[axis] = static_cast<std::int64_t>(su) * vw[axis] + static_cast<std::int64_t>(sv) * wu[axis] +
+                       static_cast<std::int64_t>(sw) * uv[axis];
+    }
+  }
+  else
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      sphere.n[axis] = su * vw[axis] + sv * wu[axis] + sw * uv[axis];
+    }
   }
   if (sphere.det < 0)
   {
@@ -277,15 +310,25 @@ CentreSide(const LatticePoint &   a,
   const Int128     du = Dot(d, u, weights);
   const Int128     dv = Dot(d, v, weights);
   const int        longest = std::max({ Bits(uu), Bits(vv), Bits(dd) });
-  if (3 * longest + 3 <= 126) // three terms of degree three in squared lengths, the inner differences one bit more
+  // Terms of degree three in squared lengths, at most five of them in all.
+  const auto value = [&]<typename T>(T) {
+    const T U = static_cast<T>(uu);
+    const T V = static_cast<T>(vv);
+    const T W = static_cast<T>(uv);
+    return static_cast<T>(dd) * (U * V - W * W) - V * (U - W) * static_cast<T>(du) - U * (V - W) * static_cast<T>(dv);
+  };
+  if (3 * longest + 3 <= 62)
   {
-    return Sign(dd * (uu * vv - uv * uv) - vv * (uu - uv) * du - uu * (vv - uv) * dv);
+    return Sign(value(std::int64_t{}));
+  }
+  if (3 * longest + 3 <= 126)
+  {
+    return Sign(value(Int128{}));
   }
   const Big U = ToBig(uu);
   const Big V = ToBig(vv);
   const Big W = ToBig(uv);
-  const Big value = ToBig(dd) * (U * V - W * W) - V * (U - W) * ToBig(du) - U * (V - W) * ToBig(dv);
-  return value.sign();
+  return Big(ToBig(dd) * (U * V - W * W) - V * (U - W) * ToBig(du) - U * (V - W) * ToBig(dv)).sign();
 }
 
 int
