@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Holds the house together: each module includes only headers of the modules it may use (Modules/README.md), and only
+# Imaging knows ITK, only Models knows VTK.
+# usage: layers.sh [FOLDER WITH Modules/]
+set -euo pipefail
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
+
+may_use() {
+  case "$1" in
+    Lattice) echo "" ;;
+    Shape | Complex) echo "Lattice" ;;
+    Delaunay | Phantom) echo "Lattice Shape" ;;
+    VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
+    Verification) echo "Lattice Shape Complex" ;;
+    Imaging) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
+    Models) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
+    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Phantom Verification Imaging Models" ;;
+    *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
+  esac
+}
+
+declare -A home
+for header in Modules/*/include/voxelcore/*.h; do
+  module=${header#Modules/}
+  home[voxelcore/${header##*/}]=${module%%/*}
+done
+
+bad=0
+complain() { echo "$1" >&2; bad=1; }
+for folder in Modules/*/; do
+  module=$(basename "$folder")
+  [ "$module" != CMake ] || continue
+  allowed=" $module $(may_use "$module") "
+  while IFS=: read -r file line included; do
+    name=$(sed -E 's/.*[<"]([^>"]+)[>"].*/\1/' <<<"$included")
+    owner=${home[$name]:-}
+    if [ -n "$owner" ] && [[ $allowed != *" $owner "* ]]; then
+      complain "$file:$line: $module must not use $owner ($name)"
+    fi
+    case "$name" in
+      itk*) [ "$module" = Imaging ] || complain "$file:$line: only Imaging knows ITK ($name)" ;;
+      vtk*) [ "$module" = Models ] || complain "$file:$line: only Models knows VTK ($name)" ;;
+      tetgen.h) [ "$file" = Modules/Delaunay/src/TetGenEngine.cxx ] || complain "$file:$line: TetGen belongs in one file" ;;
+    esac
+  done < <(grep -rnE '^ *# *include' "$folder" --include='*.h' --include='*.hxx' --include='*.cxx')
+done
+[ "$bad" -eq 0 ] && echo "All includes point the right way."
+exit "$bad"
