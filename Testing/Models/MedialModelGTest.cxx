@@ -21,6 +21,8 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <set>
+#include <utility>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -196,6 +198,43 @@ TEST(MedialModel, RandomModelsReadBackEveryBit)
     WriteModel(folder / "b.vtp", "b.vtp", read, { .triangles = false, .keepEdges = true });
     ASSERT_EQ(ReadBytes(folder / "a.vtp"), ReadBytes(folder / "b.vtp"));
   }
+}
+
+TEST(MedialModel, ComponentsOfALabelAreToldApart)
+{
+  const TemporaryFolder folder;
+  MedialModel           model = RandomModel(5, 4, 4);
+  for (std::size_t i = 0; i < model.parts.size(); ++i)
+  {
+    model.parts[i].label = i < 3 ? 7 : 8;
+    model.parts[i].component = i < 3 ? static_cast<std::int64_t>(i) + 1 : 1;
+  }
+  WriteModel(folder / "a.vtp", "a.vtp", model, { .triangles = false, .keepEdges = true });
+  EXPECT_TRUE(SameBits(ReadModel(folder / "a.vtp"), model));
+  const auto data = ReadWithVtk<vtkXMLPolyDataReader>(folder / "a.vtp");
+  auto *     label = data->GetCellData()->GetArray("Label");
+  auto *     component = data->GetCellData()->GetArray("Component");
+  ASSERT_TRUE(label && component);
+  ASSERT_EQ(component->GetNumberOfTuples(), data->GetNumberOfCells());
+  std::set<std::pair<double, double>> seen;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    seen.insert({ label->GetTuple1(cell), component->GetTuple1(cell) });
+  }
+  EXPECT_EQ(seen, (std::set<std::pair<double, double>>{ { 7, 1 }, { 7, 2 }, { 7, 3 }, { 8, 1 } }));
+
+  // In triangles, too; and files of whole labels do not have the array.
+  WriteModel(folder / "t.vtp", "t.vtp", model, { .triangles = true, .keepEdges = false });
+  const MedialModel triangles = ReadModel(folder / "t.vtp");
+  ASSERT_EQ(triangles.parts.size(), 4U);
+  EXPECT_EQ(triangles.parts[2].component, 3);
+  WriteModel(folder / "w.vtp", "w.vtp", MixedModel());
+  EXPECT_FALSE(ReadWithVtk<vtkXMLPolyDataReader>(folder / "w.vtp")->GetCellData()->HasArray("Component"));
+
+  std::swap(model.parts[0], model.parts[1]);
+  EXPECT_THROW(WriteModel(folder / "x.vtp", "x.vtp", model), Error);
+  model.parts[1] = model.parts[0];
+  EXPECT_THROW(WriteModel(folder / "x.vtp", "x.vtp", model), Error);
 }
 
 TEST(MedialModel, OneElementAloneIsEnough)

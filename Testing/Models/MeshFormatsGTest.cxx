@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <sstream>
@@ -165,6 +166,34 @@ TEST(MeshFormats, ObjHoldsAllElementsByLabel)
                                        "p 11",
                                        "g label-300",
                                        "l 12 13" }));
+}
+
+TEST(MeshFormats, ComponentsAreNamedWhereTheFormatCan)
+{
+  const TemporaryFolder folder;
+  MedialModel           model = MixedModel();
+  model.parts[1].label = 3;
+  model.parts[0].component = 1;
+  model.parts[1].component = 2;
+  model.parts[2].component = 1;
+  EXPECT_EQ(WriteModel(folder / "a.obj", "a.obj", model).labels, 0U);
+  const std::vector<std::string> lines = Lines(folder / "a.obj");
+  for (const char * group : { "g label-3_component-1", "g label-3_component-2", "g label-300_component-1" })
+  {
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), group), 1) << group;
+  }
+  const std::size_t whole = [&] {
+    WriteModel(folder / "w.ply", "w.ply", MixedModel());
+    return ReadBytes(folder / "w.ply").size();
+  }();
+  EXPECT_EQ(WriteModel(folder / "a.ply", "a.ply", model).labels, 0U);
+  const std::string ply = ReadBytes(folder / "a.ply");
+  const std::string property = "property int component\n";
+  EXPECT_NE(ply.find("property int label\n" + property + "element face"), std::string::npos);
+  // A number for each of the 13 points, the 2 polygons and the 2 edges.
+  EXPECT_EQ(ply.size(), whole + 3 * property.size() + 4 * (13 + 2 + 2));
+  EXPECT_EQ(ply.substr(ply.size() - 4), std::string("\1\0\0\0", 4));
+  EXPECT_EQ(WriteModel(folder / "a.stl", "a.stl", model).labels, 3U);
 }
 
 TEST(MeshFormats, StlHoldsTrianglesAndCountsTheRest)

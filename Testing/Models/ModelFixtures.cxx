@@ -137,11 +137,12 @@ SameBits(const MedialModel & a, const MedialModel & b)
     {
       yPositions.insert(yPositions.end(), position.begin(), position.end());
     }
-    equal = a.parts[i].label == b.parts[i].label && x.cells.vertexCount == y.cells.vertexCount &&
-            x.cells.edges == y.cells.edges && x.cells.faceOffsets == y.cells.faceOffsets &&
-            x.cells.faceVertices == y.cells.faceVertices && x.cells.faceEdges == y.cells.faceEdges &&
-            same(xPositions, yPositions) && same(x.radius, y.radius) && same(x.vertexLambda, y.vertexLambda) &&
-            same(x.edgeLambda, y.edgeLambda) && same(x.faceLambda, y.faceLambda);
+    equal = a.parts[i].label == b.parts[i].label && a.parts[i].component == b.parts[i].component &&
+            x.cells.vertexCount == y.cells.vertexCount && x.cells.edges == y.cells.edges &&
+            x.cells.faceOffsets == y.cells.faceOffsets && x.cells.faceVertices == y.cells.faceVertices &&
+            x.cells.faceEdges == y.cells.faceEdges && same(xPositions, yPositions) && same(x.radius, y.radius) &&
+            same(x.vertexLambda, y.vertexLambda) && same(x.edgeLambda, y.edgeLambda) &&
+            same(x.faceLambda, y.faceLambda);
   }
   return equal;
 }

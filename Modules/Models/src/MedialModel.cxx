@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace voxelcore
 {
@@ -30,9 +31,10 @@ CheckModel(const MedialModel & model, bool keepEdges)
   {
     const MedialComplex & core = model.parts[i].core;
     const CellComplex &   cells = core.cells;
-    if (i > 0 && model.parts[i - 1].label >= model.parts[i].label)
+    if (i > 0 && std::tie(model.parts[i - 1].label, model.parts[i - 1].component) >=
+                   std::tie(model.parts[i].label, model.parts[i].component))
     {
-      throw Error("the parts of a model must be sorted by label, each label once");
+      throw Error("the parts of a model must be sorted by label and component, each once");
     }
     if (core.positions.size() != cells.vertexCount || core.radius.size() != cells.vertexCount ||
         core.vertexLambda.size() != cells.vertexCount || core.edgeLambda.size() != cells.edges.size() ||
@@ -110,7 +112,7 @@ WriteModel(const std::filesystem::path & path,
     MedialModel triangles{ {}, model.provenance, model.hasEdges };
     for (const ModelPart & part : model.parts)
     {
-      triangles.parts.push_back({ part.label, Triangulated(part.core) });
+      triangles.parts.push_back({ part.label, Triangulated(part.core), part.component });
     }
     if (format == ".stl")
     {

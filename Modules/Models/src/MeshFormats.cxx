@@ -114,7 +114,7 @@ Count(const MedialModel & model)
   return counts;
 }
 
-/** How many labels lose themselves in a format that knows none. */
+/** How many labels, or components of them, lose themselves in a format that knows none. */
 std::uint64_t
 MergedLabels(const MedialModel & model)
 {
@@ -143,23 +143,31 @@ WritePly(const std::filesystem::path & path, const MedialModel & model)
   // PLY has no 64-bit integers: labels are int where they fit, else double where that is exact, else left out.
   bool labelsFitInt = true;
   bool labelsFitDouble = true;
+  bool hasComponents = false;
   for (const ModelPart & part : model.parts)
   {
     constexpr std::int64_t exact = std::int64_t{ 1 } << 53;
     labelsFitInt &= part.label == static_cast<std::int32_t>(part.label);
     labelsFitDouble &= -exact <= part.label && part.label <= exact;
+    hasComponents |= part.component != 0;
   }
-  const std::string labelProperty = labelsFitInt      ? "property int label\n"
-                                    : labelsFitDouble ? "property double label\n"
-                                                      : "";
-  const auto        appendLabel = [&](std::string & bytes, std::int64_t label) {
+  const bool        labelsAreLost = !labelsFitInt && !labelsFitDouble;
+  const std::string labelProperty = std::string(labelsFitInt      ? "property int label\n"
+                                                : labelsFitDouble ? "property double label\n"
+                                                                  : "") +
+                                    (hasComponents ? "property int component\n" : "");
+  const auto appendLabel = [&](std::string & bytes, const ModelPart & part) {
     if (labelsFitInt)
     {
-      Append(bytes, static_cast<std::int32_t>(label));
+      Append(bytes, static_cast<std::int32_t>(part.label));
     }
     else if (labelsFitDouble)
     {
-      Append(bytes, static_cast<double>(label));
+      Append(bytes, static_cast<double>(part.label));
+    }
+    if (hasComponents)
+    {
+      Append(bytes, static_cast<std::int32_t>(part.component));
     }
   };
   const bool smallFaces = counts.mostCorners <= 255;
@@ -185,7 +193,7 @@ WritePly(const std::filesystem::path & path, const MedialModel & model)
       }
       Append(bytes, part.core.radius[v]);
       Append(bytes, part.core.vertexLambda[v]);
-      appendLabel(bytes, part.label);
+      appendLabel(bytes, part);
       FlushIfLarge(file, bytes);
     }
   }
@@ -208,7 +216,7 @@ WritePly(const std::filesystem::path & path, const MedialModel & model)
         Append(bytes, static_cast<std::int32_t>(first + corner));
       }
       Append(bytes, part.core.faceLambda[face]);
-      appendLabel(bytes, part.label);
+      appendLabel(bytes, part);
       FlushIfLarge(file, bytes);
     }
     first += part.core.cells.vertexCount;
@@ -226,7 +234,7 @@ WritePly(const std::filesystem::path & path, const MedialModel & model)
           Append(bytes, static_cast<std::int32_t>(first + vertex));
         }
         Append(bytes, part.core.edgeLambda[edge]);
-        appendLabel(bytes, part.label);
+        appendLabel(bytes, part);
         FlushIfLarge(file, bytes);
       }
     }
@@ -234,7 +242,7 @@ WritePly(const std::filesystem::path & path, const MedialModel & model)
   }
   file.Write(bytes);
   file.Finish();
-  return { 0, 0, labelProperty.empty() ? MergedLabels(model) : 0 };
+  return { 0, 0, labelsAreLost ? MergedLabels(model) : 0 };
 }
 
 ModelOmissions
@@ -253,7 +261,12 @@ WriteObj(const std::filesystem::path & path, const MedialModel & model)
   for (const ModelPart & part : model.parts)
   {
     const CellComplex & cells = part.core.cells;
-    file << "g label-" << part.label << "\n";
+    file << "g label-" << part.label;
+    if (part.component != 0)
+    {
+      file << "_component-" << part.component;
+    }
+    file << "\n";
     for (const ElementIndex vertex : IsolatedVertices(cells))
     {
       file << "p " << first + vertex << "\n";

@@ -11,6 +11,7 @@
 #include <map>
 #include <new>
 #include <span>
+#include <utility>
 
 namespace voxelcore
 {
@@ -61,8 +62,11 @@ ReadCells(VtpFile & file, const std::string & section, std::int64_t pointCount, 
   return list;
 }
 
-/** The cells and points of one label. */
-struct LabelRange
+/** Label and component. */
+using PartKey = std::pair<std::int64_t, std::int64_t>;
+
+/** The cells and points of one part. */
+struct PartRange
 {
   std::array<std::size_t, 3> firstCell{ 0, 0, 0 }; ///< within verts, lines, polys
   std::array<std::size_t, 3> cells{ 0, 0, 0 };
@@ -70,21 +74,22 @@ struct LabelRange
   std::int64_t               lastPoint = -1;
 };
 
-std::map<std::int64_t, LabelRange>
-FindLabels(const std::array<CellList, 3> & kinds, const std::vector<std::int64_t> & labels, std::int64_t pointCount)
+/** `keys`: one per cell. */
+std::map<PartKey, PartRange>
+FindParts(const std::array<CellList, 3> & kinds, const std::vector<PartKey> & keys, std::int64_t pointCount)
 {
-  std::map<std::int64_t, LabelRange> ranges;
-  std::vector<std::uint8_t>          used(static_cast<std::size_t>(pointCount), 0);
-  std::size_t                        index = 0;
+  std::map<PartKey, PartRange> ranges;
+  std::vector<std::uint8_t>    used(static_cast<std::size_t>(pointCount), 0);
+  std::size_t                  index = 0;
   for (std::size_t kind = 0; kind < 3; ++kind)
   {
-    LabelRange * range = nullptr;
+    PartRange * range = nullptr;
     for (std::size_t cell = 0; cell < kinds[kind].Count(); ++cell, ++index)
     {
-      if (cell == 0 || labels[index] != labels[index - 1])
+      if (cell == 0 || keys[index] != keys[index - 1])
       {
-        RequireFit(cell == 0 || labels[index] > labels[index - 1], "its cells are not sorted by label");
-        range = &ranges[labels[index]];
+        RequireFit(cell == 0 || keys[index] > keys[index - 1], "its cells are not sorted by label");
+        range = &ranges[keys[index]];
         range->firstCell[kind] = cell;
       }
       ++range->cells[kind];
@@ -98,7 +103,7 @@ FindLabels(const std::array<CellList, 3> & kinds, const std::vector<std::int64_t
   }
   RequireFit(std::find(used.begin(), used.end(), 0) == used.end(), "a point belongs to no cell");
   std::int64_t next = 0;
-  for (const auto & [label, range] : ranges)
+  for (const auto & [key, range] : ranges)
   {
     RequireFit(range.firstPoint == next, "its points are not sorted by label");
     next = range.lastPoint + 1;
@@ -106,9 +111,9 @@ FindLabels(const std::array<CellList, 3> & kinds, const std::vector<std::int64_t
   return ranges;
 }
 
-/** A label's complex, all but the measures of its edges. Checks vertex cells, lines and corners. */
+/** A part's complex, all but the measures of its edges. Checks vertex cells, lines and corners. */
 CellComplex
-ReadComplex(const std::array<CellList, 3> & kinds, const LabelRange & range)
+ReadComplex(const std::array<CellList, 3> & kinds, const PartRange & range)
 {
   CellComplex cells;
   cells.vertexCount = static_cast<std::size_t>(range.lastPoint - range.firstPoint + 1);
@@ -168,6 +173,28 @@ ReadValues(VtpFile & file, const char * section, const char * name, std::int64_t
   return values;
 }
 
+/** Label and component of each cell. */
+std::vector<PartKey>
+ReadKeys(VtpFile & file, std::int64_t cellCount)
+{
+  const auto           labels = ReadValues<std::int64_t>(file, "CellData", "Label", cellCount);
+  std::vector<PartKey> keys(labels.size());
+  for (std::size_t cell = 0; cell < keys.size(); ++cell)
+  {
+    keys[cell].first = labels[cell];
+  }
+  if (file.Has("CellData", "Component"))
+  {
+    const auto components = ReadValues<std::int64_t>(file, "CellData", "Component", cellCount);
+    for (std::size_t cell = 0; cell < keys.size(); ++cell)
+    {
+      RequireFit(components[cell] >= 0, "a component has a number below 0");
+      keys[cell].second = components[cell];
+    }
+  }
+  return keys;
+}
+
 MedialModel
 ReadParts(VtpFile & file)
 {
@@ -186,7 +213,7 @@ ReadParts(VtpFile & file)
   const auto radius = ReadValues<double>(file, "PointData", "Radius", pointCount);
   const auto pointLambda = ReadValues<double>(file, "PointData", "Lambda", pointCount);
   const auto cellLambda = ReadValues<double>(file, "CellData", "Lambda", cellCount);
-  const auto labels = ReadValues<std::int64_t>(file, "CellData", "Label", cellCount);
+  const auto keys = ReadKeys(file, cellCount);
 
   std::vector<std::int64_t> edgeVertices;
   std::vector<double>       edgeLambda;
@@ -205,9 +232,9 @@ ReadParts(VtpFile & file)
   }
   std::size_t edgesRead = 0;
   bool        edgesMissing = false;
-  for (const auto & [label, range] : FindLabels(kinds, labels, pointCount))
+  for (const auto & [key, range] : FindParts(kinds, keys, pointCount))
   {
-    ModelPart       part{ label, {} };
+    ModelPart       part{ key.first, {}, key.second };
     MedialComplex & core = part.core;
     core.cells = ReadComplex(kinds, range);
     const auto first = static_cast<std::size_t>(range.firstPoint);

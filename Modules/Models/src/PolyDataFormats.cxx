@@ -176,13 +176,20 @@ AddCellArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
   vtkNew<vtkTypeInt64Array> label;
   double *                  measure = Allocate(*lambda, "Lambda", count);
   auto *                    value = Allocate(*label, "Label", count);
+  std::vector<std::int64_t> components; // per cell
+  const bool                hasComponents =
+    std::any_of(parts.begin(), parts.end(), [](const PartCells & one) { return one.part->component != 0; });
+  const auto identify = [&](std::uint64_t cells, const ModelPart & part) {
+    value = std::fill_n(value, cells, part.label);
+    components.insert(components.end(), hasComponents ? cells : 0, part.component);
+  };
   for (const PartCells & one : parts)
   {
     for (const ElementIndex vertex : one.isolated)
     {
       *measure++ = one.part->core.vertexLambda[vertex];
     }
-    value = std::fill_n(value, one.isolated.size(), one.part->label);
+    identify(one.isolated.size(), *one.part);
   }
   for (const PartCells & one : parts)
   {
@@ -193,16 +200,22 @@ AddCellArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
         *measure++ = one.part->core.edgeLambda[edge];
       }
     }
-    value = std::fill_n(value, one.looseEdges, one.part->label);
+    identify(one.looseEdges, *one.part);
   }
   for (const PartCells & one : parts)
   {
     const auto & measures = one.part->core.faceLambda;
     measure = std::copy(measures.begin(), measures.end(), measure);
-    value = std::fill_n(value, measures.size(), one.part->label);
+    identify(measures.size(), *one.part);
   }
   data->GetCellData()->AddArray(lambda);
   data->GetCellData()->AddArray(label);
+  if (hasComponents)
+  {
+    vtkNew<vtkTypeInt64Array> component;
+    std::copy(components.begin(), components.end(), Allocate(*component, "Component", count));
+    data->GetCellData()->AddArray(component);
+  }
 }
 
 void

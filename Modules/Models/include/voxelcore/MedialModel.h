@@ -12,17 +12,19 @@
 namespace voxelcore
 {
 
-/** The core of one label as it stands in a file: positions in LPS mm, polygons oriented for LPS. */
+/** The core of one label, or of one component of it, as it stands in a file: positions in LPS mm, polygons oriented for
+ *  LPS. */
 struct ModelPart
 {
   std::int64_t  label = 0;
-  MedialComplex core; ///< positions here are LPS mm; radii and measures mm as ever
+  MedialComplex core;          ///< positions here are LPS mm; radii and measures mm as ever
+  std::int64_t  component = 0; ///< from 1 for a label split into its components; 0: the whole label
 };
 
 /** A file's content. */
 struct MedialModel
 {
-  std::vector<ModelPart> parts;      ///< by label, each label once
+  std::vector<ModelPart> parts;      ///< by label, then component, each once
   std::string            provenance; ///< JSON text of the field array Provenance; may be empty
   bool hasEdges = true;              ///< reading: no edge's measure is missing (--keep-edges, or no edge on a face)
 };
@@ -39,7 +41,7 @@ struct ModelOmissions
 {
   std::uint64_t vertices = 0; ///< isolated vertices left out
   std::uint64_t edges = 0;    ///< edges on no face left out
-  std::uint64_t labels = 0;   ///< labels merged into one
+  std::uint64_t labels = 0;   ///< labels, or components of them, merged into one
 };
 
 /** Moves a core from lattice coordinates to LPS mm; reverses polygons when the geometry is left-handed, so that their
@@ -54,10 +56,11 @@ IsModelPath(const std::filesystem::path & path);
 /** Writes `model` to the file `path` in the format of `formatOf`'s extension (so that a temporary name can be given).
  *  .vtp (raw appended data) and .vtk (version 4.2, binary) hold everything; .ply doubles, without Provenance and the
  *  measures of edges on faces; .obj places, cells and labels as groups; .ma the balls, all edges and triangles; .stl
- *  triangles in single precision. Equal models give equal bytes.
+ *  triangles in single precision. Equal models give equal bytes. Components are the cell array `Component` (in .ply a
+ *  property, in .obj part of a group's name), which is there only when a label is split.
  *  \throws OutputError with one line when it cannot be written completely; a broken file is removed.
  *  \throws UsageError for an unknown extension, or when edges are to be kept whose measures are not known.
- *  \throws Error when parts are not sorted by label or not in canonical order. */
+ *  \throws Error when parts are not sorted by label and component or not in canonical order. */
 ModelOmissions
 WriteModel(const std::filesystem::path & path,
            const std::filesystem::path & formatOf,
