@@ -269,6 +269,45 @@ TEST(NrrdSegments, LayersThatShareAValueAreNumberedAnew)
   EXPECT_TRUE(HasNote(volume.notes, "numbered"));
 }
 
+TEST(NrrdSegments, OldFilesHaveALayerOfOnesForEachSegment)
+{
+  const TempFolder folder;
+  std::vector<int> data;
+  for (int voxel = 0; voxel < 12; ++voxel)
+  {
+    data.push_back(voxel < 6 ? 1 : 0);
+    data.push_back(voxel == 2 ? 1 : 0);
+  }
+  const LabelVolume volume = ReadLabelVolume(folder.Write(
+    "a.seg.nrrd",
+    Nrrd(SegmentLines({ "Segment0_ID:=S0", "Segment0_Name:=Liver", "Segment1_ID:=S1", "Segment1_Name:=Tumour" }),
+         RawAll<std::uint8_t>(data))));
+  ASSERT_EQ(volume.labels.size(), 2U);
+  EXPECT_EQ(volume.labels[0].name, "Liver");
+  EXPECT_EQ(volume.labels[0].voxels, 6U);
+  EXPECT_EQ(volume.labels[1].name, "Tumour");
+  EXPECT_EQ(volume.labels[1].voxels, 1U);
+}
+
+TEST(NrrdSegments, ValuesThatNoSegmentNamesStayApart)
+{
+  const TempFolder folder;
+  std::vector<int> data(24, 0);
+  data[0] = 1; // layer 0
+  data[3] = 1; // layer 1, not named
+  data[5] = 8; // layer 1, not named
+  const LabelVolume volume = ReadLabelVolume(
+    folder.Write("a.seg.nrrd",
+                 Nrrd(SegmentLines({ "Segment0_Name:=Liver", "Segment0_LabelValue:=1", "Segment0_Layer:=0" }),
+                      RawAll<std::uint8_t>(data))));
+  ASSERT_EQ(volume.labels.size(), 3U);
+  EXPECT_EQ(volume.labels[0].value, 1);
+  EXPECT_EQ(volume.labels[0].name, "Liver");
+  EXPECT_EQ(volume.labels[1].value, 2); // the 1 of the other layer
+  EXPECT_TRUE(volume.labels[1].shape.Contains(1, 0, 0));
+  EXPECT_EQ(volume.labels[2].value, 8);
+}
+
 TEST(NrrdSegments, NamesComeFromTheKeysOfOneLayer)
 {
   const TempFolder folder;

@@ -1,6 +1,9 @@
 #include "ScanBytes.h"
 
 #include <cmath>
+#include <csignal>
+#include <random>
+#include <sys/resource.h>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -129,4 +132,47 @@ TEST(WriteLabelVolume, ReplacesAnOlderFile)
   folder.Write("a.nrrd", "old");
   WriteLabelVolume(folder / "a.nrrd", Geometry(), { Blob(3, { { 1, 2, 3 }, { 70, 5, 6 } }) });
   EXPECT_EQ(ReadLabelVolume(folder / "a.nrrd").labels.size(), 1U);
+}
+
+TEST(WriteLabelVolume, AFullDiskIsSaidInOneLineAndLeavesNothing)
+{
+  // A limit on the size of files stands in for the end of a disk.
+  ImageGeometry geometry;
+  geometry.size = { 64, 64, 64 };
+  LabelShape label;
+  label.value = 70000;
+  label.shape = VoxelShape({ { 0, 0, 0 }, { 64, 64, 64 } });
+  std::mt19937 random(5);
+  for (int i = 0; i < 100000; ++i)
+  {
+    label.shape.Insert(random() % 64, random() % 64, random() % 64);
+  }
+  const auto onSignal = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit     before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{ 16384, before.rlim_max };
+  for (const char * name : { "a.nrrd", "a.nii", "a.nii.gz", "a.mha", "a.mhd", "a.tif" })
+  {
+    for (const bool compress : { true, false })
+    {
+      const TempFolder folder;
+      std::string      message;
+      ::testing::internal::CaptureStderr();
+      setrlimit(RLIMIT_FSIZE, &small);
+      try
+      {
+        WriteLabelVolume(folder / name, geometry, { label }, compress);
+      }
+      catch (const OutputError & error)
+      {
+        message = error.what();
+      }
+      setrlimit(RLIMIT_FSIZE, &before);
+      EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << name;
+      EXPECT_NE(message.find(std::string(name) + ": cannot be written"), std::string::npos) << name << ": " << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      EXPECT_EQ(FilesIn(folder), 0U) << name;
+    }
+  }
+  std::signal(SIGXFSZ, onSignal);
 }

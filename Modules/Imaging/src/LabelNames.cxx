@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 
 namespace voxelcore
 {
@@ -117,9 +116,11 @@ LabelBook::LabelBook(const ScanFile & scan, const ReadOptions & options)
   }
   for (const Segment & segment : scan.segments)
   {
-    const std::int64_t value = m_Renumbered ? m_NextNumber++ : segment.value;
+    const std::int64_t value = m_Renumbered ? m_Largest + 1 : segment.value;
     m_Segments.emplace(std::pair(segment.layer, segment.value),
                        Label{ value, segment.name.empty() ? Text("label-", value) : segment.name });
+    m_Given.insert(value);
+    m_Largest = std::max(m_Largest, value);
   }
   if (scan.segments.empty())
   {
@@ -149,8 +150,15 @@ LabelBook::Identify(std::size_t layer, std::int64_t value)
   {
     return segment->second;
   }
-  const std::int64_t number = m_Renumbered ? m_NextNumber++ : value;
-  const auto         name = m_Names.find(number);
+  std::int64_t number = value;
+  if (!m_Given.insert(number).second)
+  {
+    number = m_Largest + 1;
+    m_Given.insert(number);
+    m_Renumbered = true;
+  }
+  m_Largest = std::max(m_Largest, number);
+  const auto name = m_Names.find(number);
   return { number, name == m_Names.end() ? Text("label-", number) : name->second };
 }
 

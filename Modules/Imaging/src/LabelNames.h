@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ public:
   /** \throws UsageError when options.labels makes no sense. */
   LabelBook(const ScanFile & scan, const ReadOptions & options);
 
-  /** The label that a value above 0 in a layer stands for. Layers may use a value twice: then segments are numbered
-   *  from 1 in the order of the file. */
+  /** The label that a value above 0 in a layer stands for; to be asked once for each. Layers may use a value twice: then
+   *  segments are numbered from 1 in the order of the file, and values that no segment names get numbers behind all. */
   Label
   Identify(std::size_t layer, std::int64_t value);
 
@@ -58,9 +59,10 @@ private:
 
   std::map<std::int64_t, std::string>                   m_Names;
   std::map<std::pair<std::size_t, std::int64_t>, Label> m_Segments;
-  std::int64_t                                          m_NextNumber = 1;
+  std::int64_t                                          m_Largest = 0; ///< of the numbers given so far
   bool                                                  m_Renumbered = false;
   bool                                                  m_All = false;
+  std::set<std::int64_t>                                m_Given;
   std::vector<Wish>                                     m_Wishes;
 };
 

@@ -138,10 +138,11 @@ ReadSegments(const NrrdHeader & header, ScanFile & scan)
     }
     Segment segment;
     segment.name = name == header.keys.end() ? "" : Printable(Trim(name->second), 200);
-    // Files from before Slicer 4.11 have no LabelValue: there segment N carries N + 1.
-    const auto number = value == header.keys.end() ? std::optional<std::int64_t>(static_cast<std::int64_t>(n) + 1)
-                                                   : ParseInteger(Trim(value->second));
-    const auto at = layer == header.keys.end() ? std::optional<std::int64_t>(0) : ParseInteger(Trim(layer->second));
+    // Files from before Slicer 4.11 say neither: there each segment has a layer of its own, of ones.
+    const bool old = value == header.keys.end() && layer == header.keys.end() && scan.interleaved > 1;
+    const auto number = value == header.keys.end() ? std::optional<std::int64_t>(1) : ParseInteger(Trim(value->second));
+    const auto at = layer == header.keys.end() ? std::optional<std::int64_t>(old ? static_cast<std::int64_t>(n) : 0)
+                                               : ParseInteger(Trim(layer->second));
     if (!number || !at || *at < 0 || static_cast<std::uint64_t>(*at) >= scan.interleaved)
     {
       Refuse(scan.path, Text("segment ", n, " has a label value or layer that makes no sense"), "mend the header");

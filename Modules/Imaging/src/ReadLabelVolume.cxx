@@ -91,7 +91,7 @@ ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options,
   volume.pixelType = scan.storedType.empty() ? PixelName(scan.type) : scan.storedType;
   if (collector.Book().IsRenumbered())
   {
-    scan.notes.push_back("layers use a value more than once: segments are numbered in the order of the file");
+    scan.notes.push_back("layers use a value more than once: segments are numbered anew");
   }
   volume.notes = std::move(scan.notes);
   volume.notes.insert(volume.notes.end(), scan.warnings.begin(), scan.warnings.end());

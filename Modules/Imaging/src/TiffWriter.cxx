@@ -1,7 +1,6 @@
-// Through libtiff and not itk::TIFFImageIO, which writes whole numbers of 8 and 16 bits only.
+// Multi-page TIFF through libtiff; itk::TIFFImageIO writes whole numbers of 8 and 16 bits only.
 
-#include "TiffWriter.h"
-#include "TextFields.h"
+#include "VolumeWriters.h"
 
 #include <tiffio.h>
 
@@ -23,15 +22,12 @@ Silent(TIFF *, void *, const char *, const char *, va_list)
 } // namespace
 
 void
-WriteTiff(const std::filesystem::path &       path,
-          const std::array<std::int64_t, 3> & size,
-          PixelType                           type,
-          std::span<const std::byte>          voxels,
-          bool                                compress)
+WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
 {
-  const auto fail = [&path]() {
-    throw OutputError(Text(path.filename().string(), ": cannot be written; check permissions and space on the disk"));
-  };
+  const auto &      size = volume.geometry.size;
+  const PixelType   type = volume.type;
+  const auto &      voxels = volume.voxels;
+  const auto        fail = []() { throw OutputError("libtiff could not write all of it"); };
   TIFFOpenOptions * options = TIFFOpenOptionsAlloc();
   TIFFOpenOptionsSetErrorHandlerExtR(options, Silent, nullptr);
   TIFFOpenOptionsSetWarningHandlerExtR(options, Silent, nullptr);
@@ -57,7 +53,7 @@ WriteTiff(const std::filesystem::path &       path,
     TIFFSetField(t, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     TIFFSetField(t, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
     TIFFSetField(t, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-    TIFFSetField(t, TIFFTAG_COMPRESSION, compress ? COMPRESSION_ADOBE_DEFLATE : COMPRESSION_NONE);
+    TIFFSetField(t, TIFFTAG_COMPRESSION, volume.compress ? COMPRESSION_ADOBE_DEFLATE : COMPRESSION_NONE);
     TIFFSetField(t, TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(rowsPerStrip));
     const std::byte * page = voxels.data() + static_cast<std::size_t>(z) * pageBytes;
     std::uint32_t     strip = 0;

@@ -1,11 +1,7 @@
 #include "ScanFile.h"
 #include "TextFields.h"
-#include "TiffWriter.h"
+#include "VolumeWriters.h"
 #include "voxelcore/LabelVolume.h"
-
-#include <itkMetaImageIO.h>
-#include <itkNiftiImageIO.h>
-#include <itkNrrdImageIO.h>
 
 #include <algorithm>
 #include <array>
@@ -121,68 +117,6 @@ FillVoxels(const std::filesystem::path &       path,
       }
     }
   }
-}
-
-itk::ImageIOBase::Pointer
-NewImageIO(Kind kind)
-{
-  switch (kind)
-  {
-    case Kind::Nrrd:
-      return itk::NrrdImageIO::New().GetPointer();
-    case Kind::Nifti:
-      return itk::NiftiImageIO::New().GetPointer();
-    default:
-      return itk::MetaImageIO::New().GetPointer();
-  }
-}
-
-itk::IOComponentEnum
-ComponentOf(PixelType type)
-{
-  switch (type)
-  {
-    case PixelType::UInt8:
-      return itk::IOComponentEnum::UCHAR;
-    case PixelType::UInt16:
-      return itk::IOComponentEnum::USHORT;
-    case PixelType::UInt32:
-      return itk::IOComponentEnum::UINT;
-    default:
-      return itk::IOComponentEnum::ULONGLONG;
-  }
-}
-
-void
-WriteWithItk(const std::filesystem::path &  path,
-             Kind                           kind,
-             const ImageGeometry &          geometry,
-             PixelType                      type,
-             const std::vector<std::byte> & voxels,
-             bool                           compress)
-{
-  const itk::ImageIOBase::Pointer io = NewImageIO(kind);
-  io->SetFileName(path.string());
-  io->SetNumberOfDimensions(3);
-  for (unsigned a = 0; a < 3; ++a)
-  {
-    io->SetDimensions(a, static_cast<itk::SizeValueType>(geometry.size[a]));
-    io->SetSpacing(a, geometry.spacing[a]);
-    io->SetOrigin(a, geometry.origin[a]);
-    io->SetDirection(a, { geometry.direction[a], geometry.direction[3 + a], geometry.direction[6 + a] });
-  }
-  io->SetPixelType(itk::IOPixelEnum::SCALAR);
-  io->SetNumberOfComponents(1);
-  io->SetComponentType(ComponentOf(type));
-  io->SetUseCompression(compress);
-  itk::ImageIORegion region(3);
-  for (unsigned a = 0; a < 3; ++a)
-  {
-    region.SetSize(a, static_cast<itk::SizeValueType>(geometry.size[a]));
-  }
-  io->SetIORegion(region);
-  io->WriteImageInformation();
-  io->Write(voxels.data());
 }
 
 /** Reads the file back: writers that meet a full disk, or a number their format cannot hold, do not always say so. */
@@ -334,20 +268,24 @@ WriteLabelVolume(const std::filesystem::path &   path,
   };
   try
   {
-    if (kind == Kind::Tiff)
+    const VolumeToWrite volume{ geometry, type, voxels, compress };
+    switch (kind)
     {
-      WriteTiff(workshop.File(), size, type, voxels, compress);
-    }
-    else
-    {
-      WriteWithItk(workshop.File(), kind, geometry, type, voxels, compress);
+      case Kind::Nrrd:
+        WriteNrrd(workshop.File(), volume);
+        break;
+      case Kind::Nifti:
+        WriteNifti(workshop.File(), volume);
+        break;
+      case Kind::Meta:
+        WriteMetaImage(workshop.File(), volume);
+        break;
+      case Kind::Tiff:
+        WriteTiff(workshop.File(), volume);
+        break;
     }
     CheckWritten(workshop.File(), kind, geometry, type, voxels);
     workshop.Publish();
-  }
-  catch (const itk::ExceptionObject & error)
-  {
-    fail(error.GetDescription());
   }
   catch (const std::filesystem::filesystem_error & error)
   {

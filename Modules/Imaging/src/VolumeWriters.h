@@ -1,0 +1,35 @@
+#pragma once
+// The formats a volume is written in. Written here and not through ITK's writers: those print to stderr when a disk is
+// full, round geometry to a few digits (MetaIO) or do not know 64-bit values, and each is a page of text and numbers.
+
+#include "ScanFile.h"
+
+#include <filesystem>
+#include <span>
+
+namespace voxelcore
+{
+
+/** A volume about to be written: unsigned whole numbers in this machine's byte order, i fastest. */
+struct VolumeToWrite
+{
+  ImageGeometry              geometry;
+  PixelType                  type = PixelType::UInt8;
+  std::span<const std::byte> voxels;
+  bool                       compress = true;
+};
+
+/** \throws OutputError when the file cannot be written in full. */
+void
+WriteNrrd(const std::filesystem::path & path, const VolumeToWrite & volume);
+/** Packed when the name ends with .gz. */
+void
+WriteNifti(const std::filesystem::path & path, const VolumeToWrite & volume);
+/** .mha, or .mhd with the voxels in a .raw or .zraw file beside it. */
+void
+WriteMetaImage(const std::filesystem::path & path, const VolumeToWrite & volume);
+/** One page a slice; BigTIFF when 4 GB may not do. */
+void
+WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume);
+
+} // namespace voxelcore
