@@ -6,9 +6,11 @@
 namespace voxelcore
 {
 
-/** Completes a tracing of which only deep facets are left open. The region beyond them is a union of Delaunay cells
- *  whose vertices all lie on these facets: each cell's vertex has inner facets around it down to the boundary squares,
- *  and the first untraced one is open. Their spheres are empty, so the cells are among those of these points alone.
+/** Completes a tracing of which some facets are left open, all of them listed in `deep`. Beyond them lies a union of
+ *  Delaunay cells whose vertices are all on these facets: a vertex of such a cell is a corner of a boundary square on its
+ *  side, and between that square (itself open if its cell is missing) and the missing cell the cells around the vertex
+ *  change from known to unknown across an open facet. The missing cells' spheres are empty, so the cells are among those
+ *  of these points alone. Which cells were traced does not matter.
  *  \throws Cancelled; CertificateError when the region does not close (a fault of this engine). */
 void
 AddDeepCells(Tracing &                         tracing,

