@@ -73,8 +73,8 @@ MakeCase(VoxelShape shape, const std::array<double, 3> & spacing, double thresho
   return subject;
 }
 
-VerificationReport
-Verify(const VerificationCase & subject)
+VerificationInput
+InputOf(const VerificationCase & subject)
 {
   VerificationInput input;
   input.shape = &subject.shape;
@@ -88,7 +88,13 @@ Verify(const VerificationCase & subject)
   input.positionTolerance = subject.positionTolerance;
   input.polygonsReversed = subject.polygonsReversed;
   input.threshold = subject.threshold;
-  return VerifyComplex(input);
+  return input;
+}
+
+VerificationReport
+Verify(const VerificationCase & subject)
+{
+  return VerifyComplex(InputOf(subject));
 }
 
 std::vector<std::string>

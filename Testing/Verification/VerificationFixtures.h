@@ -46,6 +46,10 @@ struct VerificationCase
 VerificationCase
 MakeCase(VoxelShape shape, const std::array<double, 3> & spacing, double threshold = 0);
 
+/** Refers to the case. */
+VerificationInput
+InputOf(const VerificationCase & subject);
+
 VerificationReport
 Verify(const VerificationCase & subject);
 

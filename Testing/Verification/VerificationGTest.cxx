@@ -207,16 +207,9 @@ TEST(Verification, TheToleranceOfPositionsFollowsTheLargestCoordinate)
 
 TEST(Verification, ProgressIsToldAndCanCancel)
 {
-  const VerificationCase subject = HandmadeRod(3, { 1, 1, 1 });
-  VerificationInput      input;
-  input.shape = &subject.shape;
-  input.weights = subject.weights;
-  input.cells = &subject.core.cells;
-  input.positions = subject.core.positions;
-  input.radius = subject.core.radius;
-  input.vertexLambda = subject.core.vertexLambda;
-  input.edgeLambda = subject.core.edgeLambda;
-  double last = -1;
+  const VerificationCase  subject = HandmadeRod(3, { 1, 1, 1 });
+  const VerificationInput input = InputOf(subject);
+  double                  last = -1;
   EXPECT_TRUE(VerifyComplex(input, [&](std::string_view, double fraction) {
                 EXPECT_GE(fraction, last);
                 last = fraction;
