@@ -27,11 +27,10 @@ constexpr double kShapeEnds = 0.03;
 constexpr double kDelaunayEnds = 0.80;
 constexpr double kCoreEnds = 0.92;
 
-/** The engine that works for the answer given; Auto takes TetGen where it is built in. */
 std::string
 EngineName(Engine engine)
 {
-  return engine != Engine::Lattice && HasEngine(Engine::TetGen) ? "tetgen" : "lattice";
+  return engine == Engine::TetGen ? "tetgen" : "lattice";
 }
 
 bool
