@@ -151,6 +151,16 @@ TEST(VerificationFailures, VerticesInAnotherOrder)
   EXPECT_EQ(Failures(subject), Names{ "vertex order" });
 }
 
+TEST(VerificationFailures, VerticesInAnotherOrderThatDifferInOneCoordinateOnly)
+{
+  // A row of voxels along y: equal x, so that the next coordinate decides.
+  VerificationCase subject = MakeCase(SolidBox({ 1, 4, 1 }), { 1, 1, 1 });
+  ASSERT_EQ(Failures(subject), Names{});
+  std::swap(subject.core.positions[0], subject.core.positions[1]);
+  subject.core.cells.edges[1] = { 0, 2 };
+  EXPECT_EQ(Failures(subject), Names{ "vertex order" });
+}
+
 TEST(VerificationFailures, EdgesInAnotherOrder)
 {
   VerificationCase  subject = GoodCase();
@@ -253,6 +263,17 @@ TEST(VerificationFailures, AVertexPairLeftByPruning)
   VerificationCase subject = MakeCase(SolidBox({ 5, 1, 1 }), { 1, 1, 1 });
   subject.threshold = 10;
   EXPECT_EQ(Failures(subject), Names{ "pruning" });
+}
+
+TEST(VerificationFailures, AnEdgePairLeftByPruning)
+{
+  // A plate one voxel thick: every vertex lies on faces, so that only edges and faces make simple pairs.
+  VerificationCase subject = MakeCase(SolidBox({ 4, 4, 1 }), { 1, 1, 1 });
+  subject.threshold = 10;
+  EXPECT_EQ(Failures(subject), Names{ "pruning" });
+  // One that has a measure of the threshold stays.
+  subject.threshold = subject.core.faceLambda[0];
+  EXPECT_EQ(Failures(subject), Names{});
 }
 
 TEST(VerificationFailures, AMissingComponent)
