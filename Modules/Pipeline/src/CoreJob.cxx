@@ -118,13 +118,17 @@ DescribeInput(const CoreOptions & options, const LabelVolume & volume, std::stri
 }
 
 ParameterRecord
-DescribeParameters(const CoreOptions & options, const LabelVolume & volume, const SpacingWeights & weights)
+DescribeParameters(const CoreOptions & options, const EditedLabels & edited, const SpacingWeights & weights)
 {
   ParameterRecord parameters;
-  for (const LabelShape & label : volume.labels)
+  for (const EditedLabel & one : edited.labels)
   {
-    parameters.labels.push_back(label.value);
+    if (one.component <= 1)
+    {
+      parameters.labels.push_back(one.label.value);
+    }
   }
+  parameters.edits = edited.options;
   parameters.binary = options.reading.binary;
   parameters.threshold = options.reading.threshold;
   parameters.volume = options.reading.volume;
@@ -191,7 +195,7 @@ public:
   {
     for (std::size_t i = 0; i < m_Options.lambdas.size(); ++i)
     {
-      outcome.record.pruned[i].output = Target(outcome.record.label, i).string();
+      outcome.record.pruned[i].output = Target(outcome.record, i).string();
       m_Models[i].parts.push_back(std::move(outcome.parts[i]));
     }
     m_Result.report.labels.push_back(std::move(outcome.record));
@@ -215,9 +219,14 @@ public:
 
 private:
   fs::path
-  Target(std::int64_t label, std::size_t lambda) const
+  Target(const LabelRecord & record, std::size_t lambda) const
   {
-    return m_ToFolder ? FolderOutputPath(m_Options.output, m_Options.scan, label, m_Options.lambdas, lambda)
+    return m_ToFolder ? FolderOutputPath(m_Options.output,
+                                         m_Options.scan,
+                                         record.label,
+                                         m_Options.lambdas,
+                                         lambda,
+                                         record.component)
                       : FileOutputPath(m_Options.output, m_Options.lambdas, lambda);
   }
 
@@ -230,8 +239,8 @@ private:
       MedialModel & model = m_Models[i];
       model.provenance = ProvenanceJson(m_Result.report, labels, i);
       model.hasEdges = m_Options.model.keepEdges;
-      const std::int64_t label = m_Result.report.labels[labels.front()].label;
-      WriteStagedModel(m_Transaction, Target(label, i), model, m_Options.model, m_Result.notes);
+      const LabelRecord & first = m_Result.report.labels[labels.front()];
+      WriteStagedModel(m_Transaction, Target(first, i), model, m_Options.model, m_Result.notes);
       model = MedialModel();
     }
     m_Result.report.seconds.write += watch.Lap();
@@ -322,37 +331,50 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   auto        digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
   LabelVolume volume =
     ReadLabelVolume(options.scan, options.reading, PartOfProgress(context.progress, "reading", 0, kReadEnds));
+  EditedLabels         edited = EditLabels(volume,
+                                   options.edits,
+                                   options.reading.labels != "all",
+                                   options.scan.string(),
+                                   PartOfProgress(context.progress, "editing", kReadEnds, kReadEnds));
+  auto &               labels = edited.labels;
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
   report.command = options.command;
   report.input = DescribeInput(options, volume, digest.get());
-  report.parameters = DescribeParameters(options, volume, weights);
+  report.parameters = DescribeParameters(options, edited, weights);
   result.warnings = volume.warnings;
+  result.notes = edited.notes;
   report.seconds.read = watch.Lap();
 
   ResultFiles   files(options, toFolder, transaction, result);
   std::uint64_t allVoxels = 0;
   std::uint64_t doneVoxels = 0;
-  for (const LabelShape & label : volume.labels)
+  for (const EditedLabel & one : labels)
   {
-    allVoxels += label.voxels;
+    allVoxels += one.label.voxels;
   }
-  for (std::size_t i = 0; i < volume.labels.size(); ++i)
+  for (std::size_t i = 0; i < labels.size(); ++i)
   {
-    LabelShape & label = volume.labels[i];
+    LabelShape & label = labels[i].label;
     const auto   share = [&](std::uint64_t voxels) {
       return kReadEnds + (kLabelsEnd - kReadEnds) * static_cast<double>(voxels) / static_cast<double>(allVoxels);
     };
     const double from = share(doneVoxels);
     doneVoxels += label.voxels;
-    const std::string name = volume.labels.size() == 1 ? label.name
-                                                       : label.name + " (" + std::to_string(i + 1) + "/" +
-                                                           std::to_string(volume.labels.size()) + ")";
+    const std::string name = labels.size() == 1
+                               ? label.name
+                               : label.name + " (" + std::to_string(i + 1) + "/" + std::to_string(labels.size()) + ")";
     LabelOutcome      outcome = ProcessLabel(std::move(label),
                                         volume.geometry,
                                         weights,
                                         options.lambdas,
                                         options.engine,
                                         NamedPartOfProgress(context.progress, name, from, share(doneVoxels)));
+    outcome.record.component = labels[i].component;
+    outcome.record.edits = labels[i].edits;
+    for (ModelPart & part : outcome.parts)
+    {
+      part.component = labels[i].component;
+    }
     report.seconds.shape += outcome.seconds.shape;
     report.seconds.delaunay += outcome.seconds.delaunay;
     report.seconds.core += outcome.seconds.core;

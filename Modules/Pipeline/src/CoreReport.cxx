@@ -1,5 +1,6 @@
 #include "voxelcore/CoreReport.h"
 
+#include "ParametersJson.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>
@@ -53,28 +54,14 @@ InputJson(const InputRecord & input, bool inFile)
 }
 
 Json
-ParametersJson(const ParameterRecord & parameters, bool inFile)
+EditRecordJson(const EditRecord & edits)
 {
-  Json json = Json::object();
-  json["labels"] = parameters.labels;
-  json["binary"] = parameters.binary;
-  json["threshold"] = parameters.threshold ? Json(*parameters.threshold) : Json(nullptr);
-  json["volume"] = parameters.volume ? Json(*parameters.volume) : Json(nullptr);
-  json["spacing"] = parameters.spacing ? Json(*parameters.spacing) : Json(nullptr);
-  json["orthonormalize"] = parameters.orthonormalize;
-  json["nifti_form"] = parameters.niftiForm;
-  json["lambda"] = parameters.lambda;
-  json["triangles"] = parameters.model.triangles;
-  json["keep_edges"] = parameters.model.keepEdges;
-  if (!inFile)
-  {
-    json["engine"] = parameters.engine;
-    json["threads"] = parameters.threads;
-  }
-  json["lattice_weights"] = parameters.weights.weight;
-  json["lattice_unit_mm"] = parameters.weights.unit;
-  json["lattice_deviation"] = parameters.weights.deviation;
-  return json;
+  return { { "voxels_cropped", edits.voxelsCropped },
+           { "cavities_filled", edits.cavitiesFilled },
+           { "voxels_added", edits.voxelsAdded },
+           { "components_joined", edits.componentsJoined },
+           { "components_removed", edits.componentsRemoved },
+           { "voxels_removed", edits.voxelsRemoved } };
 }
 
 Json
@@ -82,7 +69,15 @@ LabelJson(const LabelRecord & label, bool inFile)
 {
   Json json = Json::object();
   json["label"] = label.label;
+  if (label.component != 0)
+  {
+    json["component"] = label.component;
+  }
   json["name"] = label.name;
+  if (label.edits)
+  {
+    json["edits"] = EditRecordJson(*label.edits);
+  }
   json["voxels"] = label.voxels;
   json["volume_mm3"] = label.volumeMm3;
   json["bounding_box"] = { { "lower", label.box.lower }, { "size", label.box.size } };
@@ -183,16 +178,6 @@ ReadComplex(const Json & json)
   return complex;
 }
 
-template <typename T>
-void
-ReadOptional(const Json & json, std::optional<T> & value)
-{
-  if (!json.is_null())
-  {
-    value = json.get<T>();
-  }
-}
-
 InputRecord
 ReadInput(const Json & json)
 {
@@ -207,24 +192,17 @@ ReadInput(const Json & json)
   return input;
 }
 
-ParameterRecord
-ReadParameters(const Json & json)
+EditRecord
+ReadEditRecord(const Json & json)
 {
-  ParameterRecord parameters;
-  json.at("labels").get_to(parameters.labels);
-  json.at("binary").get_to(parameters.binary);
-  ReadOptional(json.at("threshold"), parameters.threshold);
-  ReadOptional(json.at("volume"), parameters.volume);
-  ReadOptional(json.at("spacing"), parameters.spacing);
-  json.at("orthonormalize").get_to(parameters.orthonormalize);
-  json.at("nifti_form").get_to(parameters.niftiForm);
-  json.at("lambda").get_to(parameters.lambda);
-  json.at("triangles").get_to(parameters.model.triangles);
-  json.at("keep_edges").get_to(parameters.model.keepEdges);
-  json.at("lattice_weights").get_to(parameters.weights.weight);
-  json.at("lattice_unit_mm").get_to(parameters.weights.unit);
-  json.at("lattice_deviation").get_to(parameters.weights.deviation);
-  return parameters;
+  EditRecord edits;
+  json.at("voxels_cropped").get_to(edits.voxelsCropped);
+  json.at("cavities_filled").get_to(edits.cavitiesFilled);
+  json.at("voxels_added").get_to(edits.voxelsAdded);
+  json.at("components_joined").get_to(edits.componentsJoined);
+  json.at("components_removed").get_to(edits.componentsRemoved);
+  json.at("voxels_removed").get_to(edits.voxelsRemoved);
+  return edits;
 }
 
 LabelRecord
@@ -232,7 +210,12 @@ ReadLabel(const Json & json)
 {
   LabelRecord label;
   json.at("label").get_to(label.label);
+  label.component = json.value("component", std::int64_t{ 0 });
   json.at("name").get_to(label.name);
+  if (json.contains("edits"))
+  {
+    label.edits = ReadEditRecord(json.at("edits"));
+  }
   json.at("voxels").get_to(label.voxels);
   json.at("volume_mm3").get_to(label.volumeMm3);
   json.at("bounding_box").at("lower").get_to(label.box.lower);
@@ -285,7 +268,10 @@ ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & label
   {
     LabelRecord label = report.labels.at(index);
     label.pruned = { report.labels[index].pruned.at(lambda) };
-    part.parameters.labels.push_back(label.label);
+    if (label.component <= 1 || part.parameters.labels.empty() || part.parameters.labels.back() != label.label)
+    {
+      part.parameters.labels.push_back(label.label);
+    }
     part.labels.push_back(std::move(label));
   }
   return Dump(WholeJson(part, true));

@@ -77,22 +77,25 @@ RunInfoJob(const InfoOptions & options, const JobContext & context)
 {
   LabelVolume volume =
     ReadLabelVolume(options.scan, options.reading, PartOfProgress(context.progress, "reading", 0, 0.5));
-  ScanInfo info;
+  EditedLabels edited = EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string());
+  ScanInfo     info;
   info.path = options.scan.string();
   info.format = std::move(volume.format);
   info.pixelType = std::move(volume.pixelType);
   info.geometry = volume.geometry;
   info.orientation = OrientationLetters(info.geometry);
   info.notes = std::move(volume.notes);
+  info.notes.insert(info.notes.end(), edited.notes.begin(), edited.notes.end());
   info.warnings = std::move(volume.warnings);
   const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
-  for (const LabelShape & label : volume.labels)
+  for (const auto & [label, component, edits] : edited.labels)
   {
     ReportProgress(context.progress,
                    "counting",
-                   0.5 + 0.5 * static_cast<double>(info.labels.size()) / static_cast<double>(volume.labels.size()));
+                   0.5 + 0.5 * static_cast<double>(info.labels.size()) / static_cast<double>(edited.labels.size()));
     LabelInfo one;
     one.label = label.value;
+    one.component = component;
     one.name = label.name;
     one.voxels = label.voxels;
     one.volumeMm3 = static_cast<double>(label.voxels) * voxelMm3;
@@ -147,15 +150,20 @@ InfoJson(const ScanInfo & info)
   Json labels = Json::array();
   for (const LabelInfo & label : info.labels)
   {
-    labels.push_back({ { "label", label.label },
-                       { "name", label.name },
-                       { "voxels", label.voxels },
-                       { "volume_mm3", label.volumeMm3 },
-                       { "bounding_box", { { "lower", label.box.lower }, { "size", label.box.size } } },
-                       { "euler", label.topology.euler },
-                       { "betti", label.topology.betti },
-                       { "components_26", label.components26 },
-                       { "boundary_vertices", label.boundaryVertices } });
+    Json one = { { "label", label.label } };
+    if (label.component != 0)
+    {
+      one["component"] = label.component;
+    }
+    one.update(Json{ { "name", label.name },
+                     { "voxels", label.voxels },
+                     { "volume_mm3", label.volumeMm3 },
+                     { "bounding_box", { { "lower", label.box.lower }, { "size", label.box.size } } },
+                     { "euler", label.topology.euler },
+                     { "betti", label.topology.betti },
+                     { "components_26", label.components26 },
+                     { "boundary_vertices", label.boundaryVertices } });
+    labels.push_back(std::move(one));
   }
   const Json json = { { "path", info.path },
                       { "format", info.format },

@@ -116,7 +116,9 @@ WriteStagedModel(OutputTransaction &           transaction,
   };
   add(omitted.vertices, "isolated vertices left out");
   add(omitted.edges, "edges on no face left out");
-  add(omitted.labels, "labels merged into one");
+  const bool split =
+    std::any_of(model.parts.begin(), model.parts.end(), [](const ModelPart & part) { return part.component != 0; });
+  add(omitted.labels, split ? "components merged into one" : "labels merged into one");
   if (!text.empty())
   {
     notes.push_back(target.string() + ": what this format cannot hold: " + text + " (.vtp holds everything)");

@@ -111,10 +111,12 @@ FolderOutputPath(const fs::path &            folder,
                  const fs::path &            scan,
                  std::int64_t                label,
                  const std::vector<Lambda> & lambdas,
-                 std::size_t                 which)
+                 std::size_t                 which,
+                 std::int64_t                component)
 {
-  return folder /
-         (ScanName(scan) + "_label-" + std::to_string(label) + "_medial" + LambdaSuffix(lambdas, which) + ".vtp");
+  return folder / (ScanName(scan) + "_label-" + std::to_string(label) +
+                   (component > 0 ? "_component-" + std::to_string(component) : std::string()) + "_medial" +
+                   LambdaSuffix(lambdas, which) + ".vtp");
 }
 
 } // namespace voxelcore

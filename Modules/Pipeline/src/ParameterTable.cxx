@@ -26,12 +26,18 @@ number is mm; 0 keeps the whole voxel core. Pruning never changes the topology.
   Above 2.44vox (cubic voxels) the pruned core is proven to converge as scans get finer, but thin parts shrink to curves.
   On thick slices the smallest spacing does not clear the staircase across slices; give mm there, about 1.5 slices.
 
+Edits are done label by label in the order --crop, --fill-cavities, --min-voxels, --largest, --split-components. Components
+are connected through faces (6-connected); equally large ones keep the order of the scan. A crop cuts: what it cuts through
+ends there, and a cavity it opens is none. What is in a label's cavity, other labels too, is filled.
+
 Examples:
   voxelcore core scan.nii.gz -o medial.vtp --report medial.json
   voxelcore core scan.seg.nrrd --labels liver,4 --lambda 0,1mm,2.5% -o medial.vtp
   voxelcore core atlas.nii.gz -o surfaces/
   voxelcore core ct.nrrd --threshold 300:3000 --lambda 2vox -o bone.vtp
-  voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp)";
+  voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp
+  voxelcore core ct.nrrd --threshold 300:3000 --fill-cavities --min-voxels 100 -o bone.vtp
+  voxelcore core teeth.nii.gz --crop 100:300,80:220,: --split-components -o teeth/)";
 
 constexpr std::string_view kInfoFooter = R"(Examples:
   voxelcore info scan.nii.gz
@@ -112,6 +118,32 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "Labels to work on, by value or name; all means all but 0" },
   { "binary", "--binary", Flag, "", "", false, kReads, "All values but 0 are one shape" },
   { "threshold", "--threshold", Text, "LO:HI", "", false, kReads, "Grey scan: voxels with LO <= value <= HI" },
+  { "crop",
+    "--crop",
+    Text,
+    "I0:I1,J0:J1,K0:K1",
+    "",
+    false,
+    kReads,
+    "Work on a part of the scan: voxels I0 to I1-1, from 0; a side left out means the scan's" },
+  { "fill-cavities",
+    "--fill-cavities",
+    Flag,
+    "",
+    "",
+    false,
+    kReads,
+    "Fill each label's cavities (background that does not reach the outside, even over corners)" },
+  { "min-voxels", "--min-voxels", Integer, "N", "", false, kReads, "Remove components of fewer than N voxels" },
+  { "largest", "--largest", Integer, "N", "", false, kReads, "Keep the N largest components of each label" },
+  { "split-components",
+    "--split-components",
+    Flag,
+    "",
+    "",
+    false,
+    kReads,
+    "Treat each component of a label by itself, named NAME#1, NAME#2, ... by size" },
   { "volume", "--volume", Integer, "N", "", false, kReads, "Which volume of a 4-D file, from 0" },
   { "spacing", "--spacing", Text, "X,Y,Z", "", false, kReads, "Voxel size in mm, instead of the file's" },
   { "orthonormalize",
@@ -150,7 +182,14 @@ constexpr auto kParameters = std::to_array<Parameter>({
   { "detail", "--detail", Real, "MM", "", false, kPhantom, "Smallest radius of a root" },
   { "laterals", "--laterals", Integer, "N", "", false, kPhantom, "Laterals on the stem of a root" },
   { "sub-laterals", "--sub-laterals", Integer, "N", "", false, kPhantom, "Laterals on each of these" },
-  { "engine", "--engine", Choice, "auto|lattice|tetgen", "auto", false, kCore, "Delaunay engine; the result is the same" },
+  { "engine",
+    "--engine",
+    Choice,
+    "auto|lattice|tetgen",
+    "auto",
+    false,
+    kCore,
+    "Delaunay engine; the result is the same" },
   { "threads", "--threads", Integer, "N", "0", false, kAll, "Processors to use; 0 means all" },
   { "json", "--json", Flag, "", "", false, kInfo, "Print JSON" },
   { "force", "--force", Flag, "", "", false, kWrites, "Replace existing files" },

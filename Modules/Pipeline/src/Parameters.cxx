@@ -281,6 +281,29 @@ ReadOptionsFrom(const ParameterValues & values, CommandId command)
   return reading;
 }
 
+ShapeEditOptions
+ShapeEditsFrom(const ParameterValues & values, CommandId command)
+{
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  const Reader           reader(values, command);
+  ShapeEditOptions       edits;
+  if (reader.IsGiven("crop"))
+  {
+    edits.crop = ParseCrop(reader.Text("crop"));
+  }
+  if (reader.IsGiven("min-voxels"))
+  {
+    edits.minVoxels = static_cast<std::uint64_t>(reader.Whole("min-voxels", 1, most));
+  }
+  if (reader.IsGiven("largest"))
+  {
+    edits.largest = static_cast<std::uint64_t>(reader.Whole("largest", 1, most));
+  }
+  edits.fillCavities = reader.IsSet("fill-cavities");
+  edits.splitComponents = reader.IsSet("split-components");
+  return edits;
+}
+
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values)
 {
@@ -288,6 +311,7 @@ CoreOptionsFrom(const ParameterValues & values)
   CoreOptions  options;
   options.scan = reader.Text("scan");
   options.reading = ReadOptionsFrom(values, CommandId::Core);
+  options.edits = ShapeEditsFrom(values, CommandId::Core);
   options.lambdas = ParseLambdas(reader.Text("lambda"));
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
@@ -302,7 +326,9 @@ CoreOptionsFrom(const ParameterValues & values)
 InfoOptions
 InfoOptionsFrom(const ParameterValues & values)
 {
-  return { ValueOf(values, CommandId::Info, "scan"), ReadOptionsFrom(values, CommandId::Info) };
+  return { ValueOf(values, CommandId::Info, "scan"),
+           ReadOptionsFrom(values, CommandId::Info),
+           ShapeEditsFrom(values, CommandId::Info) };
 }
 
 VerifyOptions

@@ -28,7 +28,8 @@ RequirePrunable(const PruneOptions & options, const MedialModel & model, const C
   }
   for (std::size_t i = 0; i < made.labels.size(); ++i)
   {
-    if (made.labels[i].label != model.parts[i].label || made.labels[i].pruned.size() != 1)
+    if (made.labels[i].label != model.parts[i].label || made.labels[i].component != model.parts[i].component ||
+        made.labels[i].pruned.size() != 1)
     {
       throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
     }

@@ -95,8 +95,9 @@ ReportTable(const CoreReport & report)
   char peak[32];
   std::snprintf(peak, sizeof(peak), "%.0f", report.peakMemoryMb);
   return FormatTable(rows) + std::to_string(report.labels.size()) +
-         (report.labels.size() == 1 ? " label, " : " labels, ") + std::to_string(boundaryVertices) +
-         " boundary vertices, " + Seconds(report.seconds.total) + " s, peak memory " + peak + " MB\n";
+         (report.parameters.edits.splitComponents ? " component" : " label") +
+         (report.labels.size() == 1 ? ", " : "s, ") + std::to_string(boundaryVertices) + " boundary vertices, " +
+         Seconds(report.seconds.total) + " s, peak memory " + peak + " MB\n";
 }
 
 } // namespace voxelcore

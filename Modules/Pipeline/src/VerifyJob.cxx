@@ -75,10 +75,14 @@ RecordedLambda(const CoreReport & made, std::size_t label, const std::string & w
 
 /** A property of the file as a whole. */
 VerificationCheck
-CheckProvenance(const LabelRecord & recorded, const LabelShape & label, const VerificationReport & report)
+CheckProvenance(const LabelRecord &        recorded,
+                const LabelShape &         label,
+                std::int64_t               component,
+                const VerificationReport & report)
 {
   VerificationCheck check{ "provenance", true, 0, {} };
-  if (recorded.label != label.value || recorded.voxels != label.voxels || !(recorded.shape == report.shapeTopology) ||
+  if (recorded.label != label.value || recorded.component != component || recorded.voxels != label.voxels ||
+      !(recorded.shape == report.shapeTopology) ||
       !(recorded.pruned.front().complex.topology == report.complexTopology))
   {
     check = { "provenance", false, 1, "the record in the file does not fit the scan and the cells" };
@@ -97,6 +101,10 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
   LabelVolume      volume = ReadLabelVolume(options.scan,
                                        RecordedReading(made.parameters),
                                        PartOfProgress(context.progress, "reading", 0, 0.1));
+  EditedLabels     edited = EditLabels(volume,
+                                   made.parameters.edits,
+                                   !made.parameters.binary && !made.parameters.threshold,
+                                   options.scan.string());
   VerifyResult     result;
   if (ScanSha256(options.scan) != made.input.sha256)
   {
@@ -106,17 +114,20 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
     const std::int64_t value = model.parts[i].label;
-    const auto found = std::find_if(volume.labels.begin(), volume.labels.end(), [value](const LabelShape & label) {
-      return label.value == value;
+    const std::int64_t component = model.parts[i].component;
+    const auto         place = std::find_if(edited.labels.begin(), edited.labels.end(), [&](const EditedLabel & one) {
+      return one.label.value == value && one.component == component;
     });
-    if (found == volume.labels.end())
+    if (place == edited.labels.end())
     {
-      throw InputError(options.scan.string() + ": label " + std::to_string(value) + " of " + options.core.string() +
-                       " does not occur in this scan");
+      throw InputError(options.scan.string() + ": label " + std::to_string(value) +
+                       (component > 0 ? ", component " + std::to_string(component) + "," : std::string()) + " of " +
+                       options.core.string() + " does not occur in this scan");
     }
-    const double      from = 0.1 + 0.9 * static_cast<double>(i) / static_cast<double>(model.parts.size());
-    const double      to = 0.1 + 0.9 * static_cast<double>(i + 1) / static_cast<double>(model.parts.size());
-    LabelVerification one;
+    LabelShape * const found = &place->label;
+    const double       from = 0.1 + 0.9 * static_cast<double>(i) / static_cast<double>(model.parts.size());
+    const double       to = 0.1 + 0.9 * static_cast<double>(i + 1) / static_cast<double>(model.parts.size());
+    LabelVerification  one;
     one.label = value;
     one.name = found->name;
     one.lambdaMm = RecordedLambda(made, i, options.core.string());
@@ -125,7 +136,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
                             volume.geometry,
                             one.lambdaMm,
                             NamedPartOfProgress(context.progress, found->name, from, to));
-    one.report.checks.push_back(CheckProvenance(made.labels[i], *found, one.report));
+    one.report.checks.push_back(CheckProvenance(made.labels[i], *found, component, one.report));
     one.report.passed = one.report.passed && one.report.checks.back().passed;
     result.passed = result.passed && one.report.passed;
     result.labels.push_back(std::move(one));

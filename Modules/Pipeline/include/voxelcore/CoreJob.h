@@ -7,6 +7,7 @@
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/MedialModel.h"
+#include "voxelcore/ShapeEdits.h"
 
 #include <filesystem>
 #include <optional>
@@ -20,6 +21,7 @@ struct CoreOptions
 {
   std::filesystem::path                scan;
   ReadOptions                          reading;
+  ShapeEditOptions                     edits;
   std::vector<Lambda>                  lambdas; ///< at least one; ParseLambdas gives them
   std::filesystem::path                output;  ///< a model file, or a folder (IsFolderOutput)
   std::optional<std::filesystem::path> report;
@@ -34,7 +36,7 @@ struct CoreResult
 {
   CoreReport               report;
   std::vector<std::string> warnings; ///< about the scan; a user must see them
-  std::vector<std::string> notes;    ///< what a file format could not hold
+  std::vector<std::string> notes;    ///< what edits changed, what a file format could not hold
 };
 
 /** Reads, computes label by label, certifies, writes. Either everything is written or nothing.

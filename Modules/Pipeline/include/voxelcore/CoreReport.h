@@ -3,6 +3,7 @@
 
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialModel.h"
+#include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/TopologyNumbers.h"
 #include "voxelcore/VoxelShape.h"
@@ -36,6 +37,7 @@ struct ParameterRecord
   std::optional<Vector3>                   spacing; ///< as given, mm
   bool                                     orthonormalize = false;
   std::string                              niftiForm = "auto";
+  ShapeEditOptions                         edits;
   std::vector<std::string>                 lambda;
   ModelOptions                             model;
   std::string                              engine;
@@ -62,10 +64,13 @@ struct PrunedRecord
   std::string   output; ///< the file
 };
 
+/** One label, or one of its components where these are split. */
 struct LabelRecord
 {
   std::int64_t              label = 0;
+  std::int64_t              component = 0; ///< from 1 by size; 0: the whole label
   std::string               name;
+  std::optional<EditRecord> edits; ///< of the whole label; none when none was asked for
   std::uint64_t             voxels = 0;
   double                    volumeMm3 = 0;
   VoxelBox                  box; ///< tight

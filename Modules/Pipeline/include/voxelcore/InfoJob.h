@@ -3,6 +3,7 @@
 
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/ShapeEdits.h"
 #include "voxelcore/TopologyNumbers.h"
 
 #include <cstdint>
@@ -17,11 +18,13 @@ struct InfoOptions
 {
   std::filesystem::path scan;
   ReadOptions           reading;
+  ShapeEditOptions      edits;
 };
 
 struct LabelInfo
 {
   std::int64_t    label = 0;
+  std::int64_t    component = 0; ///< from 1 by size where components are split; 0: the whole label
   std::string     name;
   std::uint64_t   voxels = 0;
   double          volumeMm3 = 0;

@@ -33,12 +33,14 @@ ParseLambdas(std::string_view text);
 std::filesystem::path
 FileOutputPath(const std::filesystem::path & output, const std::vector<Lambda> & lambdas, std::size_t which);
 
-/** "<folder>/<scan>_label-<value>_medial.vtp", of several thresholds "..._medial_lambda-<tag>.vtp". */
+/** "<folder>/<scan>_label-<value>_medial.vtp", of several thresholds "..._medial_lambda-<tag>.vtp"; of a component (not
+ *  0) "..._label-<value>_component-<n>_medial...". */
 std::filesystem::path
 FolderOutputPath(const std::filesystem::path & folder,
                  const std::filesystem::path & scan,
                  std::int64_t                  label,
                  const std::vector<Lambda> &   lambdas,
-                 std::size_t                   which);
+                 std::size_t                   which,
+                 std::int64_t                  component = 0);
 
 } // namespace voxelcore

@@ -6,6 +6,7 @@
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/PhantomJob.h"
 #include "voxelcore/PruneJob.h"
+#include "voxelcore/ShapeEdits.h"
 #include "voxelcore/VerifyJob.h"
 
 #include <cstdint>
@@ -86,6 +87,8 @@ ThreadsFrom(const ParameterValues & values, CommandId command);
 /** Each throws UsageError, naming the option, for a value without sense. */
 ReadOptions
 ReadOptionsFrom(const ParameterValues & values, CommandId command);
+ShapeEditOptions
+ShapeEditsFrom(const ParameterValues & values, CommandId command);
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values);
 InfoOptions

@@ -1,0 +1,134 @@
+#include "ParametersJson.h"
+
+#include <cmath>
+#include <limits>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+/** JSON has no infinite numbers. */
+Json
+BoundJson(double bound)
+{
+  return std::isfinite(bound) ? Json(bound) : Json(bound > 0 ? "inf" : "-inf");
+}
+
+Json
+ThresholdJson(const std::pair<double, double> & threshold)
+{
+  return Json::array({ BoundJson(threshold.first), BoundJson(threshold.second) });
+}
+
+double
+ReadBound(const Json & json)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return !json.is_string() ? json.get<double>() : json.get<std::string>() == "inf" ? infinity : -infinity;
+}
+
+void
+AddEdits(Json & json, const ShapeEditOptions & edits)
+{
+  json["crop"] = nullptr;
+  if (edits.crop)
+  {
+    json["crop"] = Json::array();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      json["crop"].push_back({ edits.crop->first[axis], edits.crop->end[axis] });
+    }
+  }
+  json["fill_cavities"] = edits.fillCavities;
+  json["min_voxels"] = edits.minVoxels ? Json(*edits.minVoxels) : Json(nullptr);
+  json["largest"] = edits.largest ? Json(*edits.largest) : Json(nullptr);
+  json["split_components"] = edits.splitComponents;
+}
+
+template <typename T>
+void
+ReadOptional(const Json & json, std::optional<T> & value)
+{
+  if (!json.is_null())
+  {
+    value = json.get<T>();
+  }
+}
+
+ShapeEditOptions
+ReadEdits(const Json & json)
+{
+  ShapeEditOptions edits;
+  if (!json.at("crop").is_null())
+  {
+    edits.crop.emplace();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      json.at("crop").at(axis).at(0).get_to(edits.crop->first[axis]);
+      json.at("crop").at(axis).at(1).get_to(edits.crop->end[axis]);
+    }
+  }
+  json.at("fill_cavities").get_to(edits.fillCavities);
+  ReadOptional(json.at("min_voxels"), edits.minVoxels);
+  ReadOptional(json.at("largest"), edits.largest);
+  json.at("split_components").get_to(edits.splitComponents);
+  return edits;
+}
+
+} // namespace
+
+nlohmann::ordered_json
+ParametersJson(const ParameterRecord & parameters, bool inFile)
+{
+  Json json = Json::object();
+  json["labels"] = parameters.labels;
+  json["binary"] = parameters.binary;
+  json["threshold"] = parameters.threshold ? ThresholdJson(*parameters.threshold) : Json(nullptr);
+  json["volume"] = parameters.volume ? Json(*parameters.volume) : Json(nullptr);
+  json["spacing"] = parameters.spacing ? Json(*parameters.spacing) : Json(nullptr);
+  json["orthonormalize"] = parameters.orthonormalize;
+  json["nifti_form"] = parameters.niftiForm;
+  AddEdits(json, parameters.edits);
+  json["lambda"] = parameters.lambda;
+  json["triangles"] = parameters.model.triangles;
+  json["keep_edges"] = parameters.model.keepEdges;
+  if (!inFile)
+  {
+    json["engine"] = parameters.engine;
+    json["threads"] = parameters.threads;
+  }
+  json["lattice_weights"] = parameters.weights.weight;
+  json["lattice_unit_mm"] = parameters.weights.unit;
+  json["lattice_deviation"] = parameters.weights.deviation;
+  return json;
+}
+
+ParameterRecord
+ReadParameters(const nlohmann::ordered_json & json)
+{
+  ParameterRecord parameters;
+  json.at("labels").get_to(parameters.labels);
+  json.at("binary").get_to(parameters.binary);
+  if (!json.at("threshold").is_null())
+  {
+    parameters.threshold = { ReadBound(json.at("threshold").at(0)), ReadBound(json.at("threshold").at(1)) };
+  }
+  ReadOptional(json.at("volume"), parameters.volume);
+  ReadOptional(json.at("spacing"), parameters.spacing);
+  json.at("orthonormalize").get_to(parameters.orthonormalize);
+  json.at("nifti_form").get_to(parameters.niftiForm);
+  parameters.edits = ReadEdits(json);
+  json.at("lambda").get_to(parameters.lambda);
+  json.at("triangles").get_to(parameters.model.triangles);
+  json.at("keep_edges").get_to(parameters.model.keepEdges);
+  json.at("lattice_weights").get_to(parameters.weights.weight);
+  json.at("lattice_unit_mm").get_to(parameters.weights.unit);
+  json.at("lattice_deviation").get_to(parameters.weights.deviation);
+  return parameters;
+}
+
+} // namespace voxelcore
