@@ -82,15 +82,12 @@ ComputeWholeCore(VoxelShape               shape,
     record.boundaryVertices = points.size();
     outcome.seconds.shape += watch.Lap();
 
-    const DelaunayCells cells = ComputeDelaunayCells(shape,
-                                                     points,
-                                                     weights,
-                                                     engine,
-                                                     PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds));
+    DelaunayCells cells = ComputeDelaunayCells(
+      shape, points, weights, engine, PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds));
     outcome.seconds.delaunay += watch.Lap();
 
     ReportProgress(progress, "core", kDelaunayEnds);
-    core = BuildVoxelCore(shape, points, cells, weights);
+    core = BuildVoxelCore(shape, points, std::move(cells), weights);
   }
   const TopologyNumbers topology = ComputeComplexTopology(core.cells);
   RequireEqualTopology(record.shape, topology, "its core", labelText);
