@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace voxelcore
@@ -222,39 +223,6 @@ OpenOne(const std::filesystem::path & path, const DataSource & source, PixelType
   return stream;
 }
 
-} // namespace
-
-std::uint64_t
-LargestData(const DataSource & source, PixelType type)
-{
-  std::uint64_t bytes = 0;
-  for (const auto & file : source.files)
-  {
-    bytes += FileSize(file);
-  }
-  // A number as text takes two characters at least.
-  return bytes * (source.ascii ? PixelBytes(type) : LargestExpansion(source.packing));
-}
-
-std::unique_ptr<ByteStream>
-OpenData(const std::filesystem::path & headerPath, const DataSource & source, PixelType type, std::uint64_t bytes)
-{
-  if (source.files.size() == 1)
-  {
-    return OpenOne(source.files.front(), source, type, bytes);
-  }
-  const std::uint64_t each = bytes / source.files.size();
-  if (each == 0 || each * source.files.size() != bytes)
-  {
-    Refuse(headerPath,
-           Text("its ", source.files.size(), " data files cannot each hold an equal share of the voxels"),
-           "mend the list of files");
-  }
-  return OpenParts(source.files, each, [source, type, each](const std::filesystem::path & file) {
-    return OpenOne(file, source, type, each);
-  });
-}
-
 std::filesystem::path
 BesideHeader(const std::filesystem::path & headerPath, std::string_view name)
 {
@@ -262,6 +230,7 @@ BesideHeader(const std::filesystem::path & headerPath, std::string_view name)
   return file.is_absolute() ? file : headerPath.parent_path() / file;
 }
 
+/** The files that "name%03d.raw 1 20 1" stands for; nothing when the text is no such pattern. */
 std::optional<std::vector<std::filesystem::path>>
 FilesOfPattern(const std::filesystem::path & headerPath, std::string_view text)
 {
@@ -300,6 +269,65 @@ FilesOfPattern(const std::filesystem::path & headerPath, std::string_view text)
       digits.insert(0, width - digits.size(), zeros ? '0' : ' ');
     }
     files.push_back(BesideHeader(headerPath, Text(name.substr(0, percent), digits, name.substr(d + 1))));
+  }
+  return files;
+}
+
+} // namespace
+
+std::uint64_t
+LargestData(const DataSource & source, PixelType type)
+{
+  std::uint64_t bytes = 0;
+  for (const auto & file : source.files)
+  {
+    bytes += FileSize(file);
+  }
+  // A number as text takes two characters at least.
+  return bytes * (source.ascii ? PixelBytes(type) : LargestExpansion(source.packing));
+}
+
+std::unique_ptr<ByteStream>
+OpenData(const std::filesystem::path & headerPath, const DataSource & source, PixelType type, std::uint64_t bytes)
+{
+  if (source.files.size() == 1)
+  {
+    return OpenOne(source.files.front(), source, type, bytes);
+  }
+  const std::uint64_t each = bytes / source.files.size();
+  if (each == 0 || each * source.files.size() != bytes)
+  {
+    Refuse(headerPath,
+           Text("its ", source.files.size(), " data files cannot each hold an equal share of the voxels"),
+           "mend the list of files");
+  }
+  return OpenParts(source.files, each, [source, type, each](const std::filesystem::path & file) {
+    return OpenOne(file, source, type, each);
+  });
+}
+
+std::vector<std::filesystem::path>
+FilesNamed(const std::filesystem::path & headerPath, std::string_view text, const std::vector<std::string> & list)
+{
+  std::vector<std::filesystem::path> files;
+  if (LowerCase(text.substr(0, 4)) == "list" && (text.size() == 4 || text[4] == ' '))
+  {
+    for (const auto & file : list)
+    {
+      files.push_back(BesideHeader(headerPath, file));
+    }
+  }
+  else if (auto numbered = FilesOfPattern(headerPath, text))
+  {
+    files = std::move(*numbered);
+  }
+  else if (!text.empty())
+  {
+    files.push_back(BesideHeader(headerPath, text));
+  }
+  if (files.empty())
+  {
+    Refuse(headerPath, "it names no data file", "mend the header");
   }
   return files;
 }

@@ -3,7 +3,6 @@
 
 #include "ScanFile.h"
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,13 +29,9 @@ OpenData(const std::filesystem::path & headerPath, const DataSource & source, Pi
 std::uint64_t
 LargestData(const DataSource & source, PixelType type);
 
-/** The files that "name%03d.raw 1 20 1" stands for, as NRRD and MetaImage write it. Nothing when `words` is no such
- *  pattern. \throws InputError when it makes no sense. */
-std::optional<std::vector<std::filesystem::path>>
-FilesOfPattern(const std::filesystem::path & headerPath, std::string_view text);
-
-/** A name from a header, as a path: relative to the header's folder. */
-std::filesystem::path
-BesideHeader(const std::filesystem::path & headerPath, std::string_view name);
+/** The data files that a header names: one (relative to the header's folder), those of `list` when the text is LIST, or
+ *  those that "name%03d.raw 1 20 1" stands for. \throws InputError when it names none or makes no sense. */
+std::vector<std::filesystem::path>
+FilesNamed(const std::filesystem::path & headerPath, std::string_view text, const std::vector<std::string> & list);
 
 } // namespace voxelcore

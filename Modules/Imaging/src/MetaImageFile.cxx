@@ -119,21 +119,12 @@ TypeOf(const std::filesystem::path & path, const std::string & text)
 std::vector<double>
 Reals(const std::filesystem::path & path, const char * name, const std::string & text, std::size_t count)
 {
-  std::vector<double> values;
-  for (const auto word : Words(text))
-  {
-    const auto value = ParseReal(LowerCase(word));
-    if (!value)
-    {
-      break;
-    }
-    values.push_back(*value);
-  }
-  if (values.size() != count)
+  const auto values = ParseReals(text);
+  if (!values || values->size() != count)
   {
     Refuse(path, Text(name, " should have ", count, " numbers ('", Printable(text), "')"), "mend the header");
   }
-  return values;
+  return *values;
 }
 
 bool
@@ -204,24 +195,9 @@ FindData(const std::filesystem::path & path, const MetaHeader & header)
     source.files = { path };
     source.offset = header.end;
   }
-  else if (lower.starts_with("list"))
-  {
-    for (const auto & file : header.list)
-    {
-      source.files.push_back(BesideHeader(path, file));
-    }
-  }
-  else if (auto files = FilesOfPattern(path, name))
-  {
-    source.files = std::move(*files);
-  }
   else
   {
-    source.files = { BesideHeader(path, name) };
-  }
-  if (source.files.empty() || name.empty())
-  {
-    Refuse(path, "it names no data file", "mend the header");
+    source.files = FilesNamed(path, name, header.list);
   }
   if (const auto text = header.Field({ "headersize" }); !text.empty())
   {

@@ -104,6 +104,21 @@ LargestDistance(const Form & q, const Vector3 & spacing, const Form & s, const s
   return largest;
 }
 
+/** RAS -> LPS. */
+void
+SetFromRas(Form form, const Vector3 & spacing, const ReadOptions & options, ScanFile & scan)
+{
+  for (std::size_t c = 0; c < 2; ++c)
+  {
+    form.origin[c] = -form.origin[c];
+    for (Vector3 & axis : form.axes)
+    {
+      axis[c] = -axis[c];
+    }
+  }
+  SetGeometry(scan, form.axes, spacing, form.origin, options);
+}
+
 void
 UseSform(const Form & sform, const Vector3 & spacing, bool ownScales, const ReadOptions & options, ScanFile & scan)
 {
@@ -139,33 +154,7 @@ UseSform(const Form & sform, const Vector3 & spacing, bool ownScales, const Read
                                  ownScales ? "the sform" : "pixdim, as ITK does,",
                                  " is taken"));
   }
-  std::array<Vector3, 3> axes = sform.axes;
-  Vector3                origin = sform.origin;
-  for (std::size_t c = 0; c < 2; ++c)
-  {
-    origin[c] = -origin[c];
-    for (auto & axis : axes)
-    {
-      axis[c] = -axis[c];
-    }
-  }
-  SetGeometry(scan, axes, sides, origin, options);
-}
-
-void
-UseQform(const Form & qform, const Vector3 & spacing, const ReadOptions & options, ScanFile & scan)
-{
-  std::array<Vector3, 3> axes = qform.axes;
-  Vector3                origin = qform.origin;
-  for (std::size_t c = 0; c < 2; ++c)
-  {
-    origin[c] = -origin[c];
-    for (auto & axis : axes)
-    {
-      axis[c] = -axis[c];
-    }
-  }
-  SetGeometry(scan, axes, spacing, origin, options);
+  SetFromRas(sform, sides, options, scan);
 }
 
 } // namespace
@@ -195,7 +184,7 @@ PlaceNifti(const NiftiPlacement & p, const ReadOptions & options, ScanFile & sca
       Refuse(scan.path, Text("it has no ", options.niftiForm), "leave out --nifti-form");
     }
     scan.notes.push_back(Text("the ", options.niftiForm, " was asked for"));
-    wantSform ? UseSform(sform, spacing, true, options, scan) : UseQform(qform, spacing, options, scan);
+    wantSform ? UseSform(sform, spacing, true, options, scan) : SetFromRas(qform, spacing, options, scan);
     return;
   }
   if (!hasQform && !hasSform)
@@ -227,7 +216,7 @@ PlaceNifti(const NiftiPlacement & p, const ReadOptions & options, ScanFile & sca
                                    " is taken, as ITK and 3D Slicer do (--nifti-form sform|qform overrides)"));
     }
   }
-  useSform ? UseSform(sform, spacing, false, options, scan) : UseQform(qform, spacing, options, scan);
+  useSform ? UseSform(sform, spacing, false, options, scan) : SetFromRas(qform, spacing, options, scan);
 }
 
 } // namespace voxelcore

@@ -201,24 +201,9 @@ FindData(const std::filesystem::path & path, const NrrdHeader & header)
     source.files = { path };
     source.offset = header.dataOffset;
   }
-  else if (LowerCase(Words(name).front()) == "list")
-  {
-    for (const auto & file : header.dataFiles)
-    {
-      source.files.push_back(BesideHeader(path, file));
-    }
-  }
-  else if (auto files = FilesOfPattern(path, name))
-  {
-    source.files = std::move(*files);
-  }
   else
   {
-    source.files = { BesideHeader(path, name) };
-  }
-  if (source.files.empty())
-  {
-    Refuse(path, "it lists no data files", "mend the header");
+    source.files = FilesNamed(path, name, header.dataFiles);
   }
   return source;
 }

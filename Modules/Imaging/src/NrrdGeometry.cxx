@@ -73,23 +73,14 @@ UnitsInMillimetres(std::string_view                   text,
 std::vector<double>
 Reals(const std::filesystem::path & path, std::string_view field, std::string_view text, std::size_t count)
 {
-  std::vector<double> values;
-  for (const auto word : Words(text))
-  {
-    const auto value = ParseReal(LowerCase(word));
-    if (!value)
-    {
-      Refuse(path, Text("the header field '", field, "' makes no sense ('", Printable(text), "')"), "mend the header");
-    }
-    values.push_back(*value);
-  }
-  if (values.size() != count)
+  const auto values = ParseReals(text);
+  if (!values || values->size() != count)
   {
     Refuse(path,
-           Text("the header field '", field, "' has ", values.size(), " numbers, not ", count),
+           Text("the header field '", field, "' should have ", count, " numbers ('", Printable(text), "')"),
            "mend the header");
   }
-  return values;
+  return *values;
 }
 
 /** Without space directions: `spacings` along the axes, or the extent `axis mins` to `axis maxs`. */

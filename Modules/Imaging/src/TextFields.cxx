@@ -89,6 +89,22 @@ ParseReal(std::string_view word)
   return value;
 }
 
+std::optional<std::vector<double>>
+ParseReals(std::string_view text)
+{
+  std::vector<double> values;
+  for (const auto word : Words(text))
+  {
+    const auto value = ParseReal(LowerCase(word));
+    if (!value)
+    {
+      return std::nullopt;
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
 std::string
 Printable(std::string_view text, std::size_t longest)
 {

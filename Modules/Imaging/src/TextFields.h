@@ -40,6 +40,10 @@ ParseInteger(std::string_view word);
 std::optional<double>
 ParseReal(std::string_view word);
 
+/** All words as numbers; nothing when one of them is none. */
+std::optional<std::vector<double>>
+ParseReals(std::string_view text);
+
 /** Safe to print on one line and not too long: text taken from a file may hold anything. */
 std::string
 Printable(std::string_view text, std::size_t longest = 60);

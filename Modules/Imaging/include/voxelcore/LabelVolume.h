@@ -28,27 +28,40 @@ struct LabelVolume
 {
   ImageGeometry            geometry;
   std::string              format;    ///< "NRRD", "NIfTI-1", "NIfTI-2", "MetaImage", "TIFF", "TIFF slices"
-  std::string              pixelType; ///< as stored: "uint8", "int16", "float32", ...
+  std::string              pixelType; ///< as stored: "uint8", "int16", "float32", ...; "uint1" for packed bits
   std::vector<std::string> notes;     ///< what was assumed or converted, one sentence each; for the report
   std::vector<std::string> warnings;  ///< those of the notes a user must see
   std::vector<LabelShape>  labels;
 };
 
-/** How to read. */
+/** How to read. A combination without sense is a UsageError. */
 struct ReadOptions
 {
   std::string                              labels = "all";         ///< "all", or values or names separated by commas
-  bool                                     binary = false;         ///< all non-zero values are one shape, label 1
+  bool                                     binary = false;         ///< all values chosen are one shape, label 1
   std::optional<std::pair<double, double>> threshold;              ///< grey scan: lo <= value <= hi is one shape
   std::optional<Vector3>                   spacing;                ///< mm, instead of the file's
   bool                                     orthonormalize = false; ///< accept the nearest orthonormal direction
   std::string                              niftiForm = "auto";     ///< "auto" (ITK's rule), "sform" or "qform"
-  std::optional<std::int64_t>              volume;                 ///< which volume of a 4-D file
+  std::optional<std::int64_t>              volume;                 ///< which volume of a 4-D file, counted from 0
 };
 
-/** Reads the labels of a scan in one pass over its voxels: .nrrd .nhdr .seg.nrrd .nii .nii.gz .hdr/.img .mha .mhd
- *  .tif .tiff (multi-page) or a folder or pattern of TIFF slices in natural order.
- *  Values are whole numbers or the scan is refused; nothing is ever rounded, clipped or reinterpreted.
+/** Reads the labels of a scan in one pass over its voxels:
+ *  - NRRD (.nrrd, .nhdr; raw, gzip, bzip2, ascii, hex; data detached, listed or by pattern) with the names and
+ *    overlapping layers of .seg.nrrd;
+ *  - NIfTI-1 and -2 (.nii, .nii.gz, .hdr/.img, .hdr.gz/.img.gz);
+ *  - MetaImage (.mha, .mhd; raw, compressed, text);
+ *  - TIFF (.tif, .tiff; many pages, BigTIFF, tiles, packed bits, any compression of libtiff);
+ *  - slices, one TIFF each: a folder, or a pattern in the last part of the path, where `*` stands for anything and
+ *    `%d`, `%04d` or a run of `#` for a number. They are taken in natural order (2 before 10) and must be numbered
+ *    without a gap.
+ *
+ *  Values are whole numbers or the scan is refused; nothing is ever rounded, clipped or reinterpreted (a NIfTI slope
+ *  that is itself rounded, such as 1/255, is allowed for). Names come from the file, else from
+ *  "<scan without .gz>.txt" or "<scan without extension>.txt" beside it.
+ *  Memory: a slab of a few MB, and the shapes.
+ *
+ *  Progress is reported as stage "read". May be called from several threads at once.
  *  \throws InputError with one line when the file is missing, damaged or unfit, when a label asked for does not occur,
  *  or when there is nothing but background; Cancelled when the callback says so. */
 LabelVolume
@@ -57,8 +70,11 @@ ReadLabelVolume(const std::filesystem::path & path,
                 const ProgressCallback &      progress = {});
 
 /** Writes labels as a volume: .nrrd .nii .nii.gz .mha .mhd .tif by the extension of `path`; the smallest unsigned type
- *  that holds the values. Compressed where the format can (`compress`).
- *  \throws OutputError when it cannot be written, UsageError for an unknown extension or an unfit value. */
+ *  that holds the values. Packed when `compress` and the format can (.nii never, .nii.gz always). NIfTI keeps the
+ *  geometry in single precision, TIFF not at all. The file is read back before it takes its name, so a full disk leaves
+ *  nothing.
+ *  \throws OutputError when it cannot be written; UsageError for an unknown extension, a value below 1, labels that
+ *  overlap or reach beyond the volume. */
 void
 WriteLabelVolume(const std::filesystem::path &   path,
                  const ImageGeometry &           geometry,
