@@ -131,9 +131,15 @@ TEST(Threads, DoNotChangeTheCells)
   for (std::uint64_t seed = 23000; seed < 23040; ++seed)
   {
     RandomVolume volume = testing::MakeRandomVolume(seed, 3, 24);
+    // Enough boundary vertices for every loop to run in parallel, on smooth and on ragged shapes.
     if (seed == 23000)
     {
-      volume.shape = testing::Ellipsoid(100); // enough elements for every loop to run in parallel
+      volume.shape = testing::Ellipsoid(170);
+    }
+    else if (seed <= 23004)
+    {
+      testing::Random random(seed);
+      volume.shape = testing::RandomShape(random, { 48, 40, 40 }, 0.2 * static_cast<double>(seed - 23000));
     }
     SCOPED_TRACE(volume.Describe());
     const auto           points = BoundaryVertices(volume.shape);

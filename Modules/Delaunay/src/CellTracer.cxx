@@ -75,7 +75,9 @@ CellTracer::Continue(Tracing tracing, const ProgressCallback & progress)
   for (const std::uint32_t facet : tracing.open)
   {
     const LatticePoint & p = m_Input.points[m_Result.FacetPoints(facet)[0]];
-    Defer(m_Input.grid.At(p.x, p.y, p.z), { facet, unknown });
+    // A boundary square has no near cell to begin at, but its smallest sphere is empty.
+    const double from = m_Result.facetCells[facet][0] == kOpen ? 0.0 : unknown;
+    Defer(m_Input.grid.At(p.x, p.y, p.z), { facet, from });
   }
   ProcessPending(progress);
   return Finish();
