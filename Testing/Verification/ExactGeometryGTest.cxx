@@ -131,6 +131,32 @@ TEST(NearestSets, ANearlyNearestPointIsLeftOutExactly)
   EXPECT_FALSE(sets.IsKnown(1));
 }
 
+TEST(NearestSets, ASphereWithAPointInsideIsNoneEvenWhereItsCentreIsNearer)
+{
+  // As before; the position is the centre (t, t, t), t = -1/47998, of the sphere through the fifth point instead of
+  // (-r, 0, 0), which lies inside that sphere.
+  const std::int32_t        r = 20000;
+  std::vector<LatticePoint> points{ { r, 0, 0 }, { -r, 0, 0 }, { 0, r, 0 }, { 0, 0, r }, { 12000, -16000, 1 } };
+  const BoundaryTree        tree(points, SpacingWeights{});
+  const double              t = -1.0 / 47998;
+  const NearestSets         sets =
+    FindNearestSets(tree, SpacingWeights{}, std::vector<std::array<double, 3>>{ { t, t, t } }, 5e-5);
+  ASSERT_EQ(sets.Of(0).size(), 4U);
+  for (const std::uint32_t place : sets.Of(0))
+  {
+    EXPECT_NE(tree.Points()[place].x, 12000);
+  }
+}
+
+TEST(NearestSets, APositionBesideTheCentreIsNone)
+{
+  const BoundaryTree                       tree(UnitCube(), SpacingWeights{});
+  const std::vector<std::array<double, 3>> positions{ { 0.5009, 0.5, 0.5 }, { 0.5015, 0.5, 0.5 } };
+  const NearestSets                        sets = FindNearestSets(tree, SpacingWeights{}, positions, 1e-3);
+  EXPECT_EQ(sets.Of(0).size(), 8U);
+  EXPECT_FALSE(sets.IsKnown(1));
+}
+
 TEST(SmallestBall, KnownBalls)
 {
   using Points = std::vector<std::array<double, 3>>;

@@ -271,9 +271,14 @@ TEST(VerificationFailures, AnEdgePairLeftByPruning)
   VerificationCase subject = MakeCase(SolidBox({ 4, 4, 1 }), { 1, 1, 1 });
   subject.threshold = 10;
   EXPECT_EQ(Failures(subject), Names{ "pruning" });
-  // One that has a measure of the threshold stays.
-  subject.threshold = subject.core.faceLambda[0];
-  EXPECT_EQ(Failures(subject), Names{});
+  // What has a measure of just the threshold stays: a face, or an edge of a face below it.
+  for (const double measure : { subject.core.faceLambda[0], subject.core.edgeLambda[0] })
+  {
+    subject.threshold = measure;
+    EXPECT_EQ(Failures(subject), Names{});
+    subject.threshold = measure * (1 + 1e-9);
+    EXPECT_EQ(Failures(subject).empty(), measure == subject.core.faceLambda[0]);
+  }
 }
 
 TEST(VerificationFailures, AMissingComponent)
