@@ -71,9 +71,13 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
   Install(SIGPIPE, SIG_IGN, 0);
   Install(SIGXFSZ, SIG_IGN, 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  // A stack that ran over has no room for the handler.
+  static char   room[65536];
+  const stack_t stack{ room, 0, sizeof(room) };
+  sigaltstack(&stack, nullptr);
   for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT })
   {
-    Install(signal, OnCrash, static_cast<int>(SA_RESETHAND));
+    Install(signal, OnCrash, static_cast<int>(SA_RESETHAND) | SA_ONSTACK);
   }
 #endif
 }
