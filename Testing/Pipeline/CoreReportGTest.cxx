@@ -2,6 +2,7 @@
 #include "voxelcore/Error.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace voxelcore
@@ -157,6 +158,34 @@ TEST(CoreReport, ProvenanceSurvivesReadingToTheLastBit)
   ASSERT_TRUE(read.parameters.threshold.has_value());
   EXPECT_EQ(read.parameters.threshold->first, -100.5);
   EXPECT_FALSE(read.parameters.spacing.has_value());
+}
+
+TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
+{
+  CoreReport report = MakeReport();
+  report.parameters.threshold = { { -std::numeric_limits<double>::infinity(),
+                                    std::numeric_limits<double>::infinity() } };
+  report.parameters.edits = { CropRange{ { 0, 1, 2 }, { 10, 11, 12 } }, true, 50, 3, true };
+  for (LabelRecord & label : report.labels)
+  {
+    label.label = 7;
+    label.component = &label - report.labels.data() + 1;
+    label.edits = EditRecord{ 1, 2, 3, 4, 5, 6 };
+  }
+  const std::string text = ProvenanceJson(report, { 0, 1 }, 1);
+  const CoreReport  read = ParseProvenance(text, "a.vtp");
+  EXPECT_EQ(ProvenanceJson(read, { 0, 1 }, 0), text);
+  EXPECT_EQ(read.parameters.threshold, report.parameters.threshold);
+  EXPECT_EQ(read.parameters.labels, (std::vector<std::int64_t>{ 7 })) << "a label of two components is one label";
+  EXPECT_EQ(read.labels[1].component, 2);
+  ASSERT_TRUE(read.parameters.edits.crop && read.labels[1].edits);
+  EXPECT_EQ(read.parameters.edits.crop->end, (std::array<std::int32_t, 3>{ 10, 11, 12 }));
+  EXPECT_EQ(read.labels[1].edits->componentsRemoved, 5U);
+  const Json json = Json::parse(text);
+  EXPECT_EQ(json["parameters"]["crop"], (Json{ { 0, 10 }, { 1, 11 }, { 2, 12 } }));
+  EXPECT_EQ(json["labels"][0]["edits"]["voxels_added"], 3);
+  // The second component by itself, as in a file of its own.
+  EXPECT_EQ(Json::parse(ProvenanceJson(report, { 1 }, 1))["parameters"]["labels"], Json{ 7 });
 }
 
 TEST(CoreReport, DamagedProvenanceIsRefused)

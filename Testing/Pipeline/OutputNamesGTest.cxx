@@ -57,6 +57,7 @@ TEST(OutputNames, SeveralLambdasGetTheirTextIntoTheName)
   EXPECT_EQ(FileOutputPath("d/OUT.vtp", two, 1), "d/OUT_lambda-2.5pct.vtp");
   EXPECT_EQ(FolderOutputPath("d", "aal.nii.gz", 4, one, 0), "d/aal_label-4_medial.vtp");
   EXPECT_EQ(FolderOutputPath("d/", "aal.nii.gz", 4, two, 1), "d/aal_label-4_medial_lambda-2.5pct.vtp");
+  EXPECT_EQ(FolderOutputPath("d", "aal.nii.gz", 4, two, 1, 12), "d/aal_label-4_component-12_medial_lambda-2.5pct.vtp");
 }
 
 TEST(OutputNames, ASlashOrAnExistingFolderMeansAFolder)

@@ -94,7 +94,12 @@ TEST(Parameters, ValuesWithoutSenseAreUsageErrorsThatNameTheOption)
     { "threshold", "5:1" },    { "threshold", "a:b" },   { "threshold", "1:2:3" }, { "threshold", "nan:2" },
     { "nifti-form", "rform" }, { "volume", "-1" },       { "engine", "cgal" },     { "engine", "auto|tetgen" },
     { "labels", "" },          { "lambda", "3apples" },  { "lambda", "-2mm" },     { "output", "" },
-    { "report", "" },
+    { "report", "" },          { "min-voxels", "0" },    { "min-voxels", "-3" },   { "min-voxels", "1.5" },
+    { "largest", "0" },        { "largest", "all" },     { "crop", "" },           { "crop", "0:5" },
+    { "crop", "0:5,0:5" },     { "crop", "5:5,:,:" },    { "crop", "5:4,:,:" },    { "crop", "-1:4,:,:" },
+    { "crop", "0:0,:,:" },     { "crop", ":0,:,:" },     { "crop", ":,:,:,:" },    { "crop", "0-5,:,:" },
+    { "crop", "0:5:2,:,:" },   { "crop", "a:b,:,:" },    { "crop", "0:5,,0:5" },   { "crop", "0:99999999999,:,:" },
+    { "crop", "0:1.5,:,:" },   { "crop", " 0:1,:,:" },
   };
   for (const auto & [name, value] : wrong)
   {
@@ -108,6 +113,34 @@ TEST(Parameters, ValuesWithoutSenseAreUsageErrorsThatNameTheOption)
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
       EXPECT_NE(std::string(error.what()).find(name == "lambda" ? value : name), std::string::npos) << error.what();
     }
+  }
+}
+
+TEST(Parameters, ACropIsReadAsRangesWithOpenEnds)
+{
+  const auto crop = ParseCrop("3:10,:7,:");
+  EXPECT_EQ(crop.first, (std::array<std::int32_t, 3>{ 3, 0, 0 }));
+  EXPECT_EQ(crop.end, (std::array<std::int32_t, 3>{ 10, 7, 0 })) << "0: to the scan's end";
+  EXPECT_EQ(ParseCrop("5:,0:1,2147483646:2147483647").first, (std::array<std::int32_t, 3>{ 5, 0, 2147483646 }));
+}
+
+TEST(Parameters, EditsArriveWhereTheyBelong)
+{
+  EXPECT_FALSE(CoreOptionsFrom(CoreValues({})).edits.AreAsked());
+  const ParameterValues  given{ { "crop", "1:2,3:4,5:6" },
+                               { "min-voxels", "20" },
+                               { "largest", "2" },
+                               { "fill-cavities", "true" },
+                               { "split-components", "true" } };
+  const ShapeEditOptions core = CoreOptionsFrom(CoreValues(given)).edits;
+  const ShapeEditOptions info = InfoOptionsFrom(CoreValues(given)).edits;
+  for (const ShapeEditOptions & edits : { core, info })
+  {
+    ASSERT_TRUE(edits.crop && edits.minVoxels && edits.largest);
+    EXPECT_EQ(edits.crop->end, (std::array<std::int32_t, 3>{ 2, 4, 6 }));
+    EXPECT_EQ(*edits.minVoxels, 20U);
+    EXPECT_EQ(*edits.largest, 2U);
+    EXPECT_TRUE(edits.fillCavities && edits.splitComponents);
   }
 }
 

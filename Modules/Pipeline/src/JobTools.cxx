@@ -89,6 +89,7 @@ PruneAndCertify(ModelPart                   whole,
       });
     PrunedCore & result = results[i];
     result.part.label = whole.label;
+    result.part.component = whole.component;
     result.part.core = neededAgain ? source : std::move(source);
     const TopologyNumbers topology = unchanged ? wholeRecord.topology : ComputeComplexTopology(result.part.core.cells);
     RequireEqualTopology(shape, topology, "its core pruned at " + lambdas[i].text, labelText);

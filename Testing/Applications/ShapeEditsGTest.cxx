@@ -1,0 +1,290 @@
+// --crop, --fill-cavities, --min-voxels, --largest, --split-components as a user gives them.
+
+#include "Pipeline/TemporaryFolder.h"
+#include "Program.h"
+#include "Scans.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using Json = nlohmann::json;
+using Names = std::set<std::string>;
+using Texts = std::vector<std::string>;
+
+/** 30 x 12 x 12 voxels of 1 x 1 x 2 mm. Label 1: a hollow block (voxels 1 to 8 each way, a cavity of 4^3 with a voxel
+ *  floating in it), a block of 5 x 5 x 5, and two single voxels. Label 2: two blocks of 3 x 3 x 3 each. */
+TestScan
+Pieces()
+{
+  TestScan scan({ 30, 12, 12 });
+  scan.spacing = { 1, 1, 2 };
+  scan.Fill({ 1, 1, 1 }, { 8, 8, 8 }, 1);
+  scan.Fill({ 3, 3, 3 }, { 6, 6, 6 }, 0);
+  scan.At(4, 4, 4) = 1;
+  scan.Fill({ 11, 2, 2 }, { 15, 6, 6 }, 1);
+  scan.At(11, 10, 1) = 1;
+  scan.At(13, 10, 1) = 1;
+  scan.Fill({ 20, 2, 2 }, { 22, 4, 4 }, 2);
+  scan.Fill({ 25, 2, 2 }, { 27, 4, 4 }, 2);
+  return scan;
+}
+
+constexpr int kHollow = 512 - 64; // voxels of the hollow block's wall
+
+class ShapeEdits : public ::testing::Test
+{
+protected:
+  ShapeEdits()
+  {
+    WriteNrrd(m_Folder / "a.nrrd", Pieces());
+  }
+
+  static std::string
+  Run(const Texts & arguments)
+  {
+    const ProgramResult result = RunProgram(arguments);
+    EXPECT_EQ(result.code, 0) << result.error;
+    EXPECT_EQ(result.error, "");
+    return result.output;
+  }
+
+  Texts
+  With(Texts arguments, const Texts & edits) const
+  {
+    arguments.insert(arguments.begin() + 1, m_Folder / "a.nrrd");
+    arguments.insert(arguments.end(), edits.begin(), edits.end());
+    return arguments;
+  }
+
+  /** `core` with these edits: its report. The file must pass `verify`. */
+  Json
+  Core(const Texts & edits)
+  {
+    Run(With({ "core", "-o", m_Folder / "m.vtp", "--report", m_Folder / "m.json", "--force" }, edits));
+    ExpectVerified("m.vtp");
+    return Json::parse(ReadAll(m_Folder / "m.json"));
+  }
+
+  void
+  ExpectVerified(const std::string & model)
+  {
+    const ProgramResult result = RunProgram({ "verify", m_Folder / "a.nrrd", m_Folder / model });
+    EXPECT_EQ(result.code, 0) << result.output << result.error;
+    EXPECT_EQ(result.error, "");
+    EXPECT_NE(result.output.find("all passed"), std::string::npos) << result.output;
+  }
+
+  Json
+  Info(const Texts & edits)
+  {
+    return Json::parse(Run(With({ "info", "--json" }, edits)));
+  }
+
+  TemporaryFolder m_Folder;
+};
+
+/** Label 0 of a report as voxels, b0, b1, b2. */
+std::vector<int>
+First(const Json & report)
+{
+  const Json & label = report["labels"][0];
+  const Json & betti = label.contains("shape") ? label["shape"]["betti"] : label["betti"];
+  return { label["voxels"], betti[0], betti[1], betti[2] };
+}
+
+using Numbers = std::vector<int>;
+
+TEST_F(ShapeEdits, WithoutThemNothingIsChangedOrSaid)
+{
+  const Json report = Core({});
+  EXPECT_EQ(First(report), (Numbers{ kHollow + 1 + 125 + 2, 5, 0, 1 }));
+  EXPECT_FALSE(report["labels"][0].contains("edits"));
+  EXPECT_FALSE(report["labels"][0].contains("component"));
+  EXPECT_TRUE(report["parameters"]["crop"].is_null());
+}
+
+TEST_F(ShapeEdits, CropCutsByVoxelsLikeASlice)
+{
+  // x 4 to 12 of the hollow block and of the other one; y and z whole.
+  const Json report = Core({ "--crop", "4:13,:,0:12" });
+  EXPECT_EQ(report["parameters"]["crop"], (Json{ { 4, 13 }, { 0, 12 }, { 0, 12 } }));
+  ASSERT_EQ(report["labels"].size(), 1U) << "label 2 lies outside";
+  EXPECT_EQ(report["parameters"]["labels"], Json{ 1 });
+  // Of the hollow block 5 of 8 slices, 3 of them with a hole of 4 x 4; cut open it is a pot. One of the single voxels.
+  EXPECT_EQ(First(report), (Numbers{ 5 * 64 - 3 * 16 + 1 + 2 * 25 + 1, 4, 0, 0 }));
+  EXPECT_EQ(report["labels"][0]["edits"]["voxels_cropped"], kHollow + 1 + 125 + 2 - (320 - 48 + 1 + 50 + 1));
+  EXPECT_EQ(report["labels"][0]["bounding_box"]["lower"], (Json{ 4, 1, 1 }));
+  // Places do not move: the same scan with everything else set to 0 gives the same core.
+  TestScan rest = Pieces();
+  for (std::size_t at = 0; at < rest.voxels.size(); ++at)
+  {
+    const std::size_t x = at % 30;
+    rest.voxels[at] = x >= 4 && x < 13 ? rest.voxels[at] : std::uint8_t{ 0 };
+  }
+  WriteNrrd(m_Folder / "rest.nrrd", rest);
+  Run({ "core", m_Folder / "a.nrrd", "--crop", "4:13,:,:", "-o", m_Folder / "c.obj" });
+  Run({ "core", m_Folder / "rest.nrrd", "-o", m_Folder / "r.obj" });
+  EXPECT_EQ(ReadAll(m_Folder / "c.obj"), ReadAll(m_Folder / "r.obj"));
+}
+
+TEST_F(ShapeEdits, FillingJoinsWhatFloatsInside)
+{
+  const Json report = Core({ "--fill-cavities" });
+  EXPECT_EQ(First(report), (Numbers{ 512 + 125 + 2, 4, 0, 0 }));
+  const Json & edits = report["labels"][0]["edits"];
+  EXPECT_EQ(edits["cavities_filled"], 1);
+  EXPECT_EQ(edits["voxels_added"], 63);
+  EXPECT_EQ(edits["components_joined"], 1);
+  EXPECT_EQ(report["labels"][1]["edits"]["cavities_filled"], 0);
+}
+
+TEST_F(ShapeEdits, DustIsRemovedAndTheLargestKept)
+{
+  const Json clean = Core({ "--min-voxels", "126" });
+  EXPECT_EQ(First(clean), (Numbers{ kHollow, 1, 0, 1 }));
+  EXPECT_EQ(clean["labels"][0]["edits"]["components_removed"], 4);
+  EXPECT_EQ(clean["labels"][0]["edits"]["voxels_removed"], 128);
+  ASSERT_EQ(clean["labels"].size(), 1U) << "label 2 has no component that large";
+  EXPECT_EQ(First(Core({ "--min-voxels", "125" })), (Numbers{ kHollow + 125, 2, 0, 1 }));
+  const Json largest = Core({ "--largest", "1" });
+  ASSERT_EQ(largest["labels"].size(), 2U);
+  EXPECT_EQ(First(largest), (Numbers{ kHollow, 1, 0, 1 }));
+  // Equally large: the one that comes first.
+  EXPECT_EQ(largest["labels"][1]["bounding_box"]["lower"], (Json{ 20, 2, 2 }));
+}
+
+TEST_F(ShapeEdits, FillingComesBeforeCounting)
+{
+  // The wall alone has 448 voxels, the solid block 512.
+  EXPECT_EQ(First(Core({ "--min-voxels", "500", "--fill-cavities" })), (Numbers{ 512, 1, 0, 0 }));
+}
+
+TEST_F(ShapeEdits, ComponentsAreEntriesOfTheirOwnInOneFile)
+{
+  const Json report = Core({ "--split-components", "--min-voxels", "2", "--lambda", "1mm" });
+  ASSERT_EQ(report["labels"].size(), 4U);
+  const std::vector<std::pair<std::string, int>> expected{ { "label-1#1", kHollow },
+                                                           { "label-1#2", 125 },
+                                                           { "label-2#1", 27 },
+                                                           { "label-2#2", 27 } };
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const Json & label = report["labels"][i];
+    EXPECT_EQ(label["label"], i / 2 + 1);
+    EXPECT_EQ(label["component"], i % 2 + 1);
+    EXPECT_EQ(label["name"], expected[i].first);
+    EXPECT_EQ(label["voxels"], expected[i].second);
+    EXPECT_EQ(label["shape"]["betti"][0], 1);
+  }
+  EXPECT_EQ(report["labels"][3]["bounding_box"]["lower"], (Json{ 25, 2, 2 }));
+  EXPECT_EQ(report["parameters"]["labels"], (Json{ 1, 2 }));
+  EXPECT_TRUE(report["parameters"]["split_components"]);
+}
+
+TEST_F(ShapeEdits, AFolderReceivesAFilePerComponent)
+{
+  Run(With({ "core", "-o", (m_Folder / "out").string() + "/", "--lambda", "0,1mm" },
+           { "--split-components", "--largest", "2" }));
+  Names names;
+  for (const auto & entry : std::filesystem::directory_iterator(m_Folder / "out"))
+  {
+    names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names,
+            (Names{ "a_label-1_component-1_medial_lambda-0.vtp",
+                    "a_label-1_component-1_medial_lambda-1mm.vtp",
+                    "a_label-1_component-2_medial_lambda-0.vtp",
+                    "a_label-1_component-2_medial_lambda-1mm.vtp",
+                    "a_label-2_component-1_medial_lambda-0.vtp",
+                    "a_label-2_component-1_medial_lambda-1mm.vtp",
+                    "a_label-2_component-2_medial_lambda-0.vtp",
+                    "a_label-2_component-2_medial_lambda-1mm.vtp" }));
+  for (const std::string & name : names)
+  {
+    ExpectVerified("out/" + name);
+  }
+}
+
+TEST_F(ShapeEdits, PruningAComponentFileGivesTheBytesOfCore)
+{
+  const Texts edits{ "--crop", "0:29,:,:", "--split-components", "--fill-cavities", "--min-voxels", "2" };
+  Run(With({ "core", "--lambda", "0", "--keep-edges", "-o", m_Folder / "whole.vtp" }, edits));
+  Run({ "prune", m_Folder / "whole.vtp", "--lambda", "1.2mm", "-o", m_Folder / "pruned.vtp" });
+  Run(With({ "core", "--lambda", "1.2mm", "-o", m_Folder / "direct.vtp" }, edits));
+  EXPECT_TRUE(ReadAll(m_Folder / "pruned.vtp") == ReadAll(m_Folder / "direct.vtp"));
+}
+
+TEST_F(ShapeEdits, VerifySeesThatTheScanIsAnother)
+{
+  Run(With({ "core", "--largest", "1", "--labels", "1", "-o", m_Folder / "m.vtp" }, {}));
+  TestScan other = Pieces();
+  other.At(4, 4, 4) = 0; // a voxel that was removed: the scan is another, what is checked is not
+  WriteNrrd(m_Folder / "b.nrrd", other);
+  EXPECT_EQ(RunProgram({ "verify", m_Folder / "b.nrrd", m_Folder / "m.vtp" }).code, 0);
+  other.At(4, 4, 3) = 1; // now the wall is thicker there
+  WriteNrrd(m_Folder / "b.nrrd", other);
+  EXPECT_EQ(RunProgram({ "verify", m_Folder / "b.nrrd", m_Folder / "m.vtp" }).code, 4);
+}
+
+TEST_F(ShapeEdits, InfoAppliesThemToo)
+{
+  EXPECT_EQ(First(Info({ "--fill-cavities", "--largest", "1" })), (Numbers{ 512, 1, 0, 0 }));
+  const Json split = Info({ "--split-components", "--crop", ":,:,1:9" });
+  ASSERT_EQ(split["labels"].size(), 7U);
+  EXPECT_EQ(split["labels"][4]["component"], 5);
+  EXPECT_EQ(split["labels"][4]["name"], "label-1#5");
+  const std::string text = Run(With({ "info" }, { "--min-voxels", "100" }));
+  EXPECT_NE(text.find("5 components removed, with 57 voxels"), std::string::npos) << text;
+  EXPECT_NE(text.find("nothing is left of label 2 (label-2)"), std::string::npos) << text;
+}
+
+TEST_F(ShapeEdits, CoreSaysWhatWasChanged)
+{
+  const std::string text = Run(With({ "core", "-o", m_Folder / "m.vtp" }, { "--fill-cavities", "--largest", "1" }));
+  EXPECT_NE(text.find("1 cavity filled with 63 voxels, 1 component in them joined"), std::string::npos) << text;
+  EXPECT_NE(text.find("4 components removed, with 154 voxels"), std::string::npos) << text;
+}
+
+TEST_F(ShapeEdits, WrongUseAndUnfitInputAreToldApart)
+{
+  const auto refuse = [&](const Texts & edits, int code, const Texts & words) {
+    SCOPED_TRACE(edits[1]);
+    for (const char * command : { "core", "info" })
+    {
+      Texts arguments = With({ command }, edits);
+      if (std::string(command) == "core")
+      {
+        arguments.insert(arguments.end(), { "-o", m_Folder / "no.vtp" });
+      }
+      ExpectRefusal(RunProgram(arguments), code, words);
+    }
+  };
+  for (const char * crop : { "0:5", "5:5,:,:", "9:5,:,:", "a:b,:,:", "0:5,0:5,-3:5" })
+  {
+    refuse({ "--crop", crop }, 2, { "--crop", crop });
+  }
+  refuse({ "--crop=-1:5,:,:", "--quiet" }, 2, { "--crop", "-1:5" });
+  refuse({ "--min-voxels", "0" }, 2, { "--min-voxels" });
+  refuse({ "--largest", "0" }, 2, { "--largest" });
+  refuse({ "--largest", "some" }, 2, { "--largest" });
+  refuse({ "--crop", "0:31,:,:" }, 3, { "a.nrrd", "--crop", "30 x 12 x 12" });
+  refuse({ "--crop", ":,12:,:" }, 3, { "a.nrrd", "--crop :,12:,: " });
+  refuse({ "--crop", "0:1,:,:" }, 3, { "a.nrrd", "nothing is left" });
+  refuse({ "--min-voxels", "1000" }, 3, { "a.nrrd", "nothing is left" });
+  refuse({ "--min-voxels", "100", "--labels", "1,2" }, 3, { "a.nrrd", "label 2" });
+  EXPECT_EQ(m_Folder.Names(), (Names{ "a.nrrd" }));
+}
+
+TEST_F(ShapeEdits, AnOpenThresholdIsVerified)
+{
+  Core({ "--threshold", "2:inf" });
+  Core({ "--threshold=-inf:1", "--crop", "9:19,:,:", "--split-components", "--largest", "1" });
+}
+
+} // namespace
+} // namespace voxelcore::testing
