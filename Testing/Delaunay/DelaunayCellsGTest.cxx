@@ -1,5 +1,7 @@
 #include "voxelcore/DelaunayCells.h"
 
+#include "EngineFixture.h"
+
 #include "VoxelCoreTesting/Shapes.h"
 
 #include "voxelcore/BoundaryVertices.h"
@@ -264,23 +266,10 @@ TEST(DelaunayEngines, TheBestOneIsThere)
 }
 
 // Whatever engine makes them, cells must have these properties, and they leave no freedom.
-class DelaunayCellsOf : public ::testing::TestWithParam<Engine>
-{
-protected:
-  void
-  SetUp() override
-  {
-    if (!HasEngine(GetParam()))
-    {
-      GTEST_SKIP() << "this build lacks the engine";
-    }
-  }
-};
+class DelaunayCellsOf : public testing::WithEngine
+{};
 
-INSTANTIATE_TEST_SUITE_P(Engines,
-                         DelaunayCellsOf,
-                         ::testing::Values(Engine::Lattice, Engine::TetGen),
-                         [](const auto & engine) { return engine.param == Engine::Lattice ? "Lattice" : "TetGen"; });
+INSTANTIATE_TEST_SUITE_P(Engines, DelaunayCellsOf, testing::AllEngines(), testing::EngineName);
 
 TEST_P(DelaunayCellsOf, OfNothingAreNone)
 {
