@@ -20,8 +20,9 @@ struct LiveElements
 
 /** A simple pair is an element e and an element f one dimension higher such that e bounds f and nothing else.
  *  Pairs of which both measures lie below the threshold are removed, always the smallest of all pairs simple at that
- *  moment: by measure of e, then of f, then dimension of e, then index of e. So afterwards no such pair is left, and
- *  collapsing to one threshold and on to a greater one equals collapsing to the greater.
+ *  moment: by measure of e, then of f, then dimension of e, then index of e. So afterwards no such pair is left. Where
+ *  measures do not fall along incidences (face <= edge <= vertex, as the radius measure's), collapsing to one threshold
+ *  and on to a greater one equals collapsing to the greater.
  *  The complex and the measures must outlive the object. */
 class SimplePairCollapse
 {
