@@ -161,7 +161,9 @@ ReadMutations(std::size_t countOfEach)
       }
       ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << original.name << " change " << i;
     }
+#ifndef __SANITIZE_ADDRESS__ // which holds back freed memory
     EXPECT_LT(PeakMegabytes() - before, 400) << original.name;
+#endif
   }
   std::cout << read << " read, " << refused << " refused\n";
   EXPECT_GT(read, 0U);
