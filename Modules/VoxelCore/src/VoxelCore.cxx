@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 namespace voxelcore
 {
@@ -302,15 +303,57 @@ WriteFaces(Sides sides, const std::vector<LatticePoint> & points, const SpacingW
   }
 }
 
+// The points by x, with the cells renumbered to match. Cells and facets are in the order of their centres' x: with the
+// points in that order too, what is worked on together lies together in memory.
+std::vector<LatticePoint>
+SortAlongX(const std::vector<LatticePoint> & points, DelaunayCells & cells)
+{
+  if (points.empty())
+  {
+    return {};
+  }
+  const auto byX = [](const LatticePoint & a, const LatticePoint & b) { return a.x < b.x; };
+  const auto [low, high] = std::minmax_element(points.begin(), points.end(), byX);
+  const std::int32_t         first = low->x;
+  std::vector<std::uint32_t> next(static_cast<std::size_t>(high->x - first) + 2, 0);
+  for (const LatticePoint & p : points)
+  {
+    ++next[static_cast<std::size_t>(p.x - first) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::uint32_t> place(points.size());
+  std::vector<LatticePoint>  sorted(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    place[i] = next[static_cast<std::size_t>(points[i].x - first)]++;
+    sorted[place[i]] = points[i];
+  }
+  const auto corners = static_cast<std::ptrdiff_t>(cells.facetPoints.size());
+#pragma omp parallel for schedule(static) if (corners > 10000)
+  for (std::ptrdiff_t i = 0; i < corners; ++i)
+  {
+    cells.facetPoints[static_cast<std::size_t>(i)] = place[cells.facetPoints[static_cast<std::size_t>(i)]];
+  }
+  for (auto & tetrahedron : cells.tetrahedra)
+  {
+    for (std::uint32_t & corner : tetrahedron)
+    {
+      corner = place[corner];
+    }
+  }
+  return sorted;
+}
+
 } // namespace
 
 MedialComplex
 BuildVoxelCore(const VoxelShape &                shape,
-               const std::vector<LatticePoint> & points,
+               const std::vector<LatticePoint> & scanPoints,
                DelaunayCells                     cells,
                const SpacingWeights &            weights)
 {
-  MedialComplex core;
+  const std::vector<LatticePoint> points = SortAlongX(scanPoints, cells);
+  MedialComplex                   core;
   core.cells.vertexCount = cells.CellCount();
   std::size_t edgeCount = 0;
   {
