@@ -1,6 +1,8 @@
 #include "BowyerWatson.h"
 
+#include "EdgeTable.h"
 #include "InsertionOrder.h"
+#include "PointPredicates.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/Predicates.h"
@@ -23,70 +25,15 @@ struct Tetrahedron
   std::array<std::uint32_t, 4> neighbour; // opposite to each vertex
 };
 
-// Directed edges of the cavity's rim faces, to link the new tetrahedra: open addressing, emptied by a stamp.
-class EdgeTable
-{
-public:
-  void
-  Start(std::size_t edges)
-  {
-    std::size_t size = m_Slots.size();
-    while (size < 4 * edges)
-    {
-      size *= 2;
-    }
-    if (size != m_Slots.size())
-    {
-      m_Slots.assign(size, Slot{});
-      m_Stamp = 0;
-    }
-    ++m_Stamp;
-  }
-
-  // Stores (a, b) -> value, or hands out what was stored for (b, a).
-  std::uint32_t
-  Meet(std::uint32_t a, std::uint32_t b, std::uint32_t value)
-  {
-    const std::uint32_t low = std::min(a, b);
-    const std::uint32_t high = std::max(a, b);
-    const std::size_t   mask = m_Slots.size() - 1;
-    for (std::size_t at = (low * 0x9E3779B1U ^ high * 0x85EBCA77U) & mask;; at = (at + 1) & mask)
-    {
-      Slot & slot = m_Slots[at];
-      if (slot.stamp != m_Stamp)
-      {
-        slot = { m_Stamp, low, high, value };
-        return none;
-      }
-      if (slot.low == low && slot.high == high)
-      {
-        return slot.value;
-      }
-    }
-  }
-
-private:
-  struct Slot
-  {
-    std::uint32_t stamp = 0, low = 0, high = 0, value = 0;
-  };
-  std::vector<Slot> m_Slots = std::vector<Slot>(256);
-  std::uint32_t     m_Stamp = 0;
-};
-
 // TNumber holds the in-sphere value 72 w^2 N^5 (see Predicates.h).
 template <typename TNumber>
 class Builder
 {
 public:
   Builder(std::vector<LatticePoint> points, const SpacingWeights & weights)
-    : m_Points(std::move(points))
+    : m_Points(std::move(points), weights)
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      m_Squared[axis] = weights.weight[axis] * weights.weight[axis];
-    }
-    m_Tetrahedra.reserve(8 * m_Points.size());
+    m_Tetrahedra.reserve(8 * m_Points.Size());
   }
 
   void
@@ -94,11 +41,11 @@ public:
   {
     const auto first = FirstTetrahedron();
     MakeFirst(first);
-    for (std::uint32_t p = 0; p < m_Points.size(); ++p)
+    for (std::uint32_t p = 0; p < m_Points.Size(); ++p)
     {
       if ((p & 0x3FFFU) == 0)
       {
-        ReportProgress(progress, "delaunay", static_cast<double>(p) / static_cast<double>(m_Points.size()));
+        ReportProgress(progress, "delaunay", static_cast<double>(p) / static_cast<double>(m_Points.Size()));
       }
       if (std::find(first.begin(), first.end(), p) == first.end())
       {
@@ -140,70 +87,27 @@ public:
 private:
   static constexpr std::uint32_t dead = 0xFFFFFFFFU;
 
-  TNumber
-  Orient(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const
-  {
-    const LatticePoint & o = m_Points[d];
-    const std::int64_t   ax = m_Points[a].x - o.x, ay = m_Points[a].y - o.y, az = m_Points[a].z - o.z;
-    const std::int64_t   bx = m_Points[b].x - o.x, by = m_Points[b].y - o.y, bz = m_Points[b].z - o.z;
-    const std::int64_t   cx = m_Points[c].x - o.x, cy = m_Points[c].y - o.y, cz = m_Points[c].z - o.z;
-    // det(b - a, c - a, d - a) = -det(a - d, b - d, c - d)
-    return -(static_cast<TNumber>(ax) * (by * cz - bz * cy) + static_cast<TNumber>(ay) * (bz * cx - bx * cz) +
-             static_cast<TNumber>(az) * (bx * cy - by * cx));
-  }
-
-  // Positive when p lies strictly inside the sphere of the positive tetrahedron.
-  TNumber
-  InSphere(const std::array<std::uint32_t, 4> & t, const LatticePoint & p) const
-  {
-    std::int64_t x[4];
-    std::int64_t y[4];
-    std::int64_t z[4];
-    TNumber      s[4];
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const LatticePoint & q = m_Points[t[i]];
-      x[i] = q.x - p.x;
-      y[i] = q.y - p.y;
-      z[i] = q.z - p.z;
-      s[i] = static_cast<TNumber>(m_Squared[0]) * (x[i] * x[i]) + static_cast<TNumber>(m_Squared[1]) * (y[i] * y[i]) +
-             static_cast<TNumber>(m_Squared[2]) * (z[i] * z[i]);
-    }
-    // Laplace along the pairs (0,1) and (2,3).
-    const std::int64_t xy01 = x[0] * y[1] - x[1] * y[0], xy23 = x[2] * y[3] - x[3] * y[2];
-    const std::int64_t xy02 = x[0] * y[2] - x[2] * y[0], xy13 = x[1] * y[3] - x[3] * y[1];
-    const std::int64_t xy03 = x[0] * y[3] - x[3] * y[0], xy12 = x[1] * y[2] - x[2] * y[1];
-    const auto         minor = [&](int a, int b, int c, std::int64_t bc, std::int64_t ac, std::int64_t ab) {
-      return static_cast<TNumber>(z[a]) * bc - static_cast<TNumber>(z[b]) * ac + static_cast<TNumber>(z[c]) * ab;
-    };
-    const TNumber m0 = minor(1, 2, 3, xy23, xy13, xy12);
-    const TNumber m1 = minor(0, 2, 3, xy23, xy03, xy02);
-    const TNumber m2 = minor(0, 1, 3, xy13, xy03, xy01);
-    const TNumber m3 = minor(0, 1, 2, xy12, xy02, xy01);
-    return s[0] * m0 - s[1] * m1 + s[2] * m2 - s[3] * m3;
-  }
-
   bool
   Conflicts(std::uint32_t t, std::uint32_t p) const
   {
     const Tetrahedron & own = m_Tetrahedra[t];
     if (own.vertex[3] != infinite)
     {
-      return InSphere(own.vertex, m_Points[p]) > 0;
+      return m_Points.InSphere(own.vertex, p) > 0;
     }
-    const TNumber side = Orient(own.vertex[0], own.vertex[1], own.vertex[2], p);
+    const TNumber side = m_Points.Orient(own.vertex[0], own.vertex[1], own.vertex[2], p);
     if (side != 0)
     {
       return side > 0;
     }
     // In the plane of the hull facet: strictly inside its circle, that is inside the sphere of the tetrahedron there.
-    return InSphere(m_Tetrahedra[own.neighbour[3]].vertex, m_Points[p]) > 0;
+    return m_Points.InSphere(m_Tetrahedra[own.neighbour[3]].vertex, p) > 0;
   }
 
   std::array<std::uint32_t, 4>
   FirstTetrahedron() const
   {
-    const auto count = static_cast<std::uint32_t>(m_Points.size());
+    const auto count = static_cast<std::uint32_t>(m_Points.Size());
     for (std::uint32_t c = 2; c < count; ++c)
     {
       const LatticePoint & o = m_Points[0];
@@ -217,7 +121,7 @@ private:
       }
       for (std::uint32_t d = 2; d < count; ++d)
       {
-        const TNumber side = Orient(0, 1, c, d);
+        const TNumber side = m_Points.Orient(0, 1, c, d);
         if (side != 0)
         {
           return side > 0 ? std::array<std::uint32_t, 4>{ 0, 1, c, d } : std::array<std::uint32_t, 4>{ 1, 0, c, d };
@@ -266,7 +170,7 @@ private:
       for (std::size_t i = 0; i < 4; ++i)
       {
         const auto & f = tetrahedronFaces[i];
-        if (own.neighbour[i] != from && Orient(own.vertex[f[0]], own.vertex[f[1]], own.vertex[f[2]], p) > 0)
+        if (own.neighbour[i] != from && m_Points.Orient(own.vertex[f[0]], own.vertex[f[1]], own.vertex[f[2]], p) > 0)
         {
           next = own.neighbour[i];
           break;
@@ -429,17 +333,16 @@ private:
     std::uint32_t inner, face, outer;
   };
 
-  std::vector<LatticePoint>   m_Points;
-  std::array<std::int64_t, 3> m_Squared{};
-  std::vector<Tetrahedron>    m_Tetrahedra;
-  std::vector<std::uint32_t>  m_Mark; // stamp of the insertion that removed it, or dead
-  std::vector<std::uint32_t>  m_Free;
-  std::uint32_t               m_Last = 0;
-  std::vector<std::uint32_t>  m_Cavity;
-  std::vector<RimFace>        m_Rim;
-  std::vector<std::uint32_t>  m_Places;
-  std::vector<Tetrahedron>    m_New;
-  EdgeTable                   m_Edges;
+  PointPredicates<TNumber>   m_Points;
+  std::vector<Tetrahedron>   m_Tetrahedra;
+  std::vector<std::uint32_t> m_Mark; // stamp of the insertion that removed it, or dead
+  std::vector<std::uint32_t> m_Free;
+  std::uint32_t              m_Last = 0;
+  std::vector<std::uint32_t> m_Cavity;
+  std::vector<RimFace>       m_Rim;
+  std::vector<std::uint32_t> m_Places;
+  std::vector<Tetrahedron>   m_New;
+  EdgeTable                  m_Edges;
 };
 
 template <typename TNumber>
