@@ -82,8 +82,11 @@ ComputeWholeCore(VoxelShape               shape,
     record.boundaryVertices = points.size();
     outcome.seconds.shape += watch.Lap();
 
-    DelaunayCells cells = ComputeDelaunayCells(
-      shape, points, weights, engine, PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds));
+    DelaunayCells cells = ComputeDelaunayCells(shape,
+                                               points,
+                                               weights,
+                                               engine,
+                                               PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds));
     outcome.seconds.delaunay += watch.Lap();
 
     ReportProgress(progress, "core", kDelaunayEnds);
