@@ -112,9 +112,9 @@ ComputeWholeCore(VoxelShape               shape,
 }
 
 InputRecord
-DescribeInput(const CoreOptions & options, const LabelVolume & volume, std::string digest)
+DescribeInput(const CoreOptions & options, const LabelVolume & volume)
 {
-  return { options.scan.string(), std::move(digest), volume.format, volume.geometry, volume.notes };
+  return { options.scan.string(), {}, volume.format, volume.geometry, volume.notes };
 }
 
 ParameterRecord
@@ -327,7 +327,8 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   const bool        toFolder = IsFolderOutput(options.output);
   CheckTargets(options, toFolder, transaction);
 
-  // The digest runs beside the reading; a scan that cannot be read is reported by the reader.
+  // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
+  // reported by the reader.
   auto        digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
   LabelVolume volume =
     ReadLabelVolume(options.scan, options.reading, PartOfProgress(context.progress, "reading", 0, kReadEnds));
@@ -339,7 +340,7 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   auto &               labels = edited.labels;
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
   report.command = options.command;
-  report.input = DescribeInput(options, volume, digest.get());
+  report.input = DescribeInput(options, volume);
   report.parameters = DescribeParameters(options, edited, weights);
   result.warnings = volume.warnings;
   result.notes = edited.notes;
@@ -379,6 +380,10 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
     report.seconds.delaunay += outcome.seconds.delaunay;
     report.seconds.core += outcome.seconds.core;
     report.seconds.prune += outcome.seconds.prune;
+    if (digest.valid())
+    {
+      report.input.sha256 = digest.get();
+    }
     files.Add(std::move(outcome));
   }
   ReportProgress(context.progress, "writing", kLabelsEnd);
