@@ -33,7 +33,9 @@ ComputeDelaunayCells(const VoxelShape &                shape,
     throw Error("this build has no TetGen engine; configure it with -DVOXELCORE_TETGEN=ON, or use another engine");
   }
   const auto & size = shape.Box().size;
-  if (!ExactRangeAllows(*std::max_element(size.begin(), size.end()), weights))
+  // Sides beyond 2^20 would still pass the in-sphere bound where weights are small, but not the coordinates' own.
+  const std::int32_t longest = *std::max_element(size.begin(), size.end());
+  if (longest > (1 << 20) || !ExactRangeAllows(longest, weights))
   {
     throw InputError(
       "the shape is too large for exact arithmetic at this spacing; crop it, or give a simpler --spacing");
