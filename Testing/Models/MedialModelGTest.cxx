@@ -299,10 +299,6 @@ TEST(MedialModel, TrianglesAreFansAndFormACoreOfTheirOwn)
 
 TEST(MedialModel, ARealCoreReadsBackEveryBitAndKeepsItsTopologyInTriangles)
 {
-  if (!HasEngine(Engine::Auto))
-  {
-    GTEST_SKIP() << "this build has no Delaunay engine";
-  }
   // A block 9 x 8 x 6 with a hole through it and a cavity.
   VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 9, 8, 6 } });
   for (std::int32_t z = 0; z < 6; ++z)

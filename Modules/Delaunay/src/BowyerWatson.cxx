@@ -8,7 +8,6 @@
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace voxelcore
 {
@@ -376,10 +375,8 @@ BowyerWatson(const std::vector<LatticePoint> & points,
   }
   const std::int64_t extent =
     std::max({ std::int64_t{ high.x } - low.x, std::int64_t{ high.y } - low.y, std::int64_t{ high.z } - low.z });
-  const std::int64_t greatest = *std::max_element(weights.weight.begin(), weights.weight.end());
-  const double       bits =
-    std::log2(72.0) + 2.0 * std::log2(static_cast<double>(greatest)) + 5.0 * std::log2(static_cast<double>(extent));
-  return bits < 62.99 ? Run<std::int64_t>(points, weights, progress) : Run<__int128>(points, weights, progress);
+  return InSphereBits(extent, weights) < 62.99 ? Run<std::int64_t>(points, weights, progress)
+                                               : Run<__int128>(points, weights, progress);
 }
 
 } // namespace voxelcore

@@ -102,6 +102,13 @@ private:
   {
     return m_Result.facetCells[facet][0] == kOpen || m_Result.facetCells[facet][1] == kOpen;
   }
+  /** A boundary vertex in window coordinates. */
+  LatticePoint
+  Local(std::uint32_t index) const
+  {
+    const LatticePoint & p = m_Input.points[index];
+    return { p.x - m_Window.origin.x, p.y - m_Window.origin.y, p.z - m_Window.origin.z };
+  }
   /** The brick of a centre in window coordinates; none when it is so near to a side of the range that rounding could
    *  make two tracers disagree. */
   std::size_t

@@ -1,7 +1,5 @@
 #include "CellTracer.h"
 
-#include <algorithm>
-
 namespace voxelcore
 {
 
@@ -29,10 +27,8 @@ JoinTracings(std::vector<Tracing> parts)
     }
     to.facetPoints.insert(to.facetPoints.end(), from.facetPoints.begin(), from.facetPoints.end());
     from = {};
-    for (const auto * list : { &part.open, &part.deep, &part.unmet })
-    {
-      const std::uint32_t kind = list == &part.deep ? 1U : 0U;
-      for (const std::uint32_t facet : *list)
+    const auto join = [&](const std::vector<std::uint32_t> & facets, std::vector<std::uint32_t> & joinedFacets) {
+      for (const std::uint32_t facet : facets)
       {
         const std::uint32_t own = facet + facetShift;
         const FacetKey      key = KeyOf(to.FacetPoints(own));
@@ -40,48 +36,35 @@ JoinTracings(std::vector<Tracing> parts)
         if (met == FacetTable::none)
         {
           table.Insert(key, own);
-          if (kind == 1U)
-          {
-            joined.deep.push_back(own);
-          }
+          joinedFacets.push_back(own);
           continue;
         }
-        // The two halves become one; the other is left without a cell, to be dropped with its like at the end.
-        auto &              a = to.facetCells[met];
-        auto &              b = to.facetCells[own];
-        const std::uint32_t cell = b[0] < kOpen ? b[0] : b[1];
-        if (a[0] == kOpen)
+        // The two halves become one; the other is left without a cell, to be dropped with its like at the end. A
+        // boundary square may have met the half that knows its cell, or the one that does not.
+        auto &              kept = to.facetCells[met];
+        auto &              other = to.facetCells[own];
+        const std::uint32_t cell = other[0];
+        if (kept[0] == kOpen)
         {
-          a[0] = cell < kOpen ? cell : kOpen;
+          kept[0] = cell;
         }
-        else if (a[1] == kOpen)
+        else if (kept[1] == kOpen)
         {
-          a[1] = cell;
+          kept[1] = cell;
         }
-        b = { kOpen, kOpen };
+        other = { kOpen, kOpen };
       }
-    }
+    };
+    join(part.open, joined.open);
+    join(part.deep, joined.deep);
+    join(part.unmet, joined.unmet);
   }
-  std::vector<std::uint8_t> isDeep(joined.cells.FacetCount(), 0);
-  for (const std::uint32_t facet : joined.deep)
-  {
-    isDeep[facet] = 1;
-  }
-  table.ForEach([&](std::uint32_t facet) {
-    const auto & sides = joined.cells.facetCells[facet];
-    if (!isDeep[facet] && (sides[0] == kOpen || sides[1] == kOpen))
-    {
-      joined.open.push_back(facet);
-    }
-    else if (!isDeep[facet])
-    {
-      joined.unmet.push_back(facet);
-    }
-  });
-  std::erase_if(joined.deep, [&](std::uint32_t facet) {
+  const auto isComplete = [&](std::uint32_t facet) {
     const auto & sides = joined.cells.facetCells[facet];
     return sides[0] != kOpen && sides[1] != kOpen;
-  });
+  };
+  std::erase_if(joined.open, isComplete);
+  std::erase_if(joined.deep, isComplete);
   return joined;
 }
 

@@ -136,16 +136,12 @@ void
 CellTracer::TraceFacet(Pending pending)
 {
   const auto polygon = m_Result.FacetPoints(pending.facet);
-  const auto local = [&](std::uint32_t index) {
-    const LatticePoint & p = m_Input.points[index];
-    return LatticePoint{ p.x - m_Window.origin.x, p.y - m_Window.origin.y, p.z - m_Window.origin.z };
-  };
   // The polygon runs counter-clockwise seen from outside its first cell; look to that side, or inwards from a square.
   const std::uint32_t   near = m_Result.facetCells[pending.facet][0];
   const bool            inwards = near == kOpen;
-  const Pencil<TNumber> pencil(local(polygon[inwards ? 2 : 0]),
-                               local(polygon[1]),
-                               local(polygon[inwards ? 0 : 2]),
+  const Pencil<TNumber> pencil(Local(polygon[inwards ? 2 : 0]),
+                               Local(polygon[1]),
+                               Local(polygon[inwards ? 0 : 2]),
                                m_Input.weights);
   const auto &          weights = m_Input.weights;
 
@@ -154,7 +150,7 @@ CellTracer::TraceFacet(Pending pending)
     // The near cell's own sphere is where the search begins: any of its points behind the facet gives it.
     for (const std::uint32_t corner : m_Result.tetrahedra[near])
     {
-      const LatticePoint q = local(corner);
+      const LatticePoint q = Local(corner);
       const std::int64_t height = pencil.Height(q);
       if (height != 0)
       {
@@ -239,8 +235,7 @@ CellTracer::CreateCell(std::span<const std::uint32_t> facet)
   m_Points.clear();
   for (const std::uint32_t index : facet)
   {
-    const LatticePoint & p = m_Input.points[index];
-    m_Points.push_back({ p.x - m_Window.origin.x, p.y - m_Window.origin.y, p.z - m_Window.origin.z });
+    m_Points.push_back(Local(index));
   }
   m_Points.insert(m_Points.end(), m_Apexes.begin(), m_Apexes.end());
   std::sort(m_Points.begin(), m_Points.end(), [](const LatticePoint & a, const LatticePoint & b) {

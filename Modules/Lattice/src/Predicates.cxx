@@ -117,13 +117,18 @@ CentreFraction(const CircumSphere & sphere, std::size_t axis, const SpacingWeigh
 
 } // namespace
 
+double
+InSphereBits(std::int64_t extent, const SpacingWeights & weights)
+{
+  const auto greatest = *std::max_element(weights.weight.begin(), weights.weight.end());
+  return std::log2(72.0) + 2.0 * std::log2(static_cast<double>(greatest)) +
+         5.0 * std::log2(static_cast<double>(extent));
+}
+
 bool
 ExactRangeAllows(std::int64_t extent, const SpacingWeights & weights)
 {
-  const auto   greatest = *std::max_element(weights.weight.begin(), weights.weight.end());
-  const double bits =
-    std::log2(72.0) + 2.0 * std::log2(static_cast<double>(greatest)) + 5.0 * std::log2(static_cast<double>(extent));
-  return extent <= 1 || bits < 126.99;
+  return extent <= 1 || InSphereBits(extent, weights) < 126.99;
 }
 
 Int128

@@ -17,6 +17,10 @@
 namespace voxelcore
 {
 
+/** Bits of the in-sphere bound 72 w^2 N^5 for point sets that extend over `extent` lattice steps. */
+double
+InSphereBits(std::int64_t extent, const SpacingWeights & weights);
+
 /** Whether point sets that extend over `extent` lattice steps stay in the exact range: 72 w^2 N^5 < 2^127. */
 bool
 ExactRangeAllows(std::int64_t extent, const SpacingWeights & weights);
