@@ -1,0 +1,384 @@
+#include "HaloRegion.h"
+
+#include "NearestVertex.h"
+
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/ShapeOperations.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+using Place = std::array<std::int32_t, 3>;
+
+// Voxels, or corners of them, lower <= x < upper; relative to the shape's box.
+struct Range
+{
+  Place lower{};
+  Place upper{};
+};
+
+// A small box of voxels with an upper bound of the distance from places in it to the nearest boundary vertex.
+struct Reach
+{
+  Range  box;
+  Int128 fourSquared = 0;
+};
+
+// The greatest whole number whose square is not above `value`, for 0 <= value < 2^100.
+std::int64_t
+FloorOfRoot(Int128 value)
+{
+  auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(value)));
+  while (Int128{ root } * root > value)
+  {
+    --root;
+  }
+  while (Int128{ root + 1 } * (root + 1) <= value)
+  {
+    ++root;
+  }
+  return root;
+}
+
+class RegionMaker
+{
+public:
+  RegionMaker(const VoxelShape & shape, const SpacingWeights & weights, const Range & block)
+    : m_Shape(shape)
+    , m_Weights(weights)
+    , m_Nearest(shape, weights)
+    , m_Block(block)
+  {}
+
+  // Finds how far balls can reach out of the block.
+  void
+  Measure(const ProgressCallback & progress)
+  {
+    m_Around = m_Block;
+    m_Progress = &progress;
+    Divide(m_Block, {});
+    for (const Reach & reach : m_Reaches)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const auto [low, high] = Halo(reach, axis);
+        m_Around.lower[axis] = std::min(m_Around.lower[axis], low);
+        m_Around.upper[axis] = std::max(m_Around.upper[axis], high);
+      }
+    }
+  }
+
+  // The shape in the block and in what its balls can reach.
+  VoxelShape
+  Restrict() const
+  {
+    Range box = m_Around;
+    box.lower[0] &= ~63; // so that rows are copied word by word
+    VoxelBox voxels;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      voxels.lower[axis] = m_Shape.Box().lower[axis] + box.lower[axis];
+      voxels.size[axis] = box.upper[axis] - box.lower[axis];
+    }
+    VoxelShape part(voxels);
+    for (std::int32_t z = m_Block.lower[2]; z < m_Block.upper[2]; ++z)
+    {
+      for (std::int32_t y = m_Block.lower[1]; y < m_Block.upper[1]; ++y)
+      {
+        Mark(part.Row(y - box.lower[1], z - box.lower[2]),
+             m_Block.lower[0] - box.lower[0],
+             m_Block.upper[0] - box.lower[0]);
+      }
+    }
+    for (const Reach & reach : m_Reaches)
+    {
+      MarkHalo(reach, box, part);
+    }
+    for (std::int32_t z = box.lower[2]; z < box.upper[2]; ++z)
+    {
+      for (std::int32_t y = box.lower[1]; y < box.upper[1]; ++y)
+      {
+        const auto from = m_Shape.Row(y, z).subspan(static_cast<std::size_t>(box.lower[0]) / 64);
+        const auto to = part.Row(y - box.lower[1], z - box.lower[2]);
+        std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::bit_and());
+      }
+    }
+    return part;
+  }
+
+private:
+  // Bounds the box as a whole, then halves it where a closer bound may cut less out of the surroundings.
+  void
+  Divide(const Range & box, const NearestVertex::Answer & near)
+  {
+    if (!HoldsVoxels(box))
+    {
+      return;
+    }
+    if ((++m_Divided & 0xFFFU) == 0)
+    {
+      ReportProgress(*m_Progress, "halo", 0.0);
+    }
+    Place middle{}; // doubled
+    Place vertex = near.vertex;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      middle[axis] = box.lower[axis] + box.upper[axis];
+    }
+    const NearestVertex::Answer nearest =
+      m_Nearest.Find(middle, { vertex, near.squared < 0 ? Int128{ -1 } : m_Nearest.Squared(middle, vertex) });
+    // The corner of the box farthest from that vertex is at least as far as any place in the box is from its nearest.
+    Reach       reach{ box, 0 };
+    std::size_t longest = 0;
+    Int128      side = 0; // squared
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::int64_t square = m_Weights.weight[axis] * m_Weights.weight[axis];
+      const std::int64_t length = box.upper[axis] - box.lower[axis];
+      const std::int64_t d = std::abs(std::int64_t{ nearest.vertex[axis] } - middle[axis]) + length;
+      reach.fourSquared += Int128{ d * d } * square;
+      if (length > 1 && Int128{ length * length } * square > side)
+      {
+        side = Int128{ length * length } * square;
+        longest = axis;
+      }
+    }
+    if (StaysInBlock(reach))
+    {
+      return;
+    }
+    // Boxes of a quarter of the radius at most: smaller ones gain little and cost more.
+    if (64 * side <= reach.fourSquared)
+    {
+      m_Reaches.push_back(reach);
+      return;
+    }
+    const std::int32_t half = box.lower[longest] + (box.upper[longest] - box.lower[longest]) / 2;
+    Range              first = box;
+    Range              second = box;
+    first.upper[longest] = half;
+    second.lower[longest] = half;
+    Divide(first, nearest);
+    Divide(second, nearest);
+  }
+
+  bool
+  HoldsVoxels(const Range & box) const
+  {
+    for (std::int32_t z = box.lower[2]; z < box.upper[2]; ++z)
+    {
+      for (std::int32_t y = box.lower[1]; y < box.upper[1]; ++y)
+      {
+        const auto row = m_Shape.Row(y, z);
+        for (std::int32_t word = box.lower[0] >> 6; word << 6 < box.upper[0]; ++word)
+        {
+          if ((row[static_cast<std::size_t>(word)] & BoundaryBits::Between(box.lower[0], box.upper[0], word)) != 0)
+          {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  // The voxels, along an axis, around lattice points that balls centred in the box can reach.
+  std::pair<std::int32_t, std::int32_t>
+  Halo(const Reach & reach, std::size_t axis) const
+  {
+    const std::int64_t steps = FloorOfRoot(reach.fourSquared / 4) / m_Weights.weight[axis];
+    const std::int64_t end = m_Shape.Box().size[axis];
+    return { static_cast<std::int32_t>(std::max<std::int64_t>(reach.box.lower[axis] - steps - 1, 0)),
+             static_cast<std::int32_t>(std::min<std::int64_t>(reach.box.upper[axis] + steps + 1, end)) };
+  }
+
+  bool
+  StaysInBlock(const Reach & reach) const
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto [low, high] = Halo(reach, axis);
+      if (low < m_Block.lower[axis] || high > m_Block.upper[axis])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void
+  MarkHalo(const Reach & reach, const Range & box, VoxelShape & part) const
+  {
+    const auto & w = m_Weights.weight;
+    const auto [lowZ, highZ] = Halo(reach, 2);
+    const auto [lowY, highY] = Halo(reach, 1);
+    // Steps from the box to the nearer of the two rows of corners on a voxel's sides.
+    const auto stepsTo = [&](std::int32_t voxel, std::size_t axis) -> std::int64_t {
+      return std::max({ reach.box.lower[axis] - (voxel + 1), voxel - reach.box.upper[axis], 0 });
+    };
+    for (std::int32_t z = lowZ; z < highZ; ++z)
+    {
+      const std::int64_t dz = w[2] * stepsTo(z, 2);
+      for (std::int32_t y = lowY; y < highY; ++y)
+      {
+        const std::int64_t dy = w[1] * stepsTo(y, 1);
+        const Int128       rest = reach.fourSquared / 4 - Int128{ dy } * dy - Int128{ dz } * dz;
+        if (rest < 0)
+        {
+          continue;
+        }
+        const std::int64_t steps = FloorOfRoot(rest) / w[0];
+        const auto         low = std::max<std::int64_t>(reach.box.lower[0] - steps - 1, box.lower[0]);
+        const auto         high = std::min<std::int64_t>(reach.box.upper[0] + steps + 1, box.upper[0]);
+        Mark(part.Row(y - box.lower[1], z - box.lower[2]),
+             static_cast<std::int32_t>(low) - box.lower[0],
+             static_cast<std::int32_t>(high) - box.lower[0]);
+      }
+    }
+  }
+
+  static void
+  Mark(std::span<std::uint64_t> row, std::int32_t begin, std::int32_t end)
+  {
+    for (std::int32_t word = begin >> 6; word << 6 < end; ++word)
+    {
+      row[static_cast<std::size_t>(word)] |= BoundaryBits::Between(begin, end, word);
+    }
+  }
+
+  const VoxelShape &       m_Shape;
+  const SpacingWeights &   m_Weights;
+  NearestVertex            m_Nearest;
+  Range                    m_Block;  // voxels
+  Range                    m_Around; // voxels of the block and of all halos
+  std::vector<Reach>       m_Reaches;
+  std::size_t              m_Divided = 0;
+  const ProgressCallback * m_Progress = nullptr;
+};
+
+// Whether the shape has voxels in the range, given in voxel indices of the scan.
+bool
+Meets(const VoxelShape & shape, const Range & range)
+{
+  const VoxelBox & box = shape.Box();
+  Range            common;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    common.lower[axis] = std::max(range.lower[axis] - box.lower[axis], 0);
+    common.upper[axis] = std::min(range.upper[axis] - box.lower[axis], box.size[axis]);
+  }
+  for (std::int32_t z = common.lower[2]; z < common.upper[2]; ++z)
+  {
+    for (std::int32_t y = common.lower[1]; y < common.upper[1]; ++y)
+    {
+      const auto row = shape.Row(y, z);
+      for (std::int32_t word = common.lower[0] >> 6; word << 6 < common.upper[0]; ++word)
+      {
+        if ((row[static_cast<std::size_t>(word)] & BoundaryBits::Between(common.lower[0], common.upper[0], word)) != 0)
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+// Puts the voxels of `part` into `shape`, whose box holds them.
+void
+Include(const VoxelShape & part, VoxelShape & shape)
+{
+  Place at{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    at[axis] = part.Box().lower[axis] - shape.Box().lower[axis];
+  }
+  const auto shift = static_cast<unsigned>(at[0]) & 63U;
+  const auto skip = static_cast<std::size_t>(at[0]) / 64;
+  for (std::int32_t z = 0; z < part.Box().size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < part.Box().size[1]; ++y)
+    {
+      const auto from = part.Row(y, z);
+      const auto to = shape.Row(y + at[1], z + at[2]);
+      for (std::size_t word = 0; word < from.size(); ++word)
+      {
+        to[word + skip] |= from[word] << shift;
+        if (shift != 0 && from[word] >> (64 - shift) != 0)
+        {
+          to[word + skip + 1] |= from[word] >> (64 - shift);
+        }
+      }
+    }
+  }
+}
+
+// The components that meet the range, in their tight bounding box.
+VoxelShape
+ComponentsThatMeet(const VoxelShape & shape, const Range & range)
+{
+  std::vector<VoxelShape> kept = SplitComponents(shape);
+  std::erase_if(kept, [&](const VoxelShape & component) { return !Meets(component, range); });
+  if (kept.empty())
+  {
+    return {};
+  }
+  if (kept.size() == 1)
+  {
+    return std::move(kept[0]);
+  }
+  VoxelBox box = kept[0].Box();
+  for (const VoxelShape & component : kept)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const VoxelBox &   other = component.Box();
+      const std::int32_t end = std::max(box.lower[axis] + box.size[axis], other.lower[axis] + other.size[axis]);
+      box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
+      box.size[axis] = end - box.lower[axis];
+    }
+  }
+  VoxelShape result(box);
+  for (const VoxelShape & component : kept)
+  {
+    Include(component, result);
+  }
+  return result;
+}
+
+} // namespace
+
+VoxelShape
+MakeHaloRegion(const VoxelShape &       shape,
+               const SpacingWeights &   weights,
+               const HaloBlock &        block,
+               const ProgressCallback & progress)
+{
+  const auto & [lower, size] = shape.Box();
+  const Place low{ block.lower.x, block.lower.y, block.lower.z };
+  const Place high{ block.upper.x, block.upper.y, block.upper.z };
+  Range       voxels;  // of the block, relative to the shape's box
+  Range       indices; // the same in indices of the scan
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    voxels.lower[axis] = low[axis] - lower[axis];
+    voxels.upper[axis] = std::min(high[axis] - lower[axis], size[axis]);
+    if (voxels.lower[axis] >= voxels.upper[axis])
+    {
+      return {};
+    }
+    indices.lower[axis] = low[axis];
+    indices.upper[axis] = lower[axis] + voxels.upper[axis];
+  }
+  RegionMaker maker(shape, weights, voxels);
+  maker.Measure(progress);
+  return ComponentsThatMeet(maker.Restrict(), indices);
+}
+
+} // namespace voxelcore

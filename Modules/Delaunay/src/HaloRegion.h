@@ -1,0 +1,17 @@
+#pragma once
+// The part of a shape that decides which cells have their centre in a block (HaloBlocks.h says why).
+
+#include "voxelcore/HaloBlocks.h"
+
+namespace voxelcore
+{
+
+/** A shape that agrees with the given one in all voxels around the lattice points that a ball centred in the block can
+ *  reach, less its components that do not meet the block. Empty when the block holds no voxel. */
+VoxelShape
+MakeHaloRegion(const VoxelShape &       shape,
+               const SpacingWeights &   weights,
+               const HaloBlock &        block,
+               const ProgressCallback & progress);
+
+} // namespace voxelcore
