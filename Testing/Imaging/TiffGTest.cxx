@@ -310,8 +310,8 @@ TEST(TiffSlices, PatternsChooseAmongFiles)
     EXPECT_EQ(volume.labels.back().value, 11);
   }
   ExpectRefused(folder.Path(), { "not numbered alike", "a_008.tif" });
-  ExpectRefused(folder / "c_*.tif", { "no TIFF slices" });
-  ExpectRefused(folder / "a_%02d.tif", { "no TIFF slices" });
+  ExpectRefused(folder / "c_*.tif", { "no TIFF or PNG slices" });
+  ExpectRefused(folder / "a_%02d.tif", { "no TIFF or PNG slices" });
 }
 
 TEST(TiffSlices, GapsTwinsAndUnequalSlicesAreRefused)
@@ -343,7 +343,7 @@ TEST(TiffSlices, GapsTwinsAndUnequalSlicesAreRefused)
   folder.Write("one/1.tif", Slice(1));
   ExpectRefused(folder / "one", { "only one slice" });
   std::filesystem::create_directory(folder / "none");
-  ExpectRefused(folder / "none", { "no TIFF slices" });
+  ExpectRefused(folder / "none", { "no TIFF or PNG slices" });
   folder.Write("stacks/1.tif", Tiff(Pages<std::uint8_t>(1)));
   folder.Write("stacks/2.tif", Tiff(Pages<std::uint8_t>(1)));
   EXPECT_THROW(ReadLabelVolume(folder / "stacks"), InputError);

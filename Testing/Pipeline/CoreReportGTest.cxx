@@ -165,12 +165,14 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   CoreReport report = MakeReport();
   report.parameters.threshold = { { -std::numeric_limits<double>::infinity(),
                                     std::numeric_limits<double>::infinity() } };
-  report.parameters.edits = { CropRange{ { 0, 1, 2 }, { 10, 11, 12 } }, true, 50, 3, true };
+  report.parameters.crop = CropRange{ { 0, 1, 2 }, { 10, 11, 12 } };
+  report.parameters.component = 2;
+  report.parameters.edits = { true, 50, 3, true };
   for (LabelRecord & label : report.labels)
   {
     label.label = 7;
     label.component = &label - report.labels.data() + 1;
-    label.edits = EditRecord{ 1, 2, 3, 4, 5, 6 };
+    label.edits = EditRecord{ 2, 3, 4, 5, 6 };
   }
   const std::string text = ProvenanceJson(report, { 0, 1 }, 1);
   const CoreReport  read = ParseProvenance(text, "a.vtp");
@@ -178,8 +180,9 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   EXPECT_EQ(read.parameters.threshold, report.parameters.threshold);
   EXPECT_EQ(read.parameters.labels, (std::vector<std::int64_t>{ 7 })) << "a label of two components is one label";
   EXPECT_EQ(read.labels[1].component, 2);
-  ASSERT_TRUE(read.parameters.edits.crop && read.labels[1].edits);
-  EXPECT_EQ(read.parameters.edits.crop->end, (std::array<std::int32_t, 3>{ 10, 11, 12 }));
+  ASSERT_TRUE(read.parameters.crop && read.labels[1].edits);
+  EXPECT_EQ(read.parameters.crop, report.parameters.crop);
+  EXPECT_EQ(read.parameters.component, 2);
   EXPECT_EQ(read.labels[1].edits->componentsRemoved, 5U);
   const Json json = Json::parse(text);
   EXPECT_EQ(json["parameters"]["crop"], (Json{ { 0, 10 }, { 1, 11 }, { 2, 12 } }));

@@ -127,8 +127,7 @@ TEST(Parameters, ACropIsReadAsRangesWithOpenEnds)
 TEST(Parameters, EditsArriveWhereTheyBelong)
 {
   EXPECT_FALSE(CoreOptionsFrom(CoreValues({})).edits.AreAsked());
-  const ParameterValues  given{ { "crop", "1:2,3:4,5:6" },
-                               { "min-voxels", "20" },
+  const ParameterValues  given{ { "min-voxels", "20" },
                                { "largest", "2" },
                                { "fill-cavities", "true" },
                                { "split-components", "true" } };
@@ -136,12 +135,25 @@ TEST(Parameters, EditsArriveWhereTheyBelong)
   const ShapeEditOptions info = InfoOptionsFrom(CoreValues(given)).edits;
   for (const ShapeEditOptions & edits : { core, info })
   {
-    ASSERT_TRUE(edits.crop && edits.minVoxels && edits.largest);
-    EXPECT_EQ(edits.crop->end, (std::array<std::int32_t, 3>{ 2, 4, 6 }));
+    ASSERT_TRUE(edits.minVoxels && edits.largest);
     EXPECT_EQ(*edits.minVoxels, 20U);
     EXPECT_EQ(*edits.largest, 2U);
     EXPECT_TRUE(edits.fillCavities && edits.splitComponents);
   }
+}
+
+TEST(Parameters, WhatToReadArrivesWhereItBelongs)
+{
+  const ParameterValues given{ { "crop", "1:2,3:4,5:6" }, { "component", "2" }, { "volume", "3" } };
+  for (const ReadOptions & reading : { CoreOptionsFrom(CoreValues(given)).reading, InfoOptionsFrom(given).reading })
+  {
+    ASSERT_TRUE(reading.crop && reading.component && reading.volume);
+    EXPECT_EQ(reading.crop->end, (std::array<std::int32_t, 3>{ 2, 4, 6 }));
+    EXPECT_EQ(*reading.component, 2);
+    EXPECT_EQ(*reading.volume, 3);
+  }
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "component", "-1" } })), UsageError);
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "crop", "1:2" } })), UsageError);
 }
 
 TEST(Parameters, WaysToChooseVoxelsExcludeEachOther)

@@ -1,5 +1,6 @@
 #include "TemporaryFolder.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/LabelVolume.h"
 #include "voxelcore/Sha256.h"
 
 #include <gtest/gtest.h>
@@ -59,6 +60,18 @@ TEST(ScanDigest, OfAFolderIsThatOfItsSlicesWhereverItLies)
   EXPECT_EQ(ScanFiles(one.Path()), (std::vector{ one / "a.TIFF", one / "b.tif" }));
   EXPECT_EQ(ScanSha256(one.Path()), ScanSha256(two.Path()));
   EXPECT_EQ(ScanFiles(one / "*.tif"), (std::vector{ one / "b.tif" }));
+  for (const char * pattern : { "?.tif", "a#.tif" })
+  {
+    EXPECT_THROW(ScanSha256(one / pattern), InputError) << pattern;
+  }
+  std::filesystem::create_directory(one / "p");
+  WriteAll(one / "p/s_9.png", "nine");
+  WriteAll(one / "p/s_10.png", "ten");
+  for (const char * pattern : { "p", "p/s_%d.png", "p/s_*" })
+  {
+    EXPECT_EQ(ScanFiles(one / pattern), (std::vector{ one / "p/s_10.png", one / "p/s_9.png" })) << pattern;
+  }
+  EXPECT_EQ(ScanFiles(one / "p/s_##.png"), (std::vector{ one / "p/s_10.png" }));
   WriteAll(two / "b.tif", "bea");
   EXPECT_NE(ScanSha256(one.Path()), ScanSha256(two.Path()));
 }

@@ -45,10 +45,33 @@ public:
     return done;
   }
 
+  void
+  Skip(std::uint64_t count) override
+  {
+    const std::uint64_t here = std::min(count, m_Left);
+    if (here > 0)
+    {
+      m_Current->Skip(here);
+      m_Left -= here;
+      count -= here;
+    }
+    if (count > 0 && m_Current)
+    {
+      m_Surplus = m_Current->Finish() || m_Surplus;
+      m_Current.reset();
+    }
+    // Files that are passed over as a whole are not even opened.
+    for (; count >= m_BytesEach && m_Next < m_Paths.size(); count -= m_BytesEach)
+    {
+      ++m_Next;
+    }
+    ByteStream::Skip(count);
+  }
+
   bool
   Finish() override
   {
-    return (m_Current && m_Current->Finish()) || m_Surplus;
+    return (m_Current && m_Left == 0 && m_Current->Finish()) || m_Surplus;
   }
 
 private:

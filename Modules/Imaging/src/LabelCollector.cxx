@@ -55,8 +55,10 @@ EndOfRun(const U * row, std::int32_t from, std::int32_t size, U value)
 
 } // namespace
 
-LabelCollector::LabelCollector(const ScanFile & scan, const ReadOptions & options)
+LabelCollector::LabelCollector(const ScanFile & scan, const ReadOptions & options, const CropRange & part)
   : m_Scan(scan)
+  , m_Part(part)
+  , m_IsPart(options.crop.has_value())
   , m_Book(scan, options)
   , m_Binary(options.binary)
   , m_Threshold(options.threshold)
@@ -90,7 +92,7 @@ LabelCollector::LabelCollector(const ScanFile & scan, const ReadOptions & option
     NewTarget({ 1, "label-1" });
     if (m_Threshold)
     {
-      m_Found.push_back({ { 1, "label-1" }, 0 });
+      m_Found.push_back({ { 1, "label-1" }, 0, false });
     }
   }
 }
@@ -154,8 +156,10 @@ template <typename U>
 void
 LabelCollector::ScanRow(const U * row, std::size_t layer, std::int32_t y, std::int32_t z)
 {
-  const auto size = static_cast<std::int32_t>(m_Scan.geometry.size[0]);
-  for (std::int32_t x = 0;;)
+  const bool whole = NeedsAllRows();
+  const bool rowIsIn = y >= m_Part.first[1] && y < m_Part.end[1] && z >= m_Part.first[2] && z < m_Part.end[2];
+  const auto size = whole ? static_cast<std::int32_t>(m_Scan.geometry.size[0]) : m_Part.end[0];
+  for (std::int32_t x = whole ? 0 : m_Part.first[0];;)
   {
     if (m_ZeroIsBackground)
     {
@@ -166,12 +170,16 @@ LabelCollector::ScanRow(const U * row, std::size_t layer, std::int32_t y, std::i
       return;
     }
     const std::int32_t end = EndOfRun<U>(row, x + 1, size, row[x]);
-    const std::int32_t found = Lookup<U>(row[x], layer, x, y, z);
-    if (found >= 0)
+    const std::int32_t index = Lookup<U>(row[x], layer, x, y, z);
+    const std::int32_t from = std::max(x, m_Part.first[0]);
+    const std::int32_t to = std::min(end, m_Part.end[0]);
+    if (index >= 0 && rowIsIn && from < to)
     {
-      if (const std::int32_t target = m_Found[static_cast<std::size_t>(found)].target; target >= 0)
+      Found & found = m_Found[static_cast<std::size_t>(index)];
+      found.isIn = true;
+      if (found.target >= 0)
       {
-        Emit(m_Targets[static_cast<std::size_t>(target)], x, end, y, z);
+        Emit(m_Targets[static_cast<std::size_t>(found.target)], from, to, y, z);
       }
     }
     x = end;
@@ -183,14 +191,14 @@ void
 LabelCollector::ThresholdRow(const std::byte * row, std::int32_t y, std::int32_t z)
 {
   // Grey values of 32 bits and more are too many for a table.
-  const auto size = static_cast<std::int32_t>(m_Scan.geometry.size[0]);
-  const auto isIn = [&](std::int32_t x) {
+  const std::int32_t size = m_Part.end[0];
+  const auto         isIn = [&](std::int32_t x) {
     T stored;
     std::memcpy(&stored, row + static_cast<std::size_t>(x) * sizeof(T), sizeof(T));
     const double value = m_Scan.slope * static_cast<double>(stored) + m_Scan.intercept;
     return value >= m_Threshold->first && value <= m_Threshold->second;
   };
-  for (std::int32_t x = 0; x < size;)
+  for (std::int32_t x = m_Part.first[0]; x < size;)
   {
     while (x < size && !isIn(x))
     {
@@ -288,7 +296,6 @@ LabelCollector::AddRows(const std::byte * rows, std::uint64_t firstRow, std::siz
       AddRowsOf<std::uint64_t>(rows, firstRow, rowCount);
       break;
   }
-  FinishSlab();
 }
 
 } // namespace voxelcore

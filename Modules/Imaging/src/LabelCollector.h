@@ -19,13 +19,28 @@ namespace voxelcore
 class LabelCollector
 {
 public:
-  /** \throws UsageError when options contradict each other. The scan must outlive the object. */
-  LabelCollector(const ScanFile & scan, const ReadOptions & options);
+  /** Only voxels within `part` get into shapes. \throws UsageError when options contradict each other. The scan must
+   *  outlive the object. */
+  LabelCollector(const ScanFile & scan, const ReadOptions & options, const CropRange & part);
 
-  /** A slab: `rowCount` rows from row `firstRow` (y + size[1] * z) on, in this machine's byte order.
+  /** `rowCount` whole rows from row `firstRow` (y + size[1] * z) on, in this machine's byte order. Rows come in order;
+   *  those beside the part may be left out unless NeedsAllRows().
    *  \throws InputError naming the first value that is no label, and its voxel. */
   void
   AddRows(const std::byte * rows, std::uint64_t firstRow, std::size_t rowCount);
+
+  /** To be called every few MB of rows and at the end: packs what came.
+   *  \throws InputError when the shapes would take memory out of all proportion. */
+  void
+  FinishSlab();
+
+  /** True for a segmentation in layers: values that no segment names get numbers in the order they turn up, which must
+   *  not depend on the part. */
+  bool
+  NeedsAllRows() const
+  {
+    return m_Tables.size() > 1;
+  }
 
   /** The shapes that were asked for, sorted by value. \throws InputError when one of them, or anything but background,
    *  is missing. */
@@ -58,7 +73,8 @@ private:
   struct Found
   {
     LabelBook::Label label;
-    std::int32_t     target = -1; ///< which shape its voxels go into; -1: not asked for
+    std::int32_t     target = -1;  ///< which shape its voxels go into; -1: not asked for
+    bool             isIn = false; ///< there are voxels of it in the part
   };
 
   struct Target
@@ -104,10 +120,10 @@ private:
   NewTarget(const LabelBook::Label & label);
   void
   Emit(Target & target, std::int32_t x, std::int32_t end, std::int32_t y, std::int32_t z);
-  void
-  FinishSlab();
 
   const ScanFile &                         m_Scan;
+  CropRange                                m_Part;
+  bool                                     m_IsPart; ///< not the whole scan
   LabelBook                                m_Book;
   bool                                     m_Binary;
   std::optional<std::pair<double, double>> m_Threshold;

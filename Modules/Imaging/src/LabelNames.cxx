@@ -48,6 +48,12 @@ ReadLines(const std::filesystem::path & path)
   return lines;
 }
 
+bool
+IsMeant(const std::string & wish, const LabelBook::Label & label)
+{
+  return ParseInteger(wish) == label.value || wish == label.name;
+}
+
 } // namespace
 
 std::map<std::int64_t, std::string>
@@ -129,10 +135,9 @@ LabelBook::LabelBook(const ScanFile & scan, const ReadOptions & options)
   for (std::size_t at = 0; !m_All && at <= options.labels.size();)
   {
     const std::size_t comma = std::min(options.labels.find(',', at), options.labels.size());
-    Wish              wish;
-    wish.text = Trim(std::string_view(options.labels).substr(at, comma - at));
-    const auto number = ParseInteger(wish.text);
-    if (wish.text.empty() || (number && *number <= 0))
+    std::string       wish(Trim(std::string_view(options.labels).substr(at, comma - at)));
+    const auto        number = ParseInteger(wish);
+    if (wish.empty() || (number && *number <= 0))
     {
       throw UsageError(
         Text("--labels '", Printable(options.labels), "': give all, or values above 0 or names (0 is background)"));
@@ -163,26 +168,20 @@ LabelBook::Identify(std::size_t layer, std::int64_t value)
 }
 
 bool
-LabelBook::IsWanted(const Label & label)
+LabelBook::IsWanted(const Label & label) const
 {
-  bool wanted = m_All;
-  for (Wish & wish : m_Wishes)
-  {
-    if (ParseInteger(wish.text) == label.value || wish.text == label.name)
-    {
-      wish.met = true;
-      wanted = true;
-    }
-  }
-  return wanted;
+  return m_All ||
+         std::any_of(m_Wishes.begin(), m_Wishes.end(), [&](const std::string & wish) { return IsMeant(wish, label); });
 }
 
 void
-LabelBook::RefuseMissing(const std::filesystem::path & path, const std::vector<Label> & present) const
+LabelBook::RefuseMissing(const std::filesystem::path & path,
+                         const std::vector<Label> &    present,
+                         const std::string &           where) const
 {
-  for (const Wish & wish : m_Wishes)
+  for (const std::string & wish : m_Wishes)
   {
-    if (wish.met)
+    if (std::any_of(present.begin(), present.end(), [&](const Label & label) { return IsMeant(wish, label); }))
     {
       continue;
     }
@@ -197,7 +196,7 @@ LabelBook::RefuseMissing(const std::filesystem::path & path, const std::vector<L
       }
     }
     Refuse(path,
-           Text("there is no label '", Printable(wish.text), "'"),
+           Text("there is no label '", Printable(wish), "'", where),
            Text("it has ", list, present.size() > shown ? Text(" and ", present.size() - shown, " more") : ""));
   }
 }

@@ -37,7 +37,7 @@ public:
 
   /** Whether it was asked for. */
   bool
-  IsWanted(const Label & label);
+  IsWanted(const Label & label) const;
 
   /** True when segments had to be numbered anew. */
   bool
@@ -46,24 +46,20 @@ public:
     return m_Renumbered;
   }
 
-  /** \throws InputError when something asked for did not turn up among `present`. */
+  /** \throws InputError when something asked for is not among the labels `present` in the part called `where`. */
   void
-  RefuseMissing(const std::filesystem::path & path, const std::vector<Label> & present) const;
+  RefuseMissing(const std::filesystem::path & path,
+                const std::vector<Label> &    present,
+                const std::string &           where) const;
 
 private:
-  struct Wish
-  {
-    std::string text;
-    bool        met = false;
-  };
-
   std::map<std::int64_t, std::string>                   m_Names;
   std::map<std::pair<std::size_t, std::int64_t>, Label> m_Segments;
   std::int64_t                                          m_Largest = 0; ///< of the numbers given so far
   bool                                                  m_Renumbered = false;
   bool                                                  m_All = false;
   std::set<std::int64_t>                                m_Given;
-  std::vector<Wish>                                     m_Wishes;
+  std::vector<std::string>                              m_Wishes;
 };
 
 } // namespace voxelcore

@@ -76,9 +76,8 @@ Box(const std::array<std::int32_t, 3> & lower, const std::array<std::int32_t, 3>
 void
 LabelCollector::FinishSlab()
 {
-  const auto & size = m_Scan.geometry.size;
-  const auto   voxels =
-    static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]) * static_cast<std::uint64_t>(size[2]);
+  const auto side = [this](std::size_t a) { return static_cast<std::uint64_t>(m_Part.end[a] - m_Part.first[a]); };
+  const std::uint64_t voxels = side(0) * side(1) * side(2);
   const std::uint64_t limit = std::max(kShapeBytesAlways, kShapeBytesPerVoxel * voxels);
   for (const std::int32_t index : m_Touched)
   {
@@ -131,21 +130,28 @@ std::vector<LabelShape>
 LabelCollector::TakeShapes()
 {
   std::vector<LabelBook::Label> present;
+  // Layers outside the part are looked at too, so values may have been found that have no voxel in it.
   for (const Found & found : m_Found)
   {
-    present.push_back(found.label);
+    if (found.isIn)
+    {
+      present.push_back(found.label);
+    }
   }
-  const bool nothing = m_Threshold ? m_Targets[0].pieces.empty() : present.empty();
-  if (nothing && m_Threshold)
+  std::erase_if(m_Targets, [](const Target & target) { return target.pieces.empty(); });
+  const std::string where = m_IsPart ? " within the crop" : "";
+  if (m_Threshold && m_Targets.empty())
   {
-    Refuse(m_Scan.path, "no voxel lies within the threshold", "choose other bounds");
+    Refuse(m_Scan.path, "no voxel" + where + " lies within the threshold", "choose other bounds");
   }
-  if (nothing)
+  if (present.empty() && !m_Threshold)
   {
-    Refuse(m_Scan.path, "nothing but background: every voxel is 0", "name a scan with labels");
+    Refuse(m_Scan.path,
+           "nothing but background: every voxel" + where + " is 0",
+           m_IsPart ? "choose another part" : "name a scan with labels");
   }
   std::sort(present.begin(), present.end(), [](const auto & a, const auto & b) { return a.value < b.value; });
-  m_Book.RefuseMissing(m_Scan.path, present);
+  m_Book.RefuseMissing(m_Scan.path, present, where);
 
   std::sort(m_Targets.begin(), m_Targets.end(), [](const Target & a, const Target & b) {
     return a.label.value < b.label.value;

@@ -10,13 +10,15 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <optional>
 
 namespace voxelcore
 {
 namespace
 {
 
-constexpr std::size_t kLongestHeader = 1U << 20;
+constexpr std::size_t  kLongestHeader = 1U << 20;
+constexpr std::int64_t kMostChannels = 4096;
 
 struct MetaHeader
 {
@@ -220,6 +222,14 @@ FindData(const std::filesystem::path & path, const MetaHeader & header)
 
 } // namespace
 
+std::vector<std::filesystem::path>
+MetaImageDataFiles(const std::filesystem::path & path)
+{
+  const MetaHeader header = ReadHeader(path);
+  const auto       name = header.Field({ "elementdatafile" });
+  return LowerCase(name) == "local" ? std::vector<std::filesystem::path>() : FilesNamed(path, name, header.list);
+}
+
 ScanFile
 OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
 {
@@ -258,19 +268,26 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
     }
     volumes *= static_cast<std::uint64_t>(sizes[a]);
   }
-  if (const auto channels = header.Field({ "elementnumberofchannels" }); !channels.empty() && channels != "1")
+  const std::string channels = header.Field({ "elementnumberofchannels" });
+  const auto        components = channels.empty() ? std::optional<std::int64_t>(1) : ParseInteger(channels);
+  if (!components || *components < 1 || *components > kMostChannels)
   {
-    Refuse(path,
-           Text("colour image or vectors (", Printable(channels, 20), " values a voxel)"),
-           "one whole number a voxel is needed");
+    Refuse(path, Text("ElementNumberOfChannels = ", Printable(channels, 20), " makes no sense"), "mend the header");
   }
   scan.type = TypeOf(path, header.Field({ "elementtype" }));
   const std::uint64_t volume = ChooseVolume(path, volumes, options);
+  const std::uint64_t component =
+    ChooseComponent(path, static_cast<std::uint64_t>(*components), "colour image or vectors", options);
+  if (*components > 1)
+  {
+    scan.interleaved = static_cast<std::size_t>(*components);
+    scan.component = static_cast<std::ptrdiff_t>(component);
+  }
 
   const DataSource    source = FindData(path, header);
   const std::uint64_t possible = LargestData(source, scan.type);
-  const std::uint64_t voxels = CheckSize(path, scan.geometry.size, PixelBytes(scan.type), possible);
-  const std::uint64_t bytes = voxels * PixelBytes(scan.type);
+  const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * scan.interleaved;
+  const std::uint64_t bytes = bytesPerVoxel * CheckSize(path, scan.geometry.size, bytesPerVoxel, possible);
   if (volumes > std::max<std::uint64_t>(1, possible / bytes))
   {
     Refuse(path, "its header gives more volumes than its data can hold", "the file is truncated: write it anew");

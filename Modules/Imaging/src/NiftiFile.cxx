@@ -61,8 +61,11 @@ struct NiftiHeader
   NiftiPlacement              placement;
 };
 
-constexpr std::size_t kSize1 = 348;
-constexpr std::size_t kSize2 = 540;
+constexpr int          kRgb = 128;
+constexpr int          kRgba = 2304;
+constexpr std::size_t  kSize1 = 348;
+constexpr std::size_t  kSize2 = 540;
+constexpr std::int64_t kMostBlocks = 1 << 30; // on the axes behind the third
 
 void
 ReadVersion1(const Fields & f, NiftiHeader & h)
@@ -191,9 +194,9 @@ TypeOf(const std::filesystem::path & path, int datatype)
       return PixelType::Int64;
     case 1280:
       return PixelType::UInt64;
-    case 128:
-    case 2304:
-      Refuse(path, "colour image", "save its labels as one whole number a voxel");
+    case kRgb:
+    case kRgba:
+      return PixelType::UInt8;
     case 32:
     case 1792:
     case 2048:
@@ -265,16 +268,32 @@ ReadUnits(NiftiHeader & h, ScanFile & scan)
   }
 }
 
+bool
+IsImageHalf(const std::filesystem::path & path)
+{
+  const std::string name = LowerCase(path.filename().string());
+  return name.ends_with(".img") || name.ends_with(".img.gz");
+}
+
 } // namespace
+
+std::vector<std::filesystem::path>
+NiftiPartner(const std::filesystem::path & path)
+{
+  if (IsImageHalf(path))
+  {
+    return { Partner(path, ".hdr") };
+  }
+  return ReadHeader(path).pair ? std::vector{ Partner(path, ".img") } : std::vector<std::filesystem::path>();
+}
 
 ScanFile
 OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
 {
-  const std::string name = LowerCase(path.filename().string());
-  const bool        isImage = name.ends_with(".img") || name.ends_with(".img.gz");
-  const auto        headerPath = isImage ? Partner(path, ".hdr") : path;
-  NiftiHeader       h = ReadHeader(headerPath);
-  ScanFile          scan;
+  const bool  isImage = IsImageHalf(path);
+  const auto  headerPath = isImage ? Partner(path, ".hdr") : path;
+  NiftiHeader h = ReadHeader(headerPath);
+  ScanFile    scan;
   scan.path = path;
   scan.format = h.version == 1 ? "NIfTI-1" : "NIfTI-2";
   scan.swapBytes = h.swapped;
@@ -287,18 +306,39 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
     Refuse(path, Text(h.dim[0], "-D image"), "a volume with three axes in space is needed");
   }
   std::copy_n(h.dim.begin() + 1, 3, scan.geometry.size.begin());
+  // The fourth axis is that of time. Those behind it hold the values of a voxel, each as a volume of its own.
   std::uint64_t volumes = 1;
+  std::uint64_t planes = 1;
   for (std::size_t d = 4; d <= static_cast<std::size_t>(h.dim[0]); ++d)
   {
-    if (h.dim[d] < 0 || h.dim[d] > (1 << 30) || volumes > (1U << 30))
+    // Tools leave 0 where 1 is meant on the axes behind the third.
+    std::uint64_t & count = d == 4 ? volumes : planes;
+    if (h.dim[d] >= 0 && h.dim[d] <= kMostBlocks)
+    {
+      count *= static_cast<std::uint64_t>(std::max<std::int64_t>(1, h.dim[d]));
+    }
+    if (h.dim[d] < 0 || h.dim[d] > kMostBlocks || count > std::uint64_t{ kMostBlocks })
     {
       Refuse(path, Text("its header gives a side of ", h.dim[d]), "the file is damaged");
     }
-    // Tools leave 0 where 1 is meant on the axes behind the third.
-    volumes *= static_cast<std::uint64_t>(std::max<std::int64_t>(1, h.dim[d]));
   }
   scan.type = TypeOf(path, h.datatype);
+  scan.interleaved = h.datatype == kRgb ? 3 : (h.datatype == kRgba ? 4 : 1);
+  if (scan.interleaved > 1 && planes > 1)
+  {
+    Refuse(path, "vectors of colours", "save its labels as one whole number a voxel");
+  }
   const std::uint64_t volume = ChooseVolume(path, volumes, options);
+  const std::uint64_t component = ChooseComponent(path,
+                                                  scan.interleaved * planes,
+                                                  scan.interleaved > 1 ? "colour image" : "vectors on the fifth axis",
+                                                  options);
+  if (scan.interleaved > 1)
+  {
+    scan.component = static_cast<std::ptrdiff_t>(component);
+  }
+  const std::uint64_t block = planes > 1 ? volume + volumes * component : volume;
+  const std::uint64_t blocks = volumes * planes;
 
   const auto   dataPath = h.pair ? (isImage ? path : Partner(path, ".img")) : headerPath;
   const auto   packing = DetectGzip(dataPath);
@@ -310,9 +350,9 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
     Refuse(path, Text("its header says voxels begin at byte ", Number(h.voxOffset)), "the file is damaged");
   }
   const auto          offset = static_cast<std::uint64_t>(h.voxOffset);
-  const std::uint64_t voxels = CheckSize(path, scan.geometry.size, PixelBytes(scan.type), possible);
-  const std::uint64_t bytes = voxels * PixelBytes(scan.type);
-  if (volumes > possible / bytes || (packing == Packing::Plain && offset + bytes * volumes > fileBytes))
+  const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * scan.interleaved;
+  const std::uint64_t bytes = bytesPerVoxel * CheckSize(path, scan.geometry.size, bytesPerVoxel, possible);
+  if (blocks > possible / bytes || (packing == Packing::Plain && offset + bytes * blocks > fileBytes))
   {
     Refuse(path,
            Text("it holds ",
@@ -320,7 +360,7 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
                 " bytes of voxels where ",
                 bytes,
                 " in each of ",
-                volumes,
+                blocks,
                 " volumes are needed"),
            "the file is truncated: fetch or write it anew");
   }
@@ -328,8 +368,8 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
   ReadUnits(h, scan);
   PlaceNifti(h.placement, options, scan);
   scan.voxels = OpenBytes(dataPath, 0, packing);
-  scan.voxels->Skip(offset + volume * bytes);
-  scan.moreVolumes = volumes > 1;
+  scan.voxels->Skip(offset + block * bytes);
+  scan.moreVolumes = blocks > 1;
   return scan;
 }
 

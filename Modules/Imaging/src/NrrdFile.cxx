@@ -70,6 +70,20 @@ IsRangeKind(const std::string & kind)
   return !kind.empty() && kind != "domain" && kind != "space" && kind != "???" && kind != "none";
 }
 
+/** Values that make up one voxel (a vector, a colour, ...), not volumes that stand beside each other. */
+bool
+IsComponentKind(const std::string & kind)
+{
+  return IsRangeKind(kind) && kind != "list" && kind != "time";
+}
+
+/** What to call voxels of such an axis. */
+std::string
+ComponentsText(const std::string & kind)
+{
+  return kind.find("color") != std::string::npos ? "colour image" : Text("vectors of kind ", Printable(kind, 20));
+}
+
 NrrdAxes
 SortAxes(const std::filesystem::path &                           path,
          const std::vector<std::int64_t> &                       sizes,
@@ -101,15 +115,19 @@ SortAxes(const std::filesystem::path &                           path,
     {
       continue;
     }
-    const auto size = static_cast<std::uint64_t>(sizes[a]);
-    if (a < spatial[0])
+    const auto        size = static_cast<std::uint64_t>(sizes[a]);
+    const std::string kind = a < kinds.size() ? kinds[a] : "";
+    if (a < spatial[0] || a > spatial[2])
     {
-      axes.before *= size;
-      axes.kindBefore = a < kinds.size() ? kinds[a] : "";
-    }
-    else if (a > spatial[2])
-    {
-      axes.after *= size;
+      const bool      before = a < spatial[0];
+      std::uint64_t & count = before ? axes.before : axes.after;
+      std::string &   kindSoFar = before ? axes.kindBefore : axes.kindAfter;
+      if (count > 1 && IsComponentKind(kindSoFar) != IsComponentKind(kind))
+      {
+        Refuse(path, "values of a voxel and volumes lie on neighbouring axes", "permute the axes: values, space, time");
+      }
+      count *= size;
+      kindSoFar = kind;
     }
     else
     {
@@ -151,6 +169,36 @@ ReadSegments(const NrrdHeader & header, ScanFile & scan)
     segment.layer = static_cast<std::size_t>(*at);
     scan.segments.push_back(std::move(segment));
   }
+}
+
+/** Which of the values before the axes in space is read, and which of the blocks behind them: the latter is returned.
+ *  Either may hold the components of a voxel, or volumes. */
+std::uint64_t
+ChooseParts(const NrrdAxes & axes, const ReadOptions & options, ScanFile & scan)
+{
+  const bool layers = !scan.segments.empty();
+  const bool componentsBefore = !layers && axes.before > 1 && IsComponentKind(axes.kindBefore);
+  const bool volumesBefore = !layers && axes.before > 1 && !componentsBefore;
+  const bool componentsAfter = axes.after > 1 && IsComponentKind(axes.kindAfter);
+  if ((componentsBefore && componentsAfter) || (volumesBefore && axes.after > 1 && !componentsAfter))
+  {
+    Refuse(scan.path, "values on axes both before and behind those in space", "save one volume");
+  }
+  if (layers && options.component)
+  {
+    throw UsageError("--component: of a segmentation choose with --labels");
+  }
+  const std::uint64_t volume =
+    ChooseVolume(scan.path, volumesBefore ? axes.before : (componentsAfter ? 1 : axes.after), options);
+  const std::uint64_t component = ChooseComponent(scan.path,
+                                                  componentsBefore ? axes.before : (componentsAfter ? axes.after : 1),
+                                                  ComponentsText(componentsBefore ? axes.kindBefore : axes.kindAfter),
+                                                  options);
+  if (componentsBefore || volumesBefore)
+  {
+    scan.component = static_cast<std::ptrdiff_t>(componentsBefore ? component : volume);
+  }
+  return componentsAfter ? component : (volumesBefore ? 0 : volume);
 }
 
 DataSource
@@ -210,6 +258,14 @@ FindData(const std::filesystem::path & path, const NrrdHeader & header)
 
 } // namespace
 
+std::vector<std::filesystem::path>
+NrrdDataFiles(const std::filesystem::path & path)
+{
+  const NrrdHeader header = ReadNrrdHeader(path);
+  const auto       name = header.Field("datafile");
+  return name.empty() ? std::vector<std::filesystem::path>() : FilesNamed(path, name, header.dataFiles);
+}
+
 ScanFile
 OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
 {
@@ -260,25 +316,7 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
   }
   scan.interleaved = static_cast<std::size_t>(axes.before);
   ReadSegments(header, scan);
-  std::uint64_t volume = 0;
-  if (axes.before > 1 && scan.segments.empty())
-  {
-    if (axes.kindBefore.find("color") != std::string::npos)
-    {
-      Refuse(path, Text("colour image (", axes.before, " values a voxel)"), "save its labels as one number a voxel");
-    }
-    if (axes.kindBefore != "list" && axes.kindBefore != "time" && IsRangeKind(axes.kindBefore))
-    {
-      Refuse(path,
-             Text(axes.before, " values a voxel (", Printable(axes.kindBefore, 20), ")"),
-             "one whole number a voxel is needed");
-    }
-    scan.component = static_cast<std::ptrdiff_t>(ChooseVolume(path, axes.before, options));
-  }
-  else
-  {
-    volume = ChooseVolume(path, axes.after, options);
-  }
+  const std::uint64_t volume = ChooseParts(axes, options, scan);
 
   const DataSource    source = FindData(path, header);
   const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * axes.before;

@@ -18,6 +18,7 @@ struct NrrdAxes
   std::uint64_t              before = 1; ///< values a voxel, on axes faster than i
   std::uint64_t              after = 1;  ///< volumes, on axes slower than k
   std::string                kindBefore; ///< of the axis with more than one value
+  std::string                kindAfter;
 };
 
 /** Sets scan.geometry from the space directions, or without them from spacings. \throws InputError */

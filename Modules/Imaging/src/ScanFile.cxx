@@ -1,6 +1,8 @@
 #include "ScanFile.h"
 #include "TextFields.h"
 
+#include <algorithm>
+
 namespace voxelcore
 {
 
@@ -119,40 +121,115 @@ ChooseVolume(const std::filesystem::path & path, std::uint64_t volumes, const Re
   return static_cast<std::uint64_t>(*options.volume);
 }
 
+std::uint64_t
+ChooseComponent(const std::filesystem::path & path,
+                std::uint64_t                 components,
+                std::string_view              kind,
+                const ReadOptions &           options)
+{
+  if (!options.component)
+  {
+    if (components > 1)
+    {
+      Refuse(path,
+             Text(kind, " (", components, " values a voxel)"),
+             Text("save its labels as one whole number a voxel, or choose one value with --component 0 to --component ",
+                  components - 1));
+    }
+    return 0;
+  }
+  if (*options.component < 0 || static_cast<std::uint64_t>(*options.component) >= components)
+  {
+    Refuse(path,
+           Text("there is no component ", *options.component, ", a voxel has ", components),
+           Text("components are counted from 0 to ", components - 1));
+  }
+  return static_cast<std::uint64_t>(*options.component);
+}
+
+ScanKind
+ScanKindOf(const std::filesystem::path & path)
+{
+  if (AreSlices(path))
+  {
+    return ScanKind::Slices;
+  }
+  const std::string name = LowerCase(path.filename().string());
+  const auto        ends = [&name](std::initializer_list<std::string_view> extensions) {
+    return std::any_of(extensions.begin(), extensions.end(), [&name](std::string_view extension) {
+      return name.ends_with(extension);
+    });
+  };
+  return ends({ ".nrrd", ".nhdr" })                                          ? ScanKind::Nrrd
+         : ends({ ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz" }) ? ScanKind::Nifti
+         : ends({ ".mha", ".mhd" })                                          ? ScanKind::MetaImage
+         : ends({ ".tif", ".tiff" })                                         ? ScanKind::Tiff
+         : ends({ ".png" })                                                  ? ScanKind::Png
+                                                                             : ScanKind::Unknown;
+}
+
 ScanFile
 OpenScan(const std::filesystem::path & path, const ReadOptions & options)
 {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored) || (!std::filesystem::exists(path, ignored) && IsSlicePattern(path)))
+  const ScanKind kind = ScanKindOf(path);
+  if (kind == ScanKind::Slices)
   {
     return OpenSlices(path, options);
   }
-  const std::uint64_t bytes = FileSize(path);
-  if (bytes == 0)
+  if (FileSize(path) == 0)
   {
     Refuse(path, "the file is empty", "fetch or write it anew");
   }
-  const std::string name = LowerCase(path.filename().string());
-  const auto        ends = [&name](std::string_view extension) { return name.ends_with(extension); };
-  if (ends(".nrrd") || ends(".nhdr"))
+  switch (kind)
   {
-    return OpenNrrd(path, options);
-  }
-  if (ends(".nii") || ends(".nii.gz") || ends(".hdr") || ends(".hdr.gz") || ends(".img") || ends(".img.gz"))
-  {
-    return OpenNifti(path, options);
-  }
-  if (ends(".mha") || ends(".mhd"))
-  {
-    return OpenMetaImage(path, options);
-  }
-  if (ends(".tif") || ends(".tiff"))
-  {
-    return OpenTiff(path, options);
+    case ScanKind::Nrrd:
+      return OpenNrrd(path, options);
+    case ScanKind::Nifti:
+      return OpenNifti(path, options);
+    case ScanKind::MetaImage:
+      return OpenMetaImage(path, options);
+    case ScanKind::Tiff:
+      return OpenTiff(path, options);
+    case ScanKind::Png:
+      Refuse(path, "2-D image", "a volume is needed: name the folder of slices, or a pattern such as slice_*.png");
+    case ScanKind::Slices:
+    case ScanKind::Unknown:
+      break;
   }
   Refuse(path,
          "unknown kind of scan",
-         "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF slices");
+         "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF or PNG slices");
+}
+
+std::vector<std::filesystem::path>
+ScanFiles(const std::filesystem::path & path)
+{
+  std::vector<std::filesystem::path> files;
+  switch (ScanKindOf(path))
+  {
+    case ScanKind::Slices:
+      files = SlicePaths(path);
+      std::sort(files.begin(), files.end());
+      return files;
+    case ScanKind::Nrrd:
+      files = NrrdDataFiles(path);
+      break;
+    case ScanKind::Nifti:
+      files = NiftiPartner(path);
+      break;
+    case ScanKind::MetaImage:
+      files = MetaImageDataFiles(path);
+      break;
+    case ScanKind::Tiff:
+    case ScanKind::Png:
+    case ScanKind::Unknown:
+      break;
+  }
+  std::error_code ignored;
+  std::erase_if(files, [&](const auto & file) { return !std::filesystem::is_regular_file(file, ignored); });
+  std::sort(files.begin(), files.end());
+  files.insert(files.begin(), path);
+  return files;
 }
 
 } // namespace voxelcore

@@ -94,10 +94,35 @@ OpenTiff(const std::filesystem::path & path, const ReadOptions & options);
  *  number. */
 ScanFile
 OpenSlices(const std::filesystem::path & path, const ReadOptions & options);
+/** Whether the path names slices: a folder, or a pattern that is no file. */
 bool
-IsSlicePattern(const std::filesystem::path & path);
+AreSlices(const std::filesystem::path & path);
+/** The files besides `path` itself that hold its voxels, as its header names them. \throws InputError */
+std::vector<std::filesystem::path>
+NrrdDataFiles(const std::filesystem::path & path);
+std::vector<std::filesystem::path>
+MetaImageDataFiles(const std::filesystem::path & path);
+std::vector<std::filesystem::path>
+NiftiPartner(const std::filesystem::path & path);
+/** The slices that a folder or pattern stands for, in natural order. */
+std::vector<std::filesystem::path>
+SlicePaths(const std::filesystem::path & path);
 
-/** By the extension. */
+/** Kinds of scans, told by the extension. */
+enum class ScanKind : std::uint8_t
+{
+  Nrrd,
+  Nifti,
+  MetaImage,
+  Tiff,
+  Png,
+  Slices,
+  Unknown
+};
+ScanKind
+ScanKindOf(const std::filesystem::path & path);
+
+/** By its kind. */
 ScanFile
 OpenScan(const std::filesystem::path & path, const ReadOptions & options);
 
@@ -121,6 +146,19 @@ SetGeometry(ScanFile &                     scan,
 /** The largest cosine between two of the three directions: 0 when they are orthogonal. */
 double
 LargestCosine(const std::array<Vector3, 3> & directions);
+
+/** The voxels to look at: options.crop with its ends filled in, or the whole scan. Notes it.
+ *  \throws InputError when it reaches beyond the scan; UsageError when it is empty. */
+CropRange
+ResolveCrop(ScanFile & scan, const ReadOptions & options);
+
+/** Checks options.component against the values a voxel has, which are `kind` ("colour image", ...), and returns the one
+ *  to take. \throws InputError when there are several and none was chosen, or there is none of that number. */
+std::uint64_t
+ChooseComponent(const std::filesystem::path & path,
+                std::uint64_t                 components,
+                std::string_view              kind,
+                const ReadOptions &           options);
 
 /** Checks options.volume against the volumes there are and returns the one to read.
  *  \throws InputError when there are several and none was chosen, or there is none of that number. */

@@ -1,5 +1,6 @@
-// A folder or a pattern of TIFF slices as one volume, in natural order (2 before 10).
+// A folder or a pattern of TIFF or PNG slices as one volume, in natural order (2 before 10).
 
+#include "PngFile.h"
 #include "ScanFile.h"
 #include "TextFields.h"
 #include "TiffFile.h"
@@ -63,6 +64,31 @@ NaturallyLess(const Slice & a, const Slice & b)
                                         }
                                         return x.text < y.text;
                                       });
+}
+
+bool
+IsPng(const std::filesystem::path & path)
+{
+  return LowerCase(path.filename().string()).ends_with(".png");
+}
+
+/** The slice as one page; of a PNG as if it were one of TIFF. */
+TiffPages
+InspectSlice(const std::filesystem::path & path, const ReadOptions & options)
+{
+  if (!IsPng(path))
+  {
+    return InspectTiff(path, options);
+  }
+  const PngPage png = InspectPng(path, options);
+  TiffPages     page;
+  page.width = png.width;
+  page.height = png.height;
+  page.bits = static_cast<std::uint16_t>(png.bits);
+  page.samples = static_cast<std::uint16_t>(png.samples);
+  page.type = png.Type();
+  page.offsets = { 0 };
+  return page;
 }
 
 /** Whether the name fits the pattern: `*` anything, `%d` `%04d` or a run of `#` a number. */
@@ -142,15 +168,22 @@ FindSlices(const std::filesystem::path & path)
   {
     const std::string name = entry.path().filename().string();
     const std::string lower = LowerCase(name);
-    const bool        tiff = lower.ends_with(".tif") || lower.ends_with(".tiff");
-    if (entry.is_regular_file(error) && !name.starts_with('.') && tiff && (folder || Fits(pattern, name)))
+    const bool        known = lower.ends_with(".tif") || lower.ends_with(".tiff") || lower.ends_with(".png");
+    if (entry.is_regular_file(error) && !name.starts_with('.') && known && (folder || Fits(pattern, name)))
     {
       slices.push_back({ entry.path(), CutName(name) });
     }
   }
   if (slices.empty())
   {
-    Refuse(path, folder ? "no TIFF slices in this folder" : "no TIFF slices of this pattern", "check the name");
+    Refuse(path,
+           folder ? "no TIFF or PNG slices in this folder" : "no TIFF or PNG slices of this pattern",
+           "check the name");
+  }
+  const auto pngs = std::count_if(slices.begin(), slices.end(), [](const Slice & slice) { return IsPng(slice.path); });
+  if (pngs > 0 && static_cast<std::size_t>(pngs) < slices.size())
+  {
+    Refuse(path, "both TIFF and PNG slices", "give a pattern such as slice_*.png");
   }
   std::sort(slices.begin(), slices.end(), NaturallyLess);
   return slices;
@@ -212,12 +245,38 @@ CheckNumbering(const std::filesystem::path & path, const std::vector<Slice> & sl
   }
 }
 
+std::string
+Describe(const TiffPages & page)
+{
+  return Text(page.width,
+              " x ",
+              page.height,
+              ", ",
+              page.bits,
+              " bits",
+              page.samples > 1 ? Text(", ", page.samples, " values a pixel") : std::string());
+}
+
 } // namespace
 
 bool
-IsSlicePattern(const std::filesystem::path & path)
+AreSlices(const std::filesystem::path & path)
 {
-  return path.filename().string().find_first_of("*#%") != std::string::npos;
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored) ||
+         (!std::filesystem::exists(path, ignored) &&
+          path.filename().string().find_first_of("*#%") != std::string::npos);
+}
+
+std::vector<std::filesystem::path>
+SlicePaths(const std::filesystem::path & path)
+{
+  std::vector<std::filesystem::path> files;
+  for (const Slice & slice : FindSlices(path))
+  {
+    files.push_back(slice.path);
+  }
+  return files;
 }
 
 ScanFile
@@ -234,7 +293,7 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
   TiffPages                          common;
   for (const Slice & slice : slices)
   {
-    const TiffPages page = InspectTiff(slice.path);
+    const TiffPages page = InspectSlice(slice.path, options);
     if (page.offsets.size() != 1)
     {
       Refuse(slice.path, Text("a stack of ", page.offsets.size(), " pages among slices"), "name one stack, or slices");
@@ -243,30 +302,18 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
     {
       common = page;
     }
-    else if (page.width != common.width || page.height != common.height || page.type != common.type ||
-             page.bits != common.bits || page.minIsWhite != common.minIsWhite)
+    else if (!AreAlike(page, common))
     {
       Refuse(slice.path,
-             Text("this slice (",
-                  page.width,
-                  " x ",
-                  page.height,
-                  ", ",
-                  page.bits,
-                  " bits) is not like the first (",
-                  common.width,
-                  " x ",
-                  common.height,
-                  ", ",
-                  common.bits,
-                  " bits)"),
+             Text("this slice (", Describe(page), ") is not like the first (", Describe(common), ")"),
              "a volume needs equal slices");
     }
     common.lossy = common.lossy || page.lossy;
     files.push_back(slice.path);
   }
   scan.path = path;
-  scan.format = "TIFF slices";
+  const bool png = IsPng(files.front());
+  scan.format = png ? "PNG slices" : "TIFF slices";
   DescribeTiff(common, scan);
   scan.geometry.size = { common.width, common.height, static_cast<std::int64_t>(files.size()) };
   ChooseVolume(path, 1, options);
@@ -275,11 +322,12 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
     Text(files.size(), " slices from ", files.front().filename().string(), " to ", files.back().filename().string()));
   if (!options.spacing)
   {
-    scan.notes.push_back("TIFF states no voxel spacing: 1 mm is taken (--spacing x,y,z gives the true one)");
+    scan.notes.push_back(
+      Text(png ? "PNG" : "TIFF", " states no voxel spacing: 1 mm is taken (--spacing x,y,z gives the true one)"));
   }
   SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, { 1, 1, 1 }, { 0, 0, 0 }, options);
-  scan.voxels = OpenParts(files, common.PageBytes(), [](const std::filesystem::path & file) {
-    return OpenTiffPages(file, InspectTiff(file));
+  scan.voxels = OpenParts(files, common.PageBytes(), [png, options](const std::filesystem::path & file) {
+    return png ? OpenPngPage(file, options) : OpenTiffPages(file, InspectTiff(file, options));
   });
   return scan;
 }

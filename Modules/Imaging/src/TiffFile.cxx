@@ -48,29 +48,39 @@ StoredBytes(const TiffHandle & tiff, std::uint64_t & largestPart)
 
 /** One page's sizes and type. */
 TiffPages
-ReadPage(const std::filesystem::path & path, const TiffHandle & tiff, std::uint64_t fileBytes)
+ReadPage(const std::filesystem::path & path,
+         const TiffHandle &            tiff,
+         std::uint64_t                 fileBytes,
+         const ReadOptions &           options)
 {
   TiffPages page;
   page.width = tiff.Field<std::uint32_t>(TIFFTAG_IMAGEWIDTH, 0);
   page.height = tiff.Field<std::uint32_t>(TIFFTAG_IMAGELENGTH, 0);
   page.bits = tiff.Field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
-  const auto samples = tiff.Field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
+  page.samples = tiff.Field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
+  page.planar =
+    page.samples > 1 && tiff.Field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
   const auto format = tiff.Field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
   const auto photometric = tiff.Field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
   const auto compression = tiff.Field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
-  if (samples > 1 || photometric == PHOTOMETRIC_RGB || photometric == PHOTOMETRIC_YCBCR ||
-      photometric == PHOTOMETRIC_SEPARATED)
-  {
-    Refuse(path, Text("colour image (", samples, " values a pixel)"), "save its labels as one whole number a pixel");
-  }
   if (photometric == PHOTOMETRIC_PALETTE)
   {
     Refuse(path, "palette colour image", "save its labels as a grey-level image");
   }
-  if (photometric != PHOTOMETRIC_MINISBLACK && photometric != PHOTOMETRIC_MINISWHITE)
+  // Other kinds of colours (YCbCr, L*a*b) are not stored as values that stand for themselves.
+  const bool isGrey = photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_MINISWHITE;
+  if (!isGrey && photometric != PHOTOMETRIC_RGB && photometric != PHOTOMETRIC_SEPARATED)
   {
-    Refuse(path, Text("pixels of photometric kind ", photometric), "save it as a grey-level image of whole numbers");
+    Refuse(path,
+           Text("colour image or pixels of photometric kind ", photometric),
+           "save it as a grey-level image of whole numbers");
   }
+  if (page.samples < 1)
+  {
+    Refuse(path, "pixels without values", "the file is damaged: write it anew");
+  }
+  page.component = static_cast<std::uint16_t>(
+    ChooseComponent(path, page.samples, isGrey ? "several values" : "colour image", options));
   page.minIsWhite = photometric == PHOTOMETRIC_MINISWHITE;
   page.lossy = compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG || compression == COMPRESSION_WEBP;
   if (const auto orientation = tiff.Field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
@@ -120,7 +130,9 @@ ReadPage(const std::filesystem::path & path, const TiffHandle & tiff, std::uint6
   std::uint64_t       largestPart = 0;
   const std::uint64_t stored = std::min(StoredBytes(tiff, largestPart), fileBytes);
   const std::uint64_t possible = stored * Expansion(compression, page.width) + 64;
-  const std::uint64_t rows = std::uint64_t{ page.height } * ((std::uint64_t{ page.width } * page.bits + 7) / 8);
+  __extension__ using Wide = unsigned __int128; // two sides of 2^32 and 2^16 values of 64 bits
+  const Wide          perRow = Wide{ page.width } * page.bits * (page.planar ? 1U : page.samples);
+  const Wide          rows = (perRow + 7) / 8 * page.height * (page.planar ? page.samples : 1U);
   const std::uint64_t part = TIFFIsTiled(tiff.Get()) ? TIFFTileSize64(tiff.Get()) : TIFFStripSize64(tiff.Get());
   if (page.width == 0 || page.height == 0 || rows > possible || part == 0 ||
       part > std::min(largestPart, fileBytes) * Expansion(compression, page.width) + 64)
@@ -167,11 +179,11 @@ RefuseHyperstack(const std::filesystem::path & path, const std::string & descrip
 } // namespace
 
 TiffPages
-InspectTiff(const std::filesystem::path & path)
+InspectTiff(const std::filesystem::path & path, const ReadOptions & options)
 {
   const std::uint64_t fileBytes = FileSize(path);
   const TiffHandle    tiff(path);
-  TiffPages           pages = ReadPage(path, tiff, fileBytes);
+  TiffPages           pages = ReadPage(path, tiff, fileBytes, options);
   const std::string   description = tiff.Description();
   pages.offsets.push_back(TIFFCurrentDirOffset(tiff.Get()));
   while (TIFFLastDirectory(tiff.Get()) == 0)
@@ -180,9 +192,8 @@ InspectTiff(const std::filesystem::path & path)
     {
       tiff.RefuseDamaged(Text("the page after page ", pages.offsets.size(), " cannot be found"));
     }
-    const TiffPages page = ReadPage(path, tiff, fileBytes);
-    if (page.width != pages.width || page.height != pages.height || page.type != pages.type ||
-        page.bits != pages.bits || page.minIsWhite != pages.minIsWhite)
+    const TiffPages page = ReadPage(path, tiff, fileBytes, options);
+    if (!AreAlike(page, pages))
     {
       Refuse(path,
              Text("page ",
@@ -217,6 +228,13 @@ InspectTiff(const std::filesystem::path & path)
   return pages;
 }
 
+bool
+AreAlike(const TiffPages & a, const TiffPages & b)
+{
+  return a.width == b.width && a.height == b.height && a.type == b.type && a.bits == b.bits && a.samples == b.samples &&
+         a.minIsWhite == b.minIsWhite;
+}
+
 void
 DescribeTiff(const TiffPages & pages, ScanFile & scan)
 {
@@ -238,7 +256,7 @@ DescribeTiff(const TiffPages & pages, ScanFile & scan)
 ScanFile
 OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
 {
-  const TiffPages pages = InspectTiff(path);
+  const TiffPages pages = InspectTiff(path, options);
   if (pages.offsets.size() == 1)
   {
     Refuse(path, "2-D image (one page)", "a volume is needed: a TIFF of many pages, or name the folder of slices");

@@ -18,7 +18,10 @@ struct TiffPages
 {
   std::uint32_t              width = 0;
   std::uint32_t              height = 0;
-  std::uint16_t              bits = 8; ///< a stored value; 1, 2 and 4 become bytes
+  std::uint16_t              bits = 8;       ///< a stored value; 1, 2 and 4 become bytes
+  std::uint16_t              samples = 1;    ///< values a pixel
+  std::uint16_t              component = 0;  ///< which of them is read
+  bool                       planar = false; ///< each of them in strips or tiles of its own
   PixelType                  type = PixelType::UInt8;
   bool                       minIsWhite = false;
   bool                       lossy = false;
@@ -31,11 +34,16 @@ struct TiffPages
   }
 };
 
-/** \throws InputError when the file is damaged, its pages are not alike, or hold no single whole numbers. */
+/** \throws InputError when the file is damaged, its pages are not alike, or hold no whole numbers; several values a pixel
+ *  need options.component. */
 TiffPages
-InspectTiff(const std::filesystem::path & path);
+InspectTiff(const std::filesystem::path & path, const ReadOptions & options);
 
-/** The voxels of all pages, in this machine's byte order. */
+/** Whether both have slices of the same size and kind. */
+bool
+AreAlike(const TiffPages & a, const TiffPages & b);
+
+/** The voxels (of the component chosen) of all pages, in this machine's byte order. */
 std::unique_ptr<ByteStream>
 OpenTiffPages(const std::filesystem::path & path, const TiffPages & pages);
 

@@ -67,17 +67,27 @@ private:
   {
     const std::size_t bytes = PixelBytes(m_Pages.type);
     std::byte *       to = m_Page.data() + (std::size_t{ y } * m_Pages.width + x) * bytes;
+    const std::size_t samples = m_Pages.planar ? 1U : m_Pages.samples;
     if (m_Pages.bits >= 8)
     {
-      std::memcpy(to, row, count * bytes);
+      if (samples == 1)
+      {
+        std::memcpy(to, row, count * bytes);
+        return;
+      }
+      for (std::uint32_t i = 0; i < count; ++i)
+      {
+        std::memcpy(to + i * bytes, row + (i * samples + m_Pages.component) * bytes, bytes);
+      }
       return;
     }
-    const unsigned perByte = 8U / m_Pages.bits;
-    const unsigned mask = (1U << m_Pages.bits) - 1U;
+    const std::size_t perByte = 8U / m_Pages.bits;
+    const unsigned    mask = (1U << m_Pages.bits) - 1U;
     for (std::uint32_t i = 0; i < count; ++i)
     {
-      const unsigned shift = 8U - m_Pages.bits * (i % perByte + 1U);
-      to[i] = static_cast<std::byte>((std::to_integer<unsigned>(row[i / perByte]) >> shift) & mask);
+      const std::size_t value = i * samples + (samples > 1 ? m_Pages.component : 0U);
+      const auto        shift = 8U - m_Pages.bits * static_cast<unsigned>(value % perByte + 1U);
+      to[i] = static_cast<std::byte>((std::to_integer<unsigned>(row[value / perByte]) >> shift) & mask);
     }
   }
 
@@ -91,6 +101,7 @@ private:
     }
     const std::uint32_t width = m_Pages.width;
     const std::uint32_t height = m_Pages.height;
+    const auto          plane = static_cast<std::uint16_t>(m_Pages.planar ? m_Pages.component : 0U);
     m_Page.resize(static_cast<std::size_t>(m_Pages.PageBytes()));
     if (TIFFIsTiled(tiff) != 0)
     {
@@ -103,9 +114,11 @@ private:
       {
         for (std::uint32_t x = 0; x < width; x += tileWidth)
         {
-          Decode(
-            TIFFReadEncodedTile(tiff, TIFFComputeTile(tiff, x, y, 0, 0), m_Part.data(), static_cast<tmsize_t>(size)),
-            size);
+          Decode(TIFFReadEncodedTile(tiff,
+                                     TIFFComputeTile(tiff, x, y, 0, plane),
+                                     m_Part.data(),
+                                     static_cast<tmsize_t>(size)),
+                 size);
           const std::uint32_t columns = std::min(tileWidth, width - x);
           for (std::uint32_t row = 0; row < std::min(tileHeight, height - y); ++row)
           {
@@ -130,7 +143,7 @@ private:
     {
       const std::uint32_t rows = std::min(perStrip, height - y);
       const std::size_t   size = rows * rowBytes;
-      Decode(TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, y, 0), m_Part.data(), static_cast<tmsize_t>(size)),
+      Decode(TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, y, plane), m_Part.data(), static_cast<tmsize_t>(size)),
              size);
       for (std::uint32_t row = 0; row < rows; ++row)
       {

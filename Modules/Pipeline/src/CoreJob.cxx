@@ -118,7 +118,10 @@ DescribeInput(const CoreOptions & options, const LabelVolume & volume)
 }
 
 ParameterRecord
-DescribeParameters(const CoreOptions & options, const EditedLabels & edited, const SpacingWeights & weights)
+DescribeParameters(const CoreOptions &    options,
+                   const LabelVolume &    volume,
+                   const EditedLabels &   edited,
+                   const SpacingWeights & weights)
 {
   ParameterRecord parameters;
   for (const EditedLabel & one : edited.labels)
@@ -128,10 +131,12 @@ DescribeParameters(const CoreOptions & options, const EditedLabels & edited, con
       parameters.labels.push_back(one.label.value);
     }
   }
-  parameters.edits = edited.options;
+  parameters.edits = options.edits;
+  parameters.crop = volume.crop;
   parameters.binary = options.reading.binary;
   parameters.threshold = options.reading.threshold;
   parameters.volume = options.reading.volume;
+  parameters.component = options.reading.component;
   parameters.spacing = options.reading.spacing;
   parameters.orthonormalize = options.reading.orthonormalize;
   parameters.niftiForm = options.reading.niftiForm;
@@ -341,7 +346,7 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
   report.command = options.command;
   report.input = DescribeInput(options, volume);
-  report.parameters = DescribeParameters(options, edited, weights);
+  report.parameters = DescribeParameters(options, volume, edited, weights);
   result.warnings = volume.warnings;
   result.notes = edited.notes;
   report.seconds.read = watch.Lap();

@@ -56,8 +56,7 @@ InputJson(const InputRecord & input, bool inFile)
 Json
 EditRecordJson(const EditRecord & edits)
 {
-  return { { "voxels_cropped", edits.voxelsCropped },
-           { "cavities_filled", edits.cavitiesFilled },
+  return { { "cavities_filled", edits.cavitiesFilled },
            { "voxels_added", edits.voxelsAdded },
            { "components_joined", edits.componentsJoined },
            { "components_removed", edits.componentsRemoved },
@@ -196,7 +195,6 @@ EditRecord
 ReadEditRecord(const Json & json)
 {
   EditRecord edits;
-  json.at("voxels_cropped").get_to(edits.voxelsCropped);
   json.at("cavities_filled").get_to(edits.cavitiesFilled);
   json.at("voxels_added").get_to(edits.voxelsAdded);
   json.at("components_joined").get_to(edits.componentsJoined);

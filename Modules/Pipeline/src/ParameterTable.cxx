@@ -26,9 +26,10 @@ number is mm; 0 keeps the whole voxel core. Pruning never changes the topology.
   Above 2.44vox (cubic voxels) the pruned core is proven to converge as scans get finer, but thin parts shrink to curves.
   On thick slices the smallest spacing does not clear the staircase across slices; give mm there, about 1.5 slices.
 
-Edits are done label by label in the order --crop, --fill-cavities, --min-voxels, --largest, --split-components. Components
-are connected through faces (6-connected); equally large ones keep the order of the scan. A crop cuts: what it cuts through
-ends there, and a cavity it opens is none. What is in a label's cavity, other labels too, is filled.
+Only the part that --crop names is looked at. A crop cuts: what it cuts through ends there, and a cavity it opens is none.
+Edits are then done label by label in the order --fill-cavities, --min-voxels, --largest, --split-components. Components
+are connected through faces (6-connected); equally large ones keep the order of the scan. What is in a label's cavity,
+other labels too, is filled.
 
 Examples:
   voxelcore core scan.nii.gz -o medial.vtp --report medial.json
@@ -79,7 +80,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "",
     true,
     kReads | kVerify,
-    "Scan: .nrrd .nhdr .seg.nrrd .nii .nii.gz .mha .mhd .tif, or a folder or 'pattern*' of TIFF slices" },
+    "Scan: .nrrd .nhdr .seg.nrrd .nii .nii.gz .mha .mhd .tif, or a folder or 'pattern*' of TIFF or PNG slices" },
   { "core", "", Input, "CORE.vtp", "", true, kVerify | kPrune, "File that 'voxelcore core' wrote" },
   { "kind", "", Text, "KIND", "", true, kPhantom, "What to make; 'list' names the kinds" },
   { "output",
@@ -145,6 +146,14 @@ constexpr auto kParameters = std::to_array<Parameter>({
     kReads,
     "Treat each component of a label by itself, named NAME#1, NAME#2, ... by size" },
   { "volume", "--volume", Integer, "N", "", false, kReads, "Which volume of a 4-D file, from 0" },
+  { "component",
+    "--component",
+    Integer,
+    "N",
+    "",
+    false,
+    kReads,
+    "Which of the values a voxel of a colour image or of vectors has, from 0" },
   { "spacing", "--spacing", Text, "X,Y,Z", "", false, kReads, "Voxel size in mm, instead of the file's" },
   { "orthonormalize",
     "--orthonormalize",

@@ -263,6 +263,14 @@ ReadOptionsFrom(const ParameterValues & values, CommandId command)
   {
     reading.volume = reader.Whole("volume", 0, std::numeric_limits<std::int64_t>::max());
   }
+  if (reader.IsGiven("component"))
+  {
+    reading.component = reader.Whole("component", 0, std::numeric_limits<std::int64_t>::max());
+  }
+  if (reader.IsGiven("crop"))
+  {
+    reading.crop = ParseCrop(reader.Text("crop"));
+  }
   if (reader.IsGiven("spacing"))
   {
     reading.spacing = SpacingFrom(reader);
@@ -287,10 +295,6 @@ ShapeEditsFrom(const ParameterValues & values, CommandId command)
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   const Reader           reader(values, command);
   ShapeEditOptions       edits;
-  if (reader.IsGiven("crop"))
-  {
-    edits.crop = ParseCrop(reader.Text("crop"));
-  }
   if (reader.IsGiven("min-voxels"))
   {
     edits.minVoxels = static_cast<std::uint64_t>(reader.Whole("min-voxels", 1, most));

@@ -31,18 +31,32 @@ ReadBound(const Json & json)
   return !json.is_string() ? json.get<double>() : json.get<std::string>() == "inf" ? infinity : -infinity;
 }
 
+Json
+CropJson(const CropRange & crop)
+{
+  Json json = Json::array();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    json.push_back({ crop.first[axis], crop.end[axis] });
+  }
+  return json;
+}
+
+CropRange
+ReadCrop(const Json & json)
+{
+  CropRange crop;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    json.at(axis).at(0).get_to(crop.first[axis]);
+    json.at(axis).at(1).get_to(crop.end[axis]);
+  }
+  return crop;
+}
+
 void
 AddEdits(Json & json, const ShapeEditOptions & edits)
 {
-  json["crop"] = nullptr;
-  if (edits.crop)
-  {
-    json["crop"] = Json::array();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      json["crop"].push_back({ edits.crop->first[axis], edits.crop->end[axis] });
-    }
-  }
   json["fill_cavities"] = edits.fillCavities;
   json["min_voxels"] = edits.minVoxels ? Json(*edits.minVoxels) : Json(nullptr);
   json["largest"] = edits.largest ? Json(*edits.largest) : Json(nullptr);
@@ -63,15 +77,6 @@ ShapeEditOptions
 ReadEdits(const Json & json)
 {
   ShapeEditOptions edits;
-  if (!json.at("crop").is_null())
-  {
-    edits.crop.emplace();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      json.at("crop").at(axis).at(0).get_to(edits.crop->first[axis]);
-      json.at("crop").at(axis).at(1).get_to(edits.crop->end[axis]);
-    }
-  }
   json.at("fill_cavities").get_to(edits.fillCavities);
   ReadOptional(json.at("min_voxels"), edits.minVoxels);
   ReadOptional(json.at("largest"), edits.largest);
@@ -89,9 +94,11 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
   json["binary"] = parameters.binary;
   json["threshold"] = parameters.threshold ? ThresholdJson(*parameters.threshold) : Json(nullptr);
   json["volume"] = parameters.volume ? Json(*parameters.volume) : Json(nullptr);
+  json["component"] = parameters.component ? Json(*parameters.component) : Json(nullptr);
   json["spacing"] = parameters.spacing ? Json(*parameters.spacing) : Json(nullptr);
   json["orthonormalize"] = parameters.orthonormalize;
   json["nifti_form"] = parameters.niftiForm;
+  json["crop"] = parameters.crop ? CropJson(*parameters.crop) : Json(nullptr);
   AddEdits(json, parameters.edits);
   json["lambda"] = parameters.lambda;
   json["triangles"] = parameters.model.triangles;
@@ -118,9 +125,14 @@ ReadParameters(const nlohmann::ordered_json & json)
     parameters.threshold = { ReadBound(json.at("threshold").at(0)), ReadBound(json.at("threshold").at(1)) };
   }
   ReadOptional(json.at("volume"), parameters.volume);
+  ReadOptional(json.at("component"), parameters.component);
   ReadOptional(json.at("spacing"), parameters.spacing);
   json.at("orthonormalize").get_to(parameters.orthonormalize);
   json.at("nifti_form").get_to(parameters.niftiForm);
+  if (!json.at("crop").is_null())
+  {
+    parameters.crop = ReadCrop(json.at("crop"));
+  }
   parameters.edits = ReadEdits(json);
   json.at("lambda").get_to(parameters.lambda);
   json.at("triangles").get_to(parameters.model.triangles);

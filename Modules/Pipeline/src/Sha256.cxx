@@ -1,6 +1,7 @@
 #include "voxelcore/Sha256.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/LabelVolume.h"
 
 #include <algorithm>
 #include <bit>

@@ -22,6 +22,8 @@ RecordedReading(const ParameterRecord & parameters)
   reading.binary = parameters.binary;
   reading.threshold = parameters.threshold;
   reading.volume = parameters.volume;
+  reading.component = parameters.component;
+  reading.crop = parameters.crop;
   reading.spacing = parameters.spacing;
   reading.orthonormalize = parameters.orthonormalize;
   reading.niftiForm = parameters.niftiForm;

@@ -5,10 +5,12 @@
 #include "voxelcore/Progress.h"
 #include "voxelcore/VoxelShape.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxelcore
@@ -23,11 +25,27 @@ struct LabelShape
   VoxelShape    shape;      ///< in its tight bounding box
 };
 
+/** Voxels first <= index < end along i, j and k. An end of 0 means the scan's. */
+struct CropRange
+{
+  std::array<std::int32_t, 3> first{ 0, 0, 0 };
+  std::array<std::int32_t, 3> end{ 0, 0, 0 };
+
+  bool
+  operator==(const CropRange &) const = default;
+};
+
+/** "i0:i1,j0:j1,k0:k1": voxels i0 to i1 - 1 and so on, counted from 0; either side of a colon may be left out.
+ *  \throws UsageError for anything else, for a negative index and for an empty range. */
+CropRange
+ParseCrop(std::string_view text);
+
 /** A scan that was read. Labels are sorted by value. */
 struct LabelVolume
 {
-  ImageGeometry            geometry;
-  std::string              format;    ///< "NRRD", "NIfTI-1", "NIfTI-2", "MetaImage", "TIFF", "TIFF slices"
+  ImageGeometry            geometry; ///< of the whole scan, also when only a part was read
+  std::optional<CropRange> crop;     ///< the part that was asked for, its ends filled in
+  std::string              format;   ///< "NRRD", "NIfTI-1", "NIfTI-2", "MetaImage", "TIFF", "TIFF slices", "PNG slices"
   std::string              pixelType; ///< as stored: "uint8", "int16", "float32", ...; "uint1" for packed bits
   std::vector<std::string> notes;     ///< what was assumed or converted, one sentence each; for the report
   std::vector<std::string> warnings;  ///< those of the notes a user must see
@@ -44,6 +62,8 @@ struct ReadOptions
   bool                                     orthonormalize = false; ///< accept the nearest orthonormal direction
   std::string                              niftiForm = "auto";     ///< "auto" (ITK's rule), "sform" or "qform"
   std::optional<std::int64_t>              volume;                 ///< which volume of a 4-D file, counted from 0
+  std::optional<std::int64_t>              component;              ///< which of several values a voxel, from 0
+  std::optional<CropRange>                 crop;                   ///< the part of the scan to read
 };
 
 /** Reads the labels of a scan in one pass over its voxels:
@@ -52,14 +72,18 @@ struct ReadOptions
  *  - NIfTI-1 and -2 (.nii, .nii.gz, .hdr/.img, .hdr.gz/.img.gz);
  *  - MetaImage (.mha, .mhd; raw, compressed, text);
  *  - TIFF (.tif, .tiff; many pages, BigTIFF, tiles, packed bits, any compression of libtiff);
- *  - slices, one TIFF each: a folder, or a pattern in the last part of the path, where `*` stands for anything and
- *    `%d`, `%04d` or a run of `#` for a number. They are taken in natural order (2 before 10) and must be numbered
- *    without a gap.
+ *  - slices, one TIFF or one PNG each (grey, 1 to 16 bits): a folder, or a pattern in the last part of the path, where
+ *    `*` stands for anything and `%d`, `%04d` or a run of `#` for a number. They are taken in natural order (2 before
+ *    10) and must be numbered without a gap.
+ *  Colour images and vectors have several values a voxel: options.component picks one of them as it is stored.
  *
  *  Values are whole numbers or the scan is refused; nothing is ever rounded, clipped or reinterpreted (a NIfTI slope
  *  that is itself rounded, such as 1/255, is allowed for). Names come from the file, else from
  *  "<scan without .gz>.txt" or "<scan without extension>.txt" beside it.
- *  Memory: a slab of a few MB, and the shapes.
+ *  Memory: a slab of a few MB, and the shapes. Of a scan that is cropped only the shapes of the part; what lies outside
+ *  is not looked at, and not read either where the data are stored plain or slice by slice (layers of a segmentation
+ *  are: the numbers their labels get must not depend on the crop). Places do not move: shapes lie where they lie in the
+ *  whole scan.
  *
  *  Progress is reported as stage "read". May be called from several threads at once.
  *  \throws InputError with one line when the file is missing, damaged or unfit, when a label asked for does not occur,
@@ -68,6 +92,12 @@ LabelVolume
 ReadLabelVolume(const std::filesystem::path & path,
                 const ReadOptions &           options = {},
                 const ProgressCallback &      progress = {});
+
+/** The files a scan consists of: the file itself first, then, sorted by name, the data files that a detached header
+ *  points to, or the other half of a NIfTI pair; for a folder or a pattern the slices alone. Files that are not there
+ *  are left out. \throws InputError when a header that must be looked into is none. */
+std::vector<std::filesystem::path>
+ScanFiles(const std::filesystem::path & path);
 
 /** Writes labels as a volume: .nrrd .nii .nii.gz .mha .mhd .tif by the extension of `path`; the smallest unsigned type
  *  that holds the values. Packed when `compress` and the format can (.nii never, .nii.gz always). NIfTI keeps the

@@ -34,6 +34,8 @@ struct ParameterRecord
   bool                                     binary = false;
   std::optional<std::pair<double, double>> threshold;
   std::optional<std::int64_t>              volume;
+  std::optional<std::int64_t>              component;
+  std::optional<CropRange>                 crop;    ///< with its ends filled in
   std::optional<Vector3>                   spacing; ///< as given, mm
   bool                                     orthonormalize = false;
   std::string                              niftiForm = "auto";

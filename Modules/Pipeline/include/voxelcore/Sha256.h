@@ -38,11 +38,6 @@ private:
 std::string
 FileSha256(const std::filesystem::path & path);
 
-/** The files a scan consists of: the file itself and the data files a .nhdr, .mhd or .hdr points to; for a folder or a
- *  pattern with * or ? the files it names. Sorted by name after the first. */
-std::vector<std::filesystem::path>
-ScanFiles(const std::filesystem::path & scan);
-
 /** FileSha256 of a scan in one file; of several, the digest of the lines "<digest>  <file name>\n". So the folder's
  *  place does not matter, its content does. */
 std::string

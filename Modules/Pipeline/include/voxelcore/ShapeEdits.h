@@ -4,32 +4,17 @@
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/Progress.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace voxelcore
 {
 
-/** Voxels first <= index < end along i, j and k. An end of 0 means the scan's. */
-struct CropRange
-{
-  std::array<std::int32_t, 3> first{ 0, 0, 0 };
-  std::array<std::int32_t, 3> end{ 0, 0, 0 };
-};
-
-/** "i0:i1,j0:j1,k0:k1": voxels i0 to i1 - 1 and so on, counted from 0; either side of a colon may be left out.
- *  \throws UsageError for anything else, for a negative index and for an empty range. */
-CropRange
-ParseCrop(std::string_view text);
-
 /** Done to each label by itself, in this order. */
 struct ShapeEditOptions
 {
-  std::optional<CropRange>     crop;
   bool                         fillCavities = false;
   std::optional<std::uint64_t> minVoxels; ///< components (6-connected) of fewer voxels are removed
   std::optional<std::uint64_t> largest;   ///< so many components are kept
@@ -38,14 +23,13 @@ struct ShapeEditOptions
   bool
   AreAsked() const
   {
-    return crop || fillCavities || minVoxels || largest || splitComponents;
+    return fillCavities || minVoxels || largest || splitComponents;
   }
 };
 
 /** What was done to one label. */
 struct EditRecord
 {
-  std::uint64_t voxelsCropped = 0;
   std::uint64_t cavitiesFilled = 0;
   std::uint64_t voxelsAdded = 0;      ///< in cavities
   std::uint64_t componentsJoined = 0; ///< components that lay in cavities
@@ -63,15 +47,13 @@ struct EditedLabel
 
 struct EditedLabels
 {
-  std::vector<EditedLabel> labels;  ///< by value, then component
-  ShapeEditOptions         options; ///< with the ends of `crop` filled in
-  std::vector<std::string> notes;   ///< what was changed in all, one sentence each
+  std::vector<EditedLabel> labels; ///< by value, then component
+  std::vector<std::string> notes;  ///< what was changed in all, one sentence each
 };
 
 /** Edits the labels of a scan, which are taken out of `volume`. A label of which nothing is left is named in a note, or
  *  refused with `keepAll`: a user who names labels wants each of them.
- *  \throws InputError, naming the scan `where`, also when the crop reaches beyond the scan or nothing is left at all;
- *  Cancelled */
+ *  \throws InputError, naming the scan `where`, also when nothing is left at all; Cancelled */
 EditedLabels
 EditLabels(LabelVolume &            volume,
            const ShapeEditOptions & options,
