@@ -98,6 +98,9 @@ TEST(MetaImage, GeometryIsLpsAndTheMatrixHoldsOneAxisAfterTheOther)
   const LabelVolume micro = ReadLabelVolume(folder.Write("b.mha", Meta(With(lines, "DistanceUnits", "um"), kData)));
   ExpectNear(micro.geometry.spacing, { 0.002, 0.003, 0.0005 }, 1e-15);
   ExpectNear(micro.geometry.origin, { 0.001, 0.002, 0.003 }, 1e-15);
+  ExpectRefused(folder.Write("e.mha", Meta(With(lines, "DistanceUnits", "furlong"), kData)), { "furlong" });
+  ExpectNear(ReadLabelVolume(folder.Write("f.mha", Meta(With(lines, "DistanceUnits", "?"), kData))).geometry.spacing,
+             { 2, 3, 0.5 });
   ExpectRefused(folder.Write("c.mha", Meta(With(lines, "TransformMatrix", "1 0 0 0.1 1 0 0 0 1"), kData)),
                 { "5.71", "--orthonormalize" });
   ExpectRefused(folder.Write("d.mha", Meta(With(lines, "ElementSpacing", "2 0 1"), kData)), { "axis j" });

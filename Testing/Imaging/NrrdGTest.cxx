@@ -175,7 +175,7 @@ TEST(NrrdVolumes, ColoursAndPicturesAreRefused)
   ExpectRefused(folder.Write("a.nrrd", Nrrd(With(lines, "kinds", "RGB-color domain domain domain"), data)),
                 { "colour" });
   ExpectRefused(folder.Write("b.nrrd", Nrrd(With(lines, "kinds", "vector domain domain domain"), data)),
-                { "3 values a voxel" });
+                { "vectors", "3 values a voxel" });
   auto flat = With(With(Lines(), "dimension", "2"), "sizes", "6 2");
   flat = With(With(With(flat, "kinds", ""), "space directions", "(1,0) (0,1)"), "space", "");
   ExpectRefused(folder.Write("c.nrrd", Nrrd(flat, data.substr(0, 12))), { "2-D" });

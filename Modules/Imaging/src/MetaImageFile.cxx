@@ -170,6 +170,12 @@ ReadGeometry(const MetaHeader & header, std::size_t dimensions, const ReadOption
   if (const auto unit = header.Field({ "distanceunits" }); !unit.empty())
   {
     const auto millimetres = MillimetresIn(unit);
+    if (!millimetres && unit != "?" && !options.spacing)
+    {
+      Refuse(scan.path,
+             Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
+             "give the voxel spacing with --spacing x,y,z in mm");
+    }
     if (millimetres && *millimetres != 1.0)
     {
       for (std::size_t a = 0; a < 3; ++a)
