@@ -1,10 +1,13 @@
 // Files made to do harm: whatever a byte is changed to, reading ends in time, with a volume or with InputError, and
 // takes memory in proportion to the file.
 
+#include "PngBytes.h"
 #include "ScanBytes.h"
 
 #include <chrono>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <random>
 #include <sys/resource.h>
 
@@ -16,9 +19,28 @@ namespace
 
 struct Seed
 {
-  const char * name;
-  std::string  bytes;
+  const char *                       name; ///< of the file that is changed
+  std::string                        bytes;
+  const char *                       scan = nullptr; ///< what is read, when it is not that file
+  std::optional<std::int64_t>        component;
+  std::map<std::string, std::string> others; ///< files beside it that stay as they are
 };
+
+PngImage
+PngSeed(int bits, int colour, bool interlaced)
+{
+  PngImage image;
+  image.width = 9;
+  image.height = 5;
+  image.bits = bits;
+  image.colour = colour;
+  image.interlaced = interlaced;
+  for (unsigned i = 0; i < 45U * (colour == 2 ? 3U : 1U); ++i)
+  {
+    image.values.push_back(i % 3 == 0 ? i % (1U << std::min(bits, 8)) : 0);
+  }
+  return image;
+}
 
 std::vector<Seed>
 Seeds()
@@ -95,18 +117,70 @@ Seeds()
     page.compression = 8;
     page.parts.assign(4, Zlib(std::string(256, '\2')));
   }
-  return { { "raw.nrrd", Nrrd(lines, words) },
-           { "gzip.nrrd", Nrrd(packed, Gzip(words)) },
-           { "ascii.nrrd", Nrrd(text, written) },
-           { "layers.seg.nrrd", Nrrd(layers, bytes) },
-           { "one.nii", Nifti(nifti, words) },
-           { "two.nii", Nifti(nifti2, RawAll<std::int16_t>(values, true)) },
-           { "packed.nii.gz", Gzip(Nifti(nifti, words)) },
-           { "raw.mha", Meta(meta, words) },
-           { "packed.mha", Meta(metaPacked, Zlib(words)) },
-           { "strips.tif", Tiff(strips) },
-           { "bits.tif", Tiff(bits, { true, false }) },
-           { "tiles.tif", Tiff(tiles, { false, true }) } };
+  auto hex = NrrdLines("uchar", { 6, 5, 4 });
+  hex[7] = "encoding: hex";
+  std::string digits;
+  for (const char c : bytes)
+  {
+    digits += "0123456789abcdef"[static_cast<unsigned char>(c) >> 4];
+    digits += "0123456789abcdef"[static_cast<unsigned char>(c) & 15];
+  }
+  auto list = lines;
+  list.emplace_back("data file: LIST\na.part\n./b.part");
+  auto pattern = lines;
+  pattern.emplace_back("data file: p%02d.part 1 2 1");
+  const std::string                        half = words.substr(0, words.size() / 2);
+  const std::map<std::string, std::string> parts{ { "a.part", half },
+                                                  { "b.part", half },
+                                                  { "p01.part", half },
+                                                  { "p02.part", half },
+                                                  { "pair.img", words } };
+  auto                                     metaParts = meta;
+  metaParts.emplace_back("ElementDataFile = p%02d.part 1 2 1\n");
+  std::string metaHeader;
+  for (const auto & line : metaParts)
+  {
+    metaHeader += line + "\n";
+  }
+  NiftiFields pair = nifti;
+  pair.pair = true;
+  NiftiFields colours = nifti;
+  colours.datatype = 128;
+  colours.bitpix = 24;
+  auto samples = tiles;
+  for (TiffPage & page : samples)
+  {
+    page = strips[0];
+    page.samples = 3;
+    page.photometric = 2;
+    page.compression = 1;
+    page.rowsPerStrip = 0;
+    page.parts = { std::string(90, '\3') };
+  }
+  const auto header = [](const std::string & whole) { return whole.substr(0, whole.size() - 1); };
+  return { { "hex.nrrd", Nrrd(hex, digits), nullptr, {}, {} },
+           { "list.nhdr", header(Nrrd(list, "")), nullptr, {}, parts },
+           { "pattern.nhdr", header(Nrrd(pattern, "")), nullptr, {}, parts },
+           { "parts.mhd", metaHeader, nullptr, {}, parts },
+           { "pair.hdr", NiftiHeaderBytes(pair), nullptr, {}, parts },
+           { "colours.nii", Nifti(colours, bytes + bytes + bytes), nullptr, 0, {} },
+           { "samples.tif", Tiff(samples), nullptr, 2, {} },
+           { "p/1.png", Png(PngSeed(8, 0, false)), "p", {}, { { "p/2.png", Png(PngSeed(8, 0, true)) } } },
+           { "q/1.png", Png(PngSeed(16, 0, true)), "q/#.png", {}, { { "q/2.png", Png(PngSeed(16, 0, false)) } } },
+           { "b/1.png", Png(PngSeed(1, 0, true)), "b", {}, { { "b/2.png", Png(PngSeed(1, 0, false)) } } },
+           { "c/1.png", Png(PngSeed(8, 2, false)), "c", 0, { { "c/2.png", Png(PngSeed(8, 2, true)) } } },
+           { "raw.nrrd", Nrrd(lines, words), nullptr, {}, {} },
+           { "gzip.nrrd", Nrrd(packed, Gzip(words)), nullptr, {}, {} },
+           { "ascii.nrrd", Nrrd(text, written), nullptr, {}, {} },
+           { "layers.seg.nrrd", Nrrd(layers, bytes), nullptr, {}, {} },
+           { "one.nii", Nifti(nifti, words), nullptr, {}, {} },
+           { "two.nii", Nifti(nifti2, RawAll<std::int16_t>(values, true)), nullptr, {}, {} },
+           { "packed.nii.gz", Gzip(Nifti(nifti, words)), nullptr, {}, {} },
+           { "raw.mha", Meta(meta, words), nullptr, {}, {} },
+           { "packed.mha", Meta(metaPacked, Zlib(words)), nullptr, {}, {} },
+           { "strips.tif", Tiff(strips), nullptr, {}, {} },
+           { "bits.tif", Tiff(bits, { true, false }), nullptr, {}, {} },
+           { "tiles.tif", Tiff(tiles, { false, true }), nullptr, {}, {} } };
 }
 
 long
@@ -130,7 +204,15 @@ ReadMutations(std::size_t countOfEach)
   std::size_t  refused = 0;
   for (const Seed & original : Seeds())
   {
-    ASSERT_NO_THROW(ReadLabelVolume(folder.Write(original.name, original.bytes))) << original.name;
+    const std::filesystem::path scan = folder / (original.scan != nullptr ? original.scan : original.name);
+    ReadOptions                 options;
+    options.component = original.component;
+    for (const auto & [name, bytes] : original.others)
+    {
+      folder.Write(name, bytes);
+    }
+    folder.Write(original.name, original.bytes);
+    ASSERT_NO_THROW(ReadLabelVolume(scan, options)) << original.name;
     for (std::size_t i = 0; i < countOfEach; ++i)
     {
       std::string bytes = original.bytes;
@@ -146,7 +228,7 @@ ReadMutations(std::size_t countOfEach)
       const auto begin = std::chrono::steady_clock::now();
       try
       {
-        ReadLabelVolume(path);
+        ReadLabelVolume(scan, options);
         ++read;
       }
       catch (const InputError & error)
@@ -156,7 +238,7 @@ ReadMutations(std::size_t countOfEach)
       }
       catch (const std::exception & error)
       {
-        std::filesystem::copy_file(path, std::filesystem::temp_directory_path() / original.name);
+        std::filesystem::copy_file(path, std::filesystem::temp_directory_path() / path.filename());
         FAIL() << original.name << " change " << i << ": " << error.what();
       }
       ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << original.name << " change " << i;
@@ -201,4 +283,38 @@ TEST(Hostile, AHeaderWithoutEndIsRefused)
   const TempFolder folder;
   ExpectRefused(folder.Write("a.nrrd", "NRRD0004\n" + std::string(70U << 20, 'x')), { "no end" });
   ExpectRefused(folder.Write("a.mha", "NDims = 3\n" + std::string(3U << 20, 'x')), { "not a MetaImage" });
+}
+
+TEST(Hostile, DetachedDataMayLieAboveTheHeaderButMustBeAFile)
+{
+  // A study may keep its headers in a folder of their own. What is named is only ever read, and only a regular file.
+  const TempFolder folder;
+  folder.Write("data/a.raw", std::string(27, '\1'));
+  auto lines = NrrdLines("uchar", { 3, 3, 3 });
+  lines.emplace_back("data file: ../data/a.raw");
+  const std::string header = Nrrd(lines, "");
+  EXPECT_EQ(ReadLabelVolume(folder.Write("headers/a.nhdr", header)).labels[0].voxels, 27U);
+  for (const char * file :
+       { "../data/b.raw", "../../../../../../../../no/such/file", "..", "../data", "/dev/zero", "." })
+  {
+    lines.back() = std::string("data file: ") + file;
+    const std::string meta = "NDims = 3\nDimSize = 3 3 3\nElementType = MET_UCHAR\nElementDataFile = ";
+    for (const auto & path :
+         { folder.Write("headers/a.nhdr", Nrrd(lines, "")), folder.Write("headers/a.mhd", meta + file + "\n") })
+    {
+      try
+      {
+        ReadLabelVolume(path);
+        ADD_FAILURE() << file;
+      }
+      catch (const InputError & error)
+      {
+        const std::string refusal = error.what();
+        EXPECT_NE(refusal.find(file), std::string::npos) << refusal;
+        EXPECT_TRUE(refusal.find("no such file") != std::string::npos ||
+                    refusal.find("not a regular file") != std::string::npos)
+          << refusal;
+      }
+    }
+  }
 }

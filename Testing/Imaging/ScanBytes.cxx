@@ -26,6 +26,7 @@ TempFolder::Write(const std::string & name, std::string_view bytes) const
 {
   const auto path = m_Path / name;
   std::filesystem::create_directories(path.parent_path());
+  std::filesystem::remove(path); // file systems wait for the disk when a file is truncated and written anew
   std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return path;
 }
