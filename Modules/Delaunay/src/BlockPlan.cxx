@@ -194,6 +194,8 @@ DigestOf(const VoxelShape & shape, const BlockPlan & plan)
     add(static_cast<std::uint64_t>(shape.Box().size[axis]));
     add(static_cast<std::uint64_t>(plan.weight[axis]));
   }
+  add(plan.boundaryVertices);
+  add(plan.boundarySquares);
   add(plan.blocks.size());
   for (const HaloBlock & block : plan.blocks)
   {
@@ -217,15 +219,10 @@ DigestOf(const VoxelShape & shape, const BlockPlan & plan)
   return { sums[0].Value(), sums[1].Value() };
 }
 
-} // namespace
-
+// What a plan says of the shape.
 BlockPlan
-PlanBlocks(const VoxelShape & shape, const SpacingWeights & weights, std::size_t count)
+StartPlan(const VoxelShape & shape, const SpacingWeights & weights)
 {
-  if (count == 0 || count > greatestCount)
-  {
-    throw UsageError("a shape is cut into 1 to " + std::to_string(greatestCount) + " blocks");
-  }
   const auto &       size = shape.Box().size;
   const std::int32_t longest = *std::max_element(size.begin(), size.end());
   if (longest > (1 << 20) || !ExactRangeAllows(longest, weights))
@@ -237,10 +234,83 @@ PlanBlocks(const VoxelShape & shape, const SpacingWeights & weights, std::size_t
   plan.weight = weights.weight;
   plan.boundaryVertices = CountBoundaryVertices(shape);
   plan.boundarySquares = CountBoundarySquares(shape);
+  return plan;
+}
+
+Place
+LowerOf(const HaloBlock & block)
+{
+  return { block.lower.x, block.lower.y, block.lower.z };
+}
+
+Place
+UpperOf(const HaloBlock & block)
+{
+  return { block.upper.x, block.upper.y, block.upper.z };
+}
+
+// Lattice corners that two blocks have in common.
+Int128
+CountCommon(const HaloBlock & a, const HaloBlock & b)
+{
+  Int128 count = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t low = std::max(LowerOf(a)[axis], LowerOf(b)[axis]);
+    const std::int64_t high = std::min(UpperOf(a)[axis], UpperOf(b)[axis]);
+    count *= std::max<std::int64_t>(high - low, 0);
+  }
+  return count;
+}
+
+} // namespace
+
+BlockPlan
+PlanBlocks(const VoxelShape & shape, const SpacingWeights & weights, std::size_t count)
+{
+  if (count == 0 || count > greatestCount)
+  {
+    throw UsageError("a shape is cut into 1 to " + std::to_string(greatestCount) + " blocks");
+  }
+  BlockPlan    plan = StartPlan(shape, weights);
+  const auto & size = shape.Box().size;
   plan.blocks.reserve(count);
   Cutter(shape).Cut({ 0, 0, 0 }, { size[0] + 1, size[1] + 1, size[2] + 1 }, count, plan.blocks);
   plan.digest = DigestOf(shape, plan);
   return plan;
+}
+
+BlockPlan
+PlanBlocks(const VoxelShape & shape, const SpacingWeights & weights, std::vector<HaloBlock> blocks)
+{
+  const auto & [lower, size] = shape.Box();
+  const HaloBlock whole{ { lower[0], lower[1], lower[2] },
+                         { lower[0] + size[0] + 1, lower[1] + size[1] + 1, lower[2] + size[2] + 1 } };
+  Int128          covered = 0;
+  bool            apart = !blocks.empty() && blocks.size() <= greatestCount;
+  for (std::size_t i = 0; i < blocks.size() && apart; ++i)
+  {
+    apart = CountCommon(blocks[i], whole) == CountCommon(blocks[i], blocks[i]); // none lies outside
+    covered += CountCommon(blocks[i], whole);
+    for (std::size_t j = 0; j < i && apart; ++j)
+    {
+      apart = CountCommon(blocks[i], blocks[j]) == 0;
+    }
+  }
+  if (!apart || covered != CountCommon(whole, whole))
+  {
+    throw UsageError("the blocks do not part the lattice corners of the shape's box");
+  }
+  BlockPlan plan = StartPlan(shape, weights);
+  plan.blocks = std::move(blocks);
+  plan.digest = DigestOf(shape, plan);
+  return plan;
+}
+
+bool
+IsPlanOf(const BlockPlan & plan, const VoxelShape & shape, const SpacingWeights & weights)
+{
+  return plan.weight == weights.weight && DigestOf(shape, plan) == plan.digest;
 }
 
 } // namespace voxelcore

@@ -202,7 +202,7 @@ ComputeBlockShare(const VoxelShape &       shape,
     throw UsageError("there is no block " + std::to_string(block) + " in a plan of " +
                      std::to_string(plan.blocks.size()));
   }
-  if (PlanBlocks(shape, weights, plan.blocks.size()).digest != plan.digest)
+  if (!IsPlanOf(plan, shape, weights))
   {
     throw InputError("the plan of the blocks was made for another shape or other weights; make it again");
   }

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace voxelcore
 {
@@ -34,6 +36,10 @@ struct Reach
 std::int64_t
 FloorOfRoot(Int128 value)
 {
+  if (value < (Int128{ 1 } << 52)) // then the rounded root of a number below a square is below its root
+  {
+    return static_cast<std::int64_t>(std::sqrt(static_cast<double>(static_cast<std::int64_t>(value))));
+  }
   auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(value)));
   while (Int128{ root } * root > value)
   {
@@ -45,6 +51,8 @@ FloorOfRoot(Int128 value)
   }
   return root;
 }
+
+constexpr std::int32_t greatestGrain = 64;
 
 class RegionMaker
 {
@@ -96,9 +104,9 @@ public:
              m_Block.upper[0] - box.lower[0]);
       }
     }
-    for (const Reach & reach : m_Reaches)
+    for (std::int32_t grain = 1; grain <= greatestGrain; grain *= 2)
     {
-      MarkHalo(reach, box, part);
+      MarkHalos(grain, box, part);
     }
     for (std::int32_t z = box.lower[2]; z < box.upper[2]; ++z)
     {
@@ -212,20 +220,79 @@ private:
     return true;
   }
 
-  void
-  MarkHalo(const Reach & reach, const Range & box, VoxelShape & part) const
+  // The edge of the cubes of voxels by which a halo is marked: at most an eighth of its radius, a power of two.
+  std::int32_t
+  GrainOf(const Reach & reach) const
   {
-    const auto & w = m_Weights.weight;
-    const auto [lowZ, highZ] = Halo(reach, 2);
-    const auto [lowY, highY] = Halo(reach, 1);
-    // Steps from the box to the nearer of the two rows of corners on a voxel's sides.
-    const auto stepsTo = [&](std::int32_t voxel, std::size_t axis) -> std::int64_t {
-      return std::max({ reach.box.lower[axis] - (voxel + 1), voxel - reach.box.upper[axis], 0 });
+    const std::int64_t greatest = *std::max_element(m_Weights.weight.begin(), m_Weights.weight.end());
+    const std::int64_t steps = FloorOfRoot(reach.fourSquared / 4) / greatest;
+    std::int32_t       grain = 1;
+    while (grain < greatestGrain && 16 * std::int64_t{ grain } <= steps)
+    {
+      grain *= 2;
+    }
+    return grain;
+  }
+
+  // Marks the halos of one grain: first in cubes of voxels, then in voxels.
+  void
+  MarkHalos(std::int32_t grain, const Range & box, VoxelShape & part) const
+  {
+    VoxelShape cubes;
+    for (const Reach & reach : m_Reaches)
+    {
+      if (GrainOf(reach) == grain)
+      {
+        if (cubes.Box().size[0] == 0)
+        {
+          const auto count = [&](std::size_t axis) { return (box.upper[axis] - box.lower[axis] + grain - 1) / grain; };
+          cubes = VoxelShape({ { 0, 0, 0 }, { count(0), count(1), count(2) } });
+        }
+        MarkHalo(reach, grain, box, cubes);
+      }
+    }
+    for (std::int32_t z = 0; z < cubes.Box().size[2] * grain && z < part.Box().size[2]; ++z)
+    {
+      for (std::int32_t y = 0; y < cubes.Box().size[1] * grain && y < part.Box().size[1]; ++y)
+      {
+        const auto row = part.Row(y, z);
+        const auto marked = std::as_const(cubes).Row(y / grain, z / grain);
+        for (std::size_t word = 0; word < marked.size(); ++word)
+        {
+          for (std::uint64_t bits = marked[word]; bits != 0;)
+          {
+            const int          first = std::countr_zero(bits);
+            const int          length = std::countr_one(bits >> first);
+            const std::int32_t begin = (static_cast<std::int32_t>(64 * word) + first) * grain;
+            Mark(row, begin, std::min(begin + length * grain, part.Box().size[0]));
+            bits = first + length == 64 ? 0 : bits >> (first + length) << (first + length);
+          }
+        }
+      }
+    }
+  }
+
+  // Marks the cubes of voxels around the lattice points within reach.
+  void
+  MarkHalo(const Reach & reach, std::int32_t grain, const Range & box, VoxelShape & cubes) const
+  {
+    const auto &                                         w = m_Weights.weight;
+    std::array<std::pair<std::int32_t, std::int32_t>, 3> range; // of cubes
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto [low, high] = Halo(reach, axis);
+      range[axis] = { (low - box.lower[axis]) / grain, (high - box.lower[axis] + grain - 1) / grain };
+    }
+    const int shift = std::countr_zero(static_cast<std::uint32_t>(grain));
+    // Steps between the reach's box and the lattice points on a cube along an axis.
+    const auto stepsTo = [&](std::int32_t cube, std::size_t axis) -> std::int64_t {
+      const std::int32_t low = box.lower[axis] + cube * grain;
+      return std::max({ reach.box.lower[axis] - (low + grain), low - reach.box.upper[axis], 0 });
     };
-    for (std::int32_t z = lowZ; z < highZ; ++z)
+    for (std::int32_t z = range[2].first; z < range[2].second; ++z)
     {
       const std::int64_t dz = w[2] * stepsTo(z, 2);
-      for (std::int32_t y = lowY; y < highY; ++y)
+      for (std::int32_t y = range[1].first; y < range[1].second; ++y)
       {
         const std::int64_t dy = w[1] * stepsTo(y, 1);
         const Int128       rest = reach.fourSquared / 4 - Int128{ dy } * dy - Int128{ dz } * dz;
@@ -233,12 +300,13 @@ private:
         {
           continue;
         }
-        const std::int64_t steps = FloorOfRoot(rest) / w[0];
-        const auto         low = std::max<std::int64_t>(reach.box.lower[0] - steps - 1, box.lower[0]);
-        const auto         high = std::min<std::int64_t>(reach.box.upper[0] + steps + 1, box.upper[0]);
-        Mark(part.Row(y - box.lower[1], z - box.lower[2]),
-             static_cast<std::int32_t>(low) - box.lower[0],
-             static_cast<std::int32_t>(high) - box.lower[0]);
+        const std::int64_t root = FloorOfRoot(rest);
+        const std::int64_t steps = w[0] == 1 ? root : root / w[0];
+        const auto         low = std::max<std::int64_t>(reach.box.lower[0] - steps - 1, box.lower[0]) - box.lower[0];
+        const auto         high = std::min<std::int64_t>(reach.box.upper[0] + steps + 1, box.upper[0]) - box.lower[0];
+        Mark(cubes.Row(y, z),
+             static_cast<std::int32_t>(low >> shift),
+             static_cast<std::int32_t>((high + grain - 1) >> shift));
       }
     }
   }

@@ -20,7 +20,6 @@ GoOutward(std::int32_t first, std::int32_t count, TVisit visit)
 } // namespace
 
 NearestVertex::NearestVertex(const VoxelShape & shape, const SpacingWeights & weights)
-  : m_Bits(shape)
 {
   const auto & size = shape.Box().size;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -29,33 +28,44 @@ NearestVertex::NearestVertex(const VoxelShape & shape, const SpacingWeights & we
     m_Cells[axis] = size[axis] / 8 + 1;
   }
   m_RowBytes = (static_cast<std::size_t>(m_Cells[0]) + 7) / 8;
-  m_Occupied.assign(m_RowBytes * static_cast<std::size_t>(m_Cells[1]) * static_cast<std::size_t>(m_Cells[2]), 0);
-  for (std::int32_t z = 0; z <= size[2]; ++z)
+  const auto rows = static_cast<std::size_t>(m_Cells[1]) * static_cast<std::size_t>(m_Cells[2]);
+  m_Occupied.assign(m_RowBytes * rows, 0);
+  m_RowStart.reserve(rows);
+  const BoundaryBits                        bits(shape);
+  std::vector<std::array<std::uint64_t, 8>> row(m_RowBytes * 8);
+  for (std::int32_t cellZ = 0; cellZ < m_Cells[2]; ++cellZ)
   {
-    for (std::int32_t y = 0; y <= size[1]; ++y)
+    for (std::int32_t cellY = 0; cellY < m_Cells[1]; ++cellY)
     {
-      std::uint8_t * row = m_Occupied.data() + (static_cast<std::size_t>(z / 8) * static_cast<std::size_t>(m_Cells[1]) +
-                                                static_cast<std::size_t>(y / 8)) *
-                                                 m_RowBytes;
-      // A word of corners is eight cells: a byte of the row.
-      for (std::size_t word = 0; word < m_RowBytes; ++word)
+      for (unsigned line = 0; line < 64; ++line)
       {
-        const std::uint64_t bits = m_Bits.Word(y, z, static_cast<std::int32_t>(word));
-        for (unsigned cell = 0; bits != 0 && cell < 8; ++cell)
+        const unsigned z = line / 8;
+        const unsigned y = line % 8;
+        for (std::size_t word = 0; word < m_RowBytes; ++word)
         {
-          row[word] |= static_cast<std::uint8_t>((bits >> (8 * cell) & 0xFFU) != 0 ? 1U << cell : 0U);
+          // A word of corners is a line of eight cells.
+          std::uint64_t corners = bits.Word(8 * cellY + static_cast<std::int32_t>(y),
+                                            8 * cellZ + static_cast<std::int32_t>(z),
+                                            static_cast<std::int32_t>(word));
+          for (std::size_t cell = 8 * word; corners != 0; ++cell, corners >>= 8)
+          {
+            row[cell][z] |= (corners & 0xFFU) << (8 * y);
+          }
+        }
+      }
+      const std::size_t firstByte = m_RowStart.size() * m_RowBytes;
+      m_RowStart.push_back(m_Layers.size());
+      for (std::size_t cell = 0; cell < row.size(); ++cell)
+      {
+        if (std::any_of(row[cell].begin(), row[cell].end(), [](std::uint64_t layer) { return layer != 0; }))
+        {
+          m_Occupied[firstByte + cell / 8] |= static_cast<std::uint8_t>(1U << cell % 8);
+          m_Layers.push_back(row[cell]);
+          row[cell] = {};
         }
       }
     }
   }
-}
-
-const std::uint8_t *
-NearestVertex::Row(std::int32_t y, std::int32_t z) const
-{
-  return m_Occupied.data() +
-         (static_cast<std::size_t>(z) * static_cast<std::size_t>(m_Cells[1]) + static_cast<std::size_t>(y)) *
-           m_RowBytes;
 }
 
 Int128
@@ -122,46 +132,59 @@ NearestVertex::SearchRow(const std::array<std::int32_t, 3> & place,
                          Int128                              gap,
                          Answer &                            answer) const
 {
-  const std::uint8_t * row = Row(y, z);
-  GoOutward(CellOf(place, 0), m_Cells[0], [&](std::int32_t x) {
+  const Row          row = RowAt(y, z);
+  const std::int32_t start = CellOf(place, 0);
+  // The number of a cell among the occupied ones, counted from the row's first.
+  const auto number = [&](std::int32_t x) {
+    std::size_t before = row.firstCell;
+    for (std::int32_t byte = 0; byte < x / 8; ++byte)
+    {
+      before += static_cast<std::size_t>(std::popcount(m_Occupied[row.firstByte + static_cast<std::size_t>(byte)]));
+    }
+    const unsigned last = m_Occupied[row.firstByte + static_cast<std::size_t>(x / 8)];
+    return before + static_cast<std::size_t>(std::popcount(last & ((1U << x % 8) - 1)));
+  };
+  GoOutward(start, m_Cells[0], [&](std::int32_t x) {
     if (answer.squared >= 0 && gap + Gap(place, 0, x) >= answer.squared)
     {
       return false;
     }
-    if ((row[x >> 3] >> (x & 7) & 1U) != 0)
+    if ((m_Occupied[row.firstByte + static_cast<std::size_t>(x / 8)] >> x % 8 & 1U) != 0)
     {
-      SearchCell(place, x, y, z, answer);
+      SearchCell(place, { 8 * x, 8 * y, 8 * z }, m_Layers[number(x)], answer);
     }
     return true;
   });
 }
 
 void
-NearestVertex::SearchCell(const std::array<std::int32_t, 3> & place,
-                          std::int32_t                        x,
-                          std::int32_t                        y,
-                          std::int32_t                        z,
-                          Answer &                            answer) const
+NearestVertex::SearchCell(const std::array<std::int32_t, 3> &  place,
+                          const std::array<std::int32_t, 3> &  corner,
+                          const std::array<std::uint64_t, 8> & layers,
+                          Answer &                             answer) const
 {
-  for (std::int32_t cz = 8 * z; cz < 8 * z + 8; ++cz)
+  const auto square = [&](std::int32_t at, std::size_t axis) {
+    const std::int64_t d = 2 * std::int64_t{ at } - place[axis];
+    return Int128{ d * d } * m_Squares[axis];
+  };
+  for (std::int32_t z = 0; z < 8; ++z)
   {
-    for (std::int32_t cy = 8 * y; cy < 8 * y + 8; ++cy)
+    std::uint64_t layer = layers[static_cast<std::size_t>(z)];
+    const Int128  ofLayer = square(corner[2] + z, 2);
+    for (std::int32_t y = 0; layer != 0; ++y, layer >>= 8)
     {
-      const std::int64_t dy = 2 * std::int64_t{ cy } - place[1];
-      const std::int64_t dz = 2 * std::int64_t{ cz } - place[2];
-      const Int128       row = Int128{ dy * dy } * m_Squares[1] + Int128{ dz * dz } * m_Squares[2];
-      if (answer.squared >= 0 && row >= answer.squared)
+      const Int128 ofRow = ofLayer + square(corner[1] + y, 1);
+      if (answer.squared >= 0 && ofRow >= answer.squared)
       {
         continue;
       }
-      for (std::uint64_t bits = m_Bits.Word(cy, cz, x >> 3) >> (8 * (x & 7)) & 0xFFU; bits != 0; bits &= bits - 1)
+      for (auto bits = static_cast<unsigned>(layer & 0xFFU); bits != 0; bits &= bits - 1)
       {
-        const std::array<std::int32_t, 3> vertex{ 2 * (8 * x + std::countr_zero(bits)), 2 * cy, 2 * cz };
-        const std::int64_t                dx = std::int64_t{ vertex[0] } - place[0];
-        const Int128                      squared = row + Int128{ dx * dx } * m_Squares[0];
+        const std::int32_t x = corner[0] + std::countr_zero(bits);
+        const Int128       squared = ofRow + square(x, 0);
         if (answer.squared < 0 || squared < answer.squared)
         {
-          answer = { vertex, squared };
+          answer = { { 2 * x, 2 * (corner[1] + y), 2 * (corner[2] + z) }, squared };
         }
       }
     }

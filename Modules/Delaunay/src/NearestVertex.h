@@ -12,7 +12,7 @@
 namespace voxelcore
 {
 
-/** Answers from the shape's bits and one bit for every 8^3 lattice corners. Places are box-relative and doubled, so that
+/** Answers from one bit for every 8^3 lattice corners and the bits of those that hold boundary vertices. Places are box-relative and doubled, so that
  *  middles of voxels are integers; squared distances are weighted and, with the doubled places, four times themselves:
  *  at most 3 * 2^24 * 2^42 in the exact range. */
 class NearestVertex
@@ -42,20 +42,34 @@ private:
   SearchRow(const std::array<std::int32_t, 3> & place, std::int32_t y, std::int32_t z, Int128 gap, Answer & answer)
     const;
   void
-  SearchCell(const std::array<std::int32_t, 3> & place, std::int32_t x, std::int32_t y, std::int32_t z, Answer & answer)
-    const;
+  SearchCell(const std::array<std::int32_t, 3> &  place,
+             const std::array<std::int32_t, 3> &  corner,
+             const std::array<std::uint64_t, 8> & layers,
+             Answer &                             answer) const;
   Int128
   Gap(const std::array<std::int32_t, 3> & place, std::size_t axis, std::int32_t cell) const;
   std::int32_t
   CellOf(const std::array<std::int32_t, 3> & place, std::size_t axis) const;
-  const std::uint8_t *
-  Row(std::int32_t y, std::int32_t z) const;
+  struct Row
+  {
+    std::size_t firstByte = 0;
+    std::size_t firstCell = 0; ///< in m_Layers
+  };
 
-  BoundaryBits                m_Bits;
+  Row
+  RowAt(std::int32_t y, std::int32_t z) const
+  {
+    const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(m_Cells[1]) + static_cast<std::size_t>(y);
+    return { row * m_RowBytes, m_RowStart[row] };
+  }
+
   std::array<std::int64_t, 3> m_Squares;      // of the weights
   std::array<std::int32_t, 3> m_Cells{};      // along each axis
   std::size_t                 m_RowBytes = 0; // a bit for each cell of a row
   std::vector<std::uint8_t>   m_Occupied;     // rows of cells, x fastest
+  std::vector<std::size_t>    m_RowStart;     // per row: occupied cells before it
+  /** Per occupied cell its eight layers along z; a layer has a byte for each row, a bit for each corner. */
+  std::vector<std::array<std::uint64_t, 8>> m_Layers;
 };
 
 } // namespace voxelcore

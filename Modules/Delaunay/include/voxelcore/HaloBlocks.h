@@ -43,7 +43,7 @@ struct BlockPlan
   std::array<std::int64_t, 3>  weight{ 1, 1, 1 };    ///< of SpacingWeights
   std::uint64_t                boundaryVertices = 0; ///< of the shape
   std::uint64_t                boundarySquares = 0;  ///< faces between a voxel that is in and one that is not
-  std::array<std::uint64_t, 2> digest{};             ///< of the shape's box and voxels, the weights and the blocks
+  std::array<std::uint64_t, 2> digest{};             ///< of all that, and of the shape's box and voxels
 };
 
 /** Cuts the shape into `count` blocks with about the same number of boundary vertices each, by halving: each time where
@@ -52,6 +52,15 @@ struct BlockPlan
  *  ComputeDelaunayCells). */
 BlockPlan
 PlanBlocks(const VoxelShape & shape, const SpacingWeights & weights, std::size_t count);
+
+/** The same with blocks of one's own, which must part the lattice corners of the shape's box.
+ *  \throws UsageError when they do not. */
+BlockPlan
+PlanBlocks(const VoxelShape & shape, const SpacingWeights & weights, std::vector<HaloBlock> blocks);
+
+/** Whether the plan was made for this shape and these weights, and is as it was made. */
+bool
+IsPlanOf(const BlockPlan & plan, const VoxelShape & shape, const SpacingWeights & weights);
 
 /** Stands for "a cell of another block" in the facets of a share. */
 inline constexpr std::uint32_t kOtherBlock = 0xFFFFFFFEU;
