@@ -128,7 +128,7 @@ LabelBook::LabelBook(const ScanFile & scan, const ReadOptions & options)
     m_Given.insert(value);
     m_Largest = std::max(m_Largest, value);
   }
-  if (scan.segments.empty())
+  if (scan.segments.empty() && scan.voxels) // else nothing lies beside it: its voxels come from memory
   {
     m_Names = ReadLabelNames(scan.path);
   }

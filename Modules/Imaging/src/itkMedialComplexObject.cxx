@@ -1,0 +1,111 @@
+#include "itkMedialComplexObject.h"
+
+#include <algorithm>
+
+namespace itk
+{
+namespace
+{
+
+/** The first part not below `label`. */
+auto
+Place(const MedialComplexObject::PartContainer & parts, MedialComplexObject::LabelType label)
+{
+  return std::lower_bound(parts.begin(), parts.end(), label, [](const auto & part, auto wanted) {
+    return part.label < wanted;
+  });
+}
+
+void
+PrintTopology(std::ostream & os, const voxelcore::TopologyNumbers & topology)
+{
+  os << "Euler number " << topology.euler << ", Betti numbers " << topology.betti[0] << ' ' << topology.betti[1] << ' '
+     << topology.betti[2];
+}
+
+} // namespace
+
+MedialComplexObject::MedialComplexObject()
+  : m_Parts(std::make_shared<const PartContainer>())
+{}
+
+void
+MedialComplexObject::SetParts(PartContainer parts)
+{
+  std::sort(parts.begin(), parts.end(), [](const auto & a, const auto & b) { return a.label < b.label; });
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    if (i > 0 && parts[i - 1].label == parts[i].label)
+    {
+      itkExceptionMacro("label " << parts[i].label << " is given twice");
+    }
+    if (!parts[i].complex)
+    {
+      itkExceptionMacro("label " << parts[i].label << " has no complex");
+    }
+  }
+  m_Parts = std::make_shared<const PartContainer>(std::move(parts));
+  this->Modified();
+}
+
+bool
+MedialComplexObject::HasLabel(LabelType label) const
+{
+  const auto place = Place(*m_Parts, label);
+  return place != m_Parts->end() && place->label == label;
+}
+
+auto
+MedialComplexObject::GetPart(LabelType label) const -> const Part &
+{
+  if (!this->HasLabel(label))
+  {
+    itkExceptionMacro("there is no label " << label);
+  }
+  return *Place(*m_Parts, label);
+}
+
+void
+MedialComplexObject::Initialize()
+{
+  Superclass::Initialize();
+  m_Parts = std::make_shared<const PartContainer>();
+}
+
+void
+MedialComplexObject::Graft(const DataObject * data)
+{
+  Superclass::Graft(data);
+  const auto * other = dynamic_cast<const Self *>(data);
+  if (other == nullptr)
+  {
+    itkExceptionMacro("only a MedialComplexObject can be grafted onto one");
+  }
+  this->CopyInformation(other);
+  if (m_Parts != other->m_Parts)
+  {
+    m_Parts = other->m_Parts;
+    this->Modified();
+  }
+}
+
+void
+MedialComplexObject::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "Parts: " << m_Parts->size() << std::endl;
+  const Indent inner = indent.GetNextIndent();
+  for (const Part & part : *m_Parts)
+  {
+    const voxelcore::CellComplex & cells = part.complex->cells;
+    os << inner << part.label << " (" << part.name << "): " << cells.vertexCount << " vertices, " << cells.edges.size()
+       << " edges, " << cells.FaceCount() << " faces, pruned to " << part.lambda << " mm" << std::endl;
+    os << inner.GetNextIndent() << "shape: ";
+    PrintTopology(os, part.shapeTopology);
+    os << "; complex: ";
+    PrintTopology(os, part.complexTopology);
+    os << std::endl;
+  }
+}
+
+} // namespace itk

@@ -1,0 +1,54 @@
+// VoxelCore in an ITK pipeline: the pruned medial surface of every label of a scan.
+// usage: ItkPipelineExample SCAN LAMBDA OUT.vtp
+
+#include "itkImageFileReader.h"
+#include "itkLabelImageToVoxelShapeFilter.h"
+#include "itkLambdaPruningFilter.h"
+#include "itkMetaImageIOFactory.h"
+#include "itkNrrdImageIOFactory.h"
+#include "itkVoxelCoreFilter.h"
+
+#include "voxelcore/MedialModel.h"
+
+#include <iostream>
+
+int
+main(int argc, char ** argv)
+{
+  if (argc != 4)
+  {
+    std::cerr << "usage: ItkPipelineExample SCAN LAMBDA OUT.vtp\n";
+    return 2;
+  }
+  // With ITK's UseITK.cmake all formats register themselves.
+  itk::MetaImageIOFactory::RegisterOneFactory();
+  itk::NrrdImageIOFactory::RegisterOneFactory();
+  try
+  {
+    using ImageType = itk::Image<unsigned short, 3>;
+    auto reader = itk::ImageFileReader<ImageType>::New();
+    reader->SetFileName(argv[1]);
+    auto shapes = itk::LabelImageToVoxelShapeFilter<ImageType>::New();
+    shapes->SetInput(reader->GetOutput());
+    shapes->SetNumberOfStreamDivisions(16);
+    auto core = itk::VoxelCoreFilter::New();
+    core->SetInput(shapes->GetOutput());
+    auto pruned = itk::LambdaPruningFilter::New();
+    pruned->SetInput(core->GetOutput());
+    pruned->SetLambda(argv[2]);
+    pruned->Update();
+
+    voxelcore::MedialModel model;
+    for (const auto & part : pruned->GetOutput()->GetParts())
+    {
+      model.parts.push_back(voxelcore::ToPhysical(*part.complex, pruned->GetOutput()->GetGeometry(), part.label));
+    }
+    voxelcore::WriteModel(argv[3], argv[3], model);
+  }
+  catch (const std::exception & error) // ITK's are such, too
+  {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
