@@ -52,7 +52,7 @@ cmake -S "$source" -B "$build" -G Ninja -DBUILD_TESTING=ON -DCMAKE_BUILD_TYPE=Sa
 
 targets=()
 for module in ${tested//;/ }; do
-  [ ! -e "$source/Testing/$module/CMakeLists.txt" ] || targets+=("VoxelCore${module}Tests")
+  [ ! -e "$source/Testing/$module/CMakeLists.txt" ] || targets+=("Testing/$module/all")
 done
 cmake --build "$build" --target "${targets[@]}"
 

@@ -7,7 +7,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::size_t   kSlabBytes = 4U << 20;
+constexpr std::size_t   kSlabBytes = 1U << 20;
 constexpr std::uint64_t kSkipBytes = 64U << 20; // between two looks whether to go on
 
 template <std::size_t Width>
