@@ -131,6 +131,16 @@ TEST_P(HaloBlocks, ACentreOnBlockBordersBelongsToOneBlock)
   EXPECT_EQ(cells, ball.cells.CellCount());
 }
 
+TEST(BlocksOfThickShapes, AreExactWhereHalosAreMarkedInCubes)
+{
+  for (const testing::Spacing3 & spacing : { testing::Spacing3{ 1, 1, 1 }, testing::Spacing3{ 1, 1, 2 } })
+  {
+    const WholeShape ball(Ball(46, 22), spacing);
+    ASSERT_NO_FATAL_FAILURE(
+      ball.ExpectJoinOf(PlanBlocks(ball.shape, ball.weights, Octants(ball.shape, { 17, 24, 25 }))));
+  }
+}
+
 TEST_P(HaloBlocks, AMedialPlaneOnABlockBorderBelongsToTheUpperBlock)
 {
   const WholeShape box(Box({ 8, 20, 17 }), { 1, 1, 1 }, GetParam());

@@ -1,9 +1,7 @@
 #include "HaloRegion.h"
 
+#include "HaloComponents.h"
 #include "NearestVertex.h"
-
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/ShapeOperations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -330,96 +328,6 @@ private:
   const ProgressCallback * m_Progress = nullptr;
 };
 
-// Whether the shape has voxels in the range, given in voxel indices of the scan.
-bool
-Meets(const VoxelShape & shape, const Range & range)
-{
-  const VoxelBox & box = shape.Box();
-  Range            common;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    common.lower[axis] = std::max(range.lower[axis] - box.lower[axis], 0);
-    common.upper[axis] = std::min(range.upper[axis] - box.lower[axis], box.size[axis]);
-  }
-  for (std::int32_t z = common.lower[2]; z < common.upper[2]; ++z)
-  {
-    for (std::int32_t y = common.lower[1]; y < common.upper[1]; ++y)
-    {
-      const auto row = shape.Row(y, z);
-      for (std::int32_t word = common.lower[0] >> 6; word << 6 < common.upper[0]; ++word)
-      {
-        if ((row[static_cast<std::size_t>(word)] & BoundaryBits::Between(common.lower[0], common.upper[0], word)) != 0)
-        {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
-// Puts the voxels of `part` into `shape`, whose box holds them.
-void
-Include(const VoxelShape & part, VoxelShape & shape)
-{
-  Place at{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    at[axis] = part.Box().lower[axis] - shape.Box().lower[axis];
-  }
-  const auto shift = static_cast<unsigned>(at[0]) & 63U;
-  const auto skip = static_cast<std::size_t>(at[0]) / 64;
-  for (std::int32_t z = 0; z < part.Box().size[2]; ++z)
-  {
-    for (std::int32_t y = 0; y < part.Box().size[1]; ++y)
-    {
-      const auto from = part.Row(y, z);
-      const auto to = shape.Row(y + at[1], z + at[2]);
-      for (std::size_t word = 0; word < from.size(); ++word)
-      {
-        to[word + skip] |= from[word] << shift;
-        if (shift != 0 && from[word] >> (64 - shift) != 0)
-        {
-          to[word + skip + 1] |= from[word] >> (64 - shift);
-        }
-      }
-    }
-  }
-}
-
-// The components that meet the range, in their tight bounding box.
-VoxelShape
-ComponentsThatMeet(const VoxelShape & shape, const Range & range)
-{
-  std::vector<VoxelShape> kept = SplitComponents(shape);
-  std::erase_if(kept, [&](const VoxelShape & component) { return !Meets(component, range); });
-  if (kept.empty())
-  {
-    return {};
-  }
-  if (kept.size() == 1)
-  {
-    return std::move(kept[0]);
-  }
-  VoxelBox box = kept[0].Box();
-  for (const VoxelShape & component : kept)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const VoxelBox &   other = component.Box();
-      const std::int32_t end = std::max(box.lower[axis] + box.size[axis], other.lower[axis] + other.size[axis]);
-      box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
-      box.size[axis] = end - box.lower[axis];
-    }
-  }
-  VoxelShape result(box);
-  for (const VoxelShape & component : kept)
-  {
-    Include(component, result);
-  }
-  return result;
-}
-
 } // namespace
 
 VoxelShape
@@ -431,8 +339,8 @@ MakeHaloRegion(const VoxelShape &       shape,
   const auto & [lower, size] = shape.Box();
   const Place low{ block.lower.x, block.lower.y, block.lower.z };
   const Place high{ block.upper.x, block.upper.y, block.upper.z };
-  Range       voxels;  // of the block, relative to the shape's box
-  Range       indices; // the same in indices of the scan
+  Range       voxels; // of the block, relative to the shape's box
+  VoxelBox    indices;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     voxels.lower[axis] = low[axis] - lower[axis];
@@ -442,7 +350,7 @@ MakeHaloRegion(const VoxelShape &       shape,
       return {};
     }
     indices.lower[axis] = low[axis];
-    indices.upper[axis] = lower[axis] + voxels.upper[axis];
+    indices.size[axis] = voxels.upper[axis] - voxels.lower[axis];
   }
   RegionMaker maker(shape, weights, voxels);
   maker.Measure(progress);

@@ -1,0 +1,13 @@
+#pragma once
+// The components of a shape that a block has to do with.
+
+#include "voxelcore/VoxelShape.h"
+
+namespace voxelcore
+{
+
+/** The 6-connected components with a voxel in the range, in their tight bounding box. */
+VoxelShape
+ComponentsThatMeet(const VoxelShape & shape, const VoxelBox & range);
+
+} // namespace voxelcore
