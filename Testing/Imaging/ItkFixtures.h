@@ -63,8 +63,9 @@ public:
   int                      failAt = -1;       ///< throws at this request
   bool                     failInformation = false;
   bool                     failEnlarging = false;
-  std::vector<ImageRegion> regions;        ///< as they were made
-  std::size_t              mostPixels = 0; ///< in the buffer at any time
+  bool                     oneSliceLess = false; ///< makes less than it was asked for
+  std::vector<ImageRegion> regions;              ///< as they were made
+  std::size_t              mostPixels = 0;       ///< in the buffer at any time
 
 protected:
   void
@@ -97,8 +98,9 @@ protected:
     {
       itkExceptionMacro("the source failed");
     }
-    TImage *          image = this->GetOutput();
-    const ImageRegion region = image->GetRequestedRegion();
+    TImage *    image = this->GetOutput();
+    ImageRegion region = image->GetRequestedRegion();
+    region.SetSize(2, region.GetSize(2) - (oneSliceLess ? 1 : 0));
     image->SetBufferedRegion(region);
     image->Allocate();
     auto * pixel = image->GetBufferPointer();

@@ -45,7 +45,12 @@ main(int argc, char ** argv)
     }
     voxelcore::WriteModel(argv[3], argv[3], model);
   }
-  catch (const std::exception & error) // ITK's are such, too
+  catch (const itk::ExceptionObject & error)
+  {
+    std::cerr << error.GetDescription() << '\n';
+    return 1;
+  }
+  catch (const std::exception & error)
   {
     std::cerr << error.what() << '\n';
     return 1;

@@ -1,68 +1,11 @@
-#include "ItkFixtures.h"
+#include "ItkShapeFixtures.h"
 #include "ScanBytes.h"
-#include "VoxelCoreTesting/Shapes.h"
-
-#include "itkLabelImageToVoxelShapeFilter.h"
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
 
 namespace
 {
-
-using ByteImage = itk::Image<std::uint8_t, 3>;
-using ByteFilter = itk::LabelImageToVoxelShapeFilter<ByteImage>;
-using Spy = SpySource<ByteImage>;
-
-constexpr itk::Size<3> kSize{ { 70, 9, 16 } };
-
-/** Labels 1, 2 and 7 here and there; equal for equal arguments. */
-double
-Scattered(int x, int y, int z)
-{
-  const auto hash = Random(static_cast<std::uint64_t>(x + 100 * (y + 100 * z))).Next() % 8;
-  return hash == 1 || hash == 2 || hash == 7 ? static_cast<double>(hash) : 0.0;
-}
-
-Spy::Pointer
-ScatteredSpy()
-{
-  auto spy = Spy::New();
-  spy->size = kSize;
-  spy->value = Scattered;
-  return spy;
-}
-
-/** Each label's voxels are those of `value`, no others. */
-void
-ExpectShapes(const itk::VoxelShapeObject & shapes,
-             const itk::Size<3> &          size,
-             const VoxelFunction &         value,
-             const std::vector<int> &      labels)
-{
-  ASSERT_EQ(shapes.GetLabels().size(), labels.size());
-  for (std::size_t n = 0; n < labels.size(); ++n)
-  {
-    const LabelShape & label = shapes.GetLabels()[n];
-    ASSERT_EQ(label.value, labels[n]);
-    EXPECT_EQ(label.name, "label-" + std::to_string(labels[n]));
-    std::uint64_t voxels = 0;
-    for (int z = 0; z < static_cast<int>(size[2]); ++z)
-    {
-      for (int y = 0; y < static_cast<int>(size[1]); ++y)
-      {
-        for (int x = 0; x < static_cast<int>(size[0]); ++x)
-        {
-          const bool isIn = value(x, y, z) == labels[n];
-          ASSERT_EQ(label.shape.Contains(x, y, z), isIn) << labels[n] << ": " << x << " " << y << " " << z;
-          voxels += isIn;
-        }
-      }
-    }
-    EXPECT_EQ(label.voxels, voxels);
-    EXPECT_EQ(label.shape.CountVoxels(), voxels);
-  }
-}
 
 /** A box of label 1 in an image that is otherwise 0. */
 double
@@ -308,116 +251,6 @@ TEST(ItkShapeFilter, RefusesADirectionThatIsNotOrthonormalBeforeAnyVoxelIsMade)
   }
 }
 
-TEST(ItkShapeFilter, WorksAgainAfterARefusal)
-{
-  const auto spy = ScatteredSpy();
-  auto       filter = ByteFilter::New();
-  filter->SetInput(spy->GetOutput());
-  filter->SetNumberOfStreamDivisions(4);
-  filter->SetLabel(9);
-  ThrownBy([&] { filter->Update(); });
-  EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
-  ThrownBy([&] { filter->Update(); }); // nothing was mended: it does not pretend to be up to date
-  filter->SetLabels("all");
-  filter->Update();
-  ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
-
-  spy->failAt = static_cast<int>(spy->regions.size()) + 2;
-  spy->Modified();
-  EXPECT_NE(ThrownBy([&] { filter->Update(); }).find("the source failed"), std::string::npos);
-  EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
-  spy->failAt = -1;
-  filter->Update();
-  ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
-}
-
-TEST(ItkShapeFilter, RunsOnlyWhenSomethingChanged)
-{
-  const auto spy = ScatteredSpy();
-  auto       filter = ByteFilter::New();
-  Watcher    watcher(filter);
-  filter->SetInput(spy->GetOutput());
-  filter->SetNumberOfStreamDivisions(4);
-  const auto expectRuns = [&](int runs) {
-    filter->Update();
-    filter->UpdateLargestPossibleRegion();
-    filter->GetOutput()->Update();
-    EXPECT_EQ(watcher.starts, runs);
-    EXPECT_EQ(spy->regions.size(), static_cast<std::size_t>(4 * runs));
-  };
-  expectRuns(1);
-  filter->SetLabels("all");
-  filter->SetBinary(false);
-  filter->SetNumberOfStreamDivisions(4);
-  filter->RemoveThreshold();
-  expectRuns(1);
-  spy->Modified();
-  expectRuns(2);
-  filter->SetThreshold(1, 2);
-  expectRuns(3);
-  filter->SetThreshold(1, 2);
-  expectRuns(3);
-  filter->GetOutput()->ReleaseData();
-  EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
-  expectRuns(4);
-  EXPECT_EQ(filter->GetOutput()->GetLabels().size(), 1U);
-}
-
-TEST(ItkShapeFilter, AnImageMarkedForReleaseIsReleasedEveryTime)
-{
-  const auto spy = ScatteredSpy();
-  spy->ReleaseDataFlagOn();
-  auto filter = ByteFilter::New();
-  filter->SetInput(spy->GetOutput());
-  filter->SetNumberOfStreamDivisions(4);
-  for (int round = 0; round < 2; ++round)
-  {
-    filter->Modified();
-    filter->Update();
-    EXPECT_TRUE(spy->GetOutput()->GetDataReleased());
-    EXPECT_TRUE(spy->GetReleaseDataFlag());
-    EXPECT_EQ(filter->GetOutput()->GetLabels().size(), 3U);
-  }
-}
-
-TEST(ItkShapeFilter, ProgressGoesFrom0To1)
-{
-  for (const unsigned divisions : { 1U, 3U, 7U })
-  {
-    auto    filter = ByteFilter::New();
-    Watcher watcher(filter);
-    filter->SetInput(ScatteredSpy()->GetOutput());
-    const auto spy = ScatteredSpy();
-    filter->SetInput(spy->GetOutput());
-    filter->SetNumberOfStreamDivisions(divisions);
-    filter->Update();
-    watcher.ExpectMonotoneFrom0To1();
-    EXPECT_EQ(watcher.ends, 1);
-    EXPECT_GE(watcher.progress.size(), divisions);
-  }
-}
-
-TEST(ItkShapeFilter, AbortsWithoutOutputAndCanRunAgain)
-{
-  for (const float at : { 0.0F, 0.4F })
-  {
-    const auto spy = ScatteredSpy();
-    auto       filter = ByteFilter::New();
-    Watcher    watcher(filter);
-    filter->SetInput(spy->GetOutput());
-    filter->SetNumberOfStreamDivisions(8);
-    watcher.abortAt = at;
-    EXPECT_THROW(filter->Update(), itk::ProcessAborted);
-    EXPECT_EQ(watcher.aborts, 1);
-    EXPECT_EQ(watcher.ends, 0);
-    EXPECT_LT(spy->regions.size(), 5U);
-    EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
-    watcher.abortAt = -1;
-    filter->Update();
-    ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
-  }
-}
-
 TEST(ItkShapeFilter, NoFileBesideNamesTheLabels)
 {
   const TempFolder folder;
@@ -451,4 +284,15 @@ TEST(ItkShapeFilter, PrintsItsParameters)
   {
     EXPECT_NE(text.find(words), std::string::npos) << words;
   }
+}
+
+TEST(ItkShapeFilter, RefusesASourceThatBringsLessThanItWasAskedFor)
+{
+  const auto spy = ScatteredSpy();
+  spy->oneSliceLess = true;
+  auto filter = ByteFilter::New();
+  filter->SetInput(spy->GetOutput());
+  filter->SetNumberOfStreamDivisions(2);
+  EXPECT_NE(ThrownBy([&] { filter->Update(); }).find("did not bring the region"), std::string::npos);
+  EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
 }
