@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, HeavyHaloBlocks, testing::AllEngines(), testin
 
 TEST_P(HaloBlocks, JoinOfRandomVolumesIsTheWhole)
 {
-  ExpectOnRandomVolumes(40000, GetParam() == Engine::Lattice ? 120 : 5, 1, 14);
+  ExpectOnRandomVolumes(40000, GetParam() == Engine::Lattice ? 100 : 4, 1, 14);
 }
 
 TEST_P(HeavyHaloBlocks, JoinOfRandomVolumesIsTheWhole)
@@ -108,7 +108,7 @@ TEST_P(HeavyHaloBlocks, JoinOfRandomVolumesIsTheWhole)
 
 TEST_P(HaloBlocks, JoinOfSolidsWithHolesIsTheWhole)
 {
-  ExpectOnSolidsWithHoles(42000, GetParam() == Engine::Lattice ? 40 : 4, 4, 18);
+  ExpectOnSolidsWithHoles(42000, GetParam() == Engine::Lattice ? 32 : 3, 4, 18);
 }
 
 TEST_P(HeavyHaloBlocks, JoinOfSolidsWithHolesIsTheWhole)

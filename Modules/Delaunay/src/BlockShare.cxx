@@ -226,8 +226,7 @@ ComputeBlockShare(const VoxelShape &       shape,
   const auto &       o = shape.Box().lower;
   for (const LatticePoint & p : points)
   {
-    const std::int32_t x = p.x - o[0];
-    share.subshapeReal += bits.Word(p.y - o[1], p.z - o[2], x >> 6) >> (x & 63) & 1U;
+    share.subshapeReal += bits.Contains(p.x - o[0], p.y - o[1], p.z - o[2]) ? 1 : 0;
   }
   return share;
 }

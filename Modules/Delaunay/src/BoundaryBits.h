@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <vector>
 
 namespace voxelcore
 {
@@ -15,21 +16,48 @@ class BoundaryBits
 public:
   explicit BoundaryBits(const VoxelShape & shape)
     : m_Shape(shape)
-    , m_Words(static_cast<std::int32_t>(shape.WordsPerRow()))
+    , m_Background(shape.WordsPerRow(), 0)
   {}
 
-  /** The corners 64 word .. 64 word + 63 of a row, least significant bit first; any row and word may be asked. */
-  std::uint64_t
-  Word(std::int32_t y, std::int32_t z, std::int32_t word) const
+  /** Calls visit(word, bits) for those of the words first .. end - 1 of a row that are not 0: bit b, from the least
+   *  significant one on, is the corner at x = 64 word + b. Any row may be asked, and words from 0 on. */
+  template <typename TVisit>
+  void
+  VisitWords(std::int32_t y, std::int32_t z, std::int32_t first, std::int32_t end, TVisit visit) const
   {
-    Quad here = At(y, z, word);
-    if (here.any == 0 && word == 0)
-    {
-      return 0;
-    }
+    const auto * a = Row(y - 1, z - 1);
+    const auto * b = Row(y, z - 1);
+    const auto * c = Row(y - 1, z);
+    const auto * d = Row(y, z);
+    const auto   words = static_cast<std::int32_t>(m_Background.size());
+    const auto   anyAt = [&](std::int32_t w) { return w < words ? a[w] | b[w] | c[w] | d[w] : 0; };
+    const auto   allAt = [&](std::int32_t w) { return w < words ? a[w] & b[w] & c[w] & d[w] : 0; };
     // Corner x lies between voxels x - 1 and x.
-    const Quad before = At(y, z, word - 1);
-    return (here.any | here.any << 1 | before.any >> 63) & ~(here.all & (here.all << 1 | before.all >> 63));
+    std::uint64_t carryAny = first > 0 ? anyAt(first - 1) >> 63 : 0;
+    std::uint64_t carryAll = first > 0 ? allAt(first - 1) >> 63 : 0;
+    for (std::int32_t word = first; word < end && word <= words; ++word)
+    {
+      const std::uint64_t any = anyAt(word);
+      const std::uint64_t all = allAt(word);
+      const std::uint64_t bits = (any | any << 1 | carryAny) & ~(all & (all << 1 | carryAll));
+      carryAny = any >> 63;
+      carryAll = all >> 63;
+      if (bits != 0)
+      {
+        visit(word, bits);
+      }
+    }
+  }
+
+  /** Whether a corner of the box is a boundary vertex. */
+  bool
+  Contains(std::int32_t x, std::int32_t y, std::int32_t z) const
+  {
+    bool is = false;
+    VisitWords(y, z, x >> 6, (x >> 6) + 1, [&](std::int32_t, std::uint64_t bits) {
+      is = (bits >> (x & 63) & 1U) != 0;
+    });
+    return is;
   }
 
   /** Calls visit(x, y, z) for the boundary vertices lower <= (x,y,z) < upper, in scan order, all box-relative. */
@@ -41,13 +69,12 @@ public:
     {
       for (std::int32_t y = lower.y; y < upper.y; ++y)
       {
-        for (std::int32_t word = lower.x >> 6; word << 6 < upper.x; ++word)
-        {
-          for (std::uint64_t bits = Word(y, z, word) & Between(lower.x, upper.x, word); bits != 0; bits &= bits - 1)
+        VisitWords(y, z, lower.x >> 6, (upper.x + 63) >> 6, [&](std::int32_t word, std::uint64_t bits) {
+          for (bits &= Between(lower.x, upper.x, word); bits != 0; bits &= bits - 1)
           {
             visit((word << 6) + std::countr_zero(bits), y, z);
           }
-        }
+        });
       }
     }
   }
@@ -62,35 +89,15 @@ public:
   }
 
 private:
-  // The voxels of the four rows around a row of corners: in any of them, in all of them.
-  struct Quad
+  const std::uint64_t *
+  Row(std::int32_t y, std::int32_t z) const
   {
-    std::uint64_t any = 0;
-    std::uint64_t all = 0;
-  };
-
-  Quad
-  At(std::int32_t y, std::int32_t z, std::int32_t word) const
-  {
-    Quad quad{ 0, ~std::uint64_t{ 0 } };
-    if (word < 0 || word >= m_Words)
-    {
-      return {};
-    }
-    for (std::int32_t corner = 0; corner < 4; ++corner)
-    {
-      const std::int32_t  vy = y - 1 + (corner & 1);
-      const std::int32_t  vz = z - 1 + (corner >> 1);
-      const bool          inBox = vy >= 0 && vz >= 0 && vy < m_Shape.Box().size[1] && vz < m_Shape.Box().size[2];
-      const std::uint64_t bits = inBox ? m_Shape.Row(vy, vz)[static_cast<std::size_t>(word)] : 0;
-      quad.any |= bits;
-      quad.all &= bits;
-    }
-    return quad;
+    const auto & size = m_Shape.Box().size;
+    return y < 0 || z < 0 || y >= size[1] || z >= size[2] ? m_Background.data() : m_Shape.Row(y, z).data();
   }
 
-  const VoxelShape & m_Shape;
-  std::int32_t       m_Words;
+  const VoxelShape &         m_Shape;
+  std::vector<std::uint64_t> m_Background; // a row of it
 };
 
 } // namespace voxelcore

@@ -41,17 +41,17 @@ NearestVertex::NearestVertex(const VoxelShape & shape, const SpacingWeights & we
       {
         const unsigned z = line / 8;
         const unsigned y = line % 8;
-        for (std::size_t word = 0; word < m_RowBytes; ++word)
-        {
-          // A word of corners is a line of eight cells.
-          std::uint64_t corners = bits.Word(8 * cellY + static_cast<std::int32_t>(y),
-                                            8 * cellZ + static_cast<std::int32_t>(z),
-                                            static_cast<std::int32_t>(word));
-          for (std::size_t cell = 8 * word; corners != 0; ++cell, corners >>= 8)
-          {
-            row[cell][z] |= (corners & 0xFFU) << (8 * y);
-          }
-        }
+        // A word of corners is a line of eight cells.
+        bits.VisitWords(8 * cellY + static_cast<std::int32_t>(y),
+                        8 * cellZ + static_cast<std::int32_t>(z),
+                        0,
+                        static_cast<std::int32_t>(m_RowBytes),
+                        [&](std::int32_t word, std::uint64_t corners) {
+                          for (auto cell = static_cast<std::size_t>(8 * word); corners != 0; ++cell, corners >>= 8)
+                          {
+                            row[cell][z] |= (corners & 0xFFU) << (8 * y);
+                          }
+                        });
       }
       const std::size_t firstByte = m_RowStart.size() * m_RowBytes;
       m_RowStart.push_back(m_Layers.size());

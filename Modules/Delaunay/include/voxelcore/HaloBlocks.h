@@ -90,7 +90,8 @@ struct BlockShare
   std::uint64_t subshapeReal = 0;     ///< those among them that are boundary vertices of the whole
 };
 
-/** Computes the part of one block. Needs memory for the block and its halo only, besides the given shape.
+/** Computes the part of one block. Besides the given shape it needs memory for the subshape alone, as a run over it
+ *  would: for fat shapes, whose balls reach far, that is much of the whole.
  *  \throws UsageError when there is no such block; InputError when the plan belongs to another shape or other weights;
  *  CertificateError when a cell's ball is larger than proven; what ComputeDelaunayCells throws. */
 BlockShare
@@ -124,6 +125,7 @@ using ShareSource = std::function<BlockShare(std::size_t)>;
 /** Joins `count` shares, in any order. Each is asked for twice, one at a time, so that never more than one is in memory
  *  beside the result. Checks exactly that the cells fill the shape once: the surface of each is closed, each facet is a
  *  boundary square of which the shape has as many, or is met from both sides by exactly two cells.
+ *  Takes up to 300 bytes a boundary vertex at its peak (roots 233, gyroid sheets 296), the result included (133, 169).
  *  \throws InputError when shares are missing, repeated or do not belong together; CertificateError, naming the place,
  *  when cells are missing, doubled or do not fit; Cancelled when the callback says so. */
 JoinedCells
