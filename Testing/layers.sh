@@ -11,10 +11,11 @@ may_use() {
     Shape | Complex) echo "Lattice" ;;
     Delaunay | Phantom) echo "Lattice Shape" ;;
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
+    Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;
     Imaging) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
-    Models) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
-    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Phantom Verification Imaging Models" ;;
+    Models) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton" ;;
+    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Phantom Verification Imaging Models" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac
 }

@@ -1,0 +1,54 @@
+#pragma once
+// The curve skeleton of a medial surface (Yan, Sykes, Chambers, Letscher, Ju: "Erosion Thickness on Medial Axes of 3D
+// Shapes", SIGGRAPH 2016, section 6), without a change of topology.
+
+#include "voxelcore/MedialComplex.h"
+#include "voxelcore/Progress.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Lengths in mm. */
+struct CurveOptions
+{
+  /** Branches end where they no longer stand out by so much: fire along the curve reaches the end of a branch that stands
+   *  out by h later than fire on the surface burns it, by about h. 0 keeps all. */
+  double branchThreshold = 0;
+
+  /** Faces at least so erosion-thick stay: plates. Infinite: curves only. */
+  double plateThreshold = std::numeric_limits<double>::infinity();
+
+  double sampling = 0; ///< distance of sample points on edges when the surface burns; 0: one on each edge
+};
+
+/** A part of a medial surface that the surface collapses to: vertices, edges, and the faces that stay. */
+struct CurveSkeleton
+{
+  MedialComplex       complex;          ///< a subset of the surface, its order kept; positions in mm
+  std::vector<double> erosionThickness; ///< mm per vertex; infinite where the surface never burns
+  std::vector<double> branchThickness;  ///< mm per vertex: burn time along the curve less that on the surface;
+                                        ///< infinite on cycles, between them, and on faces that stay
+  std::vector<std::uint8_t> closedFace; ///< per face: 1 when it is part of a closed surface, which cannot be
+                                        ///< collapsed; 0 for plates
+
+  std::size_t
+  ClosedFaceCount() const;
+};
+
+/** Burns the surface, collapses free faces in the order in which fire comes to their free edges, burns the curves that
+ *  are left from their ends, and takes off the branches whose fire never falls behind by the threshold.
+ *
+ *  Every step removes simple pairs only, whatever the burn times are, so the result has the surface's topology. Ties go
+ *  by canonical index. A component without cycles keeps at least one vertex; of the branches that stay the outermost
+ *  part, where the curve runs into a corner of the surface instead of along its middle, goes too.
+ *  Positions and radii of `surface` in mm. \throws InputError when it is too large; Cancelled */
+CurveSkeleton
+ComputeCurveSkeleton(const MedialComplex &    surface,
+                     const CurveOptions &     options,
+                     const ProgressCallback & progress = {});
+
+} // namespace voxelcore

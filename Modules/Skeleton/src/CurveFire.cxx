@@ -1,0 +1,172 @@
+#include "CurveFire.h"
+
+#include "TimeHeap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+double
+Distance(const std::array<double, 3> & a, const std::array<double, 3> & b)
+{
+  const double dx = b[0] - a[0];
+  const double dy = b[1] - a[1];
+  const double dz = b[2] - a[2];
+  return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+/** The live edges at each vertex: how many, and the exclusive-or of their indices. */
+struct Degree
+{
+  std::uint32_t count = 0;
+  ElementIndex  exclusiveOr = 0;
+};
+
+} // namespace
+
+CurveFire
+BurnCurves(const MedialComplex &       surface,
+           const LiveElements &        live,
+           const std::vector<double> & surfaceTime,
+           double                      chord)
+{
+  const CellComplex & cells = surface.cells;
+  const std::size_t   count = cells.vertexCount;
+  CurveFire           fire;
+  fire.nextEdge.assign(count, kNoEdge);
+  fire.time.assign(count, 0);
+  fire.length.assign(count, 0);
+  fire.prominence.assign(count, 0);
+  fire.winner.assign(count, kNoEdge);
+  fire.runnerUp.assign(count, kNoEdge);
+
+  std::vector<Degree>       degrees(count);
+  std::vector<std::uint8_t> pinned(count, 0);
+  for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    if (live.edges[edge])
+    {
+      for (const ElementIndex vertex : cells.edges[edge])
+      {
+        ++degrees[vertex].count;
+        degrees[vertex].exclusiveOr ^= edge;
+      }
+    }
+  }
+  for (std::size_t face = 0; face < cells.FaceCount(); ++face)
+  {
+    if (live.faces[face])
+    {
+      for (const ElementIndex vertex : cells.FaceVertices(face))
+      {
+        pinned[vertex] = 1;
+      }
+    }
+  }
+
+  // Where the fire that burned a vertex last had its way measured: from this vertex on, at this time, at this length.
+  struct Anchor
+  {
+    ElementIndex vertex;
+    double       time;
+    double       length;
+  };
+  std::vector<Anchor> anchors(count);
+  std::vector<double> runnerUpTime(count, 0);
+  TimeHeap            heap;
+  const auto          kindle = [&](ElementIndex vertex) {
+    const double late = fire.time[vertex] - surfaceTime[vertex];
+    if (late < 0 || fire.winner[vertex] == kNoEdge)
+    {
+      // The surface burned later than the way along the curve says: its fire counts.
+      fire.time[vertex] = surfaceTime[vertex];
+      anchors[vertex] = { vertex, surfaceTime[vertex], fire.length[vertex] };
+    }
+    else if (Distance(surface.positions[anchors[vertex].vertex], surface.positions[vertex]) > chord)
+    {
+      anchors[vertex] = { vertex, fire.time[vertex], fire.length[vertex] };
+    }
+    fire.prominence[vertex] = std::max(fire.prominence[vertex], fire.time[vertex] - surfaceTime[vertex]);
+  };
+  for (ElementIndex vertex = 0; vertex < count; ++vertex)
+  {
+    if (live.vertices[vertex] && degrees[vertex].count <= 1 && !pinned[vertex])
+    {
+      kindle(vertex);
+      heap.Push({ fire.time[vertex], vertex });
+    }
+  }
+  while (!heap.IsEmpty())
+  {
+    const ElementIndex vertex = heap.Pop().element;
+    fire.order.push_back(vertex);
+    if (degrees[vertex].count == 0)
+    {
+      continue; // the last of its component
+    }
+    const ElementIndex edge = degrees[vertex].exclusiveOr;
+    const ElementIndex next = cells.edges[edge][0] ^ cells.edges[edge][1] ^ vertex;
+    fire.nextEdge[vertex] = edge;
+    degrees[vertex].count = 0;
+    --degrees[next].count;
+    degrees[next].exclusiveOr ^= edge;
+
+    const Anchor & anchor = anchors[vertex];
+    const double   step = Distance(surface.positions[anchor.vertex], surface.positions[next]);
+    const double   arrival = std::max(fire.time[vertex], anchor.time + step);
+    if (fire.winner[next] == kNoEdge || arrival > fire.time[next])
+    {
+      fire.runnerUp[next] = fire.winner[next];
+      runnerUpTime[next] = fire.time[next];
+      fire.winner[next] = edge;
+      fire.time[next] = arrival;
+      fire.length[next] = anchor.length + step;
+      anchors[next] = anchor;
+    }
+    else if (fire.runnerUp[next] == kNoEdge || arrival > runnerUpTime[next])
+    {
+      fire.runnerUp[next] = edge;
+      runnerUpTime[next] = arrival;
+    }
+    // What came in counts for what goes out, or the part of a branch behind a shorter one could be cut off.
+    fire.prominence[vertex] = std::max(fire.prominence[vertex], arrival - surfaceTime[next]);
+    fire.prominence[next] = std::max(fire.prominence[next], fire.prominence[vertex]);
+    if (pinned[next])
+    {
+      continue;
+    }
+    if (degrees[next].count == 1)
+    {
+      kindle(next);
+      heap.Push({ fire.time[next], next });
+    }
+    else if (degrees[next].count == 0)
+    {
+      // Two fires met on this edge; `next` waits in the heap already.
+      fire.prominence[next] = std::max(fire.prominence[next], fire.prominence[vertex]);
+    }
+  }
+  std::vector<std::uint8_t> burned(count, 0);
+  for (const ElementIndex vertex : fire.order)
+  {
+    burned[vertex] = 1;
+  }
+  for (std::size_t vertex = 0; vertex < count; ++vertex)
+  {
+    if (!burned[vertex])
+    {
+      fire.time[vertex] = kNever;
+    }
+  }
+  return fire;
+}
+
+} // namespace voxelcore

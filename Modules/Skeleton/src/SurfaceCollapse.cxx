@@ -1,0 +1,137 @@
+#include "SurfaceCollapse.h"
+
+#include "TimeHeap.h"
+
+#include <algorithm>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** Number of live faces on each edge and the exclusive-or of their indices: with one left, that is its index. */
+class EdgeCofaces
+{
+public:
+  explicit EdgeCofaces(const CellComplex & cells)
+    : m_Cells(cells)
+    , m_Count(cells.edges.size(), 0)
+    , m_ExclusiveOr(cells.edges.size(), 0)
+  {
+    for (std::size_t face = 0; face < cells.FaceCount(); ++face)
+    {
+      for (const ElementIndex edge : cells.FaceEdges(face))
+      {
+        ++m_Count[edge];
+        m_ExclusiveOr[edge] ^= static_cast<ElementIndex>(face);
+      }
+    }
+  }
+
+  bool
+  IsFree(ElementIndex edge) const
+  {
+    return m_Count[edge] == 1;
+  }
+
+  ElementIndex
+  OnlyFace(ElementIndex edge) const
+  {
+    return m_ExclusiveOr[edge];
+  }
+
+  void
+  Remove(ElementIndex face)
+  {
+    for (const ElementIndex edge : m_Cells.FaceEdges(face))
+    {
+      --m_Count[edge];
+      m_ExclusiveOr[edge] ^= face;
+    }
+  }
+
+private:
+  const CellComplex &       m_Cells;
+  std::vector<ElementIndex> m_Count;
+  std::vector<ElementIndex> m_ExclusiveOr;
+};
+
+struct RemovedPair
+{
+  ElementIndex edge;
+  ElementIndex face;
+};
+
+/** The full collapse, pair by pair. */
+std::vector<RemovedPair>
+CollapseOrder(const CellComplex & cells, const BurnTimes & times)
+{
+  EdgeCofaces              cofaces(cells);
+  std::vector<RemovedPair> order;
+  order.reserve(cells.FaceCount());
+  TimeHeap heap;
+  for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    if (cofaces.IsFree(edge))
+    {
+      heap.Push({ times.edges[edge], edge });
+    }
+  }
+  while (!heap.IsEmpty())
+  {
+    const ElementIndex edge = heap.Pop().element;
+    if (!cofaces.IsFree(edge))
+    {
+      continue; // its face went with another of its edges
+    }
+    const ElementIndex face = cofaces.OnlyFace(edge);
+    cofaces.Remove(face);
+    order.push_back({ edge, face });
+    for (const ElementIndex side : cells.FaceEdges(face))
+    {
+      if (side != edge && cofaces.IsFree(side))
+      {
+        heap.Push({ times.edges[side], side });
+      }
+    }
+  }
+  return order;
+}
+
+} // namespace
+
+LiveElements
+CollapseSurface(const MedialComplex &       surface,
+                const BurnTimes &           times,
+                double                      plateThreshold,
+                std::vector<std::uint8_t> & closed)
+{
+  const CellComplex &            cells = surface.cells;
+  const std::vector<RemovedPair> order = CollapseOrder(cells, times);
+  LiveElements                   live{ std::vector<std::uint8_t>(cells.vertexCount, 1),
+                     std::vector<std::uint8_t>(cells.edges.size(), 1),
+                     std::vector<std::uint8_t>(cells.FaceCount(), 1) };
+  closed.assign(cells.FaceCount(), 1);
+  EdgeCofaces cofaces(cells);
+  for (const RemovedPair & pair : order)
+  {
+    closed[pair.face] = 0;
+    const auto corners = cells.FaceVertices(pair.face);
+    double     radius = 0;
+    for (const ElementIndex corner : corners)
+    {
+      radius += surface.radius[corner];
+    }
+    const double thickness = times.faces[pair.face] - radius / static_cast<double>(corners.size());
+    if (thickness < plateThreshold && cofaces.IsFree(pair.edge))
+    {
+      cofaces.Remove(pair.face);
+      live.faces[pair.face] = 0;
+      live.edges[pair.edge] = 0;
+    }
+  }
+  return live;
+}
+
+} // namespace voxelcore

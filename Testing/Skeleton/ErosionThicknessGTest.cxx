@@ -1,0 +1,140 @@
+#include "SkeletonFixtures.h"
+
+#include "voxelcore/ErosionThickness.h"
+
+namespace voxelcore::testing
+{
+
+namespace
+{
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(ErosionThickness, SheetBurnsFromItsRimInwards)
+{
+  SurfaceBuilder builder;
+  builder.Sheet({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 12, 8, 2.5);
+  const MedialComplex & sheet = builder.Surface();
+  const BurnTimes       times = ComputeBurnTimes(sheet, 1);
+  for (std::size_t v = 0; v < sheet.cells.vertexCount; ++v)
+  {
+    const auto & p = sheet.positions[v];
+    const double rim = std::min(std::min(p[0], 12 - p[0]), std::min(p[1], 8 - p[1]));
+    EXPECT_DOUBLE_EQ(times.vertices[v], 2.5 + rim) << p[0] << " " << p[1];
+  }
+}
+
+TEST(ErosionThickness, FireIsNotBeforeTheRadius)
+{
+  // The radius grows faster than fire runs: the rim of a cone of radii burns in the middle at the radius there.
+  SurfaceBuilder builder;
+  for (int i = 0; i < 6; ++i)
+  {
+    for (int j = 0; j < 6; ++j)
+    {
+      const auto at = [&](int x, int y) {
+        const int rim = std::min(std::min(x, 6 - x), std::min(y, 6 - y));
+        return builder.Point(x, y, 0, 1 + 3 * rim);
+      };
+      builder.Face({ at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) });
+    }
+  }
+  const BurnTimes times = ComputeBurnTimes(builder.Surface(), 1);
+  for (std::size_t v = 0; v < times.vertices.size(); ++v)
+  {
+    EXPECT_DOUBLE_EQ(times.vertices[v], builder.Surface().radius[v]);
+  }
+}
+
+TEST(ErosionThickness, CurvesAndPointsBurnAtTheirRadius)
+{
+  SurfaceBuilder builder;
+  for (int i = 0; i < 5; ++i)
+  {
+    builder.Edge(builder.Point(i, 0, 0, 1 + i), builder.Point(i + 1, 0, 0, 2 + i));
+  }
+  builder.Point(9, 9, 9, 4);
+  EXPECT_EQ(ComputeBurnTimes(builder.Surface(), 1).vertices, builder.Surface().radius);
+}
+
+TEST(ErosionThickness, ClosedSurfaceNeverBurns)
+{
+  SurfaceBuilder builder;
+  builder.Sheet({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 3, 3);
+  builder.Sheet({ 0, 0, 3 }, { 1, 0, 0 }, { 0, 1, 0 }, 3, 3);
+  builder.Sheet({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, 3, 3);
+  builder.Sheet({ 0, 3, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, 3, 3);
+  builder.Sheet({ 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, 3, 3);
+  builder.Sheet({ 3, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, 3, 3);
+  for (const double time : ComputeBurnTimes(builder.Surface(), 1).vertices)
+  {
+    EXPECT_EQ(time, kInfinity);
+  }
+}
+
+TEST(ErosionThickness, SeamBurnsWhenAllButOneOfItsSheetsHaveBurned)
+{
+  // Sheets of width 2, 3 and 9 meet at the line x = y = 0; all are so long that only their width counts in the middle.
+  SurfaceBuilder builder;
+  builder.Sheet({ 0, 0, -12 }, { 1, 0, 0 }, { 0, 0, 1 }, 2, 24, 10);
+  builder.Sheet({ 0, 0, -12 }, { 0, 1, 0 }, { 0, 0, 1 }, 3, 24, 10);
+  builder.Sheet({ 0, 0, -12 }, { -1, 0, 0 }, { 0, 0, 1 }, 9, 24, 10);
+  const MedialComplex & surface = builder.Surface();
+  const BurnTimes       times = ComputeBurnTimes(surface, 1);
+  for (std::size_t v = 0; v < surface.cells.vertexCount; ++v)
+  {
+    const auto & p = surface.positions[v];
+    if (p[2] != 0)
+    {
+      continue;
+    }
+    const double expected = p[0] > 0   ? 10 + std::min(2 - p[0], 3 + p[0]) // its rim
+                            : p[1] > 0 ? 10 + 3 - p[1]
+                            : p[0] < 0
+                              ? 10 + std::min(9 + p[0], 3 - p[0]) // its rim, or the seam, which burns at 10 + 3
+                              : 10 + 3;
+    EXPECT_DOUBLE_EQ(times.vertices[v], expected) << p[0] << " " << p[1];
+  }
+}
+
+TEST(ErosionThickness, SheetsThatTouchInAPointBurnEachByItself)
+{
+  SurfaceBuilder builder;
+  builder.Sheet({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 8, 8, 10);
+  // A second sheet through the first one's middle in one point of both, standing upright.
+  const ElementIndex middle = builder.Point(4, 4, 0);
+  builder.Face({ middle, builder.Point(5, 4, 1), builder.Point(4, 4, 2), builder.Point(3, 4, 1) });
+  const BurnTimes times = ComputeBurnTimes(builder.Surface(), 1);
+  EXPECT_DOUBLE_EQ(times.vertices[middle], 10 + 4);
+}
+
+TEST(ErosionThickness, IsAtLeastZeroOnRandomVolumes)
+{
+  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+  {
+    const RandomVolume  volume = MakeRandomVolume(seed, 2, 9);
+    const MedialComplex surface = SurfaceOf(volume.shape, volume.spacing);
+    const BurnTimes     times = ComputeBurnTimes(surface, 1);
+    for (std::size_t v = 0; v < times.vertices.size(); ++v)
+    {
+      ASSERT_GE(times.vertices[v], surface.radius[v]) << volume.Describe();
+    }
+  }
+}
+
+TEST(ErosionThickness, GrowsWithTheShape)
+{
+  // Scale-covariant: the same shape in voxels twice as large burns twice as long, to the last bit.
+  const VoxelShape shape = Ellipsoid(24);
+  const BurnTimes  one = ComputeBurnTimes(SurfaceOf(shape), 1.5);
+  const BurnTimes  two = ComputeBurnTimes(SurfaceOf(shape, { 2, 2, 2 }), 3);
+  ASSERT_EQ(one.vertices.size(), two.vertices.size());
+  for (std::size_t v = 0; v < one.vertices.size(); ++v)
+  {
+    ASSERT_EQ(2 * one.vertices[v], two.vertices[v]);
+  }
+}
+
+} // namespace
+
+} // namespace voxelcore::testing
