@@ -11,44 +11,50 @@ namespace voxelcore
 namespace
 {
 
+// TNumber holds the volume of three differences, 6 N^3 for points that differ by up to N.
+template <typename TNumber>
 struct Vector
 {
-  std::int64_t x, y, z;
+  TNumber x, y, z;
 };
 
-Vector
+template <typename TNumber>
+Vector<TNumber>
 Between(const LatticePoint & from, const LatticePoint & to)
 {
-  return { std::int64_t{ to.x } - from.x, std::int64_t{ to.y } - from.y, std::int64_t{ to.z } - from.z };
+  return { TNumber{ to.x } - from.x, TNumber{ to.y } - from.y, TNumber{ to.z } - from.z };
 }
 
-Vector
-Cross(const Vector & a, const Vector & b)
+template <typename TNumber>
+Vector<TNumber>
+Cross(const Vector<TNumber> & a, const Vector<TNumber> & b)
 {
   return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
 
-std::int64_t
-Dot(const Vector & a, const Vector & b)
+template <typename TNumber>
+TNumber
+Dot(const Vector<TNumber> & a, const Vector<TNumber> & b)
 {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 // The facet whose outline runs from point `from` to point `to`: pivot a plane about that side until all points lie
 // behind it, then take every point on it, in order around `from`.
+template <typename TNumber>
 void
 AppendFacet(std::span<const LatticePoint> points, std::uint16_t from, std::uint16_t to, HullFacets & hull)
 {
-  const Vector  side = Between(points[from], points[to]);
-  std::uint16_t third = from;
-  Vector        normal{ 0, 0, 0 };
+  const auto      side = Between<TNumber>(points[from], points[to]);
+  std::uint16_t   third = from;
+  Vector<TNumber> normal{ 0, 0, 0 };
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     if (i == from || i == to)
     {
       continue;
     }
-    const Vector arm = Between(points[from], points[i]);
+    const auto arm = Between<TNumber>(points[from], points[i]);
     if (third == from || Dot(normal, arm) > 0)
     {
       third = static_cast<std::uint16_t>(i);
@@ -60,22 +66,30 @@ AppendFacet(std::span<const LatticePoint> points, std::uint16_t from, std::uint1
   hull.corners.push_back(to);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    if (i != from && i != to && Dot(normal, Between(points[from], points[i])) == 0)
+    if (i != from && i != to && Dot(normal, Between<TNumber>(points[from], points[i])) == 0)
     {
       hull.corners.push_back(static_cast<std::uint16_t>(i));
     }
   }
   // All lie on the left of from -> to in the facet's plane, so angles about `from` are less than half a turn.
-  std::sort(hull.corners.begin() + static_cast<std::ptrdiff_t>(start) + 2,
-            hull.corners.end(),
-            [&](std::uint16_t a, std::uint16_t b) {
-              return Dot(Cross(Between(points[from], points[a]), Between(points[from], points[b])), normal) > 0;
-            });
+  if (hull.corners.size() > start + 3)
+  {
+    // The product of a normal and another vector of its size may be twice as long as a volume.
+    const Vector<std::int64_t> axis{ normal.x, normal.y, normal.z };
+    std::sort(hull.corners.begin() + static_cast<std::ptrdiff_t>(start) + 2,
+              hull.corners.end(),
+              [&](std::uint16_t a, std::uint16_t b) {
+                return Dot(Cross(Between<std::int64_t>(points[from], points[a]),
+                                 Between<std::int64_t>(points[from], points[b])),
+                           axis) > 0;
+              });
+  }
   hull.offsets.push_back(static_cast<std::uint16_t>(hull.corners.size()));
 }
 
 // A directed side of the hull at point 0 to start from: every cospherical point is a corner, so some plane through
 // point 0 and two others has all points behind it.
+template <typename TNumber>
 std::array<std::uint16_t, 2>
 FirstSide(std::span<const LatticePoint> points)
 {
@@ -83,10 +97,10 @@ FirstSide(std::span<const LatticePoint> points)
   {
     for (std::uint16_t j = 1; j < points.size(); ++j)
     {
-      const Vector normal = Cross(Between(points[0], points[i]), Between(points[0], points[j]));
+      const auto normal = Cross(Between<TNumber>(points[0], points[i]), Between<TNumber>(points[0], points[j]));
       if (i != j && (normal.x != 0 || normal.y != 0 || normal.z != 0) &&
           std::all_of(points.begin(), points.end(), [&](const LatticePoint & p) {
-            return Dot(normal, Between(points[0], p)) <= 0;
+            return Dot(normal, Between<TNumber>(points[0], p)) <= 0;
           }))
       {
         // The facet's outline through point 0: pivoting about a chord of it would miss part of the facet, so take the
@@ -94,8 +108,9 @@ FirstSide(std::span<const LatticePoint> points)
         std::uint16_t first = i;
         for (std::uint16_t k = 1; k < points.size(); ++k)
         {
-          const Vector arm = Between(points[0], points[k]);
-          if (Dot(normal, arm) == 0 && Dot(Cross(Between(points[0], points[first]), arm), normal) < 0)
+          const auto                 arm = Between<std::int64_t>(points[0], points[k]);
+          const Vector<std::int64_t> axis{ normal.x, normal.y, normal.z };
+          if (Dot(axis, arm) == 0 && Dot(Cross(Between<std::int64_t>(points[0], points[first]), arm), axis) < 0)
           {
             first = k;
           }
@@ -107,24 +122,24 @@ FirstSide(std::span<const LatticePoint> points)
   throw Error("a Delaunay cell is flat; please report this input");
 }
 
-} // namespace
-
-HullFacets
-ComputeHull(std::span<const LatticePoint> points)
+// Gift wrapping: sides of known facets whose other facet is still missing.
+template <typename TNumber>
+void
+WrapHull(std::span<const LatticePoint> points, HullFacets & hull)
 {
-  HullFacets hull;
-  // Gift wrapping: sides of known facets whose other facet is still missing.
-  std::vector<std::array<std::uint16_t, 2>> open{ FirstSide(points) };
+  std::vector<std::array<std::uint16_t, 2>> open;
+  open.reserve(3 * points.size());
+  open.push_back(FirstSide<TNumber>(points));
   std::swap(open[0][0], open[0][1]); // as if the facet beyond had run the other way
   while (!open.empty())
   {
     const std::array<std::uint16_t, 2> side{ open.back()[1], open.back()[0] };
     open.pop_back();
-    AppendFacet(points, side[0], side[1], hull);
+    AppendFacet<TNumber>(points, side[0], side[1], hull);
     const auto polygon = hull.Polygon(hull.Count() - 1);
     for (std::size_t i = 0; i < polygon.size(); ++i)
     {
-      const std::array<std::uint16_t, 2> own{ polygon[i], polygon[(i + 1) % polygon.size()] };
+      const std::array<std::uint16_t, 2> own{ polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1] };
       const std::array<std::uint16_t, 2> twin{ own[1], own[0] };
       if (own == side && hull.Count() > 1) // the facet on its other side is where it came from
       {
@@ -146,32 +161,110 @@ ComputeHull(std::span<const LatticePoint> points)
       throw Error("the hull of a Delaunay cell does not close; please report this input");
     }
   }
+}
+
+// A loop: for a dozen numbers a call to the library's comparison costs more.
+bool
+IsSame(const std::vector<std::uint32_t> & key, const std::uint32_t * old)
+{
+  for (std::size_t i = 0; i < key.size(); ++i)
+  {
+    if (key[i] != old[i])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void
+AppendPolygons(const HullFacets & hull, std::vector<std::uint16_t> & polygons)
+{
+  for (std::size_t facet = 0; facet < hull.Count(); ++facet)
+  {
+    const auto polygon = hull.Polygon(facet);
+    polygons.push_back(static_cast<std::uint16_t>(polygon.size()));
+    polygons.insert(polygons.end(), polygon.begin(), polygon.end());
+  }
+}
+
+} // namespace
+
+HullFacets
+ComputeHull(std::span<const LatticePoint> points)
+{
+  HullFacets hull;
+  WrapHull<std::int64_t>(points, hull);
   return hull;
 }
 
-const HullFacets &
+HullMemo::Polygons
 HullMemo::Get(std::span<const LatticePoint> points)
 {
-  m_Key.clear();
-  for (const LatticePoint & p : points)
-  {
-    const LatticePoint & o = points[0];
-    m_Key.push_back(static_cast<char32_t>(((p.x - o.x + 64) << 14) | ((p.y - o.y + 64) << 7) | (p.z - o.z + 64)));
-  }
-  const auto found = m_Hulls.find(m_Key);
-  if (found != m_Hulls.end())
-  {
-    return found->second;
-  }
   // Large sets do not come back, and the table must not outgrow the caches.
   constexpr std::size_t largestKept = 12;
-  constexpr std::size_t mostKept = 200000;
-  if (points.size() > largestKept || m_Hulls.size() >= mostKept)
+  constexpr std::size_t mostKept = 100000;
+  Slot *                slot = nullptr;
+  if (points.size() <= largestKept)
   {
-    m_Last = ComputeHull(points);
+    m_Key.clear();
+    std::uint64_t hash = 0x9E3779B97F4A7C15U;
+    for (const LatticePoint & p : points)
+    {
+      const LatticePoint & o = points[0];
+      m_Key.push_back(static_cast<std::uint32_t>(((p.x - o.x + 64) << 14) | ((p.y - o.y + 64) << 7) | (p.z - o.z)));
+      hash = (hash ^ m_Key.back()) * 0xD6E8FEB86659FD93U;
+      hash ^= hash >> 32;
+    }
+    const std::size_t mask = m_Slots.size() - 1;
+    std::size_t       at = hash & mask;
+    for (; m_Slots[at].hullSize != 0; at = (at + 1) & mask)
+    {
+      const Slot & old = m_Slots[at];
+      if (old.hash == hash && old.keySize == m_Key.size() && IsSame(m_Key, m_Keys.data() + old.key))
+      {
+        return { m_Polygons.data() + old.hull, old.hullSize };
+      }
+    }
+    if (m_Used < mostKept)
+    {
+      slot = &m_Slots[at];
+      slot->hash = hash;
+    }
+  }
+  m_Hull.Clear();
+  WrapHull<std::int32_t>(points, m_Hull); // 6 * 64^3 < 2^31
+  if (slot == nullptr)
+  {
+    m_Last.clear();
+    AppendPolygons(m_Hull, m_Last);
     return m_Last;
   }
-  return m_Hulls.emplace(m_Key, ComputeHull(points)).first->second;
+  slot->key = static_cast<std::uint32_t>(m_Keys.size());
+  slot->keySize = static_cast<std::uint16_t>(m_Key.size());
+  slot->hull = static_cast<std::uint32_t>(m_Polygons.size());
+  m_Keys.insert(m_Keys.end(), m_Key.begin(), m_Key.end());
+  AppendPolygons(m_Hull, m_Polygons);
+  slot->hullSize = static_cast<std::uint16_t>(m_Polygons.size() - slot->hull);
+  const Polygons polygons{ m_Polygons.data() + slot->hull, slot->hullSize };
+  if (2 * ++m_Used > m_Slots.size())
+  {
+    std::vector<Slot> old(2 * m_Slots.size());
+    old.swap(m_Slots);
+    for (const Slot & kept : old)
+    {
+      if (kept.hullSize != 0)
+      {
+        std::size_t at = kept.hash & (m_Slots.size() - 1);
+        while (m_Slots[at].hullSize != 0)
+        {
+          at = (at + 1) & (m_Slots.size() - 1);
+        }
+        m_Slots[at] = kept;
+      }
+    }
+  }
+  return polygons;
 }
 
 } // namespace voxelcore

@@ -5,8 +5,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace voxelcore
@@ -28,6 +26,12 @@ struct HullFacets
   {
     return { corners.data() + offsets[facet], corners.data() + offsets[facet + 1] };
   }
+  void
+  Clear()
+  {
+    offsets.resize(1);
+    corners.clear();
+  }
 };
 
 /** The hull of points on one sphere, at least four and not all in one plane; so every point is a corner of it.
@@ -39,29 +43,30 @@ ComputeHull(std::span<const LatticePoint> points);
 class HullMemo
 {
 public:
-  /** The hull of points sorted by (z, y, x), differing by less than 32 along each axis. The reference holds until the
-   *  next call. */
-  const HullFacets &
+  /** Polygons one after the other, each as the number of its corners and then the corners. */
+  using Polygons = std::span<const std::uint16_t>;
+
+  /** The hull of points sorted by (z, y, x), differing by less than 64 along each axis. Holds until the next call. */
+  Polygons
   Get(std::span<const LatticePoint> points);
 
 private:
-  struct Hash
+  struct Slot
   {
-    std::size_t
-    operator()(const std::u32string & key) const
-    {
-      std::uint64_t h = 0x9E3779B97F4A7C15U;
-      for (const char32_t c : key)
-      {
-        h = (h ^ c) * 0xD6E8FEB86659FD93U;
-        h ^= h >> 32;
-      }
-      return static_cast<std::size_t>(h);
-    }
+    std::uint64_t hash = 0;
+    std::uint32_t key = 0;  // where in m_Keys
+    std::uint32_t hull = 0; // where in m_Polygons
+    std::uint16_t keySize = 0;
+    std::uint16_t hullSize = 0; // 0: empty
   };
-  std::unordered_map<std::u32string, HullFacets, Hash> m_Hulls;
-  std::u32string                                       m_Key;
-  HullFacets                                           m_Last;
+
+  std::vector<Slot>          m_Slots = std::vector<Slot>(1U << 12);
+  std::size_t                m_Used = 0;
+  std::vector<std::uint32_t> m_Keys;
+  std::vector<std::uint16_t> m_Polygons;
+  std::vector<std::uint32_t> m_Key;
+  HullFacets                 m_Hull;
+  std::vector<std::uint16_t> m_Last;
 };
 
 } // namespace voxelcore

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace voxelcore
 {
@@ -162,10 +161,16 @@ TurnFacets(DelaunayCells & cells, const std::vector<std::uint32_t> & rank)
   }
 }
 
-// The facets' canonical order, by buckets of their first cell.
+// The facets' canonical order, by buckets of their first cell. Two cells share at most one facet, so points need
+// comparing only among the boundary facets of a cell: two of them share at most two points.
 std::vector<std::uint32_t>
 FacetOrder(const DelaunayCells & cells)
 {
+  struct Beyond
+  {
+    std::uint32_t cell;
+    std::uint32_t facet;
+  };
   const std::size_t          cellCount = cells.CellCount();
   const std::size_t          facets = cells.FacetCount();
   std::vector<std::uint32_t> start(cellCount + 2, 0);
@@ -177,21 +182,30 @@ FacetOrder(const DelaunayCells & cells)
   {
     start[cell] += start[cell - 1];
   }
-  std::vector<std::uint32_t> order(facets);
+  std::vector<Beyond> beyond(facets);
   for (std::size_t facet = 0; facet < facets; ++facet)
   {
-    order[start[cells.facetCells[facet][0] + 1]++] = static_cast<std::uint32_t>(facet);
+    const auto & pair = cells.facetCells[facet];
+    beyond[start[pair[0] + 1]++] = { pair[1], static_cast<std::uint32_t>(facet) };
   }
-  const auto key = [&](std::uint32_t facet) {
-    const std::uint32_t * p = cells.facetPoints.data() + cells.facetOffsets[facet];
-    return std::make_tuple(cells.facetCells[facet][1], p[0], p[1], p[2]); // two facets of a cell share two points
+  const auto isLess = [&](const Beyond & a, const Beyond & b) {
+    if (a.cell != b.cell || a.cell != kOutside)
+    {
+      return a.cell < b.cell;
+    }
+    const std::uint32_t * p = cells.facetPoints.data() + cells.facetOffsets[a.facet];
+    const std::uint32_t * q = cells.facetPoints.data() + cells.facetOffsets[b.facet];
+    return std::lexicographical_compare(p, p + 3, q, q + 3);
   };
+  std::vector<std::uint32_t> order(facets);
 #pragma omp parallel for schedule(static) if (facets > 10000)
   for (std::size_t cell = 0; cell < cellCount; ++cell)
   {
-    std::sort(order.begin() + start[cell], order.begin() + start[cell + 1], [&](std::uint32_t a, std::uint32_t b) {
-      return key(a) < key(b);
-    });
+    std::sort(beyond.begin() + start[cell], beyond.begin() + start[cell + 1], isLess);
+    for (std::size_t i = start[cell]; i < start[cell + 1]; ++i)
+    {
+      order[i] = beyond[i].facet;
+    }
   }
   return order;
 }
@@ -231,18 +245,20 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
 #pragma omp parallel for schedule(static) if (facets > 10000)
     for (std::ptrdiff_t i = 0; i < facets; ++i)
     {
-      const auto polygon = cells.FacetPoints(order[static_cast<std::size_t>(i)]);
-      std::copy(polygon.begin(),
-                polygon.end(),
-                facetPoints.begin() + static_cast<std::ptrdiff_t>(offsets[static_cast<std::size_t>(i)]));
+      std::uint64_t at = offsets[static_cast<std::size_t>(i)];
+      for (const std::uint32_t point : cells.FacetPoints(order[static_cast<std::size_t>(i)]))
+      {
+        facetPoints[at++] = point;
+      }
     }
     cells.facetPoints.swap(facetPoints);
   }
   cells.facetOffsets.swap(offsets);
   std::vector<std::array<std::uint32_t, 2>> facetCells(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
+#pragma omp parallel for schedule(static) if (facets > 10000)
+  for (std::ptrdiff_t i = 0; i < facets; ++i)
   {
-    facetCells[i] = cells.facetCells[order[i]];
+    facetCells[static_cast<std::size_t>(i)] = cells.facetCells[order[static_cast<std::size_t>(i)]];
   }
   cells.facetCells.swap(facetCells);
 }

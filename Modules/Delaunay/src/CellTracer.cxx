@@ -340,7 +340,10 @@ CellTracer::NewFacet(std::uint32_t first, std::uint32_t second, std::span<const 
 {
   const auto facet = static_cast<std::uint32_t>(m_Result.FacetCount());
   m_Result.facetCells.push_back({ first, second });
-  m_Result.facetPoints.insert(m_Result.facetPoints.end(), polygon.begin(), polygon.end());
+  for (const std::uint32_t point : polygon) // three or four: cheaper than a copy of unknown length
+  {
+    m_Result.facetPoints.push_back(point);
+  }
   m_Result.facetOffsets.push_back(m_Result.facetPoints.size());
   return facet;
 }

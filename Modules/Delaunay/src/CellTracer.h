@@ -84,7 +84,7 @@ private:
   void
   TraceFacet(Pending pending);
   void
-  CreateCell(std::span<const std::uint32_t> facet);
+  CreateCell(std::span<const std::uint32_t> facet, bool inwards);
   void
   AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon);
   bool

@@ -24,6 +24,13 @@ KeyOf(std::span<const std::uint32_t> polygon)
   return { polygon[least], std::min(before, behind), std::max(before, behind) };
 }
 
+// By hand: compilers make a call to memcmp of the arrays' own comparison.
+inline bool
+IsSameKey(const FacetKey & a, const FacetKey & b)
+{
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 /** A hash table from FacetKey to a number, by linear probing. */
 class FacetTable
 {
@@ -46,7 +53,7 @@ public:
   {
     for (std::size_t at = Home(key);; at = Next(at))
     {
-      if (m_Slots[at].value == none || m_Slots[at].key == key)
+      if (m_Slots[at].value == none || IsSameKey(m_Slots[at].key, key))
       {
         return m_Slots[at].value;
       }
@@ -58,7 +65,7 @@ public:
   Take(const FacetKey & key)
   {
     std::size_t at = Home(key);
-    for (; m_Slots[at].value == none || m_Slots[at].key != key; at = Next(at))
+    for (; m_Slots[at].value == none || !IsSameKey(m_Slots[at].key, key); at = Next(at))
     {
       if (m_Slots[at].value == none)
       {

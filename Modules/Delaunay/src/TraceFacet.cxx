@@ -14,6 +14,9 @@ namespace voxelcore
 namespace
 {
 
+// What single precision may be off by in window coordinates (0 to 63), with room to spare.
+constexpr float scanMargin = 1e-3F;
+
 // The smallest value / height met so far, and whether later candidates tie with it.
 template <typename TNumber>
 struct Best
@@ -22,66 +25,105 @@ struct Best
   std::int64_t height = 0; // 0: none yet
 };
 
-// Offers every boundary vertex in the ball (grown by a rounding margin) that lies on the far side of the pencil's
-// circle; keeps in `apexes` those with the least parameter.
+// What a scan has to visit: the part of a ball beyond the plane of the pencil's circle, as a box in window coordinates.
+struct CapBox
+{
+  std::array<float, 3> low{};
+  std::array<float, 3> high{};
+};
+
+// The cap reaches as far as its ball where the ball's outermost point lies beyond the plane, else as far as the circle.
+template <typename TNumber>
+CapBox
+BoundCap(const Pencil<TNumber> & pencil, const SpacingWeights & weights, double from, double radius)
+{
+  CapBox       box;
+  const double circle = std::sqrt(pencil.circle2);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto   w = static_cast<double>(weights.weight[axis]);
+    const double normal = pencil.along[axis] * w;
+    const double across = circle * std::sqrt(std::max(0.0, 1.0 - normal * normal)) / w;
+    const double centre = pencil.middle[axis] + from * pencil.along[axis];
+    const double low = from - radius * normal > 0.0 ? centre - radius / w : pencil.middle[axis] - across;
+    const double high = from + radius * normal > 0.0 ? centre + radius / w : pencil.middle[axis] + across;
+    box.low[axis] = static_cast<float>(std::clamp(low - scanMargin, 0.0, 63.0));
+    box.high[axis] = static_cast<float>(std::clamp(high + scanMargin, 0.0, 63.0));
+  }
+  return box;
+}
+
+// Offers every boundary vertex in the ball (and a few at its rim) that lies on the far side of the pencil's circle; keeps
+// in `apexes` those with the least parameter. Single precision finds them, exact integers decide.
 template <typename TNumber>
 void
 ScanBall(const LatticeWindow &         window,
          const Pencil<TNumber> &       pencil,
          const SpacingWeights &        weights,
          const std::array<double, 3> & centre,
+         const CapBox &                box,
          double                        radius2,
          Best<TNumber> &               best,
          std::vector<LatticePoint> &   apexes)
 {
-  const std::array<double, 3> w{ static_cast<double>(weights.weight[0]),
-                                 static_cast<double>(weights.weight[1]),
-                                 static_cast<double>(weights.weight[2]) };
-  const double                grown2 = radius2 * (1.0 + 1e-9);
-  const double                inverse2 = 1.0 / (w[0] * w[0]);
-  const double                reachZ = std::sqrt(grown2) / w[2];
-  const auto                  bound = [](double value) { return std::clamp(value, 0.0, 63.0); };
-  const auto                  zFirst = static_cast<std::int32_t>(std::ceil(bound(centre[2] - reachZ)));
-  const auto                  zLast = static_cast<std::int32_t>(bound(centre[2] + reachZ));
+  constexpr std::size_t              lanes = 4;
+  constexpr std::array<float, lanes> laneNumber{ 0, 1, 2, 3 };
+  const std::array<float, 3>         w{ static_cast<float>(weights.weight[0]),
+                                static_cast<float>(weights.weight[1]),
+                                static_cast<float>(weights.weight[2]) };
+  const auto                         cx = static_cast<float>(centre[0]);
+  const auto                         cy = static_cast<float>(centre[1]);
+  const auto                         cz = static_cast<float>(centre[2]);
+  const float                        inverse = 1.0F / w[0];
+  // Window coordinates are off by up to 4e-6 in single precision: grown by more than that, no row is missed.
+  const double grown = std::sqrt(radius2) + 1e-5 * static_cast<double>(w[0] + w[1] + w[2]);
+  const float  grown2 = static_cast<float>(grown * grown) * 1.0001F;
+  // Truncation rounds towards 0, and all these are positive: less than 1 added first rounds up.
+  constexpr float up = 1.0F - scanMargin;
+  const auto      zFirst = static_cast<std::int32_t>(box.low[2] + up);
+  const auto      zLast = static_cast<std::int32_t>(box.high[2]);
   for (std::int32_t z = zFirst; z <= zLast; ++z)
   {
-    const double dz = w[2] * (z - centre[2]);
-    const double left = grown2 - dz * dz;
-    if (left < 0.0)
+    const float dz = w[2] * (static_cast<float>(z) - cz);
+    const float left = grown2 - dz * dz;
+    if (left < 0.0F)
     {
       continue;
     }
-    const double reachY = std::sqrt(left) / w[1];
-    const auto   yFirst = static_cast<std::int32_t>(std::ceil(bound(centre[1] - reachY)));
-    const auto   yLast = static_cast<std::int32_t>(bound(centre[1] + reachY));
-    for (std::int32_t y = yFirst; y <= yLast; ++y)
+    const float           reachY = std::sqrt(left) / w[1];
+    const auto            yFirst = static_cast<std::int32_t>(std::max(cy - reachY, box.low[1]) + up);
+    const auto            yLast = static_cast<std::int32_t>(std::min(cy + reachY, box.high[1]));
+    const std::uint64_t * rows = window.vertex.data() + LatticeWindow::Row(0, z);
+    for (std::int32_t yStart = yFirst; yStart <= yLast; yStart += static_cast<std::int32_t>(lanes))
     {
-      const std::uint64_t row = window.vertex[LatticeWindow::Row(y, z)];
-      if (row == 0)
+      // The bits of each row that may lie in the ball; none where the row passes it by.
+      std::array<std::int32_t, lanes> low;
+      std::array<std::int32_t, lanes> high;
+      const float                     yFrom = static_cast<float>(yStart) - cy;
+#pragma omp simd
+      for (std::size_t i = 0; i < lanes; ++i)
       {
-        continue;
+        const float dy = w[1] * (yFrom + laneNumber[i]);
+        const float rest = std::max(left - dy * dy, 0.0F);
+        const float reach = std::sqrt(rest) * inverse;
+        low[i] = static_cast<std::int32_t>(std::max(cx - reach + up, box.low[0]));
+        high[i] = static_cast<std::int32_t>(std::min(cx + reach + scanMargin, box.high[0]));
       }
-      const double dy = w[1] * (y - centre[1]);
-      const double rest = left - dy * dy;
-      if (rest < 0.0)
+      const std::int32_t count = std::min(static_cast<std::int32_t>(lanes), yLast - yStart + 1);
+      for (std::int32_t lane = 0; lane < count; ++lane)
       {
-        continue;
-      }
-      // The row's vertices from the centre outwards, to either side, as long as they lie in the ball.
-      const double        rest2 = rest * inverse2;
-      const auto          middle = static_cast<std::int32_t>(bound(centre[0]));
-      const std::uint64_t upper = row & (~std::uint64_t{ 1 } << middle);
-      const std::uint64_t lower = row & ~(~std::uint64_t{ 1 } << middle);
-      const auto          offer = [&](std::int32_t x) {
-        const double dx = x - centre[0];
-        if (dx * dx > rest2)
+        const auto         i = static_cast<std::size_t>(lane);
+        const std::int32_t y = yStart + lane;
+        for (std::uint64_t bits = rows[y] & (~std::uint64_t{ 0 } << low[i]) & (~std::uint64_t{ 0 } >> (63 - high[i]));
+             bits != 0;
+             bits &= bits - 1)
         {
-          return false;
-        }
-        const LatticePoint q{ x, y, z };
-        const std::int64_t height = pencil.Height(q);
-        if (height > 0)
-        {
+          const LatticePoint q{ std::countr_zero(bits), y, z };
+          const std::int64_t height = pencil.Height(q);
+          if (height <= 0)
+          {
+            continue;
+          }
           const TNumber value = pencil.Value(q);
           const TNumber difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
           if (difference < 0)
@@ -94,13 +136,7 @@ ScanBall(const LatticeWindow &         window,
             apexes.push_back(q);
           }
         }
-        return true;
-      };
-      for (std::uint64_t bits = upper; bits != 0 && offer(std::countr_zero(bits)); bits &= bits - 1)
-      {}
-      for (std::uint64_t bits = lower; bits != 0 && offer(63 - std::countl_zero(bits));
-           bits &= ~(std::uint64_t{ 1 } << (63 - std::countl_zero(bits))))
-      {}
+      }
     }
   }
 }
@@ -198,7 +234,7 @@ CellTracer::TraceFacet(Pending pending)
     {
       Best<TNumber> best;
       m_Apexes.clear();
-      ScanBall(m_Window, pencil, weights, centre, radius2, best, m_Apexes);
+      ScanBall(m_Window, pencil, weights, centre, BoundCap(pencil, weights, next, radius), radius2, best, m_Apexes);
       const double found =
         best.height == 0 ? HUGE_VAL : pencil.scale * static_cast<double>(best.value) / static_cast<double>(best.height);
       // A candidate at the rim of the ball may have peers beyond it: look further before believing it.
@@ -220,7 +256,7 @@ CellTracer::TraceFacet(Pending pending)
           Defer(brick, pending);
           return;
         }
-        CreateCell(polygon);
+        CreateCell(polygon, inwards);
         return;
       }
     }
@@ -230,45 +266,60 @@ CellTracer::TraceFacet(Pending pending)
 }
 
 void
-CellTracer::CreateCell(std::span<const std::uint32_t> facet)
+CellTracer::CreateCell(std::span<const std::uint32_t> facet, bool inwards)
 {
-  m_Points.clear();
-  for (const std::uint32_t index : facet)
-  {
-    m_Points.push_back(Local(index));
-  }
-  m_Points.insert(m_Points.end(), m_Apexes.begin(), m_Apexes.end());
-  std::sort(m_Points.begin(), m_Points.end(), [](const LatticePoint & a, const LatticePoint & b) {
-    return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
-  });
-  LatticePoint low = m_Points[0];
-  LatticePoint high = m_Points[0];
-  for (const LatticePoint & p : m_Points)
-  {
+  LatticePoint low = m_Apexes[0];
+  LatticePoint high = low;
+  const auto   include = [&](const LatticePoint & p) {
     low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
     high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
+  };
+  for (const LatticePoint & p : m_Apexes)
+  {
+    include(p);
+  }
+  for (const std::uint32_t index : facet)
+  {
+    include(Local(index));
   }
   if (high.x - low.x <= 1 && high.y - low.y <= 1 && high.z - low.z <= 1)
   {
     return; // the cell of a single voxel, which its brick makes from the table
   }
+  const auto cell = static_cast<std::uint32_t>(m_Result.CellCount());
+  const auto indexOf = [&](const LatticePoint & p) { return m_Window.IndexOf(p.x, p.y, p.z); };
+  m_Result.tetrahedra.push_back({ facet[0], facet[1], facet[2], indexOf(m_Apexes[0]) });
+  if (facet.size() == 3 && m_Apexes.size() == 1)
+  {
+    // A tetrahedron: seen from outside it, the facet runs the other way.
+    const std::uint32_t apex = m_Result.tetrahedra.back()[3];
+    const std::uint32_t a = facet[inwards ? 1 : 0];
+    const std::uint32_t b = facet[inwards ? 0 : 1];
+    const std::uint32_t c = facet[2];
+    AddFacet(cell, std::array{ a, c, b });
+    AddFacet(cell, std::array{ a, b, apex });
+    AddFacet(cell, std::array{ b, c, apex });
+    AddFacet(cell, std::array{ c, a, apex });
+    return;
+  }
+  m_Points.assign(m_Apexes.begin(), m_Apexes.end());
+  for (const std::uint32_t index : facet)
+  {
+    m_Points.push_back(Local(index));
+  }
+  std::sort(m_Points.begin(), m_Points.end(), [](const LatticePoint & a, const LatticePoint & b) {
+    return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
+  });
   m_Indices.clear();
   for (const LatticePoint & p : m_Points)
   {
-    m_Indices.push_back(m_Window.IndexOf(p.x, p.y, p.z));
+    m_Indices.push_back(indexOf(p));
   }
-  const auto  cell = static_cast<std::uint32_t>(m_Result.CellCount());
-  std::size_t fourth = 3;
-  while (Orientation(m_Points[0], m_Points[1], m_Points[2], m_Points[fourth]) == 0)
-  {
-    ++fourth;
-  }
-  m_Result.tetrahedra.push_back({ m_Indices[0], m_Indices[1], m_Indices[2], m_Indices[fourth] });
-  const HullFacets & hull = m_Hulls.Get(m_Points);
-  for (std::size_t i = 0; i < hull.Count(); ++i)
+  const HullMemo::Polygons polygons = m_Hulls.Get(m_Points);
+  for (std::size_t at = 0; at < polygons.size(); at += polygons[at] + 1U)
   {
     m_Polygon.clear();
-    for (const std::uint16_t corner : hull.Polygon(i))
+    for (const std::uint16_t corner : polygons.subspan(at + 1, polygons[at]))
     {
       m_Polygon.push_back(m_Indices[corner]);
     }
