@@ -236,6 +236,27 @@ TEST_F(Shares, WithoutAFacetDoNotFit)
   }
 }
 
+TEST_F(Shares, WithAWrongSphereDoNotFit)
+{
+  // Another point in place of one of the four: another cell's, or one that makes them flat.
+  ExpectMisfit([](BlockShare & share) { share.cells.tetrahedra[1][3] = share.cells.tetrahedra[1][0]; },
+               "do not span a cell");
+  ExpectMisfit([](BlockShare & share) { share.cells.tetrahedra.front() = share.cells.tetrahedra.back(); },
+               "do not span a cell");
+  // A point that moved, in whole shares that agree about it.
+  std::vector<BlockShare> changed = shares;
+  const LatticePoint      moved = shares[1].points[shares[1].points.size() / 2];
+  for (BlockShare & share : changed)
+  {
+    const auto at = std::find(share.points.begin(), share.points.end(), moved);
+    if (at != share.points.end())
+    {
+      at->y += 1;
+    }
+  }
+  MessageOf<CertificateError>([&] { JoinBlockShares(changed); });
+}
+
 TEST_F(Shares, WithFacetsToTheWrongSideDoNotFit)
 {
   ExpectMisfit([](BlockShare & share) { share.cells.facetCells[FacetTo(share, kOtherBlock)][1] = kOutside; },

@@ -68,7 +68,7 @@ TEST(HeavyCoreFromBlocks, IsThatOfOneRunOnEveryPhantom)
   for (const PhantomKind & kind : PhantomKinds())
   {
     SCOPED_TRACE(kind.name);
-    const VoxelShape shape = PhantomOf(kind.name, kind.name == "root" ? 256 : kind.name == "noise" ? 40 : 80);
+    const VoxelShape shape = PhantomOf(kind.name, kind.name == "root" ? 128 : kind.name == "noise" ? 32 : 48);
     for (const std::size_t count : { 1, 2, 3, 8 })
     {
       SCOPED_TRACE(count);

@@ -250,7 +250,7 @@ ReadBlockShare(std::istream & stream, const std::string & name)
   const std::uint64_t facets = from.Number();
   const std::uint64_t corners = from.Number();
   from.Sum(); // before memory is asked for by these numbers
-  if (share.block >= share.blockCount || points >= kOtherBlock || cells >= kOtherBlock)
+  if (share.block >= share.blockCount || points >= kOtherBlock || cells >= kOtherBlock || facets >= kOtherBlock)
   {
     from.FailDamaged();
   }

@@ -1,6 +1,7 @@
 #include "CheckShare.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/Predicates.h"
 
 #include <algorithm>
 
@@ -16,6 +17,35 @@ Text(const LatticePoint & p)
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
 }
 
+// The four points are the cell's and fix a sphere, and all its points lie on it. `sides` are sorted, and each point
+// begins one.
+void
+CheckSphere(const BlockShare &                                share,
+            std::size_t                                       cell,
+            const std::vector<std::array<std::uint32_t, 2>> & sides,
+            const SpacingWeights &                            weights)
+{
+  const auto &         t = share.cells.tetrahedra[cell];
+  const LatticePoint & place = share.points[t[0]];
+  const CircumSphere   sphere =
+    MakeCircumSphere(place, share.points[t[1]], share.points[t[2]], share.points[t[3]], weights);
+  const bool own = std::all_of(t.begin(), t.end(), [&sides](std::uint32_t point) {
+    const auto at = std::lower_bound(sides.begin(), sides.end(), std::array<std::uint32_t, 2>{ point, 0 });
+    return at != sides.end() && (*at)[0] == point;
+  });
+  if (sphere.det == 0 || !own)
+  {
+    Misfit(place, "four points do not span a cell there");
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    if ((i == 0 || sides[i][0] != sides[i - 1][0]) && Power(sphere, share.points[sides[i][0]], weights) != 0)
+    {
+      Misfit(share.points[sides[i][0]], "a cell's points do not lie on one sphere");
+    }
+  }
+}
+
 } // namespace
 
 void
@@ -26,9 +56,11 @@ Misfit(const LatticePoint & place, const std::string & what)
 }
 
 void
-CheckClosed(const BlockShare & share)
+CheckCells(const BlockShare & share)
 {
-  const DelaunayCells &      cells = share.cells;
+  const DelaunayCells & cells = share.cells;
+  SpacingWeights        weights;
+  weights.weight = share.weight;
   std::vector<std::uint64_t> start(cells.CellCount() + 2, 0);
   const auto                 visit = [&cells](auto act) {
     for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
@@ -71,6 +103,7 @@ CheckClosed(const BlockShare & share)
     {
       Misfit(share.points[cells.tetrahedra[cell][0]], "the surface of a cell there is not closed");
     }
+    CheckSphere(share, cell, along, weights);
   }
 }
 

@@ -10,9 +10,9 @@ namespace voxelcore
 [[noreturn]] void
 Misfit(const LatticePoint & place, const std::string & what);
 
-/** Each side of each facet of a cell must be met once the other way round, by another facet of the same cell.
- *  \throws CertificateError */
+/** Each side of each facet of a cell must be met once the other way round, by another facet of the same cell, and all
+ *  points of a cell must lie on its sphere. \throws CertificateError */
 void
-CheckClosed(const BlockShare & share);
+CheckCells(const BlockShare & share);
 
 } // namespace voxelcore

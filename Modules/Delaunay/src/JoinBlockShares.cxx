@@ -106,9 +106,9 @@ public:
       throw CertificateError("the blocks hold " + std::to_string(points.size()) + " of the shape's " +
                              std::to_string(m_First.boundaryVertices) + " boundary vertices; compute them again");
     }
-    if (m_Cells >= kOtherBlock)
+    if (m_Cells >= kOtherBlock || m_Facets >= kOtherBlock)
     {
-      throw InputError("the blocks hold more than 2^32 - 2 cells; crop or split the shape");
+      throw InputError("the blocks hold more than 2^32 - 2 cells or facets; crop or split the shape");
     }
     m_Joined.cells.tetrahedra.reserve(m_Cells);
     m_Joined.cells.facetCells.reserve(m_Facets);
@@ -121,7 +121,7 @@ public:
   void
   AddCells(const BlockShare & share)
   {
-    CheckClosed(share);
+    CheckCells(share);
     const std::vector<std::uint32_t> number = NumbersOf(share.points);
     DelaunayCells &                  cells = m_Joined.cells;
     const auto                       firstCell = static_cast<std::uint32_t>(cells.CellCount());
@@ -216,7 +216,7 @@ private:
         sums[axis] += d[axis];
       }
     }
-    // Its corners are distinct, as CheckClosed saw, so two axes take up two of them each.
+    // Its corners are distinct, as CheckCells saw, so two axes take up two of them each.
     const std::size_t axis = sums[0] == 0 ? 0 : sums[1] == 0 ? 1 : 2;
     if (!unit || sums[0] + sums[1] + sums[2] != 4 || sums[axis] != 0)
     {

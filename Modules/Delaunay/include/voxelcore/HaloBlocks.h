@@ -123,8 +123,9 @@ struct JoinedCells
 using ShareSource = std::function<BlockShare(std::size_t)>;
 
 /** Joins `count` shares, in any order. Each is asked for twice, one at a time, so that never more than one is in memory
- *  beside the result. Checks exactly that the cells fill the shape once: the surface of each is closed, each facet is a
- *  boundary square of which the shape has as many, or is met from both sides by exactly two cells.
+ *  beside the result. Checks exactly that the cells fill the shape once: the surface of each cell is closed and its
+ *  points lie on one sphere; each facet is a boundary square, of which there are as many as the shape has, or is met from
+ *  both sides by one cell each.
  *  Takes up to 300 bytes a boundary vertex at its peak (roots 233, gyroid sheets 296), the result included (133, 169).
  *  \throws InputError when shares are missing, repeated or do not belong together; CertificateError, naming the place,
  *  when cells are missing, doubled or do not fit; Cancelled when the callback says so. */
