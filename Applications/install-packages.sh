@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
-# usage: install-packages.sh GROUP...     groups: build, demo (a real scan), test
+# usage: install-packages.sh GROUP...     groups: build, demo (a real scan), test, sanitizer (what the
+# tests under ThreadSanitizer need besides)
 set -euo pipefail
 
 packages_of() {
@@ -9,7 +10,8 @@ packages_of() {
                 libboost-dev libcli11-dev nlohmann-json3-dev ;;
     demo) echo mricron-data ;;
     test) echo libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy mricron-data ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, demo and test" >&2; return 2 ;;
+    sanitizer) echo clang libomp-dev ;;
+    *) echo "install-packages.sh: unknown group '$1'; there are build, demo, test and sanitizer" >&2; return 2 ;;
   esac
 }
 

@@ -27,13 +27,14 @@ case "$kind" in
       echo "sanitize.sh: clang is not installed" >&2
       exit 77
     fi
-    archer=$(dirname "$(clang++ -print-file-name=libomp.so)")/libarcher.so
+    archer=$(realpath -m "$(clang++ -print-resource-dir)/../../libarcher.so")
     if [ ! -e "$archer" ]; then
       echo "sanitize.sh: $archer is not there (package libomp-dev)" >&2
       exit 77
     fi
     flags="-fsanitize=thread"
-    options+=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
+    # Debian's ITK headers know no compiler but GCC; only its filters and the comparison with its readers are left out.
+    options+=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DVOXELCORE_ITK=OFF)
     export OMP_TOOL_LIBRARIES=$archer
     # Debian's libraries are not built for ThreadSanitizer: what they do among themselves is not looked at.
     export TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1:second_deadlock_stack=1

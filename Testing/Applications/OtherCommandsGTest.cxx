@@ -86,6 +86,50 @@ TEST_F(OtherCommands, InfoTellsComponentsOfBothConnectivities)
   const Json info = Json::parse(Run({ "info", m_Folder / "a.nrrd", "--json" }));
   EXPECT_EQ(info["labels"][0]["betti"][0], 2);
   EXPECT_EQ(info["labels"][0]["components_26"], 1);
+  const std::string surprise =
+    "note: label 3 (label-3): 2 pieces; voxels that touch only at edges or corners count as "
+    "apart, else there would be 1\n";
+  const std::string text = Run({ "info", m_Folder / "a.nrrd" });
+  EXPECT_NE(text.find(surprise), std::string::npos) << text;
+  scan.At(1, 2, 1) = 3; // now they are one either way
+  WriteNrrd(m_Folder / "a.nrrd", scan);
+  EXPECT_EQ(Run({ "info", m_Folder / "a.nrrd" }).find("pieces"), std::string::npos);
+}
+
+TEST_F(OtherCommands, AComponentIsChosenByCoreInfoAndVerifyAlike)
+{
+  // Two values a voxel: the first is 1 in a block, the second 2 in a part of it.
+  std::string bytes(std::size_t{ 2 } * 6 * 6 * 6, '\0');
+  for (std::size_t v = 0; v < 216; ++v)
+  {
+    const bool inner = v % 6 >= 1 && v % 6 <= 4 && v / 6 % 6 >= 1 && v / 6 % 6 <= 4 && v / 36 >= 1 && v / 36 <= 4;
+    bytes[2 * v] = inner ? 1 : 0;
+    bytes[2 * v + 1] = inner && v / 36 >= 3 ? 2 : 0;
+  }
+  WriteNrrd(m_Folder / "v.nrrd",
+            "type: uint8\ndimension: 4\nsizes: 2 6 6 6\nkinds: vector domain domain domain\nspace: LPS\n"
+            "space directions: none (1,0,0) (0,1,0) (0,0,1)\n",
+            bytes);
+  for (const char * command : { "info", "core" })
+  {
+    std::vector<std::string> arguments{ command, m_Folder / "v.nrrd" };
+    if (std::string(command) == "core")
+    {
+      arguments.insert(arguments.end(), { "-o", m_Folder / "no.vtp" });
+    }
+    ExpectRefusal(RunProgram(arguments), 3, { "v.nrrd", "2 values a voxel", "--component 0 to --component 1" });
+    arguments.insert(arguments.end(), { "--component", "2" });
+    ExpectRefusal(RunProgram(arguments), 3, { "v.nrrd", "no component 2" });
+  }
+  const Json info = Json::parse(Run({ "info", m_Folder / "v.nrrd", "--component", "1", "--json" }));
+  EXPECT_EQ(info["labels"][0]["label"], 2);
+  EXPECT_EQ(info["labels"][0]["voxels"], 32);
+  Run({ "core", m_Folder / "v.nrrd", "--component", "1", "-o", m_Folder / "v.vtp", "--report", m_Folder / "v.json" });
+  const Json report = Json::parse(ReadAll(m_Folder / "v.json"));
+  EXPECT_EQ(report["parameters"]["component"], 1);
+  EXPECT_EQ(report["labels"][0]["voxels"], 32);
+  // verify takes the component that the file names.
+  EXPECT_NE(Run({ "verify", m_Folder / "v.nrrd", m_Folder / "v.vtp" }).find("all passed"), std::string::npos);
 }
 
 TEST_F(OtherCommands, PhantomWritesEveryFormatAndTheSameVoxelsEachTime)

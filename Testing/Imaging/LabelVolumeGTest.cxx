@@ -110,6 +110,18 @@ TEST(Labels, WideValuesAreExact)
   EXPECT_EQ(volume.labels[2].value, INT64_MAX);
 }
 
+TEST(Labels, FloatsAreReadAsStoredAlsoBeyondSixteenBits)
+{
+  const TempFolder   folder;
+  std::vector<float> values(24, 0);
+  values[3] = 70000;
+  values[4] = 4464; // what 70000 becomes in 16 bits
+  const LabelVolume volume = ReadLabelVolume(WriteVolume(folder, "float", { 4, 3, 2 }, values));
+  ASSERT_EQ(volume.labels.size(), 2U);
+  EXPECT_EQ(volume.labels[0].value, 4464);
+  EXPECT_EQ(volume.labels[1].value, 70000);
+}
+
 TEST(Labels, MinusZeroIsBackground)
 {
   const TempFolder   folder;

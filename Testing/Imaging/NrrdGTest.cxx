@@ -58,6 +58,14 @@ TEST(Nrrd, EveryEncodingGivesTheSameValues)
     ReadLabelVolume(folder.Write("a.nrrd", Nrrd(With(Lines(), "encoding", "ascii"), "0 1 2\n3 0 7\n0 0 0 2 2 250\n"))));
   ExpectValues(
     ReadLabelVolume(folder.Write("hex.nrrd", Nrrd(With(Lines(), "encoding", "hex"), "000102030007 0000000202FA"))));
+  // Written by bzip2 itself.
+  const std::string bzip2(
+    "\x42\x5A\x68\x39\x31\x41\x59\x26\x53\x59\xF5\xFB\x7B\x4A\x00\x00\x01\x40\x00\xF8\x80\x00\x10"
+    "\x20\x00\x21\xA7\xA8\xDA\x83\x00\xA2\x24\xAC\xD3\xC5\xDC\x91\x4E\x14\x24\x3D\x7E\xDE\xD2\x80",
+    46);
+  const auto squeezed = With(Lines(), "encoding", "bzip2");
+  ExpectValues(ReadLabelVolume(folder.Write("bz2.nrrd", Nrrd(squeezed, bzip2))));
+  ExpectRefused(folder.Write("cut.nrrd", Nrrd(squeezed, bzip2.substr(0, 40))), { "truncated" });
   // Two members, as parallel compressors write them.
   ExpectValues(ReadLabelVolume(
     folder.Write("two.nrrd", Nrrd(With(Lines(), "encoding", "gz"), Gzip(data.substr(0, 5)) + Gzip(data.substr(5))))));
@@ -316,11 +324,15 @@ TEST(NrrdSegments, NamesComeFromTheKeysOfOneLayer)
                { "Segment0_Name:=Left kidney",
                  "Segment0_LabelValue:=7",
                  "Segment0_Layer:=0",
+                 "Segment0_Color:=0.72 0.25 0.1",
                  "Segment1_Name:=Spleen",
-                 "Segment1_LabelValue:=2" });
+                 "Segment1_LabelValue:=2",
+                 "Segment1_Color:=0.5 2 red" });
   const LabelVolume volume = ReadLabelVolume(folder.Write("a.seg.nrrd", Nrrd(lines, RawAll<std::uint8_t>(kValues))));
   EXPECT_EQ(volume.labels[1].name, "Spleen");
   EXPECT_EQ(volume.labels[3].name, "Left kidney");
+  EXPECT_EQ(volume.labels[3].color, (std::array<double, 3>{ 0.72, 0.25, 0.1 }));
+  EXPECT_FALSE(volume.labels[1].color) << "no colour";
   EXPECT_EQ(volume.labels[0].name, "label-1");
 }
 

@@ -1,4 +1,5 @@
-"""Compares what VoxelCore reads with what nibabel reads: size, affine of the form chosen, voxels of each label.
+"""Compares what VoxelCore reads with what nibabel reads: size, spacing, affine of the form chosen (of the sform: the one
+nibabel itself takes), voxels of each label; of colours each component.
 
 usage: compare_with_nibabel.py DUMP_PROGRAM LARGEST_FILE_IN_BYTES FOLDER...    exit 77: nothing to compare with or nothing to compare
 """
@@ -36,26 +37,45 @@ def chosen_affine(header, form):
     return qform
 
 
+def same_labels(ours, values):
+    labels, counts = numpy.unique(values[values != 0], return_counts=True)
+    return ours["labels"] == {str(int(label)): int(count) for label, count in zip(labels, counts)}
+
+
+def fits(values):
+    return (values == numpy.floor(values)).all() and values.min() >= 0 and values.any()
+
+
 def compare(dump, path, form):
     image = nibabel.load(path)
     affine = chosen_affine(image.header, form)
     if affine is None or len(image.shape) != 3:
         return None
-    run = subprocess.run([dump, path, form], capture_output=True, text=True, check=False)
-    values = numpy.asanyarray(image.dataobj)
-    if values.dtype.kind == "V" or not (values == numpy.floor(values)).all() or values.min() < 0 or not values.any():
-        return run.returncode == 3
-    if run.returncode != 0:
-        print(run.stderr)
+    if form == "sform" and not numpy.array_equal(affine, image.affine):
         return False
-    ours = json.loads(run.stdout)
-    labels, counts = numpy.unique(values[values != 0], return_counts=True)
     lps = numpy.diag([-1, -1, 1]) @ affine[:3]
-    return (
-        ours["size"] == list(image.shape)
-        and numpy.allclose(numpy.reshape(ours["affine"], (3, 4)), lps, rtol=0, atol=1e-4 * numpy.abs(lps).max())
-        and ours["labels"] == {str(int(label)): int(count) for label, count in zip(labels, counts)}
-    )
+    values = numpy.asanyarray(image.dataobj)
+    names = values.dtype.names or [None]
+    for component, name in enumerate(names):
+        stored = values if name is None else values[name]
+        chosen = [] if name is None else [str(component)]
+        run = subprocess.run([dump, path, form] + chosen, capture_output=True, text=True, check=False)
+        if not fits(stored):
+            if run.returncode != 3:
+                return False
+            continue
+        if run.returncode != 0:
+            print(run.stderr)
+            return False
+        ours = json.loads(run.stdout)
+        if not (
+            ours["size"] == list(image.shape)
+            and numpy.allclose(ours["spacing"], numpy.linalg.norm(lps[:, :3], axis=0), rtol=1e-5, atol=0)
+            and numpy.allclose(numpy.reshape(ours["affine"], (3, 4)), lps, rtol=0, atol=1e-4 * numpy.abs(lps).max())
+            and same_labels(ours, stored)
+        ):
+            return False
+    return True
 
 
 compared = failed = 0

@@ -124,7 +124,7 @@ LabelBook::LabelBook(const ScanFile & scan, const ReadOptions & options)
   {
     const std::int64_t value = m_Renumbered ? m_Largest + 1 : segment.value;
     m_Segments.emplace(std::pair(segment.layer, segment.value),
-                       Label{ value, segment.name.empty() ? Text("label-", value) : segment.name });
+                       Label{ value, segment.name.empty() ? Text("label-", value) : segment.name, segment.color });
     m_Given.insert(value);
     m_Largest = std::max(m_Largest, value);
   }

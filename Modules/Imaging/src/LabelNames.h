@@ -25,6 +25,8 @@ public:
   {
     std::int64_t value = 0;
     std::string  name;
+
+    std::optional<std::array<double, 3>> color{}; ///< as LabelShape::color
   };
 
   /** \throws UsageError when options.labels makes no sense. */

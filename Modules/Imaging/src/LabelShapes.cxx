@@ -163,6 +163,7 @@ LabelCollector::TakeShapes()
     LabelShape label;
     label.value = target.label.value;
     label.name = target.label.name;
+    label.color = target.label.color;
     label.shape = VoxelShape(Box(target.lower, target.upper));
     for (Piece & piece : target.pieces)
     {

@@ -166,6 +166,16 @@ ReadSegments(const NrrdHeader & header, ScanFile & scan)
       Refuse(scan.path, Text("segment ", n, " has a label value or layer that makes no sense"), "mend the header");
     }
     segment.value = *number;
+    if (const auto color = header.keys.find(prefix + "Color"); color != header.keys.end())
+    {
+      // It decides nothing: one that makes no sense is none.
+      const auto parts = ParseReals(color->second);
+      if (parts && parts->size() == 3 &&
+          std::all_of(parts->begin(), parts->end(), [](double part) { return part >= 0 && part <= 1; }))
+      {
+        segment.color = { (*parts)[0], (*parts)[1], (*parts)[2] };
+      }
+    }
     segment.layer = static_cast<std::size_t>(*at);
     scan.segments.push_back(std::move(segment));
   }

@@ -53,6 +53,8 @@ struct Segment
   std::string  name;
   std::size_t  layer = 0;
   std::int64_t value = 0;
+
+  std::optional<std::array<double, 3>> color; ///< as LabelShape::color
 };
 
 struct ScanFile

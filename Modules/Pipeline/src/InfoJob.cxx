@@ -44,6 +44,35 @@ BoxText(const VoxelBox & box)
   return text;
 }
 
+/** What surprises those who count voxels that touch at edges or corners as one piece; empty where nobody would be. */
+std::vector<std::string>
+Surprises(const std::vector<LabelInfo> & labels)
+{
+  constexpr std::size_t    shown = 10;
+  std::vector<std::string> lines;
+  std::size_t              more = 0;
+  for (const LabelInfo & label : labels)
+  {
+    if (label.components26 >= label.topology.betti[0])
+    {
+      continue;
+    }
+    if (lines.size() == shown)
+    {
+      ++more;
+      continue;
+    }
+    lines.push_back(LabelText(label.label, label.name) + ": " + std::to_string(label.topology.betti[0]) +
+                    " pieces; voxels that touch only at edges or corners count as apart, else there would be " +
+                    std::to_string(label.components26));
+  }
+  if (more > 0)
+  {
+    lines.push_back("the same holds for " + std::to_string(more) + " more labels");
+  }
+  return lines;
+}
+
 } // namespace
 
 std::string
@@ -140,7 +169,12 @@ InfoText(const ScanInfo & info)
                      std::to_string(label.components26),
                      std::to_string(label.boundaryVertices) });
   }
-  return text + "\n" + FormatTable(rows);
+  text += "\n" + FormatTable(rows);
+  for (const std::string & line : Surprises(info.labels))
+  {
+    text += "note: " + line + "\n";
+  }
+  return text;
 }
 
 std::string

@@ -60,9 +60,10 @@ Append(LabelShape label, const EditRecord & record, bool split, std::vector<Edit
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
     const std::uint64_t voxels = parts[i].CountVoxels();
-    labels.push_back({ { label.value, label.name + "#" + std::to_string(i + 1), voxels, std::move(parts[i]) },
-                       static_cast<std::int64_t>(i + 1),
-                       record });
+    labels.push_back(
+      { { label.value, label.name + "#" + std::to_string(i + 1), voxels, std::move(parts[i]), label.color },
+        static_cast<std::int64_t>(i + 1),
+        record });
   }
 }
 

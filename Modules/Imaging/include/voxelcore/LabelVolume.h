@@ -23,6 +23,8 @@ struct LabelShape
   std::string   name;       ///< from the file, from the .txt beside it, or "label-<value>"
   std::uint64_t voxels = 0; ///< how many carry it
   VoxelShape    shape;      ///< in its tight bounding box
+
+  std::optional<std::array<double, 3>> color{}; ///< red, green, blue from 0 to 1, where a .seg.nrrd gives one
 };
 
 /** Voxels first <= index < end along i, j and k. An end of 0 means the scan's. */
