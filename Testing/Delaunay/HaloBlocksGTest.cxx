@@ -103,7 +103,7 @@ TEST_P(HaloBlocks, JoinOfRandomVolumesIsTheWhole)
 
 TEST_P(HeavyHaloBlocks, JoinOfRandomVolumesIsTheWhole)
 {
-  ExpectOnRandomVolumes(41000, GetParam() == Engine::Lattice ? 600 : 150, 1, 20);
+  ExpectOnRandomVolumes(41000, GetParam() == Engine::Lattice ? 600 : 40, 1, 20);
 }
 
 TEST_P(HaloBlocks, JoinOfSolidsWithHolesIsTheWhole)
@@ -113,7 +113,7 @@ TEST_P(HaloBlocks, JoinOfSolidsWithHolesIsTheWhole)
 
 TEST_P(HeavyHaloBlocks, JoinOfSolidsWithHolesIsTheWhole)
 {
-  ExpectOnSolidsWithHoles(43000, GetParam() == Engine::Lattice ? 300 : 60, 12, 36);
+  ExpectOnSolidsWithHoles(43000, GetParam() == Engine::Lattice ? 80 : 12, 12, 36);
 }
 
 TEST_P(HaloBlocks, ACentreOnBlockBordersBelongsToOneBlock)
