@@ -1,5 +1,8 @@
 #include "NrrdFixtures.h"
 
+#include <algorithm>
+#include <random>
+
 using namespace voxelcore;
 using namespace voxelcore::testing;
 using namespace voxelcore::testing::nrrd;
@@ -136,6 +139,15 @@ TEST(Nrrd, TruncatedDataIsRefused)
   std::string wrongSum = packed;
   wrongSum[packed.size() - 6] ^= 1;
   ExpectRefused(folder.Write("sum.nrrd", wrongSum), { "damaged" });
+  // Damage far behind the voxels that are worked on when it is met.
+  std::string  noise(std::size_t{ 160 } * 160 * 160, '\0');
+  std::mt19937 random(3);
+  std::generate(noise.begin(), noise.end(), [&random] { return static_cast<char>(random() % 3); });
+  auto large = With(NrrdLines("uint8", { 160, 160, 160 }), "encoding", "gzip");
+  auto much = Nrrd(large, Gzip(noise));
+  ExpectRefused(folder.Write("large.nrrd", much.substr(0, much.size() * 3 / 4)), { "truncated" });
+  much[much.size() * 3 / 4] ^= 0x55;
+  ExpectRefused(folder.Write("large.nrrd", much), { "damaged" });
   ExpectRefused(folder.Write("ascii.nrrd", Nrrd(With(Lines(), "encoding", "ascii"), "0 1 2 3 0 7 0 0 0 2 2")),
                 { "truncated" });
 }

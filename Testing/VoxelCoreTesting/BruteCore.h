@@ -243,8 +243,10 @@ MakeBruteCore(const VoxelShape & shape, const SpacingWeights & weights)
       }
     }
   }
-  for (const auto & [pair, around] : cellsWithPair)
+  for (const auto & entry : cellsWithPair)
   {
+    const auto & pair = entry.first; // no structured binding: clang 14 lets no lambda see one
+    const auto & around = entry.second;
     // Two points are the ends of an inner Delaunay edge when the cells that hold both close up around them: each has
     // two neighbours across facets with both. (A diagonal has one or two cells; an edge of the hull does not close.)
     const bool closed = around.size() >= 3 && std::all_of(around.begin(), around.end(), [&](std::uint32_t cell) {
