@@ -224,6 +224,7 @@ void
 Inflate(const std::string & path)
 {
   const double                                           start = Now();
+  const double                                           cpuStart = ProcessorSeconds();
   const std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file || std::fseek(file.get(), PackedBegin(path), SEEK_SET) != 0)
   {
@@ -254,7 +255,7 @@ Inflate(const std::string & path)
   {
     throw std::runtime_error("cannot inflate " + path);
   }
-  std::cout << Now() - start << '\n';
+  std::cout << Now() - start << ' ' << ProcessorSeconds() - cpuStart << '\n';
 }
 
 } // namespace
