@@ -20,7 +20,7 @@ endfunction()
 
 # voxelcore_tests(Name SOURCES aGTest.cxx ... LIBRARIES targets... [ENVIRONMENT A=b ...])
 # One test program per module; its tests carry the module's name as CTest label.
-# Tests of a suite whose name starts with Heavy carry the label heavy instead.
+# Tests of a suite whose name starts with Heavy (with parameters: Prefix/Heavy) carry the label heavy instead.
 function(voxelcore_tests name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;ENVIRONMENT" ${ARGN})
   set(target VoxelCore${name}Tests)
@@ -28,8 +28,8 @@ function(voxelcore_tests name)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/Testing")
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS ON)
   target_link_libraries(${target} PRIVATE VoxelCoreBuildRules ${arg_LIBRARIES} GTest::gtest_main)
-  gtest_discover_tests(${target} TEST_FILTER "-Heavy*" DISCOVERY_TIMEOUT 60
+  gtest_discover_tests(${target} TEST_FILTER "-Heavy*:*/Heavy*" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${name} TIMEOUT 600 ENVIRONMENT "${arg_ENVIRONMENT}")
-  gtest_discover_tests(${target} TEST_FILTER "Heavy*" DISCOVERY_TIMEOUT 60 TEST_LIST ${target}_heavy
+  gtest_discover_tests(${target} TEST_FILTER "Heavy*:*/Heavy*" DISCOVERY_TIMEOUT 60 TEST_LIST ${target}_heavy
     PROPERTIES LABELS heavy TIMEOUT 3600 ENVIRONMENT "${arg_ENVIRONMENT}")
 endfunction()
