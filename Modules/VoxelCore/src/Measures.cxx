@@ -3,7 +3,10 @@
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace voxelcore
 {
@@ -11,28 +14,101 @@ namespace voxelcore
 namespace
 {
 
+// A boundary vertex by its number in the scan.
+struct PointEntry
+{
+  std::uint64_t key;  // x, y, z from the box' lower corner, 21 bits each: ordered as the points are lexicographically
+  std::uint32_t rank; // in that order
+  std::uint32_t boundaryEdges; // bit 0, 1, 2: the lattice edge to the next corner along z, y, x lies on the boundary
+};
+
+constexpr std::array<std::uint64_t, 3> kStep{ 1, std::uint64_t{ 1 } << 21, std::uint64_t{ 1 } << 42 }; // z, y, x
+
+// A side of a voxel lies on the boundary when not all of the four voxels around it are in (Theorem 3.1 and Lemma 3.6).
+std::uint32_t
+BoundaryEdges(const LatticePoint & p, const VoxelShape & shape)
+{
+  unsigned in = 0; // bit c of the voxel at p - 1 + (c & 1, c >> 1 & 1, c >> 2)
+  for (int c = 0; c < 8; ++c)
+  {
+    in |= static_cast<unsigned>(shape.Contains(p.x - 1 + (c & 1), p.y - 1 + ((c >> 1) & 1), p.z - 1 + (c >> 2))) << c;
+  }
+  return ((in & 0xF0U) != 0xF0U ? 1U : 0U) | ((in & 0xCCU) != 0xCCU ? 2U : 0U) | ((in & 0xAAU) != 0xAAU ? 4U : 0U);
+}
+
+std::vector<PointEntry>
+MakeEntries(const VoxelShape & shape, const std::vector<LatticePoint> & points)
+{
+  const auto &            low = shape.Box().lower;
+  const auto              count = static_cast<std::ptrdiff_t>(points.size());
+  std::vector<PointEntry> entries(points.size());
+#pragma omp parallel for schedule(static) if (count > 10000)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const LatticePoint & p = points[static_cast<std::size_t>(i)];
+    const auto offset = [](std::int32_t c, std::int32_t from) { return static_cast<std::uint64_t>(c - from); };
+    entries[static_cast<std::size_t>(i)] = { offset(p.x, low[0]) << 42 | offset(p.y, low[1]) << 21 |
+                                               offset(p.z, low[2]),
+                                             0,
+                                             BoundaryEdges(p, shape) };
+  }
+  return entries;
+}
+
+// Ranks by counting along y, then along x; the scan's order, by z first, decides among equals.
+void
+RankLexicographically(const VoxelShape &                shape,
+                      const std::vector<LatticePoint> & points,
+                      std::vector<PointEntry> &         entries,
+                      std::vector<LatticePoint> &       sorted)
+{
+  const auto &               box = shape.Box();
+  std::vector<std::uint32_t> byY(points.size());
+  std::vector<std::uint32_t> next(static_cast<std::size_t>(box.size[1]) + 2, 0);
+  for (const LatticePoint & p : points)
+  {
+    ++next[static_cast<std::size_t>(p.y - box.lower[1]) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    byY[next[static_cast<std::size_t>(points[i].y - box.lower[1])]++] = static_cast<std::uint32_t>(i);
+  }
+  next.assign(static_cast<std::size_t>(box.size[0]) + 2, 0);
+  for (const LatticePoint & p : points)
+  {
+    ++next[static_cast<std::size_t>(p.x - box.lower[0]) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  sorted.resize(points.size());
+  for (const std::uint32_t i : byY)
+  {
+    const std::uint32_t rank = next[static_cast<std::size_t>(points[i].x - box.lower[0])]++;
+    entries[i].rank = rank;
+    sorted[rank] = points[i];
+  }
+}
+
 // Points of a facet lie on a circle. Its centre is in their hull unless the longest side sees another point under an
 // obtuse angle; then that side's midpoint is the nearest point of the hull, and the smallest ball sits there.
 double
-MeasureFacet(std::span<const std::uint32_t>    polygon,
-             const std::vector<LatticePoint> & points,
-             const SpacingWeights &            weights)
+MeasureFacet(const std::vector<LatticePoint> & polygon, const SpacingWeights & weights)
 {
   const std::size_t n = polygon.size();
   std::size_t       longest = 0;
   Int128            length = -1;
   for (std::size_t i = 0; i < n; ++i)
   {
-    const Int128 side = SquaredDistance(points[polygon[i]], points[polygon[(i + 1) % n]], weights);
+    const Int128 side = SquaredDistance(polygon[i], polygon[i + 1 == n ? 0 : i + 1], weights);
     if (side > length)
     {
       length = side;
       longest = i;
     }
   }
-  const LatticePoint & a = points[polygon[longest]];
-  const LatticePoint & b = points[polygon[(longest + 1) % n]];
-  const LatticePoint & c = points[polygon[(longest + 2) % n]];
+  const LatticePoint & a = polygon[longest];
+  const LatticePoint & b = polygon[(longest + 1) % n];
+  const LatticePoint & c = polygon[(longest + 2) % n];
   if (AngleSign(c, a, b, weights) <= 0)
   {
     return RatioToDouble(static_cast<UInt128>(length), 4);
@@ -40,62 +116,169 @@ MeasureFacet(std::span<const std::uint32_t>    polygon,
   return SquaredCircumradius(a, b, c, weights);
 }
 
+// A facet's plane, by its counter-clockwise points seen from outside its first cell.
+struct Plane
+{
+  LatticePoint          a{}, b{}, c{};
+  std::array<double, 3> normal{}; // (b - a) x (c - a), exact: minors stay below 2^53
+
+  explicit Plane(const std::vector<LatticePoint> & polygon)
+    : a(polygon[0])
+    , b(polygon[1])
+    , c(polygon[2])
+  {
+    const std::array<std::int64_t, 3> u{ b.x - a.x, b.y - a.y, b.z - a.z };
+    const std::array<std::int64_t, 3> v{ c.x - a.x, c.y - a.y, c.z - a.z };
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      normal[i] = static_cast<double>(u[j] * v[k] - u[k] * v[j]);
+    }
+  }
+
+  // Sign of the side of a centre rounded once: 1 outside the facet's first cell, -1 inside, 0 too near to tell.
+  int
+  SideOf(const std::array<double, 3> & centre) const
+  {
+    const std::array<double, 3> from{ static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z) };
+    double                      side = 0.0;
+    double                      bound = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const double arm = centre[i] - from[i];
+      side += normal[i] * arm;
+      bound += std::abs(normal[i]) * (std::abs(centre[i]) + 4.0 * std::abs(arm));
+    }
+    // Half an ulp of the coordinate, one of the difference, one of the product and two of the sums.
+    bound *= 2.0 * std::numeric_limits<double>::epsilon();
+    return side > bound ? 1 : side < -bound ? -1 : 0;
+  }
+};
+
+// Whether the centre of a cell's sphere lies strictly beyond one of its facets; side 0 for the facet's first cell.
+bool
+LiesBeyond(const Plane &                     plane,
+           const DelaunayCells &             cells,
+           std::uint32_t                     cell,
+           int                               side,
+           const std::vector<LatticePoint> & points,
+           const SpacingWeights &            weights)
+{
+  const int sign = plane.SideOf(cells.centres[cell]);
+  if (sign != 0)
+  {
+    return (sign > 0) == (side == 0);
+  }
+  // Any point of the cell off the facet's plane sees the centre; the one of four that is not on the plane will do.
+  for (const std::uint32_t corner : cells.tetrahedra[cell])
+  {
+    if (Orientation(plane.a, plane.b, plane.c, points[corner]) != 0)
+    {
+      return CentreSide(plane.a, plane.b, plane.c, points[corner], weights) < 0;
+    }
+  }
+  return false;
+}
+
+void
+RaiseTo(double & value, double to)
+{
+  std::atomic_ref<double> atomic(value);
+  double                  old = atomic.load(std::memory_order_relaxed);
+  while (old < to && !atomic.compare_exchange_weak(old, to, std::memory_order_relaxed))
+  {}
+}
+
+// Numbers the points of one facet anew, marks its sides on the boundary, and puts its corners into `polygon`.
+void
+TurnToRanks(const std::vector<PointEntry> &   entries,
+            const std::vector<LatticePoint> & points,
+            std::span<std::uint32_t>          facet,
+            std::vector<LatticePoint> &       polygon)
+{
+  polygon.clear();
+  const PointEntry * const first = &entries[facet[0]];
+  const PointEntry *       entry = first;
+  for (std::size_t i = 0; i < facet.size(); ++i)
+  {
+    polygon.push_back(points[facet[i]]);
+    const PointEntry * const next = i + 1 == facet.size() ? first : &entries[facet[i + 1]];
+    const PointEntry &       low = entry->key < next->key ? *entry : *next;
+    const std::uint64_t      step = std::max(entry->key, next->key) - low.key;
+    bool                     onBoundary = false;
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+    {
+      onBoundary = onBoundary || (step == kStep[axis] && ((low.boundaryEdges >> axis) & 1U) != 0);
+    }
+    facet[i] = entry->rank | (onBoundary ? kBoundarySide : 0);
+    entry = next;
+  }
+}
+
 } // namespace
 
 CellMeasures
-MeasureCells(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+MeasureCells(const VoxelShape &                shape,
+             const std::vector<LatticePoint> & points,
+             const SpacingWeights &            weights,
+             DelaunayCells &                   cells,
+             std::vector<LatticePoint> &       sortedPoints)
 {
-  CellMeasures result;
-  result.facet.resize(cells.FacetCount());
-#pragma omp parallel for schedule(static, 4096) if (cells.FacetCount() > 10000)
-  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
-  {
-    result.facet[facet] = MeasureFacet(cells.FacetPoints(facet), points, weights);
-  }
-
-  // A cell whose sphere's centre lies beyond one of its facets has the nearest point of its hull on the boundary, so
-  // its smallest ball is the greatest of its facets' balls; else it is the sphere itself.
-  std::vector<double>       greatestFacet(cells.CellCount(), 0.0);
+  std::vector<PointEntry> entries = MakeEntries(shape, points);
+  RankLexicographically(shape, points, entries, sortedPoints);
+  CellMeasures              result;
+  const auto                facets = static_cast<std::ptrdiff_t>(cells.FacetCount());
+  const auto                cellCount = static_cast<std::ptrdiff_t>(cells.CellCount());
   std::vector<std::uint8_t> centreBeyond(cells.CellCount(), 0);
-  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
+  result.facet.resize(cells.FacetCount());
+#pragma omp parallel if (facets > 10000)
   {
-    const auto polygon = cells.FacetPoints(facet);
-    for (const std::uint32_t cell : cells.facetCells[facet])
+    std::vector<LatticePoint> polygon;
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t i = 0; i < facets; ++i)
     {
-      if (cell == kOutside)
+      const auto                     facet = static_cast<std::size_t>(i);
+      const std::span<std::uint32_t> own{ cells.facetPoints.data() + cells.facetOffsets[facet],
+                                          cells.facetPoints.data() + cells.facetOffsets[facet + 1] };
+      TurnToRanks(entries, points, own, polygon);
+      result.facet[facet] = MeasureFacet(polygon, weights);
+      const Plane plane(polygon);
+      for (int side = 0; side < 2; ++side)
       {
-        continue;
-      }
-      greatestFacet[cell] = std::max(greatestFacet[cell], result.facet[facet]);
-      if (centreBeyond[cell])
-      {
-        continue;
-      }
-      // Any point of the cell off the facet's plane sees the centre; the one of four that is not on the plane will do.
-      for (const std::uint32_t corner : cells.tetrahedra[cell])
-      {
-        const LatticePoint & a = points[polygon[0]];
-        const LatticePoint & b = points[polygon[1]];
-        const LatticePoint & c = points[polygon[2]];
-        const LatticePoint & d = points[corner];
-        if (Orientation(a, b, c, d) != 0)
+        const std::uint32_t cell = cells.facetCells[facet][static_cast<std::size_t>(side)];
+        if (cell != kOutside && LiesBeyond(plane, cells, cell, side, points, weights))
         {
-          centreBeyond[cell] = CentreSide(a, b, c, d, weights) < 0;
-          break;
+          std::atomic_ref(centreBeyond[cell]).store(1, std::memory_order_relaxed);
         }
       }
     }
   }
+  std::vector<PointEntry>().swap(entries);
 
+  // A cell whose sphere's centre lies beyond one of its facets has the nearest point of its hull on the boundary, so
+  // its smallest ball is the greatest of its facets' balls; else it is the sphere itself.
   result.sphere.resize(cells.CellCount());
   result.cell.resize(cells.CellCount());
-#pragma omp parallel for schedule(static, 4096) if (cells.CellCount() > 10000)
-  for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
+#pragma omp parallel for schedule(static) if (cellCount > 10000)
+  for (std::ptrdiff_t i = 0; i < cellCount; ++i)
   {
+    const auto   cell = static_cast<std::size_t>(i);
     const auto & t = cells.tetrahedra[cell];
     result.sphere[cell] =
       SquaredRadius(MakeCircumSphere(points[t[0]], points[t[1]], points[t[2]], points[t[3]], weights), weights);
-    result.cell[cell] = centreBeyond[cell] ? greatestFacet[cell] : result.sphere[cell];
+    result.cell[cell] = centreBeyond[cell] ? 0.0 : result.sphere[cell];
+  }
+#pragma omp parallel for schedule(static) if (facets > 10000)
+  for (std::ptrdiff_t i = 0; i < facets; ++i)
+  {
+    for (const std::uint32_t cell : cells.facetCells[static_cast<std::size_t>(i)])
+    {
+      if (cell != kOutside && centreBeyond[cell])
+      {
+        RaiseTo(result.cell[cell], result.facet[static_cast<std::size_t>(i)]);
+      }
+    }
   }
   return result;
 }

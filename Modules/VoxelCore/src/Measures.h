@@ -1,10 +1,14 @@
 #pragma once
-// Radius measures of the elements dual to Delaunay cells, facets and edges (paper, section 4, step 3).
+// Radius measures of the elements dual to Delaunay cells and facets (paper, section 4, step 3), and the facets in the
+// form the core's faces are made from.
 
 #include "voxelcore/DelaunayCells.h"
 
 namespace voxelcore
 {
+
+/** Set in a facet's point when the side from it to the next point lies on the boundary of the shape. */
+inline constexpr std::uint32_t kBoundarySide = 0x80000000U;
 
 /** Squared radii in unit^2, each the exact rational rounded once. */
 struct CellMeasures
@@ -14,8 +18,15 @@ struct CellMeasures
   std::vector<double> facet;  ///< per facet: of the smallest ball enclosing its points
 };
 
+/** Measures cells and facets. On the way the facets' points are renumbered to their lexicographic order by (x, y, z),
+ *  in which the points come back, and sides on the boundary get the mark kBoundarySide: cells and facets are in the order
+ *  of their centres' x, so that what is worked on together then lies together in memory. Below 2^31 points. */
 CellMeasures
-MeasureCells(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights);
+MeasureCells(const VoxelShape &                shape,
+             const std::vector<LatticePoint> & points,
+             const SpacingWeights &            weights,
+             DelaunayCells &                   cells,
+             std::vector<LatticePoint> &       sortedPoints);
 
 /** From a squared length in unit^2 to mm; monotone, and the same everywhere so that equal measures stay equal. */
 double

@@ -1,0 +1,371 @@
+#include "CoreFaces.h"
+
+#include "Measures.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/Predicates.h"
+
+#include <omp.h>
+
+#include <algorithm>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr std::uint32_t kRank = ~kBoundarySide;
+
+// A core edge as one side of a face: the dual of one facet around the face's Delaunay edge (p, q), p < q.
+struct Side
+{
+  std::uint32_t q;
+  std::uint32_t turn; // twice the edge, plus 1 when the face, seen against p -> q, passes it from end 0 to end 1
+
+  ElementIndex
+  Edge() const
+  {
+    return turn >> 1;
+  }
+};
+
+// Consecutive points are worked on together: their sides fit the caches.
+constexpr std::size_t kRangeBits = 14;
+
+std::uint32_t
+RangeOf(std::uint32_t point)
+{
+  return (point & kRank) >> kRangeBits;
+}
+
+// For each range of points the facets that have one of its points, ascending.
+struct RangeFacets
+{
+  std::vector<std::uint64_t> start; // ranges + 1
+  std::vector<std::uint32_t> facet;
+};
+
+// Calls visit(range) once for each range that a facet has points of.
+template <typename TVisit>
+void
+VisitRanges(std::span<const std::uint32_t> polygon, TVisit visit)
+{
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const std::uint32_t range = RangeOf(polygon[i]);
+    bool                met = false;
+    for (std::size_t j = 0; j < i && !met; ++j)
+    {
+      met = RangeOf(polygon[j]) == range;
+    }
+    if (!met)
+    {
+      visit(range);
+    }
+  }
+}
+
+RangeFacets
+FacetsByRange(const DelaunayCells & cells, std::size_t ranges)
+{
+  const std::size_t facets = cells.facetOffsets.size() - 1;
+  const std::size_t threads = facets > 10000 ? static_cast<std::size_t>(omp_get_max_threads()) : 1;
+  RangeFacets       result;
+  result.start.assign(ranges + 1, 0);
+  // Each part of the facets counts for itself; then its entries follow those of the parts before.
+  std::vector<std::vector<std::uint64_t>> next(threads, std::vector<std::uint64_t>(ranges, 0));
+  const auto                              visitPart = [&](std::size_t part, auto visit) {
+    for (std::size_t facet = facets * part / threads; facet < facets * (part + 1) / threads; ++facet)
+    {
+      VisitRanges(cells.FacetPoints(facet), [&](std::uint32_t range) { visit(next[part][range], facet); });
+    }
+  };
+#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads))
+  for (std::size_t part = 0; part < threads; ++part)
+  {
+    visitPart(part, [](std::uint64_t & count, std::size_t) { ++count; });
+  }
+  std::uint64_t sum = 0;
+  for (std::size_t range = 0; range < ranges; ++range)
+  {
+    result.start[range] = sum;
+    for (std::size_t part = 0; part < threads; ++part)
+    {
+      const std::uint64_t count = next[part][range];
+      next[part][range] = sum;
+      sum += count;
+    }
+  }
+  result.start[ranges] = sum;
+  result.facet.resize(sum);
+#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads))
+  for (std::size_t part = 0; part < threads; ++part)
+  {
+    visitPart(part,
+              [&](std::uint64_t & at, std::size_t facet) { result.facet[at++] = static_cast<std::uint32_t>(facet); });
+  }
+  return result;
+}
+
+// Calls visit(p, side) for the sides of faces whose smaller point p lies in the range.
+template <typename TVisit>
+void
+VisitSides(const DelaunayCells & cells, const RangeFacets & byRange, std::size_t range, TVisit visit)
+{
+  for (std::uint64_t i = byRange.start[range]; i < byRange.start[range + 1]; ++i)
+  {
+    const std::uint32_t facet = byRange.facet[i];
+    const auto          polygon = cells.FacetPoints(facet);
+    for (std::size_t j = 0; j < polygon.size(); ++j)
+    {
+      if ((polygon[j] & kBoundarySide) != 0)
+      {
+        continue;
+      }
+      const std::uint32_t u = polygon[j] & kRank;
+      const std::uint32_t v = polygon[j + 1 == polygon.size() ? 0 : j + 1] & kRank;
+      // The facet's normal points from cell 0 to cell 1. A facet that runs p -> q lies on the left of that direction,
+      // so going round it counter-clockwise passes from cell 0 to cell 1.
+      const bool forward = u < v;
+      if (RangeOf(forward ? u : v) == range)
+      {
+        visit(forward ? u : v, Side{ forward ? v : u, facet << 1 | (forward ? 1U : 0U) });
+      }
+    }
+  }
+}
+
+using Edges = std::vector<std::array<ElementIndex, 2>>;
+
+// The sides of one face, next to each other.
+struct Group
+{
+  std::array<ElementIndex, 3> smallest; // vertices of the face: they decide its place, as faces share at most an edge
+  std::uint32_t               p;        // the smaller end of its Delaunay edge
+  std::uint32_t               count;
+  std::uint64_t               first; // of all sides
+};
+
+ElementIndex
+Tail(const Side & side, const Edges & edges)
+{
+  return edges[side.Edge()][1 - (side.turn & 1U)];
+}
+
+ElementIndex
+Head(const Side & side, const Edges & edges)
+{
+  return edges[side.Edge()][side.turn & 1U];
+}
+
+[[noreturn]] void
+FailOpenFace()
+{
+  throw CertificateError("the Delaunay cells around an edge do not close; please report this input");
+}
+
+// All sides, face by face.
+struct Faces
+{
+  std::vector<Side>  sides;
+  std::vector<Group> groups;
+};
+
+// Lays down the sides of a range by p, sorts each p's by q, and makes a group of those with the same q; a vertex of a
+// face is the tail of one side. False when a face has fewer than three sides.
+bool
+GroupRange(const DelaunayCells & cells,
+           const RangeFacets &   byRange,
+           std::size_t           range,
+           const Edges &         edges,
+           std::size_t           pointCount,
+           std::span<Side>       sides,
+           std::uint64_t         shift,
+           std::vector<Group> &  groups)
+{
+  const std::size_t          low = range << kRangeBits;
+  const std::size_t          size = std::min(pointCount - low, std::size_t{ 1 } << kRangeBits);
+  std::vector<std::uint32_t> start(size + 2, 0);
+  VisitSides(cells, byRange, range, [&](std::uint32_t p, const Side &) { ++start[p - low + 2]; });
+  for (std::size_t p = 2; p < start.size(); ++p)
+  {
+    start[p] += start[p - 1];
+  }
+  VisitSides(cells, byRange, range, [&](std::uint32_t p, const Side & side) { sides[start[p - low + 1]++] = side; });
+  bool closed = true;
+  for (std::size_t p = 0; p < size; ++p)
+  {
+    const std::span<Side> own = sides.subspan(start[p], start[p + 1] - start[p]);
+    std::sort(own.begin(), own.end(), [](const Side & a, const Side & b) { return a.q < b.q; });
+    for (std::size_t first = 0, last = 0; first < own.size(); first = last)
+    {
+      constexpr ElementIndex      none = 0xFFFFFFFFU;
+      std::array<ElementIndex, 3> smallest{ none, none, none };
+      for (; last < own.size() && own[last].q == own[first].q; ++last)
+      {
+        ElementIndex vertex = Tail(own[last], edges);
+        for (ElementIndex & place : smallest)
+        {
+          if (vertex < place)
+          {
+            std::swap(vertex, place);
+          }
+        }
+      }
+      closed = closed && last - first >= 3;
+      groups.push_back({ smallest,
+                         static_cast<std::uint32_t>(low + p),
+                         static_cast<std::uint32_t>(last - first),
+                         shift + start[p] + first });
+    }
+  }
+  return closed;
+}
+
+Faces
+CollectFaces(DelaunayCells cells, std::size_t pointCount, const Edges & edges)
+{
+  const std::size_t               ranges = (pointCount + (std::size_t{ 1 } << kRangeBits) - 1) >> kRangeBits;
+  const RangeFacets               byRange = FacetsByRange(cells, ranges);
+  std::vector<std::uint64_t>      sidesBefore(ranges + 1, 0);
+  std::vector<std::vector<Group>> parts(ranges);
+  const bool                      many = ranges > 1;
+#pragma omp parallel for schedule(dynamic) if (many)
+  for (std::size_t range = 0; range < ranges; ++range)
+  {
+    std::uint64_t count = 0;
+    VisitSides(cells, byRange, range, [&](std::uint32_t, const Side &) { ++count; });
+    sidesBefore[range + 1] = count;
+  }
+  for (std::size_t range = 0; range < ranges; ++range)
+  {
+    sidesBefore[range + 1] += sidesBefore[range];
+  }
+  Faces faces;
+  faces.sides.resize(sidesBefore[ranges]);
+  bool closed = true;
+#pragma omp parallel for schedule(dynamic) reduction(&& : closed) if (many)
+  for (std::size_t range = 0; range < ranges; ++range)
+  {
+    const std::span<Side> own{ faces.sides.data() + sidesBefore[range], faces.sides.data() + sidesBefore[range + 1] };
+    closed = GroupRange(cells, byRange, range, edges, pointCount, own, sidesBefore[range], parts[range]) && closed;
+  }
+  if (!closed)
+  {
+    FailOpenFace();
+  }
+  cells = {};
+  std::size_t count = 0;
+  for (const auto & part : parts)
+  {
+    count += part.size();
+  }
+  faces.groups.reserve(count);
+  for (auto & part : parts)
+  {
+    faces.groups.insert(faces.groups.end(), part.begin(), part.end());
+    std::vector<Group>().swap(part);
+  }
+  return faces;
+}
+
+// Groups in the canonical order of their faces, by buckets of the smallest vertex.
+std::vector<std::uint32_t>
+CanonicalFaceOrder(const std::vector<Group> & groups, std::size_t vertexCount)
+{
+  std::vector<std::uint32_t> start(vertexCount + 2, 0);
+  for (const Group & group : groups)
+  {
+    ++start[group.smallest[0] + 2];
+  }
+  for (std::size_t vertex = 2; vertex < start.size(); ++vertex)
+  {
+    start[vertex] += start[vertex - 1];
+  }
+  std::vector<std::uint32_t> order(groups.size());
+  for (std::size_t i = 0; i < groups.size(); ++i)
+  {
+    order[start[groups[i].smallest[0] + 1]++] = static_cast<std::uint32_t>(i);
+  }
+#pragma omp parallel for schedule(static) if (vertexCount > 10000)
+  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
+  {
+    std::sort(order.begin() + start[vertex], order.begin() + start[vertex + 1], [&](std::uint32_t a, std::uint32_t b) {
+      return groups[a].smallest < groups[b].smallest;
+    });
+  }
+  return order;
+}
+
+// Chains the sides of one face head to tail from its smallest vertex on; false when they do not close.
+bool
+WriteFace(std::span<Side> sides,
+          const Edges &   edges,
+          ElementIndex    smallest,
+          ElementIndex *  vertices,
+          ElementIndex *  faceEdges)
+{
+  ElementIndex at = smallest;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    const auto next = std::find_if(sides.begin() + static_cast<std::ptrdiff_t>(i), sides.end(), [&](const Side & side) {
+      return Tail(side, edges) == at;
+    });
+    if (next == sides.end())
+    {
+      return false;
+    }
+    std::iter_swap(sides.begin() + static_cast<std::ptrdiff_t>(i), next);
+    vertices[i] = at;
+    faceEdges[i] = sides[i].Edge();
+    at = Head(sides[i], edges);
+  }
+  return at == smallest;
+}
+
+} // namespace
+
+void
+WriteFaces(DelaunayCells                     cells,
+           const std::vector<LatticePoint> & sortedPoints,
+           const SpacingWeights &            weights,
+           MedialComplex &                   core)
+{
+  CellComplex &                    complex = core.cells;
+  Faces                            faces = CollectFaces(std::move(cells), sortedPoints.size(), complex.edges);
+  const std::vector<std::uint32_t> order = CanonicalFaceOrder(faces.groups, complex.vertexCount);
+  const auto                       count = static_cast<std::ptrdiff_t>(order.size());
+  complex.faceOffsets.assign(order.size() + 1, 0);
+  for (std::size_t face = 0; face < order.size(); ++face)
+  {
+    complex.faceOffsets[face + 1] = complex.faceOffsets[face] + faces.groups[order[face]].count;
+  }
+  complex.faceVertices.resize(complex.faceOffsets.back());
+  complex.faceEdges.resize(complex.faceOffsets.back());
+  core.faceLambda.resize(order.size());
+  bool open = false;
+#pragma omp parallel for schedule(static) reduction(|| : open) if (count > 10000)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto            face = static_cast<std::size_t>(i);
+    const Group &         group = faces.groups[order[face]];
+    const std::span<Side> own{ faces.sides.data() + group.first, group.count };
+    const std::uint32_t   q = own[0].q;
+    const auto            at = static_cast<std::ptrdiff_t>(complex.faceOffsets[face]);
+    open = !WriteFace(own,
+                      complex.edges,
+                      group.smallest[0],
+                      complex.faceVertices.data() + at,
+                      complex.faceEdges.data() + at) ||
+           open;
+    const Int128 squared = SquaredDistance(sortedPoints[group.p], sortedPoints[q], weights);
+    core.faceLambda[face] = ToMillimetres(RatioToDouble(static_cast<UInt128>(squared), 4), weights);
+  }
+  if (open)
+  {
+    FailOpenFace();
+  }
+}
+
+} // namespace voxelcore
