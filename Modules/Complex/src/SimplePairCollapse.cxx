@@ -1,6 +1,9 @@
 #include "voxelcore/SimplePairCollapse.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 namespace voxelcore
 {
@@ -30,62 +33,97 @@ struct Pair
   }
 };
 
-// A heap with four children a node: half as deep as a binary one, and siblings share a cache line or two.
-class PairHeap
+// Pairs in order, smallest first, while more arrive. Those ahead wait in buckets by measure; the nearest bucket is sorted,
+// so that what comes next is known and can be fetched from memory in time; those that arrive for it go to a heap.
+class PairQueue
 {
 public:
-  bool
-  IsEmpty() const
-  {
-    return m_Pairs.empty();
-  }
+  // Measures are expected between two bounds; buckets are of no use to those beyond.
+  PairQueue(double least, double greatest)
+    : m_Least(least)
+    , m_PerUnit(greatest > least ? (bucketCount - 1) / (greatest - least) : 0.0)
+    , m_Ahead(bucketCount)
+  {}
 
   void
   Push(const Pair & pair)
   {
-    std::size_t at = m_Pairs.size();
-    m_Pairs.push_back(pair);
-    while (at > 0)
+    const std::size_t bucket = BucketOf(pair.measure);
+    if (bucket > m_Bucket)
     {
-      const std::size_t parent = (at - 1) / 4;
-      if (!(pair < m_Pairs[parent]))
-      {
-        break;
-      }
-      m_Pairs[at] = m_Pairs[parent];
-      at = parent;
+      m_Ahead[bucket].push_back(pair);
+      return;
     }
-    m_Pairs[at] = pair;
+    m_Heap.push_back(pair);
+    std::push_heap(m_Heap.begin(), m_Heap.end(), IsGreater);
+  }
+
+  // Starts on the bucket that is next. Nothing is left when it returns false.
+  bool
+  Prepare()
+  {
+    while (m_Heap.empty() && m_Next == m_Run.size())
+    {
+      if (m_Bucket + 1 == bucketCount)
+      {
+        return false;
+      }
+      std::vector<Pair>().swap(m_Run);
+      m_Run.swap(m_Ahead[++m_Bucket]);
+      std::sort(m_Run.begin(), m_Run.end());
+      m_Next = 0;
+    }
+    return true;
   }
 
   Pair
   Pop()
   {
-    const Pair top = m_Pairs.front();
-    const Pair last = m_Pairs.back();
-    m_Pairs.pop_back();
-    const std::size_t count = m_Pairs.size();
-    for (std::size_t at = 0; count > 0;)
+    if (m_Next == m_Run.size() || (!m_Heap.empty() && m_Heap.front() < m_Run[m_Next]))
     {
-      const std::size_t first = 4 * at + 1;
-      std::size_t       least = first;
-      for (std::size_t child = first + 1; child < std::min(first + 4, count); ++child)
-      {
-        least = m_Pairs[child] < m_Pairs[least] ? child : least;
-      }
-      if (first >= count || !(m_Pairs[least] < last))
-      {
-        m_Pairs[at] = last;
-        break;
-      }
-      m_Pairs[at] = m_Pairs[least];
-      at = least;
+      std::pop_heap(m_Heap.begin(), m_Heap.end(), IsGreater);
+      const Pair pair = m_Heap.back();
+      m_Heap.pop_back();
+      return pair;
     }
-    return top;
+    return m_Run[m_Next++];
+  }
+
+  // The pair that comes `steps` later as far as is known, or null.
+  const Pair *
+  Ahead(std::size_t steps) const
+  {
+    return m_Next + steps < m_Run.size() ? &m_Run[m_Next + steps] : nullptr;
   }
 
 private:
-  std::vector<Pair> m_Pairs;
+  static constexpr std::size_t bucketCount = 1024;
+
+  static bool
+  IsGreater(const Pair & a, const Pair & b)
+  {
+    return b < a;
+  }
+
+  // Rounding keeps the order: buckets do not fall as measures rise. Bucket 0 stays empty, as none lies before it.
+  std::size_t
+  BucketOf(double measure) const
+  {
+    if (measure <= m_Least)
+    {
+      return 1;
+    }
+    const double position = (measure - m_Least) * m_PerUnit;
+    return position < bucketCount - 2 ? 1 + static_cast<std::size_t>(position) : bucketCount - 1;
+  }
+
+  double                         m_Least;
+  double                         m_PerUnit;
+  std::vector<std::vector<Pair>> m_Ahead;
+  std::size_t                    m_Bucket = 0; // of the run
+  std::vector<Pair>              m_Run;
+  std::size_t                    m_Next = 0;
+  std::vector<Pair>              m_Heap;
 };
 
 } // namespace
@@ -125,7 +163,18 @@ SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
 void
 SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & progress)
 {
-  PairHeap pairs;
+  double least = HUGE_VAL;
+  double greatest = -HUGE_VAL;
+  for (const std::span<const double> measures : { m_VertexMeasure, m_EdgeMeasure })
+  {
+    for (const double measure : measures)
+    {
+      least = std::min(least, measure);
+      greatest = std::max(greatest, measure);
+    }
+  }
+  PairQueue pairs(std::max(least, std::numeric_limits<double>::lowest()),
+                  std::min({ greatest, threshold, std::numeric_limits<double>::max() }));
   // A vertex in one edge is in no face, as a face would need two edges there; so cofaces one dimension up suffice.
   const auto offerVertex = [&](ElementIndex vertex) {
     if (m_VertexCofaces[vertex].count == 1 && m_VertexMeasure[vertex] < threshold)
@@ -175,13 +224,45 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
     }
   }
 
+  // Removing in order of measure jumps about in memory: what the pairs ahead will ask for is fetched step by step.
+  const auto fetch = [&] {
+    if (const Pair * pair = pairs.Ahead(24); pair != nullptr && pair->isEdge)
+    {
+      __builtin_prefetch(&m_EdgeCofaces[pair->element], 1);
+      __builtin_prefetch(&m_Live.edges[pair->element], 1);
+      __builtin_prefetch(&m_Complex->edges[pair->element]);
+    }
+    const auto faceOf = [&](const Pair * pair) {
+      const bool simple = pair != nullptr && pair->isEdge && m_EdgeCofaces[pair->element].count == 1;
+      return simple ? std::optional(m_EdgeCofaces[pair->element].exclusiveOr) : std::nullopt;
+    };
+    if (const auto face = faceOf(pairs.Ahead(16)))
+    {
+      __builtin_prefetch(&m_Complex->faceOffsets[*face]);
+      __builtin_prefetch(&m_Live.faces[*face], 1);
+    }
+    if (const auto face = faceOf(pairs.Ahead(8)))
+    {
+      __builtin_prefetch(&m_Complex->faceEdges[m_Complex->faceOffsets[*face]]);
+    }
+    if (const auto face = faceOf(pairs.Ahead(4)))
+    {
+      for (const ElementIndex edge : m_Complex->FaceEdges(*face))
+      {
+        __builtin_prefetch(&m_EdgeCofaces[edge], 1);
+        __builtin_prefetch(&m_EdgeMeasure[edge]);
+      }
+    }
+  };
+
   std::size_t count = 0;
-  while (!pairs.IsEmpty())
+  while (pairs.Prepare())
   {
     if ((count++ & 0xFFFFU) == 0)
     {
       ReportProgress(progress, "prune", 0.0);
     }
+    fetch();
     const Pair pair = pairs.Pop();
     if (pair.isEdge)
     {
