@@ -13,9 +13,9 @@ namespace
 {
 constexpr std::int32_t halo = LatticeWindow::halo;
 constexpr std::int32_t brickWidth = LatticeWindow::brick;
-// Up to 14.9 a ball about a point of the brick fits the window; beyond about 9 voxels looking for a cell costs more
+// Up to 14.9 a ball about a point of the brick fits the window; beyond about 7 voxels looking for a cell costs more
 // than Bowyer-Watson takes for it.
-constexpr double largestRadius = 9.0;
+constexpr double largestRadius = 7.0;
 constexpr double unknown = -std::numeric_limits<double>::infinity();
 } // namespace
 

@@ -42,7 +42,7 @@ struct Tracing
 Tracing
 JoinTracings(std::vector<Tracing> parts);
 
-/** Finds the cells of radius up to 9 times the smallest weight whose centres lie in the bricks first to last - 1,
+/** Finds the cells of radius up to 7 times the smallest weight whose centres lie in the bricks first to last - 1,
  *  as far as they can be reached within them. Not for use by two threads at once. */
 class CellTracer
 {
