@@ -7,6 +7,7 @@
 #include "voxelcore/CurveSkeleton.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/Phantom.h"
+#include "voxelcore/SkeletonGraph.h"
 
 #include <map>
 
@@ -107,12 +108,14 @@ SurfaceOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 }, doub
 inline CurveSkeleton
 SkeletonOf(const MedialComplex & surface,
            double                branchThreshold,
-           double                plateThreshold = std::numeric_limits<double>::infinity())
+           double                plateThreshold = std::numeric_limits<double>::infinity(),
+           double                voxel = 1)
 {
   CurveOptions options;
   options.branchThreshold = branchThreshold;
   options.plateThreshold = plateThreshold;
-  options.sampling = 1.5;
+  options.sampling = 1.5 * voxel;
+  options.voxel = voxel;
   return ComputeCurveSkeleton(surface, options);
 }
 

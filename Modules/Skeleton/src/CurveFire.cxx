@@ -1,5 +1,6 @@
 #include "CurveFire.h"
 
+#include "PointGeometry.h"
 #include "TimeHeap.h"
 
 #include <algorithm>
@@ -13,15 +14,6 @@ namespace
 {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-double
-Distance(const std::array<double, 3> & a, const std::array<double, 3> & b)
-{
-  const double dx = b[0] - a[0];
-  const double dy = b[1] - a[1];
-  const double dz = b[2] - a[2];
-  return std::sqrt(dx * dx + dy * dy + dz * dz);
-}
 
 /** The live edges at each vertex: how many, and the exclusive-or of their indices. */
 struct Degree

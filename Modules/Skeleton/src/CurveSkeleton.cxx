@@ -1,10 +1,12 @@
 #include "voxelcore/CurveSkeleton.h"
 
 #include "CurveFire.h"
+#include "PointGeometry.h"
 #include "SurfaceCollapse.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace voxelcore
@@ -27,12 +29,7 @@ MeanEdgeLength(const MedialComplex & surface)
   double sum = 0;
   for (const auto & ends : surface.cells.edges)
   {
-    const auto & a = surface.positions[ends[0]];
-    const auto & b = surface.positions[ends[1]];
-    const double x = b[0] - a[0];
-    const double y = b[1] - a[1];
-    const double z = b[2] - a[2];
-    sum += std::sqrt(x * x + y * y + z * z);
+    sum += Distance(surface.positions[ends[0]], surface.positions[ends[1]]);
   }
   return surface.cells.edges.empty() ? 0 : sum / static_cast<double>(surface.cells.edges.size());
 }
@@ -63,15 +60,48 @@ RemoveBranches(const CellComplex & cells, const CurveFire & fire, double thresho
   }
 }
 
+// Balls in a voxel shape end at the nearest corner, its caps do not: measured on tubes at all angles.
+constexpr double kCapBeyondBall = 0.9; // voxels
+
+/** The first point of a path, from `start` on, that is as far from the path's end as the radius has grown since: there,
+ *  whatever way the end lies, is the centre of the ball that closes a tube. The radius is a mean over `window`. */
+std::size_t
+CapCentre(const MedialComplex &             surface,
+          const CurveFire &                 fire,
+          const std::vector<ElementIndex> & path,
+          std::size_t                       start,
+          double                            window,
+          double                            voxel)
+{
+  const auto way = [&](std::size_t from, std::size_t to) { return fire.length[path[to]] - fire.length[path[from]]; };
+  for (; start + 1 < path.size(); ++start)
+  {
+    double      sum = 0;
+    std::size_t at = start;
+    for (; at < path.size() && way(start, at) <= window; ++at)
+    {
+      sum += surface.radius[path[at]];
+    }
+    if (way(0, start) >= sum / static_cast<double>(at - start) - surface.radius[path[0]] + kCapBeyondBall * voxel)
+    {
+      break;
+    }
+  }
+  return start;
+}
+
 /** Takes off the outermost part of each branch up to where the curve begins to run along the middle of the surface, seen
- *  over a way of `window`: fire on the curve falls behind there. */
+ *  over a way of a few edges: fire on the curve falls behind there. */
 void
-TrimEnds(const CellComplex &         cells,
+TrimEnds(const MedialComplex &       surface,
          const CurveFire &           fire,
          const std::vector<double> & surfaceTime,
-         double                      window,
+         double                      edgeLength,
+         double                      voxel,
          LiveElements &              live)
 {
+  const CellComplex &        cells = surface.cells;
+  const double               window = kChordInEdges * edgeLength;
   std::vector<std::uint32_t> degree(cells.vertexCount, 0);
   for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
   {
@@ -82,7 +112,11 @@ TrimEnds(const CellComplex &         cells,
     }
   }
   std::vector<ElementIndex> path; // from a tip to the next junction, or as far as fire went
-  for (const ElementIndex tip : fire.order)
+  std::vector<ElementIndex> tips; // as they are now: what becomes an end by trimming is done
+  std::copy_if(fire.order.begin(), fire.order.end(), std::back_inserter(tips), [&](ElementIndex vertex) {
+    return live.vertices[vertex] && degree[vertex] == 1;
+  });
+  for (const ElementIndex tip : tips)
   {
     if (!live.vertices[tip] || degree[tip] != 1)
     {
@@ -110,6 +144,7 @@ TrimEnds(const CellComplex &         cells,
       }
       if (2 * way(start, end) >= window && late(end) - late(start) >= kRunsAlongTheMiddle * way(start, end))
       {
+        start = CapCentre(surface, fire, path, start, window, voxel);
         break;
       }
     }
@@ -137,12 +172,12 @@ ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options
   std::vector<std::uint8_t> closed;
   LiveElements              live = CollapseSurface(surface, times, options.plateThreshold, closed);
   ReportProgress(progress, "skeleton", 0);
-  const double    chord = kChordInEdges * MeanEdgeLength(surface);
-  const CurveFire fire = BurnCurves(surface, live, times.vertices, chord);
+  const double    edgeLength = MeanEdgeLength(surface);
+  const CurveFire fire = BurnCurves(surface, live, times.vertices, kChordInEdges * edgeLength);
   if (options.branchThreshold > 0)
   {
     RemoveBranches(surface.cells, fire, options.branchThreshold, live);
-    TrimEnds(surface.cells, fire, times.vertices, chord, live);
+    TrimEnds(surface, fire, times.vertices, edgeLength, options.voxel, live);
   }
 
   CurveSkeleton             skeleton;

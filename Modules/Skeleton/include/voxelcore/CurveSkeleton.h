@@ -23,6 +23,8 @@ struct CurveOptions
   double plateThreshold = std::numeric_limits<double>::infinity();
 
   double sampling = 0; ///< distance of sample points on edges when the surface burns; 0: one on each edge
+
+  double voxel = 0; ///< smallest spacing: the end of a voxel shape lies so much beyond its largest ball
 };
 
 /** A part of a medial surface that the surface collapses to: vertices, edges, and the faces that stay. */

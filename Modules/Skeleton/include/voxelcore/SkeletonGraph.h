@@ -1,0 +1,114 @@
+#pragma once
+// A curve skeleton as nodes and branches: what is drawn, measured and written.
+
+#include "voxelcore/CurveSkeleton.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxelcore
+{
+
+enum class NodeKind : std::uint8_t
+{
+  Tip,      ///< end of one branch
+  Junction, ///< end of three branches or more (a branch that begins and ends here counts twice)
+  Loop,     ///< where a closed curve without junctions is taken to begin
+  Isolated, ///< a point by itself
+  Surface   ///< where curves meet faces that stay
+};
+
+/** Flat arrays; lengths in mm. A branch is a poly line of points from one node to another, or back to the same; only its
+ *  ends may be shared with other branches. Branches begin at the node of the smaller point and stand in the order of
+ *  these points; so do nodes. */
+struct SkeletonGraph
+{
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<double, 3>>
+                      medial;           ///< where the points lay on the medial surface before fitting; may be empty
+  std::vector<double> radius;           ///< of the largest ball in the shape around `medial`
+  std::vector<double> erosionThickness; ///< infinite on closed surfaces
+
+  std::vector<ElementIndex> nodePoints;
+  std::vector<NodeKind>     nodeKinds;
+
+  std::vector<std::uint64_t>               branchOffsets{ 0 }; ///< branches + 1 entries
+  std::vector<ElementIndex>                branchPoints;
+  std::vector<std::array<ElementIndex, 2>> branchNodes; ///< first and last node
+
+  std::vector<std::uint64_t> faceOffsets{ 0 }; ///< faces that stay; faces + 1 entries
+  std::vector<ElementIndex>  faceVertices;     ///< points
+  std::vector<std::uint8_t>  closedFace;       ///< 1: of a closed surface, 0: of a plate
+
+  std::size_t
+  BranchCount() const
+  {
+    return branchNodes.size();
+  }
+  std::size_t
+  FaceCount() const
+  {
+    return faceOffsets.size() - 1;
+  }
+  std::span<const ElementIndex>
+  Branch(std::size_t branch) const
+  {
+    return { branchPoints.data() + branchOffsets[branch], branchPoints.data() + branchOffsets[branch + 1] };
+  }
+  double
+  BranchLength(std::size_t branch) const;
+};
+
+/** A skeleton's nodes and branches. Edges of faces that stay are no branches. */
+SkeletonGraph
+BuildSkeletonGraph(const CurveSkeleton & skeleton);
+
+/** Poly lines and faces over points, as they stand in a file, put in order: branches that meet in a point with no other
+ *  stay apart, unless `join` is set. Each poly line has two points or more.
+ *  Points on no poly line and no face are isolated nodes. Fills nodes and branches of `graph` anew. */
+void
+SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>> & lines, bool join);
+
+/** Smooths the branches: each point goes to the value, at its own arc length, of the parabola that fits its branch best
+ *  within `window` mm before and behind it, but no further than `reach` mm from where it lay on the medial surface.
+ *  Nodes stay. A window of 0 puts the points back on the medial surface. Curved lines keep their length to second order,
+ *  where averaging would shorten them. */
+void
+FitBranches(SkeletonGraph & graph, double window, double reach);
+
+/** A threshold for the length of a branch that ends in a tip. */
+struct BranchLimit
+{
+  double lengthMm = 0;    ///< shorter ones go
+  double radiusRatio = 0; ///< and those shorter than so many times the radius at their other end
+};
+
+/** Takes off branches with a tip that fall short of a limit, the shortest first, until none is left; what then meets in
+ *  twos is joined. A branch between two tips stays: no component vanishes. Gives their number.
+ *  Points that are on no branch any more are removed. */
+std::size_t
+PruneBranches(SkeletonGraph & graph, const BranchLimit & limit);
+
+/** A place where a cycle was cut. */
+struct LoopCut
+{
+  std::array<double, 3> position{};
+  double                radius = 0;
+};
+
+/** Cuts every cycle of branches at its thinnest branch, there at the thinnest point between the ends: that point becomes
+ *  two tips. What is left is a forest of which the thick parts are whole. Cycles within faces that stay remain. */
+std::vector<LoopCut>
+CutLoops(SkeletonGraph & graph);
+
+/** Gives each branch end points of its own: branches no longer hang together. */
+void
+SplitAtJunctions(SkeletonGraph & graph);
+
+/** Per node the number of its hub: nodes on one surface that stays are one hub, any other is its own. */
+std::vector<ElementIndex>
+NodeHubs(const SkeletonGraph & graph);
+
+} // namespace voxelcore

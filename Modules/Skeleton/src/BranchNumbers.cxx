@@ -1,0 +1,99 @@
+#include "BranchNumbers.h"
+
+#include "PointGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+/** Sums along a branch, of the segments that count. */
+struct Along
+{
+  double length = 0;
+  double radius = 0;  ///< integral
+  double squares = 0; ///< integral
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  double volume = 0;
+  double surface = 0;
+
+  void
+  Add(double h, double r, double s)
+  {
+    length += h;
+    radius += 0.5 * h * (r + s);
+    squares += h * (r * r + r * s + s * s) / 3;
+    least = std::min({ least, r, s });
+    most = std::max({ most, r, s });
+    volume += kPi / 3 * h * (r * r + r * s + s * s);
+    surface += kPi * (r + s) * std::sqrt(h * h + (r - s) * (r - s));
+  }
+};
+
+bool
+HasBall(NodeKind kind)
+{
+  return kind == NodeKind::Junction || kind == NodeKind::Surface;
+}
+
+} // namespace
+
+BranchRecord
+MeasureBranch(const SkeletonGraph & graph, std::size_t branch, double radiusShift)
+{
+  const auto   points = graph.Branch(branch);
+  const auto & nodes = graph.branchNodes[branch];
+  const auto   kind = [&](std::size_t end) { return graph.nodeKinds[nodes[end]]; };
+  const auto   inBall = [&](const Point3 & p, std::size_t end) {
+    const ElementIndex centre = graph.nodePoints[nodes[end]];
+    return HasBall(kind(end)) && Distance(p, graph.positions[centre]) < graph.radius[centre];
+  };
+  Along all;
+  Along outside;
+  for (std::size_t i = 1; i < points.size(); ++i)
+  {
+    const Point3 & a = graph.positions[points[i - 1]];
+    const Point3 & b = graph.positions[points[i]];
+    const double   h = Distance(a, b);
+    const double   r = graph.radius[points[i - 1]] + radiusShift;
+    const double   s = graph.radius[points[i]] + radiusShift;
+    all.Add(h, r, s);
+    if (!inBall(a, 0) && !inBall(a, 1) && !inBall(b, 0) && !inBall(b, 1))
+    {
+      outside.Add(h, r, s);
+    }
+  }
+  const Along & along = outside.length > 0 ? outside : all;
+  BranchRecord  record;
+  record.length = all.length;
+  record.freeLength = outside.length;
+  record.chord = Distance(graph.positions[points.front()], graph.positions[points.back()]);
+  record.tortuosity = record.chord > 0 ? record.length / record.chord : std::numeric_limits<double>::infinity();
+  record.minRadius = along.least;
+  record.maxRadius = along.most;
+  record.meanRadius = along.length > 0 ? along.radius / along.length : along.least;
+  if (along.length > 0)
+  {
+    const double variance = along.squares / along.length - record.meanRadius * record.meanRadius;
+    record.sdRadius = std::sqrt(std::max(0.0, variance));
+  }
+  record.volume = outside.volume;
+  record.surface = outside.surface;
+  const int tips = (kind(0) == NodeKind::Tip) + (kind(1) == NodeKind::Tip);
+  record.type = nodes[0] == nodes[1] ? BranchType::Cycle
+                : tips == 2          ? BranchType::TipToTip
+                : tips == 1          ? BranchType::TipToJunction
+                                     : BranchType::JunctionToJunction;
+  record.parentAngle = std::numeric_limits<double>::quiet_NaN();
+  return record;
+}
+
+} // namespace voxelcore

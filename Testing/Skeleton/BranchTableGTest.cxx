@@ -1,0 +1,219 @@
+#include "SkeletonFixtures.h"
+
+#include "voxelcore/BranchTable.h"
+
+namespace voxelcore::testing
+{
+
+namespace
+{
+
+/** A graph of straight branches between places, with a point every mm, all of one radius per branch. */
+class GraphBuilder
+{
+public:
+  void
+  Line(const Spacing3 & from, const Spacing3 & to, double radius)
+  {
+    const int                 steps = std::max(2, static_cast<int>(Distance(from, to) + 0.5));
+    std::vector<ElementIndex> line;
+    for (int i = 0; i <= steps; ++i)
+    {
+      const double t = static_cast<double>(i) / steps;
+      line.push_back(
+        Point({ from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2]) },
+              radius));
+    }
+    m_Lines.push_back(line);
+  }
+
+  SkeletonGraph
+  Graph()
+  {
+    SortBranches(m_Graph, m_Lines, true);
+    return m_Graph;
+  }
+
+private:
+  ElementIndex
+  Point(const Spacing3 & place, double radius)
+  {
+    const auto [found, isNew] = m_Points.try_emplace(place, static_cast<ElementIndex>(m_Graph.positions.size()));
+    if (isNew)
+    {
+      m_Graph.positions.push_back(place);
+      m_Graph.radius.push_back(radius);
+      m_Graph.erosionThickness.push_back(0);
+    }
+    return found->second;
+  }
+
+  SkeletonGraph                          m_Graph;
+  std::vector<std::vector<ElementIndex>> m_Lines;
+  std::map<Spacing3, ElementIndex>       m_Points;
+};
+
+/** A stem of 60 with two laterals, of which one has a lateral of its own. */
+GraphBuilder
+SmallRoot()
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 60 }, { 0, 0, 40 }, 3);
+  builder.Line({ 0, 0, 40 }, { 0, 0, 20 }, 3);
+  builder.Line({ 0, 0, 20 }, { 0, 0, 0 }, 2);
+  builder.Line({ 0, 0, 40 }, { 30, 0, 40 }, 1.5);
+  builder.Line({ 0, 0, 20 }, { 0, 20, 20 }, 1.5);
+  builder.Line({ 0, 20, 20 }, { 0, 40, 20 }, 1);
+  builder.Line({ 0, 20, 20 }, { 0, 20, 10 }, 0.5);
+  return builder;
+}
+
+TEST(BranchTable, SmallRootHasItsLevels)
+{
+  const SkeletonGraph graph = SmallRoot().Graph();
+  for (const auto kind : { RootChoice::Kind::Thickest, RootChoice::Kind::Top, RootChoice::Kind::Point })
+  {
+    MeasureOptions options;
+    options.root = { kind, { 1, 1, 70 } };
+    const BranchTable table = MeasureBranches(graph, options);
+    ASSERT_EQ(table.levels.size(), 3U);
+    EXPECT_EQ(table.levels[0].count, 1);
+    EXPECT_EQ(table.levels[1].count, 2);
+    EXPECT_EQ(table.levels[2].count, 1);
+    EXPECT_NEAR(table.levels[0].totalLength, 60, 1e-9);
+    // Laterals begin at their parent's surface, that is at the first point that is not within the ball there.
+    EXPECT_NEAR(table.levels[1].totalLength, 27 + 37, 1e-9);
+    EXPECT_NEAR(table.levels[1].meanTipAngle, 90, 1e-6);
+    EXPECT_EQ(table.axes[0].children, 2);
+    EXPECT_EQ(table.numbers.tips, 5);
+    EXPECT_EQ(table.numbers.junctions, 3);
+    EXPECT_EQ(table.numbers.branches, 7);
+    EXPECT_EQ(table.numbers.components, 1);
+    EXPECT_EQ(table.numbers.cycles, 0);
+    std::int32_t strahler = 0;
+    for (const BranchRecord & branch : table.branches)
+    {
+      strahler = std::max(strahler, branch.strahler);
+    }
+    EXPECT_EQ(strahler, 2);
+  }
+}
+
+TEST(BranchTable, NumbersOfAStraightBranch)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 0 }, { 30, 40, 0 }, 2);
+  const BranchTable    table = MeasureBranches(builder.Graph());
+  const BranchRecord & branch = table.branches.at(0);
+  EXPECT_NEAR(branch.length, 50, 1e-9);
+  EXPECT_NEAR(branch.chord, 50, 1e-9);
+  EXPECT_NEAR(branch.tortuosity, 1, 1e-12);
+  EXPECT_NEAR(branch.meanRadius, 2, 1e-12);
+  EXPECT_NEAR(branch.sdRadius, 0, 1e-6);
+  EXPECT_NEAR(branch.volume, 3.14159265358979 * 4 * 50, 1e-6);
+  EXPECT_NEAR(branch.surface, 3.14159265358979 * 4 * 50, 1e-6);
+  EXPECT_EQ(branch.type, BranchType::TipToTip);
+}
+
+TEST(BranchTable, CyclesAreCutAtTheirThinnestBranch)
+{
+  GraphBuilder builder;
+  builder.Line({ -10, 0, 0 }, { 0, 0, 0 }, 3);
+  builder.Line({ 0, 0, 0 }, { 10, 10, 0 }, 3);
+  builder.Line({ 0, 0, 0 }, { 10, -10, 0 }, 1);
+  builder.Line({ 10, 10, 0 }, { 20, 0, 0 }, 3);
+  builder.Line({ 10, -10, 0 }, { 20, 0, 0 }, 1);
+  builder.Line({ 20, 0, 0 }, { 30, 0, 0 }, 3);
+  SkeletonGraph     graph = builder.Graph();
+  const BranchTable table = MeasureBranches(graph);
+  EXPECT_EQ(table.numbers.cycles, 1);
+  EXPECT_EQ(table.numbers.branches, 4);
+  double length = 0;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    length += graph.BranchLength(branch);
+    EXPECT_EQ(table.branches[branch].closesLoop, table.branches[branch].minRadius == 1);
+  }
+  const auto cuts = CutLoops(graph);
+  ASSERT_EQ(cuts.size(), 1U);
+  EXPECT_EQ(cuts[0].radius, 1);
+  const BranchTable cut = MeasureBranches(graph);
+  EXPECT_EQ(cut.numbers.cycles, 0);
+  EXPECT_EQ(cut.numbers.components, 1);
+  EXPECT_EQ(cut.numbers.tips, 4);
+  EXPECT_NEAR(cut.numbers.totalLength, length, 1e-9);
+}
+
+TEST(BranchTable, RingIsOneIsolatedLoop)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 0 }, { 10, 0, 0 }, 1);
+  builder.Line({ 10, 0, 0 }, { 10, 10, 0 }, 1);
+  builder.Line({ 10, 10, 0 }, { 0, 0, 0 }, 1);
+  SkeletonGraph graph = builder.Graph();
+  BranchTable   table = MeasureBranches(graph);
+  EXPECT_EQ(table.numbers.isolatedLoops, 1);
+  EXPECT_EQ(table.numbers.cycles, 1);
+  EXPECT_EQ(table.branches.at(0).type, BranchType::Cycle);
+  EXPECT_EQ(CutLoops(graph).size(), 1U);
+  table = MeasureBranches(graph);
+  EXPECT_EQ(table.numbers.cycles, 0);
+  EXPECT_EQ(table.numbers.tips, 2);
+  EXPECT_NEAR(table.numbers.totalLength, 20 + std::sqrt(200), 1e-9);
+}
+
+TEST(BranchTable, ShortBranchesArePrunedShortestFirst)
+{
+  SkeletonGraph graph = SmallRoot().Graph();
+  // 10 and 20 mm branches go one after another; the 10 goes first, and what it hung on becomes one lateral of 40.
+  EXPECT_EQ(PruneBranches(graph, { 12, 0 }), 1U);
+  EXPECT_EQ(MeasureBranches(graph).numbers.branches, 5);
+  EXPECT_EQ(PruneBranches(graph, { 35, 0 }), 2U); // both ends of the stem; then the laterals are one line
+  const BranchTable table = MeasureBranches(graph);
+  EXPECT_EQ(table.numbers.branches, 1);
+  EXPECT_NEAR(table.numbers.totalLength, 30 + 20 + 40, 1e-9);
+}
+
+TEST(BranchTable, BranchesSplitAtJunctionsShareNoPoint)
+{
+  SkeletonGraph graph = SmallRoot().Graph();
+  SplitAtJunctions(graph);
+  EXPECT_EQ(graph.BranchCount(), 7U);
+  std::vector<int> uses(graph.positions.size(), 0);
+  for (const ElementIndex point : graph.branchPoints)
+  {
+    EXPECT_EQ(++uses[point], 1);
+  }
+  EXPECT_EQ(MeasureBranches(graph).numbers.components, 7);
+}
+
+TEST(BranchTable, ComponentsAndCyclesAreTheShapes)
+{
+  for (std::uint64_t seed = 1; seed <= 40; ++seed)
+  {
+    const RandomVolume    volume = MakeRandomVolume(seed, 3, 9);
+    const MedialComplex   surface = SurfaceOf(volume.shape, volume.spacing);
+    const TopologyNumbers expected = ComputeComplexTopology(surface.cells);
+    if (expected.betti[2] > 0)
+    {
+      continue;
+    }
+    SkeletonGraph graph = BuildSkeletonGraph(SkeletonOf(surface, 1));
+    for (const bool pruned : { false, true })
+    {
+      if (pruned)
+      {
+        PruneBranches(graph, { 3, 1 });
+      }
+      const SkeletonNumbers numbers = MeasureBranches(graph).numbers;
+      ASSERT_EQ(numbers.components, expected.betti[0]) << volume.Describe();
+      ASSERT_EQ(numbers.cycles, expected.betti[1]) << volume.Describe();
+    }
+    ASSERT_EQ(static_cast<std::int64_t>(CutLoops(graph).size()), expected.betti[1]) << volume.Describe();
+    ASSERT_EQ(MeasureBranches(graph).numbers.cycles, 0) << volume.Describe();
+  }
+}
+
+} // namespace
+
+} // namespace voxelcore::testing
