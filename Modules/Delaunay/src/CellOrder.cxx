@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace voxelcore
 {
@@ -221,8 +222,11 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
       const std::vector<Entry>                  order = SortedCells(cells, points, weights);
       std::vector<std::array<std::uint32_t, 4>> tetrahedra(order.size());
       cells.centres.resize(order.size());
-      for (std::size_t i = 0; i < order.size(); ++i)
+      const auto count = static_cast<std::ptrdiff_t>(order.size());
+#pragma omp parallel for schedule(static) if (count > 10000)
+      for (std::ptrdiff_t at = 0; at < count; ++at)
       {
+        const auto i = static_cast<std::size_t>(at);
         rank[order[i].cell] = static_cast<std::uint32_t>(i);
         cells.centres[i] = order[i].centre;
         tetrahedra[i] = cells.tetrahedra[order[i].cell];
@@ -236,10 +240,13 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
   const std::vector<std::uint32_t> order = FacetOrder(cells);
   const auto                       facets = static_cast<std::ptrdiff_t>(order.size());
   std::vector<std::uint64_t>       offsets(order.size() + 1, 0);
-  for (std::size_t i = 0; i < order.size(); ++i)
+#pragma omp parallel for schedule(static) if (facets > 10000)
+  for (std::ptrdiff_t at = 0; at < facets; ++at)
   {
-    offsets[i + 1] = offsets[i] + cells.facetOffsets[order[i] + 1] - cells.facetOffsets[order[i]];
+    const auto i = static_cast<std::size_t>(at);
+    offsets[i + 1] = cells.facetOffsets[order[i] + 1] - cells.facetOffsets[order[i]];
   }
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   {
     std::vector<std::uint32_t> facetPoints(offsets.back());
 #pragma omp parallel for schedule(static) if (facets > 10000)

@@ -15,6 +15,10 @@ JoinTracings(std::vector<Tracing> parts)
     const auto      cellShift = static_cast<std::uint32_t>(to.CellCount());
     const auto      facetShift = static_cast<std::uint32_t>(to.FacetCount());
     const auto      pointShift = static_cast<std::uint64_t>(to.facetPoints.size());
+    if (cellShift == 0 && facetShift == 0)
+    {
+      to = std::move(from);
+    }
     to.tetrahedra.insert(to.tetrahedra.end(), from.tetrahedra.begin(), from.tetrahedra.end());
     for (const auto & sides : from.facetCells)
     {
