@@ -143,7 +143,10 @@ PruneOnce(SkeletonGraph & graph, const BranchLimit & limit)
   }
   for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
   {
-    keep[graph.nodePoints[node]] |= graph.nodeKinds[node] == NodeKind::Isolated ? 1 : 0;
+    if (graph.nodeKinds[node] == NodeKind::Isolated)
+    {
+      keep[graph.nodePoints[node]] = 1;
+    }
   }
   for (const ElementIndex point : graph.faceVertices)
   {
