@@ -1,0 +1,86 @@
+#pragma once
+// Pruning by bump height: one length that serves thick and thin parts at once.
+//
+// Lambda cannot: a bump of height b on a part of radius R has a radius measure of about sqrt(2 b R), so the staircase of
+// the voxels grows with the thickness, while a rod of radius r has measures up to r only. The height of a bump is the
+// same on both: D(x, y) = |x - y| + R(x) - R(y) says by how much the ball of core vertex x sticks out of the ball of y.
+//
+// The promise. In the result of height h every boundary vertex p lies within h of the ball of a vertex x that is still
+// there: gap(p, x) = |p - x| - R(x) <= h. Bumps lower than h are ignored, and what is left rebuilds the boundary to
+// within h.
+
+#include "voxelcore/DelaunayCells.h"
+#include "voxelcore/MedialComplex.h"
+#include "voxelcore/Progress.h"
+#include "voxelcore/SpacingWeights.h"
+
+#include <string>
+#include <string_view>
+
+namespace voxelcore
+{
+
+/** A bump height as a user writes it. */
+struct BumpHeight
+{
+  enum class Unit
+  {
+    Millimetre, ///< "1.5mm", "1.5"
+    Voxel,      ///< "1.5vox": times the smallest spacing
+    Diagonal    ///< "1diag": times the diagonal of a voxel
+  };
+  double      value = 0;
+  Unit        unit = Unit::Millimetre;
+  std::string text = "0"; ///< as written, without blanks
+};
+
+/** Reads "1.5mm", "2.5vox", "1diag", "1.5" (mm). Decimal numbers, not negative, finite.
+ *  \throws UsageError that quotes the text and names the units. */
+BumpHeight
+ParseBumpHeight(std::string_view text);
+
+double
+BumpHeightInMillimetres(const BumpHeight & height, const std::array<double, 3> & spacing);
+
+/** Per element the height at which it goes, in mm: the result of height h is what has a value > h. Infinity for what
+ *  never goes, as the topology needs it. value(face) <= value(edge) <= value(vertex) along incidences. */
+struct BumpValues
+{
+  std::vector<double> vertices;
+  std::vector<double> edges;
+  std::vector<double> faces;
+};
+
+/** Per boundary vertex the cell, and so the core vertex, whose ball is the largest of those it touches; of equals the
+ *  one of smallest index. To be asked before the cells are moved into BuildVoxelCore(). */
+std::vector<ElementIndex>
+LargestTouchingBalls(const DelaunayCells &             cells,
+                     const std::vector<LatticePoint> & points,
+                     const SpacingWeights &            weights);
+
+/** The heights of all elements of a whole core. `points` are the boundary vertices, `touching` as above.
+ *
+ *  Only simple pairs go, the cheapest first; the height at which a pair goes is the greatest cost met so far. So all
+ *  results have the topology of the core, are nested, and one run serves every h.
+ *
+ *  - An edge and its face burn. Fire enters sheets at their rims and is carried by the ball that burnt first there, the
+ *    witness; it reaches a vertex when this ball sticks out by h. The face goes when fire has crossed it, or when fires
+ *    from two sides have met on it. So a sheet shrinks evenly from its rims and does not tear.
+ *  - A vertex at the loose end of an edge goes when each of the boundary vertices it keeps, at first those of which its
+ *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on.
+ *
+ *  Costs are made of +, -, *, / and sqrt of the canonical doubles of the core in one thread and a fixed order; ties go by
+ *  radius measure, then dimension, then index: the same bits on every machine, for every engine and thread count.
+ *  \throws Cancelled when the callback says so. */
+BumpValues
+ComputeBumps(const MedialComplex &             core,
+             const SpacingWeights &            weights,
+             const std::vector<LatticePoint> & points,
+             const std::vector<ElementIndex> & touching,
+             const ProgressCallback &          progress = {});
+
+/** What is left of the core at a height in mm. */
+MedialComplex
+PruneByBumps(const MedialComplex & core, const BumpValues & bumps, double height);
+
+} // namespace voxelcore

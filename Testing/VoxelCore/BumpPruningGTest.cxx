@@ -1,0 +1,282 @@
+#include "voxelcore/BumpPruning.h"
+
+#include "VoxelCoreTesting/Cores.h"
+
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/ComplexTopology.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+
+namespace voxelcore
+{
+namespace
+{
+
+using testing::Spacing3;
+
+struct Bumped
+{
+  MedialComplex core;
+  BumpValues    bumps;
+};
+
+Bumped
+BumpsOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 }, Engine engine = Engine::Auto)
+{
+  const SpacingWeights weights = ComputeSpacingWeights(spacing);
+  const auto           points = BoundaryVertices(shape);
+  DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, engine);
+  const auto           touching = LargestTouchingBalls(cells, points, weights);
+  Bumped               result;
+  result.core = BuildVoxelCore(shape, points, std::move(cells), weights);
+  result.bumps = ComputeBumps(result.core, weights, points, touching);
+  return result;
+}
+
+std::vector<testing::RandomVolume>
+Volumes(std::uint64_t firstSeed, int count)
+{
+  std::cout << "seeds from " << firstSeed << '\n';
+  std::vector<testing::RandomVolume> volumes;
+  for (int i = 0; i < count; ++i)
+  {
+    volumes.push_back(testing::MakeRandomVolume(firstSeed + static_cast<std::uint64_t>(i), 3, 10));
+    if (i % 2 == 0) // dense ones have thick parts
+    {
+      testing::Random random(volumes.back().seed);
+      volumes.back().density = 0.97;
+      volumes.back().shape = testing::RandomShape(random, volumes.back().shape.Box().size, 0.97);
+    }
+  }
+  return volumes;
+}
+
+// All finite values, and heights between and beyond them.
+std::vector<double>
+Heights(const BumpValues & bumps, testing::Random & random)
+{
+  std::vector<double> heights{ 0 };
+  for (int i = 0; i < 6 && !bumps.edges.empty(); ++i)
+  {
+    const auto   at = static_cast<std::size_t>(random.Between(0, static_cast<std::int64_t>(bumps.edges.size()) - 1));
+    const double value = bumps.edges[at];
+    heights.push_back(std::isfinite(value) ? value * (i % 2 == 0 ? 1.0 : 1.01) : 1e9);
+  }
+  return heights;
+}
+
+std::size_t
+FreePairs(const CellComplex & cells)
+{
+  std::vector<int> facesAt(cells.edges.size(), 0);
+  std::vector<int> edgesAt(cells.vertexCount, 0);
+  for (const auto & ends : cells.edges)
+  {
+    ++edgesAt[ends[0]];
+    ++edgesAt[ends[1]];
+  }
+  for (const ElementIndex edge : cells.faceEdges)
+  {
+    ++facesAt[edge];
+  }
+  return static_cast<std::size_t>(std::count(facesAt.begin(), facesAt.end(), 1) +
+                                  std::count(edgesAt.begin(), edgesAt.end(), 1));
+}
+
+TEST(BumpPruning, KeepsTheTopologyAtEveryHeight)
+{
+  for (const auto & volume : Volumes(1000, 100))
+  {
+    SCOPED_TRACE(volume.Describe());
+    testing::Random       random(volume.seed);
+    const Bumped          bumped = BumpsOf(volume.shape, volume.spacing);
+    const TopologyNumbers topology = ComputeComplexTopology(bumped.core.cells);
+    for (const double height : Heights(bumped.bumps, random))
+    {
+      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(bumped.core, bumped.bumps, height).cells), topology)
+        << "at " << height;
+    }
+  }
+}
+
+// So what has a value above any height is a complex again, and a slider needs nothing but the values.
+TEST(BumpPruning, ValuesDoNotFallFromFacesToEdgesToVertices)
+{
+  for (const auto & volume : Volumes(1200, 60))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const auto [core, bumps] = BumpsOf(volume.shape, volume.spacing);
+    ASSERT_EQ(bumps.vertices.size(), core.cells.vertexCount);
+    ASSERT_EQ(bumps.edges.size(), core.cells.edges.size());
+    ASSERT_EQ(bumps.faces.size(), core.cells.FaceCount());
+    for (std::size_t edge = 0; edge < bumps.edges.size(); ++edge)
+    {
+      ASSERT_GE(bumps.edges[edge], 0.0);
+      ASSERT_LE(bumps.edges[edge], bumps.vertices[core.cells.edges[edge][0]]);
+      ASSERT_LE(bumps.edges[edge], bumps.vertices[core.cells.edges[edge][1]]);
+    }
+    for (std::size_t face = 0; face < bumps.faces.size(); ++face)
+    {
+      for (const ElementIndex edge : core.cells.FaceEdges(face))
+      {
+        ASSERT_LE(bumps.faces[face], bumps.edges[edge]);
+      }
+    }
+  }
+}
+
+TEST(BumpPruning, LeavesOnlyWhatTheTopologyNeedsInTheEnd)
+{
+  for (const auto & volume : Volumes(1300, 60))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const auto [core, bumps] = BumpsOf(volume.shape, volume.spacing);
+    const MedialComplex rest = PruneByBumps(core, bumps, std::numeric_limits<double>::max());
+    ASSERT_EQ(FreePairs(rest.cells), 0U);
+    const TopologyNumbers numbers = ComputeComplexTopology(core.cells);
+    if (numbers.betti[1] == 0 && numbers.betti[2] == 0)
+    {
+      ASSERT_EQ(rest.cells.vertexCount, static_cast<std::size_t>(numbers.betti[0]));
+    }
+  }
+}
+
+TEST(BumpPruning, IsTheSameForBothEngines)
+{
+  if (!HasEngine(Engine::TetGen))
+  {
+    GTEST_SKIP() << "built without TetGen";
+  }
+  for (const auto & volume : Volumes(1400, 30))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const Bumped a = BumpsOf(volume.shape, volume.spacing, Engine::Lattice);
+    const Bumped b = BumpsOf(volume.shape, volume.spacing, Engine::TetGen);
+    ASSERT_EQ(a.bumps.vertices, b.bumps.vertices);
+    ASSERT_EQ(a.bumps.edges, b.bumps.edges);
+    ASSERT_EQ(a.bumps.faces, b.bumps.faces);
+  }
+}
+
+TEST(BumpPruning, TakesDegenerateShapes)
+{
+  const auto shell = testing::ShapeWhere({ 9, 9, 9 }, [](int x, int y, int z) {
+    return x == 0 || y == 0 || z == 0 || x == 8 || y == 8 || z == 8;
+  });
+  const auto touching = testing::ShapeWhere({ 2, 2, 2 }, [](int x, int y, int z) { return x == y && y == z; });
+  const std::vector<VoxelShape> shapes{
+    VoxelShape(), testing::Box({ 1, 1, 1 }), testing::Box({ 1, 1, 17 }), testing::Box({ 12, 1, 9 }), touching, shell
+  };
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+  {
+    SCOPED_TRACE("shape " + std::to_string(i));
+    const auto [core, bumps] = BumpsOf(shapes[i]);
+    const TopologyNumbers topology = ComputeComplexTopology(core.cells);
+    for (const double height : { 0.0, 0.5, 1.0, 2.0, 100.0 })
+    {
+      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(core, bumps, height).cells), topology);
+    }
+  }
+}
+
+// A rod of one voxel is a path of balls all alike: from each end it shrinks by the height, but for the last step.
+TEST(BumpPruning, ShortensARodByTheHeightAtEachEnd)
+{
+  const auto [core, bumps] = BumpsOf(testing::Box({ 1, 1, 40 }));
+  for (const double height : { 1.5, 3.0, 6.0 })
+  {
+    const MedialComplex rest = PruneByBumps(core, bumps, height);
+    ASSERT_FALSE(rest.positions.empty());
+    EXPECT_GE(rest.positions.front()[2], 0.5);
+    EXPECT_LE(rest.positions.front()[2], 0.5 + height + 1.0);
+    EXPECT_GE(rest.positions.back()[2], 39.5 - height - 1.0);
+    EXPECT_EQ(rest.cells.vertexCount, rest.cells.edges.size() + 1);
+    EXPECT_EQ(std::lround(rest.positions.back()[2] - rest.positions.front()[2]),
+              static_cast<long>(rest.cells.edges.size()));
+  }
+}
+
+// What one lambda cannot do: the thick part is cleared and the thin ones stay.
+TEST(BumpPruning, ClearsAThickPartAndKeepsThinOnesOnIt)
+{
+  const auto inRod = [](double x, double y, double z) { return y * y + z * z <= 1.6 * 1.6 && x >= 0 && x <= 30; };
+  const auto inBall = [](double x, double y, double z) { return x * x + y * y + z * z <= 11 * 11; };
+  // Off the lattice's symmetry, or all would be too tidy.
+  const auto shape = testing::ShapeWhere({ 46, 26, 26 }, [&](int i, int j, int k) {
+    const double x = i + 0.5 - 12.3;
+    const double y = j + 0.5 - 12.8;
+    const double z = k + 0.5 - 13.1;
+    return inRod(x, y, z) || inBall(x, y, z);
+  });
+  const auto [core, bumps] = BumpsOf(shape);
+  const MedialComplex rest = PruneByBumps(core, bumps, 1.2 * std::sqrt(3.0));
+  double              farthest = 0;
+  double              outermost = 0;
+  for (const auto & position : rest.positions)
+  {
+    const double x = position[0] - 12.3;
+    const double y = position[1] - 12.8;
+    const double z = position[2] - 13.1;
+    farthest = std::max(farthest, std::sqrt(y * y + z * z + std::min(x, 0.0) * std::min(x, 0.0)));
+    outermost = std::max(outermost, x);
+  }
+  EXPECT_LT(farthest, 2.0) << "spurs are left";
+  EXPECT_GT(outermost, 30 - 1.6 - 2.6) << "the rod is lost";
+}
+
+TEST(BumpPruning, DoesNotTearASheet)
+{
+  const auto [core, bumps] = BumpsOf(testing::Box({ 30, 5, 24 }));
+  const MedialComplex rest = PruneByBumps(core, bumps, 1.5);
+  double              area = 0;
+  for (std::size_t face = 0; face < rest.cells.FaceCount(); ++face)
+  {
+    const auto corners = rest.cells.FaceVertices(face);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      const auto & a = rest.positions[corners[i]];
+      const auto & b = rest.positions[corners[i + 1 == corners.size() ? 0 : i + 1]];
+      area += 0.5 * (a[0] * b[2] - a[2] * b[0]);
+      EXPECT_EQ(a[1], 2.5);
+    }
+  }
+  // Rims lie 2.5 from the sides and shrink by no more than the height; nothing is missing within.
+  EXPECT_GE(std::abs(area), (25 - 3.0) * (19 - 3.0));
+  EXPECT_EQ(rest.cells.vertexCount + rest.cells.FaceCount(), rest.cells.edges.size() + 1);
+}
+
+TEST(BumpPruning, CanBeCancelled)
+{
+  const VoxelShape     shape = testing::Ellipsoid(24);
+  const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
+  const auto           points = BoundaryVertices(shape);
+  DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
+  const auto           touching = LargestTouchingBalls(cells, points, weights);
+  const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
+  EXPECT_THROW(ComputeBumps(core, weights, points, touching, [](std::string_view, double) { return false; }),
+               Cancelled);
+}
+
+TEST(BumpHeight, IsReadWithItsUnit)
+{
+  EXPECT_EQ(BumpHeightInMillimetres(ParseBumpHeight("1.5"), { 3, 2, 6 }), 1.5);
+  EXPECT_EQ(BumpHeightInMillimetres(ParseBumpHeight(" 1.5 mm"), { 3, 2, 6 }), 1.5);
+  EXPECT_EQ(BumpHeightInMillimetres(ParseBumpHeight("1.5vox"), { 3, 2, 6 }), 3.0);
+  EXPECT_EQ(BumpHeightInMillimetres(ParseBumpHeight("2diag"), { 3, 2, 6 }), 14.0);
+  EXPECT_EQ(ParseBumpHeight("2 diag").text, "2diag");
+}
+
+TEST(BumpHeight, WithoutSenseIsRefused)
+{
+  for (const char * text : { "", "vox", "-1vox", "1 5vox", "nan", "inf", "1voxel", "1%", "1.5.2", "-0.1" })
+  {
+    EXPECT_THROW(ParseBumpHeight(text), UsageError) << text;
+  }
+}
+
+} // namespace
+} // namespace voxelcore
