@@ -5,6 +5,7 @@
 #include "ScanBytes.h"
 
 #include <chrono>
+#include <ctime>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -191,6 +192,14 @@ PeakMegabytes()
   return usage.ru_maxrss / 1024;
 }
 
+double
+ProcessorSeconds()
+{
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 void
 ReadMutations(std::size_t countOfEach)
 {
@@ -224,8 +233,8 @@ ReadMutations(std::size_t countOfEach)
       {
         bytes.resize(random() % bytes.size() + 1);
       }
-      const auto path = folder.Write(original.name, bytes);
-      const auto begin = std::chrono::steady_clock::now();
+      const auto   path = folder.Write(original.name, bytes);
+      const double begin = ProcessorSeconds();
       try
       {
         ReadLabelVolume(scan, options);
@@ -241,7 +250,8 @@ ReadMutations(std::size_t countOfEach)
         std::filesystem::copy_file(path, std::filesystem::temp_directory_path() / path.filename());
         FAIL() << original.name << " change " << i << ": " << error.what();
       }
-      ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << original.name << " change " << i;
+      // Of the processor: other work on the machine is no hang. One that waits for ever meets the test's own limit.
+      ASSERT_LT(ProcessorSeconds() - begin, 10.0) << original.name << " change " << i;
     }
 #ifndef __SANITIZE_ADDRESS__
     EXPECT_LT(PeakMegabytes() - before, 400) << original.name;
