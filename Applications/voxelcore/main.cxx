@@ -128,6 +128,15 @@ RunPhantom(const Run & run)
 }
 
 int
+PrintSkeleton(const Run & run, const SkeletonResult & result)
+{
+  run.Warn(result.warnings);
+  run.Print(result.table);
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
 Dispatch(const Run & run)
 {
   switch (*run.line.command)
@@ -142,6 +151,10 @@ Dispatch(const Run & run)
       return RunPrune(run);
     case CommandId::Phantom:
       return RunPhantom(run);
+    case CommandId::Skeleton:
+      return PrintSkeleton(run, RunSkeletonJob(SkeletonOptionsFrom(run.line.values), run.context));
+    case CommandId::Measure:
+      return PrintSkeleton(run, RunMeasureJob(MeasureOptionsFrom(run.line.values), run.context));
   }
   return kUsage;
 }

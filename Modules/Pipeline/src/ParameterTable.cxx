@@ -13,10 +13,13 @@ constexpr std::uint32_t kInfo = static_cast<std::uint32_t>(CommandId::Info);
 constexpr std::uint32_t kVerify = static_cast<std::uint32_t>(CommandId::Verify);
 constexpr std::uint32_t kPrune = static_cast<std::uint32_t>(CommandId::Prune);
 constexpr std::uint32_t kPhantom = static_cast<std::uint32_t>(CommandId::Phantom);
-constexpr std::uint32_t kReads = kCore | kInfo;
+constexpr std::uint32_t kSkeleton = static_cast<std::uint32_t>(CommandId::Skeleton);
+constexpr std::uint32_t kMeasure = static_cast<std::uint32_t>(CommandId::Measure);
+constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton;
 constexpr std::uint32_t kModels = kCore | kPrune;
-constexpr std::uint32_t kWrites = kModels | kPhantom;
-constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom;
+constexpr std::uint32_t kBranches = kSkeleton | kMeasure;
+constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches;
+constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom | kBranches;
 
 constexpr std::string_view kCoreFooter =
   R"(Lambda says how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart.
@@ -62,11 +65,36 @@ constexpr std::string_view kPhantomFooter = R"(Examples:
   voxelcore phantom ellipsoid --size 64 -o ellipsoid.nrrd
   voxelcore phantom root --size 256,256,512 --spacing 0.1,0.1,0.1 --seed 7 -o root.nii.gz)";
 
-constexpr std::array<Command, 5> kCommands{ {
+constexpr std::string_view kSkeletonFooter =
+  R"(A branch is there when it stands out: from the part it springs from by at least --stand-out, more than a corner of 90
+degrees does. The skeleton has the components and cycles of the shape, which is checked. Surfaces around cavities cannot
+become curves; they stay, and that is said. With --plates parts flatter than that stay as surfaces.
+The core is not pruned first (--lambda 0): what stands out is judged on all of it, and parts two voxels thick stay.
+Radii in tables are those of the body that was scanned: the largest ball in voxels and a quarter of a voxel's diagonal.
+
+--also writes beside OUT.vtp, by the ending: csv (OUT_branches.csv, OUT_summary.csv and OUT_columns.json, which explains
+them), swc (micrometres; cycles are cut), mrk.json (Slicer curves), graphml, ma (with .r: the core, for other programs).
+
+Examples:
+  voxelcore skeleton root.nii.gz -o root.vtp --also csv,swc --root top
+  voxelcore skeleton core.vtp -o skeleton.vtp
+  voxelcore skeleton vessels.seg.nrrd --prune-branches 1.5r --also mrk.json -o vessels.vtp
+  voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp)";
+
+constexpr std::string_view kMeasureFooter = R"(Tables from a finished skeleton; OUT.csv gives OUT_branches.csv,
+OUT_summary.csv and OUT_columns.json, which explains them.
+
+Examples:
+  voxelcore measure root.vtp -o root.csv --root top
+  voxelcore measure vessels.vtp -o vessels.csv --prune-branches 5mm)";
+
+constexpr std::array<Command, 7> kCommands{ {
   { CommandId::Core, "core", "Medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Info, "info", "What is in a scan: geometry, labels, their sizes and topology", kInfoFooter },
   { CommandId::Verify, "verify", "Recheck a finished file against its scan", kVerifyFooter },
   { CommandId::Prune, "prune", "Prune a file made with --keep-edges to other lambdas", kPruneFooter },
+  { CommandId::Skeleton, "skeleton", "Curve skeleton of a scan or of a finished core", kSkeletonFooter },
+  { CommandId::Measure, "measure", "Tables of a finished skeleton's branches", kMeasureFooter },
   { CommandId::Phantom, "phantom", "Make a synthetic volume", kPhantomFooter },
 } };
 
@@ -79,8 +107,17 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "SCAN",
     "",
     true,
-    kReads | kVerify,
+    kCore | kInfo | kVerify,
     "Scan: .nrrd .nhdr .seg.nrrd .nii .nii.gz .mha .mhd .tif, or a folder or 'pattern*' of TIFF or PNG slices" },
+  { "scan",
+    "",
+    Input,
+    "SCAN|CORE.vtp",
+    "",
+    true,
+    kSkeleton,
+    "Scan, as for 'voxelcore core', or a .vtp that 'voxelcore core' wrote" },
+  { "skeleton", "", Input, "SKELETON.vtp", "", true, kMeasure, "File that 'voxelcore skeleton' wrote" },
   { "core", "", Input, "CORE.vtp", "", true, kVerify | kPrune, "File that 'voxelcore core' wrote" },
   { "kind", "", Text, "KIND", "", true, kPhantom, "What to make; 'list' names the kinds" },
   { "output",
@@ -91,6 +128,8 @@ constexpr auto kParameters = std::to_array<Parameter>({
     true,
     kCore,
     "Result: .vtp .vtk .ply .obj .stl .ma; or a folder, DIR/, for one .vtp per label" },
+  { "output", "-o,--output", Output, "OUT.vtp", "", true, kSkeleton, "Result: .vtp" },
+  { "output", "-o,--output", Output, "OUT", "", true, kMeasure, "Result: .csv, or .vtp" },
   { "output", "-o,--output", Output, "OUT", "", true, kPrune, "Result: .vtp .vtk .ply .obj .stl .ma" },
   { "output", "-o,--output", Output, "OUT", "", false, kPhantom, "Volume: .nrrd .nii .nii.gz .mha .mhd .tif" },
   { "lambda",
@@ -109,6 +148,71 @@ constexpr auto kParameters = std::to_array<Parameter>({
     true,
     kPrune,
     "Pruning threshold with its unit: 1.5mm, 2.5vox, 2.5%; several give OUT_lambda-1mm.vtp and so on" },
+  { "lambda",
+    "-l,--lambda",
+    Text,
+    "L",
+    "0",
+    false,
+    kSkeleton,
+    "Prune the core first, with unit: 1.5mm, 2.5vox, 2.5%; only for scans" },
+  { "stand-out",
+    "--stand-out",
+    Text,
+    "L",
+    "3vox",
+    false,
+    kSkeleton,
+    "Branches stand out by at least so much, with unit: 1.5mm, 3vox, 2.5%" },
+  { "plates",
+    "--plates",
+    Text,
+    "L",
+    "",
+    false,
+    kSkeleton,
+    "Surfaces at least so erosion-thick stay, with unit; by default all become curves" },
+  { "smooth",
+    "--smooth",
+    Text,
+    "L",
+    "6vox",
+    false,
+    kSkeleton,
+    "Branches are fitted over so much before and behind each point, which moves by half a voxel at most; 0: not" },
+  { "prune-branches",
+    "--prune-branches",
+    Text,
+    "L|Nr",
+    "",
+    false,
+    kBranches,
+    "Take off branches with a tip that are shorter: 5mm, 8vox, or 1.5r (times the radius where they begin)" },
+  { "cut-loops", "--cut-loops", Flag, "", "", false, kBranches, "Cut each cycle at its thinnest branch; says where" },
+  { "split-at-junctions",
+    "--split-at-junctions",
+    Flag,
+    "",
+    "",
+    false,
+    kBranches,
+    "Give each branch end points of its own, so that branches do not hang together" },
+  { "root",
+    "--root",
+    Text,
+    "X,Y,Z|top|thickest",
+    "thickest",
+    false,
+    kBranches,
+    "Where the hierarchy begins: the tip nearest to a point (LPS mm), the highest, or that of the thickest branch" },
+  { "also",
+    "--also",
+    Text,
+    "csv,swc,..",
+    "",
+    false,
+    kBranches,
+    "Further files beside the result: csv, swc, mrk.json, graphml, ma" },
   { "labels",
     "--labels",
     Text,
@@ -197,7 +301,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "auto|lattice|tetgen",
     "auto",
     false,
-    kCore,
+    kCore | kSkeleton,
     "Delaunay engine; the result is the same" },
   { "threads", "--threads", Integer, "N", "0", false, kAll, "Processors to use; 0 means all" },
   { "json", "--json", Flag, "", "", false, kInfo, "Print JSON" },

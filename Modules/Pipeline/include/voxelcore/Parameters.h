@@ -7,6 +7,7 @@
 #include "voxelcore/PhantomJob.h"
 #include "voxelcore/PruneJob.h"
 #include "voxelcore/ShapeEdits.h"
+#include "voxelcore/SkeletonJob.h"
 #include "voxelcore/VerifyJob.h"
 
 #include <cstdint>
@@ -25,7 +26,9 @@ enum class CommandId : std::uint32_t
   Info = 2,
   Verify = 4,
   Prune = 8,
-  Phantom = 16
+  Phantom = 16,
+  Skeleton = 32,
+  Measure = 64
 };
 
 struct Command
@@ -99,5 +102,9 @@ PruneOptions
 PruneOptionsFrom(const ParameterValues & values);
 PhantomJobOptions
 PhantomOptionsFrom(const ParameterValues & values);
+SkeletonOptions
+SkeletonOptionsFrom(const ParameterValues & values);
+MeasureJobOptions
+MeasureOptionsFrom(const ParameterValues & values);
 
 } // namespace voxelcore

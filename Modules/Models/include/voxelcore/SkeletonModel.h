@@ -1,0 +1,66 @@
+#pragma once
+// Curve skeletons as files: .vtp for viewers and for VoxelCore, .swc .mrk.json .graphml for others, .csv tables.
+
+#include "voxelcore/BranchTable.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** The skeleton of one label, or of one component of it; positions in LPS mm. */
+struct SkeletonPart
+{
+  std::int64_t  label = 0;
+  std::int64_t  component = 0; ///< from 1 for a label split into its components; 0: the whole label
+  std::string   name;
+  SkeletonGraph graph;
+  BranchTable   table; ///< of this graph
+};
+
+struct SkeletonModel
+{
+  std::vector<SkeletonPart> parts;      ///< by label, then component
+  std::string               provenance; ///< JSON text of the field array Provenance
+};
+
+/** XML polydata: isolated points as verts, a poly line per branch, polygons of faces that stay. Point arrays Radius,
+ *  MaximumInscribedSphereRadius (the same under VMTK's name), ErosionThickness; cell arrays BranchId (per part, from 0;
+ *  -1 for verts and polygons), Label, Component, Closed (1 for faces of closed surfaces), and of branches Length,
+ *  Tortuosity, Level, Strahler (0 elsewhere). Equal models give equal bytes. \throws OutputError */
+void
+WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model);
+
+/** Reads what WriteSkeletonVtp wrote; names and tables are empty. \throws InputError */
+SkeletonModel
+ReadSkeletonVtp(const std::filesystem::path & path);
+
+/** SWC in micrometres, LPS axes: `id type x y z radius parent`, parents first. Cycles are cut (CutLoops), which the header
+ *  lists; where faces stay a tree begins anew. `root` as in MeasureOptions. \throws OutputError */
+void
+WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const MeasureOptions & options);
+
+/** A Slicer curve per branch, in LPS mm, its radii as a measurement. \throws OutputError */
+void
+WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model);
+
+/** GraphML: nodes with place, radius and kind, edges with the numbers of their branches. \throws OutputError */
+void
+WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model);
+
+/** Comma-separated values, a row per branch; columns as SkeletonColumns() says. \throws OutputError */
+void
+WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model);
+
+/** A row per label and level of the hierarchy; level "all" sums up a label. \throws OutputError */
+void
+WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model);
+
+/** The data dictionary of both tables as JSON: meaning and unit of each column. */
+std::string
+SkeletonColumnsJson();
+
+} // namespace voxelcore

@@ -1,0 +1,346 @@
+#include "OutputFile.h"
+#include "VtpFile.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/SkeletonModel.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <map>
+#include <new>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+static_assert(std::endian::native == std::endian::little, "files are little endian");
+
+/** Raw appended arrays and the header that names them, as VTK's writer makes them. */
+class AppendedArrays
+{
+public:
+  template <typename Value>
+  void
+  Add(const std::string & name, const std::vector<Value> & values, int components = 1)
+  {
+    const char * type = std::is_same_v<Value, double> ? "Float64" : "Int64";
+    m_Header += "        <DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(m_Data.size()) +
+                "\"/>\n";
+    Append(values.data(), values.size() * sizeof(Value));
+  }
+
+  void
+  AddText(const std::string & name, const std::string & text)
+  {
+    m_Header += "        <Array type=\"String\" Name=\"" + name +
+                "\" NumberOfTuples=\"1\" format=\"appended\" offset=\"" + std::to_string(m_Data.size()) + "\"/>\n";
+    Append(text.c_str(), text.size() + 1);
+  }
+
+  void
+  Tag(const std::string & tag)
+  {
+    m_Header += "      <" + tag + ">\n";
+  }
+
+  std::string
+  TakeHeader()
+  {
+    return std::move(m_Header);
+  }
+
+  const std::string &
+  Data() const
+  {
+    return m_Data;
+  }
+
+private:
+  void
+  Append(const void * data, std::uint64_t bytes)
+  {
+    m_Data.append(reinterpret_cast<const char *>(&bytes), sizeof(bytes));
+    m_Data.append(static_cast<const char *>(data), bytes);
+  }
+
+  std::string m_Header;
+  std::string m_Data;
+};
+
+struct Cells
+{
+  std::vector<std::int64_t> offsets;
+  std::vector<std::int64_t> points;
+};
+
+std::vector<std::vector<ElementIndex>>
+CellsOf(const Cells & cells, std::size_t pointCount)
+{
+  std::vector<std::vector<ElementIndex>> lists;
+  std::int64_t                           from = 0;
+  for (const std::int64_t end : cells.offsets)
+  {
+    RequireFit(end > from && static_cast<std::uint64_t>(end) <= cells.points.size(), "its cells are damaged");
+    lists.emplace_back();
+    for (; from < end; ++from)
+    {
+      const std::int64_t point = cells.points[static_cast<std::size_t>(from)];
+      RequireFit(point >= 0 && static_cast<std::uint64_t>(point) < pointCount, "its cells are damaged");
+      lists.back().push_back(static_cast<ElementIndex>(point));
+    }
+  }
+  RequireFit(static_cast<std::uint64_t>(from) == cells.points.size(), "its cells are damaged");
+  return lists;
+}
+
+SkeletonModel
+ReadParts(VtpFile & file)
+{
+  RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && file.ReadText("FieldData", "Units") == "mm",
+             "it is not in LPS mm");
+  RequireFit(file.Has("PointData", "ErosionThickness") && file.Has("CellData", "BranchId"), "it holds no skeleton");
+  const std::vector<double> positions = file.Read<double>("Points", "Points", 3);
+  const std::vector<double> radius = file.Read<double>("PointData", "Radius");
+  const std::vector<double> thickness = file.Read<double>("PointData", "ErosionThickness");
+  const auto                labels = file.Read<std::int64_t>("CellData", "Label");
+  const auto                components = file.Read<std::int64_t>("CellData", "Component");
+  const auto                closed = file.Read<std::int64_t>("CellData", "Closed");
+  const std::size_t         count = positions.size() / 3;
+  RequireFit(radius.size() == count && thickness.size() == count && count < 0xFFFFFFFFU, "its arrays differ in length");
+  const auto read = [&](const char * section) {
+    return CellsOf({ file.ReadIndices(section, "offsets"), file.ReadIndices(section, "connectivity") }, count);
+  };
+  const auto verts = read("Verts");
+  const auto lines = read("Lines");
+  const auto polys = read("Polys");
+  RequireFit(labels.size() == verts.size() + lines.size() + polys.size() && components.size() == labels.size() &&
+               closed.size() == labels.size(),
+             "its arrays differ in length");
+
+  // A point belongs to the part of its cells.
+  SkeletonModel                                                model;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> partOf;
+  for (std::size_t cell = 0; cell < labels.size(); ++cell)
+  {
+    partOf.try_emplace({ labels[cell], components[cell] }, 0);
+  }
+  for (auto & [key, index] : partOf)
+  {
+    index = model.parts.size();
+    model.parts.emplace_back();
+    model.parts.back().label = key.first;
+    model.parts.back().component = key.second;
+  }
+  std::vector<ElementIndex> number(count, 0xFFFFFFFFU);
+  std::vector<std::size_t>  owner(count, 0);
+  const auto                forCells = [&](auto && visit) {
+    std::size_t cell = 0;
+    for (const auto * list : { &verts, &lines, &polys })
+    {
+      for (const auto & points : *list)
+      {
+        visit(list, points, cell, partOf.at({ labels[cell], components[cell] }));
+        ++cell;
+      }
+    }
+  };
+  std::vector<std::uint8_t> used(count, 0);
+  forCells([&](auto, const auto & points, std::size_t, std::size_t part) {
+    for (const ElementIndex point : points)
+    {
+      RequireFit(!used[point] || owner[point] == part, "a point belongs to two labels");
+      used[point] = 1;
+      owner[point] = part;
+    }
+  });
+  for (std::size_t point = 0; point < count; ++point)
+  {
+    RequireFit(used[point] != 0, "a point is on no cell");
+    SkeletonGraph & graph = model.parts[owner[point]].graph;
+    number[point] = static_cast<ElementIndex>(graph.positions.size());
+    graph.positions.push_back({ positions[3 * point], positions[3 * point + 1], positions[3 * point + 2] });
+    graph.radius.push_back(radius[point]);
+    graph.erosionThickness.push_back(thickness[point]);
+  }
+  std::vector<std::vector<std::vector<ElementIndex>>> branches(model.parts.size());
+  forCells([&](const auto * list, const auto & points, std::size_t cell, std::size_t part) {
+    std::vector<ElementIndex> own;
+    std::transform(points.begin(), points.end(), std::back_inserter(own), [&](ElementIndex p) { return number[p]; });
+    SkeletonGraph & graph = model.parts[part].graph;
+    if (list == &lines)
+    {
+      RequireFit(own.size() >= 2, "a line has a single point");
+      branches[part].push_back(std::move(own));
+    }
+    else if (list == &polys)
+    {
+      graph.faceVertices.insert(graph.faceVertices.end(), own.begin(), own.end());
+      graph.faceOffsets.push_back(graph.faceVertices.size());
+      graph.closedFace.push_back(closed[cell] != 0 ? 1 : 0);
+    }
+  });
+  for (std::size_t part = 0; part < model.parts.size(); ++part)
+  {
+    SortBranches(model.parts[part].graph, branches[part], false);
+  }
+  if (file.Has("FieldData", "Provenance"))
+  {
+    model.provenance = file.ReadText("FieldData", "Provenance");
+  }
+  return model;
+}
+
+} // namespace
+
+void
+WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model)
+{
+  std::vector<double> positions;
+  std::vector<double> radius;
+  std::vector<double> thickness;
+  Cells               cells[3]; // verts, lines, polys
+  struct CellData
+  {
+    std::vector<std::int64_t> branchId, label, component, closed, level, strahler;
+    std::vector<double>       length, tortuosity;
+  };
+  CellData   data[3];
+  const auto add = [&](int                  kind,
+                       const SkeletonPart & part,
+                       std::int64_t         firstPoint,
+                       auto &&              points,
+                       std::int64_t         closed,
+                       std::int64_t         id) {
+    for (const ElementIndex point : points)
+    {
+      cells[kind].points.push_back(firstPoint + point);
+    }
+    cells[kind].offsets.push_back(static_cast<std::int64_t>(cells[kind].points.size()));
+    CellData & to = data[kind];
+    to.branchId.push_back(id);
+    to.label.push_back(part.label);
+    to.component.push_back(part.component);
+    to.closed.push_back(closed);
+    const BranchRecord * branch = id >= 0 ? &part.table.branches[static_cast<std::size_t>(id)] : nullptr;
+    to.level.push_back(branch ? branch->level : 0);
+    to.strahler.push_back(branch ? branch->strahler : 0);
+    to.length.push_back(branch ? branch->length : 0);
+    to.tortuosity.push_back(branch ? branch->tortuosity : 0);
+  };
+  std::int64_t firstPoint = 0;
+  for (const SkeletonPart & part : model.parts)
+  {
+    const SkeletonGraph & graph = part.graph;
+    for (const auto & position : graph.positions)
+    {
+      positions.insert(positions.end(), position.begin(), position.end());
+    }
+    radius.insert(radius.end(), graph.radius.begin(), graph.radius.end());
+    thickness.insert(thickness.end(), graph.erosionThickness.begin(), graph.erosionThickness.end());
+    for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
+    {
+      if (graph.nodeKinds[node] == NodeKind::Isolated)
+      {
+        add(0, part, firstPoint, std::array{ graph.nodePoints[node] }, 0, -1);
+      }
+    }
+    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+    {
+      add(1, part, firstPoint, graph.Branch(branch), 0, static_cast<std::int64_t>(branch));
+    }
+    for (std::size_t face = 0; face < graph.FaceCount(); ++face)
+    {
+      const std::span<const ElementIndex> corners{ graph.faceVertices.data() + graph.faceOffsets[face],
+                                                   graph.faceVertices.data() + graph.faceOffsets[face + 1] };
+      add(2, part, firstPoint, corners, graph.closedFace[face], -1);
+    }
+    firstPoint += static_cast<std::int64_t>(graph.positions.size());
+  }
+
+  AppendedArrays arrays;
+  arrays.Tag("FieldData");
+  arrays.AddText("SPACE", "LPS");
+  arrays.AddText("Units", "mm");
+  arrays.AddText("Provenance", model.provenance);
+  arrays.Tag("/FieldData");
+  const std::string fields = arrays.TakeHeader();
+  arrays.Tag("PointData");
+  arrays.Add("Radius", radius);
+  arrays.Add("MaximumInscribedSphereRadius", radius);
+  arrays.Add("ErosionThickness", thickness);
+  arrays.Tag("/PointData");
+  arrays.Tag("CellData");
+  const auto addCells = [&](const char * name, auto member) {
+    auto all = data[0].*member;
+    for (const int kind : { 1, 2 })
+    {
+      all.insert(all.end(), (data[kind].*member).begin(), (data[kind].*member).end());
+    }
+    arrays.Add(name, all);
+  };
+  addCells("BranchId", &CellData::branchId);
+  addCells("Label", &CellData::label);
+  addCells("Component", &CellData::component);
+  addCells("Closed", &CellData::closed);
+  addCells("Level", &CellData::level);
+  addCells("Strahler", &CellData::strahler);
+  addCells("Length", &CellData::length);
+  addCells("Tortuosity", &CellData::tortuosity);
+  arrays.Tag("/CellData");
+  arrays.Tag("Points");
+  arrays.Add("Points", positions, 3);
+  arrays.Tag("/Points");
+  const char * ends[3] = { "/Verts", "/Lines", "/Polys" };
+  const char * names[3] = { "Verts", "Lines", "Polys" };
+  for (int kind = 0; kind < 3; ++kind)
+  {
+    arrays.Tag(names[kind]);
+    arrays.Add("connectivity", cells[kind].points);
+    arrays.Add("offsets", cells[kind].offsets);
+    arrays.Tag(ends[kind]);
+  }
+  const auto count = [](std::size_t n) { return "\"" + std::to_string(n) + "\""; };
+  OutputFile file(path);
+  file.Write(
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+    "header_type=\"UInt64\">\n  <PolyData>\n");
+  file.Write(fields);
+  file.Write("    <Piece NumberOfPoints=" + count(radius.size()) + " NumberOfVerts=" + count(cells[0].offsets.size()) +
+             " NumberOfLines=" + count(cells[1].offsets.size()) +
+             " NumberOfStrips=\"0\" NumberOfPolys=" + count(cells[2].offsets.size()) + ">\n");
+  file.Write(arrays.TakeHeader());
+  file.Write("    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n   _");
+  file.Write(arrays.Data());
+  file.Write("\n  </AppendedData>\n</VTKFile>\n");
+  file.Finish();
+}
+
+SkeletonModel
+ReadSkeletonVtp(const std::filesystem::path & path)
+{
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+  {
+    throw InputError("cannot read '" + path.string() + "': there is no such file");
+  }
+  try
+  {
+    VtpFile file(path);
+    return ReadParts(file);
+  }
+  catch (const UnfitFile & unfit)
+  {
+    throw InputError("cannot read '" + path.string() + "': " + unfit.reason +
+                     "; give a .vtp file that 'voxelcore skeleton' wrote");
+  }
+  catch (const std::bad_alloc &)
+  {
+    throw InputError("cannot read '" + path.string() + "': it is larger than the memory");
+  }
+}
+
+} // namespace voxelcore

@@ -1,0 +1,194 @@
+#include "TableFile.h"
+
+#include "voxelcore/SkeletonModel.h"
+
+#include <array>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+struct Column
+{
+  const char * name;
+  const char * unit;
+  const char * meaning;
+};
+
+// skan's names where it has the number.
+constexpr auto kBranchColumns = std::to_array<Column>({
+  { "label", "", "value of the label" },
+  { "name", "", "name of the label" },
+  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  { "branch_id", "", "number of the branch, the cell array BranchId" },
+  { "skeleton_id", "", "connected component of the skeleton, from 1" },
+  { "node_id_src", "", "node at the branch's first point" },
+  { "node_id_dst", "", "node at its last point" },
+  { "branch_type", "", "0 tip to tip, 1 tip to junction, 2 junction to junction, 3 cycle" },
+  { "branch_distance", "mm", "length along the branch" },
+  { "euclidean_distance", "mm", "distance between its ends" },
+  { "tortuosity", "1", "branch_distance / euclidean_distance; empty for a closed branch" },
+  { "free_length", "mm", "length outside the balls at its junctions" },
+  { "mean_radius", "mm", "mean along the part outside the balls at its junctions" },
+  { "min_radius", "mm", "least there" },
+  { "max_radius", "mm", "greatest there" },
+  { "sd_radius", "mm", "standard deviation there" },
+  { "volume", "mm^3", "of the round cones along the part outside the balls at its junctions" },
+  { "surface", "mm^2", "lateral area of these cones" },
+  { "parent_branch", "", "branch it hangs on, nearer to the root; empty at the root" },
+  { "parent_angle", "deg", "between its direction and the one its parent arrives in" },
+  { "strahler", "", "Strahler order" },
+  { "centrifugal", "", "centrifugal order: junctions to the root, plus 1" },
+  { "level", "", "0 the axis from the root, 1 its laterals, 2 theirs" },
+  { "axis", "", "axis it is part of: branches that continue each other" },
+  { "closes_loop", "", "1 when a cycle begins with it: it is the thinnest branch of one" },
+  { "coord_src_x", "mm", "first point, LPS" },
+  { "coord_src_y", "mm", "" },
+  { "coord_src_z", "mm", "" },
+  { "coord_dst_x", "mm", "last point, LPS" },
+  { "coord_dst_y", "mm", "" },
+  { "coord_dst_z", "mm", "" },
+});
+
+// AnalyzeSkeleton's names where it has the number.
+constexpr auto kSummaryColumns = std::to_array<Column>({
+  { "label", "", "value of the label" },
+  { "name", "", "name of the label" },
+  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  { "level", "", "level of the hierarchy, or 'all'" },
+  { "count", "", "axes of this level; for 'all' branches (# Branches)" },
+  { "total_length", "mm", "sum of their lengths; a lateral begins at its parent's surface" },
+  { "mean_length", "mm", "Average Branch Length" },
+  { "mean_radius", "mm", "weighted by length" },
+  { "mean_tortuosity", "1", "" },
+  { "mean_emergence_angle", "deg", "between the parent's direction and the lateral's at its base" },
+  { "mean_midpoint_angle", "deg", "the same, to its middle" },
+  { "mean_tip_angle", "deg", "the same, to its tip" },
+  { "mean_children", "", "laterals on each" },
+  { "skeletons", "", "connected components that are points or have branches" },
+  { "end_points", "", "# End-points" },
+  { "junctions", "", "# Junctions" },
+  { "triple_points", "", "# Triple points" },
+  { "quadruple_points", "", "# Quadruple points" },
+  { "cycles", "", "independent cycles of branches" },
+  { "isolated_loops", "", "closed curves without junctions" },
+  { "isolated_points", "", "components that are a point" },
+  { "closed_faces", "", "faces of closed surfaces, which cannot become curves" },
+  { "plate_faces", "", "faces that stay as plates" },
+  { "max_length", "mm", "Maximum Branch Length" },
+  { "volume", "mm^3", "sum over branches" },
+  { "surface", "mm^2", "sum over branches" },
+});
+
+template <typename Columns>
+void
+WriteHead(TableFile & file, const Columns & columns)
+{
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    file << (i > 0 ? "," : "") << columns[i].name;
+  }
+  file << "\n";
+}
+
+/** A value of CSV: quoted when it needs it. */
+std::string
+Csv(const std::string & text)
+{
+  if (text.find_first_of(",\"\n\r") == std::string::npos)
+  {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text)
+  {
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+template <typename Columns>
+std::string
+ColumnsJson(const Columns & columns)
+{
+  std::string json = "{";
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    json += (i > 0 ? ",\n    \"" : "\n    \"") + std::string(columns[i].name) + "\": {\"Description\": \"" +
+            columns[i].meaning + "\"" +
+            (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + std::string(columns[i].unit) + "\"" : "") + "}";
+  }
+  return json + "\n  }";
+}
+
+} // namespace
+
+void
+WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
+{
+  TableFile file(path);
+  WriteHead(file, kBranchColumns);
+  for (const SkeletonPart & part : model.parts)
+  {
+    for (std::size_t branch = 0; branch < part.table.branches.size(); ++branch)
+    {
+      const BranchRecord & r = part.table.branches[branch];
+      const auto &         nodes = part.graph.branchNodes[branch];
+      file << part.label << "," << Csv(part.name) << "," << part.component << "," << branch << "," << r.component << ","
+           << nodes[0] << "," << nodes[1] << "," << static_cast<int>(r.type) << "," << r.length << "," << r.chord << ","
+           << r.tortuosity << "," << r.freeLength << "," << r.meanRadius << "," << r.minRadius << "," << r.maxRadius
+           << "," << r.sdRadius << "," << r.volume << "," << r.surface << ",";
+      if (r.parent != kNoBranch)
+      {
+        file << r.parent;
+      }
+      file << "," << r.parentAngle << "," << r.strahler << "," << r.centrifugal << "," << r.level << "," << r.axis
+           << "," << (r.closesLoop ? 1 : 0);
+      for (const ElementIndex point : { part.graph.Branch(branch).front(), part.graph.Branch(branch).back() })
+      {
+        for (const double coordinate : part.graph.positions[point])
+        {
+          file << "," << coordinate;
+        }
+      }
+      file << "\n";
+    }
+  }
+  file.Finish();
+}
+
+void
+WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model)
+{
+  TableFile file(path);
+  WriteHead(file, kSummaryColumns);
+  for (const SkeletonPart & part : model.parts)
+  {
+    const SkeletonNumbers & n = part.table.numbers;
+    const auto              head = [&] { file << part.label << "," << Csv(part.name) << "," << part.component << ","; };
+    head();
+    file << "all," << n.branches << "," << n.totalLength << "," << n.meanLength << "," << n.meanRadius << ",,,,,,"
+         << n.components << "," << n.tips << "," << n.junctions << "," << n.triplePoints << "," << n.quadruplePoints
+         << "," << n.cycles << "," << n.isolatedLoops << "," << n.isolatedPoints << "," << n.closedFaces << ","
+         << n.plateFaces << "," << n.maxLength << "," << n.volume << "," << n.surface << "\n";
+    for (const LevelRecord & level : part.table.levels)
+    {
+      head();
+      file << level.level << "," << level.count << "," << level.totalLength << "," << level.meanLength << ","
+           << level.meanRadius << "," << level.meanTortuosity << "," << level.meanEmergenceAngle << ","
+           << level.meanMidpointAngle << "," << level.meanTipAngle << "," << level.meanChildren << ",,,,,,,,,,,,,\n";
+    }
+  }
+  file.Finish();
+}
+
+std::string
+SkeletonColumnsJson()
+{
+  return "{\n  \"branches\": " + ColumnsJson(kBranchColumns) + ",\n  \"summary\": " + ColumnsJson(kSummaryColumns) +
+         "\n}\n";
+}
+
+} // namespace voxelcore
