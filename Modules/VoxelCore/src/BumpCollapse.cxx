@@ -68,6 +68,12 @@ BumpCollapse::BumpCollapse(const MedialComplex &             core,
       m_EdgeCofaces[edge].exclusiveOr ^= static_cast<ElementIndex>(face);
     }
   }
+  m_Balls.reserve(core.cells.vertexCount);
+  for (std::size_t vertex = 0; vertex < core.cells.vertexCount; ++vertex)
+  {
+    const auto & p = core.positions[vertex];
+    m_Balls.push_back({ { m_Scale[0] * p[0], m_Scale[1] * p[1], m_Scale[2] * p[2] }, core.radius[vertex] });
+  }
   std::iota(m_Witness.begin(), m_Witness.end(), ElementIndex{ 0 });
   for (std::uint32_t point = 0; point < points.size(); ++point)
   {
@@ -115,30 +121,6 @@ BumpCollapse::FindNeighbours()
     }
     m_Uphill[vertex] = best;
   }
-}
-
-double
-BumpCollapse::Distance(const std::array<double, 3> & a, const std::array<double, 3> & b) const
-{
-  const double dx = m_Scale[0] * (a[0] - b[0]);
-  const double dy = m_Scale[1] * (a[1] - b[1]);
-  const double dz = m_Scale[2] * (a[2] - b[2]);
-  return std::sqrt(dx * dx + dy * dy + dz * dz);
-}
-
-double
-BumpCollapse::Gap(std::uint32_t point, ElementIndex y) const
-{
-  const LatticePoint & p = (*m_Points)[point];
-  return Distance({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) },
-                  m_Core->positions[y]) -
-         m_Core->radius[y];
-}
-
-double
-BumpCollapse::Protrusion(ElementIndex x, ElementIndex y) const
-{
-  return Distance(m_Core->positions[x], m_Core->positions[y]) + (m_Core->radius[x] - m_Core->radius[y]);
 }
 
 void

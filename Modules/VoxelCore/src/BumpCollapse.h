@@ -3,6 +3,7 @@
 
 #include "voxelcore/BumpPruning.h"
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -54,14 +55,36 @@ private:
   void
   FindNeighbours();
 
-  double
-  Distance(const std::array<double, 3> & a, const std::array<double, 3> & b) const;
+  // Centre and radius of a vertex' ball in mm, beside each other in memory.
+  struct Ball
+  {
+    std::array<double, 3> centre;
+    double                radius;
+  };
+  static double
+  Distance(const std::array<double, 3> & p, const std::array<double, 3> & q)
+  {
+    const double dx = p[0] - q[0];
+    const double dy = p[1] - q[1];
+    const double dz = p[2] - q[2];
+    return std::sqrt(dx * dx + dy * dy + dz * dz);
+  }
   // How far a boundary vertex lies from the ball of y, in mm.
   double
-  Gap(std::uint32_t point, ElementIndex y) const;
+  Gap(std::uint32_t point, ElementIndex y) const
+  {
+    const LatticePoint & p = (*m_Points)[point];
+    return Distance({ m_Scale[0] * p.x, m_Scale[1] * p.y, m_Scale[2] * p.z }, m_Balls[y].centre) - m_Balls[y].radius;
+  }
   // By how much the ball of x sticks out of the ball of y, in mm.
   double
-  Protrusion(ElementIndex x, ElementIndex y) const;
+  Protrusion(ElementIndex x, ElementIndex y) const
+  {
+    const Ball & p = m_Balls[x];
+    const Ball & q = m_Balls[y];
+    return Distance(p.centre, q.centre) + (p.radius - q.radius);
+  }
+
   void
   Keep(ElementIndex vertex, std::uint32_t point);
 
@@ -96,6 +119,7 @@ private:
   const MedialComplex *             m_Core;
   const std::vector<LatticePoint> * m_Points;
   std::array<double, 3>             m_Scale; // mm a lattice unit
+  std::vector<Ball>                 m_Balls;
   double                            m_Level = 0;
   BumpValues                        m_Bumps; // negative while the element is there
   std::vector<Cofaces>              m_VertexCofaces;
