@@ -378,6 +378,10 @@ PhantomOptionsFrom(const ParameterValues & values)
   {
     options.phantom.subLaterals = static_cast<int>(reader.Whole("sub-laterals", 0, 100000));
   }
+  if (reader.IsGiven("centre-lines"))
+  {
+    options.centreLines = reader.Text("centre-lines");
+  }
   options.output = OutputFrom(reader);
   options.force = reader.IsSet("force");
   return options;

@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelVolume.h"
 
+#include <cstdio>
 #include <utility>
 
 namespace voxelcore
@@ -24,11 +25,51 @@ PhantomList()
   return text;
 }
 
+namespace
+{
+
+/** The centre lines where they lie in the volume that is written. */
+std::string
+CentreLinesText(const PhantomOptions & options, const ImageGeometry & geometry)
+{
+  constexpr double kMicrometres = 1000;
+  std::string      text =
+    "# VoxelCore phantom root: true centre lines\n# micrometres, LPS axes; type: order of the branch\n";
+  const auto lines = RootCentreLines(options);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    const Vector3 p = LatticeToPhysical(geometry, lines[i].position);
+    char          row[200];
+    std::snprintf(row,
+                  sizeof(row),
+                  "%zu %d %.9g %.9g %.9g %.9g %lld\n",
+                  i + 1,
+                  static_cast<int>(lines[i].order),
+                  kMicrometres * p[0],
+                  kMicrometres * p[1],
+                  kMicrometres * p[2],
+                  kMicrometres * lines[i].radius,
+                  static_cast<long long>(lines[i].parent < 0 ? -1 : lines[i].parent + 1));
+    text += row;
+  }
+  return text;
+}
+
+} // namespace
+
 std::string
 RunPhantomJob(const PhantomJobOptions & options, const JobContext & context)
 {
   OutputTransaction transaction(options.force, context.temporaries);
   transaction.CheckTarget(options.output);
+  if (options.centreLines)
+  {
+    if (options.phantom.kind != "root" || options.centreLines->extension() != ".swc")
+    {
+      throw UsageError("--centre-lines: only the kind root has them, and they are written as .swc");
+    }
+    transaction.CheckTarget(*options.centreLines);
+  }
   VoxelShape shape = CropToVoxels(MakePhantom(options.phantom, PartOfProgress(context.progress, "sampling", 0, 0.5)));
   const std::uint64_t voxels = shape.CountVoxels();
   if (voxels == 0)
@@ -47,6 +88,10 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & context)
   labels.push_back({ 1, options.phantom.kind, voxels, std::move(shape) });
   ReportProgress(context.progress, "writing", 0.5);
   WriteLabelVolume(transaction.StageWithCompanions(options.output), geometry, labels);
+  if (options.centreLines)
+  {
+    WriteTextFile(transaction.Stage(*options.centreLines), CentreLinesText(options.phantom, geometry));
+  }
   ReportProgress(context.progress, "done", 1);
   transaction.Commit();
   return options.output.string() + ": " + options.phantom.kind + ", " + sizeText + " voxels, " +

@@ -5,6 +5,7 @@
 #include "voxelcore/Phantom.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace voxelcore
@@ -15,13 +16,16 @@ struct PhantomJobOptions
   PhantomOptions        phantom;
   std::filesystem::path output; ///< .nrrd .nii .nii.gz .mha .mhd .tif
   bool                  force = false;
+
+  std::optional<std::filesystem::path> centreLines; ///< .swc; of kind root only
 };
 
 /** The kinds, a paragraph each, for people. */
 std::string
 PhantomList();
 
-/** Makes and writes a volume with one label, 1. Returns one line that says what was made.
+/** Makes and writes a volume with one label, 1, and the true centre lines of a root: SWC in micrometres, LPS axes, type
+ *  the order of the branch. Returns one line that says what was made.
  *  \throws UsageError, OutputError, Cancelled */
 std::string
 RunPhantomJob(const PhantomJobOptions & options, const JobContext & context = {});
