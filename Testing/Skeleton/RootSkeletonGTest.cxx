@@ -1,6 +1,12 @@
 // The skeleton of a root against the centre lines it was grown along.
 
-#include "SkeletonFixtures.h"
+#include "TubeShapes.h"
+
+#include "voxelcore/BranchTable.h"
+
+#include <algorithm>
+#include <bit>
+#include <iostream>
 
 namespace voxelcore::testing
 {
@@ -110,6 +116,62 @@ TEST(RootSkeleton, HasTheTrueTipsAndNoOthers)
   ASSERT_GT(score.expected, 50U);
   EXPECT_EQ(score.missed, 0U);
   EXPECT_LE(static_cast<double>(score.spurious), 0.02 * static_cast<double>(score.found));
+}
+
+TEST(RootSkeleton, HasTheTrueLength)
+{
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+  {
+    PhantomOptions options;
+    options.kind = "root";
+    options.size = { 96, 96, 96 };
+    options.seed = seed;
+    const auto lines = RootCentreLines(options);
+    double     length = 0;
+    for (const CentreLinePoint & point : lines)
+    {
+      length += point.parent < 0 ? 0 : Distance(point.position, lines[static_cast<std::size_t>(point.parent)].position);
+    }
+    EXPECT_NEAR(TotalLength(GraphOf(MakePhantom(options))), length, 0.03 * length) << "seed " << seed;
+  }
+}
+
+TEST(RootSkeleton, IsTheSameInAllRotationsOfTheGrid)
+{
+  const std::int32_t    n = 96;
+  const VoxelShape      shape = PhantomShape("root", n, 2);
+  const SkeletonNumbers expected = MeasureBranches(GraphOf(shape)).numbers;
+  EXPECT_GT(expected.tips, 8);
+  Size3 axes{ 0, 1, 2 };
+  int   rotations = 0;
+  do
+  {
+    const int odd = (axes[0] > axes[1]) + (axes[0] > axes[2]) + (axes[1] > axes[2]);
+    for (unsigned mirrored = 0; mirrored < 8; ++mirrored)
+    {
+      if ((odd + std::popcount(mirrored)) % 2 != 0)
+      {
+        continue; // a reflection
+      }
+      const VoxelShape      turned = ShapeWhere({ n, n, n }, [&](int x, int y, int z) {
+        Size3       from{};
+        const Size3 to{ x, y, z };
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          from[static_cast<std::size_t>(axes[k])] = (mirrored >> k) % 2 == 1 ? n - 1 - to[k] : to[k];
+        }
+        return shape.Contains(from[0], from[1], from[2]);
+      });
+      const SkeletonNumbers numbers = MeasureBranches(GraphOf(turned)).numbers;
+      EXPECT_EQ(numbers.components, expected.components);
+      EXPECT_EQ(numbers.cycles, expected.cycles);
+      EXPECT_EQ(numbers.tips, expected.tips);
+      EXPECT_EQ(numbers.junctions, expected.junctions);
+      EXPECT_NEAR(numbers.totalLength, expected.totalLength, 0.01 * expected.totalLength);
+      ++rotations;
+    }
+  } while (std::next_permutation(axes.begin(), axes.end()));
+  EXPECT_EQ(rotations, 24);
 }
 
 TEST(HeavyRootSkeleton, HasTheTrueTipsOverSeedsAndResolutions)
