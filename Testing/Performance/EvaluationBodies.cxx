@@ -1,0 +1,278 @@
+#include "EvaluationBodies.h"
+
+#include "voxelcore/ShapeOperations.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore::evaluation
+{
+namespace
+{
+
+constexpr double kStep = 0.25;
+
+Vector
+Along(const Vector & a, const Vector & b, double t)
+{
+  return { a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]) };
+}
+
+double
+Length(const Vector & v)
+{
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+double
+Distance(const Vector & a, const Vector & b)
+{
+  return Length({ a[0] - b[0], a[1] - b[1], a[2] - b[2] });
+}
+
+void
+AddSegment(const Vector & a, const Vector & b, std::vector<Vector> & samples)
+{
+  const int steps = std::max(1, static_cast<int>(std::ceil(Distance(a, b) / kStep)));
+  for (int i = 0; i <= steps; ++i)
+  {
+    samples.push_back(Along(a, b, static_cast<double>(i) / steps));
+  }
+}
+
+// Balls of linearly changing radius along a segment; for equal radii a capsule.
+double
+ConeDistance(const Vector & p, const Vector & a, const Vector & b, double ra, double rb)
+{
+  // The nearest ball is found by stepping: plain, and exact enough at a fiftieth of a voxel.
+  double       best = 1e300;
+  const double length = Distance(a, b);
+  double       t = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    t += (p[static_cast<std::size_t>(i)] - a[static_cast<std::size_t>(i)]) *
+         (b[static_cast<std::size_t>(i)] - a[static_cast<std::size_t>(i)]);
+  }
+  t /= length * length;
+  // Normals lean by the slope of the radius.
+  const Vector foot = Along(a, b, t);
+  const double slope = (rb - ra) / length;
+  t += Distance(p, foot) * slope / std::sqrt(std::max(1e-12, 1 - slope * slope)) / length;
+  t = std::clamp(t, 0.0, 1.0);
+  return Distance(p, Along(a, b, t)) - (ra + t * (rb - ra));
+  return best;
+}
+
+Body
+Cone(const std::string & name, double length, double ra, double rb)
+{
+  Body         body;
+  const Vector a{ -length / 2, 0, 0 };
+  const Vector b{ length / 2, 0, 0 };
+  body.name = name;
+  body.reach = length / 2 + std::max(ra, rb);
+  body.distance = [=](const Vector & p) { return ConeDistance(p, a, b, ra, rb); };
+  AddSegment(a, b, body.axis);
+  body.tips = { a, b };
+  return body;
+}
+
+// All within half the thickness of a rectangle at z = 0.
+double
+PlateDistance(const Vector & p, const Vector & centre, double x, double y, double thickness)
+{
+  const double dx = std::max(0.0, std::abs(p[0] - centre[0]) - x / 2);
+  const double dy = std::max(0.0, std::abs(p[1] - centre[1]) - y / 2);
+  return Length({ dx, dy, p[2] - centre[2] }) - thickness / 2;
+}
+
+void
+AddPlate(const Vector & centre, double x, double y, std::vector<Vector> & samples)
+{
+  const int steps = static_cast<int>(std::ceil(y / kStep));
+  for (int i = 0; i <= steps; ++i)
+  {
+    const double at = centre[1] - y / 2 + y * i / steps;
+    AddSegment({ centre[0] - x / 2, at, centre[2] }, { centre[0] + x / 2, at, centre[2] }, samples);
+  }
+}
+
+Body
+Slab(double thickness)
+{
+  Body body;
+  body.name = "slab " + std::to_string(static_cast<int>(thickness));
+  const double x = 40;
+  const double y = 24;
+  body.reach = std::sqrt(x * x + y * y) / 2 + thickness / 2;
+  body.distance = [=](const Vector & p) { return PlateDistance(p, { 0, 0, 0 }, x, y, thickness); };
+  AddPlate({ 0, 0, 0 }, x, y, body.axis);
+  return body;
+}
+
+Body
+Ellipsoid()
+{
+  Body             body;
+  constexpr double a = 27;
+  constexpr double b = 18;
+  constexpr double c = 12;
+  body.name = "ellipsoid";
+  body.reach = a;
+  body.distance = [](const Vector & p) {
+    // First order: value over gradient.
+    const double k = Length({ p[0] / a, p[1] / b, p[2] / c });
+    const double g = Length({ p[0] / (a * a), p[1] / (b * b), p[2] / (c * c) });
+    return g > 0 ? k * (k - 1) / g : -c;
+  };
+  // Centres of curvature of the shortest axis bound it: an ellipse.
+  const double rx = (a * a - c * c) / a;
+  const double ry = (b * b - c * c) / b;
+  for (double y = -ry; y <= ry; y += kStep)
+  {
+    const double half = rx * std::sqrt(std::max(0.0, 1 - y * y / (ry * ry)));
+    AddSegment({ -half, y, 0 }, { half, y, 0 }, body.axis);
+  }
+  return body;
+}
+
+// A thick capsule with rods of radius 1.5, 2 and 3 and a plate three thick.
+Body
+ThickAndThin()
+{
+  Body             body;
+  const Vector     a{ -14, 0, 0 };
+  const Vector     b{ 14, 0, 0 };
+  constexpr double thick = 11;
+  body.name = "thick and thin";
+  body.reach = 34;
+  struct Rod
+  {
+    Vector from, to;
+    double radius;
+  };
+  const std::vector<Rod> rods{ { { -12, 0, 0 }, { -12, 30, 0 }, 1.5 },
+                               { { -3, 0, 0 }, { -3, 26, 12 }, 2 },
+                               { { 8, 0, 0 }, { 8, 22, -20 }, 3 } };
+  const Vector           plateCentre{ 0, -19, 0 };
+  body.distance = [=](const Vector & p) {
+    double d = ConeDistance(p, a, b, thick, thick);
+    for (const Rod & rod : rods)
+    {
+      d = std::min(d, ConeDistance(p, rod.from, rod.to, rod.radius, rod.radius));
+    }
+    return std::min(d, PlateDistance(p, plateCentre, 20, 18, 3));
+  };
+  AddSegment(a, b, body.axis);
+  body.tips = { a, b };
+  for (const Rod & rod : rods)
+  {
+    // Outside the thick part and a little more, as the branch bends where it joins.
+    const double length = Distance(rod.from, rod.to);
+    AddSegment(Along(rod.from, rod.to, (thick + 3) / length), rod.to, body.axis);
+    AddSegment(rod.from, Along(rod.from, rod.to, (thick + 3) / length), body.allowed);
+    body.tips.push_back(rod.to);
+  }
+  AddPlate({ 0, -21.5, 0 }, 20, 13, body.axis);
+  AddPlate({ 0, -8, 0 }, 20, 16, body.allowed);
+  return body;
+}
+
+} // namespace
+
+std::vector<Body>
+EvaluationBodies()
+{
+  std::vector<Body> bodies{ Ellipsoid() };
+  for (const double radius : { 1.5, 2.0, 3.0, 5.0, 8.0 })
+  {
+    char name[32];
+    std::snprintf(name, sizeof(name), "capsule %.1f", radius);
+    bodies.push_back(Cone(name, 36, radius, radius));
+  }
+  for (const double thickness : { 3.0, 6.0, 12.0, 20.0 })
+  {
+    bodies.push_back(Slab(thickness));
+  }
+  bodies.push_back(Cone("cone", 40, 10, 2));
+  bodies.push_back(ThickAndThin());
+  return bodies;
+}
+
+Placement
+Place(const Body & body, const Vector & spacing, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  const auto      uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  // A random unit quaternion (Shoemake).
+  constexpr double turn = 6.283185307179586;
+  const double     u = uniform();
+  const double     v = turn * uniform();
+  const double     w = turn * uniform();
+  const double     q[4] = { std::sqrt(1 - u) * std::sin(v),
+                            std::sqrt(1 - u) * std::cos(v),
+                            std::sqrt(u) * std::sin(w),
+                            std::sqrt(u) * std::cos(w) };
+  Placement        placement;
+  placement.axes = {
+    { { 1 - 2 * (q[1] * q[1] + q[2] * q[2]), 2 * (q[0] * q[1] + q[2] * q[3]), 2 * (q[0] * q[2] - q[1] * q[3]) },
+      { 2 * (q[0] * q[1] - q[2] * q[3]), 1 - 2 * (q[0] * q[0] + q[2] * q[2]), 2 * (q[1] * q[2] + q[0] * q[3]) },
+      { 2 * (q[0] * q[2] + q[1] * q[3]), 2 * (q[1] * q[2] - q[0] * q[3]), 1 - 2 * (q[0] * q[0] + q[1] * q[1]) } }
+  };
+  placement.spacing = spacing;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    placement.shift[i] = spacing[i] * uniform();
+    placement.size[i] = static_cast<std::int32_t>(std::ceil(2 * body.reach / spacing[i])) + 8;
+  }
+  return placement;
+}
+
+Vector
+ToBody(const Placement & placement, const Vector & lattice)
+{
+  Vector p{ 0, 0, 0 };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double mm = (lattice[i] - 0.5 * placement.size[i]) * placement.spacing[i] + placement.shift[i];
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      p[j] += mm * placement.axes[i][j];
+    }
+  }
+  return p;
+}
+
+VoxelShape
+Sample(const Body & body, const Placement & placement, double noise, std::uint64_t seed)
+{
+  VoxelShape                       shape(VoxelBox{ { 0, 0, 0 }, placement.size });
+  std::mt19937_64                  random(seed);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const double voxel = std::cbrt(placement.spacing[0] * placement.spacing[1] * placement.spacing[2]);
+  for (std::int32_t z = 0; z < placement.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < placement.size[1]; ++y)
+    {
+      for (std::int32_t x = 0; x < placement.size[0]; ++x)
+      {
+        double d = body.distance(ToBody(placement, { x + 0.5, y + 0.5, z + 0.5 }));
+        if (noise > 0 && std::abs(d) < 4 * noise * voxel)
+        {
+          d += noise * voxel * normal(random);
+        }
+        if (d <= 0)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  if (noise > 0)
+  {
+    shape = FillCavities(KeepLargestComponents(std::move(shape), 1).shape).shape;
+  }
+  return shape;
+}
+
+} // namespace voxelcore::evaluation
