@@ -141,6 +141,32 @@ TEST_F(CoreCommand, BinaryAndThresholdMakeOneShape)
   EXPECT_EQ(threshold["labels"][0]["voxels"], 6 * 10 * 8);
 }
 
+TEST_F(CoreCommand, CrossCheckRunsBothEnginesAndChangesNothing)
+{
+  const auto run = [this](const std::string & name, const std::vector<std::string> & more) {
+    std::vector<std::string> arguments{ "core",     m_Folder / "a.nrrd",         "-o", m_Folder / (name + ".vtp"),
+                                        "--report", m_Folder / (name + ".json"), "-q" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunProgram(arguments);
+  };
+  ASSERT_EQ(run("plain", {}).code, 0);
+  const ProgramResult checked = run("checked", { "--cross-check" });
+  if (checked.code == 2)
+  {
+    EXPECT_EQ(checked.error,
+              "voxelcore: --cross-check needs TetGen, which this build lacks; configure it with "
+              "-DVOXELCORE_TETGEN=ON\n");
+    EXPECT_EQ(m_Folder.Names(), (Names{ "a.nrrd", "plain.json", "plain.vtp" }));
+    EXPECT_EQ(RunProgram({ "core", m_Folder / "a.nrrd", "-o", m_Folder / "t.vtp", "--engine", "tetgen" }).code, 1);
+    return;
+  }
+  ASSERT_EQ(checked.code, 0) << checked.error;
+  EXPECT_EQ(ReadAll(m_Folder / "plain.vtp"), ReadAll(m_Folder / "checked.vtp"));
+  EXPECT_EQ(Json::parse(ReadAll(m_Folder / "plain.json"))["parameters"]["cross_check"], false);
+  EXPECT_EQ(Json::parse(ReadAll(m_Folder / "checked.json"))["parameters"]["cross_check"], true);
+  EXPECT_EQ(ReadAll(m_Folder / "checked.vtp").find("cross_check"), std::string::npos);
+}
+
 TEST_F(CoreCommand, ProgressComesAsAsked)
 {
   const auto run = [this](const std::string & style) {

@@ -1,6 +1,8 @@
 #include "voxelcore/CoreJob.h"
 
+#include "CrossCheck.h"
 #include "JobTools.h"
+#include "LabelLoop.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/Error.h"
@@ -68,6 +70,7 @@ ComputeWholeCore(VoxelShape               shape,
                  const ImageGeometry &    geometry,
                  const SpacingWeights &   weights,
                  Engine                   engine,
+                 bool                     crossCheck,
                  const std::string &      labelText,
                  LabelOutcome &           outcome,
                  const ProgressCallback & progress)
@@ -82,11 +85,9 @@ ComputeWholeCore(VoxelShape               shape,
     record.boundaryVertices = points.size();
     outcome.seconds.shape += watch.Lap();
 
-    DelaunayCells cells = ComputeDelaunayCells(shape,
-                                               points,
-                                               weights,
-                                               engine,
-                                               PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds));
+    const ProgressCallback part = PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds);
+    DelaunayCells          cells = crossCheck ? CrossCheckedCells(shape, points, weights, engine, labelText, part)
+                                              : ComputeDelaunayCells(shape, points, weights, engine, part);
     outcome.seconds.delaunay += watch.Lap();
 
     ReportProgress(progress, "core", kDelaunayEnds);
@@ -146,6 +147,7 @@ DescribeParameters(const CoreOptions &    options,
   }
   parameters.model = options.model;
   parameters.engine = EngineName(options.engine);
+  parameters.crossCheck = options.crossCheck;
   parameters.threads = options.threads;
   parameters.weights = weights;
   return parameters;
@@ -158,6 +160,10 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
   if (options.lambdas.empty())
   {
     throw UsageError("no --lambda given");
+  }
+  if (options.crossCheck && !HasEngine(Engine::TetGen))
+  {
+    throw UsageError("--cross-check needs TetGen, which this build lacks; configure it with -DVOXELCORE_TETGEN=ON");
   }
   transaction.Protect(options.scan);
   if (toFolder)
@@ -279,7 +285,8 @@ ProcessLabel(LabelShape                  label,
              const SpacingWeights &      weights,
              const std::vector<Lambda> & lambdas,
              Engine                      engine,
-             const ProgressCallback &    progress)
+             const ProgressCallback &    progress,
+             bool                        crossCheck)
 {
   LabelOutcome      outcome;
   LabelRecord &     record = outcome.record;
@@ -292,7 +299,8 @@ ProcessLabel(LabelShape                  label,
     static_cast<double>(label.voxels) * (geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2]);
   record.box = label.shape.Box();
 
-  ModelPart part = ComputeWholeCore(std::move(label.shape), geometry, weights, engine, labelText, outcome, progress);
+  ModelPart part =
+    ComputeWholeCore(std::move(label.shape), geometry, weights, engine, crossCheck, labelText, outcome, progress);
 
   Stopwatch           pruneWatch;
   std::vector<double> thresholds;
@@ -342,7 +350,6 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
                                    options.reading.labels != "all",
                                    options.scan.string(),
                                    PartOfProgress(context.progress, "editing", kReadEnds, kReadEnds));
-  auto &               labels = edited.labels;
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
   report.command = options.command;
   report.input = DescribeInput(options, volume);
@@ -351,46 +358,21 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   result.notes = edited.notes;
   report.seconds.read = watch.Lap();
 
-  ResultFiles   files(options, toFolder, transaction, result);
-  std::uint64_t allVoxels = 0;
-  std::uint64_t doneVoxels = 0;
-  for (const EditedLabel & one : labels)
-  {
-    allVoxels += one.label.voxels;
-  }
-  for (std::size_t i = 0; i < labels.size(); ++i)
-  {
-    LabelShape & label = labels[i].label;
-    const auto   share = [&](std::uint64_t voxels) {
-      return kReadEnds + (kLabelsEnd - kReadEnds) * static_cast<double>(voxels) / static_cast<double>(allVoxels);
-    };
-    const double from = share(doneVoxels);
-    doneVoxels += label.voxels;
-    const std::string name = labels.size() == 1
-                               ? label.name
-                               : label.name + " (" + std::to_string(i + 1) + "/" + std::to_string(labels.size()) + ")";
-    LabelOutcome      outcome = ProcessLabel(std::move(label),
-                                        volume.geometry,
-                                        weights,
-                                        options.lambdas,
-                                        options.engine,
-                                        NamedPartOfProgress(context.progress, name, from, share(doneVoxels)));
-    outcome.record.component = labels[i].component;
-    outcome.record.edits = labels[i].edits;
-    for (ModelPart & part : outcome.parts)
-    {
-      part.component = labels[i].component;
-    }
-    report.seconds.shape += outcome.seconds.shape;
-    report.seconds.delaunay += outcome.seconds.delaunay;
-    report.seconds.core += outcome.seconds.core;
-    report.seconds.prune += outcome.seconds.prune;
-    if (digest.valid())
-    {
-      report.input.sha256 = digest.get();
-    }
-    files.Add(std::move(outcome));
-  }
+  ResultFiles files(options, toFolder, transaction, result);
+  ProcessLabels(
+    edited.labels,
+    options,
+    volume.geometry,
+    weights,
+    PartOfProgress(context.progress, kReadEnds, kLabelsEnd),
+    [&](LabelOutcome outcome) {
+      if (digest.valid())
+      {
+        report.input.sha256 = digest.get();
+      }
+      files.Add(std::move(outcome));
+    },
+    report.seconds);
   ReportProgress(context.progress, "writing", kLabelsEnd);
   files.Finish();
   report.seconds.total = total.Lap();

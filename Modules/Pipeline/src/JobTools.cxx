@@ -34,6 +34,18 @@ NamedPartOfProgress(const ProgressCallback & outer, std::string name, double fro
   };
 }
 
+ProgressCallback
+PartOfProgress(const ProgressCallback & outer, double from, double to)
+{
+  if (!outer)
+  {
+    return {};
+  }
+  return [outer, from, to](std::string_view stage, double fraction) {
+    return outer(stage, from + (to - from) * std::clamp(fraction, 0.0, 1.0));
+  };
+}
+
 std::string
 LabelText(std::int64_t value, const std::string & name)
 {

@@ -39,6 +39,10 @@ PartOfProgress(const ProgressCallback & outer, std::string stage, double from, d
 ProgressCallback
 NamedPartOfProgress(const ProgressCallback & outer, std::string name, double from, double to);
 
+/** The same, but the stage is passed on as it is. */
+ProgressCallback
+PartOfProgress(const ProgressCallback & outer, double from, double to);
+
 /** A core at one threshold, certified. */
 struct PrunedCore
 {

@@ -322,6 +322,7 @@ CoreOptionsFrom(const ParameterValues & values)
   options.model = ModelOptionsFrom(reader);
   const std::string engine = reader.Choice("engine");
   options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
+  options.crossCheck = reader.IsSet("cross-check");
   options.threads = ThreadsFrom(values, CommandId::Core);
   options.force = reader.IsSet("force");
   return options;

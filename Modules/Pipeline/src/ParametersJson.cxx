@@ -106,6 +106,7 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
   if (!inFile)
   {
     json["engine"] = parameters.engine;
+    json["cross_check"] = parameters.crossCheck;
     json["threads"] = parameters.threads;
   }
   json["lattice_weights"] = parameters.weights.weight;

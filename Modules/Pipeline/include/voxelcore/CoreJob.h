@@ -27,7 +27,8 @@ struct CoreOptions
   std::optional<std::filesystem::path> report;
   ModelOptions                         model;
   Engine                               engine = Engine::Auto;
-  int                                  threads = 0; ///< only recorded
+  bool                                 crossCheck = false; ///< both engines must find the same cells
+  int                                  threads = 0;        ///< only recorded
   bool                                 force = false;
   std::string                          command; ///< only recorded
 };
@@ -39,7 +40,8 @@ struct CoreResult
   std::vector<std::string> notes;    ///< what edits changed, what a file format could not hold
 };
 
-/** Reads, computes label by label, certifies, writes. Either everything is written or nothing.
+/** Reads, computes label by label (small ones side by side), certifies, writes. Either everything is written or
+ *  nothing. The result does not depend on the number of threads (OpenMP's).
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 CoreResult
 RunCoreJob(const CoreOptions & options, const JobContext & context = {});
@@ -52,15 +54,18 @@ struct LabelOutcome
   StageSeconds           seconds;
 };
 
-/** Everything between reading and writing for one label; depends on nothing but its arguments.
- *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape. */
+/** Everything between reading and writing for one label; depends on nothing but its arguments. With `crossCheck` both
+ *  engines run, one after the other; TetGen can do so once at a time in a process.
+ *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape, or the engines
+ *  differ. */
 LabelOutcome
 ProcessLabel(LabelShape                  label,
              const ImageGeometry &       geometry,
              const SpacingWeights &      weights,
              const std::vector<Lambda> & lambdas,
              Engine                      engine,
-             const ProgressCallback &    progress = {});
+             const ProgressCallback &    progress = {},
+             bool                        crossCheck = false);
 
 /** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
 bool

@@ -43,6 +43,7 @@ struct ParameterRecord
   std::vector<std::string>                 lambda;
   ModelOptions                             model;
   std::string                              engine;
+  bool                                     crossCheck = false; ///< both engines ran and agreed
   int                                      threads = 0;
   SpacingWeights                           weights;
 };
@@ -91,7 +92,8 @@ struct LabelRecord
   }
 };
 
-/** Wall-clock seconds. */
+/** Wall-clock seconds. Where labels ran side by side their stages overlap: the time all of them took is shared out in
+ *  proportion to what each stage took in each label. */
 struct StageSeconds
 {
   double read = 0;

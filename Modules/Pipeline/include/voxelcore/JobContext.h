@@ -9,7 +9,9 @@ namespace voxelcore
 
 struct JobContext
 {
-  ProgressCallback    progress;              ///< fraction of the whole job; the stage names the label, too
+  /** Gets the fraction of the whole job; the stage names the label, or which labels run side by side. Such calls come
+   *  from several threads, though never two at a time. */
+  ProgressCallback    progress;
   TemporaryRegistry * temporaries = nullptr; ///< for a signal handler that must not leave files; may be null
 };
 

@@ -1,0 +1,134 @@
+#include "LabelLoop.h"
+
+#include "JobTools.h"
+#include "SideBySide.h"
+#include "voxelcore/BoundaryVertices.h"
+
+#include <numeric>
+#include <omp.h>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** The boundary vertices of each label. */
+std::vector<std::uint64_t>
+CountVertices(const std::vector<EditedLabel> & labels)
+{
+  std::vector<std::uint64_t> vertices(labels.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    vertices[i] = CountBoundaryVertices(labels[i].label.shape);
+  }
+  return vertices;
+}
+
+/** TetGen cannot run twice at a time in one process. */
+bool
+MayRunSideBySide(const CoreOptions & options)
+{
+  return options.engine != Engine::TetGen && !options.crossCheck && omp_get_max_threads() > 1;
+}
+
+/** The wall-clock time of labels that ran side by side, shared out among the stages as the labels' own clocks say. */
+void
+AddSeconds(StageSeconds & seconds, const std::vector<LabelOutcome> & outcomes, double wall)
+{
+  StageSeconds sum;
+  for (const LabelOutcome & outcome : outcomes)
+  {
+    sum.shape += outcome.seconds.shape;
+    sum.delaunay += outcome.seconds.delaunay;
+    sum.core += outcome.seconds.core;
+    sum.prune += outcome.seconds.prune;
+  }
+  const double all = sum.shape + sum.delaunay + sum.core + sum.prune;
+  const double scale = outcomes.size() == 1 || all == 0 ? 1 : wall / all;
+  seconds.shape += scale * sum.shape;
+  seconds.delaunay += scale * sum.delaunay;
+  seconds.core += scale * sum.core;
+  seconds.prune += scale * sum.prune;
+}
+
+} // namespace
+
+void
+ProcessLabels(std::vector<EditedLabel> &                labels,
+              const CoreOptions &                       options,
+              const ImageGeometry &                     geometry,
+              const SpacingWeights &                    weights,
+              const ProgressCallback &                  progress,
+              const std::function<void(LabelOutcome)> & take,
+              StageSeconds &                            seconds)
+{
+  std::vector<std::uint64_t> vertices;
+  std::vector<std::size_t>   ends;
+  if (labels.size() > 1 && MayRunSideBySide(options))
+  {
+    Stopwatch watch;
+    vertices = CountVertices(labels);
+    ends = GroupLabels(vertices);
+    seconds.shape += watch.Lap();
+  }
+  else
+  {
+    ends.resize(labels.size());
+    std::iota(ends.begin(), ends.end(), std::size_t{ 1 });
+  }
+
+  std::uint64_t allVoxels = 0;
+  for (const EditedLabel & one : labels)
+  {
+    allVoxels += one.label.voxels;
+  }
+  const LabelWork work = [&](std::size_t label, const ProgressCallback & part) {
+    EditedLabel & one = labels[label];
+    LabelOutcome  outcome =
+      ProcessLabel(std::move(one.label), geometry, weights, options.lambdas, options.engine, part, options.crossCheck);
+    outcome.record.component = one.component;
+    outcome.record.edits = one.edits;
+    for (ModelPart & model : outcome.parts)
+    {
+      model.component = one.component;
+    }
+    return outcome;
+  };
+
+  std::size_t   first = 0;
+  std::uint64_t doneVoxels = 0;
+  for (const std::size_t end : ends)
+  {
+    const auto        share = [&] { return static_cast<double>(doneVoxels) / static_cast<double>(allVoxels); };
+    const double      from = share();
+    const std::string name = labels[first].label.name;
+    for (std::size_t label = first; label < end; ++label)
+    {
+      doneVoxels += labels[label].label.voxels;
+    }
+    const std::string         of = "/" + std::to_string(labels.size()) + ")";
+    std::vector<LabelOutcome> outcomes;
+    Stopwatch                 watch;
+    if (end - first == 1)
+    {
+      const std::string which = labels.size() == 1 ? "" : " (" + std::to_string(end) + of;
+      outcomes.push_back(work(first, NamedPartOfProgress(progress, name + which, from, share())));
+    }
+    else
+    {
+      const std::string which = "labels (" + std::to_string(first + 1) + "-" + std::to_string(end) + of;
+      outcomes = ProcessSideBySide(first, end, vertices, work, NamedPartOfProgress(progress, which, from, share()));
+    }
+    AddSeconds(seconds, outcomes, watch.Lap());
+    for (LabelOutcome & outcome : outcomes)
+    {
+      take(std::move(outcome));
+    }
+    first = end;
+  }
+}
+
+} // namespace voxelcore

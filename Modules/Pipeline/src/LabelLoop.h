@@ -1,0 +1,24 @@
+#pragma once
+// All labels of a job, one after the other or side by side.
+
+#include "voxelcore/CoreJob.h"
+
+#include <functional>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Computes the core of each label and hands it to `take`, in the labels' order, from the calling thread. The labels'
+ *  shapes are used up. Adds to `seconds`, for shape, delaunay, core and prune; the clock stands still while `take` works.
+ *  \throws what ProcessLabel and `take` throw; of several labels that fail, the first decides. */
+void
+ProcessLabels(std::vector<EditedLabel> &                labels,
+              const CoreOptions &                       options,
+              const ImageGeometry &                     geometry,
+              const SpacingWeights &                    weights,
+              const ProgressCallback &                  progress,
+              const std::function<void(LabelOutcome)> & take,
+              StageSeconds &                            seconds);
+
+} // namespace voxelcore
