@@ -37,24 +37,6 @@ BumpsOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 }, Engine
   return result;
 }
 
-std::vector<testing::RandomVolume>
-Volumes(std::uint64_t firstSeed, int count)
-{
-  std::cout << "seeds from " << firstSeed << '\n';
-  std::vector<testing::RandomVolume> volumes;
-  for (int i = 0; i < count; ++i)
-  {
-    volumes.push_back(testing::MakeRandomVolume(firstSeed + static_cast<std::uint64_t>(i), 3, 10));
-    if (i % 2 == 0) // dense ones have thick parts
-    {
-      testing::Random random(volumes.back().seed);
-      volumes.back().density = 0.97;
-      volumes.back().shape = testing::RandomShape(random, volumes.back().shape.Box().size, 0.97);
-    }
-  }
-  return volumes;
-}
-
 // All finite values, and heights between and beyond them.
 std::vector<double>
 Heights(const BumpValues & bumps, testing::Random & random)
@@ -89,7 +71,7 @@ FreePairs(const CellComplex & cells)
 
 TEST(BumpPruning, KeepsTheTopologyAtEveryHeight)
 {
-  for (const auto & volume : Volumes(1000, 100))
+  for (const auto & volume : testing::RandomVolumes(1000, 100))
   {
     SCOPED_TRACE(volume.Describe());
     testing::Random       random(volume.seed);
@@ -106,7 +88,7 @@ TEST(BumpPruning, KeepsTheTopologyAtEveryHeight)
 // So what has a value above any height is a complex again, and a slider needs nothing but the values.
 TEST(BumpPruning, ValuesDoNotFallFromFacesToEdgesToVertices)
 {
-  for (const auto & volume : Volumes(1200, 60))
+  for (const auto & volume : testing::RandomVolumes(1200, 60))
   {
     SCOPED_TRACE(volume.Describe());
     const auto [core, bumps] = BumpsOf(volume.shape, volume.spacing);
@@ -131,7 +113,7 @@ TEST(BumpPruning, ValuesDoNotFallFromFacesToEdgesToVertices)
 
 TEST(BumpPruning, LeavesOnlyWhatTheTopologyNeedsInTheEnd)
 {
-  for (const auto & volume : Volumes(1300, 60))
+  for (const auto & volume : testing::RandomVolumes(1300, 60))
   {
     SCOPED_TRACE(volume.Describe());
     const auto [core, bumps] = BumpsOf(volume.shape, volume.spacing);
@@ -151,7 +133,7 @@ TEST(BumpPruning, IsTheSameForBothEngines)
   {
     GTEST_SKIP() << "built without TetGen";
   }
-  for (const auto & volume : Volumes(1400, 30))
+  for (const auto & volume : testing::RandomVolumes(1400, 30))
   {
     SCOPED_TRACE(volume.Describe());
     const Bumped a = BumpsOf(volume.shape, volume.spacing, Engine::Lattice);

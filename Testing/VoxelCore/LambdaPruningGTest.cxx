@@ -104,24 +104,6 @@ ExpectLambdaSubset(const std::map<Places, double> & whole, const std::map<Places
   }
 }
 
-std::vector<testing::RandomVolume>
-Volumes(std::uint64_t firstSeed, int count)
-{
-  std::cout << "seeds from " << firstSeed << '\n';
-  std::vector<testing::RandomVolume> volumes;
-  for (int i = 0; i < count; ++i)
-  {
-    volumes.push_back(testing::MakeRandomVolume(firstSeed + static_cast<std::uint64_t>(i), 3, 10));
-    if (i % 2 == 0) // dense ones have thick parts and with them large measures
-    {
-      testing::Random random(volumes.back().seed);
-      volumes.back().density = 0.97;
-      volumes.back().shape = testing::RandomShape(random, volumes.back().shape.Box().size, 0.97);
-    }
-  }
-  return volumes;
-}
-
 // Thresholds that fall on measures as well as between them.
 std::vector<double>
 Thresholds(const MedialComplex & core, testing::Random & random)
@@ -139,7 +121,7 @@ Thresholds(const MedialComplex & core, testing::Random & random)
 
 TEST(LambdaPruning, ToZeroLeavesTheWholeCore)
 {
-  for (const auto & volume : Volumes(300, 20))
+  for (const auto & volume : testing::RandomVolumes(300, 20))
   {
     SCOPED_TRACE(volume.Describe());
     const MedialComplex core = CoreOf(volume.shape, volume.spacing);
@@ -156,7 +138,7 @@ TEST(LambdaPruning, OfNothingIsNothing)
 
 TEST(LambdaPruning, KeepsWhatMeasuresLambdaAndLeavesNoSimplePairBelow)
 {
-  for (const auto & volume : Volumes(400, 120))
+  for (const auto & volume : testing::RandomVolumes(400, 120))
   {
     SCOPED_TRACE(volume.Describe());
     testing::Random     random(volume.seed);
@@ -179,7 +161,7 @@ TEST(LambdaPruning, KeepsWhatMeasuresLambdaAndLeavesNoSimplePairBelow)
 
 TEST(LambdaPruning, OnToAGreaterLambdaEqualsPruningToTheGreater)
 {
-  for (const auto & volume : Volumes(600, 120))
+  for (const auto & volume : testing::RandomVolumes(600, 120))
   {
     SCOPED_TRACE(volume.Describe());
     testing::Random     random(volume.seed);
@@ -199,7 +181,7 @@ TEST(LambdaPruning, OnToAGreaterLambdaEqualsPruningToTheGreater)
 
 TEST(LambdaPruning, ToInfinityLeavesNoFreeElement)
 {
-  for (const auto & volume : Volumes(800, 30))
+  for (const auto & volume : testing::RandomVolumes(800, 30))
   {
     SCOPED_TRACE(volume.Describe());
     const MedialComplex core = CoreOf(volume.shape, volume.spacing);

@@ -6,8 +6,10 @@
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/VoxelShape.h"
 
+#include <iostream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace voxelcore::testing
 {
@@ -115,6 +117,25 @@ MakeRandomVolume(std::uint64_t seed, std::int32_t least, std::int32_t greatest)
     random.Chance(0.5) ? spacings[0] : spacings[static_cast<std::size_t>(random.Between(1, spacings.size() - 1))];
   volume.shape = RandomShape(random, size, volume.density);
   return volume;
+}
+
+/** Volumes of 3 to 10 voxels a side by consecutive seeds, printed; every other one is dense. */
+inline std::vector<RandomVolume>
+RandomVolumes(std::uint64_t firstSeed, int count)
+{
+  std::cout << "seeds from " << firstSeed << '\n';
+  std::vector<RandomVolume> volumes;
+  for (int i = 0; i < count; ++i)
+  {
+    volumes.push_back(MakeRandomVolume(firstSeed + static_cast<std::uint64_t>(i), 3, 10));
+    if (i % 2 == 0) // dense ones have thick parts and with them large measures
+    {
+      Random random(volumes.back().seed);
+      volumes.back().density = 0.97;
+      volumes.back().shape = RandomShape(random, volumes.back().shape.Box().size, 0.97);
+    }
+  }
+  return volumes;
 }
 
 } // namespace voxelcore::testing

@@ -1,6 +1,7 @@
 #include "ModelCells.h"
 #include "ModelFormats.h"
 #include "OutputFile.h"
+#include "TextFile.h"
 
 #include "voxelcore/Error.h"
 
@@ -15,49 +16,6 @@ namespace voxelcore
 {
 namespace
 {
-
-/** Gathers text and passes it on in large pieces. Numbers in the shortest form that reads back to the same bits. */
-class TextFile
-{
-public:
-  explicit TextFile(const std::filesystem::path & path)
-    : m_File(path)
-  {}
-  TextFile &
-  operator<<(std::string_view text)
-  {
-    m_Text += text;
-    if (m_Text.size() > (std::size_t{ 1 } << 20))
-    {
-      Flush();
-    }
-    return *this;
-  }
-  template <typename Number>
-  requires std::is_arithmetic_v<Number> TextFile &
-  operator<<(Number number)
-  {
-    char       digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof(digits), number).ptr;
-    return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
-  }
-  void
-  Finish()
-  {
-    Flush();
-    m_File.Finish();
-  }
-
-private:
-  void
-  Flush()
-  {
-    m_File.Write(m_Text);
-    m_Text.clear();
-  }
-  OutputFile  m_File;
-  std::string m_Text;
-};
 
 /** Appends a number's bytes, least significant first on every machine. */
 template <typename Number>

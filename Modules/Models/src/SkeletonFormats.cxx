@@ -1,4 +1,4 @@
-#include "TableFile.h"
+#include "TextFile.h"
 
 #include "voxelcore/SkeletonModel.h"
 
@@ -36,7 +36,7 @@ void
 WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const MeasureOptions & options)
 {
   constexpr double kMicrometres = 1000;
-  TableFile        file(path, 9);
+  TextFile         file(path, 9);
   std::uint64_t    next = 1;
   file << "# VoxelCore curve skeleton\n# micrometres, LPS axes; radii of the largest balls\n";
   for (const SkeletonPart & part : model.parts)
@@ -103,7 +103,7 @@ WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const 
 void
 WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model)
 {
-  TableFile file(path, 9);
+  TextFile file(path, 9);
   file << "{\n  \"@schema\": "
           "\"https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"
           "markups-schema-v1.0.3.json#\",\n  \"markups\": [";
@@ -142,7 +142,7 @@ WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model)
 void
 WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
 {
-  TableFile file(path, 9);
+  TextFile file(path, 9);
   file << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n";
   const auto key = [&](const char * id, const char * of, const char * type) {
     file << "  <key id=\"" << id << "\" for=\"" << of << "\" attr.name=\"" << id << "\" attr.type=\"" << type

@@ -1,4 +1,4 @@
-#include "TableFile.h"
+#include "TextFile.h"
 
 #include "voxelcore/SkeletonModel.h"
 
@@ -9,6 +9,8 @@ namespace voxelcore
 
 namespace
 {
+
+constexpr int tableDigits = 7; // significant, of numbers that are not whole
 
 struct Column
 {
@@ -84,7 +86,7 @@ constexpr auto kSummaryColumns = std::to_array<Column>({
 
 template <typename Columns>
 void
-WriteHead(TableFile & file, const Columns & columns)
+WriteHead(TextFile & file, const Columns & columns)
 {
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
@@ -128,7 +130,7 @@ ColumnsJson(const Columns & columns)
 void
 WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
 {
-  TableFile file(path);
+  TextFile file(path, tableDigits);
   WriteHead(file, kBranchColumns);
   for (const SkeletonPart & part : model.parts)
   {
@@ -162,7 +164,7 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
 void
 WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model)
 {
-  TableFile file(path);
+  TextFile file(path, tableDigits);
   WriteHead(file, kSummaryColumns);
   for (const SkeletonPart & part : model.parts)
   {

@@ -1,12 +1,12 @@
 #include "voxelcore/BumpPruning.h"
 
 #include "BumpCollapse.h"
+#include "ExtractPart.h"
+#include "LengthText.h"
 
 #include "voxelcore/Error.h"
-#include "voxelcore/SimplePairCollapse.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace voxelcore
@@ -35,35 +35,11 @@ Above(const std::vector<double> & values, double height)
 BumpHeight
 ParseBumpHeight(std::string_view text)
 {
-  // Blanks around the number and before the unit are the user's; one within a number could mean anything.
-  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-  BumpHeight height;
-  height.text.clear();
-  for (std::size_t i = 0; i < text.size(); ++i)
-  {
-    if (!blank(text[i]))
-    {
-      height.text.push_back(text[i]);
-    }
-    else if (!height.text.empty() && i + 1 < text.size() &&
-             std::string_view("0123456789.").find(text[i + 1]) != std::string_view::npos)
-    {
-      RefuseHeight(text, "has a blank before a digit");
-    }
-  }
-  const char * first = height.text.data();
-  const char * last = first + height.text.size();
-  const auto   parsed = std::from_chars(first, last, height.value);
-  if (parsed.ec != std::errc{} || !std::isfinite(height.value))
-  {
-    RefuseHeight(text, "is not a number");
-  }
-  if (std::signbit(height.value) && height.value != 0.0)
-  {
-    RefuseHeight(text, "is negative");
-  }
-  height.value = std::abs(height.value);
-  const std::string_view unit(parsed.ptr, static_cast<std::size_t>(last - parsed.ptr));
+  const LengthText length = ReadLength(text, [&](const char * why) { RefuseHeight(text, why); });
+  BumpHeight       height;
+  height.value = std::abs(length.value);
+  height.text = length.text;
+  const std::string & unit = length.unit;
   if (unit.empty() || unit == "mm")
   {
     height.unit = BumpHeight::Unit::Millimetre;
@@ -145,25 +121,7 @@ ComputeBumps(const MedialComplex &             core,
 MedialComplex
 PruneByBumps(const MedialComplex & core, const BumpValues & bumps, double height)
 {
-  const LiveElements live{ Above(bumps.vertices, height), Above(bumps.edges, height), Above(bumps.faces, height) };
-  std::vector<ElementIndex> vertices;
-  std::vector<ElementIndex> edges;
-  std::vector<ElementIndex> faces;
-  MedialComplex             part;
-  part.cells = ExtractLive(core.cells, live, vertices, edges, faces);
-  const auto gather = [](const auto & from, const std::vector<ElementIndex> & ids, auto & to) {
-    to.reserve(ids.size());
-    for (const ElementIndex id : ids)
-    {
-      to.push_back(from[id]);
-    }
-  };
-  gather(core.positions, vertices, part.positions);
-  gather(core.radius, vertices, part.radius);
-  gather(core.vertexLambda, vertices, part.vertexLambda);
-  gather(core.edgeLambda, edges, part.edgeLambda);
-  gather(core.faceLambda, faces, part.faceLambda);
-  return part;
+  return ExtractPart(core, { Above(bumps.vertices, height), Above(bumps.edges, height), Above(bumps.faces, height) });
 }
 
 } // namespace voxelcore

@@ -1,5 +1,7 @@
 #include "voxelcore/LambdaPruning.h"
 
+#include "ExtractPart.h"
+#include "LengthText.h"
 #include "Measures.h"
 
 #include "voxelcore/Error.h"
@@ -7,7 +9,6 @@
 #include "voxelcore/SimplePairCollapse.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -61,62 +62,16 @@ RefuseLambda(std::string_view text, const char * why)
                    "; write a number and mm, vox or %, for example 1.5mm, 2.5vox or 2.5%");
 }
 
-MedialComplex
-Extract(const MedialComplex & core, const LiveElements & live)
-{
-  std::vector<ElementIndex> vertices;
-  std::vector<ElementIndex> edges;
-  std::vector<ElementIndex> faces;
-  MedialComplex             part;
-  part.cells = ExtractLive(core.cells, live, vertices, edges, faces);
-  const auto gather = [](const auto & from, const std::vector<ElementIndex> & ids, auto & to) {
-    to.reserve(ids.size());
-    for (const ElementIndex id : ids)
-    {
-      to.push_back(from[id]);
-    }
-  };
-  gather(core.positions, vertices, part.positions);
-  gather(core.radius, vertices, part.radius);
-  gather(core.vertexLambda, vertices, part.vertexLambda);
-  gather(core.edgeLambda, edges, part.edgeLambda);
-  gather(core.faceLambda, faces, part.faceLambda);
-  return part;
-}
-
 } // namespace
 
 Lambda
 ParseLambda(std::string_view text)
 {
-  // Blanks around the number and before the unit are the user's; one within a number could mean anything.
-  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-  Lambda     lambda;
-  lambda.text.clear();
-  for (std::size_t i = 0; i < text.size(); ++i)
-  {
-    if (!blank(text[i]))
-    {
-      lambda.text.push_back(text[i]);
-    }
-    else if (!lambda.text.empty() && i + 1 < text.size() &&
-             std::string_view("0123456789.").find(text[i + 1]) != std::string_view::npos)
-    {
-      RefuseLambda(text, "has a blank before a digit");
-    }
-  }
-  const char * first = lambda.text.data();
-  const char * last = first + lambda.text.size();
-  const auto   parsed = std::from_chars(first, last, lambda.value);
-  if (parsed.ec != std::errc{} || !std::isfinite(lambda.value))
-  {
-    RefuseLambda(text, "is not a number");
-  }
-  if (std::signbit(lambda.value) && lambda.value != 0.0)
-  {
-    RefuseLambda(text, "is negative");
-  }
-  const std::string_view unit(parsed.ptr, static_cast<std::size_t>(last - parsed.ptr));
+  const LengthText length = ReadLength(text, [&](const char * why) { RefuseLambda(text, why); });
+  Lambda           lambda;
+  lambda.value = length.value;
+  lambda.text = length.text;
+  const std::string & unit = length.unit;
   if (unit.empty() || unit == "mm")
   {
     lambda.unit = Lambda::Unit::Millimetre;
@@ -185,7 +140,7 @@ PruneByLambda(const MedialComplex & core, const std::vector<double> & thresholds
   for (const double threshold : thresholds)
   {
     collapse.CollapseBelow(threshold, progress);
-    pruned.push_back(Extract(core, collapse.Live()));
+    pruned.push_back(ExtractPart(core, collapse.Live()));
   }
   return pruned;
 }

@@ -1,0 +1,29 @@
+#include "ExtractPart.h"
+
+namespace voxelcore
+{
+
+MedialComplex
+ExtractPart(const MedialComplex & core, const LiveElements & live)
+{
+  std::vector<ElementIndex> vertices;
+  std::vector<ElementIndex> edges;
+  std::vector<ElementIndex> faces;
+  MedialComplex             part;
+  part.cells = ExtractLive(core.cells, live, vertices, edges, faces);
+  const auto gather = [](const auto & from, const std::vector<ElementIndex> & ids, auto & to) {
+    to.reserve(ids.size());
+    for (const ElementIndex id : ids)
+    {
+      to.push_back(from[id]);
+    }
+  };
+  gather(core.positions, vertices, part.positions);
+  gather(core.radius, vertices, part.radius);
+  gather(core.vertexLambda, vertices, part.vertexLambda);
+  gather(core.edgeLambda, edges, part.edgeLambda);
+  gather(core.faceLambda, faces, part.faceLambda);
+  return part;
+}
+
+} // namespace voxelcore
