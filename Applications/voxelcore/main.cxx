@@ -77,6 +77,10 @@ RunCore(const Run & run)
   const CoreResult result = RunCoreJob(options, run.context);
   run.Warn(result.warnings);
   run.Print(ReportTable(result.report));
+  if (options.skeleton)
+  {
+    run.Print(SkeletonTable(result.report));
+  }
   run.PrintNotes(result.notes);
   return kDone;
 }
@@ -131,9 +135,18 @@ int
 PrintSkeleton(const Run & run, const SkeletonResult & result)
 {
   run.Warn(result.warnings);
-  run.Print(result.table);
+  run.Print(SkeletonTable(result.report));
   run.PrintNotes(result.notes);
   return kDone;
+}
+
+int
+RunSkeleton(const Run & run)
+{
+  SkeletonOptions options = SkeletonOptionsFrom(run.line.values);
+  options.threads = run.threads;
+  options.command = run.line.whole;
+  return PrintSkeleton(run, RunSkeletonJob(options, run.context));
 }
 
 int
@@ -152,7 +165,7 @@ Dispatch(const Run & run)
     case CommandId::Phantom:
       return RunPhantom(run);
     case CommandId::Skeleton:
-      return PrintSkeleton(run, RunSkeletonJob(SkeletonOptionsFrom(run.line.values), run.context));
+      return RunSkeleton(run);
     case CommandId::Measure:
       return PrintSkeleton(run, RunMeasureJob(MeasureOptionsFrom(run.line.values), run.context));
   }

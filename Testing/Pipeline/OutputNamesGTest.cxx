@@ -69,5 +69,17 @@ TEST(OutputNames, ASlashOrAnExistingFolderMeansAFolder)
   EXPECT_FALSE(IsFolderOutput("new.vtp"));
 }
 
+TEST(OutputNames, SkeletonsAreNamedAfterTheirScanOrTheCoreBeside)
+{
+  EXPECT_EQ(SkeletonFolderPath("d", "s/aal.nii.gz", 4), "d/aal_label-4_skeleton.vtp");
+  EXPECT_EQ(SkeletonFolderPath("d/", "aal.nii.gz", 4, 2), "d/aal_label-4_component-2_skeleton.vtp");
+  EXPECT_EQ(SkeletonFolderPath("d", "s/aal_label-4_component-2_medial_lambda-0.vtp", 4, 2),
+            "d/aal_label-4_component-2_skeleton.vtp");
+  EXPECT_EQ(SkeletonFolderPath("d", "whole.core.vtp", 4), "d/whole.core_label-4_skeleton.vtp");
+  EXPECT_EQ(SkeletonTablesPath("d", "aal_medial.vtp"), "d/aal_skeleton.vtp");
+  EXPECT_EQ(SkeletonBesideCore("d/OUT.ply"), "d/OUT_skeleton.vtp");
+  EXPECT_EQ(SkeletonBesideCore("d/"), "d/");
+}
+
 } // namespace
 } // namespace voxelcore

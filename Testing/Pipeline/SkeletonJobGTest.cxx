@@ -5,9 +5,10 @@
 #include "voxelcore/SkeletonJob.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <fstream>
-#include <iterator>
+#include <omp.h>
 #include <sstream>
 
 namespace voxelcore::testing
@@ -16,11 +17,21 @@ namespace voxelcore::testing
 namespace
 {
 
+using Json = nlohmann::ordered_json;
+
 std::string
 Bytes(const std::filesystem::path & path)
 {
-  std::ifstream file(path, std::ios::binary);
-  return { std::istreambuf_iterator<char>(file), {} };
+  const std::string bytes = ReadAll(path);
+  EXPECT_FALSE(bytes.empty()) << path;
+  return bytes;
+}
+
+/** The numbers of each label in a report. */
+Json
+Labels(const std::filesystem::path & report)
+{
+  return Json::parse(ReadAll(report)).at("labels");
 }
 
 class SkeletonJob : public ::testing::Test
@@ -49,20 +60,121 @@ protected:
   TemporaryFolder m_Folder;
 };
 
-TEST_F(SkeletonJob, ScanAndItsWholeCoreGiveTheSameLines)
+TEST_F(SkeletonJob, ScanItsWholeCoreAndTheCoreCommandGiveTheSameBytes)
 {
   MakePhantom("root", "root.nrrd");
-  RunCoreJob(CoreOptionsFrom(
-    { { "scan", At("root.nrrd").string() }, { "lambda", "0" }, { "output", At("core.vtp").string() } }));
-  Skeleton("root.nrrd", "a.vtp");
-  Skeleton("core.vtp", "b.vtp");
-  const SkeletonModel a = ReadSkeletonVtp(At("a.vtp"));
-  const SkeletonModel b = ReadSkeletonVtp(At("b.vtp"));
-  ASSERT_EQ(a.parts.size(), 1U);
-  EXPECT_GT(a.parts[0].graph.BranchCount(), 3U);
-  EXPECT_EQ(a.parts[0].graph.positions, b.parts[0].graph.positions);
-  EXPECT_EQ(a.parts[0].graph.branchPoints, b.parts[0].graph.branchPoints);
-  EXPECT_EQ(a.parts[0].graph.radius, b.parts[0].graph.radius);
+  const ParameterValues more{ { "also", "csv,swc,mrk.json,graphml" },
+                              { "root", "top" },
+                              { "prune-branches", "4vox" },
+                              { "stand-out", "2%" } };
+  Skeleton("root.nrrd", "a.vtp", more);
+  ParameterValues core = more;
+  core.insert({ { "scan", At("root.nrrd").string() },
+                { "lambda", "0,1.5vox" },
+                { "keep-edges", "true" },
+                { "with-skeleton", "true" },
+                { "report", At("b.json").string() },
+                { "output", At("b.vtp").string() } });
+  const CoreResult both = RunCoreJob(CoreOptionsFrom(core));
+  Skeleton("b_lambda-0.vtp", "c.vtp", more);
+  EXPECT_GT(ReadSkeletonVtp(At("a.vtp")).parts.at(0).graph.BranchCount(), 3U);
+  for (const char * ending : { ".vtp", "_branches.csv", "_summary.csv", ".swc", ".mrk.json", ".graphml" })
+  {
+    EXPECT_EQ(Bytes(At(std::string("a") + ending)), Bytes(At(std::string("b_skeleton") + ending))) << ending;
+    EXPECT_EQ(Bytes(At(std::string("a") + ending)), Bytes(At(std::string("c") + ending))) << ending;
+  }
+  EXPECT_TRUE(std::filesystem::exists(At("b_lambda-1.5vox.vtp")));
+  const Json certificate = Labels(At("b.json")).at(0).at("certificate");
+  EXPECT_EQ(certificate.dump(), R"({"topology":true,"enclosed":true,"skeleton":true,"passed":true})");
+  EXPECT_EQ(both.report.labels.at(0).skeleton->output, At("b_skeleton.vtp").string());
+  // A core file says nothing of skeletons that were made beside it.
+  EXPECT_EQ(ReadModel(At("b_lambda-0.vtp")).provenance.find("skeleton"), std::string::npos);
+}
+
+TEST_F(SkeletonJob, FolderHoldsAFilePerLabelAndOneTable)
+{
+  RunPhantomJob(PhantomOptionsFrom(
+    { { "kind", "noise" }, { "size", "10" }, { "density", "0.1" }, { "output", At("noise.nrrd").string() } }));
+  Skeleton("noise.nrrd", "all.vtp", { { "split-components", "true" }, { "also", "csv" } });
+  const auto names = [&](int threads) {
+    const int             before = omp_get_max_threads();
+    const std::string     folder = "folder" + std::to_string(threads);
+    std::set<std::string> found;
+    omp_set_num_threads(threads);
+    const SkeletonResult result =
+      Skeleton("noise.nrrd",
+               folder + "/",
+               { { "split-components", "true" }, { "also", "csv,swc" }, { "report", At(folder + ".json").string() } });
+    omp_set_num_threads(before);
+    EXPECT_GT(result.report.labels.size(), 20U);
+    EXPECT_EQ(Labels(At(folder + ".json")).size(), result.report.labels.size());
+    EXPECT_EQ(Bytes(At(folder) / "noise_skeleton_branches.csv"), Bytes(At("all_branches.csv")));
+    EXPECT_EQ(Bytes(At(folder) / "noise_skeleton_summary.csv"), Bytes(At("all_summary.csv")));
+    for (const LabelRecord & label : result.report.labels)
+    {
+      const std::string stem = "noise_label-1_component-" + std::to_string(label.component) + "_skeleton";
+      EXPECT_EQ(label.skeleton->output, At(folder + "/" + stem + ".vtp").string());
+      const SkeletonModel model = ReadSkeletonVtp(label.skeleton->output);
+      EXPECT_EQ(model.parts.at(0).component, label.component);
+      EXPECT_EQ(ParseProvenance(model.provenance, "it").labels.size(), 1U);
+      found.insert(stem + ".vtp" + Bytes(At(folder) / (stem + ".vtp")));
+      found.insert(Bytes(At(folder) / (stem + ".swc")));
+    }
+    return found;
+  };
+  EXPECT_EQ(names(1), names(3));
+}
+
+TEST_F(SkeletonJob, WrittenFilesSayHowTheyWereMade)
+{
+  MakePhantom("torus", "torus.nrrd");
+  Skeleton("torus.nrrd",
+           "a.vtp",
+           { { "root", "1.5,-2,3" },
+             { "cut-loops", "true" },
+             { "smooth", "0" },
+             { "crop", ":,:,0:48" },
+             { "prune-branches", "0.5r" } });
+  const Json made = Json::parse(ReadSkeletonVtp(At("a.vtp")).provenance);
+  EXPECT_EQ(made.at("skeleton").dump(),
+            R"({"lambda":"0","stand_out":"3vox","plates":null,"smooth":"0","prune_branches":null,)"
+            R"("prune_branches_radii":0.5,"cut_loops":true,"split_at_junctions":false,"root":"1.5,-2,3"})");
+  EXPECT_EQ(made.at("parameters").at("crop").dump(), "[[0,48],[0,48],[0,48]]");
+  EXPECT_EQ(made.at("labels").at(0).at("skeleton").at("cuts").size(), 1U);
+  EXPECT_EQ(made.at("labels").at(0).at("skeleton").at("betti").dump(), "[1,1,0]");
+  EXPECT_EQ(made.at("labels").at(0).at("skeleton").at("cycles"), 0);
+  EXPECT_FALSE(made.contains("command"));
+  // Measured again it keeps that and adds what is new.
+  RunMeasureJob(MeasureOptionsFrom(
+    { { "skeleton", At("a.vtp").string() }, { "output", At("b.vtp").string() }, { "prune-branches", "2%" } }));
+  const Json again = Json::parse(ReadSkeletonVtp(At("b.vtp")).provenance).at("skeleton");
+  EXPECT_EQ(again.at("cut_loops"), true);
+  EXPECT_EQ(again.at("prune_branches"), "2%");
+  EXPECT_EQ(again.at("root"), "thickest");
+}
+
+TEST_F(SkeletonJob, OptionsThatWouldDoNothingAreRefused)
+{
+  MakePhantom("ball", "ball.nrrd");
+  const ParameterValues core{ { "scan", At("ball.nrrd").string() }, { "output", At("core.vtp").string() } };
+  for (const auto & [name, value] : ParameterValues{ { "root", "top" }, { "also", "csv" }, { "cut-loops", "true" } })
+  {
+    ParameterValues values = core;
+    values[name] = value;
+    EXPECT_THROW(CoreOptionsFrom(values), UsageError) << name;
+    values["with-skeleton"] = "true";
+    EXPECT_NO_THROW(CoreOptionsFrom(values)) << name;
+  }
+  RunCoreJob(CoreOptionsFrom(core));
+  for (const auto & [name, value] : ParameterValues{ { "labels", "1" },
+                                                     { "lambda", "1mm" },
+                                                     { "engine", "lattice" },
+                                                     { "crop", ":,:,0:9" },
+                                                     { "largest", "1" } })
+  {
+    EXPECT_THROW(Skeleton("core.vtp", "a.vtp", { { name, value } }), UsageError) << name;
+  }
+  EXPECT_NO_THROW(Skeleton("core.vtp", "a.vtp", { { "threads", "1" } }));
 }
 
 TEST_F(SkeletonJob, MeasuringAgainGivesTheSameTables)

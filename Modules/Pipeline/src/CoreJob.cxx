@@ -3,6 +3,8 @@
 #include "CrossCheck.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
+#include "MakeSkeleton.h"
+#include "SkeletonFiles.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/Error.h"
@@ -11,6 +13,7 @@
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/VoxelCore.h"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <numeric>
@@ -28,6 +31,7 @@ namespace
 constexpr double kShapeEnds = 0.03;
 constexpr double kDelaunayEnds = 0.80;
 constexpr double kCoreEnds = 0.92;
+constexpr double kCoreBesideSkeleton = 0.5;
 
 std::string
 EngineName(Engine engine)
@@ -161,11 +165,19 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
   {
     throw UsageError("no --lambda given");
   }
+  if (options.report)
+  {
+    transaction.CheckTarget(*options.report);
+  }
   if (options.crossCheck && !HasEngine(Engine::TetGen))
   {
     throw UsageError("--cross-check needs TetGen, which this build lacks; configure it with -DVOXELCORE_TETGEN=ON");
   }
   transaction.Protect(options.scan);
+  if (options.output.empty())
+  {
+    return;
+  }
   if (toFolder)
   {
     transaction.MakeDirectory(options.output);
@@ -181,10 +193,6 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
     {
       transaction.CheckTarget(FileOutputPath(options.output, options.lambdas, i));
     }
-  }
-  if (options.report)
-  {
-    transaction.CheckTarget(*options.report);
   }
 }
 
@@ -202,14 +210,19 @@ public:
 
   /** Takes a label's cores; in a folder they go to disk at once. */
   void
-  Add(LabelOutcome outcome)
+  Add(LabelRecord record, std::vector<ModelPart> parts)
   {
+    if (m_Options.output.empty())
+    {
+      m_Result.report.labels.push_back(std::move(record));
+      return;
+    }
     for (std::size_t i = 0; i < m_Options.lambdas.size(); ++i)
     {
-      outcome.record.pruned[i].output = Target(outcome.record, i).string();
-      m_Models[i].parts.push_back(std::move(outcome.parts[i]));
+      record.pruned[i].output = Target(record, i).string();
+      m_Models[i].parts.push_back(std::move(parts[i]));
     }
-    m_Result.report.labels.push_back(std::move(outcome.record));
+    m_Result.report.labels.push_back(std::move(record));
     if (m_ToFolder)
     {
       Write({ m_Result.report.labels.size() - 1 });
@@ -220,7 +233,7 @@ public:
   void
   Finish()
   {
-    if (!m_ToFolder)
+    if (!m_ToFolder && !m_Options.output.empty())
     {
       std::vector<std::size_t> all(m_Result.report.labels.size());
       std::iota(all.begin(), all.end(), std::size_t{ 0 });
@@ -286,7 +299,8 @@ ProcessLabel(LabelShape                  label,
              const std::vector<Lambda> & lambdas,
              Engine                      engine,
              const ProgressCallback &    progress,
-             bool                        crossCheck)
+             bool                        crossCheck,
+             const SkeletonStage *       skeleton)
 {
   LabelOutcome      outcome;
   LabelRecord &     record = outcome.record;
@@ -299,8 +313,23 @@ ProcessLabel(LabelShape                  label,
     static_cast<double>(label.voxels) * (geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2]);
   record.box = label.shape.Box();
 
+  // Where there is a skeleton it takes its share of the time after the core.
+  const double           coreEnds = skeleton != nullptr ? kCoreBesideSkeleton : 1;
+  const ProgressCallback coreProgress = PartOfProgress(progress, 0, coreEnds);
+  const auto             makeSkeleton = [&](const ModelPart & surface) {
+    Stopwatch skeletonWatch;
+    outcome.skeleton =
+      MakeSkeleton(surface, *skeleton, weights, geometry.spacing, record, PartOfProgress(progress, coreEnds, 1));
+    outcome.seconds.skeleton += skeletonWatch.Lap();
+  };
+
   ModelPart part =
-    ComputeWholeCore(std::move(label.shape), geometry, weights, engine, crossCheck, labelText, outcome, progress);
+    ComputeWholeCore(std::move(label.shape), geometry, weights, engine, crossCheck, labelText, outcome, coreProgress);
+  const bool ofWhole = skeleton != nullptr && skeleton->lambda.value == 0;
+  if (ofWhole)
+  {
+    makeSkeleton(part);
+  }
 
   Stopwatch           pruneWatch;
   std::vector<double> thresholds;
@@ -315,13 +344,20 @@ ProcessLabel(LabelShape                  label,
                                 thresholds,
                                 record.shape,
                                 labelText,
-                                PartOfProgress(progress, "prune", kCoreEnds, 1));
+                                PartOfProgress(coreProgress, "prune", kCoreEnds, 1));
   for (PrunedCore & one : pruned)
   {
     record.pruned.push_back(std::move(one.record));
     outcome.parts.push_back(std::move(one.part));
   }
   outcome.seconds.prune += pruneWatch.Lap();
+  if (skeleton != nullptr && !ofWhole)
+  {
+    const auto same = std::find_if(lambdas.begin(), lambdas.end(), [&](const Lambda & lambda) {
+      return lambda.text == skeleton->lambda.text;
+    });
+    makeSkeleton(outcome.parts.at(static_cast<std::size_t>(same - lambdas.begin())));
+  }
   record.seconds = watch.Lap();
   return outcome;
 }
@@ -339,6 +375,11 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   OutputTransaction transaction(options.force, context.temporaries);
   const bool        toFolder = IsFolderOutput(options.output);
   CheckTargets(options, toFolder, transaction);
+  std::optional<SkeletonFiles> skeletons;
+  if (options.skeleton)
+  {
+    skeletons.emplace(options.skeletonOutput, options.scan, options.skeleton->branches, transaction);
+  }
 
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
@@ -358,6 +399,8 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   result.notes = edited.notes;
   report.seconds.read = watch.Lap();
 
+  report.skeleton = options.skeleton;
+
   ResultFiles files(options, toFolder, transaction, result);
   ProcessLabels(
     edited.labels,
@@ -370,11 +413,22 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
       {
         report.input.sha256 = digest.get();
       }
-      files.Add(std::move(outcome));
+      const ModelPart surface = skeletons && skeletons->NeedsSurface() ? outcome.parts.front() : ModelPart();
+      files.Add(std::move(outcome.record), std::move(outcome.parts));
+      if (skeletons)
+      {
+        skeletons->Add(report, report.labels.size() - 1, std::move(*outcome.skeleton), surface, result.notes);
+      }
     },
     report.seconds);
   ReportProgress(context.progress, "writing", kLabelsEnd);
   files.Finish();
+  if (skeletons)
+  {
+    Stopwatch writing;
+    skeletons->Finish(report, result.notes);
+    report.seconds.write += writing.Lap();
+  }
   report.seconds.total = total.Lap();
   report.peakMemoryMb = PeakMemoryMb();
   if (options.report)

@@ -1,6 +1,7 @@
 #include "voxelcore/CoreReport.h"
 
 #include "ParametersJson.h"
+#include "SkeletonJson.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>
@@ -95,9 +96,13 @@ LabelJson(const LabelRecord & label, bool inFile)
     }
     json["pruned"].push_back(std::move(one));
   }
-  json["certificate"] = { { "topology", label.topologyEqual },
-                          { "enclosed", label.enclosed },
-                          { "passed", label.Passed() } };
+  json["certificate"] = { { "topology", label.topologyEqual }, { "enclosed", label.enclosed } };
+  if (label.skeleton)
+  {
+    json["skeleton"] = SkeletonRecordJson(*label.skeleton, inFile);
+    json["certificate"]["skeleton"] = label.skeleton->topology == label.shape;
+  }
+  json["certificate"]["passed"] = label.Passed();
   return json;
 }
 
@@ -112,12 +117,28 @@ WholeJson(const CoreReport & report, bool inFile)
   }
   json["input"] = InputJson(report.input, inFile);
   json["parameters"] = ParametersJson(report.parameters, inFile);
+  if (report.skeleton)
+  {
+    json["skeleton"] = SkeletonStageJson(*report.skeleton);
+  }
   json["labels"] = Json::array();
   for (const LabelRecord & label : report.labels)
   {
     json["labels"].push_back(LabelJson(label, inFile));
   }
   return json;
+}
+
+/** Adds a label, and its value to the parameters once. */
+void
+AddLabel(CoreReport & report, LabelRecord label)
+{
+  std::vector<std::int64_t> & values = report.parameters.labels;
+  if (label.component <= 1 || values.empty() || values.back() != label.label)
+  {
+    values.push_back(label.label);
+  }
+  report.labels.push_back(std::move(label));
 }
 
 /** Names out of scans may hold bytes that are no UTF-8. */
@@ -226,6 +247,10 @@ ReadLabel(const Json & json)
     label.pruned.push_back(
       { one.at("lambda").get<std::string>(), one.at("lambda_mm").get<double>(), ReadComplex(one), {} });
   }
+  if (json.contains("skeleton"))
+  {
+    label.skeleton = ReadSkeletonRecord(json.at("skeleton"));
+  }
   json.at("certificate").at("topology").get_to(label.topologyEqual);
   json.at("certificate").at("enclosed").get_to(label.enclosed);
   return label;
@@ -244,10 +269,17 @@ ReportJson(const CoreReport & report)
 {
   Json                 json = WholeJson(report, false);
   const StageSeconds & seconds = report.seconds;
-  json["seconds"] = { { "read", Milliseconds(seconds.read) },         { "shape", Milliseconds(seconds.shape) },
-                      { "delaunay", Milliseconds(seconds.delaunay) }, { "core", Milliseconds(seconds.core) },
-                      { "prune", Milliseconds(seconds.prune) },       { "write", Milliseconds(seconds.write) },
-                      { "total", Milliseconds(seconds.total) } };
+  json["seconds"] = { { "read", Milliseconds(seconds.read) },
+                      { "shape", Milliseconds(seconds.shape) },
+                      { "delaunay", Milliseconds(seconds.delaunay) },
+                      { "core", Milliseconds(seconds.core) },
+                      { "prune", Milliseconds(seconds.prune) } };
+  if (report.skeleton)
+  {
+    json["seconds"]["skeleton"] = Milliseconds(seconds.skeleton);
+  }
+  json["seconds"]["write"] = Milliseconds(seconds.write);
+  json["seconds"]["total"] = Milliseconds(seconds.total);
   json["peak_memory_mb"] = std::round(report.peakMemoryMb * 10) / 10;
   std::string text;
   Indent(json, "", text);
@@ -266,11 +298,32 @@ ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & label
   {
     LabelRecord label = report.labels.at(index);
     label.pruned = { report.labels[index].pruned.at(lambda) };
-    if (label.component <= 1 || part.parameters.labels.empty() || part.parameters.labels.back() != label.label)
+    label.skeleton.reset();
+    AddLabel(part, std::move(label));
+  }
+  return Dump(WholeJson(part, true));
+}
+
+std::string
+SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels)
+{
+  CoreReport part;
+  part.input = report.input;
+  part.parameters = report.parameters;
+  part.parameters.labels.clear();
+  part.parameters.lambda = { report.skeleton.value().lambda.text };
+  part.parameters.model.keepEdges = false; // changes nothing here
+  part.skeleton = report.skeleton;
+  for (const std::size_t index : labels)
+  {
+    LabelRecord  label = report.labels.at(index);
+    PrunedRecord source{ "0", 0, label.core, {} };
+    for (const PrunedRecord & pruned : report.labels[index].pruned)
     {
-      part.parameters.labels.push_back(label.label);
+      source = pruned.lambda == report.skeleton->lambda.text ? pruned : source;
     }
-    part.labels.push_back(std::move(label));
+    label.pruned = { source };
+    AddLabel(part, std::move(label));
   }
   return Dump(WholeJson(part, true));
 }
@@ -284,6 +337,10 @@ ParseProvenance(const std::string & text, const std::string & where)
     CoreReport report;
     report.input = ReadInput(json.at("input"));
     report.parameters = ReadParameters(json.at("parameters"));
+    if (json.contains("skeleton"))
+    {
+      report.skeleton = ReadSkeletonStage(json.at("skeleton"));
+    }
     for (const Json & label : json.at("labels"))
     {
       report.labels.push_back(ReadLabel(label));

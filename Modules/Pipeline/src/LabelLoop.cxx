@@ -45,13 +45,15 @@ AddSeconds(StageSeconds & seconds, const std::vector<LabelOutcome> & outcomes, d
     sum.delaunay += outcome.seconds.delaunay;
     sum.core += outcome.seconds.core;
     sum.prune += outcome.seconds.prune;
+    sum.skeleton += outcome.seconds.skeleton;
   }
-  const double all = sum.shape + sum.delaunay + sum.core + sum.prune;
+  const double all = sum.shape + sum.delaunay + sum.core + sum.prune + sum.skeleton;
   const double scale = outcomes.size() == 1 || all == 0 ? 1 : wall / all;
   seconds.shape += scale * sum.shape;
   seconds.delaunay += scale * sum.delaunay;
   seconds.core += scale * sum.core;
   seconds.prune += scale * sum.prune;
+  seconds.skeleton += scale * sum.skeleton;
 }
 
 } // namespace
@@ -87,9 +89,19 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
   }
   const LabelWork work = [&](std::size_t label, const ProgressCallback & part) {
     EditedLabel & one = labels[label];
-    LabelOutcome  outcome =
-      ProcessLabel(std::move(one.label), geometry, weights, options.lambdas, options.engine, part, options.crossCheck);
+    LabelOutcome  outcome = ProcessLabel(std::move(one.label),
+                                        geometry,
+                                        weights,
+                                        options.lambdas,
+                                        options.engine,
+                                        part,
+                                        options.crossCheck,
+                                        options.skeleton ? &*options.skeleton : nullptr);
     outcome.record.component = one.component;
+    if (outcome.skeleton)
+    {
+      outcome.skeleton->component = one.component;
+    }
     outcome.record.edits = one.edits;
     for (ModelPart & model : outcome.parts)
     {

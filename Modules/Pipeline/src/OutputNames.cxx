@@ -119,4 +119,51 @@ FolderOutputPath(const fs::path &            folder,
                    LambdaSuffix(lambdas, which) + ".vtp");
 }
 
+namespace
+{
+
+std::string
+LabelPart(std::int64_t label, std::int64_t component)
+{
+  return "_label-" + std::to_string(label) +
+         (component > 0 ? "_component-" + std::to_string(component) : std::string());
+}
+
+/** Also of a core's file. */
+std::string
+NameOfScan(const fs::path & input)
+{
+  if (input.extension() != ".vtp")
+  {
+    return ScanName(input);
+  }
+  std::string name = ScanName(input.parent_path() / input.stem());
+  for (const char * mark : { "_medial", "_label-" })
+  {
+    const std::size_t at = name.rfind(mark);
+    name.resize(at == std::string::npos || at == 0 ? name.size() : at);
+  }
+  return name;
+}
+
+} // namespace
+
+fs::path
+SkeletonFolderPath(const fs::path & folder, const fs::path & input, std::int64_t label, std::int64_t component)
+{
+  return folder / (NameOfScan(input) + LabelPart(label, component) + "_skeleton.vtp");
+}
+
+fs::path
+SkeletonTablesPath(const fs::path & folder, const fs::path & input)
+{
+  return folder / (NameOfScan(input) + "_skeleton.vtp");
+}
+
+fs::path
+SkeletonBesideCore(const fs::path & output)
+{
+  return IsFolderOutput(output) ? output : output.parent_path() / (output.stem().string() + "_skeleton.vtp");
+}
+
 } // namespace voxelcore

@@ -18,6 +18,7 @@ constexpr std::uint32_t kMeasure = static_cast<std::uint32_t>(CommandId::Measure
 constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton;
 constexpr std::uint32_t kModels = kCore | kPrune;
 constexpr std::uint32_t kBranches = kSkeleton | kMeasure;
+constexpr std::uint32_t kStages = kCore | kSkeleton;
 constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches;
 constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom | kBranches;
 
@@ -34,6 +35,9 @@ Edits are then done label by label in the order --fill-cavities, --min-voxels, -
 are connected through faces (6-connected); equally large ones keep the order of the scan. What is in a label's cavity,
 other labels too, is filled.
 
+--with-skeleton writes what 'voxelcore skeleton' would, from the same computation: OUT_skeleton.vtp beside OUT, in a folder
+<scan>_label-<value>_skeleton.vtp. The options about branches are explained there.
+
 Examples:
   voxelcore core scan.nii.gz -o medial.vtp --report medial.json
   voxelcore core scan.seg.nrrd --labels liver,4 --lambda 0,1mm,2.5% -o medial.vtp
@@ -41,6 +45,7 @@ Examples:
   voxelcore core ct.nrrd --threshold 300:3000 --lambda 2vox -o bone.vtp
   voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp
   voxelcore core ct.nrrd --threshold 300:3000 --fill-cavities --min-voxels 100 -o bone.vtp
+  voxelcore core root.nii.gz -o root.vtp --with-skeleton --also csv --root top
   voxelcore core teeth.nii.gz --crop 100:300,80:220,: --split-components -o teeth/)";
 
 constexpr std::string_view kInfoFooter = R"(Examples:
@@ -74,10 +79,12 @@ Radii in tables are those of the body that was scanned: the largest ball in voxe
 
 --also writes beside OUT.vtp, by the ending: csv (OUT_branches.csv, OUT_summary.csv and OUT_columns.json, which explains
 them), swc (micrometres; cycles are cut), mrk.json (Slicer curves), graphml, ma (with .r: the core, for other programs).
+Into a folder go <scan>_label-<value>_skeleton.vtp and so on; tables of all labels are <scan>_skeleton_branches.csv.
 
 Examples:
   voxelcore skeleton root.nii.gz -o root.vtp --also csv,swc --root top
-  voxelcore skeleton core.vtp -o skeleton.vtp
+  voxelcore skeleton core.vtp -o skeleton.vtp --report skeleton.json
+  voxelcore skeleton atlas.nii.gz -o skeletons/ --also csv
   voxelcore skeleton vessels.seg.nrrd --prune-branches 1.5r --also mrk.json -o vessels.vtp
   voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp)";
 
@@ -128,7 +135,14 @@ constexpr auto kParameters = std::to_array<Parameter>({
     true,
     kCore,
     "Result: .vtp .vtk .ply .obj .stl .ma; or a folder, DIR/, for one .vtp per label" },
-  { "output", "-o,--output", Output, "OUT.vtp", "", true, kSkeleton, "Result: .vtp" },
+  { "output",
+    "-o,--output",
+    Output,
+    "OUT.vtp",
+    "",
+    true,
+    kSkeleton,
+    "Result: .vtp; or a folder, DIR/, for one .vtp per label" },
   { "output", "-o,--output", Output, "OUT", "", true, kMeasure, "Result: .csv, or .vtp" },
   { "output", "-o,--output", Output, "OUT", "", true, kPrune, "Result: .vtp .vtk .ply .obj .stl .ma" },
   { "output", "-o,--output", Output, "OUT", "", false, kPhantom, "Volume: .nrrd .nii .nii.gz .mha .mhd .tif" },
@@ -156,13 +170,21 @@ constexpr auto kParameters = std::to_array<Parameter>({
     false,
     kSkeleton,
     "Prune the core first, with unit: 1.5mm, 2.5vox, 2.5%; only for scans" },
+  { "with-skeleton",
+    "--with-skeleton",
+    Flag,
+    "",
+    "",
+    false,
+    kCore,
+    "Curve skeletons too, of the whole core: OUT_skeleton.vtp, as 'voxelcore skeleton' writes it" },
   { "stand-out",
     "--stand-out",
     Text,
     "L",
     "3vox",
     false,
-    kSkeleton,
+    kStages,
     "Branches stand out by at least so much, with unit: 1.5mm, 3vox, 2.5%" },
   { "plates",
     "--plates",
@@ -170,7 +192,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "L",
     "",
     false,
-    kSkeleton,
+    kStages,
     "Surfaces at least so erosion-thick stay, with unit; by default all become curves" },
   { "smooth",
     "--smooth",
@@ -178,7 +200,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "L",
     "6vox",
     false,
-    kSkeleton,
+    kStages,
     "Branches are fitted over so much before and behind each point, which moves by half a voxel at most; 0: not" },
   { "prune-branches",
     "--prune-branches",
@@ -186,16 +208,23 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "L|Nr",
     "",
     false,
-    kBranches,
+    kStages | kMeasure,
     "Take off branches with a tip that are shorter: 5mm, 8vox, or 1.5r (times the radius where they begin)" },
-  { "cut-loops", "--cut-loops", Flag, "", "", false, kBranches, "Cut each cycle at its thinnest branch; says where" },
+  { "cut-loops",
+    "--cut-loops",
+    Flag,
+    "",
+    "",
+    false,
+    kStages | kMeasure,
+    "Cut each cycle at its thinnest branch; says where" },
   { "split-at-junctions",
     "--split-at-junctions",
     Flag,
     "",
     "",
     false,
-    kBranches,
+    kStages | kMeasure,
     "Give each branch end points of its own, so that branches do not hang together" },
   { "root",
     "--root",
@@ -203,7 +232,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "X,Y,Z|top|thickest",
     "thickest",
     false,
-    kBranches,
+    kStages | kMeasure,
     "Where the hierarchy begins: the tip nearest to a point (LPS mm), the highest, or that of the thickest branch" },
   { "also",
     "--also",
@@ -211,7 +240,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "csv,swc,..",
     "",
     false,
-    kBranches,
+    kStages | kMeasure,
     "Further files beside the result: csv, swc, mrk.json, graphml, ma" },
   { "labels",
     "--labels",
@@ -284,7 +313,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     kModels,
     "Store the measures of all edges, so that 'voxelcore prune' can work on the file" },
   { "triangles", "--triangles", Flag, "", "", false, kModels, "Write triangles instead of polygons" },
-  { "report", "--report", Output, "OUT.json", "", false, kModels, "Write what was done and found as JSON" },
+  { "report", "--report", Output, "OUT.json", "", false, kModels | kSkeleton, "Write what was done and found as JSON" },
   { "size", "--size", Text, "N|X,Y,Z", "64", false, kPhantom, "Size in voxels" },
   { "spacing", "--spacing", Text, "X,Y,Z", "1,1,1", false, kPhantom, "Voxel size in mm" },
   { "seed", "--seed", Integer, "N", "1", false, kPhantom, "For the kinds that use chance: porous, noise, root" },

@@ -319,6 +319,8 @@ CoreOptionsFrom(const ParameterValues & values)
   options.lambdas = ParseLambdas(reader.Text("lambda"));
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
+  options.skeleton = CoreSkeletonFrom(values);
+  options.skeletonOutput = options.skeleton ? SkeletonBesideCore(options.output) : std::filesystem::path();
   options.model = ModelOptionsFrom(reader);
   const std::string engine = reader.Choice("engine");
   options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;

@@ -16,11 +16,12 @@ Width(const std::string & text)
     std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+/** Two digits behind the point. */
 std::string
-Seconds(double seconds)
+Fixed(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f", seconds);
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.2f", value);
   return text;
 }
 
@@ -88,7 +89,7 @@ ReportTable(const CoreReport & report)
     row.push_back(TopologyText(label.shape));
     row.push_back(TopologyText(label.core.topology));
     row.emplace_back(label.Passed() ? "passed" : "FAILED");
-    row.push_back(Seconds(label.seconds));
+    row.push_back(Fixed(label.seconds));
     rows.push_back(std::move(row));
     boundaryVertices += label.boundaryVertices;
   }
@@ -97,7 +98,42 @@ ReportTable(const CoreReport & report)
   return FormatTable(rows) + std::to_string(report.labels.size()) +
          (report.parameters.edits.splitComponents ? " component" : " label") +
          (report.labels.size() == 1 ? ", " : "s, ") + std::to_string(boundaryVertices) + " boundary vertices, " +
-         Seconds(report.seconds.total) + " s, peak memory " + peak + " MB\n";
+         Fixed(report.seconds.total) + " s, peak memory " + peak + " MB\n";
+}
+
+std::string
+SkeletonTable(const CoreReport & report)
+{
+  std::vector<std::vector<std::string>> rows{ { "label",
+                                                "name",
+                                                "branches",
+                                                "tips",
+                                                "junctions",
+                                                "cycles",
+                                                "length mm",
+                                                "mean radius mm",
+                                                "shape chi/b0/b1/b2",
+                                                "skeleton chi/b0/b1/b2",
+                                                "certificate" } };
+  for (const LabelRecord & label : report.labels)
+  {
+    if (label.skeleton)
+    {
+      const SkeletonNumbers & n = label.skeleton->numbers;
+      rows.push_back({ std::to_string(label.label),
+                       label.name,
+                       std::to_string(n.branches),
+                       std::to_string(n.tips),
+                       std::to_string(n.junctions),
+                       std::to_string(n.cycles),
+                       Fixed(n.totalLength),
+                       Fixed(n.meanRadius),
+                       TopologyText(label.shape),
+                       TopologyText(label.skeleton->topology),
+                       label.Passed() ? "passed" : "FAILED" });
+    }
+  }
+  return FormatTable(rows);
 }
 
 } // namespace voxelcore

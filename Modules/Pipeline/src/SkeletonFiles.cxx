@@ -1,15 +1,18 @@
 #include "SkeletonFiles.h"
 
 #include "JobTools.h"
+#include "MakeSkeleton.h"
 #include "voxelcore/Error.h"
-#include "voxelcore/ReportTable.h"
+#include "voxelcore/OutputNames.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace voxelcore
 {
+
+namespace fs = std::filesystem;
 
 namespace
 {
@@ -38,56 +41,57 @@ RadiiText(const MedialModel & surfaces)
 }
 
 std::string
-Fixed(double value)
+CutText(const LoopCut & cut)
 {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.2f", value);
+  char text[160];
+  std::snprintf(text,
+                sizeof(text),
+                ": a cycle was cut at %.2f, %.2f, %.2f (LPS mm), radius %.2f mm",
+                cut.position[0],
+                cut.position[1],
+                cut.position[2],
+                cut.radius);
   return text;
 }
 
 } // namespace
 
-void
-AddBranchOptions(nlohmann::ordered_json & json, const BranchOptions & options)
-{
-  json["prune_branches"] = options.pruneLength      ? nlohmann::ordered_json(options.pruneLength->text)
-                           : options.pruneRadii > 0 ? nlohmann::ordered_json(std::to_string(options.pruneRadii) + "r")
-                                                    : nlohmann::ordered_json(nullptr);
-  json["cut_loops"] = options.cutLoops;
-  json["split_at_junctions"] = options.splitAtJunctions;
-}
-
-SkeletonFiles::SkeletonFiles(std::filesystem::path output,
+SkeletonFiles::SkeletonFiles(fs::path              output,
+                             fs::path              input,
                              const BranchOptions & options,
                              OutputTransaction &   transaction)
   : m_Output(std::move(output))
+  , m_Input(std::move(input))
+  , m_ToFolder(IsFolderOutput(m_Output))
   , m_Options(options)
   , m_Transaction(transaction)
 {
-  if (m_Output.extension() == ".csv" && !Wants("csv"))
+  const std::string extension = m_Output.extension().string();
+  if (!m_ToFolder && extension != ".vtp" && extension != ".csv")
+  {
+    throw UsageError(m_Output.string() +
+                     ": unknown extension; a skeleton is written as .vtp, or into a folder ending in /, other files by "
+                     "--also");
+  }
+  if (!m_ToFolder && extension == ".csv" && !Wants("csv"))
   {
     m_Options.also.insert(m_Options.also.begin(), "csv");
   }
-  if (m_Output.extension() == ".vtp")
+  m_Transaction.Protect(m_Input);
+  if (m_ToFolder)
+  {
+    m_Transaction.MakeDirectory(m_Output);
+    return;
+  }
+  if (extension == ".vtp")
   {
     m_Transaction.CheckTarget(m_Output);
   }
   for (const std::string & ending : m_Options.also)
   {
-    if (ending == "csv")
+    for (const fs::path & target : Beside(m_Output, ending))
     {
-      for (const char * table : { "_branches.csv", "_summary.csv", "_columns.json" })
-      {
-        m_Transaction.CheckTarget(Beside(table));
-      }
-    }
-    else
-    {
-      m_Transaction.CheckTarget(Beside("." + ending));
-      if (ending == "ma")
-      {
-        m_Transaction.CheckTarget(Beside(".r"));
-      }
+      m_Transaction.CheckTarget(target);
     }
   }
 }
@@ -98,127 +102,123 @@ SkeletonFiles::Wants(const std::string & ending) const
   return std::find(m_Options.also.begin(), m_Options.also.end(), ending) != m_Options.also.end();
 }
 
-std::filesystem::path
-SkeletonFiles::Beside(const std::string & ending) const
+std::vector<fs::path>
+SkeletonFiles::Beside(const fs::path & output, const std::string & ending) const
 {
-  return std::filesystem::path(m_Output).replace_extension().string() + ending;
-}
-
-MeasureOptions
-SkeletonFiles::Measuring() const
-{
-  MeasureOptions measuring;
-  measuring.root = m_Options.root;
-  measuring.radiusShift = 0.25 * std::sqrt(spacing[0] * spacing[0] + spacing[1] * spacing[1] + spacing[2] * spacing[2]);
-  return measuring;
+  const std::string stem = (output.parent_path() / output.stem()).string();
+  if (ending == "csv")
+  {
+    return { stem + "_branches.csv", stem + "_summary.csv", stem + "_columns.json" };
+  }
+  if (ending == "ma")
+  {
+    return { stem + ".ma", stem + ".r" };
+  }
+  return { stem + "." + ending };
 }
 
 void
-SkeletonFiles::Add(SkeletonPart part, const std::optional<TopologyNumbers> & shape, const ModelPart * surface)
+SkeletonFiles::Add(CoreReport &               report,
+                   std::size_t                label,
+                   SkeletonPart               part,
+                   ModelPart                  surface,
+                   std::vector<std::string> & notes)
 {
-  if (m_Options.cutLoops)
+  LabelRecord &     record = report.labels.at(label);
+  SkeletonRecord &  skeleton = record.skeleton.value();
+  const std::string text = LabelText(record.label, record.name);
+  const fs::path output = m_ToFolder ? SkeletonFolderPath(m_Output, m_Input, record.label, record.component) : m_Output;
+  skeleton.output = output.string();
+  for (const LoopCut & cut : skeleton.cuts)
   {
-    for (const LoopCut & cut : CutLoops(part.graph))
-    {
-      notes.push_back(LabelText(part.label, part.name) + ": a cycle was cut at " + Fixed(cut.position[0]) + ", " +
-                      Fixed(cut.position[1]) + ", " + Fixed(cut.position[2]) + " (LPS mm), radius " +
-                      Fixed(cut.radius) + " mm");
-    }
+    notes.push_back(text + CutText(cut));
   }
-  if (m_Options.splitAtJunctions)
+  if (skeleton.numbers.closedFaces > 0)
   {
-    SplitAtJunctions(part.graph);
-  }
-  part.table = MeasureBranches(part.graph, Measuring());
-  if (part.table.numbers.closedFaces > 0)
-  {
-    notes.push_back(LabelText(part.label, part.name) + ": " + std::to_string(part.table.numbers.closedFaces) +
+    notes.push_back(text + ": " + std::to_string(skeleton.numbers.closedFaces) +
                     " faces of closed surfaces stay: around a cavity nothing can become a curve");
   }
-  model.parts.push_back(std::move(part));
-  m_Shapes.push_back(shape);
-  if (surface != nullptr && Wants("ma"))
+  if (m_ToFolder && Wants("csv"))
   {
-    m_Surfaces.parts.push_back(*surface);
+    m_AllLabels.parts.push_back(part);
+  }
+  m_Model.parts.push_back(std::move(part));
+  m_Labels.push_back(label);
+  if (NeedsSurface())
+  {
+    m_Surfaces.parts.push_back(std::move(surface));
+  }
+  if (m_ToFolder)
+  {
+    WriteGroup(report, output, { label }, notes);
   }
 }
 
 void
-SkeletonFiles::AddNames()
+SkeletonFiles::WriteTables(const fs::path & output, const SkeletonModel & model)
 {
-  auto json = nlohmann::ordered_json::parse(model.provenance);
-  json["labels"] = nlohmann::ordered_json::array();
-  for (const SkeletonPart & part : model.parts)
-  {
-    json["labels"].push_back({ { "label", part.label }, { "component", part.component }, { "name", part.name } });
-  }
-  model.provenance = json.dump();
+  const std::vector<fs::path> tables = Beside(output, "csv");
+  WriteBranchCsv(m_Transaction.Stage(tables[0]), model);
+  WriteSummaryCsv(m_Transaction.Stage(tables[1]), model);
+  WriteTextFile(m_Transaction.Stage(tables[2]), SkeletonColumnsJson());
 }
 
-SkeletonResult
-SkeletonFiles::Write()
+void
+SkeletonFiles::WriteGroup(const CoreReport &               report,
+                          const fs::path &                 output,
+                          const std::vector<std::size_t> & labels,
+                          std::vector<std::string> &       notes)
 {
-  if (Wants("ma") && m_Surfaces.parts.empty())
+  if (output.extension() == ".vtp")
   {
-    throw UsageError("--also ma: needs the medial surface; give it to 'voxelcore skeleton'");
+    m_Model.provenance = SkeletonProvenanceJson(report, labels);
+    WriteSkeletonVtp(m_Transaction.Stage(output), m_Model);
   }
-  if (m_Output.extension() == ".vtp")
-  {
-    AddNames();
-    WriteSkeletonVtp(m_Transaction.Stage(m_Output), model);
-  }
+  const MeasureOptions measuring = MeasuringOf(m_Options, report.input.geometry.spacing);
   for (const std::string & ending : m_Options.also)
   {
-    if (ending == "csv")
+    const std::vector<fs::path> targets = Beside(output, ending);
+    if (ending == "csv" && !m_ToFolder)
     {
-      WriteBranchCsv(m_Transaction.Stage(Beside("_branches.csv")), model);
-      WriteSummaryCsv(m_Transaction.Stage(Beside("_summary.csv")), model);
-      WriteTextFile(m_Transaction.Stage(Beside("_columns.json")), SkeletonColumnsJson());
+      WriteTables(output, m_Model);
     }
     else if (ending == "swc")
     {
-      WriteSwc(m_Transaction.Stage(Beside(".swc")), model, Measuring());
+      WriteSwc(m_Transaction.Stage(targets[0]), m_Model, measuring);
     }
     else if (ending == "mrk.json")
     {
-      WriteMarkups(m_Transaction.Stage(Beside(".mrk.json")), model);
+      WriteMarkups(m_Transaction.Stage(targets[0]), m_Model);
     }
     else if (ending == "graphml")
     {
-      WriteGraphMl(m_Transaction.Stage(Beside(".graphml")), model);
+      WriteGraphMl(m_Transaction.Stage(targets[0]), m_Model);
     }
     else if (ending == "ma")
     {
       ModelOptions triangles;
       triangles.triangles = true;
-      WriteStagedModel(m_Transaction, Beside(".ma"), m_Surfaces, triangles, notes);
-      WriteTextFile(m_Transaction.Stage(Beside(".r")), RadiiText(m_Surfaces));
+      WriteStagedModel(m_Transaction, targets[0], m_Surfaces, triangles, notes);
+      WriteTextFile(m_Transaction.Stage(targets[1]), RadiiText(m_Surfaces));
     }
   }
-  std::vector<std::vector<std::string>> rows{ { "label",
-                                                "name",
-                                                "branches",
-                                                "tips",
-                                                "junctions",
-                                                "cycles",
-                                                "length mm",
-                                                "mean radius mm",
-                                                "shape chi/b0/b1/b2" } };
-  for (std::size_t i = 0; i < model.parts.size(); ++i)
+  m_Model = SkeletonModel();
+  m_Surfaces = MedialModel();
+  m_Labels.clear();
+}
+
+void
+SkeletonFiles::Finish(const CoreReport & report, std::vector<std::string> & notes)
+{
+  if (!m_ToFolder)
   {
-    const SkeletonPart &    part = model.parts[i];
-    const SkeletonNumbers & n = part.table.numbers;
-    rows.push_back({ std::to_string(part.label),
-                     part.name,
-                     std::to_string(n.branches),
-                     std::to_string(n.tips),
-                     std::to_string(n.junctions),
-                     std::to_string(n.cycles),
-                     Fixed(n.totalLength),
-                     Fixed(n.meanRadius),
-                     m_Shapes[i] ? TopologyText(*m_Shapes[i]) : "-" });
+    const std::vector<std::size_t> labels = m_Labels;
+    WriteGroup(report, m_Output, labels, notes);
   }
-  return { FormatTable(rows), warnings, notes };
+  else if (Wants("csv"))
+  {
+    WriteTables(SkeletonTablesPath(m_Output, m_Input), m_AllLabels);
+  }
 }
 
 } // namespace voxelcore

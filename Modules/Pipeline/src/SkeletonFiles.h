@@ -1,58 +1,71 @@
 #pragma once
 // The files a job about skeletons writes.
 
+#include "voxelcore/CoreReport.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/OutputTransaction.h"
-#include "voxelcore/SkeletonJob.h"
-#include "voxelcore/TopologyNumbers.h"
+#include "voxelcore/SkeletonModel.h"
+#include "voxelcore/SkeletonStage.h"
 
-#include <nlohmann/json.hpp>
-
-#include <optional>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace voxelcore
 {
 
-/** Records the options that change a result. */
-void
-AddBranchOptions(nlohmann::ordered_json & json, const BranchOptions & options);
-
-/** Collects parts, then writes all files. Names beside "OUT.vtp": OUT_branches.csv, OUT_summary.csv, OUT_columns.json for
- *  csv; OUT.swc, OUT.mrk.json, OUT.graphml, OUT.ma with OUT.r for the others. */
+/** Takes the labels' skeletons, then writes all files. Names beside "OUT.vtp": OUT_branches.csv, OUT_summary.csv and
+ *  OUT_columns.json for csv; OUT.swc, OUT.mrk.json, OUT.graphml, OUT.ma with OUT.r for the others. In a folder there is an
+ *  OUT for each label, SkeletonFolderPath(); the tables, all labels in one, are called <scan>_skeleton_branches.csv and so
+ *  on. */
 class SkeletonFiles
 {
 public:
-  /** Checks that all files can be written. */
-  SkeletonFiles(std::filesystem::path output, const BranchOptions & options, OutputTransaction & transaction);
+  /** Checks that all files can be written whose names are known. An output that ends in .csv means tables alone.
+   *  \throws UsageError for an extension that is not known; OutputError */
+  SkeletonFiles(std::filesystem::path output,
+                std::filesystem::path input,
+                const BranchOptions & options,
+                OutputTransaction &   transaction);
 
-  /** Does what the options ask for to the part's graph and measures it; keeps a copy of the surface when .ma is asked. */
+  /** Whether Add() wants the medial surface, for .ma. */
+  bool
+  NeedsSurface() const
+  {
+    return Wants("ma");
+  }
+
+  /** Takes the skeleton of label number `label` of the report and enters the file's name there; in a folder it goes to disk
+   *  at once. Adds to notes what a user must be told. */
   void
-  Add(SkeletonPart part, const std::optional<TopologyNumbers> & shape, const ModelPart * surface);
+  Add(CoreReport & report, std::size_t label, SkeletonPart part, ModelPart surface, std::vector<std::string> & notes);
 
-  SkeletonResult
-  Write();
-
-  SkeletonModel            model;
-  Vector3                  spacing{ 1, 1, 1 };
-  std::vector<std::string> warnings;
-  std::vector<std::string> notes;
+  /** Writes what is left to be written. */
+  void
+  Finish(const CoreReport & report, std::vector<std::string> & notes);
 
 private:
-  /** Names of labels go into the provenance: a .vtp has no other place for them. */
-  void
-  AddNames();
   bool
   Wants(const std::string & ending) const;
-  std::filesystem::path
-  Beside(const std::string & ending) const;
-  MeasureOptions
-  Measuring() const;
+  std::vector<std::filesystem::path>
+  Beside(const std::filesystem::path & output, const std::string & ending) const;
+  void
+  WriteGroup(const CoreReport &               report,
+             const std::filesystem::path &    output,
+             const std::vector<std::size_t> & labels,
+             std::vector<std::string> &       notes);
+  void
+  WriteTables(const std::filesystem::path & output, const SkeletonModel & model);
 
-  std::filesystem::path                       m_Output;
-  BranchOptions                               m_Options;
-  OutputTransaction &                         m_Transaction;
-  MedialModel                                 m_Surfaces; ///< for .ma
-  std::vector<std::optional<TopologyNumbers>> m_Shapes;
+  std::filesystem::path    m_Output;
+  std::filesystem::path    m_Input;
+  bool                     m_ToFolder;
+  BranchOptions            m_Options;
+  OutputTransaction &      m_Transaction;
+  SkeletonModel            m_Model;     ///< not written yet
+  MedialModel              m_Surfaces;  ///< not written yet, for .ma
+  SkeletonModel            m_AllLabels; ///< for tables of a folder
+  std::vector<std::size_t> m_Labels;    ///< of m_Model, in the report
 };
 
 } // namespace voxelcore

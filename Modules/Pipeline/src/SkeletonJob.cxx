@@ -1,16 +1,13 @@
 #include "voxelcore/SkeletonJob.h"
 
 #include "JobTools.h"
+#include "MakeSkeleton.h"
 #include "SkeletonFiles.h"
-#include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/Error.h"
-#include "voxelcore/Sha256.h"
-
-#include <nlohmann/json.hpp>
+#include "voxelcore/OutputNames.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace voxelcore
@@ -19,148 +16,98 @@ namespace voxelcore
 namespace
 {
 
-using Json = nlohmann::ordered_json;
-
-/** The lattice a skeleton's lengths in voxels and percent refer to. */
-struct Scale
+/** The core is a step on the way that is not written. */
+SkeletonResult
+FromScan(const SkeletonOptions & options, const JobContext & context)
 {
-  SpacingWeights weights;
-  Vector3        spacing{ 1, 1, 1 };
-};
-
-Json
-ParametersJson(const SkeletonOptions & options)
-{
-  Json json = { { "lambda", options.lambda.text },
-                { "threshold", options.threshold.text },
-                { "plates", options.plates ? Json(options.plates->text) : Json(nullptr) },
-                { "smooth", options.smooth.text } };
-  AddBranchOptions(json, options.branches);
-  return json;
+  CoreOptions core;
+  core.scan = options.input;
+  core.reading = options.reading;
+  core.edits = options.edits;
+  core.lambdas = { options.stage.lambda };
+  core.skeleton = options.stage;
+  core.skeletonOutput = options.output;
+  core.report = options.report;
+  core.engine = options.engine;
+  core.threads = options.threads;
+  core.force = options.force;
+  core.command = options.command;
+  CoreResult result = RunCoreJob(core, context);
+  return { std::move(result.report), std::move(result.warnings), std::move(result.notes) };
 }
 
-/** From a certified surface to the measured graph. */
-SkeletonPart
-MakeSkeleton(const ModelPart &        surface,
-             const LabelRecord &      record,
-             const SkeletonOptions &  options,
-             const Scale &            scale,
-             const ProgressCallback & progress)
+SkeletonResult
+FromCore(const SkeletonOptions & options, const JobContext & context)
 {
-  const auto length = [&](const Lambda & l) {
-    return LambdaInMillimetres(l, scale.weights, scale.spacing, record.box);
-  };
-  const double      voxel = *std::min_element(scale.spacing.begin(), scale.spacing.end());
-  const std::string text = LabelText(record.label, record.name);
-  CurveOptions      curves;
-  curves.branchThreshold = length(options.threshold);
-  if (options.plates)
+  Stopwatch         total;
+  Stopwatch         watch;
+  SkeletonResult    result;
+  CoreReport &      report = result.report;
+  OutputTransaction transaction(options.force, context.temporaries);
+  SkeletonFiles     files(options.output, options.input, options.stage.branches, transaction);
+  if (options.report)
   {
-    curves.plateThreshold = length(*options.plates);
+    transaction.CheckTarget(*options.report);
   }
-  curves.sampling = 1.5 * voxel;
-  curves.voxel = voxel;
-  const CurveSkeleton   skeleton = ComputeCurveSkeleton(surface.core, curves, progress);
-  const TopologyNumbers topology = ComputeComplexTopology(skeleton.complex.cells);
-  RequireEqualTopology(record.shape, topology, "its skeleton", text);
-
-  SkeletonPart part;
-  part.label = record.label;
-  part.component = record.component;
-  part.name = record.name;
-  part.graph = BuildSkeletonGraph(skeleton);
-  FitBranches(part.graph, length(options.smooth), 0.5 * voxel);
-  const double limit = options.branches.pruneLength ? length(*options.branches.pruneLength) : 0;
-  if (PruneBranches(part.graph, { limit, options.branches.pruneRadii }) > 0)
-  {
-    FitBranches(part.graph, length(options.smooth), 0.5 * voxel);
-  }
-  const SkeletonNumbers numbers = MeasureBranches(part.graph).numbers;
-  if (part.graph.FaceCount() == 0 && (numbers.components != topology.betti[0] || numbers.cycles != topology.betti[1]))
-  {
-    throw CertificateError(text +
-                           ": certificate failed: the branches do not have the shape's topology; nothing was "
-                           "written; this is a fault of VoxelCore, please report it with the scan");
-  }
-  return part;
-}
-
-bool
-IsCoreFile(const std::filesystem::path & input)
-{
-  return input.extension() == ".vtp";
-}
-
-/** Skeletons of all labels of a scan; one label's core is in memory at a time. */
-void
-FromScan(const SkeletonOptions & options, const JobContext & context, SkeletonFiles & files, Json & provenance)
-{
-  LabelVolume volume =
-    ReadLabelVolume(options.input, options.reading, PartOfProgress(context.progress, "reading", 0, 0.05));
-  EditedLabels edited = EditLabels(volume,
-                                   options.edits,
-                                   options.reading.labels != "all",
-                                   options.input.string(),
-                                   PartOfProgress(context.progress, "editing", 0.05, 0.05));
-  const Scale  scale{ ComputeSpacingWeights(volume.geometry.spacing), volume.geometry.spacing };
-  files.warnings = volume.warnings;
-  files.notes.insert(files.notes.end(), edited.notes.begin(), edited.notes.end());
-  provenance["input"] = { { "sha256", ScanSha256(options.input) }, { "format", volume.format },
-                          { "size", volume.geometry.size },        { "spacing_mm", volume.geometry.spacing },
-                          { "origin_mm", volume.geometry.origin }, { "direction", volume.geometry.direction } };
-  provenance["reading"] = { { "labels", options.reading.labels }, { "binary", options.reading.binary } };
-  files.spacing = scale.spacing;
-  for (std::size_t i = 0; i < edited.labels.size(); ++i)
-  {
-    const double  from = 0.05 + 0.9 * static_cast<double>(i) / static_cast<double>(edited.labels.size());
-    const double  to = 0.05 + 0.9 * static_cast<double>(i + 1) / static_cast<double>(edited.labels.size());
-    EditedLabel & one = edited.labels[i];
-    LabelOutcome  outcome = ProcessLabel(std::move(one.label),
-                                        volume.geometry,
-                                        scale.weights,
-                                        { options.lambda },
-                                        options.engine,
-                                        NamedPartOfProgress(context.progress, one.label.name, from, 0.5 * (from + to)));
-    outcome.record.component = one.component;
-    files.Add(MakeSkeleton(outcome.parts.front(),
-                           outcome.record,
-                           options,
-                           scale,
-                           PartOfProgress(context.progress, "skeleton", 0.5 * (from + to), to)),
-              outcome.record.shape,
-              &outcome.parts.front());
-  }
-}
-
-void
-FromCore(const SkeletonOptions & options, const JobContext & context, SkeletonFiles & files, Json & provenance)
-{
   ReportProgress(context.progress, "reading", 0);
-  MedialModel      model = ReadModel(options.input);
-  const CoreReport made = ParseProvenance(model.provenance, options.input.string());
-  if (made.labels.size() != model.parts.size())
+  MedialModel model = ReadModel(options.input);
+  report = ParseProvenance(model.provenance, options.input.string());
+  if (report.labels.size() != model.parts.size() || report.parameters.lambda.size() != 1)
   {
     throw InputError(options.input.string() + ": its field Provenance does not fit its cells; make the file again");
   }
-  const Scale scale{ made.parameters.weights, made.input.geometry.spacing };
-  provenance["core"] = Json::parse(model.provenance);
-  files.spacing = scale.spacing;
+  report.command = options.command;
+  report.input.path = options.input.string();
+  report.parameters.engine = "none";
+  report.parameters.threads = options.threads;
+  report.skeleton = options.stage;
+  report.skeleton->lambda = ParseLambda(report.parameters.lambda.front());
+  report.seconds.read = watch.Lap();
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
-    const double share = 0.05 + 0.9 * static_cast<double>(i) / static_cast<double>(model.parts.size());
-    files.Add(MakeSkeleton(model.parts[i],
-                           made.labels[i],
-                           options,
-                           scale,
-                           PartOfProgress(context.progress, "skeleton", share, share)),
-              made.labels[i].shape,
-              &model.parts[i]);
+    const auto share = [&](std::size_t done) {
+      return 0.05 + 0.9 * static_cast<double>(done) / static_cast<double>(model.parts.size());
+    };
+    Stopwatch    labelWatch;
+    SkeletonPart part = MakeSkeleton(model.parts[i],
+                                     *report.skeleton,
+                                     report.parameters.weights,
+                                     report.input.geometry.spacing,
+                                     report.labels[i],
+                                     PartOfProgress(context.progress, share(i), share(i + 1)));
+    report.labels[i].seconds = labelWatch.Lap();
+    report.seconds.skeleton += report.labels[i].seconds;
+    files.Add(report, i, std::move(part), std::move(model.parts[i]), result.notes);
   }
-  if (!made.parameters.lambda.empty() && made.parameters.lambda.front() != "0")
+  if (report.skeleton->lambda.value != 0)
   {
-    files.notes.push_back(options.input.string() + " is pruned at lambda " + made.parameters.lambda.front() +
-                          ": parts thinner than that have no branches; for these make the core with --lambda 0");
+    result.notes.push_back(options.input.string() + " is pruned at lambda " + report.skeleton->lambda.text +
+                           ": parts thinner than that have no branches; for these make the core with --lambda 0");
   }
+  ReportProgress(context.progress, "writing", 0.95);
+  files.Finish(report, result.notes);
+  report.seconds.total = total.Lap();
+  report.seconds.write = report.seconds.total - report.seconds.read - report.seconds.skeleton;
+  report.peakMemoryMb = PeakMemoryMb();
+  if (options.report)
+  {
+    WriteTextFile(transaction.Stage(*options.report), ReportJson(report));
+  }
+  ReportProgress(context.progress, "done", 1);
+  transaction.Commit();
+  return result;
+}
+
+/** What was done to a skeleton when it was made and what is done to it now. */
+BranchOptions
+Together(const BranchOptions & before, const BranchOptions & now)
+{
+  BranchOptions all = now;
+  all.pruneLength = now.pruneLength ? now.pruneLength : before.pruneLength;
+  all.pruneRadii = std::max(now.pruneRadii, before.pruneRadii);
+  all.cutLoops = now.cutLoops || before.cutLoops;
+  all.splitAtJunctions = now.splitAtJunctions || before.splitAtJunctions;
+  return all;
 }
 
 } // namespace
@@ -168,77 +115,51 @@ FromCore(const SkeletonOptions & options, const JobContext & context, SkeletonFi
 SkeletonResult
 RunSkeletonJob(const SkeletonOptions & options, const JobContext & context)
 {
-  OutputTransaction transaction(options.force, context.temporaries);
-  if (options.output.extension() != ".vtp")
-  {
-    throw UsageError(options.output.string() +
-                     ": unknown extension; a skeleton is written as .vtp, other files by --also");
-  }
-  transaction.Protect(options.input);
-  SkeletonFiles files(options.output, options.branches, transaction);
-  Json          provenance = { { "voxelcore", { { "version", VoxelCoreVersion() } } } };
-  provenance["skeleton"] = ParametersJson(options);
-  IsCoreFile(options.input) ? FromCore(options, context, files, provenance)
-                            : FromScan(options, context, files, provenance);
-  ReportProgress(context.progress, "writing", 0.95);
-  provenance["spacing_mm"] = files.spacing;
-  files.model.provenance = provenance.dump();
-  SkeletonResult result = files.Write();
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
-  return result;
+  return options.input.extension() == ".vtp" ? FromCore(options, context) : FromScan(options, context);
 }
 
 SkeletonResult
 RunMeasureJob(const MeasureJobOptions & options, const JobContext & context)
 {
+  SkeletonResult    result;
   OutputTransaction transaction(options.force, context.temporaries);
-  const std::string extension = options.output.extension().string();
-  if (extension != ".csv" && extension != ".vtp")
+  const auto &      also = options.branches.also;
+  if (std::find(also.begin(), also.end(), "ma") != also.end())
   {
-    throw UsageError(options.output.string() + ": unknown extension; use .csv or .vtp");
+    throw UsageError("--also ma: needs the medial surface; give it to 'voxelcore skeleton'");
   }
-  transaction.Protect(options.skeleton);
-  SkeletonFiles files(options.output, options.branches, transaction);
+  if (IsFolderOutput(options.output))
+  {
+    throw UsageError(options.output.string() + ": give a file, .csv or .vtp");
+  }
+  SkeletonFiles files(options.output, options.skeleton, options.branches, transaction);
   ReportProgress(context.progress, "reading", 0);
   SkeletonModel model = ReadSkeletonVtp(options.skeleton);
-  try
+  CoreReport &  report = result.report;
+  report = ParseProvenance(model.provenance, options.skeleton.string());
+  if (!report.skeleton || report.labels.size() != model.parts.size())
   {
-    const Json made = Json::parse(model.provenance);
-    files.spacing = made.at("spacing_mm").get<Vector3>();
-    for (const Json & label : made.at("labels"))
+    throw InputError(options.skeleton.string() + ": its field Provenance does not fit its cells; make the file again");
+  }
+  report.skeleton->branches = Together(report.skeleton->branches, options.branches);
+  const Vector3 & spacing = report.input.geometry.spacing;
+  for (std::size_t i = 0; i < model.parts.size(); ++i)
+  {
+    SkeletonPart & part = model.parts[i];
+    LabelRecord &  record = report.labels[i];
+    if (part.label != record.label || part.component != record.component || !record.skeleton)
     {
-      for (SkeletonPart & part : model.parts)
-      {
-        if (part.label == label.at("label") && part.component == label.at("component"))
-        {
-          part.name = label.at("name").get<std::string>();
-        }
-      }
+      throw InputError(options.skeleton.string() +
+                       ": its field Provenance does not fit its cells; make the file again");
     }
-  }
-  catch (const nlohmann::json::exception &)
-  {
-    throw InputError(options.skeleton.string() + ": its field Provenance lacks the spacing; make the file again");
-  }
-  const double voxel = *std::min_element(files.spacing.begin(), files.spacing.end());
-  double       limit = 0;
-  if (options.branches.pruneLength)
-  {
-    const Lambda & length = *options.branches.pruneLength;
-    if (length.unit == Lambda::Unit::Percent)
-    {
-      throw UsageError("--prune-branches " + length.text + ": percent needs the scan; give mm, vox or r");
-    }
-    limit = length.value * (length.unit == Lambda::Unit::Voxel ? voxel : 1);
-  }
-  for (SkeletonPart & part : model.parts)
-  {
+    part.name = record.name;
+    const auto & length = options.branches.pruneLength;
+    const double limit = length ? LambdaInMillimetres(*length, report.parameters.weights, spacing, record.box) : 0;
     PruneBranches(part.graph, { limit, options.branches.pruneRadii });
-    files.Add(std::move(part), std::nullopt, nullptr);
+    CutAndMeasure(part, options.branches, spacing, *record.skeleton);
+    files.Add(report, i, std::move(part), {}, result.notes);
   }
-  files.model.provenance = model.provenance;
-  SkeletonResult result = files.Write();
+  files.Finish(report, result.notes);
   ReportProgress(context.progress, "done", 1);
   transaction.Commit();
   return result;

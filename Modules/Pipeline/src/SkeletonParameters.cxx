@@ -38,12 +38,28 @@ ParseNumber(const std::string & text, double & value)
   return result.ec == std::errc() && result.ptr == end && std::isfinite(value) && !text.empty();
 }
 
+/** One length with its unit; a bare number is mm. */
 Lambda
-LengthFrom(const ParameterValues & values, std::string_view name)
+ParseLength(const std::string & text)
+{
+  Lambda length = ParseLambda(text);
+  if (length.value == 0)
+  {
+    length.text = "0";
+  }
+  else if (length.unit == Lambda::Unit::Millimetre && !length.text.ends_with("mm"))
+  {
+    length.text += "mm";
+  }
+  return length;
+}
+
+Lambda
+LengthFrom(const ParameterValues & values, CommandId command, std::string_view name)
 {
   try
   {
-    return ParseLambda(ValueOf(values, CommandId::Skeleton, name));
+    return ParseLength(ValueOf(values, command, name));
   }
   catch (const UsageError & error)
   {
@@ -78,6 +94,45 @@ BranchOptionsFrom(const ParameterValues & values, CommandId command)
     options.also = ParseAlso(ValueOf(values, command, "also"));
   }
   return options;
+}
+
+/** What StageFrom() reads. */
+constexpr std::array<const char *, 8> kStageOptions{ "stand-out",      "plates",    "smooth",
+                                                     "prune-branches", "cut-loops", "split-at-junctions",
+                                                     "root",           "also" };
+
+/** All but lambda. */
+SkeletonStage
+StageFrom(const ParameterValues & values, CommandId command)
+{
+  SkeletonStage stage;
+  stage.standOut = LengthFrom(values, command, "stand-out");
+  stage.smooth = LengthFrom(values, command, "smooth");
+  if (values.contains("plates"))
+  {
+    stage.plates = LengthFrom(values, command, "plates");
+  }
+  stage.branches = BranchOptionsFrom(values, command);
+  return stage;
+}
+
+/** A finished core was read, edited and pruned already. */
+void
+RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & input)
+{
+  for (const Parameter & parameter : Parameters())
+  {
+    const bool ofScans =
+      BelongsTo(parameter, CommandId::Skeleton) &&
+      (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" || parameter.name == "engine") &&
+      parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
+      parameter.name != "quiet";
+    if (ofScans && values.contains(parameter.name))
+    {
+      throw UsageError("--" + std::string(parameter.name) + ": is for scans; " + input.string() +
+                       " is a finished core; give the option to 'voxelcore core', or the scan to 'skeleton'");
+    }
+  }
 }
 
 } // namespace
@@ -120,7 +175,7 @@ ParseBranchLimit(const std::string & text, BranchOptions & options)
   }
   try
   {
-    options.pruneLength = ParseLambda(text);
+    options.pruneLength = ParseLength(text);
   }
   catch (const UsageError & error)
   {
@@ -147,29 +202,77 @@ ParseAlso(const std::string & text)
   return endings;
 }
 
+std::string
+RootText(const RootChoice & root)
+{
+  if (root.kind != RootChoice::Kind::Point)
+  {
+    return root.kind == RootChoice::Kind::Top ? "top" : "thickest";
+  }
+  std::string text;
+  for (const double coordinate : root.point)
+  {
+    std::array<char, 64> digits{}; // as few as give the same number again
+    const auto           end = std::to_chars(digits.data(), digits.data() + digits.size(), coordinate).ptr;
+    text += (text.empty() ? "" : ",") + std::string(digits.data(), end);
+  }
+  return text;
+}
+
+std::optional<SkeletonStage>
+CoreSkeletonFrom(const ParameterValues & values)
+{
+  if (values.contains("with-skeleton"))
+  {
+    SkeletonStage stage = StageFrom(values, CommandId::Core);
+    stage.lambda = ParseLength("0");
+    const auto & also = stage.branches.also;
+    if (std::find(also.begin(), also.end(), "ma") != also.end())
+    {
+      throw UsageError("--also ma: 'core' writes its result as OUT.ma itself; with radii apart 'skeleton' does");
+    }
+    return stage;
+  }
+  for (const char * name : kStageOptions)
+  {
+    if (values.contains(name))
+    {
+      throw UsageError("--" + std::string(name) + ": needs --with-skeleton");
+    }
+  }
+  return std::nullopt;
+}
+
 SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values)
 {
   constexpr CommandId command = CommandId::Skeleton;
   SkeletonOptions     options;
   options.input = ValueOf(values, command, "scan");
+  if (options.input.extension() == ".vtp")
+  {
+    RefuseScanOptions(values, options.input);
+  }
   options.reading = ReadOptionsFrom(values, command);
   options.edits = ShapeEditsFrom(values, command);
-  options.lambda = LengthFrom(values, "lambda");
-  options.threshold = LengthFrom(values, "stand-out");
-  options.smooth = LengthFrom(values, "smooth");
-  if (values.contains("plates"))
-  {
-    options.plates = LengthFrom(values, "plates");
-  }
-  options.branches = BranchOptionsFrom(values, command);
+  options.stage = StageFrom(values, command);
+  options.stage.lambda = LengthFrom(values, command, "lambda");
   options.output = OutputFrom(values, command);
+  if (values.contains("report"))
+  {
+    options.report = ValueOf(values, command, "report");
+    if (options.report->empty())
+    {
+      throw UsageError("--report '': expected a file name");
+    }
+  }
   const std::string engine = ValueOf(values, command, "engine");
   if (engine != "auto" && engine != "lattice" && engine != "tetgen")
   {
     throw UsageError("--engine " + engine + ": expected one of auto|lattice|tetgen");
   }
   options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
+  options.threads = ThreadsFrom(values, command);
   options.force = values.contains("force");
   return options;
 }

@@ -8,6 +8,8 @@
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/ShapeEdits.h"
+#include "voxelcore/SkeletonModel.h"
+#include "voxelcore/SkeletonStage.h"
 
 #include <filesystem>
 #include <optional>
@@ -19,11 +21,13 @@ namespace voxelcore
 
 struct CoreOptions
 {
-  std::filesystem::path                scan;
-  ReadOptions                          reading;
-  ShapeEditOptions                     edits;
-  std::vector<Lambda>                  lambdas; ///< at least one; ParseLambdas gives them
-  std::filesystem::path                output;  ///< a model file, or a folder (IsFolderOutput)
+  std::filesystem::path        scan;
+  ReadOptions                  reading;
+  ShapeEditOptions             edits;
+  std::vector<Lambda>          lambdas;  ///< at least one; ParseLambdas gives them
+  std::filesystem::path        output;   ///< a model file, or a folder (IsFolderOutput); empty: no core is written
+  std::optional<SkeletonStage> skeleton; ///< skeletons too; its lambda is 0 or one of `lambdas`
+  std::filesystem::path        skeletonOutput; ///< .vtp, or a folder
   std::optional<std::filesystem::path> report;
   ModelOptions                         model;
   Engine                               engine = Engine::Auto;
@@ -49,13 +53,15 @@ RunCoreJob(const CoreOptions & options, const JobContext & context = {});
 /** One label's share of a job. */
 struct LabelOutcome
 {
-  LabelRecord            record;
-  std::vector<ModelPart> parts; ///< one per lambda, in LPS mm
-  StageSeconds           seconds;
+  LabelRecord                 record;
+  std::vector<ModelPart>      parts; ///< one per lambda, in LPS mm
+  std::optional<SkeletonPart> skeleton;
+  StageSeconds                seconds;
 };
 
 /** Everything between reading and writing for one label; depends on nothing but its arguments. With `crossCheck` both
- *  engines run, one after the other; TetGen can do so once at a time in a process.
+ *  engines run, one after the other; TetGen can do so once at a time in a process. The skeleton's lambda is 0 or one of
+ *  `lambdas`.
  *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape, or the engines
  *  differ. */
 LabelOutcome
@@ -65,7 +71,8 @@ ProcessLabel(LabelShape                  label,
              const std::vector<Lambda> & lambdas,
              Engine                      engine,
              const ProgressCallback &    progress = {},
-             bool                        crossCheck = false);
+             bool                        crossCheck = false,
+             const SkeletonStage *       skeleton = nullptr);
 
 /** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
 bool

@@ -4,6 +4,7 @@
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/ShapeEdits.h"
+#include "voxelcore/SkeletonStage.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/TopologyNumbers.h"
 #include "voxelcore/VoxelShape.h"
@@ -67,23 +68,33 @@ struct PrunedRecord
   std::string   output; ///< the file
 };
 
+/** A label's curve skeleton. Its topology has been found equal to the shape's, or there is none. */
+struct SkeletonRecord
+{
+  TopologyNumbers      topology;
+  SkeletonNumbers      numbers; ///< as written: after cutting and splitting
+  std::vector<LoopCut> cuts;
+  std::string          output; ///< the file
+};
+
 /** One label, or one of its components where these are split. */
 struct LabelRecord
 {
-  std::int64_t              label = 0;
-  std::int64_t              component = 0; ///< from 1 by size; 0: the whole label
-  std::string               name;
-  std::optional<EditRecord> edits; ///< of the whole label; none when none was asked for
-  std::uint64_t             voxels = 0;
-  double                    volumeMm3 = 0;
-  VoxelBox                  box; ///< tight
-  std::uint64_t             boundaryVertices = 0;
-  TopologyNumbers           shape;
-  ComplexRecord             core;
-  std::vector<PrunedRecord> pruned; ///< one per lambda, in the order given
-  bool                      topologyEqual = false;
-  bool                      enclosed = false;
-  double                    seconds = 0; ///< for the table
+  std::int64_t                  label = 0;
+  std::int64_t                  component = 0; ///< from 1 by size; 0: the whole label
+  std::string                   name;
+  std::optional<EditRecord>     edits; ///< of the whole label; none when none was asked for
+  std::uint64_t                 voxels = 0;
+  double                        volumeMm3 = 0;
+  VoxelBox                      box; ///< tight
+  std::uint64_t                 boundaryVertices = 0;
+  TopologyNumbers               shape;
+  ComplexRecord                 core;
+  std::vector<PrunedRecord>     pruned; ///< one per lambda, in the order given
+  bool                          topologyEqual = false;
+  bool                          enclosed = false;
+  std::optional<SkeletonRecord> skeleton;
+  double                        seconds = 0; ///< for the table
 
   bool
   Passed() const
@@ -101,18 +112,20 @@ struct StageSeconds
   double delaunay = 0;
   double core = 0;
   double prune = 0;
+  double skeleton = 0;
   double write = 0;
   double total = 0;
 };
 
 struct CoreReport
 {
-  std::string              command;
-  InputRecord              input;
-  ParameterRecord          parameters;
-  std::vector<LabelRecord> labels;
-  StageSeconds             seconds;
-  double                   peakMemoryMb = 0;
+  std::string                  command;
+  InputRecord                  input;
+  ParameterRecord              parameters;
+  std::optional<SkeletonStage> skeleton; ///< where skeletons were made
+  std::vector<LabelRecord>     labels;
+  StageSeconds                 seconds;
+  double                       peakMemoryMb = 0;
 };
 
 /** The version all reports name. */
@@ -129,7 +142,12 @@ ReportJson(const CoreReport & report);
 std::string
 ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t lambda);
 
-/** The inverse of ProvenanceJson; `where` names the file in errors.
+/** The same for a file of these labels' skeletons. It is the same whether these were made from the scan, beside its core,
+ *  or from the file of its whole core. */
+std::string
+SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels);
+
+/** The inverse of both; `where` names the file in errors.
  *  \throws InputError when something is missing. */
 CoreReport
 ParseProvenance(const std::string & json, const std::string & where);

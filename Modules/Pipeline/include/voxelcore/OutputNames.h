@@ -43,4 +43,20 @@ FolderOutputPath(const std::filesystem::path & folder,
                  std::size_t                   which,
                  std::int64_t                  component = 0);
 
+/** "<folder>/<scan>_label-<value>_skeleton.vtp", of a component (not 0) "..._label-<value>_component-<n>_skeleton.vtp". Of a
+ *  core's file, "<scan>_label-<value>_medial.vtp", what comes before "_label-" or "_medial" counts as the scan's name. */
+std::filesystem::path
+SkeletonFolderPath(const std::filesystem::path & folder,
+                   const std::filesystem::path & input,
+                   std::int64_t                  label,
+                   std::int64_t                  component = 0);
+
+/** "<folder>/<scan>_skeleton.vtp": tables of all labels of a folder are named after it. */
+std::filesystem::path
+SkeletonTablesPath(const std::filesystem::path & folder, const std::filesystem::path & input);
+
+/** Where `core` writes the skeletons to: "OUT_skeleton.vtp" for "OUT.vtp", a folder for a folder. */
+std::filesystem::path
+SkeletonBesideCore(const std::filesystem::path & output);
+
 } // namespace voxelcore

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -102,6 +103,8 @@ PruneOptions
 PruneOptionsFrom(const ParameterValues & values);
 PhantomJobOptions
 PhantomOptionsFrom(const ParameterValues & values);
+std::optional<SkeletonStage>
+CoreSkeletonFrom(const ParameterValues & values);
 SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values);
 MeasureJobOptions

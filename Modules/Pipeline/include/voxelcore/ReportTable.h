@@ -19,6 +19,11 @@ FormatTable(const std::vector<std::vector<std::string>> & rows);
 std::string
 ReportTable(const CoreReport & report);
 
+/** A row per label that has a skeleton: label, name, branches, tips, junctions, cycles, length, mean radius, chi/b0/b1/b2
+ *  of the shape and of the skeleton, certificate. */
+std::string
+SkeletonTable(const CoreReport & report);
+
 /** "-2/1/3/0": Euler number and Betti numbers. */
 std::string
 TopologyText(const TopologyNumbers & topology);

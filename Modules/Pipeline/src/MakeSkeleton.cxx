@@ -1,0 +1,86 @@
+#include "MakeSkeleton.h"
+
+#include "JobTools.h"
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/CurveSkeleton.h"
+#include "voxelcore/Error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore
+{
+
+MeasureOptions
+MeasuringOf(const BranchOptions & options, const Vector3 & spacing)
+{
+  MeasureOptions measuring;
+  measuring.root = options.root;
+  measuring.radiusShift = 0.25 * std::sqrt(spacing[0] * spacing[0] + spacing[1] * spacing[1] + spacing[2] * spacing[2]);
+  return measuring;
+}
+
+void
+CutAndMeasure(SkeletonPart & part, const BranchOptions & options, const Vector3 & spacing, SkeletonRecord & record)
+{
+  if (options.cutLoops)
+  {
+    record.cuts = CutLoops(part.graph);
+  }
+  if (options.splitAtJunctions)
+  {
+    SplitAtJunctions(part.graph);
+  }
+  part.table = MeasureBranches(part.graph, MeasuringOf(options, spacing));
+  record.numbers = part.table.numbers;
+}
+
+SkeletonPart
+MakeSkeleton(const ModelPart &        surface,
+             const SkeletonStage &    stage,
+             const SpacingWeights &   weights,
+             const Vector3 &          spacing,
+             LabelRecord &            record,
+             const ProgressCallback & progress)
+{
+  const auto        length = [&](const Lambda & l) { return LambdaInMillimetres(l, weights, spacing, record.box); };
+  const double      voxel = *std::min_element(spacing.begin(), spacing.end());
+  const std::string text = LabelText(record.label, record.name);
+  CurveOptions      curves;
+  curves.branchThreshold = length(stage.standOut);
+  if (stage.plates)
+  {
+    curves.plateThreshold = length(*stage.plates);
+  }
+  curves.sampling = 1.5 * voxel;
+  curves.voxel = voxel;
+  const CurveSkeleton   skeleton = ComputeCurveSkeleton(surface.core, curves, progress);
+  const TopologyNumbers topology = ComputeComplexTopology(skeleton.complex.cells);
+  RequireEqualTopology(record.shape, topology, "its skeleton", text);
+
+  SkeletonPart part;
+  part.label = record.label;
+  part.component = record.component;
+  part.name = record.name;
+  part.graph = BuildSkeletonGraph(skeleton);
+  FitBranches(part.graph, length(stage.smooth), 0.5 * voxel);
+  const BranchOptions & branches = stage.branches;
+  const double          limit = branches.pruneLength ? length(*branches.pruneLength) : 0;
+  if (PruneBranches(part.graph, { limit, branches.pruneRadii }) > 0)
+  {
+    FitBranches(part.graph, length(stage.smooth), 0.5 * voxel);
+  }
+  const SkeletonNumbers numbers = MeasureBranches(part.graph).numbers;
+  if (part.graph.FaceCount() == 0 && (numbers.components != topology.betti[0] || numbers.cycles != topology.betti[1]))
+  {
+    throw CertificateError(text +
+                           ": certificate failed: the branches do not have the shape's topology; nothing was "
+                           "written; this is a fault of VoxelCore, please report it with the scan");
+  }
+  record.skeleton.emplace();
+  record.skeleton->topology = topology;
+  CutAndMeasure(part, branches, spacing, *record.skeleton);
+  return part;
+}
+
+} // namespace voxelcore

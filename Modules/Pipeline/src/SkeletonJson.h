@@ -1,0 +1,27 @@
+#pragma once
+// Skeletons in reports and provenance.
+
+#include "voxelcore/CoreReport.h"
+
+#include <nlohmann/json.hpp>
+
+namespace voxelcore
+{
+
+/** Every option that changes a skeleton. */
+nlohmann::ordered_json
+SkeletonStageJson(const SkeletonStage & stage);
+
+/** \throws nlohmann::json::exception when something is missing; UsageError */
+SkeletonStage
+ReadSkeletonStage(const nlohmann::ordered_json & json);
+
+/** `inFile`: without the file's name. */
+nlohmann::ordered_json
+SkeletonRecordJson(const SkeletonRecord & skeleton, bool inFile);
+
+/** The part that measuring does not find again: the topology. */
+SkeletonRecord
+ReadSkeletonRecord(const nlohmann::ordered_json & json);
+
+} // namespace voxelcore
