@@ -253,7 +253,7 @@ Evaluate(const Body & body, const Options & options, std::vector<std::string> & 
         const auto           points = BoundaryVertices(shape);
         DelaunayCells        delaunay = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
         const auto           touching = LargestTouchingBalls(delaunay, points, weights);
-        const MedialComplex  core = BuildVoxelCore(shape, points, std::move(delaunay), weights);
+        MedialComplex        core = BuildVoxelCore(shape, points, std::move(delaunay), weights);
         const auto           topology = ComputeComplexTopology(core.cells);
         const auto           add = [&](const std::string & name, const MedialComplex & pruned, double seconds) {
           Result result = Score(pruned, body, placement, truth, voxel);
@@ -305,13 +305,11 @@ Evaluate(const Body & body, const Options & options, std::vector<std::string> & 
           add(name, lambdas[i], seconds);
         }
         start = Seconds();
-        const BumpValues bumps = ComputeBumps(core, weights, points, touching);
+        core.bumps = ComputeBumps(core, weights, points, touching);
         seconds = Seconds() - start;
         for (const std::string & text : options.heights)
         {
-          add("bumps " + text,
-              PruneByBumps(core, bumps, BumpHeightInMillimetres(ParseBumpHeight(text), spacing)),
-              seconds);
+          add("bumps " + text, PruneByBumps(core, BumpHeightInMillimetres(ParseBumpHeight(text), spacing)), seconds);
         }
       }
     }

@@ -117,13 +117,9 @@ TEST(BoundaryGap, OfACorePrunedByBumpsIsAtMostTheHeight)
     }
     SCOPED_TRACE(volume.Describe());
     const SpacingWeights weights = ComputeSpacingWeights(volume.spacing);
-    const auto           points = BoundaryVertices(volume.shape);
-    DelaunayCells        cells = ComputeDelaunayCells(volume.shape, points, weights, Engine::Auto);
-    const auto           touching = LargestTouchingBalls(cells, points, weights);
-    const MedialComplex  core = BuildVoxelCore(volume.shape, points, std::move(cells), weights);
-    const BumpValues     bumps = ComputeBumps(core, weights, points, touching);
+    const MedialComplex  core = testing::BumpedCoreOf(volume.shape, volume.spacing);
     std::vector<double>  heights;
-    for (const double value : bumps.vertices)
+    for (const double value : core.bumps.vertices)
     {
       heights.push_back(std::isfinite(value) ? value : 1e9);
     }
@@ -131,7 +127,7 @@ TEST(BoundaryGap, OfACorePrunedByBumpsIsAtMostTheHeight)
     heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
     for (std::size_t i = 0; i + 1 < heights.size(); i += 1 + heights.size() / 8)
     {
-      const MedialComplex rest = PruneByBumps(core, bumps, heights[i]);
+      const MedialComplex rest = PruneByBumps(core, heights[i]);
       ASSERT_LE(LargestBoundaryGap(volume.shape, weights, rest.positions, rest.radius).largest,
                 heights[i] * (1 + 1e-12) + 1e-9);
     }

@@ -4,6 +4,7 @@
 
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/ComplexTopology.h"
+#include "voxelcore/LambdaPruning.h"
 
 #include <gtest/gtest.h>
 
@@ -15,27 +16,6 @@ namespace voxelcore
 {
 namespace
 {
-
-using testing::Spacing3;
-
-struct Bumped
-{
-  MedialComplex core;
-  BumpValues    bumps;
-};
-
-Bumped
-BumpsOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 }, Engine engine = Engine::Auto)
-{
-  const SpacingWeights weights = ComputeSpacingWeights(spacing);
-  const auto           points = BoundaryVertices(shape);
-  DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, engine);
-  const auto           touching = LargestTouchingBalls(cells, points, weights);
-  Bumped               result;
-  result.core = BuildVoxelCore(shape, points, std::move(cells), weights);
-  result.bumps = ComputeBumps(result.core, weights, points, touching);
-  return result;
-}
 
 // All finite values, and heights between and beyond them.
 std::vector<double>
@@ -75,12 +55,11 @@ TEST(BumpPruning, KeepsTheTopologyAtEveryHeight)
   {
     SCOPED_TRACE(volume.Describe());
     testing::Random       random(volume.seed);
-    const Bumped          bumped = BumpsOf(volume.shape, volume.spacing);
-    const TopologyNumbers topology = ComputeComplexTopology(bumped.core.cells);
+    const MedialComplex   bumped = testing::BumpedCoreOf(volume.shape, volume.spacing);
+    const TopologyNumbers topology = ComputeComplexTopology(bumped.cells);
     for (const double height : Heights(bumped.bumps, random))
     {
-      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(bumped.core, bumped.bumps, height).cells), topology)
-        << "at " << height;
+      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(bumped, height).cells), topology) << "at " << height;
     }
   }
 }
@@ -91,7 +70,8 @@ TEST(BumpPruning, ValuesDoNotFallFromFacesToEdgesToVertices)
   for (const auto & volume : testing::RandomVolumes(1200, 60))
   {
     SCOPED_TRACE(volume.Describe());
-    const auto [core, bumps] = BumpsOf(volume.shape, volume.spacing);
+    const MedialComplex core = testing::BumpedCoreOf(volume.shape, volume.spacing);
+    const BumpValues &  bumps = core.bumps;
     ASSERT_EQ(bumps.vertices.size(), core.cells.vertexCount);
     ASSERT_EQ(bumps.edges.size(), core.cells.edges.size());
     ASSERT_EQ(bumps.faces.size(), core.cells.FaceCount());
@@ -116,8 +96,8 @@ TEST(BumpPruning, LeavesOnlyWhatTheTopologyNeedsInTheEnd)
   for (const auto & volume : testing::RandomVolumes(1300, 60))
   {
     SCOPED_TRACE(volume.Describe());
-    const auto [core, bumps] = BumpsOf(volume.shape, volume.spacing);
-    const MedialComplex rest = PruneByBumps(core, bumps, std::numeric_limits<double>::max());
+    const MedialComplex core = testing::BumpedCoreOf(volume.shape, volume.spacing);
+    const MedialComplex rest = PruneByBumps(core, std::numeric_limits<double>::max());
     ASSERT_EQ(FreePairs(rest.cells), 0U);
     const TopologyNumbers numbers = ComputeComplexTopology(core.cells);
     if (numbers.betti[1] == 0 && numbers.betti[2] == 0)
@@ -136,8 +116,8 @@ TEST(BumpPruning, IsTheSameForBothEngines)
   for (const auto & volume : testing::RandomVolumes(1400, 30))
   {
     SCOPED_TRACE(volume.Describe());
-    const Bumped a = BumpsOf(volume.shape, volume.spacing, Engine::Lattice);
-    const Bumped b = BumpsOf(volume.shape, volume.spacing, Engine::TetGen);
+    const MedialComplex a = testing::BumpedCoreOf(volume.shape, volume.spacing, Engine::Lattice);
+    const MedialComplex b = testing::BumpedCoreOf(volume.shape, volume.spacing, Engine::TetGen);
     ASSERT_EQ(a.bumps.vertices, b.bumps.vertices);
     ASSERT_EQ(a.bumps.edges, b.bumps.edges);
     ASSERT_EQ(a.bumps.faces, b.bumps.faces);
@@ -156,11 +136,11 @@ TEST(BumpPruning, TakesDegenerateShapes)
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     SCOPED_TRACE("shape " + std::to_string(i));
-    const auto [core, bumps] = BumpsOf(shapes[i]);
+    const MedialComplex   core = testing::BumpedCoreOf(shapes[i]);
     const TopologyNumbers topology = ComputeComplexTopology(core.cells);
     for (const double height : { 0.0, 0.5, 1.0, 2.0, 100.0 })
     {
-      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(core, bumps, height).cells), topology);
+      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(core, height).cells), topology);
     }
   }
 }
@@ -168,10 +148,10 @@ TEST(BumpPruning, TakesDegenerateShapes)
 // A rod of one voxel is a path of balls all alike: from each end it shrinks by the height, but for the last step.
 TEST(BumpPruning, ShortensARodByTheHeightAtEachEnd)
 {
-  const auto [core, bumps] = BumpsOf(testing::Box({ 1, 1, 40 }));
+  const MedialComplex core = testing::BumpedCoreOf(testing::Box({ 1, 1, 40 }));
   for (const double height : { 1.5, 3.0, 6.0 })
   {
-    const MedialComplex rest = PruneByBumps(core, bumps, height);
+    const MedialComplex rest = PruneByBumps(core, height);
     ASSERT_FALSE(rest.positions.empty());
     EXPECT_GE(rest.positions.front()[2], 0.5);
     EXPECT_LE(rest.positions.front()[2], 0.5 + height + 1.0);
@@ -188,14 +168,14 @@ TEST(BumpPruning, ClearsAThickPartAndKeepsThinOnesOnIt)
   const auto inRod = [](double x, double y, double z) { return y * y + z * z <= 1.6 * 1.6 && x >= 0 && x <= 30; };
   const auto inBall = [](double x, double y, double z) { return x * x + y * y + z * z <= 11 * 11; };
   // Off the lattice's symmetry, or all would be too tidy.
-  const auto shape = testing::ShapeWhere({ 46, 26, 26 }, [&](int i, int j, int k) {
+  const auto          shape = testing::ShapeWhere({ 46, 26, 26 }, [&](int i, int j, int k) {
     const double x = i + 0.5 - 12.3;
     const double y = j + 0.5 - 12.8;
     const double z = k + 0.5 - 13.1;
     return inRod(x, y, z) || inBall(x, y, z);
   });
-  const auto [core, bumps] = BumpsOf(shape);
-  const MedialComplex rest = PruneByBumps(core, bumps, 1.2 * std::sqrt(3.0));
+  const MedialComplex core = testing::BumpedCoreOf(shape);
+  const MedialComplex rest = PruneByBumps(core, 1.2 * std::sqrt(3.0));
   double              farthest = 0;
   double              outermost = 0;
   for (const auto & position : rest.positions)
@@ -212,8 +192,8 @@ TEST(BumpPruning, ClearsAThickPartAndKeepsThinOnesOnIt)
 
 TEST(BumpPruning, DoesNotTearASheet)
 {
-  const auto [core, bumps] = BumpsOf(testing::Box({ 30, 5, 24 }));
-  const MedialComplex rest = PruneByBumps(core, bumps, 1.5);
+  const MedialComplex core = testing::BumpedCoreOf(testing::Box({ 30, 5, 24 }));
+  const MedialComplex rest = PruneByBumps(core, 1.5);
   double              area = 0;
   for (std::size_t face = 0; face < rest.cells.FaceCount(); ++face)
   {
@@ -231,6 +211,36 @@ TEST(BumpPruning, DoesNotTearASheet)
   EXPECT_EQ(rest.cells.vertexCount + rest.cells.FaceCount(), rest.cells.edges.size() + 1);
 }
 
+// What a floor takes goes whatever bump it stands for; of the rest nothing goes before its height.
+TEST(BumpPruning, BeginsWithWhatAFloorLeaves)
+{
+  for (const auto & volume : testing::RandomVolumes(1600, 40))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const double        floor = 1.2 * *std::min_element(volume.spacing.begin(), volume.spacing.end());
+    const MedialComplex core = testing::BumpedCoreOf(volume.shape, volume.spacing, Engine::Auto, floor);
+    const MedialComplex least = PruneByBumps(core, 0);
+    MedialComplex       byLambda = PruneByLambda(core, { floor }).front();
+    byLambda.bumps = least.bumps;
+    testing::ExpectSameCore(least, byLambda);
+    testing::Random random(volume.seed);
+    for (const double height : Heights(core.bumps, random))
+    {
+      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(core, height).cells), ComputeComplexTopology(core.cells));
+    }
+  }
+}
+
+TEST(BumpPruning, LeavesAllAtHeightZero)
+{
+  for (const auto & volume : testing::RandomVolumes(1650, 20))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const MedialComplex core = testing::BumpedCoreOf(volume.shape, volume.spacing);
+    testing::ExpectSameCore(core, PruneByBumps(core, 0));
+  }
+}
+
 TEST(BumpPruning, CanBeCancelled)
 {
   const VoxelShape     shape = testing::Ellipsoid(24);
@@ -239,7 +249,7 @@ TEST(BumpPruning, CanBeCancelled)
   DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
   const auto           touching = LargestTouchingBalls(cells, points, weights);
   const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
-  EXPECT_THROW(ComputeBumps(core, weights, points, touching, [](std::string_view, double) { return false; }),
+  EXPECT_THROW(ComputeBumps(core, weights, points, touching, 0, [](std::string_view, double) { return false; }),
                Cancelled);
 }
 

@@ -3,6 +3,8 @@
 
 #include "VoxelCoreTesting/Shapes.h"
 
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/BumpPruning.h"
 #include "voxelcore/TopologyNumbers.h"
 #include "voxelcore/VoxelCore.h"
 
@@ -33,6 +35,22 @@ CoreOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 })
   return ComputeVoxelCore(shape, ComputeSpacingWeights(spacing));
 }
 
+/** With its bump heights. */
+inline MedialComplex
+BumpedCoreOf(const VoxelShape & shape,
+             const Spacing3 &   spacing = { 1, 1, 1 },
+             Engine             engine = Engine::Auto,
+             double             floor = 0)
+{
+  const SpacingWeights weights = ComputeSpacingWeights(spacing);
+  const auto           points = BoundaryVertices(shape);
+  DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, engine);
+  const auto           touching = LargestTouchingBalls(cells, points, weights);
+  MedialComplex        core = BuildVoxelCore(shape, points, std::move(cells), weights);
+  core.bumps = ComputeBumps(core, weights, points, touching, floor);
+  return core;
+}
+
 /** Same cells in the same order and the same measures to the last bit; positions too unless `exactPositions` is off. */
 inline void
 ExpectSameCore(const MedialComplex & a, const MedialComplex & b, bool exactPositions = true)
@@ -46,6 +64,9 @@ ExpectSameCore(const MedialComplex & a, const MedialComplex & b, bool exactPosit
   ASSERT_EQ(a.vertexLambda, b.vertexLambda);
   ASSERT_EQ(a.edgeLambda, b.edgeLambda);
   ASSERT_EQ(a.faceLambda, b.faceLambda);
+  ASSERT_EQ(a.bumps.vertices, b.bumps.vertices);
+  ASSERT_EQ(a.bumps.edges, b.bumps.edges);
+  ASSERT_EQ(a.bumps.faces, b.bumps.faces);
   if (exactPositions)
   {
     ASSERT_EQ(a.positions, b.positions);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace voxelcore
 {
@@ -37,6 +38,58 @@ EdgesOnFaces(const CellComplex & cells)
     onFace[edge] = 1;
   }
   return onFace;
+}
+
+namespace
+{
+
+/** Raises, per element, what its cofaces have at most. */
+void
+Raise(std::vector<double> & most, std::span<const ElementIndex> elements, double value)
+{
+  for (const ElementIndex element : elements)
+  {
+    most[element] = std::max(most[element], value);
+  }
+}
+
+/** Elements on no coface (of which `most` is below all heights) or higher than all of them. */
+std::vector<ElementIndex>
+Outlasting(const std::vector<double> & most, const std::vector<double> & heights)
+{
+  std::vector<ElementIndex> cells;
+  for (std::size_t i = 0; i < most.size(); ++i)
+  {
+    if (most[i] < 0 || (!heights.empty() && heights[i] > most[i]))
+    {
+      cells.push_back(static_cast<ElementIndex>(i));
+    }
+  }
+  return cells;
+}
+
+} // namespace
+
+std::vector<ElementIndex>
+VertexCells(const MedialComplex & core)
+{
+  std::vector<double> most(core.cells.vertexCount, -1.0);
+  for (std::size_t edge = 0; edge < core.cells.edges.size(); ++edge)
+  {
+    Raise(most, core.cells.edges[edge], core.HasBumps() ? core.bumps.edges[edge] : 0.0);
+  }
+  return Outlasting(most, core.bumps.vertices);
+}
+
+std::vector<ElementIndex>
+LineCells(const MedialComplex & core)
+{
+  std::vector<double> most(core.cells.edges.size(), -1.0);
+  for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
+  {
+    Raise(most, core.cells.FaceEdges(face), core.HasBumps() ? core.bumps.faces[face] : 0.0);
+  }
+  return Outlasting(most, core.bumps.edges);
 }
 
 void
@@ -111,6 +164,7 @@ MedialComplex
 Triangulated(const MedialComplex & core)
 {
   MedialComplex result;
+  result.bumps.vertices = core.bumps.vertices;
   result.positions = core.positions;
   result.radius = core.radius;
   result.vertexLambda = core.vertexLambda;
@@ -123,6 +177,10 @@ Triangulated(const MedialComplex & core)
       result.cells.faceVertices.insert(result.cells.faceVertices.end(), { corners[0], corners[i - 1], corners[i] });
       result.cells.faceOffsets.push_back(result.cells.faceVertices.size());
       result.faceLambda.push_back(core.faceLambda[face]);
+      if (core.HasBumps())
+      {
+        result.bumps.faces.push_back(core.bumps.faces[face]);
+      }
     }
   }
 
@@ -142,6 +200,14 @@ Triangulated(const MedialComplex & core)
   {
     result.edgeLambda[result.cells.faceEdges[corner]] = result.faceLambda[corner / 3];
   }
+  if (core.HasBumps())
+  {
+    result.bumps.edges.assign(result.cells.edges.size(), 0);
+    for (std::size_t corner = 0; corner < result.cells.faceEdges.size(); ++corner)
+    {
+      result.bumps.edges[result.cells.faceEdges[corner]] = result.bumps.faces[corner / 3];
+    }
+  }
   // Both lists are sorted, and every old edge is among the new ones.
   for (std::size_t old = 0, edge = 0; old < core.cells.edges.size(); ++old)
   {
@@ -150,6 +216,10 @@ Triangulated(const MedialComplex & core)
       ++edge;
     }
     result.edgeLambda[edge] = core.edgeLambda[old];
+    if (core.HasBumps())
+    {
+      result.bumps.edges[edge] = core.bumps.edges[old];
+    }
   }
   return result;
 }

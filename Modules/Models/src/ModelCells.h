@@ -14,6 +14,13 @@ IsolatedVertices(const CellComplex & cells);
 std::vector<std::uint8_t>
 EdgesOnFaces(const CellComplex & cells);
 
+/** The vertices and edges that are cells of a file, in order: those on no edge, or face; with bump heights also those
+ *  that outlast theirs, so that a threshold on the heights of a file's cells shows what is left at any height. */
+std::vector<ElementIndex>
+VertexCells(const MedialComplex & core);
+std::vector<ElementIndex>
+LineCells(const MedialComplex & core);
+
 /** Makes the edges of a complex anew, in canonical order (by first, then second vertex; smaller index first), from the
  *  corners of its faces and from its edges on no face (any order of ends). Sets `edges` and `faceEdges`.
  *  \throws Error when there are more than an ElementIndex can count. */

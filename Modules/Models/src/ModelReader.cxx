@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <new>
@@ -142,22 +143,80 @@ ReadComplex(const std::array<CellList, 3> & kinds, const PartRange & range)
     RequireFit(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end(), "a polygon has the same corner twice");
   }
   BuildEdges(cells, lines);
-
-  const std::vector<std::uint8_t> onFace = EdgesOnFaces(cells);
-  std::size_t                     loose = 0;
-  for (std::size_t edge = 0; edge < onFace.size(); ++edge)
-  {
-    loose += onFace[edge] ? 0 : 1;
-  }
-  RequireFit(loose == lines.size(), "a line lies on a polygon");
-  const std::vector<ElementIndex> isolated = IsolatedVertices(cells);
-  RequireFit(isolated.size() == range.cells[0], "its vertex cells are not its isolated vertices");
-  for (std::size_t i = 0; i < isolated.size(); ++i)
-  {
-    RequireFit(kinds[0][range.firstCell[0] + i][0] - range.firstPoint == isolated[i],
-               "its vertex cells are not its isolated vertices");
-  }
   return cells;
+}
+
+/** Whether the cells of dimension 0 and 1 are those a core's file has. */
+void
+RequireCells(const std::array<CellList, 3> &   kinds,
+             const PartRange &                 range,
+             const MedialComplex &             core,
+             const std::vector<ElementIndex> & lines)
+{
+  const auto same = [&](std::size_t i) {
+    const auto line = kinds[1][range.firstCell[1] + i];
+    const auto ends = core.cells.edges[lines[i]];
+    return line[0] == range.firstPoint + ends[0] && line[1] == range.firstPoint + ends[1];
+  };
+  bool fit = lines.size() == range.cells[1];
+  for (std::size_t i = 0; fit && i < lines.size(); ++i)
+  {
+    fit = same(i);
+  }
+  RequireFit(fit, "a line lies on a polygon");
+  const std::vector<ElementIndex> verts = VertexCells(core);
+  fit = verts.size() == range.cells[0];
+  for (std::size_t i = 0; fit && i < verts.size(); ++i)
+  {
+    fit = kinds[0][range.firstCell[0] + i][0] - range.firstPoint == verts[i];
+  }
+  RequireFit(fit, "its vertex cells are not its isolated vertices");
+}
+
+/** Bump heights of a part from those of its points and cells. Edges that are no cells go with the last of their faces. */
+void
+ReadBumps(const std::array<CellList, 3> & kinds,
+          const PartRange &               range,
+          const std::vector<double> &     pointBump,
+          const std::vector<double> &     cellBump,
+          MedialComplex &                 core)
+{
+  const CellComplex & cells = core.cells;
+  const auto          firstPoint = pointBump.begin() + range.firstPoint;
+  core.bumps.vertices.assign(firstPoint, firstPoint + static_cast<std::ptrdiff_t>(cells.vertexCount));
+  const std::size_t firstFace = kinds[0].Count() + kinds[1].Count() + range.firstCell[2];
+  core.bumps.faces.assign(cellBump.begin() + static_cast<std::ptrdiff_t>(firstFace),
+                          cellBump.begin() + static_cast<std::ptrdiff_t>(firstFace + range.cells[2]));
+  for (const auto * values : { &core.bumps.vertices, &core.bumps.faces })
+  {
+    RequireFit(std::all_of(values->begin(), values->end(), [](double value) { return value >= 0; }),
+               "a bump height is below 0");
+  }
+  core.bumps.edges.assign(cells.edges.size(), 0);
+  for (std::size_t face = 0; face < cells.FaceCount(); ++face)
+  {
+    for (const ElementIndex edge : cells.FaceEdges(face))
+    {
+      core.bumps.edges[edge] = std::max(core.bumps.edges[edge], core.bumps.faces[face]);
+    }
+  }
+  std::size_t line = 0;
+  for (std::size_t edge = 0; edge < cells.edges.size() && line < range.cells[1]; ++edge)
+  {
+    const auto ends = kinds[1][range.firstCell[1] + line];
+    if (ends[0] == range.firstPoint + cells.edges[edge][0] && ends[1] == range.firstPoint + cells.edges[edge][1])
+    {
+      core.bumps.edges[edge] = cellBump[kinds[0].Count() + range.firstCell[1] + line];
+      RequireFit(core.bumps.edges[edge] >= 0, "a bump height is below 0");
+      ++line;
+    }
+  }
+  for (std::size_t i = 0; i < range.cells[0]; ++i)
+  {
+    const std::size_t cell = range.firstCell[0] + i;
+    RequireFit(pointBump[static_cast<std::size_t>(kinds[0][cell][0])] == cellBump[cell],
+               "an isolated vertex has two bump heights");
+  }
 }
 
 /** An array that must have a value for each point or cell. */
@@ -215,6 +274,12 @@ ReadParts(VtpFile & file)
   const auto cellLambda = ReadValues<double>(file, "CellData", "Lambda", cellCount);
   const auto keys = ReadKeys(file, cellCount);
 
+  const bool                hasBumps = file.Has("CellData", "Bump") || file.Has("PointData", "Bump");
+  const std::vector<double> pointBump =
+    hasBumps ? ReadValues<double>(file, "PointData", "Bump", pointCount) : std::vector<double>();
+  const std::vector<double> cellBump =
+    hasBumps ? ReadValues<double>(file, "CellData", "Bump", cellCount) : std::vector<double>();
+
   std::vector<std::int64_t> edgeVertices;
   std::vector<double>       edgeLambda;
   const bool hasEdgeArrays = file.Has("FieldData", "EdgeVertices") || file.Has("FieldData", "EdgeLambda");
@@ -259,23 +324,29 @@ ReadParts(VtpFile & file)
     }
     core.faceLambda = slice(cellLambda, kinds[0].Count() + kinds[1].Count() + range.firstCell[2], range.cells[2]);
 
+    if (hasBumps)
+    {
+      ReadBumps(kinds, range, pointBump, cellBump, core);
+    }
+    const std::vector<ElementIndex> lines = LineCells(core);
+    RequireCells(kinds, range, core, lines);
     const std::vector<std::uint8_t> onFace = EdgesOnFaces(core.cells);
-    std::size_t                     line = kinds[0].Count() + range.firstCell[1];
-    core.edgeLambda.resize(onFace.size());
+    const std::size_t               firstLine = kinds[0].Count() + range.firstCell[1];
+    core.edgeLambda.assign(onFace.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t line = 0; line < lines.size(); ++line)
+    {
+      core.edgeLambda[lines[line]] = cellLambda[firstLine + line];
+    }
     for (std::size_t edge = 0; edge < onFace.size(); ++edge)
     {
-      if (!onFace[edge])
+      if (onFace[edge] && !hasEdgeArrays)
       {
-        core.edgeLambda[edge] = cellLambda[line++];
+        edgesMissing = edgesMissing || std::isnan(core.edgeLambda[edge]);
       }
-      else if (!hasEdgeArrays)
-      {
-        core.edgeLambda[edge] = std::numeric_limits<double>::quiet_NaN();
-        edgesMissing = true;
-      }
-      else
+      else if (onFace[edge])
       {
         RequireFit(edgesRead < edgeLambda.size() &&
+                     (std::isnan(core.edgeLambda[edge]) || core.edgeLambda[edge] == edgeLambda[edgesRead]) &&
                      edgeVertices[2 * edgesRead] == range.firstPoint + core.cells.edges[edge][0] &&
                      edgeVertices[2 * edgesRead + 1] == range.firstPoint + core.cells.edges[edge][1],
                    "EdgeVertices are not the edges of its polygons");

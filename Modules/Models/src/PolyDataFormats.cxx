@@ -33,9 +33,8 @@ struct PartCells
 {
   const ModelPart *         part;
   std::uint64_t             firstPoint;
-  std::vector<ElementIndex> isolated;   ///< vertices on no edge
-  std::vector<std::uint8_t> onFace;     ///< per edge
-  std::uint64_t             looseEdges; ///< edges on no face
+  std::vector<ElementIndex> verts; ///< vertices that are cells
+  std::vector<ElementIndex> lines; ///< edges that are cells
 };
 
 std::vector<PartCells>
@@ -45,11 +44,8 @@ FindCells(const MedialModel & model)
   std::uint64_t          points = 0;
   for (const ModelPart & part : model.parts)
   {
-    const CellComplex & cells = part.core.cells;
-    PartCells           one{ &part, points, IsolatedVertices(cells), EdgesOnFaces(cells), 0 };
-    one.looseEdges = static_cast<std::uint64_t>(std::count(one.onFace.begin(), one.onFace.end(), std::uint8_t{ 0 }));
-    points += cells.vertexCount;
-    all.push_back(std::move(one));
+    all.push_back({ &part, points, VertexCells(part.core), LineCells(part.core) });
+    points += part.core.cells.vertexCount;
   }
   return all;
 }
@@ -72,6 +68,13 @@ Allocate(ArrayType & array, const char * name, std::uint64_t tuples, int compone
   array.SetNumberOfComponents(components);
   array.SetNumberOfTuples(static_cast<vtkIdType>(tuples));
   return array.GetPointer(0);
+}
+
+bool
+HaveBumps(const std::vector<PartCells> & parts)
+{
+  return !parts.empty() &&
+         std::all_of(parts.begin(), parts.end(), [](const PartCells & one) { return one.part->core.HasBumps(); });
 }
 
 void
@@ -99,6 +102,16 @@ AddPoints(vtkPolyData * data, const std::vector<PartCells> & parts)
   data->SetPoints(points);
   data->GetPointData()->AddArray(radius);
   data->GetPointData()->AddArray(lambda);
+  if (HaveBumps(parts))
+  {
+    vtkNew<vtkDoubleArray> bump;
+    double *               b = Allocate(*bump, "Bump", count);
+    for (const PartCells & one : parts)
+    {
+      b = std::copy(one.part->core.bumps.vertices.begin(), one.part->core.bumps.vertices.end(), b);
+    }
+    data->GetPointData()->AddArray(bump);
+  }
 }
 
 /** Verts, lines and polys with 32 or 64 bit indices. */
@@ -113,8 +126,8 @@ AddCells(vtkPolyData * data, const std::vector<PartCells> & parts)
   std::uint64_t corners = 0;
   for (const PartCells & one : parts)
   {
-    verts += one.isolated.size();
-    lines += one.looseEdges;
+    verts += one.verts.size();
+    lines += one.lines.size();
     polys += one.part->core.cells.FaceCount();
     corners += one.part->core.cells.faceVertices.size();
   }
@@ -133,7 +146,7 @@ AddCells(vtkPolyData * data, const std::vector<PartCells> & parts)
     return vtkSmartPointer<vtkCellArray>(array);
   };
   data->SetVerts(makeCells(verts, verts, [](const PartCells & one, Index first, Index *& offset, Index *& point) {
-    for (const ElementIndex vertex : one.isolated)
+    for (const ElementIndex vertex : one.verts)
     {
       *point++ = first + static_cast<Index>(vertex);
       offset[1] = offset[0] + 1;
@@ -141,16 +154,14 @@ AddCells(vtkPolyData * data, const std::vector<PartCells> & parts)
     }
   }));
   data->SetLines(makeCells(lines, 2 * lines, [](const PartCells & one, Index first, Index *& offset, Index *& point) {
-    const auto & edges = one.part->core.cells.edges;
-    for (std::size_t edge = 0; edge < edges.size(); ++edge)
+    for (const ElementIndex edge : one.lines)
     {
-      if (!one.onFace[edge])
+      for (const ElementIndex vertex : one.part->core.cells.edges[edge])
       {
-        *point++ = first + static_cast<Index>(edges[edge][0]);
-        *point++ = first + static_cast<Index>(edges[edge][1]);
-        offset[1] = offset[0] + 2;
-        ++offset;
+        *point++ = first + static_cast<Index>(vertex);
       }
+      offset[1] = offset[0] + 2;
+      ++offset;
     }
   }));
   data->SetPolys(makeCells(polys, corners, [](const PartCells & one, Index first, Index *& offset, Index *& point) {
@@ -168,13 +179,47 @@ AddCells(vtkPolyData * data, const std::vector<PartCells> & parts)
   }));
 }
 
+/** One number per element. */
+struct Measures
+{
+  const std::vector<double> & vertices;
+  const std::vector<double> & edges;
+  const std::vector<double> & faces;
+};
+
+template <typename MeasuresOf>
+void
+AddMeasure(vtkPolyData * data, const std::vector<PartCells> & parts, const char * name, MeasuresOf && measuresOf)
+{
+  vtkNew<vtkDoubleArray> array;
+  double *               value = Allocate(*array, name, static_cast<std::uint64_t>(data->GetNumberOfCells()));
+  for (const PartCells & one : parts)
+  {
+    for (const ElementIndex vertex : one.verts)
+    {
+      *value++ = measuresOf(one.part->core).vertices[vertex];
+    }
+  }
+  for (const PartCells & one : parts)
+  {
+    for (const ElementIndex edge : one.lines)
+    {
+      *value++ = measuresOf(one.part->core).edges[edge];
+    }
+  }
+  for (const PartCells & one : parts)
+  {
+    const auto & faces = measuresOf(one.part->core).faces;
+    value = std::copy(faces.begin(), faces.end(), value);
+  }
+  data->GetCellData()->AddArray(array);
+}
+
 void
 AddCellArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
 {
   const auto                count = static_cast<std::uint64_t>(data->GetNumberOfCells());
-  vtkNew<vtkDoubleArray>    lambda;
   vtkNew<vtkTypeInt64Array> label;
-  double *                  measure = Allocate(*lambda, "Lambda", count);
   auto *                    value = Allocate(*label, "Label", count);
   std::vector<std::int64_t> components; // per cell
   const bool                hasComponents =
@@ -185,30 +230,25 @@ AddCellArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
   };
   for (const PartCells & one : parts)
   {
-    for (const ElementIndex vertex : one.isolated)
-    {
-      *measure++ = one.part->core.vertexLambda[vertex];
-    }
-    identify(one.isolated.size(), *one.part);
+    identify(one.verts.size(), *one.part);
   }
   for (const PartCells & one : parts)
   {
-    for (std::size_t edge = 0; edge < one.onFace.size(); ++edge)
-    {
-      if (!one.onFace[edge])
-      {
-        *measure++ = one.part->core.edgeLambda[edge];
-      }
-    }
-    identify(one.looseEdges, *one.part);
+    identify(one.lines.size(), *one.part);
   }
   for (const PartCells & one : parts)
   {
-    const auto & measures = one.part->core.faceLambda;
-    measure = std::copy(measures.begin(), measures.end(), measure);
-    identify(measures.size(), *one.part);
+    identify(one.part->core.cells.FaceCount(), *one.part);
   }
-  data->GetCellData()->AddArray(lambda);
+  AddMeasure(data, parts, "Lambda", [](const MedialComplex & core) {
+    return Measures{ core.vertexLambda, core.edgeLambda, core.faceLambda };
+  });
+  if (HaveBumps(parts))
+  {
+    AddMeasure(data, parts, "Bump", [](const MedialComplex & core) {
+      return Measures{ core.bumps.vertices, core.bumps.edges, core.bumps.faces };
+    });
+  }
   data->GetCellData()->AddArray(label);
   if (hasComponents)
   {
@@ -221,10 +261,12 @@ AddCellArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
 void
 AddEdgeArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
 {
-  std::uint64_t count = 0;
+  std::uint64_t                          count = 0;
+  std::vector<std::vector<std::uint8_t>> onFace;
   for (const PartCells & one : parts)
   {
-    count += one.onFace.size() - one.looseEdges;
+    onFace.push_back(EdgesOnFaces(one.part->core.cells));
+    count += static_cast<std::uint64_t>(std::count(onFace.back().begin(), onFace.back().end(), std::uint8_t{ 1 }));
   }
   if (count == 0)
   {
@@ -234,12 +276,13 @@ AddEdgeArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
   vtkNew<vtkDoubleArray>    lambda;
   auto *                    vertex = Allocate(*vertices, "EdgeVertices", count, 2);
   double *                  measure = Allocate(*lambda, "EdgeLambda", count);
-  for (const PartCells & one : parts)
+  for (std::size_t i = 0; i < parts.size(); ++i)
   {
+    const PartCells &     one = parts[i];
     const MedialComplex & core = one.part->core;
-    for (std::size_t edge = 0; edge < one.onFace.size(); ++edge)
+    for (std::size_t edge = 0; edge < onFace[i].size(); ++edge)
     {
-      if (one.onFace[edge])
+      if (onFace[i][edge] != 0)
       {
         *vertex++ = static_cast<std::int64_t>(one.firstPoint + core.cells.edges[edge][0]);
         *vertex++ = static_cast<std::int64_t>(one.firstPoint + core.cells.edges[edge][1]);
@@ -261,7 +304,7 @@ MakePolyData(const MedialModel & model, bool keepEdges)
   std::uint64_t corners = 0;
   for (const PartCells & one : parts)
   {
-    corners += one.part->core.cells.faceVertices.size() + 2 * one.looseEdges;
+    corners += one.part->core.cells.faceVertices.size() + 2 * one.lines.size();
   }
   largest = std::max(largest, corners);
   if (largest < static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max()))

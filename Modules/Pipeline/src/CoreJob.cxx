@@ -1,20 +1,12 @@
 #include "voxelcore/CoreJob.h"
 
-#include "CrossCheck.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
-#include "MakeSkeleton.h"
 #include "SkeletonFiles.h"
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/ComplexTopology.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/Sha256.h"
-#include "voxelcore/ShapeTopology.h"
-#include "voxelcore/VoxelCore.h"
 
-#include <algorithm>
-#include <cmath>
 #include <future>
 #include <numeric>
 #include <utility>
@@ -27,93 +19,10 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/** Where in a label's work each stage ends, as the shares of time usually are. */
-constexpr double kShapeEnds = 0.03;
-constexpr double kDelaunayEnds = 0.80;
-constexpr double kCoreEnds = 0.92;
-constexpr double kCoreBesideSkeleton = 0.5;
-
 std::string
 EngineName(Engine engine)
 {
   return engine == Engine::TetGen ? "tetgen" : "lattice";
-}
-
-bool
-ContainsAround(const VoxelShape & shape, const std::array<double, 3> & point)
-{
-  // Every voxel whose closed cube holds the point must be in: only then the point is inside the *open* shape.
-  std::array<std::int32_t, 3> first;
-  std::array<std::int32_t, 3> last;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const double floor = std::floor(point[k]);
-    last[k] = static_cast<std::int32_t>(floor);
-    first[k] = last[k] - (floor == point[k] ? 1 : 0);
-  }
-  for (std::int32_t z = first[2]; z <= last[2]; ++z)
-  {
-    for (std::int32_t y = first[1]; y <= last[1]; ++y)
-    {
-      for (std::int32_t x = first[0]; x <= last[0]; ++x)
-      {
-        if (!shape.Contains(x, y, z))
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
-}
-
-/** The core of a label, described and certified, in LPS mm. Frees what it does not need any longer as it goes: the
- *  points and the cells, and the shape at its end. */
-ModelPart
-ComputeWholeCore(VoxelShape               shape,
-                 const ImageGeometry &    geometry,
-                 const SpacingWeights &   weights,
-                 Engine                   engine,
-                 bool                     crossCheck,
-                 const std::string &      labelText,
-                 LabelOutcome &           outcome,
-                 const ProgressCallback & progress)
-{
-  LabelRecord & record = outcome.record;
-  Stopwatch     watch;
-  ReportProgress(progress, "shape", 0);
-  record.shape = ComputeShapeTopology(shape);
-  MedialComplex core;
-  {
-    const std::vector<LatticePoint> points = BoundaryVertices(shape);
-    record.boundaryVertices = points.size();
-    outcome.seconds.shape += watch.Lap();
-
-    const ProgressCallback part = PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds);
-    DelaunayCells          cells = crossCheck ? CrossCheckedCells(shape, points, weights, engine, labelText, part)
-                                              : ComputeDelaunayCells(shape, points, weights, engine, part);
-    outcome.seconds.delaunay += watch.Lap();
-
-    ReportProgress(progress, "core", kDelaunayEnds);
-    core = BuildVoxelCore(shape, points, std::move(cells), weights);
-  }
-  const TopologyNumbers topology = ComputeComplexTopology(core.cells);
-  RequireEqualTopology(record.shape, topology, "its core", labelText);
-  record.topologyEqual = true;
-  record.enclosed = IsEnclosed(core, shape);
-  if (!record.enclosed)
-  {
-    throw CertificateError(labelText +
-                           ": certificate failed: a vertex of the core lies outside the shape; nothing was "
-                           "written; this is a fault of VoxelCore, please report it with the scan");
-  }
-  shape = VoxelShape();
-  ModelPart part = ToPhysical(std::move(core), geometry, record.label);
-  // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last bit.
-  record.core = DescribeComplex(part.core, topology);
-  outcome.seconds.core += watch.Lap();
-  ReportProgress(progress, "prune", kCoreEnds);
-  return part;
 }
 
 InputRecord
@@ -149,6 +58,10 @@ DescribeParameters(const CoreOptions &    options,
   {
     parameters.lambda.push_back(lambda.text);
   }
+  for (const BumpHeight & height : options.bumps)
+  {
+    parameters.bumps.push_back(height.text);
+  }
   parameters.model = options.model;
   parameters.engine = EngineName(options.engine);
   parameters.crossCheck = options.crossCheck;
@@ -164,6 +77,10 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
   if (options.lambdas.empty())
   {
     throw UsageError("no --lambda given");
+  }
+  if (!options.bumps.empty() && options.lambdas.size() > 1)
+  {
+    throw UsageError("with --bumps give one --lambda, the floor");
   }
   if (options.report)
   {
@@ -189,9 +106,9 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
       throw UsageError(options.output.string() +
                        ": unknown extension; use .vtp .vtk .ply .obj .stl or .ma, or a folder ending in /");
     }
-    for (std::size_t i = 0; i < options.lambdas.size(); ++i)
+    for (const std::string & suffix : ResultSuffixes(options.lambdas, options.bumps))
     {
-      transaction.CheckTarget(FileOutputPath(options.output, options.lambdas, i));
+      transaction.CheckTarget(FileOutputPath(options.output, suffix));
     }
   }
 }
@@ -205,7 +122,8 @@ public:
     , m_ToFolder(toFolder)
     , m_Transaction(transaction)
     , m_Result(result)
-    , m_Models(options.lambdas.size())
+    , m_Suffixes(ResultSuffixes(options.lambdas, options.bumps))
+    , m_Models(m_Suffixes.size())
   {}
 
   /** Takes a label's cores; in a folder they go to disk at once. */
@@ -217,7 +135,7 @@ public:
       m_Result.report.labels.push_back(std::move(record));
       return;
     }
-    for (std::size_t i = 0; i < m_Options.lambdas.size(); ++i)
+    for (std::size_t i = 0; i < m_Models.size(); ++i)
     {
       record.pruned[i].output = Target(record, i).string();
       m_Models[i].parts.push_back(std::move(parts[i]));
@@ -243,15 +161,11 @@ public:
 
 private:
   fs::path
-  Target(const LabelRecord & record, std::size_t lambda) const
+  Target(const LabelRecord & record, std::size_t which) const
   {
-    return m_ToFolder ? FolderOutputPath(m_Options.output,
-                                         m_Options.scan,
-                                         record.label,
-                                         m_Options.lambdas,
-                                         lambda,
-                                         record.component)
-                      : FileOutputPath(m_Options.output, m_Options.lambdas, lambda);
+    return m_ToFolder
+             ? FolderOutputPath(m_Options.output, m_Options.scan, record.label, m_Suffixes[which], record.component)
+             : FileOutputPath(m_Options.output, m_Suffixes[which]);
   }
 
   void
@@ -274,93 +188,11 @@ private:
   bool                     m_ToFolder;
   OutputTransaction &      m_Transaction;
   CoreResult &             m_Result;
-  std::vector<MedialModel> m_Models; ///< one per lambda
+  std::vector<std::string> m_Suffixes;
+  std::vector<MedialModel> m_Models; ///< one per lambda or bump height
 };
 
 } // namespace
-
-bool
-IsEnclosed(const MedialComplex & core, const VoxelShape & shape)
-{
-  for (const auto & position : core.positions)
-  {
-    if (!ContainsAround(shape, position))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-LabelOutcome
-ProcessLabel(LabelShape                  label,
-             const ImageGeometry &       geometry,
-             const SpacingWeights &      weights,
-             const std::vector<Lambda> & lambdas,
-             Engine                      engine,
-             const ProgressCallback &    progress,
-             bool                        crossCheck,
-             const SkeletonStage *       skeleton)
-{
-  LabelOutcome      outcome;
-  LabelRecord &     record = outcome.record;
-  const std::string labelText = LabelText(label.value, label.name);
-  Stopwatch         watch;
-  record.label = label.value;
-  record.name = label.name;
-  record.voxels = label.voxels;
-  record.volumeMm3 =
-    static_cast<double>(label.voxels) * (geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2]);
-  record.box = label.shape.Box();
-
-  // Where there is a skeleton it takes its share of the time after the core.
-  const double           coreEnds = skeleton != nullptr ? kCoreBesideSkeleton : 1;
-  const ProgressCallback coreProgress = PartOfProgress(progress, 0, coreEnds);
-  const auto             makeSkeleton = [&](const ModelPart & surface) {
-    Stopwatch skeletonWatch;
-    outcome.skeleton =
-      MakeSkeleton(surface, *skeleton, weights, geometry.spacing, record, PartOfProgress(progress, coreEnds, 1));
-    outcome.seconds.skeleton += skeletonWatch.Lap();
-  };
-
-  ModelPart part =
-    ComputeWholeCore(std::move(label.shape), geometry, weights, engine, crossCheck, labelText, outcome, coreProgress);
-  const bool ofWhole = skeleton != nullptr && skeleton->lambda.value == 0;
-  if (ofWhole)
-  {
-    makeSkeleton(part);
-  }
-
-  Stopwatch           pruneWatch;
-  std::vector<double> thresholds;
-  for (const Lambda & lambda : lambdas)
-  {
-    thresholds.push_back(LambdaInMillimetres(lambda, weights, geometry.spacing, record.box));
-  }
-  auto pruned = PruneAndCertify(std::move(part),
-                                record.core,
-                                0,
-                                lambdas,
-                                thresholds,
-                                record.shape,
-                                labelText,
-                                PartOfProgress(coreProgress, "prune", kCoreEnds, 1));
-  for (PrunedCore & one : pruned)
-  {
-    record.pruned.push_back(std::move(one.record));
-    outcome.parts.push_back(std::move(one.part));
-  }
-  outcome.seconds.prune += pruneWatch.Lap();
-  if (skeleton != nullptr && !ofWhole)
-  {
-    const auto same = std::find_if(lambdas.begin(), lambdas.end(), [&](const Lambda & lambda) {
-      return lambda.text == skeleton->lambda.text;
-    });
-    makeSkeleton(outcome.parts.at(static_cast<std::size_t>(same - lambdas.begin())));
-  }
-  record.seconds = watch.Lap();
-  return outcome;
-}
 
 CoreResult
 RunCoreJob(const CoreOptions & options, const JobContext & context)

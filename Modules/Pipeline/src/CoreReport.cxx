@@ -89,7 +89,17 @@ LabelJson(const LabelRecord & label, bool inFile)
   for (const PrunedRecord & pruned : label.pruned)
   {
     Json one = { { "lambda", pruned.lambda }, { "lambda_mm", pruned.lambdaMm } };
+    if (pruned.bumps)
+    {
+      one["bumps"] = pruned.bumps->height;
+      one["bumps_mm"] = pruned.bumps->heightMm;
+    }
     AddComplex(one, pruned.complex);
+    if (!inFile && pruned.bumps)
+    {
+      // Whoever prunes a finished file has no boundary to measure it on.
+      one["boundary_gap_mm"] = pruned.bumps->boundaryGapMm ? Json(*pruned.bumps->boundaryGapMm) : Json(nullptr);
+    }
     if (!inFile)
     {
       one["output"] = pruned.output;
@@ -97,6 +107,10 @@ LabelJson(const LabelRecord & label, bool inFile)
     json["pruned"].push_back(std::move(one));
   }
   json["certificate"] = { { "topology", label.topologyEqual }, { "enclosed", label.enclosed } };
+  if (!inFile && label.covered)
+  {
+    json["certificate"]["covered"] = *label.covered;
+  }
   if (label.skeleton)
   {
     json["skeleton"] = SkeletonRecordJson(*label.skeleton, inFile);
@@ -244,8 +258,16 @@ ReadLabel(const Json & json)
   label.core = ReadComplex(json.at("core"));
   for (const Json & one : json.at("pruned"))
   {
-    label.pruned.push_back(
-      { one.at("lambda").get<std::string>(), one.at("lambda_mm").get<double>(), ReadComplex(one), {} });
+    PrunedRecord pruned{ one.at("lambda").get<std::string>(),
+                         one.at("lambda_mm").get<double>(),
+                         ReadComplex(one),
+                         {},
+                         {} };
+    if (one.contains("bumps"))
+    {
+      pruned.bumps = { one.at("bumps").get<std::string>(), one.at("bumps_mm").get<double>(), {} };
+    }
+    label.pruned.push_back(std::move(pruned));
   }
   if (json.contains("skeleton"))
   {
@@ -287,17 +309,24 @@ ReportJson(const CoreReport & report)
 }
 
 std::string
-ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t lambda)
+ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t which)
 {
   CoreReport part;
   part.input = report.input;
   part.parameters = report.parameters;
   part.parameters.labels.clear();
-  part.parameters.lambda = { report.parameters.lambda.at(lambda) };
+  if (report.parameters.bumps.empty())
+  {
+    part.parameters.lambda = { report.parameters.lambda.at(which) };
+  }
+  else
+  {
+    part.parameters.bumps = { report.parameters.bumps.at(which) };
+  }
   for (const std::size_t index : labels)
   {
     LabelRecord label = report.labels.at(index);
-    label.pruned = { report.labels[index].pruned.at(lambda) };
+    label.pruned = { report.labels[index].pruned.at(which) };
     label.skeleton.reset();
     AddLabel(part, std::move(label));
   }
@@ -312,15 +341,16 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
   part.parameters = report.parameters;
   part.parameters.labels.clear();
   part.parameters.lambda = { report.skeleton.value().lambda.text };
+  part.parameters.bumps.clear();
   part.parameters.model.keepEdges = false; // changes nothing here
   part.skeleton = report.skeleton;
   for (const std::size_t index : labels)
   {
     LabelRecord  label = report.labels.at(index);
-    PrunedRecord source{ "0", 0, label.core, {} };
+    PrunedRecord source{ "0", 0, label.core, {}, {} };
     for (const PrunedRecord & pruned : report.labels[index].pruned)
     {
-      source = pruned.lambda == report.skeleton->lambda.text ? pruned : source;
+      source = pruned.lambda == report.skeleton->lambda.text && !pruned.bumps ? pruned : source;
     }
     label.pruned = { source };
     AddLabel(part, std::move(label));

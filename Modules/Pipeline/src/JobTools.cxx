@@ -1,10 +1,13 @@
 #include "JobTools.h"
 
+#include "voxelcore/BallCoverage.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ReportTable.h"
+#include "voxelcore/Verification.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace voxelcore
@@ -110,6 +113,74 @@ PruneAndCertify(ModelPart                   whole,
     result.record.complex = unchanged ? wholeRecord : DescribeComplex(result.part.core, topology);
   }
   return results;
+}
+
+double
+ScanDiagonal(const ImageGeometry & geometry)
+{
+  double squared = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double side = static_cast<double>(geometry.size[k]) * geometry.spacing[k];
+    squared += side * side;
+  }
+  return std::sqrt(squared);
+}
+
+void
+EndBumps(BumpValues & bumps, const ImageGeometry & geometry)
+{
+  const double end = ScanDiagonal(geometry);
+  for (auto * values : { &bumps.vertices, &bumps.edges, &bumps.faces })
+  {
+    for (double & value : *values)
+    {
+      value = std::min(value, end);
+    }
+  }
+}
+
+std::vector<PrunedCore>
+PruneByBumpsAndCertify(const ModelPart &               whole,
+                       const PrunedRecord &            floor,
+                       const std::vector<BumpHeight> & heights,
+                       const ImageGeometry &           geometry,
+                       const TopologyNumbers &         shape,
+                       const std::string &             labelText)
+{
+  std::vector<PrunedCore> results(heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i)
+  {
+    const double height = std::min(BumpHeightInMillimetres(heights[i], geometry.spacing), ScanDiagonal(geometry));
+    PrunedCore & result = results[i];
+    result.part = { whole.label, PruneByBumps(whole.core, height), whole.component };
+    const TopologyNumbers topology = ComputeComplexTopology(result.part.core.cells);
+    RequireEqualTopology(shape, topology, "its core pruned at bump height " + heights[i].text, labelText);
+    result.record = floor;
+    result.record.bumps = { heights[i].text, height, {} };
+    result.record.complex = DescribeComplex(result.part.core, topology);
+  }
+  return results;
+}
+
+double
+MeasureBoundaryGap(const ModelPart &      part,
+                   const VoxelShape &     shape,
+                   const ImageGeometry &  geometry,
+                   const SpacingWeights & weights)
+{
+  std::vector<std::array<double, 3>> positions = part.core.positions;
+  for (auto & position : positions)
+  {
+    position = PhysicalToLattice(geometry, position);
+  }
+  return LargestBoundaryGap(shape, weights, positions, part.core.radius).largest;
+}
+
+double
+BoundaryGapTolerance(const ImageGeometry & geometry)
+{
+  return 4 * PositionTolerance(geometry) * *std::max_element(geometry.spacing.begin(), geometry.spacing.end());
 }
 
 void

@@ -1,6 +1,7 @@
 #pragma once
 // Small pieces that jobs share.
 
+#include "voxelcore/BumpPruning.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/MedialModel.h"
@@ -62,6 +63,35 @@ PruneAndCertify(ModelPart                   whole,
                 const TopologyNumbers &     shape,
                 const std::string &         labelText,
                 const ProgressCallback &    progress);
+
+/** The diagonal of a scan in mm: no bump is higher. */
+double
+ScanDiagonal(const ImageGeometry & geometry);
+
+/** Makes heights ready for files: what never goes, and what would go beyond the scan's diagonal, has that height. */
+void
+EndBumps(BumpValues & bumps, const ImageGeometry & geometry);
+
+/** Prunes a core with ended bump heights to each height; `floor` holds the lambda it was pruned to before.
+ *  \throws CertificateError when the topology is no longer the shape's. */
+std::vector<PrunedCore>
+PruneByBumpsAndCertify(const ModelPart &               whole,
+                       const PrunedRecord &            floor,
+                       const std::vector<BumpHeight> & heights,
+                       const ImageGeometry &           geometry,
+                       const TopologyNumbers &         shape,
+                       const std::string &             labelText);
+
+/** Largest distance of a boundary vertex to the balls of a core, in mm. */
+double
+MeasureBoundaryGap(const ModelPart &      part,
+                   const VoxelShape &     shape,
+                   const ImageGeometry &  geometry,
+                   const SpacingWeights & weights);
+
+/** By how much a boundary gap measured in LPS mm may exceed a height by rounding, mm. */
+double
+BoundaryGapTolerance(const ImageGeometry & geometry);
 
 /** \throws CertificateError that names the label when the numbers differ. */
 void

@@ -96,7 +96,8 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
                                         options.engine,
                                         part,
                                         options.crossCheck,
-                                        options.skeleton ? &*options.skeleton : nullptr);
+                                        options.skeleton ? &*options.skeleton : nullptr,
+                                        options.bumps);
     outcome.record.component = one.component;
     if (outcome.skeleton)
     {

@@ -58,65 +58,91 @@ LambdaTag(const Lambda & lambda)
   return tag;
 }
 
-std::vector<Lambda>
-ParseLambdas(std::string_view text)
-{
-  std::vector<Lambda> lambdas;
-  for (std::size_t at = 0; at <= text.size();)
-  {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    Lambda            lambda = ParseLambda(text.substr(at, comma - at));
-    if (lambda.value == 0)
-    {
-      lambda.text = "0"; // the same in every unit
-    }
-    else if (lambda.unit == Lambda::Unit::Millimetre && !lambda.text.ends_with("mm"))
-    {
-      lambda.text += "mm";
-    }
-    for (const Lambda & other : lambdas)
-    {
-      if (other.text == lambda.text)
-      {
-        throw UsageError("--lambda " + std::string(text) + ": " + lambda.text + " is given twice");
-      }
-    }
-    lambdas.push_back(lambda);
-    at = comma + 1;
-  }
-  return lambdas;
-}
-
 namespace
 {
 
-std::string
-LambdaSuffix(const std::vector<Lambda> & lambdas, std::size_t which)
+/** Comma-separated lengths, by `parse` one by one. */
+template <typename Length>
+std::vector<Length>
+ParseLengths(std::string_view text, Length (*parse)(std::string_view), const std::string & option)
 {
-  return lambdas.size() > 1 ? "_lambda-" + LambdaTag(lambdas[which]) : "";
+  std::vector<Length> lengths;
+  for (std::size_t at = 0; at <= text.size();)
+  {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    Length            length = parse(text.substr(at, comma - at));
+    if (length.value == 0)
+    {
+      length.text = "0"; // the same in every unit
+    }
+    else if (length.unit == Length::Unit::Millimetre && !length.text.ends_with("mm"))
+    {
+      length.text += "mm";
+    }
+    for (const Length & other : lengths)
+    {
+      if (other.text == length.text)
+      {
+        throw UsageError(option + " " + std::string(text) + ": " + length.text + " is given twice");
+      }
+    }
+    lengths.push_back(length);
+    at = comma + 1;
+  }
+  return lengths;
 }
 
 } // namespace
 
+std::vector<Lambda>
+ParseLambdas(std::string_view text)
+{
+  return ParseLengths<Lambda>(text, ParseLambda, "--lambda");
+}
+
+std::vector<BumpHeight>
+ParseBumpHeights(std::string_view text)
+{
+  return ParseLengths<BumpHeight>(text, ParseBumpHeight, "--bumps");
+}
+
+std::vector<std::string>
+ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<BumpHeight> & bumps)
+{
+  std::vector<std::string> suffixes;
+  for (const BumpHeight & height : bumps)
+  {
+    suffixes.push_back("_bumps-" + height.text);
+  }
+  for (const Lambda & lambda : bumps.empty() ? lambdas : std::vector<Lambda>())
+  {
+    suffixes.push_back("_lambda-" + LambdaTag(lambda));
+  }
+  if (suffixes.size() == 1)
+  {
+    suffixes.front().clear();
+  }
+  return suffixes;
+}
+
 fs::path
-FileOutputPath(const fs::path & output, const std::vector<Lambda> & lambdas, std::size_t which)
+FileOutputPath(const fs::path & output, const std::string & suffix)
 {
   fs::path name = output.parent_path() / output.stem();
-  name += LambdaSuffix(lambdas, which) + output.extension().string();
+  name += suffix + output.extension().string();
   return name;
 }
 
 fs::path
-FolderOutputPath(const fs::path &            folder,
-                 const fs::path &            scan,
-                 std::int64_t                label,
-                 const std::vector<Lambda> & lambdas,
-                 std::size_t                 which,
-                 std::int64_t                component)
+FolderOutputPath(const fs::path &    folder,
+                 const fs::path &    scan,
+                 std::int64_t        label,
+                 const std::string & suffix,
+                 std::int64_t        component)
 {
-  return folder / (ScanName(scan) + "_label-" + std::to_string(label) +
-                   (component > 0 ? "_component-" + std::to_string(component) : std::string()) + "_medial" +
-                   LambdaSuffix(lambdas, which) + ".vtp");
+  return folder /
+         (ScanName(scan) + "_label-" + std::to_string(label) +
+          (component > 0 ? "_component-" + std::to_string(component) : std::string()) + "_medial" + suffix + ".vtp");
 }
 
 namespace

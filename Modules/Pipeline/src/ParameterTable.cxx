@@ -30,6 +30,12 @@ number is mm; 0 keeps the whole voxel core. Pruning never changes the topology.
   Above 2.44vox (cubic voxels) the pruned core is proven to converge as scans get finer, but thin parts shrink to curves.
   On thick slices the smallest spacing does not clear the staircase across slices; give mm there, about 1.5 slices.
 
+Bumps, in place of lambda, serve thick and thin parts at once: bumps on the boundary lower than the height are ignored, and
+the balls of what stays rebuild the boundary to within it, which is checked. 1.2diag suits clean segmentations; raise it
+where the segmentation is rougher than its voxels. 'Bump' in .vtp and .vtk is the height at which each element goes: a
+threshold on it shows any greater height; what stays for ever has the length of the scan's diagonal. A --lambda given
+with --bumps is a floor: what it prunes goes first, and nothing is promised of that.
+
 Only the part that --crop names is looked at. A crop cuts: what it cuts through ends there, and a cavity it opens is none.
 Edits are then done label by label in the order --fill-cavities, --min-voxels, --largest, --split-components. Components
 are connected through faces (6-connected); equally large ones keep the order of the scan. What is in a label's cavity,
@@ -41,6 +47,7 @@ other labels too, is filled.
 Examples:
   voxelcore core scan.nii.gz -o medial.vtp --report medial.json
   voxelcore core scan.seg.nrrd --labels liver,4 --lambda 0,1mm,2.5% -o medial.vtp
+  voxelcore core scan.nii.gz --bumps 1.2diag -o medial.vtp
   voxelcore core atlas.nii.gz -o surfaces/
   voxelcore core ct.nrrd --threshold 300:3000 --lambda 2vox -o bone.vtp
   voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp
@@ -60,11 +67,15 @@ The scan is read with the options recorded in the file.
 Example:
   voxelcore verify scan.nii.gz medial.vtp)";
 
-constexpr std::string_view kPruneFooter = R"(Gives the same bits as 'voxelcore core' at that lambda, without the scan.
+constexpr std::string_view kPruneFooter =
+  R"(Gives the same bits as 'voxelcore core' at that lambda or bump height, without the scan. For --lambda
+the file must be made with --keep-edges; for --bumps with --bumps, at a smaller height, best 0.
 
 Example:
   voxelcore core scan.nii.gz --lambda 0 --keep-edges -o whole.vtp
-  voxelcore prune whole.vtp --lambda 1.5mm,3mm -o medial.vtp)";
+  voxelcore prune whole.vtp --lambda 1.5mm,3mm -o medial.vtp
+  voxelcore core scan.nii.gz --bumps 0 -o bumps.vtp
+  voxelcore prune bumps.vtp --bumps 1diag,2diag -o medial.vtp)";
 
 constexpr std::string_view kPhantomFooter = R"(Examples:
   voxelcore phantom ellipsoid --size 64 -o ellipsoid.nrrd
@@ -99,7 +110,7 @@ constexpr std::array<Command, 7> kCommands{ {
   { CommandId::Core, "core", "Medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Info, "info", "What is in a scan: geometry, labels, their sizes and topology", kInfoFooter },
   { CommandId::Verify, "verify", "Recheck a finished file against its scan", kVerifyFooter },
-  { CommandId::Prune, "prune", "Prune a file made with --keep-edges to other lambdas", kPruneFooter },
+  { CommandId::Prune, "prune", "Prune a finished file further, without its scan", kPruneFooter },
   { CommandId::Skeleton, "skeleton", "Curve skeleton of a scan or of a finished core", kSkeletonFooter },
   { CommandId::Measure, "measure", "Tables of a finished skeleton's branches", kMeasureFooter },
   { CommandId::Phantom, "phantom", "Make a synthetic volume", kPhantomFooter },
@@ -159,9 +170,18 @@ constexpr auto kParameters = std::to_array<Parameter>({
     Text,
     "L[,L..]",
     "",
-    true,
+    false,
     kPrune,
     "Pruning threshold with its unit: 1.5mm, 2.5vox, 2.5%; several give OUT_lambda-1mm.vtp and so on" },
+  { "bumps",
+    "--bumps",
+    Text,
+    "H[,H..]",
+    "",
+    false,
+    kModels,
+    "Prune by bump height instead: 1.2diag (voxel diagonals), 2vox, 1.5mm; several give OUT_bumps-1.2diag.vtp and so "
+    "on" },
   { "lambda",
     "-l,--lambda",
     Text,

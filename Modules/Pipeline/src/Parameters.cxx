@@ -1,12 +1,11 @@
 #include "voxelcore/Parameters.h"
 
+#include "ParameterReader.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace voxelcore
@@ -14,119 +13,6 @@ namespace voxelcore
 
 namespace
 {
-
-std::optional<double>
-ParseReal(std::string_view text)
-{
-  double value = 0;
-  // from_chars takes no leading plus.
-  text.remove_prefix(text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || std::isnan(value))
-  {
-    return std::nullopt;
-  }
-  return value;
-}
-
-/** The values given to one command, read with its defaults. */
-class Reader
-{
-public:
-  Reader(const ParameterValues & values, CommandId command)
-    : m_Values(values)
-    , m_Command(command)
-  {}
-
-  const Parameter &
-  Describe(std::string_view name) const
-  {
-    for (const Parameter & parameter : Parameters())
-    {
-      if (parameter.name == name && BelongsTo(parameter, m_Command))
-      {
-        return parameter;
-      }
-    }
-    throw std::logic_error("no such parameter: " + std::string(name));
-  }
-
-  std::string
-  Text(std::string_view name) const
-  {
-    const auto found = m_Values.find(name);
-    return found != m_Values.end() ? found->second : std::string(Describe(name).defaultValue);
-  }
-
-  bool
-  IsSet(std::string_view name) const
-  {
-    return Text(name) == "true";
-  }
-
-  bool
-  IsGiven(std::string_view name) const
-  {
-    return m_Values.find(name) != m_Values.end();
-  }
-
-  [[noreturn]] void
-  Refuse(std::string_view name, const std::string & expected) const
-  {
-    const Parameter & parameter = Describe(name);
-    const auto        comma = parameter.flags.find(',');
-    const auto        flag = comma == std::string_view::npos ? parameter.flags : parameter.flags.substr(comma + 1);
-    throw UsageError((flag.empty() ? std::string(parameter.placeholder) : std::string(flag)) + " " + Text(name) +
-                     ": expected " + expected);
-  }
-
-  std::int64_t
-  Whole(std::string_view name, std::int64_t least, std::int64_t most) const
-  {
-    const std::string text = Text(name);
-    std::int64_t      value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
-    {
-      Refuse(name,
-             "a whole number from " + std::to_string(least) +
-               (most < std::numeric_limits<std::int64_t>::max() ? " to " + std::to_string(most) : " up"));
-    }
-    return value;
-  }
-
-  /** A finite number; none when it is not given. */
-  std::optional<double>
-  Real(std::string_view name) const
-  {
-    if (!IsGiven(name))
-    {
-      return std::nullopt;
-    }
-    const auto value = ParseReal(Text(name));
-    if (!value || !std::isfinite(*value))
-    {
-      Refuse(name, "a number");
-    }
-    return value;
-  }
-
-  std::string
-  Choice(std::string_view name) const
-  {
-    const std::string text = Text(name);
-    const auto        words = "|" + std::string(Describe(name).placeholder) + "|";
-    if (text.empty() || text.find('|') != std::string::npos || words.find("|" + text + "|") == std::string::npos)
-    {
-      Refuse(name, "one of " + words.substr(1, words.size() - 2));
-    }
-    return text;
-  }
-
-private:
-  const ParameterValues & m_Values;
-  CommandId               m_Command;
-};
 
 std::vector<std::string>
 Split(const std::string & text, char separator)
@@ -147,7 +33,7 @@ Split(const std::string & text, char separator)
 }
 
 Vector3
-SpacingFrom(const Reader & reader)
+SpacingFrom(const ParameterReader & reader)
 {
   const auto parts = Split(reader.Text("spacing"), ',');
   Vector3    spacing{};
@@ -166,7 +52,7 @@ SpacingFrom(const Reader & reader)
 }
 
 std::array<std::int32_t, 3>
-SizeFrom(const Reader & reader)
+SizeFrom(const ParameterReader & reader)
 {
   auto parts = Split(reader.Text("size"), ',');
   if (parts.size() == 1)
@@ -189,7 +75,7 @@ SizeFrom(const Reader & reader)
 }
 
 std::optional<std::filesystem::path>
-ReportFrom(const Reader & reader)
+ReportFrom(const ParameterReader & reader)
 {
   if (!reader.IsGiven("report"))
   {
@@ -203,7 +89,7 @@ ReportFrom(const Reader & reader)
 }
 
 std::filesystem::path
-OutputFrom(const Reader & reader)
+OutputFrom(const ParameterReader & reader)
 {
   if (reader.Text("output").empty())
   {
@@ -213,7 +99,7 @@ OutputFrom(const Reader & reader)
 }
 
 ModelOptions
-ModelOptionsFrom(const Reader & reader)
+ModelOptionsFrom(const ParameterReader & reader)
 {
   ModelOptions model;
   model.triangles = reader.IsSet("triangles");
@@ -222,7 +108,7 @@ ModelOptionsFrom(const Reader & reader)
 }
 
 std::pair<double, double>
-ThresholdFrom(const Reader & reader)
+ThresholdFrom(const ParameterReader & reader)
 {
   const auto parts = Split(reader.Text("threshold"), ':');
   const auto low = ParseReal(parts.front());
@@ -239,20 +125,20 @@ ThresholdFrom(const Reader & reader)
 std::string
 ValueOf(const ParameterValues & values, CommandId command, std::string_view name)
 {
-  return Reader(values, command).Text(name);
+  return ParameterReader(values, command).Text(name);
 }
 
 int
 ThreadsFrom(const ParameterValues & values, CommandId command)
 {
-  return static_cast<int>(Reader(values, command).Whole("threads", 0, 4096));
+  return static_cast<int>(ParameterReader(values, command).Whole("threads", 0, 4096));
 }
 
 ReadOptions
 ReadOptionsFrom(const ParameterValues & values, CommandId command)
 {
-  const Reader reader(values, command);
-  ReadOptions  reading;
+  const ParameterReader reader(values, command);
+  ReadOptions           reading;
   reading.labels = reader.Text("labels");
   reading.binary = reader.IsSet("binary");
   if (reader.IsGiven("threshold"))
@@ -293,7 +179,7 @@ ShapeEditOptions
 ShapeEditsFrom(const ParameterValues & values, CommandId command)
 {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-  const Reader           reader(values, command);
+  const ParameterReader  reader(values, command);
   ShapeEditOptions       edits;
   if (reader.IsGiven("min-voxels"))
   {
@@ -308,15 +194,36 @@ ShapeEditsFrom(const ParameterValues & values, CommandId command)
   return edits;
 }
 
+namespace
+{
+
+/** `--lambda` and `--bumps`, of which the latter makes the former a floor. */
+void
+ReadPruning(const ParameterReader & reader, std::vector<Lambda> & lambdas, std::vector<BumpHeight> & bumps)
+{
+  const bool hasBumps = reader.IsGiven("bumps");
+  if (hasBumps)
+  {
+    bumps = ParseBumpHeights(reader.Text("bumps"));
+  }
+  lambdas = ParseLambdas(hasBumps && !reader.IsGiven("lambda") ? "0" : reader.Text("lambda"));
+  if (hasBumps && lambdas.size() > 1)
+  {
+    throw UsageError("--lambda " + reader.Text("lambda") + ": with --bumps it is a floor, so give one value");
+  }
+}
+
+} // namespace
+
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values)
 {
-  const Reader reader(values, CommandId::Core);
-  CoreOptions  options;
+  const ParameterReader reader(values, CommandId::Core);
+  CoreOptions           options;
   options.scan = reader.Text("scan");
   options.reading = ReadOptionsFrom(values, CommandId::Core);
   options.edits = ShapeEditsFrom(values, CommandId::Core);
-  options.lambdas = ParseLambdas(reader.Text("lambda"));
+  ReadPruning(reader, options.lambdas, options.bumps);
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
   options.skeleton = CoreSkeletonFrom(values);
@@ -347,10 +254,21 @@ VerifyOptionsFrom(const ParameterValues & values)
 PruneOptions
 PruneOptionsFrom(const ParameterValues & values)
 {
-  const Reader reader(values, CommandId::Prune);
-  PruneOptions options;
+  const ParameterReader reader(values, CommandId::Prune);
+  PruneOptions          options;
   options.core = reader.Text("core");
-  options.lambdas = ParseLambdas(reader.Text("lambda"));
+  if (reader.IsGiven("bumps") == reader.IsGiven("lambda"))
+  {
+    throw UsageError("give either --lambda or --bumps, such as --lambda 1.5mm or --bumps 1.2diag");
+  }
+  if (reader.IsGiven("bumps"))
+  {
+    options.bumps = ParseBumpHeights(reader.Text("bumps"));
+  }
+  else
+  {
+    options.lambdas = ParseLambdas(reader.Text("lambda"));
+  }
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
   options.model = ModelOptionsFrom(reader);
@@ -362,8 +280,8 @@ PruneOptionsFrom(const ParameterValues & values)
 PhantomJobOptions
 PhantomOptionsFrom(const ParameterValues & values)
 {
-  const Reader      reader(values, CommandId::Phantom);
-  PhantomJobOptions options;
+  const ParameterReader reader(values, CommandId::Phantom);
+  PhantomJobOptions     options;
   options.phantom.kind = reader.Text("kind");
   options.phantom.size = SizeFrom(reader);
   options.phantom.spacing = SpacingFrom(reader);

@@ -101,6 +101,10 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
   json["crop"] = parameters.crop ? CropJson(*parameters.crop) : Json(nullptr);
   AddEdits(json, parameters.edits);
   json["lambda"] = parameters.lambda;
+  if (!parameters.bumps.empty())
+  {
+    json["bumps"] = parameters.bumps;
+  }
   json["triangles"] = parameters.model.triangles;
   json["keep_edges"] = parameters.model.keepEdges;
   if (!inFile)
@@ -136,6 +140,7 @@ ReadParameters(const nlohmann::ordered_json & json)
   }
   parameters.edits = ReadEdits(json);
   json.at("lambda").get_to(parameters.lambda);
+  parameters.bumps = json.value("bumps", std::vector<std::string>());
   json.at("triangles").get_to(parameters.model.triangles);
   json.at("keep_edges").get_to(parameters.model.keepEdges);
   json.at("lattice_weights").get_to(parameters.weights.weight);

@@ -18,22 +18,93 @@ void
 RequirePrunable(const PruneOptions & options, const MedialModel & model, const CoreReport & made)
 {
   const std::string where = options.core.string();
-  if (!model.hasEdges)
+  const bool        hasBumps = !made.parameters.bumps.empty();
+  if (!options.bumps.empty() && !hasBumps)
+  {
+    throw InputError(where + ": does not hold bump heights; make it with 'voxelcore core --bumps 0'");
+  }
+  if (options.bumps.empty() && !model.hasEdges)
   {
     throw InputError(where + ": does not hold the measures of its edges; make it with 'voxelcore core --keep-edges'");
   }
-  if (made.parameters.lambda.size() != 1 || made.labels.size() != model.parts.size())
+  if (made.parameters.lambda.size() != 1 || made.parameters.bumps.size() > 1 ||
+      made.labels.size() != model.parts.size())
   {
     throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
   }
   for (std::size_t i = 0; i < made.labels.size(); ++i)
   {
     if (made.labels[i].label != model.parts[i].label || made.labels[i].component != model.parts[i].component ||
-        made.labels[i].pruned.size() != 1)
+        made.labels[i].pruned.size() != 1 || made.labels[i].pruned.front().bumps.has_value() != hasBumps ||
+        model.parts[i].core.HasBumps() != hasBumps)
     {
       throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
     }
   }
+}
+
+/** The thresholds in mm. \throws InputError when the file is pruned beyond one of them, or not by lambda. */
+std::vector<double>
+LambdaThresholds(const PruneOptions & options, const CoreReport & made, const LabelRecord & label)
+{
+  const PrunedRecord & done = label.pruned.front();
+  if (done.bumps && done.bumps->heightMm > 0)
+  {
+    throw InputError(options.core.string() +
+                     ": is pruned by bump height already; give --bumps, or a file made without");
+  }
+  std::vector<double> thresholds;
+  for (const Lambda & lambda : options.lambdas)
+  {
+    thresholds.push_back(LambdaInMillimetres(lambda, made.parameters.weights, made.input.geometry.spacing, label.box));
+    if (thresholds.back() < done.lambdaMm)
+    {
+      throw InputError(options.core.string() + ": is pruned at " + done.lambda + " already; for " + lambda.text +
+                       " give a file made with a smaller --lambda, best 0");
+    }
+  }
+  return thresholds;
+}
+
+/** \throws InputError when the file is pruned beyond one of the heights. */
+void
+RequireLower(const PruneOptions & options, const CoreReport & made, const BumpRecord & done)
+{
+  for (const BumpHeight & height : options.bumps)
+  {
+    if (BumpHeightInMillimetres(height, made.input.geometry.spacing) < done.heightMm)
+    {
+      throw InputError(options.core.string() + ": is pruned at bump height " + done.height + " already; for " +
+                       height.text + " give a file made with a smaller --bumps, best 0");
+    }
+  }
+}
+
+/** All results of one label. */
+std::vector<PrunedCore>
+PruneLabel(ModelPart                part,
+           const PruneOptions &     options,
+           const CoreReport &       made,
+           const LabelRecord &      label,
+           const ProgressCallback & progress)
+{
+  const std::string  labelText = LabelText(label.label, label.name);
+  const PrunedRecord done = label.pruned.front();
+  if (!options.bumps.empty())
+  {
+    RequireLower(options, made, *done.bumps);
+    return PruneByBumpsAndCertify(part, done, options.bumps, made.input.geometry, label.shape, labelText);
+  }
+  const std::vector<double> thresholds = LambdaThresholds(options, made, label);
+  part.core.bumps = {};
+  return PruneAndCertify(std::move(part),
+                         done.complex,
+                         done.lambdaMm,
+                         options.lambdas,
+                         thresholds,
+                         label.shape,
+                         labelText,
+                         progress);
 }
 
 } // namespace
@@ -51,9 +122,10 @@ RunPruneJob(const PruneOptions & options, const JobContext & context)
     throw UsageError(options.output.string() + ": unknown extension; use .vtp .vtk .ply .obj .stl or .ma");
   }
   transaction.Protect(options.core);
-  for (std::size_t i = 0; i < options.lambdas.size(); ++i)
+  const std::vector<std::string> suffixes = ResultSuffixes(options.lambdas, options.bumps);
+  for (const std::string & suffix : suffixes)
   {
-    transaction.CheckTarget(FileOutputPath(options.output, options.lambdas, i));
+    transaction.CheckTarget(FileOutputPath(options.output, suffix));
   }
   if (options.report)
   {
@@ -64,10 +136,18 @@ RunPruneJob(const PruneOptions & options, const JobContext & context)
   MedialModel model = ReadModel(options.core);
   report = ParseProvenance(model.provenance, options.core.string());
   RequirePrunable(options, model, report);
-  const std::string doneText = report.parameters.lambda.front();
   report.command = options.command;
   report.input.path = options.core.string();
-  report.parameters.lambda.clear();
+  // Of what is pruned by bump height on, the lambda stays what it was.
+  report.parameters.bumps.clear();
+  for (const BumpHeight & height : options.bumps)
+  {
+    report.parameters.bumps.push_back(height.text);
+  }
+  if (!options.lambdas.empty())
+  {
+    report.parameters.lambda.clear();
+  }
   for (const Lambda & lambda : options.lambdas)
   {
     report.parameters.lambda.push_back(lambda.text);
@@ -77,37 +157,21 @@ RunPruneJob(const PruneOptions & options, const JobContext & context)
   report.parameters.threads = options.threads;
   report.seconds.read = watch.Lap();
 
-  std::vector<MedialModel> models(options.lambdas.size());
+  std::vector<MedialModel> models(suffixes.size());
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
-    Stopwatch           labelWatch;
-    LabelRecord &       label = report.labels[i];
-    const std::string   labelText = LabelText(label.label, label.name);
-    const PrunedRecord  done = label.pruned.front();
-    std::vector<double> thresholds;
-    for (const Lambda & lambda : options.lambdas)
-    {
-      thresholds.push_back(
-        LambdaInMillimetres(lambda, report.parameters.weights, report.input.geometry.spacing, label.box));
-      if (thresholds.back() < done.lambdaMm)
-      {
-        throw InputError(options.core.string() + ": is pruned at " + doneText + " already; for " + lambda.text +
-                         " give a file made with a smaller --lambda, best 0");
-      }
-    }
-    const double share = 0.1 + 0.8 * static_cast<double>(i) / static_cast<double>(model.parts.size());
-    auto         pruned = PruneAndCertify(std::move(model.parts[i]),
-                                  done.complex,
-                                  done.lambdaMm,
-                                  options.lambdas,
-                                  thresholds,
-                                  label.shape,
-                                  labelText,
-                                  PartOfProgress(context.progress, "prune", share, share));
+    Stopwatch     labelWatch;
+    LabelRecord & label = report.labels[i];
+    const double  share = 0.1 + 0.8 * static_cast<double>(i) / static_cast<double>(model.parts.size());
+    auto          pruned = PruneLabel(std::move(model.parts[i]),
+                             options,
+                             report,
+                             label,
+                             PartOfProgress(context.progress, "prune", share, share));
     label.pruned.clear();
     for (std::size_t k = 0; k < pruned.size(); ++k)
     {
-      pruned[k].record.output = FileOutputPath(options.output, options.lambdas, k).string();
+      pruned[k].record.output = FileOutputPath(options.output, suffixes[k]).string();
       label.pruned.push_back(std::move(pruned[k].record));
       models[k].parts.push_back(std::move(pruned[k].part));
     }
@@ -125,11 +189,7 @@ RunPruneJob(const PruneOptions & options, const JobContext & context)
   {
     models[k].provenance = ProvenanceJson(report, all, k);
     models[k].hasEdges = options.model.keepEdges;
-    WriteStagedModel(transaction,
-                     FileOutputPath(options.output, options.lambdas, k),
-                     models[k],
-                     options.model,
-                     result.notes);
+    WriteStagedModel(transaction, FileOutputPath(options.output, suffixes[k]), models[k], options.model, result.notes);
     models[k] = MedialModel();
   }
   report.seconds.write = watch.Lap();

@@ -16,12 +16,11 @@ Width(const std::string & text)
     std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/** Two digits behind the point. */
 std::string
-Fixed(double value)
+Fixed(double value, int digits = 2)
 {
   char text[64];
-  std::snprintf(text, sizeof(text), "%.2f", value);
+  std::snprintf(text, sizeof(text), "%.*f", digits, value);
   return text;
 }
 
@@ -65,9 +64,14 @@ std::string
 ReportTable(const CoreReport & report)
 {
   std::vector<std::string> head{ "label", "name", "voxels", "boundary vertices", "core faces" };
-  for (const std::string & lambda : report.parameters.lambda)
+  const bool               bumps = !report.parameters.bumps.empty();
+  for (const std::string & value : bumps ? report.parameters.bumps : report.parameters.lambda)
   {
-    head.push_back("faces at " + lambda);
+    head.push_back("faces at " + value);
+    if (bumps)
+    {
+      head.emplace_back("gap mm");
+    }
   }
   for (const char * title : { "shape chi/b0/b1/b2", "core chi/b0/b1/b2", "certificate", "seconds" })
   {
@@ -85,6 +89,11 @@ ReportTable(const CoreReport & report)
     for (const PrunedRecord & pruned : label.pruned)
     {
       row.push_back(std::to_string(pruned.complex.faces));
+      if (bumps)
+      {
+        const auto gap = pruned.bumps ? pruned.bumps->boundaryGapMm : std::nullopt;
+        row.push_back(gap ? Fixed(*gap, 3) : "-");
+      }
     }
     row.push_back(TopologyText(label.shape));
     row.push_back(TopologyText(label.core.topology));

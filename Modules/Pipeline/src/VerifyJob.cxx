@@ -6,6 +6,7 @@
 #include "voxelcore/Sha256.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace voxelcore
@@ -42,7 +43,7 @@ VerificationReport
 VerifyPart(ModelPart                part,
            const VoxelShape &       shape,
            const ImageGeometry &    geometry,
-           double                   lambdaMm,
+           const PrunedRecord &     pruned,
            const ProgressCallback & progress)
 {
   for (auto & position : part.core.positions)
@@ -60,19 +61,26 @@ VerifyPart(ModelPart                part,
   input.faceLambda = part.core.faceLambda;
   input.positionTolerance = PositionTolerance(geometry);
   input.polygonsReversed = IsLeftHanded(geometry);
-  input.threshold = lambdaMm;
+  input.threshold = pruned.lambdaMm;
+  if (pruned.bumps)
+  {
+    input.bumpHeight = pruned.bumps->heightMm;
+    input.vertexBump = part.core.bumps.vertices;
+    input.edgeBump = part.core.bumps.edges;
+    input.faceBump = part.core.bumps.faces;
+  }
   return VerifyComplex(input, progress);
 }
 
-/** The threshold a label's cells are pruned to. */
-double
-RecordedLambda(const CoreReport & made, std::size_t label, const std::string & where)
+/** How a label's cells are pruned. */
+const PrunedRecord &
+RecordedPruning(const CoreReport & made, std::size_t label, const std::string & where)
 {
   if (label >= made.labels.size() || made.labels[label].pruned.size() != 1)
   {
     throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
   }
-  return made.labels[label].pruned.front().lambdaMm;
+  return made.labels[label].pruned.front();
 }
 
 /** A property of the file as a whole. */
@@ -90,6 +98,24 @@ CheckProvenance(const LabelRecord &        recorded,
     check = { "provenance", false, 1, "the record in the file does not fit the scan and the cells" };
   }
   return check;
+}
+
+/** How far the boundary lies from a core pruned by bump height; empty for others. */
+std::string
+GapText(const LabelVerification & label)
+{
+  if (!label.report.boundaryGap)
+  {
+    return {};
+  }
+  char text[128];
+  std::snprintf(text,
+                sizeof(text),
+                "; boundary within %.4g mm of it (bump height %s, %.4g mm)",
+                *label.report.boundaryGap,
+                label.bumpHeight.c_str(),
+                label.bumpHeightMm);
+  return text;
 }
 
 } // namespace
@@ -132,11 +158,17 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
     LabelVerification  one;
     one.label = value;
     one.name = found->name;
-    one.lambdaMm = RecordedLambda(made, i, options.core.string());
+    const PrunedRecord & pruned = RecordedPruning(made, i, options.core.string());
+    one.lambdaMm = pruned.lambdaMm;
+    if (pruned.bumps)
+    {
+      one.bumpHeight = pruned.bumps->height;
+      one.bumpHeightMm = pruned.bumps->heightMm;
+    }
     one.report = VerifyPart(std::move(model.parts[i]),
                             found->shape,
                             volume.geometry,
-                            one.lambdaMm,
+                            pruned,
                             NamedPartOfProgress(context.progress, found->name, from, to));
     one.report.checks.push_back(CheckProvenance(made.labels[i], *found, component, one.report));
     one.report.passed = one.report.passed && one.report.checks.back().passed;
@@ -167,7 +199,7 @@ VerifyText(const VerifyResult & result)
     const auto & checks = label.report.checks;
     const auto   failed = std::count_if(checks.begin(), checks.end(), [](const auto & check) { return !check.passed; });
     text += LabelText(label.label, label.name) + ": " + std::to_string(checks.size()) + " checks, " +
-            (failed == 0 ? std::string("all passed") : std::to_string(failed) + " FAILED") + "\n";
+            (failed == 0 ? std::string("all passed") : std::to_string(failed) + " FAILED") + GapText(label) + "\n";
     for (const VerificationCheck & check : checks)
     {
       if (!check.passed)

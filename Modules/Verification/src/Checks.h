@@ -112,6 +112,10 @@ void
 CheckCompleteness(VerificationReport & report, const Subject & subject);
 void
 CheckPruning(VerificationReport & report, const Subject & subject);
+void
+CheckBumps(VerificationReport & report, const Subject & subject);
+void
+CheckCoverage(VerificationReport & report, const Subject & subject);
 
 /** Fills Subject::dualEdges. */
 void

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 namespace voxelcore
 {
@@ -153,11 +154,18 @@ constexpr std::array<const char *, 28> kAllChecks{ "arrays",
 
 /** Adds the checks that were not run. */
 void
-AddUnchecked(VerificationReport & report)
+AddUnchecked(VerificationReport & report, bool bumps)
 {
   for (std::size_t i = report.checks.size(); i < kAllChecks.size(); ++i)
   {
-    report.checks.push_back({ kAllChecks[i], false, 0, "Not checked: what it builds on is damaged." });
+    const std::string_view name = kAllChecks[i];
+    report.checks.push_back({ !bumps                   ? kAllChecks[i]
+                              : name == "completeness" ? "bump heights"
+                              : name == "pruning"      ? "coverage"
+                                                       : kAllChecks[i],
+                              false,
+                              0,
+                              "Not checked: what it builds on is damaged." });
   }
 }
 
@@ -189,6 +197,12 @@ CheckGeometry(VerificationReport &      report,
   CheckMeasures(report, subject);
   CheckOrder(report, subject);
   ReportProgress(progress, "verify", 0.8);
+  if (input.bumpHeight)
+  {
+    CheckBumps(report, subject);
+    CheckCoverage(report, subject);
+    return;
+  }
   CheckCompleteness(report, subject);
   ReportProgress(progress, "verify", 0.85);
   CheckPruning(report, subject);
@@ -232,7 +246,7 @@ VerifyComplex(const VerificationInput & input, const ProgressCallback & progress
   }
   else
   {
-    AddUnchecked(report);
+    AddUnchecked(report, input.bumpHeight.has_value());
   }
   for (const VerificationCheck & check : report.checks)
   {

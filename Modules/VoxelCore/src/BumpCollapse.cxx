@@ -1,5 +1,7 @@
 #include "BumpCollapse.h"
 
+#include "voxelcore/SimplePairCollapse.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,7 +15,6 @@ namespace
 {
 
 constexpr double        kInfinity = std::numeric_limits<double>::infinity();
-constexpr double        kLive = -1;
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 // How far uphill a keeper is looked for. A spur of noise in a thick part has a hump here and there at which the next
@@ -34,7 +35,9 @@ constexpr double kMargin = 1.25;
 BumpCollapse::BumpCollapse(const MedialComplex &             core,
                            const SpacingWeights &            weights,
                            const std::vector<LatticePoint> & points,
-                           const std::vector<ElementIndex> & touching)
+                           const std::vector<ElementIndex> & touching,
+                           double                            floor,
+                           const ProgressCallback &          progress)
   : m_Core(&core)
   , m_Points(&points)
   , m_Scale{ weights.unit * static_cast<double>(weights.weight[0]),
@@ -51,23 +54,11 @@ BumpCollapse::BumpCollapse(const MedialComplex &             core,
   , m_NextKept(points.size())
   , m_Reserve(core.cells.vertexCount, 0.0)
 {
-  const CellComplex & cells = core.cells;
-  for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
+  if (floor > 0)
   {
-    for (const ElementIndex vertex : cells.edges[edge])
-    {
-      ++m_VertexCofaces[vertex].count;
-      m_VertexCofaces[vertex].exclusiveOr ^= static_cast<ElementIndex>(edge);
-    }
+    DropBelow(floor, progress);
   }
-  for (std::size_t face = 0; face < cells.FaceCount(); ++face)
-  {
-    for (const ElementIndex edge : cells.FaceEdges(face))
-    {
-      ++m_EdgeCofaces[edge].count;
-      m_EdgeCofaces[edge].exclusiveOr ^= static_cast<ElementIndex>(face);
-    }
-  }
+  CountCofaces();
   m_Balls.reserve(core.cells.vertexCount);
   for (std::size_t vertex = 0; vertex < core.cells.vertexCount; ++vertex)
   {
@@ -77,9 +68,50 @@ BumpCollapse::BumpCollapse(const MedialComplex &             core,
   std::iota(m_Witness.begin(), m_Witness.end(), ElementIndex{ 0 });
   for (std::uint32_t point = 0; point < points.size(); ++point)
   {
-    Keep(touching[point], point);
+    if (IsLive(touching[point]))
+    {
+      Keep(touching[point], point);
+    }
   }
   FindNeighbours();
+}
+
+void
+BumpCollapse::DropBelow(double floor, const ProgressCallback & progress)
+{
+  SimplePairCollapse collapse(m_Core->cells, m_Core->vertexLambda, m_Core->edgeLambda, m_Core->faceLambda);
+  collapse.CollapseBelow(floor, progress);
+  const auto drop = [](const std::vector<std::uint8_t> & live, std::vector<double> & values) {
+    for (std::size_t element = 0; element < live.size(); ++element)
+    {
+      values[element] = live[element] != 0 ? kLive : kBelowFloor;
+    }
+  };
+  drop(collapse.Live().vertices, m_Bumps.vertices);
+  drop(collapse.Live().edges, m_Bumps.edges);
+  drop(collapse.Live().faces, m_Bumps.faces);
+}
+
+void
+BumpCollapse::CountCofaces()
+{
+  const CellComplex & cells = m_Core->cells;
+  for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    for (const ElementIndex vertex : cells.edges[edge])
+    {
+      m_VertexCofaces[vertex].count += m_Bumps.edges[edge] == kLive ? 1 : 0;
+      m_VertexCofaces[vertex].exclusiveOr ^= m_Bumps.edges[edge] == kLive ? static_cast<ElementIndex>(edge) : 0;
+    }
+  }
+  for (std::size_t face = 0; face < cells.FaceCount(); ++face)
+  {
+    for (const ElementIndex edge : cells.FaceEdges(face))
+    {
+      m_EdgeCofaces[edge].count += m_Bumps.faces[face] == kLive ? 1 : 0;
+      m_EdgeCofaces[edge].exclusiveOr ^= m_Bumps.faces[face] == kLive ? static_cast<ElementIndex>(face) : 0;
+    }
+  }
 }
 
 void
@@ -93,10 +125,14 @@ BumpCollapse::FindNeighbours()
   }
   m_Neighbours.resize(m_NeighbourStart.back());
   std::vector<std::uint32_t> filled(m_NeighbourStart.begin(), m_NeighbourStart.end() - (cells.vertexCount > 0 ? 1 : 0));
-  for (const auto & [a, b] : cells.edges)
+  for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
   {
-    m_Neighbours[filled[a]++] = b;
-    m_Neighbours[filled[b]++] = a;
+    if (m_Bumps.edges[edge] == kLive)
+    {
+      const auto & [a, b] = cells.edges[edge];
+      m_Neighbours[filled[a]++] = b;
+      m_Neighbours[filled[b]++] = a;
+    }
   }
   m_Uphill.resize(cells.vertexCount);
   for (ElementIndex vertex = 0; vertex < cells.vertexCount; ++vertex)
@@ -364,7 +400,7 @@ BumpCollapse::Run(const ProgressCallback & progress)
     std::pop_heap(m_Heap.begin(), m_Heap.end(), std::greater<>());
     Pair pair = m_Heap.back();
     m_Heap.pop_back();
-    const bool simple = pair.isEdge ? m_Bumps.edges[pair.element] < 0 && m_EdgeCofaces[pair.element].count == 1
+    const bool simple = pair.isEdge ? m_Bumps.edges[pair.element] == kLive && m_EdgeCofaces[pair.element].count == 1
                                     : IsLive(pair.element) && m_VertexCofaces[pair.element].count == 1;
     if (!simple)
     {
@@ -393,7 +429,7 @@ BumpCollapse::Run(const ProgressCallback & progress)
     std::replace_if(
       values->begin(),
       values->end(),
-      [](double value) { return value < 0; },
+      [](double value) { return value == kLive; },
       kInfinity);
   }
   return std::move(m_Bumps);

@@ -17,7 +17,9 @@ public:
   BumpCollapse(const MedialComplex &             core,
                const SpacingWeights &            weights,
                const std::vector<LatticePoint> & points,
-               const std::vector<ElementIndex> & touching);
+               const std::vector<ElementIndex> & touching,
+               double                            floor,
+               const ProgressCallback &          progress);
 
   BumpValues
   Run(const ProgressCallback & progress);
@@ -52,6 +54,13 @@ private:
     ElementIndex exclusiveOr = 0;
   };
 
+  static constexpr double kLive = -2;
+  static constexpr double kBelowFloor = -1;
+
+  void
+  DropBelow(double floor, const ProgressCallback & progress);
+  void
+  CountCofaces();
   void
   FindNeighbours();
 
@@ -113,7 +122,7 @@ private:
   bool
   IsLive(ElementIndex vertex) const
   {
-    return m_Bumps.vertices[vertex] < 0;
+    return m_Bumps.vertices[vertex] == kLive;
   }
 
   const MedialComplex *             m_Core;
@@ -121,7 +130,7 @@ private:
   std::array<double, 3>             m_Scale; // mm a lattice unit
   std::vector<Ball>                 m_Balls;
   double                            m_Level = 0;
-  BumpValues                        m_Bumps; // negative while the element is there
+  BumpValues                        m_Bumps; // kLive while the element is there
   std::vector<Cofaces>              m_VertexCofaces;
   std::vector<Cofaces>              m_EdgeCofaces;
   std::vector<std::uint32_t>        m_NeighbourStart; // per vertex into m_Neighbours

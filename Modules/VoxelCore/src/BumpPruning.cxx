@@ -23,10 +23,12 @@ RefuseHeight(std::string_view text, const char * why)
 }
 
 std::vector<std::uint8_t>
-Above(const std::vector<double> & values, double height)
+AtLeast(const std::vector<double> & values, double height)
 {
   std::vector<std::uint8_t> live(values.size());
-  std::transform(values.begin(), values.end(), live.begin(), [height](double value) { return value > height ? 1 : 0; });
+  std::transform(values.begin(), values.end(), live.begin(), [height](double value) {
+    return value >= height ? 1 : 0;
+  });
   return live;
 }
 
@@ -113,15 +115,18 @@ ComputeBumps(const MedialComplex &             core,
              const SpacingWeights &            weights,
              const std::vector<LatticePoint> & points,
              const std::vector<ElementIndex> & touching,
+             double                            floor,
              const ProgressCallback &          progress)
 {
-  return BumpCollapse(core, weights, points, touching).Run(progress);
+  return BumpCollapse(core, weights, points, touching, floor, progress).Run(progress);
 }
 
 MedialComplex
-PruneByBumps(const MedialComplex & core, const BumpValues & bumps, double height)
+PruneByBumps(const MedialComplex & core, double height)
 {
-  return ExtractPart(core, { Above(bumps.vertices, height), Above(bumps.edges, height), Above(bumps.faces, height) });
+  const BumpValues & bumps = core.bumps;
+  return ExtractPart(core,
+                     { AtLeast(bumps.vertices, height), AtLeast(bumps.edges, height), AtLeast(bumps.faces, height) });
 }
 
 } // namespace voxelcore

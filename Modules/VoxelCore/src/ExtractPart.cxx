@@ -23,6 +23,12 @@ ExtractPart(const MedialComplex & core, const LiveElements & live)
   gather(core.vertexLambda, vertices, part.vertexLambda);
   gather(core.edgeLambda, edges, part.edgeLambda);
   gather(core.faceLambda, faces, part.faceLambda);
+  if (core.HasBumps())
+  {
+    gather(core.bumps.vertices, vertices, part.bumps.vertices);
+    gather(core.bumps.edges, edges, part.bumps.edges);
+    gather(core.bumps.faces, faces, part.bumps.faces);
+  }
   return part;
 }
 

@@ -58,6 +58,9 @@ IsModelPath(const std::filesystem::path & path);
  *  measures of edges on faces; .obj places, cells and labels as groups; .ma the balls, all edges and triangles; .stl
  *  triangles in single precision. Equal models give equal bytes. Components are the cell array `Component` (in .ply a
  *  property, in .obj part of a group's name), which is there only when a label is split.
+ *  Bump heights, where every part has them, are the point and cell arrays `Bump` of .vtp and .vtk. Edges that outlast
+ *  their faces, and vertices that outlast their edges, are cells there too: the cells with Bump >= h are then what is
+ *  left at height h, for every h from the file's own.
  *  \throws OutputError with one line when it cannot be written completely; a broken file is removed.
  *  \throws UsageError for an unknown extension, or when edges are to be kept whose measures are not known.
  *  \throws Error when parts are not sorted by label and component or not in canonical order. */
@@ -68,7 +71,7 @@ WriteModel(const std::filesystem::path & path,
            const ModelOptions &          options = {});
 
 /** Reads a .vtp that WriteModel wrote, with every bit as it was written; writing it again gives the same bytes. Edges
- *  come back in canonical order; without hasEdges the measures of those on faces are NaN. A part without vertices leaves
+ *  come back in canonical order; without hasEdges the measures of those on faces that are no lines are NaN. A part without vertices leaves
  *  no trace in a file. Written with `triangles`, the triangles are the faces.
  *  \throws InputError when it is missing, damaged, or was not written by VoxelCore. */
 MedialModel

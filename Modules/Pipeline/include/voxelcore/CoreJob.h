@@ -1,6 +1,7 @@
 #pragma once
 // `voxelcore core`: a scan in, certified medial surfaces out.
 
+#include "voxelcore/BumpPruning.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/JobContext.h"
@@ -25,6 +26,7 @@ struct CoreOptions
   ReadOptions                  reading;
   ShapeEditOptions             edits;
   std::vector<Lambda>          lambdas;  ///< at least one; ParseLambdas gives them
+  std::vector<BumpHeight>      bumps;    ///< none: pruned by lambda; else there is one lambda, the floor
   std::filesystem::path        output;   ///< a model file, or a folder (IsFolderOutput); empty: no core is written
   std::optional<SkeletonStage> skeleton; ///< skeletons too; its lambda is 0 or one of `lambdas`
   std::filesystem::path        skeletonOutput; ///< .vtp, or a folder
@@ -54,25 +56,26 @@ RunCoreJob(const CoreOptions & options, const JobContext & context = {});
 struct LabelOutcome
 {
   LabelRecord                 record;
-  std::vector<ModelPart>      parts; ///< one per lambda, in LPS mm
+  std::vector<ModelPart>      parts; ///< one per lambda or bump height, in LPS mm
   std::optional<SkeletonPart> skeleton;
   StageSeconds                seconds;
 };
 
 /** Everything between reading and writing for one label; depends on nothing but its arguments. With `crossCheck` both
  *  engines run, one after the other; TetGen can do so once at a time in a process. The skeleton's lambda is 0 or one of
- *  `lambdas`.
- *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape, or the engines
- *  differ. */
+ *  `lambdas`; with bump heights it is 0.
+ *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape, a boundary vertex lies
+ *  farther from it than the bump height, or the engines differ. */
 LabelOutcome
-ProcessLabel(LabelShape                  label,
-             const ImageGeometry &       geometry,
-             const SpacingWeights &      weights,
-             const std::vector<Lambda> & lambdas,
-             Engine                      engine,
-             const ProgressCallback &    progress = {},
-             bool                        crossCheck = false,
-             const SkeletonStage *       skeleton = nullptr);
+ProcessLabel(LabelShape                      label,
+             const ImageGeometry &           geometry,
+             const SpacingWeights &          weights,
+             const std::vector<Lambda> &     lambdas,
+             Engine                          engine,
+             const ProgressCallback &        progress = {},
+             bool                            crossCheck = false,
+             const SkeletonStage *           skeleton = nullptr,
+             const std::vector<BumpHeight> & bumps = {});
 
 /** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
 bool

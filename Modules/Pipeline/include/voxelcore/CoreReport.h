@@ -42,6 +42,7 @@ struct ParameterRecord
   std::string                              niftiForm = "auto";
   ShapeEditOptions                         edits;
   std::vector<std::string>                 lambda;
+  std::vector<std::string>                 bumps; ///< heights; where there are some, one lambda, the floor
   ModelOptions                             model;
   std::string                              engine;
   bool                                     crossCheck = false; ///< both engines ran and agreed
@@ -60,12 +61,21 @@ struct ComplexRecord
   double          maxRadiusMm = 0;
 };
 
+/** What pruning by bump height did. */
+struct BumpRecord
+{
+  std::string           height;
+  double                heightMm = 0;
+  std::optional<double> boundaryGapMm; ///< of a boundary vertex to the balls that are left, the largest; not in files
+};
+
 struct PrunedRecord
 {
-  std::string   lambda;
-  double        lambdaMm = 0;
-  ComplexRecord complex;
-  std::string   output; ///< the file
+  std::string               lambda;
+  double                    lambdaMm = 0;
+  ComplexRecord             complex;
+  std::string               output; ///< the file
+  std::optional<BumpRecord> bumps = {};
 };
 
 /** A label's curve skeleton. Its topology has been found equal to the shape's, or there is none. */
@@ -90,16 +100,17 @@ struct LabelRecord
   std::uint64_t                 boundaryVertices = 0;
   TopologyNumbers               shape;
   ComplexRecord                 core;
-  std::vector<PrunedRecord>     pruned; ///< one per lambda, in the order given
+  std::vector<PrunedRecord>     pruned; ///< one per lambda or bump height, in the order given
   bool                          topologyEqual = false;
   bool                          enclosed = false;
+  std::optional<bool>           covered; ///< no boundary gap exceeds the bump height; none where this is not promised
   std::optional<SkeletonRecord> skeleton;
   double                        seconds = 0; ///< for the table
 
   bool
   Passed() const
   {
-    return topologyEqual && enclosed;
+    return topologyEqual && enclosed && covered.value_or(true);
   }
 };
 
@@ -136,11 +147,11 @@ VoxelCoreVersion();
 std::string
 ReportJson(const CoreReport & report);
 
-/** The part of a report that goes into the file holding these labels (positions in report.labels) pruned to lambda
- *  number `lambda`: without times, memory, threads, paths, command, engine and output, on one line. It names only what
+/** The part of a report that goes into the file holding these labels (positions in report.labels) with result number
+ *  `which`: without times, memory, threads, paths, command, engine and output, on one line. It names only what
  *  is in this file, so a file does not depend on what else was made in the same run. */
 std::string
-ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t lambda);
+ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t which);
 
 /** The same for a file of these labels' skeletons. It is the same whether these were made from the scan, beside its core,
  *  or from the file of its whole core. */

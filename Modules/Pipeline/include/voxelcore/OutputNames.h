@@ -1,6 +1,7 @@
 #pragma once
 // What result files are called.
 
+#include "voxelcore/BumpPruning.h"
 #include "voxelcore/LambdaPruning.h"
 
 #include <cstdint>
@@ -29,18 +30,26 @@ LambdaTag(const Lambda & lambda);
 std::vector<Lambda>
 ParseLambdas(std::string_view text);
 
-/** `output` itself for one threshold; of several, "OUT_lambda-1mm.vtp" for "OUT.vtp". */
-std::filesystem::path
-FileOutputPath(const std::filesystem::path & output, const std::vector<Lambda> & lambdas, std::size_t which);
+/** The same for bump heights. */
+std::vector<BumpHeight>
+ParseBumpHeights(std::string_view text);
 
-/** "<folder>/<scan>_label-<value>_medial.vtp", of several thresholds "..._medial_lambda-<tag>.vtp"; of a component (not
- *  0) "..._label-<value>_component-<n>_medial...". */
+/** What tells the results of a run apart in their names: "" for a single one, else "_lambda-1mm" and so on, or, with
+ *  bump heights (then there is one lambda), "_bumps-1.2diag" and so on. */
+std::vector<std::string>
+ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<BumpHeight> & bumps = {});
+
+/** "OUT<suffix>.vtp" for "OUT.vtp". */
+std::filesystem::path
+FileOutputPath(const std::filesystem::path & output, const std::string & suffix);
+
+/** "<folder>/<scan>_label-<value>_medial<suffix>.vtp"; of a component (not 0)
+ *  "..._label-<value>_component-<n>_medial...". */
 std::filesystem::path
 FolderOutputPath(const std::filesystem::path & folder,
                  const std::filesystem::path & scan,
                  std::int64_t                  label,
-                 const std::vector<Lambda> &   lambdas,
-                 std::size_t                   which,
+                 const std::string &           suffix,
                  std::int64_t                  component = 0);
 
 /** "<folder>/<scan>_label-<value>_skeleton.vtp", of a component (not 0) "..._label-<value>_component-<n>_skeleton.vtp". Of a

@@ -23,6 +23,8 @@ struct LabelVerification
   std::int64_t       label = 0;
   std::string        name;
   double             lambdaMm = 0;
+  std::string        bumpHeight; ///< as given; empty when pruned by lambda
+  double             bumpHeightMm = 0;
   VerificationReport report;
 };
 
@@ -38,7 +40,7 @@ struct VerifyResult
 VerifyResult
 RunVerifyJob(const VerifyOptions & options, const JobContext & context = {});
 
-/** A line per label and check; with one label per check, otherwise failed checks only. */
+/** A line per label, with bump heights also how far the boundary lies from it, and check; with one label per check, otherwise failed checks only. */
 std::string
 VerifyText(const VerifyResult & result);
 

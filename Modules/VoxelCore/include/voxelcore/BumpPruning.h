@@ -6,8 +6,8 @@
 // same on both: D(x, y) = |x - y| + R(x) - R(y) says by how much the ball of core vertex x sticks out of the ball of y.
 //
 // The promise. In the result of height h every boundary vertex p lies within h of the ball of a vertex x that is still
-// there: gap(p, x) = |p - x| - R(x) <= h. Bumps lower than h are ignored, and what is left rebuilds the boundary to
-// within h.
+// there: gap(p, x) = |p - x| - R(x) < h. Bumps lower than h are ignored, and what is left rebuilds the boundary to
+// within h. At height 0 all is left.
 
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/MedialComplex.h"
@@ -42,15 +42,6 @@ ParseBumpHeight(std::string_view text);
 double
 BumpHeightInMillimetres(const BumpHeight & height, const std::array<double, 3> & spacing);
 
-/** Per element the height at which it goes, in mm: the result of height h is what has a value > h. Infinity for what
- *  never goes, as the topology needs it. value(face) <= value(edge) <= value(vertex) along incidences. */
-struct BumpValues
-{
-  std::vector<double> vertices;
-  std::vector<double> edges;
-  std::vector<double> faces;
-};
-
 /** Per boundary vertex the cell, and so the core vertex, whose ball is the largest of those it touches; of equals the
  *  one of smallest index. To be asked before the cells are moved into BuildVoxelCore(). */
 std::vector<ElementIndex>
@@ -58,7 +49,8 @@ LargestTouchingBalls(const DelaunayCells &             cells,
                      const std::vector<LatticePoint> & points,
                      const SpacingWeights &            weights);
 
-/** The heights of all elements of a whole core. `points` are the boundary vertices, `touching` as above.
+/** The heights of all elements of a whole core. `points` are the boundary vertices, `touching` as above. Infinity for
+ *  what never goes, as the topology needs it.
  *
  *  Only simple pairs go, the cheapest first; the height at which a pair goes is the greatest cost met so far. So all
  *  results have the topology of the core, are nested, and one run serves every h.
@@ -69,6 +61,9 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *  - A vertex at the loose end of an edge goes when each of the boundary vertices it keeps, at first those of which its
  *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on.
  *
+ *  With `floor` (mm) > 0 what PruneByLambda(core, {floor}) takes goes first, whatever bump it stands for: its value is
+ *  -1, and the boundary vertices of its balls are no longer looked at, so that nothing is promised of them.
+ *
  *  Costs are made of +, -, *, / and sqrt of the canonical doubles of the core in one thread and a fixed order; ties go by
  *  radius measure, then dimension, then index: the same bits on every machine, for every engine and thread count.
  *  \throws Cancelled when the callback says so. */
@@ -77,10 +72,11 @@ ComputeBumps(const MedialComplex &             core,
              const SpacingWeights &            weights,
              const std::vector<LatticePoint> & points,
              const std::vector<ElementIndex> & touching,
+             double                            floor = 0,
              const ProgressCallback &          progress = {});
 
-/** What is left of the core at a height in mm. */
+/** What is left at a height in mm of a core that has its heights (MedialComplex::bumps). */
 MedialComplex
-PruneByBumps(const MedialComplex & core, const BumpValues & bumps, double height);
+PruneByBumps(const MedialComplex & core, double height);
 
 } // namespace voxelcore

@@ -9,6 +9,15 @@
 namespace voxelcore
 {
 
+/** Per element the height of the bump it stands for, in mm: what is left at height h is what has a value >= h. See
+ *  BumpPruning.h. value(face) <= value(edge) <= value(vertex) along incidences. */
+struct BumpValues
+{
+  std::vector<double> vertices;
+  std::vector<double> edges;
+  std::vector<double> faces;
+};
+
 /** A voxel core or a part of it. Canonical order: vertices by exact centre, edges and faces by their sorted vertex
  *  indices; a polygon starts at its smallest vertex, its normal (right-handed in lattice axes) points from the
  *  lexicographically smaller to the greater of its two nearest boundary vertices.
@@ -24,6 +33,13 @@ struct MedialComplex
   std::vector<double>                vertexLambda; ///< radius measure in mm
   std::vector<double>                edgeLambda;   ///< radius measure in mm
   std::vector<double>                faceLambda;   ///< radius measure in mm
+  BumpValues                         bumps;        ///< empty where they were not asked for
+
+  bool
+  HasBumps() const
+  {
+    return bumps.vertices.size() == cells.vertexCount && cells.vertexCount > 0;
+  }
 };
 
 } // namespace voxelcore

@@ -1,0 +1,130 @@
+#pragma once
+// The values given to a command, read by kind.
+
+#include "voxelcore/Error.h"
+#include "voxelcore/Parameters.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+namespace voxelcore
+{
+
+/** A number, with or without a leading plus; none otherwise. */
+inline std::optional<double>
+ParseReal(std::string_view text)
+{
+  double value = 0;
+  // from_chars takes no leading plus.
+  text.remove_prefix(text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || std::isnan(value))
+  {
+    return std::nullopt;
+  }
+  return value;
+}
+
+/** The values given to one command, read with its defaults. */
+class ParameterReader
+{
+public:
+  ParameterReader(const ParameterValues & values, CommandId command)
+    : m_Values(values)
+    , m_Command(command)
+  {}
+
+  const Parameter &
+  Describe(std::string_view name) const
+  {
+    for (const Parameter & parameter : Parameters())
+    {
+      if (parameter.name == name && BelongsTo(parameter, m_Command))
+      {
+        return parameter;
+      }
+    }
+    throw std::logic_error("no such parameter: " + std::string(name));
+  }
+
+  std::string
+  Text(std::string_view name) const
+  {
+    const auto found = m_Values.find(name);
+    return found != m_Values.end() ? found->second : std::string(Describe(name).defaultValue);
+  }
+
+  bool
+  IsSet(std::string_view name) const
+  {
+    return Text(name) == "true";
+  }
+
+  bool
+  IsGiven(std::string_view name) const
+  {
+    return m_Values.find(name) != m_Values.end();
+  }
+
+  [[noreturn]] void
+  Refuse(std::string_view name, const std::string & expected) const
+  {
+    const Parameter & parameter = Describe(name);
+    const auto        comma = parameter.flags.find(',');
+    const auto        flag = comma == std::string_view::npos ? parameter.flags : parameter.flags.substr(comma + 1);
+    throw UsageError((flag.empty() ? std::string(parameter.placeholder) : std::string(flag)) + " " + Text(name) +
+                     ": expected " + expected);
+  }
+
+  std::int64_t
+  Whole(std::string_view name, std::int64_t least, std::int64_t most) const
+  {
+    const std::string text = Text(name);
+    std::int64_t      value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
+    {
+      Refuse(name,
+             "a whole number from " + std::to_string(least) +
+               (most < std::numeric_limits<std::int64_t>::max() ? " to " + std::to_string(most) : " up"));
+    }
+    return value;
+  }
+
+  /** A finite number; none when it is not given. */
+  std::optional<double>
+  Real(std::string_view name) const
+  {
+    if (!IsGiven(name))
+    {
+      return std::nullopt;
+    }
+    const auto value = ParseReal(Text(name));
+    if (!value || !std::isfinite(*value))
+    {
+      Refuse(name, "a number");
+    }
+    return value;
+  }
+
+  std::string
+  Choice(std::string_view name) const
+  {
+    const std::string text = Text(name);
+    const auto        words = "|" + std::string(Describe(name).placeholder) + "|";
+    if (text.empty() || text.find('|') != std::string::npos || words.find("|" + text + "|") == std::string::npos)
+    {
+      Refuse(name, "one of " + words.substr(1, words.size() - 2));
+    }
+    return text;
+  }
+
+private:
+  const ParameterValues & m_Values;
+  CommandId               m_Command;
+};
+
+} // namespace voxelcore

@@ -1,0 +1,250 @@
+#include "CrossCheck.h"
+#include "JobTools.h"
+#include "MakeSkeleton.h"
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/CoreJob.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/ShapeTopology.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** Where in a label's work each stage ends, as the shares of time usually are. */
+constexpr double kShapeEnds = 0.03;
+constexpr double kDelaunayEnds = 0.80;
+constexpr double kCoreEnds = 0.92;
+constexpr double kCoreBesideSkeleton = 0.5;
+
+bool
+ContainsAround(const VoxelShape & shape, const std::array<double, 3> & point)
+{
+  // Every voxel whose closed cube holds the point must be in: only then the point is inside the *open* shape.
+  std::array<std::int32_t, 3> first;
+  std::array<std::int32_t, 3> last;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double floor = std::floor(point[k]);
+    last[k] = static_cast<std::int32_t>(floor);
+    first[k] = last[k] - (floor == point[k] ? 1 : 0);
+  }
+  for (std::int32_t z = first[2]; z <= last[2]; ++z)
+  {
+    for (std::int32_t y = first[1]; y <= last[1]; ++y)
+    {
+      for (std::int32_t x = first[0]; x <= last[0]; ++x)
+      {
+        if (!shape.Contains(x, y, z))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/** What ComputeWholeCore() is asked for. */
+struct WholeCoreOptions
+{
+  Engine engine = Engine::Auto;
+  bool   crossCheck = false;
+  bool   bumps = false; ///< with bump heights
+  double floor = 0;     ///< of these, mm
+};
+
+/** The core of a label, described and certified, in LPS mm. Frees the points and the cells as soon as it can. */
+ModelPart
+ComputeWholeCore(const VoxelShape &       shape,
+                 const ImageGeometry &    geometry,
+                 const SpacingWeights &   weights,
+                 const WholeCoreOptions & options,
+                 const std::string &      labelText,
+                 LabelOutcome &           outcome,
+                 const ProgressCallback & progress)
+{
+  LabelRecord & record = outcome.record;
+  Stopwatch     watch;
+  ReportProgress(progress, "shape", 0);
+  record.shape = ComputeShapeTopology(shape);
+  MedialComplex core;
+  {
+    const std::vector<LatticePoint> points = BoundaryVertices(shape);
+    record.boundaryVertices = points.size();
+    outcome.seconds.shape += watch.Lap();
+
+    const ProgressCallback part = PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds);
+    DelaunayCells          cells = options.crossCheck
+                                     ? CrossCheckedCells(shape, points, weights, options.engine, labelText, part)
+                                     : ComputeDelaunayCells(shape, points, weights, options.engine, part);
+    outcome.seconds.delaunay += watch.Lap();
+
+    ReportProgress(progress, "core", kDelaunayEnds);
+    const std::vector<ElementIndex> touching =
+      options.bumps ? LargestTouchingBalls(cells, points, weights) : std::vector<ElementIndex>();
+    core = BuildVoxelCore(shape, points, std::move(cells), weights);
+    if (options.bumps)
+    {
+      outcome.seconds.core += watch.Lap();
+      const ProgressCallback bumps = PartOfProgress(progress, "prune", kDelaunayEnds, kCoreEnds);
+      core.bumps = ComputeBumps(core, weights, points, touching, options.floor, bumps);
+      EndBumps(core.bumps, geometry);
+      outcome.seconds.prune += watch.Lap();
+    }
+  }
+  const TopologyNumbers topology = ComputeComplexTopology(core.cells);
+  RequireEqualTopology(record.shape, topology, "its core", labelText);
+  record.topologyEqual = true;
+  record.enclosed = IsEnclosed(core, shape);
+  if (!record.enclosed)
+  {
+    throw CertificateError(labelText +
+                           ": certificate failed: a vertex of the core lies outside the shape; nothing was "
+                           "written; this is a fault of VoxelCore, please report it with the scan");
+  }
+  ModelPart part = ToPhysical(std::move(core), geometry, record.label);
+  // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last bit.
+  record.core = DescribeComplex(part.core, topology);
+  outcome.seconds.core += watch.Lap();
+  ReportProgress(progress, "prune", kCoreEnds);
+  return part;
+}
+
+/** Measures how far the boundary lies from what is left, by other means than those that pruned it. What a floor took
+ *  was promised nothing. */
+void
+CertifyCoverage(PrunedCore &           pruned,
+                const VoxelShape &     shape,
+                const ImageGeometry &  geometry,
+                const SpacingWeights & weights,
+                LabelRecord &          record,
+                const std::string &    labelText)
+{
+  BumpRecord & bumps = *pruned.record.bumps;
+  bumps.boundaryGapMm = MeasureBoundaryGap(pruned.part, shape, geometry, weights);
+  if (pruned.record.lambdaMm > 0)
+  {
+    return;
+  }
+  if (*bumps.boundaryGapMm > bumps.heightMm + BoundaryGapTolerance(geometry))
+  {
+    throw CertificateError(labelText + ": certificate failed: a boundary vertex lies " +
+                           std::to_string(*bumps.boundaryGapMm) + " mm from its core pruned at bump height " +
+                           bumps.height +
+                           "; nothing was written; this is a fault of VoxelCore, please report it with the scan");
+  }
+  record.covered = true;
+}
+
+} // namespace
+
+bool
+IsEnclosed(const MedialComplex & core, const VoxelShape & shape)
+{
+  for (const auto & position : core.positions)
+  {
+    if (!ContainsAround(shape, position))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+LabelOutcome
+ProcessLabel(LabelShape                      label,
+             const ImageGeometry &           geometry,
+             const SpacingWeights &          weights,
+             const std::vector<Lambda> &     lambdas,
+             Engine                          engine,
+             const ProgressCallback &        progress,
+             bool                            crossCheck,
+             const SkeletonStage *           skeleton,
+             const std::vector<BumpHeight> & bumps)
+{
+  LabelOutcome      outcome;
+  LabelRecord &     record = outcome.record;
+  const std::string labelText = LabelText(label.value, label.name);
+  Stopwatch         watch;
+  record.label = label.value;
+  record.name = label.name;
+  record.voxels = label.voxels;
+  record.volumeMm3 =
+    static_cast<double>(label.voxels) * (geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2]);
+  record.box = label.shape.Box();
+
+  // Where there is a skeleton it takes its share of the time after the core.
+  const double           coreEnds = skeleton != nullptr ? kCoreBesideSkeleton : 1;
+  const ProgressCallback coreProgress = PartOfProgress(progress, 0, coreEnds);
+  const auto             makeSkeleton = [&](const ModelPart & surface) {
+    Stopwatch skeletonWatch;
+    outcome.skeleton =
+      MakeSkeleton(surface, *skeleton, weights, geometry.spacing, record, PartOfProgress(progress, coreEnds, 1));
+    outcome.seconds.skeleton += skeletonWatch.Lap();
+  };
+
+  std::vector<double> thresholds;
+  for (const Lambda & lambda : lambdas)
+  {
+    thresholds.push_back(LambdaInMillimetres(lambda, weights, geometry.spacing, record.box));
+  }
+  const WholeCoreOptions options{ engine, crossCheck, !bumps.empty(), thresholds.front() };
+  ModelPart part = ComputeWholeCore(label.shape, geometry, weights, options, labelText, outcome, coreProgress);
+
+  const bool ofWhole = skeleton != nullptr && skeleton->lambda.value == 0;
+  if (ofWhole)
+  {
+    makeSkeleton(part);
+  }
+
+  Stopwatch               pruneWatch;
+  std::vector<PrunedCore> pruned;
+  if (bumps.empty())
+  {
+    label.shape = VoxelShape();
+    pruned = PruneAndCertify(std::move(part),
+                             record.core,
+                             0,
+                             lambdas,
+                             thresholds,
+                             record.shape,
+                             labelText,
+                             PartOfProgress(coreProgress, "prune", kCoreEnds, 1));
+  }
+  else
+  {
+    const PrunedRecord floor{ lambdas.front().text, thresholds.front(), {}, {}, {} };
+    pruned = PruneByBumpsAndCertify(part, floor, bumps, geometry, record.shape, labelText);
+    part = ModelPart();
+    for (PrunedCore & one : pruned)
+    {
+      ReportProgress(coreProgress, "prune", kCoreEnds);
+      CertifyCoverage(one, label.shape, geometry, weights, record, labelText);
+    }
+  }
+  for (PrunedCore & one : pruned)
+  {
+    record.pruned.push_back(std::move(one.record));
+    outcome.parts.push_back(std::move(one.part));
+  }
+  outcome.seconds.prune += pruneWatch.Lap();
+  if (skeleton != nullptr && !ofWhole)
+  {
+    const auto same = std::find_if(lambdas.begin(), lambdas.end(), [&](const Lambda & lambda) {
+      return lambda.text == skeleton->lambda.text;
+    });
+    makeSkeleton(outcome.parts.at(static_cast<std::size_t>(same - lambdas.begin())));
+  }
+  record.seconds = watch.Lap();
+  return outcome;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,79 @@
+#include "Checks.h"
+
+#include "voxelcore/BallCoverage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore::verification
+{
+
+void
+CheckBumps(VerificationReport & report, const Subject & subject)
+{
+  const VerificationInput & input = subject.input;
+  const CellComplex &       cells = subject.cells;
+  if (input.vertexBump.size() != cells.vertexCount || input.edgeBump.size() != cells.edges.size() ||
+      input.faceBump.size() != cells.FaceCount())
+  {
+    report.checks.push_back({ "bump heights", false, 1, "some elements have none." });
+    return;
+  }
+  const double height = *input.bumpHeight;
+  // A comparison with what is no number fails.
+  const auto isWrong = [&](double lower, double upper) { return !(lower >= height && lower <= upper); };
+  const auto edgeOffends = [&](std::size_t edge) {
+    return isWrong(input.edgeBump[edge], input.vertexBump[cells.edges[edge][0]]) ||
+           isWrong(input.edgeBump[edge], input.vertexBump[cells.edges[edge][1]]);
+  };
+  const auto faceOffends = [&](std::size_t face) {
+    const auto edges = cells.FaceEdges(face);
+    return std::any_of(edges.begin(), edges.end(), [&](ElementIndex edge) {
+      return isWrong(input.faceBump[face], input.edgeBump[edge]);
+    });
+  };
+  AddCheck(
+    report,
+    "bump heights",
+    cells.vertexCount + cells.edges.size() + cells.FaceCount(),
+    [&](std::size_t i) {
+      if (i < cells.vertexCount)
+      {
+        return !(input.vertexBump[i] >= height);
+      }
+      i -= cells.vertexCount;
+      return i < cells.edges.size() ? edgeOffends(i) : faceOffends(i - cells.edges.size());
+    },
+    [&](std::size_t i) {
+      const std::size_t edges = cells.vertexCount + cells.edges.size();
+      return (i < cells.vertexCount ? DescribeVertex(subject, i)
+              : i < edges           ? DescribeEdge(subject, i - cells.vertexCount)
+                                    : DescribeFace(subject, i - edges)) +
+             " has one below " + Describe(height) + " mm or above that of what it bounds.";
+    });
+}
+
+void
+CheckCoverage(VerificationReport & report, const Subject & subject)
+{
+  const VerificationInput & input = subject.input;
+  const BoundaryGap         gap = LargestBoundaryGap(*input.shape, input.weights, input.positions, input.radius);
+  report.boundaryGap = gap.largest;
+  if (input.threshold.value_or(0.0) > 0)
+  {
+    return;
+  }
+  const auto         largestWeight = *std::max_element(input.weights.weight.begin(), input.weights.weight.end());
+  const double       slack = 4 * subject.tolerance * static_cast<double>(largestWeight) * input.weights.unit;
+  const bool         covered = gap.largest <= *input.bumpHeight * (1 + kMeasureTolerance) + slack;
+  const LatticePoint place{ gap.place[0], gap.place[1], gap.place[2] };
+  report.checks.push_back({ "coverage",
+                            covered,
+                            covered ? 0U : 1U,
+                            covered ? std::string()
+                                    : "boundary vertex " + Describe(place) + " lies " + Describe(gap.largest) +
+                                        " mm from the nearest ball, the bump height is " + Describe(*input.bumpHeight) +
+                                        " mm." });
+}
+
+} // namespace voxelcore::verification
