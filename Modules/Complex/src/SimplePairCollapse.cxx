@@ -1,5 +1,7 @@
 #include "voxelcore/SimplePairCollapse.h"
 
+#include "voxelcore/BucketQueue.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,6 +20,11 @@ struct Pair
   std::uint32_t isEdge;        // dimension of e: 0 vertex, 1 edge
   ElementIndex  element;       // e
 
+  double
+  Key() const
+  {
+    return measure;
+  }
   friend bool
   operator<(const Pair & a, const Pair & b)
   {
@@ -31,99 +38,6 @@ struct Pair
     }
     return a.isEdge != b.isEdge ? a.isEdge < b.isEdge : a.element < b.element;
   }
-};
-
-// Pairs in order, smallest first, while more arrive. Those ahead wait in buckets by measure; the nearest bucket is sorted,
-// so that what comes next is known and can be fetched from memory in time; those that arrive for it go to a heap.
-class PairQueue
-{
-public:
-  // Measures are expected between two bounds; buckets are of no use to those beyond.
-  PairQueue(double least, double greatest)
-    : m_Least(least)
-    , m_PerUnit(greatest > least ? (bucketCount - 1) / (greatest - least) : 0.0)
-    , m_Ahead(bucketCount)
-  {}
-
-  void
-  Push(const Pair & pair)
-  {
-    const std::size_t bucket = BucketOf(pair.measure);
-    if (bucket > m_Bucket)
-    {
-      m_Ahead[bucket].push_back(pair);
-      return;
-    }
-    m_Heap.push_back(pair);
-    std::push_heap(m_Heap.begin(), m_Heap.end(), IsGreater);
-  }
-
-  // Starts on the bucket that is next. Nothing is left when it returns false.
-  bool
-  Prepare()
-  {
-    while (m_Heap.empty() && m_Next == m_Run.size())
-    {
-      if (m_Bucket + 1 == bucketCount)
-      {
-        return false;
-      }
-      std::vector<Pair>().swap(m_Run);
-      m_Run.swap(m_Ahead[++m_Bucket]);
-      std::sort(m_Run.begin(), m_Run.end());
-      m_Next = 0;
-    }
-    return true;
-  }
-
-  Pair
-  Pop()
-  {
-    if (m_Next == m_Run.size() || (!m_Heap.empty() && m_Heap.front() < m_Run[m_Next]))
-    {
-      std::pop_heap(m_Heap.begin(), m_Heap.end(), IsGreater);
-      const Pair pair = m_Heap.back();
-      m_Heap.pop_back();
-      return pair;
-    }
-    return m_Run[m_Next++];
-  }
-
-  // The pair that comes `steps` later as far as is known, or null.
-  const Pair *
-  Ahead(std::size_t steps) const
-  {
-    return m_Next + steps < m_Run.size() ? &m_Run[m_Next + steps] : nullptr;
-  }
-
-private:
-  static constexpr std::size_t bucketCount = 1024;
-
-  static bool
-  IsGreater(const Pair & a, const Pair & b)
-  {
-    return b < a;
-  }
-
-  // Rounding keeps the order: buckets do not fall as measures rise. Bucket 0 stays empty, as none lies before it.
-  std::size_t
-  BucketOf(double measure) const
-  {
-    if (measure <= m_Least)
-    {
-      return 1;
-    }
-    const double position = (measure - m_Least) * m_PerUnit;
-    return position < bucketCount - 2 ? 1 + static_cast<std::size_t>(position) : bucketCount - 1;
-  }
-
-  double                         m_Least;
-  double                         m_PerUnit;
-  std::vector<std::vector<Pair>> m_Ahead;
-  std::size_t                    m_Bucket = 0; // of the run
-  std::vector<Pair>              m_Run;
-  std::size_t                    m_Next = 0;
-  std::vector<Pair>              m_Heap;
 };
 
 } // namespace
@@ -173,8 +87,8 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
       greatest = std::max(greatest, measure);
     }
   }
-  PairQueue pairs(std::max(least, std::numeric_limits<double>::lowest()),
-                  std::min({ greatest, threshold, std::numeric_limits<double>::max() }));
+  BucketQueue<Pair> pairs(std::max(least, std::numeric_limits<double>::lowest()),
+                          std::min({ greatest, threshold, std::numeric_limits<double>::max() }));
   // A vertex in one edge is in no face, as a face would need two edges there; so cofaces one dimension up suffice.
   const auto offerVertex = [&](ElementIndex vertex) {
     if (m_VertexCofaces[vertex].count == 1 && m_VertexMeasure[vertex] < threshold)

@@ -19,6 +19,7 @@ struct BallTree::Search
 {
   std::array<double, 3> place;
   std::array<double, 3> offsets{ 0, 0, 0 }; ///< from the place to the current range's box, by axis
+  double                enough;
   double                best = std::numeric_limits<double>::infinity();
 };
 
@@ -83,7 +84,7 @@ BallTree::Build(std::size_t first, std::size_t last)
 void
 BallTree::Descend(Search & search, std::size_t first, std::size_t last, double squared) const
 {
-  if (first == last)
+  if (first == last || search.best < search.enough)
   {
     return;
   }
@@ -123,9 +124,9 @@ BallTree::Descend(Search & search, std::size_t first, std::size_t last, double s
 }
 
 double
-BallTree::Gap(const std::array<double, 3> & place) const
+BallTree::Gap(const std::array<double, 3> & place, double enough) const
 {
-  Search search{ .place = { m_Scale[0] * place[0], m_Scale[1] * place[1], m_Scale[2] * place[2] } };
+  Search search{ .place = { m_Scale[0] * place[0], m_Scale[1] * place[1], m_Scale[2] * place[2] }, .enough = enough };
   Descend(search, 0, m_Balls.size(), 0.0);
   return search.best;
 }
@@ -140,24 +141,26 @@ LargestBoundaryGap(const VoxelShape &                     shape,
   const std::vector<LatticePoint> points = BoundaryVertices(shape);
   const BallTree                  tree(positions, radius, weights);
   std::vector<double>             gaps(points.size());
-  constexpr std::size_t           chunk = std::size_t{ 1 } << 18;
+  BoundaryGap                     result;
+  // What lies nearer than the farthest so far needs no closer look.
+  constexpr std::size_t chunk = std::size_t{ 1 } << 13;
   for (std::size_t first = 0; first < points.size(); first += chunk)
   {
     ReportProgress(progress, "coverage", static_cast<double>(first) / static_cast<double>(points.size()));
     const std::size_t last = std::min(points.size(), first + chunk);
-#pragma omp parallel for schedule(dynamic, 1024) if (last - first > 4096)
+#pragma omp parallel for schedule(dynamic, 512) if (last - first > 4096)
     for (std::size_t i = first; i < last; ++i)
     {
       gaps[i] = tree.Gap(
-        { static_cast<double>(points[i].x), static_cast<double>(points[i].y), static_cast<double>(points[i].z) });
+        { static_cast<double>(points[i].x), static_cast<double>(points[i].y), static_cast<double>(points[i].z) },
+        first == 0 ? -HUGE_VAL : result.largest);
     }
-  }
-  BoundaryGap result;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (i == 0 || gaps[i] > result.largest)
+    for (std::size_t i = first; i < last; ++i)
     {
-      result = { gaps[i], { points[i].x, points[i].y, points[i].z } };
+      if (i == 0 || gaps[i] > result.largest)
+      {
+        result = { gaps[i], { points[i].x, points[i].y, points[i].z } };
+      }
     }
   }
   result.largest = std::max(result.largest, 0.0);

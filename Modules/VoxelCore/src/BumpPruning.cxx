@@ -82,27 +82,33 @@ LargestTouchingBalls(const DelaunayCells &             cells,
                      const SpacingWeights &            weights)
 {
   std::vector<ElementIndex> touching(points.size(), kOutside);
-  std::vector<double>       largest(points.size(), -1.0);
+  // All points of a cell lie on its sphere: one of them gives its radius.
+  std::vector<double> squared(cells.CellCount(), -1.0);
   for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
   {
-    for (const std::uint32_t point : cells.FacetPoints(facet))
+    const auto facetPoints = cells.FacetPoints(facet);
+    for (const std::uint32_t cell : cells.facetCells[facet])
     {
-      const LatticePoint & p = points[point];
-      for (const std::uint32_t cell : cells.facetCells[facet])
+      if (cell == kOutside)
       {
-        if (cell == kOutside || cell == touching[point])
+        continue;
+      }
+      if (squared[cell] < 0)
+      {
+        const LatticePoint & p = points[facetPoints.front()];
+        const auto &         c = cells.centres[cell];
+        const double         dx = static_cast<double>(weights.weight[0]) * (c[0] - p.x);
+        const double         dy = static_cast<double>(weights.weight[1]) * (c[1] - p.y);
+        const double         dz = static_cast<double>(weights.weight[2]) * (c[2] - p.z);
+        squared[cell] = dx * dx + dy * dy + dz * dz;
+      }
+      for (const std::uint32_t point : facetPoints)
+      {
+        ElementIndex & largest = touching[point];
+        if (largest == kOutside || squared[cell] > squared[largest] ||
+            (squared[cell] == squared[largest] && cell < largest))
         {
-          continue;
-        }
-        const auto & c = cells.centres[cell];
-        const double dx = static_cast<double>(weights.weight[0]) * (c[0] - p.x);
-        const double dy = static_cast<double>(weights.weight[1]) * (c[1] - p.y);
-        const double dz = static_cast<double>(weights.weight[2]) * (c[2] - p.z);
-        const double squared = dx * dx + dy * dy + dz * dz;
-        if (squared > largest[point] || (squared == largest[point] && cell < touching[point]))
-        {
-          largest[point] = squared;
-          touching[point] = cell;
+          largest = cell;
         }
       }
     }

@@ -7,6 +7,7 @@
 #include "voxelcore/VoxelShape.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,9 +25,9 @@ public:
            const SpacingWeights &                 weights);
 
   /** Smallest of |place - centre| - radius over all balls, in mm: negative inside a ball, infinity without balls.
-   *  Place in lattice coordinates. Thread-safe. */
+   *  Place in lattice coordinates. Once a ball nearer than `enough` is found, its gap is returned. Thread-safe. */
   double
-  Gap(const std::array<double, 3> & place) const;
+  Gap(const std::array<double, 3> & place, double enough = -HUGE_VAL) const;
 
 private:
   struct Ball

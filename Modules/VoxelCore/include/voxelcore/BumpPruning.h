@@ -59,13 +59,14 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *    witness; it reaches a vertex when this ball sticks out by h. The face goes when fire has crossed it, or when fires
  *    from two sides have met on it. So a sheet shrinks evenly from its rims and does not tear.
  *  - A vertex at the loose end of an edge goes when each of the boundary vertices it keeps, at first those of which its
- *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on.
+ *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on. Beyond four
+ *    voxel diagonals h is an upper bound of that, along the path the end has gone.
  *
  *  With `floor` (mm) > 0 what PruneByLambda(core, {floor}) takes goes first, whatever bump it stands for: its value is
  *  -1, and the boundary vertices of its balls are no longer looked at, so that nothing is promised of them.
  *
- *  Costs are made of +, -, *, / and sqrt of the canonical doubles of the core in one thread and a fixed order; ties go by
- *  radius measure, then dimension, then index: the same bits on every machine, for every engine and thread count.
+ *  Costs are made of +, -, *, / and sqrt of the canonical doubles of the core in a fixed order. Loose ends
+ *  that can go at the height reached go at once; of the rest ties go by radius measure, then dimension, then index: the same bits on every machine, for every engine and thread count.
  *  \throws Cancelled when the callback says so. */
 BumpValues
 ComputeBumps(const MedialComplex &             core,
