@@ -7,9 +7,9 @@ set -euo pipefail
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build ccache libvtk9-dev libtet1.5-dev libtiff-dev libpng-dev zlib1g-dev libbz2-dev \
-                libboost-dev libcli11-dev nlohmann-json3-dev ;;
+                libx11-dev libboost-dev libcli11-dev nlohmann-json3-dev ;;
     demo) echo mricron-data ;;
-    test) echo libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy mricron-data ;;
+    test) echo xvfb libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, demo, test and sanitizer" >&2; return 2 ;;
   esac

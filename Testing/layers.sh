@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Holds the house together: each module includes only headers of the modules it may use (Modules/README.md), and only
-# Imaging knows ITK, only Models knows VTK.
+# Imaging knows ITK, only Models and Display know VTK, only Display its rendering.
 # usage: layers.sh [FOLDER WITH Modules/]
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
@@ -15,7 +15,8 @@ may_use() {
     Verification) echo "Lattice Shape Complex" ;;
     Imaging) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Models) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton" ;;
-    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Phantom Verification Imaging Models" ;;
+    Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models" ;;
+    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Phantom Verification Imaging Models Display" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac
 }
@@ -40,7 +41,10 @@ for folder in Modules/*/; do
     fi
     case "$name" in
       itk*) [ "$module" = Imaging ] || complain "$file:$line: only Imaging knows ITK ($name)" ;;
-      vtk*) [ "$module" = Models ] || complain "$file:$line: only Models knows VTK ($name)" ;;
+      voxelcore/ModelPolyData.h) [[ "$module" = Models || "$module" = Display ]] ||
+        complain "$file:$line: only Models and Display know VTK ($name)" ;;
+      vtk*) [[ "$module" = Models || "$module" = Display ]] ||
+        complain "$file:$line: only Models and Display know VTK ($name)" ;;
       tetgen.h) [ "$file" = Modules/Delaunay/src/TetGenEngine.cxx ] || complain "$file:$line: TetGen belongs in one file" ;;
     esac
   done < <(grep -rnE '^ *# *include' "$folder" --include='*.h' --include='*.hxx' --include='*.cxx')

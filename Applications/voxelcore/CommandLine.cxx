@@ -47,6 +47,19 @@ AddParameter(CLI::App & app, const Parameter & parameter, ParameterValues & valu
       description);
     return;
   }
+  if (parameter.kind == ParameterKind::Inputs)
+  {
+    const auto join = [&values, name](const std::vector<std::string> & given) {
+      for (const std::string & one : given)
+      {
+        std::string & all = values[name];
+        all += (all.empty() ? "" : "\n") + one;
+      }
+    };
+    CLI::Option * const option = app.add_option_function<std::vector<std::string>>("FILE", join, description);
+    option->type_name("")->required(parameter.required);
+    return;
+  }
   const std::string flags(parameter.flags.empty() ? parameter.placeholder : parameter.flags);
   CLI::Option *     option = app.add_option_function<std::string>(
     flags,

@@ -150,6 +150,18 @@ RunSkeleton(const Run & run)
 }
 
 int
+RunRender(const Run & run)
+{
+  const RenderResult result = RunRenderJob(RenderOptionsFrom(run.line.values), run.context);
+  run.PrintNotes(result.notes);
+  for (const auto & picture : result.pictures)
+  {
+    run.Print(picture.string() + "\n");
+  }
+  return kDone;
+}
+
+int
 Dispatch(const Run & run)
 {
   switch (*run.line.command)
@@ -166,6 +178,8 @@ Dispatch(const Run & run)
       return RunPhantom(run);
     case CommandId::Skeleton:
       return RunSkeleton(run);
+    case CommandId::Render:
+      return RunRender(run);
     case CommandId::Measure:
       return PrintSkeleton(run, RunMeasureJob(MeasureOptionsFrom(run.line.values), run.context));
   }

@@ -2,6 +2,7 @@
 #include "ModelFormats.h"
 #include "OutputFile.h"
 #include "VtkMessages.h"
+#include "voxelcore/ModelPolyData.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -294,6 +295,8 @@ AddEdgeArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
   data->GetFieldData()->AddArray(lambda);
 }
 
+} // namespace
+
 vtkSmartPointer<vtkPolyData>
 MakePolyData(const MedialModel & model, bool keepEdges)
 {
@@ -328,6 +331,9 @@ MakePolyData(const MedialModel & model, bool keepEdges)
   }
   return data;
 }
+
+namespace
+{
 
 /** Whether the file ends as a complete one does. */
 bool

@@ -3,6 +3,7 @@
 
 #include "voxelcore/BumpPruning.h"
 #include "voxelcore/CoreReport.h"
+#include "voxelcore/LabelVolume.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/OutputTransaction.h"
@@ -111,5 +112,9 @@ WriteStagedModel(OutputTransaction &           transaction,
 /** "label 4 (Precentral_L)" */
 std::string
 LabelText(std::int64_t value, const std::string & name);
+
+/** How the scan was read when a file was made. */
+ReadOptions
+RecordedReading(const ParameterRecord & parameters);
 
 } // namespace voxelcore

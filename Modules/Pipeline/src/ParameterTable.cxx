@@ -15,12 +15,13 @@ constexpr std::uint32_t kPrune = static_cast<std::uint32_t>(CommandId::Prune);
 constexpr std::uint32_t kPhantom = static_cast<std::uint32_t>(CommandId::Phantom);
 constexpr std::uint32_t kSkeleton = static_cast<std::uint32_t>(CommandId::Skeleton);
 constexpr std::uint32_t kMeasure = static_cast<std::uint32_t>(CommandId::Measure);
+constexpr std::uint32_t kRender = static_cast<std::uint32_t>(CommandId::Render);
 constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton;
 constexpr std::uint32_t kModels = kCore | kPrune;
 constexpr std::uint32_t kBranches = kSkeleton | kMeasure;
 constexpr std::uint32_t kStages = kCore | kSkeleton;
-constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches;
-constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom | kBranches;
+constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches | kRender;
+constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom | kBranches | kRender;
 
 constexpr std::string_view kCoreFooter =
   R"(Lambda says how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart.
@@ -106,13 +107,26 @@ Examples:
   voxelcore measure root.vtp -o root.csv --root top
   voxelcore measure vessels.vtp -o vessels.csv --prune-branches 5mm)";
 
-constexpr std::array<Command, 7> kCommands{ {
+constexpr std::string_view kRenderFooter =
+  R"(Draws without a screen: where there is no display it starts Xvfb for the time
+being. The scale bar holds everywhere in the picture (parallel projection); the letters are the patient's: left, right,
+anterior, posterior, superior, inferior. The scan is read with the options recorded in the first file.
+The colour map (viridis) is uniform to the eye and readable with any colour blindness and in grey.
+
+Examples:
+  voxelcore render medial.vtp --scan scan.nii.gz -o medial.png
+  voxelcore render core.vtp skeleton.vtp --scan root.nrrd --panels --color ErosionThickness -o root.png
+  voxelcore render atlas.vtp --labels 4,7 --color Label --view front --background dark -o labels.png
+  voxelcore render skeleton.vtp --turntable 36 -o turn.png)";
+
+constexpr std::array<Command, 8> kCommands{ {
   { CommandId::Core, "core", "Medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Info, "info", "What is in a scan: geometry, labels, their sizes and topology", kInfoFooter },
   { CommandId::Verify, "verify", "Recheck a finished file against its scan", kVerifyFooter },
   { CommandId::Prune, "prune", "Prune a finished file further, without its scan", kPruneFooter },
   { CommandId::Skeleton, "skeleton", "Curve skeleton of a scan or of a finished core", kSkeletonFooter },
   { CommandId::Measure, "measure", "Tables of a finished skeleton's branches", kMeasureFooter },
+  { CommandId::Render, "render", "Picture of finished files", kRenderFooter },
   { CommandId::Phantom, "phantom", "Make a synthetic volume", kPhantomFooter },
 } };
 
@@ -137,6 +151,46 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "Scan, as for 'voxelcore core', or a .vtp that 'voxelcore core' wrote" },
   { "skeleton", "", Input, "SKELETON.vtp", "", true, kMeasure, "File that 'voxelcore skeleton' wrote" },
   { "core", "", Input, "CORE.vtp", "", true, kVerify | kPrune, "File that 'voxelcore core' wrote" },
+  { "files",
+    "",
+    Inputs,
+    "FILE...",
+    "",
+    true,
+    kRender,
+    "Files that 'voxelcore core' and 'voxelcore skeleton' wrote, .vtp; of one label they are drawn into each other" },
+  { "output", "-o,--output", Output, "OUT.png", "", true, kRender, "Picture; with --turntable OUT_000.png and so on" },
+  { "scan-file", "--scan", Input, "SCAN", "", false, kRender, "Draw the surface of the scan's labels around them" },
+  { "labels", "--labels", Text, "all|N,NAME,..", "all", false, kRender, "Labels to draw, by value or name" },
+  { "view",
+    "--view",
+    Choice,
+    "front|top|iso|auto",
+    "auto",
+    false,
+    kRender,
+    "From anterior, from superior, from anterior left above, or from where most is to be seen" },
+  { "color",
+    "--color",
+    Choice,
+    "Radius|Lambda|ErosionThickness|Label",
+    "Radius",
+    false,
+    kRender,
+    "What colours mean: lengths in mm, or labels" },
+  { "range",
+    "--range",
+    Text,
+    "LO:HI",
+    "",
+    false,
+    kRender,
+    "Lengths in mm from one end of the colour bar to the other" },
+  { "size", "--size", Text, "WxH", "1600x1200", false, kRender, "Size in pixels" },
+  { "background", "--background", Choice, "white|dark", "white", false, kRender, "Background" },
+  { "tubes", "--tubes", Real, "F", "0.5", false, kRender, "Curves are tubes of so many times their radius" },
+  { "panels", "--panels", Flag, "", "", false, kRender, "Side by side: surface, medial surface, curve skeleton" },
+  { "turntable", "--turntable", Integer, "N", "1", false, kRender, "N pictures of a full turn" },
   { "kind", "", Text, "KIND", "", true, kPhantom, "What to make; 'list' names the kinds" },
   { "output",
     "-o,--output",

@@ -308,4 +308,56 @@ PhantomOptionsFrom(const ParameterValues & values)
   return options;
 }
 
+RenderJobOptions
+RenderOptionsFrom(const ParameterValues & values)
+{
+  const ParameterReader reader(values, CommandId::Render);
+  RenderJobOptions      options;
+  for (const std::string & file : Split(reader.Text("files"), '\n'))
+  {
+    options.files.push_back(file);
+  }
+  if (reader.IsGiven("scan-file"))
+  {
+    options.scan = reader.Text("scan-file");
+  }
+  options.labels = reader.Text("labels");
+  options.output = OutputFrom(reader);
+  const auto sides = Split(reader.Text("size"), 'x');
+  const auto width = ParseReal(sides.front());
+  const auto height = ParseReal(sides.back());
+  const auto fits = [](const std::optional<double> & side) {
+    return side && *side >= 64 && *side <= 8192 && std::floor(*side) == *side;
+  };
+  if (sides.size() != 2 || !fits(width) || !fits(height))
+  {
+    reader.Refuse("size", "WIDTHxHEIGHT in pixels, each from 64 to 8192, such as 1600x1200");
+  }
+  options.width = static_cast<int>(*width);
+  options.height = static_cast<int>(*height);
+  options.view = reader.Choice("view");
+  options.coloring = reader.Choice("color");
+  if (reader.IsGiven("range"))
+  {
+    const auto ends = Split(reader.Text("range"), ':');
+    const auto low = ParseReal(ends.front());
+    const auto high = ParseReal(ends.back());
+    if (ends.size() != 2 || !low || !high || !(*low < *high) || !std::isfinite(*low) || !std::isfinite(*high))
+    {
+      reader.Refuse("range", "LO:HI in mm with LO < HI, such as 0:5");
+    }
+    options.range = { *low, *high };
+  }
+  options.background = reader.Choice("background");
+  options.tubes = ParseReal(reader.Text("tubes")).value_or(-1);
+  if (!(options.tubes > 0 && options.tubes <= 1))
+  {
+    reader.Refuse("tubes", "a number above 0, up to 1");
+  }
+  options.panels = reader.IsSet("panels");
+  options.turntable = static_cast<int>(reader.Whole("turntable", 1, 999));
+  options.force = reader.IsSet("force");
+  return options;
+}
+
 } // namespace voxelcore

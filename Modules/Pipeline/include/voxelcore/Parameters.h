@@ -6,6 +6,7 @@
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/PhantomJob.h"
 #include "voxelcore/PruneJob.h"
+#include "voxelcore/RenderJob.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonJob.h"
 #include "voxelcore/VerifyJob.h"
@@ -29,7 +30,8 @@ enum class CommandId : std::uint32_t
   Prune = 8,
   Phantom = 16,
   Skeleton = 32,
-  Measure = 64
+  Measure = 64,
+  Render = 128
 };
 
 struct Command
@@ -43,6 +45,7 @@ struct Command
 enum class ParameterKind
 {
   Input,   ///< a path that is read
+  Inputs,  ///< one or more such paths; as a value, a line each
   Output,  ///< a path that is written
   Text,    ///< checked by the job
   Integer, ///< a whole number
@@ -109,5 +112,7 @@ SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values);
 MeasureJobOptions
 MeasureOptionsFrom(const ParameterValues & values);
+RenderJobOptions
+RenderOptionsFrom(const ParameterValues & values);
 
 } // namespace voxelcore

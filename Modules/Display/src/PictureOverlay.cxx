@@ -1,0 +1,233 @@
+#include "PictureOverlay.h"
+
+#include "voxelcore/DisplayColors.h"
+
+#include <vtkActor2D.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** 1, 2 or 5 times a power of ten, the largest that is not above `value`. */
+double
+RoundDown(double value)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : { 5.0, 2.0 })
+  {
+    if (step * power <= value * (1 + 1e-9))
+    {
+      return step * power;
+    }
+  }
+  return power;
+}
+
+std::string
+NumberText(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
+  return text;
+}
+
+} // namespace
+
+std::vector<double>
+RoundTicks(double low, double high, int parts)
+{
+  if (!(high > low))
+  {
+    return { low };
+  }
+  const double        step = RoundDown((high - low) / parts * 1.5);
+  std::vector<double> ticks;
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
+  {
+    ticks.push_back(k * step);
+  }
+  return ticks;
+}
+
+void
+PictureOverlay::AddText(const std::string & words, double x, double y, double size, int align)
+{
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(words.c_str());
+  vtkTextProperty * const style = actor->GetTextProperty();
+  style->SetFontFamilyToArial();
+  style->SetFontSize(static_cast<int>(size));
+  style->SetColor(m_Ink[0], m_Ink[1], m_Ink[2]);
+  style->SetJustification(align < 0 ? VTK_TEXT_LEFT : align > 0 ? VTK_TEXT_RIGHT : VTK_TEXT_CENTERED);
+  style->SetVerticalJustificationToCentered();
+  actor->SetPosition(x, y);
+  m_Renderer->AddActor2D(actor);
+}
+
+void
+PictureOverlay::AddRectangle(double x, double y, double width, double height, const Color & color)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(x, y, 0);
+  points->InsertNextPoint(x + width, y, 0);
+  points->InsertNextPoint(x + width, y + height, 0);
+  points->InsertNextPoint(x, y + height, 0);
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell({ 0, 1, 2, 3 });
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(color[0], color[1], color[2]);
+  m_Renderer->AddActor2D(actor);
+}
+
+void
+PictureOverlay::AddLine(double x0, double y0, double x1, double y1, double width)
+{
+  // A rectangle: lines wider than a pixel are not drawn alike everywhere.
+  const double length = std::hypot(x1 - x0, y1 - y0);
+  if (length <= 0)
+  {
+    return;
+  }
+  const double      dx = (x1 - x0) / length * width / 2;
+  const double      dy = (y1 - y0) / length * width / 2;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(x0 - dy, y0 + dx, 0);
+  points->InsertNextPoint(x0 + dy, y0 - dx, 0);
+  points->InsertNextPoint(x1 + dy, y1 - dx, 0);
+  points->InsertNextPoint(x1 - dy, y1 + dx, 0);
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell({ 0, 1, 2, 3 });
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(m_Ink[0], m_Ink[1], m_Ink[2]);
+  m_Renderer->AddActor2D(actor);
+}
+
+void
+PictureOverlay::AddColorBar(const std::string & title,
+                            double              low,
+                            double              high,
+                            double              x,
+                            double              y,
+                            double              height,
+                            double              text)
+{
+  const double                 width = 0.8 * text;
+  constexpr int                kSteps = 256;
+  vtkNew<vtkPoints>            points;
+  vtkNew<vtkCellArray>         cells;
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  for (vtkIdType step = 0; step < kSteps; ++step)
+  {
+    const double bottom = y + height * static_cast<double>(step) / kSteps;
+    const double top = y + height * static_cast<double>(step + 1) / kSteps;
+    points->InsertNextPoint(x, bottom, 0);
+    points->InsertNextPoint(x + width, bottom, 0);
+    points->InsertNextPoint(x + width, top, 0);
+    points->InsertNextPoint(x, top, 0);
+    cells->InsertNextCell({ 4 * step, 4 * step + 1, 4 * step + 2, 4 * step + 3 });
+    const Color color = ViridisColor((static_cast<double>(step) + 0.5) / kSteps);
+    for (const double part : color)
+    {
+      colors->InsertNextValue(static_cast<unsigned char>(std::lround(255 * part)));
+    }
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  data->GetCellData()->SetScalars(colors);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  m_Renderer->AddActor2D(actor);
+  const std::vector<double> ticks = RoundTicks(low, high, 5);
+  for (const double tick : ticks)
+  {
+    const double at = y + (high > low ? (tick - low) / (high - low) * height : height / 2);
+    AddLine(x + width, at, x + width + 0.3 * text, at, text / 12);
+    AddText(NumberText(tick), x + width + 0.5 * text, at, text, -1);
+  }
+  AddText(title, x, y + height + 1.1 * text, text, -1);
+}
+
+void
+PictureOverlay::AddLegend(const std::vector<std::pair<std::string, Color>> & names, double x, double top, double text)
+{
+  double y = top;
+  for (const auto & [name, color] : names)
+  {
+    AddRectangle(x, y - 0.4 * text, 0.8 * text, 0.8 * text, color);
+    AddText(name, x + 1.2 * text, y, text, -1);
+    y -= 1.5 * text;
+  }
+}
+
+void
+PictureOverlay::AddScaleBar(double mmPerPixel, double most, double x, double y, double text)
+{
+  const double mm = RoundDown(mmPerPixel * most);
+  const double length = mm / mmPerPixel;
+  AddLine(x, y, x + length, y, text / 6);
+  AddLine(x, y - text / 4, x, y + text / 4, text / 12);
+  AddLine(x + length, y - text / 4, x + length, y + text / 4, text / 12);
+  AddText(NumberText(mm) + " mm", x + length / 2, y + 0.9 * text, text, 0);
+}
+
+void
+PictureOverlay::AddDirections(const std::array<double, 3> & right,
+                              const std::array<double, 3> & up,
+                              double                        x,
+                              double                        y,
+                              double                        arm,
+                              double                        text)
+{
+  constexpr std::array<const char *, 3> toward{ "L", "P", "S" };
+  constexpr std::array<const char *, 3> from{ "R", "A", "I" };
+  constexpr double                      kShort = 0.3; // nearly along the view: its letters would lie on the centre
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double dx = right[axis];
+    const double dy = up[axis];
+    const double length = std::hypot(dx, dy);
+    if (length < kShort)
+    {
+      continue;
+    }
+    AddLine(x - arm * dx, y - arm * dy, x + arm * dx, y + arm * dy, text / 14);
+    const double away = arm + 0.7 * text / length;
+    AddText(toward[axis], x + away * dx, y + away * dy, text, 0);
+    AddText(from[axis], x - away * dx, y - away * dy, text, 0);
+  }
+}
+
+} // namespace voxelcore

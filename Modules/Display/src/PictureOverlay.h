@@ -1,0 +1,64 @@
+#pragma once
+// What is written over a picture: colour bar, names of labels, scale bar, directions of the patient.
+
+#include "voxelcore/RenderPicture.h"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkRenderer;
+
+namespace voxelcore
+{
+
+/** Draws into a renderer that covers the whole picture; places in pixels from the lower left, text sizes in pixels. */
+class PictureOverlay
+{
+public:
+  PictureOverlay(vtkRenderer * renderer, bool dark)
+    : m_Renderer(renderer)
+    , m_Ink(dark ? Color{ 1, 1, 1 } : Color{ 0, 0, 0 })
+  {}
+
+  /** A vertical bar from `low` to `high` with its title above. */
+  void
+  AddColorBar(const std::string & title, double low, double high, double x, double y, double height, double text);
+
+  /** Names beside squares of their colours, from the top down. */
+  void
+  AddLegend(const std::vector<std::pair<std::string, Color>> & names, double x, double top, double text);
+
+  /** A bar of a round length, at most `most` pixels long. */
+  void
+  AddScaleBar(double mmPerPixel, double most, double x, double y, double text);
+
+  /** Letters at the ends of a cross: `right` and `up` are the picture's axes in LPS. */
+  void
+  AddDirections(const std::array<double, 3> & right,
+                const std::array<double, 3> & up,
+                double                        x,
+                double                        y,
+                double                        arm,
+                double                        text);
+
+  /** `align`: -1 the text begins at x, 0 is centred, 1 ends there; it is centred on y. */
+  void
+  AddText(const std::string & words, double x, double y, double size, int align);
+
+private:
+  void
+  AddRectangle(double x, double y, double width, double height, const Color & color);
+  void
+  AddLine(double x0, double y0, double x1, double y1, double width);
+
+  vtkRenderer * m_Renderer;
+  Color         m_Ink;
+};
+
+/** Round numbers that split a range into about `parts`. */
+std::vector<double>
+RoundTicks(double low, double high, int parts);
+
+} // namespace voxelcore

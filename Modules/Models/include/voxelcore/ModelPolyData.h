@@ -1,0 +1,18 @@
+#pragma once
+// Medial surfaces in VTK's form, in memory: what a .vtp holds.
+
+#include "voxelcore/MedialModel.h"
+
+#include <vtkSmartPointer.h>
+
+class vtkPolyData;
+
+namespace voxelcore
+{
+
+/** The points, cells and arrays of the .vtp that WriteModel would write of this model, with `keepEdges` also the field
+ *  arrays EdgeVertices and EdgeLambda. \throws UsageError when edges are to be kept whose measures are not known. */
+vtkSmartPointer<vtkPolyData>
+MakePolyData(const MedialModel & model, bool keepEdges);
+
+} // namespace voxelcore

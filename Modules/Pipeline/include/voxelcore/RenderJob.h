@@ -1,0 +1,47 @@
+#pragma once
+// `voxelcore render`: pictures of finished files.
+
+#include "voxelcore/JobContext.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct RenderJobOptions
+{
+  std::vector<std::filesystem::path>   files; ///< .vtp that 'voxelcore core' or 'voxelcore skeleton' wrote
+  std::optional<std::filesystem::path> scan;  ///< whose surface is drawn around them; read as the files' record says
+  std::string                          labels = "all"; ///< which of the files', by value or name
+  std::filesystem::path                output;         ///< .png; with a turntable <stem>_000.png and so on
+  int                                  width = 1600;
+  int                                  height = 1200;
+  std::string                          view = "auto";
+  std::string                          coloring = "Radius";
+  std::optional<std::array<double, 2>> range;
+  std::string                          background = "white";
+  double                               tubes = 0.5;
+  bool                                 panels = false;
+  int                                  turntable = 1;
+  bool                                 force = false;
+};
+
+struct RenderResult
+{
+  std::vector<std::filesystem::path> pictures;
+  std::vector<std::string>           notes;
+};
+
+/** Whether this build can draw. */
+bool
+HasDisplay();
+
+/** \throws UsageError, InputError, OutputError, Cancelled */
+RenderResult
+RunRenderJob(const RenderJobOptions & options, const JobContext & context = {});
+
+} // namespace voxelcore

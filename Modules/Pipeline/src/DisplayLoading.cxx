@@ -1,0 +1,243 @@
+#include "DisplayLoading.h"
+
+#include "JobTools.h"
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/DisplayColors.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/ErosionThickness.h"
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/ShapeEdits.h"
+#include "voxelcore/SkeletonModel.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace voxelcore
+{
+
+std::vector<double>
+VertexErosionThickness(const MedialComplex & surface, const Vector3 & spacing, const ProgressCallback & progress)
+{
+  const double        voxel = *std::min_element(spacing.begin(), spacing.end());
+  std::vector<double> thickness = ComputeBurnTimes(surface, 1.5 * voxel, progress).vertices;
+  for (std::size_t vertex = 0; vertex < thickness.size(); ++vertex)
+  {
+    thickness[vertex] = std::max(0.0, thickness[vertex] - surface.radius[vertex]);
+  }
+  return thickness;
+}
+
+namespace
+{
+
+using LabelKey = std::pair<std::int64_t, std::int64_t>; ///< label, component
+
+/** Which labels a user asked for. */
+class Wishes
+{
+public:
+  explicit Wishes(const std::string & text)
+  {
+    for (std::size_t from = 0; text != "all" && from <= text.size();)
+    {
+      const std::size_t comma = std::min(text.find(',', from), text.size());
+      m_Open.insert(text.substr(from, comma - from));
+      from = comma + 1;
+    }
+    m_Wishes = m_Open;
+  }
+
+  bool
+  Take(std::int64_t label, const std::string & name)
+  {
+    bool taken = m_Wishes.empty();
+    for (const std::string & word : { std::to_string(label), name, name.substr(0, name.rfind('#')) })
+    {
+      taken = taken || m_Wishes.contains(word);
+      m_Open.erase(word);
+    }
+    return taken;
+  }
+
+  void
+  RequireAllTaken() const
+  {
+    if (!m_Open.empty())
+    {
+      throw InputError("there is no label '" + *m_Open.begin() + "' in the files given");
+    }
+  }
+
+private:
+  std::set<std::string> m_Wishes;
+  std::set<std::string> m_Open;
+};
+
+bool
+IsSkeleton(const CoreReport & report)
+{
+  return report.skeleton.has_value();
+}
+
+class Loader
+{
+public:
+  Loader(const DisplaySources & sources, const ProgressCallback & progress)
+    : m_Sources(sources)
+    , m_Progress(progress)
+    , m_Wishes(sources.labels)
+  {}
+
+  DisplayContent
+  Load(std::vector<std::string> & notes)
+  {
+    for (std::size_t i = 0; i < m_Sources.files.size(); ++i)
+    {
+      const double count = static_cast<double>(m_Sources.files.size() + 1);
+      LoadFile(m_Sources.files[i],
+               PartOfProgress(m_Progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
+    }
+    m_Wishes.RequireAllTaken();
+    if (m_Sources.scan)
+    {
+      LoadScan(notes);
+    }
+    DisplayContent content;
+    for (auto & [key, label] : m_Labels)
+    {
+      content.labels.push_back(std::move(label));
+    }
+    return content;
+  }
+
+private:
+  DisplayLabel &
+  LabelOf(std::int64_t label, std::int64_t component, const std::string & name)
+  {
+    auto [place, isNew] = m_Labels.try_emplace({ label, component });
+    if (isNew)
+    {
+      place->second.label = label;
+      place->second.component = component;
+      place->second.name = name;
+      place->second.color = LabelColor(label + 37 * std::max<std::int64_t>(component - 1, 0));
+    }
+    return place->second;
+  }
+
+  /** A file's own record tells which of the two kinds it is. */
+  void
+  LoadFile(const std::filesystem::path & path, const ProgressCallback & progress)
+  {
+    ReportProgress(progress, "reading", 0);
+    if (path.extension() != ".vtp")
+    {
+      throw UsageError(path.string() + ": give .vtp files that 'voxelcore core' or 'voxelcore skeleton' wrote");
+    }
+    std::string   provenance;
+    MedialModel   surfaces;
+    SkeletonModel skeletons;
+    try
+    {
+      skeletons = ReadSkeletonVtp(path);
+      provenance = skeletons.provenance;
+    }
+    catch (const InputError &)
+    {
+      surfaces = ReadModel(path); // says what is wrong when it is neither
+      provenance = surfaces.provenance;
+    }
+    const CoreReport  report = ParseProvenance(provenance, path.string());
+    const std::size_t parts = IsSkeleton(report) ? skeletons.parts.size() : surfaces.parts.size();
+    if (report.labels.size() != parts)
+    {
+      throw InputError(path.string() + ": its field Provenance does not fit its cells; make the file again");
+    }
+    if (!m_Report)
+    {
+      m_Report = report;
+    }
+    for (std::size_t i = 0; i < parts; ++i)
+    {
+      const LabelRecord & record = report.labels[i];
+      if (!m_Wishes.Take(record.label, record.name))
+      {
+        continue;
+      }
+      DisplayLabel & label = LabelOf(record.label, record.component, record.name);
+      if (IsSkeleton(report))
+      {
+        RefuseSecond(label.curves.positions.empty(), path, record, "curve skeleton");
+        label.curves = std::move(skeletons.parts[i].graph);
+        continue;
+      }
+      RefuseSecond(label.medial.core.cells.vertexCount == 0, path, record, "medial surface");
+      label.medial = std::move(surfaces.parts[i]);
+      if (m_Sources.erosionThickness)
+      {
+        const double count = static_cast<double>(parts);
+        label.erosionThickness = VertexErosionThickness(label.medial.core,
+                                                        report.input.geometry.spacing,
+                                                        NamedPartOfProgress(progress,
+                                                                            record.name,
+                                                                            static_cast<double>(i) / count,
+                                                                            static_cast<double>(i + 1) / count));
+      }
+    }
+  }
+
+  static void
+  RefuseSecond(bool isFirst, const std::filesystem::path & path, const LabelRecord & record, const std::string & what)
+  {
+    if (!isFirst)
+    {
+      throw UsageError(path.string() + ": another file has a " + what + " of " + LabelText(record.label, record.name) +
+                       " already; give one");
+    }
+  }
+
+  void
+  LoadScan(std::vector<std::string> & notes)
+  {
+    ReadOptions  reading = RecordedReading(m_Report->parameters);
+    LabelVolume  volume = ReadLabelVolume(*m_Sources.scan, reading, PartOfProgress(m_Progress, "reading", 0.7, 0.8));
+    EditedLabels edited = EditLabels(volume, m_Report->parameters.edits, false, m_Sources.scan->string());
+    for (EditedLabel & one : edited.labels)
+    {
+      ReportProgress(m_Progress, "surface", 0.8);
+      const auto place = m_Labels.find({ one.label.value, one.component });
+      if (place == m_Labels.end())
+      {
+        continue;
+      }
+      place->second.surface = LabelSurface(one.label.shape, volume.geometry);
+      place->second.color = one.label.color.value_or(place->second.color);
+    }
+    for (const auto & [key, label] : m_Labels)
+    {
+      if (label.surface.triangles.empty())
+      {
+        notes.push_back(m_Sources.scan->string() + ": has no " + LabelText(label.label, label.name) +
+                        ", so no surface is drawn of it");
+      }
+    }
+  }
+
+  const DisplaySources &           m_Sources;
+  const ProgressCallback &         m_Progress;
+  Wishes                           m_Wishes;
+  std::optional<CoreReport>        m_Report; ///< of the first file
+  std::map<LabelKey, DisplayLabel> m_Labels;
+};
+
+} // namespace
+
+DisplayContent
+LoadDisplayContent(const DisplaySources & sources, std::vector<std::string> & notes, const ProgressCallback & progress)
+{
+  return Loader(sources, progress).Load(notes);
+}
+
+} // namespace voxelcore

@@ -1,0 +1,129 @@
+#include "voxelcore/RenderJob.h"
+
+#include "voxelcore/Error.h"
+
+#ifdef VOXELCORE_HAS_DISPLAY
+#  include "DisplayLoading.h"
+#  include "JobTools.h"
+#  include "voxelcore/RenderPicture.h"
+
+#  include <cstdio>
+#endif
+
+namespace voxelcore
+{
+
+#ifdef VOXELCORE_HAS_DISPLAY
+
+namespace
+{
+
+PictureOptions
+PictureOptionsOf(const RenderJobOptions & options)
+{
+  PictureOptions picture;
+  picture.width = options.width;
+  picture.height = options.height;
+  picture.view = options.view == "front" ? PictureView::Front
+                 : options.view == "top" ? PictureView::Top
+                 : options.view == "iso" ? PictureView::Iso
+                                         : PictureView::Auto;
+  picture.coloring = options.coloring == "Lambda"             ? PictureColoring::Lambda
+                     : options.coloring == "ErosionThickness" ? PictureColoring::ErosionThickness
+                     : options.coloring == "Label"            ? PictureColoring::Label
+                                                              : PictureColoring::Radius;
+  picture.range = options.range;
+  picture.dark = options.background == "dark";
+  picture.tubes = options.tubes;
+  picture.panels = options.panels;
+  picture.frames = options.turntable;
+  return picture;
+}
+
+std::vector<std::filesystem::path>
+Targets(const RenderJobOptions & options)
+{
+  if (options.output.extension() != ".png")
+  {
+    throw UsageError(options.output.string() + ": unknown extension; pictures are written as .png");
+  }
+  if (options.turntable == 1)
+  {
+    return { options.output };
+  }
+  std::vector<std::filesystem::path> targets;
+  for (int frame = 0; frame < options.turntable; ++frame)
+  {
+    char number[16];
+    std::snprintf(number, sizeof(number), "_%03d.png", frame);
+    targets.push_back(options.output.parent_path() / (options.output.stem().string() + number));
+  }
+  return targets;
+}
+
+} // namespace
+
+bool
+HasDisplay()
+{
+  return true;
+}
+
+RenderResult
+RunRenderJob(const RenderJobOptions & options, const JobContext & context)
+{
+  RenderResult      result;
+  OutputTransaction transaction(options.force, context.temporaries);
+  result.pictures = Targets(options);
+  for (const auto & target : result.pictures)
+  {
+    transaction.CheckTarget(target);
+  }
+  DisplaySources sources;
+  sources.files = options.files;
+  sources.scan = options.scan;
+  sources.labels = options.labels;
+  sources.erosionThickness = options.coloring == "ErosionThickness";
+  const DisplayContent content = LoadDisplayContent(sources, result.notes, PartOfProgress(context.progress, 0, 0.7));
+  if (options.coloring == "Lambda")
+  {
+    for (const DisplayLabel & label : content.labels)
+    {
+      if (!label.curves.positions.empty())
+      {
+        throw UsageError("--color Lambda: curve skeletons have none; use Radius or ErosionThickness");
+      }
+    }
+  }
+  const PictureOptions picture = PictureOptionsOf(options);
+  RenderPictures(
+    content,
+    picture,
+    [&](int frame, const Picture & drawn) {
+      WritePng(transaction.Stage(result.pictures[static_cast<std::size_t>(frame)]), drawn);
+    },
+    PartOfProgress(context.progress, 0.7, 1));
+  ReportProgress(context.progress, "done", 1);
+  transaction.Commit();
+  return result;
+}
+
+#else
+
+bool
+HasDisplay()
+{
+  return false;
+}
+
+RenderResult
+RunRenderJob(const RenderJobOptions &, const JobContext &)
+{
+  throw UsageError(
+    "this build draws no pictures: it was made without VTK's rendering (-DVOXELCORE_DISPLAY=ON, with "
+    "libvtk9-dev, brings it)");
+}
+
+#endif
+
+} // namespace voxelcore

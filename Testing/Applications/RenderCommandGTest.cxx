@@ -1,0 +1,324 @@
+// `voxelcore render` as a user without a screen runs it.
+
+#include "Pipeline/TemporaryFolder.h"
+#include "Program.h"
+#include "Scans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <png.h>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using Names = std::set<std::string>;
+
+struct Image
+{
+  int                       width = 0;
+  int                       height = 0;
+  std::vector<std::uint8_t> pixels;
+
+  std::array<int, 3>
+  At(int x, int y) const
+  {
+    const auto place = 3 * static_cast<std::size_t>(y * width + x);
+    return { pixels[place], pixels[place + 1], pixels[place + 2] };
+  }
+};
+
+Image
+ReadPng(const std::filesystem::path & path)
+{
+  png_image image = {};
+  image.version = PNG_IMAGE_VERSION;
+  Image result;
+  if (png_image_begin_read_from_file(&image, path.c_str()) == 0)
+  {
+    ADD_FAILURE() << path << ": " << image.message;
+    return result;
+  }
+  image.format = PNG_FORMAT_RGB;
+  result.width = static_cast<int>(image.width);
+  result.height = static_cast<int>(image.height);
+  result.pixels.resize(PNG_IMAGE_SIZE(image));
+  png_image_finish_read(&image, nullptr, result.pixels.data(), 0, nullptr);
+  return result;
+}
+
+/** Mean place and number of the pixels for which `is` holds, in the part of the picture where objects are. */
+struct Spot
+{
+  double x = 0;
+  double y = 0;
+  int    count = 0;
+  int    left = 1 << 20;
+  int    right = -1;
+  int    top = 1 << 20;
+  int    bottom = -1;
+};
+
+template <typename TPredicate>
+Spot
+Find(const Image & image, TPredicate is)
+{
+  Spot spot;
+  for (int y = 0; y < image.height * 88 / 100; ++y)
+  {
+    for (int x = 0; x < image.width * 80 / 100; ++x)
+    {
+      if (is(image.At(x, y)))
+      {
+        spot.x += x;
+        spot.y += y;
+        ++spot.count;
+        spot.left = std::min(spot.left, x);
+        spot.right = std::max(spot.right, x);
+        spot.top = std::min(spot.top, y);
+        spot.bottom = std::max(spot.bottom, y);
+      }
+    }
+  }
+  spot.x /= std::max(spot.count, 1);
+  spot.y /= std::max(spot.count, 1);
+  return spot;
+}
+
+bool
+IsYellow(const std::array<int, 3> & c)
+{
+  return c[0] > 110 && c[1] > 100 && c[2] < 90 && c[0] > c[2] + 60;
+}
+bool
+IsViolet(const std::array<int, 3> & c)
+{
+  return c[2] > c[1] + 25 && c[0] > c[1] && c[0] < 140;
+}
+bool
+IsDrawn(const std::array<int, 3> & c)
+{
+  return c[0] < 245 || c[1] < 245 || c[2] < 245;
+}
+
+/** Children of a process that are called Xvfb. */
+std::vector<pid_t>
+ServersOf(pid_t parent)
+{
+  std::vector<pid_t> found;
+  for (const auto & entry : std::filesystem::directory_iterator("/proc"))
+  {
+    std::ifstream file(entry.path() / "stat");
+    pid_t         process = 0;
+    std::string   name;
+    char          state = 0;
+    pid_t         owner = 0;
+    if (file >> process >> name >> state >> owner && owner == parent && name == "(Xvfb)" && state != 'Z')
+    {
+      found.push_back(process);
+    }
+  }
+  return found;
+}
+
+bool
+IsRunning(pid_t process)
+{
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  pid_t         same = 0;
+  std::string   name;
+  char          state = 'Z';
+  file >> same >> name >> state;
+  return state != 'Z';
+}
+
+/** A small block to the patient's right and back, a large one to the left and in front, one label; and its core. */
+class RenderCommand : public ::testing::Test
+{
+protected:
+  void
+  SetUp() override
+  {
+    if (std::system("command -v Xvfb >/dev/null") != 0)
+    {
+      GTEST_SKIP() << "Xvfb is not installed";
+    }
+    unsetenv("DISPLAY");
+    TestScan scan({ 44, 36, 24 });
+    scan.Fill({ 2, 28, 10 }, { 7, 33, 15 }, 1);
+    scan.Fill({ 20, 2, 2 }, { 41, 21, 21 }, 1);
+    WriteNrrd(m_Folder / "s.nrrd", scan);
+    Run({ "core", m_Folder / "s.nrrd", "-o", m_Folder / "c.vtp", "--lambda", "0", "--quiet" });
+  }
+
+  static ProgramResult
+  Run(const std::vector<std::string> & arguments)
+  {
+    const ProgramResult result = RunProgram(arguments);
+    EXPECT_EQ(result.code, 0) << result.error;
+    EXPECT_EQ(result.error, "");
+    return result;
+  }
+
+  Image
+  Draw(std::vector<std::string> arguments)
+  {
+    for (const std::string word : { "render", "--size", "480x360", "--force", "-o" })
+    {
+      arguments.insert(word == "render" ? arguments.begin() : arguments.end(), word);
+    }
+    arguments.push_back(m_Folder / "p.png");
+    Run(arguments);
+    return ReadPng(m_Folder / "p.png");
+  }
+
+  TemporaryFolder m_Folder;
+};
+
+TEST_F(RenderCommand, ThickPartsAreYellowAndWhereTheyBelong)
+{
+  const Image front = Draw({ m_Folder / "c.vtp", "--view", "front" });
+  EXPECT_EQ(front.width, 480);
+  EXPECT_EQ(front.height, 360);
+  ASSERT_GT(Find(front, IsYellow).count, 50);
+  ASSERT_GT(Find(front, IsViolet).count, 50);
+  // The patient's left, where the thick block is, is on the picture's right.
+  const Spot all = Find(front, IsDrawn);
+  EXPECT_GT(Find(front, IsYellow).x, all.x);
+  // From above, the front is up, and the patient's left on the left.
+  const Image top = Draw({ m_Folder / "c.vtp", "--view", "top" });
+  const int   middle = (Find(top, IsDrawn).top + Find(top, IsDrawn).bottom) / 2;
+  EXPECT_LT(Find(top, IsYellow).y, middle);
+  EXPECT_LT(Find(top, IsYellow).x, (Find(top, IsDrawn).left + Find(top, IsDrawn).right) / 2);
+}
+
+TEST_F(RenderCommand, ProportionsAreThoseOfTheScan)
+{
+  const Spot spot = Find(Draw({ m_Folder / "c.vtp", "--scan", m_Folder / "s.nrrd", "--view", "front" }), IsDrawn);
+  // The two blocks together: 40 by 20 mm.
+  EXPECT_NEAR((spot.right - spot.left + 1.0) / (spot.bottom - spot.top + 1.0), 2.0, 0.12);
+}
+
+TEST_F(RenderCommand, ADarkBackgroundIsDarkAndFrameNumbersRunThroughTheTurn)
+{
+  EXPECT_EQ(Draw({ m_Folder / "c.vtp", "--background", "dark" }).At(3, 3), (std::array{ 0, 0, 0 }));
+  EXPECT_EQ(Draw({ m_Folder / "c.vtp" }).At(3, 3), (std::array{ 255, 255, 255 }));
+  Run({ "render", m_Folder / "c.vtp", "--turntable", "3", "--size", "200x150", "-o", m_Folder / "t.png" });
+  EXPECT_EQ(m_Folder.Names(), (Names{ "c.vtp", "p.png", "s.nrrd", "t_000.png", "t_001.png", "t_002.png" }));
+  EXPECT_NE(ReadAll(m_Folder / "t_000.png"), ReadAll(m_Folder / "t_001.png"));
+}
+
+TEST_F(RenderCommand, PanelsShowSurfaceMedialSurfaceAndCurveSkeleton)
+{
+  Run({ "skeleton", m_Folder / "c.vtp", "-o", m_Folder / "k.vtp", "--quiet" });
+  const Image image = Draw({ m_Folder / "c.vtp",
+                             m_Folder / "k.vtp",
+                             "--scan",
+                             m_Folder / "s.nrrd",
+                             "--panels",
+                             "--color",
+                             "ErosionThickness" });
+  const int   panel = image.width * 80 / 100 / 3;
+  int         drawn[3] = {};
+  int         colored[3] = {};
+  for (int y = image.height / 10; y < image.height * 85 / 100; ++y)
+  {
+    for (int x = 8; x < 3 * panel; ++x)
+    {
+      const auto c = image.At(x, y);
+      drawn[x / panel] += IsDrawn(c);
+      colored[x / panel] += std::abs(c[0] - c[2]) > 30;
+    }
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_GT(drawn[i], 300) << i;
+    EXPECT_TRUE((colored[i] > 20) == (i > 0)) << i << ": " << colored[i]; // the surface alone is grey
+  }
+}
+
+TEST_F(RenderCommand, ItsServerEndsWithItAlsoWhenInterrupted)
+{
+  for (const int signal : { 0, SIGTERM, SIGKILL })
+  {
+    std::set<pid_t> servers;
+    bool            sent = false;
+    const auto      result =
+      RunProgram({ "render",
+                   m_Folder / "c.vtp",
+                   "--turntable",
+                   signal == 0 ? "3" : "400",
+                   "--size",
+                   "200x150",
+                   "--force",
+                   "--progress",
+                   "plain",
+                   "-o",
+                   m_Folder / "t.png" },
+                 {},
+                 [&](pid_t process, const std::string & error) {
+                   for (const pid_t server : ServersOf(process))
+                   {
+                     servers.insert(server);
+                   }
+                   if (signal != 0 && !sent && !servers.empty() && error.find("drawing") != std::string::npos)
+                   {
+                     sent = true;
+                     kill(process, signal);
+                   }
+                 });
+    EXPECT_EQ(servers.size(), 1U);
+    EXPECT_EQ(result.code, signal == 0 ? 0 : signal == SIGTERM ? 130 : -1) << result.error;
+    for (int wait = 0; wait < 100 && std::any_of(servers.begin(), servers.end(), IsRunning); ++wait)
+    {
+      usleep(20000);
+    }
+    EXPECT_TRUE(std::none_of(servers.begin(), servers.end(), IsRunning)) << signal;
+    if (signal == SIGTERM)
+    {
+      EXPECT_EQ(m_Folder.Names(), (Names{ "c.vtp", "s.nrrd", "t_000.png", "t_001.png", "t_002.png" }));
+    }
+  }
+}
+
+TEST_F(RenderCommand, WithoutADisplayAndWithoutXvfbOneLineSaysSo)
+{
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  const ProgramResult result = RunProgram({ "render", m_Folder / "c.vtp", "-o", m_Folder / "p.png" });
+  setenv("PATH", path.c_str(), 1);
+  ExpectRefusal(result, 1, { "no display", "Xvfb", "install" });
+  EXPECT_EQ(m_Folder.Names(), (Names{ "c.vtp", "s.nrrd" }));
+}
+
+TEST_F(RenderCommand, BadInputIsRefusedInOneLine)
+{
+  const std::string                                                                   core = m_Folder / "c.vtp";
+  const std::string                                                                   out = m_Folder / "p.png";
+  const std::pair<std::vector<std::string>, std::pair<int, std::vector<std::string>>> cases[] = {
+    { { core, "-o", m_Folder / "p.jpg" }, { 2, { "p.jpg", ".png" } } },
+    { { core, "-o", out, "--size", "10x10" }, { 2, { "--size", "64" } } },
+    { { core, "-o", out, "--view", "back" }, { 2, { "--view", "front" } } },
+    { { core, "-o", out, "--color", "Red" }, { 2, { "--color", "Radius" } } },
+    { { core, "-o", out, "--range", "5:1" }, { 2, { "--range" } } },
+    { { core, "-o", out, "--labels", "9" }, { 3, { "'9'" } } },
+    { { core, core, "-o", out }, { 2, { "already" } } },
+    { { m_Folder / "s.nrrd", "-o", out }, { 2, { ".vtp" } } },
+    { { m_Folder / "none.vtp", "-o", out }, { 3, { "none.vtp" } } },
+    { { core, "--scan", m_Folder / "no.nrrd", "-o", out }, { 3, { "no.nrrd" } } },
+  };
+  for (const auto & [arguments, expected] : cases)
+  {
+    std::vector<std::string> all{ "render" };
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    ExpectRefusal(RunProgram(all), expected.first, expected.second);
+  }
+  EXPECT_EQ(m_Folder.Names(), (Names{ "c.vtp", "s.nrrd" }));
+}
+
+} // namespace
+} // namespace voxelcore::testing

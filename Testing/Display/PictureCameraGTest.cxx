@@ -1,0 +1,110 @@
+// Where left and right, up and down of a patient are in a picture.
+
+#include "PictureCamera.h"
+#include "PictureOverlay.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+void
+ExpectNear(const Vector3 & a, const Vector3 & b)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    EXPECT_NEAR(a[k], b[k], 1e-12);
+  }
+}
+
+TEST(PictureCamera, SeenFromTheFrontThePatientsLeftIsOnTheRight)
+{
+  const PictureAxes axes = AxesOf(PictureView::Front, {});
+  ExpectNear(axes.right, { 1, 0, 0 });
+  ExpectNear(axes.up, { 0, 0, 1 });
+  ExpectNear(axes.back, { 0, -1, 0 });
+}
+
+TEST(PictureCamera, SeenFromAboveAnteriorIsUpAndThePatientsRightOnTheRight)
+{
+  const PictureAxes axes = AxesOf(PictureView::Top, {});
+  ExpectNear(axes.right, { -1, 0, 0 });
+  ExpectNear(axes.up, { 0, -1, 0 });
+  ExpectNear(axes.back, { 0, 0, 1 });
+}
+
+TEST(PictureCamera, AutoLooksAtTheBroadSideFromTheFront)
+{
+  PointCloud slab;
+  for (float a = -10; a <= 10; ++a)
+  {
+    for (float b = -10; b <= 10; ++b)
+    {
+      slab.push_back({ a + 100, 0.1F * std::fmod(a * b, 3.0F), 2 * b });
+    }
+  }
+  const PictureAxes axes = AxesOf(PictureView::Auto, slab);
+  EXPECT_GT(-axes.back[1], 0.99);
+  EXPECT_GT(axes.up[2], 0.99);
+}
+
+TEST(PictureCamera, ATurnKeepsTheVerticalAndEndsWhereItBegan)
+{
+  const PictureAxes axes = AxesOf(PictureView::Iso, {});
+  const PictureAxes quarter = Turned(axes, std::numbers::pi / 2);
+  EXPECT_NEAR(quarter.up[2], axes.up[2], 1e-12);
+  EXPECT_NEAR(quarter.back[2], axes.back[2], 1e-12);
+  EXPECT_NEAR(quarter.right[0] * axes.right[0] + quarter.right[1] * axes.right[1], 0, 1e-12);
+  ExpectNear(Turned(axes, 2 * std::numbers::pi).back, axes.back);
+}
+
+TEST(PictureCamera, TheFrameHoldsAllPointsInEachTurn)
+{
+  const PointCloud  points{ { 0, 0, 0 }, { 30, 0, 0 }, { 0, 5, 8 }, { 1, 2, -3 } };
+  const PictureAxes axes = AxesOf(PictureView::Front, points);
+  for (const int turns : { 1, 12 })
+  {
+    const PictureFrame frame = FrameOf(points, axes, turns);
+    for (int turn = 0; turn < turns; ++turn)
+    {
+      const PictureAxes now = Turned(axes, 2 * std::numbers::pi * turn / turns);
+      for (const auto & p : points)
+      {
+        double x = 0;
+        double y = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          x += (p[k] - frame.center[k]) * now.right[k];
+          y += (p[k] - frame.center[k]) * now.up[k];
+        }
+        EXPECT_LE(std::abs(x), frame.halfWidth + 1e-9);
+        EXPECT_LE(std::abs(y), frame.halfHeight + 1e-9);
+      }
+    }
+    if (turns == 1)
+    {
+      EXPECT_NEAR(frame.halfWidth, 15, 1e-9); // tight
+      EXPECT_NEAR(frame.halfHeight, 5.5, 1e-9);
+    }
+  }
+}
+
+TEST(PictureOverlay, TicksAreRoundAndWithinTheRange)
+{
+  EXPECT_EQ(RoundTicks(0.9, 5.1, 5), (std::vector<double>{ 1, 2, 3, 4, 5 }));
+  EXPECT_EQ(RoundTicks(2, 2, 5), (std::vector<double>{ 2 }));
+  for (const double high : { 0.013, 0.7, 3.3, 88.0, 12345.0 })
+  {
+    const auto ticks = RoundTicks(0, high, 5);
+    EXPECT_GE(ticks.size(), 3U) << high;
+    EXPECT_LE(ticks.size(), 11U) << high;
+    EXPECT_LE(ticks.back(), high * (1 + 1e-9));
+  }
+}
+
+} // namespace
+} // namespace voxelcore::testing
