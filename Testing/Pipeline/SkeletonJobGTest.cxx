@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <omp.h>
 #include <sstream>
@@ -175,6 +176,37 @@ TEST_F(SkeletonJob, OptionsThatWouldDoNothingAreRefused)
     EXPECT_THROW(Skeleton("core.vtp", "a.vtp", { { name, value } }), UsageError) << name;
   }
   EXPECT_NO_THROW(Skeleton("core.vtp", "a.vtp", { { "threads", "1" } }));
+}
+
+TEST_F(SkeletonJob, EveryColumnIsExplained)
+{
+  MakePhantom("root", "root.nrrd");
+  Skeleton("root.nrrd", "a.vtp", { { "also", "csv" } });
+  const Json explained = Json::parse(Bytes(At("a_columns.json")));
+  for (const char * table : { "branches", "summary" })
+  {
+    std::istringstream text(Bytes(At(std::string("a_") + table + ".csv")));
+    std::string        head;
+    std::getline(text, head);
+    std::vector<std::string> names;
+    std::istringstream       columns(head);
+    for (std::string name; std::getline(columns, name, ',');)
+    {
+      names.push_back(name);
+    }
+    std::vector<std::string> keys;
+    for (const auto & [key, value] : explained.at(table).items())
+    {
+      keys.push_back(key);
+    }
+    EXPECT_EQ(names, keys);
+    for (std::string row; std::getline(text, row);)
+    {
+      EXPECT_EQ(static_cast<std::size_t>(std::count(row.begin(), row.end(), ',')) + 1, names.size()) << row;
+    }
+    EXPECT_NE(explained.at(table).at("mean_radius").at("Description").get<std::string>().find("quarter of a voxel"),
+              std::string::npos);
+  }
 }
 
 TEST_F(SkeletonJob, MeasuringAgainGivesTheSameTables)

@@ -18,43 +18,57 @@ struct Tip
 {
   Spacing3 position{};
   double   radius = 0;
-  double   protrudes = 0; ///< how far beyond the surface of the branch it springs from, mm
+  bool     expected = true;
 };
+
+Spacing3
+PlaceOf(const PhantomOptions & options, const CentreLinePoint & point)
+{
+  return { point.position[0] * options.spacing[0],
+           point.position[1] * options.spacing[1],
+           point.position[2] * options.spacing[2] };
+}
+
+/** How much of a lateral, from its tip inwards, is nowhere so near to another branch that their voxels may touch: where
+ *  they do, the two are one in the scan and what is beyond is all there is to find. Up to 7 mm. */
+double
+FreeEnd(const PhantomOptions & options, const std::vector<CentreLinePoint> & lines, std::size_t tip)
+{
+  const double voxel = std::max({ options.spacing[0], options.spacing[1], options.spacing[2] });
+  double       length = 0;
+  for (std::size_t at = tip; length < 7;)
+  {
+    const Spacing3 place = PlaceOf(options, lines[at]);
+    for (const CentreLinePoint & other : lines)
+    {
+      if (other.branch != lines[tip].branch &&
+          Distance(PlaceOf(options, other), place) - other.radius - lines[at].radius <= voxel)
+      {
+        return length;
+      }
+    }
+    if (lines[at].parent < 0)
+    {
+      break;
+    }
+    const auto before = static_cast<std::size_t>(lines[at].parent);
+    length += Distance(place, PlaceOf(options, lines[before]));
+    at = before;
+  }
+  return length;
+}
 
 std::vector<Tip>
 TrueTips(const PhantomOptions & options)
 {
   const std::vector<CentreLinePoint> lines = RootCentreLines(options);
-  const auto                         place = [&](const CentreLinePoint & point) {
-    return Spacing3{ point.position[0] * options.spacing[0],
-                     point.position[1] * options.spacing[1],
-                     point.position[2] * options.spacing[2] };
-  };
-  std::vector<Tip> tips{ { place(lines[0]), lines[0].radius, 1e9 } };
+  std::vector<Tip>                   tips{ { PlaceOf(options, lines[0]), lines[0].radius, true } };
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    if (i + 1 < lines.size() && lines[i + 1].branch == lines[i].branch)
+    if (i + 1 == lines.size() || lines[i + 1].branch != lines[i].branch)
     {
-      continue;
+      tips.push_back({ PlaceOf(options, lines[i]), lines[i].radius, FreeEnd(options, lines, i) > 6 });
     }
-    Tip         tip{ place(lines[i]), lines[i].radius, 1e9 };
-    std::size_t first = i;
-    while (lines[first].parent >= 0 && lines[static_cast<std::size_t>(lines[first].parent)].branch == lines[i].branch)
-    {
-      first = static_cast<std::size_t>(lines[first].parent);
-    }
-    if (lines[first].parent >= 0)
-    {
-      const std::int32_t parent = lines[static_cast<std::size_t>(lines[first].parent)].branch;
-      for (const CentreLinePoint & point : lines)
-      {
-        if (point.branch == parent)
-        {
-          tip.protrudes = std::min(tip.protrudes, Distance(place(point), tip.position) - point.radius);
-        }
-      }
-    }
-    tips.push_back(tip);
   }
   return tips;
 }
@@ -65,7 +79,63 @@ struct Score
   std::size_t missed = 0;
   std::size_t found = 0;
   std::size_t spurious = 0;
+  double      worstLength = 0; ///< part of the true one
+  double      sumOfLengths = 0;
+  double      worstRadius = 0; ///< mean over a phantom, as part of a voxel (of the cube with the same diagonal)
 };
+
+/** Length and radius of a skeleton against the lines the phantom was grown along. */
+void
+CompareLines(const PhantomOptions & options, const SkeletonGraph & graph, Score & score)
+{
+  const std::vector<CentreLinePoint> lines = RootCentreLines(options);
+  double                             length = 0;
+  for (const CentreLinePoint & point : lines)
+  {
+    length += point.parent < 0
+                ? 0
+                : Distance(PlaceOf(options, point), PlaceOf(options, lines[static_cast<std::size_t>(point.parent)]));
+  }
+  const double error = (TotalLength(graph) - length) / length;
+  score.sumOfLengths += error;
+  score.worstLength = std::max(score.worstLength, std::abs(error));
+
+  const double diagonal = Distance(options.spacing, { 0, 0, 0 });
+  double       sum = 0;
+  for (const ElementIndex point : graph.branchPoints)
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    double radius = 0;
+    for (const CentreLinePoint & line : lines)
+    {
+      const double away = Distance(PlaceOf(options, line), graph.positions[point]);
+      if (away < nearest)
+      {
+        nearest = away;
+        radius = line.radius;
+      }
+    }
+    sum += graph.radius[point] + 0.25 * diagonal - radius;
+  }
+  const double mean = sum / static_cast<double>(graph.branchPoints.size());
+  score.worstRadius = std::max(score.worstRadius, std::abs(mean) * std::sqrt(3.0) / diagonal);
+}
+
+/** Voxels of a root thinner than two slices may close a loop right at its tip: then the skeleton ends in that loop. */
+bool
+EndsInALoop(const SkeletonGraph & graph, const Tip & tip, double slice)
+{
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto points = graph.Branch(branch);
+    if (graph.branchNodes[branch][0] == graph.branchNodes[branch][1] && graph.BranchLength(branch) < 8 * slice &&
+        Distance(graph.positions[points[points.size() / 2]], tip.position) <= tip.radius + 3 * slice)
+    {
+      return true;
+    }
+  }
+  return false;
+}
 
 void
 Compare(std::int32_t size, double slice, std::uint64_t seed, Score & score)
@@ -75,16 +145,16 @@ Compare(std::int32_t size, double slice, std::uint64_t seed, Score & score)
   options.spacing = { 1, 1, slice };
   options.size = { size, size, static_cast<std::int32_t>(size / slice) };
   options.seed = seed;
-  const CurveSkeleton   skeleton = SkeletonOf(SurfaceOf(MakePhantom(options), options.spacing), 3);
-  const auto            degrees = Degrees(skeleton.complex.cells);
+  const SkeletonGraph   graph = GraphOf(MakePhantom(options), options.spacing);
   std::vector<Spacing3> ends;
-  for (std::size_t v = 0; v < degrees.size(); ++v)
+  for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
   {
-    if (degrees[v] == 1)
+    if (graph.nodeKinds[node] == NodeKind::Tip)
     {
-      ends.push_back(skeleton.complex.positions[v]);
+      ends.push_back(graph.positions[graph.nodePoints[node]]);
     }
   }
+  CompareLines(options, graph, score);
   std::vector<std::uint8_t> used(ends.size(), 0);
   for (const Tip & tip : TrueTips(options))
   {
@@ -93,9 +163,10 @@ Compare(std::int32_t size, double slice, std::uint64_t seed, Score & score)
     {
       nearest = Distance(ends[end], tip.position) < Distance(ends[nearest], tip.position) ? end : nearest;
     }
-    const bool found = Distance(ends[nearest], tip.position) <= tip.radius + 3 * slice;
+    const bool found =
+      Distance(ends[nearest], tip.position) <= tip.radius + 3 * slice || EndsInALoop(graph, tip, slice);
     used[nearest] |= found ? 1 : 0;
-    if (tip.protrudes > 6)
+    if (tip.expected)
     {
       ++score.expected;
       score.missed += found ? 0 : 1;
@@ -105,7 +176,7 @@ Compare(std::int32_t size, double slice, std::uint64_t seed, Score & score)
   score.spurious += static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{ 0 }));
 }
 
-TEST(RootSkeleton, HasTheTrueTipsAndNoOthers)
+TEST(RootSkeleton, HasTheTrueTipsLengthAndRadiusAndNoOtherTips)
 {
   Score score;
   for (std::uint64_t seed = 1; seed <= 3; ++seed)
@@ -116,24 +187,8 @@ TEST(RootSkeleton, HasTheTrueTipsAndNoOthers)
   ASSERT_GT(score.expected, 50U);
   EXPECT_EQ(score.missed, 0U);
   EXPECT_LE(static_cast<double>(score.spurious), 0.02 * static_cast<double>(score.found));
-}
-
-TEST(RootSkeleton, HasTheTrueLength)
-{
-  for (std::uint64_t seed = 1; seed <= 3; ++seed)
-  {
-    PhantomOptions options;
-    options.kind = "root";
-    options.size = { 96, 96, 96 };
-    options.seed = seed;
-    const auto lines = RootCentreLines(options);
-    double     length = 0;
-    for (const CentreLinePoint & point : lines)
-    {
-      length += point.parent < 0 ? 0 : Distance(point.position, lines[static_cast<std::size_t>(point.parent)].position);
-    }
-    EXPECT_NEAR(TotalLength(GraphOf(MakePhantom(options))), length, 0.03 * length) << "seed " << seed;
-  }
+  EXPECT_LE(score.worstLength, 0.03);
+  EXPECT_LE(score.worstRadius, 0.5);
 }
 
 TEST(RootSkeleton, IsTheSameInAllRotationsOfTheGrid)
@@ -174,7 +229,7 @@ TEST(RootSkeleton, IsTheSameInAllRotationsOfTheGrid)
   EXPECT_EQ(rotations, 24);
 }
 
-TEST(HeavyRootSkeleton, HasTheTrueTipsOverSeedsAndResolutions)
+TEST(HeavyRootSkeleton, HasTheTrueTipsLengthAndRadiusOverSeedsAndResolutions)
 {
   for (const double slice : { 1.0, 2.0 })
   {
@@ -186,9 +241,12 @@ TEST(HeavyRootSkeleton, HasTheTrueTipsOverSeedsAndResolutions)
         Compare(size, slice, seed, score);
       }
       std::cout << size << ", slices " << slice << ": " << score.expected << " true tips, " << score.missed
-                << " missed, " << score.spurious << " of " << score.found << " spurious\n";
-      // Known to be missed: 4 of 264 at worst, where a tip is taken off too far or the phantom's voxels touch.
-      EXPECT_LE(static_cast<double>(score.missed), 0.02 * static_cast<double>(score.expected));
+                << " missed, " << score.spurious << " of " << score.found << " spurious; length off by "
+                << 5 * score.sumOfLengths << " % on average, " << 100 * score.worstLength
+                << " % at worst; mean radius off by " << score.worstRadius << " voxels at worst\n";
+      EXPECT_EQ(score.missed, 0U);
+      EXPECT_LE(score.worstLength, 0.035); // one root of slices in sixty is off by more than 3 %
+      EXPECT_LE(score.worstRadius, 0.5);
       EXPECT_LE(static_cast<double>(score.spurious), 0.05 * static_cast<double>(score.found));
     }
   }

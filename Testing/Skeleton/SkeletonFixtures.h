@@ -109,13 +109,14 @@ inline CurveSkeleton
 SkeletonOf(const MedialComplex & surface,
            double                branchThreshold,
            double                plateThreshold = std::numeric_limits<double>::infinity(),
-           double                voxel = 1)
+           double                voxel = 1,
+           double                side = 0)
 {
   CurveOptions options;
   options.branchThreshold = branchThreshold;
   options.plateThreshold = plateThreshold;
   options.sampling = 1.5 * voxel;
-  options.voxel = voxel;
+  options.voxel = side > 0 ? side : voxel;
   return ComputeCurveSkeleton(surface, options);
 }
 

@@ -92,13 +92,22 @@ TotalLength(const SkeletonGraph & graph)
   return length;
 }
 
+/** Half a voxel each way, axes along the grid. */
+inline VoxelReach
+HalfAVoxel(const Spacing3 & spacing = { 1, 1, 1 })
+{
+  return { { { 2 / spacing[0], 0, 0 }, { 0, 2 / spacing[1], 0 }, { 0, 0, 2 / spacing[2] } } };
+}
+
 /** The graph of a shape's skeleton at 3 voxels, fitted with the default window and reach. */
 inline SkeletonGraph
 GraphOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 })
 {
   const double  unit = std::min({ spacing[0], spacing[1], spacing[2] });
-  SkeletonGraph graph = BuildSkeletonGraph(SkeletonOf(SurfaceOf(shape, spacing), 3 * unit));
-  FitBranches(graph, 6 * unit, 0.5 * unit);
+  const double  side = Distance(spacing, { 0, 0, 0 }) / std::sqrt(3.0);
+  SkeletonGraph graph = BuildSkeletonGraph(
+    SkeletonOf(SurfaceOf(shape, spacing), 3 * unit, std::numeric_limits<double>::infinity(), unit, side));
+  FitBranches(graph, 6 * side, HalfAVoxel(spacing));
   return graph;
 }
 

@@ -11,12 +11,44 @@
 namespace voxelcore
 {
 
+namespace
+{
+
+double
+Diagonal(const Vector3 & spacing)
+{
+  return std::sqrt(spacing[0] * spacing[0] + spacing[1] * spacing[1] + spacing[2] * spacing[2]);
+}
+
+/** Of the cube with the same diagonal. */
+double
+VoxelSide(const Vector3 & spacing)
+{
+  return Diagonal(spacing) / std::sqrt(3.0);
+}
+
+VoxelReach
+HalfAVoxel(const ImageGeometry & geometry)
+{
+  VoxelReach reach{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      reach[axis][k] = geometry.direction[3 * k + axis] / (0.5 * geometry.spacing[axis]);
+    }
+  }
+  return reach;
+}
+
+} // namespace
+
 MeasureOptions
 MeasuringOf(const BranchOptions & options, const Vector3 & spacing)
 {
   MeasureOptions measuring;
   measuring.root = options.root;
-  measuring.radiusShift = 0.25 * std::sqrt(spacing[0] * spacing[0] + spacing[1] * spacing[1] + spacing[2] * spacing[2]);
+  measuring.radiusShift = 0.25 * Diagonal(spacing);
   return measuring;
 }
 
@@ -39,10 +71,11 @@ SkeletonPart
 MakeSkeleton(const ModelPart &        surface,
              const SkeletonStage &    stage,
              const SpacingWeights &   weights,
-             const Vector3 &          spacing,
+             const ImageGeometry &    geometry,
              LabelRecord &            record,
              const ProgressCallback & progress)
 {
+  const Vector3 &   spacing = geometry.spacing;
   const auto        length = [&](const Lambda & l) { return LambdaInMillimetres(l, weights, spacing, record.box); };
   const double      voxel = *std::min_element(spacing.begin(), spacing.end());
   const std::string text = LabelText(record.label, record.name);
@@ -53,7 +86,7 @@ MakeSkeleton(const ModelPart &        surface,
     curves.plateThreshold = length(*stage.plates);
   }
   curves.sampling = 1.5 * voxel;
-  curves.voxel = voxel;
+  curves.voxel = VoxelSide(spacing);
   const CurveSkeleton   skeleton = ComputeCurveSkeleton(surface.core, curves, progress);
   const TopologyNumbers topology = ComputeComplexTopology(skeleton.complex.cells);
   RequireEqualTopology(record.shape, topology, "its skeleton", text);
@@ -63,12 +96,16 @@ MakeSkeleton(const ModelPart &        surface,
   part.component = record.component;
   part.name = record.name;
   part.graph = BuildSkeletonGraph(skeleton);
-  FitBranches(part.graph, length(stage.smooth), 0.5 * voxel);
+  // The zigzag that is to go is that of voxels, which is as long as they are across slices.
+  const bool       inVoxels = stage.smooth.unit == Lambda::Unit::Voxel;
+  const double     window = inVoxels ? stage.smooth.value * VoxelSide(spacing) : length(stage.smooth);
+  const VoxelReach reach = HalfAVoxel(geometry);
+  FitBranches(part.graph, window, reach);
   const BranchOptions & branches = stage.branches;
   const double          limit = branches.pruneLength ? length(*branches.pruneLength) : 0;
   if (PruneBranches(part.graph, { limit, branches.pruneRadii }) > 0)
   {
-    FitBranches(part.graph, length(stage.smooth), 0.5 * voxel);
+    FitBranches(part.graph, window, reach);
   }
   const SkeletonNumbers numbers = MeasureBranches(part.graph).numbers;
   if (part.graph.FaceCount() == 0 && (numbers.components != topology.betti[0] || numbers.cycles != topology.betti[1]))

@@ -16,7 +16,7 @@ SkeletonPart
 MakeSkeleton(const ModelPart &        surface,
              const SkeletonStage &    stage,
              const SpacingWeights &   weights,
-             const Vector3 &          spacing,
+             const ImageGeometry &    geometry,
              LabelRecord &            record,
              const ProgressCallback & progress);
 

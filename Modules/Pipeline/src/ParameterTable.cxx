@@ -275,7 +275,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "6vox",
     false,
     kStages,
-    "Branches are fitted over so much before and behind each point, which moves by half a voxel at most; 0: not" },
+    "Fit branches over so much before and behind each point; none moves off by more than half a voxel; 0: do not" },
   { "prune-branches",
     "--prune-branches",
     Text,

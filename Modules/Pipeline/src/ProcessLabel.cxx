@@ -187,7 +187,7 @@ ProcessLabel(LabelShape                      label,
   const auto             makeSkeleton = [&](const ModelPart & surface) {
     Stopwatch skeletonWatch;
     outcome.skeleton =
-      MakeSkeleton(surface, *skeleton, weights, geometry.spacing, record, PartOfProgress(progress, coreEnds, 1));
+      MakeSkeleton(surface, *skeleton, weights, geometry, record, PartOfProgress(progress, coreEnds, 1));
     outcome.seconds.skeleton += skeletonWatch.Lap();
   };
 

@@ -72,7 +72,7 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
     SkeletonPart part = MakeSkeleton(model.parts[i],
                                      *report.skeleton,
                                      report.parameters.weights,
-                                     report.input.geometry.spacing,
+                                     report.input.geometry,
                                      report.labels[i],
                                      PartOfProgress(context.progress, share(i), share(i + 1)));
     report.labels[i].seconds = labelWatch.Lap();

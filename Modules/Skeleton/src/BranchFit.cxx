@@ -3,6 +3,7 @@
 #include "voxelcore/SkeletonGraph.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace voxelcore
 {
@@ -63,10 +64,149 @@ Tricube(double u)
   return a * a * a;
 }
 
+/** A way in half voxels: at most 1 means half a voxel. */
+double
+HalfVoxels(const VoxelReach & reach, const Point3 & way)
+{
+  double sum = 0;
+  for (const Point3 & row : reach)
+  {
+    sum += Dot(row, way) * Dot(row, way);
+  }
+  return std::sqrt(sum);
+}
+
+/** The place on a segment that is nearest to a point, measured in voxels. */
+Point3
+NearestOnSegment(const VoxelReach & reach, const Point3 & a, const Point3 & b, const Point3 & p)
+{
+  double along = 0;
+  double squared = 0;
+  for (const Point3 & row : reach)
+  {
+    along += Dot(row, Minus(p, a)) * Dot(row, Minus(b, a));
+    squared += Dot(row, Minus(b, a)) * Dot(row, Minus(b, a));
+  }
+  const double t = squared > 0 ? std::clamp(along / squared, 0.0, 1.0) : 0;
+  return { a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]) };
+}
+
+/** A branch as it lies on the medial surface. Its points are of a closed curve, whose last is its first, or of an open
+ *  one. */
+struct MedialLine
+{
+  std::vector<Point3> points;
+  bool                isLoop = false;
+
+  std::size_t
+  Last() const
+  {
+    return points.size() - 1;
+  }
+};
+
+/** One round: each point to the value of its parabola, through the places `from`. */
+void
+FitOnce(const MedialLine &          line,
+        const std::vector<Point3> & from,
+        double                      window,
+        const VoxelReach &          reach,
+        std::vector<Point3> &       to)
+{
+  const std::size_t   last = line.Last();
+  const bool          isLoop = line.isLoop;
+  std::vector<double> way(last + 1, 0);
+  for (std::size_t i = 1; i <= last; ++i)
+  {
+    way[i] = way[i - 1] + Distance(from[i - 1], from[i]);
+  }
+  // A closed curve goes on where it began; at most half of it lies before and half behind a point.
+  const double half = isLoop ? std::min(window, 0.5 * way[last]) : window;
+  for (std::size_t i = isLoop ? 0 : 1; i < last; ++i)
+  {
+    Parabola   fit;
+    const auto add = [&](std::size_t j, double shift) {
+      const double u = (way[j] + shift - way[i]) / half;
+      if (std::abs(u) >= 1)
+      {
+        return false;
+      }
+      const bool isNode = !isLoop && (j == 0 || j == last);
+      fit.Add(u, (isNode ? kNodeWeight : 1) * Tricube(u), from[j]);
+      return true;
+    };
+    // Points 0 and `last` of a closed curve are one.
+    double      shift = 0;
+    std::size_t firstUsed = i;
+    std::size_t lastUsed = i;
+    for (std::size_t j = i; add(j, shift);)
+    {
+      lastUsed = std::max(lastUsed, j);
+      if (++j == (isLoop ? last : last + 1))
+      {
+        if (!isLoop)
+        {
+          break;
+        }
+        j = 0;
+        shift += way[last];
+      }
+    }
+    shift = 0;
+    for (std::size_t j = i;;)
+    {
+      if (j == 0)
+      {
+        if (!isLoop)
+        {
+          break;
+        }
+        j = last;
+        shift -= way[last];
+      }
+      --j;
+      if (!add(j, shift))
+      {
+        break;
+      }
+      firstUsed = std::min(firstUsed, j);
+    }
+    Point3 value{};
+    if (!fit.Value(value))
+    {
+      to[i] = from[i];
+      continue;
+    }
+    Point3 nearest = line.points[i];
+    double away = HalfVoxels(reach, Minus(value, nearest));
+    for (std::size_t j = firstUsed; j < lastUsed && away > 0; ++j)
+    {
+      const Point3 place = NearestOnSegment(reach, line.points[j], line.points[j + 1], value);
+      const double there = HalfVoxels(reach, Minus(value, place));
+      if (there < away)
+      {
+        away = there;
+        nearest = place;
+      }
+    }
+    const double part = away > 1 ? 1 / away : 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      to[i][axis] = nearest[axis] + part * (value[axis] - nearest[axis]);
+    }
+  }
+  if (isLoop)
+  {
+    to[last] = to[0];
+  }
+}
+
+constexpr int kRounds = 1;
+
 } // namespace
 
 void
-FitBranches(SkeletonGraph & graph, double window, double reach)
+FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach)
 {
   if (graph.medial.empty())
   {
@@ -77,76 +217,28 @@ FitBranches(SkeletonGraph & graph, double window, double reach)
   {
     return;
   }
-  std::vector<double> way;
+  MedialLine          line;
+  std::vector<Point3> from;
+  std::vector<Point3> to;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
-    const auto        points = graph.Branch(branch);
-    const bool        isLoop = graph.nodeKinds[graph.branchNodes[branch][0]] == NodeKind::Loop;
-    const std::size_t last = points.size() - 1;
-    way.assign(points.size(), 0);
-    for (std::size_t i = 1; i <= last; ++i)
+    const auto points = graph.Branch(branch);
+    line.isLoop = graph.nodeKinds[graph.branchNodes[branch][0]] == NodeKind::Loop;
+    line.points.clear();
+    for (const ElementIndex point : points)
     {
-      way[i] = way[i - 1] + Distance(graph.medial[points[i - 1]], graph.medial[points[i]]);
+      line.points.push_back(graph.medial[point]);
     }
-    // A closed curve goes on where it began; at most half of it lies before and half behind a point.
-    const double half = isLoop ? std::min(window, 0.5 * way[last]) : window;
-    for (std::size_t i = isLoop ? 0 : 1; i < last; ++i)
+    from = line.points;
+    to = line.points;
+    for (int round = 0; round < kRounds; ++round)
     {
-      Parabola   fit;
-      const auto add = [&](std::size_t j, double shift) {
-        const double u = (way[j] + shift - way[i]) / half;
-        if (std::abs(u) >= 1)
-        {
-          return false;
-        }
-        const bool isNode = !isLoop && (j == 0 || j == last);
-        fit.Add(u, (isNode ? kNodeWeight : 1) * Tricube(u), graph.medial[points[j]]);
-        return true;
-      };
-      // Points 0 and `last` of a closed curve are one.
-      double shift = 0;
-      for (std::size_t j = i; add(j, shift);)
-      {
-        if (++j == (isLoop ? last : last + 1))
-        {
-          if (!isLoop)
-          {
-            break;
-          }
-          j = 0;
-          shift += way[last];
-        }
-      }
-      shift = 0;
-      for (std::size_t j = i;;)
-      {
-        if (j == 0)
-        {
-          if (!isLoop)
-          {
-            break;
-          }
-          j = last;
-          shift -= way[last];
-        }
-        --j;
-        if (!add(j, shift))
-        {
-          break;
-        }
-      }
-      Point3         value{};
-      const Point3 & from = graph.medial[points[i]];
-      if (!fit.Value(value))
-      {
-        continue;
-      }
-      const double moved = Distance(from, value);
-      const double part = moved > reach ? reach / moved : 1;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        graph.positions[points[i]][axis] = from[axis] + part * (value[axis] - from[axis]);
-      }
+      FitOnce(line, from, window, reach, to);
+      from = to;
+    }
+    for (std::size_t i = line.isLoop ? 0 : 1; i < points.size() - 1; ++i)
+    {
+      graph.positions[points[i]] = to[i];
     }
   }
 }

@@ -72,6 +72,9 @@ BurnCurves(const MedialComplex &       surface,
     double       length;
   };
   std::vector<Anchor> anchors(count);
+  // The same for the fire that has come the longest way. Short twigs at a right angle to it often win by a hair, and from
+  // their anchors the next step would seem to take no time.
+  std::vector<Anchor> longest(count, { kNoEdge, 0, 0 });
   std::vector<double> runnerUpTime(count, 0);
   TimeHeap            heap;
   const auto          kindle = [&](ElementIndex vertex) {
@@ -85,6 +88,17 @@ BurnCurves(const MedialComplex &       surface,
     else if (Distance(surface.positions[anchors[vertex].vertex], surface.positions[vertex]) > chord)
     {
       anchors[vertex] = { vertex, fire.time[vertex], fire.length[vertex] };
+    }
+    Anchor & far = longest[vertex];
+    if (far.vertex == kNoEdge || anchors[vertex].vertex == vertex)
+    {
+      far = anchors[vertex];
+    }
+    else if (Distance(surface.positions[far.vertex], surface.positions[vertex]) > chord)
+    {
+      far = { vertex,
+              fire.time[vertex],
+              far.length + Distance(surface.positions[far.vertex], surface.positions[vertex]) };
     }
     fire.prominence[vertex] = std::max(fire.prominence[vertex], fire.time[vertex] - surfaceTime[vertex]);
   };
@@ -112,8 +126,16 @@ BurnCurves(const MedialComplex &       surface,
     degrees[next].exclusiveOr ^= edge;
 
     const Anchor & anchor = anchors[vertex];
+    const Anchor & far = longest[vertex];
     const double   step = Distance(surface.positions[anchor.vertex], surface.positions[next]);
-    const double   arrival = std::max(fire.time[vertex], anchor.time + step);
+    const double   farStep = Distance(surface.positions[far.vertex], surface.positions[next]);
+    const double   arrival = std::max({ fire.time[vertex], anchor.time + step, far.time + farStep });
+    if (longest[next].vertex == kNoEdge ||
+        far.length + farStep >
+          longest[next].length + Distance(surface.positions[longest[next].vertex], surface.positions[next]))
+    {
+      longest[next] = far;
+    }
     if (fire.winner[next] == kNoEdge || arrival > fire.time[next])
     {
       fire.runnerUp[next] = fire.winner[next];

@@ -60,34 +60,61 @@ RemoveBranches(const CellComplex & cells, const CurveFire & fire, double thresho
   }
 }
 
-// Balls in a voxel shape end at the nearest corner, its caps do not: measured on tubes at all angles.
-constexpr double kCapBeyondBall = 0.9; // voxels
+// Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much further
+// to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of voxels, half of
+// it; a thick one begins in the centre. Measured on tubes and tapering roots at all angles; voxels.
+constexpr double kCornerBeyondBall = 1.25;
+constexpr double kLineBeyondBall = 0.6;
 
-/** The first point of a path, from `start` on, that is as far from the path's end as the radius has grown since: there,
- *  whatever way the end lies, is the centre of the ball that closes a tube. The radius is a mean over `window`. */
-std::size_t
+/** A place on a path: so much of the way from a point to the one after it. */
+struct PathPlace
+{
+  std::size_t point = 0;
+  double      part = 0;
+};
+
+/** The first place on a path, from point `start` on, that is as far from the path's end as the radius has grown since:
+ *  there, whatever way the end lies, is the centre of the ball that closes a tube. The radius is a mean over `window`. */
+PathPlace
 CapCentre(const MedialComplex &             surface,
-          const CurveFire &                 fire,
           const std::vector<ElementIndex> & path,
           std::size_t                       start,
           double                            window,
           double                            voxel)
 {
-  const auto way = [&](std::size_t from, std::size_t to) { return fire.length[path[to]] - fire.length[path[from]]; };
-  for (; start + 1 < path.size(); ++start)
-  {
+  const auto way = [&](std::size_t from, std::size_t to) {
+    return Distance(surface.positions[path[from]], surface.positions[path[to]]);
+  };
+  // How much further from the end a point lies than it must.
+  const auto excess = [&](std::size_t from) {
     double      sum = 0;
-    std::size_t at = start;
-    for (; at < path.size() && way(start, at) <= window; ++at)
+    std::size_t at = from;
+    for (; at < path.size() && way(from, at) <= window; ++at)
     {
       sum += surface.radius[path[at]];
     }
-    if (way(0, start) >= sum / static_cast<double>(at - start) - surface.radius[path[0]] + kCapBeyondBall * voxel)
-    {
-      break;
-    }
+    const double grown = sum / static_cast<double>(at - from) - surface.radius[path[0]];
+    const double beyond = grown > 0.1 * voxel                   ? kCornerBeyondBall
+                          : surface.radius[path[0]] < 2 * voxel ? kLineBeyondBall
+                                                                : 0;
+    return way(0, from) - grown - beyond * voxel;
+  };
+  double before = excess(start);
+  if (before >= 0)
+  {
+    return { start, 0 };
   }
-  return start;
+  while (start + 2 < path.size())
+  {
+    const double after = excess(start + 1);
+    if (after >= 0)
+    {
+      return { start, before / (before - after) };
+    }
+    before = after;
+    ++start;
+  }
+  return { start, 0 };
 }
 
 /** Takes off the outermost part of each branch up to where the curve begins to run along the middle of the surface, seen
@@ -98,7 +125,8 @@ TrimEnds(const MedialComplex &       surface,
          const std::vector<double> & surfaceTime,
          double                      edgeLength,
          double                      voxel,
-         LiveElements &              live)
+         LiveElements &              live,
+         std::vector<Point3> &       places)
 {
   const CellComplex &        cells = surface.cells;
   const double               window = kChordInEdges * edgeLength;
@@ -129,14 +157,18 @@ TrimEnds(const MedialComplex &       surface,
       path.push_back(cells.edges[edge][0] ^ cells.edges[edge][1] ^ path.back());
     }
     const auto late = [&](std::size_t at) { return fire.time[path[at]] - surfaceTime[path[at]]; };
-    const auto way = [&](std::size_t from, std::size_t to) { return fire.length[path[to]] - fire.length[path[from]]; };
+    const auto way = [&](std::size_t from, std::size_t to) {
+      return Distance(surface.positions[path[from]], surface.positions[path[to]]);
+    };
     // Where the fire of a branch that is gone took over, the ways before and after cannot be compared.
     const auto goesOn = [&](std::size_t at) {
       return at + 1 < path.size() && fire.winner[path[at + 1]] == fire.nextEdge[path[at]];
     };
     std::size_t start = 0;
+    PathPlace   place;
     for (; start + 1 < path.size(); ++start)
     {
+      place = { start, 0 };
       std::size_t end = start;
       while (way(start, end) < window && goesOn(end))
       {
@@ -144,15 +176,30 @@ TrimEnds(const MedialComplex &       surface,
       }
       if (2 * way(start, end) >= window && late(end) - late(start) >= kRunsAlongTheMiddle * way(start, end))
       {
-        start = CapCentre(surface, fire, path, start, window, voxel);
+        place = CapCentre(surface, path, start, window, voxel);
         break;
       }
     }
-    for (std::size_t at = 0; at < start; ++at)
+    if (start + 1 == path.size())
+    {
+      place = { start, 0 };
+    }
+    // The vertex after the place becomes the end.
+    const std::size_t last = place.part > 0 ? place.point + 1 : place.point;
+    for (std::size_t at = 0; at < last; ++at)
     {
       live.vertices[path[at]] = 0;
       live.edges[fire.nextEdge[path[at]]] = 0;
       --degree[path[at + 1]];
+    }
+    if (place.part > 0 && degree[path[last]] == 1)
+    {
+      const Point3 & a = surface.positions[path[place.point]];
+      const Point3 & b = surface.positions[path[last]];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        places[path[last]][axis] = a[axis] + place.part * (b[axis] - a[axis]);
+      }
     }
   }
 }
@@ -172,12 +219,13 @@ ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options
   std::vector<std::uint8_t> closed;
   LiveElements              live = CollapseSurface(surface, times, options.plateThreshold, closed);
   ReportProgress(progress, "skeleton", 0);
-  const double    edgeLength = MeanEdgeLength(surface);
-  const CurveFire fire = BurnCurves(surface, live, times.vertices, kChordInEdges * edgeLength);
+  const double        edgeLength = MeanEdgeLength(surface);
+  std::vector<Point3> places = surface.positions; // of ends another
+  const CurveFire     fire = BurnCurves(surface, live, times.vertices, kChordInEdges * edgeLength);
   if (options.branchThreshold > 0)
   {
     RemoveBranches(surface.cells, fire, options.branchThreshold, live);
-    TrimEnds(surface, fire, times.vertices, edgeLength, options.voxel, live);
+    TrimEnds(surface, fire, times.vertices, edgeLength, options.voxel, live, places);
   }
 
   CurveSkeleton             skeleton;
@@ -189,6 +237,7 @@ ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options
   {
     skeleton.complex.positions.push_back(surface.positions[vertex]);
     skeleton.complex.radius.push_back(surface.radius[vertex]);
+    skeleton.places.push_back(places[vertex]);
     skeleton.complex.vertexLambda.push_back(surface.vertexLambda[vertex]);
     skeleton.erosionThickness.push_back(times.vertices[vertex] - surface.radius[vertex]);
     skeleton.branchThickness.push_back(fire.time[vertex] < std::numeric_limits<double>::infinity()

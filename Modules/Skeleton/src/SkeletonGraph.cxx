@@ -203,8 +203,8 @@ BuildSkeletonGraph(const CurveSkeleton & skeleton)
 {
   const CellComplex & cells = skeleton.complex.cells;
   SkeletonGraph       graph;
-  graph.positions = skeleton.complex.positions;
-  graph.medial = skeleton.complex.positions;
+  graph.positions = skeleton.places;
+  graph.medial = skeleton.places;
   graph.radius = skeleton.complex.radius;
   graph.erosionThickness = skeleton.erosionThickness;
   graph.faceOffsets = cells.faceOffsets;

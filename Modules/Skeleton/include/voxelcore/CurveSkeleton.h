@@ -24,18 +24,20 @@ struct CurveOptions
 
   double sampling = 0; ///< distance of sample points on edges when the surface burns; 0: one on each edge
 
-  double voxel = 0; ///< smallest spacing: the end of a voxel shape lies so much beyond its largest ball
+  double voxel = 0; ///< side of the cube with a voxel's diagonal: by about so much shapes end beyond their last ball
 };
 
 /** A part of a medial surface that the surface collapses to: vertices, edges, and the faces that stay. */
 struct CurveSkeleton
 {
-  MedialComplex       complex;          ///< a subset of the surface, its order kept; positions in mm
-  std::vector<double> erosionThickness; ///< mm per vertex; infinite where the surface never burns
-  std::vector<double> branchThickness;  ///< mm per vertex: burn time along the curve less that on the surface;
-                                        ///< infinite on cycles, between them, and on faces that stay
-  std::vector<std::uint8_t> closedFace; ///< per face: 1 when it is part of a closed surface, which cannot be
-                                        ///< collapsed; 0 for plates
+  MedialComplex                      complex; ///< a subset of the surface, its order kept; positions in mm
+  std::vector<std::array<double, 3>> places; ///< mm per vertex: its position; of an end the place on the surface's edge
+                                             ///< beyond it, no further than the next vertex, where the body's end is
+  std::vector<double> erosionThickness;      ///< mm per vertex; infinite where the surface never burns
+  std::vector<double> branchThickness;       ///< mm per vertex: burn time along the curve less that on the surface;
+                                             ///< infinite on cycles, between them, and on faces that stay
+  std::vector<std::uint8_t> closedFace;      ///< per face: 1 when it is part of a closed surface, which cannot be
+                                             ///< collapsed; 0 for plates
 
   std::size_t
   ClosedFaceCount() const;

@@ -71,12 +71,17 @@ BuildSkeletonGraph(const CurveSkeleton & skeleton);
 void
 SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>> & lines, bool join);
 
+/** How far a point may move: the ellipsoid that touches the faces of a voxel around it. Row k is a voxel's axis k (a unit
+ *  vector) over half its spacing, 1/mm: a displacement d is allowed when the squares of its products with the rows sum up
+ *  to 1 at most. */
+using VoxelReach = std::array<std::array<double, 3>, 3>;
+
 /** Smooths the branches: each point goes to the value, at its own arc length, of the parabola that fits its branch best
- *  within `window` mm before and behind it, but no further than `reach` mm from where it lay on the medial surface.
- *  Nodes stay. A window of 0 puts the points back on the medial surface. Curved lines keep their length to second order,
+ *  within `window` mm before and behind it, but no further than `reach` from the branch as it lies on the medial
+ *  surface. Nodes stay. A window of 0 puts the points back on the medial surface. Curved lines keep their length to second order,
  *  where averaging would shorten them. */
 void
-FitBranches(SkeletonGraph & graph, double window, double reach);
+FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach);
 
 /** A threshold for the length of a branch that ends in a tip. */
 struct BranchLimit
