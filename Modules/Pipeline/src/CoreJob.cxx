@@ -3,12 +3,14 @@
 #include "JobTools.h"
 #include "LabelLoop.h"
 #include "SkeletonFiles.h"
+#include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/Sha256.h"
 
 #include <future>
 #include <numeric>
+#include <omp.h>
 #include <utility>
 
 namespace voxelcore
@@ -110,6 +112,19 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
     {
       transaction.CheckTarget(FileOutputPath(options.output, suffix));
     }
+  }
+}
+
+/** Before anything large is allocated. */
+void
+RequireMemory(const CoreOptions & options, const std::vector<EditedLabel> & labels)
+{
+  const CostPrediction prediction = PredictJob(CountBoundaries(labels), options, omp_get_max_threads());
+  if (prediction.memoryBytes > *options.memory)
+  {
+    throw InputError(options.scan.string() + ": needs about " + MemoryText(prediction.memoryBytes) +
+                     ", and --memory allows " + MemoryText(*options.memory) +
+                     "; take fewer --labels at a time, write into a folder (-o DIR/), or cut with --crop");
   }
 }
 
@@ -218,11 +233,15 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   auto        digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
   LabelVolume volume =
     ReadLabelVolume(options.scan, options.reading, PartOfProgress(context.progress, "reading", 0, kReadEnds));
-  EditedLabels         edited = EditLabels(volume,
+  EditedLabels edited = EditLabels(volume,
                                    options.edits,
                                    options.reading.labels != "all",
                                    options.scan.string(),
                                    PartOfProgress(context.progress, "editing", kReadEnds, kReadEnds));
+  if (options.memory)
+  {
+    RequireMemory(options, edited.labels);
+  }
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
   report.command = options.command;
   report.input = DescribeInput(options, volume);

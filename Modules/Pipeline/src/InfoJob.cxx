@@ -1,13 +1,15 @@
 #include "voxelcore/InfoJob.h"
 
 #include "JobTools.h"
-#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/OutputNames.h"
+#include "voxelcore/Parameters.h"
 #include "voxelcore/ReportTable.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <omp.h>
 #include <utility>
 
 namespace voxelcore
@@ -31,6 +33,13 @@ Decimals(double value, int decimals)
   char text[64];
   std::snprintf(text, sizeof(text), "%.*f", decimals, value);
   return text;
+}
+
+/** Rough, as predictions are. */
+std::string
+SecondsText(double seconds)
+{
+  return seconds < 90 ? Decimals(seconds, seconds < 10 ? 1 : 0) + " s" : Decimals(seconds / 60, 0) + " min";
 }
 
 std::string
@@ -116,6 +125,12 @@ RunInfoJob(const InfoOptions & options, const JobContext & context)
   info.notes = std::move(volume.notes);
   info.notes.insert(info.notes.end(), edited.notes.begin(), edited.notes.end());
   info.warnings = std::move(volume.warnings);
+  info.threads = omp_get_max_threads();
+  const std::vector<BoundaryCounts> boundaries = CountBoundaries(edited.labels);
+  CoreOptions                       defaults;
+  defaults.lambdas = ParseLambdas(ValueOf({}, CommandId::Core, "lambda"));
+  defaults.output = "medial.vtp";
+  info.cost = PredictJob(boundaries, defaults, info.threads);
   const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
   for (const auto & [label, component, edits] : edited.labels)
   {
@@ -131,7 +146,8 @@ RunInfoJob(const InfoOptions & options, const JobContext & context)
     one.box = label.shape.Box();
     one.topology = ComputeShapeTopology(label.shape);
     one.components26 = CountComponents26(label.shape);
-    one.boundaryVertices = CountBoundaryVertices(label.shape);
+    one.boundary = boundaries[info.labels.size()];
+    one.cost = PredictLabel(one.boundary, info.threads);
     info.labels.push_back(std::move(one));
   }
   return info;
@@ -150,6 +166,8 @@ InfoText(const ScanInfo & info)
   text += "origin       " + Number(geometry.origin[0]) + ", " + Number(geometry.origin[1]) + ", " +
           Number(geometry.origin[2]) + " mm (LPS)\n";
   text += "orientation  " + info.orientation + " (where i, j and k run to)\n";
+  text += "core needs   about " + MemoryText(info.cost.memoryBytes) + " and " + SecondsText(info.cost.seconds) + " (" +
+          std::to_string(info.threads) + (info.threads == 1 ? " thread" : " threads") + ", one lambda, one file)\n";
   for (const std::string & note : info.notes)
   {
     text += "note         " + note + "\n";
@@ -167,7 +185,7 @@ InfoText(const ScanInfo & info)
                      BoxText(label.box),
                      std::to_string(betti[0]) + "/" + std::to_string(betti[1]) + "/" + std::to_string(betti[2]),
                      std::to_string(label.components26),
-                     std::to_string(label.boundaryVertices) });
+                     std::to_string(label.boundary.vertices) });
   }
   text += "\n" + FormatTable(rows);
   for (const std::string & line : Surprises(info.labels))
@@ -196,19 +214,25 @@ InfoJson(const ScanInfo & info)
                      { "euler", label.topology.euler },
                      { "betti", label.topology.betti },
                      { "components_26", label.components26 },
-                     { "boundary_vertices", label.boundaryVertices } });
+                     { "boundary_vertices", label.boundary.vertices },
+                     { "core_memory_bytes", label.cost.memoryBytes },
+                     { "core_seconds", label.cost.seconds } });
     labels.push_back(std::move(one));
   }
-  const Json json = { { "path", info.path },
-                      { "format", info.format },
-                      { "pixel_type", info.pixelType },
-                      { "size", info.geometry.size },
-                      { "spacing_mm", info.geometry.spacing },
-                      { "origin_mm", info.geometry.origin },
-                      { "direction", info.geometry.direction },
-                      { "orientation", info.orientation },
-                      { "notes", info.notes },
-                      { "labels", labels } };
+  const Json json = {
+    { "path", info.path },
+    { "format", info.format },
+    { "pixel_type", info.pixelType },
+    { "size", info.geometry.size },
+    { "spacing_mm", info.geometry.spacing },
+    { "origin_mm", info.geometry.origin },
+    { "direction", info.geometry.direction },
+    { "orientation", info.orientation },
+    { "notes", info.notes },
+    { "core",
+      { { "memory_bytes", info.cost.memoryBytes }, { "seconds", info.cost.seconds }, { "threads", info.threads } } },
+    { "labels", labels }
+  };
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,6 +1,7 @@
 #include "voxelcore/Parameters.h"
 
 #include "ParameterReader.h"
+#include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 
@@ -233,6 +234,10 @@ CoreOptionsFrom(const ParameterValues & values)
   options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
   options.crossCheck = reader.IsSet("cross-check");
   options.threads = ThreadsFrom(values, CommandId::Core);
+  if (reader.IsGiven("memory"))
+  {
+    options.memory = ParseMemory(reader.Text("memory"));
+  }
   options.force = reader.IsSet("force");
   return options;
 }

@@ -12,6 +12,7 @@
 #include "voxelcore/SkeletonModel.h"
 #include "voxelcore/SkeletonStage.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ struct CoreOptions
   Engine                               engine = Engine::Auto;
   bool                                 crossCheck = false; ///< both engines must find the same cells
   int                                  threads = 0;        ///< only recorded
+  std::optional<std::uint64_t>         memory;             ///< bytes; refused when PredictJob says more
   bool                                 force = false;
   std::string                          command; ///< only recorded
 };

@@ -1,6 +1,7 @@
 #pragma once
 // `voxelcore info`: what is in a scan.
 
+#include "voxelcore/CostModel.h"
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/ShapeEdits.h"
@@ -31,7 +32,8 @@ struct LabelInfo
   VoxelBox        box;
   TopologyNumbers topology;         ///< of the voxel shape: 6-connected, b0 its components
   std::int64_t    components26 = 0; ///< 26-connected components
-  std::uint64_t   boundaryVertices = 0;
+  BoundaryCounts  boundary;
+  CostPrediction  cost; ///< of its core alone
 };
 
 struct ScanInfo
@@ -44,6 +46,8 @@ struct ScanInfo
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   std::vector<LabelInfo>   labels;
+  CostPrediction           cost;        ///< of `voxelcore core` with its defaults, all labels into one file
+  int                      threads = 1; ///< that `cost` is for: OpenMP's number
 };
 
 /** \throws InputError, Cancelled */

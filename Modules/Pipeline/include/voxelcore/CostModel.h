@@ -1,0 +1,71 @@
+#pragma once
+// What `voxelcore core` will need, foretold from the shapes alone. The model is linear in counts of the boundary; its
+// constants are fitted by Testing/Performance (VoxelCoreCostFit), which prints them and how far they miss.
+
+#include "voxelcore/BoundaryCounts.h"
+#include "voxelcore/CoreJob.h"
+#include "voxelcore/ShapeEdits.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** What memory and time grow with, of one shape. */
+struct CostTerms
+{
+  static constexpr std::size_t kSize = 6;
+  /** 1; border voxels; boundary vertices not amid flat boundary; flat ones of thick shapes (the deep part of these goes
+   *  through Bowyer-Watson); inner voxels, up to four a border voxel; border voxels times the doublings of their number
+   *  over 1000, as caches miss more. */
+  std::array<double, kSize> values{};
+};
+
+CostTerms
+ComputeCostTerms(const BoundaryCounts & counts);
+
+/** The fitted constants. Seconds are those of the machine named in Testing/Performance/README.md; another may be twice as
+ *  fast or half. */
+struct CostConstants
+{
+  std::array<double, CostTerms::kSize> bytes{};    ///< at the peak of one label, one thread
+  std::array<double, CostTerms::kSize> seconds{};  ///< one thread, without reading
+  double                               serial = 0; ///< part of the seconds that more threads do not shorten
+};
+
+const CostConstants &
+FittedCosts();
+
+struct CostPrediction
+{
+  std::uint64_t memoryBytes = 0; ///< peak of the whole process
+  double        seconds = 0;     ///< wall clock, without reading
+};
+
+/** One label by itself, pruned once. */
+CostPrediction
+PredictLabel(const BoundaryCounts & counts, int threads);
+
+/** A whole job over labels, in the order given, as RunCoreJob goes about it: small labels side by side, results kept until
+ *  they are written. Takes from `options` what decides cost: number of results, output, edges, engine, skeleton.
+ *  With TetGen and with skeletons the figures are coarse (within a factor of two). */
+CostPrediction
+PredictJob(const std::vector<BoundaryCounts> & labels, const CoreOptions & options, int threads);
+
+/** The counts of each label's shape, on all threads. */
+std::vector<BoundaryCounts>
+CountBoundaries(const std::vector<EditedLabel> & labels);
+
+/** "8GB", "500 MB", "1.5GiB": bytes. Units B, kB, MB, GB, TB (powers of 1000) and KiB, MiB, GiB, TiB, in any case.
+ *  \throws UsageError, naming --memory, for anything else; a unit must be given. */
+std::uint64_t
+ParseMemory(const std::string & text);
+
+/** For people: "850 MB", "2.1 GB". */
+std::string
+MemoryText(std::uint64_t bytes);
+
+} // namespace voxelcore

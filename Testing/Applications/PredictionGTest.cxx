@@ -1,0 +1,94 @@
+// What `info` foretells and what `core` then takes.
+
+#include "Pipeline/TemporaryFolder.h"
+#include "Program.h"
+#include "Scans.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using Json = nlohmann::json;
+
+class Prediction : public ::testing::Test
+{
+protected:
+  static std::string
+  Run(const std::vector<std::string> & arguments)
+  {
+    const ProgramResult result = RunProgram(arguments);
+    EXPECT_EQ(result.code, 0) << result.error;
+    return result.output;
+  }
+
+  TemporaryFolder m_Folder;
+};
+
+TEST_F(Prediction, OfMemoryIsWithinThirtyPercent)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need memory of their own";
+#endif
+  // None of these is among the shapes that the constants were fitted to (Testing/Performance/CostFit.cxx).
+  const std::vector<std::vector<std::string>> phantoms{ { "ball", "--size", "128" },
+                                                        { "capsule", "--size", "200" },
+                                                        { "tanglecube", "--size", "160" },
+                                                        { "gyroid", "--size", "128" },
+                                                        { "root", "--size", "300", "--seed", "9" },
+                                                        { "porous", "--size", "112" },
+                                                        { "plate", "--size", "160", "--thickness", "7" },
+                                                        { "noise", "--size", "64", "--density", "0.3" } };
+  const std::string                           scan = m_Folder / "a.nrrd";
+  for (const auto & phantom : phantoms)
+  {
+    SCOPED_TRACE(phantom.front());
+    std::vector<std::string> command{ "phantom" };
+    command.insert(command.end(), phantom.begin(), phantom.end());
+    command.insert(command.end(), { "-o", scan, "--force", "-q" });
+    Run(command);
+    for (const char * threads : { "1", "2" })
+    {
+      const Json info = Json::parse(Run({ "info", scan, "--json", "--threads", threads }));
+      Run(
+        { "core", scan, "-o", m_Folder / "a.vtp", "--force", "-q", "--threads", threads, "--report", m_Folder / "r" });
+      std::ifstream file(m_Folder / "r");
+      const double  measured = 1e6 * Json::parse(file)["peak_memory_mb"].get<double>();
+      EXPECT_NEAR(info["core"]["memory_bytes"].get<double>() / measured, 1, 0.3) << threads << " threads";
+      EXPECT_GT(info["core"]["seconds"], 0);
+      EXPECT_EQ(info["labels"][0]["core_memory_bytes"], info["core"]["memory_bytes"]);
+    }
+  }
+}
+
+TEST_F(Prediction, WhatIsForetoldIsAllowedAndLessIsRefused)
+{
+  const std::string scan = m_Folder / "a.nrrd";
+  WriteNrrd(scan, ThreeBlocks());
+  const auto needed =
+    Json::parse(Run({ "info", scan, "--json", "--threads", "1" }))["core"]["memory_bytes"].get<std::uint64_t>();
+  const auto core = [&](const std::string & memory) {
+    return RunProgram(
+      { "core", scan, "-o", m_Folder / "a.vtp", "-q", "--threads", "1", "--force", "--memory", memory });
+  };
+  EXPECT_EQ(core(std::to_string(needed) + "B").code, 0);
+  std::filesystem::remove(m_Folder / "a.vtp");
+  ExpectRefusal(core(std::to_string(needed - 1) + "B"), 3, { scan, "needs about", "--memory allows", "--crop" });
+  EXPECT_FALSE(std::filesystem::exists(m_Folder / "a.vtp"));
+  ExpectRefusal(core("8"), 2, { "--memory 8", "8GB" });
+}
+
+TEST_F(Prediction, IsSaidToPeople)
+{
+  WriteNrrd(m_Folder / "a.nrrd", ThreeBlocks());
+  EXPECT_NE(Run({ "info", m_Folder / "a.nrrd", "--threads", "3" }).find("core needs   about "), std::string::npos);
+  EXPECT_NE(Run({ "info", m_Folder / "a.nrrd", "--threads", "3" }).find("(3 threads"), std::string::npos);
+}
+
+} // namespace
+} // namespace voxelcore::testing

@@ -1,0 +1,127 @@
+#include "voxelcore/CostModel.h"
+
+#include "VoxelCoreTesting/Shapes.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/OutputNames.h"
+
+#include <gtest/gtest.h>
+
+namespace voxelcore
+{
+namespace
+{
+
+using testing::Box;
+
+CoreOptions
+OptionsInto(const std::filesystem::path & output)
+{
+  CoreOptions options;
+  options.lambdas = ParseLambdas("1.5vox");
+  options.output = output;
+  return options;
+}
+
+const std::filesystem::path kFile = "result.vtp";
+const std::filesystem::path kFolder = "results/";
+
+TEST(CostModel, LargerShapesCostMore)
+{
+  CostPrediction before = PredictLabel({}, 1);
+  for (const std::int32_t side : { 4, 16, 64, 200 })
+  {
+    const CostPrediction next = PredictLabel(CountBoundary(Box({ side, side, side })), 1);
+    EXPECT_GT(next.memoryBytes, before.memoryBytes) << side;
+    EXPECT_GT(next.seconds, before.seconds) << side;
+    before = next;
+  }
+}
+
+TEST(CostModel, AJobOfOneLabelCostsWhatTheLabelDoes)
+{
+  const BoundaryCounts counts = CountBoundary(Box({ 90, 40, 60 }));
+  const CostPrediction label = PredictLabel(counts, 1);
+  const CostPrediction job = PredictJob({ counts }, OptionsInto(kFolder), 1);
+  EXPECT_NEAR(static_cast<double>(job.memoryBytes), static_cast<double>(label.memoryBytes), 1);
+  EXPECT_DOUBLE_EQ(job.seconds, label.seconds);
+}
+
+TEST(CostModel, ResultsThatWaitForTheirFileTakeMemoryInAFolderTheyDoNot)
+{
+  const std::vector<BoundaryCounts> labels(100, CountBoundary(Box({ 60, 60, 60 })));
+  const auto                        one = PredictJob({ labels[0] }, OptionsInto(kFolder), 1);
+  EXPECT_EQ(PredictJob(labels, OptionsInto(kFolder), 1).memoryBytes, one.memoryBytes);
+  EXPECT_GT(PredictJob(labels, OptionsInto(kFile), 1).memoryBytes, 2 * one.memoryBytes);
+}
+
+TEST(CostModel, SmallLabelsRunSideBySide)
+{
+  const std::vector<BoundaryCounts> labels(64, CountBoundary(Box({ 30, 30, 30 })));
+  const auto                        one = PredictJob(labels, OptionsInto(kFolder), 1);
+  const auto                        four = PredictJob(labels, OptionsInto(kFolder), 4);
+  EXPECT_LT(four.seconds, 0.3 * one.seconds);
+  EXPECT_GT(four.memoryBytes, one.memoryBytes);
+}
+
+TEST(CostModel, EachThingAskedForCosts)
+{
+  const std::vector<BoundaryCounts> labels{ CountBoundary(Box({ 60, 60, 60 })) };
+  const auto                        plain = PredictJob(labels, OptionsInto(kFile), 1);
+  const auto                        expectMore = [&](const char * what, const CoreOptions & options) {
+    const auto more = PredictJob(labels, options, 1);
+    EXPECT_GT(more.memoryBytes, plain.memoryBytes) << what;
+    EXPECT_GE(more.seconds, plain.seconds) << what;
+  };
+  CoreOptions options = OptionsInto(kFile);
+  options.lambdas = ParseLambdas("0,1vox,2vox");
+  expectMore("lambdas", options);
+  options = OptionsInto(kFile);
+  options.model.keepEdges = true;
+  expectMore("edges", options);
+  options = OptionsInto(kFile);
+  options.bumps = ParseBumpHeights("1.2diag");
+  expectMore("bumps", options);
+  options = OptionsInto(kFile);
+  options.crossCheck = true;
+  expectMore("cross-check", options);
+  options = OptionsInto(kFile);
+  options.skeleton = SkeletonStage();
+  expectMore("skeleton", options);
+}
+
+TEST(CostModel, MemoryIsReadWithItsUnit)
+{
+  EXPECT_EQ(ParseMemory("8GB"), 8000000000U);
+  EXPECT_EQ(ParseMemory("1.5 gb"), 1500000000U);
+  EXPECT_EQ(ParseMemory("512MiB"), 512U << 20);
+  EXPECT_EQ(ParseMemory("2TiB"), std::uint64_t{ 2 } << 40);
+  EXPECT_EQ(ParseMemory("900kB"), 900000U);
+  EXPECT_EQ(ParseMemory("4096B"), 4096U);
+  for (const char * text : { "",
+                             "8",
+                             "GB",
+                             "8G",
+                             "-1GB",
+                             "8XB",
+                             "8GBB",
+                             "8 G B",
+                             "nan",
+                             "1e3GB",
+                             "0MB",
+                             "8GiBs",
+                             "99999999999TB",
+                             "1..5GB" })
+  {
+    EXPECT_THROW(ParseMemory(text), UsageError) << text;
+  }
+}
+
+TEST(CostModel, MemoryIsSaidRoundedUp)
+{
+  EXPECT_EQ(MemoryText(1), "1 MB");
+  EXPECT_EQ(MemoryText(849100000), "850 MB");
+  EXPECT_EQ(MemoryText(2010000000), "2.1 GB");
+}
+
+} // namespace
+} // namespace voxelcore
