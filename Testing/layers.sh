@@ -17,6 +17,7 @@ may_use() {
     Models) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton" ;;
     Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models" ;;
     Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Phantom Verification Imaging Models Display" ;;
+    Cohort) echo "Lattice Shape Delaunay Models Pipeline Imaging Complex VoxelCore" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac
 }

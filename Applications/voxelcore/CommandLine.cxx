@@ -56,7 +56,8 @@ AddParameter(CLI::App & app, const Parameter & parameter, ParameterValues & valu
         all += (all.empty() ? "" : "\n") + one;
       }
     };
-    CLI::Option * const option = app.add_option_function<std::vector<std::string>>("FILE", join, description);
+    CLI::Option * const option = app.add_option_function<std::vector<std::string>>(
+      std::string(parameter.placeholder.substr(0, parameter.placeholder.find('.'))), join, description);
     option->type_name("")->required(parameter.required);
     return;
   }

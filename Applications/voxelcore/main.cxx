@@ -4,8 +4,11 @@
 #include "Console.h"
 #include "ProgressPrinter.h"
 #include "Signals.h"
+#include "voxelcore/Admission.h"
+#include "voxelcore/BatchJob.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ReportTable.h"
+#include "voxelcore/Thumbnail.h"
 
 #include <cstdlib>
 #include <exception>
@@ -75,6 +78,10 @@ RunCore(const Run & run)
   options.threads = run.threads;
   options.command = run.line.whole;
   const CoreResult result = RunCoreJob(options, run.context);
+  if (run.context.admit)
+  {
+    PaintCase(result.report); // for the batch's page
+  }
   run.Warn(result.warnings);
   run.Print(ReportTable(result.report));
   if (options.skeleton)
@@ -82,6 +89,27 @@ RunCore(const Run & run)
     run.Print(SkeletonTable(result.report));
   }
   run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
+RunBatch(const Run & run)
+{
+  const BatchOptions options = BatchOptionsFrom(run.line.values);
+  if (run.line.values.contains("list"))
+  {
+    run.Print(CaseList(options));
+    return kDone;
+  }
+  const BatchResult result = RunBatchJob(options, run.context);
+  run.Print(BatchText(result));
+  if (!result.failed.empty())
+  {
+    run.console.PrintError(std::to_string(result.failed.size()) + " of " + std::to_string(result.cases) +
+                           " cases failed, the first, " + result.failed.front().id + ": " +
+                           result.failed.front().reason);
+    return kFailed;
+  }
   return kDone;
 }
 
@@ -174,6 +202,8 @@ Dispatch(const Run & run)
       return RunVerify(run);
     case CommandId::Prune:
       return RunPrune(run);
+    case CommandId::Batch:
+      return RunBatch(run);
     case CommandId::Phantom:
       return RunPhantom(run);
     case CommandId::Skeleton:
@@ -227,6 +257,10 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
     printer.Show(stage, fraction);
     return !WasInterrupted();
   };
+  if (*line.command != CommandId::Batch)
+  {
+    context.admit = AdmissionFromEnvironment(WasInterrupted);
+  }
   return Dispatch({ line, console, context, printer, quiet, omp_get_max_threads() });
 }
 
@@ -248,7 +282,9 @@ main(int argc, char ** argv)
   }
   catch (const Cancelled &)
   {
-    console.PrintError("interrupted; nothing was written");
+    const bool batch = argc > 1 && std::string_view(argv[1]) == "batch";
+    console.PrintError(batch ? "interrupted; what is done stays, and the same command goes on from there"
+                             : "interrupted; nothing was written");
     std::_Exit(kInterrupted); // an engine's thread may still run: no destructors under its feet
   }
   catch (const UsageError & error)

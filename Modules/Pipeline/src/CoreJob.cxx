@@ -242,6 +242,10 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   {
     RequireMemory(options, edited.labels);
   }
+  if (context.admit)
+  {
+    context.admit(1e-6 * static_cast<double>(PredictJob(CountBoundaries(edited.labels), options, omp_get_max_threads()).memoryBytes));
+  }
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
   report.command = options.command;
   report.input = DescribeInput(options, volume);

@@ -189,7 +189,12 @@ SkeletonTablesPath(const fs::path & folder, const fs::path & input)
 fs::path
 SkeletonBesideCore(const fs::path & output)
 {
-  return IsFolderOutput(output) ? output : output.parent_path() / (output.stem().string() + "_skeleton.vtp");
+  std::string stem = output.stem().string();
+  if (stem.ends_with("_medial") && stem != "_medial")
+  {
+    stem.resize(stem.size() - std::string_view("_medial").size());
+  }
+  return IsFolderOutput(output) ? output : output.parent_path() / (stem + "_skeleton.vtp");
 }
 
 } // namespace voxelcore

@@ -16,6 +16,7 @@ constexpr std::uint32_t kPhantom = static_cast<std::uint32_t>(CommandId::Phantom
 constexpr std::uint32_t kSkeleton = static_cast<std::uint32_t>(CommandId::Skeleton);
 constexpr std::uint32_t kMeasure = static_cast<std::uint32_t>(CommandId::Measure);
 constexpr std::uint32_t kRender = static_cast<std::uint32_t>(CommandId::Render);
+constexpr std::uint32_t kBatch = static_cast<std::uint32_t>(CommandId::Batch);
 constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton;
 constexpr std::uint32_t kModels = kCore | kPrune;
 constexpr std::uint32_t kBranches = kSkeleton | kMeasure;
@@ -119,7 +120,26 @@ Examples:
   voxelcore render atlas.vtp --labels 4,7 --color Label --view front --background dark -o labels.png
   voxelcore render skeleton.vtp --turntable 36 -o turn.png)";
 
-constexpr std::array<Command, 8> kCommands{ {
+constexpr std::string_view kBatchFooter =
+  R"(INPUT: scans; folders, in which scans are looked for at any depth (one that holds several .tif or .png is one scan, a
+stack); quoted patterns, each match of which is a scan; a manifest.csv with the columns id, scan and any option of
+'voxelcore core' without its dashes (lambda, labels, spacing, threshold, with-skeleton, ...), empty where it is not given.
+The other options hold for all cases; a case's own come first. Skeletons are made too, with tables and SWC.
+
+Each case is a process of its own and costs only itself when it fails; exit code 1 when one did. OUTDIR gets sub-<id>/ with
+sub-<id>_medial.vtp, _skeleton.vtp, _skeleton.swc, _report.json and more, cases.csv and labels.csv with every number of the
+reports, and index.html, which opens without a network. Run again, only that is done which is not done yet, decided by the
+content of the scan, the options and the version; however it was stopped.
+
+On a cluster: 'batch manifest.csv -o OUT --case $SLURM_ARRAY_TASK_ID' for each case, then 'batch manifest.csv -o OUT
+--gather'. Applications/Snakemake does both.
+
+Examples:
+  voxelcore batch scans/ -o results --lambda 2vox
+  voxelcore batch cohort.csv -o results --jobs 4 --memory 12GB --timeout 30m
+  voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton)";
+
+constexpr std::array<Command, 9> kCommands{ {
   { CommandId::Core, "core", "Medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Info, "info", "What is in a scan: geometry, labels, their sizes and topology", kInfoFooter },
   { CommandId::Verify, "verify", "Recheck a finished file against its scan", kVerifyFooter },
@@ -127,6 +147,10 @@ constexpr std::array<Command, 8> kCommands{ {
   { CommandId::Skeleton, "skeleton", "Curve skeleton of a scan or of a finished core", kSkeletonFooter },
   { CommandId::Measure, "measure", "Tables of a finished skeleton's branches", kMeasureFooter },
   { CommandId::Render, "render", "Picture of finished files", kRenderFooter },
+  { CommandId::Batch,
+    "batch",
+    "Medial surfaces and skeletons of a cohort of scans, with tables and a page",
+    kBatchFooter },
   { CommandId::Phantom, "phantom", "Make a synthetic volume", kPhantomFooter },
 } };
 
@@ -191,6 +215,36 @@ constexpr auto kParameters = std::to_array<Parameter>({
   { "tubes", "--tubes", Real, "F", "0.5", false, kRender, "Curves are tubes of so many times their radius" },
   { "panels", "--panels", Flag, "", "", false, kRender, "Side by side: surface, medial surface, curve skeleton" },
   { "turntable", "--turntable", Integer, "N", "1", false, kRender, "N pictures of a full turn" },
+  { "inputs", "", Inputs, "INPUT...", "", false, kBatch, "Scans, folders, 'patterns*', or a manifest.csv" },
+  { "output", "-o,--output", Output, "OUTDIR", "", true, kBatch, "Folder for all results" },
+  { "jobs",
+    "-j,--jobs",
+    Integer,
+    "N",
+    "0",
+    false,
+    kBatch,
+    "Cases side by side; 0 means as many as there are processors" },
+  { "memory",
+    "--memory",
+    Text,
+    "SIZE",
+    "",
+    false,
+    kBatch,
+    "For all cases together: 12GB, 500MB; by default 9/10 of what is free" },
+  { "timeout",
+    "--timeout",
+    Text,
+    "TIME",
+    "",
+    false,
+    kBatch,
+    "What a case may take: 90s, 10m, 2h; by default as long as it likes" },
+  { "no-skeleton", "--no-skeleton", Flag, "", "", false, kBatch, "Medial surfaces alone, no skeletons" },
+  { "case", "--case", Integer, "K", "", false, kBatch, "Run only number K of the cases, from 1, and write no tables" },
+  { "gather", "--gather", Flag, "", "", false, kBatch, "Run nothing; write tables and page of what is in OUTDIR" },
+  { "list", "--list", Flag, "", "", false, kBatch, "Run nothing; print number, folder and id of each case" },
   { "kind", "", Text, "KIND", "", true, kPhantom, "What to make; 'list' names the kinds" },
   { "output",
     "-o,--output",

@@ -4,6 +4,8 @@
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Progress.h"
 
+#include <functional>
+
 namespace voxelcore
 {
 
@@ -11,8 +13,11 @@ struct JobContext
 {
   /** Gets the fraction of the whole job; the stage names the label, or which labels run side by side. Such calls come
    *  from several threads, though never two at a time. */
-  ProgressCallback    progress;
-  TemporaryRegistry * temporaries = nullptr; ///< for a signal handler that must not leave files; may be null
+  ProgressCallback progress;
+  /** Called once when a job has read its scan, with the memory it will need at its peak, MB; may wait until there is so
+   *  much, or throw. May be empty. */
+  std::function<void(double)> admit;
+  TemporaryRegistry *         temporaries = nullptr; ///< for a signal handler that must not leave files; may be null
 };
 
 } // namespace voxelcore

@@ -64,7 +64,7 @@ SkeletonFolderPath(const std::filesystem::path & folder,
 std::filesystem::path
 SkeletonTablesPath(const std::filesystem::path & folder, const std::filesystem::path & input);
 
-/** Where `core` writes the skeletons to: "OUT_skeleton.vtp" for "OUT.vtp", a folder for a folder. */
+/** Where `core` writes the skeletons to: "OUT_skeleton.vtp" for "OUT.vtp" and for "OUT_medial.vtp", a folder for a folder. */
 std::filesystem::path
 SkeletonBesideCore(const std::filesystem::path & output);
 

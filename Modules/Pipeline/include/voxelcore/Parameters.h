@@ -31,7 +31,8 @@ enum class CommandId : std::uint32_t
   Phantom = 16,
   Skeleton = 32,
   Measure = 64,
-  Render = 128
+  Render = 128,
+  Batch = 256 ///< takes besides its own all options of Core that do not name a file
 };
 
 struct Command
@@ -76,7 +77,9 @@ Parameters();
 inline bool
 BelongsTo(const Parameter & parameter, CommandId command)
 {
-  return (parameter.commands & static_cast<std::uint32_t>(command)) != 0;
+  const auto has = [&](CommandId one) { return (parameter.commands & static_cast<std::uint32_t>(one)) != 0; };
+  const bool isPath = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output;
+  return has(command) || (command == CommandId::Batch && has(CommandId::Core) && !isPath);
 }
 
 /** What was given, as text, by Parameter::name; a flag that was given is "true". */

@@ -1,0 +1,33 @@
+#pragma once
+// Comma-separated values (RFC 4180), read and written.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct CsvRow
+{
+  std::size_t              line = 0; ///< where it begins, from 1
+  std::vector<std::string> fields;
+};
+
+/** Fields may be quoted, then "" is a quote and line ends belong to the field. Lines end in LF or CRLF; a byte order mark
+ *  of UTF-8 and empty lines are passed over. `where` names the file in errors.
+ *  \throws InputError for UTF-16, NUL bytes, a quote that is never closed or stands inside a field. */
+std::vector<CsvRow>
+ParseCsv(std::string_view text, const std::string & where, char separator = ',');
+
+/** A field that holds text of others, quoted where it must be. What spreadsheets would take for a formula (it begins with
+ *  one of = + - @ or a control character) gets an apostrophe in front. */
+std::string
+CsvTextField(std::string_view text);
+
+/** A number or a word of our own as a field. */
+std::string
+CsvPlainField(std::string_view text);
+
+} // namespace voxelcore

@@ -1,0 +1,46 @@
+#pragma once
+// The cases of a cohort: from a manifest, or found in folders.
+
+#include "voxelcore/Parameters.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** One scan and what to do with it. */
+struct CohortCase
+{
+  std::string           id;     ///< as given, or made of the scan's name
+  std::string           folder; ///< "sub-..." below the output folder, CaseFolder() of the id
+  std::filesystem::path scan;
+  ParameterValues       values; ///< options of `voxelcore core` that hold for this case alone
+};
+
+/** The folder of a case, "sub-" and the id as letters and digits (BIDS). An id that has anything else, or more than 64
+ *  characters, loses that and gets "x" and eight digits of its SHA-256, so that different ids never meet in one folder. A
+ *  leading "sub-" of the id is dropped. */
+std::string
+CaseFolder(const std::string & id);
+
+/** A manifest: CSV (or .tsv) whose first row names the columns `id` (or `participant_id`), `scan`, and any option of
+ *  `voxelcore core` without its dashes; `note` is passed over. An empty field means the option is not given; flags take
+ *  yes/no, true/false or 1/0. Relative scans are looked for from the manifest's folder. Whether a scan exists, and whether a
+ *  value has sense, shows when its case runs.
+ *  \throws InputError naming file and line: a column missing, unknown or doubled, an id or scan empty or an id doubled, a
+ *  row of another length, what ParseCsv refuses, no row at all. */
+std::vector<CohortCase>
+ReadManifest(const std::filesystem::path & manifest);
+
+/** The cases that `inputs` stand for, in their order: manifests (.csv, .tsv); scans; patterns (`*`, `?`, `[..]`), of
+ *  which each match is a scan; folders, in which scans are looked for at any depth, sorted by path. A folder that holds
+ *  several .tif or .png directly is one scan, a stack of slices. The ids of scans that are not in a manifest are their
+ *  names; those found below a folder have the folders between in front. The same file twice is one case. The folder `output`, where results go, is
+ *  passed over.
+ *  \throws InputError for an input that does not exist, a pattern or folder without scans, two cases with one id. */
+std::vector<CohortCase>
+FindCases(const std::vector<std::filesystem::path> & inputs, const std::filesystem::path & output = {});
+
+} // namespace voxelcore

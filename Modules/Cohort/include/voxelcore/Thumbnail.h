@@ -1,0 +1,37 @@
+#pragma once
+// A small picture of a medial surface, painted by ourselves: needs no window, no graphics card, and equal models give equal
+// bytes.
+
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/MedialModel.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Red, green and blue, row by row from the top. */
+struct Picture
+{
+  int                       width = 0;
+  int                       height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/** A parallel projection of all parts, from the patient's left front and above, that fills the picture: faces lit from the
+ *  viewer's side and coloured by label, edges on no face and isolated vertices as lines and points. */
+Picture
+PaintModel(const MedialModel & model, int size);
+
+/** \throws OutputError */
+void
+WritePng(const std::filesystem::path & path, const Picture & picture);
+
+/** Paints the first medial surface of a report of `voxelcore core` beside it: "X_thumbnail.png" for "X_medial.vtp". A
+ *  model that is not written as .vtp gets none. \throws InputError, OutputError */
+void
+PaintCase(const CoreReport & report);
+
+} // namespace voxelcore

@@ -1,0 +1,276 @@
+#include "voxelcore/BatchJob.h"
+
+#include "Scheduler.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/GatherCohort.h"
+#include "voxelcore/OutputTransaction.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr double kMegabyte = 1e6;
+
+struct Unit
+{
+  std::string_view name;
+  double           factor;
+};
+
+/** A positive number with one of the units; a bare number has the first. */
+template <std::size_t N>
+double
+NumberWithUnit(const std::string & option, const std::string & text, const std::array<Unit, N> & units)
+{
+  double     value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto rest = std::string_view(read.ptr, static_cast<std::size_t>(text.data() + text.size() - read.ptr));
+  for (const Unit & unit : units)
+  {
+    if (read.ec == std::errc() && std::isfinite(value) && value > 0 &&
+        (rest == unit.name || (rest.empty() && &unit == units.data())))
+    {
+      return value * unit.factor;
+    }
+  }
+  std::string names;
+  for (const Unit & unit : units)
+  {
+    names += (names.empty() ? "" : ", ") + std::string(unit.name);
+  }
+  throw UsageError(option + " " + text + ": expected a number above 0 with a unit of " + names);
+}
+
+std::size_t
+CountFrom(const ParameterValues & values, std::string_view name, std::size_t most)
+{
+  const std::string text = ValueOf(values, CommandId::Batch, name);
+  std::size_t       value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value > most)
+  {
+    throw UsageError("--" + std::string(name) + " " + text + ": expected a whole number from 0 to " +
+                     std::to_string(most));
+  }
+  return value;
+}
+
+/** What the machine can give now, with a tenth kept back. */
+double
+AvailableMemoryMb()
+{
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);)
+  {
+    if (line.starts_with("MemAvailable:"))
+    {
+      return 0.9 * std::stod(line.substr(13)) * 1024 / kMegabyte;
+    }
+  }
+  throw Error("cannot tell how much memory there is; give --memory");
+}
+
+bool
+DescribesACase(const Parameter & parameter)
+{
+  return BelongsTo(parameter, CommandId::Batch) && BelongsTo(parameter, CommandId::Core) && parameter.name != "force" &&
+         parameter.name != "progress" && parameter.name != "quiet" && parameter.name != "threads";
+}
+
+/** A path that no parser takes for an option or a command. */
+std::string
+PlainPath(const fs::path & path)
+{
+  const std::string text = path.string();
+  return text.find('/') == std::string::npos ? "./" + text : text;
+}
+
+CaseJob
+JobOf(const CohortCase & one, const BatchOptions & options)
+{
+  CaseJob job{ one, options.output / one.folder, {}, {} };
+  auto    values = one.values;
+  values.insert(options.values.begin(), options.values.end()); // those of the case stay
+  values.emplace("with-skeleton", options.skeletons ? "true" : "false");
+  if (values["with-skeleton"] == "true")
+  {
+    values.emplace("also", "csv,swc");
+  }
+  const std::string stem = (job.folder / one.folder).string();
+  job.arguments = { "voxelcore",           "core",    PlainPath(one.scan), "-o",  stem + "_medial.vtp", "--report",
+                    stem + "_report.json", "--force", "--progress",        "none" };
+  const auto threads = values.find("threads");
+  job.arguments.push_back("--threads=" + (threads != values.end() ? threads->second : std::to_string(options.threads)));
+  for (const Parameter & parameter : Parameters())
+  {
+    const auto value = values.find(parameter.name);
+    if (!DescribesACase(parameter) || value == values.end())
+    {
+      continue;
+    }
+    const std::string flag = "--" + std::string(parameter.name);
+    const bool        isFlag = parameter.kind == ParameterKind::Flag;
+    if (!isFlag || value->second == "true")
+    {
+      const std::string argument = isFlag ? flag : flag + "=" + value->second;
+      job.arguments.push_back(argument);
+      job.options += argument + "\n";
+    }
+    values.erase(value); // an option may stand in the table once for each command
+  }
+  return job;
+}
+
+void
+MakeOutput(const BatchOptions & options)
+{
+  std::error_code error;
+  fs::create_directories(options.output, error);
+  if (!fs::is_directory(options.output))
+  {
+    throw OutputError(options.output.string() +
+                      ": cannot make this folder: " + (error ? error.message() : std::string("it is a file")));
+  }
+}
+
+} // namespace
+
+BatchOptions
+BatchOptionsFrom(const ParameterValues & values)
+{
+  BatchOptions options;
+  const auto   inputs = values.find("inputs");
+  for (std::size_t at = 0; inputs != values.end() && at < inputs->second.size();)
+  {
+    const std::size_t end = std::min(inputs->second.find('\n', at), inputs->second.size());
+    options.inputs.emplace_back(inputs->second.substr(at, end - at));
+    at = end + 1;
+  }
+  options.output = ValueOf(values, CommandId::Batch, "output");
+  if (options.output.empty())
+  {
+    throw UsageError("--output: expected a folder");
+  }
+  if (!options.output.has_filename())
+  {
+    options.output = options.output.parent_path();
+  }
+  for (const Parameter & parameter : Parameters())
+  {
+    const auto value = values.find(parameter.name);
+    if (DescribesACase(parameter) && value != values.end())
+    {
+      options.values.insert(*value);
+    }
+  }
+  const auto cores = std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  const auto jobs = CountFrom(values, "jobs", 4096);
+  const auto threads = static_cast<std::size_t>(ThreadsFrom(values, CommandId::Batch));
+  options.jobs = static_cast<int>(jobs > 0 ? jobs : cores);
+  options.threads =
+    static_cast<int>(threads > 0 ? threads : std::max<std::size_t>(1, cores / static_cast<std::size_t>(options.jobs)));
+  const std::string memory = ValueOf(values, CommandId::Batch, "memory");
+  options.memoryMb =
+    memory.empty() ? AvailableMemoryMb()
+                   : NumberWithUnit("--memory",
+                                    memory,
+                                    std::array<Unit, 4>{
+                                      { { "MB", 1 }, { "GB", 1e3 }, { "MiB", 1.048576 }, { "GiB", 1073.741824 } } });
+  const std::string timeout = ValueOf(values, CommandId::Batch, "timeout");
+  options.timeout =
+    timeout.empty()
+      ? 0
+      : NumberWithUnit("--timeout", timeout, std::array<Unit, 3>{ { { "s", 1 }, { "m", 60 }, { "h", 3600 } } });
+  options.skeletons = !values.contains("no-skeleton");
+  options.force = values.contains("force");
+  options.gather = values.contains("gather");
+  if (values.contains("case"))
+  {
+    options.only = CountFrom(values, "case", std::size_t{ 1 } << 40U);
+  }
+  if (options.inputs.empty() && !options.gather)
+  {
+    throw UsageError("no INPUT given; scans, folders, patterns or a manifest.csv; see 'voxelcore batch --help'");
+  }
+  return options;
+}
+
+BatchResult
+RunBatchJob(const BatchOptions & options, const JobContext & context)
+{
+  std::vector<CohortCase> cases =
+    options.inputs.empty() ? std::vector<CohortCase>() : FindCases(options.inputs, options.output);
+  if (options.only)
+  {
+    if (*options.only < 1 || *options.only > cases.size())
+    {
+      throw UsageError("--case " + std::to_string(*options.only) + ": there are cases 1 to " +
+                       std::to_string(cases.size()));
+    }
+    cases = { cases[*options.only - 1] };
+  }
+  BatchResult result;
+  if (options.gather)
+  {
+    const CohortSummary summary = GatherCohort(options.output, cases, context);
+    result.cases = summary.cases;
+    result.failed = summary.failed;
+    return result;
+  }
+  MakeOutput(options);
+  std::vector<CaseJob> jobs;
+  for (const CohortCase & one : cases)
+  {
+    jobs.push_back(JobOf(one, options));
+  }
+  result = Scheduler(options, std::move(jobs), context.progress).Run();
+  if (!options.only)
+  {
+    GatherCohort(options.output, cases, context);
+  }
+  return result;
+}
+
+std::string
+CaseList(const BatchOptions & options)
+{
+  std::string text;
+  std::size_t number = 0;
+  for (const CohortCase & one : FindCases(options.inputs, options.output))
+  {
+    std::string id = one.id;
+    std::replace_if(
+      id.begin(),
+      id.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20U; },
+      ' ');
+    text += std::to_string(++number) + "\t" + one.folder + "\t" + id + "\n";
+  }
+  return text;
+}
+
+std::string
+BatchText(const BatchResult & result)
+{
+  std::string text = std::to_string(result.cases - result.failed.size()) + " of " + std::to_string(result.cases) +
+                     " cases done" + (result.kept > 0 ? ", " + std::to_string(result.kept) + " of them before" : "") +
+                     "\n";
+  for (const FailedCase & failed : result.failed)
+  {
+    text += "failed: " + failed.id + ": " + failed.reason + "\n";
+  }
+  return text;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,194 @@
+#include "voxelcore/CaseRecord.h"
+
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/OutputTransaction.h"
+#include "voxelcore/Sha256.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+std::string
+DigestOf(const std::string & text)
+{
+  Sha256 digest;
+  digest.Update(std::as_bytes(std::span(text)));
+  return digest.Finish();
+}
+
+std::string
+Text(const Json & json)
+{
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+/** A file of label names belongs to what a result depends on. */
+std::string
+NamesDigest(const fs::path & scan)
+{
+  fs::path plain = scan;
+  if (plain.extension() == ".gz")
+  {
+    plain.replace_extension();
+  }
+  std::string digests;
+  for (fs::path names : { fs::path(plain.string() + ".txt"), fs::path(plain).replace_extension(".txt") })
+  {
+    digests += fs::is_regular_file(names) ? FileSha256(names) + "\n" : "none\n";
+  }
+  return digests;
+}
+
+std::set<fs::path>
+FilesOf(const fs::path & folder)
+{
+  std::set<fs::path> files;
+  const std::string  start = folder.filename().string() + "_";
+  for (const auto & entry : fs::directory_iterator(folder))
+  {
+    if (entry.path().filename().string().starts_with(start) && !fs::is_directory(entry.symlink_status()))
+    {
+      files.insert(entry.path());
+    }
+  }
+  return files;
+}
+
+} // namespace
+
+std::string
+CaseKey(const fs::path & scan, const std::string & options)
+{
+  return DigestOf(ScanSha256(scan) + "\n" + NamesDigest(scan) + VoxelCoreVersion() + "\n" + options);
+}
+
+fs::path
+RecordPath(const fs::path & folder)
+{
+  return folder / (folder.filename().string() + "_case.json");
+}
+
+std::vector<OutputFile>
+ListOutputs(const fs::path & folder)
+{
+  std::vector<OutputFile> outputs;
+  for (const fs::path & file : FilesOf(folder))
+  {
+    const std::string name = file.filename().string();
+    // A file being written is called <name>.part<process id>.
+    if (file != RecordPath(folder) && name.find(".part") == std::string::npos)
+    {
+      outputs.push_back({ name, fs::file_size(file), FileSha256(file) });
+    }
+  }
+  return outputs;
+}
+
+void
+WriteCaseRecord(const fs::path & folder, const CaseRecord & record)
+{
+  Json json;
+  json["id"] = record.id;
+  json["scan"] = record.scan;
+  json["key"] = record.key;
+  json["version"] = VoxelCoreVersion();
+  json["status"] = record.done ? "done" : "failed";
+  json["reason"] = record.reason;
+  json["warnings"] = record.warnings;
+  json["outputs"] = Json::array();
+  for (const OutputFile & output : record.outputs)
+  {
+    json["outputs"].push_back({ { "name", output.name }, { "bytes", output.bytes }, { "sha256", output.sha256 } });
+  }
+  json["seconds"] = record.seconds;
+  // What was replaced (bytes that are no UTF-8) must be what the digest is of.
+  json = Json::parse(Text(json));
+  json["sha256"] = DigestOf(Text(json));
+  OutputTransaction transaction(true);
+  WriteTextFile(transaction.Stage(RecordPath(folder)), Text(json) + "\n");
+  transaction.Commit();
+}
+
+std::optional<CaseRecord>
+ReadCaseRecord(const fs::path & folder)
+{
+  std::ifstream     file(RecordPath(folder), std::ios::binary);
+  const std::string text{ std::istreambuf_iterator<char>(file), {} };
+  try
+  {
+    Json              json = Json::parse(text);
+    const std::string digest = json.at("sha256").get<std::string>();
+    json.erase("sha256");
+    if (digest != DigestOf(Text(json)))
+    {
+      return std::nullopt;
+    }
+    CaseRecord record;
+    json.at("id").get_to(record.id);
+    json.at("scan").get_to(record.scan);
+    json.at("key").get_to(record.key);
+    record.done = json.at("status") == "done";
+    json.at("reason").get_to(record.reason);
+    json.at("warnings").get_to(record.warnings);
+    json.at("seconds").get_to(record.seconds);
+    for (const Json & output : json.at("outputs"))
+    {
+      record.outputs.push_back({ output.at("name").get<std::string>(),
+                                 output.at("bytes").get<std::uint64_t>(),
+                                 output.at("sha256").get<std::string>() });
+    }
+    return record;
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    return std::nullopt;
+  }
+}
+
+bool
+IsDone(const fs::path & folder, const std::string & key)
+{
+  const auto record = ReadCaseRecord(folder);
+  if (!record || !record->done || record->key != key)
+  {
+    return false;
+  }
+  return std::all_of(record->outputs.begin(), record->outputs.end(), [&](const OutputFile & output) {
+    const fs::path  path = folder / fs::path(output.name).filename();
+    std::error_code missing;
+    return fs::file_size(path, missing) == output.bytes && !missing && FileSha256(path) == output.sha256;
+  });
+}
+
+void
+ClearCase(const fs::path & folder)
+{
+  std::error_code ignored;
+  fs::remove(RecordPath(folder), ignored);
+  for (const fs::path & file : FilesOf(folder))
+  {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error)
+    {
+      throw OutputError(file.string() + ": cannot remove: " + error.message());
+    }
+  }
+}
+
+} // namespace voxelcore

@@ -1,0 +1,130 @@
+#include "voxelcore/CsvText.h"
+
+#include "voxelcore/Error.h"
+
+namespace voxelcore
+{
+
+namespace
+{
+
+[[noreturn]] void
+Refuse(const std::string & where, std::size_t line, const std::string & why)
+{
+  throw InputError(where + ": line " + std::to_string(line) + ": " + why);
+}
+
+} // namespace
+
+std::vector<CsvRow>
+ParseCsv(std::string_view text, const std::string & where, char separator)
+{
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+  {
+    throw InputError(where + ": is UTF-16; save it as CSV in UTF-8");
+  }
+  text.remove_prefix(text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+  std::vector<CsvRow> rows;
+  CsvRow              row;
+  std::string         field;
+  std::size_t         line = 1;
+  bool                quoted = false;    // inside quotes
+  bool                wasQuoted = false; // this field had quotes
+  row.line = 1;
+  const auto endField = [&] {
+    row.fields.push_back(std::move(field));
+    field.clear();
+    wasQuoted = false;
+  };
+  const auto endRow = [&] {
+    const bool empty = row.fields.empty() && field.empty() && !wasQuoted;
+    endField();
+    if (!empty)
+    {
+      rows.push_back(std::move(row));
+    }
+    row = CsvRow();
+  };
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const char c = text[i];
+    const bool crlf = c == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+    if (c == '\0')
+    {
+      Refuse(where, line, "holds a NUL byte; this is no text file");
+    }
+    if (quoted)
+    {
+      line += c == '\n' ? 1 : 0;
+      if (c != '"')
+      {
+        field += c;
+      }
+      else if (i + 1 < text.size() && text[i + 1] == '"')
+      {
+        field += text[++i];
+      }
+      else
+      {
+        quoted = false;
+      }
+    }
+    else if (c == separator)
+    {
+      endField();
+    }
+    else if (c == '\n' || crlf)
+    {
+      i += crlf ? 1 : 0;
+      endRow();
+      row.line = ++line;
+    }
+    else if (wasQuoted)
+    {
+      Refuse(where, line, "text follows a closing quote; write a quote inside a quoted field twice");
+    }
+    else if (c == '"')
+    {
+      if (!field.empty())
+      {
+        Refuse(where, line, "a quote inside a field; quote the whole field and write the quote twice");
+      }
+      quoted = wasQuoted = true;
+    }
+    else
+    {
+      field += c;
+    }
+  }
+  if (quoted)
+  {
+    Refuse(where, row.line, "a quote is opened and never closed");
+  }
+  endRow();
+  return rows;
+}
+
+std::string
+CsvPlainField(std::string_view text)
+{
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos)
+  {
+    return std::string(text);
+  }
+  std::string field = "\"";
+  for (const char c : text)
+  {
+    field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  }
+  return field + "\"";
+}
+
+std::string
+CsvTextField(std::string_view text)
+{
+  const bool formula = !text.empty() && (std::string_view("=+-@").find(text.front()) != std::string_view::npos ||
+                                         static_cast<unsigned char>(text.front()) < 0x20U);
+  return CsvPlainField((formula ? "'" : "") + std::string(text));
+}
+
+} // namespace voxelcore

@@ -1,0 +1,234 @@
+// Inputs of a batch that are no manifests: scans, patterns, folders.
+
+#include "voxelcore/Error.h"
+#include "voxelcore/Manifest.h"
+#include "voxelcore/OutputNames.h"
+
+#include <algorithm>
+#include <array>
+#include <glob.h>
+#include <map>
+#include <set>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+/** A scan and the parts of its path that may go into its id. */
+struct Found
+{
+  fs::path    scan;
+  std::string id;
+};
+
+std::string
+Lower(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text;
+}
+
+bool
+EndsInOneOf(const fs::path & path, std::initializer_list<const char *> endings)
+{
+  const std::string name = Lower(path.filename().string());
+  return std::any_of(endings.begin(), endings.end(), [&](const char * ending) { return name.ends_with(ending); });
+}
+
+bool
+IsVolume(const fs::path & path)
+{
+  return EndsInOneOf(path, { ".nrrd", ".nhdr", ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".mha", ".mhd" });
+}
+
+bool
+IsImage(const fs::path & path)
+{
+  return EndsInOneOf(path, { ".tif", ".tiff", ".png" });
+}
+
+bool
+IsManifest(const fs::path & path)
+{
+  return EndsInOneOf(path, { ".csv", ".tsv" });
+}
+
+/** All scans below a folder, without those below `output`. */
+void
+Walk(const fs::path & folder, const fs::path & output, std::vector<fs::path> & scans)
+{
+  std::error_code notThere;
+  if (fs::equivalent(folder, output, notThere))
+  {
+    return;
+  }
+  std::vector<fs::path> entries;
+  std::vector<fs::path> images;
+  for (const auto & entry : fs::directory_iterator(folder))
+  {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with('.'))
+    {
+      entries.push_back(entry.path());
+    }
+  }
+  std::sort(entries.begin(), entries.end());
+  for (const fs::path & entry : entries)
+  {
+    if (fs::is_directory(entry))
+    {
+      if (!fs::is_symlink(entry)) // a link upwards would never end
+      {
+        Walk(entry, output, scans);
+      }
+    }
+    else if (IsVolume(entry))
+    {
+      scans.push_back(entry);
+    }
+    else if (IsImage(entry))
+    {
+      images.push_back(entry);
+    }
+  }
+  if (images.size() == 1)
+  {
+    scans.push_back(images.front());
+  }
+  else if (!images.empty())
+  {
+    scans.push_back(folder);
+  }
+}
+
+std::vector<fs::path>
+MatchesOf(const fs::path & pattern)
+{
+  glob_t                matches{};
+  std::vector<fs::path> paths;
+  if (glob(pattern.c_str(), 0, nullptr, &matches) == 0)
+  {
+    paths.assign(matches.gl_pathv, matches.gl_pathv + matches.gl_pathc);
+  }
+  globfree(&matches);
+  return paths;
+}
+
+/** Below a folder the folders between belong to the name: "site-2/seg". */
+std::string
+IdBelow(const fs::path & folder, const fs::path & scan)
+{
+  const fs::path between = scan.lexically_relative(folder).parent_path();
+  return (between.empty() || between == "." ? fs::path() : between / "").string() + ScanName(scan);
+}
+
+void
+AddInput(const fs::path & input, const fs::path & output, std::vector<Found> & found)
+{
+  if (fs::is_directory(input))
+  {
+    const fs::path        folder = input.has_filename() ? input : input.parent_path();
+    std::vector<fs::path> scans;
+    Walk(folder, output, scans);
+    if (scans.empty())
+    {
+      throw InputError(input.string() + ": no scan in this folder");
+    }
+    for (const fs::path & scan : scans)
+    {
+      found.push_back({ scan, scan == folder ? ScanName(scan) : IdBelow(folder, scan) });
+    }
+    return;
+  }
+  if (fs::exists(input))
+  {
+    found.push_back({ input, ScanName(input) });
+    return;
+  }
+  const std::vector<fs::path> matches = MatchesOf(input);
+  if (matches.empty())
+  {
+    throw InputError(input.string() + ": no such file, and nothing that matches");
+  }
+  for (const fs::path & match : matches)
+  {
+    found.push_back({ match, ScanName(match) });
+  }
+}
+
+/** Scans of one name get their file's whole name, then the folders above, until they differ. */
+void
+TellApart(std::vector<Found> & found)
+{
+  const auto doubled = [&] {
+    std::map<std::string, std::vector<std::size_t>> byFolder;
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      byFolder[CaseFolder(found[i].id)].push_back(i);
+    }
+    std::vector<std::size_t> all;
+    for (const auto & [folder, which] : byFolder)
+    {
+      if (which.size() > 1)
+      {
+        all.insert(all.end(), which.begin(), which.end());
+      }
+    }
+    return all;
+  };
+  for (const std::size_t i : doubled())
+  {
+    const fs::path before = fs::path(found[i].id).parent_path();
+    found[i].id = (before / found[i].scan.filename()).string();
+  }
+  for (const std::size_t i : doubled())
+  {
+    found[i].id = fs::absolute(found[i].scan).lexically_normal().string();
+  }
+}
+
+} // namespace
+
+std::vector<CohortCase>
+FindCases(const std::vector<fs::path> & inputs, const fs::path & output)
+{
+  std::vector<CohortCase> cases;
+  std::vector<Found>      found;
+  std::set<fs::path>      known;
+  for (const fs::path & input : inputs)
+  {
+    if (IsManifest(input) && !fs::is_directory(input))
+    {
+      const auto rows = ReadManifest(input);
+      cases.insert(cases.end(), rows.begin(), rows.end());
+    }
+    else
+    {
+      AddInput(input, output, found);
+    }
+  }
+  std::erase_if(found,
+                [&](const Found & one) { return !known.insert(fs::absolute(one.scan).lexically_normal()).second; });
+  TellApart(found);
+  for (Found & one : found)
+  {
+    cases.push_back({ one.id, CaseFolder(one.id), one.scan, {} });
+  }
+  std::set<std::string> folders;
+  for (const CohortCase & one : cases)
+  {
+    if (!folders.insert(one.folder).second)
+    {
+      throw InputError("the id '" + one.id + "' occurs twice among the inputs; give ids of your own in a manifest");
+    }
+  }
+  return cases;
+}
+
+} // namespace voxelcore

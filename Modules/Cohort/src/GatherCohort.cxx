@@ -1,0 +1,197 @@
+#include "voxelcore/GatherCohort.h"
+
+#include "CaseLock.h"
+#include "CaseTable.h"
+#include "CohortPage.h"
+#include "voxelcore/CaseRecord.h"
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/OutputTransaction.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <thread>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char * kNoResult =
+  "left no result: not run yet, or killed from outside (by the cluster's limits?) before it could say why";
+
+/** Every case that has a record or should have one, by folder. */
+std::map<std::string, CaseRecord>
+FindRecords(const fs::path & folder, const std::vector<CohortCase> & expected)
+{
+  std::map<std::string, CaseRecord> records;
+  for (const CohortCase & one : expected)
+  {
+    CaseRecord & record = records[one.folder];
+    record.id = one.id;
+    record.scan = one.scan.string();
+    record.reason = kNoResult;
+  }
+  std::error_code error;
+  for (const auto & entry : fs::directory_iterator(folder, error))
+  {
+    if (!entry.path().filename().string().starts_with("sub-") || !fs::is_directory(entry.symlink_status()))
+    {
+      continue;
+    }
+    if (auto record = ReadCaseRecord(entry.path()))
+    {
+      records[entry.path().filename().string()] = std::move(*record);
+    }
+  }
+  if (error)
+  {
+    throw InputError(folder.string() + ": cannot read: " + error.message());
+  }
+  if (records.empty())
+  {
+    throw InputError(folder.string() + ": holds no case of 'voxelcore batch'");
+  }
+  return records;
+}
+
+std::string
+Joined(const std::vector<std::string> & lines)
+{
+  std::string text;
+  for (const std::string & line : lines)
+  {
+    text += (text.empty() ? "" : " | ") + line;
+  }
+  return text;
+}
+
+/** None when it is missing or damaged. */
+Json
+ReadReport(const fs::path & path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return Json::parse(file, nullptr, false);
+}
+
+Row
+CaseRow(const std::string & folder, const CaseRecord & record)
+{
+  Row row;
+  row["id"] = record.id;
+  row["folder"] = folder;
+  row["status"] = record.done ? "done" : "failed";
+  row["reason"] = record.reason;
+  row["warnings"] = Joined(record.warnings);
+  row["scan"] = record.scan;
+  return row;
+}
+
+Row
+LabelRow(const std::string & folder, const CaseRecord & record, const Json & label)
+{
+  Row row;
+  row["id"] = record.id;
+  row["folder"] = folder;
+  Flatten(label, "", { "skeleton_cuts" }, row);
+  if (label.contains("skeleton"))
+  {
+    row["skeleton_cuts"] = label.at("skeleton").at("cuts").size();
+  }
+  return row;
+}
+
+std::string
+Description()
+{
+  Json json;
+  json["Name"] = "Medial surfaces and curve skeletons";
+  json["BIDSVersion"] = "1.8.0";
+  json["DatasetType"] = "derivative";
+  json["GeneratedBy"] = Json::array({ { { "Name", "VoxelCore" }, { "Version", VoxelCoreVersion() } } });
+  return json.dump(2) + "\n";
+}
+
+/** Two batches that end at once write one after the other. */
+CaseLock
+WaitForTables(const fs::path & folder, const ProgressCallback & progress)
+{
+  using namespace std::chrono_literals;
+  for (;;)
+  {
+    if (auto lock = CaseLock::Try(folder / ".voxelcore" / "tables.lock"))
+    {
+      return std::move(*lock);
+    }
+    ReportProgress(progress, "waiting for another batch's tables", 1);
+    std::this_thread::sleep_for(50ms);
+  }
+}
+
+} // namespace
+
+CohortSummary
+GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, const JobContext & context)
+{
+  CohortSummary         summary;
+  std::vector<Row>      caseRows;
+  std::vector<Row>      labelRows;
+  std::vector<PageCase> pageCases;
+  if (!fs::is_directory(folder))
+  {
+    throw InputError(folder.string() + ": no such folder");
+  }
+  const CaseLock lock = WaitForTables(folder, context.progress);
+  for (auto & [name, record] : FindRecords(folder, expected))
+  {
+    Json report = record.done ? ReadReport(folder / name / (name + "_report.json")) : Json::object();
+    if (record.done && (!report.is_object() || !report.contains("labels")))
+    {
+      record.done = false;
+      record.reason = "its report is missing or damaged; run the batch again";
+      report = Json::object();
+    }
+    Row row = CaseRow(name, record);
+    if (record.done)
+    {
+      row["labels"] = report["labels"].size();
+      for (const Json & label : report["labels"])
+      {
+        labelRows.push_back(LabelRow(name, record, label));
+      }
+      Flatten(report, "", { "labels" }, row);
+    }
+    else
+    {
+      summary.failed.push_back({ record.id, record.reason });
+    }
+    ++summary.cases;
+    caseRows.push_back(std::move(row));
+    pageCases.push_back({ name, std::move(record), {} });
+  }
+  FindOutliers(labelRows);
+  std::size_t at = 0;
+  for (const Row & row : labelRows)
+  {
+    while (pageCases[at].folder != row.at("folder").get_ref<const std::string &>())
+    {
+      ++at;
+    }
+    pageCases[at].labels.push_back(row);
+  }
+  OutputTransaction transaction(true, context.temporaries);
+  WriteTextFile(transaction.Stage(folder / "cases.csv"), CsvTable(caseRows));
+  WriteTextFile(transaction.Stage(folder / "labels.csv"), CsvTable(labelRows));
+  WriteTextFile(transaction.Stage(folder / "dataset_description.json"), Description());
+  WriteTextFile(transaction.Stage(folder / "index.html"), CohortPage(pageCases));
+  transaction.Commit();
+  return summary;
+}
+
+} // namespace voxelcore

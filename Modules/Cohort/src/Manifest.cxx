@@ -1,0 +1,243 @@
+#include "voxelcore/Manifest.h"
+
+#include "voxelcore/CsvText.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/Sha256.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <span>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+bool
+IsLetterOrDigit(char c)
+{
+  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+std::string
+DigestOf(const std::string & text)
+{
+  Sha256 digest;
+  digest.Update(std::as_bytes(std::span(text)));
+  return digest.Finish();
+}
+
+std::string
+ReadText(const fs::path & path)
+{
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string   text{ std::istreambuf_iterator<char>(file), {} };
+  if (!file)
+  {
+    throw InputError(path.string() + ": cannot read: " + std::strerror(errno != 0 ? errno : EIO));
+  }
+  return text;
+}
+
+enum class Column
+{
+  Id,
+  Scan,
+  Note,
+  Option
+};
+
+struct ColumnRole
+{
+  Column            kind = Column::Note;
+  const Parameter * option = nullptr;
+};
+
+std::string
+Lower(std::string text)
+{
+  for (char & c : text)
+  {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c == '_' ? '-' : c;
+  }
+  return text;
+}
+
+std::string
+Trimmed(const std::string & text)
+{
+  const auto first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/** Options that say how a batch as a whole is run. */
+bool
+IsOfTheBatch(std::string_view name)
+{
+  return name == "force" || name == "progress" || name == "quiet";
+}
+
+ColumnRole
+RoleOf(const std::string & head, const std::string & where)
+{
+  const std::string name = Lower(Trimmed(head));
+  if (name == "id" || name == "participant-id")
+  {
+    return { Column::Id, nullptr };
+  }
+  if (name == "scan" || name == "note")
+  {
+    return { name == "scan" ? Column::Scan : Column::Note, nullptr };
+  }
+  std::string known;
+  for (const Parameter & parameter : Parameters())
+  {
+    // What the batch has in common with `core` describes a case.
+    if (BelongsTo(parameter, CommandId::Batch) && BelongsTo(parameter, CommandId::Core) &&
+        !IsOfTheBatch(parameter.name))
+    {
+      if (parameter.name == name)
+      {
+        return { Column::Option, &parameter };
+      }
+      known += " " + std::string(parameter.name);
+    }
+  }
+  throw InputError(where + ": column '" + head + "' is not known; there are id, scan, note and the options" + known);
+}
+
+std::vector<ColumnRole>
+RolesOf(const CsvRow & head, const std::string & where)
+{
+  std::vector<ColumnRole>    roles;
+  std::map<std::string, int> seen;
+  for (const std::string & name : head.fields)
+  {
+    roles.push_back(RoleOf(name, where));
+    const ColumnRole & role = roles.back();
+    const std::string  key = role.kind == Column::Option ? std::string(role.option->name)
+                             : role.kind == Column::Id   ? "id"
+                             : role.kind == Column::Scan ? "scan"
+                                                         : "";
+    if (!key.empty() && ++seen[key] > 1)
+    {
+      throw InputError(where + ": column '" + key + "' is there twice");
+    }
+  }
+  for (const char * needed : { "id", "scan" })
+  {
+    if (!seen.contains(needed))
+    {
+      throw InputError(where + ": has no column '" + needed +
+                       "'; the first line must name the columns, such as id,scan,lambda");
+    }
+  }
+  return roles;
+}
+
+/** A field of a flag; empty text for "not given". */
+std::string
+FlagValue(const std::string & text, const std::string & where)
+{
+  const std::string word = Lower(text);
+  if (word == "yes" || word == "true" || word == "1")
+  {
+    return "true";
+  }
+  if (word == "no" || word == "false" || word == "0")
+  {
+    return "false";
+  }
+  throw InputError(where + ": '" + text + "': expected yes or no");
+}
+
+CohortCase
+CaseFrom(const CsvRow & row, const std::vector<ColumnRole> & roles, const fs::path & folder, const std::string & where)
+{
+  CohortCase one;
+  if (row.fields.size() != roles.size())
+  {
+    throw InputError(where + ": has " + std::to_string(row.fields.size()) + " fields, the first line " +
+                     std::to_string(roles.size()));
+  }
+  for (std::size_t i = 0; i < roles.size(); ++i)
+  {
+    const std::string text = Trimmed(row.fields[i]);
+    if (roles[i].kind == Column::Id)
+    {
+      one.id = text;
+    }
+    else if (roles[i].kind == Column::Scan)
+    {
+      one.scan = text.empty() ? fs::path() : (folder / text).lexically_normal();
+    }
+    else if (roles[i].kind == Column::Option && !text.empty())
+    {
+      const Parameter & option = *roles[i].option;
+      one.values[std::string(option.name)] =
+        option.kind == ParameterKind::Flag ? FlagValue(text, where + ": " + std::string(option.name)) : text;
+    }
+  }
+  if (one.id.empty() || one.scan.empty())
+  {
+    throw InputError(where + ": the " + (one.id.empty() ? "id" : "scan") + " is empty");
+  }
+  one.folder = CaseFolder(one.id);
+  return one;
+}
+
+} // namespace
+
+std::string
+CaseFolder(const std::string & id)
+{
+  constexpr std::size_t kLongest = 64;
+  const std::string     own = id.starts_with("sub-") && id.size() > 4 ? id.substr(4) : id;
+  std::string           kept;
+  std::copy_if(own.begin(), own.end(), std::back_inserter(kept), IsLetterOrDigit);
+  if (kept == own && own.size() <= kLongest)
+  {
+    return "sub-" + own;
+  }
+  return "sub-" + kept.substr(0, kLongest) + "x" + DigestOf(own).substr(0, 8);
+}
+
+std::vector<CohortCase>
+ReadManifest(const fs::path & manifest)
+{
+  const std::string name = manifest.string();
+  const auto rows = ParseCsv(ReadText(manifest), name, Lower(manifest.extension().string()) == ".tsv" ? '\t' : ',');
+  if (rows.empty())
+  {
+    throw InputError(name + ": is empty; the first line must name the columns, such as id,scan,lambda");
+  }
+  const auto                         roles = RolesOf(rows.front(), name);
+  std::vector<CohortCase>            cases;
+  std::map<std::string, std::size_t> lines;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+  {
+    const std::string where = name + ": line " + std::to_string(rows[i].line);
+    cases.push_back(CaseFrom(rows[i], roles, manifest.parent_path(), where));
+    const auto [first, fresh] = lines.emplace(cases.back().folder, rows[i].line);
+    if (!fresh)
+    {
+      throw InputError(where + ": the id '" + cases.back().id + "' is on line " + std::to_string(first->second) +
+                       " already");
+    }
+  }
+  if (cases.empty())
+  {
+    throw InputError(name + ": has no row below its first line");
+  }
+  return cases;
+}
+
+} // namespace voxelcore

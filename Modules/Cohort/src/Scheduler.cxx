@@ -1,0 +1,359 @@
+#include "Scheduler.h"
+
+#include "voxelcore/CaseRecord.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/Sha256.h"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <poll.h>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr int    kInterrupted = 130;
+constexpr int    kPollMilliseconds = 200;
+constexpr double kMegabytesPerGigabyte = 1000;
+
+std::string
+ClockText(double seconds)
+{
+  char       text[32];
+  const auto whole = static_cast<long>(std::ceil(seconds));
+  if (whole < 3600)
+  {
+    std::snprintf(text, sizeof(text), "%ld:%02ld", whole / 60, whole % 60);
+  }
+  else
+  {
+    std::snprintf(text, sizeof(text), "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  }
+  return text;
+}
+
+std::string
+MemoryText(double megabytes)
+{
+  char text[32];
+  if (megabytes < kMegabytesPerGigabyte)
+  {
+    std::snprintf(text, sizeof(text), "%.0f MB", megabytes);
+  }
+  else
+  {
+    std::snprintf(text, sizeof(text), "%.1f GB", megabytes / kMegabytesPerGigabyte);
+  }
+  return text;
+}
+
+std::vector<std::string>
+LinesOf(const std::string & messages)
+{
+  constexpr std::string_view name = "voxelcore: ";
+  std::vector<std::string>   lines;
+  for (std::size_t at = 0; at < messages.size();)
+  {
+    const std::size_t end = std::min(messages.find('\n', at), messages.size());
+    std::string       line = messages.substr(at, end - at);
+    line.erase(0, line.starts_with(name) ? name.size() : 0);
+    if (!line.empty())
+    {
+      lines.push_back(std::move(line));
+    }
+    at = end + 1;
+  }
+  return lines;
+}
+
+/** Empty when the process did its work. */
+std::string
+ReasonOf(const ChildEnd & end, const std::string & killed)
+{
+  if (!killed.empty())
+  {
+    return killed;
+  }
+  if (end.signal == SIGKILL)
+  {
+    return "killed from outside (signal 9), most likely for want of memory; run fewer --jobs, or on a larger machine";
+  }
+  if (end.signal != 0)
+  {
+    return "crashed with signal " + std::to_string(end.signal);
+  }
+  if (end.code == 0)
+  {
+    return "";
+  }
+  const auto lines = LinesOf(end.messages);
+  return lines.empty() ? "ended with exit code " + std::to_string(end.code) : lines.back();
+}
+
+/** The digest of the scan that the case has seen. */
+std::string
+DigestInReport(const fs::path & folder)
+{
+  std::ifstream file(folder / (folder.filename().string() + "_report.json"));
+  try
+  {
+    return nlohmann::json::parse(file).at("input").at("sha256").get<std::string>();
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    return "";
+  }
+}
+
+} // namespace
+
+Scheduler::Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, ProgressCallback progress)
+  : m_Options(options)
+  , m_Jobs(std::move(jobs))
+  , m_Progress(std::move(progress))
+{
+  for (std::size_t job = 0; job < m_Jobs.size(); ++job)
+  {
+    m_Waiting.push_back(job);
+  }
+  m_Result.cases = m_Jobs.size();
+}
+
+BatchResult
+Scheduler::Run()
+{
+  Report();
+  while (m_Finished < m_Jobs.size())
+  {
+    StartWhatCan();
+    Wait();
+    KillLateOnes();
+    GrantMemory();
+    Report();
+  }
+  m_Result.seconds = std::chrono::duration<double>(Clock::now() - m_Start).count();
+  return std::move(m_Result);
+}
+
+void
+Scheduler::StartWhatCan()
+{
+  while (m_Running.size() < static_cast<std::size_t>(m_Options.jobs) && !m_Waiting.empty())
+  {
+    const std::size_t job = m_Waiting.front();
+    m_Waiting.pop_front();
+    if (!Begin(job))
+    {
+      m_Elsewhere.push_back(job);
+    }
+    Report();
+  }
+}
+
+bool
+Scheduler::Begin(std::size_t job)
+{
+  const CaseJob & one = m_Jobs[job];
+  auto            lock = CaseLock::Try(m_Options.output / ".voxelcore" / (one.one.folder + ".lock"));
+  if (!lock)
+  {
+    return false;
+  }
+  std::string key;
+  try
+  {
+    key = CaseKey(one.one.scan, one.options);
+  }
+  catch (const InputError &)
+  {
+    key.clear(); // the case itself will say what is wrong with its scan
+  }
+  std::error_code ignored;
+  if (fs::is_symlink(one.folder))
+  {
+    throw OutputError(one.folder.string() +
+                      ": is a link; results are written below the output folder alone; remove it");
+  }
+  fs::create_directory(one.folder, ignored);
+  if (!fs::is_directory(one.folder))
+  {
+    throw OutputError(one.folder.string() + ": cannot make this folder");
+  }
+  if (!m_Options.force && !key.empty() && IsDone(one.folder, key))
+  {
+    ++m_Finished;
+    ++m_Result.kept;
+    return true;
+  }
+  ClearCase(one.folder);
+  const int descriptor = lock->Descriptor();
+  m_Running.push_back({ job, std::move(*lock), std::move(key), ChildProcess(one.arguments, descriptor) });
+  return true;
+}
+
+void
+Scheduler::Wait()
+{
+  std::vector<pollfd> watched;
+  for (const Running & running : m_Running)
+  {
+    watched.push_back({ running.process.EndDescriptor(), POLLIN, 0 });
+    watched.push_back({ running.process.RequestDescriptor(), POLLIN, 0 });
+  }
+  if (m_Running.empty() && m_Elsewhere.empty())
+  {
+    return;
+  }
+  poll(watched.data(), watched.size(), kPollMilliseconds);
+  auto watch = watched.begin();
+  for (auto running = m_Running.begin(); running != m_Running.end();)
+  {
+    const bool ended = watch++->revents != 0;
+    const bool asks = watch++->revents != 0;
+    if (asks)
+    {
+      if (const auto wanted = running->process.TakeRequest())
+      {
+        running->wanted = std::max(*wanted, 1.0);
+        running->seconds = std::chrono::duration<double>(Clock::now() - running->start).count();
+      }
+    }
+    if (ended)
+    {
+      Finish(*running);
+    }
+    running = ended ? m_Running.erase(running) : std::next(running);
+  }
+  // Those of others are looked at again when there is room, so that ours do not wait for them.
+  if (m_Waiting.empty() && m_Running.size() < static_cast<std::size_t>(m_Options.jobs))
+  {
+    m_Waiting.swap(m_Elsewhere);
+  }
+}
+
+void
+Scheduler::GrantMemory()
+{
+  double used = 0;
+  for (const Running & running : m_Running)
+  {
+    used += running.granted;
+  }
+  for (Running & running : m_Running)
+  {
+    if (running.wanted == 0 || !running.killed.empty())
+    {
+      continue;
+    }
+    if (running.wanted > m_Options.memoryMb)
+    {
+      running.killed = "needs about " + MemoryText(running.wanted) + " of memory, more than the " +
+                       MemoryText(m_Options.memoryMb) + " there are; give more --memory, single --labels, or a --crop";
+      running.process.Kill();
+    }
+    else if (used + running.wanted <= m_Options.memoryMb)
+    {
+      running.granted = std::exchange(running.wanted, 0);
+      used += running.granted;
+      running.start = Clock::now();
+      running.process.Grant();
+    }
+  }
+}
+
+void
+Scheduler::KillLateOnes()
+{
+  for (Running & running : m_Running)
+  {
+    const double now = std::chrono::duration<double>(Clock::now() - running.start).count();
+    const double worked = running.wanted > 0 ? running.seconds : running.seconds + now;
+    if (m_Options.timeout > 0 && worked > m_Options.timeout && running.killed.empty())
+    {
+      running.killed = "took longer than --timeout " + ClockText(m_Options.timeout);
+      running.process.Kill();
+    }
+  }
+}
+
+void
+Scheduler::Finish(Running & running)
+{
+  const CaseJob & job = m_Jobs[running.job];
+  const ChildEnd  end = running.process.Collect();
+  std::string     reason = ReasonOf(end, running.killed);
+  if (end.code == kInterrupted)
+  {
+    throw Cancelled(); // the terminal's interrupt reaches the cases, too
+  }
+  ++m_Worked;
+  if (reason.empty())
+  {
+    CaseRecord record;
+    record.id = job.one.id;
+    record.scan = job.one.scan.string();
+    record.done = true;
+    record.seconds = end.seconds;
+    record.warnings = LinesOf(end.messages);
+    record.outputs = ListOutputs(job.folder);
+    record.key = running.key;
+    const std::string seen = DigestInReport(job.folder);
+    if (seen.empty())
+    {
+      reason = "ended well but left no report";
+    }
+    else if (seen != ScanSha256(job.one.scan) || running.key != CaseKey(job.one.scan, job.options))
+    {
+      reason = job.one.scan.string() + ": changed while the case ran; run the batch again";
+    }
+    else
+    {
+      WriteCaseRecord(job.folder, record);
+      ++m_Finished;
+      return;
+    }
+  }
+  Fail(running.job, running.key, reason, end.seconds);
+}
+
+void
+Scheduler::Fail(std::size_t job, const std::string & key, const std::string & reason, double seconds)
+{
+  const CaseJob & one = m_Jobs[job];
+  ClearCase(one.folder); // a case killed in its last moment may have given some files their names
+  CaseRecord record;
+  record.id = one.one.id;
+  record.scan = one.one.scan.string();
+  record.key = key;
+  record.reason = reason;
+  record.seconds = seconds;
+  WriteCaseRecord(one.folder, record);
+  m_Result.failed.push_back({ one.one.id, reason });
+  ++m_Finished;
+}
+
+void
+Scheduler::Report()
+{
+  std::string text = std::to_string(m_Finished - m_Result.failed.size()) + " of " + std::to_string(m_Jobs.size()) +
+                     " done, " + std::to_string(m_Running.size()) + " running, " +
+                     std::to_string(m_Result.failed.size()) + " failed";
+  if (m_Worked > 0 && m_Finished < m_Jobs.size())
+  {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - m_Start).count();
+    const auto   left = static_cast<double>(m_Jobs.size() - m_Finished);
+    text += ", " + ClockText(elapsed / static_cast<double>(m_Worked) * left) + " left";
+  }
+  ReportProgress(m_Progress, text, static_cast<double>(m_Finished) / static_cast<double>(m_Jobs.size()));
+}
+
+} // namespace voxelcore

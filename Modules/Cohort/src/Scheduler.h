@@ -1,0 +1,81 @@
+#pragma once
+// Runs cases side by side within limits of memory and time.
+
+#include "CaseLock.h"
+#include "ChildProcess.h"
+#include "voxelcore/BatchJob.h"
+
+#include <chrono>
+#include <deque>
+#include <list>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** A case with all that its process gets. */
+struct CaseJob
+{
+  CohortCase               one;
+  std::filesystem::path    folder;
+  std::vector<std::string> arguments; ///< of its process
+  std::string              options;   ///< those that change the result, for CaseKey()
+};
+
+class Scheduler
+{
+public:
+  Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, ProgressCallback progress);
+
+  /** Works until every case is done or has failed. \throws Cancelled, OutputError */
+  BatchResult
+  Run();
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Running
+  {
+    std::size_t       job;
+    CaseLock          lock;
+    std::string       key;
+    ChildProcess      process;
+    Clock::time_point start = Clock::now();
+    double            seconds = 0; ///< it has worked before `start`
+    double            wanted = 0;  ///< MB it asks for
+    double            granted = 0; ///< MB it got
+    std::string       killed = {}; ///< why it was
+  };
+
+  void
+  StartWhatCan();
+  /** False when another process has the case. */
+  bool
+  Begin(std::size_t job);
+  void
+  Wait();
+  void
+  GrantMemory();
+  void
+  KillLateOnes();
+  void
+  Finish(Running & running);
+  void
+  Fail(std::size_t job, const std::string & key, const std::string & reason, double seconds);
+  void
+  Report();
+
+  const BatchOptions &    m_Options;
+  std::vector<CaseJob>    m_Jobs;
+  ProgressCallback        m_Progress;
+  std::deque<std::size_t> m_Waiting;
+  std::deque<std::size_t> m_Elsewhere; ///< another process works on them
+  std::list<Running>      m_Running;
+  BatchResult             m_Result;
+  std::size_t             m_Finished = 0; ///< done or failed
+  std::size_t             m_Worked = 0;   ///< of these by processes of ours
+  Clock::time_point       m_Start = Clock::now();
+};
+
+} // namespace voxelcore

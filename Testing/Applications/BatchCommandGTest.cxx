@@ -1,0 +1,218 @@
+// `voxelcore batch` as a user runs it.
+
+#include "CohortFolder.h"
+#include "Pipeline/TemporaryFolder.h"
+#include "Program.h"
+#include "Scans.h"
+
+#include <csignal>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+
+class BatchCommand : public ::testing::Test
+{
+protected:
+  ProgramResult
+  Batch(const std::vector<std::string> & more, const Watcher & watcher = {})
+  {
+    std::vector<std::string> arguments{ "batch", "-o", m_Folder / "out" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunProgram(arguments, {}, watcher);
+  }
+  Json
+  Record(const std::string & folder)
+  {
+    return Json::parse(ReadAll(m_Folder / ("out/" + folder + "/" + folder + "_case.json")));
+  }
+  TemporaryFolder m_Folder;
+};
+
+TEST_F(BatchCommand, EachCaseGetsItsFolderAndAFailingOneCostsOnlyItself)
+{
+  WriteTinyScans(m_Folder.Path(), 3);
+  WriteAll(m_Folder / "bad.nrrd", "this is no scan");
+  const ProgramResult result = Batch({ m_Folder.Path() });
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.output, HasSubstr("3 of 4 cases done"));
+  EXPECT_THAT(result.output, HasSubstr("failed: bad: "));
+  EXPECT_THAT(result.error, HasSubstr("1 of 4 cases failed"));
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1);
+  for (const char * file : { "medial.vtp", "skeleton.vtp", "skeleton.swc", "report.json", "thumbnail.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(m_Folder / ("out/sub-s1/sub-s1_" + std::string(file)))) << file;
+  }
+  EXPECT_EQ(Record("sub-s1")["status"], "done");
+  EXPECT_EQ(Record("sub-bad")["status"], "failed");
+  EXPECT_THAT(Record("sub-bad")["reason"], HasSubstr("NRRD"));
+  EXPECT_THAT(ReadAll(m_Folder / "out/cases.csv"), HasSubstr("bad,sub-bad,failed,"));
+  EXPECT_THAT(ReadAll(m_Folder / "out/dataset_description.json"), HasSubstr("derivative"));
+  EXPECT_FALSE(std::filesystem::exists(m_Folder / "out/.voxelcore"));
+}
+
+TEST_F(BatchCommand, OnlyWhatIsNotDoneIsDone)
+{
+  WriteTinyScans(m_Folder.Path(), 3);
+  ASSERT_EQ(Batch({ m_Folder.Path() }).code, 0);
+  const auto before = FolderContents(m_Folder / "out", false);
+  EXPECT_THAT(Batch({ m_Folder.Path() }).output, HasSubstr("3 of them before"));
+  EXPECT_EQ(FolderContents(m_Folder / "out", false), before); // also the times: nothing was done again
+  WriteAll(m_Folder / "out/sub-s1/sub-s1_medial.vtp", "damaged");
+  WriteTinyScan(m_Folder / "s2.nrrd", 77);
+  EXPECT_THAT(Batch({ m_Folder.Path() }).output, HasSubstr("1 of them before"));
+  EXPECT_THAT(Batch({ m_Folder.Path() }).output, HasSubstr("3 of them before"));
+  EXPECT_EQ(Batch({ m_Folder.Path(), "--lambda", "2vox" }).output, "3 of 3 cases done\n");
+  EXPECT_EQ(Batch({ m_Folder.Path(), "--lambda", "2vox", "--force" }).output, "3 of 3 cases done\n");
+  EXPECT_EQ(Json::parse(ReadAll(m_Folder / "out/sub-s1/sub-s1_report.json"))["parameters"]["lambda"][0], "2vox");
+}
+
+TEST_F(BatchCommand, ColumnsOfTheManifestComeBeforeTheOptionsOfTheBatch)
+{
+  WriteTinyScans(m_Folder.Path(), 2);
+  WriteAll(m_Folder / "m.csv",
+           "id,scan,lambda,with-skeleton\na,s0.nrrd,0,no\nb,s1.nrrd,,\nc,s1.nrrd,-1mm,\nd,s9.nrrd,,\n");
+  const ProgramResult result = Batch({ m_Folder / "m.csv", "--lambda", "1vox" });
+  EXPECT_EQ(result.code, 1);
+  const auto report = [&](const std::string & id) {
+    return Json::parse(ReadAll(m_Folder / ("out/sub-" + id + "/sub-" + id + "_report.json")));
+  };
+  EXPECT_EQ(report("a")["parameters"]["lambda"][0], "0");
+  EXPECT_FALSE(report("a").contains("skeleton"));
+  EXPECT_EQ(report("b")["parameters"]["lambda"][0], "1vox");
+  EXPECT_TRUE(report("b").contains("skeleton"));
+  EXPECT_THAT(Record("sub-c")["reason"], HasSubstr("lambda"));
+  EXPECT_THAT(Record("sub-d")["reason"], HasSubstr("s9.nrrd"));
+}
+
+TEST_F(BatchCommand, WhatHangsOrWantsTooMuchMemoryIsListed)
+{
+  ASSERT_EQ(RunProgram({ "phantom", "gyroid", "--size", "96", "-o", m_Folder / "large.nrrd" }).code, 0);
+  WriteTinyScan(m_Folder / "small.nrrd", 1);
+  const ProgramResult late = Batch({ m_Folder.Path(), "--timeout", "0.4s", "--jobs", "1" });
+  EXPECT_THAT(late.output, HasSubstr("failed: large: took longer than --timeout"));
+  EXPECT_THAT(late.output, HasSubstr("1 of 2 cases done"));
+  const ProgramResult poor = Batch({ m_Folder.Path(), "--memory", "100MB" });
+  EXPECT_THAT(poor.output, HasSubstr("failed: large: needs about"));
+  EXPECT_THAT(poor.output, HasSubstr("1 of 2 cases done, 1 of them before"));
+}
+
+TEST_F(BatchCommand, MemoryDecidesHowManyRunSideBySide)
+{
+  WriteTinyScans(m_Folder.Path(), 4);
+  // Room for one case at a time: they wait for each other, and all are done.
+  EXPECT_EQ(Batch({ m_Folder.Path(), "--memory", "60MB", "--jobs", "4" }).code, 0);
+}
+
+TEST_F(BatchCommand, AnInterruptKeepsWhatIsDoneAndLeavesNoCaseRunning)
+{
+  WriteTinyScans(m_Folder.Path(), 60);
+  bool                sent = false;
+  const ProgramResult result =
+    Batch({ m_Folder.Path(), "--progress", "plain" }, [&](pid_t process, const std::string & error) {
+      if (!sent && error.find("1 of 60 done") != std::string::npos)
+      {
+        sent = true;
+        kill(process, SIGINT);
+      }
+    });
+  EXPECT_EQ(result.code, 130);
+  EXPECT_THAT(result.error, HasSubstr("what is done stays"));
+  EXPECT_THAT(Batch({ m_Folder.Path() }).output, HasSubstr("of them before"));
+}
+
+TEST_F(BatchCommand, OneCaseAtATimeAndGatheredGiveTheSameFolder)
+{
+  WriteTinyScans(m_Folder.Path(), 3);
+  WriteAll(m_Folder / "m.csv", "id,scan\na,s0.nrrd\nb,s1.nrrd\nc,none.nrrd\n");
+  EXPECT_EQ(Batch({ m_Folder / "m.csv" }).code, 1);
+  const auto whole = FolderContents(m_Folder / "out");
+  std::filesystem::remove_all(m_Folder / "out");
+  EXPECT_THAT(Batch({ m_Folder / "m.csv", "--list" }).output, HasSubstr("3\tsub-c\tc\n"));
+  EXPECT_EQ(Batch({ m_Folder / "m.csv", "--case", "1" }).code, 0);
+  EXPECT_EQ(Batch({ m_Folder / "m.csv", "--case", "2" }).code, 0);
+  const ProgramResult early = Batch({ m_Folder / "m.csv", "--gather" });
+  EXPECT_EQ(early.code, 1);
+  EXPECT_THAT(early.output, HasSubstr("failed: c: left no result"));
+  EXPECT_EQ(Batch({ m_Folder / "m.csv", "--case", "3" }).code, 1);
+  EXPECT_EQ(Batch({ "--gather" }).code, 1);
+  EXPECT_EQ(FolderContents(m_Folder / "out"), whole);
+  ExpectRefusal(Batch({ m_Folder / "m.csv", "--case", "4" }), 2, { "--case 4", "1 to 3" });
+}
+
+TEST_F(BatchCommand, TwoBatchesOnOneFolderDoNotHarmEachOther)
+{
+  WriteTinyScans(m_Folder.Path(), 24);
+  ASSERT_EQ(Batch({ m_Folder.Path() }).code, 0);
+  const auto alone = FolderContents(m_Folder / "out");
+  std::filesystem::remove_all(m_Folder / "out");
+  ProgramResult other;
+  std::thread   second([&] { other = Batch({ m_Folder.Path() }); });
+  const auto    first = Batch({ m_Folder.Path() });
+  second.join();
+  EXPECT_EQ(first.code, 0) << first.error;
+  EXPECT_EQ(other.code, 0) << other.error;
+  EXPECT_EQ(FolderContents(m_Folder / "out"), alone);
+}
+
+TEST_F(BatchCommand, HostileIdsStayInTheOutputFolder)
+{
+  WriteTinyScans(m_Folder.Path(), 1);
+  const std::vector<std::string> ids{ "../../up",           "..",       "/etc/x", "a b",        "\"q\"",         "日本",
+                                      "=cmd|' /C calc'!A0", "<b>x</b>", "-o",     "a;rm -rf .", "$(touch pwned)" };
+  std::string                    text = "\xEF\xBB\xBFid,scan\r\n";
+  for (const std::string & id : ids)
+  {
+    std::string field;
+    for (const char c : id)
+    {
+      field += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    text += "\"" + field + "\",s0.nrrd\r\n";
+  }
+  WriteAll(m_Folder / "m.csv", text);
+  const auto before = m_Folder.Names();
+  EXPECT_EQ(Batch({ m_Folder / "m.csv", "--no-skeleton" }).code, 0);
+  auto after = m_Folder.Names();
+  EXPECT_EQ(after.erase("out"), 1U);
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(m_Folder / "out"), {}), 4 + std::ptrdiff_t(ids.size()));
+  const std::string table = ReadAll(m_Folder / "out/cases.csv");
+  EXPECT_THAT(table, HasSubstr("\n'=cmd|"));
+  EXPECT_THAT(table, HasSubstr("日本"));
+  EXPECT_THAT(ReadAll(m_Folder / "out/index.html"), ::testing::Not(HasSubstr("<b>x")));
+}
+
+TEST_F(BatchCommand, ALinkInTheWayIsNotFollowed)
+{
+  WriteTinyScans(m_Folder.Path(), 1);
+  std::filesystem::create_directory(m_Folder / "out");
+  std::filesystem::create_directory(m_Folder / "elsewhere");
+  std::filesystem::create_directory_symlink(m_Folder / "elsewhere", m_Folder / "out/sub-s0");
+  ExpectRefusal(Batch({ m_Folder / "s0.nrrd" }), 1, { "sub-s0", "link" });
+  EXPECT_TRUE(std::filesystem::is_empty(m_Folder / "elsewhere"));
+}
+
+TEST_F(BatchCommand, WrongUseIsSaidInOneLine)
+{
+  WriteAll(m_Folder / "m.csv", "id,scan\na,b\na,c\n");
+  WriteTinyScans(m_Folder.Path(), 1);
+  ExpectRefusal(Batch({}), 2, { "INPUT" });
+  ExpectRefusal(Batch({ m_Folder / "none" }), 3, { "none" });
+  ExpectRefusal(Batch({ m_Folder / "m.csv" }), 3, { "m.csv", "line 3", "line 2" });
+  ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--memory", "lots" }), 2, { "--memory lots", "GB" });
+  ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--timeout", "-3" }), 2, { "--timeout -3" });
+  ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--jobs", "x" }), 2, { "--jobs x" });
+  EXPECT_FALSE(std::filesystem::exists(m_Folder / "out"));
+}
+
+} // namespace
+} // namespace voxelcore::testing

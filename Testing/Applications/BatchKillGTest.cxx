@@ -1,0 +1,99 @@
+// A batch that is killed again and again ends with what an undisturbed one gives.
+
+#include "CohortFolder.h"
+#include "Program.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iostream>
+#include <random>
+#include <thread>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+/** Processes whose parent is `process`. */
+std::vector<pid_t>
+ChildrenOf(pid_t process)
+{
+  std::vector<pid_t> children;
+  std::ifstream      file("/proc/" + std::to_string(process) + "/task/" + std::to_string(process) + "/children");
+  for (pid_t child = 0; file >> child;)
+  {
+    children.push_back(child);
+  }
+  return children;
+}
+
+/** Kills the batch, or one of its cases, `kills` times at random moments; returns how often it hit. */
+int
+KillAtRandom(const std::vector<std::string> & arguments, int kills, unsigned seed)
+{
+  std::mt19937 random(seed);
+  int          hits = 0;
+  for (int i = 0; i < kills; ++i)
+  {
+    const auto delay = std::chrono::milliseconds(random() % 400);
+    const bool child = random() % 4 == 0;
+    const auto start = std::chrono::steady_clock::now();
+    bool       sent = false;
+    const auto result = RunProgram(arguments, {}, [&](pid_t process, const std::string &) {
+      if (!sent && std::chrono::steady_clock::now() - start >= delay)
+      {
+        const auto children = ChildrenOf(process);
+        const bool hitChild = child && !children.empty();
+        sent = kill(hitChild ? children[random() % children.size()] : process, SIGKILL) == 0;
+        if (hitChild)
+        {
+          std::this_thread::sleep_for(std::chrono::milliseconds(random() % 30));
+          kill(process, SIGKILL);
+        }
+      }
+    });
+    hits += result.signal == SIGKILL ? 1 : 0;
+  }
+  return hits;
+}
+
+void
+ExpectTheSameAfterKills(unsigned cases, int kills, unsigned seed)
+{
+  std::cout << "seed " << seed << "\n";
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "scans");
+  WriteTinyScans(folder / "scans", cases);
+  WriteAll(folder / "scans/bad.nrrd", "no scan");
+  const std::vector<std::string> batch{ "batch", folder / "scans", "-o", folder / "out", "--jobs", "2" };
+  ASSERT_EQ(RunProgram(batch).code, 1); // the bad one
+  const auto undisturbed = FolderContents(folder / "out");
+  std::filesystem::remove_all(folder / "out");
+  EXPECT_GT(KillAtRandom(batch, kills, seed), kills / 4);
+  ASSERT_EQ(RunProgram(batch).code, 1);
+  const auto after = FolderContents(folder / "out");
+  EXPECT_EQ(after.size(), undisturbed.size());
+  for (const auto & [name, text] : undisturbed)
+  {
+    const auto found = after.find(name);
+    ASSERT_NE(found, after.end()) << name << " is missing";
+    EXPECT_EQ(found->second, text) << name;
+  }
+}
+
+TEST(BatchKill, FiveKillsChangeNothing)
+{
+  ExpectTheSameAfterKills(8, 5, 20261121);
+}
+
+TEST(HeavyBatchKill, FiftyKillsInABatchOfAHundredCasesChangeNothing)
+{
+  ExpectTheSameAfterKills(100, 50, 4711);
+}
+
+} // namespace
+} // namespace voxelcore::testing

@@ -1,0 +1,99 @@
+#include "voxelcore/CaseRecord.h"
+
+#include "CaseLock.h"
+#include "Pipeline/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+class CaseRecords : public ::testing::Test
+{
+protected:
+  CaseRecords()
+  {
+    std::filesystem::create_directory(m_Case);
+    WriteAll(m_Case / "sub-a_medial.vtp", "surface");
+    WriteAll(m_Case / "sub-a_report.json", "{}");
+    CaseRecord record;
+    record.id = "a \xFF"; // no UTF-8
+    record.key = "k";
+    record.done = true;
+    record.outputs = ListOutputs(m_Case);
+    WriteCaseRecord(m_Case, record);
+  }
+  TemporaryFolder       m_Folder;
+  std::filesystem::path m_Case = m_Folder / "sub-a";
+};
+
+TEST_F(CaseRecords, ACaseIsDoneWithItsKeyAndAllItsFilesAsTheyWereWritten)
+{
+  EXPECT_EQ(ListOutputs(m_Case).size(), 2U);
+  EXPECT_TRUE(IsDone(m_Case, "k"));
+  EXPECT_FALSE(IsDone(m_Case, "other"));
+  WriteAll(m_Case / "sub-a_medial.vtp", "surfacE");
+  EXPECT_FALSE(IsDone(m_Case, "k"));
+  WriteAll(m_Case / "sub-a_medial.vtp", "surface");
+  EXPECT_TRUE(IsDone(m_Case, "k"));
+  std::filesystem::remove(m_Case / "sub-a_report.json");
+  EXPECT_FALSE(IsDone(m_Case, "k"));
+}
+
+TEST_F(CaseRecords, ARecordThatLostABitOrItsEndIsNone)
+{
+  const std::string whole = ReadAll(RecordPath(m_Case));
+  for (std::size_t length = 0; length + 1 < whole.size(); ++length)
+  {
+    WriteAll(RecordPath(m_Case), whole.substr(0, length));
+    ASSERT_FALSE(ReadCaseRecord(m_Case)) << length;
+  }
+  std::string wrong = whole;
+  wrong[wrong.find("\"done\"") + 1] = 'g';
+  WriteAll(RecordPath(m_Case), wrong);
+  EXPECT_FALSE(ReadCaseRecord(m_Case));
+  WriteAll(RecordPath(m_Case), whole);
+  EXPECT_TRUE(ReadCaseRecord(m_Case));
+}
+
+TEST_F(CaseRecords, ClearingTakesWhatTheCaseLeftAndNothingElse)
+{
+  WriteAll(m_Case / "sub-a_medial.vtp.part77", "half");
+  WriteAll(m_Case / "mine.txt", "notes");
+  ClearCase(m_Case);
+  ASSERT_TRUE(std::filesystem::exists(m_Case / "mine.txt"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(m_Case), {}), 1);
+}
+
+TEST_F(CaseRecords, TheKeyFollowsContentNamesAndOptionsButNotThePlace)
+{
+  std::filesystem::create_directory(m_Folder / "b");
+  WriteAll(m_Folder / "s.tif", "scan");
+  WriteAll(m_Folder / "b/s.tif", "scan");
+  const std::string key = CaseKey(m_Folder / "s.tif", "--lambda=1");
+  EXPECT_EQ(key, CaseKey(m_Folder / "b/s.tif", "--lambda=1"));
+  EXPECT_NE(key, CaseKey(m_Folder / "s.tif", "--lambda=2"));
+  WriteAll(m_Folder / "b/s.tif.txt", "1\tliver\n");
+  EXPECT_NE(key, CaseKey(m_Folder / "b/s.tif", "--lambda=1"));
+  WriteAll(m_Folder / "s.tif", "scam");
+  EXPECT_NE(key, CaseKey(m_Folder / "s.tif", "--lambda=1"));
+}
+
+TEST_F(CaseRecords, OneAtATimeHoldsALock)
+{
+  const std::filesystem::path file = m_Folder / "locks/a.lock";
+  {
+    const auto first = CaseLock::Try(file);
+    ASSERT_TRUE(first);
+    EXPECT_FALSE(CaseLock::Try(file));
+    EXPECT_TRUE(CaseLock::Try(m_Folder / "locks/b.lock"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(m_Folder / "locks")); // nothing stays
+  WriteAll(m_Folder / "left", "");
+  EXPECT_TRUE(CaseLock::Try(file));
+}
+
+} // namespace
+} // namespace voxelcore::testing

@@ -1,0 +1,161 @@
+#include "voxelcore/Manifest.h"
+
+#include "Pipeline/TemporaryFolder.h"
+#include "voxelcore/Error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using ::testing::HasSubstr;
+
+class Manifest : public ::testing::Test
+{
+protected:
+  std::vector<CohortCase>
+  Read(const std::string & text)
+  {
+    WriteAll(m_Folder / "m.csv", text);
+    return ReadManifest(m_Folder / "m.csv");
+  }
+  std::string
+  Refusal(const std::string & text)
+  {
+    try
+    {
+      Read(text);
+      return "";
+    }
+    catch (const InputError & error)
+    {
+      return error.what();
+    }
+  }
+  TemporaryFolder m_Folder;
+};
+
+TEST_F(Manifest, ColumnsAreOptionsOfCore)
+{
+  const auto cases = Read(
+    "id,scan,Lambda,labels,with_skeleton,binary,note\n"
+    "a,x/a.nii,2vox,\"1,4\",no,,hello\n"
+    "b,/data/b.nii,,,yes,1,\n");
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_EQ(cases[0].scan, m_Folder / "x/a.nii");
+  EXPECT_EQ(cases[0].values,
+            (ParameterValues{ { "lambda", "2vox" }, { "labels", "1,4" }, { "with-skeleton", "false" } }));
+  EXPECT_EQ(cases[1].scan, "/data/b.nii");
+  EXPECT_EQ(cases[1].values, (ParameterValues{ { "with-skeleton", "true" }, { "binary", "true" } }));
+}
+
+TEST_F(Manifest, WhatCannotBeUnderstoodIsRefusedWithFileAndLine)
+{
+  EXPECT_THAT(Refusal(""), HasSubstr("m.csv: is empty"));
+  EXPECT_THAT(Refusal("id,scan\n"), HasSubstr("no row"));
+  EXPECT_THAT(Refusal("scan,lambda\na,1\n"), HasSubstr("no column 'id'"));
+  EXPECT_THAT(Refusal("id,lambda\na,1\n"), HasSubstr("no column 'scan'"));
+  EXPECT_THAT(Refusal("id,scan,lamda\na,b,1\n"), HasSubstr("'lamda' is not known"));
+  EXPECT_THAT(Refusal("id,scan,output\na,b,/etc/passwd\n"), HasSubstr("'output' is not known"));
+  EXPECT_THAT(Refusal("id,scan,report\na,b,/etc/passwd\n"), HasSubstr("'report' is not known"));
+  EXPECT_THAT(Refusal("id,scan,scan\na,b,c\n"), HasSubstr("'scan' is there twice"));
+  EXPECT_THAT(Refusal("id,scan\na,b\nc\n"), HasSubstr("line 3: has 1 fields"));
+  EXPECT_THAT(Refusal("id,scan\na,b\n,c\n"), HasSubstr("line 3: the id is empty"));
+  EXPECT_THAT(Refusal("id,scan\na,\n"), HasSubstr("line 2: the scan is empty"));
+  EXPECT_THAT(Refusal("id,scan\na,b\nc,d\na,e\n"), HasSubstr("line 4: the id 'a' is on line 2"));
+  EXPECT_THAT(Refusal("id,scan\na,b\nsub-a,e\n"), HasSubstr("line 3"));
+  EXPECT_THAT(Refusal("id,scan,binary\na,b,perhaps\n"), HasSubstr("line 2: binary: 'perhaps'"));
+}
+
+TEST_F(Manifest, FoldersOfIdsAreNamesOfLettersAndDigitsAndDifferentOnesNeverMeet)
+{
+  const std::vector<std::string> ids{ "a",
+                                      "sub-b",
+                                      "a/b",
+                                      "a b",
+                                      "ab",
+                                      "../../etc",
+                                      "..",
+                                      ".",
+                                      "a\"b",
+                                      "'a'",
+                                      "=cmd",
+                                      "a\nb",
+                                      "ä",
+                                      "日本",
+                                      "-rf",
+                                      "sub-../..",
+                                      "CON",
+                                      "/",
+                                      "a<b>",
+                                      "sub-",
+                                      std::string(300, 'a'),
+                                      std::string(299, 'a') + "b",
+                                      std::string("a\0b", 3) };
+  std::set<std::string>          folders;
+  for (const std::string & id : ids)
+  {
+    const std::string folder = CaseFolder(id);
+    EXPECT_TRUE(folder.starts_with("sub-")) << folder;
+    EXPECT_EQ(folder.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789", 4),
+              std::string::npos)
+      << folder;
+    EXPECT_GT(folder.size(), 4U);
+    EXPECT_LT(folder.size(), 100U);
+    EXPECT_TRUE(folders.insert(folder).second) << folder << " of " << id;
+  }
+  EXPECT_EQ(CaseFolder("01"), "sub-01");
+  EXPECT_EQ(CaseFolder("sub-01"), "sub-01");
+}
+
+TEST_F(Manifest, AHundredThousandRowsAreRead)
+{
+  std::string text = "id,scan,lambda\n";
+  for (int i = 0; i < 100000; ++i)
+  {
+    text += std::to_string(i) + ",scans/" + std::to_string(i) + ".nii.gz,1.5mm\n";
+  }
+  EXPECT_EQ(Read(text).size(), 100000U);
+}
+
+TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
+{
+  for (const char * folder : { "one/deep", "two", "stack", "single" })
+  {
+    std::filesystem::create_directories(m_Folder / folder);
+  }
+  for (const char * file : { "one/deep/seg.nrrd",
+                             "two/seg.nrrd",
+                             "two/seg.nii.gz",
+                             "two/readme.txt",
+                             "two/.hidden.nii",
+                             "stack/1.png",
+                             "stack/2.png",
+                             "single/only.tif" })
+  {
+    WriteAll(m_Folder / file, "");
+  }
+  std::map<std::string, std::filesystem::path> found;
+  for (const CohortCase & one : FindCases({ m_Folder.Path() }))
+  {
+    found[one.id] = one.scan.lexically_relative(m_Folder.Path());
+  }
+  EXPECT_EQ(found,
+            (std::map<std::string, std::filesystem::path>{ { "one/deep/seg", "one/deep/seg.nrrd" },
+                                                           { "two/seg.nrrd", "two/seg.nrrd" },
+                                                           { "two/seg.nii.gz", "two/seg.nii.gz" },
+                                                           { "stack", "stack" },
+                                                           { "single/only", "single/only.tif" } }));
+  EXPECT_EQ(FindCases({ m_Folder / "*/seg.*" }).size(), 2U);
+  EXPECT_EQ(FindCases({ m_Folder / "two", m_Folder / "two/seg.nrrd" }).size(), 2U); // the same file twice
+  EXPECT_THROW(FindCases({ m_Folder / "none*" }), InputError);
+  std::filesystem::create_directory(m_Folder / "empty");
+  EXPECT_THROW(FindCases({ m_Folder / "empty" }), InputError);
+}
+
+} // namespace
+} // namespace voxelcore::testing
