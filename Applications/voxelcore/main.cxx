@@ -74,6 +74,13 @@ struct Run
 int
 RunCore(const Run & run)
 {
+  if (const auto block = BlockOptionsFrom(run.line.values))
+  {
+    const BlockResult result = RunBlockJob(*block, run.context);
+    run.Warn(result.warnings);
+    run.Print(BlockText(result, *block));
+    return kDone;
+  }
   CoreOptions options = CoreOptionsFrom(run.line.values);
   options.threads = run.threads;
   options.command = run.line.whole;

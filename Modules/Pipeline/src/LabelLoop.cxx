@@ -2,6 +2,7 @@
 
 #include "JobTools.h"
 #include "SideBySide.h"
+#include "voxelcore/BlockJob.h"
 #include "voxelcore/BoundaryVertices.h"
 
 #include <numeric>
@@ -31,7 +32,7 @@ CountVertices(const std::vector<EditedLabel> & labels)
 bool
 MayRunSideBySide(const CoreOptions & options)
 {
-  return options.engine != Engine::TetGen && !options.crossCheck && omp_get_max_threads() > 1;
+  return options.engine != Engine::TetGen && !options.crossCheck && options.join.empty() && omp_get_max_threads() > 1;
 }
 
 /** The wall-clock time of labels that ran side by side, shared out among the stages as the labels' own clocks say. */
@@ -88,8 +89,12 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
     allVoxels += one.label.voxels;
   }
   const LabelWork work = [&](std::size_t label, const ProgressCallback & part) {
-    EditedLabel & one = labels[label];
-    LabelOutcome  outcome = ProcessLabel(std::move(one.label),
+    EditedLabel &      one = labels[label];
+    const std::int64_t value = one.label.value;
+    const CellSource   join = [&](const std::vector<LatticePoint> & points, const ProgressCallback & inner) {
+      return JoinParts(options.join, options.scan, value, one.component, points, inner);
+    };
+    LabelOutcome outcome = ProcessLabel(std::move(one.label),
                                         geometry,
                                         weights,
                                         options.lambdas,
@@ -97,7 +102,8 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
                                         part,
                                         options.crossCheck,
                                         options.skeleton ? &*options.skeleton : nullptr,
-                                        options.bumps);
+                                        options.bumps,
+                                        options.join.empty() ? CellSource() : join);
     outcome.record.component = one.component;
     if (outcome.skeleton)
     {

@@ -55,6 +55,8 @@ Examples:
   voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp
   voxelcore core ct.nrrd --threshold 300:3000 --fill-cavities --min-voxels 100 -o bone.vtp
   voxelcore core root.nii.gz -o root.vtp --with-skeleton --also csv --root top
+  voxelcore core huge.nrrd --blocks 8 --block 1 -o parts/     (and so on to --block 8, on any machines)
+  voxelcore core huge.nrrd --join parts/ -o huge.vtp
   voxelcore core teeth.nii.gz --crop 100:300,80:220,: --split-components -o teeth/)";
 
 constexpr std::string_view kInfoFooter = R"(Examples:
@@ -484,6 +486,23 @@ constexpr auto kParameters = std::to_array<Parameter>({
     false,
     kCore,
     "Refuse at once what is expected to need more; see 'voxelcore info'" },
+  { "blocks",
+    "--blocks",
+    Integer,
+    "N",
+    "",
+    false,
+    kCore,
+    "With --block K: cut each label into N blocks and write number K, from 1, into the folder OUT/" },
+  { "block", "--block", Integer, "K", "", false, kCore, "Which of the --blocks; each can run on a machine of its own" },
+  { "join",
+    "--join",
+    Input,
+    "DIR",
+    "",
+    false,
+    kCore,
+    "Take what all --block runs wrote into DIR; the result is that of a single run" },
   { "threads", "--threads", Integer, "N", "0", false, kAll, "Processors to use; 0 means all" },
   { "json", "--json", Flag, "", "", false, kInfo, "Print JSON" },
   { "force", "--force", Flag, "", "", false, kWrites, "Replace existing files" },

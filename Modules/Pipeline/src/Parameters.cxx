@@ -233,12 +233,41 @@ CoreOptionsFrom(const ParameterValues & values)
   const std::string engine = reader.Choice("engine");
   options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
   options.crossCheck = reader.IsSet("cross-check");
+  options.join = reader.Text("join");
+  if (options.crossCheck && !options.join.empty())
+  {
+    throw UsageError("--cross-check computes the cells itself, --join takes them from files; give one of the two");
+  }
   options.threads = ThreadsFrom(values, CommandId::Core);
   if (reader.IsGiven("memory"))
   {
     options.memory = ParseMemory(reader.Text("memory"));
   }
   options.force = reader.IsSet("force");
+  return options;
+}
+
+std::optional<BlockOptions>
+BlockOptionsFrom(const ParameterValues & values)
+{
+  constexpr std::int64_t most = std::int64_t{ 1 } << 20U;
+  const ParameterReader  reader(values, CommandId::Core);
+  if (reader.IsGiven("blocks") != reader.IsGiven("block"))
+  {
+    throw UsageError("--blocks N and --block K go together: which of how many");
+  }
+  if (!reader.IsGiven("blocks"))
+  {
+    return std::nullopt;
+  }
+  if (reader.IsGiven("join"))
+  {
+    throw UsageError("--block makes one part, --join takes all of them; give one of the two");
+  }
+  BlockOptions options;
+  options.core = CoreOptionsFrom(values);
+  options.blocks = static_cast<std::size_t>(reader.Whole("blocks", 1, most));
+  options.block = static_cast<std::size_t>(reader.Whole("block", 1, most));
   return options;
 }
 

@@ -59,6 +59,8 @@ struct WholeCoreOptions
   bool   crossCheck = false;
   bool   bumps = false; ///< with bump heights
   double floor = 0;     ///< of these, mm
+
+  const CellSource & source; ///< of the cells, where it is not empty
 };
 
 /** The core of a label, described and certified, in LPS mm. Frees the points and the cells as soon as it can. */
@@ -82,7 +84,8 @@ ComputeWholeCore(const VoxelShape &       shape,
     outcome.seconds.shape += watch.Lap();
 
     const ProgressCallback part = PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds);
-    DelaunayCells          cells = options.crossCheck
+    DelaunayCells          cells = options.source ? options.source(points, part)
+                                   : options.crossCheck
                                      ? CrossCheckedCells(shape, points, weights, options.engine, labelText, part)
                                      : ComputeDelaunayCells(shape, points, weights, options.engine, part);
     outcome.seconds.delaunay += watch.Lap();
@@ -168,7 +171,8 @@ ProcessLabel(LabelShape                      label,
              const ProgressCallback &        progress,
              bool                            crossCheck,
              const SkeletonStage *           skeleton,
-             const std::vector<BumpHeight> & bumps)
+             const std::vector<BumpHeight> & bumps,
+             const CellSource &              source)
 {
   LabelOutcome      outcome;
   LabelRecord &     record = outcome.record;
@@ -196,7 +200,7 @@ ProcessLabel(LabelShape                      label,
   {
     thresholds.push_back(LambdaInMillimetres(lambda, weights, geometry.spacing, record.box));
   }
-  const WholeCoreOptions options{ engine, crossCheck, !bumps.empty(), thresholds.front() };
+  const WholeCoreOptions options{ engine, crossCheck, !bumps.empty(), thresholds.front(), source };
   ModelPart part = ComputeWholeCore(label.shape, geometry, weights, options, labelText, outcome, coreProgress);
 
   const bool ofWhole = skeleton != nullptr && skeleton->lambda.value == 0;

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct CoreOptions
   std::optional<std::filesystem::path> report;
   ModelOptions                         model;
   Engine                               engine = Engine::Auto;
+  std::filesystem::path                join; ///< folder of parts (BlockJob.h) to take the cells from; empty: computed
   bool                                 crossCheck = false; ///< both engines must find the same cells
   int                                  threads = 0;        ///< only recorded
   std::optional<std::uint64_t>         memory;             ///< bytes; refused when PredictJob says more
@@ -54,6 +56,10 @@ struct CoreResult
 CoreResult
 RunCoreJob(const CoreOptions & options, const JobContext & context = {});
 
+/** Gives the cells of a shape, with these boundary vertices, where they come from elsewhere. */
+using CellSource =
+  std::function<DelaunayCells(const std::vector<LatticePoint> & points, const ProgressCallback & progress)>;
+
 /** One label's share of a job. */
 struct LabelOutcome
 {
@@ -63,8 +69,8 @@ struct LabelOutcome
   StageSeconds                seconds;
 };
 
-/** Everything between reading and writing for one label; depends on nothing but its arguments. With `crossCheck` both
- *  engines run, one after the other; TetGen can do so once at a time in a process. The skeleton's lambda is 0 or one of
+/** Everything between reading and writing for one label; depends on nothing but its arguments. Cells come from `source`
+ *  where there is one. With `crossCheck` both engines run, one after the other; TetGen can do so once at a time in a process. The skeleton's lambda is 0 or one of
  *  `lambdas`; with bump heights it is 0.
  *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape, a boundary vertex lies
  *  farther from it than the bump height, or the engines differ. */
@@ -77,7 +83,8 @@ ProcessLabel(LabelShape                      label,
              const ProgressCallback &        progress = {},
              bool                            crossCheck = false,
              const SkeletonStage *           skeleton = nullptr,
-             const std::vector<BumpHeight> & bumps = {});
+             const std::vector<BumpHeight> & bumps = {},
+             const CellSource &              source = {});
 
 /** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
 bool

@@ -1,6 +1,7 @@
 #pragma once
 // Every option of the program in one table: the parser, the help and descriptions for other programs come from it.
 
+#include "voxelcore/BlockJob.h"
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/InfoJob.h"
 #include "voxelcore/LabelVolume.h"
@@ -78,8 +79,10 @@ inline bool
 BelongsTo(const Parameter & parameter, CommandId command)
 {
   const auto has = [&](CommandId one) { return (parameter.commands & static_cast<std::uint32_t>(one)) != 0; };
-  const bool isPath = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output;
-  return has(command) || (command == CommandId::Batch && has(CommandId::Core) && !isPath);
+  // A path, or a part of one scan, is not a cohort's.
+  const bool ofOneRun = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output ||
+                        parameter.name == "blocks" || parameter.name == "block";
+  return has(command) || (command == CommandId::Batch && has(CommandId::Core) && !ofOneRun);
 }
 
 /** What was given, as text, by Parameter::name; a flag that was given is "true". */
@@ -101,6 +104,9 @@ ShapeEditOptions
 ShapeEditsFrom(const ParameterValues & values, CommandId command);
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values);
+/** None unless --blocks is given. */
+std::optional<BlockOptions>
+BlockOptionsFrom(const ParameterValues & values);
 InfoOptions
 InfoOptionsFrom(const ParameterValues & values);
 VerifyOptions

@@ -1,0 +1,66 @@
+#pragma once
+// One volume in parts: `core --blocks N --block K` computes one part, by itself, on any machine; `core --join` makes of all
+// of them the file that a single run writes, bit for bit. See HaloBlocks.h for why.
+
+#include "voxelcore/CoreJob.h"
+#include "voxelcore/DelaunayCells.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct BlockOptions
+{
+  CoreOptions core;       ///< scan, reading, edits, engine, threads, force; its output is a folder
+  std::size_t blocks = 1; ///< into how many each label is cut
+  std::size_t block = 1;  ///< which one, from 1
+};
+
+/** What a part holds of one label. */
+struct BlockPart
+{
+  std::int64_t          label = 0;
+  std::int64_t          component = 0;
+  std::string           name;
+  std::uint64_t         cells = 0;
+  std::uint64_t         boundaryVertices = 0; ///< of the whole label
+  std::uint64_t         subshapeVertices = 0; ///< of what was computed: the block and its halo
+  std::filesystem::path file;
+};
+
+struct BlockResult
+{
+  std::vector<BlockPart>   parts; ///< one per label
+  std::vector<std::string> warnings;
+};
+
+/** "<folder>/<scan>_label-<value>_block-<k>-of-<n>.vcb"; of a component "..._label-<value>_component-<c>_block-...". */
+std::filesystem::path
+BlockPath(const BlockOptions & options, std::int64_t label, std::int64_t component);
+
+/** Computes one block of every label and writes each into a file of its own. All files appear, or none.
+ *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
+BlockResult
+RunBlockJob(const BlockOptions & options, const JobContext & context = {});
+
+/** The cells of a label from the parts in `folder`. Their points must be those of the label in the scan at hand.
+ *  \throws InputError when parts are missing, of different cuts, or of another scan; CertificateError */
+DelaunayCells
+JoinParts(const std::filesystem::path &     folder,
+          const std::filesystem::path &     scan,
+          std::int64_t                      label,
+          std::int64_t                      component,
+          const std::vector<LatticePoint> & points,
+          const ProgressCallback &          progress = {});
+
+/** A line per label, for people. */
+std::string
+BlockText(const BlockResult & result, const BlockOptions & options);
+
+} // namespace voxelcore

@@ -1,0 +1,222 @@
+#include "voxelcore/BlockJob.h"
+
+#include "JobTools.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/HaloBlocks.h"
+#include "voxelcore/OutputNames.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <set>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+/** "<scan>_label-<value>[_component-<c>]_block-" */
+std::string
+Start(const fs::path & scan, std::int64_t label, std::int64_t component)
+{
+  return ScanName(scan) + "_label-" + std::to_string(label) +
+         (component > 0 ? "_component-" + std::to_string(component) : std::string()) + "_block-";
+}
+
+/** K and N of "<start>K-of-N.vcb"; false for any other name. */
+bool
+ParseBlockName(std::string_view name, const std::string & start, std::size_t & block, std::size_t & blocks)
+{
+  constexpr std::string_view between = "-of-";
+  if (!name.starts_with(start))
+  {
+    return false;
+  }
+  const char * at = name.data() + start.size();
+  const char * end = name.data() + name.size();
+  const auto   first = std::from_chars(at, end, block);
+  const auto   left = std::string_view(first.ptr, static_cast<std::size_t>(end - first.ptr));
+  if (first.ec != std::errc() || !left.starts_with(between))
+  {
+    return false;
+  }
+  const auto second = std::from_chars(first.ptr + between.size(), end, blocks);
+  return second.ec == std::errc() && std::string_view(second.ptr, static_cast<std::size_t>(end - second.ptr)) == ".vcb";
+}
+
+/** The files of all blocks of a label, in order. */
+std::vector<fs::path>
+FindParts(const fs::path & folder, const std::string & start)
+{
+  std::map<std::size_t, std::map<std::size_t, fs::path>> byCount;
+  if (!fs::is_directory(folder))
+  {
+    throw InputError(folder.string() + ": no such folder; --join takes the folder that 'core --block' wrote into");
+  }
+  for (const auto & entry : fs::directory_iterator(folder))
+  {
+    std::size_t block = 0;
+    std::size_t blocks = 0;
+    if (ParseBlockName(entry.path().filename().string(), start, block, blocks))
+    {
+      byCount[blocks][block] = entry.path();
+    }
+  }
+  if (byCount.size() != 1)
+  {
+    throw InputError(folder.string() + ": " + (byCount.empty() ? "holds no part " : "holds parts of different cuts, ") +
+                     start +
+                     (byCount.empty() ? "*.vcb; run 'core --blocks N --block K' for each K first"
+                                      : "*.vcb; keep those of one --blocks"));
+  }
+  const auto & [count, parts] = *byCount.begin();
+  std::vector<fs::path> files;
+  std::string           missing;
+  for (std::size_t block = 1; block <= count; ++block)
+  {
+    const auto found = parts.find(block);
+    if (found == parts.end())
+    {
+      missing += (missing.empty() ? "" : ", ") + std::to_string(block);
+    }
+    else
+    {
+      files.push_back(found->second);
+    }
+  }
+  if (!missing.empty())
+  {
+    throw InputError(folder.string() + ": of the " + std::to_string(count) + " parts " + start +
+                     "* these are missing: " + missing + "; run 'core --blocks " + std::to_string(count) +
+                     " --block K' for them");
+  }
+  return files;
+}
+
+void
+WriteShareFile(const fs::path & path, const fs::path & target, const BlockShare & share)
+{
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  WriteBlockShare(share, file);
+  file.close();
+  if (!file)
+  {
+    throw OutputError(target.string() + ": cannot write: " + std::strerror(errno != 0 ? errno : EIO));
+  }
+}
+
+} // namespace
+
+fs::path
+BlockPath(const BlockOptions & options, std::int64_t label, std::int64_t component)
+{
+  return options.core.output / (Start(options.core.scan, label, component) + std::to_string(options.block) + "-of-" +
+                                std::to_string(options.blocks) + ".vcb");
+}
+
+BlockResult
+RunBlockJob(const BlockOptions & options, const JobContext & context)
+{
+  constexpr double    kReadEnds = 0.2;
+  const CoreOptions & core = options.core;
+  if (options.block < 1 || options.block > options.blocks)
+  {
+    throw UsageError("--block " + std::to_string(options.block) + ": there are blocks 1 to " +
+                     std::to_string(options.blocks));
+  }
+  if (!IsFolderOutput(core.output))
+  {
+    throw UsageError(core.output.string() + ": a block is written into a folder; end its name in /");
+  }
+  OutputTransaction transaction(core.force, context.temporaries);
+  transaction.Protect(core.scan);
+  transaction.MakeDirectory(core.output);
+  LabelVolume volume =
+    ReadLabelVolume(core.scan, core.reading, PartOfProgress(context.progress, "reading", 0, kReadEnds));
+  EditedLabels         edited = EditLabels(volume,
+                                   core.edits,
+                                   core.reading.labels != "all",
+                                   core.scan.string(),
+                                   PartOfProgress(context.progress, "editing", kReadEnds, kReadEnds));
+  const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
+  BlockResult          result;
+  result.warnings = volume.warnings;
+  for (std::size_t i = 0; i < edited.labels.size(); ++i)
+  {
+    const auto at = [&](std::size_t label) {
+      return kReadEnds + (1 - kReadEnds) * static_cast<double>(label) / static_cast<double>(edited.labels.size());
+    };
+    EditedLabel &    one = edited.labels[i];
+    const BlockPlan  plan = PlanBlocks(one.label.shape, weights, options.blocks);
+    const BlockShare share = ComputeBlockShare(one.label.shape,
+                                               weights,
+                                               plan,
+                                               options.block - 1,
+                                               core.engine,
+                                               PartOfProgress(context.progress, one.label.name, at(i), at(i + 1)));
+    const fs::path   file = BlockPath(options, one.label.value, one.component);
+    WriteShareFile(transaction.Stage(file), file, share);
+    result.parts.push_back({ one.label.value,
+                             one.component,
+                             one.label.name,
+                             share.cells.tetrahedra.size(),
+                             share.boundaryVertices,
+                             share.subshapeVertices,
+                             file });
+    one.label.shape = VoxelShape();
+  }
+  ReportProgress(context.progress, "done", 1);
+  transaction.Commit();
+  return result;
+}
+
+DelaunayCells
+JoinParts(const fs::path &                  folder,
+          const fs::path &                  scan,
+          std::int64_t                      label,
+          std::int64_t                      component,
+          const std::vector<LatticePoint> & points,
+          const ProgressCallback &          progress)
+{
+  const std::vector<fs::path> files = FindParts(folder, Start(scan, label, component));
+  JoinedCells                 joined = JoinBlockShares(
+    files.size(),
+    [&](std::size_t i) {
+      std::ifstream file(files[i], std::ios::binary);
+      if (!file)
+      {
+        throw InputError(files[i].string() + ": cannot read: " + std::strerror(errno));
+      }
+      return ReadBlockShare(file, files[i].string());
+    },
+    progress);
+  if (joined.points != points)
+  {
+    throw InputError(folder.string() + ": the parts of label " + std::to_string(label) +
+                     " belong to another scan than " + scan.string() + ", or to other options; make them anew");
+  }
+  return std::move(joined.cells);
+}
+
+std::string
+BlockText(const BlockResult & result, const BlockOptions & options)
+{
+  std::string text;
+  for (const BlockPart & part : result.parts)
+  {
+    text += part.file.string() + ": block " + std::to_string(options.block) + " of " + std::to_string(options.blocks) +
+            " of " + LabelText(part.label, part.name) + ": " + std::to_string(part.cells) + " cells; computed on " +
+            std::to_string(part.subshapeVertices) + " boundary vertices of " + std::to_string(part.boundaryVertices) +
+            "; peak memory " + std::to_string(static_cast<long>(PeakMemoryMb())) + " MB\n";
+  }
+  return text;
+}
+
+} // namespace voxelcore
