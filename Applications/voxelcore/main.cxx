@@ -155,6 +155,17 @@ RunVerify(const Run & run)
 }
 
 int
+RunReconstruct(const Run & run)
+{
+  ReconstructOptions options = ReconstructOptionsFrom(run.line.values);
+  options.command = run.line.whole;
+  const ReconstructResult result = RunReconstructJob(options, run.context);
+  run.Print(ReconstructText(result));
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
 RunPhantom(const Run & run)
 {
   if (ValueOf(run.line.values, CommandId::Phantom, "kind") == "list")
@@ -211,6 +222,8 @@ Dispatch(const Run & run)
       return RunPrune(run);
     case CommandId::Batch:
       return RunBatch(run);
+    case CommandId::Reconstruct:
+      return RunReconstruct(run);
     case CommandId::Phantom:
       return RunPhantom(run);
     case CommandId::Skeleton:

@@ -13,7 +13,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::array<PhantomKind, 13> kKinds{ {
+constexpr std::array<PhantomKind, 14> kKinds{ {
   { "ellipsoid", "an ellipsoid with semi-axes 0.45, 0.30 and 0.20 of the sides", "" },
   { "ball", "a ball", "radius (0.45 of the shortest side)" },
   { "capsule", "a straight rod along x with round ends", "radius (0.15 of the shortest side)" },
@@ -27,6 +27,9 @@ constexpr std::array<PhantomKind, 13> kKinds{ {
     "a sheet along the gyroid, a surface that divides space",
     "period (0.35 of the shortest side), "
     "thickness (an eighth of the period)" },
+  { "thick-and-thin",
+    "a thick capsule with two rods and a plate on it, askew: what no single lambda prunes well",
+    "radius of the rods (0.03 of the shortest side), thickness of the plate (0.05 of it)" },
   { "porous",
     "smooth noise above a threshold, as foam or bone",
     "density (0.5), period (a sixteenth of the shortest "

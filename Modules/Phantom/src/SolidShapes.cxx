@@ -91,6 +91,30 @@ MakeGyroid(const PhantomOptions & options, const ProgressCallback & progress)
   });
 }
 
+/** A capsule along u, rods along v and w that begin at its ends, a plate across w that begins at its axis. */
+VoxelShape
+MakeThickAndThin(const PhantomOptions & options, const ProgressCallback & progress)
+{
+  const double side = ShortestSide(options);
+  const double half = 0.2 * side;
+  const double reach = 0.42 * side;
+  const double thick = Square(0.16 * side);
+  const double thin = Square(options.radius.value_or(0.03 * side));
+  const double plate = options.thickness.value_or(0.05 * side) / 2;
+  // Distance squared to a rod's axis from (u0, 0) on.
+  const auto rod = [=](double u, double along, double across, double u0) {
+    return Square(u - u0) + Square(across) + Square(std::max({ 0.0, -along, along - reach }));
+  };
+  return FillBody(options, progress, [=](double x, double y, double z) {
+    // A rotation in whole numbers, askew to all axes, so that staircases of all kinds show.
+    const double u = (8 * x + y - 4 * z) / 9;
+    const double v = (4 * y - 4 * x - 7 * z) / 9;
+    const double w = (x + 8 * y + 4 * z) / 9;
+    return Square(std::max(0.0, std::abs(u) - half)) + v * v + w * w <= thick || rod(u, v, w, -half) <= thin ||
+           rod(u, w, v, half) <= thin || (std::abs(u) <= half && v <= 0 && v >= -reach && std::abs(w) <= plate);
+  });
+}
+
 } // namespace
 
 std::optional<VoxelShape>
@@ -166,6 +190,10 @@ MakeSolid(const PhantomOptions & options, const ProgressCallback & progress)
       const auto term = [](double u) { return (u * u - 5) * (u * u); };
       return term(x * scale[0]) + term(y * scale[1]) + term(z * scale[2]) + 11.8 <= 0;
     });
+  }
+  if (kind == "thick-and-thin")
+  {
+    return MakeThickAndThin(options, progress);
   }
   if (kind == "gyroid")
   {

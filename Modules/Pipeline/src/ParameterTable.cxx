@@ -17,12 +17,13 @@ constexpr std::uint32_t kSkeleton = static_cast<std::uint32_t>(CommandId::Skelet
 constexpr std::uint32_t kMeasure = static_cast<std::uint32_t>(CommandId::Measure);
 constexpr std::uint32_t kRender = static_cast<std::uint32_t>(CommandId::Render);
 constexpr std::uint32_t kBatch = static_cast<std::uint32_t>(CommandId::Batch);
+constexpr std::uint32_t kReconstruct = static_cast<std::uint32_t>(CommandId::Reconstruct);
 constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton;
 constexpr std::uint32_t kModels = kCore | kPrune;
 constexpr std::uint32_t kBranches = kSkeleton | kMeasure;
 constexpr std::uint32_t kStages = kCore | kSkeleton;
-constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches | kRender;
-constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom | kBranches | kRender;
+constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches | kRender | kReconstruct;
+constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom | kBranches | kRender | kReconstruct;
 
 constexpr std::string_view kCoreFooter =
   R"(Lambda says how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart.
@@ -80,6 +81,14 @@ Example:
   voxelcore prune whole.vtp --lambda 1.5mm,3mm -o medial.vtp
   voxelcore core scan.nii.gz --bumps 0 -o bumps.vtp
   voxelcore prune bumps.vtp --bumps 1diag,2diag -o medial.vtp)";
+
+constexpr std::string_view kReconstructFooter =
+  R"(A voxel is in where its centre lies in a ball of the core. A whole core of cubic voxels gives its label back; pruned,
+it shows what was taken for noise. On thick slices balls bulge out between the slices' corners.
+
+Example:
+  voxelcore core scan.nii.gz --bumps 1.2diag -o medial.vtp
+  voxelcore reconstruct medial.vtp -o rebuilt.nii.gz --scan scan.nii.gz --report rebuilt.json)";
 
 constexpr std::string_view kPhantomFooter = R"(Examples:
   voxelcore phantom ellipsoid --size 64 -o ellipsoid.nrrd
@@ -141,7 +150,7 @@ Examples:
   voxelcore batch cohort.csv -o results --jobs 4 --memory 12GB --timeout 30m
   voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton)";
 
-constexpr std::array<Command, 9> kCommands{ {
+constexpr std::array<Command, 10> kCommands{ {
   { CommandId::Core, "core", "Medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Info, "info", "What is in a scan: geometry, labels, their sizes and topology", kInfoFooter },
   { CommandId::Verify, "verify", "Recheck a finished file against its scan", kVerifyFooter },
@@ -153,6 +162,7 @@ constexpr std::array<Command, 9> kCommands{ {
     "batch",
     "Medial surfaces and skeletons of a cohort of scans, with tables and a page",
     kBatchFooter },
+  { CommandId::Reconstruct, "reconstruct", "The balls of a finished core as a volume", kReconstructFooter },
   { CommandId::Phantom, "phantom", "Make a synthetic volume", kPhantomFooter },
 } };
 
@@ -176,7 +186,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     kSkeleton,
     "Scan, as for 'voxelcore core', or a .vtp that 'voxelcore core' wrote" },
   { "skeleton", "", Input, "SKELETON.vtp", "", true, kMeasure, "File that 'voxelcore skeleton' wrote" },
-  { "core", "", Input, "CORE.vtp", "", true, kVerify | kPrune, "File that 'voxelcore core' wrote" },
+  { "core", "", Input, "CORE.vtp", "", true, kVerify | kPrune | kReconstruct, "File that 'voxelcore core' wrote" },
   { "files",
     "",
     Inputs,
@@ -266,6 +276,17 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "Result: .vtp; or a folder, DIR/, for one .vtp per label" },
   { "output", "-o,--output", Output, "OUT", "", true, kMeasure, "Result: .csv, or .vtp" },
   { "output", "-o,--output", Output, "OUT", "", true, kPrune, "Result: .vtp .vtk .ply .obj .stl .ma" },
+  { "output", "-o,--output", Output, "OUT", "", true, kReconstruct, "Volume: .nrrd .nii .nii.gz .mha .mhd .tif" },
+  { "like",
+    "--like",
+    Input,
+    "SCAN",
+    "",
+    false,
+    kReconstruct,
+    "Make it on this scan's grid; else on that of the core's" },
+  { "scan", "--scan", Input, "SCAN", "", false, kReconstruct, "Compare with the scan the core was made from" },
+  { "report", "--report", Output, "OUT.json", "", false, kReconstruct, "Write what was found as JSON" },
   { "output", "-o,--output", Output, "OUT", "", false, kPhantom, "Volume: .nrrd .nii .nii.gz .mha .mhd .tif" },
   { "lambda",
     "-l,--lambda",

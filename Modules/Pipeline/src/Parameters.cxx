@@ -311,6 +311,25 @@ PruneOptionsFrom(const ParameterValues & values)
   return options;
 }
 
+ReconstructOptions
+ReconstructOptionsFrom(const ParameterValues & values)
+{
+  const ParameterReader reader(values, CommandId::Reconstruct);
+  ReconstructOptions    options;
+  options.core = reader.Text("core");
+  for (auto [name, path] : { std::pair("like", &options.like), std::pair("scan", &options.scan) })
+  {
+    if (reader.IsGiven(name))
+    {
+      *path = reader.Text(name);
+    }
+  }
+  options.output = OutputFrom(reader);
+  options.report = ReportFrom(reader);
+  options.force = reader.IsSet("force");
+  return options;
+}
+
 PhantomJobOptions
 PhantomOptionsFrom(const ParameterValues & values)
 {

@@ -7,6 +7,7 @@
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/PhantomJob.h"
 #include "voxelcore/PruneJob.h"
+#include "voxelcore/ReconstructJob.h"
 #include "voxelcore/RenderJob.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonJob.h"
@@ -33,7 +34,8 @@ enum class CommandId : std::uint32_t
   Skeleton = 32,
   Measure = 64,
   Render = 128,
-  Batch = 256 ///< takes besides its own all options of Core that do not name a file
+  Batch = 256, ///< takes besides its own all options of Core that do not name a file
+  Reconstruct = 512
 };
 
 struct Command
@@ -113,6 +115,8 @@ VerifyOptions
 VerifyOptionsFrom(const ParameterValues & values);
 PruneOptions
 PruneOptionsFrom(const ParameterValues & values);
+ReconstructOptions
+ReconstructOptionsFrom(const ParameterValues & values);
 PhantomJobOptions
 PhantomOptionsFrom(const ParameterValues & values);
 std::optional<SkeletonStage>
