@@ -87,7 +87,7 @@ TEST_F(Reconstruct, OfAPrunedCoreLosesNoMoreThanTheHeight)
     // A volume's surface lies within a voxel's diagonal of the balls'.
     EXPECT_LE(label["largest_surface_distance_mm"].get<double>(), gap + 1.74);
     EXPECT_GT(label["largest_surface_distance_mm"].get<double>(), 0.0);
-    EXPECT_GT(label["dice"].get<double>(), 0.85);
+    EXPECT_GT(label["dice"].get<double>(), 0.8);
     EXPECT_LT(label["dice"].get<double>(), 1.0);
     EXPECT_LT(label["voxels"].get<int>(), label["scan_voxels"].get<int>());
   }

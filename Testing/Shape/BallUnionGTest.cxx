@@ -12,6 +12,7 @@ namespace
 // Voxel by voxel, with balls that reach beyond the box, miss it, or hold nothing.
 TEST(BallUnion, HoldsTheVoxelsWhoseCentresLieInABall)
 {
+  std::uint64_t total = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed)
   {
     SCOPED_TRACE(seed);
@@ -49,10 +50,11 @@ TEST(BallUnion, HoldsTheVoxelsWhoseCentresLieInABall)
         }
       }
     }
-    EXPECT_GT(count, 0U);
+    total += count;
     // What lies on a sphere may fall to either side by rounding; nothing else is in.
     EXPECT_LE(shape.CountVoxels() - count, count / 50);
   }
+  EXPECT_GT(total, 10000U);
 }
 
 TEST(BallUnion, OfNothingIsEmpty)
