@@ -4,6 +4,7 @@
 //
 //     VoxelCoreBumpEvaluation [--seeds tuned|aside] [--rotations N] [--body NAME] [--noise SD] [--bumps H,H..]
 
+#include "ErosionPruning.h"
 #include "EvaluationBodies.h"
 
 #include "voxelcore/BallCoverage.h"
@@ -303,6 +304,13 @@ Evaluate(const Body & body, const Options & options, std::vector<std::string> & 
           char name[32];
           std::snprintf(name, sizeof(name), "lambda %.3gvox", options.lambdas[i]);
           add(name, lambdas[i], seconds);
+        }
+        start = Seconds();
+        const auto eroded = PruneByErosionThickness(core, weights, fine, { 1.0 * fine, 2.0 * fine, 3.0 * fine });
+        seconds = (Seconds() - start) / 3;
+        for (std::size_t i = 0; i < eroded.size(); ++i)
+        {
+          add("erosion thickness " + std::to_string(i + 1) + "vox", eroded[i], seconds);
         }
         start = Seconds();
         core.bumps = ComputeBumps(core, weights, points, touching);

@@ -52,25 +52,30 @@ BumpCollapse::OfferEdge(ElementIndex edge)
 void
 BumpCollapse::OfferAll()
 {
-  const auto          edges = static_cast<std::ptrdiff_t>(m_EdgeCofaces.size());
-  std::vector<double> costs(m_EdgeCofaces.size());
-#pragma omp parallel if (edges > 4096)
+  const std::size_t     edges = m_EdgeCofaces.size();
+  constexpr std::size_t chunk = std::size_t{ 1 } << 16; // what is computed side by side waits here for its turn
+  std::vector<double>   costs(std::min(edges, chunk));
+  for (std::size_t first = 0; first < edges; first += chunk)
   {
-    std::vector<Reached> reached;
-#pragma omp for schedule(static)
-    for (std::ptrdiff_t edge = 0; edge < edges; ++edge)
+    const std::size_t last = std::min(edges, first + chunk);
+#pragma omp parallel if (last - first > 4096)
     {
-      if (m_EdgeCofaces[static_cast<std::size_t>(edge)].count == 1)
+      std::vector<Reached> reached;
+#pragma omp for schedule(static)
+      for (std::size_t edge = first; edge < last; ++edge)
       {
-        costs[static_cast<std::size_t>(edge)] = FaceCost(static_cast<ElementIndex>(edge), reached);
+        if (m_EdgeCofaces[edge].count == 1)
+        {
+          costs[edge - first] = FaceCost(static_cast<ElementIndex>(edge), reached);
+        }
       }
     }
-  }
-  for (std::size_t edge = 0; edge < costs.size(); ++edge)
-  {
-    if (m_EdgeCofaces[edge].count == 1)
+    for (std::size_t edge = first; edge < last; ++edge)
     {
-      m_Queue.Push({ costs[edge], m_Core->edgeLambda[edge], 1, static_cast<ElementIndex>(edge) });
+      if (m_EdgeCofaces[edge].count == 1)
+      {
+        m_Queue.Push({ costs[edge - first], m_Core->edgeLambda[edge], 1, static_cast<ElementIndex>(edge) });
+      }
     }
   }
   for (std::size_t vertex = 0; vertex < m_VertexCofaces.size(); ++vertex)

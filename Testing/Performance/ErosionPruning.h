@@ -1,0 +1,20 @@
+#pragma once
+// Pruning by erosion thickness, to compare with.
+
+#include "voxelcore/MedialComplex.h"
+#include "voxelcore/SpacingWeights.h"
+
+#include <vector>
+
+namespace voxelcore::evaluation
+{
+
+/** The core without the simple pairs whose erosion thickness, burn time minus radius, lies below each threshold (mm,
+ *  increasing). Only cells, positions and radii are filled in. */
+std::vector<MedialComplex>
+PruneByErosionThickness(const MedialComplex &       core,
+                        const SpacingWeights &      weights,
+                        double                      voxel,
+                        const std::vector<double> & thresholds);
+
+} // namespace voxelcore::evaluation
