@@ -92,7 +92,7 @@ ParseCommandLine(int argc, char ** argv)
     line.whole += (i > 0 ? " " : "") + Quoted(argv[i]);
   }
   CLI::App app("Certified medial surfaces of segmented CT and MRI volumes", "voxelcore");
-  app.set_version_flag("--version", "voxelcore " + VoxelCoreVersion());
+  app.set_version_flag("--version", VersionText());
   app.footer(kFooter);
   app.require_subcommand(0, 1);
   app.get_formatter()->column_width(34);
@@ -123,7 +123,7 @@ ParseCommandLine(int argc, char ** argv)
   }
   catch (const CLI::CallForVersion & version)
   {
-    line.text = std::string(version.what()) + "\n";
+    line.text = version.what();
     return line;
   }
   catch (const CLI::ParseError & error)

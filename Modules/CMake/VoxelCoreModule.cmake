@@ -6,16 +6,29 @@ target_compile_options(VoxelCoreBuildRules INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-ffp-contract=off>
   $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${VOXELCORE_WERROR}>>:-Werror>)
 
+# voxelcore_library(target SOURCES...): a static library by these rules, alias VoxelCore::<target without VoxelCore>.
+# A program or plugin linked with it exports nothing of it, nor of what it uses: all is hidden, and what Boost, ITK and VTK
+# mark for export against that (type information, inline functions) is left out by the linker.
+function(voxelcore_library target)
+  add_library(${target} STATIC ${ARGN})
+  string(SUBSTRING ${target} 9 -1 name)
+  add_library(VoxelCore::${name} ALIAS ${target})
+  target_include_directories(${target} PUBLIC
+    "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS ON POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:VoxelCoreBuildRules>)
+  target_link_options(${target} INTERFACE
+    $<$<PLATFORM_ID:Linux>:LINKER:--exclude-libs,$<TARGET_FILE_NAME:VoxelCore::${name}>>)
+endfunction()
+
 # voxelcore_module(Name SOURCES a.cxx ... PUBLIC targets... PRIVATE targets...)
 # Builds Modules/<Name> as the static library VoxelCore<Name>, alias VoxelCore::<Name>.
 function(voxelcore_module name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  set(target VoxelCore${name})
-  add_library(${target} STATIC ${arg_SOURCES})
-  add_library(VoxelCore::${name} ALIAS ${target})
-  target_include_directories(${target} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}/include")
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS ON POSITION_INDEPENDENT_CODE ON)
-  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE VoxelCoreBuildRules ${arg_PRIVATE})
+  voxelcore_library(VoxelCore${name} ${arg_SOURCES})
+  target_link_libraries(VoxelCore${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
 # voxelcore_tests(Name SOURCES aGTest.cxx ... LIBRARIES targets... [ENVIRONMENT A=b ...])

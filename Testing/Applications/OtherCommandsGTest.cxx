@@ -52,7 +52,13 @@ TEST_F(OtherCommands, HelpHasExamplesUnitsAndExitCodes)
   {
     EXPECT_NE(core.find(word), std::string::npos) << word;
   }
-  EXPECT_TRUE(Run({ "--version" }).starts_with("voxelcore "));
+  const std::string version = Run({ "--version" });
+  EXPECT_TRUE(version.starts_with("voxelcore " VOXELCORE_VERSION "\n")) << version;
+  for (const char * part : { "\nengines: lattice", "VTK 9.", "libtiff 4.", "libpng 1.", "zlib 1.", "OpenMP 20" })
+  {
+    EXPECT_NE(version.find(part), std::string::npos) << part << " in " << version;
+  }
+  EXPECT_EQ(version.find("tetgen") != std::string::npos, version.find("AGPL") != std::string::npos);
 }
 
 TEST_F(OtherCommands, InfoCountsWhatIsThere)

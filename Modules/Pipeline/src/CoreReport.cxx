@@ -281,12 +281,6 @@ ReadLabel(const Json & json)
 } // namespace
 
 std::string
-VoxelCoreVersion()
-{
-  return VOXELCORE_VERSION;
-}
-
-std::string
 ReportJson(const CoreReport & report)
 {
   Json                 json = WholeJson(report, false);

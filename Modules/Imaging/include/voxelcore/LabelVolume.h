@@ -95,6 +95,10 @@ ReadLabelVolume(const std::filesystem::path & path,
                 const ReadOptions &           options = {},
                 const ProgressCallback &      progress = {});
 
+/** The libraries that read and write scans, as they are loaded: "libtiff 4.5.0", "libpng 1.6.39", ... */
+std::vector<std::string>
+ImagingLibraries();
+
 /** The files a scan consists of: the file itself first, then, sorted by name, the data files that a detached header
  *  points to, or the other half of a NIfTI pair; for a folder or a pattern the slices alone. Files that are not there
  *  are left out. \throws InputError when a header that must be looked into is none. */

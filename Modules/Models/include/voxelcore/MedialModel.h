@@ -70,6 +70,10 @@ WriteModel(const std::filesystem::path & path,
            const MedialModel &           model,
            const ModelOptions &          options = {});
 
+/** The library that writes models, as it is loaded: "VTK 9.1.0". */
+std::string
+ModelLibrary();
+
 /** Reads a .vtp that WriteModel wrote, with every bit as it was written; writing it again gives the same bytes. Edges
  *  come back in canonical order; without hasEdges the measures of those on faces that are no lines are NaN. A part without vertices leaves
  *  no trace in a file. Written with `triangles`, the triangles are the faces.

@@ -143,6 +143,10 @@ struct CoreReport
 std::string
 VoxelCoreVersion();
 
+/** The version, the engines of this build, and the libraries at work with theirs: a line each. */
+std::string
+VersionText();
+
 /** The report as indented JSON with a final newline. Keys stand in a fixed order. */
 std::string
 ReportJson(const CoreReport & report);

@@ -1,0 +1,58 @@
+# What `cmake --install` puts where, and the files by which other projects find it. Every path is relative to the prefix,
+# so the installed tree may be moved.
+include(CMakePackageConfigHelpers)
+set(VOXELCORE_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/VoxelCore")
+
+# A component of find_package(VoxelCore COMPONENTS ...) is a set of libraries and the components it builds on; what is
+# not built is left out.
+set(VOXELCORE_COMPONENTS Core Imaging Models Display Pipeline ITK VTK)
+set(component_Core Lattice Shape Complex Delaunay VoxelCore Skeleton Phantom Verification Core)
+foreach(component Imaging Models Display Pipeline ITK VTK)
+  set(component_${component} ${component})
+endforeach()
+
+set(VOXELCORE_BUILT_COMPONENTS "")
+foreach(component ${VOXELCORE_COMPONENTS})
+  set(targets "")
+  foreach(library ${component_${component}})
+    if(TARGET VoxelCore${library})
+      list(APPEND targets VoxelCore${library})
+    endif()
+  endforeach()
+  if(targets)
+    list(APPEND VOXELCORE_BUILT_COMPONENTS ${component})
+    install(TARGETS ${targets} EXPORT VoxelCore-${component}
+      ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+    install(EXPORT VoxelCore-${component} NAMESPACE VoxelCore:: DESTINATION "${VOXELCORE_CONFIG_DIR}"
+      COMPONENT development)
+  endif()
+endforeach()
+
+# Only public headers lie in an include folder. Those of ITK and VTK classes need these libraries.
+foreach(module ${VOXELCORE_MODULES})
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/Modules/${module}/include/voxelcore"
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development FILES_MATCHING PATTERN "*.h")
+  foreach(library ITK VTK)
+    if(TARGET VoxelCore${library})
+      string(TOLOWER ${library} prefix)
+      file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Modules/${module}/include/${prefix}*.h"
+        "${PROJECT_SOURCE_DIR}/Modules/${module}/include/${prefix}*.hxx")
+      install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
+    endif()
+  endforeach()
+endforeach()
+
+string(REPLACE ";" " " VOXELCORE_DISPLAY_VTK_MODULES "${VOXELCORE_DISPLAY_VTK}")
+set(VOXELCORE_NEEDS_BZIP2 OFF)
+if(TARGET VoxelCoreImaging)
+  get_target_property(libraries VoxelCoreImaging LINK_LIBRARIES)
+  if("BZip2::BZip2" IN_LIST libraries)
+    set(VOXELCORE_NEEDS_BZIP2 ON)
+  endif()
+endif()
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/VoxelCoreConfig.cmake.in"
+  "${PROJECT_BINARY_DIR}/VoxelCoreConfig.cmake" INSTALL_DESTINATION "${VOXELCORE_CONFIG_DIR}"
+  NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/VoxelCoreConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/VoxelCoreConfig.cmake" "${PROJECT_BINARY_DIR}/VoxelCoreConfigVersion.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/FindTetGen.cmake" DESTINATION "${VOXELCORE_CONFIG_DIR}" COMPONENT development)

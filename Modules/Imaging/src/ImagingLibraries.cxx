@@ -1,0 +1,37 @@
+#include "voxelcore/LabelVolume.h"
+
+#include <png.h>
+#include <tiffio.h>
+#include <zlib.h>
+#ifdef VOXELCORE_BZIP2
+#  include <bzlib.h>
+#endif
+
+namespace voxelcore
+{
+namespace
+{
+
+/** The first number with a dot in a library's own words, such as "LIBTIFF, Version 4.5.0\nCopyright ...". */
+std::string
+VersionIn(const std::string & text)
+{
+  const std::size_t begin = text.find_first_of("0123456789");
+  return begin == std::string::npos ? "?" : text.substr(begin, text.find_first_not_of("0123456789.", begin) - begin);
+}
+
+} // namespace
+
+std::vector<std::string>
+ImagingLibraries()
+{
+  std::vector<std::string> libraries{ "libtiff " + VersionIn(TIFFGetVersion()),
+                                      "libpng " + VersionIn(png_get_libpng_ver(nullptr)),
+                                      "zlib " + VersionIn(zlibVersion()) };
+#ifdef VOXELCORE_BZIP2
+  libraries.push_back("bzip2 " + VersionIn(BZ2_bzlibVersion()));
+#endif
+  return libraries;
+}
+
+} // namespace voxelcore

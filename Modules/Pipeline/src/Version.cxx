@@ -1,0 +1,30 @@
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/DelaunayCells.h"
+#include "voxelcore/LabelVolume.h"
+
+namespace voxelcore
+{
+
+std::string
+VoxelCoreVersion()
+{
+  return VOXELCORE_VERSION;
+}
+
+std::string
+VersionText()
+{
+  std::string text = "voxelcore " + VoxelCoreVersion() + "\nengines: lattice";
+  if (HasEngine(Engine::TetGen))
+  {
+    text += ", tetgen (AGPL-3, and so is this program as a whole)";
+  }
+  text += "\nlibraries: " + ModelLibrary();
+  for (const std::string & library : ImagingLibraries())
+  {
+    text += ", " + library;
+  }
+  return text + ", OpenMP " + std::to_string(_OPENMP) + "\n";
+}
+
+} // namespace voxelcore

@@ -1,0 +1,32 @@
+// From a scan to a file. usage: UsesFiles SCAN OUT.vtp
+
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/LambdaPruning.h"
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <cstdio>
+#include <exception>
+
+int
+main(int argc, char ** argv)
+{
+  try
+  {
+    if (argc != 3)
+    {
+      return 2;
+    }
+    const voxelcore::LabelVolume scan = voxelcore::ReadLabelVolume(argv[1]);
+    const auto                   weights = voxelcore::ComputeSpacingWeights(scan.geometry.spacing);
+    const auto                   core = voxelcore::ComputeVoxelCore(scan.labels[0].shape, weights);
+    const auto                   pruned = voxelcore::PruneByLambda(core, { 1.5 });
+    voxelcore::WriteModel(argv[2], argv[2], { { voxelcore::ToPhysical(pruned[0], scan.geometry, 1) }, "" });
+    return voxelcore::ReadModel(argv[2]).parts.at(0).core.cells.FaceCount() == pruned[0].cells.FaceCount() ? 0 : 1;
+  }
+  catch (const std::exception & error)
+  {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

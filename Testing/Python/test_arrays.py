@@ -1,0 +1,137 @@
+"""Whatever the array looks like in memory, the core is that of its values; or there is one clear line."""
+
+import numpy
+import pytest
+import voxelcore
+from conftest import blobs
+
+WHOLE = ["bool", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64"]
+
+
+def same(a, b):
+    names = ["vertices", "radius", "edges", "face_offsets", "face_vertices", "face_edges"]
+    names += ["lambda_vertices", "lambda_edges", "lambda_faces"]
+    return all(getattr(a, name).tobytes() == getattr(b, name).tobytes() for name in names)
+
+
+@pytest.fixture
+def expected(volume):
+    core = voxelcore.core(numpy.asfortranarray(volume))
+    assert len(core.face_offsets) > 50
+    return core
+
+
+@pytest.mark.parametrize("dtype", WHOLE)
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_any_type_and_memory_order(volume, expected, dtype, order):
+    assert same(voxelcore.core(numpy.array(volume, dtype, order=order)), expected)
+
+
+@pytest.mark.parametrize("dtype", [">u2", ">i4", ">f8", ">u8", "<i2"])
+def test_any_byte_order(volume, expected, dtype):
+    assert same(voxelcore.core(volume.astype(dtype)), expected)
+
+
+def test_views_with_any_strides(volume, expected):
+    wide = numpy.full((60, 50, 44), 9, numpy.int16)
+    view = wide[2:58:2, 48:0:-2, 1:41:2]
+    view[...] = volume
+    assert view.shape == volume.shape and min(view.strides) < 0
+    assert same(voxelcore.core(view), expected)
+    for axes in [(0, 2, 1), (1, 0, 2), (2, 1, 0), (1, 2, 0), (2, 0, 1)]:
+        inner = numpy.ascontiguousarray(volume.transpose(axes))
+        assert same(voxelcore.core(inner.transpose(numpy.argsort(axes))), expected)
+    assert same(voxelcore.core(volume[::-1, ::-1, ::-1].copy()[::-1, ::-1, ::-1]), expected)
+
+
+def test_read_only_unaligned_and_broadcast_arrays(volume, expected):
+    volume.setflags(write=False)
+    assert same(voxelcore.core(volume), expected)
+    unaligned = numpy.ndarray(volume.shape, numpy.int32, bytearray(volume.size * 4 + 1), 1, order="F")
+    unaligned[...] = volume
+    assert not unaligned.flags.aligned
+    assert same(voxelcore.core(unaligned), expected)
+    slab = numpy.broadcast_to(numpy.uint8([1, 1, 1]), (9, 8, 3))
+    assert 0 in slab.strides
+    assert same(voxelcore.core(slab), voxelcore.core(slab.copy()))
+
+
+def test_whatever_numpy_can_make_an_array_of():
+    nested = [[[1, 1], [1, 1]], [[1, 1], [1, 0]]]
+    assert same(voxelcore.core(nested, lambda_=0), voxelcore.core(numpy.array(nested), lambda_=0))
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_slabs_of_rows_join_without_a_seam(order):
+    # Rows of 1 MB: a slice is several slabs, and none may run into the next slice.
+    array = numpy.zeros((1 << 17, 7, 3), numpy.int64, order=order)
+    array[5000:5030, 1:6, 1] = 1
+    array[5010:5020, 3:7, 0:3] = 1
+    core = voxelcore.core(array, lambda_=0)
+    part = voxelcore.core(array[4990:5050], lambda_=0, origin=(4990, 0, 0))
+    assert core.voxels == array.sum() and same(core, part)
+
+
+@pytest.mark.parametrize(
+    "array, words",
+    [
+        (numpy.zeros((3, 3), numpy.uint8), "2 dimensions"),
+        (numpy.zeros((3, 3, 3, 1), numpy.uint8), "4 dimensions"),
+        (numpy.zeros((3, 0, 3), numpy.uint8), "empty"),
+        (numpy.zeros((3, 3, 3), numpy.uint8), "background"),
+        (numpy.full((3, 3, 3), "x"), "its type is"),
+        (numpy.full((3, 3, 3), None), "its type is object"),
+        (numpy.ones((3, 3, 3), numpy.float16), "float16"),
+        (numpy.ones((3, 3, 3), numpy.longdouble), "longdouble|float128"),
+        (numpy.ones((3, 3, 3), complex), "complex128"),
+        (numpy.ones((3, 3, 3), "datetime64[s]"), "datetime64"),
+        (numpy.ones((3, 3, 3), [("a", int)]), "its type is"),
+        (numpy.full((3, 3, 3), 0.5), r"0\.5"),
+        (numpy.full((3, 3, 3), numpy.nan), "nan"),
+        (numpy.full((3, 3, 3), -1), "-1"),
+        (7, "0 dimensions"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_one_line(array, words):
+    with pytest.raises(ValueError, match=words) as caught:
+        voxelcore.core(array)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        (dict(spacing=(1, 1)), "spacing"),
+        (dict(spacing=(1, 1, 0)), "spacing|0"),
+        (dict(spacing="abc"), "spacing"),
+        (dict(lambda_="2 parsecs"), "parsecs"),
+        (dict(lambda_=-1), "-1"),
+        (dict(lambda_="0,1mm"), "one lambda_"),
+        (dict(lambda_=None), "None"),
+        (dict(bumps="x"), "x"),
+        (dict(label=77), "77"),
+        (dict(label=1.5), r"1\.5"),
+        (dict(label="one"), "one"),
+        (dict(axes="xyz"), "xyz"),
+        (dict(engine="magic"), "magic"),
+        (dict(threads=-2), "-2"),
+        (dict(direction=numpy.eye(2)), "3 by 3"),
+        (dict(direction=[[1, 0.2, 0], [0, 1, 0], [0, 0, 1]]), "degrees|right"),
+        (dict(threshold=(3, 1)), "lower bound"),
+        (dict(threshold=(1, 2), label=1), "exclude"),
+        (dict(origin=(0, 0, numpy.inf)), "origin|inf"),
+    ],
+)
+def test_options_that_make_no_sense_are_refused_in_one_line(volume, options, words):
+    with pytest.raises(ValueError, match=words) as caught:
+        voxelcore.core(volume, **options)
+    assert "\n" not in str(caught.value)
+
+
+def test_several_labels_ask_for_a_choice():
+    three = blobs(3, labels=3)
+    with pytest.raises(ValueError, match=r"3 labels \(1, 2, 3\)"):
+        voxelcore.core(three)
+    assert same(voxelcore.core(three, label=2), voxelcore.core(three == 2))
+    assert same(voxelcore.core(three, label="any"), voxelcore.core(three > 0))
+    assert voxelcore.core(three, label=numpy.int16(2)).label == 2

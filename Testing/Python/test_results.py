@@ -1,0 +1,224 @@
+"""Python gives what the command line gives, bit for bit; results are views that live as long as somebody holds them."""
+
+import gc
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy
+import pytest
+import voxelcore
+from conftest import blobs, run, write_nrrd
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+TURNED = numpy.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+PLACES = [
+    dict(),
+    dict(spacing=(0.5, 0.5, 2), origin=(-3, 7.25, 100)),
+    dict(spacing=(1, 2, 3), direction=TURNED),
+    dict(direction=numpy.diag([-1, 1, 1])),
+]
+
+
+def polydata(path):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def arrays(data):
+    """Everything in a vtkPolyData but its Provenance, as bytes by name."""
+    found = {"points": vtk_to_numpy(data.GetPoints().GetData()).tobytes()}
+    for name in ("Verts", "Lines", "Polys"):
+        cells = getattr(data, "Get" + name)()
+        for part in ("Offsets", "Connectivity"):
+            values = vtk_to_numpy(getattr(cells, f"Get{part}Array")()).astype(numpy.int64)
+            found[name + part] = values.tobytes() if cells.GetNumberOfCells() else b""
+    for kind in ("Point", "Cell"):
+        attributes = getattr(data, f"Get{kind}Data")()
+        for index in range(attributes.GetNumberOfArrays()):
+            found[kind + attributes.GetArrayName(index)] = vtk_to_numpy(attributes.GetArray(index)).tobytes()
+    return found
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("lambda_", [0, "1.5vox", "2mm", "3%"])
+def test_a_core_has_the_bits_of_the_command_line(tmp_path, place, lambda_):
+    volume = blobs(11)
+    write_nrrd(tmp_path / "scan.nrrd", volume, **place)
+    done = run("core", tmp_path / "scan.nrrd", "--lambda", lambda_, "--keep-edges", "-o", tmp_path / "cli.vtp", "-q")
+    assert done.returncode == 0, done.stderr
+    core = voxelcore.core(volume, lambda_=lambda_, **place)
+    assert arrays(core.to_polydata()) == {
+        name: value for name, value in arrays(polydata(tmp_path / "cli.vtp")).items() if name not in ("CellComponent",)
+    }
+    core.save(tmp_path / "python.vtp", keep_edges=True)
+    assert arrays(polydata(tmp_path / "python.vtp")) == arrays(polydata(tmp_path / "cli.vtp"))
+    ours = json.loads(voxelcore.read(tmp_path / "python.vtp")._data.report)
+    theirs = json.loads(voxelcore.read(tmp_path / "cli.vtp")._data.report)
+    for label in (ours["labels"][0], theirs["labels"][0]):
+        label.pop("output", None)
+    assert ours["labels"] == theirs["labels"]
+    verified = run("verify", tmp_path / "scan.nrrd", tmp_path / "python.vtp")
+    assert verified.returncode == 0, verified.stderr
+
+
+def test_bump_heights_have_the_bits_of_the_command_line(tmp_path):
+    volume = blobs(12)
+    write_nrrd(tmp_path / "scan.nrrd", volume)
+    assert run("core", tmp_path / "scan.nrrd", "--bumps", "1.2diag", "-o", tmp_path / "cli.vtp").returncode == 0
+    core = voxelcore.core(volume, bumps="1.2diag")
+    assert len(core.bump_vertices) == len(core.vertices)
+    core.save(tmp_path / "python.vtp")
+    assert arrays(polydata(tmp_path / "python.vtp")) == arrays(polydata(tmp_path / "cli.vtp"))
+
+
+def test_a_skeleton_has_the_bits_of_the_command_line(tmp_path):
+    volume = blobs(13, shape=(60, 30, 30))
+    place = PLACES[1]
+    write_nrrd(tmp_path / "scan.nrrd", volume, **place)
+    options = ["--root", "top", "--also", "csv"]
+    done = run("skeleton", tmp_path / "scan.nrrd", "-o", tmp_path / "cli.vtp", *options)
+    assert done.returncode == 0, done.stderr
+    skeleton = voxelcore.skeleton(volume, root="top", **place)
+    skeleton.save(tmp_path / "python.vtp", also=["csv"])
+    assert arrays(polydata(tmp_path / "python.vtp")) == arrays(polydata(tmp_path / "cli.vtp"))
+    for table in ("branches", "summary"):
+        assert (tmp_path / f"python_{table}.csv").read_text() == (tmp_path / f"cli_{table}.csv").read_text()
+    drawn = arrays(skeleton.to_polydata())
+    written = arrays(polydata(tmp_path / "cli.vtp"))
+    assert len(skeleton.branch_nodes) > 0 and all(drawn[name] == written[name] for name in drawn)
+    # The table in Python is the file's, unrounded.
+    table = voxelcore.measure(skeleton)
+    lines = [line.split(",") for line in (tmp_path / "cli_branches.csv").read_text().splitlines()]
+    for name in ("branch_distance", "mean_radius", "strahler", "branch_type"):
+        file = [float(line[lines[0].index(name)]) for line in lines[1:]]
+        assert numpy.allclose(table[name], file, rtol=1e-6, atol=0), name
+    assert set(table) <= set(voxelcore.columns())
+    assert skeleton.numbers["branches"] == len(table["branch_distance"]) == len(skeleton.branch_nodes)
+
+
+def test_pruning_a_core_equals_making_it_pruned(volume):
+    whole = voxelcore.core(volume, lambda_=0)
+    once = voxelcore.core(volume, lambda_="2vox")
+    for pruned in (whole.prune("2vox"), whole.prune("1vox").prune(2)):
+        assert arrays(pruned.to_polydata()) == arrays(once.to_polydata())
+        assert pruned.topology == whole.topology
+    with pytest.raises(ValueError, match="pruned at 2vox already"):
+        once.prune("1vox")
+
+
+def test_arrays_of_simpleitk_are_turned_by_axes(volume):
+    place = dict(spacing=(1, 2, 3), origin=(5, 6, 7), direction=TURNED.ravel())
+    ours = voxelcore.core(volume, **place)
+    theirs = voxelcore.core(numpy.ascontiguousarray(volume.T), axes="kji", **place)
+    assert arrays(ours.to_polydata()) == arrays(theirs.to_polydata())
+
+
+def test_the_topology_is_that_of_the_voxels():
+    ring = numpy.ones((12, 12, 4), bool)
+    ring[4:8, 4:8] = False
+    core = voxelcore.core(ring)
+    assert core.topology == core.shape_topology == {"euler": 0, "betti": (1, 1, 0)}
+    shell = numpy.ones((9, 9, 9), bool)
+    shell[4, 4, 4] = False
+    assert voxelcore.core(shell).topology == {"euler": 2, "betti": (1, 0, 1)}
+    assert voxelcore.skeleton(ring).numbers["cycles"] == 1
+
+
+def test_arrays_are_views_that_outlive_their_core(volume):
+    core = voxelcore.core(volume)
+    vertices, again = core.vertices, core.vertices
+    assert vertices.__array_interface__["data"] == again.__array_interface__["data"]
+    assert not vertices.flags.owndata and not vertices.flags.writeable
+    copy = vertices.copy()
+    del core, again
+    gc.collect()
+    junk = [numpy.random.rand(*copy.shape) for _ in range(50)]
+    assert numpy.array_equal(vertices, copy) and junk
+    with pytest.raises(ValueError):
+        vertices[0] = 0
+
+
+def test_no_memory_is_lost(volume):
+    def resident():
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[1]) * 4096
+
+    for _ in range(20):
+        voxelcore.core(volume).vertices
+    before = resident()
+    for _ in range(100):
+        core = voxelcore.core(volume)
+        (core.vertices, core.edges, core.to_polydata())
+        with pytest.raises(ValueError):
+            voxelcore.core(volume, lambda_="x")
+    assert resident() - before < 8 << 20
+
+
+def test_what_is_written_is_whole_or_not_there(tmp_path, volume):
+    core = voxelcore.core(volume)
+    with pytest.raises(ValueError, match="unknown extension"):
+        core.save(tmp_path / "core.doc")
+    with pytest.raises(OSError, match="nowhere"):
+        core.save(tmp_path / "nowhere" / "core.vtp")
+    core.save(tmp_path / "core.vtp")
+    with pytest.raises(OSError, match="exists"):
+        core.save(tmp_path / "core.vtp")
+    core.save(tmp_path / "core.vtp", overwrite=True)
+    assert sorted(os.listdir(tmp_path)) == ["core.vtp"]
+    for name in ("core.ply", "core.stl", "core.obj", "core.vtk", "core.ma"):
+        core.save(tmp_path / name)
+        assert (tmp_path / name).stat().st_size > 100
+    with pytest.raises(ValueError, match="missing"):
+        voxelcore.read(tmp_path / "missing.vtp")
+
+
+def test_progress_is_told_and_its_errors_arrive(volume):
+    stages = []
+    voxelcore.core(numpy.kron(volume, numpy.ones((3, 3, 3), numpy.uint8)), progress=lambda *told: stages.append(told))
+    assert stages and all(isinstance(stage, str) and 0 <= done <= 1 for stage, done in stages)
+
+    def refuse(stage, done):
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        voxelcore.core(volume, progress=refuse)
+
+
+BIG = "import numpy, voxelcore; a = numpy.random.default_rng(1).random((140, 140, 140)) < 0.7; "
+
+
+def test_ctrl_c_stops_a_computation_soon():
+    code = BIG + "print('go', flush=True)\ntry:\n voxelcore.core(a)\nexcept KeyboardInterrupt:\n print('stopped')"
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "go\n"
+    time.sleep(0.7)
+    child.send_signal(signal.SIGINT)
+    began = time.monotonic()
+    assert child.communicate(timeout=60)[0] == "stopped\n" and child.returncode == 0
+    assert time.monotonic() - began < 20
+
+
+def test_other_threads_run_meanwhile_and_compute_at_once(volume):
+    big = numpy.kron(volume, numpy.ones((3, 3, 3), numpy.uint8))
+    expected = arrays(voxelcore.core(big, threads=1).to_polydata())
+    ticks, results = [], {}
+
+    def work(name):
+        results[name] = arrays(voxelcore.core(big, threads=2).to_polydata())
+
+    workers = [threading.Thread(target=work, args=(name,)) for name in range(2)]
+    for worker in workers:
+        worker.start()
+    while any(worker.is_alive() for worker in workers):
+        ticks.append(time.monotonic())
+        time.sleep(0.005)
+    assert len(ticks) > 5, "the interpreter was locked"
+    assert results == {0: expected, 1: expected}
