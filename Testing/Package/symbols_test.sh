@@ -7,7 +7,7 @@ set -euo pipefail
 file=$1
 shift
 exported=$(nm -D --defined-only "$file" | awk '{print $NF}' | c++filt | sed -E 's/@.*//')
-left=$(grep -vE '^((typeinfo( name)?|vtable|VTT|guard variable|construction vtable) for |[a-z ]+ )?(std|__gnu_cxx)::|^_(init|fini|IO_stdin_used)$|^std[a-z]+$' \
+left=$(grep -vE '^((typeinfo( name)?|vtable|VTT|guard variable|construction vtable) for |[a-z ]+ )?(std|__gnu_cxx)::|^_(init|fini|IO_stdin_used)$|^__(bss_start|libc_single_threaded)$|^_(edata|end)$|^std[a-z]+$' \
   <<<"$exported" | sort -u || true)
 wanted=$(printf '%s\n' "$@" | sort -u)
 if [ "$left" != "$wanted" ]; then
