@@ -6,13 +6,13 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-groups=(build test)
+groups=(build python test)
 leave_out=(-LE "heavy|sanitizer|browser|package|cluster|fuzz")
 case "${1:-}" in
   "") ;;
   --heavy)
     leave_out=()
-    groups+=(sanitizer)
+    groups+=(sanitizer package)
     ;;
   *) echo "run.sh: unknown option '$1'; there is --heavy" >&2; exit 2 ;;
 esac

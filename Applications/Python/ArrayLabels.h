@@ -1,0 +1,33 @@
+#pragma once
+// From a strided array in memory to voxel shapes.
+
+#include "voxelcore/LabelAssembler.h"
+#include "voxelcore/Progress.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** An array of scalars as numpy holds it; axes are i, j, k. Strides may be negative or 0. */
+struct ArrayView
+{
+  const std::byte *             data = nullptr; ///< of element (0,0,0)
+  std::array<std::int64_t, 3>   size{};
+  std::array<std::ptrdiff_t, 3> stride{}; ///< bytes
+  LabelAssembler::Pixel         pixel{};
+  bool                          swapped = false; ///< not in this machine's byte order
+};
+
+/** The shapes of the labels in an array. One pass; besides the shapes it takes a few MB.
+ *  \throws InputError, UsageError as LabelAssembler; Cancelled */
+std::vector<LabelShape>
+LabelsOf(const ArrayView &        array,
+         const ImageGeometry &    geometry,
+         const ReadOptions &      options,
+         const ProgressCallback & progress = {});
+
+} // namespace voxelcore

@@ -1,0 +1,426 @@
+// The Python module voxelcore._voxelcore: arguments in, views on results out. What users see is voxelcore/__init__.py.
+
+#include "LabelWork.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/Progress.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <omp.h>
+#include <string>
+#include <thread>
+
+namespace py = pybind11;
+using namespace voxelcore; // NOLINT: the module's only file speaks its library's language
+
+namespace
+{
+
+/** Looks for Ctrl-C a few times a second while no Python code runs, and shows progress to whoever asked for it.
+ *  To be made with the interpreter's lock held. */
+class Watch
+{
+public:
+  explicit Watch(py::object listener)
+    : m_Listener(std::move(listener))
+  {}
+
+  ProgressCallback
+  Callback()
+  {
+    return [this](std::string_view stage, double fraction) { return Look(stage, fraction); };
+  }
+
+  /** After Cancelled: the Python exception behind it. */
+  [[noreturn]] void
+  Rethrow()
+  {
+    if (m_Failure)
+    {
+      throw std::move(*m_Failure);
+    }
+    throw Cancelled();
+  }
+
+private:
+  bool
+  Look(std::string_view stage, double fraction)
+  {
+    using namespace std::chrono_literals;
+    // Python hands signals to its main thread only; others, that work for this one, do not ask.
+    const auto now = std::chrono::steady_clock::now();
+    if (std::this_thread::get_id() != m_Thread || now - m_Last < 50ms)
+    {
+      return !m_Failure;
+    }
+    m_Last = now;
+    const py::gil_scoped_acquire lock;
+    try
+    {
+      if (PyErr_CheckSignals() != 0)
+      {
+        throw py::error_already_set();
+      }
+      if (!m_Listener.is_none())
+      {
+        m_Listener(py::str(stage.data(), stage.size()), fraction);
+      }
+    }
+    catch (py::error_already_set & error)
+    {
+      m_Failure = std::make_unique<py::error_already_set>(std::move(error));
+    }
+    return !m_Failure;
+  }
+
+  py::object                             m_Listener;
+  std::thread::id                        m_Thread = std::this_thread::get_id();
+  std::chrono::steady_clock::time_point  m_Last{};
+  std::unique_ptr<py::error_already_set> m_Failure;
+};
+
+/** So many threads for what this thread starts, as long as it lives. */
+class ThreadCount
+{
+public:
+  explicit ThreadCount(int count)
+    : m_Before(omp_get_max_threads())
+  {
+    if (count > 0)
+    {
+      omp_set_num_threads(count);
+    }
+  }
+  ThreadCount(const ThreadCount &) = delete;
+  ThreadCount &
+  operator=(const ThreadCount &) = delete;
+  ~ThreadCount()
+  {
+    omp_set_num_threads(m_Before);
+  }
+
+private:
+  int m_Before;
+};
+
+/** Runs `work(progress)` without the interpreter's lock. */
+template <typename TWork>
+auto
+Run(const ParameterValues & values, py::object listener, TWork && work)
+{
+  const ThreadCount threads(ThreadsFrom(values, CommandId::Core));
+  Watch             watch(std::move(listener));
+  try
+  {
+    const py::gil_scoped_release release;
+    return work(watch.Callback());
+  }
+  catch (const Cancelled &)
+  {
+    watch.Rethrow();
+  }
+}
+
+[[noreturn]] void
+RefuseArray(const std::string & what)
+{
+  throw InputError("the array: " + what);
+}
+
+ArrayView
+ViewOf(const py::array & array)
+{
+  if (array.ndim() != 3)
+  {
+    RefuseArray("it has " + std::to_string(array.ndim()) + " dimensions; give three, of a single slice a[:, :, None]");
+  }
+  const py::dtype type = array.dtype();
+  const char      kind = type.kind();
+  const bool      isWhole = kind == 'b' || kind == 'i' || kind == 'u';
+  if (!(isWhole && type.itemsize() <= 8) && !(kind == 'f' && (type.itemsize() == 4 || type.itemsize() == 8)))
+  {
+    RefuseArray("its type is " + py::str(type).cast<std::string>() +
+                "; give whole numbers (bool, int8 to uint64, or float32 and float64 that hold whole numbers)");
+  }
+  ArrayView view;
+  view.data = static_cast<const std::byte *>(array.data());
+  view.pixel = { static_cast<std::size_t>(type.itemsize()), kind == 'i', kind == 'f' };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    view.size[axis] = array.shape(static_cast<py::ssize_t>(axis));
+    view.stride[axis] = array.strides(static_cast<py::ssize_t>(axis));
+    if (view.size[axis] == 0)
+    {
+      RefuseArray("it is empty");
+    }
+  }
+  view.swapped = !type.attr("isnative").cast<bool>();
+  return view;
+}
+
+std::shared_ptr<CoreOfLabel>
+CoreOfArray(const py::array &             array,
+            const std::array<double, 3> & spacing,
+            const std::array<double, 3> & origin,
+            const std::array<double, 9> & direction,
+            const ParameterValues &       values,
+            py::object                    listener)
+{
+  const ArrayView view = ViewOf(array);
+  ImageGeometry   geometry;
+  geometry.size = view.size;
+  geometry.spacing = spacing;
+  geometry.origin = origin;
+  geometry.direction = direction;
+  return Run(values, std::move(listener), [&](const ProgressCallback & progress) {
+    return MakeCore(view, geometry, values, progress);
+  });
+}
+
+/** A read-only array of `columns` numbers a row on memory that `owner` keeps alive; columns 0: one-dimensional. */
+template <typename TNumber, typename TOwner>
+py::array
+View(const std::shared_ptr<TOwner> & owner, const void * data, std::size_t rows, std::size_t columns = 0)
+{
+  auto *                   keep = new std::shared_ptr<TOwner>(owner);
+  py::capsule              capsule(keep, [](void * kept) { delete static_cast<std::shared_ptr<TOwner> *>(kept); });
+  std::vector<py::ssize_t> shape{ static_cast<py::ssize_t>(rows) };
+  if (columns > 0)
+  {
+    shape.push_back(static_cast<py::ssize_t>(columns));
+  }
+  py::array_t<TNumber> view(shape, static_cast<const TNumber *>(data), capsule);
+  view.attr("setflags")(py::arg("write") = false);
+  return std::move(view);
+}
+
+template <typename TNumber, typename TOwner>
+py::array
+View(const std::shared_ptr<TOwner> & owner, const std::vector<TNumber> & values)
+{
+  return View<TNumber>(owner, values.data(), values.size());
+}
+
+template <typename TNumber, std::size_t TColumns, typename TOwner>
+py::array
+View(const std::shared_ptr<TOwner> & owner, const std::vector<std::array<TNumber, TColumns>> & rows)
+{
+  return View<TNumber>(owner, rows.data(), rows.size(), TColumns);
+}
+
+py::dict
+Topology(const TopologyNumbers & numbers)
+{
+  py::dict dict;
+  dict["euler"] = numbers.euler;
+  dict["betti"] = py::make_tuple(numbers.betti[0], numbers.betti[1], numbers.betti[2]);
+  return dict;
+}
+
+py::dict
+NumbersOf(const SkeletonNumbers & numbers)
+{
+  py::dict dict;
+  dict["components"] = numbers.components;
+  dict["branches"] = numbers.branches;
+  dict["tips"] = numbers.tips;
+  dict["junctions"] = numbers.junctions;
+  dict["triple_points"] = numbers.triplePoints;
+  dict["quadruple_points"] = numbers.quadruplePoints;
+  dict["cycles"] = numbers.cycles;
+  dict["isolated_loops"] = numbers.isolatedLoops;
+  dict["isolated_points"] = numbers.isolatedPoints;
+  dict["closed_faces"] = numbers.closedFaces;
+  dict["plate_faces"] = numbers.plateFaces;
+  dict["total_length"] = numbers.totalLength;
+  dict["mean_length"] = numbers.meanLength;
+  dict["max_length"] = numbers.maxLength;
+  dict["mean_radius"] = numbers.meanRadius;
+  dict["volume"] = numbers.volume;
+  dict["surface"] = numbers.surface;
+  return dict;
+}
+
+/** A column of the branch table. */
+template <typename TNumber, typename TOf>
+py::array
+Column(const std::vector<BranchRecord> & branches, TOf && of)
+{
+  py::array_t<TNumber> column(static_cast<py::ssize_t>(branches.size()));
+  for (std::size_t b = 0; b < branches.size(); ++b)
+  {
+    column.mutable_at(static_cast<py::ssize_t>(b)) = of(branches[b]);
+  }
+  return std::move(column);
+}
+
+/** The numbers of all branches under the names of the command line's tables. */
+py::dict
+BranchColumns(const SkeletonOfLabel & skeleton)
+{
+  using Branch = BranchRecord;
+  const auto & branches = skeleton.part.table.branches;
+  py::dict     dict;
+  const auto   real = [&](const char * name, double Branch::*field) {
+    dict[name] = Column<double>(branches, [field](const Branch & branch) { return branch.*field; });
+  };
+  const auto whole = [&](const char * name, std::int32_t Branch::*field) {
+    dict[name] = Column<std::int64_t>(branches, [field](const Branch & branch) { return branch.*field; });
+  };
+  dict["skeleton_id"] = Column<std::int64_t>(branches, [](const Branch & branch) { return branch.component; });
+  dict["branch_type"] =
+    Column<std::int64_t>(branches, [](const Branch & branch) { return static_cast<std::int64_t>(branch.type); });
+  real("branch_distance", &Branch::length);
+  real("euclidean_distance", &Branch::chord);
+  real("tortuosity", &Branch::tortuosity);
+  real("free_length", &Branch::freeLength);
+  real("mean_radius", &Branch::meanRadius);
+  real("min_radius", &Branch::minRadius);
+  real("max_radius", &Branch::maxRadius);
+  real("sd_radius", &Branch::sdRadius);
+  real("volume", &Branch::volume);
+  real("surface", &Branch::surface);
+  dict["parent_branch"] = Column<std::int64_t>(branches, [](const Branch & branch) {
+    return branch.parent == kNoBranch ? std::int64_t{ -1 } : std::int64_t{ branch.parent };
+  });
+  real("parent_angle", &Branch::parentAngle);
+  whole("strahler", &Branch::strahler);
+  whole("centrifugal", &Branch::centrifugal);
+  whole("level", &Branch::level);
+  dict["axis"] = Column<std::int64_t>(branches, [](const Branch & branch) { return branch.axis; });
+  dict["closes_loop"] = Column<bool>(branches, [](const Branch & branch) { return branch.closesLoop; });
+  return dict;
+}
+
+void
+DefineCore(py::module_ & module)
+{
+  using Handle = std::shared_ptr<CoreOfLabel>;
+  const auto cells = [](const Handle & core) -> const CellComplex & { return core->part.core.cells; };
+  py::class_<CoreOfLabel, Handle>(module, "CoreData")
+    .def_property_readonly("vertices", [](const Handle & core) { return View(core, core->part.core.positions); })
+    .def_property_readonly("radius", [](const Handle & core) { return View(core, core->part.core.radius); })
+    .def_property_readonly("edges", [cells](const Handle & core) { return View(core, cells(core).edges); })
+    .def_property_readonly("face_offsets", [cells](const Handle & core) { return View(core, cells(core).faceOffsets); })
+    .def_property_readonly("face_vertices",
+                           [cells](const Handle & core) { return View(core, cells(core).faceVertices); })
+    .def_property_readonly("face_edges", [cells](const Handle & core) { return View(core, cells(core).faceEdges); })
+    .def_property_readonly("lambda_vertices",
+                           [](const Handle & core) { return View(core, core->part.core.vertexLambda); })
+    .def_property_readonly("lambda_edges", [](const Handle & core) { return View(core, core->part.core.edgeLambda); })
+    .def_property_readonly("lambda_faces", [](const Handle & core) { return View(core, core->part.core.faceLambda); })
+    .def_property_readonly("bump_vertices",
+                           [](const Handle & core) { return View(core, core->part.core.bumps.vertices); })
+    .def_property_readonly("bump_edges", [](const Handle & core) { return View(core, core->part.core.bumps.edges); })
+    .def_property_readonly("bump_faces", [](const Handle & core) { return View(core, core->part.core.bumps.faces); })
+    .def_property_readonly("label", [](const Handle & core) { return core->report.labels.front().label; })
+    .def_property_readonly("lambda_mm",
+                           [](const Handle & core) { return core->report.labels.front().pruned.front().lambdaMm; })
+    .def_property_readonly("voxels", [](const Handle & core) { return core->report.labels.front().voxels; })
+    .def_property_readonly("spacing", [](const Handle & core) { return core->report.input.geometry.spacing; })
+    .def_property_readonly(
+      "topology",
+      [](const Handle & core) { return Topology(core->report.labels.front().pruned.front().complex.topology); })
+    .def_property_readonly("shape_topology",
+                           [](const Handle & core) { return Topology(core->report.labels.front().shape); })
+    .def_property_readonly("report", [](const Handle & core) { return ReportJson(core->report); });
+}
+
+void
+DefineSkeleton(py::module_ & module)
+{
+  using Handle = std::shared_ptr<SkeletonOfLabel>;
+  const auto graph = [](const Handle & skeleton) -> const SkeletonGraph & { return skeleton->part.graph; };
+  py::class_<SkeletonOfLabel, Handle>(module, "SkeletonData")
+    .def_property_readonly("points", [graph](const Handle & s) { return View(s, graph(s).positions); })
+    .def_property_readonly("radius", [graph](const Handle & s) { return View(s, graph(s).radius); })
+    .def_property_readonly("erosion_thickness",
+                           [graph](const Handle & s) { return View(s, graph(s).erosionThickness); })
+    .def_property_readonly("branch_offsets", [graph](const Handle & s) { return View(s, graph(s).branchOffsets); })
+    .def_property_readonly("branch_points", [graph](const Handle & s) { return View(s, graph(s).branchPoints); })
+    .def_property_readonly("branch_nodes", [graph](const Handle & s) { return View(s, graph(s).branchNodes); })
+    .def_property_readonly("node_points", [graph](const Handle & s) { return View(s, graph(s).nodePoints); })
+    .def_property_readonly("node_kinds",
+                           [graph](const Handle & s) {
+                             const auto & kinds = graph(s).nodeKinds;
+                             return View<std::uint8_t>(s, kinds.data(), kinds.size());
+                           })
+    .def_property_readonly("face_offsets", [graph](const Handle & s) { return View(s, graph(s).faceOffsets); })
+    .def_property_readonly("face_vertices", [graph](const Handle & s) { return View(s, graph(s).faceVertices); })
+    .def_property_readonly("label", [](const Handle & s) { return s->part.label; })
+    .def_property_readonly(
+      "topology",
+      [](const Handle & s) { return Topology(s->report.labels.front().skeleton.value().topology); })
+    .def_property_readonly("numbers", [](const Handle & s) { return NumbersOf(s->part.table.numbers); })
+    .def_property_readonly("report", [](const Handle & s) { return ReportJson(s->report); })
+    .def("branch_columns", [](const Handle & s) { return BranchColumns(*s); });
+}
+
+} // namespace
+
+PYBIND11_MODULE(_voxelcore, module)
+{
+  // The first that fits: the last registered is asked first.
+  py::register_exception<CertificateError>(module, "CertificateError", PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try
+    {
+      std::rethrow_exception(pointer);
+    }
+    catch (const UsageError & error)
+    {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    }
+    catch (const InputError & error)
+    {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    }
+    catch (const OutputError & error)
+    {
+      PyErr_SetString(PyExc_OSError, error.what());
+    }
+  });
+  module.attr("__version__") = VoxelCoreVersion();
+  module.attr("version_text") = VersionText();
+  DefineCore(module);
+  DefineSkeleton(module);
+  module.def("core", &CoreOfArray);
+  module.def("prune", [](const std::shared_ptr<CoreOfLabel> & core, const std::string & lambda, py::object listener) {
+    return Run({}, std::move(listener), [&](const ProgressCallback & progress) {
+      return Prune(*core, lambda, progress);
+    });
+  });
+  module.def("skeleton",
+             [](const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & values, py::object listener) {
+               return Run(values, std::move(listener), [&](const ProgressCallback & progress) {
+                 return MakeSkeletonOf(core, values, progress);
+               });
+             });
+  module.def("save_core",
+             [](const std::shared_ptr<CoreOfLabel> & core,
+                const std::string &                  path,
+                bool                                 triangles,
+                bool                                 keepEdges,
+                bool                                 force) {
+               const py::gil_scoped_release release;
+               Save(*core, path, { triangles, keepEdges }, force);
+             });
+  module.def("save_skeleton",
+             [](const std::shared_ptr<SkeletonOfLabel> & skeleton,
+                const std::string &                      path,
+                const std::string &                      also,
+                bool                                     force) {
+               const py::gil_scoped_release release;
+               Save(*skeleton, path, also, force);
+             });
+  module.def("read_core", [](const std::string & path) {
+    const py::gil_scoped_release release;
+    return ReadCore(path);
+  });
+  module.def("skeleton_columns", &SkeletonColumnsJson);
+}

@@ -1,0 +1,485 @@
+"""Certified medial surfaces and curve skeletons of segmented volumes.
+
+>>> import numpy, voxelcore
+>>> ball = numpy.zeros((40, 40, 40), numpy.uint8)
+>>> i, j, k = numpy.indices(ball.shape)
+>>> ball[(i - 20) ** 2 + (j - 20) ** 2 + ((k - 20) * 2) ** 2 < 15 ** 2] = 1
+>>> core = voxelcore.core(ball, spacing=(0.5, 0.5, 0.5))
+>>> core.topology == core.shape_topology == {"euler": 1, "betti": (1, 0, 0)}
+True
+
+All lengths are millimetres, all points LPS (as ITK and 3D Slicer have them). Arrays in results are read-only views of the
+memory the computation left them in; nothing is copied, and they stay valid as long as anybody holds them.
+
+Errors: ValueError for an array or an option that makes no sense, OSError for a file that cannot be written,
+CertificateError when a result contradicts its own proof (then there is none), each with one line that says what to do.
+Ctrl-C stops a computation within a fraction of a second.
+"""
+
+import os
+
+import numpy
+
+from . import _voxelcore
+from ._voxelcore import CertificateError, __version__
+
+__all__ = ["core", "skeleton", "measure", "read", "Core", "Skeleton", "CertificateError", "columns", "__version__"]
+
+
+def _text(value):
+    """A length as the command line takes it: a number is millimetres."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (bool, numpy.bool_)) or not numpy.isscalar(value):
+        raise ValueError(f"{value!r}: expected a length such as '1.5vox' or a number of mm")
+    return numpy.format_float_positional(float(value), trim="-")
+
+
+def _three(name, values):
+    try:
+        numbers = [float(value) for value in values]
+    except (TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 3:
+        raise ValueError(f"{name}: expected three numbers")
+    return numbers
+
+
+def _nine(values):
+    try:
+        matrix = numpy.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        matrix = numpy.empty(0)
+    if matrix.size != 9:
+        raise ValueError("direction: expected a 3 by 3 matrix or its nine numbers row by row")
+    return [float(value) for value in matrix.reshape(9)]
+
+
+def _options(**given):
+    """Options of the command line by name; what is None or False is not given."""
+    values = {}
+    for name, value in given.items():
+        if value is not None and value is not False:
+            values[name.replace("_", "-")] = "true" if value is True else str(value)
+    return values
+
+
+def core(
+    array,
+    *,
+    spacing=(1, 1, 1),
+    lambda_="1.5vox",
+    label=None,
+    origin=(0, 0, 0),
+    direction=(1, 0, 0, 0, 1, 0, 0, 0, 1),
+    axes="ijk",
+    bumps=None,
+    threshold=None,
+    orthonormalize=False,
+    engine="auto",
+    threads=0,
+    progress=None,
+):
+    """The medial surface of one label: its voxel core, pruned, with the topology of its voxels. Returns a Core.
+
+    array: three-dimensional, of whole numbers, any memory order; 0 is background. It is read once, into one bit a voxel,
+        and not kept. It must not change meanwhile.
+    spacing: mm between voxels along i, j and k.
+    lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
+        number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side of
+        the label's box). 0 keeps the whole core.
+    label: its value. None: the array holds one; 'any': all but 0 are one shape.
+    origin: LPS mm of the centre of voxel (0, 0, 0).
+    direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
+        SimpleITK has it.
+    axes: 'ijk' for arrays a[i, j, k] (nibabel), 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of spacing, origin
+        and direction the order is i, j, k in either case.
+    bumps: prune by the height of bumps instead: a number of mm, '1.2diag' (voxel diagonals) or '2vox'.
+    threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
+    orthonormalize: accept skewed axes by taking the nearest that stand at right angles.
+    engine: 'auto', 'lattice' or 'tetgen'; the result is the same.
+    threads: processors to use; 0 means all.
+    progress: a function that is called with the stage and the fraction done, a few times a second.
+
+    >>> slab = numpy.ones((9, 9, 3), bool)
+    >>> surface = core(slab, spacing=(1, 1, 2), lambda_="1mm")
+    >>> surface.vertices.shape[1], surface.vertices.dtype.name, float(surface.radius.max())
+    (3, 'float64', 3.0)
+    >>> core(slab.astype(complex))
+    Traceback (most recent call last):
+    ...
+    ValueError: the array: its type is complex128; give whole numbers (bool, int8 to uint64, or float32 and float64 that hold whole numbers)
+    """
+    if axes not in ("ijk", "kji"):
+        raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
+    values = _options(orthonormalize=orthonormalize, engine=engine, threads=int(threads))
+    if bumps is not None:
+        values["bumps"] = _text(bumps)
+        values["lambda"] = "0" if lambda_ == "1.5vox" else _text(lambda_)
+    else:
+        values["lambda"] = _text(lambda_)
+    if threshold is not None:
+        low, high = threshold
+        values["threshold"] = f"{_text(low)}:{_text(high)}"
+    if isinstance(label, str) and label == "any":
+        values["binary"] = "true"
+    elif label is not None:
+        if isinstance(label, (bool, str)) or int(label) != label:
+            raise ValueError(f"label {label!r}: expected a whole number, 'any' or None")
+        values["labels"] = str(int(label))
+    voxels = numpy.asarray(array)
+    if axes == "kji":
+        voxels = voxels.T
+    return Core(
+        _voxelcore.core(voxels, _three("spacing", spacing), _three("origin", origin), _nine(direction), values, progress)
+    )
+
+
+def skeleton(
+    source,
+    *,
+    stand_out="3vox",
+    smooth="6vox",
+    plates=None,
+    prune_branches=None,
+    cut_loops=False,
+    split_at_junctions=False,
+    root="thickest",
+    threads=0,
+    progress=None,
+    **of_array,
+):
+    """The curve skeleton of a label, with the topology of its voxels. Returns a Skeleton.
+
+    source: an array, with the other arguments of core() (spacing, label, ...; its whole core is then taken, lambda_=0), or
+        a Core. Of a pruned one the tips of slender branches are gone.
+    stand_out: branches stand out by so much at least. Lengths are mm or text with a unit, as lambda_.
+    smooth: each point is fitted over so much of its branch before and behind it, and moves half a voxel at most; 0: not.
+    plates: parts of the surface that are at least so erosion-thick stay surfaces.
+    prune_branches: branches with a tip that are shorter go; also '1.5r', times the radius where they begin.
+    cut_loops: cut each cycle at its thinnest branch.
+    split_at_junctions: give each branch end points of its own.
+    root: where the hierarchy of branches begins: 'thickest', 'top', or a point (x, y, z), LPS mm.
+
+    >>> rod = numpy.zeros((40, 9, 9), numpy.uint8)
+    >>> rod[2:38, 2:7, 2:7] = 7
+    >>> curve = skeleton(rod, spacing=(0.1, 0.1, 0.1))
+    >>> curve.numbers["branches"], curve.numbers["tips"], curve.topology["betti"]
+    (1, 2, (1, 0, 0))
+    """
+    if isinstance(source, Core):
+        if of_array:
+            raise ValueError(f"{next(iter(of_array))}: is for arrays; the core was made already")
+    else:
+        of_array.setdefault("lambda_", 0)
+        source = core(source, threads=threads, progress=progress, **of_array)
+    values = _options(
+        stand_out=_text(stand_out),
+        smooth=_text(smooth),
+        plates=None if plates is None else _text(plates),
+        prune_branches=None if prune_branches is None else _text(prune_branches),
+        cut_loops=bool(cut_loops),
+        split_at_junctions=bool(split_at_junctions),
+        root=root if isinstance(root, str) else ",".join(repr(value) for value in _three("root", root)),
+        threads=int(threads),
+    )
+    return Skeleton(_voxelcore.skeleton(source._data, values, progress))
+
+
+def measure(source, **options):
+    """The numbers of a skeleton's branches: a dict of arrays, one entry a branch, under the names of 'voxelcore measure'
+    (columns() says what each means and its unit). Ready for pandas.DataFrame.
+
+    source: a Skeleton, or whatever skeleton() takes, with its arguments.
+
+    >>> rod = numpy.zeros((40, 9, 9), numpy.uint8)
+    >>> rod[2:38, 2:7, 2:7] = 7
+    >>> table = measure(rod, spacing=(0.1, 0.1, 0.1))
+    >>> 2.8 < table["branch_distance"][0] < 3.6 and 0.2 < table["mean_radius"][0] < 0.35
+    True
+    """
+    if isinstance(source, Skeleton):
+        if options:
+            raise ValueError(f"{next(iter(options))}: is for arrays and cores; the skeleton was made already")
+    else:
+        source = skeleton(source, **options)
+    return source._data.branch_columns()
+
+
+def read(path):
+    """The Core in a .vtp file with one label that 'voxelcore core' or Core.save() wrote.
+
+    >>> import tempfile, os
+    >>> surface = core(numpy.ones((9, 9, 3), bool))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     surface.save(os.path.join(folder, "core.vtp"))
+    ...     again = read(os.path.join(folder, "core.vtp"))
+    >>> numpy.array_equal(again.vertices, surface.vertices)
+    True
+    """
+    return Core(_voxelcore.read_core(os.fspath(path)))
+
+
+def columns():
+    """Name, unit and meaning of the columns of measure().
+
+    >>> columns()["branch_distance"]
+    {'unit': 'mm', 'meaning': 'length along the branch'}
+    """
+    import json
+
+    return {
+        column["name"]: {"unit": column["unit"], "meaning": column["meaning"]}
+        for column in json.loads(_voxelcore.skeleton_columns())["branches"]
+    }
+
+
+class _Result:
+    __slots__ = ("_data",)
+
+    def __init__(self, data):
+        self._data = data
+
+    @property
+    def label(self):
+        """The label's value."""
+        return self._data.label
+
+    @property
+    def topology(self):
+        """Euler number and Betti numbers (pieces, loops, cavities) as counted in this result; those of the voxels."""
+        return self._data.topology
+
+    @property
+    def report(self):
+        """What was done and found, as the command line's --report has it: a dict."""
+        import json
+
+        return json.loads(self._data.report)
+
+
+class Core(_Result):
+    """A medial surface: vertices, edges between them, polygons. Made by core().
+
+    >>> surface = core(numpy.ones((9, 9, 3), bool), lambda_=0)
+    >>> surface.face_offsets[-1] == len(surface.face_vertices) == len(surface.face_edges)
+    True
+    >>> surface.prune("1.5vox").lambda_mm
+    1.5
+    """
+
+    __slots__ = ()
+
+    @property
+    def vertices(self):
+        """(n, 3) float64: LPS mm."""
+        return self._data.vertices
+
+    @property
+    def radius(self):
+        """(n,) float64: mm from each vertex to the boundary of the label."""
+        return self._data.radius
+
+    @property
+    def edges(self):
+        """(m, 2) uint32: vertices, the smaller first. Edges of faces are among them."""
+        return self._data.edges
+
+    @property
+    def face_offsets(self):
+        """(f + 1,) uint64: face g has the corners face_vertices[face_offsets[g]:face_offsets[g + 1]]."""
+        return self._data.face_offsets
+
+    @property
+    def face_vertices(self):
+        """uint32: the corners of all faces, in cyclic order."""
+        return self._data.face_vertices
+
+    @property
+    def face_edges(self):
+        """uint32, in the places of face_vertices: the edge from each corner to the next."""
+        return self._data.face_edges
+
+    @property
+    def lambda_vertices(self):
+        """(n,) float64: radius measure of each vertex, mm. Of edges and faces: lambda_edges, lambda_faces. NaN for edges of
+        faces read from a file that lacks them."""
+        return self._data.lambda_vertices
+
+    @property
+    def lambda_edges(self):
+        """(m,) float64, mm."""
+        return self._data.lambda_edges
+
+    @property
+    def lambda_faces(self):
+        """(f,) float64, mm."""
+        return self._data.lambda_faces
+
+    @property
+    def bump_vertices(self):
+        """(n,) float64: height of the bump each vertex stands for, mm; empty unless made with bumps=."""
+        return self._data.bump_vertices
+
+    @property
+    def bump_edges(self):
+        """(m,) float64, mm, or empty."""
+        return self._data.bump_edges
+
+    @property
+    def bump_faces(self):
+        """(f,) float64, mm, or empty."""
+        return self._data.bump_faces
+
+    @property
+    def lambda_mm(self):
+        """The lambda it is pruned at, mm."""
+        return self._data.lambda_mm
+
+    @property
+    def voxels(self):
+        """Number of voxels of the label."""
+        return self._data.voxels
+
+    @property
+    def spacing(self):
+        """mm between voxels along i, j and k."""
+        return tuple(self._data.spacing)
+
+    @property
+    def shape_topology(self):
+        """Euler number and Betti numbers of the voxels, counted by other means than `topology`."""
+        return self._data.shape_topology
+
+    def prune(self, lambda_, *, progress=None):
+        """This core pruned further, bit for bit as core() would give it: one computation serves many lambdas."""
+        return Core(_voxelcore.prune(self._data, _text(lambda_), progress))
+
+    def skeleton(self, **options):
+        """skeleton(self, **options)."""
+        return skeleton(self, **options)
+
+    def save(self, path, *, triangles=False, keep_edges=False, overwrite=False):
+        """Writes .vtp .vtk .ply .obj .stl or .ma, as the command line does.
+
+        keep_edges: with the measures of all edges (.vtp, .vtk), for 'voxelcore prune' and read(...).prune().
+        """
+        _voxelcore.save_core(self._data, os.fspath(path), bool(triangles), bool(keep_edges), bool(overwrite))
+
+    def free_edges(self):
+        """uint32: the edges that bound no face."""
+        free = numpy.ones(len(self.edges), bool)
+        free[self.face_edges] = False
+        return numpy.flatnonzero(free).astype(numpy.uint32)
+
+    def isolated_vertices(self):
+        """uint32: the vertices on no edge."""
+        free = numpy.ones(len(self.vertices), bool)
+        free[self.edges.ravel()] = False
+        return numpy.flatnonzero(free).astype(numpy.uint32)
+
+    def to_polydata(self):
+        """A vtkPolyData (package python3-vtk9) for VTK and PyVista, as in the .vtp file: point arrays Radius and Lambda, cell
+        arrays Lambda and Label.
+
+        >>> pieces = core(numpy.ones((9, 9, 3), bool)).to_polydata()
+        >>> pieces.GetPointData().GetArray("Radius").GetRange()[1]
+        1.5
+        """
+        from . import _polydata
+
+        return _polydata.of_core(self)
+
+    def __repr__(self):
+        return (
+            f"<voxelcore.Core of label {self.label}: {len(self.vertices)} vertices, {len(self.edges)} edges, "
+            f"{len(self.face_offsets) - 1} faces, lambda {self.lambda_mm:g} mm>"
+        )
+
+
+class Skeleton(_Result):
+    """A curve skeleton: branches are poly lines from node to node. Made by skeleton()."""
+
+    __slots__ = ()
+
+    @property
+    def points(self):
+        """(n, 3) float64: LPS mm."""
+        return self._data.points
+
+    @property
+    def radius(self):
+        """(n,) float64: radius of the largest ball in the voxels around each point, mm."""
+        return self._data.radius
+
+    @property
+    def erosion_thickness(self):
+        """(n,) float64, mm; infinite on closed surfaces."""
+        return self._data.erosion_thickness
+
+    @property
+    def branch_offsets(self):
+        """(b + 1,) uint64: branch c runs through branch_points[branch_offsets[c]:branch_offsets[c + 1]]."""
+        return self._data.branch_offsets
+
+    @property
+    def branch_points(self):
+        """uint32: the points of all branches."""
+        return self._data.branch_points
+
+    @property
+    def branch_nodes(self):
+        """(b, 2) uint32: nodes at the first and the last point of each branch."""
+        return self._data.branch_nodes
+
+    @property
+    def node_points(self):
+        """uint32: the point of each node."""
+        return self._data.node_points
+
+    @property
+    def node_kinds(self):
+        """uint8: 0 tip, 1 junction, 2 where a closed curve begins, 3 isolated point, 4 where a surface stays."""
+        return self._data.node_kinds
+
+    @property
+    def face_offsets(self):
+        """uint64: faces that stay (around cavities, and plates), as in Core."""
+        return self._data.face_offsets
+
+    @property
+    def face_vertices(self):
+        """uint32: points of these faces."""
+        return self._data.face_vertices
+
+    @property
+    def numbers(self):
+        """Totals: branches, tips, junctions, cycles, total_length (mm), ... as a dict."""
+        return self._data.numbers
+
+    def branch(self, number):
+        """(p, 3) float64: the points of one branch, LPS mm."""
+        begin, end = self.branch_offsets[number], self.branch_offsets[number + 1]
+        return self.points[self.branch_points[begin:end]]
+
+    def measure(self):
+        """measure(self)."""
+        return measure(self)
+
+    def save(self, path, *, also=(), overwrite=False):
+        """Writes .vtp, or .csv for the tables alone, as the command line does.
+
+        also: further files beside it: any of 'csv', 'swc', 'mrk.json', 'graphml', 'ma'.
+        """
+        also = also if isinstance(also, str) else ",".join(also)
+        _voxelcore.save_skeleton(self._data, os.fspath(path), also, bool(overwrite))
+
+    def to_polydata(self):
+        """A vtkPolyData (package python3-vtk9): a poly line a branch, polygons of faces that stay; point arrays Radius and
+        ErosionThickness, cell arrays BranchId and Label."""
+        from . import _polydata
+
+        return _polydata.of_skeleton(self)
+
+    def __repr__(self):
+        return f"<voxelcore.Skeleton of label {self.label}: {len(self.branch_nodes)} branches, {len(self.points)} points>"

@@ -1,0 +1,66 @@
+"""Results as vtkPolyData. Cells stand in VTK's order: vertices, lines, polygons."""
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+
+def _cells(offsets, points):
+    cells = vtkCellArray()
+    cells.SetData(
+        numpy_to_vtkIdTypeArray(numpy.ascontiguousarray(offsets, numpy.int64), deep=1),
+        numpy_to_vtkIdTypeArray(numpy.ascontiguousarray(points, numpy.int64), deep=1),
+    )
+    return cells
+
+
+def _even(rows, width):
+    return _cells(numpy.arange(0, (len(rows) + 1) * width, width), numpy.ravel(rows))
+
+
+def _add(attributes, name, values):
+    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=1)
+    array.SetName(name)
+    attributes.AddArray(array)
+
+
+def _polydata(points):
+    data = vtkPolyData()
+    places = vtkPoints()
+    places.SetData(numpy_to_vtk(numpy.ascontiguousarray(points), deep=1))
+    data.SetPoints(places)
+    return data
+
+
+def of_core(core):
+    data = _polydata(core.vertices)
+    alone, free = core.isolated_vertices(), core.free_edges()
+    data.SetVerts(_even(alone, 1))
+    data.SetLines(_even(core.edges[free], 2))
+    data.SetPolys(_cells(core.face_offsets, core.face_vertices))
+    _add(data.GetPointData(), "Radius", core.radius)
+    _add(data.GetPointData(), "Lambda", core.lambda_vertices)
+    measures = numpy.concatenate([core.lambda_vertices[alone], core.lambda_edges[free], core.lambda_faces])
+    _add(data.GetCellData(), "Lambda", measures)
+    _add(data.GetCellData(), "Label", numpy.full(len(measures), core.label, numpy.int64))
+    return data
+
+
+def of_skeleton(skeleton):
+    data = _polydata(skeleton.points)
+    used = numpy.zeros(len(skeleton.points), bool)
+    used[skeleton.branch_points] = True
+    used[skeleton.face_vertices] = True
+    alone = numpy.flatnonzero(~used)
+    branches, faces = len(skeleton.branch_nodes), len(skeleton.face_offsets) - 1
+    data.SetVerts(_even(alone, 1))
+    data.SetLines(_cells(skeleton.branch_offsets, skeleton.branch_points))
+    data.SetPolys(_cells(skeleton.face_offsets, skeleton.face_vertices))
+    _add(data.GetPointData(), "Radius", skeleton.radius)
+    _add(data.GetPointData(), "ErosionThickness", skeleton.erosion_thickness)
+    numbers = numpy.full(len(alone) + branches + faces, -1, numpy.int64)
+    numbers[len(alone) : len(alone) + branches] = numpy.arange(branches)
+    _add(data.GetCellData(), "BranchId", numbers)
+    _add(data.GetCellData(), "Label", numpy.full(len(numbers), skeleton.label, numpy.int64))
+    return data
