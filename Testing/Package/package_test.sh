@@ -55,7 +55,14 @@ case "$how" in
     fi
     parts="Imaging;Models;Pipeline"
     [ -z "$(find "$moved/second" -name VoxelCore-ITK.cmake)" ] || parts+=";ITK"
-    configure "$scratch/all" "${options[@]}" -DPARTS="$parts"
+    # The README's five lines, as they stand there.
+    {
+      printf '#include "voxelcore/%s.h"\n' LabelVolume LambdaPruning MedialModel VoxelCore
+      echo 'int main() {'
+      grep -A4 '^    const voxelcore::LabelVolume scan = ' "$source/README.md"
+      echo 'return core.cells.FaceCount() > 0 ? 0 : 1; }'
+    } >"$scratch/Readme.cxx"
+    configure "$scratch/all" "${options[@]}" -DPARTS="$parts" -DREADME="$scratch/Readme.cxx"
     cmake --build "$scratch/all"
     scan_into "$scratch"
     "$scratch/all/UsesFiles" "$scratch/torus.nrrd" "$scratch/files.vtp"
@@ -65,6 +72,8 @@ case "$how" in
     bash "$source/Testing/Package/symbols_test.sh" "$scratch/all/libPlugin.so" PluginMakesCore
     "$scratch/all/UsesPlugin" "$scratch/all/libPlugin.so" "$scratch/torus.nrrd" "$scratch/plugin.vtp"
     cmp "$scratch/plugin.vtp" "$scratch/program.vtp"
+    "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/scan.nii.gz" -q
+    (cd "$scratch" && all/ReadmeExample && [ -s medial.vtp ]) || fail "the README's example does not work"
     if [ -x "$scratch/all/UsesITK" ]; then
       "$scratch/all/UsesITK" "$scratch/torus.nrrd" 1.5vox "$scratch/itk.vtp"
     fi
