@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
 # usage: install-packages.sh GROUP...     groups: build, python (the module), demo (a real scan), test, package (to make and
-# test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides)
+# test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (what the
+# tests of pages need)
 set -euo pipefail
 
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build ccache libvtk9-dev libtet1.5-dev libtiff-dev libpng-dev zlib1g-dev libbz2-dev \
-                libx11-dev libboost-dev libcli11-dev nlohmann-json3-dev ;;
+                libx11-dev libzip-dev libjs-three libboost-dev libcli11-dev nlohmann-json3-dev ;;
     python) echo pybind11-dev python3-dev python3-numpy python3-vtk9 ;;
     demo) echo mricron-data ;;
     test) echo xvfb libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest xauth mricron-data ;;
     package) echo dpkg-dev doxygen graphviz groff mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package and sanitizer" >&2; return 2 ;;
+    browser) echo chromium-headless-shell ;;
+    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package, sanitizer and browser" >&2; return 2 ;;
   esac
 }
 

@@ -12,7 +12,7 @@ case "${1:-}" in
   "") ;;
   --heavy)
     leave_out=()
-    groups+=(sanitizer package)
+    groups+=(sanitizer package browser)
     ;;
   *) echo "run.sh: unknown option '$1'; there is --heavy" >&2; exit 2 ;;
 esac

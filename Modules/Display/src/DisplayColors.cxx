@@ -108,4 +108,10 @@ LabelColor(std::int64_t label)
   return palette[place];
 }
 
+Color
+ComponentColor(std::int64_t label, std::int64_t component)
+{
+  return LabelColor(label + 37 * std::max<std::int64_t>(component - 1, 0));
+}
+
 } // namespace voxelcore

@@ -56,8 +56,119 @@ IsMeant(const std::string & wish, const LabelBook::Label & label)
 
 } // namespace
 
-std::map<std::int64_t, std::string>
-ReadLabelNames(const std::filesystem::path & scan)
+namespace
+{
+
+/** Three words that are whole numbers from 0 to 255, as a colour. */
+std::optional<std::array<double, 3>>
+ColorFrom(const std::vector<std::string_view> & words, std::size_t first)
+{
+  std::array<double, 3> color{};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto value = first + k < words.size() ? ParseInteger(words[first + k]) : std::nullopt;
+    if (!value || *value < 0 || *value > 255)
+    {
+      return std::nullopt;
+    }
+    color[k] = static_cast<double>(*value) / 255;
+  }
+  return color;
+}
+
+/** One of ITK-SNAP's lines: six numbers, then the name in quotes. */
+std::optional<ListedLabel>
+SnapLine(const NamedLine & line)
+{
+  const auto quote = line.rest.find('"');
+  if (quote == std::string::npos || line.rest.size() < quote + 2 || line.rest.back() != '"')
+  {
+    return std::nullopt;
+  }
+  const auto words = Words(std::string_view(line.rest).substr(0, quote));
+  const auto color = ColorFrom({ words.begin(), words.end() }, 0);
+  if (words.size() != 6 || !color ||
+      !std::all_of(words.begin(), words.end(), [](const auto & word) { return ParseReal(word).has_value(); }))
+  {
+    return std::nullopt;
+  }
+  return ListedLabel{ Printable(Trim(std::string_view(line.rest).substr(quote + 1, line.rest.size() - quote - 2)), 200),
+                      color };
+}
+
+/** A line of which the last `columns` words are numbers. */
+ListedLabel
+PlainLine(const NamedLine & line, std::size_t columns)
+{
+  ListedLabel      label;
+  std::string_view text = line.rest;
+  const auto       words = Words(line.rest);
+  if (columns == 4) // red, green, blue and transparency
+  {
+    label.color = ColorFrom({ words.begin(), words.end() }, words.size() - columns);
+  }
+  if (line.tab)
+  {
+    text = text.substr(0, text.find('\t'));
+  }
+  else
+  {
+    const auto last = words[words.size() - 1 - columns];
+    text = text.substr(0, static_cast<std::size_t>(last.data() + last.size() - text.data()));
+  }
+  if (text.size() > 1 && text.front() == '"' && text.back() == '"')
+  {
+    text = text.substr(1, text.size() - 2);
+  }
+  label.name = Printable(Trim(text), 200);
+  return label;
+}
+
+std::map<std::int64_t, ListedLabel>
+ReadTextList(const std::filesystem::path & path)
+{
+  const auto                          lines = ReadLines(path);
+  std::map<std::int64_t, ListedLabel> labels;
+  std::size_t                         columns = lines.empty() ? 0 : lines.front().numbers;
+  for (const NamedLine & line : lines)
+  {
+    columns = std::min(columns, line.numbers);
+  }
+  for (const NamedLine & line : lines)
+  {
+    const auto snap = SnapLine(line);
+    labels.emplace(line.value, snap ? *snap : PlainLine(line, columns));
+  }
+  return labels;
+}
+
+/** MRIcron's table: all reds, all greens, all blues. */
+std::map<std::int64_t, ListedLabel>
+ReadByteTable(const std::filesystem::path & path)
+{
+  constexpr std::size_t               kColors = 256;
+  std::string                         bytes(3 * kColors, '\0');
+  std::map<std::int64_t, ListedLabel> labels;
+  std::ifstream                       file(path, std::ios::binary);
+  if (file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+  {
+    for (std::size_t i = 1; i < kColors; ++i)
+    {
+      std::array<double, 3> color{};
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        color[k] = static_cast<unsigned char>(bytes[k * kColors + i]) / 255.0;
+      }
+      labels[static_cast<std::int64_t>(i)].color = color;
+    }
+  }
+  return labels;
+}
+
+} // namespace
+
+std::map<std::int64_t, ListedLabel>
+ReadLabelList(const std::filesystem::path & scan)
 {
   std::string whole = scan.filename().string();
   if (whole.empty()) // a folder given with a slash at its end
@@ -70,46 +181,42 @@ ReadLabelNames(const std::filesystem::path & scan)
   }
   const auto        folder = scan.has_filename() ? scan.parent_path() : scan.parent_path().parent_path();
   const std::string stem = std::filesystem::path(whole).stem().string();
-  for (const std::string & name : { whole + ".txt", stem + ".txt" })
+  std::map<std::int64_t, ListedLabel> labels;
+  bool                                hasNames = false;
+  bool                                hasColors = false;
+  for (const char * extension : { ".txt", ".label", ".ctab", ".lut" })
   {
-    const auto      path = folder / name;
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) > kLargestList)
+    for (const std::string & name : { whole + extension, stem + extension })
     {
-      continue;
-    }
-    const auto                          lines = ReadLines(path);
-    std::map<std::int64_t, std::string> names;
-    std::size_t                         columns = lines.empty() ? 0 : lines.front().numbers;
-    for (const NamedLine & line : lines)
-    {
-      columns = std::min(columns, line.numbers);
-    }
-    for (const NamedLine & line : lines)
-    {
-      std::string_view text = line.rest;
-      if (line.tab)
+      const auto      path = folder / name;
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) > kLargestList)
       {
-        text = text.substr(0, text.find('\t'));
+        continue;
       }
-      else
+      const bool bytes = std::string_view(extension) == ".lut" && std::filesystem::file_size(path, error) == 768;
+      const auto list = bytes ? ReadByteTable(path) : ReadTextList(path);
+      const auto some = [&list](auto has) {
+        return std::any_of(list.begin(), list.end(), [&](const auto & entry) { return has(entry.second); });
+      };
+      const bool takeNames = !hasNames && some([](const ListedLabel & one) { return !one.name.empty(); });
+      const bool takeColors = !hasColors && some([](const ListedLabel & one) { return one.color.has_value(); });
+      for (const auto & [value, one] : list)
       {
-        const auto words = Words(line.rest);
-        const auto last = words[words.size() - 1 - columns];
-        text = text.substr(0, static_cast<std::size_t>(last.data() + last.size() - text.data()));
+        if (takeNames)
+        {
+          labels[value].name = one.name;
+        }
+        if (takeColors)
+        {
+          labels[value].color = one.color;
+        }
       }
-      if (text.size() > 1 && text.front() == '"' && text.back() == '"')
-      {
-        text = text.substr(1, text.size() - 2);
-      }
-      names.emplace(line.value, Printable(Trim(text), 200));
-    }
-    if (!names.empty())
-    {
-      return names;
+      hasNames = hasNames || takeNames;
+      hasColors = hasColors || takeColors;
     }
   }
-  return {};
+  return labels;
 }
 
 LabelBook::LabelBook(const ScanFile & scan, const ReadOptions & options)
@@ -130,7 +237,7 @@ LabelBook::LabelBook(const ScanFile & scan, const ReadOptions & options)
   }
   if (scan.segments.empty() && scan.voxels) // else nothing lies beside it: its voxels come from memory
   {
-    m_Names = ReadLabelNames(scan.path);
+    m_Names = ReadLabelList(scan.path);
   }
   for (std::size_t at = 0; !m_All && at <= options.labels.size();)
   {
@@ -163,8 +270,11 @@ LabelBook::Identify(std::size_t layer, std::int64_t value)
     m_Renumbered = true;
   }
   m_Largest = std::max(m_Largest, number);
-  const auto name = m_Names.find(number);
-  return { number, name == m_Names.end() ? Text("label-", number) : name->second };
+  const auto listed = m_Names.find(number);
+  const bool named = listed != m_Names.end() && !listed->second.name.empty();
+  return { number,
+           named ? listed->second.name : Text("label-", number),
+           listed != m_Names.end() ? listed->second.color : std::nullopt };
 }
 
 bool

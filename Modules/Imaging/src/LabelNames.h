@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,11 +13,22 @@
 namespace voxelcore
 {
 
-/** value -> name from "<scan without .gz>.txt" or "<scan without extensions>.txt" beside the scan: a line each, the
- *  value, blank or tab, the name; columns of numbers behind the name that every line has are dropped, lines that do not
- *  begin with a number are ignored. Empty when there is no such file. */
-std::map<std::int64_t, std::string>
-ReadLabelNames(const std::filesystem::path & scan);
+/** What a list beside a scan says of a value. */
+struct ListedLabel
+{
+  std::string                          name; ///< empty where the list has colours only
+  std::optional<std::array<double, 3>> color{};
+};
+
+/** From "<scan without .gz>.txt", "<scan without extensions>.txt", or the same with .label, .ctab or .lut, beside the scan;
+ *  the first that says anything gives the names, the first with colours the colours. A line each:
+ *  - ITK-SNAP's label descriptions: value, red, green, blue (0 to 255), opacity, two flags, "name";
+ *  - FreeSurfer's colour tables: value, name, red, green, blue, and one more number;
+ *  - value, blank or tab, name; columns of numbers behind the name that every line has are dropped.
+ *  Lines that do not begin with a number are ignored. A .lut of 768 bytes is MRIcron's: 256 reds, greens and blues.
+ *  Empty when there is no such file. */
+std::map<std::int64_t, ListedLabel>
+ReadLabelList(const std::filesystem::path & scan);
 
 class LabelBook
 {
@@ -55,7 +67,7 @@ public:
                 const std::string &           where) const;
 
 private:
-  std::map<std::int64_t, std::string>                   m_Names;
+  std::map<std::int64_t, ListedLabel>                   m_Names;
   std::map<std::pair<std::size_t, std::int64_t>, Label> m_Segments;
   std::int64_t                                          m_Largest = 0; ///< of the numbers given so far
   bool                                                  m_Renumbered = false;

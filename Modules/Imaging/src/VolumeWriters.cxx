@@ -209,22 +209,28 @@ WriteNrrd(const std::filesystem::path & path, const VolumeToWrite & volume)
          "# http://teem.sourceforge.net/nrrd/format.html\n",
          "type: ",
          PixelName(volume.type),
-         "\ndimension: 3\nspace: left-posterior-superior\n",
+         volume.layers > 1 ? "\ndimension: 4" : "\ndimension: 3",
+         "\nspace: left-posterior-superior\n",
          "sizes: ",
+         volume.layers > 1 ? Text(volume.layers, " ") : "",
          g.size[0],
          " ",
          g.size[1],
          " ",
          g.size[2],
          "\nspace directions:",
+         volume.layers > 1 ? " none" : "",
          directions,
-         "\nkinds: domain domain domain\nendian: ",
+         volume.layers > 1 ? "\nkinds: list domain domain domain" : "\nkinds: domain domain domain",
+         "\nendian: ",
          kBigEndian ? "big" : "little",
          "\nencoding: ",
          volume.compress ? "gzip" : "raw",
          "\nspace origin: ",
          vector(g.origin[0], g.origin[1], g.origin[2]),
-         "\n\n"));
+         "\n",
+         volume.fields,
+         "\n"));
   file.Write(volume.voxels);
   file.Close();
 }

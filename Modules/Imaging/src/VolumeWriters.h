@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace voxelcore
 {
@@ -17,6 +18,8 @@ struct VolumeToWrite
   PixelType                  type = PixelType::UInt8;
   std::span<const std::byte> voxels;
   bool                       compress = true;
+  std::int64_t               layers = 1; ///< NRRD only: so many values a voxel, on a leading list axis
+  std::string                fields{};   ///< NRRD only: further lines of the header, each with its line end
 };
 
 /** \throws OutputError when the file cannot be written in full. */

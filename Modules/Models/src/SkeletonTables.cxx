@@ -100,8 +100,10 @@ WriteHead(TextFile & file, const Columns & columns)
 }
 
 /** A value of CSV: quoted when it needs it. */
+} // namespace
+
 std::string
-Csv(const std::string & text)
+CsvField(const std::string & text)
 {
   if (text.find_first_of(",\"\n\r") == std::string::npos)
   {
@@ -114,6 +116,9 @@ Csv(const std::string & text)
   }
   return quoted + "\"";
 }
+
+namespace
+{
 
 template <typename Columns>
 std::string
@@ -142,10 +147,10 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
     {
       const BranchRecord & r = part.table.branches[branch];
       const auto &         nodes = part.graph.branchNodes[branch];
-      file << part.label << "," << Csv(part.name) << "," << part.component << "," << branch << "," << r.component << ","
-           << nodes[0] << "," << nodes[1] << "," << static_cast<int>(r.type) << "," << r.length << "," << r.chord << ","
-           << r.tortuosity << "," << r.freeLength << "," << r.meanRadius << "," << r.minRadius << "," << r.maxRadius
-           << "," << r.sdRadius << "," << r.volume << "," << r.surface << ",";
+      file << part.label << "," << CsvField(part.name) << "," << part.component << "," << branch << "," << r.component
+           << "," << nodes[0] << "," << nodes[1] << "," << static_cast<int>(r.type) << "," << r.length << "," << r.chord
+           << "," << r.tortuosity << "," << r.freeLength << "," << r.meanRadius << "," << r.minRadius << ","
+           << r.maxRadius << "," << r.sdRadius << "," << r.volume << "," << r.surface << ",";
       if (r.parent != kNoBranch)
       {
         file << r.parent;
@@ -173,7 +178,7 @@ WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model)
   for (const SkeletonPart & part : model.parts)
   {
     const SkeletonNumbers & n = part.table.numbers;
-    const auto              head = [&] { file << part.label << "," << Csv(part.name) << "," << part.component << ","; };
+    const auto head = [&] { file << part.label << "," << CsvField(part.name) << "," << part.component << ","; };
     head();
     file << "all," << n.branches << "," << n.totalLength << "," << n.meanLength << "," << n.meanRadius << ",,,,,,"
          << n.components << "," << n.tips << "," << n.junctions << "," << n.triplePoints << "," << n.quadruplePoints

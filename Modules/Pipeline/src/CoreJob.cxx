@@ -1,11 +1,13 @@
 #include "voxelcore/CoreJob.h"
 
+#include "DisplayFiles.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
 #include "SkeletonFiles.h"
 #include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/ReportTable.h"
 #include "voxelcore/Sha256.h"
 
 #include <future>
@@ -87,6 +89,10 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
   if (options.report)
   {
     transaction.CheckTarget(*options.report);
+  }
+  if (options.table)
+  {
+    transaction.CheckTarget(*options.table);
   }
   if (options.crossCheck && !HasEngine(Engine::TetGen))
   {
@@ -228,6 +234,8 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
     skeletons.emplace(options.skeletonOutput, options.scan, options.skeleton->branches, transaction);
   }
 
+  DisplayFiles shown(options.display, options.scan, transaction);
+
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
   auto        digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
@@ -247,6 +255,7 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
     context.admit(1e-6 * static_cast<double>(PredictJob(CountBoundaries(edited.labels), options, omp_get_max_threads()).memoryBytes));
   }
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
+  shown.AddScan(edited.labels, volume.geometry);
   report.command = options.command;
   report.input = DescribeInput(options, volume);
   report.parameters = DescribeParameters(options, volume, edited, weights);
@@ -268,6 +277,10 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
       {
         report.input.sha256 = digest.get();
       }
+      // A core that is only a step on the way to a skeleton is not shown.
+      shown.AddLabel(outcome.record,
+                     options.output.empty() ? ModelPart() : outcome.parts.front(),
+                     outcome.skeleton ? &*outcome.skeleton : nullptr);
       const ModelPart surface = skeletons && skeletons->NeedsSurface() ? outcome.parts.front() : ModelPart();
       files.Add(std::move(outcome.record), std::move(outcome.parts));
       if (skeletons)
@@ -284,11 +297,20 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
     skeletons->Finish(report, result.notes);
     report.seconds.write += writing.Lap();
   }
+  {
+    Stopwatch writing;
+    shown.Finish(report, result.notes, PartOfProgress(context.progress, kLabelsEnd, 1));
+    report.seconds.write += writing.Lap();
+  }
   report.seconds.total = total.Lap();
   report.peakMemoryMb = PeakMemoryMb();
   if (options.report)
   {
     WriteTextFile(transaction.Stage(*options.report), ReportJson(report));
+  }
+  if (options.table)
+  {
+    WriteTextFile(transaction.Stage(*options.table), LabelTableCsv(report));
   }
   ReportProgress(context.progress, "done", 1); // the last moment at which an interruption is heeded
   transaction.Commit();

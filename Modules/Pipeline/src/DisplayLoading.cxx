@@ -122,7 +122,7 @@ private:
       place->second.label = label;
       place->second.component = component;
       place->second.name = name;
-      place->second.color = LabelColor(label + 37 * std::max<std::int64_t>(component - 1, 0));
+      place->second.color = ComponentColor(label, component);
     }
     return place->second;
   }

@@ -216,6 +216,30 @@ ReadPruning(const ParameterReader & reader, std::vector<Lambda> & lambdas, std::
 
 } // namespace
 
+DisplayTargets
+DisplayTargetsFrom(const ParameterValues & values, CommandId command)
+{
+  const ParameterReader reader(values, command);
+  DisplayTargets        targets;
+  const auto            file = [&](std::string_view name) {
+    if (reader.Text(name).empty())
+    {
+      reader.Refuse(name, "a file name");
+    }
+    return reader.Text(name);
+  };
+  if (reader.IsGiven("scene"))
+  {
+    targets.scene = file("scene");
+  }
+  if (reader.IsGiven("html"))
+  {
+    targets.html = file("html");
+  }
+  targets.htmlTriangles = static_cast<std::size_t>(reader.Whole("html-triangles", 1000, 20000000));
+  return targets;
+}
+
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values)
 {
@@ -227,6 +251,11 @@ CoreOptionsFrom(const ParameterValues & values)
   ReadPruning(reader, options.lambdas, options.bumps);
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
+  if (reader.IsGiven("table"))
+  {
+    options.table = reader.Text("table");
+  }
+  options.display = DisplayTargetsFrom(values, CommandId::Core);
   options.skeleton = CoreSkeletonFrom(values);
   options.skeletonOutput = options.skeleton ? SkeletonBesideCore(options.output) : std::filesystem::path();
   options.model = ModelOptionsFrom(reader);

@@ -1,5 +1,7 @@
 #include "voxelcore/ReportTable.h"
 
+#include "voxelcore/SkeletonModel.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -143,6 +145,37 @@ SkeletonTable(const CoreReport & report)
     }
   }
   return FormatTable(rows);
+}
+
+std::string
+LabelTableCsv(const CoreReport & report)
+{
+  std::string text =
+    "label,name,component,lambda,voxels,volume_mm3,vertices,edges,faces,area_mm2,max_radius_mm,b0,b1,b2\n";
+  for (const LabelRecord & label : report.labels)
+  {
+    for (const PrunedRecord & pruned : label.pruned)
+    {
+      const ComplexRecord & complex = pruned.complex;
+      char                  numbers[400];
+      std::snprintf(numbers,
+                    sizeof(numbers),
+                    "%llu,%.9g,%llu,%llu,%llu,%.9g,%.9g,%lld,%lld,%lld\n",
+                    static_cast<unsigned long long>(label.voxels),
+                    label.volumeMm3,
+                    static_cast<unsigned long long>(complex.vertices),
+                    static_cast<unsigned long long>(complex.edges),
+                    static_cast<unsigned long long>(complex.faces),
+                    complex.areaMm2,
+                    complex.maxRadiusMm,
+                    static_cast<long long>(complex.topology.betti[0]),
+                    static_cast<long long>(complex.topology.betti[1]),
+                    static_cast<long long>(complex.topology.betti[2]));
+      text += std::to_string(label.label) + "," + CsvField(label.name) + "," + std::to_string(label.component) + "," +
+              CsvField(pruned.bumps ? pruned.bumps->height : pruned.lambda) + "," + numbers;
+    }
+  }
+  return text;
 }
 
 } // namespace voxelcore

@@ -78,6 +78,10 @@ SkeletonFiles::SkeletonFiles(fs::path              output,
     m_Options.also.insert(m_Options.also.begin(), "csv");
   }
   m_Transaction.Protect(m_Input);
+  if (m_Options.table)
+  {
+    m_Transaction.CheckTarget(*m_Options.table);
+  }
   if (m_ToFolder)
   {
     m_Transaction.MakeDirectory(m_Output);
@@ -138,7 +142,7 @@ SkeletonFiles::Add(CoreReport &               report,
     notes.push_back(text + ": " + std::to_string(skeleton.numbers.closedFaces) +
                     " faces of closed surfaces stay: around a cavity nothing can become a curve");
   }
-  if (m_ToFolder && Wants("csv"))
+  if (m_ToFolder && (Wants("csv") || m_Options.table))
   {
     m_AllLabels.parts.push_back(part);
   }
@@ -173,6 +177,10 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
   {
     m_Model.provenance = SkeletonProvenanceJson(report, labels);
     WriteSkeletonVtp(m_Transaction.Stage(output), m_Model);
+  }
+  if (m_Options.table && !m_ToFolder)
+  {
+    WriteBranchCsv(m_Transaction.Stage(*m_Options.table), m_Model);
   }
   const MeasureOptions measuring = MeasuringOf(m_Options, report.input.geometry.spacing);
   for (const std::string & ending : m_Options.also)
@@ -215,9 +223,16 @@ SkeletonFiles::Finish(const CoreReport & report, std::vector<std::string> & note
     const std::vector<std::size_t> labels = m_Labels;
     WriteGroup(report, m_Output, labels, notes);
   }
-  else if (Wants("csv"))
+  else
   {
-    WriteTables(SkeletonTablesPath(m_Output, m_Input), m_AllLabels);
+    if (Wants("csv"))
+    {
+      WriteTables(SkeletonTablesPath(m_Output, m_Input), m_AllLabels);
+    }
+    if (m_Options.table)
+    {
+      WriteBranchCsv(m_Transaction.Stage(*m_Options.table), m_AllLabels);
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #include "voxelcore/SkeletonJob.h"
 
+#include "DisplayFiles.h"
 #include "JobTools.h"
 #include "MakeSkeleton.h"
 #include "SkeletonFiles.h"
@@ -28,6 +29,7 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
   core.skeleton = options.stage;
   core.skeletonOutput = options.output;
   core.report = options.report;
+  core.display = options.display;
   core.engine = options.engine;
   core.threads = options.threads;
   core.force = options.force;
@@ -49,6 +51,7 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
   {
     transaction.CheckTarget(*options.report);
   }
+  DisplayFiles shown(options.display, options.input, transaction);
   ReportProgress(context.progress, "reading", 0);
   MedialModel model = ReadModel(options.input);
   report = ParseProvenance(model.provenance, options.input.string());
@@ -77,6 +80,7 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
                                      PartOfProgress(context.progress, share(i), share(i + 1)));
     report.labels[i].seconds = labelWatch.Lap();
     report.seconds.skeleton += report.labels[i].seconds;
+    shown.AddLabel(report.labels[i], model.parts[i], &part);
     files.Add(report, i, std::move(part), std::move(model.parts[i]), result.notes);
   }
   if (report.skeleton->lambda.value != 0)
@@ -86,6 +90,7 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
   }
   ReportProgress(context.progress, "writing", 0.95);
   files.Finish(report, result.notes);
+  shown.Finish(report, result.notes, PartOfProgress(context.progress, 0.95, 1));
   report.seconds.total = total.Lap();
   report.seconds.write = report.seconds.total - report.seconds.read - report.seconds.skeleton;
   report.peakMemoryMb = PeakMemoryMb();

@@ -266,6 +266,11 @@ SkeletonOptionsFrom(const ParameterValues & values)
       throw UsageError("--report '': expected a file name");
     }
   }
+  if (values.contains("table"))
+  {
+    options.stage.branches.table = ValueOf(values, command, "table");
+  }
+  options.display = DisplayTargetsFrom(values, command);
   const std::string engine = ValueOf(values, command, "engine");
   if (engine != "auto" && engine != "lattice" && engine != "tetgen")
   {

@@ -17,6 +17,10 @@ ViridisColor(double t);
 Color
 LabelColor(std::int64_t label);
 
+/** Of a component (from 1; 0: the whole label) of such a label: another one for each. */
+Color
+ComponentColor(std::int64_t label, std::int64_t component);
+
 /** CIELAB (D65) of a colour. */
 std::array<double, 3>
 ToLab(const Color & color);

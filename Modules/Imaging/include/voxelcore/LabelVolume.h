@@ -24,7 +24,8 @@ struct LabelShape
   std::uint64_t voxels = 0; ///< how many carry it
   VoxelShape    shape;      ///< in its tight bounding box
 
-  std::optional<std::array<double, 3>> color{}; ///< red, green, blue from 0 to 1, where a .seg.nrrd gives one
+  std::optional<std::array<double, 3>>
+    color{}; ///< red, green, blue from 0 to 1, where a .seg.nrrd gives one, or a list beside the scan
 };
 
 /** Voxels first <= index < end along i, j and k. An end of 0 means the scan's. */
@@ -116,5 +117,13 @@ WriteLabelVolume(const std::filesystem::path &   path,
                  const ImageGeometry &           geometry,
                  const std::vector<LabelShape> & labels,
                  bool                            compress = true);
+
+/** Writes labels as a segmentation of 3D Slicer (.seg.nrrd, packed) with their names and colours. Labels that overlap get
+ *  layers of their own; labels that share a value, as components do, or beyond 65535 are numbered anew from 1.
+ *  \throws OutputError when it cannot be written in full; UsageError for a label beyond the volume, and above 65535 labels */
+void
+WriteSegmentation(const std::filesystem::path &   path,
+                  const ImageGeometry &           geometry,
+                  const std::vector<LabelShape> & labels);
 
 } // namespace voxelcore

@@ -59,6 +59,10 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model);
 void
 WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model);
 
+/** A text as a field of a .csv: quoted where it has to be. */
+std::string
+CsvField(const std::string & text);
+
 /** The data dictionary of both tables as JSON: meaning and unit of each column. */
 std::string
 SkeletonColumnsJson();

@@ -4,6 +4,7 @@
 #include "voxelcore/BumpPruning.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/DelaunayCells.h"
+#include "voxelcore/DisplayTargets.h"
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/LambdaPruning.h"
@@ -33,6 +34,8 @@ struct CoreOptions
   std::optional<SkeletonStage> skeleton; ///< skeletons too; its lambda is 0 or one of `lambdas`
   std::filesystem::path        skeletonOutput; ///< .vtp, or a folder
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> table;   ///< .csv, a row per label
+  DisplayTargets                       display; ///< of the first result of each label
   ModelOptions                         model;
   Engine                               engine = Engine::Auto;
   std::filesystem::path                join; ///< folder of parts (BlockJob.h) to take the cells from; empty: computed

@@ -119,6 +119,8 @@ ReconstructOptions
 ReconstructOptionsFrom(const ParameterValues & values);
 PhantomJobOptions
 PhantomOptionsFrom(const ParameterValues & values);
+DisplayTargets
+DisplayTargetsFrom(const ParameterValues & values, CommandId command);
 std::optional<SkeletonStage>
 CoreSkeletonFrom(const ParameterValues & values);
 SkeletonOptions

@@ -3,6 +3,7 @@
 
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/DelaunayCells.h"
+#include "voxelcore/DisplayTargets.h"
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/ShapeEdits.h"
@@ -24,6 +25,7 @@ struct SkeletonOptions
   SkeletonStage                        stage;
   std::filesystem::path                output; ///< .vtp, or a folder (IsFolderOutput)
   std::optional<std::filesystem::path> report;
+  DisplayTargets                       display;
   Engine                               engine = Engine::Auto;
   int                                  threads = 0; ///< only recorded
   bool                                 force = false;

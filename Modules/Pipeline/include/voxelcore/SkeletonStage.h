@@ -4,6 +4,7 @@
 #include "voxelcore/BranchTable.h"
 #include "voxelcore/LambdaPruning.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,12 +15,13 @@ namespace voxelcore
 /** What to do with the branches of a skeleton, and what to write. Lengths with their unit, as lambda. */
 struct BranchOptions
 {
-  std::optional<Lambda>    pruneLength;    ///< tips' branches shorter than this go
-  double                   pruneRadii = 0; ///< and those shorter than so many radii at their other end
-  bool                     cutLoops = false;
-  bool                     splitAtJunctions = false;
-  RootChoice               root;
-  std::vector<std::string> also; ///< further files beside the result: csv, swc, mrk.json, graphml, ma
+  std::optional<Lambda>                pruneLength;    ///< tips' branches shorter than this go
+  double                               pruneRadii = 0; ///< and those shorter than so many radii at their other end
+  bool                                 cutLoops = false;
+  bool                                 splitAtJunctions = false;
+  RootChoice                           root;
+  std::optional<std::filesystem::path> table; ///< .csv, a row per branch
+  std::vector<std::string>             also;  ///< further files beside the result: csv, swc, mrk.json, graphml, ma
 };
 
 /** From a core to a curve skeleton. */

@@ -1,0 +1,33 @@
+#pragma once
+// A page with everything in it, that shows a scan's labels in three dimensions in any browser, offline.
+
+#include "voxelcore/DisplayContent.h"
+#include "voxelcore/Progress.h"
+
+#include <filesystem>
+#include <string>
+
+namespace voxelcore
+{
+
+struct HtmlOptions
+{
+  std::string title;
+  std::size_t triangles = 300000; ///< at most about so many in the page; meshes beyond that are decimated for it
+};
+
+/** Whether this build has the library that pages are made with (three.js). */
+bool
+HasHtml();
+
+/** Writes one HTML file: meshes and values of `content`, three.js (MIT licence, named in the page) and a viewer. Places are
+ *  rounded to 1/65535 of a mesh's box, values to 1/65534 of their range. Only what is shown is decimated; the page says
+ *  from how many triangles. It asks nothing of any network, and forbids itself to.
+ *  \throws UsageError where HasHtml() is false; OutputError; Cancelled */
+void
+WriteHtml(const std::filesystem::path & path,
+          const DisplayContent &        content,
+          const HtmlOptions &           options,
+          const ProgressCallback &      progress = {});
+
+} // namespace voxelcore

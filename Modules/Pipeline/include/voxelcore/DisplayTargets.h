@@ -1,0 +1,18 @@
+#pragma once
+// Where a job's results go for looking at.
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+namespace voxelcore
+{
+
+struct DisplayTargets
+{
+  std::optional<std::filesystem::path> scene; ///< .mrml, with its data in <stem>_Data/ beside it, or .mrb
+  std::optional<std::filesystem::path> html;  ///< .html
+  std::size_t                          htmlTriangles = 300000;
+};
+
+} // namespace voxelcore

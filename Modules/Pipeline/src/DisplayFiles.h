@@ -1,0 +1,47 @@
+#pragma once
+// What a job writes for looking at: a scene of 3D Slicer, a page for browsers.
+
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/DisplayTargets.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/OutputTransaction.h"
+#include "voxelcore/Progress.h"
+#include "voxelcore/ShapeEdits.h"
+#include "voxelcore/SkeletonModel.h"
+
+#include <memory>
+
+namespace voxelcore
+{
+
+/** Gathers labels while they are computed and writes them at the end. Does nothing where nothing is asked for. */
+class DisplayFiles
+{
+public:
+  /** \throws UsageError for an unknown extension, and for what this build cannot write; OutputError */
+  DisplayFiles(const DisplayTargets & targets, const std::filesystem::path & input, OutputTransaction & transaction);
+  DisplayFiles(const DisplayFiles &) = delete;
+  DisplayFiles &
+  operator=(const DisplayFiles &) = delete;
+  ~DisplayFiles();
+
+  bool
+  AreAsked() const;
+
+  /** Before the labels are worked on, which takes their shapes. */
+  void
+  AddScan(const std::vector<EditedLabel> & labels, const ImageGeometry & geometry);
+
+  /** Either part may be empty. */
+  void
+  AddLabel(const LabelRecord & record, const ModelPart & surface, const SkeletonPart * skeleton);
+
+  void
+  Finish(const CoreReport & report, std::vector<std::string> & notes, const ProgressCallback & progress);
+
+private:
+  struct State;
+  std::unique_ptr<State> m_State;
+};
+
+} // namespace voxelcore
