@@ -183,29 +183,6 @@ BoundaryGapTolerance(const ImageGeometry & geometry)
   return 4 * PositionTolerance(geometry) * *std::max_element(geometry.spacing.begin(), geometry.spacing.end());
 }
 
-ReadOptions
-RecordedReading(const ParameterRecord & parameters)
-{
-  ReadOptions reading;
-  reading.binary = parameters.binary;
-  reading.threshold = parameters.threshold;
-  reading.volume = parameters.volume;
-  reading.component = parameters.component;
-  reading.crop = parameters.crop;
-  reading.spacing = parameters.spacing;
-  reading.orthonormalize = parameters.orthonormalize;
-  reading.niftiForm = parameters.niftiForm;
-  if (!reading.binary && !reading.threshold)
-  {
-    reading.labels.clear();
-    for (const std::int64_t label : parameters.labels)
-    {
-      reading.labels += (reading.labels.empty() ? "" : ",") + std::to_string(label);
-    }
-  }
-  return reading;
-}
-
 void
 WriteStagedModel(OutputTransaction &           transaction,
                  const std::filesystem::path & target,

@@ -101,10 +101,6 @@ RequireEqualTopology(const TopologyNumbers & shape,
                      const std::string &     what,
                      const std::string &     labelText);
 
-/** How the scan was read when a core was made. */
-ReadOptions
-RecordedReading(const ParameterRecord & parameters);
-
 /** Writes a model under its staged name; what the format could not hold is added to `notes`. */
 void
 WriteStagedModel(OutputTransaction &           transaction,
