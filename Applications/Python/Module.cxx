@@ -144,7 +144,7 @@ ViewOf(const py::array & array)
   const bool      isWhole = kind == 'b' || kind == 'i' || kind == 'u';
   if (!(isWhole && type.itemsize() <= 8) && !(kind == 'f' && (type.itemsize() == 4 || type.itemsize() == 8)))
   {
-    RefuseArray("its type is " + py::str(type).cast<std::string>() +
+    RefuseArray("its type is " + std::string(py::str(py::handle(type))) +
                 "; give whole numbers (bool, int8 to uint64, or float32 and float64 that hold whole numbers)");
   }
   ArrayView view;
@@ -196,7 +196,7 @@ View(const std::shared_ptr<TOwner> & owner, const void * data, std::size_t rows,
   }
   py::array_t<TNumber> view(shape, static_cast<const TNumber *>(data), capsule);
   view.attr("setflags")(py::arg("write") = false);
-  return std::move(view);
+  return view;
 }
 
 template <typename TNumber, typename TOwner>
@@ -256,7 +256,7 @@ Column(const std::vector<BranchRecord> & branches, TOf && of)
   {
     column.mutable_at(static_cast<py::ssize_t>(b)) = of(branches[b]);
   }
-  return std::move(column);
+  return column;
 }
 
 /** The numbers of all branches under the names of the command line's tables. */

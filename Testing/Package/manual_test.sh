@@ -24,13 +24,13 @@ for command in $commands; do
   offered=$(bash -c '
     source "$1"; COMP_WORDS=(voxelcore "$2" -); COMP_CWORD=2; _voxelcore; printf "%s\n" "${COMPREPLY[@]}"
   ' bash "$folder/voxelcore.bash" "$command")
-  for option in $("$program" "$command" --help | grep -oE '(^| )--?[a-z][a-z-]*' | tr -d ' ' | sort -u); do
-    grep -qxF -- "$option" <<<"$offered" || case "$option" in
-      -h) ;;
-      *) "$program" "$command" --help | grep -qE "^  (-.,)?$option( |,|$)" && fail "$command: completion lacks $option" ;;
-    esac
-    sed 's/\\-/-/g' "$folder/voxelcore-$command.1" | grep -qF -- "$option" || [ "$option" = -h ] || [ "$option" = --help ] ||
-      fail "voxelcore-$command.1 lacks $option"
+  page=$(sed 's/\\-/-/g' "$folder/voxelcore-$command.1")
+  # Lines of options begin with them, in two columns.
+  options=$("$program" "$command" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE -- '--[a-z-]+')
+  [ "$(wc -w <<<"$options")" -ge 3 ] || fail "which options has $command? $options"
+  for option in $options; do
+    grep -qxF -- "$option" <<<"$offered" || fail "$command: completion lacks $option"
+    [ "$option" = --help ] || grep -qF -- "$option" <<<"$page" || fail "voxelcore-$command.1 lacks $option"
   done
 done
 first=$(bash -c 'source "$1"; COMP_WORDS=(voxelcore sk); COMP_CWORD=1; _voxelcore; echo "${COMPREPLY[*]}"' bash \
