@@ -22,6 +22,7 @@ spacing = numpy.linalg.norm(to_lps, axis=0)
 core = voxelcore.core(
     numpy.asanyarray(image.dataobj),
     label=int(label),
+    lambda_="1vox",
     spacing=spacing,
     direction=to_lps / spacing,
     origin=image.affine[:3, 3] * (-1, -1, 1),
@@ -33,8 +34,11 @@ surface.GetPointData().SetActiveScalars("Radius")
 mapper = vtkPolyDataMapper()
 mapper.SetInputData(surface)
 mapper.SetScalarRange(0, core.radius.max())
+mapper.GetLookupTable().SetHueRange(0.667, 0)  # thin blue, thick red
 actor = vtkActor()
 actor.SetMapper(mapper)
+actor.GetProperty().SetLineWidth(3)
+actor.GetProperty().SetAmbient(0.4)
 renderer = vtkRenderer()
 renderer.SetBackground(1, 1, 1)
 renderer.AddActor(actor)

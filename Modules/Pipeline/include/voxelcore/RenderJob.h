@@ -17,7 +17,7 @@ struct RenderJobOptions
   std::vector<std::filesystem::path>   files; ///< .vtp that 'voxelcore core' or 'voxelcore skeleton' wrote
   std::optional<std::filesystem::path> scan;  ///< whose surface is drawn around them; read as the files' record says
   std::string                          labels = "all"; ///< which of the files', by value or name
-  std::filesystem::path                output;         ///< .png; with a turntable <stem>_000.png and so on
+  std::filesystem::path                output;         ///< .png; with a turntable STEM_000.png and so on
   int                                  width = 1600;
   int                                  height = 1200;
   std::string                          view = "auto";
