@@ -139,7 +139,7 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core, ParameterValues values, 
   result->part = MakeSkeleton(core->part,
                               stage,
                               core->report.parameters.weights,
-                              core->report.input.geometry.spacing,
+                              core->report.input.geometry,
                               result->report.labels.front(),
                               progress);
   result->report.skeleton = std::move(stage);
