@@ -24,11 +24,11 @@ TEST(Concurrent, ThreadsComputeCoresAtOnceAsAlone)
   constexpr int         rounds = 3;
   Random                random(20);
   // Large enough for several bricks of the engine, so that each thread has helpers of its own.
-  const std::array<VoxelShape, count> shapes{ RandomShape(random, { 44, 40, 36 }, 0.6),
-                                              RandomShape(random, { 36, 44, 40 }, 0.4) };
+  const std::array<VoxelShape, count> shapes{ RandomShape(random, { 44, 40, 36 }, 0.95),
+                                              RandomShape(random, { 36, 44, 40 }, 0.9) };
   const SpacingWeights                weights = ComputeSpacingWeights({ 1, 1, 2 });
   const auto                          work = [&](std::size_t which) {
-    return PruneByLambda(ComputeVoxelCore(shapes[which], weights, Engine::Lattice), { 1.5 }).front();
+    return PruneByLambda(ComputeVoxelCore(shapes[which], weights, Engine::Lattice), { 0.9 }).front();
   };
   std::array<MedialComplex, count> alone;
   for (std::size_t i = 0; i < count; ++i)
