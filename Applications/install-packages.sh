@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
 # usage: install-packages.sh GROUP...     groups: build, python (the module), demo (a real scan), test, package (to make and
-# test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (what the
-# tests of pages need)
+# test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
+# pages), cluster (workflows, and the tests on a cluster)
 set -euo pipefail
 
 packages_of() {
@@ -14,8 +14,9 @@ packages_of() {
     test) echo xvfb libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest xauth mricron-data ;;
     package) echo dpkg-dev doxygen graphviz groff mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
-    browser) echo chromium-headless-shell ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package, sanitizer and browser" >&2; return 2 ;;
+    browser) echo chromium chromium-headless-shell python3 ;;
+    cluster) echo snakemake slurm-wlm munge python3 ;;
+    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package, sanitizer, browser and cluster" >&2; return 2 ;;
   esac
 }
 

@@ -105,7 +105,7 @@ let key = 1, down = false, shown = [], painted = 0;
 const CHUNK = 150;
 const number = v => v === null ? "" : Number.isInteger(v) ? String(v) : Number(v.toPrecision(5)).toString();
 const cell = (tr, text, cls) => { const td = tr.insertCell(); td.textContent = text; if (cls) td.className = cls; return td; };
-const link = (td, name, file) => { const a = document.createElement("a"); a.textContent = name; a.href = encodeURI(file); td.append(a); };
+const link = (td, name, file) => { const a = document.createElement("a"); a.textContent = name; a.href = encodeURI(file); td.append(a, " "); };
 function paintRow(row) {
   const tr = document.createElement("tr");
   const picture = tr.insertCell();

@@ -64,6 +64,19 @@ public:
     Set(static_cast<int>(std::floor(p[0])), static_cast<int>(std::floor(p[1])), p[2], color);
   }
 
+  /** Three pixels wide, so that it is still seen when the picture is halved. */
+  void
+  Dot(const Vector & p, const Vector & color)
+  {
+    for (int dy = -1; dy <= 1; ++dy)
+    {
+      for (int dx = -1; dx <= 1; ++dx)
+      {
+        Point({ p[0] + dx, p[1] + dy, p[2] }, color);
+      }
+    }
+  }
+
   void
   Line(const Vector & a, const Vector & b, const Vector & color)
   {
@@ -71,7 +84,7 @@ public:
     for (int i = 0; i <= steps; ++i)
     {
       const double t = static_cast<double>(i) / steps;
-      Point({ a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]) }, color);
+      Dot({ a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]) }, color);
     }
   }
 
@@ -226,7 +239,7 @@ PaintModel(const MedialModel & model, int size)
     }
     for (const Vector & p : at)
     {
-      canvas.Point({ p[0], p[1], p[2] + 1e-6 }, dark); // behind what is there
+      canvas.Dot({ p[0], p[1], p[2] + 1e-6 }, dark); // behind what is there
     }
   }
   return canvas.Halved();
