@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs the commands README.md shows, one after the other as a reader would, on a small scan called scan.nii.gz.
+# Runs the commands README.md shows, one after the other as a reader would, on a small scan called scan.nii.gz, and
+# a cohort of it.
 # usage: readme_test.sh PROGRAM
 set -euo pipefail
 
@@ -9,7 +10,9 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 "$program" phantom torus --size 40,40,24 --spacing 0.5,0.5,1 -o scan.nii.gz -q
-mkdir -p build/release/bin
+printf 'id,scan,lambda\nsub1,scan.nii.gz,1vox\nsub2,scan.nii.gz,\n' >cohort.csv
+mkdir -p build/release/bin scans
+cp scan.nii.gz scans/
 ln -s "$program" build/release/bin/voxelcore
 
 count=0
