@@ -57,7 +57,9 @@ AddParameter(CLI::App & app, const Parameter & parameter, ParameterValues & valu
       }
     };
     CLI::Option * const option = app.add_option_function<std::vector<std::string>>(
-      std::string(parameter.placeholder.substr(0, parameter.placeholder.find('.'))), join, description);
+      std::string(parameter.placeholder.substr(0, parameter.placeholder.find('.'))),
+      join,
+      description);
     option->type_name("")->required(parameter.required);
     return;
   }

@@ -252,7 +252,8 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   }
   if (context.admit)
   {
-    context.admit(1e-6 * static_cast<double>(PredictJob(CountBoundaries(edited.labels), options, omp_get_max_threads()).memoryBytes));
+    context.admit(1e-6 * static_cast<double>(
+                           PredictJob(CountBoundaries(edited.labels), options, omp_get_max_threads()).memoryBytes));
   }
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
   shown.AddScan(edited.labels, volume.geometry);
