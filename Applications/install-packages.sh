@@ -2,7 +2,7 @@
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
 # usage: install-packages.sh GROUP...     groups: build, python (the module), demo (a real scan), test, package (to make and
 # test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
-# pages), cluster (workflows, and the tests on a cluster)
+# pages), cluster (workflows, and the tests on a cluster), bench (Testing/Performance)
 set -euo pipefail
 
 packages_of() {
@@ -16,7 +16,8 @@ packages_of() {
     sanitizer) echo clang libomp-dev ;;
     browser) echo chromium chromium-headless-shell python3 ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package, sanitizer, browser and cluster" >&2; return 2 ;;
+    bench) echo libbenchmark-dev python3-skimage python3-scipy python3-nibabel ;;
+    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package, sanitizer, browser, cluster and bench" >&2; return 2 ;;
   esac
 }
 

@@ -76,7 +76,7 @@ BurnCurves(const MedialComplex &       surface,
   // their anchors the next step would seem to take no time.
   std::vector<Anchor> longest(count, { kNoEdge, 0, 0 });
   std::vector<double> runnerUpTime(count, 0);
-  TimeHeap            heap;
+  TimeHeap            heap(chord / 8);
   const auto          kindle = [&](ElementIndex vertex) {
     const double late = fire.time[vertex] - surfaceTime[vertex];
     if (late < 0 || fire.winner[vertex] == kNoEdge)

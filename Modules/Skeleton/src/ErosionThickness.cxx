@@ -26,6 +26,7 @@ public:
     , m_Arrival(m_Network.openSector.size(), kNever)
     , m_Burned(m_Network.openSector.size(), 0)
     , m_Time(m_Network.radius.size(), kNever)
+    , m_Heap(FireBucket(complex.radius))
   {}
 
   BurnTimes

@@ -65,12 +65,12 @@ struct RemovedPair
 
 /** The full collapse, pair by pair. */
 std::vector<RemovedPair>
-CollapseOrder(const CellComplex & cells, const BurnTimes & times)
+CollapseOrder(const CellComplex & cells, const BurnTimes & times, double bucket)
 {
   EdgeCofaces              cofaces(cells);
   std::vector<RemovedPair> order;
   order.reserve(cells.FaceCount());
-  TimeHeap heap;
+  TimeHeap heap(bucket);
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
     if (cofaces.IsFree(edge))
@@ -108,7 +108,7 @@ CollapseSurface(const MedialComplex &       surface,
                 std::vector<std::uint8_t> & closed)
 {
   const CellComplex &            cells = surface.cells;
-  const std::vector<RemovedPair> order = CollapseOrder(cells, times);
+  const std::vector<RemovedPair> order = CollapseOrder(cells, times, FireBucket(surface.radius));
   LiveElements                   live{ std::vector<std::uint8_t>(cells.vertexCount, 1),
                      std::vector<std::uint8_t>(cells.edges.size(), 1),
                      std::vector<std::uint8_t>(cells.FaceCount(), 1) };

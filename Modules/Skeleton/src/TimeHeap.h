@@ -1,9 +1,11 @@
 #pragma once
-// What happens next: a heap of (time, element), ties by element.
+// What comes next in time, ties by index.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -21,62 +23,133 @@ struct TimedElement
   }
 };
 
-/** Four children a node: half as deep as a binary heap, and siblings share a cache line. */
+/** A queue for fires, whose events nearly always lie ahead of the present. What is to come waits unsorted in buckets by
+ *  time; the present bucket is sorted when its turn comes, and what is added to it, or before it, goes to a small heap
+ *  beside. The order is that of one heap, in a few cache lines instead of all of memory. */
 class TimeHeap
 {
 public:
+  /** `bucket`: time that a bucket spans; changes speed, not the order. Some thousand of them should be enough. */
+  explicit TimeHeap(double bucket)
+    : m_PerTime(bucket > 0 ? 1 / bucket : 1)
+  {}
+
   bool
   IsEmpty() const
   {
-    return m_Items.empty();
+    return m_Count == 0;
   }
 
   void
   Push(const TimedElement & item)
   {
-    std::size_t at = m_Items.size();
-    m_Items.push_back(item);
-    while (at > 0)
+    ++m_Count;
+    const std::size_t bucket = BucketOf(item.time);
+    if (bucket <= m_Present)
     {
-      const std::size_t parent = (at - 1) / 4;
-      if (!(item < m_Items[parent]))
-      {
-        break;
-      }
-      m_Items[at] = m_Items[parent];
-      at = parent;
+      PushHeap(item);
+      return;
     }
-    m_Items[at] = item;
+    if (bucket >= m_Buckets.size())
+    {
+      m_Buckets.resize(bucket + 1);
+    }
+    m_Buckets[bucket].push_back(item);
   }
 
   TimedElement
   Pop()
   {
-    const TimedElement top = m_Items.front();
-    const TimedElement last = m_Items.back();
-    m_Items.pop_back();
-    const std::size_t count = m_Items.size();
+    --m_Count;
+    while (m_Heap.empty() && m_Next == m_Sorted.size())
+    {
+      ++m_Present;
+      m_Sorted = std::exchange(m_Buckets[m_Present], {});
+      m_Next = 0;
+      std::sort(m_Sorted.begin(), m_Sorted.end());
+    }
+    if (m_Heap.empty() || (m_Next < m_Sorted.size() && m_Sorted[m_Next] < m_Heap.front()))
+    {
+      return m_Sorted[m_Next++];
+    }
+    return PopHeap();
+  }
+
+private:
+  // Times beyond (infinite ones too) share the last bucket.
+  static constexpr std::size_t kLastBucket = 4096;
+
+  std::size_t
+  BucketOf(double time) const
+  {
+    const double bucket = time * m_PerTime;
+    return bucket < static_cast<double>(kLastBucket) ? static_cast<std::size_t>(std::max(bucket, 0.0)) : kLastBucket;
+  }
+
+  /** Four children a node: half as deep as a binary heap, and siblings share a cache line. */
+  void
+  PushHeap(const TimedElement & item)
+  {
+    std::size_t at = m_Heap.size();
+    m_Heap.push_back(item);
+    while (at > 0)
+    {
+      const std::size_t parent = (at - 1) / 4;
+      if (!(item < m_Heap[parent]))
+      {
+        break;
+      }
+      m_Heap[at] = m_Heap[parent];
+      at = parent;
+    }
+    m_Heap[at] = item;
+  }
+
+  TimedElement
+  PopHeap()
+  {
+    const TimedElement top = m_Heap.front();
+    const TimedElement last = m_Heap.back();
+    m_Heap.pop_back();
+    const std::size_t count = m_Heap.size();
     for (std::size_t at = 0; count > 0;)
     {
       const std::size_t first = 4 * at + 1;
       std::size_t       least = first;
       for (std::size_t child = first + 1; child < std::min(first + 4, count); ++child)
       {
-        least = m_Items[child] < m_Items[least] ? child : least;
+        least = m_Heap[child] < m_Heap[least] ? child : least;
       }
-      if (first >= count || !(m_Items[least] < last))
+      if (first >= count || !(m_Heap[least] < last))
       {
-        m_Items[at] = last;
+        m_Heap[at] = last;
         break;
       }
-      m_Items[at] = m_Items[least];
+      m_Heap[at] = m_Heap[least];
       at = least;
     }
     return top;
   }
 
-private:
-  std::vector<TimedElement> m_Items;
+  double                                 m_PerTime;
+  std::vector<std::vector<TimedElement>> m_Buckets; ///< to come; those up to m_Present are empty
+  std::vector<TimedElement>              m_Sorted;  ///< the present bucket, from m_Next on
+  std::vector<TimedElement>              m_Heap;    ///< came in when their bucket was present or past
+  std::size_t                            m_Present = 0;
+  std::size_t                            m_Next = 0;
+  std::size_t                            m_Count = 0;
 };
+
+/** The time a bucket spans for fire on a surface with these radii, which is where most of it is at any moment. */
+inline double
+FireBucket(const std::vector<double> & radius)
+{
+  double sum = 0;
+  for (const double one : radius)
+  {
+    sum += one;
+  }
+  return radius.empty() ? 1 : sum / (64 * static_cast<double>(radius.size()));
+}
 
 } // namespace voxelcore
