@@ -22,4 +22,6 @@ while IFS= read -r line; do
   bash -euc "$line" </dev/null || { echo "readme_test.sh: README.md's command failed: $line" >&2; exit 1; }
 done < <(sed -n 's/^    \(build\/release\/bin\/voxelcore .*\)$/\1/p' "$readme")
 [ "$count" -ge 4 ] || { echo "readme_test.sh: README.md has only $count commands" >&2; exit 1; }
-[ -s medial.vtp ] && [ -s medial.json ] && [ -s skeleton.vtp ] && [ -s skeleton_branches.csv ]
+for file in medial.vtp medial.json root.vtp root_branches.csv root.swc both_skeleton.vtp; do
+  [ -s "$file" ] || { echo "readme_test.sh: README.md's commands left no $file" >&2; exit 1; }
+done
