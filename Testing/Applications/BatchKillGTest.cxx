@@ -31,15 +31,20 @@ ChildrenOf(pid_t process)
   return children;
 }
 
-/** Kills the batch, or one of its cases, `kills` times at random moments; returns how often it hit. */
+/** Kills the batch, or one of its cases and then the batch, `kills` times at random moments of the work: until `longest`
+ * after a start. What comes to its end before it is hit begins anew. Returns how often it hit. */
 int
-KillAtRandom(const std::vector<std::string> & arguments, int kills, unsigned seed)
+KillAtRandom(const std::vector<std::string> & arguments,
+             const std::filesystem::path &    output,
+             int                              kills,
+             std::chrono::milliseconds        longest,
+             unsigned                         seed)
 {
   std::mt19937 random(seed);
   int          hits = 0;
-  for (int i = 0; i < kills; ++i)
+  for (int tries = 0; hits < kills && tries < 20 * kills; ++tries)
   {
-    const auto delay = std::chrono::milliseconds(random() % 400);
+    const auto delay = std::chrono::milliseconds(random() % longest.count());
     const bool child = random() % 4 == 0;
     const auto start = std::chrono::steady_clock::now();
     bool       sent = false;
@@ -56,7 +61,14 @@ KillAtRandom(const std::vector<std::string> & arguments, int kills, unsigned see
         }
       }
     });
-    hits += result.signal == SIGKILL ? 1 : 0;
+    if (result.signal == SIGKILL)
+    {
+      ++hits;
+    }
+    else
+    {
+      std::filesystem::remove_all(output);
+    }
   }
   return hits;
 }
@@ -70,10 +82,13 @@ ExpectTheSameAfterKills(unsigned cases, int kills, unsigned seed)
   WriteTinyScans(folder / "scans", cases);
   WriteAll(folder / "scans/bad.nrrd", "no scan");
   const std::vector<std::string> batch{ "batch", folder / "scans", "-o", folder / "out", "--jobs", "2" };
+  const auto                     start = std::chrono::steady_clock::now();
   ASSERT_EQ(RunProgram(batch).code, 1); // the bad one
+  const auto whole = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - start);
   const auto undisturbed = FolderContents(folder / "out");
   std::filesystem::remove_all(folder / "out");
-  EXPECT_GT(KillAtRandom(batch, kills, seed), kills / 4);
+  const auto longest = std::max(std::chrono::milliseconds(20), 2 * whole / kills);
+  EXPECT_EQ(KillAtRandom(batch, folder / "out", kills, longest, seed), kills);
   ASSERT_EQ(RunProgram(batch).code, 1);
   const auto after = FolderContents(folder / "out");
   EXPECT_EQ(after.size(), undisturbed.size());
