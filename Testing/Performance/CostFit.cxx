@@ -76,25 +76,32 @@ struct Run
   double seconds; ///< without reading
 };
 
+/** The least of three runs: what others do on the machine only adds. */
 Run
 RunCore(const fs::path & scan, const fs::path & folder, int threads)
 {
   const fs::path report = folder / "report.json";
-  const auto     child = RunChild({ VOXELCORE_PROGRAM,
-                                    "core",
-                                    scan.string(),
-                                    "-o",
-                                    (folder / "core.vtp").string(),
-                                    "--report",
-                                    report.string(),
-                                    "--threads",
-                                    std::to_string(threads),
-                                    "--force",
-                                    "-q" });
-  std::ifstream  file(report);
-  const auto     json = nlohmann::json::parse(file);
-  return { 1e6 * json.at("peak_memory_mb").get<double>(),
-           json.at("seconds").at("total").get<double>() - json.at("seconds").at("read").get<double>() };
+  Run            least{ 1e300, 1e300 };
+  for (int repetition = 0; repetition < 3; ++repetition)
+  {
+    RunChild({ VOXELCORE_PROGRAM,
+               "core",
+               scan.string(),
+               "-o",
+               (folder / "core.vtp").string(),
+               "--report",
+               report.string(),
+               "--threads",
+               std::to_string(threads),
+               "--force",
+               "-q" });
+    std::ifstream file(report);
+    const auto    json = nlohmann::json::parse(file);
+    const auto &  seconds = json.at("seconds");
+    least.bytes = std::min(least.bytes, 1e6 * json.at("peak_memory_mb").get<double>());
+    least.seconds = std::min(least.seconds, seconds.at("total").get<double>() - seconds.at("read").get<double>());
+  }
+  return least;
 }
 
 fs::path
