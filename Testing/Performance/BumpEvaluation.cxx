@@ -253,7 +253,7 @@ Evaluate(const Body & body, const Options & options, std::vector<std::string> & 
         const SpacingWeights weights = ComputeSpacingWeights(spacing);
         const auto           points = BoundaryVertices(shape);
         DelaunayCells        delaunay = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
-        const auto           touching = LargestTouchingBalls(delaunay, points, weights);
+        auto                 touching = LargestTouchingBalls(delaunay, points, weights);
         MedialComplex        core = BuildVoxelCore(shape, points, std::move(delaunay), weights);
         const auto           topology = ComputeComplexTopology(core.cells);
         const auto           add = [&](const std::string & name, const MedialComplex & pruned, double seconds) {
@@ -313,7 +313,7 @@ Evaluate(const Body & body, const Options & options, std::vector<std::string> & 
           add("erosion thickness " + std::to_string(i + 1) + "vox", eroded[i], seconds);
         }
         start = Seconds();
-        core.bumps = ComputeBumps(core, weights, points, touching);
+        core.bumps = ComputeBumps(core, weights, points, std::move(touching));
         seconds = Seconds() - start;
         for (const std::string & text : options.heights)
         {

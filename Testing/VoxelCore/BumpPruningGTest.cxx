@@ -247,10 +247,11 @@ TEST(BumpPruning, CanBeCancelled)
   const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
   const auto           points = BoundaryVertices(shape);
   DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
-  const auto           touching = LargestTouchingBalls(cells, points, weights);
+  auto                 touching = LargestTouchingBalls(cells, points, weights);
   const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
-  EXPECT_THROW(ComputeBumps(core, weights, points, touching, 0, [](std::string_view, double) { return false; }),
-               Cancelled);
+  EXPECT_THROW(
+    ComputeBumps(core, weights, points, std::move(touching), 0, [](std::string_view, double) { return false; }),
+    Cancelled);
 }
 
 TEST(BumpHeight, IsReadWithItsUnit)

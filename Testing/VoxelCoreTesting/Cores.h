@@ -45,9 +45,9 @@ BumpedCoreOf(const VoxelShape & shape,
   const SpacingWeights weights = ComputeSpacingWeights(spacing);
   const auto           points = BoundaryVertices(shape);
   DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, engine);
-  const auto           touching = LargestTouchingBalls(cells, points, weights);
+  auto                 touching = LargestTouchingBalls(cells, points, weights);
   MedialComplex        core = BuildVoxelCore(shape, points, std::move(cells), weights);
-  core.bumps = ComputeBumps(core, weights, points, touching, floor);
+  core.bumps = ComputeBumps(core, weights, points, std::move(touching), floor);
   return core;
 }
 

@@ -91,14 +91,13 @@ ComputeWholeCore(const VoxelShape &       shape,
     outcome.seconds.delaunay += watch.Lap();
 
     ReportProgress(progress, "core", kDelaunayEnds);
-    const std::vector<ElementIndex> touching =
-      options.bumps ? LargestTouchingBalls(cells, points, weights) : std::vector<ElementIndex>();
+    TouchingBalls touching = options.bumps ? LargestTouchingBalls(cells, points, weights) : TouchingBalls();
     core = BuildVoxelCore(shape, points, std::move(cells), weights);
     if (options.bumps)
     {
       outcome.seconds.core += watch.Lap();
       const ProgressCallback bumps = PartOfProgress(progress, "prune", kDelaunayEnds, kCoreEnds);
-      core.bumps = ComputeBumps(core, weights, points, touching, options.floor, bumps);
+      core.bumps = ComputeBumps(core, weights, points, std::move(touching), options.floor, bumps);
       EndBumps(core.bumps, geometry);
       outcome.seconds.prune += watch.Lap();
     }

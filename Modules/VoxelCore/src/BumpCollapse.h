@@ -18,7 +18,7 @@ public:
   BumpCollapse(const MedialComplex &             core,
                const SpacingWeights &            weights,
                const std::vector<LatticePoint> & points,
-               const std::vector<ElementIndex> & touching,
+               TouchingBalls                     touching,
                double                            floor,
                const ProgressCallback &          progress);
 
@@ -105,7 +105,8 @@ private:
   PlaceOf(std::uint32_t point) const
   {
     const LatticePoint & p = (*m_Points)[point];
-    return { m_Scale[0] * p.x, m_Scale[1] * p.y, m_Scale[2] * p.z };
+    const LatticePoint & first = m_Points->front(); // as TouchingBalls has it
+    return { m_Scale[0] * (p.x - first.x), m_Scale[1] * (p.y - first.y), m_Scale[2] * (p.z - first.z) };
   }
   // How far a boundary vertex lies from the ball of y.
   double

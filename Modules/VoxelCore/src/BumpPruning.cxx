@@ -5,9 +5,11 @@
 #include "LengthText.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/Predicates.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace voxelcore
 {
@@ -76,12 +78,29 @@ BumpHeightInMillimetres(const BumpHeight & height, const std::array<double, 3> &
   return height.value * std::sqrt(spacing[0] * spacing[0] + spacing[1] * spacing[1] + spacing[2] * spacing[2]);
 }
 
-std::vector<ElementIndex>
+TouchingBalls
 LargestTouchingBalls(const DelaunayCells &             cells,
                      const std::vector<LatticePoint> & points,
                      const SpacingWeights &            weights)
 {
-  std::vector<ElementIndex> touching(points.size(), kOutside);
+  const auto    cellCount = static_cast<std::int64_t>(cells.CellCount());
+  TouchingBalls balls{ std::vector<ElementIndex>(points.size(), kOutside),
+                       std::vector<std::array<double, 3>>(cells.CellCount()) };
+#pragma omp parallel for schedule(static) if (cellCount > 10000)
+  for (std::int64_t cell = 0; cell < cellCount; ++cell)
+  {
+    std::array<LatticePoint, 4> corners{};
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const LatticePoint & p = points[cells.tetrahedra[static_cast<std::size_t>(cell)][i]];
+      corners[i] = { p.x - points[0].x, p.y - points[0].y, p.z - points[0].z };
+    }
+    const CircumSphere sphere = MakeCircumSphere(corners[0], corners[1], corners[2], corners[3], weights);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      balls.places[static_cast<std::size_t>(cell)][axis] = CentreCoordinate(sphere, axis, weights);
+    }
+  }
   // All points of a cell lie on its sphere: one of them gives its radius.
   std::vector<double> squared(cells.CellCount(), -1.0);
   for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
@@ -96,15 +115,15 @@ LargestTouchingBalls(const DelaunayCells &             cells,
       if (squared[cell] < 0)
       {
         const LatticePoint & p = points[facetPoints.front()];
-        const auto &         c = cells.centres[cell];
-        const double         dx = static_cast<double>(weights.weight[0]) * (c[0] - p.x);
-        const double         dy = static_cast<double>(weights.weight[1]) * (c[1] - p.y);
-        const double         dz = static_cast<double>(weights.weight[2]) * (c[2] - p.z);
+        const auto &         c = balls.places[cell];
+        const double         dx = static_cast<double>(weights.weight[0]) * (c[0] - (p.x - points[0].x));
+        const double         dy = static_cast<double>(weights.weight[1]) * (c[1] - (p.y - points[0].y));
+        const double         dz = static_cast<double>(weights.weight[2]) * (c[2] - (p.z - points[0].z));
         squared[cell] = dx * dx + dy * dy + dz * dz;
       }
       for (const std::uint32_t point : facetPoints)
       {
-        ElementIndex & largest = touching[point];
+        ElementIndex & largest = balls.largest[point];
         if (largest == kOutside || squared[cell] > squared[largest] ||
             (squared[cell] == squared[largest] && cell < largest))
         {
@@ -113,18 +132,18 @@ LargestTouchingBalls(const DelaunayCells &             cells,
       }
     }
   }
-  return touching;
+  return balls;
 }
 
 BumpValues
 ComputeBumps(const MedialComplex &             core,
              const SpacingWeights &            weights,
              const std::vector<LatticePoint> & points,
-             const std::vector<ElementIndex> & touching,
+             TouchingBalls                     touching,
              double                            floor,
              const ProgressCallback &          progress)
 {
-  return BumpCollapse(core, weights, points, touching, floor, progress).Run(progress);
+  return BumpCollapse(core, weights, points, std::move(touching), floor, progress).Run(progress);
 }
 
 MedialComplex

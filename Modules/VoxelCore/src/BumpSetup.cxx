@@ -12,7 +12,7 @@ namespace voxelcore
 BumpCollapse::BumpCollapse(const MedialComplex &             core,
                            const SpacingWeights &            weights,
                            const std::vector<LatticePoint> & points,
-                           const std::vector<ElementIndex> & touching,
+                           TouchingBalls                     touching,
                            double                            floor,
                            const ProgressCallback &          progress)
   : m_Core(&core)
@@ -37,16 +37,18 @@ BumpCollapse::BumpCollapse(const MedialComplex &             core,
   CountCofaces();
   for (ElementIndex vertex = 0; vertex < core.cells.vertexCount; ++vertex)
   {
-    const auto & p = core.positions[vertex];
+    const auto & p = touching.places[vertex];
     m_Vertices[vertex] = {
       { m_Scale[0] * p[0], m_Scale[1] * p[1], m_Scale[2] * p[2] }, core.radius[vertex], 0, 0, vertex, kNone, kNone, 0
     };
   }
+  touching.places = {};
   for (std::uint32_t point = 0; point < points.size(); ++point)
   {
-    if (IsLive(touching[point]))
+    const ElementIndex ball = touching.largest[point];
+    if (IsLive(ball))
     {
-      Keep(touching[point], point, Gap(point, m_Vertices[touching[point]]));
+      Keep(ball, point, Gap(point, m_Vertices[ball]));
     }
   }
   FindNeighbours();

@@ -42,15 +42,24 @@ ParseBumpHeight(std::string_view text);
 double
 BumpHeightInMillimetres(const BumpHeight & height, const std::array<double, 3> & spacing);
 
-/** Per boundary vertex the cell, and so the core vertex, whose ball is the largest of those it touches; of equals the
- *  one of smallest index. To be asked before the cells are moved into BuildVoxelCore(). */
-std::vector<ElementIndex>
+/** What the heights need of the Delaunay cells, whose order is that of the core's vertices. */
+struct TouchingBalls
+{
+  /** Per boundary vertex the cell whose ball is the largest of those it touches; of equals the one of smallest index. */
+  std::vector<ElementIndex> largest;
+  /** Per cell its centre in lattice steps from the first boundary vertex, each coordinate the exact rational rounded
+   *  once: unlike the core's positions the same wherever the volume begins. */
+  std::vector<std::array<double, 3>> places;
+};
+
+/** To be asked before the cells are moved into BuildVoxelCore(). */
+TouchingBalls
 LargestTouchingBalls(const DelaunayCells &             cells,
                      const std::vector<LatticePoint> & points,
                      const SpacingWeights &            weights);
 
-/** The heights of all elements of a whole core. `points` are the boundary vertices, `touching` as above. Infinity for
- *  what never goes, as the topology needs it.
+/** The heights of all elements of a whole core. `points` are the boundary vertices, `touching` as above (move it in:
+ *  its memory is given back on the way). Infinity for what never goes, as the topology needs it.
  *
  *  Only simple pairs go, the cheapest first; the height at which a pair goes is the greatest cost met so far. So all
  *  results have the topology of the core, are nested, and one run serves every h.
@@ -65,14 +74,15 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *  With `floor` (mm) > 0 what PruneByLambda(core, {floor}) takes goes first, whatever bump it stands for: its value is
  *  -1, and the boundary vertices of its balls are no longer looked at, so that nothing is promised of them.
  *
- *  Costs are made of +, -, *, / and sqrt of the canonical doubles of the core in a fixed order. Loose ends
- *  that can go at the height reached go at once; of the rest ties go by radius measure, then dimension, then index: the same bits on every machine, for every engine and thread count.
+ *  Costs are made of +, -, *, / and sqrt of canonical doubles in a fixed order. Loose ends that can go at the height
+ *  reached go at once; of the rest ties go by radius measure, then dimension, then index: the same bits on every machine,
+ *  for every engine and thread count, and for a volume that is cropped or padded.
  *  \throws Cancelled when the callback says so. */
 BumpValues
 ComputeBumps(const MedialComplex &             core,
              const SpacingWeights &            weights,
              const std::vector<LatticePoint> & points,
-             const std::vector<ElementIndex> & touching,
+             TouchingBalls                     touching,
              double                            floor = 0,
              const ProgressCallback &          progress = {});
 
