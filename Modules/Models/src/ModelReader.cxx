@@ -1,4 +1,5 @@
 #include "ModelCells.h"
+#include "ModelSource.h"
 #include "VtpFile.h"
 
 #include "voxelcore/Error.h"
@@ -38,7 +39,11 @@ struct CellList
 };
 
 CellList
-ReadCells(VtpFile & file, const std::string & section, std::int64_t pointCount, std::int64_t fewest, std::int64_t most)
+ReadCells(ModelSource &       file,
+          const std::string & section,
+          std::int64_t        pointCount,
+          std::int64_t        fewest,
+          std::int64_t        most)
 {
   CellList list;
   // The file gives the end of each cell, not the beginning of the first.
@@ -222,7 +227,7 @@ ReadBumps(const std::array<CellList, 3> & kinds,
 /** An array that must have a value for each point or cell. */
 template <typename Value>
 std::vector<Value>
-ReadValues(VtpFile & file, const char * section, const char * name, std::int64_t tuples, int components = 1)
+ReadValues(ModelSource & file, const char * section, const char * name, std::int64_t tuples, int components = 1)
 {
   std::vector<Value> values = file.Read<Value>(section, name, components);
   if (values.size() != static_cast<std::size_t>(tuples) * static_cast<std::size_t>(components))
@@ -234,7 +239,7 @@ ReadValues(VtpFile & file, const char * section, const char * name, std::int64_t
 
 /** Label and component of each cell. */
 std::vector<PartKey>
-ReadKeys(VtpFile & file, std::int64_t cellCount)
+ReadKeys(ModelSource & file, std::int64_t cellCount)
 {
   const auto           labels = ReadValues<std::int64_t>(file, "CellData", "Label", cellCount);
   std::vector<PartKey> keys(labels.size());
@@ -254,8 +259,10 @@ ReadKeys(VtpFile & file, std::int64_t cellCount)
   return keys;
 }
 
+} // namespace
+
 MedialModel
-ReadParts(VtpFile & file)
+ReadParts(ModelSource & file)
 {
   RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && file.ReadText("FieldData", "Units") == "mm",
              "its field data do not say SPACE = LPS and Units = mm");
@@ -360,6 +367,51 @@ ReadParts(VtpFile & file)
   return model;
 }
 
+namespace
+{
+
+/** A file as a source. */
+class FileSource : public ModelSource
+{
+public:
+  explicit FileSource(const std::filesystem::path & path)
+    : m_File(path)
+  {}
+  std::uint64_t
+  PieceCount(const std::string & attribute) const override
+  {
+    return m_File.PieceCount(attribute);
+  }
+  bool
+  Has(const std::string & section, const std::string & name) const override
+  {
+    return m_File.Has(section, name);
+  }
+  std::vector<double>
+  ReadReals(const std::string & section, const std::string & name, int components) override
+  {
+    return m_File.Read<double>(section, name, components);
+  }
+  std::vector<std::int64_t>
+  ReadWholes(const std::string & section, const std::string & name, int components) override
+  {
+    return m_File.Read<std::int64_t>(section, name, components);
+  }
+  std::vector<std::int64_t>
+  ReadIndices(const std::string & section, const std::string & name) override
+  {
+    return m_File.ReadIndices(section, name);
+  }
+  std::string
+  ReadText(const std::string & section, const std::string & name) override
+  {
+    return m_File.ReadText(section, name);
+  }
+
+private:
+  VtpFile m_File;
+};
+
 } // namespace
 
 MedialModel
@@ -380,7 +432,7 @@ ReadModel(const std::filesystem::path & path)
   }
   try
   {
-    VtpFile file(path);
+    FileSource file(path);
     return ReadParts(file);
   }
   catch (const UnfitFile & unfit)

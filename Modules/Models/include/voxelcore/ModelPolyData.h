@@ -15,4 +15,9 @@ namespace voxelcore
 vtkSmartPointer<vtkPolyData>
 MakePolyData(const MedialModel & model, bool keepEdges);
 
+/** The inverse: the model in polydata that MakePolyData made, or VTK's reader found in a .vtp of ours. Its arrays must be as
+ *  they were. \throws InputError */
+MedialModel
+ModelFromPolyData(vtkPolyData & data);
+
 } // namespace voxelcore
