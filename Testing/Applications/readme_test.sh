@@ -25,3 +25,23 @@ done < <(sed -n 's/^    \(build\/release\/bin\/voxelcore .*\)$/\1/p' "$readme")
 for file in medial.vtp medial.json root.vtp root_branches.csv root.swc both_skeleton.vtp; do
   [ -s "$file" ] || { echo "readme_test.sh: README.md's commands left no $file" >&2; exit 1; }
 done
+
+# Lines of C++ said to be from an example stand there, in the same order; the example is built and run by its own test.
+quoted=0
+while IFS=$'\t' read -r source line; do
+  if [ "$source" != "${before:-}" ]; then
+    mapfile -t code < <(sed -E 's/^ +//; s/ +$//' "$(dirname "$readme")/$source")
+    before=$source
+    at=0
+  fi
+  while [ "$at" -lt "${#code[@]}" ] && [ "${code[at]}" != "$line" ]; do
+    at=$((at + 1))
+  done
+  [ "$at" -lt "${#code[@]}" ] || { echo "readme_test.sh: README.md quotes what $source has not: $line" >&2; exit 1; }
+  at=$((at + 1))
+  quoted=$((quoted + 1))
+done < <(awk '
+  match($0, /[Ff]rom `Testing\/[^`]*\.cxx`/) { source = substr($0, RSTART + 6, RLENGTH - 7); next }
+  source != "" && /^    / { sub(/^ +/, ""); sub(/ +$/, ""); print source "\t" $0; inside = 1; next }
+  source != "" && inside && /^$/ { source = ""; inside = 0 }' "$readme")
+[ "$quoted" -ge 20 ] || { echo "readme_test.sh: only $quoted lines of C++ were found in README.md" >&2; exit 1; }

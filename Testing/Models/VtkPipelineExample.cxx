@@ -1,51 +1,38 @@
-// VoxelCore in a VTK pipeline: a ball's voxels, its core, pruned twice.
-// usage: VtkPipelineExample OUT.vtp
+// VoxelCore in a VTK pipeline: from a scan to the medial surface pruned to two lambdas.
+// usage: VtkPipelineExample SCAN.mha LAMBDA LAMBDA OUT.vtp    the lambdas in mm; OUT.vtp is of the second
 
-#include <vtkImageData.h>
 #include <vtkLambdaPruningFilter.h>
+#include <vtkMetaImageReader.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkVoxelCoreFilter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <cstdlib>
 #include <iostream>
 
 int
 main(int argc, char ** argv)
 {
-  if (argc != 2)
+  if (argc != 5)
   {
+    std::cerr << "usage: VtkPipelineExample SCAN.mha LAMBDA LAMBDA OUT.vtp\n";
     return 2;
   }
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(24, 24, 24);
-  image->SetSpacing(0.5, 0.5, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  for (int k = 0; k < 24; ++k)
-  {
-    for (int j = 0; j < 24; ++j)
-    {
-      for (int i = 0; i < 24; ++i)
-      {
-        const double x = i - 11.5;
-        const double y = j - 11.5;
-        const double z = k - 11.5;
-        *static_cast<unsigned char *>(image->GetScalarPointer(i, j, k)) = x * x + y * y + z * z < 100 ? 1 : 0;
-      }
-    }
-  }
+  vtkNew<vtkMetaImageReader> reader;
+  reader->SetFileName(argv[1]);
   vtkNew<vtkVoxelCoreFilter> core;
-  core->SetInputData(image);
+  core->SetInputConnection(reader->GetOutputPort());
   vtkNew<vtkLambdaPruningFilter> pruned;
   pruned->SetInputConnection(core->GetOutputPort());
-  for (const double lambda : { 1.0, 2.0 }) // the second prunes anew, and computes nothing else
+  for (const char * lambda : { argv[2], argv[3] }) // the second prunes anew, and does nothing else
   {
-    pruned->SetLambda(lambda);
+    pruned->SetLambda(std::atof(lambda));
     pruned->Update();
-    std::cout << "lambda " << lambda << ": " << pruned->GetOutput()->GetNumberOfPolys() << " polygons\n";
+    std::cout << "lambda " << lambda << " mm: " << pruned->GetOutput()->GetNumberOfPolys() << " polygons\n";
   }
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(pruned->GetOutputPort());
-  writer->SetFileName(argv[1]);
-  return writer->Write() == 1 ? 0 : 1;
+  writer->SetFileName(argv[4]);
+  return writer->Write() == 1 && pruned->GetOutput()->GetNumberOfPoints() > 0 ? 0 : 1;
 }

@@ -53,7 +53,7 @@ case "$how" in
     if ldd "$scratch/core/UsesCore" | grep -E 'libvtk|libITK|libtiff|libpng'; then
       fail "Core brings these libraries along"
     fi
-    parts="Imaging;Models;Pipeline"
+    parts="Imaging;Models;Pipeline;VTK"
     [ -z "$(find "$moved/second" -name VoxelCore-ITK.cmake)" ] || parts+=";ITK"
     # The README's five lines, as they stand there.
     {
@@ -74,6 +74,8 @@ case "$how" in
     cmp "$scratch/plugin.vtp" "$scratch/program.vtp"
     "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/scan.nii.gz" -q
     (cd "$scratch" && all/ReadmeExample && [ -s medial.vtp ]) || fail "the README's example does not work"
+    "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/torus.mha" -q
+    "$scratch/all/UsesVTK" "$scratch/torus.mha" 2 1 "$scratch/vtk.vtp"
     if [ -x "$scratch/all/UsesITK" ]; then
       "$scratch/all/UsesITK" "$scratch/torus.nrrd" 1.5vox "$scratch/itk.vtp"
     fi

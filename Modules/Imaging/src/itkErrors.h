@@ -4,11 +4,9 @@
 #include "itkProcessObject.h"
 
 #include "voxelcore/Progress.h"
-#include "voxelcore/TopologyNumbers.h"
 
 #include <algorithm>
 #include <new>
-#include <string>
 
 namespace itk
 {
@@ -48,25 +46,6 @@ ForwardProgress(ProcessObject * filter, double from, double to)
     filter->UpdateProgress(static_cast<float>(reached));
     return !filter->GetAbortGenerateData();
   };
-}
-
-/** \throws voxelcore::CertificateError when a complex has not the topology of its shape. */
-inline void
-RequireEqualTopology(const voxelcore::TopologyNumbers & shape,
-                     const voxelcore::TopologyNumbers & complex,
-                     const char *                       what,
-                     std::int64_t                       label)
-{
-  const auto text = [](const voxelcore::TopologyNumbers & numbers) {
-    return std::to_string(numbers.euler) + "/" + std::to_string(numbers.betti[0]) + "/" +
-           std::to_string(numbers.betti[1]) + "/" + std::to_string(numbers.betti[2]);
-  };
-  if (!(shape == complex))
-  {
-    throw voxelcore::CertificateError("label " + std::to_string(label) +
-                                      ": certificate failed: the shape has chi/b0/b1/b2 " + text(shape) + ", " + what +
-                                      " has " + text(complex) + "; there is no output");
-  }
 }
 
 } // namespace itk

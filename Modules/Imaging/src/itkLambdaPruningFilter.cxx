@@ -1,6 +1,7 @@
 #include "itkLambdaPruningFilter.h"
 
 #include "itkErrors.h"
+#include "voxelcore/Certificate.h"
 #include "voxelcore/ComplexTopology.h"
 
 #include <charconv>
@@ -77,7 +78,7 @@ LambdaPruningFilter::GenerateData()
         voxelcore::ReportProgress(progress, "certificate", 1);
         part.complexTopology = voxelcore::ComputeComplexTopology(part.complex->cells);
       }
-      RequireEqualTopology(part.shapeTopology, part.complexTopology, "its core pruned", part.label);
+      voxelcore::RequireEqualTopology(part.shapeTopology, part.complexTopology, "its core pruned", part.label);
       before += share;
     }
     voxelcore::ReportProgress(ForwardProgress(this, 0, 1), "done", 1);

@@ -2,6 +2,7 @@
 
 #include "itkErrors.h"
 #include "itkMultiThreaderBase.h"
+#include "voxelcore/Certificate.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/VoxelCore.h"
@@ -120,7 +121,7 @@ VoxelCoreFilter::GenerateData()
         this->ComputeCore(label.shape, weights, part(shapeEnds, coreEnds)));
       voxelcore::ReportProgress(part(coreEnds, 1), "certificate", 0);
       result.complexTopology = voxelcore::ComputeComplexTopology(core->cells);
-      RequireEqualTopology(result.shapeTopology, result.complexTopology, "its core", label.value);
+      voxelcore::RequireEqualTopology(result.shapeTopology, result.complexTopology, "its core", label.value);
       result.complex = std::move(core);
       parts.push_back(std::move(result));
       before += share;

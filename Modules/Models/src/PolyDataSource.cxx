@@ -44,27 +44,20 @@ public:
   ReadReals(const std::string & section, const std::string & name, int components) override
   {
     vtkDataArray * const array = section == "Points" ? PointArray() : FieldsOf(section)->GetArray(name.c_str());
-    RequireFit(array != nullptr && array->GetDataType() == VTK_DOUBLE && array->GetNumberOfComponents() == components,
+    RequireFit(array != nullptr && array->GetDataType() == VTK_DOUBLE,
                "an array is missing, or not in double precision");
-    std::vector<double> values(static_cast<std::size_t>(array->GetNumberOfValues()));
-    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-    {
-      values[static_cast<std::size_t>(i)] = array->GetComponent(i / components, static_cast<int>(i % components));
-    }
-    return values;
+    return CopyOf<double>(*array, components);
   }
 
   std::vector<std::int64_t>
   ReadWholes(const std::string & section, const std::string & name, int components) override
   {
     vtkDataArray * const array = FieldsOf(section)->GetArray(name.c_str());
-    RequireFit(array != nullptr && array->GetNumberOfComponents() == components, "an array is missing");
-    std::vector<std::int64_t> values(static_cast<std::size_t>(array->GetNumberOfValues()));
-    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-    {
-      values[static_cast<std::size_t>(i)] = array->GetVariantValue(i).ToTypeInt64();
-    }
-    return values;
+    const int            type = array != nullptr ? array->GetDataType() : VTK_VOID;
+    RequireFit(array != nullptr && array->GetDataTypeSize() == sizeof(std::int64_t) &&
+                 (type == VTK_LONG || type == VTK_LONG_LONG || type == VTK_ID_TYPE),
+               "an array is missing, or not of whole numbers of 64 bits");
+    return CopyOf<std::int64_t>(*array, components);
   }
 
   std::vector<std::int64_t>
@@ -99,6 +92,15 @@ public:
   }
 
 private:
+  template <typename Value>
+  static std::vector<Value>
+  CopyOf(vtkDataArray & array, int components)
+  {
+    RequireFit(array.GetNumberOfComponents() == components, "an array has another number of components");
+    const auto * const values = static_cast<const Value *>(array.GetVoidPointer(0));
+    return { values, values + array.GetNumberOfValues() };
+  }
+
   vtkDataArray *
   PointArray() const
   {

@@ -1,14 +1,16 @@
 #include "vtkLambdaPruningFilter.h"
 
-#include "voxelcore/Error.h"
+#include "vtkFilterWork.h"
+#include "voxelcore/Certificate.h"
+#include "voxelcore/ComplexTopology.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/ModelPolyData.h"
 
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
-#include <vtkPolyData.h>
 
+#include <cmath>
 #include <utility>
 
 vtkStandardNewMacro(vtkLambdaPruningFilter);
@@ -23,13 +25,13 @@ vtkLambdaPruningFilter::PrintSelf(ostream & os, vtkIndent indent)
 int
 vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs, vtkInformationVector * outputs)
 {
+  // The rest is the certificate's.
+  constexpr double    pruningEnds = 0.9;
   vtkPolyData * const input = vtkPolyData::GetData(inputs[0]);
-  vtkPolyData * const output = vtkPolyData::GetData(outputs);
-  try
-  {
-    if (!(this->Lambda >= 0))
+  return vtkFilterWork(this, vtkPolyData::GetData(outputs), [&] {
+    if (!(this->Lambda >= 0) || !std::isfinite(this->Lambda))
     {
-      throw voxelcore::UsageError("Lambda is negative");
+      throw voxelcore::UsageError("Lambda must be a length in mm, not negative");
     }
     voxelcore::MedialModel model = voxelcore::ModelFromPolyData(*input);
     if (!model.hasEdges)
@@ -37,28 +39,22 @@ vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** in
       throw voxelcore::InputError("the input lacks the measures of its edges; write it with --keep-edges");
     }
     model.provenance.clear(); // it told of another lambda
-    const auto count = static_cast<double>(model.parts.size());
-    double     done = 0;
+    const double share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
+    double       before = 0;
     for (voxelcore::ModelPart & part : model.parts)
     {
-      const auto progress = [&](std::string_view, double fraction) {
-        this->UpdateProgress((done + fraction) / count);
-        return this->GetAbortExecute() == 0;
-      };
+      const auto progress = vtkForwardProgress(this, before, before + pruningEnds * share);
+      voxelcore::ReportProgress(progress, "prune", 0);
+      const voxelcore::TopologyNumbers topology = voxelcore::ComputeComplexTopology(part.core.cells);
       part.core = std::move(voxelcore::PruneByLambda(part.core, { this->Lambda }, progress).front());
-      ++done;
+      voxelcore::ReportProgress(progress, "certificate", 1);
+      voxelcore::RequireEqualTopology(topology,
+                                      voxelcore::ComputeComplexTopology(part.core.cells),
+                                      "its core pruned",
+                                      part.label);
+      before += share;
     }
-    output->ShallowCopy(voxelcore::MakePolyData(model, true));
-  }
-  catch (const voxelcore::Cancelled &)
-  {
-    output->Initialize();
-  }
-  catch (const std::exception & error)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+    voxelcore::ReportProgress(vtkForwardProgress(this, 0, 1), "done", 1);
+    return voxelcore::MakePolyData(model, true);
+  });
 }

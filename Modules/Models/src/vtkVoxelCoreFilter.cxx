@@ -1,7 +1,10 @@
 #include "vtkVoxelCoreFilter.h"
 
-#include "voxelcore/Error.h"
+#include "vtkFilterWork.h"
+#include "voxelcore/Certificate.h"
+#include "voxelcore/ComplexTopology.h"
 #include "voxelcore/ModelPolyData.h"
+#include "voxelcore/ShapeTopology.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/VoxelCore.h"
 
@@ -18,6 +21,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <type_traits>
+#include <utility>
 
 vtkStandardNewMacro(vtkVoxelCoreFilter);
 
@@ -47,39 +53,119 @@ GeometryOf(vtkImageData & image)
   return geometry;
 }
 
-/** The shape of each label asked for. */
-std::map<std::int64_t, voxelcore::VoxelShape>
-ShapesOf(vtkImageData & image, vtkDataArray & values, std::int64_t wanted)
+/** The labels in an image's values, which lie along i, then j, then k. */
+template <typename Value>
+class LabelShapes
 {
-  const int * const                             size = image.GetDimensions();
-  std::map<std::int64_t, voxelcore::VoxelShape> shapes;
-  vtkIdType                                     place = 0;
-  for (std::int32_t k = 0; k < size[2]; ++k)
+public:
+  LabelShapes(const Value * values, const std::array<std::int64_t, 3> & size, std::int64_t wanted)
+    : m_Values(values)
+    , m_Size{ static_cast<std::int32_t>(size[0]),
+              static_cast<std::int32_t>(size[1]),
+              static_cast<std::int32_t>(size[2]) }
+    , m_Wanted(wanted)
+  {}
+
+  /** The shape of each label asked for, in its tight box. */
+  std::map<std::int64_t, voxelcore::VoxelShape>
+  Make() const
   {
-    for (std::int32_t j = 0; j < size[1]; ++j)
+    // First the boxes, so that many labels in a large image need no more than their own space.
+    struct Box
     {
-      for (std::int32_t i = 0; i < size[0]; ++i, ++place)
+      std::array<std::int32_t, 3> lower;
+      std::array<std::int32_t, 3> upper;
+    };
+    std::map<std::int64_t, Box> boxes;
+    ForEachRun([&boxes](std::int64_t label, const std::array<std::int32_t, 3> & from, std::int32_t to) {
+      Box & box = boxes.try_emplace(label, Box{ from, from }).first->second;
+      for (std::size_t a = 0; a < 3; ++a)
       {
-        const double value = values.GetComponent(place, 0);
-        if (value == 0)
+        box.lower[a] = std::min(box.lower[a], from[a]);
+        box.upper[a] = std::max(box.upper[a], a == 0 ? to : from[a]);
+      }
+    });
+    std::map<std::int64_t, voxelcore::VoxelShape> shapes;
+    for (const auto & [label, box] : boxes)
+    {
+      voxelcore::VoxelBox whole{ box.lower, {} };
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        whole.size[a] = box.upper[a] - box.lower[a] + 1;
+      }
+      shapes.emplace(label, whole);
+    }
+    ForEachRun([&shapes](std::int64_t label, const std::array<std::int32_t, 3> & from, std::int32_t to) {
+      voxelcore::VoxelShape & shape = shapes.at(label);
+      for (std::int32_t i = from[0]; i <= to; ++i)
+      {
+        shape.Insert(i, from[1], from[2]);
+      }
+    });
+    return shapes;
+  }
+
+private:
+  /** Calls function(label, first voxel, last i) for voxels of one label in a row. */
+  template <typename Function>
+  void
+  ForEachRun(const Function & function) const
+  {
+    const Value * row = m_Values;
+    for (std::int32_t k = 0; k < m_Size[2]; ++k)
+    {
+      for (std::int32_t j = 0; j < m_Size[1]; ++j, row += m_Size[0])
+      {
+        for (std::int32_t i = 0; i < m_Size[0];)
         {
-          continue;
-        }
-        if (!(value > 0 && value < 9e15) || std::floor(value) != value)
-        {
-          throw voxelcore::InputError("the image holds a value that is no label: labels are whole numbers from 0");
-        }
-        const auto label = static_cast<std::int64_t>(value);
-        if (wanted == 0 || label == wanted)
-        {
-          auto & shape =
-            shapes.try_emplace(label, voxelcore::VoxelBox{ { 0, 0, 0 }, { size[0], size[1], size[2] } }).first->second;
-          shape.Insert(i, j, k);
+          const std::int32_t first = i;
+          while (++i < m_Size[0] && row[i] == row[first])
+          {}
+          const std::int64_t label = row[first] == Value{ 0 } ? 0 : LabelOf(row[first]);
+          if (label != 0 && (m_Wanted == 0 || label == m_Wanted))
+          {
+            function(label, { first, j, k }, i - 1);
+          }
         }
       }
     }
   }
-  return shapes;
+
+  static std::int64_t
+  LabelOf(Value value)
+  {
+    bool whole = value > Value{ 0 };
+    if constexpr (std::is_floating_point_v<Value>)
+    {
+      constexpr double largest = 9007199254740992; // 2^53: above it reals are no longer all whole numbers
+      whole = whole && value <= static_cast<Value>(largest) && std::floor(value) == value;
+    }
+    else if constexpr (sizeof(Value) == sizeof(std::int64_t))
+    {
+      whole = whole && std::in_range<std::int64_t>(value);
+    }
+    if (!whole)
+    {
+      throw voxelcore::InputError("the image holds a value that is no label: labels are whole numbers from 0");
+    }
+    return static_cast<std::int64_t>(value);
+  }
+
+  const Value *               m_Values;
+  std::array<std::int32_t, 3> m_Size;
+  std::int64_t                m_Wanted;
+};
+
+std::map<std::int64_t, voxelcore::VoxelShape>
+ShapesOf(vtkDataArray & values, const std::array<std::int64_t, 3> & size, std::int64_t wanted)
+{
+  switch (values.GetDataType())
+  {
+    vtkTemplateMacro(
+      return LabelShapes<VTK_TT>(static_cast<const VTK_TT *>(values.GetVoidPointer(0)), size, wanted).Make());
+    default:
+      throw voxelcore::InputError("the image's values are no numbers");
+  }
 }
 
 } // namespace
@@ -111,49 +197,45 @@ vtkVoxelCoreFilter::RequestUpdateExtent(vtkInformation *, vtkInformationVector *
 int
 vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs, vtkInformationVector * outputs)
 {
+  // Where in a label's work each stage ends, as the shares of time usually are.
+  constexpr double     shapeEnds = 0.05;
+  constexpr double     coreEnds = 0.95;
   vtkImageData * const image = vtkImageData::GetData(inputs[0]);
-  vtkPolyData * const  output = vtkPolyData::GetData(outputs);
-  vtkDataArray * const values = image != nullptr ? image->GetPointData()->GetScalars() : nullptr;
-  if (values == nullptr || values->GetNumberOfComponents() != 1)
-  {
-    vtkErrorMacro("the input needs point scalars of one component");
-    return 0;
-  }
-  try
-  {
+  return vtkFilterWork(this, vtkPolyData::GetData(outputs), [&] {
+    vtkDataArray * const values = image->GetPointData()->GetScalars();
+    if (values == nullptr || values->GetNumberOfComponents() != 1 ||
+        values->GetNumberOfTuples() != image->GetNumberOfPoints())
+    {
+      throw voxelcore::InputError("the input needs point scalars of one component");
+    }
     const voxelcore::ImageGeometry geometry = GeometryOf(*image);
     const auto                     weights = voxelcore::ComputeSpacingWeights(geometry.spacing);
-    auto                           shapes = ShapesOf(*image, *values, this->Label);
+    auto                           shapes = ShapesOf(*values, geometry.size, this->Label);
     if (shapes.empty())
     {
-      throw voxelcore::InputError("the label does not occur in the image");
+      throw voxelcore::InputError(this->Label == 0
+                                    ? "the image holds nothing but background"
+                                    : "label " + std::to_string(this->Label) + " does not occur in the image");
     }
     voxelcore::MedialModel model;
-    double                 done = 0;
+    const double           share = 1 / static_cast<double>(shapes.size());
+    double                 before = 0;
     for (auto & [label, shape] : shapes)
     {
-      const auto progress = [&](std::string_view, double fraction) {
-        this->UpdateProgress((done + fraction) / static_cast<double>(shapes.size()));
-        return this->GetAbortExecute() == 0;
+      const auto stage = [&](double from, double to) {
+        return vtkForwardProgress(this, before + share * from, before + share * to);
       };
-      model.parts.push_back(voxelcore::ToPhysical(
-        voxelcore::ComputeVoxelCore(voxelcore::CropToVoxels(shape), weights, voxelcore::Engine::Auto, progress),
-        geometry,
-        label));
+      voxelcore::ReportProgress(stage(0, shapeEnds), "shape", 0);
+      const voxelcore::TopologyNumbers topology = voxelcore::ComputeShapeTopology(shape);
+      voxelcore::MedialComplex         core =
+        voxelcore::ComputeVoxelCore(shape, weights, voxelcore::Engine::Auto, stage(shapeEnds, coreEnds));
+      voxelcore::ReportProgress(stage(coreEnds, 1), "certificate", 0);
+      voxelcore::RequireEqualTopology(topology, voxelcore::ComputeComplexTopology(core.cells), "its core", label);
+      model.parts.push_back(voxelcore::ToPhysical(std::move(core), geometry, label));
       shape = voxelcore::VoxelShape();
-      ++done;
+      before += share;
     }
-    output->ShallowCopy(voxelcore::MakePolyData(model, true));
-  }
-  catch (const voxelcore::Cancelled &)
-  {
-    output->Initialize();
-  }
-  catch (const std::exception & error)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+    voxelcore::ReportProgress(vtkForwardProgress(this, 0, 1), "done", 1);
+    return voxelcore::MakePolyData(model, true);
+  });
 }
