@@ -196,6 +196,21 @@ TEST_F(RenderCommand, ThickPartsAreYellowAndWhereTheyBelong)
   EXPECT_LT(Find(top, IsYellow).x, (Find(top, IsDrawn).left + Find(top, IsDrawn).right) / 2);
 }
 
+TEST_F(RenderCommand, LinesHaveTheirColorFromAllSides)
+{
+  // A rod one voxel thick: its core is a line, without normals that light could fall on.
+  TestScan scan({ 40, 9, 9 });
+  scan.Fill({ 3, 4, 4 }, { 37, 5, 5 }, 1);
+  WriteNrrd(m_Folder / "rod.nrrd", scan);
+  Run({ "core", m_Folder / "rod.nrrd", "-o", m_Folder / "rod.vtp", "--lambda", "0", "--quiet" });
+  for (const char * view : { "front", "top", "iso" })
+  {
+    const Image image = Draw({ m_Folder / "rod.vtp", "--view", view });
+    EXPECT_GT(Find(image, IsViolet).count, 100) << view;
+    EXPECT_EQ(Find(image, [](const auto & c) { return std::max({ c[0], c[1], c[2] }) < 75; }).count, 0) << view;
+  }
+}
+
 TEST_F(RenderCommand, ProportionsAreThoseOfTheScan)
 {
   const Spot spot = Find(Draw({ m_Folder / "c.vtp", "--scan", m_Folder / "s.nrrd", "--view", "front" }), IsDrawn);

@@ -26,11 +26,11 @@ for file in medial.vtp medial.json root.vtp root_branches.csv root.swc both_skel
   [ -s "$file" ] || { echo "readme_test.sh: README.md's commands left no $file" >&2; exit 1; }
 done
 
-# Lines of C++ said to be from an example stand there, in the same order; the example is built and run by its own test.
+# Lines of C++ said to be from an example stand there, in the same order, comments apart; the example is built and run by its own test.
 quoted=0
 while IFS=$'\t' read -r source line; do
   if [ "$source" != "${before:-}" ]; then
-    mapfile -t code < <(sed -E 's/^ +//; s/ +$//' "$(dirname "$readme")/$source")
+    mapfile -t code < <(sed -E 's/^ +//; s/ *(\/\/.*)?$//' "$(dirname "$readme")/$source")
     before=$source
     at=0
   fi
@@ -42,6 +42,6 @@ while IFS=$'\t' read -r source line; do
   quoted=$((quoted + 1))
 done < <(awk '
   match($0, /[Ff]rom `Testing\/[^`]*\.cxx`/) { source = substr($0, RSTART + 6, RLENGTH - 7); next }
-  source != "" && /^    / { sub(/^ +/, ""); sub(/ +$/, ""); print source "\t" $0; inside = 1; next }
+  source != "" && /^    / { sub(/^ +/, ""); sub(/ *(\/\/.*)?$/, ""); print source "\t" $0; inside = 1; next }
   source != "" && inside && /^$/ { source = ""; inside = 0 }' "$readme")
 [ "$quoted" -ge 20 ] || { echo "readme_test.sh: only $quoted lines of C++ were found in README.md" >&2; exit 1; }

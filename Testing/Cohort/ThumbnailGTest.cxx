@@ -27,7 +27,7 @@ Square(double at)
 
 TEST(Thumbnail, AModelFillsThePictureWhereverItLies)
 {
-  const Picture picture = PaintModel(Square(0), 64);
+  const Thumbnail picture = PaintModel(Square(0), 64);
   ASSERT_EQ(picture.rgb.size(), 64U * 64U * 3U);
   std::size_t painted = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
@@ -48,10 +48,10 @@ TEST(Thumbnail, EmptyAndFlatModelsArePictures)
   point.core.positions = { { 1, 2, 3 } };
   point.core.radius = { 1 };
   point.core.cells.vertexCount = 1;
-  const Picture picture = PaintModel({ { point }, "" }, 32);
+  const Thumbnail picture = PaintModel({ { point }, "" }, 32);
   EXPECT_NE(picture.rgb, std::vector<std::uint8_t>(32 * 32 * 3, 255));
   const TemporaryFolder folder;
-  WritePng(folder / "a.png", picture);
+  WriteThumbnail(folder / "a.png", picture);
   EXPECT_EQ(ReadAll(folder / "a.png").substr(1, 3), "PNG");
 }
 

@@ -2,10 +2,13 @@
 
 #include "VoxelCoreTesting/Shapes.h"
 #include "voxelcore/DisplayContent.h"
+#include "voxelcore/LambdaPruning.h"
+#include "voxelcore/VoxelCore.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <numbers>
 
 namespace voxelcore::testing
 {
@@ -70,6 +73,60 @@ TEST(LabelSurface, StaysWithinAVoxelOfTheBoundary)
       near[shape.Contains(x, y, z) ? 1 : 0] = true;
     }
     ASSERT_TRUE(near[0] && near[1]) << lattice[0] << ' ' << lattice[1] << ' ' << lattice[2];
+  }
+}
+
+/** How often the mesh goes around a point: the solid angles of its triangles (van Oosterom and Strackee) over the sphere. */
+double
+WindingNumber(const TriangleMesh & mesh, const Vector3 & point)
+{
+  double angle = 0;
+  for (const auto & t : mesh.triangles)
+  {
+    std::array<Vector3, 3> r{};
+    std::array<double, 3>  length{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        r[k][a] = mesh.points[t[k]][a] - point[a];
+      }
+      length[k] = std::hypot(r[k][0], r[k][1], r[k][2]);
+    }
+    const auto   dot = [&](int i, int j) { return r[i][0] * r[j][0] + r[i][1] * r[j][1] + r[i][2] * r[j][2]; };
+    const double volume = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
+                          r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
+                          r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
+    angle += 2 * std::atan2(volume,
+                            length[0] * length[1] * length[2] + dot(0, 1) * length[2] + dot(0, 2) * length[1] +
+                              dot(1, 2) * length[0]);
+  }
+  return angle / (4 * std::numbers::pi);
+}
+
+TEST(LabelSurface, HasTheMedialSurfaceInsideItWhateverTheAxes)
+{
+  const VoxelShape shape = Ellipsoid(40);
+  for (const bool mirrored : { false, true })
+  {
+    const ImageGeometry geometry = Oblique(mirrored);
+    ASSERT_EQ(IsLeftHanded(geometry), mirrored);
+    const TriangleMesh surface = LabelSurface(shape, geometry);
+    const auto         weights = ComputeSpacingWeights(geometry.spacing);
+    const auto         pruned = PruneByLambda(ComputeVoxelCore(shape, weights), { 1.5 });
+    const ModelPart    medial = ToPhysical(pruned.front(), geometry, 1);
+    ASSERT_GT(medial.core.positions.size(), 100U);
+    for (const Vector3 & point : medial.core.positions)
+    {
+      const Vector3 lattice = PhysicalToLattice(geometry, point);
+      ASSERT_TRUE(shape.Contains(static_cast<int>(std::floor(lattice[0])),
+                                 static_cast<int>(std::floor(lattice[1])),
+                                 static_cast<int>(std::floor(lattice[2]))));
+      ASSERT_NEAR(WindingNumber(surface, point), 1, 1e-3) << mirrored;
+    }
+    // The measure can tell: the same point in the other handedness lies elsewhere.
+    const Vector3 lattice = PhysicalToLattice(geometry, medial.core.positions.front());
+    ASSERT_NEAR(WindingNumber(surface, LatticeToPhysical(Oblique(!mirrored), lattice)), 0, 1e-3);
   }
 }
 

@@ -119,10 +119,10 @@ public:
   }
 
   /** With twice as many pixels each way, the mean of four. */
-  Picture
+  Thumbnail
   Halved() const
   {
-    Picture picture{ m_Size / 2, m_Size / 2, {} };
+    Thumbnail picture{ m_Size / 2, m_Size / 2, {} };
     for (int y = 0; y < picture.height; ++y)
     {
       for (int x = 0; x < picture.width; ++x)
@@ -174,7 +174,7 @@ Lit(const Vector & color, const Vector & a, const Vector & b, const Vector & c)
 
 } // namespace
 
-Picture
+Thumbnail
 PaintModel(const MedialModel & model, int size)
 {
   const int                        pixels = 2 * size;
@@ -246,7 +246,7 @@ PaintModel(const MedialModel & model, int size)
 }
 
 void
-WritePng(const std::filesystem::path & path, const Picture & picture)
+WriteThumbnail(const std::filesystem::path & path, const Thumbnail & picture)
 {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
@@ -284,8 +284,8 @@ PaintCase(const CoreReport & report)
     return;
   }
   OutputTransaction transaction(true);
-  WritePng(transaction.Stage(surface.parent_path() / (name.substr(0, mark) + "_thumbnail.png")),
-           PaintModel(ReadModel(surface), kPixels));
+  WriteThumbnail(transaction.Stage(surface.parent_path() / (name.substr(0, mark) + "_thumbnail.png")),
+                 PaintModel(ReadModel(surface), kPixels));
   transaction.Commit();
 }
 

@@ -1,4 +1,4 @@
-#include "voxelcore/RenderPicture.h"
+#include "PictureFile.h"
 
 #include "voxelcore/Error.h"
 
@@ -26,6 +26,40 @@ WritePng(const std::filesystem::path & path, const Picture & picture)
     std::filesystem::remove(path, ignored);
     throw OutputError("cannot write '" + path.string() + "': the disk is full, or the folder cannot be written to");
   }
+}
+
+Picture
+MeanPicture(const unsigned char * drawn, int width, int height, int part)
+{
+  Picture picture{ width, height, {} };
+  picture.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+  const std::size_t rowBytes = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(part);
+  const int         count = part * part;
+  bool              blank = true;
+  std::uint8_t *    to = picture.pixels.data();
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      for (int c = 0; c < 3; ++c, ++to)
+      {
+        int sum = 0;
+        for (int k = 0; k < count; ++k)
+        {
+          const auto row = static_cast<std::size_t>((height - 1 - y) * part + k / part);
+          const auto column = static_cast<std::size_t>(x * part + k % part);
+          sum += drawn[row * rowBytes + 3 * column + static_cast<std::size_t>(c)];
+        }
+        *to = static_cast<std::uint8_t>((sum + count / 2) / count);
+        blank = blank && *to == picture.pixels.front();
+      }
+    }
+  }
+  if (blank)
+  {
+    throw OutputError("cannot draw: the picture came out empty; does OpenGL 3.2 work on this display?");
+  }
+  return picture;
 }
 
 } // namespace voxelcore

@@ -2,20 +2,19 @@
 
 #include "DisplayMeshes.h"
 #include "PictureCamera.h"
+#include "PictureFile.h"
+#include "PictureMesh.h"
 #include "PictureOverlay.h"
 #include "VirtualDisplay.h"
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkFloatArray.h>
 #include <vtkLightKit.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
@@ -128,7 +127,7 @@ public:
     {
       throw OutputError("cannot draw: OpenGL gives no picture on this display");
     }
-    return Reduced(drawn->GetPointer(0));
+    return MeanPicture(drawn->GetPointer(0), m_Options.width, m_Options.height, kOversampling);
   }
 
 private:
@@ -227,38 +226,6 @@ private:
     }
   }
 
-  void
-  AddMesh(vtkRenderer * renderer, vtkPolyData * data, const DisplayLabel & label, bool scaled, double opacity)
-  {
-    if (data == nullptr || opacity <= 0)
-    {
-      return;
-    }
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    mapper->SetScalarVisibility(scaled);
-    if (scaled)
-    {
-      mapper->SelectColorArray(kShownArray);
-      mapper->SetScalarModeToUsePointFieldData();
-      mapper->SetLookupTable(m_Table);
-      mapper->UseLookupTableScalarRangeOn();
-      mapper->InterpolateScalarsBeforeMappingOn();
-    }
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    vtkProperty * const look = actor->GetProperty();
-    look->SetColor(label.color[0], label.color[1], label.color[2]);
-    look->SetOpacity(opacity);
-    look->SetAmbient(0.12);
-    look->SetDiffuse(0.85);
-    look->SetSpecular(opacity < 0.3 ? 0.0 : 0.12);
-    look->SetSpecularPower(20);
-    look->SetLineWidth(1.5F * kOversampling);
-    look->SetPointSize(3.0F * kOversampling);
-    renderer->AddActor(actor);
-  }
-
   double
   RightMargin() const
   {
@@ -288,15 +255,15 @@ private:
       renderer->SetOcclusionRatio(0.001);
       vtkNew<vtkLightKit> lights;
       lights->AddLightsToRenderer(renderer);
+      vtkLookupTable * const scale = m_HasScale ? m_Table.Get() : nullptr;
       for (std::size_t k = 0; k < m_Meshes.size(); ++k)
       {
         const DisplayLabel & label = m_Content.labels[k];
-        DisplayLabel         plain;
         // With a colour scale the surface is neutral, lest its colour be taken for a length.
-        plain.color = m_HasScale && m_Meshes.size() == 1 ? Color{ 0.72, 0.74, 0.78 } : label.color;
-        AddMesh(renderer, m_Meshes[k].surface, plain, false, m_Panels[i].surface);
-        AddMesh(renderer, m_Meshes[k].medial, label, m_HasScale, m_Panels[i].medial);
-        AddMesh(renderer, m_Meshes[k].curves, label, m_HasScale, m_Panels[i].curves);
+        const Color plain = m_HasScale && m_Meshes.size() == 1 ? Color{ 0.72, 0.74, 0.78 } : label.color;
+        AddMesh(renderer, m_Meshes[k].surface, plain, nullptr, m_Panels[i].surface, kOversampling);
+        AddMesh(renderer, m_Meshes[k].medial, label.color, scale, m_Panels[i].medial, kOversampling);
+        AddMesh(renderer, m_Meshes[k].curves, label.color, scale, m_Panels[i].curves, kOversampling);
       }
       m_Window->AddRenderer(renderer);
       m_Renderers.push_back(renderer);
@@ -355,40 +322,6 @@ private:
       const double middle = 0.5 * m_Text + m_PanelWidth * (static_cast<double>(i) + 0.5);
       overlay.AddText(m_Panels[i].title, middle, m_Height - 1.5 * m_Text, 1.1 * m_Text, 0);
     }
-  }
-
-  /** Each pixel the mean of those drawn for it, rows from the top. */
-  Picture
-  Reduced(const unsigned char * drawn) const
-  {
-    Picture picture{ m_Options.width, m_Options.height, {} };
-    picture.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 3);
-    bool           blank = true;
-    std::uint8_t * to = picture.pixels.data();
-    for (int y = 0; y < picture.height; ++y)
-    {
-      for (int x = 0; x < picture.width; ++x)
-      {
-        for (int c = 0; c < 3; ++c, ++to)
-        {
-          int sum = 0;
-          for (int part = 0; part < kOversampling * kOversampling; ++part)
-          {
-            const std::size_t row =
-              static_cast<std::size_t>((picture.height - 1 - y) * kOversampling + part / kOversampling);
-            const std::size_t column = static_cast<std::size_t>(x * kOversampling + part % kOversampling);
-            sum += drawn[3 * (row * static_cast<std::size_t>(m_Width) + column) + static_cast<std::size_t>(c)];
-          }
-          *to = static_cast<std::uint8_t>((sum + 2) / (kOversampling * kOversampling));
-          blank = blank && *to == picture.pixels.front();
-        }
-      }
-    }
-    if (blank)
-    {
-      throw OutputError("cannot draw: the picture came out empty; does OpenGL 3.2 work on this display?");
-    }
-    return picture;
   }
 
   const DisplayContent &     m_Content;

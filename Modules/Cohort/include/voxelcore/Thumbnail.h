@@ -13,7 +13,7 @@ namespace voxelcore
 {
 
 /** Red, green and blue, row by row from the top. */
-struct Picture
+struct Thumbnail
 {
   int                       width = 0;
   int                       height = 0;
@@ -22,12 +22,12 @@ struct Picture
 
 /** A parallel projection of all parts, from the patient's left front and above, that fills the picture: faces lit from the
  *  viewer's side and coloured by label, edges on no face and isolated vertices as lines and points. */
-Picture
+Thumbnail
 PaintModel(const MedialModel & model, int size);
 
 /** \throws OutputError */
 void
-WritePng(const std::filesystem::path & path, const Picture & picture);
+WriteThumbnail(const std::filesystem::path & path, const Thumbnail & picture);
 
 /** Paints the first medial surface of a report of `voxelcore core` beside it: "X_thumbnail.png" for "X_medial.vtp". A
  *  model that is not written as .vtp gets none. \throws InputError, OutputError */
