@@ -9,14 +9,14 @@ may_use() {
   case "$1" in
     Lattice) echo "" ;;
     Shape | Complex) echo "Lattice" ;;
-    Delaunay | Phantom) echo "Lattice Shape" ;;
+    Delaunay | Voxelization | Phantom) echo "Lattice Shape" ;;
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
     Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;
     Imaging) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
-    Models) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton" ;;
+    Models) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Voxelization" ;;
     Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models" ;;
-    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Phantom Verification Imaging Models Display" ;;
+    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Voxelization Phantom Verification Imaging Models Display" ;;
     Cohort) echo "Lattice Shape Delaunay Models Pipeline Imaging Complex VoxelCore" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac

@@ -63,13 +63,18 @@ TightBox(const VoxelShape & shape)
   return tight;
 }
 
-VoxelShape
-CopyBox(const VoxelShape & shape, const VoxelBox & box)
+namespace
+{
+
+/** Copies the rows of `box` out of `shape` to where `rowAt` says. Rows may lie in the shape's own memory, before or on
+ *  those they come from: each word is read before its place is written. */
+template <typename RowAt>
+void
+CopyRows(const VoxelShape & shape, const VoxelBox & box, const RowAt & rowAt)
 {
   const std::array<std::int32_t, 3> first{ box.lower[0] - shape.Box().lower[0],
                                            box.lower[1] - shape.Box().lower[1],
                                            box.lower[2] - shape.Box().lower[2] };
-  VoxelShape                        result(box);
   const auto                        shift = static_cast<unsigned>(first[0]) & 63U;
   const auto                        skip = static_cast<std::size_t>(first[0]) / 64;
   const unsigned                    tailBits = static_cast<unsigned>(box.size[0]) & 63U;
@@ -77,8 +82,8 @@ CopyBox(const VoxelShape & shape, const VoxelBox & box)
   {
     for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
-      const auto from = shape.Row(y + first[1], z + first[2]);
-      const auto to = result.Row(y, z);
+      const auto                     from = shape.Row(y + first[1], z + first[2]);
+      const std::span<std::uint64_t> to = rowAt(y, z);
       for (std::size_t word = 0; word < to.size(); ++word)
       {
         std::uint64_t bits = from[word + skip] >> shift;
@@ -94,6 +99,15 @@ CopyBox(const VoxelShape & shape, const VoxelBox & box)
       }
     }
   }
+}
+
+} // namespace
+
+VoxelShape
+CopyBox(const VoxelShape & shape, const VoxelBox & box)
+{
+  VoxelShape result(box);
+  CopyRows(shape, box, [&result](std::int32_t y, std::int32_t z) { return result.Row(y, z); });
   return result;
 }
 
@@ -108,6 +122,25 @@ VoxelShape
 CropToVoxels(const VoxelShape & shape)
 {
   return CopyBox(shape, TightBox(shape));
+}
+
+VoxelShape
+CropToVoxels(VoxelShape && shape)
+{
+  const VoxelBox tight = TightBox(shape);
+  VoxelShape     result;
+  result.m_Box = tight;
+  result.m_WordsPerRow = (static_cast<std::size_t>(tight.size[0]) + 63) / 64;
+  std::size_t next = 0;
+  CopyRows(shape, tight, [&](std::int32_t, std::int32_t) {
+    const std::span<std::uint64_t> row(shape.m_Words.data() + next, result.m_WordsPerRow);
+    next += result.m_WordsPerRow;
+    return row;
+  });
+  shape.m_Words.resize(next);
+  result.m_Words = std::move(shape.m_Words);
+  shape = VoxelShape();
+  return result;
 }
 
 } // namespace voxelcore

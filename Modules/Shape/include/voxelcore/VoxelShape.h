@@ -89,6 +89,9 @@ private:
            m_WordsPerRow;
   }
 
+  friend VoxelShape
+  CropToVoxels(VoxelShape && shape);
+
   VoxelBox                   m_Box;
   std::size_t                m_WordsPerRow = 0;
   std::vector<std::uint64_t> m_Words;
@@ -97,5 +100,9 @@ private:
 /** The same voxels in their tight bounding box (empty box for an empty shape). */
 VoxelShape
 CropToVoxels(const VoxelShape & shape);
+
+/** The same in the memory of the shape itself. */
+VoxelShape
+CropToVoxels(VoxelShape && shape);
 
 } // namespace voxelcore
