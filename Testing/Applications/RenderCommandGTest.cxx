@@ -196,19 +196,19 @@ TEST_F(RenderCommand, ThickPartsAreYellowAndWhereTheyBelong)
   EXPECT_LT(Find(top, IsYellow).x, (Find(top, IsDrawn).left + Find(top, IsDrawn).right) / 2);
 }
 
-TEST_F(RenderCommand, LinesHaveTheirColorFromAllSides)
+TEST_F(RenderCommand, LinesBesideFacesHaveTheirColor)
 {
-  // A rod one voxel thick: its core is a line, without normals that light could fall on.
-  TestScan scan({ 40, 9, 9 });
-  scan.Fill({ 3, 4, 4 }, { 37, 5, 5 }, 1);
+  // Below, a rod one voxel thick: its core is a line, without normals that light could fall on. Above, a block.
+  TestScan scan({ 40, 12, 30 });
+  scan.Fill({ 3, 6, 4 }, { 36, 6, 4 }, 1);
+  scan.Fill({ 3, 2, 20 }, { 36, 9, 27 }, 1);
   WriteNrrd(m_Folder / "rod.nrrd", scan);
   Run({ "core", m_Folder / "rod.nrrd", "-o", m_Folder / "rod.vtp", "--lambda", "0", "--quiet" });
-  for (const char * view : { "front", "top", "iso" })
-  {
-    const Image image = Draw({ m_Folder / "rod.vtp", "--view", view });
-    EXPECT_GT(Find(image, IsViolet).count, 100) << view;
-    EXPECT_EQ(Find(image, [](const auto & c) { return std::max({ c[0], c[1], c[2] }) < 75; }).count, 0) << view;
-  }
+  Image      image = Draw({ m_Folder / "rod.vtp", "--view", "front" });
+  const Spot all = Find(image, IsDrawn);
+  std::fill_n(image.pixels.begin(), 3 * image.width * ((all.top + all.bottom) / 2), std::uint8_t{ 255 });
+  EXPECT_GT(Find(image, IsViolet).count, 100);
+  EXPECT_EQ(Find(image, [](const auto & c) { return std::max({ c[0], c[1], c[2] }) < 75; }).count, 0);
 }
 
 TEST_F(RenderCommand, ProportionsAreThoseOfTheScan)

@@ -109,6 +109,16 @@ TEST_F(LabelColors, OfMRIcronsTableBesideAListOfNames)
   EXPECT_EQ(Read(), expected);
 }
 
+TEST_F(LabelColors, AreNoneWhereMRIcronsTableIsBlack)
+{
+  std::string bytes = ByteTable();
+  bytes[7] = bytes[256 + 7] = bytes[512 + 7] = 0;
+  m_Folder.Write("scan.lut", bytes);
+  const Found found = Read();
+  EXPECT_FALSE(found.at(7).second);
+  EXPECT_TRUE(found.at(3).second);
+}
+
 TEST_F(LabelColors, OfATextListGoBeforeThoseOfATable)
 {
   m_Folder.Write("scan.lut", ByteTable());

@@ -251,8 +251,8 @@ private:
       renderer->SetViewport(from / m_Width, bottom / m_Height, (from + width) / m_Width, top / m_Height);
       renderer->SetBackground(background, background, background);
       renderer->SetUseDepthPeeling(1);
-      renderer->SetMaximumNumberOfPeels(12);
-      renderer->SetOcclusionRatio(0.001);
+      renderer->SetMaximumNumberOfPeels(4);
+      renderer->SetOcclusionRatio(0.01);
       vtkNew<vtkLightKit> lights;
       lights->AddLightsToRenderer(renderer);
       vtkLookupTable * const scale = m_HasScale ? m_Table.Get() : nullptr;

@@ -142,7 +142,7 @@ ReadTextList(const std::filesystem::path & path)
   return labels;
 }
 
-/** MRIcron's table: all reds, all greens, all blues. */
+/** MRIcron's table: all reds, all greens, all blues. Black is what stands there where nobody chose a colour. */
 std::map<std::int64_t, ListedLabel>
 ReadByteTable(const std::filesystem::path & path)
 {
@@ -159,7 +159,10 @@ ReadByteTable(const std::filesystem::path & path)
       {
         color[k] = static_cast<unsigned char>(bytes[k * kColors + i]) / 255.0;
       }
-      labels[static_cast<std::int64_t>(i)].color = color;
+      if (color != std::array<double, 3>{})
+      {
+        labels[static_cast<std::int64_t>(i)].color = color;
+      }
     }
   }
   return labels;
