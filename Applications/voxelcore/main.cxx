@@ -71,6 +71,43 @@ struct Run
   }
 };
 
+void
+PrintCore(const Run & run, const CoreResult & result)
+{
+  run.Warn(result.warnings);
+  run.Print(ReportTable(result.report));
+  if (result.report.skeleton)
+  {
+    run.Print(SkeletonTable(result.report));
+  }
+  run.PrintNotes(result.notes);
+}
+
+int
+RunStudy(const Run & run, const CoreOptions & options, const std::vector<std::int64_t> & resolutions)
+{
+  const StudyResult result = RunStudyJob(options, resolutions, run.context);
+  for (std::size_t i = 0; i < resolutions.size(); ++i)
+  {
+    run.Print("resolution " + std::to_string(resolutions[i]) + "\n");
+    PrintCore(run, result.runs[i]);
+  }
+  run.Print(result.table.string() + "\n");
+  return kDone;
+}
+
+int
+RunVoxelize(const Run & run)
+{
+  const VoxelizeResult result = RunVoxelizeJob(VoxelizeOptionsFrom(run.line.values), run.context);
+  run.Warn(result.warnings);
+  for (const std::string & line : result.lines)
+  {
+    run.Print(line + "\n");
+  }
+  return kDone;
+}
+
 int
 RunCore(const Run & run)
 {
@@ -84,18 +121,16 @@ RunCore(const Run & run)
   CoreOptions options = CoreOptionsFrom(run.line.values);
   options.threads = run.threads;
   options.command = run.line.whole;
+  if (const auto resolutions = ResolutionsFrom(run.line.values, CommandId::Core); resolutions.size() > 1)
+  {
+    return RunStudy(run, options, resolutions);
+  }
   const CoreResult result = RunCoreJob(options, run.context);
   if (run.context.admit)
   {
     PaintCase(result.report); // for the batch's page
   }
-  run.Warn(result.warnings);
-  run.Print(ReportTable(result.report));
-  if (options.skeleton)
-  {
-    run.Print(SkeletonTable(result.report));
-  }
-  run.PrintNotes(result.notes);
+  PrintCore(run, result);
   return kDone;
 }
 
@@ -226,6 +261,8 @@ Dispatch(const Run & run)
       return RunReconstruct(run);
     case CommandId::Phantom:
       return RunPhantom(run);
+    case CommandId::Voxelize:
+      return RunVoxelize(run);
     case CommandId::Skeleton:
       return RunSkeleton(run);
     case CommandId::Render:

@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/HaloBlocks.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/ReadInput.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -139,7 +140,7 @@ RunBlockJob(const BlockOptions & options, const JobContext & context)
   transaction.Protect(core.scan);
   transaction.MakeDirectory(core.output);
   LabelVolume volume =
-    ReadLabelVolume(core.scan, core.reading, PartOfProgress(context.progress, "reading", 0, kReadEnds));
+    ReadScanOrMesh(core.scan, core.reading, core.resolution, PartOfProgress(context.progress, "reading", 0, kReadEnds));
   EditedLabels         edited = EditLabels(volume,
                                    core.edits,
                                    core.reading.labels != "all",

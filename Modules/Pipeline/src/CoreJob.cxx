@@ -1,5 +1,6 @@
 #include "voxelcore/CoreJob.h"
 
+#include "CoreJobSteps.h"
 #include "DisplayFiles.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
@@ -7,6 +8,7 @@
 #include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/ReadInput.h"
 #include "voxelcore/ReportTable.h"
 #include "voxelcore/Sha256.h"
 
@@ -56,6 +58,7 @@ DescribeParameters(const CoreOptions &    options,
   parameters.volume = options.reading.volume;
   parameters.component = options.reading.component;
   parameters.spacing = options.reading.spacing;
+  parameters.resolution = options.resolution;
   parameters.orthonormalize = options.reading.orthonormalize;
   parameters.niftiForm = options.reading.niftiForm;
   for (const Lambda & lambda : options.lambdas)
@@ -74,9 +77,10 @@ DescribeParameters(const CoreOptions &    options,
   return parameters;
 }
 
-/** Everything a user could have given wrong that can be seen before reading. */
+} // namespace
+
 void
-CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & transaction)
+CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
 {
   if (options.lambdas.empty())
   {
@@ -103,7 +107,7 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
   {
     return;
   }
-  if (toFolder)
+  if (IsFolderOutput(options.output))
   {
     transaction.MakeDirectory(options.output);
   }
@@ -120,6 +124,9 @@ CheckTargets(const CoreOptions & options, bool toFolder, OutputTransaction & tra
     }
   }
 }
+
+namespace
+{
 
 /** Before anything large is allocated. */
 void
@@ -216,18 +223,16 @@ private:
 } // namespace
 
 CoreResult
-RunCoreJob(const CoreOptions & options, const JobContext & context)
+StageCoreJob(const CoreOptions & options, OutputTransaction & transaction, const JobContext & context)
 {
   // Shares of the whole job's time: reading, the labels, writing.
-  constexpr double  kReadEnds = 0.05;
-  constexpr double  kLabelsEnd = 0.95;
-  Stopwatch         total;
-  Stopwatch         watch;
-  CoreResult        result;
-  CoreReport &      report = result.report;
-  OutputTransaction transaction(options.force, context.temporaries);
-  const bool        toFolder = IsFolderOutput(options.output);
-  CheckTargets(options, toFolder, transaction);
+  constexpr double             kReadEnds = 0.05;
+  constexpr double             kLabelsEnd = 0.95;
+  Stopwatch                    total;
+  Stopwatch                    watch;
+  CoreResult                   result;
+  CoreReport &                 report = result.report;
+  const bool                   toFolder = IsFolderOutput(options.output);
   std::optional<SkeletonFiles> skeletons;
   if (options.skeleton)
   {
@@ -238,9 +243,11 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
 
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
-  auto        digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
-  LabelVolume volume =
-    ReadLabelVolume(options.scan, options.reading, PartOfProgress(context.progress, "reading", 0, kReadEnds));
+  auto         digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
+  LabelVolume  volume = ReadScanOrMesh(options.scan,
+                                      options.reading,
+                                      options.resolution,
+                                      PartOfProgress(context.progress, "reading", 0, kReadEnds));
   EditedLabels edited = EditLabels(volume,
                                    options.edits,
                                    options.reading.labels != "all",
@@ -313,6 +320,15 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
   {
     WriteTextFile(transaction.Stage(*options.table), LabelTableCsv(report));
   }
+  return result;
+}
+
+CoreResult
+RunCoreJob(const CoreOptions & options, const JobContext & context)
+{
+  OutputTransaction transaction(options.force, context.temporaries);
+  CheckCoreTargets(options, transaction);
+  CoreResult result = StageCoreJob(options, transaction, context);
   ReportProgress(context.progress, "done", 1); // the last moment at which an interruption is heeded
   transaction.Commit();
   return result;

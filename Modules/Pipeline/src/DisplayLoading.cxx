@@ -8,6 +8,7 @@
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonModel.h"
+#include "voxelcore/ReadInput.h"
 
 #include <algorithm>
 #include <map>
@@ -202,7 +203,10 @@ private:
   LoadScan(std::vector<std::string> & notes)
   {
     ReadOptions  reading = RecordedReading(m_Report->parameters);
-    LabelVolume  volume = ReadLabelVolume(*m_Sources.scan, reading, PartOfProgress(m_Progress, "reading", 0.7, 0.8));
+    LabelVolume  volume = ReadScanOrMesh(*m_Sources.scan,
+                                        reading,
+                                        m_Report->parameters.resolution,
+                                        PartOfProgress(m_Progress, "reading", 0.7, 0.8));
     EditedLabels edited = EditLabels(volume, m_Report->parameters.edits, false, m_Sources.scan->string());
     for (EditedLabel & one : edited.labels)
     {

@@ -5,6 +5,7 @@
 #include "voxelcore/Parameters.h"
 #include "voxelcore/ReportTable.h"
 #include "voxelcore/ShapeTopology.h"
+#include "voxelcore/ReadInput.h"
 
 #include <cmath>
 #include <cstdio>
@@ -113,8 +114,10 @@ OrientationLetters(const ImageGeometry & geometry)
 ScanInfo
 RunInfoJob(const InfoOptions & options, const JobContext & context)
 {
-  LabelVolume volume =
-    ReadLabelVolume(options.scan, options.reading, PartOfProgress(context.progress, "reading", 0, 0.5));
+  LabelVolume  volume = ReadScanOrMesh(options.scan,
+                                      options.reading,
+                                      options.resolution,
+                                      PartOfProgress(context.progress, "reading", 0, 0.5));
   EditedLabels edited = EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string());
   ScanInfo     info;
   info.path = options.scan.string();

@@ -18,12 +18,14 @@ constexpr std::uint32_t kMeasure = static_cast<std::uint32_t>(CommandId::Measure
 constexpr std::uint32_t kRender = static_cast<std::uint32_t>(CommandId::Render);
 constexpr std::uint32_t kBatch = static_cast<std::uint32_t>(CommandId::Batch);
 constexpr std::uint32_t kReconstruct = static_cast<std::uint32_t>(CommandId::Reconstruct);
+constexpr std::uint32_t kVoxelize = static_cast<std::uint32_t>(CommandId::Voxelize);
 constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton;
 constexpr std::uint32_t kModels = kCore | kPrune;
 constexpr std::uint32_t kBranches = kSkeleton | kMeasure;
 constexpr std::uint32_t kStages = kCore | kSkeleton;
-constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches | kRender | kReconstruct;
-constexpr std::uint32_t kAll = kCore | kInfo | kVerify | kPrune | kPhantom | kBranches | kRender | kReconstruct;
+constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches | kRender | kReconstruct | kVoxelize;
+constexpr std::uint32_t kAll =
+  kCore | kInfo | kVerify | kPrune | kPhantom | kBranches | kRender | kReconstruct | kVoxelize;
 
 constexpr std::string_view kCoreFooter =
   R"(Lambda says how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart.
@@ -58,7 +60,11 @@ Examples:
   voxelcore core root.nii.gz -o root.vtp --with-skeleton --also csv --root top
   voxelcore core huge.nrrd --blocks 8 --block 1 -o parts/     (and so on to --block 8, on any machines)
   voxelcore core huge.nrrd --join parts/ -o huge.vtp
-  voxelcore core teeth.nii.gz --crop 100:300,80:220,: --split-components -o teeth/)";
+  voxelcore core teeth.nii.gz --crop 100:300,80:220,: --split-components -o teeth/
+  voxelcore core part.stl --resolution 256 --lambda 2.5% -o part.vtp
+  voxelcore core part.ply --resolution 256,512,1024 --lambda 1%,2.5% -o study/   (each, and one table)
+
+A mesh (.stl .obj .ply .off .vtk .vtp) is made voxels first, as 'voxelcore voxelize' does.)";
 
 constexpr std::string_view kInfoFooter = R"(Examples:
   voxelcore info scan.nii.gz
@@ -89,6 +95,18 @@ it shows what was taken for noise. On thick slices balls bulge out between the s
 Example:
   voxelcore core scan.nii.gz --bumps 1.2diag -o medial.vtp
   voxelcore reconstruct medial.vtp -o rebuilt.nii.gz --scan scan.nii.gz --report rebuilt.json)";
+
+constexpr std::string_view kVoxelizeFooter =
+  R"(A voxel is in where its centre is, decided exactly: no crossing is missed or counted twice, and a centre on the surface
+counts as if moved by (e, e^2, e^3). The grid begins at the minimum corner of the mesh's box; coordinates are LPS mm.
+Parts that overlap are one; a part inside out within another is a cavity. Faces that are turned, doubled or without area are
+set right. An open surface is decided by the votes of six rays along the axes. What was done and how many voxels are
+doubtful is said, and stands in the report. A mesh that bounds nothing is refused.
+
+Examples:
+  voxelcore voxelize part.stl --resolution 256 -o part.nrrd
+  voxelcore voxelize part.obj --spacing 0.5,0.5,1 -o part.nii.gz --report part.json
+  voxelcore voxelize part.ply --resolution 64,128,256 -o part.mha)";
 
 constexpr std::string_view kPhantomFooter = R"(Examples:
   voxelcore phantom ellipsoid --size 64 -o ellipsoid.nrrd
@@ -150,7 +168,7 @@ Examples:
   voxelcore batch cohort.csv -o results --jobs 4 --memory 12GB --timeout 30m
   voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton)";
 
-constexpr std::array<Command, 10> kCommands{ {
+constexpr std::array<Command, 11> kCommands{ {
   { CommandId::Core, "core", "Medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Info, "info", "What is in a scan: geometry, labels, their sizes and topology", kInfoFooter },
   { CommandId::Verify, "verify", "Recheck a finished file against its scan", kVerifyFooter },
@@ -163,6 +181,7 @@ constexpr std::array<Command, 10> kCommands{ {
     "Medial surfaces and skeletons of a cohort of scans, with tables and a page",
     kBatchFooter },
   { CommandId::Reconstruct, "reconstruct", "The balls of a finished core as a volume", kReconstructFooter },
+  { CommandId::Voxelize, "voxelize", "Make a volume of a triangle mesh", kVoxelizeFooter },
   { CommandId::Phantom, "phantom", "Make a synthetic volume", kPhantomFooter },
 } };
 
@@ -176,7 +195,9 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "",
     true,
     kCore | kInfo | kVerify,
-    "Scan: .nrrd .nhdr .seg.nrrd .nii .nii.gz .mha .mhd .tif, or a folder or 'pattern*' of TIFF or PNG slices" },
+    "Scan: .nrrd .nhdr .seg.nrrd .nii .nii.gz .mha .mhd .tif, or a folder or 'pattern*' of TIFF or PNG slices; or a "
+    "mesh: .stl .obj .ply .off .vtk .vtp" },
+  { "mesh", "", Input, "MESH", "", true, kVoxelize, "Closed triangle mesh: .stl .obj .ply .off .vtk .vtp" },
   { "scan",
     "",
     Input,
@@ -184,7 +205,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "",
     true,
     kSkeleton,
-    "Scan, as for 'voxelcore core', or a .vtp that 'voxelcore core' wrote" },
+    "Scan or mesh, as for 'voxelcore core', or a .vtp that 'voxelcore core' wrote; with --resolution .vtp is a mesh" },
   { "skeleton", "", Input, "SKELETON.vtp", "", true, kMeasure, "File that 'voxelcore skeleton' wrote" },
   { "core", "", Input, "CORE.vtp", "", true, kVerify | kPrune | kReconstruct, "File that 'voxelcore core' wrote" },
   { "files",
@@ -287,6 +308,24 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "Make it on this scan's grid; else on that of the core's" },
   { "scan", "--scan", Input, "SCAN", "", false, kReconstruct, "Compare with the scan the core was made from" },
   { "report", "--report", Output, "OUT.json", "", false, kReconstruct, "Write what was found as JSON" },
+  { "output",
+    "-o,--output",
+    Output,
+    "OUT",
+    "",
+    true,
+    kVoxelize,
+    "Volume: .nrrd .nii .nii.gz .mha .mhd .tif; of several resolutions OUT_resolution-256.nrrd and so on" },
+  { "report", "--report", Output, "OUT.json", "", false, kVoxelize, "Write what was found and made as JSON" },
+  { "resolution",
+    "--resolution",
+    Text,
+    "N[,N..]",
+    "",
+    false,
+    kReads | kVoxelize,
+    "Of a mesh: voxels on its longest side; several give OUT_resolution-256.vtp and so on, and one table" },
+  { "spacing", "--spacing", Text, "H|X,Y,Z", "", false, kVoxelize, "Voxel size in mm" },
   { "output", "-o,--output", Output, "OUT", "", false, kPhantom, "Volume: .nrrd .nii .nii.gz .mha .mhd .tif" },
   { "lambda",
     "-l,--lambda",
@@ -438,7 +477,14 @@ constexpr auto kParameters = std::to_array<Parameter>({
     false,
     kReads,
     "Which of the values a voxel of a colour image or of vectors has, from 0" },
-  { "spacing", "--spacing", Text, "X,Y,Z", "", false, kReads, "Voxel size in mm, instead of the file's" },
+  { "spacing",
+    "--spacing",
+    Text,
+    "X,Y,Z",
+    "",
+    false,
+    kReads,
+    "Voxel size in mm, instead of the file's; of a mesh also a single number" },
   { "orthonormalize",
     "--orthonormalize",
     Flag,

@@ -4,6 +4,8 @@
 #include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/ReadInput.h"
+#include "voxelcore/ReadMesh.h"
 
 #include <cmath>
 #include <limits>
@@ -34,11 +36,15 @@ Split(const std::string & text, char separator)
 }
 
 Vector3
-SpacingFrom(const ParameterReader & reader)
+SpacingFrom(const ParameterReader & reader, bool isOfMesh = false)
 {
-  const auto parts = Split(reader.Text("spacing"), ',');
-  Vector3    spacing{};
-  bool       good = parts.size() == 3;
+  auto parts = Split(reader.Text("spacing"), ',');
+  if (parts.size() == 1 && isOfMesh)
+  {
+    parts.resize(3, parts.front());
+  }
+  Vector3 spacing{};
+  bool    good = parts.size() == 3;
   for (std::size_t k = 0; good && k < 3; ++k)
   {
     const auto value = ParseReal(parts[k]);
@@ -160,7 +166,7 @@ ReadOptionsFrom(const ParameterValues & values, CommandId command)
   }
   if (reader.IsGiven("spacing"))
   {
-    reading.spacing = SpacingFrom(reader);
+    reading.spacing = SpacingFrom(reader, IsMeshPath(reader.Text("scan")));
   }
   reading.orthonormalize = reader.IsSet("orthonormalize");
   reading.niftiForm = reader.Choice("nifti-form");
@@ -240,6 +246,51 @@ DisplayTargetsFrom(const ParameterValues & values, CommandId command)
   return targets;
 }
 
+std::vector<std::int64_t>
+ResolutionsFrom(const ParameterValues & values, CommandId command)
+{
+  const ParameterReader reader(values, command);
+  return reader.IsGiven("resolution") ? ParseResolutions(reader.Text("resolution")) : std::vector<std::int64_t>();
+}
+
+namespace
+{
+
+/** For what works at one resolution; one of several is left to RunStudyJob. */
+std::optional<std::int64_t>
+FirstResolution(const ParameterValues & values, CommandId command)
+{
+  const auto resolutions = ResolutionsFrom(values, command);
+  if (resolutions.size() > 1 && command != CommandId::Core)
+  {
+    throw UsageError("--resolution " + ValueOf(values, command, "resolution") + ": give one");
+  }
+  return resolutions.empty() ? std::nullopt : std::optional(resolutions.front());
+}
+
+} // namespace
+
+VoxelizeJobOptions
+VoxelizeOptionsFrom(const ParameterValues & values)
+{
+  const ParameterReader reader(values, CommandId::Voxelize);
+  VoxelizeJobOptions    options;
+  options.mesh = reader.Text("mesh");
+  options.resolutions = ResolutionsFrom(values, CommandId::Voxelize);
+  if (reader.IsGiven("spacing"))
+  {
+    options.spacing = SpacingFrom(reader, true);
+  }
+  if (options.resolutions.empty() != options.spacing.has_value())
+  {
+    throw UsageError("give either --resolution, voxels on the longest side, or --spacing, the size of a voxel in mm");
+  }
+  options.output = OutputFrom(reader);
+  options.report = ReportFrom(reader);
+  options.force = reader.IsSet("force");
+  return options;
+}
+
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values)
 {
@@ -248,6 +299,7 @@ CoreOptionsFrom(const ParameterValues & values)
   options.scan = reader.Text("scan");
   options.reading = ReadOptionsFrom(values, CommandId::Core);
   options.edits = ShapeEditsFrom(values, CommandId::Core);
+  options.resolution = FirstResolution(values, CommandId::Core);
   ReadPruning(reader, options.lambdas, options.bumps);
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
@@ -289,6 +341,10 @@ BlockOptionsFrom(const ParameterValues & values)
   {
     return std::nullopt;
   }
+  if (ResolutionsFrom(values, CommandId::Core).size() > 1)
+  {
+    throw UsageError("--resolution " + reader.Text("resolution") + ": with --blocks give one");
+  }
   if (reader.IsGiven("join"))
   {
     throw UsageError("--block makes one part, --join takes all of them; give one of the two");
@@ -305,7 +361,8 @@ InfoOptionsFrom(const ParameterValues & values)
 {
   return { ValueOf(values, CommandId::Info, "scan"),
            ReadOptionsFrom(values, CommandId::Info),
-           ShapeEditsFrom(values, CommandId::Info) };
+           ShapeEditsFrom(values, CommandId::Info),
+           FirstResolution(values, CommandId::Info) };
 }
 
 VerifyOptions

@@ -96,6 +96,10 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
   json["volume"] = parameters.volume ? Json(*parameters.volume) : Json(nullptr);
   json["component"] = parameters.component ? Json(*parameters.component) : Json(nullptr);
   json["spacing"] = parameters.spacing ? Json(*parameters.spacing) : Json(nullptr);
+  if (parameters.resolution)
+  {
+    json["resolution"] = *parameters.resolution;
+  }
   json["orthonormalize"] = parameters.orthonormalize;
   json["nifti_form"] = parameters.niftiForm;
   json["crop"] = parameters.crop ? CropJson(*parameters.crop) : Json(nullptr);
@@ -132,6 +136,10 @@ ReadParameters(const nlohmann::ordered_json & json)
   ReadOptional(json.at("volume"), parameters.volume);
   ReadOptional(json.at("component"), parameters.component);
   ReadOptional(json.at("spacing"), parameters.spacing);
+  if (json.contains("resolution"))
+  {
+    parameters.resolution = json.at("resolution").get<std::int64_t>();
+  }
   json.at("orthonormalize").get_to(parameters.orthonormalize);
   json.at("nifti_form").get_to(parameters.niftiForm);
   if (!json.at("crop").is_null())

@@ -8,6 +8,7 @@
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/ReportTable.h"
 #include "voxelcore/ShapeEdits.h"
+#include "voxelcore/ReadInput.h"
 
 #include <algorithm>
 #include <bit>
@@ -148,7 +149,7 @@ Compare(const VoxelShape & rebuilt, const VoxelShape & scan, const Balls & balls
 std::vector<LabelShape>
 ReadScanLabels(const std::filesystem::path & scan, const CoreReport & made, const ProgressCallback & progress)
 {
-  LabelVolume volume = ReadLabelVolume(scan, RecordedReading(made.parameters), progress);
+  LabelVolume volume = ReadScanOrMesh(scan, RecordedReading(made.parameters), made.parameters.resolution, progress);
   if (volume.geometry.size != made.input.geometry.size)
   {
     throw InputError(scan.string() + ": has another size than the scan the core was made from; give that one");

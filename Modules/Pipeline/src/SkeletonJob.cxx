@@ -24,6 +24,7 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
   CoreOptions core;
   core.scan = options.input;
   core.reading = options.reading;
+  core.resolution = options.resolution;
   core.edits = options.edits;
   core.lambdas = { options.stage.lambda };
   core.skeleton = options.stage;
@@ -120,7 +121,7 @@ Together(const BranchOptions & before, const BranchOptions & now)
 SkeletonResult
 RunSkeletonJob(const SkeletonOptions & options, const JobContext & context)
 {
-  return options.input.extension() == ".vtp" ? FromCore(options, context) : FromScan(options, context);
+  return options.input.extension() == ".vtp" && !options.resolution ? FromCore(options, context) : FromScan(options, context);
 }
 
 SkeletonResult

@@ -249,7 +249,16 @@ SkeletonOptionsFrom(const ParameterValues & values)
   constexpr CommandId command = CommandId::Skeleton;
   SkeletonOptions     options;
   options.input = ValueOf(values, command, "scan");
-  if (options.input.extension() == ".vtp")
+  const auto resolutions = ResolutionsFrom(values, command);
+  if (resolutions.size() > 1)
+  {
+    throw UsageError("--resolution " + ValueOf(values, command, "resolution") + ": give one");
+  }
+  if (!resolutions.empty())
+  {
+    options.resolution = resolutions.front();
+  }
+  if (options.input.extension() == ".vtp" && !options.resolution)
   {
     RefuseScanOptions(values, options.input);
   }

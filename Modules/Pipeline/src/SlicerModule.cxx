@@ -53,8 +53,9 @@ Describe(CommandId command)
 }
 
 /** What only a person at a terminal has use for. */
-constexpr std::array<std::string_view, 10> kOfTerminals{ "progress", "quiet", "force", "report", "also",
-                                                         "memory",   "scene", "html",  "json",   "html-triangles" };
+constexpr std::array<std::string_view, 11> kOfTerminals{ "progress", "quiet",          "force",     "report",
+                                                         "also",     "memory",         "scene",     "html",
+                                                         "json",     "html-triangles", "resolution" };
 
 /** The parameters in the first, open group; in the table's order. */
 constexpr std::array<std::string_view, 8> kMain{ "scan",   "output",    "table",         "labels",

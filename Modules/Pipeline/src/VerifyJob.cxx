@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/Sha256.h"
+#include "voxelcore/ReadInput.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -102,9 +103,10 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
   ReportProgress(context.progress, "reading", 0);
   MedialModel      model = ReadModel(options.core);
   const CoreReport made = ParseProvenance(model.provenance, options.core.string());
-  LabelVolume      volume = ReadLabelVolume(options.scan,
-                                       RecordedReading(made.parameters),
-                                       PartOfProgress(context.progress, "reading", 0, 0.1));
+  LabelVolume      volume = ReadScanOrMesh(options.scan,
+                                      RecordedReading(made.parameters),
+                                      made.parameters.resolution,
+                                      PartOfProgress(context.progress, "reading", 0, 0.1));
   EditedLabels     edited = EditLabels(volume,
                                    made.parameters.edits,
                                    !made.parameters.binary && !made.parameters.threshold,

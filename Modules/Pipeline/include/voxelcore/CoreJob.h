@@ -25,8 +25,9 @@ namespace voxelcore
 
 struct CoreOptions
 {
-  std::filesystem::path        scan;
+  std::filesystem::path        scan; ///< or a mesh
   ReadOptions                  reading;
+  std::optional<std::int64_t>  resolution; ///< of a mesh; else its voxels have the spacing in `reading`
   ShapeEditOptions             edits;
   std::vector<Lambda>          lambdas;  ///< at least one; ParseLambdas gives them
   std::vector<BumpHeight>      bumps;    ///< none: pruned by lambda; else there is one lambda, the floor

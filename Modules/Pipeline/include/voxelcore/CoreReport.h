@@ -38,6 +38,7 @@ struct ParameterRecord
   std::optional<std::int64_t>              component;
   std::optional<CropRange>                 crop;    ///< with its ends filled in
   std::optional<Vector3>                   spacing; ///< as given, mm
+  std::optional<std::int64_t>              resolution; ///< of a mesh
   bool                                     orthonormalize = false;
   std::string                              niftiForm = "auto";
   ShapeEditOptions                         edits;

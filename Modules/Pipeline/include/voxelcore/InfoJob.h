@@ -20,6 +20,8 @@ struct InfoOptions
   std::filesystem::path scan;
   ReadOptions           reading;
   ShapeEditOptions      edits;
+
+  std::optional<std::int64_t> resolution; ///< of a mesh
 };
 
 struct LabelInfo

@@ -12,6 +12,7 @@
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonJob.h"
 #include "voxelcore/VerifyJob.h"
+#include "voxelcore/VoxelizeJob.h"
 
 #include <cstdint>
 #include <map>
@@ -35,7 +36,8 @@ enum class CommandId : std::uint32_t
   Measure = 64,
   Render = 128,
   Batch = 256, ///< takes besides its own all options of Core that do not name a file
-  Reconstruct = 512
+  Reconstruct = 512,
+  Voxelize = 1024
 };
 
 struct Command
@@ -117,6 +119,11 @@ PruneOptions
 PruneOptionsFrom(const ParameterValues & values);
 ReconstructOptions
 ReconstructOptionsFrom(const ParameterValues & values);
+/** `--resolution`: of meshes; none unless it is given. */
+std::vector<std::int64_t>
+ResolutionsFrom(const ParameterValues & values, CommandId command);
+VoxelizeJobOptions
+VoxelizeOptionsFrom(const ParameterValues & values);
 PhantomJobOptions
 PhantomOptionsFrom(const ParameterValues & values);
 DisplayTargets

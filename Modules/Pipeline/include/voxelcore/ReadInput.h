@@ -1,0 +1,44 @@
+#pragma once
+// What a job works on: a scan as it is, or a mesh made voxels.
+
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/Voxelization.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** A mesh as a volume of one label, 1, named after its file. */
+struct MeshVolume
+{
+  LabelVolume   volume; ///< its box is that of the mesh; notes and warnings say what was found in the mesh
+  MeshFindings  findings;
+  std::uint64_t doubtful = 0; ///< voxels the mesh is not clear about
+};
+
+/** Reads and voxelizes a mesh, either with `resolution` voxels on its longest side or with voxels of this size, mm.
+ *  \throws UsageError unless exactly one of the two is given; InputError; Cancelled */
+MeshVolume
+VoxelizeMeshFile(const std::filesystem::path &       path,
+                 const std::optional<std::int64_t> & resolution,
+                 const std::optional<Vector3> &      spacing,
+                 const ProgressCallback &            progress = {});
+
+/** ReadLabelVolume, or for the path of a mesh VoxelizeMeshFile with the spacing of `options`.
+ *  \throws as these; UsageError for a resolution that is none of a mesh, or options that are those of scans */
+LabelVolume
+ReadScanOrMesh(const std::filesystem::path &       path,
+               const ReadOptions &                 options,
+               const std::optional<std::int64_t> & resolution,
+               const ProgressCallback &            progress = {});
+
+/** "256,512": numbers of voxels, each once. \throws UsageError */
+std::vector<std::int64_t>
+ParseResolutions(const std::string & text);
+
+} // namespace voxelcore

@@ -1,0 +1,170 @@
+#include "voxelcore/ReadInput.h"
+
+#include "JobTools.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/OutputNames.h"
+#include "voxelcore/ReadMesh.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace voxelcore
+{
+namespace
+{
+
+std::string
+Counted(std::uint64_t count, const std::string & one, const std::string & many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/** What was found in a mesh: for the report, and of that what a user must see. */
+void
+Describe(const MeshFile & file, const Voxelization & made, LabelVolume & volume)
+{
+  const MeshFindings & found = made.findings;
+  const auto           note = [&](const std::string & text) { volume.notes.push_back(text); };
+  const auto           warn = [&](const std::string & text) {
+    volume.notes.push_back(text);
+    volume.warnings.push_back(text);
+  };
+  note("mesh of " + Counted(found.triangles, "triangle", "triangles") + " in " +
+       Counted(found.pieces, "piece", "pieces") + ", voxelized: a voxel is in when its centre is");
+  if (file.polygons > 0)
+  {
+    note(Counted(file.polygons, "polygon", "polygons") + " cut into triangles");
+  }
+  if (found.degenerate > 0)
+  {
+    note(Counted(found.degenerate, "triangle", "triangles") + " with a corner twice left out");
+  }
+  if (found.duplicates > 0)
+  {
+    warn(Counted(found.duplicates, "triangle", "triangles") + " left out that others repeat");
+  }
+  if (found.flipped > 0)
+  {
+    warn(Counted(found.flipped, "triangle", "triangles") + " turned to agree with their neighbours");
+  }
+  switch (found.rule)
+  {
+    case InsideRule::Winding:
+      if (made.doubtful > 0)
+      {
+        warn(Counted(made.doubtful, "voxel", "voxels") +
+             " doubtful: in several parts of the mesh at once, or in one that is inside out; taken as in");
+      }
+      break;
+    case InsideRule::Parity:
+      warn("the surface has no orientation: a voxel is in where a ray crosses it an odd number of times");
+      break;
+    case InsideRule::Votes:
+      warn("the surface is open at " + Counted(found.openEdges, "edge", "edges") +
+           ": a voxel is in where four of six rays along the axes say so; " +
+           Counted(made.doubtful, "voxel", "voxels") + " doubtful, where not all six agree");
+      break;
+  }
+}
+
+LabelVolume
+AsVolume(const std::filesystem::path & path, const MeshFile & file, const VoxelGrid & grid, Voxelization & made)
+{
+  LabelVolume volume;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    volume.geometry.size[axis] = grid.size[axis];
+    volume.geometry.spacing[axis] = grid.spacing[axis];
+    volume.geometry.origin[axis] = grid.origin[axis] + 0.5 * grid.spacing[axis];
+  }
+  volume.format = file.format + " mesh";
+  volume.pixelType = "uint1";
+  Describe(file, made, volume);
+  volume.labels.push_back({ 1, ScanName(path), made.voxels, std::move(made.shape) });
+  return volume;
+}
+
+} // namespace
+
+MeshVolume
+VoxelizeMeshFile(const std::filesystem::path &       path,
+                 const std::optional<std::int64_t> & resolution,
+                 const std::optional<Vector3> &      spacing,
+                 const ProgressCallback &            progress)
+{
+  if (resolution.has_value() == spacing.has_value())
+  {
+    throw UsageError(path.string() + ": a mesh needs either --resolution, voxels on its longest side, or --spacing, " +
+                     "the size of a voxel in mm");
+  }
+  ReportProgress(progress, "read", 0);
+  const MeshFile file = ReadMesh(path);
+  try
+  {
+    const VoxelGrid grid = resolution ? GridOfResolution(file.mesh, *resolution) : GridOfSpacing(file.mesh, *spacing);
+    Voxelization    made = Voxelize(file.mesh, grid, PartOfProgress(progress, 0.2, 1));
+    if (file.mayBeCut && made.findings.rule == InsideRule::Votes)
+    {
+      throw InputError("it seems cut off: its last line does not end, or points lie on no face, and it is open at " +
+                       Counted(made.findings.openEdges, "edge", "edges"));
+    }
+    MeshVolume result;
+    result.findings = made.findings;
+    result.doubtful = made.doubtful;
+    result.volume = AsVolume(path, file, grid, made);
+    return result;
+  }
+  catch (const InputError & error)
+  {
+    throw InputError("mesh '" + path.string() + "': " + error.what());
+  }
+}
+
+LabelVolume
+ReadScanOrMesh(const std::filesystem::path &       path,
+               const ReadOptions &                 options,
+               const std::optional<std::int64_t> & resolution,
+               const ProgressCallback &            progress)
+{
+  if (!IsMeshPath(path))
+  {
+    if (resolution)
+    {
+      throw UsageError("--resolution " + std::to_string(*resolution) + ": is for meshes, and " + path.string() +
+                       " is none");
+    }
+    return ReadLabelVolume(path, options, progress);
+  }
+  if ((options.labels != "all" && options.labels != "1") || options.binary || options.threshold || options.volume ||
+      options.component || options.crop || options.orthonormalize || options.niftiForm != "auto")
+  {
+    throw UsageError(path.string() + ": a mesh is one shape, without labels, values or directions; of the options " +
+                     "about reading only --resolution and --spacing are for meshes");
+  }
+  return VoxelizeMeshFile(path, resolution, options.spacing, progress).volume;
+}
+
+std::vector<std::int64_t>
+ParseResolutions(const std::string & text)
+{
+  constexpr std::int64_t    most = std::int64_t{ 1 } << 20U;
+  std::vector<std::int64_t> resolutions;
+  for (std::size_t at = 0; at <= text.size();)
+  {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    std::int64_t      value = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + comma, value);
+    if (error != std::errc() || end != text.data() + comma || value < 1 || value > most ||
+        std::find(resolutions.begin(), resolutions.end(), value) != resolutions.end())
+    {
+      throw UsageError("--resolution " + text + ": expected a whole number of voxels from 1 to " +
+                       std::to_string(most) + ", or several, separated by commas, each once");
+    }
+    resolutions.push_back(value);
+    at = comma + 1;
+  }
+  return resolutions;
+}
+
+} // namespace voxelcore
