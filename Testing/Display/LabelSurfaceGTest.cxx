@@ -32,7 +32,7 @@ Oblique(bool mirrored)
 
 /** By the divergence theorem: positive when triangles are seen counter-clockwise from outside. */
 double
-Volume(const TriangleMesh & mesh)
+Volume(const LabelSurfaceMesh & mesh)
 {
   double volume = 0;
   for (const auto & t : mesh.triangles)
@@ -78,7 +78,7 @@ TEST(LabelSurface, StaysWithinAVoxelOfTheBoundary)
 
 /** How often the mesh goes around a point: the solid angles of its triangles (van Oosterom and Strackee) over the sphere. */
 double
-WindingNumber(const TriangleMesh & mesh, const Vector3 & point)
+WindingNumber(const LabelSurfaceMesh & mesh, const Vector3 & point)
 {
   double angle = 0;
   for (const auto & t : mesh.triangles)
@@ -111,10 +111,10 @@ TEST(LabelSurface, HasTheMedialSurfaceInsideItWhateverTheAxes)
   {
     const ImageGeometry geometry = Oblique(mirrored);
     ASSERT_EQ(IsLeftHanded(geometry), mirrored);
-    const TriangleMesh surface = LabelSurface(shape, geometry);
-    const auto         weights = ComputeSpacingWeights(geometry.spacing);
-    const auto         pruned = PruneByLambda(ComputeVoxelCore(shape, weights), { 1.5 });
-    const ModelPart    medial = ToPhysical(pruned.front(), geometry, 1);
+    const LabelSurfaceMesh surface = LabelSurface(shape, geometry);
+    const auto             weights = ComputeSpacingWeights(geometry.spacing);
+    const auto             pruned = PruneByLambda(ComputeVoxelCore(shape, weights), { 1.5 });
+    const ModelPart        medial = ToPhysical(pruned.front(), geometry, 1);
     ASSERT_GT(medial.core.positions.size(), 100U);
     for (const Vector3 & point : medial.core.positions)
     {
@@ -134,7 +134,7 @@ TEST(LabelSurface, IsClosedAndOfTheSmallestShapesToo)
 {
   for (const VoxelShape & shape : { Box({ 1, 1, 1 }), Box({ 5, 1, 1 }, { 3, 2, 9 }), Box({ 4, 4, 4 }) })
   {
-    const TriangleMesh                                     mesh = LabelSurface(shape, Oblique(false));
+    const LabelSurfaceMesh                                 mesh = LabelSurface(shape, Oblique(false));
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const auto & t : mesh.triangles)
     {

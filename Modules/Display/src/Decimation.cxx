@@ -106,7 +106,7 @@ TriangleCount(const CellComplex & cells)
 }
 
 ShownMesh
-Decimated(const TriangleMesh & mesh, std::size_t most)
+Decimated(const LabelSurfaceMesh & mesh, std::size_t most)
 {
   ShownMesh shown{ mesh.points, {}, mesh.triangles, {} };
   if (mesh.triangles.size() > most)

@@ -17,7 +17,7 @@ struct ShownMesh
 
 /** A closed surface in about `most` triangles (quadric error metric of Garland and Heckbert 1997). `origin` stays empty. */
 ShownMesh
-Decimated(const TriangleMesh & mesh, std::size_t most);
+Decimated(const LabelSurfaceMesh & mesh, std::size_t most);
 
 /** Triangles, and edges on no face, of a complex; in about `most` triangles by clustering (Lindstrom 2000), which does with
  *  any number of sheets at an edge. */

@@ -87,10 +87,10 @@ AddShown(vtkPolyData * data, const std::vector<double> & values)
 
 } // namespace
 
-TriangleMesh
+LabelSurfaceMesh
 LabelSurface(const VoxelShape & shape, const ImageGeometry & geometry)
 {
-  TriangleMesh mesh;
+  LabelSurfaceMesh mesh;
   if (shape.Box().size[0] == 0)
   {
     return mesh;
@@ -150,7 +150,7 @@ LabelSurface(const VoxelShape & shape, const ImageGeometry & geometry)
 }
 
 vtkSmartPointer<vtkPolyData>
-SurfacePolyData(const TriangleMesh & mesh)
+SurfacePolyData(const LabelSurfaceMesh & mesh)
 {
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));

@@ -14,7 +14,7 @@ namespace voxelcore
 constexpr const char * kShownArray = "Shown";
 
 vtkSmartPointer<vtkPolyData>
-SurfacePolyData(const TriangleMesh & mesh);
+SurfacePolyData(const LabelSurfaceMesh & mesh);
 
 /** With normals for smooth shading: faces that meet at a sharp angle, or more than two at an edge, keep their own. */
 vtkSmartPointer<vtkPolyData>

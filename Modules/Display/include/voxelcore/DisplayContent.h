@@ -18,7 +18,7 @@ namespace voxelcore
 using Color = std::array<double, 3>; ///< red, green, blue from 0 to 1
 
 /** Triangles in LPS mm, seen counter-clockwise from outside. */
-struct TriangleMesh
+struct LabelSurfaceMesh
 {
   std::vector<std::array<float, 3>>         points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -31,7 +31,7 @@ struct DisplayLabel
   std::int64_t        component = 0; ///< from 1 for a label split into its components; 0: the whole label
   std::string         name;
   Color               color{ 0.8, 0.8, 0.8 };
-  TriangleMesh        surface;
+  LabelSurfaceMesh    surface;
   ModelPart           medial;
   std::vector<double> erosionThickness; ///< of the medial surface's vertices; empty when it is not known
   SkeletonGraph       curves;
@@ -45,7 +45,7 @@ struct DisplayContent
 
 /** The surface of a label as it is shown: the isosurface of its voxels, smoothed so that steps vanish (about a voxel). Not
  *  for measuring. Empty for an empty shape. */
-TriangleMesh
+LabelSurfaceMesh
 LabelSurface(const VoxelShape & shape, const ImageGeometry & geometry);
 
 } // namespace voxelcore
