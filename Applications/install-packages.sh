@@ -2,7 +2,8 @@
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
 # usage: install-packages.sh GROUP...     groups: build, python (the module), demo (a real scan), test, package (to make and
 # test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
-# pages), cluster (workflows, and the tests on a cluster), bench (Testing/Performance)
+# pages), cluster (workflows, and the tests on a cluster), reproduction
+# (the paper's figures, Testing/Reproduction), bench (Testing/Performance)
 set -euo pipefail
 
 packages_of() {
@@ -16,8 +17,9 @@ packages_of() {
     sanitizer) echo clang libomp-dev ;;
     browser) echo chromium chromium-headless-shell python3 ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
+    reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
     bench) echo libbenchmark-dev python3-skimage python3-scipy python3-nibabel ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package, sanitizer, browser, cluster and bench" >&2; return 2 ;;
+    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package, sanitizer, browser, cluster, reproduction and bench" >&2; return 2 ;;
   esac
 }
 
