@@ -60,11 +60,12 @@ struct Fan
 } // namespace
 
 BurnNetwork::BurnNetwork(const MedialComplex & complex, double sampling)
-  : m_Cells(&complex.cells)
+  : m_Complex(&complex)
+  , m_Cells(&complex.cells)
 {
   RequireIndexable(complex.cells.faceVertices.size(), "corners");
   BuildIncidence();
-  PlaceSamples(complex, sampling);
+  PlaceSamples(sampling);
   BuildSectors();
 }
 
@@ -79,63 +80,65 @@ BurnNetwork::BuildIncidence()
               static_cast<std::uint32_t>(face));
   }
   Bucket(m_Cells->vertexCount, m_Cells->faceVertices, vertexCornerOffsets, vertexCorners);
-  Bucket(m_Cells->edges.size(), m_Cells->faceEdges, edgeSideOffsets, edgeSides);
+  std::vector<std::uint32_t> sideOffsets;
+  Bucket(m_Cells->edges.size(), m_Cells->faceEdges, sideOffsets, edgeSides);
+  edgeFirst.resize(sideOffsets.size());
+  for (std::size_t edge = 0; edge < sideOffsets.size(); ++edge)
+  {
+    edgeFirst[edge].side = sideOffsets[edge];
+  }
 }
 
 void
-BurnNetwork::PlaceSamples(const MedialComplex & complex, double sampling)
+BurnNetwork::PlaceSamples(double sampling)
 {
   const std::size_t edgeCount = m_Cells->edges.size();
-  edgePointOffsets.resize(edgeCount + 1);
-  std::uint64_t points = m_Cells->vertexCount;
-  radius = complex.radius;
-  positions.reserve(edgeCount);
-  pointEdge.reserve(edgeCount);
+  std::uint64_t     points = m_Cells->vertexCount;
   for (std::size_t edge = 0; edge < edgeCount; ++edge)
   {
-    edgePointOffsets[edge] = static_cast<std::uint32_t>(points);
+    edgeFirst[edge].point = static_cast<std::uint32_t>(points);
     if (EdgeFaceCount(static_cast<ElementIndex>(edge)) == 0)
     {
       continue; // fire does not run along curves
     }
     const auto   ends = m_Cells->edges[edge];
-    const auto & a = complex.positions[ends[0]];
-    const auto & b = complex.positions[ends[1]];
-    double       squared = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      squared += (b[axis] - a[axis]) * (b[axis] - a[axis]);
-    }
-    const double length = std::sqrt(squared);
+    const double length = Distance(m_Complex->positions[ends[0]], m_Complex->positions[ends[1]]);
     const double ideal = sampling > 0 ? std::min(std::max(length / sampling - 1, 1.0), 1000.0) : 1.0;
-    const auto   count = static_cast<std::uint32_t>(ideal + 0.5);
-    points += count;
+    points += static_cast<std::uint32_t>(ideal + 0.5);
     RequireIndexable(points, "sample points");
-    const double ra = complex.radius[ends[0]];
-    const double rb = complex.radius[ends[1]];
-    for (std::uint32_t i = 1; i <= count; ++i)
+  }
+  edgeFirst[edgeCount].point = static_cast<std::uint32_t>(points);
+  pointEdge.resize(points - m_Cells->vertexCount);
+  for (std::size_t edge = 0; edge < edgeCount; ++edge)
+  {
+    for (std::uint32_t point = edgeFirst[edge].point; point < edgeFirst[edge + 1].point; ++point)
     {
-      const double t = static_cast<double>(i) / (count + 1);
-      const double s = 1 - t;
-      positions.push_back({ s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2] });
-      // All points of an edge have the same nearest boundary vertices; the distance to one of them (Stewart's theorem).
-      radius.push_back(std::sqrt(std::max(0.0, s * (ra * ra) + t * (rb * rb) - s * t * squared)));
-      pointEdge.push_back(static_cast<std::uint32_t>(edge));
+      pointEdge[point - m_Cells->vertexCount] = static_cast<std::uint32_t>(edge);
     }
   }
-  edgePointOffsets[edgeCount] = static_cast<std::uint32_t>(points);
+}
+
+double
+BurnNetwork::SampleRadius(ElementIndex edge, std::uint32_t rank) const
+{
+  const auto & ends = m_Cells->edges[edge];
+  const Point3 way = Minus(m_Complex->positions[ends[1]], m_Complex->positions[ends[0]]);
+  const double ra = m_Complex->radius[ends[0]];
+  const double rb = m_Complex->radius[ends[1]];
+  const double t = static_cast<double>(rank + 1) / (SampleCount(edge) + 1);
+  const double s = 1 - t;
+  return std::sqrt(std::max(0.0, s * (ra * ra) + t * (rb * rb) - s * t * Dot(way, way)));
 }
 
 void
 BurnNetwork::BuildSectors()
 {
-  sectorOffsets.reserve(radius.size() + 1);
+  vertexSectorOffsets.reserve(m_Cells->vertexCount + 1);
   cornerSector.assign(m_Cells->faceVertices.size(), 0);
-  sideSector.assign(m_Cells->faceVertices.size(), 0);
   Fan fan;
   for (std::size_t vertex = 0; vertex < m_Cells->vertexCount; ++vertex)
   {
-    sectorOffsets.push_back(static_cast<std::uint32_t>(openSector.size()));
+    vertexSectorOffsets.push_back(static_cast<std::uint32_t>(openSector.size()));
     const std::uint32_t first = vertexCornerOffsets[vertex];
     const std::uint32_t count = vertexCornerOffsets[vertex + 1] - first;
     fan.before.resize(count);
@@ -177,22 +180,16 @@ BurnNetwork::BuildSectors()
       }
     }
   }
-  for (std::size_t edge = 0; edge < m_Cells->edges.size(); ++edge)
+  vertexSectorOffsets.push_back(static_cast<std::uint32_t>(openSector.size()));
+  std::uint64_t sectors = openSector.size();
+  for (ElementIndex edge = 0; edge < m_Cells->edges.size(); ++edge)
   {
-    const std::uint32_t faces = EdgeFaceCount(static_cast<ElementIndex>(edge));
-    const std::uint32_t sectors = faces >= 3 ? faces : 1;
-    for (std::uint32_t i = 0; faces >= 3 && i < faces; ++i)
-    {
-      sideSector[edgeSides[edgeSideOffsets[edge] + i]] = i;
-    }
-    for (std::uint32_t point = edgePointOffsets[edge]; point < edgePointOffsets[edge + 1]; ++point)
-    {
-      sectorOffsets.push_back(static_cast<std::uint32_t>(openSector.size()));
-      openSector.insert(openSector.end(), sectors, faces == 1 ? 1 : 0);
-    }
+    edgeFirst[edge].sector = static_cast<std::uint32_t>(sectors);
+    const std::uint32_t faces = EdgeFaceCount(edge);
+    sectors += std::uint64_t{ SampleCount(edge) } * (faces >= 3 ? faces : 1);
+    RequireIndexable(sectors, "sectors");
   }
-  RequireIndexable(openSector.size(), "sectors");
-  sectorOffsets.push_back(static_cast<std::uint32_t>(openSector.size()));
+  edgeFirst.back().sector = static_cast<std::uint32_t>(sectors);
 }
 
 } // namespace voxelcore

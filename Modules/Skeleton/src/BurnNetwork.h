@@ -1,6 +1,8 @@
 #pragma once
 // The points fire runs between, and the sectors of faces around each of them.
 
+#include "PointGeometry.h"
+
 #include "voxelcore/MedialComplex.h"
 
 #include <array>
@@ -13,32 +15,125 @@ namespace voxelcore
 /** Points 0 .. vertexCount-1 are the vertices, then come the sample points of each edge in turn.
  *
  *  A sector is a set of faces around a point that hang together across edges with exactly two faces (a fan of the
- *  point's link between seams). Fire that comes into a sector burns all of it at once. Sectors are numbered point by
- *  point; a point without faces has none. `corner` numbers positions in CellComplex::faceVertices and faceEdges. */
+ *  point's link between seams). Fire that comes into a sector burns all of it at once. Sectors of vertices are numbered
+ *  vertex by vertex, then come those of samples, edge by edge: a row of one sector per sample for both faces of an edge
+ *  with two, a row for each face where there are three or more, so that a face finds the sectors of an edge side by side.
+ *  A point without faces has none. `corner` numbers positions in CellComplex::faceVertices and faceEdges.
+ *
+ *  Positions and radii of samples are computed when they are asked for: that is less work than fetching them. */
 struct BurnNetwork
 {
-  /** \throws InputError above 2^32 - 2 points or sectors. */
+  /** Where an edge begins in other arrays; the next edge says where it ends. */
+  struct EdgeFirst
+  {
+    std::uint32_t point;  ///< its first sample
+    std::uint32_t sector; ///< the first of its samples' sectors
+    std::uint32_t side;   ///< in edgeSides
+  };
+
+  /** `complex` must outlive the object. \throws InputError above 2^32 - 2 points or sectors. */
   BurnNetwork(const MedialComplex & complex, double sampling);
 
-  const CellComplex *                m_Cells;
-  std::vector<std::uint32_t>         cornerFace;
-  std::vector<std::uint32_t>         vertexCornerOffsets; ///< vertices + 1 entries
-  std::vector<std::uint32_t>         vertexCorners;       ///< corners at each vertex
-  std::vector<std::uint32_t>         edgeSideOffsets;     ///< edges + 1 entries
-  std::vector<std::uint32_t>         edgeSides;           ///< corners that begin this edge, face by face
-  std::vector<std::uint32_t>         edgePointOffsets;    ///< edges + 1 entries: the first point of each edge
-  std::vector<std::uint32_t>         pointEdge;           ///< per sample point (from vertexCount on) its edge
-  std::vector<std::array<double, 3>> positions;           ///< of sample points, mm
-  std::vector<double>                radius;              ///< of all points, mm
-  std::vector<std::uint32_t>         sectorOffsets;       ///< points + 1 entries
-  std::vector<std::uint8_t>          openSector;          ///< 1 when the sector ends in an edge with one face
-  std::vector<std::uint32_t>         cornerSector;        ///< per corner: its vertex' sector that holds its face
-  std::vector<std::uint32_t>         sideSector;          ///< per corner: rank of its face's sector on its edge
+  const MedialComplex *      m_Complex;
+  const CellComplex *        m_Cells;
+  std::vector<std::uint32_t> cornerFace;
+  std::vector<std::uint32_t> vertexCornerOffsets; ///< vertices + 1 entries
+  std::vector<std::uint32_t> vertexCorners;       ///< corners at each vertex
+  std::vector<EdgeFirst>     edgeFirst;           ///< edges + 1 entries
+  std::vector<std::uint32_t> edgeSides;           ///< corners that begin each edge, edge by edge, face by face
+  std::vector<std::uint32_t> pointEdge;           ///< per sample point (from vertexCount on) its edge
+  std::vector<std::uint32_t> vertexSectorOffsets; ///< vertices + 1 entries
+  std::vector<std::uint8_t>  openSector;          ///< per sector of a vertex: 1 when it ends in an edge with one face
+  std::vector<std::uint32_t> cornerSector;        ///< per corner: its vertex' sector that holds its face
+
+  std::size_t
+  PointCount() const
+  {
+    return edgeFirst.back().point;
+  }
+
+  std::size_t
+  SectorCount() const
+  {
+    return edgeFirst.back().sector;
+  }
 
   std::uint32_t
   EdgeFaceCount(ElementIndex edge) const
   {
-    return edgeSideOffsets[edge + std::size_t{ 1 }] - edgeSideOffsets[edge];
+    return edgeFirst[edge + std::size_t{ 1 }].side - edgeFirst[edge].side;
+  }
+
+  std::uint32_t
+  SampleCount(ElementIndex edge) const
+  {
+    return edgeFirst[edge + std::size_t{ 1 }].point - edgeFirst[edge].point;
+  }
+
+  /** The sector, on the first sample, of the face that has this corner, on the edge that begins there. */
+  std::uint32_t
+  FirstSideSector(std::uint32_t corner) const
+  {
+    const ElementIndex edge = m_Cells->faceEdges[corner];
+    const auto *       sides = &edgeSides[edgeFirst[edge].side];
+    std::uint32_t      row = 0;
+    if (EdgeFaceCount(edge) >= 3)
+    {
+      while (sides[row] != corner)
+      {
+        ++row;
+      }
+    }
+    return edgeFirst[edge].sector + row * SampleCount(edge);
+  }
+
+  /** Where the sectors of a point are. */
+  struct SectorRange
+  {
+    std::uint32_t first;
+    std::uint32_t count;
+    std::uint32_t stride;
+  };
+
+  SectorRange
+  Sectors(std::uint32_t point) const
+  {
+    if (point < m_Cells->vertexCount)
+    {
+      const std::uint32_t first = vertexSectorOffsets[point];
+      return { first, vertexSectorOffsets[point + std::size_t{ 1 }] - first, 1 };
+    }
+    const ElementIndex  edge = pointEdge[point - m_Cells->vertexCount];
+    const std::uint32_t faces = EdgeFaceCount(edge);
+    return { edgeFirst[edge].sector + point - edgeFirst[edge].point, faces >= 3 ? faces : 1, SampleCount(edge) };
+  }
+
+  /** Samples divide an edge from a to b evenly. */
+  static Point3
+  SamplePosition(const Point3 & a, const Point3 & b, std::uint32_t rank, std::uint32_t count)
+  {
+    const double t = static_cast<double>(rank + 1) / (count + 1);
+    const double s = 1 - t;
+    return { s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2] };
+  }
+
+  /** All points of an edge have the same nearest boundary vertices; this is the distance to one of them (Stewart). */
+  double
+  SampleRadius(ElementIndex edge, std::uint32_t rank) const;
+
+  Point3
+  Position(std::uint32_t point) const
+  {
+    if (point < m_Cells->vertexCount)
+    {
+      return m_Complex->positions[point];
+    }
+    const ElementIndex edge = pointEdge[point - m_Cells->vertexCount];
+    const auto &       ends = m_Cells->edges[edge];
+    return SamplePosition(m_Complex->positions[ends[0]],
+                          m_Complex->positions[ends[1]],
+                          point - edgeFirst[edge].point,
+                          SampleCount(edge));
   }
 
   /** The side of the same face that ends in this corner. */
@@ -50,11 +145,20 @@ struct BurnNetwork
     return static_cast<std::uint32_t>(corner == first ? end - 1 : corner - 1);
   }
 
+  /** The next corner of the same face. */
+  std::uint32_t
+  CornerAfter(std::uint32_t corner) const
+  {
+    const std::uint64_t first = m_Cells->faceOffsets[cornerFace[corner]];
+    const std::uint64_t end = m_Cells->faceOffsets[cornerFace[corner] + std::size_t{ 1 }];
+    return static_cast<std::uint32_t>(corner + 1 == end ? first : corner + 1);
+  }
+
 private:
   void
   BuildIncidence();
   void
-  PlaceSamples(const MedialComplex & complex, double sampling);
+  PlaceSamples(double sampling);
   void
   BuildSectors();
 };

@@ -76,8 +76,13 @@ BurnCurves(const MedialComplex &       surface,
   // their anchors the next step would seem to take no time.
   std::vector<Anchor> longest(count, { kNoEdge, 0, 0 });
   std::vector<double> runnerUpTime(count, 0);
+  std::vector<double> pushed(count, kNever);
   TimeHeap            heap(chord / 8);
-  const auto          kindle = [&](ElementIndex vertex) {
+  const auto          push = [&](ElementIndex vertex) {
+    pushed[vertex] = fire.time[vertex];
+    heap.Push({ fire.time[vertex], vertex });
+  };
+  const auto kindle = [&](ElementIndex vertex) {
     const double late = fire.time[vertex] - surfaceTime[vertex];
     if (late < 0 || fire.winner[vertex] == kNoEdge)
     {
@@ -107,12 +112,14 @@ BurnCurves(const MedialComplex &       surface,
     if (live.vertices[vertex] && degrees[vertex].count <= 1 && !pinned[vertex])
     {
       kindle(vertex);
-      heap.Push({ fire.time[vertex], vertex });
+      push(vertex);
     }
   }
-  while (!heap.IsEmpty())
+  const auto   due = [&](ElementIndex vertex) { return pushed[vertex]; };
+  TimedElement item;
+  while (heap.Pop(due, item))
   {
-    const ElementIndex vertex = heap.Pop().element;
+    const ElementIndex vertex = item.element;
     fire.order.push_back(vertex);
     if (degrees[vertex].count == 0)
     {
@@ -160,7 +167,7 @@ BurnCurves(const MedialComplex &       surface,
     if (degrees[next].count == 1)
     {
       kindle(next);
-      heap.Push({ fire.time[next], next });
+      push(next);
     }
     else if (degrees[next].count == 0)
     {

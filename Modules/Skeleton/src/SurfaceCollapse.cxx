@@ -78,9 +78,11 @@ CollapseOrder(const CellComplex & cells, const BurnTimes & times, double bucket)
       heap.Push({ times.edges[edge], edge });
     }
   }
-  while (!heap.IsEmpty())
+  const auto   due = [&](ElementIndex edge) { return times.edges[edge]; };
+  TimedElement next;
+  while (heap.Pop(due, next))
   {
-    const ElementIndex edge = heap.Pop().element;
+    const ElementIndex edge = next.element;
     if (!cofaces.IsFree(edge))
     {
       continue; // its face went with another of its edges

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -24,8 +26,9 @@ struct TimedElement
 };
 
 /** A queue for fires, whose events nearly always lie ahead of the present. What is to come waits unsorted in buckets by
- *  time; the present bucket is sorted when its turn comes, and what is added to it, or before it, goes to a small heap
- *  beside. The order is that of one heap, in a few cache lines instead of all of memory. */
+ *  time, as bare indices; when the turn of a bucket comes the times are looked up and sorted. What is added to the present
+ *  bucket, or before it, goes to a small heap beside. The order is that of one heap, in a few cache lines instead of all
+ *  of memory. */
 class TimeHeap
 {
 public:
@@ -34,16 +37,9 @@ public:
     : m_PerTime(bucket > 0 ? 1 / bucket : 1)
   {}
 
-  bool
-  IsEmpty() const
-  {
-    return m_Count == 0;
-  }
-
   void
   Push(const TimedElement & item)
   {
-    ++m_Count;
     const std::size_t bucket = BucketOf(item.time);
     if (bucket <= m_Present)
     {
@@ -54,25 +50,62 @@ public:
     {
       m_Buckets.resize(bucket + 1);
     }
-    m_Buckets[bucket].push_back(item);
+    m_Buckets[bucket].push_back(item.element);
   }
 
-  TimedElement
-  Pop()
+  /** The same for an element that waits for `before` already: where the bucket is the same it need not be told. */
+  void
+  PushEarlier(const TimedElement & item, double before)
   {
-    --m_Count;
+    const std::size_t bucket = BucketOf(item.time);
+    if (bucket <= m_Present || !(before < std::numeric_limits<double>::infinity()) || BucketOf(before) != bucket)
+    {
+      Push(item);
+    }
+  }
+
+  /** An element taken out waits for another of its pushes still: in the present bucket its one look-up may be past. */
+  void
+  PushAgain(const TimedElement & item)
+  {
+    if (BucketOf(item.time) <= m_Present)
+    {
+      PushHeap(item);
+    }
+  }
+
+  /** Takes out what is next; false when there is nothing. `due(element)` gives the time an element waits for: that of its
+   *  earliest push that has not been taken out, or NaN when it waits no longer. An element may come more
+   *  often than that: as often as it was pushed. After one that waits for several times PushAgain() the next. Where looking up takes long, `due.Fetch(element, 0)`, `(element, 1)` and
+   *  `(element, 2)` are called some elements ahead, in turn. */
+  template <typename Due>
+  bool
+  Pop(const Due & due, TimedElement & item)
+  {
     while (m_Heap.empty() && m_Next == m_Sorted.size())
     {
-      ++m_Present;
-      m_Sorted = std::exchange(m_Buckets[m_Present], {});
-      m_Next = 0;
-      std::sort(m_Sorted.begin(), m_Sorted.end());
+      if (m_Present + 1 >= m_Buckets.size())
+      {
+        return false;
+      }
+      Open(due);
     }
     if (m_Heap.empty() || (m_Next < m_Sorted.size() && m_Sorted[m_Next] < m_Heap.front()))
     {
-      return m_Sorted[m_Next++];
+      item = m_Sorted[m_Next++];
     }
-    return PopHeap();
+    else
+    {
+      item = PopHeap();
+    }
+    return true;
+  }
+
+  /** The item that comes `steps` later as far as is known, or null. */
+  const TimedElement *
+  Ahead(std::size_t steps) const
+  {
+    return m_Next + steps < m_Sorted.size() ? &m_Sorted[m_Next + steps] : nullptr;
   }
 
 private:
@@ -84,6 +117,33 @@ private:
   {
     const double bucket = time * m_PerTime;
     return bucket < static_cast<double>(kLastBucket) ? static_cast<std::size_t>(std::max(bucket, 0.0)) : kLastBucket;
+  }
+
+  /** Makes the next bucket the present one. What was pushed again for an earlier time waits there, or has gone. */
+  template <typename Due>
+  void
+  Open(const Due & due)
+  {
+    const std::vector<std::uint32_t> elements = std::exchange(m_Buckets[++m_Present], {});
+    m_Sorted.clear();
+    m_Next = 0;
+    for (std::size_t i = 0; i < elements.size(); ++i)
+    {
+      if constexpr (requires { due.Fetch(elements[i], 0); })
+      {
+        for (std::size_t step = 0; step < 3 && i + 24 - 8 * step < elements.size(); ++step)
+        {
+          due.Fetch(elements[i + 24 - 8 * step], static_cast<int>(step));
+        }
+      }
+      const std::uint32_t element = elements[i];
+      const double        time = due(element);
+      if (!std::isnan(time) && BucketOf(time) == m_Present)
+      {
+        m_Sorted.push_back({ time, element });
+      }
+    }
+    std::sort(m_Sorted.begin(), m_Sorted.end());
   }
 
   /** Four children a node: half as deep as a binary heap, and siblings share a cache line. */
@@ -131,13 +191,12 @@ private:
     return top;
   }
 
-  double                                 m_PerTime;
-  std::vector<std::vector<TimedElement>> m_Buckets; ///< to come; those up to m_Present are empty
-  std::vector<TimedElement>              m_Sorted;  ///< the present bucket, from m_Next on
-  std::vector<TimedElement>              m_Heap;    ///< came in when their bucket was present or past
-  std::size_t                            m_Present = 0;
-  std::size_t                            m_Next = 0;
-  std::size_t                            m_Count = 0;
+  double                                  m_PerTime;
+  std::vector<std::vector<std::uint32_t>> m_Buckets; ///< to come; those up to m_Present are empty
+  std::vector<TimedElement>               m_Sorted;  ///< the present bucket, from m_Next on
+  std::vector<TimedElement>               m_Heap;    ///< came in when their bucket was present or past
+  std::size_t                             m_Present = 0;
+  std::size_t                             m_Next = 0;
 };
 
 /** The time a bucket spans for fire on a surface with these radii, which is where most of it is at any moment. */
@@ -149,7 +208,7 @@ FireBucket(const std::vector<double> & radius)
   {
     sum += one;
   }
-  return radius.empty() ? 1 : sum / (64 * static_cast<double>(radius.size()));
+  return radius.empty() ? 1 : sum / (16 * static_cast<double>(radius.size()));
 }
 
 } // namespace voxelcore
