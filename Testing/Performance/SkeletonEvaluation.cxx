@@ -1,0 +1,185 @@
+// Curve skeletons of shapes whose answer is known, scored.
+
+#include "../Skeleton/RootScore.h"
+#include "../Skeleton/SurfaceNoise.h"
+
+#include "voxelcore/BranchTable.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace voxelcore::testing
+{
+
+namespace
+{
+
+void
+ScoreRoots(std::uint64_t seeds, std::int32_t greatest)
+{
+  std::printf("\nroots, %d seeds       true tips  missed  found  spurious %%  length off %%: mean  worst  radius off\n",
+              static_cast<int>(seeds));
+  for (const double slice : { 1.0, 2.0 })
+  {
+    for (const std::int32_t size : { 96, 160, 256 })
+    {
+      if (size > greatest)
+      {
+        continue;
+      }
+      Score score;
+      for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+      {
+        CompareRoot(size, slice, seed, score);
+      }
+      std::printf("%4d, 1:1:%.0f           %8zu %7zu %6zu %11.2f %19.2f %6.2f %11.2f\n",
+                  size,
+                  slice,
+                  score.expected,
+                  score.missed,
+                  score.found,
+                  100.0 * static_cast<double>(score.spurious) / static_cast<double>(score.found),
+                  100 * score.sumOfLengths / static_cast<double>(seeds),
+                  100 * score.worstLength,
+                  score.worstRadius);
+    }
+  }
+}
+
+double
+Change(double value, double expected)
+{
+  return value == expected ? 0 : std::abs(value - expected) / std::max(expected, 1.0);
+}
+
+struct Invariance
+{
+  int    pairs = 0;
+  int    topology = 0; ///< pairs with other components or cycles
+  int    same = 0;     ///< pairs with the same tips and junctions
+  double tips = 0;     ///< greatest change, part of the whole
+  double junctions = 0;
+  double length = 0;
+};
+
+void
+ScoreRotations(std::uint64_t seeds)
+{
+  std::printf(
+    "\n24 rotations          pairs  b0, b1 lost  tips, junctions same %%  worst %%: tips  junctions  length\n");
+  for (const char * kind : { "root", "gyroid", "torus", "tanglecube", "porous", "ellipsoid" })
+  {
+    const std::int32_t n = std::strcmp(kind, "root") == 0 ? 96 : 32;
+    const bool         isSeeded = std::strcmp(kind, "root") == 0 || std::strcmp(kind, "porous") == 0;
+    Invariance         score;
+    for (std::uint64_t seed = 1; seed <= (isSeeded ? seeds : 1); ++seed)
+    {
+      const VoxelShape      shape = PhantomShape(kind, n, seed);
+      const SkeletonNumbers expected = MeasureBranches(GraphOf(shape)).numbers;
+      ForRotations(shape, n, [&](const VoxelShape & turned) {
+        const SkeletonNumbers numbers = MeasureBranches(GraphOf(turned)).numbers;
+        ++score.pairs;
+        score.topology += numbers.components != expected.components || numbers.cycles != expected.cycles;
+        score.same += numbers.tips == expected.tips && numbers.junctions == expected.junctions;
+        const auto change = [](auto now, auto before) {
+          return Change(static_cast<double>(now), static_cast<double>(before));
+        };
+        score.tips = std::max(score.tips, change(numbers.tips, expected.tips));
+        score.junctions = std::max(score.junctions, change(numbers.junctions, expected.junctions));
+        score.length = std::max(score.length, change(numbers.totalLength, expected.totalLength));
+      });
+    }
+    std::printf("%-20s %6d %12d %23.1f %14.1f %10.1f %7.2f\n",
+                kind,
+                score.pairs,
+                score.topology,
+                100.0 * score.same / score.pairs,
+                100 * score.tips,
+                100 * score.junctions,
+                100 * score.length);
+  }
+}
+
+void
+ScoreNoise(std::uint64_t seeds)
+{
+  std::printf("\n5 %% of boundary voxels flipped          branches  with noise  change %%  cycles  with noise\n");
+  for (const bool simple : { true, false })
+  {
+    for (const std::int32_t n : { 96, 160 })
+    {
+      SkeletonNumbers before;
+      SkeletonNumbers after;
+      for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+      {
+        const auto add = [](const VoxelShape & shape, SkeletonNumbers & sum) {
+          const SkeletonNumbers numbers = MeasureBranches(GraphOf(shape)).numbers;
+          sum.branches += numbers.branches;
+          sum.cycles += numbers.cycles;
+        };
+        const VoxelShape shape = PhantomShape("root", n, seed);
+        add(shape, before);
+        add(Flipped(shape, n, seed, simple), after);
+      }
+      std::printf("root %3d, %s %16lld %11lld %9.1f %7lld %11lld\n",
+                  n,
+                  simple ? "topology kept" : "any voxels   ",
+                  static_cast<long long>(before.branches),
+                  static_cast<long long>(after.branches),
+                  100 * Change(static_cast<double>(after.branches), static_cast<double>(before.branches)),
+                  static_cast<long long>(before.cycles),
+                  static_cast<long long>(after.cycles));
+    }
+  }
+}
+
+} // namespace
+
+} // namespace voxelcore::testing
+
+int
+main(int argc, char ** argv)
+{
+  std::uint64_t seeds = 20;
+  std::int32_t  greatest = 256;
+  std::string   only;
+  for (int i = 1; i < argc; ++i)
+  {
+    const bool hasValue = i + 1 < argc;
+    if (hasValue && std::strcmp(argv[i], "--seeds") == 0 && std::atoi(argv[i + 1]) > 0)
+    {
+      seeds = static_cast<std::uint64_t>(std::atoi(argv[++i]));
+    }
+    else if (hasValue && std::strcmp(argv[i], "--greatest") == 0 && std::atoi(argv[i + 1]) >= 96)
+    {
+      greatest = std::atoi(argv[++i]);
+    }
+    else if (hasValue && std::strcmp(argv[i], "--only") == 0)
+    {
+      only = argv[++i];
+    }
+    else
+    {
+      std::fprintf(stderr, "usage: %s [--seeds N] [--greatest 96|160|256] [--only rotations|noise|roots]\n", argv[0]);
+      return 2;
+    }
+  }
+  const auto wants = [&](const char * what) { return only.empty() || only == what; };
+  if (wants("rotations"))
+  {
+    voxelcore::testing::ScoreRotations(std::min<std::uint64_t>(seeds, 5));
+  }
+  std::fflush(stdout);
+  if (wants("noise"))
+  {
+    voxelcore::testing::ScoreNoise(seeds);
+  }
+  std::fflush(stdout);
+  if (wants("roots"))
+  {
+    voxelcore::testing::ScoreRoots(seeds, greatest);
+  }
+  return 0;
+}
