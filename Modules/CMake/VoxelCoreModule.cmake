@@ -41,6 +41,8 @@ function(voxelcore_tests name)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/Testing")
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS ON)
   target_link_libraries(${target} PRIVATE VoxelCoreBuildRules ${arg_LIBRARIES} GTest::gtest_main)
+  # What is tested is optimized in full. Of the tests themselves, macros for the most part, -O3 makes half the build's time.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(${target} TEST_FILTER "-Heavy*:*/Heavy*" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${name} TIMEOUT 600 ENVIRONMENT "${arg_ENVIRONMENT}")
   gtest_discover_tests(${target} TEST_FILTER "Heavy*:*/Heavy*" DISCOVERY_TIMEOUT 60 TEST_LIST ${target}_heavy

@@ -14,7 +14,9 @@ main(int argc, char ** argv)
   }
   using Function = int (*)(const char *, const char *);
   const auto makesCore = reinterpret_cast<Function>(dlsym(plugin, "PluginMakesCore"));
-  const bool right = makesCore(argv[2], argv[3]) == 0 && makesCore("/nowhere.nrrd", argv[3]) == 2 &&
-                     makesCore("/nowhere.nrrd", "/tmp/never-written.vtp") == 3;
+  // Done; there already; an extension that is none; no such scan.
+  const bool right = makesCore(argv[2], argv[3]) == 0 && makesCore(argv[2], argv[3]) == 1 &&
+                     makesCore(argv[2], "never-written.xyz") == 2 &&
+                     makesCore("/nowhere.nrrd", "never-written.vtp") == 3;
   return right ? 0 : 1;
 }
