@@ -120,7 +120,7 @@ RenderResult
 RunRenderJob(const RenderJobOptions &, const JobContext &)
 {
   throw UsageError(
-    "this build draws no pictures: it was made without VTK's rendering (-DVOXELCORE_DISPLAY=ON, with "
+    "render is off in this build: it was made without VTK's rendering (-DVOXELCORE_DISPLAY=ON, with "
     "libvtk9-dev, brings it)");
 }
 
