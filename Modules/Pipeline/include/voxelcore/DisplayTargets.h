@@ -10,7 +10,7 @@ namespace voxelcore
 
 struct DisplayTargets
 {
-  std::optional<std::filesystem::path> scene; ///< .mrml, with its data in <stem>_Data/ beside it, or .mrb
+  std::optional<std::filesystem::path> scene; ///< .mrml, with its data in STEM_Data/ beside it, or .mrb
   std::optional<std::filesystem::path> html;  ///< .html
   std::size_t                          htmlTriangles = 300000;
 };
