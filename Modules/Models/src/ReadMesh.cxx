@@ -1,5 +1,6 @@
 #include "voxelcore/ReadMesh.h"
 
+#include "LegacyCells.h"
 #include "MeshText.h"
 #include "VtkMessages.h"
 #include "voxelcore/Error.h"
@@ -107,6 +108,10 @@ ReadLegacy(const fs::path & path)
 {
   const std::string bytes = ReadBytes(path);
   RequireFit(bytes.starts_with("# vtk DataFile"), "it does not begin with '# vtk DataFile'");
+  for (const std::string_view keyword : { "VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS" })
+  {
+    CheckLegacyCells(bytes, keyword);
+  }
   vtkNew<vtkPolyDataReader> reader;
   std::string               trouble;
   {
