@@ -84,7 +84,7 @@ class Bench:
 
     @staticmethod
     def forget(stem):
-        for ending in (".nrrd", ".points", ".vtp", ".json"):
+        for ending in (".nrrd", ".nii", ".points", ".vtp", ".json"):
             if os.path.exists(stem + ending):
                 os.remove(stem + ending)
 
@@ -116,10 +116,10 @@ class Bench:
             self.forget(stem)
 
     def large(self):
-        stem = os.path.join(self.folder, "corn")
-        run([self.program, "phantom", "root", "--size", "1560,789,1041", "-o", stem + ".nrrd", "--force", "--quiet"])
+        stem = os.path.join(self.folder, "corn")  # raw: a NIfTI that is not compressed
+        run([self.program, "phantom", "root", "--size", "1560,789,1041", "-o", stem + ".nii", "--force", "--quiet"])
         for _ in range(self.repetitions):
-            self.job("root 1560 x 789 x 1041", "job 2", stem + ".nrrd", stem, "--lambda", "2.5vox", "--threads", "2")
+            self.job("root 1560 x 789 x 1041", "job 2", stem + ".nii", stem, "--lambda", "2.5vox", "--threads", "2")
         self.forget(stem)
 
     def growth(self, sides):
