@@ -1,9 +1,8 @@
 #pragma once
 // Shares of test shapes, and what it means that their join is the whole.
 
-#include "VoxelCoreTesting/Shapes.h"
+#include "SameCells.h"
 
-#include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/HaloBlocks.h"
 
 #include <gtest/gtest.h>
@@ -20,18 +19,6 @@ SharesOf(const VoxelShape & shape, const SpacingWeights & weights, const BlockPl
     shares.push_back(ComputeBlockShare(shape, weights, plan, block, engine));
   }
   return shares;
-}
-
-/** Compared as wholes: millions of numbers in a failure help nobody. */
-inline void
-ExpectSameCells(const DelaunayCells & a, const DelaunayCells & b)
-{
-  ASSERT_EQ(a.CellCount(), b.CellCount());
-  ASSERT_EQ(a.FacetCount(), b.FacetCount());
-  ASSERT_TRUE(a.centres == b.centres);
-  ASSERT_TRUE(a.facetCells == b.facetCells);
-  ASSERT_TRUE(a.facetOffsets == b.facetOffsets);
-  ASSERT_TRUE(a.facetPoints == b.facetPoints);
 }
 
 /** A shape computed at once, to compare with. */

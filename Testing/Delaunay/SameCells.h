@@ -2,12 +2,12 @@
 // The merged cells are unique: whatever computes them, and with however many threads, must agree to the last bit.
 
 #include "VoxelCoreTesting/Shapes.h"
+#include "VoxelCoreTesting/Threads.h"
 
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/DelaunayCells.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 namespace voxelcore::testing
 {
@@ -24,33 +24,13 @@ ExpectSameCells(const DelaunayCells & a, const DelaunayCells & b)
   ASSERT_TRUE(a.facetPoints == b.facetPoints);
 }
 
-/** Sets the number of threads; gives it back at its end. */
-class ThreadsForNow
-{
-public:
-  explicit ThreadsForNow(int threads)
-  {
-    omp_set_num_threads(threads);
-  }
-  ~ThreadsForNow()
-  {
-    omp_set_num_threads(m_Before);
-  }
-  ThreadsForNow(const ThreadsForNow &) = delete;
-  ThreadsForNow &
-  operator=(const ThreadsForNow &) = delete;
-
-private:
-  int m_Before = omp_get_max_threads();
-};
-
 /** By the lattice engine with 1, 2, 3 and 7 threads, and by TetGen where the build has it. Returns the cells. */
 inline DelaunayCells
 ExpectAgreement(const VoxelShape & shape, const SpacingWeights & weights)
 {
   const auto points = BoundaryVertices(shape);
   const auto byLattice = [&](int threads) {
-    const ThreadsForNow now(threads);
+    const Threads now(threads);
     return ComputeDelaunayCells(shape, points, weights, Engine::Lattice);
   };
   DelaunayCells alone = byLattice(1);

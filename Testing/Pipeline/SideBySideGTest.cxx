@@ -1,4 +1,5 @@
 #include "SideBySide.h"
+#include "VoxelCoreTesting/Threads.h"
 
 #include "TemporaryFolder.h"
 #include "voxelcore/CoreJob.h"
@@ -8,7 +9,6 @@
 #include <atomic>
 #include <cstdint>
 #include <gtest/gtest.h>
-#include <omp.h>
 #include <random>
 #include <stdexcept>
 
@@ -19,28 +19,8 @@ namespace
 
 using testing::ReadAll;
 using testing::TemporaryFolder;
+using testing::Threads;
 using testing::WriteAll;
-
-/** So many threads until its end. */
-class Threads
-{
-public:
-  explicit Threads(int count)
-    : m_Before(omp_get_max_threads())
-  {
-    omp_set_num_threads(count);
-  }
-  ~Threads()
-  {
-    omp_set_num_threads(m_Before);
-  }
-  Threads(const Threads &) = delete;
-  Threads &
-  operator=(const Threads &) = delete;
-
-private:
-  int m_Before;
-};
 
 TEST(GroupLabels, LargeLabelsStandAloneAndOrderIsKept)
 {

@@ -1,12 +1,11 @@
 // The same core, pruned or not, whatever the number of threads and wherever the volume begins and ends.
 
 #include "VoxelCoreTesting/Cores.h"
+#include "VoxelCoreTesting/Threads.h"
 
 #include "voxelcore/BumpPruning.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/Phantom.h"
-
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,21 +32,15 @@ AllResults(const VoxelShape & shape, const Spacing3 & spacing)
 void
 ExpectSameWithAnyNumberOfThreads(const VoxelShape & shape, const Spacing3 & spacing)
 {
-  struct RestoreThreads
-  {
-    int before = omp_get_max_threads();
-    ~RestoreThreads()
-    {
-      omp_set_num_threads(before);
-    }
-  } restore;
-  omp_set_num_threads(1);
-  const auto alone = AllResults(shape, spacing);
+  const auto with = [&](int count) {
+    const testing::Threads threads(count);
+    return AllResults(shape, spacing);
+  };
+  const auto alone = with(1);
   for (const int threads : { 2, 3, 7 })
   {
     SCOPED_TRACE(threads);
-    omp_set_num_threads(threads);
-    const auto others = AllResults(shape, spacing);
+    const auto others = with(threads);
     for (std::size_t i = 0; i < alone.size(); ++i)
     {
       ASSERT_NO_FATAL_FAILURE(testing::ExpectSameCore(others[i], alone[i]));

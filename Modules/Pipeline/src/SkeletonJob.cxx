@@ -121,7 +121,8 @@ Together(const BranchOptions & before, const BranchOptions & now)
 SkeletonResult
 RunSkeletonJob(const SkeletonOptions & options, const JobContext & context)
 {
-  return options.input.extension() == ".vtp" && !options.resolution ? FromCore(options, context) : FromScan(options, context);
+  return options.input.extension() == ".vtp" && !options.resolution ? FromCore(options, context)
+                                                                    : FromScan(options, context);
 }
 
 SkeletonResult

@@ -36,8 +36,8 @@ struct ParameterRecord
   std::optional<std::pair<double, double>> threshold;
   std::optional<std::int64_t>              volume;
   std::optional<std::int64_t>              component;
-  std::optional<CropRange>                 crop;    ///< with its ends filled in
-  std::optional<Vector3>                   spacing; ///< as given, mm
+  std::optional<CropRange>                 crop;       ///< with its ends filled in
+  std::optional<Vector3>                   spacing;    ///< as given, mm
   std::optional<std::int64_t>              resolution; ///< of a mesh
   bool                                     orthonormalize = false;
   std::string                              niftiForm = "auto";

@@ -19,8 +19,9 @@ namespace voxelcore
 
 struct SkeletonOptions
 {
-  std::filesystem::path                input; ///< a scan or mesh, or a .vtp that 'voxelcore core' wrote; with a resolution .vtp is a mesh
-  ReadOptions                          reading;
+  std::filesystem::path
+              input; ///< a scan or mesh, or a .vtp that 'voxelcore core' wrote; with a resolution .vtp is a mesh
+  ReadOptions reading;
   std::optional<std::int64_t>          resolution; ///< of a mesh
   ShapeEditOptions                     edits;
   SkeletonStage                        stage;
