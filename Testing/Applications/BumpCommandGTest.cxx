@@ -1,6 +1,6 @@
 // Pruning by bump height as a user runs it.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "CommandFixture.h"
 #include "Program.h"
 #include "Scans.h"
 
@@ -16,30 +16,9 @@ namespace
 using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
-class BumpCommand : public ::testing::Test
+class BumpCommand : public CommandFixture
 {
 protected:
-  static std::string
-  Run(const std::vector<std::string> & arguments)
-  {
-    const ProgramResult result = RunProgram(arguments);
-    EXPECT_EQ(result.code, 0) << result.error;
-    EXPECT_EQ(result.error, "");
-    return result.output;
-  }
-
-  std::string
-  Path(const std::string & name) const
-  {
-    return m_Folder / name;
-  }
-
-  Json
-  Report(const std::string & name) const
-  {
-    return Json::parse(ReadAll(m_Folder / name));
-  }
-
   /** A ball with a rod of one voxel and a plate of one voxel on it, label 1; a box, label 3. */
   void
   WriteBallWithRodAndPlate(const std::string & name) const
@@ -64,8 +43,6 @@ protected:
     scan.Fill({ 32, 20, 4 }, { 40, 26, 9 }, 3);
     WriteNrrd(m_Folder / name, scan);
   }
-
-  TemporaryFolder m_Folder;
 };
 
 TEST_F(BumpCommand, SeveralHeightsShareARunAndGiveWhatEachGivesAlone)

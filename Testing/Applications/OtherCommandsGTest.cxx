@@ -1,6 +1,6 @@
 // help, info, phantom, prune, verify as a user runs them.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "CommandFixture.h"
 #include "Program.h"
 #include "Scans.h"
 
@@ -17,21 +17,8 @@ namespace
 using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
-class OtherCommands : public ::testing::Test
-{
-protected:
-  /** Runs a command that must succeed without a word on stderr; returns stdout. */
-  static std::string
-  Run(const std::vector<std::string> & arguments)
-  {
-    const ProgramResult result = RunProgram(arguments);
-    EXPECT_EQ(result.code, 0) << result.error;
-    EXPECT_EQ(result.error, "");
-    return result.output;
-  }
-
-  TemporaryFolder m_Folder;
-};
+class OtherCommands : public CommandFixture
+{};
 
 TEST_F(OtherCommands, HelpHasExamplesUnitsAndExitCodes)
 {

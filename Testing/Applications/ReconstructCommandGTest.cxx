@@ -1,6 +1,6 @@
 // The balls of a core as a volume.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "CommandFixture.h"
 #include "Program.h"
 #include "Scans.h"
 
@@ -14,30 +14,8 @@ namespace
 
 using Json = nlohmann::json;
 
-class Reconstruct : public ::testing::Test
-{
-protected:
-  static std::string
-  Run(const std::vector<std::string> & arguments)
-  {
-    const ProgramResult result = RunProgram(arguments);
-    EXPECT_EQ(result.code, 0) << result.error;
-    EXPECT_EQ(result.error, "");
-    return result.output;
-  }
-  std::string
-  Path(const std::string & name) const
-  {
-    return m_Folder / name;
-  }
-  Json
-  Report(const std::string & name) const
-  {
-    return Json::parse(ReadAll(m_Folder / name));
-  }
-
-  TemporaryFolder m_Folder;
-};
+class Reconstruct : public CommandFixture
+{};
 
 // A voxel's centre lies in a Delaunay cell and so in its ball; no ball holds a centre beyond the boundary's squares.
 TEST_F(Reconstruct, AWholeCoreGivesTheScanBack)

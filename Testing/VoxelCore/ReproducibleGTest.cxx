@@ -24,8 +24,9 @@ std::vector<MedialComplex>
 AllResults(const VoxelShape & shape, const Spacing3 & spacing)
 {
   const double               smallest = *std::min_element(spacing.begin(), spacing.end());
-  std::vector<MedialComplex> results = PruneByLambda(testing::CoreOf(shape, spacing), { 0, 1.5 * smallest });
-  results.push_back(PruneByBumps(testing::BumpedCoreOf(shape, spacing), 1.2 * std::sqrt(3) * smallest));
+  const MedialComplex        core = testing::BumpedCoreOf(shape, spacing);
+  std::vector<MedialComplex> results = PruneByLambda(core, { 0, 1.5 * smallest });
+  results.push_back(PruneByBumps(core, 1.2 * std::sqrt(3) * smallest));
   return results;
 }
 

@@ -1,0 +1,42 @@
+#pragma once
+// A test that runs the program in a folder of its own.
+
+#include "Pipeline/TemporaryFolder.h"
+#include "Program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace voxelcore::testing
+{
+
+class CommandFixture : public ::testing::Test
+{
+protected:
+  /** Runs a command that must succeed without a word on stderr; returns stdout. */
+  static std::string
+  Run(const std::vector<std::string> & arguments)
+  {
+    const ProgramResult result = RunProgram(arguments);
+    EXPECT_EQ(result.code, 0) << result.error;
+    EXPECT_EQ(result.error, "");
+    return result.output;
+  }
+  std::string
+  Path(const std::string & name) const
+  {
+    return m_Folder / name;
+  }
+  nlohmann::json
+  Report(const std::string & name) const
+  {
+    return nlohmann::json::parse(ReadAll(m_Folder / name));
+  }
+
+  TemporaryFolder m_Folder;
+};
+
+} // namespace voxelcore::testing
