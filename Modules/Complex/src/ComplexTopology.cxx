@@ -1,5 +1,6 @@
 #include "voxelcore/ComplexTopology.h"
 
+#include "voxelcore/RunBoth.h"
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>
@@ -13,24 +14,39 @@ namespace
 
 constexpr ElementIndex none = 0xFFFFFFFFU;
 
-// Removes free faces until every edge has no live face or at least two: a 2-cycle cannot contain them. Returns the
-// flags of the faces left; `cofaces` and `cofaceXor` describe the live faces of each edge.
-std::vector<std::uint8_t>
-DropFreeFaces(const CellComplex & complex, std::vector<ElementIndex> & cofaces, std::vector<ElementIndex> & cofaceXor)
+// The live faces of an edge: how many, and their numbers by exclusive or.
+struct Cofaces
 {
+  ElementIndex count = 0;
+  ElementIndex exclusiveOr = 0;
+};
+
+// Removes free faces until every edge has no live face or at least two: a 2-cycle cannot contain them. Returns the
+// flags of the faces left; `cofaces` describes the live faces of each edge.
+std::vector<std::uint8_t>
+DropFreeFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces)
+{
+  constexpr std::size_t     ahead = 32; // sides
   std::vector<std::uint8_t> live(complex.FaceCount(), 1);
+  const ElementIndex *      sides = complex.faceEdges.data();
+  const std::size_t         sideCount = complex.faceEdges.size();
   for (std::size_t face = 0; face < complex.FaceCount(); ++face)
   {
-    for (const ElementIndex edge : complex.FaceEdges(face))
+    for (std::size_t side = complex.faceOffsets[face]; side < complex.faceOffsets[face + 1]; ++side)
     {
-      ++cofaces[edge];
-      cofaceXor[edge] ^= static_cast<ElementIndex>(face);
+      if (side + ahead < sideCount)
+      {
+        __builtin_prefetch(&cofaces[sides[side + ahead]], 1);
+      }
+      Cofaces & own = cofaces[sides[side]];
+      ++own.count;
+      own.exclusiveOr ^= static_cast<ElementIndex>(face);
     }
   }
   std::vector<ElementIndex> open;
   for (std::size_t edge = 0; edge < cofaces.size(); ++edge)
   {
-    if (cofaces[edge] == 1)
+    if (cofaces[edge].count == 1)
     {
       open.push_back(static_cast<ElementIndex>(edge));
     }
@@ -39,16 +55,16 @@ DropFreeFaces(const CellComplex & complex, std::vector<ElementIndex> & cofaces, 
   {
     const ElementIndex edge = open.back();
     open.pop_back();
-    if (cofaces[edge] != 1)
+    if (cofaces[edge].count != 1)
     {
       continue;
     }
-    const ElementIndex face = cofaceXor[edge];
+    const ElementIndex face = cofaces[edge].exclusiveOr;
     live[face] = 0;
     for (const ElementIndex side : complex.FaceEdges(face))
     {
-      cofaceXor[side] ^= face;
-      if (--cofaces[side] == 1)
+      cofaces[side].exclusiveOr ^= face;
+      if (--cofaces[side].count == 1)
       {
         open.push_back(side);
       }
@@ -116,9 +132,8 @@ Rank(std::vector<Equation> & equations)
 std::int64_t
 SecondBetti(const CellComplex & complex)
 {
-  std::vector<ElementIndex>       cofaces(complex.edges.size(), 0);
-  std::vector<ElementIndex>       cofaceXor(complex.edges.size(), 0);
-  const std::vector<std::uint8_t> live = DropFreeFaces(complex, cofaces, cofaceXor);
+  std::vector<Cofaces>            cofaces(complex.edges.size());
+  const std::vector<std::uint8_t> live = DropFreeFaces(complex, cofaces);
 
   // Two faces that alone share an edge are in a cycle together or not at all: they form one sheet, one unknown.
   UnionFind                 sheets(complex.FaceCount());
@@ -134,9 +149,9 @@ SecondBetti(const CellComplex & complex)
     ++unknowns;
     for (const ElementIndex edge : complex.FaceEdges(face))
     {
-      if (cofaces[edge] == 2)
+      if (cofaces[edge].count == 2)
       {
-        sheets.Unite(face, face ^ cofaceXor[edge]);
+        sheets.Unite(face, face ^ cofaces[edge].exclusiveOr);
       }
       else
       {
@@ -196,16 +211,20 @@ SecondBetti(const CellComplex & complex)
 TopologyNumbers
 ComputeComplexTopology(const CellComplex & complex)
 {
-  UnionFind components(complex.vertexCount);
-  for (const auto & edge : complex.edges)
-  {
-    components.Unite(edge[0], edge[1]);
-  }
   TopologyNumbers numbers;
+  RunBoth(
+    complex.edges.size() > 10000,
+    [&] { numbers.betti[2] = SecondBetti(complex); },
+    [&] {
+      UnionFind components(complex.vertexCount);
+      for (const auto & edge : complex.edges)
+      {
+        components.Unite(edge[0], edge[1]);
+      }
+      numbers.betti[0] = static_cast<std::int64_t>(components.Count());
+    });
   numbers.euler = static_cast<std::int64_t>(complex.vertexCount) - static_cast<std::int64_t>(complex.edges.size()) +
                   static_cast<std::int64_t>(complex.FaceCount());
-  numbers.betti[0] = static_cast<std::int64_t>(components.Count());
-  numbers.betti[2] = SecondBetti(complex);
   numbers.betti[1] = numbers.betti[0] + numbers.betti[2] - numbers.euler;
   return numbers;
 }

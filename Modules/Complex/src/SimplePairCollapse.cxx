@@ -1,6 +1,7 @@
 #include "voxelcore/SimplePairCollapse.h"
 
 #include "voxelcore/BucketQueue.h"
+#include "voxelcore/RunBoth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,22 +57,34 @@ SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
   , m_VertexCofaces(complex.vertexCount)
   , m_EdgeCofaces(complex.edges.size())
 {
-  for (std::size_t edge = 0; edge < complex.edges.size(); ++edge)
-  {
-    for (const ElementIndex vertex : complex.edges[edge])
-    {
-      ++m_VertexCofaces[vertex].count;
-      m_VertexCofaces[vertex].exclusiveOr ^= static_cast<ElementIndex>(edge);
-    }
-  }
-  for (std::size_t face = 0; face < complex.FaceCount(); ++face)
-  {
-    for (const ElementIndex edge : complex.FaceEdges(face))
-    {
-      ++m_EdgeCofaces[edge].count;
-      m_EdgeCofaces[edge].exclusiveOr ^= static_cast<ElementIndex>(face);
-    }
-  }
+  RunBoth(
+    complex.FaceCount() > 10000,
+    [&] {
+      constexpr std::size_t ahead = 32;
+      const ElementIndex *  sides = complex.faceEdges.data();
+      for (std::size_t face = 0; face < complex.FaceCount(); ++face)
+      {
+        for (std::size_t side = complex.faceOffsets[face]; side < complex.faceOffsets[face + 1]; ++side)
+        {
+          if (side + ahead < complex.faceEdges.size())
+          {
+            __builtin_prefetch(&m_EdgeCofaces[sides[side + ahead]], 1);
+          }
+          ++m_EdgeCofaces[sides[side]].count;
+          m_EdgeCofaces[sides[side]].exclusiveOr ^= static_cast<ElementIndex>(face);
+        }
+      }
+    },
+    [&] {
+      for (std::size_t edge = 0; edge < complex.edges.size(); ++edge)
+      {
+        for (const ElementIndex vertex : complex.edges[edge])
+        {
+          ++m_VertexCofaces[vertex].count;
+          m_VertexCofaces[vertex].exclusiveOr ^= static_cast<ElementIndex>(edge);
+        }
+      }
+    });
 }
 
 void

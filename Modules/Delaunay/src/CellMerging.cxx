@@ -88,8 +88,11 @@ UniteCospherical(const Tetrahedra &                tetrahedra,
                  const std::vector<LatticePoint> & points,
                  const SpacingWeights &            weights)
 {
-  UnionFind sets(inside.size());
-  for (std::size_t t = 0; t < inside.size(); ++t)
+  // Which faces two cospherical tetrahedra share is asked side by side: bit i for the face opposite to corner i.
+  const std::size_t         count = inside.size();
+  std::vector<std::uint8_t> alike(count, 0);
+#pragma omp parallel for schedule(dynamic, 4096) if (count > 10000)
+  for (std::size_t t = 0; t < count; ++t)
   {
     if (!inside[t])
     {
@@ -109,7 +112,18 @@ UniteCospherical(const Tetrahedra &                tetrahedra,
       const auto   far = static_cast<std::size_t>(std::find(across.begin(), across.end(), t) - across.begin());
       if (Power(sphere, points[tetrahedra.corners[neighbour][far]], weights) == 0)
       {
-        sets.Unite(t, neighbour);
+        alike[t] = static_cast<std::uint8_t>(alike[t] | 1U << i);
+      }
+    }
+  }
+  UnionFind sets(count);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    for (std::size_t i = 0; alike[t] != 0 && i < 4; ++i)
+    {
+      if ((alike[t] >> i & 1U) != 0)
+      {
+        sets.Unite(t, tetrahedra.neighbours[t][i]);
       }
     }
   }

@@ -13,6 +13,8 @@ namespace voxelcore
 namespace
 {
 
+constexpr std::size_t kAhead = 16; // places from where a loop is to what it has the memory fetch
+
 CircumSphere
 SphereOf(const DelaunayCells &             cells,
          std::uint32_t                     cell,
@@ -187,6 +189,10 @@ FacetOrder(const DelaunayCells & cells)
   for (std::size_t facet = 0; facet < facets; ++facet)
   {
     const auto & pair = cells.facetCells[facet];
+    if (facet + kAhead < facets)
+    {
+      __builtin_prefetch(beyond.data() + start[cells.facetCells[facet + kAhead][0] + 1], 1);
+    }
     beyond[start[pair[0] + 1]++] = { pair[1], static_cast<std::uint32_t>(facet) };
   }
   const auto isLess = [&](const Beyond & a, const Beyond & b) {
@@ -227,6 +233,11 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
       for (std::ptrdiff_t at = 0; at < count; ++at)
       {
         const auto i = static_cast<std::size_t>(at);
+        if (i + kAhead < order.size())
+        {
+          __builtin_prefetch(rank.data() + order[i + kAhead].cell, 1);
+          __builtin_prefetch(cells.tetrahedra.data() + order[i + kAhead].cell);
+        }
         rank[order[i].cell] = static_cast<std::uint32_t>(i);
         cells.centres[i] = order[i].centre;
         tetrahedra[i] = cells.tetrahedra[order[i].cell];
@@ -244,6 +255,10 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
   for (std::ptrdiff_t at = 0; at < facets; ++at)
   {
     const auto i = static_cast<std::size_t>(at);
+    if (i + kAhead < order.size())
+    {
+      __builtin_prefetch(cells.facetOffsets.data() + order[i + kAhead]);
+    }
     offsets[i + 1] = cells.facetOffsets[order[i] + 1] - cells.facetOffsets[order[i]];
   }
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
@@ -252,6 +267,12 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
 #pragma omp parallel for schedule(static) if (facets > 10000)
     for (std::ptrdiff_t i = 0; i < facets; ++i)
     {
+      if (i + static_cast<std::ptrdiff_t>(2 * kAhead) < facets)
+      {
+        const std::uint32_t * ahead = order.data() + i;
+        __builtin_prefetch(cells.facetOffsets.data() + ahead[2 * kAhead]);
+        __builtin_prefetch(cells.facetPoints.data() + cells.facetOffsets[ahead[kAhead]]);
+      }
       std::uint64_t at = offsets[static_cast<std::size_t>(i)];
       for (const std::uint32_t point : cells.FacetPoints(order[static_cast<std::size_t>(i)]))
       {
@@ -265,6 +286,10 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
 #pragma omp parallel for schedule(static) if (facets > 10000)
   for (std::ptrdiff_t i = 0; i < facets; ++i)
   {
+    if (i + static_cast<std::ptrdiff_t>(kAhead) < facets)
+    {
+      __builtin_prefetch(cells.facetCells.data() + order[static_cast<std::size_t>(i) + kAhead]);
+    }
     facetCells[static_cast<std::size_t>(i)] = cells.facetCells[order[static_cast<std::size_t>(i)]];
   }
   cells.facetCells.swap(facetCells);

@@ -109,6 +109,7 @@ AddDeepCells(Tracing &                         tracing,
   std::vector<std::array<std::uint32_t, 4>> wall(count);
   std::vector<std::uint8_t>                 inside(count, 0);
   std::vector<std::uint32_t>                region;
+#pragma omp parallel for schedule(dynamic, 4096) if (count > 10000)
   for (std::size_t t = 0; t < count; ++t)
   {
     const auto & corners = tetrahedra.corners[t];
@@ -124,11 +125,17 @@ AddDeepCells(Tracing &                         tracing,
       const Int128 side =
         Orientation(points[polygon[0]], points[polygon[1]], points[polygon[2]], deepPoints[corners[i]]);
       const bool inwards = tracing.cells.facetCells[wall[t][i]][0] == kOpen;
-      if ((side > 0) != inwards && !inside[t])
+      if ((side > 0) != inwards)
       {
         inside[t] = 1;
-        region.push_back(static_cast<std::uint32_t>(t));
       }
+    }
+  }
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    if (inside[t])
+    {
+      region.push_back(static_cast<std::uint32_t>(t));
     }
   }
   for (std::size_t i = 0; i < region.size(); ++i)

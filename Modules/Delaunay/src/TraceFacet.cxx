@@ -66,22 +66,22 @@ ScanBall(const LatticeWindow &         window,
          Best<TNumber> &               best,
          std::vector<LatticePoint> &   apexes)
 {
-  constexpr std::size_t              lanes = 4;
-  constexpr std::array<float, lanes> laneNumber{ 0, 1, 2, 3 };
-  const std::array<float, 3>         w{ static_cast<float>(weights.weight[0]),
+  const std::array<float, 3> w{ static_cast<float>(weights.weight[0]),
                                 static_cast<float>(weights.weight[1]),
                                 static_cast<float>(weights.weight[2]) };
-  const auto                         cx = static_cast<float>(centre[0]);
-  const auto                         cy = static_cast<float>(centre[1]);
-  const auto                         cz = static_cast<float>(centre[2]);
-  const float                        inverse = 1.0F / w[0];
-  // Window coordinates are off by up to 4e-6 in single precision: grown by more than that, no row is missed.
+  const auto                 cx = static_cast<float>(centre[0]);
+  const auto                 cy = static_cast<float>(centre[1]);
+  const auto                 cz = static_cast<float>(centre[2]);
+  // Window coordinates are off by up to 4e-6 in single precision: grown by more than that, no vertex is missed.
   const double grown = std::sqrt(radius2) + 1e-5 * static_cast<double>(w[0] + w[1] + w[2]);
   const float  grown2 = static_cast<float>(grown * grown) * 1.0001F;
   // Truncation rounds towards 0, and all these are positive: less than 1 added first rounds up.
-  constexpr float up = 1.0F - scanMargin;
-  const auto      zFirst = static_cast<std::int32_t>(box.low[2] + up);
-  const auto      zLast = static_cast<std::int32_t>(box.high[2]);
+  constexpr float     up = 1.0F - scanMargin;
+  const auto          zFirst = static_cast<std::int32_t>(box.low[2] + up);
+  const auto          zLast = static_cast<std::int32_t>(box.high[2]);
+  const auto          xFirst = static_cast<std::int32_t>(box.low[0] + up);
+  const auto          xLast = static_cast<std::int32_t>(box.high[0]);
+  const std::uint64_t columns = (~std::uint64_t{ 0 } << xFirst) & (~std::uint64_t{ 0 } >> (63 - xLast));
   for (std::int32_t z = zFirst; z <= zLast; ++z)
   {
     const float dz = w[2] * (static_cast<float>(z) - cz);
@@ -94,47 +94,40 @@ ScanBall(const LatticeWindow &         window,
     const auto            yFirst = static_cast<std::int32_t>(std::max(cy - reachY, box.low[1]) + up);
     const auto            yLast = static_cast<std::int32_t>(std::min(cy + reachY, box.high[1]));
     const std::uint64_t * rows = window.vertex.data() + LatticeWindow::Row(0, z);
-    for (std::int32_t yStart = yFirst; yStart <= yLast; yStart += static_cast<std::int32_t>(lanes))
+    for (std::int32_t y = yFirst; y <= yLast; ++y)
     {
-      // The bits of each row that may lie in the ball; none where the row passes it by.
-      std::array<std::int32_t, lanes> low;
-      std::array<std::int32_t, lanes> high;
-      const float                     yFrom = static_cast<float>(yStart) - cy;
-#pragma omp simd
-      for (std::size_t i = 0; i < lanes; ++i)
+      // The ball is empty but for its rim, so most rows end here.
+      std::uint64_t bits = rows[y] & columns;
+      if (bits == 0)
       {
-        const float dy = w[1] * (yFrom + laneNumber[i]);
-        const float rest = std::max(left - dy * dy, 0.0F);
-        const float reach = std::sqrt(rest) * inverse;
-        low[i] = static_cast<std::int32_t>(std::max(cx - reach + up, box.low[0]));
-        high[i] = static_cast<std::int32_t>(std::min(cx + reach + scanMargin, box.high[0]));
+        continue;
       }
-      const std::int32_t count = std::min(static_cast<std::int32_t>(lanes), yLast - yStart + 1);
-      for (std::int32_t lane = 0; lane < count; ++lane)
+      const float dy = w[1] * (static_cast<float>(y) - cy);
+      const float rest = left - dy * dy;
+      for (; bits != 0; bits &= bits - 1)
       {
-        const auto         i = static_cast<std::size_t>(lane);
-        const std::int32_t y = yStart + lane;
-        for (std::uint64_t bits = rows[y] & (~std::uint64_t{ 0 } << low[i]) & (~std::uint64_t{ 0 } >> (63 - high[i]));
-             bits != 0;
-             bits &= bits - 1)
+        const std::int32_t x = std::countr_zero(bits);
+        const float        dx = w[0] * (static_cast<float>(x) - cx);
+        if (dx * dx > rest)
         {
-          const LatticePoint q{ std::countr_zero(bits), y, z };
-          const std::int64_t height = pencil.Height(q);
-          if (height <= 0)
-          {
-            continue;
-          }
-          const TNumber value = pencil.Value(q);
-          const TNumber difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
-          if (difference < 0)
-          {
-            best = { value, height };
-            apexes.clear();
-          }
-          if (difference <= 0)
-          {
-            apexes.push_back(q);
-          }
+          continue;
+        }
+        const LatticePoint q{ x, y, z };
+        const std::int64_t height = pencil.Height(q);
+        if (height <= 0)
+        {
+          continue;
+        }
+        const TNumber value = pencil.Value(q);
+        const TNumber difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
+        if (difference < 0)
+        {
+          best = { value, height };
+          apexes.clear();
+        }
+        if (difference <= 0)
+        {
+          apexes.push_back(q);
         }
       }
     }

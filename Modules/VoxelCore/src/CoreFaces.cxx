@@ -16,6 +16,7 @@ namespace
 {
 
 constexpr std::uint32_t kRank = ~kBoundarySide;
+constexpr std::size_t   kAhead = 4; // faces
 
 // A core edge as one side of a face: the dual of one facet around the face's Delaunay edge (p, q), p < q.
 struct Side
@@ -339,6 +340,7 @@ WriteFaces(DelaunayCells                     cells,
   complex.faceOffsets.assign(order.size() + 1, 0);
   for (std::size_t face = 0; face < order.size(); ++face)
   {
+    __builtin_prefetch(faces.groups.data() + order[std::min(face + 4 * kAhead, order.size() - 1)]);
     complex.faceOffsets[face + 1] = complex.faceOffsets[face] + faces.groups[order[face]].count;
   }
   complex.faceVertices.resize(complex.faceOffsets.back());
@@ -348,7 +350,20 @@ WriteFaces(DelaunayCells                     cells,
 #pragma omp parallel for schedule(static) reduction(|| : open) if (count > 10000)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
-    const auto            face = static_cast<std::size_t>(i);
+    const auto face = static_cast<std::size_t>(i);
+    // Step by step: the group, its sides, the edges that they name.
+    if (face + 3 * kAhead < order.size())
+    {
+      __builtin_prefetch(faces.groups.data() + order[face + 3 * kAhead]);
+      __builtin_prefetch(faces.sides.data() + faces.groups[order[face + 2 * kAhead]].first);
+      const Group & next = faces.groups[order[face + kAhead]];
+      for (std::uint32_t side = 0; side < next.count; ++side)
+      {
+        __builtin_prefetch(complex.edges.data() + faces.sides[next.first + side].Edge());
+      }
+      __builtin_prefetch(sortedPoints.data() + faces.sides[next.first].q);
+      __builtin_prefetch(sortedPoints.data() + next.p);
+    }
     const Group &         group = faces.groups[order[face]];
     const std::span<Side> own{ faces.sides.data() + group.first, group.count };
     const std::uint32_t   q = own[0].q;

@@ -14,6 +14,9 @@ namespace voxelcore
 namespace
 {
 
+constexpr std::size_t   kAhead = 8; // places from where a loop is to what it has the memory fetch
+constexpr std::uint32_t kRank = ~kBoundarySide;
+
 // A boundary vertex by its number in the scan.
 struct PointEntry
 {
@@ -238,7 +241,18 @@ MeasureCells(const VoxelShape &                shape,
 #pragma omp for schedule(static)
     for (std::ptrdiff_t i = 0; i < facets; ++i)
     {
-      const auto                     facet = static_cast<std::size_t>(i);
+      const auto facet = static_cast<std::size_t>(i);
+      if (facet + kAhead < cells.FacetCount())
+      {
+        // Facets follow each other along x, points and their neighbours along z: what is met next is asked for early.
+        for (const std::uint32_t point : cells.FacetPoints(facet + kAhead))
+        {
+          __builtin_prefetch(entries.data() + (point & kRank));
+          __builtin_prefetch(points.data() + (point & kRank));
+        }
+        __builtin_prefetch(cells.centres.data() + cells.facetCells[facet + kAhead][0]);
+        __builtin_prefetch(cells.centres.data() + cells.facetCells[facet + kAhead][1]);
+      }
       const std::span<std::uint32_t> own{ cells.facetPoints.data() + cells.facetOffsets[facet],
                                           cells.facetPoints.data() + cells.facetOffsets[facet + 1] };
       TurnToRanks(entries, points, own, polygon);
@@ -265,6 +279,13 @@ MeasureCells(const VoxelShape &                shape,
   {
     const auto   cell = static_cast<std::size_t>(i);
     const auto & t = cells.tetrahedra[cell];
+    if (i + static_cast<std::ptrdiff_t>(kAhead) < cellCount)
+    {
+      for (const std::uint32_t point : cells.tetrahedra[cell + kAhead])
+      {
+        __builtin_prefetch(points.data() + point);
+      }
+    }
     result.sphere[cell] =
       SquaredRadius(MakeCircumSphere(points[t[0]], points[t[1]], points[t[2]], points[t[3]], weights), weights);
     result.cell[cell] = centreBeyond[cell] ? 0.0 : result.sphere[cell];
