@@ -1,0 +1,70 @@
+// Large arrays in large pages.
+//
+// The arrays of a core are read out of order, and with pages of 4 kB a good part of that time goes into finding pages.
+// Where the system gives large pages on request only (Debian's default), this asks for them. Programs decide that, not
+// libraries, so that this stands here.
+
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+#include <sys/mman.h>
+
+namespace
+{
+
+constexpr std::size_t    largePage = std::size_t{ 2 } << 20;
+constexpr std::size_t    worthIt = 8 * largePage;
+constexpr std::uintptr_t insidePage = largePage - 1;
+
+void
+AskForLargePages(void * memory, std::size_t size)
+{
+  // Whole pages within the array: what is never touched costs nothing, and neighbours are left alone.
+  const auto           begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = (begin + insidePage) & ~insidePage;
+  const std::uintptr_t end = (begin + size) & ~insidePage;
+  if (first < end)
+  {
+    // A wish only: where it is not granted, all goes on as before.
+    madvise(reinterpret_cast<void *>(first), end - first, MADV_HUGEPAGE);
+  }
+}
+
+} // namespace
+
+// The standard's replaceable function; the matching operator delete calls free().
+void *
+operator new(std::size_t size)
+{
+  for (;;)
+  {
+    void * const memory = std::malloc(size == 0 ? 1 : size);
+    if (memory != nullptr)
+    {
+      if (size >= worthIt)
+      {
+        AskForLargePages(memory, size);
+      }
+      return memory;
+    }
+    const std::new_handler handler = std::get_new_handler();
+    if (handler == nullptr)
+    {
+      throw std::bad_alloc();
+    }
+    handler();
+  }
+}
+
+void
+operator delete(void * memory) noexcept
+{
+  std::free(memory);
+}
+
+void
+operator delete(void * memory, std::size_t) noexcept
+{
+  std::free(memory);
+}
