@@ -69,27 +69,44 @@ RequireEqualTopology(const TopologyNumbers & shape,
   }
 }
 
-std::vector<PrunedCore>
-PruneAndCertify(ModelPart                   whole,
-                const ComplexRecord &       wholeRecord,
-                double                      doneMm,
-                const std::vector<Lambda> & lambdas,
-                const std::vector<double> & thresholdsMm,
-                const TopologyNumbers &     shape,
-                const std::string &         labelText,
-                const ProgressCallback &    progress)
+namespace
 {
-  std::vector<double> ascending = thresholdsMm;
-  std::sort(ascending.begin(), ascending.end());
-  ascending.erase(std::unique(ascending.begin(), ascending.end()), ascending.end());
-  std::erase_if(ascending, [doneMm](double threshold) { return threshold <= doneMm; });
 
-  std::vector<MedialComplex> complexes;
-  if (!ascending.empty())
-  {
-    complexes = PruneByLambda(whole.core, ascending, PartOfProgress(progress, "prune", 0, 0.8));
-  }
-  std::vector<PrunedCore> results(lambdas.size());
+// The different thresholds beyond doneMm.
+std::vector<double>
+Ascending(std::vector<double> thresholdsMm, double doneMm)
+{
+  std::sort(thresholdsMm.begin(), thresholdsMm.end());
+  thresholdsMm.erase(std::unique(thresholdsMm.begin(), thresholdsMm.end()), thresholdsMm.end());
+  std::erase_if(thresholdsMm, [doneMm](double threshold) { return threshold <= doneMm; });
+  return thresholdsMm;
+}
+
+} // namespace
+
+std::vector<MedialComplex>
+PruneAscending(const MedialComplex &       whole,
+               double                      doneMm,
+               const std::vector<double> & thresholdsMm,
+               const ProgressCallback &    progress)
+{
+  const std::vector<double> ascending = Ascending(thresholdsMm, doneMm);
+  return ascending.empty() ? std::vector<MedialComplex>() : PruneByLambda(whole, ascending, progress);
+}
+
+std::vector<PrunedCore>
+CertifyPruned(ModelPart                   whole,
+              std::vector<MedialComplex>  complexes,
+              const ComplexRecord &       wholeRecord,
+              double                      doneMm,
+              const std::vector<Lambda> & lambdas,
+              const std::vector<double> & thresholdsMm,
+              const TopologyNumbers &     shape,
+              const std::string &         labelText,
+              const ProgressCallback &    progress)
+{
+  const std::vector<double> ascending = Ascending(thresholdsMm, doneMm);
+  std::vector<PrunedCore>   results(lambdas.size());
   for (std::size_t i = 0; i < lambdas.size(); ++i)
   {
     ReportProgress(progress, "prune", 0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(lambdas.size()));
@@ -113,6 +130,28 @@ PruneAndCertify(ModelPart                   whole,
     result.record.complex = unchanged ? wholeRecord : DescribeComplex(result.part.core, topology);
   }
   return results;
+}
+
+std::vector<PrunedCore>
+PruneAndCertify(ModelPart                   whole,
+                const ComplexRecord &       wholeRecord,
+                double                      doneMm,
+                const std::vector<Lambda> & lambdas,
+                const std::vector<double> & thresholdsMm,
+                const TopologyNumbers &     shape,
+                const std::string &         labelText,
+                const ProgressCallback &    progress)
+{
+  auto complexes = PruneAscending(whole.core, doneMm, thresholdsMm, PartOfProgress(progress, "prune", 0, 0.8));
+  return CertifyPruned(std::move(whole),
+                       std::move(complexes),
+                       wholeRecord,
+                       doneMm,
+                       lambdas,
+                       thresholdsMm,
+                       shape,
+                       labelText,
+                       progress);
 }
 
 double

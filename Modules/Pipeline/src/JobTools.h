@@ -52,6 +52,26 @@ struct PrunedCore
   ModelPart    part;
 };
 
+/** `whole`, which is pruned to `doneMm` already, pruned to each different threshold beyond that, ascending. */
+std::vector<MedialComplex>
+PruneAscending(const MedialComplex &       whole,
+               double                      doneMm,
+               const std::vector<double> & thresholdsMm,
+               const ProgressCallback &    progress);
+
+/** Checks and describes what PruneAscending() made of `whole`: a core for each of the thresholds.
+ *  \throws CertificateError when the topology is no longer the shape's. */
+std::vector<PrunedCore>
+CertifyPruned(ModelPart                   whole,
+              std::vector<MedialComplex>  complexes,
+              const ComplexRecord &       wholeRecord,
+              double                      doneMm,
+              const std::vector<Lambda> & lambdas,
+              const std::vector<double> & thresholdsMm,
+              const TopologyNumbers &     shape,
+              const std::string &         labelText,
+              const ProgressCallback &    progress);
+
 /** Prunes `whole`, which is pruned to `doneMm` already and described by `wholeRecord`, to each threshold (mm, none below
  *  doneMm, in any order).
  *  \throws CertificateError when the topology is no longer the shape's. */

@@ -5,6 +5,7 @@
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/RunBoth.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/VoxelCore.h"
 
@@ -22,6 +23,7 @@ namespace
 constexpr double kShapeEnds = 0.03;
 constexpr double kDelaunayEnds = 0.80;
 constexpr double kCoreEnds = 0.92;
+constexpr double kPruneEnds = 0.98;
 constexpr double kCoreBesideSkeleton = 0.5;
 
 bool
@@ -55,16 +57,23 @@ ContainsAround(const VoxelShape & shape, const std::array<double, 3> & point)
 /** What ComputeWholeCore() is asked for. */
 struct WholeCoreOptions
 {
-  Engine engine = Engine::Auto;
-  bool   crossCheck = false;
-  bool   bumps = false; ///< with bump heights
-  double floor = 0;     ///< of these, mm
+  Engine                      engine = Engine::Auto;
+  bool                        crossCheck = false;
+  bool                        bumps = false; ///< with bump heights, from the least threshold on; else pruned by lambda
+  const std::vector<double> & thresholds;    ///< mm
 
   const CellSource & source; ///< of the cells, where it is not empty
 };
 
-/** The core of a label, described and certified, in LPS mm. Frees the points and the cells as soon as it can. */
-ModelPart
+/** A core in LPS mm, and what is left of it at each threshold, ascending. */
+struct WholeCore
+{
+  ModelPart                  part;
+  std::vector<MedialComplex> pruned;
+};
+
+/** The core of a label, described and certified, and pruned by lambda. Frees the points and the cells as soon as it can. */
+WholeCore
 ComputeWholeCore(const VoxelShape &       shape,
                  const ImageGeometry &    geometry,
                  const SpacingWeights &   weights,
@@ -97,14 +106,11 @@ ComputeWholeCore(const VoxelShape &       shape,
     {
       outcome.seconds.core += watch.Lap();
       const ProgressCallback bumps = PartOfProgress(progress, "prune", kDelaunayEnds, kCoreEnds);
-      core.bumps = ComputeBumps(core, weights, points, std::move(touching), options.floor, bumps);
+      core.bumps = ComputeBumps(core, weights, points, std::move(touching), options.thresholds.front(), bumps);
       EndBumps(core.bumps, geometry);
       outcome.seconds.prune += watch.Lap();
     }
   }
-  const TopologyNumbers topology = ComputeComplexTopology(core.cells);
-  RequireEqualTopology(record.shape, topology, "its core", labelText);
-  record.topologyEqual = true;
   record.enclosed = IsEnclosed(core, shape);
   if (!record.enclosed)
   {
@@ -112,12 +118,28 @@ ComputeWholeCore(const VoxelShape &       shape,
                            ": certificate failed: a vertex of the core lies outside the shape; nothing was "
                            "written; this is a fault of VoxelCore, please report it with the scan");
   }
-  ModelPart part = ToPhysical(std::move(core), geometry, record.label);
-  // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last bit.
-  record.core = DescribeComplex(part.core, topology);
+  WholeCore whole;
+  whole.part = ToPhysical(std::move(core), geometry, record.label);
   outcome.seconds.core += watch.Lap();
-  ReportProgress(progress, "prune", kCoreEnds);
-  return part;
+  // Neither changes the core, and each is work for one processor.
+  RunBoth(
+    whole.part.core.cells.FaceCount() > 10000,
+    [&] {
+      if (!options.bumps)
+      {
+        const ProgressCallback prune = PartOfProgress(progress, "prune", kCoreEnds, kPruneEnds);
+        whole.pruned = PruneAscending(whole.part.core, 0, options.thresholds, prune);
+      }
+    },
+    [&] {
+      const TopologyNumbers topology = ComputeComplexTopology(whole.part.core.cells);
+      RequireEqualTopology(record.shape, topology, "its core", labelText);
+      record.topologyEqual = true;
+      // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last bit.
+      record.core = DescribeComplex(whole.part.core, topology);
+    });
+  outcome.seconds.prune += watch.Lap();
+  return whole;
 }
 
 /** Measures how far the boundary lies from what is left, by other means than those that pruned it. What a floor took
@@ -199,8 +221,9 @@ ProcessLabel(LabelShape                      label,
   {
     thresholds.push_back(LambdaInMillimetres(lambda, weights, geometry.spacing, record.box));
   }
-  const WholeCoreOptions options{ engine, crossCheck, !bumps.empty(), thresholds.front(), source };
-  ModelPart part = ComputeWholeCore(label.shape, geometry, weights, options, labelText, outcome, coreProgress);
+  const WholeCoreOptions options{ engine, crossCheck, !bumps.empty(), thresholds, source };
+  WholeCore   whole = ComputeWholeCore(label.shape, geometry, weights, options, labelText, outcome, coreProgress);
+  ModelPart & part = whole.part;
 
   const bool ofWhole = skeleton != nullptr && skeleton->lambda.value == 0;
   if (ofWhole)
@@ -213,14 +236,15 @@ ProcessLabel(LabelShape                      label,
   if (bumps.empty())
   {
     label.shape = VoxelShape();
-    pruned = PruneAndCertify(std::move(part),
-                             record.core,
-                             0,
-                             lambdas,
-                             thresholds,
-                             record.shape,
-                             labelText,
-                             PartOfProgress(coreProgress, "prune", kCoreEnds, 1));
+    pruned = CertifyPruned(std::move(part),
+                           std::move(whole.pruned),
+                           record.core,
+                           0,
+                           lambdas,
+                           thresholds,
+                           record.shape,
+                           labelText,
+                           PartOfProgress(coreProgress, "prune", kPruneEnds, 1));
   }
   else
   {
