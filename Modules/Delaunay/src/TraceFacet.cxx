@@ -191,7 +191,7 @@ CellTracer::TraceFacet(Pending pending)
 
   const double smallest = static_cast<double>(std::min({ weights.weight[0], weights.weight[1], weights.weight[2] }));
   const double furthest = std::sqrt(std::max(0.0, m_Limit * m_Limit - pencil.circle2));
-  double       step = 0.75 * smallest;
+  double       step = 1.25 * smallest;
   for (double at = pending.from;;)
   {
     if (at >= furthest)
