@@ -1,4 +1,4 @@
-// Large arrays in large pages.
+// Large arrays in large pages, and given back at once.
 //
 // The arrays of a core are read out of order, and with pages of 4 kB a good part of that time goes into finding pages.
 // Where the system gives large pages on request only (Debian's default), this asks for them. Programs decide that, not
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <new>
 
+#include <malloc.h>
 #include <sys/mman.h>
 
 namespace
@@ -16,6 +17,9 @@ namespace
 constexpr std::size_t    largePage = std::size_t{ 2 } << 20;
 constexpr std::size_t    worthIt = 8 * largePage;
 constexpr std::uintptr_t insidePage = largePage - 1;
+
+// Left to itself, malloc() learns from arrays of up to 32 MB that it should keep such memory for later.
+[[maybe_unused]] const int isThresholdSet = mallopt(M_MMAP_THRESHOLD, worthIt);
 
 void
 AskForLargePages(void * memory, std::size_t size)

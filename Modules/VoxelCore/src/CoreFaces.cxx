@@ -18,17 +18,14 @@ namespace
 constexpr std::uint32_t kRank = ~kBoundarySide;
 constexpr std::size_t   kAhead = 4; // faces
 
-// A core edge as one side of a face: the dual of one facet around the face's Delaunay edge (p, q), p < q.
+// A core edge as one side of a face, the dual of one facet around the face's Delaunay edge (p, q), p < q: twice the
+// edge, plus 1 when the face, seen against p -> q, passes it from end 0 to end 1.
+using Turn = std::uint32_t;
+
 struct Side
 {
   std::uint32_t q;
-  std::uint32_t turn; // twice the edge, plus 1 when the face, seen against p -> q, passes it from end 0 to end 1
-
-  ElementIndex
-  Edge() const
-  {
-    return turn >> 1;
-  }
+  Turn          turn;
 };
 
 // Consecutive points are worked on together: their sides fit the caches.
@@ -143,21 +140,22 @@ using Edges = std::vector<std::array<ElementIndex, 2>>;
 struct Group
 {
   std::array<ElementIndex, 3> smallest; // vertices of the face: they decide its place, as faces share at most an edge
-  std::uint32_t               p;        // the smaller end of its Delaunay edge
+  std::uint32_t               p;        // the ends of its Delaunay edge, the smaller first
+  std::uint32_t               q;
   std::uint32_t               count;
   std::uint64_t               first; // of all sides
 };
 
 ElementIndex
-Tail(const Side & side, const Edges & edges)
+Tail(Turn turn, const Edges & edges)
 {
-  return edges[side.Edge()][1 - (side.turn & 1U)];
+  return edges[turn >> 1][1 - (turn & 1U)];
 }
 
 ElementIndex
-Head(const Side & side, const Edges & edges)
+Head(Turn turn, const Edges & edges)
 {
-  return edges[side.Edge()][side.turn & 1U];
+  return edges[turn >> 1][turn & 1U];
 }
 
 [[noreturn]] void
@@ -169,7 +167,7 @@ FailOpenFace()
 // All sides, face by face.
 struct Faces
 {
-  std::vector<Side>  sides;
+  std::vector<Turn>  turns;
   std::vector<Group> groups;
 };
 
@@ -181,7 +179,7 @@ GroupRange(const DelaunayCells & cells,
            std::size_t           range,
            const Edges &         edges,
            std::size_t           pointCount,
-           std::span<Side>       sides,
+           std::span<Turn>       turns,
            std::uint64_t         shift,
            std::vector<Group> &  groups)
 {
@@ -193,11 +191,12 @@ GroupRange(const DelaunayCells & cells,
   {
     start[p] += start[p - 1];
   }
+  std::vector<Side> sides(turns.size());
   VisitSides(cells, byRange, range, [&](std::uint32_t p, const Side & side) { sides[start[p - low + 1]++] = side; });
   bool closed = true;
   for (std::size_t p = 0; p < size; ++p)
   {
-    const std::span<Side> own = sides.subspan(start[p], start[p + 1] - start[p]);
+    const std::span<Side> own{ sides.data() + start[p], sides.data() + start[p + 1] };
     std::sort(own.begin(), own.end(), [](const Side & a, const Side & b) { return a.q < b.q; });
     for (std::size_t first = 0, last = 0; first < own.size(); first = last)
     {
@@ -205,7 +204,8 @@ GroupRange(const DelaunayCells & cells,
       std::array<ElementIndex, 3> smallest{ none, none, none };
       for (; last < own.size() && own[last].q == own[first].q; ++last)
       {
-        ElementIndex vertex = Tail(own[last], edges);
+        turns[start[p] + last] = own[last].turn;
+        ElementIndex vertex = Tail(own[last].turn, edges);
         for (ElementIndex & place : smallest)
         {
           if (vertex < place)
@@ -217,10 +217,12 @@ GroupRange(const DelaunayCells & cells,
       closed = closed && last - first >= 3;
       groups.push_back({ smallest,
                          static_cast<std::uint32_t>(low + p),
+                         own[first].q,
                          static_cast<std::uint32_t>(last - first),
                          shift + start[p] + first });
     }
   }
+  groups.shrink_to_fit(); // all ranges' wait side by side
   return closed;
 }
 
@@ -228,7 +230,7 @@ Faces
 CollectFaces(DelaunayCells cells, std::size_t pointCount, const Edges & edges)
 {
   const std::size_t               ranges = (pointCount + (std::size_t{ 1 } << kRangeBits) - 1) >> kRangeBits;
-  const RangeFacets               byRange = FacetsByRange(cells, ranges);
+  RangeFacets                     byRange = FacetsByRange(cells, ranges);
   std::vector<std::uint64_t>      sidesBefore(ranges + 1, 0);
   std::vector<std::vector<Group>> parts(ranges);
   const bool                      many = ranges > 1;
@@ -244,12 +246,12 @@ CollectFaces(DelaunayCells cells, std::size_t pointCount, const Edges & edges)
     sidesBefore[range + 1] += sidesBefore[range];
   }
   Faces faces;
-  faces.sides.resize(sidesBefore[ranges]);
+  faces.turns.resize(sidesBefore[ranges]);
   bool closed = true;
 #pragma omp parallel for schedule(dynamic) reduction(&& : closed) if (many)
   for (std::size_t range = 0; range < ranges; ++range)
   {
-    const std::span<Side> own{ faces.sides.data() + sidesBefore[range], faces.sides.data() + sidesBefore[range + 1] };
+    const std::span<Turn> own{ faces.turns.data() + sidesBefore[range], faces.turns.data() + sidesBefore[range + 1] };
     closed = GroupRange(cells, byRange, range, edges, pointCount, own, sidesBefore[range], parts[range]) && closed;
   }
   if (!closed)
@@ -257,6 +259,7 @@ CollectFaces(DelaunayCells cells, std::size_t pointCount, const Edges & edges)
     FailOpenFace();
   }
   cells = {};
+  byRange = {};
   std::size_t count = 0;
   for (const auto & part : parts)
   {
@@ -301,26 +304,26 @@ CanonicalFaceOrder(const std::vector<Group> & groups, std::size_t vertexCount)
 
 // Chains the sides of one face head to tail from its smallest vertex on; false when they do not close.
 bool
-WriteFace(std::span<Side> sides,
+WriteFace(std::span<Turn> turns,
           const Edges &   edges,
           ElementIndex    smallest,
           ElementIndex *  vertices,
           ElementIndex *  faceEdges)
 {
   ElementIndex at = smallest;
-  for (std::size_t i = 0; i < sides.size(); ++i)
+  for (std::size_t i = 0; i < turns.size(); ++i)
   {
-    const auto next = std::find_if(sides.begin() + static_cast<std::ptrdiff_t>(i), sides.end(), [&](const Side & side) {
-      return Tail(side, edges) == at;
+    const auto next = std::find_if(turns.begin() + static_cast<std::ptrdiff_t>(i), turns.end(), [&](Turn turn) {
+      return Tail(turn, edges) == at;
     });
-    if (next == sides.end())
+    if (next == turns.end())
     {
       return false;
     }
-    std::iter_swap(sides.begin() + static_cast<std::ptrdiff_t>(i), next);
+    std::iter_swap(turns.begin() + static_cast<std::ptrdiff_t>(i), next);
     vertices[i] = at;
-    faceEdges[i] = sides[i].Edge();
-    at = Head(sides[i], edges);
+    faceEdges[i] = turns[i] >> 1;
+    at = Head(turns[i], edges);
   }
   return at == smallest;
 }
@@ -355,18 +358,17 @@ WriteFaces(DelaunayCells                     cells,
     if (face + 3 * kAhead < order.size())
     {
       __builtin_prefetch(faces.groups.data() + order[face + 3 * kAhead]);
-      __builtin_prefetch(faces.sides.data() + faces.groups[order[face + 2 * kAhead]].first);
+      __builtin_prefetch(faces.turns.data() + faces.groups[order[face + 2 * kAhead]].first);
       const Group & next = faces.groups[order[face + kAhead]];
       for (std::uint32_t side = 0; side < next.count; ++side)
       {
-        __builtin_prefetch(complex.edges.data() + faces.sides[next.first + side].Edge());
+        __builtin_prefetch(complex.edges.data() + (faces.turns[next.first + side] >> 1));
       }
-      __builtin_prefetch(sortedPoints.data() + faces.sides[next.first].q);
       __builtin_prefetch(sortedPoints.data() + next.p);
+      __builtin_prefetch(sortedPoints.data() + next.q);
     }
     const Group &         group = faces.groups[order[face]];
-    const std::span<Side> own{ faces.sides.data() + group.first, group.count };
-    const std::uint32_t   q = own[0].q;
+    const std::span<Turn> own{ faces.turns.data() + group.first, group.count };
     const auto            at = static_cast<std::ptrdiff_t>(complex.faceOffsets[face]);
     open = !WriteFace(own,
                       complex.edges,
@@ -374,7 +376,7 @@ WriteFaces(DelaunayCells                     cells,
                       complex.faceVertices.data() + at,
                       complex.faceEdges.data() + at) ||
            open;
-    const Int128 squared = SquaredDistance(sortedPoints[group.p], sortedPoints[q], weights);
+    const Int128 squared = SquaredDistance(sortedPoints[group.p], sortedPoints[group.q], weights);
     core.faceLambda[face] = ToMillimetres(RatioToDouble(static_cast<UInt128>(squared), 4), weights);
   }
   if (open)

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace voxelcore
 {
@@ -137,10 +138,17 @@ PruneByLambda(const MedialComplex & core, const std::vector<double> & thresholds
   std::vector<MedialComplex> pruned;
   pruned.reserve(thresholds.size());
   SimplePairCollapse collapse(core.cells, core.vertexLambda, core.edgeLambda, core.faceLambda);
-  for (const double threshold : thresholds)
+  for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
-    collapse.CollapseBelow(threshold, progress);
-    pruned.push_back(ExtractPart(core, collapse.Live()));
+    collapse.CollapseBelow(thresholds[i], progress);
+    if (i + 1 < thresholds.size())
+    {
+      pruned.push_back(ExtractPart(core, collapse.Live()));
+    }
+    else
+    {
+      pruned.push_back(ExtractPart(core, std::move(collapse).TakeLive()));
+    }
   }
   return pruned;
 }

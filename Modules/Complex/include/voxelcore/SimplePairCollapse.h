@@ -5,6 +5,7 @@
 #include "voxelcore/Progress.h"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -42,6 +43,15 @@ public:
   Live() const
   {
     return m_Live;
+  }
+
+  /** The same of one that is done, whose memory for going on is given back. */
+  LiveElements
+  TakeLive() &&
+  {
+    std::vector<Cofaces>().swap(m_VertexCofaces);
+    std::vector<Cofaces>().swap(m_EdgeCofaces);
+    return std::move(m_Live);
   }
 
 private:
