@@ -27,10 +27,10 @@ CellTracer::CellTracer(const TracingInput & input, std::size_t first, std::size_
   , m_Done(last - first, 0)
 {
   // Room for the usual number of cells and facets a vertex, so that arrays need not move: what is not touched costs
-  // nothing.
-  const auto share =
-    static_cast<std::size_t>(3.0 * static_cast<double>(input.points.size()) * static_cast<double>(last - first) /
-                             static_cast<double>(input.grid.Size()));
+  // nothing. Those of the first range take in the others' at the end.
+  const std::size_t bricks = first == 0 ? input.grid.Size() : last - first;
+  const auto        share = static_cast<std::size_t>(3.0 * static_cast<double>(input.points.size()) *
+                                              static_cast<double>(bricks) / static_cast<double>(input.grid.Size()));
   m_Result.tetrahedra.reserve(share / 2);
   m_Result.facetCells.reserve(share * 3 / 2);
   m_Result.facetOffsets.reserve(share * 3 / 2);
