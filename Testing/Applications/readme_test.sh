@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the commands README.md shows, one after the other as a reader would, on a small scan called scan.nii.gz, and
-# a cohort of it.
+# Runs the commands README.md shows, one after the other as a reader would, on a small scan called scan.nii.gz, a cohort of
+# it, and a `huge.nrrd` that is not. Those that need a cluster are run by the tests in Testing/Cluster.
 # usage: readme_test.sh PROGRAM
 set -euo pipefail
 
@@ -14,15 +14,20 @@ printf 'id,scan,lambda\nsub1,scan.nii.gz,1vox\nsub2,scan.nii.gz,\n' >cohort.csv
 mkdir -p build/release/bin scans
 cp scan.nii.gz scans/
 ln -s "$program" build/release/bin/voxelcore
+PATH=$PWD/build/release/bin:$PATH
+"$program" phantom root --size 40 -o huge.nrrd -q
 
 count=0
 while IFS= read -r line; do
+  if [[ $line == voxelcore\ render* ]] && ! command -v Xvfb >/dev/null; then
+    continue
+  fi
   count=$((count + 1))
   echo "+ $line"
   bash -euc "$line" </dev/null || { echo "readme_test.sh: README.md's command failed: $line" >&2; exit 1; }
-done < <(sed -n 's/^    \(build\/release\/bin\/voxelcore .*\)$/\1/p' "$readme")
-[ "$count" -ge 4 ] || { echo "readme_test.sh: README.md has only $count commands" >&2; exit 1; }
-for file in medial.vtp medial.json root.vtp root_branches.csv root.swc both_skeleton.vtp; do
+done < <(sed -nE 's/^    (((build\/release\/bin\/)?voxelcore |for k in ).*)$/\1/p' "$readme")
+[ "$count" -ge 14 ] || { echo "readme_test.sh: README.md has only $count commands" >&2; exit 1; }
+for file in medial.vtp medial.json root.vtp root_branches.csv root.swc both_skeleton.vtp t_bumps-1.2diag.vtp huge.vtp results/index.html; do
   [ -s "$file" ] || { echo "readme_test.sh: README.md's commands left no $file" >&2; exit 1; }
 done
 
