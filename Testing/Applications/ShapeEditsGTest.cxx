@@ -1,4 +1,4 @@
-// --crop, --fill-cavities, --min-voxels, --largest, --split-components as a user gives them.
+// --crop, --mend-shape, --fill-cavities, --min-voxels, --largest, --smooth-shape, --split-components as a user gives them.
 
 #include "Pipeline/TemporaryFolder.h"
 #include "Program.h"
@@ -247,6 +247,48 @@ TEST_F(ShapeEdits, CoreSaysWhatWasChanged)
   const std::string text = Run(With({ "core", "-o", m_Folder / "m.vtp" }, { "--fill-cavities", "--largest", "1" }));
   EXPECT_NE(text.find("1 cavity filled with 63 voxels, 1 component in them joined"), std::string::npos) << text;
   EXPECT_NE(text.find("4 components removed, with 154 voxels"), std::string::npos) << text;
+}
+
+/** A block of 14 x 14 x 14 with a bump and a pit of one voxel, and a rod of one voxel's width that was cut off it. */
+TestScan
+Rough()
+{
+  TestScan scan({ 30, 18, 18 });
+  scan.Fill({ 2, 2, 2 }, { 15, 15, 15 }, 1);
+  scan.At(8, 8, 16) = 1;
+  scan.At(8, 2, 8) = 0;
+  scan.Fill({ 17, 8, 8 }, { 26, 8, 8 }, 1);
+  return scan;
+}
+
+TEST_F(ShapeEdits, SmoothingFlipsSingleVoxelsAndKeepsTheTopology)
+{
+  WriteNrrd(m_Folder / "a.nrrd", Rough());
+  const Json report = Core({ "--smooth-shape" });
+  EXPECT_EQ(First(report), (Numbers{ 14 * 14 * 14 + 10, 2, 0, 0 }));
+  const Json & smoothed = report["labels"][0]["edits"]["smoothed"];
+  EXPECT_EQ(smoothed, (Json{ { "voxels_added", 1 }, { "voxels_removed", 1 }, { "largest_shift_voxels", 1.0 } }));
+  EXPECT_TRUE(report["parameters"]["smooth_shape"]);
+  EXPECT_FALSE(report["labels"][0]["edits"].contains("mended"));
+  EXPECT_EQ(First(Info({ "--smooth-shape" })), (Numbers{ 14 * 14 * 14 + 10, 2, 0, 0 }));
+  const std::string text = Run(With({ "core", "-o", m_Folder / "n.vtp" }, { "--smooth-shape" }));
+  EXPECT_NE(text.find("smoothed: 1 voxel added, 1 removed; the boundary moved by 1.00 voxels at most"),
+            std::string::npos)
+    << text;
+  Run({ "prune", m_Folder / "m.vtp", "--lambda", "3vox", "-o", m_Folder / "p.vtp" });
+  ExpectVerified("p.vtp");
+}
+
+TEST_F(ShapeEdits, MendingComesBeforeDustIsRemoved)
+{
+  WriteNrrd(m_Folder / "a.nrrd", Rough());
+  EXPECT_EQ(First(Core({ "--largest", "1" })), (Numbers{ 14 * 14 * 14, 1, 0, 0 }));
+  const Json report = Core({ "--largest", "1", "--mend-shape", "--smooth-shape" });
+  EXPECT_EQ(First(report), (Numbers{ 14 * 14 * 14 + 11, 1, 0, 0 }));
+  EXPECT_EQ(report["labels"][0]["edits"]["mended"]["pieces_joined"], 1);
+  EXPECT_EQ(report["labels"][0]["edits"]["mended"]["voxels_added"], 1);
+  EXPECT_EQ(report["labels"][0]["edits"]["components_removed"], 0);
+  Run({ "skeleton", m_Folder / "a.nrrd", "--mend-shape", "--smooth-shape", "-o", m_Folder / "s.vtp" });
 }
 
 TEST_F(ShapeEdits, WrongUseAndUnfitInputAreToldApart)

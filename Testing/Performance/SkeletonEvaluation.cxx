@@ -1,9 +1,10 @@
 // Curve skeletons of shapes whose answer is known, scored.
 
 #include "../Skeleton/RootScore.h"
-#include "../Skeleton/SurfaceNoise.h"
+#include "VoxelCoreTesting/SurfaceNoise.h"
 
 #include "voxelcore/BranchTable.h"
+#include "voxelcore/ShapeSmoothing.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -167,12 +167,12 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                                     std::numeric_limits<double>::infinity() } };
   report.parameters.crop = CropRange{ { 0, 1, 2 }, { 10, 11, 12 } };
   report.parameters.component = 2;
-  report.parameters.edits = { true, 50, 3, true };
+  report.parameters.edits = { true, true, 50, 3, true, true };
   for (LabelRecord & label : report.labels)
   {
     label.label = 7;
     label.component = &label - report.labels.data() + 1;
-    label.edits = EditRecord{ 2, 3, 4, 5, 6 };
+    label.edits = EditRecord{ 2, 3, 4, 5, 6, EditRecord::Mended{ 7, 8, 9, 10, 11 }, EditRecord::Smoothed{ 12, 13, 1 } };
   }
   const std::string text = ProvenanceJson(report, { 0, 1 }, 1);
   const CoreReport  read = ParseProvenance(text, "a.vtp");
@@ -187,6 +187,8 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   const Json json = Json::parse(text);
   EXPECT_EQ(json["parameters"]["crop"], (Json{ { 0, 10 }, { 1, 11 }, { 2, 12 } }));
   EXPECT_EQ(json["labels"][0]["edits"]["voxels_added"], 3);
+  EXPECT_EQ(json["labels"][0]["edits"]["mended"]["pieces_joined"], 9);
+  EXPECT_EQ(json["labels"][0]["edits"]["smoothed"]["voxels_removed"], 13);
   // The second component by itself, as in a file of its own.
   EXPECT_EQ(Json::parse(ProvenanceJson(report, { 1 }, 1))["parameters"]["labels"], Json{ 7 });
 }

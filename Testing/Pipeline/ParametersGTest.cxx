@@ -130,6 +130,8 @@ TEST(Parameters, EditsArriveWhereTheyBelong)
   const ParameterValues  given{ { "min-voxels", "20" },
                                { "largest", "2" },
                                { "fill-cavities", "true" },
+                               { "mend-shape", "true" },
+                               { "smooth-shape", "true" },
                                { "split-components", "true" } };
   const ShapeEditOptions core = CoreOptionsFrom(CoreValues(given)).edits;
   const ShapeEditOptions info = InfoOptionsFrom(CoreValues(given)).edits;
@@ -138,7 +140,7 @@ TEST(Parameters, EditsArriveWhereTheyBelong)
     ASSERT_TRUE(edits.minVoxels && edits.largest);
     EXPECT_EQ(*edits.minVoxels, 20U);
     EXPECT_EQ(*edits.largest, 2U);
-    EXPECT_TRUE(edits.fillCavities && edits.splitComponents);
+    EXPECT_TRUE(edits.fillCavities && edits.splitComponents && edits.mend && edits.smooth);
   }
 }
 

@@ -57,11 +57,26 @@ InputJson(const InputRecord & input, bool inFile)
 Json
 EditRecordJson(const EditRecord & edits)
 {
-  return { { "cavities_filled", edits.cavitiesFilled },
-           { "voxels_added", edits.voxelsAdded },
-           { "components_joined", edits.componentsJoined },
-           { "components_removed", edits.componentsRemoved },
-           { "voxels_removed", edits.voxelsRemoved } };
+  Json json{ { "cavities_filled", edits.cavitiesFilled },
+             { "voxels_added", edits.voxelsAdded },
+             { "components_joined", edits.componentsJoined },
+             { "components_removed", edits.componentsRemoved },
+             { "voxels_removed", edits.voxelsRemoved } };
+  if (edits.mended)
+  {
+    json["mended"] = { { "pieces_joined", edits.mended->piecesJoined },
+                       { "loops_closed", edits.mended->loopsClosed },
+                       { "cavities_filled", edits.mended->cavitiesFilled },
+                       { "voxels_added", edits.mended->voxelsAdded },
+                       { "voxels_removed", edits.mended->voxelsRemoved } };
+  }
+  if (edits.smoothed)
+  {
+    json["smoothed"] = { { "voxels_added", edits.smoothed->voxelsAdded },
+                         { "voxels_removed", edits.smoothed->voxelsRemoved },
+                         { "largest_shift_voxels", edits.smoothed->largestShift } };
+  }
+  return json;
 }
 
 Json
@@ -235,6 +250,24 @@ ReadEditRecord(const Json & json)
   json.at("components_joined").get_to(edits.componentsJoined);
   json.at("components_removed").get_to(edits.componentsRemoved);
   json.at("voxels_removed").get_to(edits.voxelsRemoved);
+  if (json.contains("mended"))
+  {
+    const Json &         from = json.at("mended");
+    EditRecord::Mended & mended = edits.mended.emplace();
+    from.at("pieces_joined").get_to(mended.piecesJoined);
+    from.at("loops_closed").get_to(mended.loopsClosed);
+    from.at("cavities_filled").get_to(mended.cavitiesFilled);
+    from.at("voxels_added").get_to(mended.voxelsAdded);
+    from.at("voxels_removed").get_to(mended.voxelsRemoved);
+  }
+  if (json.contains("smoothed"))
+  {
+    const Json &           from = json.at("smoothed");
+    EditRecord::Smoothed & smoothed = edits.smoothed.emplace();
+    from.at("voxels_added").get_to(smoothed.voxelsAdded);
+    from.at("voxels_removed").get_to(smoothed.voxelsRemoved);
+    from.at("largest_shift_voxels").get_to(smoothed.largestShift);
+  }
   return edits;
 }
 

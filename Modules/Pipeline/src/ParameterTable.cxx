@@ -42,9 +42,14 @@ threshold on it shows any greater height; what stays for ever has the length of 
 with --bumps is a floor: what it prunes goes first, and nothing is promised of that.
 
 Only the part that --crop names is looked at. A crop cuts: what it cuts through ends there, and a cavity it opens is none.
-Edits are then done label by label in the order --fill-cavities, --min-voxels, --largest, --split-components. Components
-are connected through faces (6-connected); equally large ones keep the order of the scan. What is in a label's cavity,
-other labels too, is filled.
+Edits are then done label by label in the order --mend-shape, --fill-cavities, --min-voxels, --largest, --smooth-shape,
+--split-components. Components are connected through faces (6-connected); equally large ones keep the order of the scan.
+What is in a label's cavity, other labels too, is filled.
+
+--smooth-shape and --mend-shape are for noisy masks. Smoothing flips single voxels that stand out of the boundary around
+them; pieces, loops and cavities stay as they are, nothing moves by more than a voxel's diagonal, clean bodies hardly change.
+Where noise has cut or pierced thin parts, mending goes before: it joins pieces one voxel apart, fills holes a voxel wide
+and takes away bridges of one voxel over a bay. True holes of that size go, too. The report says what was changed.
 
 --with-skeleton writes what 'voxelcore skeleton' would, from the same computation: OUT_skeleton.vtp beside OUT, in a folder
 <scan>_label-<value>_skeleton.vtp. The options about branches are explained there.
@@ -450,6 +455,14 @@ constexpr auto kParameters = std::to_array<Parameter>({
     false,
     kReads,
     "Work on a part of the scan: voxels I0 to I1-1, from 0; a side left out means the scan's" },
+  { "mend-shape",
+    "--mend-shape",
+    Flag,
+    "",
+    "",
+    false,
+    kReads,
+    "Noisy masks: join pieces one voxel apart, fill holes and bays that one voxel has bridged or pierced" },
   { "fill-cavities",
     "--fill-cavities",
     Flag,
@@ -460,6 +473,14 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "Fill each label's cavities (background that does not reach the outside, even over corners)" },
   { "min-voxels", "--min-voxels", Integer, "N", "", false, kReads, "Remove components of fewer than N voxels" },
   { "largest", "--largest", Integer, "N", "", false, kReads, "Keep the N largest components of each label" },
+  { "smooth-shape",
+    "--smooth-shape",
+    Flag,
+    "",
+    "",
+    false,
+    kReads,
+    "Noisy masks: flip single rough voxels at the boundary; pieces, loops and cavities stay as they are" },
   { "split-components",
     "--split-components",
     Flag,

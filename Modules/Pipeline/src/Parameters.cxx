@@ -196,6 +196,8 @@ ShapeEditsFrom(const ParameterValues & values, CommandId command)
   {
     edits.largest = static_cast<std::uint64_t>(reader.Whole("largest", 1, most));
   }
+  edits.mend = reader.IsSet("mend-shape");
+  edits.smooth = reader.IsSet("smooth-shape");
   edits.fillCavities = reader.IsSet("fill-cavities");
   edits.splitComponents = reader.IsSet("split-components");
   return edits;

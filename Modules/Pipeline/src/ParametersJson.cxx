@@ -57,9 +57,11 @@ ReadCrop(const Json & json)
 void
 AddEdits(Json & json, const ShapeEditOptions & edits)
 {
+  json["mend_shape"] = edits.mend;
   json["fill_cavities"] = edits.fillCavities;
   json["min_voxels"] = edits.minVoxels ? Json(*edits.minVoxels) : Json(nullptr);
   json["largest"] = edits.largest ? Json(*edits.largest) : Json(nullptr);
+  json["smooth_shape"] = edits.smooth;
   json["split_components"] = edits.splitComponents;
 }
 
@@ -77,9 +79,11 @@ ShapeEditOptions
 ReadEdits(const Json & json)
 {
   ShapeEditOptions edits;
+  edits.mend = json.value("mend_shape", false);
   json.at("fill_cavities").get_to(edits.fillCavities);
   ReadOptional(json.at("min_voxels"), edits.minVoxels);
   ReadOptional(json.at("largest"), edits.largest);
+  edits.smooth = json.value("smooth_shape", false);
   json.at("split_components").get_to(edits.splitComponents);
   return edits;
 }

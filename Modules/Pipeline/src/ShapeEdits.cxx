@@ -3,8 +3,10 @@
 #include "JobTools.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ShapeOperations.h"
+#include "voxelcore/ShapeSmoothing.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace voxelcore
@@ -14,7 +16,7 @@ namespace
 {
 
 EditRecord
-EditShape(VoxelShape & shape, const ShapeEditOptions & options)
+EditShape(VoxelShape & shape, const ShapeEditOptions & options, const ProgressCallback & progress)
 {
   EditRecord record;
   const auto take = [&shape](EditedShape edited) {
@@ -27,7 +29,18 @@ EditShape(VoxelShape & shape, const ShapeEditOptions & options)
     record.voxelsRemoved += edited.voxelsRemoved;
     shape = std::move(edited.shape);
   };
-  // Filled first: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any longer.
+  // Mended before anything is dropped: pieces torn off belong to what they were torn from.
+  if (options.mend)
+  {
+    MendedShape mended = MendShape(shape, progress);
+    shape = std::move(mended.shape);
+    record.mended = { mended.voxelsAdded,
+                      mended.voxelsRemoved,
+                      mended.piecesJoined,
+                      mended.loopsClosed,
+                      mended.cavitiesFilled };
+  }
+  // Filled before counting: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any longer.
   if (options.fillCavities)
   {
     const EditedShape filled = take(FillCavities(std::move(shape)));
@@ -42,6 +55,12 @@ EditShape(VoxelShape & shape, const ShapeEditOptions & options)
   if (options.largest)
   {
     takeRemoved(KeepLargestComponents(std::move(shape), *options.largest));
+  }
+  if (options.smooth && shape.Box().size[0] > 0)
+  {
+    SmoothedShape smoothed = SmoothShape(shape, progress);
+    shape = std::move(smoothed.shape);
+    record.smoothed = { smoothed.voxelsAdded, smoothed.voxelsRemoved, smoothed.largestShift };
   }
   return record;
 }
@@ -73,11 +92,45 @@ Counted(std::uint64_t count, const std::string & one, const std::string & many)
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+void
+Add(const EditRecord & record, EditRecord & sum)
+{
+  sum.cavitiesFilled += record.cavitiesFilled;
+  sum.voxelsAdded += record.voxelsAdded;
+  sum.componentsJoined += record.componentsJoined;
+  sum.componentsRemoved += record.componentsRemoved;
+  sum.voxelsRemoved += record.voxelsRemoved;
+  if (record.mended)
+  {
+    EditRecord::Mended & mended = sum.mended ? *sum.mended : sum.mended.emplace();
+    mended.voxelsAdded += record.mended->voxelsAdded;
+    mended.voxelsRemoved += record.mended->voxelsRemoved;
+    mended.piecesJoined += record.mended->piecesJoined;
+    mended.loopsClosed += record.mended->loopsClosed;
+    mended.cavitiesFilled += record.mended->cavitiesFilled;
+  }
+  if (record.smoothed)
+  {
+    EditRecord::Smoothed & smoothed = sum.smoothed ? *sum.smoothed : sum.smoothed.emplace();
+    smoothed.voxelsAdded += record.smoothed->voxelsAdded;
+    smoothed.voxelsRemoved += record.smoothed->voxelsRemoved;
+    smoothed.largestShift = std::max(smoothed.largestShift, record.smoothed->largestShift);
+  }
+}
+
 /** The sum over all labels in words. */
 std::vector<std::string>
 Describe(const EditRecord & sum, const ShapeEditOptions & options)
 {
   std::vector<std::string> notes;
+  if (sum.mended)
+  {
+    notes.push_back("mended: " + Counted(sum.mended->piecesJoined, "piece", "pieces") + " joined, " +
+                    Counted(sum.mended->loopsClosed, "loop", "loops") + " closed, " +
+                    Counted(sum.mended->cavitiesFilled, "cavity", "cavities") + " filled; " +
+                    Counted(sum.mended->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.mended->voxelsRemoved) + " removed");
+  }
   if (options.fillCavities)
   {
     notes.push_back(Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
@@ -88,6 +141,14 @@ Describe(const EditRecord & sum, const ShapeEditOptions & options)
   {
     notes.push_back(Counted(sum.componentsRemoved, "component", "components") + " removed, with " +
                     Counted(sum.voxelsRemoved, "voxel", "voxels"));
+  }
+  if (sum.smoothed)
+  {
+    char shift[32];
+    std::snprintf(shift, sizeof(shift), "%.2f", sum.smoothed->largestShift);
+    notes.push_back("smoothed: " + Counted(sum.smoothed->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.smoothed->voxelsRemoved) + " removed; the boundary moved by " + shift +
+                    " voxels at most");
   }
   return notes;
 }
@@ -117,12 +178,8 @@ EditLabels(LabelVolume &            volume,
   {
     ReportProgress(progress, "editing", static_cast<double>(i) / static_cast<double>(labels.size()));
     LabelShape &     label = labels[i];
-    const EditRecord record = EditShape(label.shape, options);
-    sum.cavitiesFilled += record.cavitiesFilled;
-    sum.voxelsAdded += record.voxelsAdded;
-    sum.componentsJoined += record.componentsJoined;
-    sum.componentsRemoved += record.componentsRemoved;
-    sum.voxelsRemoved += record.voxelsRemoved;
+    const EditRecord record = EditShape(label.shape, options, progress);
+    Add(record, sum);
     if (label.shape.Box().size[0] == 0)
     {
       gone.push_back(LabelText(label.value, label.name));

@@ -18,7 +18,7 @@ using Voxel = std::array<std::int32_t, 3>;
 class PaddedShape
 {
 public:
-  static constexpr std::int32_t kRoom = 3;
+  static constexpr std::int32_t kRoom = 4;
 
   explicit PaddedShape(const VoxelShape & shape);
 
@@ -28,7 +28,7 @@ public:
     return m_Shape.Box().size;
   }
 
-  /** Up to 7 voxels from one on along x, in the lowest bits. */
+  /** Up to 31 voxels from one on along x, in the lowest bits. */
   std::uint32_t
   Bits(std::int32_t x, std::int32_t y, std::int32_t z, unsigned count) const
   {

@@ -23,22 +23,20 @@ public:
   Window(const PaddedShape & shape, const Voxel & centre, bool background)
     : m_Background(background)
   {
-    const Voxel & size = shape.Size();
-    for (std::int32_t z = 0; z < kSide; ++z)
+    // What lies beyond the room is background.
+    const Voxel &      size = shape.Size();
+    const std::int32_t first = std::max(0, centre[0] - kReach);
+    const std::int32_t end = std::min(size[0], centre[0] + kReach + 1);
+    for (std::int32_t row = 0; row < kSide * kSide; ++row)
     {
-      for (std::int32_t y = 0; y < kSide; ++y)
+      const std::int32_t y = centre[1] - kReach + row % kSide;
+      const std::int32_t z = centre[2] - kReach + row / kSide;
+      std::uint32_t      bits = 0;
+      if (y >= 0 && y < size[1] && z >= 0 && z < size[2])
       {
-        const Voxel   at{ centre[0] - kReach, centre[1] + y - kReach, centre[2] + z - kReach };
-        std::uint32_t bits = 0;
-        for (std::int32_t x = 0; x < kSide; ++x)
-        {
-          const bool isInside =
-            at[0] + x >= 0 && at[0] + x < size[0] && at[1] >= 0 && at[1] < size[1] && at[2] >= 0 && at[2] < size[2];
-          const bool isIn = isInside && shape.Contains({ at[0] + x, at[1], at[2] });
-          bits |= isIn != background ? 1U << x : 0U;
-        }
-        m_Set[Row(y, z)] = bits;
+        bits = shape.Bits(first, y, z, static_cast<unsigned>(end - first)) << (first + kReach - centre[0]);
       }
+      m_Set[static_cast<std::size_t>(row)] = background ? ~bits & ((1U << kSide) - 1) : bits;
     }
     m_Set[Row(kReach, kReach)] &= ~(1U << kReach);
   }

@@ -3,7 +3,9 @@
 #include "ShapeField.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
+#include <tuple>
 #include <vector>
 
 namespace voxelcore
@@ -13,7 +15,7 @@ namespace
 {
 
 // How much more than half must speak against a voxel. With kFieldOwn / 2 = 404 it would take part in the vote itself.
-// At 300 digitised planes, balls, tubes and tori stay as they are, and four fifths of 5 % noise on them go.
+// At 300 one of 200 boundary vertices of clean balls and rods sees a flip, and two thirds of 5 % noise on them go.
 constexpr std::int32_t kAgainst = 300;
 
 // What a voxel stands on must be more than half in, without that voxel, else it is thin, and a rod would lose its tip.
@@ -47,6 +49,7 @@ public:
         Flip(candidate.voxel, result);
       }
     }
+    result.largestShift = std::sqrt(static_cast<double>(LargestSquaredShift()));
     result.shape = std::move(m_Shape).Release();
     return result;
   }
@@ -55,14 +58,15 @@ private:
   struct Candidate
   {
     std::int32_t gain;
+    std::int32_t wide; ///< what a wider view says for it, in voxels
     Voxel        voxel;
 
-    /** Greater gains first, then in scan order. */
+    /** Greater gains first, then wider views, which turn with the shape, then in scan order. */
     friend bool
     operator<(const Candidate & a, const Candidate & b)
     {
       const auto order = [](const Voxel & v) { return Voxel{ v[2], v[1], v[0] }; };
-      return a.gain != b.gain ? a.gain < b.gain : order(b.voxel) < order(a.voxel);
+      return std::tuple(a.gain, a.wide, order(b.voxel)) < std::tuple(b.gain, b.wide, order(a.voxel));
     }
   };
 
@@ -79,7 +83,7 @@ private:
         m_Shape.VisitBoundary(y, z, [&](const Voxel & voxel) {
           if (const std::int32_t gain = Gain(voxel); gain > 0)
           {
-            found[static_cast<std::size_t>(z)].push_back({ gain, voxel });
+            found[static_cast<std::size_t>(z)].push_back({ gain, WideView(voxel), voxel });
           }
         });
       }
@@ -99,6 +103,18 @@ private:
     const std::int32_t pull = m_Original.Contains(voxel) ? kAgainst : -kAgainst;
     const std::int32_t forIn = FieldAround(m_Shape, voxel) - kFieldHalf + pull;
     return m_Shape.Contains(voxel) ? -forIn : forIn;
+  }
+
+  /** Of the 7 x 7 x 7 voxels around, how many are on the other side. */
+  std::int32_t
+  WideView(const Voxel & voxel) const
+  {
+    std::int32_t in = 0;
+    for (std::int32_t k = 0; k < 49; ++k)
+    {
+      in += std::popcount(m_Shape.Bits(voxel[0] - 3, voxel[1] - 3 + k % 7, voxel[2] - 3 + k / 7, 7));
+    }
+    return m_Shape.Contains(voxel) ? -in : in;
   }
 
   bool
@@ -178,12 +194,74 @@ private:
           {
             if (const std::int32_t gain = Gain(near); gain > 0)
             {
-              m_Queue.push({ gain, near });
+              m_Queue.push({ gain, WideView(near), near });
             }
           }
         }
       }
     }
+  }
+
+  /** Whether the lattice point at the lower corner of a voxel is a boundary vertex. */
+  static bool
+  IsBoundaryVertex(const PaddedShape & shape, const Voxel & corner)
+  {
+    std::uint32_t voxels = 0;
+    for (std::int32_t k = 0; k < 4; ++k)
+    {
+      voxels = voxels << 2 | shape.Bits(corner[0] - 1, corner[1] - k % 2, corner[2] - k / 2, 2);
+    }
+    return voxels != 0 && voxels != 0xFF;
+  }
+
+  /** From a vertex that is on one boundary and not on the other to the latter; 0 for others. */
+  static std::int32_t
+  SquaredShift(const Voxel & corner, const PaddedShape & from, const PaddedShape & to)
+  {
+    if (!IsBoundaryVertex(from, corner) || IsBoundaryVertex(to, corner))
+    {
+      return 0;
+    }
+    std::int32_t nearest = 3;
+    for (std::int32_t k = 0; k < 27; ++k)
+    {
+      const Voxel step{ k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1 };
+      if (IsBoundaryVertex(to, { corner[0] + step[0], corner[1] + step[1], corner[2] + step[2] }))
+      {
+        nearest = std::min(nearest, step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
+      }
+    }
+    return nearest;
+  }
+
+  /** Only vertices of voxels that changed can lie off the other boundary, and they lie within a voxel's diagonal: it
+   *  was at the boundary, and has a face neighbour of the kind it was. */
+  std::int32_t
+  LargestSquaredShift() const
+  {
+    const Voxel & size = m_Shape.Size();
+    std::int32_t  largest = 0;
+#pragma omp parallel for schedule(dynamic, 4) reduction(max : largest)
+    for (std::int32_t z = 2; z < size[2] - 1; ++z)
+    {
+      std::int32_t here = 0;
+      for (std::int32_t y = 2; y + 1 < size[1]; ++y)
+      {
+        m_Original.VisitBoundary(y, z, [&](const Voxel & voxel) {
+          if (m_Shape.Contains(voxel) != m_Original.Contains(voxel))
+          {
+            for (std::int32_t k = 0; k < 8; ++k)
+            {
+              const Voxel corner{ voxel[0] + k % 2, voxel[1] + k / 2 % 2, voxel[2] + k / 4 };
+              here = std::max(
+                { here, SquaredShift(corner, m_Original, m_Shape), SquaredShift(corner, m_Shape, m_Original) });
+            }
+          }
+        });
+      }
+      largest = std::max(largest, here);
+    }
+    return largest;
   }
 
   PaddedShape                    m_Original;

@@ -15,15 +15,17 @@ namespace voxelcore
 /** Done to each label by itself, in this order. */
 struct ShapeEditOptions
 {
+  bool                         mend = false; ///< what flips of single voxels have torn or pierced
   bool                         fillCavities = false;
   std::optional<std::uint64_t> minVoxels; ///< components (6-connected) of fewer voxels are removed
   std::optional<std::uint64_t> largest;   ///< so many components are kept
+  bool                         smooth = false;
   bool                         splitComponents = false;
 
   bool
   AreAsked() const
   {
-    return fillCavities || minVoxels || largest || splitComponents;
+    return mend || fillCavities || minVoxels || largest || smooth || splitComponents;
   }
 };
 
@@ -35,6 +37,27 @@ struct EditRecord
   std::uint64_t componentsJoined = 0; ///< components that lay in cavities
   std::uint64_t componentsRemoved = 0;
   std::uint64_t voxelsRemoved = 0; ///< with these components
+
+  /** By how much MendShape lowered each topology number. */
+  struct Mended
+  {
+    std::uint64_t voxelsAdded = 0;
+    std::uint64_t voxelsRemoved = 0;
+    std::uint64_t piecesJoined = 0;
+    std::uint64_t loopsClosed = 0;
+    std::uint64_t cavitiesFilled = 0;
+  };
+
+  /** What SmoothShape changed. */
+  struct Smoothed
+  {
+    std::uint64_t voxelsAdded = 0;
+    std::uint64_t voxelsRemoved = 0;
+    double        largestShift = 0; ///< voxels
+  };
+
+  std::optional<Mended>   mended;   ///< when asked
+  std::optional<Smoothed> smoothed; ///< when asked
 };
 
 /** A label, or one of its components, to work on. */

@@ -15,6 +15,8 @@ struct SmoothedShape
   VoxelShape    shape;
   std::uint64_t voxelsAdded = 0;
   std::uint64_t voxelsRemoved = 0;
+  double        largestShift =
+    0; ///< voxels: of any boundary vertex, before or after, from the other boundary; at most sqrt(3)
 };
 
 /** Without the roughness of single voxels, and with the same topology.

@@ -1,11 +1,13 @@
 #pragma once
 // Noise on the surface of a shape.
 
-#include "SkeletonFixtures.h"
+#include "VoxelCoreTesting/Shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <random>
+#include <vector>
 
 namespace voxelcore::testing
 {
