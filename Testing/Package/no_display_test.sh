@@ -33,6 +33,7 @@ refused() {
 }
 refused "$program" core t.nrrd -o page.vtp --html page.html
 refused "$program" core t.nrrd -o scene.vtp --scene scene.mrml
+refused "$program" batch t.nrrd -o cohort --html
 refused "$program" render t.vtp -o t.png
 [ "$(ls | sort | tr '\n' ' ')" = "complaint said t.nrrd t.vtp t_skeleton.vtp " ] || fail "files were left: $(ls)"
 echo "without display: works"

@@ -1,6 +1,7 @@
 #include "voxelcore/BatchJob.h"
 
 #include "Scheduler.h"
+#include "voxelcore/BuildFacts.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GatherCohort.h"
 #include "voxelcore/OutputTransaction.h"
@@ -129,6 +130,11 @@ JobOf(const CohortCase & one, const BatchOptions & options)
     }
     values.erase(value); // an option may stand in the table once for each command
   }
+  if (options.pages)
+  {
+    job.arguments.push_back("--html=" + stem + "_view.html");
+    job.options += "--html\n";
+  }
   return job;
 }
 
@@ -193,6 +199,11 @@ BatchOptionsFrom(const ParameterValues & values)
       ? 0
       : NumberWithUnit("--timeout", timeout, std::array<Unit, 3>{ { { "s", 1 }, { "m", 60 }, { "h", 3600 } } });
   options.skeletons = !values.contains("no-skeleton");
+  options.pages = values.contains("html");
+  if (options.pages)
+  {
+    RequirePages(); // once, rather than in each case
+  }
   options.force = values.contains("force");
   options.gather = values.contains("gather");
   if (values.contains("case"))

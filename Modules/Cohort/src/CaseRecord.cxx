@@ -1,5 +1,6 @@
 #include "voxelcore/CaseRecord.h"
 
+#include "voxelcore/BuildFacts.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelVolume.h"
@@ -74,7 +75,7 @@ FilesOf(const fs::path & folder)
 std::string
 CaseKey(const fs::path & scan, const std::string & options)
 {
-  return DigestOf(ScanSha256(scan) + "\n" + NamesDigest(scan) + VoxelCoreVersion() + "\n" + options);
+  return DigestOf(ScanSha256(scan) + "\n" + NamesDigest(scan) + SourceDigest() + "\n" + options);
 }
 
 fs::path
@@ -107,6 +108,7 @@ WriteCaseRecord(const fs::path & folder, const CaseRecord & record)
   json["scan"] = record.scan;
   json["key"] = record.key;
   json["version"] = VoxelCoreVersion();
+  json["sources"] = SourceDigest();
   json["status"] = record.done ? "done" : "failed";
   json["reason"] = record.reason;
   json["warnings"] = record.warnings;

@@ -22,7 +22,7 @@ struct PageColumn
 
 constexpr PageColumn kColumns[] = {
   { "volume mm³", "volume_mm3" },
-  { "area mm²", "core_area_mm2" },
+  { "area mm²", "pruned_0_area_mm2" },
   { "max radius mm", "core_max_radius_mm" },
   { "pieces", "shape_betti_0" },
   { "loops", "shape_betti_1" },
@@ -113,7 +113,11 @@ function paintRow(row) {
   if (c.thumbnail) {
     const img = document.createElement("img");
     img.loading = "lazy"; img.alt = ""; img.src = c.folder + "/" + encodeURIComponent(c.thumbnail);
-    picture.append(img);
+    if (c.view) {
+      const a = document.createElement("a");
+      a.href = c.folder + "/" + encodeURIComponent(c.view); a.title = "in 3-D"; img.alt = "in 3-D";
+      a.append(img); picture.append(a);
+    } else picture.append(img);
   }
   cell(tr, c.id, "id");
   if (row.failed) {
@@ -135,6 +139,7 @@ function paintRow(row) {
   cell(tr, count ? String(count) : "", "n");
   cell(tr, c.warnings.join(" "), "w");
   const files = tr.insertCell();
+  if (c.view) link(files, "3-D view", c.folder + "/" + c.view);
   c.files.forEach(f => link(files, f[0], c.folder + "/" + f[1]));
   return tr;
 }
@@ -234,6 +239,7 @@ CaseJson(const PageCase & one)
                 { "reason", one.record.reason },
                 { "warnings", one.record.warnings },
                 { "thumbnail", "" },
+                { "view", "" },
                 { "files", Json::array() },
                 { "labels", Json::array() } };
   for (const OutputFile & output : one.record.outputs)
@@ -241,6 +247,10 @@ CaseJson(const PageCase & one)
     if (output.name.ends_with("_thumbnail.png"))
     {
       json["thumbnail"] = output.name;
+    }
+    else if (output.name.ends_with("_view.html"))
+    {
+      json["view"] = output.name;
     }
     else
     {

@@ -18,7 +18,7 @@ constexpr double      kMedianToDeviation = 1.4826;
 constexpr double      kMeanToDeviation = 1.2533;
 
 constexpr std::array<const char *, 8> kCompared{
-  "volume_mm3",    "core_area_mm2",      "core_max_radius_mm",       "skeleton_branches",
+  "volume_mm3",    "pruned_0_area_mm2",  "core_max_radius_mm",       "skeleton_branches",
   "skeleton_tips", "skeleton_junctions", "skeleton_total_length_mm", "skeleton_mean_radius_mm"
 };
 

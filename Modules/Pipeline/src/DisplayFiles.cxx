@@ -2,6 +2,7 @@
 
 #include "DisplayLoading.h"
 #include "JobTools.h"
+#include "voxelcore/BuildFacts.h"
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/HtmlPage.h"
@@ -26,6 +27,15 @@ constexpr std::size_t kMostCurves = 200;
 constexpr const char * kDataFolder = "Data";
 
 } // namespace
+
+void
+RequirePages()
+{
+  if (!HasHtml())
+  {
+    throw UsageError("--html is off in this build: three.js was not there when it was made (Debian: libjs-three)");
+  }
+}
 
 struct DisplayFiles::State
 {
@@ -107,10 +117,7 @@ DisplayFiles::DisplayFiles(const DisplayTargets & targets, const fs::path & inpu
   }
   if (targets.html)
   {
-    if (!HasHtml())
-    {
-      throw UsageError("--html is off in this build: three.js was not there when it was made (Debian: libjs-three)");
-    }
+    RequirePages();
     if (targets.html->extension() != ".html")
     {
       throw UsageError("--html " + targets.html->string() + ": unknown extension; give .html");

@@ -2,10 +2,19 @@
 
 #include "DisplayFiles.h"
 
+#include "voxelcore/BuildFacts.h"
 #include "voxelcore/Error.h"
 
 namespace voxelcore
 {
+
+void
+RequirePages()
+{
+  throw UsageError(
+    "--scene and --html are off in this build: it was made without VTK's rendering "
+    "(-DVOXELCORE_DISPLAY=ON, with libvtk9-dev, brings them)");
+}
 
 struct DisplayFiles::State
 {};
@@ -14,9 +23,7 @@ DisplayFiles::DisplayFiles(const DisplayTargets & targets, const std::filesystem
 {
   if (targets.scene || targets.html)
   {
-    throw UsageError(
-      "--scene and --html are off in this build: it was made without VTK's rendering "
-      "(-DVOXELCORE_DISPLAY=ON, with libvtk9-dev, brings them)");
+    RequirePages();
   }
 }
 

@@ -163,7 +163,7 @@ The other options hold for all cases; a case's own come first. Skeletons are mad
 Each case is a process of its own and costs only itself when it fails; exit code 1 when one did. OUTDIR gets sub-<id>/ with
 sub-<id>_medial.vtp, _skeleton.vtp, _skeleton.swc, _report.json and more, cases.csv and labels.csv with every number of the
 reports, and index.html, which opens without a network. Run again, only that is done which is not done yet, decided by the
-content of the scan, the options and the version; however it was stopped.
+content of the scan, the options and the program; however it was stopped.
 
 On a cluster: 'batch manifest.csv -o OUT --case $SLURM_ARRAY_TASK_ID' for each case, then 'batch manifest.csv -o OUT
 --gather'. Applications/Snakemake does both.
@@ -280,6 +280,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     kBatch,
     "What a case may take: 90s, 10m, 2h; by default as long as it likes" },
   { "no-skeleton", "--no-skeleton", Flag, "", "", false, kBatch, "Medial surfaces alone, no skeletons" },
+  { "html", "--html", Flag, "", "", false, kBatch, "A page per case that shows it in 3-D, linked from index.html" },
   { "case", "--case", Integer, "K", "", false, kBatch, "Run only number K of the cases, from 1, and write no tables" },
   { "gather", "--gather", Flag, "", "", false, kBatch, "Run nothing; write tables and page of what is in OUTDIR" },
   { "list", "--list", Flag, "", "", false, kBatch, "Run nothing; print number, folder and id of each case" },
@@ -561,7 +562,7 @@ constexpr auto kParameters = std::to_array<Parameter>({
     "N",
     "300000",
     false,
-    kCore | kSkeleton,
+    kCore | kSkeleton | kBatch,
     "Show about so many triangles in the page; larger results are decimated for it" },
   { "report", "--report", Output, "OUT.json", "", false, kModels | kSkeleton, "Write what was done and found as JSON" },
   { "size", "--size", Text, "N|X,Y,Z", "64", false, kPhantom, "Size in voxels" },

@@ -1,3 +1,5 @@
+#include "SourceDigest.h"
+#include "voxelcore/BuildFacts.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/LabelVolume.h"
@@ -12,9 +14,15 @@ VoxelCoreVersion()
 }
 
 std::string
+SourceDigest()
+{
+  return VOXELCORE_SOURCE_DIGEST;
+}
+
+std::string
 VersionText()
 {
-  std::string text = "voxelcore " + VoxelCoreVersion() + "\nengines: lattice";
+  std::string text = "voxelcore " + VoxelCoreVersion() + "\nsources: " + SourceDigest() + "\nengines: lattice";
   if (HasEngine(Engine::TetGen))
   {
     text += ", tetgen (AGPL-3, and so is this program as a whole)";

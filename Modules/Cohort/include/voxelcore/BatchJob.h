@@ -20,6 +20,7 @@ struct BatchOptions
   std::filesystem::path              output; ///< the folder; made when it is not there
   ParameterValues                    values; ///< options of `voxelcore core` for all cases; a case's own come first
   bool                               skeletons = true;
+  bool                               pages = false;  ///< a page per case that shows it in 3-D (`core --html`)
   bool                               force = false;  ///< what is done is done again
   int                                jobs = 1;       ///< cases side by side
   int                                threads = 1;    ///< of each case

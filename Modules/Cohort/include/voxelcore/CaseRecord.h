@@ -21,7 +21,7 @@ struct CaseRecord
 {
   std::string              id;
   std::string              scan;
-  std::string              key; ///< CaseKey(): of input, parameters and version
+  std::string              key; ///< CaseKey(): of input, parameters and sources
   bool                     done = false;
   std::string              reason;   ///< why it failed
   std::vector<std::string> warnings; ///< what the case said on its way
@@ -30,7 +30,7 @@ struct CaseRecord
 };
 
 /** Digest of what a result depends on: the scan's content (and that of the label names beside it), the options that were
- *  given, and the version. Where the scan lies does not matter.
+ *  given, and the sources of the program. Where the scan lies does not matter.
  *  \throws InputError when the scan cannot be read */
 std::string
 CaseKey(const std::filesystem::path & scan, const std::string & options);
