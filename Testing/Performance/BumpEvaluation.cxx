@@ -2,8 +2,8 @@
 // rotations, three resolutions and two spacings, clean and rough. Half of the seeds were for tuning; the other half shows
 // what is worth of it elsewhere. README.md has the table and what the columns mean.
 //
-//     VoxelCoreBumpEvaluation [--seeds tuned|aside] [--rotations N] [--body NAME] [--noise SD] [--smooth-shape]
-//                             [--bumps H,H..] [--each] [--quick]
+//     VoxelCoreBumpEvaluation [--seeds tuned|aside] [--rotations N] [--body NAME] [--noise SD] [--mend-shape]
+//                             [--smooth-shape] [--bumps H,H..] [--each] [--quick]
 
 #include "ErosionPruning.h"
 #include "EvaluationBodies.h"
@@ -219,6 +219,7 @@ struct Options
   double                   noise = 0;
   bool                     each = false;
   bool                     quick = false;
+  bool                     mend = false;
   bool                     smooth = false;
   std::vector<std::string> heights{ "1.5vox", "1diag", "2vox", "2.5vox" };
   std::vector<double>      lambdas{ 1, 1.5, 2, 2.5, 4 };
@@ -253,6 +254,10 @@ Evaluate(const Body & body, const Options & options, std::vector<std::string> & 
         const std::uint64_t  seed = options.firstSeed + 2 * static_cast<std::uint64_t>(rotation);
         const Placement      placement = Place(body, spacing, seed);
         VoxelShape           shape = Sample(body, placement, options.noise, seed);
+        if (options.mend)
+        {
+          shape = MendShape(shape).shape;
+        }
         if (options.smooth)
         {
           shape = SmoothShape(shape).shape;
@@ -396,6 +401,10 @@ Main(int argc, char ** argv)
     else if (option == "--each")
     {
       options.each = true;
+    }
+    else if (option == "--mend-shape")
+    {
+      options.mend = true;
     }
     else if (option == "--smooth-shape")
     {
