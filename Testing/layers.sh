@@ -11,7 +11,7 @@ may_use() {
     Shape | Complex) echo "Lattice" ;;
     Delaunay | Voxelization | Phantom) echo "Lattice Shape" ;;
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
-    Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
+    Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;
     Imaging) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Models) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Voxelization" ;;

@@ -1,0 +1,65 @@
+#pragma once
+// Sub-voxel refinement: a finished core moved towards the medial axis of the smooth surface that the voxels stand for.
+//
+// The balls of a voxel core touch lattice points. Put the places where an estimate of the surface passes these points in
+// their stead, and a core vertex belongs where its balls touch all of them: each vertex is moved there, its measures are
+// taken again, and the complex is pruned once more. Only simple pairs go, so the topology stays that of the shape.
+
+#include "voxelcore/DelaunayCells.h"
+#include "voxelcore/MedialComplex.h"
+#include "voxelcore/SurfaceEstimate.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** The boundary vertices nearest to each edge of a core: those of its dual facet. */
+struct EdgePoints
+{
+  std::vector<std::uint64_t> offsets{ 0 }; ///< edges + 1
+  std::vector<std::uint32_t> points;       ///< indices of boundary vertices
+
+  std::span<const std::uint32_t>
+  Of(std::size_t edge) const
+  {
+    return { points.data() + offsets[edge], points.data() + offsets[edge + 1] };
+  }
+};
+
+/** For the core that BuildVoxelCore() will make of these cells; to be asked before they are moved in. */
+EdgePoints
+NearestToEdges(const DelaunayCells & cells);
+
+/** A refined core: faces are triangles, radii and measures are to the estimated surface. */
+struct RefinedCore
+{
+  MedialComplex        core;         ///< vertices in the order they have in the whole core
+  std::vector<Vector3> displacement; ///< per vertex, lattice coordinates: position less that in the whole core
+};
+
+/** What is refined; all borrowed. */
+struct RefinementInput
+{
+  const VoxelShape *                shape = nullptr;
+  const std::vector<LatticePoint> * points = nullptr; ///< boundary vertices
+  const MedialComplex *             core = nullptr;   ///< the whole core
+  const EdgePoints *                edgePoints = nullptr;
+  const SurfaceEstimate *           surface = nullptr;
+  Vector3                           spacing{ 1, 1, 1 }; ///< mm
+};
+
+/** Refines the part of the core that a threshold leaves, for each threshold in mm. Guarded: every vertex lies in the open
+ *  shape, none is farther than one voxel (length of the displacement in lattice coordinates) from where it was, and no
+ *  triangle's normal has turned by 90 degrees or more against that of the same triangle in the whole core. Where there is
+ *  no estimate of the surface the boundary vertices themselves stand for it.
+ *  The same bits for every number of threads.
+ *  \throws Cancelled when the callback says so. */
+std::vector<RefinedCore>
+RefineCore(const RefinementInput &     input,
+           const std::vector<double> & thresholds,
+           const ProgressCallback &    progress = {});
+
+} // namespace voxelcore

@@ -1,0 +1,63 @@
+#pragma once
+// Where, within a voxel, the smooth surface lies that the voxels of a shape stand for: from the labels themselves, from
+// the grey values they were made of, or from a triangle mesh.
+
+#include "voxelcore/ImageGeometry.h"
+#include "voxelcore/Progress.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace voxelcore
+{
+
+/** A point of an estimated surface. Places are in millimetres along the lattice axes (lattice coordinate times
+ *  spacing). */
+struct SurfacePoint
+{
+  Vector3 position{};
+  Vector3 normal{};      ///< unit length, either way
+  bool    found = false; ///< false: the surface is not known here
+};
+
+/** An estimate of the surface. Thread-safe, and the same bits on every machine. */
+class SurfaceEstimate
+{
+public:
+  virtual ~SurfaceEstimate() = default;
+
+  /** The point of the surface that lies near `place`, found along the surface's normals: not farther than `reach` mm. */
+  virtual SurfacePoint
+  Project(const Vector3 & place, double reach) const = 0;
+};
+
+/** Grey values along x: those of the voxels (x, y, z) to (x + values.size() - 1, y, z) in indices of the scan, all
+ *  within it, made such that the shape is where they are positive. Thread-safe. */
+using GreyRows = std::function<void(std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values)>;
+
+/** From the labels alone: of all surfaces that part the centres of the voxels that are in from those that are out, one
+ *  that bends little. `spacing` in mm. Memory follows the boundary. The shape must outlive the call, not the result.
+ *  \throws Cancelled when the callback says so. */
+std::unique_ptr<SurfaceEstimate>
+SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress = {});
+
+/** From grey values: where they are 0 after smoothing that keeps curvature. `scan` is the box that has values; beyond it
+ *  they are mirrored with their sign turned, as the scan's border is the shape's.
+ *  \throws Cancelled when the callback says so. */
+std::unique_ptr<SurfaceEstimate>
+SurfaceFromGrey(const VoxelShape &       shape,
+                const Vector3 &          spacing,
+                const VoxelBox &         scan,
+                const GreyRows &         rows,
+                const ProgressCallback & progress = {});
+
+/** A triangle mesh: `vertices` in millimetres along the lattice axes, `triangles` by their vertices. It need not be
+ *  closed nor oriented. Both are copied. */
+std::unique_ptr<SurfaceEstimate>
+SurfaceFromTriangles(std::span<const Vector3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
+
+} // namespace voxelcore

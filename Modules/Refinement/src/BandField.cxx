@@ -1,0 +1,486 @@
+#include "BandField.h"
+
+#include "voxelcore/BoundaryVertices.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr std::int32_t kReach = 7; // voxels
+
+// exp(-k^2 / 2), normalised. Written down, as the last bit of exp() differs between libraries.
+constexpr std::int32_t         kRadius = 4;
+constexpr std::array<float, 5> kGauss{ 0.39894348F, 0.24197145F, 0.053991127F, 0.0044318616F, 0.00013383062F };
+
+std::int32_t
+BrickOf(std::int32_t voxel)
+{
+  return voxel >> 3;
+}
+
+std::size_t
+Hash(const std::array<std::int32_t, 3> & brick)
+{
+  std::uint64_t h = static_cast<std::uint32_t>(brick[0]);
+  h = (h ^ (h >> 15)) * 0x9E3779B97F4A7C15U + static_cast<std::uint32_t>(brick[1]);
+  h = (h ^ (h >> 29)) * 0xBF58476D1CE4E5B9U + static_cast<std::uint32_t>(brick[2]);
+  h = (h ^ (h >> 32)) * 0x94D049BB133111EBU;
+  return static_cast<std::size_t>(h ^ (h >> 29));
+}
+
+bool
+ComesBefore(const std::array<std::int32_t, 3> & a, const std::array<std::int32_t, 3> & b)
+{
+  return std::array{ a[2], a[1], a[0] } < std::array{ b[2], b[1], b[0] };
+}
+
+} // namespace
+
+BandField::BandField(const VoxelShape & shape)
+{
+  FindBricks(shape);
+  FillLabels(shape);
+  m_Values.assign(m_Bricks.size() * kVoxels, 0.0F);
+}
+
+void
+BandField::FindBricks(const VoxelShape & shape)
+{
+  const auto sortBricks = [&] {
+    std::sort(m_Bricks.begin(), m_Bricks.end(), ComesBefore);
+    m_Bricks.erase(std::unique(m_Bricks.begin(), m_Bricks.end()), m_Bricks.end());
+  };
+  std::size_t          sorted = 0;
+  std::array<Brick, 2> last{};
+  bool                 first = true;
+  for (const LatticePoint & p : BoundaryVertices(shape))
+  {
+    // A boundary vertex lies between the voxels p - 1 and p.
+    const std::array<Brick, 2> range{
+      { { BrickOf(p.x - 1 - kReach), BrickOf(p.y - 1 - kReach), BrickOf(p.z - 1 - kReach) },
+        { BrickOf(p.x + kReach), BrickOf(p.y + kReach), BrickOf(p.z + kReach) } }
+    };
+    if (!first && range == last)
+    {
+      continue;
+    }
+    first = false;
+    last = range;
+    for (std::int32_t z = range[0][2]; z <= range[1][2]; ++z)
+    {
+      for (std::int32_t y = range[0][1]; y <= range[1][1]; ++y)
+      {
+        for (std::int32_t x = range[0][0]; x <= range[1][0]; ++x)
+        {
+          m_Bricks.push_back({ x, y, z });
+        }
+      }
+    }
+    if (m_Bricks.size() > 2 * sorted + 100000)
+    {
+      sortBricks();
+      sorted = m_Bricks.size();
+    }
+  }
+  sortBricks();
+  m_Bricks.shrink_to_fit();
+  m_Table.assign(std::bit_ceil(2 * m_Bricks.size() + 1), 0);
+  const std::size_t mask = m_Table.size() - 1;
+  for (std::size_t brick = 0; brick < m_Bricks.size(); ++brick)
+  {
+    std::size_t at = Hash(m_Bricks[brick]) & mask;
+    while (m_Table[at] != 0)
+    {
+      at = (at + 1) & mask;
+    }
+    m_Table[at] = static_cast<std::uint32_t>(brick + 1);
+  }
+}
+
+std::int32_t
+BandField::Find(const Brick & brick) const
+{
+  const std::size_t mask = m_Table.size() - 1;
+  for (std::size_t at = Hash(brick) & mask; m_Table[at] != 0; at = (at + 1) & mask)
+  {
+    if (m_Bricks[m_Table[at] - 1] == brick)
+    {
+      return static_cast<std::int32_t>(m_Table[at] - 1);
+    }
+  }
+  return -1;
+}
+
+void
+BandField::FillLabels(const VoxelShape & shape)
+{
+  const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
+  m_Neighbours.resize(m_Bricks.size());
+  m_Labels.resize(m_Bricks.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto    brick = static_cast<std::size_t>(i);
+    const Brick & at = m_Bricks[brick];
+    for (std::size_t row = 0; row < 64; ++row)
+    {
+      const auto   y = at[1] * kSide + static_cast<std::int32_t>(row & 7);
+      const auto   z = at[2] * kSide + static_cast<std::int32_t>(row >> 3);
+      std::uint8_t bits = 0;
+      for (std::int32_t x = 0; x < kSide; ++x)
+      {
+        bits |= static_cast<std::uint8_t>((shape.Contains(at[0] * kSide + x, y, z) ? 1U : 0U) << x);
+      }
+      m_Labels[brick][row] = bits;
+    }
+    for (std::size_t n = 0; n < 27; ++n)
+    {
+      const Brick  other{ at[0] + static_cast<std::int32_t>(n % 3) - 1,
+                         at[1] + static_cast<std::int32_t>(n / 3 % 3) - 1,
+                         at[2] + static_cast<std::int32_t>(n / 9) - 1 };
+      std::int32_t found = Find(other);
+      if (found < 0) // no boundary near it, so any voxel speaks for all of it
+      {
+        found = shape.Contains(other[0] * kSide, other[1] * kSide, other[2] * kSide) ? kFarInside : kFarOutside;
+      }
+      m_Neighbours[brick][n] = found;
+    }
+  }
+}
+
+// Calls take(place in the tile, neighbour, voxel in it) for the voxels of a brick and `margin` voxels around it.
+template <typename TTake>
+void
+BandField::GatherTile(std::size_t brick, std::int32_t margin, TTake take) const
+{
+  std::size_t at = 0;
+  for (std::int32_t z = -margin; z < kSide + margin; ++z)
+  {
+    for (std::int32_t y = -margin; y < kSide + margin; ++y)
+    {
+      const std::int32_t rowNeighbour = 3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1);
+      const std::int32_t rowVoxel = 8 * (y & 7) + 64 * (z & 7);
+      for (std::int32_t x = -margin; x < kSide + margin; ++x)
+      {
+        take(at++,
+             m_Neighbours[brick][static_cast<std::size_t>(rowNeighbour + BrickOf(x) + 1)],
+             static_cast<std::size_t>(rowVoxel + (x & 7)));
+      }
+    }
+  }
+}
+
+void
+BandField::FillDistances(double clip)
+{
+  m_Far = static_cast<float>(clip);
+  const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::ptrdiff_t brick = 0; brick < count; ++brick)
+  {
+    FillBrickDistances(static_cast<std::size_t>(brick), clip);
+  }
+}
+
+void
+BandField::FillBrickDistances(std::size_t brick, double clip)
+{
+  constexpr std::int32_t  side = kSide + 2 * kReach;
+  constexpr std::uint32_t full = (1U << side) - 1;
+  constexpr std::int32_t  none = 1000;
+  // Rows of labels around the brick, then for each kind squared distances by x alone, by x and y, by all.
+  std::array<std::uint32_t, static_cast<std::size_t>(side) * side> rows{};
+  GatherTile(brick, kReach, [&](std::size_t at, std::int32_t neighbour, std::size_t voxel) {
+    const bool in = neighbour >= 0
+                      ? ((m_Labels[static_cast<std::size_t>(neighbour)][voxel >> 3] >> (voxel & 7)) & 1) != 0
+                      : neighbour == kFarInside;
+    rows[at / side] |= (in ? 1U : 0U) << (at % side);
+  });
+  for (const bool inside : { true, false })
+  {
+    std::array<std::array<std::int32_t, kSide>, static_cast<std::size_t>(side) * side> byX;
+    for (std::size_t row = 0; row < rows.size(); ++row)
+    {
+      const std::uint32_t other = inside ? ~rows[row] & full : rows[row];
+      for (std::int32_t x = 0; x < kSide; ++x)
+      {
+        const std::uint32_t up = other >> (x + kReach);
+        const std::uint32_t down = other << (31 - x - kReach);
+        const std::int32_t  d = std::min(std::countr_zero(up), std::countl_zero(down));
+        byX[row][static_cast<std::size_t>(x)] = d > kReach ? none : d * d;
+      }
+    }
+    std::array<std::array<std::int32_t, kSide>, static_cast<std::size_t>(side) * kSide> byY;
+    for (std::int32_t z = 0; z < side; ++z)
+    {
+      for (std::int32_t y = 0; y < kSide; ++y)
+      {
+        auto & to = byY[static_cast<std::size_t>(z * kSide + y)];
+        to.fill(none);
+        for (std::int32_t d = -kReach; d <= kReach; ++d)
+        {
+          const auto & from = byX[static_cast<std::size_t>(z * side + y + kReach + d)];
+          for (std::size_t x = 0; x < kSide; ++x)
+          {
+            to[x] = std::min(to[x], from[x] + d * d);
+          }
+        }
+      }
+    }
+    for (std::int32_t z = 0; z < kSide; ++z)
+    {
+      for (std::int32_t y = 0; y < kSide; ++y)
+      {
+        std::array<std::int32_t, kSide> least;
+        least.fill(none);
+        for (std::int32_t d = -kReach; d <= kReach; ++d)
+        {
+          const auto & from = byY[static_cast<std::size_t>((z + kReach + d) * kSide + y)];
+          for (std::size_t x = 0; x < kSide; ++x)
+          {
+            least[x] = std::min(least[x], from[x] + d * d);
+          }
+        }
+        const auto row = static_cast<std::size_t>(z * kSide + y);
+        for (std::size_t x = 0; x < kSide; ++x)
+        {
+          if ((((m_Labels[brick][row] >> x) & 1) != 0) == inside)
+          {
+            const double distance = std::min(std::sqrt(static_cast<double>(least[x])) - 0.5, clip);
+            m_Values[brick * kVoxels + row * kSide + x] = static_cast<float>(inside ? distance : -distance);
+          }
+        }
+      }
+    }
+  }
+}
+
+void
+BandField::FillGrey(const VoxelBox & scan, const GreyRows & rows)
+{
+  const auto          count = static_cast<std::ptrdiff_t>(m_Bricks.size());
+  std::vector<double> sums(m_Bricks.size());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto brick = static_cast<std::size_t>(i);
+    // A place beyond the scan, mirrored on its border; whether it was.
+    const auto mirror = [&](std::size_t axis, std::int32_t voxel, bool & turned) {
+      const std::int32_t last = scan.lower[axis] + scan.size[axis] - 1;
+      turned = turned != (voxel < scan.lower[axis] || voxel > last);
+      const std::int32_t mirrored = voxel < scan.lower[axis] ? 2 * scan.lower[axis] - 1 - voxel
+                                    : voxel > last           ? 2 * last + 1 - voxel
+                                                             : voxel;
+      return std::clamp(mirrored, scan.lower[axis], last);
+    };
+    double sum = 0;
+    for (std::size_t row = 0; row < 64; ++row)
+    {
+      bool                 turned = false;
+      const auto           y = mirror(1, m_Bricks[brick][1] * kSide + static_cast<std::int32_t>(row & 7), turned);
+      const auto           z = mirror(2, m_Bricks[brick][2] * kSide + static_cast<std::int32_t>(row >> 3), turned);
+      const std::int32_t   x = m_Bricks[brick][0] * kSide;
+      std::array<float, 8> values{};
+      const std::int32_t   from = std::max(x, scan.lower[0]);
+      const std::int32_t   to = std::min(x + kSide, scan.lower[0] + scan.size[0]);
+      if (from < to)
+      {
+        rows(from, y, z, std::span<float>(values.data() + (from - x), static_cast<std::size_t>(to - from)));
+      }
+      float * const out = m_Values.data() + brick * kVoxels + row * 8;
+      for (std::int32_t k = 0; k < kSide; ++k)
+      {
+        bool               turnedHere = turned;
+        const std::int32_t place = mirror(0, x + k, turnedHere);
+        float              value = 0;
+        if (place >= from && place < to)
+        {
+          value = values[static_cast<std::size_t>(place - x)];
+        }
+        else
+        {
+          rows(place, y, z, std::span<float>(&value, 1));
+        }
+        // Beyond the border nothing is in, whatever lies on this side of it.
+        out[k] = turnedHere ? -std::abs(value) : value;
+        sum += std::abs(static_cast<double>(value));
+      }
+    }
+    sums[brick] = sum;
+  }
+  double sum = 0;
+  for (const double one : sums)
+  {
+    sum += one;
+  }
+  m_Far = m_Bricks.empty() ? 0.0F : static_cast<float>(sum / (static_cast<double>(m_Bricks.size()) * kVoxels));
+}
+
+// G at the voxels of one brick.
+void
+BandField::Convolve(const std::vector<float> & from, std::size_t brick, float * to) const
+{
+  constexpr std::size_t side = kSide + 2 * kRadius;
+  float                 tile[side * side * side];
+  float                 byX[side * side * kSide];
+  float                 byY[side * kSide * kSide];
+  float *               out = tile;
+  for (std::int32_t z = -kRadius; z < kSide + kRadius; ++z)
+  {
+    for (std::int32_t y = -kRadius; y < kSide + kRadius; ++y)
+    {
+      const std::int32_t                                  neighbour = 3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1);
+      const auto                                          row = static_cast<std::size_t>(8 * (y & 7) + 64 * (z & 7));
+      constexpr std::array<std::array<std::size_t, 2>, 3> parts{ { { 4, 4 }, { 0, 8 }, { 0, 4 } } };
+      for (std::size_t part = 0; part < 3; ++part)
+      {
+        const std::int32_t source = m_Neighbours[brick][static_cast<std::size_t>(neighbour) + part];
+        const auto [first, size] = parts[part];
+        if (source >= 0)
+        {
+          const float * values = from.data() + static_cast<std::size_t>(source) * kVoxels + row + first;
+          out = std::copy(values, values + size, out);
+        }
+        else
+        {
+          out = std::fill_n(out, size, source == kFarInside ? m_Far : -m_Far);
+        }
+      }
+    }
+  }
+  const auto pass = [](const float * in, float * sum, std::size_t stride, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const float * centre = in + i + kRadius * stride;
+      float         value = kGauss[0] * centre[0];
+      value += kGauss[1] * (*(centre - stride) + centre[stride]);
+      value += kGauss[2] * (*(centre - 2 * stride) + centre[2 * stride]);
+      value += kGauss[3] * (*(centre - 3 * stride) + centre[3 * stride]);
+      value += kGauss[4] * (*(centre - 4 * stride) + centre[4 * stride]);
+      sum[i] = value;
+    }
+  };
+  for (std::size_t row = 0; row < side * side; ++row)
+  {
+    pass(tile + row * side, byX + row * kSide, 1, kSide);
+  }
+  for (std::size_t z = 0; z < side; ++z)
+  {
+    pass(byX + z * side * kSide, byY + z * kSide * kSide, kSide, kSide * kSide);
+  }
+  pass(byY, to, kSide * kSide, kVoxels);
+}
+
+void
+BandField::Smooth()
+{
+  const auto         count = static_cast<std::ptrdiff_t>(m_Bricks.size());
+  std::vector<float> once(m_Values.size());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::ptrdiff_t brick = 0; brick < count; ++brick)
+  {
+    Convolve(m_Values, static_cast<std::size_t>(brick), once.data() + static_cast<std::size_t>(brick) * kVoxels);
+  }
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::ptrdiff_t brick = 0; brick < count; ++brick)
+  {
+    const std::size_t first = static_cast<std::size_t>(brick) * kVoxels;
+    Convolve(once, static_cast<std::size_t>(brick), m_Values.data() + first);
+    for (std::size_t i = first; i < first + kVoxels; ++i)
+    {
+      m_Values[i] = 2 * once[i] - m_Values[i];
+    }
+  }
+}
+
+void
+BandField::ClearContradictions()
+{
+  const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto brick = static_cast<std::size_t>(i);
+    for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
+    {
+      float &    value = m_Values[brick * kVoxels + voxel];
+      const bool in = ((m_Labels[brick][voxel >> 3] >> (voxel & 7)) & 1) != 0;
+      value = in ? std::max(value, 0.0F) : std::min(value, 0.0F);
+    }
+  }
+}
+
+bool
+BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const
+{
+  Brick                                base{};
+  std::array<std::array<double, 4>, 3> weight;
+  std::array<std::array<double, 4>, 3> slope;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double at = place[axis] - 0.5; // in voxel indices, where centres are whole
+    const double floor = std::floor(at);
+    const double t = at - floor;
+    base[axis] = static_cast<std::int32_t>(floor);
+    weight[axis] = { ((2.0 - t) * t - 1.0) * t * 0.5,
+                     ((3.0 * t - 5.0) * t * t + 2.0) * 0.5,
+                     ((4.0 - 3.0 * t) * t + 1.0) * t * 0.5,
+                     (t - 1.0) * t * t * 0.5 };
+    slope[axis] = { ((4.0 - 3.0 * t) * t - 1.0) * 0.5,
+                    (9.0 * t - 10.0) * t * 0.5,
+                    ((8.0 - 9.0 * t) * t + 1.0) * 0.5,
+                    (3.0 * t - 2.0) * t * 0.5 };
+  }
+  const Brick        home{ BrickOf(base[0]), BrickOf(base[1]), BrickOf(base[2]) };
+  const std::int32_t found = Find(home);
+  if (found < 0)
+  {
+    return false;
+  }
+  value = 0;
+  gradient = { 0, 0, 0 };
+  const auto & neighbours = m_Neighbours[static_cast<std::size_t>(found)];
+  for (std::int32_t k = 0; k < 4; ++k)
+  {
+    const std::int32_t z = base[2] + k - 1;
+    const auto         wz = static_cast<std::size_t>(k);
+    double             ofPlane = 0;
+    double             alongX = 0;
+    double             alongY = 0;
+    for (std::int32_t j = 0; j < 4; ++j)
+    {
+      const std::int32_t y = base[1] + j - 1;
+      const auto         wy = static_cast<std::size_t>(j);
+      const std::int32_t neighbour = 3 * (BrickOf(y) - home[1] + 1) + 9 * (BrickOf(z) - home[2] + 1) + 1;
+      const auto         row = static_cast<std::size_t>(8 * (y & 7) + 64 * (z & 7));
+      double             ofRow = 0;
+      double             slopeOfRow = 0;
+      for (std::int32_t i = 0; i < 4; ++i)
+      {
+        const std::int32_t x = base[0] + i - 1;
+        const auto         wx = static_cast<std::size_t>(i);
+        const std::int32_t source = neighbours[static_cast<std::size_t>(neighbour + BrickOf(x) - home[0])];
+        const double       one = source >= 0 ? m_Values[static_cast<std::size_t>(source) * kVoxels + row + (x & 7)]
+                                             : (source == kFarInside ? m_Far : -m_Far);
+        ofRow += weight[0][wx] * one;
+        slopeOfRow += slope[0][wx] * one;
+      }
+      ofPlane += weight[1][wy] * ofRow;
+      alongX += weight[1][wy] * slopeOfRow;
+      alongY += slope[1][wy] * ofRow;
+    }
+    value += weight[2][wz] * ofPlane;
+    gradient[0] += weight[2][wz] * alongX;
+    gradient[1] += weight[2][wz] * alongY;
+    gradient[2] += slope[2][wz] * ofPlane;
+  }
+  return true;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,79 @@
+#pragma once
+// A scalar field on the voxels near a shape's boundary, in bricks, so that memory follows the boundary.
+
+#include "voxelcore/SurfaceEstimate.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** One value at the centre of each voxel within 7 voxels of the boundary, and some beyond. Positive inside. What has no
+ *  brick counts as far away: +Far() inside the shape, -Far() outside. */
+class BandField
+{
+public:
+  static constexpr std::int32_t kSide = 8;
+  static constexpr std::size_t  kVoxels = 512;
+
+  /** Values are 0. */
+  explicit BandField(const VoxelShape & shape);
+
+  /** Signed distance to the boundary in voxels, whatever their sides: to the nearest centre of the other kind less half a
+   *  voxel, clipped to +-`clip` (at most 6). */
+  void
+  FillDistances(double clip);
+
+  /** Grey values; Far() becomes their mean magnitude. */
+  void
+  FillGrey(const VoxelBox & scan, const GreyRows & rows);
+
+  /** K = 2 G - G G, with the Gaussian G of one voxel: in frequencies 1 - k^4 / 4 + ...: bends are flattened, and what is
+   *  curved evenly keeps its place. */
+  void
+  Smooth();
+
+  /** 0 where the sign contradicts the label. */
+  void
+  ClearContradictions();
+
+  /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic convolution (Keys 1981); false where
+   *  there is no brick. */
+  bool
+  Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const;
+
+  double
+  Far() const
+  {
+    return m_Far;
+  }
+
+private:
+  static constexpr std::int32_t kFarOutside = -1;
+  static constexpr std::int32_t kFarInside = -2;
+  using Brick = std::array<std::int32_t, 3>;
+
+  std::int32_t
+  Find(const Brick & brick) const;
+  void
+  FindBricks(const VoxelShape & shape);
+  void
+  FillLabels(const VoxelShape & shape);
+  void
+  FillBrickDistances(std::size_t brick, double clip);
+  template <typename TTake>
+  void
+  GatherTile(std::size_t brick, std::int32_t margin, TTake take) const;
+  void
+  Convolve(const std::vector<float> & from, std::size_t brick, float * to) const;
+
+  std::vector<Brick>                        m_Bricks;     ///< in units of bricks, by (z, y, x)
+  std::vector<std::uint32_t>                m_Table;      ///< open addressing: brick + 1, 0 for none
+  std::vector<std::array<std::int32_t, 27>> m_Neighbours; ///< a brick, or on which side of the boundary there is none
+  std::vector<std::array<std::uint8_t, 64>> m_Labels;     ///< a byte a row along x
+  std::vector<float>                        m_Values;
+  float                                     m_Far = 0;
+};
+
+} // namespace voxelcore

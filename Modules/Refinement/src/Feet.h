@@ -1,0 +1,62 @@
+#pragma once
+// Where the balls of core vertices touch the estimated surface.
+
+#include "voxelcore/Refinement.h"
+
+#include <vector>
+
+namespace voxelcore
+{
+
+/** A pair of boundary vertices that a core vertex lies between. */
+using PointPair = std::array<std::uint32_t, 2>;
+
+/** Where a ball about a core vertex touches. */
+struct Foot
+{
+  std::uint32_t point = 0; ///< the boundary vertex it belongs to
+  Vector3       position{};
+  double        distance = 0; ///< mm from the core vertex
+};
+
+/** Finds feet; thread-safe after construction. */
+class FootFinder
+{
+public:
+  /** Projects each boundary vertex that is used (a flag each) onto the surface. */
+  FootFinder(const RefinementInput & input, const std::vector<std::uint8_t> & used, const ProgressCallback & progress);
+
+  /** The feet of a core vertex at `place` (mm along the lattice axes), one for each boundary vertex in `pairs`, by index.
+   *  Feet stay near their boundary vertex: so near that those of a pair cannot meet by passing each other. */
+  void
+  Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<Foot> & feet) const;
+
+private:
+  Vector3
+  Place(std::uint32_t point) const;
+  Vector3
+  Slide(const Vector3 & place, std::uint32_t point, double most) const;
+
+  const RefinementInput &   m_Input;
+  std::vector<SurfacePoint> m_Anchors;
+  double                    m_Voxel = 1; ///< mm: geometric mean of the spacing
+};
+
+/** The foot of a boundary vertex among those that Find() gave. */
+inline const Foot &
+FootOf(std::span<const Foot> feet, std::uint32_t point)
+{
+  std::size_t first = 0;
+  for (std::size_t size = feet.size(); size > 1;)
+  {
+    const std::size_t half = size / 2;
+    if (feet[first + half].point <= point)
+    {
+      first += half;
+    }
+    size -= half;
+  }
+  return feet[first];
+}
+
+} // namespace voxelcore

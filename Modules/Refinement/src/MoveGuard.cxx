@@ -1,0 +1,190 @@
+#include "MoveGuard.h"
+
+#include "Vectors.h"
+
+#include <algorithm>
+
+namespace voxelcore
+{
+
+bool
+LiesInShape(const VoxelShape & shape, const Vector3 & place)
+{
+  std::array<std::int32_t, 3> low{};
+  std::array<std::int32_t, 3> high{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    high[axis] = static_cast<std::int32_t>(std::floor(place[axis]));
+    low[axis] = static_cast<std::int32_t>(std::ceil(place[axis])) - 1;
+  }
+  for (std::int32_t z = low[2]; z <= high[2]; ++z)
+  {
+    for (std::int32_t y = low[1]; y <= high[1]; ++y)
+    {
+      for (std::int32_t x = low[0]; x <= high[0]; ++x)
+      {
+        if (!shape.Contains(x, y, z))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+Vector3
+KeepInShape(const VoxelShape & shape, const Vector3 & place, const Vector3 & displacement)
+{
+  constexpr int halvings = 8;
+  Vector3       kept = displacement;
+  const double  length = Length(kept);
+  if (length > 1)
+  {
+    kept = Along({ 0, 0, 0 }, (1 - 1e-9) / length, kept);
+  }
+  for (int i = 0; i < halvings; ++i)
+  {
+    if (LiesInShape(shape, Along(place, 1, kept)))
+    {
+      return kept;
+    }
+    kept = Along({ 0, 0, 0 }, 0.5, kept);
+  }
+  return { 0, 0, 0 };
+}
+
+namespace
+{
+
+class Guard
+{
+public:
+  Guard(const VoxelShape &           shape,
+        const CellComplex &          cells,
+        const std::vector<Vector3> & positions,
+        const Vector3 &              spacing,
+        std::vector<Vector3> &       displacement)
+    : m_Shape(shape)
+    , m_Cells(cells)
+    , m_Positions(positions)
+    , m_Spacing(spacing)
+    , m_Displacement(displacement)
+    , m_Sum(positions.size())
+    , m_Count(positions.size())
+  {}
+
+  void
+  Run()
+  {
+    // What moves as one does not turn over, so corners of a triangle that does are first moved more alike. That keeps the
+    // move; the last resort does not.
+    constexpr int evening = 8;
+    constexpr int halving = 8;
+    for (int pass = 0;; ++pass)
+    {
+      if (!CollectTurned())
+      {
+        return;
+      }
+      for (std::size_t vertex = 0; vertex < m_Positions.size(); ++vertex)
+      {
+        if (m_Count[vertex] == 0)
+        {
+          continue;
+        }
+        Vector3 & move = m_Displacement[vertex];
+        if (pass < evening)
+        {
+          move = KeepInShape(m_Shape, m_Positions[vertex], Along({ 0, 0, 0 }, 1.0 / m_Count[vertex], m_Sum[vertex]));
+        }
+        else if (pass < evening + halving)
+        {
+          move = KeepInShape(m_Shape, m_Positions[vertex], Along({ 0, 0, 0 }, 0.5, move));
+        }
+        else
+        {
+          move = { 0, 0, 0 };
+        }
+      }
+    }
+  }
+
+private:
+  Vector3
+  Normal(std::span<const ElementIndex> corners, bool moved) const
+  {
+    std::array<Vector3, 3> at;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const Vector3 & place = m_Positions[corners[i]];
+      at[i] = Times(moved ? Along(place, 1, m_Displacement[corners[i]]) : place, m_Spacing);
+    }
+    return Cross(Minus(at[1], at[0]), Minus(at[2], at[0]));
+  }
+
+  // For each vertex of triangles that turned over, the sum of their mean moves; false when there are none.
+  bool
+  CollectTurned()
+  {
+    const auto                faces = static_cast<std::ptrdiff_t>(m_Cells.FaceCount());
+    std::vector<std::uint8_t> turned(m_Cells.FaceCount(), 0);
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t face = 0; face < faces; ++face)
+    {
+      const auto corners = m_Cells.FaceVertices(static_cast<std::size_t>(face));
+      const bool moves = std::any_of(corners.begin(), corners.end(), [&](ElementIndex corner) {
+        return m_Displacement[corner] != Vector3{ 0, 0, 0 };
+      });
+      turned[static_cast<std::size_t>(face)] = moves && !(Dot(Normal(corners, false), Normal(corners, true)) > 0);
+    }
+    std::fill(m_Sum.begin(), m_Sum.end(), Vector3{ 0, 0, 0 });
+    std::fill(m_Count.begin(), m_Count.end(), 0);
+    bool any = false;
+    for (std::size_t face = 0; face < turned.size(); ++face)
+    {
+      if (turned[face] == 0)
+      {
+        continue;
+      }
+      any = true;
+      Vector3 mean{ 0, 0, 0 };
+      for (const ElementIndex corner : m_Cells.FaceVertices(face))
+      {
+        mean = Along(mean, 1.0 / 3, m_Displacement[corner]);
+      }
+      for (const ElementIndex corner : m_Cells.FaceVertices(face))
+      {
+        m_Sum[corner] = Along(m_Sum[corner], 1, mean);
+        ++m_Count[corner];
+      }
+    }
+    return any;
+  }
+
+  const VoxelShape &           m_Shape;
+  const CellComplex &          m_Cells;
+  const std::vector<Vector3> & m_Positions;
+  const Vector3 &              m_Spacing;
+  std::vector<Vector3> &       m_Displacement;
+  std::vector<Vector3>         m_Sum;
+  std::vector<int>             m_Count;
+};
+
+} // namespace
+
+void
+GuardMoves(const VoxelShape &           shape,
+           const CellComplex &          cells,
+           const std::vector<Vector3> & positions,
+           const Vector3 &              spacing,
+           std::vector<Vector3> &       displacement)
+{
+  for (std::size_t vertex = 0; vertex < positions.size(); ++vertex)
+  {
+    displacement[vertex] = KeepInShape(shape, positions[vertex], displacement[vertex]);
+  }
+  Guard(shape, cells, positions, spacing, displacement).Run();
+}
+
+} // namespace voxelcore

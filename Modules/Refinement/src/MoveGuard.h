@@ -1,0 +1,26 @@
+#pragma once
+// Keeps moves within what a refined core promises.
+
+#include "voxelcore/Refinement.h"
+
+namespace voxelcore
+{
+
+/** Whether a place in lattice coordinates lies in the open shape: every voxel whose closure holds it is in. */
+bool
+LiesInShape(const VoxelShape & shape, const Vector3 & place);
+
+/** Shortens a displacement (lattice coordinates) until it is at most a voxel long and ends in the open shape. */
+Vector3
+KeepInShape(const VoxelShape & shape, const Vector3 & place, const Vector3 & displacement);
+
+/** Evens out and then shortens displacements until no triangle of `cells` turns over (its normals before and after, in
+ *  mm along the lattice axes, must enclose less than 90 degrees) and all hold to KeepInShape(). */
+void
+GuardMoves(const VoxelShape &           shape,
+           const CellComplex &          cells,
+           const std::vector<Vector3> & positions,
+           const Vector3 &              spacing,
+           std::vector<Vector3> &       displacement);
+
+} // namespace voxelcore

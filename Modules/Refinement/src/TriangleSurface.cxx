@@ -1,0 +1,50 @@
+#include "voxelcore/SurfaceEstimate.h"
+
+#include "Vectors.h"
+
+#include "voxelcore/TriangleTree.h"
+
+namespace voxelcore
+{
+
+namespace
+{
+
+class TriangleSurface : public SurfaceEstimate
+{
+public:
+  TriangleSurface(std::span<const Vector3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles)
+    : m_Tree(vertices, triangles)
+  {}
+
+  SurfacePoint
+  Project(const Vector3 & place, double reach) const override
+  {
+    const TriangleTree::Nearest nearest = m_Tree.FindNearest(place, reach);
+    SurfacePoint                point;
+    if (nearest.triangle >= m_Tree.TriangleCount())
+    {
+      return point;
+    }
+    const Vector3 normal = m_Tree.Normal(nearest.triangle);
+    const double  length = Length(normal);
+    if (length > 0)
+    {
+      point = { nearest.point, Along({ 0, 0, 0 }, 1 / length, normal), true };
+    }
+    return point;
+  }
+
+private:
+  TriangleTree m_Tree;
+};
+
+} // namespace
+
+std::unique_ptr<SurfaceEstimate>
+SurfaceFromTriangles(std::span<const Vector3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles)
+{
+  return std::make_unique<TriangleSurface>(vertices, triangles);
+}
+
+} // namespace voxelcore

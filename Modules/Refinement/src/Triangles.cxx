@@ -1,0 +1,120 @@
+#include "Triangles.h"
+
+#include "Vectors.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Area over the sum of squared sides: 1 / (4 sqrt(3)) for the best.
+double
+Quality(const Vector3 & a, const Vector3 & b, const Vector3 & c)
+{
+  const Vector3 ab = Minus(b, a);
+  const Vector3 ac = Minus(c, a);
+  const Vector3 bc = Minus(c, b);
+  const double  sides = Dot(ab, ab) + Dot(ac, ac) + Dot(bc, bc);
+  return sides > 0 ? 0.5 * Length(Cross(ab, ac)) / sides : 0.0;
+}
+
+std::size_t
+BestApex(const MedialComplex & core, std::span<const ElementIndex> corners, const Vector3 & spacing)
+{
+  const std::size_t count = corners.size();
+  const auto        at = [&](std::size_t i) { return Times(core.positions[corners[i % count]], spacing); };
+  std::size_t       best = 0;
+  double            bestWorst = -1;
+  for (std::size_t apex = 0; apex < count; ++apex)
+  {
+    double worst = 1;
+    for (std::size_t i = 1; i + 1 < count; ++i)
+    {
+      worst = std::min(worst, Quality(at(apex), at(apex + i), at(apex + i + 1)));
+    }
+    if (worst > bestWorst)
+    {
+      bestWorst = worst;
+      best = apex;
+    }
+  }
+  return best;
+}
+
+struct Cut
+{
+  std::array<ElementIndex, 3> corners; ///< the smallest first
+  double                      measure;
+};
+
+} // namespace
+
+MedialComplex
+CutIntoTriangles(const MedialComplex & core, const std::array<double, 3> & spacing)
+{
+  using Edge = std::array<ElementIndex, 2>;
+  std::vector<Cut>                     triangles;
+  std::vector<std::pair<Edge, double>> edges;
+  for (std::size_t edge = 0; edge < core.cells.edges.size(); ++edge)
+  {
+    edges.emplace_back(core.cells.edges[edge], core.edgeLambda[edge]);
+  }
+  for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
+  {
+    const auto        corners = core.cells.FaceVertices(face);
+    const std::size_t count = corners.size();
+    const std::size_t apex = count > 3 ? BestApex(core, corners, spacing) : 0;
+    const double      measure = core.faceLambda[face];
+    for (std::size_t i = 1; i + 1 < count; ++i)
+    {
+      std::array<ElementIndex, 3> triangle{ corners[apex],
+                                            corners[(apex + i) % count],
+                                            corners[(apex + i + 1) % count] };
+      if (i > 1)
+      {
+        edges.emplace_back(Edge{ std::min(triangle[0], triangle[1]), std::max(triangle[0], triangle[1]) }, measure);
+      }
+      std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+      triangles.push_back({ triangle, measure });
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto sorted = [](const Cut & cut) {
+    return std::array{ cut.corners[0],
+                       std::min(cut.corners[1], cut.corners[2]),
+                       std::max(cut.corners[1], cut.corners[2]) };
+  };
+  std::sort(triangles.begin(), triangles.end(), [&](const Cut & a, const Cut & b) { return sorted(a) < sorted(b); });
+
+  MedialComplex cut;
+  cut.positions = core.positions;
+  cut.radius = core.radius;
+  cut.vertexLambda = core.vertexLambda;
+  cut.cells.vertexCount = core.cells.vertexCount;
+  for (const auto & [edge, measure] : edges)
+  {
+    cut.cells.edges.push_back(edge);
+    cut.edgeLambda.push_back(measure);
+  }
+  for (const Cut & triangle : triangles)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const ElementIndex from = triangle.corners[i];
+      const ElementIndex to = triangle.corners[(i + 1) % 3];
+      const Edge         edge{ std::min(from, to), std::max(from, to) };
+      const auto         found = std::lower_bound(cut.cells.edges.begin(), cut.cells.edges.end(), edge);
+      cut.cells.faceVertices.push_back(from);
+      cut.cells.faceEdges.push_back(static_cast<ElementIndex>(found - cut.cells.edges.begin()));
+    }
+    cut.cells.faceOffsets.push_back(cut.cells.faceVertices.size());
+    cut.faceLambda.push_back(triangle.measure);
+  }
+  return cut;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,437 @@
+#include "RefinementBodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore::evaluation
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+double
+Norm(const Vector3 & v)
+{
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+void
+AddTriangle(const Vector3 & a, const Vector3 & b, const Vector3 & c, TriangleSet & set)
+{
+  const auto first = static_cast<std::uint32_t>(set.vertices.size());
+  set.vertices.insert(set.vertices.end(), { a, b, c });
+  set.triangles.push_back({ first, first + 1, first + 2 });
+}
+
+void
+AddQuad(const Vector3 & a, const Vector3 & b, const Vector3 & c, const Vector3 & d, TriangleSet & set)
+{
+  AddTriangle(a, b, c, set);
+  AddTriangle(a, c, d, set);
+}
+
+// A patch point(u, v), 0 <= u, v <= 1.
+template <typename TPoint>
+void
+AddPatch(int nu, int nv, TPoint point, TriangleSet & set)
+{
+  const auto first = static_cast<std::uint32_t>(set.vertices.size());
+  for (int j = 0; j <= nv; ++j)
+  {
+    for (int i = 0; i <= nu; ++i)
+    {
+      set.vertices.push_back(point(static_cast<double>(i) / nu, static_cast<double>(j) / nv));
+    }
+  }
+  const auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(j * (nu + 1) + i); };
+  for (int j = 0; j < nv; ++j)
+  {
+    for (int i = 0; i < nu; ++i)
+    {
+      set.triangles.push_back({ at(i, j), at(i + 1, j), at(i + 1, j + 1) });
+      set.triangles.push_back({ at(i, j), at(i + 1, j + 1), at(i, j + 1) });
+    }
+  }
+}
+
+KnownBody
+Ellipsoid(double size, double lambda)
+{
+  KnownBody    body;
+  const double a = 0.45 * size;
+  const double b = 0.30 * size;
+  const double c = 0.20 * size;
+  body.name = "ellipsoid";
+  body.reach = a;
+  body.value = [=](const Vector3 & p) { return c * (Norm({ p[0] / a, p[1] / b, p[2] / c }) - 1); };
+  AddPatch(
+    768,
+    384,
+    [=](double u, double v) {
+      const double s = std::sin(kPi * v);
+      return Vector3{ a * s * std::cos(2 * kPi * u), b * s * std::sin(2 * kPi * u), c * std::cos(kPi * v) };
+    },
+    body.surface);
+  // The centres of curvature along the shortest axis bound it; lambda scales it (paper, section 5).
+  const auto disc = [=](double scale, TriangleSet & set) {
+    const double ra = scale * (a * a - c * c) / a;
+    const double rb = scale * (b * b - c * c) / b;
+    AddPatch(
+      512,
+      24,
+      [=](double u, double v) {
+        return Vector3{ ra * v * std::cos(2 * kPi * u), rb * v * std::sin(2 * kPi * u), 0 };
+      },
+      set);
+  };
+  disc(1, body.axis);
+  disc(std::sqrt(1 - lambda * lambda / (c * c)), body.pruned);
+  return body;
+}
+
+KnownBody
+Torus(double size)
+{
+  KnownBody    body;
+  const double ring = 0.35 * size;
+  const double tube = 0.12 * size;
+  body.name = "torus";
+  body.reach = ring + tube;
+  body.value = [=](const Vector3 & p) {
+    const double d = std::sqrt(p[0] * p[0] + p[1] * p[1]) - ring;
+    return std::sqrt(d * d + p[2] * p[2]) - tube;
+  };
+  AddPatch(
+    1024,
+    256,
+    [=](double u, double v) {
+      const double d = ring + tube * std::cos(2 * kPi * v);
+      return Vector3{ d * std::cos(2 * kPi * u), d * std::sin(2 * kPi * u), tube * std::sin(2 * kPi * v) };
+    },
+    body.surface);
+  constexpr int parts = 4096;
+  for (int i = 0; i < parts; ++i)
+  {
+    const auto at = [=](int k) {
+      return Vector3{ ring * std::cos(2 * kPi * k / parts), ring * std::sin(2 * kPi * k / parts), 0 };
+    };
+    AddTriangle(at(i), at(i + 1), at(i + 1), body.axis);
+  }
+  body.pruned = body.axis;
+  return body;
+}
+
+// The part of a sphere of radius r about a centre with azimuth from, to and z / r = cos(polar angle), in units of pi.
+void
+AddSphere(const Vector3 & centre, double r, double from, double to, double polarFrom, double polarTo, TriangleSet & set)
+{
+  AddPatch(
+    256,
+    256,
+    [=](double u, double v) {
+      const double azimuth = from + u * (to - from);
+      const double polar = kPi * (polarFrom + v * (polarTo - polarFrom));
+      const double s = r * std::sin(polar);
+      return Vector3{ centre[0] + s * std::cos(azimuth),
+                      centre[1] + s * std::sin(azimuth),
+                      centre[2] + r * std::cos(polar) };
+    },
+    set);
+}
+
+KnownBody
+Capsule(double size)
+{
+  KnownBody    body;
+  const double half = 0.30 * size;
+  const double r = 0.14 * size;
+  body.name = "capsule";
+  body.reach = half + r;
+  body.value = [=](const Vector3 & p) { return Norm({ p[0], p[1], p[2] - std::clamp(p[2], -half, half) }) - r; };
+  AddPatch(
+    512,
+    64,
+    [=](double u, double v) {
+      return Vector3{ r * std::cos(2 * kPi * u), r * std::sin(2 * kPi * u), half * (2 * v - 1) };
+    },
+    body.surface);
+  AddSphere({ 0, 0, half }, r, 0, 2 * kPi, 0, 0.5, body.surface);
+  AddSphere({ 0, 0, -half }, r, 0, 2 * kPi, 0.5, 1, body.surface);
+  AddTriangle({ 0, 0, -half }, { 0, 0, half }, { 0, 0, half }, body.axis);
+  body.pruned = body.axis;
+  return body;
+}
+
+// All within r of a rectangle at z = 0.
+KnownBody
+RoundedSlab(double size)
+{
+  KnownBody    body;
+  const double x = 0.36 * size;
+  const double y = 0.24 * size;
+  const double r = 0.10 * size;
+  body.name = "rounded slab";
+  body.reach = std::sqrt(x * x + y * y) + r;
+  body.value = [=](const Vector3 & p) {
+    return Norm({ std::max(0.0, std::abs(p[0]) - x), std::max(0.0, std::abs(p[1]) - y), p[2] }) - r;
+  };
+  AddQuad({ -x, -y, r }, { x, -y, r }, { x, y, r }, { -x, y, r }, body.surface);
+  AddQuad({ -x, -y, -r }, { x, -y, -r }, { x, y, -r }, { -x, y, -r }, body.surface);
+  for (const double side : { -1.0, 1.0 })
+  {
+    AddPatch(
+      1,
+      256,
+      [=](double u, double v) {
+        return Vector3{ x * (2 * u - 1), side * (y + r * std::sin(kPi * v)), r * std::cos(kPi * v) };
+      },
+      body.surface);
+    AddPatch(
+      1,
+      256,
+      [=](double u, double v) {
+        return Vector3{ side * (x + r * std::sin(kPi * v)), y * (2 * u - 1), r * std::cos(kPi * v) };
+      },
+      body.surface);
+    AddSphere({ x, side * y, 0 }, r, side > 0 ? 0 : -0.5 * kPi, side > 0 ? 0.5 * kPi : 0, 0, 1, body.surface);
+    AddSphere({ -x, side * y, 0 }, r, side > 0 ? 0.5 * kPi : kPi, side > 0 ? kPi : 1.5 * kPi, 0, 1, body.surface);
+  }
+  AddQuad({ -x, -y, 0 }, { x, -y, 0 }, { x, y, 0 }, { -x, y, 0 }, body.axis);
+  body.pruned = body.axis;
+  return body;
+}
+
+// Between the walls at distance d from both: a strip from depth `from` to the depth c of the middle.
+void
+AddBoxAxis(double a, double b, double c, double from, TriangleSet & set)
+{
+  for (const double s : { -1.0, 1.0 })
+  {
+    for (const double t : { -1.0, 1.0 })
+    {
+      const auto alongX = [=](double d, double end) { return Vector3{ end * (a - d), s * (b - d), t * (c - d) }; };
+      const auto alongY = [=](double d, double end) { return Vector3{ s * (a - d), end * (b - d), t * (c - d) }; };
+      const auto alongZ = [=](double d, double end) { return Vector3{ s * (a - d), t * (b - d), end * (c - d) }; };
+      AddQuad(alongX(from, -1), alongX(from, 1), alongX(c, 1), alongX(c, -1), set);
+      AddQuad(alongY(from, -1), alongY(from, 1), alongY(c, 1), alongY(c, -1), set);
+      AddQuad(alongZ(from, -1), alongZ(from, 1), alongZ(c, 1), alongZ(c, -1), set);
+    }
+  }
+  AddQuad({ -(a - c), -(b - c), 0 }, { a - c, -(b - c), 0 }, { a - c, b - c, 0 }, { -(a - c), b - c, 0 }, set);
+}
+
+KnownBody
+SharpBox(double size, double lambda)
+{
+  KnownBody    body;
+  const double a = 0.38 * size;
+  const double b = 0.27 * size;
+  const double c = 0.17 * size;
+  body.name = "sharp box";
+  body.reach = Norm({ a, b, c });
+  body.value = [=](const Vector3 & p) {
+    return std::max({ std::abs(p[0]) - a, std::abs(p[1]) - b, std::abs(p[2]) - c });
+  };
+  for (const double s : { -1.0, 1.0 })
+  {
+    AddQuad({ -a, -b, s * c }, { a, -b, s * c }, { a, b, s * c }, { -a, b, s * c }, body.surface);
+    AddQuad({ -a, s * b, -c }, { a, s * b, -c }, { a, s * b, c }, { -a, s * b, c }, body.surface);
+    AddQuad({ s * a, -b, -c }, { s * a, b, -c }, { s * a, b, c }, { s * a, -b, c }, body.surface);
+  }
+  AddBoxAxis(a, b, c, 0, body.axis);
+  AddBoxAxis(a, b, c, std::sqrt(2.0) * lambda, body.pruned);
+  return body;
+}
+
+// All within r of three rectangles that meet along z at equal angles.
+KnownBody
+Junction(double size)
+{
+  KnownBody    body;
+  const double arm = 0.36 * size;
+  const double half = 0.28 * size;
+  const double r = 0.09 * size;
+  body.name = "Y of sheets";
+  body.reach = std::sqrt(arm * arm + half * half) + r;
+  const auto direction = [](int k) { return Vector3{ std::cos(2 * kPi * k / 3), std::sin(2 * kPi * k / 3), 0 }; };
+  std::array<Vector3, 3> arms{ direction(0), direction(1), direction(2) };
+  body.value = [=](const Vector3 & p) {
+    const double z = std::max(0.0, std::abs(p[2]) - half);
+    double       best = 1e300;
+    for (const Vector3 & e : arms)
+    {
+      const double along = std::clamp(p[0] * e[0] + p[1] * e[1], 0.0, arm);
+      best = std::min(best, Norm({ p[0] - along * e[0], p[1] - along * e[1], z }));
+    }
+    return best - r;
+  };
+  const double tan60 = std::sqrt(3.0);
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vector3 e = arms[static_cast<std::size_t>(k)];
+    const auto    at = [=](double along, double aside, double z) {
+      return Vector3{ along * e[0] - aside * e[1], along * e[1] + aside * e[0], z };
+    };
+    for (const double side : { -1.0, 1.0 })
+    {
+      // Walls begin at the crease; the round ends above and below begin where the next arm's do.
+      AddQuad(at(r / tan60, side * r, -half),
+              at(arm, side * r, -half),
+              at(arm, side * r, half),
+              at(r / tan60, side * r, half),
+              body.surface);
+      AddPatch(
+        64,
+        256,
+        [=](double u, double v) {
+          const double aside = r * std::cos(kPi * v);
+          const double from = std::abs(aside) / tan60;
+          return at(from + u * (arm - from), aside, side * (half + r * std::sin(kPi * v)));
+        },
+        body.surface);
+      AddSphere(at(arm, 0, side * half),
+                r,
+                2 * kPi * k / 3 - 0.5 * kPi,
+                2 * kPi * k / 3 + 0.5 * kPi,
+                side > 0 ? 0 : 0.5,
+                side > 0 ? 0.5 : 1,
+                body.surface);
+    }
+    AddPatch(
+      1,
+      256,
+      [=](double u, double v) { return at(arm + r * std::sin(kPi * v), r * std::cos(kPi * v), half * (2 * u - 1)); },
+      body.surface);
+    AddQuad({ 0, 0, -half }, at(arm, 0, -half), at(arm, 0, half), { 0, 0, half }, body.axis);
+  }
+  body.pruned = body.axis;
+  return body;
+}
+
+} // namespace
+
+std::vector<KnownBody>
+KnownBodies(double size, double lambda)
+{
+  return { Ellipsoid(size, lambda), Torus(size),   Capsule(size), RoundedSlab(size),
+           SharpBox(size, lambda),  Junction(size) };
+}
+
+Vector3
+KnownGrid::ToBody(const Vector3 & place) const
+{
+  Vector3 p{ 0, 0, 0 };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double mm = place[i] - 0.5 * size[i] * spacing[i] + shift[i];
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      p[j] += mm * axes[i][j];
+    }
+  }
+  return p;
+}
+
+Vector3
+KnownGrid::ToGrid(const Vector3 & place) const
+{
+  Vector3 p{ 0, 0, 0 };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    p[i] =
+      place[0] * axes[i][0] + place[1] * axes[i][1] + place[2] * axes[i][2] + 0.5 * size[i] * spacing[i] - shift[i];
+  }
+  return p;
+}
+
+KnownGrid
+PlaceGrid(const KnownBody & body, const Vector3 & spacing, int rotation)
+{
+  // Quaternions off the axes and off each other.
+  const double t = 0.61 + 1.7 * rotation;
+  double       q[4] = { std::cos(0.37 * t), 0.41 + 0.1 * std::sin(t), 0.23 - 0.2 * std::cos(2 * t), 0.31 };
+  double       length = 0;
+  for (const double v : q)
+  {
+    length += v * v;
+  }
+  for (double & v : q)
+  {
+    v /= std::sqrt(length);
+  }
+  const double w = q[0];
+  const double x = q[1];
+  const double y = q[2];
+  const double z = q[3];
+  KnownGrid    grid;
+  grid.axes = { { { 1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w) },
+                  { 2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w) },
+                  { 2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y) } } };
+  grid.spacing = spacing;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    grid.shift[i] = spacing[i] * (0.13 + 0.29 * static_cast<double>(i));
+    grid.size[i] = static_cast<std::int32_t>(std::ceil(2 * body.reach / spacing[i])) + 6;
+  }
+  return grid;
+}
+
+VoxelShape
+Digitize(const KnownBody & body, const KnownGrid & grid)
+{
+  VoxelShape   shape(VoxelBox{ { 0, 0, 0 }, grid.size });
+  const double step = 1 / grid.spacing[0];
+#pragma omp parallel for schedule(dynamic)
+  for (std::int32_t z = 0; z < grid.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < grid.size[1]; ++y)
+    {
+      for (std::int32_t x = 0; x < grid.size[0];)
+      {
+        const double value = body.value(
+          grid.ToBody({ (x + 0.5) * grid.spacing[0], (y + 0.5) * grid.spacing[1], (z + 0.5) * grid.spacing[2] }));
+        // As far as the surface is away all voxels are alike.
+        const auto run = static_cast<std::int32_t>(std::max(1.0, std::ceil(std::abs(value) * step * (1 - 1e-9))));
+        const auto end = std::min(grid.size[0], x + run);
+        for (; x < end; ++x)
+        {
+          if (value <= 0)
+          {
+            shape.Insert(x, y, z);
+          }
+        }
+      }
+    }
+  }
+  return CropToVoxels(shape);
+}
+
+double
+PartInside(const KnownBody & body, const KnownGrid & grid, const std::array<std::int32_t, 3> & voxel)
+{
+  constexpr int parts = 6;
+  const auto    at = [&](double i, double j, double k) {
+    return body.value(grid.ToBody(
+      { (voxel[0] + i) * grid.spacing[0], (voxel[1] + j) * grid.spacing[1], (voxel[2] + k) * grid.spacing[2] }));
+  };
+  const double value = at(0.5, 0.5, 0.5);
+  if (std::abs(value) > 0.5 * Norm(grid.spacing))
+  {
+    return value < 0 ? 1 : 0;
+  }
+  int in = 0;
+  for (int i = 0; i < parts; ++i)
+  {
+    for (int j = 0; j < parts; ++j)
+    {
+      for (int k = 0; k < parts; ++k)
+      {
+        in += at((i + 0.5) / parts, (j + 0.5) / parts, (k + 0.5) / parts) <= 0 ? 1 : 0;
+      }
+    }
+  }
+  return static_cast<double>(in) / (parts * parts * parts);
+}
+
+} // namespace voxelcore::evaluation

@@ -1,0 +1,191 @@
+// What a refined core promises, and that it is nearer to the truth.
+
+#include "VoxelCoreTesting/Cores.h"
+
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/LambdaPruning.h"
+#include "voxelcore/Refinement.h"
+#include "voxelcore/ShapeTopology.h"
+
+#include <omp.h>
+
+#include <cmath>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+RefinedCore
+Refine(const VoxelShape & shape, const Spacing3 & spacing, double threshold)
+{
+  const SpacingWeights weights = ComputeSpacingWeights(spacing);
+  const auto           points = BoundaryVertices(shape);
+  DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
+  const EdgePoints     edgePoints = NearestToEdges(cells);
+  const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
+  const auto           surface = SurfaceFromLabels(shape, spacing);
+  return std::move(RefineCore({ &shape, &points, &core, &edgePoints, surface.get(), spacing }, { threshold })[0]);
+}
+
+Vector3
+Minus(const Vector3 & a, const Vector3 & b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+Vector3
+Normal(const Vector3 & a, const Vector3 & b, const Vector3 & c, const Spacing3 & spacing)
+{
+  Vector3 ab = Minus(b, a);
+  Vector3 ac = Minus(c, a);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    ab[k] *= spacing[k];
+    ac[k] *= spacing[k];
+  }
+  return { ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0] };
+}
+
+// Everything the header promises of any refined core.
+void
+ExpectGuarded(const RefinedCore & refined, const VoxelShape & shape, const Spacing3 & spacing)
+{
+  const MedialComplex & core = refined.core;
+  ASSERT_EQ(ComputeComplexTopology(core.cells), ComputeShapeTopology(shape));
+  ASSERT_EQ(core.positions.size(), core.cells.vertexCount);
+  ASSERT_EQ(refined.displacement.size(), core.cells.vertexCount);
+  std::vector<Vector3> before;
+  for (std::size_t vertex = 0; vertex < core.positions.size(); ++vertex)
+  {
+    const Vector3 & d = refined.displacement[vertex];
+    ASSERT_TRUE(LiesInOpenShape(shape, core.positions[vertex])) << "vertex " << vertex;
+    ASSERT_LE(std::hypot(d[0], d[1], d[2]), 1.0) << "vertex " << vertex;
+    ASSERT_GT(core.radius[vertex], 0) << "vertex " << vertex;
+    before.push_back(Minus(core.positions[vertex], d));
+  }
+  for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
+  {
+    const auto corners = core.cells.FaceVertices(face);
+    ASSERT_EQ(corners.size(), 3U);
+    const auto & p = core.positions;
+    bool         moved = false;
+    for (const ElementIndex corner : corners)
+    {
+      moved = moved || refined.displacement[corner] != Vector3{ 0, 0, 0 };
+    }
+    const Vector3 n0 = Normal(before[corners[0]], before[corners[1]], before[corners[2]], spacing);
+    const Vector3 n1 = Normal(p[corners[0]], p[corners[1]], p[corners[2]], spacing);
+    if (moved)
+    {
+      ASSERT_GE(n0[0] * n1[0] + n0[1] * n1[1] + n0[2] * n1[2], -1e-12) << "face " << face;
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const auto & edge = core.cells.edges[core.cells.FaceEdges(face)[i]];
+      ASSERT_EQ(edge[0], std::min(corners[i], corners[(i + 1) % 3]));
+      ASSERT_EQ(edge[1], std::max(corners[i], corners[(i + 1) % 3]));
+      ASSERT_LE(core.faceLambda[face], core.edgeLambda[core.cells.FaceEdges(face)[i]]);
+    }
+  }
+  for (std::size_t edge = 0; edge < core.cells.edges.size(); ++edge)
+  {
+    for (const ElementIndex end : core.cells.edges[edge])
+    {
+      ASSERT_LE(core.edgeLambda[edge], core.vertexLambda[end]);
+    }
+  }
+}
+
+TEST(RefineCore, HoldsItsPromisesOnRandomAndPorousVolumes)
+{
+  for (const RandomVolume & volume : RandomVolumes(4100, 40))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const double least = *std::min_element(volume.spacing.begin(), volume.spacing.end());
+    for (const double threshold : { 0.0, 1.5 * least })
+    {
+      ExpectGuarded(Refine(volume.shape, volume.spacing, threshold), volume.shape, volume.spacing);
+    }
+  }
+}
+
+TEST(RefineCore, HoldsItsPromisesOnDegenerateShapes)
+{
+  VoxelShape touching(VoxelBox{ { 0, 0, 0 }, { 2, 2, 2 } });
+  touching.Insert(0, 0, 0);
+  touching.Insert(1, 1, 1);
+  VoxelShape shell = ShapeWhere({ 9, 9, 9 }, [](int x, int y, int z) {
+    return std::min({ x, y, z, 8 - x, 8 - y, 8 - z }) < 2;
+  });
+  for (const VoxelShape & shape :
+       { Box({ 1, 1, 1 }), Box({ 1, 1, 12 }), Box({ 9, 9, 1 }), Box({ 9, 9, 2 }), touching, shell, Box({ 8, 8, 8 }) })
+  {
+    for (const double threshold : { 0.0, 1.5, 4.0 })
+    {
+      ExpectGuarded(Refine(shape, { 1, 1, 1 }, threshold), shape, { 1, 1, 1 });
+      ExpectGuarded(Refine(shape, { 1, 1, 2.5 }, threshold), shape, { 1, 1, 2.5 });
+    }
+  }
+  EXPECT_EQ(Refine(VoxelShape(), { 1, 1, 1 }, 1.5).core.cells.vertexCount, 0U);
+}
+
+TEST(RefineCore, IsTheSameBitsForAnyNumberOfThreads)
+{
+  const VoxelShape shape = Ellipsoid(40);
+  const int        threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const RefinedCore one = Refine(shape, { 1, 1, 1 }, 2);
+  for (const int count : { 2, 3 })
+  {
+    omp_set_num_threads(count);
+    const RefinedCore other = Refine(shape, { 1, 1, 1 }, 2);
+    EXPECT_EQ(one.core.positions, other.core.positions);
+    EXPECT_EQ(one.displacement, other.displacement);
+    EXPECT_EQ(one.core.radius, other.core.radius);
+    EXPECT_EQ(one.core.vertexLambda, other.core.vertexLambda);
+    EXPECT_EQ(one.core.faceLambda, other.core.faceLambda);
+    EXPECT_EQ(one.core.cells.faceVertices, other.core.cells.faceVertices);
+  }
+  omp_set_num_threads(threads);
+}
+
+// The axis of this slab, off the grid's directions, is the plane through its middle.
+TEST(RefineCore, BringsASlabsCoreToItsMiddlePlaneAndItsRadiusToHalfItsThickness)
+{
+  const Vector3 n{ 0.36, 0.48, 0.8 };
+  for (const Spacing3 & spacing : { Spacing3{ 1, 1, 1 }, Spacing3{ 0.8, 0.8, 1.6 } })
+  {
+    const auto height = [&](const Vector3 & p) {
+      return n[0] * (p[0] * spacing[0] - 16) + n[1] * (p[1] * spacing[1] - 16) + n[2] * (p[2] * spacing[2] - 16);
+    };
+    const auto       side = [&](std::size_t axis) { return static_cast<std::int32_t>(32 / spacing[axis]); };
+    const VoxelShape shape = ShapeWhere({ side(0), side(1), side(2) }, [&](int x, int y, int z) {
+      return std::abs(height({ x + 0.5, y + 0.5, z + 0.5 })) <= 5.2 &&
+             std::hypot(x * spacing[0] - 16, y * spacing[1] - 16) < 11;
+    });
+    // Mean distance from the plane and mean error of the radius, away from the rim.
+    const auto score = [&](const MedialComplex & core) {
+      std::array<double, 3> sum{ 0, 0, 0 };
+      for (std::size_t vertex = 0; vertex < core.positions.size(); ++vertex)
+      {
+        const Vector3 & p = core.positions[vertex];
+        if (std::hypot(p[0] * spacing[0] - 16, p[1] * spacing[1] - 16) < 4)
+        {
+          sum[0] += 1;
+          sum[1] += std::abs(height(p));
+          sum[2] += core.radius[vertex] - 5.2;
+        }
+      }
+      return std::array{ sum[1] / sum[0], sum[2] / sum[0] };
+    };
+    const auto raw = score(PruneByLambda(CoreOf(shape, spacing), { 3 })[0]);
+    const auto refined = score(Refine(shape, spacing, 3).core);
+    EXPECT_LT(refined[0], 0.5 * raw[0]);
+    EXPECT_LT(std::abs(refined[1]), 0.15);
+    EXPECT_LT(raw[1], -0.2);
+  }
+}
+
+} // namespace
+} // namespace voxelcore::testing

@@ -1,0 +1,137 @@
+// Estimates of surfaces that are known.
+
+#include "VoxelCoreTesting/Random.h"
+#include "VoxelCoreTesting/Shapes.h"
+
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/SurfaceEstimate.h"
+#include "voxelcore/TriangleTree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+constexpr double kRadius = 11.3;
+constexpr double kCentre = 14.37;
+
+double
+FromCentre(double x, double y, double z, const Vector3 & spacing)
+{
+  return std::hypot(spacing[0] * x - kCentre, spacing[1] * y - kCentre, spacing[2] * z - kCentre);
+}
+
+VoxelShape
+Ball(const Vector3 & spacing)
+{
+  const auto side = [&](std::size_t axis) { return static_cast<std::int32_t>(2 * kCentre / spacing[axis]) + 1; };
+  return ShapeWhere({ side(0), side(1), side(2) },
+                    [&](int x, int y, int z) { return FromCentre(x + 0.5, y + 0.5, z + 0.5, spacing) <= kRadius; });
+}
+
+// Mean distance of the anchors of all boundary vertices from the sphere, in mm; counts those that were not found.
+double
+MeanError(const VoxelShape & shape, const SurfaceEstimate & surface, const Vector3 & spacing, int & missing)
+{
+  double sum = 0;
+  int    found = 0;
+  missing = 0;
+  for (const LatticePoint & p : BoundaryVertices(shape))
+  {
+    const SurfacePoint point = surface.Project({ p.x * spacing[0], p.y * spacing[1], p.z * spacing[2] }, 3);
+    missing += point.found ? 0 : 1;
+    if (point.found)
+    {
+      ++found;
+      const auto & at = point.position;
+      sum += std::abs(std::hypot(at[0] - kCentre, at[1] - kCentre, at[2] - kCentre) - kRadius);
+      EXPECT_NEAR(std::hypot(point.normal[0], point.normal[1], point.normal[2]), 1, 1e-12);
+    }
+  }
+  return sum / found;
+}
+
+TEST(SurfaceEstimate, LabelsOfABallGiveItsSurfaceBackWithinATenthOfAVoxel)
+{
+  for (const Vector3 & spacing : { Vector3{ 1, 1, 1 }, Vector3{ 0.8, 0.8, 1.6 } })
+  {
+    const VoxelShape shape = Ball(spacing);
+    int              missing = 0;
+    EXPECT_LT(MeanError(shape, *SurfaceFromLabels(shape, spacing), spacing, missing), 0.1);
+    EXPECT_EQ(missing, 0);
+  }
+}
+
+TEST(SurfaceEstimate, GreyValuesOfABallGiveItsSurfaceBackWithinAFiftiethOfAVoxel)
+{
+  const Vector3    spacing{ 1, 1, 1 };
+  const VoxelShape shape = Ball(spacing);
+  const auto       rows = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
+    for (float & value : values)
+    {
+      value = static_cast<float>(std::clamp(kRadius - FromCentre(x++ + 0.5, y + 0.5, z + 0.5, spacing), -0.7, 0.7));
+    }
+  };
+  int missing = 0;
+  EXPECT_LT(MeanError(shape, *SurfaceFromGrey(shape, spacing, shape.Box(), rows), spacing, missing), 0.02);
+  EXPECT_EQ(missing, 0);
+}
+
+TEST(SurfaceEstimate, AtTheScansBorderTheSurfaceIsTheBorder)
+{
+  const VoxelShape shape = Box({ 8, 8, 8 });
+  const auto surface = SurfaceFromGrey(shape, { 1, 1, 1 }, shape.Box(), [](auto, auto, auto, std::span<float> values) {
+    std::fill(values.begin(), values.end(), 100.0F);
+  });
+  const SurfacePoint point = surface->Project({ 4, 4, 0.3 }, 1);
+  ASSERT_TRUE(point.found);
+  EXPECT_NEAR(point.position[2], 0, 1e-3);
+}
+
+TEST(TriangleTree, FindsWhatTryingAllTrianglesFinds)
+{
+  Random                                    random(7);
+  std::vector<Vector3>                      vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (int i = 0; i < 90; ++i)
+  {
+    vertices.push_back({ random.Unit(), random.Unit(), random.Unit() });
+  }
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto any = [&] { return static_cast<std::uint32_t>(random.Between(0, 89)); };
+    triangles.push_back({ any(), any(), any() }); // some degenerate
+  }
+  const TriangleTree tree(vertices, triangles);
+  for (int i = 0; i < 300; ++i)
+  {
+    const Vector3 place{ 2 * random.Unit() - 0.5, 2 * random.Unit() - 0.5, 2 * random.Unit() - 0.5 };
+    double        least = 1e9;
+    for (const auto & [a, b, c] : triangles)
+    {
+      const Vector3 at = NearestOnTriangle(place, { vertices[a], vertices[b], vertices[c] });
+      const double  gap = std::hypot(at[0] - place[0], at[1] - place[1], at[2] - place[2]);
+      least = std::min(least, gap);
+      // No point of the triangle that one happens to look at is nearer.
+      const double u = random.Unit();
+      const double v = (1 - u) * random.Unit();
+      double       other = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const double d = (1 - u - v) * vertices[a][k] + u * vertices[b][k] + v * vertices[c][k] - place[k];
+        other += d * d;
+      }
+      EXPECT_LE(gap, std::sqrt(other) + 1e-12);
+    }
+    EXPECT_NEAR(std::sqrt(tree.FindNearest(place, 10).squaredDistance), least, 1e-12);
+    EXPECT_LT(tree.FindNearest(place, 10).triangle, triangles.size());
+    EXPECT_GE(tree.FindNearest(place, 0.5 * least).triangle, triangles.size());
+  }
+}
+
+} // namespace
+} // namespace voxelcore::testing
