@@ -7,6 +7,26 @@
 namespace voxelcore
 {
 
+namespace
+{
+
+// Of each boundary vertex the foot that may go farthest.
+void
+KeepOneOfEach(std::vector<Foot> & feet)
+{
+  std::sort(feet.begin(), feet.end(), [](const Foot & a, const Foot & b) {
+    return a.point != b.point ? a.point < b.point : a.distance > b.distance;
+  });
+  feet.erase(std::unique(feet.begin(), feet.end(), [](const Foot & a, const Foot & b) { return a.point == b.point; }),
+             feet.end());
+}
+
+constexpr double kLongestStride = 2.0; // voxels
+constexpr double kClose = 1e-3;        // voxels
+constexpr double kTurn = 0.5;          // cosine: beyond it is another side of the surface
+
+} // namespace
+
 FootFinder::FootFinder(const RefinementInput &           input,
                        const std::vector<std::uint8_t> & used,
                        const ProgressCallback &          progress)
@@ -18,7 +38,7 @@ FootFinder::FootFinder(const RefinementInput &           input,
   const double reach = 0.5 * Length(input.spacing);
   const auto   count = static_cast<std::ptrdiff_t>(used.size());
   ReportProgress(progress, "refining", 0);
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 256) if(count > 512)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto point = static_cast<std::uint32_t>(i);
@@ -46,11 +66,7 @@ FootFinder::Find(const Vector3 & place, std::span<const PointPair> pairs, std::v
     feet.push_back({ pair[0], {}, width });
     feet.push_back({ pair[1], {}, width });
   }
-  std::sort(feet.begin(), feet.end(), [](const Foot & a, const Foot & b) {
-    return a.point != b.point ? a.point < b.point : a.distance > b.distance;
-  });
-  feet.erase(std::unique(feet.begin(), feet.end(), [](const Foot & a, const Foot & b) { return a.point == b.point; }),
-             feet.end());
+  KeepOneOfEach(feet);
   for (Foot & foot : feet)
   {
     foot.position = Slide(place, foot.point, foot.distance);
@@ -58,15 +74,65 @@ FootFinder::Find(const Vector3 & place, std::span<const PointPair> pairs, std::v
   }
 }
 
+void
+FootFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<Foot> & feet) const
+{
+  feet.clear();
+  for (const PointPair & pair : pairs)
+  {
+    feet.push_back({ pair[0], {}, 0 });
+    feet.push_back({ pair[1], {}, 0 });
+  }
+  KeepOneOfEach(feet);
+  for (Foot & foot : feet)
+  {
+    foot.position = Descend(place, foot.point);
+    foot.distance = Distance(place, foot.position);
+  }
+}
+
+// Strides that are not shorter than the ripples and facets of an estimate, which would hold the foot up.
+Vector3
+FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
+{
+  constexpr int    steps = 40;
+  constexpr double shortest = 0.1; // voxels
+  double           stride = 0.5;
+  SurfacePoint     foot = m_Anchors[point];
+  if (!foot.found)
+  {
+    return Place(point);
+  }
+  double distance = Distance(place, foot.position);
+  for (int step = 0; step < steps && stride >= shortest; ++step)
+  {
+    const Vector3 gap = Minus(place, foot.position);
+    const Vector3 slide = Along(gap, -Dot(gap, foot.normal), foot.normal);
+    const double  length = Length(slide);
+    if (length < kClose * m_Voxel)
+    {
+      break;
+    }
+    const SurfacePoint next = m_Input.surface->Project(Along(foot.position, stride * m_Voxel / length, slide), m_Voxel);
+    const double       nearer = next.found ? Distance(place, next.position) : distance;
+    if (nearer >= distance || std::abs(Dot(next.normal, foot.normal)) < kTurn)
+    {
+      stride *= 0.5;
+      continue;
+    }
+    foot = next;
+    distance = nearer;
+    stride = std::min(kLongestStride, 2 * stride);
+  }
+  return foot.position;
+}
+
 // From where the surface passes the boundary vertex downhill to where a ball about `place` touches it.
 Vector3
 FootFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
 {
-  constexpr int    steps = 8;
-  constexpr double longest = 2.0; // voxels a step
-  constexpr double close = 1e-3;  // voxels
-  constexpr double turn = 0.5;    // cosine: beyond it is another side of the surface
-  const Vector3    home = Place(point);
+  constexpr int steps = 8;
+  const Vector3 home = Place(point);
   SurfacePoint     foot = m_Anchors[point];
   if (!foot.found)
   {
@@ -80,13 +146,13 @@ FootFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
     const Vector3 gap = Minus(place, foot.position);
     const Vector3 slide = Along(gap, -Dot(gap, foot.normal), foot.normal);
     const double  length = Length(slide);
-    if (length < close * m_Voxel)
+    if (length < kClose * m_Voxel)
     {
       break;
     }
-    const double       part = std::min(1.0, longest * m_Voxel / length);
+    const double       part = std::min(1.0, kLongestStride * m_Voxel / length);
     const SurfacePoint next = m_Input.surface->Project(Along(foot.position, part, slide), m_Voxel);
-    if (!next.found || std::abs(Dot(next.normal, foot.normal)) < turn || Distance(next.position, home) > reach)
+    if (!next.found || std::abs(Dot(next.normal, foot.normal)) < kTurn || Distance(next.position, home) > reach)
     {
       break;
     }

@@ -3,6 +3,7 @@
 
 #include "voxelcore/Refinement.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace voxelcore
@@ -31,16 +32,35 @@ public:
   void
   Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<Foot> & feet) const;
 
+  /** The same, but each foot goes on to where it is nearest, however far that is from its boundary vertex: about a place
+   *  beside the axis of a tube all feet meet. */
+  void
+  Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<Foot> & feet) const;
+
 private:
   Vector3
   Place(std::uint32_t point) const;
   Vector3
   Slide(const Vector3 & place, std::uint32_t point, double most) const;
+  Vector3
+  Descend(const Vector3 & place, std::uint32_t point) const;
 
   const RefinementInput &   m_Input;
   std::vector<SurfacePoint> m_Anchors;
   double                    m_Voxel = 1; ///< mm: geometric mean of the spacing
 };
+
+/** How far the nearest foot is. */
+inline double
+NearestFoot(std::span<const Foot> feet)
+{
+  double least = feet[0].distance;
+  for (const Foot & foot : feet)
+  {
+    least = std::min(least, foot.distance);
+  }
+  return least;
+}
 
 /** The foot of a boundary vertex among those that Find() gave. */
 inline const Foot &

@@ -267,7 +267,7 @@ WorkingCore::Move(const FootFinder & finder, const ProgressCallback & progress)
   for (int pass = 0; pass < passes; ++pass)
   {
     ReportProgress(progress, "refining", static_cast<double>(pass + 1) / (passes + 2));
-#pragma omp parallel
+#pragma omp parallel if(count > 512)
     {
       std::vector<Foot> feet;
 #pragma omp for schedule(dynamic, 256)
@@ -303,7 +303,7 @@ WorkingCore::Measured(const FootFinder & finder) const
   core.faceLambda.assign(m_Cells.FaceCount(), 0);
   std::vector<double> pairWidth(m_Pairs.size(), 0);
   const auto          count = static_cast<std::ptrdiff_t>(m_Positions.size());
-#pragma omp parallel
+#pragma omp parallel if(count > 512)
   {
     std::vector<Foot> feet;
 #pragma omp for schedule(dynamic, 256)
@@ -317,13 +317,8 @@ WorkingCore::Measured(const FootFinder & finder) const
         core.vertexLambda[vertex] = m_Input.core->vertexLambda[m_VertexIds[vertex]];
         continue;
       }
-      finder.Find(Place(vertex), pairs, feet);
-      double sum = 0;
-      for (const Foot & foot : feet)
-      {
-        sum += foot.distance;
-      }
-      core.radius[vertex] = sum / static_cast<double>(feet.size());
+      finder.Settle(Place(vertex), pairs, feet);
+      core.radius[vertex] = NearestFoot(feet);
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {
         const double width = 0.5 * Distance(FootOf(feet, pairs[k][0]).position, FootOf(feet, pairs[k][1]).position);
@@ -407,7 +402,7 @@ WorkingCore::Finish(const FootFinder & finder, double threshold) const
   RefinedCore refined{ CutIntoTriangles(left, m_Input.spacing), std::move(moves) };
   GuardMoves(*m_Input.shape, refined.core.cells, refined.core.positions, m_Input.spacing, refined.displacement);
   const auto count = static_cast<std::ptrdiff_t>(vertices.size());
-#pragma omp parallel
+#pragma omp parallel if(count > 512)
   {
     std::vector<Foot> feet;
 #pragma omp for schedule(dynamic, 256)
@@ -419,13 +414,8 @@ WorkingCore::Finish(const FootFinder & finder, double threshold) const
       const auto pairs = Pairs(vertices[vertex]);
       if (refined.displacement[vertex] != m_Displacement[vertices[vertex]] && !pairs.empty())
       {
-        finder.Find(Times(position, m_Input.spacing), pairs, feet);
-        double sum = 0;
-        for (const Foot & foot : feet)
-        {
-          sum += foot.distance;
-        }
-        refined.core.radius[vertex] = sum / static_cast<double>(feet.size());
+        finder.Settle(Times(position, m_Input.spacing), pairs, feet);
+        refined.core.radius[vertex] = NearestFoot(feet);
       }
     }
   }
