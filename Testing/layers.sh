@@ -16,7 +16,7 @@ may_use() {
     Imaging) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Models) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Voxelization" ;;
     Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models" ;;
-    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Voxelization Phantom Verification Imaging Models Display" ;;
+    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Phantom Verification Imaging Models Display" ;;
     Cohort) echo "Lattice Shape Delaunay Models Pipeline Imaging Complex VoxelCore" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac

@@ -38,8 +38,9 @@ CheckModel(const MedialModel & model, bool keepEdges)
     }
     if (core.positions.size() != cells.vertexCount || core.radius.size() != cells.vertexCount ||
         core.vertexLambda.size() != cells.vertexCount || core.edgeLambda.size() != cells.edges.size() ||
-        core.faceLambda.size() != cells.FaceCount() || cells.faceEdges.size() != cells.faceVertices.size() ||
-        !std::is_sorted(cells.edges.begin(), cells.edges.end()))
+        core.faceLambda.size() != cells.FaceCount() ||
+        model.parts[i].displacement.size() != (model.refined.empty() ? 0 : cells.vertexCount) ||
+        cells.faceEdges.size() != cells.faceVertices.size() || !std::is_sorted(cells.edges.begin(), cells.edges.end()))
     {
       throw Error("a part of a model is incomplete or not in canonical order");
     }
@@ -109,10 +110,10 @@ WriteModel(const std::filesystem::path & path,
   CheckModel(model, options.keepEdges);
   if (options.triangles || format == ".stl" || format == ".ma")
   {
-    MedialModel triangles{ {}, model.provenance, model.hasEdges };
+    MedialModel triangles{ {}, model.provenance, model.hasEdges, model.refined };
     for (const ModelPart & part : model.parts)
     {
-      triangles.parts.push_back({ part.label, Triangulated(part.core), part.component });
+      triangles.parts.push_back({ part.label, Triangulated(part.core), part.component, part.displacement });
     }
     if (format == ".stl")
     {

@@ -302,11 +302,22 @@ ReadParts(ModelSource & file)
   {
     model.provenance = file.ReadText("FieldData", "Provenance");
   }
+  const bool hasDisplacement = file.Has("PointData", "Displacement");
+  RequireFit(hasDisplacement == file.Has("FieldData", "Refined"), "of Refined and Displacement one is missing");
+  std::vector<double> displacement;
+  if (hasDisplacement)
+  {
+    model.refined = file.ReadText("FieldData", "Refined");
+    RequireFit(model.refined == "labels" || model.refined == "grey" || model.refined == "mesh",
+               "its field Refined names no surface");
+    displacement = ReadValues<double>(file, "PointData", "Displacement", pointCount, 3);
+  }
   std::size_t edgesRead = 0;
   bool        edgesMissing = false;
   for (const auto & [key, range] : FindParts(kinds, keys, pointCount))
   {
     ModelPart       part{ key.first, {}, key.second };
+    const auto      firstMove = displacement.begin() + (hasDisplacement ? 3 * range.firstPoint : 0);
     MedialComplex & core = part.core;
     core.cells = ReadComplex(kinds, range);
     const auto first = static_cast<std::size_t>(range.firstPoint);
@@ -315,6 +326,11 @@ ReadParts(ModelSource & file)
     for (std::size_t v = 0; v < count; ++v)
     {
       std::copy_n(positions.begin() + static_cast<std::ptrdiff_t>(3 * (first + v)), 3, core.positions[v].begin());
+    }
+    part.displacement.resize(hasDisplacement ? count : 0);
+    for (std::size_t v = 0; v < part.displacement.size(); ++v)
+    {
+      std::copy_n(firstMove + static_cast<std::ptrdiff_t>(3 * v), 3, part.displacement[v].begin());
     }
     const auto slice = [](const std::vector<double> & values, std::size_t begin, std::size_t size) {
       const auto from = values.begin() + static_cast<std::ptrdiff_t>(begin);

@@ -115,6 +115,21 @@ AddPoints(vtkPolyData * data, const std::vector<PartCells> & parts)
   }
 }
 
+void
+AddDisplacements(vtkPolyData * data, const std::vector<PartCells> & parts)
+{
+  vtkNew<vtkDoubleArray> array;
+  double *               d = Allocate(*array, "Displacement", static_cast<std::uint64_t>(data->GetNumberOfPoints()), 3);
+  for (const PartCells & one : parts)
+  {
+    for (const Vector3 & move : one.part->displacement)
+    {
+      d = std::copy(move.begin(), move.end(), d);
+    }
+  }
+  data->GetPointData()->AddArray(array);
+}
+
 /** Verts, lines and polys with 32 or 64 bit indices. */
 template <typename ArrayType>
 void
@@ -321,6 +336,11 @@ MakePolyData(const MedialModel & model, bool keepEdges)
   AddCellArrays(data, parts);
   AddString(data->GetFieldData(), "SPACE", "LPS");
   AddString(data->GetFieldData(), "Units", "mm");
+  if (!model.refined.empty())
+  {
+    AddString(data->GetFieldData(), "Refined", model.refined);
+    AddDisplacements(data, parts);
+  }
   if (!model.provenance.empty())
   {
     AddString(data->GetFieldData(), "Provenance", model.provenance);

@@ -69,6 +69,12 @@ DescribeParameters(const CoreOptions &    options,
   {
     parameters.bumps.push_back(height.text);
   }
+  parameters.refine.surface = options.refine.surface;
+  if (!options.refine.grey.empty())
+  {
+    parameters.refine.greySha256 = ScanSha256(options.refine.grey);
+    parameters.refine.greyRange = options.refine.greyRange;
+  }
   parameters.model = options.model;
   parameters.engine = EngineName(options.engine);
   parameters.crossCheck = options.crossCheck;
@@ -90,6 +96,10 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
   {
     throw UsageError("with --bumps give one --lambda, the floor");
   }
+  if (!options.refine.surface.empty() && (!options.bumps.empty() || options.skeleton || options.model.keepEdges))
+  {
+    throw UsageError("--refine does not go with --bumps, --with-skeleton or --keep-edges");
+  }
   if (options.report)
   {
     transaction.CheckTarget(*options.report);
@@ -103,6 +113,10 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
     throw UsageError("--cross-check needs TetGen, which this build lacks; configure it with -DVOXELCORE_TETGEN=ON");
   }
   transaction.Protect(options.scan);
+  if (!options.refine.grey.empty())
+  {
+    transaction.Protect(options.refine.grey);
+  }
   if (options.output.empty())
   {
     return;
@@ -205,6 +219,7 @@ private:
       MedialModel & model = m_Models[i];
       model.provenance = ProvenanceJson(m_Result.report, labels, i);
       model.hasEdges = m_Options.model.keepEdges;
+      model.refined = m_Options.refine.surface;
       const LabelRecord & first = m_Result.report.labels[labels.front()];
       WriteStagedModel(m_Transaction, Target(first, i), model, m_Options.model, m_Result.notes);
       model = MedialModel();
@@ -262,6 +277,7 @@ StageCoreJob(const CoreOptions & options, OutputTransaction & transaction, const
     context.admit(1e-6 * static_cast<double>(
                            PredictJob(CountBoundaries(edited.labels), options, omp_get_max_threads()).memoryBytes));
   }
+  const SurfaceSource  estimates = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
   const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
   shown.AddScan(edited.labels, volume.geometry);
   report.command = options.command;
@@ -279,6 +295,7 @@ StageCoreJob(const CoreOptions & options, OutputTransaction & transaction, const
     options,
     volume.geometry,
     weights,
+    estimates,
     PartOfProgress(context.progress, kReadEnds, kLabelsEnd),
     [&](LabelOutcome outcome) {
       if (digest.valid())

@@ -115,6 +115,11 @@ LabelJson(const LabelRecord & label, bool inFile)
       // Whoever prunes a finished file has no boundary to measure it on.
       one["boundary_gap_mm"] = pruned.bumps->boundaryGapMm ? Json(*pruned.bumps->boundaryGapMm) : Json(nullptr);
     }
+    if (pruned.refined)
+    {
+      one["mean_displacement_vox"] = pruned.refined->meanDisplacement;
+      one["max_displacement_vox"] = pruned.refined->maxDisplacement;
+    }
     if (!inFile)
     {
       one["output"] = pruned.output;
@@ -299,6 +304,10 @@ ReadLabel(const Json & json)
     if (one.contains("bumps"))
     {
       pruned.bumps = { one.at("bumps").get<std::string>(), one.at("bumps_mm").get<double>(), {} };
+    }
+    if (one.contains("max_displacement_vox"))
+    {
+      pruned.refined = { one.at("mean_displacement_vox").get<double>(), one.at("max_displacement_vox").get<double>() };
     }
     label.pruned.push_back(std::move(pruned));
   }

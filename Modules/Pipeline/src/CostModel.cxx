@@ -37,6 +37,8 @@ constexpr double kTetgenBytes = 1050;   // TetGen's mesh
 constexpr double kTetgenSeconds = 6e-5;
 constexpr double kFurtherSeconds = 8e-7; // of each further result
 constexpr double kBumpSeconds = 8e-6;
+constexpr double kRefineBytes = 700; // the band of the field, and what is kept of the whole core
+constexpr double kRefineSeconds = 4e-5;
 constexpr double kSkeletonBytes = 450;
 constexpr double kSkeletonDeepBytes = 60; // an inner voxel
 constexpr double kSkeletonSeconds = 3e-5;
@@ -90,6 +92,11 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options)
   {
     cost.bytes += border * kBumpBytes;
     cost.seconds += border * kBumpSeconds;
+  }
+  if (!options.refine.surface.empty())
+  {
+    cost.bytes += border * kRefineBytes;
+    cost.seconds += border * kRefineSeconds;
   }
   if (tetgen)
   {

@@ -248,6 +248,16 @@ WriteStagedModel(OutputTransaction &           transaction,
   }
 }
 
+void
+RequireUnrefined(const MedialModel & model, const std::filesystem::path & path)
+{
+  if (!model.refined.empty())
+  {
+    throw InputError(path.string() + ": was made with --refine " + model.refined +
+                     ", and only cores as they come out of the voxels are worked on; make one without");
+  }
+}
+
 ReadOptions
 RecordedReading(const ParameterRecord & parameters)
 {

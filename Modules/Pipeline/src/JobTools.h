@@ -133,6 +133,10 @@ WriteStagedModel(OutputTransaction &           transaction,
 std::string
 LabelText(std::int64_t value, const std::string & name);
 
+/** \throws InputError for a refined core: what works on exact ones does not take it. */
+void
+RequireUnrefined(const MedialModel & model, const std::filesystem::path & path);
+
 /** How the scan was read when a file was made. */
 ReadOptions
 RecordedReading(const ParameterRecord & parameters);

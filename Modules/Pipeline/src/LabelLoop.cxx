@@ -64,6 +64,7 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
               const CoreOptions &                       options,
               const ImageGeometry &                     geometry,
               const SpacingWeights &                    weights,
+              const SurfaceSource &                     surface,
               const ProgressCallback &                  progress,
               const std::function<void(LabelOutcome)> & take,
               StageSeconds &                            seconds)
@@ -103,7 +104,8 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
                                         options.crossCheck,
                                         options.skeleton ? &*options.skeleton : nullptr,
                                         options.bumps,
-                                        options.join.empty() ? CellSource() : join);
+                                        options.join.empty() ? CellSource() : join,
+                                        surface);
     outcome.record.component = one.component;
     if (outcome.skeleton)
     {

@@ -17,6 +17,7 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
               const CoreOptions &                       options,
               const ImageGeometry &                     geometry,
               const SpacingWeights &                    weights,
+              const SurfaceSource &                     surface,
               const ProgressCallback &                  progress,
               const std::function<void(LabelOutcome)> & take,
               StageSeconds &                            seconds);

@@ -54,6 +54,10 @@ and takes away bridges of one voxel over a bay. True holes of that size go, too.
 --with-skeleton writes what 'voxelcore skeleton' would, from the same computation: OUT_skeleton.vtp beside OUT, in a folder
 <scan>_label-<value>_skeleton.vtp. The options about branches are explained there.
 
+--refine is for smooth shapes at coarse resolution. Topology is kept; no vertex leaves the shape, moves by more than a voxel,
+or turns a face over. Faces become triangles; Radius and Lambda are measured from the estimated surface. Where parts are
+thinner than three voxels and at sharp edges it gains nothing. 'grey' takes the scan's own values with --threshold.
+
 Examples:
   voxelcore core scan.nii.gz -o medial.vtp --report medial.json
   voxelcore core scan.seg.nrrd --labels liver,4 --lambda 0,1mm,2.5% -o medial.vtp
@@ -66,6 +70,7 @@ Examples:
   voxelcore core huge.nrrd --blocks 8 --block 1 -o parts/     (and so on to --block 8, on any machines)
   voxelcore core huge.nrrd --join parts/ -o huge.vtp
   voxelcore core teeth.nii.gz --crop 100:300,80:220,: --split-components -o teeth/
+  voxelcore core ct.nrrd --threshold 300:inf --lambda 2.5vox --refine grey -o bone.vtp
   voxelcore core part.stl --resolution 256 --lambda 2.5% -o part.vtp
   voxelcore core part.ply --resolution 256,512,1024 --lambda 1%,2.5% -o study/   (each, and one table)
 
@@ -366,6 +371,23 @@ constexpr auto kParameters = std::to_array<Parameter>({
     false,
     kSkeleton,
     "Prune the core first, with unit: 1.5mm, 2.5vox, 2.5%; only for scans" },
+  { "refine",
+    "--refine",
+    Choice,
+    "off|labels|grey|mesh",
+    "off",
+    false,
+    kCore,
+    "Move the core, within a voxel, towards the axis of the smooth surface that labels, grey values or the mesh show" },
+  { "grey", "--grey", Input, "SCAN", "", false, kCore, "With --refine grey: the grey scan the labels were made of" },
+  { "grey-range",
+    "--grey-range",
+    Text,
+    "LO:HI",
+    "",
+    false,
+    kCore,
+    "With --grey: the labels are where values are within" },
   { "with-skeleton",
     "--with-skeleton",
     Flag,

@@ -115,14 +115,14 @@ ModelOptionsFrom(const ParameterReader & reader)
 }
 
 std::pair<double, double>
-ThresholdFrom(const ParameterReader & reader)
+RangeFrom(const ParameterReader & reader, std::string_view name)
 {
-  const auto parts = Split(reader.Text("threshold"), ':');
+  const auto parts = Split(reader.Text(name), ':');
   const auto low = ParseReal(parts.front());
   const auto high = ParseReal(parts.back());
   if (parts.size() != 2 || !low || !high || *low > *high)
   {
-    reader.Refuse("threshold", "LO:HI with LO <= HI, such as 300:3000 (inf is allowed)");
+    reader.Refuse(name, "LO:HI with LO <= HI, such as 300:3000 (inf is allowed)");
   }
   return { *low, *high };
 }
@@ -150,7 +150,7 @@ ReadOptionsFrom(const ParameterValues & values, CommandId command)
   reading.binary = reader.IsSet("binary");
   if (reader.IsGiven("threshold"))
   {
-    reading.threshold = ThresholdFrom(reader);
+    reading.threshold = RangeFrom(reader, "threshold");
   }
   if (reader.IsGiven("volume"))
   {
@@ -293,6 +293,33 @@ VoxelizeOptionsFrom(const ParameterValues & values)
   return options;
 }
 
+namespace
+{
+
+RefineOptions
+RefineFrom(const ParameterReader & reader)
+{
+  RefineOptions     refine;
+  const std::string surface = reader.Choice("refine");
+  refine.surface = surface == "off" ? std::string() : surface;
+  if (reader.IsGiven("grey") != reader.IsGiven("grey-range"))
+  {
+    throw UsageError("--grey FILE and --grey-range LO:HI go together: the values, and where the shape is");
+  }
+  if (reader.IsGiven("grey"))
+  {
+    if (surface != "grey")
+    {
+      throw UsageError("--grey is for --refine grey");
+    }
+    refine.grey = reader.Text("grey");
+    refine.greyRange = RangeFrom(reader, "grey-range");
+  }
+  return refine;
+}
+
+} // namespace
+
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values)
 {
@@ -303,6 +330,7 @@ CoreOptionsFrom(const ParameterValues & values)
   options.edits = ShapeEditsFrom(values, CommandId::Core);
   options.resolution = FirstResolution(values, CommandId::Core);
   ReadPruning(reader, options.lambdas, options.bumps);
+  options.refine = RefineFrom(reader);
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
   if (reader.IsGiven("table"))
@@ -353,6 +381,10 @@ BlockOptionsFrom(const ParameterValues & values)
   }
   BlockOptions options;
   options.core = CoreOptionsFrom(values);
+  if (!options.core.refine.surface.empty())
+  {
+    throw UsageError("--refine: give it with --join, when the blocks are there");
+  }
   options.blocks = static_cast<std::size_t>(reader.Whole("blocks", 1, most));
   options.block = static_cast<std::size_t>(reader.Whole("block", 1, most));
   return options;

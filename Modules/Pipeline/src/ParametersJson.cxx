@@ -113,6 +113,15 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
   {
     json["bumps"] = parameters.bumps;
   }
+  if (!parameters.refine.surface.empty())
+  {
+    json["refine"] = parameters.refine.surface;
+    if (parameters.refine.greyRange)
+    {
+      json["grey_sha256"] = parameters.refine.greySha256;
+      json["grey_range"] = ThresholdJson(*parameters.refine.greyRange);
+    }
+  }
   json["triangles"] = parameters.model.triangles;
   json["keep_edges"] = parameters.model.keepEdges;
   if (!inFile)
@@ -153,6 +162,12 @@ ReadParameters(const nlohmann::ordered_json & json)
   parameters.edits = ReadEdits(json);
   json.at("lambda").get_to(parameters.lambda);
   parameters.bumps = json.value("bumps", std::vector<std::string>());
+  parameters.refine.surface = json.value("refine", std::string());
+  parameters.refine.greySha256 = json.value("grey_sha256", std::string());
+  if (json.contains("grey_range"))
+  {
+    parameters.refine.greyRange = { ReadBound(json.at("grey_range").at(0)), ReadBound(json.at("grey_range").at(1)) };
+  }
   json.at("triangles").get_to(parameters.model.triangles);
   json.at("keep_edges").get_to(parameters.model.keepEdges);
   json.at("lattice_weights").get_to(parameters.weights.weight);

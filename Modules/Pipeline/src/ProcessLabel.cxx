@@ -1,6 +1,7 @@
 #include "CrossCheck.h"
 #include "JobTools.h"
 #include "MakeSkeleton.h"
+#include "RefineLabel.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CoreJob.h"
@@ -57,12 +58,13 @@ ContainsAround(const VoxelShape & shape, const std::array<double, 3> & point)
 /** What ComputeWholeCore() is asked for. */
 struct WholeCoreOptions
 {
-  Engine                      engine = Engine::Auto;
-  bool                        crossCheck = false;
-  bool                        bumps = false; ///< with bump heights, from the least threshold on; else pruned by lambda
-  const std::vector<double> & thresholds;    ///< mm
+  Engine engine = Engine::Auto;
+  bool   crossCheck = false;
+  bool   bumps = false; ///< with bump heights, from the least threshold on; else pruned by lambda, unless it is refined
+  const std::vector<double> & thresholds; ///< mm
 
-  const CellSource & source; ///< of the cells, where it is not empty
+  const CellSource & source;         ///< of the cells, where it is not empty
+  RefinementParts *  keep = nullptr; ///< takes what refining needs
 };
 
 /** A core in LPS mm, and what is left of it at each threshold, ascending. */
@@ -88,7 +90,7 @@ ComputeWholeCore(const VoxelShape &       shape,
   record.shape = ComputeShapeTopology(shape);
   MedialComplex core;
   {
-    const std::vector<LatticePoint> points = BoundaryVertices(shape);
+    std::vector<LatticePoint> points = BoundaryVertices(shape);
     record.boundaryVertices = points.size();
     outcome.seconds.shape += watch.Lap();
 
@@ -101,7 +103,15 @@ ComputeWholeCore(const VoxelShape &       shape,
 
     ReportProgress(progress, "core", kDelaunayEnds);
     TouchingBalls touching = options.bumps ? LargestTouchingBalls(cells, points, weights) : TouchingBalls();
+    if (options.keep != nullptr)
+    {
+      options.keep->edgePoints = NearestToEdges(cells);
+    }
     core = BuildVoxelCore(shape, points, std::move(cells), weights);
+    if (options.keep != nullptr)
+    {
+      options.keep->points = std::move(points);
+    }
     if (options.bumps)
     {
       outcome.seconds.core += watch.Lap();
@@ -118,6 +128,10 @@ ComputeWholeCore(const VoxelShape &       shape,
                            ": certificate failed: a vertex of the core lies outside the shape; nothing was "
                            "written; this is a fault of VoxelCore, please report it with the scan");
   }
+  if (options.keep != nullptr)
+  {
+    options.keep->core = core;
+  }
   WholeCore whole;
   whole.part = ToPhysical(std::move(core), geometry, record.label);
   outcome.seconds.core += watch.Lap();
@@ -125,7 +139,7 @@ ComputeWholeCore(const VoxelShape &       shape,
   RunBoth(
     whole.part.core.cells.FaceCount() > 10000,
     [&] {
-      if (!options.bumps)
+      if (!options.bumps && options.keep == nullptr)
       {
         const ProgressCallback prune = PartOfProgress(progress, "prune", kCoreEnds, kPruneEnds);
         whole.pruned = PruneAscending(whole.part.core, 0, options.thresholds, prune);
@@ -193,7 +207,8 @@ ProcessLabel(LabelShape                      label,
              bool                            crossCheck,
              const SkeletonStage *           skeleton,
              const std::vector<BumpHeight> & bumps,
-             const CellSource &              source)
+             const CellSource &              source,
+             const SurfaceSource &           surface)
 {
   LabelOutcome      outcome;
   LabelRecord &     record = outcome.record;
@@ -209,10 +224,10 @@ ProcessLabel(LabelShape                      label,
   // Where there is a skeleton it takes its share of the time after the core.
   const double           coreEnds = skeleton != nullptr ? kCoreBesideSkeleton : 1;
   const ProgressCallback coreProgress = PartOfProgress(progress, 0, coreEnds);
-  const auto             makeSkeleton = [&](const ModelPart & surface) {
+  const auto             makeSkeleton = [&](const ModelPart & ofCore) {
     Stopwatch skeletonWatch;
     outcome.skeleton =
-      MakeSkeleton(surface, *skeleton, weights, geometry, record, PartOfProgress(progress, coreEnds, 1));
+      MakeSkeleton(ofCore, *skeleton, weights, geometry, record, PartOfProgress(progress, coreEnds, 1));
     outcome.seconds.skeleton += skeletonWatch.Lap();
   };
 
@@ -221,7 +236,8 @@ ProcessLabel(LabelShape                      label,
   {
     thresholds.push_back(LambdaInMillimetres(lambda, weights, geometry.spacing, record.box));
   }
-  const WholeCoreOptions options{ engine, crossCheck, !bumps.empty(), thresholds, source };
+  RefinementParts        kept;
+  const WholeCoreOptions options{ engine, crossCheck, !bumps.empty(), thresholds, source, surface ? &kept : nullptr };
   WholeCore   whole = ComputeWholeCore(label.shape, geometry, weights, options, labelText, outcome, coreProgress);
   ModelPart & part = whole.part;
 
@@ -233,7 +249,20 @@ ProcessLabel(LabelShape                      label,
 
   Stopwatch               pruneWatch;
   std::vector<PrunedCore> pruned;
-  if (bumps.empty())
+  if (surface)
+  {
+    part = ModelPart();
+    pruned = RefineAndCertify(label.shape,
+                              std::move(kept),
+                              surface,
+                              geometry,
+                              lambdas,
+                              thresholds,
+                              record,
+                              labelText,
+                              PartOfProgress(coreProgress, kCoreEnds, 1));
+  }
+  else if (bumps.empty())
   {
     label.shape = VoxelShape();
     pruned = CertifyPruned(std::move(part),

@@ -135,6 +135,7 @@ RunPruneJob(const PruneOptions & options, const JobContext & context)
   ReportProgress(context.progress, "reading", 0);
   MedialModel model = ReadModel(options.core);
   report = ParseProvenance(model.provenance, options.core.string());
+  RequireUnrefined(model, options.core);
   RequirePrunable(options, model, report);
   report.command = options.command;
   report.input.path = options.core.string();

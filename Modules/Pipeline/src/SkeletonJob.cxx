@@ -55,6 +55,7 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
   DisplayFiles shown(options.display, options.input, transaction);
   ReportProgress(context.progress, "reading", 0);
   MedialModel model = ReadModel(options.input);
+  RequireUnrefined(model, options.input);
   report = ParseProvenance(model.provenance, options.input.string());
   if (report.labels.size() != model.parts.size() || report.parameters.lambda.size() != 1)
   {

@@ -3,6 +3,7 @@
 #include "JobTools.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/RefinedVerification.h"
 #include "voxelcore/Sha256.h"
 #include "voxelcore/ReadInput.h"
 
@@ -23,9 +24,42 @@ VerifyPart(ModelPart                part,
            const PrunedRecord &     pruned,
            const ProgressCallback & progress)
 {
+  const bool           refined = !part.displacement.empty();
+  std::vector<Vector3> origins = part.core.positions;
+  for (std::size_t v = 0; v < origins.size() && refined; ++v)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      origins[v][k] -= part.displacement[v][k];
+    }
+  }
   for (auto & position : part.core.positions)
   {
     position = PhysicalToLattice(geometry, position);
+  }
+  if (refined)
+  {
+    for (std::size_t v = 0; v < origins.size(); ++v)
+    {
+      const Vector3 from = PhysicalToLattice(geometry, origins[v]);
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        part.displacement[v][k] = part.core.positions[v][k] - from[k];
+      }
+    }
+    RefinedVerificationInput moved;
+    moved.shape = &shape;
+    moved.weights = ComputeSpacingWeights(geometry.spacing);
+    moved.spacing = geometry.spacing;
+    moved.cells = &part.core.cells;
+    moved.positions = part.core.positions;
+    moved.displacement = part.displacement;
+    moved.radius = part.core.radius;
+    moved.vertexLambda = part.core.vertexLambda;
+    moved.edgeLambda = part.core.edgeLambda;
+    moved.faceLambda = part.core.faceLambda;
+    moved.positionTolerance = PositionTolerance(geometry);
+    return VerifyRefinedCore(moved, progress);
   }
   VerificationInput input;
   input.shape = &shape;
@@ -111,7 +145,11 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
                                    made.parameters.edits,
                                    !made.parameters.binary && !made.parameters.threshold,
                                    options.scan.string());
-  VerifyResult     result;
+  if (made.parameters.refine.surface != model.refined)
+  {
+    throw InputError(options.core.string() + ": its fields Refined and Provenance do not agree; make the file again");
+  }
+  VerifyResult result;
   if (ScanSha256(options.scan) != made.input.sha256)
   {
     result.notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +

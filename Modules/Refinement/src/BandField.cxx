@@ -123,7 +123,7 @@ BandField::FillLabels(const VoxelShape & shape)
   const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
   m_Neighbours.resize(m_Bricks.size());
   m_Labels.resize(m_Bricks.size());
-#pragma omp parallel for schedule(static) if(count > 16)
+#pragma omp parallel for schedule(static) if (count > 16)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto    brick = static_cast<std::size_t>(i);
@@ -181,7 +181,7 @@ BandField::FillDistances(double clip)
 {
   m_Far = static_cast<float>(clip);
   const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-#pragma omp parallel for schedule(dynamic, 16) if(count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
   for (std::ptrdiff_t brick = 0; brick < count; ++brick)
   {
     FillBrickDistances(static_cast<std::size_t>(brick), clip);
@@ -266,7 +266,7 @@ BandField::FillGrey(const VoxelBox & scan, const GreyRows & rows)
 {
   const auto          count = static_cast<std::ptrdiff_t>(m_Bricks.size());
   std::vector<double> sums(m_Bricks.size());
-#pragma omp parallel for schedule(dynamic, 16) if(count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);
@@ -378,23 +378,23 @@ BandField::Convolve(const std::vector<float> & from, std::size_t brick, float * 
 }
 
 void
-BandField::Smooth()
+BandField::Smooth(float weight)
 {
   const auto         count = static_cast<std::ptrdiff_t>(m_Bricks.size());
   std::vector<float> once(m_Values.size());
-#pragma omp parallel for schedule(dynamic, 16) if(count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
   for (std::ptrdiff_t brick = 0; brick < count; ++brick)
   {
     Convolve(m_Values, static_cast<std::size_t>(brick), once.data() + static_cast<std::size_t>(brick) * kVoxels);
   }
-#pragma omp parallel for schedule(dynamic, 16) if(count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
   for (std::ptrdiff_t brick = 0; brick < count; ++brick)
   {
     const std::size_t first = static_cast<std::size_t>(brick) * kVoxels;
     Convolve(once, static_cast<std::size_t>(brick), m_Values.data() + first);
     for (std::size_t i = first; i < first + kVoxels; ++i)
     {
-      m_Values[i] = 2 * once[i] - m_Values[i];
+      m_Values[i] = (1 + weight) * once[i] - weight * m_Values[i];
     }
   }
 }
@@ -403,7 +403,7 @@ void
 BandField::ClearContradictions()
 {
   const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-#pragma omp parallel for schedule(static) if(count > 16)
+#pragma omp parallel for schedule(static) if (count > 16)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);

@@ -29,10 +29,15 @@ public:
   void
   FillGrey(const VoxelBox & scan, const GreyRows & rows);
 
-  /** K = 2 G - G G, with the Gaussian G of one voxel: in frequencies 1 - k^4 / 4 + ...: bends are flattened, and what is
-   *  curved evenly keeps its place. */
+  /** K = (1 + w) G - w G G, with the Gaussian G of one voxel. With w = 1, in frequencies 1 - k^4 / 4 + ..., bends of a
+   *  distance field are flattened, and what is curved evenly keeps its place. */
   void
-  Smooth();
+  Smooth(float weight = 1);
+
+  /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them.
+   *  G moves a step of standard width s and curvature c by c s^2 times its slope, which goes as 1 / s: so
+   *  (1 + w) s1 = w s2, with s1^2 = 1 + 1/12 and s2^2 = 2 + 1/12. */
+  static constexpr float kStepWeight = 2.585F;
 
   /** 0 where the sign contradicts the label. */
   void

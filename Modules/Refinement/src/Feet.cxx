@@ -38,7 +38,7 @@ FootFinder::FootFinder(const RefinementInput &           input,
   const double reach = 0.5 * Length(input.spacing);
   const auto   count = static_cast<std::ptrdiff_t>(used.size());
   ReportProgress(progress, "refining", 0);
-#pragma omp parallel for schedule(dynamic, 256) if(count > 512)
+#pragma omp parallel for schedule(dynamic, 256) if (count > 512)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto point = static_cast<std::uint32_t>(i);
@@ -133,7 +133,7 @@ FootFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
 {
   constexpr int steps = 8;
   const Vector3 home = Place(point);
-  SurfacePoint     foot = m_Anchors[point];
+  SurfacePoint  foot = m_Anchors[point];
   if (!foot.found)
   {
     return home;

@@ -11,21 +11,23 @@ namespace voxelcore
 namespace
 {
 
-// Where a field is 0; where it has no good answer the next one is asked.
+// Where a field is 0; where it has no good answer the next one is asked. The first `thick` of the fields are for thick
+// parts only; what is thick the last field says.
 class FieldSurface : public SurfaceEstimate
 {
 public:
-  FieldSurface(std::vector<BandField> fields, const Vector3 & spacing)
+  FieldSurface(std::vector<BandField> fields, std::size_t thick, const Vector3 & spacing)
     : m_Fields(std::move(fields))
+    , m_Thick(thick)
     , m_Spacing(spacing)
   {}
 
   SurfacePoint
   Project(const Vector3 & place, double reach) const override
   {
-    for (const BandField & field : m_Fields)
+    for (std::size_t i = m_Thick > 0 && IsThick(place) ? 0 : m_Thick; i < m_Fields.size(); ++i)
     {
-      const SurfacePoint point = Project(field, place, reach);
+      const SurfacePoint point = Project(m_Fields[i], place, reach);
       if (point.found)
       {
         return point;
@@ -35,6 +37,23 @@ public:
   }
 
 private:
+  // Whether the distance still grows six voxels behind the surface, as far as distances are followed.
+  bool
+  IsThick(const Vector3 & place) const
+  {
+    constexpr double  depth = 6;
+    constexpr double  most = 0.85; // of Far(): smoothing takes the top off a ridge
+    const BandField & field = m_Fields.back();
+    const Vector3     at = Over(place, m_Spacing);
+    double            value = 0;
+    Vector3           slope{};
+    if (!field.Evaluate(at, value, slope) || Length(slope) == 0)
+    {
+      return false;
+    }
+    return field.Evaluate(Along(at, depth / Length(slope), slope), value, slope) && value >= most * field.Far();
+  }
+
   SurfacePoint
   Project(const BandField & field, const Vector3 & place, double reach) const
   {
@@ -69,6 +88,7 @@ private:
   }
 
   std::vector<BandField> m_Fields;
+  std::size_t            m_Thick;
   Vector3                m_Spacing;
 };
 
@@ -77,21 +97,28 @@ private:
 std::unique_ptr<SurfaceEstimate>
 SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress)
 {
-  constexpr int          passes = 20;
+  // Many passes are best where parts are thick, but from the ridge in the middle of a part they carry an error to its
+  // surface if that is near; the thinnest parts do not survive even a few.
+  constexpr int          manyPasses = 20;
+  constexpr int          fewPasses = 3;
   constexpr double       clip = 6;
   std::vector<BandField> fields;
-  fields.emplace_back(shape);
-  fields[0].FillDistances(clip);
-  fields[0].Smooth();
-  // Parts of less than three voxels do not survive the rest: there the first pass must do.
-  fields.push_back(fields[0]);
-  for (int pass = 1; pass < passes; ++pass)
+  BandField              field(shape);
+  field.FillDistances(clip);
+  field.Smooth();
+  fields.push_back(field);
+  for (int pass = 1; pass < manyPasses; ++pass)
   {
-    ReportProgress(progress, "surface", static_cast<double>(pass) / passes);
-    fields[0].ClearContradictions();
-    fields[0].Smooth();
+    ReportProgress(progress, "surface", static_cast<double>(pass) / manyPasses);
+    field.ClearContradictions();
+    field.Smooth();
+    if (pass + 1 == fewPasses)
+    {
+      fields.insert(fields.begin(), field);
+    }
   }
-  return std::make_unique<FieldSurface>(std::move(fields), spacing);
+  fields.insert(fields.begin(), std::move(field));
+  return std::make_unique<FieldSurface>(std::move(fields), 1, spacing);
 }
 
 std::unique_ptr<SurfaceEstimate>
@@ -105,8 +132,8 @@ SurfaceFromGrey(const VoxelShape &       shape,
   fields.emplace_back(shape);
   fields[0].FillGrey(scan, rows);
   ReportProgress(progress, "surface", 0.5);
-  fields[0].Smooth();
-  return std::make_unique<FieldSurface>(std::move(fields), spacing);
+  fields[0].Smooth(BandField::kStepWeight);
+  return std::make_unique<FieldSurface>(std::move(fields), 0, spacing);
 }
 
 } // namespace voxelcore

@@ -129,7 +129,7 @@ private:
   {
     const auto                faces = static_cast<std::ptrdiff_t>(m_Cells.FaceCount());
     std::vector<std::uint8_t> turned(m_Cells.FaceCount(), 0);
-#pragma omp parallel for schedule(static) if(faces > 4096)
+#pragma omp parallel for schedule(static) if (faces > 4096)
     for (std::ptrdiff_t face = 0; face < faces; ++face)
     {
       const auto corners = m_Cells.FaceVertices(static_cast<std::size_t>(face));

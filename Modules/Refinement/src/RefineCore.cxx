@@ -267,7 +267,7 @@ WorkingCore::Move(const FootFinder & finder, const ProgressCallback & progress)
   for (int pass = 0; pass < passes; ++pass)
   {
     ReportProgress(progress, "refining", static_cast<double>(pass + 1) / (passes + 2));
-#pragma omp parallel if(count > 512)
+#pragma omp parallel if (count > 512)
     {
       std::vector<Foot> feet;
 #pragma omp for schedule(dynamic, 256)
@@ -303,7 +303,7 @@ WorkingCore::Measured(const FootFinder & finder) const
   core.faceLambda.assign(m_Cells.FaceCount(), 0);
   std::vector<double> pairWidth(m_Pairs.size(), 0);
   const auto          count = static_cast<std::ptrdiff_t>(m_Positions.size());
-#pragma omp parallel if(count > 512)
+#pragma omp parallel if (count > 512)
   {
     std::vector<Foot> feet;
 #pragma omp for schedule(dynamic, 256)
@@ -402,7 +402,7 @@ WorkingCore::Finish(const FootFinder & finder, double threshold) const
   RefinedCore refined{ CutIntoTriangles(left, m_Input.spacing), std::move(moves) };
   GuardMoves(*m_Input.shape, refined.core.cells, refined.core.positions, m_Input.spacing, refined.displacement);
   const auto count = static_cast<std::ptrdiff_t>(vertices.size());
-#pragma omp parallel if(count > 512)
+#pragma omp parallel if (count > 512)
   {
     std::vector<Foot> feet;
 #pragma omp for schedule(dynamic, 256)

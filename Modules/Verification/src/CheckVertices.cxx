@@ -6,9 +6,6 @@
 
 namespace voxelcore::verification
 {
-namespace
-{
-
 /** A position within the tolerance of a plane between voxels must have the voxels on both sides in. No true vertex is
  *  that close to the boundary: the lattice points nearest to a point less than half a voxel above a boundary square are
  *  corners of that square alone, which lie in a plane. */
@@ -42,8 +39,6 @@ IsInside(const VoxelShape & shape, const Position & position, double tolerance)
   }
   return true;
 }
-
-} // namespace
 
 void
 CheckVertices(VerificationReport & report, const Subject & subject)

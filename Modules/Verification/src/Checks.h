@@ -117,6 +117,22 @@ CheckBumps(VerificationReport & report, const Subject & subject);
 void
 CheckCoverage(VerificationReport & report, const Subject & subject);
 
+/** "shape Euler number", "topology"; fills shapeTopology. `recount` is the shape's Euler number by other means. */
+void
+CheckTopology(VerificationReport & report, const VoxelShape & shape, std::int64_t recount);
+/** Each first offender starts its sentence; says whether all passed. */
+void
+FinishReport(VerificationReport & report);
+/** \throws InputError when shape and weights exceed the exact range */
+void
+RequireExactRange(const VoxelBox & box, const SpacingWeights & weights);
+/** By how much a position straight from a computation may be off, and so the centre it is compared with. */
+double
+PositionRounding(const VoxelBox & box);
+/** Whether a position known up to a tolerance lies inside the open shape. */
+bool
+IsInside(const VoxelShape & shape, const Position & position, double tolerance);
+
 /** Fills Subject::dualEdges. */
 void
 FindDualEdges(Subject & subject);

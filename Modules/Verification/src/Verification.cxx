@@ -72,12 +72,14 @@ Describe(const TopologyNumbers & numbers)
          std::to_string(numbers.betti[1]) + ", b2 " + std::to_string(numbers.betti[2]);
 }
 
-/** A description starts its sentence. */
+} // namespace
+
 void
-Capitalize(VerificationReport & report)
+FinishReport(VerificationReport & report)
 {
   for (VerificationCheck & check : report.checks)
   {
+    report.passed = report.passed && check.passed;
     if (!check.firstOffender.empty() && check.firstOffender[0] >= 'a' && check.firstOffender[0] <= 'z')
     {
       check.firstOffender[0] = static_cast<char>(check.firstOffender[0] - 'a' + 'A');
@@ -122,6 +124,21 @@ CheckTopology(VerificationReport & report, const VoxelShape & shape, std::int64_
                                   : "The shape has " + Describe(report.shapeTopology) + ", the complex " +
                                       Describe(report.complexTopology) + "." });
 }
+
+double
+PositionRounding(const VoxelBox & box)
+{
+  double largest = 1;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double lower = box.lower[a];
+    largest = std::max({ largest, std::abs(lower), std::abs(lower + box.size[a]) });
+  }
+  return 4 * std::numeric_limits<double>::epsilon() * largest;
+}
+
+namespace
+{
 
 constexpr std::array<const char *, 28> kAllChecks{ "arrays",
                                                    "numbers",
@@ -175,14 +192,7 @@ CheckGeometry(VerificationReport &      report,
               const BoundaryTree &      tree,
               const ProgressCallback &  progress)
 {
-  // Even a position straight from a computation is rounded once, and so is the centre it is compared with.
-  double largest = 1;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    const double lower = input.shape->Box().lower[a];
-    largest = std::max({ largest, std::abs(lower), std::abs(lower + input.shape->Box().size[a]) });
-  }
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * largest;
+  const double rounding = PositionRounding(input.shape->Box());
   Subject      subject{ input, *input.cells, tree, rounding + input.positionTolerance, {}, {} };
   ReportProgress(progress, "verify", 0.2);
   subject.sets = FindNearestSets(tree, input.weights, input.positions, subject.tolerance, [&](double fraction) {
@@ -248,11 +258,7 @@ VerifyComplex(const VerificationInput & input, const ProgressCallback & progress
   {
     AddUnchecked(report, input.bumpHeight.has_value());
   }
-  for (const VerificationCheck & check : report.checks)
-  {
-    report.passed = report.passed && check.passed;
-  }
-  Capitalize(report);
+  FinishReport(report);
   ReportProgress(progress, "verify", 1.0);
   return report;
 }

@@ -19,6 +19,8 @@ struct ModelPart
   std::int64_t  label = 0;
   MedialComplex core;          ///< positions here are LPS mm; radii and measures mm as ever
   std::int64_t  component = 0; ///< from 1 for a label split into its components; 0: the whole label
+
+  std::vector<Vector3> displacement{}; ///< LPS mm, of a refined core: what moved each vertex; else empty
 };
 
 /** A file's content. */
@@ -26,7 +28,8 @@ struct MedialModel
 {
   std::vector<ModelPart> parts;      ///< by label, then component, each once
   std::string            provenance; ///< JSON text of the field array Provenance; may be empty
-  bool hasEdges = true;              ///< reading: no edge's measure is missing (--keep-edges, or no edge on a face)
+  bool        hasEdges = true;       ///< reading: no edge's measure is missing (--keep-edges, or no edge on a face)
+  std::string refined{}; ///< "labels", "grey" or "mesh": the surface its cores are refined to; empty: they are not
 };
 
 /** How to write. */
@@ -61,6 +64,8 @@ IsModelPath(const std::filesystem::path & path);
  *  Bump heights, where every part has them, are the point and cell arrays `Bump` of .vtp and .vtk. Edges that outlast
  *  their faces, and vertices that outlast their edges, are cells there too: the cells with Bump >= h are then what is
  *  left at height h, for every h from the file's own.
+ *  Refined cores have their displacements as the point array `Displacement`, and the surface as the field string `Refined`
+ *  (.vtp and .vtk).
  *  \throws OutputError with one line when it cannot be written completely; a broken file is removed.
  *  \throws UsageError for an unknown extension, or when edges are to be kept whose measures are not known.
  *  \throws Error when parts are not sorted by label and component or not in canonical order. */

@@ -31,6 +31,7 @@ struct CoreOptions
   ShapeEditOptions             edits;
   std::vector<Lambda>          lambdas;  ///< at least one; ParseLambdas gives them
   std::vector<BumpHeight>      bumps;    ///< none: pruned by lambda; else there is one lambda, the floor
+  RefineOptions                refine;   ///< by lambda only, without skeletons
   std::filesystem::path        output;   ///< a model file, or a folder (IsFolderOutput); empty: no core is written
   std::optional<SkeletonStage> skeleton; ///< skeletons too; its lambda is 0 or one of `lambdas`
   std::filesystem::path        skeletonOutput; ///< .vtp, or a folder
@@ -74,7 +75,7 @@ struct LabelOutcome
 };
 
 /** Everything between reading and writing for one label; depends on nothing but its arguments. Cells come from `source`
- *  where there is one. With `crossCheck` both engines run, one after the other; TetGen can do so once at a time in a process. The skeleton's lambda is 0 or one of
+ *  where there is one; with `surface` cores are refined, which goes with lambdas alone. With `crossCheck` both engines run, one after the other; TetGen can do so once at a time in a process. The skeleton's lambda is 0 or one of
  *  `lambdas`; with bump heights it is 0.
  *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape, a boundary vertex lies
  *  farther from it than the bump height, or the engines differ. */
@@ -88,7 +89,8 @@ ProcessLabel(LabelShape                      label,
              bool                            crossCheck = false,
              const SkeletonStage *           skeleton = nullptr,
              const std::vector<BumpHeight> & bumps = {},
-             const CellSource &              source = {});
+             const CellSource &              source = {},
+             const SurfaceSource &           surface = {});
 
 /** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
 bool

@@ -3,6 +3,7 @@
 
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialModel.h"
+#include "voxelcore/RefineStage.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonStage.h"
 #include "voxelcore/SpacingWeights.h"
@@ -44,6 +45,7 @@ struct ParameterRecord
   ShapeEditOptions                         edits;
   std::vector<std::string>                 lambda;
   std::vector<std::string>                 bumps; ///< heights; where there are some, one lambda, the floor
+  RefineRecord                             refine;
   ModelOptions                             model;
   std::string                              engine;
   bool                                     crossCheck = false; ///< both engines ran and agreed
@@ -77,6 +79,8 @@ struct PrunedRecord
   ComplexRecord             complex;
   std::string               output; ///< the file
   std::optional<BumpRecord> bumps = {};
+
+  std::optional<RefinedRecord> refined = {};
 };
 
 /** A label's curve skeleton. Its topology has been found equal to the shape's, or there is none. */

@@ -1,0 +1,40 @@
+#pragma once
+// The values of a scan as numbers, where they are asked for.
+
+#include "voxelcore/LabelVolume.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Values of the voxels of a box, x fastest. */
+struct GreyVolume
+{
+  ImageGeometry      geometry; ///< of the whole scan
+  VoxelBox           box;
+  std::vector<float> values;
+
+  const float *
+  Row(std::int32_t x, std::int32_t y, std::int32_t z) const
+  {
+    const auto at = [&](std::size_t axis, std::int32_t value) {
+      return static_cast<std::size_t>(value - box.lower[axis]);
+    };
+    const auto sizeX = static_cast<std::size_t>(box.size[0]);
+    return values.data() + (at(2, z) * static_cast<std::size_t>(box.size[1]) + at(1, y)) * sizeX + at(0, x);
+  }
+};
+
+/** Reads the values within a box of a scan (any that ReadLabelVolume reads), slope and intercept applied. 4 bytes a voxel
+ *  of the box. Of the options, those about geometry, volume and component count. May be called from several threads.
+ *  \throws InputError when the scan is missing, damaged or unfit, does not hold the box, or has a value in it that is no
+ *  finite number; Cancelled */
+GreyVolume
+ReadGreyVolume(const std::filesystem::path & path,
+               const VoxelBox &              box,
+               const ReadOptions &           options = {},
+               const ProgressCallback &      progress = {});
+
+} // namespace voxelcore

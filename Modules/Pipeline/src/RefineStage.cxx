@@ -1,0 +1,150 @@
+#include "voxelcore/RefineStage.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/GreyVolume.h"
+#include "voxelcore/ReadMesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** The part of a scan that was read. */
+VoxelBox
+BoxOf(const LabelVolume & volume)
+{
+  VoxelBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = volume.crop ? volume.crop->first[axis] : 0;
+    const auto end = volume.crop ? volume.crop->end[axis] : static_cast<std::int32_t>(volume.geometry.size[axis]);
+    box.size[axis] = end - box.lower[axis];
+  }
+  return box;
+}
+
+/** As far around a shape as the estimate looks. */
+VoxelBox
+AroundShape(const VoxelBox & shape, const VoxelBox & scan)
+{
+  constexpr std::int32_t margin = 24; // two bricks of 8 around those within 7 voxels of the boundary
+  VoxelBox               box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = std::max(scan.lower[axis], shape.lower[axis] - margin);
+    box.size[axis] =
+      std::min(scan.lower[axis] + scan.size[axis], shape.lower[axis] + shape.size[axis] + margin) - box.lower[axis];
+  }
+  return box;
+}
+
+void
+RequireSamePlace(const ImageGeometry & grey, const ImageGeometry & labels, const std::filesystem::path & path)
+{
+  constexpr double close = 1e-3; // voxels
+  bool             same = grey.size == labels.size;
+  // Opposite corners and those between them.
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Vector3 place{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(labels.size[axis]) : 0.0;
+    }
+    const Vector3 there = PhysicalToLattice(grey, LatticeToPhysical(labels, place));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      same = same && std::abs(there[axis] - place[axis]) < close;
+    }
+  }
+  if (!same)
+  {
+    throw InputError(path.string() +
+                     ": --grey must have the voxels of the segmentation: the same size, spacing, origin " +
+                     "and direction; resample it");
+  }
+}
+
+SurfaceSource
+GreySource(const RefineOptions &         options,
+           const std::filesystem::path & scan,
+           const ReadOptions &           reading,
+           const LabelVolume &           volume)
+{
+  const bool other = !options.grey.empty();
+  if (!other && !reading.threshold)
+  {
+    throw UsageError(
+      "--refine grey needs grey values: a scan with --threshold LO:HI, or --grey FILE --grey-range LO:HI");
+  }
+  const auto range = other ? *options.greyRange : *reading.threshold;
+  if (std::isinf(range.first) && std::isinf(range.second))
+  {
+    throw UsageError("--refine grey: the range of grey values has no end, so there is no surface at one");
+  }
+  ReadOptions how = reading;
+  if (other)
+  {
+    how.volume.reset();
+    how.component.reset();
+  }
+  const VoxelBox              whole = BoxOf(volume);
+  const ImageGeometry         geometry = volume.geometry;
+  const std::filesystem::path path = other ? options.grey : scan;
+  return [=](const VoxelShape & shape, const ProgressCallback & progress) -> std::shared_ptr<const SurfaceEstimate> {
+    const GreyVolume grey = ReadGreyVolume(path, AroundShape(shape.Box(), whole), how, progress);
+    RequireSamePlace(grey.geometry, geometry, path);
+    const auto rows = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
+      const float * from = grey.Row(x, y, z);
+      std::transform(from, from + values.size(), values.begin(), [&](float value) {
+        return static_cast<float>(std::min(value - range.first, range.second - value));
+      });
+    };
+    return SurfaceFromGrey(shape, geometry.spacing, whole, rows, progress);
+  };
+}
+
+} // namespace
+
+SurfaceSource
+MakeSurfaceSource(const RefineOptions &         options,
+                  const std::filesystem::path & scan,
+                  const ReadOptions &           reading,
+                  const LabelVolume &           volume)
+{
+  if (options.surface.empty())
+  {
+    return {};
+  }
+  if (options.surface == "labels")
+  {
+    return [spacing = volume.geometry.spacing](const VoxelShape & shape, const ProgressCallback & progress) {
+      return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(shape, spacing, progress));
+    };
+  }
+  if (options.surface == "grey")
+  {
+    return GreySource(options, scan, reading, volume);
+  }
+  if (!IsMeshPath(scan))
+  {
+    throw UsageError("--refine mesh: " + scan.string() + " is no mesh; a scan has labels or grey values");
+  }
+  TriangleMesh mesh = ReadMesh(scan).mesh;
+  for (Vector3 & point : mesh.points)
+  {
+    point = PhysicalToLattice(volume.geometry, point);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      point[axis] *= volume.geometry.spacing[axis];
+    }
+  }
+  const std::shared_ptr<const SurfaceEstimate> surface = SurfaceFromTriangles(mesh.points, mesh.triangles);
+  return [surface](const VoxelShape &, const ProgressCallback &) { return surface; };
+}
+
+} // namespace voxelcore

@@ -1,0 +1,201 @@
+#include "voxelcore/RefinedVerification.h"
+
+#include "Checks.h"
+#include "voxelcore/BettiReduction.h"
+#include "voxelcore/OctantScan.h"
+
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace verification
+{
+namespace
+{
+
+constexpr std::array<const char *, 13> kRefinedChecks{ "arrays",
+                                                       "numbers",
+                                                       "edge ends",
+                                                       "polygons",
+                                                       "polygon edges",
+                                                       "triangles",
+                                                       "vertices inside",
+                                                       "displacement",
+                                                       "origins equidistant",
+                                                       "faces not turned over",
+                                                       "radius",
+                                                       "shape Euler number",
+                                                       "topology" };
+
+Position
+NormalOf(const std::array<Position, 3> & corners, const Position & spacing)
+{
+  Position a{};
+  Position b{};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    a[k] = (corners[1][k] - corners[0][k]) * spacing[k];
+    b[k] = (corners[2][k] - corners[0][k]) * spacing[k];
+  }
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+double
+DotOf(const Position & a, const Position & b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+void
+CheckMoves(VerificationReport &             report,
+           const RefinedVerificationInput & input,
+           const BoundaryTree &             tree,
+           const ProgressCallback &         progress)
+{
+  const CellComplex & cells = *input.cells;
+  // Where a vertex was is a difference of two places from a file.
+  const double          tolerance = PositionRounding(input.shape->Box()) + 4 * input.positionTolerance;
+  std::vector<Position> origins(input.positions.size());
+  for (std::size_t v = 0; v < origins.size(); ++v)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      origins[v][k] = input.positions[v][k] - input.displacement[v][k];
+    }
+  }
+  const auto vertexText = [&](std::size_t v) {
+    return "vertex " + std::to_string(v) + " at " + Describe(input.positions[v]);
+  };
+  AddCheck(
+    report,
+    "triangles",
+    cells.FaceCount(),
+    [&](std::size_t face) { return cells.FaceVertices(face).size() != 3; },
+    [&](std::size_t face) { return "face " + std::to_string(face) + " is no triangle."; });
+  AddCheck(
+    report,
+    "vertices inside",
+    origins.size(),
+    [&](std::size_t v) { return !IsInside(*input.shape, input.positions[v], 0); },
+    [&](std::size_t v) { return vertexText(v) + " is not inside the shape."; });
+  const auto length = [&](std::size_t v) { return std::sqrt(DotOf(input.displacement[v], input.displacement[v])); };
+  AddCheck(
+    report,
+    "displacement",
+    origins.size(),
+    [&](std::size_t v) { return !(length(v) <= 1 + tolerance); },
+    [&](std::size_t v) { return vertexText(v) + " was moved by " + Describe(length(v)) + " voxels."; });
+  const NearestSets sets = FindNearestSets(tree, input.weights, origins, tolerance, [&](double fraction) {
+    ReportProgress(progress, "verify", 0.2 + 0.5 * fraction);
+  });
+  AddCheck(
+    report,
+    "origins equidistant",
+    origins.size(),
+    [&](std::size_t v) { return !sets.IsKnown(v); },
+    [&](std::size_t v) { return vertexText(v) + " was moved from no vertex of the voxel core."; });
+  AddCheck(
+    report,
+    "faces not turned over",
+    cells.FaceCount(),
+    [&](std::size_t face) {
+      const auto corners = cells.FaceVertices(face);
+      if (corners.size() != 3)
+      {
+        return false;
+      }
+      std::array<Position, 3> before{};
+      std::array<Position, 3> after{};
+      bool                    moved = false;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        before[k] = origins[corners[k]];
+        after[k] = input.positions[corners[k]];
+        moved = moved || length(corners[k]) > tolerance;
+      }
+      const Position n0 = NormalOf(before, input.spacing);
+      const Position n1 = NormalOf(after, input.spacing);
+      // The areas are known up to the tolerance times a side.
+      const double slack = 100 * tolerance * input.weights.unit * std::sqrt(DotOf(n0, n0) + DotOf(n1, n1) + 1);
+      return moved && DotOf(n0, n1) < -slack;
+    },
+    [&](std::size_t face) { return "face " + std::to_string(face) + " was turned over."; });
+  const double half =
+    0.5 * std::sqrt(DotOf(input.spacing, input.spacing)) * (1 + 1e-9) + input.positionTolerance * input.weights.unit;
+  std::vector<double> nearest(origins.size());
+#pragma omp parallel if (nearest.size() > 4096)
+  {
+    std::vector<BoundaryTree::Candidate> found;
+#pragma omp for schedule(dynamic, 1024)
+    for (std::size_t v = 0; v < nearest.size(); ++v)
+    {
+      nearest[v] = tree.FindNearest(input.positions[v], 0, found) * input.weights.unit;
+    }
+  }
+  AddCheck(
+    report,
+    "radius",
+    origins.size(),
+    [&](std::size_t v) {
+      Position move = input.displacement[v];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        move[k] *= input.spacing[k];
+      }
+      return !(input.radius[v] > 0 &&
+               std::abs(input.radius[v] - nearest[v]) <= half + 2 * std::sqrt(DotOf(move, move)));
+    },
+    [&](std::size_t v) {
+      return "the nearest boundary vertex is " + Describe(nearest[v]) + " mm from " + vertexText(v) +
+             ", whose radius is " + Describe(input.radius[v]) + " mm.";
+    });
+}
+
+} // namespace
+} // namespace verification
+
+VerificationReport
+VerifyRefinedCore(const RefinedVerificationInput & input, const ProgressCallback & progress)
+{
+  using namespace verification;
+  RequireExactRange(input.shape->Box(), input.weights);
+  VerificationReport report;
+  ReportProgress(progress, "verify", 0.0);
+  VerificationInput plain;
+  plain.shape = input.shape;
+  plain.weights = input.weights;
+  plain.cells = input.cells;
+  plain.positions = input.positions;
+  plain.radius = input.radius;
+  plain.vertexLambda = input.vertexLambda;
+  plain.edgeLambda = input.edgeLambda;
+  plain.faceLambda = input.faceLambda;
+  OctantScan scan = ScanOctants(*input.shape);
+  bool       usable = CheckArrays(report, plain) && CheckIncidences(report, *input.cells);
+  if (usable && input.displacement.size() != input.positions.size())
+  {
+    report.checks.front() = { "arrays", false, 1, "not every vertex has a displacement." };
+    usable = false;
+  }
+  if (usable)
+  {
+    const BoundaryTree tree(std::move(scan.boundary), input.weights);
+    CheckMoves(report, input, tree, progress);
+    ReportProgress(progress, "verify", 0.9);
+    report.complexTopology = ReduceToTopologyNumbers(*input.cells);
+    CheckTopology(report, *input.shape, scan.euler);
+  }
+  else
+  {
+    for (std::size_t i = report.checks.size(); i < kRefinedChecks.size(); ++i)
+    {
+      report.checks.push_back({ kRefinedChecks[i], false, 0, "Not checked: what it builds on is damaged." });
+    }
+  }
+  FinishReport(report);
+  ReportProgress(progress, "verify", 1.0);
+  return report;
+}
+
+} // namespace voxelcore
