@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the commands README.md shows, one after the other as a reader would, on a small scan called scan.nii.gz, a cohort of
-# it, and a `huge.nrrd` that is not. Those that need a cluster are run by the tests in Testing/Cluster.
+# it, a `ct.nrrd` of grey values, a mesh `part.stl`, and a `huge.nrrd` that is not. Those that need a cluster are run by the tests in Testing/Cluster.
 # usage: readme_test.sh PROGRAM
 set -euo pipefail
 
@@ -16,6 +16,17 @@ cp scan.nii.gz scans/
 ln -s "$program" build/release/bin/voxelcore
 PATH=$PWD/build/release/bin:$PATH
 "$program" phantom root --size 40 -o huge.nrrd -q
+# A ball of radius 7 with a soft rim, and a box of two triangles a side.
+awk 'BEGIN {
+  print "NRRD0004\ntype: short\ndimension: 3\nsizes: 20 20 20\nspace: left-posterior-superior"
+  print "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: ascii\n"
+  for (k = 0; k < 20; ++k) for (j = 0; j < 20; ++j) for (i = 0; i < 20; ++i)
+    print int(1000 - 100 * sqrt((i - 9.6) ^ 2 + (j - 9.4) ^ 2 + (k - 9.5) ^ 2))
+}' >ct.nrrd
+awk 'function corner(c) { printf " vertex %g %g %g\n", 10 * (c % 2), 6 * (int(c / 2) % 2), 4 * int(c / 4) }
+function triangle(a, b, c) { print "facet normal 0 0 0\nouter loop"; corner(a); corner(b); corner(c); print "endloop\nendfacet" }
+function side(a, b, c, d) { triangle(a, b, c); triangle(a, c, d) }
+BEGIN { print "solid part"; side(0, 2, 3, 1); side(4, 5, 7, 6); side(0, 1, 5, 4); side(2, 6, 7, 3); side(0, 4, 6, 2); side(1, 3, 7, 5); print "endsolid part" }' >part.stl
 
 count=0
 while IFS= read -r line; do
