@@ -227,6 +227,56 @@ TEST_F(RenderCommand, ADarkBackgroundIsDarkAndFrameNumbersRunThroughTheTurn)
   EXPECT_NE(ReadAll(m_Folder / "t_000.png"), ReadAll(m_Folder / "t_001.png"));
 }
 
+TEST_F(RenderCommand, TheScaleBarIsAsLongAsItSaysAndDirectionsAreGiven)
+{
+  const auto  isDark = [](const auto & c) { return std::max({ c[0], c[1], c[2] }) < 90; };
+  const Image front = Draw({ m_Folder / "c.vtp", "--scan", m_Folder / "s.nrrd", "--view", "front" });
+  const Image top = Draw({ m_Folder / "c.vtp", "--scan", m_Folder / "s.nrrd", "--view", "top" });
+  // The longest dark line of pixels in the lower left corner; the two blocks together are 40 mm wide.
+  int longest = 0;
+  for (int y = front.height * 88 / 100; y < front.height; ++y)
+  {
+    for (int x = 0, run = 0; x < front.width / 2; ++x)
+    {
+      run = isDark(front.At(x, y)) ? run + 1 : 0;
+      longest = std::max(longest, run);
+    }
+  }
+  const Spot   all = Find(front, IsDrawn);
+  const double bar = 40.0 * longest / (all.right - all.left + 1);
+  EXPECT_TRUE(std::abs(bar - 10) < 0.4 || std::abs(bar - 5) < 0.3 || std::abs(bar - 20) < 0.8) << bar << " mm";
+  const auto isGrey = [](const auto & c) { return std::max({ c[0], c[1], c[2] }) < 200; }; // small letters are
+  // Letters at the cross in the lower right corner: other ones from another side.
+  int letters = 0;
+  int changed = 0;
+  for (int y = front.height * 70 / 100; y < front.height; ++y)
+  {
+    for (int x = front.width * 82 / 100; x < front.width; ++x)
+    {
+      letters += isGrey(front.At(x, y));
+      changed += isGrey(front.At(x, y)) != isGrey(top.At(x, y));
+    }
+  }
+  EXPECT_GT(letters, 60);
+  EXPECT_GT(changed, 20);
+}
+
+TEST_F(RenderCommand, EachColoringAndEachViewShowsSomethingElse)
+{
+  std::set<std::vector<std::uint8_t>> pictures;
+  for (const std::string color : { "Radius", "Lambda", "Label" })
+  {
+    const Image image = Draw({ m_Folder / "c.vtp", "--color", color, "--view", "front" });
+    EXPECT_GT(Find(image, [](const auto & c) { return std::abs(c[0] - c[2]) > 30; }).count, 500) << color;
+    pictures.insert(image.pixels);
+  }
+  for (const std::string view : { "top", "iso", "auto" })
+  {
+    pictures.insert(Draw({ m_Folder / "c.vtp", "--view", view }).pixels);
+  }
+  EXPECT_EQ(pictures.size(), 6U);
+}
+
 TEST_F(RenderCommand, PanelsShowSurfaceMedialSurfaceAndCurveSkeleton)
 {
   Run({ "skeleton", m_Folder / "c.vtp", "-o", m_Folder / "k.vtp", "--quiet" });
