@@ -26,21 +26,21 @@ WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
 {
   const auto &      size = volume.geometry.size;
   const PixelType   type = volume.type;
-  const auto &      voxels = volume.voxels;
   const auto        fail = []() { throw OutputError("libtiff could not write all of it"); };
+  const auto        rowBytes = static_cast<std::size_t>(size[0]) * PixelBytes(type);
+  const auto        pageBytes = rowBytes * static_cast<std::size_t>(size[1]);
+  const auto        wholeBytes = pageBytes * static_cast<std::size_t>(size[2]);
   TIFFOpenOptions * options = TIFFOpenOptionsAlloc();
   TIFFOpenOptionsSetErrorHandlerExtR(options, Silent, nullptr);
   TIFFOpenOptionsSetWarningHandlerExtR(options, Silent, nullptr);
   const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(
-    TIFFOpenExt(path.c_str(), voxels.size() > (1ULL << 31) ? "w8" : "w", options),
+    TIFFOpenExt(path.c_str(), wholeBytes > (1ULL << 31) ? "w8" : "w", options),
     &TIFFClose);
   TIFFOpenOptionsFree(options);
   if (!tiff)
   {
     fail();
   }
-  const auto        rowBytes = static_cast<std::size_t>(size[0]) * PixelBytes(type);
-  const auto        pageBytes = rowBytes * static_cast<std::size_t>(size[1]);
   const std::size_t rowsPerStrip = std::clamp<std::size_t>((1U << 20) / rowBytes, 1, static_cast<std::size_t>(size[1]));
   for (std::int64_t z = 0; z < size[2]; ++z)
   {
@@ -55,7 +55,7 @@ WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
     TIFFSetField(t, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     TIFFSetField(t, TIFFTAG_COMPRESSION, volume.compress ? COMPRESSION_ADOBE_DEFLATE : COMPRESSION_NONE);
     TIFFSetField(t, TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(rowsPerStrip));
-    const std::byte * page = voxels.data() + static_cast<std::size_t>(z) * pageBytes;
+    const std::byte * page = volume.slice(z).data();
     std::uint32_t     strip = 0;
     for (std::size_t at = 0; at < pageBytes; at += rowsPerStrip * rowBytes)
     {

@@ -75,6 +75,15 @@ public:
     }
   }
 
+  void
+  Write(const VolumeToWrite & volume)
+  {
+    for (std::int64_t k = 0; k < volume.geometry.size[2]; ++k)
+    {
+      Write(volume.slice(k));
+    }
+  }
+
   /** Must be called: only now is it known that everything found room. Returns the bytes in the file. */
   std::uint64_t
   Close()
@@ -231,7 +240,7 @@ WriteNrrd(const std::filesystem::path & path, const VolumeToWrite & volume)
          "\n",
          volume.fields,
          "\n"));
-  file.Write(volume.voxels);
+  file.Write(volume);
   file.Close();
 }
 
@@ -286,7 +295,7 @@ WriteNifti(const std::filesystem::path & path, const VolumeToWrite & volume)
 
   OutputFile file(path, LowerCase(path.string()).ends_with(".gz") ? Wrapping::Gzip : Wrapping::None);
   file.Write(h.Bytes());
-  file.Write(volume.voxels);
+  file.Write(volume);
   file.Close();
 }
 
@@ -299,7 +308,7 @@ WriteMetaImage(const std::filesystem::path & path, const VolumeToWrite & volume)
   dataPath.replace_extension(volume.compress ? ".zraw" : ".raw");
   // Programs want the packed size in the header, so the voxels go into a file of their own first.
   OutputFile data(dataPath, wrapping);
-  data.Write(volume.voxels);
+  data.Write(volume);
   const std::uint64_t bytes = data.Close();
 
   std::string matrix;

@@ -5,21 +5,25 @@
 #include "ScanFile.h"
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 
 namespace voxelcore
 {
 
+/** The voxels of slice k, good until it is called again; so a volume need never be in memory as a whole. */
+using SliceSource = std::function<std::span<const std::byte>(std::int64_t k)>;
+
 /** A volume about to be written: unsigned whole numbers in this machine's byte order, i fastest. */
 struct VolumeToWrite
 {
-  ImageGeometry              geometry;
-  PixelType                  type = PixelType::UInt8;
-  std::span<const std::byte> voxels;
-  bool                       compress = true;
-  std::int64_t               layers = 1; ///< NRRD only: so many values a voxel, on a leading list axis
-  std::string                fields{};   ///< NRRD only: further lines of the header, each with its line end
+  ImageGeometry geometry;
+  PixelType     type = PixelType::UInt8;
+  SliceSource   slice;
+  bool          compress = true;
+  std::int64_t  layers = 1; ///< NRRD only: so many values a voxel, on a leading list axis
+  std::string   fields{};   ///< NRRD only: further lines of the header, each with its line end
 };
 
 /** \throws OutputError when the file cannot be written in full. */

@@ -72,60 +72,99 @@ SmallestType(const std::vector<LabelShape> & labels, const std::filesystem::path
   return largest <= UINT32_MAX ? PixelType::UInt32 : PixelType::UInt64;
 }
 
-/** All voxels, i fastest. */
+void
+RequireWithin(const std::filesystem::path & path, const std::array<std::int64_t, 3> & size, const LabelShape & label)
+{
+  const VoxelBox & box = label.shape.Box();
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    if (box.size[a] > 0 && (box.lower[a] < 0 || std::int64_t{ box.lower[a] } + box.size[a] > size[a]))
+    {
+      throw UsageError(Text(path.string(), ": label ", label.value, " reaches beyond the volume it is written into"));
+    }
+  }
+}
+
+/** The voxels of slice k, i fastest. \throws UsageError where labels overlap */
 template <typename T>
 void
-FillVoxels(const std::filesystem::path &       path,
-           const std::array<std::int64_t, 3> & size,
-           const std::vector<LabelShape> &     labels,
-           std::vector<std::byte> &            bytes)
+FillSlice(const std::filesystem::path &       path,
+          const std::array<std::int64_t, 3> & size,
+          const std::vector<LabelShape> &     labels,
+          std::int64_t                        k,
+          std::vector<std::byte> &            bytes)
 {
+  std::fill(bytes.begin(), bytes.end(), std::byte{ 0 });
   auto * const voxels = reinterpret_cast<T *>(bytes.data());
   for (const LabelShape & label : labels)
   {
-    const VoxelBox & box = label.shape.Box();
-    for (std::size_t a = 0; a < 3; ++a)
+    const VoxelBox &   box = label.shape.Box();
+    const std::int64_t z = k - box.lower[2];
+    if (z < 0 || z >= box.size[2])
     {
-      if (box.size[a] > 0 && (box.lower[a] < 0 || std::int64_t{ box.lower[a] } + box.size[a] > size[a]))
-      {
-        throw UsageError(Text(path.string(), ": label ", label.value, " reaches beyond the volume it is written into"));
-      }
+      continue;
     }
-    for (std::int32_t z = 0; z < box.size[2]; ++z)
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
-      for (std::int32_t y = 0; y < box.size[1]; ++y)
+      const auto row = label.shape.Row(y, static_cast<std::int32_t>(z));
+      T * const  to = voxels + (y + box.lower[1]) * size[0] + box.lower[0];
+      for (std::size_t w = 0; w < row.size(); ++w)
       {
-        const auto row = label.shape.Row(y, z);
-        T * const  to = voxels + ((z + box.lower[2]) * size[1] + (y + box.lower[1])) * size[0] + box.lower[0];
-        for (std::size_t w = 0; w < row.size(); ++w)
+        for (std::uint64_t bits = row[w]; bits != 0; bits &= bits - 1)
         {
-          for (std::uint64_t bits = row[w]; bits != 0; bits &= bits - 1)
+          T & voxel = to[w * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
+          if (voxel != 0)
           {
-            T & voxel = to[w * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
-            if (voxel != 0)
-            {
-              throw UsageError(Text(path.string(),
-                                    ": labels ",
-                                    +voxel,
-                                    " and ",
-                                    label.value,
-                                    " overlap; one volume holds one label a voxel: write them apart"));
-            }
-            voxel = static_cast<T>(label.value);
+            throw UsageError(Text(path.string(),
+                                  ": labels ",
+                                  +voxel,
+                                  " and ",
+                                  label.value,
+                                  " overlap; one volume holds one label a voxel: write them apart"));
           }
+          voxel = static_cast<T>(label.value);
         }
       }
     }
   }
 }
 
+/** Slices as they are asked for, one at a time. */
+SliceSource
+SlicesOf(const std::filesystem::path &       path,
+         const std::array<std::int64_t, 3> & size,
+         const std::vector<LabelShape> &     labels,
+         PixelType                           type,
+         std::vector<std::byte> &            bytes)
+{
+  bytes.resize(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * PixelBytes(type));
+  return [&, type](std::int64_t k) -> std::span<const std::byte> {
+    switch (type)
+    {
+      case PixelType::UInt8:
+        FillSlice<std::uint8_t>(path, size, labels, k, bytes);
+        break;
+      case PixelType::UInt16:
+        FillSlice<std::uint16_t>(path, size, labels, k, bytes);
+        break;
+      case PixelType::UInt32:
+        FillSlice<std::uint32_t>(path, size, labels, k, bytes);
+        break;
+      default:
+        FillSlice<std::uint64_t>(path, size, labels, k, bytes);
+        break;
+    }
+    return bytes;
+  };
+}
+
 /** Reads the file back: writers that meet a full disk, or a number their format cannot hold, do not always say so. */
 void
-CheckWritten(const std::filesystem::path &  path,
-             Kind                           kind,
-             const ImageGeometry &          geometry,
-             PixelType                      type,
-             const std::vector<std::byte> & voxels)
+CheckWritten(const std::filesystem::path & path,
+             Kind                          kind,
+             const ImageGeometry &         geometry,
+             PixelType                     type,
+             const SliceSource &           slice)
 {
   ReadOptions    options;
   const ScanFile scan = OpenScan(path, options);
@@ -141,16 +180,13 @@ CheckWritten(const std::filesystem::path &  path,
       same = same && std::abs(scan.geometry.direction[3 * c + a] - geometry.direction[3 * c + a]) <= 10 * tolerance;
     }
   }
-  std::vector<std::byte> part(std::min<std::size_t>(voxels.size(), 4U << 20));
-  for (std::size_t at = 0; same && at < voxels.size(); at += part.size())
+  std::vector<std::byte> part;
+  for (std::int64_t k = 0; same && k < geometry.size[2] && !scan.swapBytes; ++k) // never swapped on files written here
   {
-    const std::size_t now = std::min(part.size(), voxels.size() - at);
-    scan.voxels->Read(part.data(), now);
-    if (scan.swapBytes)
-    {
-      break; // never on files written here; the sizes have been checked
-    }
-    same = std::memcmp(part.data(), voxels.data() + at, now) == 0;
+    const auto voxels = slice(k);
+    part.resize(voxels.size());
+    scan.voxels->Read(part.data(), part.size());
+    same = std::memcmp(part.data(), voxels.data(), part.size()) == 0;
   }
   if (!same)
   {
@@ -243,22 +279,15 @@ WriteLabelVolume(const std::filesystem::path &   path,
   {
     throw UsageError(Text(path.string(), ": one page is a picture, not a volume; write .nrrd"));
   }
-  std::vector<std::byte> voxels(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-                                static_cast<std::size_t>(size[2]) * PixelBytes(type));
-  switch (type)
+  std::vector<std::byte> bytes;
+  const SliceSource      slice = SlicesOf(path, size, labels, type, bytes);
+  for (const LabelShape & label : labels)
   {
-    case PixelType::UInt8:
-      FillVoxels<std::uint8_t>(path, size, labels, voxels);
-      break;
-    case PixelType::UInt16:
-      FillVoxels<std::uint16_t>(path, size, labels, voxels);
-      break;
-    case PixelType::UInt32:
-      FillVoxels<std::uint32_t>(path, size, labels, voxels);
-      break;
-    default:
-      FillVoxels<std::uint64_t>(path, size, labels, voxels);
-      break;
+    RequireWithin(path, size, label);
+  }
+  for (std::int64_t k = 0; k < size[2] && labels.size() > 1; ++k)
+  {
+    slice(k); // says where labels overlap before anything is written
   }
 
   const Workshop workshop(path);
@@ -268,7 +297,7 @@ WriteLabelVolume(const std::filesystem::path &   path,
   };
   try
   {
-    const VolumeToWrite volume{ geometry, type, voxels, compress };
+    const VolumeToWrite volume{ geometry, type, slice, compress };
     switch (kind)
     {
       case Kind::Nrrd:
@@ -284,7 +313,7 @@ WriteLabelVolume(const std::filesystem::path &   path,
         WriteTiff(workshop.File(), volume);
         break;
     }
-    CheckWritten(workshop.File(), kind, geometry, type, voxels);
+    CheckWritten(workshop.File(), kind, geometry, type, slice);
     workshop.Publish();
   }
   catch (const std::filesystem::filesystem_error & error)

@@ -148,7 +148,9 @@ WriteSegmentation(const std::filesystem::path &   path,
   VolumeToWrite volume;
   volume.geometry = geometry;
   volume.type = PixelType::UInt16;
-  volume.voxels = std::as_bytes(std::span(layers.size() > 1 ? together : layers.at(0)));
+  const auto voxels = std::as_bytes(std::span(layers.size() > 1 ? together : layers.at(0)));
+  const auto sliceBytes = voxels.size() / static_cast<std::size_t>(geometry.size[2]);
+  volume.slice = [=](std::int64_t k) { return voxels.subspan(static_cast<std::size_t>(k) * sliceBytes, sliceBytes); };
   volume.layers = static_cast<std::int64_t>(layers.size());
   volume.fields = fields;
   WriteNrrd(path, volume);

@@ -59,6 +59,22 @@ PromisedCount(std::string_view bytes, std::string_view keyword)
   return -1;
 }
 
+/** VTK takes a cell from wherever its offsets say. */
+void
+RequireOffsets(vtkCellArray & cells)
+{
+  const vtkIdType corners = cells.GetNumberOfConnectivityIds();
+  const auto      check = [&](const auto * offsets) {
+    for (vtkIdType i = 0; i < offsets->GetNumberOfValues(); ++i)
+    {
+      const auto end = static_cast<vtkIdType>(offsets->GetValue(i));
+      RequireFit(end >= (i > 0 ? static_cast<vtkIdType>(offsets->GetValue(i - 1)) : 0) && end <= corners,
+                 "its cells' offsets are damaged");
+    }
+  };
+  cells.IsStorage64Bit() ? check(cells.GetOffsetsArray64()) : check(cells.GetOffsetsArray32());
+}
+
 MeshFile
 FromPolyData(vtkPolyData & data)
 {
@@ -83,6 +99,7 @@ FromPolyData(vtkPolyData & data)
     }
   };
   vtkCellArray * const polygons = data.GetPolys();
+  RequireOffsets(*polygons);
   for (vtkIdType cell = 0; cell < polygons->GetNumberOfCells(); ++cell)
   {
     polygons->GetCellAtId(cell, ids);
@@ -90,6 +107,7 @@ FromPolyData(vtkPolyData & data)
     AddPolygon(file, corners);
   }
   vtkCellArray * const strips = data.GetStrips();
+  RequireOffsets(*strips);
   for (vtkIdType cell = 0; cell < strips->GetNumberOfCells(); ++cell)
   {
     strips->GetCellAtId(cell, ids);

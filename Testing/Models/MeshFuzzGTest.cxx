@@ -1,0 +1,207 @@
+// Meshes with bits flipped: each is refused in one line or read as a mesh that fits together, whatever the format.
+
+#include "Models/ModelFixtures.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/ReadMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <random>
+#include <sstream>
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataWriter.h>
+#include <vtkXMLPolyDataWriter.h>
+
+using namespace voxelcore;
+using namespace voxelcore::testing;
+
+namespace
+{
+
+/** A prism of `sides`: triangles at its ends, quads around. */
+struct Prism
+{
+  std::vector<std::array<double, 3>>  points;
+  std::vector<std::vector<vtkIdType>> faces;
+
+  explicit Prism(vtkIdType sides)
+  {
+    for (vtkIdType i = 0; i < 2 * sides; ++i)
+    {
+      const double turn = 2 * M_PI * static_cast<double>(i % sides) / static_cast<double>(sides);
+      points.push_back({ std::cos(turn), std::sin(turn), i < sides ? 0.0 : 1.5 });
+    }
+    for (vtkIdType i = 0; i < sides; ++i)
+    {
+      const vtkIdType next = (i + 1) % sides;
+      faces.push_back({ i, next, sides + next, sides + i });
+    }
+    for (vtkIdType i = 2; i < sides; ++i)
+    {
+      faces.push_back({ 0, i, i - 1 });
+      faces.push_back({ sides, sides + i - 1, sides + i });
+    }
+  }
+
+  vtkSmartPointer<vtkPolyData>
+  AsPolyData() const
+  {
+    vtkNew<vtkPoints>    places;
+    vtkNew<vtkCellArray> cells;
+    places->SetDataTypeToDouble();
+    for (const auto & point : points)
+    {
+      places->InsertNextPoint(point.data());
+    }
+    for (const auto & face : faces)
+    {
+      cells->InsertNextCell(static_cast<vtkIdType>(face.size()), face.data());
+    }
+    auto data = vtkSmartPointer<vtkPolyData>::New();
+    data->SetPoints(places);
+    data->SetPolys(cells);
+    return data;
+  }
+
+  std::string
+  AsOff() const
+  {
+    std::ostringstream text;
+    text << "OFF\n" << points.size() << ' ' << faces.size() << " 0\n";
+    for (const auto & p : points)
+    {
+      text << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    }
+    for (const auto & face : faces)
+    {
+      text << face.size();
+      for (const vtkIdType corner : face)
+      {
+        text << ' ' << corner;
+      }
+      text << '\n';
+    }
+    return text.str();
+  }
+
+  std::string
+  AsObj() const
+  {
+    std::ostringstream text;
+    for (const auto & p : points)
+    {
+      text << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    }
+    for (const auto & face : faces)
+    {
+      text << 'f';
+      for (const vtkIdType corner : face)
+      {
+        text << ' ' << corner + 1;
+      }
+      text << '\n';
+    }
+    return text.str();
+  }
+};
+
+std::string
+BytesOf(const std::filesystem::path & path)
+{
+  std::ifstream      file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
+}
+
+/** Reads `bytes` with 1 to 3 bits flipped, again and again; returns how often that was refused. */
+int
+Fuzz(const TemporaryFolder & folder, const std::string & name, const std::string & bytes, int runs)
+{
+  constexpr std::uint64_t seed = 8;
+  std::mt19937_64         random(seed);
+  std::cout << name << ": seed " << seed << "\n";
+  int refused = 0;
+  ::testing::internal::CaptureStderr();
+  for (int run = 0; run < runs; ++run)
+  {
+    std::string damaged = bytes;
+    for (std::uint64_t flips = 1 + random() % 3; flips > 0; --flips)
+    {
+      damaged[random() % damaged.size()] ^= static_cast<char>(1U << (random() % 8));
+    }
+    {
+      std::ofstream(folder / name, std::ios::binary) << damaged;
+    }
+    try
+    {
+      const MeshFile read = ReadMesh(folder / name);
+      for (const auto & point : read.mesh.points)
+      {
+        EXPECT_TRUE(std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]))
+          << name << " " << run;
+      }
+      for (const auto & triangle : read.mesh.triangles)
+      {
+        for (const std::uint32_t corner : triangle)
+        {
+          EXPECT_LT(corner, read.mesh.points.size()) << name << " " << run;
+        }
+      }
+    }
+    catch (const InputError & error)
+    {
+      ++refused;
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << name;
+  return refused;
+}
+
+TEST(MeshFuzz, FlippedBitsInVtpOfAnyEncodingNeverCrashNorPrint)
+{
+  const TemporaryFolder folder;
+  const auto            data = Prism(9).AsPolyData();
+  for (int mode = 0; mode < 4; ++mode)
+  {
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(data);
+    writer->SetFileName((folder / "good.vtp").c_str());
+    mode == 0   ? writer->SetDataModeToAscii()
+    : mode == 1 ? writer->SetDataModeToBinary()
+                : writer->SetDataModeToAppended();
+    mode == 2 ? writer->EncodeAppendedDataOff() : writer->EncodeAppendedDataOn();
+    mode == 1 ? writer->SetCompressorTypeToZLib() : writer->SetCompressorTypeToNone();
+    ASSERT_EQ(writer->Write(), 1);
+    ASSERT_EQ(ReadMesh(folder / "good.vtp").mesh.triangles.size(), 32U);
+    EXPECT_GT(Fuzz(folder, "bad.vtp", BytesOf(folder / "good.vtp"), 400), 40) << "mode " << mode;
+  }
+}
+
+TEST(MeshFuzz, FlippedBitsInOtherFormatsNeverCrashNorPrint)
+{
+  const TemporaryFolder folder;
+  const Prism           prism(9);
+  for (const bool binary : { false, true })
+  {
+    vtkNew<vtkPolyDataWriter> writer;
+    writer->SetInputData(prism.AsPolyData());
+    writer->SetFileName((folder / "good.vtk").c_str());
+    binary ? writer->SetFileTypeToBinary() : writer->SetFileTypeToASCII();
+    ASSERT_EQ(writer->Write(), 1);
+    EXPECT_GT(Fuzz(folder, "bad.vtk", BytesOf(folder / "good.vtk"), 400), 40);
+  }
+  EXPECT_GT(Fuzz(folder, "bad.off", prism.AsOff(), 400), 40);
+  EXPECT_GT(Fuzz(folder, "bad.obj", prism.AsObj(), 400), 40);
+}
+
+} // namespace
