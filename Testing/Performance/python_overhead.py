@@ -4,7 +4,7 @@
 usage: python_overhead.py PROGRAM FOLDER_OF_THE_PYTHON_PACKAGE [--kind root] [--size 512] [--rounds 3] [--threads 1]
 
 Wall-clock seconds, on a machine that does nothing else: of the program from start to end, and of core() and save() on an
-array that is in memory; medians over the rounds, and the median of their quotients. Both files are compared.
+array that is in memory; medians over the rounds, and the median of their quotients.
 """
 import argparse
 import os
