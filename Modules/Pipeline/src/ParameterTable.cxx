@@ -47,8 +47,8 @@ Edits are then done label by label in the order --mend-shape, --fill-cavities, -
 What is in a label's cavity, other labels too, is filled.
 
 --smooth-shape and --mend-shape are for noisy masks. Smoothing flips single voxels that stand out of the boundary around
-them; pieces, loops and cavities stay as they are, nothing moves by more than a voxel's diagonal, clean bodies hardly change.
-Where noise has cut or pierced thin parts, mending goes before: it joins pieces one voxel apart, fills holes a voxel wide
+them; pieces, loops and cavities stay as they are, nothing moves by more than a voxel's diagonal. Of clean bodies, too, a
+boundary voxel in 200 or so changes. Where noise has cut or pierced thin parts, mending goes before: it joins pieces one voxel apart, fills holes a voxel wide
 and takes away bridges of one voxel over a bay. True holes of that size go, too. The report says what was changed.
 
 --with-skeleton writes what 'voxelcore skeleton' would, from the same computation: OUT_skeleton.vtp beside OUT, in a folder
