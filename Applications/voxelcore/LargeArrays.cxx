@@ -19,7 +19,7 @@ constexpr std::size_t    worthIt = 8 * largePage;
 constexpr std::uintptr_t insidePage = largePage - 1;
 
 // Left to itself, malloc() learns from arrays of up to 32 MB that it should keep such memory for later.
-[[maybe_unused]] const int isThresholdSet = mallopt(M_MMAP_THRESHOLD, worthIt);
+[[maybe_unused]] const int isThresholdSet = mallopt(M_MMAP_THRESHOLD, largePage);
 
 void
 AskForLargePages(void * memory, std::size_t size)
