@@ -1,6 +1,7 @@
 #include "CoreFaces.h"
 
 #include "Measures.h"
+#include "OwnPart.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/Predicates.h"
@@ -339,7 +340,6 @@ WriteFaces(DelaunayCells                     cells,
   CellComplex &                    complex = core.cells;
   Faces                            faces = CollectFaces(std::move(cells), sortedPoints.size(), complex.edges);
   const std::vector<std::uint32_t> order = CanonicalFaceOrder(faces.groups, complex.vertexCount);
-  const auto                       count = static_cast<std::ptrdiff_t>(order.size());
   complex.faceOffsets.assign(order.size() + 1, 0);
   for (std::size_t face = 0; face < order.size(); ++face)
   {
@@ -350,34 +350,36 @@ WriteFaces(DelaunayCells                     cells,
   complex.faceEdges.resize(complex.faceOffsets.back());
   core.faceLambda.resize(order.size());
   bool open = false;
-#pragma omp parallel for schedule(static) reduction(|| : open) if (count > 10000)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
+#pragma omp parallel reduction(|| : open) if (order.size() > 10000)
   {
-    const auto face = static_cast<std::size_t>(i);
-    // Step by step: the group, its sides, the edges that they name.
-    if (face + 3 * kAhead < order.size())
+    const OwnPart part = PartOfThisThread(order.size());
+    for (std::size_t face = part.begin; face < part.end; ++face)
     {
-      __builtin_prefetch(faces.groups.data() + order[face + 3 * kAhead]);
-      __builtin_prefetch(faces.turns.data() + faces.groups[order[face + 2 * kAhead]].first);
-      const Group & next = faces.groups[order[face + kAhead]];
-      for (std::uint32_t side = 0; side < next.count; ++side)
+      // Step by step: the group, its sides, the edges that they name.
+      if (face + 3 * kAhead < part.end)
       {
-        __builtin_prefetch(complex.edges.data() + (faces.turns[next.first + side] >> 1));
+        __builtin_prefetch(&faces.groups[order[face + 3 * kAhead]]);
+        __builtin_prefetch(&faces.turns[faces.groups[order[face + 2 * kAhead]].first]);
+        const Group & next = faces.groups[order[face + kAhead]];
+        for (std::uint32_t side = 0; side < next.count; ++side)
+        {
+          __builtin_prefetch(&complex.edges[faces.turns[next.first + side] >> 1]);
+        }
+        __builtin_prefetch(&sortedPoints[next.p]);
+        __builtin_prefetch(&sortedPoints[next.q]);
       }
-      __builtin_prefetch(sortedPoints.data() + next.p);
-      __builtin_prefetch(sortedPoints.data() + next.q);
+      const Group &         group = faces.groups[order[face]];
+      const std::span<Turn> own{ faces.turns.data() + group.first, group.count };
+      const auto            at = static_cast<std::ptrdiff_t>(complex.faceOffsets[face]);
+      open = !WriteFace(own,
+                        complex.edges,
+                        group.smallest[0],
+                        complex.faceVertices.data() + at,
+                        complex.faceEdges.data() + at) ||
+             open;
+      const Int128 squared = SquaredDistance(sortedPoints[group.p], sortedPoints[group.q], weights);
+      core.faceLambda[face] = ToMillimetres(RatioToDouble(static_cast<UInt128>(squared), 4), weights);
     }
-    const Group &         group = faces.groups[order[face]];
-    const std::span<Turn> own{ faces.turns.data() + group.first, group.count };
-    const auto            at = static_cast<std::ptrdiff_t>(complex.faceOffsets[face]);
-    open = !WriteFace(own,
-                      complex.edges,
-                      group.smallest[0],
-                      complex.faceVertices.data() + at,
-                      complex.faceEdges.data() + at) ||
-           open;
-    const Int128 squared = SquaredDistance(sortedPoints[group.p], sortedPoints[group.q], weights);
-    core.faceLambda[face] = ToMillimetres(RatioToDouble(static_cast<UInt128>(squared), 4), weights);
   }
   if (open)
   {

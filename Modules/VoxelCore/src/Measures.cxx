@@ -1,5 +1,7 @@
 #include "Measures.h"
 
+#include "OwnPart.h"
+
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
@@ -14,8 +16,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::size_t   kAhead = 8; // places from where a loop is to what it has the memory fetch
-constexpr std::uint32_t kRank = ~kBoundarySide;
+constexpr std::size_t kAhead = 8; // places from where a loop is to what it has the memory fetch
 
 // A boundary vertex by its number in the scan.
 struct PointEntry
@@ -193,6 +194,28 @@ RaiseTo(double & value, double to)
   {}
 }
 
+// Facets follow each other along x, points and their neighbours along z: what is met next is asked for early. Not for
+// a facet with its ranks already.
+void
+FetchFacet(const DelaunayCells &             cells,
+           std::size_t                       facet,
+           const std::vector<PointEntry> &   entries,
+           const std::vector<LatticePoint> & points)
+{
+  for (const std::uint32_t point : cells.FacetPoints(facet))
+  {
+    __builtin_prefetch(&entries[point]);
+    __builtin_prefetch(&points[point]);
+  }
+  for (const std::uint32_t cell : cells.facetCells[facet])
+  {
+    if (cell != kOutside)
+    {
+      __builtin_prefetch(&cells.centres[cell]);
+    }
+  }
+}
+
 // Numbers the points of one facet anew, marks its sides on the boundary, and puts its corners into `polygon`.
 void
 TurnToRanks(const std::vector<PointEntry> &   entries,
@@ -238,20 +261,12 @@ MeasureCells(const VoxelShape &                shape,
 #pragma omp parallel if (facets > 10000)
   {
     std::vector<LatticePoint> polygon;
-#pragma omp for schedule(static)
-    for (std::ptrdiff_t i = 0; i < facets; ++i)
+    const OwnPart             part = PartOfThisThread(cells.FacetCount());
+    for (std::size_t facet = part.begin; facet < part.end; ++facet)
     {
-      const auto facet = static_cast<std::size_t>(i);
-      if (facet + kAhead < cells.FacetCount())
+      if (facet + kAhead < part.end)
       {
-        // Facets follow each other along x, points and their neighbours along z: what is met next is asked for early.
-        for (const std::uint32_t point : cells.FacetPoints(facet + kAhead))
-        {
-          __builtin_prefetch(entries.data() + (point & kRank));
-          __builtin_prefetch(points.data() + (point & kRank));
-        }
-        __builtin_prefetch(cells.centres.data() + cells.facetCells[facet + kAhead][0]);
-        __builtin_prefetch(cells.centres.data() + cells.facetCells[facet + kAhead][1]);
+        FetchFacet(cells, facet + kAhead, entries, points);
       }
       const std::span<std::uint32_t> own{ cells.facetPoints.data() + cells.facetOffsets[facet],
                                           cells.facetPoints.data() + cells.facetOffsets[facet + 1] };
