@@ -14,35 +14,12 @@ namespace
 
 constexpr ElementIndex none = 0xFFFFFFFFU;
 
-// The live faces of an edge: how many, and their numbers by exclusive or.
-struct Cofaces
-{
-  ElementIndex count = 0;
-  ElementIndex exclusiveOr = 0;
-};
-
 // Removes free faces until every edge has no live face or at least two: a 2-cycle cannot contain them. Returns the
-// flags of the faces left; `cofaces` describes the live faces of each edge.
+// flags of the faces left; `cofaces` is of all faces at first, then of those left.
 std::vector<std::uint8_t>
 DropFreeFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces)
 {
-  constexpr std::size_t     ahead = 32; // sides
   std::vector<std::uint8_t> live(complex.FaceCount(), 1);
-  const ElementIndex *      sides = complex.faceEdges.data();
-  const std::size_t         sideCount = complex.faceEdges.size();
-  for (std::size_t face = 0; face < complex.FaceCount(); ++face)
-  {
-    for (std::size_t side = complex.faceOffsets[face]; side < complex.faceOffsets[face + 1]; ++side)
-    {
-      if (side + ahead < sideCount)
-      {
-        __builtin_prefetch(&cofaces[sides[side + ahead]], 1);
-      }
-      Cofaces & own = cofaces[sides[side]];
-      ++own.count;
-      own.exclusiveOr ^= static_cast<ElementIndex>(face);
-    }
-  }
   std::vector<ElementIndex> open;
   for (std::size_t edge = 0; edge < cofaces.size(); ++edge)
   {
@@ -63,8 +40,8 @@ DropFreeFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces)
     live[face] = 0;
     for (const ElementIndex side : complex.FaceEdges(face))
     {
-      cofaces[side].exclusiveOr ^= face;
-      if (--cofaces[side].count == 1)
+      cofaces[side].Remove(face);
+      if (cofaces[side].count == 1)
       {
         open.push_back(side);
       }
@@ -132,7 +109,7 @@ Rank(std::vector<Equation> & equations)
 std::int64_t
 SecondBetti(const CellComplex & complex)
 {
-  std::vector<Cofaces>            cofaces(complex.edges.size());
+  std::vector<Cofaces>            cofaces = CountEdgeCofaces(complex);
   const std::vector<std::uint8_t> live = DropFreeFaces(complex, cofaces);
 
   // Two faces that alone share an edge are in a cycle together or not at all: they form one sheet, one unknown.

@@ -54,37 +54,11 @@ SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
   , m_Live{ std::vector<std::uint8_t>(complex.vertexCount, 1),
             std::vector<std::uint8_t>(complex.edges.size(), 1),
             std::vector<std::uint8_t>(complex.FaceCount(), 1) }
-  , m_VertexCofaces(complex.vertexCount)
-  , m_EdgeCofaces(complex.edges.size())
 {
   RunBoth(
     complex.FaceCount() > 10000,
-    [&] {
-      constexpr std::size_t ahead = 32;
-      const ElementIndex *  sides = complex.faceEdges.data();
-      for (std::size_t face = 0; face < complex.FaceCount(); ++face)
-      {
-        for (std::size_t side = complex.faceOffsets[face]; side < complex.faceOffsets[face + 1]; ++side)
-        {
-          if (side + ahead < complex.faceEdges.size())
-          {
-            __builtin_prefetch(&m_EdgeCofaces[sides[side + ahead]], 1);
-          }
-          ++m_EdgeCofaces[sides[side]].count;
-          m_EdgeCofaces[sides[side]].exclusiveOr ^= static_cast<ElementIndex>(face);
-        }
-      }
-    },
-    [&] {
-      for (std::size_t edge = 0; edge < complex.edges.size(); ++edge)
-      {
-        for (const ElementIndex vertex : complex.edges[edge])
-        {
-          ++m_VertexCofaces[vertex].count;
-          m_VertexCofaces[vertex].exclusiveOr ^= static_cast<ElementIndex>(edge);
-        }
-      }
-    });
+    [&] { m_EdgeCofaces = CountEdgeCofaces(complex); },
+    [&] { m_VertexCofaces = CountVertexCofaces(complex); });
 }
 
 void
@@ -127,8 +101,7 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
     m_Live.edges[edge] = 0;
     for (const ElementIndex vertex : m_Complex->edges[edge])
     {
-      --m_VertexCofaces[vertex].count;
-      m_VertexCofaces[vertex].exclusiveOr ^= edge;
+      m_VertexCofaces[vertex].Remove(edge);
       if (m_Live.vertices[vertex])
       {
         offerVertex(vertex);
@@ -202,8 +175,7 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
       m_Live.faces[face] = 0;
       for (const ElementIndex edge : m_Complex->FaceEdges(face))
       {
-        --m_EdgeCofaces[edge].count;
-        m_EdgeCofaces[edge].exclusiveOr ^= face;
+        m_EdgeCofaces[edge].Remove(face);
         if (edge != pair.element)
         {
           offerEdge(edge);

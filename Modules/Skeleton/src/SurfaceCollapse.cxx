@@ -10,35 +10,25 @@ namespace voxelcore
 namespace
 {
 
-/** Number of live faces on each edge and the exclusive-or of their indices: with one left, that is its index. */
+/** Per edge the faces that are left. */
 class EdgeCofaces
 {
 public:
   explicit EdgeCofaces(const CellComplex & cells)
     : m_Cells(cells)
-    , m_Count(cells.edges.size(), 0)
-    , m_ExclusiveOr(cells.edges.size(), 0)
-  {
-    for (std::size_t face = 0; face < cells.FaceCount(); ++face)
-    {
-      for (const ElementIndex edge : cells.FaceEdges(face))
-      {
-        ++m_Count[edge];
-        m_ExclusiveOr[edge] ^= static_cast<ElementIndex>(face);
-      }
-    }
-  }
+    , m_Cofaces(CountEdgeCofaces(cells))
+  {}
 
   bool
   IsFree(ElementIndex edge) const
   {
-    return m_Count[edge] == 1;
+    return m_Cofaces[edge].count == 1;
   }
 
   ElementIndex
   OnlyFace(ElementIndex edge) const
   {
-    return m_ExclusiveOr[edge];
+    return m_Cofaces[edge].exclusiveOr;
   }
 
   void
@@ -46,15 +36,13 @@ public:
   {
     for (const ElementIndex edge : m_Cells.FaceEdges(face))
     {
-      --m_Count[edge];
-      m_ExclusiveOr[edge] ^= face;
+      m_Cofaces[edge].Remove(face);
     }
   }
 
 private:
-  const CellComplex &       m_Cells;
-  std::vector<ElementIndex> m_Count;
-  std::vector<ElementIndex> m_ExclusiveOr;
+  const CellComplex &  m_Cells;
+  std::vector<Cofaces> m_Cofaces;
 };
 
 struct RemovedPair

@@ -90,8 +90,7 @@ BumpCollapse::DropEdge(ElementIndex edge)
   m_Bumps.edges[edge] = m_Level;
   for (const ElementIndex vertex : m_Core->cells.edges[edge])
   {
-    --m_VertexCofaces[vertex].count;
-    m_VertexCofaces[vertex].exclusiveOr ^= edge;
+    m_VertexCofaces[vertex].Remove(edge);
     if (IsLive(vertex))
     {
       OfferVertex(vertex);
@@ -111,8 +110,7 @@ BumpCollapse::RemoveFace(ElementIndex edge)
   m_Bumps.faces[face] = m_Level;
   for (const ElementIndex side : m_Core->cells.FaceEdges(face))
   {
-    --m_EdgeCofaces[side].count;
-    m_EdgeCofaces[side].exclusiveOr ^= face;
+    m_EdgeCofaces[side].Remove(face);
   }
   for (const ElementIndex side : m_Core->cells.FaceEdges(face))
   {

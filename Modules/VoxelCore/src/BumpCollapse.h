@@ -63,12 +63,6 @@ private:
       return a.isEdge != b.isEdge ? a.isEdge < b.isEdge : a.element < b.element;
     }
   };
-  // Number of live cofaces and the exclusive-or of their indices: with one left, that is its index.
-  struct Cofaces
-  {
-    ElementIndex count = 0;
-    ElementIndex exclusiveOr = 0;
-  };
   // What is asked of a vertex again and again lies in one line of the cache. Lengths in mm.
   struct alignas(64) Vertex
   {

@@ -74,16 +74,12 @@ void
 BumpCollapse::CountCofaces()
 {
   const CellComplex & cells = m_Core->cells;
-  const auto          add = [](Cofaces & cofaces, std::size_t coface) {
-    ++cofaces.count;
-    cofaces.exclusiveOr ^= static_cast<ElementIndex>(coface);
-  };
   for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
   {
     if (m_Bumps.edges[edge] == kLive)
     {
-      add(m_VertexCofaces[cells.edges[edge][0]], edge);
-      add(m_VertexCofaces[cells.edges[edge][1]], edge);
+      m_VertexCofaces[cells.edges[edge][0]].Add(static_cast<ElementIndex>(edge));
+      m_VertexCofaces[cells.edges[edge][1]].Add(static_cast<ElementIndex>(edge));
     }
   }
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
@@ -92,7 +88,7 @@ BumpCollapse::CountCofaces()
     {
       for (const ElementIndex edge : cells.FaceEdges(face))
       {
-        add(m_EdgeCofaces[edge], face);
+        m_EdgeCofaces[edge].Add(static_cast<ElementIndex>(face));
       }
     }
   }

@@ -41,4 +41,33 @@ struct CellComplex
   }
 };
 
+/** The cofaces of an element, the elements one dimension up that it bounds: how many there are (left), and their indices
+ *  by exclusive or, which is the index of one alone. */
+struct Cofaces
+{
+  ElementIndex count = 0;
+  ElementIndex exclusiveOr = 0;
+
+  void
+  Add(ElementIndex coface)
+  {
+    ++count;
+    exclusiveOr ^= coface;
+  }
+  void
+  Remove(ElementIndex coface)
+  {
+    --count;
+    exclusiveOr ^= coface;
+  }
+};
+
+/** The edges at each vertex. */
+std::vector<Cofaces>
+CountVertexCofaces(const CellComplex & complex);
+
+/** The faces at each edge. */
+std::vector<Cofaces>
+CountEdgeCofaces(const CellComplex & complex);
+
 } // namespace voxelcore

@@ -60,14 +60,8 @@ private:
   std::span<const double> m_EdgeMeasure;
   std::span<const double> m_FaceMeasure;
   LiveElements            m_Live;
-  // Number of live cofaces and the exclusive-or of their indices: with one left, that is its index.
-  struct Cofaces
-  {
-    ElementIndex count = 0;
-    ElementIndex exclusiveOr = 0;
-  };
-  std::vector<Cofaces> m_VertexCofaces;
-  std::vector<Cofaces> m_EdgeCofaces;
+  std::vector<Cofaces>    m_VertexCofaces; // live ones
+  std::vector<Cofaces>    m_EdgeCofaces;
 };
 
 /** The live part as a complex of its own; the order of elements is kept.
