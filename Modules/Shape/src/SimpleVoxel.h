@@ -51,19 +51,19 @@ struct Pieces
   std::size_t                  count = 0;
 };
 
-/** Pieces of the shape that touch the centre over a face; they hang together over faces next to it. */
+/** The pieces of `within` that reach into `from`, where a piece holds whatever `spread` leads to. */
+template <typename TSpread>
 constexpr Pieces
-ShapePieces(Neighbourhood shape)
+FindPieces(Neighbourhood within, Neighbourhood from, TSpread spread)
 {
-  const Neighbourhood within = shape & ~kCentre27 & ~kCorners27;
-  Pieces              pieces;
-  for (Neighbourhood left = within & kFaces27; left != 0; ++pieces.count)
+  Pieces pieces;
+  for (Neighbourhood left = within & from; left != 0; ++pieces.count)
   {
     Neighbourhood piece = left & (~left + 1);
     for (Neighbourhood before = 0; before != piece;)
     {
       before = piece;
-      piece = SpreadOverFaces(piece) & within;
+      piece = spread(piece) & within;
     }
     pieces.sets[pieces.count] = piece;
     left &= ~piece;
@@ -71,24 +71,18 @@ ShapePieces(Neighbourhood shape)
   return pieces;
 }
 
+/** Pieces of the shape that touch the centre over a face; they hang together over faces next to it. */
+constexpr Pieces
+ShapePieces(Neighbourhood shape)
+{
+  return FindPieces(shape & ~kCentre27 & ~kCorners27, kFaces27, SpreadOverFaces);
+}
+
 /** Pieces of the background around the centre, which hang together over corners. */
 constexpr Pieces
 BackgroundPieces(Neighbourhood shape)
 {
-  const Neighbourhood within = ~shape & kAll27 & ~kCentre27;
-  Pieces              pieces;
-  for (Neighbourhood left = within; left != 0; ++pieces.count)
-  {
-    Neighbourhood piece = left & (~left + 1);
-    for (Neighbourhood before = 0; before != piece;)
-    {
-      before = piece;
-      piece = SpreadOverCorners(piece) & within;
-    }
-    pieces.sets[pieces.count] = piece;
-    left &= ~piece;
-  }
-  return pieces;
+  return FindPieces(~shape & kAll27 & ~kCentre27, kAll27, SpreadOverCorners);
 }
 
 /** Whether the voxel in the centre, in or out, is simple for 6-connected shapes in a 26-connected background: its flip
