@@ -69,12 +69,8 @@ RequireEqualTopology(const TopologyNumbers & shape,
   }
 }
 
-namespace
-{
-
-// The different thresholds beyond doneMm.
 std::vector<double>
-Ascending(std::vector<double> thresholdsMm, double doneMm)
+AscendingBeyond(double doneMm, std::vector<double> thresholdsMm)
 {
   std::sort(thresholdsMm.begin(), thresholdsMm.end());
   thresholdsMm.erase(std::unique(thresholdsMm.begin(), thresholdsMm.end()), thresholdsMm.end());
@@ -82,15 +78,13 @@ Ascending(std::vector<double> thresholdsMm, double doneMm)
   return thresholdsMm;
 }
 
-} // namespace
-
 std::vector<MedialComplex>
 PruneAscending(const MedialComplex &       whole,
                double                      doneMm,
                const std::vector<double> & thresholdsMm,
                const ProgressCallback &    progress)
 {
-  const std::vector<double> ascending = Ascending(thresholdsMm, doneMm);
+  const std::vector<double> ascending = AscendingBeyond(doneMm, thresholdsMm);
   return ascending.empty() ? std::vector<MedialComplex>() : PruneByLambda(whole, ascending, progress);
 }
 
@@ -105,7 +99,7 @@ CertifyPruned(ModelPart                   whole,
               const std::string &         labelText,
               const ProgressCallback &    progress)
 {
-  const std::vector<double> ascending = Ascending(thresholdsMm, doneMm);
+  const std::vector<double> ascending = AscendingBeyond(doneMm, thresholdsMm);
   std::vector<PrunedCore>   results(lambdas.size());
   for (std::size_t i = 0; i < lambdas.size(); ++i)
   {

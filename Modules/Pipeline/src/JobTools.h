@@ -52,6 +52,10 @@ struct PrunedCore
   ModelPart    part;
 };
 
+/** The different thresholds beyond doneMm, ascending. */
+std::vector<double>
+AscendingBeyond(double doneMm, std::vector<double> thresholdsMm);
+
 /** `whole`, which is pruned to `doneMm` already, pruned to each different threshold beyond that, ascending. */
 std::vector<MedialComplex>
 PruneAscending(const MedialComplex &       whole,

@@ -27,34 +27,6 @@ constexpr double kCoreEnds = 0.92;
 constexpr double kPruneEnds = 0.98;
 constexpr double kCoreBesideSkeleton = 0.5;
 
-bool
-ContainsAround(const VoxelShape & shape, const std::array<double, 3> & point)
-{
-  // Every voxel whose closed cube holds the point must be in: only then the point is inside the *open* shape.
-  std::array<std::int32_t, 3> first;
-  std::array<std::int32_t, 3> last;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const double floor = std::floor(point[k]);
-    last[k] = static_cast<std::int32_t>(floor);
-    first[k] = last[k] - (floor == point[k] ? 1 : 0);
-  }
-  for (std::int32_t z = first[2]; z <= last[2]; ++z)
-  {
-    for (std::int32_t y = first[1]; y <= last[1]; ++y)
-    {
-      for (std::int32_t x = first[0]; x <= last[0]; ++x)
-      {
-        if (!shape.Contains(x, y, z))
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
-}
-
 /** What ComputeWholeCore() is asked for. */
 struct WholeCoreOptions
 {
@@ -189,7 +161,7 @@ IsEnclosed(const MedialComplex & core, const VoxelShape & shape)
 {
   for (const auto & position : core.positions)
   {
-    if (!ContainsAround(shape, position))
+    if (!ContainsInside(shape, position))
     {
       return false;
     }

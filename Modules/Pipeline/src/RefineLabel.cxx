@@ -74,11 +74,9 @@ RefineAndCertify(const VoxelShape &          shape,
   const auto            surface = source(shape, PartOfProgress(progress, "surface", 0, 0.3));
   const RefinementInput input{ &shape, &parts.points, &parts.core, &parts.edgePoints, surface.get(), geometry.spacing };
   // Each threshold goes on from where the last one stopped.
-  std::vector<double> ascending = thresholdsMm;
-  std::sort(ascending.begin(), ascending.end());
-  ascending.erase(std::unique(ascending.begin(), ascending.end()), ascending.end());
-  const auto              refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.3, 1));
-  std::vector<PrunedCore> results;
+  const std::vector<double> ascending = AscendingBeyond(-HUGE_VAL, thresholdsMm);
+  const auto                refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.3, 1));
+  std::vector<PrunedCore>   results;
   for (std::size_t i = 0; i < lambdas.size(); ++i)
   {
     const auto at = std::lower_bound(ascending.begin(), ascending.end(), thresholdsMm[i]) - ascending.begin();

@@ -7,32 +7,6 @@
 namespace voxelcore
 {
 
-bool
-LiesInShape(const VoxelShape & shape, const Vector3 & place)
-{
-  std::array<std::int32_t, 3> low{};
-  std::array<std::int32_t, 3> high{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    high[axis] = static_cast<std::int32_t>(std::floor(place[axis]));
-    low[axis] = static_cast<std::int32_t>(std::ceil(place[axis])) - 1;
-  }
-  for (std::int32_t z = low[2]; z <= high[2]; ++z)
-  {
-    for (std::int32_t y = low[1]; y <= high[1]; ++y)
-    {
-      for (std::int32_t x = low[0]; x <= high[0]; ++x)
-      {
-        if (!shape.Contains(x, y, z))
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
-}
-
 Vector3
 KeepInShape(const VoxelShape & shape, const Vector3 & place, const Vector3 & displacement)
 {
@@ -45,7 +19,7 @@ KeepInShape(const VoxelShape & shape, const Vector3 & place, const Vector3 & dis
   }
   for (int i = 0; i < halvings; ++i)
   {
-    if (LiesInShape(shape, Along(place, 1, kept)))
+    if (ContainsInside(shape, Along(place, 1, kept)))
     {
       return kept;
     }

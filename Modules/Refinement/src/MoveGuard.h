@@ -6,10 +6,6 @@
 namespace voxelcore
 {
 
-/** Whether a place in lattice coordinates lies in the open shape: every voxel whose closure holds it is in. */
-bool
-LiesInShape(const VoxelShape & shape, const Vector3 & place);
-
 /** Shortens a displacement (lattice coordinates) until it is at most a voxel long and ends in the open shape. */
 Vector3
 KeepInShape(const VoxelShape & shape, const Vector3 & place, const Vector3 & displacement);

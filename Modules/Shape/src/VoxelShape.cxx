@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 namespace voxelcore
@@ -24,6 +25,32 @@ VoxelShape::CountVoxels() const
     count += static_cast<std::uint64_t>(std::popcount(word));
   }
   return count;
+}
+
+bool
+ContainsInside(const VoxelShape & shape, const std::array<double, 3> & place)
+{
+  std::array<std::int32_t, 3> low{};
+  std::array<std::int32_t, 3> high{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    high[axis] = static_cast<std::int32_t>(std::floor(place[axis]));
+    low[axis] = static_cast<std::int32_t>(std::ceil(place[axis])) - 1;
+  }
+  for (std::int32_t z = low[2]; z <= high[2]; ++z)
+  {
+    for (std::int32_t y = low[1]; y <= high[1]; ++y)
+    {
+      for (std::int32_t x = low[0]; x <= high[0]; ++x)
+      {
+        if (!shape.Contains(x, y, z))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
 }
 
 VoxelBox

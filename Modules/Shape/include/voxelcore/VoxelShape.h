@@ -97,6 +97,10 @@ private:
   std::vector<std::uint64_t> m_Words;
 };
 
+/** Whether a place in lattice coordinates lies in the open shape: every voxel whose closed cube holds it is in. */
+bool
+ContainsInside(const VoxelShape & shape, const std::array<double, 3> & place);
+
 /** The same voxels in their tight bounding box (empty box for an empty shape). */
 VoxelShape
 CropToVoxels(const VoxelShape & shape);
