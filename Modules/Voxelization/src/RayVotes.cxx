@@ -3,10 +3,10 @@
 #include "AxisCrossings.h"
 #include "RowBits.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/RunBoth.h"
 
 #include <algorithm>
 #include <bit>
-#include <omp.h>
 #include <vector>
 
 namespace voxelcore
@@ -165,36 +165,33 @@ FillByVotes(const IndexMesh &        mesh,
   RisingSlice up(perRow, rows);
   RisingSlice down(perRow, rows);
   const auto  slabs = static_cast<std::int64_t>(alongZ.SlabCount());
-#pragma omp          parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic)
   for (std::int64_t slab = 0; slab < slabs; ++slab)
   {
-             const auto planes = alongZ.Runs(static_cast<std::size_t>(slab));
+    const auto planes = alongZ.Runs(static_cast<std::size_t>(slab));
 #pragma omp critical(VoxelCoreRisingSlices)
     for (std::size_t i = 0; i < planes.size(); ++i)
     {
-               const auto row = static_cast<std::int32_t>(slab * AxisCrossings::kSlab + static_cast<std::int64_t>(i));
-               up.Add(planes[i].in, row, grid.size[2]);
-               down.Add(planes[i].inBack, row, grid.size[2]);
+      const auto row = static_cast<std::int32_t>(slab * AxisCrossings::kSlab + static_cast<std::int64_t>(i));
+      up.Add(planes[i].in, row, grid.size[2]);
+      down.Add(planes[i].inBack, row, grid.size[2]);
     }
-           }
-           up.Sort();
-           down.Sort();
+  }
+  up.Sort();
+  down.Sort();
 
-           std::vector<Slice> votes(4, Slice(perRow, rows));
-           std::uint64_t      doubtful = 0;
-           bool               isSure = false;
-           for (std::size_t slab = 0; slab < alongX.SlabCount(); ++slab)
-           {
-             ReportProgress(progress, "voxelize", static_cast<double>(slab) / static_cast<double>(alongX.SlabCount()));
-             std::vector<PlaneRuns> x;
-             std::vector<PlaneRuns> y;
-         #pragma omp parallel sections
-    {
-#pragma omp section
-      x = alongX.Runs(slab);
-#pragma omp section
-      y = alongY.Runs(slab);
-    }
+  std::vector<Slice> votes(4, Slice(perRow, rows));
+  std::uint64_t      doubtful = 0;
+  bool               isSure = false;
+  for (std::size_t slab = 0; slab < alongX.SlabCount(); ++slab)
+  {
+    ReportProgress(progress, "voxelize", static_cast<double>(slab) / static_cast<double>(alongX.SlabCount()));
+    std::vector<PlaneRuns> x;
+    std::vector<PlaneRuns> y;
+    RunBoth(
+      true,
+      [&] { x = alongX.Runs(slab); },
+      [&] { y = alongY.Runs(slab); });
     for (std::size_t i = 0; i < x.size(); ++i)
     {
       const auto z = static_cast<std::int32_t>(slab * AxisCrossings::kSlab + i);
