@@ -1,7 +1,7 @@
 #include "voxelcore/SimplePairCollapse.h"
 
 #include "voxelcore/BucketQueue.h"
-#include "voxelcore/RunBoth.h"
+#include "voxelcore/SideBySide.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/Error.h"
-#include "voxelcore/RunBoth.h"
+#include "voxelcore/SideBySide.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/VoxelCore.h"
 

@@ -1,14 +1,15 @@
 #include "CoreFaces.h"
 
 #include "Measures.h"
-#include "OwnPart.h"
 
+#include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Predicates.h"
 
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace voxelcore
 {
@@ -279,20 +280,13 @@ CollectFaces(DelaunayCells cells, std::size_t pointCount, const Edges & edges)
 std::vector<std::uint32_t>
 CanonicalFaceOrder(const std::vector<Group> & groups, std::size_t vertexCount)
 {
-  std::vector<std::uint32_t> start(vertexCount + 2, 0);
-  for (const Group & group : groups)
-  {
-    ++start[group.smallest[0] + 2];
-  }
-  for (std::size_t vertex = 2; vertex < start.size(); ++vertex)
-  {
-    start[vertex] += start[vertex - 1];
-  }
-  std::vector<std::uint32_t> order(groups.size());
-  for (std::size_t i = 0; i < groups.size(); ++i)
-  {
-    order[start[groups[i].smallest[0] + 1]++] = static_cast<std::uint32_t>(i);
-  }
+  std::vector<std::uint32_t>       order;
+  const std::vector<std::uint32_t> start = SortIntoBuckets(
+    groups.size(),
+    vertexCount,
+    [&](std::size_t i) { return std::size_t{ groups[i].smallest[0] }; },
+    [&](std::size_t i) { return static_cast<std::uint32_t>(i); },
+    order);
 #pragma omp parallel for schedule(static) if (vertexCount > 10000)
   for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
   {
@@ -349,14 +343,12 @@ WriteFaces(DelaunayCells                     cells,
   complex.faceVertices.resize(complex.faceOffsets.back());
   complex.faceEdges.resize(complex.faceOffsets.back());
   core.faceLambda.resize(order.size());
-  bool open = false;
-#pragma omp parallel reduction(|| : open) if (order.size() > 10000)
-  {
-    const OwnPart part = PartOfThisThread(order.size());
-    for (std::size_t face = part.begin; face < part.end; ++face)
+  std::atomic<bool> open = false;
+  RunInParts(order.size() > 10000, order.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t face = first; face < last; ++face)
     {
       // Step by step: the group, its sides, the edges that they name.
-      if (face + 3 * kAhead < part.end)
+      if (face + 3 * kAhead < last)
       {
         __builtin_prefetch(&faces.groups[order[face + 3 * kAhead]]);
         __builtin_prefetch(&faces.turns[faces.groups[order[face + 2 * kAhead]].first]);
@@ -371,16 +363,18 @@ WriteFaces(DelaunayCells                     cells,
       const Group &         group = faces.groups[order[face]];
       const std::span<Turn> own{ faces.turns.data() + group.first, group.count };
       const auto            at = static_cast<std::ptrdiff_t>(complex.faceOffsets[face]);
-      open = !WriteFace(own,
-                        complex.edges,
-                        group.smallest[0],
-                        complex.faceVertices.data() + at,
-                        complex.faceEdges.data() + at) ||
-             open;
+      if (!WriteFace(own,
+                     complex.edges,
+                     group.smallest[0],
+                     complex.faceVertices.data() + at,
+                     complex.faceEdges.data() + at))
+      {
+        open = true;
+      }
       const Int128 squared = SquaredDistance(sortedPoints[group.p], sortedPoints[group.q], weights);
       core.faceLambda[face] = ToMillimetres(RatioToDouble(static_cast<UInt128>(squared), 4), weights);
     }
-  }
+  });
   if (open)
   {
     FailOpenFace();

@@ -1,7 +1,6 @@
 #include "Measures.h"
 
-#include "OwnPart.h"
-
+#include "voxelcore/BucketSort.h"
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
@@ -67,29 +66,34 @@ RankLexicographically(const VoxelShape &                shape,
                       std::vector<LatticePoint> &       sorted)
 {
   const auto &               box = shape.Box();
-  std::vector<std::uint32_t> byY(points.size());
-  std::vector<std::uint32_t> next(static_cast<std::size_t>(box.size[1]) + 2, 0);
-  for (const LatticePoint & p : points)
-  {
-    ++next[static_cast<std::size_t>(p.y - box.lower[1]) + 1];
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    byY[next[static_cast<std::size_t>(points[i].y - box.lower[1])]++] = static_cast<std::uint32_t>(i);
-  }
-  next.assign(static_cast<std::size_t>(box.size[0]) + 2, 0);
-  for (const LatticePoint & p : points)
-  {
-    ++next[static_cast<std::size_t>(p.x - box.lower[0]) + 1];
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::uint32_t> byY;
+  std::vector<std::uint32_t> order;
+  SortIntoBuckets(
+    points.size(),
+    static_cast<std::size_t>(box.size[1]) + 1,
+    [&](std::size_t i) { return static_cast<std::size_t>(points[i].y - box.lower[1]); },
+    [&](std::size_t i) { return static_cast<std::uint32_t>(i); },
+    byY);
+  SortIntoBuckets(
+    points.size(),
+    static_cast<std::size_t>(box.size[0]) + 1,
+    [&](std::size_t i) { return static_cast<std::size_t>(points[byY[i]].x - box.lower[0]); },
+    [&](std::size_t i) { return byY[i]; },
+    order);
   sorted.resize(points.size());
-  for (const std::uint32_t i : byY)
+  const auto count = static_cast<std::ptrdiff_t>(points.size());
+#pragma omp parallel for schedule(static) if (count > 10000)
+  for (std::ptrdiff_t rank = 0; rank < count; ++rank)
   {
-    const std::uint32_t rank = next[static_cast<std::size_t>(points[i].x - box.lower[0])]++;
-    entries[i].rank = rank;
-    sorted[rank] = points[i];
+    const auto          at = static_cast<std::size_t>(rank);
+    const std::uint32_t i = order[at];
+    if (at + kAhead < order.size())
+    {
+      __builtin_prefetch(&entries[order[at + kAhead]], 1);
+      __builtin_prefetch(&points[order[at + kAhead]]);
+    }
+    entries[i].rank = static_cast<std::uint32_t>(rank);
+    sorted[at] = points[i];
   }
 }
 
@@ -194,8 +198,7 @@ RaiseTo(double & value, double to)
   {}
 }
 
-// Facets follow each other along x, points and their neighbours along z: what is met next is asked for early. Not for
-// a facet with its ranks already.
+// Facets follow each other along x, points and their neighbours along z: what is met next is asked for early.
 void
 FetchFacet(const DelaunayCells &             cells,
            std::size_t                       facet,
@@ -258,13 +261,11 @@ MeasureCells(const VoxelShape &                shape,
   const auto                cellCount = static_cast<std::ptrdiff_t>(cells.CellCount());
   std::vector<std::uint8_t> centreBeyond(cells.CellCount(), 0);
   result.facet.resize(cells.FacetCount());
-#pragma omp parallel if (facets > 10000)
-  {
+  RunInParts(facets > 10000, cells.FacetCount(), [&](std::size_t first, std::size_t last) {
     std::vector<LatticePoint> polygon;
-    const OwnPart             part = PartOfThisThread(cells.FacetCount());
-    for (std::size_t facet = part.begin; facet < part.end; ++facet)
+    for (std::size_t facet = first; facet < last; ++facet)
     {
-      if (facet + kAhead < part.end)
+      if (facet + kAhead < last) // facets of others get their ranks meanwhile
       {
         FetchFacet(cells, facet + kAhead, entries, points);
       }
@@ -282,7 +283,7 @@ MeasureCells(const VoxelShape &                shape,
         }
       }
     }
-  }
+  });
   std::vector<PointEntry>().swap(entries);
 
   // A cell whose sphere's centre lies beyond one of its facets has the nearest point of its hull on the boundary, so

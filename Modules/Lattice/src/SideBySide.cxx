@@ -1,0 +1,88 @@
+#include "voxelcore/SideBySide.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <exception>
+#include <vector>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// What pieces of work throw, as exceptions must not leave a thread.
+class Failures
+{
+public:
+  explicit Failures(std::size_t count)
+    : m_Failures(count)
+  {}
+
+  template <typename TWork>
+  void
+  Guard(std::size_t which, TWork work)
+  {
+    try
+    {
+      work();
+    }
+    catch (...)
+    {
+      m_Failures[which] = std::current_exception();
+    }
+  }
+
+  void
+  Rethrow() const
+  {
+    for (const std::exception_ptr & failure : m_Failures)
+    {
+      if (failure)
+      {
+        std::rethrow_exception(failure);
+      }
+    }
+  }
+
+private:
+  std::vector<std::exception_ptr> m_Failures;
+};
+
+} // namespace
+
+void
+RunBoth(bool worthIt, const std::function<void()> & first, const std::function<void()> & second)
+{
+  Failures  failures(2);
+  const int wanted = worthIt ? std::min(2, omp_get_max_threads()) : 1;
+#pragma omp parallel num_threads(wanted)
+  {
+    if (omp_get_thread_num() == 0)
+    {
+      failures.Guard(0, first);
+    }
+    if (omp_get_thread_num() == omp_get_num_threads() - 1)
+    {
+      failures.Guard(1, second);
+    }
+  }
+  failures.Rethrow();
+}
+
+void
+RunInParts(bool worthIt, std::size_t count, const std::function<void(std::size_t first, std::size_t last)> & work)
+{
+  const int wanted = worthIt ? omp_get_max_threads() : 1;
+  Failures  failures(static_cast<std::size_t>(wanted));
+#pragma omp parallel num_threads(wanted)
+  {
+    const auto parts = static_cast<std::size_t>(omp_get_num_threads());
+    const auto part = static_cast<std::size_t>(omp_get_thread_num());
+    failures.Guard(part, [&] { work(count * part / parts, count * (part + 1) / parts); });
+  }
+  failures.Rethrow();
+}
+
+} // namespace voxelcore
