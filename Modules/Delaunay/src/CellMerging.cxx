@@ -1,11 +1,13 @@
 #include "Tetrahedra.h"
 
+#include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"
-
 #include "voxelcore/Predicates.h"
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <tuple>
 
 namespace voxelcore
@@ -78,6 +80,38 @@ AppendOutline(std::span<const Triangle> triangles, std::vector<std::uint32_t> & 
       throw Error("the facets of a Delaunay cell do not close; please report this input");
     }
     at = (*next)[1];
+  }
+}
+
+// The facets of consecutive cells.
+struct Outlines
+{
+  std::vector<std::array<std::uint32_t, 2>> cells;
+  std::vector<std::uint32_t>                sizes;
+  std::vector<std::uint32_t>                points;
+  std::vector<std::uint64_t>                walls; // of those with the outside beyond
+};
+
+void
+AppendFacets(std::uint32_t cell, std::span<Triangle> triangles, Outlines & outlines)
+{
+  std::sort(triangles.begin(), triangles.end(), [](const Triangle & a, const Triangle & b) {
+    return a.Key() < b.Key();
+  });
+  for (std::size_t first = 0, last = 0; first < triangles.size(); first = last)
+  {
+    while (last < triangles.size() && triangles[last].Key() == triangles[first].Key())
+    {
+      ++last;
+    }
+    const std::size_t before = outlines.points.size();
+    AppendOutline(triangles.subspan(first, last - first), outlines.points);
+    outlines.cells.push_back({ cell, triangles[first].beyond });
+    outlines.sizes.push_back(static_cast<std::uint32_t>(outlines.points.size() - before));
+    if (triangles[first].beyond == kOutside)
+    {
+      outlines.walls.push_back(triangles[first].wall);
+    }
   }
 }
 
@@ -164,74 +198,74 @@ MergeTetrahedra(Tetrahedra                        tetrahedra,
     }
   }
 
-  // Triangles by the cell of smaller number, counted first so that they can be laid down in place.
-  const auto isFacet = [&](std::size_t t, std::size_t i) {
+  // Triangles by the cell of smaller number; item 4 t + i is the face of tetrahedron t opposite to its corner i.
+  const bool worthIt = count > 10000;
+  const auto beyondOf = [&](std::size_t t, std::size_t i) {
     const std::uint32_t neighbour = tetrahedra.neighbours[t][i];
-    const std::uint32_t beyond = neighbour == kOutside ? kOutside : cellOf[neighbour];
-    return std::make_pair(cellOf[t] != kOutside && beyond > cellOf[t], beyond);
+    return neighbour == kOutside ? kOutside : cellOf[neighbour];
   };
-  std::vector<std::uint64_t> start(cells.CellCount() + 2, 0);
-  for (std::size_t t = 0; t < count; ++t)
-  {
-    for (std::size_t i = 0; i < 4; ++i)
+  std::vector<std::uint8_t>                 positive(count, 0);
+  std::vector<std::array<std::uint32_t, 4>> owner(count); // of each face, or kOutside
+  RunInParts(worthIt, count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
     {
-      if (isFacet(t, i).first)
+      const std::uint32_t cell = cellOf[t];
+      positive[t] = cell != kOutside && IsPositive(tetrahedra.corners[t], points);
+      for (std::size_t i = 0; i < 4; ++i)
       {
-        ++start[cellOf[t] + 2];
+        owner[t][i] = cell != kOutside && beyondOf(t, i) > cell ? cell : kOutside;
       }
     }
-  }
-  for (std::size_t cell = 2; cell < start.size(); ++cell)
-  {
-    start[cell] += start[cell - 1];
-  }
-  std::vector<Triangle> triangles(start.back());
-  for (std::size_t t = 0; t < count; ++t)
-  {
-    if (cellOf[t] == kOutside)
-    {
-      continue;
-    }
-    const bool positive = IsPositive(tetrahedra.corners[t], points);
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const auto [wanted, beyond] = isFacet(t, i);
-      if (!wanted)
-      {
-        continue;
-      }
-      Triangle triangle{ beyond, 0, {} };
+  });
+  std::vector<Triangle>            triangles;
+  const std::vector<std::uint32_t> start = SortIntoBuckets(
+    4 * count,
+    cells.CellCount(),
+    [&](std::size_t item) { return std::size_t{ owner[item / 4][item % 4] }; },
+    [&](std::size_t item) {
+      const std::size_t t = item / 4;
+      const std::size_t i = item % 4;
+      Triangle          triangle{ beyondOf(t, i), 0, {} };
       for (std::size_t j = 0; j < 3; ++j)
       {
-        triangle.points[positive ? j : 2 - j] = tetrahedra.corners[t][tetrahedronFaces[i][j]];
+        triangle.points[positive[t] ? j : 2 - j] = tetrahedra.corners[t][tetrahedronFaces[i][j]];
       }
-      if (beyond == kOutside)
+      if (triangle.beyond == kOutside)
       {
         triangle.wall = nameWall(t, i, triangle.points);
       }
-      triangles[start[cellOf[t] + 1]++] = triangle;
-    }
-  }
+      return triangle;
+    },
+    triangles);
+  owner = {};
   tetrahedra = {};
 
-  for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
-  {
-    const std::span<Triangle> own{ triangles.data() + start[cell], triangles.data() + start[cell + 1] };
-    std::sort(own.begin(), own.end(), [](const Triangle & a, const Triangle & b) { return a.Key() < b.Key(); });
-    for (std::size_t first = 0, last = 0; first < own.size(); first = last)
+  std::map<std::size_t, Outlines> parts;
+  std::mutex                      mutex;
+  RunInParts(worthIt, cells.CellCount(), [&](std::size_t first, std::size_t last) {
+    Outlines part;
+    for (std::size_t cell = first; cell < last; ++cell)
     {
-      while (last < own.size() && own[last].Key() == own[first].Key())
-      {
-        ++last;
-      }
-      AppendOutline(own.subspan(first, last - first), cells.facetPoints);
-      cells.facetCells.push_back({ static_cast<std::uint32_t>(cell), own[first].beyond });
-      cells.facetOffsets.push_back(cells.facetPoints.size());
-      if (walls != nullptr && own[first].beyond == kOutside)
-      {
-        walls->push_back(own[first].wall);
-      }
+      AppendFacets(static_cast<std::uint32_t>(cell),
+                   { triangles.data() + start[cell], triangles.data() + start[cell + 1] },
+                   part);
     }
+    const std::lock_guard lock(mutex);
+    parts[first] = std::move(part);
+  });
+  for (auto & [first, part] : parts)
+  {
+    cells.facetCells.insert(cells.facetCells.end(), part.cells.begin(), part.cells.end());
+    for (const std::uint32_t size : part.sizes)
+    {
+      cells.facetOffsets.push_back(cells.facetOffsets.back() + size);
+    }
+    cells.facetPoints.insert(cells.facetPoints.end(), part.points.begin(), part.points.end());
+    if (walls != nullptr)
+    {
+      walls->insert(walls->end(), part.walls.begin(), part.walls.end());
+    }
+    part = {};
   }
   return cells;
 }

@@ -1,9 +1,11 @@
 #include "RawCells.h"
 
+#include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -25,13 +27,6 @@ SphereOf(const DelaunayCells &             cells,
   return MakeCircumSphere(points[t[0]], points[t[1]], points[t[2]], points[t[3]], weights);
 }
 
-struct Entry
-{
-  std::array<double, 3> centre;
-  double                denominator; // of the exact coordinates, at most
-  std::uint32_t         cell;
-};
-
 // Compares exact centres. Rounding is monotone, so doubles decide unless they are equal.
 class CentreOrder
 {
@@ -43,7 +38,7 @@ public:
   {}
 
   int
-  Compare(const Entry & a, const Entry & b) const
+  Compare(const CentredCell & a, const CentredCell & b) const
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -74,97 +69,83 @@ private:
   const SpacingWeights &            m_Weights;
 };
 
-// Cells by exact centre: first into slabs of one lattice step along x, then sorted slab by slab.
-std::vector<Entry>
-SortedCells(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+[[noreturn]] void
+FailTwins()
 {
-  const auto         greatest = static_cast<double>(*std::max_element(weights.weight.begin(), weights.weight.end()));
-  const auto         count = static_cast<std::ptrdiff_t>(cells.CellCount());
-  std::vector<Entry> entries(cells.CellCount());
-#pragma omp parallel for schedule(static) if (count > 10000)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-  {
-    const auto         cell = static_cast<std::uint32_t>(i);
-    const CircumSphere sphere = SphereOf(cells, cell, points, weights);
-    entries[cell] = { { CentreCoordinate(sphere, 0, weights),
-                        CentreCoordinate(sphere, 1, weights),
-                        CentreCoordinate(sphere, 2, weights) },
-                      2.0 * static_cast<double>(sphere.det) * greatest * greatest,
-                      cell };
-  }
-  double low = HUGE_VAL;
-  double high = -HUGE_VAL;
-  for (const Entry & entry : entries)
-  {
-    low = std::min(low, entry.centre[0]);
-    high = std::max(high, entry.centre[0]);
-  }
-  const auto slabOf = [&](const Entry & entry) { return static_cast<std::size_t>(entry.centre[0] - std::floor(low)); };
-  const auto slabs = entries.empty() ? 0 : static_cast<std::size_t>(high - std::floor(low)) + 1;
-  std::vector<std::size_t> start(slabs + 1, 0);
-  for (const Entry & entry : entries)
-  {
-    ++start[slabOf(entry) + 1];
-  }
-  for (std::size_t slab = 0; slab < slabs; ++slab)
-  {
-    start[slab + 1] += start[slab];
-  }
-  std::vector<Entry> order(entries.size());
-  {
-    std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    for (const Entry & entry : entries)
+  throw CertificateError("two Delaunay cells have the same centre; please report this input");
+}
+
+// Two lists in order, in one.
+std::vector<CentredCell>
+MergeSorted(std::vector<CentredCell> a, std::vector<CentredCell> b, const CentreOrder & order)
+{
+  std::vector<CentredCell> merged(a.size() + b.size());
+  std::atomic<bool>        twins = false;
+  const auto isLess = [&](const CentredCell & x, const CentredCell & y) { return order.Compare(x, y) < 0; };
+  const auto partnerOf = [&](std::size_t i) {
+    return i == a.size() ? b.end() : i == 0 ? b.begin() : std::lower_bound(b.begin(), b.end(), a[i], isLess);
+  };
+  RunInParts(merged.size() > 10000, a.size(), [&](std::size_t first, std::size_t last) {
+    const auto from = partnerOf(first);
+    const auto to = partnerOf(last);
+    const auto at = [](auto & list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto begin = at(merged, first + static_cast<std::size_t>(from - b.begin()));
+    const auto end = std::merge(at(a, first), at(a, last), from, to, begin, isLess);
+    if (std::adjacent_find(begin, end, [&](const CentredCell & x, const CentredCell & y) {
+          return order.Compare(x, y) == 0;
+        }) != end)
     {
-      order[next[slabOf(entry)]++] = entry;
+      twins = true;
     }
-  }
-  const CentreOrder centreOrder(cells, points, weights);
-  bool              twins = false;
-#pragma omp parallel for schedule(dynamic) reduction(|| : twins) if (count > 10000)
-  for (std::size_t slab = 0; slab < slabs; ++slab)
-  {
-    const auto first = order.begin() + static_cast<std::ptrdiff_t>(start[slab]);
-    const auto last = order.begin() + static_cast<std::ptrdiff_t>(start[slab + 1]);
-    std::sort(first, last, [&](const Entry & a, const Entry & b) { return centreOrder.Compare(a, b) < 0; });
-    for (auto at = first; at != last && at + 1 != last; ++at)
-    {
-      twins = twins || centreOrder.Compare(*at, *(at + 1)) == 0;
-    }
-  }
+  });
   if (twins)
   {
-    throw CertificateError("two Delaunay cells have the same centre; please report this input");
+    FailTwins();
   }
-  return order;
+  return merged;
 }
 
 // Renumbers the cells of each facet, puts the smaller first and starts its polygon at the smallest point.
 void
 TurnFacets(DelaunayCells & cells, const std::vector<std::uint32_t> & rank)
 {
-  const auto facets = static_cast<std::ptrdiff_t>(cells.FacetCount());
-#pragma omp parallel for schedule(static) if (facets > 10000)
-  for (std::ptrdiff_t i = 0; i < facets; ++i)
-  {
-    const auto facet = static_cast<std::size_t>(i);
-    auto &     pair = cells.facetCells[facet];
-    const auto first = cells.facetPoints.begin() + static_cast<std::ptrdiff_t>(cells.facetOffsets[facet]);
-    const auto last = cells.facetPoints.begin() + static_cast<std::ptrdiff_t>(cells.facetOffsets[facet + 1]);
-    pair[0] = rank[pair[0]];
-    if (pair[1] != kOutside)
+  const std::size_t facets = cells.FacetCount();
+  RunInParts(facets > 10000, facets, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t facet = begin; facet < end; ++facet)
     {
-      pair[1] = rank[pair[1]];
-      if (pair[1] < pair[0])
+      if (facet + kAhead < end)
       {
-        std::swap(pair[0], pair[1]);
-        std::reverse(first, last);
+        for (const std::uint32_t cell : cells.facetCells[facet + kAhead])
+        {
+          if (cell != kOutside)
+          {
+            __builtin_prefetch(&rank[cell]);
+          }
+        }
       }
+      auto &     pair = cells.facetCells[facet];
+      const auto first = cells.facetPoints.begin() + static_cast<std::ptrdiff_t>(cells.facetOffsets[facet]);
+      const auto last = cells.facetPoints.begin() + static_cast<std::ptrdiff_t>(cells.facetOffsets[facet + 1]);
+      if (pair[0] == kOutside)
+      {
+        continue;
+      }
+      pair[0] = rank[pair[0]];
+      if (pair[1] != kOutside)
+      {
+        pair[1] = rank[pair[1]];
+        if (pair[1] < pair[0])
+        {
+          std::swap(pair[0], pair[1]);
+          std::reverse(first, last);
+        }
+      }
+      std::rotate(first, std::min_element(first, last), last);
     }
-    std::rotate(first, std::min_element(first, last), last);
-  }
+  });
 }
 
-// The facets' canonical order, by buckets of their first cell. Two cells share at most one facet, so points need
+// The canonical order of facets with a cell, by buckets of their first cell. Two cells share at most one facet, so points need
 // comparing only among the boundary facets of a cell: two of them share at most two points.
 std::vector<std::uint32_t>
 FacetOrder(const DelaunayCells & cells)
@@ -174,27 +155,16 @@ FacetOrder(const DelaunayCells & cells)
     std::uint32_t cell;
     std::uint32_t facet;
   };
-  const std::size_t          cellCount = cells.CellCount();
-  const std::size_t          facets = cells.FacetCount();
-  std::vector<std::uint32_t> start(cellCount + 2, 0);
-  for (const auto & pair : cells.facetCells)
-  {
-    ++start[pair[0] + 2];
-  }
-  for (std::size_t cell = 2; cell < start.size(); ++cell)
-  {
-    start[cell] += start[cell - 1];
-  }
-  std::vector<Beyond> beyond(facets);
-  for (std::size_t facet = 0; facet < facets; ++facet)
-  {
-    const auto & pair = cells.facetCells[facet];
-    if (facet + kAhead < facets)
-    {
-      __builtin_prefetch(beyond.data() + start[cells.facetCells[facet + kAhead][0] + 1], 1);
-    }
-    beyond[start[pair[0] + 1]++] = { pair[1], static_cast<std::uint32_t>(facet) };
-  }
+  const std::size_t                cellCount = cells.CellCount();
+  std::vector<Beyond>              beyond;
+  const std::vector<std::uint32_t> start = SortIntoBuckets(
+    cells.FacetCount(),
+    cellCount,
+    [&](std::size_t facet) { return std::size_t{ cells.facetCells[facet][0] }; },
+    [&](std::size_t facet) {
+      return Beyond{ cells.facetCells[facet][1], static_cast<std::uint32_t>(facet) };
+    },
+    beyond);
   const auto isLess = [&](const Beyond & a, const Beyond & b) {
     if (a.cell != b.cell || a.cell != kOutside)
     {
@@ -204,8 +174,8 @@ FacetOrder(const DelaunayCells & cells)
     const std::uint32_t * q = cells.facetPoints.data() + cells.facetOffsets[b.facet];
     return std::lexicographical_compare(p, p + 3, q, q + 3);
   };
-  std::vector<std::uint32_t> order(facets);
-#pragma omp parallel for schedule(static) if (facets > 10000)
+  std::vector<std::uint32_t> order(beyond.size());
+#pragma omp parallel for schedule(static) if (cellCount > 10000)
   for (std::size_t cell = 0; cell < cellCount; ++cell)
   {
     std::sort(beyond.begin() + start[cell], beyond.begin() + start[cell + 1], isLess);
@@ -219,13 +189,81 @@ FacetOrder(const DelaunayCells & cells)
 
 } // namespace
 
-void
-MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+std::vector<CentredCell>
+SortByCentre(const DelaunayCells &             cells,
+             std::size_t                       firstCell,
+             const std::vector<LatticePoint> & points,
+             const SpacingWeights &            weights)
 {
+  const auto greatest = static_cast<double>(*std::max_element(weights.weight.begin(), weights.weight.end()));
+  std::vector<CentredCell> entries(cells.CellCount() - firstCell);
+  const auto               count = static_cast<std::ptrdiff_t>(entries.size());
+  double                   low = HUGE_VAL;
+  double                   high = -HUGE_VAL;
+#pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high) if (count > 10000)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto         cell = static_cast<std::uint32_t>(firstCell + static_cast<std::size_t>(i));
+    const CircumSphere sphere = SphereOf(cells, cell, points, weights);
+    CentredCell &      entry = entries[static_cast<std::size_t>(i)];
+    entry = { { CentreCoordinate(sphere, 0, weights),
+                CentreCoordinate(sphere, 1, weights),
+                CentreCoordinate(sphere, 2, weights) },
+              2.0 * static_cast<double>(sphere.det) * greatest * greatest,
+              cell };
+    low = std::min(low, entry.centre[0]);
+    high = std::max(high, entry.centre[0]);
+  }
+
+  // First into slabs of one lattice step along x, then sorted slab by slab.
+  low = std::floor(low);
+  const auto                 slabs = entries.empty() ? 0 : static_cast<std::size_t>(high - low) + 1;
+  std::vector<std::uint32_t> slabOf(entries.size());
+#pragma omp parallel for schedule(static) if (count > 10000)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto at = static_cast<std::size_t>(i);
+    slabOf[at] = static_cast<std::uint32_t>(entries[at].centre[0] - low);
+  }
+  std::vector<CentredCell>         order;
+  const std::vector<std::uint32_t> start = SortIntoBuckets(
+    entries.size(),
+    slabs,
+    [&](std::size_t i) { return std::size_t{ slabOf[i] }; },
+    [&](std::size_t i) { return entries[i]; },
+    order);
+  const CentreOrder centreOrder(cells, points, weights);
+  bool              twins = false;
+#pragma omp parallel for schedule(dynamic) reduction(|| : twins) if (count > 10000)
+  for (std::size_t slab = 0; slab < slabs; ++slab)
+  {
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(start[slab]);
+    const auto last = order.begin() + static_cast<std::ptrdiff_t>(start[slab + 1]);
+    std::sort(first, last, [&](const CentredCell & a, const CentredCell & b) { return centreOrder.Compare(a, b) < 0; });
+    for (auto at = first; at != last && at + 1 != last; ++at)
+    {
+      twins = twins || centreOrder.Compare(*at, *(at + 1)) == 0;
+    }
+  }
+  if (twins)
+  {
+    FailTwins();
+  }
+  return order;
+}
+
+DelaunayCells
+MakeCanonical(RawCells raw, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+{
+  DelaunayCells & cells = raw.cells;
   {
     std::vector<std::uint32_t> rank(cells.CellCount());
     {
-      const std::vector<Entry>                  order = SortedCells(cells, points, weights);
+      std::vector<CentredCell> order = SortByCentre(cells, raw.sorted.size(), points, weights);
+      if (!raw.sorted.empty())
+      {
+        order = MergeSorted(std::move(raw.sorted), std::move(order), CentreOrder(cells, points, weights));
+      }
       std::vector<std::array<std::uint32_t, 4>> tetrahedra(order.size());
       cells.centres.resize(order.size());
       const auto count = static_cast<std::ptrdiff_t>(order.size());
@@ -293,6 +331,7 @@ MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, c
     facetCells[static_cast<std::size_t>(i)] = cells.facetCells[order[static_cast<std::size_t>(i)]];
   }
   cells.facetCells.swap(facetCells);
+  return std::move(cells);
 }
 
 } // namespace voxelcore

@@ -19,18 +19,20 @@ constexpr double largestRadius = 7.0;
 constexpr double unknown = -std::numeric_limits<double>::infinity();
 } // namespace
 
-CellTracer::CellTracer(const TracingInput & input, std::size_t first, std::size_t last)
+CellTracer::CellTracer(const TracingInput & input, BrickQueue & bricks, bool fromEnd)
   : m_Input(input)
-  , m_First(first)
-  , m_Last(last)
-  , m_Pending(last - first)
-  , m_Done(last - first, 0)
+  , m_Bricks(bricks)
+  , m_FromEnd(fromEnd)
+  , m_First(bricks.First())
+  , m_Last(bricks.Last())
+  , m_Pending(m_Last - m_First)
+  , m_Done(m_Last - m_First, 0)
 {
   // Room for the usual number of cells and facets a vertex, so that arrays need not move: what is not touched costs
   // nothing. Those of the first range take in the others' at the end.
-  const std::size_t bricks = first == 0 ? input.grid.Size() : last - first;
+  const std::size_t room = m_First == 0 && !fromEnd ? input.grid.Size() : m_Last - m_First;
   const auto        share = static_cast<std::size_t>(3.0 * static_cast<double>(input.points.size()) *
-                                              static_cast<double>(bricks) / static_cast<double>(input.grid.Size()));
+                                              static_cast<double>(room) / static_cast<double>(input.grid.Size()));
   m_Result.tetrahedra.reserve(share / 2);
   m_Result.facetCells.reserve(share * 3 / 2);
   m_Result.facetOffsets.reserve(share * 3 / 2);
@@ -43,14 +45,12 @@ CellTracer::CellTracer(const TracingInput & input, std::size_t first, std::size_
 Tracing
 CellTracer::Trace(const ProgressCallback & progress)
 {
-  for (std::size_t brick = m_First; brick < m_Last; ++brick)
+  for (std::size_t brick = m_Bricks.Take(m_FromEnd); brick != BrickQueue::none; brick = m_Bricks.Take(m_FromEnd))
   {
     const bool seed = m_Input.load[brick] != 0;
     if (seed || !m_Pending[brick - m_First].empty())
     {
-      ReportProgress(progress,
-                     "delaunay",
-                     static_cast<double>(brick - m_First) / static_cast<double>(m_Last - m_First));
+      ReportProgress(progress, "delaunay", m_Bricks.ShareTaken());
       ProcessBrick(brick, seed);
     }
     m_Done[brick - m_First] = 1;

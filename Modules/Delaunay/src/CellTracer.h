@@ -6,6 +6,7 @@
 // bits of a window finds it, exact integers decide. The smallest cells, the corners of single voxels, come from a table.
 
 #include "BrickGrid.h"
+#include "BrickQueue.h"
 #include "CellHull.h"
 #include "FacetTable.h"
 #include "LatticeWindow.h"
@@ -38,22 +39,24 @@ struct Tracing
   std::vector<std::uint32_t> unmet; ///< complete boundary squares whose voxel lies in a brick of someone else
 };
 
-/** Puts the tracings of disjoint ranges of bricks together: facets that two of them left open may close each other. */
+/** Puts the tracings of disjoint sets of bricks together: facets that two of them left open may close each other. */
 Tracing
 JoinTracings(std::vector<Tracing> parts);
 
-/** Finds the cells of radius up to 7 times the smallest weight whose centres lie in the bricks first to last - 1,
- *  as far as they can be reached within them. Not for use by two threads at once. */
+/** Finds the cells of radius up to 7 times the smallest weight whose centres lie in the bricks it takes from a queue,
+ *  ascending from its start or descending from its end, as far as they can be reached within them. Which bricks it gets
+ *  may differ from run to run; with those of all tracers joined and gone on from, nothing found does. Not for use by two
+ *  threads at once. */
 class CellTracer
 {
 public:
-  CellTracer(const TracingInput & input, std::size_t first, std::size_t last);
+  CellTracer(const TracingInput & input, BrickQueue & bricks, bool fromEnd);
 
-  /** Starts at the bricks' own boundary. \throws Cancelled. */
+  /** Takes bricks and starts at their own boundary. \throws Cancelled. */
   Tracing
   Trace(const ProgressCallback & progress);
 
-  /** Goes on from facets left open. \throws Cancelled. */
+  /** Goes on from facets left open, through all bricks of the queue. \throws Cancelled. */
   Tracing
   Continue(Tracing tracing, const ProgressCallback & progress);
 
@@ -109,14 +112,16 @@ private:
     const LatticePoint & p = m_Input.points[index];
     return { p.x - m_Window.origin.x, p.y - m_Window.origin.y, p.z - m_Window.origin.z };
   }
-  /** The brick of a centre in window coordinates; none when it is so near to a side of the range that rounding could
-   *  make two tracers disagree. */
+  /** The brick of a centre in window coordinates; of one so near to another brick that two tracers could disagree by
+   *  rounding, that which is not this tracer's, if any. */
   std::size_t
   BrickOf(const std::array<double, 3> & centre) const;
   void
   Defer(std::size_t brick, const Pending & pending);
 
   TracingInput  m_Input;
+  BrickQueue &  m_Bricks;
+  bool          m_FromEnd;
   std::size_t   m_First;
   std::size_t   m_Last;
   bool          m_Wide;  // weights beyond 1: numbers need 128 bits
@@ -128,8 +133,8 @@ private:
   HullMemo      m_Hulls;
 
   std::vector<Pending>              m_Stack;
-  std::vector<std::vector<Pending>> m_Pending; // per brick of this tracer
-  std::vector<std::uint8_t>         m_Done;    // per brick of this tracer
+  std::vector<std::vector<Pending>> m_Pending; // per brick of the queue
+  std::vector<std::uint8_t>         m_Done;    // per brick of the queue: this tracer has been through it
   std::vector<std::size_t>          m_Revisit;
   std::vector<std::uint32_t>        m_Deep;
 

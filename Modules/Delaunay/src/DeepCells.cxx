@@ -3,6 +3,7 @@
 #include "BowyerWatson.h"
 
 #include "voxelcore/Predicates.h"
+#include "voxelcore/SideBySide.h"
 
 #include <algorithm>
 
@@ -80,27 +81,33 @@ void
 AddDeepCells(Tracing &                         tracing,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
+             const std::function<void()> &     meanwhile,
              const ProgressCallback &          progress)
 {
-  if (tracing.deep.empty())
-  {
-    return;
-  }
   std::sort(tracing.deep.begin(), tracing.deep.end());
-  std::vector<std::uint32_t> used;
+  std::vector<std::uint8_t> isUsed(points.size(), 0);
   for (const std::uint32_t facet : tracing.deep)
   {
-    const auto polygon = tracing.cells.FacetPoints(facet);
-    used.insert(used.end(), polygon.begin(), polygon.end());
+    for (const std::uint32_t point : tracing.cells.FacetPoints(facet))
+    {
+      isUsed[point] = 1;
+    }
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  std::vector<LatticePoint> deepPoints(used.size());
-  for (std::size_t i = 0; i < used.size(); ++i)
+  std::vector<std::uint32_t> used;
+  std::vector<LatticePoint>  deepPoints;
+  for (std::size_t point = 0; point < points.size(); ++point)
   {
-    deepPoints[i] = points[used[i]];
+    if (isUsed[point])
+    {
+      used.push_back(static_cast<std::uint32_t>(point));
+      deepPoints.push_back(points[point]);
+    }
   }
-  Tetrahedra tetrahedra = BowyerWatson(deepPoints, weights, progress);
+  Tetrahedra tetrahedra;
+  RunBoth(
+    true,
+    [&] { tetrahedra = BowyerWatson(deepPoints, weights, progress); },
+    meanwhile);
 
   // Tetrahedra at the far side of an open facet are in the region, and so is what is reached from them without
   // crossing one.

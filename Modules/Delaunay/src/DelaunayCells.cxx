@@ -40,23 +40,23 @@ ComputeDelaunayCells(const VoxelShape &                shape,
     throw InputError(
       "the shape is too large for exact arithmetic at this spacing; crop it, or give a simpler --spacing");
   }
-  DelaunayCells cells;
   if (points.empty())
   {
-    return cells;
+    return {};
   }
+  RawCells raw;
   ReportProgress(progress, "delaunay", 0.0);
 #ifdef VOXELCORE_HAS_TETGEN
   if (engine == Engine::TetGen)
   {
-    cells = TetGenCells(shape, points, weights, progress);
+    raw.cells = TetGenCells(shape, points, weights, progress);
   }
   else
 #endif
   {
-    cells = LatticeCells(shape, points, weights, progress);
+    raw = LatticeCells(shape, points, weights, progress);
   }
-  MakeCanonical(cells, points, weights);
+  DelaunayCells cells = MakeCanonical(std::move(raw), points, weights);
   ReportProgress(progress, "delaunay", 1.0);
   return cells;
 }

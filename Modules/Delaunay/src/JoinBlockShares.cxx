@@ -161,7 +161,7 @@ public:
     LinkOpenFacets();
     SpacingWeights weights;
     weights.weight = m_First.weight;
-    MakeCanonical(m_Joined.cells, m_Joined.points, weights);
+    m_Joined.cells = MakeCanonical({ std::move(m_Joined.cells), {} }, m_Joined.points, weights);
     return std::move(m_Joined);
   }
 

@@ -1,5 +1,7 @@
 #include "CellTracer.h"
 
+#include "voxelcore/SideBySide.h"
+
 namespace voxelcore
 {
 
@@ -19,17 +21,23 @@ JoinTracings(std::vector<Tracing> parts)
     {
       to = std::move(from);
     }
-    to.tetrahedra.insert(to.tetrahedra.end(), from.tetrahedra.begin(), from.tetrahedra.end());
-    for (const auto & sides : from.facetCells)
-    {
-      to.facetCells.push_back(
-        { sides[0] < kOpen ? sides[0] + cellShift : sides[0], sides[1] < kOpen ? sides[1] + cellShift : sides[1] });
-    }
-    for (std::size_t i = 1; i < from.facetOffsets.size(); ++i)
-    {
-      to.facetOffsets.push_back(from.facetOffsets[i] + pointShift);
-    }
-    to.facetPoints.insert(to.facetPoints.end(), from.facetPoints.begin(), from.facetPoints.end());
+    RunBoth(
+      true,
+      [&] {
+        to.tetrahedra.insert(to.tetrahedra.end(), from.tetrahedra.begin(), from.tetrahedra.end());
+        to.facetPoints.insert(to.facetPoints.end(), from.facetPoints.begin(), from.facetPoints.end());
+      },
+      [&] {
+        for (const auto & sides : from.facetCells)
+        {
+          to.facetCells.push_back(
+            { sides[0] < kOpen ? sides[0] + cellShift : sides[0], sides[1] < kOpen ? sides[1] + cellShift : sides[1] });
+        }
+        for (std::size_t i = 1; i < from.facetOffsets.size(); ++i)
+        {
+          to.facetOffsets.push_back(from.facetOffsets[i] + pointShift);
+        }
+      });
     from = {};
     const auto join = [&](const std::vector<std::uint32_t> & facets, std::vector<std::uint32_t> & joinedFacets) {
       for (const std::uint32_t facet : facets)
@@ -43,7 +51,7 @@ JoinTracings(std::vector<Tracing> parts)
           joinedFacets.push_back(own);
           continue;
         }
-        // The two halves become one; the other is left without a cell, to be dropped with its like at the end. A
+        // The two halves become one; the other is left without a cell. A
         // boundary square may have met the half that knows its cell, or the one that does not.
         auto &              kept = to.facetCells[met];
         auto &              other = to.facetCells[own];
@@ -56,7 +64,7 @@ JoinTracings(std::vector<Tracing> parts)
         {
           kept[1] = cell;
         }
-        other = { kOpen, kOpen };
+        other = { kOutside, kOutside };
       }
     };
     join(part.open, joined.open);

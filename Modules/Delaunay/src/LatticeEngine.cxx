@@ -3,12 +3,11 @@
 #include "CellTracer.h"
 #include "DeepCells.h"
 
-
 #include <omp.h>
-
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <exception>
 
 namespace voxelcore
@@ -16,29 +15,6 @@ namespace voxelcore
 
 namespace
 {
-
-// Removes facets that were joined to others (open on both sides).
-void
-DropJoined(DelaunayCells & cells)
-{
-  std::size_t   kept = 0;
-  std::uint64_t end = 0;
-  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
-  {
-    const auto polygon = cells.FacetPoints(facet);
-    if (cells.facetCells[facet][0] == kOpen && cells.facetCells[facet][1] == kOpen)
-    {
-      continue;
-    }
-    std::copy(polygon.begin(), polygon.end(), cells.facetPoints.begin() + static_cast<std::ptrdiff_t>(end));
-    end += polygon.size();
-    cells.facetCells[kept] = cells.facetCells[facet];
-    cells.facetOffsets[++kept] = end;
-  }
-  cells.facetCells.resize(kept);
-  cells.facetOffsets.resize(kept + 1);
-  cells.facetPoints.resize(end);
-}
 
 // Ranges of bricks with about the same number of points each: range i is cuts[i] to cuts[i + 1] - 1.
 std::vector<std::size_t>
@@ -61,6 +37,51 @@ CutEvenly(const std::vector<std::uint32_t> & load, std::size_t ranges)
   }
   cuts.resize(ranges + 1, load.size());
   return cuts;
+}
+
+// Two threads each take the bricks of a range from its ends until they meet.
+Tracing
+TraceSideBySide(const TracingInput & input, std::size_t threads, const ProgressCallback & progress)
+{
+  const std::vector<std::size_t> cuts = CutEvenly(input.load, threads);
+  std::deque<BrickQueue>         queues;
+  for (std::size_t part = 0; part < threads; part += 2)
+  {
+    queues.emplace_back(cuts[part], cuts[std::min(part + 2, threads)]);
+  }
+  std::vector<Tracing>            parts(threads);
+  std::vector<std::exception_ptr> failures(threads);
+  std::atomic<bool>               stop = false;
+  // Only the first thread reports; the others see its answer.
+  const ProgressCallback watch = [&](std::string_view stage, double fraction) {
+    if (omp_get_thread_num() == 0 && progress && !progress(stage, fraction))
+    {
+      stop = true;
+    }
+    return !stop;
+  };
+#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads))
+  for (std::size_t part = 0; part < threads; ++part)
+  {
+    try
+    {
+      parts[part] = CellTracer(input, queues[part / 2], part % 2 == 1).Trace(watch);
+    }
+    catch (...)
+    {
+      failures[part] = std::current_exception();
+      stop = true;
+    }
+  }
+  for (const std::exception_ptr & failure : failures)
+  {
+    if (failure)
+    {
+      std::rethrow_exception(failure);
+    }
+  }
+  BrickQueue all(0, input.grid.Size());
+  return CellTracer(input, all, false).Continue(JoinTracings(std::move(parts)), progress);
 }
 
 } // namespace
@@ -91,7 +112,7 @@ BrickLoad(const BrickGrid & grid, const std::vector<LatticePoint> & points)
   return load;
 }
 
-DelaunayCells
+RawCells
 LatticeCells(const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
@@ -108,50 +129,30 @@ LatticeCells(const VoxelShape &                shape,
   Tracing tracing;
   if (threads == 1)
   {
-    tracing = CellTracer(input, 0, grid.Size()).Trace(progress);
+    BrickQueue bricks(0, grid.Size());
+    tracing = CellTracer(input, bricks, false).Trace(progress);
   }
   else
   {
-    const std::vector<std::size_t>  cuts = CutEvenly(load, threads);
-    std::vector<Tracing>            parts(threads);
-    std::vector<std::exception_ptr> failures(threads);
-    std::atomic<bool>               stop = false;
-    // Only the first thread reports; the others see its answer.
-    const ProgressCallback watch = [&](std::string_view stage, double fraction) {
-      if (omp_get_thread_num() == 0 && progress && !progress(stage, fraction))
-      {
-        stop = true;
-      }
-      return !stop;
-    };
-#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads))
-    for (std::size_t part = 0; part < threads; ++part)
-    {
-      try
-      {
-        parts[part] = CellTracer(input, cuts[part], cuts[part + 1]).Trace(watch);
-      }
-      catch (...)
-      {
-        failures[part] = std::current_exception();
-        stop = true;
-      }
-    }
-    for (const std::exception_ptr & failure : failures)
-    {
-      if (failure)
-      {
-        std::rethrow_exception(failure);
-      }
-    }
-    tracing = CellTracer(input, 0, grid.Size()).Continue(JoinTracings(std::move(parts)), progress);
+    tracing = TraceSideBySide(input, threads, progress);
   }
   // Whatever tracing left, for whichever reason, is completed from the facets it left open.
   tracing.deep.insert(tracing.deep.end(), tracing.open.begin(), tracing.open.end());
   tracing.open.clear();
-  AddDeepCells(tracing, points, weights, progress);
-  DropJoined(tracing.cells);
-  return std::move(tracing.cells);
+  RawCells raw;
+  if (!tracing.deep.empty())
+  {
+    // Bowyer-Watson leaves the other threads free for what the cells found so far need.
+    const auto sortFound = [&] {
+      if (threads > 1)
+      {
+        raw.sorted = SortByCentre(tracing.cells, 0, points, weights);
+      }
+    };
+    AddDeepCells(tracing, points, weights, sortFound, progress);
+  }
+  raw.cells = std::move(tracing.cells);
+  return raw;
 }
 
 } // namespace voxelcore

@@ -6,11 +6,34 @@
 namespace voxelcore
 {
 
+/** A cell with the centre of its sphere. */
+struct CentredCell
+{
+  std::array<double, 3> centre;      ///< lattice coordinates, rounded
+  double                denominator; ///< of the exact coordinates, at most
+  std::uint32_t         cell;
+};
+
+/** Cells `first` to the last one, by exact centre.
+ *  \throws CertificateError when two cells have the same centre (they were not merged). */
+std::vector<CentredCell>
+SortByCentre(const DelaunayCells &             cells,
+             std::size_t                       first,
+             const std::vector<LatticePoint> & points,
+             const SpacingWeights &            weights);
+
+/** What an engine made. */
+struct RawCells
+{
+  DelaunayCells            cells;
+  std::vector<CentredCell> sorted; ///< the first of the cells, by exact centre; none, some or all of them
+};
+
 /** Numbers cells by exact centre, orders facets and polygons as DelaunayCells promises, and fills in the centres.
  *  Expects tetrahedra, facetCells (any order of the two; kOutside second), facetOffsets and facetPoints with every
- *  polygon counter-clockwise seen from outside facetCells[.][0].
+ *  polygon counter-clockwise seen from outside facetCells[.][0]. Facets with kOutside on both sides are left out.
  *  \throws CertificateError when two cells have the same centre (they were not merged). */
-void
-MakeCanonical(DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights);
+DelaunayCells
+MakeCanonical(RawCells raw, const std::vector<LatticePoint> & points, const SpacingWeights & weights);
 
 } // namespace voxelcore

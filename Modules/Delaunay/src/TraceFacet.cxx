@@ -139,25 +139,22 @@ ScanBall(const LatticeWindow &         window,
 std::size_t
 CellTracer::BrickOf(const std::array<double, 3> & centre) const
 {
-  // Within one tracer any choice is right as long as a cell is made once. Between two, rounding must not let both (or
-  // neither, for ever) claim a centre on the border of their ranges: what is near it is left to the one who joins.
+  // Within one tracer any choice is right as long as a cell is made once. Between two, rounding must not let both claim
+  // a centre on the border of their bricks: what is near one that is not yet this tracer's waits for it, or for the one
+  // who joins. Bricks of a tracer follow each other, so that the first and the last tell for all between.
   constexpr double margin = 1e-6;
-  std::size_t      brick = 0;
-  for (int side = 0; side < 2; ++side)
-  {
-    const double shift = side == 0 ? -margin : margin;
-    const auto   voxel = [&](std::size_t axis, std::int32_t origin) {
+  const auto       shifted = [&](double shift) {
+    const auto voxel = [&](std::size_t axis, std::int32_t origin) {
       return origin + static_cast<std::int32_t>(std::floor(centre[axis] + shift));
     };
-    const std::size_t own =
-      m_Input.grid.At(voxel(0, m_Window.origin.x), voxel(1, m_Window.origin.y), voxel(2, m_Window.origin.z));
-    if (side == 1 && (own >= m_First && own < m_Last) != (brick >= m_First && brick < m_Last))
-    {
-      return FacetTable::none;
-    }
-    brick = own;
-  }
-  return brick;
+    return m_Input.grid.At(voxel(0, m_Window.origin.x), voxel(1, m_Window.origin.y), voxel(2, m_Window.origin.z));
+  };
+  const auto isOwn = [&](std::size_t brick) {
+    return brick == m_Brick || (brick >= m_First && brick < m_Last && m_Done[brick - m_First]);
+  };
+  const std::size_t low = shifted(-margin);
+  const std::size_t high = shifted(margin);
+  return isOwn(high) ? low : high;
 }
 
 template <typename TNumber>
@@ -241,7 +238,7 @@ CellTracer::TraceFacet(Pending pending)
         const std::size_t brick = BrickOf(middle);
         if (brick < m_First || brick >= m_Last)
         {
-          return; // someone else's cell; none is beyond every range
+          return; // someone else's cell
         }
         if (brick != m_Brick && !m_Done[brick - m_First])
         {
