@@ -1,21 +1,23 @@
 #pragma once
 // SHA-256 (FIPS 180-4), and the digest that names a scan in a report.
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
-#include <vector>
+
+struct evp_md_ctx_st; // of OpenSSL
 
 namespace voxelcore
 {
 
-/** Digest of a stream of bytes. */
+/** Digest of a stream of bytes, by libcrypto. \throws Error when that refuses. */
 class Sha256
 {
 public:
+  Sha256();
+
   void
   Update(std::span<const std::byte> bytes);
 
@@ -24,14 +26,7 @@ public:
   Finish();
 
 private:
-  void
-  Block(const std::byte * block);
-
-  std::array<std::uint32_t, 8> m_State{ 0x6a09e667U, 0xbb67ae85U, 0x3c6ef372U, 0xa54ff53aU,
-                                        0x510e527fU, 0x9b05688cU, 0x1f83d9abU, 0x5be0cd19U };
-  std::array<std::byte, 64>    m_Buffer{};
-  std::size_t                  m_Buffered = 0;
-  std::uint64_t                m_Length = 0; ///< bytes
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st *)> m_Context;
 };
 
 /** \throws InputError when the file cannot be read. */
