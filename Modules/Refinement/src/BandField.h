@@ -57,8 +57,14 @@ public:
 private:
   static constexpr std::int32_t kFarOutside = -1;
   static constexpr std::int32_t kFarInside = -2;
+  static constexpr std::int32_t kReach = 7; ///< voxels from the boundary that have a brick
   using Brick = std::array<std::int32_t, 3>;
 
+  static constexpr std::int32_t
+  BrickOf(std::int32_t voxel)
+  {
+    return voxel >> 3;
+  }
   std::int32_t
   Find(const Brick & brick) const;
   void

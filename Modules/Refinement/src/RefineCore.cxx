@@ -4,8 +4,8 @@
 #include "MoveGuard.h"
 #include "Triangles.h"
 #include "Vectors.h"
+#include "VertexPairs.h"
 
-#include "voxelcore/Error.h"
 #include "voxelcore/SimplePairCollapse.h"
 
 #include <algorithm>
@@ -51,24 +51,7 @@ public:
     {
       m_Positions.push_back(core.positions[vertex]);
     }
-    m_FacePairs.resize(m_Cells.FaceCount());
-    std::vector<ElementIndex> sides(m_Cells.edges.size(), 0);
-    for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
-    {
-      m_FacePairs[face] = PairOf(face);
-      for (const ElementIndex edge : m_Cells.FaceEdges(face))
-      {
-        ++sides[edge];
-      }
-    }
-    for (std::size_t edge = 0; edge < sides.size(); ++edge)
-    {
-      if (sides[edge] == 0)
-      {
-        m_LooseEdges.push_back(static_cast<ElementIndex>(edge));
-      }
-    }
-    CollectPairs();
+    m_Pairs = VertexPairs(core, *input.edgePoints, m_Cells, m_VertexIds, m_EdgeIds);
     m_Displacement.assign(m_Positions.size(), Vector3{ 0, 0, 0 });
   }
 
@@ -79,108 +62,11 @@ public:
   RefinedCore
   Finish(const FootFinder & finder, double threshold) const;
 
-private:
-  // The two boundary vertices that two sides of a face share: facets of a convex cell meet in an edge.
-  PointPair
-  PairOf(std::size_t face) const
-  {
-    const auto  edges = m_Cells.FaceEdges(face);
-    const auto  a = m_Input.edgePoints->Of(m_EdgeIds[edges[0]]);
-    const auto  b = m_Input.edgePoints->Of(m_EdgeIds[edges[1]]);
-    PointPair   pair{};
-    std::size_t found = 0;
-    for (const std::uint32_t point : a)
-    {
-      if (found < 2 && std::find(b.begin(), b.end(), point) != b.end())
-      {
-        pair[found++] = point;
-      }
-    }
-    if (found < 2)
-    {
-      throw CertificateError("a face of the core has no two nearest boundary vertices; please report this input");
-    }
-    return { std::min(pair[0], pair[1]), std::max(pair[0], pair[1]) };
-  }
-
-  // All pairs in a row around a polygon or a set of points.
-  static void
-  AddPairs(std::span<const std::uint32_t> points, std::vector<PointPair> & pairs)
-  {
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const std::uint32_t p = points[i];
-      const std::uint32_t q = points[(i + 1) % points.size()];
-      if (p != q)
-      {
-        pairs.push_back({ std::min(p, q), std::max(p, q) });
-      }
-    }
-  }
-
-  void
-  CollectPairs()
-  {
-    std::vector<std::vector<PointPair>> ofVertex(m_Positions.size());
-    for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
-    {
-      for (const ElementIndex corner : m_Cells.FaceVertices(face))
-      {
-        ofVertex[corner].push_back(m_FacePairs[face]);
-      }
-    }
-    for (const ElementIndex edge : m_LooseEdges)
-    {
-      for (const ElementIndex end : m_Cells.edges[edge])
-      {
-        AddPairs(m_Input.edgePoints->Of(m_EdgeIds[edge]), ofVertex[end]);
-      }
-    }
-    // A vertex of its own, as of a ball: what was nearest to it and its edges.
-    std::vector<std::uint8_t> alone(m_Input.core->cells.vertexCount, 0);
-    bool                      any = false;
-    for (std::size_t vertex = 0; vertex < ofVertex.size(); ++vertex)
-    {
-      if (ofVertex[vertex].empty())
-      {
-        alone[m_VertexIds[vertex]] = 1;
-        any = true;
-      }
-    }
-    if (any)
-    {
-      std::vector<ElementIndex> place(m_Input.core->cells.vertexCount, 0);
-      for (std::size_t vertex = 0; vertex < m_VertexIds.size(); ++vertex)
-      {
-        place[m_VertexIds[vertex]] = static_cast<ElementIndex>(vertex);
-      }
-      for (std::size_t edge = 0; edge < m_Input.core->cells.edges.size(); ++edge)
-      {
-        for (const ElementIndex end : m_Input.core->cells.edges[edge])
-        {
-          if (alone[end] != 0)
-          {
-            AddPairs(m_Input.edgePoints->Of(edge), ofVertex[place[end]]);
-          }
-        }
-      }
-    }
-    m_PairOffsets.assign(1, 0);
-    for (std::vector<PointPair> & pairs : ofVertex)
-    {
-      std::sort(pairs.begin(), pairs.end());
-      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-      m_Pairs.insert(m_Pairs.end(), pairs.begin(), pairs.end());
-      m_PairOffsets.push_back(m_Pairs.size());
-    }
-  }
-
-public:
   std::vector<std::uint8_t>
   UsedPoints() const
   {
     std::vector<std::uint8_t> used(m_Input.points->size(), 0);
-    for (const PointPair & pair : m_Pairs)
+    for (const PointPair & pair : m_Pairs.All())
     {
       used[pair[0]] = 1;
       used[pair[1]] = 1;
@@ -192,7 +78,7 @@ private:
   std::span<const PointPair>
   Pairs(std::size_t vertex) const
   {
-    return { m_Pairs.data() + m_PairOffsets[vertex], m_Pairs.data() + m_PairOffsets[vertex + 1] };
+    return m_Pairs.Of(vertex);
   }
 
   Vector3
@@ -204,17 +90,14 @@ private:
   Vector3
   Step(const Vector3 & place, std::span<const PointPair> pairs, std::span<const Foot> feet) const;
 
-  const RefinementInput &    m_Input;
-  CellComplex                m_Cells;
-  std::vector<ElementIndex>  m_VertexIds;
-  std::vector<ElementIndex>  m_EdgeIds;
-  std::vector<ElementIndex>  m_FaceIds;
-  std::vector<PointPair>     m_FacePairs;
-  std::vector<ElementIndex>  m_LooseEdges; ///< edges on no face
-  std::vector<std::uint64_t> m_PairOffsets;
-  std::vector<PointPair>     m_Pairs; ///< per vertex those of its faces and loose edges
-  std::vector<Vector3>       m_Positions;
-  std::vector<Vector3>       m_Displacement;
+  const RefinementInput &   m_Input;
+  CellComplex               m_Cells;
+  std::vector<ElementIndex> m_VertexIds;
+  std::vector<ElementIndex> m_EdgeIds;
+  std::vector<ElementIndex> m_FaceIds;
+  VertexPairs               m_Pairs;
+  std::vector<Vector3>      m_Positions;
+  std::vector<Vector3>      m_Displacement;
 };
 
 // Least squares: the step after which the feet of each pair are equally far. What no pair asks for stays: a sheet moves
@@ -301,7 +184,7 @@ WorkingCore::Measured(const FootFinder & finder) const
   core.vertexLambda.assign(m_Positions.size(), 0);
   core.edgeLambda.assign(m_Cells.edges.size(), 0);
   core.faceLambda.assign(m_Cells.FaceCount(), 0);
-  std::vector<double> pairWidth(m_Pairs.size(), 0);
+  std::vector<double> pairWidth(m_Pairs.All().size(), 0);
   const auto          count = static_cast<std::ptrdiff_t>(m_Positions.size());
 #pragma omp parallel if (count > 512)
   {
@@ -322,7 +205,7 @@ WorkingCore::Measured(const FootFinder & finder) const
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {
         const double width = 0.5 * Distance(FootOf(feet, pairs[k][0]).position, FootOf(feet, pairs[k][1]).position);
-        pairWidth[m_PairOffsets[vertex] + k] = width;
+        pairWidth[m_Pairs.First(vertex) + k] = width;
         core.vertexLambda[vertex] = std::max(core.vertexLambda[vertex], width);
       }
     }
@@ -330,7 +213,7 @@ WorkingCore::Measured(const FootFinder & finder) const
   const auto widthAt = [&](ElementIndex vertex, const PointPair & pair) {
     const auto pairs = Pairs(vertex);
     const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
-    return pairWidth[m_PairOffsets[vertex] + static_cast<std::size_t>(found - pairs.begin())];
+    return pairWidth[m_Pairs.First(vertex) + static_cast<std::size_t>(found - pairs.begin())];
   };
   for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
   {
@@ -339,7 +222,7 @@ WorkingCore::Measured(const FootFinder & finder) const
     const auto corners = m_Cells.FaceVertices(face);
     for (const ElementIndex corner : corners)
     {
-      const double width = widthAt(corner, m_FacePairs[face]);
+      const double width = widthAt(corner, m_Pairs.OfFace(face));
       sum += width;
       least = std::min(least, width);
     }
@@ -352,10 +235,10 @@ WorkingCore::Measured(const FootFinder & finder) const
     }
   }
   std::vector<PointPair> pairs;
-  for (const ElementIndex edge : m_LooseEdges)
+  for (const ElementIndex edge : m_Pairs.LooseEdges())
   {
     pairs.clear();
-    AddPairs(m_Input.edgePoints->Of(m_EdgeIds[edge]), pairs);
+    AddPairsAround(m_Input.edgePoints->Of(m_EdgeIds[edge]), pairs);
     for (const PointPair & pair : pairs)
     {
       const double width = 0.5 * (widthAt(m_Cells.edges[edge][0], pair) + widthAt(m_Cells.edges[edge][1], pair));
