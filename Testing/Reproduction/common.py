@@ -2,6 +2,7 @@
 
 import argparse
 import datetime
+import io
 import json
 import os
 import re
@@ -12,6 +13,7 @@ import tempfile
 
 import matplotlib
 import numpy as np
+from PIL import Image
 from scipy.spatial import cKDTree
 
 matplotlib.use("Agg")
@@ -96,6 +98,7 @@ class Core:
 
         self.points = read("Points", "Points").reshape(-1, 3)
         self.radius = read("PointData", "Radius")
+        self.measure = read("PointData", "Lambda")
         parts = []
         for name in ("Verts", "Lines", "Polys"):
             corners = read(name, "connectivity").astype(np.int64)
@@ -179,10 +182,77 @@ def write_table(folder, name, head, rows, note=""):
         print("  ".join(cell.rjust(width) for cell, width in zip(row, widths)))
 
 
+VIEW = np.array([[0.80, -0.28, 0.53], [-0.60, -0.37, 0.71], [0.0, 0.886, 0.464]])  # from the left above
+
+
+def standing_view(points):
+    """A `turn` for paint(): y up, the longest way across, seen a little from above."""
+    flat = points[:, [0, 2]] - points[:, [0, 2]].mean(axis=0)
+    across = np.linalg.svd(flat, full_matrices=False)[2][0]
+    across = across * np.sign(across[np.abs(across).argmax()])  # the same whatever the library's sign
+    right = np.array([across[0], 0, across[1]])
+    up = np.array([0.0, 1.0, 0.0])
+    eye = np.cross(right, up)
+    c, s = np.cos(0.3), np.sin(0.3)
+    return np.stack([right, c * up - s * eye, s * up + c * eye], 1)
+
+
+def paint(panel, one, turn=VIEW, values=None, pixels=360, box=None, measure_first=False, colours="viridis", most=None):
+    """A Core in parallel projection: columns of `turn` are the picture's right, its up, and towards the eye. Colours by
+    `values` per point up to `most`, light by the normal. Where elements hide each other the nearest is seen, or with
+    `measure_first` the one of greatest value. Returns the box (left, right, bottom, top); lines are a pixel wide."""
+    turned = one.points @ turn
+    values = one.radius if values is None else values
+    most = most or values.max(initial=0) or 1
+    if box is None:
+        low, high = turned[:, :2].min(axis=0), turned[:, :2].max(axis=0)
+        rim = 0.03 * (high - low).max()
+        box = (low[0] - rim, high[0] + rim, low[1] - rim, high[1] + rim)
+    step = max(box[1] - box[0], box[3] - box[2]) / pixels
+    width, height = int(np.ceil((box[1] - box[0]) / step)), int(np.ceil((box[3] - box[2]) / step))
+    front = np.full(width * height, -np.inf)
+    colour = np.zeros(width * height)
+    light = np.ones(width * height)
+    lamp = np.array([-0.35, 0.45, 0.82])
+    for begin in range(0, len(one.triangles), 200000):
+        ids = one.triangles[begin:begin + 200000]
+        corners, value = turned[ids], values[ids]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        length = np.linalg.norm(normal, axis=1)
+        shade = np.where(length > 0, 0.4 + 0.6 * np.abs(normal @ lamp) / np.where(length > 0, length, 1), 0.7)
+        longest = np.linalg.norm(corners - np.roll(corners, 1, 1), axis=2).max(axis=1)
+        cuts = 2 ** np.ceil(np.log2(np.maximum(1, 1.5 * longest / step))).astype(int)
+        for n in np.unique(cuts):  # triangles in so many parts a side that parts are smaller than a pixel
+            u, v = (g.ravel() for g in np.meshgrid(np.arange(n + 1) / n, np.arange(n + 1) / n))
+            weights = np.stack([1 - u - v, u, v], 1)[u + v <= 1] if n > 1 else np.full((1, 3), 1 / 3)
+            some = np.flatnonzero(cuts == n)
+            for part in np.array_split(some, 1 + len(some) * len(weights) // 2000000):
+                at = np.einsum("wc,ncd->nwd", weights, corners[part]).reshape(-1, 3)
+                there = (value[part] @ weights.T).ravel()
+                dark = np.repeat(shade[part], len(weights))
+                x, y = ((at[:, 0] - box[0]) / step).astype(int), ((box[3] - at[:, 1]) / step).astype(int)
+                depth = there if measure_first else at[:, 2]
+                keep = np.flatnonzero((x >= 0) & (x < width) & (y >= 0) & (y < height))
+                keep = keep[depth[keep] > front[y[keep] * width + x[keep]]]
+                keep = keep[np.argsort(depth[keep], kind="stable")]  # of those at one pixel the last is kept
+                pixel = y[keep] * width + x[keep]
+                front[pixel], colour[pixel], light[pixel] = depth[keep], there[keep], dark[keep]
+    picture = plt.get_cmap(colours)(np.clip(colour / most, 0, 1))
+    picture[:, :3] *= light[:, None]
+    picture[front == -np.inf] = 1
+    panel.imshow(picture.reshape(height, width, 4), extent=box, interpolation="nearest")
+    panel.set_axis_off()
+    return box
+
+
 def save(figure, folder, name):
+    """As .png of few colours, so that a picture stays small."""
     figure.tight_layout()
-    figure.savefig(os.path.join(folder, name + ".png"), dpi=110)
+    data = io.BytesIO()
+    figure.savefig(data, dpi=110)
     plt.close(figure)
+    data.seek(0)
+    Image.open(data).convert("RGB").quantize(96).save(os.path.join(folder, name + ".png"), optimize=True)
 
 
 def require(condition, what):

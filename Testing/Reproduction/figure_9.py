@@ -7,7 +7,7 @@ import tempfile
 
 import numpy as np
 
-from common import Core, arguments, core, distance_to_core, plt, require, save, write_nrrd, write_table
+from common import Core, arguments, core, distance_to_core, paint, plt, require, save, write_nrrd, write_table
 
 A, B, C = 0.5, 0.35, 0.2  # semi-axes; the longest side of its box is about 1
 LAMBDAS = [0, 1.5, 2.5, 5, 8.5]  # % of the longest side of the voxels' box
@@ -59,11 +59,26 @@ def disc(a, b, count):
     return np.stack([(a * r * np.cos(t)).ravel(), (b * r * np.sin(t)).ravel(), np.zeros(6 * count * count)], 1)
 
 
+def draw(panel, found, value, n, semi):
+    """As the paper has it: seen along the shortest axis, the axis' rim in red; of the whole core what has the greatest measure
+    lies in front. The dashed rim is that of the lambda-medial axis."""
+    paint(panel, found, np.eye(3), found.measure, pixels=230, box=(-A, A, -B, B), measure_first=value == 0,
+          colours="turbo" if value == 0 else "viridis", most=C)
+    t = np.linspace(0, 2 * np.pi, 200)
+    scale = np.sqrt(1 - (value / 100 / C) ** 2)  # the longest side of the voxels' box is about 1
+    panel.plot(semi[0] * np.cos(t), semi[1] * np.sin(t), "r", linewidth=0.9)
+    if value > 0:
+        panel.plot(scale * semi[0] * np.cos(t), scale * semi[1] * np.sin(t), "r--", linewidth=0.6)
+    panel.set_title(f"{n}, {'whole' if value == 0 else f'lambda {value} %'}", fontsize=7, pad=2)
+
+
 def main():
     options = arguments(__doc__, "128,256,512,1024", "32,64")
     turn = rotation()
     semi = (A * A - C * C) / A, (B * B - C * C) / B
     rows, curves = [], {}
+    pictures, panels = plt.subplots(len(LAMBDAS), len(options.resolutions), squeeze=False,
+                                    figsize=(2.0 * len(options.resolutions), 1.5 * len(LAMBDAS)))
     with tempfile.TemporaryDirectory() as folder:
         for n in options.resolutions:
             scan = os.path.join(folder, "ellipsoid.nrrd")
@@ -75,6 +90,7 @@ def main():
             for value, pruned in zip(LAMBDAS, label["pruned"]):
                 found = Core(os.path.join(folder, os.path.basename(pruned["output"])))
                 found.points = found.points @ turn
+                draw(panels[LAMBDAS.index(value)][options.resolutions.index(n)], found, value, n, semi)
                 length = pruned["lambda_mm"]
                 scale = np.sqrt(1 - (length / C) ** 2)
                 row = [f"{value} %", n, float(length / step)]
@@ -102,7 +118,8 @@ def main():
         panel.minorticks_off()
     axes[0].set_ylabel("Hausdorff distance")
     axes[1].legend(title="lambda")
-    save(figure, options.output, "figure-9")
+    save(figure, options.output, "figure-9-distances")
+    save(pictures, options.output, "figure-9")
     compared = 0
     for value in LAMBDAS:
         of_lambda = [row for row in rows if row[0] == f"{value} %"]
