@@ -13,7 +13,7 @@ packages_of() {
     python) echo pybind11-dev python3-dev python3-numpy python3-vtk9 ;;
     demo) echo mricron-data ;;
     test) echo xvfb libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest xauth mricron-data ;;
-    package) echo dpkg-dev doxygen graphviz groff mricron-data ;;
+    package) echo dpkg-dev debootstrap doxygen graphviz groff mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
     browser) echo chromium chromium-headless-shell python3 ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
