@@ -86,6 +86,7 @@ MakeSkeleton(const ModelPart &        surface,
     curves.plateThreshold = length(*stage.plates);
   }
   curves.sampling = 1.5 * voxel;
+  curves.geometry = geometry;
   curves.voxel = VoxelSide(spacing);
   const CurveSkeleton   skeleton = ComputeCurveSkeleton(surface.core, curves, progress);
   const TopologyNumbers topology = ComputeComplexTopology(skeleton.complex.cells);

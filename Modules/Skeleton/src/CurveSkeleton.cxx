@@ -3,6 +3,7 @@
 #include "CurveFire.h"
 #include "PointGeometry.h"
 #include "SurfaceCollapse.h"
+#include "TurnedSurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,6 +118,14 @@ CapCentre(const MedialComplex &             surface,
   return { start, 0 };
 }
 
+/** Where the end of a branch is: so much of the way from a vertex that is gone to the last one. */
+struct EndPlace
+{
+  ElementIndex vertex;
+  ElementIndex beyond;
+  double       part;
+};
+
 /** Takes off the outermost part of each branch up to where the curve begins to run along the middle of the surface, seen
  *  over a way of a few edges: fire on the curve falls behind there. */
 void
@@ -126,7 +135,7 @@ TrimEnds(const MedialComplex &       surface,
          double                      edgeLength,
          double                      voxel,
          LiveElements &              live,
-         std::vector<Point3> &       places)
+         std::vector<EndPlace> &     ends)
 {
   const CellComplex &        cells = surface.cells;
   const double               window = kChordInEdges * edgeLength;
@@ -194,12 +203,7 @@ TrimEnds(const MedialComplex &       surface,
     }
     if (place.part > 0 && degree[path[last]] == 1)
     {
-      const Point3 & a = surface.positions[path[place.point]];
-      const Point3 & b = surface.positions[path[last]];
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        places[path[last]][axis] = a[axis] + place.part * (b[axis] - a[axis]);
-      }
+      ends.push_back({ path[last], path[place.point], place.part });
     }
   }
 }
@@ -215,33 +219,60 @@ CurveSkeleton::ClosedFaceCount() const
 CurveSkeleton
 ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
 {
-  const BurnTimes           times = ComputeBurnTimes(surface, options.sampling, progress);
+  const TurnedSurface       turned = TurnSurface(surface, options.geometry);
+  const BurnTimes           times = ComputeBurnTimes(turned.surface, options.sampling, progress);
   std::vector<std::uint8_t> closed;
-  LiveElements              live = CollapseSurface(surface, times, options.plateThreshold, closed);
+  LiveElements              live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
   ReportProgress(progress, "skeleton", 0);
-  const double        edgeLength = MeanEdgeLength(surface);
-  std::vector<Point3> places = surface.positions; // of ends another
-  const CurveFire     fire = BurnCurves(surface, live, times.vertices, kChordInEdges * edgeLength);
+  const double          edgeLength = MeanEdgeLength(turned.surface);
+  const CurveFire       fire = BurnCurves(turned.surface, live, times.vertices, kChordInEdges * edgeLength);
+  std::vector<EndPlace> ends;
   if (options.branchThreshold > 0)
   {
-    RemoveBranches(surface.cells, fire, options.branchThreshold, live);
-    TrimEnds(surface, fire, times.vertices, edgeLength, options.voxel, live, places);
+    RemoveBranches(turned.surface.cells, fire, options.branchThreshold, live);
+    TrimEnds(turned.surface, fire, times.vertices, edgeLength, options.voxel, live, ends);
+  }
+
+  // Back to the surface as it was.
+  const auto back = [](const std::vector<ElementIndex> & places, const auto & values) {
+    auto result = values;
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      result[places[i]] = values[i];
+    }
+    return result;
+  };
+  const LiveElements        stays{ back(turned.vertices, live.vertices),
+                            back(turned.edges, live.edges),
+                            back(turned.faces, live.faces) };
+  const std::vector<double> surfaceTime = back(turned.vertices, times.vertices);
+  const std::vector<double> curveTime = back(turned.vertices, fire.time);
+  closed = back(turned.faces, closed);
+  std::vector<Point3> places = surface.positions;
+  for (const EndPlace & end : ends)
+  {
+    const Point3 & a = surface.positions[turned.vertices[end.beyond]];
+    const Point3 & b = surface.positions[turned.vertices[end.vertex]];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      places[turned.vertices[end.vertex]][axis] = a[axis] + end.part * (b[axis] - a[axis]);
+    }
   }
 
   CurveSkeleton             skeleton;
   std::vector<ElementIndex> vertices;
   std::vector<ElementIndex> edges;
   std::vector<ElementIndex> faces;
-  skeleton.complex.cells = ExtractLive(surface.cells, live, vertices, edges, faces);
+  skeleton.complex.cells = ExtractLive(surface.cells, stays, vertices, edges, faces);
   for (const ElementIndex vertex : vertices)
   {
     skeleton.complex.positions.push_back(surface.positions[vertex]);
     skeleton.complex.radius.push_back(surface.radius[vertex]);
     skeleton.places.push_back(places[vertex]);
     skeleton.complex.vertexLambda.push_back(surface.vertexLambda[vertex]);
-    skeleton.erosionThickness.push_back(times.vertices[vertex] - surface.radius[vertex]);
-    skeleton.branchThickness.push_back(fire.time[vertex] < std::numeric_limits<double>::infinity()
-                                         ? std::max(0.0, fire.time[vertex] - times.vertices[vertex])
+    skeleton.erosionThickness.push_back(surfaceTime[vertex] - surface.radius[vertex]);
+    skeleton.branchThickness.push_back(curveTime[vertex] < std::numeric_limits<double>::infinity()
+                                         ? std::max(0.0, curveTime[vertex] - surfaceTime[vertex])
                                          : std::numeric_limits<double>::infinity());
   }
   for (const ElementIndex edge : edges)

@@ -2,6 +2,7 @@
 // The curve skeleton of a medial surface (Yan, Sykes, Chambers, Letscher, Ju: "Erosion Thickness on Medial Axes of 3D
 // Shapes", SIGGRAPH 2016, section 6), without a change of topology.
 
+#include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/Progress.h"
 
@@ -23,6 +24,8 @@ struct CurveOptions
   double plateThreshold = std::numeric_limits<double>::infinity();
 
   double sampling = 0; ///< distance of sample points on edges when the surface burns; 0: one on each edge
+
+  ImageGeometry geometry; ///< of the scan, for the axes and the lattice that its turning on the grid leaves alike
 
   double voxel = 0; ///< side of the cube with a voxel's diagonal: by about so much shapes end beyond their last ball
 };
@@ -47,9 +50,10 @@ struct CurveSkeleton
  *  are left from their ends, and takes off the branches whose fire never falls behind by the threshold.
  *
  *  Every step removes simple pairs only, whatever the burn times are, so the result has the surface's topology. Ties go
- *  by canonical index. A component without cycles keeps at least one vertex; of the branches that stay the outermost
+ *  by the canonical index in the one of the 48 places on the grid, turned and mirrored, that the surface's own shape
+ *  picks: a turned scan has the same skeleton, turned, or one that a symmetry of the shape makes of it. A component without cycles keeps at least one vertex; of the branches that stay the outermost
  *  part, where the curve runs into a corner of the surface instead of along its middle, goes too.
- *  Positions and radii of `surface` in mm. \throws InputError when it is too large; Cancelled */
+ *  Positions of `surface` in LPS mm of the geometry, radii in mm. \throws InputError when it is too large; Cancelled */
 CurveSkeleton
 ComputeCurveSkeleton(const MedialComplex &    surface,
                      const CurveOptions &     options,
