@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the commands README.md shows, one after the other as a reader would, on a small scan called scan.nii.gz, a cohort of
-# it, a `ct.nrrd` of grey values, a mesh `part.stl`, and a `huge.nrrd` that is not. Those that need a cluster are run by the tests in Testing/Cluster.
+# it, a `ct.nrrd` of grey values, a mesh `part.stl`, and a `huge.nrrd` that is not. Those that need a cluster are run by the test in Testing/Cluster.
 # usage: readme_test.sh PROGRAM
 set -euo pipefail
 
