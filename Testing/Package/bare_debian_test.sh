@@ -47,31 +47,31 @@ install() {
 }
 inside apt-get -q update >"$scratch/update.log" 2>&1 || skip "no lists of packages: $(tail -n 1 "$scratch/update.log")"
 
-mkdir "$root/work"
-cp -r "$packages" "$root/work/packages"
-cp -r "$source/Testing" "$root/work"
-cp "$source/Applications/install-packages.sh" "$root/work"
+mkdir "$root/given"
+cp -r "$packages" "$root/given/packages"
+cp -r "$source/Testing" "$root/given"
+cp "$source/Applications/install-packages.sh" "$root/given"
 groups=$(sed -n '/^packages_of/,/^}/s/^    \([a-z]*\)).*/\1/p' "$source/Applications/install-packages.sh")
 [ "$(wc -w <<<"$groups")" -ge 10 ] || fail "which groups has install-packages.sh? $groups"
 for group in $groups; do
   # As it stands, but that apt-get only says what it would do.
-  mkdir -p "$root/work/only-says"
-  printf '#!/bin/sh\n[ "$3" = update ] || exec /usr/bin/apt-get --simulate "$@"\n' >"$root/work/only-says/apt-get"
-  chmod +x "$root/work/only-says/apt-get"
-  inside env PATH=/work/only-says:/usr/sbin:/usr/bin:/sbin:/bin bash /work/install-packages.sh "$group" \
+  mkdir -p "$root/given/only-says"
+  printf '#!/bin/sh\n[ "$3" = update ] || exec /usr/bin/apt-get --simulate "$@"\n' >"$root/given/only-says/apt-get"
+  chmod +x "$root/given/only-says/apt-get"
+  inside env PATH=/given/only-says:/usr/sbin:/usr/bin:/sbin:/bin bash /given/install-packages.sh "$group" \
     >"$scratch/$group.log" 2>&1 || { tail "$scratch/$group.log" >&2; fail "group $group cannot be installed"; }
   grep -q '^Inst ' "$scratch/$group.log" || fail "group $group would install nothing"
 done
 
-in_packages() { (cd "$root" && ls work/packages/"$1"*.deb | sed 's|^|/|'); }
+in_packages() { (cd "$root" && ls given/packages/"$1"*.deb | sed 's|^|/|'); }
 install "$(in_packages voxelcore)" mricron-data
 inside voxelcore --version
-inside sh -c "cd /work && voxelcore core $atlas -o jhu.vtp --report jhu.json -q && voxelcore verify $atlas jhu.vtp -q"
+inside sh -c "cd /given && voxelcore core $atlas -o jhu.vtp --report jhu.json -q && voxelcore verify $atlas jhu.vtp -q"
 "$build/bin/voxelcore" core "$root$atlas" -o "$scratch/jhu.vtp" -q --force
-cmp "$root/work/jhu.vtp" "$scratch/jhu.vtp" || fail "the bits are others there"
-inside sh -c "cd /work && voxelcore skeleton $atlas -o skeleton.vtp -q && voxelcore core $atlas -o page.vtp --html page.html -q"
+cmp "$root/given/jhu.vtp" "$scratch/jhu.vtp" || fail "the bits are others there"
+inside sh -c "cd /given && voxelcore skeleton $atlas -o skeleton.vtp -q && voxelcore core $atlas -o page.vtp --html page.html -q"
 # What it takes for pictures is said.
-! inside voxelcore render /work/jhu.vtp -o /work/jhu.png 2>"$scratch/render.log" || fail "it draws without Xvfb?"
+! inside voxelcore render /given/jhu.vtp -o /given/jhu.png 2>"$scratch/render.log" || fail "it draws without Xvfb?"
 grep -q 'apt-get install xvfb' "$scratch/render.log" || { cat "$scratch/render.log" >&2; fail "render does not say what it lacks"; }
 
 install "$(in_packages python3-voxelcore)"
@@ -80,9 +80,9 @@ import numpy, voxelcore
 assert voxelcore.core(numpy.ones((9, 9, 3), bool)).topology == {'euler': 1, 'betti': (1, 0, 0)}"
 
 install "$(in_packages libvoxelcore-dev)" g++ cmake ninja-build
-inside sh -euc 'cd /work
+inside sh -euc 'cd /given
   cmake -S Testing/Package/consumer -B consumer-build -G Ninja -DCMAKE_BUILD_TYPE=Release -DHOW=find_package \
-    -DPARTS="Core;Imaging;Models;Pipeline;VTK" -DVOXELCORE_SOURCE=/work
+    -DPARTS="Core;Imaging;Models;Pipeline;VTK" -DVOXELCORE_SOURCE=/given
   cmake --build consumer-build
   voxelcore phantom torus --size 40 -o torus.nrrd -q
   consumer-build/UsesCore
