@@ -141,7 +141,7 @@ def skeleton(
     stand_out="3vox",
     smooth="6vox",
     plates=None,
-    prune_branches=None,
+    prune_branches="1r",
     cut_loops=False,
     split_at_junctions=False,
     root="thickest",
@@ -156,7 +156,8 @@ def skeleton(
     stand_out: branches stand out by so much at least. Lengths are mm or text with a unit, as lambda_.
     smooth: each point is fitted over so much of its branch before and behind it, and moves half a voxel at most; 0: not.
     plates: parts of the surface that are at least so erosion-thick stay surfaces.
-    prune_branches: branches with a tip that are shorter go; also '1.5r', times the radius where they begin.
+    prune_branches: branches with a tip that are shorter go: a length, or '1.5r', times the radius where they begin; 0 or
+        None: none.
     cut_loops: cut each cycle at its thinnest branch.
     split_at_junctions: give each branch end points of its own.
     root: where the hierarchy of branches begins: 'thickest', 'top', or a point (x, y, z), LPS mm.
@@ -177,7 +178,7 @@ def skeleton(
         stand_out=_text(stand_out),
         smooth=_text(smooth),
         plates=None if plates is None else _text(plates),
-        prune_branches=None if prune_branches is None else _text(prune_branches),
+        prune_branches="0" if prune_branches is None else _text(prune_branches),
         cut_loops=bool(cut_loops),
         split_at_junctions=bool(split_at_junctions),
         root=root if isinstance(root, str) else ",".join(repr(value) for value in _three("root", root)),

@@ -82,9 +82,9 @@ BranchOptions
 BranchOptionsFrom(const ParameterValues & values, CommandId command)
 {
   BranchOptions options;
-  if (values.contains("prune-branches"))
+  if (const std::string limit = ValueOf(values, command, "prune-branches"); !limit.empty())
   {
-    ParseBranchLimit(ValueOf(values, command, "prune-branches"), options);
+    ParseBranchLimit(limit, options);
   }
   options.cutLoops = values.contains("cut-loops");
   options.splitAtJunctions = values.contains("split-at-junctions");

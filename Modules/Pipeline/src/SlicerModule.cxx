@@ -78,6 +78,7 @@ IsShown(const Parameter & parameter, CommandId command)
   // The branches of `core --with-skeleton` have a module of their own: what needs that option is left to it.
   const bool ofBranches = parameter.name == "with-skeleton" || parameter.name == "stand-out" ||
                           parameter.name == "plates" || parameter.name == "smooth" ||
+                          parameter.name == "prune-branches" ||
                           (BelongsTo(parameter, CommandId::Measure) && BelongsTo(parameter, CommandId::Skeleton) &&
                            !BelongsTo(parameter, CommandId::Info) && parameter.name != "output");
   return command != CommandId::Core || !ofBranches;
