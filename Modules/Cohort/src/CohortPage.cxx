@@ -57,8 +57,10 @@ td.o { background: var(--mark); font-weight: 600; }
 td.o::after { content: attr(data-way); color: #8a5a00; }
 tr.failed td { background: #fdecea; }
 td.reason { color: var(--bad); overflow-wrap: anywhere; }
-td.id, td.w { overflow-wrap: anywhere; min-width: 6em; max-width: 22em; }
+td.id { overflow-wrap: anywhere; min-width: 11em; max-width: 22em; }
 td.w { color: var(--soft); font-size: 12px; }
+td.w div { overflow: hidden; min-width: 18em; max-width: 30em; display: -webkit-box; -webkit-box-orient: vertical; -webkit-line-clamp: 4; }
+td.files { min-width: 15em; line-height: 1.2; }
 img { width: 64px; height: 64px; display: block; }
 .pass { color: #14713a; } .bad { color: var(--bad); font-weight: 600; }
 a { color: #1f56b5; margin-right: 6px; font-size: 12px; }
@@ -137,8 +139,13 @@ function paintRow(row) {
   cell(tr, l.certificate ? "passed" : "FAILED", l.certificate ? "pass" : "bad");
   const count = Object.keys(l.outliers).length;
   cell(tr, count ? String(count) : "", "n");
-  cell(tr, c.warnings.join(" "), "w");
-  const files = tr.insertCell();
+  const warnings = cell(tr, "", "w");
+  if (c.warnings.length) {
+    const div = document.createElement("div"); // four lines of it; all of it under the pointer
+    warnings.title = div.textContent = c.warnings.join(" ");
+    warnings.append(div);
+  }
+  const files = cell(tr, "", "files");
   if (c.view) link(files, "3-D view", c.folder + "/" + c.view);
   c.files.forEach(f => link(files, f[0], c.folder + "/" + f[1]));
   return tr;
