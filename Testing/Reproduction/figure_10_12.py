@@ -5,6 +5,7 @@ import os
 import tempfile
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from common import Core, Meshes, arguments, core, paint, plt, standing_view, require, run, save, write_nrrd, write_table
 
@@ -71,8 +72,15 @@ def thin_places(points, triangles, thinner):
     normals = normals / np.where(lengths > 0, lengths, 1)[:, None]
     size = np.ptp(points, axis=0).max()
     hits, ids = vtk.vtkPoints(), vtk.vtkIdList()
+    # Most triangles have none near that looks the other way.
+    middles = corners.mean(axis=1)
+    radii = np.linalg.norm(corners - middles[:, None], axis=2).max(axis=1)
+    nearby = cKDTree(middles).query_ball_point(middles, radii + radii.max() + thinner)
+    opposed = [t for t, near in enumerate(nearby)
+               if ((normals[near] @ normals[t] < -0.5)
+                   & (np.linalg.norm(middles[near] - middles[t], axis=1) <= radii[near] + radii[t] + thinner)).any()]
     found = []
-    for t in range(len(triangles)):
+    for t in opposed:
         a, b, c = corners[t]
         longest = max(np.linalg.norm(b - a), np.linalg.norm(c - b), np.linalg.norm(a - c))
         parts = min(40, int(np.ceil(longest / (thinner / 2))))

@@ -216,7 +216,7 @@ def main():
     options = arguments(__doc__, "1,2,4,8", "1,2,4")
     voxels = shape()
     faces = squares(voxels)
-    axis = true_axis(faces, 12 if options.small else 40)
+    axis = true_axis(faces, 12 if options.small else 24)
     rows, cores = [], {}
     with tempfile.TemporaryDirectory() as folder:
         for k in options.resolutions:
