@@ -226,6 +226,7 @@ def main():
                     traced = wrong > 0
                 rows.append([name, f"{pieces}/{genus}" + ("" if closed else " (not a manifold)"), n, numbers(shape),
                              numbers(label["core"]), "equal", "right" if right else "wrong", why])
+                print(*rows[-1], flush=True)  # in full this takes a while
                 require(traced, f"{name} at {n}: its topology is wrong, and a place thinner than {THIN} voxels is to blame")
         scan = os.path.join(folder, "tanglecube.nrrd")
         figure, sides = plt.subplots(1, 2, figsize=(6.4, 3.3))
