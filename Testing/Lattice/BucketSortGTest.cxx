@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 
 namespace voxelcore
@@ -58,6 +59,14 @@ TEST(SortIntoBuckets, AgreesWithAStableSortForAnyThreadsAndLeavesOutWhatHasNoBuc
             ASSERT_EQ(bucketOf[sorted[at]], bucket);
           }
         }
+        // Each bucket backwards: as a whole, what it was from its end to its start.
+        std::vector<std::uint32_t> backwards = sorted;
+        SortEachBucket(start, backwards, std::greater<>());
+        for (std::size_t bucket = 0; bucket < buckets; ++bucket)
+        {
+          std::reverse(sorted.begin() + start[bucket], sorted.begin() + start[bucket + 1]);
+        }
+        ASSERT_EQ(backwards, sorted);
       }
     }
   }

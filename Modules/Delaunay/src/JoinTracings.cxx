@@ -51,8 +51,8 @@ JoinTracings(std::vector<Tracing> parts)
           joinedFacets.push_back(own);
           continue;
         }
-        // The two halves become one; the other is left without a cell. A
-        // boundary square may have met the half that knows its cell, or the one that does not.
+        // The two halves become one; the other is left without a cell. A boundary square may have met the half that
+        // knows its cell, or the one that does not.
         auto &              kept = to.facetCells[met];
         auto &              other = to.facetCells[own];
         const std::uint32_t cell = other[0];

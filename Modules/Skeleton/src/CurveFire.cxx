@@ -15,13 +15,6 @@ namespace
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/** The live edges at each vertex: how many, and the exclusive-or of their indices. */
-struct Degree
-{
-  std::uint32_t count = 0;
-  ElementIndex  exclusiveOr = 0;
-};
-
 } // namespace
 
 CurveFire
@@ -40,7 +33,7 @@ BurnCurves(const MedialComplex &       surface,
   fire.winner.assign(count, kNoEdge);
   fire.runnerUp.assign(count, kNoEdge);
 
-  std::vector<Degree>       degrees(count);
+  std::vector<Cofaces>      degrees(count); // of the live edges at each vertex
   std::vector<std::uint8_t> pinned(count, 0);
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
@@ -48,8 +41,7 @@ BurnCurves(const MedialComplex &       surface,
     {
       for (const ElementIndex vertex : cells.edges[edge])
       {
-        ++degrees[vertex].count;
-        degrees[vertex].exclusiveOr ^= edge;
+        degrees[vertex].Add(edge);
       }
     }
   }
@@ -129,8 +121,7 @@ BurnCurves(const MedialComplex &       surface,
     const ElementIndex next = cells.edges[edge][0] ^ cells.edges[edge][1] ^ vertex;
     fire.nextEdge[vertex] = edge;
     degrees[vertex].count = 0;
-    --degrees[next].count;
-    degrees[next].exclusiveOr ^= edge;
+    degrees[next].Remove(edge);
 
     const Anchor & anchor = anchors[vertex];
     const Anchor & far = longest[vertex];

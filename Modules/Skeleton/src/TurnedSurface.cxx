@@ -2,6 +2,7 @@
 
 #include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/FaceName.h"
 
 #include <algorithm>
 #include <bit>
@@ -160,24 +161,15 @@ CopyFace(const CellComplex &               from,
   to.faceOffsets.push_back(to.faceVertices.size());
 }
 
-// The three smallest corners of a face: no two faces share them.
-std::array<ElementIndex, 3>
-SmallestCorners(const CellComplex & cells, std::size_t face, const std::vector<ElementIndex> & number)
+FaceName
+NameOfFace(const CellComplex & cells, std::size_t face, const std::vector<ElementIndex> & number)
 {
-  std::array<ElementIndex, 3> smallest;
-  smallest.fill(std::numeric_limits<ElementIndex>::max());
+  FaceName name = kNoCorners;
   for (const ElementIndex vertex : cells.FaceVertices(face))
   {
-    ElementIndex own = number[vertex];
-    for (ElementIndex & place : smallest)
-    {
-      if (own < place)
-      {
-        std::swap(own, place);
-      }
-    }
+    OfferCorner(name, number[vertex]);
   }
-  return smallest;
+  return name;
 }
 
 std::vector<ElementIndex>
@@ -238,31 +230,21 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry)
     [&](std::size_t e) { return std::size_t{ ends(e)[0] }; },
     index,
     turned.edges);
-  for (std::size_t v = 0; v < cells.vertexCount; ++v)
-  {
-    std::sort(turned.edges.begin() + start[v],
-              turned.edges.begin() + start[v + 1],
-              [&](ElementIndex a, ElementIndex b) { return ends(a)[1] < ends(b)[1]; });
-  }
+  SortEachBucket(start, turned.edges, [&](ElementIndex a, ElementIndex b) { return ends(a)[1] < ends(b)[1]; });
   for (const ElementIndex edge : turned.edges)
   {
     to.edges.push_back(ends(edge));
   }
   const std::vector<ElementIndex> edgeNumber = Inverse(turned.edges);
 
-  const auto smallest = [&](std::size_t face) { return SmallestCorners(cells, face, vertexNumber); };
+  const auto nameOf = [&](std::size_t face) { return NameOfFace(cells, face, vertexNumber); };
   start = SortIntoBuckets(
     cells.FaceCount(),
     cells.vertexCount,
-    [&](std::size_t face) { return std::size_t{ smallest(face)[0] }; },
+    [&](std::size_t face) { return std::size_t{ nameOf(face)[0] }; },
     index,
     turned.faces);
-  for (std::size_t v = 0; v < cells.vertexCount; ++v)
-  {
-    std::sort(turned.faces.begin() + start[v],
-              turned.faces.begin() + start[v + 1],
-              [&](ElementIndex a, ElementIndex b) { return smallest(a) < smallest(b); });
-  }
+  SortEachBucket(start, turned.faces, [&](ElementIndex a, ElementIndex b) { return nameOf(a) < nameOf(b); });
   for (const ElementIndex face : turned.faces)
   {
     CopyFace(cells, face, vertexNumber, edgeNumber, to);

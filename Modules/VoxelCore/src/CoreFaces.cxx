@@ -4,6 +4,7 @@
 
 #include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/FaceName.h"
 #include "voxelcore/Predicates.h"
 
 #include <omp.h>
@@ -141,11 +142,11 @@ using Edges = std::vector<std::array<ElementIndex, 2>>;
 // The sides of one face, next to each other.
 struct Group
 {
-  std::array<ElementIndex, 3> smallest; // vertices of the face: they decide its place, as faces share at most an edge
-  std::uint32_t               p;        // the ends of its Delaunay edge, the smaller first
-  std::uint32_t               q;
-  std::uint32_t               count;
-  std::uint64_t               first; // of all sides
+  FaceName      name;
+  std::uint32_t p; // the ends of its Delaunay edge, the smaller first
+  std::uint32_t q;
+  std::uint32_t count;
+  std::uint64_t first; // of all sides
 };
 
 ElementIndex
@@ -202,22 +203,14 @@ GroupRange(const DelaunayCells & cells,
     std::sort(own.begin(), own.end(), [](const Side & a, const Side & b) { return a.q < b.q; });
     for (std::size_t first = 0, last = 0; first < own.size(); first = last)
     {
-      constexpr ElementIndex      none = 0xFFFFFFFFU;
-      std::array<ElementIndex, 3> smallest{ none, none, none };
+      FaceName name = kNoCorners;
       for (; last < own.size() && own[last].q == own[first].q; ++last)
       {
         turns[start[p] + last] = own[last].turn;
-        ElementIndex vertex = Tail(own[last].turn, edges);
-        for (ElementIndex & place : smallest)
-        {
-          if (vertex < place)
-          {
-            std::swap(vertex, place);
-          }
-        }
+        OfferCorner(name, Tail(own[last].turn, edges));
       }
       closed = closed && last - first >= 3;
-      groups.push_back({ smallest,
+      groups.push_back({ name,
                          static_cast<std::uint32_t>(low + p),
                          own[first].q,
                          static_cast<std::uint32_t>(last - first),
@@ -284,16 +277,10 @@ CanonicalFaceOrder(const std::vector<Group> & groups, std::size_t vertexCount)
   const std::vector<std::uint32_t> start = SortIntoBuckets(
     groups.size(),
     vertexCount,
-    [&](std::size_t i) { return std::size_t{ groups[i].smallest[0] }; },
+    [&](std::size_t i) { return std::size_t{ groups[i].name[0] }; },
     [&](std::size_t i) { return static_cast<std::uint32_t>(i); },
     order);
-#pragma omp parallel for schedule(static) if (vertexCount > 10000)
-  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
-  {
-    std::sort(order.begin() + start[vertex], order.begin() + start[vertex + 1], [&](std::uint32_t a, std::uint32_t b) {
-      return groups[a].smallest < groups[b].smallest;
-    });
-  }
+  SortEachBucket(start, order, [&](std::uint32_t a, std::uint32_t b) { return groups[a].name < groups[b].name; });
   return order;
 }
 
@@ -365,7 +352,7 @@ WriteFaces(DelaunayCells                     cells,
       const auto            at = static_cast<std::ptrdiff_t>(complex.faceOffsets[face]);
       if (!WriteFace(own,
                      complex.edges,
-                     group.smallest[0],
+                     group.name[0],
                      complex.faceVertices.data() + at,
                      complex.faceEdges.data() + at))
       {

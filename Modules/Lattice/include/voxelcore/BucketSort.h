@@ -3,6 +3,7 @@
 
 #include "voxelcore/SideBySide.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,8 +11,8 @@
 namespace voxelcore
 {
 
-/** Sorts items 0 .. items - 1 (up to 2^32 - 1 of them) by bucketOf(item), stable; an item of a bucket beyond the last is
- *  left out. Puts valueOf(item) for each into `sorted` and returns where each bucket starts there, with the end behind.
+/** Sorts items 0 .. items - 1 by bucketOf(item), stable; an item of a bucket beyond the last is left out, and up to
+ *  2^32 - 1 are not. Puts valueOf(item) for each into `sorted` and returns where each bucket starts there, with the end behind.
  *  Both functions are called from several threads, bucketOf more than once an item. */
 template <typename TBucketOf, typename TValueOf, typename TValue>
 std::vector<std::uint32_t>
@@ -62,6 +63,20 @@ SortIntoBuckets(std::size_t           items,
   });
   start.pop_back();
   return start;
+}
+
+/** Sorts what SortIntoBuckets() put into each bucket. isLess is called from several threads. */
+template <typename TValue, typename TLess>
+void
+SortEachBucket(const std::vector<std::uint32_t> & start, std::vector<TValue> & sorted, TLess isLess)
+{
+  const std::size_t buckets = start.size() - 1;
+  RunInParts(buckets > 10000, buckets, [&](std::size_t first, std::size_t last) {
+    for (std::size_t bucket = first; bucket < last; ++bucket)
+    {
+      std::sort(sorted.begin() + start[bucket], sorted.begin() + start[bucket + 1], isLess);
+    }
+  });
 }
 
 } // namespace voxelcore

@@ -51,8 +51,9 @@ struct CurveSkeleton
  *
  *  Every step removes simple pairs only, whatever the burn times are, so the result has the surface's topology. Ties go
  *  by the canonical index in the one of the 48 places on the grid, turned and mirrored, that the surface's own shape
- *  picks: a turned scan has the same skeleton, turned, or one that a symmetry of the shape makes of it. A component without cycles keeps at least one vertex; of the branches that stay the outermost
- *  part, where the curve runs into a corner of the surface instead of along its middle, goes too.
+ *  picks: a turned scan has the same skeleton, turned, or one that a symmetry of the shape makes of it. A component
+ *  without cycles keeps at least one vertex; of the branches that stay the outermost part, where the curve runs into a
+ *  corner of the surface instead of along its middle, goes too.
  *  Positions of `surface` in LPS mm of the geometry, radii in mm. \throws InputError when it is too large; Cancelled */
 CurveSkeleton
 ComputeCurveSkeleton(const MedialComplex &    surface,
