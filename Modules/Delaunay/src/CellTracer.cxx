@@ -349,9 +349,8 @@ CellTracer::NewFacet(std::uint32_t first, std::uint32_t second, std::span<const 
 }
 
 void
-CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon)
+CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon, const FacetKey & key)
 {
-  const FacetKey      key = KeyOf(polygon);
   const std::uint32_t met = m_Table.Take(key);
   if (met != FacetTable::none)
   {

@@ -7,6 +7,7 @@
 
 #include "BrickGrid.h"
 #include "BrickQueue.h"
+#include "CapScan.h"
 #include "CellHull.h"
 #include "FacetTable.h"
 #include "LatticeWindow.h"
@@ -89,7 +90,12 @@ private:
   void
   CreateCell(std::span<const std::uint32_t> facet, bool inwards);
   void
-  AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon);
+  AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon)
+  {
+    AddFacet(cell, polygon, KeyOf(polygon));
+  }
+  void
+  AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon, const FacetKey & key);
   bool
   IsBoundarySquare(std::span<const std::uint32_t> polygon) const;
   std::uint32_t
@@ -138,10 +144,12 @@ private:
   std::vector<std::size_t>          m_Revisit;
   std::vector<std::uint32_t>        m_Deep;
 
+  CapVertices                m_Found;   // by the running trace
   std::vector<LatticePoint>  m_Apexes;  // the best candidates of the running trace, in window coordinates
   std::vector<LatticePoint>  m_Points;  // of the cell being made, in window coordinates, sorted
   std::vector<std::uint32_t> m_Indices; // of the same
   std::vector<std::uint32_t> m_Polygon;
+  std::vector<FacetKey>      m_Keys; // of the cell's facets
 
   // Voxels of the brick with a cell of their own: one bit each per row, and the number of the row's first cell.
   std::array<std::uint32_t, 32 * 32> m_VoxelBits{};

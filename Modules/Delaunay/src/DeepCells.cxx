@@ -21,6 +21,7 @@ class WallFinder
 public:
   WallFinder(const Tracing & tracing, const std::vector<std::uint32_t> & used, std::size_t pointCount)
     : m_Start(used.size() + 1, 0)
+    , m_Signature(used.size(), 0)
   {
     std::vector<std::uint32_t> number(pointCount, none);
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -32,6 +33,7 @@ public:
       for (const std::uint32_t p : tracing.cells.FacetPoints(facet))
       {
         ++m_Start[number[p] + 1];
+        m_Signature[number[p]] |= std::uint64_t{ 1 } << (facet & 63U);
       }
     }
     for (std::size_t i = 1; i < m_Start.size(); ++i)
@@ -53,6 +55,10 @@ public:
   std::uint32_t
   Find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
   {
+    if ((m_Signature[a] & m_Signature[b] & m_Signature[c]) == 0)
+    {
+      return none;
+    }
     for (std::uint32_t i = m_Start[a], j = m_Start[b]; i < m_Start[a + 1] && j < m_Start[b + 1];)
     {
       if (m_Facets[i] != m_Facets[j])
@@ -72,6 +78,7 @@ public:
 
 private:
   std::vector<std::uint32_t> m_Start;
+  std::vector<std::uint64_t> m_Signature; // one bit for each facet of a point: most triples have none in common
   std::vector<std::uint32_t> m_Facets;
 };
 

@@ -37,10 +37,10 @@ struct LatticeWindow
   static constexpr std::int32_t halo = 16;
   static constexpr std::int32_t brick = 32;
 
-  LatticePoint                       origin{}; ///< lattice coordinates of local (0, 0, 0)
-  std::array<std::uint64_t, 64 * 64> vertex{}; ///< boundary vertices
-  std::array<std::uint64_t, 64 * 64> voxel{};  ///< voxels of the shape
-  std::array<std::uint32_t, 64 * 64> first{};  ///< index of the row's first vertex in the window
+  LatticePoint                            origin{}; ///< lattice coordinates of local (0, 0, 0)
+  std::array<std::uint64_t, 64 * 64 + 16> vertex{}; ///< boundary vertices; a scan may read 16 rows from any
+  std::array<std::uint64_t, 64 * 64>      voxel{};  ///< voxels of the shape
+  std::array<std::uint32_t, 64 * 64>      first{};  ///< index of the row's first vertex in the window
 
   /** Moves the window so that its brick starts at lattice corner `brickCorner`. */
   void

@@ -1,5 +1,6 @@
 #include "CellTracer.h"
 
+#include "CapScan.h"
 #include "Pencil.h"
 
 #include "voxelcore/Predicates.h"
@@ -14,9 +15,6 @@ namespace voxelcore
 namespace
 {
 
-// What single precision may be off by in window coordinates (0 to 63), with room to spare.
-constexpr float scanMargin = 1e-3F;
-
 // The smallest value / height met so far, and whether later candidates tie with it.
 template <typename TNumber>
 struct Best
@@ -25,113 +23,112 @@ struct Best
   std::int64_t height = 0; // 0: none yet
 };
 
-// What a scan has to visit: the part of a ball beyond the plane of the pencil's circle, as a box in window coordinates.
-struct CapBox
+// The caps that the growing balls of a pencil cut off beyond the plane of its circle.
+template <typename TNumber>
+class CapMaker
 {
-  std::array<float, 3> low{};
-  std::array<float, 3> high{};
+public:
+  CapMaker(const Pencil<TNumber> & pencil, const SpacingWeights & weights)
+    : m_Pencil(pencil)
+  {
+    const double circle = std::sqrt(pencil.circle2);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      m_Weight[axis] = static_cast<double>(weights.weight[axis]);
+      m_Normal[axis] = pencil.along[axis] * m_Weight[axis];
+      m_Across[axis] = circle * std::sqrt(std::max(0.0, 1.0 - m_Normal[axis] * m_Normal[axis])) / m_Weight[axis];
+      m_Cap.weight[axis] = static_cast<float>(weights.weight[axis]);
+      m_Cap.normal[axis] = static_cast<float>(pencil.normal[axis]);
+    }
+    m_Cap.circle2 = static_cast<float>(pencil.circle2);
+  }
+
+  // The cap of the ball at a distance from the circle, and the corner of its box; false where it holds no lattice point.
+  // It reaches as far as its ball where the ball's outermost point lies beyond the plane, else as far as the circle.
+  bool
+  Make(const LatticeWindow & window, double from, double radius, const std::array<double, 3> & centre)
+  {
+    std::array<std::int32_t, 3> size{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double reach = radius / m_Weight[axis];
+      const double middle = m_Pencil.middle[axis];
+      const double low = from - radius * m_Normal[axis] > 0.0 ? centre[axis] - reach : middle - m_Across[axis];
+      const double high = from + radius * m_Normal[axis] > 0.0 ? centre[axis] + reach : middle + m_Across[axis];
+      // Truncation rounds towards 0, and all these are positive: less than 1 added first rounds up.
+      m_Corner[axis] = static_cast<std::int32_t>(std::clamp(low - margin, 0.0, 63.0) + (1.0 - margin));
+      size[axis] = static_cast<std::int32_t>(std::clamp(high + margin, 0.0, 63.0)) - m_Corner[axis] + 1;
+      m_Cap.centre[axis] = static_cast<float>(centre[axis] - m_Corner[axis]);
+      m_Cap.middle[axis] = static_cast<float>(middle - m_Corner[axis]);
+    }
+    m_Cap.rows = window.vertex.data() + LatticeWindow::Row(m_Corner[1], m_Corner[2]);
+    m_Cap.firstColumn = static_cast<unsigned>(m_Corner[0]);
+    m_Cap.rowCount = size[1];
+    m_Cap.layerCount = size[2];
+    // Coordinates from the corner are off by up to 2e-6 in single precision: grown by more than that, no vertex is missed.
+    const double grown = radius + 1e-5 * (m_Weight[0] + m_Weight[1] + m_Weight[2]);
+    m_Cap.radius2 = static_cast<float>(grown * grown) * 1.0001F;
+    m_Cap.cornerHeight = static_cast<float>(m_Pencil.Height({ m_Corner[0], m_Corner[1], m_Corner[2] }));
+    return size[0] > 0 && size[1] > 0 && size[2] > 0;
+  }
+
+  const Cap &
+  Get() const
+  {
+    return m_Cap;
+  }
+  LatticePoint
+  At(std::uint16_t place) const
+  {
+    return { m_Corner[0] + (place & 15), m_Corner[1] + ((place >> 4) & 15), m_Corner[2] + (place >> 8) };
+  }
+
+private:
+  static constexpr double margin = 1e-3;
+
+  const Pencil<TNumber> &     m_Pencil;
+  std::array<double, 3>       m_Weight{};
+  std::array<double, 3>       m_Normal{}; // of length 1
+  std::array<double, 3>       m_Across{}; // half the width of the circle
+  std::array<std::int32_t, 3> m_Corner{};
+  Cap                         m_Cap;
 };
 
-// The cap reaches as far as its ball where the ball's outermost point lies beyond the plane, else as far as the circle.
+// The vertices beyond the circle with the least parameter, by exact integers. \returns value and height of the best.
 template <typename TNumber>
-CapBox
-BoundCap(const Pencil<TNumber> & pencil, const SpacingWeights & weights, double from, double radius)
+Best<TNumber>
+Decide(const Pencil<TNumber> &     pencil,
+       const CapMaker<TNumber> &   caps,
+       const CapVertices &         found,
+       std::vector<LatticePoint> & apexes)
 {
-  CapBox       box;
-  const double circle = std::sqrt(pencil.circle2);
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  Best<TNumber> best;
+  apexes.clear();
+  for (std::size_t i = 0; i < found.count; ++i)
   {
-    const auto   w = static_cast<double>(weights.weight[axis]);
-    const double normal = pencil.along[axis] * w;
-    const double across = circle * std::sqrt(std::max(0.0, 1.0 - normal * normal)) / w;
-    const double centre = pencil.middle[axis] + from * pencil.along[axis];
-    const double low = from - radius * normal > 0.0 ? centre - radius / w : pencil.middle[axis] - across;
-    const double high = from + radius * normal > 0.0 ? centre + radius / w : pencil.middle[axis] + across;
-    box.low[axis] = static_cast<float>(std::clamp(low - scanMargin, 0.0, 63.0));
-    box.high[axis] = static_cast<float>(std::clamp(high + scanMargin, 0.0, 63.0));
-  }
-  return box;
-}
-
-// Offers every boundary vertex in the ball (and a few at its rim) that lies on the far side of the pencil's circle; keeps
-// in `apexes` those with the least parameter. Single precision finds them, exact integers decide.
-template <typename TNumber>
-void
-ScanBall(const LatticeWindow &         window,
-         const Pencil<TNumber> &       pencil,
-         const SpacingWeights &        weights,
-         const std::array<double, 3> & centre,
-         const CapBox &                box,
-         double                        radius2,
-         Best<TNumber> &               best,
-         std::vector<LatticePoint> &   apexes)
-{
-  const std::array<float, 3> w{ static_cast<float>(weights.weight[0]),
-                                static_cast<float>(weights.weight[1]),
-                                static_cast<float>(weights.weight[2]) };
-  const auto                 cx = static_cast<float>(centre[0]);
-  const auto                 cy = static_cast<float>(centre[1]);
-  const auto                 cz = static_cast<float>(centre[2]);
-  // Window coordinates are off by up to 4e-6 in single precision: grown by more than that, no vertex is missed.
-  const double grown = std::sqrt(radius2) + 1e-5 * static_cast<double>(w[0] + w[1] + w[2]);
-  const float  grown2 = static_cast<float>(grown * grown) * 1.0001F;
-  // Truncation rounds towards 0, and all these are positive: less than 1 added first rounds up.
-  constexpr float     up = 1.0F - scanMargin;
-  const auto          zFirst = static_cast<std::int32_t>(box.low[2] + up);
-  const auto          zLast = static_cast<std::int32_t>(box.high[2]);
-  const auto          xFirst = static_cast<std::int32_t>(box.low[0] + up);
-  const auto          xLast = static_cast<std::int32_t>(box.high[0]);
-  const std::uint64_t columns = (~std::uint64_t{ 0 } << xFirst) & (~std::uint64_t{ 0 } >> (63 - xLast));
-  for (std::int32_t z = zFirst; z <= zLast; ++z)
-  {
-    const float dz = w[2] * (static_cast<float>(z) - cz);
-    const float left = grown2 - dz * dz;
-    if (left < 0.0F)
+    if (found.low[i] > found.least)
     {
       continue;
     }
-    const float           reachY = std::sqrt(left) / w[1];
-    const auto            yFirst = static_cast<std::int32_t>(std::max(cy - reachY, box.low[1]) + up);
-    const auto            yLast = static_cast<std::int32_t>(std::min(cy + reachY, box.high[1]));
-    const std::uint64_t * rows = window.vertex.data() + LatticeWindow::Row(0, z);
-    for (std::int32_t y = yFirst; y <= yLast; ++y)
+    const LatticePoint q = caps.At(found.place[i]);
+    const std::int64_t height = pencil.Height(q);
+    if (height <= 0)
     {
-      // The ball is empty but for its rim, so most rows end here.
-      std::uint64_t bits = rows[y] & columns;
-      if (bits == 0)
-      {
-        continue;
-      }
-      const float dy = w[1] * (static_cast<float>(y) - cy);
-      const float rest = left - dy * dy;
-      for (; bits != 0; bits &= bits - 1)
-      {
-        const std::int32_t x = std::countr_zero(bits);
-        const float        dx = w[0] * (static_cast<float>(x) - cx);
-        if (dx * dx > rest)
-        {
-          continue;
-        }
-        const LatticePoint q{ x, y, z };
-        const std::int64_t height = pencil.Height(q);
-        if (height <= 0)
-        {
-          continue;
-        }
-        const TNumber value = pencil.Value(q);
-        const TNumber difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
-        if (difference < 0)
-        {
-          best = { value, height };
-          apexes.clear();
-        }
-        if (difference <= 0)
-        {
-          apexes.push_back(q);
-        }
-      }
+      continue; // all are, if nothing bounds them
+    }
+    const TNumber value = pencil.Value(q);
+    const TNumber difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
+    if (difference < 0)
+    {
+      best = { value, height };
+      apexes.clear();
+    }
+    if (difference <= 0)
+    {
+      apexes.push_back(q);
     }
   }
+  return best;
 }
 
 } // namespace
@@ -186,9 +183,15 @@ CellTracer::TraceFacet(Pending pending)
     }
   }
 
+  if (pencil.circle2 > m_Limit * m_Limit)
+  {
+    m_Deep.push_back(pending.facet);
+    return;
+  }
   const double smallest = static_cast<double>(std::min({ weights.weight[0], weights.weight[1], weights.weight[2] }));
-  const double furthest = std::sqrt(std::max(0.0, m_Limit * m_Limit - pencil.circle2));
+  const double furthest = std::sqrt(m_Limit * m_Limit - pencil.circle2);
   double       step = 1.25 * smallest;
+  CapMaker     caps(pencil, weights);
   for (double at = pending.from;;)
   {
     if (at >= furthest)
@@ -197,8 +200,7 @@ CellTracer::TraceFacet(Pending pending)
       return;
     }
     const double          next = std::min(at + step, furthest);
-    const double          radius2 = pencil.circle2 + next * next;
-    const double          radius = std::sqrt(radius2);
+    const double          radius = next == furthest ? m_Limit : std::sqrt(pencil.circle2 + next * next);
     std::array<double, 3> centre{};
     bool                  fits = true;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -222,10 +224,13 @@ CellTracer::TraceFacet(Pending pending)
     }
     if (radius <= m_Limit)
     {
-      Best<TNumber> best;
-      m_Apexes.clear();
-      ScanBall(m_Window, pencil, weights, centre, BoundCap(pencil, weights, next, radius), radius2, best, m_Apexes);
-      const double found =
+      m_Found.count = 0;
+      if (caps.Make(m_Window, next, radius, centre))
+      {
+        ScanCap(caps.Get(), m_Found);
+      }
+      const Best<TNumber> best = Decide(pencil, caps, m_Found, m_Apexes);
+      const double        found =
         best.height == 0 ? HUGE_VAL : pencil.scale * static_cast<double>(best.value) / static_cast<double>(best.height);
       // A candidate at the rim of the ball may have peers beyond it: look further before believing it.
       if (found < next - 1e-6 * smallest)
@@ -282,14 +287,23 @@ CellTracer::CreateCell(std::span<const std::uint32_t> facet, bool inwards)
   if (facet.size() == 3 && m_Apexes.size() == 1)
   {
     // A tetrahedron: seen from outside it, the facet runs the other way.
-    const std::uint32_t apex = m_Result.tetrahedra.back()[3];
-    const std::uint32_t a = facet[inwards ? 1 : 0];
-    const std::uint32_t b = facet[inwards ? 0 : 1];
-    const std::uint32_t c = facet[2];
-    AddFacet(cell, std::array{ a, c, b });
-    AddFacet(cell, std::array{ a, b, apex });
-    AddFacet(cell, std::array{ b, c, apex });
-    AddFacet(cell, std::array{ c, a, apex });
+    const std::uint32_t                               apex = m_Result.tetrahedra.back()[3];
+    const std::uint32_t                               a = facet[inwards ? 1 : 0];
+    const std::uint32_t                               b = facet[inwards ? 0 : 1];
+    const std::uint32_t                               c = facet[2];
+    const std::array<std::array<std::uint32_t, 3>, 4> facets{
+      { { a, c, b }, { a, b, apex }, { b, c, apex }, { c, a, apex } }
+    };
+    std::array<FacetKey, 4> keys;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      keys[i] = KeyOf(facets[i]);
+      m_Table.Prefetch(keys[i]);
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      AddFacet(cell, facets[i], keys[i]);
+    }
     return;
   }
   m_Points.assign(m_Apexes.begin(), m_Apexes.end());
@@ -306,15 +320,24 @@ CellTracer::CreateCell(std::span<const std::uint32_t> facet, bool inwards)
     m_Indices.push_back(indexOf(p));
   }
   const HullMemo::Polygons polygons = m_Hulls.Get(m_Points);
-  for (std::size_t at = 0; at < polygons.size(); at += polygons[at] + 1U)
-  {
-    m_Polygon.clear();
-    for (const std::uint16_t corner : polygons.subspan(at + 1, polygons[at]))
+  const auto               eachPolygon = [&](auto visit) {
+    for (std::size_t at = 0; at < polygons.size(); at += polygons[at] + 1U)
     {
-      m_Polygon.push_back(m_Indices[corner]);
+      m_Polygon.clear();
+      for (const std::uint16_t corner : polygons.subspan(at + 1, polygons[at]))
+      {
+        m_Polygon.push_back(m_Indices[corner]);
+      }
+      visit();
     }
-    AddFacet(cell, m_Polygon);
-  }
+  };
+  m_Keys.clear();
+  eachPolygon([&] {
+    m_Keys.push_back(KeyOf(m_Polygon));
+    m_Table.Prefetch(m_Keys.back());
+  });
+  std::size_t next = 0;
+  eachPolygon([&] { AddFacet(cell, m_Polygon, m_Keys[next++]); });
 }
 
 template void
