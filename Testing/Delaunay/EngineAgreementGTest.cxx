@@ -96,6 +96,25 @@ TEST(EngineAgreement, OnVolumesWithWorkForEveryThread)
   }
 }
 
+TEST(EngineAgreement, OnSolidsWhoseDeepCellsSeveralThreadsFind)
+{
+  ExpectAgreement(testing::Ellipsoid(150), {});
+  ASSERT_FALSE(HasFailure());
+  // Its deep cells all meet in the middle, so that hardly any can be found apart from the others.
+  ExpectAgreement(ShapeWhere({ 96, 96, 96 },
+                             [](int x, int y, int z) {
+                               const auto square = [](int at) { return (2 * at - 95) * (2 * at - 95); };
+                               return square(x) + square(y) + square(z) < 94 * 94;
+                             }),
+                  {});
+  ASSERT_FALSE(HasFailure());
+  // Weights make numbers of 128 bits.
+  RandomVolume volume;
+  volume.shape = testing::Ellipsoid(110);
+  volume.spacing = { 0.48828125, 0.48828125, 2.5 };
+  ExpectAgreement(volume);
+}
+
 TEST(HeavyEngineAgreement, OnLargerRandomVolumes)
 {
   ExpectOnRandomVolumes(22000, 100, 15, 40);

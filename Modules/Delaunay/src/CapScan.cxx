@@ -6,8 +6,16 @@
 #include <cstring>
 #include <limits>
 
-// Loops of eight for processors with eight lanes, chosen when the program starts; sanitizers are not ready that early.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Loops of eight for processors with eight lanes, chosen when the program starts; sanitizers are not ready that early, so
+// that with them the tests run the other choice.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#  define VOXELCORE_SANITIZED
+#elif defined(__has_feature)
+#  if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#    define VOXELCORE_SANITIZED
+#  endif
+#endif
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(VOXELCORE_SANITIZED)
 #  define VOXELCORE_LANES __attribute__((target_clones("avx2", "default")))
 #else
 #  define VOXELCORE_LANES

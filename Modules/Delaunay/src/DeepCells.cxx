@@ -2,8 +2,6 @@
 
 #include "BowyerWatson.h"
 
-#include "voxelcore/Predicates.h"
-#include "voxelcore/SideBySide.h"
 
 #include <algorithm>
 
@@ -40,46 +38,70 @@ public:
     {
       m_Start[i] += m_Start[i - 1];
     }
-    m_Facets.resize(m_Start.back());
+    m_Corners.resize(m_Start.back());
     std::vector<std::uint32_t> next(m_Start.begin(), m_Start.end() - 1);
     for (const std::uint32_t facet : tracing.deep) // ascending within each list
     {
-      for (const std::uint32_t p : tracing.cells.FacetPoints(facet))
+      // A polygon runs counter-clockwise seen from outside its first cell, which is where the region is unless that cell
+      // is the one that is missing.
+      const auto polygon = tracing.cells.FacetPoints(facet);
+      const bool turn = tracing.cells.facetCells[facet][0] == kOpen;
+      for (std::size_t i = 0; i < polygon.size(); ++i)
       {
-        m_Facets[next[number[p]]++] = facet;
+        const std::size_t place = turn ? polygon.size() - i : i;
+        m_Corners[next[number[polygon[i]]]++] = { facet, static_cast<std::uint32_t>(place) };
       }
     }
   }
 
-  // The open facet that holds three points (numbers among the used ones), or none: two facets share at most two.
-  std::uint32_t
+  struct Wall
+  {
+    std::uint32_t facet = none;
+    bool          facesRegion = false; ///< the three points run counter-clockwise seen from the region
+  };
+
+  // The open facet that holds three points (numbers among the used ones), if any: two facets share at most two.
+  Wall
   Find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
   {
     if ((m_Signature[a] & m_Signature[b] & m_Signature[c]) == 0)
     {
-      return none;
+      return {};
     }
-    for (std::uint32_t i = m_Start[a], j = m_Start[b]; i < m_Start[a + 1] && j < m_Start[b + 1];)
+    for (std::uint32_t i = m_Start[a], j = m_Start[b], k = m_Start[c]; i < m_Start[a + 1] && j < m_Start[b + 1];)
     {
-      if (m_Facets[i] != m_Facets[j])
+      if (m_Corners[i].facet != m_Corners[j].facet)
       {
-        m_Facets[i] < m_Facets[j] ? ++i : ++j;
+        m_Corners[i].facet < m_Corners[j].facet ? ++i : ++j;
         continue;
       }
-      if (std::binary_search(m_Facets.begin() + m_Start[c], m_Facets.begin() + m_Start[c + 1], m_Facets[i]))
+      while (k < m_Start[c + 1] && m_Corners[k].facet < m_Corners[i].facet)
       {
-        return m_Facets[i];
+        ++k;
+      }
+      if (k < m_Start[c + 1] && m_Corners[k].facet == m_Corners[i].facet)
+      {
+        const std::uint32_t p = m_Corners[i].place;
+        const std::uint32_t q = m_Corners[j].place;
+        const std::uint32_t r = m_Corners[k].place;
+        return { m_Corners[i].facet, p < q ? q < r || r < p : q < r && r < p };
       }
       ++i;
       ++j;
     }
-    return none;
+    return {};
   }
 
 private:
+  struct Corner
+  {
+    std::uint32_t facet;
+    std::uint32_t place; // ascending counter-clockwise, seen from the region
+  };
+
   std::vector<std::uint32_t> m_Start;
   std::vector<std::uint64_t> m_Signature; // one bit for each facet of a point: most triples have none in common
-  std::vector<std::uint32_t> m_Facets;
+  std::vector<Corner>        m_Corners;
 };
 
 } // namespace
@@ -110,14 +132,10 @@ AddDeepCells(Tracing &                         tracing,
       deepPoints.push_back(points[point]);
     }
   }
-  Tetrahedra tetrahedra;
-  RunBoth(
-    true,
-    [&] { tetrahedra = BowyerWatson(deepPoints, weights, progress); },
-    meanwhile);
+  Tetrahedra tetrahedra = BowyerWatson(deepPoints, weights, meanwhile, progress);
 
-  // Tetrahedra at the far side of an open facet are in the region, and so is what is reached from them without
-  // crossing one.
+  // Tetrahedra, all of them positive, at the far side of an open facet are in the region, and so is what is reached from
+  // them without crossing one.
   const WallFinder                          finder(tracing, used, points.size());
   const std::size_t                         count = tetrahedra.corners.size();
   std::vector<std::array<std::uint32_t, 4>> wall(count);
@@ -129,17 +147,11 @@ AddDeepCells(Tracing &                         tracing,
     const auto & corners = tetrahedra.corners[t];
     for (std::size_t i = 0; i < 4; ++i)
     {
-      const auto & f = tetrahedronFaces[i];
-      wall[t][i] = finder.Find(corners[f[0]], corners[f[1]], corners[f[2]]);
-      if (wall[t][i] == none)
-      {
-        continue;
-      }
-      const auto   polygon = tracing.cells.FacetPoints(wall[t][i]);
-      const Int128 side =
-        Orientation(points[polygon[0]], points[polygon[1]], points[polygon[2]], deepPoints[corners[i]]);
-      const bool inwards = tracing.cells.facetCells[wall[t][i]][0] == kOpen;
-      if ((side > 0) != inwards)
+      const auto &           f = tetrahedronFaces[i];
+      const WallFinder::Wall found = finder.Find(corners[f[0]], corners[f[1]], corners[f[2]]);
+      wall[t][i] = found.facet;
+      // The face runs counter-clockwise seen from outside its tetrahedron.
+      if (found.facet != none && !found.facesRegion)
       {
         inside[t] = 1;
       }
