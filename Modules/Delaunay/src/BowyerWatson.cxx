@@ -191,10 +191,32 @@ public:
     }
   }
 
+  // Finite tetrahedra, with corners renamed by `names`.
   Tetrahedra
   Finish(const std::vector<std::uint32_t> & names) const
   {
-    return m_Complex.Finish(names);
+    std::vector<std::uint32_t> number(m_Complex.Size(), kOutside);
+    std::uint32_t              count = 0;
+    for (std::size_t t = 0; t < m_Complex.Size(); ++t)
+    {
+      if (m_Complex.IsFinite(t))
+      {
+        number[t] = count++;
+      }
+    }
+    Tetrahedra result;
+    result.corners.reserve(count);
+    result.neighbours.reserve(count);
+    for (std::size_t t = 0; t < m_Complex.Size(); ++t)
+    {
+      if (number[t] != kOutside)
+      {
+        const auto & [v, n] = m_Complex[t];
+        result.corners.push_back({ names[v[0]], names[v[1]], names[v[2]], names[v[3]] });
+        result.neighbours.push_back({ number[n[0]], number[n[1]], number[n[2]], number[n[3]] });
+      }
+    }
+    return result;
   }
 
 private:

@@ -115,11 +115,22 @@ public:
     return first;
   }
 
-  /** How many there are, with places that are free. */
+  /** How many places there are. */
   std::size_t
   Size() const
   {
     return m_Tetrahedra.size();
+  }
+  const Tetrahedron &
+  operator[](std::size_t t) const
+  {
+    return m_Tetrahedra[t];
+  }
+  /** Whether a place holds a tetrahedron, and not one beyond the hull. */
+  bool
+  IsFinite(std::size_t t) const
+  {
+    return m_Mark[t] != dead && m_Tetrahedra[t].vertex[3] != infinite;
   }
 
   /** Adds a point; false, and nothing done, where that would change a tetrahedron outside of the inserter's territory, or
@@ -127,18 +138,13 @@ public:
   bool
   Insert(Inserter & by, std::uint32_t p)
   {
-    auto & [owner, last, next, end, free, cavity, rim, places, made, edges] = by;
+    auto & cavity = by.cavity;
+    auto & rim = by.rim;
+    auto & made = by.made;
     cavity.clear();
     rim.clear();
     const std::uint32_t stamp = p + 1;
     const std::uint32_t start = Locate(by, p);
-    const auto          giveUp = [&] {
-      for (const std::uint32_t t : cavity)
-      {
-        m_Mark[t] = 0;
-      }
-      return false;
-    };
     if (start == none || !MayChange(by, start))
     {
       return false;
@@ -155,32 +161,34 @@ public:
         {
           continue;
         }
-        if (!MayChange(by, u))
+        if (m_Mark[u] != (stamp | spared))
         {
-          return giveUp();
+          if (!MayChange(by, u))
+          {
+            return GiveUp(by);
+          }
+          if (Conflicts(u, p))
+          {
+            m_Mark[u] = stamp;
+            cavity.push_back(u);
+            continue;
+          }
+          m_Mark[u] = stamp | spared;
         }
-        if (Conflicts(u, p))
-        {
-          m_Mark[u] = stamp;
-          cavity.push_back(u);
-        }
-        else
-        {
-          rim.push_back({ t, static_cast<std::uint32_t>(face), u });
-        }
+        rim.push_back({ t, static_cast<std::uint32_t>(face), u });
       }
     }
     // Each rim face and the point make a tetrahedron; they take the places of the cavity's first.
-    const std::size_t room = free.size() + (owner == all ? rim.size() : end - next);
+    const std::size_t room = by.free.size() + (by.owner == all ? rim.size() : by.end - by.next);
     if (rim.size() > room)
     {
-      return giveUp();
+      return GiveUp(by);
     }
-    edges.Start(3 * rim.size());
-    places.clear();
+    by.edges.Start(3 * rim.size());
+    by.places.clear();
     for (std::size_t i = 0; i < rim.size(); ++i)
     {
-      places.push_back(NewPlace(by));
+      by.places.push_back(NewPlace(by));
     }
     for (std::size_t i = 0; i < rim.size(); ++i)
     {
@@ -211,7 +219,7 @@ public:
     for (std::size_t i = 0; i < rim.size(); ++i)
     {
       Tetrahedron &       own = made[i];
-      const std::uint32_t place = places[i];
+      const std::uint32_t place = by.places[i];
       Tetrahedron &       beyond = m_Tetrahedra[rim[i].outer];
       for (std::size_t j = 0; j < 4; ++j)
       {
@@ -237,10 +245,10 @@ public:
             ends[n++] = own.vertex[k];
           }
         }
-        const std::uint32_t met = edges.Meet(ends[0], ends[1], static_cast<std::uint32_t>(i) << 2 | j);
+        const std::uint32_t met = by.edges.Meet(ends[0], ends[1], static_cast<std::uint32_t>(i) << 2 | j);
         if (met != none)
         {
-          own.neighbour[j] = places[met >> 2];
+          own.neighbour[j] = by.places[met >> 2];
           made[met >> 2].neighbour[met & 3U] = place;
         }
       }
@@ -251,47 +259,32 @@ public:
     }
     for (std::size_t i = 0; i < rim.size(); ++i)
     {
-      m_Tetrahedra[places[i]] = made[i];
-      m_Mark[places[i]] = 0;
+      m_Tetrahedra[by.places[i]] = made[i];
+      m_Mark[by.places[i]] = 0;
     }
-    free.insert(free.end(), cavity.begin(), cavity.end());
-    last = places[0];
+    by.free.insert(by.free.end(), cavity.begin(), cavity.end());
+    by.last = by.places[0];
     made.clear();
     return true;
   }
 
-  /** Finite tetrahedra, with corners renamed by `names`. */
-  Tetrahedra
-  Finish(const std::vector<std::uint32_t> & names) const
-  {
-    Tetrahedra                 result;
-    std::vector<std::uint32_t> number(m_Tetrahedra.size(), kOutside);
-    std::uint32_t              count = 0;
-    for (std::size_t t = 0; t < m_Tetrahedra.size(); ++t)
-    {
-      if (m_Mark[t] != dead && m_Tetrahedra[t].vertex[3] != infinite)
-      {
-        number[t] = count++;
-      }
-    }
-    result.corners.reserve(count);
-    result.neighbours.reserve(count);
-    for (std::size_t t = 0; t < m_Tetrahedra.size(); ++t)
-    {
-      if (number[t] != kOutside)
-      {
-        const Tetrahedron & own = m_Tetrahedra[t];
-        result.corners.push_back(
-          { names[own.vertex[0]], names[own.vertex[1]], names[own.vertex[2]], names[own.vertex[3]] });
-        result.neighbours.push_back(
-          { number[own.neighbour[0]], number[own.neighbour[1]], number[own.neighbour[2]], number[own.neighbour[3]] });
-      }
-    }
-    return result;
-  }
-
 private:
   static constexpr std::uint32_t dead = 0xFFFFFFFFU;
+  static constexpr std::uint32_t spared = 0x80000000U; // with the stamp of an insertion that looked at it and left it
+
+  bool
+  GiveUp(const Inserter & by)
+  {
+    for (const std::uint32_t t : by.cavity)
+    {
+      m_Mark[t] = 0;
+    }
+    for (const RimFace & face : by.rim)
+    {
+      m_Mark[face.outer] = 0;
+    }
+    return false;
+  }
 
   bool
   MayChange(const Inserter & by, std::uint32_t t) const
@@ -397,7 +390,7 @@ private:
   PointPredicates<TNumber>   m_Points;
   std::vector<std::uint8_t>  m_Owner;
   std::vector<Tetrahedron>   m_Tetrahedra;
-  std::vector<std::uint32_t> m_Mark; // stamp of the insertion that removed it, or dead
+  std::vector<std::uint32_t> m_Mark; // stamp of the insertion that last looked at it, or dead
 };
 
 } // namespace voxelcore
