@@ -308,27 +308,41 @@ CentreSide(const LatticePoint &   a,
   const Difference u = b - a;
   const Difference v = c - a;
   const Difference d = apex - a;
-  const Int128     uu = Dot(u, u, weights);
-  const Int128     vv = Dot(v, v, weights);
-  const Int128     uv = Dot(u, v, weights);
-  const Int128     dd = Dot(d, d, weights);
-  const Int128     du = Dot(d, u, weights);
-  const Int128     dv = Dot(d, v, weights);
-  const int        longest = std::max({ Bits(uu), Bits(vv), Bits(dd) });
   // Terms of degree three in squared lengths, at most five of them in all.
-  const auto value = [&]<typename T>(T) {
-    const T U = static_cast<T>(uu);
-    const T V = static_cast<T>(vv);
-    const T W = static_cast<T>(uv);
-    return static_cast<T>(dd) * (U * V - W * W) - V * (U - W) * static_cast<T>(du) - U * (V - W) * static_cast<T>(dv);
+  const auto value = [](auto U, auto V, auto W, auto dd, auto du, auto dv) {
+    return dd * (U * V - W * W) - V * (U - W) * du - U * (V - W) * dv;
+  };
+  const auto & w = weights.weight;
+  if ((Magnitude(u) | Magnitude(v) | Magnitude(d)) * static_cast<std::uint64_t>(w[0] | w[1] | w[2]) < 256)
+  {
+    // Squared lengths below 3 * 2^16, so that all fits 57 bits.
+    const auto dot = [&](const Difference & p, const Difference & q) {
+      return p.x * q.x * (w[0] * w[0]) + p.y * q.y * (w[1] * w[1]) + p.z * q.z * (w[2] * w[2]);
+    };
+    return Sign(value(dot(u, u), dot(v, v), dot(u, v), dot(d, d), dot(d, u), dot(d, v)));
+  }
+  const Int128 uu = Dot(u, u, weights);
+  const Int128 vv = Dot(v, v, weights);
+  const Int128 uv = Dot(u, v, weights);
+  const Int128 dd = Dot(d, d, weights);
+  const Int128 du = Dot(d, u, weights);
+  const Int128 dv = Dot(d, v, weights);
+  const int    longest = std::max({ Bits(uu), Bits(vv), Bits(dd) });
+  const auto   valueAs = [&]<typename T>(T) {
+    return value(static_cast<T>(uu),
+                 static_cast<T>(vv),
+                 static_cast<T>(uv),
+                 static_cast<T>(dd),
+                 static_cast<T>(du),
+                 static_cast<T>(dv));
   };
   if (3 * longest + 3 <= 62)
   {
-    return Sign(value(std::int64_t{}));
+    return Sign(valueAs(std::int64_t{}));
   }
   if (3 * longest + 3 <= 126)
   {
-    return Sign(value(Int128{}));
+    return Sign(valueAs(Int128{}));
   }
   const Big U = ToBig(uu);
   const Big V = ToBig(vv);

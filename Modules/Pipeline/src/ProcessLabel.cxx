@@ -11,6 +11,7 @@
 #include "voxelcore/VoxelCore.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -159,14 +160,17 @@ CertifyCoverage(PrunedCore &           pruned,
 bool
 IsEnclosed(const MedialComplex & core, const VoxelShape & shape)
 {
-  for (const auto & position : core.positions)
-  {
-    if (!ContainsInside(shape, position))
+  std::atomic<bool> enclosed = true;
+  RunInParts(core.positions.size() > 10000, core.positions.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t vertex = first; vertex < last && enclosed; ++vertex)
     {
-      return false;
+      if (!ContainsInside(shape, core.positions[vertex]))
+      {
+        enclosed = false;
+      }
     }
-  }
-  return true;
+  });
+  return enclosed;
 }
 
 LabelOutcome

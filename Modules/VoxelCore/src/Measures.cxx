@@ -1,5 +1,7 @@
 #include "Measures.h"
 
+#include "FacetMeasure.h"
+
 #include "voxelcore/BucketSort.h"
 #include "voxelcore/Predicates.h"
 
@@ -24,6 +26,15 @@ struct PointEntry
   std::uint32_t rank; // in that order
   std::uint32_t boundaryEdges; // bit 0, 1, 2: the lattice edge to the next corner along z, y, x lies on the boundary
 };
+
+LatticePoint
+PointOf(const PointEntry & entry, const std::array<std::int32_t, 3> & lower)
+{
+  constexpr std::uint64_t last = (std::uint64_t{ 1 } << 21) - 1;
+  return { lower[0] + static_cast<std::int32_t>(entry.key >> 42),
+           lower[1] + static_cast<std::int32_t>((entry.key >> 21) & last),
+           lower[2] + static_cast<std::int32_t>(entry.key & last) };
+}
 
 constexpr std::array<std::uint64_t, 3> kStep{ 1, std::uint64_t{ 1 } << 21, std::uint64_t{ 1 } << 42 }; // z, y, x
 
@@ -95,33 +106,6 @@ RankLexicographically(const VoxelShape &                shape,
     entries[i].rank = static_cast<std::uint32_t>(rank);
     sorted[at] = points[i];
   }
-}
-
-// Points of a facet lie on a circle. Its centre is in their hull unless the longest side sees another point under an
-// obtuse angle; then that side's midpoint is the nearest point of the hull, and the smallest ball sits there.
-double
-MeasureFacet(const std::vector<LatticePoint> & polygon, const SpacingWeights & weights)
-{
-  const std::size_t n = polygon.size();
-  std::size_t       longest = 0;
-  Int128            length = -1;
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const Int128 side = SquaredDistance(polygon[i], polygon[i + 1 == n ? 0 : i + 1], weights);
-    if (side > length)
-    {
-      length = side;
-      longest = i;
-    }
-  }
-  const LatticePoint & a = polygon[longest];
-  const LatticePoint & b = polygon[(longest + 1) % n];
-  const LatticePoint & c = polygon[(longest + 2) % n];
-  if (AngleSign(c, a, b, weights) <= 0)
-  {
-    return RatioToDouble(static_cast<UInt128>(length), 4);
-  }
-  return SquaredCircumradius(a, b, c, weights);
 }
 
 // A facet's plane, by its counter-clockwise points seen from outside its first cell.
@@ -200,38 +184,35 @@ RaiseTo(double & value, double to)
 
 // Facets follow each other along x, points and their neighbours along z: what is met next is asked for early.
 void
-FetchFacet(const DelaunayCells &             cells,
-           std::size_t                       facet,
-           const std::vector<PointEntry> &   entries,
-           const std::vector<LatticePoint> & points)
+FetchFacet(const DelaunayCells & cells, std::size_t facet, const std::vector<PointEntry> & entries)
 {
   for (const std::uint32_t point : cells.FacetPoints(facet))
   {
     __builtin_prefetch(&entries[point]);
-    __builtin_prefetch(&points[point]);
   }
   for (const std::uint32_t cell : cells.facetCells[facet])
   {
     if (cell != kOutside)
     {
       __builtin_prefetch(&cells.centres[cell]);
+      __builtin_prefetch(&cells.tetrahedra[cell]);
     }
   }
 }
 
 // Numbers the points of one facet anew, marks its sides on the boundary, and puts its corners into `polygon`.
 void
-TurnToRanks(const std::vector<PointEntry> &   entries,
-            const std::vector<LatticePoint> & points,
-            std::span<std::uint32_t>          facet,
-            std::vector<LatticePoint> &       polygon)
+TurnToRanks(const std::vector<PointEntry> &     entries,
+            const std::array<std::int32_t, 3> & lower,
+            std::span<std::uint32_t>            facet,
+            std::vector<LatticePoint> &         polygon)
 {
   polygon.clear();
   const PointEntry * const first = &entries[facet[0]];
   const PointEntry *       entry = first;
   for (std::size_t i = 0; i < facet.size(); ++i)
   {
-    polygon.push_back(points[facet[i]]);
+    polygon.push_back(PointOf(*entry, lower));
     const PointEntry * const next = i + 1 == facet.size() ? first : &entries[facet[i + 1]];
     const PointEntry &       low = entry->key < next->key ? *entry : *next;
     const std::uint64_t      step = std::max(entry->key, next->key) - low.key;
@@ -267,11 +248,11 @@ MeasureCells(const VoxelShape &                shape,
     {
       if (facet + kAhead < last) // facets of others get their ranks meanwhile
       {
-        FetchFacet(cells, facet + kAhead, entries, points);
+        FetchFacet(cells, facet + kAhead, entries);
       }
       const std::span<std::uint32_t> own{ cells.facetPoints.data() + cells.facetOffsets[facet],
                                           cells.facetPoints.data() + cells.facetOffsets[facet + 1] };
-      TurnToRanks(entries, points, own, polygon);
+      TurnToRanks(entries, shape.Box().lower, own, polygon);
       result.facet[facet] = MeasureFacet(polygon, weights);
       const Plane plane(polygon);
       for (int side = 0; side < 2; ++side)
