@@ -41,26 +41,51 @@ VertexRows::FirstAt(std::int32_t x, std::int32_t y, std::int32_t z) const
 namespace
 {
 
-// 64 voxels of a row from bit `offset` on, which may lie anywhere; beyond the row is background.
-std::uint64_t
-Extract(std::span<const std::uint64_t> row, std::int64_t offset)
+// 65 voxels of a row, from one bit before `offset` on, which may lie anywhere; beyond the row is background.
+class RowReader
 {
-  const std::int64_t word = offset >> 6;
-  const auto         shift = static_cast<unsigned>(offset & 63);
-  const auto         at = [&](std::int64_t w) {
-    return w < 0 || w >= static_cast<std::int64_t>(row.size()) ? 0 : row[static_cast<std::size_t>(w)];
-  };
-  return shift == 0 ? at(word) : (at(word) >> shift) | (at(word + 1) << (64 - shift));
-}
+public:
+  RowReader(std::size_t wordsPerRow, std::int64_t offset)
+    : m_Word(offset >> 6)
+    , m_Before((offset - 1) >> 6)
+    , m_Shift(static_cast<unsigned>(offset & 63))
+  {
+    const auto isIn = [&](std::int64_t word) { return word >= 0 && word < static_cast<std::int64_t>(wordsPerRow); };
+    m_HasLow = isIn(m_Word);
+    m_HasHigh = m_Shift != 0 && isIn(m_Word + 1);
+    m_HasBefore = isIn(m_Before);
+  }
+
+  std::uint64_t
+  Here(const std::uint64_t * row) const
+  {
+    return (m_HasLow ? row[m_Word] >> m_Shift : 0) | (m_HasHigh ? row[m_Word + 1] << (64 - m_Shift) : 0);
+  }
+  std::uint64_t
+  BitBefore(const std::uint64_t * row) const
+  {
+    return m_HasBefore ? row[m_Before] >> ((m_Shift - 1) & 63U) & 1U : 0;
+  }
+
+private:
+  std::int64_t m_Word;
+  std::int64_t m_Before;
+  unsigned     m_Shift;
+  bool         m_HasLow;
+  bool         m_HasHigh;
+  bool         m_HasBefore;
+};
 
 } // namespace
 
 void
 LatticeWindow::Fill(const VoxelShape & shape, const VertexRows & rows, const LatticePoint & brickCorner)
 {
+  m_Rows = &rows;
+  m_First.fill(unknown);
   origin = { brickCorner.x - halo, brickCorner.y - halo, brickCorner.z - halo };
-  const auto &       box = shape.Box();
-  const std::int64_t offset = std::int64_t{ origin.x } - box.lower[0];
+  const auto &    box = shape.Box();
+  const RowReader reader(shape.WordsPerRow(), std::int64_t{ origin.x } - box.lower[0]);
   // The two voxels at a corner's sides along x, for the rows one below the window and its 64: any and both.
   struct Pair
   {
@@ -80,9 +105,9 @@ LatticeWindow::Fill(const VoxelShape & shape, const VertexRows & rows, const Lat
       std::uint64_t      before = 0;
       if (exists)
       {
-        const auto row = shape.Row(boxY, boxZ);
-        here = Extract(row, offset);
-        before = Extract(row, offset - 1);
+        const std::uint64_t * const row = shape.Row(boxY, boxZ).data();
+        here = reader.Here(row);
+        before = here << 1 | reader.BitBefore(row);
       }
       layer[static_cast<std::size_t>(y + 1)] = { here | before, here & before };
       if (y >= 0 && z >= 0)
@@ -100,12 +125,7 @@ LatticeWindow::Fill(const VoxelShape & shape, const VertexRows & rows, const Lat
       const auto          i = static_cast<std::size_t>(y);
       const std::uint64_t any = layer[i].any | layer[i + 1].any | below[i].any | below[i + 1].any;
       const std::uint64_t all = layer[i].both & layer[i + 1].both & below[i].both & below[i + 1].both;
-      const std::size_t   row = Row(y, z);
-      vertex[row] = any & ~all;
-      if (vertex[row] != 0)
-      {
-        first[row] = rows.FirstAt(origin.x, origin.y + y, origin.z + z);
-      }
+      vertex[Row(y, z)] = any & ~all;
     }
   }
 }

@@ -40,7 +40,6 @@ struct LatticeWindow
   LatticePoint                            origin{}; ///< lattice coordinates of local (0, 0, 0)
   std::array<std::uint64_t, 64 * 64 + 16> vertex{}; ///< boundary vertices; a scan may read 16 rows from any
   std::array<std::uint64_t, 64 * 64>      voxel{};  ///< voxels of the shape
-  std::array<std::uint32_t, 64 * 64>      first{};  ///< index of the row's first vertex in the window
 
   /** Moves the window so that its brick starts at lattice corner `brickCorner`. */
   void
@@ -54,12 +53,22 @@ struct LatticeWindow
 
   /** Index of the boundary vertex at local coordinates, which must be one. */
   std::uint32_t
-  IndexOf(std::int32_t x, std::int32_t y, std::int32_t z) const
+  IndexOf(std::int32_t x, std::int32_t y, std::int32_t z)
   {
     const std::size_t   row = Row(y, z);
     const std::uint64_t below = (std::uint64_t{ 1 } << x) - 1;
-    return first[row] + static_cast<std::uint32_t>(std::popcount(vertex[row] & below));
+    if (m_First[row] == unknown) // most rows are never asked for
+    {
+      m_First[row] = m_Rows->FirstAt(origin.x, origin.y + y, origin.z + z);
+    }
+    return m_First[row] + static_cast<std::uint32_t>(std::popcount(vertex[row] & below));
   }
+
+private:
+  static constexpr std::uint32_t unknown = 0xFFFFFFFFU;
+
+  const VertexRows *                 m_Rows = nullptr;
+  std::array<std::uint32_t, 64 * 64> m_First{}; // index of the row's first vertex in the window
 };
 
 } // namespace voxelcore
