@@ -1,9 +1,12 @@
 #include "EvaluationBodies.h"
 
+#include "voxelcore/Phantom.h"
 #include "voxelcore/ShapeOperations.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 namespace voxelcore::evaluation
 {
@@ -44,8 +47,6 @@ AddSegment(const Vector & a, const Vector & b, std::vector<Vector> & samples)
 double
 ConeDistance(const Vector & p, const Vector & a, const Vector & b, double ra, double rb)
 {
-  // The nearest ball is found by stepping: plain, and exact enough at a fiftieth of a voxel.
-  double       best = 1e300;
   const double length = Distance(a, b);
   double       t = 0;
   for (int i = 0; i < 3; ++i)
@@ -60,7 +61,6 @@ ConeDistance(const Vector & p, const Vector & a, const Vector & b, double ra, do
   t += Distance(p, foot) * slope / std::sqrt(std::max(1e-12, 1 - slope * slope)) / length;
   t = std::clamp(t, 0.0, 1.0);
   return Distance(p, Along(a, b, t)) - (ra + t * (rb - ra));
-  return best;
 }
 
 Body
@@ -178,6 +178,119 @@ ThickAndThin()
   return body;
 }
 
+// A root system of thirteen branches, radii 1.5 to 3.2, no two of which come nearer than three lengths to each other.
+class Root
+{
+public:
+  static constexpr double side = 72;
+
+  explicit Root(Body & body)
+  {
+    PhantomOptions options;
+    options.kind = "root";
+    options.size = { 72, 72, 72 };
+    options.seed = 18;
+    options.detail = 1.5;
+    options.laterals = 7;
+    options.subLaterals = 1;
+    const std::vector<CentreLinePoint> lines = RootCentreLines(options);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+    {
+      const Vector & p = lines[i].position;
+      m_Places.push_back({ p[0] - side / 2, p[1] - side / 2, p[2] - side / 2 });
+      body.reach = std::max(body.reach, Length(m_Places[i]) + lines[i].radius);
+      if (i + 1 == lines.size() || lines[i + 1].branch != lines[i].branch)
+      {
+        body.tips.push_back(m_Places[i]);
+      }
+    }
+    body.tips.push_back(m_Places[0]);
+    m_Cones.resize(cells * cells * cells);
+    Vector joint{ 0, 0, 0 };
+    double joined = 0; // what begins a branch lies in the branch before it
+    for (std::size_t i = 1; i < lines.size(); ++i)
+    {
+      const auto parent = static_cast<std::size_t>(lines[i].parent);
+      if (lines[parent].branch != lines[i].branch)
+      {
+        joint = m_Places[parent];
+        joined = lines[parent].radius + 3;
+      }
+      const bool free = lines[i].branch == lines[0].branch || Distance(m_Places[i], joint) > joined;
+      AddSegment(m_Places[parent], m_Places[i], free ? body.axis : body.allowed);
+      AddCone({ m_Places[parent], m_Places[i], lines[parent].radius, lines[i].radius });
+    }
+  }
+
+  double
+  operator()(const Vector & p) const
+  {
+    double nearest = near;
+    for (const Rod & rod : m_Cones[CellOf(p)])
+    {
+      nearest = std::min(nearest, ConeDistance(p, rod.from, rod.to, rod.first, rod.last));
+    }
+    return nearest;
+  }
+
+private:
+  struct Rod
+  {
+    Vector from, to;
+    double first, last;
+  };
+  // Each cell lists the cones whose surface comes that near to some place in it: only there the distance is asked for.
+  static constexpr double      near = 5;
+  static constexpr double      cell = 4;
+  static constexpr std::size_t cells = 32;
+
+  static std::size_t
+  Index(double x)
+  {
+    return static_cast<std::size_t>(std::clamp(std::floor(x / cell) + cells / 2, 0.0, cells - 1.0));
+  }
+  static std::size_t
+  CellOf(const Vector & p)
+  {
+    return (Index(p[2]) * cells + Index(p[1])) * cells + Index(p[0]);
+  }
+  void
+  AddCone(const Rod & rod)
+  {
+    std::array<std::size_t, 3> low{};
+    std::array<std::size_t, 3> high{};
+    const double               reach = near + std::max(rod.first, rod.last);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      low[k] = Index(std::min(rod.from[k], rod.to[k]) - reach);
+      high[k] = Index(std::max(rod.from[k], rod.to[k]) + reach);
+    }
+    for (std::size_t z = low[2]; z <= high[2]; ++z)
+    {
+      for (std::size_t y = low[1]; y <= high[1]; ++y)
+      {
+        for (std::size_t x = low[0]; x <= high[0]; ++x)
+        {
+          m_Cones[(z * cells + y) * cells + x].push_back(rod);
+        }
+      }
+    }
+  }
+
+  std::vector<Vector>           m_Places;
+  std::vector<std::vector<Rod>> m_Cones;
+};
+
+Body
+RootSystem()
+{
+  Body body;
+  body.name = "root";
+  const auto root = std::make_shared<const Root>(body);
+  body.distance = [root](const Vector & p) { return (*root)(p); };
+  return body;
+}
+
 } // namespace
 
 std::vector<Body>
@@ -196,6 +309,7 @@ EvaluationBodies()
   }
   bodies.push_back(Cone("cone", 40, 10, 2));
   bodies.push_back(ThickAndThin());
+  bodies.push_back(RootSystem());
   return bodies;
 }
 

@@ -20,13 +20,14 @@ struct Body
 {
   std::string                           name;
   double                                reach = 0; ///< all of it lies within this distance of the origin
-  std::function<double(const Vector &)> distance;  ///< signed, negative inside; exact near the surface
+  std::function<double(const Vector &)> distance;  ///< signed, negative inside; exact to 4 mm from the surface
   std::vector<Vector>                   axis;      ///< samples of what a medial surface must have, about 0.25 mm apart
   std::vector<Vector>                   allowed;   ///< and of what else belongs to it: where branches join
   std::vector<Vector>                   tips;      ///< ends of curves
 };
 
-/** Ellipsoid; capsules of radius 1.5 to 8; slabs of thickness 3 to 20; rods and a plate on a thick body; a cone. */
+/** Ellipsoid; capsules of radius 1.5 to 8; slabs of thickness 3 to 20; a cone; rods and a plate on a thick body; a root
+ *  system with known lines. */
 std::vector<Body>
 EvaluationBodies();
 

@@ -1,0 +1,75 @@
+#pragma once
+// A pruned core against the medial axis it should be.
+
+#include "EvaluationBodies.h"
+
+#include "voxelcore/BallCoverage.h"
+#include "voxelcore/MedialComplex.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace voxelcore::evaluation
+{
+
+/** Lengths and areas in voxels; README.md says what each is. */
+struct Scores
+{
+  double spurArea = 0;
+  double spurLength = 0;
+  double extraEnds = 0;
+  double lostEnds = 0;
+  double lost = 0; ///< %
+  double toTruth = 0;
+  double toCore = 0;
+  double gap = 0;
+  double rotations = 0;
+  double resolutions = 0;
+  double seconds = 0;
+};
+
+struct ScoreColumn
+{
+  const char * name;
+  double Scores::*value;
+  bool            worst; ///< of all samples; else the mean
+};
+
+const std::array<ScoreColumn, 11> &
+ScoreColumns();
+
+class PointTree
+{
+public:
+  explicit PointTree(const std::vector<Vector> & points);
+
+  double
+  Distance(const Vector & p) const
+  {
+    return m_Tree.Gap(p);
+  }
+
+private:
+  std::vector<double> m_Radii;
+  BallTree            m_Tree;
+};
+
+/** 95 % of the points lie within this distance of the others. */
+double
+Percentile95(const std::vector<Vector> & from, const PointTree & to);
+
+struct ScoredCore
+{
+  Scores              scores; ///< all but gap, rotations, resolutions and seconds
+  std::vector<Vector> points; ///< the core in the body's place, as points about half a voxel apart
+};
+
+ScoredCore
+ScoreCore(const MedialComplex & core,
+          const Body &          body,
+          const Placement &     placement,
+          const PointTree &     truth,
+          double                voxel);
+
+} // namespace voxelcore::evaluation
