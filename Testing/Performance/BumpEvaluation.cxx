@@ -153,8 +153,8 @@ Evaluate(const Body & body, bool thick, const Options & options)
   const PointTree     truth(all);
   std::vector<Record> records;
   // Per way of pruning, of the first rotation at each resolution and the finest resolution in each rotation.
-  std::map<std::string, std::vector<Vector>> firsts;
-  std::map<std::string, std::vector<Vector>> finests;
+  std::map<std::string, ScoredCore> firsts;
+  std::map<std::string, ScoredCore> finests;
   for (const double fine : options.Resolutions())
   {
     const Vector spacing = thick ? Vector{ fine, fine, 2.5 * fine } : Vector{ fine, fine, fine };
@@ -191,12 +191,12 @@ Evaluate(const Body & body, bool thick, const Options & options)
         Scores &   scores = scored.scores;
         scores.gap = LargestBoundaryGap(shape, weights, pruned.core.positions, pruned.core.radius).largest / voxel;
         scores.seconds = pruned.seconds;
-        const auto compare = [&](std::map<std::string, std::vector<Vector>> & others, const std::string & key) {
-          const auto [other, isFirst] = others.try_emplace(key, scored.points);
-          return isFirst ? 0.0
-                         : std::max(Percentile95(other->second, PointTree(scored.points)),
-                                    Percentile95(scored.points, PointTree(other->second))) /
-                             voxel;
+        const auto compare = [&](std::map<std::string, ScoredCore> & others, const std::string & key) {
+          const auto [place, isFirst] = others.try_emplace(key, scored);
+          const ScoredCore & other = place->second;
+          return isFirst
+                   ? 0.0
+                   : std::max(Percentile95(other.points, *scored.all), Percentile95(scored.points, *other.all)) / voxel;
         };
         scores.rotations = compare(firsts, pruned.name + " at " + std::to_string(fine));
         scores.resolutions = compare(finests, pruned.name + " turned " + std::to_string(rotation));

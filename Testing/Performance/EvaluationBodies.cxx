@@ -218,7 +218,11 @@ public:
       }
       const bool free = lines[i].branch == lines[0].branch || Distance(m_Places[i], joint) > joined;
       AddSegment(m_Places[parent], m_Places[i], free ? body.axis : body.allowed);
-      AddCone({ m_Places[parent], m_Places[i], lines[parent].radius, lines[i].radius });
+      AddCone({ m_Places[parent],
+                m_Places[i],
+                lines[parent].radius,
+                lines[i].radius,
+                Distance(m_Places[parent], m_Places[i]) + std::max(lines[parent].radius, lines[i].radius) });
     }
   }
 
@@ -228,7 +232,14 @@ public:
     double nearest = near;
     for (const Rod & rod : m_Cones[CellOf(p)])
     {
-      nearest = std::min(nearest, ConeDistance(p, rod.from, rod.to, rod.first, rod.last));
+      const double reach = nearest + rod.reach;
+      const double x = p[0] - rod.from[0];
+      const double y = p[1] - rod.from[1];
+      const double z = p[2] - rod.from[2];
+      if (x * x + y * y + z * z < reach * reach)
+      {
+        nearest = std::min(nearest, ConeDistance(p, rod.from, rod.to, rod.first, rod.last));
+      }
     }
     return nearest;
   }
@@ -237,7 +248,8 @@ private:
   struct Rod
   {
     Vector from, to;
-    double first, last;
+    double first, last; // radii
+    double reach;       // of its surface from where it begins
   };
   // Each cell lists the cones whose surface comes that near to some place in it: only there the distance is asked for.
   static constexpr double      near = 5;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 namespace voxelcore::evaluation
 {
@@ -60,6 +63,61 @@ Area(const std::vector<Vector> & at, std::span<const ElementIndex> corners)
   return Length(sum, { 0, 0, 0 });
 }
 
+std::uint64_t
+CubeOf(const Vector & p, double side)
+{
+  std::uint64_t cube = 0;
+  for (const double x : p)
+  {
+    cube = (cube << 21U) + static_cast<std::uint64_t>(std::floor(x / side) + (1 << 20));
+  }
+  return cube;
+}
+
+// Which places lie farther from the truth than a limit: mostly the distance of a place nearby says it.
+class FarFromTruth
+{
+public:
+  FarFromTruth(const PointTree & truth, double limit)
+    : m_Truth(truth)
+    , m_Limit(limit)
+  {}
+
+  bool
+  operator()(const Vector & p)
+  {
+    const auto [known, isNew] = m_Known.try_emplace(CubeOf(p, m_Limit / 4), p, 0.0);
+    auto & [place, distance] = known->second;
+    if (isNew)
+    {
+      distance = m_Truth.Distance(p);
+    }
+    const double away = Length(p, place);
+    return distance - away > m_Limit || (distance + away > m_Limit && !m_Truth.IsWithin(p, m_Limit));
+  }
+
+private:
+  const PointTree &                                            m_Truth;
+  double                                                       m_Limit;
+  std::unordered_map<std::uint64_t, std::pair<Vector, double>> m_Known;
+};
+
+// The first point in each cube of a grid.
+std::vector<Vector>
+Thinned(const std::vector<Vector> & points, double side)
+{
+  std::vector<Vector>               kept;
+  std::unordered_set<std::uint64_t> cubes;
+  for (const Vector & p : points)
+  {
+    if (cubes.insert(CubeOf(p, side)).second)
+    {
+      kept.push_back(p);
+    }
+  }
+  return kept;
+}
+
 } // namespace
 
 const std::array<ScoreColumn, 11> &
@@ -105,19 +163,20 @@ ScoreCore(const MedialComplex & core,
   const CellComplex & cells = core.cells;
   ScoredCore          result;
   Scores &            scores = result.scores;
+  FarFromTruth        isSpur(truth, 2 * voxel);
   std::vector<Vector> at;
   for (const auto & position : core.positions)
   {
     at.push_back(ToBody(placement, position));
   }
-  result.points = at;
-  std::vector<int> facesAt(cells.edges.size(), 0);
-  std::vector<int> edgesAt(cells.vertexCount, 0);
+  std::vector<Vector> all = at;
+  std::vector<int>    facesAt(cells.edges.size(), 0);
+  std::vector<int>    edgesAt(cells.vertexCount, 0);
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
     const Vector middle = Middle(at, cells.FaceVertices(face));
-    result.points.push_back(middle);
-    if (truth.Distance(middle) > 2 * voxel)
+    all.push_back(middle);
+    if (isSpur(middle))
     {
       scores.spurArea += Area(at, cells.FaceVertices(face)) / (voxel * voxel);
     }
@@ -134,9 +193,9 @@ ScoreCore(const MedialComplex & core,
     for (int i = 1; i <= steps; ++i)
     {
       const double t = static_cast<double>(i) / (steps + 1);
-      result.points.push_back({ a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]) });
+      all.push_back({ a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]) });
     }
-    if (facesAt[edge] == 0 && truth.Distance(Middle(at, cells.edges[edge])) > 2 * voxel)
+    if (facesAt[edge] == 0 && isSpur(Middle(at, cells.edges[edge])))
     {
       scores.spurLength += Length(a, b) / voxel;
     }
@@ -144,19 +203,24 @@ ScoreCore(const MedialComplex & core,
     ++edgesAt[cells.edges[edge][1]];
   }
   scores.extraEnds = static_cast<double>(std::count(edgesAt.begin(), edgesAt.end(), 1));
-  const PointTree found(result.points);
+  result.all = std::make_shared<const PointTree>(all);
+  result.points = Thinned(all, voxel);
+  const PointTree & found = *result.all;
   for (const Vector & tip : body.tips)
   {
-    scores.lostEnds += found.Distance(tip) > 3 * voxel ? 1 : 0;
+    scores.lostEnds += found.IsWithin(tip, 3 * voxel) ? 0 : 1;
   }
   // An end that stands for a true one is none too many.
   scores.extraEnds -= static_cast<double>(body.tips.size()) - scores.lostEnds;
-  for (const Vector & p : body.axis)
-  {
-    scores.lost += found.Distance(p) > 2 * voxel ? 100.0 / static_cast<double>(body.axis.size()) : 0;
-  }
   scores.toTruth = Percentile95(result.points, truth) / voxel;
-  scores.toCore = Percentile95(body.axis, found) / voxel;
+  std::vector<double> toCore;
+  for (const Vector & p : Thinned(body.axis, voxel))
+  {
+    toCore.push_back(found.Distance(p));
+  }
+  const auto lost = std::count_if(toCore.begin(), toCore.end(), [&](double far) { return far > 2 * voxel; });
+  scores.lost = 100.0 * static_cast<double>(lost) / static_cast<double>(toCore.size());
+  scores.toCore = Percentile95(std::move(toCore)) / voxel;
   return result;
 }
 

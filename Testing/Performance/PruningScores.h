@@ -7,6 +7,7 @@
 #include "voxelcore/MedialComplex.h"
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,11 @@ public:
   {
     return m_Tree.Gap(p);
   }
+  bool
+  IsWithin(const Vector & p, double distance) const
+  {
+    return m_Tree.Gap(p, distance) <= distance;
+  }
 
 private:
   std::vector<double> m_Radii;
@@ -59,10 +65,12 @@ private:
 double
 Percentile95(const std::vector<Vector> & from, const PointTree & to);
 
+/** A core in the body's place. */
 struct ScoredCore
 {
-  Scores              scores; ///< all but gap, rotations, resolutions and seconds
-  std::vector<Vector> points; ///< the core in the body's place, as points about half a voxel apart
+  Scores                           scores; ///< all but gap, rotations, resolutions and seconds
+  std::vector<Vector>              points; ///< one for each cube of a voxel that the core meets
+  std::shared_ptr<const PointTree> all;    ///< points about half a voxel apart or nearer
 };
 
 ScoredCore
