@@ -10,7 +10,7 @@ void
 BumpCollapse::OfferVertex(ElementIndex vertex)
 {
   // A vertex in one edge is in no face, as a face would need two edges there; so cofaces one dimension up suffice.
-  if (m_VertexCofaces[vertex].count == 1)
+  if (m_VertexStanding[vertex].IsFree())
   {
     m_Loose.push_back(vertex);
   }
@@ -24,7 +24,7 @@ BumpCollapse::RemoveLoose()
   {
     const ElementIndex vertex = m_Loose.back();
     m_Loose.pop_back();
-    if (m_VertexCofaces[vertex].count != 1 || !IsLive(vertex))
+    if (!m_VertexStanding[vertex].IsFree())
     {
       continue;
     }
@@ -41,9 +41,9 @@ BumpCollapse::RemoveLoose()
 }
 
 void
-BumpCollapse::OfferEdge(ElementIndex edge)
+BumpCollapse::OfferEdges(std::span<const ElementIndex> edges)
 {
-  if (m_EdgeCofaces[edge].count == 1)
+  for (const ElementIndex edge : edges)
   {
     m_Queue.Push({ FaceCost(edge, m_Reached), m_Core->edgeLambda[edge], 1, edge });
   }
@@ -52,7 +52,7 @@ BumpCollapse::OfferEdge(ElementIndex edge)
 void
 BumpCollapse::OfferAll()
 {
-  const std::size_t     edges = m_EdgeCofaces.size();
+  const std::size_t     edges = m_EdgeStanding.size();
   constexpr std::size_t chunk = std::size_t{ 1 } << 16; // what is computed side by side waits here for its turn
   std::vector<double>   costs(std::min(edges, chunk));
   for (std::size_t first = 0; first < edges; first += chunk)
@@ -64,7 +64,11 @@ BumpCollapse::OfferAll()
 #pragma omp for schedule(static)
       for (std::size_t edge = first; edge < last; ++edge)
       {
-        if (m_EdgeCofaces[edge].count == 1)
+        if (const std::size_t ahead = edge + 12; ahead < edges && m_EdgeStanding[ahead].IsFree())
+        {
+          FetchFace(m_EdgeStanding[ahead].Coface());
+        }
+        if (m_EdgeStanding[edge].IsFree())
         {
           costs[edge - first] = FaceCost(static_cast<ElementIndex>(edge), reached);
         }
@@ -72,13 +76,13 @@ BumpCollapse::OfferAll()
     }
     for (std::size_t edge = first; edge < last; ++edge)
     {
-      if (m_EdgeCofaces[edge].count == 1)
+      if (m_EdgeStanding[edge].IsFree())
       {
         m_Queue.Push({ costs[edge - first], m_Core->edgeLambda[edge], 1, static_cast<ElementIndex>(edge) });
       }
     }
   }
-  for (std::size_t vertex = 0; vertex < m_VertexCofaces.size(); ++vertex)
+  for (std::size_t vertex = 0; vertex < m_VertexStanding.size(); ++vertex)
   {
     OfferVertex(static_cast<ElementIndex>(vertex));
   }
@@ -87,12 +91,12 @@ BumpCollapse::OfferAll()
 void
 BumpCollapse::DropEdge(ElementIndex edge)
 {
-  m_Bumps.edges[edge] = m_Level;
+  m_EdgeStanding[edge].Go(m_Level);
   for (const ElementIndex vertex : m_Core->cells.edges[edge])
   {
-    m_VertexCofaces[vertex].Remove(edge);
     if (IsLive(vertex))
     {
+      m_VertexStanding[vertex].Remove(edge);
       OfferVertex(vertex);
     }
   }
@@ -101,31 +105,45 @@ BumpCollapse::DropEdge(ElementIndex edge)
 void
 BumpCollapse::RemoveFace(ElementIndex edge)
 {
-  const ElementIndex face = m_EdgeCofaces[edge].exclusiveOr;
+  const CellComplex & cells = m_Core->cells;
+  const ElementIndex  face = m_EdgeStanding[edge].Coface();
   for (const Reached & reached : m_Reached)
   {
     m_Vertices[reached.vertex].burnt = reached.time;
     m_Vertices[reached.vertex].witness = reached.witness;
   }
-  m_Bumps.faces[face] = m_Level;
-  for (const ElementIndex side : m_Core->cells.FaceEdges(face))
+  m_FaceBumps[face] = m_Level;
+  // What the faces behind will ask for is fetched in three steps, with other work between them.
+  m_Freed.clear();
+  for (const ElementIndex side : cells.FaceEdges(face))
   {
-    m_EdgeCofaces[side].Remove(face);
-  }
-  for (const ElementIndex side : m_Core->cells.FaceEdges(face))
-  {
-    if (side != edge)
+    m_EdgeStanding[side].Remove(face);
+    if (side != edge && m_EdgeStanding[side].IsFree())
     {
-      OfferEdge(side);
+      m_Freed.push_back(side);
+      __builtin_prefetch(&cells.faceOffsets[m_EdgeStanding[side].Coface()]);
     }
   }
   DropEdge(edge);
+  for (const ElementIndex side : m_Freed)
+  {
+    const std::uint64_t first = cells.faceOffsets[m_EdgeStanding[side].Coface()];
+    __builtin_prefetch(&cells.faceVertices[first]);
+    __builtin_prefetch(&cells.faceEdges[first]);
+  }
+  RemoveLoose();
+  for (const ElementIndex side : m_Freed)
+  {
+    FetchFace(m_EdgeStanding[side].Coface());
+  }
+  OfferEdges(m_Freed);
 }
 
 void
 BumpCollapse::RemoveVertex(ElementIndex vertex)
 {
-  m_Bumps.vertices[vertex] = m_Level;
+  const ElementIndex edge = m_VertexStanding[vertex].Coface();
+  m_VertexStanding[vertex].Go(m_Level);
   if (m_ToHeir)
   {
     HandOver(vertex, m_Heir, m_HeirGap);
@@ -140,7 +158,21 @@ BumpCollapse::RemoveVertex(ElementIndex vertex)
       point = next;
     }
   }
-  DropEdge(m_VertexCofaces[vertex].exclusiveOr);
+  DropEdge(edge);
+}
+
+void
+BumpCollapse::FetchFace(ElementIndex face) const
+{
+  const CellComplex & cells = m_Core->cells;
+  for (const ElementIndex edge : cells.FaceEdges(face))
+  {
+    __builtin_prefetch(&m_EdgeStanding[edge], 1);
+  }
+  for (const ElementIndex vertex : cells.FaceVertices(face))
+  {
+    __builtin_prefetch(&m_Vertices[vertex], 1);
+  }
 }
 
 void
@@ -149,19 +181,18 @@ BumpCollapse::Fetch() const
   // Removing in order of cost jumps about in memory: what the pairs ahead will ask for is fetched step by step.
   const CellComplex & cells = m_Core->cells;
   const auto          faceOf = [this](const Pair * pair) {
-    const bool simple = pair != nullptr && pair->isEdge && m_EdgeCofaces[pair->element].count == 1;
-    return simple ? m_EdgeCofaces[pair->element].exclusiveOr : kNone;
+    const bool simple = pair != nullptr && pair->isEdge && m_EdgeStanding[pair->element].IsFree();
+    return simple ? m_EdgeStanding[pair->element].Coface() : kNone;
   };
   if (const Pair * pair = m_Queue.Ahead(32); pair != nullptr && pair->isEdge)
   {
-    __builtin_prefetch(&m_EdgeCofaces[pair->element], 1);
-    __builtin_prefetch(&m_Bumps.edges[pair->element], 1);
+    __builtin_prefetch(&m_EdgeStanding[pair->element], 1);
     __builtin_prefetch(&cells.edges[pair->element]);
   }
   if (const ElementIndex face = faceOf(m_Queue.Ahead(24)); face != kNone)
   {
     __builtin_prefetch(&cells.faceOffsets[face]);
-    __builtin_prefetch(&m_Bumps.faces[face], 1);
+    __builtin_prefetch(&m_FaceBumps[face], 1);
   }
   if (const ElementIndex face = faceOf(m_Queue.Ahead(16)); face != kNone)
   {
@@ -170,15 +201,17 @@ BumpCollapse::Fetch() const
   }
   if (const ElementIndex face = faceOf(m_Queue.Ahead(8)); face != kNone)
   {
-    for (const ElementIndex edge : cells.FaceEdges(face))
-    {
-      __builtin_prefetch(&m_EdgeCofaces[edge], 1);
-      __builtin_prefetch(&m_Core->edgeLambda[edge]);
-    }
+    FetchFace(face);
     for (const ElementIndex vertex : cells.FaceVertices(face))
     {
-      __builtin_prefetch(&m_Vertices[vertex]);
-      __builtin_prefetch(&m_VertexCofaces[vertex], 1);
+      __builtin_prefetch(&m_VertexStanding[vertex], 1);
+    }
+  }
+  if (const Pair * pair = m_Queue.Ahead(4); faceOf(pair) != kNone)
+  {
+    for (const ElementIndex end : cells.edges[pair->element])
+    {
+      __builtin_prefetch(&m_Vertices[m_Vertices[end].witness]);
     }
   }
 }
@@ -197,8 +230,7 @@ BumpCollapse::Run(const ProgressCallback & progress)
     }
     Fetch();
     Pair       pair = m_Queue.Pop();
-    const bool simple = pair.isEdge ? m_Bumps.edges[pair.element] == kLive && m_EdgeCofaces[pair.element].count == 1
-                                    : IsLive(pair.element) && m_VertexCofaces[pair.element].count == 1;
+    const bool simple = pair.isEdge ? m_EdgeStanding[pair.element].IsFree() : m_VertexStanding[pair.element].IsFree();
     if (!simple)
     {
       continue;
@@ -219,14 +251,33 @@ BumpCollapse::Run(const ProgressCallback & progress)
     else
     {
       RemoveVertex(pair.element);
+      RemoveLoose();
     }
-    RemoveLoose();
   }
-  for (auto * values : { &m_Bumps.vertices, &m_Bumps.edges, &m_Bumps.faces })
-  {
-    std::replace(values->begin(), values->end(), kLive, std::numeric_limits<double>::infinity());
-  }
-  return std::move(m_Bumps);
+  return TakeBumps();
+}
+
+BumpValues
+BumpCollapse::TakeBumps()
+{
+  // What is no longer needed makes room.
+  std::vector<Vertex>().swap(m_Vertices);
+  std::vector<ElementIndex>().swap(m_Neighbours);
+  const auto take = [](std::vector<BumpStanding> & standing) {
+    std::vector<double> heights;
+    heights.reserve(standing.size());
+    for (const BumpStanding & one : standing)
+    {
+      heights.push_back(one.IsLive() ? std::numeric_limits<double>::infinity() : one.Height());
+    }
+    std::vector<BumpStanding>().swap(standing);
+    return heights;
+  };
+  BumpValues bumps;
+  bumps.vertices = take(m_VertexStanding);
+  bumps.edges = take(m_EdgeStanding);
+  bumps.faces = std::move(m_FaceBumps);
+  return bumps;
 }
 
 } // namespace voxelcore

@@ -1,6 +1,8 @@
 #pragma once
 // The collapse behind ComputeBumps().
 
+#include "BumpStanding.h"
+
 #include "voxelcore/BucketQueue.h"
 #include "voxelcore/BumpPruning.h"
 
@@ -28,7 +30,6 @@ public:
 private:
   using Position = std::array<double, 3>;
 
-  static constexpr double kLive = -2;
   static constexpr double kBelowFloor = -1;
   // Up to so many voxel diagonals heights are measured. Ends of long curves drag along all that their lost parts kept:
   // beyond, the sum of what each vertex stuck out of the next stands for a look at it, which is never too small.
@@ -102,11 +103,11 @@ private:
     const LatticePoint & first = m_Points->front(); // as TouchingBalls has it
     return { m_Scale[0] * (p.x - first.x), m_Scale[1] * (p.y - first.y), m_Scale[2] * (p.z - first.z) };
   }
-  // How far a boundary vertex lies from the ball of y.
-  double
-  Gap(std::uint32_t point, const Vertex & y) const
+  // How far a place lies from the ball of y.
+  static double
+  Gap(const Position & place, const Vertex & y)
   {
-    return std::sqrt(SquaredDistance(PlaceOf(point), y.centre)) - y.radius;
+    return std::sqrt(SquaredDistance(place, y.centre)) - y.radius;
   }
   // By how much the ball of x sticks out of the ball of y.
   static double
@@ -117,7 +118,7 @@ private:
   bool
   IsLive(ElementIndex vertex) const
   {
-    return m_Bumps.vertices[vertex] == kLive;
+    return m_VertexStanding[vertex].IsLive();
   }
 
   // BumpSetup.cxx
@@ -146,6 +147,8 @@ private:
   Uphill(ElementIndex vertex);
   void
   CollectKeepers(ElementIndex vertex, ElementIndex other);
+  void
+  CollectAround(ElementIndex vertex);
 
   void
   OfferAll();
@@ -154,29 +157,34 @@ private:
   void
   RemoveLoose();
   void
-  OfferEdge(ElementIndex edge);
-  void
   Fetch() const;
+  void
+  FetchFace(ElementIndex face) const;
+  void
+  OfferEdges(std::span<const ElementIndex> edges);
   void
   RemoveFace(ElementIndex edge);
   void
   RemoveVertex(ElementIndex vertex);
   void
   DropEdge(ElementIndex edge);
+  BumpValues
+  TakeBumps();
 
   const MedialComplex *             m_Core;
   const std::vector<LatticePoint> * m_Points;
   Position                          m_Scale; // mm a lattice unit
   double                            m_Level = 0;
-  double                            m_Measured; // level up to which gaps are looked at, mm
-  BumpValues                        m_Bumps;    // kLive while the element is there
-  std::vector<Vertex>               m_Vertices; // and one at the end, where neighbours end
-  std::vector<Cofaces>              m_VertexCofaces;
-  std::vector<Cofaces>              m_EdgeCofaces;
+  double                            m_Measured;  // level up to which gaps are looked at, mm
+  std::vector<double>               m_FaceBumps; // infinity while the face is there
+  std::vector<Vertex>               m_Vertices;  // and one at the end, where neighbours end
+  std::vector<BumpStanding>         m_VertexStanding;
+  std::vector<BumpStanding>         m_EdgeStanding;
   std::vector<ElementIndex>         m_Neighbours; // along the edges of the core, gone or not
   std::vector<std::uint32_t>        m_NextKept;
   BucketQueue<Pair>                 m_Queue;
   std::vector<ElementIndex>         m_Loose; // vertices whose cost is to be looked at
+  std::vector<ElementIndex>         m_Freed; // edges of the last face that are free now
 
   // What the last cost was made of: RemoveFace() and RemoveVertex() follow a cost computed in the same state.
   std::vector<Reached>      m_Reached;
@@ -184,6 +192,7 @@ private:
   bool                      m_ToHeir = false; // to which all goes, none farther from it than m_HeirGap
   double                    m_HeirGap = 0;
   std::vector<ElementIndex> m_Keepers;  // candidates
+  std::vector<ElementIndex> m_Around;
   std::vector<Home>         m_NewHomes; // per kept boundary vertex in the order of the ring
 };
 

@@ -3,6 +3,7 @@
 #include "BumpCollapse.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace voxelcore
@@ -14,6 +15,9 @@ namespace
 // How far uphill a keeper is looked for. A spur of noise in a thick part has a hump here and there at which the next
 // ball in is no better than it; those further in are.
 constexpr int kUphillSteps = 32;
+
+// How many vertices around a loose end are looked at when those uphill will not do.
+constexpr std::size_t kAround = 32;
 
 // Fire costs that much more than what sticks out. Sheets stop a little before the balls at their rims are used up, so
 // that the loose edges a burnt face leaves behind still find keepers; without it sheets grow hair along their rims.
@@ -59,7 +63,7 @@ double
 BumpCollapse::FaceCost(ElementIndex edge, std::vector<Reached> & reached) const
 {
   const CellComplex & cells = m_Core->cells;
-  const ElementIndex  face = m_EdgeCofaces[edge].exclusiveOr;
+  const ElementIndex  face = m_EdgeStanding[edge].Coface();
   const auto          corners = cells.FaceVertices(face);
   const auto          sides = cells.FaceEdges(face);
   const auto [a, c] = cells.edges[edge];
@@ -67,26 +71,37 @@ BumpCollapse::FaceCost(ElementIndex edge, std::vector<Reached> & reached) const
   const Vertex & atC = m_Vertices[c];
   // The witness must not stick out, and neither must the end that fire comes from: else fire that came in along one
   // sheet would run out again along the next one, towards balls beside its witness.
-  const auto sticksOut = [this](ElementIndex end, const Vertex & at, const Vertex & w) {
-    const double own = Protrusion(at, w);
-    return at.witness == end ? own : std::max(own, Protrusion(m_Vertices[at.witness], w));
-  };
-  double cost = std::max(atA.burnt, atC.burnt);
+  const bool     ownA = atA.witness == a;
+  const bool     ownC = atC.witness == c;
+  const Vertex & fireA = m_Vertices[atA.witness];
+  const Vertex & fireC = m_Vertices[atC.witness];
+  double         cost = std::max(atA.burnt, atC.burnt);
+  bool           isFreeBefore = m_EdgeStanding[sides.back()].IsFree();
   reached.clear();
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
+    const bool isFree = m_EdgeStanding[sides[i]].IsFree();
+    const bool meets = isFreeBefore || isFree;
+    isFreeBefore = isFree;
     const ElementIndex corner = corners[i];
     if (corner == a || corner == c)
     {
       continue;
     }
     const Vertex & w = m_Vertices[corner];
-    const double   fromA = sticksOut(a, atA, w);
-    const double   fromC = sticksOut(c, atC, w);
-    const double   across = std::max(kMargin * std::min(fromA, fromC), w.burnt);
+    double         fromA = Protrusion(atA, w);
+    double         fromC = Protrusion(atC, w);
+    if (!ownA)
+    {
+      fromA = std::max(fromA, Protrusion(fireA, w));
+    }
+    if (!ownC)
+    {
+      fromC = std::max(fromC, Protrusion(fireC, w));
+    }
+    const double across = std::max(kMargin * std::min(fromA, fromC), w.burnt);
     // Sides i - 1 and i meet at corner i. Where one of them is free, fire comes from there too, and the two meet.
-    const ElementIndex before = sides[i == 0 ? sides.size() - 1 : i - 1];
-    if (m_EdgeCofaces[before].count == 1 || m_EdgeCofaces[sides[i]].count == 1)
+    if (meets)
     {
       cost = std::max(cost, (w.burnt + across) / 2);
     }
@@ -130,22 +145,42 @@ BumpCollapse::Uphill(ElementIndex vertex)
 void
 BumpCollapse::CollectKeepers(ElementIndex vertex, ElementIndex other)
 {
+  m_Keepers.clear();
+  // Uphill from both. Where the second way meets the first they are one.
+  std::array<ElementIndex, kUphillSteps> way{};
+  std::size_t                            length = 0;
+  ElementIndex                           at = vertex;
+  while (length < kUphillSteps && Uphill(at) != at)
+  {
+    at = Uphill(at);
+    way[length++] = at;
+    if (IsLive(at))
+    {
+      m_Keepers.push_back(at);
+    }
+  }
+  std::size_t same = length; // where on the first way the second is
+  at = other;
+  if (const auto start = std::find(way.begin(), way.begin() + length, other); start != way.begin() + length)
+  {
+    same = static_cast<std::size_t>(start - way.begin());
+  }
+  for (std::size_t step = 0; step < kUphillSteps && Uphill(at) != at; ++step)
+  {
+    at = Uphill(at);
+    same = same < length ? same + 1
+                         : static_cast<std::size_t>(std::find(way.begin(), way.begin() + length, at) - way.begin());
+    if (same >= length && at != vertex && IsLive(at))
+    {
+      m_Keepers.push_back(at);
+    }
+  }
   const auto add = [&](ElementIndex keeper) {
     if (keeper != vertex && IsLive(keeper) && std::find(m_Keepers.begin(), m_Keepers.end(), keeper) == m_Keepers.end())
     {
       m_Keepers.push_back(keeper);
     }
   };
-  m_Keepers.clear();
-  for (const ElementIndex start : { vertex, other })
-  {
-    ElementIndex at = start;
-    for (int step = 0; step < kUphillSteps && Uphill(at) != at; ++step)
-    {
-      at = Uphill(at);
-      add(at);
-    }
-  }
   for (const ElementIndex centre : { vertex, other })
   {
     for (std::uint32_t i = m_Vertices[centre].neighbours; i < m_Vertices[centre + 1].neighbours; ++i)
@@ -159,7 +194,7 @@ double
 BumpCollapse::VertexCost(ElementIndex vertex)
 {
   const Vertex & loose = m_Vertices[vertex];
-  const auto &   ends = m_Core->cells.edges[m_VertexCofaces[vertex].exclusiveOr];
+  const auto &   ends = m_Core->cells.edges[m_VertexStanding[vertex].Coface()];
   m_Heir = ends[0] == vertex ? ends[1] : ends[0];
   m_ToHeir = true;
   m_HeirGap = 0;
@@ -194,19 +229,56 @@ BumpCollapse::FindHomes(ElementIndex vertex)
   double              cost = 0;
   const std::uint32_t last = m_Vertices[vertex].lastKept;
   std::uint32_t       point = last;
+  const auto          look = [&](const Position & place, Home & home, std::size_t first) {
+    for (std::size_t i = first; i < m_Keepers.size() && home.gap > m_Level; ++i)
+    {
+      const double gap = Gap(place, m_Vertices[m_Keepers[i]]);
+      home = gap < home.gap ? Home{ m_Keepers[i], gap } : home;
+    }
+  };
   do
   {
     point = m_NextKept[point];
-    Home home{ m_Heir, Gap(point, m_Vertices[m_Heir]) };
-    for (std::size_t i = 0; i < m_Keepers.size() && home.gap > m_Level; ++i)
-    {
-      const double gap = Gap(point, m_Vertices[m_Keepers[i]]);
-      home = gap < home.gap ? Home{ m_Keepers[i], gap } : home;
-    }
+    const Position place = PlaceOf(point);
+    Home           home{ m_Heir, Gap(place, m_Vertices[m_Heir]) };
+    look(place, home, 0);
     m_NewHomes.push_back(home);
     cost = std::max(cost, home.gap);
   } while (point != last);
+  if (cost > std::max(m_Level, 0.25 * m_Measured))
+  {
+    const std::size_t first = m_Keepers.size();
+    CollectAround(vertex);
+    cost = 0;
+    for (Home & home : m_NewHomes)
+    {
+      point = m_NextKept[point];
+      look(PlaceOf(point), home, first);
+      cost = std::max(cost, home.gap);
+    }
+  }
   return cost;
+}
+
+// Those around the next vertex, nearest first by number of edges: at the rim of a sheet balls beside the loose end are
+// as near as those further in.
+void
+BumpCollapse::CollectAround(ElementIndex vertex)
+{
+  m_Around.assign(1, m_Heir);
+  for (std::size_t i = 0; i < m_Around.size() && m_Around.size() < kAround; ++i)
+  {
+    const ElementIndex centre = m_Around[i];
+    for (std::uint32_t j = m_Vertices[centre].neighbours; j < m_Vertices[centre + 1].neighbours; ++j)
+    {
+      const ElementIndex other = m_Neighbours[j];
+      if (other != vertex && IsLive(other) && std::find(m_Around.begin(), m_Around.end(), other) == m_Around.end())
+      {
+        m_Around.push_back(other);
+      }
+    }
+  }
+  m_Keepers.insert(m_Keepers.end(), m_Around.begin(), m_Around.end());
 }
 
 } // namespace voxelcore

@@ -5,6 +5,7 @@
 #include "voxelcore/SimplePairCollapse.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace voxelcore
 {
@@ -21,14 +22,12 @@ BumpCollapse::BumpCollapse(const MedialComplex &             core,
              weights.unit * static_cast<double>(weights.weight[1]),
              weights.unit * static_cast<double>(weights.weight[2]) }
   , m_Measured(kMeasured * std::sqrt(SquaredDistance(m_Scale, { 0, 0, 0 })))
-  , m_Bumps{ std::vector<double>(core.cells.vertexCount, kLive),
-             std::vector<double>(core.cells.edges.size(), kLive),
-             std::vector<double>(core.cells.FaceCount(), kLive) }
+  , m_FaceBumps(core.cells.FaceCount(), std::numeric_limits<double>::infinity())
   , m_Vertices(core.cells.vertexCount + 1)
-  , m_VertexCofaces(core.cells.vertexCount)
-  , m_EdgeCofaces(core.cells.edges.size())
+  , m_VertexStanding(core.cells.vertexCount)
+  , m_EdgeStanding(core.cells.edges.size())
   , m_NextKept(points.size())
-  , m_Queue(0, core.radius.empty() ? 0.0 : *std::max_element(core.radius.begin(), core.radius.end()))
+  , m_Queue(0, 1.5 * m_Measured) // few lie beyond; narrow buckets let more be fetched in time
 {
   if (floor > 0)
   {
@@ -48,9 +47,10 @@ BumpCollapse::BumpCollapse(const MedialComplex &             core,
     const ElementIndex ball = touching.largest[point];
     if (IsLive(ball))
     {
-      Keep(ball, point, Gap(point, m_Vertices[ball]));
+      Keep(ball, point, Gap(PlaceOf(point), m_Vertices[ball]));
     }
   }
+  touching.largest = {};
   FindNeighbours();
 }
 
@@ -59,15 +59,18 @@ BumpCollapse::DropBelow(double floor, const ProgressCallback & progress)
 {
   SimplePairCollapse collapse(m_Core->cells, m_Core->vertexLambda, m_Core->edgeLambda, m_Core->faceLambda);
   collapse.CollapseBelow(floor, progress);
-  const auto drop = [](const std::vector<std::uint8_t> & live, std::vector<double> & values) {
+  const auto drop = [](const std::vector<std::uint8_t> & live, auto && go) {
     for (std::size_t element = 0; element < live.size(); ++element)
     {
-      values[element] = live[element] != 0 ? kLive : kBelowFloor;
+      if (live[element] == 0)
+      {
+        go(element);
+      }
     }
   };
-  drop(collapse.Live().vertices, m_Bumps.vertices);
-  drop(collapse.Live().edges, m_Bumps.edges);
-  drop(collapse.Live().faces, m_Bumps.faces);
+  drop(collapse.Live().vertices, [this](std::size_t vertex) { m_VertexStanding[vertex].Go(kBelowFloor); });
+  drop(collapse.Live().edges, [this](std::size_t edge) { m_EdgeStanding[edge].Go(kBelowFloor); });
+  drop(collapse.Live().faces, [this](std::size_t face) { m_FaceBumps[face] = kBelowFloor; });
 }
 
 void
@@ -76,19 +79,19 @@ BumpCollapse::CountCofaces()
   const CellComplex & cells = m_Core->cells;
   for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
   {
-    if (m_Bumps.edges[edge] == kLive)
+    if (m_EdgeStanding[edge].IsLive())
     {
-      m_VertexCofaces[cells.edges[edge][0]].Add(static_cast<ElementIndex>(edge));
-      m_VertexCofaces[cells.edges[edge][1]].Add(static_cast<ElementIndex>(edge));
+      m_VertexStanding[cells.edges[edge][0]].Add(static_cast<ElementIndex>(edge));
+      m_VertexStanding[cells.edges[edge][1]].Add(static_cast<ElementIndex>(edge));
     }
   }
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
-    if (m_Bumps.faces[face] == kLive)
+    if (m_FaceBumps[face] != kBelowFloor)
     {
       for (const ElementIndex edge : cells.FaceEdges(face))
       {
-        m_EdgeCofaces[edge].Add(static_cast<ElementIndex>(face));
+        m_EdgeStanding[edge].Add(static_cast<ElementIndex>(face));
       }
     }
   }
@@ -102,14 +105,14 @@ BumpCollapse::FindNeighbours()
   for (std::size_t vertex = 0; vertex < cells.vertexCount; ++vertex)
   {
     m_Vertices[vertex].neighbours = end;
-    end += m_VertexCofaces[vertex].count;
+    end += m_VertexStanding[vertex].IsLive() ? m_VertexStanding[vertex].Count() : 0;
   }
   m_Vertices.back().neighbours = end;
   m_Neighbours.resize(end);
   std::vector<std::uint32_t> filled(cells.vertexCount, 0);
   for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
   {
-    if (m_Bumps.edges[edge] == kLive)
+    if (m_EdgeStanding[edge].IsLive())
     {
       const auto & [a, b] = cells.edges[edge];
       m_Neighbours[m_Vertices[a].neighbours + filled[a]++] = b;

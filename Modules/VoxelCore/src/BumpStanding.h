@@ -1,0 +1,70 @@
+#pragma once
+// Whether an element is still there, and what is asked of it meanwhile and afterwards.
+
+#include "voxelcore/CellComplex.h"
+
+#include <bit>
+#include <cstdint>
+
+namespace voxelcore
+{
+
+/** While an element is there, its cofaces; then the height at which it went: in one word, as collapses jump about in
+ *  memory and ask for both. Heights are -1, 0 or more; their two highest bits are never both set. */
+class BumpStanding
+{
+public:
+  void
+  Add(ElementIndex coface)
+  {
+    m_Word = (m_Word + kOne) ^ coface;
+  }
+  void
+  Remove(ElementIndex coface)
+  {
+    m_Word = (m_Word - kOne) ^ coface;
+  }
+  void
+  Go(double height)
+  {
+    m_Word = std::bit_cast<std::uint64_t>(height);
+  }
+  bool
+  IsLive() const
+  {
+    return m_Word >= kLive;
+  }
+  /** Whether it is there and bounds one element only. */
+  bool
+  IsFree() const
+  {
+    return (m_Word & ~kIndex) == (kLive | kOne);
+  }
+  /** Of one that is there. */
+  ElementIndex
+  Count() const
+  {
+    return static_cast<ElementIndex>((m_Word & ~kLive) >> 32U);
+  }
+  /** The coface of a free one. */
+  ElementIndex
+  Coface() const
+  {
+    return static_cast<ElementIndex>(m_Word & kIndex);
+  }
+  /** Of one that went. */
+  double
+  Height() const
+  {
+    return std::bit_cast<double>(m_Word);
+  }
+
+private:
+  static constexpr std::uint64_t kLive = std::uint64_t{ 3 } << 62U;
+  static constexpr std::uint64_t kOne = std::uint64_t{ 1 } << 32U;
+  static constexpr std::uint64_t kIndex = kOne - 1;
+
+  std::uint64_t m_Word = kLive;
+};
+
+} // namespace voxelcore
