@@ -1,5 +1,6 @@
 // Curve skeletons of shapes whose answer is known, scored.
 
+#include "../Skeleton/HandShape.h"
 #include "../Skeleton/RootScore.h"
 #include "VoxelCoreTesting/SurfaceNoise.h"
 
@@ -146,6 +147,101 @@ ScoreNoise(std::uint64_t seeds)
   }
 }
 
+MedialComplex
+BumpedSurfaceOf(const VoxelShape & shape, const Spacing3 & spacing, double diagonals)
+{
+  MedialComplex surface = PruneByBumps(BumpedCoreOf(shape, spacing), diagonals * Distance(spacing, { 0, 0, 0 }));
+  for (auto & position : surface.positions)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      position[axis] *= spacing[axis];
+    }
+  }
+  return surface;
+}
+
+/** Tips of the hand that no tip of the skeleton comes near to, and tips beyond them. */
+void
+CompareHand(double scale, int turn, const GraphMaker & graphOf, Score & score)
+{
+  std::vector<Spacing3> ends;
+  const VoxelShape      shape = Voxels(MakeHand(), scale, 0.9 * turn, 0.55 * turn, ends);
+  const SkeletonGraph   graph = graphOf(shape, { 1, 1, 1 });
+  std::size_t           met = 0;
+  for (const Spacing3 & end : ends)
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
+    {
+      if (graph.nodeKinds[node] == NodeKind::Tip)
+      {
+        nearest = std::min(nearest, Distance(graph.positions[graph.nodePoints[node]], end));
+      }
+    }
+    met += nearest <= 3 + 3 * scale ? 1 : 0;
+  }
+  const auto tips = static_cast<std::size_t>(std::count(graph.nodeKinds.begin(), graph.nodeKinds.end(), NodeKind::Tip));
+  score.expected += ends.size();
+  score.missed += ends.size() - met;
+  score.found += tips;
+  score.spurious += tips - std::min(tips, met);
+}
+
+/** Skeletons of the whole core beside those of a surface that was pruned before it was burnt. */
+void
+ScoreSurfaces(std::uint64_t seeds)
+{
+  const std::vector<std::pair<const char *, GraphMaker>> makers{
+    { "whole core", GraphOf },
+    { "lambda 1.5vox",
+      [](const VoxelShape & shape, const Spacing3 & spacing) {
+        const double voxel = std::min({ spacing[0], spacing[1], spacing[2] });
+        return GraphOfSurface(SurfaceOf(shape, spacing, 1.5 * voxel), spacing);
+      } },
+    { "bumps 1.2diag",
+      [](const VoxelShape & shape, const Spacing3 & spacing) {
+        return GraphOfSurface(BumpedSurfaceOf(shape, spacing, 1.2), spacing);
+      } },
+  };
+  std::printf(
+    "\nskeletons of surfaces, %d seeds   true tips  missed  found  spurious  length off %%: mean  worst  "
+    "radius off\n",
+    static_cast<int>(seeds));
+  for (const auto & [name, graphOf] : makers)
+  {
+    for (const auto & [size, slice] : std::vector<std::pair<int, double>>{ { 96, 1.0 }, { 160, 1.0 }, { 160, 2.0 } })
+    {
+      Score score;
+      for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+      {
+        CompareRoot(size, slice, seed, score, graphOf);
+      }
+      std::printf("%-14s root %3d, 1:1:%.0f %15zu %7zu %6zu %9zu %19.2f %6.2f %11.2f\n",
+                  name,
+                  size,
+                  slice,
+                  score.expected,
+                  score.missed,
+                  score.found,
+                  score.spurious,
+                  100 * score.sumOfLengths / static_cast<double>(seeds),
+                  100 * score.worstLength,
+                  score.worstRadius);
+    }
+    Score score;
+    for (const double scale : { 0.4, 0.6, 0.9 })
+    {
+      for (int turn = 0; turn < 4; ++turn)
+      {
+        CompareHand(scale, turn, graphOf, score);
+      }
+    }
+    std::printf("%-14s hands %22zu %7zu %6zu %9zu\n", name, score.expected, score.missed, score.found, score.spurious);
+    std::fflush(stdout);
+  }
+}
+
 } // namespace
 
 } // namespace voxelcore::testing
@@ -173,7 +269,9 @@ main(int argc, char ** argv)
     }
     else
     {
-      std::fprintf(stderr, "usage: %s [--seeds N] [--greatest 96|160|256] [--only rotations|noise|roots]\n", argv[0]);
+      std::fprintf(stderr,
+                   "usage: %s [--seeds N] [--greatest 96|160|256] [--only rotations|noise|surfaces|roots]\n",
+                   argv[0]);
       return 2;
     }
   }
@@ -188,6 +286,10 @@ main(int argc, char ** argv)
     voxelcore::testing::ScoreNoise(seeds);
   }
   std::fflush(stdout);
+  if (wants("surfaces"))
+  {
+    voxelcore::testing::ScoreSurfaces(std::min<std::uint64_t>(seeds, 5));
+  }
   if (wants("roots"))
   {
     voxelcore::testing::ScoreRoots(seeds, greatest);

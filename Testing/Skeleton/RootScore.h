@@ -132,15 +132,17 @@ EndsInALoop(const SkeletonGraph & graph, const Tip & tip, double slice)
   return false;
 }
 
+using GraphMaker = std::function<SkeletonGraph(const VoxelShape & shape, const Spacing3 & spacing)>;
+
 inline void
-CompareRoot(std::int32_t size, double slice, std::uint64_t seed, Score & score)
+CompareRoot(std::int32_t size, double slice, std::uint64_t seed, Score & score, const GraphMaker & graphOf = GraphOf)
 {
   PhantomOptions options;
   options.kind = "root";
   options.spacing = { 1, 1, slice };
   options.size = { size, size, static_cast<std::int32_t>(size / slice) };
   options.seed = seed;
-  const SkeletonGraph   graph = GraphOf(MakePhantom(options), options.spacing);
+  const SkeletonGraph   graph = graphOf(MakePhantom(options), options.spacing);
   std::vector<Spacing3> ends;
   for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
   {

@@ -99,16 +99,23 @@ HalfAVoxel(const Spacing3 & spacing = { 1, 1, 1 })
   return { { { 2 / spacing[0], 0, 0 }, { 0, 2 / spacing[1], 0 }, { 0, 0, 2 / spacing[2] } } };
 }
 
-/** The graph of a shape's skeleton at 3 voxels, fitted with the default window and reach. */
+/** The graph of a surface's skeleton at 3 voxels, fitted with the default window and reach. Positions in mm. */
 inline SkeletonGraph
-GraphOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 })
+GraphOfSurface(const MedialComplex & surface, const Spacing3 & spacing = { 1, 1, 1 })
 {
   const double  unit = std::min({ spacing[0], spacing[1], spacing[2] });
   const double  side = Distance(spacing, { 0, 0, 0 }) / std::sqrt(3.0);
-  SkeletonGraph graph = BuildSkeletonGraph(
-    SkeletonOf(SurfaceOf(shape, spacing), 3 * unit, std::numeric_limits<double>::infinity(), unit, side));
+  SkeletonGraph graph =
+    BuildSkeletonGraph(SkeletonOf(surface, 3 * unit, std::numeric_limits<double>::infinity(), unit, side));
   FitBranches(graph, 6 * side, HalfAVoxel(spacing));
   return graph;
+}
+
+/** The same of a shape's whole core. */
+inline SkeletonGraph
+GraphOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 })
+{
+  return GraphOfSurface(SurfaceOf(shape, spacing), spacing);
 }
 
 } // namespace voxelcore::testing
