@@ -167,6 +167,35 @@ TEST_F(BumpCommand, SkeletonAndOtherFormatsTakeWhatIsLeft)
   }
 }
 
+TEST_F(BumpCommand, ASkeletonOfAScanIsThatOfThePrunedCore)
+{
+  WriteBallWithRodAndPlate("a.nrrd");
+  Run({ "core", Path("a.nrrd"), "--bumps", "1.2diag", "-o", Path("m.vtp") });
+  const std::string note = Run({ "skeleton", Path("m.vtp"), "-o", Path("two.vtp") });
+  EXPECT_NE(note.find("1.2diag"), std::string::npos) << note;
+  Run({ "skeleton", Path("a.nrrd"), "--bumps", "1.2diag", "-o", Path("one.vtp"), "--report", Path("r.json") });
+  EXPECT_EQ(ReadAll(m_Folder / "one.vtp"), ReadAll(m_Folder / "two.vtp"));
+  EXPECT_EQ(Report("r.json")["skeleton"]["bumps"], "1.2diag");
+  for (const Json & label : Report("r.json")["labels"])
+  {
+    EXPECT_EQ(label["skeleton"]["betti"], label["shape"]["betti"]);
+    EXPECT_EQ(label["certificate"]["covered"], true);
+  }
+  // It says of itself what it was made of, and nought prunes nothing.
+  Run({ "skeleton", Path("a.nrrd"), "-o", Path("whole.vtp") });
+  EXPECT_NE(ReadAll(m_Folder / "one.vtp"), ReadAll(m_Folder / "whole.vtp"));
+  EXPECT_NE(ReadAll(m_Folder / "one.vtp").find("\"bumps\":\"1.2diag\""), std::string::npos);
+  Run({ "skeleton", Path("a.nrrd"), "--bumps", "0", "-o", Path("nought.vtp") });
+  EXPECT_EQ(ReadAll(m_Folder / "nought.vtp"), ReadAll(m_Folder / "whole.vtp"));
+  const auto refused = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), "skeleton");
+    options.insert(options.end(), { "-o", Path("x.vtp") });
+    return RunProgram(options);
+  };
+  ExpectRefusal(refused({ Path("a.nrrd"), "--bumps", "1vox,2vox" }), 2, { "--bumps", "one" });
+  ExpectRefusal(refused({ Path("m.vtp"), "--bumps", "2vox" }), 2, { "--bumps", "m.vtp" });
+}
+
 TEST_F(BumpCommand, DegenerateShapesPass)
 {
   TestScan scan({ 40, 24, 24 });

@@ -386,7 +386,9 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
     PrunedRecord source{ "0", 0, label.core, {}, {} };
     for (const PrunedRecord & pruned : report.labels[index].pruned)
     {
-      source = pruned.lambda == report.skeleton->lambda.text && !pruned.bumps ? pruned : source;
+      const auto & height = report.skeleton->bumps;
+      const bool   same = height ? pruned.bumps && pruned.bumps->height == height->text : !pruned.bumps;
+      source = pruned.lambda == report.skeleton->lambda.text && same ? pruned : source;
     }
     label.pruned = { source };
     AddLabel(part, std::move(label));

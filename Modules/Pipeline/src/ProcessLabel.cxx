@@ -217,7 +217,7 @@ ProcessLabel(LabelShape                      label,
   WholeCore   whole = ComputeWholeCore(label.shape, geometry, weights, options, labelText, outcome, coreProgress);
   ModelPart & part = whole.part;
 
-  const bool ofWhole = skeleton != nullptr && skeleton->lambda.value == 0;
+  const bool ofWhole = skeleton != nullptr && skeleton->lambda.value == 0 && !skeleton->bumps;
   if (ofWhole)
   {
     makeSkeleton(part);
@@ -268,7 +268,11 @@ ProcessLabel(LabelShape                      label,
     outcome.parts.push_back(std::move(one.part));
   }
   outcome.seconds.prune += pruneWatch.Lap();
-  if (skeleton != nullptr && !ofWhole)
+  if (skeleton != nullptr && skeleton->bumps)
+  {
+    makeSkeleton(outcome.parts.front());
+  }
+  else if (skeleton != nullptr && !ofWhole)
   {
     const auto same = std::find_if(lambdas.begin(), lambdas.end(), [&](const Lambda & lambda) {
       return lambda.text == skeleton->lambda.text;

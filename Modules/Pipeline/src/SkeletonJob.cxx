@@ -27,6 +27,10 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
   core.resolution = options.resolution;
   core.edits = options.edits;
   core.lambdas = { options.stage.lambda };
+  if (options.stage.bumps)
+  {
+    core.bumps = { *options.stage.bumps };
+  }
   core.skeleton = options.stage;
   core.skeletonOutput = options.output;
   core.report = options.report;
@@ -57,7 +61,8 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
   MedialModel model = ReadModel(options.input);
   RequireUnrefined(model, options.input);
   report = ParseProvenance(model.provenance, options.input.string());
-  if (report.labels.size() != model.parts.size() || report.parameters.lambda.size() != 1)
+  if (report.labels.size() != model.parts.size() || report.parameters.lambda.size() != 1 ||
+      report.parameters.bumps.size() > 1)
   {
     throw InputError(options.input.string() + ": its field Provenance does not fit its cells; make the file again");
   }
@@ -67,6 +72,11 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
   report.parameters.threads = options.threads;
   report.skeleton = options.stage;
   report.skeleton->lambda = ParseLambda(report.parameters.lambda.front());
+  if (!report.parameters.bumps.empty())
+  {
+    const BumpHeight height = ParseBumpHeight(report.parameters.bumps.front());
+    report.skeleton->bumps = height.value > 0 ? std::optional(height) : std::nullopt;
+  }
   report.seconds.read = watch.Lap();
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
@@ -89,6 +99,11 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
   {
     result.notes.push_back(options.input.string() + " is pruned at lambda " + report.skeleton->lambda.text +
                            ": parts thinner than that have no branches; for these make the core with --lambda 0");
+  }
+  if (report.skeleton->bumps)
+  {
+    result.notes.push_back(options.input.string() + " is pruned at bump height " + report.skeleton->bumps->text +
+                           ": tips are that much shorter; for all of them make the core with --lambda 0");
   }
   ReportProgress(context.progress, "writing", 0.95);
   files.Finish(report, result.notes);

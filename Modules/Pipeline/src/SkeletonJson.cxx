@@ -26,15 +26,20 @@ Json
 SkeletonStageJson(const SkeletonStage & stage)
 {
   const BranchOptions & branches = stage.branches;
-  return { { "lambda", stage.lambda.text },
-           { "stand_out", stage.standOut.text },
-           { "plates", LengthJson(stage.plates) },
-           { "smooth", stage.smooth.text },
-           { "prune_branches", LengthJson(branches.pruneLength) },
-           { "prune_branches_radii", branches.pruneRadii },
-           { "cut_loops", branches.cutLoops },
-           { "split_at_junctions", branches.splitAtJunctions },
-           { "root", RootText(branches.root) } };
+  Json                  json{ { "lambda", stage.lambda.text },
+             { "stand_out", stage.standOut.text },
+             { "plates", LengthJson(stage.plates) },
+             { "smooth", stage.smooth.text },
+             { "prune_branches", LengthJson(branches.pruneLength) },
+             { "prune_branches_radii", branches.pruneRadii },
+             { "cut_loops", branches.cutLoops },
+             { "split_at_junctions", branches.splitAtJunctions },
+             { "root", RootText(branches.root) } };
+  if (stage.bumps)
+  {
+    json["bumps"] = stage.bumps->text;
+  }
+  return json;
 }
 
 SkeletonStage
@@ -42,6 +47,10 @@ ReadSkeletonStage(const Json & json)
 {
   SkeletonStage stage;
   stage.lambda = ParseLambda(json.at("lambda").get<std::string>());
+  if (json.contains("bumps"))
+  {
+    stage.bumps = ParseBumpHeight(json.at("bumps").get<std::string>());
+  }
   stage.standOut = ParseLambda(json.at("stand_out").get<std::string>());
   stage.plates = ReadLength(json.at("plates"));
   stage.smooth = ParseLambda(json.at("smooth").get<std::string>());

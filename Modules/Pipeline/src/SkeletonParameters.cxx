@@ -1,4 +1,5 @@
 #include "voxelcore/Error.h"
+#include "voxelcore/OutputNames.h"
 #include "voxelcore/Parameters.h"
 
 #include <algorithm>
@@ -122,11 +123,11 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
 {
   for (const Parameter & parameter : Parameters())
   {
-    const bool ofScans =
-      BelongsTo(parameter, CommandId::Skeleton) &&
-      (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" || parameter.name == "engine") &&
-      parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
-      parameter.name != "quiet";
+    const bool ofScans = BelongsTo(parameter, CommandId::Skeleton) &&
+                         (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" ||
+                          parameter.name == "bumps" || parameter.name == "engine") &&
+                         parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
+                         parameter.name != "quiet";
     if (ofScans && values.contains(parameter.name))
     {
       throw UsageError("--" + std::string(parameter.name) + ": is for scans; " + input.string() +
@@ -266,6 +267,15 @@ SkeletonOptionsFrom(const ParameterValues & values)
   options.edits = ShapeEditsFrom(values, command);
   options.stage = StageFrom(values, command);
   options.stage.lambda = LengthFrom(values, command, "lambda");
+  if (values.contains("bumps"))
+  {
+    const auto heights = ParseBumpHeights(ValueOf(values, command, "bumps"));
+    if (heights.size() > 1)
+    {
+      throw UsageError("--bumps " + ValueOf(values, command, "bumps") + ": give one");
+    }
+    options.stage.bumps = heights.front().value > 0 ? std::optional(heights.front()) : std::nullopt;
+  }
   options.output = OutputFrom(values, command);
   if (values.contains("report"))
   {

@@ -2,6 +2,7 @@
 // What a user can choose about curve skeletons and their branches.
 
 #include "voxelcore/BranchTable.h"
+#include "voxelcore/BumpPruning.h"
 #include "voxelcore/LambdaPruning.h"
 
 #include <filesystem>
@@ -27,11 +28,12 @@ struct BranchOptions
 /** From a core to a curve skeleton. */
 struct SkeletonStage
 {
-  Lambda                lambda;   ///< the core is pruned to it first
-  Lambda                standOut; ///< CurveOptions::branchThreshold
-  std::optional<Lambda> plates;   ///< CurveOptions::plateThreshold
-  Lambda                smooth;   ///< window of FitBranches
-  BranchOptions         branches;
+  Lambda                    lambda;   ///< the core is pruned to it first
+  std::optional<BumpHeight> bumps;    ///< then by bump height, more than 0
+  Lambda                    standOut; ///< CurveOptions::branchThreshold
+  std::optional<Lambda>     plates;   ///< CurveOptions::plateThreshold
+  Lambda                    smooth;   ///< window of FitBranches
+  BranchOptions             branches;
 };
 
 /** "top", "thickest" or "x,y,z" in LPS mm. \throws UsageError */
