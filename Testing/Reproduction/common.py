@@ -5,6 +5,7 @@ import datetime
 import io
 import json
 import os
+import pickle
 import re
 import subprocess
 import sys
@@ -30,11 +31,36 @@ def arguments(description, resolutions, small):
     parser.add_argument("--small", action="store_true", help="what the tests run")
     parser.add_argument("--resolutions", help=f"comma-separated; default {resolutions}")
     parser.add_argument("--meshes", help=f"folder with CGAL's data/meshes; default: out of {CGAL}")
+    parser.add_argument("--continue", dest="go_on", action="store_true", help="with what an earlier run left in the output folder")
     options = parser.parse_args()
     text = options.resolutions or (small if options.small else resolutions)
     options.resolutions = [int(n) for n in text.split(",")]
     os.makedirs(options.output, exist_ok=True)
     return options
+
+
+class Kept:
+    """Results of single jobs, each written as it is made: a long run that is cut short goes on with `--continue`."""
+
+    def __init__(self, options, name):
+        self._folder = os.path.join(options.output, "kept")
+        self._name = name
+        self._go_on = options.go_on
+        os.makedirs(self._folder, exist_ok=True)
+
+    def get(self, key, make):
+        """What make() returns, or what it returned then. Prints the first part of it, the table's row or rows."""
+        path = os.path.join(self._folder, f"{self._name}_{key}.pickle".replace(" ", "_"))
+        if self._go_on and os.path.exists(path):
+            with open(path, "rb") as file:
+                result = pickle.load(file)
+        else:
+            result = make()
+            with open(path + ".part", "wb") as file:
+                pickle.dump(result, file)
+            os.replace(path + ".part", path)
+        print(key, result[0], flush=True)
+        return result
 
 
 class Meshes:
@@ -197,10 +223,11 @@ def standing_view(points):
     return np.stack([right, c * up - s * eye, s * up + c * eye], 1)
 
 
-def paint(panel, one, turn=VIEW, values=None, pixels=360, box=None, measure_first=False, colours="viridis", most=None):
+def paint(one, turn=VIEW, values=None, pixels=360, box=None, measure_first=False, colours="viridis", most=None):
     """A Core in parallel projection: columns of `turn` are the picture's right, its up, and towards the eye. Colours by
     `values` per point up to `most`, light by the normal. Where elements hide each other the nearest is seen, or with
-    `measure_first` the one of greatest value. Returns the box (left, right, bottom, top); lines are a pixel wide."""
+    `measure_first` the one of greatest value. Returns the pixels, for hang(), and the box (left, right, bottom, top); lines are
+    a pixel wide."""
     turned = one.points @ turn
     values = one.radius if values is None else values
     most = most or values.max(initial=0) or 1
@@ -240,9 +267,13 @@ def paint(panel, one, turn=VIEW, values=None, pixels=360, box=None, measure_firs
     picture = plt.get_cmap(colours)(np.clip(colour / most, 0, 1))
     picture[:, :3] *= light[:, None]
     picture[front == -np.inf] = 1
-    panel.imshow(picture.reshape(height, width, 4), extent=box, interpolation="nearest")
+    return (255 * picture.reshape(height, width, 4) + 0.5).astype(np.uint8), box
+
+
+def hang(panel, painted):
+    """What paint() returned."""
+    panel.imshow(painted[0], extent=painted[1], interpolation="nearest")
     panel.set_axis_off()
-    return box
 
 
 def save(figure, folder, name):

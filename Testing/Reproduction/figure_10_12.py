@@ -7,7 +7,7 @@ import tempfile
 import numpy as np
 from scipy.spatial import cKDTree
 
-from common import Core, Meshes, arguments, core, paint, plt, standing_view, require, run, save, write_nrrd, write_table
+from common import Core, Kept, Meshes, arguments, core, hang, paint, plt, standing_view, require, run, save, write_nrrd, write_table
 
 NAMES = ["elephant", "elk", "femur", "hand", "cheese", "armadillo", "dragknob", "rotor"]
 THIN = 1.16  # voxels: thinner places may be lost or joined
@@ -187,65 +187,86 @@ def numbers(topology):
     return f"{topology['euler']}: {'/'.join(map(str, topology['betti']))}"
 
 
-def caption(panel, name, n, label, right):
+def caption(panel, name, n, euler, pieces, right):
     """As in the paper: resolution, Euler number and pieces, red where they are not the mesh's."""
-    text = label["core"]
-    panel.set_title(f"{name} {n}: Euler {text['euler']}, CC {text['betti'][0]}", fontsize=7, pad=2, color="black" if right else "red")
+    panel.set_title(f"{name} {n}: Euler {euler}, CC {pieces}", fontsize=7, pad=2, color="black" if right else "red")
+
+
+class Result:
+    """A shape at a resolution: the table's row, a picture, and what must hold."""
+
+    def __init__(self, name, n, expected, closed, report, painted):
+        label = report["labels"][0]
+        shape, found = label["shape"], label["core"]
+        self.painted = painted
+        self.equal = shape == {k: found[k] for k in ("euler", "betti")}
+        self.certified = label["certificate"]["passed"]
+        self.right = shape["betti"] == [*expected, 0]
+        self.euler, self.pieces = found["euler"], found["betti"][0]
+        self.traced = True
+        self.row = [name, "/".join(map(str, expected)) + ("" if closed else " (not a manifold)"), n, numbers(shape), numbers(found),
+                    "equal" if self.equal else "DIFFERENT", "right" if self.right else "wrong", ""]
+
+    def __getitem__(self, _):  # what Kept prints
+        return self.row
+
+
+def of_mesh(options, meshes, name, n):
+    points, triangles = read_off(meshes.path(name))
+    pieces, genus, closed = topology_of_mesh(points, triangles)
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, "core.vtp")
+        report = core(options.program, meshes.path(name), folder, "--resolution", n, "--lambda", "2.5%", "-o", out)
+        result = Result(name, n, (pieces, genus), closed, report, paint(Core(out), standing_view(points), pixels=210))
+        if not result.right and closed:
+            scan = os.path.join(folder, "voxels.nrrd")
+            run(options.program, "voxelize", meshes.path(name), "--resolution", n, "-o", scan, "--force", "-q")
+            step = report["input"]["spacing_mm"][0]
+            wrong, looked, thinnest = wrong_places(read_nrrd(scan), step, points, triangles)
+            result.row[-1] = f"{wrong} of {looked} places thinner than {THIN} voxels, the thinnest {thinnest:.2f}"
+            result.traced = wrong > 0
+        return result
+
+
+def of_tanglecube(options, n):
+    with tempfile.TemporaryDirectory() as folder:
+        scan, out = os.path.join(folder, "tanglecube.nrrd"), os.path.join(folder, "core.vtp")
+        tanglecube(scan, n)
+        report = core(options.program, scan, folder, "--lambda", "3%", "-o", out)
+        return Result("tanglecube, turned", n, (1, 5), True, report, paint(Core(out), pixels=330))
 
 
 def main():
     options = arguments(__doc__, "256,512,768", "48")
+    kept = Kept(options, "figure-10")
     meshes = Meshes(options.meshes)
     names = NAMES[:2] if options.small else NAMES
-    rows = []
+    results = []
+
+    def add(result, panel, name, n):
+        results.append(result)
+        hang(panel, result.painted)
+        caption(panel, name, n, result.euler, result.pieces, result.right)
+
+    figure, sides = plt.subplots(1, 2, figsize=(6.4, 3.3))
+    for panel, n in zip(sides, (48, 64) if options.small else (256, 512)):
+        add(kept.get(f"tanglecube {n}", lambda: of_tanglecube(options, n)), panel, "tanglecube", n)
+        require(results[-1].right or n < 256, "the tanglecube keeps its twelve connections at 256")
+    save(figure, options.output, "figure-12")
     pictures, panels = plt.subplots(len(names), len(options.resolutions), squeeze=False,
                                     figsize=(2.3 * len(options.resolutions), 1.7 * len(names)))
-    with tempfile.TemporaryDirectory() as folder:
-        out = os.path.join(folder, "core.vtp")
-        for name in names:
-            points, triangles = read_off(meshes.path(name))
-            pieces, genus, closed = topology_of_mesh(points, triangles)
-            for n in options.resolutions:
-                report = core(options.program, meshes.path(name), folder, "--resolution", n, "--lambda", "2.5%", "-o", out)
-                label = report["labels"][0]
-                step = report["input"]["spacing_mm"][0]
-                shape = label["shape"]
-                require(shape == {k: label["core"][k] for k in ("euler", "betti")}, f"{name}: the core has the voxels' topology")
-                require(label["certificate"]["passed"], f"{name}: certificate")
-                right = shape["betti"] == [pieces, genus, 0]
-                panel = panels[names.index(name)][options.resolutions.index(n)]
-                view = standing_view(points)
-                paint(panel, Core(out), view, pixels=210)
-                caption(panel, name, n, label, right)
-                why, traced = "", True
-                if not right and closed:
-                    scan = os.path.join(folder, "voxels.nrrd")
-                    run(options.program, "voxelize", meshes.path(name), "--resolution", n, "-o", scan, "--force", "-q")
-                    wrong, looked, thinnest = wrong_places(read_nrrd(scan), step, points, triangles)
-                    why = f"{wrong} of {looked} places thinner than {THIN} voxels, the thinnest {thinnest:.2f}"
-                    traced = wrong > 0
-                rows.append([name, f"{pieces}/{genus}" + ("" if closed else " (not a manifold)"), n, numbers(shape),
-                             numbers(label["core"]), "equal", "right" if right else "wrong", why])
-                print(*rows[-1], flush=True)  # in full this takes a while
-                require(traced, f"{name} at {n}: its topology is wrong, and a place thinner than {THIN} voxels is to blame")
-        scan = os.path.join(folder, "tanglecube.nrrd")
-        figure, sides = plt.subplots(1, 2, figsize=(6.4, 3.3))
-        for panel, n in zip(sides, (48, 64) if options.small else (256, 512)):
-            tanglecube(scan, n)
-            report = core(options.program, scan, folder, "--lambda", "3%", "-o", out)
-            label = report["labels"][0]
-            shape = label["shape"]
-            require(shape == {k: label["core"][k] for k in ("euler", "betti")}, "tanglecube: the core has the voxels' topology")
-            right = shape["betti"] == [1, 5, 0]
-            require(right or n < 256, "the tanglecube keeps its twelve connections at 256")
-            rows.append(["tanglecube, turned", "1/5", n, numbers(shape), numbers(label["core"]), "equal", "right" if right else "wrong", ""])
-            paint(panel, Core(out), pixels=330)
-            caption(panel, "tanglecube", n, label, right)
-        save(figure, options.output, "figure-12")
+    for name, line in zip(names, panels):
+        for n, panel in zip(options.resolutions, line):
+            add(kept.get(f"{name} {n}", lambda: of_mesh(options, meshes, name, n)), panel, name, n)
     save(pictures, options.output, "figure-10")
     write_table(options.output, "figure-10",
                 ["shape", "mesh: pieces/genus", "resolution", "voxels chi: b0/b1/b2", "core chi: b0/b1/b2",
-                 "core and voxels", "against the mesh", "traced to"], rows)
+                 "core and voxels", "against the mesh", "traced to"], [one.row for one in results])
+    for one in results:
+        what = f"{one.row[0]} at {one.row[2]}: "
+        require(one.equal, what + "the core has the voxels' topology")
+        require(one.certified, what + "certificate")
+        require(one.traced, what + f"its topology is wrong, and a place thinner than {THIN} voxels is to blame")
 
 
 if __name__ == "__main__":

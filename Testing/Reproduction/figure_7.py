@@ -8,10 +8,10 @@ import tempfile
 
 import numpy as np
 
-from common import Meshes, arguments, core, plt, run, save, write_table
+from common import Kept, Meshes, arguments, core, plt, run, save, write_table
 
-MEMORY = 6000  # MB: sizes are left out that would take more, by what the size before took
-SECONDS = 400
+MEMORY = 14000  # MB: sizes are left out that would take more, by what the size before took
+SECONDS = 900
 TETGEN = 640  # voxels: finer ones are left to the default engine
 KINDS = ["ellipsoid", "torus", "tanglecube", "elk", "hand"]
 MESHES = ["elk", "hand"]  # also of the paper's five
@@ -27,41 +27,45 @@ def after_reading(taken, report):
     return taken * (1 - report["seconds"]["read"] / report["seconds"]["total"])
 
 
-def main():
-    options = arguments(__doc__, "128,256,384,512,768,1024,1280", "24,48")
-    meshes = Meshes(options.meshes)
-    rows, curves = [], {}
+def measure(options, meshes, kind, n):
+    """The table's row. One thread, and the processor's time: what else the machine does matters little then."""
     with tempfile.TemporaryDirectory() as folder:
         scan, out = os.path.join(folder, "scan.nrrd"), os.path.join(folder, "core.vtp")
+        if kind in MESHES:
+            run(options.program, "voxelize", meshes.path(kind), "--resolution", n, "-o", scan, "--force")
+        else:
+            run(options.program, "phantom", kind, "--size", n, "-o", scan, "--force")
+        part = "1.5%" if kind == "elk" else "2.5%"  # as the paper
+
+        def of_engine(*engine):
+            begin = processor_seconds()
+            report = core(options.program, scan, folder, "--lambda", part, "-o", out, "--threads", 1, *engine)
+            taken = after_reading(processor_seconds() - begin, report)
+            return report, [taken, report["seconds"]["delaunay"] / report["seconds"]["total"], float(report["peak_memory_mb"])]
+
+        report, row = of_engine()
+        vertices = sum(label["boundary_vertices"] for label in report["labels"])
+        return [[kind, n, vertices, *row, *(of_engine("--engine", "tetgen")[1] if n <= TETGEN else ["", "", ""])]]
+
+
+def main():
+    options = arguments(__doc__, "128,256,384,512,640,768,1024,1280", "24,48")
+    kept = Kept(options, "figure-7")
+    meshes = Meshes(options.meshes)
+    rows, curves = [], {}
+    # By size, so that what a cut leaves are the greatest.
+    for n in options.resolutions:
         for kind in KINDS:
-            for n in options.resolutions:
-                if kind in curves:
-                    last = curves[kind][-1]
-                    growth = (n / last[1]) ** 2
-                    if growth * last[5] > MEMORY or growth * last[3] > SECONDS:
-                        print(f"{kind} {n}: left out, as about {growth * last[5]:.0f} MB and {growth * last[3]:.0f} s are to be expected")
-                        continue
-                if kind in MESHES:
-                    run(options.program, "voxelize", meshes.path(kind), "--resolution", n, "-o", scan, "--force")
-                else:
-                    run(options.program, "phantom", kind, "--size", n, "-o", scan, "--force")
-                part = "1.5%" if kind == "elk" else "2.5%"  # as the paper
-                # One thread, and the processor's time: what else the machine does matters little then.
-                begin = processor_seconds()
-                report = core(options.program, scan, folder, "--lambda", part, "-o", out, "--threads", 1)
-                taken = after_reading(processor_seconds() - begin, report)
-                vertices = sum(label["boundary_vertices"] for label in report["labels"])
-                share = report["seconds"]["delaunay"] / report["seconds"]["total"]
-                row = [kind, n, vertices, taken, share, float(report["peak_memory_mb"])]
-                if n <= TETGEN:
-                    begin = processor_seconds()
-                    other = core(options.program, scan, folder, "--lambda", part, "-o", out, "--engine", "tetgen", "--threads", 1)
-                    taken = after_reading(processor_seconds() - begin, other)
-                    row += [taken, other["seconds"]["delaunay"] / other["seconds"]["total"], float(other["peak_memory_mb"])]
-                else:
-                    row += ["", "", ""]
-                rows.append(row)
-                curves.setdefault(kind, []).append(row)
+            if kind in curves:
+                last = curves[kind][-1]
+                growth = (n / last[1]) ** 2
+                if growth * last[5] > MEMORY or growth * last[3] > SECONDS:
+                    print(f"{kind} {n}: left out, as about {growth * last[5]:.0f} MB and {growth * last[3]:.0f} s are to be expected")
+                    continue
+            row = kept.get(f"{kind} {n}", lambda: measure(options, meshes, kind, n))[0]
+            rows.append(row)
+            curves.setdefault(kind, []).append(row)
+    rows.sort(key=lambda row: (KINDS.index(row[0]), row[1]))
     fits = []
     for kind, points in curves.items():
         for engine, columns in (("lattice", (3, 5)), ("TetGen", (6, 8))):

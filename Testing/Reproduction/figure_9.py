@@ -7,7 +7,7 @@ import tempfile
 
 import numpy as np
 
-from common import Core, arguments, core, distance_to_core, paint, plt, require, save, write_nrrd, write_table
+from common import Core, Kept, arguments, core, distance_to_core, hang, paint, plt, require, save, write_nrrd, write_table
 
 A, B, C = 0.5, 0.35, 0.2  # semi-axes; the longest side of its box is about 1
 LAMBDAS = [0, 1.5, 2.5, 5, 8.5]  # % of the longest side of the voxels' box
@@ -59,11 +59,15 @@ def disc(a, b, count):
     return np.stack([(a * r * np.cos(t)).ravel(), (b * r * np.sin(t)).ravel(), np.zeros(6 * count * count)], 1)
 
 
-def draw(panel, found, value, n, semi):
-    """As the paper has it: seen along the shortest axis, the axis' rim in red; of the whole core what has the greatest measure
-    lies in front. The dashed rim is that of the lambda-medial axis."""
-    paint(panel, found, np.eye(3), found.measure, pixels=230, box=(-A, A, -B, B), measure_first=value == 0,
-          colours="turbo" if value == 0 else "viridis", most=C)
+def draw(found, value):
+    """As the paper has it: seen along the shortest axis; of the whole core what has the greatest measure lies in front."""
+    return paint(found, np.eye(3), found.measure, pixels=230, box=(-A, A, -B, B), measure_first=value == 0,
+                 colours="turbo" if value == 0 else "viridis", most=C)
+
+
+def frame(panel, painted, value, n, semi):
+    """With the axis' rim in red. The dashed rim is that of the lambda-medial axis."""
+    hang(panel, painted)
     t = np.linspace(0, 2 * np.pi, 200)
     scale = np.sqrt(1 - (value / 100 / C) ** 2)  # the longest side of the voxels' box is about 1
     panel.plot(semi[0] * np.cos(t), semi[1] * np.sin(t), "r", linewidth=0.9)
@@ -72,37 +76,50 @@ def draw(panel, found, value, n, semi):
     panel.set_title(f"{n}, {'whole' if value == 0 else f'lambda {value} %'}", fontsize=7, pad=2)
 
 
+def measure(options, n, turn, semi):
+    """Of a resolution: the table's rows, the distances by (lambda, whether to the whole axis), and a picture by lambda."""
+    rows, distances, painted = [], {}, {}
+    with tempfile.TemporaryDirectory() as folder:
+        scan = os.path.join(folder, "ellipsoid.nrrd")
+        step = digitize(scan, n, turn)
+        lambdas = ",".join("0" if v == 0 else f"{v}%" for v in LAMBDAS)
+        report = core(options.program, scan, folder, "--lambda", lambdas, "-o", os.path.join(folder, "core.vtp"))
+        label = report["labels"][0]
+        require(label["certificate"]["passed"], "certificate")
+        for value, pruned in zip(LAMBDAS, label["pruned"]):
+            found = Core(os.path.join(folder, os.path.basename(pruned["output"])))
+            found.points = found.points @ turn
+            painted[value] = draw(found, value)
+            length = pruned["lambda_mm"]
+            scale = np.sqrt(1 - (length / C) ** 2)
+            row = [f"{value} %", n, float(length / step)]
+            for factor, whole in ((1.0, True), (scale, False)):
+                a, b = factor * semi[0], factor * semi[1]
+                # The distance to a convex set is greatest at a corner, so corners say all.
+                there = to_disc(found.points, a, b).max()
+                back = distance_to_core(disc(a, b, 40 if options.small else 120), found).max()
+                row += [float(there), float(back)]
+                distances[value, whole] = float(max(there, back))
+            row += [float(max(row[5:7]) / step), "" if row[2] > 2.44 else "for comparison"]
+            rows.append(row)
+    return rows, distances, painted
+
+
 def main():
     options = arguments(__doc__, "128,256,512,1024", "32,64")
+    kept = Kept(options, "figure-9")
     turn = rotation()
     semi = (A * A - C * C) / A, (B * B - C * C) / B
     rows, curves = [], {}
     pictures, panels = plt.subplots(len(LAMBDAS), len(options.resolutions), squeeze=False,
                                     figsize=(2.0 * len(options.resolutions), 1.5 * len(LAMBDAS)))
-    with tempfile.TemporaryDirectory() as folder:
-        for n in options.resolutions:
-            scan = os.path.join(folder, "ellipsoid.nrrd")
-            step = digitize(scan, n, turn)
-            lambdas = ",".join("0" if v == 0 else f"{v}%" for v in LAMBDAS)
-            report = core(options.program, scan, folder, "--lambda", lambdas, "-o", os.path.join(folder, "core.vtp"))
-            label = report["labels"][0]
-            require(label["certificate"]["passed"], "certificate")
-            for value, pruned in zip(LAMBDAS, label["pruned"]):
-                found = Core(os.path.join(folder, os.path.basename(pruned["output"])))
-                found.points = found.points @ turn
-                draw(panels[LAMBDAS.index(value)][options.resolutions.index(n)], found, value, n, semi)
-                length = pruned["lambda_mm"]
-                scale = np.sqrt(1 - (length / C) ** 2)
-                row = [f"{value} %", n, float(length / step)]
-                for factor, whole in ((1.0, True), (scale, False)):
-                    a, b = factor * semi[0], factor * semi[1]
-                    # The distance to a convex set is greatest at a corner, so corners say all.
-                    there = to_disc(found.points, a, b).max()
-                    back = distance_to_core(disc(a, b, 40 if options.small else 120), found).max()
-                    row += [float(there), float(back)]
-                    curves.setdefault((value, whole), []).append(max(there, back))
-                row += [float(max(row[5:7]) / step), "" if row[2] > 2.44 else "for comparison"]
-                rows.append(row)
+    for column, n in enumerate(options.resolutions):
+        of_size, distances, painted = kept.get(n, lambda: measure(options, n, turn, semi))
+        rows += of_size
+        for key, distance in distances.items():
+            curves.setdefault(key, []).append(distance)
+        for line, value in enumerate(LAMBDAS):
+            frame(panels[line][column], painted[value], value, n, semi)
     rows.sort(key=lambda row: (float(row[0][:-2]), row[1]))
     write_table(options.output, "figure-9",
                 ["lambda", "resolution", "lambda in voxels", "core to axis", "axis to core", "core to lambda-axis",
@@ -123,9 +140,9 @@ def main():
     compared = 0
     for value in LAMBDAS:
         of_lambda = [row for row in rows if row[0] == f"{value} %"]
-        kept = [max(row[5:7]) for row in of_lambda if row[2] > 2.44]
-        compared += max(0, len(kept) - 1)
-        require(all(b < a for a, b in zip(kept, kept[1:])), f"the distance falls with resolution at lambda {value} %")
+        above = [max(row[5:7]) for row in of_lambda if row[2] > 2.44]
+        compared += max(0, len(above) - 1)
+        require(all(b < a for a, b in zip(above, above[1:])), f"the distance falls with resolution at lambda {value} %")
         if value == 0:  # the whole core is not near the axis, but the axis is near the core
             near = [row[4] for row in of_lambda]
             require(all(b < a for a, b in zip(near, near[1:])), "the axis nears the whole core with resolution")
