@@ -29,9 +29,12 @@ def digitize(path, resolution, turn):
     size = np.ceil(2 * half / step - 1e-9).astype(int)
     x, y, z = (-half[a] + (np.arange(size[a]) + 0.5) * step for a in range(3))
     voxels = np.zeros(size, bool)
+    # |D T p|^2 as a polynomial in z, its coefficients once for all x and y.
+    form = (turn / np.square([A, B, C])) @ turn.T
+    flat = form[0, 0] * x[:, None] ** 2 + 2 * form[0, 1] * x[:, None] * y + form[1, 1] * y ** 2
+    slope = 2 * (form[0, 2] * x[:, None] + form[1, 2] * y)
     for k, height in enumerate(z):
-        local = x[:, None, None] * turn[0] + y[None, :, None] * turn[1] + height * turn[2]
-        voxels[:, :, k] = ((local / [A, B, C]) ** 2).sum(axis=2) <= 1
+        voxels[:, :, k] = flat + height * slope + form[2, 2] * height ** 2 <= 1
     write_nrrd(path, voxels, step, -half + 0.5 * step)
     return step
 
