@@ -85,6 +85,7 @@ Main(int argc, char ** argv)
     std::fprintf(stderr, "usage: %s KIND SIZE [REPEATS]\n", argv[0]);
     return 2;
   }
+  mallopt(M_MMAP_THRESHOLD, 2 << 20); // as the program has it: large arrays go back to the system
   PhantomOptions options;
   options.kind = argv[1];
   const int size = std::atoi(argv[2]);

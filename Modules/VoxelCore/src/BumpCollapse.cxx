@@ -35,7 +35,7 @@ BumpCollapse::RemoveLoose()
     }
     else
     {
-      m_Queue.Push({ cost, m_Core->vertexLambda[vertex], 0, vertex });
+      m_Queue.Push({ cost, 0, vertex });
     }
   }
 }
@@ -45,7 +45,7 @@ BumpCollapse::OfferEdges(std::span<const ElementIndex> edges)
 {
   for (const ElementIndex edge : edges)
   {
-    m_Queue.Push({ FaceCost(edge, m_Reached), m_Core->edgeLambda[edge], 1, edge });
+    m_Queue.Push({ FaceCost(edge, m_Reached), 1, edge });
   }
 }
 
@@ -78,7 +78,7 @@ BumpCollapse::OfferAll()
     {
       if (m_EdgeStanding[edge].IsFree())
       {
-        m_Queue.Push({ costs[edge - first], m_Core->edgeLambda[edge], 1, static_cast<ElementIndex>(edge) });
+        m_Queue.Push({ costs[edge - first], 1, static_cast<ElementIndex>(edge) });
       }
     }
   }
@@ -229,7 +229,7 @@ BumpCollapse::Run(const ProgressCallback & progress)
       ReportProgress(progress, "prune", 0.0);
     }
     Fetch();
-    Pair       pair = m_Queue.Pop();
+    const Pair pair = m_Queue.Pop();
     const bool simple = pair.isEdge ? m_EdgeStanding[pair.element].IsFree() : m_VertexStanding[pair.element].IsFree();
     if (!simple)
     {
@@ -239,8 +239,7 @@ BumpCollapse::Run(const ProgressCallback & progress)
     const double cost = pair.isEdge ? FaceCost(pair.element, m_Reached) : VertexCost(pair.element);
     if (cost > std::max(pair.cost, m_Level) && m_Queue.Prepare() && m_Queue.Top().cost < cost)
     {
-      pair.cost = cost;
-      m_Queue.Push(pair);
+      m_Queue.Push({ cost, pair.isEdge, pair.element });
       continue;
     }
     m_Level = std::max(m_Level, cost);

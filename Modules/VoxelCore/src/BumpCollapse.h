@@ -45,11 +45,6 @@ private:
     std::uint32_t isEdge;  // dimension of e: 0 vertex, 1 edge
     ElementIndex  element; // e
 
-    double
-    Key() const
-    {
-      return cost;
-    }
     friend bool
     operator<(const Pair & a, const Pair & b)
     {
@@ -75,6 +70,30 @@ private:
     ElementIndex  uphill; // the neighbour towards which the radius grows most steeply; self at a top; kNone: not asked
     std::uint32_t lastKept;   // of the ring of boundary vertices it keeps; m_NextKept has the next of each
     std::uint32_t neighbours; // into m_Neighbours; they end where the next vertex' begin
+  };
+  // A pair whose turn is not near, without the measure, which can be looked up.
+  struct WaitingPair
+  {
+    double        cost;
+    std::uint32_t isEdge;
+    ElementIndex  element;
+
+    double
+    Key() const
+    {
+      return cost;
+    }
+  };
+  struct Wake
+  {
+    const MedialComplex * core;
+
+    Pair
+    operator()(const WaitingPair & waiting) const
+    {
+      const auto & measures = waiting.isEdge != 0 ? core->edgeLambda : core->vertexLambda;
+      return { waiting.cost, measures[waiting.element], waiting.isEdge, waiting.element };
+    }
   };
   struct Reached
   {
@@ -171,27 +190,27 @@ private:
   BumpValues
   TakeBumps();
 
-  const MedialComplex *             m_Core;
-  const std::vector<LatticePoint> * m_Points;
-  Position                          m_Scale; // mm a lattice unit
-  double                            m_Level = 0;
-  double                            m_Measured;  // level up to which gaps are looked at, mm
-  std::vector<double>               m_FaceBumps; // infinity while the face is there
-  std::vector<Vertex>               m_Vertices;  // and one at the end, where neighbours end
-  std::vector<BumpStanding>         m_VertexStanding;
-  std::vector<BumpStanding>         m_EdgeStanding;
-  std::vector<ElementIndex>         m_Neighbours; // along the edges of the core, gone or not
-  std::vector<std::uint32_t>        m_NextKept;
-  BucketQueue<Pair>                 m_Queue;
-  std::vector<ElementIndex>         m_Loose; // vertices whose cost is to be looked at
-  std::vector<ElementIndex>         m_Freed; // edges of the last face that are free now
+  const MedialComplex *                m_Core;
+  const std::vector<LatticePoint> *    m_Points;
+  Position                             m_Scale; // mm a lattice unit
+  double                               m_Level = 0;
+  double                               m_Measured;  // level up to which gaps are looked at, mm
+  std::vector<double>                  m_FaceBumps; // infinity while the face is there
+  std::vector<Vertex>                  m_Vertices;  // and one at the end, where neighbours end
+  std::vector<BumpStanding>            m_VertexStanding;
+  std::vector<BumpStanding>            m_EdgeStanding;
+  std::vector<ElementIndex>            m_Neighbours; // along the edges of the core, gone or not
+  std::vector<std::uint32_t>           m_NextKept;
+  BucketQueue<Pair, WaitingPair, Wake> m_Queue;
+  std::vector<ElementIndex>            m_Loose; // vertices whose cost is to be looked at
+  std::vector<ElementIndex>            m_Freed; // edges of the last face that are free now
 
   // What the last cost was made of: RemoveFace() and RemoveVertex() follow a cost computed in the same state.
   std::vector<Reached>      m_Reached;
   ElementIndex              m_Heir = 0;       // the other end of a loose vertex' edge
   bool                      m_ToHeir = false; // to which all goes, none farther from it than m_HeirGap
   double                    m_HeirGap = 0;
-  std::vector<ElementIndex> m_Keepers;  // candidates
+  std::vector<ElementIndex> m_Keepers; // candidates
   std::vector<ElementIndex> m_Around;
   std::vector<Home>         m_NewHomes; // per kept boundary vertex in the order of the ring
 };

@@ -27,7 +27,7 @@ BumpCollapse::BumpCollapse(const MedialComplex &             core,
   , m_VertexStanding(core.cells.vertexCount)
   , m_EdgeStanding(core.cells.edges.size())
   , m_NextKept(points.size())
-  , m_Queue(0, 1.5 * m_Measured) // few lie beyond; narrow buckets let more be fetched in time
+  , m_Queue(0, 1.5 * m_Measured, Wake{ &core }) // few lie beyond; narrow buckets let more be fetched in time
 {
   if (floor > 0)
   {

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <iterator>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -10,20 +14,22 @@ namespace voxelcore
 
 /** Items in order, smallest first, while more arrive. Those ahead wait in buckets by key; the nearest bucket is sorted, so
  *  that what comes next is known and can be fetched from memory in time; those that arrive for it go to a heap.
- *  An Item has `double Key() const`, and operator< that orders by it first. */
-template <typename Item>
+ *  An Item has operator< that orders by `double Key() const` first. What waits may be smaller, with the same Key():
+ *  wake(waiting) makes an Item of it when its bucket is next. */
+template <typename Item, typename Waiting = Item, typename Wake = std::identity>
 class BucketQueue
 {
 public:
   /** Keys are expected between two bounds; buckets are of no use to those beyond. */
-  BucketQueue(double least, double greatest)
-    : m_Least(least)
+  BucketQueue(double least, double greatest, Wake wake = {})
+    : m_Wake(std::move(wake))
+    , m_Least(least)
     , m_PerUnit(greatest > least ? (bucketCount - 1) / (greatest - least) : 0.0)
     , m_Ahead(bucketCount)
   {}
 
   void
-  Push(const Item & item)
+  Push(const Waiting & item)
   {
     const std::size_t bucket = BucketOf(item.Key());
     if (bucket > m_Bucket)
@@ -31,7 +37,7 @@ public:
       m_Ahead[bucket].push_back(item);
       return;
     }
-    m_Heap.push_back(item);
+    m_Heap.push_back(m_Wake(item));
     std::push_heap(m_Heap.begin(), m_Heap.end(), IsGreater);
   }
 
@@ -45,8 +51,18 @@ public:
       {
         return false;
       }
-      std::vector<Item>().swap(m_Run);
-      m_Run.swap(m_Ahead[++m_Bucket]);
+      std::vector<Waiting> next;
+      next.swap(m_Ahead[++m_Bucket]);
+      if constexpr (std::is_same_v<Item, Waiting>)
+      {
+        m_Run = std::move(next);
+      }
+      else
+      {
+        std::vector<Item>().swap(m_Run);
+        m_Run.reserve(next.size());
+        std::transform(next.begin(), next.end(), std::back_inserter(m_Run), m_Wake);
+      }
       std::sort(m_Run.begin(), m_Run.end());
       m_Next = 0;
     }
@@ -81,7 +97,7 @@ public:
     return m_Next + steps < m_Run.size() ? &m_Run[m_Next + steps] : nullptr;
   }
 
-public:
+private:
   static constexpr std::size_t bucketCount = 1024;
 
   static bool
@@ -108,13 +124,14 @@ public:
     return position < bucketCount - 2 ? 1 + static_cast<std::size_t>(position) : bucketCount - 1;
   }
 
-  double                         m_Least;
-  double                         m_PerUnit;
-  std::vector<std::vector<Item>> m_Ahead;
-  std::size_t                    m_Bucket = 0; // of the run
-  std::vector<Item>              m_Run;
-  std::size_t                    m_Next = 0;
-  std::vector<Item>              m_Heap;
+  Wake                              m_Wake;
+  double                            m_Least;
+  double                            m_PerUnit;
+  std::vector<std::vector<Waiting>> m_Ahead;
+  std::size_t                       m_Bucket = 0; // of the run
+  std::vector<Item>                 m_Run;
+  std::size_t                       m_Next = 0;
+  std::vector<Item>                 m_Heap;
 };
 
 } // namespace voxelcore
