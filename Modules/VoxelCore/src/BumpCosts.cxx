@@ -245,7 +245,8 @@ BumpCollapse::FindHomes(ElementIndex vertex)
     m_NewHomes.push_back(home);
     cost = std::max(cost, home.gap);
   } while (point != last);
-  if (cost > std::max(m_Level, 0.25 * m_Measured))
+  // Below a voxel's diagonal that hardly changes anything, and most are.
+  if (cost > std::max(m_Level, m_Measured / kMeasured))
   {
     const std::size_t first = m_Keepers.size();
     CollectAround(vertex);
