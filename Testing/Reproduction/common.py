@@ -159,12 +159,19 @@ def point_triangle(p, a, b, c):
     return np.where(inside, np.abs(dot(ap, normal)) / np.sqrt(safe), best)
 
 
-def distance_to_core(samples, one, neighbours=16):
+class Middles:
+    """The middles of a Core's triangles, for distance_to_core()."""
+
+    def __init__(self, one):
+        self.corners = one.points[one.triangles]
+        self.tree = cKDTree(self.corners.mean(axis=1), balanced_tree=False, compact_nodes=False)
+
+
+def distance_to_core(samples, middles, neighbours=16):
     """Of each sample to the triangles of a Core: those whose middles are nearest are looked at."""
-    corners = one.points[one.triangles]
-    tree = cKDTree(corners.mean(axis=1))
+    corners = middles.corners
     count = min(neighbours, len(corners))
-    found = tree.query(samples, k=count)[1].reshape(len(samples), count)
+    found = middles.tree.query(samples, k=count)[1].reshape(len(samples), count)
     best = np.full(len(samples), np.inf)
     for k in range(count):
         best = np.minimum(best, point_triangle(samples, *(corners[found[:, k], i] for i in range(3))))

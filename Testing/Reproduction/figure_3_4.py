@@ -8,7 +8,7 @@ import tempfile
 import numpy as np
 from scipy.spatial import cKDTree
 
-from common import VIEW, Core, arguments, core, distance_to_core, paint, plt, require, save, write_nrrd, write_table
+from common import VIEW, Core, Middles, arguments, core, distance_to_core, hang, paint, plt, require, save, write_nrrd, write_table
 
 
 def shape():
@@ -154,7 +154,9 @@ def figure_4(options, voxels, cores, axis):
     """The shape cut once and twice, its cores, and its true axis."""
     figure, panels = plt.subplots(2, len(cores), figsize=(2.6 * len(cores), 4.6), squeeze=False)
     for column, (k, one) in enumerate(cores.items()):
-        box = paint(panels[1][column], one, pixels=420, box=(-4.3, 6.6, -4.5, 4.5))
+        painted = paint(one, pixels=420, box=(-4.3, 6.6, -4.5, 4.5))
+        hang(panels[1][column], painted)
+        box = painted[1]
         panels[1][column].set_title(f"core, k = {k}", fontsize=9)
         if column + 1 < len(cores) and k < 4:
             draw_voxels(panels[0][column], voxels, k, box)
@@ -231,7 +233,7 @@ def main():
             weights = np.random.default_rng(1).dirichlet((1, 1, 1), 8)
             there = np.concatenate([found.points, np.concatenate([np.einsum("c,ncd->nd", w, corners) for w in weights])])
             forward = to_axis(there, axis, faces).max()
-            back = distance_to_core(axis, found, 32).max()
+            back = distance_to_core(axis, Middles(found), 32).max()
             bound = np.sqrt(3) / (2 * k)
             rows.append([k, len(found.points), float(forward), bound, float(forward / bound), float(1 / (4 * k)),
                          float(forward * 4 * k), float(back)])

@@ -7,7 +7,7 @@ import tempfile
 
 import numpy as np
 
-from common import Core, Kept, arguments, core, distance_to_core, hang, paint, plt, require, save, write_nrrd, write_table
+from common import Core, Kept, Middles, arguments, core, distance_to_core, hang, paint, plt, require, save, write_nrrd, write_table
 
 A, B, C = 0.5, 0.35, 0.2  # semi-axes; the longest side of its box is about 1
 LAMBDAS = [0, 1.5, 2.5, 5, 8.5]  # % of the longest side of the voxels' box
@@ -55,6 +55,20 @@ def to_disc(points, a, b):
     return np.hypot(flat, p[:, 2])
 
 
+def farthest_from_disc(points, a, b):
+    """The greatest of to_disc(): of those for which a bound from above, the way to the rim towards the middle, is greater."""
+    over = np.sqrt((points[:, 0] / a) ** 2 + (points[:, 1] / b) ** 2)
+    inward = np.hypot(points[:, 0], points[:, 1]) * np.where(over > 1, 1 - 1 / np.maximum(over, 1), 0)
+    bound = np.hypot(inward, points[:, 2])
+    order = np.argsort(-bound)
+    greatest = 0.0
+    for begin in range(0, len(order), 20000):
+        if bound[order[begin]] <= greatest:
+            break
+        greatest = max(greatest, to_disc(points[order[begin:begin + 20000]], a, b).max())
+    return greatest
+
+
 def disc(a, b, count):
     """Points all over a disc, its rim included."""
     r = np.sqrt(np.linspace(0, 1, count))[:, None]
@@ -93,14 +107,15 @@ def measure(options, n, turn, semi):
             found = Core(os.path.join(folder, os.path.basename(pruned["output"])))
             found.points = found.points @ turn
             painted[value] = draw(found, value)
+            middles = Middles(found)
             length = pruned["lambda_mm"]
             scale = np.sqrt(1 - (length / C) ** 2)
             row = [f"{value} %", n, float(length / step)]
             for factor, whole in ((1.0, True), (scale, False)):
                 a, b = factor * semi[0], factor * semi[1]
                 # The distance to a convex set is greatest at a corner, so corners say all.
-                there = to_disc(found.points, a, b).max()
-                back = distance_to_core(disc(a, b, 40 if options.small else 120), found).max()
+                there = farthest_from_disc(found.points, a, b)
+                back = distance_to_core(disc(a, b, 40 if options.small else 120), middles).max()
                 row += [float(there), float(back)]
                 distances[value, whole] = float(max(there, back))
             row += [float(max(row[5:7]) / step), "" if row[2] > 2.44 else "for comparison"]
