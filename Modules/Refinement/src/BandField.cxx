@@ -12,10 +12,6 @@ namespace voxelcore
 namespace
 {
 
-// exp(-k^2 / 2), normalised. Written down, as the last bit of exp() differs between libraries.
-constexpr std::int32_t         kRadius = 4;
-constexpr std::array<float, 5> kGauss{ 0.39894348F, 0.24197145F, 0.053991127F, 0.0044318616F, 0.00013383062F };
-
 std::size_t
 Hash(const std::array<std::int32_t, 3> & brick)
 {
@@ -34,11 +30,50 @@ ComesBefore(const std::array<std::int32_t, 3> & a, const std::array<std::int32_t
 
 } // namespace
 
-BandField::BandField(const VoxelShape & shape)
+BandField::BandField(const VoxelShape & shape, const Vector3 & sides, double sigma)
+  : m_Sides(sides)
 {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    m_Gauss[axis] = Gauss(sigma / sides[axis]);
+  }
   FindBricks(shape);
   FillLabels(shape);
   m_Values.assign(m_Bricks.size() * kVoxels, 0.0F);
+}
+
+// Four sigma far, normalised. The exponential is made of sums and products, as the last bit of exp() differs between
+// libraries.
+BandField::Kernel
+BandField::Gauss(double sigma)
+{
+  constexpr int halvings = 8;
+  const double  exponent = -0.5 / (sigma * sigma) / (1 << halvings);
+  double        base = 1;
+  for (int term = 10; term > 0; --term)
+  {
+    base = 1 + base * exponent / term;
+  }
+  for (int i = 0; i < halvings; ++i)
+  {
+    base *= base;
+  }
+  Kernel kernel;
+  kernel.radius = std::min(kMostRadius, static_cast<std::int32_t>(std::ceil(4 * sigma)));
+  std::array<double, kMostRadius + 1> weights{ 1 };
+  double                              sum = 1;
+  double                              ratio = base; // base^(k^2) by its odd differences
+  for (std::size_t k = 1; k <= static_cast<std::size_t>(kernel.radius); ++k)
+  {
+    weights[k] = weights[k - 1] * ratio;
+    ratio *= base * base;
+    sum += 2 * weights[k];
+  }
+  for (std::size_t k = 0; k < weights.size(); ++k)
+  {
+    kernel.weights[k] = static_cast<float>(weights[k] / sum);
+  }
+  return kernel;
 }
 
 void
@@ -150,18 +185,27 @@ BandField::FillLabels(const VoxelShape & shape)
 void
 BandField::Convolve(const std::vector<float> & from, std::size_t brick, float * to) const
 {
-  constexpr std::size_t side = kSide + 2 * kRadius;
-  float                 tile[side * side * side];
-  float                 byX[side * side * kSide];
-  float                 byY[side * kSide * kSide];
-  float *               out = tile;
-  for (std::int32_t z = -kRadius; z < kSide + kRadius; ++z)
+  constexpr std::size_t                           most = kSide + 2 * kMostRadius;
+  const std::int32_t                              rx = m_Gauss[0].radius;
+  const std::int32_t                              ry = m_Gauss[1].radius;
+  const std::int32_t                              rz = m_Gauss[2].radius;
+  const auto                                      wide = static_cast<std::size_t>(kSide + 2 * rx);
+  const auto                                      deep = static_cast<std::size_t>(kSide + 2 * ry);
+  const auto                                      high = static_cast<std::size_t>(kSide + 2 * rz);
+  float                                           tile[most * most * most];
+  float                                           byX[most * most * kSide];
+  float                                           byY[most * kSide * kSide];
+  float *                                         out = tile;
+  const std::array<std::array<std::size_t, 2>, 3> parts{ { { static_cast<std::size_t>(kSide - rx),
+                                                             static_cast<std::size_t>(rx) },
+                                                           { 0, 8 },
+                                                           { 0, static_cast<std::size_t>(rx) } } };
+  for (std::int32_t z = -rz; z < kSide + rz; ++z)
   {
-    for (std::int32_t y = -kRadius; y < kSide + kRadius; ++y)
+    for (std::int32_t y = -ry; y < kSide + ry; ++y)
     {
-      const std::int32_t                                  neighbour = 3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1);
-      const auto                                          row = static_cast<std::size_t>(8 * (y & 7) + 64 * (z & 7));
-      constexpr std::array<std::array<std::size_t, 2>, 3> parts{ { { 4, 4 }, { 0, 8 }, { 0, 4 } } };
+      const std::int32_t neighbour = 3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1);
+      const auto         row = static_cast<std::size_t>(8 * (y & 7) + 64 * (z & 7));
       for (std::size_t part = 0; part < 3; ++part)
       {
         const std::int32_t source = m_Neighbours[brick][static_cast<std::size_t>(neighbour) + part];
@@ -178,27 +222,32 @@ BandField::Convolve(const std::vector<float> & from, std::size_t brick, float * 
       }
     }
   }
-  const auto pass = [](const float * in, float * sum, std::size_t stride, std::size_t size) {
+  const auto pass = [&](std::size_t axis, const float * in, float * sum, std::size_t stride, std::size_t size) {
+    const auto   radius = static_cast<std::size_t>(m_Gauss[axis].radius);
+    const auto & gauss = m_Gauss[axis].weights;
     for (std::size_t i = 0; i < size; ++i)
     {
-      const float * centre = in + i + kRadius * stride;
-      float         value = kGauss[0] * centre[0];
-      value += kGauss[1] * (*(centre - stride) + centre[stride]);
-      value += kGauss[2] * (*(centre - 2 * stride) + centre[2 * stride]);
-      value += kGauss[3] * (*(centre - 3 * stride) + centre[3 * stride]);
-      value += kGauss[4] * (*(centre - 4 * stride) + centre[4 * stride]);
-      sum[i] = value;
+      sum[i] = gauss[0] * in[i + radius * stride];
+    }
+    for (std::size_t k = 1; k <= radius; ++k)
+    {
+      const float * lower = in + (radius - k) * stride;
+      const float * upper = in + (radius + k) * stride;
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        sum[i] += gauss[k] * (lower[i] + upper[i]);
+      }
     }
   };
-  for (std::size_t row = 0; row < side * side; ++row)
+  for (std::size_t row = 0; row < deep * high; ++row)
   {
-    pass(tile + row * side, byX + row * kSide, 1, kSide);
+    pass(0, tile + row * wide, byX + row * kSide, 1, kSide);
   }
-  for (std::size_t z = 0; z < side; ++z)
+  for (std::size_t z = 0; z < high; ++z)
   {
-    pass(byX + z * side * kSide, byY + z * kSide * kSide, kSide, kSide * kSide);
+    pass(1, byX + z * deep * kSide, byY + z * kSide * kSide, kSide, kSide * kSide);
   }
-  pass(byY, to, kSide * kSide, kVoxels);
+  pass(2, byY, to, kSide * kSide, kVoxels);
 }
 
 void

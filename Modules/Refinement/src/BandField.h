@@ -17,11 +17,12 @@ public:
   static constexpr std::int32_t kSide = 8;
   static constexpr std::size_t  kVoxels = 512;
 
-  /** Values are 0. */
-  explicit BandField(const VoxelShape & shape);
+  /** Values are 0. `sides` are those of a voxel, the shortest 1: the unit of distances and of `sigma`, the width of the
+   *  Gaussian G, at most 1.5. */
+  BandField(const VoxelShape & shape, const Vector3 & sides, double sigma);
 
-  /** Signed distance to the boundary in voxels, whatever their sides: to the nearest centre of the other kind less half a
-   *  voxel, clipped to +-`clip` (at most 6). */
+  /** Signed distance to the boundary: to the nearest centre of the other kind less half the shortest side, clipped to
+   *  +-`clip` (at most 6.5). */
   void
   FillDistances(double clip);
 
@@ -29,13 +30,13 @@ public:
   void
   FillGrey(const VoxelBox & scan, const GreyRows & rows);
 
-  /** K = (1 + w) G - w G G, with the Gaussian G of one voxel. With w = 1, in frequencies 1 - k^4 / 4 + ..., bends of a
-   *  distance field are flattened, and what is curved evenly keeps its place. */
+  /** K = (1 + w) G - w G G. With w = 1, in frequencies 1 - (sigma k)^4 / 4 + ..., bends of a distance field are flattened,
+   *  and what is curved evenly keeps its place. */
   void
   Smooth(float weight = 1);
 
-  /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them.
-   *  G moves a step of standard width s and curvature c by c s^2 times its slope, which goes as 1 / s: so
+  /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them and
+   *  sigma is a voxel. G moves a step of standard width s and curvature c by c s^2 times its slope, which goes as 1 / s: so
    *  (1 + w) s1 = w s2, with s1^2 = 1 + 1/12 and s2^2 = 2 + 1/12. */
   static constexpr float kStepWeight = 2.585F;
 
@@ -59,6 +60,12 @@ private:
   static constexpr std::int32_t kFarInside = -2;
   static constexpr std::int32_t kReach = 7; ///< voxels from the boundary that have a brick
   using Brick = std::array<std::int32_t, 3>;
+  static constexpr std::int32_t kMostRadius = 6; ///< voxels
+  struct Kernel
+  {
+    std::int32_t                       radius = 0;
+    std::array<float, kMostRadius + 1> weights{}; ///< by distance from the centre
+  };
 
   static constexpr std::int32_t
   BrickOf(std::int32_t voxel)
@@ -67,6 +74,8 @@ private:
   }
   std::int32_t
   Find(const Brick & brick) const;
+  static Kernel
+  Gauss(double sigma);
   void
   FindBricks(const VoxelShape & shape);
   void
@@ -79,6 +88,8 @@ private:
   void
   Convolve(const std::vector<float> & from, std::size_t brick, float * to) const;
 
+  Vector3                                   m_Sides;
+  std::array<Kernel, 3>                     m_Gauss;
   std::vector<Brick>                        m_Bricks;     ///< in units of bricks, by (z, y, x)
   std::vector<std::uint32_t>                m_Table;      ///< open addressing: brick + 1, 0 for none
   std::vector<std::array<std::int32_t, 27>> m_Neighbours; ///< a brick, or on which side of the boundary there is none

@@ -48,7 +48,9 @@ BandField::FillBrickDistances(std::size_t brick, double clip)
 {
   constexpr std::int32_t  side = kSide + 2 * kReach;
   constexpr std::uint32_t full = (1U << side) - 1;
-  constexpr std::int32_t  none = 1000;
+  constexpr double        none = 1000;
+  const double            half = 0.5 * std::min({ m_Sides[0], m_Sides[1], m_Sides[2] });
+  const Vector3           squares{ m_Sides[0] * m_Sides[0], m_Sides[1] * m_Sides[1], m_Sides[2] * m_Sides[2] };
   // Rows of labels around the brick, then for each kind squared distances by x alone, by x and y, by all.
   std::array<std::uint32_t, static_cast<std::size_t>(side) * side> rows{};
   GatherTile(brick, kReach, [&](std::size_t at, std::int32_t neighbour, std::size_t voxel) {
@@ -59,7 +61,7 @@ BandField::FillBrickDistances(std::size_t brick, double clip)
   });
   for (const bool inside : { true, false })
   {
-    std::array<std::array<std::int32_t, kSide>, static_cast<std::size_t>(side) * side> byX;
+    std::array<std::array<double, kSide>, static_cast<std::size_t>(side) * side> byX;
     for (std::size_t row = 0; row < rows.size(); ++row)
     {
       const std::uint32_t other = inside ? ~rows[row] & full : rows[row];
@@ -68,10 +70,10 @@ BandField::FillBrickDistances(std::size_t brick, double clip)
         const std::uint32_t up = other >> (x + kReach);
         const std::uint32_t down = other << (31 - x - kReach);
         const std::int32_t  d = std::min(std::countr_zero(up), std::countl_zero(down));
-        byX[row][static_cast<std::size_t>(x)] = d > kReach ? none : d * d;
+        byX[row][static_cast<std::size_t>(x)] = d > kReach ? none : d * d * squares[0];
       }
     }
-    std::array<std::array<std::int32_t, kSide>, static_cast<std::size_t>(side) * kSide> byY;
+    std::array<std::array<double, kSide>, static_cast<std::size_t>(side) * kSide> byY;
     for (std::int32_t z = 0; z < side; ++z)
     {
       for (std::int32_t y = 0; y < kSide; ++y)
@@ -83,7 +85,7 @@ BandField::FillBrickDistances(std::size_t brick, double clip)
           const auto & from = byX[static_cast<std::size_t>(z * side + y + kReach + d)];
           for (std::size_t x = 0; x < kSide; ++x)
           {
-            to[x] = std::min(to[x], from[x] + d * d);
+            to[x] = std::min(to[x], from[x] + d * d * squares[1]);
           }
         }
       }
@@ -92,14 +94,14 @@ BandField::FillBrickDistances(std::size_t brick, double clip)
     {
       for (std::int32_t y = 0; y < kSide; ++y)
       {
-        std::array<std::int32_t, kSide> least;
+        std::array<double, kSide> least;
         least.fill(none);
         for (std::int32_t d = -kReach; d <= kReach; ++d)
         {
           const auto & from = byY[static_cast<std::size_t>((z + kReach + d) * kSide + y)];
           for (std::size_t x = 0; x < kSide; ++x)
           {
-            least[x] = std::min(least[x], from[x] + d * d);
+            least[x] = std::min(least[x], from[x] + d * d * squares[2]);
           }
         }
         const auto row = static_cast<std::size_t>(z * kSide + y);
@@ -107,7 +109,7 @@ BandField::FillBrickDistances(std::size_t brick, double clip)
         {
           if ((((m_Labels[brick][row] >> x) & 1) != 0) == inside)
           {
-            const double distance = std::min(std::sqrt(static_cast<double>(least[x])) - 0.5, clip);
+            const double distance = std::min(std::sqrt(least[x]) - half, clip);
             m_Values[brick * kVoxels + row * kSide + x] = static_cast<float>(inside ? distance : -distance);
           }
         }

@@ -4,6 +4,7 @@
 #include "voxelcore/SurfaceEstimate.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace voxelcore
 {
@@ -11,23 +12,24 @@ namespace voxelcore
 namespace
 {
 
-// Where a field is 0; where it has no good answer the next one is asked. The first `thick` of the fields are for thick
-// parts only; what is thick the last field says.
+// Where a field is 0; where it has no good answer the next one is asked.
 class FieldSurface : public SurfaceEstimate
 {
 public:
-  FieldSurface(std::vector<BandField> fields, std::size_t thick, const Vector3 & spacing)
+  // A slope (per unit of `sides`) less than `flattest` tells nothing: where labels allow no surface, the field is flat.
+  FieldSurface(std::vector<BandField> fields, const Vector3 & spacing, const Vector3 & sides, double flattest)
     : m_Fields(std::move(fields))
-    , m_Thick(thick)
     , m_Spacing(spacing)
+    , m_Sides(sides)
+    , m_Flattest(flattest)
   {}
 
   SurfacePoint
   Project(const Vector3 & place, double reach) const override
   {
-    for (std::size_t i = m_Thick > 0 && IsThick(place) ? 0 : m_Thick; i < m_Fields.size(); ++i)
+    for (const BandField & field : m_Fields)
     {
-      const SurfacePoint point = Project(m_Fields[i], place, reach);
+      const SurfacePoint point = Project(field, place, reach);
       if (point.found)
       {
         return point;
@@ -37,37 +39,19 @@ public:
   }
 
 private:
-  // Whether the distance still grows six voxels behind the surface, as far as distances are followed.
-  bool
-  IsThick(const Vector3 & place) const
-  {
-    constexpr double  depth = 6;
-    constexpr double  most = 0.85; // of Far(): smoothing takes the top off a ridge
-    const BandField & field = m_Fields.back();
-    const Vector3     at = Over(place, m_Spacing);
-    double            value = 0;
-    Vector3           slope{};
-    if (!field.Evaluate(at, value, slope) || Length(slope) == 0)
-    {
-      return false;
-    }
-    return field.Evaluate(Along(at, depth / Length(slope), slope), value, slope) && value >= most * field.Far();
-  }
-
   SurfacePoint
   Project(const BandField & field, const Vector3 & place, double reach) const
   {
     constexpr int    steps = 6;
-    constexpr double longest = 1.0;   // voxels a step
-    constexpr double close = 1e-4;    // voxels
-    constexpr double flattest = 0.08; // of Far() a voxel: where labels allow no surface, the field is flat
+    constexpr double longest = 1.0; // voxels a step
+    constexpr double close = 1e-4;  // voxels
     Vector3          at = Over(place, m_Spacing);
     SurfacePoint     point;
     for (int step = 0; step <= steps; ++step)
     {
       double  value = 0;
       Vector3 slope{};
-      if (!field.Evaluate(at, value, slope) || Length(slope) < flattest * field.Far())
+      if (!field.Evaluate(at, value, slope) || Length(Over(slope, m_Sides)) < m_Flattest)
       {
         return point;
       }
@@ -88,8 +72,9 @@ private:
   }
 
   std::vector<BandField> m_Fields;
-  std::size_t            m_Thick;
   Vector3                m_Spacing;
+  Vector3                m_Sides;
+  double                 m_Flattest;
 };
 
 } // namespace
@@ -97,13 +82,26 @@ private:
 std::unique_ptr<SurfaceEstimate>
 SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress)
 {
-  // Many passes are best where parts are thick, but from the ridge in the middle of a part they carry an error to its
-  // surface if that is near; the thinnest parts do not survive even a few.
-  constexpr int          manyPasses = 20;
+  // Bends are flattened, and distances measured, in millimetres: in voxels a round tube in thick slices is an oval one. But
+  // between very thick slices there is nothing to flatten by.
+  constexpr double mostRatio = 2;
+  const double     least = std::min({ spacing[0], spacing[1], spacing[2] });
+  Vector3          sides{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    sides[axis] = std::min(spacing[axis] / least, mostRatio);
+  }
+  // Steps of thick slices need more smoothing than steps of thin ones.
+  const double sigma = 0.8 + 0.2 * std::max({ sides[0], sides[1], sides[2] });
+  // Distances end before the middle of all but thin parts, and on both sides of the surface alike: the bend of a ridge in the
+  // middle of a part would be carried to its surface.
+  constexpr double clip = 4;
+  // The thinnest parts do not survive many passes.
   constexpr int          fewPasses = 3;
-  constexpr double       clip = 6;
+  constexpr int          manyPasses = 20;
+  constexpr double       flattest = 0.32;
   std::vector<BandField> fields;
-  BandField              field(shape);
+  BandField              field(shape, sides, sigma);
   field.FillDistances(clip);
   field.Smooth();
   fields.push_back(field);
@@ -118,7 +116,7 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
     }
   }
   fields.insert(fields.begin(), std::move(field));
-  return std::make_unique<FieldSurface>(std::move(fields), 1, spacing);
+  return std::make_unique<FieldSurface>(std::move(fields), spacing, sides, flattest);
 }
 
 std::unique_ptr<SurfaceEstimate>
@@ -128,12 +126,15 @@ SurfaceFromGrey(const VoxelShape &       shape,
                 const GreyRows &         rows,
                 const ProgressCallback & progress)
 {
+  constexpr Vector3      sides{ 1, 1, 1 };
+  constexpr double       flattest = 0.08; // of the mean magnitude
   std::vector<BandField> fields;
-  fields.emplace_back(shape);
+  fields.emplace_back(shape, sides, 1.0);
   fields[0].FillGrey(scan, rows);
   ReportProgress(progress, "surface", 0.5);
   fields[0].Smooth(BandField::kStepWeight);
-  return std::make_unique<FieldSurface>(std::move(fields), 0, spacing);
+  const double least = flattest * fields[0].Far();
+  return std::make_unique<FieldSurface>(std::move(fields), spacing, sides, least);
 }
 
 } // namespace voxelcore
