@@ -61,7 +61,7 @@ TEST(SurfaceEstimate, LabelsOfABallGiveItsSurfaceBackWithinATenthOfAVoxel)
   {
     const VoxelShape shape = Ball(spacing);
     int              missing = 0;
-    EXPECT_LT(MeanError(shape, *SurfaceFromLabels(shape, spacing), spacing, missing), 0.1);
+    EXPECT_LT(MeanError(shape, *SurfaceFromLabels(shape, spacing), spacing, missing), 0.1) << spacing[2];
     EXPECT_EQ(missing, 0);
   }
 }

@@ -95,7 +95,7 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
   const double sigma = 0.8 + 0.2 * std::max({ sides[0], sides[1], sides[2] });
   // Distances end before the middle of all but thin parts, and on both sides of the surface alike: the bend of a ridge in the
   // middle of a part would be carried to its surface.
-  constexpr double clip = 4;
+  constexpr double clip = 5.5;
   // The thinnest parts do not survive many passes.
   constexpr int          fewPasses = 3;
   constexpr int          manyPasses = 20;
