@@ -6,6 +6,8 @@
 // turns; the medians and the median of the quotients of neighbours are shown. Memory is what is in use at the most while
 // they run, less what was before.
 
+#include "ProcessFigures.h"
+
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/BumpPruning.h"
 #include "voxelcore/LambdaPruning.h"
@@ -16,8 +18,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <malloc.h>
 #include <string>
 #include <vector>
@@ -26,30 +26,6 @@ namespace voxelcore::performance
 {
 namespace
 {
-
-double
-Seconds()
-{
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-// A line of /proc/self/status, in bytes.
-double
-Memory(const std::string & name)
-{
-  std::ifstream file("/proc/self/status");
-  std::string   line;
-  while (std::getline(file, line))
-  {
-    if (line.rfind(name, 0) == 0)
-    {
-      return 1024 * std::atof(line.c_str() + name.size() + 1);
-    }
-  }
-  return 0;
-}
 
 struct Cost
 {
@@ -63,11 +39,11 @@ Measure(const Task & task)
 {
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << "5"; // the greatest use begins anew
-  const double before = Memory("VmRSS");
-  const double start = Seconds();
+  const double before = StatusBytes("VmRSS:");
+  const double start = ProcessorSeconds();
   task();
-  const double seconds = Seconds() - start;
-  return { seconds, Memory("VmHWM") - before };
+  const double seconds = ProcessorSeconds() - start;
+  return { seconds, StatusBytes("VmHWM:") - before };
 }
 
 double
@@ -106,10 +82,10 @@ Main(int argc, char ** argv)
     core.bumps = {};
     const Cost byLambda = Measure([&] { faces[0] = PruneByLambda(core, { 1.5 }).front().cells.FaceCount(); });
     const Cost byBumps = Measure([&] {
-      double     start = Seconds();
+      double     start = ProcessorSeconds();
       const auto lap = [&](std::size_t stage) {
-        stages[stage].push_back(Seconds() - start);
-        start = Seconds();
+        stages[stage].push_back(ProcessorSeconds() - start);
+        start = ProcessorSeconds();
       };
       TouchingBalls touching = LargestTouchingBalls(cells, points, weights);
       lap(0);

@@ -1,5 +1,7 @@
 #include "ReadingTasks.h"
 
+#include "ProcessFigures.h"
+
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/Phantom.h"
@@ -11,7 +13,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -32,27 +33,10 @@ Now()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/** Of all threads. */
-double
-ProcessorSeconds()
-{
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 double
 PeakMegabytes()
 {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-  {
-    if (line.starts_with("VmHWM:"))
-    {
-      return std::stod(line.substr(6)) * 1024e-6;
-    }
-  }
-  throw std::runtime_error("no VmHWM in /proc/self/status");
+  return StatusBytes("VmHWM:") * 1e-6;
 }
 
 /** A slice of the shape as bytes 0 and 1. */
