@@ -2,6 +2,7 @@
 
 #include "InsertionComplex.h"
 #include "InsertionOrder.h"
+#include "SharedProgress.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/SideBySide.h"
@@ -9,7 +10,7 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <atomic>
+#include <functional>
 
 namespace voxelcore
 {
@@ -133,24 +134,16 @@ public:
       workers[slab].next = m_Complex.AddPlaces(places);
       workers[slab].end = workers[slab].next + static_cast<std::uint32_t>(places);
     }
-    std::atomic<bool> stop = false;
+    SharedProgress shared(m_Progress);
     RunInParts(true, slabs, [&](std::size_t begin, std::size_t end) {
       for (std::size_t slab = begin; slab < end; ++slab)
       {
         Inserter & worker = workers[slab];
-        for (std::uint32_t p = first; p < m_Count && !stop; ++p)
+        for (std::uint32_t p = first; p < m_Count; ++p)
         {
-          if ((p & 0x3FFFU) == 0 && slab == 0)
+          if ((p & 0x3FFFU) == 0)
           {
-            try
-            {
-              ReportProgress(m_Progress, "delaunay", static_cast<double>(p) / m_Count);
-            }
-            catch (...)
-            {
-              stop = true;
-              throw;
-            }
+            ReportProgress(std::ref(shared), "delaunay", static_cast<double>(p) / m_Count);
           }
           if (slabOf[p] == worker.owner && !IsFirst(p) && (worker.last == none || !m_Complex.Insert(worker, p)))
           {

@@ -2,13 +2,14 @@
 
 #include "CellTracer.h"
 #include "DeepCells.h"
+#include "SharedProgress.h"
 
 #include <omp.h>
 
 #include <algorithm>
-#include <atomic>
 #include <deque>
 #include <exception>
+#include <functional>
 
 namespace voxelcore
 {
@@ -51,26 +52,18 @@ TraceSideBySide(const TracingInput & input, std::size_t threads, const ProgressC
   }
   std::vector<Tracing>            parts(threads);
   std::vector<std::exception_ptr> failures(threads);
-  std::atomic<bool>               stop = false;
-  // Only the first thread reports; the others see its answer.
-  const ProgressCallback watch = [&](std::string_view stage, double fraction) {
-    if (omp_get_thread_num() == 0 && progress && !progress(stage, fraction))
-    {
-      stop = true;
-    }
-    return !stop;
-  };
+  SharedProgress                  shared(progress);
 #pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads))
   for (std::size_t part = 0; part < threads; ++part)
   {
     try
     {
-      parts[part] = CellTracer(input, queues[part / 2], part % 2 == 1).Trace(watch);
+      parts[part] = CellTracer(input, queues[part / 2], part % 2 == 1).Trace(std::ref(shared));
     }
     catch (...)
     {
       failures[part] = std::current_exception();
-      stop = true;
+      shared.Stop();
     }
   }
   for (const std::exception_ptr & failure : failures)

@@ -3,9 +3,9 @@
 
 #include "voxelcore/CellComplex.h"
 
-#include <utility>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace voxelcore
 {
