@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace voxelcore
 {
@@ -25,6 +26,25 @@ SphereOf(const DelaunayCells &             cells,
 {
   const auto & t = cells.tetrahedra[cell];
   return MakeCircumSphere(points[t[0]], points[t[1]], points[t[2]], points[t[3]], weights);
+}
+
+// Half of all cells lie in one voxel each, whatever its sides: their spheres have its middle.
+std::optional<std::array<double, 3>>
+MiddleOfVoxel(const std::array<std::uint32_t, 4> & corners, const std::vector<LatticePoint> & points)
+{
+  LatticePoint low = points[corners[0]];
+  LatticePoint high = low;
+  for (const std::uint32_t corner : { corners[1], corners[2], corners[3] })
+  {
+    const LatticePoint & p = points[corner];
+    low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
+    high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
+  }
+  if (high.x - low.x > 1 || high.y - low.y > 1 || high.z - low.z > 1)
+  {
+    return {};
+  }
+  return std::array<double, 3>{ low.x + 0.5, low.y + 0.5, low.z + 0.5 };
 }
 
 // Compares exact centres. Rounding is monotone, so doubles decide unless they are equal.
@@ -203,14 +223,21 @@ SortByCentre(const DelaunayCells &             cells,
 #pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high) if (count > 10000)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
-    const auto         cell = static_cast<std::uint32_t>(firstCell + static_cast<std::size_t>(i));
-    const CircumSphere sphere = SphereOf(cells, cell, points, weights);
-    CentredCell &      entry = entries[static_cast<std::size_t>(i)];
-    entry = { { CentreCoordinate(sphere, 0, weights),
-                CentreCoordinate(sphere, 1, weights),
-                CentreCoordinate(sphere, 2, weights) },
-              2.0 * static_cast<double>(sphere.det) * greatest * greatest,
-              cell };
+    const auto    cell = static_cast<std::uint32_t>(firstCell + static_cast<std::size_t>(i));
+    CentredCell & entry = entries[static_cast<std::size_t>(i)];
+    if (const auto middle = MiddleOfVoxel(cells.tetrahedra[cell], points))
+    {
+      entry = { *middle, 2.0, cell };
+    }
+    else
+    {
+      const CircumSphere sphere = SphereOf(cells, cell, points, weights);
+      entry = { { CentreCoordinate(sphere, 0, weights),
+                  CentreCoordinate(sphere, 1, weights),
+                  CentreCoordinate(sphere, 2, weights) },
+                2.0 * static_cast<double>(sphere.det) * greatest * greatest,
+                cell };
+    }
     low = std::min(low, entry.centre[0]);
     high = std::max(high, entry.centre[0]);
   }

@@ -25,6 +25,7 @@ CellTracer::CellTracer(const TracingInput & input, BrickQueue & bricks, bool fro
   , m_FromEnd(fromEnd)
   , m_First(bricks.First())
   , m_Last(bricks.Last())
+  , m_Front(input.points.size())
   , m_Pending(m_Last - m_First)
   , m_Done(m_Last - m_First, 0)
 {
@@ -69,7 +70,7 @@ CellTracer::Continue(Tracing tracing, const ProgressCallback & progress)
   {
     for (const std::uint32_t facet : *list)
     {
-      m_Table.Insert(KeyOf(m_Result.FacetPoints(facet)), facet);
+      m_Front.Insert(KeyOf(m_Result.FacetPoints(facet)), facet);
     }
   }
   for (const std::uint32_t facet : tracing.open)
@@ -104,12 +105,12 @@ CellTracer::Finish()
   Tracing tracing;
   for (const std::uint32_t facet : m_Deep)
   {
-    if (IsOpen(facet) && m_Table.Take(KeyOf(m_Result.FacetPoints(facet))) != FacetTable::none)
+    if (IsOpen(facet) && m_Front.Take(KeyOf(m_Result.FacetPoints(facet))) != FacetTable::none)
     {
       tracing.deep.push_back(facet);
     }
   }
-  m_Table.ForEach([&](std::uint32_t facet) { (IsOpen(facet) ? tracing.open : tracing.unmet).push_back(facet); });
+  m_Front.ForEach([&](std::uint32_t facet) { (IsOpen(facet) ? tracing.open : tracing.unmet).push_back(facet); });
   tracing.cells = std::move(m_Result);
   return tracing;
 }
@@ -132,6 +133,7 @@ void
 CellTracer::ProcessBrick(std::size_t brick, bool seed)
 {
   m_Brick = brick;
+  m_Front.StartBrick(seed ? m_Input.load[brick] : 0);
   m_Window.Fill(m_Input.shape, m_Input.rows, m_Input.grid.Corner(brick));
   if (seed)
   {
@@ -326,12 +328,12 @@ CellTracer::SeedSquare(std::int32_t x, std::int32_t y, std::int32_t z, unsigned 
     }
   }
   const FacetKey key = KeyOf(m_Polygon);
-  if (m_Table.Take(key) != FacetTable::none)
+  if (m_Front.Take(key) != FacetTable::none)
   {
     return; // a cell found earlier has this square, and knows that it is on the boundary
   }
   const std::uint32_t facet = NewFacet(kOpen, kOutside, m_Polygon);
-  m_Table.Insert(key, facet);
+  m_Front.Insert(key, facet);
   m_Stack.push_back({ facet, 0.0 }); // the square's smallest sphere is empty
 }
 
@@ -349,9 +351,10 @@ CellTracer::NewFacet(std::uint32_t first, std::uint32_t second, std::span<const 
 }
 
 void
-CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon, const FacetKey & key)
+CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon)
 {
-  const std::uint32_t met = m_Table.Take(key);
+  const FacetKey      key = KeyOf(polygon);
+  const std::uint32_t met = m_Front.Take(key);
   if (met != FacetTable::none)
   {
     Close(met, cell);
@@ -360,11 +363,11 @@ CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon,
   // A boundary square that is not in the table belongs to a voxel whose brick has not been seeded.
   if (IsBoundarySquare(polygon))
   {
-    m_Table.Insert(key, NewFacet(cell, kOutside, polygon));
+    m_Front.Insert(key, NewFacet(cell, kOutside, polygon));
     return;
   }
   const std::uint32_t facet = NewFacet(cell, kOpen, polygon);
-  m_Table.Insert(key, facet);
+  m_Front.Insert(key, facet);
   m_Stack.push_back({ facet, unknown });
 }
 

@@ -9,7 +9,7 @@
 #include "BrickQueue.h"
 #include "CapScan.h"
 #include "CellHull.h"
-#include "FacetTable.h"
+#include "FacetFront.h"
 #include "LatticeWindow.h"
 
 #include "voxelcore/DelaunayCells.h"
@@ -90,12 +90,7 @@ private:
   void
   CreateCell(std::span<const std::uint32_t> facet, bool inwards);
   void
-  AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon)
-  {
-    AddFacet(cell, polygon, KeyOf(polygon));
-  }
-  void
-  AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon, const FacetKey & key);
+  AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon);
   bool
   IsBoundarySquare(std::span<const std::uint32_t> polygon) const;
   std::uint32_t
@@ -135,7 +130,7 @@ private:
   LatticeWindow m_Window;
   std::size_t   m_Brick = 0;
   DelaunayCells m_Result;
-  FacetTable    m_Table;
+  FacetFront    m_Front;
   HullMemo      m_Hulls;
 
   std::vector<Pending>              m_Stack;
@@ -149,7 +144,6 @@ private:
   std::vector<LatticePoint>  m_Points;  // of the cell being made, in window coordinates, sorted
   std::vector<std::uint32_t> m_Indices; // of the same
   std::vector<std::uint32_t> m_Polygon;
-  std::vector<FacetKey>      m_Keys; // of the cell's facets
 
   // Voxels of the brick with a cell of their own: one bit each per row, and the number of the row's first cell.
   std::array<std::uint32_t, 32 * 32> m_VoxelBits{};

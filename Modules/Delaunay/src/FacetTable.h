@@ -41,6 +41,14 @@ public:
     : m_Slots(1024, Slot{ {}, none })
   {}
 
+  /** Makes the table empty, with room for about `expected` entries. */
+  void
+  Clear(std::size_t expected)
+  {
+    m_Slots.assign(std::bit_ceil(std::max<std::size_t>(2 * expected, 1024)), Slot{ {}, none });
+    m_Size = 0;
+  }
+
   std::size_t
   Size() const
   {
@@ -125,7 +133,7 @@ public:
     ++m_Size;
   }
 
-  /** Calls visit(value) for every entry, in no particular order. */
+  /** Calls visit(key, value) for every entry, in no particular order. */
   template <typename TVisit>
   void
   ForEach(TVisit visit) const
@@ -134,7 +142,7 @@ public:
     {
       if (slot.value != none)
       {
-        visit(slot.value);
+        visit(slot.key, slot.value);
       }
     }
   }

@@ -294,15 +294,9 @@ CellTracer::CreateCell(std::span<const std::uint32_t> facet, bool inwards)
     const std::array<std::array<std::uint32_t, 3>, 4> facets{
       { { a, c, b }, { a, b, apex }, { b, c, apex }, { c, a, apex } }
     };
-    std::array<FacetKey, 4> keys;
-    for (std::size_t i = 0; i < 4; ++i)
+    for (const auto & own : facets)
     {
-      keys[i] = KeyOf(facets[i]);
-      m_Table.Prefetch(keys[i]);
-    }
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      AddFacet(cell, facets[i], keys[i]);
+      AddFacet(cell, own);
     }
     return;
   }
@@ -320,24 +314,15 @@ CellTracer::CreateCell(std::span<const std::uint32_t> facet, bool inwards)
     m_Indices.push_back(indexOf(p));
   }
   const HullMemo::Polygons polygons = m_Hulls.Get(m_Points);
-  const auto               eachPolygon = [&](auto visit) {
-    for (std::size_t at = 0; at < polygons.size(); at += polygons[at] + 1U)
+  for (std::size_t at = 0; at < polygons.size(); at += polygons[at] + 1U)
+  {
+    m_Polygon.clear();
+    for (const std::uint16_t corner : polygons.subspan(at + 1, polygons[at]))
     {
-      m_Polygon.clear();
-      for (const std::uint16_t corner : polygons.subspan(at + 1, polygons[at]))
-      {
-        m_Polygon.push_back(m_Indices[corner]);
-      }
-      visit();
+      m_Polygon.push_back(m_Indices[corner]);
     }
-  };
-  m_Keys.clear();
-  eachPolygon([&] {
-    m_Keys.push_back(KeyOf(m_Polygon));
-    m_Table.Prefetch(m_Keys.back());
-  });
-  std::size_t next = 0;
-  eachPolygon([&] { AddFacet(cell, m_Polygon, m_Keys[next++]); });
+    AddFacet(cell, m_Polygon);
+  }
 }
 
 template void
