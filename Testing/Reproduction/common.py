@@ -261,11 +261,10 @@ def paint(one, turn=VIEW, values=None, pixels=360, box=None, measure_first=False
             weights = np.stack([1 - u - v, u, v], 1)[u + v <= 1] if n > 1 else np.full((1, 3), 1 / 3)
             some = np.flatnonzero(cuts == n)
             for part in np.array_split(some, 1 + len(some) * len(weights) // 2000000):
-                at = np.einsum("wc,ncd->nwd", weights, corners[part]).reshape(-1, 3)
-                there = (value[part] @ weights.T).ravel()
+                there, right, up, near = ((of[part] @ weights.T).ravel() for of in (value, *np.moveaxis(corners, 2, 0)))
                 dark = np.repeat(shade[part], len(weights))
-                x, y = ((at[:, 0] - box[0]) / step).astype(int), ((box[3] - at[:, 1]) / step).astype(int)
-                depth = there if measure_first else at[:, 2]
+                x, y = ((right - box[0]) / step).astype(int), ((box[3] - up) / step).astype(int)
+                depth = there if measure_first else near
                 keep = np.flatnonzero((x >= 0) & (x < width) & (y >= 0) & (y < height))
                 keep = keep[depth[keep] > front[y[keep] * width + x[keep]]]
                 keep = keep[np.argsort(depth[keep], kind="stable")]  # of those at one pixel the last is kept
