@@ -233,7 +233,7 @@ template <typename TNumber>
 Tetrahedra
 Run(const std::vector<LatticePoint> & points,
     const SpacingWeights &            weights,
-    const std::function<void()> &     meanwhile,
+    const Meanwhile &                 meanwhile,
     const ProgressCallback &          progress)
 {
   const std::vector<std::uint32_t> order = InsertionOrder(points);
@@ -260,7 +260,7 @@ Run(const std::vector<LatticePoint> & points,
       insertion.AddRest(rest);
       result = insertion.Finish(order);
     },
-    meanwhile);
+    [&] { meanwhile(slabs > 1 ? rest.size() : count); });
   return result;
 }
 
@@ -269,7 +269,7 @@ Run(const std::vector<LatticePoint> & points,
 Tetrahedra
 BowyerWatson(const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
-             const std::function<void()> &     meanwhile,
+             const Meanwhile &                 meanwhile,
              const ProgressCallback &          progress)
 {
   LatticePoint low = points.at(0);

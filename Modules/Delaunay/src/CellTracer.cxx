@@ -66,11 +66,12 @@ CellTracer::Continue(Tracing tracing, const ProgressCallback & progress)
   m_Result = std::move(tracing.cells);
   m_Deep = std::move(tracing.deep);
   std::fill(m_Done.begin(), m_Done.end(), std::uint8_t{ 1 });
+  m_Front.Clear(tracing.open.size() + m_Deep.size() + tracing.unmet.size());
   for (const auto * list : { &tracing.open, &m_Deep, &tracing.unmet })
   {
     for (const std::uint32_t facet : *list)
     {
-      m_Front.Insert(KeyOf(m_Result.FacetPoints(facet)), facet);
+      m_Front.InsertFar(KeyOf(m_Result.FacetPoints(facet)), facet);
     }
   }
   for (const std::uint32_t facet : tracing.open)
@@ -102,15 +103,22 @@ CellTracer::ProcessPending(const ProgressCallback & progress)
 Tracing
 CellTracer::Finish()
 {
-  Tracing tracing;
+  Tracing           tracing;
+  std::vector<bool> isDeep(m_Result.FacetCount(), false);
   for (const std::uint32_t facet : m_Deep)
   {
-    if (IsOpen(facet) && m_Front.Take(KeyOf(m_Result.FacetPoints(facet))) != FacetTable::none)
+    isDeep[facet] = true;
+    if (IsOpen(facet))
     {
       tracing.deep.push_back(facet);
     }
   }
-  m_Front.ForEach([&](std::uint32_t facet) { (IsOpen(facet) ? tracing.open : tracing.unmet).push_back(facet); });
+  m_Front.ForEach([&](std::uint32_t facet) {
+    if (!isDeep[facet])
+    {
+      (IsOpen(facet) ? tracing.open : tracing.unmet).push_back(facet);
+    }
+  });
   tracing.cells = std::move(m_Result);
   return tracing;
 }

@@ -1,7 +1,5 @@
 #include "DeepCells.h"
 
-#include "BowyerWatson.h"
-
 
 #include <algorithm>
 
@@ -110,7 +108,7 @@ void
 AddDeepCells(Tracing &                         tracing,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
-             const std::function<void()> &     meanwhile,
+             const Meanwhile &                 meanwhile,
              const ProgressCallback &          progress)
 {
   std::sort(tracing.deep.begin(), tracing.deep.end());

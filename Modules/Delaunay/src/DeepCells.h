@@ -1,9 +1,9 @@
 #pragma once
 // The cells that tracing left: those beyond the facets it could not cross.
 
+#include "BowyerWatson.h"
 #include "CellTracer.h"
 
-#include <functional>
 
 namespace voxelcore
 {
@@ -12,14 +12,14 @@ namespace voxelcore
  *  Delaunay cells whose vertices are all on these facets: a vertex of such a cell is a corner of a boundary square on its
  *  side, and between that square (itself open if its cell is missing) and the missing cell the cells around the vertex
  *  change from known to unknown across an open facet. The missing cells' spheres are empty, so the cells are among those
- *  of these points alone. Which cells were traced does not matter. `meanwhile` is called once, beside the part of the
- *  work that is one thread's and leaves the tracing as it is.
+ *  of these points alone. Which cells were traced does not matter. While BowyerWatson() calls `meanwhile` the tracing
+ *  stays as it is.
  *  \throws Cancelled; CertificateError when the region does not close (a fault of this engine). */
 void
 AddDeepCells(Tracing &                         tracing,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
-             const std::function<void()> &     meanwhile,
+             const Meanwhile &                 meanwhile,
              const ProgressCallback &          progress);
 
 } // namespace voxelcore

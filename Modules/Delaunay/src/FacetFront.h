@@ -15,18 +15,30 @@ public:
     : m_HasFar((points + 63) / 64, 0)
   {}
 
+  /** Starts with about so many facets of earlier bricks, which come by InsertFar(). */
+  void
+  Clear(std::size_t expectedFar)
+  {
+    m_Near.Clear(0);
+    m_Far.Clear(expectedFar);
+  }
+
   /** What is there so far belongs to earlier bricks; the next one is expected to make about so many facets at a time. */
   void
   StartBrick(std::size_t expected)
   {
-    m_Near.ForEach([&](const FacetKey & key, std::uint32_t facet) {
-      m_Far.Insert(key, facet);
-      for (const std::uint32_t point : key)
-      {
-        m_HasFar[point / 64] |= std::uint64_t{ 1 } << point % 64;
-      }
-    });
+    m_Near.ForEach([&](const FacetKey & key, std::uint32_t facet) { InsertFar(key, facet); });
     m_Near.Clear(expected);
+  }
+
+  void
+  InsertFar(const FacetKey & key, std::uint32_t facet)
+  {
+    m_Far.Insert(key, facet);
+    for (const std::uint32_t point : key)
+    {
+      m_HasFar[point / 64] |= std::uint64_t{ 1 } << point % 64;
+    }
   }
 
   /** Takes the facet stored under the key out and returns it, or FacetTable::none. */
