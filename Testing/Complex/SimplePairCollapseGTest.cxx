@@ -1,4 +1,5 @@
 #include "Complex/ComplexFixtures.h"
+#include "VoxelCoreTesting/Threads.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/SimplePairCollapse.h"
 
@@ -9,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <set>
 #include <tuple>
 
 using namespace voxelcore;
@@ -117,6 +119,66 @@ CollapseByRescanning(const CellComplex & complex, const Measures & measures, Liv
   }
 }
 
+/** The same for large complexes: pairs wait in order, and are looked at again when their turn comes. */
+LiveElements
+CollapseInOrder(const CellComplex & complex, const Measures & measures, LiveElements live, double threshold)
+{
+  using Pair = std::tuple<double, double, int, ElementIndex>; // measures, dimension and index of e
+  std::set<Pair>       pairs;
+  std::vector<Cofaces> ofVertex = CountVertexCofaces(complex);
+  std::vector<Cofaces> ofEdge = CountEdgeCofaces(complex);
+  const auto           offerVertex = [&](ElementIndex v) {
+    if (ofVertex[v].count == 1 && std::max(measures.vertex[v], measures.edge[ofVertex[v].exclusiveOr]) < threshold)
+    {
+      pairs.insert({ measures.vertex[v], measures.edge[ofVertex[v].exclusiveOr], 0, v });
+    }
+  };
+  const auto offerEdge = [&](ElementIndex e) {
+    if (ofEdge[e].count == 1 && std::max(measures.edge[e], measures.face[ofEdge[e].exclusiveOr]) < threshold)
+    {
+      pairs.insert({ measures.edge[e], measures.face[ofEdge[e].exclusiveOr], 1, e });
+    }
+  };
+  const auto dropEdge = [&](ElementIndex e) {
+    live.edges[e] = 0;
+    for (const ElementIndex v : complex.edges[e])
+    {
+      ofVertex[v].Remove(e);
+      offerVertex(v);
+    }
+  };
+  for (std::size_t v = 0; v < complex.vertexCount; ++v)
+  {
+    offerVertex(static_cast<ElementIndex>(v));
+  }
+  for (std::size_t e = 0; e < complex.edges.size(); ++e)
+  {
+    offerEdge(static_cast<ElementIndex>(e));
+  }
+  while (!pairs.empty())
+  {
+    const auto [lower, upper, dimension, element] = *pairs.begin();
+    pairs.erase(pairs.begin());
+    if (dimension == 0 && ofVertex[element].count == 1)
+    {
+      live.vertices[element] = 0;
+      dropEdge(ofVertex[element].exclusiveOr);
+    }
+    else if (dimension == 1 && ofEdge[element].count == 1)
+    {
+      const ElementIndex face = ofEdge[element].exclusiveOr;
+      live.faces[face] = 0;
+      for (const ElementIndex e : complex.FaceEdges(face))
+      {
+        ofEdge[e].Remove(face);
+        offerEdge(e);
+      }
+      dropEdge(element);
+    }
+  }
+  return live;
+}
+
 LiveElements
 AllLive(const CellComplex & complex)
 {
@@ -219,6 +281,49 @@ TEST(SimplePairCollapse, RandomComplexesCollapseAsByRescanning)
   }
   std::cout << "seeds 1 to 240: " << removed << " edges removed in all\n";
   EXPECT_GT(removed, 1000U);
+}
+
+TEST(SimplePairCollapse, LargeComplexesCollapseInOrderByAnyNumberOfThreads)
+{
+  std::size_t removed = 0;
+  std::size_t faces = 0;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const unsigned     facePercent = 25 + seed * 7 % 70;
+    const CellComplex  complex = seed % 2 == 0 ? RandomCubicalComplex(seed, 17, facePercent, 30)
+                                               : RandomSimplicialComplex(seed, 12, facePercent, 10);
+    std::mt19937       generator(seed);
+    const unsigned     levels = seed % 3 == 0 ? 4 : seed % 3 == 1 ? 60 : 1000000;
+    const Measures     measures = RandomMeasures(complex, generator, levels, seed % 4 < 2);
+    const double       threshold = seed % 5 == 0 ? kAll : 0.9 * levels;
+    const LiveElements expected = CollapseInOrder(complex, measures, AllLive(complex), threshold);
+    for (const int threads : { 1, 2, 3, 7 })
+    {
+      const Threads      limit(threads);
+      SimplePairCollapse collapse(complex, measures.vertex, measures.edge, measures.face);
+      collapse.CollapseBelow(threshold);
+      ExpectSame(collapse.Live(), expected);
+    }
+    removed += static_cast<std::size_t>(std::count(expected.edges.begin(), expected.edges.end(), 0));
+    faces += static_cast<std::size_t>(std::count(expected.faces.begin(), expected.faces.end(), 0));
+    ASSERT_FALSE(::testing::Test::HasFailure());
+  }
+  std::cout << "seeds 1 to 20: " << removed << " edges removed in all, " << faces << " of them with a face\n";
+  EXPECT_GT(faces, 40000U);
+  EXPECT_GT(removed - faces, 3000U);
+}
+
+TEST(SimplePairCollapse, TheCollapsesOfBothReferencesAreOne)
+{
+  for (std::uint32_t seed = 1; seed <= 40; ++seed)
+  {
+    const CellComplex complex = RandomComplex(seed);
+    std::mt19937      generator(seed);
+    const Measures    measures = RandomMeasures(complex, generator, seed % 3 == 0 ? 3 : 12, seed % 4 < 2);
+    ExpectSame(CollapseInOrder(complex, measures, AllLive(complex), 9),
+               CollapseByRescanning(complex, measures, AllLive(complex), 9));
+  }
 }
 
 TEST(SimplePairCollapse, NestedThresholdsEqualTheGreatestAtOnce)

@@ -1,47 +1,13 @@
 #include "voxelcore/SimplePairCollapse.h"
 
-#include "voxelcore/BucketQueue.h"
+#include "PairRemoval.h"
+
 #include "voxelcore/SideBySide.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
 
 namespace voxelcore
 {
-
-namespace
-{
-
-struct Pair
-{
-  double        measure;       // of e
-  double        cofaceMeasure; // of f
-  std::uint32_t isEdge;        // dimension of e: 0 vertex, 1 edge
-  ElementIndex  element;       // e
-
-  double
-  Key() const
-  {
-    return measure;
-  }
-  friend bool
-  operator<(const Pair & a, const Pair & b)
-  {
-    if (a.measure != b.measure)
-    {
-      return a.measure < b.measure;
-    }
-    if (a.cofaceMeasure != b.cofaceMeasure)
-    {
-      return a.cofaceMeasure < b.cofaceMeasure;
-    }
-    return a.isEdge != b.isEdge ? a.isEdge < b.isEdge : a.element < b.element;
-  }
-};
-
-} // namespace
 
 SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
                                        std::span<const double> vertexMeasure,
@@ -64,135 +30,9 @@ SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
 void
 SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & progress)
 {
-  double least = HUGE_VAL;
-  double greatest = -HUGE_VAL;
-  for (const std::span<const double> measures : { m_VertexMeasure, m_EdgeMeasure })
-  {
-    for (const double measure : measures)
-    {
-      least = std::min(least, measure);
-      greatest = std::max(greatest, measure);
-    }
-  }
-  BucketQueue<Pair> pairs(std::max(least, std::numeric_limits<double>::lowest()),
-                          std::min({ greatest, threshold, std::numeric_limits<double>::max() }));
-  // A vertex in one edge is in no face, as a face would need two edges there; so cofaces one dimension up suffice.
-  const auto offerVertex = [&](ElementIndex vertex) {
-    if (m_VertexCofaces[vertex].count == 1 && m_VertexMeasure[vertex] < threshold)
-    {
-      const double coface = m_EdgeMeasure[m_VertexCofaces[vertex].exclusiveOr];
-      if (coface < threshold)
-      {
-        pairs.Push({ m_VertexMeasure[vertex], coface, 0, vertex });
-      }
-    }
-  };
-  const auto offerEdge = [&](ElementIndex edge) {
-    if (m_EdgeCofaces[edge].count == 1 && m_EdgeMeasure[edge] < threshold)
-    {
-      const double coface = m_FaceMeasure[m_EdgeCofaces[edge].exclusiveOr];
-      if (coface < threshold)
-      {
-        pairs.Push({ m_EdgeMeasure[edge], coface, 1, edge });
-      }
-    }
-  };
-  const auto dropEdge = [&](ElementIndex edge) {
-    m_Live.edges[edge] = 0;
-    for (const ElementIndex vertex : m_Complex->edges[edge])
-    {
-      m_VertexCofaces[vertex].Remove(edge);
-      if (m_Live.vertices[vertex])
-      {
-        offerVertex(vertex);
-      }
-    }
-  };
-
-  for (std::size_t vertex = 0; vertex < m_VertexCofaces.size(); ++vertex)
-  {
-    if (m_Live.vertices[vertex])
-    {
-      offerVertex(static_cast<ElementIndex>(vertex));
-    }
-  }
-  for (std::size_t edge = 0; edge < m_EdgeCofaces.size(); ++edge)
-  {
-    if (m_Live.edges[edge])
-    {
-      offerEdge(static_cast<ElementIndex>(edge));
-    }
-  }
-
-  // Removing in order of measure jumps about in memory: what the pairs ahead will ask for is fetched step by step.
-  const auto fetch = [&] {
-    if (const Pair * pair = pairs.Ahead(24); pair != nullptr && pair->isEdge)
-    {
-      __builtin_prefetch(&m_EdgeCofaces[pair->element], 1);
-      __builtin_prefetch(&m_Live.edges[pair->element], 1);
-      __builtin_prefetch(&m_Complex->edges[pair->element]);
-    }
-    const auto faceOf = [&](const Pair * pair) {
-      const bool simple = pair != nullptr && pair->isEdge && m_EdgeCofaces[pair->element].count == 1;
-      return simple ? std::optional(m_EdgeCofaces[pair->element].exclusiveOr) : std::nullopt;
-    };
-    if (const auto face = faceOf(pairs.Ahead(16)))
-    {
-      __builtin_prefetch(&m_Complex->faceOffsets[*face]);
-      __builtin_prefetch(&m_Live.faces[*face], 1);
-    }
-    if (const auto face = faceOf(pairs.Ahead(8)))
-    {
-      __builtin_prefetch(&m_Complex->faceEdges[m_Complex->faceOffsets[*face]]);
-    }
-    if (const auto face = faceOf(pairs.Ahead(4)))
-    {
-      for (const ElementIndex edge : m_Complex->FaceEdges(*face))
-      {
-        __builtin_prefetch(&m_EdgeCofaces[edge], 1);
-        __builtin_prefetch(&m_EdgeMeasure[edge]);
-      }
-    }
-  };
-
-  std::size_t count = 0;
-  while (pairs.Prepare())
-  {
-    if ((count++ & 0xFFFFU) == 0)
-    {
-      ReportProgress(progress, "prune", 0.0);
-    }
-    fetch();
-    const Pair pair = pairs.Pop();
-    if (pair.isEdge)
-    {
-      // Its face may have gone with another of its edges in the meantime.
-      if (!m_Live.edges[pair.element] || m_EdgeCofaces[pair.element].count != 1)
-      {
-        continue;
-      }
-      const ElementIndex face = m_EdgeCofaces[pair.element].exclusiveOr;
-      m_Live.faces[face] = 0;
-      for (const ElementIndex edge : m_Complex->FaceEdges(face))
-      {
-        m_EdgeCofaces[edge].Remove(face);
-        if (edge != pair.element)
-        {
-          offerEdge(edge);
-        }
-      }
-      dropEdge(pair.element);
-    }
-    else
-    {
-      if (!m_Live.vertices[pair.element] || m_VertexCofaces[pair.element].count != 1)
-      {
-        continue;
-      }
-      m_Live.vertices[pair.element] = 0;
-      dropEdge(m_VertexCofaces[pair.element].exclusiveOr);
-    }
-  }
+  RemovePairs({ *m_Complex, m_VertexMeasure, m_EdgeMeasure, m_FaceMeasure, m_Live, m_VertexCofaces, m_EdgeCofaces },
+              threshold,
+              progress);
 }
 
 CellComplex
