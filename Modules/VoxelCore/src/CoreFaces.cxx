@@ -45,7 +45,28 @@ struct RangeFacets
 {
   std::vector<std::uint64_t> start; // ranges + 1
   std::vector<std::uint32_t> facet;
+  std::vector<std::uint64_t> sidesBefore; // ranges + 1: sides of faces whose smaller point lies in ranges before
 };
+
+// Calls visit(p, side) for the sides of faces that a facet gives.
+template <typename TVisit>
+void
+VisitSides(std::span<const std::uint32_t> polygon, std::uint32_t facet, TVisit visit)
+{
+  for (std::size_t j = 0; j < polygon.size(); ++j)
+  {
+    if ((polygon[j] & kBoundarySide) != 0)
+    {
+      continue;
+    }
+    const std::uint32_t u = polygon[j] & kRank;
+    const std::uint32_t v = polygon[j + 1 == polygon.size() ? 0 : j + 1] & kRank;
+    // The facet's normal points from cell 0 to cell 1. A facet that runs p -> q lies on the left of that direction,
+    // so going round it counter-clockwise passes from cell 0 to cell 1.
+    const bool forward = u < v;
+    visit(forward ? u : v, Side{ forward ? v : u, facet << 1 | (forward ? 1U : 0U) });
+  }
+}
 
 // Calls visit(range) once for each range that a facet has points of.
 template <typename TVisit>
@@ -75,27 +96,35 @@ FacetsByRange(const DelaunayCells & cells, std::size_t ranges)
   RangeFacets       result;
   result.start.assign(ranges + 1, 0);
   // Each part of the facets counts for itself; then its entries follow those of the parts before.
-  std::vector<std::vector<std::uint64_t>> next(threads, std::vector<std::uint64_t>(ranges, 0));
-  const auto                              visitPart = [&](std::size_t part, auto visit) {
+  using Counts = std::vector<std::vector<std::uint64_t>>;
+  Counts     next(threads, std::vector<std::uint64_t>(ranges, 0));
+  Counts     sides = next;
+  const auto visitPart = [&](std::size_t part, auto visit) {
     for (std::size_t facet = facets * part / threads; facet < facets * (part + 1) / threads; ++facet)
     {
-      VisitRanges(cells.FacetPoints(facet), [&](std::uint32_t range) { visit(next[part][range], facet); });
+      visit(static_cast<std::uint32_t>(facet), cells.FacetPoints(facet));
     }
   };
 #pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads))
   for (std::size_t part = 0; part < threads; ++part)
   {
-    visitPart(part, [](std::uint64_t & count, std::size_t) { ++count; });
+    visitPart(part, [&](std::uint32_t facet, std::span<const std::uint32_t> polygon) {
+      VisitRanges(polygon, [&](std::uint32_t range) { ++next[part][range]; });
+      VisitSides(polygon, facet, [&](std::uint32_t p, const Side &) { ++sides[part][RangeOf(p)]; });
+    });
   }
+  result.sidesBefore.assign(ranges + 1, 0);
   std::uint64_t sum = 0;
   for (std::size_t range = 0; range < ranges; ++range)
   {
     result.start[range] = sum;
+    result.sidesBefore[range + 1] = result.sidesBefore[range];
     for (std::size_t part = 0; part < threads; ++part)
     {
       const std::uint64_t count = next[part][range];
       next[part][range] = sum;
       sum += count;
+      result.sidesBefore[range + 1] += sides[part][range];
     }
   }
   result.start[ranges] = sum;
@@ -103,38 +132,11 @@ FacetsByRange(const DelaunayCells & cells, std::size_t ranges)
 #pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads))
   for (std::size_t part = 0; part < threads; ++part)
   {
-    visitPart(part,
-              [&](std::uint64_t & at, std::size_t facet) { result.facet[at++] = static_cast<std::uint32_t>(facet); });
+    visitPart(part, [&](std::uint32_t facet, std::span<const std::uint32_t> polygon) {
+      VisitRanges(polygon, [&](std::uint32_t range) { result.facet[next[part][range]++] = facet; });
+    });
   }
   return result;
-}
-
-// Calls visit(p, side) for the sides of faces whose smaller point p lies in the range.
-template <typename TVisit>
-void
-VisitSides(const DelaunayCells & cells, const RangeFacets & byRange, std::size_t range, TVisit visit)
-{
-  for (std::uint64_t i = byRange.start[range]; i < byRange.start[range + 1]; ++i)
-  {
-    const std::uint32_t facet = byRange.facet[i];
-    const auto          polygon = cells.FacetPoints(facet);
-    for (std::size_t j = 0; j < polygon.size(); ++j)
-    {
-      if ((polygon[j] & kBoundarySide) != 0)
-      {
-        continue;
-      }
-      const std::uint32_t u = polygon[j] & kRank;
-      const std::uint32_t v = polygon[j + 1 == polygon.size() ? 0 : j + 1] & kRank;
-      // The facet's normal points from cell 0 to cell 1. A facet that runs p -> q lies on the left of that direction,
-      // so going round it counter-clockwise passes from cell 0 to cell 1.
-      const bool forward = u < v;
-      if (RangeOf(forward ? u : v) == range)
-      {
-        visit(forward ? u : v, Side{ forward ? v : u, facet << 1 | (forward ? 1U : 0U) });
-      }
-    }
-  }
 }
 
 using Edges = std::vector<std::array<ElementIndex, 2>>;
@@ -189,13 +191,28 @@ GroupRange(const DelaunayCells & cells,
   const std::size_t          low = range << kRangeBits;
   const std::size_t          size = std::min(pointCount - low, std::size_t{ 1 } << kRangeBits);
   std::vector<std::uint32_t> start(size + 2, 0);
-  VisitSides(cells, byRange, range, [&](std::uint32_t p, const Side &) { ++start[p - low + 2]; });
+  // Facets are fetched from memory once.
+  std::vector<std::pair<std::uint32_t, Side>> found;
+  found.reserve(turns.size());
+  for (std::uint64_t i = byRange.start[range]; i < byRange.start[range + 1]; ++i)
+  {
+    VisitSides(cells.FacetPoints(byRange.facet[i]), byRange.facet[i], [&](std::uint32_t p, const Side & side) {
+      if (RangeOf(p) == range)
+      {
+        found.emplace_back(p, side);
+        ++start[p - low + 2];
+      }
+    });
+  }
   for (std::size_t p = 2; p < start.size(); ++p)
   {
     start[p] += start[p - 1];
   }
-  std::vector<Side> sides(turns.size());
-  VisitSides(cells, byRange, range, [&](std::uint32_t p, const Side & side) { sides[start[p - low + 1]++] = side; });
+  std::vector<Side> sides(found.size());
+  for (const auto & [p, side] : found)
+  {
+    sides[start[p - low + 1]++] = side;
+  }
   bool closed = true;
   for (std::size_t p = 0; p < size; ++p)
   {
@@ -224,23 +241,12 @@ GroupRange(const DelaunayCells & cells,
 Faces
 CollectFaces(DelaunayCells cells, std::size_t pointCount, const Edges & edges)
 {
-  const std::size_t               ranges = (pointCount + (std::size_t{ 1 } << kRangeBits) - 1) >> kRangeBits;
-  RangeFacets                     byRange = FacetsByRange(cells, ranges);
-  std::vector<std::uint64_t>      sidesBefore(ranges + 1, 0);
-  std::vector<std::vector<Group>> parts(ranges);
-  const bool                      many = ranges > 1;
-#pragma omp parallel for schedule(dynamic) if (many)
-  for (std::size_t range = 0; range < ranges; ++range)
-  {
-    std::uint64_t count = 0;
-    VisitSides(cells, byRange, range, [&](std::uint32_t, const Side &) { ++count; });
-    sidesBefore[range + 1] = count;
-  }
-  for (std::size_t range = 0; range < ranges; ++range)
-  {
-    sidesBefore[range + 1] += sidesBefore[range];
-  }
-  Faces faces;
+  const std::size_t                  ranges = (pointCount + (std::size_t{ 1 } << kRangeBits) - 1) >> kRangeBits;
+  RangeFacets                        byRange = FacetsByRange(cells, ranges);
+  std::vector<std::vector<Group>>    parts(ranges);
+  const bool                         many = ranges > 1;
+  const std::vector<std::uint64_t> & sidesBefore = byRange.sidesBefore;
+  Faces                              faces;
   faces.turns.resize(sidesBefore[ranges]);
   bool closed = true;
 #pragma omp parallel for schedule(dynamic) reduction(&& : closed) if (many)
