@@ -81,6 +81,84 @@ TEST(SurfaceEstimate, GreyValuesOfABallGiveItsSurfaceBackWithinAFiftiethOfAVoxel
   EXPECT_EQ(missing, 0);
 }
 
+// The part of a voxel where `height` (of its place, in mm) is positive, of 6^3 samples, less a half.
+template <typename THeight>
+float
+PartAbove(int x, int y, int z, THeight height)
+{
+  constexpr int parts = 6;
+  int           in = 0;
+  for (int i = 0; i < parts * parts * parts; ++i)
+  {
+    const auto at = [&](int voxel, int k) { return voxel + (k % parts + 0.5) / parts; };
+    in += height(Vector3{ at(x, i), at(y, i / parts), at(z, i / parts / parts) }) > 0 ? 1 : 0;
+  }
+  return static_cast<float>(in) / (parts * parts * parts) - 0.5F;
+}
+
+template <typename THeight>
+std::unique_ptr<SurfaceEstimate>
+SurfaceOfParts(const VoxelShape & shape, THeight height)
+{
+  return SurfaceFromGrey(shape,
+                         { 1, 1, 1 },
+                         shape.Box(),
+                         [=](std::int32_t x, std::int32_t y, std::int32_t z, auto values) {
+                           for (float & value : values)
+                           {
+                             value = PartAbove(x++, y, z, height);
+                           }
+                         });
+}
+
+// What is interpolated between voxels has ripples a voxel long, a fiftieth high: these lean by several hundredths.
+TEST(SurfaceEstimate, GreyValuesOfABallGiveNormalsWithinAHundredth)
+{
+  const auto height = [](const Vector3 & p) {
+    return kRadius - std::hypot(p[0] - kCentre, p[1] - kCentre, p[2] - kCentre);
+  };
+  const VoxelShape shape = Ball({ 1, 1, 1 });
+  const auto       surface = SurfaceOfParts(shape, height);
+  double           sum = 0;
+  int              count = 0;
+  for (const LatticePoint & p : BoundaryVertices(shape))
+  {
+    const SurfacePoint point = surface->Project({ 1.0 * p.x, 1.0 * p.y, 1.0 * p.z }, 1.5);
+    ASSERT_TRUE(point.found);
+    const Vector3 out{ point.position[0] - kCentre, point.position[1] - kCentre, point.position[2] - kCentre };
+    const double  along = out[0] * point.normal[0] + out[1] * point.normal[1] + out[2] * point.normal[2];
+    sum += 1 - std::pow(along / std::hypot(out[0], out[1], out[2]), 2);
+    ++count;
+  }
+  EXPECT_LT(std::sqrt(sum / count), 0.01);
+}
+
+// Wide smoothing alone would move the walls of this sheet by an eighth of a voxel.
+TEST(SurfaceEstimate, GreyValuesOfASheetFourVoxelsThickGiveItsWallsWithinATwentiethOfAVoxel)
+{
+  constexpr double half = 2;
+  const Vector3    n{ 0.36, 0.48, 0.8 };
+  const auto aside = [=](const Vector3 & p) { return n[0] * (p[0] - 16) + n[1] * (p[1] - 16) + n[2] * (p[2] - 16); };
+  const auto height = [=](const Vector3 & p) { return half - std::abs(aside(p)); };
+  const VoxelShape shape = ShapeWhere({ 32, 32, 32 }, [&](int x, int y, int z) {
+    return height({ x + 0.5, y + 0.5, z + 0.5 }) > 0;
+  });
+  const auto       surface = SurfaceOfParts(shape, height);
+  int              count = 0;
+  for (const LatticePoint & p : BoundaryVertices(shape))
+  {
+    if (std::min({ p.x, p.y, p.z, 32 - p.x, 32 - p.y, 32 - p.z }) < 6)
+    {
+      continue;
+    }
+    const SurfacePoint point = surface->Project({ 1.0 * p.x, 1.0 * p.y, 1.0 * p.z }, 1.5);
+    ASSERT_TRUE(point.found);
+    EXPECT_NEAR(std::abs(aside(point.position)), half, 0.05);
+    ++count;
+  }
+  EXPECT_GT(count, 500);
+}
+
 TEST(SurfaceEstimate, AtTheScansBorderTheSurfaceIsTheBorder)
 {
   const VoxelShape shape = Box({ 8, 8, 8 });

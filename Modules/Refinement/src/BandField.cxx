@@ -35,7 +35,9 @@ BandField::BandField(const VoxelShape & shape, const Vector3 & sides, double sig
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    m_Gauss[axis] = Gauss(sigma / sides[axis]);
+    const double variance = sigma * sigma / (sides[axis] * sides[axis]);
+    m_Gauss[axis] = Gauss(variance);
+    m_GaussToSpline[axis] = Gauss(std::max(variance - 1.0 / 3, 0.02));
   }
   FindBricks(shape);
   FillLabels(shape);
@@ -45,10 +47,10 @@ BandField::BandField(const VoxelShape & shape, const Vector3 & sides, double sig
 // Four sigma far, normalised. The exponential is made of sums and products, as the last bit of exp() differs between
 // libraries.
 BandField::Kernel
-BandField::Gauss(double sigma)
+BandField::Gauss(double variance)
 {
   constexpr int halvings = 8;
-  const double  exponent = -0.5 / (sigma * sigma) / (1 << halvings);
+  const double  exponent = -0.5 / variance / (1 << halvings);
   double        base = 1;
   for (int term = 10; term > 0; --term)
   {
@@ -59,7 +61,7 @@ BandField::Gauss(double sigma)
     base *= base;
   }
   Kernel kernel;
-  kernel.radius = std::min(kMostRadius, static_cast<std::int32_t>(std::ceil(4 * sigma)));
+  kernel.radius = std::min(kMostRadius, static_cast<std::int32_t>(std::ceil(4 * std::sqrt(variance))));
   std::array<double, kMostRadius + 1> weights{ 1 };
   double                              sum = 1;
   double                              ratio = base; // base^(k^2) by its odd differences
@@ -183,12 +185,12 @@ BandField::FillLabels(const VoxelShape & shape)
 
 // G at the voxels of one brick.
 void
-BandField::Convolve(const std::vector<float> & from, std::size_t brick, float * to) const
+BandField::Convolve(const Kernels & kernels, const std::vector<float> & from, std::size_t brick, float * to) const
 {
   constexpr std::size_t                           most = kSide + 2 * kMostRadius;
-  const std::int32_t                              rx = m_Gauss[0].radius;
-  const std::int32_t                              ry = m_Gauss[1].radius;
-  const std::int32_t                              rz = m_Gauss[2].radius;
+  const std::int32_t                              rx = kernels[0].radius;
+  const std::int32_t                              ry = kernels[1].radius;
+  const std::int32_t                              rz = kernels[2].radius;
   const auto                                      wide = static_cast<std::size_t>(kSide + 2 * rx);
   const auto                                      deep = static_cast<std::size_t>(kSide + 2 * ry);
   const auto                                      high = static_cast<std::size_t>(kSide + 2 * rz);
@@ -223,8 +225,8 @@ BandField::Convolve(const std::vector<float> & from, std::size_t brick, float * 
     }
   }
   const auto pass = [&](std::size_t axis, const float * in, float * sum, std::size_t stride, std::size_t size) {
-    const auto   radius = static_cast<std::size_t>(m_Gauss[axis].radius);
-    const auto & gauss = m_Gauss[axis].weights;
+    const auto   radius = static_cast<std::size_t>(kernels[axis].radius);
+    const auto & gauss = kernels[axis].weights;
     for (std::size_t i = 0; i < size; ++i)
     {
       sum[i] = gauss[0] * in[i + radius * stride];
@@ -250,21 +252,44 @@ BandField::Convolve(const std::vector<float> & from, std::size_t brick, float * 
   pass(2, byY, to, kSide * kSide, kVoxels);
 }
 
+float
+BandField::StepWeight(double sigma)
+{
+  const double once = std::sqrt(sigma * sigma + 1.0 / 12);
+  const double twice = std::sqrt(2 * sigma * sigma + 1.0 / 12);
+  return static_cast<float>(once / (twice - once));
+}
+
 void
 BandField::Smooth(float weight)
+{
+  Smooth(weight, m_Gauss);
+}
+
+void
+BandField::SmoothToCoefficients(float weight)
+{
+  Smooth(weight, m_GaussToSpline);
+}
+
+void
+BandField::Smooth(float weight, const Kernels & kernels)
 {
   const auto         count = static_cast<std::ptrdiff_t>(m_Bricks.size());
   std::vector<float> once(m_Values.size());
 #pragma omp parallel for schedule(dynamic, 16) if (count > 16)
   for (std::ptrdiff_t brick = 0; brick < count; ++brick)
   {
-    Convolve(m_Values, static_cast<std::size_t>(brick), once.data() + static_cast<std::size_t>(brick) * kVoxels);
+    Convolve(kernels,
+             m_Values,
+             static_cast<std::size_t>(brick),
+             once.data() + static_cast<std::size_t>(brick) * kVoxels);
   }
 #pragma omp parallel for schedule(dynamic, 16) if (count > 16)
   for (std::ptrdiff_t brick = 0; brick < count; ++brick)
   {
     const std::size_t first = static_cast<std::size_t>(brick) * kVoxels;
-    Convolve(once, static_cast<std::size_t>(brick), m_Values.data() + first);
+    Convolve(m_Gauss, once, static_cast<std::size_t>(brick), m_Values.data() + first);
     for (std::size_t i = first; i < first + kVoxels; ++i)
     {
       m_Values[i] = (1 + weight) * once[i] - weight * m_Values[i];
@@ -301,14 +326,12 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
     const double floor = std::floor(at);
     const double t = at - floor;
     base[axis] = static_cast<std::int32_t>(floor);
-    weight[axis] = { ((2.0 - t) * t - 1.0) * t * 0.5,
-                     ((3.0 * t - 5.0) * t * t + 2.0) * 0.5,
-                     ((4.0 - 3.0 * t) * t + 1.0) * t * 0.5,
-                     (t - 1.0) * t * t * 0.5 };
-    slope[axis] = { ((4.0 - 3.0 * t) * t - 1.0) * 0.5,
-                    (9.0 * t - 10.0) * t * 0.5,
-                    ((8.0 - 9.0 * t) * t + 1.0) * 0.5,
-                    (3.0 * t - 2.0) * t * 0.5 };
+    const double s = 1.0 - t;
+    weight[axis] = { s * s * s / 6,
+                     (4.0 - 3.0 * t * t * (1.0 + s)) / 6,
+                     (4.0 - 3.0 * s * s * (1.0 + t)) / 6,
+                     t * t * t / 6 };
+    slope[axis] = { -0.5 * s * s, (1.5 * t - 2.0) * t, (2.0 - 1.5 * s) * s, 0.5 * t * t };
   }
   const Brick        home{ BrickOf(base[0]), BrickOf(base[1]), BrickOf(base[2]) };
   const std::int32_t found = Find(home);

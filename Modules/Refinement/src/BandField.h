@@ -35,17 +35,23 @@ public:
   void
   Smooth(float weight = 1);
 
+  /** The same, but values become coefficients of Evaluate(): to be called once, last. */
+  void
+  SmoothToCoefficients(float weight = 1);
+
   /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them and
-   *  sigma is a voxel. G moves a step of standard width s and curvature c by c s^2 times its slope, which goes as 1 / s: so
-   *  (1 + w) s1 = w s2, with s1^2 = 1 + 1/12 and s2^2 = 2 + 1/12. */
-  static constexpr float kStepWeight = 2.585F;
+   *  are cubes of side 1. G moves a step of standard width s and curvature c by c s^2 times its slope, which goes as 1 / s: so
+   *  (1 + w) s1 = w s2, with s1^2 = sigma^2 + 1/12 and s2^2 = 2 sigma^2 + 1/12. */
+  static float
+  StepWeight(double sigma);
 
   /** 0 where the sign contradicts the label. */
   void
   ClearContradictions();
 
-  /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic convolution (Keys 1981); false where
-   *  there is no brick. */
+  /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no brick.
+   *  What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian of variance
+   *  1/3 nearly, which SmoothToCoefficients() takes off its own. */
   bool
   Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const;
 
@@ -74,8 +80,9 @@ private:
   }
   std::int32_t
   Find(const Brick & brick) const;
+  using Kernels = std::array<Kernel, 3>;
   static Kernel
-  Gauss(double sigma);
+  Gauss(double variance);
   void
   FindBricks(const VoxelShape & shape);
   void
@@ -86,12 +93,15 @@ private:
   void
   GatherTile(std::size_t brick, std::int32_t margin, TTake take) const;
   void
-  Convolve(const std::vector<float> & from, std::size_t brick, float * to) const;
+  Convolve(const Kernels & kernels, const std::vector<float> & from, std::size_t brick, float * to) const;
+  void
+  Smooth(float weight, const Kernels & first);
 
   Vector3                                   m_Sides;
-  std::array<Kernel, 3>                     m_Gauss;
-  std::vector<Brick>                        m_Bricks;     ///< in units of bricks, by (z, y, x)
-  std::vector<std::uint32_t>                m_Table;      ///< open addressing: brick + 1, 0 for none
+  Kernels                                   m_Gauss;
+  Kernels                                   m_GaussToSpline; ///< with B-splines after it as wide as m_Gauss
+  std::vector<Brick>                        m_Bricks;        ///< in units of bricks, by (z, y, x)
+  std::vector<std::uint32_t>                m_Table;         ///< open addressing: brick + 1, 0 for none
   std::vector<std::array<std::int32_t, 27>> m_Neighbours; ///< a brick, or on which side of the boundary there is none
   std::vector<std::array<std::uint8_t, 64>> m_Labels;     ///< a byte a row along x
   std::vector<float>                        m_Values;

@@ -34,8 +34,9 @@ FootFinder::FootFinder(const RefinementInput &           input,
   , m_Anchors(used.size())
 {
   m_Voxel = std::cbrt(input.spacing[0] * input.spacing[1] * input.spacing[2]);
-  // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal.
-  const double reach = 0.5 * Length(input.spacing);
+  // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal; smoothed, it may
+  // pass a little beyond.
+  const double reach = 0.75 * Length(input.spacing);
   const auto   count = static_cast<std::ptrdiff_t>(used.size());
   ReportProgress(progress, "refining", 0);
 #pragma omp parallel for schedule(dynamic, 256) if (count > 512)
@@ -91,11 +92,12 @@ FootFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs, std:
   }
 }
 
-// Strides that are not shorter than the ripples and facets of an estimate, which would hold the foot up.
+// Strides that are not shorter than the ripples and facets of an estimate, which would hold the foot up. However little the
+// surface falls, it goes on: nearly opposite the nearest point, or from a place near the axis of a tube, it falls little.
 Vector3
 FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
 {
-  constexpr int    steps = 40;
+  constexpr int    steps = 60;
   constexpr double shortest = 0.1; // voxels
   double           stride = 0.5;
   SurfacePoint     foot = m_Anchors[point];
@@ -109,7 +111,7 @@ FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
     const Vector3 gap = Minus(place, foot.position);
     const Vector3 slide = Along(gap, -Dot(gap, foot.normal), foot.normal);
     const double  length = Length(slide);
-    if (length < kClose * m_Voxel)
+    if (!(length > 0))
     {
       break;
     }

@@ -23,10 +23,10 @@ Quality(const Vector3 & a, const Vector3 & b, const Vector3 & c)
 }
 
 std::size_t
-BestApex(const MedialComplex & core, std::span<const ElementIndex> corners, const Vector3 & spacing)
+BestApex(const std::vector<Vector3> & positions, std::span<const ElementIndex> corners, const Vector3 & spacing)
 {
   const std::size_t count = corners.size();
-  const auto        at = [&](std::size_t i) { return Times(core.positions[corners[i % count]], spacing); };
+  const auto        at = [&](std::size_t i) { return Times(positions[corners[i % count]], spacing); };
   std::size_t       best = 0;
   double            bestWorst = -1;
   for (std::size_t apex = 0; apex < count; ++apex)
@@ -48,27 +48,22 @@ BestApex(const MedialComplex & core, std::span<const ElementIndex> corners, cons
 struct Cut
 {
   std::array<ElementIndex, 3> corners; ///< the smallest first
-  double                      measure;
+  ElementIndex                polygon;
 };
 
 } // namespace
 
-MedialComplex
-CutIntoTriangles(const MedialComplex & core, const std::array<double, 3> & spacing)
+TriangleComplex
+CutIntoTriangles(const CellComplex & cells, const std::vector<Vector3> & positions, const Vector3 & spacing)
 {
   using Edge = std::array<ElementIndex, 2>;
-  std::vector<Cut>                     triangles;
-  std::vector<std::pair<Edge, double>> edges;
-  for (std::size_t edge = 0; edge < core.cells.edges.size(); ++edge)
+  std::vector<Cut>  triangles;
+  std::vector<Edge> edges = cells.edges;
+  for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
-    edges.emplace_back(core.cells.edges[edge], core.edgeLambda[edge]);
-  }
-  for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
-  {
-    const auto        corners = core.cells.FaceVertices(face);
+    const auto        corners = cells.FaceVertices(face);
     const std::size_t count = corners.size();
-    const std::size_t apex = count > 3 ? BestApex(core, corners, spacing) : 0;
-    const double      measure = core.faceLambda[face];
+    const std::size_t apex = count > 3 ? BestApex(positions, corners, spacing) : 0;
     for (std::size_t i = 1; i + 1 < count; ++i)
     {
       std::array<ElementIndex, 3> triangle{ corners[apex],
@@ -76,10 +71,10 @@ CutIntoTriangles(const MedialComplex & core, const std::array<double, 3> & spaci
                                             corners[(apex + i + 1) % count] };
       if (i > 1)
       {
-        edges.emplace_back(Edge{ std::min(triangle[0], triangle[1]), std::max(triangle[0], triangle[1]) }, measure);
+        edges.push_back({ std::min(triangle[0], triangle[1]), std::max(triangle[0], triangle[1]) });
       }
       std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-      triangles.push_back({ triangle, measure });
+      triangles.push_back({ triangle, static_cast<ElementIndex>(face) });
     }
   }
   std::sort(edges.begin(), edges.end());
@@ -90,16 +85,9 @@ CutIntoTriangles(const MedialComplex & core, const std::array<double, 3> & spaci
   };
   std::sort(triangles.begin(), triangles.end(), [&](const Cut & a, const Cut & b) { return sorted(a) < sorted(b); });
 
-  MedialComplex cut;
-  cut.positions = core.positions;
-  cut.radius = core.radius;
-  cut.vertexLambda = core.vertexLambda;
-  cut.cells.vertexCount = core.cells.vertexCount;
-  for (const auto & [edge, measure] : edges)
-  {
-    cut.cells.edges.push_back(edge);
-    cut.edgeLambda.push_back(measure);
-  }
+  TriangleComplex cut;
+  cut.cells.vertexCount = cells.vertexCount;
+  cut.cells.edges = std::move(edges);
   for (const Cut & triangle : triangles)
   {
     for (std::size_t i = 0; i < 3; ++i)
@@ -112,7 +100,7 @@ CutIntoTriangles(const MedialComplex & core, const std::array<double, 3> & spaci
       cut.cells.faceEdges.push_back(static_cast<ElementIndex>(found - cut.cells.edges.begin()));
     }
     cut.cells.faceOffsets.push_back(cut.cells.faceVertices.size());
-    cut.faceLambda.push_back(triangle.measure);
+    cut.polygons.push_back(triangle.polygon);
   }
   return cut;
 }

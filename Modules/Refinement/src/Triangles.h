@@ -1,14 +1,24 @@
 #pragma once
-// The polygons of a core as triangles.
+// The polygons of a complex as triangles.
 
-#include "voxelcore/MedialComplex.h"
+#include "voxelcore/CellComplex.h"
+#include "voxelcore/ImageGeometry.h"
+
+#include <vector>
 
 namespace voxelcore
 {
 
-/** The same complex with each face cut into triangles from one of its corners, the one that makes the best of them; its
- *  diagonals and triangles have its measure. Canonical order. */
-MedialComplex
-CutIntoTriangles(const MedialComplex & core, const std::array<double, 3> & spacing);
+/** A complex of triangles, in canonical order. */
+struct TriangleComplex
+{
+  CellComplex               cells;
+  std::vector<ElementIndex> polygons; ///< of each triangle the polygon it was cut from
+};
+
+/** The same complex with each face cut into triangles from one of its corners, the one that makes the best of them in
+ *  places (lattice coordinates times `spacing`). */
+TriangleComplex
+CutIntoTriangles(const CellComplex & cells, const std::vector<Vector3> & positions, const Vector3 & spacing);
 
 } // namespace voxelcore

@@ -1,0 +1,298 @@
+#include "WorkingCore.h"
+
+#include "MoveGuard.h"
+#include "Vectors.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Least squares: the step after which the feet of each pair are equally far. What no pair asks for stays: a sheet moves
+// along its normal, a seam of sheets in two directions.
+Vector3
+Step(const Vector3 & place, std::span<const PointPair> pairs, std::span<const Foot> feet)
+{
+  constexpr double      regular = 0.02;
+  std::array<double, 6> a{ 0, 0, 0, 0, 0, 0 }; // xx yy zz xy xz yz
+  Vector3               b{ 0, 0, 0 };
+  for (const PointPair & pair : pairs)
+  {
+    const Foot & p = FootOf(feet, pair[0]);
+    const Foot & q = FootOf(feet, pair[1]);
+    if (!(p.distance > 0) || !(q.distance > 0))
+    {
+      continue;
+    }
+    const Vector3 up = Along({ 0, 0, 0 }, 1 / p.distance, Minus(place, p.position));
+    const Vector3 uq = Along({ 0, 0, 0 }, 1 / q.distance, Minus(place, q.position));
+    const Vector3 g = Minus(up, uq);
+    const double  r = q.distance - p.distance;
+    a = { a[0] + g[0] * g[0], a[1] + g[1] * g[1], a[2] + g[2] * g[2],
+          a[3] + g[0] * g[1], a[4] + g[0] * g[2], a[5] + g[1] * g[2] };
+    b = Along(b, r, g);
+  }
+  const double count = static_cast<double>(pairs.size());
+  for (double & value : a)
+  {
+    value /= count;
+  }
+  a[0] += regular;
+  a[1] += regular;
+  a[2] += regular;
+  b = Along({ 0, 0, 0 }, 1 / count, b);
+  // The inverse of a symmetric matrix by its adjugate.
+  const Vector3 x{ a[1] * a[2] - a[5] * a[5], a[4] * a[5] - a[3] * a[2], a[3] * a[5] - a[4] * a[1] };
+  const Vector3 y{ x[1], a[0] * a[2] - a[4] * a[4], a[3] * a[4] - a[0] * a[5] };
+  const Vector3 z{ x[2], y[2], a[0] * a[1] - a[3] * a[3] };
+  const double  determinant = a[0] * x[0] + a[3] * x[1] + a[4] * x[2];
+  return Along({ 0, 0, 0 }, 1 / determinant, Vector3{ Dot(x, b), Dot(y, b), Dot(z, b) });
+}
+
+} // namespace
+
+WorkingCore::WorkingCore(const RefinementInput & input, const LiveElements & live)
+  : m_Input(input)
+{
+  const MedialComplex &     core = *input.core;
+  std::vector<ElementIndex> edgeIds;
+  std::vector<ElementIndex> faceIds;
+  const CellComplex         polygons = ExtractLive(core.cells, live, m_VertexIds, edgeIds, faceIds);
+  for (const ElementIndex vertex : m_VertexIds)
+  {
+    m_Positions.push_back(core.positions[vertex]);
+  }
+  m_Pairs = VertexPairs(core, *input.edgePoints, polygons, m_VertexIds, edgeIds);
+  m_Displacement.assign(m_Positions.size(), Vector3{ 0, 0, 0 });
+  TriangleComplex cut = CutIntoTriangles(polygons, m_Positions, input.spacing);
+  m_Cells = std::move(cut.cells);
+  m_Polygons = std::move(cut.polygons);
+  for (const ElementIndex edge : m_Pairs.LooseEdges())
+  {
+    const auto found = std::lower_bound(m_Cells.edges.begin(), m_Cells.edges.end(), polygons.edges[edge]);
+    m_LooseEdges.emplace_back(static_cast<ElementIndex>(found - m_Cells.edges.begin()), edgeIds[edge]);
+  }
+}
+
+std::vector<std::uint8_t>
+WorkingCore::UsedPoints() const
+{
+  std::vector<std::uint8_t> used(m_Input.points->size(), 0);
+  for (const PointPair & pair : m_Pairs.All())
+  {
+    used[pair[0]] = 1;
+    used[pair[1]] = 1;
+  }
+  return used;
+}
+
+void
+WorkingCore::MoveVertex(const FootFinder &         finder,
+                        std::size_t                vertex,
+                        std::span<const PointPair> pairs,
+                        std::vector<Foot> &        feet)
+{
+  constexpr double longest = 0.5; // voxels a pass
+  const Vector3    place = Place(vertex);
+  finder.Find(place, pairs, feet);
+  Vector3      step = Over(Step(place, pairs, feet), m_Input.spacing);
+  const double length = Length(step);
+  step = Along({ 0, 0, 0 }, length > longest ? longest / length : 1.0, step);
+  m_Displacement[vertex] = KeepInShape(*m_Input.shape, m_Positions[vertex], Along(m_Displacement[vertex], 1, step));
+}
+
+void
+WorkingCore::Move(const FootFinder & finder, const ProgressCallback & progress)
+{
+  constexpr int passes = 3;
+  const auto    count = static_cast<std::ptrdiff_t>(m_Positions.size());
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    ReportProgress(progress, "refining", static_cast<double>(pass + 1) / (passes + 2));
+#pragma omp parallel if (count > 512)
+    {
+      std::vector<Foot> feet;
+#pragma omp for schedule(dynamic, 256)
+      for (std::ptrdiff_t i = 0; i < count; ++i)
+      {
+        const auto vertex = static_cast<std::size_t>(i);
+        if (!Pairs(vertex).empty())
+        {
+          MoveVertex(finder, vertex, Pairs(vertex), feet);
+        }
+      }
+    }
+  }
+}
+
+// Of a part that is a line the pairs of a vertex may all lie on one side: those of its neighbours lie around it. Returns what
+// was moved.
+std::vector<ElementIndex>
+WorkingCore::MoveLines(const FootFinder & finder, const Part & part, const std::vector<Vector3> & wanted)
+{
+  constexpr int                          passes = 3;
+  std::vector<std::uint8_t>              onFace(part.vertices.size(), 0);
+  std::vector<std::vector<ElementIndex>> near(part.vertices.size());
+  for (const ElementIndex corner : part.cells.faceVertices)
+  {
+    onFace[corner] = 1;
+  }
+  for (const auto & edge : part.cells.edges)
+  {
+    near[edge[0]].push_back(edge[1]);
+    near[edge[1]].push_back(edge[0]);
+  }
+  std::vector<ElementIndex> lines;
+  for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
+  {
+    if (onFace[vertex] == 0 && !near[vertex].empty())
+    {
+      lines.push_back(static_cast<ElementIndex>(vertex));
+    }
+  }
+  const auto count = static_cast<std::ptrdiff_t>(lines.size());
+#pragma omp parallel if (count > 64)
+  {
+    std::vector<Foot>      feet;
+    std::vector<PointPair> pairs;
+#pragma omp for schedule(dynamic, 16)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+    {
+      const ElementIndex line = lines[static_cast<std::size_t>(i)];
+      const ElementIndex vertex = part.vertices[line];
+      pairs.clear();
+      const auto add = [&](ElementIndex one) {
+        const auto own = Pairs(part.vertices[one]);
+        pairs.insert(pairs.end(), own.begin(), own.end());
+      };
+      add(line);
+      for (const ElementIndex next : near[line])
+      {
+        add(next);
+        std::for_each(near[next].begin(), near[next].end(), add);
+      }
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+      m_Displacement[vertex] = wanted[vertex];
+      for (int pass = 0; pass < passes && !pairs.empty(); ++pass)
+      {
+        MoveVertex(finder, vertex, pairs, feet);
+      }
+    }
+  }
+  for (ElementIndex & vertex : lines)
+  {
+    vertex = part.vertices[vertex];
+  }
+  return lines;
+}
+
+WorkingCore::Part
+WorkingCore::All() const
+{
+  Part part;
+  part.cells = m_Cells;
+  part.vertices.resize(m_Cells.vertexCount);
+  part.edges.resize(m_Cells.edges.size());
+  part.faces.resize(m_Cells.FaceCount());
+  std::iota(part.vertices.begin(), part.vertices.end(), 0);
+  std::iota(part.edges.begin(), part.edges.end(), 0);
+  std::iota(part.faces.begin(), part.faces.end(), 0);
+  return part;
+}
+
+WorkingCore::Part
+WorkingCore::Collapse(Part part, double threshold) const
+{
+  const auto of = [](const std::vector<double> & values, std::vector<ElementIndex> & ids) {
+    std::vector<double> some;
+    some.reserve(ids.size());
+    std::transform(ids.begin(), ids.end(), std::back_inserter(some), [&](ElementIndex id) { return values[id]; });
+    return some;
+  };
+  const auto         vertexMeasure = of(m_VertexMeasure, part.vertices);
+  const auto         edgeMeasure = of(m_EdgeMeasure, part.edges);
+  const auto         faceMeasure = of(m_FaceMeasure, part.faces);
+  SimplePairCollapse collapse(part.cells, vertexMeasure, edgeMeasure, faceMeasure);
+  collapse.CollapseBelow(threshold);
+  Part       left;
+  const auto within = [](const std::vector<ElementIndex> & ids, std::vector<ElementIndex> & some) {
+    for (ElementIndex & id : some)
+    {
+      id = ids[id];
+    }
+  };
+  left.cells = ExtractLive(part.cells, collapse.Live(), left.vertices, left.edges, left.faces);
+  within(part.vertices, left.vertices);
+  within(part.edges, left.edges);
+  within(part.faces, left.faces);
+  return left;
+}
+
+// What has moved is guarded, and then measured where it is: so more may go, and what held it back with it.
+RefinedCore
+WorkingCore::Finish(const FootFinder & finder, double threshold)
+{
+  Part part = All();
+  MeasureVertices(finder, part.vertices);
+  MeasureElements();
+  part = Collapse(std::move(part), threshold);
+  std::vector<Vector3> wanted = m_Displacement;
+  RefinedCore          refined;
+  const auto           settle = [&] {
+    for (bool again = true; again;)
+    {
+      refined.displacement.clear();
+      refined.core.positions.clear();
+      for (const ElementIndex vertex : part.vertices)
+      {
+        refined.core.positions.push_back(m_Positions[vertex]);
+        refined.displacement.push_back(wanted[vertex]);
+      }
+      GuardMoves(*m_Input.shape, part.cells, refined.core.positions, m_Input.spacing, refined.displacement);
+      std::vector<ElementIndex> changed;
+      for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
+      {
+        Vector3 & move = m_Displacement[part.vertices[vertex]];
+        if (move != refined.displacement[vertex])
+        {
+          move = refined.displacement[vertex];
+          changed.push_back(part.vertices[vertex]);
+        }
+      }
+      MeasureVertices(finder, changed);
+      MeasureElements();
+      const std::size_t before = part.vertices.size() + part.edges.size();
+      part = Collapse(std::move(part), threshold);
+      again = part.vertices.size() + part.edges.size() < before;
+    }
+  };
+  settle();
+  for (const ElementIndex vertex : MoveLines(finder, part, wanted))
+  {
+    wanted[vertex] = m_Displacement[vertex];
+  }
+  settle();
+  const auto of = [](const std::vector<double> & values, const std::vector<ElementIndex> & ids) {
+    std::vector<double> some;
+    some.reserve(ids.size());
+    std::transform(ids.begin(), ids.end(), std::back_inserter(some), [&](ElementIndex id) { return values[id]; });
+    return some;
+  };
+  refined.core.radius = of(m_Radius, part.vertices);
+  refined.core.vertexLambda = of(m_VertexMeasure, part.vertices);
+  refined.core.edgeLambda = of(m_EdgeMeasure, part.edges);
+  refined.core.faceLambda = of(m_FaceMeasure, part.faces);
+  refined.core.cells = std::move(part.cells);
+  for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
+  {
+    refined.core.positions[vertex] = Along(refined.core.positions[vertex], 1, refined.displacement[vertex]);
+  }
+  return refined;
+}
+
+} // namespace voxelcore

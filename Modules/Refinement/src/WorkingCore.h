@@ -1,0 +1,87 @@
+#pragma once
+// The part of a core that is being refined: where its vertices have moved to, and what its elements measure there.
+
+#include "Feet.h"
+#include "Triangles.h"
+#include "Vectors.h"
+#include "VertexPairs.h"
+
+#include "voxelcore/Refinement.h"
+#include "voxelcore/SimplePairCollapse.h"
+
+#include <vector>
+
+namespace voxelcore
+{
+
+/** The part of a core that is worked on, as triangles, and between which boundary vertices each of its elements lies. */
+class WorkingCore
+{
+public:
+  WorkingCore(const RefinementInput & input, const LiveElements & live);
+
+  /** A flag for each boundary vertex: whether a pair has it. */
+  std::vector<std::uint8_t>
+  UsedPoints() const;
+
+  /** Moves vertices to where their balls touch alike. */
+  void
+  Move(const FootFinder & finder, const ProgressCallback & progress);
+
+  /** What is left at a threshold. */
+  RefinedCore
+  Finish(const FootFinder & finder, double threshold);
+
+private:
+  struct Part
+  {
+    CellComplex               cells;
+    std::vector<ElementIndex> vertices; ///< of the working core
+    std::vector<ElementIndex> edges;
+    std::vector<ElementIndex> faces;
+  };
+
+  std::span<const PointPair>
+  Pairs(std::size_t vertex) const
+  {
+    return m_Pairs.Of(vertex);
+  }
+
+  Vector3
+  Place(std::size_t vertex) const
+  {
+    return Times(Along(m_Positions[vertex], 1, m_Displacement[vertex]), m_Input.spacing);
+  }
+
+  void
+  MoveVertex(const FootFinder & finder, std::size_t vertex, std::span<const PointPair> pairs, std::vector<Foot> & feet);
+  void
+  MeasureVertices(const FootFinder & finder, const std::vector<ElementIndex> & vertices);
+  double
+  WidthAt(ElementIndex vertex, const PointPair & pair) const;
+  void
+  MeasureElements();
+  std::vector<ElementIndex>
+  MoveLines(const FootFinder & finder, const Part & part, const std::vector<Vector3> & wanted);
+  Part
+  All() const;
+  Part
+  Collapse(Part part, double threshold) const;
+
+  const RefinementInput &   m_Input;
+  CellComplex               m_Cells;
+  std::vector<ElementIndex> m_Polygons; ///< of each triangle
+  std::vector<ElementIndex> m_VertexIds;
+  VertexPairs               m_Pairs;
+  std::vector<Vector3>      m_Positions;
+  std::vector<Vector3>      m_Displacement;
+
+  std::vector<double>                                m_Widths; ///< of each pair of each vertex, mm
+  std::vector<double>                                m_Radius;
+  std::vector<double>                                m_VertexMeasure;
+  std::vector<double>                                m_EdgeMeasure;
+  std::vector<double>                                m_FaceMeasure;
+  std::vector<std::pair<ElementIndex, ElementIndex>> m_LooseEdges; ///< here, and in the whole core
+};
+
+} // namespace voxelcore

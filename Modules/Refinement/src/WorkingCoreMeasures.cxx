@@ -1,0 +1,108 @@
+// What the elements of a working core measure where they have moved to.
+
+#include "Vectors.h"
+#include "WorkingCore.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace voxelcore
+{
+
+// How wide the feet of each pair of these vertices are apart, and how far the nearest one is.
+void
+WorkingCore::MeasureVertices(const FootFinder & finder, const std::vector<ElementIndex> & vertices)
+{
+  m_Widths.resize(m_Pairs.All().size(), 0);
+  m_Radius.resize(m_Positions.size(), 0);
+  const auto count = static_cast<std::ptrdiff_t>(vertices.size());
+#pragma omp parallel if (count > 512)
+  {
+    std::vector<Foot> feet;
+#pragma omp for schedule(dynamic, 256)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+    {
+      const std::size_t vertex = vertices[static_cast<std::size_t>(i)];
+      const auto        pairs = Pairs(vertex);
+      if (pairs.empty())
+      {
+        m_Radius[vertex] = m_Input.core->radius[m_VertexIds[vertex]];
+        continue;
+      }
+      finder.Settle(Place(vertex), pairs, feet);
+      m_Radius[vertex] = NearestFoot(feet);
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+      {
+        m_Widths[m_Pairs.First(vertex) + k] =
+          0.5 * Distance(FootOf(feet, pairs[k][0]).position, FootOf(feet, pairs[k][1]).position);
+      }
+    }
+  }
+}
+
+double
+WorkingCore::WidthAt(ElementIndex vertex, const PointPair & pair) const
+{
+  const auto pairs = Pairs(vertex);
+  const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
+  return m_Widths[m_Pairs.First(vertex) + static_cast<std::size_t>(found - pairs.begin())];
+}
+
+// Measures do not fall from faces to edges to vertices.
+void
+WorkingCore::MeasureElements()
+{
+  constexpr double met = 0.5;
+  m_VertexMeasure.assign(m_Positions.size(), 0);
+  m_EdgeMeasure.assign(m_Cells.edges.size(), 0);
+  m_FaceMeasure.assign(m_Cells.FaceCount(), 0);
+  for (std::size_t vertex = 0; vertex < m_Positions.size(); ++vertex)
+  {
+    const auto pairs = Pairs(vertex);
+    double &   measure = m_VertexMeasure[vertex];
+    measure = pairs.empty() ? m_Input.core->vertexLambda[m_VertexIds[vertex]] : 0.0;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+    {
+      measure = std::max(measure, m_Widths[m_Pairs.First(vertex) + k]);
+    }
+  }
+  for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
+  {
+    double     sum = 0;
+    double     least = std::numeric_limits<double>::infinity();
+    const auto corners = m_Cells.FaceVertices(face);
+    for (const ElementIndex corner : corners)
+    {
+      const double width = WidthAt(corner, m_Pairs.OfFace(m_Polygons[face]));
+      sum += width;
+      least = std::min(least, width);
+    }
+    // Where the feet of a corner have met there is no sheet, whatever the other corners say.
+    const double mean = sum / static_cast<double>(corners.size());
+    m_FaceMeasure[face] = least > met * mean ? mean : least;
+    for (const ElementIndex edge : m_Cells.FaceEdges(face))
+    {
+      m_EdgeMeasure[edge] = std::max(m_EdgeMeasure[edge], m_FaceMeasure[face]);
+    }
+  }
+  std::vector<PointPair> pairs;
+  for (const auto & [edge, whole] : m_LooseEdges)
+  {
+    pairs.clear();
+    AddPairsAround(m_Input.edgePoints->Of(whole), pairs);
+    for (const PointPair & pair : pairs)
+    {
+      const double width = 0.5 * (WidthAt(m_Cells.edges[edge][0], pair) + WidthAt(m_Cells.edges[edge][1], pair));
+      m_EdgeMeasure[edge] = std::max(m_EdgeMeasure[edge], width);
+    }
+  }
+  for (std::size_t edge = 0; edge < m_Cells.edges.size(); ++edge)
+  {
+    for (const ElementIndex end : m_Cells.edges[edge])
+    {
+      m_VertexMeasure[end] = std::max(m_VertexMeasure[end], m_EdgeMeasure[edge]);
+    }
+  }
+}
+
+} // namespace voxelcore
