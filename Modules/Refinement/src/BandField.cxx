@@ -33,15 +33,21 @@ ComesBefore(const std::array<std::int32_t, 3> & a, const std::array<std::int32_t
 BandField::BandField(const VoxelShape & shape, const Vector3 & sides, double sigma)
   : m_Sides(sides)
 {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double variance = sigma * sigma / (sides[axis] * sides[axis]);
-    m_Gauss[axis] = Gauss(variance);
-    m_GaussToSpline[axis] = Gauss(std::max(variance - 1.0 / 3, 0.02));
-  }
+  SetWidth(sigma);
   FindBricks(shape);
   FillLabels(shape);
   m_Values.assign(m_Bricks.size() * kVoxels, 0.0F);
+}
+
+void
+BandField::SetWidth(double sigma)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double variance = sigma * sigma / (m_Sides[axis] * m_Sides[axis]);
+    m_Gauss[axis] = Gauss(variance);
+    m_GaussToSpline[axis] = Gauss(std::max(variance - 1.0 / 3, 0.02));
+  }
 }
 
 // Four sigma far, normalised. The exponential is made of sums and products, as the last bit of exp() differs between

@@ -21,6 +21,10 @@ public:
    *  Gaussian G, at most 1.5. */
   BandField(const VoxelShape & shape, const Vector3 & sides, double sigma);
 
+  /** Another width of G. */
+  void
+  SetWidth(double sigma);
+
   /** Signed distance to the boundary: to the nearest centre of the other kind less half the shortest side, clipped to
    *  +-`clip` (at most 6.5). */
   void

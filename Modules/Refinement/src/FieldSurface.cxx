@@ -169,18 +169,20 @@ SurfaceFromGrey(const VoxelShape &       shape,
 {
   constexpr Vector3 sides{ 1, 1, 1 };
   constexpr double  flattest = 0.08; // of the mean magnitude
-  const auto        smoothed = [&](double sigma, double part) {
-    BandField field(shape, sides, sigma);
-    field.FillGrey(scan, rows);
-    ReportProgress(progress, "surface", part);
-    field.SmoothToCoefficients(BandField::StepWeight(sigma));
-    const double           least = flattest * field.Far();
+  BandField         field(shape, sides, 1.5);
+  field.FillGrey(scan, rows);
+  const auto smoothed = [&](BandField one, double sigma) {
+    one.SetWidth(sigma);
+    one.SmoothToCoefficients(BandField::StepWeight(sigma));
+    const double           least = flattest * one.Far();
     std::vector<BandField> fields;
-    fields.push_back(std::move(field));
+    fields.push_back(std::move(one));
     return FieldSurface(std::move(fields), spacing, sides, least);
   };
-  FieldSurface wide = smoothed(1.5, 0.25);
-  return std::make_unique<GreySurface>(std::move(wide), smoothed(1.0, 0.75), spacing);
+  ReportProgress(progress, "surface", 0.3);
+  FieldSurface narrow = smoothed(field, 1.0);
+  ReportProgress(progress, "surface", 0.6);
+  return std::make_unique<GreySurface>(smoothed(std::move(field), 1.5), std::move(narrow), spacing);
 }
 
 } // namespace voxelcore
