@@ -1,18 +1,22 @@
 // Fits the constants of CostModel to phantoms on this machine, prints them as they stand in CostModel.cxx, and then how far
 // they miss on shapes they were not fitted to, and on scans named on the command line.
-// usage: VoxelCoreCostFit FOLDER [SCAN...]     FOLDER: for volumes and results, about 100 MB
+// usage: VoxelCoreCostFit [--seconds N] [--rounds N] FOLDER [SCAN...]
+// FOLDER: for volumes and results, about 100 MB, and for what was measured: a call that ends after N seconds is taken up by
+// the next with the same FOLDER.
 
 #include "ChildProcess.h"
+#include "CostSamples.h"
+#include "NonNegativeFit.h"
 #include "voxelcore/CostModel.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputNames.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,6 +24,11 @@ namespace
 {
 
 using namespace voxelcore;
+using performance::CostSamples;
+using performance::CostTask;
+using performance::Fit;
+using performance::FitRatios;
+using performance::JobCost;
 using performance::RunChild;
 using Terms = std::array<double, CostTerms::kSize>;
 namespace fs = std::filesystem;
@@ -29,22 +38,28 @@ struct Phantom
   std::string              kind;
   int                      side;
   std::vector<std::string> options;
+  bool                     atTwo = false; ///< fitted with two threads as well
 };
+
+const Phantom reference{ "ellipsoid", 192, {} };
 
 const std::vector<Phantom> fitted{
   { "ellipsoid", 96, {} },
-  { "ellipsoid", 320, {} },
+  { "ellipsoid", 320, {}, true },
   { "torus", 192, {} },
   { "gyroid", 96, {} },
-  { "gyroid", 192, {} },
-  { "gyroid", 256, { "--thickness", "3" } },
-  { "porous", 96, {} },
+  { "gyroid", 176, { "--thickness", "5" }, true },
+  { "gyroid", 128, { "--thickness", "3" } },
+  { "porous", 96, {}, true },
   { "porous", 160, { "--density", "0.2" } },
+  { "porous", 96, { "--density", "0.7" } },
   { "root", 192, {} },
-  { "root", 448, {} },
+  { "root", 448, {}, true },
   { "shell", 160, {} },
+  { "shell", 192, { "--thickness", "12" }, true },
   { "plate", 192, {} },
   { "plate", 256, { "--thickness", "2" } },
+  { "plate", 320, { "--thickness", "24" } },
   { "box", 128, {} },
   { "noise", 80, {} },
   { "noise", 64, { "--density", "0.1" } },
@@ -55,66 +70,50 @@ const std::vector<Phantom> heldOut{
   { "ball", 160, {} },
   { "capsule", 256, {} },
   { "tanglecube", 192, {} },
-  { "rod", 192, {} },
+  { "rod", 320, {} },
+  { "thick-and-thin", 256, {} },
   { "ellipsoid", 448, {} },
-  { "gyroid", 224, { "--thickness", "4" } },
-  { "gyroid", 160, { "--period", "20" } },
-  { "porous", 192, {} },
-  { "porous", 128, { "--period", "4" } },
+  { "gyroid", 192, { "--thickness", "4" } },
+  { "gyroid", 160, {} },
+  { "gyroid", 112, { "--period", "20" } },
+  { "porous", 144, {} },
+  { "porous", 96, { "--period", "4" } },
   { "root", 384, { "--seed", "5" } },
-  { "root", 640, { "--seed", "3" } },
+  { "root", 576, { "--seed", "3" } },
   { "torus", 256, { "--radius", "9" } },
   { "plate", 256, { "--thickness", "9" } },
-  { "box", 64, {} },
+  { "plate", 256, { "--thickness", "40" } },
+  { "box", 144, {} },
   { "noise", 64, { "--density", "0.3" } },
   { "noise", 64, { "--density", "0.7" } },
 };
 
-struct Run
+std::string
+NameOf(const Phantom & phantom)
 {
-  double bytes;
-  double seconds; ///< without reading
-};
-
-/** The least of three runs: what others do on the machine only adds. */
-Run
-RunCore(const fs::path & scan, const fs::path & folder, int threads)
-{
-  const fs::path report = folder / "report.json";
-  Run            least{ 1e300, 1e300 };
-  for (int repetition = 0; repetition < 3; ++repetition)
+  std::string name = phantom.kind + " " + std::to_string(phantom.side);
+  for (const std::string & option : phantom.options)
   {
-    RunChild({ VOXELCORE_PROGRAM,
-               "core",
-               scan.string(),
-               "-o",
-               (folder / "core.vtp").string(),
-               "--report",
-               report.string(),
-               "--threads",
-               std::to_string(threads),
-               "--force",
-               "-q" });
-    std::ifstream file(report);
-    const auto    json = nlohmann::json::parse(file);
-    const auto &  seconds = json.at("seconds");
-    least.bytes = std::min(least.bytes, 1e6 * json.at("peak_memory_mb").get<double>());
-    least.seconds = std::min(least.seconds, seconds.at("total").get<double>() - seconds.at("read").get<double>());
+    name += " " + option;
   }
-  return least;
+  return name;
 }
 
-fs::path
-MakePhantom(const Phantom & phantom, const fs::path & folder)
+/** Makes the phantom's file, if it is not there yet. */
+CostTask
+TaskOf(const Phantom & phantom, const fs::path & folder, int threads)
 {
-  const fs::path           scan = folder / "phantom.nrrd";
-  std::vector<std::string> command{
-    VOXELCORE_PROGRAM, "phantom", phantom.kind, "--size", std::to_string(phantom.side), "-o",
-    scan.string(),     "--force", "-q"
-  };
-  command.insert(command.end(), phantom.options.begin(), phantom.options.end());
-  RunChild(command);
-  return scan;
+  const std::string name = NameOf(phantom);
+  const fs::path    scan = folder / (name + ".nrrd");
+  if (!fs::exists(scan))
+  {
+    std::vector<std::string> command{
+      VOXELCORE_PROGRAM, "phantom", phantom.kind, "--size", std::to_string(phantom.side), "-o", scan.string(), "-q"
+    };
+    command.insert(command.end(), phantom.options.begin(), phantom.options.end());
+    RunChild(command);
+  }
+  return { name, scan, threads };
 }
 
 std::vector<BoundaryCounts>
@@ -128,42 +127,9 @@ CountScan(const fs::path & scan)
   return counts;
 }
 
-/** The non-negative constants with the least squares of relative errors, one coordinate at a time. */
-Terms
-Fit(const std::vector<Terms> & terms, const std::vector<double> & measured)
-{
-  constexpr std::size_t                n = CostTerms::kSize;
-  std::array<std::array<double, n>, n> squares{};
-  std::array<double, n>                sums{};
-  Terms                                constants{};
-  for (std::size_t run = 0; run < terms.size(); ++run)
-  {
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      sums[i] += terms[run][i] / measured[run];
-      for (std::size_t j = 0; j < n; ++j)
-      {
-        squares[i][j] += terms[run][i] * terms[run][j] / (measured[run] * measured[run]);
-      }
-    }
-  }
-  for (int round = 0; round < 200000; ++round)
-  {
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      double rest = sums[i];
-      for (std::size_t j = 0; j < n; ++j)
-      {
-        rest -= squares[i][j] * constants[j];
-      }
-      constants[i] = std::max(0.0, constants[i] + rest / squares[i][i]);
-    }
-  }
-  return constants;
-}
-
+template <std::size_t n>
 void
-PrintConstants(const Terms & constants)
+PrintConstants(const std::array<double, n> & constants)
 {
   std::printf("  {");
   for (std::size_t i = 0; i < constants.size(); ++i)
@@ -173,91 +139,198 @@ PrintConstants(const Terms & constants)
   std::printf(" },\n");
 }
 
-std::string
-NameOf(const Phantom & phantom)
+/** Largest misses, as factors from one. */
+struct Misses
 {
-  std::string name = phantom.kind + " " + std::to_string(phantom.side);
-  for (const std::string & option : phantom.options)
+  double      bytes = 0;
+  double      seconds = 0;
+  std::string bytesOf;
+  std::string secondsOf;
+
+  void
+  Print(const char * what) const
   {
-    name += " " + option;
+    std::printf("Largest misses, %s: memory %+.0f %% (%s), seconds %+.0f %% (%s)\n",
+                what,
+                100 * bytes,
+                bytesOf.c_str(),
+                100 * seconds,
+                secondsOf.c_str());
   }
-  return name;
-}
+};
 
 void
-PrintRow(const std::string & name, std::uint64_t vertices, const CostPrediction & foretold, const Run & run)
+PrintRow(const CostTask & task, const JobCost & measured, const CostConstants & constants, Misses & misses)
 {
-  std::printf("| %s | %llu | %.0f | %.0f | %+.0f %% | %.2f | %.2f | %+.0f %% |\n",
-              name.c_str(),
+  // What `info` prints is to a tenth of a second; less says nothing about the model.
+  constexpr double worthTelling = 0.25;
+  CoreOptions      options;
+  options.lambdas = ParseLambdas("1.5vox");
+  options.output = "core.vtp";
+  const auto    counts = CountScan(task.scan);
+  const auto    foretold = PredictJob(counts, options, task.threads, constants);
+  std::uint64_t vertices = 0;
+  for (const BoundaryCounts & one : counts)
+  {
+    vertices += one.vertices;
+  }
+  const double bytes = static_cast<double>(foretold.memoryBytes) / measured.bytes - 1;
+  const double seconds = foretold.seconds / measured.seconds - 1;
+  std::printf("| %s | %llu | %.0f | %.0f | %+.0f %% | %.2f | %.2f |",
+              task.Key().c_str(),
               static_cast<unsigned long long>(vertices),
               static_cast<double>(foretold.memoryBytes) / 1e6,
-              run.bytes / 1e6,
-              100 * (static_cast<double>(foretold.memoryBytes) / run.bytes - 1),
+              measured.bytes / 1e6,
+              100 * bytes,
               foretold.seconds,
-              run.seconds,
-              100 * (foretold.seconds / run.seconds - 1));
-  std::fflush(stdout);
+              measured.seconds);
+  if (std::abs(bytes) > std::abs(misses.bytes))
+  {
+    misses.bytes = bytes;
+    misses.bytesOf = task.Key();
+  }
+  if (measured.seconds < worthTelling)
+  {
+    std::printf(" - |\n");
+    return;
+  }
+  std::printf(" %+.0f %% |\n", 100 * seconds);
+  if (std::abs(seconds) > std::abs(misses.seconds))
+  {
+    misses.seconds = seconds;
+    misses.secondsOf = task.Key();
+  }
 }
 
-void
-FitAndPrint(const fs::path & folder)
+/** Of the fitted shapes the seconds of two threads = those of one * (serial + (1 - serial) / 2). */
+double
+FitSerial(const std::vector<CostTask> & ofTwo, const CostSamples & samples)
 {
+  std::vector<double> serial;
+  for (CostTask task : ofTwo)
+  {
+    const double two = samples.Cost(task).seconds;
+    task.threads = 1;
+    serial.push_back(2 * two / samples.Cost(task).seconds - 1);
+  }
+  std::sort(serial.begin(), serial.end());
+  return std::clamp(serial[serial.size() / 2], 0.0, 1.0);
+}
+
+CostConstants
+FitConstants(const std::vector<CostTask> & ofOne, const std::vector<CostTask> & ofTwo, const CostSamples & samples)
+{
+  // First what can be counted: neither machine nor chance is in it.
+  CostConstants               constants;
+  std::vector<BoundaryCounts> counts;
+  std::vector<BorderKinds>    kinds;
+  std::vector<double>         cells;
+  std::vector<double>         edges;
+  std::vector<double>         edgeScales;
+  for (const CostTask & task : ofOne)
+  {
+    const JobCost cost = samples.Cost(task);
+    counts.push_back(CountScan(task.scan).at(0));
+    kinds.push_back(CountBorderKinds(counts.back()));
+    cells.push_back(cost.cells);
+    edges.push_back(cost.edges);
+    // Single voxels have hardly any edges, and do not matter.
+    edgeScales.push_back(std::max(cost.edges, static_cast<double>(counts.back().vertices)));
+  }
+  constants.cells = Fit(kinds, cells, cells);
+  constants.edges = Fit(kinds, edges, edgeScales);
+
   std::vector<Terms>  terms;
   std::vector<double> bytes;
   std::vector<double> seconds;
-  std::vector<double> serial;
-  for (const Phantom & phantom : fitted)
+  for (std::size_t i = 0; i < ofOne.size(); ++i)
   {
-    const fs::path scan = MakePhantom(phantom, folder);
-    const Run      one = RunCore(scan, folder, 1);
-    terms.push_back(ComputeCostTerms(CountScan(scan).at(0)).values);
-    bytes.push_back(one.bytes);
-    seconds.push_back(one.seconds);
-    if (one.seconds > 0.5)
-    {
-      // seconds of two threads = seconds of one * (serial + (1 - serial) / 2)
-      serial.push_back(2 * RunCore(scan, folder, 2).seconds / one.seconds - 1);
-    }
+    const JobCost cost = samples.Cost(ofOne[i]);
+    terms.push_back(ComputeCostTerms(counts[i], constants).values);
+    bytes.push_back(cost.bytes);
+    seconds.push_back(cost.seconds);
   }
-  std::sort(serial.begin(), serial.end());
-  std::printf("constexpr CostConstants kFitted{\n");
-  PrintConstants(Fit(terms, bytes));
-  PrintConstants(Fit(terms, seconds));
-  std::printf("  %.2g,\n};\n\n", serial[serial.size() / 2]);
+  // Memory knows no caches.
+  std::vector<Terms> withoutCaches = terms;
+  for (Terms & one : withoutCaches)
+  {
+    one.back() = 0;
+  }
+  constants.bytes = FitRatios(withoutCaches, bytes);
+  constants.seconds = FitRatios(terms, seconds);
+  constants.serial = FitSerial(ofTwo, samples);
+  return constants;
 }
 
-/** With the constants that are compiled in. */
 void
-PrintMisses(const fs::path & folder, int scans, char ** scan)
+MeasureFitAndPrint(const fs::path & folder, double limit, int rounds, const std::vector<fs::path> & scans)
 {
-  std::printf(
-    "| shape | boundary vertices | MB foretold | measured | miss | s foretold | measured | miss |\n"
-    "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-  CoreOptions options;
-  options.lambdas = ParseLambdas("1.5vox");
-  options.output = folder / "core.vtp";
-  const auto print = [&](const std::string & name, const fs::path & path, int threads) {
-    const auto    counts = CountScan(path);
-    std::uint64_t vertices = 0;
-    for (const BoundaryCounts & one : counts)
+  std::vector<CostTask> ofOne;
+  std::vector<CostTask> ofTwo;
+  std::vector<CostTask> shapes;
+  std::vector<CostTask> files;
+  for (const Phantom & phantom : fitted)
+  {
+    ofOne.push_back(TaskOf(phantom, folder, 1));
+    if (phantom.atTwo)
     {
-      vertices += one.vertices;
+      ofTwo.push_back(TaskOf(phantom, folder, 2));
     }
-    PrintRow(name + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads"),
-             vertices,
-             PredictJob(counts, options, threads),
-             RunCore(path, folder, threads));
+  }
+  for (const int threads : { 1, 2 })
+  {
+    for (const Phantom & phantom : heldOut)
+    {
+      shapes.push_back(TaskOf(phantom, folder, threads));
+    }
+    for (const fs::path & scan : scans)
+    {
+      files.push_back({ ScanName(scan), scan, threads });
+    }
+  }
+  std::vector<CostTask> all;
+  for (const auto * tasks : { &ofOne, &shapes, &ofTwo, &files })
+  {
+    all.insert(all.end(), tasks->begin(), tasks->end());
+  }
+  CostSamples samples(folder, VOXELCORE_PROGRAM);
+  samples.Measure(all, TaskOf(reference, folder, 1).scan, rounds, limit);
+  if (const std::size_t missing = samples.Missing(all); missing > 0)
+  {
+    std::printf("%zu of %zu jobs have not run yet: call again with the same folder\n", missing, all.size());
+    return;
+  }
+
+  const CostConstants constants = FitConstants(ofOne, ofTwo, samples);
+  std::printf("constexpr CostConstants kFitted{\n");
+  PrintConstants(constants.cells);
+  PrintConstants(constants.edges);
+  PrintConstants(constants.bytes);
+  PrintConstants(constants.seconds);
+  std::printf("  %.2g,\n};\n\n", constants.serial);
+  std::printf("%s takes %.2f s, 1 thread\n\n", NameOf(reference).c_str(), samples.ReferenceSeconds());
+  const auto table = [&](const CostConstants & with, const std::vector<CostTask> & tasks) {
+    Misses misses;
+    std::printf(
+      "| shape | boundary vertices | MB foretold | measured | miss | s foretold | measured | miss |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    for (const CostTask & task : tasks)
+    {
+      PrintRow(task, samples.Cost(task), with, misses);
+    }
+    std::printf("\n");
+    return misses;
   };
-  for (const Phantom & phantom : heldOut)
-  {
-    const fs::path path = MakePhantom(phantom, folder);
-    print(NameOf(phantom), path, 1);
-    print(NameOf(phantom), path, 2);
-  }
-  for (int i = 0; i < scans; ++i)
-  {
-    print(ScanName(scan[i]), scan[i], 2);
-  }
+  std::printf("With the constants above, shapes not fitted to, and scans\n\n");
+  const Misses ofShapes = table(constants, shapes);
+  const Misses ofFiles = table(constants, files);
+  std::printf("With the constants compiled in\n\n");
+  const Misses ofShapesNow = table(FittedCosts(), shapes);
+  const Misses ofFilesNow = table(FittedCosts(), files);
+  ofShapes.Print("one label, constants above");
+  ofFiles.Print("scans, constants above");
+  ofShapesNow.Print("one label, constants compiled in");
+  ofFilesNow.Print("scans, constants compiled in");
 }
 
 } // namespace
@@ -265,16 +338,35 @@ PrintMisses(const fs::path & folder, int scans, char ** scan)
 int
 main(int argc, char ** argv)
 {
-  if (argc < 2)
-  {
-    std::fprintf(stderr, "usage: VoxelCoreCostFit FOLDER [SCAN...]\n");
-    return 2;
-  }
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  double                   limit = std::numeric_limits<double>::infinity();
+  int                      rounds = 3;
   try
   {
-    fs::create_directories(argv[1]);
-    FitAndPrint(argv[1]);
-    PrintMisses(argv[1], argc - 2, argv + 2);
+    while (arguments.size() > 1 && arguments.front().rfind("--", 0) == 0)
+    {
+      if (arguments[0] == "--seconds")
+      {
+        limit = std::stod(arguments[1]);
+      }
+      else if (arguments[0] == "--rounds")
+      {
+        rounds = std::stoi(arguments[1]);
+      }
+      else
+      {
+        arguments.clear();
+        break;
+      }
+      arguments.erase(arguments.begin(), arguments.begin() + 2);
+    }
+    if (arguments.empty())
+    {
+      std::fprintf(stderr, "usage: VoxelCoreCostFit [--seconds N] [--rounds N] FOLDER [SCAN...]\n");
+      return 2;
+    }
+    fs::create_directories(arguments.front());
+    MeasureFitAndPrint(arguments.front(), limit, rounds, { arguments.begin() + 1, arguments.end() });
   }
   catch (const std::exception & error)
   {

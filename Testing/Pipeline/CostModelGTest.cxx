@@ -1,8 +1,11 @@
 #include "voxelcore/CostModel.h"
 
 #include "VoxelCoreTesting/Shapes.h"
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/DelaunayCells.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/Phantom.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +15,8 @@ namespace
 {
 
 using testing::Box;
+using testing::Ellipsoid;
+using testing::Size3;
 
 CoreOptions
 OptionsInto(const std::filesystem::path & output)
@@ -35,6 +40,47 @@ TEST(CostModel, LargerShapesCostMore)
     EXPECT_GT(next.seconds, before.seconds) << side;
     before = next;
   }
+}
+
+/** The Delaunay cells that a shape has, over those expected of its counts. */
+double
+CellsOverExpected(const VoxelShape & shape)
+{
+  const auto   cells = ComputeDelaunayCells(shape, BoundaryVertices(shape), SpacingWeights{}, Engine::Auto);
+  const double expected = ComputeCostTerms(CountBoundary(shape)).values[2];
+  return static_cast<double>(cells.CellCount()) / expected;
+}
+
+TEST(CostModel, CellsExpectedAreNearThoseThatAreThere)
+{
+  EXPECT_NEAR(CellsOverExpected(Ellipsoid(64)), 1, 0.1);
+  EXPECT_NEAR(CellsOverExpected(Box({ 40, 30, 9 })), 1, 0.2);
+  // Of a sheet of one voxel each voxel is a cell, and there are no others.
+  EXPECT_NEAR(CellsOverExpected(Box({ 20, 30, 1 })), 1, 0.03);
+  for (const char * kind : { "root", "gyroid", "porous", "tanglecube" })
+  {
+    PhantomOptions options;
+    options.kind = kind;
+    EXPECT_NEAR(CellsOverExpected(CropToVoxels(MakePhantom(options))), 1, 0.25) << kind;
+  }
+}
+
+TEST(CostModel, FlatSidesTakeTimeOnlyWhereTheyAreThick)
+{
+  const auto   seconds = [](const Size3 & size) { return PredictLabel(CountBoundary(Box(size)), 1).seconds; };
+  const double rough = PredictLabel(CountBoundary(Ellipsoid(150)), 1).seconds; // 40 thousand boundary vertices
+  EXPECT_LT(seconds({ 140, 140, 9 }), 0.5 * rough);                            // 45 thousand
+  EXPECT_GT(seconds({ 140, 140, 18 }), 2 * seconds({ 140, 140, 9 }));
+}
+
+TEST(CostModel, ThinShapesLeaveLittleToKeepOncePruned)
+{
+  const auto memory = [](const Size3 & size) {
+    const std::vector<BoundaryCounts> labels(100, CountBoundary(Box(size)));
+    return PredictJob(labels, OptionsInto(kFile), 1).memoryBytes -
+           PredictJob(labels, OptionsInto(kFolder), 1).memoryBytes;
+  };
+  EXPECT_LT(5 * memory({ 60, 60, 2 }), memory({ 60, 60, 5 }));
 }
 
 TEST(CostModel, AJobOfOneLabelCostsWhatTheLabelDoes)

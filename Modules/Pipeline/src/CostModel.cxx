@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <numeric>
 #include <omp.h>
 
 namespace voxelcore
@@ -21,15 +22,18 @@ namespace
 
 // Printed by VoxelCoreCostFit.
 constexpr CostConstants kFitted{
-  { 3.02e7, 108, 72.6, 83.7, 12.6, 11.8 },
-  { 0.00417, 0, 3.25e-7, 6.37e-7, 1.05e-6, 3.83e-7 },
+  { 0.5, 1.26, 1.38, 0.993 },
+  { 0.975, 1.95, 3.68, 1.23 },
+  { 3.24e7, 62.2, 176, 0, 312, 0 },
+  { 0, 0, 3.25e-6, 3.24e-6, 5.94e-6, 1.31e-7 },
   0.6,
 };
 
-// Bytes a border voxel, measured on phantoms and atlases: small beside the above, so not fitted.
+// Bytes a border voxel, where nothing else is said, measured on phantoms and atlases: small beside the above, so not
+// fitted.
 constexpr double kThreadBytes = 2e6;    // scratch of each thread beyond the first
-constexpr double kWholeCoreBytes = 180; // of a whole core kept until it is written, and its writing
-constexpr double kPrunedBytes = 65;     // of a pruned one
+constexpr double kWholeCoreBytes = 200; // a boundary vertex: of a whole core kept until it is written, and its writing
+constexpr double kPrunedBytes = 97;     // an edge of a pruned core, kept likewise
 constexpr double kFurtherBytes = 50;    // of each further result at the peak of a label
 constexpr double kEdgeBytes = 40;       // of --keep-edges
 constexpr double kBumpBytes = 70;       // of bump heights
@@ -55,9 +59,24 @@ Sum(const CostTerms & terms, const std::array<double, CostTerms::kSize> & consta
 }
 
 double
-WithThreads(double seconds, int threads)
+WithThreads(double seconds, int threads, double serial)
 {
-  return seconds * (kFitted.serial + (1 - kFitted.serial) / threads);
+  return seconds * (serial + (1 - serial) / threads);
+}
+
+double
+Expected(const BorderKinds & kinds, const BorderKinds & each)
+{
+  return std::inner_product(kinds.begin(), kinds.end(), each.begin(), 0.0);
+}
+
+/** Edges left of a core pruned at 1.5vox: about one for each border voxel, of sheets three voxels thick for each inner
+ *  one; of what is thinner a tenth of all. */
+double
+PrunedEdges(const BoundaryCounts & counts, const CostConstants & constants)
+{
+  return static_cast<double>(std::min(counts.voxels - counts.borderVoxels, counts.borderVoxels)) +
+         0.1 * Expected(CountBorderKinds(counts), constants.edges);
 }
 
 /** Beyond the program itself, which is the model's first term. */
@@ -69,20 +88,22 @@ struct LabelCost
 };
 
 LabelCost
-CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options)
+CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const CostConstants & constants)
 {
-  CostTerms terms = ComputeCostTerms(counts);
+  CostTerms terms = ComputeCostTerms(counts, constants);
   terms.values[0] = 0;
   const auto   border = static_cast<double>(counts.borderVoxels);
   const double results = static_cast<double>(std::max(options.lambdas.size(), options.bumps.size()));
   const bool   tetgen = options.engine == Engine::TetGen || options.crossCheck;
   LabelCost    cost;
-  cost.bytes = Sum(terms, kFitted.bytes) + border * (results - 1) * kFurtherBytes;
-  cost.seconds = Sum(terms, kFitted.seconds) + border * (results - 1) * kFurtherSeconds;
+  cost.bytes = Sum(terms, constants.bytes) + border * (results - 1) * kFurtherBytes;
+  cost.seconds = Sum(terms, constants.seconds) + border * (results - 1) * kFurtherSeconds;
   for (std::size_t i = 0; i < static_cast<std::size_t>(results); ++i)
   {
     const bool whole = options.bumps.empty() && options.lambdas[i].value == 0;
-    cost.kept += border * ((whole ? kWholeCoreBytes : kPrunedBytes) + (options.model.keepEdges ? kEdgeBytes : 0));
+    cost.kept +=
+      whole ? static_cast<double>(counts.vertices) * kWholeCoreBytes : PrunedEdges(counts, constants) * kPrunedBytes;
+    cost.kept += options.model.keepEdges ? border * kEdgeBytes : 0;
   }
   if (options.model.keepEdges)
   {
@@ -114,18 +135,27 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options)
 
 } // namespace
 
-CostTerms
-ComputeCostTerms(const BoundaryCounts & counts)
+BorderKinds
+CountBorderKinds(const BoundaryCounts & counts)
 {
-  const auto border = static_cast<double>(counts.borderVoxels);
-  const auto inner = static_cast<double>(counts.voxels - counts.borderVoxels);
-  const auto flat = static_cast<double>(counts.flatVertices);
+  return { static_cast<double>(counts.flatVoxels),
+           static_cast<double>(counts.borderVoxels - counts.cellVoxels - counts.flatVoxels),
+           static_cast<double>(counts.cellVoxels - counts.fullVoxels),
+           static_cast<double>(counts.fullVoxels) };
+}
+
+CostTerms
+ComputeCostTerms(const BoundaryCounts & counts, const CostConstants & constants)
+{
+  const BorderKinds kinds = CountBorderKinds(counts);
+  const double      edges = Expected(kinds, constants.edges);
+  const auto        deep = static_cast<double>(counts.cubes15 - counts.cubes17);
   return { { 1,
-             border,
-             static_cast<double>(counts.vertices) - flat,
-             std::min(flat, std::max(0.0, inner - 4 * border)),
-             std::min(inner, 4 * border),
-             border * std::max(0.0, std::log2(border / 1000)) } };
+             static_cast<double>(counts.vertices),
+             Expected(kinds, constants.cells),
+             deep,
+             std::min(deep, static_cast<double>(counts.evenVoxels)),
+             edges * std::log2(std::max(1.0, edges / 1000)) } };
 }
 
 const CostConstants &
@@ -135,11 +165,11 @@ FittedCosts()
 }
 
 CostPrediction
-PredictLabel(const BoundaryCounts & counts, int threads)
+PredictLabel(const BoundaryCounts & counts, int threads, const CostConstants & constants)
 {
-  const CostTerms terms = ComputeCostTerms(counts);
-  return { static_cast<std::uint64_t>(Sum(terms, kFitted.bytes) + kThreadBytes * (threads - 1)),
-           WithThreads(Sum(terms, kFitted.seconds), threads) };
+  const CostTerms terms = ComputeCostTerms(counts, constants);
+  return { static_cast<std::uint64_t>(Sum(terms, constants.bytes) + kThreadBytes * (threads - 1)),
+           WithThreads(Sum(terms, constants.seconds), threads, constants.serial) };
 }
 
 std::vector<BoundaryCounts>
@@ -155,21 +185,24 @@ CountBoundaries(const std::vector<EditedLabel> & labels)
 }
 
 CostPrediction
-PredictJob(const std::vector<BoundaryCounts> & labels, const CoreOptions & options, int threads)
+PredictJob(const std::vector<BoundaryCounts> & labels,
+           const CoreOptions &                 options,
+           int                                 threads,
+           const CostConstants &               constants)
 {
   const bool                 together = options.engine != Engine::TetGen && !options.crossCheck && threads > 1;
   std::vector<LabelCost>     costs;
   std::vector<std::uint64_t> vertices;
   for (const BoundaryCounts & counts : labels)
   {
-    costs.push_back(CostOfLabel(counts, options));
+    costs.push_back(CostOfLabel(counts, options, constants));
     // One by one, every label counts as large.
     vertices.push_back(together && labels.size() > 1 ? counts.vertices : kSmallLabel + 1);
   }
   const bool  keeps = !IsFolderOutput(options.output);
   double      peak = 0;
   double      kept = 0;
-  double      seconds = kFitted.seconds[0];
+  double      seconds = constants.seconds[0];
   std::size_t first = 0;
   for (const std::size_t end : GroupLabels(vertices))
   {
@@ -194,10 +227,10 @@ PredictJob(const std::vector<BoundaryCounts> & labels, const CoreOptions & optio
     }
     peak = std::max({ peak, kept + running, kept + results });
     kept = keeps ? kept + results : 0;
-    seconds += end - first == 1 ? WithThreads(group, threads) : std::max(largest, group / threads);
+    seconds += end - first == 1 ? WithThreads(group, threads, constants.serial) : std::max(largest, group / threads);
     first = end;
   }
-  peak += kFitted.bytes[0] + kThreadBytes * (threads - 1);
+  peak += constants.bytes[0] + kThreadBytes * (threads - 1);
   return { static_cast<std::uint64_t>(peak), seconds };
 }
 

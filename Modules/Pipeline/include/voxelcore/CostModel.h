@@ -1,6 +1,7 @@
 #pragma once
-// What `voxelcore core` will need, foretold from the shapes alone. The model is linear in counts of the boundary; its
-// constants are fitted by Testing/Performance (VoxelCoreCostFit), which prints them and how far they miss.
+// What `voxelcore core` will need, foretold from the shapes alone. Counts of the boundary tell how many Delaunay cells there
+// will be, and these what a job costs; all of it is linear, with constants fitted by Testing/Performance (VoxelCoreCostFit),
+// which prints them and how far they miss.
 
 #include "voxelcore/BoundaryCounts.h"
 #include "voxelcore/CoreJob.h"
@@ -18,19 +19,22 @@ namespace voxelcore
 struct CostTerms
 {
   static constexpr std::size_t kSize = 6;
-  /** 1; border voxels; boundary vertices not amid flat boundary; flat ones of thick shapes (the deep part of these goes
-   *  through Bowyer-Watson); inner voxels, up to four a border voxel; border voxels times the doublings of their number
-   *  over 1000, as caches miss more. */
+  /** 1; boundary vertices; Delaunay cells expected; the boundary of parts so thick that their cells go through
+   *  Bowyer-Watson, and of this the flat part, which goes there with all its vertices, the rest with a fifth; the core's
+   *  edges expected times the doublings of their number over 1000, as caches miss more. */
   std::array<double, kSize> values{};
 };
 
-CostTerms
-ComputeCostTerms(const BoundaryCounts & counts);
+/** What cells and edges grow with: border voxels by their boundary corners: flat ones; those with few; those with a
+ *  Delaunay cell of their own, but for those with all eight; the latter. */
+using BorderKinds = std::array<double, 4>;
 
 /** The fitted constants. Seconds are those of the machine named in Testing/Performance/README.md; another may be twice as
  *  fast or half. */
 struct CostConstants
 {
+  BorderKinds                          cells{};    ///< Delaunay cells for each border voxel of a kind
+  BorderKinds                          edges{};    ///< edges of the core likewise
   std::array<double, CostTerms::kSize> bytes{};    ///< at the peak of one label, one thread
   std::array<double, CostTerms::kSize> seconds{};  ///< one thread, without reading
   double                               serial = 0; ///< part of the seconds that more threads do not shorten
@@ -38,6 +42,12 @@ struct CostConstants
 
 const CostConstants &
 FittedCosts();
+
+BorderKinds
+CountBorderKinds(const BoundaryCounts & counts);
+
+CostTerms
+ComputeCostTerms(const BoundaryCounts & counts, const CostConstants & constants = FittedCosts());
 
 struct CostPrediction
 {
@@ -47,13 +57,16 @@ struct CostPrediction
 
 /** One label by itself, pruned once. */
 CostPrediction
-PredictLabel(const BoundaryCounts & counts, int threads);
+PredictLabel(const BoundaryCounts & counts, int threads, const CostConstants & constants = FittedCosts());
 
 /** A whole job over labels, in the order given, as RunCoreJob goes about it: small labels side by side, results kept until
  *  they are written. Takes from `options` what decides cost: number of results, output, edges, engine, skeleton.
  *  With TetGen and with skeletons the figures are coarse (within a factor of two). */
 CostPrediction
-PredictJob(const std::vector<BoundaryCounts> & labels, const CoreOptions & options, int threads);
+PredictJob(const std::vector<BoundaryCounts> & labels,
+           const CoreOptions &                 options,
+           int                                 threads,
+           const CostConstants &               constants = FittedCosts());
 
 /** The counts of each label's shape, on all threads. */
 std::vector<BoundaryCounts>

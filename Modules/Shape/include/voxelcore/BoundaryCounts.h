@@ -13,7 +13,14 @@ struct BoundaryCounts
   std::uint64_t voxels = 0;
   std::uint64_t borderVoxels = 0; ///< voxels with a boundary vertex: not all of their 26 neighbours are in
   std::uint64_t vertices = 0;     ///< boundary vertices
-  std::uint64_t flatVertices = 0; ///< of these, those amid a flat boundary: the four voxels of one side are in
+  // Parts of the border voxels, by which of their corners are boundary vertices.
+  std::uint64_t cellVoxels = 0; ///< those that span space: each is a Delaunay cell
+  std::uint64_t fullVoxels = 0; ///< of these, those of which all eight corners are
+  std::uint64_t flatVoxels = 0; ///< four in one plane
+  std::uint64_t evenVoxels = 0; ///< those of one side, and of the eight voxels around in its plane as well
+  // How much of the boundary is of thick parts: cubes of voxels that fit in, one for each place.
+  std::uint64_t cubes15 = 0; ///< of 15 voxels a side: a ball of more than seven voxels' radius has room
+  std::uint64_t cubes17 = 0; ///< of 17
 };
 
 /** In one pass over the packed bits. */

@@ -1,0 +1,78 @@
+#pragma once
+// What runs of `voxelcore core` took, kept in a file so that several calls on a busy machine add up.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace voxelcore::performance
+{
+
+/** One job to measure. */
+struct CostTask
+{
+  std::string           name;
+  std::filesystem::path scan;
+  int                   threads;
+
+  std::string
+  Key() const
+  {
+    return name + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+  }
+};
+
+/** What a job takes: medians over its samples. */
+struct JobCost
+{
+  double cells; ///< Delaunay cells inside: vertices of the core
+  double edges; ///< of the core
+  double bytes;
+  double seconds; ///< without reading, as if the machine had always been as fast as it mostly was
+};
+
+/** The speed of a machine whose memory others use as well drifts by half within minutes. So every run stands between two
+ *  of a reference shape; what counts are its seconds over theirs. */
+class CostSamples
+{
+public:
+  /** Takes up what FOLDER/samples.jsonl holds, if it is of this build of the program. */
+  CostSamples(const std::filesystem::path & folder, const std::string & program);
+
+  /** Runs the tasks in turn, those with the fewest samples first, until each has `rounds` of them or `seconds` have
+   *  passed. */
+  void
+  Measure(const std::vector<CostTask> & tasks, const std::filesystem::path & reference, int rounds, double seconds);
+
+  /** How many of the tasks have no sample yet. */
+  std::size_t
+  Missing(const std::vector<CostTask> & tasks) const;
+
+  JobCost
+  Cost(const CostTask & task) const;
+
+  /** The median of the reference's seconds over all samples. */
+  double
+  ReferenceSeconds() const;
+
+private:
+  struct Sample
+  {
+    double cells;
+    double edges;
+    double bytes;
+    double seconds;
+    double reference;
+  };
+
+  Sample
+  Run(const std::filesystem::path & scan, int threads) const;
+
+  std::filesystem::path                      m_Folder;
+  std::filesystem::path                      m_File;
+  std::string                                m_Program;
+  std::map<std::string, std::vector<Sample>> m_Samples; ///< by task
+};
+
+} // namespace voxelcore::performance
