@@ -98,7 +98,10 @@ CostSamples::Measure(const std::vector<CostTask> & tasks, const fs::path & refer
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  const auto count = [&](const CostTask & task) { return m_Samples[task.Key()].size(); };
+  const auto count = [&](const CostTask & task) {
+    const auto found = m_Samples.find(task.Key());
+    return found == m_Samples.end() ? 0 : found->second.size();
+  };
   const auto next = [&] {
     return std::min_element(tasks.begin(), tasks.end(), [&](const CostTask & a, const CostTask & b) {
       return count(a) < count(b);
