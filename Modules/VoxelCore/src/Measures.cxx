@@ -182,6 +182,54 @@ RaiseTo(double & value, double to)
   {}
 }
 
+// A facet on the boundary is a side of a voxel (Theorem 3.1). No lattice point lies within the ball that has its diagonal
+// for diameter, so that the centre of the cell beside it is on the cell's side.
+bool
+IsVoxelSide(const DelaunayCells & cells, std::size_t facet)
+{
+  return cells.facetCells[facet][1] == kOutside && cells.facetOffsets[facet + 1] - cells.facetOffsets[facet] == 4;
+}
+
+// Its measure, half its diagonal squared. Where all sides are alike its points need not be fetched.
+class VoxelSideMeasure
+{
+public:
+  VoxelSideMeasure(const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+    : m_Points(points)
+    , m_Weights(weights)
+    , m_AreAlike(weights.weight[0] == weights.weight[1] && weights.weight[1] == weights.weight[2])
+    , m_One(Measure({ 0, 0, 0 }, { 1, 1, 0 }))
+  {}
+
+  double
+  operator()(std::span<const std::uint32_t> side) const
+  {
+    return m_AreAlike ? m_One : Measure(m_Points[side[0]], m_Points[side[2]]);
+  }
+
+  void
+  Fetch(std::span<const std::uint32_t> side) const
+  {
+    if (!m_AreAlike)
+    {
+      __builtin_prefetch(&m_Points[side[0]]);
+      __builtin_prefetch(&m_Points[side[2]]);
+    }
+  }
+
+private:
+  double
+  Measure(const LatticePoint & corner, const LatticePoint & opposite) const
+  {
+    return RatioToDouble(static_cast<UInt128>(SquaredDistance(corner, opposite, m_Weights)), 4);
+  }
+
+  const std::vector<LatticePoint> & m_Points;
+  const SpacingWeights &            m_Weights;
+  bool                              m_AreAlike;
+  double                            m_One;
+};
+
 // Facets follow each other along x, points and their neighbours along z: what is met next is asked for early.
 void
 FetchFacet(const DelaunayCells & cells, std::size_t facet, const std::vector<PointEntry> & entries)
@@ -242,16 +290,29 @@ MeasureCells(const VoxelShape &                shape,
   const auto                cellCount = static_cast<std::ptrdiff_t>(cells.CellCount());
   std::vector<std::uint8_t> centreBeyond(cells.CellCount(), 0);
   result.facet.resize(cells.FacetCount());
+  const VoxelSideMeasure measureSide(points, weights);
   RunInParts(facets > 10000, cells.FacetCount(), [&](std::size_t first, std::size_t last) {
     std::vector<LatticePoint> polygon;
     for (std::size_t facet = first; facet < last; ++facet)
     {
       if (facet + kAhead < last) // facets of others get their ranks meanwhile
       {
-        FetchFacet(cells, facet + kAhead, entries);
+        if (IsVoxelSide(cells, facet + kAhead))
+        {
+          measureSide.Fetch(cells.FacetPoints(facet + kAhead));
+        }
+        else
+        {
+          FetchFacet(cells, facet + kAhead, entries);
+        }
       }
       const std::span<std::uint32_t> own{ cells.facetPoints.data() + cells.facetOffsets[facet],
                                           cells.facetPoints.data() + cells.facetOffsets[facet + 1] };
+      if (IsVoxelSide(cells, facet)) // whose points are asked for no more
+      {
+        result.facet[facet] = measureSide(own);
+        continue;
+      }
       TurnToRanks(entries, shape.Box().lower, own, polygon);
       result.facet[facet] = MeasureFacet(polygon, weights);
       const Plane plane(polygon);
