@@ -134,23 +134,29 @@ def hangs_together(block):
     return label(block)[1], label(~block, np.ones((3, 3, 3)))[1], int(chi)
 
 
-def wrong_places(voxels, step, points, triangles):
-    """The thin places around which the voxels, 9 x 9 x 9 of them, hang together otherwise than the mesh does, which is looked
-    at with four times as many: their number, how many places were looked at, the thinnest of which in each block of 4^3
-    voxels, and how thin the thinnest wrong one is, in voxels."""
+def difference(voxels, step, points, triangles, middle, reach):
+    """In how much the voxels within `reach` of a voxel hang together otherwise than the mesh does, which is looked at with four times
+    as many."""
+    low, size, fine = middle - reach, 2 * reach + 1, 4
+    grid = np.pad(voxels[tuple(slice(max(0, l), max(0, l + size)) for l in low)],
+                  [(max(0, -l), max(0, l + size - n)) for l, n in zip(low, voxels.shape)])
     lower = points.min(axis=0)
-    thin = thin_places(points, triangles, THIN * step, lower, 4 * step)[:MOST]
-    at = np.floor((thin[:, :3] - lower) / step).astype(int)
-    wrong = []
-    for i in range(len(thin)):
-        low = at[i] - 4
-        grid = np.pad(voxels[tuple(slice(max(0, l), max(0, l + 9)) for l in low)],
-                      [(max(0, -l), max(0, l + 9 - n)) for l, n in zip(low, voxels.shape)])
-        fine = 4
-        centres = [lower[a] + (low[a] + (np.arange(9 * fine) + 0.5) / fine) * step for a in range(3)]
-        if hangs_together(grid) != hangs_together(inside_mesh(points, triangles, *centres)):
-            wrong.append(thin[i, 3] / step)
-    return len(wrong), len(thin), min(wrong, default=np.inf)
+    centres = [lower[a] + (low[a] + (np.arange(size * fine) + 0.5) / fine) * step for a in range(3)]
+    mesh = inside_mesh(points, triangles, *centres)
+    return [ours - theirs for ours, theirs in zip(hangs_together(grid), hangs_together(mesh))]
+
+
+def wrong_place(voxels, step, points, triangles):
+    """The thinnest place around which voxels and mesh hang together otherwise, by as much within 9 x 9 x 9 voxels as within 13 x 13
+    x 13, so that it does not lie at the rim of these: which of the thin places that is, one in each block of 4^3 voxels and the
+    thinnest first, how many there are, and how thin it is, in voxels. None if it is none of MOST."""
+    lower = points.min(axis=0)
+    thin = thin_places(points, triangles, THIN * step, lower, 4 * step)
+    for i, middle in enumerate(np.floor((thin[:MOST, :3] - lower) / step).astype(int)):
+        near = difference(voxels, step, points, triangles, middle, 4)
+        if any(near) and near == difference(voxels, step, points, triangles, middle, 6):
+            return i + 1, len(thin), thin[i, 3] / step
+    return None
 
 
 def read_nrrd(path):
@@ -220,9 +226,10 @@ def of_mesh(options, meshes, name, n):
             scan = os.path.join(folder, "voxels.nrrd")
             run(options.program, "voxelize", meshes.path(name), "--resolution", n, "-o", scan, "--force", "-q")
             step = report["input"]["spacing_mm"][0]
-            wrong, looked, thinnest = wrong_places(read_nrrd(scan), step, points, triangles)
-            result.row[-1] = f"{wrong} of {looked} places thinner than {THIN} voxels, the thinnest {thinnest:.2f}"
-            result.traced = wrong > 0
+            place = wrong_place(read_nrrd(scan), step, points, triangles)
+            result.traced = place is not None
+            if result.traced:
+                result.row[-1] = f"place {place[0]} of {place[1]} thinner than {THIN} voxels, {place[2]:.2f} thin"
         return result
 
 
