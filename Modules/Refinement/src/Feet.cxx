@@ -3,6 +3,8 @@
 #include "Vectors.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace voxelcore
 {
@@ -19,6 +21,16 @@ KeepOneOfEach(std::vector<Foot> & feet)
   });
   feet.erase(std::unique(feet.begin(), feet.end(), [](const Foot & a, const Foot & b) { return a.point == b.point; }),
              feet.end());
+}
+
+// Two directions at right angles to a normal and to each other, the first nearest to `slide`.
+std::array<Vector3, 2>
+TangentsOf(const Vector3 & n, const Vector3 & slide)
+{
+  const Vector3 axis = std::abs(n[0]) < 0.6 ? Vector3{ 1, 0, 0 } : Vector3{ 0, 1, 0 };
+  const Vector3 along = Length(slide) > 0 ? slide : Along(axis, -Dot(axis, n), n);
+  const Vector3 u = Along({ 0, 0, 0 }, 1 / Length(along), along);
+  return { u, Cross(n, u) };
 }
 
 constexpr double kLongestStride = 2.0; // voxels
@@ -92,39 +104,80 @@ FootFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs, std:
   }
 }
 
-// Strides that are not shorter than the ripples and facets of an estimate, which would hold the foot up. However little the
-// surface falls, it goes on: nearly opposite the nearest point, or from a place near the axis of a tube, it falls little.
+// A try to come nearer to `place` by way of `to`, a place beside the surface. Returns by how much it fails, 0 where it came
+// nearer.
+double
+FootFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & foot, double & distance) const
+{
+  const SurfacePoint next = m_Input.surface->Project(to, m_Voxel);
+  if (!next.found || std::abs(Dot(next.normal, foot.normal)) < kTurn)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double nearer = Distance(place, next.position);
+  if (nearer >= distance)
+  {
+    return nearer - distance;
+  }
+  foot = next;
+  distance = nearer;
+  return 0;
+}
+
+// Long strides first: near the axis of a tube the surface falls less than its ripples and facets do, and the way down cannot
+// be told from its normal. So four ways are tried there besides, until it is seen to rise on all of them nearly as a flat one
+// does.
 Vector3
 FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
 {
   constexpr int    steps = 60;
   constexpr double shortest = 0.1; // voxels
-  double           stride = 0.5;
+  constexpr double ofRadius = 0.25;
+  constexpr double ofFlatRise = 0.6; // on two ways at right angles: then at least 0.2 on all
   SurfacePoint     foot = m_Anchors[point];
   if (!foot.found)
   {
     return Place(point);
   }
-  double distance = Distance(place, foot.position);
-  for (int step = 0; step < steps && stride >= shortest; ++step)
+  double       distance = Distance(place, foot.position);
+  const double longest = std::max(kLongestStride * m_Voxel, ofRadius * distance);
+  double       stride = std::max(0.5 * m_Voxel, ofRadius * distance);
+  bool         flat = false;
+  for (int step = 0; step < steps && stride >= shortest * m_Voxel; ++step)
   {
     const Vector3 gap = Minus(place, foot.position);
     const Vector3 slide = Along(gap, -Dot(gap, foot.normal), foot.normal);
     const double  length = Length(slide);
-    if (!(length > 0))
+    if (flat && length < kClose * m_Voxel)
     {
       break;
     }
-    const SurfacePoint next = m_Input.surface->Project(Along(foot.position, stride * m_Voxel / length, slide), m_Voxel);
-    const double       nearer = next.found ? Distance(place, next.position) : distance;
-    if (nearer >= distance || std::abs(Dot(next.normal, foot.normal)) < kTurn)
+    const double part = (flat ? std::min(stride, length) : stride) / length;
+    if (length > 0 && TryFoot(place, Along(foot.position, part, slide), foot, distance) == 0)
     {
-      stride *= 0.5;
+      stride = std::min(longest, 2 * stride);
       continue;
     }
-    foot = next;
-    distance = nearer;
-    stride = std::min(kLongestStride, 2 * stride);
+    if (!flat)
+    {
+      const Vector3 at = foot.position;
+      const auto [u, v] = TangentsOf(foot.normal, slide);
+      double rise = std::numeric_limits<double>::infinity();
+      for (const Vector3 & way : { u, v, Minus({ 0, 0, 0 }, u), Minus({ 0, 0, 0 }, v) })
+      {
+        rise = std::min(rise, TryFoot(place, Along(at, stride, way), foot, distance));
+        if (rise == 0)
+        {
+          break;
+        }
+      }
+      if (rise == 0)
+      {
+        continue;
+      }
+      flat = rise > ofFlatRise * stride * stride / (2 * distance);
+    }
+    stride *= 0.5;
   }
   return foot.position;
 }
@@ -133,8 +186,9 @@ FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
 Vector3
 FootFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
 {
-  constexpr int steps = 8;
-  const Vector3 home = Place(point);
+  constexpr int    steps = 24;
+  constexpr double shortest = 1.0 / 16;
+  const Vector3    home = Place(point);
   SurfacePoint  foot = m_Anchors[point];
   if (!foot.found)
   {
@@ -143,25 +197,24 @@ FootFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
   const double radius = Distance(place, home);
   const double reach = std::min(most, 1.5 * std::sqrt(2 * radius * m_Voxel) + 2 * m_Voxel);
   double       distance = Distance(place, foot.position);
-  for (int step = 0; step < steps; ++step)
+  double       shorter = 1;
+  for (int step = 0; step < steps && shorter >= shortest; ++step)
   {
     const Vector3 gap = Minus(place, foot.position);
     const Vector3 slide = Along(gap, -Dot(gap, foot.normal), foot.normal);
     const double  length = Length(slide);
-    if (length < kClose * m_Voxel)
+    if (shorter * length < kClose * m_Voxel)
     {
       break;
     }
-    const double       part = std::min(1.0, kLongestStride * m_Voxel / length);
-    const SurfacePoint next = m_Input.surface->Project(Along(foot.position, part, slide), m_Voxel);
-    if (!next.found || std::abs(Dot(next.normal, foot.normal)) < kTurn || Distance(next.position, home) > reach)
+    const double part = shorter * std::min(1.0, kLongestStride * m_Voxel / length);
+    SurfacePoint next = foot;
+    double       closer = distance;
+    // A crease that draws back from `place` is nearest itself: steps end on it from either side only if they get shorter.
+    if (TryFoot(place, Along(foot.position, part, slide), next, closer) > 0 || Distance(next.position, home) > reach)
     {
-      break;
-    }
-    const double closer = Distance(place, next.position);
-    if (closer >= distance)
-    {
-      break;
+      shorter *= 0.5;
+      continue;
     }
     foot = next;
     distance = closer;

@@ -40,6 +40,8 @@ public:
 private:
   Vector3
   Place(std::uint32_t point) const;
+  double
+  TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & foot, double & distance) const;
   Vector3
   Slide(const Vector3 & place, std::uint32_t point, double most) const;
   Vector3
