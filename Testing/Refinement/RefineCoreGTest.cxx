@@ -16,6 +16,8 @@ namespace voxelcore::testing
 namespace
 {
 
+using Triangle3 = std::array<std::uint32_t, 3>;
+
 RefinedCore
 Refine(const VoxelShape &      shape,
        const Spacing3 &        spacing,
@@ -272,6 +274,113 @@ TEST(RefineCore, LeavesOfATubeALineOnItsAxis)
   EXPECT_LT(spread(fromGrey)[0], 0.2 * raw[0]);
   EXPECT_LT(spread(fromGrey)[1], 0.2 * raw[1]);
   EXPECT_LT(farthest(fromGrey), 0.4);
+}
+
+// Near the axis the surface of a tube is hardly nearer on one side than on the other: less so than a facet is high.
+TEST(RefineCore, LeavesOfATubeOfFlatFacetsALineOnItsAxis)
+{
+  constexpr double       radius = 9.3;
+  constexpr int          facets = 120;
+  constexpr double       middle = 20;
+  const Vector3          along{ 0.36, 0.48, 0.8 };
+  const Vector3          u{ 0.8, -0.6, 0 };
+  const Vector3          v{ 0.48, 0.64, -0.6 };
+  std::vector<Vector3>   vertices;
+  std::vector<Triangle3> triangles;
+  for (std::uint32_t i = 0; i < facets; ++i)
+  {
+    const double angle = 2 * std::acos(-1.0) * i / facets;
+    for (const double t : { -40.0, 40.0 })
+    {
+      Vector3 p{ middle, middle, middle };
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        p[k] += t * along[k] + radius * (std::cos(angle) * u[k] + std::sin(angle) * v[k]);
+      }
+      vertices.push_back(p);
+    }
+    const std::uint32_t next = 2 * ((i + 1) % facets);
+    triangles.push_back({ 2 * i, 2 * i + 1, next });
+    triangles.push_back({ 2 * i + 1, next + 1, next });
+  }
+  const auto fromAxis = [&](const Vector3 & p) {
+    const Vector3 q{ p[0] - middle, p[1] - middle, p[2] - middle };
+    return std::hypot(q[0] * u[0] + q[1] * u[1] + q[2] * u[2], q[0] * v[0] + q[1] * v[1] + q[2] * v[2]);
+  };
+  const VoxelShape shape = ShapeWhere({ 40, 40, 40 }, [&](int x, int y, int z) {
+    return fromAxis({ x + 0.5, y + 0.5, z + 0.5 }) <= radius;
+  });
+  const auto       surface = SurfaceFromTriangles(vertices, triangles);
+  const auto       refined = Refine(shape, { 1, 1, 1 }, 4, surface.get());
+  double           most = 0;
+  for (const Vector3 & p : refined.core.positions)
+  {
+    const double t = (p[0] - middle) * along[0] + (p[1] - middle) * along[1] + (p[2] - middle) * along[2];
+    most = std::abs(t) < 6 ? std::max(most, fromAxis(p)) : most;
+  }
+  EXPECT_LT(most, 0.15);
+}
+
+// Around the middle of two slabs that cross, balls touch the creases where their walls meet.
+TEST(RefineCore, BringsTheSheetsOfCrossingSlabsToTheirMiddlePlanesUpToWhereTheyMeet)
+{
+  constexpr double       half = 5.2;
+  constexpr double       middle = 20;
+  const Vector3          along{ 0.36, 0.48, 0.8 };
+  const Vector3          u{ 0.8, -0.6, 0 };
+  const Vector3          v{ 0.48, 0.64, -0.6 };
+  std::vector<Vector3>   vertices;
+  std::vector<Triangle3> triangles;
+  for (const double a : { -1.0, 1.0 })
+  {
+    for (const double b : { -1.0, 1.0 })
+    {
+      // From a crease outwards, along either slab.
+      for (const auto & out : { std::array{ 40.0, half }, std::array{ half, 40.0 } })
+      {
+        const auto first = static_cast<std::uint32_t>(vertices.size());
+        for (const auto & [x, y] : { std::array{ half, half }, out })
+        {
+          for (const double t : { -40.0, 40.0 })
+          {
+            Vector3 p{ middle, middle, middle };
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+              p[k] += t * along[k] + a * x * u[k] + b * y * v[k];
+            }
+            vertices.push_back(p);
+          }
+        }
+        triangles.push_back({ first, first + 1, first + 2 });
+        triangles.push_back({ first + 1, first + 3, first + 2 });
+      }
+    }
+  }
+  const auto place = [&](const Vector3 & p) {
+    const Vector3 q{ p[0] - middle, p[1] - middle, p[2] - middle };
+    return std::array{ std::abs(q[0] * u[0] + q[1] * u[1] + q[2] * u[2]),
+                       std::abs(q[0] * v[0] + q[1] * v[1] + q[2] * v[2]),
+                       std::abs(q[0] * along[0] + q[1] * along[1] + q[2] * along[2]) };
+  };
+  const VoxelShape shape = ShapeWhere({ 40, 40, 40 }, [&](int x, int y, int z) {
+    const auto at = place({ x + 0.5, y + 0.5, z + 0.5 });
+    return std::min(at[0], at[1]) <= half;
+  });
+  const auto       surface = SurfaceFromTriangles(vertices, triangles);
+  const auto       refined = Refine(shape, { 1, 1, 1 }, 3, surface.get());
+  double           sum = 0;
+  int              count = 0;
+  for (const Vector3 & p : refined.core.positions)
+  {
+    const auto at = place(p);
+    if (at[2] < 6 && std::max(at[0], at[1]) < half)
+    {
+      sum += std::min(at[0], at[1]);
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 100);
+  EXPECT_LT(sum / count, 0.05);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxelcore::testing
@@ -64,6 +65,74 @@ TEST(SurfaceEstimate, LabelsOfABallGiveItsSurfaceBackWithinATenthOfAVoxel)
     EXPECT_LT(MeanError(shape, *SurfaceFromLabels(shape, spacing), spacing, missing), 0.1) << spacing[2];
     EXPECT_EQ(missing, 0);
   }
+}
+
+// Passes that flatten long terraces must not move what is curved, nor what is near a wall, however large a ball is.
+TEST(SurfaceEstimate, LabelsOfBallsOfAllSizesGiveNoneTooLargeOrTooSmall)
+{
+  for (const double radius : { 5.3, 8.1, 11.3, 16.2, 25.4 })
+  {
+    const double centre = radius + 3.07;
+    const auto   side = static_cast<std::int32_t>(2 * centre) + 1;
+    const auto   outside = [&](double x, double y, double z) {
+      return std::hypot(x - centre, y - centre, z - centre) - radius;
+    };
+    const VoxelShape shape =
+      ShapeWhere({ side, side, side }, [&](int x, int y, int z) { return outside(x + 0.5, y + 0.5, z + 0.5) <= 0; });
+    const auto surface = SurfaceFromLabels(shape, { 1, 1, 1 });
+    double     sum = 0;
+    double     largest = 0;
+    const auto points = BoundaryVertices(shape);
+    for (const LatticePoint & p : points)
+    {
+      const SurfacePoint point = surface->Project({ 1.0 * p.x, 1.0 * p.y, 1.0 * p.z }, 1.5);
+      ASSERT_TRUE(point.found);
+      const double error = outside(point.position[0], point.position[1], point.position[2]);
+      sum += error;
+      largest = std::max(largest, std::abs(error));
+    }
+    EXPECT_LT(std::abs(sum / static_cast<double>(points.size())), radius < 8 ? 0.08 : 0.05) << radius;
+    EXPECT_LT(largest, 0.2) << radius;
+  }
+}
+
+// Edges are rounded, and walls swell beside them, no more than labels allow; far from edges walls are flat.
+TEST(SurfaceEstimate, LabelsOfALargeBoxGiveItsWallsAndEdges)
+{
+  constexpr double             middle = 28;
+  const std::array<Vector3, 3> axes{
+    { { 0.8174, 0.4417, 0.3697 }, { -0.5683, 0.7221, 0.3938 }, { -0.0930, -0.5320, 0.8416 } }
+  };
+  const std::array<double, 3> half{ 19.3, 16.2, 14.1 };
+  const auto                  depths = [&](const Vector3 & p) {
+    std::array<double, 3> depth{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      depth[k] =
+        half[k] - std::abs(axes[k][0] * (p[0] - middle) + axes[k][1] * (p[1] - middle) + axes[k][2] * (p[2] - middle));
+    }
+    std::sort(depth.begin(), depth.end());
+    return depth;
+  };
+  const VoxelShape shape = ShapeWhere({ 56, 56, 56 }, [&](int x, int y, int z) {
+    return depths({ x + 0.5, y + 0.5, z + 0.5 })[0] >= 0;
+  });
+  const auto       surface = SurfaceFromLabels(shape, { 1, 1, 1 });
+  double           sum = 0;
+  int              count = 0;
+  for (const LatticePoint & p : BoundaryVertices(shape))
+  {
+    const SurfacePoint point = surface->Project({ 1.0 * p.x, 1.0 * p.y, 1.0 * p.z }, 1.5);
+    ASSERT_TRUE(point.found);
+    const auto depth = depths(point.position);
+    EXPECT_LT(std::abs(depth[0]), depth[1] < 3 ? 1.1 : 0.35);
+    if (depth[1] >= 11)
+    {
+      sum += std::abs(depth[0]);
+      ++count;
+    }
+  }
+  EXPECT_LT(sum / count, 0.04);
 }
 
 TEST(SurfaceEstimate, GreyValuesOfABallGiveItsSurfaceBackWithinAFiftiethOfAVoxel)

@@ -30,62 +30,17 @@ ComesBefore(const std::array<std::int32_t, 3> & a, const std::array<std::int32_t
 
 } // namespace
 
-BandField::BandField(const VoxelShape & shape, const Vector3 & sides, double sigma)
+BandField::BandField(const VoxelShape & shape, const Vector3 & sides, double sigma, std::int32_t reach)
   : m_Sides(sides)
 {
   SetWidth(sigma);
-  FindBricks(shape);
+  FindBricks(shape, reach);
   FillLabels(shape);
   m_Values.assign(m_Bricks.size() * kVoxels, 0.0F);
 }
 
 void
-BandField::SetWidth(double sigma)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double variance = sigma * sigma / (m_Sides[axis] * m_Sides[axis]);
-    m_Gauss[axis] = Gauss(variance);
-    m_GaussToSpline[axis] = Gauss(std::max(variance - 1.0 / 3, 0.02));
-  }
-}
-
-// Four sigma far, normalised. The exponential is made of sums and products, as the last bit of exp() differs between
-// libraries.
-BandField::Kernel
-BandField::Gauss(double variance)
-{
-  constexpr int halvings = 8;
-  const double  exponent = -0.5 / variance / (1 << halvings);
-  double        base = 1;
-  for (int term = 10; term > 0; --term)
-  {
-    base = 1 + base * exponent / term;
-  }
-  for (int i = 0; i < halvings; ++i)
-  {
-    base *= base;
-  }
-  Kernel kernel;
-  kernel.radius = std::min(kMostRadius, static_cast<std::int32_t>(std::ceil(4 * std::sqrt(variance))));
-  std::array<double, kMostRadius + 1> weights{ 1 };
-  double                              sum = 1;
-  double                              ratio = base; // base^(k^2) by its odd differences
-  for (std::size_t k = 1; k <= static_cast<std::size_t>(kernel.radius); ++k)
-  {
-    weights[k] = weights[k - 1] * ratio;
-    ratio *= base * base;
-    sum += 2 * weights[k];
-  }
-  for (std::size_t k = 0; k < weights.size(); ++k)
-  {
-    kernel.weights[k] = static_cast<float>(weights[k] / sum);
-  }
-  return kernel;
-}
-
-void
-BandField::FindBricks(const VoxelShape & shape)
+BandField::FindBricks(const VoxelShape & shape, std::int32_t reach)
 {
   const auto sortBricks = [&] {
     std::sort(m_Bricks.begin(), m_Bricks.end(), ComesBefore);
@@ -98,8 +53,8 @@ BandField::FindBricks(const VoxelShape & shape)
   {
     // A boundary vertex lies between the voxels p - 1 and p.
     const std::array<Brick, 2> range{
-      { { BrickOf(p.x - 1 - kReach), BrickOf(p.y - 1 - kReach), BrickOf(p.z - 1 - kReach) },
-        { BrickOf(p.x + kReach), BrickOf(p.y + kReach), BrickOf(p.z + kReach) } }
+      { { BrickOf(p.x - 1 - reach), BrickOf(p.y - 1 - reach), BrickOf(p.z - 1 - reach) },
+        { BrickOf(p.x + reach), BrickOf(p.y + reach), BrickOf(p.z + reach) } }
     };
     if (!first && range == last)
     {
@@ -185,137 +140,6 @@ BandField::FillLabels(const VoxelShape & shape)
         found = shape.Contains(other[0] * kSide, other[1] * kSide, other[2] * kSide) ? kFarInside : kFarOutside;
       }
       m_Neighbours[brick][n] = found;
-    }
-  }
-}
-
-// G at the voxels of one brick.
-void
-BandField::Convolve(const Kernels & kernels, const std::vector<float> & from, std::size_t brick, float * to) const
-{
-  constexpr std::size_t                           most = kSide + 2 * kMostRadius;
-  const std::int32_t                              rx = kernels[0].radius;
-  const std::int32_t                              ry = kernels[1].radius;
-  const std::int32_t                              rz = kernels[2].radius;
-  const auto                                      wide = static_cast<std::size_t>(kSide + 2 * rx);
-  const auto                                      deep = static_cast<std::size_t>(kSide + 2 * ry);
-  const auto                                      high = static_cast<std::size_t>(kSide + 2 * rz);
-  float                                           tile[most * most * most];
-  float                                           byX[most * most * kSide];
-  float                                           byY[most * kSide * kSide];
-  float *                                         out = tile;
-  const std::array<std::array<std::size_t, 2>, 3> parts{ { { static_cast<std::size_t>(kSide - rx),
-                                                             static_cast<std::size_t>(rx) },
-                                                           { 0, 8 },
-                                                           { 0, static_cast<std::size_t>(rx) } } };
-  for (std::int32_t z = -rz; z < kSide + rz; ++z)
-  {
-    for (std::int32_t y = -ry; y < kSide + ry; ++y)
-    {
-      const std::int32_t neighbour = 3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1);
-      const auto         row = static_cast<std::size_t>(8 * (y & 7) + 64 * (z & 7));
-      for (std::size_t part = 0; part < 3; ++part)
-      {
-        const std::int32_t source = m_Neighbours[brick][static_cast<std::size_t>(neighbour) + part];
-        const auto [first, size] = parts[part];
-        if (source >= 0)
-        {
-          const float * values = from.data() + static_cast<std::size_t>(source) * kVoxels + row + first;
-          out = std::copy(values, values + size, out);
-        }
-        else
-        {
-          out = std::fill_n(out, size, source == kFarInside ? m_Far : -m_Far);
-        }
-      }
-    }
-  }
-  const auto pass = [&](std::size_t axis, const float * in, float * sum, std::size_t stride, std::size_t size) {
-    const auto   radius = static_cast<std::size_t>(kernels[axis].radius);
-    const auto & gauss = kernels[axis].weights;
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      sum[i] = gauss[0] * in[i + radius * stride];
-    }
-    for (std::size_t k = 1; k <= radius; ++k)
-    {
-      const float * lower = in + (radius - k) * stride;
-      const float * upper = in + (radius + k) * stride;
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        sum[i] += gauss[k] * (lower[i] + upper[i]);
-      }
-    }
-  };
-  for (std::size_t row = 0; row < deep * high; ++row)
-  {
-    pass(0, tile + row * wide, byX + row * kSide, 1, kSide);
-  }
-  for (std::size_t z = 0; z < high; ++z)
-  {
-    pass(1, byX + z * deep * kSide, byY + z * kSide * kSide, kSide, kSide * kSide);
-  }
-  pass(2, byY, to, kSide * kSide, kVoxels);
-}
-
-float
-BandField::StepWeight(double sigma)
-{
-  const double once = std::sqrt(sigma * sigma + 1.0 / 12);
-  const double twice = std::sqrt(2 * sigma * sigma + 1.0 / 12);
-  return static_cast<float>(once / (twice - once));
-}
-
-void
-BandField::Smooth(float weight)
-{
-  Smooth(weight, m_Gauss);
-}
-
-void
-BandField::SmoothToCoefficients(float weight)
-{
-  Smooth(weight, m_GaussToSpline);
-}
-
-void
-BandField::Smooth(float weight, const Kernels & kernels)
-{
-  const auto         count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-  std::vector<float> once(m_Values.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
-  for (std::ptrdiff_t brick = 0; brick < count; ++brick)
-  {
-    Convolve(kernels,
-             m_Values,
-             static_cast<std::size_t>(brick),
-             once.data() + static_cast<std::size_t>(brick) * kVoxels);
-  }
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
-  for (std::ptrdiff_t brick = 0; brick < count; ++brick)
-  {
-    const std::size_t first = static_cast<std::size_t>(brick) * kVoxels;
-    Convolve(m_Gauss, once, static_cast<std::size_t>(brick), m_Values.data() + first);
-    for (std::size_t i = first; i < first + kVoxels; ++i)
-    {
-      m_Values[i] = (1 + weight) * once[i] - weight * m_Values[i];
-    }
-  }
-}
-
-void
-BandField::ClearContradictions()
-{
-  const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-#pragma omp parallel for schedule(static) if (count > 16)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-  {
-    const auto brick = static_cast<std::size_t>(i);
-    for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
-    {
-      float &    value = m_Values[brick * kVoxels + voxel];
-      const bool in = ((m_Labels[brick][voxel >> 3] >> (voxel & 7)) & 1) != 0;
-      value = in ? std::max(value, 0.0F) : std::min(value, 0.0F);
     }
   }
 }

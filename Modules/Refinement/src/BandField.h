@@ -9,24 +9,27 @@
 namespace voxelcore
 {
 
-/** One value at the centre of each voxel within 7 voxels of the boundary, and some beyond. Positive inside. What has no
- *  brick counts as far away: +Far() inside the shape, -Far() outside. */
+/** One value at the centre of each voxel near the boundary, and some beyond. Positive inside. What has no brick counts as
+ *  far away: +Far() inside the shape, -Far() outside. */
 class BandField
 {
 public:
   static constexpr std::int32_t kSide = 8;
   static constexpr std::size_t  kVoxels = 512;
 
+  /** How much of a pass each voxel takes: 255, all of it. */
+  using Parts = std::vector<std::uint8_t>;
+
   /** Values are 0. `sides` are those of a voxel, the shortest 1: the unit of distances and of `sigma`, the width of the
-   *  Gaussian G, at most 1.5. */
-  BandField(const VoxelShape & shape, const Vector3 & sides, double sigma);
+   *  Gaussian G, at most 1.5. What is within `reach` voxels of the boundary, at most 16, has a value. */
+  BandField(const VoxelShape & shape, const Vector3 & sides, double sigma, std::int32_t reach);
 
   /** Another width of G. */
   void
   SetWidth(double sigma);
 
   /** Signed distance to the boundary: to the nearest centre of the other kind less half the shortest side, clipped to
-   *  +-`clip` (at most 6.5). */
+   *  +-`clip` (at most the reach of the field). */
   void
   FillDistances(double clip);
 
@@ -34,14 +37,18 @@ public:
   void
   FillGrey(const VoxelBox & scan, const GreyRows & rows);
 
-  /** K = (1 + w) G - w G G. With w = 1, in frequencies 1 - (sigma k)^4 / 4 + ..., bends of a distance field are flattened,
+  /** K = (1 + w) G - w G G. With w = 1, in frequencies 1 - (sigma k)^4 / 4 + ..., bends of a linear field are flattened,
    *  and what is curved evenly keeps its place. */
   void
-  Smooth(float weight = 1);
+  Smooth(float weight);
+
+  /** The same where `parts` says so; with G twice as wide, of every other voxel, if `wide`. */
+  void
+  SmoothPart(float weight, bool wide, const Parts & parts);
 
   /** The same, but values become coefficients of Evaluate(): to be called once, last. */
   void
-  SmoothToCoefficients(float weight = 1);
+  SmoothToCoefficients(float weight);
 
   /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them and
    *  are cubes of side 1. G moves a step of standard width s and curvature c by c s^2 times its slope, which goes as 1 / s: so
@@ -52,6 +59,16 @@ public:
   /** 0 where the sign contradicts the label. */
   void
   ClearContradictions();
+
+  /** For a field of distances: all where balls of `radius` touch the boundary from inside and from outside, none where one
+   *  is kept two units or more away from it, by another wall, an edge or a crease. */
+  Parts
+  FindThick(double radius) const;
+
+  /** Takes away what lies within `near` units of where the surface has a radius of curvature under `radius`, and by degrees
+   *  to 2 units farther. */
+  void
+  LeaveOutBends(Parts & parts, double radius, double near) const;
 
   /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no brick.
    *  What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian of variance
@@ -68,9 +85,8 @@ public:
 private:
   static constexpr std::int32_t kFarOutside = -1;
   static constexpr std::int32_t kFarInside = -2;
-  static constexpr std::int32_t kReach = 7; ///< voxels from the boundary that have a brick
   using Brick = std::array<std::int32_t, 3>;
-  static constexpr std::int32_t kMostRadius = 6; ///< voxels
+  static constexpr std::int32_t kMostRadius = 8; ///< voxels
   struct Kernel
   {
     std::int32_t                       radius = 0;
@@ -85,29 +101,33 @@ private:
   std::int32_t
   Find(const Brick & brick) const;
   using Kernels = std::array<Kernel, 3>;
+  using Flags = std::array<std::uint8_t, 64>; ///< of a brick's voxels: a byte a row along x
   static Kernel
-  Gauss(double variance);
+  Gauss(double variance, std::int32_t mostRadius);
   void
-  FindBricks(const VoxelShape & shape);
+  FindBricks(const VoxelShape & shape, std::int32_t reach);
   void
   FillLabels(const VoxelShape & shape);
   void
   FillBrickDistances(std::size_t brick, double clip);
-  template <typename TTake>
+  std::array<std::uint64_t, 1600>
+  GatherRows(const std::vector<Flags> & flags, bool farInside, bool farOutside, std::size_t brick) const;
+  double
+  CurvatureAt(std::size_t brick, std::size_t voxel) const;
   void
-  GatherTile(std::size_t brick, std::int32_t margin, TTake take) const;
-  void
-  Convolve(const Kernels & kernels, const std::vector<float> & from, std::size_t brick, float * to) const;
+  Convolve(const Kernels & kernels, std::int32_t step, const std::vector<float> & from, std::size_t brick, float * to)
+    const;
   void
   Smooth(float weight, const Kernels & first);
 
   Vector3                                   m_Sides;
   Kernels                                   m_Gauss;
+  Kernels                                   m_GaussWide;     ///< twice as wide, of every other voxel
   Kernels                                   m_GaussToSpline; ///< with B-splines after it as wide as m_Gauss
   std::vector<Brick>                        m_Bricks;        ///< in units of bricks, by (z, y, x)
   std::vector<std::uint32_t>                m_Table;         ///< open addressing: brick + 1, 0 for none
   std::vector<std::array<std::int32_t, 27>> m_Neighbours; ///< a brick, or on which side of the boundary there is none
-  std::vector<std::array<std::uint8_t, 64>> m_Labels;     ///< a byte a row along x
+  std::vector<Flags>                        m_Labels;
   std::vector<float>                        m_Values;
   float                                     m_Far = 0;
 };

@@ -1,34 +1,48 @@
 // What a band field starts from: distances to the boundary, or grey values.
 
-#include "BandField.h"
+#include "BandTile.h"
+#include "Vectors.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace voxelcore
 {
 
-// Calls take(place in the tile, neighbour, voxel in it) for the voxels of a brick and `margin` voxels around it.
-template <typename TTake>
-void
-BandField::GatherTile(std::size_t brick, std::int32_t margin, TTake take) const
+// Flags of the voxels of a brick and of those around it; `farInside` and `farOutside` where there is no brick.
+tile::Rows
+BandField::GatherRows(const std::vector<Flags> & flags, bool farInside, bool farOutside, std::size_t brick) const
 {
-  std::size_t at = 0;
-  for (std::int32_t z = -margin; z < kSide + margin; ++z)
+  constexpr std::int32_t bricks = tile::kSide / kSide;
+  tile::Rows             rows{};
+  for (std::int32_t n = 0; n < bricks * bricks * bricks; ++n)
   {
-    for (std::int32_t y = -margin; y < kSide + margin; ++y)
+    const std::array<std::int32_t, 3> place{ n % bricks, n / bricks % bricks, n / bricks / bricks };
+    // By way of a neighbour: beyond one that has no brick, what can be nearer than it is of its kind.
+    std::int32_t found = static_cast<std::int32_t>(brick);
+    for (std::array<std::int32_t, 3> left{ place[0] - 2, place[1] - 2, place[2] - 2 };
+         found >= 0 && left != std::array<std::int32_t, 3>{ 0, 0, 0 };)
     {
-      const std::int32_t rowNeighbour = 3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1);
-      const std::int32_t rowVoxel = 8 * (y & 7) + 64 * (z & 7);
-      for (std::int32_t x = -margin; x < kSide + margin; ++x)
+      std::int32_t neighbour = 13;
+      for (std::size_t axis = 0, stride = 1; axis < 3; ++axis, stride *= 3)
       {
-        take(at++,
-             m_Neighbours[brick][static_cast<std::size_t>(rowNeighbour + BrickOf(x) + 1)],
-             static_cast<std::size_t>(rowVoxel + (x & 7)));
+        const std::int32_t one = std::clamp(left[axis], -1, 1);
+        neighbour += one * static_cast<std::int32_t>(stride);
+        left[axis] -= one;
       }
+      found = m_Neighbours[static_cast<std::size_t>(found)][static_cast<std::size_t>(neighbour)];
+    }
+    const std::uint64_t all = (found == kFarInside ? farInside : farOutside) ? 0xFF : 0;
+    for (std::int32_t row = 0; row < 64; ++row)
+    {
+      const std::uint64_t bits =
+        found < 0 ? all : flags[static_cast<std::size_t>(found)][static_cast<std::size_t>(row)];
+      const std::int32_t y = place[1] * kSide + (row & 7);
+      const std::int32_t z = place[2] * kSide + (row >> 3);
+      rows[static_cast<std::size_t>(z * tile::kSide + y)] |= bits << (place[0] * kSide);
     }
   }
+  return rows;
 }
 
 void
@@ -46,73 +60,23 @@ BandField::FillDistances(double clip)
 void
 BandField::FillBrickDistances(std::size_t brick, double clip)
 {
-  constexpr std::int32_t  side = kSide + 2 * kReach;
-  constexpr std::uint32_t full = (1U << side) - 1;
-  constexpr double        none = 1000;
-  const double            half = 0.5 * std::min({ m_Sides[0], m_Sides[1], m_Sides[2] });
-  const Vector3           squares{ m_Sides[0] * m_Sides[0], m_Sides[1] * m_Sides[1], m_Sides[2] * m_Sides[2] };
-  // Rows of labels around the brick, then for each kind squared distances by x alone, by x and y, by all.
-  std::array<std::uint32_t, static_cast<std::size_t>(side) * side> rows{};
-  GatherTile(brick, kReach, [&](std::size_t at, std::int32_t neighbour, std::size_t voxel) {
-    const bool in = neighbour >= 0
-                      ? ((m_Labels[static_cast<std::size_t>(neighbour)][voxel >> 3] >> (voxel & 7)) & 1) != 0
-                      : neighbour == kFarInside;
-    rows[at / side] |= (in ? 1U : 0U) << (at % side);
-  });
+  const double     half = 0.5 * std::min({ m_Sides[0], m_Sides[1], m_Sides[2] });
+  const Vector3    squares = Times(m_Sides, m_Sides);
+  const tile::Rows labels = GatherRows(m_Labels, true, false, brick);
+  tile::Rows       outside = labels;
+  for (std::uint64_t & row : outside)
+  {
+    row = ~row & ((std::uint64_t{ 1 } << tile::kSide) - 1);
+  }
   for (const bool inside : { true, false })
   {
-    std::array<std::array<double, kSide>, static_cast<std::size_t>(side) * side> byX;
-    for (std::size_t row = 0; row < rows.size(); ++row)
+    const auto least = tile::SquaredDistances(inside ? outside : labels, squares);
+    for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
     {
-      const std::uint32_t other = inside ? ~rows[row] & full : rows[row];
-      for (std::int32_t x = 0; x < kSide; ++x)
+      if ((((m_Labels[brick][voxel >> 3] >> (voxel & 7)) & 1) != 0) == inside)
       {
-        const std::uint32_t up = other >> (x + kReach);
-        const std::uint32_t down = other << (31 - x - kReach);
-        const std::int32_t  d = std::min(std::countr_zero(up), std::countl_zero(down));
-        byX[row][static_cast<std::size_t>(x)] = d > kReach ? none : d * d * squares[0];
-      }
-    }
-    std::array<std::array<double, kSide>, static_cast<std::size_t>(side) * kSide> byY;
-    for (std::int32_t z = 0; z < side; ++z)
-    {
-      for (std::int32_t y = 0; y < kSide; ++y)
-      {
-        auto & to = byY[static_cast<std::size_t>(z * kSide + y)];
-        to.fill(none);
-        for (std::int32_t d = -kReach; d <= kReach; ++d)
-        {
-          const auto & from = byX[static_cast<std::size_t>(z * side + y + kReach + d)];
-          for (std::size_t x = 0; x < kSide; ++x)
-          {
-            to[x] = std::min(to[x], from[x] + d * d * squares[1]);
-          }
-        }
-      }
-    }
-    for (std::int32_t z = 0; z < kSide; ++z)
-    {
-      for (std::int32_t y = 0; y < kSide; ++y)
-      {
-        std::array<double, kSide> least;
-        least.fill(none);
-        for (std::int32_t d = -kReach; d <= kReach; ++d)
-        {
-          const auto & from = byY[static_cast<std::size_t>((z + kReach + d) * kSide + y)];
-          for (std::size_t x = 0; x < kSide; ++x)
-          {
-            least[x] = std::min(least[x], from[x] + d * d * squares[2]);
-          }
-        }
-        const auto row = static_cast<std::size_t>(z * kSide + y);
-        for (std::size_t x = 0; x < kSide; ++x)
-        {
-          if ((((m_Labels[brick][row] >> x) & 1) != 0) == inside)
-          {
-            const double distance = std::min(std::sqrt(least[x]) - half, clip);
-            m_Values[brick * kVoxels + row * kSide + x] = static_cast<float>(inside ? distance : -distance);
-          }
-        }
+        const double distance = std::min(std::sqrt(least[voxel]) - half, clip);
+        m_Values[brick * kVoxels + voxel] = static_cast<float>(inside ? distance : -distance);
       }
     }
   }

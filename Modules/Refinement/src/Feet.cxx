@@ -189,7 +189,7 @@ FootFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
   constexpr int    steps = 24;
   constexpr double shortest = 1.0 / 16;
   const Vector3    home = Place(point);
-  SurfacePoint  foot = m_Anchors[point];
+  SurfacePoint     foot = m_Anchors[point];
   if (!foot.found)
   {
     return home;

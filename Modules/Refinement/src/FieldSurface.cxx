@@ -1,4 +1,5 @@
 #include "BandField.h"
+#include "FlatProfile.h"
 #include "Vectors.h"
 
 #include "voxelcore/SurfaceEstimate.h"
@@ -136,27 +137,61 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
   // Distances end before the middle of all but thin parts, and on both sides of the surface alike: the bend of a ridge in the
   // middle of a part would be carried to its surface.
   constexpr double clip = 5.5;
-  // The thinnest parts do not survive many passes.
-  constexpr int          fewPasses = 3;
-  constexpr int          manyPasses = 20;
-  constexpr double       flattest = 0.32;
-  std::vector<BandField> fields;
-  BandField              field(shape, sides, sigma);
+  // Terraces get longer as the root of the surface's radius, and passes to flatten them more as the fourth power of their
+  // length: many where balls of such a radius fit in beside the surface, wide ones where greater balls do and no edge is
+  // near, few in the thinnest parts, which do not survive more.
+  constexpr int    onePass = 1;
+  constexpr int    fewPasses = 3;
+  constexpr int    somePasses = 20;
+  constexpr int    manyPasses = 60;
+  constexpr int    widePasses = 16;
+  const double     thick = 8 * sigma;
+  const double     thickest = 12 * sigma;
+  constexpr double allPasses = somePasses + manyPasses + 2 * widePasses;
+  constexpr double flattest = 0.32;
+  const auto       reach = static_cast<std::int32_t>(std::ceil(thickest));
+
+  auto [many, wide] = [&] {
+    BandField distances(shape, sides, sigma, reach);
+    distances.FillDistances(reach);
+    return std::pair(distances.FindThick(thick), distances.FindThick(thickest));
+  }();
+  BandField field(shape, sides, sigma, reach);
   field.FillDistances(clip);
-  for (int pass = 1; pass <= manyPasses; ++pass)
+  FlatProfile            profile(clip);
+  std::vector<BandField> fields;
+  int                    passes = 0;
+  const auto             keep = [&] {
+    fields.insert(fields.begin(), field);
+    fields.front().SmoothToCoefficients(profile.Weight(sigma));
+  };
+  const auto end = [&] {
+    field.ClearContradictions();
+    ReportProgress(progress, "surface", ++passes / allPasses);
+  };
+  while (passes < somePasses)
   {
-    ReportProgress(progress, "surface", static_cast<double>(pass) / manyPasses);
-    if (pass == 1 || pass == fewPasses || pass == manyPasses)
+    if (passes + 1 == onePass || passes + 1 == fewPasses)
     {
-      fields.insert(fields.begin(), field);
-      fields.front().SmoothToCoefficients();
+      keep();
     }
-    if (pass < manyPasses)
-    {
-      field.Smooth();
-      field.ClearContradictions();
-    }
+    field.Smooth(profile.Smooth(sigma));
+    end();
   }
+  while (passes < somePasses + manyPasses)
+  {
+    field.SmoothPart(profile.Smooth(sigma), false, many);
+    end();
+  }
+  field.LeaveOutBends(wide, 7.5, 8);
+  while (passes < allPasses)
+  {
+    field.SmoothPart(profile.Smooth(2 * sigma), true, wide);
+    end();
+    field.SmoothPart(profile.Smooth(sigma), false, wide);
+    end();
+  }
+  keep();
   return std::make_unique<FieldSurface>(std::move(fields), spacing, sides, flattest);
 }
 
@@ -169,7 +204,7 @@ SurfaceFromGrey(const VoxelShape &       shape,
 {
   constexpr Vector3 sides{ 1, 1, 1 };
   constexpr double  flattest = 0.08; // of the mean magnitude
-  BandField         field(shape, sides, 1.5);
+  BandField         field(shape, sides, 1.5, 7);
   field.FillGrey(scan, rows);
   const auto smoothed = [&](BandField one, double sigma) {
     one.SetWidth(sigma);

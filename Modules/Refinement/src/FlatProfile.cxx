@@ -1,0 +1,76 @@
+#include "FlatProfile.h"
+
+#include "GaussWeights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr double         kStep = 0.25;
+constexpr std::ptrdiff_t kHalf = 120; // far beyond any clip
+
+std::vector<double>
+Convolve(const std::vector<double> & from, const std::vector<double> & weights)
+{
+  const auto          size = static_cast<std::ptrdiff_t>(from.size());
+  std::vector<double> to(from.size());
+  for (std::ptrdiff_t i = 0; i < size; ++i)
+  {
+    double sum = weights[0] * from[static_cast<std::size_t>(i)];
+    for (std::size_t k = 1; k < weights.size(); ++k)
+    {
+      const auto lower = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, i - static_cast<std::ptrdiff_t>(k)));
+      const auto upper = static_cast<std::size_t>(std::min(size - 1, i + static_cast<std::ptrdiff_t>(k)));
+      sum += weights[k] * (from[lower] + from[upper]);
+    }
+    to[static_cast<std::size_t>(i)] = sum;
+  }
+  return to;
+}
+
+} // namespace
+
+FlatProfile::FlatProfile(double clip)
+{
+  for (std::ptrdiff_t i = -kHalf; i <= kHalf; ++i)
+  {
+    m_Values.push_back(std::clamp(static_cast<double>(i) * kStep, -clip, clip));
+  }
+}
+
+FlatProfile::Passes
+FlatProfile::Pass(double sigma) const
+{
+  const double              width = sigma / kStep;
+  const std::vector<double> weights = GaussWeights(width * width, static_cast<std::size_t>(std::ceil(5 * width)));
+  Passes                    passes;
+  passes.once = Convolve(m_Values, weights);
+  passes.twice = Convolve(passes.once, weights);
+  constexpr std::size_t beside = kHalf + 1; // odd: the value one step off the middle stands for the slope
+  passes.weight = passes.once[beside] / (2 * passes.twice[beside] - passes.once[beside]);
+  return passes;
+}
+
+float
+FlatProfile::Weight(double sigma) const
+{
+  return static_cast<float>(Pass(sigma).weight);
+}
+
+float
+FlatProfile::Smooth(double sigma)
+{
+  const Passes passes = Pass(sigma);
+  for (std::size_t i = 0; i < m_Values.size(); ++i)
+  {
+    m_Values[i] = (1 + passes.weight) * passes.once[i] - passes.weight * passes.twice[i];
+  }
+  return static_cast<float>(passes.weight);
+}
+
+} // namespace voxelcore
