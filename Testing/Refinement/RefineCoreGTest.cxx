@@ -276,15 +276,29 @@ TEST(RefineCore, LeavesOfATubeALineOnItsAxis)
   EXPECT_LT(farthest(fromGrey), 0.4);
 }
 
+constexpr double kMiddle = 20;
+
+// `x` and `y` across and `t` along a line off the grid's directions through the middle.
+Vector3
+FromTilted(double x, double y, double t)
+{
+  return { kMiddle + 0.8 * x + 0.48 * y + 0.36 * t,
+           kMiddle - 0.6 * x + 0.64 * y + 0.48 * t,
+           kMiddle - 0.6 * y + 0.8 * t };
+}
+
+Vector3
+ToTilted(const Vector3 & p)
+{
+  const Vector3 q{ p[0] - kMiddle, p[1] - kMiddle, p[2] - kMiddle };
+  return { 0.8 * q[0] - 0.6 * q[1], 0.48 * q[0] + 0.64 * q[1] - 0.6 * q[2], 0.36 * q[0] + 0.48 * q[1] + 0.8 * q[2] };
+}
+
 // Near the axis the surface of a tube is hardly nearer on one side than on the other: less so than a facet is high.
 TEST(RefineCore, LeavesOfATubeOfFlatFacetsALineOnItsAxis)
 {
   constexpr double       radius = 9.3;
   constexpr int          facets = 120;
-  constexpr double       middle = 20;
-  const Vector3          along{ 0.36, 0.48, 0.8 };
-  const Vector3          u{ 0.8, -0.6, 0 };
-  const Vector3          v{ 0.48, 0.64, -0.6 };
   std::vector<Vector3>   vertices;
   std::vector<Triangle3> triangles;
   for (std::uint32_t i = 0; i < facets; ++i)
@@ -292,20 +306,15 @@ TEST(RefineCore, LeavesOfATubeOfFlatFacetsALineOnItsAxis)
     const double angle = 2 * std::acos(-1.0) * i / facets;
     for (const double t : { -40.0, 40.0 })
     {
-      Vector3 p{ middle, middle, middle };
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        p[k] += t * along[k] + radius * (std::cos(angle) * u[k] + std::sin(angle) * v[k]);
-      }
-      vertices.push_back(p);
+      vertices.push_back(FromTilted(radius * std::cos(angle), radius * std::sin(angle), t));
     }
     const std::uint32_t next = 2 * ((i + 1) % facets);
     triangles.push_back({ 2 * i, 2 * i + 1, next });
     triangles.push_back({ 2 * i + 1, next + 1, next });
   }
-  const auto fromAxis = [&](const Vector3 & p) {
-    const Vector3 q{ p[0] - middle, p[1] - middle, p[2] - middle };
-    return std::hypot(q[0] * u[0] + q[1] * u[1] + q[2] * u[2], q[0] * v[0] + q[1] * v[1] + q[2] * v[2]);
+  const auto fromAxis = [](const Vector3 & p) {
+    const Vector3 q = ToTilted(p);
+    return std::hypot(q[0], q[1]);
   };
   const VoxelShape shape = ShapeWhere({ 40, 40, 40 }, [&](int x, int y, int z) {
     return fromAxis({ x + 0.5, y + 0.5, z + 0.5 }) <= radius;
@@ -315,8 +324,7 @@ TEST(RefineCore, LeavesOfATubeOfFlatFacetsALineOnItsAxis)
   double           most = 0;
   for (const Vector3 & p : refined.core.positions)
   {
-    const double t = (p[0] - middle) * along[0] + (p[1] - middle) * along[1] + (p[2] - middle) * along[2];
-    most = std::abs(t) < 6 ? std::max(most, fromAxis(p)) : most;
+    most = std::abs(ToTilted(p)[2]) < 6 ? std::max(most, fromAxis(p)) : most;
   }
   EXPECT_LT(most, 0.15);
 }
@@ -325,10 +333,6 @@ TEST(RefineCore, LeavesOfATubeOfFlatFacetsALineOnItsAxis)
 TEST(RefineCore, BringsTheSheetsOfCrossingSlabsToTheirMiddlePlanesUpToWhereTheyMeet)
 {
   constexpr double       half = 5.2;
-  constexpr double       middle = 20;
-  const Vector3          along{ 0.36, 0.48, 0.8 };
-  const Vector3          u{ 0.8, -0.6, 0 };
-  const Vector3          v{ 0.48, 0.64, -0.6 };
   std::vector<Vector3>   vertices;
   std::vector<Triangle3> triangles;
   for (const double a : { -1.0, 1.0 })
@@ -343,12 +347,7 @@ TEST(RefineCore, BringsTheSheetsOfCrossingSlabsToTheirMiddlePlanesUpToWhereTheyM
         {
           for (const double t : { -40.0, 40.0 })
           {
-            Vector3 p{ middle, middle, middle };
-            for (std::size_t k = 0; k < 3; ++k)
-            {
-              p[k] += t * along[k] + a * x * u[k] + b * y * v[k];
-            }
-            vertices.push_back(p);
+            vertices.push_back(FromTilted(a * x, b * y, t));
           }
         }
         triangles.push_back({ first, first + 1, first + 2 });
@@ -356,15 +355,9 @@ TEST(RefineCore, BringsTheSheetsOfCrossingSlabsToTheirMiddlePlanesUpToWhereTheyM
       }
     }
   }
-  const auto place = [&](const Vector3 & p) {
-    const Vector3 q{ p[0] - middle, p[1] - middle, p[2] - middle };
-    return std::array{ std::abs(q[0] * u[0] + q[1] * u[1] + q[2] * u[2]),
-                       std::abs(q[0] * v[0] + q[1] * v[1] + q[2] * v[2]),
-                       std::abs(q[0] * along[0] + q[1] * along[1] + q[2] * along[2]) };
-  };
   const VoxelShape shape = ShapeWhere({ 40, 40, 40 }, [&](int x, int y, int z) {
-    const auto at = place({ x + 0.5, y + 0.5, z + 0.5 });
-    return std::min(at[0], at[1]) <= half;
+    const Vector3 at = ToTilted({ x + 0.5, y + 0.5, z + 0.5 });
+    return std::min(std::abs(at[0]), std::abs(at[1])) <= half;
   });
   const auto       surface = SurfaceFromTriangles(vertices, triangles);
   const auto       refined = Refine(shape, { 1, 1, 1 }, 3, surface.get());
@@ -372,10 +365,10 @@ TEST(RefineCore, BringsTheSheetsOfCrossingSlabsToTheirMiddlePlanesUpToWhereTheyM
   int              count = 0;
   for (const Vector3 & p : refined.core.positions)
   {
-    const auto at = place(p);
-    if (at[2] < 6 && std::max(at[0], at[1]) < half)
+    const Vector3 at = ToTilted(p);
+    if (std::abs(at[2]) < 6 && std::max(std::abs(at[0]), std::abs(at[1])) < half)
     {
-      sum += std::min(at[0], at[1]);
+      sum += std::min(std::abs(at[0]), std::abs(at[1]));
       ++count;
     }
   }

@@ -49,32 +49,6 @@ public:
     m_Size = 0;
   }
 
-  std::size_t
-  Size() const
-  {
-    return m_Size;
-  }
-
-  /** The number stored under the key, or none. */
-  std::uint32_t
-  Find(const FacetKey & key) const
-  {
-    for (std::size_t at = Home(key);; at = Next(at))
-    {
-      if (m_Slots[at].value == none || IsSameKey(m_Slots[at].key, key))
-      {
-        return m_Slots[at].value;
-      }
-    }
-  }
-
-  /** Has the memory fetch the place of a key that is about to be asked for. */
-  void
-  Prefetch(const FacetKey & key) const
-  {
-    __builtin_prefetch(m_Slots.data() + Home(key), 1);
-  }
-
   /** Takes the number stored under the key out and returns it, or none. */
   std::uint32_t
   Take(const FacetKey & key)

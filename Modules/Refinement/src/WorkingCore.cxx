@@ -53,6 +53,15 @@ Step(const Vector3 & place, std::span<const PointPair> pairs, std::span<const Fo
   return Along({ 0, 0, 0 }, 1 / determinant, Vector3{ Dot(x, b), Dot(y, b), Dot(z, b) });
 }
 
+std::vector<double>
+Pick(const std::vector<double> & values, const std::vector<ElementIndex> & ids)
+{
+  std::vector<double> some;
+  some.reserve(ids.size());
+  std::transform(ids.begin(), ids.end(), std::back_inserter(some), [&](ElementIndex id) { return values[id]; });
+  return some;
+}
+
 } // namespace
 
 WorkingCore::WorkingCore(const RefinementInput & input, const LiveElements & live)
@@ -208,15 +217,9 @@ WorkingCore::All() const
 WorkingCore::Part
 WorkingCore::Collapse(Part part, double threshold) const
 {
-  const auto of = [](const std::vector<double> & values, std::vector<ElementIndex> & ids) {
-    std::vector<double> some;
-    some.reserve(ids.size());
-    std::transform(ids.begin(), ids.end(), std::back_inserter(some), [&](ElementIndex id) { return values[id]; });
-    return some;
-  };
-  const auto         vertexMeasure = of(m_VertexMeasure, part.vertices);
-  const auto         edgeMeasure = of(m_EdgeMeasure, part.edges);
-  const auto         faceMeasure = of(m_FaceMeasure, part.faces);
+  const auto         vertexMeasure = Pick(m_VertexMeasure, part.vertices);
+  const auto         edgeMeasure = Pick(m_EdgeMeasure, part.edges);
+  const auto         faceMeasure = Pick(m_FaceMeasure, part.faces);
   SimplePairCollapse collapse(part.cells, vertexMeasure, edgeMeasure, faceMeasure);
   collapse.CollapseBelow(threshold);
   Part       left;
@@ -277,16 +280,10 @@ WorkingCore::Finish(const FootFinder & finder, double threshold)
     wanted[vertex] = m_Displacement[vertex];
   }
   settle();
-  const auto of = [](const std::vector<double> & values, const std::vector<ElementIndex> & ids) {
-    std::vector<double> some;
-    some.reserve(ids.size());
-    std::transform(ids.begin(), ids.end(), std::back_inserter(some), [&](ElementIndex id) { return values[id]; });
-    return some;
-  };
-  refined.core.radius = of(m_Radius, part.vertices);
-  refined.core.vertexLambda = of(m_VertexMeasure, part.vertices);
-  refined.core.edgeLambda = of(m_EdgeMeasure, part.edges);
-  refined.core.faceLambda = of(m_FaceMeasure, part.faces);
+  refined.core.radius = Pick(m_Radius, part.vertices);
+  refined.core.vertexLambda = Pick(m_VertexMeasure, part.vertices);
+  refined.core.edgeLambda = Pick(m_EdgeMeasure, part.edges);
+  refined.core.faceLambda = Pick(m_FaceMeasure, part.faces);
   refined.core.cells = std::move(part.cells);
   for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
   {
