@@ -113,7 +113,7 @@ BandField::FillLabels(const VoxelShape & shape)
   const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
   m_Neighbours.resize(m_Bricks.size());
   m_Labels.resize(m_Bricks.size());
-#pragma omp parallel for schedule(static) if (count > 16)
+#pragma omp parallel for schedule(static) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto    brick = static_cast<std::size_t>(i);

@@ -46,7 +46,7 @@ public:
   void
   SmoothPart(float weight, bool wide, const Parts & parts);
 
-  /** The same, but values become coefficients of Evaluate(): to be called once, last. */
+  /** Smooth(), but values become coefficients of Evaluate(): to be called once, last. */
   void
   SmoothToCoefficients(float weight);
 
@@ -83,8 +83,9 @@ public:
   }
 
 private:
-  static constexpr std::int32_t kFarOutside = -1;
-  static constexpr std::int32_t kFarInside = -2;
+  static constexpr std::ptrdiff_t kManyBricks = 256; ///< fewer are not worth several threads that wait for each other
+  static constexpr std::int32_t   kFarOutside = -1;
+  static constexpr std::int32_t   kFarInside = -2;
   using Brick = std::array<std::int32_t, 3>;
   static constexpr std::int32_t kMostRadius = 8; ///< voxels
   struct Kernel

@@ -50,7 +50,7 @@ BandField::FillDistances(double clip)
 {
   m_Far = static_cast<float>(clip);
   const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t brick = 0; brick < count; ++brick)
   {
     FillBrickDistances(static_cast<std::size_t>(brick), clip);
@@ -87,7 +87,7 @@ BandField::FillGrey(const VoxelBox & scan, const GreyRows & rows)
 {
   const auto          count = static_cast<std::ptrdiff_t>(m_Bricks.size());
   std::vector<double> sums(m_Bricks.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);

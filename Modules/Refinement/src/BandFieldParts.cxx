@@ -42,7 +42,7 @@ BandField::FindThick(double radius) const
     }
   }
   Parts parts(m_Values.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);
@@ -136,7 +136,7 @@ BandField::LeaveOutBends(Parts & parts, double radius, double near) const
   const Vector3   squares = Times(m_Sides, m_Sides);
 
   std::vector<Flags> bent(m_Bricks.size(), Flags{});
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);
@@ -148,7 +148,7 @@ BandField::LeaveOutBends(Parts & parts, double radius, double near) const
       }
     }
   }
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);

@@ -134,7 +134,7 @@ BandField::Smooth(float weight, const Kernels & kernels)
 {
   const auto         count = static_cast<std::ptrdiff_t>(m_Bricks.size());
   std::vector<float> once(m_Values.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t brick = 0; brick < count; ++brick)
   {
     Convolve(kernels,
@@ -143,7 +143,7 @@ BandField::Smooth(float weight, const Kernels & kernels)
              static_cast<std::size_t>(brick),
              once.data() + static_cast<std::size_t>(brick) * kVoxels);
   }
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t brick = 0; brick < count; ++brick)
   {
     const std::size_t first = static_cast<std::size_t>(brick) * kVoxels;
@@ -167,12 +167,8 @@ BandField::SmoothPart(float weight, bool wide, const Parts & parts)
     const auto first = parts.begin() + static_cast<std::ptrdiff_t>(brick * kVoxels);
     changes[brick] = std::any_of(first, first + kVoxels, [](std::uint8_t part) { return part != 0; }) ? 1 : 0;
   }
-  if (std::none_of(changes.begin(), changes.end(), [](std::uint8_t change) { return change != 0; }))
-  {
-    return;
-  }
   std::vector<float> once(m_Values.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto   brick = static_cast<std::size_t>(i);
@@ -184,7 +180,7 @@ BandField::SmoothPart(float weight, bool wide, const Parts & parts)
       Convolve(kernels, step, m_Values, brick, once.data() + brick * kVoxels);
     }
   }
-#pragma omp parallel for schedule(dynamic, 16) if (count > 16)
+#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);
@@ -207,7 +203,7 @@ void
 BandField::ClearContradictions()
 {
   const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-#pragma omp parallel for schedule(static) if (count > 16)
+#pragma omp parallel for schedule(static) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);

@@ -104,8 +104,8 @@ FootFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs, std:
   }
 }
 
-// A try to come nearer to `place` by way of `to`, a place beside the surface. Returns by how much it fails, 0 where it came
-// nearer.
+// A try to come nearer to `place` by way of `to`, a place beside the surface. Returns how much farther that is; where it is
+// nearer (less than 0), the foot goes there.
 double
 FootFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & foot, double & distance) const
 {
@@ -114,14 +114,13 @@ FootFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & fo
   {
     return std::numeric_limits<double>::infinity();
   }
-  const double nearer = Distance(place, next.position);
-  if (nearer >= distance)
+  const double rise = Distance(place, next.position) - distance;
+  if (rise < 0)
   {
-    return nearer - distance;
+    foot = next;
+    distance = Distance(place, next.position);
   }
-  foot = next;
-  distance = nearer;
-  return 0;
+  return rise;
 }
 
 // Long strides first: near the axis of a tube the surface falls less than its ripples and facets do, and the way down cannot
@@ -153,7 +152,7 @@ FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
       break;
     }
     const double part = (flat ? std::min(stride, length) : stride) / length;
-    if (length > 0 && TryFoot(place, Along(foot.position, part, slide), foot, distance) == 0)
+    if (length > 0 && TryFoot(place, Along(foot.position, part, slide), foot, distance) < 0)
     {
       stride = std::min(longest, 2 * stride);
       continue;
@@ -166,12 +165,12 @@ FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
       for (const Vector3 & way : { u, v, Minus({ 0, 0, 0 }, u), Minus({ 0, 0, 0 }, v) })
       {
         rise = std::min(rise, TryFoot(place, Along(at, stride, way), foot, distance));
-        if (rise == 0)
+        if (rise < 0)
         {
           break;
         }
       }
-      if (rise == 0)
+      if (rise < 0)
       {
         continue;
       }
@@ -211,7 +210,7 @@ FootFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
     SurfacePoint next = foot;
     double       closer = distance;
     // A crease that draws back from `place` is nearest itself: steps end on it from either side only if they get shorter.
-    if (TryFoot(place, Along(foot.position, part, slide), next, closer) > 0 || Distance(next.position, home) > reach)
+    if (TryFoot(place, Along(foot.position, part, slide), next, closer) >= 0 || Distance(next.position, home) > reach)
     {
       shorter *= 0.5;
       continue;

@@ -178,13 +178,16 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
     field.Smooth(profile.Smooth(sigma));
     end();
   }
-  while (passes < somePasses + manyPasses)
+  const auto any = [](const BandField::Parts & parts) {
+    return std::any_of(parts.begin(), parts.end(), [](std::uint8_t part) { return part != 0; });
+  };
+  for (int pass = any(many) ? manyPasses : 0; pass > 0; --pass)
   {
     field.SmoothPart(profile.Smooth(sigma), false, many);
     end();
   }
   field.LeaveOutBends(wide, 7.5, 8);
-  while (passes < allPasses)
+  for (int pass = any(wide) ? widePasses : 0; pass > 0; --pass)
   {
     field.SmoothPart(profile.Smooth(2 * sigma), true, wide);
     end();
