@@ -62,8 +62,18 @@ ExpectGuarded(const RefinedCore & refined, const VoxelShape & shape, const Spaci
   ASSERT_EQ(core.positions.size(), core.cells.vertexCount);
   ASSERT_EQ(refined.displacement.size(), core.cells.vertexCount);
   std::vector<Vector3> before;
+  const auto           points = BoundaryVertices(shape);
+  const double         half = 0.5 * std::hypot(spacing[0], spacing[1], spacing[2]) * (1 + 1e-9);
   for (std::size_t vertex = 0; vertex < core.positions.size(); ++vertex)
   {
+    const Vector3 & p = core.positions[vertex];
+    double          nearest = 1e9;
+    for (const LatticePoint & q : points)
+    {
+      nearest =
+        std::min(nearest, std::hypot(spacing[0] * (p[0] - q.x), spacing[1] * (p[1] - q.y), spacing[2] * (p[2] - q.z)));
+    }
+    ASSERT_NEAR(core.radius[vertex], nearest, half) << "vertex " << vertex;
     const Vector3 & d = refined.displacement[vertex];
     ASSERT_TRUE(LiesInOpenShape(shape, core.positions[vertex])) << "vertex " << vertex;
     ASSERT_LE(std::hypot(d[0], d[1], d[2]), 1.0) << "vertex " << vertex;
@@ -134,6 +144,22 @@ TEST(RefineCore, HoldsItsPromisesOnDegenerateShapes)
     }
   }
   EXPECT_EQ(Refine(VoxelShape(), { 1, 1, 1 }, 1.5).core.cells.vertexCount, 0U);
+}
+
+// Thick enough for every pass of smoothing, with grooves that a smooth surface would pass by.
+TEST(RefineCore, HoldsItsPromisesOnThickShapesWithGrooves)
+{
+  for (const Spacing3 & spacing : { Spacing3{ 1, 1, 1 }, Spacing3{ 0.8, 0.8, 1.6 } })
+  {
+    constexpr double centre = 18;
+    const auto       side = [&](std::size_t axis) { return static_cast<std::int32_t>(2 * centre / spacing[axis]); };
+    const VoxelShape shape = ShapeWhere({ side(0), side(1), side(2) }, [&](int x, int y, int z) {
+      const double distance =
+        std::hypot((x + 0.5) * spacing[0] - centre, (y + 0.5) * spacing[1] - centre, (z + 0.5) * spacing[2] - centre);
+      return distance <= 15 && (distance <= 12.5 || (x % 9 != 0 && (x + 2 * y) % 13 != 0));
+    });
+    ExpectGuarded(Refine(shape, spacing, 4), shape, spacing);
+  }
 }
 
 TEST(RefineCore, IsTheSameBitsForAnyNumberOfThreads)

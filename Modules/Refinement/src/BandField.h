@@ -33,6 +33,10 @@ public:
   void
   FillDistances(double clip);
 
+  /** Distances clipped further. */
+  void
+  Clip(double clip);
+
   /** Grey values; Far() becomes their mean magnitude. */
   void
   FillGrey(const VoxelBox & scan, const GreyRows & rows);
@@ -69,6 +73,10 @@ public:
    *  to 2 units farther. */
   void
   LeaveOutBends(Parts & parts, double radius, double near) const;
+
+  /** Goes back to former values within `near` units of boundary vertices, and by degrees to 2 units farther. */
+  void
+  TakeBackAround(const std::vector<LatticePoint> & places, double near, const BandField & former);
 
   /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no brick.
    *  What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian of variance
@@ -113,6 +121,8 @@ private:
   FillBrickDistances(std::size_t brick, double clip);
   std::array<std::uint64_t, 1600>
   GatherRows(const std::vector<Flags> & flags, bool farInside, bool farOutside, std::size_t brick) const;
+  void
+  LeaveOutAround(const std::vector<Flags> & flags, double near, Parts & parts) const;
   double
   CurvatureAt(std::size_t brick, std::size_t voxel) const;
   void

@@ -58,6 +58,15 @@ BandField::FillDistances(double clip)
 }
 
 void
+BandField::Clip(double clip)
+{
+  m_Far = static_cast<float>(clip);
+  std::transform(m_Values.begin(), m_Values.end(), m_Values.begin(), [&](float value) {
+    return std::clamp(value, -m_Far, m_Far);
+  });
+}
+
+void
 BandField::FillBrickDistances(std::size_t brick, double clip)
 {
   const double     half = 0.5 * std::min({ m_Sides[0], m_Sides[1], m_Sides[2] });

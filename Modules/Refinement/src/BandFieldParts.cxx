@@ -42,6 +42,10 @@ BandField::FindThick(double radius) const
     }
   }
   Parts parts(m_Values.size());
+  if (std::none_of(in.begin(), in.end(), [](const Flags & flags) { return flags != Flags{}; }))
+  {
+    return parts;
+  }
 #pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
@@ -133,7 +137,6 @@ BandField::LeaveOutBends(Parts & parts, double radius, double near) const
 {
   constexpr float onSurface = 1; // units on either side
   const auto      count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-  const Vector3   squares = Times(m_Sides, m_Sides);
 
   std::vector<Flags> bent(m_Bricks.size(), Flags{});
 #pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
@@ -148,6 +151,32 @@ BandField::LeaveOutBends(Parts & parts, double radius, double near) const
       }
     }
   }
+  LeaveOutAround(bent, near, parts);
+}
+
+void
+BandField::TakeBackAround(const std::vector<LatticePoint> & places, double near, const BandField & former)
+{
+  std::vector<Flags> flags(m_Bricks.size(), Flags{});
+  for (const LatticePoint & p : places)
+  {
+    const std::int32_t brick = Find({ BrickOf(p.x), BrickOf(p.y), BrickOf(p.z) });
+    flags[static_cast<std::size_t>(brick)][static_cast<std::size_t>((p.y & 7) + 8 * (p.z & 7))] |=
+      static_cast<std::uint8_t>(1U << (p.x & 7));
+  }
+  Parts parts(m_Values.size(), 255);
+  LeaveOutAround(flags, near, parts);
+  for (std::size_t i = 0; i < m_Values.size(); ++i)
+  {
+    m_Values[i] = former.m_Values[i] + static_cast<float>(parts[i]) / 255 * (m_Values[i] - former.m_Values[i]);
+  }
+}
+
+void
+BandField::LeaveOutAround(const std::vector<Flags> & flags, double near, Parts & parts) const
+{
+  const auto    count = static_cast<std::ptrdiff_t>(m_Bricks.size());
+  const Vector3 squares = Times(m_Sides, m_Sides);
 #pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
@@ -157,11 +186,11 @@ BandField::LeaveOutBends(Parts & parts, double radius, double near) const
     {
       continue;
     }
-    const auto toBent = tile::SquaredDistances(GatherRows(bent, false, false, brick), squares);
+    const auto toFlag = tile::SquaredDistances(GatherRows(flags, false, false, brick), squares);
     for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
     {
       std::uint8_t & part = parts[brick * kVoxels + voxel];
-      part = static_cast<std::uint8_t>(std::lround(part * (1 - Ramp(std::sqrt(toBent[voxel]), near, near + 2))));
+      part = static_cast<std::uint8_t>(std::lround(part * (1 - Ramp(std::sqrt(toFlag[voxel]), near, near + 2))));
     }
   }
 }

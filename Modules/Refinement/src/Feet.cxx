@@ -46,9 +46,10 @@ FootFinder::FootFinder(const RefinementInput &           input,
   , m_Anchors(used.size())
 {
   m_Voxel = std::cbrt(input.spacing[0] * input.spacing[1] * input.spacing[2]);
-  // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal; smoothed, it may
-  // pass a little beyond.
-  const double reach = 0.75 * Length(input.spacing);
+  // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal. Smoothed, it may pass
+  // a little beyond, but a ball does not reach farther.
+  const double half = 0.5 * Length(input.spacing);
+  const double reach = 1.5 * half;
   const auto   count = static_cast<std::ptrdiff_t>(used.size());
   ReportProgress(progress, "refining", 0);
 #pragma omp parallel for schedule(dynamic, 256) if (count > 512)
@@ -57,7 +58,14 @@ FootFinder::FootFinder(const RefinementInput &           input,
     const auto point = static_cast<std::uint32_t>(i);
     if (used[point] != 0)
     {
-      m_Anchors[point] = input.surface->Project(Place(point), reach);
+      SurfacePoint & anchor = m_Anchors[point];
+      const Vector3  place = Place(point);
+      anchor = input.surface->Project(place, reach);
+      const Vector3 gap = Minus(anchor.position, place);
+      if (anchor.found && Length(gap) > half)
+      {
+        anchor.position = Along(place, half / Length(gap), gap);
+      }
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "FlatProfile.h"
 #include "Vectors.h"
 
+#include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/SurfaceEstimate.h"
 
 #include <algorithm>
@@ -145,19 +146,19 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
   constexpr int    somePasses = 20;
   constexpr int    manyPasses = 60;
   constexpr int    widePasses = 16;
+  constexpr double mostOfDiagonal = 0.45;
+  constexpr double nearPassed = 5;
   const double     thick = 8 * sigma;
   const double     thickest = 12 * sigma;
   constexpr double allPasses = somePasses + manyPasses + 2 * widePasses;
   constexpr double flattest = 0.32;
   const auto       reach = static_cast<std::int32_t>(std::ceil(thickest));
 
-  auto [many, wide] = [&] {
-    BandField distances(shape, sides, sigma, reach);
-    distances.FillDistances(reach);
-    return std::pair(distances.FindThick(thick), distances.FindThick(thickest));
-  }();
   BandField field(shape, sides, sigma, reach);
-  field.FillDistances(clip);
+  field.FillDistances(reach);
+  const BandField::Parts many = field.FindThick(thick);
+  BandField::Parts       wide = field.FindThick(thickest);
+  field.Clip(clip);
   FlatProfile            profile(clip);
   std::vector<BandField> fields;
   int                    passes = 0;
@@ -181,6 +182,7 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
   const auto any = [](const BandField::Parts & parts) {
     return std::any_of(parts.begin(), parts.end(), [](std::uint8_t part) { return part != 0; });
   };
+  const BandField former = field;
   for (int pass = any(many) ? manyPasses : 0; pass > 0; --pass)
   {
     field.SmoothPart(profile.Smooth(sigma), false, many);
@@ -195,6 +197,24 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
     end();
   }
   keep();
+  if (any(many))
+  {
+    // Where labels allow no surface so smooth, the smooth one passes them by.
+    std::vector<LatticePoint> passed;
+    const FieldSurface        smooth({ fields.front() }, spacing, sides, flattest);
+    for (const LatticePoint & p : BoundaryVertices(shape))
+    {
+      const Vector3 place =
+        Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, spacing);
+      if (!smooth.Project(place, mostOfDiagonal * Length(spacing)).found)
+      {
+        passed.push_back(p);
+      }
+    }
+    field.TakeBackAround(passed, nearPassed, former);
+    fields.erase(fields.begin());
+    keep();
+  }
   return std::make_unique<FieldSurface>(std::move(fields), spacing, sides, flattest);
 }
 

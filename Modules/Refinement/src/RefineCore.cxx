@@ -1,8 +1,12 @@
 #include "voxelcore/Refinement.h"
 
+#include "Vectors.h"
 #include "WorkingCore.h"
 
 #include "voxelcore/SimplePairCollapse.h"
+#include "voxelcore/TriangleTree.h"
+
+#include <algorithm>
 
 namespace voxelcore
 {
@@ -29,6 +33,40 @@ namespace
 // More is moved than is left in the end, as measures that are taken again may be greater.
 constexpr double kWorkingPart = 0.75;
 
+TriangleTree
+TreeOfPoints(std::span<const LatticePoint> points, const Vector3 & spacing)
+{
+  std::vector<Vector3>                      places;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  places.reserve(points.size());
+  triangles.reserve(points.size());
+  for (const LatticePoint & p : points)
+  {
+    const auto i = static_cast<std::uint32_t>(places.size());
+    places.push_back(Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, spacing));
+    triangles.push_back({ i, i, i });
+  }
+  return { places, triangles };
+}
+
+// Each boundary vertex has surface within half a diagonal, and the surface has a boundary vertex as near everywhere: so no
+// ball that touches the surface is smaller or greater by more than that than one that touches a boundary vertex. A radius
+// that is has not been measured to the nearest part of a rough surface.
+void
+BoundRadii(const TriangleTree & boundary, const Vector3 & spacing, MedialComplex & core)
+{
+  const double half = 0.5 * Length(spacing);
+  const auto   count = static_cast<std::ptrdiff_t>(core.positions.size());
+#pragma omp parallel for schedule(dynamic, 256) if (count > 512)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto   vertex = static_cast<std::size_t>(i);
+    const double nearest =
+      std::sqrt(boundary.FindNearest(Times(core.positions[vertex], spacing), 1e150).squaredDistance);
+    core.radius[vertex] = std::clamp(core.radius[vertex], nearest - half, nearest + half);
+  }
+}
+
 } // namespace
 
 std::vector<RefinedCore>
@@ -39,6 +77,7 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
                               input.core->vertexLambda,
                               input.core->edgeLambda,
                               input.core->faceLambda);
+  const TriangleTree       boundary = TreeOfPoints(*input.points, input.spacing);
   for (const double threshold : thresholds)
   {
     collapse.CollapseBelow(kWorkingPart * threshold, progress);
@@ -46,6 +85,7 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
     const FootFinder finder(input, working.UsedPoints(), progress);
     working.Move(finder, progress);
     refined.push_back(working.Finish(finder, threshold));
+    BoundRadii(boundary, input.spacing, refined.back().core);
   }
   return refined;
 }
