@@ -53,7 +53,8 @@ struct RefinementInput
 
 /** Refines the part of the core that a threshold leaves, for each threshold in mm. Guarded: every vertex lies in the open
  *  shape, none is farther than one voxel (length of the displacement in lattice coordinates) from where it was, and no
- *  triangle's normal has turned by 90 degrees or more against that of the same triangle in the whole core. Where there is
+ *  triangle's normal has turned by 90 degrees or more against that of the same triangle in the whole core; no radius differs
+ *  from the distance of the nearest boundary vertex by more than half a voxel's diagonal. Where there is
  *  no estimate of the surface the boundary vertices themselves stand for it.
  *  The same bits for every number of threads.
  *  \throws Cancelled when the callback says so. */
