@@ -122,11 +122,12 @@ FootFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & fo
   {
     return std::numeric_limits<double>::infinity();
   }
-  const double rise = Distance(place, next.position) - distance;
+  const double nearer = Distance(place, next.position);
+  const double rise = nearer - distance;
   if (rise < 0)
   {
     foot = next;
-    distance = Distance(place, next.position);
+    distance = nearer;
   }
   return rise;
 }

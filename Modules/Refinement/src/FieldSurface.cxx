@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace voxelcore
 {
@@ -182,13 +183,20 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
   const auto any = [](const BandField::Parts & parts) {
     return std::any_of(parts.begin(), parts.end(), [](std::uint8_t part) { return part != 0; });
   };
-  const BandField former = field;
-  for (int pass = any(many) ? manyPasses : 0; pass > 0; --pass)
+  std::optional<BandField> former;
+  if (any(many))
   {
-    field.SmoothPart(profile.Smooth(sigma), false, many);
-    end();
+    former = field;
+    for (int pass = 0; pass < manyPasses; ++pass)
+    {
+      field.SmoothPart(profile.Smooth(sigma), false, many);
+      end();
+    }
   }
-  field.LeaveOutBends(wide, 7.5, 8);
+  if (any(wide))
+  {
+    field.LeaveOutBends(wide, 7.5, 8);
+  }
   for (int pass = any(wide) ? widePasses : 0; pass > 0; --pass)
   {
     field.SmoothPart(profile.Smooth(2 * sigma), true, wide);
@@ -197,7 +205,7 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
     end();
   }
   keep();
-  if (any(many))
+  if (former)
   {
     // Where labels allow no surface so smooth, the smooth one passes them by.
     std::vector<LatticePoint> passed;
@@ -211,7 +219,7 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
         passed.push_back(p);
       }
     }
-    field.TakeBackAround(passed, nearPassed, former);
+    field.TakeBackAround(passed, nearPassed, *former);
     fields.erase(fields.begin());
     keep();
   }
