@@ -355,6 +355,71 @@ TEST(RefineCore, LeavesOfATubeOfFlatFacetsALineOnItsAxis)
   EXPECT_LT(most, 0.15);
 }
 
+// The exact surface of a capsule along a line off the grid's directions.
+class CapsuleSurface : public SurfaceEstimate
+{
+public:
+  static constexpr double kHalf = 19.2;
+  static constexpr double kRadius = 8.96;
+
+  static Vector3
+  FromAxis(const Vector3 & p)
+  {
+    const Vector3 q{ p[0] - kCentre[0], p[1] - kCentre[1], p[2] - kCentre[2] };
+    const double  t = std::clamp(q[0] * kAlong[0] + q[1] * kAlong[1] + q[2] * kAlong[2], -kHalf, kHalf);
+    return { q[0] - t * kAlong[0], q[1] - t * kAlong[1], q[2] - t * kAlong[2] };
+  }
+
+  static double
+  Distance(const Vector3 & p)
+  {
+    const Vector3 q = FromAxis(p);
+    return std::hypot(q[0], q[1], q[2]);
+  }
+
+  SurfacePoint
+  Project(const Vector3 & place, double reach) const override
+  {
+    const Vector3 q = FromAxis(place);
+    const double  away = std::hypot(q[0], q[1], q[2]);
+    SurfacePoint  point;
+    point.found = away > 0 && std::abs(away - kRadius) <= reach;
+    for (std::size_t i = 0; i < 3 && away > 0; ++i)
+    {
+      point.normal[i] = q[i] / away;
+      point.position[i] = place[i] + (kRadius - away) * point.normal[i];
+    }
+    return point;
+  }
+
+private:
+  static constexpr Vector3 kCentre{ 30.46, 30.23, 32.21 };
+  static constexpr Vector3 kAlong{ 0.25, 0.87, 0.42510 };
+};
+
+// Where all feet meet beside the axis, measures do not tell what is nearest to it; and what has been moved as a line is measured
+// where it is.
+TEST(RefineCore, LeavesOfACapsuleNothingBesideItsAxis)
+{
+  const CapsuleSurface surface;
+  for (const Spacing3 & spacing : { Spacing3{ 1, 1, 1 }, Spacing3{ 0.8, 0.8, 1.6 } })
+  {
+    const auto distance = [&](double x, double y, double z) {
+      return CapsuleSurface::Distance({ x * spacing[0], y * spacing[1], z * spacing[2] });
+    };
+    const VoxelShape shape = ShapeWhere({ 80, 80, 80 }, [&](int x, int y, int z) {
+      return distance(x + 0.5, y + 0.5, z + 0.5) <= CapsuleSurface::kRadius;
+    });
+    const auto       refined = Refine(shape, spacing, 2.5, &surface);
+    double           most = 0;
+    for (const Vector3 & p : refined.core.positions)
+    {
+      most = std::max(most, distance(p[0], p[1], p[2]));
+    }
+    EXPECT_LT(most, 0.3) << "voxels " << spacing[2] << " thick";
+  }
+}
+
 // Around the middle of two slabs that cross, balls touch the creases where their walls meet.
 TEST(RefineCore, BringsTheSheetsOfCrossingSlabsToTheirMiddlePlanesUpToWhereTheyMeet)
 {

@@ -214,12 +214,40 @@ WorkingCore::All() const
   return part;
 }
 
+// Below the threshold the greater radius stays, not the greater measure: beside the axis of a tube all feet meet, and measures
+// no longer tell what is nearest to it. So a line that topology holds is the one in the middle.
 WorkingCore::Part
 WorkingCore::Collapse(Part part, double threshold) const
 {
-  const auto         vertexMeasure = Pick(m_VertexMeasure, part.vertices);
-  const auto         edgeMeasure = Pick(m_EdgeMeasure, part.edges);
-  const auto         faceMeasure = Pick(m_FaceMeasure, part.faces);
+  auto         vertexMeasure = Pick(m_VertexMeasure, part.vertices);
+  auto         edgeMeasure = Pick(m_EdgeMeasure, part.edges);
+  auto         faceMeasure = Pick(m_FaceMeasure, part.faces);
+  const auto   radius = Pick(m_Radius, part.vertices);
+  const double greatest =
+    std::accumulate(radius.begin(), radius.end(), 0.0, [](double a, double b) { return std::max(a, b); });
+  const auto order = [&](double & measure, std::span<const ElementIndex> corners) {
+    if (measure < threshold)
+    {
+      double least = greatest;
+      for (const ElementIndex corner : corners)
+      {
+        least = std::min(least, radius[corner]);
+      }
+      measure = 0.5 * threshold * (greatest > 0 ? least / greatest : 1);
+    }
+  };
+  for (ElementIndex vertex = 0; vertex < radius.size(); ++vertex)
+  {
+    order(vertexMeasure[vertex], { &vertex, 1 });
+  }
+  for (std::size_t edge = 0; edge < edgeMeasure.size(); ++edge)
+  {
+    order(edgeMeasure[edge], part.cells.edges[edge]);
+  }
+  for (std::size_t face = 0; face < faceMeasure.size(); ++face)
+  {
+    order(faceMeasure[face], part.cells.FaceVertices(face));
+  }
   SimplePairCollapse collapse(part.cells, vertexMeasure, edgeMeasure, faceMeasure);
   collapse.CollapseBelow(threshold);
   Part       left;
@@ -246,7 +274,7 @@ WorkingCore::Finish(const FootFinder & finder, double threshold)
   part = Collapse(std::move(part), threshold);
   std::vector<Vector3> wanted = m_Displacement;
   RefinedCore          refined;
-  const auto           settle = [&] {
+  const auto           settle = [&](std::vector<ElementIndex> changed) {
     for (bool again = true; again;)
     {
       refined.displacement.clear();
@@ -257,7 +285,6 @@ WorkingCore::Finish(const FootFinder & finder, double threshold)
         refined.displacement.push_back(wanted[vertex]);
       }
       GuardMoves(*m_Input.shape, part.cells, refined.core.positions, m_Input.spacing, refined.displacement);
-      std::vector<ElementIndex> changed;
       for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
       {
         Vector3 & move = m_Displacement[part.vertices[vertex]];
@@ -267,19 +294,23 @@ WorkingCore::Finish(const FootFinder & finder, double threshold)
           changed.push_back(part.vertices[vertex]);
         }
       }
+      std::sort(changed.begin(), changed.end());
+      changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
       MeasureVertices(finder, changed);
       MeasureElements();
+      changed.clear();
       const std::size_t before = part.vertices.size() + part.edges.size();
       part = Collapse(std::move(part), threshold);
       again = part.vertices.size() + part.edges.size() < before;
     }
   };
-  settle();
-  for (const ElementIndex vertex : MoveLines(finder, part, wanted))
+  settle({});
+  std::vector<ElementIndex> lines = MoveLines(finder, part, wanted);
+  for (const ElementIndex vertex : lines)
   {
     wanted[vertex] = m_Displacement[vertex];
   }
-  settle();
+  settle(std::move(lines));
   refined.core.radius = Pick(m_Radius, part.vertices);
   refined.core.vertexLambda = Pick(m_VertexMeasure, part.vertices);
   refined.core.edgeLambda = Pick(m_EdgeMeasure, part.edges);

@@ -4,7 +4,7 @@
 #include "WorkingCore.h"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 namespace voxelcore
 {
@@ -48,11 +48,25 @@ WorkingCore::WidthAt(ElementIndex vertex, const PointPair & pair) const
   return m_Widths[m_Pairs.First(vertex) + static_cast<std::size_t>(found - pairs.begin())];
 }
 
+namespace
+{
+
+// Where the feet of one corner have met there is nothing, whatever the others say.
+double
+MeasureOf(std::span<const double> widths)
+{
+  constexpr double met = 0.5;
+  const double     least = *std::min_element(widths.begin(), widths.end());
+  const double     mean = std::accumulate(widths.begin(), widths.end(), 0.0) / static_cast<double>(widths.size());
+  return least > met * mean ? mean : least;
+}
+
+} // namespace
+
 // Measures do not fall from faces to edges to vertices.
 void
 WorkingCore::MeasureElements()
 {
-  constexpr double met = 0.5;
   m_VertexMeasure.assign(m_Positions.size(), 0);
   m_EdgeMeasure.assign(m_Cells.edges.size(), 0);
   m_FaceMeasure.assign(m_Cells.FaceCount(), 0);
@@ -68,18 +82,12 @@ WorkingCore::MeasureElements()
   }
   for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
   {
-    double     sum = 0;
-    double     least = std::numeric_limits<double>::infinity();
-    const auto corners = m_Cells.FaceVertices(face);
-    for (const ElementIndex corner : corners)
-    {
-      const double width = WidthAt(corner, m_Pairs.OfFace(m_Polygons[face]));
-      sum += width;
-      least = std::min(least, width);
-    }
-    // Where the feet of a corner have met there is no sheet, whatever the other corners say.
-    const double mean = sum / static_cast<double>(corners.size());
-    m_FaceMeasure[face] = least > met * mean ? mean : least;
+    const auto            corners = m_Cells.FaceVertices(face);
+    std::array<double, 3> widths;
+    std::transform(corners.begin(), corners.end(), widths.begin(), [&](ElementIndex corner) {
+      return WidthAt(corner, m_Pairs.OfFace(m_Polygons[face]));
+    });
+    m_FaceMeasure[face] = MeasureOf(widths);
     for (const ElementIndex edge : m_Cells.FaceEdges(face))
     {
       m_EdgeMeasure[edge] = std::max(m_EdgeMeasure[edge], m_FaceMeasure[face]);
@@ -92,8 +100,9 @@ WorkingCore::MeasureElements()
     AddPairsAround(m_Input.edgePoints->Of(whole), pairs);
     for (const PointPair & pair : pairs)
     {
-      const double width = 0.5 * (WidthAt(m_Cells.edges[edge][0], pair) + WidthAt(m_Cells.edges[edge][1], pair));
-      m_EdgeMeasure[edge] = std::max(m_EdgeMeasure[edge], width);
+      const std::array<double, 2> widths{ WidthAt(m_Cells.edges[edge][0], pair),
+                                          WidthAt(m_Cells.edges[edge][1], pair) };
+      m_EdgeMeasure[edge] = std::max(m_EdgeMeasure[edge], MeasureOf(widths));
     }
   }
   for (std::size_t edge = 0; edge < m_Cells.edges.size(); ++edge)
