@@ -35,7 +35,7 @@ TangentsOf(const Vector3 & n, const Vector3 & slide)
 
 constexpr double kLongestStride = 2.0; // voxels
 constexpr double kClose = 1e-3;        // voxels
-constexpr double kTurn = 0.5;          // cosine: beyond it is another side of the surface
+constexpr double kTurn = 0.3;          // cosine: beyond it is another side of the surface
 
 } // namespace
 
@@ -58,14 +58,7 @@ FootFinder::FootFinder(const RefinementInput &           input,
     const auto point = static_cast<std::uint32_t>(i);
     if (used[point] != 0)
     {
-      SurfacePoint & anchor = m_Anchors[point];
-      const Vector3  place = Place(point);
-      anchor = input.surface->Project(place, reach);
-      const Vector3 gap = Minus(anchor.position, place);
-      if (anchor.found && Length(gap) > half)
-      {
-        anchor.position = Along(place, half / Length(gap), gap);
-      }
+      m_Anchors[point] = input.surface->Project(Place(point), reach);
     }
   }
 }
@@ -138,7 +131,7 @@ FootFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & fo
 Vector3
 FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
 {
-  constexpr int    steps = 60;
+  constexpr int    steps = 120;
   constexpr double shortest = 0.1; // voxels
   constexpr double ofRadius = 0.25;
   constexpr double ofFlatRise = 0.6; // on two ways at right angles: then at least 0.2 on all
@@ -151,6 +144,12 @@ FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
   const double longest = std::max(kLongestStride * m_Voxel, ofRadius * distance);
   double       stride = std::max(0.5 * m_Voxel, ofRadius * distance);
   bool         flat = false;
+  // What is nearly as near lies along the ball, not along the surface's tangents, which leave a tube soon.
+  const auto onBall = [&](double length, const Vector3 & way) {
+    const Vector3 ray = Minus(Along(foot.position, length, way), place);
+    const double  away = Length(ray);
+    return away > 0 ? Along(place, distance / away, ray) : place;
+  };
   for (int step = 0; step < steps && stride >= shortest * m_Voxel; ++step)
   {
     const Vector3 gap = Minus(place, foot.position);
@@ -161,19 +160,18 @@ FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
       break;
     }
     const double part = (flat ? std::min(stride, length) : stride) / length;
-    if (length > 0 && TryFoot(place, Along(foot.position, part, slide), foot, distance) < 0)
+    if (length > 0 && TryFoot(place, onBall(part, slide), foot, distance) < 0)
     {
       stride = std::min(longest, 2 * stride);
       continue;
     }
     if (!flat)
     {
-      const Vector3 at = foot.position;
       const auto [u, v] = TangentsOf(foot.normal, slide);
       double rise = std::numeric_limits<double>::infinity();
       for (const Vector3 & way : { u, v, Minus({ 0, 0, 0 }, u), Minus({ 0, 0, 0 }, v) })
       {
-        rise = std::min(rise, TryFoot(place, Along(at, stride, way), foot, distance));
+        rise = std::min(rise, TryFoot(place, onBall(stride, way), foot, distance));
         if (rise < 0)
         {
           break;
