@@ -245,8 +245,33 @@ SharpBox(double size, double lambda)
 }
 
 // All within r of three rectangles that meet along z at equal angles.
+// Where the seam of three sheets ends, under the top of its body, each crease between two walls turns away as the crease between
+// two round ends. Balls touch it twice: on its upright part, and on its bent part at angle t (0 where it begins to bend, 90
+// degrees at the top). Their centres are a roof over the seam's end. `away` is how far from the seam, towards the crease, and
+// `below` how far under the beginning of the bend.
+struct RoofPoint
+{
+  double away = 0;
+  double below = 0;
+  double measure = 0; ///< half the distance between its feet
+};
+
+// Both feet are equally far, and the second is nearest along the bend:
+// below^2 - r^2 sin^2 t / 3 + 2 below r sin t + x (1 - cos t) = 0, x = 2 r cos t / sin t (r sin t / 3 - below), away = x sqrt(3) / 4 r.
+RoofPoint
+RoofAt(double t, double r)
+{
+  const double sine = std::sin(t);
+  const double rest = 1 - std::cos(t);
+  RoofPoint    point;
+  point.below = rest * r * (std::sqrt(1 / (sine * sine) + 1.0 / 3) - 1 / sine);
+  point.away = std::sqrt(3.0) / 2 * std::cos(t) / sine * (r * sine / 3 - point.below);
+  point.measure = 0.5 * Norm({ 2 * r / std::sqrt(3.0) * rest, point.below + r * sine, 0 });
+  return point;
+}
+
 KnownBody
-Junction(double size)
+Junction(double size, double lambda)
 {
   KnownBody    body;
   const double arm = 0.36 * size;
@@ -306,6 +331,36 @@ Junction(double size)
     AddQuad({ 0, 0, -half }, at(arm, 0, -half), at(arm, 0, half), { 0, 0, half }, body.axis);
   }
   body.pruned = body.axis;
+  const auto roofs = [&](double from, TriangleSet & set) {
+    for (int k = 0; k < 3; ++k)
+    {
+      // Towards the crease between two arms, as wide as their sheets let it.
+      const Vector3 & e = arms[static_cast<std::size_t>(k)];
+      for (const double side : { -1.0, 1.0 })
+      {
+        AddPatch(
+          1,
+          32,
+          [=](double u, double v) {
+            const RoofPoint point = RoofAt(from + v * (0.5 * kPi - from), r);
+            const double    aside = point.away * std::sqrt(3.0) * (2 * u - 1);
+            return Vector3{ -point.away * e[0] - aside * e[1],
+                            -point.away * e[1] + aside * e[0],
+                            side * (half - point.below) };
+          },
+          set);
+      }
+    }
+  };
+  roofs(1e-3, body.axis);
+  double low = 1e-3;
+  double high = 0.5 * kPi;
+  while (high - low > 1e-6)
+  {
+    const double middle = 0.5 * (low + high);
+    (RoofAt(middle, r).measure < lambda ? low : high) = middle;
+  }
+  roofs(high, body.pruned);
   return body;
 }
 
@@ -314,8 +369,8 @@ Junction(double size)
 std::vector<KnownBody>
 KnownBodies(double size, double lambda)
 {
-  return { Ellipsoid(size, lambda), Torus(size),   Capsule(size), RoundedSlab(size),
-           SharpBox(size, lambda),  Junction(size) };
+  return { Ellipsoid(size, lambda), Torus(size),           Capsule(size), RoundedSlab(size),
+           SharpBox(size, lambda),  Junction(size, lambda) };
 }
 
 } // namespace voxelcore::evaluation
