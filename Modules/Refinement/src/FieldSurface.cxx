@@ -147,7 +147,7 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
   constexpr int    somePasses = 20;
   constexpr int    manyPasses = 60;
   constexpr int    widePasses = 16;
-  constexpr double mostOfDiagonal = 0.6;
+  constexpr double mostOfDiagonal = 0.8;
   constexpr double nearPassed = 5;
   const double     thick = 8 * sigma;
   const double     thickest = 12 * sigma;
