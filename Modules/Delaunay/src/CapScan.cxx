@@ -1,25 +1,12 @@
 #include "CapScan.h"
 
+#include "voxelcore/EightLanes.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
-
-// Loops of eight for processors with eight lanes, chosen when the program starts; sanitizers are not ready that early, so
-// that with them the tests run the other choice.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#  define VOXELCORE_SANITIZED
-#elif defined(__has_feature)
-#  if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#    define VOXELCORE_SANITIZED
-#  endif
-#endif
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(VOXELCORE_SANITIZED)
-#  define VOXELCORE_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#  define VOXELCORE_LANES
-#endif
 
 namespace voxelcore
 {
@@ -33,7 +20,7 @@ using Places = std::uint16_t __attribute__((vector_size(2 * lanes)));
 constexpr float margin = 1e-3F; // columns, far more than single precision is off by within a box of 16
 } // namespace
 
-VOXELCORE_LANES void
+VOXELCORE_EIGHT_LANES void
 ScanCap(const Cap & cap, CapVertices & found)
 {
   // Where the height is positive is a bound of x from one side, linear in the height at x = 0: from below or from above,

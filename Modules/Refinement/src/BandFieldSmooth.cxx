@@ -4,6 +4,8 @@
 
 #include "GaussWeights.h"
 
+#include "voxelcore/EightLanes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,15 +15,8 @@ namespace voxelcore
 namespace
 {
 
-// Where the machine has eight lanes they are used: additions and products are the same ones in the same order.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#  define VOXELCORE_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#  define VOXELCORE_LANES
-#endif
-
 // sum[i] of weights by distance in steps of `stride`: in[i] .. in[i + 2 * radius * stride].
-VOXELCORE_LANES void
+VOXELCORE_EIGHT_LANES void
 SumAlong(const float * weights,
          std::int32_t  radius,
          const float * in,

@@ -1,0 +1,17 @@
+#pragma once
+// VOXELCORE_EIGHT_LANES before a function makes it twice: for processors with eight lanes of 32 bits, and for others. Which one is
+// chosen when the program starts; sanitizers are not ready that early, so that with them it is the other one. Both do the same
+// additions and products in the same order, so results are the same bits.
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#  define VOXELCORE_SANITIZED
+#elif defined(__has_feature)
+#  if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#    define VOXELCORE_SANITIZED
+#  endif
+#endif
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(VOXELCORE_SANITIZED)
+#  define VOXELCORE_EIGHT_LANES __attribute__((target_clones("avx2", "default")))
+#else
+#  define VOXELCORE_EIGHT_LANES
+#endif

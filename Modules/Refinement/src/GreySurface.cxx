@@ -1,0 +1,81 @@
+// The surface that grey values tell.
+
+#include "FieldSurface.h"
+#include "Vectors.h"
+
+#include <algorithm>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Of two estimates the one that is smoothed much, as ripples of a few hundredths of a voxel hold feet up, which makes wings of
+// the core of a tube. It moves the walls of parts less than five voxels thick and rounds edges: where it is off by more than
+// ripples can be, towards the other.
+class GreySurface : public SurfaceEstimate
+{
+public:
+  GreySurface(FieldSurface wide, FieldSurface narrow, const Vector3 & spacing)
+    : m_Wide(std::move(wide))
+    , m_Narrow(std::move(narrow))
+    , m_Spacing(spacing)
+  {}
+
+  SurfacePoint
+  Project(const Vector3 & place, double reach) const override
+  {
+    constexpr double   ripple = 0.04; // voxels
+    constexpr double   wrong = 0.12;
+    const SurfacePoint wide = m_Wide.Project(place, reach);
+    const SurfacePoint narrow = m_Narrow.Project(wide.found ? wide.position : place, reach);
+    if (!wide.found || !narrow.found)
+    {
+      return wide.found ? wide : narrow;
+    }
+    const Vector3 gap = Minus(narrow.position, wide.position);
+    const double  part = std::clamp((Length(Over(gap, m_Spacing)) - ripple) / (wrong - ripple), 0.0, 1.0);
+    SurfacePoint  point;
+    point.position = Along(wide.position, part, gap);
+    point.normal = Along(wide.normal, part, Minus(narrow.normal, wide.normal));
+    const double length = Length(point.normal);
+    point.normal = Along({ 0, 0, 0 }, 1 / length, point.normal);
+    point.found = length > 0 && Distance(point.position, place) <= reach;
+    return point;
+  }
+
+private:
+  FieldSurface m_Wide;
+  FieldSurface m_Narrow;
+  Vector3      m_Spacing;
+};
+
+} // namespace
+
+std::unique_ptr<SurfaceEstimate>
+SurfaceFromGrey(const VoxelShape &       shape,
+                const Vector3 &          spacing,
+                const VoxelBox &         scan,
+                const GreyRows &         rows,
+                const ProgressCallback & progress)
+{
+  constexpr Vector3 sides{ 1, 1, 1 };
+  constexpr double  flattest = 0.08; // of the mean magnitude
+  BandField         field(shape, sides, 1.5, 7);
+  field.FillGrey(scan, rows);
+  const auto smoothed = [&](BandField one, double sigma) {
+    one.SetWidth(sigma);
+    one.SmoothToCoefficients(BandField::StepWeight(sigma));
+    const double           least = flattest * one.Far();
+    std::vector<BandField> fields;
+    fields.push_back(std::move(one));
+    return FieldSurface(std::move(fields), spacing, sides, least);
+  };
+  ReportProgress(progress, "surface", 0.3);
+  FieldSurface narrow = smoothed(field, 1.0);
+  ReportProgress(progress, "surface", 0.6);
+  return std::make_unique<GreySurface>(smoothed(std::move(field), 1.5), std::move(narrow), spacing);
+}
+
+} // namespace voxelcore
