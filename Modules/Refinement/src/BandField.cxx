@@ -187,15 +187,32 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
       const auto         row = static_cast<std::size_t>(8 * (y & 7) + 64 * (z & 7));
       double             ofRow = 0;
       double             slopeOfRow = 0;
-      for (std::int32_t i = 0; i < 4; ++i)
+      const auto         add = [&](std::size_t i, double one) {
+        ofRow += weight[0][i] * one;
+        slopeOfRow += slope[0][i] * one;
+      };
+      const auto brickAt = [&](std::int32_t x) {
+        return neighbours[static_cast<std::size_t>(neighbour + BrickOf(x) - home[0])];
+      };
+      const std::int32_t last = brickAt(base[0] + 2);
+      if (last >= 0 && BrickOf(base[0] - 1) == BrickOf(base[0] + 2)) // most often
       {
-        const std::int32_t x = base[0] + i - 1;
-        const auto         wx = static_cast<std::size_t>(i);
-        const std::int32_t source = neighbours[static_cast<std::size_t>(neighbour + BrickOf(x) - home[0])];
-        const double       one = source >= 0 ? m_Values[static_cast<std::size_t>(source) * kVoxels + row + (x & 7)]
-                                             : (source == kFarInside ? m_Far : -m_Far);
-        ofRow += weight[0][wx] * one;
-        slopeOfRow += slope[0][wx] * one;
+        const float * values = m_Values.data() + static_cast<std::size_t>(last) * kVoxels + row + ((base[0] - 1) & 7);
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+          add(i, values[i]);
+        }
+      }
+      else
+      {
+        for (std::int32_t i = 0; i < 4; ++i)
+        {
+          const std::int32_t x = base[0] + i - 1;
+          const std::int32_t source = brickAt(x);
+          add(static_cast<std::size_t>(i),
+              source >= 0 ? m_Values[static_cast<std::size_t>(source) * kVoxels + row + (x & 7)]
+                          : (source == kFarInside ? m_Far : -m_Far));
+        }
       }
       ofPlane += weight[1][wy] * ofRow;
       alongX += weight[1][wy] * slopeOfRow;

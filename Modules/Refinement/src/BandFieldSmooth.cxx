@@ -84,32 +84,36 @@ BandField::Convolve(const Kernels &            kernels,
   const auto            left = static_cast<std::size_t>(rx);
   const auto            wide = static_cast<std::size_t>(kSide + 2 * rx);
   const auto            deep = static_cast<std::size_t>(kSide + 2 * ry);
-  float                 tile[most * most * most + 2 * side];
+  float                 tile[most * most * most + side];
   float                 byZ[most * most * side];
   float                 byY[most * side * side];
   float *               row = tile;
+  float                 inside[side];
+  float                 outside[side];
+  std::fill_n(inside, side, m_Far);
+  std::fill_n(outside, side, -m_Far);
   for (std::int32_t z = -rz; z < kSide + rz; ++z)
   {
     for (std::int32_t y = -ry; y < kSide + ry; ++y, row += wide)
     {
-      const auto        first = static_cast<std::size_t>(3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1));
-      const std::size_t within = side * static_cast<std::size_t>(y & 7) + side * side * static_cast<std::size_t>(z & 7);
-      std::array<float, 4 * side> line{}; // more than is needed, as copies of known length are fast
-
-      for (std::size_t part = 0; part < 3; ++part)
-      {
+      const auto         first = static_cast<std::size_t>(3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1));
+      const std::int32_t within = kSide * (y & 7) + kSide * kSide * (z & 7);
+      const auto         rowOf = [&](std::size_t part) {
         const std::int32_t source = m_Neighbours[brick][first + part];
-        float * const      out = line.data() + part * side;
-        if (source >= 0)
-        {
-          std::copy_n(from.data() + static_cast<std::size_t>(source) * kVoxels + within, side, out);
-        }
-        else
-        {
-          std::fill_n(out, side, source == kFarInside ? m_Far : -m_Far);
-        }
+        return source >= 0 ? from.data() + static_cast<std::size_t>(source) * kVoxels + within
+                                   : (source == kFarInside ? inside : outside);
+      };
+      // Copies of known length are fast; what is too much of the last one, the next row goes over.
+      if (left == side / 2)
+      {
+        std::copy_n(rowOf(0) + side / 2, side / 2, row);
       }
-      std::copy_n(line.data() + side - left, 3 * side, row); // the next row goes over what is too much
+      else
+      {
+        std::copy_n(rowOf(0) + side - left, left, row);
+      }
+      std::copy_n(rowOf(1), side, row + left);
+      std::copy_n(rowOf(2), side, row + left + side);
     }
   }
   const auto skip = static_cast<std::size_t>(step);
