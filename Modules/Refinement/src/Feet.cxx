@@ -46,10 +46,9 @@ FootFinder::FootFinder(const RefinementInput &           input,
   , m_Anchors(used.size())
 {
   m_Voxel = std::cbrt(input.spacing[0] * input.spacing[1] * input.spacing[2]);
-  // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal. Smoothed, it may pass
-  // a little beyond, but a ball does not reach farther.
-  const double half = 0.5 * Length(input.spacing);
-  const double reach = 1.5 * half;
+  // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal; smoothed, a little
+  // beyond.
+  const double reach = 0.75 * Length(input.spacing);
   const auto   count = static_cast<std::ptrdiff_t>(used.size());
   ReportProgress(progress, "refining", 0);
 #pragma omp parallel for schedule(dynamic, 256) if (count > 512)
