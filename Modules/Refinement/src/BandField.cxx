@@ -1,6 +1,7 @@
 #include "BandField.h"
 
 #include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/EightLanes.h"
 
 #include <algorithm>
 #include <bit>
@@ -26,6 +27,47 @@ bool
 ComesBefore(const std::array<std::int32_t, 3> & a, const std::array<std::int32_t, 3> & b)
 {
   return std::array{ a[2], a[1], a[0] } < std::array{ b[2], b[1], b[0] };
+}
+
+// Of the four voxels on either side of a place along each axis.
+struct SplineWeights
+{
+  std::array<std::array<double, 4>, 3> value;
+  std::array<std::array<double, 4>, 3> slope;
+};
+
+// Rows by y, then by z. What is along y and z is summed first, for the four of a row side by side.
+VOXELCORE_EIGHT_LANES void
+SumRows(const std::array<const float *, 16> & rows, const SplineWeights & weights, double & value, Vector3 & gradient)
+{
+  using Four = double __attribute__((vector_size(32)));
+  Four sum{};
+  Four alongY{};
+  Four alongZ{};
+  for (std::size_t z = 0; z < 4; ++z)
+  {
+    Four ofPlane{};
+    Four slopeOfPlane{};
+    for (std::size_t y = 0; y < 4; ++y)
+    {
+      const float * const row = rows[4 * z + y];
+      const Four          four{ row[0], row[1], row[2], row[3] };
+      ofPlane += weights.value[1][y] * four;
+      slopeOfPlane += weights.slope[1][y] * four;
+    }
+    sum += weights.value[2][z] * ofPlane;
+    alongY += weights.value[2][z] * slopeOfPlane;
+    alongZ += weights.slope[2][z] * ofPlane;
+  }
+  value = 0;
+  gradient = { 0, 0, 0 };
+  for (std::size_t x = 0; x < 4; ++x)
+  {
+    value += weights.value[0][x] * sum[x];
+    gradient[0] += weights.slope[0][x] * sum[x];
+    gradient[1] += weights.value[0][x] * alongY[x];
+    gradient[2] += weights.value[0][x] * alongZ[x];
+  }
 }
 
 } // namespace
@@ -147,21 +189,21 @@ BandField::FillLabels(const VoxelShape & shape)
 bool
 BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const
 {
-  Brick                                base{};
-  std::array<std::array<double, 4>, 3> weight;
-  std::array<std::array<double, 4>, 3> slope;
+  Brick          base{};
+  SplineWeights  weights;
+  constexpr auto most = static_cast<std::int32_t>(kSide - 4);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double at = place[axis] - 0.5; // in voxel indices, where centres are whole
     const double floor = std::floor(at);
     const double t = at - floor;
-    base[axis] = static_cast<std::int32_t>(floor);
     const double s = 1.0 - t;
-    weight[axis] = { s * s * s / 6,
-                     (4.0 - 3.0 * t * t * (1.0 + s)) / 6,
-                     (4.0 - 3.0 * s * s * (1.0 + t)) / 6,
-                     t * t * t / 6 };
-    slope[axis] = { -0.5 * s * s, (1.5 * t - 2.0) * t, (2.0 - 1.5 * s) * s, 0.5 * t * t };
+    base[axis] = static_cast<std::int32_t>(floor);
+    weights.value[axis] = { s * s * s / 6,
+                            (4.0 - 3.0 * t * t * (1.0 + s)) / 6,
+                            (4.0 - 3.0 * s * s * (1.0 + t)) / 6,
+                            t * t * t / 6 };
+    weights.slope[axis] = { -0.5 * s * s, (1.5 * t - 2.0) * t, (2.0 - 1.5 * s) * s, 0.5 * t * t };
   }
   const Brick        home{ BrickOf(base[0]), BrickOf(base[1]), BrickOf(base[2]) };
   const std::int32_t found = Find(home);
@@ -169,60 +211,38 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
   {
     return false;
   }
-  value = 0;
-  gradient = { 0, 0, 0 };
   const auto & neighbours = m_Neighbours[static_cast<std::size_t>(found)];
-  for (std::int32_t k = 0; k < 4; ++k)
+  const auto   brickAt = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+    return neighbours[static_cast<std::size_t>((BrickOf(x) - home[0] + 1) + 3 * (BrickOf(y) - home[1] + 1) +
+                                               9 * (BrickOf(z) - home[2] + 1))];
+  };
+  // The rows of four as they lie, or put together from several bricks.
+  std::array<const float *, 16> rows;
+  std::array<float, 64>         mixed;
+  for (std::int32_t row = 0; row < 16; ++row)
   {
-    const std::int32_t z = base[2] + k - 1;
-    const auto         wz = static_cast<std::size_t>(k);
-    double             ofPlane = 0;
-    double             alongX = 0;
-    double             alongY = 0;
-    for (std::int32_t j = 0; j < 4; ++j)
+    const auto         r = static_cast<std::size_t>(row);
+    const std::int32_t y = base[1] - 1 + (row & 3);
+    const std::int32_t z = base[2] - 1 + (row >> 2);
+    const std::int32_t within = kSide * (y & 7) + kSide * kSide * (z & 7);
+    const std::int32_t first = (base[0] - 1) & 7;
+    const std::int32_t source = brickAt(base[0] - 1, y, z);
+    if (first <= most && source >= 0)
     {
-      const std::int32_t y = base[1] + j - 1;
-      const auto         wy = static_cast<std::size_t>(j);
-      const std::int32_t neighbour = 3 * (BrickOf(y) - home[1] + 1) + 9 * (BrickOf(z) - home[2] + 1) + 1;
-      const auto         row = static_cast<std::size_t>(8 * (y & 7) + 64 * (z & 7));
-      double             ofRow = 0;
-      double             slopeOfRow = 0;
-      const auto         add = [&](std::size_t i, double one) {
-        ofRow += weight[0][i] * one;
-        slopeOfRow += slope[0][i] * one;
-      };
-      const auto brickAt = [&](std::int32_t x) {
-        return neighbours[static_cast<std::size_t>(neighbour + BrickOf(x) - home[0])];
-      };
-      const std::int32_t last = brickAt(base[0] + 2);
-      if (last >= 0 && BrickOf(base[0] - 1) == BrickOf(base[0] + 2)) // most often
-      {
-        const float * values = m_Values.data() + static_cast<std::size_t>(last) * kVoxels + row + ((base[0] - 1) & 7);
-        for (std::size_t i = 0; i < 4; ++i)
-        {
-          add(i, values[i]);
-        }
-      }
-      else
-      {
-        for (std::int32_t i = 0; i < 4; ++i)
-        {
-          const std::int32_t x = base[0] + i - 1;
-          const std::int32_t source = brickAt(x);
-          add(static_cast<std::size_t>(i),
-              source >= 0 ? m_Values[static_cast<std::size_t>(source) * kVoxels + row + (x & 7)]
-                          : (source == kFarInside ? m_Far : -m_Far));
-        }
-      }
-      ofPlane += weight[1][wy] * ofRow;
-      alongX += weight[1][wy] * slopeOfRow;
-      alongY += slope[1][wy] * ofRow;
+      rows[r] = m_Values.data() + static_cast<std::size_t>(source) * kVoxels + within + first;
+      continue;
     }
-    value += weight[2][wz] * ofPlane;
-    gradient[0] += weight[2][wz] * alongX;
-    gradient[1] += weight[2][wz] * alongY;
-    gradient[2] += slope[2][wz] * ofPlane;
+    rows[r] = mixed.data() + 4 * r;
+    for (std::int32_t i = 0; i < 4; ++i)
+    {
+      const std::int32_t x = base[0] + i - 1;
+      const std::int32_t one = brickAt(x, y, z);
+      mixed[4 * r + static_cast<std::size_t>(i)] =
+        one >= 0 ? m_Values[static_cast<std::size_t>(one) * kVoxels + within + (x & 7)]
+                 : (one == kFarInside ? m_Far : -m_Far);
+    }
   }
+  SumRows(rows, weights, value, gradient);
   return true;
 }
 
