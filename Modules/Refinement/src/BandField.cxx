@@ -236,10 +236,7 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
     for (std::int32_t i = 0; i < 4; ++i)
     {
       const std::int32_t x = base[0] + i - 1;
-      const std::int32_t one = brickAt(x, y, z);
-      mixed[4 * r + static_cast<std::size_t>(i)] =
-        one >= 0 ? m_Values[static_cast<std::size_t>(one) * kVoxels + within + (x & 7)]
-                 : (one == kFarInside ? m_Far : -m_Far);
+      mixed[4 * r + static_cast<std::size_t>(i)] = ValueAt(brickAt(x, y, z), within + (x & 7));
     }
   }
   SumRows(rows, weights, value, gradient);

@@ -128,8 +128,17 @@ private:
   void
   Convolve(const Kernels & kernels, std::int32_t step, const std::vector<float> & from, std::size_t brick, float * to)
     const;
+  /** (1 + weight) times what the first kernels make, less weight times what the second make of that; where `parts` says so, or
+   *  everywhere. */
   void
-  Smooth(float weight, const Kernels & first);
+  Smooth(float weight, const Kernels & first, const Kernels & second, std::int32_t step, const Parts * parts);
+  /** At a voxel of a brick, or of none, by m_Neighbours. */
+  float
+  ValueAt(std::int32_t source, std::int32_t voxel) const
+  {
+    return source >= 0 ? m_Values[static_cast<std::size_t>(source) * kVoxels + static_cast<std::size_t>(voxel)]
+                       : (source == kFarInside ? m_Far : -m_Far);
+  }
 
   Vector3                                   m_Sides;
   Kernels                                   m_Gauss;

@@ -84,11 +84,8 @@ BandField::CurvatureAt(std::size_t brick, std::size_t voxel) const
     p[k] += apart * stepK;
     p[l] += apart * stepL;
     const std::int32_t neighbour = 1 + BrickOf(p[0]) + 3 * (1 + BrickOf(p[1])) + 9 * (1 + BrickOf(p[2]));
-    const std::int32_t found = m_Neighbours[brick][static_cast<std::size_t>(neighbour)];
-    return found < 0
-                                    ? (found == kFarInside ? m_Far : -m_Far)
-                                    : static_cast<double>(m_Values[static_cast<std::size_t>(found) * kVoxels +
-                                            static_cast<std::size_t>((p[0] & 7) + 8 * (p[1] & 7) + 64 * (p[2] & 7))]);
+    return static_cast<double>(ValueAt(m_Neighbours[brick][static_cast<std::size_t>(neighbour)],
+                                       (p[0] & 7) + kSide * (p[1] & 7) + kSide * kSide * (p[2] & 7)));
   };
   Vector3                slope{};
   std::array<Vector3, 3> bend{};

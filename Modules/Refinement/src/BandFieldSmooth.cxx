@@ -144,52 +144,31 @@ BandField::StepWeight(double sigma)
 void
 BandField::Smooth(float weight)
 {
-  Smooth(weight, m_Gauss);
+  Smooth(weight, m_Gauss, m_Gauss, 1, nullptr);
 }
 
 void
 BandField::SmoothToCoefficients(float weight)
 {
-  Smooth(weight, m_GaussToSpline);
-}
-
-void
-BandField::Smooth(float weight, const Kernels & kernels)
-{
-  const auto         count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-  std::vector<float> once(m_Values.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
-  for (std::ptrdiff_t brick = 0; brick < count; ++brick)
-  {
-    Convolve(kernels,
-             1,
-             m_Values,
-             static_cast<std::size_t>(brick),
-             once.data() + static_cast<std::size_t>(brick) * kVoxels);
-  }
-#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
-  for (std::ptrdiff_t brick = 0; brick < count; ++brick)
-  {
-    const std::size_t first = static_cast<std::size_t>(brick) * kVoxels;
-    Convolve(m_Gauss, 1, once, static_cast<std::size_t>(brick), m_Values.data() + first);
-    for (std::size_t i = first; i < first + kVoxels; ++i)
-    {
-      m_Values[i] = (1 + weight) * once[i] - weight * m_Values[i];
-    }
-  }
+  Smooth(weight, m_GaussToSpline, m_Gauss, 1, nullptr);
 }
 
 void
 BandField::SmoothPart(float weight, bool wide, const Parts & parts)
 {
+  const Kernels & kernels = wide ? m_GaussWide : m_Gauss;
+  Smooth(weight, kernels, kernels, wide ? 2 : 1, &parts);
+}
+
+void
+BandField::Smooth(float weight, const Kernels & first, const Kernels & second, std::int32_t step, const Parts * parts)
+{
   const auto                count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-  const Kernels &           kernels = wide ? m_GaussWide : m_Gauss;
-  const std::int32_t        step = wide ? 2 : 1;
-  std::vector<std::uint8_t> changes(m_Bricks.size());
-  for (std::size_t brick = 0; brick < m_Bricks.size(); ++brick)
+  std::vector<std::uint8_t> changes(m_Bricks.size(), 1);
+  for (std::size_t brick = 0; parts != nullptr && brick < m_Bricks.size(); ++brick)
   {
-    const auto first = parts.begin() + static_cast<std::ptrdiff_t>(brick * kVoxels);
-    changes[brick] = std::any_of(first, first + kVoxels, [](std::uint8_t part) { return part != 0; }) ? 1 : 0;
+    const auto begin = parts->begin() + static_cast<std::ptrdiff_t>(brick * kVoxels);
+    changes[brick] = std::any_of(begin, begin + kVoxels, [](std::uint8_t part) { return part != 0; }) ? 1 : 0;
   }
   std::vector<float> once(m_Values.size());
 #pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
@@ -201,7 +180,7 @@ BandField::SmoothPart(float weight, bool wide, const Parts & parts)
           return other >= 0 && changes[static_cast<std::size_t>(other)] != 0;
         }))
     {
-      Convolve(kernels, step, m_Values, brick, once.data() + brick * kVoxels);
+      Convolve(first, step, m_Values, brick, once.data() + brick * kVoxels);
     }
   }
 #pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
@@ -213,12 +192,13 @@ BandField::SmoothPart(float weight, bool wide, const Parts & parts)
       continue;
     }
     float twice[kVoxels];
-    Convolve(kernels, step, once, brick, twice);
+    Convolve(second, step, once, brick, twice);
     for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
     {
       const std::size_t at = brick * kVoxels + voxel;
       const float       smoothed = (1 + weight) * once[at] - weight * twice[voxel];
-      m_Values[at] += static_cast<float>(parts[at]) / 255 * (smoothed - m_Values[at]);
+      m_Values[at] =
+        parts == nullptr ? smoothed : m_Values[at] + static_cast<float>((*parts)[at]) / 255 * (smoothed - m_Values[at]);
     }
   }
 }
