@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Holds every output of a list of runs (runs.txt) against what is recorded of it (digests.json).
+
+usage: same_results.py VOXELCORE SOURCE_DIR [--record | --against OTHER_VOXELCORE] [--only NAME,...]
+
+Without an option each output's SHA-256 must be the recorded one. --record writes digests.json anew; a change that alters
+results on purpose records them and says so in its message. --against compares two programs byte by byte instead.
+What varies from run to run (times, memory, paths, version) is taken out of JSON, CSV and text first.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+VARYING = {"seconds", "peak_memory_mb", "voxelcore", "path", "command", "output", "memory_bytes", "threads",
+           "seconds_expected", "memory_expected", "started", "ended", "host", "program", "version", "prediction"}
+SKIPPED = {".png", ".html"}  # drawn by the machine's own libraries
+
+
+def without_varying(value):
+    if isinstance(value, dict):
+        return {key: without_varying(item) for key, item in value.items() if key not in VARYING}
+    if isinstance(value, list):
+        return [without_varying(item) for item in value]
+    return value
+
+
+def content(path, folder):
+    data = path.read_bytes()
+    if path.suffix == ".json" and not path.name.endswith(".mrk.json"):
+        return json.dumps(without_varying(json.loads(data)), sort_keys=True).encode()
+    if path.suffix in (".csv", ".mrml", ".swc"):
+        text = data.decode().replace(str(folder), "OUT")
+        return re.sub(r"VoxelCore [0-9.]+", "VoxelCore", text).encode()
+    return data
+
+
+def outputs(folder):
+    found = {}
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder).as_posix()
+        if not path.is_file() or path.suffix in SKIPPED or "/." in "/" + name or name.startswith("cohort/"):
+            if not (name.startswith("cohort/") and path.suffix in (".vtp", ".swc")):
+                continue
+        found[name] = hashlib.sha256(content(path, folder)).hexdigest()
+    return found
+
+
+def run_list(program, source, only):
+    """Runs the list; gives {run: {output: digest}} and the names of runs passed over."""
+    foreign = os.environ.get("VOXELCORE_TEST_DATA", "/nonexistent")
+    results, missing = {}, []
+    with tempfile.TemporaryDirectory(prefix="voxelcore-results-") as place:
+        for line in (HERE / "runs.txt").read_text().splitlines():
+            if not line or line.startswith("#"):
+                continue
+            name, command = line.split(None, 1)
+            if only and name not in only:
+                continue
+            folder = pathlib.Path(place) / name
+            folder.mkdir()
+            words = [word.format(d=source / "Data", f=foreign, m="/usr/share/mricron/templates", o=folder, p=place)
+                     for word in command.split()]
+            if any(word.startswith((foreign, "/usr/share/mricron")) and not os.path.exists(word) for word in words):
+                missing.append(name)
+                continue
+            done = subprocess.run([program, *words], cwd=folder, capture_output=True, text=True, timeout=900)
+            results[name] = outputs(folder)
+            results[name]["exit"] = str(done.returncode)
+            if done.returncode != 0:
+                print(f"{name}: exit {done.returncode}: {done.stderr.strip()}")
+            if name.startswith(("verify", "info")):
+                text = done.stdout
+                if name.startswith("info"):
+                    text = json.dumps(without_varying(json.loads(text)), sort_keys=True)
+                results[name]["stdout"] = hashlib.sha256(text.encode()).hexdigest()
+    return results, missing
+
+
+def differences(expected, found):
+    for name, files in found.items():
+        before = expected.get(name)
+        if before is None:
+            yield f"{name}: not recorded"
+            continue
+        for file in sorted(set(files) | set(before)):
+            if files.get(file) != before.get(file):
+                yield f"{name}: {file} " + ("is new" if file not in before else "is gone" if file not in files else "differs")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("source", type=pathlib.Path)
+    parser.add_argument("--record", action="store_true")
+    parser.add_argument("--against")
+    parser.add_argument("--only", type=lambda text: set(text.split(",")))
+    arguments = parser.parse_args()
+    found, missing = run_list(os.path.abspath(arguments.program), arguments.source.resolve(), arguments.only)
+    for name in missing:
+        print(f"{name}: passed over, its scan is not there")
+    digests = HERE / "digests.json"
+    if arguments.record:
+        digests.write_text(json.dumps(found, indent=1, sort_keys=True) + "\n")
+        return 0
+    if arguments.against:
+        expected, _ = run_list(os.path.abspath(arguments.against), arguments.source.resolve(), arguments.only)
+    else:
+        expected = json.loads(digests.read_text())
+    problems = list(differences(expected, found))
+    print("\n".join(problems) if problems else f"{len(found)} runs, all outputs equal")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
