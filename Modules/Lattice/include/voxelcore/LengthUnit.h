@@ -1,0 +1,51 @@
+#pragma once
+// Lengths for people: in nm, um or mm, whichever suits their size. Files keep mm.
+
+#include <string>
+
+namespace voxelcore
+{
+
+/** The unit in which lengths of one size are shown. */
+class LengthUnit
+{
+public:
+  /** The unit for lengths of about `typicalMm`: mm from 0.1 mm on, um from 0.1 um on, else nm; mm where it is 0 or no
+   *  number. Of a table or a picture, take the largest length shown, and use one unit throughout. */
+  static LengthUnit
+  For(double typicalMm);
+
+  /** `mm` (with `power` 2 or 3: square or cubic mm) in this unit. */
+  double
+  Of(double mm, int power = 1) const;
+
+  /** "um", "um2", "um3". */
+  std::string
+  Name(int power = 1) const;
+
+  /** For pictures and pages: "µm", "µm²", "µm³". */
+  std::string
+  Symbol(int power = 1) const;
+
+  /** FixedText of Of(mm, power). */
+  std::string
+  Text(double mm, int power = 1, int decimals = 2) const;
+
+private:
+  explicit LengthUnit(int thousandths)
+    : m_Thousandths(thousandths)
+  {}
+
+  int m_Thousandths; ///< 0 for mm, 1 for um, 2 for nm
+};
+
+/** `value` with so many decimals; with more where fewer than two significant digits would show, so that only 0 reads as
+ *  0. */
+std::string
+FixedText(double value, int decimals = 2);
+
+/** `value` with up to `digits` significant digits and no more than it needs. */
+std::string
+ShortText(double value, int digits = 9);
+
+} // namespace voxelcore
