@@ -3,14 +3,12 @@ usage: page_test.py VOXELCORE [FOLDER FOR SCREENSHOTS]    exit 77: no Chromium""
 import os
 import re
 import shutil
-import struct
-import subprocess
 import sys
 import tempfile
-import zlib
 from pathlib import Path
 
 from module_test_tools import check, run, two_blocks, write_nrrd
+from page_tools import pixels, state_of, visit
 
 # What a user does, done by a script at the end of a copy of the page; what came of it stands in the body's data.
 PROBE = """<script>
@@ -45,58 +43,6 @@ setTimeout(function () {
 </script>"""
 
 
-def browser():
-    for name in ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"):
-        if shutil.which(name):
-            return shutil.which(name)
-    print("no Chromium is installed")
-    sys.exit(77)
-
-
-def visit(page, folder, *more):
-    """Runs the browser on a page; gives what it printed. Any message in the page's console fails."""
-    command = [browser(), "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-               "--user-data-dir=%s" % (folder / "profile"), "--window-size=1000,700", "--virtual-time-budget=20000",
-               "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr", "--v=0", *more, page.as_uri()]
-    result = subprocess.run(command, capture_output=True, text=True, timeout=240)
-    check(result.returncode == 0, "the browser ended with %d: %s" % (result.returncode, result.stderr))
-    console = [line for line in result.stderr.splitlines() if "CONSOLE" in line and
-               not re.search("GPU stall due to ReadPixels|swiftshader", line)]
-    check(not console, "the console says: %s" % console)
-    return result.stdout
-
-
-def pixels(path):
-    """Rows of (red, green, blue) of an 8-bit PNG without interlace."""
-    data = path.read_bytes()
-    at, packed = 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, color = struct.unpack(">IIBB", body[:10])
-        elif kind == b"IDAT":
-            packed += body
-        at += 12 + length
-    channels = {2: 3, 6: 4}[color]
-    check(depth == 8, "depth %d" % depth)
-    raw, stride = zlib.decompress(packed), width * channels
-    before, rows = bytearray(stride), []
-    for y in range(height):
-        kind = raw[y * (stride + 1)]
-        row = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for x in range(stride):
-            a = row[x - channels] if x >= channels else 0
-            b = before[x]
-            c = before[x - channels] if x >= channels else 0
-            p = a + b - c
-            paeth = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-            row[x] = (row[x] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
-        before = row
-        rows.append([tuple(row[x:x + 3]) for x in range(0, stride, channels)])
-    return rows
-
-
 def main():
     program = sys.argv[1]
     with tempfile.TemporaryDirectory() as name:
@@ -125,7 +71,7 @@ def main():
         copy = folder / "probe.html"
         copy.write_text(text.replace("</body>", PROBE + "</body>"))
         dom = visit(copy, folder, "--dump-dom")
-        found = dict(re.findall(r'data-([a-z]+)="([^"]*)"', dom[dom.rindex("<body"):dom.rindex("<body") + 20000]))
+        found = state_of(dom)
         check(found.get("state") == "ready" and found.get("done") == "1", "the page did not come up: %s" % found)
         check(found["colorings"] == "Radius,Lambda,ErosionThickness,Label", "colourings %s" % found["colorings"])
         check(found["scale"] == "none", "the colour bar stays with labels")

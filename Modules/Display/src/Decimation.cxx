@@ -93,6 +93,7 @@ Compact(ShownMesh & mesh)
   {
     std::for_each(line.begin(), line.end(), take);
   }
+  std::for_each(mesh.dots.begin(), mesh.dots.end(), take);
   mesh.points = std::move(small.points);
   mesh.origin = std::move(small.origin);
 }
@@ -108,7 +109,7 @@ TriangleCount(const CellComplex & cells)
 ShownMesh
 Decimated(const LabelSurfaceMesh & mesh, std::size_t most)
 {
-  ShownMesh shown{ mesh.points, {}, mesh.triangles, {} };
+  ShownMesh shown{ mesh.points, {}, mesh.triangles, {}, {} };
   if (mesh.triangles.size() > most)
   {
     vtkNew<vtkQuadricDecimation> decimate;
@@ -184,20 +185,72 @@ Decimated(const MedialComplex & complex, std::size_t most)
       shown.origin[point] = static_cast<std::uint32_t>(locator->FindClosestPoint(at));
     }
   }
+  const auto add = [&](ElementIndex vertex) {
+    shown.points.push_back(original[vertex]);
+    shown.origin.push_back(vertex);
+    return static_cast<std::uint32_t>(shown.points.size() - 1);
+  };
+  std::vector<bool> onEdge(cells.vertexCount, false);
   for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
   {
+    const auto & ends = cells.edges[edge];
+    onEdge[ends[0]] = onEdge[ends[1]] = true;
     if (!onFace[edge])
     {
-      const auto from = static_cast<std::uint32_t>(shown.points.size());
-      for (const ElementIndex end : cells.edges[edge])
-      {
-        shown.points.push_back(original[end]);
-        shown.origin.push_back(end);
-      }
-      shown.lines.push_back({ from, from + 1 });
+      const std::uint32_t from = add(ends[0]);
+      shown.lines.push_back({ from, add(ends[1]) });
+    }
+  }
+  for (std::size_t vertex = 0; vertex < cells.vertexCount; ++vertex)
+  {
+    if (!onEdge[vertex])
+    {
+      shown.dots.push_back(add(static_cast<ElementIndex>(vertex)));
     }
   }
   Compact(shown);
+  return shown;
+}
+
+ShownMesh
+ShownCurves(const SkeletonGraph & curves)
+{
+  ShownMesh shown;
+  for (const auto & p : curves.positions)
+  {
+    shown.points.push_back({ static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]) });
+  }
+  shown.origin.resize(shown.points.size());
+  std::iota(shown.origin.begin(), shown.origin.end(), 0U);
+  std::vector<bool> onSomething(shown.points.size(), false);
+  for (std::size_t branch = 0; branch < curves.BranchCount(); ++branch)
+  {
+    const auto points = curves.Branch(branch);
+    shown.lines.emplace_back(points.begin(), points.end());
+    for (const ElementIndex point : points)
+    {
+      onSomething[point] = true;
+    }
+  }
+  for (std::size_t face = 0; face < curves.FaceCount(); ++face)
+  {
+    const std::uint64_t from = curves.faceOffsets[face];
+    for (std::uint64_t k = from; k < curves.faceOffsets[face + 1]; ++k)
+    {
+      onSomething[curves.faceVertices[k]] = true;
+      if (k >= from + 2)
+      {
+        shown.triangles.push_back({ curves.faceVertices[from], curves.faceVertices[k - 1], curves.faceVertices[k] });
+      }
+    }
+  }
+  for (std::size_t point = 0; point < shown.points.size(); ++point)
+  {
+    if (!onSomething[point])
+    {
+      shown.dots.push_back(static_cast<std::uint32_t>(point));
+    }
+  }
   return shown;
 }
 

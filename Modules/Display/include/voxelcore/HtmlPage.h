@@ -23,7 +23,7 @@ HasHtml();
 /** Writes one HTML file: meshes and values of `content`, three.js (MIT licence, named in the page) and a viewer. Places are
  *  rounded to 1/65535 of a mesh's box, values to 1/65534 of their range. Only what is shown is decimated; the page says
  *  from how many triangles. It asks nothing of any network, and forbids itself to.
- *  \throws UsageError where HasHtml() is false; OutputError; Cancelled */
+ *  \throws UsageError where HasHtml() is false; Error where a place is no finite number; OutputError; Cancelled */
 void
 WriteHtml(const std::filesystem::path & path,
           const DisplayContent &        content,

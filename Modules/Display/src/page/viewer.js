@@ -4,8 +4,32 @@
   'use strict';
 
   const $ = id => document.getElementById(id);
-  const model = JSON.parse($('model').textContent);
-  const bytes = Uint8Array.from(atob($('data').textContent), c => c.charCodeAt(0)).buffer;
+  const damaged = 'This page cannot be shown: its data are damaged. Copy the file again, or make it anew with voxelcore.';
+  let model, bytes;
+  try {
+    model = JSON.parse($('model').textContent);
+    bytes = decode($('data').textContent).buffer;
+  } catch (error) {
+    window.pageFailed(damaged);
+    return;
+  }
+  if (bytes.byteLength !== model.bytes || adler32(new Uint8Array(bytes)) !== model.adler32) {
+    window.pageFailed(damaged);
+    return;
+  }
+  function decode(text) {
+    const letters = atob(text), result = new Uint8Array(letters.length);
+    for (let i = 0; i < letters.length; ++i) result[i] = letters.charCodeAt(i);
+    return result;
+  }
+  function adler32(data) {
+    let a = 1, b = 0;
+    for (let i = 0; i < data.length; ++i) {
+      a = (a + data[i]) % 65521;
+      b = (b + a) % 65521;
+    }
+    return (b * 65536 + a);
+  }
   const numbers = ([at, count, size]) =>
     size === 2 ? new Uint16Array(bytes, at, count) : new Uint32Array(bytes, at, count);
   const units = { Radius: 'Radius (mm)', Lambda: 'Lambda (mm)', ErosionThickness: 'Erosion thickness (mm)', Label: 'Label' };
@@ -19,7 +43,14 @@
     return t => [0, 1, 2].map(k => Math.min(1, Math.max(0, c.reduceRight((sum, row) => sum * t + row[k], 0))));
   })();
 
-  const renderer = new THREE.WebGLRenderer({ canvas: $('view'), antialias: true });
+  let renderer;
+  try {
+    renderer = new THREE.WebGLRenderer({ canvas: $('view'), antialias: true });
+  } catch (error) {
+    window.pageFailed('This page cannot be shown: the browser gives no 3-D graphics (WebGL). Allow hardware acceleration in ' +
+      'its settings, or open the page in another browser.');
+    return;
+  }
   renderer.setPixelRatio(window.devicePixelRatio);
   renderer.setClearColor(0xffffff);
   const scene = new THREE.Scene();
@@ -103,6 +134,13 @@
     scene.add(object);
     parts.push(object);
   }
+  // Points by themselves, as large as a fingertip's worth of pixels at any distance.
+  function addDots(label, kind, points) {
+    if (!label[kind].dots[1]) return;
+    add(label, kind, new THREE.Points(shape(points, numbers(label[kind].dots)), new THREE.PointsMaterial({
+      vertexColors: THREE.VertexColors, size: 8 * window.devicePixelRatio, sizeAttenuation: false })),
+    name => valuesOf(label[kind], name));
+  }
   for (const label of model.labels) {
     const color = new THREE.Color(...label.color);
     label.visible = true;
@@ -124,9 +162,17 @@
         add(label, 'medial', new THREE.LineSegments(lines,
           new THREE.LineBasicMaterial({ vertexColors: THREE.VertexColors })), valuesAt);
       }
+      addDots(label, 'medial', points);
     }
     if (label.curves) {
-      const tube = tubes(label.curves, places(label.curves), valuesOf(label.curves, 'Radius'));
+      const points = places(label.curves);
+      addDots(label, 'curves', points);
+      if (label.curves.triangles[1]) {
+        add(label, 'curves', new THREE.Mesh(shape(points, numbers(label.curves.triangles)),
+          new THREE.MeshPhongMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide, flatShading: true })),
+        name => valuesOf(label.curves, name));
+      }
+      const tube = tubes(label.curves, points, valuesOf(label.curves, 'Radius'));
       const geometry = shape(tube.points, tube.index);
       geometry.computeVertexNormals();
       add(label, 'curves', new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ vertexColors: THREE.VertexColors,

@@ -1,0 +1,108 @@
+// What a page is made of is valid JSON whatever is shown, and nothing of a label is lost.
+
+#include "PageModel.h"
+
+#include "VoxelCoreTesting/Shapes.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using Json = nlohmann::json;
+
+constexpr int kCount = 1; ///< of an array's place, length and bytes a number
+
+DisplayLabel
+LabelOf(const VoxelShape & shape, std::int64_t value, const std::string & name)
+{
+  ImageGeometry geometry;
+  geometry.size = { 64, 64, 64 };
+  DisplayLabel label;
+  label.label = value;
+  label.name = name;
+  label.surface = LabelSurface(shape, geometry);
+  label.medial = ToPhysical(ComputeVoxelCore(shape, ComputeSpacingWeights(geometry.spacing)), geometry, value);
+  return label;
+}
+
+TEST(PageModel, PagesWithoutFacesAreValidJson)
+{
+  DisplayContent content;
+  content.labels.push_back(LabelOf(Box({ 1, 1, 1 }), 1, "one voxel"));
+  content.labels.push_back(LabelOf(Box({ 5, 1, 1 }, { 20, 0, 0 }), 2, "a row"));
+  content.labels.emplace_back(); // nothing at all
+  ASSERT_EQ(content.labels[0].medial.core.cells.FaceCount(), 0U);
+  ASSERT_EQ(content.labels[0].medial.core.cells.edges.size(), 0U);
+  ASSERT_EQ(content.labels[1].medial.core.cells.FaceCount(), 0U);
+  const Json   page = Json::parse(MakePageModel(content, {}).json);
+  const Json & labels = page.at("labels");
+  ASSERT_EQ(labels.size(), 3U);
+  EXPECT_EQ(labels[0].at("medial").at("dots")[kCount], 1);
+  EXPECT_EQ(labels[0].at("medial").at("triangles")[kCount], 0);
+  EXPECT_EQ(labels[1].at("medial").at("dots")[kCount], 0);
+  EXPECT_EQ(labels[1].at("medial").at("lines")[kCount], 2 * content.labels[1].medial.core.cells.edges.size());
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    EXPECT_EQ(labels[0].at("medial").at("low")[k], 0.0); // the voxel's centre
+    EXPECT_EQ(labels[0].at("medial").at("high")[k], 0.0);
+  }
+  EXPECT_EQ(labels[1].at("medial").at("low")[0], 20.0);
+  EXPECT_EQ(labels[1].at("medial").at("high")[0], 24.0);
+  EXPECT_FALSE(labels[2].contains("medial"));
+}
+
+TEST(PageModel, PointsOfASkeletonWithoutABranchAreThere)
+{
+  DisplayContent content;
+  content.labels.emplace_back();
+  content.labels[0].curves.positions = { { 1, 2, 3 } };
+  content.labels[0].curves.radius = { 0.5 };
+  content.labels[0].curves.erosionThickness = { std::numeric_limits<double>::infinity() };
+  const Json page = Json::parse(MakePageModel(content, {}).json);
+  EXPECT_EQ(page.at("labels")[0].at("curves").at("dots")[kCount], 1);
+  EXPECT_FALSE(page.at("ranges").contains("ErosionThickness"));
+}
+
+TEST(PageModel, NoNameEndsTheScriptOrTheJson)
+{
+  DisplayContent    content;
+  const std::string hostile = "</script><b>\"\\\n\xE2\x82\xAC";
+  content.labels.push_back(LabelOf(Box({ 1, 1, 1 }), 1, hostile));
+  content.labels.push_back(LabelOf(Box({ 1, 1, 1 }), 2, "no UTF-8: \xFF"));
+  const std::string text = MakePageModel(content, { hostile }).json;
+  EXPECT_EQ(text.find('<'), std::string::npos);
+  const Json page = Json::parse(text);
+  EXPECT_EQ(page.at("title"), hostile);
+  EXPECT_EQ(page.at("labels")[0].at("name"), hostile);
+  EXPECT_EQ(page.at("labels")[1].at("name"), "no UTF-8: \xEF\xBF\xBD");
+}
+
+TEST(PageModel, WhatIsNoNumberIsRefusedByName)
+{
+  for (const double bad : { std::numeric_limits<double>::infinity(), std::nan("") })
+  {
+    DisplayContent content;
+    content.labels.push_back(LabelOf(Box({ 2, 2, 2 }), 1, "broken"));
+    content.labels[0].medial.core.positions.back()[1] = bad;
+    try
+    {
+      MakePageModel(content, {});
+      FAIL() << "a page with " << bad;
+    }
+    catch (const Error & error)
+    {
+      EXPECT_NE(std::string(error.what()).find("'broken'"), std::string::npos) << error.what();
+    }
+  }
+}
+
+} // namespace
+} // namespace voxelcore::testing
