@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -327,6 +328,134 @@ TEST(SimplePairCollapse, PairsWithinPairsCollapseInOrder)
     SimplePairCollapse collapse(complex, measures.vertex, measures.edge, measures.face);
     collapse.CollapseBelow(4.5);
     ExpectSame(collapse.Live(), CollapseInOrder(complex, measures, AllLive(complex), 4.5));
+    ASSERT_FALSE(::testing::Test::HasFailure());
+  }
+}
+
+namespace
+{
+
+/** Measures that fall from all ends inwards, alike on all sides: each pair that goes sets the next free, whose keys are
+ *  smaller, so that times grow as long as the complex. */
+Measures
+FallingMeasures(const CellComplex & complex, const std::vector<double> & ofVertex)
+{
+  Measures measures{ ofVertex,
+                     std::vector<double>(complex.edges.size()),
+                     std::vector<double>(complex.FaceCount(), std::numeric_limits<double>::max()) };
+  for (std::size_t e = 0; e < complex.edges.size(); ++e)
+  {
+    measures.edge[e] = std::min(ofVertex[complex.edges[e][0]], ofVertex[complex.edges[e][1]]);
+  }
+  for (std::size_t f = 0; f < complex.FaceCount(); ++f)
+  {
+    for (const ElementIndex edge : complex.FaceEdges(f))
+    {
+      measures.face[f] = std::min(measures.face[f], measures.edge[edge]);
+    }
+  }
+  return measures;
+}
+
+struct LongComplex
+{
+  std::string name;
+  CellComplex complex;
+  Measures    measures;
+};
+
+/** Complexes of about so many vertices in which times are long. */
+std::vector<LongComplex>
+LongComplexes(ElementIndex count)
+{
+  using Edges = std::vector<std::pair<ElementIndex, ElementIndex>>;
+  Edges                path;
+  std::vector<double>  fromEnds;
+  Edges                comb;
+  std::vector<Corners> strip;
+  for (ElementIndex v = 0; v < count; ++v)
+  {
+    fromEnds.push_back(count - std::min(v, count - 1 - v));
+    if (v + 1 < count)
+    {
+      path.emplace_back(v, v + 1);
+    }
+    if (v + 2 < count)
+    {
+      strip.push_back({ v, v + 1, v + 2 });
+      // A back of even vertices; each odd one is a tooth.
+      comb.emplace_back(v, v % 2 == 0 ? v + 2 : v + 1);
+    }
+  }
+  // From one end inwards, in steps: those of a step are alike.
+  std::vector<double> steps(count);
+  for (ElementIndex v = 0; v < count; ++v)
+  {
+    steps[v] = count / 8 - v / 8;
+  }
+  std::vector<LongComplex> all;
+  const auto add = [&](const std::string & name, CellComplex complex, const std::vector<double> & measure) {
+    Measures measures = FallingMeasures(complex, measure);
+    all.push_back({ name, std::move(complex), std::move(measures) });
+  };
+  add("path", MakeComplex(count, {}, path), fromEnds);
+  add("path in steps", MakeComplex(count, {}, path), steps);
+  add("equal path", MakeComplex(count, {}, path), std::vector<double>(count, 1));
+  add("comb", MakeComplex(count, {}, comb), fromEnds);
+  add("comb in steps", MakeComplex(count, {}, comb), steps);
+  add("strip", MakeComplex(count, strip), fromEnds);
+  add("strip in steps", MakeComplex(count, strip), steps);
+  return all;
+}
+
+} // namespace
+
+TEST(SimplePairCollapse, LongTimesCollapseInOrderAndInLittleTime)
+{
+  for (const auto & [name, complex, measures] : LongComplexes(30000))
+  {
+    SCOPED_TRACE(name);
+    const auto         begin = std::chrono::steady_clock::now();
+    SimplePairCollapse collapse(complex, measures.vertex, measures.edge, measures.face);
+    collapse.CollapseBelow(kAll);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    std::cout << name << ": " << seconds.count() << " s\n";
+    // Times listed and compared key by key take 20 s on a path.
+    EXPECT_LT(seconds.count(), 4);
+    ExpectSame(collapse.Live(), CollapseInOrder(complex, measures, AllLive(complex), kAll));
+  }
+}
+
+// Measures that fall over long ways and are often equal: random trees and strips with branches.
+TEST(SimplePairCollapse, RandomTreesWithLongTimesCollapseInOrder)
+{
+  for (std::uint32_t seed = 1; seed <= 300; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 generator(seed);
+    const auto   draw = [&generator](ElementIndex below) { return static_cast<ElementIndex>(generator() % below); };
+    const ElementIndex                                 count = 20 + draw(400);
+    const ElementIndex                                 reach = 1 + draw(6); // 1: a path
+    std::vector<std::pair<ElementIndex, ElementIndex>> edges;
+    std::vector<Corners>                               triangles;
+    std::vector<double>                                ofVertex{ 0 };
+    for (ElementIndex v = 1; v < count; ++v)
+    {
+      const ElementIndex parent = v - 1 - draw(std::min(v, reach));
+      edges.emplace_back(parent, v);
+      ofVertex.push_back(ofVertex[parent] + draw(3) - (draw(7) == 0 ? 2.0 : 0.0));
+      if (v >= 2 && draw(4) == 0)
+      {
+        triangles.push_back({ v - 2, v - 1, v });
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    const CellComplex  complex = MakeComplex(count, triangles, edges);
+    const Measures     measures = FallingMeasures(complex, ofVertex);
+    const double       threshold = seed % 2 == 0 ? kAll : ofVertex[draw(count)];
+    SimplePairCollapse collapse(complex, measures.vertex, measures.edge, measures.face);
+    collapse.CollapseBelow(threshold);
+    ExpectSame(collapse.Live(), CollapseInOrder(complex, measures, AllLive(complex), threshold));
     ASSERT_FALSE(::testing::Test::HasFailure());
   }
 }

@@ -232,6 +232,7 @@ Worker::RemoveVertexAndEdge(const RemovalTime & time, double first, ElementIndex
   const LowerElements & vertices = m_Times.Vertices();
   const ElementIndex    vertex = time.key.element;
   vertices.after[vertex] = time.before;
+  m_Times.NoteRemoval(edge, time.before);
   vertices.cofaces[vertex] = { 0, edge };
   m_State.live.vertices[vertex] = 0;
   m_State.live.edges[edge] = 0;
@@ -251,6 +252,7 @@ Worker::RemoveEdgeAndFace(const RemovalTime & time, double first, ElementIndex f
   const LowerElements & edges = m_Times.Edges();
   const ElementIndex    edge = time.key.element;
   edges.after[edge] = time.before;
+  m_Times.NoteRemoval(edge, time.before);
   edges.cofaces[edge] = { 0, face };
   m_State.live.edges[edge] = 0;
   m_State.live.faces[face] = 0;
@@ -322,7 +324,8 @@ RemovePairs(const CollapseState & state, double threshold, const ProgressCallbac
   const std::size_t         edges = state.complex.edges.size();
   std::vector<ElementIndex> vertexAfter(vertices, kNoPair);
   std::vector<ElementIndex> edgeAfter(edges, kNoPair);
-  const RemovalTimes        times(state, vertexAfter.data(), edgeAfter.data());
+  std::vector<TimeNode>     nodes(edges);
+  const RemovalTimes        times(state, vertexAfter.data(), edgeAfter.data(), nodes.data());
   std::atomic<bool>         isCancelled = false;
   const auto                report = [&] {
     try

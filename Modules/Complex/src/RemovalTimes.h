@@ -60,15 +60,26 @@ struct LowerElements
   }
 };
 
+/** Where a pair that has gone stands in its time. Times branch as a tree whose nodes are pairs: each follows the one before
+ *  it, and what two times have in common is the way from the root to where they part. A jump leads far up, by a number of
+ *  steps that depends on the depth alone, so that a place on the way is found in a number of steps logarithmic in its
+ *  length (E. W. Myers: An applicative random-access stack, 1983). */
+struct TimeNode
+{
+  ElementIndex jump;  ///< a pair further up, or kNoPair above the first
+  ElementIndex depth; ///< keys of the time; 0 is that of kNoPair
+};
+
 /** What is known of the pairs that have gone, and of when others will. */
 class RemovalTimes
 {
 public:
-  RemovalTimes(const CollapseState & state, ElementIndex * vertexAfter, ElementIndex * edgeAfter)
+  RemovalTimes(const CollapseState & state, ElementIndex * vertexAfter, ElementIndex * edgeAfter, TimeNode * nodes)
     : m_Vertices{ state.vertexMeasure.data(), state.edgeMeasure.data(), state.vertexCofaces.data(), vertexAfter }
     , m_Edges{ state.edgeMeasure.data(), state.faceMeasure.data(), state.edgeCofaces.data(), edgeAfter }
     , m_Ends(state.complex.edges.data())
     , m_LiveVertices(state.live.vertices.data())
+    , m_Nodes(nodes)
   {}
 
   const LowerElements &
@@ -107,51 +118,95 @@ public:
       {
         break;
       }
-      after = time.before;
+      // Keys rise on the way up: where that at the end of a jump is not greater, none that it passes is.
+      const ElementIndex jump = m_Nodes[after].jump;
+      after = jump != time.before && jump != kNoPair && !(key < TimeOf(jump).key) ? jump : time.before;
     }
     return { key, after };
   }
 
   PairKey
-  FirstKey(RemovalTime time) const
+  FirstKey(const RemovalTime & time) const
   {
-    while (time.before != kNoPair)
-    {
-      time = TimeOf(time.before);
-    }
-    return time.key;
+    return time.before == kNoPair ? time.key : TimeOf(AtDepth(time.before, 1)).key;
   }
 
   bool
   IsEarlier(const RemovalTime & a, const RemovalTime & b) const
   {
-    if (a.before == b.before)
+    const ElementIndex depthA = NodeOf(a.before).depth;
+    const ElementIndex depthB = NodeOf(b.before).depth;
+    const ElementIndex depth = std::min(depthA, depthB);
+    ElementIndex       upA = AtDepth(a.before, depth);
+    ElementIndex       upB = AtDepth(b.before, depth);
+    if (upA == upB) // up to there they are the same
     {
-      return a.key < b.key;
+      const PairKey keyA = KeyAfter(a, depth);
+      const PairKey keyB = KeyAfter(b, depth);
+      return keyA < keyB || (!(keyB < keyA) && depthA < depthB); // equal keys: one time goes on where the other ends
     }
-    const std::vector<PairKey> keysA = ListKeys(a);
-    const std::vector<PairKey> keysB = ListKeys(b);
-    return std::lexicographical_compare(keysA.begin(), keysA.end(), keysB.begin(), keysB.end());
+    // At equal depths jumps are equally long: up to the last pairs that are not the same.
+    for (;;)
+    {
+      const TimeNode & nodeA = m_Nodes[upA];
+      const TimeNode & nodeB = m_Nodes[upB];
+      if (nodeA.jump != nodeB.jump)
+      {
+        upA = nodeA.jump;
+        upB = nodeB.jump;
+        continue;
+      }
+      const RemovalTime timeA = TimeOf(upA);
+      const RemovalTime timeB = TimeOf(upB);
+      if (timeA.before == timeB.before)
+      {
+        return timeA.key < timeB.key;
+      }
+      upA = timeA.before;
+      upB = timeB.before;
+    }
+  }
+
+  /** A pair, named by its edge, goes after pair `before` or kNoPair. */
+  void
+  NoteRemoval(ElementIndex edge, ElementIndex before) const
+  {
+    const TimeNode     node = NodeOf(before);
+    const TimeNode     next = NodeOf(node.jump);
+    const ElementIndex beyond = NodeOf(next.jump).depth;
+    m_Nodes[edge] = { node.depth - next.depth == next.depth - beyond ? next.jump : before, node.depth + 1 };
   }
 
 private:
-  std::vector<PairKey>
-  ListKeys(RemovalTime time) const
+  TimeNode
+  NodeOf(ElementIndex pair) const
   {
-    std::vector<PairKey> keys{ time.key };
-    while (time.before != kNoPair)
+    return pair == kNoPair ? TimeNode{ kNoPair, 0 } : m_Nodes[pair];
+  }
+
+  /** The pair that lies so deep on the way to this one. */
+  ElementIndex
+  AtDepth(ElementIndex pair, ElementIndex depth) const
+  {
+    for (TimeNode node = NodeOf(pair); node.depth > depth; node = NodeOf(pair))
     {
-      time = TimeOf(time.before);
-      keys.push_back(time.key);
+      pair = NodeOf(node.jump).depth >= depth ? node.jump : TimeOf(pair).before;
     }
-    std::reverse(keys.begin(), keys.end());
-    return keys;
+    return pair;
+  }
+
+  /** The key of a time that comes after so many. */
+  PairKey
+  KeyAfter(const RemovalTime & time, ElementIndex count) const
+  {
+    return NodeOf(time.before).depth == count ? time.key : TimeOf(AtDepth(time.before, count + 1)).key;
   }
 
   LowerElements                       m_Vertices;
   LowerElements                       m_Edges;
   const std::array<ElementIndex, 2> * m_Ends;
   const std::uint8_t *                m_LiveVertices;
+  TimeNode *                          m_Nodes; ///< by the edge that names the pair
 };
 
 } // namespace voxelcore
