@@ -72,6 +72,10 @@ MakeNoise(const PhantomOptions & options, const ProgressCallback & progress);
 VoxelShape
 MakeRoot(const PhantomOptions & options, const ProgressCallback & progress);
 
+/** The bodies of the kind cells. */
+std::vector<VoxelShape>
+MakeCells(const PhantomOptions & options, const ProgressCallback & progress);
+
 std::vector<CentreLinePoint>
 CentreLinesOfRoot(const PhantomOptions & options);
 

@@ -13,7 +13,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::array<PhantomKind, 14> kKinds{ {
+constexpr std::array<PhantomKind, 15> kKinds{ {
   { "ellipsoid", "an ellipsoid with semi-axes 0.45, 0.30 and 0.20 of the sides", "" },
   { "ball", "a ball", "radius (0.45 of the shortest side)" },
   { "capsule", "a straight rod along x with round ends", "radius (0.15 of the shortest side)" },
@@ -40,6 +40,10 @@ constexpr std::array<PhantomKind, 14> kKinds{ {
     "seed, radius of the stem (0.045 of "
     "the shortest side), laterals, "
     "sub-laterals, detail" },
+  { "cells",
+    "a volume full of touching bodies, a label each, as in connectomics: branching neurites, bodies between them, "
+    "fragments",
+    "cells (2000), seed" },
 } };
 
 void
@@ -83,6 +87,34 @@ CheckOptions(const PhantomOptions & options)
       throw UsageError("the number of laterals of a root must be between 0 and 10000");
     }
   }
+  if (options.cells && (*options.cells < 1 || *options.cells > 1000000))
+  {
+    throw UsageError("the number of cells must be between 1 and 1000000");
+  }
+}
+
+VoxelShape
+Union(const PhantomOptions & options, const std::vector<VoxelShape> & bodies)
+{
+  VoxelShape all(VoxelBox{ { 0, 0, 0 }, options.size });
+  for (const VoxelShape & body : bodies)
+  {
+    const VoxelBox & box = body.Box();
+    for (std::int32_t z = box.lower[2]; z < box.lower[2] + box.size[2]; ++z)
+    {
+      for (std::int32_t y = box.lower[1]; y < box.lower[1] + box.size[1]; ++y)
+      {
+        for (std::int32_t x = box.lower[0]; x < box.lower[0] + box.size[0]; ++x)
+        {
+          if (body.Contains(x, y, z))
+          {
+            all.Insert(x, y, z);
+          }
+        }
+      }
+    }
+  }
+  return all;
 }
 
 } // namespace
@@ -113,12 +145,29 @@ MakePhantom(const PhantomOptions & options, const ProgressCallback & progress)
   {
     return MakeRoot(options, progress);
   }
+  if (options.kind == "cells")
+  {
+    return Union(options, MakeCells(options, progress));
+  }
   std::string names;
   for (const PhantomKind & kind : kKinds)
   {
     names += (names.empty() ? "" : ", ") + std::string(kind.name);
   }
   throw UsageError("there is no phantom '" + options.kind + "'; the kinds are " + names);
+}
+
+std::vector<VoxelShape>
+MakePhantomBodies(const PhantomOptions & options, const ProgressCallback & progress)
+{
+  if (options.kind == "cells")
+  {
+    CheckOptions(options);
+    return MakeCells(options, progress);
+  }
+  std::vector<VoxelShape> one;
+  one.push_back(CropToVoxels(MakePhantom(options, progress)));
+  return one;
 }
 
 std::vector<CentreLinePoint>

@@ -19,27 +19,6 @@ Distance(const Vector3 & a, const Vector3 & b)
   return std::sqrt(Dot(d, d));
 }
 
-Vector3
-Direction(const Vector3 & a)
-{
-  const double length = std::sqrt(Dot(a, a));
-  return length > 0 ? Vector3{ a[0] / length, a[1] / length, a[2] / length } : Vector3{ 0, 0, -1 };
-}
-
-/** Evenly spread over the ball of radius 1. */
-Vector3
-RandomInBall(SplitMix64 & random)
-{
-  for (;;)
-  {
-    const Vector3 v{ random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1) };
-    if (Dot(v, v) <= 1)
-    {
-      return v;
-    }
-  }
-}
-
 /** How one branch grows. */
 struct Growth
 {

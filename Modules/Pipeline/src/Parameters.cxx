@@ -472,6 +472,10 @@ PhantomOptionsFrom(const ParameterValues & values)
   {
     options.phantom.subLaterals = static_cast<int>(reader.Whole("sub-laterals", 0, 100000));
   }
+  if (reader.IsGiven("cells"))
+  {
+    options.phantom.cells = static_cast<int>(reader.Whole("cells", 1, 1000000));
+  }
   if (reader.IsGiven("centre-lines"))
   {
     options.centreLines = reader.Text("centre-lines");

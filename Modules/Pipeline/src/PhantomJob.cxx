@@ -70,8 +70,15 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & context)
     }
     transaction.CheckTarget(*options.centreLines);
   }
-  VoxelShape shape = CropToVoxels(MakePhantom(options.phantom, PartOfProgress(context.progress, "sampling", 0, 0.5)));
-  const std::uint64_t voxels = shape.CountVoxels();
+  std::vector<LabelShape> labels;
+  std::uint64_t           voxels = 0;
+  for (VoxelShape & shape : MakePhantomBodies(options.phantom, PartOfProgress(context.progress, "sampling", 0, 0.5)))
+  {
+    const std::uint64_t count = shape.CountVoxels();
+    const auto          value = static_cast<std::int64_t>(labels.size()) + 1;
+    voxels += count;
+    labels.push_back({ value, options.phantom.kind, count, std::move(shape) });
+  }
   if (voxels == 0)
   {
     throw UsageError("phantom " + options.phantom.kind + ": no voxel's centre lies in it; give a greater --size");
@@ -84,8 +91,6 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & context)
     sizeText += (k > 0 ? " x " : "") + std::to_string(options.phantom.size[k]);
   }
   geometry.spacing = options.phantom.spacing;
-  std::vector<LabelShape> labels;
-  labels.push_back({ 1, options.phantom.kind, voxels, std::move(shape) });
   ReportProgress(context.progress, "writing", 0.5);
   WriteLabelVolume(transaction.StageWithCompanions(options.output), geometry, labels);
   if (options.centreLines)
@@ -95,7 +100,8 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & context)
   ReportProgress(context.progress, "done", 1);
   transaction.Commit();
   return options.output.string() + ": " + options.phantom.kind + ", " + sizeText + " voxels, " +
-         std::to_string(voxels) + " of them in";
+         std::to_string(voxels) + " of them in" +
+         (labels.size() > 1 ? ", " + std::to_string(labels.size()) + " labels" : "");
 }
 
 } // namespace voxelcore

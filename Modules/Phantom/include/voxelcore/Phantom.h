@@ -1,6 +1,6 @@
 #pragma once
-// Synthetic voxel shapes whose answers are known: solids given by formulas, seeded noise, and a branching root system
-// with its centre lines.
+// Synthetic voxel shapes whose answers are known: solids given by formulas, seeded noise, a branching root system with its
+// centre lines, and a volume full of touching bodies.
 //
 // The same options give the same voxels on every machine: random numbers come from splitmix64, and no function of the
 // C library is used whose last bit may differ (of those that round, only sqrt).
@@ -38,7 +38,7 @@ struct PhantomOptions
   std::string                 kind;
   std::array<std::int32_t, 3> size{ 64, 64, 64 }; ///< voxels
   Vector3                     spacing{ 1, 1, 1 }; ///< mm
-  std::uint64_t               seed = 1;           ///< porous, noise, root
+  std::uint64_t               seed = 1;           ///< porous, noise, root, cells
   std::optional<double>       radius;             ///< mm
   std::optional<double>       thickness;          ///< mm
   std::optional<double>       period;             ///< mm: of the gyroid; distance of porous' grains
@@ -46,12 +46,19 @@ struct PhantomOptions
   std::optional<double>       detail;      ///< mm: smallest radius of a root; half a voxel's diagonal keeps it whole
   std::optional<int>          laterals;    ///< root: number of laterals on the stem
   std::optional<int>          subLaterals; ///< root: number of laterals on each of these
+  std::optional<int>          cells;       ///< cells: number of bodies
 };
 
-/** The voxels, in a box that begins at 0 and has the given size.
+/** The voxels, in a box that begins at 0 and has the given size; of cells, those of all bodies.
  *  \throws UsageError for an unknown kind or a value without sense; Cancelled when the callback says so. */
 VoxelShape
 MakePhantom(const PhantomOptions & options, const ProgressCallback & progress = {});
+
+/** The bodies of a phantom, each in its tight box: one, or those of `cells`, which fill the volume without overlap. A body
+ *  that lies wholly within others' share is left out, so that there may be a few less than were asked for.
+ *  \throws as MakePhantom */
+std::vector<VoxelShape>
+MakePhantomBodies(const PhantomOptions & options, const ProgressCallback & progress = {});
 
 /** A point of a known centre line. */
 struct CentreLinePoint
