@@ -325,7 +325,7 @@ MakeCells(const PhantomOptions & options, const ProgressCallback & progress)
     {
       if (first == 0)
       {
-        ReportProgress(progress, "sampling", static_cast<double>(slab) / static_cast<double>(last));
+        ReportProgress(progress, "sampling", 0.8 * static_cast<double>(slab) / static_cast<double>(last));
       }
       auto & mine = runs[first];
       mine.resize(tissue.BodyCount());
@@ -337,6 +337,10 @@ MakeCells(const PhantomOptions & options, const ProgressCallback & progress)
   std::vector<Run>        all;
   for (std::uint32_t body = 0; body < tissue.BodyCount(); ++body)
   {
+    if (body % 64 == 0)
+    {
+      ReportProgress(progress, "sampling", 0.8 + 0.2 * body / tissue.BodyCount());
+    }
     all.clear();
     for (auto & part : runs)
     {
