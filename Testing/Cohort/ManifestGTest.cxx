@@ -101,7 +101,7 @@ TEST_F(Manifest, FoldersOfIdsAreNamesOfLettersAndDigitsAndDifferentOnesNeverMeet
   {
     const std::string folder = CaseFolder(id);
     EXPECT_TRUE(folder.starts_with("sub-")) << folder;
-    EXPECT_EQ(folder.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789", 4),
+    EXPECT_EQ(folder.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_", 4),
               std::string::npos)
       << folder;
     EXPECT_GT(folder.size(), 4U);
@@ -110,6 +110,9 @@ TEST_F(Manifest, FoldersOfIdsAreNamesOfLettersAndDigitsAndDifferentOnesNeverMeet
   }
   EXPECT_EQ(CaseFolder("01"), "sub-01");
   EXPECT_EQ(CaseFolder("sub-01"), "sub-01");
+  EXPECT_EQ(CaseFolder("root_01"), "sub-root_01");
+  EXPECT_EQ(CaseFolder("site-2_B"), "sub-site-2_B");
+  EXPECT_TRUE(CaseFolder("site-2/seg").starts_with("sub-site-2_segx"));
 }
 
 TEST_F(Manifest, AHundredThousandRowsAreRead)
@@ -139,8 +142,13 @@ TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
   {
     WriteAll(m_Folder / file, "");
   }
+  for (const char * file : { "two/series.dcm", "two/readme.docx", "two/names.label", "stack/thumbs.db" })
+  {
+    WriteAll(m_Folder / file, "");
+  }
   std::map<std::string, std::filesystem::path> found;
-  for (const CohortCase & one : FindCases({ m_Folder.Path() }))
+  std::vector<std::filesystem::path>           passedOver;
+  for (const CohortCase & one : FindCases({ m_Folder.Path() }, {}, &passedOver))
   {
     found[one.id] = one.scan.lexically_relative(m_Folder.Path());
   }
@@ -150,6 +158,10 @@ TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
                                                            { "two/seg.nii.gz", "two/seg.nii.gz" },
                                                            { "stack", "stack" },
                                                            { "single/only", "single/only.tif" } }));
+  EXPECT_EQ(passedOver,
+            (std::vector<std::filesystem::path>{ m_Folder / "stack/thumbs.db",
+                                                 m_Folder / "two/readme.docx",
+                                                 m_Folder / "two/series.dcm" }));
   EXPECT_EQ(FindCases({ m_Folder / "*/seg.*" }).size(), 2U);
   EXPECT_EQ(FindCases({ m_Folder / "two", m_Folder / "two/seg.nrrd" }).size(), 2U); // the same file twice
   EXPECT_THROW(FindCases({ m_Folder / "none*" }), InputError);

@@ -220,8 +220,9 @@ BatchOptionsFrom(const ParameterValues & values)
 BatchResult
 RunBatchJob(const BatchOptions & options, const JobContext & context)
 {
+  std::vector<fs::path>   passedOver;
   std::vector<CohortCase> cases =
-    options.inputs.empty() ? std::vector<CohortCase>() : FindCases(options.inputs, options.output);
+    options.inputs.empty() ? std::vector<CohortCase>() : FindCases(options.inputs, options.output, &passedOver);
   if (options.only)
   {
     if (*options.only < 1 || *options.only > cases.size())
@@ -237,6 +238,7 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     const CohortSummary summary = GatherCohort(options.output, cases, context);
     result.cases = summary.cases;
     result.failed = summary.failed;
+    result.passedOver = std::move(passedOver);
     return result;
   }
   MakeOutput(options);
@@ -249,6 +251,7 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
   if (!options.only)
   {
     GatherCohort(options.output, cases, context);
+    result.passedOver = std::move(passedOver);
   }
   return result;
 }
@@ -280,6 +283,15 @@ BatchText(const BatchResult & result)
   for (const FailedCase & failed : result.failed)
   {
     text += "failed: " + failed.id + ": " + failed.reason + "\n";
+  }
+  constexpr std::size_t shown = 20;
+  for (std::size_t i = 0; i < std::min(shown, result.passedOver.size()); ++i)
+  {
+    text += "passed over, no scan that can be read: " + result.passedOver[i].string() + "\n";
+  }
+  if (result.passedOver.size() > shown)
+  {
+    text += "passed over: " + std::to_string(result.passedOver.size() - shown) + " more files\n";
   }
   return text;
 }

@@ -56,6 +56,7 @@ td.n { text-align: right; white-space: nowrap; }
 td.o { background: var(--mark); font-weight: 600; }
 td.o::after { content: attr(data-way); color: #8a5a00; }
 tr.failed td { background: #fdecea; }
+tr.more td.id:nth-child(2) { color: #a3acb8; }
 td.reason { color: var(--bad); overflow-wrap: anywhere; }
 td.id { overflow-wrap: anywhere; min-width: 11em; max-width: 22em; }
 td.w { color: var(--soft); font-size: 12px; }
@@ -108,11 +109,13 @@ const CHUNK = 150;
 const number = v => v === null ? "" : Number.isInteger(v) ? String(v) : Number(v.toPrecision(5)).toString();
 const cell = (tr, text, cls) => { const td = tr.insertCell(); td.textContent = text; if (cls) td.className = cls; return td; };
 const link = (td, name, file) => { const a = document.createElement("a"); a.textContent = name; a.href = encodeURI(file); td.append(a, " "); };
-function paintRow(row) {
+// Rows of one case that stand together show its picture, warnings and files once.
+function paintRow(row, goesOn) {
   const tr = document.createElement("tr");
   const picture = tr.insertCell();
   const c = row.c;
-  if (c.thumbnail) {
+  if (goesOn) tr.className = "more";
+  if (c.thumbnail && !goesOn) {
     const img = document.createElement("img");
     img.loading = "lazy"; img.alt = ""; img.src = c.folder + "/" + encodeURIComponent(c.thumbnail);
     if (c.view) {
@@ -140,19 +143,21 @@ function paintRow(row) {
   const count = Object.keys(l.outliers).length;
   cell(tr, count ? String(count) : "", "n");
   const warnings = cell(tr, "", "w");
-  if (c.warnings.length) {
+  if (c.warnings.length && !goesOn) {
     const div = document.createElement("div"); // four lines of it; all of it under the pointer
     warnings.title = div.textContent = c.warnings.join(" ");
     warnings.append(div);
   }
   const files = cell(tr, "", "files");
+  if (goesOn) return tr;
   if (c.view) link(files, "3-D view", c.folder + "/" + c.view);
   c.files.forEach(f => link(files, f[0], c.folder + "/" + f[1]));
   return tr;
 }
 function more() {
   const part = document.createDocumentFragment();
-  for (const row of shown.slice(painted, painted + CHUNK)) part.append(paintRow(row));
+  shown.slice(painted, painted + CHUNK).forEach((row, i) =>
+    part.append(paintRow(row, painted + i > 0 && shown[painted + i - 1].c === row.c)));
   painted = Math.min(shown.length, painted + CHUNK);
   byId("rows").append(part);
 }

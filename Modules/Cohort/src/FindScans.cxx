@@ -53,15 +53,27 @@ IsImage(const fs::path & path)
   return EndsInOneOf(path, { ".tif", ".tiff", ".png" });
 }
 
+/** Whether a file is read together with the scan beside it: its voxels, the names of its labels, its description. */
+bool
+BelongsToAScan(const fs::path & path)
+{
+  return EndsInOneOf(
+    path,
+    { ".raw", ".raw.gz", ".zraw", ".img", ".img.gz", ".bval", ".bvec", ".json", ".txt", ".label", ".ctab", ".lut" });
+}
+
 bool
 IsManifest(const fs::path & path)
 {
   return EndsInOneOf(path, { ".csv", ".tsv" });
 }
 
-/** All scans below a folder, without those below `output`. */
+/** All scans below a folder, without those below `output`; and what is none. */
 void
-Walk(const fs::path & folder, const fs::path & output, std::vector<fs::path> & scans)
+Walk(const fs::path &        folder,
+     const fs::path &        output,
+     std::vector<fs::path> & scans,
+     std::vector<fs::path> & passedOver)
 {
   std::error_code notThere;
   if (fs::equivalent(folder, output, notThere))
@@ -85,7 +97,7 @@ Walk(const fs::path & folder, const fs::path & output, std::vector<fs::path> & s
     {
       if (!fs::is_symlink(entry)) // a link upwards would never end
       {
-        Walk(entry, output, scans);
+        Walk(entry, output, scans, passedOver);
       }
     }
     else if (IsVolume(entry))
@@ -95,6 +107,10 @@ Walk(const fs::path & folder, const fs::path & output, std::vector<fs::path> & s
     else if (IsImage(entry))
     {
       images.push_back(entry);
+    }
+    else if (!BelongsToAScan(entry))
+    {
+      passedOver.push_back(entry);
     }
   }
   if (images.size() == 1)
@@ -129,13 +145,16 @@ IdBelow(const fs::path & folder, const fs::path & scan)
 }
 
 void
-AddInput(const fs::path & input, const fs::path & output, std::vector<Found> & found)
+AddInput(const fs::path &        input,
+         const fs::path &        output,
+         std::vector<Found> &    found,
+         std::vector<fs::path> & passedOver)
 {
   if (fs::is_directory(input))
   {
     const fs::path        folder = input.has_filename() ? input : input.parent_path();
     std::vector<fs::path> scans;
-    Walk(folder, output, scans);
+    Walk(folder, output, scans, passedOver);
     if (scans.empty())
     {
       throw InputError(input.string() + ": no scan in this folder");
@@ -196,11 +215,12 @@ TellApart(std::vector<Found> & found)
 } // namespace
 
 std::vector<CohortCase>
-FindCases(const std::vector<fs::path> & inputs, const fs::path & output)
+FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::vector<fs::path> * passedOver)
 {
   std::vector<CohortCase> cases;
   std::vector<Found>      found;
   std::set<fs::path>      known;
+  std::vector<fs::path>   others;
   for (const fs::path & input : inputs)
   {
     if (IsManifest(input) && !fs::is_directory(input))
@@ -210,11 +230,15 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output)
     }
     else
     {
-      AddInput(input, output, found);
+      AddInput(input, output, found, others);
     }
   }
   std::erase_if(found,
                 [&](const Found & one) { return !known.insert(fs::absolute(one.scan).lexically_normal()).second; });
+  if (passedOver != nullptr)
+  {
+    *passedOver = std::move(others);
+  }
   TellApart(found);
   for (Found & one : found)
   {

@@ -72,6 +72,18 @@ Joined(const std::vector<std::string> & lines)
   return text;
 }
 
+/** Label values as one field, so that atlases do not give a column a label. */
+std::string
+Joined(const Json & values)
+{
+  std::string text;
+  for (const Json & value : values)
+  {
+    text += (text.empty() ? "" : " ") + value.dump();
+  }
+  return text;
+}
+
 /** None when it is missing or damaged. */
 Json
 ReadReport(const fs::path & path)
@@ -165,7 +177,8 @@ GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, 
       {
         labelRows.push_back(LabelRow(name, record, label));
       }
-      Flatten(report, "", { "labels" }, row);
+      row["parameters_labels"] = Joined(report.at("parameters").value("labels", Json::array()));
+      Flatten(report, "", { "labels", "parameters_labels" }, row);
     }
     else
     {

@@ -202,7 +202,13 @@ CaseFolder(const std::string & id)
   constexpr std::size_t kLongest = 64;
   const std::string     own = id.starts_with("sub-") && id.size() > 4 ? id.substr(4) : id;
   std::string           kept;
-  std::copy_if(own.begin(), own.end(), std::back_inserter(kept), IsLetterOrDigit);
+  for (const char c : own)
+  {
+    if (IsLetterOrDigit(c) || c == '-' || c == '_' || c == '/')
+    {
+      kept += c == '/' ? '_' : c;
+    }
+  }
   if (kept == own && own.size() <= kLongest)
   {
     return "sub-" + own;

@@ -42,6 +42,8 @@ struct BatchResult
   std::size_t             kept = 0; ///< of these were done already
   std::vector<FailedCase> failed;
   double                  seconds = 0;
+
+  std::vector<std::filesystem::path> passedOver; ///< files in the folders given that are no scans
 };
 
 /** \throws UsageError, InputError (the cases that were named) */

@@ -17,7 +17,8 @@ struct CohortSummary
 };
 
 /** Writes, all at once, from the records and reports of the cases in `folder` (whichever batch made them):
- *  - cases.csv: a row per case: id, status, reason, and every number and word of its report outside its labels;
+ *  - cases.csv: a row per case: id, status, reason, and every number and word of its report outside its labels, whose values
+ *    stand in one column;
  *  - labels.csv: a row per case and label with every number of the report's label (of `cuts` only how many there are), and
  *    `outliers`: FindOutliers();
  *  - dataset_description.json, of BIDS derivatives;

@@ -19,9 +19,9 @@ struct CohortCase
   ParameterValues       values; ///< options of `voxelcore core` that hold for this case alone
 };
 
-/** The folder of a case, "sub-" and the id as letters and digits (BIDS). An id that has anything else, or more than 64
- *  characters, loses that and gets "x" and eight digits of its SHA-256, so that different ids never meet in one folder. A
- *  leading "sub-" of the id is dropped. */
+/** The folder of a case: "sub-" and the id, which keeps its letters, digits, "-" and "_". An id with other characters, or
+ *  more than 64, loses these ("/" becomes "_") and gets "x" and eight digits of its SHA-256, so that different ids never
+ *  meet in one folder. A leading "sub-" of the id is dropped. */
 std::string
 CaseFolder(const std::string & id);
 
@@ -37,10 +37,13 @@ ReadManifest(const std::filesystem::path & manifest);
 /** The cases that `inputs` stand for, in their order: manifests (.csv, .tsv); scans; patterns (`*`, `?`, `[..]`), of
  *  which each match is a scan; folders, in which scans are looked for at any depth, sorted by path. A folder that holds
  *  several .tif or .png directly is one scan, a stack of slices. The ids of scans that are not in a manifest are their
- *  names; those found below a folder have the folders between in front. The same file twice is one case. The folder `output`, where results go, is
- *  passed over.
+ *  names; those found below a folder have the folders between in front. The same file twice is one case. The folder
+ *  `output`, where results go, is passed over. Files in folders that are neither a scan nor belong to one are added to
+ *  `passedOver`.
  *  \throws InputError for an input that does not exist, a pattern or folder without scans, two cases with one id. */
 std::vector<CohortCase>
-FindCases(const std::vector<std::filesystem::path> & inputs, const std::filesystem::path & output = {});
+FindCases(const std::vector<std::filesystem::path> & inputs,
+          const std::filesystem::path &              output = {},
+          std::vector<std::filesystem::path> *       passedOver = nullptr);
 
 } // namespace voxelcore
