@@ -187,6 +187,8 @@ TEST_F(BatchCommand, HostileIdsStayInTheOutputFolder)
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(m_Folder / "out"), {}), 4 + std::ptrdiff_t(ids.size()));
   const std::string table = ReadAll(m_Folder / "out/cases.csv");
   EXPECT_THAT(table, HasSubstr("\n'=cmd|"));
+  EXPECT_THAT(table, HasSubstr(",parameters_labels,"));
+  EXPECT_THAT(table, ::testing::Not(HasSubstr("parameters_labels_0"))); // an atlas has hundreds
   EXPECT_THAT(table, HasSubstr("日本"));
   EXPECT_THAT(ReadAll(m_Folder / "out/index.html"), ::testing::Not(HasSubstr("<b>x")));
 }
