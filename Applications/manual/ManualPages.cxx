@@ -3,6 +3,7 @@
 #include "voxelcore/CoreReport.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace voxelcore
 {
@@ -112,14 +113,20 @@ ProgramManual()
 std::string
 CommandManual(const Command & command)
 {
-  std::string text = Head("voxelcore-" + std::string(command.name), command.description);
-  std::string synopsis = ".B voxelcore " + Roff(command.name) + "\n";
-  std::string options;
+  std::string                   text = Head("voxelcore-" + std::string(command.name), command.description);
+  std::string                   synopsis = ".B voxelcore " + Roff(command.name) + "\n";
+  std::string                   options;
+  std::optional<ParameterGroup> group;
   for (const Parameter & parameter : Parameters())
   {
     if (!BelongsTo(parameter, command.id))
     {
       continue;
+    }
+    if (group != parameter.group)
+    {
+      group = parameter.group;
+      options += ".SS " + Roff(GroupHeading(*group)) + "\n";
     }
     const auto        flags = FlagsOf(parameter);
     const std::string value = Roff(parameter.placeholder);

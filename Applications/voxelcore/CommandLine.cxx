@@ -1,5 +1,7 @@
 #include "CommandLine.h"
 
+#include "HelpFormatter.h"
+#include "UnknownNames.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/Error.h"
 
@@ -13,9 +15,10 @@ namespace
 {
 
 constexpr const char * kFooter = R"(
-'voxelcore COMMAND --help' tells more, with examples. Lengths are in mm, positions in files are LPS.
-Exit codes: 0 done; 1 failed, e.g. unwritable output; 2 wrong usage; 3 input unreadable or unfit; 4 a certificate failed
-or 'verify' disagrees; 130 interrupted. Results appear complete or not at all.
+'voxelcore COMMAND --help' explains a command, with examples. Lengths are in mm, positions in files are LPS.
+Results appear complete or not at all.
+Exit codes: 0 done; 1 failed, such as a full disk; 2 wrong usage; 3 input unreadable or unfit; 4 a certificate failed or
+'verify' disagrees; 130 interrupted.
 Example: voxelcore core scan.nii.gz -o medial.vtp)";
 
 std::string
@@ -41,10 +44,12 @@ AddParameter(CLI::App & app, const Parameter & parameter, ParameterValues & valu
   const std::string description(parameter.description);
   if (parameter.kind == ParameterKind::Flag)
   {
-    app.add_flag_callback(
-      std::string(parameter.flags),
-      [&values, name] { values[name] = "true"; },
-      description);
+    app
+      .add_flag_callback(
+        std::string(parameter.flags),
+        [&values, name] { values[name] = "true"; },
+        description)
+      ->group(std::string(GroupHeading(parameter.group)));
     return;
   }
   if (parameter.kind == ParameterKind::Inputs)
@@ -69,7 +74,7 @@ AddParameter(CLI::App & app, const Parameter & parameter, ParameterValues & valu
     [&values, name](const std::string & value) { values[name] = value; },
     description);
   option->type_name(parameter.flags.empty() ? "" : std::string(parameter.placeholder));
-  option->required(parameter.required);
+  option->required(parameter.required)->group(std::string(GroupHeading(parameter.group)));
   if (!parameter.defaultValue.empty())
   {
     option->default_str(std::string(parameter.defaultValue));
@@ -97,12 +102,15 @@ ParseCommandLine(int argc, char ** argv)
   app.set_version_flag("--version", VersionText());
   app.footer(kFooter);
   app.require_subcommand(0, 1);
-  app.get_formatter()->column_width(34);
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_help_flag("-h,--help", "Print this help");
+  app.get_option("--version")->description("Print version, engines and libraries");
   std::map<CommandId, CLI::App *> commands;
   for (const Command & command : Commands())
   {
     CLI::App * sub = app.add_subcommand(std::string(command.name), std::string(command.description));
-    sub->footer("\n" + std::string(command.footer));
+    sub->group("Commands")->footer("\n" + std::string(command.footer));
+    sub->set_help_flag(); // added last: groups appear in the order of their first option
     commands[command.id] = sub;
     for (const Parameter & parameter : Parameters())
     {
@@ -111,7 +119,9 @@ ParseCommandLine(int argc, char ** argv)
         AddParameter(*sub, parameter, line.values);
       }
     }
+    sub->set_help_flag("-h,--help", "Print this help")->group(std::string(GroupHeading(ParameterGroup::Running)));
   }
+  RequireKnownNames(argc, argv);
   std::string helpHint = "; see 'voxelcore --help'";
   try
   {

@@ -274,8 +274,10 @@ Dispatch(const Run & run)
 }
 
 ProgressPrinter::Style
-StyleOf(const std::string & word, bool quiet, const Console & console)
+StyleOf(const CommandLine & line, bool quiet, const Console & console)
 {
+  const std::string word =
+    line.values.contains("progress") ? ChoiceOf(line.values, *line.command, "progress") : std::string();
   if (word == "plain")
   {
     return ProgressPrinter::Style::Plain;
@@ -283,10 +285,6 @@ StyleOf(const std::string & word, bool quiet, const Console & console)
   if (word == "json")
   {
     return ProgressPrinter::Style::Json;
-  }
-  if (word != "bar" && !word.empty() && word != "none")
-  {
-    throw UsageError("--progress " + word + ": expected one of bar|plain|json|none");
   }
   return word != "none" && !quiet && console.ErrorIsTerminal() ? ProgressPrinter::Style::Bar
                                                                : ProgressPrinter::Style::None;
@@ -307,7 +305,7 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
   {
     omp_set_num_threads(threads);
   }
-  ProgressPrinter printer(console, StyleOf(ValueOf(line.values, *line.command, "progress"), quiet, console));
+  ProgressPrinter printer(console, StyleOf(line, quiet, console));
   JobContext      context;
   context.temporaries = &temporaries;
   context.progress = [&printer](std::string_view stage, double fraction) {

@@ -127,7 +127,7 @@ def run_examples(command, text, drawn):
 def main():
     program, readme = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     helps = {"": run(program, "--help").stdout}
-    commands = re.findall(r"^  ([a-z]+) ", re.search(r"^Subcommands:\n(.*?)(\n\n|\Z)", helps[""], re.M | re.S)[1], re.M)
+    commands = re.findall(r"^  ([a-z]+) ", re.search(r"^Commands:\n(.*?)(\n\n|\Z)", helps[""], re.M | re.S)[1], re.M)
     check(len(commands) >= 11, "commands: %s" % commands)
     helps.update((command, run(program, command, "--help").stdout) for command in commands)
 

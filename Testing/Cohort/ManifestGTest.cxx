@@ -53,6 +53,37 @@ TEST_F(Manifest, ColumnsAreOptionsOfCore)
   EXPECT_EQ(cases[1].values, (ParameterValues{ { "with-skeleton", "true" }, { "binary", "true" } }));
 }
 
+TEST_F(Manifest, SemicolonsAndTabsSeparateColumnsToo)
+{
+  const auto commas = Read("id,scan,labels,note\na,x.nii,\"1,4\",\"one; two\"\n");
+  for (const char * text : { "id;scan;labels;note\na;x.nii;1,4;\"one; two\"\n",
+                             "\xEF\xBB\xBFid;scan;labels;note\r\na;x.nii;\"1,4\";\r\n",
+                             "id\tscan\tlabels\tnote\na\tx.nii\t1,4\tone; two\n" })
+  {
+    const auto cases = Read(text);
+    ASSERT_EQ(cases.size(), 1U) << text;
+    EXPECT_EQ(cases[0].id, "a");
+    EXPECT_EQ(cases[0].scan, commas[0].scan);
+    EXPECT_EQ(cases[0].values, commas[0].values);
+  }
+}
+
+TEST_F(Manifest, DecimalCommasOfSemicolonTablesAreNotTakenForTwoValues)
+{
+  EXPECT_THAT(Refusal("id;scan;lambda\na;b;1,5vox\n"),
+              HasSubstr("line 2: lambda: '1,5vox' may be a decimal comma; write 1.5vox"));
+  EXPECT_THAT(Refusal("id;scan;bumps\na;b;1,2diag\n"), HasSubstr("write 1.2diag"));
+  EXPECT_EQ(Read("id;scan;lambda\na;b;1vox,5vox\n")[0].values.at("lambda"), "1vox,5vox");
+  EXPECT_EQ(Read("id,scan,lambda\na,b,\"1,5vox\"\n")[0].values.at("lambda"), "1,5vox");
+}
+
+TEST_F(Manifest, MistypedColumnsSuggestTheNearest)
+{
+  EXPECT_THAT(Refusal("id,scan,lamda\na,b,1\n"), HasSubstr("'lamda' is not known; did you mean 'lambda'?"));
+  EXPECT_THAT(Refusal("id,scn\na,b\n"), HasSubstr("did you mean 'scan'?"));
+  EXPECT_THAT(Refusal("id,scan,favourite\na,b,1\n"), HasSubstr("columns are id, scan, note and the options labels, "));
+}
+
 TEST_F(Manifest, WhatCannotBeUnderstoodIsRefusedWithFileAndLine)
 {
   EXPECT_THAT(Refusal(""), HasSubstr("m.csv: is empty"));

@@ -149,6 +149,8 @@ TEST(Labels, AreChosenByValueAndByName)
   ExpectRefused(path, { "there is no label '9'", "1 Liver, 2 Left kidney, 7 Spleen" }, options);
   options.labels = "1,Heart";
   ExpectRefused(path, { "there is no label 'Heart'" }, options);
+  options.labels = "spleeen";
+  ExpectRefused(path, { "there is no label 'spleeen'", "did you mean 'Spleen'?" }, options);
   for (const char * bad : { "", "1,,2", "0", "-3" })
   {
     options.labels = bad;
@@ -187,6 +189,30 @@ TEST(Labels, BinaryUnitesWhatWasChosen)
   volume = ReadLabelVolume(path, options);
   ASSERT_EQ(volume.labels.size(), 1U);
   EXPECT_EQ(volume.labels[0].voxels, 2U);
+}
+
+TEST(LabelNames, IgnoreCaseUnlessALabelIsCalledExactlySo)
+{
+  const TempFolder          folder;
+  std::vector<std::uint8_t> values(24, 0);
+  values[1] = 1;
+  values[2] = 2;
+  values[7] = 7;
+  const auto path = WriteVolume(folder, "uint8", { 4, 3, 2 }, values);
+  folder.Write("scan.nrrd.txt", "1 Liver\n2 LIVER\n7 Spleen\n");
+  const auto read = [&](const std::string & labels) {
+    ReadOptions options;
+    options.labels = labels;
+    std::vector<std::int64_t> found;
+    for (const LabelShape & label : ReadLabelVolume(path, options).labels)
+    {
+      found.push_back(label.value);
+    }
+    return found;
+  };
+  EXPECT_EQ(read("sPLEEN"), (std::vector<std::int64_t>{ 7 }));
+  EXPECT_EQ(read("LIVER"), (std::vector<std::int64_t>{ 2 }));
+  EXPECT_EQ(read("liver"), (std::vector<std::int64_t>{ 1, 2 }));
 }
 
 TEST(LabelNames, ComeFromTheListBesideTheScan)

@@ -10,7 +10,7 @@ fail() {
   exit 1
 }
 
-commands=$("$program" --help | sed -n '/^Subcommands:/,/^$/p' | awk '/^  [a-z]/ {print $1}')
+commands=$("$program" --help | sed -n '/^Commands:/,/^$/p' | awk '/^  [a-z]/ {print $1}')
 [ "$(wc -w <<<"$commands")" -ge 7 ] || fail "which commands are there? $commands"
 for page in voxelcore $(sed 's/^/voxelcore-/' <<<"$commands"); do
   [ -s "$folder/$page.1" ] || fail "no page $page.1"

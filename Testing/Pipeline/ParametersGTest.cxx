@@ -1,6 +1,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <limits>
 #include <set>
@@ -47,6 +48,95 @@ TEST(ParameterTable, NamesAndFlagsAreUniqueWithinACommand)
     EXPECT_NE(command.footer.find("voxelcore " + std::string(command.name)), std::string_view::npos)
       << command.name << " has no example";
   }
+}
+
+TEST(ParameterTable, OptionsOfAGroupStandTogetherInTheOrderOfTheHeadings)
+{
+  std::set<std::string_view> headings;
+  ParameterGroup             last = ParameterGroup::Input;
+  for (const Parameter & parameter : Parameters())
+  {
+    EXPECT_LE(last, parameter.group) << parameter.name;
+    last = parameter.group;
+    headings.insert(GroupHeading(parameter.group));
+  }
+  EXPECT_EQ(headings.size(), 10U);
+}
+
+/** "--words" in a text. */
+std::set<std::string>
+OptionsNamedIn(std::string_view text)
+{
+  std::set<std::string> names;
+  for (std::size_t at = 0; (at = text.find("--", at)) != std::string_view::npos;)
+  {
+    const std::size_t end = std::min(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at), text.size());
+    names.emplace(text.substr(at, end - at));
+    at = end;
+  }
+  return names;
+}
+
+TEST(ParameterTable, DescriptionsNameOnlyOptionsTheirCommandHas)
+{
+  for (const Command & command : Commands())
+  {
+    std::set<std::string> own;
+    for (const Parameter & parameter : Parameters())
+    {
+      if (BelongsTo(parameter, command.id))
+      {
+        own.merge(OptionsNamedIn(parameter.flags));
+      }
+    }
+    for (const Parameter & parameter : Parameters())
+    {
+      for (const std::string & named : OptionsNamedIn(parameter.description))
+      {
+        EXPECT_TRUE(!BelongsTo(parameter, command.id) || own.contains(named))
+          << command.name << " --help: " << parameter.flags << " speaks of " << named;
+      }
+    }
+  }
+}
+
+/** What a refusal says; empty without one. */
+template <typename TCall>
+std::string
+Refused(const TCall & call)
+{
+  try
+  {
+    call();
+  }
+  catch (const UsageError & error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Parameters, MistypedWordsOfAChoiceSuggestTheNearest)
+{
+  EXPECT_EQ(Refused([] {
+              CoreOptionsFrom(CoreValues({ { "refine", "label" } }));
+            }),
+            "--refine label: expected one of off|labels|grey|mesh; did you mean 'labels'?");
+  EXPECT_EQ(Refused([] {
+              CoreOptionsFrom(CoreValues({ { "engine", "latice" } }));
+            }),
+            "--engine latice: expected one of auto|lattice|tetgen; did you mean 'lattice'?");
+  EXPECT_EQ(Refused([] {
+              RenderOptionsFrom({ { "files", "a.vtp" }, { "output", "a.png" }, { "view", "frnot" } });
+            }),
+            "--view frnot: expected one of front|top|iso|auto; did you mean 'front'?");
+  EXPECT_EQ(Refused([] { ParseRoot("thikest"); }),
+            "--root thikest: expected top, thickest, or a point in LPS mm such as 12.5,-30,101; did you mean "
+            "'thickest'?");
+  EXPECT_EQ(Refused([] {
+              CoreOptionsFrom(CoreValues({ { "refine", "xyz" } }));
+            }),
+            "--refine xyz: expected one of off|labels|grey|mesh");
 }
 
 TEST(Parameters, DefaultsAreThoseOfTheTable)
@@ -127,12 +217,8 @@ TEST(Parameters, ACropIsReadAsRangesWithOpenEnds)
 TEST(Parameters, EditsArriveWhereTheyBelong)
 {
   EXPECT_FALSE(CoreOptionsFrom(CoreValues({})).edits.AreAsked());
-  const ParameterValues  given{ { "min-voxels", "20" },
-                               { "largest", "2" },
-                               { "fill-cavities", "true" },
-                               { "mend-shape", "true" },
-                               { "smooth-shape", "true" },
-                               { "split-components", "true" } };
+  const ParameterValues  given{ { "min-voxels", "20" },   { "largest", "2" },         { "fill-cavities", "true" },
+                               { "mend-shape", "true" }, { "smooth-shape", "true" }, { "split-components", "true" } };
   const ShapeEditOptions core = CoreOptionsFrom(CoreValues(given)).edits;
   const ShapeEditOptions info = InfoOptionsFrom(CoreValues(given)).edits;
   for (const ShapeEditOptions & edits : { core, info })

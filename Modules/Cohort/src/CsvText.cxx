@@ -2,6 +2,9 @@
 
 #include "voxelcore/Error.h"
 
+#include <algorithm>
+#include <array>
+
 namespace voxelcore
 {
 
@@ -102,6 +105,31 @@ ParseCsv(std::string_view text, const std::string & where, char separator)
   }
   endRow();
   return rows;
+}
+
+char
+FindSeparator(std::string_view text)
+{
+  constexpr std::string_view separators = ",;\t";
+  std::array<int, 3>         counts{};
+  bool                       quoted = false;
+  bool                       begun = false;
+  for (const char c : text)
+  {
+    if (begun && !quoted && (c == '\n' || c == '\r'))
+    {
+      break;
+    }
+    begun = begun || (c != '\n' && c != '\r');
+    quoted = quoted != (c == '"');
+    const std::size_t which = quoted ? std::string_view::npos : separators.find(c);
+    if (which != std::string_view::npos)
+    {
+      ++counts[which];
+    }
+  }
+  const auto most = std::max_element(counts.begin(), counts.end()); // the first of several: a comma where there is none
+  return separators[static_cast<std::size_t>(most - counts.begin())];
 }
 
 std::string

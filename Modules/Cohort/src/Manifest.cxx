@@ -1,6 +1,7 @@
 #include "voxelcore/Manifest.h"
 
 #include "voxelcore/CsvText.h"
+#include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Sha256.h"
 
@@ -97,7 +98,8 @@ RoleOf(const std::string & head, const std::string & where)
   {
     return { name == "scan" ? Column::Scan : Column::Note, nullptr };
   }
-  std::string known;
+  std::string                   known;
+  std::vector<std::string_view> names{ "id", "scan", "note" };
   for (const Parameter & parameter : Parameters())
   {
     // What the batch has in common with `core` describes a case.
@@ -108,10 +110,13 @@ RoleOf(const std::string & head, const std::string & where)
       {
         return { Column::Option, &parameter };
       }
-      known += " " + std::string(parameter.name);
+      known += (known.empty() ? "" : ", ") + std::string(parameter.name);
+      names.push_back(parameter.name);
     }
   }
-  throw InputError(where + ": column '" + head + "' is not known; there are id, scan, note and the options" + known);
+  const std::string nearest = DidYouMean(name, names);
+  throw InputError(where + ": column '" + head + "' is not known" +
+                   (nearest.empty() ? "; columns are id, scan, note and the options " + known : nearest));
 }
 
 std::vector<ColumnRole>
@@ -159,8 +164,28 @@ FlagValue(const std::string & text, const std::string & where)
   throw InputError(where + ": '" + text + "': expected yes or no");
 }
 
+/** Spreadsheets that separate fields by semicolons write 1,5 for 1.5, which would be two values. */
+void
+RefuseDecimalComma(const std::string & name, const std::string & text, const std::string & where)
+{
+  const std::size_t comma = text.find(',');
+  const auto        isDigit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+  if ((name == "lambda" || name == "bumps") && comma != std::string::npos && comma > 0 && isDigit(comma - 1) &&
+      isDigit(comma + 1) && text.substr(0, comma).find_first_not_of("0123456789") == std::string::npos)
+  {
+    std::string point = text;
+    point[comma] = '.';
+    throw InputError(where + ": " + name + ": '" + text + "' may be a decimal comma; write " + point +
+                     ", or give each of several values its unit");
+  }
+}
+
 CohortCase
-CaseFrom(const CsvRow & row, const std::vector<ColumnRole> & roles, const fs::path & folder, const std::string & where)
+CaseFrom(const CsvRow &                  row,
+         const std::vector<ColumnRole> & roles,
+         const fs::path &                folder,
+         const std::string &             where,
+         char                            separator)
 {
   CohortCase one;
   if (row.fields.size() != roles.size())
@@ -182,6 +207,10 @@ CaseFrom(const CsvRow & row, const std::vector<ColumnRole> & roles, const fs::pa
     else if (roles[i].kind == Column::Option && !text.empty())
     {
       const Parameter & option = *roles[i].option;
+      if (separator == ';')
+      {
+        RefuseDecimalComma(std::string(option.name), text, where);
+      }
       one.values[std::string(option.name)] =
         option.kind == ParameterKind::Flag ? FlagValue(text, where + ": " + std::string(option.name)) : text;
     }
@@ -220,7 +249,9 @@ std::vector<CohortCase>
 ReadManifest(const fs::path & manifest)
 {
   const std::string name = manifest.string();
-  const auto rows = ParseCsv(ReadText(manifest), name, Lower(manifest.extension().string()) == ".tsv" ? '\t' : ',');
+  const std::string text = ReadText(manifest);
+  const char        separator = Lower(manifest.extension().string()) == ".tsv" ? '\t' : FindSeparator(text);
+  const auto        rows = ParseCsv(text, name, separator);
   if (rows.empty())
   {
     throw InputError(name + ": is empty; the first line must name the columns, such as id,scan,lambda");
@@ -231,7 +262,7 @@ ReadManifest(const fs::path & manifest)
   for (std::size_t i = 1; i < rows.size(); ++i)
   {
     const std::string where = name + ": line " + std::to_string(rows[i].line);
-    cases.push_back(CaseFrom(rows[i], roles, manifest.parent_path(), where));
+    cases.push_back(CaseFrom(rows[i], roles, manifest.parent_path(), where, separator));
     const auto [first, fresh] = lines.emplace(cases.back().folder, rows[i].line);
     if (!fresh)
     {

@@ -1,5 +1,6 @@
 #include "LabelNames.h"
 #include "TextFields.h"
+#include "voxelcore/DidYouMean.h"
 
 #include <algorithm>
 #include <fstream>
@@ -49,9 +50,10 @@ ReadLines(const std::filesystem::path & path)
 }
 
 bool
-IsMeant(const std::string & wish, const LabelBook::Label & label)
+IsMeant(const LabelBook::Wish & wish, const LabelBook::Label & label)
 {
-  return ParseInteger(wish) == label.value || wish == label.name;
+  return ParseInteger(wish.text) == label.value || wish.text == label.name ||
+         (wish.anyCase && EqualIgnoringCase(wish.text, label.name));
 }
 
 } // namespace
@@ -252,7 +254,10 @@ LabelBook::LabelBook(const ScanFile & scan, const ReadOptions & options)
       throw UsageError(
         Text("--labels '", Printable(options.labels), "': give all, or values above 0 or names (0 is background)"));
     }
-    m_Wishes.push_back(std::move(wish));
+    const bool isName =
+      std::any_of(m_Segments.begin(), m_Segments.end(), [&](const auto & s) { return s.second.name == wish; }) ||
+      std::any_of(m_Names.begin(), m_Names.end(), [&](const auto & n) { return n.second.name == wish; });
+    m_Wishes.push_back({ std::move(wish), !isName });
     at = comma + 1;
   }
 }
@@ -284,7 +289,7 @@ bool
 LabelBook::IsWanted(const Label & label) const
 {
   return m_All ||
-         std::any_of(m_Wishes.begin(), m_Wishes.end(), [&](const std::string & wish) { return IsMeant(wish, label); });
+         std::any_of(m_Wishes.begin(), m_Wishes.end(), [&](const Wish & wish) { return IsMeant(wish, label); });
 }
 
 void
@@ -292,14 +297,19 @@ LabelBook::RefuseMissing(const std::filesystem::path & path,
                          const std::vector<Label> &    present,
                          const std::string &           where) const
 {
-  for (const std::string & wish : m_Wishes)
+  for (const Wish & wish : m_Wishes)
   {
     if (std::any_of(present.begin(), present.end(), [&](const Label & label) { return IsMeant(wish, label); }))
     {
       continue;
     }
-    constexpr std::size_t shown = 12;
-    std::string           list;
+    constexpr std::size_t         shown = 12;
+    std::string                   list;
+    std::vector<std::string_view> names;
+    for (const Label & label : present)
+    {
+      names.emplace_back(label.name);
+    }
     for (std::size_t i = 0; i < std::min(shown, present.size()); ++i)
     {
       list += Text(i == 0 ? "" : ", ", present[i].value);
@@ -309,8 +319,11 @@ LabelBook::RefuseMissing(const std::filesystem::path & path,
       }
     }
     Refuse(path,
-           Text("there is no label '", Printable(wish), "'", where),
-           Text("it has ", list, present.size() > shown ? Text(" and ", present.size() - shown, " more") : ""));
+           Text("there is no label '", Printable(wish.text), "'", where),
+           Text("it has ",
+                list,
+                present.size() > shown ? Text(" and ", present.size() - shown, " more") : "",
+                Printable(DidYouMean(wish.text, names))));
   }
 }
 

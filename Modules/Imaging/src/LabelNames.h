@@ -41,6 +41,13 @@ public:
     std::optional<std::array<double, 3>> color{}; ///< as LabelShape::color
   };
 
+  /** A value or name that was asked for. */
+  struct Wish
+  {
+    std::string text;
+    bool        anyCase = false; ///< no label is called exactly so: upper and lower case are one
+  };
+
   /** \throws UsageError when options.labels makes no sense. */
   LabelBook(const ScanFile & scan, const ReadOptions & options);
 
@@ -73,7 +80,7 @@ private:
   bool                                                  m_Renumbered = false;
   bool                                                  m_All = false;
   std::set<std::int64_t>                                m_Given;
-  std::vector<std::string>                              m_Wishes;
+  std::vector<Wish>                                     m_Wishes;
 };
 
 } // namespace voxelcore

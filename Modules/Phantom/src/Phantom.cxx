@@ -2,6 +2,7 @@
 
 #include "Kinds.h"
 
+#include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>
@@ -149,12 +150,15 @@ MakePhantom(const PhantomOptions & options, const ProgressCallback & progress)
   {
     return Union(options, MakeCells(options, progress));
   }
-  std::string names;
+  std::string                   list;
+  std::vector<std::string_view> names;
   for (const PhantomKind & kind : kKinds)
   {
-    names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    list += (list.empty() ? "" : ", ") + std::string(kind.name);
+    names.push_back(kind.name);
   }
-  throw UsageError("there is no phantom '" + options.kind + "'; the kinds are " + names);
+  throw UsageError("there is no phantom '" + options.kind + "'; the kinds are " + list +
+                   DidYouMean(options.kind, names));
 }
 
 std::vector<VoxelShape>

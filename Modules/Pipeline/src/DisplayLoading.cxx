@@ -2,6 +2,7 @@
 
 #include "JobTools.h"
 #include "voxelcore/CoreReport.h"
+#include "voxelcore/DidYouMean.h"
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ErosionThickness.h"
@@ -56,8 +57,10 @@ public:
     bool taken = m_Wishes.empty();
     for (const std::string & word : { std::to_string(label), name, name.substr(0, name.rfind('#')) })
     {
-      taken = taken || m_Wishes.contains(word);
-      m_Open.erase(word);
+      const auto meant = [&](const std::string & wish) { return EqualIgnoringCase(wish, word); };
+      taken = taken || std::any_of(m_Wishes.begin(), m_Wishes.end(), meant);
+      std::erase_if(m_Open, meant);
+      m_Names.insert(word);
     }
     return taken;
   }
@@ -67,13 +70,16 @@ public:
   {
     if (!m_Open.empty())
     {
-      throw InputError("there is no label '" + *m_Open.begin() + "' in the files given");
+      const std::vector<std::string_view> names(m_Names.begin(), m_Names.end());
+      throw InputError("there is no label '" + *m_Open.begin() + "' in the files given" +
+                       DidYouMean(*m_Open.begin(), names));
     }
   }
 
 private:
   std::set<std::string> m_Wishes;
   std::set<std::string> m_Open;
+  std::set<std::string> m_Names; ///< of all labels seen
 };
 
 bool

@@ -1,14 +1,17 @@
 #pragma once
 // The values given to a command, read by kind.
 
+#include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 namespace voxelcore
 {
@@ -113,11 +116,18 @@ public:
   std::string
   Choice(std::string_view name) const
   {
-    const std::string text = Text(name);
-    const auto        words = "|" + std::string(Describe(name).placeholder) + "|";
-    if (text.empty() || text.find('|') != std::string::npos || words.find("|" + text + "|") == std::string::npos)
+    const std::string             text = Text(name);
+    const std::string_view        all = Describe(name).placeholder;
+    std::vector<std::string_view> words;
+    for (std::size_t at = 0; at < all.size();)
     {
-      Refuse(name, "one of " + words.substr(1, words.size() - 2));
+      const std::size_t end = std::min(all.find('|', at), all.size());
+      words.push_back(all.substr(at, end - at));
+      at = end + 1;
+    }
+    if (std::find(words.begin(), words.end(), text) == words.end())
+    {
+      Refuse(name, "one of " + std::string(all) + DidYouMean(text, words));
     }
     return text;
   }

@@ -135,6 +135,12 @@ ValueOf(const ParameterValues & values, CommandId command, std::string_view name
   return ParameterReader(values, command).Text(name);
 }
 
+std::string
+ChoiceOf(const ParameterValues & values, CommandId command, std::string_view name)
+{
+  return ParameterReader(values, command).Choice(name);
+}
+
 int
 ThreadsFrom(const ParameterValues & values, CommandId command)
 {

@@ -1,3 +1,4 @@
+#include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/Parameters.h"
@@ -158,7 +159,9 @@ ParseRoot(const std::string & text)
   }
   if (!good)
   {
-    throw UsageError("--root " + text + ": expected top, thickest, or a point in LPS mm such as 12.5,-30,101");
+    constexpr std::array<std::string_view, 2> words{ "top", "thickest" };
+    throw UsageError("--root " + text + ": expected top, thickest, or a point in LPS mm such as 12.5,-30,101" +
+                     DidYouMean(text, words));
   }
   return root;
 }
@@ -193,7 +196,8 @@ ParseAlso(const std::string & text)
   {
     if (std::find(known.begin(), known.end(), ending) == known.end())
     {
-      throw UsageError("--also " + text + ": '" + ending + "' is not one of csv, swc, mrk.json, graphml, ma");
+      throw UsageError("--also " + text + ": '" + ending + "' is not one of csv, swc, mrk.json, graphml, ma" +
+                       DidYouMean(ending, known));
     }
     if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     {
@@ -290,11 +294,7 @@ SkeletonOptionsFrom(const ParameterValues & values)
     options.stage.branches.table = ValueOf(values, command, "table");
   }
   options.display = DisplayTargetsFrom(values, command);
-  const std::string engine = ValueOf(values, command, "engine");
-  if (engine != "auto" && engine != "lattice" && engine != "tetgen")
-  {
-    throw UsageError("--engine " + engine + ": expected one of auto|lattice|tetgen");
-  }
+  const std::string engine = ChoiceOf(values, command, "engine");
   options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
   options.threads = ThreadsFrom(values, command);
   options.force = values.contains("force");

@@ -292,20 +292,29 @@ SlicerXml(CommandId command)
   head("documentation-url", "");
   head("license", "Apache-2.0");
   head("contributor", "");
-  const auto group = [&](std::string_view label, std::string_view attributes, bool main) {
-    xml += "  <parameters" + std::string(attributes) + ">\n    <label>" + std::string(label) +
-           "</label>\n    <description></description>\n";
+  const auto section = [&](std::string_view label, std::string_view attributes, const auto & isIn) {
+    std::string rows;
     for (const Parameter & parameter : Parameters())
     {
-      if (IsShown(parameter, command) && IsIn(kMain, parameter.name) == main)
+      if (IsShown(parameter, command) && isIn(parameter))
       {
-        xml += ParameterXml(parameter, command);
+        rows += ParameterXml(parameter, command);
       }
     }
-    xml += "  </parameters>\n";
+    if (!rows.empty())
+    {
+      xml += "  <parameters" + std::string(attributes) + ">\n    <label>" + std::string(label) +
+             "</label>\n    <description></description>\n" + rows + "  </parameters>\n";
+    }
   };
-  group("Parameters", "", true);
-  group("More", " advanced=\"true\"", false);
+  section("Parameters", "", [](const Parameter & parameter) { return IsIn(kMain, parameter.name); });
+  for (auto group = ParameterGroup::Input; group <= ParameterGroup::Running;
+       group = static_cast<ParameterGroup>(static_cast<int>(group) + 1))
+  {
+    section(GroupHeading(group), " advanced=\"true\"", [&](const Parameter & parameter) {
+      return parameter.group == group && !IsIn(kMain, parameter.name);
+    });
+  }
   xml += "  <parameters>\n    <label>Results</label>\n    <description>Summed over all labels</description>\n";
   for (const Output & output : Outputs(command, {}))
   {

@@ -21,6 +21,11 @@ struct CsvRow
 std::vector<CsvRow>
 ParseCsv(std::string_view text, const std::string & where, char separator = ',');
 
+/** What separates the fields of a table: of comma, semicolon and tab the one that its first line that is not empty has most
+ *  of, not counting what is quoted; a comma where there is none. */
+char
+FindSeparator(std::string_view text);
+
 /** A field that holds text of others, quoted where it must be. What spreadsheets would take for a formula (it begins with
  *  one of = + - @ or a control character) gets an apostrophe in front. */
 std::string

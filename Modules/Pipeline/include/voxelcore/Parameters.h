@@ -60,22 +60,42 @@ enum class ParameterKind
   Flag     ///< no value
 };
 
+/** Under which heading help and manual pages show an option; in the order of the headings. */
+enum class ParameterGroup
+{
+  Input,
+  Output,
+  Picture,
+  Cohort,
+  Phantom,
+  Pruning,
+  ShapeEdits,
+  Refinement,
+  Skeleton,
+  Running
+};
+
+std::string_view
+GroupHeading(ParameterGroup group);
+
 /** An option or, without flags, a positional argument. */
 struct Parameter
 {
-  std::string_view name;         ///< key of ParameterValues
-  std::string_view flags;        ///< "-o,--output"; empty: positional
-  ParameterKind    kind;         ///< of its value
-  std::string_view placeholder;  ///< stands for the value in help texts, with its unit
-  std::string_view defaultValue; ///< empty: none
-  bool             required;     ///< must be given
-  std::uint32_t    commands;     ///< bits of CommandId
-  std::string_view description;  ///< one line
+  std::string_view name;                            ///< key of ParameterValues
+  std::string_view flags;                           ///< "-o,--output"; empty: positional
+  ParameterKind    kind;                            ///< of its value
+  std::string_view placeholder;                     ///< stands for the value in help texts, with its unit
+  std::string_view defaultValue;                    ///< empty: none
+  bool             required;                        ///< must be given
+  std::uint32_t    commands;                        ///< bits of CommandId
+  std::string_view description;                     ///< one line
+  ParameterGroup   group = ParameterGroup::Running; ///< that of the table the row stands in
 };
 
 std::span<const Command>
 Commands();
 
+/** Group by group; within a group the most needed first. */
 std::span<const Parameter>
 Parameters();
 
@@ -83,9 +103,10 @@ inline bool
 BelongsTo(const Parameter & parameter, CommandId command)
 {
   const auto has = [&](CommandId one) { return (parameter.commands & static_cast<std::uint32_t>(one)) != 0; };
-  // A path, a part of one scan, or its memory is not a cohort's.
+  // A path, what goes with one, a part of one scan, or its memory is not a cohort's.
   const bool ofOneRun = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output ||
-                        parameter.name == "blocks" || parameter.name == "block" || parameter.name == "memory";
+                        parameter.name == "blocks" || parameter.name == "block" || parameter.name == "memory" ||
+                        parameter.name == "grey-range";
   return has(command) || (command == CommandId::Batch && has(CommandId::Core) && !ofOneRun);
 }
 
@@ -95,6 +116,10 @@ using ParameterValues = std::map<std::string, std::string, std::less<>>;
 /** The value given, else the default of the table for this command. */
 std::string
 ValueOf(const ParameterValues & values, CommandId command, std::string_view name);
+
+/** The same of a choice. \throws UsageError, naming the option, unless it is one of its words. */
+std::string
+ChoiceOf(const ParameterValues & values, CommandId command, std::string_view name);
 
 /** `--threads`: 0 means all processors.
  *  \throws UsageError unless it is a whole number from 0 to 4096 */

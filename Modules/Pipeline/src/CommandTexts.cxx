@@ -1,0 +1,184 @@
+// What --help says of each command beside its options. Longer explanations stand in Applications/manual/guide.
+
+#include "voxelcore/Parameters.h"
+
+#include <array>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr std::string_view kCoreFooter =
+  R"(Pruning. --lambda keeps all of the surface whose nearest boundary points lie at least 2 lambda apart. It never
+changes the topology. A bare number is mm; vox means times the smallest voxel spacing; % is of the longest side
+of the label's box.
+  1.5vox, the default, clears most staircase noise and keeps parts three voxels thick.
+  Above 2.44vox (cubic voxels) convergence is proven, but thin parts shrink to curves.
+  For thick slices, give mm: about 1.5 times the slice distance.
+--bumps suits scans with both thick and thin parts. It ignores boundary bumps lower than the given height.
+1.2diag suits clean segmentations; use more for rough ones. A --lambda given with --bumps is applied first.
+Guide: choosing-the-pruning.md
+
+Shape edits run label by label in this order: --mend-shape, --fill-cavities, --min-voxels, --largest,
+--smooth-shape, --split-components. Components are 6-connected. --mend-shape and --fill-cavities also remove
+true holes. Guide: noisy-masks.md
+
+--refine helps most with smooth shapes at coarse resolution; it needs parts at least three voxels thick. Radius
+and Lambda are then measured from the estimated surface. Guide: refinement.md
+
+--crop cuts: structures end at the cut, and cavities it opens are no longer cavities. Meshes are voxelized
+first, as 'voxelcore voxelize' does. Guide: mesh-input.md. Skeleton options need --with-skeleton. Guide:
+skeletons.md
+
+Examples:
+  voxelcore core scan.nii.gz -o medial.vtp --report medial.json
+  voxelcore core scan.seg.nrrd --labels liver,4 --lambda 0,1mm,2.5% -o medial.vtp
+  voxelcore core scan.nii.gz --bumps 1.2diag -o medial.vtp
+  voxelcore core atlas.nii.gz -o surfaces/
+  voxelcore core ct.nrrd --threshold 300:3000 --lambda 2vox -o bone.vtp
+  voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp
+  voxelcore core ct.nrrd --threshold 300:3000 --fill-cavities --min-voxels 100 -o bone.vtp
+  voxelcore core root.nii.gz -o root.vtp --with-skeleton --also csv --root top
+  voxelcore core huge.nrrd --blocks 8 --block 1 -o parts/     (and so on to --block 8, on any machines)
+  voxelcore core huge.nrrd --join parts/ -o huge.vtp
+  voxelcore core teeth.nii.gz --crop 100:300,80:220,: --split-components -o teeth/
+  voxelcore core ct.nrrd --threshold 300:inf --lambda 2.5vox --refine grey -o bone.vtp
+  voxelcore core part.stl --resolution 256 --lambda 2.5% -o part.vtp
+  voxelcore core part.ply --resolution 256,512,1024 --lambda 1%,2.5% -o study/   (each, and one table))";
+
+constexpr std::string_view kInfoFooter =
+  R"(The forecast of time and memory holds for a machine like the one it was measured on.
+
+Examples:
+  voxelcore info scan.nii.gz
+  voxelcore info ct.nrrd --threshold 300:3000 --json)";
+
+constexpr std::string_view kVerifyFooter =
+  R"(Rechecks the file independently of the code that made it. Every vertex must lie inside the shape, with two or
+more nearest boundary vertices at equal distance and none nearer. Faces must be planar and convex; measures,
+order and topology must agree. A failed check ends with exit code 4. The scan is read with the options recorded
+in the file.
+
+Example:
+  voxelcore verify scan.nii.gz medial.vtp)";
+
+constexpr std::string_view kPruneFooter =
+  R"(The result equals that of 'voxelcore core' at the same lambda or bump height, bit for bit. For --lambda, make
+the file with --keep-edges. For --bumps, make it with --bumps at a smaller height, best 0.
+
+Examples:
+  voxelcore core scan.nii.gz --lambda 0 --keep-edges -o whole.vtp
+  voxelcore prune whole.vtp --lambda 1.5mm,3mm -o medial.vtp
+  voxelcore core scan.nii.gz --bumps 0 -o bumps.vtp
+  voxelcore prune bumps.vtp --bumps 1diag,2diag -o medial.vtp)";
+
+constexpr std::string_view kReconstructFooter =
+  R"(A voxel belongs to the result if its centre lies in a ball of the core. A whole core of cubic voxels reproduces
+its label exactly. A pruned one shows what was treated as noise. On thick slices, balls bulge out between the
+corners of the slices.
+
+Example:
+  voxelcore core scan.nii.gz --bumps 1.2diag -o medial.vtp
+  voxelcore reconstruct medial.vtp -o rebuilt.nii.gz --scan scan.nii.gz --report rebuilt.json)";
+
+constexpr std::string_view kVoxelizeFooter =
+  R"(Give --resolution or --spacing. A voxel belongs to the shape if its centre does, which is decided exactly. The
+grid starts at the minimum corner of the mesh's box; coordinates are LPS mm. Flipped, duplicate and degenerate
+faces are repaired. In an open mesh, six rays vote on each voxel. The command reports the repairs and the number
+of doubtful voxels. A mesh that encloses nothing is refused. Guide: mesh-input.md
+
+Examples:
+  voxelcore voxelize part.stl --resolution 256 -o part.nrrd
+  voxelcore voxelize part.obj --spacing 0.5,0.5,1 -o part.nii.gz --report part.json
+  voxelcore voxelize part.ply --resolution 64,128,256 -o part.mha)";
+
+constexpr std::string_view kPhantomFooter = R"(Examples:
+  voxelcore phantom list
+  voxelcore phantom ellipsoid --size 64 -o ellipsoid.nrrd
+  voxelcore phantom root --size 256,256,512 --spacing 0.1,0.1,0.1 --seed 7 -o root.nii.gz)";
+
+constexpr std::string_view kSkeletonFooter =
+  R"(The skeleton has the same components and cycles as the shape, which is checked. Surfaces around cavities cannot
+become curves; they stay, and the command says so. By default the core is not pruned first, so that parts two
+voxels thick keep their branches. Radii in tables are those of the scanned body. Guide: skeletons.md
+
+--also writes beside OUT.vtp:
+  csv       OUT_branches.csv, OUT_summary.csv, and OUT_columns.json, which explains the columns
+  swc       OUT.swc, in micrometres; cycles are cut
+  mrk.json  OUT.mrk.json, curves for 3D Slicer
+  graphml   OUT.graphml
+  ma        OUT.ma and OUT.r: the medial surface, for other programs
+A folder gets one set per label, named <scan>_label-<value>_skeleton; tables hold all labels.
+
+Examples:
+  voxelcore skeleton root.nii.gz -o root.vtp --also csv,swc --root top
+  voxelcore skeleton core.vtp -o skeleton.vtp --report skeleton.json
+  voxelcore skeleton atlas.nii.gz -o skeletons/ --also csv
+  voxelcore skeleton vessels.seg.nrrd --prune-branches 1.5r --also mrk.json -o vessels.vtp
+  voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp)";
+
+constexpr std::string_view kMeasureFooter =
+  R"(OUT.csv writes OUT_branches.csv, OUT_summary.csv, and OUT_columns.json, which explains the columns.
+
+Examples:
+  voxelcore measure root.vtp -o root.csv --root top
+  voxelcore measure vessels.vtp -o vessels.csv --prune-branches 5mm)";
+
+constexpr std::string_view kRenderFooter =
+  R"(Needs no screen: without a display it starts Xvfb. The projection is parallel, so the scale bar holds
+everywhere. Letters name the patient's directions: left, right, anterior, posterior, superior, inferior. The
+scan is read with the options recorded in the first file. The colour map is viridis: uniform, and readable with
+colour blindness and in grey.
+
+Examples:
+  voxelcore render medial.vtp --scan scan.nii.gz -o medial.png
+  voxelcore render core.vtp skeleton.vtp --scan root.nrrd --panels --color ErosionThickness -o root.png
+  voxelcore render atlas.vtp --labels 4,7 --color Label --view front --background dark -o labels.png
+  voxelcore render skeleton.vtp --turntable 36 -o turn.png)";
+
+constexpr std::string_view kBatchFooter =
+  R"(Folders are searched at any depth; one with several .tif or .png files is one scan. A manifest.csv has the
+columns id, scan, and any option of 'voxelcore core' without dashes (lambda, labels, threshold, ...); an empty
+field means not given. Commas, semicolons or tabs separate columns. Options on the command line apply to all
+cases; a case's own take precedence.
+
+Each case runs in its own process. A failure costs only that case, and the exit code is then 1. Run the same
+command again to continue: finished cases are recognised by the content of scan, options and program. OUTDIR
+gets a folder sub-<id>/ per case, cases.csv, labels.csv, and index.html, which opens offline.
+
+On a cluster, run 'batch manifest.csv -o OUT --case $SLURM_ARRAY_TASK_ID' for each case, then 'batch
+manifest.csv -o OUT --gather'. Applications/Snakemake does both.
+
+Examples:
+  voxelcore batch scans/ -o results --lambda 2vox
+  voxelcore batch cohort.csv -o results --jobs 4 --memory 12GB --timeout 30m
+  voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton)";
+
+constexpr std::array<Command, 11> kCommands{ {
+  { CommandId::Core, "core", "Compute the medial surface of one, several or all labels of a scan", kCoreFooter },
+  { CommandId::Skeleton, "skeleton", "Compute the curve skeleton of a scan or of a medial surface", kSkeletonFooter },
+  { CommandId::Info, "info", "Show what is in a scan, and the time and memory it will need", kInfoFooter },
+  { CommandId::Verify, "verify", "Recheck a medial surface against its scan", kVerifyFooter },
+  { CommandId::Render, "render", "Draw pictures of medial surfaces and skeletons", kRenderFooter },
+  { CommandId::Measure, "measure", "Write tables of a skeleton's branches", kMeasureFooter },
+  { CommandId::Prune, "prune", "Prune a medial surface further, without its scan", kPruneFooter },
+  { CommandId::Batch,
+    "batch",
+    "Process many scans: medial surfaces, skeletons, tables and an overview page",
+    kBatchFooter },
+  { CommandId::Reconstruct, "reconstruct", "Rebuild a volume from the balls of a medial surface", kReconstructFooter },
+  { CommandId::Voxelize, "voxelize", "Convert a triangle mesh to a volume", kVoxelizeFooter },
+  { CommandId::Phantom, "phantom", "Make a synthetic volume", kPhantomFooter },
+} };
+
+} // namespace
+
+std::span<const Command>
+Commands()
+{
+  return kCommands;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,83 @@
+#pragma once
+// Options of pruning and refinement.
+
+#include "CommandBits.h"
+
+#include <array>
+
+namespace voxelcore::table
+{
+
+inline constexpr auto kPruningRows = std::to_array<Parameter>({
+  { "lambda",
+    "-l,--lambda",
+    Text,
+    "L[,L..]",
+    "1.5vox",
+    false,
+    kCore,
+    "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; 0 keeps the whole core; several L write OUT_lambda-1mm.vtp and so "
+    "on" },
+  { "lambda",
+    "-l,--lambda",
+    Text,
+    "L[,L..]",
+    "",
+    false,
+    kPrune,
+    "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; several L write OUT_lambda-1mm.vtp and so on" },
+  { "lambda",
+    "-l,--lambda",
+    Text,
+    "L",
+    "0",
+    false,
+    kSkeleton,
+    "Prune the core of a scan first, at this threshold: 1.5mm, 2.5vox, 2.5%" },
+  { "bumps",
+    "--bumps",
+    Text,
+    "H[,H..]",
+    "",
+    false,
+    kModels,
+    "Prune by bump height instead: 1.2diag (voxel diagonals), 2vox, 1.5mm; several H write OUT_bumps-1.2diag.vtp and "
+    "so on" },
+  { "bumps",
+    "--bumps",
+    Text,
+    "H",
+    "",
+    false,
+    kSkeleton,
+    "Prune the core of a scan by bump height first: 1.2diag (voxel diagonals), 2vox, 1.5mm; tips shorten by about H" },
+});
+
+inline constexpr auto kRefinementRows = std::to_array<Parameter>({
+  { "refine",
+    "--refine",
+    Choice,
+    "off|labels|grey|mesh",
+    "off",
+    false,
+    kCore,
+    "Move the surface by up to a voxel, to the axis of the smooth shape estimated from labels, grey values or mesh" },
+  { "grey",
+    "--grey",
+    Input,
+    "SCAN",
+    "",
+    false,
+    kCore,
+    "For --refine grey: the grey scan that the labels were segmented from" },
+  { "grey-range",
+    "--grey-range",
+    Text,
+    "LO:HI",
+    "",
+    false,
+    kCore,
+    "For --grey: the grey values inside the labels, such as 300:inf" },
+});
+
+} // namespace voxelcore::table
