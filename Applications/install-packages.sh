@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
-# usage: install-packages.sh GROUP...     groups: build, python (the module), demo (a real scan), test, package (to make and
+# usage: install-packages.sh GROUP...     groups: build, python (the module), demo (a real scan), picture
+# (to render where there is no screen), guide (to build the guide's site), test, package (to make and
 # test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
 # pages), cluster (workflows, and the tests on a cluster), reproduction
 # (the paper's figures, Testing/Reproduction), bench (Testing/Performance)
@@ -12,14 +13,16 @@ packages_of() {
                 libx11-dev libzip-dev libssl-dev libjs-three libboost-dev libcli11-dev nlohmann-json3-dev ;;
     python) echo pybind11-dev python3-dev python3-numpy python3-vtk9 ;;
     demo) echo mricron-data ;;
+    picture) echo xvfb xauth ;;
+    guide) echo mkdocs ;;
     test) echo xvfb libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest xauth mricron-data ;;
-    package) echo dpkg-dev debootstrap doxygen graphviz groff mricron-data ;;
+    package) echo dpkg-dev debootstrap doxygen graphviz groff mkdocs mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
     browser) echo chromium chromium-headless-shell python3 ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
     reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy python3-nibabel ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, test, package, sanitizer, browser, cluster, reproduction and bench" >&2; return 2 ;;
+    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, picture, guide, test, package, sanitizer, browser, cluster, reproduction and bench" >&2; return 2 ;;
   esac
 }
 

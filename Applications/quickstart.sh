@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-bash Applications/install-packages.sh build demo
+bash Applications/install-packages.sh build demo picture
 
 scan=/usr/share/mricron/templates/aal.nii.gz
 build=build/release
@@ -25,17 +25,21 @@ fi
 cmake --build "$build" --target voxelcore
 
 program=$build/bin/voxelcore
-options=(--lambda 1.5vox --report "$out/aal_medial.json" --force)
+options=(--lambda 1.5vox --report "$out/aal_medial.json" --html "$out/aal.html" --force)
 stamp=$(sha256sum "$scan" "$program" | cut -d' ' -f1 | tr '\n' ' ')"${options[*]}"
 if [ -s "$out/aal_medial.vtp" ] && [ -s "$out/aal_medial.json" ] && [ -s "$out/table.txt" ] &&
-   [ "$(cat "$out/stamp" 2>/dev/null)" = "$stamp" ]; then
+   [ -s "$out/aal.html" ] && [ -s "$out/aal.png" ] && [ "$(cat "$out/stamp" 2>/dev/null)" = "$stamp" ]; then
   echo "Scan, options and program are those of the last run: its result is shown again."
 else
   rm -f "$out/stamp"
   "$program" core "$scan" -o "$out/aal_medial.vtp" "${options[@]}" >"$out/table.txt"
+  "$program" render "$out/aal_medial.vtp" --color Label --background dark --size 1600x1200 -o "$out/aal.png" --force --quiet
   echo "$stamp" >"$out/stamp"
 fi
 cat "$out/table.txt"
-echo "Medial surface: $out/aal_medial.vtp  (open it in 3D Slicer or ParaView, colour by Radius or Label)"
-echo "Report:         $out/aal_medial.json"
-echo "Your own scan:  $program core SCAN -o medial.vtp"
+echo
+echo "Open this page in your browser:  $PWD/$out/aal.html"
+echo "Look at this picture:            $PWD/$out/aal.png"
+echo "For 3D Slicer and ParaView:      $PWD/$out/aal_medial.vtp"
+echo "Report:                          $PWD/$out/aal_medial.json"
+echo "Now your own scan:               $program core SCAN -o medial.vtp --html medial.html"

@@ -1,6 +1,6 @@
 """Runs the examples of every command's --help (the manual pages have the same), one after the other, on small inputs of the
-names they use. Options that README.md names are there.
-usage: help_test.py VOXELCORE README.md"""
+names they use. Options that README.md and the guide name are there.
+usage: help_test.py VOXELCORE SOURCE_DIR"""
 import gzip
 import os
 import re
@@ -125,7 +125,8 @@ def run_examples(command, text, drawn):
 
 
 def main():
-    program, readme = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    program, source = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    pages = [source / "README.md", *source.glob("Applications/manual/guide/*.md")]
     helps = {"": run(program, "--help").stdout}
     commands = re.findall(r"^  ([a-z]+) ", re.search(r"^Commands:\n(.*?)(\n\n|\Z)", helps[""], re.M | re.S)[1], re.M)
     check(len(commands) >= 11, "commands: %s" % commands)
@@ -134,8 +135,8 @@ def main():
     # Options of other programs apart.
     others = {"--heavy", "--build", "--config", "--install", "--prefix", "--profile", "--array", "--test-dir"}
     known = set(re.findall(r"--[a-z][a-z-]*", " ".join(helps.values())))
-    named = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", readme.read_text())) - others
-    check(len(named) > 40 and named <= known, "README.md names options there are not: %s" % sorted(named - known))
+    named = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", " ".join(page.read_text() for page in pages))) - others
+    check(len(named) > 40 and named <= known, "README.md or the guide names options there are not: %s" % sorted(named - known))
 
     drawn = bool(shutil.which("Xvfb")) and "off in this build" not in helps["render"]
     with tempfile.TemporaryDirectory() as folder:

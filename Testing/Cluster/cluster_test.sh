@@ -141,7 +141,7 @@ snakemake -s "$source/Applications/Snakemake/Blocks.smk" --profile "$source/Appl
 cmp single.vtp joined.vtp || fail "the joined file is not that of a single run"
 echo "blocks: the joined file is that of a single run"
 
-# 4. What README.md says, word for word but for the memory of a job, which this node has not.
+# 4. What the guide says, word for word but for the memory of a job, which this node has not.
 mkdir readme bin
 ln -s "$program" bin/voxelcore
 ln -s "$source/Applications" readme/Applications
@@ -149,18 +149,18 @@ cp scans/s1.nrrd scans/s2.nrrd readme/
 cd readme
 printf 'id,scan\none,s1.nrrd\ntwo,s2.nrrd\n' >cohort.csv
 export PATH=$work/bin:$PATH SBATCH_MEM_PER_NODE=500M
-line=$(sed -n 's/^    \(sbatch .*\)/\1/p' "$source/README.md")
-[ "$(wc -l <<<"$line")" = 1 ] && [ -n "$line" ] || fail "README.md has not one line of sbatch"
-bash -euc "$line" >sbatch.log || fail "README.md: $line"
+line=$(sed -n 's/^    \(sbatch .*\)/\1/p' "$source/Applications/manual/guide/cohorts.md")
+[ "$(wc -l <<<"$line")" = 1 ] && [ -n "$line" ] || fail "the guide has not one line of sbatch"
+bash -euc "$line" >sbatch.log || fail "the guide: $line"
 for ((i = 0; i < 1200; ++i)); do
   [ -z "$(squeue -h 2>/dev/null)" ] && break
   sleep 0.25
 done
-bash -euc "$(sed -n 's/^    \(voxelcore batch .* --gather\).*/\1/p' "$source/README.md")" >gather.log || fail "README.md: --gather"
-[ "$(grep -c ',done,' results/cases.csv)" = 2 ] || fail "README.md's array job: $(cat results/cases.csv)"
+bash -euc "$(sed -n 's/^    \(voxelcore batch .* --gather\).*/\1/p' "$source/Applications/manual/guide/cohorts.md")" >gather.log || fail "the guide: --gather"
+[ "$(grep -c ',done,' results/cases.csv)" = 2 ] || fail "the guide's array job: $(cat results/cases.csv)"
 rm -r results
-line=$(sed -n '/^    snakemake .*\\$/,/[^\\]$/p' "$source/README.md" | sed 's/mem_mb=[0-9]*/mem_mb=500/')
-[ -n "$line" ] || fail "README.md has no line of snakemake"
-bash -euc "$line --nocolor --latency-wait 5" >snakemake.log 2>&1 || { cat snakemake.log >&2; fail "README.md: $line"; }
-[ "$(grep -c ',done,' results/cases.csv)" = 2 ] || fail "README.md's workflow: $(cat results/cases.csv)"
-echo "README.md: its array job and its workflow run"
+line=$(sed -n '/^    snakemake .*\\$/,/[^\\]$/p' "$source/Applications/manual/guide/cohorts.md" | sed 's/mem_mb=[0-9]*/mem_mb=500/')
+[ -n "$line" ] || fail "the guide has no line of snakemake"
+bash -euc "$line --nocolor --latency-wait 5" >snakemake.log 2>&1 || { cat snakemake.log >&2; fail "the guide: $line"; }
+[ "$(grep -c ',done,' results/cases.csv)" = 2 ] || fail "the guide's workflow: $(cat results/cases.csv)"
+echo "the guide: its array job and its workflow run"

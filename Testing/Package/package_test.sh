@@ -55,11 +55,11 @@ case "$how" in
     fi
     parts="Imaging;Models;Pipeline;VTK"
     [ -z "$(find "$moved/second" -name VoxelCore-ITK.cmake)" ] || parts+=";ITK"
-    # The README's five lines, as they stand there.
+    # The guide's five lines, as they stand there.
     {
       printf '#include "voxelcore/%s.h"\n' LabelVolume LambdaPruning MedialModel VoxelCore
       echo 'int main() {'
-      grep -A4 '^    const voxelcore::LabelVolume scan = ' "$source/README.md"
+      grep -A4 '^    const voxelcore::LabelVolume scan = ' "$source/Applications/manual/guide/cpp.md"
       echo 'return core.cells.FaceCount() > 0 ? 0 : 1; }'
     } >"$scratch/Readme.cxx"
     configure "$scratch/all" "${options[@]}" -DPARTS="$parts" -DREADME="$scratch/Readme.cxx"
@@ -73,7 +73,7 @@ case "$how" in
     "$scratch/all/UsesPlugin" "$scratch/all/libPlugin.so" "$scratch/torus.nrrd" "$scratch/plugin.vtp"
     cmp "$scratch/plugin.vtp" "$scratch/program.vtp"
     "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/scan.nii.gz" -q
-    (cd "$scratch" && all/ReadmeExample && [ -s medial.vtp ]) || fail "the README's example does not work"
+    (cd "$scratch" && all/ReadmeExample && [ -s medial.vtp ]) || fail "the guide's example does not work"
     "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/torus.mha" -q
     "$scratch/all/UsesVTK" "$scratch/torus.mha" 2 1 "$scratch/vtk.vtp"
     if [ -x "$scratch/all/UsesITK" ]; then

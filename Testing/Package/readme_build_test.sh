@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Does what README.md says from a fresh clone on: the quickstart, twice; the build by hand, with Python module and packages;
+# Does what README.md and the guide say from a fresh clone on: the quickstart, twice; the build by hand, with Python module and packages;
 # installing; the pictures. In a copy of the sources.
 # usage: readme_build_test.sh BUILD_DIR      exit 77: something needed is missing
 set -euo pipefail
@@ -26,15 +26,20 @@ rows=$(grep -c 'Hippocampus_[LR]' "$scratch/first.log") || true
 bash Applications/quickstart.sh >"$scratch/second.log" </dev/null
 grep -q 'its result is shown again' "$scratch/second.log" || fail "the second quickstart did everything again"
 
+for file in aal.html aal.png; do
+  [ -s "build/quickstart/$file" ] || fail "the quickstart left no $file"
+done
+
 # Indented lines, then what stands in backquotes.
+guide=(Applications/manual/guide/{building,python,cpp}.md)
 {
-  sed -nE 's/^    ((bash Applications\/install|cmake (-S|build)|ninja |export PYTHONPATH).*)$/\1/p' README.md
-  grep -oE '`(cpack|cmake --install|bash Data)[^`]* [^`]+`' README.md | tr -d '`'
+  sed -nE 's/^    ((bash Applications\/install|cmake (-S|build)|ninja |export PYTHONPATH).*)$/\1/p' "${guide[@]}"
+  grep -ohE '`(cpack|cmake --install|bash Data)[^`]* [^`]+`' "${guide[@]}" README.md | tr -d '`'
 } | grep -v 'install-packages.sh cluster' | sed "s|PREFIX|'$scratch/prefix'|" >"$scratch/lines.sh"
-[ "$(wc -l <"$scratch/lines.sh")" -ge 9 ] || { cat "$scratch/lines.sh" >&2; fail "README.md lacks lines to build by"; }
+[ "$(wc -l <"$scratch/lines.sh")" -ge 9 ] || { cat "$scratch/lines.sh" >&2; fail "the guide lacks lines to build by"; }
 echo 'cd /; /usr/bin/python3 -c "import voxelcore; print(voxelcore.__version__)"' >>"$scratch/lines.sh"
 bash -eux "$scratch/lines.sh" >"$scratch/lines.log" 2>&1 </dev/null ||
-  { tail -n 30 "$scratch/lines.log" >&2; fail "the lines of README.md failed"; }
+  { tail -n 30 "$scratch/lines.log" >&2; fail "the lines of the guide failed"; }
 for file in "$scratch"/prefix/{bin/voxelcore,lib/VoxelCore/cli-modules/VoxelCoreMedialSurface,share/man/man1/voxelcore.1} \
   {voxelcore,libvoxelcore-dev,python3-voxelcore}*.deb; do
   [ -s "$file" ] || fail "there is no $file"
