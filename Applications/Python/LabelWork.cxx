@@ -7,7 +7,9 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/OutputTransaction.h"
+#include "voxelcore/Parameters.h"
 
+#include <optional>
 #include <utility>
 
 namespace voxelcore
@@ -41,22 +43,113 @@ OnlyLabel(std::vector<LabelShape> labels)
                    "); choose one with label=, or take all but 0 as one shape with label='any'");
 }
 
+/** A core for each part, with a report that names it alone, as a file's provenance does. */
+std::vector<std::shared_ptr<CoreOfLabel>>
+ResultsOf(const CoreReport & report, const std::vector<PrunedRecord> & pruned, std::vector<ModelPart> parts)
+{
+  std::vector<std::shared_ptr<CoreOfLabel>> results;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    auto result = std::make_shared<CoreOfLabel>();
+    result->report = report;
+    result->report.parameters.lambda = { pruned[i].lambda };
+    if (pruned[i].bumps)
+    {
+      result->report.parameters.bumps = { pruned[i].bumps->height };
+    }
+    result->report.labels.front().pruned = { pruned[i] };
+    result->part = std::move(parts[i]);
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+void
+RequireUnrefinedCore(const CoreOfLabel & core)
+{
+  if (!core.refined.empty())
+  {
+    throw UsageError("this core was made with --refine " + core.refined +
+                     ", and only cores as they come out of the voxels are worked on; make one without");
+  }
+}
+
+std::vector<PrunedCore>
+PruneByLambdas(const CoreOfLabel & core, const std::vector<Lambda> & lambdas, const ProgressCallback & progress)
+{
+  const CoreReport &   report = core.report;
+  const LabelRecord &  record = report.labels.front();
+  const PrunedRecord & done = record.pruned.front();
+  if (done.bumps && done.bumps->heightMm > 0)
+  {
+    throw UsageError("this core is pruned by bump height " + done.bumps->height +
+                     " already; prune it further with bumps=, or make one with bumps=0 or without");
+  }
+  if (!core.hasEdges)
+  {
+    throw UsageError("the file this core was read from lacks the measures of its edges; write it with keep_edges=True");
+  }
+  std::vector<double> limits;
+  for (const Lambda & wanted : lambdas)
+  {
+    limits.push_back(LambdaInMillimetres(wanted, report.parameters.weights, report.input.geometry.spacing, record.box));
+    if (limits.back() < done.lambdaMm)
+    {
+      throw UsageError("this core is pruned at " + done.lambda + " already, further than " + wanted.text +
+                       "; make one with lambda_=0");
+    }
+  }
+  ModelPart whole = core.part;
+  whole.core.bumps = {};
+  return PruneAndCertify(std::move(whole),
+                         done.complex,
+                         done.lambdaMm,
+                         lambdas,
+                         limits,
+                         record.shape,
+                         LabelText(record.label, record.name),
+                         progress);
+}
+
+std::vector<PrunedCore>
+PruneByHeights(const CoreOfLabel & core, const std::vector<BumpHeight> & heights)
+{
+  const ImageGeometry & geometry = core.report.input.geometry;
+  const LabelRecord &   record = core.report.labels.front();
+  const PrunedRecord &  done = record.pruned.front();
+  if (!done.bumps)
+  {
+    throw UsageError("this core does not hold bump heights; make it with bumps=0");
+  }
+  for (const BumpHeight & height : heights)
+  {
+    if (BumpHeightInMillimetres(height, geometry.spacing) < done.bumps->heightMm)
+    {
+      throw UsageError("this core is pruned at bump height " + done.bumps->height + " already, further than " +
+                       height.text + "; make one with bumps=0");
+    }
+  }
+  PrunedRecord floor = done;
+  floor.bumps.reset();
+  return PruneByBumpsAndCertify(core.part,
+                                floor,
+                                heights,
+                                geometry,
+                                record.shape,
+                                LabelText(record.label, record.name));
+}
+
 } // namespace
 
-std::shared_ptr<CoreOfLabel>
-MakeCore(const ArrayView &        array,
-         const ImageGeometry &    geometry,
-         ParameterValues          values,
-         const ProgressCallback & progress)
+std::vector<std::shared_ptr<CoreOfLabel>>
+MakeCores(const ArrayView &        array,
+          const ImageGeometry &    geometry,
+          ParameterValues          values,
+          const ProgressCallback & progress)
 {
   NameFiles(values);
   const CoreOptions options = CoreOptionsFrom(values);
-  if (options.lambdas.size() > 1 || options.bumps.size() > 1)
-  {
-    throw UsageError("give one lambda_ or one height of bumps; prune() gives others from a core with lambda_=0");
-  }
-  auto         result = std::make_shared<CoreOfLabel>();
-  CoreReport & report = result->report;
+  CoreReport        report;
   report.input.path = "the array";
   report.input.format = "array";
   report.input.geometry = LabelAssembler::CheckGeometry("the array", geometry, options.reading.orthonormalize);
@@ -71,13 +164,9 @@ MakeCore(const ArrayView &        array,
   parameters.threshold = options.reading.threshold;
   parameters.orthonormalize = options.reading.orthonormalize;
   parameters.lambda = { options.lambdas.front().text };
-  for (const BumpHeight & height : options.bumps)
-  {
-    parameters.bumps.push_back(height.text);
-  }
   parameters.engine = options.engine == Engine::TetGen ? "tetgen" : "lattice";
   parameters.weights = weights;
-  LabelOutcome outcome = ProcessLabel(std::move(label),
+  LabelOutcome                    outcome = ProcessLabel(std::move(label),
                                       report.input.geometry,
                                       weights,
                                       options.lambdas,
@@ -86,56 +175,52 @@ MakeCore(const ArrayView &        array,
                                       false,
                                       nullptr,
                                       options.bumps);
+  const std::vector<PrunedRecord> pruned = std::move(outcome.record.pruned);
   report.labels = { std::move(outcome.record) };
-  result->part = std::move(outcome.parts.front());
-  return result;
+  return ResultsOf(report, pruned, std::move(outcome.parts));
 }
 
-std::shared_ptr<CoreOfLabel>
-Prune(const CoreOfLabel & core, const std::string & lambda, const ProgressCallback & progress)
+std::vector<std::shared_ptr<CoreOfLabel>>
+Prune(const CoreOfLabel & core, ParameterValues values, const ProgressCallback & progress)
 {
-  if (!core.report.parameters.bumps.empty())
+  RequireUnrefinedCore(core);
+  values["core"] = "the core";
+  values["output"] = "result.vtp";
+  const PruneOptions      options = PruneOptionsFrom(values);
+  std::vector<PrunedCore> pruned =
+    options.bumps.empty() ? PruneByLambdas(core, options.lambdas, progress) : PruneByHeights(core, options.bumps);
+  CoreReport report = core.report;
+  report.parameters.bumps.clear();
+  report.labels.front().covered.reset(); // there is no boundary here to measure it on
+  std::vector<PrunedRecord> records;
+  std::vector<ModelPart>    parts;
+  for (PrunedCore & one : pruned)
   {
-    throw UsageError("this core is pruned by bump height; make one with lambda_=0 to prune by lambda");
+    records.push_back(std::move(one.record));
+    parts.push_back(std::move(one.part));
   }
-  if (!core.hasEdges)
+  auto results = ResultsOf(report, records, std::move(parts));
+  for (const auto & result : results)
   {
-    throw UsageError("the file this core was read from lacks the measures of its edges; write it with keep_edges=True");
+    result->hasEdges = core.hasEdges;
   }
-  const Lambda        wanted = ParseLambdas(lambda).front();
-  const LabelRecord & record = core.report.labels.front();
-  const auto &        input = core.report.input;
-  const double        done = record.pruned.front().lambdaMm;
-  const double limit = LambdaInMillimetres(wanted, core.report.parameters.weights, input.geometry.spacing, record.box);
-  if (limit < done)
-  {
-    throw UsageError("this core is pruned at " + record.pruned.front().lambda + " already, further than " +
-                     wanted.text + "; make one with lambda_=0");
-  }
-  auto                    result = std::make_shared<CoreOfLabel>();
-  std::vector<PrunedCore> pruned = PruneAndCertify(core.part,
-                                                   record.pruned.front().complex,
-                                                   done,
-                                                   { wanted },
-                                                   { limit },
-                                                   record.shape,
-                                                   LabelText(record.label, record.name),
-                                                   progress);
-  result->report = core.report;
-  result->report.parameters.lambda = { wanted.text };
-  result->report.labels.front().pruned = { std::move(pruned.front().record) };
-  result->part = std::move(pruned.front().part);
-  return result;
+  return results;
 }
 
 std::shared_ptr<SkeletonOfLabel>
 MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core, ParameterValues values, const ProgressCallback & progress)
 {
+  RequireUnrefinedCore(*core);
   NameFiles(values);
   auto result = std::make_shared<SkeletonOfLabel>();
   result->report = core->report;
   SkeletonStage stage = SkeletonOptionsFrom(values).stage;
-  stage.lambda = ParseLambdas(core->report.parameters.lambda.front()).front();
+  stage.lambda = ParseLambda(core->report.parameters.lambda.front());
+  if (!core->report.parameters.bumps.empty())
+  {
+    const BumpHeight height = ParseBumpHeight(core->report.parameters.bumps.front());
+    stage.bumps = height.value > 0 ? std::optional(height) : std::nullopt;
+  }
   result->part = MakeSkeleton(core->part,
                               stage,
                               core->report.parameters.weights,
@@ -148,7 +233,11 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core, ParameterValues values, 
 }
 
 void
-Save(const CoreOfLabel & core, const std::filesystem::path & path, const ModelOptions & options, bool force)
+Save(const CoreOfLabel &           core,
+     const std::filesystem::path & path,
+     const ModelOptions &          options,
+     bool                          force,
+     const ProgressCallback &      progress)
 {
   if (!IsModelPath(path))
   {
@@ -160,14 +249,20 @@ Save(const CoreOfLabel & core, const std::filesystem::path & path, const ModelOp
   report.parameters.model = options;
   model.parts = { core.part };
   model.hasEdges = core.hasEdges;
+  model.refined = core.refined;
   model.provenance = ProvenanceJson(report, { 0 }, 0);
   std::vector<std::string> notes;
   WriteStagedModel(transaction, path, model, options, notes);
+  ReportProgress(progress, "writing", 1);
   transaction.Commit();
 }
 
 void
-Save(const SkeletonOfLabel & skeleton, const std::filesystem::path & path, const std::string & also, bool force)
+Save(const SkeletonOfLabel &       skeleton,
+     const std::filesystem::path & path,
+     const std::string &           also,
+     bool                          force,
+     const ProgressCallback &      progress)
 {
   OutputTransaction transaction(force);
   CoreReport        report = skeleton.report;
@@ -182,6 +277,7 @@ Save(const SkeletonOfLabel & skeleton, const std::filesystem::path & path, const
   std::vector<std::string> notes;
   files.Add(report, 0, skeleton.part, files.NeedsSurface() ? skeleton.surface->part : ModelPart(), notes);
   files.Finish(report, notes);
+  ReportProgress(progress, "writing", 1);
   transaction.Commit();
 }
 
@@ -198,6 +294,7 @@ ReadCore(const std::filesystem::path & path)
   }
   result->part = std::move(model.parts.front());
   result->hasEdges = model.hasEdges;
+  result->refined = model.refined;
   return result;
 }
 

@@ -21,6 +21,8 @@ struct CoreOfLabel
   CoreReport report;
   ModelPart  part;
   bool       hasEdges = true; ///< the measures of all edges are known
+
+  std::string refined{}; ///< the surface it was refined to, as MedialModel::refined
 };
 
 /** A certified skeleton; the surface it was made of is kept for files that hold both. */
@@ -31,28 +33,38 @@ struct SkeletonOfLabel
   std::shared_ptr<const CoreOfLabel> surface;
 };
 
-/** `values` are options of `voxelcore core` by name. The array must hold one label, or `values` name one.
+/** `values` are options of `voxelcore core` by name. The array must hold one label, or `values` name one. A core for each
+ *  lambda or bump height, in the order given.
  *  \throws InputError, UsageError, CertificateError, Cancelled */
-std::shared_ptr<CoreOfLabel>
-MakeCore(const ArrayView &        array,
-         const ImageGeometry &    geometry,
-         ParameterValues          values,
-         const ProgressCallback & progress);
+std::vector<std::shared_ptr<CoreOfLabel>>
+MakeCores(const ArrayView &        array,
+          const ImageGeometry &    geometry,
+          ParameterValues          values,
+          const ProgressCallback & progress);
 
-/** A core pruned further, as if at once. \throws UsageError, also when it is pruned further already */
-std::shared_ptr<CoreOfLabel>
-Prune(const CoreOfLabel & core, const std::string & lambda, const ProgressCallback & progress);
+/** A core pruned further, as if at once; `values` are options of `voxelcore prune`.
+ *  \throws UsageError, also when it is pruned further already */
+std::vector<std::shared_ptr<CoreOfLabel>>
+Prune(const CoreOfLabel & core, ParameterValues values, const ProgressCallback & progress);
 
 /** `values` are options of `voxelcore skeleton`. */
 std::shared_ptr<SkeletonOfLabel>
 MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core, ParameterValues values, const ProgressCallback & progress);
 
-/** \throws OutputError, UsageError */
+/** Asks `progress` once more before the file gets its name. \throws OutputError, UsageError, Cancelled */
 void
-Save(const CoreOfLabel & core, const std::filesystem::path & path, const ModelOptions & options, bool force);
+Save(const CoreOfLabel &           core,
+     const std::filesystem::path & path,
+     const ModelOptions &          options,
+     bool                          force,
+     const ProgressCallback &      progress);
 
 void
-Save(const SkeletonOfLabel & skeleton, const std::filesystem::path & path, const std::string & also, bool force);
+Save(const SkeletonOfLabel &       skeleton,
+     const std::filesystem::path & path,
+     const std::string &           also,
+     bool                          force,
+     const ProgressCallback &      progress);
 
 /** What `voxelcore core` wrote, when it holds one label. \throws InputError */
 std::shared_ptr<CoreOfLabel>

@@ -1,6 +1,9 @@
 // The Python module voxelcore._voxelcore: arguments in, views on results out. What users see is voxelcore/__init__.py.
 
 #include "LabelWork.h"
+#include "OwnThread.h"
+#include "Pickling.h"
+#include "PythonWords.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Progress.h"
 
@@ -8,123 +11,14 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <chrono>
-#include <cmath>
 #include <map>
-#include <omp.h>
 #include <string>
-#include <thread>
 
 namespace py = pybind11;
 using namespace voxelcore; // NOLINT: the module's only file speaks its library's language
 
 namespace
 {
-
-/** Looks for Ctrl-C a few times a second while no Python code runs, and shows progress to whoever asked for it.
- *  To be made with the interpreter's lock held. */
-class Watch
-{
-public:
-  explicit Watch(py::object listener)
-    : m_Listener(std::move(listener))
-  {}
-
-  ProgressCallback
-  Callback()
-  {
-    return [this](std::string_view stage, double fraction) { return Look(stage, fraction); };
-  }
-
-  /** After Cancelled: the Python exception behind it. */
-  [[noreturn]] void
-  Rethrow()
-  {
-    if (m_Failure)
-    {
-      throw std::move(*m_Failure);
-    }
-    throw Cancelled();
-  }
-
-private:
-  bool
-  Look(std::string_view stage, double fraction)
-  {
-    using namespace std::chrono_literals;
-    // Python hands signals to its main thread only; others, that work for this one, do not ask.
-    const auto now = std::chrono::steady_clock::now();
-    if (std::this_thread::get_id() != m_Thread || now - m_Last < 50ms)
-    {
-      return !m_Failure;
-    }
-    m_Last = now;
-    const py::gil_scoped_acquire lock;
-    try
-    {
-      if (PyErr_CheckSignals() != 0)
-      {
-        throw py::error_already_set();
-      }
-      if (!m_Listener.is_none())
-      {
-        m_Listener(py::str(stage.data(), stage.size()), fraction);
-      }
-    }
-    catch (py::error_already_set & error)
-    {
-      m_Failure = std::make_unique<py::error_already_set>(std::move(error));
-    }
-    return !m_Failure;
-  }
-
-  py::object                             m_Listener;
-  std::thread::id                        m_Thread = std::this_thread::get_id();
-  std::chrono::steady_clock::time_point  m_Last{};
-  std::unique_ptr<py::error_already_set> m_Failure;
-};
-
-/** So many threads for what this thread starts, as long as it lives. */
-class ThreadCount
-{
-public:
-  explicit ThreadCount(int count)
-    : m_Before(omp_get_max_threads())
-  {
-    if (count > 0)
-    {
-      omp_set_num_threads(count);
-    }
-  }
-  ThreadCount(const ThreadCount &) = delete;
-  ThreadCount &
-  operator=(const ThreadCount &) = delete;
-  ~ThreadCount()
-  {
-    omp_set_num_threads(m_Before);
-  }
-
-private:
-  int m_Before;
-};
-
-/** Runs `work(progress)` without the interpreter's lock. */
-template <typename TWork>
-auto
-Run(const ParameterValues & values, py::object listener, TWork && work)
-{
-  const ThreadCount threads(ThreadsFrom(values, CommandId::Core));
-  Watch             watch(std::move(listener));
-  try
-  {
-    const py::gil_scoped_release release;
-    return work(watch.Callback());
-  }
-  catch (const Cancelled &)
-  {
-    watch.Rethrow();
-  }
-}
 
 [[noreturn]] void
 RefuseArray(const std::string & what)
@@ -163,13 +57,14 @@ ViewOf(const py::array & array)
   return view;
 }
 
-std::shared_ptr<CoreOfLabel>
-CoreOfArray(const py::array &             array,
-            const std::array<double, 3> & spacing,
-            const std::array<double, 3> & origin,
-            const std::array<double, 9> & direction,
-            const ParameterValues &       values,
-            py::object                    listener)
+/** `values` are options of the command line. */
+std::vector<std::shared_ptr<CoreOfLabel>>
+CoresOfArray(const py::array &             array,
+             const std::array<double, 3> & spacing,
+             const std::array<double, 3> & origin,
+             const std::array<double, 9> & direction,
+             const ParameterValues &       values,
+             const py::object &            listener)
 {
   const ArrayView view = ViewOf(array);
   ImageGeometry   geometry;
@@ -177,9 +72,72 @@ CoreOfArray(const py::array &             array,
   geometry.spacing = spacing;
   geometry.origin = origin;
   geometry.direction = direction;
-  return Run(values, std::move(listener), [&](const ProgressCallback & progress) {
-    return MakeCore(view, geometry, values, progress);
+  return RunInOwnThread(ThreadsFrom(values, CommandId::Core), listener, array, [=](const ProgressCallback & progress) {
+    return MakeCores(view, geometry, values, progress);
   });
+}
+
+std::vector<std::shared_ptr<CoreOfLabel>>
+PruneCore(const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & values, const py::object & listener)
+{
+  return RunInOwnThread(0, listener, py::none(), [=](const ProgressCallback & progress) {
+    return Prune(*core, values, progress);
+  });
+}
+
+std::shared_ptr<SkeletonOfLabel>
+SkeletonOfCore(const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & values, const py::object & listener)
+{
+  return RunInOwnThread(ThreadsFrom(values, CommandId::Skeleton),
+                        listener,
+                        py::none(),
+                        [=](const ProgressCallback & progress) { return MakeSkeletonOf(core, values, progress); });
+}
+
+/** Paths arrive as bytes, so that any file name will do. Work left behind may still hold the same temporary name. */
+void
+SaveCore(const std::shared_ptr<CoreOfLabel> & core,
+         const std::string &                  path,
+         bool                                 triangles,
+         bool                                 keepEdges,
+         bool                                 force)
+{
+  AwaitLeftBehind();
+  RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback & progress) {
+    Save(*core, path, { triangles, keepEdges }, force, progress);
+    return true;
+  });
+}
+
+void
+SaveSkeleton(const std::shared_ptr<SkeletonOfLabel> & skeleton,
+             const std::string &                      path,
+             const std::string &                      also,
+             bool                                     force)
+{
+  AwaitLeftBehind();
+  RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback & progress) {
+    Save(*skeleton, path, also, force, progress);
+    return true;
+  });
+}
+
+std::shared_ptr<CoreOfLabel>
+ReadCoreFile(const std::string & path)
+{
+  return RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback &) { return ReadCore(path); });
+}
+
+/** Command, name and flags of each option, for tests. */
+py::list
+OptionTable()
+{
+  py::list table;
+  for (const Parameter & parameter : Parameters())
+  {
+    table.append(py::make_tuple(std::string(parameter.name), std::string(parameter.flags)));
+  }
+  return table;
 }
 
 /** A read-only array of `columns` numbers a row on memory that `owner` keeps alive; columns 0: one-dimensional. */
@@ -328,7 +286,8 @@ DefineCore(py::module_ & module)
       [](const Handle & core) { return Topology(core->report.labels.front().pruned.front().complex.topology); })
     .def_property_readonly("shape_topology",
                            [](const Handle & core) { return Topology(core->report.labels.front().shape); })
-    .def_property_readonly("report", [](const Handle & core) { return ReportJson(core->report); });
+    .def_property_readonly("report", [](const Handle & core) { return ReportJson(core->report); })
+    .def("state", [](const Handle & core) { return StateOf(*core); });
 }
 
 void
@@ -358,69 +317,70 @@ DefineSkeleton(py::module_ & module)
       [](const Handle & s) { return Topology(s->report.labels.front().skeleton.value().topology); })
     .def_property_readonly("numbers", [](const Handle & s) { return NumbersOf(s->part.table.numbers); })
     .def_property_readonly("report", [](const Handle & s) { return ReportJson(s->report); })
-    .def("branch_columns", [](const Handle & s) { return BranchColumns(*s); });
+    .def("branch_columns", [](const Handle & s) { return BranchColumns(*s); })
+    .def("state", [](const Handle & s) { return StateOf(*s); });
+}
+
+/** A message with Python's words in it. File names that are no UTF-8 come through as Python has them. */
+void
+Raise(PyObject * type, const Error & error)
+{
+  const std::string text = InPythonWords(error.what());
+  const auto        message = py::reinterpret_steal<py::object>(
+    PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<Py_ssize_t>(text.size())));
+  PyErr_SetObject(type, message.ptr());
+}
+
+void
+TranslateErrors(const py::module_ & module)
+{
+  static PyObject * certificateError = nullptr;
+  certificateError = PyErr_NewException("voxelcore.CertificateError", PyExc_RuntimeError, nullptr);
+  module.attr("CertificateError") = py::reinterpret_borrow<py::object>(certificateError);
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try
+    {
+      std::rethrow_exception(pointer);
+    }
+    catch (const CertificateError & error)
+    {
+      Raise(certificateError, error);
+    }
+    catch (const UsageError & error)
+    {
+      Raise(PyExc_ValueError, error);
+    }
+    catch (const InputError & error)
+    {
+      Raise(PyExc_ValueError, error);
+    }
+    catch (const OutputError & error)
+    {
+      Raise(PyExc_OSError, error);
+    }
+  });
 }
 
 } // namespace
 
 PYBIND11_MODULE(_voxelcore, module)
 {
-  // The first that fits: the last registered is asked first.
-  py::register_exception<CertificateError>(module, "CertificateError", PyExc_RuntimeError);
-  py::register_exception_translator([](std::exception_ptr pointer) {
-    try
-    {
-      std::rethrow_exception(pointer);
-    }
-    catch (const UsageError & error)
-    {
-      PyErr_SetString(PyExc_ValueError, error.what());
-    }
-    catch (const InputError & error)
-    {
-      PyErr_SetString(PyExc_ValueError, error.what());
-    }
-    catch (const OutputError & error)
-    {
-      PyErr_SetString(PyExc_OSError, error.what());
-    }
-  });
+  TranslateErrors(module);
   module.attr("__version__") = VoxelCoreVersion();
   module.attr("version_text") = VersionText();
   DefineCore(module);
   DefineSkeleton(module);
-  module.def("core", &CoreOfArray);
-  module.def("prune", [](const std::shared_ptr<CoreOfLabel> & core, const std::string & lambda, py::object listener) {
-    return Run({}, std::move(listener), [&](const ProgressCallback & progress) {
-      return Prune(*core, lambda, progress);
-    });
-  });
-  module.def("skeleton",
-             [](const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & values, py::object listener) {
-               return Run(values, std::move(listener), [&](const ProgressCallback & progress) {
-                 return MakeSkeletonOf(core, values, progress);
-               });
-             });
-  module.def("save_core",
-             [](const std::shared_ptr<CoreOfLabel> & core,
-                const std::string &                  path,
-                bool                                 triangles,
-                bool                                 keepEdges,
-                bool                                 force) {
-               const py::gil_scoped_release release;
-               Save(*core, path, { triangles, keepEdges }, force);
-             });
-  module.def("save_skeleton",
-             [](const std::shared_ptr<SkeletonOfLabel> & skeleton,
-                const std::string &                      path,
-                const std::string &                      also,
-                bool                                     force) {
-               const py::gil_scoped_release release;
-               Save(*skeleton, path, also, force);
-             });
-  module.def("read_core", [](const std::string & path) {
-    const py::gil_scoped_release release;
-    return ReadCore(path);
-  });
+  module.def("cores", &CoresOfArray);
+  module.def("prune", &PruneCore);
+  module.def("skeleton", &SkeletonOfCore);
+  module.def("save_core", &SaveCore);
+  module.def("save_skeleton", &SaveSkeleton);
+  module.def("read_core", &ReadCoreFile);
+  module.def("core_from_state", &CoreFromState);
+  module.def("skeleton_from_state", &SkeletonFromState);
   module.def("skeleton_columns", &SkeletonColumnsJson);
+  module.def("await_left_behind", &AwaitLeftBehind);
+  module.def("forget_left_behind", &ForgetLeftBehind);
+  module.def("in_python_words", &InPythonWords);
+  module.def("option_table", &OptionTable);
 }

@@ -106,8 +106,10 @@ def test_what_makes_no_sense_is_refused_in_one_line(array, words):
         (dict(spacing="abc"), "spacing"),
         (dict(lambda_="2 parsecs"), "parsecs"),
         (dict(lambda_=-1), "-1"),
-        (dict(lambda_="0,1mm"), "one lambda_"),
-        (dict(lambda_=None), "None"),
+        (dict(lambda_="0,1mm"), "give a list"),
+        (dict(lambda_=[]), "empty"),
+        (dict(lambda_=[1, None]), "None"),
+        (dict(lambda_=[0, 1], bumps=1), "one value"),
         (dict(bumps="x"), "x"),
         (dict(label=77), "77"),
         (dict(label=1.5), r"1\.5"),
@@ -135,3 +137,28 @@ def test_several_labels_ask_for_a_choice():
     assert same(voxelcore.core(three, label=2), voxelcore.core(three == 2))
     assert same(voxelcore.core(three, label="any"), voxelcore.core(three > 0))
     assert voxelcore.core(three, label=numpy.int16(2)).label == 2
+
+
+@pytest.mark.parametrize("dtype", ["uint8", "int16", "float32", "bool"])
+def test_what_a_mask_hides_is_background(volume, dtype):
+    hidden = blobs(6) > 0
+    masked = numpy.ma.MaskedArray(volume.astype(dtype), hidden)
+    assert same(voxelcore.core(masked), voxelcore.core(numpy.where(hidden, 0, volume).astype(dtype)))
+    assert same(voxelcore.core(numpy.ma.MaskedArray(volume)), voxelcore.core(volume))
+    assert same(voxelcore.core(masked.T, axes="kji"), voxelcore.core(masked))
+    with pytest.raises(ValueError, match="background"):
+        voxelcore.core(numpy.ma.MaskedArray(volume, True))
+
+
+@pytest.mark.parametrize(
+    "dtype, threshold", [("int16", (0, 1)), ("uint8", (0, 1)), ("float32", (-numpy.inf, 1)), ("bool", (0, 1))]
+)
+def test_what_a_mask_hides_is_outside_any_threshold(volume, dtype, threshold):
+    hidden = blobs(6) > 0
+    masked = numpy.ma.MaskedArray((volume > 0).astype(dtype), hidden)
+    assert same(voxelcore.core(masked, threshold=threshold), voxelcore.core(~hidden))
+
+
+def test_a_mask_for_which_no_value_is_left_is_refused(volume):
+    with pytest.raises(ValueError, match="no value is left"):
+        voxelcore.core(numpy.ma.MaskedArray(volume, volume > 0), threshold=(0, 255))

@@ -13,9 +13,14 @@ memory the computation left them in; nothing is copied, and they stay valid as l
 
 Errors: ValueError for an array or an option that makes no sense, OSError for a file that cannot be written,
 CertificateError when a result contradicts its own proof (then there is none), each with one line that says what to do.
-Ctrl-C stops a computation within a fraction of a second.
+
+Ctrl-C stops any call within half a second, reading and saving included; a file that was being written does not appear.
+Results can be pickled and copied, with the same bits. Processes made by fork (multiprocessing, concurrent.futures) compute
+like any other, whether or not the parent has computed before.
 """
 
+import atexit
+import operator
 import os
 
 import numpy
@@ -26,13 +31,60 @@ from ._voxelcore import CertificateError, __version__
 __all__ = ["core", "skeleton", "measure", "read", "Core", "Skeleton", "CertificateError", "columns", "__version__"]
 
 
+# Threads that Ctrl-C left behind belong to the parent, and must have ended before the process takes itself apart.
+os.register_at_fork(after_in_child=_voxelcore.forget_left_behind)
+atexit.register(_voxelcore.await_left_behind)
+
+
 def _text(value):
     """A length as the command line takes it: a number is millimetres."""
     if isinstance(value, str):
+        if "," in value:
+            raise ValueError(f"{value!r}: expected one length; for several give a list")
         return value
     if isinstance(value, (bool, numpy.bool_)) or not numpy.isscalar(value):
         raise ValueError(f"{value!r}: expected a length such as '1.5vox' or a number of mm")
     return numpy.format_float_positional(float(value), trim="-")
+
+
+def _pruning(lambda_, bumps):
+    """Options for lambda_ and bumps, of which None is not given, and whether one of them asks for several results."""
+    values = {}
+    for name, given in (("lambda", lambda_), ("bumps", bumps)):
+        if isinstance(given, (list, tuple)):
+            if not given:
+                raise ValueError(f"{name}: the list is empty")
+            values[name] = ",".join(map(_text, given))
+        elif given is not None:
+            values[name] = _text(given)
+    return values, isinstance(lambda_, (list, tuple)) or isinstance(bumps, (list, tuple))
+
+
+def _share(progress, begin, end):
+    """A listener to a part of the work, which runs from `begin` to `end` of the whole."""
+    if progress is None:
+        return None
+    return lambda stage, done: progress(stage if end == 1 or stage != "done" else "core", begin + (end - begin) * done)
+
+
+def _without_mask(array, threshold):
+    """A plain array, in which the masked voxels of a numpy.ma array are background."""
+    voxels = numpy.ma.getdata(array) if isinstance(array, numpy.ma.MaskedArray) else numpy.asarray(array)
+    mask = numpy.ma.getmaskarray(array) if isinstance(array, numpy.ma.MaskedArray) else numpy.False_
+    if not mask.any():
+        return voxels
+    if mask.dtype != bool:
+        raise ValueError("the array: its mask has fields; give one of plain True and False")
+    value = 0
+    if threshold is not None:
+        if voxels.dtype == bool:
+            voxels = voxels.astype(numpy.uint8)
+        limits = (numpy.finfo if voxels.dtype.kind == "f" else numpy.iinfo)(voxels.dtype)
+        outside = [limit for limit in (limits.min, limits.max) if not threshold[0] <= limit <= threshold[1]]
+        if not outside:
+            raise ValueError(f"threshold: every {voxels.dtype} lies within it; no value is left for masked voxels")
+        value = outside[0]
+    return numpy.where(mask, voxels.dtype.type(value), voxels)
 
 
 def _three(name, values):
@@ -68,7 +120,7 @@ def core(
     array,
     *,
     spacing=(1, 1, 1),
-    lambda_="1.5vox",
+    lambda_=None,
     label=None,
     origin=(0, 0, 0),
     direction=(1, 0, 0, 0, 1, 0, 0, 0, 1),
@@ -80,31 +132,36 @@ def core(
     threads=0,
     progress=None,
 ):
-    """The medial surface of one label: its voxel core, pruned, with the topology of its voxels. Returns a Core.
+    """The medial surface of one label: its voxel core, pruned, with the topology of its voxels. Returns a Core, or a list of
+    them where lambda_ or bumps is a list.
 
-    array: three-dimensional, of whole numbers, any memory order; 0 is background. It is read once, into one bit a voxel,
-        and not kept. It must not change meanwhile.
+    array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array masks. It
+        is read once, into one bit a voxel, and not kept. It must not change meanwhile.
     spacing: mm between voxels along i, j and k.
     lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
         number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side of
-        the label's box). 0 keeps the whole core.
+        the label's box). 0 keeps the whole core. None: '1.5vox', but 0 beside bumps. A list shares one computation.
     label: its value. None: the array holds one; 'any': all but 0 are one shape.
     origin: LPS mm of the centre of voxel (0, 0, 0).
     direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
         SimpleITK has it.
     axes: 'ijk' for arrays a[i, j, k] (nibabel), 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of spacing, origin
         and direction the order is i, j, k in either case.
-    bumps: prune by the height of bumps instead: a number of mm, '1.2diag' (voxel diagonals) or '2vox'.
+    bumps: prune by the height of bumps instead: a number of mm, '1.2diag' (voxel diagonals) or '2vox'. A lambda_ beside it
+        is a floor that is pruned first. A list shares one computation.
     threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
     orthonormalize: accept skewed axes by taking the nearest that stand at right angles.
     engine: 'auto', 'lattice' or 'tetgen'; the result is the same.
     threads: processors to use; 0 means all.
-    progress: a function that is called with the stage and the fraction done, a few times a second.
+    progress: a function that is called with the stage and the fraction done, a few times a second. The fraction never
+        falls, and is 1 in the last call.
 
     >>> slab = numpy.ones((9, 9, 3), bool)
     >>> surface = core(slab, spacing=(1, 1, 2), lambda_="1mm")
     >>> surface.vertices.shape[1], surface.vertices.dtype.name, round(surface.radius.max(), 1)
     (3, 'float64', 3.1)
+    >>> [len(surface.vertices) for surface in core(slab, lambda_=[0, "1mm", "1.5vox"])]
+    [117, 49, 49]
     >>> core(slab.astype(complex))
     Traceback (most recent call last):
     ...
@@ -113,13 +170,13 @@ def core(
     if axes not in ("ijk", "kji"):
         raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
     values = _options(orthonormalize=orthonormalize, engine=engine, threads=int(threads))
-    if bumps is not None:
-        values["bumps"] = _text(bumps)
-        values["lambda"] = "0" if lambda_ == "1.5vox" else _text(lambda_)
-    else:
-        values["lambda"] = _text(lambda_)
+    pruning, several = _pruning(lambda_, bumps)
+    values.update(pruning)
     if threshold is not None:
-        low, high = threshold
+        try:
+            low, high = threshold
+        except (TypeError, ValueError):
+            raise ValueError(f"threshold {threshold!r}: expected two numbers, (lo, hi)") from None
         values["threshold"] = f"{_text(low)}:{_text(high)}"
     if isinstance(label, str) and label == "any":
         values["binary"] = "true"
@@ -127,12 +184,12 @@ def core(
         if isinstance(label, (bool, str)) or int(label) != label:
             raise ValueError(f"label {label!r}: expected a whole number, 'any' or None")
         values["labels"] = str(int(label))
-    voxels = numpy.asarray(array)
+    voxels = _without_mask(array, threshold)
     if axes == "kji":
         voxels = voxels.T
-    return Core(
-        _voxelcore.core(voxels, _three("spacing", spacing), _three("origin", origin), _nine(direction), values, progress)
-    )
+    place = _three("spacing", spacing), _three("origin", origin), _nine(direction)
+    cores = [Core(data) for data in _voxelcore.cores(voxels, *place, values, progress)]
+    return cores if several else cores[0]
 
 
 def skeleton(
@@ -151,8 +208,8 @@ def skeleton(
 ):
     """The curve skeleton of a label, with the topology of its voxels. Returns a Skeleton.
 
-    source: an array, with the other arguments of core() (spacing, label, ...; its whole core is then taken, lambda_=0), or
-        a Core. Of a pruned one the tips of slender branches are gone.
+    source: an array, with the other arguments of core() (spacing, label, ...; its whole core is then taken unless lambda_ or
+        bumps say otherwise), or a Core. Of a pruned one the tips of slender branches are gone.
     stand_out: branches stand out by so much at least. Lengths are mm or text with a unit, as lambda_.
     smooth: each point is fitted over so much of its branch before and behind it, and moves half a voxel at most; 0: not.
     plates: parts of the surface that are at least so erosion-thick stay surfaces.
@@ -168,12 +225,17 @@ def skeleton(
     >>> curve.numbers["branches"], curve.numbers["tips"], curve.topology["betti"]
     (1, 2, (1, 0, 0))
     """
+    own = progress
     if isinstance(source, Core):
         if of_array:
             raise ValueError(f"{next(iter(of_array))}: is for arrays; the core was made already")
     else:
-        of_array.setdefault("lambda_", 0)
-        source = core(source, threads=threads, progress=progress, **of_array)
+        if isinstance(of_array.get("lambda_"), (list, tuple)) or isinstance(of_array.get("bumps"), (list, tuple)):
+            raise ValueError("lambda_, bumps: give one; a skeleton has one core")
+        if of_array.get("lambda_") is None:
+            of_array["lambda_"] = 0
+        source = core(source, threads=threads, progress=_share(progress, 0, 0.5), **of_array)
+        own = _share(progress, 0.5, 1)
     values = _options(
         stand_out=_text(stand_out),
         smooth=_text(smooth),
@@ -184,7 +246,7 @@ def skeleton(
         root=root if isinstance(root, str) else ",".join(repr(value) for value in _three("root", root)),
         threads=int(threads),
     )
-    return Skeleton(_voxelcore.skeleton(source._data, values, progress))
+    return Skeleton(_voxelcore.skeleton(source._data, values, own))
 
 
 def measure(source, **options):
@@ -218,7 +280,7 @@ def read(path):
     >>> numpy.array_equal(again.vertices, surface.vertices)
     True
     """
-    return Core(_voxelcore.read_core(os.fspath(path)))
+    return Core(_voxelcore.read_core(os.fsencode(path)))
 
 
 def columns():
@@ -237,6 +299,9 @@ class _Result:
 
     def __init__(self, data):
         self._data = data
+
+    def __reduce__(self):
+        return type(self)._from_state, (self._data.state(),)
 
     @property
     def label(self):
@@ -267,6 +332,10 @@ class Core(_Result):
     """
 
     __slots__ = ()
+
+    @classmethod
+    def _from_state(cls, state):
+        return cls(_voxelcore.core_from_state(state))
 
     @property
     def vertices(self):
@@ -349,9 +418,17 @@ class Core(_Result):
         """Euler number and Betti numbers of the voxels, counted by other means than `topology`."""
         return self._data.shape_topology
 
-    def prune(self, lambda_, *, progress=None):
-        """This core pruned further, bit for bit as core() would give it: one computation serves many lambdas."""
-        return Core(_voxelcore.prune(self._data, _text(lambda_), progress))
+    def prune(self, lambda_=None, *, bumps=None, progress=None):
+        """This core pruned further, bit for bit as core() would give it: one computation serves many lambdas. A list gives a
+        list of cores. By bumps only what was made with bumps: with bumps=0, every height is in it.
+
+        >>> ragged = core(numpy.ones((9, 9, 3), bool), bumps=0)
+        >>> ragged.prune(bumps="1diag").topology == ragged.prune("1.5vox").topology
+        True
+        """
+        values, several = _pruning(lambda_, bumps)
+        cores = [Core(data) for data in _voxelcore.prune(self._data, values, progress)]
+        return cores if several else cores[0]
 
     def skeleton(self, **options):
         """skeleton(self, **options)."""
@@ -362,7 +439,7 @@ class Core(_Result):
 
         keep_edges: with the measures of all edges (.vtp, .vtk), for 'voxelcore prune' and read(...).prune().
         """
-        _voxelcore.save_core(self._data, os.fspath(path), bool(triangles), bool(keep_edges), bool(overwrite))
+        _voxelcore.save_core(self._data, os.fsencode(path), bool(triangles), bool(keep_edges), bool(overwrite))
 
     def free_edges(self):
         """uint32: the edges that bound no face."""
@@ -399,6 +476,10 @@ class Skeleton(_Result):
     """A curve skeleton: branches are poly lines from node to node. Made by skeleton()."""
 
     __slots__ = ()
+
+    @classmethod
+    def _from_state(cls, state):
+        return cls(_voxelcore.skeleton_from_state(state))
 
     @property
     def points(self):
@@ -456,8 +537,13 @@ class Skeleton(_Result):
         return self._data.numbers
 
     def branch(self, number):
-        """(p, 3) float64: the points of one branch, LPS mm."""
-        begin, end = self.branch_offsets[number], self.branch_offsets[number + 1]
+        """(p, 3) float64: the points of one branch, LPS mm. Negative numbers count from the last one."""
+        place = operator.index(number)
+        count = len(self.branch_nodes)
+        if not -count <= place < count:
+            raise IndexError(f"branch {number}: there are {count} branches, from 0")
+        place %= count
+        begin, end = self.branch_offsets[place], self.branch_offsets[place + 1]
         return self.points[self.branch_points[begin:end]]
 
     def measure(self):
@@ -470,7 +556,7 @@ class Skeleton(_Result):
         also: further files beside it: any of 'csv', 'swc', 'mrk.json', 'graphml', 'ma'.
         """
         also = also if isinstance(also, str) else ",".join(also)
-        _voxelcore.save_skeleton(self._data, os.fspath(path), also, bool(overwrite))
+        _voxelcore.save_skeleton(self._data, os.fsencode(path), also, bool(overwrite))
 
     def to_polydata(self):
         """A vtkPolyData (package python3-vtk9): a poly line a branch, polygons of faces that stay; point arrays Radius and

@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 
 Length = Union[str, float]
+Lengths = Union[List[Length], Tuple[Length, ...]]
 Progress = Optional[Callable[[str, float], None]]
 Vector = Sequence[float]
 
@@ -53,7 +54,14 @@ class Core(_Result):
     def spacing(self) -> Tuple[float, float, float]: ...
     @property
     def shape_topology(self) -> Dict[str, Any]: ...
-    def prune(self, lambda_: Length, *, progress: Progress = ...) -> Core: ...
+    @overload
+    def prune(
+        self, lambda_: Optional[Length] = ..., *, bumps: Optional[Length] = ..., progress: Progress = ...
+    ) -> Core: ...
+    @overload
+    def prune(self, lambda_: Lengths, *, progress: Progress = ...) -> List[Core]: ...
+    @overload
+    def prune(self, *, bumps: Lengths, progress: Progress = ...) -> List[Core]: ...
     def skeleton(self, **options: Any) -> Skeleton: ...
     def save(
         self,
@@ -97,11 +105,12 @@ class Skeleton(_Result):
     ) -> None: ...
     def to_polydata(self) -> Any: ...
 
+@overload
 def core(
     array: ArrayLike,
     *,
     spacing: Vector = ...,
-    lambda_: Length = ...,
+    lambda_: Optional[Length] = ...,
     label: Union[None, int, str] = ...,
     origin: Vector = ...,
     direction: ArrayLike = ...,
@@ -113,6 +122,40 @@ def core(
     threads: int = ...,
     progress: Progress = ...,
 ) -> Core: ...
+@overload
+def core(
+    array: ArrayLike,
+    *,
+    spacing: Vector = ...,
+    lambda_: Lengths,
+    label: Union[None, int, str] = ...,
+    origin: Vector = ...,
+    direction: ArrayLike = ...,
+    axes: str = ...,
+    bumps: Optional[Length] = ...,
+    threshold: Optional[Tuple[float, float]] = ...,
+    orthonormalize: bool = ...,
+    engine: str = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+) -> List[Core]: ...
+@overload
+def core(
+    array: ArrayLike,
+    *,
+    spacing: Vector = ...,
+    lambda_: Optional[Length] = ...,
+    label: Union[None, int, str] = ...,
+    origin: Vector = ...,
+    direction: ArrayLike = ...,
+    axes: str = ...,
+    bumps: Lengths,
+    threshold: Optional[Tuple[float, float]] = ...,
+    orthonormalize: bool = ...,
+    engine: str = ...,
+    threads: int = ...,
+    progress: Progress = ...,
+) -> List[Core]: ...
 def skeleton(
     source: Union[Core, ArrayLike],
     *,
