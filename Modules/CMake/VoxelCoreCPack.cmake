@@ -42,7 +42,7 @@ endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-vtk9)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtiff-dev, libpng-dev, zlib1g-dev, libbz2-dev, libssl-dev, libvtk9-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtiff-dev, libpng-dev, zlib1g-dev, libbz2-dev, libexpat1-dev, libssl-dev, libvtk9-dev")
 if(VOXELCORE_TETGEN)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libtet1.5-dev")
 endif()

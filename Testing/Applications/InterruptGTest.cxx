@@ -3,6 +3,7 @@
 #include "Pipeline/TemporaryFolder.h"
 #include "Program.h"
 
+#include <algorithm>
 #include <csignal>
 #include <gtest/gtest.h>
 
@@ -102,6 +103,28 @@ TEST_F(Interrupt, AKilledRunLeavesNoFileUnderItsFinalName)
       EXPECT_TRUE(name == "g.nrrd" || name.find(".part") != std::string::npos) << name;
     }
   }
+}
+
+TEST_F(Interrupt, WhatAKilledRunLeftIsRemovedByTheNext)
+{
+  const auto isPart = [](const std::string & name) { return name.find(".part-") != std::string::npos; };
+  const auto parts = [&] {
+    const Names names = m_Folder.Names();
+    return std::count_if(names.begin(), names.end(), isPart);
+  };
+  for (int tries = 0; parts() == 0; ++tries)
+  {
+    ASSERT_LT(tries, 20) << "no kill came while a file was being written";
+    EXPECT_EQ(StopAt("writing", { SIGKILL }).signal, SIGKILL);
+  }
+  const std::string other = "out.vtp.part-00000000-00000000-1-1"; // of another machine, that may still be running
+  WriteAll(m_Folder / other, "x");
+  const ProgramResult result = RunProgram({ "info", m_Folder / "g.nrrd" });
+  EXPECT_EQ(result.code, 0) << result.error;
+  EXPECT_GT(parts(), 1); // what writes nothing removes nothing
+  ASSERT_EQ(RunProgram({ "phantom", "ball", "--size", "8", "-o", m_Folder / "ball.nrrd" }).code, 0);
+  EXPECT_EQ(parts(), 1);
+  EXPECT_TRUE(m_Folder.Names().contains(other));
 }
 
 TEST_F(Interrupt, ARunThatMayEndLeavesItsFilesAndNothingElse)

@@ -189,7 +189,8 @@ TEST(Parameters, ValuesWithoutSenseAreUsageErrorsThatNameTheOption)
     { "crop", "0:5,0:5" },     { "crop", "5:5,:,:" },    { "crop", "5:4,:,:" },    { "crop", "-1:4,:,:" },
     { "crop", "0:0,:,:" },     { "crop", ":0,:,:" },     { "crop", ":,:,:,:" },    { "crop", "0-5,:,:" },
     { "crop", "0:5:2,:,:" },   { "crop", "a:b,:,:" },    { "crop", "0:5,,0:5" },   { "crop", "0:99999999999,:,:" },
-    { "crop", "0:1.5,:,:" },   { "crop", " 0:1,:,:" },
+    { "crop", "0:1.5,:,:" },   { "crop", " 0:1,:,:" },   { "threshold", "1:nan" }, { "threshold", "1:1e400" },
+    { "threshold", "+-1:5" },
   };
   for (const auto & [name, value] : wrong)
   {

@@ -5,6 +5,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputTransaction.h"
+#include "voxelcore/TemporaryNames.h"
 #include "voxelcore/Sha256.h"
 
 #include <algorithm>
@@ -84,15 +85,14 @@ RecordPath(const fs::path & folder)
   return folder / (folder.filename().string() + "_case.json");
 }
 
-std::vector<OutputFile>
+std::vector<RecordedFile>
 ListOutputs(const fs::path & folder)
 {
-  std::vector<OutputFile> outputs;
+  std::vector<RecordedFile> outputs;
   for (const fs::path & file : FilesOf(folder))
   {
     const std::string name = file.filename().string();
-    // A file being written is called <name>.part<process id>.
-    if (file != RecordPath(folder) && name.find(".part") == std::string::npos)
+    if (file != RecordPath(folder) && !WriterOf(file)) // none that is being written
     {
       outputs.push_back({ name, fs::file_size(file), FileSha256(file) });
     }
@@ -113,7 +113,7 @@ WriteCaseRecord(const fs::path & folder, const CaseRecord & record)
   json["reason"] = record.reason;
   json["warnings"] = record.warnings;
   json["outputs"] = Json::array();
-  for (const OutputFile & output : record.outputs)
+  for (const RecordedFile & output : record.outputs)
   {
     json["outputs"].push_back({ { "name", output.name }, { "bytes", output.bytes }, { "sha256", output.sha256 } });
   }
@@ -170,7 +170,7 @@ IsDone(const fs::path & folder, const std::string & key)
   {
     return false;
   }
-  return std::all_of(record->outputs.begin(), record->outputs.end(), [&](const OutputFile & output) {
+  return std::all_of(record->outputs.begin(), record->outputs.end(), [&](const RecordedFile & output) {
     const fs::path  path = folder / fs::path(output.name).filename();
     std::error_code missing;
     return fs::file_size(path, missing) == output.bytes && !missing && FileSha256(path) == output.sha256;

@@ -254,7 +254,7 @@ CaseJson(const PageCase & one)
                 { "view", "" },
                 { "files", Json::array() },
                 { "labels", Json::array() } };
-  for (const OutputFile & output : one.record.outputs)
+  for (const RecordedFile & output : one.record.outputs)
   {
     if (output.name.ends_with("_thumbnail.png"))
     {

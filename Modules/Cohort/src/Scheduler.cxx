@@ -183,10 +183,12 @@ Scheduler::Begin(std::size_t job)
     throw OutputError(one.folder.string() +
                       ": is a link; results are written below the output folder alone; remove it");
   }
-  fs::create_directory(one.folder, ignored);
-  if (!fs::is_directory(one.folder))
+  std::error_code error;
+  fs::create_directory(one.folder, error);
+  if (!fs::is_directory(one.folder, ignored))
   {
-    throw OutputError(one.folder.string() + ": cannot make this folder");
+    throw OutputError(one.folder.string() +
+                      ": cannot make this folder: " + (error ? error.message() : std::string("it is a file")));
   }
   if (!m_Options.force && !key.empty() && IsDone(one.folder, key))
   {

@@ -3,8 +3,8 @@
 #include "PageModel.h"
 #include "PageTexts.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/OutputFile.h"
 
-#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -42,15 +42,7 @@ WriteHtml(const std::filesystem::path & path,
     }
     page.replace(place, mark.size(), text);
   }
-  std::ofstream file(path, std::ios::binary);
-  file.write(page.data(), static_cast<std::streamsize>(page.size()));
-  file.close();
-  if (!file)
-  {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-    throw OutputError("cannot write '" + path.string() + "': the disk is full, or the folder cannot be written to");
-  }
+  WriteTextFile(path, page);
 }
 
 #else

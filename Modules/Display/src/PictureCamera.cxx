@@ -1,5 +1,7 @@
 #include "PictureCamera.h"
 
+#include "voxelcore/Vectors.h"
+
 #include <vtkMath.h>
 
 #include <algorithm>
@@ -13,22 +15,10 @@ namespace voxelcore
 namespace
 {
 
-double
-Dot(const Vector3 & a, const Vector3 & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3
-Cross(const Vector3 & a, const Vector3 & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
 Vector3
 Unit(const Vector3 & a)
 {
-  const double length = std::sqrt(Dot(a, a));
+  const double length = Length(a);
   return { a[0] / length, a[1] / length, a[2] / length };
 }
 

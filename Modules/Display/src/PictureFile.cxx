@@ -1,8 +1,9 @@
 #include "PictureFile.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/OutputFile.h"
+#include "voxelcore/TemporaryNames.h"
 
-#include <cstdio>
 #include <png.h>
 
 namespace voxelcore
@@ -16,16 +17,14 @@ WritePng(const std::filesystem::path & path, const Picture & picture)
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGB;
-  std::FILE * const file = std::fopen(path.c_str(), "wb");
-  const bool        written =
-    file != nullptr && png_image_write_to_stdio(&image, file, 0, picture.pixels.data(), 0, nullptr) != 0;
-  const bool closed = file != nullptr && std::fclose(file) == 0;
-  if (!written || !closed)
+  std::string      bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.pixels.data(), 0, nullptr) == 0)
   {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-    throw OutputError("cannot write '" + path.string() + "': the disk is full, or the folder cannot be written to");
+    throw OutputError("cannot make '" + FinalName(path).string() + "': " + image.message);
   }
+  bytes.resize(size);
+  WriteTextFile(path, bytes);
 }
 
 Picture

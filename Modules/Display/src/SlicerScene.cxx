@@ -1,7 +1,10 @@
 #include "voxelcore/SlicerScene.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/OutputFile.h"
+#include "voxelcore/TemporaryNames.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <zip.h>
 
@@ -129,13 +132,17 @@ void
 WriteZip(const std::filesystem::path & path, const std::vector<std::pair<std::string, std::filesystem::path>> & files)
 {
   const auto fail = [&path](const std::string & why) {
-    throw OutputError("cannot write '" + path.string() + "': " + why);
+    throw OutputError("cannot write '" + FinalName(path).string() + "': " + why);
   };
   int           error = 0;
   zip_t * const archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error);
   if (archive == nullptr)
   {
-    fail("the archive cannot be made");
+    zip_error_t reason;
+    zip_error_init_with_code(&reason, error); // takes the system's number along
+    const int systemError = zip_error_code_system(&reason);
+    zip_error_fini(&reason);
+    FailOutput(path, systemError != 0 ? systemError : EIO);
   }
   for (const auto & [name, file] : files)
   {
@@ -153,7 +160,12 @@ WriteZip(const std::filesystem::path & path, const std::vector<std::pair<std::st
   if (zip_close(archive) != 0)
   {
     const std::string why = zip_strerror(archive);
+    const int         systemError = zip_error_code_system(zip_get_error(archive));
     zip_discard(archive);
+    if (systemError != 0)
+    {
+      FailOutput(path, systemError);
+    }
     fail(why);
   }
 }

@@ -5,6 +5,7 @@
 
 #include "NiftiForms.h"
 #include "TextFields.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,12 +27,6 @@ struct Form
   std::array<Vector3, 3> axes{};
   Vector3                origin{};
 };
-
-double
-Length(const Vector3 & v)
-{
-  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
 
 /** As nifti_quatern_to_mat44 has it: a rotation, its third axis reversed when qfac is negative. */
 Form

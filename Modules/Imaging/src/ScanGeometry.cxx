@@ -2,6 +2,7 @@
 
 #include "ScanFile.h"
 #include "TextFields.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,18 +16,6 @@ namespace
 constexpr double kOrthonormalTolerance = 1e-4;
 // Axes this close to a common plane define no volume.
 constexpr double kSingularVolume = 1e-6;
-
-double
-Dot(const Vector3 & a, const Vector3 & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3
-Cross(const Vector3 & a, const Vector3 & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
 
 /** The orthonormal matrix nearest to the one with these columns (its polar factor), by Newton's iteration of Higham:
  *  X <- (X + X^-T) / 2. The columns of X^-T are the cross products of those of X over its determinant. */

@@ -64,31 +64,6 @@ ParseInteger(std::string_view word)
   return value;
 }
 
-std::optional<double>
-ParseReal(std::string_view word)
-{
-  if (word.size() > 1 && word.front() == '+' && word[1] != '-')
-  {
-    word.remove_prefix(1);
-  }
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error == std::errc::result_out_of_range)
-  {
-    // Too small to matter or too large to mean anything; the callers refuse infinities.
-    value = std::strtod(std::string(word).c_str(), nullptr);
-  }
-  else if (error != std::errc())
-  {
-    return std::nullopt;
-  }
-  if (end != word.data() + word.size())
-  {
-    return std::nullopt;
-  }
-  return value;
-}
-
 std::optional<std::vector<double>>
 ParseReals(std::string_view text)
 {

@@ -1,6 +1,8 @@
 #pragma once
 // Small strict helpers for text headers and messages. Independent of the locale.
 
+#include "voxelcore/ParseReal.h"
+
 #include <cstdint>
 #include <locale>
 #include <optional>
@@ -34,11 +36,9 @@ LowerCase(std::string_view text);
 std::vector<std::string_view>
 Words(std::string_view text);
 
-/** The whole word as a number; nothing when any character is left over. ParseReal also takes nan and inf. */
+/** The whole word as a number; nothing when any character is left over. */
 std::optional<std::int64_t>
 ParseInteger(std::string_view word);
-std::optional<double>
-ParseReal(std::string_view word);
 
 /** All words as numbers; nothing when one of them is none. */
 std::optional<std::vector<double>>

@@ -1,12 +1,17 @@
 // Multi-page TIFF through libtiff; itk::TIFFImageIO writes whole numbers of 8 and 16 bits only.
 
 #include "VolumeWriters.h"
+#include "voxelcore/OutputFile.h"
 
 #include <tiffio.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdarg>
+#include <fcntl.h>
 #include <memory>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace voxelcore
 {
@@ -19,23 +24,137 @@ Silent(TIFF *, void *, const char *, const char *, va_list)
   return 1;
 }
 
+/** A file for libtiff, which loses the reason when one cannot be written. */
+class TiffOutput
+{
+public:
+  explicit TiffOutput(const std::filesystem::path & path)
+    : m_Path(path)
+    , m_Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+  {
+    if (m_Descriptor < 0)
+    {
+      FailOutput(path, errno);
+    }
+  }
+  TiffOutput(const TiffOutput &) = delete;
+  TiffOutput &
+  operator=(const TiffOutput &) = delete;
+  ~TiffOutput()
+  {
+    if (m_Descriptor >= 0)
+    {
+      close(m_Descriptor);
+    }
+  }
+
+  TIFF *
+  Open(const char * mode, TIFFOpenOptions * options)
+  {
+    return TIFFClientOpenExt(m_Path.c_str(), mode, this, Read, Write, Seek, Close, Size, nullptr, nullptr, options);
+  }
+
+  /** Throws what went wrong first, if anything did. */
+  void
+  Finish()
+  {
+    const int descriptor = m_Descriptor;
+    m_Descriptor = -1;
+    if (close(descriptor) != 0 && m_Error == 0)
+    {
+      m_Error = errno;
+    }
+    if (m_Error != 0)
+    {
+      FailOutput(m_Path, m_Error);
+    }
+  }
+
+private:
+  static TiffOutput &
+  Self(thandle_t handle)
+  {
+    return *static_cast<TiffOutput *>(handle);
+  }
+  template <typename Result>
+  Result
+  Noted(Result result)
+  {
+    if (result < 0 && m_Error == 0)
+    {
+      m_Error = errno;
+    }
+    return result;
+  }
+  static tmsize_t
+  Read(thandle_t handle, void * bytes, tmsize_t count)
+  {
+    return Self(handle).Noted(read(Self(handle).m_Descriptor, bytes, static_cast<std::size_t>(count)));
+  }
+  static tmsize_t
+  Write(thandle_t handle, void * bytes, tmsize_t count)
+  {
+    tmsize_t done = 0;
+    while (done < count)
+    {
+      const ssize_t now = write(Self(handle).m_Descriptor,
+                                static_cast<const char *>(bytes) + done,
+                                static_cast<std::size_t>(count - done));
+      if (now < 0 && errno == EINTR)
+      {
+        continue;
+      }
+      if (Self(handle).Noted(now) <= 0)
+      {
+        return -1;
+      }
+      done += now;
+    }
+    return done;
+  }
+  static toff_t
+  Seek(thandle_t handle, toff_t offset, int from)
+  {
+    return static_cast<toff_t>(Self(handle).Noted(lseek(Self(handle).m_Descriptor, static_cast<off_t>(offset), from)));
+  }
+  static int
+  Close(thandle_t)
+  {
+    return 0;
+  }
+  static toff_t
+  Size(thandle_t handle)
+  {
+    struct stat status = {};
+    return Self(handle).Noted(fstat(Self(handle).m_Descriptor, &status)) == 0 ? static_cast<toff_t>(status.st_size)
+                                                                              : toff_t{ 0 };
+  }
+
+  std::filesystem::path m_Path;
+  int                   m_Descriptor;
+  int                   m_Error = 0;
+};
+
 } // namespace
 
 void
 WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
 {
-  const auto &      size = volume.geometry.size;
-  const PixelType   type = volume.type;
-  const auto        fail = []() { throw OutputError("libtiff could not write all of it"); };
+  const auto &    size = volume.geometry.size;
+  const PixelType type = volume.type;
+  TiffOutput      output(path);
+  const auto      fail = [&]() {
+    output.Finish(); // says why, where the system does
+    throw Error("libtiff could not write all of it");
+  };
   const auto        rowBytes = static_cast<std::size_t>(size[0]) * PixelBytes(type);
   const auto        pageBytes = rowBytes * static_cast<std::size_t>(size[1]);
   const auto        wholeBytes = pageBytes * static_cast<std::size_t>(size[2]);
   TIFFOpenOptions * options = TIFFOpenOptionsAlloc();
   TIFFOpenOptionsSetErrorHandlerExtR(options, Silent, nullptr);
   TIFFOpenOptionsSetWarningHandlerExtR(options, Silent, nullptr);
-  const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(
-    TIFFOpenExt(path.c_str(), wholeBytes > (1ULL << 31) ? "w8" : "w", options),
-    &TIFFClose);
+  std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(output.Open(wholeBytes > (1ULL << 31) ? "w8" : "w", options),
+                                                   &TIFFClose);
   TIFFOpenOptionsFree(options);
   if (!tiff)
   {
@@ -72,6 +191,8 @@ WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
       fail();
     }
   }
+  tiff.reset(); // may write, too
+  output.Finish();
 }
 
 } // namespace voxelcore

@@ -1,17 +1,15 @@
 #include "VolumeWriters.h"
 #include "TextFields.h"
+#include "voxelcore/OutputFile.h"
 
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <iomanip>
-#include <memory>
 
 namespace voxelcore
 {
@@ -36,27 +34,24 @@ enum class Wrapping
   Gzip
 };
 
-class OutputFile
+/** A file that may be packed. */
+class PackedFile
 {
 public:
-  OutputFile(const std::filesystem::path & path, Wrapping wrapping, int strategy = Z_DEFAULT_STRATEGY)
-    : m_File(std::fopen(path.c_str(), "wb"), &std::fclose)
+  PackedFile(const std::filesystem::path & path, Wrapping wrapping, int strategy = Z_DEFAULT_STRATEGY)
+    : m_File(path)
     , m_Wrapped(wrapping != Wrapping::None)
   {
-    if (!m_File)
-    {
-      Fail();
-    }
     if (m_Wrapped &&
         deflateInit2(&m_Zlib, kLevel, Z_DEFLATED, wrapping == Wrapping::Gzip ? 15 + 16 : 15, 8, strategy) != Z_OK)
     {
       throw std::bad_alloc();
     }
   }
-  OutputFile(const OutputFile &) = delete;
-  OutputFile &
-  operator=(const OutputFile &) = delete;
-  ~OutputFile()
+  PackedFile(const PackedFile &) = delete;
+  PackedFile &
+  operator=(const PackedFile &) = delete;
+  ~PackedFile()
   {
     if (m_Wrapped)
     {
@@ -99,10 +94,7 @@ public:
     {
       Deflate({}, Z_FINISH);
     }
-    if (std::fclose(m_File.release()) != 0)
-    {
-      Fail();
-    }
+    m_File.Finish();
     return m_Bytes;
   }
 
@@ -124,24 +116,15 @@ private:
   void
   Put(const void * bytes, std::size_t count)
   {
-    if (count > 0 && std::fwrite(bytes, 1, count, m_File.get()) != count)
-    {
-      Fail();
-    }
+    m_File.Write(bytes, count);
     m_Bytes += count;
   }
 
-  [[noreturn]] static void
-  Fail()
-  {
-    throw OutputError(std::strerror(errno));
-  }
-
-  std::unique_ptr<std::FILE, decltype(&std::fclose)> m_File;
-  bool                                               m_Wrapped;
-  z_stream                                           m_Zlib{};
-  std::vector<Bytef>                                 m_Packed = std::vector<Bytef>(1U << 18);
-  std::uint64_t                                      m_Bytes = 0;
+  OutputFile         m_File;
+  bool               m_Wrapped;
+  z_stream           m_Zlib{};
+  std::vector<Bytef> m_Packed = std::vector<Bytef>(1U << 18);
+  std::uint64_t      m_Bytes = 0;
 };
 
 /** All digits: what is read back is what was written. */
@@ -219,7 +202,7 @@ WriteNrrd(const std::filesystem::path & path, const VolumeToWrite & volume)
       Text(" ",
            vector(g.direction[a] * g.spacing[a], g.direction[3 + a] * g.spacing[a], g.direction[6 + a] * g.spacing[a]));
   }
-  OutputFile file(path, volume.compress ? Wrapping::Gzip : Wrapping::None, Strategy(volume));
+  PackedFile file(path, volume.compress ? Wrapping::Gzip : Wrapping::None, Strategy(volume));
   file.WritePlain(
     Text("NRRD0004\n# Complete NRRD file format specification at:\n"
          "# http://teem.sourceforge.net/nrrd/format.html\n",
@@ -300,7 +283,7 @@ WriteNifti(const std::filesystem::path & path, const VolumeToWrite & volume)
   }
   h.Put(344, std::array<char, 4>{ 'n', '+', '1', '\0' });
 
-  OutputFile file(path, LowerCase(path.string()).ends_with(".gz") ? Wrapping::Gzip : Wrapping::None, Strategy(volume));
+  PackedFile file(path, LowerCase(path.string()).ends_with(".gz") ? Wrapping::Gzip : Wrapping::None, Strategy(volume));
   file.Write(h.Bytes());
   file.Write(volume);
   file.Close();
@@ -314,7 +297,7 @@ WriteMetaImage(const std::filesystem::path & path, const VolumeToWrite & volume)
   auto                  dataPath = path;
   dataPath.replace_extension(volume.compress ? ".zraw" : ".raw");
   // Programs want the packed size in the header, so the voxels go into a file of their own first.
-  OutputFile data(dataPath, wrapping, Strategy(volume));
+  PackedFile data(dataPath, wrapping, Strategy(volume));
   data.Write(volume);
   const std::uint64_t bytes = data.Close();
 
@@ -329,7 +312,7 @@ WriteMetaImage(const std::filesystem::path & path, const VolumeToWrite & volume)
   const auto numbers = [](const Vector3 & v) { return Text(Exact(v[0]), " ", Exact(v[1]), " ", Exact(v[2])); };
   const std::array<const char *, 8> types{ "MET_UCHAR", "", "MET_USHORT", "", "MET_UINT", "", "MET_ULONG_LONG", "" };
   const bool                        local = LowerCase(path.extension().string()) == ".mha";
-  OutputFile                        file(path, Wrapping::None);
+  PackedFile                        file(path, Wrapping::None);
   file.WritePlain(Text("ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = ",
                        kBigEndian ? "True" : "False",
                        "\nCompressedData = ",

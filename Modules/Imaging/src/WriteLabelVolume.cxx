@@ -2,9 +2,12 @@
 #include "TextFields.h"
 #include "VolumeWriters.h"
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/OutputFile.h"
+#include "voxelcore/TemporaryNames.h"
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -190,7 +193,7 @@ CheckWritten(const std::filesystem::path & path,
   }
   if (!same)
   {
-    throw OutputError(
+    throw Error(
       Text("what was written reads back differently; choose another format (.nrrd holds everything) "
            "and check the disk"));
   }
@@ -202,17 +205,14 @@ class Workshop
 public:
   explicit Workshop(const std::filesystem::path & result)
     : m_Result(result)
+    , m_Folder(TemporaryName(result))
   {
-    const auto  parent = result.has_parent_path() ? result.parent_path() : std::filesystem::path(".");
-    std::string name = (parent / ".voxelcore-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
+    RemoveAbandoned(result.has_parent_path() ? result.parent_path() : std::filesystem::path("."));
+    std::error_code error;
+    if (!std::filesystem::create_directory(m_Folder, error))
     {
-      throw OutputError(Text(Printable(result.string(), 4096),
-                             ": cannot be written (",
-                             std::strerror(errno),
-                             "); check that the folder exists and may be written to"));
+      FailOutput(result, error ? error.value() : EEXIST);
     }
-    m_Folder = name;
   }
   Workshop(const Workshop &) = delete;
   Workshop &
@@ -292,8 +292,10 @@ WriteLabelVolume(const std::filesystem::path &   path,
 
   const Workshop workshop(path);
   const auto     fail = [&path](const std::string & why) {
-    throw OutputError(
-      Text(Printable(path.string(), 4096), ": cannot be written (", OneLine(why), "); check permissions and disk"));
+    throw OutputError(Text(Printable(FinalName(path).string(), 4096),
+                           ": cannot be written (",
+                           OneLine(why),
+                           "); check permissions and disk"));
   };
   try
   {
@@ -315,6 +317,10 @@ WriteLabelVolume(const std::filesystem::path &   path,
     }
     CheckWritten(workshop.File(), kind, geometry, type, slice);
     workshop.Publish();
+  }
+  catch (const OutputError &)
+  {
+    throw;
   }
   catch (const std::filesystem::filesystem_error & error)
   {

@@ -1,8 +1,8 @@
 #include "ModelCells.h"
 #include "ModelFormats.h"
-#include "OutputFile.h"
 #include "TextFile.h"
 
+#include "voxelcore/OutputFile.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>

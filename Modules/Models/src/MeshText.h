@@ -5,6 +5,7 @@
 #include "VtpFile.h"
 #include "voxelcore/ReadMesh.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -101,6 +102,26 @@ public:
     }
   }
 
+  /** The first word of a line; empty where there is none. */
+  static std::string_view
+  FirstWord(std::string_view line)
+  {
+    MeshText text(line);
+    return text.NextLine('\0') ? text.Word() : std::string_view{};
+  }
+
+  /** A word as a message may show it: short, with nothing a terminal would act on. */
+  static std::string
+  Shown(std::string_view word)
+  {
+    std::string text(word.substr(0, 40));
+    for (char & c : text)
+    {
+      c = c >= ' ' && c <= '~' ? c : '?';
+    }
+    return text;
+  }
+
   std::size_t
   LineNumber() const
   {
@@ -112,17 +133,6 @@ private:
   IsBlank(char c)
   {
     return c == ' ' || c == '\t' || c == '\r';
-  }
-  /** Nothing a terminal would act on. */
-  static std::string
-  Shown(std::string_view word)
-  {
-    std::string text(word.substr(0, 40));
-    for (char & c : text)
-    {
-      c = c >= ' ' && c <= '~' ? c : '?';
-    }
-    return text;
   }
   void
   SkipBlanks()
@@ -160,5 +170,9 @@ MeshFile
 ParseOff(std::string_view bytes);
 MeshFile
 ParsePly(std::string_view bytes);
+MeshFile
+ParseLegacyVtk(std::string_view bytes);
+MeshFile
+ParseVtp(std::string_view bytes);
 
 } // namespace voxelcore

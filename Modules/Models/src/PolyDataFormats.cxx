@@ -1,8 +1,8 @@
 #include "ModelCells.h"
 #include "ModelFormats.h"
-#include "OutputFile.h"
 #include "VtkMessages.h"
 #include "voxelcore/ModelPolyData.h"
+#include "voxelcore/OutputStream.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -10,6 +10,7 @@
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -21,8 +22,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
 #include <limits>
+#include <locale>
 
 namespace voxelcore
 {
@@ -355,46 +356,57 @@ MakePolyData(const MedialModel & model, bool keepEdges)
 namespace
 {
 
-/** Whether the file ends as a complete one does. */
-bool
-EndsWith(const std::filesystem::path & path, std::string_view ending)
+/** Writes to a stream that keeps the reason of a failure. By itself VTK loses it, and removes whatever has the name. */
+class StreamedPolyDataWriter : public vtkXMLPolyDataWriter
 {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const auto    size = static_cast<std::streamoff>(file.tellg());
-  if (!file || size < static_cast<std::streamoff>(ending.size()))
+public:
+  static StreamedPolyDataWriter *
+  New();
+  vtkTypeMacro(StreamedPolyDataWriter, vtkXMLPolyDataWriter);
+
+  void
+  SetStream(std::ostream * stream)
   {
-    return false;
+    this->Stream = stream;
   }
-  std::string tail(ending.size(), '\0');
-  file.seekg(size - static_cast<std::streamoff>(ending.size()));
-  return file.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == ending;
-}
+
+protected:
+  int
+  WriteInternal() override
+  {
+    this->Stream->imbue(std::locale::classic());
+    return this->WriteData();
+  }
+};
+
+vtkStandardNewMacro(StreamedPolyDataWriter);
 
 } // namespace
 
 void
 WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
 {
-  CheckWritable(path); // VTK would not say why, and on a full disk it removes whatever stands at the path
-  const VtkMessages            messages;
-  vtkNew<vtkXMLPolyDataWriter> writer;
+  OutputStream                   stream(path);
+  const VtkMessages              messages;
+  vtkNew<StreamedPolyDataWriter> writer;
   writer->SetInputData(MakePolyData(model, keepEdges));
   writer->SetFileName(path.c_str());
+  writer->SetStream(&stream);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   // LZ4 makes 18 MB into 7 but takes three times as long to write, and its bytes change with the library's version.
   writer->SetCompressorTypeToNone();
   writer->SetHeaderTypeToUInt64();
   writer->SetByteOrderToLittleEndian();
-  errno = 0;
   const bool written = writer->Write() == 1;
-  const int  errorNumber = errno;
-  const bool complete = written && writer->GetErrorCode() == vtkErrorCode::NoError && messages.First().empty() &&
-                        EndsWith(path, "</VTKFile>\n");
-  if (!complete)
+  writer->SetStream(nullptr);
+  const bool complete =
+    written && stream.good() && writer->GetErrorCode() == vtkErrorCode::NoError && messages.First().empty();
+  if (!complete && stream.good())
   {
-    FailOutput(path, writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError ? ENOSPC : errorNumber);
+    FailOutput(path, EIO); // of VTK's own
   }
+  stream.Finish();
 }
 
 void

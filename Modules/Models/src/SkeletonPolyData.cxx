@@ -1,6 +1,6 @@
-#include "OutputFile.h"
 #include "VtpFile.h"
 
+#include "voxelcore/OutputFile.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/SkeletonModel.h"
 

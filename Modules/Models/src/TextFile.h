@@ -1,7 +1,8 @@
 #pragma once
 // Files of text, written in large pieces.
 
-#include "OutputFile.h"
+
+#include "voxelcore/OutputFile.h"
 
 #include <charconv>
 #include <cmath>

@@ -12,13 +12,6 @@ namespace voxelcore
 namespace
 {
 
-double
-Distance(const Vector3 & a, const Vector3 & b)
-{
-  const Vector3 d = Sum(a, b, -1);
-  return std::sqrt(Dot(d, d));
-}
-
 /** How one branch grows. */
 struct Growth
 {
@@ -138,12 +131,12 @@ private:
   {
     const GrownPoint & from = m_Points[origin];
     const Vector3      tangent = Direction(
-      Sum(from.position, m_Points[static_cast<std::size_t>(std::max<std::int64_t>(from.parent, 0))].position, -1));
+      Minus(from.position, m_Points[static_cast<std::size_t>(std::max<std::int64_t>(from.parent, 0))].position));
     Vector3 sideways = RandomInBall(random);
-    sideways = Direction(Sum(sideways, tangent, -Dot(sideways, tangent)));
+    sideways = Direction(Along(sideways, -Dot(sideways, tangent), tangent));
     Growth growth;
     growth.start = from.position;
-    growth.direction = Direction(Sum(sideways, tangent, order == 1 ? 0.35 : 0.7));
+    growth.direction = Direction(Along(sideways, order == 1 ? 0.35 : 0.7, tangent));
     growth.length = order == 1 ? (0.6 - 0.3 * along) * m_Shortest * random.Uniform(0.7, 1.2)
                                : (0.24 - 0.1 * along) * m_Shortest * random.Uniform(0.5, 1.2);
     growth.baseRadius = (order == 1 ? 0.45 : 0.6) * from.radius * random.Uniform(0.8, 1.0);
@@ -178,9 +171,9 @@ private:
       }
       points.push_back(point);
       // The turning itself changes slowly: the line is smooth.
-      turn = Sum({ 0.8 * turn[0], 0.8 * turn[1], 0.8 * turn[2] }, RandomInBall(random), 0.3 * growth.wander);
-      direction = Direction(Sum(Sum(direction, turn), { 0, 0, -1 }, growth.gravity));
-      position = Sum(position, direction, m_Step);
+      turn = Along({ 0.8 * turn[0], 0.8 * turn[1], 0.8 * turn[2] }, 0.3 * growth.wander, RandomInBall(random));
+      direction = Direction(Along(Along(direction, 1, turn), growth.gravity, { 0, 0, -1 }));
+      position = Along(position, m_Step, direction);
     }
     return points;
   }

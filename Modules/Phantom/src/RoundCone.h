@@ -1,26 +1,15 @@
 #pragma once
-// The voxels of a round cone, the hull of two balls, of which branches are made; and vectors for their growth.
+// The voxels of a round cone, the hull of two balls, of which branches are made, and directions for their growth.
 
 #include "Kinds.h"
 #include "SplitMix64.h"
+#include "voxelcore/Vectors.h"
 
 #include <cmath>
 #include <utility>
 
 namespace voxelcore
 {
-
-inline Vector3
-Sum(const Vector3 & a, const Vector3 & b, double factor = 1)
-{
-  return { a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2] };
-}
-
-inline double
-Dot(const Vector3 & a, const Vector3 & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 inline Vector3
 Direction(const Vector3 & a)
@@ -80,7 +69,7 @@ VisitRoundCone(const PhantomOptions & options,
   const auto [lowX, highX] = within(0);
   const auto [lowY, highY] = within(1);
   const auto [lowZ, highZ] = within(2);
-  const Vector3 along = Sum(b.position, a.position, -1);
+  const Vector3 along = Minus(b.position, a.position);
   const double  squared = Dot(along, along);
   for (std::int32_t z = std::max(lowZ, firstZ); z <= std::min(highZ, lastZ); ++z)
   {
@@ -91,9 +80,9 @@ VisitRoundCone(const PhantomOptions & options,
         const Vector3 centre{ (x + 0.5) * options.spacing[0],
                               (y + 0.5) * options.spacing[1],
                               (z + 0.5) * options.spacing[2] };
-        const Vector3 offset = Sum(centre, a.position, -1);
+        const Vector3 offset = Minus(centre, a.position);
         const double  t = squared > 0 ? std::clamp(Dot(offset, along) / squared, 0.0, 1.0) : 0.0;
-        const Vector3 away = Sum(offset, along, -t);
+        const Vector3 away = Along(offset, -t, along);
         const double  radius = a.radius + t * (b.radius - a.radius);
         if (Dot(away, away) <= radius * radius)
         {

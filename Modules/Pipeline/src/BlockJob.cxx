@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/HaloBlocks.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/OutputStream.h"
 #include "voxelcore/ReadInput.h"
 
 #include <algorithm>
@@ -101,16 +102,11 @@ FindParts(const fs::path & folder, const std::string & start)
 }
 
 void
-WriteShareFile(const fs::path & path, const fs::path & target, const BlockShare & share)
+WriteShareFile(const fs::path & path, const BlockShare & share)
 {
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  OutputStream file(path);
   WriteBlockShare(share, file);
-  file.close();
-  if (!file)
-  {
-    throw OutputError(target.string() + ": cannot write: " + std::strerror(errno != 0 ? errno : EIO));
-  }
+  file.Finish();
 }
 
 } // namespace
@@ -163,7 +159,7 @@ RunBlockJob(const BlockOptions & options, const JobContext & context)
                                                core.engine,
                                                PartOfProgress(context.progress, one.label.name, at(i), at(i + 1)));
     const fs::path   file = BlockPath(options, one.label.value, one.component);
-    WriteShareFile(transaction.Stage(file), file, share);
+    WriteShareFile(transaction.Stage(file), share);
     result.parts.push_back({ one.label.value,
                              one.component,
                              one.label.name,

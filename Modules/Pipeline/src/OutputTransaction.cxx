@@ -1,11 +1,10 @@
 #include "voxelcore/OutputTransaction.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/TemporaryNames.h"
 
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <unistd.h>
@@ -81,14 +80,6 @@ fs::path
 DirectoryOf(const fs::path & target)
 {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
-}
-
-fs::path
-TemporaryName(const fs::path & target)
-{
-  fs::path name = target;
-  name += ".part" + std::to_string(getpid());
-  return name;
 }
 
 } // namespace
@@ -197,12 +188,22 @@ OutputTransaction::RefuseSecondUse(const fs::path & target) const
   }
 }
 
+void
+OutputTransaction::ClearAbandoned(const fs::path & directory)
+{
+  if (m_Cleared.insert(directory).second)
+  {
+    RemoveAbandoned(directory);
+  }
+}
+
 fs::path
 OutputTransaction::Stage(const fs::path & target)
 {
   const fs::path clean = target.lexically_normal();
   RefuseSecondUse(clean);
   CheckTarget(clean);
+  ClearAbandoned(DirectoryOf(clean));
   const fs::path temporary = TemporaryName(clean);
   Remember(temporary); // before the file exists, so that no moment is left in which a signal would miss it
   m_Items.push_back({ temporary, clean, false });
@@ -215,6 +216,7 @@ OutputTransaction::StageWithCompanions(const fs::path & target)
   const fs::path clean = target.lexically_normal();
   RefuseSecondUse(clean);
   CheckTarget(clean);
+  ClearAbandoned(DirectoryOf(clean));
   const fs::path  directory = TemporaryName(clean);
   std::error_code error;
   Remember(directory);
@@ -298,20 +300,6 @@ OutputTransaction::Commit()
   }
   m_Items.clear();
   m_Directories.clear();
-}
-
-void
-WriteTextFile(const fs::path & path, const std::string & text)
-{
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file)
-  {
-    const int reason = errno;
-    Refuse(path, std::string("cannot write: ") + (reason != 0 ? std::strerror(reason) : "unknown reason"));
-  }
 }
 
 } // namespace voxelcore

@@ -4,6 +4,7 @@
 #include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
+#include "voxelcore/ParseReal.h"
 
 #include <algorithm>
 #include <charconv>
@@ -15,21 +16,6 @@
 
 namespace voxelcore
 {
-
-/** A number, with or without a leading plus; none otherwise. */
-inline std::optional<double>
-ParseReal(std::string_view text)
-{
-  double value = 0;
-  // from_chars takes no leading plus.
-  text.remove_prefix(text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || std::isnan(value))
-  {
-    return std::nullopt;
-  }
-  return value;
-}
 
 /** The values given to one command, read with its defaults. */
 class ParameterReader

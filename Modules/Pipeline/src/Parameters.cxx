@@ -120,7 +120,7 @@ RangeFrom(const ParameterReader & reader, std::string_view name)
   const auto parts = Split(reader.Text(name), ':');
   const auto low = ParseReal(parts.front());
   const auto high = ParseReal(parts.back());
-  if (parts.size() != 2 || !low || !high || *low > *high)
+  if (parts.size() != 2 || !low || !high || !(*low <= *high))
   {
     reader.Refuse(name, "LO:HI with LO <= HI, such as 300:3000 (inf is allowed)");
   }

@@ -1,7 +1,7 @@
 // What a band field starts from: distances to the boundary, or grey values.
 
 #include "BandTile.h"
-#include "Vectors.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>

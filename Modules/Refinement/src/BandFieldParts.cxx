@@ -1,7 +1,7 @@
 // Where a band field may be smoothed by passes that reach far.
 
 #include "BandTile.h"
-#include "Vectors.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "FieldSurface.h"
 
-#include "Vectors.h"
+#include "voxelcore/Vectors.h"
+
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The surface that grey values tell.
 
 #include "FieldSurface.h"
-#include "Vectors.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 
 #include "FieldSurface.h"
 #include "FlatProfile.h"
-#include "Vectors.h"
 
 #include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>

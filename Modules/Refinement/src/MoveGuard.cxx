@@ -1,6 +1,7 @@
 #include "MoveGuard.h"
 
-#include "Vectors.h"
+#include "voxelcore/Vectors.h"
+
 
 #include <algorithm>
 

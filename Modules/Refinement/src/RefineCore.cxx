@@ -1,10 +1,10 @@
 #include "voxelcore/Refinement.h"
 
-#include "Vectors.h"
 #include "WorkingCore.h"
 
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/TriangleTree.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 

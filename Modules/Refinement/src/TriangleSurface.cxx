@@ -1,8 +1,8 @@
 #include "voxelcore/SurfaceEstimate.h"
 
-#include "Vectors.h"
 
 #include "voxelcore/TriangleTree.h"
+#include "voxelcore/Vectors.h"
 
 namespace voxelcore
 {

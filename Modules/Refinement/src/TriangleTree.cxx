@@ -1,6 +1,7 @@
 #include "voxelcore/TriangleTree.h"
 
-#include "Vectors.h"
+#include "voxelcore/Vectors.h"
+
 
 #include <algorithm>
 #include <limits>

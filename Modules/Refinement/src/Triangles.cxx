@@ -1,6 +1,7 @@
 #include "Triangles.h"
 
-#include "Vectors.h"
+#include "voxelcore/Vectors.h"
+
 
 #include <algorithm>
 #include <numeric>

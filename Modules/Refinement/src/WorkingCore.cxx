@@ -1,7 +1,7 @@
 #include "WorkingCore.h"
 
 #include "MoveGuard.h"
-#include "Vectors.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <numeric>

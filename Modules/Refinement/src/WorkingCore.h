@@ -3,11 +3,11 @@
 
 #include "Feet.h"
 #include "Triangles.h"
-#include "Vectors.h"
 #include "VertexPairs.h"
 
 #include "voxelcore/Refinement.h"
 #include "voxelcore/SimplePairCollapse.h"
+#include "voxelcore/Vectors.h"
 
 #include <vector>
 

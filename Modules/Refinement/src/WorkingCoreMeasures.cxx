@@ -1,7 +1,7 @@
 // What the elements of a working core measure where they have moved to.
 
-#include "Vectors.h"
 #include "WorkingCore.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <numeric>

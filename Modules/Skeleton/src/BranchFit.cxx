@@ -1,6 +1,6 @@
-#include "PointGeometry.h"
 
 #include "voxelcore/SkeletonGraph.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,11 @@ constexpr double kNodeWeight = 4;
 /** Sums of a weighted fit of 1, u, u^2. */
 struct Parabola
 {
-  double moments[5]{};
-  Point3 sums[3]{};
+  double  moments[5]{};
+  Vector3 sums[3]{};
 
   void
-  Add(double u, double weight, const Point3 & point)
+  Add(double u, double weight, const Vector3 & point)
   {
     double power = weight;
     for (int k = 0; k < 5; ++k)
@@ -37,7 +37,7 @@ struct Parabola
 
   /** Its value at u = 0; false when too few points define it. */
   bool
-  Value(Point3 & value) const
+  Value(Vector3 & value) const
   {
     const double * m = moments;
     const double   c0 = m[2] * m[4] - m[3] * m[3];
@@ -66,10 +66,10 @@ Tricube(double u)
 
 /** A way in half voxels: at most 1 means half a voxel. */
 double
-HalfVoxels(const VoxelReach & reach, const Point3 & way)
+HalfVoxels(const VoxelReach & reach, const Vector3 & way)
 {
   double sum = 0;
-  for (const Point3 & row : reach)
+  for (const Vector3 & row : reach)
   {
     sum += Dot(row, way) * Dot(row, way);
   }
@@ -77,12 +77,12 @@ HalfVoxels(const VoxelReach & reach, const Point3 & way)
 }
 
 /** The place on a segment that is nearest to a point, measured in voxels. */
-Point3
-NearestOnSegment(const VoxelReach & reach, const Point3 & a, const Point3 & b, const Point3 & p)
+Vector3
+NearestOnSegment(const VoxelReach & reach, const Vector3 & a, const Vector3 & b, const Vector3 & p)
 {
   double along = 0;
   double squared = 0;
-  for (const Point3 & row : reach)
+  for (const Vector3 & row : reach)
   {
     along += Dot(row, Minus(p, a)) * Dot(row, Minus(b, a));
     squared += Dot(row, Minus(b, a)) * Dot(row, Minus(b, a));
@@ -95,8 +95,8 @@ NearestOnSegment(const VoxelReach & reach, const Point3 & a, const Point3 & b, c
  *  one. */
 struct MedialLine
 {
-  std::vector<Point3> points;
-  bool                isLoop = false;
+  std::vector<Vector3> points;
+  bool                 isLoop = false;
 
   std::size_t
   Last() const
@@ -107,11 +107,11 @@ struct MedialLine
 
 /** One round: each point to the value of its parabola, through the places `from`. */
 void
-FitOnce(const MedialLine &          line,
-        const std::vector<Point3> & from,
-        double                      window,
-        const VoxelReach &          reach,
-        std::vector<Point3> &       to)
+FitOnce(const MedialLine &           line,
+        const std::vector<Vector3> & from,
+        double                       window,
+        const VoxelReach &           reach,
+        std::vector<Vector3> &       to)
 {
   const std::size_t   last = line.Last();
   const bool          isLoop = line.isLoop;
@@ -171,18 +171,18 @@ FitOnce(const MedialLine &          line,
       }
       firstUsed = std::min(firstUsed, j);
     }
-    Point3 value{};
+    Vector3 value{};
     if (!fit.Value(value))
     {
       to[i] = from[i];
       continue;
     }
-    Point3 nearest = line.points[i];
-    double away = HalfVoxels(reach, Minus(value, nearest));
+    Vector3 nearest = line.points[i];
+    double  away = HalfVoxels(reach, Minus(value, nearest));
     for (std::size_t j = firstUsed; j < lastUsed && away > 0; ++j)
     {
-      const Point3 place = NearestOnSegment(reach, line.points[j], line.points[j + 1], value);
-      const double there = HalfVoxels(reach, Minus(value, place));
+      const Vector3 place = NearestOnSegment(reach, line.points[j], line.points[j + 1], value);
+      const double  there = HalfVoxels(reach, Minus(value, place));
       if (there < away)
       {
         away = there;
@@ -217,9 +217,9 @@ FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach)
   {
     return;
   }
-  MedialLine          line;
-  std::vector<Point3> from;
-  std::vector<Point3> to;
+  MedialLine           line;
+  std::vector<Vector3> from;
+  std::vector<Vector3> to;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
     const auto points = graph.Branch(branch);

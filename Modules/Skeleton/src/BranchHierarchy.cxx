@@ -1,8 +1,8 @@
 #include "BranchHierarchy.h"
 
-#include "PointGeometry.h"
 
 #include "voxelcore/UnionFind.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double
-AngleDegrees(const Point3 & a, const Point3 & b)
+AngleDegrees(const Vector3 & a, const Vector3 & b)
 {
   const double lengths = std::sqrt(Dot(a, a)) * std::sqrt(Dot(b, b));
   if (!(lengths > 0))
@@ -197,13 +197,13 @@ private:
   }
 
   /** From the end of a branch to its first point outside the ball there, or as far as it goes. */
-  Point3
+  Vector3
   Direction(const End & end) const
   {
-    const auto     points = m_Graph.Branch(end.branch);
-    const Point3 & from = m_Graph.positions[PointFrom(end, 0)];
-    const double   reach = 1.5 * m_Graph.radius[PointFrom(end, 0)] + 2 * m_Table.branches[end.branch].meanRadius;
-    std::size_t    i = 1;
+    const auto      points = m_Graph.Branch(end.branch);
+    const Vector3 & from = m_Graph.positions[PointFrom(end, 0)];
+    const double    reach = 1.5 * m_Graph.radius[PointFrom(end, 0)] + 2 * m_Table.branches[end.branch].meanRadius;
+    std::size_t     i = 1;
     while (i + 1 < points.size() && Distance(from, m_Graph.positions[PointFrom(end, i)]) < reach)
     {
       ++i;
@@ -259,14 +259,14 @@ private:
           next.push_back(end);
         }
       }
-      const Point3 back = Direction(far);
-      const Point3 ahead{ -back[0], -back[1], -back[2] };
-      std::size_t  heir = next.size();
-      double       best = -std::numeric_limits<double>::infinity();
+      const Vector3 back = Direction(far);
+      const Vector3 ahead{ -back[0], -back[1], -back[2] };
+      std::size_t   heir = next.size();
+      double        best = -std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < next.size(); ++i)
       {
         BranchRecord & child = m_Table.branches[next[i].branch];
-        const Point3   direction = Direction(next[i]);
+        const Vector3  direction = Direction(next[i]);
         child.parentAngle = AngleDegrees(ahead, direction);
         child.centrifugal = record.centrifugal + 1;
         const double lengths = std::sqrt(Dot(ahead, ahead)) * std::sqrt(Dot(direction, direction));
@@ -348,7 +348,7 @@ private:
       std::size_t first = 0;
       if (axis.parent != kNoBranch)
       {
-        const Point3 & base = m_Graph.positions[points[0]];
+        const Vector3 & base = m_Graph.positions[points[0]];
         while (first + 2 < points.size() &&
                Distance(base, m_Graph.positions[points[first]]) < m_Graph.radius[points[0]])
         {
@@ -361,16 +361,16 @@ private:
         way[i] = way[i - 1] + Distance(m_Graph.positions[points[i - 1]], m_Graph.positions[points[i]]);
       }
       axis.length = way.back();
-      const Point3 & base = m_Graph.positions[points[first]];
-      const double   chord = Distance(base, m_Graph.positions[points.back()]);
+      const Vector3 & base = m_Graph.positions[points[first]];
+      const double    chord = Distance(base, m_Graph.positions[points.back()]);
       axis.tortuosity = chord > 0 ? axis.length / chord : std::numeric_limits<double>::infinity();
       axis.emergenceAngle = axis.midpointAngle = axis.tipAngle = kNan;
       const ElementIndex parent = m_Table.branches[axis.branches[0]].parent;
       if (parent != kNoBranch)
       {
-        const Point3 back = Direction({ parent, static_cast<std::uint8_t>(1 - m_Bases[parent]) });
-        const Point3 ahead{ -back[0], -back[1], -back[2] };
-        const auto   middle =
+        const Vector3 back = Direction({ parent, static_cast<std::uint8_t>(1 - m_Bases[parent]) });
+        const Vector3 ahead{ -back[0], -back[1], -back[2] };
+        const auto    middle =
           std::lower_bound(way.begin() + static_cast<std::ptrdiff_t>(first), way.end(), 0.5 * way.back());
         axis.emergenceAngle = m_Table.branches[axis.branches[0]].parentAngle;
         axis.midpointAngle =

@@ -1,6 +1,7 @@
 #include "BranchNumbers.h"
 
-#include "PointGeometry.h"
+#include "voxelcore/Vectors.h"
+
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 
 /** Sums along a branch, of the segments that count. */
-struct Along
+struct BranchSums
 {
   double length = 0;
   double radius = 0;  ///< integral
@@ -52,27 +53,27 @@ MeasureBranch(const SkeletonGraph & graph, std::size_t branch, double radiusShif
   const auto   points = graph.Branch(branch);
   const auto & nodes = graph.branchNodes[branch];
   const auto   kind = [&](std::size_t end) { return graph.nodeKinds[nodes[end]]; };
-  const auto   inBall = [&](const Point3 & p, std::size_t end) {
+  const auto   inBall = [&](const Vector3 & p, std::size_t end) {
     const ElementIndex centre = graph.nodePoints[nodes[end]];
     return HasBall(kind(end)) && Distance(p, graph.positions[centre]) < graph.radius[centre];
   };
-  Along all;
-  Along outside;
+  BranchSums all;
+  BranchSums outside;
   for (std::size_t i = 1; i < points.size(); ++i)
   {
-    const Point3 & a = graph.positions[points[i - 1]];
-    const Point3 & b = graph.positions[points[i]];
-    const double   h = Distance(a, b);
-    const double   r = graph.radius[points[i - 1]] + radiusShift;
-    const double   s = graph.radius[points[i]] + radiusShift;
+    const Vector3 & a = graph.positions[points[i - 1]];
+    const Vector3 & b = graph.positions[points[i]];
+    const double    h = Distance(a, b);
+    const double    r = graph.radius[points[i - 1]] + radiusShift;
+    const double    s = graph.radius[points[i]] + radiusShift;
     all.Add(h, r, s);
     if (!inBall(a, 0) && !inBall(a, 1) && !inBall(b, 0) && !inBall(b, 1))
     {
       outside.Add(h, r, s);
     }
   }
-  const Along & along = outside.length > 0 ? outside : all;
-  BranchRecord  record;
+  const BranchSums & along = outside.length > 0 ? outside : all;
+  BranchRecord       record;
   record.length = all.length;
   record.freeLength = outside.length;
   record.chord = Distance(graph.positions[points.front()], graph.positions[points.back()]);

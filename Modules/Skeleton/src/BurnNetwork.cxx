@@ -121,12 +121,12 @@ BurnNetwork::PlaceSamples(double sampling)
 double
 BurnNetwork::SampleRadius(ElementIndex edge, std::uint32_t rank) const
 {
-  const auto & ends = m_Cells->edges[edge];
-  const Point3 way = Minus(m_Complex->positions[ends[1]], m_Complex->positions[ends[0]]);
-  const double ra = m_Complex->radius[ends[0]];
-  const double rb = m_Complex->radius[ends[1]];
-  const double t = static_cast<double>(rank + 1) / (SampleCount(edge) + 1);
-  const double s = 1 - t;
+  const auto &  ends = m_Cells->edges[edge];
+  const Vector3 way = Minus(m_Complex->positions[ends[1]], m_Complex->positions[ends[0]]);
+  const double  ra = m_Complex->radius[ends[0]];
+  const double  rb = m_Complex->radius[ends[1]];
+  const double  t = static_cast<double>(rank + 1) / (SampleCount(edge) + 1);
+  const double  s = 1 - t;
   return std::sqrt(std::max(0.0, s * (ra * ra) + t * (rb * rb) - s * t * Dot(way, way)));
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 // The points fire runs between, and the sectors of faces around each of them.
 
-#include "PointGeometry.h"
 
 #include "voxelcore/MedialComplex.h"
+#include "voxelcore/Vectors.h"
 
 #include <array>
 #include <cstdint>
@@ -109,8 +109,8 @@ struct BurnNetwork
   }
 
   /** Samples divide an edge from a to b evenly. */
-  static Point3
-  SamplePosition(const Point3 & a, const Point3 & b, std::uint32_t rank, std::uint32_t count)
+  static Vector3
+  SamplePosition(const Vector3 & a, const Vector3 & b, std::uint32_t rank, std::uint32_t count)
   {
     const double t = static_cast<double>(rank + 1) / (count + 1);
     const double s = 1 - t;
@@ -121,7 +121,7 @@ struct BurnNetwork
   double
   SampleRadius(ElementIndex edge, std::uint32_t rank) const;
 
-  Point3
+  Vector3
   Position(std::uint32_t point) const
   {
     if (point < m_Cells->vertexCount)

@@ -1,7 +1,7 @@
 #include "CurveFire.h"
 
-#include "PointGeometry.h"
 #include "TimeHeap.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>

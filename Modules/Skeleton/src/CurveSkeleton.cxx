@@ -1,9 +1,9 @@
 #include "voxelcore/CurveSkeleton.h"
 
 #include "CurveFire.h"
-#include "PointGeometry.h"
 #include "SurfaceCollapse.h"
 #include "TurnedSurface.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -248,11 +248,11 @@ ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options
   const std::vector<double> surfaceTime = back(turned.vertices, times.vertices);
   const std::vector<double> curveTime = back(turned.vertices, fire.time);
   closed = back(turned.faces, closed);
-  std::vector<Point3> places = surface.positions;
+  std::vector<Vector3> places = surface.positions;
   for (const EndPlace & end : ends)
   {
-    const Point3 & a = surface.positions[turned.vertices[end.beyond]];
-    const Point3 & b = surface.positions[turned.vertices[end.vertex]];
+    const Vector3 & a = surface.positions[turned.vertices[end.beyond]];
+    const Vector3 & b = surface.positions[turned.vertices[end.vertex]];
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       places[turned.vertices[end.vertex]][axis] = a[axis] + end.part * (b[axis] - a[axis]);

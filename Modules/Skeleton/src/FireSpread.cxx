@@ -27,8 +27,8 @@ SurfaceFire::Reach(const Flame &  flame,
   {
     return; // burned, or as good as
   }
-  const Point3 way = Minus(place(), flame.place);
-  const double squared = Dot(way, way);
+  const Vector3 way = Minus(place(), flame.place);
+  const double  squared = Dot(way, way);
   if (squared >= left * left)
   {
     return;
@@ -110,8 +110,8 @@ SurfaceFire::SpreadToSamples(const Flame & flame, std::uint32_t corner)
   const ElementIndex  edge = m_Cells.faceEdges[corner];
   const std::uint32_t count = m_Network.SampleCount(edge);
   const std::uint32_t sector = m_Network.FirstSideSector(corner);
-  const Point3 &      a = m_Complex.positions[m_Cells.edges[edge][0]];
-  const Point3 &      b = m_Complex.positions[m_Cells.edges[edge][1]];
+  const Vector3 &     a = m_Complex.positions[m_Cells.edges[edge][0]];
+  const Vector3 &     b = m_Complex.positions[m_Cells.edges[edge][1]];
   for (std::uint32_t i = 0; i < count; ++i)
   {
     Reach(

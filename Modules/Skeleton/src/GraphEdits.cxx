@@ -1,7 +1,7 @@
-#include "PointGeometry.h"
 
 #include "voxelcore/SkeletonGraph.h"
 #include "voxelcore/UnionFind.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,8 +1,8 @@
 #include "voxelcore/SkeletonGraph.h"
 
-#include "PointGeometry.h"
 
 #include "voxelcore/UnionFind.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <tuple>

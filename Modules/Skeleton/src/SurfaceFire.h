@@ -2,10 +2,10 @@
 // Fire on a medial surface: Dijkstra in which a point burns sector by sector (Yan et al. 2016, section 5.2).
 
 #include "BurnNetwork.h"
-#include "PointGeometry.h"
 #include "TimeHeap.h"
 
 #include "voxelcore/ErosionThickness.h"
+#include "voxelcore/Vectors.h"
 
 #include <array>
 #include <cmath>
@@ -92,7 +92,7 @@ private:
   struct Flame
   {
     std::uint32_t point;
-    Point3        place;
+    Vector3       place;
     double        time;
   };
 

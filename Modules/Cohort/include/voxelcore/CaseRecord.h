@@ -10,7 +10,7 @@
 namespace voxelcore
 {
 
-struct OutputFile
+struct RecordedFile
 {
   std::string   name; ///< in the case's folder
   std::uint64_t bytes = 0;
@@ -19,14 +19,14 @@ struct OutputFile
 
 struct CaseRecord
 {
-  std::string              id;
-  std::string              scan;
-  std::string              key; ///< CaseKey(): of input, parameters and sources
-  bool                     done = false;
-  std::string              reason;   ///< why it failed
-  std::vector<std::string> warnings; ///< what the case said on its way
-  std::vector<OutputFile>  outputs;  ///< every file it left, by name
-  double                   seconds = 0;
+  std::string               id;
+  std::string               scan;
+  std::string               key; ///< CaseKey(): of input, parameters and sources
+  bool                      done = false;
+  std::string               reason;   ///< why it failed
+  std::vector<std::string>  warnings; ///< what the case said on its way
+  std::vector<RecordedFile> outputs;  ///< every file it left, by name
+  double                    seconds = 0;
 };
 
 /** Digest of what a result depends on: the scan's content (and that of the label names beside it), the options that were
@@ -41,7 +41,7 @@ RecordPath(const std::filesystem::path & folder);
 
 /** Everything the case has left in its folder, by name, with digests; the record itself and files that were not finished
  *  are no outputs. */
-std::vector<OutputFile>
+std::vector<RecordedFile>
 ListOutputs(const std::filesystem::path & folder);
 
 /** Writes the record, all at once. \throws OutputError */

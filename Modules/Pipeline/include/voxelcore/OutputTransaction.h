@@ -1,8 +1,11 @@
 #pragma once
 // Results appear under their final names all at once and complete, or not at all.
 
+#include "voxelcore/OutputFile.h"
+
 #include <atomic>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -62,7 +65,7 @@ public:
   void
   CheckTarget(const std::filesystem::path & target) const;
 
-  /** The temporary name to write `target` under: `<target>.part<process id>`.
+  /** The temporary name to write `target` under (TemporaryName). What killed runs left in its folder is removed.
    *  \throws OutputError as CheckTarget; UsageError when two results would get one name. */
   std::filesystem::path
   Stage(const std::filesystem::path & target);
@@ -89,6 +92,8 @@ private:
   void
   AddCompanions();
   void
+  ClearAbandoned(const std::filesystem::path & directory);
+  void
   Remember(const std::filesystem::path & path);
   void
   Forget(const std::filesystem::path & path);
@@ -98,10 +103,7 @@ private:
   std::vector<Item>                  m_Items;
   std::vector<std::filesystem::path> m_Protected;
   std::vector<std::filesystem::path> m_Directories; ///< made here, outermost first
+  std::set<std::filesystem::path>    m_Cleared;     ///< folders already looked through for what killed runs left
 };
-
-/** Writes a text file completely or throws OutputError. */
-void
-WriteTextFile(const std::filesystem::path & path, const std::string & text);
 
 } // namespace voxelcore

@@ -1,6 +1,7 @@
-#include "OutputFile.h"
+#include "voxelcore/OutputFile.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/TemporaryNames.h"
 
 #include <cerrno>
 #include <cstring>
@@ -28,10 +29,11 @@ OpenForWriting(const std::filesystem::path & path)
   const auto      status = std::filesystem::status(path, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
   {
-    throw OutputError("cannot write '" + path.string() + "': it exists and is not a regular file; choose another name");
+    throw OutputError("cannot write '" + FinalName(path).string() +
+                      "': it exists and is not a regular file; choose another name");
   }
   errno = 0;
-  std::FILE * file = std::fopen(path.c_str(), "wb");
+  std::FILE * const file = std::fopen(path.c_str(), "wb");
   if (!file)
   {
     FailOutput(path, errno);
@@ -45,7 +47,7 @@ void
 FailOutput(const std::filesystem::path & path, int errorNumber)
 {
   RemoveRegularFile(path);
-  std::string message = "cannot write '" + path.string() + "'";
+  std::string message = "cannot write '" + FinalName(path).string() + "'";
   if (errorNumber != 0)
   {
     message += std::string(": ") + std::strerror(errorNumber);
@@ -72,15 +74,6 @@ FailOutput(const std::filesystem::path & path, int errorNumber)
   throw OutputError(message);
 }
 
-void
-CheckWritable(const std::filesystem::path & path)
-{
-  if (std::fclose(OpenForWriting(path)) != 0)
-  {
-    FailOutput(path, errno);
-  }
-}
-
 OutputFile::OutputFile(const std::filesystem::path & path)
   : m_Path(path)
   , m_File(OpenForWriting(path))
@@ -98,11 +91,37 @@ OutputFile::~OutputFile()
 }
 
 void
+OutputFile::Fail(int errorNumber)
+{
+  if (std::FILE * file = m_File)
+  {
+    m_File = nullptr;
+    std::fclose(file);
+  }
+  FailOutput(m_Path, errorNumber);
+}
+
+void
 OutputFile::Write(const void * data, std::size_t bytes)
 {
   if (bytes != 0 && std::fwrite(data, 1, bytes, m_File) != bytes)
   {
-    FailOutput(m_Path, errno);
+    Fail(errno);
+  }
+}
+
+std::uint64_t
+OutputFile::Place() const
+{
+  return static_cast<std::uint64_t>(ftello(m_File));
+}
+
+void
+OutputFile::MoveTo(std::uint64_t place)
+{
+  if (fseeko(m_File, static_cast<off_t>(place), SEEK_SET) != 0)
+  {
+    Fail(errno);
   }
 }
 
@@ -110,15 +129,24 @@ void
 OutputFile::Finish()
 {
   // What is still buffered is written here: a full disk may show only now.
-  std::FILE * file = m_File;
-  m_File = nullptr;
-  const bool flushed = std::fflush(file) == 0;
-  const int  flushError = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!flushed || !closed)
+  if (std::fflush(m_File) != 0)
   {
-    FailOutput(m_Path, flushed ? errno : flushError);
+    Fail(errno);
   }
+  std::FILE * const file = m_File;
+  m_File = nullptr;
+  if (std::fclose(file) != 0)
+  {
+    Fail(errno);
+  }
+}
+
+void
+WriteTextFile(const std::filesystem::path & path, std::string_view text)
+{
+  OutputFile file(path);
+  file.Write(text);
+  file.Finish();
 }
 
 } // namespace voxelcore

@@ -2,6 +2,7 @@
 // A file that is written completely or not at all.
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -9,16 +10,13 @@
 namespace voxelcore
 {
 
-/** \throws OutputError with one line for `path`: what could not be done, why (of the system's error number) and what to
- *  do. A regular file at `path` is removed first. */
+/** \throws OutputError with one line for `path`, by its final name: what could not be done, why (of the system's error
+ *  number) and what to do. A regular file at `path` is removed first. */
 [[noreturn]] void
 FailOutput(const std::filesystem::path & path, int errorNumber);
 
-/** Throws OutputError when a file at `path` cannot be created, or when it is there and is no regular file. */
-void
-CheckWritable(const std::filesystem::path & path);
-
-/** Buffered writing; whatever goes wrong, on whichever call, throws OutputError and leaves no file. */
+/** Buffered writing; whatever goes wrong, on whichever call, throws OutputError with the system's reason and leaves no
+ *  file. */
 class OutputFile
 {
 public:
@@ -36,13 +34,25 @@ public:
   {
     Write(text.data(), text.size());
   }
+  /** Where the next byte goes, from the beginning. */
+  std::uint64_t
+  Place() const;
+  void
+  MoveTo(std::uint64_t place);
   /** Flushes and closes; the file is complete when this returns. */
   void
   Finish();
 
 private:
+  [[noreturn]] void
+  Fail(int errorNumber);
+
   std::filesystem::path m_Path;
   std::FILE *           m_File;
 };
+
+/** Writes a file completely or throws OutputError and leaves none. */
+void
+WriteTextFile(const std::filesystem::path & path, std::string_view text);
 
 } // namespace voxelcore

@@ -1,0 +1,197 @@
+#include "voxelcore/TemporaryNames.h"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <unistd.h>
+
+namespace voxelcore
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMark = ".part-";
+constexpr std::size_t      kLongestName = 255; // of Linux's file systems
+
+std::string
+FirstLine(const char * path)
+{
+  std::ifstream file(path);
+  std::string   line;
+  std::getline(file, line);
+  return line;
+}
+
+/** FNV-1a: the same on every machine. */
+std::uint32_t
+Digest(std::string_view text)
+{
+  std::uint32_t digest = 2166136261U;
+  for (const char c : text)
+  {
+    digest = (digest ^ static_cast<unsigned char>(c)) * 16777619U;
+  }
+  return digest;
+}
+
+struct ProcessState
+{
+  char          state = '?';
+  std::uint64_t start = 0;
+};
+
+/** What /proc says of a process; none where it does not show it. */
+std::optional<ProcessState>
+StateOf(std::int64_t process)
+{
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string   text;
+  if (!std::getline(file, text) || text.rfind(')') == std::string::npos)
+  {
+    return std::nullopt;
+  }
+  // The name, which may hold anything, ends at the last bracket; the start is the 22nd field of all.
+  std::istringstream fields(text.substr(text.rfind(')') + 1));
+  ProcessState       state;
+  std::string        skipped;
+  fields >> state.state;
+  for (int field = 4; field < 22; ++field)
+  {
+    fields >> skipped;
+  }
+  fields >> state.start;
+  return fields ? std::optional(state) : std::nullopt;
+}
+
+template <typename Number>
+bool
+TakeNumber(std::string_view & text, Number & number, int base)
+{
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return error == std::errc();
+}
+
+} // namespace
+
+WriterIdentity
+ThisWriter()
+{
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const std::string boot = FirstLine("/proc/sys/kernel/random/boot_id");
+  std::string       machine = FirstLine("/etc/machine-id");
+  machine = machine.empty() ? boot : machine; // containers have none: then each boot is a machine of its own
+  std::error_code   ignored;
+  const std::string space = fs::read_symlink("/proc/self/ns/pid", ignored).string();
+  WriterIdentity    writer;
+  writer.machine = Digest(host.data() + ("/" + machine));
+  writer.space = Digest(boot + "/" + space);
+  writer.process = getpid();
+  const auto state = StateOf(writer.process);
+  writer.start = state ? state->start : 0;
+  return writer;
+}
+
+fs::path
+TemporaryName(const fs::path & target, const WriterIdentity & writer)
+{
+  std::array<char, 80> suffix{};
+  std::snprintf(suffix.data(),
+                suffix.size(),
+                "%s%08x-%08x-%lld-%llx",
+                kMark.data(),
+                writer.machine,
+                writer.space,
+                static_cast<long long>(writer.process),
+                static_cast<unsigned long long>(writer.start));
+  std::string       name = target.filename().string();
+  const std::size_t room = kLongestName - std::string_view(suffix.data()).size();
+  if (name.size() > room)
+  {
+    std::array<char, 12> digest{};
+    std::snprintf(digest.data(), digest.size(), "~%08x", Digest(name));
+    name = name.substr(0, room - std::string_view(digest.data()).size()) + digest.data();
+  }
+  return target.parent_path() / (name + suffix.data());
+}
+
+std::optional<WriterIdentity>
+WriterOf(const fs::path & path)
+{
+  const std::string name = path.filename().string();
+  const std::size_t mark = name.rfind(kMark);
+  if (mark == std::string::npos || mark == 0)
+  {
+    return std::nullopt;
+  }
+  std::string_view rest = std::string_view(name).substr(mark + kMark.size());
+  WriterIdentity   writer;
+  const auto       dash = [&rest] {
+    const bool is = rest.starts_with('-');
+    rest.remove_prefix(is ? 1 : 0);
+    return is;
+  };
+  const bool fits = TakeNumber(rest, writer.machine, 16) && dash() && TakeNumber(rest, writer.space, 16) && dash() &&
+                    TakeNumber(rest, writer.process, 10) && dash() && TakeNumber(rest, writer.start, 16) &&
+                    rest.empty() && writer.process > 0;
+  // Written the same way again: nothing else that only looks like it.
+  return fits && TemporaryName("x", writer).string().substr(1) == name.substr(mark) ? std::optional(writer)
+                                                                                    : std::nullopt;
+}
+
+fs::path
+FinalName(const fs::path & path)
+{
+  std::string name = path.filename().string();
+  if (WriterOf(path))
+  {
+    name.resize(name.rfind(kMark));
+  }
+  fs::path folder = path.parent_path();
+  while (folder.has_filename() && WriterOf(folder)) // its files move beside it
+  {
+    folder = folder.parent_path();
+  }
+  return folder / name;
+}
+
+bool
+HasEnded(const WriterIdentity & writer)
+{
+  const WriterIdentity here = ThisWriter();
+  if (writer.machine != here.machine || writer.space != here.space)
+  {
+    return false;
+  }
+  if (kill(static_cast<pid_t>(writer.process), 0) != 0 && errno == ESRCH)
+  {
+    return true;
+  }
+  const auto state = StateOf(writer.process);
+  return state && (state->start != writer.start || state->state == 'Z' || state->state == 'X');
+}
+
+void
+RemoveAbandoned(const fs::path & folder)
+{
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  {
+    const auto writer = WriterOf(entry->path());
+    if (writer && HasEnded(*writer))
+    {
+      std::error_code ignored;
+      fs::remove_all(entry->path(), ignored);
+    }
+  }
+}
+
+} // namespace voxelcore
