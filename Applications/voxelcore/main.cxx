@@ -7,13 +7,17 @@
 #include "voxelcore/Admission.h"
 #include "voxelcore/BatchJob.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/OutputNames.h"
 #include "voxelcore/ReportTable.h"
 #include "voxelcore/Thumbnail.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>
 #include <omp.h>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -319,6 +323,19 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
   return Dispatch({ line, console, context, printer, quiet, omp_get_max_threads() });
 }
 
+/** Whether the same command goes on from where this one stopped: batch does, and core and skeleton into a folder. */
+bool
+GoesOn(int argc, char ** argv)
+{
+  const std::vector<std::string> arguments(argv, argv + argc);
+  const std::string              command = argc > 1 ? arguments[1] : std::string();
+  auto                           output = std::find_if(arguments.begin(), arguments.end(), [](const std::string & one) {
+    return one == "-o" || one == "--output";
+  });
+  const bool intoFolder = output != arguments.end() && ++output != arguments.end() && IsFolderOutput(*output);
+  return command == "batch" || ((command == "core" || command == "skeleton") && intoFolder);
+}
+
 } // namespace
 
 int
@@ -337,9 +354,8 @@ main(int argc, char ** argv)
   }
   catch (const Cancelled &)
   {
-    const bool batch = argc > 1 && std::string_view(argv[1]) == "batch";
-    console.PrintError(batch ? "interrupted; what is done stays, and the same command goes on from there"
-                             : "interrupted; nothing was written");
+    console.PrintError(GoesOn(argc, argv) ? "interrupted; what is done stays, and the same command goes on from there"
+                                          : "interrupted; nothing was written");
     std::_Exit(kInterrupted); // an engine's thread may still run: no destructors under its feet
   }
   catch (const UsageError & error)

@@ -28,6 +28,10 @@ true holes. Guide: noisy-masks.md
 --refine helps most with smooth shapes at coarse resolution; it needs parts at least three voxels thick. Radius
 and Lambda are then measured from the estimated surface. Guide: refinement.md
 
+With -o DIR/ each label is written as soon as it is done, and the same command goes on where it was stopped. If
+a label fails its certificate, only the other labels are written, and the exit code is 4. --scene and --html
+write the folder all at once.
+
 --crop cuts: structures end at the cut, and cavities it opens are no longer cavities. Meshes are voxelized
 first, as 'voxelcore voxelize' does. Guide: mesh-input.md. Skeleton options need --with-skeleton. Guide:
 skeletons.md
@@ -111,6 +115,10 @@ voxels thick keep their branches. Radii in tables are those of the scanned body.
   graphml   OUT.graphml
   ma        OUT.ma and OUT.r: the medial surface, for other programs
 A folder gets one set per label, named <scan>_label-<value>_skeleton; tables hold all labels.
+
+With -o DIR/ each label of a scan is written as soon as it is done, and the same command goes on where it was
+stopped. If a label fails its certificate, only the other labels are written, and the exit code is 4. --scene
+and --html write the folder all at once.
 
 Examples:
   voxelcore skeleton root.nii.gz -o root.vtp --also csv,swc --root top

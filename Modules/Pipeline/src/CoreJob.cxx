@@ -2,6 +2,7 @@
 
 #include "CoreJobSteps.h"
 #include "DisplayFiles.h"
+#include "FinishedLabels.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
 #include "SkeletonFiles.h"
@@ -12,6 +13,7 @@
 #include "voxelcore/ReportTable.h"
 #include "voxelcore/Sha256.h"
 
+#include <algorithm>
 #include <future>
 #include <numeric>
 #include <omp.h>
@@ -189,6 +191,29 @@ public:
     }
   }
 
+  /** Takes what is in its folder already. */
+  void
+  AddFinished(LabelRecord record)
+  {
+    for (std::size_t i = 0; i < m_Models.size() && !m_Options.output.empty(); ++i)
+    {
+      record.pruned[i].output = Target(record, i).string();
+    }
+    m_Result.report.labels.push_back(std::move(record));
+  }
+
+  /** The files a label of a folder gets. */
+  std::vector<fs::path>
+  Targets(const LabelRecord & record) const
+  {
+    std::vector<fs::path> targets;
+    for (std::size_t i = 0; i < m_Models.size() && !m_Options.output.empty(); ++i)
+    {
+      targets.push_back(Target(record, i));
+    }
+    return targets;
+  }
+
   /** Writes what Add() kept. */
   void
   Finish()
@@ -235,10 +260,114 @@ private:
   std::vector<MedialModel> m_Models; ///< one per lambda or bump height
 };
 
+/** Where a folder says which of its labels are finished. */
+fs::path
+FinishedLabelsPath(const CoreOptions & options)
+{
+  const bool isCore = !options.output.empty();
+  return (isCore ? options.output : options.skeletonOutput) /
+         (ScanName(options.scan) + (isCore ? "_medial" : "_skeleton") + "_finished.jsonl");
+}
+
+/** The labels of a folder, of which some are finished. */
+class FolderLabels
+{
+public:
+  /** Takes out of `labels` those that are finished. Refuses before hours of work what could not be written in the end. */
+  FolderLabels(const CoreOptions &        options,
+               std::vector<EditedLabel> & labels,
+               const ResultFiles &        files,
+               const SkeletonFiles *      skeletons,
+               const OutputTransaction &  transaction,
+               const CoreReport &         report)
+    : m_Finished(FinishedLabelsPath(options), LabelKey(report, KeyText(skeletons)))
+  {
+    std::vector<EditedLabel> left;
+    for (EditedLabel & one : labels)
+    {
+      auto known = m_Finished.Find(one.label.value, one.component, one.label.name);
+      if (!known)
+      {
+        LabelRecord record;
+        record.label = one.label.value;
+        record.component = one.component;
+        for (const fs::path & target : files.Targets(record))
+        {
+          transaction.CheckTarget(target);
+        }
+        if (skeletons != nullptr)
+        {
+          transaction.CheckTarget(skeletons->FolderTarget(record.label, record.component));
+        }
+        left.push_back(std::move(one));
+      }
+      m_Known.push_back(std::move(known));
+    }
+    labels = std::move(left);
+    for (const fs::path & table : skeletons != nullptr ? skeletons->FolderTables() : std::vector<fs::path>())
+    {
+      if (!m_Finished.IsTable(table))
+      {
+        transaction.CheckTarget(table);
+      }
+    }
+  }
+
+  std::size_t
+  CountFinished() const
+  {
+    return static_cast<std::size_t>(
+      std::count_if(m_Known.begin(), m_Known.end(), [](const auto & known) { return known.has_value(); }));
+  }
+
+  /** Hands over, in their order, the finished labels before the next that is not. */
+  template <typename Take>
+  void
+  TakeFinished(Take && take)
+  {
+    for (; m_Next < m_Known.size() && m_Known[m_Next]; ++m_Next)
+    {
+      take(std::move(*m_Known[m_Next]));
+    }
+  }
+
+  /** The next that was not finished has come. */
+  void
+  Pass()
+  {
+    ++m_Next;
+  }
+
+  FinishedLabels &
+  Finished()
+  {
+    return m_Finished;
+  }
+
+private:
+  static std::string
+  KeyText(const SkeletonFiles * skeletons)
+  {
+    std::string text;
+    for (const std::string & ending : skeletons != nullptr ? skeletons->Endings() : std::vector<std::string>())
+    {
+      text += ending == "csv" ? "" : ending + " "; // tables are of all labels
+    }
+    return text;
+  }
+
+  FinishedLabels                                    m_Finished;
+  std::vector<std::optional<FinishedLabels::Label>> m_Known;
+  std::size_t                                       m_Next = 0;
+};
+
 } // namespace
 
 CoreResult
-StageCoreJob(const CoreOptions & options, OutputTransaction & transaction, const JobContext & context)
+StageCoreJob(const CoreOptions & options,
+             OutputTransaction & transaction,
+             const JobContext &  context,
+             bool                labelByLabel)
 {
   // Shares of the whole job's time: reading, the labels, writing.
   constexpr double             kReadEnds = 0.05;
@@ -289,7 +418,29 @@ StageCoreJob(const CoreOptions & options, OutputTransaction & transaction, const
 
   report.skeleton = options.skeleton;
 
-  ResultFiles files(options, toFolder, transaction, result);
+  ResultFiles                 files(options, toFolder, transaction, result);
+  std::optional<FolderLabels> folder;
+  std::vector<std::string>    failures;
+  if (labelByLabel)
+  {
+    report.input.sha256 = digest.get();
+    folder.emplace(options, edited.labels, files, skeletons ? &*skeletons : nullptr, transaction, report);
+    if (const std::size_t finished = folder->CountFinished(); finished > 0)
+    {
+      result.notes.push_back(std::to_string(finished) + (finished == 1 ? " label was" : " labels were") +
+                             " finished by an earlier run and kept");
+    }
+  }
+  const auto takeFinished = [&] {
+    folder->TakeFinished([&](FinishedLabels::Label label) {
+      files.AddFinished(std::move(label.record));
+      if (skeletons)
+      {
+        skeletons->AddFinished(report, report.labels.size() - 1);
+      }
+      result.notes.insert(result.notes.end(), label.notes.begin(), label.notes.end());
+    });
+  };
   ProcessLabels(
     edited.labels,
     options,
@@ -302,6 +453,17 @@ StageCoreJob(const CoreOptions & options, OutputTransaction & transaction, const
       {
         report.input.sha256 = digest.get();
       }
+      if (folder)
+      {
+        takeFinished();
+        folder->Pass();
+        if (!outcome.failure.empty())
+        {
+          failures.push_back(outcome.failure);
+          return;
+        }
+      }
+      const std::size_t notesBefore = result.notes.size();
       // A core that is only a step on the way to a skeleton is not shown.
       shown.AddLabel(outcome.record,
                      options.output.empty() ? ModelPart() : outcome.parts.front(),
@@ -312,14 +474,44 @@ StageCoreJob(const CoreOptions & options, OutputTransaction & transaction, const
       {
         skeletons->Add(report, report.labels.size() - 1, std::move(*outcome.skeleton), surface, result.notes);
       }
+      if (folder)
+      {
+        const auto firstNote = result.notes.begin() + static_cast<std::ptrdiff_t>(notesBefore);
+        folder->Finished().Finish({ report.labels.back(), { firstNote, result.notes.end() } }, transaction);
+      }
     },
-    report.seconds);
+    report.seconds,
+    labelByLabel);
+  if (folder)
+  {
+    takeFinished();
+  }
+  if (!failures.empty())
+  {
+    std::string       first = failures.front();
+    const std::string nothing = "nothing was written";
+    if (const std::size_t at = first.find(nothing); at != std::string::npos)
+    {
+      first.replace(at, nothing.size(), "it was not written");
+    }
+    throw CertificateError(
+      first + (failures.size() > 1 ? "; " + std::to_string(failures.size() - 1) + " more labels failed" : "") +
+      "; the labels that passed are in the folder, tables and report are not written");
+  }
   ReportProgress(context.progress, "writing", kLabelsEnd);
   files.Finish();
   if (skeletons)
   {
     Stopwatch writing;
+    if (folder)
+    {
+      folder->Finished().RemoveTables();
+    }
     skeletons->Finish(report, result.notes);
+    if (folder)
+    {
+      folder->Finished().NoteTables(transaction);
+    }
     report.seconds.write += writing.Lap();
   }
   {
@@ -345,7 +537,9 @@ RunCoreJob(const CoreOptions & options, const JobContext & context)
 {
   OutputTransaction transaction(options.force, context.temporaries);
   CheckCoreTargets(options, transaction);
-  CoreResult result = StageCoreJob(options, transaction, context);
+  const bool isFolder = IsFolderOutput(options.output.empty() ? options.skeletonOutput : options.output);
+  const bool isShown = options.display.scene || options.display.html;
+  CoreResult result = StageCoreJob(options, transaction, context, isFolder && !isShown);
   ReportProgress(context.progress, "done", 1); // the last moment at which an interruption is heeded
   transaction.Commit();
   return result;

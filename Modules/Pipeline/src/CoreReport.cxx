@@ -421,6 +421,46 @@ ParseProvenance(const std::string & text, const std::string & where)
   }
 }
 
+std::string
+LabelRecordJson(const LabelRecord & label)
+{
+  Json json = LabelJson(label, false);
+  json["seconds"] = label.seconds;
+  return Dump(json);
+}
+
+LabelRecord
+ParseLabelRecord(const std::string & text)
+{
+  try
+  {
+    const Json  json = Json::parse(text);
+    LabelRecord label = ReadLabel(json);
+    json.at("seconds").get_to(label.seconds);
+    for (std::size_t i = 0; i < label.pruned.size(); ++i)
+    {
+      const Json & pruned = json.at("pruned").at(i);
+      if (label.pruned[i].bumps && !pruned.at("boundary_gap_mm").is_null())
+      {
+        label.pruned[i].bumps->boundaryGapMm = pruned.at("boundary_gap_mm").get<double>();
+      }
+    }
+    if (json.at("certificate").contains("covered"))
+    {
+      label.covered = json.at("certificate").at("covered").get<bool>();
+    }
+    if (label.skeleton)
+    {
+      label.skeleton->cuts = ReadLoopCuts(json.at("skeleton"));
+    }
+    return label;
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    throw InputError("a label's record is damaged");
+  }
+}
+
 ComplexRecord
 DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology)
 {

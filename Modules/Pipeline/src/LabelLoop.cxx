@@ -4,6 +4,7 @@
 #include "SideBySide.h"
 #include "voxelcore/BlockJob.h"
 #include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/Error.h"
 
 #include <numeric>
 #include <omp.h>
@@ -67,7 +68,8 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
               const SurfaceSource &                     surface,
               const ProgressCallback &                  progress,
               const std::function<void(LabelOutcome)> & take,
-              StageSeconds &                            seconds)
+              StageSeconds &                            seconds,
+              bool                                      goOn)
 {
   std::vector<std::uint64_t> vertices;
   std::vector<std::size_t>   ends;
@@ -89,7 +91,7 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
   {
     allVoxels += one.label.voxels;
   }
-  const LabelWork work = [&](std::size_t label, const ProgressCallback & part) {
+  const LabelWork compute = [&](std::size_t label, const ProgressCallback & part) {
     EditedLabel &      one = labels[label];
     const std::int64_t value = one.label.value;
     const CellSource   join = [&](const std::vector<LatticePoint> & points, const ProgressCallback & inner) {
@@ -117,6 +119,22 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
       model.component = one.component;
     }
     return outcome;
+  };
+  const LabelWork work = [&](std::size_t label, const ProgressCallback & part) {
+    try
+    {
+      return compute(label, part);
+    }
+    catch (const CertificateError & error)
+    {
+      if (!goOn)
+      {
+        throw;
+      }
+      LabelOutcome failed;
+      failed.failure = error.what();
+      return failed;
+    }
   };
 
   std::size_t   first = 0;

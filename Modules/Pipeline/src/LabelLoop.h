@@ -11,6 +11,7 @@ namespace voxelcore
 
 /** Computes the core of each label and hands it to `take`, in the labels' order, from the calling thread. The labels'
  *  shapes are used up. Adds to `seconds`, for shape, delaunay, core and prune; the clock stands still while `take` works.
+ *  With `goOn` a label whose certificate fails is handed over with its failure and nothing else, and the others go on.
  *  \throws what ProcessLabel and `take` throw; of several labels that fail, the first decides. */
 void
 ProcessLabels(std::vector<EditedLabel> &                labels,
@@ -20,6 +21,7 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
               const SurfaceSource &                     surface,
               const ProgressCallback &                  progress,
               const std::function<void(LabelOutcome)> & take,
-              StageSeconds &                            seconds);
+              StageSeconds &                            seconds,
+              bool                                      goOn = false);
 
 } // namespace voxelcore

@@ -229,6 +229,20 @@ OutputTransaction::StageWithCompanions(const fs::path & target)
   return directory / clean.filename();
 }
 
+std::vector<OutputTransaction::StagedFile>
+OutputTransaction::StagedFiles() const
+{
+  std::vector<StagedFile> files;
+  for (const Item & item : m_Items)
+  {
+    if (!item.isDirectory)
+    {
+      files.push_back({ item.temporary, item.target });
+    }
+  }
+  return files;
+}
+
 void
 OutputTransaction::AddCompanions()
 {

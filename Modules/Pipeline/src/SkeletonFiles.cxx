@@ -131,7 +131,7 @@ SkeletonFiles::Add(CoreReport &               report,
   LabelRecord &     record = report.labels.at(label);
   SkeletonRecord &  skeleton = record.skeleton.value();
   const std::string text = LabelText(record.label, record.name);
-  const fs::path output = m_ToFolder ? SkeletonFolderPath(m_Output, m_Input, record.label, record.component) : m_Output;
+  const fs::path    output = m_ToFolder ? FolderTarget(record.label, record.component) : m_Output;
   skeleton.output = output.string();
   for (const LoopCut & cut : skeleton.cuts)
   {
@@ -155,6 +155,38 @@ SkeletonFiles::Add(CoreReport &               report,
   if (m_ToFolder)
   {
     WriteGroup(report, output, { label }, notes);
+  }
+}
+
+fs::path
+SkeletonFiles::FolderTarget(std::int64_t label, std::int64_t component) const
+{
+  return SkeletonFolderPath(m_Output, m_Input, label, component);
+}
+
+std::vector<fs::path>
+SkeletonFiles::FolderTables() const
+{
+  return Wants("csv") ? Beside(SkeletonTablesPath(m_Output, m_Input), "csv") : std::vector<fs::path>();
+}
+
+void
+SkeletonFiles::AddFinished(CoreReport & report, std::size_t label)
+{
+  LabelRecord &    record = report.labels.at(label);
+  SkeletonRecord & skeleton = record.skeleton.value();
+  const fs::path   output = FolderTarget(record.label, record.component);
+  SkeletonModel    model = ReadSkeletonVtp(output);
+  SkeletonPart &   part = model.parts.at(0);
+  part.label = record.label;
+  part.component = record.component;
+  part.name = record.name;
+  part.table = MeasureBranches(part.graph, MeasuringOf(m_Options, report.input.geometry.spacing));
+  skeleton.numbers = part.table.numbers;
+  skeleton.output = output.string();
+  if (Wants("csv") || m_Options.table)
+  {
+    m_AllLabels.parts.push_back(std::move(part));
   }
 }
 

@@ -40,6 +40,25 @@ public:
   void
   Add(CoreReport & report, std::size_t label, SkeletonPart part, ModelPart surface, std::vector<std::string> & notes);
 
+  /** The same for one that is in its folder already; fills in what the report says of it. */
+  void
+  AddFinished(CoreReport & report, std::size_t label);
+
+  /** What else is written for a label, for its key. */
+  const std::vector<std::string> &
+  Endings() const
+  {
+    return m_Options.also;
+  }
+
+  /** The skeleton of a label of a folder. */
+  std::filesystem::path
+  FolderTarget(std::int64_t label, std::int64_t component) const;
+
+  /** The tables of all labels of a folder. */
+  std::vector<std::filesystem::path>
+  FolderTables() const;
+
   /** Writes what is left to be written. */
   void
   Finish(const CoreReport & report, std::vector<std::string> & notes);

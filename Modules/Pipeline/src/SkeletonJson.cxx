@@ -95,6 +95,19 @@ SkeletonRecordJson(const SkeletonRecord & skeleton, bool inFile)
   return json;
 }
 
+std::vector<LoopCut>
+ReadLoopCuts(const Json & json)
+{
+  std::vector<LoopCut> cuts;
+  for (const Json & one : json.at("cuts"))
+  {
+    LoopCut & cut = cuts.emplace_back();
+    one.at("position_mm").get_to(cut.position);
+    one.at("radius_mm").get_to(cut.radius);
+  }
+  return cuts;
+}
+
 SkeletonRecord
 ReadSkeletonRecord(const Json & json)
 {

@@ -20,6 +20,10 @@ ReadSkeletonStage(const nlohmann::ordered_json & json);
 nlohmann::ordered_json
 SkeletonRecordJson(const SkeletonRecord & skeleton, bool inFile);
 
+/** Of what SkeletonRecordJson gave. */
+std::vector<LoopCut>
+ReadLoopCuts(const nlohmann::ordered_json & json);
+
 /** The part that measuring does not find again: the topology. */
 SkeletonRecord
 ReadSkeletonRecord(const nlohmann::ordered_json & json);

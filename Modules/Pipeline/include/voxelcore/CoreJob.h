@@ -55,8 +55,11 @@ struct CoreResult
   std::vector<std::string> notes;    ///< what edits changed, what a file format could not hold
 };
 
-/** Reads, computes label by label (small ones side by side), certifies, writes. Either everything is written or
- *  nothing. The result does not depend on the number of threads (OpenMP's).
+/** Reads, computes label by label (small ones side by side), certifies, writes. Into one file everything is written or
+ *  nothing. In a folder each label is written when it is done, and the same job, run again, goes on: labels whose files
+ *  are there as they were written, from the same scan, options and sources, are not computed again. A label whose
+ *  certificate fails is not written, nor are tables and report then; the others are. What is for looking at
+ *  (CoreOptions::display) needs all labels in memory: with it a folder, too, is written as one. The result does not depend on the number of threads (OpenMP's).
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 CoreResult
 RunCoreJob(const CoreOptions & options, const JobContext & context = {});
@@ -72,6 +75,7 @@ struct LabelOutcome
   std::vector<ModelPart>      parts; ///< one per lambda or bump height, in LPS mm
   std::optional<SkeletonPart> skeleton;
   StageSeconds                seconds;
+  std::string                 failure; ///< why its certificate failed, where other labels go on
 };
 
 /** Everything between reading and writing for one label; depends on nothing but its arguments. Cells come from `source`

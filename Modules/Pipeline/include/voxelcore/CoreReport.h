@@ -172,6 +172,14 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
 CoreReport
 ParseProvenance(const std::string & json, const std::string & where);
 
+/** A label's record as the report has it, with its seconds, on one line. */
+std::string
+LabelRecordJson(const LabelRecord & label);
+
+/** The inverse, but for outputs and for the skeleton's numbers, which its file gives. \throws InputError */
+LabelRecord
+ParseLabelRecord(const std::string & json);
+
 /** Counts, area (in the unit of its positions, squared) and greatest radius. */
 ComplexRecord
 DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology);

@@ -75,7 +75,17 @@ public:
   std::filesystem::path
   StageWithCompanions(const std::filesystem::path & target);
 
-  /** Gives every staged file its final name. On failure those that got theirs are removed again.
+  struct StagedFile
+  {
+    std::filesystem::path temporary;
+    std::filesystem::path target;
+  };
+
+  /** Those of Stage() that wait for their names. */
+  std::vector<StagedFile>
+  StagedFiles() const;
+
+  /** Gives every staged file its final name; others may be staged afterwards. On failure those that got theirs are removed again.
    *  \throws OutputError */
   void
   Commit();
