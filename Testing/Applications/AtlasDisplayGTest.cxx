@@ -97,6 +97,20 @@ TEST_F(HeavyAtlasDisplay, ThePageOf116LabelsIsSmallAndTakesLessThanAMinute)
   }
 }
 
+TEST_F(HeavyAtlasDisplay, ThePageOf300LabelsIsSmallAndTakesLessThanTenSecondsOnTwoCores)
+{
+  const auto cells = m_Folder / "cells.nrrd";
+  const auto page = m_Folder / "cells.html";
+  ASSERT_EQ(RunProgram({ "phantom", "cells", "--size", "200", "--cells", "300", "-o", cells, "-q" }).code, 0);
+  const double alone = Seconds({ "core", cells, "-o", m_Folder / "a.vtp", "-q" }, "core");
+  const double both = Seconds({ "core", cells, "-o", m_Folder / "b.vtp", "--html", page, "-q" }, "core and page");
+  EXPECT_LT(both - alone, 2 * 10);
+  const std::uintmax_t size = std::filesystem::file_size(page);
+  std::cout << "page: " << size << " bytes\n";
+  EXPECT_LT(size, 20'000'000U);
+  EXPECT_GE(Count(ReadAll(page), "\"name\":"), 300U);
+}
+
 TEST_F(HeavyAtlasDisplay, ThePictureOf116LabelsTakesLessThanAMinute)
 {
   if (std::system("command -v Xvfb >/dev/null") != 0)

@@ -1,46 +1,141 @@
 """Opens the page of `voxelcore core --html` in headless Chromium, without a network.
 usage: page_test.py VOXELCORE [FOLDER FOR SCREENSHOTS]    exit 77: no Chromium"""
+import json
 import os
 import re
 import shutil
 import sys
 import tempfile
 from pathlib import Path
+from urllib.parse import unquote
 
 from module_test_tools import check, run, two_blocks, write_nrrd
-from page_tools import pixels, state_of, visit
+from page_tools import model_of, pixels, state_of, visit
 
 # What a user does, done by a script at the end of a copy of the page; what came of it stands in the body's data.
 PROBE = """<script>
-setTimeout(function () {
-  var seen = [], view = document.getElementById('view'), under = document.getElementById('under');
-  function finish() {
-    var c = document.getElementById('coloring');
-    document.body.dataset.colorings = Array.from(c.options).map(o => o.value).join(',');
-    c.value = 'Label';
-    c.dispatchEvent(new Event('change'));
-    document.body.dataset.scale = document.getElementById('scale').style.display;
-    var rows = document.querySelectorAll('#labels .name');
-    document.body.dataset.labels = Array.from(rows).map(r => r.textContent).join(',');
-    rows[0].click();
-    document.body.dataset.chosen = document.querySelectorAll('#labels .chosen').length;
-    document.getElementById('none').click();
-    document.body.dataset.seen = seen.join(' | ');
-    document.body.dataset.done = '1';
+(async function () {
+  const $ = id => document.getElementById(id), wait = ms => new Promise(done => setTimeout(done, ms));
+  const found = {}, fire = (element, name) => element.dispatchEvent(new Event(name, { bubbles: true }));
+  const names = () => [...document.querySelectorAll('#labels li')].filter(row => !row.hidden).map(row => row.querySelector('.name').textContent);
+  const point = (name, x, y) => $('view').dispatchEvent(new PointerEvent(name, { clientX: x, clientY: y, pointerType: 'mouse', pointerId: 1 }));
+  await wait(300);
+  found.folded = document.body.classList.contains('folded');
+  found.view = $('view').getBoundingClientRect().width / innerWidth;
+  $('fold').click();
+  await wait(100);
+  found.foldedAfter = document.body.classList.contains('folded');
+  found.expanded = $('fold').getAttribute('aria-expanded');
+  found.viewAfter = $('view').getBoundingClientRect().width / innerWidth;
+  found.panelAfter = $('panel').getBoundingClientRect().height;
+  if (found.foldedAfter) $('fold').click();
+  await wait(100);
+
+  found.seen = [];
+  const box = $('view').getBoundingClientRect();
+  for (let y = 0.2; y < 0.85; y += 0.08) {
+    for (let x = 0.2; x < 0.85; x += 0.08) {
+      point('pointermove', box.left + x * box.width, box.top + y * box.height);
+      await wait(50);
+      if (!$('under').hidden) found.seen.push($('under').textContent);
+    }
   }
-  var spots = [];
-  for (var y = 0.3; y < 0.75; y += 0.05) for (var x = 0.35; x < 0.7; x += 0.05) spots.push([x, y]);
-  (function next() {
-    if (!spots.length) return finish();
-    var s = spots.pop();
-    view.dispatchEvent(new MouseEvent('mousemove', { clientX: s[0] * innerWidth, clientY: s[1] * innerHeight, buttons: 0 }));
-    setTimeout(function () {
-      if (under.textContent) seen.push(under.textContent);
-      next();
-    }, 60);
-  })();
-}, 300);
+
+  found.colorings = [...$('coloring').options].map(o => o.value);
+  found.labels = names();
+  $('search').value = 'RIGHT';
+  fire($('search'), 'input');
+  found.searched = names();
+  found.count = $('count').textContent;
+  $('none').click();
+  $('search').value = '';
+  fire($('search'), 'input');
+  found.boxes = [...document.querySelectorAll('#labels input')].map(input => input.checked);
+  found.countAfter = $('count').textContent;
+  $('all').click();
+  document.querySelectorAll('#labels .name')[0].click();
+  found.chosen = document.querySelectorAll('#labels [aria-pressed="true"]').length;
+  document.querySelectorAll('#labels .name')[0].click();
+
+  // The picture is read where it becomes a file: decoding the file again takes time that a headless browser does not give.
+  let saved = null, name = '', data = null, width = 0;
+  const make = URL.createObjectURL, toBlob = HTMLCanvasElement.prototype.toBlob;
+  URL.createObjectURL = blob => { saved = blob; return make(blob); };
+  HTMLAnchorElement.prototype.click = function () { name = this.download; };
+  HTMLCanvasElement.prototype.toBlob = function (...rest) {
+    data = this.getContext('2d').getImageData(0, 0, this.width, this.height).data;
+    width = this.width;
+    toBlob.apply(this, rest);
+  };
+  $('save').click();
+  for (let i = 0; i < 100 && !saved; ++i) await wait(50);
+  found.saved = { name, type: saved.type, bytes: saved.size, width: width / $('view').clientWidth, colored: 0, white: 0 };
+  for (let i = 0; i < data.length; i += 4) {
+    const low = Math.min(data[i], data[i + 1], data[i + 2]), high = Math.max(data[i], data[i + 1], data[i + 2]);
+    if (high - low > 40) ++found.saved.colored;
+    if (low > 250) ++found.saved.white;
+  }
+
+  found.unnamed = [...document.querySelectorAll('button, input, select')].filter(element =>
+    !element.textContent.trim() && !element.getAttribute('aria-label') && !(element.labels && element.labels.length)).map(element => element.id);
+  $('ground').click();
+  found.dark = getComputedStyle(document.body).backgroundColor;
+  $('coloring').value = 'Label';
+  fire($('coloring'), 'change');
+  found.range = $('range').hidden;
+  document.body.dataset.found = encodeURIComponent(JSON.stringify(found));
+})().catch(error => { document.body.dataset.found = encodeURIComponent(JSON.stringify({ error: String(error.stack) })); });
 </script>"""
+
+
+def probed(page, folder, **how):
+    """What the probe found in a page."""
+    copy = folder / "probe.html"
+    copy.write_text(page.read_text().replace("</body>", PROBE + "</body>"))
+    state = state_of(visit(copy, folder, "--dump-dom", **how))
+    check(state.get("state") == "ready" and "found" in state, "the page did not come up: %s" % state)
+    found = json.loads(unquote(state["found"]))
+    check("error" not in found, "the probe failed: %s" % found)
+    return found
+
+
+def front_view(text, opacity):
+    """A copy of a page that shows solid surfaces from the front, and nothing in them."""
+    script = """<script>setTimeout(function () {
+      document.getElementById('medial').click();
+      const slider = document.getElementById('surface-opacity');
+      slider.value = %d;
+      slider.dispatchEvent(new Event('input'));
+      document.getElementById('front').click();
+    }, 200);</script></body>""" % opacity
+    return text.replace("</body>", script)
+
+
+def check_scale_bar(program, folder, spacing):
+    """The bar is as long as it says, by the width of a body of 30 voxels in the same picture."""
+    size, voxels = 40, bytearray(40 ** 3)
+    for k in range(10, 25):
+        for j in range(12, 28):
+            at = (k * size + j) * size
+            voxels[at + 5:at + 35] = b"\1" * 30
+    header = "NRRD0004\ntype: uint8\ndimension: 3\nspacings: %s\nsizes: 40 40 40\nencoding: raw\n\n" % " ".join(3 * [spacing])
+    (folder / "bar.nrrd").write_bytes(header.encode() + bytes(voxels))
+    page, copy, picture = (folder / name for name in ("bar.html", "front.html", "bar.png"))
+    run(program, "core", folder / "bar.nrrd", "-o", folder / "bar.vtp", "--html", page, "--force")
+    check(model_of(page.read_text())["anatomical"] is False, "directions of a patient, though the file names no space")
+    copy.write_text(front_view(page.read_text(), 100))
+    visit(copy, folder, "--screenshot=%s" % picture)
+    words = re.search(r'data-scale="([0-9.]+) (nm|µm|mm)"', visit(copy, folder, "--dump-dom"))
+    check(words is not None, "there is no scale bar")
+    said = float(words.group(1)) * {"nm": 1e-6, "µm": 1e-3, "mm": 1}[words.group(2)]
+    rows = pixels(picture)
+    left = 300 # of the view, well right of the panel
+    bar = max(sum(max(p) < 90 for p in row[286:700]) for row in rows[665:])
+    body = max(sum(min(p) < 235 for p in row[left:880]) for row in rows[300:400])
+    check(bar > 60 and body > 300, "a bar of %d pixels, a body of %d" % (bar, body))
+    true = 30 * float(spacing) * bar / body
+    check(abs(said / true - 1) < 0.03, "the bar says %g mm and is %g mm long" % (said, true))
+    return words.group(2)
 
 
 def main():
@@ -61,24 +156,36 @@ def main():
             os.makedirs(sys.argv[2], exist_ok=True)
             shutil.copy(picture, sys.argv[2])
         rows = pixels(picture)
-        middle = [p for row in rows[100:600] for p in row[260:860]]
+        middle = [p for row in rows[100:600] for p in row[300:860]]
         colored = sum(max(p) - min(p) > 40 for p in middle)
         white = sum(min(p) > 250 for p in middle)
         check(colored > 3000, "only %d pixels are coloured: nothing is drawn" % colored)
         check(white > 30000, "only %d pixels are white" % white)
         check(sum(p[1] > 180 and p[2] < 120 for p in middle) > 10, "no yellow: thick parts are not shown as such")
 
-        copy = folder / "probe.html"
-        copy.write_text(text.replace("</body>", PROBE + "</body>"))
-        dom = visit(copy, folder, "--dump-dom")
-        found = state_of(dom)
-        check(found.get("state") == "ready" and found.get("done") == "1", "the page did not come up: %s" % found)
-        check(found["colorings"] == "Radius,Lambda,ErosionThickness,Label", "colourings %s" % found["colorings"])
-        check(found["scale"] == "none", "the colour bar stays with labels")
-        check("&lt;b&gt;left" in found["labels"] or "<b>left" in found["labels"], "labels %s" % found["labels"])
-        check(found["chosen"] == "1", "no label is chosen")
-        check(re.search(r"\(3\)Radius: [0-9.]+ mm", found["seen"]) and re.search(r"\(8\)Radius: [0-9.]+ mm", found["seen"]) and
-              "LPS" in found["seen"], "under the pointer: %s" % found["seen"][:300])
+        found = probed(page, folder)
+        check(found["folded"] is False and found["view"] < 0.8, "the panel is folded where there is room")
+        check(found["foldedAfter"] is True and found["viewAfter"] > 0.99 and found["panelAfter"] == 0, "the panel does not fold")
+        check(found["colorings"] == ["Radius", "Lambda", "ErosionThickness", "Label"], "colourings %s" % found["colorings"])
+        check(found["labels"] == ["</script><b>left", "right & back"], "labels %s" % found["labels"])
+        check(found["searched"] == ["right & back"] and found["count"] == "1 of 2 found", "the search finds %s" % found["searched"])
+        check(found["boxes"] == [True, False] and found["countAfter"] == "1 of 2 shown", "hidden: %s" % found["boxes"])
+        check(found["chosen"] == 1, "no label is chosen")
+        check(found["saved"]["name"] == "blocks.png" and found["saved"]["type"] == "image/png", "saved %s" % found["saved"])
+        check(found["saved"]["width"] >= 2 and found["saved"]["bytes"] > 20000 and found["saved"]["colored"] > 12000 and found["saved"]["white"] > 100000,
+              "the saved picture is empty: %s" % found["saved"])
+        check(found["unnamed"] == [], "controls without a name: %s" % found["unnamed"])
+        check(found["dark"] == "rgb(20, 23, 26)" and found["range"] is True, "ground %s" % found["dark"])
+        seen = " | ".join(found["seen"])
+        check(re.search(r"\(3\)Radius [0-9.]+ mm", seen) and re.search(r"\(8\)Radius [0-9.]+ mm", seen) and "LPS" in seen,
+              "under the pointer: %s" % seen[:300])
+
+        phone = probed(page, folder, size=(390, 844))
+        check(phone["folded"] is True and phone["view"] > 0.99, "the panel covers a phone: %s" % phone["view"])
+        check(phone["expanded"] == "true" and phone["panelAfter"] > 200, "the panel does not open on a phone")
+
+        check(check_scale_bar(program, folder, "2") == "mm", "2 mm voxels are not shown in mm")
+        check(check_scale_bar(program, folder, "1e-5") == "nm", "10 nm voxels are not shown in nm")
 
         # A budget is kept, and said; the result itself is not touched.
         small = folder / "small.html"
@@ -91,7 +198,7 @@ def main():
         shown, whole = (int(re.search(r'"%s":(\d+)' % key, small.read_text()).group(1)) for key in ("triangles", "allTriangles"))
         check(whole > 60000 and 5000 < shown <= 22000, "%d of %d triangles for a budget of 20000" % (shown, whole))
         dom = visit(small, folder, "--dump-dom")
-        check('data-state="ready"' in dom and "of %d; files hold all of them" % whole in dom, "the page does not say so")
+        check('data-state="ready"' in dom and "of %s; the files hold all of them" % format(whole, ",") in dom, "the page does not say so")
 
 
 main()

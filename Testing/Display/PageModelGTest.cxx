@@ -48,7 +48,7 @@ TEST(PageModel, PagesWithoutFacesAreValidJson)
   EXPECT_EQ(labels[0].at("medial").at("dots")[kCount], 1);
   EXPECT_EQ(labels[0].at("medial").at("triangles")[kCount], 0);
   EXPECT_EQ(labels[1].at("medial").at("dots")[kCount], 0);
-  EXPECT_EQ(labels[1].at("medial").at("lines")[kCount], 2 * content.labels[1].medial.core.cells.edges.size());
+  EXPECT_EQ(labels[1].at("medial").at("segments")[kCount], 2 * content.labels[1].medial.core.cells.edges.size());
   for (std::size_t k = 0; k < 3; ++k)
   {
     EXPECT_EQ(labels[0].at("medial").at("low")[k], 0.0); // the voxel's centre
@@ -83,6 +83,48 @@ TEST(PageModel, NoNameEndsTheScriptOrTheJson)
   EXPECT_EQ(page.at("title"), hostile);
   EXPECT_EQ(page.at("labels")[0].at("name"), hostile);
   EXPECT_EQ(page.at("labels")[1].at("name"), "no UTF-8: \xEF\xBF\xBD");
+}
+
+TEST(PageModel, ABudgetIsKeptAndSharedBySize)
+{
+  DisplayContent content;
+  content.labels.push_back(LabelOf(Ellipsoid(40), 1, "large"));
+  content.labels.push_back(LabelOf(Ellipsoid(16), 2, "small"));
+  content.labels.push_back(LabelOf(Box({ 1, 1, 1 }), 3, "point"));
+  HtmlOptions options;
+  options.triangles = 3000;
+  const Json page = Json::parse(MakePageModel(content, options).json);
+  EXPECT_GT(page.at("allTriangles"), 12000);
+  EXPECT_LE(page.at("triangles"), 3200);
+  EXPECT_GT(page.at("triangles"), 2000);
+  const auto triangles = [&page](std::size_t label, const char * kind) {
+    return page.at("labels")[label].at(kind).at("triangles")[kCount].get<std::size_t>() / 3;
+  };
+  for (const char * kind : { "surface", "medial" })
+  {
+    EXPECT_GT(triangles(0, kind), 2 * triangles(1, kind)) << kind;
+    EXPECT_GE(triangles(1, kind), 60U) << kind;
+  }
+  EXPECT_EQ(page.at("labels")[2].at("medial").at("dots")[kCount], 1);
+}
+
+TEST(PageModel, SharesOfABudgetAddUpToIt)
+{
+  EXPECT_EQ(SharesOfBudget({ { 10, 0.4 }, { 0, 1 }, { 20, 1 } }, 100), (std::vector<std::size_t>{ 10, 0, 20 }));
+  const auto shares = SharesOfBudget({ { 100000, 1 }, { 100000, 0.5 }, { 10000, 1 }, { 100, 1 }, { 0, 1 } }, 6500);
+  EXPECT_EQ(shares[3], 64U);
+  EXPECT_EQ(shares[4], 0U);
+  EXPECT_NEAR(static_cast<double>(shares[0]) / static_cast<double>(shares[1]), 2, 0.02);
+  EXPECT_NEAR(static_cast<double>(shares[0]) / static_cast<double>(shares[2]), 10, 0.1);
+  EXPECT_NEAR(static_cast<double>(shares[0] + shares[1] + shares[2] + shares[3]), 6500, 5);
+  // What the light ones cannot use, as they are whole, goes to none: the budget is enough for all.
+  EXPECT_EQ(SharesOfBudget({ { 1000, 0.1 }, { 1000, 1 } }, 2000), (std::vector<std::size_t>{ 1000, 1000 }));
+  std::size_t sum = 0; // many more meshes than the budget has triangles for
+  for (const std::size_t share : SharesOfBudget(std::vector<MeshDemand>(1000, { 500, 1 }), 12000))
+  {
+    sum += share;
+  }
+  EXPECT_LE(sum, 12000U);
 }
 
 TEST(PageModel, WhatIsNoNumberIsRefusedByName)

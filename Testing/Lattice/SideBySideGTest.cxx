@@ -130,5 +130,48 @@ TEST(RunInParts, ThrowsOnWhatTheFirstPartThatFailsThrows)
   EXPECT_EQ(ran, 3);
 }
 
+TEST(RunEach, MeetsEachItemOnceAndCountsWhatIsDone)
+{
+  for (const int threads : { 1, 3 })
+  {
+    const testing::Threads        scope(threads);
+    std::vector<std::atomic<int>> met(100);
+    std::vector<std::size_t>      counts;
+    RunEach(
+      met.size(),
+      [&](std::size_t item) { ++met[item]; },
+      [&](std::size_t number) { counts.push_back(number); });
+    EXPECT_TRUE(std::all_of(met.begin(), met.end(), [](int times) { return times == 1; }));
+    ASSERT_EQ(counts.size(), met.size());
+    EXPECT_TRUE(std::is_sorted(counts.begin(), counts.end()));
+    EXPECT_EQ(counts.back(), met.size());
+  }
+  RunEach(0, [](std::size_t) { FAIL(); });
+}
+
+TEST(RunEach, StopsAtWhatIsThrownAndThrowsItOn)
+{
+  for (const int threads : { 1, 3 })
+  {
+    const testing::Threads scope(threads);
+    std::atomic<int>       ran = 0;
+    EXPECT_THROW(RunEach(1000,
+                         [&](std::size_t item) {
+                           ++ran;
+                           if (item == 5)
+                           {
+                             throw std::runtime_error("five");
+                           }
+                         }),
+                 std::runtime_error);
+    EXPECT_LT(ran, 1000);
+    EXPECT_THROW(RunEach(
+                   1000,
+                   [](std::size_t) {},
+                   [](std::size_t) { throw std::logic_error("stop"); }),
+                 std::logic_error);
+  }
+}
+
 } // namespace
 } // namespace voxelcore

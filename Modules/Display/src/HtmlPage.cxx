@@ -27,12 +27,17 @@ WriteHtml(const std::filesystem::path & path,
 {
   const PageModel model = MakePageModel(content, options, progress);
   std::string     page(PageTexts().page);
+  std::string     viewer;
+  for (const std::string_view script : PageTexts().scripts)
+  {
+    viewer += script;
+  }
   // Each text takes the place of its mark, once, from the end on: marks that data may hold are left alone.
-  const std::pair<std::string_view, std::string_view> texts[] = { { "@VIEWER@", PageTexts().viewer },
-                                                                  { "@CONTROLS@", PageTexts().controls },
+  const std::pair<std::string_view, std::string_view> texts[] = { { "@VIEWER@", viewer },
                                                                   { "@THREE@", PageTexts().three },
                                                                   { "@DATA@", model.numbers },
-                                                                  { "@MODEL@", model.json } };
+                                                                  { "@MODEL@", model.json },
+                                                                  { "@STYLE@", PageTexts().style } };
   for (const auto & [mark, text] : texts)
   {
     const auto place = page.find(mark);

@@ -1,7 +1,10 @@
 #include "PageModel.h"
 
-#include "Decimation.h"
+#include "PageNumbers.h"
+#include "ShownMesh.h"
+#include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/SideBySide.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,8 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <limits>
+#include <cstdio>
 #include <vector>
 
 namespace voxelcore
@@ -21,93 +23,37 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-std::string
-Base64(const std::vector<std::uint8_t> & bytes)
-{
-  constexpr const char * letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string            text;
-  text.reserve(bytes.size() / 3 * 4 + 8);
-  for (std::size_t at = 0; at < bytes.size(); at += 3)
-  {
-    std::uint32_t     three = 0;
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      three = (three << 8) | (k < count ? bytes[at + k] : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-      text += k <= count ? letters[(three >> (18 - 6 * k)) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
-/** zlib's: the page finds out by it whether its numbers are still what was written. */
-std::uint32_t
-Adler32(const std::vector<std::uint8_t> & bytes)
-{
-  std::uint32_t a = 1;
-  std::uint32_t b = 0;
-  for (const std::uint8_t byte : bytes)
-  {
-    a = (a + byte) % 65521;
-    b = (b + a) % 65521;
-  }
-  return b << 16 | a;
-}
-
-/** The numbers of a page, little endian, one array after the other, each at a multiple of 4. */
-class Blob
-{
-public:
-  /** Gives the array's place, length and bytes a number. */
-  template <typename T>
-  Json
-  Add(const std::vector<T> & values)
-  {
-    m_Bytes.resize((m_Bytes.size() + 3) / 4 * 4);
-    const std::size_t at = m_Bytes.size();
-    m_Bytes.resize(at + values.size() * sizeof(T));
-    if (!values.empty())
-    {
-      std::memcpy(m_Bytes.data() + at, values.data(), values.size() * sizeof(T));
-    }
-    return { at, values.size(), sizeof(T) };
-  }
-  const std::vector<std::uint8_t> &
-  Bytes() const
-  {
-    return m_Bytes;
-  }
-
-private:
-  std::vector<std::uint8_t> m_Bytes;
-};
-
+/** The least and the greatest of some values, and what the colours run over: all but the lowest and the highest 2 %. */
 struct Range
 {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void
-  Add(const std::vector<double> & values)
-  {
-    for (const double value : values)
-    {
-      if (std::isfinite(value))
-      {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-    }
-  }
+  double least = 1;
+  double greatest = 0;
+  double low = 0;
+  double high = 0;
+
   bool
   IsEmpty() const
   {
-    return low > high;
+    return least > greatest;
   }
 };
 
+Range
+RangeOf(std::vector<double> values)
+{
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty())
+  {
+    return {};
+  }
+  std::sort(values.begin(), values.end());
+  const auto at = [&values](double share) {
+    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  };
+  return { values.front(), values.back(), at(0.02), at(0.98) };
+}
+
+constexpr int                         kMapColors = 65; // enough for the page to go straight between them
 constexpr std::array<const char *, 3> kArrays{ "Radius", "Lambda", "ErosionThickness" };
 
 /** In the order of kArrays; null where there is none. */
@@ -141,68 +87,147 @@ RequireFinite(const std::array<T, N> & numbers, const DisplayLabel & label)
   }
 }
 
+template <std::size_t N>
+std::vector<std::uint32_t>
+Flat(const std::vector<std::array<std::uint32_t, N>> & elements)
+{
+  std::vector<std::uint32_t> flat;
+  flat.reserve(N * elements.size());
+  for (const auto & element : elements)
+  {
+    flat.insert(flat.end(), element.begin(), element.end());
+  }
+  return flat;
+}
+
 class PageMaker
 {
 public:
   PageMaker(const DisplayContent & content, const HtmlOptions & options)
     : m_Content(content)
     , m_Options(options)
-  {
-    for (const DisplayLabel & label : content.labels)
-    {
-      m_All += label.surface.triangles.size() + TriangleCount(label.medial.core.cells);
-      for (const ValueArrays & arrays : { MedialArrays(label), CurveArrays(label) })
-      {
-        for (std::size_t i = 0; i < arrays.size(); ++i)
-        {
-          if (arrays[i] != nullptr)
-          {
-            m_Ranges[i].Add(*arrays[i]);
-          }
-        }
-      }
-    }
-  }
+    , m_Shown(content.labels.size())
+    , m_LabelRanges(content.labels.size())
+  {}
 
   PageModel
   Make(const ProgressCallback & progress)
   {
+    FindRanges();
+    Simplify(progress);
     Json labels = Json::array();
     for (std::size_t i = 0; i < m_Content.labels.size(); ++i)
     {
-      ReportProgress(progress, "page", static_cast<double>(i) / static_cast<double>(m_Content.labels.size()));
-      labels.push_back(LabelJson(m_Content.labels[i]));
+      labels.push_back(LabelJson(i));
     }
-    Json ranges = Json::object();
-    for (std::size_t i = 0; i < kArrays.size(); ++i)
+    Json map = Json::array();
+    for (int i = 0; i < kMapColors; ++i)
     {
-      if (!m_Ranges[i].IsEmpty())
-      {
-        ranges[kArrays[i]] = { m_Ranges[i].low, m_Ranges[i].high };
-      }
+      const Color color = ViridisColor(static_cast<double>(i) / (kMapColors - 1));
+      char        code[8];
+      std::snprintf(code,
+                    sizeof(code),
+                    "#%02x%02x%02x",
+                    static_cast<unsigned>(std::lround(255 * color[0])),
+                    static_cast<unsigned>(std::lround(255 * color[1])),
+                    static_cast<unsigned>(std::lround(255 * color[2])));
+      map.push_back(code);
     }
-    const Json json{
-      { "title", m_Options.title }, { "bytes", m_Blob.Bytes().size() }, { "adler32", Adler32(m_Blob.Bytes()) },
-      { "ranges", ranges },         { "triangles", m_Shown },           { "allTriangles", m_All },
-      { "labels", labels }
-    };
+    const Json  json{ { "title", m_Options.title },
+                     { "anatomical", m_Options.anatomical },
+                     { "bytes", m_Numbers.Bytes().size() },
+                     { "adler32", Adler32(m_Numbers.Bytes()) },
+                     { "map", map },
+                     { "ranges", RangesJson(m_Ranges) },
+                     { "triangles", m_ShownTriangles },
+                     { "allTriangles", m_AllTriangles },
+                     { "labels", labels } };
     std::string text;
     // `<` occurs in strings only. Names that are no UTF-8 get replacement characters.
     for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))
     {
       text += c == '<' ? std::string("\\u003c") : std::string(1, c);
     }
-    return { std::move(text), Base64(m_Blob.Bytes()) };
+    return { std::move(text), Base64(m_Numbers.Bytes()) };
   }
 
 private:
-  /** A mesh's share of the budget. */
-  std::size_t
-  Share(std::size_t triangles) const
+  using Ranges = std::array<Range, kArrays.size()>; ///< in the order of kArrays
+
+  struct ShownLabel
   {
-    constexpr std::size_t kLeast = 64;
-    const double part = static_cast<double>(m_Options.triangles) / static_cast<double>(std::max<std::size_t>(m_All, 1));
-    return part >= 1 ? triangles : std::max(kLeast, static_cast<std::size_t>(part * static_cast<double>(triangles)));
+    ShownMesh surface;
+    ShownMesh medial;
+    ShownMesh curves;
+  };
+
+  void
+  FindRanges()
+  {
+    for (std::size_t i = 0; i < kArrays.size(); ++i)
+    {
+      std::vector<double> all;
+      for (std::size_t k = 0; k < m_Content.labels.size(); ++k)
+      {
+        std::vector<double> values;
+        for (const ValueArrays & arrays : { MedialArrays(m_Content.labels[k]), CurveArrays(m_Content.labels[k]) })
+        {
+          if (arrays[i] != nullptr)
+          {
+            values.insert(values.end(), arrays[i]->begin(), arrays[i]->end());
+          }
+        }
+        all.insert(all.end(), values.begin(), values.end());
+        m_LabelRanges[k][i] = RangeOf(std::move(values));
+      }
+      m_Ranges[i] = RangeOf(std::move(all));
+    }
+  }
+
+  static Json
+  RangesJson(const Ranges & ranges)
+  {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < kArrays.size(); ++i)
+    {
+      if (!ranges[i].IsEmpty())
+      {
+        json[kArrays[i]] = { { "low", ranges[i].low },
+                             { "high", ranges[i].high },
+                             { "least", ranges[i].least },
+                             { "greatest", ranges[i].greatest } };
+      }
+    }
+    return json;
+  }
+
+  /** Labels side by side, each mesh in its share of the budget. */
+  void
+  Simplify(const ProgressCallback & progress)
+  {
+    const std::size_t count = m_Content.labels.size();
+    // Per label its surface, then its medial surface. Surfaces, smooth and seen by their outline, do with less.
+    constexpr double        kOutline = 0.4;
+    std::vector<MeshDemand> demands;
+    for (const DisplayLabel & label : m_Content.labels)
+    {
+      const ComplexSize medial = SizeOf(label.medial.core.cells);
+      demands.push_back({ label.surface.triangles.size(), kOutline });
+      demands.push_back({ medial.triangles + medial.edges, 1 });
+      m_AllTriangles += label.surface.triangles.size() + medial.triangles;
+    }
+    const std::vector<std::size_t> shares = SharesOfBudget(demands, m_Options.triangles);
+    RunEach(
+      count,
+      [&](std::size_t i) {
+        const DisplayLabel & label = m_Content.labels[i];
+        m_Shown[i] = { SimplifiedSurface(label.surface, shares[2 * i]),
+                       SimplifiedComplex(label.medial.core, shares[2 * i + 1]),
+                       ShownCurves(label.curves) };
+      },
+      [&](std::size_t done) {
+        ReportProgress(progress, "page", static_cast<double>(done) / static_cast<double>(count));
+      });
   }
 
   Json
@@ -230,11 +255,6 @@ private:
         points.push_back(static_cast<std::uint16_t>(std::lround((point[k] - low[k]) / side * 65535)));
       }
     }
-    std::vector<std::uint32_t> corners;
-    for (const auto & triangle : mesh.triangles)
-    {
-      corners.insert(corners.end(), triangle.begin(), triangle.end());
-    }
     std::vector<std::uint32_t> lines;
     std::vector<std::uint32_t> offsets{ 0 };
     for (const auto & line : mesh.lines)
@@ -242,11 +262,12 @@ private:
       lines.insert(lines.end(), line.begin(), line.end());
       offsets.push_back(static_cast<std::uint32_t>(lines.size()));
     }
-    m_Shown += mesh.triangles.size();
-    json["points"] = m_Blob.Add(points);
-    json["triangles"] = Indices(corners, mesh.points.size());
+    m_ShownTriangles += mesh.triangles.size();
+    json["points"] = m_Numbers.Add(points);
+    json["triangles"] = Indices(Flat(mesh.triangles), mesh.points.size());
+    json["segments"] = Indices(Flat(mesh.segments), mesh.points.size());
     json["lines"] = Indices(lines, mesh.points.size());
-    json["offsets"] = m_Blob.Add(offsets);
+    json["offsets"] = m_Numbers.Add(offsets);
     json["dots"] = Indices(mesh.dots, mesh.points.size());
     json["values"] = ValuesJson(mesh, arrays);
     return json;
@@ -262,16 +283,16 @@ private:
       {
         continue;
       }
-      const double               side = std::max(m_Ranges[i].high - m_Ranges[i].low, 1e-300);
+      const double               side = std::max(m_Ranges[i].greatest - m_Ranges[i].least, 1e-300);
       std::vector<std::uint16_t> codes;
       for (const std::uint32_t origin : mesh.origin)
       {
         const double value = (*arrays[i])[origin];
         codes.push_back(std::isfinite(value)
-                          ? static_cast<std::uint16_t>(std::lround((value - m_Ranges[i].low) / side * 65534))
+                          ? static_cast<std::uint16_t>(std::lround((value - m_Ranges[i].least) / side * 65534))
                           : std::uint16_t{ 65535 });
       }
-      json[kArrays[i]] = m_Blob.Add(codes);
+      json[kArrays[i]] = m_Numbers.Add(codes);
     }
     return json;
   }
@@ -281,41 +302,82 @@ private:
   {
     if (points <= 65536)
     {
-      return m_Blob.Add(std::vector<std::uint16_t>(indices.begin(), indices.end()));
+      return m_Numbers.Add(std::vector<std::uint16_t>(indices.begin(), indices.end()));
     }
-    return m_Blob.Add(indices);
+    return m_Numbers.Add(indices);
   }
 
   Json
-  LabelJson(const DisplayLabel & label)
+  LabelJson(std::size_t i)
   {
+    const DisplayLabel & label = m_Content.labels[i];
     RequireFinite(label.color, label);
-    Json json{ { "name", label.name }, { "label", label.label }, { "color", label.color } };
-    if (!label.surface.triangles.empty())
-    {
-      json["surface"] = MeshJson(Decimated(label.surface, Share(label.surface.triangles.size())), {}, label);
-    }
-    const MedialComplex & core = label.medial.core;
-    if (core.cells.vertexCount > 0)
-    {
-      json["medial"] = MeshJson(Decimated(core, Share(TriangleCount(core.cells))), MedialArrays(label), label);
-    }
-    if (!label.curves.positions.empty())
-    {
-      json["curves"] = MeshJson(ShownCurves(label.curves), CurveArrays(label), label);
-    }
+    Json       json{ { "name", label.name },
+               { "label", label.label },
+               { "color", label.color },
+               { "ranges", RangesJson(m_LabelRanges[i]) } };
+    const auto add = [&](const char * kind, ShownMesh & mesh, const ValueArrays & arrays) {
+      if (!mesh.points.empty())
+      {
+        json[kind] = MeshJson(mesh, arrays, label);
+        mesh = {};
+      }
+    };
+    add("surface", m_Shown[i].surface, {});
+    add("medial", m_Shown[i].medial, MedialArrays(label));
+    add("curves", m_Shown[i].curves, CurveArrays(label));
     return json;
   }
 
-  const DisplayContent & m_Content;
-  const HtmlOptions &    m_Options;
-  std::array<Range, 3>   m_Ranges;
-  std::size_t            m_All = 0;
-  std::size_t            m_Shown = 0;
-  Blob                   m_Blob;
+  const DisplayContent &  m_Content;
+  const HtmlOptions &     m_Options;
+  std::vector<ShownLabel> m_Shown;
+  Ranges                  m_Ranges;
+  std::vector<Ranges>     m_LabelRanges;
+  std::size_t             m_AllTriangles = 0;
+  std::size_t             m_ShownTriangles = 0;
+  PageNumbers             m_Numbers;
 };
 
 } // namespace
+
+std::vector<std::size_t>
+SharesOfBudget(const std::vector<MeshDemand> & meshes, std::size_t budget)
+{
+  constexpr std::size_t kLeast = 64; // with fewer triangles even a ball is no ball
+  std::size_t           count = 0;
+  double                lightest = 1;
+  for (const MeshDemand & mesh : meshes)
+  {
+    count += mesh.triangles > 0 ? 1 : 0;
+    lightest = std::min(lightest, mesh.weight);
+  }
+  const std::size_t        least = std::clamp<std::size_t>(budget / (2 * std::max<std::size_t>(count, 1)), 4, kLeast);
+  std::vector<std::size_t> shares(meshes.size());
+  const auto               fill = [&](double part) {
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+    {
+      const auto size = static_cast<double>(meshes[i].triangles);
+      shares[i] = std::min(meshes[i].triangles,
+                           std::max(least, static_cast<std::size_t>(std::ceil(part * meshes[i].weight * size))));
+      sum += shares[i];
+    }
+    return sum;
+  };
+  double low = 0;
+  double high = 1 / lightest;
+  if (fill(high) > budget)
+  {
+    for (int halving = 0; halving < 40; ++halving)
+    {
+      const double middle = (low + high) / 2;
+      (fill(middle) > budget ? high : low) = middle;
+    }
+    fill(low);
+  }
+  return shares;
+}
 
 PageModel
 MakePageModel(const DisplayContent & content, const HtmlOptions & options, const ProgressCallback & progress)

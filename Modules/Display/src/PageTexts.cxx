@@ -7,10 +7,14 @@
   extern "C" const char voxelcore_##name[];                                                          \
   extern "C" const char voxelcore_##name##_end[];
 
-VOXELCORE_EMBED(page, VOXELCORE_PAGE_HTML)
-VOXELCORE_EMBED(viewer, VOXELCORE_PAGE_VIEWER)
+VOXELCORE_EMBED(page, VOXELCORE_PAGE "/page.html")
+VOXELCORE_EMBED(style, VOXELCORE_PAGE "/page.css")
 VOXELCORE_EMBED(three, VOXELCORE_PAGE_THREE)
-VOXELCORE_EMBED(controls, VOXELCORE_PAGE_CONTROLS)
+VOXELCORE_EMBED(data, VOXELCORE_PAGE "/data.js")
+VOXELCORE_EMBED(meshes, VOXELCORE_PAGE "/meshes.js")
+VOXELCORE_EMBED(overlay, VOXELCORE_PAGE "/overlay.js")
+VOXELCORE_EMBED(view, VOXELCORE_PAGE "/view.js")
+VOXELCORE_EMBED(panel, VOXELCORE_PAGE "/panel.js")
 
 namespace voxelcore
 {
@@ -19,9 +23,13 @@ const PageTextSet &
 PageTexts()
 {
   static const PageTextSet texts{ { voxelcore_page, voxelcore_page_end },
-                                  { voxelcore_viewer, voxelcore_viewer_end },
+                                  { voxelcore_style, voxelcore_style_end },
                                   { voxelcore_three, voxelcore_three_end },
-                                  { voxelcore_controls, voxelcore_controls_end } };
+                                  { std::string_view(voxelcore_data, voxelcore_data_end),
+                                    std::string_view(voxelcore_meshes, voxelcore_meshes_end),
+                                    std::string_view(voxelcore_overlay, voxelcore_overlay_end),
+                                    std::string_view(voxelcore_view, voxelcore_view_end),
+                                    std::string_view(voxelcore_panel, voxelcore_panel_end) } };
   return texts;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The texts a page is made of, which are part of the program.
 
+#include <array>
 #include <string_view>
 
 namespace voxelcore
@@ -8,10 +9,10 @@ namespace voxelcore
 
 struct PageTextSet
 {
-  std::string_view page;     ///< HTML with marks @..@ where the others go
-  std::string_view viewer;   ///< our script
-  std::string_view three;    ///< three.js
-  std::string_view controls; ///< its TrackballControls
+  std::string_view                page;    ///< HTML with marks @..@ where the others go
+  std::string_view                style;   ///< CSS
+  std::string_view                three;   ///< three.js
+  std::array<std::string_view, 5> scripts; ///< ours, in the order they run
 };
 
 const PageTextSet &

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <vector>
 
@@ -81,6 +82,43 @@ RunInParts(bool worthIt, std::size_t count, const std::function<void(std::size_t
     const auto parts = static_cast<std::size_t>(omp_get_num_threads());
     const auto part = static_cast<std::size_t>(omp_get_thread_num());
     failures.Guard(part, [&] { work(count * part / parts, count * (part + 1) / parts); });
+  }
+  failures.Rethrow();
+}
+
+void
+RunEach(std::size_t                                     count,
+        const std::function<void(std::size_t item)> &   work,
+        const std::function<void(std::size_t number)> & done)
+{
+  Failures          failures(count);
+  std::atomic<bool> failed = false;
+  std::size_t       number = 0;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t item = 0; item < count; ++item)
+  {
+    if (failed)
+    {
+      continue;
+    }
+    bool finished = false;
+    failures.Guard(item, [&] {
+      work(item);
+      finished = true;
+    });
+#pragma omp critical(voxelcore_run_each)
+    if (finished && done && !failed)
+    {
+      finished = false;
+      failures.Guard(item, [&] {
+        done(++number);
+        finished = true;
+      });
+    }
+    if (!finished)
+    {
+      failed = true;
+    }
   }
   failures.Rethrow();
 }

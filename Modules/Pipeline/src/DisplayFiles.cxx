@@ -7,6 +7,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/HtmlPage.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/SideBySide.h"
 #include "voxelcore/SlicerScene.h"
 
 #include <algorithm>
@@ -25,6 +26,18 @@ namespace
 constexpr std::size_t kMostCurves = 200;
 
 constexpr const char * kDataFolder = "Data";
+
+/** Whether the file says how its axes lie in the patient: slices and meshes never do, and readers note it where a scan
+ *  does not. */
+bool
+HasPatientAxes(const InputRecord & input)
+{
+  const bool can =
+    input.format.starts_with("NRRD") || input.format.starts_with("NIfTI") || input.format.starts_with("MetaImage");
+  return can && std::none_of(input.notes.begin(), input.notes.end(), [](const std::string & note) {
+           return note.find("taken as LPS") != std::string::npos;
+         });
+}
 
 } // namespace
 
@@ -289,30 +302,33 @@ DisplayContent
 DisplayFiles::State::Content(const CoreReport & report, const ProgressCallback & progress) const
 {
   DisplayContent content;
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
-  {
-    const LabelRecord & record = report.labels.at(i);
-    DisplayLabel        label;
-    label.label = record.label;
-    label.component = record.component;
-    label.name = record.name;
-    label.color = ColorOf(record.label, record.component);
-    label.medial = surfaces[i];
-    label.curves = skeletons[i].graph;
-    ReportProgress(progress, "page", static_cast<double>(i) / static_cast<double>(surfaces.size()));
-    if (label.medial.core.cells.vertexCount > 0)
-    {
-      label.erosionThickness = VertexErosionThickness(label.medial.core, report.input.geometry.spacing, {});
-    }
-    for (std::size_t k = 0; k < scan.size(); ++k)
-    {
-      if (scan[k].value == record.label && components[k] == record.component)
+  content.labels.resize(surfaces.size());
+  RunEach(
+    surfaces.size(),
+    [&](std::size_t i) {
+      const LabelRecord & record = report.labels.at(i);
+      DisplayLabel &      label = content.labels[i];
+      label.label = record.label;
+      label.component = record.component;
+      label.name = record.name;
+      label.color = ColorOf(record.label, record.component);
+      label.medial = surfaces[i];
+      label.curves = skeletons[i].graph;
+      if (label.medial.core.cells.vertexCount > 0)
       {
-        label.surface = LabelSurface(scan[k].shape, geometry);
+        label.erosionThickness = VertexErosionThickness(label.medial.core, report.input.geometry.spacing, {});
       }
-    }
-    content.labels.push_back(std::move(label));
-  }
+      for (std::size_t k = 0; k < scan.size(); ++k)
+      {
+        if (scan[k].value == record.label && components[k] == record.component)
+        {
+          label.surface = LabelSurface(scan[k].shape, geometry);
+        }
+      }
+    },
+    [&](std::size_t done) {
+      ReportProgress(progress, "page", static_cast<double>(done) / static_cast<double>(surfaces.size()));
+    });
   return content;
 }
 
@@ -328,6 +344,7 @@ DisplayFiles::Finish(const CoreReport & report, std::vector<std::string> & notes
     HtmlOptions options;
     options.title = ScanName(m_State->input);
     options.triangles = m_State->targets.htmlTriangles;
+    options.anatomical = HasPatientAxes(report.input);
     WriteHtml(m_State->transaction.Stage(*m_State->targets.html),
               m_State->Content(report, progress),
               options,

@@ -13,7 +13,8 @@ namespace voxelcore
 struct HtmlOptions
 {
   std::string title;
-  std::size_t triangles = 300000; ///< at most about so many in the page; meshes beyond that are decimated for it
+  std::size_t triangles = 500000; ///< at most about so many in the page; meshes beyond that are decimated for it
+  bool        anatomical = true;  ///< whether the axes are known to be the patient's: else they are named x, y and z
 };
 
 /** Whether this build has the library that pages are made with (three.js). */
@@ -22,7 +23,8 @@ HasHtml();
 
 /** Writes one HTML file: meshes and values of `content`, three.js (MIT licence, named in the page) and a viewer. Places are
  *  rounded to 1/65535 of a mesh's box, values to 1/65534 of their range. Only what is shown is decimated; the page says
- *  from how many triangles. It asks nothing of any network, and forbids itself to.
+ *  from how many triangles. Its colours run from the 2nd to the 98th percentile; all values and each label's own are a
+ *  choice. It asks nothing of any network, and forbids itself to. Damaged, or without WebGL, it says so.
  *  \throws UsageError where HasHtml() is false; Error where a place is no finite number; OutputError; Cancelled */
 void
 WriteHtml(const std::filesystem::path & path,

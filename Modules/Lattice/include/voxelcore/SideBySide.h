@@ -19,4 +19,12 @@ RunBoth(bool worthIt, const std::function<void()> & first, const std::function<v
 void
 RunInParts(bool worthIt, std::size_t count, const std::function<void(std::size_t first, std::size_t last)> & work);
 
+/** Calls work(0) to work(count - 1) on as many threads as OpenMP has to give, each taking the next item when it has done
+ *  one: for items of different size. Calls done(n) when n are done, from one thread at a time. Whatever one of these throws
+ *  lets no further item begin and is thrown on, that of the first item first. */
+void
+RunEach(std::size_t                                     count,
+        const std::function<void(std::size_t item)> &   work,
+        const std::function<void(std::size_t number)> & done = {});
+
 } // namespace voxelcore

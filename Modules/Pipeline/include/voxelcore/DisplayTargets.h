@@ -12,7 +12,7 @@ struct DisplayTargets
 {
   std::optional<std::filesystem::path> scene; ///< .mrml, with its data in STEM_Data/ beside it, or .mrb
   std::optional<std::filesystem::path> html;  ///< .html
-  std::size_t                          htmlTriangles = 300000;
+  std::size_t                          htmlTriangles = 500000;
 };
 
 } // namespace voxelcore

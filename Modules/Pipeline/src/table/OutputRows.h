@@ -96,7 +96,7 @@ inline constexpr auto kOutputRows = std::to_array<Parameter>({
     "--html-triangles",
     Integer,
     "N",
-    "300000",
+    "500000",
     false,
     kStages | kBatch,
     "Simplify the page's meshes to about N triangles" },
