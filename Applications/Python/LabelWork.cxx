@@ -5,6 +5,7 @@
 #include "SkeletonFiles.h"
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/GreyScan.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Parameters.h"
@@ -155,8 +156,18 @@ MakeCores(const ArrayView &        array,
   report.input.geometry = LabelAssembler::CheckGeometry("the array", geometry, options.reading.orthonormalize);
 
   constexpr double readEnds = 0.05;
-  LabelShape       label = OnlyLabel(
-    LabelsOf(array, report.input.geometry, options.reading, PartOfProgress(progress, "reading", 0, readEnds)));
+  LabelShape       label;
+  try
+  {
+    label = OnlyLabel(
+      LabelsOf(array, report.input.geometry, options.reading, PartOfProgress(progress, "reading", 0, readEnds)));
+  }
+  catch (const GreyScanError & error)
+  {
+    const std::string range = OtsuRange(error.grey);
+    throw InputError("the array: " + GreyScanText(error.grey) + "; choose a range, for example threshold=(" +
+                     range.substr(0, range.find(':')) + ", numpy.inf) by Otsu, or give label= if its values are labels");
+  }
   const SpacingWeights weights = ComputeSpacingWeights(geometry.spacing);
   ParameterRecord &    parameters = report.parameters;
   parameters.labels = { label.value };

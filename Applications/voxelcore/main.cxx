@@ -185,6 +185,7 @@ RunVerify(const Run & run)
 {
   const VerifyOptions options = VerifyOptionsFrom(run.line.values);
   const VerifyResult  result = RunVerifyJob(options, run.context);
+  run.Warn(result.warnings);
   run.Print(VerifyText(result));
   if (!result.passed)
   {
@@ -238,6 +239,7 @@ int
 RunRender(const Run & run)
 {
   const RenderResult result = RunRenderJob(RenderOptionsFrom(run.line.values), run.context);
+  run.Warn(result.warnings);
   run.PrintNotes(result.notes);
   for (const auto & picture : result.pictures)
   {

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -248,6 +249,11 @@ Tiff(const std::vector<TiffPage> & pages, const TiffLayout & layout)
     for (const auto & [tag, value] : page.more)
     {
       add(tag, value);
+    }
+    for (const auto & [tag, value] : page.rationals)
+    {
+      const auto millionths = static_cast<std::uint32_t>(std::lround(value * 1e6));
+      entries.push_back({ tag, 5, 1, Raw<std::uint32_t>(millionths, big) + Raw<std::uint32_t>(1000000, big) });
     }
     std::sort(entries.begin(), entries.end(), [](const Entry & a, const Entry & b) { return a.tag < b.tag; });
     const std::size_t inlineBytes = wide ? 8 : 4;

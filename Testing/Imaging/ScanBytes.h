@@ -135,6 +135,7 @@ struct TiffPage
   std::string                                          description;
   std::vector<std::pair<std::uint16_t, std::uint32_t>> more; ///< further LONG tags
   std::vector<std::string>                             parts;
+  std::vector<std::pair<std::uint16_t, double>>        rationals{}; ///< in millionths
 };
 struct TiffLayout
 {

@@ -1,6 +1,6 @@
 #include "voxelcore/LabelAssembler.h"
 
-#include "LabelCollector.h"
+#include "GuardedCollector.h"
 #include "TextFields.h"
 
 #include <cmath>
@@ -37,9 +37,9 @@ StoredType(LabelAssembler::Pixel pixel)
 
 struct LabelAssembler::State
 {
-  ScanFile                        scan;
-  std::size_t                     rowBytes = 0;
-  std::unique_ptr<LabelCollector> collector;
+  ScanFile                          scan;
+  std::size_t                       rowBytes = 0;
+  std::unique_ptr<GuardedCollector> collector;
 };
 
 ImageGeometry
@@ -83,7 +83,7 @@ LabelAssembler::LabelAssembler(const std::string &   name,
   scan.type = StoredType(pixel);
   scan.geometry = geometry;
   m_State->rowBytes = static_cast<std::size_t>(geometry.size[0]) * pixel.bytes;
-  m_State->collector = std::make_unique<LabelCollector>(scan, options, ResolveCrop(scan, {}));
+  m_State->collector = std::make_unique<GuardedCollector>(scan, options, ResolveCrop(scan, {}));
 }
 
 LabelAssembler::~LabelAssembler() = default;

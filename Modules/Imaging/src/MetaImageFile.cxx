@@ -5,6 +5,7 @@
 
 #include "DataSource.h"
 #include "ScanFile.h"
+#include "StatedSpacing.h"
 #include "TextFields.h"
 
 #include <algorithm>
@@ -148,7 +149,7 @@ ReadGeometry(const MetaHeader & header, std::size_t dimensions, const ReadOption
   }
   else
   {
-    scan.notes.push_back("the file states no voxel spacing: 1 mm is taken");
+    spacing = CompleteSpacing({}, options, scan);
   }
   if (const auto text = header.Field({ "offset", "position", "origin" }); !text.empty())
   {

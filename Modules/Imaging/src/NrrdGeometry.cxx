@@ -1,4 +1,5 @@
 #include "NrrdGeometry.h"
+#include "StatedSpacing.h"
 #include "TextFields.h"
 
 #include <algorithm>
@@ -106,7 +107,7 @@ GeometryFromSpacings(const NrrdHeader &  header,
   }
   else
   {
-    scan.notes.push_back("the file states no voxel spacing: 1 mm is taken");
+    spacing = CompleteSpacing({}, options, scan);
   }
   if (const auto text = header.Field("axismins"); !text.empty())
   {

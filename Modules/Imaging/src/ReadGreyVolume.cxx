@@ -1,54 +1,12 @@
 #include "ScanFile.h"
 #include "SlabReader.h"
+#include "StoredValues.h"
 #include "voxelcore/GreyVolume.h"
 
 #include <cmath>
-#include <cstring>
 
 namespace voxelcore
 {
-
-namespace
-{
-
-template <typename T>
-double
-Stored(const std::byte * at)
-{
-  T value;
-  std::memcpy(&value, at, sizeof(T));
-  return static_cast<double>(value);
-}
-
-double
-Stored(const std::byte * at, PixelType type)
-{
-  switch (type)
-  {
-    case PixelType::UInt8:
-      return Stored<std::uint8_t>(at);
-    case PixelType::Int8:
-      return Stored<std::int8_t>(at);
-    case PixelType::UInt16:
-      return Stored<std::uint16_t>(at);
-    case PixelType::Int16:
-      return Stored<std::int16_t>(at);
-    case PixelType::UInt32:
-      return Stored<std::uint32_t>(at);
-    case PixelType::Int32:
-      return Stored<std::int32_t>(at);
-    case PixelType::UInt64:
-      return Stored<std::uint64_t>(at);
-    case PixelType::Int64:
-      return Stored<std::int64_t>(at);
-    case PixelType::Float32:
-      return Stored<float>(at);
-    default:
-      return Stored<double>(at);
-  }
-}
-
-} // namespace
 
 GreyVolume
 ReadGreyVolume(const std::filesystem::path & path,
@@ -88,7 +46,7 @@ ReadGreyVolume(const std::filesystem::path & path,
         for (std::int32_t x = part.first[0]; x < part.end[0]; ++x)
         {
           const std::byte * place = slab->bytes.data() + at + stride * static_cast<std::size_t>(x) + first;
-          const double      value = scan.slope * Stored(place, scan.type) + scan.intercept;
+          const double      value = scan.slope * StoredValue(place, scan.type) + scan.intercept;
           if (!std::isfinite(value))
           {
             Refuse(path, "a voxel near the shape is no finite number", "grey values must be numbers there");

@@ -1,4 +1,4 @@
-#include "LabelCollector.h"
+#include "GuardedCollector.h"
 #include "ScanFile.h"
 #include "SlabReader.h"
 #include "voxelcore/LabelVolume.h"
@@ -9,10 +9,10 @@ namespace voxelcore
 LabelVolume
 ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options, const ProgressCallback & progress)
 {
-  ScanFile        scan = OpenScan(path, options);
-  const CropRange part = ResolveCrop(scan, options);
-  LabelCollector  collector(scan, options, part);
-  const auto &    size = scan.geometry.size;
+  ScanFile         scan = OpenScan(path, options);
+  const CropRange  part = ResolveCrop(scan, options);
+  GuardedCollector collector(scan, options, part);
+  const auto &     size = scan.geometry.size;
   ReportProgress(progress, "read", 0.0);
   {
     const CropRange whole{ { 0, 0, 0 },
@@ -33,7 +33,7 @@ ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options,
   }
   if (!scan.moreVolumes && scan.voxels->Finish())
   {
-    scan.warnings.push_back("the file holds more data than its header speaks of: its header may be wrong");
+    scan.warnings.push_back("the file is longer than its header says; check that the header belongs to it");
   }
   scan.voxels.reset();
 
@@ -46,13 +46,13 @@ ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options,
   }
   volume.format = scan.format;
   volume.pixelType = scan.storedType.empty() ? PixelName(scan.type) : scan.storedType;
-  if (collector.Book().IsRenumbered())
+  if (collector.IsRenumbered())
   {
     scan.notes.push_back("layers use a value more than once: segments are numbered anew");
   }
   volume.notes = std::move(scan.notes);
   volume.notes.insert(volume.notes.end(), scan.warnings.begin(), scan.warnings.end());
-  volume.warnings = std::move(scan.warnings);
+  volume.warnings = WarningsOf(scan);
   return volume;
 }
 

@@ -1,4 +1,6 @@
 #include "ScanFile.h"
+
+#include "ForeignFormats.h"
 #include "TextFields.h"
 
 #include <algorithm>
@@ -10,6 +12,18 @@ void
 Refuse(const std::filesystem::path & path, std::string_view wrong, std::string_view remedy)
 {
   throw InputError(Text(Printable(path.string(), 4096), ": ", wrong, "; ", remedy));
+}
+
+std::vector<std::string>
+WarningsOf(const ScanFile & scan)
+{
+  const auto               path = scan.path.has_filename() ? scan.path : scan.path.parent_path(); // "folder/"
+  std::vector<std::string> warnings;
+  for (const std::string & warning : scan.warnings)
+  {
+    warnings.push_back(Text(Printable(path.filename().string(), 200), ": ", warning));
+  }
+  return warnings;
 }
 
 std::size_t
@@ -196,9 +210,7 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
     case ScanKind::Unknown:
       break;
   }
-  Refuse(path,
-         "unknown kind of scan",
-         "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF or PNG slices");
+  RefuseForeign(path);
 }
 
 std::vector<std::filesystem::path>

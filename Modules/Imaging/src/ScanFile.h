@@ -83,6 +83,10 @@ struct ScanFile
   }
 };
 
+/** The scan's warnings, each behind its name. */
+std::vector<std::string>
+WarningsOf(const ScanFile & scan);
+
 /** One opener a format. \throws InputError */
 ScanFile
 OpenNrrd(const std::filesystem::path & path, const ReadOptions & options);

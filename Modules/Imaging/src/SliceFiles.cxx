@@ -1,5 +1,6 @@
 // A folder or a pattern of TIFF or PNG slices as one volume, in natural order (2 before 10).
 
+#include "ForeignFormats.h"
 #include "PngFile.h"
 #include "ScanFile.h"
 #include "TextFields.h"
@@ -176,6 +177,10 @@ FindSlices(const std::filesystem::path & path)
   }
   if (slices.empty())
   {
+    if (folder)
+    {
+      RefuseForeignFolder(path);
+    }
     Refuse(path,
            folder ? "no TIFF or PNG slices in this folder" : "no TIFF or PNG slices of this pattern",
            "check the name");
@@ -187,6 +192,25 @@ FindSlices(const std::filesystem::path & path)
   }
   std::sort(slices.begin(), slices.end(), NaturallyLess);
   return slices;
+}
+
+/** "slice 3 is missing", "slices 3 to 5 and 9 are missing" */
+std::string
+MissingSlices(const std::vector<std::pair<std::uint64_t, std::uint64_t>> & gaps)
+{
+  constexpr std::size_t shown = 5;
+  const bool            one = gaps.size() == 1 && gaps[0].first == gaps[0].second;
+  const std::size_t     count = std::min(gaps.size(), shown);
+  std::string           text = one ? "slice " : "slices ";
+  for (std::size_t g = 0; g < count; ++g)
+  {
+    const bool last = g + 1 == count && count == gaps.size();
+    text += g == 0 ? "" : last ? " and " : ", ";
+    text += Text(gaps[g].first);
+    text += gaps[g].first == gaps[g].second ? "" : Text(" to ", gaps[g].second);
+  }
+  text += count < gaps.size() ? " and others" : "";
+  return text + (one ? " is missing" : " are missing");
 }
 
 /** Slices must be numbered without a gap, in one place of names that are alike otherwise. */
@@ -224,6 +248,7 @@ CheckNumbering(const std::filesystem::path & path, const std::vector<Slice> & sl
       }
     }
   }
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> gaps; // first and last of each
   for (std::size_t s = 1; s < slices.size(); ++s)
   {
     if (counting == first.size()) // 1.tif and 01.tif
@@ -232,16 +257,18 @@ CheckNumbering(const std::filesystem::path & path, const std::vector<Slice> & sl
     }
     const std::uint64_t before = slices[s - 1].parts[counting].value;
     const std::uint64_t now = slices[s].parts[counting].value;
+    if (now == before)
+    {
+      Refuse(path, Text("two slices have the number ", now), "remove one of them");
+    }
     if (now != before + 1)
     {
-      Refuse(path,
-             now == before ? Text("two slices have the number ", now)
-                           : Text("the slices numbered ",
-                                  before + 1,
-                                  now == before + 2 ? "" : Text(" to ", now - 1),
-                                  now == before + 2 ? " is missing" : " are missing"),
-             "add what is missing, or number the slices without a gap");
+      gaps.emplace_back(before + 1, now - 1);
     }
+  }
+  if (!gaps.empty())
+  {
+    Refuse(path, MissingSlices(gaps), "add what is missing, or number the slices without a gap");
   }
 }
 
@@ -308,6 +335,12 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
              Text("this slice (", Describe(page), ") is not like the first (", Describe(common), ")"),
              "a volume needs equal slices");
     }
+    else if (page.spacing != common.spacing && !options.spacing)
+    {
+      Refuse(slice.path,
+             "this slice states another voxel size than the first",
+             "give the true one with --spacing X,Y,Z");
+    }
     common.lossy = common.lossy || page.lossy;
     files.push_back(slice.path);
   }
@@ -320,12 +353,8 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
   CheckSize(path, scan.geometry.size, PixelBytes(common.type), ~std::uint64_t{ 0 });
   scan.notes.push_back(
     Text(files.size(), " slices from ", files.front().filename().string(), " to ", files.back().filename().string()));
-  if (!options.spacing)
-  {
-    scan.notes.push_back(
-      Text(png ? "PNG" : "TIFF", " states no voxel spacing: 1 mm is taken (--spacing x,y,z gives the true one)"));
-  }
-  SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, { 1, 1, 1 }, { 0, 0, 0 }, options);
+  const Vector3 spacing = CompleteSpacing(common.spacing, options, scan);
+  SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, spacing, { 0, 0, 0 }, options);
   scan.voxels = OpenParts(files, common.PageBytes(), [png, options](const std::filesystem::path & file) {
     return png ? OpenPngPage(file, options) : OpenTiffPages(file, InspectTiff(file, options));
   });

@@ -146,6 +146,22 @@ MillimetresIn(std::string_view unit)
   {
     return 1000.0;
   }
+  if (u == "inch" || u == "inches" || u == "in")
+  {
+    return 25.4;
+  }
+  if (u == "dm")
+  {
+    return 100.0;
+  }
+  if (u == "angstrom" || u == "\xC3\x85" || u == "\xC3\xA5")
+  {
+    return 1e-7;
+  }
+  if (u == "pm")
+  {
+    return 1e-9;
+  }
   return std::nullopt;
 }
 

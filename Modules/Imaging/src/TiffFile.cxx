@@ -1,4 +1,6 @@
 #include "TiffFile.h"
+
+#include "TiffDescription.h"
 #include "TiffHandle.h"
 
 #include <algorithm>
@@ -143,39 +145,6 @@ ReadPage(const std::filesystem::path & path,
   return page;
 }
 
-/** Programs for microscopes put channels and moments into the same row of pages: not one volume. */
-void
-RefuseHyperstack(const std::filesystem::path & path, const std::string & description, std::size_t pages)
-{
-  const auto number = [&](std::string_view key) -> std::int64_t {
-    const std::size_t at = description.find(key);
-    if (at == std::string::npos)
-    {
-      return 1;
-    }
-    const std::size_t from = at + key.size();
-    const std::size_t end = std::min(description.find_first_not_of("0123456789", from), description.size());
-    return ParseInteger(std::string_view(description).substr(from, end - from)).value_or(1);
-  };
-  if (description.starts_with("ImageJ="))
-  {
-    if (number("channels=") > 1 || number("frames=") > 1)
-    {
-      Refuse(path, "hyperstack of ImageJ with several channels or frames", "save one channel of one frame as a stack");
-    }
-    if (number("images=") > static_cast<std::int64_t>(pages))
-    {
-      Refuse(path,
-             Text("ImageJ says it holds ", number("images="), " pages, it lists ", pages, " (stacks above 4 GB do)"),
-             "save it as BigTIFF or NRRD");
-    }
-  }
-  if (number("SizeC=\"") > 1 || number("SizeT=\"") > 1)
-  {
-    Refuse(path, "OME-TIFF with several channels or moments", "save one channel of one moment as a stack");
-  }
-}
-
 } // namespace
 
 TiffPages
@@ -183,8 +152,15 @@ InspectTiff(const std::filesystem::path & path, const ReadOptions & options)
 {
   const std::uint64_t fileBytes = FileSize(path);
   const TiffHandle    tiff(path);
-  TiffPages           pages = ReadPage(path, tiff, fileBytes, options);
   const std::string   description = tiff.Description();
+  const PageOrder     order = ReadPageOrder(description, tiff.Field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1));
+  ReadOptions         ofPages = options;
+  if (order.channels > 1)
+  {
+    ofPages.component.reset(); // chooses among pages, not among the values of a pixel
+  }
+  TiffPages pages = ReadPage(path, tiff, fileBytes, ofPages);
+  pages.spacing = ReadTiffSpacing(tiff, description);
   pages.offsets.push_back(TIFFCurrentDirOffset(tiff.Get()));
   while (TIFFLastDirectory(tiff.Get()) == 0)
   {
@@ -192,7 +168,7 @@ InspectTiff(const std::filesystem::path & path, const ReadOptions & options)
     {
       tiff.RefuseDamaged(Text("the page after page ", pages.offsets.size(), " cannot be found"));
     }
-    const TiffPages page = ReadPage(path, tiff, fileBytes, options);
+    const TiffPages page = ReadPage(path, tiff, fileBytes, ofPages);
     if (!AreAlike(page, pages))
     {
       Refuse(path,
@@ -224,7 +200,8 @@ InspectTiff(const std::filesystem::path & path, const ReadOptions & options)
   {
     tiff.RefuseDamaged("its directory is damaged");
   }
-  RefuseHyperstack(path, description, pages.offsets.size());
+  pages.frames = order.frames;
+  pages.offsets = ChoosePages(path, order, pages.offsets, options);
   return pages;
 }
 
@@ -249,7 +226,8 @@ DescribeTiff(const TiffPages & pages, ScanFile & scan)
   }
   if (pages.lossy)
   {
-    scan.warnings.push_back("the compression of its pages may have changed values when it was written");
+    scan.warnings.push_back(
+      "its pages are in a lossy compression, which may have changed labels when the file was written");
   }
 }
 
@@ -266,14 +244,10 @@ OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
   scan.format = "TIFF";
   DescribeTiff(pages, scan);
   scan.geometry.size = { pages.width, pages.height, static_cast<std::int64_t>(pages.offsets.size()) };
-  ChooseVolume(path, 1, options);
+  ChooseVolume(path, pages.frames, options);
   CheckSize(path, scan.geometry.size, PixelBytes(pages.type), ~std::uint64_t{ 0 });
-  if (!options.spacing)
-  {
-    // Resolution tags say how large to print a page, and nothing about slices.
-    scan.notes.push_back("TIFF states no voxel spacing: 1 mm is taken (--spacing x,y,z gives the true one)");
-  }
-  SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, { 1, 1, 1 }, { 0, 0, 0 }, options);
+  const Vector3 spacing = CompleteSpacing(pages.spacing, options, scan);
+  SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, spacing, { 0, 0, 0 }, options);
   scan.voxels = OpenTiffPages(path, pages);
   return scan;
 }

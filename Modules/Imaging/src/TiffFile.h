@@ -3,6 +3,7 @@
 // itk::TIFFImageIO falls back to RGBA pictures for tiles and counts pages with 16 bits.
 
 #include "ScanFile.h"
+#include "StatedSpacing.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,7 +26,9 @@ struct TiffPages
   PixelType                  type = PixelType::UInt8;
   bool                       minIsWhite = false;
   bool                       lossy = false;
-  std::vector<std::uint64_t> offsets; ///< of each page's directory in the file
+  std::vector<std::uint64_t> offsets;    ///< of the directory of each page to read, in the file
+  std::uint64_t              frames = 1; ///< of which options.volume chose one
+  StatedSpacing              spacing;    ///< as the first page states it
 
   std::uint64_t
   PageBytes() const
@@ -35,7 +38,7 @@ struct TiffPages
 };
 
 /** \throws InputError when the file is damaged, its pages are not alike, or hold no whole numbers; several values a pixel
- *  need options.component. */
+ *  or channels need options.component, several frames options.volume. */
 TiffPages
 InspectTiff(const std::filesystem::path & path, const ReadOptions & options);
 

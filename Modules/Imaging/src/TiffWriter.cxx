@@ -1,5 +1,6 @@
 // Multi-page TIFF through libtiff; itk::TIFFImageIO writes whole numbers of 8 and 16 bits only.
 
+#include "TiffDescription.h"
 #include "VolumeWriters.h"
 #include "voxelcore/OutputFile.h"
 
@@ -174,6 +175,13 @@ WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
     TIFFSetField(t, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     TIFFSetField(t, TIFFTAG_COMPRESSION, volume.compress ? COMPRESSION_ADOBE_DEFLATE : COMPRESSION_NONE);
     TIFFSetField(t, TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(rowsPerStrip));
+    TIFFSetField(t, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE); // mm, as the description says
+    TIFFSetField(t, TIFFTAG_XRESOLUTION, 1 / volume.geometry.spacing[0]);
+    TIFFSetField(t, TIFFTAG_YRESOLUTION, 1 / volume.geometry.spacing[1]);
+    if (z == 0)
+    {
+      TIFFSetField(t, TIFFTAG_IMAGEDESCRIPTION, ImageJDescription(volume.geometry).c_str());
+    }
     const std::byte * page = volume.slice(z).data();
     std::uint32_t     strip = 0;
     for (std::size_t at = 0; at < pageBytes; at += rowsPerStrip * rowBytes)

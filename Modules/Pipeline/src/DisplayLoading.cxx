@@ -98,7 +98,7 @@ public:
   {}
 
   DisplayContent
-  Load(std::vector<std::string> & notes)
+  Load(std::vector<std::string> & notes, std::vector<std::string> & warnings)
   {
     for (std::size_t i = 0; i < m_Sources.files.size(); ++i)
     {
@@ -109,7 +109,7 @@ public:
     m_Wishes.RequireAllTaken();
     if (m_Sources.scan)
     {
-      LoadScan(notes);
+      LoadScan(notes, warnings);
     }
     DisplayContent content;
     for (auto & [key, label] : m_Labels)
@@ -206,13 +206,14 @@ private:
   }
 
   void
-  LoadScan(std::vector<std::string> & notes)
+  LoadScan(std::vector<std::string> & notes, std::vector<std::string> & warnings)
   {
-    ReadOptions  reading = RecordedReading(m_Report->parameters);
-    LabelVolume  volume = ReadScanOrMesh(*m_Sources.scan,
+    ReadOptions reading = RecordedReading(m_Report->parameters);
+    LabelVolume volume = ReadScanOrMesh(*m_Sources.scan,
                                         reading,
                                         m_Report->parameters.resolution,
                                         PartOfProgress(m_Progress, "reading", 0.7, 0.8));
+    warnings = volume.warnings;
     EditedLabels edited = EditLabels(volume, m_Report->parameters.edits, false, m_Sources.scan->string());
     for (EditedLabel & one : edited.labels)
     {
@@ -245,9 +246,12 @@ private:
 } // namespace
 
 DisplayContent
-LoadDisplayContent(const DisplaySources & sources, std::vector<std::string> & notes, const ProgressCallback & progress)
+LoadDisplayContent(const DisplaySources &     sources,
+                   std::vector<std::string> & notes,
+                   std::vector<std::string> & warnings,
+                   const ProgressCallback &   progress)
 {
-  return Loader(sources, progress).Load(notes);
+  return Loader(sources, progress).Load(notes, warnings);
 }
 
 } // namespace voxelcore

@@ -24,7 +24,10 @@ struct DisplaySources
  *  the same labels, edited as the first file says, for their surfaces.
  *  \throws InputError, UsageError, Cancelled */
 DisplayContent
-LoadDisplayContent(const DisplaySources & sources, std::vector<std::string> & notes, const ProgressCallback & progress);
+LoadDisplayContent(const DisplaySources &     sources,
+                   std::vector<std::string> & notes,
+                   std::vector<std::string> & warnings,
+                   const ProgressCallback &   progress);
 
 /** Erosion thickness in mm at the vertices of a medial surface (LPS mm) of a scan of this spacing; infinite where it is
  *  closed. */

@@ -7,9 +7,11 @@
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/ReadInput.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <omp.h>
 #include <utility>
 
@@ -83,6 +85,35 @@ Surprises(const std::vector<LabelInfo> & labels)
   return lines;
 }
 
+/** Bars as long as their share of the longest. */
+std::string
+HistogramText(const GreyScan & grey)
+{
+  constexpr std::uint64_t longest = 50;
+  const std::uint64_t     most = std::max<std::uint64_t>(1, *std::max_element(grey.counts.begin(), grey.counts.end()));
+  const auto  all = static_cast<double>(std::accumulate(grey.counts.begin(), grey.counts.end(), std::uint64_t{ 0 }));
+  std::string text = "      from   voxels\n";
+  for (std::size_t b = 0; b < grey.counts.size(); ++b)
+  {
+    char line[64];
+    std::snprintf(line,
+                  sizeof(line),
+                  "%10.4g  %5.1f %%  ",
+                  grey.edges[b],
+                  100 * static_cast<double>(grey.counts[b]) / all);
+    text += line + std::string((grey.counts[b] * longest + most - 1) / most, '#') + "\n";
+  }
+  return text;
+}
+
+std::string
+GreyText(const ScanInfo & info)
+{
+  return "\n" + GreyScanText(*info.grey) + "\n\n" + HistogramText(*info.grey) +
+         "\nchoose a range, for example --threshold " + OtsuRange(*info.grey) +
+         " (Otsu); give --labels all if its values are labels\n";
+}
+
 } // namespace
 
 std::string
@@ -114,12 +145,25 @@ OrientationLetters(const ImageGeometry & geometry)
 ScanInfo
 RunInfoJob(const InfoOptions & options, const JobContext & context)
 {
-  LabelVolume  volume = ReadScanOrMesh(options.scan,
-                                      options.reading,
-                                      options.resolution,
-                                      PartOfProgress(context.progress, "reading", 0, 0.5));
-  EditedLabels edited = EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string());
-  ScanInfo     info;
+  ScanInfo    info;
+  LabelVolume volume;
+  try
+  {
+    volume = ReadScanOrMesh(options.scan,
+                            options.reading,
+                            options.resolution,
+                            PartOfProgress(context.progress, "reading", 0, 0.5));
+  }
+  catch (const GreyScanError & error)
+  {
+    info.grey = error.grey;
+    volume = error.volume;
+  }
+  EditedLabels edited;
+  if (!info.grey)
+  {
+    edited = EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string());
+  }
   info.path = options.scan.string();
   info.format = std::move(volume.format);
   info.pixelType = std::move(volume.pixelType);
@@ -129,6 +173,10 @@ RunInfoJob(const InfoOptions & options, const JobContext & context)
   info.notes.insert(info.notes.end(), edited.notes.begin(), edited.notes.end());
   info.warnings = std::move(volume.warnings);
   info.threads = omp_get_max_threads();
+  if (info.grey)
+  {
+    return info;
+  }
   const std::vector<BoundaryCounts> boundaries = CountBoundaries(edited.labels);
   CoreOptions                       defaults;
   defaults.lambdas = ParseLambdas(ValueOf({}, CommandId::Core, "lambda"));
@@ -169,11 +217,19 @@ InfoText(const ScanInfo & info)
   text += "origin       " + Number(geometry.origin[0]) + ", " + Number(geometry.origin[1]) + ", " +
           Number(geometry.origin[2]) + " mm (LPS)\n";
   text += "orientation  " + info.orientation + " (where i, j and k run to)\n";
-  text += "core needs   about " + MemoryText(info.cost.memoryBytes) + " and " + SecondsText(info.cost.seconds) + " (" +
-          std::to_string(info.threads) + (info.threads == 1 ? " thread" : " threads") + ", one lambda, one file)\n";
+  if (!info.grey)
+  {
+    text += "core needs   about " + MemoryText(info.cost.memoryBytes) + " and " + SecondsText(info.cost.seconds) +
+            " (" + std::to_string(info.threads) + (info.threads == 1 ? " thread" : " threads") +
+            ", one lambda, one file)\n";
+  }
   for (const std::string & note : info.notes)
   {
     text += "note         " + note + "\n";
+  }
+  if (info.grey)
+  {
+    return text + GreyText(info);
   }
   std::vector<std::vector<std::string>> rows{
     { "label", "name", "voxels", "volume mm3", "voxel box", "b0/b1/b2", "26-components", "boundary vertices" }
@@ -222,7 +278,7 @@ InfoJson(const ScanInfo & info)
                      { "core_seconds", label.cost.seconds } });
     labels.push_back(std::move(one));
   }
-  const Json json = {
+  Json json = {
     { "path", info.path },
     { "format", info.format },
     { "pixel_type", info.pixelType },
@@ -236,6 +292,15 @@ InfoJson(const ScanInfo & info)
       { { "memory_bytes", info.cost.memoryBytes }, { "seconds", info.cost.seconds }, { "threads", info.threads } } },
     { "labels", labels }
   };
+  if (info.grey)
+  {
+    json["grey"] = { { "values", info.grey->distinct },
+                     { "lowest", info.grey->lowest },
+                     { "highest", info.grey->highest },
+                     { "otsu", info.grey->otsu },
+                     { "threshold", OtsuRange(*info.grey) },
+                     { "histogram", { { "edges", info.grey->edges }, { "voxels", info.grey->counts } } } };
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

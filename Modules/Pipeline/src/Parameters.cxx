@@ -176,6 +176,7 @@ ReadOptionsFrom(const ParameterValues & values, CommandId command)
   }
   reading.orthonormalize = reader.IsSet("orthonormalize");
   reading.niftiForm = reader.Choice("nifti-form");
+  reading.refuseGrey = !reader.IsGiven("labels");
   if (reading.labels.empty())
   {
     reader.Refuse("labels", "'all', or values or names separated by commas");

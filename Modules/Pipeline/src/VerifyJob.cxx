@@ -150,6 +150,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
     throw InputError(options.core.string() + ": its fields Refined and Provenance do not agree; make the file again");
   }
   VerifyResult result;
+  result.warnings = volume.warnings;
   if (ScanSha256(options.scan) != made.input.sha256)
   {
     result.notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +

@@ -30,7 +30,7 @@ public:
   static ImageGeometry
   CheckGeometry(const std::string & name, const ImageGeometry & geometry, bool orthonormalize);
 
-  /** Of the options, labels, binary and threshold count. \throws UsageError when they contradict each other. */
+  /** Of the options, labels, binary, threshold and refuseGrey count. \throws UsageError when they contradict each other. */
   LabelAssembler(const std::string & name, const ImageGeometry & geometry, Pixel pixel, const ReadOptions & options);
   LabelAssembler(const LabelAssembler &) = delete;
   LabelAssembler &
@@ -46,7 +46,8 @@ public:
   void
   AddRows(const void * rows, std::uint64_t firstRow, std::size_t rowCount);
 
-  /** The shapes, by value. \throws InputError when a label asked for, or anything but background, is missing. */
+  /** The shapes, by value. \throws InputError when a label asked for, or anything but background, is missing;
+   *  GreyScanError */
   std::vector<LabelShape>
   TakeShapes();
 

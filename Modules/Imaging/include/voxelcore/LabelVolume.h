@@ -51,7 +51,7 @@ struct LabelVolume
   std::string              format;   ///< "NRRD", "NIfTI-1", "NIfTI-2", "MetaImage", "TIFF", "TIFF slices", "PNG slices"
   std::string              pixelType; ///< as stored: "uint8", "int16", "float32", ...; "uint1" for packed bits
   std::vector<std::string> notes;     ///< what was assumed or converted, one sentence each; for the report
-  std::vector<std::string> warnings;  ///< those of the notes a user must see
+  std::vector<std::string> warnings;  ///< those of the notes a user must see, each behind the scan's name
   std::vector<LabelShape>  labels;
 };
 
@@ -67,6 +67,7 @@ struct ReadOptions
   std::optional<std::int64_t>              volume;                 ///< which volume of a 4-D file, counted from 0
   std::optional<std::int64_t>              component;              ///< which of several values a voxel, from 0
   std::optional<CropRange>                 crop;                   ///< the part of the scan to read
+  bool                                     refuseGrey = false;     ///< see GreyScan.h; unless all is one shape
 };
 
 /** Reads the labels of a scan in one pass over its voxels:
@@ -88,6 +89,12 @@ struct ReadOptions
  *  are: the numbers their labels get must not depend on the crop). Places do not move: shapes lie where they lie in the
  *  whole scan.
  *
+ *  The voxel size is the file's: of TIFF as ImageJ, OME-XML or its resolution tags state it. Where there is none, 1 mm is
+ *  assumed and warned of. Of hyperstacks, options.component picks the channel and options.volume the time point.
+ *
+ *  With options.refuseGrey a grey scan is told from labels and refused with a threshold proposed (GreyScanError), as long
+ *  as neither binary nor threshold is set and the file names no labels.
+ *
  *  Progress is reported as stage "read". May be called from several threads at once.
  *  \throws InputError with one line when the file is missing, damaged or unfit, when a label asked for does not occur,
  *  or when there is nothing but background; Cancelled when the callback says so. */
@@ -108,7 +115,7 @@ ScanFiles(const std::filesystem::path & path);
 
 /** Writes labels as a volume: .nrrd .nii .nii.gz .mha .mhd .tif by the extension of `path`; the smallest unsigned type
  *  that holds the values. Packed when `compress` and the format can (.nii never, .nii.gz always). NIfTI keeps the
- *  geometry in single precision, TIFF not at all. The file is read back before it takes its name, so a full disk leaves
+ *  geometry in single precision, TIFF the spacing alone. The file is read back before it takes its name, so a full disk leaves
  *  nothing.
  *  \throws OutputError when it cannot be written; UsageError for an unknown extension, a value below 1, labels that
  *  overlap or reach beyond the volume. */

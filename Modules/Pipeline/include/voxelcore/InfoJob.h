@@ -2,6 +2,7 @@
 // `voxelcore info`: what is in a scan.
 
 #include "voxelcore/CostModel.h"
+#include "voxelcore/GreyScan.h"
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/ShapeEdits.h"
@@ -9,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,11 +50,12 @@ struct ScanInfo
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   std::vector<LabelInfo>   labels;
+  std::optional<GreyScan>  grey;        ///< where the scan is no label volume: then there are no labels
   CostPrediction           cost;        ///< of `voxelcore core` with its defaults, all labels into one file
   int                      threads = 1; ///< that `cost` is for: OpenMP's number
 };
 
-/** \throws InputError, Cancelled */
+/** Of a grey scan it says so, unless labels, binary or threshold were given. \throws InputError, Cancelled */
 ScanInfo
 RunInfoJob(const InfoOptions & options, const JobContext & context = {});
 

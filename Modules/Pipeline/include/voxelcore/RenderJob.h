@@ -34,6 +34,7 @@ struct RenderResult
 {
   std::vector<std::filesystem::path> pictures;
   std::vector<std::string>           notes;
+  std::vector<std::string>           warnings; ///< about the scan; a user must see them
 };
 
 /** Whether this build can draw. */

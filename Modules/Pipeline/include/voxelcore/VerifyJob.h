@@ -32,6 +32,7 @@ struct VerifyResult
 {
   bool                           passed = true;
   std::vector<std::string>       notes; ///< e.g. that the scan's file is not the one the core was made from
+  std::vector<std::string>       warnings; ///< about the scan; a user must see them
   std::vector<LabelVerification> labels;
 };
 

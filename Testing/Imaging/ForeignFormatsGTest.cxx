@@ -1,0 +1,111 @@
+// Files of other formats: each refusal says what the file is and what makes a scan of it.
+
+#include "ScanBytes.h"
+
+using namespace voxelcore;
+using namespace voxelcore::testing;
+using namespace std::string_literals;
+
+namespace
+{
+
+std::string
+At(std::size_t offset, const std::string & magic)
+{
+  return std::string(offset, '\0') + magic + std::string(64, '\0');
+}
+
+} // namespace
+
+TEST(ForeignFormats, AreToldByTheirFirstBytesWhateverTheirName)
+{
+  struct Case
+  {
+    std::string              bytes;
+    std::vector<std::string> texts;
+  };
+  const std::vector<Case> cases{
+    { At(128, "DICM"), { "DICOM file", "dcm2niix", "3D Slicer" } },
+    { At(128, "DICM") + "1.2.840.10008.5.1.4.1.1.66.4", { "DICOM segmentation", "segimage2itkimage", "dcmqi" } },
+    { At(128, "DICM") + "1.2.840.10008.5.1.4.1.1.481.3", { "RTSTRUCT", "SlicerRT" } },
+    { At(208, "MAP "), { "MRC", "mrc2tif -s a.any a.tif", "IMOD" } },
+    { At(0, "CDF\1"), { "MINC", "mnc2nii a.any a.nii" } },
+    { At(0, "\x89HDF\r\n\x1A\n"), { "HDF5", "h5py" } },
+    { At(0, "ZISRAWFILE"), { "CZI", "bfconvert a.any a.ome.tif" } },
+    { At(0, "\xDA\xCE\xBE\x0A"), { "ND2", "bfconvert" } },
+    { At(0, "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"), { "OIB", "TIFF" } },
+    { At(0, "# AmiraMesh BINARY"), { "Amira", "Fiji" } },
+    { At(0, "CTDATA-HEADER_V1"), { "Scanco" } },
+    { At(0, "\x93NUMPY"), { "NumPy", "numpy.load('a.any')" } },
+    { At(0, "MATLAB 5.0 MAT-file"), { "MATLAB", "niftiwrite" } },
+    { At(0, "\xFF\xD8\xFF"), { "JPEG", "changes labels" } },
+    { At(0, "NRRD0004"), { "name it a.nrrd" } },
+    { At(344, "n+1\0"s), { "name it a.nii" } },
+    { At(0, "II*\0"s), { "name it a.tif" } },
+    { At(0, "PK\3\4"), { "ZIP", "unpack" } },
+    { At(0, "\x1F\x8B"), { "unknown kind of scan", ".nrrd" } },
+    { At(0, "nothing known"), { "unknown kind of scan", ".nrrd" } },
+  };
+  const TempFolder folder;
+  for (const Case & one : cases)
+  {
+    ExpectRefused(folder.Write("a.any", one.bytes), one.texts);
+  }
+}
+
+TEST(ForeignFormats, AreToldByTheirExtensionWhereBytesSayNothing)
+{
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
+    { "a.dcm", { "DICOM file", "dcm2niix" } },
+    { "a.mgz", { "FreeSurfer", "mri_convert a.mgz a.nii.gz" } },
+    { "a.MGH", { "FreeSurfer" } },
+    { "a.mrc", { "MRC" } },
+    { "a.rec", { "PAR/REC", "MRC" } },
+    { "a.mnc", { "MINC" } },
+    { "a.vti", { "VTK image", "ParaView" } },
+    { "a.gipl", { "GIPL", "c3d a.gipl -o a.nii.gz" } },
+    { "a.h5", { "HDF5" } },
+    { "a.czi", { "CZI" } },
+    { "a.lif", { "LIF", "bfconvert" } },
+    { "a.nd2", { "ND2" } },
+    { "a.oib", { "OIB" } },
+    { "a.am", { "Amira" } },
+    { "a.npy", { "NumPy" } },
+    { "a.mat", { "MATLAB" } },
+    { "a.jpg", { "JPEG" } },
+    { "a.bmp", { "2-D picture" } },
+    { "a.raw", { "a.nhdr", "sizes: 512 512 300", "data file: a.raw" } },
+    { "a.png", { "2-D image" } },
+  };
+  const TempFolder folder;
+  for (const auto & [name, texts] : cases)
+  {
+    ExpectRefused(folder.Write(name, "some bytes that no format begins with"), texts);
+  }
+  ExpectRefused(folder.Write("b.mgz", Gzip("FreeSurfer packs its volumes")), { "mri_convert b.mgz b.nii.gz" });
+  ExpectRefused(folder.Write("c.nrrd.gz", Gzip("NRRD0004")), { "gzip file", "unpack" });
+}
+
+TEST(ForeignFormats, TheHeaderShownForBareVoxelsIsOne)
+{
+  // The lines that the refusal of a .raw file shows, with true sizes, make a scan of it.
+  const TempFolder folder;
+  folder.Write("a.raw", std::string("\1\0\0\1\1\0\0\0", 8));
+  const auto header = folder.Write("a.nhdr",
+                                   "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nspacings: 0.02 0.02 0.02\n"
+                                   "encoding: raw\nendian: little\ndata file: a.raw\n");
+  EXPECT_EQ(AllValues(ReadLabelVolume(header)), (std::vector<std::int64_t>{ 1, 0, 0, 1, 1, 0, 0, 0 }));
+}
+
+TEST(ForeignFormats, FoldersWithoutSlicesSayWhatTheyHold)
+{
+  const TempFolder folder;
+  folder.Write("series/IM0001", At(128, "DICM"));
+  ExpectRefused(folder / "series", { "DICOM", "dcm2niix -z y -o OUT series" });
+  folder.Write("photos/a.jpg", At(0, "\xFF\xD8\xFF"));
+  ExpectRefused(folder / "photos", { "'a.jpg'", "TIFF or PNG" });
+  folder.Write("a.zarr/.zgroup", "{}");
+  ExpectRefused(folder / "a.zarr", { "Zarr", "Fiji" });
+  folder.Write("text/readme.txt", "nothing");
+  ExpectRefused(folder / "text", { "no TIFF or PNG slices" });
+}
