@@ -25,7 +25,7 @@ protected:
       GTEST_SKIP() << "cannot mount a small tmpfs here";
     }
     Run({ "phantom", "root", "--size", "48", "-o", Path("a.nrrd"), "--quiet" });
-    Run({ "core", Path("a.nrrd"), "-o", Path("core.vtp"), "--keep-edges", "--quiet" });
+    Run({ "core", Path("a.nrrd"), "--lambda", "0", "-o", Path("core.vtp"), "--keep-edges", "--quiet" });
     Run({ "skeleton", Path("a.nrrd"), "-o", Path("skeleton.vtp"), "--quiet" });
   }
   void
@@ -64,7 +64,9 @@ protected:
     }
     SCOPED_TRACE(name);
     const ProgramResult result = RunProgram(words);
-    ExpectRefusal(result, 1, { "No space left on device", name });
+    ExpectRefusal(result,
+                  1,
+                  { "No space left on device", name.substr(0, name.rfind('.')) }); // a table may be out_nodes.csv
     EXPECT_EQ(result.error.find(".part"), std::string::npos) << result.error;
     std::set<std::string> left;
     for (const auto & entry : std::filesystem::directory_iterator(m_Disk))
@@ -87,7 +89,7 @@ TEST_F(FullDisk, SurfacesInEveryFormat)
       ExpectNoRoom({ "core", Path("a.nrrd"), "--lambda", "0", "--quiet", "-o", "@out." + extension }, room);
     }
   }
-  ExpectNoRoom({ "prune", Path("core.vtp"), "--lambda", "0", "--quiet", "-o", "@out.vtp" });
+  ExpectNoRoom({ "prune", Path("core.vtp"), "--lambda", "1vox", "--quiet", "-o", "@out.vtp" });
 }
 
 TEST_F(FullDisk, WhatIsWrittenBesideASurface)
@@ -133,7 +135,7 @@ TEST_F(FullDisk, BlocksOfAScan)
 {
   Fill(0);
   const ProgramResult result =
-    RunProgram({ "core", Path("a.nrrd"), "--blocks", "2", "--block", "0", "--quiet", "-o", (m_Disk / "").string() });
+    RunProgram({ "core", Path("a.nrrd"), "--blocks", "2", "--block", "1", "--quiet", "-o", (m_Disk / "").string() });
   ExpectRefusal(result, 1, { "No space left on device" });
 }
 

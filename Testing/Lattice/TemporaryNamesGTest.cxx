@@ -50,7 +50,7 @@ TEST(TemporaryNames, ANameTellsItsWriterAndItsTarget)
   EXPECT_EQ(WriterOf(TemporaryName("x/a.vtp", writer)), writer);
   EXPECT_EQ(WriterOf(TemporaryName("a.vtp")), ThisWriter());
   EXPECT_EQ(FinalName(TemporaryName("x/a.vtp")), "x/a.vtp");
-  EXPECT_EQ(FinalName(TemporaryName("x/a.mhd") / "a.raw"), "x/a.raw");
+  EXPECT_EQ(FinalName(TemporaryName("x/a.mhd") / "a.raw"), "x/a.mhd");
   EXPECT_EQ(FinalName(TemporaryName(TemporaryName("x/a.nii") / "a.nii") / "a.nii"), "x/a.nii");
   for (const std::string name : { "a.vtp", "x/a.vtp", "/", "a.part", "a.part-1", "" })
   {

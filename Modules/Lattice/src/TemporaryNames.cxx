@@ -150,17 +150,16 @@ WriterOf(const fs::path & path)
 fs::path
 FinalName(const fs::path & path)
 {
-  std::string name = path.filename().string();
-  if (WriterOf(path))
+  fs::path final = path;
+  for (fs::path part = path; part.has_filename(); part = part.parent_path())
   {
-    name.resize(name.rfind(kMark));
+    if (WriterOf(part))
+    {
+      const std::string name = part.filename().string();
+      final = part.parent_path() / name.substr(0, name.rfind(kMark));
+    }
   }
-  fs::path folder = path.parent_path();
-  while (folder.has_filename() && WriterOf(folder)) // its files move beside it
-  {
-    folder = folder.parent_path();
-  }
-  return folder / name;
+  return final;
 }
 
 bool

@@ -105,7 +105,15 @@ void
 WriteShareFile(const fs::path & path, const BlockShare & share)
 {
   OutputStream file(path);
-  WriteBlockShare(share, file);
+  try
+  {
+    WriteBlockShare(share, file);
+  }
+  catch (const OutputError &)
+  {
+    file.Finish(); // knows why
+    throw;
+  }
   file.Finish();
 }
 

@@ -35,7 +35,7 @@ TemporaryName(const std::filesystem::path & target, const WriterIdentity & write
 std::optional<WriterIdentity>
 WriterOf(const std::filesystem::path & path);
 
-/** `path` as its user knows it: without what TemporaryName added to it, or to the folder it is in. */
+/** `path` as its user knows it: the target of TemporaryName, where it is such a name or in a folder of such a name. */
 std::filesystem::path
 FinalName(const std::filesystem::path & path);
 
