@@ -88,10 +88,10 @@ PROBE = """<script>
 </script>"""
 
 
-def probed(page, folder, **how):
-    """What the probe found in a page."""
+def probed(page, folder, probe=PROBE, **how):
+    """What a probe found in a page."""
     copy = folder / "probe.html"
-    copy.write_text(page.read_text().replace("</body>", PROBE + "</body>"))
+    copy.write_text(page.read_text().replace("</body>", probe + "</body>"))
     state = state_of(visit(copy, folder, "--dump-dom", **how))
     check(state.get("state") == "ready" and "found" in state, "the page did not come up: %s" % state)
     found = json.loads(unquote(state["found"]))
@@ -99,16 +99,33 @@ def probed(page, folder, **how):
     return found
 
 
-def front_view(text, opacity):
-    """A copy of a page that shows solid surfaces from the front, and nothing in them."""
-    script = """<script>setTimeout(function () {
-      document.getElementById('medial').click();
-      const slider = document.getElementById('surface-opacity');
-      slider.value = %d;
-      slider.dispatchEvent(new Event('input'));
-      document.getElementById('front').click();
-    }, 200);</script></body>""" % opacity
-    return text.replace("</body>", script)
+# Solid surfaces from the front, nothing in them: how many pixels of one picture are the scale bar's, how many the body's.
+MEASURE = """<script>
+setTimeout(function () {
+  const slider = document.getElementById('surface-opacity');
+  document.getElementById('medial').click();
+  slider.value = 100;
+  slider.dispatchEvent(new Event('input'));
+  document.getElementById('front').click();
+  const sheet = Page.view.picture(), words = document.getElementById('stage').dataset.scale;
+  const data = sheet.getContext('2d').getImageData(0, 0, sheet.width, sheet.height).data;
+  const longest = (from, to, until, counts) => {
+    let most = 0;
+    for (let y = Math.round(from * sheet.height); y < to * sheet.height; ++y) {
+      let count = 0;
+      for (let x = 0; x < until * sheet.width; ++x) {
+        const at = 4 * (y * sheet.width + x);
+        if (counts(data[at], data[at + 1], data[at + 2])) ++count;
+      }
+      most = Math.max(most, count);
+    }
+    return most;
+  };
+  document.body.dataset.found = encodeURIComponent(JSON.stringify({ words,
+    bar: longest(0.95, 1, 0.5, (r, g, b) => Math.max(r, g, b) < 90),
+    body: longest(0.45, 0.55, 0.85, (r, g, b) => Math.min(r, g, b) < 235) }));
+}, 200);
+</script>"""
 
 
 def check_scale_bar(program, folder, spacing):
@@ -120,19 +137,15 @@ def check_scale_bar(program, folder, spacing):
             voxels[at + 5:at + 35] = b"\1" * 30
     header = "NRRD0004\ntype: uint8\ndimension: 3\nspacings: %s\nsizes: 40 40 40\nencoding: raw\n\n" % " ".join(3 * [spacing])
     (folder / "bar.nrrd").write_bytes(header.encode() + bytes(voxels))
-    page, copy, picture = (folder / name for name in ("bar.html", "front.html", "bar.png"))
+    page = folder / "bar.html"
     run(program, "core", folder / "bar.nrrd", "-o", folder / "bar.vtp", "--html", page, "--force")
     check(model_of(page.read_text())["anatomical"] is False, "directions of a patient, though the file names no space")
-    copy.write_text(front_view(page.read_text(), 100))
-    visit(copy, folder, "--screenshot=%s" % picture)
-    words = re.search(r'data-scale="([0-9.]+) (nm|µm|mm)"', visit(copy, folder, "--dump-dom"))
-    check(words is not None, "there is no scale bar")
+    found = probed(page, folder, MEASURE)
+    words = re.fullmatch(r"([0-9.]+) (nm|µm|mm)", found["words"])
+    check(words is not None, "the scale bar says '%s'" % found["words"])
     said = float(words.group(1)) * {"nm": 1e-6, "µm": 1e-3, "mm": 1}[words.group(2)]
-    rows = pixels(picture)
-    left = 300 # of the view, well right of the panel
-    bar = max(sum(max(p) < 90 for p in row[286:700]) for row in rows[665:])
-    body = max(sum(min(p) < 235 for p in row[left:880]) for row in rows[300:400])
-    check(bar > 60 and body > 300, "a bar of %d pixels, a body of %d" % (bar, body))
+    bar, body = found["bar"], found["body"]
+    check(bar > 100 and body > 500, "a bar of %d pixels, a body of %d" % (bar, body))
     true = 30 * float(spacing) * bar / body
     check(abs(said / true - 1) < 0.03, "the bar says %g mm and is %g mm long" % (said, true))
     return words.group(2)
