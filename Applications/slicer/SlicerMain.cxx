@@ -145,6 +145,7 @@ main(int argc, char ** argv)
   }
   catch (const Cancelled &)
   {
+    CallOffDeadline();
     console.PrintError("interrupted; nothing was written");
     std::_Exit(kInterrupted); // an engine's thread may still run: no destructors under its feet
   }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <initializer_list>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -17,17 +18,68 @@ namespace
 std::atomic<bool>                      interrupted{ false };
 std::atomic<const TemporaryRegistry *> temporaries{ nullptr };
 std::atomic<int>                       errorStream{ STDERR_FILENO };
+std::atomic<const char *>              leftBehind{ "" };
+std::atomic<bool>                      onTerminal{ false };
+std::atomic<int>                       commitsWaitedFor{ 0 };
+timer_t                                deadline{};
 
-constexpr int kInterrupted = 130;
+constexpr int  kInterrupted = 130;
+constexpr long kToStop = 500;  ///< ms for a job to stop by itself
+constexpr long kToCommit = 50; ///< ms between looks whether files have got their names
+constexpr int  kLooks = 40;    ///< then a file system hangs
+
+constexpr char kNothing[] = "nothing was written";
 
 void
-OnInterrupt(int)
+SetDeadline(long milliseconds)
 {
-  if (interrupted.exchange(true))
+  const itimerspec when{ { 0, 0 }, { milliseconds / 1000, milliseconds % 1000 * 1000000 } };
+  timer_settime(deadline, 0, &when, nullptr);
+}
+
+void
+Say(const char * text)
+{
+  static_cast<void>(!write(errorStream.load(), text, std::strlen(text)));
+}
+
+void
+EndNow()
+{
+  const TemporaryRegistry & registry = *temporaries.load();
+  if (registry.IsCommitting() && commitsWaitedFor++ < kLooks)
   {
-    temporaries.load()->RemoveAllNow();
-    _exit(kInterrupted);
+    SetDeadline(kToCommit);
+    return;
   }
+  registry.RemoveAllNow();
+  Say(onTerminal.load() ? "\r\033[K" : ""); // where a progress bar stood
+  Say("voxelcore: interrupted; ");
+  const char * left = leftBehind.load();
+  Say(registry.HasCommitted() && std::strcmp(left, kNothing) == 0 ? "the files that have their names are complete"
+                                                                  : left);
+  Say("\n");
+  _exit(kInterrupted);
+}
+
+void
+OnInterrupt(int signal)
+{
+  const bool first = !interrupted.exchange(true);
+  if (first && signal == SIGINT)
+  {
+    SetDeadline(kToStop);
+  }
+  else
+  {
+    EndNow();
+  }
+}
+
+void
+OnDeadline(int)
+{
+  EndNow();
 }
 
 void
@@ -47,16 +99,24 @@ Install(int signal, void (*handler)(int), int flags)
   action.sa_handler = handler;
   action.sa_flags = flags;
   sigemptyset(&action.sa_mask);
+  for (const int other : { SIGINT, SIGTERM, SIGHUP, SIGALRM })
+  {
+    sigaddset(&action.sa_mask, other);
+  }
   sigaction(signal, &action, nullptr);
 }
 
 } // namespace
 
 void
-HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
+HandleSignals(const TemporaryRegistry & registry, int errorDescriptor, const char * whatIsLeft)
 {
   temporaries = &registry;
   errorStream = errorDescriptor;
+  leftBehind = whatIsLeft;
+  onTerminal = isatty(errorDescriptor) == 1;
+  timer_create(CLOCK_MONOTONIC, nullptr, &deadline); // sends SIGALRM
+  Install(SIGALRM, OnDeadline, SA_RESTART);
   const rlimit noCore{ 0, 0 };
   setrlimit(RLIMIT_CORE, &noCore);
   for (const int signal : { SIGINT, SIGTERM, SIGHUP })
@@ -86,6 +146,12 @@ bool
 WasInterrupted()
 {
   return interrupted.load();
+}
+
+void
+CallOffDeadline()
+{
+  SetDeadline(0);
 }
 
 } // namespace voxelcore

@@ -6,14 +6,21 @@
 namespace voxelcore
 {
 
-/** From now on: the first SIGINT, SIGTERM or SIGHUP only makes WasInterrupted() true; a second one removes the temporary
- *  files and ends the program with 130. A crash prints one line to `errorDescriptor`, removes the temporary files and
- *  ends with 1, without a core dump. Writing beyond a limit or to a closed pipe is an error, not the end.
- *  Must be called once, with a registry that lives as long as the process. */
+/** From now on: the first SIGINT makes WasInterrupted() true, so that a job stops at its next look; when the program has
+ *  not ended half a second later, and at once after a second SIGINT, after SIGTERM and after SIGHUP, the handler ends it,
+ *  whatever runs then: it prints "interrupted; `whatIsLeft`", removes the temporary files and exits with 130. Only the moment
+ *  in which finished files get their names is not cut short.
+ *  A crash prints one line to `errorDescriptor`, removes the temporary files and ends with 1, without a core dump. Writing
+ *  beyond a limit or to a closed pipe is an error, not the end.
+ *  Must be called once, with a registry and a text that live as long as the process. */
 void
-HandleSignals(const TemporaryRegistry & registry, int errorDescriptor);
+HandleSignals(const TemporaryRegistry & registry, int errorDescriptor, const char * whatIsLeft = "nothing was written");
 
 bool
 WasInterrupted();
+
+/** For a job that has stopped: it says so itself, and the handler no longer ends the program. */
+void
+CallOffDeadline();
 
 } // namespace voxelcore

@@ -345,7 +345,9 @@ main(int argc, char ** argv)
 {
   static TemporaryRegistry temporaries; // a signal may come during exit, too
   const Console            console;
-  HandleSignals(temporaries, console.ErrorDescriptor());
+  const char * const       whatIsLeft =
+    GoesOn(argc, argv) ? "what is done stays, and the same command goes on from there" : "nothing was written";
+  HandleSignals(temporaries, console.ErrorDescriptor(), whatIsLeft);
   const auto fail = [&console](int code, const std::string & message) {
     console.PrintError(message);
     return code;
@@ -356,8 +358,8 @@ main(int argc, char ** argv)
   }
   catch (const Cancelled &)
   {
-    console.PrintError(GoesOn(argc, argv) ? "interrupted; what is done stays, and the same command goes on from there"
-                                          : "interrupted; nothing was written");
+    CallOffDeadline();
+    console.PrintError(std::string("interrupted; ") + whatIsLeft);
     std::_Exit(kInterrupted); // an engine's thread may still run: no destructors under its feet
   }
   catch (const UsageError & error)

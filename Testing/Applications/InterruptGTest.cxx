@@ -4,8 +4,16 @@
 #include "Program.h"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <cstring>
+#include <filesystem>
 #include <gtest/gtest.h>
+#include <optional>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace voxelcore::testing
 {
@@ -69,6 +77,69 @@ TEST_F(Interrupt, CtrlCDuringLongWorkLeavesNothingAndIsPrompt)
     EXPECT_EQ(LastLine(result.error), "voxelcore: interrupted; nothing was written\n");
     EXPECT_EQ(m_Folder.Names(), Names{ "g.nrrd" });
   }
+}
+
+/** A reader that waits for ever, as one that is lost in a damaged file does: nobody writes into the pipe it opens. */
+TEST_F(Interrupt, AReaderThatNeverReturnsIsEnded)
+{
+  using namespace std::chrono_literals;
+  using Clock = std::chrono::steady_clock;
+  const std::string pipe = m_Folder / "endless.nrrd";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  ProgramLimits limits;
+  limits.time = 10s;
+  // The first Ctrl-C leaves the job half a second to end by itself.
+  const std::vector<std::pair<std::vector<int>, double>> cases{ { { SIGINT }, 1.5 },
+                                                                { { SIGTERM }, 0.5 },
+                                                                { { SIGHUP }, 0.5 },
+                                                                { { SIGINT, SIGINT }, 0.5 } };
+  for (const auto & [signals, most] : cases)
+  {
+    const auto                       start = Clock::now();
+    std::optional<Clock::time_point> sent;
+    const std::vector<int> &         send = signals;
+
+    const ProgramResult result =
+      RunProgram({ "core", pipe, "-o", m_Folder / "out.vtp" }, limits, [&](pid_t process, const std::string &) {
+        if (!sent && Clock::now() - start > 500ms)
+        {
+          sent = Clock::now();
+          for (const int signal : send)
+          {
+            kill(process, signal);
+            usleep(20000);
+          }
+        }
+      });
+    ASSERT_TRUE(sent);
+    EXPECT_EQ(result.code, 130) << strsignal(signals[0]);
+    EXPECT_EQ(result.error, "voxelcore: interrupted; nothing was written\n");
+    EXPECT_LT(std::chrono::duration<double>(Clock::now() - *sent).count(), most) << strsignal(signals[0]);
+    EXPECT_EQ(m_Folder.Names(), Names{ "endless.nrrd" });
+  }
+}
+
+/** A volume of two files is written in a folder of its own. */
+TEST_F(Interrupt, SigtermWhileTwoFilesAreWrittenLeavesNeither)
+{
+  bool                sent = false;
+  const ProgramResult result =
+    RunProgram({ "phantom", "gyroid", "--size", "300", "-o", m_Folder / "g.mhd" },
+               {},
+               [&](pid_t process, const std::string &) {
+                 std::error_code ignored;
+                 for (const auto & entry : std::filesystem::directory_iterator(m_Folder.Path(), ignored))
+                 {
+                   if (!sent && entry.is_directory() && !std::filesystem::is_empty(entry.path(), ignored))
+                   {
+                     sent = true;
+                     kill(process, SIGTERM);
+                   }
+                 }
+               });
+  ASSERT_TRUE(sent) << "it was written before anybody could look";
+  EXPECT_EQ(result.code, 130);
+  EXPECT_EQ(m_Folder.Names(), Names{});
 }
 
 TEST_F(Interrupt, CtrlCDuringPruningLeavesNothing)

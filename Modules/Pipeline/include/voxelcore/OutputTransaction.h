@@ -23,9 +23,10 @@ public:
   operator=(const TemporaryRegistry &) = delete;
   ~TemporaryRegistry();
 
-  /** Remembers `path` (a file, or a directory that will be empty by its turn) until Forget(). */
+  /** Remembers `path` until Forget(): a file, or a directory that will be empty by its turn. Of a directory
+   *  `withContents` the files in it go, too. */
   void
-  Add(const std::filesystem::path & path);
+  Add(const std::filesystem::path & path, bool withContents = false);
 
   void
   Forget(const std::filesystem::path & path);
@@ -34,9 +35,24 @@ public:
   void
   RemoveAllNow() const;
 
+  /** Around the moment in which finished files get their names: whoever ends the program waits for its end. */
+  void
+  BeginCommit();
+  void
+  EndCommit(bool complete);
+
+  bool
+  IsCommitting() const;
+
+  /** Whether results have got their names already. */
+  bool
+  HasCommitted() const;
+
 private:
   struct Entry;
   std::atomic<Entry *> m_Head{ nullptr };
+  std::atomic<int>     m_Committing{ 0 };
+  std::atomic<bool>    m_HasCommitted{ false };
 };
 
 /** Writes go to temporary names beside the final ones; Commit() renames them all. Whatever was not committed is
@@ -104,7 +120,7 @@ private:
   void
   ClearAbandoned(const std::filesystem::path & directory);
   void
-  Remember(const std::filesystem::path & path);
+  Remember(const std::filesystem::path & path, bool withContents = false);
   void
   Forget(const std::filesystem::path & path);
 
