@@ -63,14 +63,15 @@ struct Spot
   int    bottom = -1;
 };
 
+/** In rows from `top` on, up to `bottom`; left of what is written beside the content. */
 template <typename TPredicate>
 Spot
-Find(const Image & image, TPredicate is)
+Find(const Image & image, TPredicate is, int top = 0, int bottom = 1 << 20, int percent = 84)
 {
   Spot spot;
-  for (int y = 0; y < image.height * 88 / 100; ++y)
+  for (int y = top; y < std::min(bottom, image.height); ++y)
   {
-    for (int x = 0; x < image.width * 80 / 100; ++x)
+    for (int x = 0; x < image.width * percent / 100; ++x)
     {
       if (is(image.At(x, y)))
       {
@@ -90,7 +91,7 @@ Find(const Image & image, TPredicate is)
 }
 
 bool
-IsYellow(const std::array<int, 3> & c)
+IsOrange(const std::array<int, 3> & c)
 {
   return c[0] > 110 && c[1] > 100 && c[2] < 90 && c[0] > c[2] + 60;
 }
@@ -179,21 +180,21 @@ protected:
   TemporaryFolder m_Folder;
 };
 
-TEST_F(RenderCommand, ThickPartsAreYellowAndWhereTheyBelong)
+TEST_F(RenderCommand, ThickPartsAreOrangeAndWhereTheyBelong)
 {
   const Image front = Draw({ m_Folder / "c.vtp", "--view", "front" });
   EXPECT_EQ(front.width, 480);
   EXPECT_EQ(front.height, 360);
-  ASSERT_GT(Find(front, IsYellow).count, 50);
+  ASSERT_GT(Find(front, IsOrange).count, 50);
   ASSERT_GT(Find(front, IsViolet).count, 50);
   // The patient's left, where the thick block is, is on the picture's right.
   const Spot all = Find(front, IsDrawn);
-  EXPECT_GT(Find(front, IsYellow).x, all.x);
+  EXPECT_GT(Find(front, IsOrange).x, all.x);
   // From above, the front is up, and the patient's left on the left.
   const Image top = Draw({ m_Folder / "c.vtp", "--view", "top" });
   const int   middle = (Find(top, IsDrawn).top + Find(top, IsDrawn).bottom) / 2;
-  EXPECT_LT(Find(top, IsYellow).y, middle);
-  EXPECT_LT(Find(top, IsYellow).x, (Find(top, IsDrawn).left + Find(top, IsDrawn).right) / 2);
+  EXPECT_LT(Find(top, IsOrange).y, middle);
+  EXPECT_LT(Find(top, IsOrange).x, (Find(top, IsDrawn).left + Find(top, IsDrawn).right) / 2);
 }
 
 TEST_F(RenderCommand, LinesBesideFacesHaveTheirColor)
@@ -232,11 +233,11 @@ TEST_F(RenderCommand, TheScaleBarIsAsLongAsItSaysAndDirectionsAreGiven)
   const auto  isDark = [](const auto & c) { return std::max({ c[0], c[1], c[2] }) < 90; };
   const Image front = Draw({ m_Folder / "c.vtp", "--scan", m_Folder / "s.nrrd", "--view", "front" });
   const Image top = Draw({ m_Folder / "c.vtp", "--scan", m_Folder / "s.nrrd", "--view", "top" });
-  // The longest dark line of pixels in the lower left corner; the two blocks together are 40 mm wide.
+  // The longest dark line of pixels in the lower right corner; the two blocks together are 40 mm wide.
   int longest = 0;
-  for (int y = front.height * 88 / 100; y < front.height; ++y)
+  for (int y = front.height * 93 / 100; y < front.height; ++y)
   {
-    for (int x = 0, run = 0; x < front.width / 2; ++x)
+    for (int x = front.width * 84 / 100, run = 0; x < front.width; ++x)
     {
       run = isDark(front.At(x, y)) ? run + 1 : 0;
       longest = std::max(longest, run);
@@ -280,30 +281,93 @@ TEST_F(RenderCommand, EachColoringAndEachViewShowsSomethingElse)
 TEST_F(RenderCommand, PanelsShowSurfaceMedialSurfaceAndCurveSkeleton)
 {
   Run({ "skeleton", m_Folder / "c.vtp", "-o", m_Folder / "k.vtp", "--quiet" });
+  // They are twice as wide as high: one above the other.
   const Image image = Draw({ m_Folder / "c.vtp",
                              m_Folder / "k.vtp",
                              "--scan",
                              m_Folder / "s.nrrd",
                              "--panels",
+                             "--view",
+                             "front",
                              "--color",
                              "ErosionThickness" });
-  const int   panel = image.width * 80 / 100 / 3;
-  int         drawn[3] = {};
-  int         colored[3] = {};
-  for (int y = image.height / 10; y < image.height * 85 / 100; ++y)
-  {
-    for (int x = 8; x < 3 * panel; ++x)
-    {
-      const auto c = image.At(x, y);
-      drawn[x / panel] += IsDrawn(c);
-      colored[x / panel] += std::abs(c[0] - c[2]) > 30;
-    }
-  }
+  const auto  isColored = [](const auto & c) { return std::abs(c[0] - c[2]) > 30; };
   for (int i = 0; i < 3; ++i)
   {
-    EXPECT_GT(drawn[i], 300) << i;
-    EXPECT_TRUE((colored[i] > 20) == (i > 0)) << i << ": " << colored[i]; // the surface alone is grey
+    const int top = image.height * i / 3 + 20; // below the title
+    const int bottom = image.height * (i + 1) / 3;
+    EXPECT_GT(Find(image, IsDrawn, top, bottom, 74).count, 300) << i;
+    EXPECT_TRUE((Find(image, isColored, top, bottom, 74).count > 20) == (i > 0)) << i; // the surface alone is grey
   }
+}
+
+TEST_F(RenderCommand, PanelsAreFilledByWhatTheyShow)
+{
+  const std::string target = m_Folder / "panels.png";
+  Run({ "render", m_Folder / "c.vtp", "--scan", m_Folder / "s.nrrd", "--panels", "--view", "front", "-o", target });
+  const Image image = ReadPng(target);
+  EXPECT_LE(image.width, 1600);
+  EXPECT_LE(image.height, 1200);
+  const int text = image.height / 40; // about; titles are two high
+  for (int i = 0; i < 2; ++i)
+  {
+    const int  top = image.height * i / 2 + 2 * text;
+    const int  bottom = image.height * (i + 1) / 2;
+    const Spot spot = Find(image, IsDrawn, top, bottom);
+    EXPECT_GT(spot.right - spot.left, image.width * 78 / 100) << i;
+    EXPECT_GT(spot.bottom - spot.top, (bottom - top) * 85 / 100) << i;
+  }
+}
+
+TEST_F(RenderCommand, LooseLinesAreAboutOnePixelWideAndCurvesThicker)
+{
+  TestScan scan({ 60, 12, 12 });
+  scan.Fill({ 3, 6, 6 }, { 56, 6, 6 }, 1);
+  WriteNrrd(m_Folder / "rod.nrrd", scan);
+  Run({ "core", m_Folder / "rod.nrrd", "-o", m_Folder / "rod.vtp", "--lambda", "0", "--quiet" });
+  Run({ "skeleton", m_Folder / "rod.nrrd", "-o", m_Folder / "k.vtp", "--quiet" });
+  const auto width = [this](const std::string & file, const std::string & ground) {
+    const Image image = Draw({ m_Folder / file, "--view", "front", "--background", ground });
+    const Spot  spot = Find(image, [&](const auto & c) { return std::abs(c[0] - c[1]) > 20; });
+    double      sum = 0; // of green, of which the line has none
+    const int   from = spot.left + (spot.right - spot.left) / 4;
+    const int   to = spot.right - (spot.right - spot.left) / 4;
+    for (int x = from; x < to; ++x)
+    {
+      for (int y = 0; y < image.height; ++y)
+      {
+        sum += ground == "white" ? (255 - image.At(x, y)[1]) / 255.0 : image.At(x, y)[0] / 180.0;
+      }
+    }
+    return sum / (to - from);
+  };
+  EXPECT_GT(width("rod.vtp", "white"), 0.7);
+  EXPECT_LT(width("rod.vtp", "white"), 1.5);
+  EXPECT_GT(width("rod.vtp", "dark"), 0.7);
+  EXPECT_GT(width("k.vtp", "white"), 2);
+}
+
+TEST_F(RenderCommand, AFewExtremesDoNotTakeTheColorsFromTheRest)
+{
+  // A wide wedge, two to ten voxels thick, and beside it a small cube, sixteen thick.
+  TestScan scan({ 160, 150, 22 });
+  for (std::size_t x = 2; x < 140; ++x)
+  {
+    scan.Fill({ x, 2, 2 }, { x, 147, 3 + 8 * x / 140 }, 1);
+  }
+  scan.Fill({ 143, 60, 3 }, { 158, 75, 18 }, 1);
+  WriteNrrd(m_Folder / "e.nrrd", scan);
+  Run({ "core", m_Folder / "e.nrrd", "-o", m_Folder / "e.vtp", "--lambda", "1vox", "--quiet" });
+  const auto orange = [this](const std::vector<std::string> & options) {
+    std::vector<std::string> all{ m_Folder / "e.vtp", "--view", "top" };
+    all.insert(all.end(), options.begin(), options.end());
+    return Find(Draw(all), IsOrange).count;
+  };
+  const int byDefault = orange({});
+  EXPECT_GT(byDefault, 4 * orange({ "--range", "0%:100%" }));
+  EXPECT_EQ(byDefault, orange({ "--range", "2%:98%" }));
+  EXPECT_EQ(byDefault, orange({ "--each-label" })); // there is one
+  EXPECT_EQ(orange({ "--range", "90:91" }), 0);
 }
 
 TEST_F(RenderCommand, ItsServerEndsWithItAlsoWhenInterrupted)
@@ -370,6 +434,10 @@ TEST_F(RenderCommand, BadInputIsRefusedInOneLine)
     { { core, "-o", out, "--view", "back" }, { 2, { "--view", "front" } } },
     { { core, "-o", out, "--color", "Red" }, { 2, { "--color", "Radius" } } },
     { { core, "-o", out, "--range", "5:1" }, { 2, { "--range" } } },
+    { { core, "-o", out, "--range", "2%:5" }, { 2, { "--range" } } },
+    { { core, "-o", out, "--range", "0:5%" }, { 2, { "--range" } } },
+    { { core, "-o", out, "--range", "0%:101%" }, { 2, { "--range" } } },
+    { { core, "-o", out, "--range", "0:5", "--each-label" }, { 2, { "--each-label", "per cent" } } },
     { { core, "-o", out, "--labels", "9" }, { 3, { "'9'" } } },
     { { core, core, "-o", out }, { 2, { "already" } } },
     { { m_Folder / "s.nrrd", "-o", out }, { 2, { ".vtp" } } },

@@ -6,43 +6,75 @@
 namespace voxelcore
 {
 
-Color
-ViridisColor(double t)
+namespace
 {
-  constexpr std::array<std::array<double, 3>, 7> coefficients{ {
-    { 0.2777273272234177, 0.005407344544966578, 0.3340998053353061 },
-    { 0.1050930431085774, 1.404613529898575, 1.384590162594685 },
-    { -0.3308618287255563, 0.214847559468213, 0.09509516302823659 },
-    { -4.634230498983486, -5.799100973351585, -19.33244095627987 },
-    { 6.228269936347081, 14.17993336680509, 56.69055260068105 },
-    { 4.776384997670288, -13.74514537774601, -65.35303263337234 },
-    { -5.435455855934631, 4.645852612178535, 26.3124352495832 },
-  } };
-  t = std::clamp(t, 0.0, 1.0);
-  Color color{};
-  for (std::size_t c = 0; c < 3; ++c)
-  {
-    double value = 0;
-    for (std::size_t power = coefficients.size(); power-- > 0;)
-    {
-      value = value * t + coefficients[power][c];
-    }
-    color[c] = std::clamp(value, 0.0, 1.0);
-  }
-  return color;
-}
 
-std::array<double, 3>
-ToLab(const Color & color)
+/** Of sRGB, without its gamma. */
+Color
+Linear(const Color & color)
 {
   Color linear{};
   for (std::size_t c = 0; c < 3; ++c)
   {
     linear[c] = color[c] <= 0.04045 ? color[c] / 12.92 : std::pow((color[c] + 0.055) / 1.055, 2.4);
   }
+  return linear;
+}
+
+/** What is darker sinks into black, what is lighter into white: between these the contrast to both is at least 2. */
+constexpr double kFirst = 0.22;
+constexpr double kLast = 0.79;
+
+} // namespace
+
+Color
+LengthColor(double t)
+{
+  constexpr std::array<std::array<double, 3>, 7> coefficients{ {
+    { 0.05873234392399702, 0.02333670892565664, 0.5433401826748754 },
+    { 2.176514634195958, 0.2383834171260182, 0.7539604599784036 },
+    { -2.689460476458034, -7.455851135738909, 3.110799939717086 },
+    { 6.130348345893603, 42.3461881477227, -28.51885465332158 },
+    { -11.10743619062271, -82.66631109428045, 60.13984767418263 },
+    { 10.02306557647065, 71.41361770095349, -54.07218655560067 },
+    { -3.658713842777788, -22.93153465461149, 18.19190778539828 },
+  } };
+  const double                                   at = kFirst + (kLast - kFirst) * std::clamp(t, 0.0, 1.0);
+  Color                                          color{};
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    double value = 0;
+    for (std::size_t power = coefficients.size(); power-- > 0;)
+    {
+      value = value * at + coefficients[power][c];
+    }
+    color[c] = std::clamp(value, 0.0, 1.0);
+  }
+  return color;
+}
+
+double
+Luminance(const Color & color)
+{
+  const Color linear = Linear(color);
+  return 0.2126729 * linear[0] + 0.7151522 * linear[1] + 0.0721750 * linear[2];
+}
+
+double
+Contrast(const Color & a, const Color & b)
+{
+  const double first = Luminance(a) + 0.05;
+  const double second = Luminance(b) + 0.05;
+  return std::max(first, second) / std::min(first, second);
+}
+
+std::array<double, 3>
+ToLab(const Color & color)
+{
+  const Color  linear = Linear(color);
   const auto   f = [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; };
   const double x = f((0.4124564 * linear[0] + 0.3575761 * linear[1] + 0.1804375 * linear[2]) / 0.95047);
-  const double y = f(0.2126729 * linear[0] + 0.7151522 * linear[1] + 0.0721750 * linear[2]);
+  const double y = f(Luminance(color));
   const double z = f((0.0193339 * linear[0] + 0.1191920 * linear[1] + 0.9503041 * linear[2]) / 1.08883);
   return { 116 * y - 16, 500 * (x - y), 200 * (y - z) };
 }

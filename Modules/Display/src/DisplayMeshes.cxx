@@ -1,5 +1,6 @@
 #include "DisplayMeshes.h"
 
+#include "voxelcore/ColorRange.h"
 #include "voxelcore/ModelPolyData.h"
 
 #include <vtkAppendPolyData.h>
@@ -53,21 +54,6 @@ ShapeImage(const VoxelShape & shape)
     }
   }
   return image;
-}
-
-/** The value of `coloring` at each vertex of the medial surface. */
-const std::vector<double> &
-MedialValues(const DisplayLabel & label, PictureColoring coloring)
-{
-  switch (coloring)
-  {
-    case PictureColoring::Lambda:
-      return label.medial.core.vertexLambda;
-    case PictureColoring::ErosionThickness:
-      return label.erosionThickness;
-    default:
-      return label.medial.core.radius;
-  }
 }
 
 void
@@ -207,7 +193,7 @@ CurvePolyData(const DisplayLabel & label, PictureColoring coloring, double scale
   }
   vtkNew<vtkPolyData> all;
   all->SetPoints(points);
-  AddShown(all, coloring == PictureColoring::ErosionThickness ? graph.erosionThickness : graph.radius);
+  AddShown(all, CurveValues(label, coloring));
   all->GetPointData()->AddArray(thickness);
 
   vtkNew<vtkCellArray> lines;

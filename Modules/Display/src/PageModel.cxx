@@ -123,7 +123,7 @@ public:
     Json map = Json::array();
     for (int i = 0; i < kMapColors; ++i)
     {
-      const Color color = ViridisColor(static_cast<double>(i) / (kMapColors - 1));
+      const Color color = LengthColor(static_cast<double>(i) / (kMapColors - 1));
       char        code[8];
       std::snprintf(code,
                     sizeof(code),

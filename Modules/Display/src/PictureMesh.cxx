@@ -17,6 +17,10 @@ namespace voxelcore
 namespace
 {
 
+// Loose edges and vertices of a medial surface, in pixels of the picture: they are many, and would hide its faces.
+constexpr float kLineWidth = 1.25F;
+constexpr float kPointSize = 2.0F;
+
 vtkSmartPointer<vtkActor>
 MakeActor(vtkPolyData * mesh, const Color & color, vtkLookupTable * scale)
 {
@@ -61,9 +65,10 @@ AddMesh(vtkRenderer *    renderer,
     const auto          actor = MakeActor(polygons, color, scale);
     vtkProperty * const look = actor->GetProperty();
     look->SetOpacity(opacity);
-    look->SetAmbient(0.22);
-    look->SetDiffuse(0.78);
-    look->SetSpecular(opacity < 0.3 ? 0.0 : 0.12);
+    // Where colours mean lengths, shades must not make them darker ones.
+    look->SetAmbient(scale != nullptr ? 0.45 : 0.3);
+    look->SetDiffuse(scale != nullptr ? 0.62 : 0.75);
+    look->SetSpecular(opacity < 0.3 ? 0.0 : 0.08);
     look->SetSpecularPower(20);
     renderer->AddActor(actor);
   }
@@ -79,8 +84,8 @@ AddMesh(vtkRenderer *    renderer,
     vtkProperty * const look = actor->GetProperty();
     look->SetOpacity(opacity);
     look->LightingOff();
-    look->SetLineWidth(2.0F * static_cast<float>(pixel));
-    look->SetPointSize(3.0F * static_cast<float>(pixel));
+    look->SetLineWidth(kLineWidth * static_cast<float>(pixel));
+    look->SetPointSize(kPointSize * static_cast<float>(pixel));
     renderer->AddActor(actor);
   }
 }

@@ -1,6 +1,7 @@
 #include "PictureOverlay.h"
 
 #include "voxelcore/DisplayColors.h"
+#include "voxelcore/LengthUnit.h"
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
@@ -15,56 +16,10 @@
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace voxelcore
 {
-
-namespace
-{
-
-/** 1, 2 or 5 times a power of ten, the largest that is not above `value`. */
-double
-RoundDown(double value)
-{
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : { 5.0, 2.0 })
-  {
-    if (step * power <= value * (1 + 1e-9))
-    {
-      return step * power;
-    }
-  }
-  return power;
-}
-
-std::string
-NumberText(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
-  return text;
-}
-
-} // namespace
-
-std::vector<double>
-RoundTicks(double low, double high, int parts)
-{
-  if (!(high > low))
-  {
-    return { low };
-  }
-  const double        step = RoundDown((high - low) / parts * 1.5);
-  std::vector<double> ticks;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
-  {
-    ticks.push_back(k * step);
-  }
-  return ticks;
-}
 
 void
 PictureOverlay::AddText(const std::string & words, double x, double y, double size, int align)
@@ -82,15 +37,15 @@ PictureOverlay::AddText(const std::string & words, double x, double y, double si
 }
 
 void
-PictureOverlay::AddRectangle(double x, double y, double width, double height, const Color & color)
+PictureOverlay::AddPolygon(const std::vector<std::array<double, 2>> & corners, const Color & color)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(x, y, 0);
-  points->InsertNextPoint(x + width, y, 0);
-  points->InsertNextPoint(x + width, y + height, 0);
-  points->InsertNextPoint(x, y + height, 0);
+  vtkNew<vtkPoints>    points;
   vtkNew<vtkCellArray> cells;
-  cells->InsertNextCell({ 0, 1, 2, 3 });
+  cells->InsertNextCell(static_cast<int>(corners.size()));
+  for (const auto & corner : corners)
+  {
+    cells->InsertCellPoint(points->InsertNextPoint(corner[0], corner[1], 0));
+  }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetPolys(cells);
@@ -103,6 +58,12 @@ PictureOverlay::AddRectangle(double x, double y, double width, double height, co
 }
 
 void
+PictureOverlay::AddRectangle(double x, double y, double width, double height, const Color & color)
+{
+  AddPolygon({ { x, y }, { x + width, y }, { x + width, y + height }, { x, y + height } }, color);
+}
+
+void
 PictureOverlay::AddLine(double x0, double y0, double x1, double y1, double width)
 {
   // A rectangle: lines wider than a pixel are not drawn alike everywhere.
@@ -111,34 +72,13 @@ PictureOverlay::AddLine(double x0, double y0, double x1, double y1, double width
   {
     return;
   }
-  const double      dx = (x1 - x0) / length * width / 2;
-  const double      dy = (y1 - y0) / length * width / 2;
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(x0 - dy, y0 + dx, 0);
-  points->InsertNextPoint(x0 + dy, y0 - dx, 0);
-  points->InsertNextPoint(x1 + dy, y1 - dx, 0);
-  points->InsertNextPoint(x1 - dy, y1 + dx, 0);
-  vtkNew<vtkCellArray> cells;
-  cells->InsertNextCell({ 0, 1, 2, 3 });
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(cells);
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  mapper->SetInputData(data);
-  vtkNew<vtkActor2D> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(m_Ink[0], m_Ink[1], m_Ink[2]);
-  m_Renderer->AddActor2D(actor);
+  const double dx = (x1 - x0) / length * width / 2;
+  const double dy = (y1 - y0) / length * width / 2;
+  AddPolygon({ { x0 - dy, y0 + dx }, { x0 + dy, y0 - dx }, { x1 + dy, y1 - dx }, { x1 - dy, y1 + dx } }, m_Ink);
 }
 
 void
-PictureOverlay::AddColorBar(const std::string & title,
-                            double              low,
-                            double              high,
-                            double              x,
-                            double              y,
-                            double              height,
-                            double              text)
+PictureOverlay::AddColorBar(const ColorBar & bar, double x, double y, double height, double text)
 {
   const double                 width = 0.8 * text;
   constexpr int                kSteps = 256;
@@ -148,15 +88,12 @@ PictureOverlay::AddColorBar(const std::string & title,
   colors->SetNumberOfComponents(3);
   for (vtkIdType step = 0; step < kSteps; ++step)
   {
-    const double bottom = y + height * static_cast<double>(step) / kSteps;
-    const double top = y + height * static_cast<double>(step + 1) / kSteps;
-    points->InsertNextPoint(x, bottom, 0);
-    points->InsertNextPoint(x + width, bottom, 0);
-    points->InsertNextPoint(x + width, top, 0);
-    points->InsertNextPoint(x, top, 0);
+    for (const auto & [right, up] : { std::pair{ 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } })
+    {
+      points->InsertNextPoint(x + right * width, y + height * static_cast<double>(step + up) / kSteps, 0);
+    }
     cells->InsertNextCell({ 4 * step, 4 * step + 1, 4 * step + 2, 4 * step + 3 });
-    const Color color = ViridisColor((static_cast<double>(step) + 0.5) / kSteps);
-    for (const double part : color)
+    for (const double part : LengthColor((static_cast<double>(step) + 0.5) / kSteps))
     {
       colors->InsertNextValue(static_cast<unsigned char>(std::lround(255 * part)));
     }
@@ -170,14 +107,26 @@ PictureOverlay::AddColorBar(const std::string & title,
   vtkNew<vtkActor2D> actor;
   actor->SetMapper(mapper);
   m_Renderer->AddActor2D(actor);
-  const std::vector<double> ticks = RoundTicks(low, high, 5);
-  for (const double tick : ticks)
+  const double point = 0.9 * text;
+  if (bar.below)
   {
-    const double at = y + (high > low ? (tick - low) / (high - low) * height : height / 2);
-    AddLine(x + width, at, x + width + 0.3 * text, at, text / 12);
-    AddText(NumberText(tick), x + width + 0.5 * text, at, text, -1);
+    AddPolygon({ { x, y }, { x + width / 2, y - point }, { x + width, y } }, LengthColor(0));
   }
-  AddText(title, x, y + height + 1.1 * text, text, -1);
+  if (bar.above)
+  {
+    AddPolygon({ { x, y + height }, { x + width, y + height }, { x + width / 2, y + height + point } }, LengthColor(1));
+  }
+  for (const auto & [place, words] : bar.ticks)
+  {
+    const double at = y + place * height;
+    AddLine(x + width, at, x + width + 0.3 * text, at, text / 12);
+    AddText(words, x + width + 0.5 * text, at, text, -1);
+  }
+  AddText(bar.title, x, y + height + (bar.above ? 1.8 : 1.1) * text, text, -1);
+  if (!bar.caption.empty())
+  {
+    AddText(bar.caption, x, y - (bar.below ? 1.8 : 1.2) * text, 0.75 * text, -1);
+  }
 }
 
 void
@@ -195,12 +144,13 @@ PictureOverlay::AddLegend(const std::vector<std::pair<std::string, Color>> & nam
 void
 PictureOverlay::AddScaleBar(double mmPerPixel, double most, double x, double y, double text)
 {
-  const double mm = RoundDown(mmPerPixel * most);
-  const double length = mm / mmPerPixel;
+  const double     mm = RoundDown(mmPerPixel * most);
+  const double     length = mm / mmPerPixel;
+  const LengthUnit unit = LengthUnit::For(mm * (1 + 1e-9)); // powers of ten are not exact
   AddLine(x, y, x + length, y, text / 6);
   AddLine(x, y - text / 4, x, y + text / 4, text / 12);
   AddLine(x + length, y - text / 4, x + length, y + text / 4, text / 12);
-  AddText(NumberText(mm) + " mm", x + length / 2, y + 0.9 * text, text, 0);
+  AddText(ShortText(unit.Of(mm), 6) + " " + unit.Symbol(), x + length / 2, y + 0.9 * text, text, 0);
 }
 
 void
@@ -213,7 +163,7 @@ PictureOverlay::AddDirections(const std::array<double, 3> & right,
 {
   constexpr std::array<const char *, 3> toward{ "L", "P", "S" };
   constexpr std::array<const char *, 3> from{ "R", "A", "I" };
-  constexpr double                      kShort = 0.3; // nearly along the view: its letters would lie on the centre
+  constexpr double                      kShort = 0.45; // nearly along the view: its letters would lie on the centre
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double dx = right[axis];

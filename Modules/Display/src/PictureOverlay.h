@@ -1,7 +1,7 @@
 #pragma once
 // What is written over a picture: colour bar, names of labels, scale bar, directions of the patient.
 
-#include "voxelcore/RenderPicture.h"
+#include "ColorBar.h"
 
 #include <array>
 #include <string>
@@ -22,9 +22,9 @@ public:
     , m_Ink(dark ? Color{ 1, 1, 1 } : Color{ 0, 0, 0 })
   {}
 
-  /** A vertical bar from `low` to `high` with its title above. */
+  /** A vertical bar with its title above and its caption below; a triangle at each end beyond which there are values. */
   void
-  AddColorBar(const std::string & title, double low, double high, double x, double y, double height, double text);
+  AddColorBar(const ColorBar & bar, double x, double y, double height, double text);
 
   /** Names beside squares of their colours, from the top down. */
   void
@@ -51,14 +51,12 @@ private:
   void
   AddRectangle(double x, double y, double width, double height, const Color & color);
   void
+  AddPolygon(const std::vector<std::array<double, 2>> & corners, const Color & color);
+  void
   AddLine(double x0, double y0, double x1, double y1, double width);
 
   vtkRenderer * m_Renderer;
   Color         m_Ink;
 };
-
-/** Round numbers that split a range into about `parts`. */
-std::vector<double>
-RoundTicks(double low, double high, int parts);
 
 } // namespace voxelcore

@@ -1,20 +1,19 @@
 #include "voxelcore/RenderPicture.h"
 
+#include "ColorScale.h"
 #include "DisplayMeshes.h"
+#include "PanelLayout.h"
 #include "PictureCamera.h"
 #include "PictureFile.h"
 #include "PictureMesh.h"
 #include "PictureOverlay.h"
 #include "VirtualDisplay.h"
-#include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
 
 #include <vtkCamera.h>
-#include <vtkFloatArray.h>
 #include <vtkLightKit.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
@@ -22,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace voxelcore
@@ -34,20 +32,9 @@ namespace
 constexpr int         kOversampling = 2;  ///< pixels drawn for each of the picture, along each side
 constexpr std::size_t kMostInLegend = 12; ///< labels
 constexpr double      kGlass = 0.16;      ///< opacity of a surface with something in it
-
-std::string
-TitleOf(PictureColoring coloring)
-{
-  switch (coloring)
-  {
-    case PictureColoring::Lambda:
-      return "Lambda (mm)";
-    case PictureColoring::ErosionThickness:
-      return "Erosion thickness (mm)";
-    default:
-      return "Radius (mm)";
-  }
-}
+constexpr double      kLeastTube = 1.2;   ///< radius of a curve, in pixels of the picture
+constexpr double      kSmall = 0.8;       ///< letters of names, in letters
+constexpr double      kBarBottom = 12;    ///< of the colour bar, above directions and scale bar; in letters
 
 PointCloud
 AllPoints(const DisplayContent & content)
@@ -94,19 +81,19 @@ public:
     , m_Points(AllPoints(content))
     , m_Axes(AxesOf(options.view, m_Points))
     , m_Frame(FrameOf(m_Points, m_Axes, std::max(options.frames, 1)))
-    , m_Width(options.width * kOversampling)
-    , m_Height(options.height * kOversampling)
-    , m_Text(std::max(0.022 * std::min<double>(m_Height, 0.8 * m_Width), 8.0 * kOversampling))
+    , m_Scale(content, options)
+    , m_Text(kOversampling * std::max(0.022 * std::min<double>(options.height, 0.8 * options.width), 8.0))
   {
-    MakeMeshes();
-    FindRange();
+    FindContent();
     MakePanels();
+    PlacePanels();
+    MakeMeshes();
     m_Window->SetDisplayId(m_Display.Connection());
     m_Window->SetOffScreenRendering(1);
     m_Window->SetMultiSamples(0);
     m_Window->SetAlphaBitPlanes(1);
     m_Window->SetNumberOfLayers(2);
-    m_Window->SetSize(m_Width, m_Height);
+    m_Window->SetSize(m_Layout.width, m_Layout.height);
     Furnish();
   }
 
@@ -122,38 +109,26 @@ public:
     DrawOverlay(axes);
     m_Window->Render();
     vtkNew<vtkUnsignedCharArray> drawn;
-    m_Window->GetPixelData(0, 0, m_Width - 1, m_Height - 1, 0, drawn);
-    if (drawn->GetNumberOfValues() != 3LL * m_Width * m_Height)
+    m_Window->GetPixelData(0, 0, m_Layout.width - 1, m_Layout.height - 1, 0, drawn);
+    if (drawn->GetNumberOfValues() != 3LL * m_Layout.width * m_Layout.height)
     {
       throw OutputError("cannot draw: OpenGL gives no picture on this display");
     }
-    return MeanPicture(drawn->GetPointer(0), m_Options.width, m_Options.height, kOversampling);
+    return MeanPicture(drawn->GetPointer(0),
+                       m_Layout.width / kOversampling,
+                       m_Layout.height / kOversampling,
+                       kOversampling);
   }
 
 private:
   void
-  MakeMeshes()
+  FindContent()
   {
-    const double least = 0.0025 * std::hypot(m_Frame.halfWidth, m_Frame.halfHeight);
     for (const DisplayLabel & label : m_Content.labels)
     {
-      LabelMeshes meshes;
-      if (!label.surface.triangles.empty())
-      {
-        meshes.surface = SurfacePolyData(label.surface);
-        m_HasSurface = true;
-      }
-      if (label.medial.core.cells.vertexCount > 0)
-      {
-        meshes.medial = MedialPolyData(label, m_Options.coloring);
-        m_HasMedial = true;
-      }
-      if (!label.curves.positions.empty())
-      {
-        meshes.curves = CurvePolyData(label, m_Options.coloring, m_Options.tubes, least);
-        m_HasCurves = true;
-      }
-      m_Meshes.push_back(std::move(meshes));
+      m_HasSurface = m_HasSurface || !label.surface.triangles.empty();
+      m_HasMedial = m_HasMedial || label.medial.core.cells.vertexCount > 0;
+      m_HasCurves = m_HasCurves || !label.curves.positions.empty();
     }
     if (!m_HasSurface && !m_HasMedial && !m_HasCurves)
     {
@@ -162,44 +137,25 @@ private:
   }
 
   void
-  FindRange()
+  MakeMeshes()
   {
-    m_Low = std::numeric_limits<double>::infinity();
-    m_High = -m_Low;
-    for (const LabelMeshes & meshes : m_Meshes)
+    for (const DisplayLabel & label : m_Content.labels)
     {
-      for (vtkPolyData * data : { meshes.medial.Get(), meshes.curves.Get() })
+      LabelMeshes meshes;
+      if (!label.surface.triangles.empty())
       {
-        const auto * shown =
-          data != nullptr ? vtkFloatArray::SafeDownCast(data->GetPointData()->GetArray(kShownArray)) : nullptr;
-        for (vtkIdType i = 0; shown != nullptr && i < shown->GetNumberOfTuples(); ++i)
-        {
-          const double value = shown->GetValue(i);
-          if (std::isfinite(value))
-          {
-            m_Low = std::min(m_Low, value);
-            m_High = std::max(m_High, value);
-          }
-        }
+        meshes.surface = SurfacePolyData(label.surface);
       }
-    }
-    if (m_Options.range)
-    {
-      m_Low = (*m_Options.range)[0];
-      m_High = (*m_Options.range)[1];
-    }
-    m_HasScale = m_Options.coloring != PictureColoring::Label && m_Low <= m_High;
-    constexpr int kColors = 256;
-    m_Table->SetNumberOfTableValues(kColors);
-    for (int i = 0; i < kColors; ++i)
-    {
-      const Color color = ViridisColor((i + 0.5) / kColors);
-      m_Table->SetTableValue(i, color[0], color[1], color[2], 1);
-    }
-    m_Table->SetNanColor(0.6, 0.6, 0.6, 1);
-    if (m_HasScale)
-    {
-      m_Table->SetRange(m_Low, m_High > m_Low ? m_High : m_Low + 1);
+      if (label.medial.core.cells.vertexCount > 0)
+      {
+        meshes.medial = MedialPolyData(label, m_Options.coloring);
+      }
+      if (!label.curves.positions.empty())
+      {
+        const double least = kLeastTube * kOversampling * m_Layout.mmPerPixel;
+        meshes.curves = CurvePolyData(label, m_Options.coloring, m_Options.tubes, least);
+      }
+      m_Meshes.push_back(std::move(meshes));
     }
   }
 
@@ -226,10 +182,45 @@ private:
     }
   }
 
+  bool
+  HasLegend() const
+  {
+    return !m_Scale.IsShown() && m_Content.labels.size() <= kMostInLegend;
+  }
+
+  /** Room at the right for colour bar or names, directions and scale bar, in heights of letters. */
   double
   RightMargin() const
   {
-    return (m_Options.coloring == PictureColoring::ErosionThickness ? 12.5 : 9) * m_Text;
+    constexpr double kLetter = 0.58;
+    double           margin = 7;
+    if (m_Scale.IsShown())
+    {
+      margin = std::max(8.4, 1.4 + kLetter * static_cast<double>(m_Scale.Bar().title.size()));
+    }
+    for (const DisplayLabel & label : m_Content.labels)
+    {
+      constexpr double kMost = 14;
+      const double     name = 2.4 + kSmall * kLetter * static_cast<double>(label.name.size());
+      margin = HasLegend() ? std::max(margin, std::min(name, kMost)) : margin;
+    }
+    return margin;
+  }
+
+  void
+  PlacePanels()
+  {
+    m_Request.panels = m_Panels.size();
+    m_Request.width = m_Options.width * kOversampling;
+    m_Request.height = m_Options.height * kOversampling;
+    m_Request.shrink = m_Options.shrink;
+    m_Request.multiple = kOversampling;
+    m_Request.left = m_Request.bottom = m_Request.top = 0.5 * m_Text;
+    m_Request.right = RightMargin() * m_Text;
+    m_Request.title = m_Options.panels ? 2 * m_Text : 0;
+    m_Request.leastWidth = (m_Options.panels ? 9 : 6) * m_Text;
+    m_Request.leastHeight = (kBarBottom + (HasLegend() ? 15 : 13)) * m_Text;
+    m_Layout = LayOutPanels(m_Request, m_Frame);
   }
 
   /** Fills the window with a renderer for each panel and one for what is written over all. */
@@ -237,44 +228,41 @@ private:
   Furnish()
   {
     const double        background = m_Options.dark ? 0.0 : 1.0;
-    const double        left = 0.5 * m_Text;
-    const double        bottom = 4 * m_Text;
-    const double        width = (m_Width - left - RightMargin()) / static_cast<double>(m_Panels.size());
-    const double        top = m_Height - (m_Options.panels ? 3 : 0.5) * m_Text;
     vtkNew<vtkRenderer> blank; // the margins, too, must have the background
     blank->SetBackground(background, background, background);
     m_Window->AddRenderer(blank);
     for (std::size_t i = 0; i < m_Panels.size(); ++i)
     {
-      const double        from = left + width * static_cast<double>(i);
+      const auto [left, bottom] = m_Layout.Corner(i, m_Request);
       vtkNew<vtkRenderer> renderer;
-      renderer->SetViewport(from / m_Width, bottom / m_Height, (from + width) / m_Width, top / m_Height);
+      renderer->SetViewport(left / m_Layout.width,
+                            bottom / m_Layout.height,
+                            (left + m_Layout.panelWidth) / m_Layout.width,
+                            (bottom + m_Layout.panelHeight) / m_Layout.height);
       renderer->SetBackground(background, background, background);
       renderer->SetUseDepthPeeling(1);
       renderer->SetMaximumNumberOfPeels(4);
       renderer->SetOcclusionRatio(0.01);
       vtkNew<vtkLightKit> lights;
+      constexpr double    kWhite = 0.5; // colours stay those of the bar
+      lights->SetKeyLightWarmth(kWhite);
+      lights->SetFillLightWarmth(kWhite);
+      lights->SetBackLightWarmth(kWhite);
+      lights->SetHeadLightWarmth(kWhite);
+      lights->SetKeyLightIntensity(0.85);
       lights->AddLightsToRenderer(renderer);
-      vtkLookupTable * const scale = m_HasScale ? m_Table.Get() : nullptr;
       for (std::size_t k = 0; k < m_Meshes.size(); ++k)
       {
-        const DisplayLabel & label = m_Content.labels[k];
+        const DisplayLabel &   label = m_Content.labels[k];
+        vtkLookupTable * const scale = m_Scale.Table(k);
         // With a colour scale the surface is neutral, lest its colour be taken for a length.
-        const Color plain = m_HasScale && m_Meshes.size() == 1 ? Color{ 0.72, 0.74, 0.78 } : label.color;
+        const Color plain = m_Scale.IsShown() && m_Meshes.size() == 1 ? Color{ 0.72, 0.74, 0.78 } : label.color;
         AddMesh(renderer, m_Meshes[k].surface, plain, nullptr, m_Panels[i].surface, kOversampling);
         AddMesh(renderer, m_Meshes[k].medial, label.color, scale, m_Panels[i].medial, kOversampling);
         AddMesh(renderer, m_Meshes[k].curves, label.color, scale, m_Panels[i].curves, kOversampling);
       }
       m_Window->AddRenderer(renderer);
       m_Renderers.push_back(renderer);
-    }
-    m_PanelWidth = width;
-    m_PanelHeight = top - bottom;
-    constexpr double kAir = 1.06;
-    m_MmPerPixel = kAir * std::max(2 * m_Frame.halfWidth / m_PanelWidth, 2 * m_Frame.halfHeight / m_PanelHeight);
-    if (!(m_MmPerPixel > 0))
-    {
-      m_MmPerPixel = 1 / m_PanelHeight; // a single point
     }
     m_Overlay->SetLayer(1);
     m_Overlay->InteractiveOff();
@@ -292,7 +280,7 @@ private:
                         m_Frame.center[1] + away * axes.back[1],
                         m_Frame.center[2] + away * axes.back[2]);
     camera->SetViewUp(axes.up.data());
-    camera->SetParallelScale(m_MmPerPixel * m_PanelHeight / 2);
+    camera->SetParallelScale(m_Layout.mmPerPixel * m_Layout.panelHeight / 2);
     renderer->ResetCameraClippingRange();
   }
 
@@ -300,27 +288,28 @@ private:
   DrawOverlay(const PictureAxes & axes)
   {
     PictureOverlay overlay(m_Overlay, m_Options.dark);
-    const double   x = m_Width - RightMargin() + m_Text;
-    const double   arm = 1.7 * m_Text;
-    if (m_HasScale)
+    const double   x = m_Layout.width - m_Request.right + m_Text;
+    if (m_Scale.IsShown())
     {
-      overlay.AddColorBar(TitleOf(m_Options.coloring), m_Low, m_High, x, 0.35 * m_Height, 0.45 * m_Height, m_Text);
+      const double room = m_Layout.height - (kBarBottom + 3.5) * m_Text;
+      overlay.AddColorBar(m_Scale.Bar(), x, kBarBottom * m_Text, std::min(room, 20 * m_Text), m_Text);
     }
-    else if (m_Content.labels.size() <= kMostInLegend)
+    else if (HasLegend())
     {
       std::vector<std::pair<std::string, Color>> names;
       for (const DisplayLabel & label : m_Content.labels)
       {
         names.emplace_back(label.name, label.color);
       }
-      overlay.AddLegend(names, x, 0.85 * m_Height, 0.8 * m_Text);
+      overlay.AddLegend(names, x, m_Layout.height - 2 * m_Text, kSmall * m_Text);
     }
-    overlay.AddScaleBar(m_MmPerPixel, m_PanelWidth / 3, 1.2 * m_Text, 1.2 * m_Text, m_Text);
-    overlay.AddDirections(axes.right, axes.up, m_Width - 4.5 * m_Text, 4.5 * m_Text, arm, m_Text);
+    overlay.AddScaleBar(m_Layout.mmPerPixel, m_Request.right - 2 * m_Text, x, 1.2 * m_Text, m_Text);
+    overlay.AddDirections(axes.right, axes.up, x + 2.5 * m_Text, 6.6 * m_Text, 1.7 * m_Text, m_Text);
     for (std::size_t i = 0; m_Options.panels && i < m_Panels.size(); ++i)
     {
-      const double middle = 0.5 * m_Text + m_PanelWidth * (static_cast<double>(i) + 0.5);
-      overlay.AddText(m_Panels[i].title, middle, m_Height - 1.5 * m_Text, 1.1 * m_Text, 0);
+      const auto   corner = m_Layout.Corner(i, m_Request);
+      const double middle = corner[0] + m_Layout.panelWidth / 2;
+      overlay.AddText(m_Panels[i].title, middle, corner[1] + m_Layout.panelHeight + m_Text, 1.1 * m_Text, 0);
     }
   }
 
@@ -330,21 +319,15 @@ private:
   PointCloud                 m_Points;
   PictureAxes                m_Axes;
   PictureFrame               m_Frame;
-  int                        m_Width;
-  int                        m_Height;
+  ColorScale                 m_Scale;
   double                     m_Text; ///< height of letters in pixels drawn
   std::vector<LabelMeshes>   m_Meshes;
   bool                       m_HasSurface = false;
   bool                       m_HasMedial = false;
   bool                       m_HasCurves = false;
-  bool                       m_HasScale = false;
-  double                     m_Low = 0;
-  double                     m_High = 0;
-  vtkNew<vtkLookupTable>     m_Table;
   std::vector<Panel>         m_Panels;
-  double                     m_PanelWidth = 0;
-  double                     m_PanelHeight = 0;
-  double                     m_MmPerPixel = 1;
+  PanelRequest               m_Request;
+  PanelLayout                m_Layout;
   vtkNew<vtkRenderWindow>    m_Window;
   std::vector<vtkRenderer *> m_Renderers; ///< the window owns them
   vtkNew<vtkRenderer>        m_Overlay;

@@ -57,6 +57,14 @@ LengthUnit::Text(double mm, int power, int decimals) const
 }
 
 std::string
+DecimalText(double value, int decimals)
+{
+  char text[400];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  return text;
+}
+
+std::string
 FixedText(double value, int decimals)
 {
   constexpr int kMostDecimals = 30;
@@ -69,9 +77,7 @@ FixedText(double value, int decimals)
   {
     return ShortText(value, 2);
   }
-  char text[400];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
+  return DecimalText(value, decimals);
 }
 
 std::string

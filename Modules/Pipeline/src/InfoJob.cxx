@@ -1,6 +1,7 @@
 #include "voxelcore/InfoJob.h"
 
 #include "JobTools.h"
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/ReportTable.h"
@@ -21,28 +22,19 @@ namespace voxelcore
 namespace
 {
 
-/** As few digits as tell the value to nine places. */
+/** Lengths along i, j, k or x, y, z in `unit`. */
 std::string
-Number(double value)
+LengthsText(const Vector3 & mm, const LengthUnit & unit, const std::string & between)
 {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
-}
-
-std::string
-Decimals(double value, int decimals)
-{
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
+  return ShortText(unit.Of(mm[0])) + between + ShortText(unit.Of(mm[1])) + between + ShortText(unit.Of(mm[2])) + " " +
+         unit.Name();
 }
 
 /** Rough, as predictions are. */
 std::string
 SecondsText(double seconds)
 {
-  return seconds < 90 ? Decimals(seconds, seconds < 10 ? 1 : 0) + " s" : Decimals(seconds / 60, 0) + " min";
+  return seconds < 90 ? DecimalText(seconds, seconds < 10 ? 1 : 0) + " s" : DecimalText(seconds / 60, 0) + " min";
 }
 
 std::string
@@ -212,10 +204,9 @@ InfoText(const ScanInfo & info)
   text += "format       " + info.format + ", " + info.pixelType + "\n";
   text += "size         " + std::to_string(geometry.size[0]) + " x " + std::to_string(geometry.size[1]) + " x " +
           std::to_string(geometry.size[2]) + " voxels\n";
-  text += "spacing      " + Number(geometry.spacing[0]) + " x " + Number(geometry.spacing[1]) + " x " +
-          Number(geometry.spacing[2]) + " mm\n";
-  text += "origin       " + Number(geometry.origin[0]) + ", " + Number(geometry.origin[1]) + ", " +
-          Number(geometry.origin[2]) + " mm (LPS)\n";
+  const LengthUnit voxelUnit = LengthUnit::For(*std::max_element(geometry.spacing.begin(), geometry.spacing.end()));
+  text += "spacing      " + LengthsText(geometry.spacing, voxelUnit, " x ") + "\n";
+  text += "origin       " + LengthsText(geometry.origin, voxelUnit, ", ") + " (LPS)\n";
   text += "orientation  " + info.orientation + " (where i, j and k run to)\n";
   if (!info.grey)
   {
@@ -231,16 +222,27 @@ InfoText(const ScanInfo & info)
   {
     return text + GreyText(info);
   }
-  std::vector<std::vector<std::string>> rows{
-    { "label", "name", "voxels", "volume mm3", "voxel box", "b0/b1/b2", "26-components", "boundary vertices" }
-  };
+  double largest = 0;
+  for (const LabelInfo & label : info.labels)
+  {
+    largest = std::max(largest, label.volumeMm3);
+  }
+  const LengthUnit                      unit = LengthUnit::For(std::cbrt(largest));
+  std::vector<std::vector<std::string>> rows{ { "label",
+                                                "name",
+                                                "voxels",
+                                                "volume " + unit.Name(3),
+                                                "voxel box",
+                                                "b0/b1/b2",
+                                                "26-components",
+                                                "boundary vertices" } };
   for (const LabelInfo & label : info.labels)
   {
     const auto & betti = label.topology.betti;
     rows.push_back({ std::to_string(label.label),
                      label.name,
                      std::to_string(label.voxels),
-                     Decimals(label.volumeMm3, 3),
+                     unit.Text(label.volumeMm3, 3, 3),
                      BoxText(label.box),
                      std::to_string(betti[0]) + "/" + std::to_string(betti[1]) + "/" + std::to_string(betti[2]),
                      std::to_string(label.components26),

@@ -492,6 +492,46 @@ PhantomOptionsFrom(const ParameterValues & values)
   return options;
 }
 
+namespace
+{
+
+/** LO:HI, both in mm or both in per cent. */
+void
+ReadColorRange(const ParameterReader & reader, RenderJobOptions & options)
+{
+  auto                  ends = Split(reader.Text("range"), ':');
+  const bool            shares = ends.front().ends_with('%');
+  std::array<double, 2> values{};
+  bool                  isRange = ends.size() == 2;
+  for (std::size_t i = 0; isRange && i < 2; ++i)
+  {
+    if (shares && ends[i].ends_with('%'))
+    {
+      ends[i].pop_back();
+    }
+    const auto value = ParseReal(ends[i]);
+    isRange = value && std::isfinite(*value) && (!shares || (*value >= 0 && *value <= 100));
+    values[i] = isRange ? *value : 0;
+  }
+  if (!isRange || !(values[0] < values[1]) || (shares && !reader.Text("range").ends_with('%')))
+  {
+    reader.Refuse("range", "LO:HI with LO < HI, in mm such as 0:5, or in per cent such as 2%:98% or 0%:100%");
+  }
+  options.eachLabel = reader.IsSet("each-label");
+  if (shares)
+  {
+    options.shares = { values[0] / 100, values[1] / 100 };
+    return;
+  }
+  if (options.eachLabel)
+  {
+    throw UsageError("--each-label: each label has its own range, so give --range in per cent, such as 2%:98%");
+  }
+  options.range = values;
+}
+
+} // namespace
+
 RenderJobOptions
 RenderOptionsFrom(const ParameterValues & values)
 {
@@ -517,21 +557,12 @@ RenderOptionsFrom(const ParameterValues & values)
   {
     reader.Refuse("size", "WIDTHxHEIGHT in pixels, each from 64 to 8192, such as 1600x1200");
   }
+  options.shrink = !reader.IsGiven("size");
   options.width = static_cast<int>(*width);
   options.height = static_cast<int>(*height);
   options.view = reader.Choice("view");
   options.coloring = reader.Choice("color");
-  if (reader.IsGiven("range"))
-  {
-    const auto ends = Split(reader.Text("range"), ':');
-    const auto low = ParseReal(ends.front());
-    const auto high = ParseReal(ends.back());
-    if (ends.size() != 2 || !low || !high || !(*low < *high) || !std::isfinite(*low) || !std::isfinite(*high))
-    {
-      reader.Refuse("range", "LO:HI in mm with LO < HI, such as 0:5");
-    }
-    options.range = { *low, *high };
-  }
+  ReadColorRange(reader, options);
   options.background = reader.Choice("background");
   options.tubes = ParseReal(reader.Text("tubes")).value_or(-1);
   if (!(options.tubes > 0 && options.tubes <= 1))

@@ -9,6 +9,7 @@
 #include "voxelcore/SideBySide.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/VoxelCore.h"
+#include "voxelcore/LengthUnit.h"
 
 #include <algorithm>
 #include <atomic>
@@ -148,8 +149,7 @@ CertifyCoverage(PrunedCore &           pruned,
   if (*bumps.boundaryGapMm > bumps.heightMm + BoundaryGapTolerance(geometry))
   {
     throw CertificateError(labelText + ": certificate failed: a boundary vertex lies " +
-                           std::to_string(*bumps.boundaryGapMm) + " mm from its core pruned at bump height " +
-                           bumps.height +
+                           ShortText(*bumps.boundaryGapMm) + " mm from its core pruned at bump height " + bumps.height +
                            "; nothing was written; this is a fault of VoxelCore, please report it with the scan");
   }
   record.covered = true;

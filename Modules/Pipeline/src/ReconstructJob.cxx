@@ -6,6 +6,7 @@
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/ReportTable.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/ReadInput.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -309,16 +309,20 @@ ReconstructText(const ReconstructResult & result)
   const bool compared = std::any_of(result.labels.begin(), result.labels.end(), [](const ReconstructedLabel & l) {
     return l.comparison.has_value();
   });
+  double     longest = 0;
+  for (const ReconstructedLabel & label : result.labels)
+  {
+    if (label.comparison)
+    {
+      longest = std::max({ longest, label.comparison->surfaceDistanceMm, label.comparison->boundaryGapMm });
+    }
+  }
+  const LengthUnit                      unit = LengthUnit::For(longest);
   std::vector<std::vector<std::string>> rows{ { "label", "name", "voxels", "contested" } };
   if (compared)
   {
-    rows.front().insert(rows.front().end(), { "in scan", "Dice", "surface mm", "balls mm" });
+    rows.front().insert(rows.front().end(), { "in scan", "Dice", "surface " + unit.Name(), "balls " + unit.Name() });
   }
-  const auto number = [](double value, int digits) {
-    char text[64];
-    std::snprintf(text, sizeof(text), "%.*f", digits, value);
-    return std::string(text);
-  };
   for (const ReconstructedLabel & label : result.labels)
   {
     rows.push_back(
@@ -326,9 +330,11 @@ ReconstructText(const ReconstructResult & result)
     if (label.comparison)
     {
       const ReconstructComparison & c = *label.comparison;
-      rows.back().insert(
-        rows.back().end(),
-        { std::to_string(c.voxels), number(c.dice, 4), number(c.surfaceDistanceMm, 3), number(c.boundaryGapMm, 3) });
+      rows.back().insert(rows.back().end(),
+                         { std::to_string(c.voxels),
+                           FixedText(c.dice, 4),
+                           unit.Text(c.surfaceDistanceMm, 1, 3),
+                           unit.Text(c.boundaryGapMm, 1, 3) });
     }
   }
   return FormatTable(rows);

@@ -32,7 +32,10 @@ PictureOptionsOf(const RenderJobOptions & options)
                      : options.coloring == "ErosionThickness" ? PictureColoring::ErosionThickness
                      : options.coloring == "Label"            ? PictureColoring::Label
                                                               : PictureColoring::Radius;
+  picture.shrink = options.shrink;
   picture.range = options.range;
+  picture.shares = { options.shares[0], options.shares[1] };
+  picture.eachLabel = options.eachLabel;
   picture.dark = options.background == "dark";
   picture.tubes = options.tubes;
   picture.panels = options.panels;

@@ -1,5 +1,6 @@
 #include "voxelcore/ReportTable.h"
 
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/SkeletonModel.h"
 
 #include <algorithm>
@@ -18,12 +19,17 @@ Width(const std::string & text)
     std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-std::string
-Fixed(double value, int digits = 2)
+/** The unit for lengths of which `lengthOf` gives one for each label. */
+template <typename LengthOf>
+LengthUnit
+UnitOf(const CoreReport & report, LengthOf && lengthOf)
 {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", digits, value);
-  return text;
+  double longest = 0;
+  for (const LabelRecord & label : report.labels)
+  {
+    longest = std::max(longest, lengthOf(label));
+  }
+  return LengthUnit::For(longest);
 }
 
 } // namespace
@@ -67,12 +73,20 @@ ReportTable(const CoreReport & report)
 {
   std::vector<std::string> head{ "label", "name", "voxels", "boundary vertices", "core faces" };
   const bool               bumps = !report.parameters.bumps.empty();
+  const LengthUnit         unit = UnitOf(report, [](const LabelRecord & label) {
+    double gap = 0;
+    for (const PrunedRecord & pruned : label.pruned)
+    {
+      gap = std::max(gap, pruned.bumps ? pruned.bumps->boundaryGapMm.value_or(0) : 0);
+    }
+    return gap;
+  });
   for (const std::string & value : bumps ? report.parameters.bumps : report.parameters.lambda)
   {
     head.push_back("faces at " + value);
     if (bumps)
     {
-      head.emplace_back("gap mm");
+      head.emplace_back("gap " + unit.Name());
     }
   }
   for (const char * title : { "shape chi/b0/b1/b2", "core chi/b0/b1/b2", "certificate", "seconds" })
@@ -94,35 +108,36 @@ ReportTable(const CoreReport & report)
       if (bumps)
       {
         const auto gap = pruned.bumps ? pruned.bumps->boundaryGapMm : std::nullopt;
-        row.push_back(gap ? Fixed(*gap, 3) : "-");
+        row.push_back(gap ? unit.Text(*gap, 1, 3) : "-");
       }
     }
     row.push_back(TopologyText(label.shape));
     row.push_back(TopologyText(label.core.topology));
     row.emplace_back(label.Passed() ? "passed" : "FAILED");
-    row.push_back(Fixed(label.seconds));
+    row.push_back(DecimalText(label.seconds, 2));
     rows.push_back(std::move(row));
     boundaryVertices += label.boundaryVertices;
   }
-  char peak[32];
-  std::snprintf(peak, sizeof(peak), "%.0f", report.peakMemoryMb);
   return FormatTable(rows) + std::to_string(report.labels.size()) +
          (report.parameters.edits.splitComponents ? " component" : " label") +
          (report.labels.size() == 1 ? ", " : "s, ") + std::to_string(boundaryVertices) + " boundary vertices, " +
-         Fixed(report.seconds.total) + " s, peak memory " + peak + " MB\n";
+         DecimalText(report.seconds.total, 2) + " s, peak memory " + DecimalText(report.peakMemoryMb, 0) + " MB\n";
 }
 
 std::string
 SkeletonTable(const CoreReport & report)
 {
+  const LengthUnit                      unit = UnitOf(report, [](const LabelRecord & label) {
+    return label.skeleton ? label.skeleton->numbers.totalLength : 0.0;
+  });
   std::vector<std::vector<std::string>> rows{ { "label",
                                                 "name",
                                                 "branches",
                                                 "tips",
                                                 "junctions",
                                                 "cycles",
-                                                "length mm",
-                                                "mean radius mm",
+                                                "length " + unit.Name(),
+                                                "mean radius " + unit.Name(),
                                                 "shape chi/b0/b1/b2",
                                                 "skeleton chi/b0/b1/b2",
                                                 "certificate" } };
@@ -137,8 +152,8 @@ SkeletonTable(const CoreReport & report)
                        std::to_string(n.tips),
                        std::to_string(n.junctions),
                        std::to_string(n.cycles),
-                       Fixed(n.totalLength),
-                       Fixed(n.meanRadius),
+                       unit.Text(n.totalLength),
+                       unit.Text(n.meanRadius),
                        TopologyText(label.shape),
                        TopologyText(label.skeleton->topology),
                        label.Passed() ? "passed" : "FAILED" });

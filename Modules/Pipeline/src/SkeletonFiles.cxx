@@ -3,6 +3,7 @@
 #include "JobTools.h"
 #include "MakeSkeleton.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
 
 #include <algorithm>
@@ -43,15 +44,10 @@ RadiiText(const MedialModel & surfaces)
 std::string
 CutText(const LoopCut & cut)
 {
-  char text[160];
-  std::snprintf(text,
-                sizeof(text),
-                ": a cycle was cut at %.2f, %.2f, %.2f (LPS mm), radius %.2f mm",
-                cut.position[0],
-                cut.position[1],
-                cut.position[2],
-                cut.radius);
-  return text;
+  const LengthUnit unit = LengthUnit::For(cut.radius);
+  const auto       at = [&](std::size_t axis) { return unit.Text(cut.position[axis]); };
+  return ": a cycle was cut at " + at(0) + ", " + at(1) + ", " + at(2) + " (LPS " + unit.Name() + "), radius " +
+         unit.Text(cut.radius) + " " + unit.Name();
 }
 
 } // namespace

@@ -2,13 +2,13 @@
 
 #include "JobTools.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/RefinedVerification.h"
 #include "voxelcore/Sha256.h"
 #include "voxelcore/ReadInput.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 namespace voxelcore
@@ -119,14 +119,10 @@ GapText(const LabelVerification & label)
   {
     return {};
   }
-  char text[128];
-  std::snprintf(text,
-                sizeof(text),
-                "; boundary within %.4g mm of it (bump height %s, %.4g mm)",
-                *label.report.boundaryGap,
-                label.bumpHeight.c_str(),
-                label.bumpHeightMm);
-  return text;
+  const LengthUnit unit = LengthUnit::For(std::max(*label.report.boundaryGap, label.bumpHeightMm));
+  const auto       length = [&unit](double mm) { return ShortText(unit.Of(mm), 4) + " " + unit.Name(); };
+  return "; boundary within " + length(*label.report.boundaryGap) + " of it (bump height " + label.bumpHeight + ", " +
+         length(label.bumpHeightMm) + ")";
 }
 
 } // namespace

@@ -3,10 +3,12 @@
 #include "CoreJobSteps.h"
 #include "JobTools.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadInput.h"
 #include "voxelcore/ReadMesh.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
@@ -54,14 +56,15 @@ std::string
 LineOf(const std::filesystem::path & target, const MeshVolume & made)
 {
   const ImageGeometry & geometry = made.volume.geometry;
+  const LengthUnit      unit = LengthUnit::For(*std::max_element(geometry.spacing.begin(), geometry.spacing.end()));
   std::ostringstream    line;
   line << target.string() << ": " << geometry.size[0] << " x " << geometry.size[1] << " x " << geometry.size[2]
-       << " voxels of " << geometry.spacing[0];
+       << " voxels of " << ShortText(unit.Of(geometry.spacing[0]), 6);
   if (geometry.spacing[1] != geometry.spacing[0] || geometry.spacing[2] != geometry.spacing[0])
   {
-    line << " x " << geometry.spacing[1] << " x " << geometry.spacing[2];
+    line << " x " << ShortText(unit.Of(geometry.spacing[1]), 6) << " x " << ShortText(unit.Of(geometry.spacing[2]), 6);
   }
-  line << " mm, " << made.volume.labels.front().voxels << " of them in";
+  line << " " << unit.Name() << ", " << made.volume.labels.front().voxels << " of them in";
   return line.str();
 }
 

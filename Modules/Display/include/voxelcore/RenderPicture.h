@@ -1,6 +1,7 @@
 #pragma once
 // Pictures of medial surfaces and curve skeletons, drawn off screen.
 
+#include "voxelcore/ColorRange.h"
 #include "voxelcore/DisplayContent.h"
 #include "voxelcore/Progress.h"
 
@@ -19,25 +20,20 @@ enum class PictureView
   Iso    ///< from anterior, left and superior
 };
 
-enum class PictureColoring
-{
-  Radius,
-  Lambda,
-  ErosionThickness,
-  Label
-};
-
 struct PictureOptions
 {
   int                                  width = 1600; ///< pixels
   int                                  height = 1200;
+  bool                                 shrink = false; ///< below these, where there would be broad margins
   PictureView                          view = PictureView::Auto;
   PictureColoring                      coloring = PictureColoring::Radius;
   bool                                 dark = false;
   bool                                 panels = false; ///< side by side: surface, medial surface, curve skeleton
-  double                               tubes = 0.5;    ///< radius of a curve's tube, in radii of the shape
-  std::optional<std::array<double, 2>> range;          ///< mm that the colour map runs over; else what there is
-  int                                  frames = 1;     ///< of a full turn around the vertical
+  double                               tubes = 0.3;    ///< radius of a curve's tube, in radii of the shape
+  std::optional<std::array<double, 2>> range;          ///< mm that the colour map runs over; else `shares`
+  ColorShares                          shares;
+  bool                                 eachLabel = false; ///< the map runs over each label's own range
+  int                                  frames = 1;        ///< of a full turn around the vertical
 };
 
 /** Red, green, blue, a byte each; rows from the top. */
@@ -48,8 +44,8 @@ struct Picture
   std::vector<std::uint8_t> pixels;
 };
 
-/** Draws each frame and hands it to `take`. Parallel projection, so that the scale bar holds everywhere; a colour bar in
- *  mm, or the names of up to a dozen labels; a cross with the directions of the patient. The surface is translucent where
+/** Draws each frame and hands it to `take`. Parallel projection, so that the scale bar holds everywhere; a colour bar
+ *  that names its unit and says what lies beyond its ends, or the names of up to a dozen labels; a cross with the directions of the patient. The surface is translucent where
  *  something is in it. Where there is no display that can be used, Xvfb is started for the time being.
  *  \throws UsageError when nothing is there to be shown; OutputError when there is neither a display nor Xvfb; Cancelled */
 void

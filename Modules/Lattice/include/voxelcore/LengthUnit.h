@@ -39,6 +39,10 @@ private:
   int m_Thousandths; ///< 0 for mm, 1 for um, 2 for nm
 };
 
+/** `value` with so many decimals. */
+std::string
+DecimalText(double value, int decimals);
+
 /** `value` with so many decimals; with more where fewer than two significant digits would show, so that only 0 reads as
  *  0. */
 std::string

@@ -20,11 +20,14 @@ struct RenderJobOptions
   std::filesystem::path                output;         ///< .png; with a turntable STEM_000.png and so on
   int                                  width = 1600;
   int                                  height = 1200;
+  bool                                 shrink = true; ///< below these, where there would be broad margins
   std::string                          view = "auto";
   std::string                          coloring = "Radius";
-  std::optional<std::array<double, 2>> range;
+  std::optional<std::array<double, 2>> range;                ///< mm at the ends of the colour map; else these shares
+  std::array<double, 2>                shares{ 0.02, 0.98 }; ///< of the area shown
+  bool                                 eachLabel = false;    ///< each label over its own range
   std::string                          background = "white";
-  double                               tubes = 0.5;
+  double                               tubes = 0.3;
   bool                                 panels = false;
   int                                  turntable = 1;
   bool                                 force = false;

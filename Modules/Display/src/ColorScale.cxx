@@ -1,0 +1,61 @@
+#include "ColorScale.h"
+
+#include "voxelcore/DisplayColors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+vtkSmartPointer<vtkLookupTable>
+MakeTable(const ColorRange & range)
+{
+  constexpr int kColors = 256;
+  auto          table = vtkSmartPointer<vtkLookupTable>::New();
+  table->SetNumberOfTableValues(kColors);
+  for (int i = 0; i < kColors; ++i)
+  {
+    const Color color = LengthColor((i + 0.5) / kColors);
+    table->SetTableValue(i, color[0], color[1], color[2], 1);
+  }
+  table->SetNanColor(0.6, 0.6, 0.6, 1);
+  if (!range.IsEmpty())
+  {
+    // One value everywhere has the colour in the middle.
+    const double room = range.high > range.low ? 0 : std::max(std::abs(range.low), 1e-30);
+    table->SetRange(range.low - room, range.high + room);
+  }
+  return table;
+}
+
+} // namespace
+
+ColorScale::ColorScale(const DisplayContent & content, const PictureOptions & options)
+  : m_Range(RangeOfLabels(content.labels, options.coloring, options.shares))
+{
+  if (!IsShown())
+  {
+    return;
+  }
+  if (options.range)
+  {
+    m_Range.low = (*options.range)[0];
+    m_Range.high = (*options.range)[1];
+  }
+  m_Bar = DescribeColorBar(options, m_Range);
+  if (!options.eachLabel)
+  {
+    m_Tables = { MakeTable(m_Range) };
+    return;
+  }
+  for (const DisplayLabel & label : content.labels)
+  {
+    m_Tables.push_back(MakeTable(RangeOfLabels({ &label, 1 }, options.coloring, options.shares)));
+  }
+}
+
+} // namespace voxelcore
