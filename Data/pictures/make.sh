@@ -14,7 +14,7 @@ atlas=/usr/share/mricron/templates/aal.nii.gz
 
 "$voxelcore" phantom root --size 192,192,288 --seed 7 -o root.nrrd -q
 "$voxelcore" core root.nrrd --bumps 1.2diag -o root.vtp --with-skeleton -q
-"$voxelcore" render root.vtp root_skeleton.vtp --scan root.nrrd --panels --size 1050x700 -o "$to/root.png" --force -q
+"$voxelcore" render root.vtp root_skeleton.vtp --scan root.nrrd --panels --size 1050x590 -o "$to/root.png" --force -q
 
 "$voxelcore" core "$atlas" --labels Hippocampus_L --bumps 0.6diag -o part.vtp --with-skeleton -q
 "$voxelcore" render part.vtp part_skeleton.vtp --scan "$atlas" --panels --size 1050x500 -o "$to/hippocampus.png" --force -q
@@ -31,4 +31,4 @@ done
 /usr/bin/python3 "$here/tile.py" "$to/pruning.png" 2 "${tiles[@]}"
 
 "$voxelcore" core "$atlas" -o aal.vtp --bumps 1.2diag -q
-"$voxelcore" render aal.vtp --color Label --view iso --size 800x640 -o "$to/atlas.png" --force -q
+"$voxelcore" render aal.vtp --color Label --view iso --size 800x650 -o "$to/atlas.png" --force -q

@@ -45,5 +45,30 @@ TEST(ReportTable, HasARowPerLabelAndAColumnPerLambda)
   EXPECT_NE(ReportTable(report).find("FAILED"), std::string::npos);
 }
 
+TEST(ReportTable, NanometresAreNoZeros)
+{
+  CoreReport report;
+  report.parameters.bumps = { "1.2diag" };
+  LabelRecord label;
+  label.pruned.resize(1);
+  label.pruned[0].bumps = BumpRecord{};
+  label.pruned[0].bumps->boundaryGapMm = 48.07e-6;
+  label.skeleton = SkeletonRecord{};
+  label.skeleton->numbers.totalLength = 0.32e-3;
+  label.skeleton->numbers.meanRadius = 32.1e-6;
+  report.labels = { label };
+  EXPECT_NE(ReportTable(report).find("gap nm"), std::string::npos);
+  EXPECT_NE(ReportTable(report).find("48.070"), std::string::npos);
+  const std::string table = SkeletonTable(report);
+  EXPECT_NE(table.find("length um"), std::string::npos);
+  EXPECT_NE(table.find("mean radius um"), std::string::npos);
+  EXPECT_NE(table.find(" 0.32 "), std::string::npos);
+  EXPECT_NE(table.find(" 0.032 "), std::string::npos);
+  report.labels[0].skeleton->numbers.totalLength = 123.456;
+  report.labels[0].skeleton->numbers.meanRadius = 1.5;
+  EXPECT_NE(SkeletonTable(report).find("  length mm"), std::string::npos);
+  EXPECT_NE(SkeletonTable(report).find("123.46            1.50"), std::string::npos);
+}
+
 } // namespace
 } // namespace voxelcore
