@@ -86,7 +86,8 @@ TEST_F(BumpCommand, FilesInAFolderAreNamedByHeight)
   {
     names.insert(entry.path().filename().string());
   }
-  EXPECT_EQ(names, (Names{ "a_label-3_medial_bumps-1vox.vtp", "a_label-3_medial_bumps-2vox.vtp" }));
+  EXPECT_EQ(names,
+            (Names{ "a_label-3_medial_bumps-1vox.vtp", "a_label-3_medial_bumps-2vox.vtp", "a_medial_finished.jsonl" }));
 }
 
 TEST_F(BumpCommand, PruneGivesTheBytesOfCore)

@@ -99,7 +99,9 @@ TEST_F(CoreCommand, AFolderReceivesAFilePerLabel)
   {
     names.insert(entry.path().filename().string());
   }
-  EXPECT_EQ(names, (Names{ "a_label-1_medial.vtp", "a_label-2_medial.vtp", "a_label-9_medial.vtp" }));
+  EXPECT_EQ(
+    names,
+    (Names{ "a_label-1_medial.vtp", "a_label-2_medial.vtp", "a_label-9_medial.vtp", "a_medial_finished.jsonl" }));
 }
 
 TEST_F(CoreCommand, EveryFormatIsWritten)
