@@ -185,7 +185,8 @@ TEST(CoreJob, AFolderReceivesAFilePerLabelAndLambda)
             (std::set<std::string>{ "s_label-1_medial_lambda-0.vtp",
                                     "s_label-1_medial_lambda-1.5vox.vtp",
                                     "s_label-5_medial_lambda-0.vtp",
-                                    "s_label-5_medial_lambda-1.5vox.vtp" }));
+                                    "s_label-5_medial_lambda-1.5vox.vtp",
+                                    "s_medial_finished.jsonl" }));
 }
 
 TEST(CoreJob, AFileDoesNotDependOnWhatElseTheRunMakes)
@@ -210,11 +211,16 @@ TEST(CoreJob, CancellingAtAnyMomentLeavesNothing)
     ++calls;
     return true;
   };
-  CoreOptions options = Options(folder / "s.nrrd", folder / "new/");
+  CoreOptions options = Options(folder / "s.nrrd", folder / "m.vtp");
   options.report = folder / "r.json";
+  const auto clear = [&folder] {
+    for (const char * name : { "m_lambda-0.vtp", "m_lambda-1.5vox.vtp", "r.json" })
+    {
+      EXPECT_TRUE(std::filesystem::remove(folder / name)) << name;
+    }
+  };
   RunCoreJob(options, counting);
-  std::filesystem::remove_all(folder / "new");
-  std::filesystem::remove(folder / "r.json");
+  clear();
   ASSERT_GT(calls, 5);
   for (int stop = 0; stop < calls; ++stop)
   {
@@ -225,14 +231,53 @@ TEST(CoreJob, CancellingAtAnyMomentLeavesNothing)
     {
       RunCoreJob(options, stopping);
       // An engine that polls by the clock may call a little less often from run to run.
-      std::filesystem::remove_all(folder / "new");
-      std::filesystem::remove(folder / "r.json");
+      clear();
       EXPECT_LE(seen, stop);
     }
     catch (const Cancelled &)
     {}
     EXPECT_EQ(folder.Names(), std::set<std::string>{ "s.nrrd" }) << "stopped at call " << stop;
   }
+}
+
+TEST(CoreJob, CancellingLeavesWholeLabelsInAFolder)
+{
+  const TemporaryFolder folder;
+  WriteScan(folder / "s.nrrd");
+  RunCoreJob(Options(folder / "s.nrrd", folder / "whole/"));
+  int       seen = 0;
+  bool      isDone = false;
+  const int most = 100000;
+  for (int stop = 0; !isDone && stop < most; stop += 1 + stop / 8)
+  {
+    JobContext stopping;
+    seen = 0;
+    stopping.progress = [&](std::string_view, double) { return seen++ != stop; };
+    try
+    {
+      RunCoreJob(Options(folder / "s.nrrd", folder / "new/"), stopping);
+      isDone = true;
+    }
+    catch (const Cancelled &)
+    {}
+    for (const auto & entry : std::filesystem::directory_iterator(folder.Path()))
+    {
+      EXPECT_TRUE(entry.path().filename() == "s.nrrd" || entry.is_directory());
+    }
+    std::error_code none;
+    for (const auto & entry : std::filesystem::directory_iterator(folder / "new", none))
+    {
+      if (entry.path().extension() == ".vtp")
+      {
+        EXPECT_EQ(ReadAll(entry.path()), ReadAll(folder / "whole" / entry.path().filename()));
+      }
+      else
+      {
+        EXPECT_EQ(entry.path().filename(), "s_medial_finished.jsonl");
+      }
+    }
+  }
+  EXPECT_TRUE(isDone);
 }
 
 TEST(CoreJob, ProgressNeverRunsBackwards)
