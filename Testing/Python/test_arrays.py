@@ -1,5 +1,7 @@
 """Whatever the array looks like in memory, the core is that of its values; or there is one clear line."""
 
+import re
+
 import numpy
 import pytest
 import voxelcore
@@ -128,6 +130,18 @@ def test_options_that_make_no_sense_are_refused_in_one_line(volume, options, wor
     with pytest.raises(ValueError, match=words) as caught:
         voxelcore.core(volume, **options)
     assert "\n" not in str(caught.value)
+
+
+def test_a_grey_array_asks_for_a_threshold():
+    x, y, z = numpy.mgrid[:32, :32, :32] - 15.5
+    inside = x**2 + y**2 + z**2 < 100
+    grey = numpy.where(inside, 150, 60) + numpy.random.default_rng(5).normal(0, 8, inside.shape)
+    for array in (grey.astype(numpy.uint8), grey.astype(numpy.int16) - 1000, grey.astype(numpy.float32)):
+        with pytest.raises(ValueError, match=r"looks like a grey scan.*threshold=\((-?[\d.]+), numpy.inf\)") as caught:
+            voxelcore.core(array)
+        low = float(re.search(r"threshold=\((-?[\d.]+)", str(caught.value)).group(1))
+        core = voxelcore.core(array, threshold=(low, numpy.inf), bumps="1.2diag")
+        assert abs(core.voxels - inside.sum()) < 0.02 * inside.sum()
 
 
 def test_several_labels_ask_for_a_choice():

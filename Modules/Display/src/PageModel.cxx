@@ -2,6 +2,7 @@
 
 #include "PageNumbers.h"
 #include "ShownMesh.h"
+#include "voxelcore/ColorRange.h"
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/SideBySide.h"
@@ -23,38 +24,12 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/** The least and the greatest of some values, and what the colours run over: all but the lowest and the highest 2 %. */
-struct Range
-{
-  double least = 1;
-  double greatest = 0;
-  double low = 0;
-  double high = 0;
-
-  bool
-  IsEmpty() const
-  {
-    return least > greatest;
-  }
-};
-
-Range
-RangeOf(std::vector<double> values)
-{
-  std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  if (values.empty())
-  {
-    return {};
-  }
-  std::sort(values.begin(), values.end());
-  const auto at = [&values](double share) {
-    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
-  };
-  return { values.front(), values.back(), at(0.02), at(0.98) };
-}
-
 constexpr int                         kMapColors = 65; // enough for the page to go straight between them
 constexpr std::array<const char *, 3> kArrays{ "Radius", "Lambda", "ErosionThickness" };
+
+constexpr std::array<PictureColoring, 3> kColorings{ PictureColoring::Radius,
+                                                     PictureColoring::Lambda,
+                                                     PictureColoring::ErosionThickness };
 
 /** In the order of kArrays; null where there is none. */
 using ValueArrays = std::array<const std::vector<double> *, 3>;
@@ -73,6 +48,21 @@ CurveArrays(const DisplayLabel & label)
   return { &label.curves.radius, nullptr, &label.curves.erosionThickness };
 }
 
+/** Takes all values into `range`'s least and greatest, those too which no colour goes by as they are of points: the page's
+ *  codes run from one to the other. */
+void
+Widen(ColorRange & range, const std::vector<double> & values)
+{
+  for (const double value : values)
+  {
+    if (std::isfinite(value) && !range.IsEmpty())
+    {
+      range.least = std::min(range.least, value);
+      range.greatest = std::max(range.greatest, value);
+    }
+  }
+}
+
 /** nlohmann-json would write null for what is not finite; the page could do nothing with it. */
 template <typename T, std::size_t N>
 void
@@ -83,6 +73,23 @@ RequireFinite(const std::array<T, N> & numbers, const DisplayLabel & label)
     if (!std::isfinite(number))
     {
       throw Error("the page cannot show label '" + label.name + "': it has a place or a colour that is no number");
+    }
+  }
+}
+
+void
+RequireFinitePlaces(const DisplayLabel & label)
+{
+  RequireFinite(label.color, label);
+  for (const auto & place : label.surface.points)
+  {
+    RequireFinite(place, label);
+  }
+  for (const auto * places : { &label.medial.core.positions, &label.curves.positions })
+  {
+    for (const auto & place : *places)
+    {
+      RequireFinite(place, label);
     }
   }
 }
@@ -113,6 +120,10 @@ public:
   PageModel
   Make(const ProgressCallback & progress)
   {
+    for (const DisplayLabel & label : m_Content.labels)
+    {
+      RequireFinitePlaces(label);
+    }
     FindRanges();
     Simplify(progress);
     Json labels = Json::array();
@@ -152,7 +163,7 @@ public:
   }
 
 private:
-  using Ranges = std::array<Range, kArrays.size()>; ///< in the order of kArrays
+  using Ranges = std::array<ColorRange, kArrays.size()>; ///< in the order of kArrays
 
   struct ShownLabel
   {
@@ -164,23 +175,31 @@ private:
   void
   FindRanges()
   {
+    const std::size_t count = m_Content.labels.size();
     for (std::size_t i = 0; i < kArrays.size(); ++i)
     {
-      std::vector<double> all;
-      for (std::size_t k = 0; k < m_Content.labels.size(); ++k)
+      std::vector<std::vector<WeightedValue>> values(count);
+      RunEach(count, [&](std::size_t k) {
+        values[k] = ShownValues(m_Content.labels[k], kColorings[i]);
+        m_LabelRanges[k][i] = RangeOfShares(values[k]);
+      });
+      std::vector<WeightedValue> all;
+      for (const auto & some : values)
       {
-        std::vector<double> values;
+        all.insert(all.end(), some.begin(), some.end());
+      }
+      m_Ranges[i] = RangeOfShares(std::move(all));
+      for (std::size_t k = 0; k < count; ++k)
+      {
         for (const ValueArrays & arrays : { MedialArrays(m_Content.labels[k]), CurveArrays(m_Content.labels[k]) })
         {
           if (arrays[i] != nullptr)
           {
-            values.insert(values.end(), arrays[i]->begin(), arrays[i]->end());
+            Widen(m_LabelRanges[k][i], *arrays[i]);
+            Widen(m_Ranges[i], *arrays[i]);
           }
         }
-        all.insert(all.end(), values.begin(), values.end());
-        m_LabelRanges[k][i] = RangeOf(std::move(values));
       }
-      m_Ranges[i] = RangeOf(std::move(all));
     }
   }
 
@@ -231,13 +250,12 @@ private:
   }
 
   Json
-  MeshJson(const ShownMesh & mesh, const ValueArrays & arrays, const DisplayLabel & label)
+  MeshJson(const ShownMesh & mesh, const ValueArrays & arrays)
   {
     std::array<float, 3> low = mesh.points.at(0);
     std::array<float, 3> high = low;
     for (const auto & point : mesh.points)
     {
-      RequireFinite(point, label);
       for (std::size_t k = 0; k < 3; ++k)
       {
         low[k] = std::min(low[k], point[k]);
@@ -319,7 +337,7 @@ private:
     const auto add = [&](const char * kind, ShownMesh & mesh, const ValueArrays & arrays) {
       if (!mesh.points.empty())
       {
-        json[kind] = MeshJson(mesh, arrays, label);
+        json[kind] = MeshJson(mesh, arrays);
         mesh = {};
       }
     };
