@@ -168,7 +168,7 @@ MakeCores(const ArrayView &        array,
     throw InputError("the array: " + GreyScanText(error.grey) + "; choose a range, for example threshold=(" +
                      range.substr(0, range.find(':')) + ", numpy.inf) by Otsu, or give label= if its values are labels");
   }
-  const SpacingWeights weights = ComputeSpacingWeights(geometry.spacing);
+  const SpacingWeights weights = ComputeLatticeWeights(report.input.geometry);
   ParameterRecord &    parameters = report.parameters;
   parameters.labels = { label.value };
   parameters.binary = options.reading.binary;

@@ -54,6 +54,70 @@ TEST_F(BadInput, MissingFile)
   ExpectUnfit("none.tif");
 }
 
+TEST_F(BadInput, LengthsAndPlacesThatCannotBeExact)
+{
+  TestScan ball({ 9, 9, 9 });
+  ball.Fill({ 2, 2, 2 }, { 6, 6, 6 }, 1);
+  WriteNrrd(m_Folder / "a.nrrd", ball);
+  const std::string bytes(ball.voxels.begin(), ball.voxels.end());
+  const std::string sizes = "type: uint8\ndimension: 3\nspace: LPS\nsizes: 9 9 9\nencoding: raw\n";
+  WriteNrrd(m_Folder / "far.nrrd",
+            sizes + "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (1.8446744e19,0,0)\n",
+            bytes);
+  WriteNrrd(m_Folder / "long.nrrd",
+            sizes + "space directions: (1,0,0) (0,1e26,0) (0,0,2)\nspace origin: (0,0,0)\n",
+            bytes);
+  const Names before = m_Folder.Names();
+  const auto  refused = [&](const std::string & command, const std::string & scan, const std::string & spacing) {
+    std::vector<std::string> arguments{ command, m_Folder / scan, "-o", m_Folder / "out.vtp" };
+    if (!spacing.empty())
+    {
+      arguments.insert(arguments.end(), { "--spacing", spacing });
+    }
+    ExpectRefusal(RunProgram(arguments), 3, { scan, scan == "far.nrrd" ? "correct its origin" : "--spacing X,Y,Z" });
+    EXPECT_EQ(m_Folder.Names(), before);
+  };
+  for (const char * command : { "core", "skeleton" })
+  {
+    refused(command, "far.nrrd", "");
+    refused(command, "long.nrrd", "");
+    refused(command, "a.nrrd", "0.0001,1,1");
+    refused(command, "a.nrrd", "1,1,4294967297");
+    refused(command, "a.nrrd", "4.6e-41,1,2");
+    refused(command, "a.nrrd", "4.6e-41,4.6e-41,4.6e-41");
+  }
+  const ProgramResult info = RunProgram({ "info", m_Folder / "far.nrrd" });
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.error.find("no core can be made"), std::string::npos) << info.error;
+  // A file made for another spacing is measured with that of the scan it is checked against.
+  ASSERT_EQ(RunProgram({ "core", m_Folder / "a.nrrd", "-o", m_Folder / "out.vtp" }).code, 0);
+  ExpectRefusal(RunProgram({ "verify", m_Folder / "far.nrrd", m_Folder / "out.vtp" }), 3, { "far.nrrd" });
+}
+
+TEST_F(BadInput, DamagedGeometriesOfAnOutsideCampaign)
+{
+  const char * const data = std::getenv("VOXELCORE_TEST_DATA");
+  if (data == nullptr || !std::filesystem::exists(std::filesystem::path(data) / "faults/11-602-raw.nrrd"))
+  {
+    GTEST_SKIP() << "VOXELCORE_TEST_DATA names no folder with faults/";
+  }
+  const std::filesystem::path folder = std::filesystem::path(data) / "faults";
+  for (const char * name : { "11-602-raw.nrrd",
+                             "11-681-raw.nrrd",
+                             "12-1314-dgz.nhdr",
+                             "11-2694-two.seg.nrrd",
+                             "12-886-f.nii",
+                             "11-2235-p.hdr" })
+  {
+    for (const char * command : { "core", "skeleton" })
+    {
+      const ProgramResult result = RunProgram({ command, folder / name, "-o", m_Folder / "out.vtp", "--quiet" });
+      EXPECT_EQ(result.code, 3) << command << " " << name << ": " << result.error;
+      EXPECT_LT(result.seconds, 10) << command << " " << name;
+    }
+  }
+}
+
 TEST_F(BadInput, EmptyFile)
 {
   for (const char * name : { "a.nrrd", "a.nhdr", "a.nii", "a.nii.gz", "a.mha", "a.mhd", "a.tif" })

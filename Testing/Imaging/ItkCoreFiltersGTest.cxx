@@ -338,6 +338,15 @@ TEST(ItkCoreFilters, RefuseInOneLine)
   shapes->SetGeometry(geometry);
   core->SetInput(shapes);
   ThrownBy([&] { core->Update(); });
+
+  // Lengths that no weights have, and places that doubles cannot tell apart.
+  geometry.spacing = { 0.0001, 1, 1 };
+  shapes->SetGeometry(geometry);
+  ThrownBy([&] { core->Update(); });
+  geometry.spacing = { 1, 1, 1 };
+  geometry.origin[0] = 1.8446744e19;
+  shapes->SetGeometry(geometry);
+  ThrownBy([&] { core->Update(); });
   if (!HasEngine(Engine::TetGen))
   {
     core->SetEngine(Engine::TetGen);

@@ -146,8 +146,28 @@ TEST(ItkFiles, TheExampleWritesTheLibrarysBytes)
   }
   ASSERT_EQ(model.parts.size(), 2U);
   ASSERT_GT(model.parts[0].core.cells.FaceCount(), 0U);
-  WriteModel(folder / "library.vtp", folder / "library.vtp", model);
+  model.provenance = ReadModel(folder / "itk.vtp").provenance;
+  EXPECT_NE(model.provenance, "");
+  WriteModel(folder / "library.vtp", folder / "library.vtp", model, { .keepEdges = true });
   EXPECT_EQ(ReadFile(folder / "itk.vtp"), ReadFile(folder / "library.vtp"));
+
+#ifdef VOXELCORE_PROGRAM
+  // The program takes the file: the scan is left-handed, too.
+  const auto program = [&](const std::string & arguments) {
+    const std::string command = "cd \"" + folder.Path().string() + "\" && \"" VOXELCORE_PROGRAM "\" " + arguments;
+    return std::system((command + " -q > out 2>&1").c_str());
+  };
+  EXPECT_EQ(program("verify scan.nrrd itk.vtp"), 0) << ReadFile(folder / "out");
+  ASSERT_EQ(run("scan.nrrd", "0", "whole.vtp"), 0) << ReadFile(folder / "err");
+  EXPECT_EQ(program("verify scan.nrrd whole.vtp"), 0) << ReadFile(folder / "out");
+  EXPECT_EQ(program("prune whole.vtp --lambda 2vox -o pruned.vtp"), 0) << ReadFile(folder / "out");
+  EXPECT_TRUE(SameBits(ReadModel(folder / "pruned.vtp"), ReadModel(folder / "itk.vtp")));
+  EXPECT_EQ(program("skeleton whole.vtp -o skeleton.vtp"), 0) << ReadFile(folder / "out");
+  if (std::system("command -v Xvfb > /dev/null") == 0)
+  {
+    EXPECT_EQ(program("render itk.vtp -o itk.png"), 0) << ReadFile(folder / "out");
+  }
+#endif
 
   EXPECT_NE(run("scan.nrrd", "2ells", "bad.vtp"), 0);
   EXPECT_NE(ReadFile(folder / "err").find("2ells"), std::string::npos);

@@ -43,7 +43,10 @@ main(int argc, char ** argv)
     {
       model.parts.push_back(voxelcore::ToPhysical(*part.complex, pruned->GetOutput()->GetGeometry(), part.label));
     }
-    voxelcore::WriteModel(argv[3], argv[3], model);
+    // With the measures of all edges, and a record of what they are of, `voxelcore prune` and others take the file.
+    const voxelcore::ModelOptions options{ .keepEdges = true };
+    model.provenance = pruned->GetOutput()->GetProvenance(options.keepEdges);
+    voxelcore::WriteModel(argv[3], argv[3], model, options);
   }
   catch (const itk::ExceptionObject & error)
   {

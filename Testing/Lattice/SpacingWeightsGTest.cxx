@@ -159,12 +159,94 @@ TEST(SpacingWeights, RatiosWithoutSmallIntegersGetTheBestUpTo4096AndSayHowFarOff
   }
 }
 
-TEST(SpacingWeights, ExtremeSlabsStillHaveWeightsOfAtLeastOne)
+TEST(SpacingWeights, RatiosThatNoWeightsMatchAreRefused)
 {
-  const SpacingWeights weights = ComputeSpacingWeights({ 0.001, 1.0, 100.0 });
-  EXPECT_EQ(weights.weight[0], 1);
-  EXPECT_EQ(weights.weight[2], 4096);
-  EXPECT_GT(weights.deviation, 1.0);
+  for (const std::array<double, 3> & spacing :
+       std::initializer_list<std::array<double, 3>>{ { 0.0001, 1, 1 },
+                                                     { 0.001, 1, 100 },
+                                                     { 1, 1, 4096 * 1.0011 },
+                                                     { 1, std::sqrt(2.0), 1000 },
+                                                     { 1, 1, 4294967297.0 },
+                                                     { 1, 1e26, 2 },
+                                                     { 1, 1.08420217e-19, 2 } })
+  {
+    try
+    {
+      ComputeSpacingWeights(spacing);
+      FAIL() << ::testing::PrintToString(spacing);
+    }
+    catch (const InputError & error)
+    {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("give the right spacing"), std::string::npos) << text;
+      EXPECT_EQ(text.find("--"), std::string::npos) << "libraries have no options: " << text;
+    }
+  }
+}
+
+TEST(SpacingWeights, DeviationsUpToAThousandthAreAccepted)
+{
+  // One to the largest weight is the best there is for these, and what is missing is the deviation.
+  for (const double deviation : { 0.5e-6, 2e-6, 1e-4, 0.999e-3 })
+  {
+    const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 4096 * (1 + deviation) });
+    EXPECT_EQ(weights.weight, (Weights{ 1, 1, 4096 }));
+    EXPECT_NEAR(weights.deviation, deviation, 1e-12);
+  }
+  EXPECT_THROW(ComputeSpacingWeights({ 1, 1, 4096 * (1 + 1.001e-3) }), InputError);
+  // Ratios that no whole numbers have at all.
+  for (const std::array<double, 3> & spacing :
+       std::initializer_list<std::array<double, 3>>{ { 1, std::sqrt(2.0), std::acos(-1.0) },
+                                                     { std::exp(1.0), std::sqrt(3.0), 0.1 },
+                                                     { 1, std::sqrt(2.0), 100 } })
+  {
+    EXPECT_LE(ComputeSpacingWeights(spacing).deviation, kLargestDeviation);
+  }
+}
+
+TEST(SpacingWeights, SpacingsThatNothingHasAreRefused)
+{
+  for (const double bad : { 4.6e-41, 5e-324, 1e-13, 1e13, 1e300 })
+  {
+    EXPECT_THROW(ComputeSpacingWeights({ bad, bad, bad }), InputError) << bad;
+  }
+  for (const double good : { 1e-12, 1e-6, 1e6, 1e12 })
+  {
+    EXPECT_EQ(ComputeSpacingWeights({ good, good, good }).unit, good);
+  }
+}
+
+TEST(SpacingWeights, OfAnImageNeedPlacesThatDoublesTellApart)
+{
+  ImageGeometry geometry;
+  geometry.size = { 100, 100, 100 };
+  EXPECT_EQ(ComputeLatticeWeights(geometry).weight, (Weights{ 1, 1, 1 }));
+  for (const double far : { 1.8446744e19, -1e15, 1e11, std::nan(""), std::numeric_limits<double>::infinity() })
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      ImageGeometry off = geometry;
+      off.origin[axis] = far;
+      EXPECT_THROW(ComputeLatticeWeights(off), InputError) << far;
+    }
+  }
+  geometry.direction[4] = std::nan("");
+  EXPECT_THROW(ComputeLatticeWeights(geometry), InputError);
+}
+
+TEST(SpacingWeights, AMicrometreAKilometreAwayIsAPlace)
+{
+  ImageGeometry geometry;
+  geometry.size = { 4096, 4096, 4096 };
+  geometry.spacing = { 0.001, 0.001, 0.001 };
+  geometry.origin = { 1e6, -1e6, 1e6 };
+  EXPECT_EQ(ComputeLatticeWeights(geometry).unit, 0.001);
+  const Vector3 there{ 4000.25, 17.5, 0.125 };
+  const Vector3 back = PhysicalToLattice(geometry, LatticeToPhysical(geometry, there));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(back[axis], there[axis], 1e-6);
+  }
 }
 
 TEST(SpacingWeights, TheUnitIsTheGeometricMeanOfSpacingOverWeight)

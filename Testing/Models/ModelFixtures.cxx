@@ -1,7 +1,6 @@
 #include "Models/ModelFixtures.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -112,39 +111,6 @@ RandomModel(std::uint64_t seed, int n, int parts)
   }
   model.provenance = "{}";
   return model;
-}
-
-bool
-SameBits(const MedialModel & a, const MedialModel & b)
-{
-  const auto same = [](const std::vector<double> & x, const std::vector<double> & y) {
-    return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](double u, double v) {
-      return std::bit_cast<std::uint64_t>(u) == std::bit_cast<std::uint64_t>(v);
-    });
-  };
-  bool equal = a.provenance == b.provenance && a.hasEdges == b.hasEdges && a.parts.size() == b.parts.size();
-  for (std::size_t i = 0; equal && i < a.parts.size(); ++i)
-  {
-    const MedialComplex & x = a.parts[i].core;
-    const MedialComplex & y = b.parts[i].core;
-    std::vector<double>   xPositions;
-    std::vector<double>   yPositions;
-    for (const auto & position : x.positions)
-    {
-      xPositions.insert(xPositions.end(), position.begin(), position.end());
-    }
-    for (const auto & position : y.positions)
-    {
-      yPositions.insert(yPositions.end(), position.begin(), position.end());
-    }
-    equal = a.parts[i].label == b.parts[i].label && a.parts[i].component == b.parts[i].component &&
-            x.cells.vertexCount == y.cells.vertexCount && x.cells.edges == y.cells.edges &&
-            x.cells.faceOffsets == y.cells.faceOffsets && x.cells.faceVertices == y.cells.faceVertices &&
-            x.cells.faceEdges == y.cells.faceEdges && same(xPositions, yPositions) && same(x.radius, y.radius) &&
-            same(x.vertexLambda, y.vertexLambda) && same(x.edgeLambda, y.edgeLambda) &&
-            same(x.faceLambda, y.faceLambda);
-  }
-  return equal;
 }
 
 std::string

@@ -26,10 +26,6 @@ MixedModel();
 MedialModel
 RandomModel(std::uint64_t seed, int n, int parts);
 
-/** Every number equal to the last bit. */
-bool
-SameBits(const MedialModel & a, const MedialModel & b);
-
 std::string
 ReadBytes(const std::filesystem::path & path);
 

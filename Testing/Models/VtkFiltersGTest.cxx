@@ -9,16 +9,17 @@
 #include <gtest/gtest.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkLambdaPruningFilter.h>
 #include <vtkMatrix3x3.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkVoxelCoreFilter.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <sstream>
 
@@ -104,6 +105,16 @@ protected:
     return model;
   }
 
+  /** What a filter gives, without the record of how. */
+  static MedialModel
+  Found(vtkPolyDataAlgorithm * filter)
+  {
+    MedialModel model = ModelFromPolyData(*filter->GetOutput());
+    EXPECT_FALSE(model.provenance.empty());
+    model.provenance.clear();
+    return model;
+  }
+
   ImageGeometry                                    m_Geometry;
   std::vector<std::pair<std::int64_t, VoxelShape>> m_Shapes;
   vtkNew<vtkImageData>                             m_Image;
@@ -114,12 +125,12 @@ protected:
 TEST_F(VtkFilters, GiveTheLibrarysBits)
 {
   m_Core->Update();
-  EXPECT_TRUE(SameBits(ModelFromPolyData(*m_Core->GetOutput()), Expected(0)));
+  EXPECT_TRUE(SameBits(Found(m_Core), Expected(0)));
   for (const double lambda : { 1.0, 0.6, 2.0 }) // up and down: each from the whole core
   {
     m_Pruned->SetLambda(lambda);
     m_Pruned->Update();
-    EXPECT_TRUE(SameBits(ModelFromPolyData(*m_Pruned->GetOutput()), Expected(lambda))) << lambda;
+    EXPECT_TRUE(SameBits(Found(m_Pruned), Expected(lambda))) << lambda;
   }
 }
 
@@ -210,7 +221,7 @@ TEST_F(VtkFilters, AreEmptyAfterAnAbortAndRightAfterTheNextUpdate)
     stopped->Modified();
   }
   m_Pruned->Update();
-  EXPECT_TRUE(SameBits(ModelFromPolyData(*m_Pruned->GetOutput()), Expected(1)));
+  EXPECT_TRUE(SameBits(Found(m_Pruned), Expected(1)));
 }
 
 TEST_F(VtkFilters, WorkOnOneLabel)
@@ -231,8 +242,12 @@ TEST_F(VtkFilters, ReportWhatIsWrongOnceAndLeaveNothing)
     filter->Update();
     filter->RemoveObserver(tag);
     return errors.calls == 1 && errors.said.find(word) != std::string::npos &&
-           vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints() == 0;
+           vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfPoints() == 0 &&
+           filter->GetErrorCode() != vtkErrorCode::NoError;
   };
+  m_Pruned->Update();
+  EXPECT_EQ(m_Core->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(m_Pruned->GetErrorCode(), vtkErrorCode::NoError);
   m_Core->SetLabel(99);
   EXPECT_TRUE(refused(m_Core, "label 99 does not occur"));
   m_Core->SetLabel(0);
@@ -258,6 +273,11 @@ TEST_F(VtkFilters, ReportWhatIsWrongOnceAndLeaveNothing)
   image->SetDirectionMatrix(1, 0.1, 0, 0, 1, 0, 0, 0, 1);
   EXPECT_TRUE(refused(m_Core, "not orthonormal"));
   image->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
+  image->SetSpacing(0.0001, 1, 1);
+  EXPECT_TRUE(refused(m_Core, "0.0001 x 1 x 1 mm has no ratio"));
+  image->SetSpacing(1, 1, 1);
+  image->SetOrigin(1.8446744e19, 0, 0);
+  EXPECT_TRUE(refused(m_Core, "correct its origin"));
   for (const double lambda :
        { -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
@@ -270,6 +290,94 @@ TEST_F(VtkFilters, ReportWhatIsWrongOnceAndLeaveNothing)
   EXPECT_TRUE(refused(m_Pruned, "no medial surface of VoxelCore"));
   m_Pruned->SetInputData(MakePolyData(Expected(0), false));
   EXPECT_TRUE(refused(m_Pruned, "--keep-edges"));
+}
+
+TEST_F(VtkFilters, AreWithoutErrorAgainAfterAFault)
+{
+  m_Core->SetLabel(99);
+  Counter errors;
+  Observe(m_Core, vtkCommand::ErrorEvent, errors);
+  m_Core->Update();
+  EXPECT_NE(m_Core->GetErrorCode(), vtkErrorCode::NoError);
+  m_Core->SetLabel(5);
+  m_Core->Update();
+  EXPECT_EQ(m_Core->GetErrorCode(), vtkErrorCode::NoError);
+}
+
+TEST_F(VtkFilters, SayWhereThePointsLieOnlyWhereItIsKnown)
+{
+  const auto isSaid = [&] {
+    m_Pruned->Update();
+    const bool core = m_Core->GetOutput()->GetFieldData()->GetAbstractArray("SPACE") != nullptr;
+    const bool pruned = m_Pruned->GetOutput()->GetFieldData()->GetAbstractArray("SPACE") != nullptr;
+    EXPECT_EQ(core, pruned);
+    EXPECT_GT(m_Pruned->GetOutput()->GetNumberOfPoints(), 0);
+    return core;
+  };
+  m_Core->SetLabel(5);
+  EXPECT_TRUE(isSaid()); // a direction that is one
+  m_Image->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
+  m_Image->Modified();
+  EXPECT_FALSE(isSaid()); // perhaps what a reader left of it
+  m_Core->ImageIsInLPSOn();
+  EXPECT_TRUE(isSaid());
+  m_Core->ImageIsInLPSOff();
+  vtkNew<vtkMatrix4x4> matrix;
+  m_Core->SetImageToLPSMatrix(matrix);
+  EXPECT_TRUE(isSaid());
+  m_Core->SetImageToRASMatrix(nullptr);
+  EXPECT_FALSE(isSaid());
+}
+
+TEST_F(VtkFilters, AMatrixPlacesPointsAsADirectionDoes)
+{
+  for (const std::array<double, 9> & direction :
+       std::initializer_list<std::array<double, 9>>{ { 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, -1 },
+                                                     { 0.36, 0.48, -0.8, -0.8, 0.6, 0, 0.48, 0.64, 0.6 },
+                                                     { 0, 0, 1, -1, 0, 0, 0, -1, 0 },
+                                                     { -1, 0, 0, 0, 1, 0, 0, 0, 1 } })
+  {
+    m_Geometry.direction = direction;
+    const MedialModel    expected = Expected(0);
+    vtkNew<vtkImageData> bare; // as a reader leaves it that knows of no direction
+    bare->DeepCopy(m_Image);
+    bare->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
+    bare->SetOrigin(0, 0, 0);
+    vtkNew<vtkMatrix4x4> toLps;
+    vtkNew<vtkMatrix4x4> toRas;
+    for (int row = 0; row < 3; ++row)
+    {
+      const double sign = row < 2 ? -1 : 1;
+      for (int column = 0; column < 4; ++column)
+      {
+        const auto   r = static_cast<std::size_t>(row);
+        const double value = column < 3 ? direction[3 * r + static_cast<std::size_t>(column)] : m_Geometry.origin[r];
+        toLps->SetElement(row, column, value);
+        toRas->SetElement(row, column, sign * value);
+      }
+    }
+    m_Core->SetInputData(bare);
+    for (const bool ras : { false, true })
+    {
+      ras ? m_Core->SetImageToRASMatrix(toRas) : m_Core->SetImageToLPSMatrix(toLps);
+      m_Core->Update();
+      const MedialModel found = Found(m_Core);
+      ASSERT_EQ(found.parts.size(), expected.parts.size());
+      for (std::size_t p = 0; p < found.parts.size(); ++p)
+      {
+        const MedialComplex & is = found.parts[p].core;
+        const MedialComplex & should = expected.parts[p].core;
+        ASSERT_EQ(is.cells.faceVertices, should.cells.faceVertices);
+        for (std::size_t v = 0; v < is.positions.size(); ++v)
+        {
+          for (std::size_t a = 0; a < 3; ++a)
+          {
+            ASSERT_NEAR(is.positions[v][a], should.positions[v][a], 1e-9);
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST_F(VtkFilters, TakeImagesWhoseExtentBeginsElsewhere)
@@ -299,31 +407,6 @@ TEST_F(VtkFilters, TakeImagesWhoseExtentBeginsElsewhere)
     }
   }
 }
-
-#ifdef VOXELCORE_VTK_EXAMPLE
-/** The example's file holds the bits of `voxelcore core --keep-edges`. */
-TEST(VtkPipelineExample, WritesWhatTheProgramWrites)
-{
-  const TemporaryFolder folder;
-  const std::string     scan = folder / "scan.mha";
-  const std::string     program = VOXELCORE_PROGRAM;
-  const auto            run = [](const std::string & command) { return std::system(command.c_str()); };
-  ASSERT_EQ(run("'" + program + "' phantom torus --size 40 --spacing 0.5,0.5,1 -o '" + scan + "' -q"), 0);
-  ASSERT_EQ(run("'" + program + "' core '" + scan + "' --lambda 1mm --keep-edges -q -o '" +
-                (folder / "program.vtp").string() + "'"),
-            0);
-  ASSERT_EQ(
-    run(std::string("'") + VOXELCORE_VTK_EXAMPLE + "' '" + scan + "' 2 1 '" + (folder / "example.vtp").string() + "'"),
-    0);
-  MedialModel expected = ReadModel(folder / "program.vtp");
-  ASSERT_GT(expected.parts.at(0).core.cells.FaceCount(), 100U);
-  expected.provenance.clear(); // a filter knows of no command
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName((folder / "example.vtp").c_str());
-  reader->Update();
-  EXPECT_TRUE(SameBits(ModelFromPolyData(*reader->GetOutput()), expected));
-}
-#endif
 
 } // namespace
 } // namespace voxelcore::testing

@@ -23,6 +23,7 @@ main(int argc, char ** argv)
   reader->SetFileName(argv[1]);
   vtkNew<vtkVoxelCoreFilter> core;
   core->SetInputConnection(reader->GetOutputPort());
+  core->ImageIsInLPSOn(); // MetaImage is
   vtkNew<vtkLambdaPruningFilter> pruned;
   pruned->SetInputConnection(core->GetOutputPort());
   for (const char * lambda : { argv[2], argv[3] }) // the second prunes anew, and does nothing else
@@ -34,5 +35,10 @@ main(int argc, char ** argv)
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(pruned->GetOutputPort());
   writer->SetFileName(argv[4]);
+  // So that `voxelcore` takes the file, too.
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
   return writer->Write() == 1 && pruned->GetOutput()->GetNumberOfPoints() > 0 ? 0 : 1;
 }

@@ -176,3 +176,24 @@ def test_what_a_mask_hides_is_outside_any_threshold(volume, dtype, threshold):
 def test_a_mask_for_which_no_value_is_left_is_refused(volume):
     with pytest.raises(ValueError, match="no value is left"):
         voxelcore.core(numpy.ma.MaskedArray(volume, volume > 0), threshold=(0, 255))
+
+
+@pytest.mark.parametrize(
+    "place",
+    [
+        {"spacing": (0.0001, 1, 1)},
+        {"spacing": (1, 1, 2.0**31 + 1)},
+        {"spacing": (4.6e-41, 4.6e-41, 4.6e-41)},
+        {"origin": (1.8446744e19, 0, 0)},
+        {"origin": (float("nan"), 0, 0)},
+    ],
+)
+def test_geometry_without_exact_lengths_is_refused(volume, place):
+    with pytest.raises(ValueError) as caught:
+        voxelcore.core(volume, **place)
+    assert "--" not in str(caught.value)
+
+
+def test_a_micrometre_a_kilometre_away_is_a_place(volume):
+    core = voxelcore.core(volume, spacing=(0.001, 0.001, 0.001), origin=(1e6, 1e6, 1e6))
+    assert core.topology == voxelcore.core(volume).topology

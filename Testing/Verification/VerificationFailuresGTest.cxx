@@ -22,7 +22,7 @@ TEST(VerificationFailures, ArraysThatDoNotFitTogether)
     change(subject.core);
     const Names failed = Failures(subject);
     // Nothing can be checked on such data, and none of it is called good.
-    EXPECT_EQ(failed.size(), 28U);
+    EXPECT_EQ(failed.size(), 29U);
     EXPECT_EQ(failed.front(), "arrays");
   };
   damage([](MedialComplex & core) { core.positions.pop_back(); });
@@ -279,6 +279,21 @@ TEST(VerificationFailures, AnEdgePairLeftByPruning)
     subject.threshold = measure * (1 + 1e-9);
     EXPECT_EQ(Failures(subject).empty(), measure == subject.core.faceLambda[0]);
   }
+}
+
+TEST(VerificationFailures, LengthsThatTheSpacingDoesNotHave)
+{
+  // A core made with weights that are not those of the spacing agrees with itself, and with these weights.
+  VerificationCase squeezed = MakeCase(EllipsoidWithRod(), { 1, 1, 2 });
+  squeezed.spacing = { 1, 1, 2.01 };
+  EXPECT_EQ(Failures(squeezed), Names{ "true spacing" });
+  // Nor does it help to admit to the deviation.
+  squeezed.weights.deviation = 0.005;
+  EXPECT_EQ(Failures(squeezed), Names{ "true spacing" });
+  // Within the deviation that the weights of a spacing may have, it is as good as they can be.
+  squeezed.spacing = { 1, 1, 2 * (1 + 1e-4) };
+  squeezed.weights.deviation = 1e-4;
+  EXPECT_EQ(Failures(squeezed), Names{});
 }
 
 TEST(VerificationFailures, AMissingComponent)

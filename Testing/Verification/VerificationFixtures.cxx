@@ -64,6 +64,7 @@ VerificationCase
 MakeCase(VoxelShape shape, const std::array<double, 3> & spacing, double threshold)
 {
   VerificationCase subject{ std::move(shape), ComputeSpacingWeights(spacing), {}, std::nullopt };
+  subject.spacing = spacing;
   subject.core = ComputeVoxelCore(subject.shape, subject.weights);
   if (threshold > 0)
   {
@@ -79,6 +80,7 @@ InputOf(const VerificationCase & subject)
   VerificationInput input;
   input.shape = &subject.shape;
   input.weights = subject.weights;
+  input.spacing = subject.spacing;
   input.cells = &subject.core.cells;
   input.positions = subject.core.positions;
   input.radius = subject.core.radius;

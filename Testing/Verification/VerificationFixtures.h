@@ -40,6 +40,7 @@ struct VerificationCase
   std::optional<double> threshold;
   double                positionTolerance = 0;
   bool                  polygonsReversed = false;
+  std::array<double, 3> spacing{ 1, 1, 1 };
 };
 
 /** With the core as the product makes it, pruned to `threshold` mm if that is > 0. */

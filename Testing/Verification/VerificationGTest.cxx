@@ -26,7 +26,7 @@ ExpectPasses(const VerificationCase & subject)
 {
   const VerificationReport report = Verify(subject);
   EXPECT_TRUE(report.passed) << Summary(report);
-  EXPECT_EQ(report.checks.size(), 28U);
+  EXPECT_EQ(report.checks.size(), 29U);
   EXPECT_EQ(report.shapeTopology, report.complexTopology);
   for (const VerificationCheck & check : report.checks)
   {
@@ -39,8 +39,9 @@ VerificationCase
 HandmadeRod(std::int32_t length, const std::array<double, 3> & spacing)
 {
   VerificationCase subject{ SolidBox({ length, 1, 1 }), ComputeSpacingWeights(spacing), {}, std::nullopt };
-  const double     halfDiagonal = std::hypot(spacing[0], spacing[1], spacing[2]) / 2;
-  const double     halfSection = std::hypot(spacing[1], spacing[2]) / 2;
+  subject.spacing = spacing;
+  const double halfDiagonal = std::hypot(spacing[0], spacing[1], spacing[2]) / 2;
+  const double halfSection = std::hypot(spacing[1], spacing[2]) / 2;
   subject.core.cells.vertexCount = static_cast<std::size_t>(length);
   for (std::int32_t i = 0; i < length; ++i)
   {

@@ -41,14 +41,14 @@ TEST(VerificationGeometryFailures, AGreaterRadius)
 {
   VerificationCase subject = GoodCase();
   subject.core.radius[17] *= 1 + 1e-8;
-  EXPECT_EQ(Failures(subject), (Names{ "nothing nearer", "radius" }));
+  EXPECT_EQ(Failures(subject), (Names{ "nothing nearer", "radius", "true spacing" }));
 }
 
 TEST(VerificationGeometryFailures, ASmallerRadius)
 {
   VerificationCase subject = GoodCase();
   subject.core.radius[17] *= 1 - 1e-8;
-  EXPECT_EQ(Failures(subject), Names{ "radius" });
+  EXPECT_EQ(Failures(subject), (Names{ "radius", "true spacing" }));
 }
 
 TEST(VerificationGeometryFailures, AnEdgeBetweenStrangers)

@@ -3,6 +3,7 @@
 
 #include "itkVoxelLatticeObject.h"
 
+#include "voxelcore/CoreProvenance.h"
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/TopologyNumbers.h"
 #include "voxelcore/VoxelShape.h"
@@ -39,11 +40,13 @@ public:
   {
     LabelType                                       label = 0;
     std::string                                     name;
-    voxelcore::VoxelBox                             box;             ///< of the shape, in lattice coordinates
-    double                                          lambda = 0;      ///< mm, the threshold it is pruned to
-    voxelcore::TopologyNumbers                      shapeTopology;   ///< counted in the voxels
-    voxelcore::TopologyNumbers                      complexTopology; ///< counted, independently, in the complex
-    std::shared_ptr<const voxelcore::MedialComplex> complex;         ///< never null
+    voxelcore::VoxelBox                             box;              ///< of the shape, in lattice coordinates
+    double                                          lambda = 0;       ///< mm, the threshold it is pruned to
+    std::string                                     lambdaText = "0"; ///< the same as it was given
+    voxelcore::TopologyNumbers                      shapeTopology;    ///< counted in the voxels
+    voxelcore::TopologyNumbers                      complexTopology;  ///< counted, independently, in the complex
+    std::shared_ptr<const voxelcore::MedialComplex> complex;          ///< never null
+    voxelcore::CoreOrigin                           origin;           ///< the shape and the whole core, for files
   };
   using PartContainer = std::vector<Part>;
 
@@ -72,6 +75,11 @@ public:
   {
     return *this->GetPart(label).complex;
   }
+
+  /** What MedialModel::provenance has to be in a file of these cores, so that `voxelcore verify`, `prune`, `skeleton` and
+   *  `render` take it. `keepEdges` as in the ModelOptions it is written with. */
+  std::string
+  GetProvenance(bool keepEdges = false) const;
 
   /** Releases the complexes; the geometry stays. */
   void

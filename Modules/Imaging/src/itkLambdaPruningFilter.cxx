@@ -57,7 +57,7 @@ LambdaPruningFilter::GenerateData()
   OutputType::PartContainer parts = input.GetParts();
   WithItkErrors(this->GetNameOfClass(), [&] {
     const auto &                    spacing = input.GetGeometry().spacing;
-    const voxelcore::SpacingWeights weights = voxelcore::ComputeSpacingWeights(spacing);
+    const voxelcore::SpacingWeights weights = voxelcore::ComputeLatticeWeights(input.GetGeometry());
     double                          total = 0;
     for (const OutputType::Part & part : parts)
     {
@@ -75,6 +75,7 @@ LambdaPruningFilter::GenerateData()
         part.complex = std::make_shared<const voxelcore::MedialComplex>(
           std::move(voxelcore::PruneByLambda(*part.complex, { lambda }, progress).front()));
         part.lambda = lambda;
+        part.lambdaText = m_Lambda.text;
         voxelcore::ReportProgress(progress, "certificate", 1);
         part.complexTopology = voxelcore::ComputeComplexTopology(part.complex->cells);
       }

@@ -1,5 +1,7 @@
 #include "itkMedialComplexObject.h"
 
+#include "itkErrors.h"
+
 #include <algorithm>
 
 namespace itk
@@ -63,6 +65,24 @@ MedialComplexObject::GetPart(LabelType label) const -> const Part &
     itkExceptionMacro("there is no label " << label);
   }
   return *Place(*m_Parts, label);
+}
+
+std::string
+MedialComplexObject::GetProvenance(bool keepEdges) const
+{
+  const voxelcore::ImageGeometry &    geometry = this->GetGeometry();
+  std::vector<voxelcore::CoreOrigin>  origins;
+  std::vector<voxelcore::CorePruning> prunings;
+  for (const Part & part : *m_Parts)
+  {
+    origins.push_back(part.origin);
+    prunings.push_back(
+      { part.lambdaText,
+        part.lambda,
+        voxelcore::DescribeComplex(voxelcore::PlaceInLps(*part.complex, geometry), part.complexTopology) });
+  }
+  return WithItkErrors(this->GetNameOfClass(),
+                       [&] { return voxelcore::CoreProvenanceJson(geometry, origins, prunings, keepEdges); });
 }
 
 void

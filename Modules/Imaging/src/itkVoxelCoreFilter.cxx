@@ -98,7 +98,7 @@ VoxelCoreFilter::GenerateData()
   const InputType &         input = *this->GetInput();
   OutputType::PartContainer parts;
   WithItkErrors(this->GetNameOfClass(), [&] {
-    const voxelcore::SpacingWeights weights = voxelcore::ComputeSpacingWeights(input.GetGeometry().spacing);
+    const voxelcore::SpacingWeights weights = voxelcore::ComputeLatticeWeights(input.GetGeometry());
     double                          total = 0;
     for (const voxelcore::LabelShape & label : input.GetLabels())
     {
@@ -122,6 +122,9 @@ VoxelCoreFilter::GenerateData()
       voxelcore::ReportProgress(part(coreEnds, 1), "certificate", 0);
       result.complexTopology = voxelcore::ComputeComplexTopology(core->cells);
       voxelcore::RequireEqualTopology(result.shapeTopology, result.complexTopology, "its core", label.value);
+      const voxelcore::MedialComplex placed = voxelcore::PlaceInLps(*core, input.GetGeometry());
+      result.origin =
+        voxelcore::DescribeOrigin(label.value, label.name, label.shape, result.shapeTopology, *core, placed);
       result.complex = std::move(core);
       parts.push_back(std::move(result));
       before += share;

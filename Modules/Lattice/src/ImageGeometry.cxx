@@ -1,8 +1,11 @@
 #include "voxelcore/ImageGeometry.h"
 
+#include "voxelcore/Error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 namespace voxelcore
 {
@@ -77,6 +80,41 @@ OrthonormalityDeviationDegrees(const ImageGeometry & geometry)
     }
   }
   return std::asin(worst) * 180.0 / std::numbers::pi;
+}
+
+double
+LargestCoordinate(const ImageGeometry & geometry)
+{
+  double largest = 0;
+  for (const double coordinate : geometry.origin)
+  {
+    largest = std::max(largest, std::abs(coordinate));
+  }
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    largest += geometry.spacing[a] * static_cast<double>(geometry.size[a] + 1);
+  }
+  return largest;
+}
+
+void
+RequireDistinctPositions(const ImageGeometry & geometry)
+{
+  const auto isFinite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(geometry.origin.begin(), geometry.origin.end(), isFinite) ||
+      !std::all_of(geometry.direction.begin(), geometry.direction.end(), isFinite))
+  {
+    throw InputError("the origin or the direction of the image is not finite; correct it");
+  }
+  const double finest = *std::min_element(geometry.spacing.begin(), geometry.spacing.end());
+  if (!(LargestCoordinate(geometry) <= std::ldexp(finest, 36)))
+  {
+    std::ostringstream text;
+    text << "the image lies so far off (origin " << geometry.origin[0] << ", " << geometry.origin[1] << ", "
+         << geometry.origin[2] << " mm, finest spacing " << finest
+         << " mm) that doubles cannot tell places within a voxel apart; correct its origin";
+    throw InputError(text.str());
+  }
 }
 
 } // namespace voxelcore

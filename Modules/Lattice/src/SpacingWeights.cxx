@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace voxelcore
 {
@@ -29,6 +30,18 @@ Deviation(const std::array<std::int64_t, 3> & weight, const std::array<double, 3
   }
   return worst;
 }
+
+template <typename Values>
+std::string
+JoinedText(const Values & values, const char * separator)
+{
+  std::ostringstream text;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    text << (axis == 0 ? "" : separator) << values[axis];
+  }
+  return text.str();
+}
 } // namespace
 
 SpacingWeights
@@ -36,9 +49,11 @@ ComputeSpacingWeights(const std::array<double, 3> & spacing)
 {
   for (const double s : spacing)
   {
-    if (!std::isfinite(s) || s <= 0.0)
+    // Beyond these bounds, which no microscope and no telescope reaches, areas and volumes could leave double range.
+    if (!(s >= 1e-12 && s <= 1e12))
     {
-      throw InputError("the voxel spacing is not finite and positive on every axis; give it with --spacing");
+      throw InputError("the voxel spacing " + JoinedText(spacing, " x ") +
+                       " mm is not between 1e-12 and 1e12 mm on every axis; give the right spacing");
     }
   }
   const double   longest = *std::max_element(spacing.begin(), spacing.end());
@@ -62,6 +77,16 @@ ComputeSpacingWeights(const std::array<double, 3> & spacing)
       }
     }
   }
+  if (!(best.deviation <= kLargestDeviation))
+  {
+    std::ostringstream deviation;
+    deviation.precision(2);
+    deviation << 100 * best.deviation;
+    throw InputError("the voxel spacing " + JoinedText(spacing, " x ") +
+                     " mm has no ratio in whole numbers up to 4096 (the nearest, " + JoinedText(best.weight, ":") +
+                     ", is off by " + deviation.str() +
+                     " %, and 0.1 % is allowed); resample to voxels closer to cubes, or give the right spacing");
+  }
   double product = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -73,6 +98,14 @@ ComputeSpacingWeights(const std::array<double, 3> & spacing)
                     first == spacing[2] / static_cast<double>(best.weight[2]);
   best.unit = same ? first : std::cbrt(product);
   return best;
+}
+
+SpacingWeights
+ComputeLatticeWeights(const ImageGeometry & geometry)
+{
+  const SpacingWeights weights = ComputeSpacingWeights(geometry.spacing);
+  RequireDistinctPositions(geometry);
+  return weights;
 }
 
 } // namespace voxelcore

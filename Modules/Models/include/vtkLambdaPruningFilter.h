@@ -5,7 +5,8 @@
 
 /** Prunes the output of vtkVoxelCoreFilter, or a .vtp that `voxelcore core --keep-edges` wrote, to a lambda in mm: what
  *  `voxelcore prune` gives. Edges keep their measures, so that filters can stand in a row.
- *  Faults are reported by vtkErrorMacro and leave the output empty; so does AbortExecute. */
+ *  The field Provenance is carried on with the new lambda.
+ *  Faults are reported by vtkErrorMacro, set the ErrorCode and leave the output empty; AbortExecute leaves it empty. */
 class vtkLambdaPruningFilter : public vtkPolyDataAlgorithm
 {
 public:

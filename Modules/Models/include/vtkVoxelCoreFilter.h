@@ -2,13 +2,31 @@
 // VoxelCore in a VTK or ParaView pipeline.
 
 #include <vtkPolyDataAlgorithm.h>
+#include <vtkSmartPointer.h>
+
+class vtkMatrix4x4;
 
 /** The whole voxel core of the labels of an image, as polydata: what `voxelcore core --lambda 0 --keep-edges` writes, its
- *  point arrays Radius and Lambda, cell arrays Lambda and Label, field arrays EdgeVertices and EdgeLambda. Points lie where
- *  the image lies (origin, spacing and direction; mm, and LPS if the image is in LPS, which is what SPACE then says).
+ *  point arrays Radius and Lambda, cell arrays Lambda and Label, field arrays EdgeVertices, EdgeLambda and Provenance.
+ *  Written by vtkXMLPolyDataWriter as raw appended data without compression, with headers of 64 bits, it is a file that
+ *  `voxelcore verify`, `prune`, `skeleton` and `render` take.
  *
  *  Input: vtkImageData with point scalars of one component, whole numbers from 0; a pixel's point is its centre.
- *  Faults are reported by vtkErrorMacro and leave the output empty; so does AbortExecute. */
+ *
+ *  Where the points lie. They are placed by the image's origin, spacing and direction, in mm, and then by the matrix that
+ *  was set, if any. The field SPACE says LPS where that is known to be so:
+ *  - a matrix was set: it says how the image lies in the patient;
+ *  - ImageIsInLPS is on: the caller knows that the image's own place is in LPS;
+ *  - the image has a direction other than the identity: its source keeps directions, as ITK's does, and these are LPS.
+ *  Else there is no field SPACE, and a file without it is refused by `voxelcore`: an identity may be what a reader left of a
+ *  direction that it did not understand. vtkNIFTIImageReader drops it, but keeps it in a matrix:
+ *  \code
+ *    core->SetImageToRASMatrix(reader->GetQFormMatrix() ? reader->GetQFormMatrix() : reader->GetSFormMatrix());
+ *  \endcode
+ *  vtkNrrdReader drops it for good: set the matrix of the file's `space directions`, without the lengths of their vectors,
+ *  as SetImageToLPSMatrix or SetImageToRASMatrix, whichever the file's `space` is.
+ *
+ *  Faults are reported by vtkErrorMacro, set the ErrorCode and leave the output empty; AbortExecute leaves it empty. */
 class vtkVoxelCoreFilter : public vtkPolyDataAlgorithm
 {
 public:
@@ -22,9 +40,24 @@ public:
   vtkSetMacro(Label, vtkTypeInt64);
   vtkGetMacro(Label, vtkTypeInt64);
 
+  /** Takes a place in the image (what vtkImageData::TransformIndexToPhysicalPoint gives, mm) to the patient: LPS mm, or
+   *  RAS mm, whose first two coordinates then change sign. It is copied. None, as at first: nullptr. */
+  void
+  SetImageToLPSMatrix(vtkMatrix4x4 * matrix);
+  void
+  SetImageToRASMatrix(vtkMatrix4x4 * matrix);
+  /** To LPS mm, however it was set; nullptr: none. */
+  vtkMatrix4x4 *
+  GetImageToLPSMatrix();
+
+  /** The image's own origin, spacing and direction are known to be in LPS mm; off at first. */
+  vtkSetMacro(ImageIsInLPS, bool);
+  vtkGetMacro(ImageIsInLPS, bool);
+  vtkBooleanMacro(ImageIsInLPS, bool);
+
 protected:
-  vtkVoxelCoreFilter() = default;
-  ~vtkVoxelCoreFilter() override = default;
+  vtkVoxelCoreFilter();
+  ~vtkVoxelCoreFilter() override;
   int
   FillInputPortInformation(int port, vtkInformation * information) override;
   int
@@ -39,5 +72,7 @@ private:
   void
   operator=(const vtkVoxelCoreFilter &) = delete;
 
-  vtkTypeInt64 Label = 0;
+  vtkTypeInt64                  Label = 0;
+  bool                          ImageIsInLPS = false;
+  vtkSmartPointer<vtkMatrix4x4> ImageToLPS;
 };

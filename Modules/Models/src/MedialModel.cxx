@@ -3,6 +3,7 @@
 #include "ModelCells.h"
 #include "ModelFormats.h"
 
+#include "voxelcore/CoreProvenance.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>
@@ -65,26 +66,7 @@ CheckModel(const MedialModel & model, bool keepEdges)
 ModelPart
 ToPhysical(MedialComplex core, const ImageGeometry & geometry, std::int64_t label)
 {
-  for (auto & position : core.positions)
-  {
-    position = LatticeToPhysical(geometry, position);
-  }
-  if (IsLeftHanded(geometry))
-  {
-    CellComplex & cells = core.cells;
-    for (std::size_t face = 0; face < cells.FaceCount(); ++face)
-    {
-      const auto begin = static_cast<std::ptrdiff_t>(cells.faceOffsets[face]);
-      const auto end = static_cast<std::ptrdiff_t>(cells.faceOffsets[face + 1]);
-      if (begin != end)
-      {
-        // The first corner stays the first; edge i joins corner i and the next, so all edges turn round.
-        std::reverse(cells.faceVertices.begin() + begin + 1, cells.faceVertices.begin() + end);
-        std::reverse(cells.faceEdges.begin() + begin, cells.faceEdges.begin() + end);
-      }
-    }
-  }
-  return { label, std::move(core) };
+  return { label, PlaceInLps(std::move(core), geometry) };
 }
 
 bool
@@ -110,7 +92,7 @@ WriteModel(const std::filesystem::path & path,
   CheckModel(model, options.keepEdges);
   if (options.triangles || format == ".stl" || format == ".ma")
   {
-    MedialModel triangles{ {}, model.provenance, model.hasEdges, model.refined };
+    MedialModel triangles{ {}, model.provenance, model.hasEdges, model.refined, model.inLps };
     for (const ModelPart & part : model.parts)
     {
       triangles.parts.push_back({ part.label, Triangulated(part.core), part.component, part.displacement });

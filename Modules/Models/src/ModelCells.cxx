@@ -1,6 +1,7 @@
 #include "ModelCells.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/MedialModel.h"
 
 #include <algorithm>
 #include <limits>

@@ -27,9 +27,4 @@ LineCells(const MedialComplex & core);
 void
 BuildEdges(CellComplex & cells, std::span<const std::array<ElementIndex, 2>> looseEdges);
 
-/** The same core with each polygon cut into the fan of triangles from its first vertex, in the order of the polygons.
- *  A diagonal lies within its face and has the face's two nearest boundary vertices: so its measure is the face's. */
-MedialComplex
-Triangulated(const MedialComplex & core);
-
 } // namespace voxelcore

@@ -262,9 +262,10 @@ ReadKeys(ModelSource & file, std::int64_t cellCount)
 } // namespace
 
 MedialModel
-ReadParts(ModelSource & file)
+ReadParts(ModelSource & file, bool anywhere)
 {
-  RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && file.ReadText("FieldData", "Units") == "mm",
+  const bool inLps = !anywhere || file.Has("FieldData", "SPACE");
+  RequireFit((!inLps || file.ReadText("FieldData", "SPACE") == "LPS") && file.ReadText("FieldData", "Units") == "mm",
              "its field data do not say SPACE = LPS and Units = mm");
   RequireFit(file.PieceCount("NumberOfStrips") == 0, "it has triangle strips");
   const std::vector<double> positions = file.Read<double>("Points", "Points", 3);
@@ -298,6 +299,7 @@ ReadParts(ModelSource & file)
   }
 
   MedialModel model;
+  model.inLps = inLps;
   if (file.Has("FieldData", "Provenance"))
   {
     model.provenance = file.ReadText("FieldData", "Provenance");

@@ -45,8 +45,9 @@ public:
   }
 };
 
-/** The model in a source's arrays, checked throughout. \throws UnfitFile */
+/** The model in a source's arrays, checked throughout. Only with `anywhere` may it lack the field SPACE.
+ *  \throws UnfitFile */
 MedialModel
-ReadParts(ModelSource & source);
+ReadParts(ModelSource & source, bool anywhere = false);
 
 } // namespace voxelcore

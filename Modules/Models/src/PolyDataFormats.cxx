@@ -335,7 +335,10 @@ MakePolyData(const MedialModel & model, bool keepEdges)
     AddCells<vtkTypeInt64Array>(data, parts);
   }
   AddCellArrays(data, parts);
-  AddString(data->GetFieldData(), "SPACE", "LPS");
+  if (model.inLps)
+  {
+    AddString(data->GetFieldData(), "SPACE", "LPS");
+  }
   AddString(data->GetFieldData(), "Units", "mm");
   if (!model.refined.empty())
   {

@@ -135,7 +135,7 @@ ModelFromPolyData(vtkPolyData & data)
   try
   {
     PolyDataSource source(data);
-    return ReadParts(source);
+    return ReadParts(source, true);
   }
   catch (const UnfitFile & unfit)
   {

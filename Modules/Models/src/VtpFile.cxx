@@ -1,6 +1,7 @@
 #include "VtpFile.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <string_view>
@@ -23,9 +24,41 @@ Number(std::string_view text)
   return number;
 }
 
-/** The attributes of the tag that begins at `at`, which moves behind the tag. */
-std::map<std::string, std::string>
-ParseTag(std::string_view xml, std::size_t & at, std::string & name)
+/** Whether every ampersand begins one of the five entities that XML knows, and no tag begins. */
+bool
+IsText(std::string_view text)
+{
+  for (std::size_t at = 0; at < text.size(); ++at)
+  {
+    const auto c = static_cast<unsigned char>(text[at]);
+    if (c == '<' || c == 0x7F || (c < ' ' && c != '\n' && c != '\t' && c != '\r'))
+    {
+      return false;
+    }
+    if (c == '&')
+    {
+      constexpr std::array<std::string_view, 5> entities{ "&amp;", "&lt;", "&gt;", "&quot;", "&apos;" };
+      const std::string_view                    rest = text.substr(at);
+      if (std::none_of(entities.begin(), entities.end(), [&](std::string_view one) { return rest.starts_with(one); }))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+struct Tag
+{
+  std::string                        name;
+  std::map<std::string, std::string> attributes;
+  bool                               closes = false;  ///< </name>
+  bool                               isEmpty = false; ///< <name/>
+};
+
+/** The tag that begins at `at`, which moves behind it. */
+Tag
+ParseTag(std::string_view xml, std::size_t & at)
 {
   const auto isNamePart = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -36,34 +69,64 @@ ParseTag(std::string_view xml, std::size_t & at, std::string & name)
     {
       ++at;
     }
+    RequireFit(at > begin && !(xml[begin] >= '0' && xml[begin] <= '9'), "its header is damaged");
     return std::string(xml.substr(begin, at - begin));
   };
   const auto skipBlanks = [&] {
+    const std::size_t begin = at;
     while (at < xml.size() && (xml[at] == ' ' || xml[at] == '\n'))
     {
       ++at;
     }
+    return at > begin;
   };
-  std::map<std::string, std::string> attributes;
+  Tag tag;
   ++at; // the bracket
-  const bool closes = at < xml.size() && xml[at] == '/';
-  at += closes ? 1 : 0;
-  name = word();
-  name.insert(0, closes ? 1 : 0, '/');
-  for (skipBlanks(); at < xml.size() && isNamePart(xml[at]); skipBlanks())
+  tag.closes = xml.substr(at, 1) == "/";
+  at += tag.closes ? 1 : 0;
+  tag.name = word();
+  while (skipBlanks() && at < xml.size() && isNamePart(xml[at]))
   {
     const std::string key = word();
-    RequireFit(xml.substr(at, 2) == "=\"", "its header is damaged");
+    RequireFit(!tag.closes && xml.substr(at, 2) == "=\"", "its header is damaged");
     const std::size_t begin = at + 2;
     const std::size_t end = xml.find('"', begin);
-    RequireFit(end != std::string_view::npos, "its header is damaged");
-    RequireFit(attributes.emplace(key, xml.substr(begin, end - begin)).second, "its header is damaged");
+    RequireFit(end != std::string_view::npos && IsText(xml.substr(begin, end - begin)), "its header is damaged");
+    RequireFit(tag.attributes.emplace(key, xml.substr(begin, end - begin)).second, "its header is damaged");
     at = end + 1;
   }
-  at += xml.substr(at, 1) == "/" ? 1 : 0;
+  tag.isEmpty = !tag.closes && xml.substr(at, 1) == "/";
+  at += tag.isEmpty ? 1 : 0;
   RequireFit(xml.substr(at, 1) == ">", "its header is damaged");
   ++at;
-  return attributes;
+  return tag;
+}
+
+/** Which elements stand in which; the file's own stands in none. */
+bool
+MayStandIn(const std::string & name, const std::string & parent)
+{
+  constexpr std::array<std::string_view, 6> ofPiece{ "PointData", "CellData", "Verts", "Lines", "Strips", "Polys" };
+  const bool isPart = name == "Points" || std::count(ofPiece.begin(), ofPiece.end(), name) > 0;
+  const bool isHolder =
+    parent == "Points" || parent == "FieldData" || std::count(ofPiece.begin(), ofPiece.end(), parent) > 0;
+  return (name == "VTKFile" && parent.empty()) || (name == "PolyData" && parent == "VTKFile") ||
+         (name == "FieldData" && parent == "PolyData") || (name == "Piece" && parent == "PolyData") ||
+         (isPart && parent == "Piece") || ((name == "DataArray" || name == "Array") && isHolder) ||
+         (name == "InformationKey" && (parent == "DataArray" || parent == "Array")) ||
+         (name == "Value" && parent == "InformationKey");
+}
+
+/** Bytes of a value; 1 for the letters of strings, 0 for what VTK does not know. */
+std::uint64_t
+BytesOf(const std::string & type)
+{
+  static const std::map<std::string, std::uint64_t> bytes{ { "Int8", 1 },    { "UInt8", 1 },  { "Int16", 2 },
+                                                           { "UInt16", 2 },  { "Int32", 4 },  { "UInt32", 4 },
+                                                           { "Int64", 8 },   { "UInt64", 8 }, { "Float32", 4 },
+                                                           { "Float64", 8 }, { "String", 1 } };
+  const auto                                        found = bytes.find(type);
+  return found == bytes.end() ? 0 : found->second;
 }
 
 } // namespace
@@ -91,50 +154,119 @@ VtpFile::VtpFile(const std::filesystem::path & path)
   RequireFit(m_File.read(ending.data(), static_cast<std::streamsize>(ending.size())) && ending == kEnding,
              "it ends too early");
   ParseHeader(header.substr(0, tag));
+  CheckArrays();
 }
 
 void
 VtpFile::ParseHeader(const std::string & xml)
 {
-  std::string section;
-  std::string name;
-  bool        isPolyData = false;
-  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at))
+  const auto isBlank = [&xml](std::size_t from, std::size_t to) {
+    return xml.find_first_not_of(" \n", from) >= std::min(to, xml.size());
+  };
+  std::vector<std::string> open;
+  std::size_t              at = xml.starts_with("<?xml") ? xml.find("?>") : 0;
+  RequireFit(at != std::string::npos, "its header is damaged");
+  at += at > 0 ? 2 : 0;
+  while (true)
   {
-    if (xml.compare(at, 2, "<?") == 0)
+    const std::size_t begin = std::min(xml.find('<', at), xml.size());
+    const std::string around = open.empty() ? "" : open.back();
+    RequireFit(isBlank(at, begin) || (around == "Value" && IsText(std::string_view(xml).substr(at, begin - at))),
+               "its header is damaged");
+    if (begin == xml.size())
     {
-      at += 2;
+      break;
+    }
+    at = begin;
+    Tag tag = ParseTag(xml, at);
+    if (tag.closes)
+    {
+      RequireFit(around == tag.name, "its header is damaged");
+      open.pop_back();
       continue;
     }
-    auto attributes = ParseTag(xml, at, name);
-    if (name == "VTKFile")
+    if (tag.name == "VTKFile")
     {
-      isPolyData = attributes["type"] == "PolyData";
-      RequireFit(isPolyData, "it is VTK data of another kind than polydata");
-      RequireFit(attributes["byte_order"] == "LittleEndian" && attributes["header_type"] == "UInt64" &&
-                   !attributes.contains("compressor"),
+      RequireFit(tag.attributes["type"] == "PolyData", "it is VTK data of another kind than polydata");
+      RequireFit(tag.attributes["byte_order"] == "LittleEndian" && tag.attributes["header_type"] == "UInt64" &&
+                   !tag.attributes.contains("compressor"),
                  "it was written by another program than VoxelCore");
     }
-    else if (name == "Piece")
+    RequireFit(MayStandIn(tag.name, around), "its header is damaged");
+    if (tag.name == "Piece")
     {
       RequireFit(m_Piece.empty(), "it has several pieces");
-      m_Piece = attributes;
+      m_Piece = tag.attributes;
     }
-    else if (name == "DataArray" || name == "Array")
+    else if (tag.name == "DataArray" || tag.name == "Array")
     {
-      RequireFit(attributes["format"] == "appended", "an array is not in the appended data");
-      const std::uint64_t components =
-        attributes.contains("NumberOfComponents") ? Number(attributes["NumberOfComponents"]) : 1;
-      RequireFit(components > 0, "an array has no components");
-      const Array array{ attributes["type"], components, Number(attributes["offset"]) };
-      RequireFit(m_Arrays.emplace(std::pair(section, attributes["Name"]), array).second, "an array is there twice");
+      AddArray(around, tag.attributes);
     }
-    else if (!name.empty() && name[0] != '/')
+    if (!tag.isEmpty)
     {
-      section = name;
+      open.push_back(tag.name);
     }
   }
-  RequireFit(isPolyData && !m_Piece.empty(), "its header is damaged");
+  // What is still open holds the appended data, which are the rest of the file.
+  RequireFit(open == std::vector<std::string>{ "VTKFile" } && !m_Piece.empty(), "its header is damaged");
+}
+
+void
+VtpFile::AddArray(const std::string & section, std::map<std::string, std::string> & attributes)
+{
+  RequireFit(attributes["format"] == "appended", "an array is not in the appended data");
+  const auto number = [&](const char * name, std::uint64_t otherwise) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? otherwise : Number(found->second);
+  };
+  const Array array{ attributes["type"],
+                     number("NumberOfComponents", 1),
+                     number("NumberOfTuples", 0),
+                     Number(attributes["offset"]) };
+  RequireFit(array.components > 0, "an array has no components");
+  RequireFit(m_Arrays.emplace(std::pair(section, attributes["Name"]), array).second, "an array is there twice");
+}
+
+// Also those that nobody here asks for: a program that trusts them would read beyond them.
+void
+VtpFile::CheckArrays()
+{
+  const std::uint64_t points = PieceCount("NumberOfPoints");
+  std::uint64_t       cells = 0;
+  for (const char * kind : { "NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys" })
+  {
+    const std::uint64_t count = PieceCount(kind);
+    RequireFit(count <= m_DataEnd - m_DataBegin, "its numbers of cells do not add up");
+    cells += count;
+  }
+  for (const auto & [key, array] : m_Arrays)
+  {
+    const auto & [section, name] = key;
+    const std::uint64_t size = BytesOf(array.type);
+    RequireFit(size != 0, "an array has a type that VTK does not know");
+    const std::uint64_t bytes = OpenBlock(array);
+    RequireFit(bytes % size == 0 && bytes / size % array.components == 0, "an array is cut off");
+    std::uint64_t tuples = bytes / size / array.components;
+    if (array.type == "String")
+    {
+      const std::string text = ReadBytes(bytes);
+      tuples = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\0'));
+      RequireFit(text.empty() || text.back() == '\0', "a text is damaged");
+      RequireFit(tuples % array.components == 0, "an array is cut off");
+      tuples /= array.components;
+    }
+    const bool isCells =
+      section != "FieldData" && section != "PointData" && section != "CellData" && section != "Points";
+    const bool fits = section == "FieldData"                          ? tuples == array.tuples
+                      : section == "PointData" || section == "Points" ? tuples == points
+                      : section == "CellData"                         ? tuples == cells
+                      : name == "offsets"                             ? tuples == PieceCount("NumberOf" + section)
+                                                                      : name == "connectivity";
+    if (!fits || (isCells && array.components != 1))
+    {
+      throw UnfitFile{ "its array " + section + "/" + name + " has the wrong length" };
+    }
+  }
 }
 
 std::uint64_t
@@ -157,31 +289,47 @@ VtpFile::Find(const std::string & section, const std::string & name) const
   return found->second;
 }
 
-template <typename Value>
-std::vector<Value>
-VtpFile::ReadBlock(const Array & array)
+std::uint64_t
+VtpFile::OpenBlock(const Array & array)
 {
   const std::uint64_t available = m_DataEnd - m_DataBegin;
   std::uint64_t       bytes = 0;
   RequireFit(available >= sizeof(bytes) && array.offset <= available - sizeof(bytes), "an array lies beyond its end");
   m_File.seekg(static_cast<std::streamoff>(m_DataBegin + array.offset));
-  const auto read = [&](void * to, std::uint64_t size) {
-    RequireFit(bool(m_File.read(static_cast<char *>(to), static_cast<std::streamsize>(size))), "it cannot be read");
-  };
-  const auto order = [](auto & value) {
-    if constexpr (std::endian::native == std::endian::big)
+  for (std::size_t byte = 0; byte < sizeof(bytes); ++byte)
+  {
+    bytes |= static_cast<std::uint64_t>(static_cast<unsigned char>(m_File.get())) << (8 * byte);
+  }
+  RequireFit(bool(m_File), "it cannot be read");
+  RequireFit(bytes <= available - sizeof(bytes) - array.offset, "an array lies beyond its end");
+  return bytes;
+}
+
+std::string
+VtpFile::ReadBytes(std::uint64_t bytes)
+{
+  std::string text(bytes, '\0');
+  RequireFit(bool(m_File.read(text.data(), static_cast<std::streamsize>(bytes))), "it cannot be read");
+  return text;
+}
+
+template <typename Value>
+std::vector<Value>
+VtpFile::ReadBlock(const Array & array)
+{
+  const std::uint64_t bytes = OpenBlock(array);
+  RequireFit(bytes % sizeof(Value) == 0, "an array is cut off");
+  std::vector<Value> values(bytes / sizeof(Value));
+  RequireFit(bool(m_File.read(reinterpret_cast<char *>(values.data()), static_cast<std::streamsize>(bytes))),
+             "it cannot be read");
+  if constexpr (std::endian::native == std::endian::big)
+  {
+    for (Value & value : values)
     {
       auto * raw = reinterpret_cast<char *>(&value);
       std::reverse(raw, raw + sizeof(value));
     }
-  };
-  read(&bytes, sizeof(bytes));
-  order(bytes);
-  RequireFit(bytes <= available - sizeof(bytes) - array.offset && bytes % sizeof(Value) == 0,
-             "an array lies beyond its end");
-  std::vector<Value> values(bytes / sizeof(Value));
-  read(values.data(), bytes);
-  std::for_each(values.begin(), values.end(), order);
+  }
   return values;
 }
 
@@ -225,9 +373,10 @@ VtpFile::ReadText(const std::string & section, const std::string & name)
   {
     throw UnfitFile{ "its array " + section + "/" + name + " has the wrong type" };
   }
-  const std::vector<char> text = ReadBlock<char>(array);
-  RequireFit(!text.empty() && std::find(text.begin(), text.end(), '\0') == text.end() - 1, "a text is damaged");
-  return { text.begin(), text.end() - 1 };
+  std::string text = ReadBytes(OpenBlock(array));
+  RequireFit(!text.empty() && text.find('\0') == text.size() - 1, "a text is damaged");
+  text.pop_back();
+  return text;
 }
 
 } // namespace voxelcore

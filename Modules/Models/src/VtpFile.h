@@ -1,6 +1,9 @@
 #pragma once
 // The arrays of a .vtp file in the form WriteVtp gives it: raw appended data, little endian, 64-bit headers.
 //
+// The header must be well-formed, and every array must have the length that the file's counts give it, also those that
+// nobody here asks for: what VTK could not open, or would read otherwise, is refused.
+//
 // VTK's own reader trusts the numbers in a file: one wrong bit in a count makes it write beyond its memory. What a user
 // hands over may be damaged, so the few forms we write are read here, with every number checked against the file.
 
@@ -65,6 +68,7 @@ private:
   {
     std::string   type;
     std::uint64_t components;
+    std::uint64_t tuples; ///< as said of a field array
     std::uint64_t offset; ///< from the beginning of the appended data
   };
 
@@ -72,6 +76,15 @@ private:
   Find(const std::string & section, const std::string & name) const;
   void
   ParseHeader(const std::string & xml);
+  void
+  AddArray(const std::string & section, std::map<std::string, std::string> & attributes);
+  void
+  CheckArrays();
+  /** Goes to the values of an array; returns their bytes. */
+  std::uint64_t
+  OpenBlock(const Array & array);
+  std::string
+  ReadBytes(std::uint64_t bytes);
   template <typename Value>
   std::vector<Value>
   ReadBlock(const Array & array);

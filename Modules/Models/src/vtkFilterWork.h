@@ -4,18 +4,21 @@
 #include "voxelcore/Progress.h"
 
 #include <vtkAlgorithm.h>
+#include <vtkErrorCode.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <new>
 
 /** Fills `output` with what `work` returns. When it throws, `output` is empty; what it throws is reported as an error of
- *  `filter`, but for an abort, which is none. Returns what RequestData has to return. */
-template <typename Work>
+ *  `filter`, but for an abort, which is none, and `setError` gets its code. Returns what RequestData has to return. */
+template <typename SetError, typename Work>
 int
-vtkFilterWork(vtkAlgorithm * filter, vtkPolyData * output, const Work & work)
+vtkFilterWork(vtkAlgorithm * filter, const SetError & setError, vtkPolyData * output, const Work & work)
 {
   output->Initialize();
+  setError(vtkErrorCode::NoError);
   try
   {
     output->ShallowCopy(work());
@@ -27,10 +30,12 @@ vtkFilterWork(vtkAlgorithm * filter, vtkPolyData * output, const Work & work)
   }
   catch (const std::bad_alloc &)
   {
+    setError(ENOMEM); // VTK's codes below its own are the system's
     vtkErrorWithObjectMacro(filter, "not enough memory");
   }
   catch (const std::exception & error)
   {
+    setError(vtkErrorCode::UnknownError);
     vtkErrorWithObjectMacro(filter, << error.what());
   }
   return 0;

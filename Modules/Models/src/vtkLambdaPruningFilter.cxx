@@ -3,6 +3,7 @@
 #include "vtkFilterWork.h"
 #include "voxelcore/Certificate.h"
 #include "voxelcore/ComplexTopology.h"
+#include "voxelcore/CoreProvenance.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/ModelPolyData.h"
 
@@ -10,6 +11,8 @@
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -28,7 +31,8 @@ vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** in
   // The rest is the certificate's.
   constexpr double    pruningEnds = 0.9;
   vtkPolyData * const input = vtkPolyData::GetData(inputs[0]);
-  return vtkFilterWork(this, vtkPolyData::GetData(outputs), [&] {
+  const auto          setError = [this](unsigned long code) { this->SetErrorCode(code); };
+  return vtkFilterWork(this, setError, vtkPolyData::GetData(outputs), [&] {
     if (!(this->Lambda >= 0) || !std::isfinite(this->Lambda))
     {
       throw voxelcore::UsageError("Lambda must be a length in mm, not negative");
@@ -38,9 +42,12 @@ vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** in
     {
       throw voxelcore::InputError("the input lacks the measures of its edges; write it with --keep-edges");
     }
-    model.provenance.clear(); // it told of another lambda
-    const double share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
-    double       before = 0;
+    std::vector<voxelcore::CorePruning> prunings;
+    // The shortest text that reads as the same number.
+    std::array<char, 32> text;
+    const std::string    lambda(text.data(), std::to_chars(text.data(), text.data() + text.size(), this->Lambda).ptr);
+    const double         share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
+    double               before = 0;
     for (voxelcore::ModelPart & part : model.parts)
     {
       const auto progress = vtkForwardProgress(this, before, before + pruningEnds * share);
@@ -48,13 +55,14 @@ vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** in
       const voxelcore::TopologyNumbers topology = voxelcore::ComputeComplexTopology(part.core.cells);
       part.core = std::move(voxelcore::PruneByLambda(part.core, { this->Lambda }, progress).front());
       voxelcore::ReportProgress(progress, "certificate", 1);
-      voxelcore::RequireEqualTopology(topology,
-                                      voxelcore::ComputeComplexTopology(part.core.cells),
-                                      "its core pruned",
-                                      part.label);
+      const voxelcore::TopologyNumbers left = voxelcore::ComputeComplexTopology(part.core.cells);
+      voxelcore::RequireEqualTopology(topology, left, "its core pruned", part.label);
+      prunings.push_back(
+        { this->Lambda > 0 ? lambda + "mm" : "0", this->Lambda, voxelcore::DescribeComplex(part.core, left) });
       before += share;
     }
     voxelcore::ReportProgress(vtkForwardProgress(this, 0, 1), "done", 1);
+    model.provenance = voxelcore::PrunedProvenanceJson(model.provenance, prunings);
     return voxelcore::MakePolyData(model, true);
   });
 }

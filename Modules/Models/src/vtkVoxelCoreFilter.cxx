@@ -3,6 +3,7 @@
 #include "vtkFilterWork.h"
 #include "voxelcore/Certificate.h"
 #include "voxelcore/ComplexTopology.h"
+#include "voxelcore/CoreProvenance.h"
 #include "voxelcore/ModelPolyData.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/SpacingWeights.h"
@@ -13,6 +14,8 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -27,26 +30,55 @@
 
 vtkStandardNewMacro(vtkVoxelCoreFilter);
 
+vtkVoxelCoreFilter::vtkVoxelCoreFilter() = default;
+vtkVoxelCoreFilter::~vtkVoxelCoreFilter() = default;
+
 namespace
 {
 
+/** Where the image lies, moved by `matrix` where there is one. */
 voxelcore::ImageGeometry
-GeometryOf(vtkImageData & image)
+GeometryOf(vtkImageData & image, vtkMatrix4x4 * matrix)
 {
   voxelcore::ImageGeometry geometry;
   int                      extent[6];
   image.GetExtent(extent);
-  double first[3];
+  double first[4] = { 0, 0, 0, 1 };
   image.TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], first);
   for (std::size_t a = 0; a < 3; ++a)
   {
     geometry.size[a] = image.GetDimensions()[a];
     geometry.spacing[a] = image.GetSpacing()[a];
-    geometry.origin[a] = first[a];
   }
   std::copy_n(image.GetDirectionMatrix()->GetData(), 9, geometry.direction.begin());
+  if (matrix != nullptr)
+  {
+    if (matrix->GetElement(3, 0) != 0 || matrix->GetElement(3, 1) != 0 || matrix->GetElement(3, 2) != 0 ||
+        matrix->GetElement(3, 3) != 1)
+    {
+      throw voxelcore::InputError("the last row of the matrix must be 0 0 0 1");
+    }
+    matrix->MultiplyPoint(first, first);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      double way[4] = { 0, 0, 0, 0 };
+      for (std::size_t row = 0; row < 3; ++row)
+      {
+        way[row] = geometry.direction[3 * row + axis];
+      }
+      matrix->MultiplyPoint(way, way);
+      // The matrix may hold lengths, too: NIfTI's sform does.
+      const double length = std::hypot(way[0], way[1], way[2]);
+      geometry.spacing[axis] *= length;
+      for (std::size_t row = 0; row < 3; ++row)
+      {
+        geometry.direction[3 * row + axis] = way[row] / length;
+      }
+    }
+  }
+  std::copy_n(first, 3, geometry.origin.begin());
   constexpr double kSkewDegrees = 0.0057; // axes orthonormal within 1e-4, as for files
-  if (voxelcore::OrthonormalityDeviationDegrees(geometry) > kSkewDegrees)
+  if (!(voxelcore::OrthonormalityDeviationDegrees(geometry) <= kSkewDegrees))
   {
     throw voxelcore::InputError("the axes of the image are not orthonormal");
   }
@@ -175,6 +207,55 @@ vtkVoxelCoreFilter::PrintSelf(ostream & os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Label: " << this->Label << "\n";
+  os << indent << "ImageIsInLPS: " << (this->ImageIsInLPS ? "On" : "Off") << "\n";
+  os << indent << "ImageToLPSMatrix:" << (this->ImageToLPS ? "\n" : " (none)\n");
+  if (this->ImageToLPS)
+  {
+    this->ImageToLPS->PrintSelf(os, indent.GetNextIndent());
+  }
+}
+
+vtkMatrix4x4 *
+vtkVoxelCoreFilter::GetImageToLPSMatrix()
+{
+  return this->ImageToLPS;
+}
+
+void
+vtkVoxelCoreFilter::SetImageToLPSMatrix(vtkMatrix4x4 * matrix)
+{
+  vtkSmartPointer<vtkMatrix4x4> copy;
+  if (matrix != nullptr)
+  {
+    copy = vtkSmartPointer<vtkMatrix4x4>::New();
+    copy->DeepCopy(matrix);
+  }
+  const bool same = copy && this->ImageToLPS
+                      ? std::equal(copy->GetData(), copy->GetData() + 16, this->ImageToLPS->GetData())
+                      : !copy && !this->ImageToLPS;
+  if (!same)
+  {
+    this->ImageToLPS = copy;
+    this->Modified();
+  }
+}
+
+void
+vtkVoxelCoreFilter::SetImageToRASMatrix(vtkMatrix4x4 * matrix)
+{
+  if (matrix == nullptr)
+  {
+    this->SetImageToLPSMatrix(nullptr);
+    return;
+  }
+  vtkNew<vtkMatrix4x4> turned;
+  turned->DeepCopy(matrix);
+  for (int column = 0; column < 4; ++column)
+  {
+    turned->SetElement(0, column, -matrix->GetElement(0, column));
+    turned->SetElement(1, column, -matrix->GetElement(1, column));
+  }
+  this->SetImageToLPSMatrix(turned);
 }
 
 int
@@ -201,15 +282,16 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
   constexpr double     shapeEnds = 0.05;
   constexpr double     coreEnds = 0.95;
   vtkImageData * const image = vtkImageData::GetData(inputs[0]);
-  return vtkFilterWork(this, vtkPolyData::GetData(outputs), [&] {
+  const auto           setError = [this](unsigned long code) { this->SetErrorCode(code); };
+  return vtkFilterWork(this, setError, vtkPolyData::GetData(outputs), [&] {
     vtkDataArray * const values = image->GetPointData()->GetScalars();
     if (values == nullptr || values->GetNumberOfComponents() != 1 ||
         values->GetNumberOfTuples() != image->GetNumberOfPoints())
     {
       throw voxelcore::InputError("the input needs point scalars of one component");
     }
-    const voxelcore::ImageGeometry geometry = GeometryOf(*image);
-    const auto                     weights = voxelcore::ComputeSpacingWeights(geometry.spacing);
+    const voxelcore::ImageGeometry geometry = GeometryOf(*image, this->ImageToLPS);
+    const auto                     weights = voxelcore::ComputeLatticeWeights(geometry);
     auto                           shapes = ShapesOf(*values, geometry.size, this->Label);
     if (shapes.empty())
     {
@@ -218,8 +300,11 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
                                     : "label " + std::to_string(this->Label) + " does not occur in the image");
     }
     voxelcore::MedialModel model;
-    const double           share = 1 / static_cast<double>(shapes.size());
-    double                 before = 0;
+    model.inLps = this->ImageToLPS || this->ImageIsInLPS || !image->GetDirectionMatrix()->IsIdentity();
+    std::vector<voxelcore::CoreOrigin>  origins;
+    std::vector<voxelcore::CorePruning> prunings;
+    const double                        share = 1 / static_cast<double>(shapes.size());
+    double                              before = 0;
     for (auto & [label, shape] : shapes)
     {
       const auto stage = [&](double from, double to) {
@@ -227,15 +312,23 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
       };
       voxelcore::ReportProgress(stage(0, shapeEnds), "shape", 0);
       const voxelcore::TopologyNumbers topology = voxelcore::ComputeShapeTopology(shape);
-      voxelcore::MedialComplex         core =
+      const voxelcore::MedialComplex   core =
         voxelcore::ComputeVoxelCore(shape, weights, voxelcore::Engine::Auto, stage(shapeEnds, coreEnds));
       voxelcore::ReportProgress(stage(coreEnds, 1), "certificate", 0);
       voxelcore::RequireEqualTopology(topology, voxelcore::ComputeComplexTopology(core.cells), "its core", label);
-      model.parts.push_back(voxelcore::ToPhysical(std::move(core), geometry, label));
+      model.parts.push_back(voxelcore::ToPhysical(core, geometry, label));
+      origins.push_back(voxelcore::DescribeOrigin(label,
+                                                  "label-" + std::to_string(label),
+                                                  shape,
+                                                  topology,
+                                                  core,
+                                                  model.parts.back().core));
+      prunings.push_back({ "0", 0, origins.back().core });
       shape = voxelcore::VoxelShape();
       before += share;
     }
     voxelcore::ReportProgress(vtkForwardProgress(this, 0, 1), "done", 1);
+    model.provenance = voxelcore::CoreProvenanceJson(geometry, origins, prunings, true);
     return voxelcore::MakePolyData(model, true);
   });
 }

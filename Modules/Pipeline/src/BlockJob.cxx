@@ -150,7 +150,7 @@ RunBlockJob(const BlockOptions & options, const JobContext & context)
                                    core.reading.labels != "all",
                                    core.scan.string(),
                                    PartOfProgress(context.progress, "editing", kReadEnds, kReadEnds));
-  const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
+  const SpacingWeights weights = ScanWeights(volume.geometry, core.scan);
   BlockResult          result;
   result.warnings = volume.warnings;
   for (std::size_t i = 0; i < edited.labels.size(); ++i)

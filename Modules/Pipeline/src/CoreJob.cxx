@@ -387,12 +387,13 @@ StageCoreJob(const CoreOptions & options,
 
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
-  auto         digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
-  LabelVolume  volume = ReadScanOrMesh(options.scan,
+  auto                 digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
+  LabelVolume          volume = ReadScanOrMesh(options.scan,
                                       options.reading,
                                       options.resolution,
                                       PartOfProgress(context.progress, "reading", 0, kReadEnds));
-  EditedLabels edited = EditLabels(volume,
+  const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
+  EditedLabels         edited = EditLabels(volume,
                                    options.edits,
                                    options.reading.labels != "all",
                                    options.scan.string(),
@@ -406,8 +407,7 @@ StageCoreJob(const CoreOptions & options,
     context.admit(1e-6 * static_cast<double>(
                            PredictJob(CountBoundaries(edited.labels), options, omp_get_max_threads()).memoryBytes));
   }
-  const SurfaceSource  estimates = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
-  const SpacingWeights weights = ComputeSpacingWeights(volume.geometry.spacing);
+  const SurfaceSource estimates = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
   shown.AddScan(edited.labels, volume.geometry);
   report.command = options.command;
   report.input = DescribeInput(options, volume);

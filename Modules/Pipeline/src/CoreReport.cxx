@@ -320,6 +320,27 @@ ReadLabel(const Json & json)
   return label;
 }
 
+/** A record with weights that are not those of its spacing tells of wrong lengths.
+ *  \throws InputError, also where the lattice is one that no core is made on. */
+void
+RequireSoundLattice(const CoreReport & report, const std::string & where)
+{
+  SpacingWeights weights;
+  try
+  {
+    weights = ComputeLatticeWeights(report.input.geometry);
+  }
+  catch (const InputError & error)
+  {
+    throw InputError(where + ": its field Provenance cannot be true: " + error.what() + ", and make the file again");
+  }
+  if (weights.weight != report.parameters.weights.weight)
+  {
+    throw InputError(where +
+                     ": its field Provenance has lattice weights that its spacing does not have; make the file again");
+  }
+}
+
 } // namespace
 
 std::string
@@ -399,10 +420,11 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
 CoreReport
 ParseProvenance(const std::string & text, const std::string & where)
 {
+  CoreReport report;
   try
   {
     const Json json = Json::parse(text);
-    CoreReport report;
+    json.at("voxelcore").at("version").get_to(report.version);
     report.input = ReadInput(json.at("input"));
     report.parameters = ReadParameters(json.at("parameters"));
     if (json.contains("skeleton"))
@@ -413,12 +435,13 @@ ParseProvenance(const std::string & text, const std::string & where)
     {
       report.labels.push_back(ReadLabel(label));
     }
-    return report;
   }
   catch (const nlohmann::json::exception &)
   {
     throw InputError(where + ": its field Provenance is missing or damaged; make the file again with 'voxelcore core'");
   }
+  RequireSoundLattice(report, where);
+  return report;
 }
 
 std::string
@@ -459,25 +482,6 @@ ParseLabelRecord(const std::string & text)
   {
     throw InputError("a label's record is damaged");
   }
-}
-
-ComplexRecord
-DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology)
-{
-  ComplexRecord record;
-  record.vertices = complex.cells.vertexCount;
-  record.edges = complex.cells.edges.size();
-  record.faces = complex.cells.FaceCount();
-  record.topology = topology;
-  for (std::size_t face = 0; face < complex.cells.FaceCount(); ++face)
-  {
-    record.areaMm2 += PolygonArea(complex.positions, complex.cells.FaceVertices(face));
-  }
-  if (!complex.radius.empty())
-  {
-    record.maxRadiusMm = *std::max_element(complex.radius.begin(), complex.radius.end());
-  }
-  return record;
 }
 
 double

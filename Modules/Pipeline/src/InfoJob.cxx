@@ -164,6 +164,14 @@ RunInfoJob(const InfoOptions & options, const JobContext & context)
   info.notes = std::move(volume.notes);
   info.notes.insert(info.notes.end(), edited.notes.begin(), edited.notes.end());
   info.warnings = std::move(volume.warnings);
+  try
+  {
+    ScanWeights(info.geometry, options.scan);
+  }
+  catch (const InputError & error)
+  {
+    info.warnings.push_back(std::string("no core can be made: ") + error.what());
+  }
   info.threads = omp_get_max_threads();
   if (info.grey)
   {

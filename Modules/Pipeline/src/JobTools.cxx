@@ -148,6 +148,24 @@ PruneAndCertify(ModelPart                   whole,
                        progress);
 }
 
+SpacingWeights
+ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan)
+{
+  SpacingWeights weights;
+  std::string    hint = " with --spacing X,Y,Z";
+  try
+  {
+    weights = ComputeSpacingWeights(geometry.spacing);
+    hint.clear();
+    RequireDistinctPositions(geometry);
+  }
+  catch (const InputError & error)
+  {
+    throw InputError(scan.string() + ": " + error.what() + hint);
+  }
+  return weights;
+}
+
 double
 ScanDiagonal(const ImageGeometry & geometry)
 {

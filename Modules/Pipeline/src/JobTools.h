@@ -89,6 +89,10 @@ PruneAndCertify(ModelPart                   whole,
                 const std::string &         labelText,
                 const ProgressCallback &    progress);
 
+/** The weights of a scan's lattice. \throws InputError that names the scan where its geometry cannot be worked on. */
+SpacingWeights
+ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan);
+
 /** The diagonal of a scan in mm: no bump is higher. */
 double
 ScanDiagonal(const ImageGeometry & geometry);

@@ -1,6 +1,8 @@
 #include "voxelcore/VerifyJob.h"
 
 #include "JobTools.h"
+#include "MadeAgain.h"
+#include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/LabelVolume.h"
@@ -21,6 +23,7 @@ VerificationReport
 VerifyPart(ModelPart                part,
            const VoxelShape &       shape,
            const ImageGeometry &    geometry,
+           const SpacingWeights &   weights,
            const PrunedRecord &     pruned,
            const ProgressCallback & progress)
 {
@@ -49,7 +52,7 @@ VerifyPart(ModelPart                part,
     }
     RefinedVerificationInput moved;
     moved.shape = &shape;
-    moved.weights = ComputeSpacingWeights(geometry.spacing);
+    moved.weights = weights;
     moved.spacing = geometry.spacing;
     moved.cells = &part.core.cells;
     moved.positions = part.core.positions;
@@ -63,7 +66,8 @@ VerifyPart(ModelPart                part,
   }
   VerificationInput input;
   input.shape = &shape;
-  input.weights = ComputeSpacingWeights(geometry.spacing);
+  input.weights = weights;
+  input.spacing = geometry.spacing;
   input.cells = &part.core.cells;
   input.positions = part.core.positions;
   input.radius = part.core.radius;
@@ -94,21 +98,30 @@ RecordedPruning(const CoreReport & made, std::size_t label, const std::string & 
   return made.labels[label].pruned.front();
 }
 
-/** A property of the file as a whole. */
+/** A property of the file as a whole. `cells` describes what is in the file. */
 VerificationCheck
 CheckProvenance(const LabelRecord &        recorded,
                 const LabelShape &         label,
                 std::int64_t               component,
+                const ComplexRecord &      cells,
+                bool                       triangles,
+                const Vector3 &            spacing,
                 const VerificationReport & report)
 {
-  VerificationCheck check{ "provenance", true, 0, {} };
+  const ComplexRecord & complex = recorded.pruned.front().complex;
+  const VoxelBox        box = label.shape.Box();
+  // Of polygons that were cut into triangles the numbers are still those of the polygons.
+  const bool   sameCells = triangles || (complex.vertices == cells.vertices && complex.edges == cells.edges &&
+                                       complex.faces == cells.faces && complex.areaMm2 == cells.areaMm2);
+  const double volume = static_cast<double>(label.voxels) * (spacing[0] * spacing[1] * spacing[2]);
   if (recorded.label != label.value || recorded.component != component || recorded.voxels != label.voxels ||
-      !(recorded.shape == report.shapeTopology) ||
-      !(recorded.pruned.front().complex.topology == report.complexTopology))
+      recorded.volumeMm3 != volume || recorded.box.lower != box.lower || recorded.box.size != box.size ||
+      recorded.boundaryVertices != BoundaryVertices(label.shape).size() || !(recorded.shape == report.shapeTopology) ||
+      !(complex.topology == report.complexTopology) || complex.maxRadiusMm != cells.maxRadiusMm || !sameCells)
   {
-    check = { "provenance", false, 1, "the record in the file does not fit the scan and the cells" };
+    return { "provenance", false, 1, "the record in the file does not fit the scan and the cells" };
   }
-  return check;
+  return { "provenance", true, 0, {} };
 }
 
 /** How far the boundary lies from a core pruned by bump height; empty for others. */
@@ -131,13 +144,15 @@ VerifyResult
 RunVerifyJob(const VerifyOptions & options, const JobContext & context)
 {
   ReportProgress(context.progress, "reading", 0);
-  MedialModel      model = ReadModel(options.core);
-  const CoreReport made = ParseProvenance(model.provenance, options.core.string());
-  LabelVolume      volume = ReadScanOrMesh(options.scan,
+  MedialModel model = ReadModel(options.core);
+  RequireVtkReads(options.core, model);
+  const CoreReport     made = ParseProvenance(model.provenance, options.core.string());
+  LabelVolume          volume = ReadScanOrMesh(options.scan,
                                       RecordedReading(made.parameters),
                                       made.parameters.resolution,
                                       PartOfProgress(context.progress, "reading", 0, 0.1));
-  EditedLabels     edited = EditLabels(volume,
+  const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
+  EditedLabels         edited = EditLabels(volume,
                                    made.parameters.edits,
                                    !made.parameters.binary && !made.parameters.threshold,
                                    options.scan.string());
@@ -147,11 +162,16 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
   }
   VerifyResult result;
   result.warnings = volume.warnings;
-  if (ScanSha256(options.scan) != made.input.sha256)
+  if (made.input.sha256.empty())
+  {
+    result.notes.push_back(options.core.string() + ": was made from an image in memory, so it names no scan file");
+  }
+  else if (ScanSha256(options.scan) != made.input.sha256)
   {
     result.notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +
                            " was made from (another SHA-256); checked all the same");
   }
+  const MadeAgain madeAgain(made, volume, weights, options.scan, result.notes);
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
     const std::int64_t value = model.parts[i].label;
@@ -178,13 +198,30 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
       one.bumpHeight = pruned.bumps->height;
       one.bumpHeightMm = pruned.bumps->heightMm;
     }
+    const ComplexRecord cells = DescribeComplex(model.parts[i].core, {});
+    const auto          again = madeAgain.Check(model.parts[i],
+                                       *found,
+                                       pruned,
+                                       NamedPartOfProgress(context.progress, found->name, from, 0.5 * (from + to)));
     one.report = VerifyPart(std::move(model.parts[i]),
                             found->shape,
                             volume.geometry,
+                            weights,
                             pruned,
-                            NamedPartOfProgress(context.progress, found->name, from, to));
-    one.report.checks.push_back(CheckProvenance(made.labels[i], *found, component, one.report));
-    one.report.passed = one.report.passed && one.report.checks.back().passed;
+                            NamedPartOfProgress(context.progress, found->name, again ? 0.5 * (from + to) : from, to));
+    one.report.checks.push_back(CheckProvenance(made.labels[i],
+                                                *found,
+                                                component,
+                                                cells,
+                                                made.parameters.model.triangles,
+                                                volume.geometry.spacing,
+                                                one.report));
+    if (again)
+    {
+      one.report.checks.push_back(*again);
+    }
+    one.report.passed =
+      std::all_of(one.report.checks.begin(), one.report.checks.end(), [](const auto & check) { return check.passed; });
     result.passed = result.passed && one.report.passed;
     result.labels.push_back(std::move(one));
     *found = LabelShape(); // its memory is not needed any longer

@@ -30,11 +30,16 @@ struct BoundaryTree::Search
 };
 
 BoundaryTree::BoundaryTree(std::vector<LatticePoint> points, const SpacingWeights & weights)
+  : BoundaryTree(std::move(points),
+                 std::array<double, 3>{ static_cast<double>(weights.weight[0]),
+                                        static_cast<double>(weights.weight[1]),
+                                        static_cast<double>(weights.weight[2]) })
+{}
+
+BoundaryTree::BoundaryTree(std::vector<LatticePoint> points, const std::array<double, 3> & spacing)
   : m_Points(std::move(points))
   , m_Axes(m_Points.size(), 0)
-  , m_Weights{ static_cast<double>(weights.weight[0]),
-               static_cast<double>(weights.weight[1]),
-               static_cast<double>(weights.weight[2]) }
+  , m_Weights(spacing)
 {
   Build(0, m_Points.size());
 }

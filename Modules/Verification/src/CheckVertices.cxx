@@ -90,4 +90,54 @@ CheckVertices(VerificationReport & report, const Subject & subject)
     });
 }
 
+void
+CheckTrueSpacing(VerificationReport & report, const Subject & subject)
+{
+  const VerificationInput & input = subject.input;
+  const Position &          spacing = input.spacing;
+  const BoundaryTree        tree(subject.tree.Points(), spacing);
+  const std::size_t         vertices = subject.cells.vertexCount;
+  std::vector<double>       nearest(vertices);
+#pragma omp parallel if (vertices > 4096)
+  {
+    std::vector<BoundaryTree::Candidate> found;
+#pragma omp for schedule(dynamic, 1024)
+    for (std::size_t v = 0; v < vertices; ++v)
+    {
+      nearest[v] = tree.FindNearest(input.positions[v], 0, found);
+    }
+  }
+  // Whatever deviation the weights admit to, lengths that are off by more are wrong.
+  const double relative = std::min(input.weights.deviation, kLargestDeviation) + kMeasureTolerance;
+  const double reach = subject.tolerance * Length(spacing);
+  const auto   measure = [&](std::size_t f) {
+    const LatticePoint & a = subject.Point(subject.dualEdges[f][0]);
+    const LatticePoint & b = subject.Point(subject.dualEdges[f][1]);
+    return Length({ spacing[0] * (static_cast<double>(a.x) - b.x),
+                    spacing[1] * (static_cast<double>(a.y) - b.y),
+                    spacing[2] * (static_cast<double>(a.z) - b.z) }) /
+           2;
+  };
+  AddCheck(
+    report,
+    "true spacing",
+    vertices + subject.cells.FaceCount(),
+    [&](std::size_t i) {
+      if (i < vertices)
+      {
+        return !(std::abs(input.radius[i] - nearest[i]) <= relative * nearest[i] + reach);
+      }
+      const std::size_t f = i - vertices;
+      return subject.dualEdges[f][0] != kNoPoint &&
+             !(std::abs(input.faceLambda[f] - measure(f)) <= relative * measure(f));
+    },
+    [&](std::size_t i) {
+      return i < vertices ? "Measured in mm, the nearest boundary vertex is " + Describe(nearest[i]) + " mm from " +
+                              DescribeVertex(subject, i) + ", whose radius is " + Describe(input.radius[i]) + " mm."
+                          : "Measured in mm, the two nearest boundary vertices of " +
+                              DescribeFace(subject, i - vertices) + " are twice " + Describe(measure(i - vertices)) +
+                              " mm apart, and its measure is " + Describe(input.faceLambda[i - vertices]) + " mm.";
+    });
+}
+
 } // namespace voxelcore::verification

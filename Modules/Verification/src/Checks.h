@@ -101,6 +101,8 @@ CheckDistinct(VerificationReport & report, const Subject & subject);
 void
 CheckVertices(VerificationReport & report, const Subject & subject);
 void
+CheckTrueSpacing(VerificationReport & report, const Subject & subject);
+void
 CheckDuals(VerificationReport & report, const Subject & subject);
 void
 CheckPolygons(VerificationReport & report, const Subject & subject);

@@ -14,7 +14,7 @@ namespace verification
 namespace
 {
 
-constexpr std::array<const char *, 13> kRefinedChecks{ "arrays",
+constexpr std::array<const char *, 14> kRefinedChecks{ "arrays",
                                                        "numbers",
                                                        "edge ends",
                                                        "polygons",
@@ -25,6 +25,7 @@ constexpr std::array<const char *, 13> kRefinedChecks{ "arrays",
                                                        "origins equidistant",
                                                        "faces not turned over",
                                                        "radius",
+                                                       "measures",
                                                        "shape Euler number",
                                                        "topology" };
 
@@ -45,6 +46,55 @@ double
 DotOf(const Position & a, const Position & b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** A measure is half the width between two feet, taken as the mean over an element's corners where these agree and else as
+ *  the least; so none exceeds the mean distance of the farthest feet, or, where it was taken at other corners, too, twice
+ *  that of any one. */
+void
+CheckRefinedMeasures(VerificationReport &             report,
+                     const RefinedVerificationInput & input,
+                     const std::vector<double> &      farthest)
+{
+  const CellComplex & cells = *input.cells;
+  const std::size_t   edges = cells.vertexCount + cells.edges.size();
+  const auto          isWrong = [&](std::size_t i) {
+    if (i < cells.vertexCount)
+    {
+      return !(input.vertexLambda[i] <= 2 * farthest[i]);
+    }
+    if (i < edges)
+    {
+      const auto [v, w] = cells.edges[i - cells.vertexCount];
+      const double measure = input.edgeLambda[i - cells.vertexCount];
+      return !std::isnan(measure) && !(measure <= 2 * std::min(farthest[v], farthest[w]) &&
+                                       measure <= std::min(input.vertexLambda[v], input.vertexLambda[w]));
+    }
+    const double measure = input.faceLambda[i - edges];
+    double       sum = 0;
+    for (const ElementIndex corner : cells.FaceVertices(i - edges))
+    {
+      sum += farthest[corner];
+      if (!(measure <= input.vertexLambda[corner]))
+      {
+        return true;
+      }
+    }
+    for (const ElementIndex edge : cells.FaceEdges(i - edges))
+    {
+      if (measure > input.edgeLambda[edge])
+      {
+        return true;
+      }
+    }
+    return !(3 * measure <= sum);
+  };
+  AddCheck(report, "measures", edges + cells.FaceCount(), isWrong, [&](std::size_t i) {
+    return (i < cells.vertexCount ? "vertex " + std::to_string(i)
+            : i < edges           ? "edge " + std::to_string(i - cells.vertexCount)
+                                  : "face " + std::to_string(i - edges)) +
+           " has a measure greater than its place in the shape allows, or than one of what it bounds.";
+  });
 }
 
 void
@@ -123,6 +173,7 @@ CheckMoves(VerificationReport &             report,
     [&](std::size_t face) { return "face " + std::to_string(face) + " was turned over."; });
   const double half =
     0.5 * std::sqrt(DotOf(input.spacing, input.spacing)) * (1 + 1e-9) + input.positionTolerance * input.weights.unit;
+  const BoundaryTree  inMillimetres(tree.Points(), input.spacing);
   std::vector<double> nearest(origins.size());
 #pragma omp parallel if (nearest.size() > 4096)
   {
@@ -130,26 +181,33 @@ CheckMoves(VerificationReport &             report,
 #pragma omp for schedule(dynamic, 1024)
     for (std::size_t v = 0; v < nearest.size(); ++v)
     {
-      nearest[v] = tree.FindNearest(input.positions[v], 0, found) * input.weights.unit;
+      nearest[v] = inMillimetres.FindNearest(input.positions[v], 0, found);
     }
   }
+  // A surface nearer than a billionth of a voxel is none.
+  const double least = 1e-9 * half;
   AddCheck(
     report,
     "radius",
     origins.size(),
-    [&](std::size_t v) {
-      Position move = input.displacement[v];
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        move[k] *= input.spacing[k];
-      }
-      return !(input.radius[v] > 0 &&
-               std::abs(input.radius[v] - nearest[v]) <= half + 2 * std::sqrt(DotOf(move, move)));
-    },
+    [&](std::size_t v) { return !(input.radius[v] > least && std::abs(input.radius[v] - nearest[v]) <= half); },
     [&](std::size_t v) {
       return "the nearest boundary vertex is " + Describe(nearest[v]) + " mm from " + vertexText(v) +
              ", whose radius is " + Describe(input.radius[v]) + " mm.";
     });
+  // No foot is farther from a vertex than the boundary vertex that it began at, and where the surface passes that.
+  std::vector<double> farthest(origins.size());
+  for (std::size_t v = 0; v < farthest.size(); ++v)
+  {
+    Position move = input.displacement[v];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      move[k] *= input.spacing[k];
+    }
+    farthest[v] =
+      (sets.distance[v] * input.weights.unit) * (1 + kLargestDeviation) + std::sqrt(DotOf(move, move)) + 1.5 * half;
+  }
+  CheckRefinedMeasures(report, input, farthest);
 }
 
 } // namespace

@@ -140,33 +140,20 @@ PositionRounding(const VoxelBox & box)
 namespace
 {
 
-constexpr std::array<const char *, 28> kAllChecks{ "arrays",
-                                                   "numbers",
-                                                   "edge ends",
-                                                   "polygons",
-                                                   "polygon edges",
-                                                   "distinct vertices",
-                                                   "distinct edges",
-                                                   "distinct faces",
-                                                   "vertices inside",
-                                                   "vertices equidistant",
-                                                   "nothing nearer",
-                                                   "radius",
-                                                   "edges dual",
-                                                   "faces dual",
-                                                   "faces planar",
-                                                   "faces convex",
-                                                   "faces oriented",
-                                                   "vertex measures",
-                                                   "edge measures",
-                                                   "face measures",
-                                                   "measures monotone",
-                                                   "vertex order",
-                                                   "edge order",
-                                                   "face order",
-                                                   "completeness",
-                                                   "pruning",
-                                                   "shape Euler number",
+constexpr std::array<const char *, 29> kAllChecks{ "arrays",          "numbers",
+                                                   "edge ends",       "polygons",
+                                                   "polygon edges",   "distinct vertices",
+                                                   "distinct edges",  "distinct faces",
+                                                   "vertices inside", "vertices equidistant",
+                                                   "nothing nearer",  "radius",
+                                                   "true spacing",    "edges dual",
+                                                   "faces dual",      "faces planar",
+                                                   "faces convex",    "faces oriented",
+                                                   "vertex measures", "edge measures",
+                                                   "face measures",   "measures monotone",
+                                                   "vertex order",    "edge order",
+                                                   "face order",      "completeness",
+                                                   "pruning",         "shape Euler number",
                                                    "topology" };
 
 /** Adds the checks that were not run. */
@@ -201,6 +188,7 @@ CheckGeometry(VerificationReport &      report,
   FindDualEdges(subject);
   CheckDistinct(report, subject);
   CheckVertices(report, subject);
+  CheckTrueSpacing(report, subject);
   CheckDuals(report, subject);
   CheckPolygons(report, subject);
   ReportProgress(progress, "verify", 0.6);
@@ -224,17 +212,8 @@ CheckGeometry(VerificationReport &      report,
 double
 PositionTolerance(const ImageGeometry & geometry)
 {
-  double largest = 0;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    largest = std::max(largest, std::abs(geometry.origin[a]));
-  }
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    largest += geometry.spacing[a] * static_cast<double>(geometry.size[a] + 1);
-  }
   const double finest = *std::min_element(geometry.spacing.begin(), geometry.spacing.end());
-  return 64 * std::numeric_limits<double>::epsilon() * largest / finest;
+  return 64 * std::numeric_limits<double>::epsilon() * LargestCoordinate(geometry) / finest;
 }
 
 VerificationReport

@@ -18,7 +18,7 @@ main(int argc, char ** argv)
       return 2;
     }
     const voxelcore::LabelVolume scan = voxelcore::ReadLabelVolume(argv[1]);
-    const auto                   weights = voxelcore::ComputeSpacingWeights(scan.geometry.spacing);
+    const auto                   weights = voxelcore::ComputeLatticeWeights(scan.geometry);
     const auto                   core = voxelcore::ComputeVoxelCore(scan.labels[0].shape, weights);
     const auto                   pruned = voxelcore::PruneByLambda(core, { 1.5 });
     voxelcore::WriteModel(argv[2], argv[2], { { voxelcore::ToPhysical(pruned[0], scan.geometry, 1) }, "" });

@@ -35,4 +35,14 @@ IsLeftHanded(const ImageGeometry & geometry);
 double
 OrthonormalityDeviationDegrees(const ImageGeometry & geometry);
 
+/** The largest coordinate in LPS mm that is met on the way from index to LPS: origin plus extent. */
+double
+LargestCoordinate(const ImageGeometry & geometry);
+
+/** Doubles must tell places within a voxel apart: no coordinate may exceed 2^36 times the finest spacing, so that
+ *  positions keep 2^-17 of a voxel or better. Scans lie well within: 10^6 mm away, voxels may be as fine as 15 nm.
+ *  \throws InputError where the image lies farther off, or its origin or direction is not finite. */
+void
+RequireDistinctPositions(const ImageGeometry & geometry);
+
 } // namespace voxelcore

@@ -29,7 +29,8 @@ struct MedialModel
   std::vector<ModelPart> parts;      ///< by label, then component, each once
   std::string            provenance; ///< JSON text of the field array Provenance; may be empty
   bool        hasEdges = true;       ///< reading: no edge's measure is missing (--keep-edges, or no edge on a face)
-  std::string refined{}; ///< "labels", "grey" or "mesh": the surface its cores are refined to; empty: they are not
+  std::string refined{};    ///< "labels", "grey" or "mesh": the surface its cores are refined to; empty: they are not
+  bool        inLps = true; ///< positions are known to be in LPS: files say so (SPACE), and ReadModel takes no other
 };
 
 /** How to write. */
@@ -47,10 +48,15 @@ struct ModelOmissions
   std::uint64_t labels = 0;   ///< labels, or components of them, merged into one
 };
 
-/** Moves a core from lattice coordinates to LPS mm; reverses polygons when the geometry is left-handed, so that their
- *  normals still point from the smaller to the greater of their boundary vertices. */
+/** A core that PlaceInLps moved to LPS mm. */
 ModelPart
 ToPhysical(MedialComplex core, const ImageGeometry & geometry, std::int64_t label);
+
+/** The same core with each polygon cut into the fan of triangles from its first vertex, in the order of the polygons, as
+ *  ModelOptions::triangles writes it. A diagonal lies within its face and has the face's two nearest boundary vertices: so
+ *  its measure is the face's. */
+MedialComplex
+Triangulated(const MedialComplex & core);
 
 /** Whether `path` ends in an extension WriteModel knows. */
 bool
@@ -85,5 +91,16 @@ ModelLibrary();
  *  \throws InputError when it is missing, damaged, or was not written by VoxelCore. */
 MedialModel
 ReadModel(const std::filesystem::path & path);
+
+/** Whether two models, or two parts, are the same to the last bit. */
+bool
+SameBits(const MedialModel & a, const MedialModel & b);
+bool
+SameBits(const ModelPart & a, const ModelPart & b);
+
+/** \throws InputError unless VTK's own reader opens the file without complaint and finds in it `model`, which ReadModel
+ *  found. */
+void
+RequireVtkReads(const std::filesystem::path & path, const MedialModel & model);
 
 } // namespace voxelcore

@@ -16,7 +16,7 @@ vtkSmartPointer<vtkPolyData>
 MakePolyData(const MedialModel & model, bool keepEdges);
 
 /** The inverse: the model in polydata that MakePolyData made, or VTK's reader found in a .vtp of ours. Its arrays must be as
- *  they were. \throws InputError */
+ *  they were; only SPACE may be missing (MedialModel::inLps). \throws InputError */
 MedialModel
 ModelFromPolyData(vtkPolyData & data);
 

@@ -1,6 +1,7 @@
 #pragma once
 // What a job of `voxelcore core` did and found: the report, and the provenance inside the files it wrote.
 
+#include "voxelcore/CoreProvenance.h"
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/RefineStage.h"
@@ -51,17 +52,6 @@ struct ParameterRecord
   bool                                     crossCheck = false; ///< both engines ran and agreed
   int                                      threads = 0;
   SpacingWeights                           weights;
-};
-
-/** Size and topology of a complex. */
-struct ComplexRecord
-{
-  std::uint64_t   vertices = 0;
-  std::uint64_t   edges = 0;
-  std::uint64_t   faces = 0;
-  TopologyNumbers topology;
-  double          areaMm2 = 0;
-  double          maxRadiusMm = 0;
 };
 
 /** What pruning by bump height did. */
@@ -135,6 +125,7 @@ struct StageSeconds
 
 struct CoreReport
 {
+  std::string                  version; ///< of the VoxelCore that made it; known only of what ParseProvenance read
   std::string                  command;
   InputRecord                  input;
   ParameterRecord              parameters;
@@ -179,10 +170,6 @@ LabelRecordJson(const LabelRecord & label);
 /** The inverse, but for outputs and for the skeleton's numbers, which its file gives. \throws InputError */
 LabelRecord
 ParseLabelRecord(const std::string & json);
-
-/** Counts, area (in the unit of its positions, squared) and greatest radius. */
-ComplexRecord
-DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology);
 
 /** The most memory this process has had resident, in 2^20 bytes. */
 double

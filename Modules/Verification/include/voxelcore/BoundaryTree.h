@@ -1,5 +1,5 @@
 #pragma once
-// A balanced kd-tree over lattice points, in the metric of spacing weights.
+// A balanced kd-tree over lattice points, in the metric of spacing weights or of the spacing itself.
 
 #include "voxelcore/LatticePoint.h"
 #include "voxelcore/SpacingWeights.h"
@@ -17,7 +17,7 @@ namespace voxelcore
 class BoundaryTree
 {
 public:
-  /** A point and its squared distance to the query, in units of SpacingWeights::unit squared. */
+  /** A point and its squared distance to the query, in units of SpacingWeights::unit squared; with a spacing in mm^2. */
   struct Candidate
   {
     double        squaredDistance;
@@ -26,6 +26,8 @@ public:
 
   /** Up to 2^32 - 2 points. */
   BoundaryTree(std::vector<LatticePoint> points, const SpacingWeights & weights);
+  /** Distances are in mm. */
+  BoundaryTree(std::vector<LatticePoint> points, const std::array<double, 3> & spacing);
 
   const std::vector<LatticePoint> &
   Points() const
@@ -47,8 +49,8 @@ private:
   Descend(Search & search, std::size_t first, std::size_t last, double squaredGap) const;
 
   std::vector<LatticePoint> m_Points;
-  std::vector<std::uint8_t> m_Axes; ///< of the split at each middle
-  std::array<double, 3>     m_Weights;
+  std::vector<std::uint8_t> m_Axes;    ///< of the split at each middle
+  std::array<double, 3>     m_Weights; ///< length of a lattice step along each axis
 };
 
 } // namespace voxelcore

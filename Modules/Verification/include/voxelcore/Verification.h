@@ -29,7 +29,8 @@ namespace voxelcore
 struct VerificationInput
 {
   const VoxelShape *                     shape = nullptr;
-  SpacingWeights                         weights; ///< of the scan's spacing
+  SpacingWeights                         weights;            ///< of the scan's spacing
+  std::array<double, 3>                  spacing{ 1, 1, 1 }; ///< mm; lengths are measured with it again
   const CellComplex *                    cells = nullptr;
   std::span<const std::array<double, 3>> positions;    ///< lattice coordinates (voxel index + 1/2), per vertex
   std::span<const double>                radius;       ///< mm, per vertex
@@ -85,6 +86,9 @@ PositionTolerance(const ImageGeometry & geometry);
  *  - vertices inside: in the open shape
  *  - vertices equidistant: centres of empty spheres through 4 affinely independent boundary vertices, exactly
  *  - nothing nearer, radius: no boundary vertex nearer than the stated radius, and the radius is attained
+ *  - true spacing: every radius is the distance to the nearest boundary vertex, and every face's measure half that of its
+ *    two, measured with the spacing instead of the weights; within the deviation of the weights, and never more than
+ *    kLargestDeviation
  *  - edges dual, faces dual: ends share 3 or more, corners exactly 2 nearest boundary vertices
  *  - faces planar, faces convex, faces oriented
  *  - vertex measures, edge measures, face measures, measures monotone

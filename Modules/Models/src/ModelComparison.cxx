@@ -1,0 +1,97 @@
+// Whether two models are the same, and whether VTK reads from a file what we do.
+
+#include "VtkMessages.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/ModelPolyData.h"
+
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace voxelcore
+{
+namespace
+{
+
+bool
+Same(double a, double b)
+{
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+bool
+Same(const Vector3 & a, const Vector3 & b)
+{
+  return Same(a[0], b[0]) && Same(a[1], b[1]) && Same(a[2], b[2]);
+}
+
+template <typename Value>
+bool
+Same(const std::vector<Value> & a, const std::vector<Value> & b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Value & x, const Value & y) {
+    return Same(x, y);
+  });
+}
+
+} // namespace
+
+bool
+SameBits(const ModelPart & a, const ModelPart & b)
+{
+  const MedialComplex & x = a.core;
+  const MedialComplex & y = b.core;
+  return a.label == b.label && a.component == b.component && x.cells.vertexCount == y.cells.vertexCount &&
+         x.cells.edges == y.cells.edges && x.cells.faceOffsets == y.cells.faceOffsets &&
+         x.cells.faceVertices == y.cells.faceVertices && x.cells.faceEdges == y.cells.faceEdges &&
+         Same(x.positions, y.positions) && Same(x.radius, y.radius) && Same(x.vertexLambda, y.vertexLambda) &&
+         Same(x.edgeLambda, y.edgeLambda) && Same(x.faceLambda, y.faceLambda) &&
+         Same(x.bumps.vertices, y.bumps.vertices) && Same(x.bumps.edges, y.bumps.edges) &&
+         Same(x.bumps.faces, y.bumps.faces) && Same(a.displacement, b.displacement);
+}
+
+bool
+SameBits(const MedialModel & a, const MedialModel & b)
+{
+  return a.provenance == b.provenance && a.hasEdges == b.hasEdges && a.refined == b.refined && a.inLps == b.inLps &&
+         std::equal(a.parts.begin(),
+                    a.parts.end(),
+                    b.parts.begin(),
+                    b.parts.end(),
+                    [](const ModelPart & x, const ModelPart & y) { return SameBits(x, y); });
+}
+
+void
+RequireVtkReads(const std::filesystem::path & path, const MedialModel & model)
+{
+  std::string trouble;
+  {
+    const VtkMessages            messages;
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    trouble = messages.First();
+    if (trouble.empty() && reader->GetErrorCode() == 0)
+    {
+      try
+      {
+        if (SameBits(ModelFromPolyData(*reader->GetOutput()), model))
+        {
+          return;
+        }
+        trouble = "it finds something else in it";
+      }
+      catch (const InputError & error)
+      {
+        trouble = error.what();
+      }
+    }
+  }
+  throw InputError(path.string() + ": VTK's reader does not open it (" + trouble + "); make the file again");
+}
+
+} // namespace voxelcore

@@ -1,0 +1,43 @@
+#pragma once
+// Part of `voxelcore verify`: what cannot be checked without making it is made again.
+
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/Verification.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Bump heights, and the radii and measures of a refined core, follow from no property that a finished file could be
+ *  checked for. They are made again from the scan and compared bit by bit. */
+class MadeAgain
+{
+public:
+  /** `volume` is the scan, read as `made` says; what is in the way is added to `notes`. */
+  MadeAgain(const CoreReport &            made,
+            const LabelVolume &           volume,
+            const SpacingWeights &        weights,
+            const std::filesystem::path & scan,
+            std::vector<std::string> &    notes);
+
+  /** None where nothing needs it, or something is in the way. */
+  std::optional<VerificationCheck>
+  Check(const ModelPart &        part,
+        const LabelShape &       label,
+        const PrunedRecord &     pruned,
+        const ProgressCallback & progress) const;
+
+private:
+  const CoreReport &     m_Made;
+  const ImageGeometry &  m_Geometry;
+  const SpacingWeights & m_Weights;
+  SurfaceSource          m_Surface;
+  bool                   m_Needed = false;
+};
+
+} // namespace voxelcore

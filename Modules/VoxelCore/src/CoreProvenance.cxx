@@ -1,0 +1,255 @@
+#include "voxelcore/CoreProvenance.h"
+
+#include "voxelcore/BoundaryVertices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+Json
+TopologyJson(const TopologyNumbers & topology)
+{
+  return { { "euler", topology.euler }, { "betti", topology.betti } };
+}
+
+void
+AddComplex(Json & json, const ComplexRecord & complex)
+{
+  json["vertices"] = complex.vertices;
+  json["edges"] = complex.edges;
+  json["faces"] = complex.faces;
+  json.update(TopologyJson(complex.topology));
+  json["area_mm2"] = complex.areaMm2;
+  json["max_radius_mm"] = complex.maxRadiusMm;
+}
+
+Json
+PruningJson(const CorePruning & pruning)
+{
+  Json json{ { "lambda", pruning.lambda }, { "lambda_mm", pruning.lambdaMm } };
+  AddComplex(json, pruning.complex);
+  return json;
+}
+
+Json
+ParametersJson(const ImageGeometry &           geometry,
+               const std::vector<CoreOrigin> & origins,
+               const std::string &             lambda,
+               bool                            keepEdges)
+{
+  const SpacingWeights weights = ComputeLatticeWeights(geometry);
+  Json                 json = Json::object();
+  json["labels"] = Json::array();
+  for (const CoreOrigin & origin : origins)
+  {
+    json["labels"].push_back(origin.label);
+  }
+  json["binary"] = false;
+  for (const char * none : { "threshold", "volume", "component", "spacing" })
+  {
+    json[none] = nullptr;
+  }
+  json["orthonormalize"] = false;
+  json["nifti_form"] = "auto";
+  json["crop"] = nullptr;
+  json["mend_shape"] = false;
+  json["fill_cavities"] = false;
+  json["min_voxels"] = nullptr;
+  json["largest"] = nullptr;
+  json["smooth_shape"] = false;
+  json["split_components"] = false;
+  json["lambda"] = Json::array({ lambda });
+  json["triangles"] = false;
+  json["keep_edges"] = keepEdges;
+  json["lattice_weights"] = weights.weight;
+  json["lattice_unit_mm"] = weights.unit;
+  json["lattice_deviation"] = weights.deviation;
+  return json;
+}
+
+Json
+OriginJson(const CoreOrigin & origin, const CorePruning & pruning, const ImageGeometry & geometry)
+{
+  const auto & spacing = geometry.spacing;
+  Json         json = Json::object();
+  json["label"] = origin.label;
+  json["name"] = origin.name;
+  json["voxels"] = origin.voxels;
+  json["volume_mm3"] = static_cast<double>(origin.voxels) * (spacing[0] * spacing[1] * spacing[2]);
+  json["bounding_box"] = { { "lower", origin.box.lower }, { "size", origin.box.size } };
+  json["boundary_vertices"] = origin.boundaryVertices;
+  json["shape"] = TopologyJson(origin.shape);
+  json["core"] = Json::object();
+  AddComplex(json["core"], origin.core);
+  json["pruned"] = Json::array({ PruningJson(pruning) });
+  const bool same = origin.shape == origin.core.topology;
+  json["certificate"] = { { "topology", same },
+                          { "enclosed", origin.enclosed },
+                          { "passed", same && origin.enclosed } };
+  return json;
+}
+
+std::string
+Dump(const Json & json)
+{
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace
+
+ComplexRecord
+DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology)
+{
+  ComplexRecord record;
+  record.vertices = complex.cells.vertexCount;
+  record.edges = complex.cells.edges.size();
+  record.faces = complex.cells.FaceCount();
+  record.topology = topology;
+  for (std::size_t face = 0; face < complex.cells.FaceCount(); ++face)
+  {
+    const auto            corners = complex.cells.FaceVertices(face);
+    std::array<double, 3> sum{ 0, 0, 0 };
+    const auto &          first = complex.positions[corners[0]];
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    {
+      std::array<double, 3> a;
+      std::array<double, 3> b;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        a[k] = complex.positions[corners[i]][k] - first[k];
+        b[k] = complex.positions[corners[i + 1]][k] - first[k];
+      }
+      sum[0] += a[1] * b[2] - a[2] * b[1];
+      sum[1] += a[2] * b[0] - a[0] * b[2];
+      sum[2] += a[0] * b[1] - a[1] * b[0];
+    }
+    record.areaMm2 += std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / 2;
+  }
+  if (!complex.radius.empty())
+  {
+    record.maxRadiusMm = *std::max_element(complex.radius.begin(), complex.radius.end());
+  }
+  return record;
+}
+
+MedialComplex
+PlaceInLps(MedialComplex core, const ImageGeometry & geometry)
+{
+  RequireDistinctPositions(geometry);
+  for (auto & position : core.positions)
+  {
+    position = LatticeToPhysical(geometry, position);
+  }
+  if (IsLeftHanded(geometry))
+  {
+    CellComplex & cells = core.cells;
+    for (std::size_t face = 0; face < cells.FaceCount(); ++face)
+    {
+      const auto begin = static_cast<std::ptrdiff_t>(cells.faceOffsets[face]);
+      const auto end = static_cast<std::ptrdiff_t>(cells.faceOffsets[face + 1]);
+      if (begin != end)
+      {
+        // The first corner stays the first; edge i joins corner i and the next, so all edges turn round.
+        std::reverse(cells.faceVertices.begin() + begin + 1, cells.faceVertices.begin() + end);
+        std::reverse(cells.faceEdges.begin() + begin, cells.faceEdges.begin() + end);
+      }
+    }
+  }
+  return core;
+}
+
+CoreOrigin
+DescribeOrigin(std::int64_t            label,
+               std::string             name,
+               const VoxelShape &      shape,
+               const TopologyNumbers & topology,
+               const MedialComplex &   core,
+               const MedialComplex &   placed)
+{
+  CoreOrigin origin;
+  origin.label = label;
+  origin.name = std::move(name);
+  origin.voxels = shape.CountVoxels();
+  origin.box = shape.Box();
+  origin.boundaryVertices = BoundaryVertices(shape).size();
+  origin.shape = topology;
+  origin.core = DescribeComplex(placed, topology);
+  origin.enclosed = std::all_of(core.positions.begin(), core.positions.end(), [&shape](const auto & position) {
+    return ContainsInside(shape, position);
+  });
+  return origin;
+}
+
+std::string
+CoreProvenanceJson(const ImageGeometry &            geometry,
+                   const std::vector<CoreOrigin> &  origins,
+                   const std::vector<CorePruning> & prunings,
+                   bool                             keepEdges)
+{
+  Json json = Json::object();
+  json["voxelcore"] = { { "version", VOXELCORE_VERSION } };
+  // The scan's file is not known here: whoever needs its digest sees that there is none.
+  json["input"] = { { "sha256", "" },
+                    { "format", "image in memory" },
+                    { "size", geometry.size },
+                    { "spacing_mm", geometry.spacing },
+                    { "origin_mm", geometry.origin },
+                    { "direction", geometry.direction },
+                    { "notes", Json::array() } };
+  json["parameters"] = ParametersJson(geometry, origins, prunings.empty() ? "0" : prunings.front().lambda, keepEdges);
+  json["labels"] = Json::array();
+  for (std::size_t i = 0; i < origins.size(); ++i)
+  {
+    json["labels"].push_back(OriginJson(origins[i], prunings.at(i), geometry));
+  }
+  return Dump(json);
+}
+
+std::string
+PrunedProvenanceJson(const std::string & text, const std::vector<CorePruning> & prunings)
+{
+  try
+  {
+    Json   json = Json::parse(text);
+    Json & labels = json.at("labels");
+    if (labels.size() != prunings.size() || prunings.empty())
+    {
+      return {};
+    }
+    for (std::size_t i = 0; i < labels.size(); ++i)
+    {
+      CorePruning  pruning = prunings[i];
+      const Json & before = labels.at(i).at("pruned").at(0);
+      if (before.contains("bumps"))
+      {
+        return {}; // lambda no longer says what is left
+      }
+      if (before.at("lambda_mm").get<double>() >= pruning.lambdaMm)
+      {
+        before.at("lambda").get_to(pruning.lambda);
+        before.at("lambda_mm").get_to(pruning.lambdaMm);
+      }
+      if (i == 0)
+      {
+        json.at("parameters").at("lambda") = Json::array({ pruning.lambda });
+      }
+      labels.at(i).at("pruned") = Json::array({ PruningJson(pruning) });
+    }
+    json.at("parameters").at("keep_edges") = true;
+    return Dump(json);
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    return {};
+  }
+}
+
+} // namespace voxelcore
