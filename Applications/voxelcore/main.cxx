@@ -12,8 +12,11 @@
 #include "voxelcore/Thumbnail.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <new>
 #include <omp.h>
 #include <string>
@@ -96,7 +99,6 @@ RunStudy(const Run & run, const CoreOptions & options, const std::vector<std::in
     run.Print("resolution " + std::to_string(resolutions[i]) + "\n");
     PrintCore(run, result.runs[i]);
   }
-  run.Print(result.table.string() + "\n");
   return kDone;
 }
 
@@ -241,10 +243,6 @@ RunRender(const Run & run)
   const RenderResult result = RunRenderJob(RenderOptionsFrom(run.line.values), run.context);
   run.Warn(result.warnings);
   run.PrintNotes(result.notes);
-  for (const auto & picture : result.pictures)
-  {
-    run.Print(picture.string() + "\n");
-  }
   return kDone;
 }
 
@@ -277,6 +275,32 @@ Dispatch(const Run & run)
       return PrintSkeleton(run, RunMeasureJob(MeasureOptionsFrom(run.line.values), run.context));
   }
   return kUsage;
+}
+
+/** One line for each file, or for each folder of many; then the time, which tables of cores say themselves. */
+std::string
+WrittenText(const std::vector<std::filesystem::path> & files, bool withTime, double seconds)
+{
+  constexpr std::size_t                        few = 6;
+  std::map<std::filesystem::path, std::size_t> folders;
+  std::string                                  text;
+  for (const auto & file : files)
+  {
+    text += "wrote " + file.string() + "\n";
+    ++folders[file.parent_path()];
+  }
+  if (files.size() > few)
+  {
+    text.clear();
+    for (const auto & [folder, count] : folders)
+    {
+      text += "wrote " + std::to_string(count) + (count == 1 ? " file to " : " files to ") +
+              (folder.empty() ? "." : folder.string()) + "\n";
+    }
+  }
+  char time[80];
+  std::snprintf(time, sizeof(time), "%.2f s, peak memory %.0f MB\n", seconds, PeakMemoryMb());
+  return text + (withTime ? time : "");
 }
 
 ProgressPrinter::Style
@@ -318,11 +342,23 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
     printer.Show(stage, fraction);
     return !WasInterrupted();
   };
+  std::vector<std::filesystem::path> written;
+  context.wrote = [&written](const std::vector<std::filesystem::path> & files) { written = files; };
   if (*line.command != CommandId::Batch)
   {
     context.admit = AdmissionFromEnvironment(WasInterrupted);
   }
-  return Dispatch({ line, console, context, printer, quiet, omp_get_max_threads() });
+  const auto start = std::chrono::steady_clock::now();
+  const Run  run{ line, console, context, printer, quiet, omp_get_max_threads() };
+  const int  code = Dispatch(run);
+  if (!written.empty())
+  {
+    const bool tableSaysTime = *line.command == CommandId::Core || *line.command == CommandId::Prune;
+    run.Print(WrittenText(written,
+                          !tableSaysTime,
+                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
+  }
+  return code;
 }
 
 /** Whether the same command goes on from where this one stopped: batch does, and core and skeleton into a folder. */

@@ -53,7 +53,7 @@ TEST_F(CoreCommand, TwoRunsGiveTheSameBytesWhereverTheyRun)
 TEST_F(CoreCommand, TheTableHasARowPerLabel)
 {
   const std::string table = Core({ "-o", m_Folder / "out.vtp" });
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5) << table;
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 6) << table;
   for (const char * word : { "label-1",
                              "label-2",
                              "label-9",

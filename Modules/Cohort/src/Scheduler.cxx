@@ -1,5 +1,6 @@
 #include "Scheduler.h"
 
+#include "TimeLeft.h"
 #include "voxelcore/CaseRecord.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Sha256.h"
@@ -277,9 +278,7 @@ Scheduler::KillLateOnes()
 {
   for (Running & running : m_Running)
   {
-    const double now = std::chrono::duration<double>(Clock::now() - running.start).count();
-    const double worked = running.wanted > 0 ? running.seconds : running.seconds + now;
-    if (m_Options.timeout > 0 && worked > m_Options.timeout && running.killed.empty())
+    if (m_Options.timeout > 0 && WorkedSeconds(running) > m_Options.timeout && running.killed.empty())
     {
       running.killed = "took longer than --timeout " + ClockText(m_Options.timeout);
       running.process.Kill();
@@ -297,7 +296,6 @@ Scheduler::Finish(Running & running)
   {
     throw Cancelled(); // the terminal's interrupt reaches the cases, too
   }
-  ++m_Worked;
   if (reason.empty())
   {
     CaseRecord record;
@@ -320,6 +318,7 @@ Scheduler::Finish(Running & running)
     else
     {
       WriteCaseRecord(job.folder, record);
+      m_Seconds.push_back(WorkedSeconds(running));
       ++m_Finished;
       return;
     }
@@ -343,17 +342,29 @@ Scheduler::Fail(std::size_t job, const std::string & key, const std::string & re
   ++m_Finished;
 }
 
+double
+Scheduler::WorkedSeconds(const Running & running)
+{
+  const double now = std::chrono::duration<double>(Clock::now() - running.start).count();
+  return running.wanted > 0 ? running.seconds : running.seconds + now;
+}
+
 void
 Scheduler::Report()
 {
   std::string text = std::to_string(m_Finished - m_Result.failed.size()) + " of " + std::to_string(m_Jobs.size()) +
                      " done, " + std::to_string(m_Running.size()) + " running, " +
                      std::to_string(m_Result.failed.size()) + " failed";
-  if (m_Worked > 0 && m_Finished < m_Jobs.size())
+  std::vector<double> running;
+  for (const Running & one : m_Running)
   {
-    const double elapsed = std::chrono::duration<double>(Clock::now() - m_Start).count();
-    const auto   left = static_cast<double>(m_Jobs.size() - m_Finished);
-    text += ", " + ClockText(elapsed / static_cast<double>(m_Worked) * left) + " left";
+    running.push_back(WorkedSeconds(one));
+  }
+  const std::size_t waiting = m_Jobs.size() - m_Finished - running.size();
+  const auto        left = SecondsLeft(m_Seconds, running, waiting, static_cast<std::size_t>(m_Options.jobs));
+  if (left && *left > 0)
+  {
+    text += ", " + ClockText(*left) + " left";
   }
   ReportProgress(m_Progress, text, static_cast<double>(m_Finished) / static_cast<double>(m_Jobs.size()));
 }

@@ -63,6 +63,9 @@ private:
   Finish(Running & running);
   void
   Fail(std::size_t job, const std::string & key, const std::string & reason, double seconds);
+  /** How long a case has worked, without waiting for memory. */
+  static double
+  WorkedSeconds(const Running & running);
   void
   Report();
 
@@ -74,7 +77,7 @@ private:
   std::list<Running>      m_Running;
   BatchResult             m_Result;
   std::size_t             m_Finished = 0; ///< done or failed
-  std::size_t             m_Worked = 0;   ///< of these by processes of ours
+  std::vector<double>     m_Seconds;      ///< of the cases our processes have done
   Clock::time_point       m_Start = Clock::now();
 };
 

@@ -3,6 +3,7 @@
 #include "CellTracer.h"
 #include "DeepCells.h"
 #include "SharedProgress.h"
+#include "voxelcore/StagePlan.h"
 
 #include <omp.h>
 
@@ -119,15 +120,18 @@ LatticeCells(const VoxelShape &                shape,
   constexpr std::size_t worthAThread = 20000; // points
   const std::size_t     threads =
     std::clamp<std::size_t>(points.size() / worthAThread, 1, static_cast<std::size_t>(omp_get_max_threads()));
-  Tracing tracing;
+  // How many deep points there will be only tracing tells. Most of the time goes into tracing, unless a part is very thick.
+  StagePlan              plan(progress, { 0.7, 0.3 });
+  const ProgressCallback tracingPart = plan.Next();
+  Tracing                tracing;
   if (threads == 1)
   {
     BrickQueue bricks(0, grid.Size());
-    tracing = CellTracer(input, bricks, false).Trace(progress);
+    tracing = CellTracer(input, bricks, false).Trace(tracingPart);
   }
   else
   {
-    tracing = TraceSideBySide(input, threads, progress);
+    tracing = TraceSideBySide(input, threads, tracingPart);
   }
   // Whatever tracing left, for whichever reason, is completed from the facets it left open.
   tracing.deep.insert(tracing.deep.end(), tracing.open.begin(), tracing.open.end());
@@ -143,7 +147,7 @@ LatticeCells(const VoxelShape &                shape,
         raw.sorted = SortByCentre(tracing.cells, 0, points, weights);
       }
     };
-    AddDeepCells(tracing, points, weights, sortFound, progress);
+    AddDeepCells(tracing, points, weights, sortFound, plan.Next());
   }
   raw.cells = std::move(tracing.cells);
   return raw;

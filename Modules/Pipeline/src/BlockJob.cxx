@@ -127,8 +127,9 @@ BlockPath(const BlockOptions & options, std::int64_t label, std::int64_t compone
 }
 
 BlockResult
-RunBlockJob(const BlockOptions & options, const JobContext & context)
+RunBlockJob(const BlockOptions & options, const JobContext & given)
 {
+  const JobContext    context = ForwardOnly(given);
   constexpr double    kReadEnds = 0.2;
   const CoreOptions & core = options.core;
   if (options.block < 1 || options.block > options.blocks)
@@ -149,7 +150,7 @@ RunBlockJob(const BlockOptions & options, const JobContext & context)
                                    core.edits,
                                    core.reading.labels != "all",
                                    core.scan.string(),
-                                   PartOfProgress(context.progress, "editing", kReadEnds, kReadEnds));
+                                   PartOfProgress(context.progress, kReadEnds, kReadEnds));
   const SpacingWeights weights = ScanWeights(volume.geometry, core.scan);
   BlockResult          result;
   result.warnings = volume.warnings;
@@ -177,8 +178,7 @@ RunBlockJob(const BlockOptions & options, const JobContext & context)
                              file });
     one.label.shape = VoxelShape();
   }
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "voxelcore/Sha256.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <future>
 #include <numeric>
 #include <omp.h>
@@ -154,6 +155,47 @@ RequireMemory(const CoreOptions & options, const std::vector<EditedLabel> & labe
     throw InputError(options.scan.string() + ": needs about " + MemoryText(prediction.memoryBytes) +
                      ", and --memory allows " + MemoryText(*options.memory) +
                      "; take fewer --labels at a time, write into a folder (-o DIR/), or cut with --crop");
+  }
+}
+
+/** Names labels of whose faces pruning has left none: a note where they are merely thin, a warning where the threshold is
+ *  far beyond the largest radius, as of a mistaken unit. */
+void
+TellFacelessLabels(const CoreReport & report, std::vector<std::string> & notes, std::vector<std::string> & warnings)
+{
+  constexpr std::size_t named = 5;
+  constexpr double      farBeyond = 3;
+  const std::size_t     results = report.labels.empty() ? 0 : report.labels.front().pruned.size();
+  for (std::size_t i = 0; i < results; ++i)
+  {
+    std::string text;
+    std::size_t count = 0;
+    std::string threshold;
+    bool        isFar = false;
+    for (const LabelRecord & label : report.labels)
+    {
+      const PrunedRecord & pruned = label.pruned.at(i);
+      if (label.core.faces == 0 || pruned.complex.faces > 0)
+      {
+        continue;
+      }
+      threshold = pruned.bumps ? "--bumps " + pruned.bumps->height : "--lambda " + pruned.lambda;
+      isFar = isFar || (pruned.bumps ? pruned.bumps->heightMm : pruned.lambdaMm) > farBeyond * label.core.maxRadiusMm;
+      if (++count <= named)
+      {
+        char radius[32];
+        std::snprintf(radius, sizeof(radius), "%.3g", label.core.maxRadiusMm);
+        text +=
+          (count > 1 ? ", " : "") + LabelText(label.label, label.name) + " with a largest radius of " + radius + " mm";
+      }
+    }
+    if (count > 0)
+    {
+      (isFar ? warnings : notes)
+        .push_back(threshold + " leaves no face, only curves or a point, of " + text +
+                   (count > named ? ", and " + std::to_string(count - named) + " more labels" : std::string()) +
+                   "; for surfaces give a smaller value");
+    }
   }
 }
 
@@ -369,9 +411,13 @@ StageCoreJob(const CoreOptions & options,
              const JobContext &  context,
              bool                labelByLabel)
 {
-  // Shares of the whole job's time: reading, the labels, writing.
-  constexpr double             kReadEnds = 0.05;
-  constexpr double             kLabelsEnd = 0.95;
+  // Shares of the whole job's time: reading, editing, the labels, writing, pages and scenes.
+  StagePlan                    plan(context.progress,
+                 { 0.05,
+                   options.edits.mend || options.edits.smooth ? 0.07 : 0.01,
+                                      0.85,
+                                      0.05,
+                   options.display.html || options.display.scene ? 0.3 : 0.0 });
   Stopwatch                    total;
   Stopwatch                    watch;
   CoreResult                   result;
@@ -388,16 +434,10 @@ StageCoreJob(const CoreOptions & options,
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
   auto                 digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
-  LabelVolume          volume = ReadScanOrMesh(options.scan,
-                                      options.reading,
-                                      options.resolution,
-                                      PartOfProgress(context.progress, "reading", 0, kReadEnds));
+  LabelVolume          volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
-  EditedLabels         edited = EditLabels(volume,
-                                   options.edits,
-                                   options.reading.labels != "all",
-                                   options.scan.string(),
-                                   PartOfProgress(context.progress, "editing", kReadEnds, kReadEnds));
+  EditedLabels         edited =
+    EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string(), plan.Next());
   if (options.memory)
   {
     RequireMemory(options, edited.labels);
@@ -447,7 +487,7 @@ StageCoreJob(const CoreOptions & options,
     volume.geometry,
     weights,
     estimates,
-    PartOfProgress(context.progress, kReadEnds, kLabelsEnd),
+    plan.Next(),
     [&](LabelOutcome outcome) {
       if (digest.valid())
       {
@@ -498,7 +538,7 @@ StageCoreJob(const CoreOptions & options,
       first + (failures.size() > 1 ? "; " + std::to_string(failures.size() - 1) + " more labels failed" : "") +
       "; the labels that passed are in the folder, tables and report are not written");
   }
-  ReportProgress(context.progress, "writing", kLabelsEnd);
+  ReportProgress(plan.Next("writing"), "", 0);
   files.Finish();
   if (skeletons)
   {
@@ -516,9 +556,10 @@ StageCoreJob(const CoreOptions & options,
   }
   {
     Stopwatch writing;
-    shown.Finish(report, result.notes, PartOfProgress(context.progress, kLabelsEnd, 1));
+    shown.Finish(report, result.notes, plan.Next());
     report.seconds.write += writing.Lap();
   }
+  TellFacelessLabels(report, result.notes, result.warnings);
   report.seconds.total = total.Lap();
   report.peakMemoryMb = PeakMemoryMb();
   if (options.report)
@@ -533,15 +574,15 @@ StageCoreJob(const CoreOptions & options,
 }
 
 CoreResult
-RunCoreJob(const CoreOptions & options, const JobContext & context)
+RunCoreJob(const CoreOptions & options, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   OutputTransaction transaction(options.force, context.temporaries);
   CheckCoreTargets(options, transaction);
   const bool isFolder = IsFolderOutput(options.output.empty() ? options.skeletonOutput : options.output);
   const bool isShown = options.display.scene || options.display.html;
   CoreResult result = StageCoreJob(options, transaction, context, isFolder && !isShown);
-  ReportProgress(context.progress, "done", 1); // the last moment at which an interruption is heeded
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 

@@ -208,16 +208,20 @@ private:
   void
   LoadScan(std::vector<std::string> & notes, std::vector<std::string> & warnings)
   {
-    ReadOptions reading = RecordedReading(m_Report->parameters);
-    LabelVolume volume = ReadScanOrMesh(*m_Sources.scan,
-                                        reading,
-                                        m_Report->parameters.resolution,
-                                        PartOfProgress(m_Progress, "reading", 0.7, 0.8));
+    // The scan is the last of the files.
+    const double files = static_cast<double>(m_Sources.files.size());
+    StagePlan    plan(PartOfProgress(m_Progress, files / (files + 1), 1), { 1, 1, 1 });
+    ReadOptions  reading = RecordedReading(m_Report->parameters);
+    LabelVolume  volume =
+      ReadScanOrMesh(*m_Sources.scan, reading, m_Report->parameters.resolution, plan.Next("reading"));
     warnings = volume.warnings;
-    EditedLabels edited = EditLabels(volume, m_Report->parameters.edits, false, m_Sources.scan->string());
-    for (EditedLabel & one : edited.labels)
+    EditedLabels edited =
+      EditLabels(volume, m_Report->parameters.edits, false, m_Sources.scan->string(), plan.Next("editing"));
+    const ProgressCallback surfaces = plan.Next("surface");
+    for (std::size_t i = 0; i < edited.labels.size(); ++i)
     {
-      ReportProgress(m_Progress, "surface", 0.8);
+      EditedLabel & one = edited.labels[i];
+      ReportProgress(surfaces, "", static_cast<double>(i) / static_cast<double>(edited.labels.size()));
       const auto place = m_Labels.find({ one.label.value, one.component });
       if (place == m_Labels.end())
       {

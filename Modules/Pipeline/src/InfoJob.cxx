@@ -135,27 +135,28 @@ OrientationLetters(const ImageGeometry & geometry)
 }
 
 ScanInfo
-RunInfoJob(const InfoOptions & options, const JobContext & context)
+RunInfoJob(const InfoOptions & options, const JobContext & given)
 {
-  ScanInfo    info;
-  LabelVolume volume;
+  const JobContext context = ForwardOnly(given);
+  StagePlan        plan(context.progress, { 0.4, 0.2, 0.4 });
+  ScanInfo         info;
+  LabelVolume      volume;
   try
   {
-    volume = ReadScanOrMesh(options.scan,
-                            options.reading,
-                            options.resolution,
-                            PartOfProgress(context.progress, "reading", 0, 0.5));
+    volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   }
   catch (const GreyScanError & error)
   {
     info.grey = error.grey;
     volume = error.volume;
   }
-  EditedLabels edited;
+  const ProgressCallback editing = plan.Next();
+  EditedLabels           edited;
   if (!info.grey)
   {
-    edited = EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string());
+    edited = EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string(), editing);
   }
+  const ProgressCallback counting = plan.Next("counting");
   info.path = options.scan.string();
   info.format = std::move(volume.format);
   info.pixelType = std::move(volume.pixelType);
@@ -185,9 +186,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & context)
   const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
   for (const auto & [label, component, edits] : edited.labels)
   {
-    ReportProgress(context.progress,
-                   "counting",
-                   0.5 + 0.5 * static_cast<double>(info.labels.size()) / static_cast<double>(edited.labels.size()));
+    ReportProgress(counting, "", static_cast<double>(info.labels.size()) / static_cast<double>(edited.labels.size()));
     LabelInfo one;
     one.label = label.value;
     one.component = component;
@@ -201,8 +200,30 @@ RunInfoJob(const InfoOptions & options, const JobContext & context)
     one.cost = PredictLabel(one.boundary, info.threads);
     info.labels.push_back(std::move(one));
   }
+  ReportProgress(context.progress, "done", 1);
   return info;
 }
+
+namespace
+{
+
+/** What `skeleton` will need, of all labels into a folder. */
+CostPrediction
+PredictSkeletons(const ScanInfo & info)
+{
+  CoreOptions options;
+  options.lambdas = ParseLambdas("0");
+  options.skeleton.emplace();
+  options.output = "skeletons/";
+  std::vector<BoundaryCounts> boundaries;
+  for (const LabelInfo & label : info.labels)
+  {
+    boundaries.push_back(label.boundary);
+  }
+  return PredictJob(boundaries, options, info.threads);
+}
+
+} // namespace
 
 std::string
 InfoText(const ScanInfo & info)
@@ -221,6 +242,9 @@ InfoText(const ScanInfo & info)
     text += "core needs   about " + MemoryText(info.cost.memoryBytes) + " and " + SecondsText(info.cost.seconds) +
             " (" + std::to_string(info.threads) + (info.threads == 1 ? " thread" : " threads") +
             ", one lambda, one file)\n";
+    const CostPrediction skeletons = PredictSkeletons(info);
+    text += "skeleton     about " + MemoryText(skeletons.memoryBytes) + " and " + SecondsText(skeletons.seconds) +
+            " (within a factor of two)\n";
   }
   for (const std::string & note : info.notes)
   {
@@ -288,19 +312,21 @@ InfoJson(const ScanInfo & info)
                      { "core_seconds", label.cost.seconds } });
     labels.push_back(std::move(one));
   }
-  Json json = {
-    { "path", info.path },
-    { "format", info.format },
-    { "pixel_type", info.pixelType },
-    { "size", info.geometry.size },
-    { "spacing_mm", info.geometry.spacing },
-    { "origin_mm", info.geometry.origin },
-    { "direction", info.geometry.direction },
-    { "orientation", info.orientation },
-    { "notes", info.notes },
-    { "core",
-      { { "memory_bytes", info.cost.memoryBytes }, { "seconds", info.cost.seconds }, { "threads", info.threads } } },
-    { "labels", labels }
+  const CostPrediction skeletons = PredictSkeletons(info);
+  Json                 json = {
+                    { "path", info.path },
+                    { "format", info.format },
+                    { "pixel_type", info.pixelType },
+                    { "size", info.geometry.size },
+                    { "spacing_mm", info.geometry.spacing },
+                    { "origin_mm", info.geometry.origin },
+                    { "direction", info.geometry.direction },
+                    { "orientation", info.orientation },
+                    { "notes", info.notes },
+                    { "core",
+                      { { "memory_bytes", info.cost.memoryBytes }, { "seconds", info.cost.seconds }, { "threads", info.threads } } },
+                    { "skeleton", { { "memory_bytes", skeletons.memoryBytes }, { "seconds", skeletons.seconds } } },
+                    { "labels", labels }
   };
   if (info.grey)
   {

@@ -13,16 +13,15 @@
 namespace voxelcore
 {
 
-ProgressCallback
-PartOfProgress(const ProgressCallback & outer, std::string stage, double from, double to)
+void
+Finish(OutputTransaction & transaction, const JobContext & context)
 {
-  if (!outer)
+  ReportProgress(context.progress, "done", 1);
+  transaction.Commit();
+  if (context.wrote)
   {
-    return {};
+    context.wrote(transaction.Written());
   }
-  return [outer, stage = std::move(stage), from, to](std::string_view, double fraction) {
-    return outer(stage, from + (to - from) * std::clamp(fraction, 0.0, 1.0));
-  };
 }
 
 ProgressCallback
@@ -34,18 +33,6 @@ NamedPartOfProgress(const ProgressCallback & outer, std::string name, double fro
   }
   return [outer, name = std::move(name), from, to](std::string_view stage, double fraction) {
     return outer(name + ": " + std::string(stage), from + (to - from) * std::clamp(fraction, 0.0, 1.0));
-  };
-}
-
-ProgressCallback
-PartOfProgress(const ProgressCallback & outer, double from, double to)
-{
-  if (!outer)
-  {
-    return {};
-  }
-  return [outer, from, to](std::string_view stage, double fraction) {
-    return outer(stage, from + (to - from) * std::clamp(fraction, 0.0, 1.0));
   };
 }
 
@@ -103,7 +90,7 @@ CertifyPruned(ModelPart                   whole,
   std::vector<PrunedCore>   results(lambdas.size());
   for (std::size_t i = 0; i < lambdas.size(); ++i)
   {
-    ReportProgress(progress, "prune", 0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(lambdas.size()));
+    ReportProgress(progress, "certificate", static_cast<double>(i) / static_cast<double>(lambdas.size()));
     const double threshold = thresholdsMm[i];
     const auto   place = std::lower_bound(ascending.begin(), ascending.end(), threshold) - ascending.begin();
     const bool   unchanged = threshold <= doneMm;
@@ -136,7 +123,8 @@ PruneAndCertify(ModelPart                   whole,
                 const std::string &         labelText,
                 const ProgressCallback &    progress)
 {
-  auto complexes = PruneAscending(whole.core, doneMm, thresholdsMm, PartOfProgress(progress, "prune", 0, 0.8));
+  StagePlan plan(progress, { 0.8, 0.2 });
+  auto      complexes = PruneAscending(whole.core, doneMm, thresholdsMm, plan.Next("prune"));
   return CertifyPruned(std::move(whole),
                        std::move(complexes),
                        wholeRecord,
@@ -145,7 +133,7 @@ PruneAndCertify(ModelPart                   whole,
                        thresholdsMm,
                        shape,
                        labelText,
-                       progress);
+                       plan.Next("certificate"));
 }
 
 SpacingWeights

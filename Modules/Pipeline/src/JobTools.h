@@ -3,10 +3,12 @@
 
 #include "voxelcore/BumpPruning.h"
 #include "voxelcore/CoreReport.h"
+#include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/OutputTransaction.h"
+#include "voxelcore/StagePlan.h"
 #include "voxelcore/Progress.h"
 
 #include <chrono>
@@ -33,17 +35,14 @@ private:
   std::chrono::steady_clock::time_point m_Start = std::chrono::steady_clock::now();
 };
 
-/** A callback for a part of the work: its fractions 0 to 1 become `from` to `to` of `outer`, its stage `stage`. */
-ProgressCallback
-PartOfProgress(const ProgressCallback & outer, std::string stage, double from, double to);
+/** The end of every job: the last moment at which an interruption is heeded; then its files appear, and the context hears
+ *  of them. */
+void
+Finish(OutputTransaction & transaction, const JobContext & context);
 
-/** The same, but the stage is prefixed with `name` instead of replaced. */
+/** PartOfProgress() that puts `name` before the stage. */
 ProgressCallback
 NamedPartOfProgress(const ProgressCallback & outer, std::string name, double from, double to);
-
-/** The same, but the stage is passed on as it is. */
-ProgressCallback
-PartOfProgress(const ProgressCallback & outer, double from, double to);
 
 /** A core at one threshold, certified. */
 struct PrunedCore

@@ -86,10 +86,14 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
     std::iota(ends.begin(), ends.end(), std::size_t{ 1 });
   }
 
-  std::uint64_t allVoxels = 0;
-  for (const EditedLabel & one : labels)
+  // What a label's time grows with, where it is known.
+  const auto sizeOf = [&](std::size_t label) {
+    return vertices.empty() ? labels[label].label.voxels : vertices[label];
+  };
+  std::uint64_t all = 0;
+  for (std::size_t label = 0; label < labels.size(); ++label)
   {
-    allVoxels += one.label.voxels;
+    all += sizeOf(label);
   }
   const LabelWork compute = [&](std::size_t label, const ProgressCallback & part) {
     EditedLabel &      one = labels[label];
@@ -138,15 +142,15 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
   };
 
   std::size_t   first = 0;
-  std::uint64_t doneVoxels = 0;
+  std::uint64_t done = 0;
   for (const std::size_t end : ends)
   {
-    const auto        share = [&] { return static_cast<double>(doneVoxels) / static_cast<double>(allVoxels); };
+    const auto        share = [&] { return static_cast<double>(done) / static_cast<double>(all); };
     const double      from = share();
     const std::string name = labels[first].label.name;
     for (std::size_t label = first; label < end; ++label)
     {
-      doneVoxels += labels[label].label.voxels;
+      done += sizeOf(label);
     }
     const std::string         of = "/" + std::to_string(labels.size()) + ")";
     std::vector<LabelOutcome> outcomes;

@@ -88,10 +88,12 @@ MakeSkeleton(const ModelPart &        surface,
   curves.sampling = 1.5 * voxel;
   curves.geometry = geometry;
   curves.voxel = VoxelSide(spacing);
-  const CurveSkeleton   skeleton = ComputeCurveSkeleton(surface.core, curves, progress);
+  StagePlan             plan(progress, { 0.98, 0.02 });
+  const CurveSkeleton   skeleton = ComputeCurveSkeleton(surface.core, curves, plan.Next());
   const TopologyNumbers topology = ComputeComplexTopology(skeleton.complex.cells);
   RequireEqualTopology(record.shape, topology, "its skeleton", text);
 
+  ReportProgress(plan.Next("branches"), "", 0);
   SkeletonPart part;
   part.label = record.label;
   part.component = record.component;
@@ -118,6 +120,7 @@ MakeSkeleton(const ModelPart &        surface,
   record.skeleton.emplace();
   record.skeleton->topology = topology;
   CutAndMeasure(part, branches, spacing, *record.skeleton);
+  ReportProgress(progress, "branches", 1);
   return part;
 }
 

@@ -409,6 +409,10 @@ OutputTransaction::Commit()
     {
       fs::remove_all(item.temporary, ignored);
     }
+    else
+    {
+      m_Written.push_back(item.target);
+    }
     Forget(item.temporary);
   }
   for (const fs::path & directory : m_Directories)

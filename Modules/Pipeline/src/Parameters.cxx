@@ -184,7 +184,7 @@ ReadOptionsFrom(const ParameterValues & values, CommandId command)
   const int ways = (reading.labels != "all" ? 1 : 0) + (reading.binary ? 1 : 0) + (reading.threshold ? 1 : 0);
   if (ways > 1)
   {
-    throw UsageError("--labels, --binary and --threshold exclude each other; give one");
+    throw UsageError("give only one of --labels, --binary and --threshold");
   }
   return reading;
 }
@@ -225,7 +225,7 @@ ReadPruning(const ParameterReader & reader, std::vector<Lambda> & lambdas, std::
   lambdas = ParseLambdas(hasBumps && !reader.IsGiven("lambda") ? "0" : reader.Text("lambda"));
   if (hasBumps && lambdas.size() > 1)
   {
-    throw UsageError("--lambda " + reader.Text("lambda") + ": with --bumps it is a floor, so give one value");
+    throw UsageError("--lambda " + reader.Text("lambda") + ": expected one value, the floor of --bumps");
   }
 }
 
@@ -272,7 +272,7 @@ FirstResolution(const ParameterValues & values, CommandId command)
   const auto resolutions = ResolutionsFrom(values, command);
   if (resolutions.size() > 1 && command != CommandId::Core)
   {
-    throw UsageError("--resolution " + ValueOf(values, command, "resolution") + ": give one");
+    throw UsageError("--resolution " + ValueOf(values, command, "resolution") + ": expected one value");
   }
   return resolutions.empty() ? std::nullopt : std::optional(resolutions.front());
 }
@@ -292,7 +292,7 @@ VoxelizeOptionsFrom(const ParameterValues & values)
   }
   if (options.resolutions.empty() != options.spacing.has_value())
   {
-    throw UsageError("give either --resolution, voxels on the longest side, or --spacing, the size of a voxel in mm");
+    throw UsageError("give either --resolution (voxels along the longest side) or --spacing (voxel size in mm)");
   }
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
@@ -311,13 +311,13 @@ RefineFrom(const ParameterReader & reader)
   refine.surface = surface == "off" ? std::string() : surface;
   if (reader.IsGiven("grey") != reader.IsGiven("grey-range"))
   {
-    throw UsageError("--grey FILE and --grey-range LO:HI go together: the values, and where the shape is");
+    throw UsageError("give --grey SCAN and --grey-range LO:HI together");
   }
   if (reader.IsGiven("grey"))
   {
     if (surface != "grey")
     {
-      throw UsageError("--grey is for --refine grey");
+      throw UsageError("--grey needs --refine grey");
     }
     refine.grey = reader.Text("grey");
     refine.greyRange = RangeFrom(reader, "grey-range");
@@ -354,7 +354,7 @@ CoreOptionsFrom(const ParameterValues & values)
   options.join = reader.Text("join");
   if (options.crossCheck && !options.join.empty())
   {
-    throw UsageError("--cross-check computes the cells itself, --join takes them from files; give one of the two");
+    throw UsageError("give only one of --cross-check and --join");
   }
   options.threads = ThreadsFrom(values, CommandId::Core);
   if (reader.IsGiven("memory"))
@@ -372,7 +372,7 @@ BlockOptionsFrom(const ParameterValues & values)
   const ParameterReader  reader(values, CommandId::Core);
   if (reader.IsGiven("blocks") != reader.IsGiven("block"))
   {
-    throw UsageError("--blocks N and --block K go together: which of how many");
+    throw UsageError("give --blocks N and --block K together");
   }
   if (!reader.IsGiven("blocks"))
   {
@@ -380,17 +380,17 @@ BlockOptionsFrom(const ParameterValues & values)
   }
   if (ResolutionsFrom(values, CommandId::Core).size() > 1)
   {
-    throw UsageError("--resolution " + reader.Text("resolution") + ": with --blocks give one");
+    throw UsageError("--resolution " + reader.Text("resolution") + ": expected one value with --blocks");
   }
   if (reader.IsGiven("join"))
   {
-    throw UsageError("--block makes one part, --join takes all of them; give one of the two");
+    throw UsageError("give only one of --block and --join");
   }
   BlockOptions options;
   options.core = CoreOptionsFrom(values);
   if (!options.core.refine.surface.empty())
   {
-    throw UsageError("--refine: give it with --join, when the blocks are there");
+    throw UsageError("--refine does not work with --block; give it with --join");
   }
   options.blocks = static_cast<std::size_t>(reader.Whole("blocks", 1, most));
   options.block = static_cast<std::size_t>(reader.Whole("block", 1, most));

@@ -58,8 +58,9 @@ CentreLinesText(const PhantomOptions & options, const ImageGeometry & geometry)
 } // namespace
 
 std::string
-RunPhantomJob(const PhantomJobOptions & options, const JobContext & context)
+RunPhantomJob(const PhantomJobOptions & options, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   OutputTransaction transaction(options.force, context.temporaries);
   transaction.CheckTarget(options.output);
   if (options.centreLines)
@@ -97,8 +98,7 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & context)
   {
     WriteTextFile(transaction.Stage(*options.centreLines), CentreLinesText(options.phantom, geometry));
   }
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return options.output.string() + ": " + options.phantom.kind + ", " + sizeText + " voxels, " +
          std::to_string(voxels) + " of them in" +
          (labels.size() > 1 ? ", " + std::to_string(labels.size()) + " labels" : "");

@@ -22,12 +22,15 @@ namespace voxelcore
 namespace
 {
 
-/** Where in a label's work each stage ends, as the shares of time usually are. */
-constexpr double kShapeEnds = 0.03;
-constexpr double kDelaunayEnds = 0.80;
-constexpr double kCoreEnds = 0.92;
-constexpr double kPruneEnds = 0.98;
-constexpr double kCoreBesideSkeleton = 0.5;
+// The time of a label's stages, in that of its core; measured on phantoms of 128 to 256 voxels.
+constexpr double kShapeTime = 0.03;
+constexpr double kDelaunayTime = 0.47;
+constexpr double kCoreTime = 0.4;
+constexpr double kPruneTime = 0.1;
+constexpr double kBumpTime = 0.35;
+constexpr double kCoverageTime = 0.1;
+constexpr double kRefineTime = 1.5;
+constexpr double kSkeletonTime = 1.1;
 
 /** What ComputeWholeCore() is asked for. */
 struct WholeCoreOptions
@@ -56,11 +59,11 @@ ComputeWholeCore(const VoxelShape &       shape,
                  const WholeCoreOptions & options,
                  const std::string &      labelText,
                  LabelOutcome &           outcome,
-                 const ProgressCallback & progress)
+                 StagePlan &              plan)
 {
   LabelRecord & record = outcome.record;
   Stopwatch     watch;
-  ReportProgress(progress, "shape", 0);
+  ReportProgress(plan.Next("shape"), "", 0);
   record.shape = ComputeShapeTopology(shape);
   MedialComplex core;
   {
@@ -68,19 +71,21 @@ ComputeWholeCore(const VoxelShape &       shape,
     record.boundaryVertices = points.size();
     outcome.seconds.shape += watch.Lap();
 
-    const ProgressCallback part = PartOfProgress(progress, "delaunay", kShapeEnds, kDelaunayEnds);
+    const ProgressCallback part = plan.Next("delaunay");
     DelaunayCells          cells = options.source ? options.source(points, part)
                                    : options.crossCheck
                                      ? CrossCheckedCells(shape, points, weights, options.engine, labelText, part)
                                      : ComputeDelaunayCells(shape, points, weights, options.engine, part);
     outcome.seconds.delaunay += watch.Lap();
 
-    ReportProgress(progress, "core", kDelaunayEnds);
+    const ProgressCallback building = plan.Next("core");
+    ReportProgress(building, "", 0);
     TouchingBalls touching = options.bumps ? LargestTouchingBalls(cells, points, weights) : TouchingBalls();
     if (options.keep != nullptr)
     {
       options.keep->edgePoints = NearestToEdges(cells);
     }
+    ReportProgress(building, "", 0.1);
     core = BuildVoxelCore(shape, points, std::move(cells), weights);
     if (options.keep != nullptr)
     {
@@ -89,8 +94,8 @@ ComputeWholeCore(const VoxelShape &       shape,
     if (options.bumps)
     {
       outcome.seconds.core += watch.Lap();
-      const ProgressCallback bumps = PartOfProgress(progress, "prune", kDelaunayEnds, kCoreEnds);
-      core.bumps = ComputeBumps(core, weights, points, std::move(touching), options.thresholds.front(), bumps);
+      core.bumps =
+        ComputeBumps(core, weights, points, std::move(touching), options.thresholds.front(), plan.Next("prune"));
       EndBumps(core.bumps, geometry);
       outcome.seconds.prune += watch.Lap();
     }
@@ -109,13 +114,14 @@ ComputeWholeCore(const VoxelShape &       shape,
   WholeCore whole;
   whole.part = ToPhysical(std::move(core), geometry, record.label);
   outcome.seconds.core += watch.Lap();
+  const ProgressCallback prune = plan.Next(options.keep == nullptr ? "prune" : "core");
+  ReportProgress(prune, "", 0);
   // Neither changes the core, and each is work for one processor.
   RunBoth(
     whole.part.core.cells.FaceCount() > 10000,
     [&] {
       if (!options.bumps && options.keep == nullptr)
       {
-        const ProgressCallback prune = PartOfProgress(progress, "prune", kCoreEnds, kPruneEnds);
         whole.pruned = PruneAscending(whole.part.core, 0, options.thresholds, prune);
       }
     },
@@ -179,7 +185,7 @@ ProcessLabel(LabelShape                      label,
              const SpacingWeights &          weights,
              const std::vector<Lambda> &     lambdas,
              Engine                          engine,
-             const ProgressCallback &        progress,
+             const ProgressCallback &        watcher,
              bool                            crossCheck,
              const SkeletonStage *           skeleton,
              const std::vector<BumpHeight> & bumps,
@@ -197,13 +203,28 @@ ProcessLabel(LabelShape                      label,
     static_cast<double>(label.voxels) * (geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2]);
   record.box = label.shape.Box();
 
-  // Where there is a skeleton it takes its share of the time after the core.
-  const double           coreEnds = skeleton != nullptr ? kCoreBesideSkeleton : 1;
-  const ProgressCallback coreProgress = PartOfProgress(progress, 0, coreEnds);
-  const auto             makeSkeleton = [&](const ModelPart & ofCore) {
+  const bool             ofWhole = skeleton != nullptr && skeleton->lambda.value == 0 && !skeleton->bumps;
+  const ProgressCallback progress = ForwardOnly(watcher);
+  // In the order below.
+  std::vector<double> times{ kShapeTime, kDelaunayTime, kCoreTime };
+  if (!bumps.empty())
+  {
+    times.push_back(kBumpTime);
+  }
+  times.push_back(kPruneTime);
+  if (ofWhole)
+  {
+    times.push_back(kSkeletonTime);
+  }
+  times.push_back(surface ? kRefineTime : bumps.empty() ? kPruneTime : kCoverageTime);
+  if (skeleton != nullptr && !ofWhole)
+  {
+    times.push_back(kSkeletonTime);
+  }
+  StagePlan  plan(progress, times);
+  const auto makeSkeleton = [&](const ModelPart & ofCore) {
     Stopwatch skeletonWatch;
-    outcome.skeleton =
-      MakeSkeleton(ofCore, *skeleton, weights, geometry, record, PartOfProgress(progress, coreEnds, 1));
+    outcome.skeleton = MakeSkeleton(ofCore, *skeleton, weights, geometry, record, plan.Next());
     outcome.seconds.skeleton += skeletonWatch.Lap();
   };
 
@@ -214,10 +235,9 @@ ProcessLabel(LabelShape                      label,
   }
   RefinementParts        kept;
   const WholeCoreOptions options{ engine, crossCheck, !bumps.empty(), thresholds, source, surface ? &kept : nullptr };
-  WholeCore   whole = ComputeWholeCore(label.shape, geometry, weights, options, labelText, outcome, coreProgress);
-  ModelPart & part = whole.part;
+  WholeCore              whole = ComputeWholeCore(label.shape, geometry, weights, options, labelText, outcome, plan);
+  ModelPart &            part = whole.part;
 
-  const bool ofWhole = skeleton != nullptr && skeleton->lambda.value == 0 && !skeleton->bumps;
   if (ofWhole)
   {
     makeSkeleton(part);
@@ -236,7 +256,7 @@ ProcessLabel(LabelShape                      label,
                               thresholds,
                               record,
                               labelText,
-                              PartOfProgress(coreProgress, kCoreEnds, 1));
+                              plan.Next());
   }
   else if (bumps.empty())
   {
@@ -249,17 +269,18 @@ ProcessLabel(LabelShape                      label,
                            thresholds,
                            record.shape,
                            labelText,
-                           PartOfProgress(coreProgress, "prune", kPruneEnds, 1));
+                           plan.Next("certificate"));
   }
   else
   {
     const PrunedRecord floor{ lambdas.front().text, thresholds.front(), {}, {}, {} };
     pruned = PruneByBumpsAndCertify(part, floor, bumps, geometry, record.shape, labelText);
     part = ModelPart();
-    for (PrunedCore & one : pruned)
+    const ProgressCallback coverage = plan.Next("certificate");
+    for (std::size_t i = 0; i < pruned.size(); ++i)
     {
-      ReportProgress(coreProgress, "prune", kCoreEnds);
-      CertifyCoverage(one, label.shape, geometry, weights, record, labelText);
+      ReportProgress(coverage, "", static_cast<double>(i) / static_cast<double>(pruned.size()));
+      CertifyCoverage(pruned[i], label.shape, geometry, weights, record, labelText);
     }
   }
   for (PrunedCore & one : pruned)
@@ -280,6 +301,7 @@ ProcessLabel(LabelShape                      label,
     makeSkeleton(outcome.parts.at(static_cast<std::size_t>(same - lambdas.begin())));
   }
   record.seconds = watch.Lap();
+  ReportProgress(progress, "done", 1);
   return outcome;
 }
 

@@ -110,8 +110,9 @@ PruneLabel(ModelPart                part,
 } // namespace
 
 PruneResult
-RunPruneJob(const PruneOptions & options, const JobContext & context)
+RunPruneJob(const PruneOptions & options, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   Stopwatch         total;
   Stopwatch         watch;
   PruneResult       result;
@@ -163,12 +164,14 @@ RunPruneJob(const PruneOptions & options, const JobContext & context)
   {
     Stopwatch     labelWatch;
     LabelRecord & label = report.labels[i];
-    const double  share = 0.1 + 0.8 * static_cast<double>(i) / static_cast<double>(model.parts.size());
-    auto          pruned = PruneLabel(std::move(model.parts[i]),
+    const auto    share = [&](std::size_t done) {
+      return 0.1 + 0.8 * static_cast<double>(done) / static_cast<double>(model.parts.size());
+    };
+    auto pruned = PruneLabel(std::move(model.parts[i]),
                              options,
                              report,
                              label,
-                             PartOfProgress(context.progress, "prune", share, share));
+                             PartOfProgress(context.progress, "prune", share(i), share(i + 1)));
     label.pruned.clear();
     for (std::size_t k = 0; k < pruned.size(); ++k)
     {
@@ -200,8 +203,7 @@ RunPruneJob(const PruneOptions & options, const JobContext & context)
   {
     WriteTextFile(transaction.Stage(*options.report), ReportJson(report));
   }
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 

@@ -218,8 +218,9 @@ CheckTargets(const ReconstructOptions & options, OutputTransaction & transaction
 } // namespace
 
 ReconstructResult
-RunReconstructJob(const ReconstructOptions & options, const JobContext & context)
+RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   OutputTransaction transaction(options.force, context.temporaries);
   CheckTargets(options, transaction);
   ReportProgress(context.progress, "reading", 0);
@@ -250,7 +251,10 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & context
   for (std::size_t i = 0; i < model.parts.size();)
   {
     const std::int64_t value = model.parts[i].label;
-    const double       from = 0.1 + 0.8 * static_cast<double>(i) / static_cast<double>(model.parts.size());
+    const auto         share = [&](std::size_t done) {
+      return 0.1 + 0.8 * static_cast<double>(done) / static_cast<double>(model.parts.size());
+    };
+    const double       from = share(i);
     ReconstructedLabel one;
     one.label = value;
     one.name =
@@ -264,7 +268,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & context
                                     result.geometry.spacing,
                                     balls.centres,
                                     balls.radius,
-                                    PartOfProgress(context.progress, "balls", from, from));
+                                    PartOfProgress(context.progress, "balls", from, share(i)));
     one.contested = Claim(shape, taken);
     shape = CropToVoxels(shape);
     one.voxels = shape.CountVoxels();
@@ -298,8 +302,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & context
   {
     WriteTextFile(transaction.Stage(*options.report), ReportJson(result));
   }
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 

@@ -73,8 +73,9 @@ HasDisplay()
 }
 
 RenderResult
-RunRenderJob(const RenderJobOptions & options, const JobContext & context)
+RunRenderJob(const RenderJobOptions & options, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   RenderResult      result;
   OutputTransaction transaction(options.force, context.temporaries);
   result.pictures = Targets(options);
@@ -106,8 +107,7 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & context)
       WritePng(transaction.Stage(result.pictures[static_cast<std::size_t>(frame)]), drawn);
     },
     PartOfProgress(context.progress, 0.7, 1));
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 

@@ -30,9 +30,11 @@ EditShape(VoxelShape & shape, const ShapeEditOptions & options, const ProgressCa
     shape = std::move(edited.shape);
   };
   // Mended before anything is dropped: pieces torn off belong to what they were torn from.
+  StagePlan              plan(progress, { options.mend ? 2.0 : 0.0, 0.1, options.smooth ? 1.0 : 0.0 });
+  const ProgressCallback mending = plan.Next();
   if (options.mend)
   {
-    MendedShape mended = MendShape(shape, progress);
+    MendedShape mended = MendShape(shape, mending);
     shape = std::move(mended.shape);
     record.mended = { mended.voxelsAdded,
                       mended.voxelsRemoved,
@@ -40,6 +42,7 @@ EditShape(VoxelShape & shape, const ShapeEditOptions & options, const ProgressCa
                       mended.loopsClosed,
                       mended.cavitiesFilled };
   }
+  ReportProgress(plan.Next("editing"), "", 0);
   // Filled before counting: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any longer.
   if (options.fillCavities)
   {
@@ -58,7 +61,7 @@ EditShape(VoxelShape & shape, const ShapeEditOptions & options, const ProgressCa
   }
   if (options.smooth && shape.Box().size[0] > 0)
   {
-    SmoothedShape smoothed = SmoothShape(shape, progress);
+    SmoothedShape smoothed = SmoothShape(shape, plan.Next());
     shape = std::move(smoothed.shape);
     record.smoothed = { smoothed.voxelsAdded, smoothed.voxelsRemoved, smoothed.largestShift };
   }
@@ -176,9 +179,12 @@ EditLabels(LabelVolume &            volume,
   std::vector<std::string> gone;
   for (std::size_t i = 0; i < labels.size(); ++i)
   {
-    ReportProgress(progress, "editing", static_cast<double>(i) / static_cast<double>(labels.size()));
     LabelShape &     label = labels[i];
-    const EditRecord record = EditShape(label.shape, options, progress);
+    const double     count = static_cast<double>(labels.size());
+    const EditRecord record =
+      EditShape(label.shape,
+                options,
+                PartOfProgress(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     Add(record, sum);
     if (label.shape.Box().size[0] == 0)
     {

@@ -65,9 +65,10 @@ SkeletonFiles::SkeletonFiles(fs::path              output,
   const std::string extension = m_Output.extension().string();
   if (!m_ToFolder && extension != ".vtp" && extension != ".csv")
   {
-    throw UsageError(m_Output.string() +
-                     ": unknown extension; a skeleton is written as .vtp, or into a folder ending in /, other files by "
-                     "--also");
+    throw UsageError(
+      m_Output.string() +
+      ": unknown extension; a skeleton is written as .vtp, as .csv (tables alone), or into a folder ending in "
+      "/; other forms by --also");
   }
   if (!m_ToFolder && extension == ".csv" && !Wants("csv"))
   {
@@ -89,9 +90,10 @@ SkeletonFiles::SkeletonFiles(fs::path              output,
   }
   for (const std::string & ending : m_Options.also)
   {
-    for (const fs::path & target : Beside(m_Output, ending))
+    const std::vector<fs::path> targets = Beside(m_Output, ending);
+    for (std::size_t i = ending == "csv" && m_Options.table ? 1 : 0; i < targets.size(); ++i)
     {
-      m_Transaction.CheckTarget(target);
+      m_Transaction.CheckTarget(targets[i]);
     }
   }
 }
@@ -190,7 +192,10 @@ void
 SkeletonFiles::WriteTables(const fs::path & output, const SkeletonModel & model)
 {
   const std::vector<fs::path> tables = Beside(output, "csv");
-  WriteBranchCsv(m_Transaction.Stage(tables[0]), model);
+  if (!m_Options.table) // which is written with the same rows
+  {
+    WriteBranchCsv(m_Transaction.Stage(tables[0]), model);
+  }
   WriteSummaryCsv(m_Transaction.Stage(tables[1]), model);
   WriteTextFile(m_Transaction.Stage(tables[2]), SkeletonColumnsJson());
 }

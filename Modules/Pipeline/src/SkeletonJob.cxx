@@ -44,8 +44,9 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
 }
 
 SkeletonResult
-FromCore(const SkeletonOptions & options, const JobContext & context)
+FromCore(const SkeletonOptions & options, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   Stopwatch         total;
   Stopwatch         watch;
   SkeletonResult    result;
@@ -115,8 +116,7 @@ FromCore(const SkeletonOptions & options, const JobContext & context)
   {
     WriteTextFile(transaction.Stage(*options.report), ReportJson(report));
   }
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 
@@ -142,8 +142,9 @@ RunSkeletonJob(const SkeletonOptions & options, const JobContext & context)
 }
 
 SkeletonResult
-RunMeasureJob(const MeasureJobOptions & options, const JobContext & context)
+RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   SkeletonResult    result;
   OutputTransaction transaction(options.force, context.temporaries);
   const auto &      also = options.branches.also;
@@ -183,8 +184,7 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & context)
     files.Add(report, i, std::move(part), {}, result.notes);
   }
   files.Finish(report, result.notes);
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 

@@ -131,8 +131,9 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
                          parameter.name != "quiet";
     if (ofScans && values.contains(parameter.name))
     {
-      throw UsageError("--" + std::string(parameter.name) + ": is for scans; " + input.string() +
-                       " is a finished core; give the option to 'voxelcore core', or the scan to 'skeleton'");
+      throw UsageError(
+        "--" + std::string(parameter.name) + ": needs a scan, but " + input.string() +
+        " is a medial surface; give the option to 'voxelcore core', or the scan to 'voxelcore skeleton'");
     }
   }
 }
@@ -234,7 +235,7 @@ CoreSkeletonFrom(const ParameterValues & values)
     const auto & also = stage.branches.also;
     if (std::find(also.begin(), also.end(), "ma") != also.end())
     {
-      throw UsageError("--also ma: 'core' writes its result as OUT.ma itself; with radii apart 'skeleton' does");
+      throw UsageError("--also ma: use -o OUT.ma, or 'voxelcore skeleton' for a file of radii, too");
     }
     return stage;
   }
@@ -257,7 +258,7 @@ SkeletonOptionsFrom(const ParameterValues & values)
   const auto resolutions = ResolutionsFrom(values, command);
   if (resolutions.size() > 1)
   {
-    throw UsageError("--resolution " + ValueOf(values, command, "resolution") + ": give one");
+    throw UsageError("--resolution " + ValueOf(values, command, "resolution") + ": expected one value");
   }
   if (!resolutions.empty())
   {
@@ -276,7 +277,7 @@ SkeletonOptionsFrom(const ParameterValues & values)
     const auto heights = ParseBumpHeights(ValueOf(values, command, "bumps"));
     if (heights.size() > 1)
     {
-      throw UsageError("--bumps " + ValueOf(values, command, "bumps") + ": give one");
+      throw UsageError("--bumps " + ValueOf(values, command, "bumps") + ": expected one value");
     }
     options.stage.bumps = heights.front().value > 0 ? std::optional(heights.front()) : std::nullopt;
   }

@@ -141,8 +141,9 @@ GapText(const LabelVerification & label)
 } // namespace
 
 VerifyResult
-RunVerifyJob(const VerifyOptions & options, const JobContext & context)
+RunVerifyJob(const VerifyOptions & options, const JobContext & given)
 {
+  const JobContext context = ForwardOnly(given);
   ReportProgress(context.progress, "reading", 0);
   MedialModel model = ReadModel(options.core);
   RequireVtkReads(options.core, model);
@@ -150,12 +151,13 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
   LabelVolume          volume = ReadScanOrMesh(options.scan,
                                       RecordedReading(made.parameters),
                                       made.parameters.resolution,
-                                      PartOfProgress(context.progress, "reading", 0, 0.1));
+                                      PartOfProgress(context.progress, "reading", 0, 0.05));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   EditedLabels         edited = EditLabels(volume,
                                    made.parameters.edits,
                                    !made.parameters.binary && !made.parameters.threshold,
-                                   options.scan.string());
+                                   options.scan.string(),
+                                   PartOfProgress(context.progress, 0.05, 0.1));
   if (made.parameters.refine.surface != model.refined)
   {
     throw InputError(options.core.string() + ": its fields Refined and Provenance do not agree; make the file again");
@@ -233,6 +235,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & context)
     throw InputError(options.core.string() + ": its field Provenance names " + std::to_string(made.labels.size()) +
                      " labels, its cells have " + std::to_string(model.parts.size()) + "; make the file again");
   }
+  ReportProgress(context.progress, "done", 1);
   return result;
 }
 

@@ -128,8 +128,9 @@ constexpr const char * kStudyHead =
 } // namespace
 
 VoxelizeResult
-RunVoxelizeJob(const VoxelizeJobOptions & options, const JobContext & context)
+RunVoxelizeJob(const VoxelizeJobOptions & options, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   OutputTransaction transaction(options.force, context.temporaries);
   transaction.Protect(options.mesh);
   struct Run
@@ -185,14 +186,14 @@ RunVoxelizeJob(const VoxelizeJobOptions & options, const JobContext & context)
                   { "volumes", std::move(volumes) } };
     WriteTextFile(transaction.Stage(*options.report), json.dump(2) + "\n");
   }
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 
 StudyResult
-RunStudyJob(const CoreOptions & options, const std::vector<std::int64_t> & resolutions, const JobContext & context)
+RunStudyJob(const CoreOptions & options, const std::vector<std::int64_t> & resolutions, const JobContext & given)
 {
+  const JobContext  context = ForwardOnly(given);
   OutputTransaction transaction(options.force, context.temporaries);
   const bool        toFolder = IsFolderOutput(options.output);
   if (options.display.scene || options.display.html || !options.join.empty())
@@ -240,8 +241,7 @@ RunStudyJob(const CoreOptions & options, const std::vector<std::int64_t> & resol
     rows += StudyRows(resolutions[i], result.runs.back().report);
   }
   WriteTextFile(transaction.Stage(result.table), rows);
-  ReportProgress(context.progress, "done", 1);
-  transaction.Commit();
+  Finish(transaction, context);
   return result;
 }
 

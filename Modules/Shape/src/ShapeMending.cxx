@@ -2,6 +2,7 @@
 
 #include "ShapeField.h"
 #include "ShapeRuns.h"
+#include "voxelcore/StagePlan.h"
 
 #include <algorithm>
 #include <map>
@@ -147,16 +148,19 @@ public:
   Run(const ProgressCallback & progress)
   {
     // What is mended may let a neighbour be mended. Every change lowers a topology number, so this ends.
-    for (bool changes = true; changes;)
+    double done =
+      0; // each pass takes half of what is left: how many there will be nobody knows, and the first is most work
+    for (bool changes = true; changes; done = 0.5 * (1 + done))
     {
       changes = false;
-      ReportProgress(progress, "mending", 0);
+      const ProgressCallback pass = PartOfProgress(progress, done, 0.5 * (1 + done));
+      ReportProgress(pass, "mending", 0);
       const std::vector<Voxel> voxels = NotSimple();
       for (std::size_t i = 0; i < voxels.size(); ++i)
       {
         if ((i & 0xFFFU) == 0)
         {
-          ReportProgress(progress, "mending", static_cast<double>(i) / static_cast<double>(voxels.size()));
+          ReportProgress(pass, "mending", static_cast<double>(i) / static_cast<double>(voxels.size()));
         }
         changes = (m_Shape.Contains(voxels[i]) ? TakeOut(voxels[i]) : PutIn(voxels[i])) || changes;
       }

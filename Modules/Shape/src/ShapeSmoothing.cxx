@@ -34,12 +34,14 @@ public:
   {
     ReportProgress(progress, "smoothing", 0);
     FindFirst();
-    SmoothedShape result;
+    SmoothedShape     result;
+    const std::size_t first = m_Queue.size();
     for (std::size_t count = 0; !m_Queue.empty(); ++count)
     {
       if ((count & 0xFFFFU) == 0)
       {
-        ReportProgress(progress, "smoothing", 0.5);
+        // As many again come into the queue, more or less.
+        ReportProgress(progress, "smoothing", 0.3 + 0.7 * static_cast<double>(count) / static_cast<double>(2 * first));
       }
       const Candidate candidate = m_Queue.top();
       m_Queue.pop();

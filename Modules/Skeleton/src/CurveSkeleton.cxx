@@ -3,6 +3,7 @@
 #include "CurveFire.h"
 #include "SurfaceCollapse.h"
 #include "TurnedSurface.h"
+#include "voxelcore/StagePlan.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -219,11 +220,13 @@ CurveSkeleton::ClosedFaceCount() const
 CurveSkeleton
 ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
 {
-  const TurnedSurface       turned = TurnSurface(surface, options.geometry);
-  const BurnTimes           times = ComputeBurnTimes(turned.surface, options.sampling, progress);
+  const TurnedSurface turned = TurnSurface(surface, options.geometry);
+  StagePlan           plan(progress, { 0.9, 0.06, 0.04 });
+  const BurnTimes     times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
+  ReportProgress(plan.Next("collapsing"), "", 0);
   std::vector<std::uint8_t> closed;
   LiveElements              live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
-  ReportProgress(progress, "skeleton", 0);
+  ReportProgress(plan.Next("curves"), "", 0);
   const double          edgeLength = MeanEdgeLength(turned.surface);
   const CurveFire       fire = BurnCurves(turned.surface, live, times.vertices, kChordInEdges * edgeLength);
   std::vector<EndPlace> ends;

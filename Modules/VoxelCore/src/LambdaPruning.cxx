@@ -7,6 +7,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/Rational.h"
 #include "voxelcore/SimplePairCollapse.h"
+#include "voxelcore/StagePlan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -140,7 +141,10 @@ PruneByLambda(const MedialComplex & core, const std::vector<double> & thresholds
   SimplePairCollapse collapse(core.cells, core.vertexLambda, core.edgeLambda, core.faceLambda);
   for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
-    collapse.CollapseBelow(thresholds[i], progress);
+    const auto at = [&](std::size_t done) {
+      return static_cast<double>(done) / static_cast<double>(thresholds.size());
+    };
+    collapse.CollapseBelow(thresholds[i], PartOfProgress(progress, at(i), at(i + 1)));
     if (i + 1 < thresholds.size())
     {
       pruned.push_back(ExtractPart(core, collapse.Live()));

@@ -2,7 +2,7 @@
 // What every job gets from the program that runs it.
 
 #include "voxelcore/OutputTransaction.h"
-#include "voxelcore/Progress.h"
+#include "voxelcore/StagePlan.h"
 
 #include <functional>
 
@@ -17,7 +17,18 @@ struct JobContext
   /** Called once when a job has read its scan, with the memory it will need at its peak, MB; may wait until there is so
    *  much, or throw. May be empty. */
   std::function<void(double)> admit;
-  TemporaryRegistry *         temporaries = nullptr; ///< for a signal handler that must not leave files; may be null
+  /** Called once with the files that are there when all is done. May be empty. */
+  std::function<void(const std::vector<std::filesystem::path> &)> wrote;
+  TemporaryRegistry * temporaries = nullptr; ///< for a signal handler that must not leave files; may be null
 };
+
+/** The same, but the progress never goes back: what every job begins with. */
+inline JobContext
+ForwardOnly(const JobContext & context)
+{
+  JobContext forward = context;
+  forward.progress = ForwardOnly(context.progress);
+  return forward;
+}
 
 } // namespace voxelcore

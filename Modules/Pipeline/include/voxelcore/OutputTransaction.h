@@ -106,6 +106,13 @@ public:
   void
   Commit();
 
+  /** The files that Commit() gave their names, in that order. */
+  const std::vector<std::filesystem::path> &
+  Written() const
+  {
+    return m_Written;
+  }
+
 private:
   struct Item
   {
@@ -127,6 +134,7 @@ private:
   bool                               m_Force;
   TemporaryRegistry *                m_Registry;
   std::vector<Item>                  m_Items;
+  std::vector<std::filesystem::path> m_Written;
   std::vector<std::filesystem::path> m_Protected;
   std::vector<std::filesystem::path> m_Directories; ///< made here, outermost first
   std::set<std::filesystem::path>    m_Cleared;     ///< folders already looked through for what killed runs left
