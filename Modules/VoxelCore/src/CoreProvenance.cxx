@@ -1,5 +1,7 @@
 #include "voxelcore/CoreProvenance.h"
 
+#include "voxelcore/PolygonArea.h"
+
 #include "voxelcore/BoundaryVertices.h"
 
 #include <algorithm>
@@ -115,23 +117,7 @@ DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology)
   record.topology = topology;
   for (std::size_t face = 0; face < complex.cells.FaceCount(); ++face)
   {
-    const auto            corners = complex.cells.FaceVertices(face);
-    std::array<double, 3> sum{ 0, 0, 0 };
-    const auto &          first = complex.positions[corners[0]];
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-    {
-      std::array<double, 3> a;
-      std::array<double, 3> b;
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        a[k] = complex.positions[corners[i]][k] - first[k];
-        b[k] = complex.positions[corners[i + 1]][k] - first[k];
-      }
-      sum[0] += a[1] * b[2] - a[2] * b[1];
-      sum[1] += a[2] * b[0] - a[0] * b[2];
-      sum[2] += a[0] * b[1] - a[1] * b[0];
-    }
-    record.areaMm2 += std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / 2;
+    record.areaMm2 += PolygonArea(complex.positions, complex.cells.FaceVertices(face));
   }
   if (!complex.radius.empty())
   {
