@@ -60,7 +60,7 @@ TEST_F(BadInput, LengthsAndPlacesThatCannotBeExact)
   ball.Fill({ 2, 2, 2 }, { 6, 6, 6 }, 1);
   WriteNrrd(m_Folder / "a.nrrd", ball);
   const std::string bytes(ball.voxels.begin(), ball.voxels.end());
-  const std::string sizes = "type: uint8\ndimension: 3\nspace: LPS\nsizes: 9 9 9\nencoding: raw\n";
+  const std::string sizes = "type: uint8\ndimension: 3\nspace: LPS\nsizes: 9 9 9\n";
   WriteNrrd(m_Folder / "far.nrrd",
             sizes + "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (1.8446744e19,0,0)\n",
             bytes);

@@ -209,7 +209,15 @@ TEST_F(BumpCommand, DegenerateShapesPass)
   scan.Fill({ 4, 4, 8 }, { 18, 18, 20 }, 5); // a shell
   scan.Fill({ 6, 6, 10 }, { 16, 16, 18 }, 0);
   WriteNrrd(m_Folder / "a.nrrd", scan);
-  Run({ "core", Path("a.nrrd"), "--bumps", "0,1vox,1.2diag,100vox", "-o", Path("m.vtp"), "--report", Path("r.json") });
+  Run({ "core",
+        Path("a.nrrd"),
+        "--bumps",
+        "0,1vox,1.2diag,100vox",
+        "-o",
+        Path("m.vtp"),
+        "--report",
+        Path("r.json"),
+        "-q" });
   for (const Json & label : Report("r.json")["labels"])
   {
     EXPECT_EQ(label["certificate"]["passed"], true);
@@ -256,7 +264,9 @@ TEST_F(BumpCommand, ManyLabelsAtOncePass)
       }
     }
   }
-  WriteNrrd(m_Folder / "a.nrrd", "type: uint16\nendian: little\ndimension: 3\nsizes: 45 45 45\n", bytes);
+  WriteNrrd(m_Folder / "a.nrrd",
+            "type: uint16\nendian: little\ndimension: 3\nsizes: 45 45 45\nspacings: 1 1 1\n",
+            bytes);
   Run({ "core", Path("a.nrrd"), "--bumps", "1vox", "-o", Path("m.vtp"), "--report", Path("r.json") });
   const Json report = Report("r.json");
   ASSERT_EQ(report["labels"].size(), 724U);

@@ -160,7 +160,7 @@ TEST(ItkFiles, TheExampleWritesTheLibrarysBytes)
   EXPECT_EQ(program("verify scan.nrrd itk.vtp"), 0) << ReadFile(folder / "out");
   ASSERT_EQ(run("scan.nrrd", "0", "whole.vtp"), 0) << ReadFile(folder / "err");
   EXPECT_EQ(program("verify scan.nrrd whole.vtp"), 0) << ReadFile(folder / "out");
-  EXPECT_EQ(program("prune whole.vtp --lambda 2vox -o pruned.vtp"), 0) << ReadFile(folder / "out");
+  EXPECT_EQ(program("prune whole.vtp --lambda 2vox --keep-edges -o pruned.vtp"), 0) << ReadFile(folder / "out");
   EXPECT_TRUE(SameBits(ReadModel(folder / "pruned.vtp"), ReadModel(folder / "itk.vtp")));
   EXPECT_EQ(program("skeleton whole.vtp -o skeleton.vtp"), 0) << ReadFile(folder / "out");
   if (std::system("command -v Xvfb > /dev/null") == 0)

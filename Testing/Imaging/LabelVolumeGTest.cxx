@@ -50,7 +50,7 @@ TEST(BadInput, EachIsOneLineThatNamesTheFileAndWhatToDo)
   ExpectRefused(folder.Write("text.nii.gz", std::string(1000, 'x')), { "no NIfTI" });
   ExpectRefused(folder.Write("text.mha", "Dear colleague,\n"), { "not a MetaImage" });
   ExpectRefused(folder.Write("text.tif", "Dear colleague,\n"), { "not a TIFF" });
-  ExpectRefused(folder.Write("scan.dcm", "x"), { "unknown kind", ".nrrd" });
+  ExpectRefused(folder.Write("scan.xyz", "x"), { "unknown kind", ".nrrd" });
   try
   {
     ReadLabelVolume(folder.Write("new\nline.nrrd", "x"));

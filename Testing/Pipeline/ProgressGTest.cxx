@@ -70,7 +70,12 @@ protected:
   void
   Make(const std::string & kind, const std::string & name, const std::string & size) const
   {
-    RunPhantomJob(PhantomOptionsFrom({ { "kind", kind }, { "size", size }, { "output", At(name) } }));
+    ParameterValues values{ { "kind", kind }, { "size", size }, { "output", At(name) } };
+    if (values.at("kind") == "cells")
+    {
+      values["cells"] = "60"; // bodies of some hundred voxels
+    }
+    RunPhantomJob(PhantomOptionsFrom(values));
   }
   /** Runs a job, with 1 and with 3 threads, and looks at its reports; gives the last ones. */
   template <typename TJob>

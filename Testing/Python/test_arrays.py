@@ -122,7 +122,7 @@ def test_what_makes_no_sense_is_refused_in_one_line(array, words):
         (dict(direction=numpy.eye(2)), "3 by 3"),
         (dict(direction=[[1, 0.2, 0], [0, 1, 0], [0, 0, 1]]), "degrees|right"),
         (dict(threshold=(3, 1)), "LO <= HI"),
-        (dict(threshold=(1, 2), label=1), "exclude"),
+        (dict(threshold=(1, 2), label=1), "only one"),
         (dict(origin=(0, 0, numpy.inf)), "origin|inf"),
     ],
 )

@@ -45,7 +45,7 @@ def test_every_keyword_that_is_an_option_is_reached():
         ("--threshold 3:1: expected LO:HI", "threshold=(3, 1): expected LO:HI"),
         ("--engine magic box: expected one of auto|lattice", "engine='magic box': expected one of auto|lattice"),
         ("accept them with --orthonormalize", "accept them with orthonormalize=True"),
-        ("--labels, --binary and --threshold exclude", "label, label='any' and threshold exclude"),
+        ("give only one of --labels, --binary and --threshold", "give only one of label, label='any' and threshold"),
         ("cut it with --crop 1:2,:,:", "cut it with the command line's --crop 1:2,:,:"),
         ("a--spacing and /x/--force/y stay", "a--spacing and /x/--force/y stay"),
         ("made with 'voxelcore core --lambda 0'", "made with 'voxelcore core --lambda 0'"),
@@ -67,8 +67,8 @@ def test_values_and_flags_are_written_as_python_takes_them(told, words):
         (dict(threshold=3), r"^threshold 3: expected"),
         (dict(engine="magic"), r"^engine='magic': expected"),
         (dict(threads=-2), r"^threads=-2: expected"),
-        (dict(threshold=(1, 2), label="any"), r"^label, label='any' and threshold exclude"),
-        (dict(lambda_=[0, 1], bumps=1), r"^lambda_.*: with bumps"),
+        (dict(threshold=(1, 2), label="any"), r"^give only one of label, label='any' and threshold"),
+        (dict(lambda_=[0, 1], bumps=1), r"^lambda_.*: expected one value"),
     ],
 )
 def test_what_core_refuses_names_no_option(volume, options, words):
