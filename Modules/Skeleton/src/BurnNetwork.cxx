@@ -24,12 +24,13 @@ RequireIndexable(std::uint64_t count, const char * what)
   }
 }
 
-/** Lists by key from (key, value) pairs: counting, then filling in order. */
+/** Corners listed by the key each has: counting, then filling in order. */
 void
-Bucket(std::size_t                       keys,
-       const std::vector<ElementIndex> & keyOf,
-       std::vector<std::uint32_t> &      offsets,
-       std::vector<std::uint32_t> &      values)
+Bucket(std::size_t                            keys,
+       const CellComplex &                    cells,
+       const std::vector<ElementIndex> &      keyOf,
+       std::vector<std::uint32_t> &           offsets,
+       std::vector<BurnNetwork::FaceCorner> & corners)
 {
   offsets.assign(keys + 1, 0);
   for (const ElementIndex key : keyOf)
@@ -40,21 +41,35 @@ Bucket(std::size_t                       keys,
   {
     offsets[key + 1] += offsets[key];
   }
-  values.resize(keyOf.size());
+  corners.resize(keyOf.size());
   std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
-  for (std::size_t i = 0; i < keyOf.size(); ++i)
+  for (std::uint32_t face = 0; face < cells.FaceCount(); ++face)
   {
-    values[next[keyOf[i]]++] = static_cast<std::uint32_t>(i);
+    for (std::uint64_t i = cells.faceOffsets[face]; i < cells.faceOffsets[face + std::size_t{ 1 }]; ++i)
+    {
+      corners[next[keyOf[i]]++] = { static_cast<std::uint32_t>(i), face };
+    }
   }
 }
 
 /** Sectors around one vertex, kept between vertices to save allocations. */
 struct Fan
 {
-  std::vector<std::uint32_t> before; ///< edge before each corner
-  std::vector<std::uint32_t> after;  ///< edge after each corner
-  std::vector<std::uint32_t> label;  ///< smallest corner (position in the list) of its sector
-  std::vector<std::uint32_t> rank;
+  /** An edge of a corner. */
+  struct Side
+  {
+    std::uint32_t edge;
+    std::uint32_t faces;
+  };
+
+  struct Corner
+  {
+    std::array<Side, 2> sides; ///< before and after
+    std::uint32_t       label; ///< smallest corner (position in the list) of its sector
+    std::uint32_t       rank;
+  };
+
+  std::vector<Corner> corners;
 };
 
 } // namespace
@@ -67,21 +82,15 @@ BurnNetwork::BurnNetwork(const MedialComplex & complex, double sampling)
   BuildIncidence();
   PlaceSamples(sampling);
   BuildSectors();
+  BuildSides();
 }
 
 void
 BurnNetwork::BuildIncidence()
 {
-  cornerFace.resize(m_Cells->faceVertices.size());
-  for (std::size_t face = 0; face < m_Cells->FaceCount(); ++face)
-  {
-    std::fill(cornerFace.begin() + static_cast<std::ptrdiff_t>(m_Cells->faceOffsets[face]),
-              cornerFace.begin() + static_cast<std::ptrdiff_t>(m_Cells->faceOffsets[face + 1]),
-              static_cast<std::uint32_t>(face));
-  }
-  Bucket(m_Cells->vertexCount, m_Cells->faceVertices, vertexCornerOffsets, vertexCorners);
+  Bucket(m_Cells->vertexCount, *m_Cells, m_Cells->faceVertices, vertexCornerOffsets, vertexCorners);
   std::vector<std::uint32_t> sideOffsets;
-  Bucket(m_Cells->edges.size(), m_Cells->faceEdges, sideOffsets, edgeSides);
+  Bucket(m_Cells->edges.size(), *m_Cells, m_Cells->faceEdges, sideOffsets, edgeSides);
   edgeFirst.resize(sideOffsets.size());
   for (std::size_t edge = 0; edge < sideOffsets.size(); ++edge)
   {
@@ -125,61 +134,83 @@ BurnNetwork::SampleRadius(ElementIndex edge, std::uint32_t rank) const
   const Vector3 way = Minus(m_Complex->positions[ends[1]], m_Complex->positions[ends[0]]);
   const double  ra = m_Complex->radius[ends[0]];
   const double  rb = m_Complex->radius[ends[1]];
-  const double  t = static_cast<double>(rank + 1) / (SampleCount(edge) + 1);
-  const double  s = 1 - t;
-  return std::sqrt(std::max(0.0, s * (ra * ra) + t * (rb * rb) - s * t * Dot(way, way)));
+  return RadiusBetween(ra, rb, Dot(way, way), static_cast<double>(rank + 1) / (SampleCount(edge) + 1));
 }
 
 void
 BurnNetwork::BuildSectors()
 {
   vertexSectorOffsets.reserve(m_Cells->vertexCount + 1);
-  cornerSector.assign(m_Cells->faceVertices.size(), 0);
+  seamEndOffsets.reserve(m_Cells->vertexCount + 1);
+  sides.resize(m_Cells->faceVertices.size());
   Fan fan;
   for (std::size_t vertex = 0; vertex < m_Cells->vertexCount; ++vertex)
   {
-    vertexSectorOffsets.push_back(static_cast<std::uint32_t>(openSector.size()));
+    const auto firstSector = static_cast<std::uint32_t>(openSector.size());
+    vertexSectorOffsets.push_back(firstSector);
+    seamEndOffsets.push_back(static_cast<std::uint32_t>(seamEnds.size()));
     const std::uint32_t first = vertexCornerOffsets[vertex];
     const std::uint32_t count = vertexCornerOffsets[vertex + 1] - first;
-    fan.before.resize(count);
-    fan.after.resize(count);
-    fan.label.resize(count);
-    fan.rank.resize(count);
+    fan.corners.resize(count);
     for (std::uint32_t i = 0; i < count; ++i)
     {
-      const std::uint32_t corner = vertexCorners[first + i];
-      fan.before[i] = m_Cells->faceEdges[SideBefore(corner)];
-      fan.after[i] = m_Cells->faceEdges[corner];
-      fan.label[i] = i;
+      const FaceCorner & at = vertexCorners[first + i];
+      Fan::Corner &      corner = fan.corners[i];
+      const ElementIndex before = m_Cells->faceEdges[SideBefore(at)];
+      const ElementIndex after = m_Cells->faceEdges[at.corner];
+      corner.sides = { Fan::Side{ before, EdgeFaceCount(before) }, Fan::Side{ after, EdgeFaceCount(after) } };
+      corner.label = i;
       // Join the corners seen before that lie across an edge with two faces.
       for (std::uint32_t j = 0; j < i; ++j)
       {
-        const auto shares = [&](std::uint32_t edge) {
-          return (fan.before[j] == edge || fan.after[j] == edge) && EdgeFaceCount(edge) == 2;
+        const Fan::Corner & other = fan.corners[j];
+        const auto          shares = [&](const Fan::Side & side) {
+          return side.faces == 2 && (other.sides[0].edge == side.edge || other.sides[1].edge == side.edge);
         };
-        if (fan.label[j] != fan.label[i] && (shares(fan.before[i]) || shares(fan.after[i])))
+        if (other.label != corner.label && (shares(corner.sides[0]) || shares(corner.sides[1])))
         {
-          const std::uint32_t low = std::min(fan.label[i], fan.label[j]);
-          const std::uint32_t high = std::max(fan.label[i], fan.label[j]);
-          std::replace(fan.label.begin(), fan.label.begin() + i + 1, high, low);
+          const std::uint32_t low = std::min(corner.label, other.label);
+          const std::uint32_t high = std::max(corner.label, other.label);
+          for (std::uint32_t k = 0; k <= i; ++k)
+          {
+            fan.corners[k].label = fan.corners[k].label == high ? low : fan.corners[k].label;
+          }
         }
       }
     }
     for (std::uint32_t i = 0; i < count; ++i)
     {
-      if (fan.label[i] == i)
+      Fan::Corner & corner = fan.corners[i];
+      if (corner.label == i)
       {
-        fan.rank[i] = static_cast<std::uint32_t>(openSector.size());
+        corner.rank = static_cast<std::uint32_t>(openSector.size());
         openSector.push_back(0);
       }
-      const std::uint32_t sector = fan.rank[fan.label[i]];
-      cornerSector[vertexCorners[first + i]] = sector;
-      if (EdgeFaceCount(fan.before[i]) == 1 || EdgeFaceCount(fan.after[i]) == 1)
+      corner.rank = fan.corners[corner.label].rank;
+      sides[vertexCorners[first + i].corner].sector[0] = corner.rank;
+      if (corner.sides[0].faces == 1 || corner.sides[1].faces == 1)
       {
-        openSector[sector] = 1;
+        openSector[corner.rank] = 1;
       }
     }
+    if (openSector.size() > firstSector + std::size_t{ 1 })
+    {
+      for (const Fan::Corner & corner : fan.corners)
+      {
+        for (const Fan::Side & side : corner.sides)
+        {
+          if (side.faces >= 3)
+          {
+            seamEnds.push_back({ side.edge, corner.rank });
+          }
+        }
+      }
+      std::sort(seamEnds.begin() + seamEndOffsets.back(), seamEnds.end(), [](const SeamEnd & a, const SeamEnd & b) {
+        return a.edge != b.edge ? a.edge < b.edge : a.sector < b.sector;
+      });
+    }
   }
+  seamEndOffsets.push_back(static_cast<std::uint32_t>(seamEnds.size()));
   vertexSectorOffsets.push_back(static_cast<std::uint32_t>(openSector.size()));
   std::uint64_t sectors = openSector.size();
   for (ElementIndex edge = 0; edge < m_Cells->edges.size(); ++edge)
@@ -190,6 +221,27 @@ BurnNetwork::BuildSectors()
     RequireIndexable(sectors, "sectors");
   }
   edgeFirst.back().sector = static_cast<std::uint32_t>(sectors);
+}
+
+void
+BurnNetwork::BuildSides()
+{
+  for (std::size_t corner = 0; corner < sides.size(); ++corner)
+  {
+    sides[corner].point[0] = m_Cells->faceVertices[corner];
+  }
+  for (ElementIndex edge = 0; edge < m_Cells->edges.size(); ++edge)
+  {
+    const EdgeFirst &   at = edgeFirst[edge];
+    const std::uint32_t row = EdgeFaceCount(edge) >= 3 ? SampleCount(edge) : 0;
+    std::uint32_t       sector = at.sector;
+    for (std::uint32_t i = at.side; i < edgeFirst[edge + std::size_t{ 1 }].side; ++i, sector += row)
+    {
+      Side & side = sides[edgeSides[i].corner];
+      side.sector[1] = sector;
+      side.point[1] = at.point;
+    }
+  }
 }
 
 } // namespace voxelcore

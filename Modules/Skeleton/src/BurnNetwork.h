@@ -5,7 +5,9 @@
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/Vectors.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -18,7 +20,7 @@ namespace voxelcore
  *  point's link between seams). Fire that comes into a sector burns all of it at once. Sectors of vertices are numbered
  *  vertex by vertex, then come those of samples, edge by edge: a row of one sector per sample for both faces of an edge
  *  with two, a row for each face where there are three or more, so that a face finds the sectors of an edge side by side.
- *  A point without faces has none. `corner` numbers positions in CellComplex::faceVertices and faceEdges.
+ *  A point without faces has none. `corner` numbers positions in CellComplex::faceVertices and faceEdges, and `sides`.
  *
  *  Positions and radii of samples are computed when they are asked for: that is less work than fetching them. */
 struct BurnNetwork
@@ -31,20 +33,41 @@ struct BurnNetwork
     std::uint32_t side;   ///< in edgeSides
   };
 
+  /** What fire in a face needs of a corner [0] and of the first sample on the edge that begins there [1]. */
+  struct Side
+  {
+    std::array<std::uint32_t, 2> sector; ///< the one that holds the face
+    std::array<std::uint32_t, 2> point;
+  };
+
+  struct FaceCorner
+  {
+    std::uint32_t corner;
+    std::uint32_t face;
+  };
+
+  /** A sector of a vertex that ends in a seam: an edge with three faces or more. */
+  struct SeamEnd
+  {
+    ElementIndex  edge;
+    std::uint32_t sector;
+  };
+
   /** `complex` must outlive the object. \throws InputError above 2^32 - 2 points or sectors. */
   BurnNetwork(const MedialComplex & complex, double sampling);
 
   const MedialComplex *      m_Complex;
   const CellComplex *        m_Cells;
-  std::vector<std::uint32_t> cornerFace;
+  std::vector<Side>          sides;               ///< per corner
   std::vector<std::uint32_t> vertexCornerOffsets; ///< vertices + 1 entries
-  std::vector<std::uint32_t> vertexCorners;       ///< corners at each vertex
+  std::vector<FaceCorner>    vertexCorners;       ///< corners at each vertex
   std::vector<EdgeFirst>     edgeFirst;           ///< edges + 1 entries
-  std::vector<std::uint32_t> edgeSides;           ///< corners that begin each edge, edge by edge, face by face
+  std::vector<FaceCorner>    edgeSides;           ///< corners that begin each edge, edge by edge, face by face
   std::vector<std::uint32_t> pointEdge;           ///< per sample point (from vertexCount on) its edge
   std::vector<std::uint32_t> vertexSectorOffsets; ///< vertices + 1 entries
   std::vector<std::uint8_t>  openSector;          ///< per sector of a vertex: 1 when it ends in an edge with one face
-  std::vector<std::uint32_t> cornerSector;        ///< per corner: its vertex' sector that holds its face
+  std::vector<std::uint32_t> seamEndOffsets;      ///< vertices + 1 entries
+  std::vector<SeamEnd>       seamEnds;            ///< at each vertex with several sectors, edge by edge
 
   std::size_t
   PointCount() const
@@ -68,23 +91,6 @@ struct BurnNetwork
   SampleCount(ElementIndex edge) const
   {
     return edgeFirst[edge + std::size_t{ 1 }].point - edgeFirst[edge].point;
-  }
-
-  /** The sector, on the first sample, of the face that has this corner, on the edge that begins there. */
-  std::uint32_t
-  FirstSideSector(std::uint32_t corner) const
-  {
-    const ElementIndex edge = m_Cells->faceEdges[corner];
-    const auto *       sides = &edgeSides[edgeFirst[edge].side];
-    std::uint32_t      row = 0;
-    if (EdgeFaceCount(edge) >= 3)
-    {
-      while (sides[row] != corner)
-      {
-        ++row;
-      }
-    }
-    return edgeFirst[edge].sector + row * SampleCount(edge);
   }
 
   /** Where the sectors of a point are. */
@@ -117,7 +123,15 @@ struct BurnNetwork
     return { s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2] };
   }
 
-  /** All points of an edge have the same nearest boundary vertices; this is the distance to one of them (Stewart). */
+  /** All points of an edge have the same nearest boundary vertices; this is the distance to one of them (Stewart).
+   *  `t` of the way from an end with radius `ra` to one with radius `rb`; `squared`: the length of the edge. */
+  static double
+  RadiusBetween(double ra, double rb, double squared, double t)
+  {
+    const double s = 1 - t;
+    return std::sqrt(std::max(0.0, s * (ra * ra) + t * (rb * rb) - s * t * squared));
+  }
+
   double
   SampleRadius(ElementIndex edge, std::uint32_t rank) const;
 
@@ -138,20 +152,19 @@ struct BurnNetwork
 
   /** The side of the same face that ends in this corner. */
   std::uint32_t
-  SideBefore(std::uint32_t corner) const
+  SideBefore(const FaceCorner & at) const
   {
-    const std::uint64_t first = m_Cells->faceOffsets[cornerFace[corner]];
-    const std::uint64_t end = m_Cells->faceOffsets[cornerFace[corner] + std::size_t{ 1 }];
-    return static_cast<std::uint32_t>(corner == first ? end - 1 : corner - 1);
+    const std::uint64_t first = m_Cells->faceOffsets[at.face];
+    return static_cast<std::uint32_t>(at.corner == first ? m_Cells->faceOffsets[at.face + std::size_t{ 1 }] - 1
+                                                         : at.corner - 1);
   }
 
   /** The next corner of the same face. */
   std::uint32_t
-  CornerAfter(std::uint32_t corner) const
+  CornerAfter(const FaceCorner & at) const
   {
-    const std::uint64_t first = m_Cells->faceOffsets[cornerFace[corner]];
-    const std::uint64_t end = m_Cells->faceOffsets[cornerFace[corner] + std::size_t{ 1 }];
-    return static_cast<std::uint32_t>(corner + 1 == end ? first : corner + 1);
+    const std::uint64_t end = m_Cells->faceOffsets[at.face + std::size_t{ 1 }];
+    return static_cast<std::uint32_t>(at.corner + 1 == end ? m_Cells->faceOffsets[at.face] : at.corner + 1);
   }
 
 private:
@@ -161,6 +174,8 @@ private:
   PlaceSamples(double sampling);
   void
   BuildSectors();
+  void
+  BuildSides();
 };
 
 } // namespace voxelcore

@@ -56,7 +56,7 @@ SurfaceFire::Times() const
     double              sum = 0;
     for (std::uint64_t corner = first; corner < end; ++corner)
     {
-      sum += std::abs(m_Arrival[m_Network.cornerSector[corner]]);
+      sum += std::abs(m_Arrival[m_Network.sides[corner].sector[0]]);
     }
     times.faces[face] = sum / static_cast<double>(end - first);
   }

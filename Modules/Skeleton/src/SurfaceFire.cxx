@@ -20,15 +20,23 @@ SurfaceFire::SurfaceFire(const MedialComplex & complex, double sampling)
   , m_Cells(complex.cells)
   , m_Network(complex, sampling)
   , m_Arrival(m_Network.SectorCount(), kNever)
+  , m_Faces(m_Cells.FaceCount() + 1)
   , m_FaceEntries(m_Cells.FaceCount(), Entries::none)
   , m_Heap(FireBucket(complex.radius))
 {
   for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
   {
+    const auto    edges = m_Cells.FaceEdges(face);
     std::uint32_t points = 0;
-    for (const ElementIndex edge : m_Cells.FaceEdges(face))
+    for (const ElementIndex edge : edges)
     {
       points += 1 + m_Network.SampleCount(edge);
+    }
+    m_Faces[face].first = static_cast<std::uint32_t>(m_Cells.faceOffsets[face]);
+    if (edges.size() <= FaceAhead::mostSides && points == 2 * edges.size())
+    {
+      m_Faces[face].sides = static_cast<std::uint8_t>(edges.size());
+      m_Faces[face].ahead = static_cast<std::uint16_t>((1U << points) - 1);
     }
     if (points > kSmallFace)
     {
@@ -120,9 +128,9 @@ SurfaceFire::FetchAhead() const
     const ElementIndex edge = m_Network.pointEdge[item->element - m_Cells.vertexCount];
     for (std::uint32_t side = m_Network.edgeFirst[edge].side; side < m_Network.edgeFirst[edge + 1].side; ++side)
     {
-      const std::uint32_t face = m_Network.cornerFace[m_Network.edgeSides[side]];
-      __builtin_prefetch(&m_FaceEntries[face]);
-      __builtin_prefetch(&m_Cells.faceOffsets[face]);
+      const BurnNetwork::FaceCorner & at = m_Network.edgeSides[side];
+      __builtin_prefetch(&m_Faces[at.face], 1);
+      __builtin_prefetch(&m_Network.sides[at.corner]);
     }
     __builtin_prefetch(&m_Complex.positions[m_Cells.edges[edge][0]]);
     __builtin_prefetch(&m_Complex.positions[m_Cells.edges[edge][1]]);
@@ -199,9 +207,12 @@ SurfaceFire::BurnPoint(std::uint32_t point, double time)
     Burn(freed, time);
   }
   Spread(point, range, time);
-  if (const double next = (*this)(point); left > 0 && !std::isnan(next))
+  if (left > 0)
   {
-    m_Heap.PushAgain({ next, point });
+    if (const double next = (*this)(point); !std::isnan(next))
+    {
+      m_Heap.PushAgain({ next, point });
+    }
   }
 }
 
@@ -224,33 +235,24 @@ SurfaceFire::FindFreedSector(std::uint32_t point, const SectorRange & range)
     }
     return found;
   }
-  m_Ends.clear();
-  for (std::uint32_t i = m_Network.vertexCornerOffsets[point]; i < m_Network.vertexCornerOffsets[point + 1]; ++i)
+  std::uint32_t ends = 0; // in the same seam, of sectors that have not burned
+  std::uint32_t last = kNoSector;
+  ElementIndex  seam = 0;
+  for (std::uint32_t i = m_Network.seamEndOffsets[point]; i < m_Network.seamEndOffsets[point + 1]; ++i)
   {
-    const std::uint32_t corner = m_Network.vertexCorners[i];
-    const std::uint32_t sector = m_Network.cornerSector[corner];
-    if (!IsBurned(sector))
+    const BurnNetwork::SeamEnd & end = m_Network.seamEnds[i];
+    if (!IsBurned(end.sector))
     {
-      for (const std::uint32_t side : { m_Network.SideBefore(corner), corner })
+      if (end.edge != seam && ends == 1)
       {
-        if (m_Network.EdgeFaceCount(m_Cells.faceEdges[side]) >= 3)
-        {
-          m_Ends.push_back({ m_Cells.faceEdges[side], sector });
-        }
+        return last;
       }
+      ends = end.edge == seam ? ends + 1 : 1;
+      seam = end.edge;
+      last = end.sector;
     }
   }
-  std::sort(m_Ends.begin(), m_Ends.end());
-  for (std::size_t i = 0; i < m_Ends.size(); ++i)
-  {
-    const bool sameBefore = i > 0 && m_Ends[i - 1][0] == m_Ends[i][0];
-    const bool sameAfter = i + 1 < m_Ends.size() && m_Ends[i + 1][0] == m_Ends[i][0];
-    if (!sameBefore && !sameAfter)
-    {
-      return m_Ends[i][1];
-    }
-  }
-  return kNoSector;
+  return ends == 1 ? last : kNoSector;
 }
 
 } // namespace voxelcore

@@ -31,6 +31,16 @@ struct Entries
   std::uint32_t                   count = 0;
 };
 
+/** Where fire can still go in a face that is small, with one sample on each edge: what has burned need not be looked at. */
+struct FaceAhead
+{
+  static constexpr std::uint32_t mostSides = 8;
+
+  std::uint32_t first = 0; ///< corner
+  std::uint16_t ahead = 0; ///< bit 2 i for corner i, 2 i + 1 for the sample behind it; unset when it has burned
+  std::uint8_t  sides = 0; ///< 0 for other faces
+};
+
 /** Burns a surface once. SurfaceFire.cxx has what burns when, FireSpread.cxx how fire goes on from there. */
 class SurfaceFire
 {
@@ -100,13 +110,17 @@ private:
   bool
   IsOvertaken(const Flame & flame, const Entries & entries) const;
 
-  /** False when it is of no use but along the edges the point is on. */
+  /** From a corner (`step` 0) or the edge behind it (1). False when it is of no use but along the edges the point is on. */
   bool
-  SpreadInFace(const Flame & flame, std::uint32_t face);
+  SpreadInFace(const Flame & flame, const BurnNetwork::FaceCorner & at, std::uint32_t step);
+
+  /** The same where there is a FaceAhead; `place` of the two that it numbers. */
+  void
+  SpreadAhead(const Flame & flame, FaceAhead & face, std::uint32_t place);
 
   /** Along the edge that begins in this corner of a face, both ends included. */
   void
-  SpreadAlong(const Flame & flame, std::uint32_t corner);
+  SpreadAlong(const Flame & flame, const BurnNetwork::FaceCorner & at);
 
   void
   SpreadToCorner(const Flame & flame, std::uint32_t corner);
@@ -130,15 +144,15 @@ private:
   BurnTimes
   Times() const;
 
-  const MedialComplex &                     m_Complex;
-  const CellComplex &                       m_Cells;
-  BurnNetwork                               m_Network;
-  std::vector<double>                       m_Arrival;     ///< per sector; when it has burned, the negative of when
-  std::vector<std::uint32_t>                m_FaceEntries; ///< per face
-  std::vector<Entries>                      m_Entries;     ///< of faces that are not small
-  TimeHeap                                  m_Heap;
-  std::vector<std::uint32_t>                m_Fresh; ///< sectors of a point that burn now
-  std::vector<std::array<std::uint32_t, 2>> m_Ends;  ///< (edge, sector) at a vertex
+  const MedialComplex &      m_Complex;
+  const CellComplex &        m_Cells;
+  BurnNetwork                m_Network;
+  std::vector<double>        m_Arrival; ///< per sector; when it has burned, the negative of when
+  std::vector<FaceAhead>     m_Faces;
+  std::vector<std::uint32_t> m_FaceEntries; ///< per face
+  std::vector<Entries>       m_Entries;     ///< of faces that are not small
+  TimeHeap                   m_Heap;
+  std::vector<std::uint32_t> m_Fresh; ///< sectors of a point that burn now
 };
 
 } // namespace voxelcore

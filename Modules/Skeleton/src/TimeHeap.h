@@ -76,8 +76,9 @@ public:
 
   /** Takes out what is next; false when there is nothing. `due(element)` gives the time an element waits for: that of its
    *  earliest push that has not been taken out, or NaN when it waits no longer. An element may come more
-   *  often than that: as often as it was pushed. After one that waits for several times PushAgain() the next. Where looking up takes long, `due.Fetch(element, 0)`, `(element, 1)` and
-   *  `(element, 2)` are called some elements ahead, in turn. */
+   *  often than that, at most as often as it was pushed. After one that waits for several times PushAgain() the next.
+   *  Where looking up takes long, `due.Fetch(element, 0)`, `(element, 1)` and `(element, 2)` are called some elements
+   *  ahead, in turn. */
   template <typename Due>
   bool
   Pop(const Due & due, TimedElement & item)
@@ -144,6 +145,10 @@ private:
       }
     }
     std::sort(m_Sorted.begin(), m_Sorted.end());
+    const auto same = [](const TimedElement & a, const TimedElement & b) {
+      return a.time == b.time && a.element == b.element;
+    };
+    m_Sorted.erase(std::unique(m_Sorted.begin(), m_Sorted.end(), same), m_Sorted.end());
   }
 
   /** Four children a node: half as deep as a binary heap, and siblings share a cache line. */
