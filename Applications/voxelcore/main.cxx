@@ -168,6 +168,7 @@ RunPrune(const Run & run)
   options.threads = run.threads;
   options.command = run.line.whole;
   const PruneResult result = RunPruneJob(options, run.context);
+  run.Warn(result.warnings);
   run.Print(ReportTable(result.report));
   run.PrintNotes(result.notes);
   return kDone;
@@ -202,6 +203,7 @@ RunReconstruct(const Run & run)
   ReconstructOptions options = ReconstructOptionsFrom(run.line.values);
   options.command = run.line.whole;
   const ReconstructResult result = RunReconstructJob(options, run.context);
+  run.Warn(result.warnings);
   run.Print(ReconstructText(result));
   run.PrintNotes(result.notes);
   return kDone;

@@ -44,6 +44,11 @@ main(int argc, char ** argv)
   {
     json["pointArrays"].push_back(data->GetPointData()->GetArrayName(i));
   }
+  vtkDataArray * const radius = data->GetPointData()->GetArray("Radius");
+  for (vtkIdType point = 0; radius != nullptr && point < radius->GetNumberOfTuples(); ++point)
+  {
+    json["radii"].push_back(radius->GetTuple1(point));
+  }
   std::vector<double>  labels;
   vtkDataArray * const label = data->GetCellData()->GetArray("Label");
   for (vtkIdType cell = 0; label != nullptr && cell < label->GetNumberOfTuples(); ++cell)

@@ -66,6 +66,11 @@ TEST_F(ScanWords, AMissingVoxelSizeIsWarnedOfOnceByEveryCommand)
     { "core", scan, "-o", Path("a.vtp"), "--lambda", "1mm" },
     { "skeleton", scan, "-o", Path("s.vtp") },
     { "verify", scan, Path("a.vtp") },
+    { "reconstruct", Path("a.vtp"), "-o", Path("r.nrrd"), "--scan", scan },
+    { "reconstruct", Path("a.vtp"), "-o", Path("l.nrrd"), "--like", scan },
+#ifdef VOXELCORE_HAS_DISPLAY
+    { "render", Path("a.vtp"), "-o", Path("a.png"), "--scan", scan, "--size", "64x64" },
+#endif
   };
   for (const auto & command : commands)
   {
@@ -107,8 +112,13 @@ TEST_F(ScanWords, InfoShowsAGreyScansHistogramAndProposesAThreshold)
     EXPECT_THAT(text, HasSubstr(word));
   }
   EXPECT_THAT(text, Not(HasSubstr("core needs")));
+  EXPECT_THAT(text, Not(HasSubstr("skeleton")));
   const auto info = nlohmann::json::parse(Run({ "info", scan, "--json" }));
   EXPECT_TRUE(info["labels"].empty());
+  for (const char * job : { "core", "skeleton", "page" })
+  {
+    EXPECT_FALSE(info.contains(job)) << job;
+  }
   EXPECT_GT(info["grey"]["otsu"], 95);
   EXPECT_LT(info["grey"]["otsu"], 145);
   std::uint64_t voxels = 0;

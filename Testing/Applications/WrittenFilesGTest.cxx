@@ -66,6 +66,23 @@ TEST_F(WrittenFiles, LabelsOfWhichPruningLeavesNoFaceAreNamed)
   EXPECT_EQ(RunProgram({ "core", Path("blocks.nrrd"), "--lambda", "0", "-o", Path("b.vtp") }).error, "");
 }
 
+TEST_F(WrittenFiles, LabelsOfWhichPruningAFileLeavesNoFaceAreNamed)
+{
+  Run({ "core", Path("blocks.nrrd"), "--lambda", "0", "--keep-edges", "-o", Path("a.vtp") });
+  const ProgramResult result =
+    RunProgram({ "prune", Path("a.vtp"), "--lambda", "1e9mm", "--keep-edges", "-o", Path("b.vtp") });
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(
+    result.error.find("warning: --lambda 1e9mm leaves no face, only curves or a point, of label 2 (label-2) with "
+                      "a largest radius of "),
+    std::string::npos)
+    << result.error;
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  // Where there was no face before, pruning has taken none.
+  EXPECT_EQ(RunProgram({ "prune", Path("b.vtp"), "--lambda", "1e9mm", "-o", Path("c.vtp") }).error, "");
+  EXPECT_EQ(RunProgram({ "prune", Path("a.vtp"), "--lambda", "0", "-o", Path("d.vtp") }).error, "");
+}
+
 TEST_F(WrittenFiles, TheTableOfBranchesIsWrittenOnce)
 {
   Run({ "skeleton", Path("blocks.nrrd"), "-o", Path("s.vtp"), "--also", "csv", "--table", Path("t.csv") });

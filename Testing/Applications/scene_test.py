@@ -59,6 +59,7 @@ def walk(scene, program, dump, voxels):
         return nodes[[r.split(":")[1] for r in node.get("references").split(";") if r.startswith(role)][0]]
 
     # models
+    ranges, radii = set(), []
     for label, name in NAMES.items():
         model = next(n for n in kinds["Model"] if n.get("name") == name + " medial surface")
         display = part(model, "display")
@@ -68,9 +69,16 @@ def walk(scene, program, dump, voxels):
         check(part(model, "storage").get("coordinateSystem") == "LPS", "space")
         data = polydata(dump, scene.parent / unquote(part(model, "storage").get("fileName")))
         check(data["space"] == "LPS" and "Radius" in data["pointArrays"], "the file of " + name)
+        check(display.get("scalarRangeFlag") == "UseManual", "scalarRangeFlag of " + name)
+        ranges.add(display.get("scalarRange"))
+        radii += data["radii"]
         # Right place: every vertex within the label.
         for point in data["points"]:
             check(label_at(voxels, point) == label, "%s lies outside %s" % (point, name))
+    # Colours: one range for all, that of most of the surface, so that the few smallest radii do not take the map.
+    check(len(ranges) == 1, "ranges %s" % ranges)
+    low, high = (float(x) for x in ranges.pop().split())
+    check(min(radii) < low - 1e-3 and low < high <= max(radii) + 1e-6, "%s to %s of %s to %s" % (low, high, min(radii), max(radii)))
     # curves
     for curve in kinds["MarkupsCurve"]:
         markups = json.loads((scene.parent / unquote(part(curve, "storage").get("fileName"))).read_text())["markups"]

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string_view>
 
 namespace voxelcore
 {
@@ -56,6 +57,49 @@ TEST(CohortTables, EqualValuesAndSmallGroupsHaveNoOutliersButOneAmongEqualsIsFou
   FindOutliers(one);
   EXPECT_EQ(one[7]["outliers"], "volume_mm3+");
   EXPECT_EQ(one[0]["outliers"], "");
+}
+
+/** What the page holds as data of one label. */
+Row
+PageData(const std::vector<Row> & labels)
+{
+  PageCase one;
+  one.folder = "sub-x";
+  one.record.done = true;
+  one.labels = labels;
+  for (Row & label : one.labels)
+  {
+    label["outliers"] = "";
+  }
+  const std::string          page = CohortPage({ one });
+  constexpr std::string_view begins = "type=\"application/json\">";
+  const std::size_t          begin = page.find(begins) + begins.size();
+  return Row::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+TEST(CohortTables, ThePageShowsLengthsInOneUnitThatSuitsItsLargestBody)
+{
+  auto rows = Volumes({ 8e-9, 1e-12 }); // 2 um wide, and 0.1
+  rows[0]["core_max_radius_mm"] = 5e-4;
+  rows[0]["pruned_0_area_mm2"] = 3e-6;
+  rows[0]["shape_betti_1"] = 7;
+  Row data = PageData(rows);
+  EXPECT_EQ(data["columns"][0], "volume µm³");
+  EXPECT_EQ(data["columns"][1], "area µm²");
+  EXPECT_EQ(data["columns"][2], "max radius µm");
+  EXPECT_EQ(data["columns"][4], "loops");
+  const Row & values = data["cases"][0]["labels"][0]["values"];
+  EXPECT_NEAR(values[0].get<double>(), 8, 1e-9);
+  EXPECT_NEAR(values[1].get<double>(), 3, 1e-9);
+  EXPECT_NEAR(values[2].get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(values[4], 7);
+  EXPECT_TRUE(values[9].is_null());
+  EXPECT_NEAR(data["cases"][0]["labels"][1]["values"][0].get<double>(), 1e-3, 1e-9);
+  // Of bodies that one would measure in mm nothing changes.
+  data = PageData(Volumes({ 1234.5, 8e-9 }));
+  EXPECT_EQ(data["columns"][0], "volume mm³");
+  EXPECT_EQ(data["cases"][0]["labels"][0]["values"][0], 1234.5);
+  EXPECT_EQ(data["cases"][0]["labels"][1]["values"][0], 8e-9);
 }
 
 TEST(CohortTables, NothingOfACaseIsMarkupOnThePage)

@@ -1,6 +1,7 @@
 #include "voxelcore/Thumbnail.h"
 
 #include "Pipeline/TemporaryFolder.h"
+#include "voxelcore/DisplayColors.h"
 
 #include <gtest/gtest.h>
 
@@ -38,6 +39,38 @@ TEST(Thumbnail, AModelFillsThePictureWhereverItLies)
   EXPECT_GT(painted, 64U * 64U / 3);
   EXPECT_LT(painted, 64U * 64U * 4 / 5);
   EXPECT_EQ(PaintModel(Square(100), 64).rgb, picture.rgb);
+}
+
+/** The hue of the pixel in the middle, from blue (-) to red (+). */
+double
+RedOverBlue(const Thumbnail & picture)
+{
+  const std::size_t at = 3 * static_cast<std::size_t>(picture.height / 2 * picture.width + picture.width / 2);
+  return static_cast<double>(picture.rgb[at]) - static_cast<double>(picture.rgb[at + 2]);
+}
+
+TEST(Thumbnail, ColorsAreThoseOfLengthsAsOnTheCasesPage)
+{
+  // In front of a small square of another radius, which widens the range, a great one.
+  const auto paint = [](double radius, double other) {
+    MedialModel model = Square(0);
+    model.parts.push_back(model.parts.front());
+    model.parts[0].core.radius.assign(4, radius);
+    model.parts[1].core.radius.assign(4, other);
+    for (auto & position : model.parts[1].core.positions)
+    {
+      position = { position[0] / 3, position[1] + 5, position[2] / 3 };
+    }
+    return RedOverBlue(PaintModel(model, 64));
+  };
+  const Color small = LengthColor(0);
+  const Color large = LengthColor(1);
+  ASSERT_GT(large[0] - large[2], small[0] - small[2] + 0.5);
+  EXPECT_GT(paint(9, 1), paint(1, 9) + 80);
+  // The label has no say in it.
+  MedialModel other = Square(0);
+  other.parts[0].label = 7;
+  EXPECT_EQ(PaintModel(other, 64).rgb, PaintModel(Square(0), 64).rgb);
 }
 
 TEST(Thumbnail, EmptyAndFlatModelsArePictures)

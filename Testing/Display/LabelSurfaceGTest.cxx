@@ -1,7 +1,7 @@
 // The surface that is drawn of a label lies where its voxels lie.
 
 #include "VoxelCoreTesting/Shapes.h"
-#include "voxelcore/DisplayContent.h"
+#include "voxelcore/LabelSurface.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/VoxelCore.h"
 

@@ -3,6 +3,7 @@
 #include "PageModel.h"
 
 #include "VoxelCoreTesting/Shapes.h"
+#include "voxelcore/LabelSurface.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/VoxelCore.h"
 

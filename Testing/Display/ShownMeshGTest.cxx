@@ -3,6 +3,7 @@
 #include "ShownMesh.h"
 
 #include "VoxelCoreTesting/Shapes.h"
+#include "voxelcore/LabelSurface.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/UnionFind.h"
 #include "voxelcore/VoxelCore.h"

@@ -1,14 +1,15 @@
 // Fits the constants of CostModel to phantoms on this machine, prints them as they stand in CostModel.cxx, and then how far
 // they miss on shapes they were not fitted to, and on scans named on the command line.
-// usage: VoxelCoreCostFit [--seconds N] [--rounds N] FOLDER [SCAN...]
+// usage: VoxelCoreCostFit [--further] [--seconds N] [--rounds N] FOLDER [SCAN...]
+// --further: the constants of skeletons and pages instead of those of cores.
 // FOLDER: for volumes and results, about 100 MB, and for what was measured: a call that ends after N seconds is taken up by
 // the next with the same FOLDER.
 
-#include "ChildProcess.h"
+#include "CostPhantoms.h"
 #include "CostSamples.h"
+#include "FurtherFit.h"
 #include "NonNegativeFit.h"
 #include "voxelcore/CostModel.h"
-#include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputNames.h"
 
 #include <algorithm>
@@ -26,22 +27,16 @@ namespace
 using namespace voxelcore;
 using performance::CostSamples;
 using performance::CostTask;
+using performance::CountScan;
 using performance::Fit;
 using performance::FitRatios;
 using performance::JobCost;
-using performance::RunChild;
+using performance::NameOf;
+using performance::Phantom;
+using performance::PrintConstants;
+using performance::TaskOf;
 using Terms = std::array<double, CostTerms::kSize>;
 namespace fs = std::filesystem;
-
-struct Phantom
-{
-  std::string              kind;
-  int                      side;
-  std::vector<std::string> options;
-  bool                     atTwo = false; ///< fitted with two threads as well
-};
-
-const Phantom reference{ "ellipsoid", 192, {} };
 
 const std::vector<Phantom> fitted{
   { "ellipsoid", 96, {} },
@@ -87,57 +82,6 @@ const std::vector<Phantom> heldOut{
   { "noise", 64, { "--density", "0.3" } },
   { "noise", 64, { "--density", "0.7" } },
 };
-
-std::string
-NameOf(const Phantom & phantom)
-{
-  std::string name = phantom.kind + " " + std::to_string(phantom.side);
-  for (const std::string & option : phantom.options)
-  {
-    name += " " + option;
-  }
-  return name;
-}
-
-/** Makes the phantom's file, if it is not there yet. */
-CostTask
-TaskOf(const Phantom & phantom, const fs::path & folder, int threads)
-{
-  const std::string name = NameOf(phantom);
-  const fs::path    scan = folder / (name + ".nrrd");
-  if (!fs::exists(scan))
-  {
-    std::vector<std::string> command{
-      VOXELCORE_PROGRAM, "phantom", phantom.kind, "--size", std::to_string(phantom.side), "-o", scan.string(), "-q"
-    };
-    command.insert(command.end(), phantom.options.begin(), phantom.options.end());
-    RunChild(command);
-  }
-  return { name, scan, threads };
-}
-
-std::vector<BoundaryCounts>
-CountScan(const fs::path & scan)
-{
-  std::vector<BoundaryCounts> counts;
-  for (const LabelShape & label : ReadLabelVolume(scan).labels)
-  {
-    counts.push_back(CountBoundary(label.shape));
-  }
-  return counts;
-}
-
-template <std::size_t n>
-void
-PrintConstants(const std::array<double, n> & constants)
-{
-  std::printf("  {");
-  for (std::size_t i = 0; i < constants.size(); ++i)
-  {
-    std::printf("%s %.3g", i > 0 ? "," : "", constants[i]);
-  }
-  std::printf(" },\n");
-}
 
 /** Largest misses, as factors from one. */
 struct Misses
@@ -294,7 +238,7 @@ MeasureFitAndPrint(const fs::path & folder, double limit, int rounds, const std:
     all.insert(all.end(), tasks->begin(), tasks->end());
   }
   CostSamples samples(folder, VOXELCORE_PROGRAM);
-  samples.Measure(all, TaskOf(reference, folder, 1).scan, rounds, limit);
+  samples.Measure(all, TaskOf(performance::kReference, folder, 1).scan, rounds, limit);
   if (const std::size_t missing = samples.Missing(all); missing > 0)
   {
     std::printf("%zu of %zu jobs have not run yet: call again with the same folder\n", missing, all.size());
@@ -308,7 +252,7 @@ MeasureFitAndPrint(const fs::path & folder, double limit, int rounds, const std:
   PrintConstants(constants.bytes);
   PrintConstants(constants.seconds);
   std::printf("  %.2g,\n};\n\n", constants.serial);
-  std::printf("%s takes %.2f s, 1 thread\n\n", NameOf(reference).c_str(), samples.ReferenceSeconds());
+  std::printf("%s takes %.2f s, 1 thread\n\n", NameOf(performance::kReference).c_str(), samples.ReferenceSeconds());
   const auto table = [&](const CostConstants & with, const std::vector<CostTask> & tasks) {
     Misses misses;
     std::printf(
@@ -343,6 +287,11 @@ main(int argc, char ** argv)
   int                      rounds = 3;
   try
   {
+    const bool further = !arguments.empty() && arguments.front() == "--further";
+    if (further)
+    {
+      arguments.erase(arguments.begin());
+    }
     while (arguments.size() > 1 && arguments.front().rfind("--", 0) == 0)
     {
       if (arguments[0] == "--seconds")
@@ -362,11 +311,12 @@ main(int argc, char ** argv)
     }
     if (arguments.empty())
     {
-      std::fprintf(stderr, "usage: VoxelCoreCostFit [--seconds N] [--rounds N] FOLDER [SCAN...]\n");
+      std::fprintf(stderr, "usage: VoxelCoreCostFit [--further] [--seconds N] [--rounds N] FOLDER [SCAN...]\n");
       return 2;
     }
     fs::create_directories(arguments.front());
-    MeasureFitAndPrint(arguments.front(), limit, rounds, { arguments.begin() + 1, arguments.end() });
+    const auto fit = further ? performance::FitSkeletonsAndPages : MeasureFitAndPrint;
+    fit(arguments.front(), limit, rounds, { arguments.begin() + 1, arguments.end() });
   }
   catch (const std::exception & error)
   {

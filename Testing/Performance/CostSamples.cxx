@@ -48,8 +48,12 @@ CostSamples::CostSamples(const fs::path & folder, const std::string & program)
     while (std::getline(file, line))
     {
       const auto json = nlohmann::json::parse(line);
-      m_Samples[json.at("task")].push_back(
-        { json.at("cells"), json.at("edges"), json.at("bytes"), json.at("seconds"), json.at("reference") });
+      m_Samples[json.at("task")].push_back({ json.at("cells"),
+                                             json.at("edges"),
+                                             json.at("bytes"),
+                                             json.at("seconds"),
+                                             json.at("share"),
+                                             json.at("reference") });
     }
     return;
   }
@@ -57,31 +61,37 @@ CostSamples::CostSamples(const fs::path & folder, const std::string & program)
 }
 
 CostSamples::Sample
-CostSamples::Run(const fs::path & scan, int threads) const
+CostSamples::Run(const fs::path & scan, int threads, CostJob job) const
 {
-  const fs::path report = m_Folder / "report.json";
-  Sample         best{ 0, 0, 0, std::numeric_limits<double>::infinity(), 0 };
+  const fs::path           report = m_Folder / "report.json";
+  std::vector<std::string> command{ m_Program,
+                                    job == CostJob::Skeleton ? "skeleton" : "core",
+                                    scan.string(),
+                                    "-o",
+                                    (m_Folder / "result.vtp").string(),
+                                    "--report",
+                                    report.string(),
+                                    "--threads",
+                                    std::to_string(threads),
+                                    "--force",
+                                    "-q" };
+  if (job == CostJob::Page)
+  {
+    command.insert(command.end(), { "--html", (m_Folder / "result.html").string() });
+  }
+  Sample best{ 0, 0, 0, std::numeric_limits<double>::infinity(), 0, 0 };
   // Of short runs the better of two: what other programs do only adds.
   for (int i = 0; i < 2 && (i == 0 || best.seconds < 0.5); ++i)
   {
-    RunChild({ m_Program,
-               "core",
-               scan.string(),
-               "-o",
-               (m_Folder / "core.vtp").string(),
-               "--report",
-               report.string(),
-               "--threads",
-               std::to_string(threads),
-               "--force",
-               "-q" });
+    RunChild(command);
     std::ifstream file(report);
     const auto    json = nlohmann::json::parse(file);
     const auto &  stages = json.at("seconds");
     const double  seconds = stages.at("total").get<double>() - stages.at("read").get<double>();
     if (seconds < best.seconds)
     {
-      best = { 0, 0, 1e6 * json.at("peak_memory_mb").get<double>(), seconds, 0 };
+      const double share = stages.at(job == CostJob::Skeleton ? "skeleton" : "write").get<double>();
+      best = { 0, 0, 1e6 * json.at("peak_memory_mb").get<double>(), seconds, share, 0 };
       for (const auto & label : json.at("labels"))
       {
         best.cells += label.at("core").at("vertices").get<double>();
@@ -107,18 +117,19 @@ CostSamples::Measure(const std::vector<CostTask> & tasks, const fs::path & refer
       return count(a) < count(b);
     });
   };
-  double before = Run(reference, 1).seconds;
+  double before = Run(reference, 1, CostJob::Core).seconds;
   for (auto task = next(); count(*task) < static_cast<std::size_t>(rounds) && passed() < seconds; task = next())
   {
-    Sample       sample = Run(task->scan, task->threads);
-    const double after = Run(reference, 1).seconds;
+    Sample       sample = Run(task->scan, task->threads, task->job);
+    const double after = Run(reference, 1, CostJob::Core).seconds;
     sample.reference = (before + after) / 2;
     before = after;
     m_Samples[task->Key()].push_back(sample);
-    std::ofstream(m_File, std::ios::app) << nlohmann::json{
-      { "task", task->Key() },   { "cells", sample.cells },     { "edges", sample.edges },
-      { "bytes", sample.bytes }, { "seconds", sample.seconds }, { "reference", sample.reference }
-    } << "\n";
+    std::ofstream(m_File, std::ios::app) << nlohmann::json{ { "task", task->Key() },          { "cells", sample.cells },
+                                                            { "edges", sample.edges },        { "bytes", sample.bytes },
+                                                            { "seconds", sample.seconds },    { "share", sample.share },
+                                                            { "reference", sample.reference } }
+                                         << "\n";
     std::fprintf(stderr, "%s: %.2f s, reference %.2f s\n", task->Key().c_str(), sample.seconds, sample.reference);
   }
 }
@@ -149,13 +160,20 @@ CostSamples::Cost(const CostTask & task) const
 {
   std::vector<double> bytes;
   std::vector<double> seconds;
+  std::vector<double> share;
   for (const Sample & sample : m_Samples.at(task.Key()))
   {
     bytes.push_back(sample.bytes);
     seconds.push_back(sample.seconds / sample.reference);
+    share.push_back(sample.share / sample.reference);
   }
   const Sample & first = m_Samples.at(task.Key()).front();
-  return { first.cells, first.edges, Median(std::move(bytes)), Median(std::move(seconds)) * ReferenceSeconds() };
+  const double   usual = ReferenceSeconds();
+  return { first.cells,
+           first.edges,
+           Median(std::move(bytes)),
+           Median(std::move(seconds)) * usual,
+           Median(std::move(share)) * usual };
 }
 
 } // namespace voxelcore::performance

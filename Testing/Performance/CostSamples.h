@@ -1,5 +1,5 @@
 #pragma once
-// What runs of `voxelcore core` took, kept in a file so that several calls on a busy machine add up.
+// What runs of `voxelcore core` and `skeleton` took, kept in a file so that several calls on a busy machine add up.
 
 #include <filesystem>
 #include <map>
@@ -9,17 +9,28 @@
 namespace voxelcore::performance
 {
 
+enum class CostJob
+{
+  Core,
+  Skeleton,
+  Page ///< `core` with its page
+};
+
 /** One job to measure. */
 struct CostTask
 {
   std::string           name;
   std::filesystem::path scan;
   int                   threads;
+  CostJob               job = CostJob::Core;
 
   std::string
   Key() const
   {
-    return name + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+    return std::string(job == CostJob::Skeleton ? "skeleton of "
+                       : job == CostJob::Page   ? "page of "
+                                                : "") +
+           name + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
   }
 };
 
@@ -30,6 +41,7 @@ struct JobCost
   double edges; ///< of the core
   double bytes;
   double seconds; ///< without reading, as if the machine had always been as fast as it mostly was
+  double share;   ///< of these seconds: of a skeleton the stage's own, else those of writing
 };
 
 /** The speed of a machine whose memory others use as well drifts by half within minutes. So every run stands between two
@@ -63,11 +75,12 @@ private:
     double edges;
     double bytes;
     double seconds;
+    double share;
     double reference;
   };
 
   Sample
-  Run(const std::filesystem::path & scan, int threads) const;
+  Run(const std::filesystem::path & scan, int threads, CostJob job) const;
 
   std::filesystem::path                      m_Folder;
   std::filesystem::path                      m_File;

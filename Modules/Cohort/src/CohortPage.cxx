@@ -1,8 +1,10 @@
 #include "CohortPage.h"
 
 #include "voxelcore/CoreReport.h"
+#include "voxelcore/LengthUnit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace voxelcore
@@ -13,25 +15,27 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/** The numbers of a label on the page: what the column is called, where it is in labels.csv, digits. */
+/** The numbers of a label on the page: what the column is called, where it is in labels.csv, and the power of mm it is
+ *  in there; 0: a count. */
 struct PageColumn
 {
   const char * title;
   const char * key;
+  int          power = 0;
 };
 
 constexpr PageColumn kColumns[] = {
-  { "volume mm³", "volume_mm3" },
-  { "area mm²", "pruned_0_area_mm2" },
-  { "max radius mm", "core_max_radius_mm" },
+  { "volume", "volume_mm3", 3 },
+  { "area", "pruned_0_area_mm2", 2 },
+  { "max radius", "core_max_radius_mm", 1 },
   { "pieces", "shape_betti_0" },
   { "loops", "shape_betti_1" },
   { "cavities", "shape_betti_2" },
   { "branches", "skeleton_branches" },
   { "tips", "skeleton_tips" },
   { "junctions", "skeleton_junctions" },
-  { "length mm", "skeleton_total_length_mm" },
-  { "mean radius mm", "skeleton_mean_radius_mm" },
+  { "length", "skeleton_total_length_mm", 1 },
+  { "mean radius", "skeleton_mean_radius_mm", 1 },
 };
 
 constexpr std::string_view kHead = R"html(<!DOCTYPE html>
@@ -214,8 +218,24 @@ InScript(const Json & json)
   return text;
 }
 
+/** One for the whole page, by its largest body, as `info` does for a scan. */
+LengthUnit
+UnitOf(const std::vector<PageCase> & cases)
+{
+  double largest = 0;
+  for (const PageCase & one : cases)
+  {
+    for (const Row & row : one.labels)
+    {
+      const auto found = row.find("volume_mm3");
+      largest = std::max(largest, found != row.end() && found->is_number() ? found->get<double>() : 0.0);
+    }
+  }
+  return LengthUnit::For(std::cbrt(largest));
+}
+
 Json
-LabelJson(const Row & row)
+LabelJson(const Row & row, const LengthUnit & unit)
 {
   Json              values = Json::array();
   Json              outliers = Json::object();
@@ -224,7 +244,9 @@ LabelJson(const Row & row)
   {
     const std::string key = kColumns[i].key;
     const auto        found = row.find(key);
-    values.push_back(found != row.end() && found->is_number() ? *found : Json(nullptr));
+    const int         power = kColumns[i].power;
+    const bool        known = found != row.end() && found->is_number();
+    values.push_back(!known ? Json(nullptr) : power == 0 ? *found : Json(unit.Of(found->get<double>(), power)));
     if (marks.find(" " + key + "+ ") != std::string::npos)
     {
       outliers[std::to_string(i)] = 1;
@@ -243,7 +265,7 @@ LabelJson(const Row & row)
 }
 
 Json
-CaseJson(const PageCase & one)
+CaseJson(const PageCase & one, const LengthUnit & unit)
 {
   Json json = { { "id", one.record.id },
                 { "folder", one.folder },
@@ -272,7 +294,7 @@ CaseJson(const PageCase & one)
   }
   for (const Row & row : one.labels)
   {
-    json["labels"].push_back(LabelJson(row));
+    json["labels"].push_back(LabelJson(row, unit));
   }
   return json;
 }
@@ -282,17 +304,19 @@ CaseJson(const PageCase & one)
 std::string
 CohortPage(const std::vector<PageCase> & cases)
 {
-  Json data;
+  const LengthUnit unit = UnitOf(cases);
+  Json             data;
   data["version"] = VoxelCoreVersion();
   data["columns"] = Json::array();
   for (const PageColumn & column : kColumns)
   {
-    data["columns"].push_back(column.title);
+    data["columns"].push_back(column.power == 0 ? std::string(column.title)
+                                                : std::string(column.title) + " " + unit.Symbol(column.power));
   }
   data["cases"] = Json::array();
   for (const PageCase & one : cases)
   {
-    data["cases"].push_back(CaseJson(one));
+    data["cases"].push_back(CaseJson(one, unit));
   }
   return std::string(kHead) + InScript(data) + std::string(kTail);
 }

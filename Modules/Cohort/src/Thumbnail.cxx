@@ -1,5 +1,7 @@
 #include "voxelcore/Thumbnail.h"
 
+#include "voxelcore/ColorRange.h"
+#include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputTransaction.h"
 
@@ -23,19 +25,44 @@ constexpr std::array<Vector, 3> kView{ { { 0.788010753606722, 0.615661475325658,
                                          { 0.210567, -0.269514, -0.939693 },
                                          { -0.578533, 0.740488, -0.342020 } } };
 
-/** Colours of equal lightness that differ from one label to the next. */
-Vector
-ColorOf(std::int64_t label)
+/** The colour map as the case's page has it at first: radii between their 2nd and 98th percentile. */
+class RadiusColors
 {
-  constexpr double kGolden = 0.618033988749895;
-  constexpr double kPi = 3.14159265358979323846;
-  const double     hue = 0.58 + kGolden * static_cast<double>(label % 4096 - 1);
-  Vector           color;
-  for (std::size_t k = 0; k < 3; ++k)
+public:
+  explicit RadiusColors(const MedialModel & model)
   {
-    color[k] = 0.62 + 0.3 * std::cos(2 * kPi * (hue - static_cast<double>(k) / 3));
+    std::vector<WeightedValue> values;
+    for (const ModelPart & part : model.parts)
+    {
+      DisplayLabel label;
+      label.medial = part;
+      const auto more = ShownValues(label, PictureColoring::Radius);
+      values.insert(values.end(), more.begin(), more.end());
+    }
+    m_Range = RangeOfShares(std::move(values));
   }
-  return color;
+
+  Color
+  operator()(double radius) const
+  {
+    return LengthColor(
+      m_Range.high > m_Range.low ? std::clamp((radius - m_Range.low) / (m_Range.high - m_Range.low), 0.0, 1.0) : 0.5);
+  }
+
+private:
+  ColorRange m_Range;
+};
+
+Color
+Darker(const Color & color, double light)
+{
+  return { color[0] * light, color[1] * light, color[2] * light };
+}
+
+Vector
+Mean(const Vector & a, const Vector & b, const Vector & c)
+{
+  return { (a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3 };
 }
 
 Vector
@@ -159,17 +186,16 @@ private:
   std::vector<Vector> m_Color;
 };
 
-/** Lit from the viewer's side, both sides of a face alike. */
-Vector
-Lit(const Vector & color, const Vector & a, const Vector & b, const Vector & c)
+/** From the viewer's side, both sides of a face alike; mostly the colour itself, so that it is that of the map. */
+double
+Light(const Vector & a, const Vector & b, const Vector & c)
 {
   const Vector u{ b[0] - a[0], b[1] - a[1], b[2] - a[2] };
   const Vector v{ c[0] - a[0], c[1] - a[1], c[2] - a[2] };
   const Vector n{ u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   const double facing = length > 0 ? std::abs(-0.35 * n[0] - 0.45 * n[1] - 0.82 * n[2]) / length : 1;
-  const double light = 0.35 + 0.65 * facing;
-  return { color[0] * light, color[1] * light, color[2] * light };
+  return 0.6 + 0.4 * facing;
 }
 
 } // namespace
@@ -207,14 +233,18 @@ PaintModel(const MedialModel & model, int size)
       p[2] *= scale;
     }
   }
-  Canvas canvas(pixels);
+  const RadiusColors colorOf(model);
+  Canvas             canvas(pixels);
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
     const CellComplex & cells = model.parts[i].core.cells;
     const auto &        at = points[i];
-    const Vector        color = ColorOf(model.parts[i].label);
-    const Vector        dark{ color[0] * 0.6, color[1] * 0.6, color[2] * 0.6 };
-    std::vector<bool>   onFace(cells.edges.size());
+    std::vector<Color>  colors;
+    for (const double radius : model.parts[i].core.radius)
+    {
+      colors.push_back(colorOf(radius));
+    }
+    std::vector<bool> onFace(cells.edges.size());
     for (const ElementIndex edge : cells.faceEdges)
     {
       onFace[edge] = true;
@@ -227,19 +257,21 @@ PaintModel(const MedialModel & model, int size)
         const Vector & a = at[corners[0]];
         const Vector & b = at[corners[k]];
         const Vector & c = at[corners[k + 1]];
-        canvas.Triangle(a, b, c, Lit(color, a, b, c));
+        const Color    color = Mean(colors[corners[0]], colors[corners[k]], colors[corners[k + 1]]);
+        canvas.Triangle(a, b, c, Darker(color, Light(a, b, c)));
       }
     }
     for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
     {
       if (!onFace[edge])
       {
-        canvas.Line(at[cells.edges[edge][0]], at[cells.edges[edge][1]], dark);
+        const auto & [a, b] = cells.edges[edge];
+        canvas.Line(at[a], at[b], Mean(colors[a], colors[a], colors[b]));
       }
     }
-    for (const Vector & p : at)
+    for (std::size_t k = 0; k < at.size(); ++k)
     {
-      canvas.Dot({ p[0], p[1], p[2] + 1e-6 }, dark); // behind what is there
+      canvas.Dot({ at[k][0], at[k][1], at[k][2] + 1e-6 }, Darker(colors[k], 0.6)); // behind what is there
     }
   }
   return canvas.Halved();

@@ -1,5 +1,6 @@
 #include "DisplayMeshes.h"
 
+#include "voxelcore/LabelSurface.h"
 #include "voxelcore/ColorRange.h"
 #include "voxelcore/ModelPolyData.h"
 

@@ -1,6 +1,7 @@
 #include "voxelcore/SlicerScene.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputFile.h"
 #include "voxelcore/TemporaryNames.h"
 
@@ -61,6 +62,15 @@ ColorText(const Color & color)
   return text;
 }
 
+/** As vtkMRMLDisplayNode writes it. */
+std::string
+RangeAttributes(const ColorRange & range)
+{
+  return range.IsEmpty()
+           ? "scalarRangeFlag=\"UseData\""
+           : "scalarRangeFlag=\"UseManual\" scalarRange=\"" + ShortText(range.low) + " " + ShortText(range.high) + "\"";
+}
+
 /** The three nodes of one item. `kind` is the tag of the data node; the others are named after `displayKind` and
  *  `storageKind`. */
 std::string
@@ -109,7 +119,8 @@ SceneXml(const SceneDescription & scene)
                   "color=\"" + ColorText(item.color) +
                     "\" opacity=\"1\" visibility=\"true\" backfaceCulling=\"false\" scalarVisibility=\"true\" "
                     "activeScalarName=\"Radius\" activeAttributeLocation=\"point\" "
-                    "colorNodeID=\"vtkMRMLColorTableNodeFileViridis.txt\" scalarRangeFlag=\"UseData\"",
+                    "colorNodeID=\"vtkMRMLColorTableNodeFilePlasma.txt\" " +
+                    RangeAttributes(scene.radius),
                   "ModelStorage",
                   "useCompression=\"1\" coordinateSystem=\"LPS\"");
   }

@@ -137,8 +137,8 @@ Examples:
 constexpr std::string_view kRenderFooter =
   R"(Needs no screen: without a display it starts Xvfb. The projection is parallel, so the scale bar holds
 everywhere. Letters name the patient's directions: left, right, anterior, posterior, superior, inferior. The
-scan is read with the options recorded in the first file. The colour map is viridis: uniform, and readable with
-colour blindness and in grey.
+scan is read with the options recorded in the first file. The colour map is the middle of plasma: uniform, and
+readable with colour blindness and in grey.
 
 Examples:
   voxelcore render medial.vtp --scan scan.nii.gz -o medial.png

@@ -2,6 +2,7 @@
 
 #include "CoreJobSteps.h"
 #include "DisplayFiles.h"
+#include "FacelessLabels.h"
 #include "FinishedLabels.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
@@ -155,47 +156,6 @@ RequireMemory(const CoreOptions & options, const std::vector<EditedLabel> & labe
     throw InputError(options.scan.string() + ": needs about " + MemoryText(prediction.memoryBytes) +
                      ", and --memory allows " + MemoryText(*options.memory) +
                      "; take fewer --labels at a time, write into a folder (-o DIR/), or cut with --crop");
-  }
-}
-
-/** Names labels of whose faces pruning has left none: a note where they are merely thin, a warning where the threshold is
- *  far beyond the largest radius, as of a mistaken unit. */
-void
-TellFacelessLabels(const CoreReport & report, std::vector<std::string> & notes, std::vector<std::string> & warnings)
-{
-  constexpr std::size_t named = 5;
-  constexpr double      farBeyond = 3;
-  const std::size_t     results = report.labels.empty() ? 0 : report.labels.front().pruned.size();
-  for (std::size_t i = 0; i < results; ++i)
-  {
-    std::string text;
-    std::size_t count = 0;
-    std::string threshold;
-    bool        isFar = false;
-    for (const LabelRecord & label : report.labels)
-    {
-      const PrunedRecord & pruned = label.pruned.at(i);
-      if (label.core.faces == 0 || pruned.complex.faces > 0)
-      {
-        continue;
-      }
-      threshold = pruned.bumps ? "--bumps " + pruned.bumps->height : "--lambda " + pruned.lambda;
-      isFar = isFar || (pruned.bumps ? pruned.bumps->heightMm : pruned.lambdaMm) > farBeyond * label.core.maxRadiusMm;
-      if (++count <= named)
-      {
-        char radius[32];
-        std::snprintf(radius, sizeof(radius), "%.3g", label.core.maxRadiusMm);
-        text +=
-          (count > 1 ? ", " : "") + LabelText(label.label, label.name) + " with a largest radius of " + radius + " mm";
-      }
-    }
-    if (count > 0)
-    {
-      (isFar ? warnings : notes)
-        .push_back(threshold + " leaves no face, only curves or a point, of " + text +
-                   (count > named ? ", and " + std::to_string(count - named) + " more labels" : std::string()) +
-                   "; for surfaces give a smaller value");
-    }
   }
 }
 
@@ -559,7 +519,12 @@ StageCoreJob(const CoreOptions & options,
     shown.Finish(report, result.notes, plan.Next());
     report.seconds.write += writing.Lap();
   }
-  TellFacelessLabels(report, result.notes, result.warnings);
+  std::vector<std::uint64_t> faces;
+  for (const LabelRecord & label : report.labels)
+  {
+    faces.push_back(label.core.faces);
+  }
+  TellFacelessLabels(report, faces, result.notes, result.warnings);
   report.seconds.total = total.Lap();
   report.peakMemoryMb = PeakMemoryMb();
   if (options.report)

@@ -27,6 +27,12 @@ constexpr CostConstants kFitted{
   { 3.24e7, 62.2, 176, 0, 312, 0 },
   { 0, 0, 2.83e-6, 2.82e-6, 5.17e-6, 1.14e-7 },
   0.6,
+  // By VoxelCoreCostFit --further.
+  { 3.61e7, 0, 435, 134, 0, 0 },
+  { 0, 0, 0, 0, 0, 3.32e-7 },
+  { 4.01e3, 57.9 },
+  { 4.07e7, 92.6, 311 },
+  { 0, 2.94e-6, 9.04e-7 },
 };
 
 // Bytes a border voxel, where nothing else is said, measured on phantoms and atlases: small beside the above, so not
@@ -43,19 +49,12 @@ constexpr double kFurtherSeconds = 8e-7; // of each further result
 constexpr double kBumpSeconds = 8e-6;
 constexpr double kRefineBytes = 700; // the band of the field, and what is kept of the whole core
 constexpr double kRefineSeconds = 4e-5;
-constexpr double kSkeletonBytes = 450;
-constexpr double kSkeletonDeepBytes = 60; // an inner voxel
-constexpr double kSkeletonSeconds = 3e-5;
 
+template <std::size_t n>
 double
-Sum(const CostTerms & terms, const std::array<double, CostTerms::kSize> & constants)
+Sum(const std::array<double, n> & terms, const std::array<double, n> & constants)
 {
-  double sum = 0;
-  for (std::size_t i = 0; i < CostTerms::kSize; ++i)
-  {
-    sum += terms.values[i] * constants[i];
-  }
-  return sum;
+  return std::inner_product(terms.begin(), terms.end(), constants.begin(), 0.0);
 }
 
 double
@@ -64,19 +63,13 @@ WithThreads(double seconds, int threads, double serial)
   return seconds * (serial + (1 - serial) / threads);
 }
 
-double
-Expected(const BorderKinds & kinds, const BorderKinds & each)
-{
-  return std::inner_product(kinds.begin(), kinds.end(), each.begin(), 0.0);
-}
-
 /** Edges left of a core pruned at 1.5vox: about one for each border voxel, of sheets three voxels thick for each inner
  *  one; of what is thinner a tenth of all. */
 double
 PrunedEdges(const BoundaryCounts & counts, const CostConstants & constants)
 {
   return static_cast<double>(std::min(counts.voxels - counts.borderVoxels, counts.borderVoxels)) +
-         0.1 * Expected(CountBorderKinds(counts), constants.edges);
+         0.1 * Sum(CountBorderKinds(counts), constants.edges);
 }
 
 /** Beyond the program itself, which is the model's first term. */
@@ -85,7 +78,14 @@ struct LabelCost
   double bytes = 0;
   double kept = 0; ///< bytes of the results until they are written
   double seconds = 0;
+  double skeletonSeconds = 0;
 };
+
+bool
+ShowsWhole(const CoreOptions & options)
+{
+  return options.bumps.empty() && options.lambdas.front().value == 0;
+}
 
 LabelCost
 CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const CostConstants & constants)
@@ -96,9 +96,10 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const Co
   const double results = static_cast<double>(std::max(options.lambdas.size(), options.bumps.size()));
   const bool   tetgen = options.engine == Engine::TetGen || options.crossCheck;
   LabelCost    cost;
-  cost.bytes = Sum(terms, constants.bytes) + border * (results - 1) * kFurtherBytes;
-  cost.seconds = Sum(terms, constants.seconds) + border * (results - 1) * kFurtherSeconds;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(results); ++i)
+  cost.bytes = Sum(terms.values, constants.bytes) + border * (results - 1) * kFurtherBytes;
+  cost.seconds = Sum(terms.values, constants.seconds) + border * (results - 1) * kFurtherSeconds;
+  // Of a skeleton alone no core is kept.
+  for (std::size_t i = 0; !options.output.empty() && i < static_cast<std::size_t>(results); ++i)
   {
     const bool whole = options.bumps.empty() && options.lambdas[i].value == 0;
     cost.kept +=
@@ -126,9 +127,9 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const Co
   }
   if (options.skeleton)
   {
-    const double deep = static_cast<double>(counts.voxels - counts.borderVoxels);
-    cost.bytes += border * kSkeletonBytes + deep * kSkeletonDeepBytes;
-    cost.seconds += border * kSkeletonSeconds;
+    cost.bytes = std::max(cost.bytes, Sum(terms.values, constants.skeletonBytes));
+    cost.kept += constants.skeletonKept[0] + constants.skeletonKept[1] * static_cast<double>(counts.vertices);
+    cost.skeletonSeconds = Sum(terms.values, constants.skeletonSeconds);
   }
   return cost;
 }
@@ -148,14 +149,22 @@ CostTerms
 ComputeCostTerms(const BoundaryCounts & counts, const CostConstants & constants)
 {
   const BorderKinds kinds = CountBorderKinds(counts);
-  const double      edges = Expected(kinds, constants.edges);
+  const double      edges = Sum(kinds, constants.edges);
   const auto        deep = static_cast<double>(counts.cubes15 - counts.cubes17);
   return { { 1,
              static_cast<double>(counts.vertices),
-             Expected(kinds, constants.cells),
+             Sum(kinds, constants.cells),
              deep,
              std::min(deep, static_cast<double>(counts.evenVoxels)),
              edges * std::log2(std::max(1.0, edges / 1000)) } };
+}
+
+PageTerms
+ComputePageTerms(const BoundaryCounts & counts, bool whole, const CostConstants & constants)
+{
+  return { 1,
+           static_cast<double>(counts.vertices),
+           whole ? Sum(CountBorderKinds(counts), constants.edges) : PrunedEdges(counts, constants) };
 }
 
 const CostConstants &
@@ -168,8 +177,8 @@ CostPrediction
 PredictLabel(const BoundaryCounts & counts, int threads, const CostConstants & constants)
 {
   const CostTerms terms = ComputeCostTerms(counts, constants);
-  return { static_cast<std::uint64_t>(Sum(terms, constants.bytes) + kThreadBytes * (threads - 1)),
-           WithThreads(Sum(terms, constants.seconds), threads, constants.serial) };
+  return { static_cast<std::uint64_t>(Sum(terms.values, constants.bytes) + kThreadBytes * (threads - 1)),
+           WithThreads(Sum(terms.values, constants.seconds), threads, constants.serial) };
 }
 
 std::vector<BoundaryCounts>
@@ -199,7 +208,8 @@ PredictJob(const std::vector<BoundaryCounts> & labels,
     // One by one, every label counts as large.
     vertices.push_back(together && labels.size() > 1 ? counts.vertices : kSmallLabel + 1);
   }
-  const bool  keeps = !IsFolderOutput(options.output);
+  const bool  isShown = options.display.html || options.display.scene;
+  const bool  keeps = isShown || !IsFolderOutput(options.output.empty() ? options.skeletonOutput : options.output);
   double      peak = 0;
   double      kept = 0;
   double      seconds = constants.seconds[0];
@@ -210,11 +220,13 @@ PredictJob(const std::vector<BoundaryCounts> & labels,
     double              group = 0;
     double              largest = 0;
     double              results = 0;
+    double              skeletons = 0;
     for (std::size_t label = first; label < end; ++label)
     {
       bytes.push_back(costs[label].bytes);
       group += costs[label].seconds;
-      largest = std::max(largest, costs[label].seconds);
+      skeletons += costs[label].skeletonSeconds;
+      largest = std::max(largest, costs[label].seconds + costs[label].skeletonSeconds);
       results += costs[label].kept;
     }
     // As many at a time as there are threads; the largest ones run first.
@@ -227,8 +239,25 @@ PredictJob(const std::vector<BoundaryCounts> & labels,
     }
     peak = std::max({ peak, kept + running, kept + results });
     kept = keeps ? kept + results : 0;
-    seconds += end - first == 1 ? WithThreads(group, threads, constants.serial) : std::max(largest, group / threads);
+    seconds += end - first == 1 ? WithThreads(group, threads, constants.serial) + skeletons
+                                : std::max(largest, (group + skeletons) / threads);
     first = end;
+  }
+  if (options.display.html)
+  {
+    double pageBytes = constants.pageBytes[0];
+    double pageSeconds = 0;
+    double longest = 0;
+    for (const BoundaryCounts & counts : labels)
+    {
+      PageTerms page = ComputePageTerms(counts, ShowsWhole(options), constants);
+      page[0] = 0;
+      pageBytes += Sum(page, constants.pageBytes);
+      pageSeconds += Sum(page, constants.pageSeconds);
+      longest = std::max(longest, Sum(page, constants.pageSeconds));
+    }
+    peak = std::max(peak, pageBytes - constants.bytes[0]);
+    seconds += constants.pageSeconds[0] + std::max(longest, pageSeconds / threads);
   }
   peak += constants.bytes[0] + kThreadBytes * (threads - 1);
   return { static_cast<std::uint64_t>(peak), seconds };

@@ -6,6 +6,7 @@
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/HtmlPage.h"
+#include "voxelcore/LabelSurface.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/SideBySide.h"
 #include "voxelcore/SlicerScene.h"
@@ -108,6 +109,8 @@ struct DisplayFiles::State
                SceneDescription &                                   scene,
                const std::function<fs::path(const std::string &)> & stage,
                std::vector<std::string> &                           notes);
+  ColorRange
+  RadiusRange() const;
   DisplayContent
   Content(const CoreReport & report, const ProgressCallback & progress) const;
 };
@@ -275,6 +278,7 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
                              ColorOf(record.label, record.component) });
     WriteModel(stage(scene.models.back().file), "x.vtp", model, {});
   }
+  scene.radius = RadiusRange();
   AddSkeletons(report, scene, stage, notes);
   for (auto * items : { &scene.segmentations, &scene.models, &scene.curves })
   {
@@ -296,6 +300,22 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
   {
     fs::remove(path); // what is left beside the archive would be taken for its companion
   }
+}
+
+/** As in pictures and pages, of all labels together. */
+ColorRange
+DisplayFiles::State::RadiusRange() const
+{
+  std::vector<WeightedValue> values;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    DisplayLabel label;
+    label.medial = surfaces[i];
+    label.curves = skeletons[i].graph;
+    const auto more = ShownValues(label, PictureColoring::Radius);
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  return RangeOfShares(std::move(values));
 }
 
 DisplayContent

@@ -4,12 +4,13 @@
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/DidYouMean.h"
 #include "voxelcore/DisplayColors.h"
-#include "voxelcore/Error.h"
 #include "voxelcore/ErosionThickness.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/LabelSurface.h"
 #include "voxelcore/MedialModel.h"
+#include "voxelcore/ReadInput.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonModel.h"
-#include "voxelcore/ReadInput.h"
 
 #include <algorithm>
 #include <map>

@@ -182,7 +182,14 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   CoreOptions                       defaults;
   defaults.lambdas = ParseLambdas(ValueOf({}, CommandId::Core, "lambda"));
   defaults.output = "medial.vtp";
-  info.cost = PredictJob(boundaries, defaults, info.threads);
+  info.core = PredictJob(boundaries, defaults, info.threads);
+  defaults.display.html = "medial.html";
+  info.page = PredictJob(boundaries, defaults, info.threads);
+  CoreOptions skeletons;
+  skeletons.lambdas = ParseLambdas(ValueOf({}, CommandId::Skeleton, "lambda"));
+  skeletons.skeleton.emplace();
+  skeletons.skeletonOutput = "skeleton.vtp";
+  info.skeleton = PredictJob(boundaries, skeletons, info.threads);
   const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
   for (const auto & [label, component, edits] : edited.labels)
   {
@@ -207,20 +214,16 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
 namespace
 {
 
-/** What `skeleton` will need, of all labels into a folder. */
-CostPrediction
-PredictSkeletons(const ScanInfo & info)
+std::string
+CostText(const CostPrediction & cost)
 {
-  CoreOptions options;
-  options.lambdas = ParseLambdas("0");
-  options.skeleton.emplace();
-  options.output = "skeletons/";
-  std::vector<BoundaryCounts> boundaries;
-  for (const LabelInfo & label : info.labels)
-  {
-    boundaries.push_back(label.boundary);
-  }
-  return PredictJob(boundaries, options, info.threads);
+  return MemoryText(cost.memoryBytes) + " and " + SecondsText(cost.seconds);
+}
+
+nlohmann::ordered_json
+CostJson(const CostPrediction & cost, int threads)
+{
+  return { { "memory_bytes", cost.memoryBytes }, { "seconds", cost.seconds }, { "threads", threads } };
 }
 
 } // namespace
@@ -237,14 +240,18 @@ InfoText(const ScanInfo & info)
   text += "spacing      " + LengthsText(geometry.spacing, voxelUnit, " x ") + "\n";
   text += "origin       " + LengthsText(geometry.origin, voxelUnit, ", ") + " (LPS)\n";
   text += "orientation  " + info.orientation + " (where i, j and k run to)\n";
-  if (!info.grey)
+  if (info.core)
   {
-    text += "core needs   about " + MemoryText(info.cost.memoryBytes) + " and " + SecondsText(info.cost.seconds) +
-            " (" + std::to_string(info.threads) + (info.threads == 1 ? " thread" : " threads") +
-            ", one lambda, one file)\n";
-    const CostPrediction skeletons = PredictSkeletons(info);
-    text += "skeleton     about " + MemoryText(skeletons.memoryBytes) + " and " + SecondsText(skeletons.seconds) +
-            " (within a factor of two)\n";
+    text += "core needs   about " + CostText(*info.core) + " (" + std::to_string(info.threads) +
+            (info.threads == 1 ? " thread" : " threads") + ", one lambda, one file)\n";
+  }
+  if (info.page)
+  {
+    text += "with a page  about " + CostText(*info.page) + " (core --html; within a factor of two)\n";
+  }
+  if (info.skeleton)
+  {
+    text += "skeleton     at most about " + CostText(*info.skeleton) + " (within a factor of two)\n";
   }
   for (const std::string & note : info.notes)
   {
@@ -312,22 +319,28 @@ InfoJson(const ScanInfo & info)
                      { "core_seconds", label.cost.seconds } });
     labels.push_back(std::move(one));
   }
-  const CostPrediction skeletons = PredictSkeletons(info);
-  Json                 json = {
-                    { "path", info.path },
-                    { "format", info.format },
-                    { "pixel_type", info.pixelType },
-                    { "size", info.geometry.size },
-                    { "spacing_mm", info.geometry.spacing },
-                    { "origin_mm", info.geometry.origin },
-                    { "direction", info.geometry.direction },
-                    { "orientation", info.orientation },
-                    { "notes", info.notes },
-                    { "core",
-                      { { "memory_bytes", info.cost.memoryBytes }, { "seconds", info.cost.seconds }, { "threads", info.threads } } },
-                    { "skeleton", { { "memory_bytes", skeletons.memoryBytes }, { "seconds", skeletons.seconds } } },
-                    { "labels", labels }
-  };
+  Json json = { { "path", info.path },
+                { "format", info.format },
+                { "pixel_type", info.pixelType },
+                { "size", info.geometry.size },
+                { "spacing_mm", info.geometry.spacing },
+                { "origin_mm", info.geometry.origin },
+                { "direction", info.geometry.direction },
+                { "orientation", info.orientation },
+                { "notes", info.notes } };
+  if (info.core)
+  {
+    json["core"] = CostJson(*info.core, info.threads);
+  }
+  if (info.skeleton)
+  {
+    json["skeleton"] = CostJson(*info.skeleton, info.threads);
+  }
+  if (info.page)
+  {
+    json["page"] = CostJson(*info.page, info.threads);
+  }
+  json["labels"] = labels;
   if (info.grey)
   {
     json["grey"] = { { "values", info.grey->distinct },

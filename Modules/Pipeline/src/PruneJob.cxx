@@ -1,5 +1,6 @@
 #include "voxelcore/PruneJob.h"
 
+#include "FacelessLabels.h"
 #include "JobTools.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
@@ -159,6 +160,11 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
   report.parameters.threads = options.threads;
   report.seconds.read = watch.Lap();
 
+  std::vector<std::uint64_t> faces;
+  for (const LabelRecord & label : report.labels)
+  {
+    faces.push_back(label.pruned.front().complex.faces);
+  }
   std::vector<MedialModel> models(suffixes.size());
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
@@ -182,6 +188,7 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
     label.seconds = labelWatch.Lap();
   }
   report.seconds.prune = watch.Lap();
+  TellFacelessLabels(report, faces, result.notes, result.warnings);
 
   ReportProgress(context.progress, "writing", 0.9);
   std::vector<std::size_t> all(report.labels.size());

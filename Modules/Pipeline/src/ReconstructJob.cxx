@@ -147,9 +147,13 @@ Compare(const VoxelShape & rebuilt, const VoxelShape & scan, const Balls & balls
 
 /** The scan's labels as they were when the core was made. */
 std::vector<LabelShape>
-ReadScanLabels(const std::filesystem::path & scan, const CoreReport & made, const ProgressCallback & progress)
+ReadScanLabels(const std::filesystem::path & scan,
+               const CoreReport &            made,
+               std::vector<std::string> &    warnings,
+               const ProgressCallback &      progress)
 {
   LabelVolume volume = ReadScanOrMesh(scan, RecordedReading(made.parameters), made.parameters.resolution, progress);
+  warnings = volume.warnings;
   if (volume.geometry.size != made.input.geometry.size)
   {
     throw InputError(scan.string() + ": has another size than the scan the core was made from; give that one");
@@ -233,13 +237,17 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
   ReconstructResult result;
   result.command = options.command;
   result.core = options.core.string();
-  result.geometry = options.like
-                      ? ReadLabelVolume(*options.like, {}, PartOfProgress(context.progress, "reading", 0, 0.1)).geometry
-                      : made.input.geometry;
+  result.geometry = made.input.geometry;
+  if (options.like)
+  {
+    LabelVolume like = ReadLabelVolume(*options.like, {}, PartOfProgress(context.progress, "reading", 0, 0.1));
+    result.geometry = like.geometry;
+    result.warnings = std::move(like.warnings);
+  }
   std::vector<LabelShape> scan;
   if (options.scan)
   {
-    scan = ReadScanLabels(*options.scan, made, PartOfProgress(context.progress, "reading", 0, 0.1));
+    scan = ReadScanLabels(*options.scan, made, result.warnings, PartOfProgress(context.progress, "reading", 0, 0.1));
   }
   VoxelBox whole;
   for (std::size_t k = 0; k < 3; ++k)

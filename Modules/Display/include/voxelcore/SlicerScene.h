@@ -2,6 +2,7 @@
 // A scene of 3D Slicer: one file that opens a segmentation, medial surfaces and curve skeletons with their names and
 // colours.
 
+#include "voxelcore/ColorRange.h"
 #include "voxelcore/DisplayContent.h"
 
 #include <filesystem>
@@ -24,6 +25,7 @@ struct SceneDescription
 {
   std::vector<SceneItem> segmentations; ///< .seg.nrrd
   std::vector<SceneItem> models;        ///< .vtp in LPS, coloured by their point array Radius
+  ColorRange             radius;        ///< what these colours run over; empty: each over its own
   std::vector<SceneItem> curves;        ///< .mrk.json
 };
 

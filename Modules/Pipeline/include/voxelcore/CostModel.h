@@ -1,7 +1,10 @@
 #pragma once
-// What `voxelcore core` will need, foretold from the shapes alone. Counts of the boundary tell how many Delaunay cells there
-// will be, and these what a job costs; all of it is linear, with constants fitted by Testing/Performance (VoxelCoreCostFit),
-// which prints them and how far they miss.
+// What `voxelcore core`, `skeleton` and a page will need, foretold from the shapes alone. Counts of the boundary tell how many
+// Delaunay cells there will be, and these what a job costs; all of it is linear, with constants fitted by Testing/Performance
+// (VoxelCoreCostFit, and VoxelCoreCostFit --further for skeletons and pages), which prints them and how far they miss.
+// On shapes and scans not fitted to, memory of skeletons was 0.8 to 1.4 times what was measured, of pages 0.8 to 1.8 times;
+// seconds on one thread 0.5 to 1.2 and 0.9 to 1.3 times, but for a thin plate (2.1 and 1.6) and a scan of 3.6 times thicker
+// slices (0.5 and 0.4).
 
 #include "voxelcore/BoundaryCounts.h"
 #include "voxelcore/CoreJob.h"
@@ -29,6 +32,9 @@ struct CostTerms
  *  Delaunay cell of their own, but for those with all eight; the latter. */
 using BorderKinds = std::array<double, 4>;
 
+/** What a page's cost grows with, of one shape: 1; boundary vertices, as its surface is shown; edges of the core shown. */
+using PageTerms = std::array<double, 3>;
+
 /** The fitted constants. Seconds are those of the machine named in Testing/Performance/README.md; another may be twice as
  *  fast or half. */
 struct CostConstants
@@ -38,6 +44,13 @@ struct CostConstants
   std::array<double, CostTerms::kSize> bytes{};    ///< at the peak of one label, one thread
   std::array<double, CostTerms::kSize> seconds{};  ///< one thread, without reading
   double                               serial = 0; ///< part of the seconds that more threads do not shorten
+
+  // More threads do several labels at a time, but make no single skeleton and no single label of a page faster.
+  std::array<double, CostTerms::kSize> skeletonBytes{};   ///< at the peak of a job with a skeleton of one label
+  std::array<double, CostTerms::kSize> skeletonSeconds{}; ///< of the skeleton alone
+  std::array<double, 2>                skeletonKept{};    ///< bytes a label, and a vertex of it, until all are written
+  PageTerms                            pageBytes{};       ///< at the peak of a job with a page
+  PageTerms                            pageSeconds{};     ///< of the page alone
 };
 
 const CostConstants &
@@ -48,6 +61,10 @@ CountBorderKinds(const BoundaryCounts & counts);
 
 CostTerms
 ComputeCostTerms(const BoundaryCounts & counts, const CostConstants & constants = FittedCosts());
+
+/** `whole`: the core shown is not pruned. */
+PageTerms
+ComputePageTerms(const BoundaryCounts & counts, bool whole, const CostConstants & constants = FittedCosts());
 
 struct CostPrediction
 {
@@ -60,8 +77,8 @@ CostPrediction
 PredictLabel(const BoundaryCounts & counts, int threads, const CostConstants & constants = FittedCosts());
 
 /** A whole job over labels, in the order given, as RunCoreJob goes about it: small labels side by side, results kept until
- *  they are written. Takes from `options` what decides cost: number of results, output, edges, engine, skeleton.
- *  With TetGen and with skeletons the figures are coarse (within a factor of two). */
+ *  they are written. Takes from `options` what decides cost: number of results, output, edges, engine, skeleton, page.
+ *  With TetGen the figures are coarse (within a factor of two). */
 CostPrediction
 PredictJob(const std::vector<BoundaryCounts> & labels,
            const CoreOptions &                 options,

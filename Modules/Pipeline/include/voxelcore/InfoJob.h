@@ -50,9 +50,12 @@ struct ScanInfo
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   std::vector<LabelInfo>   labels;
-  std::optional<GreyScan>  grey;        ///< where the scan is no label volume: then there are no labels
-  CostPrediction           cost;        ///< of `voxelcore core` with its defaults, all labels into one file
-  int                      threads = 1; ///< that `cost` is for: OpenMP's number
+  std::optional<GreyScan>  grey; ///< where the scan is no label volume: then there are no labels
+  // What jobs over all labels need with their defaults; nothing of a grey scan.
+  std::optional<CostPrediction> core; ///< into one file
+  std::optional<CostPrediction> skeleton;
+  std::optional<CostPrediction> page;        ///< `core` with --html
+  int                           threads = 1; ///< that these are for: OpenMP's number
 };
 
 /** Of a grey scan it says so, unless labels, binary or threshold were given. \throws InputError, Cancelled */

@@ -30,6 +30,7 @@ struct PruneOptions
 struct PruneResult
 {
   CoreReport               report;
+  std::vector<std::string> warnings; ///< a user must see them
   std::vector<std::string> notes;
 };
 

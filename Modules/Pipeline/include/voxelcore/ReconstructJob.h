@@ -48,6 +48,7 @@ struct ReconstructResult
   std::string                     core;
   ImageGeometry                   geometry;
   std::vector<ReconstructedLabel> labels;
+  std::vector<std::string>        warnings; ///< about the scans; a user must see them
   std::vector<std::string>        notes;
 };
 

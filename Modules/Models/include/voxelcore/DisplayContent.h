@@ -1,10 +1,8 @@
 #pragma once
 // What is shown of a scan: per label its surface, its medial surface and its curve skeleton, with a name and a colour.
 
-#include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/SkeletonGraph.h"
-#include "voxelcore/VoxelShape.h"
 
 #include <array>
 #include <cstddef>
@@ -42,10 +40,5 @@ struct DisplayContent
 {
   std::vector<DisplayLabel> labels;
 };
-
-/** The surface of a label as it is shown: the isosurface of its voxels, smoothed so that steps vanish (about a voxel). Not
- *  for measuring. Empty for an empty shape. */
-LabelSurfaceMesh
-LabelSurface(const VoxelShape & shape, const ImageGeometry & geometry);
 
 } // namespace voxelcore
