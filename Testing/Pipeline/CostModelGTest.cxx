@@ -130,9 +130,26 @@ TEST(CostModel, EachThingAskedForCosts)
   options = OptionsInto(kFile);
   options.crossCheck = true;
   expectMore("cross-check", options);
-  options = OptionsInto(kFile);
+}
+
+TEST(CostModel, SkeletonsAndPagesCost)
+{
+  const std::vector<BoundaryCounts> labels{ CountBoundary(Ellipsoid(100)) };
+  const CostPrediction              plain = PredictJob(labels, OptionsInto(kFile), 1);
+  CoreOptions                       options = OptionsInto(kFile);
   options.skeleton = SkeletonStage();
-  expectMore("skeleton", options);
+  const CostPrediction skeleton = PredictJob(labels, options, 1);
+  EXPECT_GT(skeleton.memoryBytes, plain.memoryBytes);
+  EXPECT_GT(skeleton.seconds, plain.seconds);
+  options = OptionsInto(kFile);
+  options.display.html = "page.html";
+  const CostPrediction page = PredictJob(labels, options, 1);
+  EXPECT_GT(page.memoryBytes, plain.memoryBytes);
+  EXPECT_GT(page.seconds, plain.seconds);
+  // A page needs all labels at a time, in a folder as well.
+  const std::vector<BoundaryCounts> many(100, labels.front());
+  options.output = kFolder;
+  EXPECT_GT(PredictJob(many, options, 1).memoryBytes, 10 * page.memoryBytes);
 }
 
 TEST(CostModel, MemoryIsReadWithItsUnit)
