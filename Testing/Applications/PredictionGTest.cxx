@@ -73,9 +73,9 @@ TEST_F(Prediction, OfSkeletonAndPageIsWithinAFactor)
 #endif
   // None of these is among the shapes that the constants were fitted to (Testing/Performance/FurtherFit.cxx).
   const std::vector<std::vector<std::string>> phantoms{ { "capsule", "--size", "200" },
-                                                        { "gyroid", "--size", "80" },
-                                                        { "root", "--size", "300", "--seed", "9" },
-                                                        { "cells", "--size", "80" } };
+                                                        { "gyroid", "--size", "60" },
+                                                        { "root", "--size", "220", "--seed", "9" },
+                                                        { "cells", "--size", "60", "--cells", "200" } };
   const std::string                           scan = m_Folder / "a.nrrd";
   for (const auto & phantom : phantoms)
   {

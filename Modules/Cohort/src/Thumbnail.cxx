@@ -266,7 +266,8 @@ PaintModel(const MedialModel & model, int size)
       if (!onFace[edge])
       {
         const auto & [a, b] = cells.edges[edge];
-        canvas.Line(at[a], at[b], Mean(colors[a], colors[a], colors[b]));
+        const double middle = (model.parts[i].core.radius[a] + model.parts[i].core.radius[b]) / 2;
+        canvas.Line(at[a], at[b], colorOf(middle));
       }
     }
     for (std::size_t k = 0; k < at.size(); ++k)

@@ -30,7 +30,7 @@ constexpr CostConstants kFitted{
   // By VoxelCoreCostFit --further.
   { 3.61e7, 0, 435, 134, 0, 0 },
   { 0, 0, 0, 0, 0, 3.32e-7 },
-  { 4.01e3, 57.9 },
+  { 1.65e3, 58.2 },
   { 4.07e7, 92.6, 311 },
   { 0, 2.94e-6, 9.04e-7 },
 };
@@ -127,7 +127,8 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const Co
   }
   if (options.skeleton)
   {
-    cost.bytes = std::max(cost.bytes, Sum(terms.values, constants.skeletonBytes));
+    const double start = constants.skeletonBytes[0] - constants.bytes[0];
+    cost.bytes = std::max(cost.bytes, start + Sum(terms.values, constants.skeletonBytes));
     cost.kept += constants.skeletonKept[0] + constants.skeletonKept[1] * static_cast<double>(counts.vertices);
     cost.skeletonSeconds = Sum(terms.values, constants.skeletonSeconds);
   }

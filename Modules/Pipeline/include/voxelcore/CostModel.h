@@ -2,7 +2,7 @@
 // What `voxelcore core`, `skeleton` and a page will need, foretold from the shapes alone. Counts of the boundary tell how many
 // Delaunay cells there will be, and these what a job costs; all of it is linear, with constants fitted by Testing/Performance
 // (VoxelCoreCostFit, and VoxelCoreCostFit --further for skeletons and pages), which prints them and how far they miss.
-// On shapes and scans not fitted to, memory of skeletons was 0.8 to 1.4 times what was measured, of pages 0.8 to 1.8 times;
+// On shapes and scans not fitted to, memory of skeletons was 0.9 to 1.5 times what was measured, of pages 0.8 to 1.8 times;
 // seconds on one thread 0.5 to 1.2 and 0.9 to 1.3 times, but for a thin plate (2.1 and 1.6) and a scan of 3.6 times thicker
 // slices (0.5 and 0.4).
 
