@@ -12,9 +12,9 @@ namespace voxelcore
 {
 
 /** Boundary vertices up to which a label is small. */
-inline constexpr std::uint64_t kSmallLabel = 100000;
+inline constexpr std::uint64_t kSmallLabel = 300000;
 /** The most boundary vertices of a group: bounds what its labels need at a time, whatever the number of threads. */
-inline constexpr std::uint64_t kGroupVertices = 400000;
+inline constexpr std::uint64_t kGroupVertices = 1500000;
 
 /** Parts labels, in their order, into groups to run one after the other: large labels alone, consecutive small ones
  *  together. Returns where each group ends; the last end is the number of labels. */
