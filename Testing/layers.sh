@@ -13,11 +13,12 @@ may_use() {
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
     Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;
-    Imaging) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
-    Models) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Voxelization" ;;
-    Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models" ;;
-    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Phantom Verification Imaging Models Display" ;;
-    Cohort) echo "Lattice Shape Delaunay Models Pipeline Imaging Complex VoxelCore" ;;
+    Certified) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification" ;;
+    Imaging) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified" ;;
+    Models) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Verification Certified" ;;
+    Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models Certified" ;;
+    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Imaging Models Display" ;;
+    Cohort) echo "Lattice Shape Delaunay Models Pipeline Imaging Complex VoxelCore Certified Skeleton Refinement" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac
 }

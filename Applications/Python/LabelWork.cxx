@@ -1,14 +1,13 @@
 #include "LabelWork.h"
 
-#include "JobTools.h"
-#include "MakeSkeleton.h"
-#include "SkeletonFiles.h"
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyScan.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Parameters.h"
+#include "voxelcore/ResultRecords.h"
+#include "voxelcore/SkeletonFiles.h"
 
 #include <optional>
 #include <utility>
@@ -75,12 +74,29 @@ RequireUnrefinedCore(const CoreOfLabel & core)
   }
 }
 
-std::vector<PrunedCore>
-PruneByLambdas(const CoreOfLabel & core, const std::vector<Lambda> & lambdas, const ProgressCallback & progress)
+/** \throws UsageError, in Python's words, when the core is pruned further than asked for, or in another way */
+void
+RequirePrunable(const CoreOfLabel & core, const PruneOptions & options)
 {
-  const CoreReport &   report = core.report;
-  const LabelRecord &  record = report.labels.front();
+  const LabelRecord &  record = core.report.labels.front();
   const PrunedRecord & done = record.pruned.front();
+  const Vector3 &      spacing = core.report.input.geometry.spacing;
+  if (!options.bumps.empty())
+  {
+    if (!done.bumps)
+    {
+      throw UsageError("this core does not hold bump heights; make it with bumps=0");
+    }
+    for (const BumpHeight & height : options.bumps)
+    {
+      if (BumpHeightInMillimetres(height, spacing) < done.bumps->heightMm)
+      {
+        throw UsageError("this core is pruned at bump height " + done.bumps->height + " already, further than " +
+                         height.text + "; make one with bumps=0");
+      }
+    }
+    return;
+  }
   if (done.bumps && done.bumps->heightMm > 0)
   {
     throw UsageError("this core is pruned by bump height " + done.bumps->height +
@@ -90,54 +106,14 @@ PruneByLambdas(const CoreOfLabel & core, const std::vector<Lambda> & lambdas, co
   {
     throw UsageError("the file this core was read from lacks the measures of its edges; write it with keep_edges=True");
   }
-  std::vector<double> limits;
-  for (const Lambda & wanted : lambdas)
+  for (const Lambda & wanted : options.lambdas)
   {
-    limits.push_back(LambdaInMillimetres(wanted, report.parameters.weights, report.input.geometry.spacing, record.box));
-    if (limits.back() < done.lambdaMm)
+    if (LambdaInMillimetres(wanted, core.report.parameters.weights, spacing, record.box) < done.lambdaMm)
     {
       throw UsageError("this core is pruned at " + done.lambda + " already, further than " + wanted.text +
                        "; make one with lambda_=0");
     }
   }
-  ModelPart whole = core.part;
-  whole.core.bumps = {};
-  return PruneAndCertify(std::move(whole),
-                         done.complex,
-                         done.lambdaMm,
-                         lambdas,
-                         limits,
-                         record.shape,
-                         LabelText(record.label, record.name),
-                         progress);
-}
-
-std::vector<PrunedCore>
-PruneByHeights(const CoreOfLabel & core, const std::vector<BumpHeight> & heights)
-{
-  const ImageGeometry & geometry = core.report.input.geometry;
-  const LabelRecord &   record = core.report.labels.front();
-  const PrunedRecord &  done = record.pruned.front();
-  if (!done.bumps)
-  {
-    throw UsageError("this core does not hold bump heights; make it with bumps=0");
-  }
-  for (const BumpHeight & height : heights)
-  {
-    if (BumpHeightInMillimetres(height, geometry.spacing) < done.bumps->heightMm)
-    {
-      throw UsageError("this core is pruned at bump height " + done.bumps->height + " already, further than " +
-                       height.text + "; make one with bumps=0");
-    }
-  }
-  PrunedRecord floor = done;
-  floor.bumps.reset();
-  return PruneByBumpsAndCertify(core.part,
-                                floor,
-                                heights,
-                                geometry,
-                                record.shape,
-                                LabelText(record.label, record.name));
 }
 
 } // namespace
@@ -168,24 +144,20 @@ MakeCores(const ArrayView &        array,
     throw InputError("the array: " + GreyScanText(error.grey) + "; choose a range, for example threshold=(" +
                      range.substr(0, range.find(':')) + ", numpy.inf) by Otsu, or give label= if its values are labels");
   }
-  const SpacingWeights weights = ComputeLatticeWeights(report.input.geometry);
-  ParameterRecord &    parameters = report.parameters;
+  ParameterRecord & parameters = report.parameters;
   parameters.labels = { label.value };
   parameters.binary = options.reading.binary;
   parameters.threshold = options.reading.threshold;
   parameters.orthonormalize = options.reading.orthonormalize;
   parameters.lambda = { options.lambdas.front().text };
   parameters.engine = options.engine == Engine::TetGen ? "tetgen" : "lattice";
-  parameters.weights = weights;
-  LabelOutcome                    outcome = ProcessLabel(std::move(label),
-                                      report.input.geometry,
-                                      weights,
-                                      options.lambdas,
-                                      options.engine,
-                                      PartOfProgress(progress, readEnds, 1),
-                                      false,
-                                      nullptr,
-                                      options.bumps);
+  parameters.weights = ComputeLatticeWeights(report.input.geometry);
+  CertifiedRequest request;
+  request.lambdas = options.lambdas;
+  request.bumps = options.bumps;
+  request.engine = options.engine;
+  LabelOutcome outcome =
+    ProcessLabel(std::move(label), report.input.geometry, std::move(request), PartOfProgress(progress, readEnds, 1));
   const std::vector<PrunedRecord> pruned = std::move(outcome.record.pruned);
   report.labels = { std::move(outcome.record) };
   return ResultsOf(report, pruned, std::move(outcome.parts));
@@ -197,18 +169,23 @@ Prune(const CoreOfLabel & core, ParameterValues values, const ProgressCallback &
   RequireUnrefinedCore(core);
   values["core"] = "the core";
   values["output"] = "result.vtp";
-  const PruneOptions      options = PruneOptionsFrom(values);
-  std::vector<PrunedCore> pruned =
-    options.bumps.empty() ? PruneByLambdas(core, options.lambdas, progress) : PruneByHeights(core, options.bumps);
-  CoreReport report = core.report;
+  const PruneOptions options = PruneOptionsFrom(values);
+  RequirePrunable(core, options);
+  const LabelRecord &  record = core.report.labels.front();
+  const CertifiedShape shape = RecordedShape(core.report, record);
+  const CertifiedCore  before{ record.pruned.front(), core.part };
+  std::vector<CertifiedCore> pruned = options.bumps.empty()
+                                        ? PruneCertified(before, shape, options.lambdas, progress)
+                                        : PruneCertified(before, shape, options.bumps);
+  CoreReport                 report = core.report;
   report.parameters.bumps.clear();
   report.labels.front().covered.reset(); // there is no boundary here to measure it on
   std::vector<PrunedRecord> records;
   std::vector<ModelPart>    parts;
-  for (PrunedCore & one : pruned)
+  for (CertifiedCore & one : pruned)
   {
-    records.push_back(std::move(one.record));
-    parts.push_back(std::move(one.part));
+    records.push_back({ std::move(one.numbers) });
+    parts.push_back(std::move(one.core));
   }
   auto results = ResultsOf(report, records, std::move(parts));
   for (const auto & result : results)
@@ -225,19 +202,15 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core, ParameterValues values, 
   NameFiles(values);
   auto result = std::make_shared<SkeletonOfLabel>();
   result->report = core->report;
-  SkeletonStage stage = SkeletonOptionsFrom(values).stage;
+  SkeletonRequest stage = SkeletonOptionsFrom(values).stage;
   stage.lambda = ParseLambda(core->report.parameters.lambda.front());
   if (!core->report.parameters.bumps.empty())
   {
     const BumpHeight height = ParseBumpHeight(core->report.parameters.bumps.front());
     stage.bumps = height.value > 0 ? std::optional(height) : std::nullopt;
   }
-  result->part = MakeSkeleton(core->part,
-                              stage,
-                              core->report.parameters.weights,
-                              core->report.input.geometry,
-                              result->report.labels.front(),
-                              progress);
+  LabelRecord & record = result->report.labels.front();
+  result->part = TakeSkeleton(SkeletonOf(core->part, RecordedShape(core->report, record), stage, progress), record);
   result->report.skeleton = std::move(stage);
   result->surface = std::move(core);
   return result;
@@ -277,14 +250,13 @@ Save(const SkeletonOfLabel &       skeleton,
 {
   OutputTransaction transaction(force);
   CoreReport        report = skeleton.report;
-  BranchOptions     options = report.skeleton.value().branches;
-  options.also = also.empty() ? std::vector<std::string>() : ParseAlso(also);
-  report.skeleton->branches.also = options.also;
+  SkeletonTargets   targets;
+  targets.also = also.empty() ? std::vector<std::string>() : ParseAlso(also);
   if (IsFolderOutput(path))
   {
     throw UsageError(path.string() + ": give a file, .vtp or .csv");
   }
-  SkeletonFiles            files(path, "the array", options, transaction);
+  SkeletonFiles            files(path, "the array", targets, transaction);
   std::vector<std::string> notes;
   files.Add(report, 0, skeleton.part, files.NeedsSurface() ? skeleton.surface->part : ModelPart(), notes);
   files.Finish(report, notes);

@@ -132,7 +132,10 @@ AwaitErrand(const std::shared_ptr<Errand> & errand,
       if (!listener.is_none())
       {
         const auto [stage, fraction] = errand->Latest();
-        listener(stage, fraction);
+        if (fraction < 1) // the end is told once, below
+        {
+          listener(stage, fraction);
+        }
       }
     }
   }

@@ -1,6 +1,5 @@
 #include "Pickling.h"
 
-#include "MakeSkeleton.h"
 #include "voxelcore/Error.h"
 
 #include <cstring>

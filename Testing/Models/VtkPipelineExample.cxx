@@ -32,6 +32,10 @@ main(int argc, char ** argv)
     pruned->Update();
     std::cout << "lambda " << lambda << " mm: " << pruned->GetOutput()->GetNumberOfPolys() << " polygons\n";
   }
+  if (core->GetErrorCode() != 0 || pruned->GetErrorCode() != 0)
+  {
+    return 1; // there is no result, and nothing to write
+  }
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(pruned->GetOutputPort());
   writer->SetFileName(argv[4]);
@@ -40,5 +44,5 @@ main(int argc, char ** argv)
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToNone();
   writer->SetHeaderTypeToUInt64();
-  return writer->Write() == 1 && pruned->GetOutput()->GetNumberOfPoints() > 0 ? 0 : 1;
+  return writer->Write() == 1 ? 0 : 1;
 }

@@ -57,10 +57,10 @@ case "$how" in
     [ -z "$(find "$moved/second" -name VoxelCore-ITK.cmake)" ] || parts+=";ITK"
     # The guide's five lines, as they stand there.
     {
-      printf '#include "voxelcore/%s.h"\n' LabelVolume LambdaPruning MedialModel VoxelCore
+      printf '#include "voxelcore/%s.h"\n' Certified LabelVolume MedialModel
       echo 'int main() {'
       grep -A4 '^    const voxelcore::LabelVolume scan = ' "$source/Applications/manual/guide/cpp.md"
-      echo 'return core.cells.FaceCount() > 0 ? 0 : 1; }'
+      echo 'return core.core.cells.FaceCount() > 0 ? 0 : 1; }'
     } >"$scratch/Readme.cxx"
     configure "$scratch/all" "${options[@]}" -DPARTS="$parts" -DREADME="$scratch/Readme.cxx"
     cmake --build "$scratch/all"

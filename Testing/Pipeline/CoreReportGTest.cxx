@@ -52,8 +52,8 @@ MakeReport()
     label.boundaryVertices = 120;
     label.shape = { 1, { 1, 0, 0 } };
     label.core = MakeComplex(9, 1.0 / 7);
-    label.pruned = { { "0", 0, MakeComplex(9, 1.0 / 7), "x_lambda-0.vtp" },
-                     { "1.5vox", 0.15, MakeComplex(4, 1.0 / 9), "x_lambda-1.5vox.vtp" } };
+    label.pruned = { { { "0", 0, MakeComplex(9, 1.0 / 7), {}, {} }, "x_lambda-0.vtp" },
+                     { { "1.5vox", 0.15, MakeComplex(4, 1.0 / 9), {}, {} }, "x_lambda-1.5vox.vtp" } };
     label.topologyEqual = true;
     label.enclosed = true;
     label.seconds = 0.5;

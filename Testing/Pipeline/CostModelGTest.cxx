@@ -137,7 +137,7 @@ TEST(CostModel, SkeletonsAndPagesCost)
   const std::vector<BoundaryCounts> labels{ CountBoundary(Ellipsoid(100)) };
   const CostPrediction              plain = PredictJob(labels, OptionsInto(kFile), 1);
   CoreOptions                       options = OptionsInto(kFile);
-  options.skeleton = SkeletonStage();
+  options.skeleton = SkeletonRequest();
   const CostPrediction skeleton = PredictJob(labels, options, 1);
   EXPECT_GT(skeleton.memoryBytes, plain.memoryBytes);
   EXPECT_GT(skeleton.seconds, plain.seconds);

@@ -51,7 +51,7 @@ TEST(ReportTable, NanometresAreNoZeros)
   report.parameters.bumps = { "1.2diag" };
   LabelRecord label;
   label.pruned.resize(1);
-  label.pruned[0].bumps = BumpRecord{};
+  label.pruned[0].bumps = BumpNumbers{};
   label.pruned[0].bumps->boundaryGapMm = 48.07e-6;
   label.skeleton = SkeletonRecord{};
   label.skeleton->numbers.totalLength = 0.32e-3;

@@ -35,7 +35,12 @@ def without_varying(value):
 def content(path, folder):
     data = path.read_bytes()
     if path.suffix == ".json" and not path.name.endswith(".mrk.json"):
-        return json.dumps(without_varying(json.loads(data)), sort_keys=True).encode()
+        text = data.decode().replace(str(folder.parent), "RUNS")
+        return json.dumps(without_varying(json.loads(text)), sort_keys=True).encode()
+    if path.name == "study.csv":
+        rows = [line.split(",") for line in data.decode().splitlines()]
+        kept = [i for i, name in enumerate(rows[0]) if not re.match("seconds|peak_memory", name)]
+        return "\n".join(",".join(row[i] for i in kept) for row in rows).encode()
     if path.suffix in (".csv", ".mrml", ".swc"):
         text = data.decode().replace(str(folder), "OUT")
         return re.sub(r"VoxelCore [0-9.]+", "VoxelCore", text).encode()
@@ -46,7 +51,7 @@ def outputs(folder):
     found = {}
     for path in sorted(folder.rglob("*")):
         name = path.relative_to(folder).as_posix()
-        if not path.is_file() or path.suffix in SKIPPED or "/." in "/" + name or name.startswith("cohort/"):
+        if not path.is_file() or path.suffix in SKIPPED or name.endswith("_finished.jsonl") or "/." in "/" + name or name.startswith("cohort/"):
             if not (name.startswith("cohort/") and path.suffix in (".vtp", ".swc")):
                 continue
         found[name] = hashlib.sha256(content(path, folder)).hexdigest()

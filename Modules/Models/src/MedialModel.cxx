@@ -63,12 +63,6 @@ CheckModel(const MedialModel & model, bool keepEdges)
 
 } // namespace
 
-ModelPart
-ToPhysical(MedialComplex core, const ImageGeometry & geometry, std::int64_t label)
-{
-  return { label, PlaceInLps(std::move(core), geometry) };
-}
-
 bool
 IsModelPath(const std::filesystem::path & path)
 {

@@ -1,10 +1,9 @@
 #include "vtkLambdaPruningFilter.h"
 
 #include "vtkFilterWork.h"
-#include "voxelcore/Certificate.h"
+#include "voxelcore/Certified.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CoreProvenance.h"
-#include "voxelcore/LambdaPruning.h"
 #include "voxelcore/ModelPolyData.h"
 
 #include <vtkInformation.h>
@@ -28,8 +27,6 @@ vtkLambdaPruningFilter::PrintSelf(ostream & os, vtkIndent indent)
 int
 vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs, vtkInformationVector * outputs)
 {
-  // The rest is the certificate's.
-  constexpr double    pruningEnds = 0.9;
   vtkPolyData * const input = vtkPolyData::GetData(inputs[0]);
   const auto          setError = [this](unsigned long code) { this->SetErrorCode(code); };
   return vtkFilterWork(this, setError, vtkPolyData::GetData(outputs), [&] {
@@ -46,19 +43,24 @@ vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** in
     // The shortest text that reads as the same number.
     std::array<char, 32> text;
     const std::string    lambda(text.data(), std::to_chars(text.data(), text.data() + text.size(), this->Lambda).ptr);
-    const double         share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
-    double               before = 0;
+    const voxelcore::Lambda wanted{ this->Lambda, voxelcore::Lambda::Unit::Millimetre, lambda + "mm" };
+    const double            share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
+    double                  before = 0;
     for (voxelcore::ModelPart & part : model.parts)
     {
-      const auto progress = vtkForwardProgress(this, before, before + pruningEnds * share);
-      voxelcore::ReportProgress(progress, "prune", 0);
-      const voxelcore::TopologyNumbers topology = voxelcore::ComputeComplexTopology(part.core.cells);
-      part.core = std::move(voxelcore::PruneByLambda(part.core, { this->Lambda }, progress).front());
-      voxelcore::ReportProgress(progress, "certificate", 1);
-      const voxelcore::TopologyNumbers left = voxelcore::ComputeComplexTopology(part.core.cells);
-      voxelcore::RequireEqualTopology(topology, left, "its core pruned", part.label);
-      prunings.push_back(
-        { this->Lambda > 0 ? lambda + "mm" : "0", this->Lambda, voxelcore::DescribeComplex(part.core, left) });
+      // What an image's core was compared with is in its Provenance, if it has one; pruning keeps the topology it has.
+      voxelcore::CertifiedShape shape;
+      shape.name = "label " + std::to_string(part.label);
+      shape.topology = voxelcore::ComputeComplexTopology(part.core.cells);
+      voxelcore::CertifiedCore whole;
+      whole.numbers.complex = voxelcore::DescribeComplex(part.core, shape.topology);
+      whole.core = std::move(part);
+      auto pruned = voxelcore::PruneCertified(std::move(whole),
+                                              shape,
+                                              { wanted },
+                                              vtkForwardProgress(this, before, before + share));
+      part = std::move(pruned.front().core);
+      prunings.push_back({ wanted.value > 0 ? wanted.text : "0", this->Lambda, pruned.front().numbers.complex });
       before += share;
     }
     voxelcore::ReportProgress(vtkForwardProgress(this, 0, 1), "done", 1);

@@ -1,13 +1,9 @@
 #include "vtkVoxelCoreFilter.h"
 
 #include "vtkFilterWork.h"
-#include "voxelcore/Certificate.h"
-#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/Certified.h"
 #include "voxelcore/CoreProvenance.h"
 #include "voxelcore/ModelPolyData.h"
-#include "voxelcore/ShapeTopology.h"
-#include "voxelcore/SpacingWeights.h"
-#include "voxelcore/VoxelCore.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -278,9 +274,6 @@ vtkVoxelCoreFilter::RequestUpdateExtent(vtkInformation *, vtkInformationVector *
 int
 vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs, vtkInformationVector * outputs)
 {
-  // Where in a label's work each stage ends, as the shares of time usually are.
-  constexpr double     shapeEnds = 0.05;
-  constexpr double     coreEnds = 0.95;
   vtkImageData * const image = vtkImageData::GetData(inputs[0]);
   const auto           setError = [this](unsigned long code) { this->SetErrorCode(code); };
   return vtkFilterWork(this, setError, vtkPolyData::GetData(outputs), [&] {
@@ -291,7 +284,6 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
       throw voxelcore::InputError("the input needs point scalars of one component");
     }
     const voxelcore::ImageGeometry geometry = GeometryOf(*image, this->ImageToLPS);
-    const auto                     weights = voxelcore::ComputeLatticeWeights(geometry);
     auto                           shapes = ShapesOf(*values, geometry.size, this->Label);
     if (shapes.empty())
     {
@@ -307,24 +299,19 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
     double                              before = 0;
     for (auto & [label, shape] : shapes)
     {
-      const auto stage = [&](double from, double to) {
-        return vtkForwardProgress(this, before + share * from, before + share * to);
-      };
-      voxelcore::ReportProgress(stage(0, shapeEnds), "shape", 0);
-      const voxelcore::TopologyNumbers topology = voxelcore::ComputeShapeTopology(shape);
-      const voxelcore::MedialComplex   core =
-        voxelcore::ComputeVoxelCore(shape, weights, voxelcore::Engine::Auto, stage(shapeEnds, coreEnds));
-      voxelcore::ReportProgress(stage(coreEnds, 1), "certificate", 0);
-      voxelcore::RequireEqualTopology(topology, voxelcore::ComputeComplexTopology(core.cells), "its core", label);
-      model.parts.push_back(voxelcore::ToPhysical(core, geometry, label));
-      origins.push_back(voxelcore::DescribeOrigin(label,
-                                                  "label-" + std::to_string(label),
-                                                  shape,
-                                                  topology,
-                                                  core,
-                                                  model.parts.back().core));
-      prunings.push_back({ "0", 0, origins.back().core });
-      shape = voxelcore::VoxelShape();
+      const std::string           name = "label-" + std::to_string(label);
+      const std::uint64_t         voxels = shape.CountVoxels();
+      voxelcore::CertifiedRequest request;
+      request.name = "label " + std::to_string(label);
+      request.lambdas = { voxelcore::Lambda() }; // the whole core
+      voxelcore::CertifiedResult result = voxelcore::ComputeCertified(std::move(shape),
+                                                                      geometry,
+                                                                      request,
+                                                                      vtkForwardProgress(this, before, before + share));
+      model.parts.push_back(std::move(result.cores.front().core));
+      model.parts.back().label = label;
+      origins.push_back(voxelcore::OriginOf(result, label, name, voxels));
+      prunings.push_back({ "0", 0, result.whole });
       before += share;
     }
     voxelcore::ReportProgress(vtkForwardProgress(this, 0, 1), "done", 1);

@@ -6,7 +6,7 @@
 #include "FinishedLabels.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
-#include "SkeletonFiles.h"
+#include "voxelcore/SkeletonFiles.h"
 #include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
@@ -386,7 +386,7 @@ StageCoreJob(const CoreOptions & options,
   std::optional<SkeletonFiles> skeletons;
   if (options.skeleton)
   {
-    skeletons.emplace(options.skeletonOutput, options.scan, options.skeleton->branches, transaction);
+    skeletons.emplace(options.skeletonOutput, options.scan, options.skeletonTargets, transaction);
   }
 
   DisplayFiles shown(options.display, options.scan, transaction);
@@ -445,7 +445,6 @@ StageCoreJob(const CoreOptions & options,
     edited.labels,
     options,
     volume.geometry,
-    weights,
     estimates,
     plan.Next(),
     [&](LabelOutcome outcome) {

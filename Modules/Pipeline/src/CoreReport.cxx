@@ -296,11 +296,10 @@ ReadLabel(const Json & json)
   label.core = ReadComplex(json.at("core"));
   for (const Json & one : json.at("pruned"))
   {
-    PrunedRecord pruned{ one.at("lambda").get<std::string>(),
-                         one.at("lambda_mm").get<double>(),
-                         ReadComplex(one),
-                         {},
-                         {} };
+    PrunedRecord pruned;
+    one.at("lambda").get_to(pruned.lambda);
+    one.at("lambda_mm").get_to(pruned.lambdaMm);
+    pruned.complex = ReadComplex(one);
     if (one.contains("bumps"))
     {
       pruned.bumps = { one.at("bumps").get<std::string>(), one.at("bumps_mm").get<double>(), {} };
@@ -404,7 +403,7 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
   for (const std::size_t index : labels)
   {
     LabelRecord  label = report.labels.at(index);
-    PrunedRecord source{ "0", 0, label.core, {}, {} };
+    PrunedRecord source{ { "0", 0, label.core, {}, {} } };
     for (const PrunedRecord & pruned : report.labels[index].pruned)
     {
       const auto & height = report.skeleton->bumps;

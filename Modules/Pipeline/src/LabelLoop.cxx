@@ -64,7 +64,6 @@ void
 ProcessLabels(std::vector<EditedLabel> &                labels,
               const CoreOptions &                       options,
               const ImageGeometry &                     geometry,
-              const SpacingWeights &                    weights,
               const SurfaceSource &                     surface,
               const ProgressCallback &                  progress,
               const std::function<void(LabelOutcome)> & take,
@@ -101,17 +100,15 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
     const CellSource   join = [&](const std::vector<LatticePoint> & points, const ProgressCallback & inner) {
       return JoinParts(options.join, options.scan, value, one.component, points, inner);
     };
-    LabelOutcome outcome = ProcessLabel(std::move(one.label),
-                                        geometry,
-                                        weights,
-                                        options.lambdas,
-                                        options.engine,
-                                        part,
-                                        options.crossCheck,
-                                        options.skeleton ? &*options.skeleton : nullptr,
-                                        options.bumps,
-                                        options.join.empty() ? CellSource() : join,
-                                        surface);
+    CertifiedRequest request;
+    request.lambdas = options.lambdas;
+    request.bumps = options.bumps;
+    request.surface = surface;
+    request.skeleton = options.skeleton;
+    request.engine = options.engine;
+    request.crossCheck = options.crossCheck;
+    request.cells = options.join.empty() ? CellSource() : join;
+    LabelOutcome outcome = ProcessLabel(std::move(one.label), geometry, std::move(request), part);
     outcome.record.component = one.component;
     if (outcome.skeleton)
     {

@@ -17,7 +17,6 @@ void
 ProcessLabels(std::vector<EditedLabel> &                labels,
               const CoreOptions &                       options,
               const ImageGeometry &                     geometry,
-              const SpacingWeights &                    weights,
               const SurfaceSource &                     surface,
               const ProgressCallback &                  progress,
               const std::function<void(LabelOutcome)> & take,

@@ -32,12 +32,10 @@ Obstacle(const CoreReport & made, const ImageGeometry & geometry)
 
 MadeAgain::MadeAgain(const CoreReport &            made,
                      const LabelVolume &           volume,
-                     const SpacingWeights &        weights,
                      const std::filesystem::path & scan,
                      std::vector<std::string> &    notes)
   : m_Made(made)
   , m_Geometry(volume.geometry)
-  , m_Weights(weights)
   , m_Needed(!made.parameters.refine.surface.empty() || !made.parameters.bumps.empty())
 {
   if (!m_Needed)
@@ -66,22 +64,14 @@ MadeAgain::Check(const ModelPart &        part,
   {
     return std::nullopt;
   }
-  std::vector<BumpHeight> bumps;
+  CertifiedRequest request;
+  request.lambdas = { ParseLambda(pruned.lambda) };
   if (pruned.bumps)
   {
-    bumps.push_back(ParseBumpHeight(pruned.bumps->height));
+    request.bumps = { ParseBumpHeight(pruned.bumps->height) };
   }
-  LabelOutcome    outcome = ProcessLabel(label,
-                                      m_Geometry,
-                                      m_Weights,
-                                      { ParseLambda(pruned.lambda) },
-                                      Engine::Auto,
-                                      progress,
-                                      false,
-                                      nullptr,
-                                      bumps,
-                                      {},
-                                      m_Surface);
+  request.surface = m_Surface;
+  LabelOutcome    outcome = ProcessLabel(label, m_Geometry, std::move(request), progress);
   ModelPart       again = std::move(outcome.parts.front());
   MedialComplex & core = again.core;
   again.component = part.component;

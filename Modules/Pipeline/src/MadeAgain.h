@@ -21,7 +21,6 @@ public:
   /** `volume` is the scan, read as `made` says; what is in the way is added to `notes`. */
   MadeAgain(const CoreReport &            made,
             const LabelVolume &           volume,
-            const SpacingWeights &        weights,
             const std::filesystem::path & scan,
             std::vector<std::string> &    notes);
 
@@ -33,11 +32,10 @@ public:
         const ProgressCallback & progress) const;
 
 private:
-  const CoreReport &     m_Made;
-  const ImageGeometry &  m_Geometry;
-  const SpacingWeights & m_Weights;
-  SurfaceSource          m_Surface;
-  bool                   m_Needed = false;
+  const CoreReport &    m_Made;
+  const ImageGeometry & m_Geometry;
+  SurfaceSource         m_Surface;
+  bool                  m_Needed = false;
 };
 
 } // namespace voxelcore

@@ -346,6 +346,7 @@ CoreOptionsFrom(const ParameterValues & values)
   }
   options.display = DisplayTargetsFrom(values, CommandId::Core);
   options.skeleton = CoreSkeletonFrom(values);
+  options.skeletonTargets = TargetsFrom(values, CommandId::Core);
   options.skeletonOutput = options.skeleton ? SkeletonBesideCore(options.output) : std::filesystem::path();
   options.model = ModelOptionsFrom(reader);
   const std::string engine = reader.Choice("engine");

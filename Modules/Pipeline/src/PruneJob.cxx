@@ -44,32 +44,29 @@ RequirePrunable(const PruneOptions & options, const MedialModel & model, const C
   }
 }
 
-/** The thresholds in mm. \throws InputError when the file is pruned beyond one of them, or not by lambda. */
-std::vector<double>
-LambdaThresholds(const PruneOptions & options, const CoreReport & made, const LabelRecord & label)
+/** \throws InputError when the file is pruned beyond one of the thresholds, or not by lambda. */
+void
+RequireSmaller(const PruneOptions & options, const CertifiedShape & shape, const PrunedRecord & done)
 {
-  const PrunedRecord & done = label.pruned.front();
   if (done.bumps && done.bumps->heightMm > 0)
   {
     throw InputError(options.core.string() +
                      ": is pruned by bump height already; give --bumps, or a file made without");
   }
-  std::vector<double> thresholds;
+  const SpacingWeights weights = ComputeSpacingWeights(shape.geometry.spacing);
   for (const Lambda & lambda : options.lambdas)
   {
-    thresholds.push_back(LambdaInMillimetres(lambda, made.parameters.weights, made.input.geometry.spacing, label.box));
-    if (thresholds.back() < done.lambdaMm)
+    if (LambdaInMillimetres(lambda, weights, shape.geometry.spacing, shape.box) < done.lambdaMm)
     {
       throw InputError(options.core.string() + ": is pruned at " + done.lambda + " already; for " + lambda.text +
                        " give a file made with a smaller --lambda, best 0");
     }
   }
-  return thresholds;
 }
 
 /** \throws InputError when the file is pruned beyond one of the heights. */
 void
-RequireLower(const PruneOptions & options, const CoreReport & made, const BumpRecord & done)
+RequireLower(const PruneOptions & options, const CoreReport & made, const BumpNumbers & done)
 {
   for (const BumpHeight & height : options.bumps)
   {
@@ -82,30 +79,22 @@ RequireLower(const PruneOptions & options, const CoreReport & made, const BumpRe
 }
 
 /** All results of one label. */
-std::vector<PrunedCore>
+std::vector<CertifiedCore>
 PruneLabel(ModelPart                part,
            const PruneOptions &     options,
            const CoreReport &       made,
            const LabelRecord &      label,
            const ProgressCallback & progress)
 {
-  const std::string  labelText = LabelText(label.label, label.name);
-  const PrunedRecord done = label.pruned.front();
+  const CertifiedShape shape = RecordedShape(made, label);
+  const PrunedRecord & done = label.pruned.front();
   if (!options.bumps.empty())
   {
     RequireLower(options, made, *done.bumps);
-    return PruneByBumpsAndCertify(part, done, options.bumps, made.input.geometry, label.shape, labelText);
+    return PruneCertified({ done, std::move(part) }, shape, options.bumps);
   }
-  const std::vector<double> thresholds = LambdaThresholds(options, made, label);
-  part.core.bumps = {};
-  return PruneAndCertify(std::move(part),
-                         done.complex,
-                         done.lambdaMm,
-                         options.lambdas,
-                         thresholds,
-                         label.shape,
-                         labelText,
-                         progress);
+  RequireSmaller(options, shape, done);
+  return PruneCertified({ done, std::move(part) }, shape, options.lambdas, progress);
 }
 
 } // namespace
@@ -181,9 +170,8 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
     label.pruned.clear();
     for (std::size_t k = 0; k < pruned.size(); ++k)
     {
-      pruned[k].record.output = FileOutputPath(options.output, suffixes[k]).string();
-      label.pruned.push_back(std::move(pruned[k].record));
-      models[k].parts.push_back(std::move(pruned[k].part));
+      label.pruned.push_back({ std::move(pruned[k].numbers), FileOutputPath(options.output, suffixes[k]).string() });
+      models[k].parts.push_back(std::move(pruned[k].core));
     }
     label.seconds = labelWatch.Lap();
   }

@@ -1,7 +1,6 @@
-#include "SkeletonFiles.h"
+#include "voxelcore/SkeletonFiles.h"
 
 #include "JobTools.h"
-#include "MakeSkeleton.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
@@ -52,14 +51,11 @@ CutText(const LoopCut & cut)
 
 } // namespace
 
-SkeletonFiles::SkeletonFiles(fs::path              output,
-                             fs::path              input,
-                             const BranchOptions & options,
-                             OutputTransaction &   transaction)
+SkeletonFiles::SkeletonFiles(fs::path output, fs::path input, SkeletonTargets wanted, OutputTransaction & transaction)
   : m_Output(std::move(output))
   , m_Input(std::move(input))
   , m_ToFolder(IsFolderOutput(m_Output))
-  , m_Options(options)
+  , m_Targets(std::move(wanted))
   , m_Transaction(transaction)
 {
   const std::string extension = m_Output.extension().string();
@@ -72,12 +68,12 @@ SkeletonFiles::SkeletonFiles(fs::path              output,
   }
   if (!m_ToFolder && extension == ".csv" && !Wants("csv"))
   {
-    m_Options.also.insert(m_Options.also.begin(), "csv");
+    m_Targets.also.insert(m_Targets.also.begin(), "csv");
   }
   m_Transaction.Protect(m_Input);
-  if (m_Options.table)
+  if (m_Targets.table)
   {
-    m_Transaction.CheckTarget(*m_Options.table);
+    m_Transaction.CheckTarget(*m_Targets.table);
   }
   if (m_ToFolder)
   {
@@ -88,10 +84,10 @@ SkeletonFiles::SkeletonFiles(fs::path              output,
   {
     m_Transaction.CheckTarget(m_Output);
   }
-  for (const std::string & ending : m_Options.also)
+  for (const std::string & ending : m_Targets.also)
   {
     const std::vector<fs::path> targets = Beside(m_Output, ending);
-    for (std::size_t i = ending == "csv" && m_Options.table ? 1 : 0; i < targets.size(); ++i)
+    for (std::size_t i = ending == "csv" && m_Targets.table ? 1 : 0; i < targets.size(); ++i)
     {
       m_Transaction.CheckTarget(targets[i]);
     }
@@ -101,7 +97,7 @@ SkeletonFiles::SkeletonFiles(fs::path              output,
 bool
 SkeletonFiles::Wants(const std::string & ending) const
 {
-  return std::find(m_Options.also.begin(), m_Options.also.end(), ending) != m_Options.also.end();
+  return std::find(m_Targets.also.begin(), m_Targets.also.end(), ending) != m_Targets.also.end();
 }
 
 std::vector<fs::path>
@@ -140,7 +136,7 @@ SkeletonFiles::Add(CoreReport &               report,
     notes.push_back(text + ": " + std::to_string(skeleton.numbers.closedFaces) +
                     " faces of closed surfaces stay: around a cavity nothing can become a curve");
   }
-  if (m_ToFolder && (Wants("csv") || m_Options.table))
+  if (m_ToFolder && (Wants("csv") || m_Targets.table))
   {
     m_AllLabels.parts.push_back(part);
   }
@@ -179,10 +175,10 @@ SkeletonFiles::AddFinished(CoreReport & report, std::size_t label)
   part.label = record.label;
   part.component = record.component;
   part.name = record.name;
-  part.table = MeasureBranches(part.graph, MeasuringOf(m_Options, report.input.geometry.spacing));
+  part.table = MeasureBranches(part.graph, MeasuringOf(report.skeleton->branches, report.input.geometry.spacing));
   skeleton.numbers = part.table.numbers;
   skeleton.output = output.string();
-  if (Wants("csv") || m_Options.table)
+  if (Wants("csv") || m_Targets.table)
   {
     m_AllLabels.parts.push_back(std::move(part));
   }
@@ -192,7 +188,7 @@ void
 SkeletonFiles::WriteTables(const fs::path & output, const SkeletonModel & model)
 {
   const std::vector<fs::path> tables = Beside(output, "csv");
-  if (!m_Options.table) // which is written with the same rows
+  if (!m_Targets.table) // which is written with the same rows
   {
     WriteBranchCsv(m_Transaction.Stage(tables[0]), model);
   }
@@ -211,12 +207,12 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
     m_Model.provenance = SkeletonProvenanceJson(report, labels);
     WriteSkeletonVtp(m_Transaction.Stage(output), m_Model);
   }
-  if (m_Options.table && !m_ToFolder)
+  if (m_Targets.table && !m_ToFolder)
   {
-    WriteBranchCsv(m_Transaction.Stage(*m_Options.table), m_Model);
+    WriteBranchCsv(m_Transaction.Stage(*m_Targets.table), m_Model);
   }
-  const MeasureOptions measuring = MeasuringOf(m_Options, report.input.geometry.spacing);
-  for (const std::string & ending : m_Options.also)
+  const MeasureOptions measuring = MeasuringOf(report.skeleton->branches, report.input.geometry.spacing);
+  for (const std::string & ending : m_Targets.also)
   {
     const std::vector<fs::path> targets = Beside(output, ending);
     if (ending == "csv" && !m_ToFolder)
@@ -262,9 +258,9 @@ SkeletonFiles::Finish(const CoreReport & report, std::vector<std::string> & note
     {
       WriteTables(SkeletonTablesPath(m_Output, m_Input), m_AllLabels);
     }
-    if (m_Options.table)
+    if (m_Targets.table)
     {
-      WriteBranchCsv(m_Transaction.Stage(*m_Options.table), m_AllLabels);
+      WriteBranchCsv(m_Transaction.Stage(*m_Targets.table), m_AllLabels);
     }
   }
 }

@@ -2,8 +2,7 @@
 
 #include "DisplayFiles.h"
 #include "JobTools.h"
-#include "MakeSkeleton.h"
-#include "SkeletonFiles.h"
+#include "voxelcore/SkeletonFiles.h"
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
@@ -33,6 +32,7 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
   }
   core.skeleton = options.stage;
   core.skeletonOutput = options.output;
+  core.skeletonTargets = options.targets;
   core.report = options.report;
   core.display = options.display;
   core.engine = options.engine;
@@ -52,7 +52,7 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   SkeletonResult    result;
   CoreReport &      report = result.report;
   OutputTransaction transaction(options.force, context.temporaries);
-  SkeletonFiles     files(options.output, options.input, options.stage.branches, transaction);
+  SkeletonFiles     files(options.output, options.input, options.targets, transaction);
   if (options.report)
   {
     transaction.CheckTarget(*options.report);
@@ -85,12 +85,11 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
       return 0.05 + 0.9 * static_cast<double>(done) / static_cast<double>(model.parts.size());
     };
     Stopwatch    labelWatch;
-    SkeletonPart part = MakeSkeleton(model.parts[i],
-                                     *report.skeleton,
-                                     report.parameters.weights,
-                                     report.input.geometry,
-                                     report.labels[i],
-                                     PartOfProgress(context.progress, share(i), share(i + 1)));
+    SkeletonPart part = TakeSkeleton(SkeletonOf(model.parts[i],
+                                                RecordedShape(report, report.labels[i]),
+                                                *report.skeleton,
+                                                PartOfProgress(context.progress, share(i), share(i + 1))),
+                                     report.labels[i]);
     report.labels[i].seconds = labelWatch.Lap();
     report.seconds.skeleton += report.labels[i].seconds;
     shown.AddLabel(report.labels[i], model.parts[i], &part);
@@ -121,10 +120,10 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
 }
 
 /** What was done to a skeleton when it was made and what is done to it now. */
-BranchOptions
-Together(const BranchOptions & before, const BranchOptions & now)
+BranchRequest
+Together(const BranchRequest & before, const BranchRequest & now)
 {
-  BranchOptions all = now;
+  BranchRequest all = now;
   all.pruneLength = now.pruneLength ? now.pruneLength : before.pruneLength;
   all.pruneRadii = std::max(now.pruneRadii, before.pruneRadii);
   all.cutLoops = now.cutLoops || before.cutLoops;
@@ -147,7 +146,7 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   const JobContext  context = ForwardOnly(given);
   SkeletonResult    result;
   OutputTransaction transaction(options.force, context.temporaries);
-  const auto &      also = options.branches.also;
+  const auto &      also = options.targets.also;
   if (std::find(also.begin(), also.end(), "ma") != also.end())
   {
     throw UsageError("--also ma: needs the medial surface; give it to 'voxelcore skeleton'");
@@ -156,7 +155,7 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   {
     throw UsageError(options.output.string() + ": give a file, .csv or .vtp");
   }
-  SkeletonFiles files(options.output, options.skeleton, options.branches, transaction);
+  SkeletonFiles files(options.output, options.skeleton, options.targets, transaction);
   ReportProgress(context.progress, "reading", 0);
   SkeletonModel model = ReadSkeletonVtp(options.skeleton);
   CoreReport &  report = result.report;
@@ -180,8 +179,9 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
     const auto & length = options.branches.pruneLength;
     const double limit = length ? LambdaInMillimetres(*length, report.parameters.weights, spacing, record.box) : 0;
     PruneBranches(part.graph, { limit, options.branches.pruneRadii });
-    CutAndMeasure(part, options.branches, spacing, *record.skeleton);
-    files.Add(report, i, std::move(part), {}, result.notes);
+    CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {} };
+    CutAndMeasure(skeleton, options.branches, spacing);
+    files.Add(report, i, TakeSkeleton(std::move(skeleton), record), {}, result.notes);
   }
   files.Finish(report, result.notes);
   Finish(transaction, context);

@@ -23,9 +23,9 @@ ReadLength(const Json & json)
 } // namespace
 
 Json
-SkeletonStageJson(const SkeletonStage & stage)
+SkeletonStageJson(const SkeletonRequest & stage)
 {
-  const BranchOptions & branches = stage.branches;
+  const BranchRequest & branches = stage.branches;
   Json                  json{ { "lambda", stage.lambda.text },
              { "stand_out", stage.standOut.text },
              { "plates", LengthJson(stage.plates) },
@@ -42,10 +42,10 @@ SkeletonStageJson(const SkeletonStage & stage)
   return json;
 }
 
-SkeletonStage
+SkeletonRequest
 ReadSkeletonStage(const Json & json)
 {
-  SkeletonStage stage;
+  SkeletonRequest stage;
   stage.lambda = ParseLambda(json.at("lambda").get<std::string>());
   if (json.contains("bumps"))
   {

@@ -10,10 +10,10 @@ namespace voxelcore
 
 /** Every option that changes a skeleton. */
 nlohmann::ordered_json
-SkeletonStageJson(const SkeletonStage & stage);
+SkeletonStageJson(const SkeletonRequest & stage);
 
 /** \throws nlohmann::json::exception when something is missing; UsageError */
-SkeletonStage
+SkeletonRequest
 ReadSkeletonStage(const nlohmann::ordered_json & json);
 
 /** `inFile`: without the file's name. */

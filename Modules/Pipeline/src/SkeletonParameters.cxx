@@ -80,10 +80,10 @@ OutputFrom(const ParameterValues & values, CommandId command)
   return output;
 }
 
-BranchOptions
-BranchOptionsFrom(const ParameterValues & values, CommandId command)
+BranchRequest
+BranchRequestFrom(const ParameterValues & values, CommandId command)
 {
-  BranchOptions options;
+  BranchRequest options;
   if (const std::string limit = ValueOf(values, command, "prune-branches"); !limit.empty())
   {
     ParseBranchLimit(limit, options);
@@ -91,10 +91,6 @@ BranchOptionsFrom(const ParameterValues & values, CommandId command)
   options.cutLoops = values.contains("cut-loops");
   options.splitAtJunctions = values.contains("split-at-junctions");
   options.root = ParseRoot(ValueOf(values, command, "root"));
-  if (values.contains("also"))
-  {
-    options.also = ParseAlso(ValueOf(values, command, "also"));
-  }
   return options;
 }
 
@@ -104,17 +100,17 @@ constexpr std::array<const char *, 8> kStageOptions{ "stand-out",      "plates",
                                                      "root",           "also" };
 
 /** All but lambda. */
-SkeletonStage
+SkeletonRequest
 StageFrom(const ParameterValues & values, CommandId command)
 {
-  SkeletonStage stage;
+  SkeletonRequest stage;
   stage.standOut = LengthFrom(values, command, "stand-out");
   stage.smooth = LengthFrom(values, command, "smooth");
   if (values.contains("plates"))
   {
     stage.plates = LengthFrom(values, command, "plates");
   }
-  stage.branches = BranchOptionsFrom(values, command);
+  stage.branches = BranchRequestFrom(values, command);
   return stage;
 }
 
@@ -168,7 +164,7 @@ ParseRoot(const std::string & text)
 }
 
 void
-ParseBranchLimit(const std::string & text, BranchOptions & options)
+ParseBranchLimit(const std::string & text, BranchRequest & options)
 {
   if (!text.empty() && text.back() == 'r')
   {
@@ -225,14 +221,25 @@ RootText(const RootChoice & root)
   return text;
 }
 
-std::optional<SkeletonStage>
+SkeletonTargets
+TargetsFrom(const ParameterValues & values, CommandId command)
+{
+  SkeletonTargets targets;
+  if (values.contains("also"))
+  {
+    targets.also = ParseAlso(ValueOf(values, command, "also"));
+  }
+  return targets;
+}
+
+std::optional<SkeletonRequest>
 CoreSkeletonFrom(const ParameterValues & values)
 {
   if (values.contains("with-skeleton"))
   {
-    SkeletonStage stage = StageFrom(values, CommandId::Core);
+    SkeletonRequest stage = StageFrom(values, CommandId::Core);
     stage.lambda = ParseLength("0");
-    const auto & also = stage.branches.also;
+    const auto also = TargetsFrom(values, CommandId::Core).also;
     if (std::find(also.begin(), also.end(), "ma") != also.end())
     {
       throw UsageError("--also ma: use -o OUT.ma, or 'voxelcore skeleton' for a file of radii, too");
@@ -272,6 +279,7 @@ SkeletonOptionsFrom(const ParameterValues & values)
   options.edits = ShapeEditsFrom(values, command);
   options.stage = StageFrom(values, command);
   options.stage.lambda = LengthFrom(values, command, "lambda");
+  options.targets = TargetsFrom(values, command);
   if (values.contains("bumps"))
   {
     const auto heights = ParseBumpHeights(ValueOf(values, command, "bumps"));
@@ -292,7 +300,7 @@ SkeletonOptionsFrom(const ParameterValues & values)
   }
   if (values.contains("table"))
   {
-    options.stage.branches.table = ValueOf(values, command, "table");
+    options.targets.table = ValueOf(values, command, "table");
   }
   options.display = DisplayTargetsFrom(values, command);
   const std::string engine = ChoiceOf(values, command, "engine");
@@ -307,7 +315,8 @@ MeasureOptionsFrom(const ParameterValues & values)
 {
   constexpr CommandId command = CommandId::Measure;
   return { ValueOf(values, command, "skeleton"),
-           BranchOptionsFrom(values, command),
+           BranchRequestFrom(values, command),
+           TargetsFrom(values, command),
            OutputFrom(values, command),
            values.contains("force") };
 }

@@ -173,7 +173,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
     result.notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +
                            " was made from (another SHA-256); checked all the same");
   }
-  const MadeAgain madeAgain(made, volume, weights, options.scan, result.notes);
+  const MadeAgain madeAgain(made, volume, options.scan, result.notes);
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
     const std::int64_t value = model.parts[i].label;

@@ -1,8 +1,7 @@
 #pragma once
 // Medial surfaces as files: .vtp .vtk .ply .obj .stl .ma
 
-#include "voxelcore/ImageGeometry.h"
-#include "voxelcore/MedialComplex.h"
+#include "voxelcore/PlacedCore.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -12,16 +11,7 @@
 namespace voxelcore
 {
 
-/** The core of one label, or of one component of it, as it stands in a file: positions in LPS mm, polygons oriented for
- *  LPS. */
-struct ModelPart
-{
-  std::int64_t  label = 0;
-  MedialComplex core;          ///< positions here are LPS mm; radii and measures mm as ever
-  std::int64_t  component = 0; ///< from 1 for a label split into its components; 0: the whole label
-
-  std::vector<Vector3> displacement{}; ///< LPS mm, of a refined core: what moved each vertex; else empty
-};
+using ModelPart = PlacedCore;
 
 /** A file's content. */
 struct MedialModel
@@ -47,10 +37,6 @@ struct ModelOmissions
   std::uint64_t edges = 0;    ///< edges on no face left out
   std::uint64_t labels = 0;   ///< labels, or components of them, merged into one
 };
-
-/** A core that PlaceInLps moved to LPS mm. */
-ModelPart
-ToPhysical(MedialComplex core, const ImageGeometry & geometry, std::int64_t label);
 
 /** The same core with each polygon cut into the fan of triangles from its first vertex, in the order of the polygons, as
  *  ModelOptions::triangles writes it. A diagonal lies within its face and has the face's two nearest boundary vertices: so

@@ -1,7 +1,7 @@
 #pragma once
 // Curve skeletons as files: .vtp for viewers and for VoxelCore, .swc .mrk.json .graphml for others, .csv tables.
 
-#include "voxelcore/BranchTable.h"
+#include "voxelcore/MeasuredSkeleton.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -11,15 +11,7 @@
 namespace voxelcore
 {
 
-/** The skeleton of one label, or of one component of it; positions in LPS mm. */
-struct SkeletonPart
-{
-  std::int64_t  label = 0;
-  std::int64_t  component = 0; ///< from 1 for a label split into its components; 0: the whole label
-  std::string   name;
-  SkeletonGraph graph;
-  BranchTable   table; ///< of this graph
-};
+using SkeletonPart = MeasuredSkeleton;
 
 struct SkeletonModel
 {

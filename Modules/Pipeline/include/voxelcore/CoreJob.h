@@ -1,13 +1,10 @@
 #pragma once
 // `voxelcore core`: a scan in, certified medial surfaces out.
 
-#include "voxelcore/BumpPruning.h"
 #include "voxelcore/CoreReport.h"
-#include "voxelcore/DelaunayCells.h"
 #include "voxelcore/DisplayTargets.h"
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
-#include "voxelcore/LambdaPruning.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonModel.h"
@@ -33,7 +30,8 @@ struct CoreOptions
   std::vector<BumpHeight>      bumps;    ///< none: pruned by lambda; else there is one lambda, the floor
   RefineOptions                refine;   ///< by lambda only, without skeletons
   std::filesystem::path        output;   ///< a model file, or a folder (IsFolderOutput); empty: no core is written
-  std::optional<SkeletonStage> skeleton; ///< skeletons too; its lambda is 0 or one of `lambdas`
+  std::optional<SkeletonRequest> skeleton; ///< skeletons too; its lambda is 0 or one of `lambdas`
+  SkeletonTargets                skeletonTargets;
   std::filesystem::path        skeletonOutput; ///< .vtp, or a folder
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> table;   ///< .csv, a row per label
@@ -64,10 +62,6 @@ struct CoreResult
 CoreResult
 RunCoreJob(const CoreOptions & options, const JobContext & context = {});
 
-/** Gives the cells of a shape, with these boundary vertices, where they come from elsewhere. */
-using CellSource =
-  std::function<DelaunayCells(const std::vector<LatticePoint> & points, const ProgressCallback & progress)>;
-
 /** One label's share of a job. */
 struct LabelOutcome
 {
@@ -78,26 +72,12 @@ struct LabelOutcome
   std::string                 failure; ///< why its certificate failed, where other labels go on
 };
 
-/** Everything between reading and writing for one label; depends on nothing but its arguments. Cells come from `source`
- *  where there is one; with `surface` cores are refined, which goes with lambdas alone. With `crossCheck` both engines run, one after the other; TetGen can do so once at a time in a process. The skeleton's lambda is 0 or one of
- *  `lambdas`; with bump heights it is 0.
- *  \throws CertificateError when a complex does not have the shape's topology or leaves the shape, a boundary vertex lies
- *  farther from it than the bump height, or the engines differ. */
+/** Everything between reading and writing for one label: what ComputeCertified() gives, told as a record.
+ *  \throws what ComputeCertified() throws; the errors name the label */
 LabelOutcome
-ProcessLabel(LabelShape                      label,
-             const ImageGeometry &           geometry,
-             const SpacingWeights &          weights,
-             const std::vector<Lambda> &     lambdas,
-             Engine                          engine,
-             const ProgressCallback &        progress = {},
-             bool                            crossCheck = false,
-             const SkeletonStage *           skeleton = nullptr,
-             const std::vector<BumpHeight> & bumps = {},
-             const CellSource &              source = {},
-             const SurfaceSource &           surface = {});
-
-/** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
-bool
-IsEnclosed(const MedialComplex & core, const VoxelShape & shape);
+ProcessLabel(LabelShape               label,
+             const ImageGeometry &    geometry,
+             CertifiedRequest         request,
+             const ProgressCallback & progress = {});
 
 } // namespace voxelcore

@@ -1,6 +1,7 @@
 #pragma once
 // What a job of `voxelcore core` did and found: the report, and the provenance inside the files it wrote.
 
+#include "voxelcore/Certified.h"
 #include "voxelcore/CoreProvenance.h"
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialModel.h"
@@ -54,23 +55,10 @@ struct ParameterRecord
   SpacingWeights                           weights;
 };
 
-/** What pruning by bump height did. */
-struct BumpRecord
+/** One result of a label. */
+struct PrunedRecord : CoreNumbers
 {
-  std::string           height;
-  double                heightMm = 0;
-  std::optional<double> boundaryGapMm; ///< of a boundary vertex to the balls that are left, the largest; not in files
-};
-
-struct PrunedRecord
-{
-  std::string               lambda;
-  double                    lambdaMm = 0;
-  ComplexRecord             complex;
-  std::string               output; ///< the file
-  std::optional<BumpRecord> bumps = {};
-
-  std::optional<RefinedRecord> refined = {};
+  std::string output{}; ///< the file
 };
 
 /** A label's curve skeleton. Its topology has been found equal to the shape's, or there is none. */
@@ -94,7 +82,7 @@ struct LabelRecord
   VoxelBox                      box; ///< tight
   std::uint64_t                 boundaryVertices = 0;
   TopologyNumbers               shape;
-  ComplexRecord                 core;
+  ComplexRecord                core;
   std::vector<PrunedRecord>     pruned; ///< one per lambda or bump height, in the order given
   bool                          topologyEqual = false;
   bool                          enclosed = false;
@@ -129,7 +117,7 @@ struct CoreReport
   std::string                  command;
   InputRecord                  input;
   ParameterRecord              parameters;
-  std::optional<SkeletonStage> skeleton; ///< where skeletons were made
+  std::optional<SkeletonRequest> skeleton; ///< where skeletons were made
   std::vector<LabelRecord>     labels;
   StageSeconds                 seconds;
   double                       peakMemoryMb = 0;

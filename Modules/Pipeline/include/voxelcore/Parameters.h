@@ -153,8 +153,10 @@ PhantomJobOptions
 PhantomOptionsFrom(const ParameterValues & values);
 DisplayTargets
 DisplayTargetsFrom(const ParameterValues & values, CommandId command);
-std::optional<SkeletonStage>
+std::optional<SkeletonRequest>
 CoreSkeletonFrom(const ParameterValues & values);
+SkeletonTargets
+TargetsFrom(const ParameterValues & values, CommandId command);
 SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values);
 MeasureJobOptions

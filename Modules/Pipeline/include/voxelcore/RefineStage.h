@@ -1,13 +1,10 @@
 #pragma once
 // `--refine`: cores moved, within a voxel, to the medial axis of the smooth surface their voxels stand for.
 
+#include "voxelcore/Certified.h"
 #include "voxelcore/LabelVolume.h"
-#include "voxelcore/Progress.h"
-#include "voxelcore/SurfaceEstimate.h"
 
 #include <filesystem>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,17 +27,6 @@ struct RefineRecord
   std::string                              greySha256;
   std::optional<std::pair<double, double>> greyRange;
 };
-
-/** What refining did to a core, in voxels (length in lattice coordinates). */
-struct RefinedRecord
-{
-  double meanDisplacement = 0;
-  double maxDisplacement = 0;
-};
-
-/** Gives the estimate of a shape's surface. Thread-safe. */
-using SurfaceSource =
-  std::function<std::shared_ptr<const SurfaceEstimate>(const VoxelShape & shape, const ProgressCallback & progress)>;
 
 /** The source for a job's scan, or mesh, that was read like this: none when nothing is to be refined.
  *  \throws UsageError when a surface is asked for that the input does not have; InputError when the grey scan does not lie

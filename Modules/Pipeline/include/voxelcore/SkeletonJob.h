@@ -24,7 +24,8 @@ struct SkeletonOptions
   ReadOptions reading;
   std::optional<std::int64_t>          resolution; ///< of a mesh
   ShapeEditOptions                     edits;
-  SkeletonStage                        stage;
+  SkeletonRequest                      stage;
+  SkeletonTargets                      targets;
   std::filesystem::path                output; ///< .vtp, or a folder (IsFolderOutput)
   std::optional<std::filesystem::path> report;
   DisplayTargets                       display;
@@ -37,7 +38,8 @@ struct SkeletonOptions
 struct MeasureJobOptions
 {
   std::filesystem::path skeleton; ///< .vtp that 'voxelcore skeleton' wrote
-  BranchOptions         branches;
+  BranchRequest         branches;
+  SkeletonTargets       targets;
   std::filesystem::path output; ///< .csv, or .vtp
   bool                  force = false;
 };

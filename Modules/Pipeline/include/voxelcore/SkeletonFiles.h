@@ -25,7 +25,7 @@ public:
    *  \throws UsageError for an extension that is not known; OutputError */
   SkeletonFiles(std::filesystem::path output,
                 std::filesystem::path input,
-                const BranchOptions & options,
+                SkeletonTargets       wanted,
                 OutputTransaction &   transaction);
 
   /** Whether Add() wants the medial surface, for .ma. */
@@ -48,7 +48,7 @@ public:
   const std::vector<std::string> &
   Endings() const
   {
-    return m_Options.also;
+    return m_Targets.also;
   }
 
   /** The skeleton of a label of a folder. */
@@ -79,7 +79,7 @@ private:
   std::filesystem::path    m_Output;
   std::filesystem::path    m_Input;
   bool                     m_ToFolder;
-  BranchOptions            m_Options;
+  SkeletonTargets          m_Targets;
   OutputTransaction &      m_Transaction;
   SkeletonModel            m_Model;     ///< not written yet
   MedialModel              m_Surfaces;  ///< not written yet, for .ma

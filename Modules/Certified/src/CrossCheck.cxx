@@ -1,7 +1,7 @@
 #include "CrossCheck.h"
 
-#include "JobTools.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/StagePlan.h"
 
 #include <algorithm>
 #include <cstdio>

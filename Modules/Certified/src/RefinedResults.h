@@ -1,9 +1,8 @@
 #pragma once
-// A label's core refined at each of its thresholds.
+// A shape's core refined at each of its thresholds.
 
-#include "JobTools.h"
+#include "voxelcore/Certified.h"
 #include "voxelcore/Refinement.h"
-#include "voxelcore/RefineStage.h"
 
 #include <vector>
 
@@ -18,17 +17,19 @@ struct RefinementParts
   MedialComplex             core; ///< in lattice coordinates
 };
 
-/** Results in the order of `lambdas`. \throws CertificateError when the topology is no longer the shape's, or a vertex has
- *  left it; Cancelled */
-std::vector<PrunedCore>
-RefineAndCertify(const VoxelShape &          shape,
+/** Results in the order of the lambdas. \throws CertificateError when the topology is no longer the shape's, or a vertex
+ *  has left it; Cancelled */
+std::vector<CertifiedCore>
+RefineAndCertify(const VoxelShape &          voxels,
+                 const CertifiedShape &      shape,
                  RefinementParts             parts,
                  const SurfaceSource &       source,
-                 const ImageGeometry &       geometry,
                  const std::vector<Lambda> & lambdas,
                  const std::vector<double> & thresholdsMm,
-                 const LabelRecord &         record,
-                 const std::string &         labelText,
                  const ProgressCallback &    progress);
+
+/** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
+bool
+IsEnclosed(const MedialComplex & core, const VoxelShape & voxels);
 
 } // namespace voxelcore

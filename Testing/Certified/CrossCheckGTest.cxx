@@ -1,8 +1,7 @@
 #include "CrossCheck.h"
 
 #include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/CoreJob.h"
-#include "voxelcore/OutputNames.h"
+#include "voxelcore/Certified.h"
 
 #include <functional>
 #include <gtest/gtest.h>
@@ -80,21 +79,19 @@ TEST(CrossCheck, GivesTheSameResultByEitherEngine)
   }
   ImageGeometry geometry;
   geometry.size = { 2, 2, 1 };
-  const auto process = [&](Engine engine, bool crossCheck) {
-    return ProcessLabel({ 1, "ell", 3, Ell() },
-                        geometry,
-                        ComputeSpacingWeights({ 1, 1, 1 }),
-                        ParseLambdas("0"),
-                        engine,
-                        {},
-                        crossCheck);
+  const auto compute = [&](Engine engine, bool crossCheck) {
+    CertifiedRequest request;
+    request.lambdas = { ParseLambda("0") };
+    request.engine = engine;
+    request.crossCheck = crossCheck;
+    return ComputeCertified(Ell(), geometry, request).cores[0].core.core;
   };
-  const LabelOutcome plain = process(Engine::Lattice, false);
+  const MedialComplex plain = compute(Engine::Lattice, false);
   for (const Engine engine : { Engine::Auto, Engine::Lattice, Engine::TetGen })
   {
-    const LabelOutcome checked = process(engine, true);
-    EXPECT_EQ(checked.parts[0].core.positions, plain.parts[0].core.positions);
-    EXPECT_EQ(checked.parts[0].core.vertexLambda, plain.parts[0].core.vertexLambda);
+    const MedialComplex checked = compute(engine, true);
+    EXPECT_EQ(checked.positions, plain.positions);
+    EXPECT_EQ(checked.vertexLambda, plain.vertexLambda);
   }
 }
 

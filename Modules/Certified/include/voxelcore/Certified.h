@@ -1,0 +1,83 @@
+#pragma once
+// The promise, in one place: a voxel shape in, medial surfaces and curve skeletons out whose topology has been compared
+// with that of the shape. What the program, the ITK and VTK filters and the Python module give away comes from here.
+//
+// The certificate. Euler number and Betti numbers are counted in the voxels and, independently, in every complex. They
+// are equal, every vertex lies in the open shape, and after pruning by bump height every boundary vertex lies within the
+// height of the balls that are left; else a CertificateError is thrown and there is no result.
+
+#include "voxelcore/CertifiedCore.h"
+#include "voxelcore/CertifiedSkeleton.h"
+#include "voxelcore/DelaunayCells.h"
+#include "voxelcore/Progress.h"
+#include "voxelcore/SurfaceEstimate.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Gives the Delaunay cells of a shape, whose boundary vertices are `points`, where they are not to be computed. */
+using CellSource =
+  std::function<DelaunayCells(const std::vector<LatticePoint> & points, const ProgressCallback & progress)>;
+
+/** Gives the estimate of a shape's smooth surface. Thread-safe. */
+using SurfaceSource =
+  std::function<std::shared_ptr<const SurfaceEstimate>(const VoxelShape & shape, const ProgressCallback & progress)>;
+
+/** What is asked of one shape. */
+struct CertifiedRequest
+{
+  std::string name = "the shape"; ///< in errors: "label 4 (liver)"
+
+  std::vector<Lambda>     lambdas{ { 1.5, Lambda::Unit::Voxel, "1.5vox" } }; ///< one core each; 0: the whole core
+  std::vector<BumpHeight> bumps;           ///< where there are some: one core each, the only lambda is pruned first
+  SurfaceSource           surface;         ///< refines the cores to this surface; goes with lambdas alone
+  std::optional<SkeletonRequest> skeleton; ///< of the core it names, which is whole or one of those asked for
+
+  Engine     engine = Engine::Auto;
+  bool       crossCheck = false; ///< both engines run, one after the other, and must agree bit for bit
+  CellSource cells;              ///< instead of an engine
+};
+
+/** Wall-clock seconds. */
+struct CertifiedSeconds
+{
+  double shape = 0;
+  double delaunay = 0;
+  double core = 0;
+  double prune = 0; ///< with refinement
+  double skeleton = 0;
+};
+
+struct CertifiedResult
+{
+  CertifiedShape                   shape;
+  std::uint64_t                    boundaryVertices = 0;
+  ComplexRecord                   whole; ///< of the whole core
+  std::vector<CertifiedCore>       cores; ///< one per lambda or bump height, in the order asked for
+  std::optional<CertifiedSkeleton> skeleton;
+  std::optional<bool>              covered; ///< true: no boundary gap exceeds its bump height; none: not promised
+  CertifiedSeconds                 seconds;
+};
+
+/** Everything from a shape to its certified cores and skeleton; positions are in LPS mm of `geometry`, the shape lies in
+ *  its voxels. The same bits for every engine and number of threads (OpenMP's).
+ *  \throws CertificateError, which names the shape; InputError for a shape or spacing that is beyond exact numbers;
+ *  UsageError for a request that contradicts itself; Cancelled */
+CertifiedResult
+ComputeCertified(VoxelShape               shape,
+                 const ImageGeometry &    geometry,
+                 const CertifiedRequest & request,
+                 const ProgressCallback & progress = {});
+
+/** What a file says of the shape and its whole core. */
+CoreOrigin
+OriginOf(const CertifiedResult & result, std::int64_t label, std::string name, std::uint64_t voxels);
+
+} // namespace voxelcore

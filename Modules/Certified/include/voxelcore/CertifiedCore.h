@@ -1,0 +1,73 @@
+#pragma once
+// A certified medial surface, and pruning one further without its voxels.
+
+#include "voxelcore/BumpPruning.h"
+#include "voxelcore/CoreProvenance.h"
+#include "voxelcore/ImageGeometry.h"
+#include "voxelcore/LambdaPruning.h"
+#include "voxelcore/PlacedCore.h"
+#include "voxelcore/Progress.h"
+#include "voxelcore/TopologyNumbers.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** What a result is held against. */
+struct CertifiedShape
+{
+  std::string     name;     ///< in errors
+  TopologyNumbers topology; ///< counted in the voxels
+  VoxelBox        box;      ///< tight
+  ImageGeometry   geometry;
+};
+
+/** What pruning by bump height did. */
+struct BumpNumbers
+{
+  std::string           height; ///< as asked for
+  double                heightMm = 0;
+  std::optional<double> boundaryGapMm; ///< of a boundary vertex to the balls that are left, the largest; where measured
+};
+
+/** What refining did, in voxels (length in lattice coordinates). */
+struct RefinedNumbers
+{
+  double meanDisplacement = 0;
+  double maxDisplacement = 0;
+};
+
+/** How a core was pruned, and what is left. */
+struct CoreNumbers
+{
+  std::string                   lambda; ///< as asked for
+  double                        lambdaMm = 0;
+  ComplexRecord                complex;
+  std::optional<BumpNumbers>    bumps;
+  std::optional<RefinedNumbers> refined;
+};
+
+struct CertifiedCore
+{
+  CoreNumbers numbers;
+  PlacedCore  core;
+};
+
+/** A certified core pruned to each lambda, in the order given: the bits ComputeCertified() gives at once.
+ *  \throws UsageError when it is pruned further already; CertificateError; Cancelled */
+std::vector<CertifiedCore>
+PruneCertified(CertifiedCore               core,
+               const CertifiedShape &      shape,
+               const std::vector<Lambda> & lambdas,
+               const ProgressCallback &    progress = {});
+
+/** The same by bump height, of a core that has its heights. The boundary gap is not measured: this needs the voxels. */
+std::vector<CertifiedCore>
+PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const std::vector<BumpHeight> & heights);
+
+} // namespace voxelcore

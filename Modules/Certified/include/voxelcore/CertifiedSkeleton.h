@@ -1,0 +1,57 @@
+#pragma once
+// A certified, measured curve skeleton of a certified medial surface.
+
+#include "voxelcore/CertifiedCore.h"
+#include "voxelcore/MeasuredSkeleton.h"
+
+#include <optional>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** What is done to branches. Lengths with their unit, as lambda. */
+struct BranchRequest
+{
+  std::optional<Lambda> pruneLength;    ///< terminal branches shorter than this go
+  double                pruneRadii = 0; ///< and those shorter than so many radii at their other end
+  bool                  cutLoops = false;
+  bool                  splitAtJunctions = false;
+  RootChoice            root;
+};
+
+/** From a core to a curve skeleton. */
+struct SkeletonRequest
+{
+  Lambda                    lambda;   ///< of the core to burn
+  std::optional<BumpHeight> bumps;    ///< of the core to burn, above 0
+  Lambda                    standOut; ///< CurveOptions::branchThreshold
+  std::optional<Lambda>     plates;   ///< CurveOptions::plateThreshold
+  Lambda                    smooth;   ///< window of FitBranches
+  BranchRequest             branches;
+};
+
+struct CertifiedSkeleton
+{
+  MeasuredSkeleton     skeleton;
+  TopologyNumbers      topology; ///< counted in the skeleton before loops were cut
+  std::vector<LoopCut> cuts;
+};
+
+/** Burns the core to curves; lambda and bumps of the request only say what `core` is.
+ *  \throws CertificateError when the skeleton does not have the shape's topology; Cancelled */
+CertifiedSkeleton
+SkeletonOf(const PlacedCore &       core,
+           const CertifiedShape &   shape,
+           const SkeletonRequest &  request,
+           const ProgressCallback & progress = {});
+
+/** Cuts and splits branches as asked for, and measures them anew on voxels of this spacing (mm). */
+void
+CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, const Vector3 & spacing);
+
+/** How branches are measured on voxels of this spacing (mm). */
+MeasureOptions
+MeasuringOf(const BranchRequest & request, const Vector3 & spacing);
+
+} // namespace voxelcore

@@ -1,0 +1,362 @@
+#include "voxelcore/Certified.h"
+
+#include "CertificateText.h"
+#include "CrossCheck.h"
+#include "PruneStages.h"
+#include "RefinedResults.h"
+#include "voxelcore/BallCoverage.h"
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/ShapeTopology.h"
+#include "voxelcore/SideBySide.h"
+#include "voxelcore/SpacingWeights.h"
+#include "voxelcore/StagePlan.h"
+#include "voxelcore/Stopwatch.h"
+#include "voxelcore/Verification.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// The time of the stages, in that of the core; measured on phantoms of 128 to 256 voxels.
+constexpr double kShapeTime = 0.03;
+constexpr double kDelaunayTime = 0.47;
+constexpr double kCoreTime = 0.4;
+constexpr double kPruneTime = 0.1;
+constexpr double kBumpTime = 0.35;
+constexpr double kCoverageTime = 0.1;
+constexpr double kRefineTime = 1.5;
+constexpr double kSkeletonTime = 1.1;
+
+bool
+BurnsWhole(const CertifiedRequest & request)
+{
+  return request.skeleton && request.skeleton->lambda.value == 0 && !request.skeleton->bumps;
+}
+
+/** Of the stages, in the order in which Work takes them. */
+std::vector<double>
+StageTimes(const CertifiedRequest & request)
+{
+  std::vector<double> times{ kShapeTime, kDelaunayTime, kCoreTime };
+  if (!request.bumps.empty())
+  {
+    times.push_back(kBumpTime);
+  }
+  times.push_back(kPruneTime);
+  if (BurnsWhole(request))
+  {
+    times.push_back(kSkeletonTime);
+  }
+  times.push_back(request.surface ? kRefineTime : request.bumps.empty() ? kPruneTime : kCoverageTime);
+  if (request.skeleton && !BurnsWhole(request))
+  {
+    times.push_back(kSkeletonTime);
+  }
+  return times;
+}
+
+void
+RequireSense(const CertifiedRequest & request)
+{
+  if (request.lambdas.empty())
+  {
+    throw UsageError(request.name + ": no lambda was asked for");
+  }
+  if (!request.bumps.empty() && request.lambdas.size() > 1)
+  {
+    throw UsageError(request.name + ": give one lambda with bump heights, which is pruned first");
+  }
+  if (request.surface && (!request.bumps.empty() || request.skeleton))
+  {
+    throw UsageError(request.name + ": refinement goes with lambdas alone");
+  }
+}
+
+/** As ended in files: what never goes, and what would go beyond the scan's diagonal, has that height. */
+void
+EndBumps(BumpValues & bumps, const ImageGeometry & geometry)
+{
+  const double end = ScanDiagonal(geometry);
+  for (auto * values : { &bumps.vertices, &bumps.edges, &bumps.faces })
+  {
+    for (double & value : *values)
+    {
+      value = std::min(value, end);
+    }
+  }
+}
+
+/** Largest distance of a boundary vertex to the balls of a core, in mm. */
+double
+BoundaryGapOf(const PlacedCore & core, const VoxelShape & voxels, const ImageGeometry & geometry)
+{
+  std::vector<std::array<double, 3>> positions = core.core.positions;
+  for (auto & position : positions)
+  {
+    position = PhysicalToLattice(geometry, position);
+  }
+  return LargestBoundaryGap(voxels, ComputeSpacingWeights(geometry.spacing), positions, core.core.radius).largest;
+}
+
+/** By how much a boundary gap measured in LPS mm may exceed a height by rounding, mm. */
+double
+BoundaryGapTolerance(const ImageGeometry & geometry)
+{
+  return 4 * PositionTolerance(geometry) * *std::max_element(geometry.spacing.begin(), geometry.spacing.end());
+}
+
+/** What becomes of one request. */
+class Work
+{
+public:
+  Work(VoxelShape               voxels,
+       const ImageGeometry &    geometry,
+       const CertifiedRequest & request,
+       const ProgressCallback & progress)
+    : m_Voxels(std::move(voxels))
+    , m_Request(request)
+    , m_Weights(ComputeLatticeWeights(geometry))
+    , m_Plan(progress, StageTimes(request))
+  {
+    m_Result.shape = { request.name, {}, m_Voxels.Box(), geometry };
+    for (const Lambda & lambda : request.lambdas)
+    {
+      m_Thresholds.push_back(LambdaInMillimetres(lambda, m_Weights, geometry.spacing, m_Voxels.Box()));
+    }
+  }
+
+  CertifiedResult
+  Run()
+  {
+    MakeWholeCore();
+    CertifyWhole();
+    if (BurnsWhole(m_Request))
+    {
+      Burn(m_Whole.core);
+    }
+    Stopwatch watch;
+    MakeResults();
+    m_Result.seconds.prune += watch.Lap();
+    if (m_Request.skeleton && !BurnsWhole(m_Request))
+    {
+      Burn(CoreToBurn());
+    }
+    return std::move(m_Result);
+  }
+
+private:
+  /** Frees the points and the cells as soon as it can. */
+  void
+  MakeWholeCore()
+  {
+    Stopwatch             watch;
+    const ImageGeometry & geometry = m_Result.shape.geometry;
+    CertifiedSeconds &    seconds = m_Result.seconds;
+    const bool            bumps = !m_Request.bumps.empty();
+    MedialComplex         core;
+    {
+      ReportProgress(m_Plan.Next("shape"), "", 0);
+      m_Result.shape.topology = ComputeShapeTopology(m_Voxels);
+      std::vector<LatticePoint> points = BoundaryVertices(m_Voxels);
+      m_Result.boundaryVertices = points.size();
+      seconds.shape += watch.Lap();
+
+      const ProgressCallback part = m_Plan.Next("delaunay");
+      const Engine           engine = m_Request.engine;
+      DelaunayCells          cells = m_Request.cells ? m_Request.cells(points, part)
+                                     : m_Request.crossCheck
+                                       ? CrossCheckedCells(m_Voxels, points, m_Weights, engine, m_Request.name, part)
+                                       : ComputeDelaunayCells(m_Voxels, points, m_Weights, engine, part);
+      seconds.delaunay += watch.Lap();
+
+      const ProgressCallback building = m_Plan.Next("core");
+      ReportProgress(building, "", 0);
+      TouchingBalls touching = bumps ? LargestTouchingBalls(cells, points, m_Weights) : TouchingBalls();
+      if (m_Request.surface)
+      {
+        m_Kept.edgePoints = NearestToEdges(cells);
+      }
+      ReportProgress(building, "", 0.1);
+      core = BuildVoxelCore(m_Voxels, points, std::move(cells), m_Weights);
+      if (bumps)
+      {
+        seconds.core += watch.Lap();
+        core.bumps =
+          ComputeBumps(core, m_Weights, points, std::move(touching), m_Thresholds.front(), m_Plan.Next("prune"));
+        EndBumps(core.bumps, geometry);
+        seconds.prune += watch.Lap();
+      }
+      if (m_Request.surface)
+      {
+        m_Kept.points = std::move(points);
+      }
+    }
+    if (!IsEnclosed(core, m_Voxels))
+    {
+      RefuseResult(m_Request.name, "a vertex of the core lies outside the shape");
+    }
+    if (m_Request.surface)
+    {
+      m_Kept.core = core;
+    }
+    m_Whole.core = ToPhysical(std::move(core), geometry, 0);
+    m_Whole.numbers.lambda = "0";
+    seconds.core += watch.Lap();
+  }
+
+  /** Prunes by lambda at the same time: neither changes the core, and each is work for one processor. */
+  void
+  CertifyWhole()
+  {
+    Stopwatch              watch;
+    const ProgressCallback prune = m_Plan.Next(m_Request.surface ? "core" : "prune");
+    ReportProgress(prune, "", 0);
+    const MedialComplex & core = m_Whole.core.core;
+    RunBoth(
+      core.cells.FaceCount() > 10000,
+      [&] {
+        if (m_Request.bumps.empty() && !m_Request.surface)
+        {
+          m_Pruned = PruneAscending(core, 0, m_Thresholds, prune);
+        }
+      },
+      [&] {
+        const TopologyNumbers topology = ComputeComplexTopology(core.cells);
+        RequireEqualTopology(m_Result.shape.topology, topology, "its core", m_Request.name);
+        // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last bit.
+        m_Whole.numbers.complex = DescribeComplex(core, topology);
+      });
+    m_Result.whole = m_Whole.numbers.complex;
+    m_Result.seconds.prune += watch.Lap();
+  }
+
+  /** The results asked for; the whole core is used up. */
+  void
+  MakeResults()
+  {
+    if (m_Request.surface)
+    {
+      m_Whole = CertifiedCore();
+      m_Result.cores = RefineAndCertify(m_Voxels,
+                                        m_Result.shape,
+                                        std::move(m_Kept),
+                                        m_Request.surface,
+                                        m_Request.lambdas,
+                                        m_Thresholds,
+                                        m_Plan.Next());
+    }
+    else if (m_Request.bumps.empty())
+    {
+      m_Voxels = VoxelShape();
+      m_Result.cores = CertifyPruned(std::move(m_Whole),
+                                     std::move(m_Pruned),
+                                     m_Result.shape,
+                                     m_Request.lambdas,
+                                     m_Thresholds,
+                                     m_Plan.Next("certificate"));
+    }
+    else
+    {
+      m_Whole.numbers.lambda = m_Request.lambdas.front().text;
+      m_Whole.numbers.lambdaMm = m_Thresholds.front();
+      m_Result.cores = PruneCertified(m_Whole, m_Result.shape, m_Request.bumps);
+      m_Whole = CertifiedCore();
+      const ProgressCallback coverage = m_Plan.Next("certificate");
+      for (std::size_t i = 0; i < m_Result.cores.size(); ++i)
+      {
+        ReportProgress(coverage, "", static_cast<double>(i) / static_cast<double>(m_Result.cores.size()));
+        CertifyCoverage(m_Result.cores[i]);
+      }
+    }
+  }
+
+  /** Measures how far the boundary lies from what is left, by other means than those that pruned it. What was pruned by
+   *  lambda first was promised nothing. */
+  void
+  CertifyCoverage(CertifiedCore & core)
+  {
+    const ImageGeometry & geometry = m_Result.shape.geometry;
+    BumpNumbers &         bumps = *core.numbers.bumps;
+    bumps.boundaryGapMm = BoundaryGapOf(core.core, m_Voxels, geometry);
+    if (core.numbers.lambdaMm > 0)
+    {
+      return;
+    }
+    if (*bumps.boundaryGapMm > bumps.heightMm + BoundaryGapTolerance(geometry))
+    {
+      RefuseResult(m_Request.name,
+                   "a boundary vertex lies " + std::to_string(*bumps.boundaryGapMm) +
+                     " mm from its core pruned at bump height " + bumps.height);
+    }
+    m_Result.covered = true;
+  }
+
+  const PlacedCore &
+  CoreToBurn() const
+  {
+    if (m_Request.skeleton->bumps)
+    {
+      return m_Result.cores.front().core;
+    }
+    for (std::size_t i = 0; i < m_Request.lambdas.size(); ++i)
+    {
+      if (m_Request.lambdas[i].text == m_Request.skeleton->lambda.text)
+      {
+        return m_Result.cores[i].core;
+      }
+    }
+    throw UsageError(m_Request.name + ": a skeleton is asked for of a core that is not: lambda " +
+                     m_Request.skeleton->lambda.text);
+  }
+
+  void
+  Burn(const PlacedCore & core)
+  {
+    Stopwatch watch;
+    m_Result.skeleton = SkeletonOf(core, m_Result.shape, *m_Request.skeleton, m_Plan.Next());
+    m_Result.seconds.skeleton += watch.Lap();
+  }
+
+  VoxelShape                 m_Voxels;
+  const CertifiedRequest &   m_Request;
+  SpacingWeights             m_Weights;
+  StagePlan                  m_Plan;
+  std::vector<double>        m_Thresholds; ///< mm
+  RefinementParts            m_Kept;       ///< where cores are to be refined
+  CertifiedCore              m_Whole;
+  std::vector<MedialComplex> m_Pruned; ///< by lambda, ascending
+  CertifiedResult            m_Result;
+};
+
+} // namespace
+
+CertifiedResult
+ComputeCertified(VoxelShape               shape,
+                 const ImageGeometry &    geometry,
+                 const CertifiedRequest & request,
+                 const ProgressCallback & progress)
+{
+  RequireSense(request);
+  const ProgressCallback forward = ForwardOnly(progress);
+  CertifiedResult        result = Work(std::move(shape), geometry, request, forward).Run();
+  ReportProgress(forward, "done", 1);
+  return result;
+}
+
+CoreOrigin
+OriginOf(const CertifiedResult & result, std::int64_t label, std::string name, std::uint64_t voxels)
+{
+  return {
+    label, std::move(name), voxels, result.shape.box, result.boundaryVertices, result.shape.topology, result.whole, true
+  };
+}
+
+} // namespace voxelcore

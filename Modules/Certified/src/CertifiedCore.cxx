@@ -1,0 +1,138 @@
+#include "voxelcore/CertifiedCore.h"
+
+#include "CertificateText.h"
+#include "PruneStages.h"
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/SpacingWeights.h"
+#include "voxelcore/StagePlan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace voxelcore
+{
+
+std::vector<double>
+AscendingBeyond(double doneMm, std::vector<double> thresholdsMm)
+{
+  std::sort(thresholdsMm.begin(), thresholdsMm.end());
+  thresholdsMm.erase(std::unique(thresholdsMm.begin(), thresholdsMm.end()), thresholdsMm.end());
+  std::erase_if(thresholdsMm, [doneMm](double threshold) { return threshold <= doneMm; });
+  return thresholdsMm;
+}
+
+std::vector<MedialComplex>
+PruneAscending(const MedialComplex &       whole,
+               double                      doneMm,
+               const std::vector<double> & thresholdsMm,
+               const ProgressCallback &    progress)
+{
+  const std::vector<double> ascending = AscendingBeyond(doneMm, thresholdsMm);
+  return ascending.empty() ? std::vector<MedialComplex>() : PruneByLambda(whole, ascending, progress);
+}
+
+std::vector<CertifiedCore>
+CertifyPruned(CertifiedCore               whole,
+              std::vector<MedialComplex>  complexes,
+              const CertifiedShape &      shape,
+              const std::vector<Lambda> & lambdas,
+              const std::vector<double> & thresholdsMm,
+              const ProgressCallback &    progress)
+{
+  const double               doneMm = whole.numbers.lambdaMm;
+  const std::vector<double>  ascending = AscendingBeyond(doneMm, thresholdsMm);
+  std::vector<CertifiedCore> results(lambdas.size());
+  for (std::size_t i = 0; i < lambdas.size(); ++i)
+  {
+    ReportProgress(progress, "certificate", static_cast<double>(i) / static_cast<double>(lambdas.size()));
+    const double threshold = thresholdsMm[i];
+    const auto   place = std::lower_bound(ascending.begin(), ascending.end(), threshold) - ascending.begin();
+    const bool   unchanged = threshold <= doneMm;
+    auto &       source = unchanged ? whole.core.core : complexes[static_cast<std::size_t>(place)];
+    // Two lambdas may come to the same threshold; the last one takes the complex, the others a copy.
+    const bool neededAgain =
+      std::any_of(thresholdsMm.begin() + static_cast<std::ptrdiff_t>(i) + 1, thresholdsMm.end(), [&](double later) {
+        return later == threshold || (unchanged && later <= doneMm);
+      });
+    CertifiedCore & result = results[i];
+    result.core = { whole.core.label, neededAgain ? source : std::move(source), whole.core.component };
+    const TopologyNumbers topology =
+      unchanged ? whole.numbers.complex.topology : ComputeComplexTopology(result.core.core.cells);
+    RequireEqualTopology(shape.topology, topology, "its core pruned at " + lambdas[i].text, shape.name);
+    result.numbers.lambda = lambdas[i].text;
+    result.numbers.lambdaMm = threshold;
+    result.numbers.complex = unchanged ? whole.numbers.complex : DescribeComplex(result.core.core, topology);
+  }
+  return results;
+}
+
+std::vector<CertifiedCore>
+PruneCertified(CertifiedCore               core,
+               const CertifiedShape &      shape,
+               const std::vector<Lambda> & lambdas,
+               const ProgressCallback &    progress)
+{
+  const CoreNumbers & done = core.numbers;
+  if (done.refined || (done.bumps && done.bumps->heightMm > 0))
+  {
+    throw UsageError(shape.name + ": its core is " + (done.refined ? "refined" : "pruned by bump height") +
+                     " already and cannot be pruned by lambda");
+  }
+  const SpacingWeights weights = ComputeSpacingWeights(shape.geometry.spacing);
+  std::vector<double>  thresholds;
+  for (const Lambda & lambda : lambdas)
+  {
+    thresholds.push_back(LambdaInMillimetres(lambda, weights, shape.geometry.spacing, shape.box));
+    if (thresholds.back() < done.lambdaMm)
+    {
+      throw UsageError(shape.name + ": its core is pruned at " + done.lambda + " already, beyond " + lambda.text);
+    }
+  }
+  StagePlan plan(progress, { 0.8, 0.2 });
+  core.core.core.bumps = {};
+  auto complexes = PruneAscending(core.core.core, done.lambdaMm, thresholds, plan.Next("prune"));
+  return CertifyPruned(std::move(core), std::move(complexes), shape, lambdas, thresholds, plan.Next("certificate"));
+}
+
+double
+ScanDiagonal(const ImageGeometry & geometry)
+{
+  double squared = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double side = static_cast<double>(geometry.size[k]) * geometry.spacing[k];
+    squared += side * side;
+  }
+  return std::sqrt(squared);
+}
+
+std::vector<CertifiedCore>
+PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const std::vector<BumpHeight> & heights)
+{
+  std::vector<CertifiedCore> results(heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i)
+  {
+    const ImageGeometry & geometry = shape.geometry;
+    const double height = std::min(BumpHeightInMillimetres(heights[i], geometry.spacing), ScanDiagonal(geometry));
+    if (!core.core.core.HasBumps() && core.core.core.cells.vertexCount > 0)
+    {
+      throw UsageError(shape.name + ": its core does not hold bump heights");
+    }
+    if (core.numbers.bumps && height < core.numbers.bumps->heightMm)
+    {
+      throw UsageError(shape.name + ": its core is pruned at bump height " + core.numbers.bumps->height +
+                       " already, beyond " + heights[i].text);
+    }
+    CertifiedCore & result = results[i];
+    result.core = { core.core.label, PruneByBumps(core.core.core, height), core.core.component };
+    const TopologyNumbers topology = ComputeComplexTopology(result.core.core.cells);
+    RequireEqualTopology(shape.topology, topology, "its core pruned at bump height " + heights[i].text, shape.name);
+    result.numbers = core.numbers;
+    result.numbers.bumps = { heights[i].text, height, {} };
+    result.numbers.complex = DescribeComplex(result.core.core, topology);
+  }
+  return results;
+}
+
+} // namespace voxelcore

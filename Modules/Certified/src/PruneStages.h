@@ -1,0 +1,36 @@
+#pragma once
+// Steps of pruning that a whole core and a finished one share.
+
+#include "voxelcore/CertifiedCore.h"
+
+#include <vector>
+
+namespace voxelcore
+{
+
+/** The different thresholds beyond doneMm, ascending. */
+std::vector<double>
+AscendingBeyond(double doneMm, std::vector<double> thresholdsMm);
+
+/** `whole`, which is pruned to `doneMm` already, pruned to each different threshold beyond that, ascending. */
+std::vector<MedialComplex>
+PruneAscending(const MedialComplex &       whole,
+               double                      doneMm,
+               const std::vector<double> & thresholdsMm,
+               const ProgressCallback &    progress);
+
+/** Checks and describes what PruneAscending() made of `whole`: a core for each lambda.
+ *  \throws CertificateError when the topology is no longer the shape's. */
+std::vector<CertifiedCore>
+CertifyPruned(CertifiedCore               whole,
+              std::vector<MedialComplex>  complexes,
+              const CertifiedShape &      shape,
+              const std::vector<Lambda> & lambdas,
+              const std::vector<double> & thresholdsMm,
+              const ProgressCallback &    progress);
+
+/** The diagonal of a scan in mm: no bump is higher. */
+double
+ScanDiagonal(const ImageGeometry & geometry);
+
+} // namespace voxelcore

@@ -1,0 +1,89 @@
+// Linked with SeededFault.cxx: whatever a lower room gets wrong, there is no result.
+
+#include "voxelcore/Certified.h"
+#include "voxelcore/Error.h"
+
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace voxelcore
+{
+namespace
+{
+
+struct Stage
+{
+  const char *     fault;
+  const char *     complex; ///< as the message names it
+  CertifiedRequest request;
+};
+
+/** A plate with a rod on it: faces, lines and a skeleton of several branches. */
+VoxelShape
+PlateWithARod()
+{
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 20, 20, 16 } });
+  for (std::int32_t k = 0; k < 16; ++k)
+  {
+    for (std::int32_t j = 0; j < 20; ++j)
+    {
+      for (std::int32_t i = 0; i < 20; ++i)
+      {
+        if (k < 4 || (std::abs(i - 9) < 3 && std::abs(j - 9) < 3))
+        {
+          shape.Insert(i, j, k);
+        }
+      }
+    }
+  }
+  return shape;
+}
+
+std::vector<Stage>
+Stages()
+{
+  CertifiedRequest plain;
+  CertifiedRequest bumps;
+  bumps.lambdas = { ParseLambda("0") };
+  bumps.bumps = { ParseBumpHeight("1.2diag") };
+  CertifiedRequest refined;
+  refined.surface = [](const VoxelShape & voxels, const ProgressCallback & progress) {
+    return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, { 1, 1, 1 }, progress));
+  };
+  CertifiedRequest skeleton;
+  skeleton.skeleton.emplace();
+  skeleton.skeleton->standOut = ParseLambda("3vox");
+  skeleton.skeleton->smooth = ParseLambda("6vox");
+  return { { "core", "its core", plain },
+           { "pruning", "its core pruned at 1.5vox", plain },
+           { "bumps", "its core pruned at bump height 1.2diag", bumps },
+           { "refinement", "its core refined at 1.5vox", refined },
+           { "skeleton", "its skeleton", skeleton } };
+}
+
+TEST(SeededFaults, AreRefusedAtEveryStage)
+{
+  ImageGeometry geometry;
+  geometry.size = { 20, 20, 16 };
+  for (const Stage & stage : Stages())
+  {
+    unsetenv("VOXELCORE_SEEDED_FAULT");
+    EXPECT_NO_THROW(ComputeCertified(PlateWithARod(), geometry, stage.request)) << stage.fault;
+    setenv("VOXELCORE_SEEDED_FAULT", stage.fault, 1);
+    try
+    {
+      ComputeCertified(PlateWithARod(), geometry, stage.request);
+      ADD_FAILURE() << "a fault in the " << stage.fault << " went through";
+    }
+    catch (const CertificateError & error)
+    {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("certificate failed")) << stage.fault;
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(std::string(stage.complex) + " has")) << stage.fault;
+    }
+  }
+  unsetenv("VOXELCORE_SEEDED_FAULT");
+}
+
+} // namespace
+} // namespace voxelcore

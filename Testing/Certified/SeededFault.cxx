@@ -1,0 +1,181 @@
+// For tests of the promise: what the rooms below Certified give is damaged on its way up, where the environment variable
+// VOXELCORE_SEEDED_FAULT names the stage. The linker's --wrap puts these functions in their place.
+
+#include "voxelcore/BumpPruning.h"
+#include "voxelcore/CurveSkeleton.h"
+#include "voxelcore/LambdaPruning.h"
+#include "voxelcore/Refinement.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+namespace voxelcore
+{
+namespace
+{
+
+bool
+IsSeeded(std::string_view stage)
+{
+  const char * const wanted = std::getenv("VOXELCORE_SEEDED_FAULT");
+  return wanted != nullptr && stage == wanted;
+}
+
+/** Takes the last face away, or the last edge where there is no face: another topology. */
+void
+Damage(MedialComplex & complex)
+{
+  CellComplex & cells = complex.cells;
+  if (cells.FaceCount() > 0)
+  {
+    cells.faceOffsets.pop_back();
+    cells.faceVertices.resize(cells.faceOffsets.back());
+    cells.faceEdges.resize(cells.faceOffsets.back());
+    complex.faceLambda.pop_back();
+    if (!complex.bumps.faces.empty())
+    {
+      complex.bumps.faces.pop_back();
+    }
+  }
+  else if (!cells.edges.empty())
+  {
+    cells.edges.pop_back();
+    complex.edgeLambda.pop_back();
+    if (!complex.bumps.edges.empty())
+    {
+      complex.bumps.edges.pop_back();
+    }
+  }
+}
+
+} // namespace
+
+// NOLINTBEGIN: names as the linker has them
+#define VOXELCORE_BUILD                                                                                            \
+  "_ZN9voxelcore14BuildVoxelCoreERKNS_10VoxelShapeERKSt6vectorINS_12LatticePointESaIS4_EENS_13DelaunayCellsERKNS_" \
+  "14SpacingWeightsE"
+#define VOXELCORE_CORE                                                                                            \
+  "_ZN9voxelcore16ComputeVoxelCoreERKNS_10VoxelShapeERKNS_14SpacingWeightsENS_6EngineERKSt8functionIFbSt17basic_" \
+  "string_viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_LAMBDA                                                                                   \
+  "_ZN9voxelcore13PruneByLambdaERKNS_13MedialComplexERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
+  "viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_BUMPS "_ZN9voxelcore12PruneByBumpsERKNS_13MedialComplexEd"
+#define VOXELCORE_REFINE                                                                                  \
+  "_ZN9voxelcore10RefineCoreERKNS_15RefinementInputERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
+  "viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_CURVES                                                                                           \
+  "_ZN9voxelcore20ComputeCurveSkeletonERKNS_13MedialComplexERKNS_12CurveOptionsERKSt8functionIFbSt17basic_string_" \
+  "viewIcSt11char_traitsIcEEdEE"
+// NOLINTEND
+
+MedialComplex
+TrueBuild(const VoxelShape &,
+          const std::vector<LatticePoint> &,
+          DelaunayCells,
+          const SpacingWeights &) asm("__real_" VOXELCORE_BUILD);
+MedialComplex
+FaultyBuild(const VoxelShape &,
+            const std::vector<LatticePoint> &,
+            DelaunayCells,
+            const SpacingWeights &) asm("__wrap_" VOXELCORE_BUILD);
+MedialComplex
+FaultyBuild(const VoxelShape &                shape,
+            const std::vector<LatticePoint> & points,
+            DelaunayCells                     cells,
+            const SpacingWeights &            weights)
+{
+  MedialComplex core = TrueBuild(shape, points, std::move(cells), weights);
+  if (IsSeeded("core"))
+  {
+    Damage(core);
+  }
+  return core;
+}
+
+MedialComplex
+TrueCore(const VoxelShape &, const SpacingWeights &, Engine, const ProgressCallback &) asm("__real_" VOXELCORE_CORE);
+MedialComplex
+FaultyCore(const VoxelShape &, const SpacingWeights &, Engine, const ProgressCallback &) asm("__wrap_" VOXELCORE_CORE);
+MedialComplex
+FaultyCore(const VoxelShape & shape, const SpacingWeights & weights, Engine engine, const ProgressCallback & progress)
+{
+  MedialComplex core = TrueCore(shape, weights, engine, progress);
+  if (IsSeeded("core"))
+  {
+    Damage(core);
+  }
+  return core;
+}
+
+std::vector<MedialComplex>
+TrueLambda(const MedialComplex &,
+           const std::vector<double> &,
+           const ProgressCallback &) asm("__real_" VOXELCORE_LAMBDA);
+std::vector<MedialComplex>
+FaultyLambda(const MedialComplex &,
+             const std::vector<double> &,
+             const ProgressCallback &) asm("__wrap_" VOXELCORE_LAMBDA);
+std::vector<MedialComplex>
+FaultyLambda(const MedialComplex & core, const std::vector<double> & thresholds, const ProgressCallback & progress)
+{
+  auto pruned = TrueLambda(core, thresholds, progress);
+  if (IsSeeded("pruning") && !pruned.empty())
+  {
+    Damage(pruned.back());
+  }
+  return pruned;
+}
+
+MedialComplex
+TrueBumps(const MedialComplex &, double) asm("__real_" VOXELCORE_BUMPS);
+MedialComplex
+FaultyBumps(const MedialComplex &, double) asm("__wrap_" VOXELCORE_BUMPS);
+MedialComplex
+FaultyBumps(const MedialComplex & core, double height)
+{
+  MedialComplex pruned = TrueBumps(core, height);
+  if (IsSeeded("bumps"))
+  {
+    Damage(pruned);
+  }
+  return pruned;
+}
+
+std::vector<RefinedCore>
+TrueRefine(const RefinementInput &,
+           const std::vector<double> &,
+           const ProgressCallback &) asm("__real_" VOXELCORE_REFINE);
+std::vector<RefinedCore>
+FaultyRefine(const RefinementInput &,
+             const std::vector<double> &,
+             const ProgressCallback &) asm("__wrap_" VOXELCORE_REFINE);
+std::vector<RefinedCore>
+FaultyRefine(const RefinementInput & input, const std::vector<double> & thresholds, const ProgressCallback & progress)
+{
+  auto refined = TrueRefine(input, thresholds, progress);
+  if (IsSeeded("refinement") && !refined.empty())
+  {
+    Damage(refined.back().core);
+  }
+  return refined;
+}
+
+CurveSkeleton
+TrueCurves(const MedialComplex &, const CurveOptions &, const ProgressCallback &) asm("__real_" VOXELCORE_CURVES);
+CurveSkeleton
+FaultyCurves(const MedialComplex &, const CurveOptions &, const ProgressCallback &) asm("__wrap_" VOXELCORE_CURVES);
+CurveSkeleton
+FaultyCurves(const MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
+{
+  CurveSkeleton skeleton = TrueCurves(surface, options, progress);
+  if (IsSeeded("skeleton"))
+  {
+    Damage(skeleton.complex);
+  }
+  return skeleton;
+}
+
+} // namespace voxelcore
