@@ -20,7 +20,11 @@ where() {
     nm -l --defined-only "$seed/plain.o"
   done | awk -F '\t' -v folder="$folder" 'NF == 2 && index($2, folder) {
       split($1, part, " ")
-      if (part[2] ~ /^[TW]$/ && !seen[part[3], $2]++ && seen[part[3]]++) { twice[part[3]] }
+      # What the compiler makes itself, constructors say, bears the line of its class and the name of any source. Only
+      # another line is another definition.
+      line = $2
+      sub(/.*:/, "", line)
+      if (part[2] ~ /^[TW]$/ && !seen[part[3], line]++ && seen[part[3]]++) { twice[part[3]] }
       if (part[2] ~ /^[TW]$/) { places[part[3]] = places[part[3]] " " $2 }
     }
     END { for (name in twice) { n = split(places[name], all, " "); line = name ":"

@@ -16,6 +16,11 @@ import time
 WORST = 1.0  # seconds
 
 
+def force(words):
+    """Commands that write may write again."""
+    return ["--force"] if "-o" in words else []
+
+
 def prepare(program, folder):
     """Inputs, and each command's words."""
     def make(*words):
@@ -24,7 +29,11 @@ def prepare(program, folder):
     make("phantom", "gyroid", "--size", "160", "-o", "g.nrrd")
     make("phantom", "root", "--size", "160", "-o", "r.nrrd")
     make("core", "g.nrrd", "--lambda", "0", "--keep-edges", "-o", "whole.vtp")
-    make("core", "g.nrrd", "--triangles", "-o", "mesh.stl")
+    corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    with open(os.path.join(folder, "mesh.off"), "w", encoding="ascii") as file:
+        file.write("OFF\n8 12 0\n" + "".join("%d %d %d\n" % corner for corner in corners))
+        file.writelines(f"3 {a} {b} {c}\n3 {a} {c} {d}\n" for a, b, c, d in sides)
     inputs = set(os.listdir(folder))
     return inputs, {
         "core": ["core", "g.nrrd", "-o", "out.vtp"],
@@ -34,7 +43,7 @@ def prepare(program, folder):
         "prune": ["prune", "whole.vtp", "--lambda", "1.5vox,2vox", "-o", "out.vtp"],
         "skeleton": ["skeleton", "g.nrrd", "-o", "out.vtp", "--also", "csv,swc"],
         "verify": ["verify", "g.nrrd", "whole.vtp"],
-        "voxelize": ["voxelize", "mesh.stl", "--resolution", "400", "-o", "out.mhd"],
+        "voxelize": ["voxelize", "mesh.off", "--resolution", "500", "-o", "out.mhd"],
         "info": ["info", "g.nrrd"],
         "phantom": ["phantom", "gyroid", "--size", "320", "-o", "out.mhd"],
     }
@@ -51,7 +60,7 @@ def main():
         inputs, commands = prepare(program, folder)
         for name, words in commands.items():
             began = time.monotonic()
-            done = subprocess.run([program, *words, "--force", "--quiet"], cwd=folder, capture_output=True, text=True)
+            done = subprocess.run([program, *words, *force(words), "--quiet"], cwd=folder, capture_output=True, text=True)
             length = time.monotonic() - began
             if done.returncode not in (0, 4):
                 failures.append(f"{name}: {done.stderr.strip()}")
