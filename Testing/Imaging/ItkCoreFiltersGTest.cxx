@@ -3,11 +3,12 @@
 #include "itkLabelImageToVoxelShapeFilter.h"
 #include "itkMultiThreaderBase.h"
 
-#include "voxelcore/LambdaPruning.h"
+#include "voxelcore/Certified.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <omp.h>
 
+#include <cstdlib>
 #include <limits>
 
 using namespace voxelcore;
@@ -16,28 +17,18 @@ using namespace voxelcore::testing;
 namespace
 {
 
-/** A filter whose cores lack their last polygon. */
-class DamagingFilter : public itk::VoxelCoreFilter
+/** `core`, in lattice coordinates, is that of the object. */
+void
+ExpectCoreOf(const itk::MedialComplexObject & cores, std::int64_t label, MedialComplex core)
 {
-public:
-  using Self = DamagingFilter;
-  using Pointer = itk::SmartPointer<Self>;
-  itkNewMacro(Self);
+  ExpectSameCore(PlaceInLps(std::move(core), cores.GetGeometry()), cores.GetCore(label).core);
+}
 
-protected:
-  MedialComplex
-  ComputeCore(const VoxelShape &       shape,
-              const SpacingWeights &   weights,
-              const ProgressCallback & progress) const override
-  {
-    MedialComplex core = itk::VoxelCoreFilter::ComputeCore(shape, weights, progress);
-    core.cells.faceOffsets.pop_back();
-    core.cells.faceVertices.resize(core.cells.faceOffsets.back());
-    core.cells.faceEdges.resize(core.cells.faceOffsets.back());
-    core.faceLambda.pop_back();
-    return core;
-  }
-};
+double
+LambdaOf(const itk::MedialComplexObject & cores, std::int64_t label)
+{
+  return cores.GetPart(label).core->numbers.lambdaMm;
+}
 
 } // namespace
 
@@ -59,19 +50,42 @@ TEST(ItkCoreFilters, HaveTheLibrarysBits)
     {
       const auto & part = pipeline.core->GetOutput()->GetPart(label.value);
       const auto   core = ComputeVoxelCore(label.shape, weights);
-      ExpectSameCore(core, *part.complex);
-      EXPECT_EQ(part.name, label.name);
-      EXPECT_EQ(part.box.lower, label.shape.Box().lower);
-      EXPECT_EQ(part.box.size, label.shape.Box().size);
-      EXPECT_EQ(part.shapeTopology, ComputeShapeTopology(label.shape));
-      EXPECT_EQ(part.complexTopology, part.shapeTopology);
-      EXPECT_EQ(part.lambda, 0.0);
+      ExpectCoreOf(*pipeline.core->GetOutput(), label.value, core);
+      EXPECT_EQ(part.core->core.label, label.value);
+      EXPECT_EQ(part.origin.name, label.name);
+      EXPECT_EQ(part.origin.voxels, label.voxels);
+      EXPECT_EQ(part.origin.box.lower, label.shape.Box().lower);
+      EXPECT_EQ(part.origin.box.size, label.shape.Box().size);
+      EXPECT_EQ(part.origin.shape, ComputeShapeTopology(label.shape));
+      EXPECT_EQ(part.origin.core.topology, part.origin.shape);
+      EXPECT_EQ(part.core->numbers.lambdaMm, 0.0);
       const auto & prunedPart = pipeline.pruned->GetOutput()->GetPart(label.value);
-      ExpectSameCore(PruneByLambda(core, { 1.0 }).front(), *prunedPart.complex);
-      EXPECT_LT(prunedPart.complex->cells.FaceCount(), core.cells.FaceCount());
-      EXPECT_EQ(prunedPart.lambda, 1.0);
-      EXPECT_EQ(prunedPart.complexTopology, part.shapeTopology);
+      ExpectCoreOf(*pipeline.pruned->GetOutput(), label.value, PruneByLambda(core, { 1.0 }).front());
+      EXPECT_LT(prunedPart.core->numbers.complex.faces, core.cells.FaceCount());
+      EXPECT_EQ(prunedPart.core->numbers.lambdaMm, 1.0);
+      EXPECT_EQ(prunedPart.core->numbers.complex.topology, part.origin.shape);
     }
+  }
+}
+
+TEST(ItkCoreFilters, HaveTheNumbersOfOneRequest)
+{
+  Pipeline pipeline;
+  pipeline.pruned->SetLambda("2vox");
+  pipeline.pruned->Update();
+  for (const LabelShape & label : pipeline.shapes->GetLabels())
+  {
+    CertifiedRequest request;
+    request.lambdas = { ParseLambda("2vox") };
+    const CertifiedResult asked = ComputeCertified(label.shape, pipeline.shapes->GetGeometry(), request);
+    const auto &          part = pipeline.pruned->GetOutput()->GetPart(label.value);
+    const CoreNumbers &   numbers = asked.cores.front().numbers;
+    ExpectSameCore(asked.cores.front().core.core, part.core->core.core);
+    const CorePruning expected{ numbers.lambda, numbers.lambdaMm, numbers.complex };
+    const CorePruning found{ part.core->numbers.lambda, part.core->numbers.lambdaMm, part.core->numbers.complex };
+    const auto        origin = OriginOf(asked, label.value, label.name, label.voxels);
+    EXPECT_EQ(CoreProvenanceJson(pipeline.shapes->GetGeometry(), { origin }, { expected }, true),
+              CoreProvenanceJson(pipeline.shapes->GetGeometry(), { part.origin }, { found }, true));
   }
 }
 
@@ -102,18 +116,18 @@ TEST(ItkCoreFilters, LambdaIsWhatTheCommandLineMeansByIt)
     for (const LabelShape & label : pipeline.shapes->GetLabels())
     {
       const double mm = LambdaInMillimetres(ParseLambda(text), weights, kSpacing, label.shape.Box());
-      EXPECT_EQ(pipeline.pruned->GetOutput()->GetPart(label.value).lambda, mm);
-      ExpectSameCore(PruneByLambda(pipeline.core->GetOutput()->GetComplex(label.value), { mm }).front(),
-                     pipeline.pruned->GetOutput()->GetComplex(label.value));
+      EXPECT_EQ(LambdaOf(*pipeline.pruned->GetOutput(), label.value), mm);
+      ExpectSameCore(PruneByLambda(pipeline.core->GetOutput()->GetCore(label.value).core, { mm }).front(),
+                     pipeline.pruned->GetOutput()->GetCore(label.value).core);
     }
   }
   pipeline.pruned->SetLambda(1.0 / 3);
   pipeline.pruned->Update();
-  EXPECT_EQ(pipeline.pruned->GetOutput()->GetPart(2).lambda, 1.0 / 3);
-  // 0 passes the very same complexes on.
+  EXPECT_EQ(LambdaOf(*pipeline.pruned->GetOutput(), 2), 1.0 / 3);
+  // 0 passes the very same cores on.
   pipeline.pruned->SetLambda("0");
   pipeline.pruned->Update();
-  EXPECT_EQ(pipeline.pruned->GetOutput()->GetPart(2).complex, pipeline.core->GetOutput()->GetPart(2).complex);
+  EXPECT_EQ(pipeline.pruned->GetOutput()->GetPart(2).core, pipeline.core->GetOutput()->GetPart(2).core);
 }
 
 TEST(ItkCoreFilters, PruningInStepsIsPruningAtOnce)
@@ -127,11 +141,11 @@ TEST(ItkCoreFilters, PruningInStepsIsPruningAtOnce)
   less->SetInput(further->GetOutput());
   less->SetLambda("1vox");
   less->Update();
-  ExpectSameCore(PruneByLambda(pipeline.core->GetOutput()->GetComplex(2), { 1.5 }).front(),
-                 further->GetOutput()->GetComplex(2));
+  ExpectSameCore(PruneByLambda(pipeline.core->GetOutput()->GetCore(2).core, { 1.5 }).front(),
+                 further->GetOutput()->GetCore(2).core);
   // What is gone is gone, and it says so.
-  EXPECT_EQ(less->GetOutput()->GetPart(2).complex, further->GetOutput()->GetPart(2).complex);
-  EXPECT_EQ(less->GetOutput()->GetPart(2).lambda, 1.5);
+  EXPECT_EQ(less->GetOutput()->GetPart(2).core, further->GetOutput()->GetPart(2).core);
+  EXPECT_EQ(LambdaOf(*less->GetOutput(), 2), 1.5);
 }
 
 TEST(ItkCoreFilters, RunOnlyWhenSomethingUpstreamChanged)
@@ -139,10 +153,10 @@ TEST(ItkCoreFilters, RunOnlyWhenSomethingUpstreamChanged)
   Pipeline pipeline;
   pipeline.ExpectRuns(1, 1);
   pipeline.ExpectRuns(1, 1);
-  const auto whole = pipeline.core->GetOutput()->GetPart(2).complex;
+  const auto whole = pipeline.core->GetOutput()->GetPart(2).core;
   pipeline.pruned->SetLambda("2vox");
   pipeline.ExpectRuns(1, 2);
-  EXPECT_EQ(pipeline.core->GetOutput()->GetPart(2).complex, whole);
+  EXPECT_EQ(pipeline.core->GetOutput()->GetPart(2).core, whole);
   pipeline.pruned->SetLambda("2vox");
   pipeline.core->SetEngine(Engine::Auto);
   pipeline.ExpectRuns(1, 2);
@@ -161,8 +175,8 @@ TEST(ItkCoreFilters, RunOnlyWhenSomethingUpstreamChanged)
   geometry.spacing = { 1, 1, 1 };
   pipeline.shapes->SetGeometry(geometry);
   pipeline.ExpectRuns(4, 5);
-  ExpectSameCore(CoreOf(labels[0].shape), pipeline.core->GetOutput()->GetComplex(2));
-  EXPECT_EQ(pipeline.pruned->GetOutput()->GetPart(2).lambda, 2.0);
+  ExpectCoreOf(*pipeline.core->GetOutput(), 2, CoreOf(labels[0].shape));
+  EXPECT_EQ(LambdaOf(*pipeline.pruned->GetOutput(), 2), 2.0);
 }
 
 TEST(ItkCoreFilters, ReleasedDataAreMadeAgainWhenTheyAreNeeded)
@@ -213,54 +227,44 @@ TEST(ItkCoreFilters, ThreadsAreThoseOfTheFilterAndChangeNothing)
 {
   const int  before = omp_get_max_threads();
   const auto run = [](itk::ThreadIdType workUnits, itk::ThreadIdType threads) {
-    class Counting : public itk::VoxelCoreFilter
-    {
-    public:
-      using Self = Counting;
-      using Pointer = itk::SmartPointer<Self>;
-      itkNewMacro(Self);
-      mutable int threads = 0;
-
-    protected:
-      MedialComplex
-      ComputeCore(const VoxelShape &       shape,
-                  const SpacingWeights &   weights,
-                  const ProgressCallback & progress) const override
-      {
-        threads = omp_get_max_threads();
-        return itk::VoxelCoreFilter::ComputeCore(shape, weights, progress);
-      }
-    };
-    auto filter = Counting::New();
+    auto filter = itk::VoxelCoreFilter::New();
+    int  working = 0;
+    filter->AddObserver(itk::ProgressEvent(), [&working, filter = filter.GetPointer()](const itk::EventObject &) {
+      working = filter->GetProgress() > 0 && working == 0 ? omp_get_max_threads() : working;
+    });
     filter->SetInput(TwoShapes());
     filter->GetMultiThreader()->SetMaximumNumberOfThreads(threads);
     filter->SetNumberOfWorkUnits(workUnits);
     filter->Update();
     // What the multi-threader has may be more than was asked for: its pool never shrinks.
-    EXPECT_EQ(filter->threads,
-              static_cast<int>(std::min(workUnits, filter->GetMultiThreader()->GetMaximumNumberOfThreads())));
-    return filter->GetOutput()->GetPart(2).complex;
+    EXPECT_EQ(working, static_cast<int>(std::min(workUnits, filter->GetMultiThreader()->GetMaximumNumberOfThreads())));
+    return filter->GetOutput()->GetPart(2).core;
   };
   const auto one = run(1, 5);
-  ExpectSameCore(*one, *run(3, 8));
-  ExpectSameCore(*one, *run(200, 2));
+  ExpectSameCore(one->core.core, run(3, 8)->core.core);
+  ExpectSameCore(one->core.core, run(200, 2)->core.core);
   EXPECT_EQ(omp_get_max_threads(), before);
 }
 
 TEST(ItkCoreFilters, NothingWithoutCertificateComesOut)
 {
-  auto damaging = DamagingFilter::New();
-  damaging->SetInput(TwoShapes());
-  const std::string message = ThrownBy([&] { damaging->Update(); });
-  EXPECT_EQ(message.find("label 2: certificate failed: the shape has chi/b0/b1/b2 1/1/0/0, its core has 0/1/1/0"), 0U)
-    << message;
-  EXPECT_TRUE(damaging->GetOutput()->GetParts().empty());
-
-  // A complex that does not belong to the topology it came with.
   Pipeline pipeline;
+  for (const char * fault : { "core", "pruning" })
+  {
+    pipeline.core->Modified();
+    setenv("VOXELCORE_SEEDED_FAULT", fault, 1);
+    const std::string message = ThrownBy([&] { pipeline.pruned->Update(); });
+    unsetenv("VOXELCORE_SEEDED_FAULT");
+    EXPECT_EQ(message.find("label 2: certificate failed: the shape has chi/b0/b1/b2 1/1/0/0, its core "), 0U)
+      << message;
+    EXPECT_TRUE(pipeline.pruned->GetOutput()->GetParts().empty());
+    EXPECT_EQ(pipeline.core->GetOutput()->GetParts().empty(), std::string(fault) == "core");
+  }
+
+  // A core that does not belong to the shape it came with.
   pipeline.core->Update();
   auto parts = pipeline.core->GetOutput()->GetParts();
-  parts[0].shapeTopology.betti[1] = 1;
+  parts[0].origin.shape.betti[1] = 1;
   auto claimed = itk::MedialComplexObject::New();
   claimed->CopyInformation(pipeline.core->GetOutput());
   claimed->SetParts(parts);
@@ -311,8 +315,8 @@ TEST(ItkCoreFilters, WorkAgainAfterAFailureUpstream)
   EXPECT_NE(ThrownBy([&] { pruned->Update(); }).find("the source failed"), std::string::npos);
   source->failAt = -1;
   pruned->Update();
-  ExpectSameCore(CoreOf(Box({ 9, 8, 7 })), core->GetOutput()->GetComplex(1));
-  EXPECT_EQ(pruned->GetOutput()->GetPart(1).lambda, 1.5);
+  ExpectCoreOf(*core->GetOutput(), 1, CoreOf(Box({ 9, 8, 7 })));
+  EXPECT_EQ(LambdaOf(*pruned->GetOutput(), 1), 1.5);
 }
 
 TEST(ItkCoreFilters, RefuseInOneLine)

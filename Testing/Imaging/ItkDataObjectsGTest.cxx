@@ -65,7 +65,7 @@ TEST(ItkDataObjects, GraftingSharesAndInitializeLetsGo)
     cores,
     [](const auto & object) -> auto & { return object.GetParts(); },
     pipeline.shapes);
-  EXPECT_NE(Printed(cores).find("Euler number 1, Betti numbers 1 0 0; complex: Euler number 1, Betti numbers 1 0 0"),
+  EXPECT_NE(Printed(cores).find("Euler number 1, Betti numbers 1 0 0; core: Euler number 1, Betti numbers 1 0 0"),
             std::string::npos);
 }
 
@@ -74,27 +74,27 @@ TEST(ItkDataObjects, ADisconnectedOutputKeepsItsData)
   Pipeline pipeline;
   pipeline.pruned->Update();
   itk::MedialComplexObject::Pointer kept = pipeline.pruned->GetOutput();
-  const auto                        complex = kept->GetPart(2).complex;
+  const auto                        core = kept->GetPart(2).core;
   kept->DisconnectPipeline();
   pipeline.pruned->SetLambda("3vox");
   pipeline.pruned->Update();
-  EXPECT_EQ(kept->GetPart(2).complex, complex);
+  EXPECT_EQ(kept->GetPart(2).core, core);
   EXPECT_NE(pipeline.pruned->GetOutput(), kept.GetPointer());
-  EXPECT_EQ(pipeline.pruned->GetOutput()->GetPart(2).lambda, 1.5);
+  EXPECT_EQ(pipeline.pruned->GetOutput()->GetPart(2).core->numbers.lambdaMm, 1.5);
 }
 
 TEST(ItkDataObjects, PartsAreSortedFoundAndChecked)
 {
   auto                           object = itk::MedialComplexObject::New();
   itk::MedialComplexObject::Part part;
-  part.label = 4;
-  EXPECT_NE(ThrownBy([&] { object->SetParts({ part }); }).find("label 4 has no complex"), std::string::npos);
-  part.complex = std::make_shared<const MedialComplex>();
+  part.origin.label = 4;
+  EXPECT_NE(ThrownBy([&] { object->SetParts({ part }); }).find("label 4 has no core"), std::string::npos);
+  part.core = std::make_shared<const CertifiedCore>();
   EXPECT_NE(ThrownBy([&] { object->SetParts({ part, part }); }).find("label 4 is given twice"), std::string::npos);
   auto other = part;
-  other.label = 1;
+  other.origin.label = 1;
   object->SetParts({ part, other });
-  EXPECT_EQ(object->GetParts()[0].label, 1);
+  EXPECT_EQ(object->GetParts()[0].origin.label, 1);
   EXPECT_TRUE(object->HasLabel(4));
-  EXPECT_NE(ThrownBy([&] { object->GetComplex(2); }).find("there is no label 2"), std::string::npos);
+  EXPECT_NE(ThrownBy([&] { object->GetCore(2); }).find("there is no label 2"), std::string::npos);
 }

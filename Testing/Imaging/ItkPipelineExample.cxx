@@ -41,7 +41,7 @@ main(int argc, char ** argv)
     voxelcore::MedialModel model;
     for (const auto & part : pruned->GetOutput()->GetParts())
     {
-      model.parts.push_back(voxelcore::ToPhysical(*part.complex, pruned->GetOutput()->GetGeometry(), part.label));
+      model.parts.push_back(part.core->core);
     }
     // With the measures of all edges, and a record of what they are of, `voxelcore prune` and others take the file.
     const voxelcore::ModelOptions options{ .keepEdges = true };

@@ -67,6 +67,15 @@ CertifyPruned(CertifiedCore               whole,
   return results;
 }
 
+void
+RequireTopologyOf(const CertifiedShape & shape, const CertifiedCore & core)
+{
+  RequireEqualTopology(shape.topology,
+                       core.numbers.complex.topology,
+                       "its core pruned at " + core.numbers.lambda,
+                       shape.name);
+}
+
 std::vector<CertifiedCore>
 PruneCertified(CertifiedCore               core,
                const CertifiedShape &      shape,

@@ -3,10 +3,7 @@
 
 #include "itkVoxelLatticeObject.h"
 
-#include "voxelcore/CoreProvenance.h"
-#include "voxelcore/MedialComplex.h"
-#include "voxelcore/TopologyNumbers.h"
-#include "voxelcore/VoxelShape.h"
+#include "voxelcore/CertifiedCore.h"
 
 #include <cstdint>
 #include <memory>
@@ -17,11 +14,10 @@ namespace itk
 {
 
 /** \class MedialComplexObject
- * \brief The voxel cores of an image's labels, whole or pruned.
+ * \brief The certified voxel cores of an image's labels, whole or pruned.
  *
- * Vertices are in lattice coordinates (TransformLatticeToPhysicalPoint makes LPS mm of them; voxelcore::ToPhysical moves
- * a whole complex and orients its polygons for LPS); radii and measures are in mm. Complexes are never changed in place,
- * so grafting, and pruning at 0, share them.
+ * As in files, vertices are in LPS mm, polygons are oriented for LPS, and radii and measures are in mm. Cores are never
+ * changed in place, so grafting, and pruning at 0, share them.
  * \sa VoxelCoreFilter, LambdaPruningFilter
  */
 class MedialComplexObject : public VoxelLatticeObject
@@ -35,25 +31,18 @@ public:
   using ConstPointer = SmartPointer<const Self>;
   using LabelType = std::int64_t;
 
-  /** One label's core. The filters of VoxelCore let none out whose two topologies differ: that is its certificate. */
+  /** One label's core, and what it was certified against. */
   struct Part
   {
-    LabelType                                       label = 0;
-    std::string                                     name;
-    voxelcore::VoxelBox                             box;              ///< of the shape, in lattice coordinates
-    double                                          lambda = 0;       ///< mm, the threshold it is pruned to
-    std::string                                     lambdaText = "0"; ///< the same as it was given
-    voxelcore::TopologyNumbers                      shapeTopology;    ///< counted in the voxels
-    voxelcore::TopologyNumbers                      complexTopology;  ///< counted, independently, in the complex
-    std::shared_ptr<const voxelcore::MedialComplex> complex;          ///< never null
-    voxelcore::CoreOrigin                           origin;           ///< the shape and the whole core, for files
+    voxelcore::CoreOrigin                           origin; ///< label, name, shape and whole core
+    std::shared_ptr<const voxelcore::CertifiedCore> core;   ///< never null
   };
   using PartContainer = std::vector<Part>;
 
   itkNewMacro(Self);
   itkTypeMacro(MedialComplexObject, VoxelLatticeObject);
 
-  /** Takes parts in any order. \throws ExceptionObject when two have the same label or one has no complex. */
+  /** Takes parts in any order. \throws ExceptionObject when two have the same label or one has no core. */
   void
   SetParts(PartContainer parts);
 
@@ -70,10 +59,11 @@ public:
   /** \throws ExceptionObject when there is no such label. */
   const Part &
   GetPart(LabelType label) const;
-  const voxelcore::MedialComplex &
-  GetComplex(LabelType label) const
+  /** The label's core as a part of a MedialModel. */
+  const voxelcore::PlacedCore &
+  GetCore(LabelType label) const
   {
-    return *this->GetPart(label).complex;
+    return this->GetPart(label).core->core;
   }
 
   /** What MedialModel::provenance has to be in a file of these cores, so that `voxelcore verify`, `prune`, `skeleton` and
@@ -81,11 +71,11 @@ public:
   std::string
   GetProvenance(bool keepEdges = false) const;
 
-  /** Releases the complexes; the geometry stays. */
+  /** Releases the cores; the geometry stays. */
   void
   Initialize() override;
 
-  /** Takes over geometry and complexes, which both objects share from then on.
+  /** Takes over geometry and cores, which both objects share from then on.
    *  \throws ExceptionObject when it is no MedialComplexObject. */
   void
   Graft(const DataObject * data) override;

@@ -5,8 +5,6 @@
 #include "itkVoxelShapeObject.h"
 
 #include "voxelcore/DelaunayCells.h"
-#include "voxelcore/Progress.h"
-#include "voxelcore/SpacingWeights.h"
 
 namespace itk
 {
@@ -16,7 +14,8 @@ namespace itk
  *
  * Method: Y. Yan, D. Letscher, T. Ju, "Voxel Cores: Efficient, robust, and provably good approximation of 3D medial
  * axes", ACM Transactions on Graphics 37(4), 2018. Spacings may differ: they become integer weights in which every
- * decision is exact. The result is the same, bit for bit, for every engine and number of threads.
+ * decision is exact. The result is the same, bit for bit, for every engine and number of threads, and has the bits and the
+ * certificate of `voxelcore core`.
  *
  * As many threads work as the multi-threader may have, and not more than the number of work units. Progress and abort
  * are forwarded. An ExceptionObject says what was wrong in one line: also when the topology of a core is not its
@@ -58,12 +57,6 @@ protected:
   VerifyPreconditions() ITKv5_CONST override;
   void
   GenerateData() override;
-
-  /** The core of one shape. Whatever a subclass does here is certified afterwards. */
-  virtual voxelcore::MedialComplex
-  ComputeCore(const voxelcore::VoxelShape &       shape,
-              const voxelcore::SpacingWeights &   weights,
-              const voxelcore::ProgressCallback & progress) const;
 
 private:
   EngineType m_Engine{ EngineType::Auto };

@@ -1,8 +1,7 @@
 #include "itkLambdaPruningFilter.h"
 
 #include "itkErrors.h"
-#include "voxelcore/Certificate.h"
-#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/CertifiedCore.h"
 
 #include <charconv>
 
@@ -51,36 +50,40 @@ LambdaPruningFilter::SetLambda(double millimetres)
 void
 LambdaPruningFilter::GenerateData()
 {
-  // The rest is the certificate's.
-  constexpr double          pruningEnds = 0.9;
   const InputType &         input = *this->GetInput();
   OutputType::PartContainer parts = input.GetParts();
   WithItkErrors(this->GetNameOfClass(), [&] {
-    const auto &                    spacing = input.GetGeometry().spacing;
-    const voxelcore::SpacingWeights weights = voxelcore::ComputeLatticeWeights(input.GetGeometry());
-    double                          total = 0;
+    const voxelcore::ImageGeometry & geometry = input.GetGeometry();
+    const auto                       weights = voxelcore::ComputeLatticeWeights(geometry);
+    const auto                       work = [](const OutputType::Part & part) {
+      return 1 + static_cast<double>(part.core->numbers.complex.edges);
+    };
+    double total = 0;
     for (const OutputType::Part & part : parts)
     {
-      total += 1 + static_cast<double>(part.complex->cells.edges.size());
+      total += work(part);
     }
     double before = 0;
     for (OutputType::Part & part : parts)
     {
-      const double share = (1 + static_cast<double>(part.complex->cells.edges.size())) / total;
-      const double lambda = voxelcore::LambdaInMillimetres(m_Lambda, weights, spacing, part.box);
-      const auto   progress = ForwardProgress(this, before, before + pruningEnds * share);
+      const voxelcore::CoreOrigin &   origin = part.origin;
+      const voxelcore::CertifiedShape shape{ "label " + std::to_string(origin.label),
+                                             origin.shape,
+                                             origin.box,
+                                             geometry };
+      const double                    after = before + work(part) / total;
+      const auto                      progress = ForwardProgress(this, before, after);
       voxelcore::ReportProgress(progress, "prune", 0);
-      if (lambda > part.lambda)
+      if (voxelcore::LambdaInMillimetres(m_Lambda, weights, geometry.spacing, shape.box) > part.core->numbers.lambdaMm)
       {
-        part.complex = std::make_shared<const voxelcore::MedialComplex>(
-          std::move(voxelcore::PruneByLambda(*part.complex, { lambda }, progress).front()));
-        part.lambda = lambda;
-        part.lambdaText = m_Lambda.text;
-        voxelcore::ReportProgress(progress, "certificate", 1);
-        part.complexTopology = voxelcore::ComputeComplexTopology(part.complex->cells);
+        auto pruned = voxelcore::PruneCertified(*part.core, shape, { m_Lambda }, progress);
+        part.core = std::make_shared<const voxelcore::CertifiedCore>(std::move(pruned.front()));
       }
-      voxelcore::RequireEqualTopology(part.shapeTopology, part.complexTopology, "its core pruned", part.label);
-      before += share;
+      else
+      {
+        voxelcore::RequireTopologyOf(shape, *part.core);
+      }
+      before = after;
     }
     voxelcore::ReportProgress(ForwardProgress(this, 0, 1), "done", 1);
   });

@@ -14,7 +14,7 @@ auto
 Place(const MedialComplexObject::PartContainer & parts, MedialComplexObject::LabelType label)
 {
   return std::lower_bound(parts.begin(), parts.end(), label, [](const auto & part, auto wanted) {
-    return part.label < wanted;
+    return part.origin.label < wanted;
   });
 }
 
@@ -34,16 +34,16 @@ MedialComplexObject::MedialComplexObject()
 void
 MedialComplexObject::SetParts(PartContainer parts)
 {
-  std::sort(parts.begin(), parts.end(), [](const auto & a, const auto & b) { return a.label < b.label; });
+  std::sort(parts.begin(), parts.end(), [](const auto & a, const auto & b) { return a.origin.label < b.origin.label; });
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
-    if (i > 0 && parts[i - 1].label == parts[i].label)
+    if (i > 0 && parts[i - 1].origin.label == parts[i].origin.label)
     {
-      itkExceptionMacro("label " << parts[i].label << " is given twice");
+      itkExceptionMacro("label " << parts[i].origin.label << " is given twice");
     }
-    if (!parts[i].complex)
+    if (!parts[i].core)
     {
-      itkExceptionMacro("label " << parts[i].label << " has no complex");
+      itkExceptionMacro("label " << parts[i].origin.label << " has no core");
     }
   }
   m_Parts = std::make_shared<const PartContainer>(std::move(parts));
@@ -54,7 +54,7 @@ bool
 MedialComplexObject::HasLabel(LabelType label) const
 {
   const auto place = Place(*m_Parts, label);
-  return place != m_Parts->end() && place->label == label;
+  return place != m_Parts->end() && place->origin.label == label;
 }
 
 auto
@@ -70,19 +70,17 @@ MedialComplexObject::GetPart(LabelType label) const -> const Part &
 std::string
 MedialComplexObject::GetProvenance(bool keepEdges) const
 {
-  const voxelcore::ImageGeometry &    geometry = this->GetGeometry();
   std::vector<voxelcore::CoreOrigin>  origins;
   std::vector<voxelcore::CorePruning> prunings;
   for (const Part & part : *m_Parts)
   {
+    const voxelcore::CoreNumbers & numbers = part.core->numbers;
     origins.push_back(part.origin);
-    prunings.push_back(
-      { part.lambdaText,
-        part.lambda,
-        voxelcore::DescribeComplex(voxelcore::PlaceInLps(*part.complex, geometry), part.complexTopology) });
+    prunings.push_back({ numbers.lambda, numbers.lambdaMm, numbers.complex });
   }
-  return WithItkErrors(this->GetNameOfClass(),
-                       [&] { return voxelcore::CoreProvenanceJson(geometry, origins, prunings, keepEdges); });
+  return WithItkErrors(this->GetNameOfClass(), [&] {
+    return voxelcore::CoreProvenanceJson(this->GetGeometry(), origins, prunings, keepEdges);
+  });
 }
 
 void
@@ -117,13 +115,14 @@ MedialComplexObject::PrintSelf(std::ostream & os, Indent indent) const
   const Indent inner = indent.GetNextIndent();
   for (const Part & part : *m_Parts)
   {
-    const voxelcore::CellComplex & cells = part.complex->cells;
-    os << inner << part.label << " (" << part.name << "): " << cells.vertexCount << " vertices, " << cells.edges.size()
-       << " edges, " << cells.FaceCount() << " faces, pruned to " << part.lambda << " mm" << std::endl;
+    const voxelcore::CoreNumbers &   numbers = part.core->numbers;
+    const voxelcore::ComplexRecord & complex = numbers.complex;
+    os << inner << part.origin.label << " (" << part.origin.name << "): " << complex.vertices << " vertices, "
+       << complex.edges << " edges, " << complex.faces << " faces, pruned at " << numbers.lambda << std::endl;
     os << inner.GetNextIndent() << "shape: ";
-    PrintTopology(os, part.shapeTopology);
-    os << "; complex: ";
-    PrintTopology(os, part.complexTopology);
+    PrintTopology(os, part.origin.shape);
+    os << "; core: ";
+    PrintTopology(os, complex.topology);
     os << std::endl;
   }
 }

@@ -2,10 +2,7 @@
 
 #include "itkErrors.h"
 #include "itkMultiThreaderBase.h"
-#include "voxelcore/Certificate.h"
-#include "voxelcore/ComplexTopology.h"
-#include "voxelcore/ShapeTopology.h"
-#include "voxelcore/VoxelCore.h"
+#include "voxelcore/Certified.h"
 
 #include <omp.h>
 
@@ -79,27 +76,15 @@ VoxelCoreFilter::VerifyPreconditions() ITKv5_CONST
   }
 }
 
-voxelcore::MedialComplex
-VoxelCoreFilter::ComputeCore(const voxelcore::VoxelShape &       shape,
-                             const voxelcore::SpacingWeights &   weights,
-                             const voxelcore::ProgressCallback & progress) const
-{
-  return voxelcore::ComputeVoxelCore(shape, weights, m_Engine, progress);
-}
-
 void
 VoxelCoreFilter::GenerateData()
 {
-  // Where in a label's work each stage ends, as the shares of time usually are.
-  constexpr double  shapeEnds = 0.05;
-  constexpr double  coreEnds = 0.95;
   const ThreadLimit limit(
     std::min(this->GetNumberOfWorkUnits(), this->GetMultiThreader()->GetMaximumNumberOfThreads()));
   const InputType &         input = *this->GetInput();
   OutputType::PartContainer parts;
   WithItkErrors(this->GetNameOfClass(), [&] {
-    const voxelcore::SpacingWeights weights = voxelcore::ComputeLatticeWeights(input.GetGeometry());
-    double                          total = 0;
+    double total = 0;
     for (const voxelcore::LabelShape & label : input.GetLabels())
     {
       total += 1 + static_cast<double>(label.voxels);
@@ -107,26 +92,18 @@ VoxelCoreFilter::GenerateData()
     double before = 0;
     for (const voxelcore::LabelShape & label : input.GetLabels())
     {
-      const double share = (1 + static_cast<double>(label.voxels)) / total;
-      const auto   part = [&](double from, double to) {
-        return ForwardProgress(this, before + share * from, before + share * to);
-      };
-      voxelcore::ReportProgress(part(0, shapeEnds), "shape", 0);
-      OutputType::Part result;
-      result.label = label.value;
-      result.name = label.name;
-      result.box = label.shape.Box();
-      result.shapeTopology = voxelcore::ComputeShapeTopology(label.shape);
-      auto core = std::make_shared<const voxelcore::MedialComplex>(
-        this->ComputeCore(label.shape, weights, part(shapeEnds, coreEnds)));
-      voxelcore::ReportProgress(part(coreEnds, 1), "certificate", 0);
-      result.complexTopology = voxelcore::ComputeComplexTopology(core->cells);
-      voxelcore::RequireEqualTopology(result.shapeTopology, result.complexTopology, "its core", label.value);
-      const voxelcore::MedialComplex placed = voxelcore::PlaceInLps(*core, input.GetGeometry());
-      result.origin =
-        voxelcore::DescribeOrigin(label.value, label.name, label.shape, result.shapeTopology, *core, placed);
-      result.complex = std::move(core);
-      parts.push_back(std::move(result));
+      const double                share = (1 + static_cast<double>(label.voxels)) / total;
+      voxelcore::CertifiedRequest request;
+      request.name = "label " + std::to_string(label.value);
+      request.lambdas = { voxelcore::Lambda() }; // the whole core
+      request.engine = m_Engine;
+      voxelcore::CertifiedResult result = voxelcore::ComputeCertified(label.shape,
+                                                                      input.GetGeometry(),
+                                                                      request,
+                                                                      ForwardProgress(this, before, before + share));
+      result.cores.front().core.label = label.value;
+      parts.push_back({ voxelcore::OriginOf(result, label.value, label.name, label.voxels),
+                        std::make_shared<const voxelcore::CertifiedCore>(std::move(result.cores.front())) });
       before += share;
     }
     voxelcore::ReportProgress(ForwardProgress(this, 0, 1), "done", 1);

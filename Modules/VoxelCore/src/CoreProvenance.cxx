@@ -2,8 +2,6 @@
 
 #include "voxelcore/PolygonArea.h"
 
-#include "voxelcore/BoundaryVertices.h"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -150,28 +148,6 @@ PlaceInLps(MedialComplex core, const ImageGeometry & geometry)
     }
   }
   return core;
-}
-
-CoreOrigin
-DescribeOrigin(std::int64_t            label,
-               std::string             name,
-               const VoxelShape &      shape,
-               const TopologyNumbers & topology,
-               const MedialComplex &   core,
-               const MedialComplex &   placed)
-{
-  CoreOrigin origin;
-  origin.label = label;
-  origin.name = std::move(name);
-  origin.voxels = shape.CountVoxels();
-  origin.box = shape.Box();
-  origin.boundaryVertices = BoundaryVertices(shape).size();
-  origin.shape = topology;
-  origin.core = DescribeComplex(placed, topology);
-  origin.enclosed = std::all_of(core.positions.begin(), core.positions.end(), [&shape](const auto & position) {
-    return ContainsInside(shape, position);
-  });
-  return origin;
 }
 
 std::string

@@ -47,7 +47,7 @@ struct CoreNumbers
 {
   std::string                   lambda; ///< as asked for
   double                        lambdaMm = 0;
-  ComplexRecord                complex;
+  ComplexRecord                 complex;
   std::optional<BumpNumbers>    bumps;
   std::optional<RefinedNumbers> refined;
 };
@@ -57,6 +57,10 @@ struct CertifiedCore
   CoreNumbers numbers;
   PlacedCore  core;
 };
+
+/** Compares the numbers a core came with to those of the shape it is said to be of. \throws CertificateError */
+void
+RequireTopologyOf(const CertifiedShape & shape, const CertifiedCore & core);
 
 /** A certified core pruned to each lambda, in the order given: the bits ComputeCertified() gives at once.
  *  \throws UsageError when it is pruned further already; CertificateError; Cancelled */

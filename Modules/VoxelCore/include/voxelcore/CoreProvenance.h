@@ -51,15 +51,6 @@ struct CoreOrigin
   bool            enclosed = false; ///< every vertex lies inside the shape
 };
 
-/** `placed` is the shape's whole core as PlaceInLps leaves it, `core` the same in lattice coordinates. */
-CoreOrigin
-DescribeOrigin(std::int64_t            label,
-               std::string             name,
-               const VoxelShape &      shape,
-               const TopologyNumbers & topology,
-               const MedialComplex &   core,
-               const MedialComplex &   placed);
-
 /** What a core is pruned to. */
 struct CorePruning
 {
