@@ -118,9 +118,9 @@ void
 ExpectSame(const std::filesystem::path & path, const CropRange & crop, ReadOptions options = {})
 {
   SCOPED_TRACE(path.filename().string());
-  const LabelVolume whole = ReadLabelVolume(path, options);
+  const LabelMap whole = ReadLabelVolume(path, options);
   options.crop = crop;
-  const LabelVolume part = ReadLabelVolume(path, options);
+  const LabelMap part = ReadLabelVolume(path, options);
   EXPECT_EQ(part.crop, crop);
   EXPECT_EQ(part.geometry.size, whole.geometry.size);
   EXPECT_EQ(part.geometry.origin, whole.geometry.origin);
@@ -266,8 +266,8 @@ TEST(Crop, OfAGreatRawScanTakesTimeAndMemoryOfThePart)
   options.crop = CropRange{ { 1000, 1000, 1000 }, { 1050, 1050, 1050 } };
   rusage before{};
   getrusage(RUSAGE_SELF, &before);
-  const LabelVolume volume = ReadLabelVolume(path, options);
-  rusage            after{};
+  const LabelMap volume = ReadLabelVolume(path, options);
+  rusage         after{};
   getrusage(RUSAGE_SELF, &after);
   ASSERT_EQ(volume.labels.size(), 1U);
   EXPECT_EQ(volume.labels[0].shape.Box().lower, (std::array<std::int32_t, 3>{ 1024, 1024, 1024 }));
@@ -281,27 +281,6 @@ TEST(Crop, OfAGreatRawScanTakesTimeAndMemoryOfThePart)
 #ifndef __SANITIZE_ADDRESS__
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 40 * 1024);
 #endif
-}
-
-TEST(Crop, TextBecomesARange)
-{
-  const CropRange crop = ParseCrop("3:10,:7,:");
-  EXPECT_EQ(crop.first, (std::array<std::int32_t, 3>{ 3, 0, 0 }));
-  EXPECT_EQ(crop.end, (std::array<std::int32_t, 3>{ 10, 7, 0 }));
-  for (const char * text : { "",
-                             "1:2",
-                             "1:2,3:4",
-                             "5:5,:,:",
-                             "9:5,:,:",
-                             "a:b,:,:",
-                             "-1:5,:,:",
-                             "+1:5,:,:",
-                             ":,:,:,:",
-                             "1:99999999999,:,:",
-                             "1 :2,:,:" })
-  {
-    EXPECT_THROW(ParseCrop(text), UsageError) << text;
-  }
 }
 
 TEST(Crop, ARangeThatIsNoneIsRefused)

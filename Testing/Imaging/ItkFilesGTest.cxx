@@ -31,7 +31,7 @@ TwoLabels(int x, int y, int z)
 }
 
 void
-ExpectSameVolume(const LabelVolume & file, const itk::VoxelShapeObject & shapes)
+ExpectSameVolume(const LabelMap & file, const itk::VoxelShapeObject & shapes)
 {
   EXPECT_EQ(file.geometry.size, shapes.GetGeometry().size);
   ExpectNear(file.geometry.spacing, shapes.GetGeometry().spacing, 1e-12);
@@ -84,7 +84,7 @@ TEST(ItkFiles, AnImageWrittenByItkIsReadAsTheFilterSeesIt)
       writer->SetFileName(path.string());
       writer->SetInput(image);
       writer->Update();
-      const LabelVolume file = ReadLabelVolume(path);
+      const LabelMap file = ReadLabelVolume(path);
       ASSERT_EQ(file.labels.size(), 2U);
       ExpectSameVolume(file, *filter->GetOutput());
     }
@@ -136,9 +136,9 @@ TEST(ItkFiles, TheExampleWritesTheLibrarysBytes)
   };
   ASSERT_EQ(run("scan.nrrd", "2vox", "itk.vtp"), 0) << ReadFile(folder / "err");
 
-  const LabelVolume scan = ReadLabelVolume(path);
-  const auto        weights = ComputeSpacingWeights(scan.geometry.spacing);
-  MedialModel       model;
+  const LabelMap scan = ReadLabelVolume(path);
+  const auto     weights = ComputeSpacingWeights(scan.geometry.spacing);
+  MedialModel    model;
   for (const LabelShape & label : scan.labels)
   {
     const auto pruned = PruneByLambda(ComputeVoxelCore(label.shape, weights), { 1.0 });

@@ -154,8 +154,8 @@ TEST(ItkPlacement, ItkTurnsTheSpaceLasHalfAroundAndWeSaySo)
   auto             lines = NrrdLines("uint8", { 3, 2, 2 });
   lines[2] = "space: left-anterior-superior";
   lines[8] = "space origin: (10,20,30)";
-  const auto        path = folder.Write("a.nrrd", Nrrd(lines, std::string(12, '\1')));
-  const LabelVolume volume = ReadLabelVolume(path);
+  const auto     path = folder.Write("a.nrrd", Nrrd(lines, std::string(12, '\1')));
+  const LabelMap volume = ReadLabelVolume(path);
   ExpectNear(volume.geometry.origin, { 10, -20, 30 });
   ExpectNear(ItkGeometry<itk::NrrdImageIO>(path).origin, { -10, 20, 30 });
   EXPECT_TRUE(HasNote(volume.warnings, "half a turn"));

@@ -24,9 +24,8 @@ protected:
   Found
   Read() const
   {
-    const LabelVolume volume =
-      ReadLabelVolume(m_Folder.Write("scan.nrrd", Nrrd(Lines(), RawAll<std::uint8_t>(kValues))));
-    Found found;
+    const LabelMap volume = ReadLabelVolume(m_Folder.Write("scan.nrrd", Nrrd(Lines(), RawAll<std::uint8_t>(kValues))));
+    Found          found;
     for (const LabelShape & label : volume.labels)
     {
       std::optional<Bytes> color;

@@ -25,7 +25,7 @@ WriteVolume(const TempFolder &         folder,
 }
 
 std::map<std::int64_t, std::string>
-NamesIn(const LabelVolume & volume)
+NamesIn(const LabelMap & volume)
 {
   std::map<std::int64_t, std::string> names;
   for (const LabelShape & label : volume.labels)
@@ -103,7 +103,7 @@ TEST(Labels, WideValuesAreExact)
   values[3] = 9007199254740993; // 2^53 + 1, which no double holds
   values[4] = 9007199254740992;
   values[5] = INT64_MAX;
-  const LabelVolume volume = ReadLabelVolume(WriteVolume(folder, "int64", { 4, 3, 2 }, values));
+  const LabelMap volume = ReadLabelVolume(WriteVolume(folder, "int64", { 4, 3, 2 }, values));
   ASSERT_EQ(volume.labels.size(), 3U);
   EXPECT_EQ(volume.labels[0].value, 9007199254740992);
   EXPECT_EQ(volume.labels[1].value, 9007199254740993);
@@ -116,7 +116,7 @@ TEST(Labels, FloatsAreReadAsStoredAlsoBeyondSixteenBits)
   std::vector<float> values(24, 0);
   values[3] = 70000;
   values[4] = 4464; // what 70000 becomes in 16 bits
-  const LabelVolume volume = ReadLabelVolume(WriteVolume(folder, "float", { 4, 3, 2 }, values));
+  const LabelMap volume = ReadLabelVolume(WriteVolume(folder, "float", { 4, 3, 2 }, values));
   ASSERT_EQ(volume.labels.size(), 2U);
   EXPECT_EQ(volume.labels[0].value, 4464);
   EXPECT_EQ(volume.labels[1].value, 70000);
@@ -141,7 +141,7 @@ TEST(Labels, AreChosenByValueAndByName)
   folder.Write("scan.nrrd.txt", "1 Liver\n2 Left kidney\n7 Spleen\n9 Heart\n");
   ReadOptions options;
   options.labels = "7, Left kidney";
-  const LabelVolume volume = ReadLabelVolume(path, options);
+  const LabelMap volume = ReadLabelVolume(path, options);
   ASSERT_EQ(volume.labels.size(), 2U);
   EXPECT_EQ(volume.labels[0].name, "Left kidney");
   EXPECT_EQ(volume.labels[1].name, "Spleen");
@@ -181,7 +181,7 @@ TEST(Labels, BinaryUnitesWhatWasChosen)
   const auto  path = WriteVolume(folder, "uint8", { 4, 3, 2 }, values);
   ReadOptions options;
   options.binary = true;
-  LabelVolume volume = ReadLabelVolume(path, options);
+  LabelMap volume = ReadLabelVolume(path, options);
   ASSERT_EQ(volume.labels.size(), 1U);
   EXPECT_EQ(volume.labels[0].value, 1);
   EXPECT_EQ(volume.labels[0].voxels, 3U);
@@ -257,7 +257,7 @@ TEST(Threshold, MakesOneShapeOfAGreyScan)
     const auto  path = WriteVolume(folder, type, { 13, 5, 2 }, values);
     ReadOptions options;
     options.threshold = { 10, 19.5 };
-    const LabelVolume volume = ReadLabelVolume(path, options);
+    const LabelMap volume = ReadLabelVolume(path, options);
     ASSERT_EQ(volume.labels.size(), 1U) << type;
     EXPECT_EQ(volume.labels[0].value, 1);
     EXPECT_EQ(volume.labels[0].voxels, 10U) << type;
@@ -338,7 +338,7 @@ TEST(LabelsAtRandom, EveryVoxelCountAndBoxIsThatOfAPlainLoop)
       const std::string data = type == "uint16"  ? RawAll<std::uint16_t>(values)
                                : type == "int32" ? RawAll<std::int32_t>(values)
                                                  : RawAll<double>(values);
-      const LabelVolume volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(NrrdLines(type, size), data)));
+      const LabelMap    volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(NrrdLines(type, size), data)));
       ASSERT_EQ(AllValues(volume), std::vector<std::int64_t>(values.begin(), values.end()));
       std::uint64_t total = 0;
       for (const LabelShape & label : volume.labels)
@@ -377,7 +377,7 @@ TEST(LabelsAtRandom, VolumesOfManySlabsAreJoinedRight)
     }
     values[static_cast<std::size_t>(650 + size[0] * (z + size[1] * z))] = 2;
   }
-  const LabelVolume volume = ReadLabelVolume(WriteVolume(folder, "uint8", size, values));
+  const LabelMap volume = ReadLabelVolume(WriteVolume(folder, "uint8", size, values));
   ASSERT_EQ(volume.labels.size(), 2U);
   EXPECT_EQ(volume.labels[0].voxels, ones);
   EXPECT_EQ(volume.labels[1].voxels, 125U);

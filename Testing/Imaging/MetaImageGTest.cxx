@@ -33,7 +33,7 @@ With(std::vector<std::string> lines, const std::string & field, const std::strin
 }
 
 void
-ExpectValues(const LabelVolume & volume)
+ExpectValues(const LabelMap & volume)
 {
   EXPECT_EQ(AllValues(volume), std::vector<std::int64_t>(kValues.begin(), kValues.end()));
 }
@@ -92,10 +92,10 @@ TEST(MetaImage, GeometryIsLpsAndTheMatrixHoldsOneAxisAfterTheOther)
   auto             lines = With(Lines(), "ElementSpacing", "2 3 0.5");
   lines = With(lines, "Offset", "1 2 3");
   lines = With(lines, "TransformMatrix", "0.6 0.8 0 -0.8 0.6 0 0 0 -1");
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.mha", Meta(lines, kData)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.mha", Meta(lines, kData)));
   ExpectNear(CentreOf(volume, 2, 1, 1), { 1 + 2.4 - 2.4, 2 + 3.2 + 1.8, 2.5 }, 1e-12);
   EXPECT_TRUE(IsLeftHanded(volume.geometry));
-  const LabelVolume micro = ReadLabelVolume(folder.Write("b.mha", Meta(With(lines, "DistanceUnits", "um"), kData)));
+  const LabelMap micro = ReadLabelVolume(folder.Write("b.mha", Meta(With(lines, "DistanceUnits", "um"), kData)));
   ExpectNear(micro.geometry.spacing, { 0.002, 0.003, 0.0005 }, 1e-15);
   ExpectNear(micro.geometry.origin, { 0.001, 0.002, 0.003 }, 1e-15);
   ExpectRefused(folder.Write("e.mha", Meta(With(lines, "DistanceUnits", "furlong"), kData)), { "furlong" });
@@ -116,7 +116,7 @@ TEST(MetaImage, SeriesColoursAndPictures)
   ExpectRefused(path, { "4-D", "--volume" });
   ReadOptions options;
   options.volume = 1;
-  const LabelVolume volume = ReadLabelVolume(path, options);
+  const LabelMap volume = ReadLabelVolume(path, options);
   ExpectValues(volume);
   ExpectNear(CentreOf(volume, 2, 1, 1), { 14, 23, 34 });
   ExpectRefused(folder.Write("b.mha", Meta(With(Lines(), "ElementNumberOfChannels", "3"), kData + kData + kData)),

@@ -20,7 +20,7 @@ Fields()
 }
 
 void
-ExpectValues(const LabelVolume & volume)
+ExpectValues(const LabelMap & volume)
 {
   EXPECT_EQ(AllValues(volume), std::vector<std::int64_t>(kValues.begin(), kValues.end()));
 }
@@ -51,7 +51,7 @@ TEST(Nifti, BothVersionsInBothByteOrdersPackedOrNot)
       const std::string bytes = Nifti(fields, RawAll<std::int16_t>(kValues, big));
       for (const bool packed : { false, true })
       {
-        const LabelVolume volume =
+        const LabelMap volume =
           ReadLabelVolume(folder.Write(packed ? "a.nii.gz" : "a.nii", packed ? Gzip(bytes) : bytes));
         ExpectValues(volume);
         ExpectNear(volume.geometry.spacing, { 0.5, 0.25, 2 });
@@ -115,7 +115,7 @@ TEST(NiftiGeometry, QuaternionsTurnAndQfacReverses)
   const double s = std::sqrt(0.5); // a quarter turn about z: i runs along +y, j along -x, k reversed by qfac
   fields.quaternion = { 0, 0, s };
   fields.qoffset = { 10, 20, 30 };
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, kData)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, kData)));
   // RAS: (10 - 3, 20 + 4, 30 - 4)
   ExpectNear(CentreOf(volume, 2, 1, 1), { -7, -24, 26 }, 1e-5);
   EXPECT_TRUE(IsLeftHanded(volume.geometry));
@@ -132,7 +132,7 @@ TEST(NiftiGeometry, MicrometresAndMetresScaleSpacingAndOrigin)
     fields.qformCode = form == 1 ? 1 : 0;
     fields.qoffset = { 1000, 2000, 3000 };
     SetSform(fields, { 5, 0, 0, 1000, 0, 5, 0, 2000, 0, 0, 10, 3000 }, form == 2 ? 1 : 0);
-    const LabelVolume volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, kData)));
+    const LabelMap volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, kData)));
     ExpectNear(volume.geometry.spacing, { 0.005, 0.005, 0.01 }, 1e-12);
     ExpectNear(CentreOf(volume, 2, 1, 1), { -1.010, -2.005, 3.010 }, 1e-9);
     EXPECT_TRUE(HasNote(volume.notes, "um"));
@@ -150,7 +150,7 @@ TEST(NiftiGeometry, SkewedSformAloneIsRefusedUnlessAccepted)
   ExpectRefused(path, { "5.71", "--orthonormalize" });
   ReadOptions accept;
   accept.orthonormalize = true;
-  const LabelVolume volume = ReadLabelVolume(path, accept);
+  const LabelMap volume = ReadLabelVolume(path, accept);
   EXPECT_LT(OrthonormalityDeviationDegrees(volume.geometry), 1e-9);
   EXPECT_TRUE(HasNote(volume.notes, "nearest right-angled"));
 }
@@ -162,7 +162,7 @@ TEST(NiftiGeometry, SkewedSformWithQformGivesTheQformNoted)
   fields.qformCode = 1;
   fields.qoffset = { 1, 2, 3 };
   SetSform(fields, { 1, 0.1, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3 }, 1);
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, kData)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, kData)));
   ExpectNear(CentreOf(volume, 2, 1, 1), { -3, -3, 4 });
   EXPECT_TRUE(HasNote(volume.notes, "sform is skewed"));
 }
@@ -177,8 +177,8 @@ TEST(NiftiGeometry, DisagreeingFormsFollowItksRuleWithAWarning)
   for (const int code : { 1, 2, 4 })
   {
     SetSform(fields, { 1, 0, 0, 6, 0, 1, 0, 2, 0, 0, 1, 3 }, code);
-    const auto        path = folder.Write("a.nii", Nifti(fields, kData));
-    const LabelVolume volume = ReadLabelVolume(path);
+    const auto     path = folder.Write("a.nii", Nifti(fields, kData));
+    const LabelMap volume = ReadLabelVolume(path);
     EXPECT_NEAR(volume.geometry.origin[0], code == 1 ? -6 : -1, 1e-6);
     ASSERT_EQ(volume.warnings.size(), 1U);
     EXPECT_TRUE(HasNote(volume.warnings, "disagree by up to 5 mm"));
@@ -213,8 +213,8 @@ TEST(NiftiGeometry, AskingForAFormThatIsNotThereIsRefused)
 
 TEST(NiftiGeometry, NeitherFormIsLpsWithOriginZeroNoted)
 {
-  const TempFolder  folder;
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nii", Nifti(Fields(), kData)));
+  const TempFolder folder;
+  const LabelMap   volume = ReadLabelVolume(folder.Write("a.nii", Nifti(Fields(), kData)));
   EXPECT_EQ(volume.geometry.direction, (std::array<double, 9>{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }));
   EXPECT_EQ(volume.geometry.origin, (Vector3{ 0, 0, 0 }));
   EXPECT_TRUE(HasNote(volume.notes, "neither qform nor sform"));
@@ -241,8 +241,8 @@ TEST(NiftiGeometry, ScalesOfTheSformThatContradictPixdimAreReported)
   const TempFolder folder;
   NiftiFields      fields = Fields();
   SetSform(fields, { 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0 }, 1);
-  const auto        path = folder.Write("a.nii", Nifti(fields, kData));
-  const LabelVolume volume = ReadLabelVolume(path);
+  const auto     path = folder.Write("a.nii", Nifti(fields, kData));
+  const LabelMap volume = ReadLabelVolume(path);
   ExpectNear(volume.geometry.spacing, { 1, 1, 1 }); // as ITK
   EXPECT_TRUE(HasNote(volume.warnings, "contradicts pixdim"));
   ReadOptions options;
@@ -264,7 +264,7 @@ TEST(NiftiVolumes, ASeriesNeedsAChoiceAndKeepsItsGeometry)
     ExpectRefused(path, { "4-D", "--volume 0 to --volume 1" });
     ReadOptions options;
     options.volume = 1;
-    const LabelVolume volume = ReadLabelVolume(path, options);
+    const LabelMap volume = ReadLabelVolume(path, options);
     ExpectValues(volume);
     ExpectNear(CentreOf(volume, 2, 1, 1), { -14, -23, 34 });
     options.volume = 5;
@@ -284,7 +284,7 @@ TEST(NiftiScaling, WholeNumbersAfterScalingOrRefused)
   {
     doubled.push_back(2 * value);
   }
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, RawAll<std::uint8_t>(doubled))));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, RawAll<std::uint8_t>(doubled))));
   ExpectValues(volume);
   EXPECT_TRUE(HasNote(volume.notes, "0.5 * stored"));
   // Stored 1 is 0.5 and would merge with a neighbour.
@@ -298,7 +298,7 @@ TEST(NiftiScaling, ASlopeOfOneOver255MakesAMaskOfOnes)
   fields.slope = 1.0 / 255; // rounded to single precision in the file
   std::string data(12, '\0');
   data[4] = '\xFF';
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, data)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, data)));
   ASSERT_EQ(volume.labels.size(), 1U);
   EXPECT_EQ(volume.labels[0].value, 1);
   data[5] = '\x7F';
@@ -313,7 +313,7 @@ TEST(NiftiScaling, AnInterceptMovesTheBackground)
   fields.intercept = -3;
   std::string data(12, '\3');
   data[7] = '\5';
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, data)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.nii", Nifti(fields, data)));
   ASSERT_EQ(volume.labels.size(), 1U);
   EXPECT_EQ(volume.labels[0].value, 2);
   EXPECT_EQ(volume.labels[0].voxels, 1U);

@@ -28,7 +28,7 @@ With(std::vector<std::string> lines, const std::string & field, const std::strin
 }
 
 inline void
-ExpectValues(const LabelVolume & volume, const std::vector<int> & values = kValues)
+ExpectValues(const LabelMap & volume, const std::vector<int> & values = kValues)
 {
   EXPECT_EQ(AllValues(volume), std::vector<std::int64_t>(values.begin(), values.end()));
 }

@@ -38,8 +38,8 @@ TYPED_TEST(NrrdTypes, ValuesComeAsStoredInBothByteOrders)
   values.back() = 120; // fits int8
   for (const bool big : { false, true })
   {
-    const auto        lines = With(Lines(TypeName<TypeParam>()), "endian", big ? "big" : "little");
-    const LabelVolume volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, RawAll<TypeParam>(values, big))));
+    const auto     lines = With(Lines(TypeName<TypeParam>()), "endian", big ? "big" : "little");
+    const LabelMap volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, RawAll<TypeParam>(values, big))));
     ExpectValues(volume, values);
     EXPECT_EQ(volume.format, "NRRD");
     ASSERT_EQ(volume.labels.size(), 5U);
@@ -154,9 +154,8 @@ TEST(Nrrd, TruncatedDataIsRefused)
 
 TEST(Nrrd, DataLeftOverAreReported)
 {
-  const TempFolder  folder;
-  const LabelVolume volume =
-    ReadLabelVolume(folder.Write("a.nrrd", Nrrd(Lines(), RawAll<std::uint8_t>(kValues) + "x")));
+  const TempFolder folder;
+  const LabelMap   volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(Lines(), RawAll<std::uint8_t>(kValues) + "x")));
   EXPECT_TRUE(HasNote(volume.warnings, "longer than its header says"));
 }
 
@@ -177,7 +176,7 @@ TEST(NrrdVolumes, ASeriesNeedsAChoiceAndKeepsItsGeometry)
   options.volume = 0;
   ExpectValues(ReadLabelVolume(path, options));
   options.volume = 1;
-  const LabelVolume volume = ReadLabelVolume(path, options);
+  const LabelMap volume = ReadLabelVolume(path, options);
   ExpectValues(volume, second);
   ExpectNear(CentreOf(volume, 2, 1, 1), { 14, 23, 34 });
   EXPECT_TRUE(volume.warnings.empty());
@@ -226,21 +225,21 @@ TEST(NrrdSegments, OverlappingLayersAreReadByLayerAndLabelValue)
     data.push_back(voxel < 6 ? 1 : 0);                    // layer 0: liver in the lower slice
     data.push_back(voxel == 2 ? 3 : voxel == 11 ? 4 : 0); // layer 1: tumour in the liver, vessel above
   }
-  const auto        path = folder.Write("a.seg.nrrd",
+  const auto     path = folder.Write("a.seg.nrrd",
                                  Nrrd(SegmentLines({ "Segment0_ID:=S0",
-                                                            "Segment0_Name:=Liver",
-                                                            "Segment0_LabelValue:=1",
-                                                            "Segment0_Layer:=0",
-                                                            "Segment1_ID:=S1",
-                                                            "Segment1_Name:=Tumour",
-                                                            "Segment1_LabelValue:=3",
-                                                            "Segment1_Layer:=1",
-                                                            "Segment2_ID:=S2",
-                                                            "Segment2_Name:=Vessel",
-                                                            "Segment2_LabelValue:=4",
-                                                            "Segment2_Layer:=1" }),
+                                                         "Segment0_Name:=Liver",
+                                                         "Segment0_LabelValue:=1",
+                                                         "Segment0_Layer:=0",
+                                                         "Segment1_ID:=S1",
+                                                         "Segment1_Name:=Tumour",
+                                                         "Segment1_LabelValue:=3",
+                                                         "Segment1_Layer:=1",
+                                                         "Segment2_ID:=S2",
+                                                         "Segment2_Name:=Vessel",
+                                                         "Segment2_LabelValue:=4",
+                                                         "Segment2_Layer:=1" }),
                                       RawAll<std::uint8_t>(data)));
-  const LabelVolume volume = ReadLabelVolume(path);
+  const LabelMap volume = ReadLabelVolume(path);
   ASSERT_EQ(volume.labels.size(), 3U);
   EXPECT_EQ(volume.labels[0].name, "Liver");
   EXPECT_EQ(volume.labels[0].voxels, 6U);
@@ -257,7 +256,7 @@ TEST(NrrdSegments, OverlappingLayersAreReadByLayerAndLabelValue)
   EXPECT_EQ(ReadLabelVolume(path, byName).labels.size(), 1U);
   ReadOptions binary;
   binary.binary = true;
-  const LabelVolume all = ReadLabelVolume(path, binary);
+  const LabelMap all = ReadLabelVolume(path, binary);
   ASSERT_EQ(all.labels.size(), 1U);
   EXPECT_EQ(all.labels[0].voxels, 7U); // the tumour lies in the liver
 }
@@ -271,14 +270,14 @@ TEST(NrrdSegments, LayersThatShareAValueAreNumberedAnew)
     data.push_back(voxel < 6 ? 1 : 0);
     data.push_back(voxel == 2 ? 1 : 0);
   }
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.seg.nrrd",
-                                                          Nrrd(SegmentLines({ "Segment0_Name:=Tumour",
-                                                                              "Segment0_LabelValue:=1",
-                                                                              "Segment0_Layer:=1",
-                                                                              "Segment1_Name:=Liver",
-                                                                              "Segment1_LabelValue:=1",
-                                                                              "Segment1_Layer:=0" }),
-                                                               RawAll<std::uint8_t>(data))));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.seg.nrrd",
+                                                       Nrrd(SegmentLines({ "Segment0_Name:=Tumour",
+                                                                           "Segment0_LabelValue:=1",
+                                                                           "Segment0_Layer:=1",
+                                                                           "Segment1_Name:=Liver",
+                                                                           "Segment1_LabelValue:=1",
+                                                                           "Segment1_Layer:=0" }),
+                                                            RawAll<std::uint8_t>(data))));
   ASSERT_EQ(volume.labels.size(), 2U);
   EXPECT_EQ(volume.labels[0].value, 1);
   EXPECT_EQ(volume.labels[0].name, "Tumour");
@@ -298,7 +297,7 @@ TEST(NrrdSegments, OldFilesHaveALayerOfOnesForEachSegment)
     data.push_back(voxel < 6 ? 1 : 0);
     data.push_back(voxel == 2 ? 1 : 0);
   }
-  const LabelVolume volume = ReadLabelVolume(folder.Write(
+  const LabelMap volume = ReadLabelVolume(folder.Write(
     "a.seg.nrrd",
     Nrrd(SegmentLines({ "Segment0_ID:=S0", "Segment0_Name:=Liver", "Segment1_ID:=S1", "Segment1_Name:=Tumour" }),
          RawAll<std::uint8_t>(data))));
@@ -316,7 +315,7 @@ TEST(NrrdSegments, ValuesThatNoSegmentNamesStayApart)
   data[0] = 1; // layer 0
   data[3] = 1; // layer 1, not named
   data[5] = 8; // layer 1, not named
-  const LabelVolume volume = ReadLabelVolume(
+  const LabelMap volume = ReadLabelVolume(
     folder.Write("a.seg.nrrd",
                  Nrrd(SegmentLines({ "Segment0_Name:=Liver", "Segment0_LabelValue:=1", "Segment0_Layer:=0" }),
                       RawAll<std::uint8_t>(data))));
@@ -340,7 +339,7 @@ TEST(NrrdSegments, NamesComeFromTheKeysOfOneLayer)
                  "Segment1_Name:=Spleen",
                  "Segment1_LabelValue:=2",
                  "Segment1_Color:=0.5 2 red" });
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.seg.nrrd", Nrrd(lines, RawAll<std::uint8_t>(kValues))));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.seg.nrrd", Nrrd(lines, RawAll<std::uint8_t>(kValues))));
   EXPECT_EQ(volume.labels[1].name, "Spleen");
   EXPECT_EQ(volume.labels[3].name, "Left kidney");
   EXPECT_EQ(volume.labels[3].color, (std::array<double, 3>{ 0.72, 0.25, 0.1 }));

@@ -30,7 +30,7 @@ TEST(NrrdGeometry, ObliqueAndLeftHandedAxesAreKept)
   const std::string data = RawAll<std::uint8_t>(kValues);
   auto              lines = With(Lines(), "space directions", "(1.2,1.6,0) (-2.4,1.8,0) (0,0,-0.5)"); // 3-4-5 triangles
   lines = With(lines, "space origin", "(1,2,3)");
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, data)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, data)));
   ExpectNear(volume.geometry.spacing, { 2, 3, 0.5 }, 1e-12);
   ExpectNear(CentreOf(volume, 2, 1, 1), { 1 + 2.4 - 2.4, 2 + 3.2 + 1.8, 2.5 }, 1e-12);
   EXPECT_TRUE(IsLeftHanded(volume.geometry));
@@ -43,7 +43,7 @@ TEST(NrrdGeometry, MicrometresBecomeMillimetres)
   auto              lines = With(Lines(), "space units", R"("um" "um" "um")");
   lines = With(lines, "space directions", "(5,0,0) (0,5,0) (0,0,10)");
   lines = With(lines, "space origin", "(1000,2000,3000)");
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, data)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, data)));
   ExpectNear(volume.geometry.spacing, { 0.005, 0.005, 0.01 }, 1e-15);
   ExpectNear(CentreOf(volume, 2, 1, 1), { 1.010, 2.005, 3.010 }, 1e-12);
   EXPECT_TRUE(HasNote(volume.notes, "um"));
@@ -60,7 +60,7 @@ TEST(NrrdGeometry, SkewedAxesAreRefusedWithTheirDeviationUnlessAccepted)
   ExpectRefused(path, { "5.71059 degrees", "--orthonormalize" });
   ReadOptions accept;
   accept.orthonormalize = true;
-  const LabelVolume volume = ReadLabelVolume(path, accept);
+  const LabelMap volume = ReadLabelVolume(path, accept);
   EXPECT_TRUE(HasNote(volume.notes, "5.71059 degrees"));
   // The nearest orthonormal pair shares the lean: both axes turn by half of it.
   const double half = std::atan(0.1) / 2;
@@ -99,11 +99,11 @@ TEST(NrrdGeometry, SpacingsWithoutDirectionsAreKeptAndNoted)
   const TempFolder folder;
   auto             lines = With(With(Lines(), "space directions", ""), "space", "");
   lines = With(With(lines, "space origin", ""), "spacings", "0.5 0.25 2");
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, RawAll<std::uint8_t>(kValues))));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.nrrd", Nrrd(lines, RawAll<std::uint8_t>(kValues))));
   ExpectNear(volume.geometry.spacing, { 0.5, 0.25, 2 });
   EXPECT_EQ(volume.geometry.direction, (std::array<double, 9>{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }));
   EXPECT_TRUE(HasNote(volume.notes, "spacings but no directions"));
-  const LabelVolume bare =
+  const LabelMap bare =
     ReadLabelVolume(folder.Write("b.nrrd", Nrrd(With(lines, "spacings", ""), RawAll<std::uint8_t>(kValues))));
   EXPECT_TRUE(HasNote(bare.warnings, "b.nrrd: no voxel size in the file; 1 mm is assumed"));
   for (const char * bad : { "0.5 0 2", "0.5 -1 2", "0.5 nan 2" })

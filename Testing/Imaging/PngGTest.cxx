@@ -64,7 +64,7 @@ TEST(PngSlices, EveryGreyDepthFilterAndInterlacingGivesTheStoredValues)
         SCOPED_TRACE(name);
         const auto slices = Slices(bits == 16 ? 60000U : 1U << bits, bits, interlaced, filter);
         WriteSlices(folder, name, slices);
-        const LabelVolume volume = ReadLabelVolume(folder / name);
+        const LabelMap volume = ReadLabelVolume(folder / name);
         EXPECT_EQ(volume.format, "PNG slices");
         EXPECT_EQ(volume.pixelType, "uint" + std::to_string(bits));
         ASSERT_EQ(volume.geometry.size, (std::array<std::int64_t, 3>{ 11, 9, 3 }));
@@ -78,7 +78,7 @@ TEST(PngSlices, AreTakenInNaturalOrderWithOneMillimetreUnlessGiven)
 {
   const TempFolder folder;
   WriteSlices(folder, "s", Slices(4, 8));
-  const LabelVolume volume = ReadLabelVolume(folder / "s/s*.png");
+  const LabelMap volume = ReadLabelVolume(folder / "s/s*.png");
   EXPECT_TRUE(HasNote(volume.notes, "3 slices from s8.png to s10.png"));
   EXPECT_TRUE(HasNote(volume.notes, "--spacing"));
   ReadOptions options;
@@ -97,7 +97,7 @@ TEST(PngSlices, GammaResolutionAndTransparencyChangeNoValue)
   {
     folder.Write("s/" + std::to_string(z) + ".png", Png(slices[z], {}, more));
   }
-  const LabelVolume volume = ReadLabelVolume(folder / "s");
+  const LabelMap volume = ReadLabelVolume(folder / "s");
   EXPECT_EQ(AllValues(volume), Expected(slices));
   ExpectNear(volume.geometry.spacing, { 1, 1, 1 });
 }

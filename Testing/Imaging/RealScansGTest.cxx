@@ -26,8 +26,8 @@ void
 Check(const std::filesystem::path & path, const Expected & expected)
 {
   SCOPED_TRACE(path.string());
-  const LabelVolume volume = ReadLabelVolume(path);
-  std::uint64_t     voxels = 0;
+  const LabelMap volume = ReadLabelVolume(path);
+  std::uint64_t  voxels = 0;
   for (const LabelShape & label : volume.labels)
   {
     voxels += label.voxels;
@@ -75,7 +75,7 @@ TEST(RealScans, AtlasesOfMricron)
   {
     Check(folder / expected.file, expected);
   }
-  const LabelVolume aal = ReadLabelVolume(folder / "aal.nii.gz");
+  const LabelMap aal = ReadLabelVolume(folder / "aal.nii.gz");
   EXPECT_EQ(aal.labels.front().name, "Precentral_L");
   EXPECT_EQ(aal.labels.back().value, 116);
   EXPECT_EQ(aal.labels.back().name, "Vermis_10");
@@ -89,7 +89,7 @@ TEST(RealScans, FormsThatDisagreeAreReported)
   {
     GTEST_SKIP() << "the package mricron-data is not installed";
   }
-  const LabelVolume volume = ReadLabelVolume(path);
+  const LabelMap volume = ReadLabelVolume(path);
   EXPECT_TRUE(HasNote(volume.warnings, "disagree by up to 362 mm: the qform")); // 181 voxels the other way
   EXPECT_EQ(volume.geometry.direction[8], -1);
   ReadOptions options;

@@ -326,7 +326,7 @@ Lzw(std::string_view bytes)
 }
 
 std::int64_t
-ValueAt(const LabelVolume & volume, int x, int y, int z)
+ValueAt(const LabelMap & volume, int x, int y, int z)
 {
   for (const LabelShape & label : volume.labels)
   {
@@ -339,7 +339,7 @@ ValueAt(const LabelVolume & volume, int x, int y, int z)
 }
 
 std::vector<std::int64_t>
-AllValues(const LabelVolume & volume)
+AllValues(const LabelMap & volume)
 {
   std::vector<std::int64_t> values;
   for (int z = 0; z < volume.geometry.size[2]; ++z)
@@ -360,7 +360,7 @@ ExpectRefused(const std::filesystem::path & path, const std::vector<std::string>
 {
   try
   {
-    const LabelVolume volume = ReadLabelVolume(path, options);
+    const LabelMap volume = ReadLabelVolume(path, options);
     ADD_FAILURE() << path << (texts.empty() ? "" : " (" + texts[0] + ")") << " was read, with " << volume.labels.size()
                   << " labels";
   }
@@ -382,7 +382,7 @@ ExpectRefused(const std::filesystem::path & path, const std::vector<std::string>
 }
 
 Vector3
-CentreOf(const LabelVolume & volume, int x, int y, int z)
+CentreOf(const LabelMap & volume, int x, int y, int z)
 {
   return LatticeToPhysical(volume.geometry, { x + 0.5, y + 0.5, z + 0.5 });
 }

@@ -153,10 +153,10 @@ Lzw(std::string_view bytes);
 
 /** The label that voxel (x,y,z) has, 0 for background. */
 std::int64_t
-ValueAt(const LabelVolume & volume, int x, int y, int z);
+ValueAt(const LabelMap & volume, int x, int y, int z);
 /** All voxels' labels, x fastest. */
 std::vector<std::int64_t>
-AllValues(const LabelVolume & volume);
+AllValues(const LabelMap & volume);
 /** Reading fails with InputError in one line that names the file and holds each text. */
 void
 ExpectRefused(const std::filesystem::path &    path,
@@ -164,7 +164,7 @@ ExpectRefused(const std::filesystem::path &    path,
               const ReadOptions &              options = {});
 /** LPS mm of the centre of voxel (x,y,z). */
 Vector3
-CentreOf(const LabelVolume & volume, int x, int y, int z);
+CentreOf(const LabelMap & volume, int x, int y, int z);
 void
 ExpectNear(const Vector3 & a, const Vector3 & b, double tolerance = 1e-6);
 bool

@@ -12,7 +12,7 @@ namespace
 const std::vector<int> kValues{ 0, 1, 2, 3, 0, 7, 0, 0, 0, 2, 2, 120 }; // 3 x 2 x 2
 
 void
-ExpectValues(const LabelVolume & volume)
+ExpectValues(const LabelMap & volume)
 {
   EXPECT_EQ(AllValues(volume), std::vector<std::int64_t>(kValues.begin(), kValues.end()));
 }
@@ -56,7 +56,7 @@ TEST(Tiff, TypesByteOrdersAndOffsetSizes)
     for (const bool wide : { false, true })
     {
       const auto check = [&](const std::vector<TiffPage> & pages, const std::string & type) {
-        const LabelVolume volume = ReadLabelVolume(folder.Write("a.tif", Tiff(pages, { big, wide })));
+        const LabelMap volume = ReadLabelVolume(folder.Write("a.tif", Tiff(pages, { big, wide })));
         ExpectValues(volume);
         EXPECT_EQ(volume.pixelType, type);
         EXPECT_EQ(volume.format, "TIFF");
@@ -105,7 +105,7 @@ TEST(Tiff, PackedBitsAreUnpacked)
     page.bits = 1;
     page.parts = { std::string("\x80\x20\x01\x40", 4) }; // pixels 0 and 10 of row 0; 7 and 9 of row 1
   }
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.tif", Tiff(pages)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.tif", Tiff(pages)));
   ASSERT_EQ(volume.labels.size(), 1U);
   EXPECT_EQ(volume.pixelType, "uint1");
   EXPECT_EQ(volume.labels[0].voxels, 8U);
@@ -178,7 +178,7 @@ TEST(Tiff, MoreThan65535PagesAreAllRead)
   }
   pages[65999].parts = { "\3" };
   pages[65536].parts = { "\2" };
-  const LabelVolume volume = ReadLabelVolume(folder.Write("a.tif", Tiff(pages)));
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.tif", Tiff(pages)));
   EXPECT_EQ(volume.geometry.size[2], 66000);
   ASSERT_EQ(volume.labels.size(), 2U);
   EXPECT_TRUE(volume.labels[0].shape.Contains(0, 0, 65536));
@@ -262,7 +262,7 @@ TEST(TiffSlices, AFolderIsReadInNaturalOrder)
     folder.Write("s/slice_" + std::to_string(i) + ".tif", Slice(i));
   }
   folder.Write("s/readme.md", "not a slice");
-  const LabelVolume volume = ReadLabelVolume(folder / "s");
+  const LabelMap volume = ReadLabelVolume(folder / "s");
   EXPECT_EQ(volume.format, "TIFF slices");
   ASSERT_EQ(volume.geometry.size, (std::array<std::int64_t, 3>{ 3, 2, 12 }));
   for (int z = 0; z < 12; ++z)
@@ -283,7 +283,7 @@ TEST(TiffSlices, PatternsChooseAmongFiles)
   }
   for (const char * pattern : { "a_*.tif", "a_###.tif", "a_%03d.tif", "a_%d.tif" })
   {
-    const LabelVolume volume = ReadLabelVolume(folder / pattern);
+    const LabelMap volume = ReadLabelVolume(folder / pattern);
     ASSERT_EQ(volume.geometry.size[2], 4) << pattern;
     EXPECT_EQ(volume.labels.front().value, 8);
     EXPECT_EQ(volume.labels.back().value, 11);

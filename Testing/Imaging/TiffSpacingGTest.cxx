@@ -52,7 +52,7 @@ Ome(const std::string & attributes, const std::string & inside = "")
 class TiffSpacing : public ::testing::Test
 {
 protected:
-  LabelVolume
+  LabelMap
   Read(const std::vector<TiffPage> & pages, const ReadOptions & options = {}) const
   {
     return ReadLabelVolume(m_Folder.Write("a.tif", Tiff(pages)), options);
@@ -61,7 +61,7 @@ protected:
   void
   ExpectSpacing(const std::vector<TiffPage> & pages, const Vector3 & spacing) const
   {
-    const LabelVolume volume = Read(pages);
+    const LabelMap volume = Read(pages);
     for (std::size_t a = 0; a < 3; ++a)
     {
       EXPECT_DOUBLE_EQ(volume.geometry.spacing[a], spacing[a]) << pages[0].description;
@@ -73,14 +73,14 @@ protected:
   void
   ExpectUnknown(const std::vector<TiffPage> & pages) const
   {
-    const LabelVolume volume = Read(pages);
+    const LabelMap volume = Read(pages);
     ExpectNear(volume.geometry.spacing, { 1, 1, 1 });
     ASSERT_EQ(volume.warnings.size(), 1U);
     EXPECT_EQ(volume.warnings[0],
               "a.tif: no voxel size in the file; 1 mm is assumed, so all lengths are in voxels. Give --spacing X,Y,Z.");
     ReadOptions given;
     given.spacing = Vector3{ 0.5, 0.5, 2 };
-    const LabelVolume scaled = Read(pages, given);
+    const LabelMap scaled = Read(pages, given);
     ExpectNear(CentreOf(scaled, 1, 0, 1), { 0.5, 0, 2 });
     EXPECT_TRUE(scaled.warnings.empty());
   }
@@ -131,7 +131,7 @@ TEST_F(TiffSpacing, OfOmeIsReadWithItsUnits)
 
 TEST_F(TiffSpacing, OfResolutionTagsSaysNothingAboutSlices)
 {
-  const LabelVolume cm = Read(WithResolution(Pages(2), 3, 1000, 500));
+  const LabelMap cm = Read(WithResolution(Pages(2), 3, 1000, 500));
   ExpectNear(cm.geometry.spacing, { 0.01, 0.02, 0.01 }, 1e-12);
   ASSERT_EQ(cm.warnings.size(), 1U);
   EXPECT_EQ(
@@ -163,11 +163,11 @@ TEST_F(TiffSpacing, SurvivesOurOwnWriter)
     ImageGeometry geometry;
     geometry.size = { 3, 2, 4 };
     geometry.spacing = spacing;
-    LabelVolume first = Read(Pages(4));
+    LabelMap first = Read(Pages(4));
     for (const bool compress : { true, false })
     {
       WriteLabelVolume(m_Folder / "b.tif", geometry, first.labels, compress);
-      const LabelVolume volume = ReadLabelVolume(m_Folder / "b.tif");
+      const LabelMap volume = ReadLabelVolume(m_Folder / "b.tif");
       for (std::size_t a = 0; a < 3; ++a)
       {
         EXPECT_DOUBLE_EQ(volume.geometry.spacing[a], spacing[a]);
@@ -206,7 +206,7 @@ TEST_F(TiffSpacing, HyperstacksGiveTheChannelAndFrameChosen)
   options.volume = 1;
   const auto values = [&](const std::string & description) {
     std::vector<std::int64_t> found;
-    const LabelVolume         volume = Read(Pages(12, description), options);
+    const LabelMap            volume = Read(Pages(12, description), options);
     for (int z = 0; z < volume.geometry.size[2]; ++z)
     {
       found.push_back(ValueAt(volume, 0, 0, z));

@@ -68,7 +68,7 @@ TEST(WriteLabelVolume, EveryFormatReadsBackTheSame)
       {
         const TempFolder folder;
         WriteLabelVolume(folder / name, geometry, labels, compress);
-        const LabelVolume volume = ReadLabelVolume(folder / name);
+        const LabelMap volume = ReadLabelVolume(folder / name);
         ASSERT_EQ(volume.labels.size(), 2U) << name;
         EXPECT_EQ(volume.pixelType,
                   top <= 255          ? "uint8"

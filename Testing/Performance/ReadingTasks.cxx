@@ -169,12 +169,12 @@ ReadScan(const std::string & path, const std::string & how)
 {
   ReadOptions options;
   options.binary = how == "binary";
-  const double      start = Now();
-  const double      cpuStart = ProcessorSeconds();
-  const LabelVolume volume = ReadLabelVolume(path, options);
-  const double      read = Now() - start;
-  const double      cpuRead = ProcessorSeconds() - cpuStart;
-  std::uint64_t     vertices = 0;
+  const double   start = Now();
+  const double   cpuStart = ProcessorSeconds();
+  const LabelMap volume = ReadLabelVolume(path, options);
+  const double   read = Now() - start;
+  const double   cpuRead = ProcessorSeconds() - cpuStart;
+  std::uint64_t  vertices = 0;
   for (const LabelShape & label : volume.labels)
   {
     vertices += BoundaryVertices(label.shape).size();

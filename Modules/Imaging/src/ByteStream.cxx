@@ -1,4 +1,5 @@
 #include "PlainStream.h"
+#include "voxelcore/TextFields.h"
 
 #include <array>
 #include <sys/stat.h>
@@ -91,7 +92,7 @@ ByteStream::Read(std::byte * to, std::size_t count)
 {
   if (ReadSome(to, count) != count)
   {
-    Refuse(m_Path, "the data end too early: the file is truncated or its header wrong", "fetch or write it anew");
+    RefuseInput(m_Path, "the data end too early: the file is truncated or its header wrong", "fetch or write it anew");
   }
 }
 
@@ -132,13 +133,13 @@ FileSize(const std::filesystem::path & path)
   {
     if (errno == ENOENT || errno == ENOTDIR)
     {
-      Refuse(path, "no such file", "check the name");
+      RefuseInput(path, "no such file", "check the name");
     }
-    Refuse(path, Text("cannot be opened (", std::strerror(errno), ")"), "check its name and permissions");
+    RefuseInput(path, Text("cannot be opened (", std::strerror(errno), ")"), "check its name and permissions");
   }
   if (!S_ISREG(status.st_mode))
   {
-    Refuse(path, "not a regular file", "name a file that holds a scan");
+    RefuseInput(path, "not a regular file", "name a file that holds a scan");
   }
   return static_cast<std::uint64_t>(status.st_size);
 }

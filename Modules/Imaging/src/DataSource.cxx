@@ -1,5 +1,5 @@
 #include "DataSource.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,9 +87,9 @@ private:
   [[noreturn]] void
   RefuseWord(const std::string & word) const
   {
-    Refuse(m_Path,
-           Text("'", Printable(word, 20), "' among its voxel values is no number of type ", PixelName(m_Type)),
-           "the file is damaged: fetch or write it anew");
+    RefuseInput(m_Path,
+                Text("'", Printable(word, 20), "' among its voxel values is no number of type ", PixelName(m_Type)),
+                "the file is damaged: fetch or write it anew");
   }
 
   template <typename T>
@@ -197,9 +197,9 @@ OpenOne(const std::filesystem::path & path, const DataSource & source, PixelType
     }
     if (total < offset + bytes)
     {
-      Refuse(path,
-             Text("it holds ", total - std::min(total, offset), " bytes of data, ", bytes, " are needed"),
-             "the file is truncated: fetch or write it anew");
+      RefuseInput(path,
+                  Text("it holds ", total - std::min(total, offset), " bytes of data, ", bytes, " are needed"),
+                  "the file is truncated: fetch or write it anew");
     }
     skip = static_cast<std::int64_t>(total - offset - bytes);
   }
@@ -208,9 +208,9 @@ OpenOne(const std::filesystem::path & path, const DataSource & source, PixelType
     const std::uint64_t begin = offset + static_cast<std::uint64_t>(skip);
     if (begin > size || size - begin < bytes)
     {
-      Refuse(path,
-             Text("it holds ", size - std::min(begin, size), " bytes of voxels where ", bytes, " are needed"),
-             "the file is truncated: fetch or write it anew");
+      RefuseInput(path,
+                  Text("it holds ", size - std::min(begin, size), " bytes of voxels where ", bytes, " are needed"),
+                  "the file is truncated: fetch or write it anew");
     }
     return OpenBytes(path, begin, Packing::Plain);
   }
@@ -256,9 +256,9 @@ FilesOfPattern(const std::filesystem::path & headerPath, std::string_view text)
   if (!first || !last || !step || !known || *step == 0 || std::abs(*first) > kMostParts ||
       std::abs(*last) > kMostParts || std::abs(*step) > kMostParts || (*last - *first) / *step < 0)
   {
-    Refuse(headerPath,
-           Text("the pattern of its data files makes no sense ('", Printable(text), "')"),
-           "write it as name%03d.raw FIRST LAST STEP");
+    RefuseInput(headerPath,
+                Text("the pattern of its data files makes no sense ('", Printable(text), "')"),
+                "write it as name%03d.raw FIRST LAST STEP");
   }
   std::vector<std::filesystem::path> files;
   for (std::int64_t number = *first; *step > 0 ? number <= *last : number >= *last; number += *step)
@@ -297,9 +297,9 @@ OpenData(const std::filesystem::path & headerPath, const DataSource & source, Pi
   const std::uint64_t each = bytes / source.files.size();
   if (each == 0 || each * source.files.size() != bytes)
   {
-    Refuse(headerPath,
-           Text("its ", source.files.size(), " data files cannot each hold an equal share of the voxels"),
-           "mend the list of files");
+    RefuseInput(headerPath,
+                Text("its ", source.files.size(), " data files cannot each hold an equal share of the voxels"),
+                "mend the list of files");
   }
   return OpenParts(source.files, each, [source, type, each](const std::filesystem::path & file) {
     return OpenOne(file, source, type, each);
@@ -327,7 +327,7 @@ FilesNamed(const std::filesystem::path & headerPath, std::string_view text, cons
   }
   if (files.empty())
   {
-    Refuse(headerPath, "it names no data file", "mend the header");
+    RefuseInput(headerPath, "it names no data file", "mend the header");
   }
   return files;
 }

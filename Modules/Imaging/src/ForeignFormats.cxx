@@ -1,7 +1,7 @@
 #include "ForeignFormats.h"
 
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <array>
@@ -207,7 +207,7 @@ RefuseForeign(const std::filesystem::path & path)
   {
     if (format->magic == "DICM" && bytes.find(kDicomSegmentation) != std::string::npos)
     {
-      Refuse(
+      RefuseInput(
         path,
         "DICOM segmentation, not read directly",
         Filled("convert it with 'segimage2itkimage --inputDICOM {file} --outputType nrrd --outputDirectory OUT' of "
@@ -216,15 +216,15 @@ RefuseForeign(const std::filesystem::path & path)
     }
     if (format->magic == "DICM" && bytes.find(kDicomContours) != std::string::npos)
     {
-      Refuse(path,
-             "DICOM contours (RTSTRUCT), not read directly",
-             "load them in 3D Slicer (SlicerRT) and save .seg.nrrd");
+      RefuseInput(path,
+                  "DICOM contours (RTSTRUCT), not read directly",
+                  "load them in 3D Slicer (SlicerRT) and save .seg.nrrd");
     }
-    Refuse(path, Text(format->what, ", not read directly"), Filled(format->advice, path));
+    RefuseInput(path, Text(format->what, ", not read directly"), Filled(format->advice, path));
   }
-  Refuse(path,
-         "unknown kind of scan",
-         "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF or PNG slices");
+  RefuseInput(path,
+              "unknown kind of scan",
+              "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF or PNG slices");
 }
 
 void
@@ -235,7 +235,7 @@ RefuseForeignFolder(const std::filesystem::path & path)
   {
     if (std::filesystem::exists(path / mark, ignored))
     {
-      Refuse(path, "Zarr or N5 store, not read directly", "open it in Fiji and save its labels as TIFF");
+      RefuseInput(path, "Zarr or N5 store, not read directly", "open it in Fiji and save its labels as TIFF");
     }
   }
   // The first files by name tell what the folder holds.
@@ -254,16 +254,16 @@ RefuseForeignFolder(const std::filesystem::path & path)
     const ForeignFormat * format = FindFormat(file, FirstBytes(file));
     if (format != nullptr && format->magic == "DICM")
     {
-      Refuse(path,
-             "folder of DICOM files, not read directly",
-             Filled("convert it with 'dcm2niix -z y -o OUT {file}', or load it in 3D Slicer and save it as .nrrd",
-                    path.has_filename() ? path : path.parent_path()));
+      RefuseInput(path,
+                  "folder of DICOM files, not read directly",
+                  Filled("convert it with 'dcm2niix -z y -o OUT {file}', or load it in 3D Slicer and save it as .nrrd",
+                         path.has_filename() ? path : path.parent_path()));
     }
     if (format != nullptr && format->what.ends_with("picture"))
     {
-      Refuse(path,
-             Text("folder of pictures not read directly ('", Printable(file.filename().string()), "')"),
-             "save the slices as TIFF or PNG");
+      RefuseInput(path,
+                  Text("folder of pictures not read directly ('", Printable(file.filename().string()), "')"),
+                  "save the slices as TIFF or PNG");
     }
   }
 }

@@ -1,6 +1,6 @@
 #include "GreyTest.h"
 
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "StoredValues.h"
 
 #include <algorithm>
@@ -347,8 +347,8 @@ GreyScanText(const GreyScan & grey)
 void
 RefuseGrey(const ScanFile & scan, const GreyTest & test)
 {
-  GreyScan    grey = test.Describe();
-  LabelVolume header;
+  GreyScan grey = test.Describe();
+  LabelMap header;
   header.geometry = scan.geometry;
   header.format = scan.format;
   header.pixelType = scan.storedType.empty() ? PixelName(scan.type) : scan.storedType;

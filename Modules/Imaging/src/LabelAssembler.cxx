@@ -1,7 +1,7 @@
 #include "voxelcore/LabelAssembler.h"
 
 #include "GuardedCollector.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <cmath>
 
@@ -64,9 +64,9 @@ LabelAssembler::CheckGeometry(const std::string & name, const ImageGeometry & ge
     const double length = std::hypot(axes[axis][0], axes[axis][1], axes[axis][2]);
     if (!(std::abs(length - 1) <= kLengthTolerance))
     {
-      Refuse(scan.path,
-             Text("axis ", "ijk"[axis], " of its direction has length ", Number(length)),
-             "mend it, or accept the nearest right-angled axes of length 1 with --orthonormalize");
+      RefuseInput(scan.path,
+                  Text("axis ", "ijk"[axis], " of its direction has length ", Number(length)),
+                  "mend it, or accept the nearest right-angled axes of length 1 with --orthonormalize");
     }
   }
   return scan.geometry;
@@ -83,7 +83,7 @@ LabelAssembler::LabelAssembler(const std::string &   name,
   scan.type = StoredType(pixel);
   scan.geometry = geometry;
   m_State->rowBytes = static_cast<std::size_t>(geometry.size[0]) * pixel.bytes;
-  m_State->collector = std::make_unique<GuardedCollector>(scan, options, ResolveCrop(scan, {}));
+  m_State->collector = std::make_unique<GuardedCollector>(scan, options, ResolveCrop({}, geometry.size, name));
 }
 
 LabelAssembler::~LabelAssembler() = default;

@@ -1,5 +1,5 @@
 #include "LabelCollector.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 #include "LabelNames.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "voxelcore/DidYouMean.h"
 
 #include <algorithm>
@@ -318,12 +318,12 @@ LabelBook::RefuseMissing(const std::filesystem::path & path,
         list += Text(" ", Printable(present[i].name, 40));
       }
     }
-    Refuse(path,
-           Text("there is no label '", Printable(wish.text), "'", where),
-           Text("it has ",
-                list,
-                present.size() > shown ? Text(" and ", present.size() - shown, " more") : "",
-                Printable(DidYouMean(wish.text, names))));
+    RefuseInput(path,
+                Text("there is no label '", Printable(wish.text), "'", where),
+                Text("it has ",
+                     list,
+                     present.size() > shown ? Text(" and ", present.size() - shown, " more") : "",
+                     Printable(DidYouMean(wish.text, names))));
   }
 }
 

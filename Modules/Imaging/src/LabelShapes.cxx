@@ -1,7 +1,7 @@
 // From the runs of a slab to packed shapes: the second half of LabelCollector.
 
 #include "LabelCollector.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 
@@ -99,12 +99,12 @@ LabelCollector::FinishSlab()
     m_Bytes += target.bytes;
     if (m_Bytes > limit)
     {
-      Refuse(m_Scan.path,
-             Text(m_Targets.size(),
-                  " labels scattered over the scan would take more than ",
-                  limit >> 30,
-                  " GB as shapes: these look like grey values"),
-             "give --threshold LO:HI, or choose some with --labels");
+      RefuseInput(m_Scan.path,
+                  Text(m_Targets.size(),
+                       " labels scattered over the scan would take more than ",
+                       limit >> 30,
+                       " GB as shapes: these look like grey values"),
+                  "give --threshold LO:HI, or choose some with --labels");
     }
     Piece piece;
     if (target.runs.size() * sizeof(Run) < BoxBytes(lower, upper))
@@ -142,13 +142,13 @@ LabelCollector::TakeShapes()
   const std::string where = m_IsPart ? " within the crop" : "";
   if (m_Threshold && m_Targets.empty())
   {
-    Refuse(m_Scan.path, "no voxel" + where + " lies within the threshold", "choose other bounds");
+    RefuseInput(m_Scan.path, "no voxel" + where + " lies within the threshold", "choose other bounds");
   }
   if (present.empty() && !m_Threshold)
   {
-    Refuse(m_Scan.path,
-           "nothing but background: every voxel" + where + " is 0",
-           m_IsPart ? "choose another part" : "name a scan with labels");
+    RefuseInput(m_Scan.path,
+                "nothing but background: every voxel" + where + " is 0",
+                m_IsPart ? "choose another part" : "name a scan with labels");
   }
   std::sort(present.begin(), present.end(), [](const auto & a, const auto & b) { return a.value < b.value; });
   m_Book.RefuseMissing(m_Scan.path, present, where);

@@ -1,7 +1,7 @@
 // Which stored values are labels: the rules of LabelCollector.
 
 #include "LabelCollector.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <bit>
 #include <cmath>
@@ -45,9 +45,9 @@ LabelCollector::Value(std::uint64_t bits) const
 void
 LabelCollector::RefuseValue(double value, const char * what, std::int32_t x, std::int32_t y, std::int32_t z) const
 {
-  Refuse(m_Scan.path,
-         Text("value ", Number(value), " at voxel (", x, ",", y, ",", z, ") ", what),
-         "labels are whole numbers from 0 up; for a grey scan give --threshold LO:HI");
+  RefuseInput(m_Scan.path,
+              Text("value ", Number(value), " at voxel (", x, ",", y, ",", z, ") ", what),
+              "labels are whole numbers from 0 up; for a grey scan give --threshold LO:HI");
 }
 
 std::int64_t
@@ -114,9 +114,9 @@ LabelCollector::Classify(std::uint64_t bits, std::size_t layer, std::int32_t x, 
   }
   if (m_Found.size() == kMostLabels)
   {
-    Refuse(m_Scan.path,
-           Text("more than ", kMostLabels, " different values"),
-           "this is no label volume; for a grey scan give --threshold LO:HI");
+    RefuseInput(m_Scan.path,
+                Text("more than ", kMostLabels, " different values"),
+                "this is no label volume; for a grey scan give --threshold LO:HI");
   }
   Found found;
   found.label = m_Book.Identify(layer, value);

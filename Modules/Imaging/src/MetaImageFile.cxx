@@ -6,7 +6,7 @@
 #include "DataSource.h"
 #include "ScanFile.h"
 #include "StatedSpacing.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <bit>
@@ -68,7 +68,7 @@ ReadHeader(const std::filesystem::path & path)
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos || line.size() > 65536 || line.find('\0') != std::string_view::npos)
     {
-      Refuse(path, Text("not a MetaImage header ('", Printable(line, 30), "')"), "check what kind of file it is");
+      RefuseInput(path, Text("not a MetaImage header ('", Printable(line, 30), "')"), "check what kind of file it is");
     }
     const std::string name = LowerCase(Trim(line.substr(0, equals)));
     header.fields[name] = std::string(Trim(line.substr(equals + 1)));
@@ -84,7 +84,7 @@ ReadHeader(const std::filesystem::path & path)
   }
   if (!inList)
   {
-    Refuse(path, "not a MetaImage header: it has no ElementDataFile", "the file is damaged or of another kind");
+    RefuseInput(path, "not a MetaImage header: it has no ElementDataFile", "the file is damaged or of another kind");
   }
   return header;
 }
@@ -111,10 +111,10 @@ TypeOf(const std::filesystem::path & path, const std::string & text)
   if (found == known.end())
   {
     const bool colour = text.find("ARRAY") != std::string::npos;
-    Refuse(path,
-           colour ? Text("several values a voxel (", Printable(text, 30), ")")
-                  : Text("voxels of type '", Printable(text, 30), "' are no whole numbers"),
-           "one whole number a voxel is needed");
+    RefuseInput(path,
+                colour ? Text("several values a voxel (", Printable(text, 30), ")")
+                       : Text("voxels of type '", Printable(text, 30), "' are no whole numbers"),
+                "one whole number a voxel is needed");
   }
   return found->second;
 }
@@ -125,7 +125,7 @@ Reals(const std::filesystem::path & path, const char * name, const std::string &
   const auto values = ParseReals(text);
   if (!values || values->size() != count)
   {
-    Refuse(path, Text(name, " should have ", count, " numbers ('", Printable(text), "')"), "mend the header");
+    RefuseInput(path, Text(name, " should have ", count, " numbers ('", Printable(text), "')"), "mend the header");
   }
   return *values;
 }
@@ -173,9 +173,9 @@ ReadGeometry(const MetaHeader & header, std::size_t dimensions, const ReadOption
     const auto millimetres = MillimetresIn(unit);
     if (!millimetres && unit != "?" && !options.spacing)
     {
-      Refuse(scan.path,
-             Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
-             "give the voxel spacing with --spacing x,y,z in mm");
+      RefuseInput(scan.path,
+                  Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
+                  "give the voxel spacing with --spacing x,y,z in mm");
     }
     if (millimetres && *millimetres != 1.0)
     {
@@ -213,7 +213,7 @@ FindData(const std::filesystem::path & path, const MetaHeader & header)
     const auto skip = ParseInteger(text);
     if (!skip || *skip < -1 || *skip > (std::int64_t{ 1 } << 50))
     {
-      Refuse(path, Text("HeaderSize = ", Printable(text, 20), " makes no sense"), "mend the header");
+      RefuseInput(path, Text("HeaderSize = ", Printable(text, 20), " makes no sense"), "mend the header");
     }
     if (lower != "local")
     {
@@ -247,12 +247,12 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
   const auto dimensions = ParseInteger(header.Field({ "ndims" }));
   if (!dimensions || *dimensions < 1 || *dimensions > 10)
   {
-    Refuse(path, Text("NDims = ", Printable(header.Field({ "ndims" }), 20), " makes no sense"), "mend the header");
+    RefuseInput(path, Text("NDims = ", Printable(header.Field({ "ndims" }), 20), " makes no sense"), "mend the header");
   }
   const auto n = static_cast<std::size_t>(*dimensions);
   if (n < 3)
   {
-    Refuse(path, Text(n, "-D image"), "a volume with three axes in space is needed");
+    RefuseInput(path, Text(n, "-D image"), "a volume with three axes in space is needed");
   }
   const std::string         dimSize = header.Field({ "dimsize" });
   const auto                words = Words(dimSize);
@@ -263,7 +263,7 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
   }
   if (sizes.size() != n)
   {
-    Refuse(path, Text("DimSize should have ", n, " numbers ('", Printable(dimSize), "')"), "mend the header");
+    RefuseInput(path, Text("DimSize should have ", n, " numbers ('", Printable(dimSize), "')"), "mend the header");
   }
   std::copy_n(sizes.begin(), 3, scan.geometry.size.begin());
   std::uint64_t volumes = 1;
@@ -271,7 +271,7 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
   {
     if (sizes[a] < 1 || sizes[a] > (1 << 30) || volumes > (1U << 30))
     {
-      Refuse(path, Text("DimSize = ", Printable(dimSize), " makes no sense"), "mend the header");
+      RefuseInput(path, Text("DimSize = ", Printable(dimSize), " makes no sense"), "mend the header");
     }
     volumes *= static_cast<std::uint64_t>(sizes[a]);
   }
@@ -279,7 +279,9 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
   const auto        components = channels.empty() ? std::optional<std::int64_t>(1) : ParseInteger(channels);
   if (!components || *components < 1 || *components > kMostChannels)
   {
-    Refuse(path, Text("ElementNumberOfChannels = ", Printable(channels, 20), " makes no sense"), "mend the header");
+    RefuseInput(path,
+                Text("ElementNumberOfChannels = ", Printable(channels, 20), " makes no sense"),
+                "mend the header");
   }
   scan.type = TypeOf(path, header.Field({ "elementtype" }));
   const std::uint64_t volume = ChooseVolume(path, volumes, options);
@@ -297,7 +299,7 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
   const std::uint64_t bytes = bytesPerVoxel * CheckSize(path, scan.geometry.size, bytesPerVoxel, possible);
   if (volumes > std::max<std::uint64_t>(1, possible / bytes))
   {
-    Refuse(path, "its header gives more volumes than its data can hold", "the file is truncated: write it anew");
+    RefuseInput(path, "its header gives more volumes than its data can hold", "the file is truncated: write it anew");
   }
   const bool big = IsTrue(header.Field({ "binarydatabyteordermsb", "elementbyteordermsb" }));
   scan.swapBytes = !source.ascii && big != (std::endian::native == std::endian::big);

@@ -5,7 +5,7 @@
 
 #include "NiftiForms.h"
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <array>
@@ -131,7 +131,7 @@ ReadHeader(const std::filesystem::path & path)
   const std::size_t             got = stream->ReadSome(bytes.data(), bytes.size());
   if (got < kSize1)
   {
-    Refuse(path, "too short for a NIfTI header", "the file is truncated or of another kind");
+    RefuseInput(path, "too short for a NIfTI header", "the file is truncated or of another kind");
   }
   NiftiHeader  h;
   std::int32_t size = 0;
@@ -148,7 +148,9 @@ ReadHeader(const std::filesystem::path & path)
     h.pair = magicIs(344, std::string_view("ni1\0", 4));
     if (!h.pair && !magicIs(344, std::string_view("n+1\0", 4)))
     {
-      Refuse(path, "no NIfTI file (perhaps ANALYZE 7.5, which does not tell left from right)", "convert it to NIfTI");
+      RefuseInput(path,
+                  "no NIfTI file (perhaps ANALYZE 7.5, which does not tell left from right)",
+                  "convert it to NIfTI");
     }
     ReadVersion1(fields, h);
   }
@@ -158,13 +160,13 @@ ReadHeader(const std::filesystem::path & path)
     h.pair = magicIs(4, std::string_view("ni2\0", 4));
     if (!h.pair && !magicIs(4, std::string_view("n+2\0", 4)))
     {
-      Refuse(path, "no NIfTI file (its mark is missing)", "check what kind of file it is");
+      RefuseInput(path, "no NIfTI file (its mark is missing)", "check what kind of file it is");
     }
     ReadVersion2(fields, h);
   }
   else
   {
-    Refuse(path, "no NIfTI file", "check what kind of file it is");
+    RefuseInput(path, "no NIfTI file", "check what kind of file it is");
   }
   return h;
 }
@@ -200,11 +202,11 @@ TypeOf(const std::filesystem::path & path, int datatype)
     case 32:
     case 1792:
     case 2048:
-      Refuse(path, "its voxels are complex numbers", "one whole number a voxel is needed");
+      RefuseInput(path, "its voxels are complex numbers", "one whole number a voxel is needed");
     default:
       break;
   }
-  Refuse(path, Text("its voxel type ", datatype, " is not known here"), "save it with a type of whole numbers");
+  RefuseInput(path, Text("its voxel type ", datatype, " is not known here"), "save it with a type of whole numbers");
 }
 
 /** scan.hdr for scan.img and the other way round, with or without .gz. */
@@ -227,7 +229,7 @@ Partner(const std::filesystem::path & path, std::string_view extension)
       return candidate;
     }
   }
-  Refuse(path, Text("its other half ", Printable(name), extension, " is not there"), "keep both files together");
+  RefuseInput(path, Text("its other half ", Printable(name), extension, " is not there"), "keep both files together");
 }
 
 void
@@ -299,11 +301,11 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
   scan.swapBytes = h.swapped;
   if (h.dim[0] < 1 || h.dim[0] > 7)
   {
-    Refuse(path, Text("its header gives ", h.dim[0], " dimensions"), "the file is damaged");
+    RefuseInput(path, Text("its header gives ", h.dim[0], " dimensions"), "the file is damaged");
   }
   if (h.dim[0] < 3)
   {
-    Refuse(path, Text(h.dim[0], "-D image"), "a volume with three axes in space is needed");
+    RefuseInput(path, Text(h.dim[0], "-D image"), "a volume with three axes in space is needed");
   }
   std::copy_n(h.dim.begin() + 1, 3, scan.geometry.size.begin());
   // The fourth axis is that of time. Those behind it hold the values of a voxel, each as a volume of its own.
@@ -319,14 +321,14 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
     }
     if (h.dim[d] < 0 || h.dim[d] > kMostBlocks || count > std::uint64_t{ kMostBlocks })
     {
-      Refuse(path, Text("its header gives a side of ", h.dim[d]), "the file is damaged");
+      RefuseInput(path, Text("its header gives a side of ", h.dim[d]), "the file is damaged");
     }
   }
   scan.type = TypeOf(path, h.datatype);
   scan.interleaved = h.datatype == kRgb ? 3 : (h.datatype == kRgba ? 4 : 1);
   if (scan.interleaved > 1 && planes > 1)
   {
-    Refuse(path, "vectors of colours", "save its labels as one whole number a voxel");
+    RefuseInput(path, "vectors of colours", "save its labels as one whole number a voxel");
   }
   const std::uint64_t volume = ChooseVolume(path, volumes, options);
   const std::uint64_t component = ChooseComponent(path,
@@ -347,22 +349,22 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
   const auto   possible = fileBytes * LargestExpansion(packing);
   if (!(h.voxOffset >= least && h.voxOffset <= static_cast<double>(possible)))
   {
-    Refuse(path, Text("its header says voxels begin at byte ", Number(h.voxOffset)), "the file is damaged");
+    RefuseInput(path, Text("its header says voxels begin at byte ", Number(h.voxOffset)), "the file is damaged");
   }
   const auto          offset = static_cast<std::uint64_t>(h.voxOffset);
   const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * scan.interleaved;
   const std::uint64_t bytes = bytesPerVoxel * CheckSize(path, scan.geometry.size, bytesPerVoxel, possible);
   if (blocks > possible / bytes || (packing == Packing::Plain && offset + bytes * blocks > fileBytes))
   {
-    Refuse(path,
-           Text("it holds ",
-                fileBytes - std::min(offset, fileBytes),
-                " bytes of voxels where ",
-                bytes,
-                " in each of ",
-                blocks,
-                " volumes are needed"),
-           "the file is truncated: fetch or write it anew");
+    RefuseInput(path,
+                Text("it holds ",
+                     fileBytes - std::min(offset, fileBytes),
+                     " bytes of voxels where ",
+                     bytes,
+                     " in each of ",
+                     blocks,
+                     " volumes are needed"),
+                "the file is truncated: fetch or write it anew");
   }
   ReadScaling(h, scan);
   ReadUnits(h, scan);

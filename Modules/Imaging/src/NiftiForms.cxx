@@ -4,7 +4,7 @@
 // repeated here (so that results lie on the scan as 3D Slicer shows it), said aloud, and everything is in mm.
 
 #include "NiftiForms.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -176,7 +176,7 @@ PlaceNifti(const NiftiPlacement & p, const ReadOptions & options, ScanFile & sca
     const bool wantSform = options.niftiForm == "sform";
     if (!(wantSform ? hasSform : hasQform))
     {
-      Refuse(scan.path, Text("it has no ", options.niftiForm), "leave out --nifti-form");
+      RefuseInput(scan.path, Text("it has no ", options.niftiForm), "leave out --nifti-form");
     }
     scan.notes.push_back(Text("the ", options.niftiForm, " was asked for"));
     wantSform ? UseSform(sform, spacing, true, options, scan) : SetFromRas(qform, spacing, options, scan);

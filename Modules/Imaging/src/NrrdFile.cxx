@@ -7,7 +7,7 @@
 #include "NrrdGeometry.h"
 #include "NrrdHeader.h"
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <bit>
@@ -59,9 +59,9 @@ TypeOf(const std::filesystem::path & path, std::string_view text)
       return pixel;
     }
   }
-  Refuse(path,
-         Text("voxels of type '", Printable(text, 30), "' are no numbers"),
-         "save it with a type of whole numbers");
+  RefuseInput(path,
+              Text("voxels of type '", Printable(text, 30), "' are no numbers"),
+              "save it with a type of whole numbers");
 }
 
 bool
@@ -105,7 +105,7 @@ SortAxes(const std::filesystem::path &                           path,
   }
   if (spatial.size() < 3)
   {
-    Refuse(path, Text(spatial.size(), "-D image"), "a volume with three axes in space is needed");
+    RefuseInput(path, Text(spatial.size(), "-D image"), "a volume with three axes in space is needed");
   }
   NrrdAxes axes;
   std::copy(spatial.begin(), spatial.end(), axes.spatial.begin());
@@ -124,18 +124,20 @@ SortAxes(const std::filesystem::path &                           path,
       std::string &   kindSoFar = before ? axes.kindBefore : axes.kindAfter;
       if (count > 1 && IsComponentKind(kindSoFar) != IsComponentKind(kind))
       {
-        Refuse(path, "values of a voxel and volumes lie on neighbouring axes", "permute the axes: values, space, time");
+        RefuseInput(path,
+                    "values of a voxel and volumes lie on neighbouring axes",
+                    "permute the axes: values, space, time");
       }
       count *= size;
       kindSoFar = kind;
     }
     else
     {
-      Refuse(path, "its axes in space are interrupted by another axis", "permute the axes: space first");
+      RefuseInput(path, "its axes in space are interrupted by another axis", "permute the axes: space first");
     }
     if (axes.before > kMostLayers || axes.after > (1U << 30))
     {
-      Refuse(path, Text("an axis of ", size, " values that is not in space"), "this is no label volume");
+      RefuseInput(path, Text("an axis of ", size, " values that is not in space"), "this is no label volume");
     }
   }
   return axes;
@@ -163,7 +165,7 @@ ReadSegments(const NrrdHeader & header, ScanFile & scan)
                                                : ParseInteger(Trim(layer->second));
     if (!number || !at || *at < 0 || static_cast<std::uint64_t>(*at) >= scan.interleaved)
     {
-      Refuse(scan.path, Text("segment ", n, " has a label value or layer that makes no sense"), "mend the header");
+      RefuseInput(scan.path, Text("segment ", n, " has a label value or layer that makes no sense"), "mend the header");
     }
     segment.value = *number;
     if (const auto color = header.keys.find(prefix + "Color"); color != header.keys.end())
@@ -192,7 +194,7 @@ ChooseParts(const NrrdAxes & axes, const ReadOptions & options, ScanFile & scan)
   const bool componentsAfter = axes.after > 1 && IsComponentKind(axes.kindAfter);
   if ((componentsBefore && componentsAfter) || (volumesBefore && axes.after > 1 && !componentsAfter))
   {
-    Refuse(scan.path, "values on axes both before and behind those in space", "save one volume");
+    RefuseInput(scan.path, "values on axes both before and behind those in space", "save one volume");
   }
   if (layers && options.component)
   {
@@ -234,16 +236,16 @@ FindData(const std::filesystem::path & path, const NrrdHeader & header)
   }
   else if (encoding != "raw")
   {
-    Refuse(path, Text("its encoding '", Printable(encoding, 20), "' is not known here"), "save it as raw or gzip");
+    RefuseInput(path, Text("its encoding '", Printable(encoding, 20), "' is not known here"), "save it as raw or gzip");
   }
   const auto skips = [&](std::string_view name, std::int64_t least) -> std::int64_t {
     const auto text = header.Field(name);
     const auto value = text.empty() ? std::optional<std::int64_t>(0) : ParseInteger(text);
     if (!value || *value < least || *value > (std::int64_t{ 1 } << 50))
     {
-      Refuse(path,
-             Text("the header field '", name, "' makes no sense ('", Printable(text, 20), "')"),
-             "mend the header");
+      RefuseInput(path,
+                  Text("the header field '", name, "' makes no sense ('", Printable(text, 20), "')"),
+                  "mend the header");
     }
     return *value;
   };
@@ -254,7 +256,7 @@ FindData(const std::filesystem::path & path, const NrrdHeader & header)
   {
     if (!header.ended)
     {
-      Refuse(path, "its header ends without a blank line and names no data file", "the file is truncated");
+      RefuseInput(path, "its header ends without a blank line and names no data file", "the file is truncated");
     }
     source.files = { path };
     source.offset = header.dataOffset;
@@ -287,7 +289,7 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
   {
     if (header.Field(needed).empty())
     {
-      Refuse(path, Text("its header has no field '", needed, "'"), "the file is damaged or no NRRD");
+      RefuseInput(path, Text("its header has no field '", needed, "'"), "the file is damaged or no NRRD");
     }
   }
   scan.type = TypeOf(path, header.Field("type"));
@@ -298,14 +300,14 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
     const auto size = ParseInteger(word);
     if (!size || *size < 1)
     {
-      Refuse(path, Text("a side of ", Printable(word, 20), " voxels"), "the file is damaged");
+      RefuseInput(path, Text("a side of ", Printable(word, 20), " voxels"), "the file is damaged");
     }
     sizes.push_back(*size);
   }
   const auto dimension = ParseInteger(header.Field("dimension"));
   if (!dimension || *dimension != static_cast<std::int64_t>(sizes.size()) || sizes.size() > 16)
   {
-    Refuse(path, "its header fields 'dimension' and 'sizes' contradict each other", "mend the header");
+    RefuseInput(path, "its header fields 'dimension' and 'sizes' contradict each other", "mend the header");
   }
   std::vector<std::string> kinds;
   for (const auto word : Words(header.Field("kinds")))
@@ -315,9 +317,9 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
   const auto steps = ParseNrrdVectors(path, "space directions", header.Field("spacedirections"));
   if (!steps.empty() && steps.size() != sizes.size())
   {
-    Refuse(path,
-           Text("its header has ", steps.size(), " space directions for ", sizes.size(), " axes"),
-           "mend the header");
+    RefuseInput(path,
+                Text("its header has ", steps.size(), " space directions for ", sizes.size(), " axes"),
+                "mend the header");
   }
   const NrrdAxes axes = SortAxes(path, sizes, kinds, steps);
   for (std::size_t a = 0; a < 3; ++a)
@@ -335,7 +337,7 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
   // CheckSize bounds the first factor by `possible`.
   if (axes.after > std::max<std::uint64_t>(1, possible / (voxels * bytesPerVoxel)))
   {
-    Refuse(path, "its header gives more volumes than its data can hold", "the file is truncated: write it anew");
+    RefuseInput(path, "its header gives more volumes than its data can hold", "the file is truncated: write it anew");
   }
 
   if (PixelBytes(scan.type) > 1 && !source.ascii)
@@ -343,7 +345,7 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
     const std::string endian = LowerCase(header.Field("endian"));
     if (endian != "little" && endian != "big")
     {
-      Refuse(path, "its header does not say whether values are little or big endian", "mend the header");
+      RefuseInput(path, "its header does not say whether values are little or big endian", "mend the header");
     }
     scan.swapBytes = (endian == "big") != (std::endian::native == std::endian::big);
   }

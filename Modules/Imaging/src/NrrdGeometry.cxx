@@ -1,6 +1,6 @@
 #include "NrrdGeometry.h"
 #include "StatedSpacing.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +58,9 @@ UnitsInMillimetres(std::string_view                   text,
     const auto millimetres = MillimetresIn(unit);
     if (!millimetres && !options.spacing)
     {
-      Refuse(scan.path,
-             Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
-             "give the voxel spacing with --spacing x,y,z in mm");
+      RefuseInput(scan.path,
+                  Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
+                  "give the voxel spacing with --spacing x,y,z in mm");
     }
     scale[a] = millimetres.value_or(1.0);
   }
@@ -77,9 +77,9 @@ Reals(const std::filesystem::path & path, std::string_view field, std::string_vi
   const auto values = ParseReals(text);
   if (!values || values->size() != count)
   {
-    Refuse(path,
-           Text("the header field '", field, "' should have ", count, " numbers ('", Printable(text), "')"),
-           "mend the header");
+    RefuseInput(path,
+                Text("the header field '", field, "' should have ", count, " numbers ('", Printable(text), "')"),
+                "mend the header");
   }
   return *values;
 }
@@ -160,7 +160,7 @@ GeometryFromDirections(const NrrdHeader &                                      h
     const auto & step = *steps[axes.spatial[a]];
     if (step.size() < 3)
     {
-      Refuse(scan.path, Text(step.size(), "-D space"), "a volume in three-dimensional space is needed");
+      RefuseInput(scan.path, Text(step.size(), "-D space"), "a volume in three-dimensional space is needed");
     }
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c)

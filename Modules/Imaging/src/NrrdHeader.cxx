@@ -2,7 +2,7 @@
 
 #include "NrrdHeader.h"
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 
@@ -29,7 +29,7 @@ HeaderText(const std::filesystem::path & path, std::size_t & end, bool & ended)
     text.resize(before + stream->ReadSome(reinterpret_cast<std::byte *>(text.data() + before), 65536));
     if (before == 0 && !text.starts_with("NRRD"))
     {
-      Refuse(path, "not an NRRD file (it does not begin with NRRD)", "check what kind of file it is");
+      RefuseInput(path, "not an NRRD file (it does not begin with NRRD)", "check what kind of file it is");
     }
     for (std::size_t newline; (newline = text.find('\n', std::max(line, seen))) != std::string::npos;
          line = newline + 1)
@@ -51,7 +51,7 @@ HeaderText(const std::filesystem::path & path, std::size_t & end, bool & ended)
     }
     if (text.size() > kLongestHeader)
     {
-      Refuse(path, "its header has no end", "the file is damaged: fetch or write it anew");
+      RefuseInput(path, "its header has no end", "the file is damaged: fetch or write it anew");
     }
   }
 }
@@ -115,7 +115,9 @@ ReadNrrdHeader(const std::filesystem::path & path)
       first = false;
       if (line.size() != 8 || line.substr(0, 7) != "NRRD000" || line[7] < '1' || line[7] > '5')
       {
-        Refuse(path, Text("not an NRRD file of a known version ('", Printable(line, 16), "')"), "save it as NRRD0004");
+        RefuseInput(path,
+                    Text("not an NRRD file of a known version ('", Printable(line, 16), "')"),
+                    "save it as NRRD0004");
       }
       continue;
     }
@@ -134,7 +136,7 @@ ReadNrrdHeader(const std::filesystem::path & path)
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos)
     {
-      Refuse(path, Text("a header line without meaning ('", Printable(line), "')"), "the file is damaged");
+      RefuseInput(path, Text("a header line without meaning ('", Printable(line), "')"), "the file is damaged");
     }
     if (line.substr(colon + 1).starts_with('='))
     {
@@ -147,7 +149,7 @@ ReadNrrdHeader(const std::filesystem::path & path)
     const std::string value(Trim(line.substr(colon + 1)));
     if (!header.fields.emplace(name, value).second)
     {
-      Refuse(path, Text("the header field '", Printable(name), "' stands there twice"), "mend the header");
+      RefuseInput(path, Text("the header field '", Printable(name), "' stands there twice"), "mend the header");
     }
     inList = name == "datafile" && LowerCase(value).starts_with("list");
   }
@@ -158,7 +160,9 @@ std::vector<std::optional<std::vector<double>>>
 ParseNrrdVectors(const std::filesystem::path & path, std::string_view field, std::string_view text)
 {
   const auto refuse = [&]() {
-    Refuse(path, Text("the header field '", field, "' makes no sense ('", Printable(text), "')"), "mend the header");
+    RefuseInput(path,
+                Text("the header field '", field, "' makes no sense ('", Printable(text), "')"),
+                "mend the header");
   };
   std::vector<std::optional<std::vector<double>>> vectors;
   for (std::size_t at = 0;;)

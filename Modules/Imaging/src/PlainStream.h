@@ -3,7 +3,7 @@
 
 #include "ByteStream.h"
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -23,7 +23,7 @@ public:
   {
     if (m_File < 0)
     {
-      Refuse(path, Text("cannot be opened (", std::strerror(errno), ")"), "check its name and permissions");
+      RefuseInput(path, Text("cannot be opened (", std::strerror(errno), ")"), "check its name and permissions");
     }
     ::lseek(m_File, static_cast<off_t>(offset), SEEK_SET);
     ::posix_fadvise(m_File, 0, 0, POSIX_FADV_SEQUENTIAL);
@@ -49,7 +49,7 @@ public:
       }
       if (got < 0)
       {
-        Refuse(m_Path, Text("cannot be read (", std::strerror(errno), ")"), "check the file and its disk");
+        RefuseInput(m_Path, Text("cannot be read (", std::strerror(errno), ")"), "check the file and its disk");
       }
       if (got == 0)
       {

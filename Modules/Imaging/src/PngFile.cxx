@@ -1,5 +1,6 @@
 #include "PngFile.h"
 #include "PlainStream.h"
+#include "voxelcore/TextFields.h"
 
 #include <png.h>
 
@@ -58,7 +59,7 @@ public:
     const int kind = png_get_color_type(m_Png, m_Info);
     if ((kind & PNG_COLOR_MASK_PALETTE) != 0)
     {
-      Refuse(m_Path, "palette colour image", "save its labels as a grey-level image");
+      RefuseInput(m_Path, "palette colour image", "save its labels as a grey-level image");
     }
     PngPage page;
     page.width = png_get_image_width(m_Png, m_Info);
@@ -75,9 +76,9 @@ public:
       (std::uint64_t{ page.width } * static_cast<unsigned>(page.bits * page.samples) + 7) / 8 + 1;
     if (rowBytes * page.height > fileBytes * LargestExpansion(Packing::Deflate))
     {
-      Refuse(m_Path,
-             Text("its header gives ", page.width, " x ", page.height, " pixels, its data cannot hold them"),
-             "the file is truncated or its header damaged: fetch or write it anew");
+      RefuseInput(m_Path,
+                  Text("its header gives ", page.width, " x ", page.height, " pixels, its data cannot hold them"),
+                  "the file is truncated or its header damaged: fetch or write it anew");
     }
     return page;
   }
@@ -166,9 +167,9 @@ private:
   [[noreturn]] void
   RefuseDamaged() const
   {
-    Refuse(m_Path,
-           Text("a PNG image that cannot be read (", Printable(m_Error.data(), 120), ")"),
-           "the file is damaged, truncated or of another kind: write it anew");
+    RefuseInput(m_Path,
+                Text("a PNG image that cannot be read (", Printable(m_Error.data(), 120), ")"),
+                "the file is damaged, truncated or of another kind: write it anew");
   }
 
   [[noreturn]] static void

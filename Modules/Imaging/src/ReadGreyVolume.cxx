@@ -2,6 +2,7 @@
 #include "SlabReader.h"
 #include "StoredValues.h"
 #include "voxelcore/GreyVolume.h"
+#include "voxelcore/TextFields.h"
 
 #include <cmath>
 
@@ -17,7 +18,7 @@ ReadGreyVolume(const std::filesystem::path & path,
   ScanFile scan = OpenScan(path, options);
   if (scan.interleaved > 1 && scan.component < 0)
   {
-    Refuse(path, "it is a segmentation in layers, without grey values", "give the scan it was made of");
+    RefuseInput(path, "it is a segmentation in layers, without grey values", "give the scan it was made of");
   }
   CropRange part;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -26,7 +27,7 @@ ReadGreyVolume(const std::filesystem::path & path,
     part.end[axis] = box.lower[axis] + box.size[axis];
     if (part.first[axis] < 0 || part.end[axis] > scan.geometry.size[axis] || box.size[axis] < 1)
     {
-      Refuse(path, "it is smaller than the segmentation", "give the scan the segmentation was made of");
+      RefuseInput(path, "it is smaller than the segmentation", "give the scan the segmentation was made of");
     }
   }
   GreyVolume grey{ scan.geometry, box, {} };
@@ -49,7 +50,7 @@ ReadGreyVolume(const std::filesystem::path & path,
           const double      value = scan.slope * StoredValue(place, scan.type) + scan.intercept;
           if (!std::isfinite(value))
           {
-            Refuse(path, "a voxel near the shape is no finite number", "grey values must be numbers there");
+            RefuseInput(path, "a voxel near the shape is no finite number", "grey values must be numbers there");
           }
           grey.values.push_back(static_cast<float>(value));
         }

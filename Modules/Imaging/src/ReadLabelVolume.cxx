@@ -6,11 +6,15 @@
 namespace voxelcore
 {
 
-LabelVolume
+LabelMap
 ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options, const ProgressCallback & progress)
 {
-  ScanFile         scan = OpenScan(path, options);
-  const CropRange  part = ResolveCrop(scan, options);
+  ScanFile        scan = OpenScan(path, options);
+  const CropRange part = ResolveCrop(options.crop, scan.geometry.size, path);
+  if (options.crop)
+  {
+    scan.notes.push_back("only the voxels " + CropText(part) + " were looked at");
+  }
   GuardedCollector collector(scan, options, part);
   const auto &     size = scan.geometry.size;
   ReportProgress(progress, "read", 0.0);
@@ -37,7 +41,7 @@ ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options,
   }
   scan.voxels.reset();
 
-  LabelVolume volume;
+  LabelMap volume;
   volume.labels = collector.TakeShapes();
   volume.geometry = scan.geometry;
   if (options.crop)

@@ -1,18 +1,12 @@
 #include "ScanFile.h"
 
 #include "ForeignFormats.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 
 namespace voxelcore
 {
-
-void
-Refuse(const std::filesystem::path & path, std::string_view wrong, std::string_view remedy)
-{
-  throw InputError(Text(Printable(path.string(), 4096), ": ", wrong, "; ", remedy));
-}
 
 std::vector<std::string>
 WarningsOf(const ScanFile & scan)
@@ -90,25 +84,25 @@ CheckSize(const std::filesystem::path &       path,
   {
     if (side < 1 || side > (std::int64_t{ 1 } << 30))
     {
-      Refuse(path, Text("its header gives a side of ", side, " voxels"), "the file is damaged or no volume");
+      RefuseInput(path, Text("its header gives a side of ", side, " voxels"), "the file is damaged or no volume");
     }
     total *= static_cast<Wide>(side);
   }
   // Three sides of 2^30 and 2^20 bytes a voxel stay below 2^128.
   if (bytesPerVoxel > (1U << 20) || total * bytesPerVoxel > bytesPossible)
   {
-    Refuse(path,
-           Text("its header gives ",
-                size[0],
-                " x ",
-                size[1],
-                " x ",
-                size[2],
-                " voxels of ",
-                bytesPerVoxel,
-                " bytes, its data hold at most ",
-                bytesPossible),
-           "the file is truncated or its header damaged: fetch or write it anew");
+    RefuseInput(path,
+                Text("its header gives ",
+                     size[0],
+                     " x ",
+                     size[1],
+                     " x ",
+                     size[2],
+                     " voxels of ",
+                     bytesPerVoxel,
+                     " bytes, its data hold at most ",
+                     bytesPossible),
+                "the file is truncated or its header damaged: fetch or write it anew");
   }
   return static_cast<std::uint64_t>(total);
 }
@@ -120,17 +114,17 @@ ChooseVolume(const std::filesystem::path & path, std::uint64_t volumes, const Re
   {
     if (volumes > 1)
     {
-      Refuse(path,
-             Text("4-D file with ", volumes, " volumes"),
-             Text("choose one with --volume 0 to --volume ", volumes - 1));
+      RefuseInput(path,
+                  Text("4-D file with ", volumes, " volumes"),
+                  Text("choose one with --volume 0 to --volume ", volumes - 1));
     }
     return 0;
   }
   if (*options.volume < 0 || static_cast<std::uint64_t>(*options.volume) >= volumes)
   {
-    Refuse(path,
-           Text("there is no volume ", *options.volume, ", it has ", volumes),
-           Text("volumes are counted from 0 to ", volumes - 1));
+    RefuseInput(path,
+                Text("there is no volume ", *options.volume, ", it has ", volumes),
+                Text("volumes are counted from 0 to ", volumes - 1));
   }
   return static_cast<std::uint64_t>(*options.volume);
 }
@@ -145,18 +139,19 @@ ChooseComponent(const std::filesystem::path & path,
   {
     if (components > 1)
     {
-      Refuse(path,
-             Text(kind, " (", components, " values a voxel)"),
-             Text("save its labels as one whole number a voxel, or choose one value with --component 0 to --component ",
-                  components - 1));
+      RefuseInput(
+        path,
+        Text(kind, " (", components, " values a voxel)"),
+        Text("save its labels as one whole number a voxel, or choose one value with --component 0 to --component ",
+             components - 1));
     }
     return 0;
   }
   if (*options.component < 0 || static_cast<std::uint64_t>(*options.component) >= components)
   {
-    Refuse(path,
-           Text("there is no component ", *options.component, ", a voxel has ", components),
-           Text("components are counted from 0 to ", components - 1));
+    RefuseInput(path,
+                Text("there is no component ", *options.component, ", a voxel has ", components),
+                Text("components are counted from 0 to ", components - 1));
   }
   return static_cast<std::uint64_t>(*options.component);
 }
@@ -192,7 +187,7 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
   }
   if (FileSize(path) == 0)
   {
-    Refuse(path, "the file is empty", "fetch or write it anew");
+    RefuseInput(path, "the file is empty", "fetch or write it anew");
   }
   switch (kind)
   {
@@ -205,7 +200,7 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
     case ScanKind::Tiff:
       return OpenTiff(path, options);
     case ScanKind::Png:
-      Refuse(path, "2-D image", "a volume is needed: name the folder of slices, or a pattern such as slice_*.png");
+      RefuseInput(path, "2-D image", "a volume is needed: name the folder of slices, or a pattern such as slice_*.png");
     case ScanKind::Slices:
     case ScanKind::Unknown:
       break;

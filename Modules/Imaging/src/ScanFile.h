@@ -16,10 +16,6 @@
 namespace voxelcore
 {
 
-/** Throws InputError: one line "<file>: <what is wrong>; <what to do>". */
-[[noreturn]] void
-Refuse(const std::filesystem::path & path, std::string_view wrong, std::string_view remedy);
-
 enum class PixelType : std::uint8_t
 {
   UInt8,
@@ -60,8 +56,8 @@ struct Segment
 struct ScanFile
 {
   std::filesystem::path    path;
-  std::string              format;     ///< as LabelVolume::format
-  std::string              storedType; ///< as LabelVolume::pixelType; empty: PixelName(type)
+  std::string              format;     ///< as LabelMap::format
+  std::string              storedType; ///< as LabelMap::pixelType; empty: PixelName(type)
   PixelType                type = PixelType::UInt8;
   bool                     swapBytes = false; ///< the stream's byte order is not this machine's
   ImageGeometry            geometry;
@@ -152,11 +148,6 @@ SetGeometry(ScanFile &                     scan,
 /** The largest cosine between two of the three directions: 0 when they are orthogonal. */
 double
 LargestCosine(const std::array<Vector3, 3> & directions);
-
-/** The voxels to look at: options.crop with its ends filled in, or the whole scan. Notes it.
- *  \throws InputError when it reaches beyond the scan; UsageError when it is empty. */
-CropRange
-ResolveCrop(ScanFile & scan, const ReadOptions & options);
 
 /** Checks options.component against the values a voxel has, which are `kind` ("colour image", ...), and returns the one
  *  to take. \throws InputError when there are several and none was chosen, or there is none of that number. */

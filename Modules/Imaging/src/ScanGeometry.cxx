@@ -1,7 +1,7 @@
 // From the steps between voxels to spacing, origin and direction.
 
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -79,18 +79,18 @@ SetGeometry(ScanFile &                     scan,
       {
         throw UsageError(Text("--spacing ", Number(geometry.spacing[a]), ": spacings are lengths in mm above 0"));
       }
-      Refuse(scan.path,
-             Text("the voxel spacing along axis ", axisName[a], " is ", Number(geometry.spacing[a])),
-             "give the true one with --spacing x,y,z in mm");
+      RefuseInput(scan.path,
+                  Text("the voxel spacing along axis ", axisName[a], " is ", Number(geometry.spacing[a])),
+                  "give the true one with --spacing x,y,z in mm");
     }
     const double length = std::sqrt(Dot(directions[a], directions[a]));
     if (!std::isfinite(length) || length <= 0)
     {
-      Refuse(scan.path, Text("axis ", axisName[a], " has no direction"), "mend the header");
+      RefuseInput(scan.path, Text("axis ", axisName[a], " has no direction"), "mend the header");
     }
     if (!std::isfinite(origin[a]))
     {
-      Refuse(scan.path, "the origin is not a number", "mend the header");
+      RefuseInput(scan.path, "the origin is not a number", "mend the header");
     }
     for (std::size_t c = 0; c < 3; ++c)
     {
@@ -109,13 +109,13 @@ SetGeometry(ScanFile &                     scan,
     const std::string degrees = Number(std::asin(std::min(1.0, cosine)) * 180.0 / 3.14159265358979323846);
     if (volume < kSingularVolume)
     {
-      Refuse(scan.path, "its axes lie in one plane", "mend the header");
+      RefuseInput(scan.path, "its axes lie in one plane", "mend the header");
     }
     if (!options.orthonormalize)
     {
-      Refuse(scan.path,
-             Text("its axes are skewed, ", degrees, " degrees off a right angle"),
-             "resample it, or accept the nearest right-angled axes with --orthonormalize");
+      RefuseInput(scan.path,
+                  Text("its axes are skewed, ", degrees, " degrees off a right angle"),
+                  "resample it, or accept the nearest right-angled axes with --orthonormalize");
     }
     MakeOrthonormal(axes);
     scan.notes.push_back(

@@ -3,7 +3,7 @@
 #include "ForeignFormats.h"
 #include "PngFile.h"
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "TiffFile.h"
 
 #include <algorithm>
@@ -157,13 +157,13 @@ FindSlices(const std::filesystem::path & path)
   const std::string           pattern = folder ? "" : path.filename().string();
   if (!folder && std::count(pattern.begin(), pattern.end(), '*') > 4)
   {
-    Refuse(path, "too many * in the pattern", "use one");
+    RefuseInput(path, "too many * in the pattern", "use one");
   }
   std::vector<Slice> slices;
   auto               entries = std::filesystem::directory_iterator(where, error);
   if (error)
   {
-    Refuse(where, Text("cannot be read (", error.message(), ")"), "check its name and permissions");
+    RefuseInput(where, Text("cannot be read (", error.message(), ")"), "check its name and permissions");
   }
   for (const auto & entry : entries)
   {
@@ -181,14 +181,14 @@ FindSlices(const std::filesystem::path & path)
     {
       RefuseForeignFolder(path);
     }
-    Refuse(path,
-           folder ? "no TIFF or PNG slices in this folder" : "no TIFF or PNG slices of this pattern",
-           "check the name");
+    RefuseInput(path,
+                folder ? "no TIFF or PNG slices in this folder" : "no TIFF or PNG slices of this pattern",
+                "check the name");
   }
   const auto pngs = std::count_if(slices.begin(), slices.end(), [](const Slice & slice) { return IsPng(slice.path); });
   if (pngs > 0 && static_cast<std::size_t>(pngs) < slices.size())
   {
-    Refuse(path, "both TIFF and PNG slices", "give a pattern such as slice_*.png");
+    RefuseInput(path, "both TIFF and PNG slices", "give a pattern such as slice_*.png");
   }
   std::sort(slices.begin(), slices.end(), NaturallyLess);
   return slices;
@@ -220,13 +220,13 @@ CheckNumbering(const std::filesystem::path & path, const std::vector<Slice> & sl
   const auto & first = slices.front().parts;
   std::size_t  counting = first.size();
   const auto   refuse = [&](const Slice & slice) {
-    Refuse(path,
-           Text("slices are not numbered alike ('",
-                Printable(slices.front().path.filename().string()),
-                "', '",
-                Printable(slice.path.filename().string()),
-                "')"),
-           "keep the slices of one volume in one folder, or give a pattern such as slice_*.tif");
+    RefuseInput(path,
+                Text("slices are not numbered alike ('",
+                     Printable(slices.front().path.filename().string()),
+                     "', '",
+                     Printable(slice.path.filename().string()),
+                     "')"),
+                "keep the slices of one volume in one folder, or give a pattern such as slice_*.tif");
   };
   for (const Slice & slice : slices)
   {
@@ -259,7 +259,7 @@ CheckNumbering(const std::filesystem::path & path, const std::vector<Slice> & sl
     const std::uint64_t now = slices[s].parts[counting].value;
     if (now == before)
     {
-      Refuse(path, Text("two slices have the number ", now), "remove one of them");
+      RefuseInput(path, Text("two slices have the number ", now), "remove one of them");
     }
     if (now != before + 1)
     {
@@ -268,7 +268,7 @@ CheckNumbering(const std::filesystem::path & path, const std::vector<Slice> & sl
   }
   if (!gaps.empty())
   {
-    Refuse(path, MissingSlices(gaps), "add what is missing, or number the slices without a gap");
+    RefuseInput(path, MissingSlices(gaps), "add what is missing, or number the slices without a gap");
   }
 }
 
@@ -312,7 +312,7 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
   const std::vector<Slice> slices = FindSlices(path);
   if (slices.size() == 1)
   {
-    Refuse(path, "only one slice", "a volume is needed");
+    RefuseInput(path, "only one slice", "a volume is needed");
   }
   CheckNumbering(path, slices);
   ScanFile                           scan;
@@ -323,7 +323,9 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
     const TiffPages page = InspectSlice(slice.path, options);
     if (page.offsets.size() != 1)
     {
-      Refuse(slice.path, Text("a stack of ", page.offsets.size(), " pages among slices"), "name one stack, or slices");
+      RefuseInput(slice.path,
+                  Text("a stack of ", page.offsets.size(), " pages among slices"),
+                  "name one stack, or slices");
     }
     if (files.empty())
     {
@@ -331,15 +333,15 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
     }
     else if (!AreAlike(page, common))
     {
-      Refuse(slice.path,
-             Text("this slice (", Describe(page), ") is not like the first (", Describe(common), ")"),
-             "a volume needs equal slices");
+      RefuseInput(slice.path,
+                  Text("this slice (", Describe(page), ") is not like the first (", Describe(common), ")"),
+                  "a volume needs equal slices");
     }
     else if (page.spacing != common.spacing && !options.spacing)
     {
-      Refuse(slice.path,
-             "this slice states another voxel size than the first",
-             "give the true one with --spacing X,Y,Z");
+      RefuseInput(slice.path,
+                  "this slice states another voxel size than the first",
+                  "give the true one with --spacing X,Y,Z");
     }
     common.lossy = common.lossy || page.lossy;
     files.push_back(slice.path);

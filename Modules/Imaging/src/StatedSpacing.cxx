@@ -1,6 +1,6 @@
 #include "StatedSpacing.h"
 
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 namespace voxelcore
 {

@@ -1,6 +1,6 @@
 #include "TiffDescription.h"
 
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "TiffHandle.h"
 
 #include <algorithm>
@@ -274,13 +274,16 @@ ChoosePages(const std::filesystem::path &      path,
 {
   if (order.program == "ImageJ" && order.images > pages.size())
   {
-    Refuse(path,
-           Text("ImageJ says it holds ", order.images, " pages, it lists ", pages.size(), " (stacks above 4 GB do)"),
-           "save it as BigTIFF or NRRD");
+    RefuseInput(
+      path,
+      Text("ImageJ says it holds ", order.images, " pages, it lists ", pages.size(), " (stacks above 4 GB do)"),
+      "save it as BigTIFF or NRRD");
   }
   if (order.volumesInFile > 1)
   {
-    Refuse(path, Text("OME-TIFF with ", order.volumesInFile, " images"), "save the one you need as a file of its own");
+    RefuseInput(path,
+                Text("OME-TIFF with ", order.volumesInFile, " images"),
+                "save the one you need as a file of its own");
   }
   __extension__ using Wide = unsigned __int128; // two numbers of 64 bits that a file claims
   const Wide groups = Wide{ order.channels } * order.frames;
@@ -291,27 +294,27 @@ ChoosePages(const std::filesystem::path &      path,
   if (!order.isPlain || (order.images > 0 && order.images != pages.size()) || groups > pages.size() ||
       pages.size() % static_cast<std::uint64_t>(groups) != 0)
   {
-    Refuse(path,
-           Text(order.program,
-                " speaks of ",
-                order.channels,
-                " channels and ",
-                order.frames,
-                " time points, which do not fit its ",
-                pages.size(),
-                " pages"),
-           "save one channel of one time point as a stack");
+    RefuseInput(path,
+                Text(order.program,
+                     " speaks of ",
+                     order.channels,
+                     " channels and ",
+                     order.frames,
+                     " time points, which do not fit its ",
+                     pages.size(),
+                     " pages"),
+                "save one channel of one time point as a stack");
   }
   const auto choose =
     [&](std::uint64_t count, std::optional<std::int64_t> chosen, const char * what, const char * option) {
       const auto number = static_cast<std::uint64_t>(chosen.value_or(0));
       if ((!chosen && count > 1) || (chosen && number >= count))
       {
-        Refuse(path,
-               chosen ? Text("there is no ", what, " ", *chosen, ", it has ", count)
-                      : Text("hyperstack of ", order.program, " with ", count, " ", what, "s"),
-               count == 1 ? Text("leave ", option, " out or give 0")
-                          : Text("choose one with ", option, " 0 to ", option, " ", count - 1));
+        RefuseInput(path,
+                    chosen ? Text("there is no ", what, " ", *chosen, ", it has ", count)
+                           : Text("hyperstack of ", order.program, " with ", count, " ", what, "s"),
+                    count == 1 ? Text("leave ", option, " out or give 0")
+                               : Text("choose one with ", option, " 0 to ", option, " ", count - 1));
       }
       return number;
     };

@@ -2,6 +2,7 @@
 
 #include "TiffDescription.h"
 #include "TiffHandle.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 
@@ -67,19 +68,19 @@ ReadPage(const std::filesystem::path & path,
   const auto compression = tiff.Field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   if (photometric == PHOTOMETRIC_PALETTE)
   {
-    Refuse(path, "palette colour image", "save its labels as a grey-level image");
+    RefuseInput(path, "palette colour image", "save its labels as a grey-level image");
   }
   // Other kinds of colours (YCbCr, L*a*b) are not stored as values that stand for themselves.
   const bool isGrey = photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_MINISWHITE;
   if (!isGrey && photometric != PHOTOMETRIC_RGB && photometric != PHOTOMETRIC_SEPARATED)
   {
-    Refuse(path,
-           Text("colour image or pixels of photometric kind ", photometric),
-           "save it as a grey-level image of whole numbers");
+    RefuseInput(path,
+                Text("colour image or pixels of photometric kind ", photometric),
+                "save it as a grey-level image of whole numbers");
   }
   if (page.samples < 1)
   {
-    Refuse(path, "pixels without values", "the file is damaged: write it anew");
+    RefuseInput(path, "pixels without values", "the file is damaged: write it anew");
   }
   page.component = static_cast<std::uint16_t>(
     ChooseComponent(path, page.samples, isGrey ? "several values" : "colour image", options));
@@ -88,7 +89,9 @@ ReadPage(const std::filesystem::path & path,
   if (const auto orientation = tiff.Field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
       orientation != ORIENTATION_TOPLEFT)
   {
-    Refuse(path, Text("pages are stored mirrored or turned (orientation ", orientation, ")"), "save it top row first");
+    RefuseInput(path,
+                Text("pages are stored mirrored or turned (orientation ", orientation, ")"),
+                "save it top row first");
   }
 
   const bool isSigned = format == SAMPLEFORMAT_INT;
@@ -120,14 +123,14 @@ ReadPage(const std::filesystem::path & path,
   }
   else
   {
-    Refuse(path,
-           Text("pixels of ", page.bits, " bits (sample format ", format, ") cannot be read"),
-           "save it with 8, 16 or 32 bits a pixel");
+    RefuseInput(path,
+                Text("pixels of ", page.bits, " bits (sample format ", format, ") cannot be read"),
+                "save it with 8, 16 or 32 bits a pixel");
   }
 
   if (TIFFIsCODECConfigured(compression) == 0)
   {
-    Refuse(path, Text("compression ", compression, " is not in this libtiff"), "save it with LZW or deflate");
+    RefuseInput(path, Text("compression ", compression, " is not in this libtiff"), "save it with LZW or deflate");
   }
   std::uint64_t       largestPart = 0;
   const std::uint64_t stored = std::min(StoredBytes(tiff, largestPart), fileBytes);
@@ -171,23 +174,23 @@ InspectTiff(const std::filesystem::path & path, const ReadOptions & options)
     const TiffPages page = ReadPage(path, tiff, fileBytes, ofPages);
     if (!AreAlike(page, pages))
     {
-      Refuse(path,
-             Text("page ",
-                  pages.offsets.size() + 1,
-                  " (",
-                  page.width,
-                  " x ",
-                  page.height,
-                  ", ",
-                  page.bits,
-                  " bits) is not like the first (",
-                  pages.width,
-                  " x ",
-                  pages.height,
-                  ", ",
-                  pages.bits,
-                  " bits)"),
-             "a volume needs equal slices");
+      RefuseInput(path,
+                  Text("page ",
+                       pages.offsets.size() + 1,
+                       " (",
+                       page.width,
+                       " x ",
+                       page.height,
+                       ", ",
+                       page.bits,
+                       " bits) is not like the first (",
+                       pages.width,
+                       " x ",
+                       pages.height,
+                       ", ",
+                       pages.bits,
+                       " bits)"),
+                  "a volume needs equal slices");
     }
     pages.lossy = pages.lossy || page.lossy;
     pages.offsets.push_back(TIFFCurrentDirOffset(tiff.Get()));
@@ -237,7 +240,7 @@ OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
   const TiffPages pages = InspectTiff(path, options);
   if (pages.offsets.size() == 1)
   {
-    Refuse(path, "2-D image (one page)", "a volume is needed: a TIFF of many pages, or name the folder of slices");
+    RefuseInput(path, "2-D image (one page)", "a volume is needed: a TIFF of many pages, or name the folder of slices");
   }
   ScanFile scan;
   scan.path = path;

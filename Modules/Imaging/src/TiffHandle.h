@@ -2,7 +2,7 @@
 // libtiff's handle as an object.
 
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 
 #include <tiffio.h>
 
@@ -73,9 +73,9 @@ public:
   [[noreturn]] void
   RefuseDamaged(std::string_view what) const
   {
-    Refuse(m_Path,
-           m_Error.empty() ? std::string(what) : Text(what, " (", m_Error, ")"),
-           "the file is damaged, truncated or of another kind: write it anew");
+    RefuseInput(m_Path,
+                m_Error.empty() ? std::string(what) : Text(what, " (", m_Error, ")"),
+                "the file is damaged, truncated or of another kind: write it anew");
   }
 
 private:

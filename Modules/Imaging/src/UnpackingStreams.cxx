@@ -1,6 +1,7 @@
 // Packed bytes of a file as a stream of what they stand for.
 
 #include "PlainStream.h"
+#include "voxelcore/TextFields.h"
 
 #include <zlib.h>
 #ifdef VOXELCORE_BZIP2
@@ -56,13 +57,13 @@ protected:
   [[noreturn]] void
   RefuseTruncated() const
   {
-    Refuse(m_Path, "compressed data end too early: the file is truncated", "fetch or write it anew");
+    RefuseInput(m_Path, "compressed data end too early: the file is truncated", "fetch or write it anew");
   }
 
   [[noreturn]] void
   RefuseDamaged() const
   {
-    Refuse(m_Path, "compressed data are damaged", "fetch or write it anew");
+    RefuseInput(m_Path, "compressed data are damaged", "fetch or write it anew");
   }
 
   PlainStream            m_Source;
@@ -250,7 +251,7 @@ public:
       const int low = Digit();
       if (low < 0)
       {
-        Refuse(m_Path, "hexadecimal data end in the middle of a byte", "fetch or write it anew");
+        RefuseInput(m_Path, "hexadecimal data end in the middle of a byte", "fetch or write it anew");
       }
       to[done++] = static_cast<std::byte>(high * 16 + low);
     }
@@ -283,7 +284,7 @@ private:
       }
       if (std::string_view(" \t\r\n").find(c) == std::string_view::npos)
       {
-        Refuse(m_Path, "something other than hexadecimal digits in hexadecimal data", "fetch or write it anew");
+        RefuseInput(m_Path, "something other than hexadecimal digits in hexadecimal data", "fetch or write it anew");
       }
     }
   }
@@ -307,7 +308,9 @@ OpenBytes(const std::filesystem::path & path, std::uint64_t offset, Packing pack
 #ifdef VOXELCORE_BZIP2
       return std::make_unique<Bzip2Stream>(path, offset);
 #else
-      Refuse(path, "compressed with bzip2, which this build cannot read", "rebuild with libbz2-dev or save as gzip");
+      RefuseInput(path,
+                  "compressed with bzip2, which this build cannot read",
+                  "rebuild with libbz2-dev or save as gzip");
 #endif
     case Packing::Hex:
       return std::make_unique<HexStream>(path, offset);

@@ -1,5 +1,5 @@
 #include "VolumeWriters.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "voxelcore/OutputFile.h"
 
 #include <zlib.h>

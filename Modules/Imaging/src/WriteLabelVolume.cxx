@@ -1,5 +1,5 @@
 #include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "VolumeWriters.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputFile.h"

@@ -1,4 +1,4 @@
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
 #include "VolumeWriters.h"
 #include "voxelcore/LabelVolume.h"
 

@@ -144,9 +144,9 @@ RunBlockJob(const BlockOptions & options, const JobContext & given)
   OutputTransaction transaction(core.force, context.temporaries);
   transaction.Protect(core.scan);
   transaction.MakeDirectory(core.output);
-  LabelVolume volume =
+  LabelMap volume =
     ReadScanOrMesh(core.scan, core.reading, core.resolution, PartOfProgress(context.progress, "reading", 0, kReadEnds));
-  EditedLabels         edited = EditLabels(volume,
+  EditedLabels         edited = EditLabels(std::move(volume.labels),
                                    core.edits,
                                    core.reading.labels != "all",
                                    core.scan.string(),

@@ -36,14 +36,14 @@ EngineName(Engine engine)
 }
 
 InputRecord
-DescribeInput(const CoreOptions & options, const LabelVolume & volume)
+DescribeInput(const CoreOptions & options, const LabelMap & volume)
 {
   return { options.scan.string(), {}, volume.format, volume.geometry, volume.notes };
 }
 
 ParameterRecord
 DescribeParameters(const CoreOptions &    options,
-                   const LabelVolume &    volume,
+                   const LabelMap &       volume,
                    const EditedLabels &   edited,
                    const SpacingWeights & weights)
 {
@@ -394,10 +394,13 @@ StageCoreJob(const CoreOptions & options,
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
   auto                 digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
-  LabelVolume          volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
+  LabelMap             volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
-  EditedLabels         edited =
-    EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string(), plan.Next());
+  EditedLabels         edited = EditLabels(std::move(volume.labels),
+                                   options.edits,
+                                   options.reading.labels != "all",
+                                   options.scan.string(),
+                                   plan.Next());
   if (options.memory)
   {
     RequireMemory(options, edited.labels);

@@ -213,11 +213,13 @@ private:
     const double files = static_cast<double>(m_Sources.files.size());
     StagePlan    plan(PartOfProgress(m_Progress, files / (files + 1), 1), { 1, 1, 1 });
     ReadOptions  reading = RecordedReading(m_Report->parameters);
-    LabelVolume  volume =
-      ReadScanOrMesh(*m_Sources.scan, reading, m_Report->parameters.resolution, plan.Next("reading"));
+    LabelMap volume = ReadScanOrMesh(*m_Sources.scan, reading, m_Report->parameters.resolution, plan.Next("reading"));
     warnings = volume.warnings;
-    EditedLabels edited =
-      EditLabels(volume, m_Report->parameters.edits, false, m_Sources.scan->string(), plan.Next("editing"));
+    EditedLabels           edited = EditLabels(std::move(volume.labels),
+                                     m_Report->parameters.edits,
+                                     false,
+                                     m_Sources.scan->string(),
+                                     plan.Next("editing"));
     const ProgressCallback surfaces = plan.Next("surface");
     for (std::size_t i = 0; i < edited.labels.size(); ++i)
     {

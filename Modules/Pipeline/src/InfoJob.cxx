@@ -140,7 +140,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   const JobContext context = ForwardOnly(given);
   StagePlan        plan(context.progress, { 0.4, 0.2, 0.4 });
   ScanInfo         info;
-  LabelVolume      volume;
+  LabelMap         volume;
   try
   {
     volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
@@ -154,7 +154,11 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   EditedLabels           edited;
   if (!info.grey)
   {
-    edited = EditLabels(volume, options.edits, options.reading.labels != "all", options.scan.string(), editing);
+    edited = EditLabels(std::move(volume.labels),
+                        options.edits,
+                        options.reading.labels != "all",
+                        options.scan.string(),
+                        editing);
   }
   const ProgressCallback counting = plan.Next("counting");
   info.path = options.scan.string();

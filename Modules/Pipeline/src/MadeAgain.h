@@ -20,7 +20,7 @@ class MadeAgain
 public:
   /** `volume` is the scan, read as `made` says; what is in the way is added to `notes`. */
   MadeAgain(const CoreReport &            made,
-            const LabelVolume &           volume,
+            const LabelMap &              volume,
             const std::filesystem::path & scan,
             std::vector<std::string> &    notes);
 

@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadMesh.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <charconv>
@@ -14,15 +15,9 @@ namespace voxelcore
 namespace
 {
 
-std::string
-Counted(std::uint64_t count, const std::string & one, const std::string & many)
-{
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 /** What was found in a mesh: for the report, and of that what a user must see. */
 void
-Describe(const MeshFile & file, const Voxelization & made, LabelVolume & volume)
+Describe(const MeshFile & file, const Voxelization & made, LabelMap & volume)
 {
   const MeshFindings & found = made.findings;
   const auto           note = [&](const std::string & text) { volume.notes.push_back(text); };
@@ -68,10 +63,10 @@ Describe(const MeshFile & file, const Voxelization & made, LabelVolume & volume)
   }
 }
 
-LabelVolume
+LabelMap
 AsVolume(const std::filesystem::path & path, const MeshFile & file, const VoxelGrid & grid, Voxelization & made)
 {
-  LabelVolume volume;
+  LabelMap volume;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     volume.geometry.size[axis] = grid.size[axis];
@@ -121,7 +116,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
   }
 }
 
-LabelVolume
+LabelMap
 ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,
                const std::optional<std::int64_t> & resolution,

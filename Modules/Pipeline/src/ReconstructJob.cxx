@@ -152,7 +152,7 @@ ReadScanLabels(const std::filesystem::path & scan,
                std::vector<std::string> &    warnings,
                const ProgressCallback &      progress)
 {
-  LabelVolume volume = ReadScanOrMesh(scan, RecordedReading(made.parameters), made.parameters.resolution, progress);
+  LabelMap volume = ReadScanOrMesh(scan, RecordedReading(made.parameters), made.parameters.resolution, progress);
   warnings = volume.warnings;
   if (volume.geometry.size != made.input.geometry.size)
   {
@@ -160,7 +160,8 @@ ReadScanLabels(const std::filesystem::path & scan,
   }
   ShapeEditOptions edits = made.parameters.edits;
   edits.splitComponents = false; // the balls of all components of a label are one volume
-  EditedLabels edited = EditLabels(volume, edits, !made.parameters.binary && !made.parameters.threshold, scan.string());
+  EditedLabels edited =
+    EditLabels(std::move(volume.labels), edits, !made.parameters.binary && !made.parameters.threshold, scan.string());
   std::vector<LabelShape> labels;
   for (EditedLabel & one : edited.labels)
   {
@@ -240,7 +241,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
   result.geometry = made.input.geometry;
   if (options.like)
   {
-    LabelVolume like = ReadLabelVolume(*options.like, {}, PartOfProgress(context.progress, "reading", 0, 0.1));
+    LabelMap like = ReadLabelVolume(*options.like, {}, PartOfProgress(context.progress, "reading", 0, 0.1));
     result.geometry = like.geometry;
     result.warnings = std::move(like.warnings);
   }

@@ -15,7 +15,7 @@ namespace
 
 /** The part of a scan that was read. */
 VoxelBox
-BoxOf(const LabelVolume & volume)
+BoxOf(const LabelMap & volume)
 {
   VoxelBox box;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -73,7 +73,7 @@ SurfaceSource
 GreySource(const RefineOptions &         options,
            const std::filesystem::path & scan,
            const ReadOptions &           reading,
-           const LabelVolume &           volume)
+           const LabelMap &              volume)
 {
   const bool other = !options.grey.empty();
   if (!other && !reading.threshold)
@@ -114,7 +114,7 @@ SurfaceSource
 MakeSurfaceSource(const RefineOptions &         options,
                   const std::filesystem::path & scan,
                   const ReadOptions &           reading,
-                  const LabelVolume &           volume)
+                  const LabelMap &              volume)
 {
   if (options.surface.empty())
   {

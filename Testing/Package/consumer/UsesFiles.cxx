@@ -17,10 +17,10 @@ main(int argc, char ** argv)
     {
       return 2;
     }
-    const voxelcore::LabelVolume scan = voxelcore::ReadLabelVolume(argv[1]);
-    const auto                   weights = voxelcore::ComputeLatticeWeights(scan.geometry);
-    const auto                   core = voxelcore::ComputeVoxelCore(scan.labels[0].shape, weights);
-    const auto                   pruned = voxelcore::PruneByLambda(core, { 1.5 });
+    const voxelcore::LabelMap scan = voxelcore::ReadLabelVolume(argv[1]);
+    const auto                weights = voxelcore::ComputeLatticeWeights(scan.geometry);
+    const auto                core = voxelcore::ComputeVoxelCore(scan.labels[0].shape, weights);
+    const auto                pruned = voxelcore::PruneByLambda(core, { 1.5 });
     voxelcore::WriteModel(argv[2], argv[2], { { voxelcore::ToPhysical(pruned[0], scan.geometry, 1) }, "" });
     return voxelcore::ReadModel(argv[2]).parts.at(0).core.cells.FaceCount() == pruned[0].cells.FaceCount() ? 0 : 1;
   }

@@ -35,14 +35,14 @@ GreyScanText(const GreyScan & grey);
 class GreyScanError : public InputError
 {
 public:
-  GreyScanError(const std::string & message, GreyScan found, LabelVolume header)
+  GreyScanError(const std::string & message, GreyScan found, LabelMap header)
     : InputError(message)
     , grey(std::move(found))
     , volume(std::move(header))
   {}
 
-  GreyScan    grey;
-  LabelVolume volume; ///< without labels
+  GreyScan grey;
+  LabelMap volume; ///< without labels
 };
 
 } // namespace voxelcore

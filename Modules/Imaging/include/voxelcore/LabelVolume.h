@@ -1,59 +1,18 @@
 #pragma once
-// A segmented scan as VoxelCore sees it: geometry, and one voxel shape per label.
+// Label volumes: segmented scans as files, read and written.
 
-#include "voxelcore/ImageGeometry.h"
+#include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
-#include "voxelcore/VoxelShape.h"
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
 {
-
-/** One label of a scan. */
-struct LabelShape
-{
-  std::int64_t  value = 0;
-  std::string   name;       ///< from the file, from the .txt beside it, or "label-<value>"
-  std::uint64_t voxels = 0; ///< how many carry it
-  VoxelShape    shape;      ///< in its tight bounding box
-
-  std::optional<std::array<double, 3>>
-    color{}; ///< red, green, blue from 0 to 1, where a .seg.nrrd gives one, or a list beside the scan
-};
-
-/** Voxels first <= index < end along i, j and k. An end of 0 means the scan's. */
-struct CropRange
-{
-  std::array<std::int32_t, 3> first{ 0, 0, 0 };
-  std::array<std::int32_t, 3> end{ 0, 0, 0 };
-
-  bool
-  operator==(const CropRange &) const = default;
-};
-
-/** "i0:i1,j0:j1,k0:k1": voxels i0 to i1 - 1 and so on, counted from 0; either side of a colon may be left out.
- *  \throws UsageError for anything else, for a negative index and for an empty range. */
-CropRange
-ParseCrop(std::string_view text);
-
-/** A scan that was read. Labels are sorted by value. */
-struct LabelVolume
-{
-  ImageGeometry            geometry; ///< of the whole scan, also when only a part was read
-  std::optional<CropRange> crop;     ///< the part that was asked for, its ends filled in
-  std::string              format;   ///< "NRRD", "NIfTI-1", "NIfTI-2", "MetaImage", "TIFF", "TIFF slices", "PNG slices"
-  std::string              pixelType; ///< as stored: "uint8", "int16", "float32", ...; "uint1" for packed bits
-  std::vector<std::string> notes;     ///< what was assumed or converted, one sentence each; for the report
-  std::vector<std::string> warnings;  ///< those of the notes a user must see, each behind the scan's name
-  std::vector<LabelShape>  labels;
-};
 
 /** How to read. A combination without sense is a UsageError. */
 struct ReadOptions
@@ -98,7 +57,7 @@ struct ReadOptions
  *  Progress is reported as stage "read". May be called from several threads at once.
  *  \throws InputError with one line when the file is missing, damaged or unfit, when a label asked for does not occur,
  *  or when there is nothing but background; Cancelled when the callback says so. */
-LabelVolume
+LabelMap
 ReadLabelVolume(const std::filesystem::path & path,
                 const ReadOptions &           options = {},
                 const ProgressCallback &      progress = {});

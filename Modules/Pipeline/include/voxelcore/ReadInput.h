@@ -16,7 +16,7 @@ namespace voxelcore
 /** A mesh as a volume of one label, 1, named after its file. */
 struct MeshVolume
 {
-  LabelVolume   volume; ///< its box is that of the mesh; notes and warnings say what was found in the mesh
+  LabelMap      volume; ///< its box is that of the mesh; notes and warnings say what was found in the mesh
   MeshFindings  findings;
   std::uint64_t doubtful = 0; ///< voxels the mesh is not clear about
 };
@@ -31,7 +31,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
 
 /** ReadLabelVolume, or for the path of a mesh VoxelizeMeshFile with the spacing of `options`.
  *  \throws as these; UsageError for a resolution that is none of a mesh, or options that are those of scans */
-LabelVolume
+LabelMap
 ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,
                const std::optional<std::int64_t> & resolution,

@@ -35,6 +35,6 @@ SurfaceSource
 MakeSurfaceSource(const RefineOptions &         options,
                   const std::filesystem::path & scan,
                   const ReadOptions &           reading,
-                  const LabelVolume &           volume);
+                  const LabelMap &              volume);
 
 } // namespace voxelcore

@@ -2,6 +2,7 @@
 // From certified results to records and files, and back.
 
 #include "voxelcore/CoreReport.h"
+#include "voxelcore/LabelMap.h"
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/SkeletonModel.h"
 
@@ -27,9 +28,5 @@ WriteStagedModel(OutputTransaction &           transaction,
                  const MedialModel &           model,
                  const ModelOptions &          options,
                  std::vector<std::string> &    notes);
-
-/** "label 4 (Precentral_L)" */
-std::string
-LabelText(std::int64_t value, const std::string & name);
 
 } // namespace voxelcore

@@ -1,7 +1,7 @@
 #pragma once
 // What a user wants done to the shapes of a scan before anything is computed from them.
 
-#include "voxelcore/LabelVolume.h"
+#include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
 
 #include <cstdint>
@@ -74,11 +74,11 @@ struct EditedLabels
   std::vector<std::string> notes;  ///< what was changed in all, one sentence each
 };
 
-/** Edits the labels of a scan, which are taken out of `volume`. A label of which nothing is left is named in a note, or
- *  refused with `keepAll`: a user who names labels wants each of them.
+/** Edits the labels of a scan. A label of which nothing is left is named in a note, or refused with `keepAll`: a user who
+ *  names labels wants each of them.
  *  \throws InputError, naming the scan `where`, also when nothing is left at all; Cancelled */
 EditedLabels
-EditLabels(LabelVolume &            volume,
+EditLabels(std::vector<LabelShape>  labels,
            const ShapeEditOptions & options,
            bool                     keepAll,
            const std::string &      where,

@@ -1,5 +1,7 @@
-#include "ScanFile.h"
-#include "TextFields.h"
+#include "voxelcore/CropRange.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <limits>
@@ -26,7 +28,8 @@ ParseIndex(std::string_view text)
   return static_cast<std::int32_t>(*value);
 }
 
-/** As a user writes it. */
+} // namespace
+
 std::string
 CropText(const CropRange & crop)
 {
@@ -41,8 +44,6 @@ CropText(const CropRange & crop)
   }
   return text;
 }
-
-} // namespace
 
 CropRange
 ParseCrop(std::string_view text)
@@ -77,28 +78,32 @@ ParseCrop(std::string_view text)
 }
 
 CropRange
-ResolveCrop(ScanFile & scan, const ReadOptions & options)
+ResolveCrop(const std::optional<CropRange> &    given,
+            const std::array<std::int64_t, 3> & size,
+            const std::filesystem::path &       scan)
 {
-  const auto & size = scan.geometry.size;
-  CropRange    crop = options.crop.value_or(CropRange());
-  const auto   given = CropText(crop);
+  CropRange crop = given.value_or(CropRange());
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (crop.first[axis] < 0 || crop.end[axis] < 0 || (crop.end[axis] > 0 && crop.end[axis] <= crop.first[axis]))
     {
-      throw UsageError(Text("--crop ", given, ": an empty range"));
+      throw UsageError(Text("--crop ", CropText(*given), ": an empty range"));
     }
     if (crop.first[axis] >= size[axis] || crop.end[axis] > size[axis])
     {
-      Refuse(scan.path,
-             Text("--crop ", given, " reaches beyond the scan of ", size[0], " x ", size[1], " x ", size[2], " voxels"),
-             "'voxelcore info' tells where the labels lie");
+      RefuseInput(scan,
+                  Text("--crop ",
+                       CropText(*given),
+                       " reaches beyond the scan of ",
+                       size[0],
+                       " x ",
+                       size[1],
+                       " x ",
+                       size[2],
+                       " voxels"),
+                  "'voxelcore info' tells where the labels lie");
     }
     crop.end[axis] = crop.end[axis] > 0 ? crop.end[axis] : static_cast<std::int32_t>(size[axis]);
-  }
-  if (options.crop)
-  {
-    scan.notes.push_back(Text("only the voxels ", CropText(crop), " were looked at"));
   }
   return crop;
 }

@@ -1,9 +1,10 @@
 #include "voxelcore/ShapeEdits.h"
 
-#include "JobTools.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ShapeOperations.h"
 #include "voxelcore/ShapeSmoothing.h"
+#include "voxelcore/StagePlan.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -89,12 +90,6 @@ Append(LabelShape label, const EditRecord & record, bool split, std::vector<Edit
   }
 }
 
-std::string
-Counted(std::uint64_t count, const std::string & one, const std::string & many)
-{
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 void
 Add(const EditRecord & record, EditRecord & sum)
 {
@@ -159,14 +154,13 @@ Describe(const EditRecord & sum, const ShapeEditOptions & options)
 } // namespace
 
 EditedLabels
-EditLabels(LabelVolume &            volume,
+EditLabels(std::vector<LabelShape>  labels,
            const ShapeEditOptions & options,
            bool                     keepAll,
            const std::string &      where,
            const ProgressCallback & progress)
 {
-  EditedLabels            result;
-  std::vector<LabelShape> labels = std::exchange(volume.labels, {});
+  EditedLabels result;
   if (!options.AreAsked())
   {
     for (LabelShape & label : labels)

@@ -1,9 +1,10 @@
 #pragma once
-// Small strict helpers for text headers and messages. Independent of the locale.
+// Small strict helpers for text that is read and for messages. Independent of the locale.
 
 #include "voxelcore/ParseReal.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -51,6 +52,14 @@ Printable(std::string_view text, std::size_t longest = 60);
 /** A number as a person would write it. */
 std::string
 Number(double value);
+
+/** "1 voxel", "2 voxels" */
+std::string
+Counted(std::uint64_t count, const std::string & one, const std::string & many);
+
+/** \throws InputError with one line: "<file>: <what is wrong>; <what to do>" */
+[[noreturn]] void
+RefuseInput(const std::filesystem::path & file, std::string_view wrong, std::string_view remedy);
 
 /** Millimetres in a unit of length ("um", "micron", "mm", ...); nothing when unknown. */
 std::optional<double>

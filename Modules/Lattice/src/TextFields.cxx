@@ -1,4 +1,6 @@
-#include "TextFields.h"
+#include "voxelcore/TextFields.h"
+
+#include "voxelcore/Error.h"
 
 #include <charconv>
 #include <cmath>
@@ -118,6 +120,18 @@ Number(double value)
     }
   }
   return out.str();
+}
+
+std::string
+Counted(std::uint64_t count, const std::string & one, const std::string & many)
+{
+  return Text(count, " ", count == 1 ? one : many);
+}
+
+void
+RefuseInput(const std::filesystem::path & file, std::string_view wrong, std::string_view remedy)
+{
+  throw InputError(Text(Printable(file.string(), 4096), ": ", wrong, "; ", remedy));
 }
 
 std::optional<double>

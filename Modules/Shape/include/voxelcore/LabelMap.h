@@ -1,0 +1,45 @@
+#pragma once
+// A segmented scan as VoxelCore sees it: geometry, and one voxel shape per label.
+
+#include "voxelcore/CropRange.h"
+#include "voxelcore/ImageGeometry.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** One label of a scan. */
+struct LabelShape
+{
+  std::int64_t  value = 0;
+  std::string   name;       ///< from the file, from a list beside it, or "label-<value>"
+  std::uint64_t voxels = 0; ///< how many carry it
+  VoxelShape    shape;      ///< in its tight bounding box
+
+  std::optional<std::array<double, 3>>
+    color{}; ///< red, green, blue from 0 to 1, where a .seg.nrrd gives one, or a list beside the scan
+};
+
+/** The labels of a scan, sorted by value. */
+struct LabelMap
+{
+  ImageGeometry            geometry; ///< of the whole scan, also when only a part was read
+  std::optional<CropRange> crop;     ///< the part that was asked for, its ends filled in
+  std::string              format;   ///< "NRRD", "NIfTI-1", "NIfTI-2", "MetaImage", "TIFF", "TIFF slices", "PNG slices"
+  std::string              pixelType; ///< as stored: "uint8", "int16", "float32", ...; "uint1" for packed bits
+  std::vector<std::string> notes;     ///< what was assumed or converted, one sentence each; for the report
+  std::vector<std::string> warnings;  ///< those of the notes a user must see, each behind the scan's name
+  std::vector<LabelShape>  labels;
+};
+
+/** "label 4 (Precentral_L)" */
+std::string
+LabelText(std::int64_t value, const std::string & name);
+
+} // namespace voxelcore
