@@ -9,6 +9,7 @@ may_use() {
   case "$1" in
     Lattice) echo "" ;;
     Shape | Complex) echo "Lattice" ;;
+    Blocks) echo "Lattice Shape Delaunay" ;;
     Delaunay | Voxelization | Phantom) echo "Lattice Shape" ;;
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
     Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
@@ -17,8 +18,10 @@ may_use() {
     Imaging) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified" ;;
     Models) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Verification Certified" ;;
     Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models Certified" ;;
-    Pipeline) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Imaging Models Display" ;;
-    Cohort) echo "Lattice Shape Delaunay Models Pipeline Imaging Complex VoxelCore Certified Skeleton Refinement" ;;
+    Report) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Imaging Models" ;;
+    Jobs) echo "Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Imaging Models Display Report" ;;
+    Options) echo "Lattice Shape VoxelCore Skeleton Certified Imaging Models Report Jobs" ;;
+    Cohort) echo "Lattice Shape Delaunay Models Imaging Complex VoxelCore Certified Skeleton Refinement Report Jobs Options" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac
 }

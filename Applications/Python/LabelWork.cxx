@@ -7,6 +7,7 @@
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/ResultRecords.h"
+#include "voxelcore/StagedModel.h"
 #include "voxelcore/SkeletonFiles.h"
 
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// What the Python module does with a label, without a word of Python: the jobs of module Pipeline on arrays in memory.
+// What the Python module does with a label, without a word of Python: the work of jobs on arrays in memory.
 
 #include "ArrayLabels.h"
 #include "voxelcore/CoreReport.h"

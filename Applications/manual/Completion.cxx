@@ -1,22 +1,10 @@
 #include "Texts.h"
+#include "voxelcore/Text.h"
 
 namespace voxelcore
 {
 namespace
 {
-
-std::vector<std::string_view>
-Split(std::string_view text, char separator)
-{
-  std::vector<std::string_view> parts;
-  while (!text.empty())
-  {
-    const std::size_t end = std::min(text.find(separator), text.size());
-    parts.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return parts;
-}
 
 template <typename TRange>
 std::string
@@ -57,16 +45,16 @@ ZshText(std::string_view text)
 
 } // namespace
 
-std::vector<std::string_view>
+std::vector<std::string>
 FlagsOf(const Parameter & parameter)
 {
-  return Split(parameter.flags, ',');
+  return SplitText(parameter.flags, ',');
 }
 
-std::vector<std::string_view>
+std::vector<std::string>
 WordsOf(const Parameter & parameter)
 {
-  return parameter.kind == ParameterKind::Choice ? Split(parameter.placeholder, '|') : std::vector<std::string_view>();
+  return parameter.kind == ParameterKind::Choice ? SplitText(parameter.placeholder, '|') : std::vector<std::string>();
 }
 
 std::string

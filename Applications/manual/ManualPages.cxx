@@ -139,7 +139,7 @@ CommandManual(const Command & command)
     {
       options += ".TP\n";
       std::string names;
-      for (const std::string_view flag : flags)
+      for (const std::string & flag : flags)
       {
         names += (names.empty() ? "" : ", ") + ("\\fB" + Roff(flag)) + "\\fR";
       }

@@ -11,11 +11,11 @@ namespace voxelcore
 {
 
 /** "-o" and "--output" of "-o,--output"; none for a positional argument. */
-std::vector<std::string_view>
+std::vector<std::string>
 FlagsOf(const Parameter & parameter);
 
 /** The words of a choice: "auto", "lattice", ... */
-std::vector<std::string_view>
+std::vector<std::string>
 WordsOf(const Parameter & parameter);
 
 /** voxelcore.1 */

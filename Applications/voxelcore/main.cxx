@@ -1,4 +1,4 @@
-// The program voxelcore: parses, calls module Pipeline, prints.
+// The program voxelcore: parses, calls Options and its jobs, prints.
 
 #include "CommandLine.h"
 #include "Console.h"

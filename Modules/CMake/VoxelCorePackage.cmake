@@ -5,11 +5,12 @@ set(VOXELCORE_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/VoxelCore")
 
 # A component of find_package(VoxelCore COMPONENTS ...) is a set of libraries and the components it builds on; what is
 # not built is left out.
-set(VOXELCORE_COMPONENTS Core Imaging Models Display Pipeline ITK VTK)
-set(component_Core Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Core)
-foreach(component Imaging Models Display Pipeline ITK VTK)
+set(VOXELCORE_COMPONENTS Core Imaging Models Display Jobs ITK VTK)
+set(component_Core Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Core)
+foreach(component Imaging Models Display ITK VTK)
   set(component_${component} ${component})
 endforeach()
+set(component_Jobs Report Jobs Options)
 
 set(VOXELCORE_BUILT_COMPONENTS "")
 foreach(component ${VOXELCORE_COMPONENTS})

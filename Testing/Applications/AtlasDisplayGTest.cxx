@@ -1,7 +1,7 @@
 // A whole atlas to look at: a scene, a page and a picture of 116 labels, each within a minute. Processor time of all threads
 // counts, which is the same on a busy machine, and on a free one no less than the time somebody waits.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 
 #include <cstdlib>

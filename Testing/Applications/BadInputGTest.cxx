@@ -1,6 +1,6 @@
 // Whatever is wrong: one clear line, the right exit code, no output, no crash.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

@@ -1,7 +1,7 @@
 // `voxelcore batch` as a user runs it.
 
 #include "CohortFolder.h"
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

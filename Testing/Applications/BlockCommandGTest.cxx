@@ -1,6 +1,6 @@
 // `voxelcore core --block` and `--join` as a user runs them.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Small cohorts, and what a batch made of them.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Scans.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // A test that runs the program in a folder of its own.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 
 #include <gtest/gtest.h>

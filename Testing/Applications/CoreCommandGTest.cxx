@@ -1,6 +1,6 @@
 // `voxelcore core` as a user runs it.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

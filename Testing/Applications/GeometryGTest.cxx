@@ -1,7 +1,7 @@
 // Where things lie, from end to end: lone voxels of a scan written by hand are found in the .vtp, at the LPS millimetres
 // that a person computes from the numbers of the header.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

@@ -1,6 +1,6 @@
 // A run that is stopped leaves nothing under a final name.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Meshes on the command line: volumes and cores of good ones, and one clear line for each bad one.
 
 #include "MeshFiles.h"
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // What `info` foretells and what `core` then takes.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

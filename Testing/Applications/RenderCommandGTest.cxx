@@ -1,6 +1,6 @@
 // `voxelcore render` as a user without a screen runs it.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

@@ -1,6 +1,6 @@
 #include "Scans.h"
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 
 #include <cstring>
 #include <memory>

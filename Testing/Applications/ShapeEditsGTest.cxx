@@ -1,6 +1,6 @@
 // --crop, --mend-shape, --fill-cavities, --min-voxels, --largest, --smooth-shape, --split-components as a user gives them.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

@@ -1,6 +1,6 @@
 // skeleton and measure as a user runs them, on the shapes other programs stumble over.
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
 

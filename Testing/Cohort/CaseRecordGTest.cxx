@@ -1,7 +1,7 @@
 #include "voxelcore/CaseRecord.h"
 
 #include "CaseLock.h"
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "voxelcore/Manifest.h"
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "voxelcore/Error.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #include "voxelcore/Thumbnail.h"
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "voxelcore/DisplayColors.h"
 
 #include <gtest/gtest.h>

@@ -36,19 +36,5 @@ TEST(LengthUnit, SquaresAndCubesAreThoseOfTheUnit)
   EXPECT_EQ(LengthUnit::For(0.05).Text(0.012345, 1, 1), "12.3");
 }
 
-TEST(LengthUnit, OnlyZeroReadsAsZero)
-{
-  EXPECT_EQ(FixedText(0), "0.00");
-  EXPECT_EQ(FixedText(12.345), "12.35");
-  EXPECT_EQ(FixedText(0.5), "0.50");
-  EXPECT_EQ(FixedText(0.0312), "0.031");
-  EXPECT_EQ(FixedText(-0.00021, 3), "-0.00021");
-  EXPECT_EQ(FixedText(3, 0), "3");
-  for (double value = 1e-300; value < 1e300; value *= 3.7)
-  {
-    EXPECT_NEAR(std::stod(FixedText(value)), value, 0.051 * value) << value;
-  }
-}
-
 } // namespace
 } // namespace voxelcore

@@ -4,7 +4,7 @@
 #include "voxelcore/OutputStream.h"
 #include "voxelcore/TemporaryNames.h"
 
-#include "Pipeline/TemporaryFolder.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 

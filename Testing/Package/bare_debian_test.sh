@@ -82,12 +82,12 @@ assert voxelcore.core(numpy.ones((9, 9, 3), bool)).topology == {'euler': 1, 'bet
 install "$(in_packages libvoxelcore-dev)" g++ cmake ninja-build
 inside sh -euc 'cd /given
   cmake -S Testing/Package/consumer -B consumer-build -G Ninja -DCMAKE_BUILD_TYPE=Release -DHOW=find_package \
-    -DPARTS="Core;Imaging;Models;Pipeline;VTK" -DVOXELCORE_SOURCE=/given
+    -DPARTS="Core;Imaging;Models;Jobs;VTK" -DVOXELCORE_SOURCE=/given
   cmake --build consumer-build
   voxelcore phantom torus --size 40 -o torus.nrrd -q
   consumer-build/UsesCore
   consumer-build/UsesFiles torus.nrrd files.vtp
-  consumer-build/UsesPipeline torus.nrrd pipeline.vtp
+  consumer-build/UsesJobs torus.nrrd jobs.vtp
   voxelcore core torus.nrrd -o program.vtp -q
-  cmp pipeline.vtp program.vtp' >"$scratch/consumer.log" 2>&1 || { tail -n 30 "$scratch/consumer.log" >&2; fail "no project can be built"; }
+  cmp jobs.vtp program.vtp' >"$scratch/consumer.log" 2>&1 || { tail -n 30 "$scratch/consumer.log" >&2; fail "no project can be built"; }
 echo "bare Debian: works"

@@ -53,7 +53,7 @@ case "$how" in
     if ldd "$scratch/core/UsesCore" | grep -E 'libvtk|libITK|libtiff|libpng'; then
       fail "Core brings these libraries along"
     fi
-    parts="Imaging;Models;Pipeline;VTK"
+    parts="Imaging;Models;Jobs;VTK"
     [ -z "$(find "$moved/second" -name VoxelCore-ITK.cmake)" ] || parts+=";ITK"
     # The guide's five lines, as they stand there.
     {
@@ -66,9 +66,9 @@ case "$how" in
     cmake --build "$scratch/all"
     scan_into "$scratch"
     "$scratch/all/UsesFiles" "$scratch/torus.nrrd" "$scratch/files.vtp"
-    "$scratch/all/UsesPipeline" "$scratch/torus.nrrd" "$scratch/pipeline.vtp"
+    "$scratch/all/UsesJobs" "$scratch/torus.nrrd" "$scratch/jobs.vtp"
     "$build/bin/voxelcore" core "$scratch/torus.nrrd" -o "$scratch/program.vtp" -q
-    cmp "$scratch/pipeline.vtp" "$scratch/program.vtp"
+    cmp "$scratch/jobs.vtp" "$scratch/program.vtp"
     bash "$source/Testing/Package/symbols_test.sh" "$scratch/all/libPlugin.so" PluginMakesCore
     "$scratch/all/UsesPlugin" "$scratch/all/libPlugin.so" "$scratch/torus.nrrd" "$scratch/plugin.vtp"
     cmp "$scratch/plugin.vtp" "$scratch/program.vtp"

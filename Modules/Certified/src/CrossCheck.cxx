@@ -2,9 +2,9 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/StagePlan.h"
+#include "voxelcore/Text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 
 namespace voxelcore
@@ -13,13 +13,10 @@ namespace voxelcore
 namespace
 {
 
-/** Enough digits to tell any two doubles apart. */
 std::string
 Text(double value)
 {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
+  return RoundTripText(value);
 }
 
 std::string

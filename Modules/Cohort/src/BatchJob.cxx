@@ -1,7 +1,7 @@
 #include "voxelcore/BatchJob.h"
 
 #include "Scheduler.h"
-#include "voxelcore/BuildFacts.h"
+#include "voxelcore/DisplayTargets.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GatherCohort.h"
 #include "voxelcore/OutputTransaction.h"

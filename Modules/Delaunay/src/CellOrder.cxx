@@ -1,4 +1,4 @@
-#include "RawCells.h"
+#include "voxelcore/CanonicalCells.h"
 
 #include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"

@@ -1,7 +1,7 @@
 #include "voxelcore/DelaunayCells.h"
 
 #include "LatticeEngine.h"
-#include "RawCells.h"
+#include "voxelcore/CanonicalCells.h"
 #include "TetGenEngine.h"
 
 #include "voxelcore/Predicates.h"

@@ -1,7 +1,7 @@
 #pragma once
 // The engine made for voxel shapes: small cells by tracing from the boundary, the deep rest by Bowyer-Watson.
 
-#include "RawCells.h"
+#include "voxelcore/CanonicalCells.h"
 
 namespace voxelcore
 {

@@ -1,6 +1,7 @@
 #include "ColorBar.h"
 
 #include "voxelcore/LengthUnit.h"
+#include "voxelcore/Text.h"
 
 #include <algorithm>
 #include <cmath>

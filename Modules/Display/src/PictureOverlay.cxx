@@ -2,6 +2,7 @@
 
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/LengthUnit.h"
+#include "voxelcore/Text.h"
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>

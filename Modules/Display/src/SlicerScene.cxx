@@ -1,7 +1,7 @@
 #include "voxelcore/SlicerScene.h"
 
 #include "voxelcore/Error.h"
-#include "voxelcore/LengthUnit.h"
+#include "voxelcore/Text.h"
 #include "voxelcore/OutputFile.h"
 #include "voxelcore/TemporaryNames.h"
 

@@ -1,8 +1,9 @@
 #include "voxelcore/LengthUnit.h"
 
+#include "voxelcore/Text.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace voxelcore
 {
@@ -54,38 +55,6 @@ std::string
 LengthUnit::Text(double mm, int power, int decimals) const
 {
   return FixedText(Of(mm, power), decimals);
-}
-
-std::string
-DecimalText(double value, int decimals)
-{
-  char text[400];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
-}
-
-std::string
-FixedText(double value, int decimals)
-{
-  constexpr int kMostDecimals = 30;
-  if (value != 0 && std::isfinite(value))
-  {
-    const int first = -static_cast<int>(std::floor(std::log10(std::abs(value)))); // the decimal that is not 0
-    decimals = std::max(decimals, first > 0 ? first + 1 : 0);
-  }
-  if (decimals > kMostDecimals)
-  {
-    return ShortText(value, 2);
-  }
-  return DecimalText(value, decimals);
-}
-
-std::string
-ShortText(double value, int digits)
-{
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.*g", digits, value);
-  return text;
 }
 
 } // namespace voxelcore

@@ -5,13 +5,12 @@
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CoreProvenance.h"
 #include "voxelcore/ModelPolyData.h"
+#include "voxelcore/Text.h"
 
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -40,10 +39,9 @@ vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** in
       throw voxelcore::InputError("the input lacks the measures of its edges; write it with --keep-edges");
     }
     std::vector<voxelcore::CorePruning> prunings;
-    // The shortest text that reads as the same number.
-    std::array<char, 32> text;
-    const std::string    lambda(text.data(), std::to_chars(text.data(), text.data() + text.size(), this->Lambda).ptr);
-    const voxelcore::Lambda wanted{ this->Lambda, voxelcore::Lambda::Unit::Millimetre, lambda + "mm" };
+    const voxelcore::Lambda wanted{ this->Lambda,
+                                    voxelcore::Lambda::Unit::Millimetre,
+                                    voxelcore::RoundTripText(this->Lambda) + "mm" };
     const double            share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
     double                  before = 0;
     for (voxelcore::ModelPart & part : model.parts)

@@ -39,17 +39,4 @@ private:
   int m_Thousandths; ///< 0 for mm, 1 for um, 2 for nm
 };
 
-/** `value` with so many decimals. */
-std::string
-DecimalText(double value, int decimals);
-
-/** `value` with so many decimals; with more where fewer than two significant digits would show, so that only 0 reads as
- *  0. */
-std::string
-FixedText(double value, int decimals = 2);
-
-/** `value` with up to `digits` significant digits and no more than it needs. */
-std::string
-ShortText(double value, int digits = 9);
-
 } // namespace voxelcore

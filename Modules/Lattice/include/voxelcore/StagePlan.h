@@ -39,8 +39,21 @@ PartOfProgress(const ProgressCallback & outer, std::string name, double from, do
   };
 }
 
+/** PartOfProgress() that puts `name` before the stage. */
+inline ProgressCallback
+NamedPartOfProgress(const ProgressCallback & outer, std::string name, double from, double to)
+{
+  if (!outer)
+  {
+    return {};
+  }
+  return [part = PartOfProgress(outer, from, to), name = std::move(name)](std::string_view stage, double fraction) {
+    return part(name + ": " + std::string(stage), fraction);
+  };
+}
+
 /** A callback whose fractions, limited to 0 to 1, never go back. Stages that only ask whether to stop report what they
- *  like; the jobs of Pipeline are watched through it. Copies of it count as one. */
+ *  like; jobs are watched through it. Copies of it count as one. */
 inline ProgressCallback
 ForwardOnly(const ProgressCallback & outer)
 {

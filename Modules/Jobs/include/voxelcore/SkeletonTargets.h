@@ -1,0 +1,22 @@
+#pragma once
+// Where a job's skeletons go besides the result.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct SkeletonTargets
+{
+  std::optional<std::filesystem::path> table; ///< .csv, a row per branch
+  std::vector<std::string>             also;  ///< further files beside the result: csv, swc, mrk.json, graphml, ma
+};
+
+/** Comma-separated endings for `also`. \throws UsageError for one that is not known */
+std::vector<std::string>
+ParseAlso(const std::string & text);
+
+} // namespace voxelcore

@@ -1,0 +1,71 @@
+#include "JobTools.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/SpacingWeights.h"
+
+namespace voxelcore
+{
+
+void
+Finish(OutputTransaction & transaction, const JobContext & context)
+{
+  ReportProgress(context.progress, "done", 1);
+  transaction.Commit();
+  if (context.wrote)
+  {
+    context.wrote(transaction.Written());
+  }
+}
+
+SpacingWeights
+ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan)
+{
+  SpacingWeights weights;
+  std::string    hint = " with --spacing X,Y,Z";
+  try
+  {
+    weights = ComputeSpacingWeights(geometry.spacing);
+    hint.clear();
+    RequireDistinctPositions(geometry);
+  }
+  catch (const InputError & error)
+  {
+    throw InputError(scan.string() + ": " + error.what() + hint);
+  }
+  return weights;
+}
+
+void
+RequireUnrefined(const MedialModel & model, const std::filesystem::path & path)
+{
+  if (!model.refined.empty())
+  {
+    throw InputError(path.string() + ": was made with --refine " + model.refined +
+                     ", and only cores as they come out of the voxels are worked on; make one without");
+  }
+}
+
+ReadOptions
+RecordedReading(const ParameterRecord & parameters)
+{
+  ReadOptions reading;
+  reading.binary = parameters.binary;
+  reading.threshold = parameters.threshold;
+  reading.volume = parameters.volume;
+  reading.component = parameters.component;
+  reading.crop = parameters.crop;
+  reading.spacing = parameters.spacing;
+  reading.orthonormalize = parameters.orthonormalize;
+  reading.niftiForm = parameters.niftiForm;
+  if (!reading.binary && !reading.threshold)
+  {
+    reading.labels.clear();
+    for (const std::int64_t label : parameters.labels)
+    {
+      reading.labels += (reading.labels.empty() ? "" : ",") + std::to_string(label);
+    }
+  }
+  return reading;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,36 @@
+#pragma once
+// Small pieces that jobs share.
+
+#include "voxelcore/CoreReport.h"
+#include "voxelcore/JobContext.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/ResultRecords.h"
+#include "voxelcore/StagedModel.h"
+#include "voxelcore/StagePlan.h"
+#include "voxelcore/Stopwatch.h"
+
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** The end of every job: the last moment at which an interruption is heeded; then its files appear, and the context hears
+ *  of them. */
+void
+Finish(OutputTransaction & transaction, const JobContext & context);
+
+/** The weights of a scan's lattice. \throws InputError that names the scan where its geometry cannot be worked on. */
+SpacingWeights
+ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan);
+
+/** \throws InputError for a refined core: what works on exact ones does not take it. */
+void
+RequireUnrefined(const MedialModel & model, const std::filesystem::path & path);
+
+/** How the scan was read when a file was made. */
+ReadOptions
+RecordedReading(const ParameterRecord & parameters);
+
+} // namespace voxelcore

@@ -1,0 +1,50 @@
+// In place of DisplayFiles.cxx where module Display is not built.
+
+#include "DisplayFiles.h"
+
+#include "voxelcore/DisplayTargets.h"
+#include "voxelcore/Error.h"
+
+namespace voxelcore
+{
+
+void
+RequirePages()
+{
+  throw UsageError(
+    "--scene and --html are off in this build: it was made without VTK's rendering "
+    "(-DVOXELCORE_DISPLAY=ON, with libvtk9-dev, brings them)");
+}
+
+struct DisplayFiles::State
+{};
+
+DisplayFiles::DisplayFiles(const DisplayTargets & targets, const std::filesystem::path &, OutputTransaction &)
+{
+  if (targets.scene || targets.html)
+  {
+    RequirePages();
+  }
+}
+
+DisplayFiles::~DisplayFiles() = default;
+
+bool
+DisplayFiles::AreAsked() const
+{
+  return false;
+}
+
+void
+DisplayFiles::AddScan(const std::vector<EditedLabel> &, const ImageGeometry &)
+{}
+
+void
+DisplayFiles::AddLabel(const LabelRecord &, const ModelPart &, const SkeletonPart *)
+{}
+
+void
+DisplayFiles::Finish(const CoreReport &, std::vector<std::string> &, const ProgressCallback &)
+{}
+
+} // namespace voxelcore

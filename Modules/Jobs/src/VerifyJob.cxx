@@ -1,0 +1,273 @@
+#include "voxelcore/VerifyJob.h"
+
+#include "JobTools.h"
+#include "MadeAgain.h"
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/LengthUnit.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/RefinedVerification.h"
+#include "voxelcore/Sha256.h"
+#include "voxelcore/ReadInput.h"
+#include "voxelcore/Text.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+VerificationReport
+VerifyPart(ModelPart                part,
+           const VoxelShape &       shape,
+           const ImageGeometry &    geometry,
+           const SpacingWeights &   weights,
+           const PrunedRecord &     pruned,
+           const ProgressCallback & progress)
+{
+  const bool           refined = !part.displacement.empty();
+  std::vector<Vector3> origins = part.core.positions;
+  for (std::size_t v = 0; v < origins.size() && refined; ++v)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      origins[v][k] -= part.displacement[v][k];
+    }
+  }
+  for (auto & position : part.core.positions)
+  {
+    position = PhysicalToLattice(geometry, position);
+  }
+  if (refined)
+  {
+    for (std::size_t v = 0; v < origins.size(); ++v)
+    {
+      const Vector3 from = PhysicalToLattice(geometry, origins[v]);
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        part.displacement[v][k] = part.core.positions[v][k] - from[k];
+      }
+    }
+    RefinedVerificationInput moved;
+    moved.shape = &shape;
+    moved.weights = weights;
+    moved.spacing = geometry.spacing;
+    moved.cells = &part.core.cells;
+    moved.positions = part.core.positions;
+    moved.displacement = part.displacement;
+    moved.radius = part.core.radius;
+    moved.vertexLambda = part.core.vertexLambda;
+    moved.edgeLambda = part.core.edgeLambda;
+    moved.faceLambda = part.core.faceLambda;
+    moved.positionTolerance = PositionTolerance(geometry);
+    return VerifyRefinedCore(moved, progress);
+  }
+  VerificationInput input;
+  input.shape = &shape;
+  input.weights = weights;
+  input.spacing = geometry.spacing;
+  input.cells = &part.core.cells;
+  input.positions = part.core.positions;
+  input.radius = part.core.radius;
+  input.vertexLambda = part.core.vertexLambda;
+  input.edgeLambda = part.core.edgeLambda;
+  input.faceLambda = part.core.faceLambda;
+  input.positionTolerance = PositionTolerance(geometry);
+  input.polygonsReversed = IsLeftHanded(geometry);
+  input.threshold = pruned.lambdaMm;
+  if (pruned.bumps)
+  {
+    input.bumpHeight = pruned.bumps->heightMm;
+    input.vertexBump = part.core.bumps.vertices;
+    input.edgeBump = part.core.bumps.edges;
+    input.faceBump = part.core.bumps.faces;
+  }
+  return VerifyComplex(input, progress);
+}
+
+/** How a label's cells are pruned. */
+const PrunedRecord &
+RecordedPruning(const CoreReport & made, std::size_t label, const std::string & where)
+{
+  if (label >= made.labels.size() || made.labels[label].pruned.size() != 1)
+  {
+    throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
+  }
+  return made.labels[label].pruned.front();
+}
+
+/** A property of the file as a whole. `cells` describes what is in the file. */
+VerificationCheck
+CheckProvenance(const LabelRecord &        recorded,
+                const LabelShape &         label,
+                std::int64_t               component,
+                const ComplexRecord &      cells,
+                bool                       triangles,
+                const Vector3 &            spacing,
+                const VerificationReport & report)
+{
+  const ComplexRecord & complex = recorded.pruned.front().complex;
+  const VoxelBox        box = label.shape.Box();
+  // Of polygons that were cut into triangles the numbers are still those of the polygons.
+  const bool   sameCells = triangles || (complex.vertices == cells.vertices && complex.edges == cells.edges &&
+                                       complex.faces == cells.faces && complex.areaMm2 == cells.areaMm2);
+  const double volume = static_cast<double>(label.voxels) * (spacing[0] * spacing[1] * spacing[2]);
+  if (recorded.label != label.value || recorded.component != component || recorded.voxels != label.voxels ||
+      recorded.volumeMm3 != volume || recorded.box.lower != box.lower || recorded.box.size != box.size ||
+      recorded.boundaryVertices != BoundaryVertices(label.shape).size() || !(recorded.shape == report.shapeTopology) ||
+      !(complex.topology == report.complexTopology) || complex.maxRadiusMm != cells.maxRadiusMm || !sameCells)
+  {
+    return { "provenance", false, 1, "the record in the file does not fit the scan and the cells" };
+  }
+  return { "provenance", true, 0, {} };
+}
+
+/** How far the boundary lies from a core pruned by bump height; empty for others. */
+std::string
+GapText(const LabelVerification & label)
+{
+  if (!label.report.boundaryGap)
+  {
+    return {};
+  }
+  const LengthUnit unit = LengthUnit::For(std::max(*label.report.boundaryGap, label.bumpHeightMm));
+  const auto       length = [&unit](double mm) { return ShortText(unit.Of(mm), 4) + " " + unit.Name(); };
+  return "; boundary within " + length(*label.report.boundaryGap) + " of it (bump height " + label.bumpHeight + ", " +
+         length(label.bumpHeightMm) + ")";
+}
+
+} // namespace
+
+VerifyResult
+RunVerifyJob(const VerifyOptions & options, const JobContext & given)
+{
+  const JobContext context = ForwardOnly(given);
+  ReportProgress(context.progress, "reading", 0);
+  MedialModel model = ReadModel(options.core);
+  RequireVtkReads(options.core, model);
+  const CoreReport     made = ParseProvenance(model.provenance, options.core.string());
+  LabelMap             volume = ReadScanOrMesh(options.scan,
+                                   RecordedReading(made.parameters),
+                                   made.parameters.resolution,
+                                   PartOfProgress(context.progress, "reading", 0, 0.05));
+  const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
+  EditedLabels         edited = EditLabels(std::move(volume.labels),
+                                   made.parameters.edits,
+                                   !made.parameters.binary && !made.parameters.threshold,
+                                   options.scan.string(),
+                                   PartOfProgress(context.progress, 0.05, 0.1));
+  if (made.parameters.refine.surface != model.refined)
+  {
+    throw InputError(options.core.string() + ": its fields Refined and Provenance do not agree; make the file again");
+  }
+  VerifyResult result;
+  result.warnings = volume.warnings;
+  if (made.input.sha256.empty())
+  {
+    result.notes.push_back(options.core.string() + ": was made from an image in memory, so it names no scan file");
+  }
+  else if (ScanSha256(options.scan) != made.input.sha256)
+  {
+    result.notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +
+                           " was made from (another SHA-256); checked all the same");
+  }
+  const MadeAgain madeAgain(made, volume, options.scan, result.notes);
+  for (std::size_t i = 0; i < model.parts.size(); ++i)
+  {
+    const std::int64_t value = model.parts[i].label;
+    const std::int64_t component = model.parts[i].component;
+    const auto         place = std::find_if(edited.labels.begin(), edited.labels.end(), [&](const EditedLabel & one) {
+      return one.label.value == value && one.component == component;
+    });
+    if (place == edited.labels.end())
+    {
+      throw InputError(options.scan.string() + ": label " + std::to_string(value) +
+                       (component > 0 ? ", component " + std::to_string(component) + "," : std::string()) + " of " +
+                       options.core.string() + " does not occur in this scan");
+    }
+    LabelShape * const found = &place->label;
+    const double       from = 0.1 + 0.9 * static_cast<double>(i) / static_cast<double>(model.parts.size());
+    const double       to = 0.1 + 0.9 * static_cast<double>(i + 1) / static_cast<double>(model.parts.size());
+    LabelVerification  one;
+    one.label = value;
+    one.name = found->name;
+    const PrunedRecord & pruned = RecordedPruning(made, i, options.core.string());
+    one.lambdaMm = pruned.lambdaMm;
+    if (pruned.bumps)
+    {
+      one.bumpHeight = pruned.bumps->height;
+      one.bumpHeightMm = pruned.bumps->heightMm;
+    }
+    const ComplexRecord cells = DescribeComplex(model.parts[i].core, {});
+    const auto          again = madeAgain.Check(model.parts[i],
+                                       *found,
+                                       pruned,
+                                       NamedPartOfProgress(context.progress, found->name, from, 0.5 * (from + to)));
+    one.report = VerifyPart(std::move(model.parts[i]),
+                            found->shape,
+                            volume.geometry,
+                            weights,
+                            pruned,
+                            NamedPartOfProgress(context.progress, found->name, again ? 0.5 * (from + to) : from, to));
+    one.report.checks.push_back(CheckProvenance(made.labels[i],
+                                                *found,
+                                                component,
+                                                cells,
+                                                made.parameters.model.triangles,
+                                                volume.geometry.spacing,
+                                                one.report));
+    if (again)
+    {
+      one.report.checks.push_back(*again);
+    }
+    one.report.passed =
+      std::all_of(one.report.checks.begin(), one.report.checks.end(), [](const auto & check) { return check.passed; });
+    result.passed = result.passed && one.report.passed;
+    result.labels.push_back(std::move(one));
+    *found = LabelShape(); // its memory is not needed any longer
+    found->value = value;
+  }
+  // A label that the record names and the file lacks would otherwise go unnoticed.
+  if (made.labels.size() != model.parts.size())
+  {
+    throw InputError(options.core.string() + ": its field Provenance names " + std::to_string(made.labels.size()) +
+                     " labels, its cells have " + std::to_string(model.parts.size()) + "; make the file again");
+  }
+  ReportProgress(context.progress, "done", 1);
+  return result;
+}
+
+std::string
+VerifyText(const VerifyResult & result)
+{
+  std::string text;
+  for (const std::string & note : result.notes)
+  {
+    text += "note: " + note + "\n";
+  }
+  for (const LabelVerification & label : result.labels)
+  {
+    const auto & checks = label.report.checks;
+    const auto   failed = std::count_if(checks.begin(), checks.end(), [](const auto & check) { return !check.passed; });
+    text += LabelText(label.label, label.name) + ": " + std::to_string(checks.size()) + " checks, " +
+            (failed == 0 ? std::string("all passed") : std::to_string(failed) + " FAILED") + GapText(label) + "\n";
+    for (const VerificationCheck & check : checks)
+    {
+      if (!check.passed)
+      {
+        text += "  FAILED  " + check.name + ": " + check.firstOffender +
+                (check.offenders > 1 ? " (and " + std::to_string(check.offenders - 1) + " more)" : "") + "\n";
+      }
+      else if (result.labels.size() == 1)
+      {
+        text += "  passed  " + check.name + "\n";
+      }
+    }
+  }
+  return text;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,237 @@
+#include "voxelcore/Error.h"
+#include "voxelcore/OutputNames.h"
+#include "voxelcore/ParseReal.h"
+#include "voxelcore/Parameters.h"
+#include "voxelcore/SkeletonTexts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** One length with its unit; a bare number is mm. */
+Lambda
+ParseLength(const std::string & text)
+{
+  Lambda length = ParseLambda(text);
+  if (length.value == 0)
+  {
+    length.text = "0";
+  }
+  else if (length.unit == Lambda::Unit::Millimetre && !length.text.ends_with("mm"))
+  {
+    length.text += "mm";
+  }
+  return length;
+}
+
+Lambda
+LengthFrom(const ParameterValues & values, CommandId command, std::string_view name)
+{
+  try
+  {
+    return ParseLength(ValueOf(values, command, name));
+  }
+  catch (const UsageError & error)
+  {
+    throw UsageError("--" + std::string(name) + ": " + error.what());
+  }
+}
+
+std::filesystem::path
+OutputFrom(const ParameterValues & values, CommandId command)
+{
+  const std::string output = ValueOf(values, command, "output");
+  if (output.empty())
+  {
+    throw UsageError("--output '': expected a file name");
+  }
+  return output;
+}
+
+/** Fills pruneLength or pruneRadii from "5mm", "8vox", "2%" or "1.5r". */
+void
+ParseBranchLimit(const std::string & text, BranchRequest & options)
+{
+  if (!text.empty() && text.back() == 'r')
+  {
+    const auto radii = ParseReal(std::string_view(text).substr(0, text.size() - 1));
+    if (!radii || !(*radii >= 0 && std::isfinite(*radii)))
+    {
+      throw UsageError("--prune-branches " + text + ": expected a length such as 5mm or 8vox, or radii such as 1.5r");
+    }
+    options.pruneRadii = *radii;
+    return;
+  }
+  try
+  {
+    options.pruneLength = ParseLength(text);
+  }
+  catch (const UsageError & error)
+  {
+    throw UsageError("--prune-branches: " + std::string(error.what()) + "; or radii such as 1.5r");
+  }
+}
+
+BranchRequest
+BranchRequestFrom(const ParameterValues & values, CommandId command)
+{
+  BranchRequest options;
+  if (const std::string limit = ValueOf(values, command, "prune-branches"); !limit.empty())
+  {
+    ParseBranchLimit(limit, options);
+  }
+  options.cutLoops = values.contains("cut-loops");
+  options.splitAtJunctions = values.contains("split-at-junctions");
+  options.root = ParseRoot(ValueOf(values, command, "root"));
+  return options;
+}
+
+/** What StageFrom() reads. */
+constexpr std::array<const char *, 8> kStageOptions{ "stand-out",      "plates",    "smooth",
+                                                     "prune-branches", "cut-loops", "split-at-junctions",
+                                                     "root",           "also" };
+
+/** All but lambda. */
+SkeletonRequest
+StageFrom(const ParameterValues & values, CommandId command)
+{
+  SkeletonRequest stage;
+  stage.standOut = LengthFrom(values, command, "stand-out");
+  stage.smooth = LengthFrom(values, command, "smooth");
+  if (values.contains("plates"))
+  {
+    stage.plates = LengthFrom(values, command, "plates");
+  }
+  stage.branches = BranchRequestFrom(values, command);
+  return stage;
+}
+
+/** A finished core was read, edited and pruned already. */
+void
+RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & input)
+{
+  for (const Parameter & parameter : Parameters())
+  {
+    const bool ofScans = BelongsTo(parameter, CommandId::Skeleton) &&
+                         (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" ||
+                          parameter.name == "bumps" || parameter.name == "engine") &&
+                         parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
+                         parameter.name != "quiet";
+    if (ofScans && values.contains(parameter.name))
+    {
+      throw UsageError(
+        "--" + std::string(parameter.name) + ": needs a scan, but " + input.string() +
+        " is a medial surface; give the option to 'voxelcore core', or the scan to 'voxelcore skeleton'");
+    }
+  }
+}
+
+} // namespace
+
+SkeletonTargets
+TargetsFrom(const ParameterValues & values, CommandId command)
+{
+  SkeletonTargets targets;
+  if (values.contains("also"))
+  {
+    targets.also = ParseAlso(ValueOf(values, command, "also"));
+  }
+  return targets;
+}
+
+std::optional<SkeletonRequest>
+CoreSkeletonFrom(const ParameterValues & values)
+{
+  if (values.contains("with-skeleton"))
+  {
+    SkeletonRequest stage = StageFrom(values, CommandId::Core);
+    stage.lambda = ParseLength("0");
+    const auto also = TargetsFrom(values, CommandId::Core).also;
+    if (std::find(also.begin(), also.end(), "ma") != also.end())
+    {
+      throw UsageError("--also ma: use -o OUT.ma, or 'voxelcore skeleton' for a file of radii, too");
+    }
+    return stage;
+  }
+  for (const char * name : kStageOptions)
+  {
+    if (values.contains(name))
+    {
+      throw UsageError("--" + std::string(name) + ": needs --with-skeleton");
+    }
+  }
+  return std::nullopt;
+}
+
+SkeletonOptions
+SkeletonOptionsFrom(const ParameterValues & values)
+{
+  constexpr CommandId command = CommandId::Skeleton;
+  SkeletonOptions     options;
+  options.input = ValueOf(values, command, "scan");
+  const auto resolutions = ResolutionsFrom(values, command);
+  if (resolutions.size() > 1)
+  {
+    throw UsageError("--resolution " + ValueOf(values, command, "resolution") + ": expected one value");
+  }
+  if (!resolutions.empty())
+  {
+    options.resolution = resolutions.front();
+  }
+  if (options.input.extension() == ".vtp" && !options.resolution)
+  {
+    RefuseScanOptions(values, options.input);
+  }
+  options.reading = ReadOptionsFrom(values, command);
+  options.edits = ShapeEditsFrom(values, command);
+  options.stage = StageFrom(values, command);
+  options.stage.lambda = LengthFrom(values, command, "lambda");
+  options.targets = TargetsFrom(values, command);
+  if (values.contains("bumps"))
+  {
+    const auto heights = ParseBumpHeights(ValueOf(values, command, "bumps"));
+    if (heights.size() > 1)
+    {
+      throw UsageError("--bumps " + ValueOf(values, command, "bumps") + ": expected one value");
+    }
+    options.stage.bumps = heights.front().value > 0 ? std::optional(heights.front()) : std::nullopt;
+  }
+  options.output = OutputFrom(values, command);
+  if (values.contains("report"))
+  {
+    options.report = ValueOf(values, command, "report");
+    if (options.report->empty())
+    {
+      throw UsageError("--report '': expected a file name");
+    }
+  }
+  if (values.contains("table"))
+  {
+    options.targets.table = ValueOf(values, command, "table");
+  }
+  options.display = DisplayTargetsFrom(values, command);
+  const std::string engine = ChoiceOf(values, command, "engine");
+  options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
+  options.threads = ThreadsFrom(values, command);
+  options.force = values.contains("force");
+  return options;
+}
+
+MeasureJobOptions
+MeasureOptionsFrom(const ParameterValues & values)
+{
+  constexpr CommandId command = CommandId::Measure;
+  return { ValueOf(values, command, "skeleton"),
+           BranchRequestFrom(values, command),
+           TargetsFrom(values, command),
+           OutputFrom(values, command),
+           values.contains("force") };
+}
+
+} // namespace voxelcore

@@ -1,0 +1,19 @@
+#pragma once
+// What a user can choose about the branches of curve skeletons, as text: in options and in reports.
+
+#include "voxelcore/CertifiedSkeleton.h"
+
+#include <string>
+
+namespace voxelcore
+{
+
+/** "top", "thickest" or "x,y,z" in LPS mm. \throws UsageError */
+RootChoice
+ParseRoot(const std::string & text);
+
+/** The inverse of ParseRoot. */
+std::string
+RootText(const RootChoice & root);
+
+} // namespace voxelcore

@@ -1,0 +1,31 @@
+#include "voxelcore/ResultRecords.h"
+
+#include <utility>
+
+namespace voxelcore
+{
+
+std::string
+LabelText(std::int64_t value, const std::string & name)
+{
+  return "label " + std::to_string(value) + " (" + name + ")";
+}
+
+SkeletonPart
+TakeSkeleton(CertifiedSkeleton skeleton, LabelRecord & record)
+{
+  SkeletonPart part = std::move(skeleton.skeleton);
+  part.label = record.label;
+  part.component = record.component;
+  part.name = record.name;
+  record.skeleton = { skeleton.topology, part.table.numbers, std::move(skeleton.cuts), {} };
+  return part;
+}
+
+CertifiedShape
+RecordedShape(const CoreReport & made, const LabelRecord & label)
+{
+  return { LabelText(label.label, label.name), label.shape, label.box, made.input.geometry };
+}
+
+} // namespace voxelcore

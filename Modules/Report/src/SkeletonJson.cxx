@@ -1,0 +1,122 @@
+#include "SkeletonJson.h"
+
+#include "voxelcore/SkeletonTexts.h"
+
+namespace voxelcore
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+Json
+LengthJson(const std::optional<Lambda> & length)
+{
+  return length ? Json(length->text) : Json(nullptr);
+}
+
+std::optional<Lambda>
+ReadLength(const Json & json)
+{
+  return json.is_null() ? std::nullopt : std::optional<Lambda>(ParseLambda(json.get<std::string>()));
+}
+
+} // namespace
+
+Json
+SkeletonStageJson(const SkeletonRequest & stage)
+{
+  const BranchRequest & branches = stage.branches;
+  Json                  json{ { "lambda", stage.lambda.text },
+             { "stand_out", stage.standOut.text },
+             { "plates", LengthJson(stage.plates) },
+             { "smooth", stage.smooth.text },
+             { "prune_branches", LengthJson(branches.pruneLength) },
+             { "prune_branches_radii", branches.pruneRadii },
+             { "cut_loops", branches.cutLoops },
+             { "split_at_junctions", branches.splitAtJunctions },
+             { "root", RootText(branches.root) } };
+  if (stage.bumps)
+  {
+    json["bumps"] = stage.bumps->text;
+  }
+  return json;
+}
+
+SkeletonRequest
+ReadSkeletonStage(const Json & json)
+{
+  SkeletonRequest stage;
+  stage.lambda = ParseLambda(json.at("lambda").get<std::string>());
+  if (json.contains("bumps"))
+  {
+    stage.bumps = ParseBumpHeight(json.at("bumps").get<std::string>());
+  }
+  stage.standOut = ParseLambda(json.at("stand_out").get<std::string>());
+  stage.plates = ReadLength(json.at("plates"));
+  stage.smooth = ParseLambda(json.at("smooth").get<std::string>());
+  stage.branches.pruneLength = ReadLength(json.at("prune_branches"));
+  json.at("prune_branches_radii").get_to(stage.branches.pruneRadii);
+  json.at("cut_loops").get_to(stage.branches.cutLoops);
+  json.at("split_at_junctions").get_to(stage.branches.splitAtJunctions);
+  stage.branches.root = ParseRoot(json.at("root").get<std::string>());
+  return stage;
+}
+
+Json
+SkeletonRecordJson(const SkeletonRecord & skeleton, bool inFile)
+{
+  const SkeletonNumbers & n = skeleton.numbers;
+  Json                    json = { { "euler", skeleton.topology.euler },
+                                   { "betti", skeleton.topology.betti },
+                                   { "components", n.components },
+                                   { "branches", n.branches },
+                                   { "tips", n.tips },
+                                   { "junctions", n.junctions },
+                                   { "cycles", n.cycles },
+                                   { "isolated_loops", n.isolatedLoops },
+                                   { "isolated_points", n.isolatedPoints },
+                                   { "closed_faces", n.closedFaces },
+                                   { "plate_faces", n.plateFaces },
+                                   { "total_length_mm", n.totalLength },
+                                   { "mean_length_mm", n.meanLength },
+                                   { "max_length_mm", n.maxLength },
+                                   { "mean_radius_mm", n.meanRadius },
+                                   { "volume_mm3", n.volume },
+                                   { "surface_mm2", n.surface } };
+  json["cuts"] = Json::array();
+  for (const LoopCut & cut : skeleton.cuts)
+  {
+    json["cuts"].push_back({ { "position_mm", cut.position }, { "radius_mm", cut.radius } });
+  }
+  if (!inFile)
+  {
+    json["output"] = skeleton.output;
+  }
+  return json;
+}
+
+std::vector<LoopCut>
+ReadLoopCuts(const Json & json)
+{
+  std::vector<LoopCut> cuts;
+  for (const Json & one : json.at("cuts"))
+  {
+    LoopCut & cut = cuts.emplace_back();
+    one.at("position_mm").get_to(cut.position);
+    one.at("radius_mm").get_to(cut.radius);
+  }
+  return cuts;
+}
+
+SkeletonRecord
+ReadSkeletonRecord(const Json & json)
+{
+  SkeletonRecord skeleton;
+  json.at("euler").get_to(skeleton.topology.euler);
+  json.at("betti").get_to(skeleton.topology.betti);
+  return skeleton;
+}
+
+} // namespace voxelcore

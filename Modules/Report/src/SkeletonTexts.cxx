@@ -1,0 +1,58 @@
+#include "voxelcore/SkeletonTexts.h"
+
+#include "voxelcore/DidYouMean.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/ParseReal.h"
+#include "voxelcore/Text.h"
+
+#include <array>
+#include <cmath>
+
+namespace voxelcore
+{
+
+RootChoice
+ParseRoot(const std::string & text)
+{
+  if (text == "thickest")
+  {
+    return {};
+  }
+  if (text == "top")
+  {
+    return { RootChoice::Kind::Top, {} };
+  }
+  const auto parts = SplitText(text, ',');
+  RootChoice root{ RootChoice::Kind::Point, {} };
+  bool       good = parts.size() == 3;
+  for (std::size_t axis = 0; good && axis < 3; ++axis)
+  {
+    const auto value = ParseReal(parts[axis]);
+    good = value && std::isfinite(*value);
+    root.point[axis] = value.value_or(0);
+  }
+  if (!good)
+  {
+    constexpr std::array<std::string_view, 2> words{ "top", "thickest" };
+    throw UsageError("--root " + text + ": expected top, thickest, or a point in LPS mm such as 12.5,-30,101" +
+                     DidYouMean(text, words));
+  }
+  return root;
+}
+
+std::string
+RootText(const RootChoice & root)
+{
+  if (root.kind != RootChoice::Kind::Point)
+  {
+    return root.kind == RootChoice::Kind::Top ? "top" : "thickest";
+  }
+  std::string text;
+  for (const double coordinate : root.point)
+  {
+    text += (text.empty() ? "" : ",") + RoundTripText(coordinate);
+  }
+  return text;
+}
+
+} // namespace voxelcore
