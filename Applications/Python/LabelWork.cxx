@@ -130,7 +130,7 @@ MakeCores(const ArrayView &        array,
   CoreReport        report;
   report.input.path = "the array";
   report.input.format = "array";
-  report.input.geometry = LabelAssembler::CheckGeometry("the array", geometry, options.reading.orthonormalize);
+  report.input.geometry = CheckedGeometry("the array", geometry, options.reading.orthonormalize);
 
   constexpr double readEnds = 0.05;
   LabelShape       label;
@@ -143,7 +143,8 @@ MakeCores(const ArrayView &        array,
   {
     const std::string range = OtsuRange(error.grey);
     throw InputError("the array: " + GreyScanText(error.grey) + "; choose a range, for example threshold=(" +
-                     range.substr(0, range.find(':')) + ", numpy.inf) by Otsu, or give label= if its values are labels");
+                     range.substr(0, range.find(':')) +
+                     ", numpy.inf) by Otsu, or give label= if its values are labels");
   }
   ParameterRecord & parameters = report.parameters;
   parameters.labels = { label.value };
@@ -172,12 +173,11 @@ Prune(const CoreOfLabel & core, ParameterValues values, const ProgressCallback &
   values["output"] = "result.vtp";
   const PruneOptions options = PruneOptionsFrom(values);
   RequirePrunable(core, options);
-  const LabelRecord &  record = core.report.labels.front();
-  const CertifiedShape shape = RecordedShape(core.report, record);
-  const CertifiedCore  before{ record.pruned.front(), core.part };
-  std::vector<CertifiedCore> pruned = options.bumps.empty()
-                                        ? PruneCertified(before, shape, options.lambdas, progress)
-                                        : PruneCertified(before, shape, options.bumps);
+  const LabelRecord &        record = core.report.labels.front();
+  const CertifiedShape       shape = RecordedShape(core.report, record);
+  const CertifiedCore        before{ record.pruned.front(), core.part };
+  std::vector<CertifiedCore> pruned = options.bumps.empty() ? PruneCertified(before, shape, options.lambdas, progress)
+                                                            : PruneCertified(before, shape, options.bumps);
   CoreReport                 report = core.report;
   report.parameters.bumps.clear();
   report.labels.front().covered.reset(); // there is no boundary here to measure it on

@@ -2,7 +2,6 @@
 
 #include "ScanBytes.h"
 #include "voxelcore/GreyScan.h"
-#include "voxelcore/LabelAssembler.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -67,7 +66,7 @@ protected:
     catch (const GreyScanError & error)
     {
       EXPECT_NE(std::string(error.what()).find("looks like a grey scan"), std::string::npos);
-      EXPECT_EQ(error.volume.geometry.spacing[0] > 0, true);
+      EXPECT_EQ(error.scan.geometry.spacing[0] > 0, true);
       return error.grey;
     }
   }
@@ -201,20 +200,6 @@ TEST_F(GreyScans, WhatIsNoLabelAndNoGreyScanIsRefusedForItsValue)
     m_Folder.Write("b.nrrd", Volume<std::int16_t>("int16", [](int x, int y, int) { return x > 9 ? 3 : -y / 40; })),
     { "value -1", "is negative" },
     m_Options);
-}
-
-TEST_F(GreyScans, InMemoryAreFoundToo)
-{
-  ImageGeometry geometry;
-  geometry.size = { kSide, kSide, kSide };
-  std::vector<std::uint8_t> voxels(static_cast<std::size_t>(kSide) * kSide * kSide);
-  for (auto & voxel : voxels)
-  {
-    voxel = static_cast<std::uint8_t>(50 + m_Random() % 100);
-  }
-  LabelAssembler assembler("the array", geometry, { 1, false, false }, m_Options);
-  assembler.AddRows(voxels.data(), 0, static_cast<std::size_t>(kSide) * kSide);
-  EXPECT_THROW(assembler.TakeShapes(), GreyScanError);
 }
 
 TEST_F(GreyScans, AmongRealScansAreToldFromAtlases)

@@ -255,7 +255,7 @@ TEST(ItkCoreFilters, NothingWithoutCertificateComesOut)
     setenv("VOXELCORE_SEEDED_FAULT", fault, 1);
     const std::string message = ThrownBy([&] { pipeline.pruned->Update(); });
     unsetenv("VOXELCORE_SEEDED_FAULT");
-    EXPECT_EQ(message.find("label 2: certificate failed: the shape has chi/b0/b1/b2 1/1/0/0, its core "), 0U)
+    EXPECT_EQ(message.find("label 2 (label-2): certificate failed: the shape has chi/b0/b1/b2 1/1/0/0, its core "), 0U)
       << message;
     EXPECT_TRUE(pipeline.pruned->GetOutput()->GetParts().empty());
     EXPECT_EQ(pipeline.core->GetOutput()->GetParts().empty(), std::string(fault) == "core");
@@ -273,7 +273,7 @@ TEST(ItkCoreFilters, NothingWithoutCertificateComesOut)
     auto filter = itk::LambdaPruningFilter::New();
     filter->SetInput(claimed);
     filter->SetLambda(lambda);
-    EXPECT_EQ(ThrownBy([&] { filter->Update(); }).find("label 2: certificate failed"), 0U);
+    EXPECT_EQ(ThrownBy([&] { filter->Update(); }).find("label 2 (label-2): certificate failed"), 0U);
     EXPECT_TRUE(filter->GetOutput()->GetParts().empty());
   }
 }

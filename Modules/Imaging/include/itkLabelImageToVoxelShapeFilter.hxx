@@ -146,16 +146,13 @@ void
 LabelImageToVoxelShapeFilter<TInputImage>::BeforeStreamedGenerateData()
 {
   Superclass::BeforeStreamedGenerateData();
-  voxelcore::ReadOptions options;
-  options.labels = m_Labels;
-  options.binary = m_Binary;
-  options.threshold = m_Threshold;
-  m_Assembler = std::make_unique<VoxelShapeAssembler>(
-    this->GetOutput()->GetGeometry(),
-    VoxelShapeAssembler::PixelType{ sizeof(InputImagePixelType),
-                                    std::is_signed_v<InputImagePixelType>,
-                                    std::is_floating_point_v<InputImagePixelType> },
-    options);
+  voxelcore::LabelChoice choice;
+  choice.labels = m_Labels;
+  choice.binary = m_Binary;
+  choice.threshold = m_Threshold;
+  m_Assembler = std::make_unique<VoxelShapeAssembler>(this->GetOutput()->GetGeometry(),
+                                                      voxelcore::LabelAssembler::Pixel::Of<InputImagePixelType>(),
+                                                      choice);
 }
 
 template <typename TInputImage>

@@ -2,7 +2,7 @@
 #define itkVoxelShapeAssembler_h
 // The part of LabelImageToVoxelShapeFilter that does not depend on the pixel type.
 
-#include "voxelcore/LabelVolume.h"
+#include "voxelcore/LabelAssembler.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,24 +21,16 @@ namespace itk
 class VoxelShapeAssembler
 {
 public:
-  /** A scalar pixel. */
-  struct PixelType
-  {
-    std::size_t bytes; ///< 1, 2, 4 or 8; a floating-point number has 4 or 8
-    bool        isSigned;
-    bool        isReal;
-  };
-
   /** Checks sizes (1 to 2^30), spacing, origin and direction. \throws ExceptionObject when the direction is off a right
    *  angle, or an axis off length 1, by more than 1e-4 and `orthonormalize` is false; then the nearest orthonormal one
    *  is returned otherwise. */
   static voxelcore::ImageGeometry
   CheckGeometry(const voxelcore::ImageGeometry & geometry, bool orthonormalize);
 
-  /** Of the options, labels, binary and threshold count. \throws ExceptionObject when they contradict each other. */
+  /** \throws ExceptionObject when they contradict each other. */
   VoxelShapeAssembler(const voxelcore::ImageGeometry & geometry,
-                      PixelType                        pixel,
-                      const voxelcore::ReadOptions &   options);
+                      voxelcore::LabelAssembler::Pixel pixel,
+                      const voxelcore::LabelChoice &   choice);
   VoxelShapeAssembler(const VoxelShapeAssembler &) = delete;
   VoxelShapeAssembler &
   operator=(const VoxelShapeAssembler &) = delete;

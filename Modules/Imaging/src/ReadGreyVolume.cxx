@@ -1,6 +1,5 @@
 #include "ScanFile.h"
 #include "SlabReader.h"
-#include "StoredValues.h"
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/TextFields.h"
 

@@ -1,36 +1,63 @@
-#include "GuardedCollector.h"
+#include "LabelList.h"
 #include "ScanFile.h"
 #include "SlabReader.h"
+#include "voxelcore/GreyScan.h"
+#include "voxelcore/LabelAssembler.h"
 #include "voxelcore/LabelVolume.h"
 
 namespace voxelcore
 {
+namespace
+{
+
+/** What the header says. */
+LabelMap
+Described(const ScanFile & scan, const ReadOptions & options, const CropRange & part)
+{
+  LabelMap map;
+  map.geometry = scan.geometry;
+  if (options.crop)
+  {
+    map.crop = part;
+  }
+  map.format = scan.format;
+  map.pixelType = scan.storedType.empty() ? PixelName(scan.type) : scan.storedType;
+  map.notes = scan.notes;
+  map.notes.insert(map.notes.end(), scan.warnings.begin(), scan.warnings.end());
+  map.warnings = WarningsOf(scan);
+  return map;
+}
+
+} // namespace
 
 LabelMap
 ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options, const ProgressCallback & progress)
 {
-  ScanFile        scan = OpenScan(path, options);
-  const CropRange part = ResolveCrop(options.crop, scan.geometry.size, path);
+  ScanFile scan = OpenScan(path, options);
+  if (scan.segments.empty())
+  {
+    scan.listed = ReadLabelList(path);
+  }
+  LabelAssembler  assembler(scan, options);
+  const CropRange part = assembler.Part();
   if (options.crop)
   {
     scan.notes.push_back("only the voxels " + CropText(part) + " were looked at");
   }
-  GuardedCollector collector(scan, options, part);
-  const auto &     size = scan.geometry.size;
+  const auto & size = scan.geometry.size;
   ReportProgress(progress, "read", 0.0);
   {
     const CropRange whole{ { 0, 0, 0 },
                            { part.end[0], static_cast<std::int32_t>(size[1]), static_cast<std::int32_t>(size[2]) } };
-    SlabReader      reader(scan, collector.NeedsAllRows() ? whole : part);
+    SlabReader      reader(scan, assembler.NeedsAllRows() ? whole : part);
     while (const Slab * slab = reader.Next())
     {
       std::size_t at = 0;
       for (const RowSpan & span : slab->spans)
       {
-        collector.AddRows(slab->bytes.data() + at, span.firstRow, span.rowCount);
+        assembler.AddRows(slab->bytes.data() + at, span.firstRow, span.rowCount);
         at += span.rowCount * reader.RowBytes();
       }
-      collector.FinishSlab();
       ReportProgress(progress, "read", reader.Fraction());
     }
     reader.Finish(progress);
@@ -40,24 +67,22 @@ ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options,
     scan.warnings.push_back("the file is longer than its header says; check that the header belongs to it");
   }
   scan.voxels.reset();
-
-  LabelMap volume;
-  volume.labels = collector.TakeShapes();
-  volume.geometry = scan.geometry;
-  if (options.crop)
+  try
   {
-    volume.crop = part;
+    std::vector<LabelShape> labels = assembler.TakeShapes();
+    if (assembler.IsRenumbered())
+    {
+      scan.notes.push_back("layers use a value more than once: segments are numbered anew");
+    }
+    LabelMap map = Described(scan, options, part);
+    map.labels = std::move(labels);
+    return map;
   }
-  volume.format = scan.format;
-  volume.pixelType = scan.storedType.empty() ? PixelName(scan.type) : scan.storedType;
-  if (collector.IsRenumbered())
+  catch (GreyScanError & error)
   {
-    scan.notes.push_back("layers use a value more than once: segments are numbered anew");
+    error.scan = Described(scan, options, part);
+    throw;
   }
-  volume.notes = std::move(scan.notes);
-  volume.notes.insert(volume.notes.end(), scan.warnings.begin(), scan.warnings.end());
-  volume.warnings = WarningsOf(scan);
-  return volume;
 }
 
 } // namespace voxelcore

@@ -20,91 +20,14 @@ WarningsOf(const ScanFile & scan)
   return warnings;
 }
 
-std::size_t
-PixelBytes(PixelType type)
+void
+SetGeometry(ScanFile &                     scan,
+            const std::array<Vector3, 3> & axes,
+            const Vector3 &                spacing,
+            const Vector3 &                origin,
+            const ReadOptions &            options)
 {
-  switch (type)
-  {
-    case PixelType::UInt8:
-    case PixelType::Int8:
-      return 1;
-    case PixelType::UInt16:
-    case PixelType::Int16:
-      return 2;
-    case PixelType::UInt32:
-    case PixelType::Int32:
-    case PixelType::Float32:
-      return 4;
-    case PixelType::UInt64:
-    case PixelType::Int64:
-    case PixelType::Float64:
-      break;
-  }
-  return 8;
-}
-
-const char *
-PixelName(PixelType type)
-{
-  switch (type)
-  {
-    case PixelType::UInt8:
-      return "uint8";
-    case PixelType::Int8:
-      return "int8";
-    case PixelType::UInt16:
-      return "uint16";
-    case PixelType::Int16:
-      return "int16";
-    case PixelType::UInt32:
-      return "uint32";
-    case PixelType::Int32:
-      return "int32";
-    case PixelType::UInt64:
-      return "uint64";
-    case PixelType::Int64:
-      return "int64";
-    case PixelType::Float32:
-      return "float32";
-    case PixelType::Float64:
-      break;
-  }
-  return "float64";
-}
-
-std::uint64_t
-CheckSize(const std::filesystem::path &       path,
-          const std::array<std::int64_t, 3> & size,
-          std::uint64_t                       bytesPerVoxel,
-          std::uint64_t                       bytesPossible)
-{
-  __extension__ using Wide = unsigned __int128;
-  Wide total = 1;
-  for (const std::int64_t side : size)
-  {
-    if (side < 1 || side > (std::int64_t{ 1 } << 30))
-    {
-      RefuseInput(path, Text("its header gives a side of ", side, " voxels"), "the file is damaged or no volume");
-    }
-    total *= static_cast<Wide>(side);
-  }
-  // Three sides of 2^30 and 2^20 bytes a voxel stay below 2^128.
-  if (bytesPerVoxel > (1U << 20) || total * bytesPerVoxel > bytesPossible)
-  {
-    RefuseInput(path,
-                Text("its header gives ",
-                     size[0],
-                     " x ",
-                     size[1],
-                     " x ",
-                     size[2],
-                     " voxels of ",
-                     bytesPerVoxel,
-                     " bytes, its data hold at most ",
-                     bytesPossible),
-                "the file is truncated or its header damaged: fetch or write it anew");
-  }
-  return static_cast<std::uint64_t>(total);
+  scan.geometry = CheckedGeometry(scan.path, { scan.geometry.size, axes, spacing, origin }, options, scan.notes);
 }
 
 std::uint64_t

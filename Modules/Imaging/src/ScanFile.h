@@ -2,8 +2,11 @@
 // A scan that has been opened: what its header says, in one form for all formats, and its voxels as a stream.
 
 #include "ByteStream.h"
+#include "voxelcore/CheckedGeometry.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/StoredVoxels.h"
+#include "voxelcore/TextFields.h"
 
 #include <array>
 #include <cstdint>
@@ -16,67 +19,16 @@
 namespace voxelcore
 {
 
-enum class PixelType : std::uint8_t
+struct ScanFile : StoredVoxels
 {
-  UInt8,
-  Int8,
-  UInt16,
-  Int16,
-  UInt32,
-  Int32,
-  UInt64,
-  Int64,
-  Float32,
-  Float64
-};
-
-std::size_t
-PixelBytes(PixelType type);
-
-/** "uint8", "float32", ... */
-const char *
-PixelName(PixelType type);
-
-inline bool
-IsFloat(PixelType type)
-{
-  return type == PixelType::Float32 || type == PixelType::Float64;
-}
-
-/** A named segment of a .seg.nrrd. */
-struct Segment
-{
-  std::string  name;
-  std::size_t  layer = 0;
-  std::int64_t value = 0;
-
-  std::optional<std::array<double, 3>> color; ///< as LabelShape::color
-};
-
-struct ScanFile
-{
-  std::filesystem::path    path;
-  std::string              format;     ///< as LabelMap::format
-  std::string              storedType; ///< as LabelMap::pixelType; empty: PixelName(type)
-  PixelType                type = PixelType::UInt8;
+  std::string              format;            ///< as LabelMap::format
+  std::string              storedType;        ///< as LabelMap::pixelType; empty: PixelName(type)
   bool                     swapBytes = false; ///< the stream's byte order is not this machine's
-  ImageGeometry            geometry;
-  std::size_t              interleaved = 1; ///< values a voxel in the stream, the fastest axis
-  std::ptrdiff_t           component = -1;  ///< which of them to take; -1: all are layers of a segmentation
-  double                   slope = 1;       ///< value = slope * stored + intercept
-  double                   intercept = 0;
-  std::vector<Segment>     segments;
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
 
   bool                        moreVolumes = false; ///< the stream goes on behind the volume that is read
   std::unique_ptr<ByteStream> voxels;              ///< i fastest, then j, then k, from the first voxel on
-
-  bool
-  IsScaled() const
-  {
-    return slope != 1 || intercept != 0;
-  }
 };
 
 /** The scan's warnings, each behind its name. */
@@ -128,26 +80,13 @@ ScanKindOf(const std::filesystem::path & path);
 ScanFile
 OpenScan(const std::filesystem::path & path, const ReadOptions & options);
 
-/** Sides as a header claims them, checked: each 1 to 2^30, and their product (times bytesPerVoxel) at most
- *  bytesPossible. Returns the product. */
-std::uint64_t
-CheckSize(const std::filesystem::path &       path,
-          const std::array<std::int64_t, 3> & size,
-          std::uint64_t                       bytesPerVoxel,
-          std::uint64_t                       bytesPossible);
-
-/** Sets spacing (mm), origin (LPS mm) and direction of scan.geometry, the latter from the directions (LPS, any length) of
- *  the axes i, j, k; applies options.spacing and options.orthonormalize. \throws InputError when they are no geometry */
+/** CheckedGeometry() of scan.geometry.size, with the notes in the scan's. */
 void
 SetGeometry(ScanFile &                     scan,
-            const std::array<Vector3, 3> & directions,
+            const std::array<Vector3, 3> & axes,
             const Vector3 &                spacing,
             const Vector3 &                origin,
             const ReadOptions &            options);
-
-/** The largest cosine between two of the three directions: 0 when they are orthogonal. */
-double
-LargestCosine(const std::array<Vector3, 3> & directions);
 
 /** Checks options.component against the values a voxel has, which are `kind` ("colour image", ...), and returns the one
  *  to take. \throws InputError when there are several and none was chosen, or there is none of that number. */

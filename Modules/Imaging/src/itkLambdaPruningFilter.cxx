@@ -2,6 +2,7 @@
 
 #include "itkErrors.h"
 #include "voxelcore/CertifiedCore.h"
+#include "voxelcore/LabelMap.h"
 
 #include <charconv>
 
@@ -67,7 +68,7 @@ LambdaPruningFilter::GenerateData()
     for (OutputType::Part & part : parts)
     {
       const voxelcore::CoreOrigin &   origin = part.origin;
-      const voxelcore::CertifiedShape shape{ "label " + std::to_string(origin.label),
+      const voxelcore::CertifiedShape shape{ voxelcore::LabelText(origin.label, origin.name),
                                              origin.shape,
                                              origin.box,
                                              geometry };

@@ -94,7 +94,7 @@ VoxelCoreFilter::GenerateData()
     {
       const double                share = (1 + static_cast<double>(label.voxels)) / total;
       voxelcore::CertifiedRequest request;
-      request.name = "label " + std::to_string(label.value);
+      request.name = voxelcore::LabelText(label.value, label.name);
       request.lambdas = { voxelcore::Lambda() }; // the whole core
       request.engine = m_Engine;
       voxelcore::CertifiedResult result = voxelcore::ComputeCertified(label.shape,

@@ -1,7 +1,7 @@
 #include "itkVoxelShapeAssembler.h"
 
 #include "itkErrors.h"
-#include "voxelcore/LabelAssembler.h"
+#include "voxelcore/CheckedGeometry.h"
 
 namespace itk
 {
@@ -21,18 +21,16 @@ struct VoxelShapeAssembler::State
 voxelcore::ImageGeometry
 VoxelShapeAssembler::CheckGeometry(const voxelcore::ImageGeometry & geometry, bool orthonormalize)
 {
-  return WithItkErrors(kWhere,
-                       [&] { return voxelcore::LabelAssembler::CheckGeometry(kName, geometry, orthonormalize); });
+  return WithItkErrors(kWhere, [&] { return voxelcore::CheckedGeometry(kName, geometry, orthonormalize); });
 }
 
 VoxelShapeAssembler::VoxelShapeAssembler(const voxelcore::ImageGeometry & geometry,
-                                         PixelType                        pixel,
-                                         const voxelcore::ReadOptions &   options)
+                                         voxelcore::LabelAssembler::Pixel pixel,
+                                         const voxelcore::LabelChoice &   choice)
   : m_State(std::make_unique<State>())
 {
   WithItkErrors(kWhere, [&] {
-    const voxelcore::LabelAssembler::Pixel stored{ pixel.bytes, pixel.isSigned, pixel.isReal };
-    m_State->assembler = std::make_unique<voxelcore::LabelAssembler>(kName, geometry, stored, options);
+    m_State->assembler = std::make_unique<voxelcore::LabelAssembler>(kName, geometry, pixel, choice);
   });
 }
 

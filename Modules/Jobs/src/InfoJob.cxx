@@ -148,7 +148,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   catch (const GreyScanError & error)
   {
     info.grey = error.grey;
-    volume = error.volume;
+    volume = error.scan;
   }
   const ProgressCallback editing = plan.Next();
   EditedLabels           edited;

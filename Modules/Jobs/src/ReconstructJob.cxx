@@ -242,7 +242,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
   result.geometry = made.input.geometry;
   if (options.like)
   {
-    LabelMap like = ReadLabelVolume(*options.like, {}, PartOfProgress(context.progress, "reading", 0, 0.1));
+    LabelMap like = ReadLabelVolume(*options.like, ReadOptions(), PartOfProgress(context.progress, "reading", 0, 0.1));
     result.geometry = like.geometry;
     result.warnings = std::move(like.warnings);
   }

@@ -2,7 +2,9 @@
 
 #include "vtkFilterWork.h"
 #include "voxelcore/Certified.h"
+#include "voxelcore/CheckedGeometry.h"
 #include "voxelcore/CoreProvenance.h"
+#include "voxelcore/LabelAssembler.h"
 #include "voxelcore/ModelPolyData.h"
 
 #include <vtkDataArray.h>
@@ -19,10 +21,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
-#include <type_traits>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkVoxelCoreFilter);
 
@@ -73,127 +74,25 @@ GeometryOf(vtkImageData & image, vtkMatrix4x4 * matrix)
     }
   }
   std::copy_n(first, 3, geometry.origin.begin());
-  constexpr double kSkewDegrees = 0.0057; // axes orthonormal within 1e-4, as for files
-  if (!(voxelcore::OrthonormalityDeviationDegrees(geometry) <= kSkewDegrees))
-  {
-    throw voxelcore::InputError("the axes of the image are not orthonormal");
-  }
-  return geometry;
+  return voxelcore::CheckedGeometry("the image", geometry, false);
 }
 
-/** The labels in an image's values, which lie along i, then j, then k. */
-template <typename Value>
-class LabelShapes
+/** The shapes of the labels in an image's values, which lie along i, then j, then k. */
+std::vector<voxelcore::LabelShape>
+ShapesOf(vtkDataArray & values, const voxelcore::ImageGeometry & geometry, std::int64_t wanted)
 {
-public:
-  LabelShapes(const Value * values, const std::array<std::int64_t, 3> & size, std::int64_t wanted)
-    : m_Values(values)
-    , m_Size{ static_cast<std::int32_t>(size[0]),
-              static_cast<std::int32_t>(size[1]),
-              static_cast<std::int32_t>(size[2]) }
-    , m_Wanted(wanted)
-  {}
-
-  /** The shape of each label asked for, in its tight box. */
-  std::map<std::int64_t, voxelcore::VoxelShape>
-  Make() const
-  {
-    // First the boxes, so that many labels in a large image need no more than their own space.
-    struct Box
-    {
-      std::array<std::int32_t, 3> lower;
-      std::array<std::int32_t, 3> upper;
-    };
-    std::map<std::int64_t, Box> boxes;
-    ForEachRun([&boxes](std::int64_t label, const std::array<std::int32_t, 3> & from, std::int32_t to) {
-      Box & box = boxes.try_emplace(label, Box{ from, from }).first->second;
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        box.lower[a] = std::min(box.lower[a], from[a]);
-        box.upper[a] = std::max(box.upper[a], a == 0 ? to : from[a]);
-      }
-    });
-    std::map<std::int64_t, voxelcore::VoxelShape> shapes;
-    for (const auto & [label, box] : boxes)
-    {
-      voxelcore::VoxelBox whole{ box.lower, {} };
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        whole.size[a] = box.upper[a] - box.lower[a] + 1;
-      }
-      shapes.emplace(label, whole);
-    }
-    ForEachRun([&shapes](std::int64_t label, const std::array<std::int32_t, 3> & from, std::int32_t to) {
-      voxelcore::VoxelShape & shape = shapes.at(label);
-      for (std::int32_t i = from[0]; i <= to; ++i)
-      {
-        shape.Insert(i, from[1], from[2]);
-      }
-    });
-    return shapes;
-  }
-
-private:
-  /** Calls function(label, first voxel, last i) for voxels of one label in a row. */
-  template <typename Function>
-  void
-  ForEachRun(const Function & function) const
-  {
-    const Value * row = m_Values;
-    for (std::int32_t k = 0; k < m_Size[2]; ++k)
-    {
-      for (std::int32_t j = 0; j < m_Size[1]; ++j, row += m_Size[0])
-      {
-        for (std::int32_t i = 0; i < m_Size[0];)
-        {
-          const std::int32_t first = i;
-          while (++i < m_Size[0] && row[i] == row[first])
-          {}
-          const std::int64_t label = row[first] == Value{ 0 } ? 0 : LabelOf(row[first]);
-          if (label != 0 && (m_Wanted == 0 || label == m_Wanted))
-          {
-            function(label, { first, j, k }, i - 1);
-          }
-        }
-      }
-    }
-  }
-
-  static std::int64_t
-  LabelOf(Value value)
-  {
-    bool whole = value > Value{ 0 };
-    if constexpr (std::is_floating_point_v<Value>)
-    {
-      constexpr double largest = 9007199254740992; // 2^53: above it reals are no longer all whole numbers
-      whole = whole && value <= static_cast<Value>(largest) && std::floor(value) == value;
-    }
-    else if constexpr (sizeof(Value) == sizeof(std::int64_t))
-    {
-      whole = whole && std::in_range<std::int64_t>(value);
-    }
-    if (!whole)
-    {
-      throw voxelcore::InputError("the image holds a value that is no label: labels are whole numbers from 0");
-    }
-    return static_cast<std::int64_t>(value);
-  }
-
-  const Value *               m_Values;
-  std::array<std::int32_t, 3> m_Size;
-  std::int64_t                m_Wanted;
-};
-
-std::map<std::int64_t, voxelcore::VoxelShape>
-ShapesOf(vtkDataArray & values, const std::array<std::int64_t, 3> & size, std::int64_t wanted)
-{
+  voxelcore::LabelAssembler::Pixel pixel{};
   switch (values.GetDataType())
   {
-    vtkTemplateMacro(
-      return LabelShapes<VTK_TT>(static_cast<const VTK_TT *>(values.GetVoidPointer(0)), size, wanted).Make());
+    vtkTemplateMacro(pixel = voxelcore::LabelAssembler::Pixel::Of<VTK_TT>());
     default:
       throw voxelcore::InputError("the image's values are no numbers");
   }
+  voxelcore::LabelChoice choice;
+  choice.labels = wanted == 0 ? "all" : std::to_string(wanted);
+  voxelcore::LabelAssembler assembler("the image", geometry, pixel, choice);
+  assembler.AddRows(values.GetVoidPointer(0), 0, static_cast<std::size_t>(geometry.size[1] * geometry.size[2]));
+  return assembler.TakeShapes();
 }
 
 } // namespace
@@ -284,33 +183,25 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
       throw voxelcore::InputError("the input needs point scalars of one component");
     }
     const voxelcore::ImageGeometry geometry = GeometryOf(*image, this->ImageToLPS);
-    auto                           shapes = ShapesOf(*values, geometry.size, this->Label);
-    if (shapes.empty())
-    {
-      throw voxelcore::InputError(this->Label == 0
-                                    ? "the image holds nothing but background"
-                                    : "label " + std::to_string(this->Label) + " does not occur in the image");
-    }
-    voxelcore::MedialModel model;
+    auto                           shapes = ShapesOf(*values, geometry, this->Label);
+    voxelcore::MedialModel         model;
     model.inLps = this->ImageToLPS || this->ImageIsInLPS || !image->GetDirectionMatrix()->IsIdentity();
     std::vector<voxelcore::CoreOrigin>  origins;
     std::vector<voxelcore::CorePruning> prunings;
     const double                        share = 1 / static_cast<double>(shapes.size());
     double                              before = 0;
-    for (auto & [label, shape] : shapes)
+    for (voxelcore::LabelShape & label : shapes)
     {
-      const std::string           name = "label-" + std::to_string(label);
-      const std::uint64_t         voxels = shape.CountVoxels();
       voxelcore::CertifiedRequest request;
-      request.name = "label " + std::to_string(label);
+      request.name = voxelcore::LabelText(label.value, label.name);
       request.lambdas = { voxelcore::Lambda() }; // the whole core
-      voxelcore::CertifiedResult result = voxelcore::ComputeCertified(std::move(shape),
+      voxelcore::CertifiedResult result = voxelcore::ComputeCertified(std::move(label.shape),
                                                                       geometry,
                                                                       request,
                                                                       vtkForwardProgress(this, before, before + share));
       model.parts.push_back(std::move(result.cores.front().core));
-      model.parts.back().label = label;
-      origins.push_back(voxelcore::OriginOf(result, label, name, voxels));
+      model.parts.back().label = label.value;
+      origins.push_back(voxelcore::OriginOf(result, label.value, label.name, label.voxels));
       prunings.push_back({ "0", 0, result.whole });
       before += share;
     }

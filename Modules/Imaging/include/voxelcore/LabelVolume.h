@@ -1,6 +1,8 @@
 #pragma once
 // Label volumes: segmented scans as files, read and written.
 
+#include "voxelcore/CheckedGeometry.h"
+#include "voxelcore/LabelChoice.h"
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
 
@@ -8,7 +10,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -16,17 +17,12 @@ namespace voxelcore
 
 /** How to read. A combination without sense is a UsageError. */
 struct ReadOptions
+  : LabelChoice
+  , GeometryOptions
 {
-  std::string                              labels = "all";         ///< "all", or values or names separated by commas
-  bool                                     binary = false;         ///< all values chosen are one shape, label 1
-  std::optional<std::pair<double, double>> threshold;              ///< grey scan: lo <= value <= hi is one shape
-  std::optional<Vector3>                   spacing;                ///< mm, instead of the file's
-  bool                                     orthonormalize = false; ///< accept the nearest orthonormal direction
-  std::string                              niftiForm = "auto";     ///< "auto" (ITK's rule), "sform" or "qform"
-  std::optional<std::int64_t>              volume;                 ///< which volume of a 4-D file, counted from 0
-  std::optional<std::int64_t>              component;              ///< which of several values a voxel, from 0
-  std::optional<CropRange>                 crop;                   ///< the part of the scan to read
-  bool                                     refuseGrey = false;     ///< see GreyScan.h; unless all is one shape
+  std::string                 niftiForm = "auto"; ///< "auto" (ITK's rule), "sform" or "qform"
+  std::optional<std::int64_t> volume;             ///< which volume of a 4-D file, counted from 0
+  std::optional<std::int64_t> component;          ///< which of several values a voxel, from 0
 };
 
 /** Reads the labels of a scan in one pass over its voxels:

@@ -3,6 +3,7 @@
 
 #include "voxelcore/CropRange.h"
 #include "voxelcore/ImageGeometry.h"
+#include "voxelcore/StoredVoxels.h"
 #include "voxelcore/VoxelShape.h"
 
 #include <array>
@@ -22,8 +23,7 @@ struct LabelShape
   std::uint64_t voxels = 0; ///< how many carry it
   VoxelShape    shape;      ///< in its tight bounding box
 
-  std::optional<std::array<double, 3>>
-    color{}; ///< red, green, blue from 0 to 1, where a .seg.nrrd gives one, or a list beside the scan
+  std::optional<Color> color{}; ///< where a .seg.nrrd gives one, or a list beside the scan
 };
 
 /** The labels of a scan, sorted by value. */

@@ -1,6 +1,6 @@
-#include "LabelNames.h"
+#include "LabelList.h"
+
 #include "voxelcore/TextFields.h"
-#include "voxelcore/DidYouMean.h"
 
 #include <algorithm>
 #include <fstream>
@@ -49,23 +49,11 @@ ReadLines(const std::filesystem::path & path)
   return lines;
 }
 
-bool
-IsMeant(const LabelBook::Wish & wish, const LabelBook::Label & label)
-{
-  return ParseInteger(wish.text) == label.value || wish.text == label.name ||
-         (wish.anyCase && EqualIgnoringCase(wish.text, label.name));
-}
-
-} // namespace
-
-namespace
-{
-
 /** Three words that are whole numbers from 0 to 255, as a colour. */
-std::optional<std::array<double, 3>>
+std::optional<Color>
 ColorFrom(const std::vector<std::string_view> & words, std::size_t first)
 {
-  std::array<double, 3> color{};
+  Color color{};
   for (std::size_t k = 0; k < 3; ++k)
   {
     const auto value = first + k < words.size() ? ParseInteger(words[first + k]) : std::nullopt;
@@ -156,12 +144,12 @@ ReadByteTable(const std::filesystem::path & path)
   {
     for (std::size_t i = 1; i < kColors; ++i)
     {
-      std::array<double, 3> color{};
+      Color color{};
       for (std::size_t k = 0; k < 3; ++k)
       {
         color[k] = static_cast<unsigned char>(bytes[k * kColors + i]) / 255.0;
       }
-      if (color != std::array<double, 3>{})
+      if (color != Color{})
       {
         labels[static_cast<std::int64_t>(i)].color = color;
       }
@@ -222,109 +210,6 @@ ReadLabelList(const std::filesystem::path & scan)
     }
   }
   return labels;
-}
-
-LabelBook::LabelBook(const ScanFile & scan, const ReadOptions & options)
-  : m_All(options.labels == "all")
-{
-  std::set<std::int64_t> values;
-  for (const Segment & segment : scan.segments)
-  {
-    m_Renumbered = !values.insert(segment.value).second || m_Renumbered;
-  }
-  for (const Segment & segment : scan.segments)
-  {
-    const std::int64_t value = m_Renumbered ? m_Largest + 1 : segment.value;
-    m_Segments.emplace(std::pair(segment.layer, segment.value),
-                       Label{ value, segment.name.empty() ? Text("label-", value) : segment.name, segment.color });
-    m_Given.insert(value);
-    m_Largest = std::max(m_Largest, value);
-  }
-  if (scan.segments.empty() && scan.voxels) // else nothing lies beside it: its voxels come from memory
-  {
-    m_Names = ReadLabelList(scan.path);
-  }
-  for (std::size_t at = 0; !m_All && at <= options.labels.size();)
-  {
-    const std::size_t comma = std::min(options.labels.find(',', at), options.labels.size());
-    std::string       wish(Trim(std::string_view(options.labels).substr(at, comma - at)));
-    const auto        number = ParseInteger(wish);
-    if (wish.empty() || (number && *number <= 0))
-    {
-      throw UsageError(
-        Text("--labels '", Printable(options.labels), "': give all, or values above 0 or names (0 is background)"));
-    }
-    const bool isName =
-      std::any_of(m_Segments.begin(), m_Segments.end(), [&](const auto & s) { return s.second.name == wish; }) ||
-      std::any_of(m_Names.begin(), m_Names.end(), [&](const auto & n) { return n.second.name == wish; });
-    m_Wishes.push_back({ std::move(wish), !isName });
-    at = comma + 1;
-  }
-}
-
-LabelBook::Label
-LabelBook::Identify(std::size_t layer, std::int64_t value)
-{
-  const auto segment = m_Segments.find({ layer, value });
-  if (segment != m_Segments.end())
-  {
-    return segment->second;
-  }
-  std::int64_t number = value;
-  if (!m_Given.insert(number).second)
-  {
-    number = m_Largest + 1;
-    m_Given.insert(number);
-    m_Renumbered = true;
-  }
-  m_Largest = std::max(m_Largest, number);
-  const auto listed = m_Names.find(number);
-  const bool named = listed != m_Names.end() && !listed->second.name.empty();
-  return { number,
-           named ? listed->second.name : Text("label-", number),
-           listed != m_Names.end() ? listed->second.color : std::nullopt };
-}
-
-bool
-LabelBook::IsWanted(const Label & label) const
-{
-  return m_All ||
-         std::any_of(m_Wishes.begin(), m_Wishes.end(), [&](const Wish & wish) { return IsMeant(wish, label); });
-}
-
-void
-LabelBook::RefuseMissing(const std::filesystem::path & path,
-                         const std::vector<Label> &    present,
-                         const std::string &           where) const
-{
-  for (const Wish & wish : m_Wishes)
-  {
-    if (std::any_of(present.begin(), present.end(), [&](const Label & label) { return IsMeant(wish, label); }))
-    {
-      continue;
-    }
-    constexpr std::size_t         shown = 12;
-    std::string                   list;
-    std::vector<std::string_view> names;
-    for (const Label & label : present)
-    {
-      names.emplace_back(label.name);
-    }
-    for (std::size_t i = 0; i < std::min(shown, present.size()); ++i)
-    {
-      list += Text(i == 0 ? "" : ", ", present[i].value);
-      if (present[i].name != Text("label-", present[i].value))
-      {
-        list += Text(" ", Printable(present[i].name, 40));
-      }
-    }
-    RefuseInput(path,
-                Text("there is no label '", Printable(wish.text), "'", where),
-                Text("it has ",
-                     list,
-                     present.size() > shown ? Text(" and ", present.size() - shown, " more") : "",
-                     Printable(DidYouMean(wish.text, names))));
-  }
 }
 
 } // namespace voxelcore

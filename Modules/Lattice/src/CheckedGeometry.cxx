@@ -1,6 +1,6 @@
-// From the steps between voxels to spacing, origin and direction.
+#include "voxelcore/CheckedGeometry.h"
 
-#include "ScanFile.h"
+#include "voxelcore/Error.h"
 #include "voxelcore/TextFields.h"
 #include "voxelcore/Vectors.h"
 
@@ -59,17 +59,17 @@ LargestCosine(const std::array<Vector3, 3> & steps)
   return largest;
 }
 
-void
-SetGeometry(ScanFile &                     scan,
-            const std::array<Vector3, 3> & directions,
-            const Vector3 &                spacing,
-            const Vector3 &                origin,
-            const ReadOptions &            options)
+ImageGeometry
+CheckedGeometry(const std::filesystem::path & scan,
+                const StatedGeometry &        stated,
+                const GeometryOptions &       options,
+                std::vector<std::string> &    notes)
 {
   constexpr std::array<char, 3> axisName{ 'i', 'j', 'k' };
-  ImageGeometry &               geometry = scan.geometry;
-  geometry.spacing = options.spacing ? *options.spacing : spacing;
-  geometry.origin = origin;
+  ImageGeometry                 geometry;
+  geometry.size = stated.size;
+  geometry.spacing = options.spacing.value_or(stated.spacing);
+  geometry.origin = stated.origin;
   std::array<Vector3, 3> axes{};
   for (std::size_t a = 0; a < 3; ++a)
   {
@@ -79,27 +79,27 @@ SetGeometry(ScanFile &                     scan,
       {
         throw UsageError(Text("--spacing ", Number(geometry.spacing[a]), ": spacings are lengths in mm above 0"));
       }
-      RefuseInput(scan.path,
+      RefuseInput(scan,
                   Text("the voxel spacing along axis ", axisName[a], " is ", Number(geometry.spacing[a])),
                   "give the true one with --spacing x,y,z in mm");
     }
-    const double length = std::sqrt(Dot(directions[a], directions[a]));
+    const double length = std::sqrt(Dot(stated.axes[a], stated.axes[a]));
     if (!std::isfinite(length) || length <= 0)
     {
-      RefuseInput(scan.path, Text("axis ", axisName[a], " has no direction"), "mend the header");
+      RefuseInput(scan, Text("axis ", axisName[a], " has no direction"), "mend the header");
     }
-    if (!std::isfinite(origin[a]))
+    if (!std::isfinite(stated.origin[a]))
     {
-      RefuseInput(scan.path, "the origin is not a number", "mend the header");
+      RefuseInput(scan, "the origin is not a number", "mend the header");
     }
     for (std::size_t c = 0; c < 3; ++c)
     {
-      axes[a][c] = directions[a][c] / length;
+      axes[a][c] = stated.axes[a][c] / length;
     }
   }
   if (options.spacing)
   {
-    scan.notes.push_back("the voxel spacing is the one given, not the file's");
+    notes.push_back("the voxel spacing is the one given, not the file's");
   }
 
   const double volume = std::abs(Dot(axes[0], Cross(axes[1], axes[2])));
@@ -109,16 +109,16 @@ SetGeometry(ScanFile &                     scan,
     const std::string degrees = Number(std::asin(std::min(1.0, cosine)) * 180.0 / 3.14159265358979323846);
     if (volume < kSingularVolume)
     {
-      RefuseInput(scan.path, "its axes lie in one plane", "mend the header");
+      RefuseInput(scan, "its axes lie in one plane", "mend the header");
     }
     if (!options.orthonormalize)
     {
-      RefuseInput(scan.path,
+      RefuseInput(scan,
                   Text("its axes are skewed, ", degrees, " degrees off a right angle"),
                   "resample it, or accept the nearest right-angled axes with --orthonormalize");
     }
     MakeOrthonormal(axes);
-    scan.notes.push_back(
+    notes.push_back(
       Text("axes ", degrees, " degrees off a right angle were replaced by the nearest right-angled ones"));
   }
   for (std::size_t a = 0; a < 3; ++a)
@@ -130,6 +130,68 @@ SetGeometry(ScanFile &                     scan,
     }
     geometry.origin[a] += 0.0;
   }
+  return geometry;
+}
+
+ImageGeometry
+CheckedGeometry(const std::filesystem::path & image, const ImageGeometry & geometry, bool orthonormalize)
+{
+  CheckSize(image, geometry.size, 1, UINT64_MAX);
+  StatedGeometry stated{ geometry.size, {}, geometry.spacing, geometry.origin };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto & m = geometry.direction;
+    stated.axes[axis] = { m[axis], m[3 + axis], m[6 + axis] };
+  }
+  std::vector<std::string> notes;
+  const ImageGeometry      checked = CheckedGeometry(image, stated, { {}, orthonormalize }, notes);
+  for (std::size_t axis = 0; axis < 3 && !orthonormalize; ++axis)
+  {
+    // In memory another length would be another spacing.
+    const double length = std::hypot(stated.axes[axis][0], stated.axes[axis][1], stated.axes[axis][2]);
+    if (!(std::abs(length - 1) <= kOrthonormalTolerance))
+    {
+      RefuseInput(image,
+                  Text("axis ", "ijk"[axis], " of its direction has length ", Number(length)),
+                  "mend it, or accept the nearest right-angled axes of length 1 with --orthonormalize");
+    }
+  }
+  return checked;
+}
+
+std::uint64_t
+CheckSize(const std::filesystem::path &       path,
+          const std::array<std::int64_t, 3> & size,
+          std::uint64_t                       bytesPerVoxel,
+          std::uint64_t                       bytesPossible)
+{
+  __extension__ using Wide = unsigned __int128;
+  Wide total = 1;
+  for (const std::int64_t side : size)
+  {
+    if (side < 1 || side > (std::int64_t{ 1 } << 30))
+    {
+      RefuseInput(path, Text("its header gives a side of ", side, " voxels"), "the file is damaged or no volume");
+    }
+    total *= static_cast<Wide>(side);
+  }
+  // Three sides of 2^30 and 2^20 bytes a voxel stay below 2^128.
+  if (bytesPerVoxel > (1U << 20) || total * bytesPerVoxel > bytesPossible)
+  {
+    RefuseInput(path,
+                Text("its header gives ",
+                     size[0],
+                     " x ",
+                     size[1],
+                     " x ",
+                     size[2],
+                     " voxels of ",
+                     bytesPerVoxel,
+                     " bytes, its data hold at most ",
+                     bytesPossible),
+                "the file is truncated or its header damaged: fetch or write it anew");
+  }
+  return static_cast<std::uint64_t>(total);
 }
 
 } // namespace voxelcore

@@ -1,7 +1,8 @@
 #pragma once
 // What a stored value is called, and whether it was asked for.
 
-#include "ScanFile.h"
+#include "voxelcore/LabelChoice.h"
+#include "voxelcore/StoredVoxels.h"
 
 #include <cstdint>
 #include <map>
@@ -13,24 +14,7 @@
 namespace voxelcore
 {
 
-/** What a list beside a scan says of a value. */
-struct ListedLabel
-{
-  std::string                          name; ///< empty where the list has colours only
-  std::optional<std::array<double, 3>> color{};
-};
-
-/** From "<scan without .gz>.txt", "<scan without extensions>.txt", or the same with .label, .ctab or .lut, beside the scan;
- *  the first that says anything gives the names, the first with colours the colours. A line each:
- *  - ITK-SNAP's label descriptions: value, red, green, blue (0 to 255), opacity, two flags, "name";
- *  - FreeSurfer's colour tables: value, name, red, green, blue, and one more number;
- *  - value, blank or tab, name; columns of numbers behind the name that every line has are dropped.
- *  Lines that do not begin with a number are ignored. A .lut of 768 bytes is MRIcron's: 256 reds, greens and blues.
- *  Empty when there is no such file. */
-std::map<std::int64_t, ListedLabel>
-ReadLabelList(const std::filesystem::path & scan);
-
-class LabelBook
+class LabelNaming
 {
 public:
   struct Label
@@ -38,18 +22,18 @@ public:
     std::int64_t value = 0;
     std::string  name;
 
-    std::optional<std::array<double, 3>> color{}; ///< as LabelShape::color
+    std::optional<Color> color{};
   };
 
   /** A value or name that was asked for. */
-  struct Wish
+  struct Request
   {
     std::string text;
     bool        anyCase = false; ///< no label is called exactly so: upper and lower case are one
   };
 
-  /** \throws UsageError when options.labels makes no sense. */
-  LabelBook(const ScanFile & scan, const ReadOptions & options);
+  /** \throws UsageError when choice.labels makes no sense. */
+  LabelNaming(const StoredVoxels & scan, const LabelChoice & choice);
 
   /** The label that a value above 0 in a layer stands for; to be asked once for each. Layers may use a value twice: then
    *  segments are numbered from 1 in the order of the file, and values that no segment names get numbers behind all. */
@@ -80,7 +64,7 @@ private:
   bool                                                  m_Renumbered = false;
   bool                                                  m_All = false;
   std::set<std::int64_t>                                m_Given;
-  std::vector<Wish>                                     m_Wishes;
+  std::vector<Request>                                  m_Requested;
 };
 
 } // namespace voxelcore

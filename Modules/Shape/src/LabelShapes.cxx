@@ -129,7 +129,7 @@ LabelCollector::FinishSlab()
 std::vector<LabelShape>
 LabelCollector::TakeShapes()
 {
-  std::vector<LabelBook::Label> present;
+  std::vector<LabelNaming::Label> present;
   // Layers outside the part are looked at too, so values may have been found that have no voxel in it.
   for (const Found & found : m_Found)
   {
@@ -151,7 +151,7 @@ LabelCollector::TakeShapes()
                 m_IsPart ? "choose another part" : "name a scan with labels");
   }
   std::sort(present.begin(), present.end(), [](const auto & a, const auto & b) { return a.value < b.value; });
-  m_Book.RefuseMissing(m_Scan.path, present, where);
+  m_Naming.RefuseMissing(m_Scan.path, present, where);
 
   std::sort(m_Targets.begin(), m_Targets.end(), [](const Target & a, const Target & b) {
     return a.label.value < b.label.value;

@@ -1,7 +1,6 @@
 #include "GreyTest.h"
 
 #include "voxelcore/TextFields.h"
-#include "StoredValues.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,7 +94,7 @@ struct GreyTest::Neighbours
   std::vector<double>                 differences; ///< of neighbours that are neither 0 nor equal
 };
 
-GreyTest::GreyTest(const ScanFile & scan, const CropRange & part)
+GreyTest::GreyTest(const StoredVoxels & scan, const CropRange & part)
   : m_Scan(scan)
   , m_Part(part)
   , m_Width(std::min(static_cast<std::size_t>(part.end[0] - part.first[0]), kMostOfARow))
@@ -345,22 +344,16 @@ GreyScanText(const GreyScan & grey)
 }
 
 void
-RefuseGrey(const ScanFile & scan, const GreyTest & test)
+RefuseGrey(const StoredVoxels & scan, const GreyTest & test)
 {
-  GreyScan grey = test.Describe();
-  LabelMap header;
-  header.geometry = scan.geometry;
-  header.format = scan.format;
-  header.pixelType = scan.storedType.empty() ? PixelName(scan.type) : scan.storedType;
-  header.notes = scan.notes;
-  header.warnings = WarningsOf(scan);
+  GreyScan          grey = test.Describe();
   const std::string message = Text(Printable(scan.path.string(), 4096),
                                    ": ",
                                    GreyScanText(grey),
                                    "; choose a range with --threshold LO:HI, for example --threshold ",
                                    OtsuRange(grey),
                                    " (Otsu), or give --labels all if its values are labels");
-  throw GreyScanError(message, std::move(grey), std::move(header));
+  throw GreyScanError(message, std::move(grey));
 }
 
 } // namespace voxelcore

@@ -1,4 +1,5 @@
 #include "LabelCollector.h"
+#include "voxelcore/Error.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -55,16 +56,16 @@ EndOfRun(const U * row, std::int32_t from, std::int32_t size, U value)
 
 } // namespace
 
-LabelCollector::LabelCollector(const ScanFile & scan, const ReadOptions & options, const CropRange & part)
+LabelCollector::LabelCollector(const StoredVoxels & scan, const LabelChoice & choice, const CropRange & part)
   : m_Scan(scan)
   , m_Part(part)
-  , m_IsPart(options.crop.has_value())
-  , m_Book(scan, options)
-  , m_Binary(options.binary)
-  , m_Threshold(options.threshold)
+  , m_IsPart(choice.crop.has_value())
+  , m_Naming(scan, choice)
+  , m_Binary(choice.binary)
+  , m_Threshold(choice.threshold)
   , m_ZeroIsBackground(scan.intercept == 0)
 {
-  const bool layers = scan.interleaved > 1 && scan.component < 0;
+  const bool layers = scan.HasLayers();
   if (m_Threshold)
   {
     if (!(m_Threshold->first <= m_Threshold->second))
@@ -75,7 +76,7 @@ LabelCollector::LabelCollector(const ScanFile & scan, const ReadOptions & option
                             Number(m_Threshold->second),
                             ": the lower bound comes first"));
     }
-    if (options.labels != "all" || layers)
+    if (choice.labels != "all" || layers)
     {
       throw UsageError("--threshold makes one shape of a grey scan: it cannot be used with --labels or with layers");
     }
@@ -98,7 +99,7 @@ LabelCollector::LabelCollector(const ScanFile & scan, const ReadOptions & option
 }
 
 std::int32_t
-LabelCollector::NewTarget(const LabelBook::Label & label)
+LabelCollector::NewTarget(const LabelNaming::Label & label)
 {
   Target target;
   target.label = label;

@@ -119,8 +119,8 @@ LabelCollector::Classify(std::uint64_t bits, std::size_t layer, std::int32_t x, 
                 "this is no label volume; for a grey scan give --threshold LO:HI");
   }
   Found found;
-  found.label = m_Book.Identify(layer, value);
-  if (m_Book.IsWanted(found.label))
+  found.label = m_Naming.Identify(layer, value);
+  if (m_Naming.IsWanted(found.label))
   {
     found.target = m_Binary ? 0 : NewTarget(found.label);
   }

@@ -2,7 +2,7 @@
 // Grey scans told from label volumes, and the threshold that makes a shape of one.
 
 #include "voxelcore/Error.h"
-#include "voxelcore/LabelVolume.h"
+#include "voxelcore/LabelMap.h"
 
 #include <cstdint>
 #include <string>
@@ -31,18 +31,17 @@ OtsuRange(const GreyScan & grey);
 std::string
 GreyScanText(const GreyScan & grey);
 
-/** Thrown by ReadLabelVolume() and LabelAssembler where ReadOptions::refuseGrey is set. */
+/** Thrown by ReadLabelVolume() and LabelAssembler where LabelChoice::refuseGrey is set. */
 class GreyScanError : public InputError
 {
 public:
-  GreyScanError(const std::string & message, GreyScan found, LabelMap header)
+  GreyScanError(const std::string & message, GreyScan found)
     : InputError(message)
     , grey(std::move(found))
-    , volume(std::move(header))
   {}
 
   GreyScan grey;
-  LabelMap volume; ///< without labels
+  LabelMap scan; ///< without labels; filled in by ReadLabelVolume()
 };
 
 } // namespace voxelcore

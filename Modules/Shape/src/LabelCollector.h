@@ -1,8 +1,8 @@
 #pragma once
 // From rows of stored values to one packed shape a label, in one pass, whatever the number of labels.
 
-#include "LabelNames.h"
-#include "ScanFile.h"
+#include "LabelNaming.h"
+#include "voxelcore/LabelMap.h"
 #include "voxelcore/VoxelShape.h"
 
 #include <array>
@@ -21,7 +21,7 @@ class LabelCollector
 public:
   /** Only voxels within `part` get into shapes. \throws UsageError when options contradict each other. The scan must
    *  outlive the object. */
-  LabelCollector(const ScanFile & scan, const ReadOptions & options, const CropRange & part);
+  LabelCollector(const StoredVoxels & scan, const LabelChoice & choice, const CropRange & part);
 
   /** `rowCount` whole rows from row `firstRow` (y + size[1] * z) on, in this machine's byte order. Rows come in order;
    *  those beside the part may be left out unless NeedsAllRows().
@@ -47,10 +47,10 @@ public:
   std::vector<LabelShape>
   TakeShapes();
 
-  const LabelBook &
-  Book() const
+  const LabelNaming &
+  Naming() const
   {
-    return m_Book;
+    return m_Naming;
   }
 
 private:
@@ -72,14 +72,14 @@ private:
   /** A value found in the scan. */
   struct Found
   {
-    LabelBook::Label label;
-    std::int32_t     target = -1;  ///< which shape its voxels go into; -1: not asked for
-    bool             isIn = false; ///< there are voxels of it in the part
+    LabelNaming::Label label;
+    std::int32_t       target = -1;  ///< which shape its voxels go into; -1: not asked for
+    bool               isIn = false; ///< there are voxels of it in the part
   };
 
   struct Target
   {
-    LabelBook::Label            label;
+    LabelNaming::Label          label;
     bool                        touched = false; ///< in this slab
     std::vector<Run>            runs;            ///< of this slab
     std::array<std::int32_t, 3> lower{ INT32_MAX, INT32_MAX, INT32_MAX };
@@ -117,14 +117,14 @@ private:
   [[noreturn]] void
   RefuseValue(double value, const char * what, std::int32_t x, std::int32_t y, std::int32_t z) const;
   std::int32_t
-  NewTarget(const LabelBook::Label & label);
+  NewTarget(const LabelNaming::Label & label);
   void
   Emit(Target & target, std::int32_t x, std::int32_t end, std::int32_t y, std::int32_t z);
 
-  const ScanFile &                         m_Scan;
+  const StoredVoxels &                     m_Scan;
   CropRange                                m_Part;
   bool                                     m_IsPart; ///< not the whole scan
-  LabelBook                                m_Book;
+  LabelNaming                              m_Naming;
   bool                                     m_Binary;
   std::optional<std::pair<double, double>> m_Threshold;
   bool                                     m_ZeroIsBackground;

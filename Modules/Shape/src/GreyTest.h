@@ -11,7 +11,7 @@
 //   voxels anywhere do: a smooth ramp.
 // Bodies of single voxels have no neighbours of their own and do not count.
 
-#include "ScanFile.h"
+#include "voxelcore/StoredVoxels.h"
 #include "voxelcore/GreyScan.h"
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class GreyTest
 {
 public:
   /** Of the scan only what lies in `part` is looked at. The scan must outlive the object. */
-  GreyTest(const ScanFile & scan, const CropRange & part);
+  GreyTest(const StoredVoxels & scan, const CropRange & part);
 
   /** Whole rows in this machine's byte order, in order; see LabelCollector::AddRows(). */
   void
@@ -48,7 +48,7 @@ private:
   Neighbours
   CountNeighbours() const;
 
-  const ScanFile &           m_Scan;
+  const StoredVoxels &       m_Scan;
   CropRange                  m_Part;
   std::size_t                m_Width; ///< values taken of a row
   std::uint64_t              m_OneIn; ///< rows, of which one is taken and the next with it
@@ -61,6 +61,6 @@ private:
 
 /** \throws GreyScanError with one line that says what to do. */
 [[noreturn]] void
-RefuseGrey(const ScanFile & scan, const GreyTest & test);
+RefuseGrey(const StoredVoxels & scan, const GreyTest & test);
 
 } // namespace voxelcore

@@ -1,0 +1,64 @@
+#include "voxelcore/Error.h"
+#include "voxelcore/TextFields.h"
+
+#include <gtest/gtest.h>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+TEST(TextFields, NumbersAreWrittenAsAPersonWould)
+{
+  EXPECT_EQ(Number(3), "3");
+  EXPECT_EQ(Number(-1024), "-1024");
+  EXPECT_EQ(Number(0.1), "0.1");
+  EXPECT_EQ(Number(2.0 / 3), "0.666667");
+  EXPECT_EQ(Number(0.9999999), "0.99999990000000005"); // six digits would make it 1
+}
+
+TEST(TextFields, OnlyWholeWordsAreNumbers)
+{
+  EXPECT_EQ(ParseInteger("-12"), -12);
+  EXPECT_EQ(ParseInteger("+12"), 12);
+  for (const char * text : { "", "+", "+-1", "1.0", "1 ", "0x1", "9223372036854775808" })
+  {
+    EXPECT_FALSE(ParseInteger(text)) << text;
+  }
+  EXPECT_EQ(ParseReals(" 1 2.5\t-3e2 "), (std::vector<double>{ 1, 2.5, -300 }));
+  EXPECT_FALSE(ParseReals("1 2,5"));
+}
+
+TEST(TextFields, ForeignTextStaysOnOneLine)
+{
+  EXPECT_EQ(Printable("a\nb\x7F"), "a?b?");
+  EXPECT_EQ(Printable("abcdef", 3), "abc...");
+  EXPECT_EQ(Trim(" \ta b\r\n"), "a b");
+  EXPECT_EQ(Words(" a\tb  c "), (std::vector<std::string_view>{ "a", "b", "c" }));
+}
+
+TEST(TextFields, ARefusalSaysFileFaultAndRemedy)
+{
+  try
+  {
+    RefuseInput("some\nwhere/a.nrrd", "it is empty", "fetch it anew");
+    ADD_FAILURE();
+  }
+  catch (const InputError & error)
+  {
+    EXPECT_STREQ(error.what(), "some?where/a.nrrd: it is empty; fetch it anew");
+  }
+}
+
+TEST(TextFields, UnitsOfLengthAreKnown)
+{
+  EXPECT_EQ(MillimetresIn(" Microns "), 1e-3);
+  EXPECT_EQ(MillimetresIn("\xC2\xB5m"), 1e-3);
+  EXPECT_EQ(MillimetresIn("inch"), 25.4);
+  EXPECT_FALSE(MillimetresIn("furlong"));
+  EXPECT_EQ(Counted(1, "voxel", "voxels"), "1 voxel");
+  EXPECT_EQ(Counted(0, "voxel", "voxels"), "0 voxels");
+}
+
+} // namespace
+} // namespace voxelcore::testing

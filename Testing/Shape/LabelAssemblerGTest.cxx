@@ -1,0 +1,228 @@
+#include "voxelcore/Error.h"
+#include "voxelcore/GreyScan.h"
+#include "voxelcore/LabelAssembler.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+ImageGeometry
+SizedGeometry(std::int64_t x, std::int64_t y, std::int64_t z)
+{
+  ImageGeometry geometry;
+  geometry.size = { x, y, z };
+  return geometry;
+}
+
+/** The labels of values that lie in memory, x fastest. */
+template <typename T>
+std::vector<LabelShape>
+LabelsOf(const std::vector<T> & values, const ImageGeometry & geometry, const LabelChoice & choice = {})
+{
+  LabelAssembler assembler("the image", geometry, LabelAssembler::Pixel::Of<T>(), choice);
+  assembler.AddRows(values.data(), 0, static_cast<std::size_t>(geometry.size[1] * geometry.size[2]));
+  return assembler.TakeShapes();
+}
+
+template <typename TError = InputError, typename Work>
+std::string
+MessageOf(const Work & work)
+{
+  try
+  {
+    work();
+  }
+  catch (const TError & error)
+  {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+template <typename T>
+class LabelAssemblerOf : public ::testing::Test
+{};
+using PixelTypes = ::testing::Types<std::uint8_t,
+                                    std::int8_t,
+                                    std::uint16_t,
+                                    std::int16_t,
+                                    std::uint32_t,
+                                    std::int32_t,
+                                    std::uint64_t,
+                                    std::int64_t,
+                                    float,
+                                    double>;
+TYPED_TEST_SUITE(LabelAssemblerOf, PixelTypes);
+
+TYPED_TEST(LabelAssemblerOf, EachValueHasItsShapeInItsTightBox)
+{
+  const std::vector<TypeParam> values{ 0, 7, 7, 0, 0, 7, 3, 0, /* z = 1 */ 0, 0, 0, 0, 0, 0, 3, 3 };
+  const auto                   labels = LabelsOf(values, SizedGeometry(4, 2, 2));
+  ASSERT_EQ(labels.size(), 2U);
+  EXPECT_EQ(labels[0].value, 3);
+  EXPECT_EQ(labels[0].name, "label-3");
+  EXPECT_EQ(labels[0].voxels, 3U);
+  EXPECT_EQ(labels[0].shape.Box().lower, (std::array<std::int32_t, 3>{ 2, 1, 0 }));
+  EXPECT_EQ(labels[0].shape.Box().size, (std::array<std::int32_t, 3>{ 2, 1, 2 }));
+  EXPECT_TRUE(labels[0].shape.Contains(2, 1, 0));
+  EXPECT_FALSE(labels[0].shape.Contains(3, 1, 0));
+  EXPECT_EQ(labels[1].value, 7);
+  EXPECT_EQ(labels[1].voxels, 3U);
+  if constexpr (std::is_signed_v<TypeParam>)
+  {
+    const std::vector<TypeParam> negative{ 0, TypeParam(-1) };
+    EXPECT_EQ(
+      MessageOf([&] { LabelsOf(negative, SizedGeometry(2, 1, 1)); }),
+      "the image: value -1 at voxel (1,0,0) is negative; labels are whole numbers from 0 up; for a grey scan give "
+      "--threshold LO:HI");
+  }
+  if constexpr (std::is_floating_point_v<TypeParam>)
+  {
+    for (const auto & [value, words] : std::vector<std::pair<TypeParam, const char *>>{
+           { TypeParam(0.9999999), "is a fraction" },
+           { std::numeric_limits<TypeParam>::quiet_NaN(), "is no number" },
+           { TypeParam(1e17), "is too large" } })
+    {
+      EXPECT_NE(MessageOf([&] {
+                  LabelsOf(std::vector<TypeParam>{ 1, value }, SizedGeometry(2, 1, 1));
+                }).find(words),
+                std::string::npos);
+    }
+  }
+}
+
+TEST(LabelAssembler, TakesTheLabelsThatAreChosen)
+{
+  const std::vector<std::uint8_t> values{ 0, 1, 2, 3 };
+  const ImageGeometry             row = SizedGeometry(4, 1, 1);
+  LabelChoice                     choice;
+  choice.labels = "3, label-1";
+  auto labels = LabelsOf(values, row, choice);
+  ASSERT_EQ(labels.size(), 2U);
+  EXPECT_EQ(labels[0].value, 1);
+  EXPECT_EQ(labels[1].value, 3);
+  choice.binary = true;
+  labels = LabelsOf(values, row, choice);
+  ASSERT_EQ(labels.size(), 1U);
+  EXPECT_EQ(labels[0].value, 1);
+  EXPECT_EQ(labels[0].voxels, 2U);
+  choice.labels = "4";
+  EXPECT_EQ(MessageOf([&] { LabelsOf(values, row, choice); }), "the image: there is no label '4'; it has 1, 2, 3");
+  choice.labels = "1,,2";
+  MessageOf<UsageError>([&] { LabelsOf(values, row, choice); });
+  choice = {};
+  choice.crop = ParseCrop("2:,:,:");
+  labels = LabelsOf(values, row, choice);
+  ASSERT_EQ(labels.size(), 2U);
+  EXPECT_EQ(labels[0].shape.Box().lower[0], 2); // places do not move
+  EXPECT_EQ(
+    MessageOf([&] { LabelsOf(std::vector<std::uint8_t>(4, 0), row); }).find("the image: nothing but background"),
+    0U);
+}
+
+TEST(LabelAssembler, AThresholdMakesOneShape)
+{
+  LabelChoice choice;
+  choice.threshold = { -0.5, 2 };
+  const ImageGeometry row = SizedGeometry(4, 1, 1);
+  const auto          labels = LabelsOf(std::vector<float>{ -1, -0.5F, 2, 2.5F }, row, choice);
+  ASSERT_EQ(labels.size(), 1U);
+  EXPECT_EQ(labels[0].voxels, 2U);
+  choice.labels = "1";
+  MessageOf<UsageError>([&] { LabelsOf(std::vector<float>(4, 1), row, choice); });
+  choice = {};
+  choice.threshold = { 2, 1 };
+  MessageOf<UsageError>([&] { LabelsOf(std::vector<float>(4, 1), row, choice); });
+}
+
+TEST(LabelAssembler, LayersKeepTheirNumbersUnderACrop)
+{
+  // Two layers, which both use 1: segments are numbered anew.
+  StoredVoxels scan;
+  scan.path = "a.seg.nrrd";
+  scan.geometry.size = { 2, 2, 1 };
+  scan.interleaved = 2;
+  scan.segments = { { "bone", 0, 1, Color{ 1, 0, 0 } }, { "skin", 1, 1, {} } };
+  const std::vector<std::uint8_t> values{ 1, 1, 0, 1, /* y = 1 */ 0, 2, 1, 0 };
+  for (const char * crop : { ":,:,:", ":,1:,:" })
+  {
+    LabelChoice choice;
+    choice.crop = ParseCrop(crop);
+    LabelAssembler assembler(scan, choice);
+    EXPECT_TRUE(assembler.NeedsAllRows());
+    assembler.AddRows(values.data(), 0, 2);
+    const auto labels = assembler.TakeShapes();
+    EXPECT_TRUE(assembler.IsRenumbered());
+    const bool whole = choice.crop->first[1] == 0;
+    ASSERT_EQ(labels.size(), whole ? 3U : 2U);
+    EXPECT_EQ(labels[0].name, "bone");
+    EXPECT_EQ(labels[0].voxels, whole ? 2U : 1U);
+    EXPECT_EQ(labels[0].color, (Color{ 1, 0, 0 }));
+    EXPECT_EQ(labels.back().value, 3); // the value 2, which no segment names
+  }
+}
+
+TEST(LabelAssembler, RowsMayComeInAnyPortions)
+{
+  std::mt19937               random(20261122);
+  const ImageGeometry        geometry = SizedGeometry(301, 97, 83);
+  std::vector<std::uint16_t> values(301 * 97 * 83);
+  std::uint16_t              value = 0;
+  for (auto & one : values)
+  {
+    value = random() % 20 == 0 ? static_cast<std::uint16_t>(random() % 4) : value;
+    one = value;
+  }
+  const auto     whole = LabelsOf(values, geometry);
+  LabelAssembler assembler("the image", geometry, LabelAssembler::Pixel::Of<std::uint16_t>(), {});
+  for (std::size_t row = 0; row < 97 * 83;)
+  {
+    const std::size_t count = std::min<std::size_t>(1 + random() % 500, 97 * 83 - row);
+    assembler.AddRows(values.data() + 301 * row, row, count);
+    row += count;
+  }
+  const auto parts = assembler.TakeShapes();
+  ASSERT_EQ(parts.size(), whole.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    EXPECT_EQ(parts[i].value, whole[i].value);
+    EXPECT_EQ(parts[i].shape.Box().lower, whole[i].shape.Box().lower);
+    ASSERT_EQ(parts[i].shape.Box().size, whole[i].shape.Box().size);
+    for (std::int32_t z = 0; z < whole[i].shape.Box().size[2]; ++z)
+    {
+      for (std::int32_t y = 0; y < whole[i].shape.Box().size[1]; ++y)
+      {
+        ASSERT_TRUE(std::ranges::equal(parts[i].shape.Row(y, z), whole[i].shape.Row(y, z)));
+      }
+    }
+  }
+}
+
+TEST(LabelAssembler, GreyImagesAreRefusedWhenAsked)
+{
+  std::mt19937              random(20261122);
+  const ImageGeometry       geometry = SizedGeometry(40, 40, 40);
+  std::vector<std::uint8_t> values(40 * 40 * 40);
+  for (auto & value : values)
+  {
+    value = static_cast<std::uint8_t>(50 + random() % 100);
+  }
+  LabelChoice choice;
+  EXPECT_GT(LabelsOf(values, geometry, choice).size(), 90U);
+  choice.refuseGrey = true;
+  EXPECT_NE(MessageOf<GreyScanError>([&] { LabelsOf(values, geometry, choice); }).find("--threshold"),
+            std::string::npos);
+  choice.binary = true;
+  EXPECT_EQ(LabelsOf(values, geometry, choice).size(), 1U);
+}
+
+} // namespace
+} // namespace voxelcore::testing
