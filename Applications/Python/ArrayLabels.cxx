@@ -105,7 +105,7 @@ IsPlain(const ArrayView & array)
 std::vector<LabelShape>
 LabelsOf(const ArrayView &        array,
          const ImageGeometry &    geometry,
-         const ReadOptions &      options,
+         const LabelChoice &      options,
          const ProgressCallback & progress)
 {
   LabelAssembler         assembler("the array", geometry, array.pixel, options);

@@ -27,7 +27,7 @@ struct ArrayView
 std::vector<LabelShape>
 LabelsOf(const ArrayView &        array,
          const ImageGeometry &    geometry,
-         const ReadOptions &      options,
+         const LabelChoice &      options,
          const ProgressCallback & progress = {});
 
 } // namespace voxelcore
