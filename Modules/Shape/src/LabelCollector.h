@@ -1,7 +1,7 @@
 #pragma once
 // From rows of stored values to one packed shape a label, in one pass, whatever the number of labels.
 
-#include "LabelNaming.h"
+#include "voxelcore/LabelNaming.h"
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/VoxelShape.h"
 

@@ -1,4 +1,4 @@
-#include "LabelNaming.h"
+#include "voxelcore/LabelNaming.h"
 
 #include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
