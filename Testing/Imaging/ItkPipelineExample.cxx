@@ -1,11 +1,9 @@
 // VoxelCore in an ITK pipeline: the pruned medial surface of every label of a scan.
 // usage: ItkPipelineExample SCAN LAMBDA OUT.vtp
 
-#include "itkImageFileReader.h"
 #include "itkLabelImageToVoxelShapeFilter.h"
+#include "itkLabelScanReader.h"
 #include "itkLambdaPruningFilter.h"
-#include "itkMetaImageIOFactory.h"
-#include "itkNrrdImageIOFactory.h"
 #include "itkVoxelCoreFilter.h"
 
 #include "voxelcore/MedialModel.h"
@@ -20,13 +18,10 @@ main(int argc, char ** argv)
     std::cerr << "usage: ItkPipelineExample SCAN LAMBDA OUT.vtp\n";
     return 2;
   }
-  // With ITK's UseITK.cmake all formats register themselves.
-  itk::MetaImageIOFactory::RegisterOneFactory();
-  itk::NrrdImageIOFactory::RegisterOneFactory();
   try
   {
     using ImageType = itk::Image<unsigned short, 3>;
-    auto reader = itk::ImageFileReader<ImageType>::New();
+    auto reader = itk::LabelScanReader<ImageType>::New();
     reader->SetFileName(argv[1]);
     auto shapes = itk::LabelImageToVoxelShapeFilter<ImageType>::New();
     shapes->SetInput(reader->GetOutput());

@@ -20,6 +20,8 @@ SwapValues(std::byte * bytes, std::size_t count)
   }
 }
 
+} // namespace
+
 void
 SwapValues(std::byte * bytes, std::size_t count, PixelType type)
 {
@@ -35,8 +37,6 @@ SwapValues(std::byte * bytes, std::size_t count, PixelType type)
       return;
   }
 }
-
-} // namespace
 
 SlabReader::SlabReader(ScanFile & scan, const CropRange & part)
   : m_Scan(scan)

@@ -22,6 +22,10 @@ struct RowSpan
   std::size_t   rowCount = 0;
 };
 
+/** Turns the byte order of values round; `count` bytes of them. */
+void
+SwapValues(std::byte * bytes, std::size_t count, PixelType type);
+
 struct Slab
 {
   std::vector<std::byte> bytes;    ///< of all spans, whole rows in this machine's byte order; room behind them

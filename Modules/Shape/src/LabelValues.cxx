@@ -1,6 +1,7 @@
 // Which stored values are labels: the rules of LabelCollector.
 
 #include "LabelCollector.h"
+#include "voxelcore/ScaledValue.h"
 #include "voxelcore/TextFields.h"
 
 #include <bit>
@@ -66,20 +67,7 @@ LabelCollector::WholeNumber(std::uint64_t bits, std::int32_t x, std::int32_t y, 
     }
     return static_cast<std::int64_t>(bits); // exact, where a double may not be
   }
-  double value = m_Scan.slope * stored + m_Scan.intercept;
-  if (m_Scan.IsScaled() && std::isfinite(value) && value != std::floor(value) && std::abs(stored) < (1 << 22))
-  {
-    // A slope such as 1/255 is itself rounded (to single precision in NIfTI-1): a product no further from a whole
-    // number than that rounding explains is that number. ITK comes to the same, as it computes in single precision.
-    const double nearest = std::round(value);
-    const double rounding = (std::abs(m_Scan.slope * stored) +
-                             (m_Scan.intercept == std::floor(m_Scan.intercept) ? 0.0 : std::abs(m_Scan.intercept))) *
-                            std::ldexp(1.0, -24);
-    if (std::abs(value - nearest) <= rounding && rounding < 0.01 * std::abs(m_Scan.slope))
-    {
-      value = nearest;
-    }
-  }
+  const double value = ScaledValue(m_Scan, stored);
   if (!std::isfinite(value))
   {
     RefuseValue(value, "is no number", x, y, z);

@@ -1,4 +1,6 @@
-#include "voxelcore/StoredVoxels.h"
+#include "voxelcore/ScaledValue.h"
+
+#include <cmath>
 
 namespace voxelcore
 {
@@ -53,6 +55,21 @@ PixelName(PixelType type)
       break;
   }
   return "float64";
+}
+
+double
+ScaledValue(const StoredVoxels & scan, double stored)
+{
+  const double value = scan.slope * stored + scan.intercept;
+  if (!scan.IsScaled() || !std::isfinite(value) || value == std::floor(value) || std::abs(stored) >= (1 << 22))
+  {
+    return value;
+  }
+  const double nearest = std::round(value);
+  const double rounding =
+    (std::abs(scan.slope * stored) + (scan.intercept == std::floor(scan.intercept) ? 0.0 : std::abs(scan.intercept))) *
+    std::ldexp(1.0, -24);
+  return std::abs(value - nearest) <= rounding && rounding < 0.01 * std::abs(scan.slope) ? nearest : value;
 }
 
 } // namespace voxelcore
