@@ -1,0 +1,65 @@
+"""Whatever a lower room gets wrong, Python gets no result. The module is linked with SeededFault.cxx."""
+
+import numpy
+import pytest
+import voxelcore
+
+ROD = numpy.pad(numpy.ones((20, 7, 6), numpy.uint8), 2)
+
+
+def cores_from(path):
+    """What is made from a core that was saved without a fault."""
+    return {
+        "pruned further": lambda: voxelcore.read(path).prune("2vox"),
+        "pruned by bumps": lambda: voxelcore.read(path).prune(bumps="2diag"),
+        "skeleton of a core": lambda: voxelcore.skeleton(voxelcore.read(path)),
+    }
+
+
+FROM_ARRAY = {
+    "core": lambda: voxelcore.core(ROD, lambda_=0),
+    "pruned": lambda: voxelcore.core(ROD, lambda_="1.5vox"),
+    "several": lambda: voxelcore.core(ROD, lambda_=["1vox", "2vox"]),
+    "by bumps": lambda: voxelcore.core(ROD, bumps="1.2diag"),
+    "skeleton": lambda: voxelcore.skeleton(ROD),
+    "table": lambda: voxelcore.measure(ROD),
+}
+
+
+@pytest.fixture
+def path(tmp_path):
+    voxelcore.core(ROD, bumps=0).save(tmp_path / "core.vtp", keep_edges=True)
+    return tmp_path / "core.vtp"
+
+
+def refuses(monkeypatch, stage, make):
+    make()  # without a fault it is made
+    monkeypatch.setenv("VOXELCORE_SEEDED_FAULT", stage)
+    with pytest.raises(voxelcore.CertificateError, match="certificate failed"):
+        make()
+
+
+@pytest.mark.parametrize(
+    "stage, what",
+    [
+        ("core", "core"),
+        ("core", "pruned"),
+        ("core", "by bumps"),
+        ("core", "skeleton"),
+        ("pruning", "pruned"),
+        ("pruning", "several"),
+        ("bumps", "by bumps"),
+        ("skeleton", "skeleton"),
+        ("skeleton", "table"),
+    ],
+)
+def test_a_fault_below_an_array_is_refused(monkeypatch, stage, what):
+    refuses(monkeypatch, stage, FROM_ARRAY[what])
+
+
+@pytest.mark.parametrize(
+    "stage, what",
+    [("pruning", "pruned further"), ("bumps", "pruned by bumps"), ("skeleton", "skeleton of a core")],
+)
+def test_a_fault_below_a_finished_core_is_refused(monkeypatch, path, stage, what):
+    refuses(monkeypatch, stage, cores_from(path)[what])
