@@ -4,6 +4,8 @@ target_compile_features(VoxelCoreBuildRules INTERFACE cxx_std_20)
 # No contraction, no fast-math: the same bits on every machine.
 target_compile_options(VoxelCoreBuildRules INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-ffp-contract=off>
+  # Of types in unnamed namespaces GCC asks that they stand in the file it was called for; here that includes it.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${VOXELCORE_UNITY}>>:-Wno-subobject-linkage>
   $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${VOXELCORE_WERROR}>>:-Werror>)
 
 # voxelcore_library(target SOURCES...): a static library by these rules, alias VoxelCore::<target without VoxelCore>.

@@ -11,8 +11,8 @@
 #include <random>
 #include <sys/resource.h>
 
-using namespace voxelcore;
-using namespace voxelcore::testing;
+namespace voxelcore::testing::crop
+{
 
 namespace
 {
@@ -298,3 +298,5 @@ TEST(Crop, ARangeThatIsNoneIsRefused)
     EXPECT_THROW(ReadLabelVolume(path, options), UsageError);
   }
 }
+
+} // namespace voxelcore::testing::crop

@@ -22,7 +22,7 @@ namespace
 using ImageType = itk::Image<unsigned short, 3>;
 using Filter = itk::LabelImageToVoxelShapeFilter<ImageType>;
 
-constexpr itk::Size<3> kSize{ { 20, 12, 10 } };
+constexpr itk::Size<3> kFileSize{ { 20, 12, 10 } };
 
 double
 TwoLabels(int x, int y, int z)
@@ -71,7 +71,7 @@ TEST(ItkFiles, AnImageWrittenByItkIsReadAsTheFilterSeesIt)
   };
   for (const Placement & place : places)
   {
-    const auto image = MakeImage<unsigned short>(kSize, TwoLabels, place);
+    const auto image = MakeImage<unsigned short>(kFileSize, TwoLabels, place);
     auto       filter = Filter::New();
     filter->SetInput(image);
     filter->Update();
@@ -96,7 +96,7 @@ TEST(ItkFiles, ARawFileStreamsThroughItksReader)
   const TempFolder folder;
   const auto       path = folder / "a.mha";
   auto             whole = Filter::New();
-  whole->SetInput(MakeImage<unsigned short>(kSize, TwoLabels));
+  whole->SetInput(MakeImage<unsigned short>(kFileSize, TwoLabels));
   whole->Update();
   WriteLabelVolume(path, whole->GetOutput()->GetGeometry(), whole->GetOutput()->GetLabels(), false);
   auto reader = itk::ImageFileReader<ImageType>::New();
@@ -124,7 +124,7 @@ TEST(ItkFiles, TheExampleWritesTheLibrarysBytes)
   place.spacing = { 0.5, 0.5, 1.25 };
   place.direction = { 0, 1, 0, 1, 0, 0, 0, 0, 1 }; // left-handed
   auto filter = Filter::New();
-  filter->SetInput(MakeImage<unsigned short>(kSize, TwoLabels, place));
+  filter->SetInput(MakeImage<unsigned short>(kFileSize, TwoLabels, place));
   filter->Update();
   WriteLabelVolume(path, filter->GetOutput()->GetGeometry(), filter->GetOutput()->GetLabels());
 

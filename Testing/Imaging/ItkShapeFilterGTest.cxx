@@ -32,13 +32,13 @@ TEST(ItkShapeFilter, SlabsComeOneByOneAndMakeTheSameShapes)
     for (const ImageRegion & region : spy->regions)
     {
       EXPECT_EQ(region.GetIndex(), (ImageIndex{ { 0, 0, z } }));
-      EXPECT_EQ(region.GetSize(0), kSize[0]);
-      EXPECT_EQ(region.GetSize(1), kSize[1]);
+      EXPECT_EQ(region.GetSize(0), kShapeSize[0]);
+      EXPECT_EQ(region.GetSize(1), kShapeSize[1]);
       z += static_cast<itk::IndexValueType>(region.GetSize(2));
     }
     EXPECT_EQ(z, 16);
     EXPECT_LE(spy->mostPixels, 70U * 9U * ((16 + expected - 1) / expected));
-    ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
+    ExpectShapes(*filter->GetOutput(), kShapeSize, Scattered, { 1, 2, 7 });
   }
 }
 
@@ -52,7 +52,7 @@ TEST(ItkShapeFilter, AnUpstreamThatMakesAllAtOnceRunsOnce)
   filter->SetNumberOfStreamDivisions(7);
   filter->Update();
   EXPECT_EQ(spy->regions.size(), 1U);
-  ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
+  ExpectShapes(*filter->GetOutput(), kShapeSize, Scattered, { 1, 2, 7 });
 }
 
 TEST(ItkShapeFilter, ThinImagesAreDividedAlongTheAxisTheyHave)
@@ -169,15 +169,15 @@ TEST(ItkShapeFilter, GeometryIsThatOfTheFirstVoxelWhereverItsIndex)
 TEST(ItkShapeFilter, ParametersChooseTheShapes)
 {
   auto filter = ByteFilter::New();
-  filter->SetInput(MakeImage<std::uint8_t>(kSize, Scattered));
+  filter->SetInput(MakeImage<std::uint8_t>(kShapeSize, Scattered));
   filter->SetLabel(7);
   filter->Update();
-  ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 7 });
+  ExpectShapes(*filter->GetOutput(), kShapeSize, Scattered, { 7 });
   filter->SetLabels("1,2");
   filter->BinaryOn();
   filter->Update();
   ExpectShapes(*filter->GetOutput(),
-               kSize,
+               kShapeSize,
                [](int x, int y, int z) {
                  const double value = Scattered(x, y, z);
                  return value == 1 || value == 2 ? 1.0 : 0.0;
@@ -188,12 +188,12 @@ TEST(ItkShapeFilter, ParametersChooseTheShapes)
   filter->SetThreshold(2, 250);
   filter->Update();
   ExpectShapes(*filter->GetOutput(),
-               kSize,
+               kShapeSize,
                [](int x, int y, int z) { return Scattered(x, y, z) >= 2 ? 1.0 : 0.0; },
                { 1 });
   filter->RemoveThreshold();
   filter->Update();
-  ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
+  ExpectShapes(*filter->GetOutput(), kShapeSize, Scattered, { 1, 2, 7 });
 }
 
 TEST(ItkShapeFilter, RefusesInOneLineWhatTheReaderRefuses)
@@ -247,7 +247,7 @@ TEST(ItkShapeFilter, RefusesADirectionThatIsNotOrthonormalBeforeAnyVoxelIsMade)
     filter->OrthonormalizeOn();
     filter->Update();
     EXPECT_LT(OrthonormalityDeviationDegrees(filter->GetOutput()->GetGeometry()), 1e-10);
-    ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
+    ExpectShapes(*filter->GetOutput(), kShapeSize, Scattered, { 1, 2, 7 });
   }
 }
 

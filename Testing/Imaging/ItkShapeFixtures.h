@@ -13,7 +13,7 @@ using ByteImage = itk::Image<std::uint8_t, 3>;
 using ByteFilter = itk::LabelImageToVoxelShapeFilter<ByteImage>;
 using Spy = SpySource<ByteImage>;
 
-inline constexpr itk::Size<3> kSize{ { 70, 9, 16 } };
+inline constexpr itk::Size<3> kShapeSize{ { 70, 9, 16 } };
 
 /** Labels 1, 2 and 7 here and there; equal for equal arguments. */
 inline double
@@ -27,7 +27,7 @@ inline Spy::Pointer
 ScatteredSpy()
 {
   auto spy = Spy::New();
-  spy->size = kSize;
+  spy->size = kShapeSize;
   spy->value = Scattered;
   return spy;
 }

@@ -17,7 +17,7 @@ TEST(ItkShapeUpdates, WorksAgainAfterARefusal)
   ThrownBy([&] { filter->Update(); }); // nothing was mended: it does not pretend to be up to date
   filter->SetLabels("all");
   filter->Update();
-  ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
+  ExpectShapes(*filter->GetOutput(), kShapeSize, Scattered, { 1, 2, 7 });
 
   spy->failAt = static_cast<int>(spy->regions.size()) + 2;
   spy->Modified();
@@ -25,7 +25,7 @@ TEST(ItkShapeUpdates, WorksAgainAfterARefusal)
   EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
   spy->failAt = -1;
   filter->Update();
-  ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
+  ExpectShapes(*filter->GetOutput(), kShapeSize, Scattered, { 1, 2, 7 });
 }
 
 TEST(ItkShapeUpdates, RunsOnlyWhenSomethingChanged)
@@ -110,6 +110,6 @@ TEST(ItkShapeUpdates, AbortsWithoutOutputAndCanRunAgain)
     EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
     watcher.abortAt = -1;
     filter->Update();
-    ExpectShapes(*filter->GetOutput(), kSize, Scattered, { 1, 2, 7 });
+    ExpectShapes(*filter->GetOutput(), kShapeSize, Scattered, { 1, 2, 7 });
   }
 }

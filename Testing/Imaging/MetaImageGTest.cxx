@@ -1,7 +1,7 @@
 #include "ScanBytes.h"
 
-using namespace voxelcore;
-using namespace voxelcore::testing;
+namespace voxelcore::testing::meta
+{
 
 namespace
 {
@@ -139,3 +139,5 @@ TEST(MetaImage, DamagedFilesAreRefused)
   ExpectRefused(folder.Write("e.mha", Meta(With(Lines(), "NDims", "1000000"), kData)), { "NDims" });
   ExpectRefused(folder.Write("f.mha", Meta(With(Lines(), "ElementType", "MET_NONE"), kData)), { "MET_NONE" });
 }
+
+} // namespace voxelcore::testing::meta

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-using namespace voxelcore;
-using namespace voxelcore::testing;
+namespace voxelcore::testing::nifti
+{
 
 namespace
 {
@@ -383,3 +383,5 @@ TEST(NiftiBad, HeadersThatClaimTooMuchAreRefused)
     ExpectRefused(folder.Write("b.nii", Nifti(odd, kData)), {});
   }
 }
+
+} // namespace voxelcore::testing::nifti

@@ -12,7 +12,7 @@ namespace
 {
 
 /** What nibabel finds in a file: numbers of labels and of voxels that have one, and the origin in LPS. */
-struct Expected
+struct ExpectedScan
 {
   const char *  file;
   const char *  type;
@@ -23,7 +23,7 @@ struct Expected
 };
 
 void
-Check(const std::filesystem::path & path, const Expected & expected)
+Check(const std::filesystem::path & path, const ExpectedScan & expected)
 {
   SCOPED_TRACE(path.string());
   const LabelMap volume = ReadLabelVolume(path);
@@ -62,7 +62,7 @@ TEST(RealScans, AtlasesOfMricron)
   {
     GTEST_SKIP() << "the package mricron-data is not installed";
   }
-  for (const Expected & expected : std::initializer_list<Expected>{
+  for (const ExpectedScan & expected : std::initializer_list<ExpectedScan>{
          { "AICHAmc.nii.gz", "uint8", 192, 144208, { 2, 2, 2 }, { -90, 0, 0 } },
          { "HarvardOxford-cort-maxprob-thr0-1mm.nii.gz", "uint8", 48, 1689547, { 1, 1, 1 }, { -90, 0, 0 } },
          { "JHU-WhiteMatter-labels-1mm.nii.gz", "uint8", 48, 170006, { 1, 1, 1 }, { 91, 126, -72 } },
@@ -104,7 +104,7 @@ TEST(RealScans, SegmentationsOfManyPrograms)
   {
     GTEST_SKIP() << "VOXELCORE_TEST_DATA names no folder with foreign scans";
   }
-  for (const Expected & expected : std::initializer_list<Expected>{
+  for (const ExpectedScan & expected : std::initializer_list<ExpectedScan>{
          { "AIM-Harvard+pyradiomics/brain1_label.nrrd",
            "int32",
            1,

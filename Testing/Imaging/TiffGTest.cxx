@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <random>
 
-using namespace voxelcore;
-using namespace voxelcore::testing;
+namespace voxelcore::testing::tiff
+{
 
 namespace
 {
@@ -330,3 +330,5 @@ TEST(TiffSlices, GapsTwinsAndUnequalSlicesAreRefused)
   folder.Write("stacks/2.tif", Tiff(Pages<std::uint8_t>(1)));
   EXPECT_THROW(ReadLabelVolume(folder / "stacks"), InputError);
 }
+
+} // namespace voxelcore::testing::tiff

@@ -138,7 +138,7 @@ TEST(ProcessSideBySide, ProgressRunsForwardToOneAndStops)
 
 /** A raw NRRD of bytes: 59 labels with holes. */
 void
-WriteScan(const std::filesystem::path & path, std::uint64_t seed)
+WriteManyLabels(const std::filesystem::path & path, std::uint64_t seed)
 {
   constexpr std::size_t side = 40;
   std::mt19937_64       random(seed);
@@ -166,7 +166,7 @@ TEST(SideBySide, FilesDoNotDependOnTheNumberOfThreads)
   RecordProperty("seed", std::to_string(seed));
   std::cout << "seed " << seed << "\n";
   const TemporaryFolder folder;
-  WriteScan(folder / "s.nrrd", seed);
+  WriteManyLabels(folder / "s.nrrd", seed);
   std::string expected;
   for (const int count : { 1, 2, 3, 7 })
   {

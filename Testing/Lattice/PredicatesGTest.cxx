@@ -25,7 +25,7 @@ using testing::ToBigVector;
 using testing::operator-;
 
 SpacingWeights
-Weights(std::int64_t x, std::int64_t y, std::int64_t z)
+MakeWeights(std::int64_t x, std::int64_t y, std::int64_t z)
 {
   SpacingWeights weights;
   weights.weight = { x, y, z };
@@ -42,9 +42,10 @@ struct Situation
 Situation
 MakeSituation(std::uint64_t round)
 {
-  static const SpacingWeights all[] = { Weights(1, 1, 1),       Weights(1, 1, 2),         Weights(3, 3, 7),
-                                        Weights(25, 25, 128),   Weights(4096, 1, 1),      Weights(1, 4096, 4095),
-                                        Weights(4096, 4096, 1), Weights(4095, 4096, 4093) };
+  static const SpacingWeights all[] = { MakeWeights(1, 1, 1),       MakeWeights(1, 1, 2),
+                                        MakeWeights(3, 3, 7),       MakeWeights(25, 25, 128),
+                                        MakeWeights(4096, 1, 1),    MakeWeights(1, 4096, 4095),
+                                        MakeWeights(4096, 4096, 1), MakeWeights(4095, 4096, 4093) };
   static const std::int64_t   extents[] = { 1, 2, 3, 10, 500, 3000, 60000, 1 << 19 };
   Random                      random(round);
   Situation                   situation;
@@ -94,7 +95,7 @@ TEST(Predicates, OrientationIsTheDeterminant)
 
 TEST(Predicates, SquaredDistancesAreExact)
 {
-  EXPECT_EQ(SquaredDistance({ 0, 0, 0 }, { 1, 1, 1 }, Weights(3, 3, 7)), 9 + 9 + 49);
+  EXPECT_EQ(SquaredDistance({ 0, 0, 0 }, { 1, 1, 1 }, MakeWeights(3, 3, 7)), 9 + 9 + 49);
   for (std::uint64_t round = 0; round < rounds; ++round)
   {
     const auto [weights, p] = MakeSituation(round);
@@ -106,14 +107,14 @@ TEST(Predicates, SquaredDistancesAreExact)
 
 TEST(Predicates, TheSphereOfAVoxelsCornersSitsAtItsCentre)
 {
-  const SpacingWeights weights = Weights(1, 1, 4);
+  const SpacingWeights weights = MakeWeights(1, 1, 4);
   const CircumSphere   sphere = MakeCircumSphere({ 2, 3, 4 }, { 3, 3, 4 }, { 2, 4, 4 }, { 2, 3, 5 }, weights);
   EXPECT_EQ(CentreCoordinate(sphere, 0, weights), 2.5);
   EXPECT_EQ(CentreCoordinate(sphere, 1, weights), 3.5);
   EXPECT_EQ(CentreCoordinate(sphere, 2, weights), 4.5);
   EXPECT_EQ(SquaredRadius(sphere, weights), 18.0 / 4.0);
   EXPECT_EQ(Power(sphere, { 3, 4, 5 }, weights), 0);
-  EXPECT_LT(Power(sphere, { 3, 4, 4 }, Weights(1, 1, 5)), 1);
+  EXPECT_LT(Power(sphere, { 3, 4, 4 }, MakeWeights(1, 1, 5)), 1);
   EXPECT_GT(Power(sphere, { 4, 4, 5 }, weights), 0);
 }
 
@@ -203,8 +204,8 @@ TEST(Predicates, CentresAreComparedExactly)
 TEST(Predicates, CirclesOfThreePointsAreExact)
 {
   // Half the square's diagonal, and the equilateral triangle of side sqrt(2).
-  EXPECT_EQ(SquaredCircumradius({ 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, Weights(1, 1, 1)), 0.5);
-  EXPECT_EQ(SquaredCircumradius({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, Weights(1, 1, 1)), 2.0 / 3.0);
+  EXPECT_EQ(SquaredCircumradius({ 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, MakeWeights(1, 1, 1)), 0.5);
+  EXPECT_EQ(SquaredCircumradius({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, MakeWeights(1, 1, 1)), 2.0 / 3.0);
   for (std::uint64_t round = 0; round < rounds; ++round)
   {
     const auto [weights, p] = MakeSituation(round);
@@ -221,9 +222,9 @@ TEST(Predicates, CirclesOfThreePointsAreExact)
 TEST(Predicates, CentreSideIsTheSideOfTheApex)
 {
   // The apex of a flat pyramid sees the centre beyond the base, that of a steep one on its own side.
-  EXPECT_EQ(CentreSide({ 2, 0, 0 }, { -2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 1 }, Weights(1, 1, 1)), -1);
-  EXPECT_EQ(CentreSide({ 2, 0, 0 }, { -2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, Weights(1, 1, 1)), 0);
-  EXPECT_EQ(CentreSide({ 2, 0, 0 }, { -2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 3 }, Weights(1, 1, 1)), 1);
+  EXPECT_EQ(CentreSide({ 2, 0, 0 }, { -2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 1 }, MakeWeights(1, 1, 1)), -1);
+  EXPECT_EQ(CentreSide({ 2, 0, 0 }, { -2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, MakeWeights(1, 1, 1)), 0);
+  EXPECT_EQ(CentreSide({ 2, 0, 0 }, { -2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 3 }, MakeWeights(1, 1, 1)), 1);
   int onThePlane = 0;
   for (std::uint64_t round = 0; round < rounds; ++round)
   {
@@ -246,12 +247,12 @@ TEST(Predicates, CentreSideIsTheSideOfTheApex)
 
 TEST(Predicates, AngleSignTellsAcuteFromObtuse)
 {
-  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, Weights(1, 1, 1)), 0);
-  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, Weights(1, 1, 1)), 1);
-  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 0, 0 }, { -1, 1, 0 }, Weights(1, 1, 1)), -1);
+  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, MakeWeights(1, 1, 1)), 0);
+  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, MakeWeights(1, 1, 1)), 1);
+  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 0, 0 }, { -1, 1, 0 }, MakeWeights(1, 1, 1)), -1);
   // The metric decides: a right angle of cubes is obtuse or acute on other boxes.
-  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 1, 0 }, { 1, -1, 0 }, Weights(2, 1, 1)), 1);
-  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 1, 0 }, { 1, -1, 0 }, Weights(1, 2, 1)), -1);
+  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 1, 0 }, { 1, -1, 0 }, MakeWeights(2, 1, 1)), 1);
+  EXPECT_EQ(AngleSign({ 0, 0, 0 }, { 1, 1, 0 }, { 1, -1, 0 }, MakeWeights(1, 2, 1)), -1);
   for (std::uint64_t round = 0; round < rounds; ++round)
   {
     const auto [weights, p] = MakeSituation(round);
@@ -277,10 +278,10 @@ TEST(Predicates, TheExactRangeEndsWhereTheInSphereValueWouldOverflow)
     }
     return value < limit;
   };
-  EXPECT_TRUE(ExactRangeAllows(1 << 19, Weights(4096, 1, 1)));
-  EXPECT_TRUE(ExactRangeAllows(0, Weights(1, 1, 1)));
-  EXPECT_TRUE(ExactRangeAllows(1, Weights(4096, 4096, 4096)));
-  EXPECT_FALSE(ExactRangeAllows(std::int64_t{ 1 } << 30, Weights(1, 1, 1)));
+  EXPECT_TRUE(ExactRangeAllows(1 << 19, MakeWeights(4096, 1, 1)));
+  EXPECT_TRUE(ExactRangeAllows(0, MakeWeights(1, 1, 1)));
+  EXPECT_TRUE(ExactRangeAllows(1, MakeWeights(4096, 4096, 4096)));
+  EXPECT_FALSE(ExactRangeAllows(std::int64_t{ 1 } << 30, MakeWeights(1, 1, 1)));
   for (const std::int64_t w : { 1, 2, 7, 128, 1000, 4096 })
   {
     std::int64_t allowed = 1;
@@ -288,7 +289,7 @@ TEST(Predicates, TheExactRangeEndsWhereTheInSphereValueWouldOverflow)
     while (refused - allowed > 1)
     {
       const std::int64_t middle = (allowed + refused) / 2;
-      (ExactRangeAllows(middle, Weights(1, w, 1)) ? allowed : refused) = middle;
+      (ExactRangeAllows(middle, MakeWeights(1, w, 1)) ? allowed : refused) = middle;
     }
     EXPECT_TRUE(exact(allowed, w)) << w;
     EXPECT_FALSE(exact(refused + refused / 200, w)) << "gives up too early at weight " << w;

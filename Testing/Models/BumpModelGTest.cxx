@@ -121,7 +121,7 @@ Thresholded(vtkPolyData * data, double height)
 
 template <typename Reader>
 vtkSmartPointer<vtkPolyData>
-ReadWithVtk(const std::filesystem::path & path)
+ReadAllWithVtk(const std::filesystem::path & path)
 {
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
@@ -132,7 +132,7 @@ ReadWithVtk(const std::filesystem::path & path)
 
 template <>
 vtkSmartPointer<vtkPolyData>
-ReadWithVtk<vtkXMLPolyDataReader>(const std::filesystem::path & path)
+ReadAllWithVtk<vtkXMLPolyDataReader>(const std::filesystem::path & path)
 {
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
@@ -192,8 +192,8 @@ TEST(BumpModel, AThresholdOnTheFileGivesTheResultOfEveryHeight)
       }
       WriteModel(folder / "m.vtp", folder / "m.vtp", model);
       WriteModel(folder / "m.vtk", folder / "m.vtk", model);
-      const auto xml = ReadWithVtk<vtkXMLPolyDataReader>(folder / "m.vtp");
-      const auto legacy = ReadWithVtk<vtkPolyDataReader>(folder / "m.vtk");
+      const auto xml = ReadAllWithVtk<vtkXMLPolyDataReader>(folder / "m.vtp");
+      const auto legacy = ReadAllWithVtk<vtkPolyDataReader>(folder / "m.vtk");
       for (const double height : heights)
       {
         if (height >= from)

@@ -45,12 +45,6 @@ Quoted(const std::filesystem::path & path)
   return quoted;
 }
 
-void
-WriteBytes(const std::filesystem::path & path, const std::string & bytes)
-{
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
 /** Reading must give InputError in one line that names the file, and print nothing. */
 void
 ExpectUnreadable(const std::filesystem::path & path)

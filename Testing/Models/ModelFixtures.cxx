@@ -113,6 +113,12 @@ RandomModel(std::uint64_t seed, int n, int parts)
   return model;
 }
 
+void
+WriteBytes(const std::filesystem::path & path, const std::string & bytes)
+{
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
 std::string
 ReadBytes(const std::filesystem::path & path)
 {

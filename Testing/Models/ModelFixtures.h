@@ -28,6 +28,8 @@ RandomModel(std::uint64_t seed, int n, int parts);
 
 std::string
 ReadBytes(const std::filesystem::path & path);
+void
+WriteBytes(const std::filesystem::path & path, const std::string & bytes);
 
 /** A new folder, removed with all in it at the end. */
 class TemporaryFolder

@@ -31,12 +31,6 @@ Turned(std::array<std::uint32_t, 3> triangle)
   return triangle;
 }
 
-void
-WriteBytes(const std::filesystem::path & path, const std::string & bytes)
-{
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
 TEST(VtkMeshes, EveryFormThatVtkWritesReadsAsTheSameMesh)
 {
   const TemporaryFolder folder;

@@ -11,10 +11,10 @@ namespace voxelcore::testing
 namespace
 {
 
-using Numbers = std::array<std::uint64_t, 5>;
+using MendingNumbers = std::array<std::uint64_t, 5>;
 
 /** Voxels added and removed, pieces joined, loops closed, cavities filled. */
-Numbers
+MendingNumbers
 NumbersOf(const MendedShape & mended)
 {
   return { mended.voxelsAdded, mended.voxelsRemoved, mended.piecesJoined, mended.loopsClosed, mended.cavitiesFilled };
@@ -24,7 +24,7 @@ TEST(ShapeMending, FillsAHoleOfOneVoxel)
 {
   const VoxelShape plate = ShapeWhere({ 9, 9, 1 }, [](int x, int y, int) { return x != 4 || y != 4; });
   const auto       mended = MendShape(plate);
-  EXPECT_EQ(NumbersOf(mended), (Numbers{ 1, 0, 0, 1, 0 }));
+  EXPECT_EQ(NumbersOf(mended), (MendingNumbers{ 1, 0, 0, 1, 0 }));
   EXPECT_EQ(mended.shape.CountVoxels(), 81U);
 }
 
@@ -32,20 +32,20 @@ TEST(ShapeMending, LeavesAHoleOfTwoVoxels)
 {
   const VoxelShape plate =
     ShapeWhere({ 9, 9, 1 }, [](int x, int y, int) { return !((x == 4 || x == 5) && (y == 4 || y == 5)); });
-  EXPECT_EQ(NumbersOf(MendShape(plate)), Numbers{});
+  EXPECT_EQ(NumbersOf(MendShape(plate)), MendingNumbers{});
 }
 
 TEST(ShapeMending, FillsACavityOfOneVoxel)
 {
   const VoxelShape block = ShapeWhere({ 5, 5, 5 }, [](int x, int y, int z) { return x != 2 || y != 2 || z != 2; });
-  EXPECT_EQ(NumbersOf(MendShape(block)), (Numbers{ 1, 0, 0, 0, 1 }));
+  EXPECT_EQ(NumbersOf(MendShape(block)), (MendingNumbers{ 1, 0, 0, 0, 1 }));
 }
 
 TEST(ShapeMending, JoinsARodThatWasCut)
 {
   const VoxelShape rod = ShapeWhere({ 21, 1, 1 }, [](int x, int, int) { return x % 7 != 3; });
   const auto       mended = MendShape(rod);
-  EXPECT_EQ(NumbersOf(mended), (Numbers{ 3, 0, 3, 0, 0 }));
+  EXPECT_EQ(NumbersOf(mended), (MendingNumbers{ 3, 0, 3, 0, 0 }));
   EXPECT_EQ(mended.shape.CountVoxels(), 21U);
 }
 
@@ -55,7 +55,7 @@ TEST(ShapeMending, DoesNotCloseARingThatIsOpen)
   const VoxelShape ring = ShapeWhere({ 9, 9, 1 }, [](int x, int y, int) {
     return (x == 0 || y == 0 || x == 8 || y == 8) && (x != 4 || y != 0);
   });
-  EXPECT_EQ(NumbersOf(MendShape(ring)), Numbers{});
+  EXPECT_EQ(NumbersOf(MendShape(ring)), MendingNumbers{});
 }
 
 TEST(ShapeMending, TakesABridgeOverABayAwayAndLeavesAThinRing)
@@ -70,7 +70,7 @@ TEST(ShapeMending, TakesABridgeOverABayAwayAndLeavesAThinRing)
   EXPECT_EQ(ComputeShapeTopology(mended.shape).betti, (std::array<std::int64_t, 3>{ 1, 0, 0 }));
   const VoxelShape ring =
     ShapeWhere({ 7, 7, 1 }, [](int x, int y, int) { return x == 0 || y == 0 || x == 6 || y == 6; });
-  EXPECT_EQ(NumbersOf(MendShape(ring)), Numbers{});
+  EXPECT_EQ(NumbersOf(MendShape(ring)), MendingNumbers{});
 }
 
 TEST(ShapeMending, LowersTheNumbersItCountsAndNoOther)
@@ -104,7 +104,7 @@ TEST(ShapeMending, TakesBackWhatNoiseDidToATorus)
     const double u = std::hypot(x + 0.5 - 20, y + 0.5 - 20) - 13;
     return std::hypot(u, z + 0.5 - 20) <= 3.2;
   });
-  EXPECT_EQ(NumbersOf(MendShape(torus)), Numbers{}) << "a clean one has nothing to mend";
+  EXPECT_EQ(NumbersOf(MendShape(torus)), MendingNumbers{}) << "a clean one has nothing to mend";
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
   {
     const VoxelShape rough = Flipped(torus, n, seed, false);

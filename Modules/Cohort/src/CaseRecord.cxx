@@ -13,7 +13,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 
 namespace voxelcore
 {
@@ -24,14 +23,6 @@ namespace
 {
 
 using Json = nlohmann::ordered_json;
-
-std::string
-DigestOf(const std::string & text)
-{
-  Sha256 digest;
-  digest.Update(std::as_bytes(std::span(text)));
-  return digest.Finish();
-}
 
 std::string
 Text(const Json & json)
@@ -76,7 +67,7 @@ FilesOf(const fs::path & folder)
 std::string
 CaseKey(const fs::path & scan, const std::string & options)
 {
-  return DigestOf(ScanSha256(scan) + "\n" + NamesDigest(scan) + SourceDigest() + "\n" + options);
+  return TextSha256(ScanSha256(scan) + "\n" + NamesDigest(scan) + SourceDigest() + "\n" + options);
 }
 
 fs::path
@@ -120,7 +111,7 @@ WriteCaseRecord(const fs::path & folder, const CaseRecord & record)
   json["seconds"] = record.seconds;
   // What was replaced (bytes that are no UTF-8) must be what the digest is of.
   json = Json::parse(Text(json));
-  json["sha256"] = DigestOf(Text(json));
+  json["sha256"] = TextSha256(Text(json));
   OutputTransaction transaction(true);
   WriteTextFile(transaction.Stage(RecordPath(folder)), Text(json) + "\n");
   transaction.Commit();
@@ -136,7 +127,7 @@ ReadCaseRecord(const fs::path & folder)
     Json              json = Json::parse(text);
     const std::string digest = json.at("sha256").get<std::string>();
     json.erase("sha256");
-    if (digest != DigestOf(Text(json)))
+    if (digest != TextSha256(Text(json)))
     {
       return std::nullopt;
     }

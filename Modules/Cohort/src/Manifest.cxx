@@ -11,7 +11,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <span>
 
 namespace voxelcore
 {
@@ -25,14 +24,6 @@ bool
 IsLetterOrDigit(char c)
 {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-
-std::string
-DigestOf(const std::string & text)
-{
-  Sha256 digest;
-  digest.Update(std::as_bytes(std::span(text)));
-  return digest.Finish();
 }
 
 std::string
@@ -63,7 +54,7 @@ struct ColumnRole
 };
 
 std::string
-Lower(std::string text)
+Normalized(std::string text)
 {
   for (char & c : text)
   {
@@ -89,7 +80,7 @@ IsOfTheBatch(std::string_view name)
 ColumnRole
 RoleOf(const std::string & head, const std::string & where)
 {
-  const std::string name = Lower(Trimmed(head));
+  const std::string name = Normalized(Trimmed(head));
   if (name == "id" || name == "participant-id")
   {
     return { Column::Id, nullptr };
@@ -152,7 +143,7 @@ RolesOf(const CsvRow & head, const std::string & where)
 std::string
 FlagValue(const std::string & text, const std::string & where)
 {
-  const std::string word = Lower(text);
+  const std::string word = Normalized(text);
   if (word == "yes" || word == "true" || word == "1")
   {
     return "true";
@@ -242,7 +233,7 @@ CaseFolder(const std::string & id)
   {
     return "sub-" + own;
   }
-  return "sub-" + kept.substr(0, kLongest) + "x" + DigestOf(own).substr(0, 8);
+  return "sub-" + kept.substr(0, kLongest) + "x" + TextSha256(own).substr(0, 8);
 }
 
 std::vector<CohortCase>
@@ -250,7 +241,7 @@ ReadManifest(const fs::path & manifest)
 {
   const std::string name = manifest.string();
   const std::string text = ReadText(manifest);
-  const char        separator = Lower(manifest.extension().string()) == ".tsv" ? '\t' : FindSeparator(text);
+  const char        separator = Normalized(manifest.extension().string()) == ".tsv" ? '\t' : FindSeparator(text);
   const auto        rows = ParseCsv(text, name, separator);
   if (rows.empty())
   {

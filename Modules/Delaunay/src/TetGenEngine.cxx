@@ -19,7 +19,7 @@ namespace
 constexpr std::size_t largestPointCount = 94'000'000;
 
 // Owned by both threads, so that an abandoned run keeps its data.
-struct Run
+struct TetGenRun
 {
   std::vector<LatticePoint> points;
   SpacingWeights            weights;
@@ -38,7 +38,7 @@ OneAtATime()
 }
 
 void
-RunTetGen(Run & run)
+RunTetGen(TetGenRun & run)
 {
   const std::lock_guard<std::mutex> turn(OneAtATime());
   const std::size_t                 count = run.points.size();
@@ -126,7 +126,7 @@ TetGenTetrahedra(const std::vector<LatticePoint> & points,
   {
     throw InputError("the shape has more boundary vertices than TetGen can number (94 million); crop or split it");
   }
-  const auto run = std::make_shared<Run>();
+  const auto run = std::make_shared<TetGenRun>();
   run->points = points;
   run->weights = weights;
   std::thread([run] {

@@ -1,5 +1,7 @@
 #include "ComplexClustering.h"
 
+#include "voxelcore/Vectors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,25 +13,7 @@ namespace voxelcore
 namespace
 {
 
-using Point = std::array<double, 3>;
-
-Point
-Cross(const Point & a, const Point & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double
-Product(const Point & a, const Point & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Point
-Minus(const Point & a, const Point & b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
+using Point = Vector3;
 
 /** The sum of squared distances to planes, each times a weight; and to a point, so slightly that planes go first. */
 class Quadric
@@ -38,7 +22,7 @@ public:
   void
   AddPlane(const Point & normal, const Point & on, double weight)
   {
-    const double away = -Product(normal, on);
+    const double away = -Dot(normal, on);
     std::size_t  at = 0;
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -75,7 +59,7 @@ public:
       error += m_Linear[i] * p[i];
     }
     const Point away = Minus(p, { m_Sum[0] / m_Count, m_Sum[1] / m_Count, m_Sum[2] / m_Count });
-    return error + (m_Weight > 0 ? kPull * m_Weight : 1) * Product(away, away);
+    return error + (m_Weight > 0 ? kPull * m_Weight : 1) * Dot(away, away);
   }
 
 private:
@@ -206,7 +190,7 @@ ClusteredMesh(const ShownMesh & mesh, const std::vector<std::array<std::uint32_t
   for (const auto & t : mesh.triangles)
   {
     const Point normal = Cross(Minus(points[t[1]], points[t[0]]), Minus(points[t[2]], points[t[0]]));
-    area += std::sqrt(Product(normal, normal)) / 2;
+    area += std::sqrt(Dot(normal, normal)) / 2;
   }
   const auto    wanted = static_cast<double>(std::max<std::size_t>(most, 1));
   double        side = std::max(std::sqrt(2 * area / wanted), longest / 1e5);
@@ -233,7 +217,7 @@ ClusteredMesh(const ShownMesh & mesh, const std::vector<std::array<std::uint32_t
     }
   };
   const auto unit = [](Point & v) {
-    const double length = std::sqrt(Product(v, v));
+    const double length = std::sqrt(Dot(v, v));
     for (double & x : v)
     {
       x = length > 0 ? x / length : 0;
@@ -251,7 +235,7 @@ ClusteredMesh(const ShownMesh & mesh, const std::vector<std::array<std::uint32_t
     Point        along = Minus(points[rim[1]], points[rim[0]]);
     const double length = unit(along);
     Point        across = Minus(points[rim[2]], points[rim[0]]);
-    const double part = Product(across, along);
+    const double part = Dot(across, along);
     across = { across[0] - part * along[0], across[1] - part * along[1], across[2] - part * along[2] };
     unit(across);
     addPlane({ rim[0], rim[1], rim[1] }, across, length * side / 2);

@@ -18,7 +18,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::size_t  kLongestHeader = 1U << 20;
+constexpr std::size_t  kLongestMetaHeader = 1U << 20;
 constexpr std::int64_t kMostChannels = 4096;
 
 struct MetaHeader
@@ -42,9 +42,9 @@ struct MetaHeader
 };
 
 MetaHeader
-ReadHeader(const std::filesystem::path & path)
+ReadMetaHeader(const std::filesystem::path & path)
 {
-  std::string text(kLongestHeader, '\0');
+  std::string text(kLongestMetaHeader, '\0');
   text.resize(OpenBytes(path, 0, Packing::Plain)->ReadSome(reinterpret_cast<std::byte *>(text.data()), text.size()));
   MetaHeader header;
   bool       inList = false;
@@ -90,7 +90,7 @@ ReadHeader(const std::filesystem::path & path)
 }
 
 PixelType
-TypeOf(const std::filesystem::path & path, const std::string & text)
+MetaTypeOf(const std::filesystem::path & path, const std::string & text)
 {
   static const std::map<std::string, PixelType> known{
     { "MET_UCHAR", PixelType::UInt8 },
@@ -120,7 +120,7 @@ TypeOf(const std::filesystem::path & path, const std::string & text)
 }
 
 std::vector<double>
-Reals(const std::filesystem::path & path, const char * name, const std::string & text, std::size_t count)
+MetaReals(const std::filesystem::path & path, const char * name, const std::string & text, std::size_t count)
 {
   const auto values = ParseReals(text);
   if (!values || values->size() != count)
@@ -144,7 +144,7 @@ ReadGeometry(const MetaHeader & header, std::size_t dimensions, const ReadOption
   Vector3                origin{ 0, 0, 0 };
   if (const auto text = header.Field({ "elementspacing", "elementsize" }); !text.empty())
   {
-    const auto values = Reals(scan.path, "ElementSpacing", text, dimensions);
+    const auto values = MetaReals(scan.path, "ElementSpacing", text, dimensions);
     std::copy_n(values.begin(), 3, spacing.begin());
   }
   else
@@ -153,13 +153,13 @@ ReadGeometry(const MetaHeader & header, std::size_t dimensions, const ReadOption
   }
   if (const auto text = header.Field({ "offset", "position", "origin" }); !text.empty())
   {
-    const auto values = Reals(scan.path, "Offset", text, dimensions);
+    const auto values = MetaReals(scan.path, "Offset", text, dimensions);
     std::copy_n(values.begin(), 3, origin.begin());
   }
   if (const auto text = header.Field({ "transformmatrix", "rotation", "orientation" }); !text.empty())
   {
     // One axis after the other: the direction of i in space, that of j, that of k.
-    const auto values = Reals(scan.path, "TransformMatrix", text, dimensions * dimensions);
+    const auto values = MetaReals(scan.path, "TransformMatrix", text, dimensions * dimensions);
     for (std::size_t a = 0; a < 3; ++a)
     {
       for (std::size_t c = 0; c < 3; ++c)
@@ -232,7 +232,7 @@ FindData(const std::filesystem::path & path, const MetaHeader & header)
 std::vector<std::filesystem::path>
 MetaImageDataFiles(const std::filesystem::path & path)
 {
-  const MetaHeader header = ReadHeader(path);
+  const MetaHeader header = ReadMetaHeader(path);
   const auto       name = header.Field({ "elementdatafile" });
   return LowerCase(name) == "local" ? std::vector<std::filesystem::path>() : FilesNamed(path, name, header.list);
 }
@@ -240,7 +240,7 @@ MetaImageDataFiles(const std::filesystem::path & path)
 ScanFile
 OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
 {
-  const MetaHeader header = ReadHeader(path);
+  const MetaHeader header = ReadMetaHeader(path);
   ScanFile         scan;
   scan.path = path;
   scan.format = "MetaImage";
@@ -283,7 +283,7 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
                 Text("ElementNumberOfChannels = ", Printable(channels, 20), " makes no sense"),
                 "mend the header");
   }
-  scan.type = TypeOf(path, header.Field({ "elementtype" }));
+  scan.type = MetaTypeOf(path, header.Field({ "elementtype" }));
   const std::uint64_t volume = ChooseVolume(path, volumes, options);
   const std::uint64_t component =
     ChooseComponent(path, static_cast<std::uint64_t>(*components), "colour image or vectors", options);

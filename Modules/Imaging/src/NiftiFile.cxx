@@ -124,7 +124,7 @@ ReadVersion2(const Fields & f, NiftiHeader & h)
 }
 
 NiftiHeader
-ReadHeader(const std::filesystem::path & path)
+ReadNiftiHeader(const std::filesystem::path & path)
 {
   std::array<std::byte, kSize2> bytes{};
   const auto                    stream = OpenBytes(path, 0, DetectGzip(path));
@@ -172,7 +172,7 @@ ReadHeader(const std::filesystem::path & path)
 }
 
 PixelType
-TypeOf(const std::filesystem::path & path, int datatype)
+NiftiTypeOf(const std::filesystem::path & path, int datatype)
 {
   switch (datatype)
   {
@@ -286,7 +286,7 @@ NiftiPartner(const std::filesystem::path & path)
   {
     return { Partner(path, ".hdr") };
   }
-  return ReadHeader(path).pair ? std::vector{ Partner(path, ".img") } : std::vector<std::filesystem::path>();
+  return ReadNiftiHeader(path).pair ? std::vector{ Partner(path, ".img") } : std::vector<std::filesystem::path>();
 }
 
 ScanFile
@@ -294,7 +294,7 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
 {
   const bool  isImage = IsImageHalf(path);
   const auto  headerPath = isImage ? Partner(path, ".hdr") : path;
-  NiftiHeader h = ReadHeader(headerPath);
+  NiftiHeader h = ReadNiftiHeader(headerPath);
   ScanFile    scan;
   scan.path = path;
   scan.format = h.version == 1 ? "NIfTI-1" : "NIfTI-2";
@@ -324,7 +324,7 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
       RefuseInput(path, Text("its header gives a side of ", h.dim[d]), "the file is damaged");
     }
   }
-  scan.type = TypeOf(path, h.datatype);
+  scan.type = NiftiTypeOf(path, h.datatype);
   scan.interleaved = h.datatype == kRgb ? 3 : (h.datatype == kRgba ? 4 : 1);
   if (scan.interleaved > 1 && planes > 1)
   {

@@ -16,7 +16,7 @@ namespace
 {
 
 // ITK's tolerance for calling an sform orthonormal, and for calling its scales those of pixdim (mm).
-constexpr double kOrthonormalTolerance = 1e-4;
+constexpr double kOrthonormalFormTolerance = 1e-4;
 constexpr double kScaleTolerance = 1e-3;
 // Forms further apart than this part of a voxel are reported.
 constexpr double kWorthAWord = 0.1;
@@ -190,7 +190,7 @@ PlaceNifti(const NiftiPlacement & p, const ReadOptions & options, ScanFile & sca
   }
 
   const double skew = hasSform ? LargestCosine(sform.axes) : 0;
-  const bool   orthonormal = skew <= kOrthonormalTolerance;
+  const bool   orthonormal = skew <= kOrthonormalFormTolerance;
   const bool   useSform = hasSform && (!hasQform || (orthonormal && p.sformCode == 1));
   if (hasQform && hasSform)
   {

@@ -22,7 +22,7 @@ namespace
 constexpr std::uint64_t kMostLayers = 4096;
 
 PixelType
-TypeOf(const std::filesystem::path & path, std::string_view text)
+NrrdTypeOf(const std::filesystem::path & path, std::string_view text)
 {
   std::string type = LowerCase(text);
   for (const std::string_view noise : { "signed ", " int" })
@@ -292,7 +292,7 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
       RefuseInput(path, Text("its header has no field '", needed, "'"), "the file is damaged or no NRRD");
     }
   }
-  scan.type = TypeOf(path, header.Field("type"));
+  scan.type = NrrdTypeOf(path, header.Field("type"));
 
   std::vector<std::int64_t> sizes;
   for (const auto word : Words(header.Field("sizes")))

@@ -72,7 +72,7 @@ UnitsInMillimetres(std::string_view                   text,
 }
 
 std::vector<double>
-Reals(const std::filesystem::path & path, std::string_view field, std::string_view text, std::size_t count)
+NrrdReals(const std::filesystem::path & path, std::string_view field, std::string_view text, std::size_t count)
 {
   const auto values = ParseReals(text);
   if (!values || values->size() != count)
@@ -98,7 +98,7 @@ GeometryFromSpacings(const NrrdHeader &  header,
   Vector3                      origin{ 0, 0, 0 };
   if (const auto text = header.Field("spacings"); !text.empty())
   {
-    const auto values = Reals(scan.path, "spacings", text, dimension);
+    const auto values = NrrdReals(scan.path, "spacings", text, dimension);
     for (std::size_t a = 0; a < 3; ++a)
     {
       spacing[a] = values[axes.spatial[a]];
@@ -112,7 +112,7 @@ GeometryFromSpacings(const NrrdHeader &  header,
   if (const auto text = header.Field("axismins"); !text.empty())
   {
     // As ITK: samples lie in the middle of cells unless the header says they lie on nodes.
-    const auto mins = Reals(scan.path, "axis mins", text, dimension);
+    const auto mins = NrrdReals(scan.path, "axis mins", text, dimension);
     const auto centers = Words(header.Field("centers"));
     for (std::size_t a = 0; a < 3; ++a)
     {

@@ -12,7 +12,7 @@ namespace voxelcore
 namespace
 {
 
-using Value = std::uint16_t;
+using LayerValue = std::uint16_t;
 
 /** Calls visit(place) for each voxel of a shape, its place in a volume with i fastest. */
 template <typename TVisit>
@@ -39,16 +39,16 @@ ForVoxels(const VoxelShape & shape, const std::array<std::int64_t, 3> & size, TV
 
 /** Puts a label into the first layer where its voxels are free, a new one if need be; gives its number. */
 std::size_t
-PutIntoLayer(const LabelShape &                  label,
-             const std::array<std::int64_t, 3> & size,
-             Value                               value,
-             std::vector<std::vector<Value>> &   layers)
+PutIntoLayer(const LabelShape &                     label,
+             const std::array<std::int64_t, 3> &    size,
+             LayerValue                             value,
+             std::vector<std::vector<LayerValue>> & layers)
 {
   for (std::size_t layer = 0;; ++layer)
   {
     if (layer == layers.size())
     {
-      layers.emplace_back(static_cast<std::size_t>(size[0] * size[1] * size[2]), Value{ 0 });
+      layers.emplace_back(static_cast<std::size_t>(size[0] * size[1] * size[2]), LayerValue{ 0 });
     }
     bool free = true;
     ForVoxels(label.shape, size, [&](std::size_t place) { free = free && layers[layer][place] == 0; });
@@ -61,7 +61,7 @@ PutIntoLayer(const LabelShape &                  label,
 }
 
 std::string
-SegmentFields(const LabelShape & label, std::size_t number, std::size_t layer, Value value)
+SegmentFields(const LabelShape & label, std::size_t number, std::size_t layer, LayerValue value)
 {
   const std::string segment = Text("Segment", number, "_");
   const VoxelBox &  box = label.shape.Box();
@@ -122,18 +122,18 @@ WriteSegmentation(const std::filesystem::path &   path,
   {
     throw UsageError(Text(path.string(), ": a segmentation holds up to 65535 segments"));
   }
-  std::vector<std::vector<Value>> layers;
-  std::string                     fields =
+  std::vector<std::vector<LayerValue>> layers;
+  std::string                          fields =
     "Segmentation_ContainedRepresentationNames:=Binary labelmap|\n"
     "Segmentation_SourceRepresentation:=Binary labelmap\n"
     "Segmentation_ReferenceImageExtentOffset:=0 0 0\n";
   for (std::size_t i = 0; i < labels.size(); ++i)
   {
-    const auto        value = static_cast<Value>(keep ? labels[i].value : static_cast<std::int64_t>(i + 1));
+    const auto        value = static_cast<LayerValue>(keep ? labels[i].value : static_cast<std::int64_t>(i + 1));
     const std::size_t layer = PutIntoLayer(labels[i], geometry.size, value, layers);
     fields += SegmentFields(labels[i], i, layer, value);
   }
-  std::vector<Value> together;
+  std::vector<LayerValue> together;
   if (layers.size() > 1)
   {
     together.resize(layers.size() * layers.front().size());

@@ -8,7 +8,7 @@ namespace itk
 namespace
 {
 
-constexpr const char * kWhere = "LabelImageToVoxelShapeFilter";
+constexpr const char * kAssembler = "LabelImageToVoxelShapeFilter";
 constexpr const char * kName = "the input image"; // where a scan's message names its file
 
 } // namespace
@@ -21,7 +21,7 @@ struct VoxelShapeAssembler::State
 voxelcore::ImageGeometry
 VoxelShapeAssembler::CheckGeometry(const voxelcore::ImageGeometry & geometry, bool orthonormalize)
 {
-  return WithItkErrors(kWhere, [&] { return voxelcore::CheckedGeometry(kName, geometry, orthonormalize); });
+  return WithItkErrors(kAssembler, [&] { return voxelcore::CheckedGeometry(kName, geometry, orthonormalize); });
 }
 
 VoxelShapeAssembler::VoxelShapeAssembler(const voxelcore::ImageGeometry & geometry,
@@ -29,7 +29,7 @@ VoxelShapeAssembler::VoxelShapeAssembler(const voxelcore::ImageGeometry & geomet
                                          const voxelcore::LabelChoice &   choice)
   : m_State(std::make_unique<State>())
 {
-  WithItkErrors(kWhere, [&] {
+  WithItkErrors(kAssembler, [&] {
     m_State->assembler = std::make_unique<voxelcore::LabelAssembler>(kName, geometry, pixel, choice);
   });
 }
@@ -45,13 +45,13 @@ VoxelShapeAssembler::RowsAtATime() const
 void
 VoxelShapeAssembler::AddRows(const void * rows, std::uint64_t firstRow, std::size_t rowCount)
 {
-  WithItkErrors(kWhere, [&] { m_State->assembler->AddRows(rows, firstRow, rowCount); });
+  WithItkErrors(kAssembler, [&] { m_State->assembler->AddRows(rows, firstRow, rowCount); });
 }
 
 std::vector<voxelcore::LabelShape>
 VoxelShapeAssembler::TakeShapes()
 {
-  return WithItkErrors(kWhere, [&] { return m_State->assembler->TakeShapes(); });
+  return WithItkErrors(kAssembler, [&] { return m_State->assembler->TakeShapes(); });
 }
 
 } // namespace itk

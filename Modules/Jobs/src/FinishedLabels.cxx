@@ -10,7 +10,6 @@
 #include <fcntl.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <sstream>
 #include <sys/file.h>
 #include <unistd.h>
@@ -27,14 +26,6 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kTables = -1; // instead of a component
-
-std::string
-DigestOf(const std::string & text)
-{
-  Sha256 digest;
-  digest.Update(std::as_bytes(std::span(text)));
-  return digest.Finish();
-}
 
 std::string
 Dump(const Json & json)
@@ -113,7 +104,7 @@ FinishedLabels::LineText(const Line & line)
   json["notes"] = line.notes;
   json["record"] = Json::parse(line.record);
   json = Json::parse(Dump(json)); // bytes that are no UTF-8 are replaced before the digest is taken
-  json["sha256"] = DigestOf(Dump(json));
+  json["sha256"] = TextSha256(Dump(json));
   return Dump(json) + "\n";
 }
 
@@ -125,7 +116,7 @@ FinishedLabels::ParseLine(const std::string & text)
     Json              json = Json::parse(text);
     const std::string digest = json.at("sha256").get<std::string>();
     json.erase("sha256");
-    if (digest != DigestOf(Dump(json)))
+    if (digest != TextSha256(Dump(json)))
     {
       return std::nullopt;
     }
@@ -289,7 +280,7 @@ LabelKey(const CoreReport & report, const std::string & more)
   {
     text += ProvenanceJson(report, {}, which) + "\n";
   }
-  return DigestOf(text + (report.skeleton ? SkeletonProvenanceJson(report, {}) : std::string()));
+  return TextSha256(text + (report.skeleton ? SkeletonProvenanceJson(report, {}) : std::string()));
 }
 
 } // namespace voxelcore

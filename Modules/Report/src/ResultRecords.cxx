@@ -5,12 +5,6 @@
 namespace voxelcore
 {
 
-std::string
-LabelText(std::int64_t value, const std::string & name)
-{
-  return "label " + std::to_string(value) + " (" + name + ")";
-}
-
 SkeletonPart
 TakeSkeleton(CertifiedSkeleton skeleton, LabelRecord & record)
 {

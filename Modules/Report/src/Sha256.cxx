@@ -18,7 +18,7 @@ namespace
 {
 
 std::span<const std::byte>
-AsBytes(const std::string & text)
+AsBytes(std::string_view text)
 {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
@@ -59,6 +59,14 @@ Sha256::Finish()
     text += digits[byte & 15U];
   }
   return text;
+}
+
+std::string
+TextSha256(std::string_view text)
+{
+  Sha256 digest;
+  digest.Update(AsBytes(text));
+  return digest.Finish();
 }
 
 std::string

@@ -11,7 +11,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::size_t kLeafSize = 8;
+constexpr std::size_t kLeafBalls = 8;
 
 } // namespace
 
@@ -62,7 +62,7 @@ BallTree::Build(std::size_t first, std::size_t last)
   }
   const std::size_t middle = first + (last - first) / 2;
   m_Largest[middle] = largest;
-  if (last - first <= kLeafSize)
+  if (last - first <= kLeafBalls)
   {
     return;
   }
@@ -101,7 +101,7 @@ BallTree::Descend(Search & search, std::size_t first, std::size_t last, double s
     const double dz = search.place[2] - ball.centre[2];
     search.best = std::min(search.best, std::sqrt(dx * dx + dy * dy + dz * dz) - ball.radius);
   };
-  if (last - first <= kLeafSize)
+  if (last - first <= kLeafBalls)
   {
     for (std::size_t i = first; i < last; ++i)
     {

@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr std::uint32_t kRank = ~kBoundarySide;
-constexpr std::size_t   kAhead = 4; // faces
+constexpr std::size_t   kFacesAhead = 4; // faces
 
 // A core edge as one side of a face, the dual of one facet around the face's Delaunay edge (p, q), p < q: twice the
 // edge, plus 1 when the face, seen against p -> q, passes it from end 0 to end 1.
@@ -330,7 +330,7 @@ WriteFaces(DelaunayCells                     cells,
   complex.faceOffsets.assign(order.size() + 1, 0);
   for (std::size_t face = 0; face < order.size(); ++face)
   {
-    __builtin_prefetch(faces.groups.data() + order[std::min(face + 4 * kAhead, order.size() - 1)]);
+    __builtin_prefetch(faces.groups.data() + order[std::min(face + 4 * kFacesAhead, order.size() - 1)]);
     complex.faceOffsets[face + 1] = complex.faceOffsets[face] + faces.groups[order[face]].count;
   }
   complex.faceVertices.resize(complex.faceOffsets.back());
@@ -341,11 +341,11 @@ WriteFaces(DelaunayCells                     cells,
     for (std::size_t face = first; face < last; ++face)
     {
       // Step by step: the group, its sides, the edges that they name.
-      if (face + 3 * kAhead < last)
+      if (face + 3 * kFacesAhead < last)
       {
-        __builtin_prefetch(&faces.groups[order[face + 3 * kAhead]]);
-        __builtin_prefetch(&faces.turns[faces.groups[order[face + 2 * kAhead]].first]);
-        const Group & next = faces.groups[order[face + kAhead]];
+        __builtin_prefetch(&faces.groups[order[face + 3 * kFacesAhead]]);
+        __builtin_prefetch(&faces.turns[faces.groups[order[face + 2 * kFacesAhead]].first]);
+        const Group & next = faces.groups[order[face + kFacesAhead]];
         for (std::uint32_t side = 0; side < next.count; ++side)
         {
           __builtin_prefetch(&complex.edges[faces.turns[next.first + side] >> 1]);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 struct evp_md_ctx_st; // of OpenSSL
 
@@ -28,6 +29,9 @@ public:
 private:
   std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st *)> m_Context;
 };
+
+std::string
+TextSha256(std::string_view text);
 
 /** \throws InputError when the file cannot be read. */
 std::string
