@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Holds the house together: each module includes only headers of the modules it may use (Modules/README.md), and only
-# Imaging knows ITK, only Models and Display know VTK, only Display its rendering.
+# module ITK knows ITK, only Models and Display know VTK, only Display its rendering.
 # usage: layers.sh [FOLDER WITH Modules/]
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
@@ -15,7 +15,8 @@ may_use() {
     Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;
     Certified) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification" ;;
-    Imaging) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified" ;;
+    Imaging) echo "Lattice Shape" ;;
+    ITK) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Imaging" ;;
     Models) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Verification Certified" ;;
     Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models Certified" ;;
     Report) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Imaging Models" ;;
@@ -45,7 +46,7 @@ for folder in Modules/*/; do
       complain "$file:$line: $module must not use $owner ($name)"
     fi
     case "$name" in
-      itk*) [ "$module" = Imaging ] || complain "$file:$line: only Imaging knows ITK ($name)" ;;
+      itk*) [ "$module" = ITK ] || complain "$file:$line: only module ITK knows ITK ($name)" ;;
       voxelcore/ModelPolyData.h) [[ "$module" = Models || "$module" = Display ]] ||
         complain "$file:$line: only Models and Display know VTK ($name)" ;;
       vtk*) [[ "$module" = Models || "$module" = Display ]] ||

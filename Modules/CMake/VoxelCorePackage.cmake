@@ -31,8 +31,10 @@ endforeach()
 
 # Only public headers lie in an include folder. Those of ITK and VTK classes need these libraries.
 foreach(module ${VOXELCORE_MODULES})
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/Modules/${module}/include/voxelcore"
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development FILES_MATCHING PATTERN "*.h")
+  if(EXISTS "${PROJECT_SOURCE_DIR}/Modules/${module}/include/voxelcore")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/Modules/${module}/include/voxelcore"
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development FILES_MATCHING PATTERN "*.h")
+  endif()
   foreach(library ITK VTK)
     if(TARGET VoxelCore${library})
       string(TOLOWER ${library} prefix)

@@ -59,7 +59,7 @@ case "$how" in
     {
       printf '#include "voxelcore/%s.h"\n' Certified LabelVolume MedialModel
       echo 'int main() {'
-      grep -A4 '^    const voxelcore::LabelVolume scan = ' "$source/Applications/manual/guide/cpp.md"
+      grep -A4 '^    const voxelcore::LabelMap scan = ' "$source/Applications/manual/guide/cpp.md"
       echo 'return core.core.cells.FaceCount() > 0 ? 0 : 1; }'
     } >"$scratch/Readme.cxx"
     configure "$scratch/all" "${options[@]}" -DPARTS="$parts" -DREADME="$scratch/Readme.cxx"

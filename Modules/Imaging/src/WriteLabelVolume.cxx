@@ -200,10 +200,10 @@ CheckWritten(const std::filesystem::path & path,
 }
 
 /** A folder beside the result in which it comes to be: a killed run leaves no half file under the final name. */
-class Workshop
+class StagingFolder
 {
 public:
-  explicit Workshop(const std::filesystem::path & result)
+  explicit StagingFolder(const std::filesystem::path & result)
     : m_Result(result)
     , m_Folder(TemporaryName(result))
   {
@@ -214,10 +214,10 @@ public:
       FailOutput(result, error ? error.value() : EEXIST);
     }
   }
-  Workshop(const Workshop &) = delete;
-  Workshop &
-  operator=(const Workshop &) = delete;
-  ~Workshop()
+  StagingFolder(const StagingFolder &) = delete;
+  StagingFolder &
+  operator=(const StagingFolder &) = delete;
+  ~StagingFolder()
   {
     std::error_code ignored;
     std::filesystem::remove_all(m_Folder, ignored);
@@ -290,8 +290,8 @@ WriteLabelVolume(const std::filesystem::path &   path,
     slice(k); // says where labels overlap before anything is written
   }
 
-  const Workshop workshop(path);
-  const auto     fail = [&path](const std::string & why) {
+  const StagingFolder staging(path);
+  const auto          fail = [&path](const std::string & why) {
     throw OutputError(Text(Printable(FinalName(path).string(), 4096),
                            ": cannot be written (",
                            OneLine(why),
@@ -303,20 +303,20 @@ WriteLabelVolume(const std::filesystem::path &   path,
     switch (kind)
     {
       case Kind::Nrrd:
-        WriteNrrd(workshop.File(), volume);
+        WriteNrrd(staging.File(), volume);
         break;
       case Kind::Nifti:
-        WriteNifti(workshop.File(), volume);
+        WriteNifti(staging.File(), volume);
         break;
       case Kind::Meta:
-        WriteMetaImage(workshop.File(), volume);
+        WriteMetaImage(staging.File(), volume);
         break;
       case Kind::Tiff:
-        WriteTiff(workshop.File(), volume);
+        WriteTiff(staging.File(), volume);
         break;
     }
-    CheckWritten(workshop.File(), kind, geometry, type, slice);
-    workshop.Publish();
+    CheckWritten(staging.File(), kind, geometry, type, slice);
+    staging.Publish();
   }
   catch (const OutputError &)
   {

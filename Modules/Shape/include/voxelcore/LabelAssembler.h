@@ -15,12 +15,12 @@
 namespace voxelcore
 {
 
-/** Values are whole numbers from 0, the background, up, or the scan is refused; nothing is rounded, clipped or reinterpreted
- *  (a slope that is itself rounded, such as 1/255 in a NIfTI file, is allowed for). Besides the shapes it takes a few MB,
- *  whatever the scan's size.
+/** Values are whole numbers from 0, the background, up, or the scan is refused. Nothing is rounded, clipped or
+ *  reinterpreted; a slope that is itself rounded, such as 1/255 in a NIfTI file, is allowed for. Besides the shapes it
+ *  takes a few MB, whatever the scan's size.
  *
- *  With choice.refuseGrey a grey scan is told from labels: once it looks grey, or a value is no label, no more shapes are
- *  made, and TakeShapes() throws what is true of the whole scan. */
+ *  With choice.refuseGrey a grey scan is told from labels: once it looks grey, or a value is no label, it makes no more
+ *  shapes, and TakeShapes() throws what is true of the whole scan. */
 class LabelAssembler
 {
 public:
@@ -53,8 +53,8 @@ public:
   const CropRange &
   Part() const;
 
-  /** Whether rows beside the part are wanted, too: in a segmentation in layers the numbers that labels get must not depend
-   *  on the crop. */
+  /** Whether rows beside the part are wanted, too: in a segmentation in layers the numbers that labels get must not
+   *  depend on the crop. */
   bool
   NeedsAllRows() const;
 

@@ -106,7 +106,7 @@ ByPipeline(TReader & reader, const std::filesystem::path & path)
   }
 }
 
-/** Up to what a reader says to do, which differs between programs and filters; and "(after scaling)" is lost on the way. */
+/** What is wrong, without what to do about it. "(after scaling)" is lost on the way through a pipeline. */
 std::string
 Fault(const std::string & refusal)
 {

@@ -4,7 +4,7 @@
 #include "itkImageIOBase.h"
 #include "itkIndex.h"
 
-#include "voxelcore/LabelVolume.h"
+#include "voxelcore/ScanRows.h"
 
 #include <cstddef>
 #include <functional>
@@ -23,14 +23,15 @@ namespace itk
  * scaled values, segmentations in layers, slices out of order, data that are cut off. It says yes to every file of its
  * formats, also to those it then refuses, so that no laxer reader gets them.
  *
- * Values come as they are stored; scaled ones as double; those of a segmentation in layers as the numbers of its labels,
- * where no two overlap. ImageFileReader casts them to the pixel type of its image: LabelScanReader refuses what that type
- * cannot hold.
+ * Values come as they are stored; scaled ones as double; those of a segmentation in layers as the numbers of its
+ * labels, where no two overlap. ImageFileReader casts them to the pixel type of its image: LabelScanReader refuses what
+ * that type cannot hold.
  *
  * It streams: a region read takes as much memory as the region, and a few MB. Regions in the order of the file read it
  * once, also where it is compressed.
  *
- * One call of RegisterInFront() makes ImageFileReader take this class for its formats in this process. It writes nothing.
+ * One call of RegisterInFront() makes ImageFileReader take this class for its formats in this process. It does not
+ * write.
  * \sa LabelScanReader
  */
 class LabelScanImageIO : public ImageIOBase
@@ -110,14 +111,11 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  struct State;
-  State &
-  Opened();
-
-  voxelcore::ReadOptions   m_Options;
-  std::vector<std::string> m_Notes;
-  std::vector<std::string> m_Warnings;
-  std::unique_ptr<State>   m_State; ///< while a file is open
+  voxelcore::ReadOptions               m_Options;
+  std::vector<std::string>             m_Notes;
+  std::vector<std::string>             m_Warnings;
+  std::string                          m_OpenName;
+  std::unique_ptr<voxelcore::ScanRows> m_Rows; ///< of the file of this name
 };
 
 } // namespace itk

@@ -14,8 +14,8 @@ namespace itk
  *
  * Method: Y. Yan, D. Letscher, T. Ju, "Voxel Cores: Efficient, robust, and provably good approximation of 3D medial
  * axes", ACM Transactions on Graphics 37(4), 2018. Spacings may differ: they become integer weights in which every
- * decision is exact. The result is the same, bit for bit, for every engine and number of threads, and has the bits and the
- * certificate of `voxelcore core`.
+ * decision is exact. The result is the same, bit for bit, for every engine and number of threads. It has the bits and
+ * the certificate of `voxelcore core`.
  *
  * As many threads work as the multi-threader may have, and not more than the number of work units. Progress and abort
  * are forwarded. An ExceptionObject says what was wrong in one line: also when the topology of a core is not its

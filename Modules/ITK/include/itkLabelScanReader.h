@@ -13,8 +13,8 @@ namespace itk
  * \brief Reads a scan with LabelScanImageIO, and refuses values that its pixel type cannot hold.
  *
  * ImageFileReader casts: 70000 becomes 4464 in an image of unsigned short, -1 becomes 65535, 0.9999999 becomes 0. Here
- * the first such value is refused, with its voxel. An image of a floating-point type takes fractions at its precision, and
- * whole numbers exactly or not at all.
+ * the first such value is refused, with its voxel. An image of a floating-point type takes fractions at its precision,
+ * and whole numbers exactly or not at all.
  *
  * It streams: only the requested region is read. A file that changed is read again after Modified().
  * \sa LabelScanImageIO, LabelImageToVoxelShapeFilter
