@@ -1,6 +1,6 @@
 #pragma once
-// The rows of a scan as numbers, where they are asked for. Asking in order reads the file once. Going back reads it anew,
-// which costs little where the data are stored plain.
+// The rows of a scan as numbers, where they are asked for. Asking in order reads the file once. Going back reads it
+// anew, which costs little where the data are stored plain.
 
 #include "voxelcore/LabelVolume.h"
 

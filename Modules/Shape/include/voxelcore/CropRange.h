@@ -30,8 +30,8 @@ ParseCrop(std::string_view text);
 std::string
 CropText(const CropRange & crop);
 
-/** The crop of a scan of this size with its ends filled in; the whole scan where there is none. `scan` names the scan in
- *  errors. \throws InputError when the crop reaches beyond the scan; UsageError when it is empty. */
+/** The crop of a scan of this size with its ends filled in; the whole scan where there is none. `scan` names the scan
+ *  in errors. \throws InputError when the crop reaches beyond the scan; UsageError when it is empty. */
 CropRange
 ResolveCrop(const std::optional<CropRange> &    crop,
             const std::array<std::int64_t, 3> & size,

@@ -74,8 +74,8 @@ struct EditedLabels
   std::vector<std::string> notes;  ///< what was changed in all, one sentence each
 };
 
-/** Edits the labels of a scan. A label of which nothing is left is named in a note, or refused with `keepAll`: who names
- *  labels wants each of them.
+/** Edits the labels of a scan. A label of which nothing is left is named in a note, or refused with `keepAll`: who
+ *  names labels wants each of them.
  *  \throws InputError, naming the scan `where`, also when nothing is left at all; Cancelled */
 EditedLabels
 EditLabels(std::vector<LabelShape>  labels,
