@@ -1,5 +1,6 @@
 #include "voxelcore/Refinement.h"
 
+#include "Fringe.h"
 #include "WorkingCore.h"
 
 #include "voxelcore/SimplePairCollapse.h"
@@ -77,12 +78,12 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
                               input.core->vertexLambda,
                               input.core->edgeLambda,
                               input.core->faceLambda);
+  const FootPointFinder    finder(input, progress);
   const TriangleTree       boundary = TreeOfPoints(*input.points, input.spacing);
   for (const double threshold : thresholds)
   {
     collapse.CollapseBelow(kWorkingPart * threshold, progress);
-    WorkingCore      working(input, collapse.Live());
-    const FootFinder finder(input, working.UsedPoints(), progress);
+    WorkingCore working(input, RemoveFringe(input, finder, PartOf(input.core->cells, collapse.Live())));
     working.Move(finder, progress);
     refined.push_back(working.Finish(finder, threshold));
     BoundRadii(boundary, input.spacing, refined.back().core);

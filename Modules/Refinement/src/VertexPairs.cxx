@@ -32,6 +32,18 @@ PairBetween(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b)
 
 } // namespace
 
+std::vector<PointPair>
+PairsOfFaces(const EdgePoints & edgePoints, const CellComplex & cells, std::span<const ElementIndex> edgeIds)
+{
+  std::vector<PointPair> pairs(cells.FaceCount());
+  for (std::size_t face = 0; face < pairs.size(); ++face)
+  {
+    const auto edges = cells.FaceEdges(face);
+    pairs[face] = PairBetween(edgePoints.Of(edgeIds[edges[0]]), edgePoints.Of(edgeIds[edges[1]]));
+  }
+  return pairs;
+}
+
 void
 AddPairsAround(std::span<const std::uint32_t> points, std::vector<PointPair> & pairs)
 {
@@ -54,12 +66,10 @@ VertexPairs::VertexPairs(const MedialComplex &         core,
 {
   std::vector<std::vector<PointPair>> ofVertex(cells.vertexCount);
   std::vector<char>                   onFace(cells.edges.size(), 0);
-  m_FacePairs.resize(cells.FaceCount());
+  m_FacePairs = PairsOfFaces(edgePoints, cells, edgeIds);
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
-    const auto edges = cells.FaceEdges(face);
-    m_FacePairs[face] = PairBetween(edgePoints.Of(edgeIds[edges[0]]), edgePoints.Of(edgeIds[edges[1]]));
-    for (const ElementIndex edge : edges)
+    for (const ElementIndex edge : cells.FaceEdges(face))
     {
       onFace[edge] = 1;
     }

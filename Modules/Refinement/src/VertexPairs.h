@@ -1,7 +1,7 @@
 #pragma once
 // Between which boundary vertices the elements of a part of a core lie.
 
-#include "Feet.h"
+#include "FootPoints.h"
 
 #include "voxelcore/Refinement.h"
 
@@ -10,6 +10,11 @@
 
 namespace voxelcore
 {
+
+/** Of each face, part of a core's cells, the two boundary vertices that it lies between; `edgeIds` are the core's own.
+ *  \throws CertificateError where a face has no two nearest boundary vertices. */
+std::vector<PointPair>
+PairsOfFaces(const EdgePoints & edgePoints, const CellComplex & cells, std::span<const ElementIndex> edgeIds);
 
 /** All pairs in a row around a polygon or a set of points are added. */
 void

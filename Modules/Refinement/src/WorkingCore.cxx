@@ -15,15 +15,15 @@ namespace
 // Least squares: the step after which the feet of each pair are equally far. What no pair asks for stays: a sheet moves
 // along its normal, a seam of sheets in two directions.
 Vector3
-Step(const Vector3 & place, std::span<const PointPair> pairs, std::span<const Foot> feet)
+Step(const Vector3 & place, std::span<const PointPair> pairs, std::span<const FootPoint> feet)
 {
   constexpr double      regular = 0.02;
   std::array<double, 6> a{ 0, 0, 0, 0, 0, 0 }; // xx yy zz xy xz yz
   Vector3               b{ 0, 0, 0 };
   for (const PointPair & pair : pairs)
   {
-    const Foot & p = FootOf(feet, pair[0]);
-    const Foot & q = FootOf(feet, pair[1]);
+    const FootPoint & p = FootPointOf(feet, pair[0]);
+    const FootPoint & q = FootPointOf(feet, pair[1]);
     if (!(p.distance > 0) || !(q.distance > 0))
     {
       continue;
@@ -64,49 +64,44 @@ Pick(const std::vector<double> & values, const std::vector<ElementIndex> & ids)
 
 } // namespace
 
-WorkingCore::WorkingCore(const RefinementInput & input, const LiveElements & live)
+WorkingCore::WorkingCore(const RefinementInput & input, CorePart part)
   : m_Input(input)
+  , m_VertexIds(std::move(part.vertices))
 {
-  const MedialComplex &     core = *input.core;
-  std::vector<ElementIndex> edgeIds;
-  std::vector<ElementIndex> faceIds;
-  const CellComplex         polygons = ExtractLive(core.cells, live, m_VertexIds, edgeIds, faceIds);
+  const MedialComplex & core = *input.core;
   for (const ElementIndex vertex : m_VertexIds)
   {
     m_Positions.push_back(core.positions[vertex]);
   }
-  m_Pairs = VertexPairs(core, *input.edgePoints, polygons, m_VertexIds, edgeIds);
+  m_Pairs = VertexPairs(core, *input.edgePoints, part.cells, m_VertexIds, part.edges);
   m_Displacement.assign(m_Positions.size(), Vector3{ 0, 0, 0 });
-  TriangleComplex cut = CutIntoTriangles(polygons, m_Positions, input.spacing);
+  TriangleComplex cut = CutIntoTriangles(part.cells, m_Positions, input.spacing);
   m_Cells = std::move(cut.cells);
   m_Polygons = std::move(cut.polygons);
   for (const ElementIndex edge : m_Pairs.LooseEdges())
   {
-    const auto found = std::lower_bound(m_Cells.edges.begin(), m_Cells.edges.end(), polygons.edges[edge]);
-    m_LooseEdges.emplace_back(static_cast<ElementIndex>(found - m_Cells.edges.begin()), edgeIds[edge]);
+    const auto found = std::lower_bound(m_Cells.edges.begin(), m_Cells.edges.end(), part.cells.edges[edge]);
+    m_LooseEdges.emplace_back(static_cast<ElementIndex>(found - m_Cells.edges.begin()), part.edges[edge]);
   }
-}
-
-std::vector<std::uint8_t>
-WorkingCore::UsedPoints() const
-{
-  std::vector<std::uint8_t> used(m_Input.points->size(), 0);
-  for (const PointPair & pair : m_Pairs.All())
-  {
-    used[pair[0]] = 1;
-    used[pair[1]] = 1;
-  }
-  return used;
 }
 
 void
-WorkingCore::MoveVertex(const FootFinder &         finder,
+WorkingCore::MoveVertex(const FootPointFinder &    finder,
                         std::size_t                vertex,
                         std::span<const PointPair> pairs,
-                        std::vector<Foot> &        feet)
+                        std::vector<FootPoint> &   feet)
 {
-  constexpr double longest = 0.5; // voxels a pass
-  const Vector3    place = Place(vertex);
+  constexpr double       longest = 0.5; // voxels a pass
+  const Vector3          place = Place(vertex);
+  std::vector<PointPair> apart;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(apart), [&](const PointPair & pair) {
+    return !finder.Meet(place, pair);
+  });
+  if (apart.empty())
+  {
+    return;
+  }
+  pairs = apart;
   finder.Find(place, pairs, feet);
   Vector3      step = Over(Step(place, pairs, feet), m_Input.spacing);
   const double length = Length(step);
@@ -115,7 +110,7 @@ WorkingCore::MoveVertex(const FootFinder &         finder,
 }
 
 void
-WorkingCore::Move(const FootFinder & finder, const ProgressCallback & progress)
+WorkingCore::Move(const FootPointFinder & finder, const ProgressCallback & progress)
 {
   constexpr int passes = 3;
   const auto    count = static_cast<std::ptrdiff_t>(m_Positions.size());
@@ -124,7 +119,7 @@ WorkingCore::Move(const FootFinder & finder, const ProgressCallback & progress)
     ReportProgress(progress, "refining", static_cast<double>(pass + 1) / (passes + 2));
 #pragma omp parallel if (count > 512)
     {
-      std::vector<Foot> feet;
+      std::vector<FootPoint> feet;
 #pragma omp for schedule(dynamic, 256)
       for (std::ptrdiff_t i = 0; i < count; ++i)
       {
@@ -141,7 +136,7 @@ WorkingCore::Move(const FootFinder & finder, const ProgressCallback & progress)
 // Of a part that is a line the pairs of a vertex may all lie on one side: those of its neighbours lie around it. Returns what
 // was moved.
 std::vector<ElementIndex>
-WorkingCore::MoveLines(const FootFinder & finder, const Part & part, const std::vector<Vector3> & wanted)
+WorkingCore::MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted)
 {
   constexpr int                          passes = 3;
   std::vector<std::uint8_t>              onFace(part.vertices.size(), 0);
@@ -166,7 +161,7 @@ WorkingCore::MoveLines(const FootFinder & finder, const Part & part, const std::
   const auto count = static_cast<std::ptrdiff_t>(lines.size());
 #pragma omp parallel if (count > 64)
   {
-    std::vector<Foot>      feet;
+    std::vector<FootPoint> feet;
     std::vector<PointPair> pairs;
 #pragma omp for schedule(dynamic, 16)
     for (std::ptrdiff_t i = 0; i < count; ++i)
@@ -200,10 +195,10 @@ WorkingCore::MoveLines(const FootFinder & finder, const Part & part, const std::
   return lines;
 }
 
-WorkingCore::Part
+CorePart
 WorkingCore::All() const
 {
-  Part part;
+  CorePart part;
   part.cells = m_Cells;
   part.vertices.resize(m_Cells.vertexCount);
   part.edges.resize(m_Cells.edges.size());
@@ -216,8 +211,8 @@ WorkingCore::All() const
 
 // Below the threshold the greater radius stays, not the greater measure: beside the axis of a tube all feet meet, and measures
 // no longer tell what is nearest to it. So a line that topology holds is the one in the middle.
-WorkingCore::Part
-WorkingCore::Collapse(Part part, double threshold) const
+CorePart
+WorkingCore::Collapse(const CorePart & part, double threshold) const
 {
   auto         vertexMeasure = Pick(m_VertexMeasure, part.vertices);
   auto         edgeMeasure = Pick(m_EdgeMeasure, part.edges);
@@ -248,30 +243,17 @@ WorkingCore::Collapse(Part part, double threshold) const
   {
     order(faceMeasure[face], part.cells.FaceVertices(face));
   }
-  SimplePairCollapse collapse(part.cells, vertexMeasure, edgeMeasure, faceMeasure);
-  collapse.CollapseBelow(threshold);
-  Part       left;
-  const auto within = [](const std::vector<ElementIndex> & ids, std::vector<ElementIndex> & some) {
-    for (ElementIndex & id : some)
-    {
-      id = ids[id];
-    }
-  };
-  left.cells = ExtractLive(part.cells, collapse.Live(), left.vertices, left.edges, left.faces);
-  within(part.vertices, left.vertices);
-  within(part.edges, left.edges);
-  within(part.faces, left.faces);
-  return left;
+  return CollapsePart(part, vertexMeasure, edgeMeasure, faceMeasure, threshold);
 }
 
 // What has moved is guarded, and then measured where it is: so more may go, and what held it back with it.
 RefinedCore
-WorkingCore::Finish(const FootFinder & finder, double threshold)
+WorkingCore::Finish(const FootPointFinder & finder, double threshold)
 {
-  Part part = All();
+  CorePart part = All();
   MeasureVertices(finder, part.vertices);
   MeasureElements();
-  part = Collapse(std::move(part), threshold);
+  part = Collapse(part, threshold);
   std::vector<Vector3> wanted = m_Displacement;
   RefinedCore          refined;
   const auto           settle = [&](std::vector<ElementIndex> changed) {
@@ -300,7 +282,7 @@ WorkingCore::Finish(const FootFinder & finder, double threshold)
       MeasureElements();
       changed.clear();
       const std::size_t before = part.vertices.size() + part.edges.size();
-      part = Collapse(std::move(part), threshold);
+      part = Collapse(part, threshold);
       again = part.vertices.size() + part.edges.size() < before;
     }
   };

@@ -1,7 +1,8 @@
 #pragma once
 // The part of a core that is being refined: where its vertices have moved to, and what its elements measure there.
 
-#include "Feet.h"
+#include "CorePart.h"
+#include "FootPoints.h"
 #include "Triangles.h"
 #include "VertexPairs.h"
 
@@ -18,29 +19,17 @@ namespace voxelcore
 class WorkingCore
 {
 public:
-  WorkingCore(const RefinementInput & input, const LiveElements & live);
-
-  /** A flag for each boundary vertex: whether a pair has it. */
-  std::vector<std::uint8_t>
-  UsedPoints() const;
+  WorkingCore(const RefinementInput & input, CorePart part);
 
   /** Moves vertices to where their balls touch alike. */
   void
-  Move(const FootFinder & finder, const ProgressCallback & progress);
+  Move(const FootPointFinder & finder, const ProgressCallback & progress);
 
   /** What is left at a threshold. */
   RefinedCore
-  Finish(const FootFinder & finder, double threshold);
+  Finish(const FootPointFinder & finder, double threshold);
 
 private:
-  struct Part
-  {
-    CellComplex               cells;
-    std::vector<ElementIndex> vertices; ///< of the working core
-    std::vector<ElementIndex> edges;
-    std::vector<ElementIndex> faces;
-  };
-
   std::span<const PointPair>
   Pairs(std::size_t vertex) const
   {
@@ -54,19 +43,22 @@ private:
   }
 
   void
-  MoveVertex(const FootFinder & finder, std::size_t vertex, std::span<const PointPair> pairs, std::vector<Foot> & feet);
+  MoveVertex(const FootPointFinder &    finder,
+             std::size_t                vertex,
+             std::span<const PointPair> pairs,
+             std::vector<FootPoint> &   feet);
   void
-  MeasureVertices(const FootFinder & finder, const std::vector<ElementIndex> & vertices);
+  MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices);
   double
   WidthAt(ElementIndex vertex, const PointPair & pair) const;
   void
   MeasureElements();
   std::vector<ElementIndex>
-  MoveLines(const FootFinder & finder, const Part & part, const std::vector<Vector3> & wanted);
-  Part
+  MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted);
+  CorePart
   All() const;
-  Part
-  Collapse(Part part, double threshold) const;
+  CorePart
+  Collapse(const CorePart & part, double threshold) const;
 
   const RefinementInput &   m_Input;
   CellComplex               m_Cells;

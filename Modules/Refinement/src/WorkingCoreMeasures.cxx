@@ -11,14 +11,14 @@ namespace voxelcore
 
 // How wide the feet of each pair of these vertices are apart, and how far the nearest one is.
 void
-WorkingCore::MeasureVertices(const FootFinder & finder, const std::vector<ElementIndex> & vertices)
+WorkingCore::MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices)
 {
   m_Widths.resize(m_Pairs.All().size(), 0);
   m_Radius.resize(m_Positions.size(), 0);
   const auto count = static_cast<std::ptrdiff_t>(vertices.size());
 #pragma omp parallel if (count > 512)
   {
-    std::vector<Foot> feet;
+    std::vector<FootPoint> feet;
 #pragma omp for schedule(dynamic, 256)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
@@ -30,11 +30,11 @@ WorkingCore::MeasureVertices(const FootFinder & finder, const std::vector<Elemen
         continue;
       }
       finder.Settle(Place(vertex), pairs, feet);
-      m_Radius[vertex] = NearestFoot(feet);
+      m_Radius[vertex] = NearestDistance(feet);
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {
         m_Widths[m_Pairs.First(vertex) + k] =
-          0.5 * Distance(FootOf(feet, pairs[k][0]).position, FootOf(feet, pairs[k][1]).position);
+          0.5 * Distance(FootPointOf(feet, pairs[k][0]).position, FootPointOf(feet, pairs[k][1]).position);
       }
     }
   }

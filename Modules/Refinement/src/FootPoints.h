@@ -13,7 +13,7 @@ namespace voxelcore
 using PointPair = std::array<std::uint32_t, 2>;
 
 /** Where a ball about a core vertex touches. */
-struct Foot
+struct FootPoint
 {
   std::uint32_t point = 0; ///< the boundary vertex it belongs to
   Vector3       position{};
@@ -21,21 +21,26 @@ struct Foot
 };
 
 /** Finds feet; thread-safe after construction. */
-class FootFinder
+class FootPointFinder
 {
 public:
-  /** Projects each boundary vertex that is used (a flag each) onto the surface. */
-  FootFinder(const RefinementInput & input, const std::vector<std::uint8_t> & used, const ProgressCallback & progress);
+  /** Projects each boundary vertex onto the surface. */
+  FootPointFinder(const RefinementInput & input, const ProgressCallback & progress);
+
+  /** Whether the foot points of a pair meet about `place`, by the places and normals of the surface at its boundary vertices
+   *  alone: then the distance from `place` falls from either towards the other. */
+  bool
+  Meet(const Vector3 & place, const PointPair & pair) const;
 
   /** The feet of a core vertex at `place` (mm along the lattice axes), one for each boundary vertex in `pairs`, by index.
    *  Feet stay near their boundary vertex: so near that those of a pair cannot meet by passing each other. */
   void
-  Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<Foot> & feet) const;
+  Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const;
 
   /** The same, but each foot goes on to where it is nearest, however far that is from its boundary vertex: about a place
    *  beside the axis of a tube all feet meet. */
   void
-  Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<Foot> & feet) const;
+  Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const;
 
 private:
   Vector3
@@ -54,10 +59,10 @@ private:
 
 /** How far the nearest foot is. */
 inline double
-NearestFoot(std::span<const Foot> feet)
+NearestDistance(std::span<const FootPoint> feet)
 {
   double least = feet[0].distance;
-  for (const Foot & foot : feet)
+  for (const FootPoint & foot : feet)
   {
     least = std::min(least, foot.distance);
   }
@@ -65,8 +70,9 @@ NearestFoot(std::span<const Foot> feet)
 }
 
 /** The foot of a boundary vertex among those that Find() gave. */
-inline const Foot &
-FootOf(std::span<const Foot> feet, std::uint32_t point)
+template <typename TFeet>
+auto &
+FootPointOf(TFeet & feet, std::uint32_t point)
 {
   std::size_t first = 0;
   for (std::size_t size = feet.size(); size > 1;)

@@ -1,4 +1,4 @@
-#include "Feet.h"
+#include "FootPoints.h"
 
 #include "voxelcore/Vectors.h"
 
@@ -15,13 +15,14 @@ namespace
 
 // Of each boundary vertex the foot that may go farthest.
 void
-KeepOneOfEach(std::vector<Foot> & feet)
+KeepOneOfEach(std::vector<FootPoint> & feet)
 {
-  std::sort(feet.begin(), feet.end(), [](const Foot & a, const Foot & b) {
+  std::sort(feet.begin(), feet.end(), [](const FootPoint & a, const FootPoint & b) {
     return a.point != b.point ? a.point < b.point : a.distance > b.distance;
   });
-  feet.erase(std::unique(feet.begin(), feet.end(), [](const Foot & a, const Foot & b) { return a.point == b.point; }),
-             feet.end());
+  feet.erase(
+    std::unique(feet.begin(), feet.end(), [](const FootPoint & a, const FootPoint & b) { return a.point == b.point; }),
+    feet.end());
 }
 
 // Two directions at right angles to a normal and to each other, the first nearest to `slide`.
@@ -40,38 +41,55 @@ constexpr double kTurn = 0.3;          // cosine: beyond it is another side of t
 
 } // namespace
 
-FootFinder::FootFinder(const RefinementInput &           input,
-                       const std::vector<std::uint8_t> & used,
-                       const ProgressCallback &          progress)
+FootPointFinder::FootPointFinder(const RefinementInput & input, const ProgressCallback & progress)
   : m_Input(input)
-  , m_Anchors(used.size())
+  , m_Anchors(input.points->size())
 {
   m_Voxel = std::cbrt(input.spacing[0] * input.spacing[1] * input.spacing[2]);
   // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal; smoothed, a little
   // beyond.
   const double reach = 0.75 * Length(input.spacing);
-  const auto   count = static_cast<std::ptrdiff_t>(used.size());
+  const auto   count = static_cast<std::ptrdiff_t>(m_Anchors.size());
   ReportProgress(progress, "refining", 0);
 #pragma omp parallel for schedule(dynamic, 256) if (count > 512)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto point = static_cast<std::uint32_t>(i);
-    if (used[point] != 0)
-    {
-      m_Anchors[point] = input.surface->Project(Place(point), reach);
-    }
+    m_Anchors[point] = input.surface->Project(Place(point), reach);
   }
 }
 
 Vector3
-FootFinder::Place(std::uint32_t point) const
+FootPointFinder::Place(std::uint32_t point) const
 {
   const LatticePoint & p = (*m_Input.points)[point];
   return Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, m_Input.spacing);
 }
 
+// From either end the way downhill along the surface, as far as it leads to the other end: all of the way between them where
+// the surface is flat, none where it is bent about `place`.
+bool
+FootPointFinder::Meet(const Vector3 & place, const PointPair & pair) const
+{
+  constexpr double     ofWay = 0.25;
+  constexpr double     sameSide = 0.7; // cosine
+  const SurfacePoint & a = m_Anchors[pair[0]];
+  const SurfacePoint & b = m_Anchors[pair[1]];
+  const Vector3        way = Minus(b.position, a.position);
+  const Vector3        toA = Minus(place, a.position);
+  const Vector3        toB = Minus(place, b.position);
+  const double         awayA = Dot(toA, a.normal);
+  const double         awayB = Dot(toB, b.normal);
+  if (!a.found || !b.found || std::abs(Dot(a.normal, b.normal)) < sameSide ||
+      (awayA > 0) != ((Dot(a.normal, b.normal) > 0) == (awayB > 0)))
+  {
+    return false;
+  }
+  return Dot(Along(toA, -awayA, a.normal), way) - Dot(Along(toB, -awayB, b.normal), way) > ofWay * Dot(way, way);
+}
+
 void
-FootFinder::Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<Foot> & feet) const
+FootPointFinder::Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const
 {
   feet.clear();
   for (const PointPair & pair : pairs)
@@ -81,7 +99,7 @@ FootFinder::Find(const Vector3 & place, std::span<const PointPair> pairs, std::v
     feet.push_back({ pair[1], {}, width });
   }
   KeepOneOfEach(feet);
-  for (Foot & foot : feet)
+  for (FootPoint & foot : feet)
   {
     foot.position = Slide(place, foot.point, foot.distance);
     foot.distance = Distance(place, foot.position);
@@ -89,7 +107,7 @@ FootFinder::Find(const Vector3 & place, std::span<const PointPair> pairs, std::v
 }
 
 void
-FootFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<Foot> & feet) const
+FootPointFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const
 {
   feet.clear();
   for (const PointPair & pair : pairs)
@@ -98,17 +116,44 @@ FootFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs, std:
     feet.push_back({ pair[1], {}, 0 });
   }
   KeepOneOfEach(feet);
-  for (Foot & foot : feet)
+  // Of those that meet one alone goes all the way.
+  constexpr double open = -1;
+  for (FootPoint & foot : feet)
   {
+    foot.distance = open;
+  }
+  for (FootPoint & foot : feet)
+  {
+    if (foot.distance != open)
+    {
+      continue;
+    }
     foot.position = Descend(place, foot.point);
     foot.distance = Distance(place, foot.position);
+    for (bool more = true; more;)
+    {
+      more = false;
+      for (const PointPair & pair : pairs)
+      {
+        FootPoint & a = FootPointOf(feet, pair[0]);
+        FootPoint & b = FootPointOf(feet, pair[1]);
+        if ((a.distance == open) != (b.distance == open) && Meet(place, pair))
+        {
+          FootPoint &       one = a.distance == open ? a : b;
+          const FootPoint & other = a.distance == open ? b : a;
+          one.position = other.position;
+          one.distance = other.distance;
+          more = true;
+        }
+      }
+    }
   }
 }
 
 // A try to come nearer to `place` by way of `to`, a place beside the surface. Returns how much farther that is; where it is
 // nearer (less than 0), the foot goes there.
 double
-FootFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & foot, double & distance) const
+FootPointFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & foot, double & distance) const
 {
   const SurfacePoint next = m_Input.surface->Project(to, m_Voxel);
   if (!next.found || std::abs(Dot(next.normal, foot.normal)) < kTurn)
@@ -129,7 +174,7 @@ FootFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & fo
 // be told from its normal. So four ways are tried there besides, until it is seen to rise on all of them nearly as a flat one
 // does.
 Vector3
-FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
+FootPointFinder::Descend(const Vector3 & place, std::uint32_t point) const
 {
   constexpr int    steps = 120;
   constexpr double shortest = 0.1; // voxels
@@ -190,7 +235,7 @@ FootFinder::Descend(const Vector3 & place, std::uint32_t point) const
 
 // From where the surface passes the boundary vertex downhill to where a ball about `place` touches it.
 Vector3
-FootFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
+FootPointFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
 {
   constexpr int    steps = 24;
   constexpr double shortest = 1.0 / 16;
