@@ -1,10 +1,11 @@
 #include "BandField.h"
 
-#include "voxelcore/BoundaryVertices.h"
+#include "DistanceTile.h"
+
 #include "voxelcore/EightLanes.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace voxelcore
@@ -13,20 +14,13 @@ namespace voxelcore
 namespace
 {
 
-std::size_t
-Hash(const std::array<std::int32_t, 3> & brick)
-{
-  std::uint64_t h = static_cast<std::uint32_t>(brick[0]);
-  h = (h ^ (h >> 15)) * 0x9E3779B97F4A7C15U + static_cast<std::uint32_t>(brick[1]);
-  h = (h ^ (h >> 29)) * 0xBF58476D1CE4E5B9U + static_cast<std::uint32_t>(brick[2]);
-  h = (h ^ (h >> 32)) * 0x94D049BB133111EBU;
-  return static_cast<std::size_t>(h ^ (h >> 29));
-}
+constexpr std::int32_t kMargin = 8; // voxels
+using LabelRows = tile::Rows<BrickGrid::kSide, kMargin>;
 
-bool
-ComesBefore(const std::array<std::int32_t, 3> & a, const std::array<std::int32_t, 3> & b)
+VOXELCORE_EIGHT_LANES void
+FindDistances(const LabelRows & rows, const std::array<float, 3> & squares, tile::Squared<BrickGrid::kSide> & least)
 {
-  return std::array{ a[2], a[1], a[0] } < std::array{ b[2], b[1], b[0] };
+  tile::FindSquaredDistances(rows, squares, least);
 }
 
 // Of the four voxels on either side of a place along each axis.
@@ -72,116 +66,87 @@ SumRows(const std::array<const float *, 16> & rows, const SplineWeights & weight
 
 } // namespace
 
-BandField::BandField(const VoxelShape & shape, const Vector3 & sides, double sigma, std::int32_t reach)
-  : m_Sides(sides)
+BandField::BandField(const VoxelShape &            shape,
+                     std::span<const LatticePoint> points,
+                     const Vector3 &               sides,
+                     double                        sigma)
+  : m_Grid(shape, points, 0, kReach)
+  , m_Sides(sides)
+  , m_Labels(m_Grid.Count())
+  , m_Values(m_Grid.Count() * kVoxels, 0.0F)
 {
   SetWidth(sigma);
-  FindBricks(shape, reach);
-  FillLabels(shape);
-  m_Values.assign(m_Bricks.size() * kVoxels, 0.0F);
-}
-
-void
-BandField::FindBricks(const VoxelShape & shape, std::int32_t reach)
-{
-  const auto sortBricks = [&] {
-    std::sort(m_Bricks.begin(), m_Bricks.end(), ComesBefore);
-    m_Bricks.erase(std::unique(m_Bricks.begin(), m_Bricks.end()), m_Bricks.end());
-  };
-  std::size_t          sorted = 0;
-  std::array<Brick, 2> last{};
-  bool                 first = true;
-  for (const LatticePoint & p : BoundaryVertices(shape))
-  {
-    // A boundary vertex lies between the voxels p - 1 and p.
-    const std::array<Brick, 2> range{
-      { { BrickOf(p.x - 1 - reach), BrickOf(p.y - 1 - reach), BrickOf(p.z - 1 - reach) },
-        { BrickOf(p.x + reach), BrickOf(p.y + reach), BrickOf(p.z + reach) } }
-    };
-    if (!first && range == last)
-    {
-      continue;
-    }
-    first = false;
-    last = range;
-    for (std::int32_t z = range[0][2]; z <= range[1][2]; ++z)
-    {
-      for (std::int32_t y = range[0][1]; y <= range[1][1]; ++y)
-      {
-        for (std::int32_t x = range[0][0]; x <= range[1][0]; ++x)
-        {
-          m_Bricks.push_back({ x, y, z });
-        }
-      }
-    }
-    if (m_Bricks.size() > 2 * sorted + 100000)
-    {
-      sortBricks();
-      sorted = m_Bricks.size();
-    }
-  }
-  sortBricks();
-  m_Bricks.shrink_to_fit();
-  m_Table.assign(std::bit_ceil(2 * m_Bricks.size() + 1), 0);
-  const std::size_t mask = m_Table.size() - 1;
-  for (std::size_t brick = 0; brick < m_Bricks.size(); ++brick)
-  {
-    std::size_t at = Hash(m_Bricks[brick]) & mask;
-    while (m_Table[at] != 0)
-    {
-      at = (at + 1) & mask;
-    }
-    m_Table[at] = static_cast<std::uint32_t>(brick + 1);
-  }
-}
-
-std::int32_t
-BandField::Find(const Brick & brick) const
-{
-  const std::size_t mask = m_Table.size() - 1;
-  for (std::size_t at = Hash(brick) & mask; m_Table[at] != 0; at = (at + 1) & mask)
-  {
-    if (m_Bricks[m_Table[at] - 1] == brick)
-    {
-      return static_cast<std::int32_t>(m_Table[at] - 1);
-    }
-  }
-  return -1;
-}
-
-void
-BandField::FillLabels(const VoxelShape & shape)
-{
-  const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-  m_Neighbours.resize(m_Bricks.size());
-  m_Labels.resize(m_Bricks.size());
-#pragma omp parallel for schedule(static) if (count > kManyBricks)
+  SetFar(0);
+  const auto count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+#pragma omp parallel for schedule(static) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
-    const auto    brick = static_cast<std::size_t>(i);
-    const Brick & at = m_Bricks[brick];
-    for (std::size_t row = 0; row < 64; ++row)
+    const auto & at = m_Grid.At(static_cast<std::size_t>(i));
+    for (std::int32_t row = 0; row < kSide * kSide; ++row)
     {
-      const auto   y = at[1] * kSide + static_cast<std::int32_t>(row & 7);
-      const auto   z = at[2] * kSide + static_cast<std::int32_t>(row >> 3);
-      std::uint8_t bits = 0;
-      for (std::int32_t x = 0; x < kSide; ++x)
-      {
-        bits |= static_cast<std::uint8_t>((shape.Contains(at[0] * kSide + x, y, z) ? 1U : 0U) << x);
-      }
-      m_Labels[brick][row] = bits;
+      m_Labels[static_cast<std::size_t>(i)][static_cast<std::size_t>(row)] = static_cast<std::uint8_t>(
+        BitsOfRow(shape, at[0] * kSide, at[1] * kSide + (row & 7), at[2] * kSide + (row >> 3)));
     }
-    for (std::size_t n = 0; n < 27; ++n)
+  }
+  for (std::size_t brick = 0; brick < m_Grid.Count(); ++brick)
+  {
+    for (std::size_t axis = 0, stride = 1; axis < 3; ++axis, stride *= 3)
     {
-      const Brick  other{ at[0] + static_cast<std::int32_t>(n % 3) - 1,
-                         at[1] + static_cast<std::int32_t>(n / 3 % 3) - 1,
-                         at[2] + static_cast<std::int32_t>(n / 9) - 1 };
-      std::int32_t found = Find(other);
-      if (found < 0) // no boundary near it, so any voxel speaks for all of it
+      if (m_Grid.Neighbours(brick)[BrickGrid::kSelf - stride] < 0)
       {
-        found = shape.Contains(other[0] * kSide, other[1] * kSide, other[2] * kSide) ? kFarInside : kFarOutside;
+        m_RowStarts[axis].push_back(static_cast<std::uint32_t>(brick));
       }
-      m_Neighbours[brick][n] = found;
+    }
+  }
+}
+
+void
+BandField::SetFar(float far)
+{
+  m_Far = far;
+  m_FarBlocks[0].fill(-far);
+  m_FarBlocks[1].fill(far);
+}
+
+void
+BandField::FillDistances(const VoxelShape & shape, double clip)
+{
+  SetFar(static_cast<float>(clip));
+  std::array<float, 3> squares{};
+  std::transform(m_Sides.begin(), m_Sides.end(), squares.begin(), [](double side) {
+    return static_cast<float>(side * side);
+  });
+  const float half = 0.5F * static_cast<float>(std::min({ m_Sides[0], m_Sides[1], m_Sides[2] }));
+  const auto  count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto   brick = static_cast<std::size_t>(i);
+    const auto & at = m_Grid.At(brick);
+    LabelRows    in;
+    LabelRows    out;
+    for (std::int32_t z = 0; z < LabelRows::kSide; ++z)
+    {
+      for (std::int32_t y = 0; y < LabelRows::kSide; ++y)
+      {
+        constexpr std::uint64_t all = (std::uint64_t{ 1 } << LabelRows::kSide) - 1;
+        const auto              row = static_cast<std::size_t>(z * LabelRows::kSide + y);
+        const std::uint64_t     bits =
+          BitsOfRow(shape, kSide * at[0] - kMargin, kSide * at[1] - kMargin + y, kSide * at[2] - kMargin + z);
+        in.bits[row] = bits & all;
+        out.bits[row] = ~bits & all;
+      }
+    }
+    tile::Squared<BrickGrid::kSide> toIn;
+    tile::Squared<BrickGrid::kSide> toOut;
+    FindDistances(in, squares, toIn);
+    FindDistances(out, squares, toOut);
+    float * const values = m_Values.data() + brick * kVoxels;
+    for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
+    {
+      const bool  inside = toIn[voxel] == 0;
+      const float distance = std::min(std::sqrt(inside ? toOut[voxel] : toIn[voxel]) - half, m_Far);
+      values[voxel] = inside ? distance : -distance;
     }
   }
 }
@@ -189,9 +154,8 @@ BandField::FillLabels(const VoxelShape & shape)
 bool
 BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const
 {
-  Brick          base{};
-  SplineWeights  weights;
-  constexpr auto most = static_cast<std::int32_t>(kSide - 4);
+  BrickGrid::Brick base{};
+  SplineWeights    weights;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double at = place[axis] - 0.5; // in voxel indices, where centres are whole
@@ -205,38 +169,35 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
                             t * t * t / 6 };
     weights.slope[axis] = { -0.5 * s * s, (1.5 * t - 2.0) * t, (2.0 - 1.5 * s) * s, 0.5 * t * t };
   }
-  const Brick        home{ BrickOf(base[0]), BrickOf(base[1]), BrickOf(base[2]) };
-  const std::int32_t found = Find(home);
+  const BrickGrid::Brick home{ base[0] >> 3, base[1] >> 3, base[2] >> 3 };
+  const std::int32_t     found = m_Grid.Find(home);
   if (found < 0)
   {
     return false;
   }
-  const auto & neighbours = m_Neighbours[static_cast<std::size_t>(found)];
-  const auto   brickAt = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-    return neighbours[static_cast<std::size_t>((BrickOf(x) - home[0] + 1) + 3 * (BrickOf(y) - home[1] + 1) +
-                                               9 * (BrickOf(z) - home[2] + 1))];
-  };
-  // The rows of four as they lie, or put together from several bricks.
+  const auto & neighbours = m_Grid.Neighbours(static_cast<std::size_t>(found));
+  // The rows of four as they lie, or put together from two bricks.
   std::array<const float *, 16> rows;
   std::array<float, 64>         mixed;
+  const std::int32_t            first = (base[0] - 1) & 7;
+  const bool                    left = base[0] - 1 < 8 * home[0];
   for (std::int32_t row = 0; row < 16; ++row)
   {
     const auto         r = static_cast<std::size_t>(row);
     const std::int32_t y = base[1] - 1 + (row & 3);
     const std::int32_t z = base[2] - 1 + (row >> 2);
     const std::int32_t within = kSide * (y & 7) + kSide * kSide * (z & 7);
-    const std::int32_t first = (base[0] - 1) & 7;
-    const std::int32_t source = brickAt(base[0] - 1, y, z);
-    if (first <= most && source >= 0)
+    const auto    middle = static_cast<std::size_t>(1 + 3 * ((y >> 3) - home[1] + 1) + 9 * ((z >> 3) - home[2] + 1));
+    const float * from = Block(m_Values, neighbours[left ? middle - 1 : middle]) + within;
+    rows[r] = from + first;
+    if (first > kSide - 4)
     {
-      rows[r] = m_Values.data() + static_cast<std::size_t>(source) * kVoxels + within + first;
-      continue;
-    }
-    rows[r] = mixed.data() + 4 * r;
-    for (std::int32_t i = 0; i < 4; ++i)
-    {
-      const std::int32_t x = base[0] + i - 1;
-      mixed[4 * r + static_cast<std::size_t>(i)] = ValueAt(brickAt(x, y, z), within + (x & 7));
+      const float * next = Block(m_Values, neighbours[left ? middle : middle + 1]) + within;
+      for (std::int32_t i = 0; i < 4; ++i)
+      {
+        mixed[4 * r + static_cast<std::size_t>(i)] = first + i < kSide ? from[first + i] : next[first + i - kSide];
+      }
+      rows[r] = mixed.data() + 4 * r;
     }
   }
   SumRows(rows, weights, value, gradient);

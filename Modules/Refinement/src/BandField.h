@@ -1,10 +1,10 @@
 #pragma once
-// A scalar field on the voxels near a shape's boundary, in bricks, so that memory follows the boundary.
+// A scalar field on the voxels near a shape's boundary.
+
+#include "BrickGrid.h"
+#include "SmoothingZones.h"
 
 #include "voxelcore/SurfaceEstimate.h"
-
-#include <cstdint>
-#include <vector>
 
 namespace voxelcore
 {
@@ -14,43 +14,41 @@ namespace voxelcore
 class BandField
 {
 public:
-  static constexpr std::int32_t kSide = 8;
-  static constexpr std::size_t  kVoxels = 512;
-
-  /** How much of a pass each voxel takes: 255, all of it. */
-  using Parts = std::vector<std::uint8_t>;
-
   /** Values are 0. `sides` are those of a voxel, the shortest 1: the unit of distances and of `sigma`, the width of the
-   *  Gaussian G, at most 1.5. What is within `reach` voxels of the boundary, at most 16, has a value. */
-  BandField(const VoxelShape & shape, const Vector3 & sides, double sigma, std::int32_t reach);
+   *  Gaussian G, at most 1.5. `points` are the boundary vertices; what is within kReach voxels of one has a value. */
+  BandField(const VoxelShape & shape, std::span<const LatticePoint> points, const Vector3 & sides, double sigma);
+
+  static constexpr std::int32_t kReach = 7;
 
   /** Another width of G. */
   void
   SetWidth(double sigma);
 
   /** Signed distance to the boundary: to the nearest centre of the other kind less half the shortest side, clipped to
-   *  +-`clip` (at most the reach of the field). */
+   *  +-`clip`, at most 7.5. */
   void
-  FillDistances(double clip);
-
-  /** Distances clipped further. */
-  void
-  Clip(double clip);
+  FillDistances(const VoxelShape & shape, double clip);
 
   /** Grey values; Far() becomes their mean magnitude. */
   void
   FillGrey(const VoxelBox & scan, const GreyRows & rows);
 
   /** K = (1 + w) G - w G G. With w = 1, in frequencies 1 - (sigma k)^4 / 4 + ..., bends of a linear field are flattened,
-   *  and what is curved evenly keeps its place. */
+   *  and what is curved evenly keeps its place. Then 0 where the sign contradicts the label. */
   void
   Smooth(float weight);
 
-  /** The same where `parts` says so; with G twice as wide, of every other voxel, if `wide`. */
+  /** As far as zones say. */
   void
-  SmoothPart(float weight, bool wide, const Parts & parts);
+  Smooth(float weight, const SmoothingZones & zones);
 
-  /** Smooth(), but values become coefficients of Evaluate(): to be called once, last. */
+  /** The same with G wider by the root of 2, and twice as wide: passes of four and of sixteen others. */
+  void
+  SmoothWider(float weight, const SmoothingZones & zones);
+  void
+  SmoothWidest(float weight, const SmoothingZones & zones);
+
+  /** K once more, but values become coefficients of Evaluate(): to be done once, last. */
   void
   SmoothToCoefficients(float weight);
 
@@ -60,23 +58,20 @@ public:
   static float
   StepWeight(double sigma);
 
-  /** 0 where the sign contradicts the label. */
+  /** Values for later, in half the memory. */
+  using Snapshot = std::vector<std::int16_t>;
+  Snapshot
+  Save() const;
   void
-  ClearContradictions();
+  Restore(const Snapshot & former);
 
-  /** For a field of distances: all where balls of `radius` touch the boundary from inside and from outside, none where one
-   *  is kept two units or more away from it, by another wall, an edge or a crease. */
-  Parts
-  FindThick(double radius) const;
-
-  /** Takes away what lies within `near` units of where the surface has a radius of curvature under `radius`, and by degrees
-   *  to 2 units farther. */
+  /** Former values where zones are none, by degrees where they are in part. */
   void
-  LeaveOutBends(Parts & parts, double radius, double near) const;
+  BlendWith(const Snapshot & former, const SmoothingZones & zones);
 
-  /** Goes back to former values within `near` units of boundary vertices, and by degrees to 2 units farther. */
+  /** Marks the voxels at most `most` units off the surface where that has a radius of curvature under `radius`. */
   void
-  TakeBackAround(const std::vector<LatticePoint> & places, double near, const BandField & former);
+  MarkBends(double most, double radius, SmoothingZones & zones) const;
 
   /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no brick.
    *  What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian of variance
@@ -91,65 +86,57 @@ public:
   }
 
 private:
-  static constexpr std::ptrdiff_t kManyBricks = 256; ///< fewer are not worth several threads that wait for each other
-  static constexpr std::int32_t   kFarOutside = -1;
-  static constexpr std::int32_t   kFarInside = -2;
-  using Brick = std::array<std::int32_t, 3>;
-  static constexpr std::int32_t kMostRadius = 8; ///< voxels
+  static constexpr std::int32_t kSide = BrickGrid::kSide;
+  static constexpr std::size_t  kVoxels = BrickGrid::kCells;
+  static constexpr std::int32_t kMostRadius = kSide; ///< of a kernel: a brick's neighbours hold all it needs
   struct Kernel
   {
     std::int32_t                       radius = 0;
     std::array<float, kMostRadius + 1> weights{}; ///< by distance from the centre
   };
-
-  static constexpr std::int32_t
-  BrickOf(std::int32_t voxel)
-  {
-    return voxel >> 3;
-  }
-  std::int32_t
-  Find(const Brick & brick) const;
   using Kernels = std::array<Kernel, 3>;
-  using Flags = std::array<std::uint8_t, 64>; ///< of a brick's voxels: a byte a row along x
+  using Far8 = std::array<float, kVoxels>;
+
   static Kernel
   Gauss(double variance, std::int32_t mostRadius);
   void
-  FindBricks(const VoxelShape & shape, std::int32_t reach);
+  SetFar(float far);
   void
-  FillLabels(const VoxelShape & shape);
+  Sweep(std::size_t                       axis,
+        const Kernel &                    kernel,
+        std::int32_t                      step,
+        const std::vector<float> *        from,
+        std::vector<float> &              values,
+        const std::vector<std::uint8_t> & needed) const;
   void
-  FillBrickDistances(std::size_t brick, double clip);
-  std::array<std::uint64_t, 1600>
-  GatherRows(const std::vector<Flags> & flags, bool farInside, bool farOutside, std::size_t brick) const;
-  void
-  LeaveOutAround(const std::vector<Flags> & flags, double near, Parts & parts) const;
+  Smooth(float                  weight,
+         const Kernels &        first,
+         const Kernels &        second,
+         std::int32_t           step,
+         bool                   bound,
+         const SmoothingZones * zones);
   double
   CurvatureAt(std::size_t brick, std::size_t voxel) const;
-  void
-  Convolve(const Kernels & kernels, std::int32_t step, const std::vector<float> & from, std::size_t brick, float * to)
-    const;
-  /** (1 + weight) times what the first kernels make, less weight times what the second make of that; where `parts` says so, or
-   *  everywhere. */
-  void
-  Smooth(float weight, const Kernels & first, const Kernels & second, std::int32_t step, const Parts * parts);
-  /** At a voxel of a brick, or of none, by m_Neighbours. */
-  float
-  ValueAt(std::int32_t source, std::int32_t voxel) const
+  const float *
+  Block(const std::vector<float> & values, std::int32_t source) const
   {
-    return source >= 0 ? m_Values[static_cast<std::size_t>(source) * kVoxels + static_cast<std::size_t>(voxel)]
-                       : (source == kFarInside ? m_Far : -m_Far);
+    return source >= 0 ? values.data() + static_cast<std::size_t>(source) * kVoxels
+                       : m_FarBlocks[source == BrickGrid::kInside ? 1 : 0].data();
   }
 
+  BrickGrid                                 m_Grid;
   Vector3                                   m_Sides;
   Kernels                                   m_Gauss;
-  Kernels                                   m_GaussWide;     ///< twice as wide, of every other voxel
+  Kernels                                   m_GaussWider;
+  Kernels                                   m_GaussWidest;   ///< of every other voxel
   Kernels                                   m_GaussToSpline; ///< with B-splines after it as wide as m_Gauss
-  std::vector<Brick>                        m_Bricks;        ///< in units of bricks, by (z, y, x)
-  std::vector<std::uint32_t>                m_Table;         ///< open addressing: brick + 1, 0 for none
-  std::vector<std::array<std::int32_t, 27>> m_Neighbours; ///< a brick, or on which side of the boundary there is none
-  std::vector<Flags>                        m_Labels;
+  std::vector<BrickGrid::Flags>             m_Labels;
+  std::array<std::vector<std::uint32_t>, 3> m_RowStarts; ///< bricks with none before them along an axis
   std::vector<float>                        m_Values;
+  std::vector<float>                        m_Once; ///< of a pass
+  std::vector<float>                        m_Twice;
   float                                     m_Far = 0;
+  std::array<Far8, 2>                       m_FarBlocks; ///< outside, inside
 };
 
 } // namespace voxelcore

@@ -1,4 +1,4 @@
-// How a band field is smoothed.
+// How a band field is smoothed: along z, y and x, brick by brick in the memory of the values themselves.
 
 #include "BandField.h"
 
@@ -15,31 +15,93 @@ namespace voxelcore
 namespace
 {
 
-// sum[i] of weights by distance in steps of `stride`: in[i] .. in[i + 2 * radius * stride].
+constexpr std::size_t kSide = BrickGrid::kSide;
+constexpr std::size_t kVoxels = BrickGrid::kCells;
+using Eight = float __attribute__((vector_size(32), aligned(4), may_alias));
+
+// Along y or z: eight voxels at once that lie beside each other along x. `along` is how far apart voxels are that are summed,
+// `across` how far apart the eight lines of eight voxels are.
 VOXELCORE_EIGHT_LANES void
-SumAlong(const float * weights,
-         std::int32_t  radius,
-         const float * in,
-         float *       sum,
-         std::size_t   stride,
-         std::size_t   size)
+SumLayers(const std::array<const float *, 3> & from,
+          float *                              to,
+          std::size_t                          along,
+          std::size_t                          across,
+          const float *                        weights,
+          std::size_t                          radius,
+          std::size_t                          step)
 {
-  const float * const middle = in + static_cast<std::size_t>(radius) * stride;
-  for (std::size_t i = 0; i < size; ++i)
+  for (std::size_t line = 0; line < kSide; ++line)
   {
-    sum[i] = weights[0] * middle[i];
-  }
-  for (std::int32_t k = 1; k <= radius; ++k)
-  {
-    const std::size_t   away = static_cast<std::size_t>(k) * stride;
-    const float * const lower = middle - away;
-    const float * const upper = middle + away;
-    for (std::size_t i = 0; i < size; ++i)
+    Eight column[3 * kSide];
+    for (std::size_t i = 0; i < 3 * kSide; ++i)
     {
-      sum[i] += weights[k] * (lower[i] + upper[i]);
+      column[i] = *reinterpret_cast<const Eight *>(from[i / kSide] + (i % kSide) * along + line * across);
+    }
+    for (std::size_t i = 0; i < kSide; ++i)
+    {
+      Eight sum = weights[0] * column[i + kSide];
+      for (std::size_t k = 1; k <= radius; ++k)
+      {
+        sum += weights[k] * (column[i + kSide - k * step] + column[i + kSide + k * step]);
+      }
+      *reinterpret_cast<Eight *>(to + i * along + line * across) = sum;
     }
   }
 }
+
+VOXELCORE_EIGHT_LANES void
+SumRows(const std::array<const float *, 3> & from,
+        float *                              to,
+        const float *                        weights,
+        std::size_t                          radius,
+        std::size_t                          step)
+{
+  float rows[kSide * kSide][3 * kSide];
+  for (std::size_t row = 0; row < kSide * kSide; ++row)
+  {
+    for (std::size_t part = 0; part < 3; ++part)
+    {
+      std::copy_n(from[part] + row * kSide, kSide, rows[row] + part * kSide);
+    }
+  }
+  for (std::size_t row = 0; row < kSide * kSide; ++row)
+  {
+    const float * const middle = rows[row] + kSide;
+    Eight               sum = weights[0] * *reinterpret_cast<const Eight *>(middle);
+    for (std::size_t k = 1; k <= radius; ++k)
+    {
+      sum += weights[k] * (*reinterpret_cast<const Eight *>(middle - k * step) +
+                           *reinterpret_cast<const Eight *>(middle + k * step));
+    }
+    *reinterpret_cast<Eight *>(to + row * kSide) = sum;
+  }
+}
+
+// Where `parts` are given former values are kept in part; where labels are, no value contradicts them.
+VOXELCORE_EIGHT_LANES void
+Combine(float *              values,
+        const float *        once,
+        const float *        twice,
+        float                weight,
+        const std::uint8_t * labels,
+        const float *        parts)
+{
+  for (std::size_t i = 0; i < kVoxels; ++i)
+  {
+    const float smoothed = (1 + weight) * once[i] - weight * twice[i];
+    values[i] = parts == nullptr ? smoothed : values[i] + parts[i] * (smoothed - values[i]);
+  }
+  if (labels != nullptr)
+  {
+    for (std::size_t i = 0; i < kVoxels; ++i)
+    {
+      const bool in = (labels[i / kSide] >> (i % kSide) & 1) != 0;
+      values[i] = in ? std::max(values[i], 0.0F) : std::min(values[i], 0.0F);
+    }
+  }
+}
+
+constexpr float kSavedUnits = 24000; // to Far(), so that values may be somewhat greater
 
 } // namespace
 
@@ -50,7 +112,8 @@ BandField::SetWidth(double sigma)
   {
     const double variance = sigma * sigma / (m_Sides[axis] * m_Sides[axis]);
     m_Gauss[axis] = Gauss(variance, kMostRadius);
-    m_GaussWide[axis] = Gauss(variance, kMostRadius / 2);
+    m_GaussWider[axis] = Gauss(2 * variance, kMostRadius);
+    m_GaussWidest[axis] = Gauss(variance, kMostRadius / 2);
     m_GaussToSpline[axis] = Gauss(std::max(variance - 1.0 / 3, 0.02), kMostRadius);
   }
 }
@@ -68,71 +131,6 @@ BandField::Gauss(double variance, std::int32_t mostRadius)
   return kernel;
 }
 
-// G at the voxels of one brick, of every voxel or every other one: along z first, as its rows are the longest.
-void
-BandField::Convolve(const Kernels &            kernels,
-                    std::int32_t               step,
-                    const std::vector<float> & from,
-                    std::size_t                brick,
-                    float *                    to) const
-{
-  constexpr std::size_t most = kSide + 2 * kMostRadius;
-  constexpr std::size_t side = kSide;
-  const std::int32_t    rx = step * kernels[0].radius;
-  const std::int32_t    ry = step * kernels[1].radius;
-  const std::int32_t    rz = step * kernels[2].radius;
-  const auto            left = static_cast<std::size_t>(rx);
-  const auto            wide = static_cast<std::size_t>(kSide + 2 * rx);
-  const auto            deep = static_cast<std::size_t>(kSide + 2 * ry);
-  float                 tile[most * most * most + side];
-  float                 byZ[most * most * side];
-  float                 byY[most * side * side];
-  float *               row = tile;
-  float                 inside[side];
-  float                 outside[side];
-  std::fill_n(inside, side, m_Far);
-  std::fill_n(outside, side, -m_Far);
-  for (std::int32_t z = -rz; z < kSide + rz; ++z)
-  {
-    for (std::int32_t y = -ry; y < kSide + ry; ++y, row += wide)
-    {
-      const auto         first = static_cast<std::size_t>(3 * (BrickOf(y) + 1) + 9 * (BrickOf(z) + 1));
-      const std::int32_t within = kSide * (y & 7) + kSide * kSide * (z & 7);
-      const auto         rowOf = [&](std::size_t part) {
-        const std::int32_t source = m_Neighbours[brick][first + part];
-        return source >= 0 ? from.data() + static_cast<std::size_t>(source) * kVoxels + within
-                                   : (source == kFarInside ? inside : outside);
-      };
-      // Copies of known length are fast; what is too much of the last one, the next row goes over.
-      if (left == side / 2)
-      {
-        std::copy_n(rowOf(0) + side / 2, side / 2, row);
-      }
-      else
-      {
-        std::copy_n(rowOf(0) + side - left, left, row);
-      }
-      std::copy_n(rowOf(1), side, row + left);
-      std::copy_n(rowOf(2), side, row + left + side);
-    }
-  }
-  const auto skip = static_cast<std::size_t>(step);
-  SumAlong(kernels[2].weights.data(), kernels[2].radius, tile, byZ, skip * wide * deep, wide * deep * side);
-  for (std::size_t z = 0; z < side; ++z)
-  {
-    SumAlong(kernels[1].weights.data(),
-             kernels[1].radius,
-             byZ + z * wide * deep,
-             byY + z * wide * side,
-             skip * wide,
-             wide * side);
-  }
-  for (std::size_t line = 0; line < side * side; ++line)
-  {
-    SumAlong(kernels[0].weights.data(), kernels[0].radius, byY + line * wide, to + line * side, skip, side);
-  }
-}
-
 float
 BandField::StepWeight(double sigma)
 {
@@ -141,81 +139,194 @@ BandField::StepWeight(double sigma)
   return static_cast<float>(once / (twice - once));
 }
 
+// The sums of a kernel along one axis, in place unless they come from elsewhere. Rows of bricks are gone along, what a brick held
+// before is kept for the next one.
+void
+BandField::Sweep(std::size_t                       axis,
+                 const Kernel &                    kernel,
+                 std::int32_t                      step,
+                 const std::vector<float> *        from,
+                 std::vector<float> &              values,
+                 const std::vector<std::uint8_t> & needed) const
+{
+  constexpr std::array<std::size_t, 3> neighbour{ 1, 3, 9 };
+  const auto                           radius = static_cast<std::size_t>(kernel.radius);
+  const auto                           apart = static_cast<std::size_t>(step);
+  const std::vector<std::uint32_t> &   starts = m_RowStarts[axis];
+  const auto                           count = static_cast<std::ptrdiff_t>(starts.size());
+#pragma omp parallel for schedule(dynamic, 16) if (m_Grid.Count() > static_cast <std::size_t>(BrickGrid::kMany))
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    std::array<std::array<float, kVoxels>, 2> former;
+    std::size_t                               turn = 0;
+    auto                                      brick = static_cast<std::int32_t>(starts[static_cast<std::size_t>(i)]);
+    const float *                             before =
+      Block(values, m_Grid.Neighbours(static_cast<std::size_t>(brick))[BrickGrid::kSelf - neighbour[axis]]);
+    while (brick >= 0)
+    {
+      const std::int32_t next = m_Grid.Neighbours(static_cast<std::size_t>(brick))[BrickGrid::kSelf + neighbour[axis]];
+      float * const      here = values.data() + static_cast<std::size_t>(brick) * kVoxels;
+      const std::vector<float> & source = from != nullptr ? *from : values;
+      const float *              middle = Block(source, brick);
+      const bool                 changes = needed[static_cast<std::size_t>(brick)] != 0;
+      if (from == nullptr && changes)
+      {
+        std::copy_n(here, kVoxels, former[turn].data());
+        middle = former[turn].data();
+        turn = 1 - turn;
+      }
+      if (changes)
+      {
+        const std::array<const float *, 3> blocks{ before, middle, Block(source, next) };
+        if (axis == 0)
+        {
+          SumRows(blocks, here, kernel.weights.data(), radius, apart);
+        }
+        else
+        {
+          const std::array<std::size_t, 2> strides{ kSide, kSide * kSide };
+          SumLayers(blocks, here, strides[axis - 1], strides[2 - axis], kernel.weights.data(), radius, apart);
+        }
+      }
+      before = middle;
+      brick = next;
+    }
+  }
+}
+
 void
 BandField::Smooth(float weight)
 {
-  Smooth(weight, m_Gauss, m_Gauss, 1, nullptr);
+  Smooth(weight, m_Gauss, m_Gauss, 1, true, nullptr);
 }
 
 void
 BandField::SmoothToCoefficients(float weight)
 {
-  Smooth(weight, m_GaussToSpline, m_Gauss, 1, nullptr);
+  Smooth(weight, m_GaussToSpline, m_Gauss, 1, false, nullptr);
+  std::vector<float>().swap(m_Once);
+  std::vector<float>().swap(m_Twice);
 }
 
 void
-BandField::SmoothPart(float weight, bool wide, const Parts & parts)
+BandField::Smooth(float weight, const SmoothingZones & zones)
 {
-  const Kernels & kernels = wide ? m_GaussWide : m_Gauss;
-  Smooth(weight, kernels, kernels, wide ? 2 : 1, &parts);
+  Smooth(weight, m_Gauss, m_Gauss, 1, true, &zones);
 }
 
 void
-BandField::Smooth(float weight, const Kernels & first, const Kernels & second, std::int32_t step, const Parts * parts)
+BandField::SmoothWider(float weight, const SmoothingZones & zones)
 {
-  const auto                count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-  std::vector<std::uint8_t> changes(m_Bricks.size(), 1);
-  for (std::size_t brick = 0; parts != nullptr && brick < m_Bricks.size(); ++brick)
+  Smooth(weight, m_GaussWider, m_GaussWider, 1, true, &zones);
+}
+
+void
+BandField::SmoothWidest(float weight, const SmoothingZones & zones)
+{
+  Smooth(weight, m_GaussWidest, m_GaussWidest, 2, true, &zones);
+}
+
+void
+BandField::Smooth(float                  weight,
+                  const Kernels &        first,
+                  const Kernels &        second,
+                  std::int32_t           step,
+                  bool                   bound,
+                  const SmoothingZones * zones)
+{
+  const auto count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+  // The bricks that change, and those around them that sums are taken from.
+  std::array<std::vector<std::uint8_t>, 3> needed;
+  needed[0].assign(m_Grid.Count(), 1);
+  if (zones != nullptr)
   {
-    const auto begin = parts->begin() + static_cast<std::ptrdiff_t>(brick * kVoxels);
-    changes[brick] = std::any_of(begin, begin + kVoxels, [](std::uint8_t part) { return part != 0; }) ? 1 : 0;
+    std::transform(needed[0].begin(), needed[0].end(), needed[0].begin(), [&](const std::uint8_t & flag) {
+      return zones->AnyIn(m_Grid.At(static_cast<std::size_t>(&flag - needed[0].data()))) ? 1 : 0;
+    });
   }
-  std::vector<float> once(m_Values.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
+  for (std::size_t ring = 1; ring < 3; ++ring)
   {
-    const auto   brick = static_cast<std::size_t>(i);
-    const auto & around = m_Neighbours[brick];
-    if (std::any_of(around.begin(), around.end(), [&](std::int32_t other) {
-          return other >= 0 && changes[static_cast<std::size_t>(other)] != 0;
-        }))
+    needed[ring] = needed[ring - 1];
+    for (std::size_t brick = 0; zones != nullptr && brick < needed[ring].size(); ++brick)
     {
-      Convolve(first, step, m_Values, brick, once.data() + brick * kVoxels);
+      const auto & around = m_Grid.Neighbours(brick);
+      needed[ring][brick] = std::any_of(around.begin(), around.end(), [&](std::int32_t other) {
+        return other >= 0 && needed[ring - 1][static_cast<std::size_t>(other)] != 0;
+      });
     }
   }
-#pragma omp parallel for schedule(dynamic, 16) if (count > kManyBricks)
+  std::vector<float> & once = m_Once;
+  std::vector<float> & twice = m_Twice;
+  once.resize(m_Values.size());
+  twice.resize(m_Values.size());
+  Sweep(2, first[2], step, &m_Values, once, needed[2]);
+  Sweep(1, first[1], step, nullptr, once, needed[2]);
+  Sweep(0, first[0], step, nullptr, once, needed[2]);
+  Sweep(2, second[2], step, &once, twice, needed[1]);
+  Sweep(1, second[1], step, nullptr, twice, needed[1]);
+  Sweep(0, second[0], step, nullptr, twice, needed[1]);
+#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto brick = static_cast<std::size_t>(i);
-    if (changes[brick] == 0)
+    if (needed[0][brick] == 0)
     {
       continue;
     }
-    float twice[kVoxels];
-    Convolve(second, step, once, brick, twice);
-    for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
+    std::array<float, kVoxels> parts;
+    if (zones != nullptr)
     {
-      const std::size_t at = brick * kVoxels + voxel;
-      const float       smoothed = (1 + weight) * once[at] - weight * twice[voxel];
-      m_Values[at] =
-        parts == nullptr ? smoothed : m_Values[at] + static_cast<float>((*parts)[at]) / 255 * (smoothed - m_Values[at]);
+      zones->Fill(m_Grid.At(brick), parts);
     }
+    const std::size_t at = brick * kVoxels;
+    Combine(m_Values.data() + at,
+            once.data() + at,
+            twice.data() + at,
+            weight,
+            bound ? m_Labels[brick].data() : nullptr,
+            zones != nullptr ? parts.data() : nullptr);
   }
 }
 
-void
-BandField::ClearContradictions()
+BandField::Snapshot
+BandField::Save() const
 {
-  const auto count = static_cast<std::ptrdiff_t>(m_Bricks.size());
-#pragma omp parallel for schedule(static) if (count > kManyBricks)
+  const float unit = kSavedUnits / m_Far;
+  Snapshot    saved(m_Values.size());
+  std::transform(m_Values.begin(), m_Values.end(), saved.begin(), [&](float value) {
+    return static_cast<std::int16_t>(std::clamp(value * unit, -32767.0F, 32767.0F));
+  });
+  return saved;
+}
+
+void
+BandField::Restore(const Snapshot & former)
+{
+  const float unit = m_Far / kSavedUnits;
+  std::transform(former.begin(), former.end(), m_Values.begin(), [&](std::int16_t value) {
+    return unit * static_cast<float>(value);
+  });
+}
+
+void
+BandField::BlendWith(const Snapshot & former, const SmoothingZones & zones)
+{
+  const float unit = m_Far / kSavedUnits;
+  const auto  count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
-    const auto brick = static_cast<std::size_t>(i);
+    const auto                 brick = static_cast<std::size_t>(i);
+    std::array<float, kVoxels> parts;
+    zones.Fill(m_Grid.At(brick), parts);
     for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
     {
-      float &    value = m_Values[brick * kVoxels + voxel];
-      const bool in = ((m_Labels[brick][voxel >> 3] >> (voxel & 7)) & 1) != 0;
-      value = in ? std::max(value, 0.0F) : std::min(value, 0.0F);
+      if (parts[voxel] < 1)
+      {
+        float &     value = m_Values[brick * kVoxels + voxel];
+        const float before = unit * static_cast<float>(former[brick * kVoxels + voxel]);
+        value = before + parts[voxel] * (value - before);
+      }
     }
   }
 }

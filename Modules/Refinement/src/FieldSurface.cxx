@@ -12,20 +12,6 @@ namespace voxelcore
 SurfacePoint
 FieldSurface::Project(const Vector3 & place, double reach) const
 {
-  for (const BandField & field : m_Fields)
-  {
-    const SurfacePoint point = Project(field, place, reach);
-    if (point.found)
-    {
-      return point;
-    }
-  }
-  return {};
-}
-
-SurfacePoint
-FieldSurface::Project(const BandField & field, const Vector3 & place, double reach) const
-{
   constexpr int    steps = 6;
   constexpr double longest = 1.0; // voxels a step
   constexpr double close = 1e-4;  // voxels
@@ -35,7 +21,7 @@ FieldSurface::Project(const BandField & field, const Vector3 & place, double rea
   {
     double  value = 0;
     Vector3 slope{};
-    if (!field.Evaluate(at, value, slope) || Length(Over(slope, m_Sides)) < m_Flattest)
+    if (!m_Field.Evaluate(at, value, slope) || Length(Over(slope, m_Sides)) < m_Flattest)
     {
       return point;
     }

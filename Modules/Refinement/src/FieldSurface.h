@@ -5,19 +5,17 @@
 
 #include "voxelcore/SurfaceEstimate.h"
 
-#include <vector>
-
 namespace voxelcore
 {
 
-/** Where a field is 0; where it has no good answer the next one is asked. */
+/** Where a field is 0. */
 class FieldSurface : public SurfaceEstimate
 {
 public:
-  /** Fields of coefficients. `spacing` in mm, `sides` those of the fields. A slope (per unit of `sides`) less than `flattest`
+  /** A field of coefficients. `spacing` in mm, `sides` those of the field. A slope (per unit of `sides`) less than `flattest`
    *  tells nothing: where labels allow no surface, the field is flat. */
-  FieldSurface(std::vector<BandField> fields, const Vector3 & spacing, const Vector3 & sides, double flattest)
-    : m_Fields(std::move(fields))
+  FieldSurface(BandField field, const Vector3 & spacing, const Vector3 & sides, double flattest)
+    : m_Field(std::move(field))
     , m_Spacing(spacing)
     , m_Sides(sides)
     , m_Flattest(flattest)
@@ -26,14 +24,19 @@ public:
   SurfacePoint
   Project(const Vector3 & place, double reach) const override;
 
-private:
-  SurfacePoint
-  Project(const BandField & field, const Vector3 & place, double reach) const;
+  /** Another field after all: change(field). */
+  template <typename TChange>
+  void
+  Change(TChange change)
+  {
+    change(m_Field);
+  }
 
-  std::vector<BandField> m_Fields;
-  Vector3                m_Spacing;
-  Vector3                m_Sides;
-  double                 m_Flattest;
+private:
+  BandField m_Field;
+  Vector3   m_Spacing;
+  Vector3   m_Sides;
+  double    m_Flattest;
 };
 
 } // namespace voxelcore

@@ -1,6 +1,8 @@
 // The surface that grey values tell.
 
 #include "FieldSurface.h"
+
+#include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -62,15 +64,13 @@ SurfaceFromGrey(const VoxelShape &       shape,
 {
   constexpr Vector3 sides{ 1, 1, 1 };
   constexpr double  flattest = 0.08; // of the mean magnitude
-  BandField         field(shape, sides, 1.5, 7);
+  BandField         field(shape, BoundaryVertices(shape), sides, 1.5);
   field.FillGrey(scan, rows);
   const auto smoothed = [&](BandField one, double sigma) {
     one.SetWidth(sigma);
     one.SmoothToCoefficients(BandField::StepWeight(sigma));
-    const double           least = flattest * one.Far();
-    std::vector<BandField> fields;
-    fields.push_back(std::move(one));
-    return FieldSurface(std::move(fields), spacing, sides, least);
+    const double least = flattest * one.Far();
+    return FieldSurface(std::move(one), spacing, sides, least);
   };
   ReportProgress(progress, "surface", 0.3);
   FieldSurface narrow = smoothed(field, 1.0);

@@ -2,6 +2,7 @@
 
 #include "FieldSurface.h"
 #include "FlatProfile.h"
+#include "SmoothingZones.h"
 
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Vectors.h"
@@ -18,14 +19,14 @@ namespace
 // Distances end before the middle of all but thin parts, and on both sides of the surface alike: the bend of a ridge in the
 // middle of a part would be carried to its surface.
 constexpr double kClip = 5.5;
-// Terraces get longer as the root of the surface's radius, and passes to flatten them more as the fourth power of their
-// length: many where balls of such a radius (in sigmas) fit in beside the surface, wide ones where greater balls do and no edge
-// is near, few in the thinnest parts, which do not survive more.
+// Terraces get longer as the root of the surface's radius, and what flattens them grows as the fourth power of their length. So
+// there are wider passes where balls of such a radius (in sigmas) fit in beside the surface, the widest where greater balls do and no
+// edge is near, and few passes in the thinnest parts, which do not survive more.
 constexpr int    kOnePass = 1;
 constexpr int    kFewPasses = 3;
 constexpr int    kSomePasses = 20;
-constexpr int    kManyPasses = 60;
-constexpr int    kWidePasses = 16;
+constexpr int    kWiderPasses = 14;
+constexpr int    kWidestPasses = 24;
 constexpr double kThick = 8;
 constexpr double kThickest = 12;
 constexpr double kBend = 7.5;
@@ -47,138 +48,134 @@ SidesOf(const Vector3 & spacing)
   return sides;
 }
 
-bool
-Any(const BandField::Parts & parts)
-{
-  return std::any_of(parts.begin(), parts.end(), [](std::uint8_t part) { return part != 0; });
-}
-
 class LabelPasses
 {
 public:
   LabelPasses(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress)
-    : m_Shape(shape)
-    , m_Spacing(spacing)
+    : m_Spacing(spacing)
     , m_Progress(progress)
     , m_Sides(SidesOf(spacing))
     // Steps of thick slices need more smoothing than steps of thin ones.
     , m_Sigma(0.8 + 0.2 * std::max({ m_Sides[0], m_Sides[1], m_Sides[2] }))
-    , m_Reach(static_cast<std::int32_t>(std::ceil(kThickest * m_Sigma)))
-    , m_Field(shape, m_Sides, m_Sigma, m_Reach)
+    , m_Points(BoundaryVertices(shape))
+    , m_Depth(shape, m_Points, m_Sides, kThickest * m_Sigma)
+    , m_Field(shape, m_Points, m_Sides, m_Sigma)
     , m_Profile(kClip)
-  {}
+  {
+    m_Field.FillDistances(shape, kClip);
+  }
 
-  // The smoothest first.
-  std::vector<BandField>
+  FieldSurface
   Run() &&
   {
-    m_Field.FillDistances(m_Reach);
-    const BandField::Parts many = m_Field.FindThick(kThick * m_Sigma);
-    BandField::Parts       wide = m_Field.FindThick(kThickest * m_Sigma);
-    m_Field.Clip(kClip);
+    std::vector<BandField::Snapshot> former; // the least smooth first
     for (int pass = 1; pass <= kSomePasses; ++pass)
     {
       if (pass == kOnePass || pass == kFewPasses)
       {
-        Keep();
+        former.push_back(m_Field.Save());
       }
       m_Field.Smooth(m_Profile.Smooth(m_Sigma));
       End();
     }
-    if (Any(many))
+    if (const SmoothingZones thick(m_Depth, kThick * m_Sigma); thick.Any())
     {
-      const BandField former = m_Field;
-      SmoothThick(many, wide);
-      Keep();
-      const std::vector<LatticePoint> passed = PassedBy();
-      if (!passed.empty())
+      former.push_back(m_Field.Save());
+      SmoothThick(thick);
+    }
+    const float         weight = m_Profile.Weight(m_Sigma);
+    BandField::Snapshot last = m_Field.Save();
+    m_Field.SmoothToCoefficients(weight);
+    FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest);
+    // Where labels allow no surface so smooth, a less smooth one.
+    for (; !former.empty(); former.pop_back())
+    {
+      SmoothingZones zones(m_Depth);
+      if (!MarkPassedBy(surface, zones))
       {
-        constexpr double near = 5;
-        m_Field.TakeBackAround(passed, near, former);
-        m_Fields.erase(m_Fields.begin());
-        Keep();
+        break;
       }
+      constexpr double near = 5;
+      zones.LeaveOutAroundMarks(near);
+      surface.Change([&](BandField & field) {
+        field.Restore(last);
+        field.BlendWith(former.back(), zones);
+        last = field.Save();
+        field.SmoothToCoefficients(weight);
+      });
     }
-    else
-    {
-      Keep();
-    }
-    return std::move(m_Fields);
+    return surface;
   }
 
 private:
-  // As it is now, with what Evaluate() needs.
-  void
-  Keep()
-  {
-    m_Fields.insert(m_Fields.begin(), m_Field);
-    m_Fields.front().SmoothToCoefficients(m_Profile.Weight(m_Sigma));
-  }
-
   void
   End()
   {
-    constexpr double all = kSomePasses + kManyPasses + 2 * kWidePasses;
-    m_Field.ClearContradictions();
+    constexpr double all = kSomePasses + kWiderPasses + kWidestPasses + 1;
     ReportProgress(m_Progress, "surface", ++m_Passes / all);
   }
 
+  // What is near an edge sees it in a wider pass, and is left out of the widest.
   void
-  SmoothThick(const BandField::Parts & many, BandField::Parts & wide)
+  SmoothThick(const SmoothingZones & thick)
   {
-    for (int pass = 0; pass < kManyPasses; ++pass)
+    for (int pass = 0; pass < kWiderPasses; ++pass)
     {
-      m_Field.SmoothPart(m_Profile.Smooth(m_Sigma), false, many);
+      m_Field.SmoothWider(m_Profile.Smooth(std::sqrt(2.0) * m_Sigma), thick);
       End();
     }
-    if (!Any(wide))
+    SmoothingZones thickest(m_Depth, kThickest * m_Sigma);
+    if (thickest.Any())
     {
-      return;
+      constexpr double onSurface = 1;
+      m_Field.MarkBends(onSurface, kBend, thickest);
+      thickest.LeaveOutAroundMarks(kNearBend);
+      for (int pass = 0; pass < kWidestPasses; ++pass)
+      {
+        m_Field.SmoothWidest(m_Profile.Smooth(2 * m_Sigma), thickest);
+        End();
+      }
     }
-    m_Field.LeaveOutBends(wide, kBend, kNearBend);
-    for (int pass = 0; pass < kWidePasses; ++pass)
-    {
-      m_Field.SmoothPart(m_Profile.Smooth(2 * m_Sigma), true, wide);
-      End();
-      m_Field.SmoothPart(m_Profile.Smooth(m_Sigma), false, wide);
-      End();
-    }
+    m_Field.Smooth(m_Profile.Smooth(m_Sigma), thick);
+    End();
   }
 
-  // Boundary vertices that are far off the smooth surface: labels allow none so smooth there.
-  std::vector<LatticePoint>
-  PassedBy() const
+  // Boundary vertices that are far off the surface.
+  bool
+  MarkPassedBy(const SurfaceEstimate & surface, SmoothingZones & zones) const
   {
-    constexpr double                ofDiagonal = 0.8;
-    const FieldSurface              smooth({ m_Fields.front() }, m_Spacing, m_Sides, kFlattest);
-    const std::vector<LatticePoint> points = BoundaryVertices(m_Shape);
-    std::vector<std::uint8_t>       passed(points.size(), 0);
-    const auto                      count = static_cast<std::ptrdiff_t>(points.size());
+    constexpr double          ofDiagonal = 0.8;
+    std::vector<std::uint8_t> passed(m_Points.size(), 0);
+    const auto                count = static_cast<std::ptrdiff_t>(m_Points.size());
 #pragma omp parallel for schedule(dynamic, 256) if (count > 4096)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
-      const LatticePoint & p = points[static_cast<std::size_t>(i)];
+      const LatticePoint & p = m_Points[static_cast<std::size_t>(i)];
       const Vector3        place =
         Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, m_Spacing);
-      passed[static_cast<std::size_t>(i)] = smooth.Project(place, ofDiagonal * Length(m_Spacing)).found ? 0 : 1;
+      passed[static_cast<std::size_t>(i)] = surface.Project(place, ofDiagonal * Length(m_Spacing)).found ? 0 : 1;
     }
-    std::vector<LatticePoint> some;
-    std::copy_if(points.begin(), points.end(), std::back_inserter(some), [&](const LatticePoint & p) {
-      return passed[static_cast<std::size_t>(&p - points.data())] != 0;
-    });
-    return some;
+    bool any = false;
+    for (std::size_t i = 0; i < passed.size(); ++i)
+    {
+      if (passed[i] != 0)
+      {
+        any = true;
+        zones.Mark(m_Points[i].x, m_Points[i].y, m_Points[i].z);
+      }
+    }
+    return any;
   }
 
-  const VoxelShape &       m_Shape;
-  const Vector3 &          m_Spacing;
-  const ProgressCallback & m_Progress;
-  Vector3                  m_Sides;
-  double                   m_Sigma;
-  std::int32_t             m_Reach;
-  BandField                m_Field;
-  FlatProfile              m_Profile;
-  std::vector<BandField>   m_Fields;
-  int                      m_Passes = 0;
+  const Vector3 &           m_Spacing;
+  const ProgressCallback &  m_Progress;
+  Vector3                   m_Sides;
+  double                    m_Sigma;
+  std::vector<LatticePoint> m_Points;
+  BoundaryDepth             m_Depth;
+  BandField                 m_Field;
+  FlatProfile               m_Profile;
+  int                       m_Passes = 0;
 };
 
 } // namespace
@@ -186,10 +183,7 @@ private:
 std::unique_ptr<SurfaceEstimate>
 SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress)
 {
-  return std::make_unique<FieldSurface>(LabelPasses(shape, spacing, progress).Run(),
-                                        spacing,
-                                        SidesOf(spacing),
-                                        kFlattest);
+  return std::make_unique<FieldSurface>(LabelPasses(shape, spacing, progress).Run());
 }
 
 } // namespace voxelcore

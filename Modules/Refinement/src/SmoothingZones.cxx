@@ -1,0 +1,297 @@
+#include "SmoothingZones.h"
+
+#include "DistanceTile.h"
+
+#include "voxelcore/EightLanes.h"
+#include "voxelcore/Vectors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr std::int32_t kSide = BrickGrid::kSide;
+constexpr std::size_t  kCells = BrickGrid::kCells;
+constexpr std::int32_t kDeepest = 16; ///< voxels
+constexpr std::int32_t kMargin = 12;  ///< cells
+using LabelRows = tile::Rows<2 * kSide, kDeepest>;
+using FlagRows = tile::Rows<kSide, kMargin>;
+
+VOXELCORE_EIGHT_LANES void
+FindDistances(const LabelRows & rows, const std::array<float, 3> & squares, tile::Squared<2 * kSide> & least)
+{
+  tile::FindSquaredDistances(rows, squares, least);
+}
+
+VOXELCORE_EIGHT_LANES void
+FindDistances(const FlagRows & rows, const std::array<float, 3> & squares, tile::Squared<kSide> & least)
+{
+  tile::FindSquaredDistances(rows, squares, least);
+}
+
+std::array<float, 3>
+AsFloats(const Vector3 & v)
+{
+  return { static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]) };
+}
+
+// 1 up to `from`, 0 from `to` on.
+double
+Ramp(double value, double from, double to)
+{
+  return std::clamp((to - value) / (to - from), 0.0, 1.0);
+}
+
+// Flags of the cells around a brick; `farInside` and `farOutside` where there is no brick. False when none is set.
+bool
+GatherFlags(const BrickGrid &                     grid,
+            const std::vector<BrickGrid::Flags> & flags,
+            bool                                  farInside,
+            bool                                  farOutside,
+            std::size_t                           brick,
+            FlagRows &                            rows)
+{
+  constexpr std::int32_t beyond = (kMargin + kSide - 1) / kSide;
+  constexpr std::int32_t bricks = 2 * beyond + 1;
+  constexpr std::int32_t skipped = beyond * kSide - kMargin; // cells of the outermost bricks
+  std::uint64_t          any = 0;
+  rows.bits.fill(0);
+  for (std::int32_t n = 0; n < bricks * bricks * bricks; ++n)
+  {
+    const std::array<std::int32_t, 3> place{ n % bricks, n / bricks % bricks, n / bricks / bricks };
+    // By way of a neighbour: beyond one that has no brick, what can be nearer than it is of its kind.
+    auto found = static_cast<std::int32_t>(brick);
+    for (BrickGrid::Brick left{ place[0] - beyond, place[1] - beyond, place[2] - beyond };
+         found >= 0 && left != BrickGrid::Brick{ 0, 0, 0 };)
+    {
+      std::size_t neighbour = BrickGrid::kSelf;
+      for (std::size_t axis = 0, stride = 1; axis < 3; ++axis, stride *= 3)
+      {
+        neighbour += left[axis] > 0 ? stride : left[axis] < 0 ? -stride : 0;
+        left[axis] -= std::clamp(left[axis], -1, 1);
+      }
+      found = grid.Neighbours(static_cast<std::size_t>(found))[neighbour];
+    }
+    const std::uint64_t all = (found == BrickGrid::kInside ? farInside : farOutside) ? 0xFF : 0;
+    for (std::int32_t row = 0; row < 64; ++row)
+    {
+      const std::int32_t y = place[1] * kSide + (row & 7) - skipped;
+      const std::int32_t z = place[2] * kSide + (row >> 3) - skipped;
+      if (y < 0 || y >= FlagRows::kSide || z < 0 || z >= FlagRows::kSide)
+      {
+        continue;
+      }
+      const std::uint64_t bits =
+        found < 0 ? all : flags[static_cast<std::size_t>(found)][static_cast<std::size_t>(row)];
+      const std::int32_t x = place[0] * kSide - skipped;
+      any |= bits;
+      rows.bits[static_cast<std::size_t>(z * FlagRows::kSide + y)] |= x < 0 ? bits >> -x : bits << x;
+    }
+  }
+  return any != 0;
+}
+
+} // namespace
+
+BoundaryDepth::BoundaryDepth(const VoxelShape &            shape,
+                             std::span<const LatticePoint> points,
+                             const Vector3 &               sides,
+                             double                        reach)
+  : m_Grid(shape, points, 1, static_cast<std::int32_t>(std::ceil(reach)))
+  , m_Squares(Along({ 0, 0, 0 }, 4, Times(sides, sides)))
+  , m_Depths(m_Grid.Count() * kCells)
+{
+  const auto  squares = AsFloats(Times(sides, sides));
+  const float half = 0.5F * static_cast<float>(std::min({ sides[0], sides[1], sides[2] }));
+  const auto  count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto   brick = static_cast<std::size_t>(i);
+    const auto & at = m_Grid.At(brick);
+    LabelRows    in;
+    LabelRows    out;
+    for (std::int32_t z = 0; z < LabelRows::kSide; ++z)
+    {
+      for (std::int32_t y = 0; y < LabelRows::kSide; ++y)
+      {
+        const std::uint64_t     bits = BitsOfRow(shape,
+                                             2 * kSide * at[0] - kDeepest,
+                                             2 * kSide * at[1] - kDeepest + y,
+                                             2 * kSide * at[2] - kDeepest + z);
+        const auto              row = static_cast<std::size_t>(z * LabelRows::kSide + y);
+        constexpr std::uint64_t all = (std::uint64_t{ 1 } << LabelRows::kSide) - 1;
+        in.bits[row] = bits & all;
+        out.bits[row] = ~bits & all;
+      }
+    }
+    tile::Squared<2 * kSide> toIn;
+    tile::Squared<2 * kSide> toOut;
+    FindDistances(in, squares, toIn);
+    FindDistances(out, squares, toOut);
+    for (std::size_t cell = 0; cell < kCells; ++cell)
+    {
+      Depth & depth = m_Depths[brick * kCells + cell];
+      for (std::size_t corner = 0; corner < 8; ++corner)
+      {
+        const std::size_t x = 2 * (cell & 7) + (corner & 1);
+        const std::size_t y = 2 * (cell >> 3 & 7) + (corner >> 1 & 1);
+        const std::size_t voxel = x + 16 * (y + 16 * (2 * (cell >> 6) + (corner >> 2)));
+        const bool        inside = toIn[voxel] == 0;
+        const float       distance = std::sqrt(inside ? toOut[voxel] : toIn[voxel]) - half;
+        depth.mean += (inside ? distance : -distance) / 8;
+        float & deepest = inside ? depth.inside : depth.outside;
+        deepest = std::max(deepest, distance);
+      }
+    }
+  }
+}
+
+// A ball that touches the boundary nearest to a voxel has its centre farther from it by the voxel's own distance, or nearer
+// by it on its own side.
+SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius)
+  : m_Depth(&depth)
+  , m_Parts(depth.Depths().size(), 0)
+{
+  constexpr double              steps = 0.5; // what distances to centres are off by
+  constexpr double              inCell = 1;  // how much nearer a cell may seem than the voxel in it
+  constexpr double              other = 3;   // what is farther from the boundary is asked on its own side alone
+  const auto &                  depths = depth.Depths();
+  const BrickGrid &             grid = depth.Grid();
+  std::vector<BrickGrid::Flags> in(grid.Count(), BrickGrid::Flags{});
+  std::vector<BrickGrid::Flags> out(grid.Count(), BrickGrid::Flags{});
+  bool                          any = false;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+  {
+    const auto bit = static_cast<std::uint8_t>(1U << (i & 7));
+    if (depths[i].inside >= static_cast<float>(radius - steps))
+    {
+      in[i / kCells][(i % kCells) >> 3] |= bit;
+      any = true;
+    }
+    if (depths[i].outside >= static_cast<float>(radius - steps))
+    {
+      out[i / kCells][(i % kCells) >> 3] |= bit;
+    }
+  }
+  if (!any)
+  {
+    return;
+  }
+  const auto squares = AsFloats(depth.Squares());
+  const auto count = static_cast<std::ptrdiff_t>(grid.Count());
+#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto           brick = static_cast<std::size_t>(i);
+    FlagRows             rows;
+    tile::Squared<kSide> toIn;
+    tile::Squared<kSide> toOut;
+    if (!GatherFlags(grid, in, true, false, brick, rows))
+    {
+      continue; // outside something else is always far enough
+    }
+    FindDistances(rows, squares, toIn);
+    GatherFlags(grid, out, false, true, brick, rows);
+    FindDistances(rows, squares, toOut);
+    for (std::size_t cell = 0; cell < kCells; ++cell)
+    {
+      const double distance = depths[brick * kCells + cell].mean;
+      double       gap = 0;
+      if (distance > -other)
+      {
+        gap = std::max(gap, std::sqrt(static_cast<double>(toIn[cell])) + inCell - (radius - distance));
+      }
+      if (distance < other)
+      {
+        gap = std::max(gap, std::sqrt(static_cast<double>(toOut[cell])) + inCell - (radius + distance));
+      }
+      m_Parts[brick * kCells + cell] = static_cast<std::uint8_t>(std::lround(255 * Ramp(gap, 1, 2)));
+    }
+  }
+}
+
+bool
+SmoothingZones::Any() const
+{
+  return std::any_of(m_Parts.begin(), m_Parts.end(), [](std::uint8_t part) { return part != 0; });
+}
+
+void
+SmoothingZones::Mark(std::int32_t x, std::int32_t y, std::int32_t z)
+{
+  const BrickGrid & grid = m_Depth->Grid();
+  m_Marks.resize(grid.Count(), BrickGrid::Flags{});
+  const std::int32_t brick = grid.Find({ x >> 4, y >> 4, z >> 4 });
+  m_Marks[static_cast<std::size_t>(brick)][static_cast<std::size_t>((y >> 1 & 7) + 8 * (z >> 1 & 7))] |=
+    static_cast<std::uint8_t>(1U << (x >> 1 & 7));
+}
+
+void
+SmoothingZones::LeaveOutAroundMarks(double near)
+{
+  if (m_Marks.empty())
+  {
+    return;
+  }
+  const BrickGrid & grid = m_Depth->Grid();
+  const auto        squares = AsFloats(m_Depth->Squares());
+  const auto        count = static_cast<std::ptrdiff_t>(grid.Count());
+#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto           brick = static_cast<std::size_t>(i);
+    FlagRows             rows;
+    tile::Squared<kSide> toMark;
+    if (!GatherFlags(grid, m_Marks, false, false, brick, rows))
+    {
+      continue;
+    }
+    FindDistances(rows, squares, toMark);
+    for (std::size_t cell = 0; cell < kCells; ++cell)
+    {
+      std::uint8_t & part = m_Parts[brick * kCells + cell];
+      part = static_cast<std::uint8_t>(
+        std::lround(part * (1 - Ramp(std::sqrt(static_cast<double>(toMark[cell])), near, near + 2))));
+    }
+  }
+  m_Marks.clear();
+}
+
+const std::uint8_t *
+SmoothingZones::PartsOf(const BrickGrid::Brick & brick) const
+{
+  const auto found = static_cast<std::size_t>(m_Depth->Grid().Find({ brick[0] >> 1, brick[1] >> 1, brick[2] >> 1 }));
+  const auto first = ((brick[2] & 1) * kSide + (brick[1] & 1)) * kSide + (brick[0] & 1);
+  return m_Parts.data() + found * kCells + static_cast<std::size_t>(kSide / 2 * first);
+}
+
+void
+SmoothingZones::Fill(const BrickGrid::Brick & brick, std::array<float, BrickGrid::kCells> & parts) const
+{
+  const std::uint8_t * const own = PartsOf(brick);
+  for (std::size_t voxel = 0; voxel < kCells; ++voxel)
+  {
+    const std::size_t cell = (voxel >> 1 & 3) + kSide * (voxel >> 4 & 3) + kSide * kSide * (voxel >> 7);
+    parts[voxel] = static_cast<float>(own[cell]) / 255;
+  }
+}
+
+bool
+SmoothingZones::AnyIn(const BrickGrid::Brick & brick) const
+{
+  const std::uint8_t * const own = PartsOf(brick);
+  std::uint8_t               any = 0;
+  for (std::size_t row = 0; row < 16; ++row)
+  {
+    const std::uint8_t * const four = own + kSide * (row & 3) + kSide * kSide * (row >> 2);
+    any |= four[0] | four[1] | four[2] | four[3];
+  }
+  return any != 0;
+}
+
+} // namespace voxelcore

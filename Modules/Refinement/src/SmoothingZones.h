@@ -1,0 +1,90 @@
+#pragma once
+// How strongly each place near a boundary may be smoothed.
+
+#include "BrickGrid.h"
+
+#include "voxelcore/ImageGeometry.h"
+
+namespace voxelcore
+{
+
+/** How far cubes of 2^3 voxels are from a boundary, farther off than a band field reaches. */
+class BoundaryDepth
+{
+public:
+  /** `sides` as for BandField, at most 2; what is within `reach` units of the boundary has a depth. */
+  BoundaryDepth(const VoxelShape & shape, std::span<const LatticePoint> points, const Vector3 & sides, double reach);
+
+  const BrickGrid &
+  Grid() const
+  {
+    return m_Grid;
+  }
+  const Vector3 &
+  Squares() const
+  {
+    return m_Squares;
+  }
+  /** Of the distances of the voxels of a cell. */
+  struct Depth
+  {
+    float mean = 0;    ///< positive inside
+    float inside = 0;  ///< the greatest of voxels that are in, 0 when there are none
+    float outside = 0; ///< the same of the others
+  };
+  const std::vector<Depth> &
+  Depths() const
+  {
+    return m_Depths;
+  }
+
+private:
+  BrickGrid          m_Grid;
+  Vector3            m_Squares; ///< of the sides of a cell
+  std::vector<Depth> m_Depths;
+};
+
+/** How much of a pass each voxel takes, 255 for all of it: the same for the eight of a cube of 2^3. */
+class SmoothingZones
+{
+public:
+  /** All of it everywhere. */
+  explicit SmoothingZones(const BoundaryDepth & depth)
+    : m_Depth(&depth)
+    , m_Parts(depth.Grid().Count() * BrickGrid::kCells, 255)
+  {}
+
+  /** All where balls of `radius` touch the boundary from inside and from outside, none where one is kept two units or more away
+   *  from it, by another wall, an edge or a crease. */
+  SmoothingZones(const BoundaryDepth & depth, double radius);
+
+  bool
+  Any() const;
+
+  /** Flags for LeaveOutAroundMarks(). Voxels must have a depth. */
+  void
+  Mark(std::int32_t x, std::int32_t y, std::int32_t z);
+
+  /** Takes away what lies within `near` units of a mark, and by degrees to 2 units farther. Marks are gone then. */
+  void
+  LeaveOutAroundMarks(double near);
+
+  /** The parts, 0 to 1, of a brick of 8^3 voxels, which must have depths. */
+  void
+  Fill(const BrickGrid::Brick & brick, std::array<float, BrickGrid::kCells> & parts) const;
+
+  /** Whether some voxel of such a brick takes a part. */
+  bool
+  AnyIn(const BrickGrid::Brick & brick) const;
+
+private:
+  /** Of the first voxel; rows of cells are those of a brick of 8^3 cells. */
+  const std::uint8_t *
+  PartsOf(const BrickGrid::Brick & brick) const;
+
+  const BoundaryDepth *         m_Depth;
+  std::vector<std::uint8_t>     m_Parts;
+  std::vector<BrickGrid::Flags> m_Marks;
+};
+
+} // namespace voxelcore
