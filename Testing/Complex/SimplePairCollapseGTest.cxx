@@ -315,8 +315,8 @@ TEST(SimplePairCollapse, LargeComplexesCollapseInOrderByAnyNumberOfThreads)
   EXPECT_GT(removed - faces, 3000U);
 }
 
-// With few measures, what has gone lets smaller pairs go, and these smaller ones still: seed 283 is the first in which an
-// order by the first of these and the last alone comes to something else.
+// With few measures, what has gone lets smaller pairs go, and these smaller ones still: seed 283 is the first in which
+// an order by the first of these and the last alone comes to something else.
 TEST(SimplePairCollapse, PairsWithinPairsCollapseInOrder)
 {
   for (std::uint32_t seed = 1; seed <= 1500; ++seed)

@@ -1,0 +1,155 @@
+#include "voxelcore/RefinedVerification.h"
+
+#include "Verification/VerificationFixtures.h"
+
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/Refinement.h"
+#include "voxelcore/SurfaceEstimate.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+/** A refined core with its shape. */
+struct RefinedCase
+{
+  VoxelShape            shape;
+  SpacingWeights        weights;
+  std::array<double, 3> spacing;
+  RefinedCore           refined;
+};
+
+/** An ellipsoid with a rod, pruned a little and refined. */
+const RefinedCase &
+GoodRefined()
+{
+  static const RefinedCase made = [] {
+    RefinedCase one{ EllipsoidWithRod(), {}, { 0.5, 0.5, 1 }, {} };
+    one.weights = ComputeSpacingWeights(one.spacing);
+    const auto          points = BoundaryVertices(one.shape);
+    DelaunayCells       cells = ComputeDelaunayCells(one.shape, points, one.weights, Engine::Auto);
+    const EdgePoints    edgePoints = NearestToEdges(cells);
+    const MedialComplex core = BuildVoxelCore(one.shape, points, std::move(cells), one.weights);
+    const auto          surface = SurfaceFromLabels(one.shape, one.spacing);
+    one.refined =
+      std::move(RefineCore({ &one.shape, &points, &core, &edgePoints, surface.get(), one.spacing }, { 0.75 })[0]);
+    return one;
+  }();
+  return made;
+}
+
+std::vector<std::string>
+FailuresOf(const RefinedCase & subject)
+{
+  RefinedVerificationInput input;
+  input.shape = &subject.shape;
+  input.weights = subject.weights;
+  input.spacing = subject.spacing;
+  const MedialComplex & core = subject.refined.core;
+  input.cells = &core.cells;
+  input.positions = core.positions;
+  input.displacement = subject.refined.displacement;
+  input.radius = core.radius;
+  input.vertexLambda = core.vertexLambda;
+  input.edgeLambda = core.edgeLambda;
+  input.faceLambda = core.faceLambda;
+  const VerificationReport report = VerifyRefinedCore(input);
+  EXPECT_EQ(report.passed, FailedChecks(report).empty());
+  return FailedChecks(report);
+}
+
+/** A vertex that was moved, on a face. */
+std::size_t
+MovedVertex(const RefinedCore & refined)
+{
+  for (const ElementIndex vertex : refined.core.cells.faceVertices)
+  {
+    const Vector3 & moved = refined.displacement[vertex];
+    if (moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2] > 0.01)
+    {
+      return vertex;
+    }
+  }
+  ADD_FAILURE() << "no vertex was moved";
+  return 0;
+}
+
+TEST(RefinedVerification, ARefinedCorePasses)
+{
+  EXPECT_EQ(FailuresOf(GoodRefined()), std::vector<std::string>{});
+  EXPECT_GT(GoodRefined().refined.core.cells.FaceCount(), 20U);
+}
+
+TEST(RefinedVerification, EachDamageIsSeenByTheCheckOfItsName)
+{
+  struct Damage
+  {
+    const char *                                       check;
+    std::function<void(RefinedCore &, std::size_t at)> apply;
+  };
+  const Damage damages[] = {
+    { "arrays", [](RefinedCore & r, std::size_t) { r.displacement.pop_back(); } },
+    { "numbers",
+      [](RefinedCore & r, std::size_t at) { r.core.radius[at] = std::numeric_limits<double>::quiet_NaN(); } },
+    { "vertices inside",
+      [](RefinedCore & r, std::size_t at) {
+        r.core.positions[at][0] += 1000;
+        r.displacement[at][0] += 1000;
+      } },
+    { "displacement",
+      [](RefinedCore & r, std::size_t at) {
+        r.core.positions[at][1] += 2;
+        r.displacement[at][1] += 2;
+      } },
+    { "origins equidistant", [](RefinedCore & r, std::size_t at) { r.core.positions[at][2] += 0.001; } },
+    { "radius", [](RefinedCore & r, std::size_t at) { r.core.radius[at] += 1.5; } },
+    { "radius", [](RefinedCore & r, std::size_t at) { r.core.radius[at] = 0; } },
+    { "measures", [](RefinedCore & r, std::size_t at) { r.core.vertexLambda[at] *= 100; } },
+    { "measures", [](RefinedCore & r, std::size_t) { r.core.faceLambda[0] *= 1.5; } },
+    { "topology",
+      [](RefinedCore & r, std::size_t) {
+        CellComplex &cells = r.core.cells;
+        cells.faceOffsets.pop_back();
+        cells.faceVertices.resize(cells.faceOffsets.back());
+        cells.faceEdges.resize(cells.faceOffsets.back());
+        r.core.faceLambda.pop_back();
+      } },
+  };
+  for (const Damage & damage : damages)
+  {
+    RefinedCase damaged = GoodRefined();
+    damage.apply(damaged.refined, MovedVertex(damaged.refined));
+    const auto failures = FailuresOf(damaged);
+    EXPECT_TRUE(std::find(failures.begin(), failures.end(), damage.check) != failures.end()) << damage.check;
+  }
+}
+
+TEST(RefinedVerification, TheCoreOfAnotherShapeFails)
+{
+  RefinedCase other = GoodRefined();
+  const auto  box = other.shape.Box();
+  other.shape.Insert(box.lower[0], box.lower[1], box.lower[2]);
+  const auto failures = FailuresOf(other);
+  EXPECT_TRUE(std::find(failures.begin(), failures.end(), "topology") != failures.end());
+}
+
+TEST(RefinedVerification, StopsWhenAsked)
+{
+  const RefinedCase &      good = GoodRefined();
+  RefinedVerificationInput input;
+  input.shape = &good.shape;
+  input.weights = good.weights;
+  input.cells = &good.refined.core.cells;
+  EXPECT_THROW(VerifyRefinedCore(input, [](std::string_view, double) { return false; }), Cancelled);
+}
+
+} // namespace
+} // namespace voxelcore::testing
