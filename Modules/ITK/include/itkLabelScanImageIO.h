@@ -27,6 +27,9 @@ namespace itk
  * labels, where no two overlap. ImageFileReader casts them to the pixel type of its image: LabelScanReader refuses what
  * that type cannot hold.
  *
+ * The segments of a .seg.nrrd are in the MetaDataDictionary as Segment0_Name, Segment0_LabelValue (the value of its
+ * pixels) and Segment0_Color, and so on.
+ *
  * It streams: a region read takes as much memory as the region, and a few MB. Regions in the order of the file read it
  * once, also where it is compressed.
  *
@@ -111,6 +114,9 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  void
+  DescribeSegments();
+
   voxelcore::ReadOptions               m_Options;
   std::vector<std::string>             m_Notes;
   std::vector<std::string>             m_Warnings;

@@ -77,6 +77,7 @@ LabelScanReader<TOutputImage>::GenerateOutputInformation()
   image->SetSpacing(spacing);
   image->SetOrigin(origin);
   image->SetDirection(direction);
+  image->SetMetaDataDictionary(m_ImageIO->GetMetaDataDictionary());
 }
 
 template <typename TOutputImage>

@@ -1,8 +1,11 @@
 #include "itkLabelScanImageIO.h"
 
 #include "itkErrors.h"
+#include "itkMetaDataObject.h"
 #include "itkObjectFactoryBase.h"
 #include "itkVersion.h"
+
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <array>
@@ -146,8 +149,30 @@ LabelScanImageIO::ReadImageInformation()
   this->SetPixelType(IOPixelEnum::SCALAR);
   this->SetNumberOfComponents(1);
   this->SetComponentType(ComponentOf(m_Rows->Type()));
+  this->DescribeSegments();
   m_Notes = m_Rows->Notes();
   m_Warnings = m_Rows->Warnings();
+}
+
+void
+LabelScanImageIO::DescribeSegments()
+{
+  MetaDataDictionary dictionary;
+  std::size_t        number = 0;
+  for (const voxelcore::Segment & segment : m_Rows->Segments())
+  {
+    const std::string key = voxelcore::Text("Segment", number++, "_");
+    EncapsulateMetaData<std::string>(dictionary, key + "Name", segment.name);
+    EncapsulateMetaData<std::string>(dictionary, key + "LabelValue", voxelcore::Text(segment.value));
+    if (segment.color)
+    {
+      const voxelcore::Color & color = *segment.color;
+      EncapsulateMetaData<std::string>(dictionary,
+                                       key + "Color",
+                                       voxelcore::Text(color[0], " ", color[1], " ", color[2]));
+    }
+  }
+  this->SetMetaDataDictionary(dictionary);
 }
 
 void

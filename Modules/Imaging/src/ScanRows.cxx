@@ -191,6 +191,21 @@ ScanRows::Type() const
   return m_State->Type();
 }
 
+std::vector<Segment>
+ScanRows::Segments() const
+{
+  std::vector<Segment> segments = m_State->scan.segments;
+  for (Segment & segment : segments)
+  {
+    if (m_State->scan.HasLayers())
+    {
+      segment.value = m_State->numbers.at({ segment.layer, segment.value });
+    }
+    segment.layer = 0;
+  }
+  return segments;
+}
+
 const std::vector<std::string> &
 ScanRows::Notes() const
 {

@@ -3,6 +3,7 @@
 // anew, which costs little where the data are stored plain.
 
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/StoredVoxels.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,10 @@ public:
    *  segmentation in layers. */
   PixelType
   Type() const;
+
+  /** The segments that the file names, with the values that the rows have for them (layer 0). */
+  std::vector<Segment>
+  Segments() const;
 
   const std::vector<std::string> &
   Notes() const;
