@@ -40,7 +40,8 @@ for folder in Modules/*/; do
   [ "$module" != CMake ] || continue
   allowed=" $module $(may_use "$module") "
   while IFS=: read -r file line included; do
-    name=$(sed -E 's/.*[<"]([^>"]+)[>"].*/\1/' <<<"$included")
+    [[ $included =~ [\<\"]([^\>\"]+)[\>\"] ]] || continue
+    name=${BASH_REMATCH[1]}
     owner=${home[$name]:-}
     if [ -n "$owner" ] && [[ $allowed != *" $owner "* ]]; then
       complain "$file:$line: $module must not use $owner ($name)"

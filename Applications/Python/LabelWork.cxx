@@ -54,9 +54,9 @@ ResultsOf(const CoreReport & report, const std::vector<PrunedRecord> & pruned, s
     auto result = std::make_shared<CoreOfLabel>();
     result->report = report;
     result->report.parameters.lambda = { pruned[i].lambda };
-    if (pruned[i].bumps)
+    if (pruned[i].tolerance)
     {
-      result->report.parameters.bumps = { pruned[i].bumps->height };
+      result->report.parameters.tolerances = { pruned[i].tolerance->height };
     }
     result->report.labels.front().pruned = { pruned[i] };
     result->part = std::move(parts[i]);
@@ -82,26 +82,26 @@ RequirePrunable(const CoreOfLabel & core, const PruneOptions & options)
   const LabelRecord &  record = core.report.labels.front();
   const PrunedRecord & done = record.pruned.front();
   const Vector3 &      spacing = core.report.input.geometry.spacing;
-  if (!options.bumps.empty())
+  if (!options.tolerances.empty())
   {
-    if (!done.bumps)
+    if (!done.tolerance)
     {
-      throw UsageError("this core does not hold bump heights; make it with bumps=0");
+      throw UsageError("this core does not hold tolerances; make it with tolerance=0");
     }
-    for (const BumpHeight & height : options.bumps)
+    for (const Tolerance & height : options.tolerances)
     {
-      if (BumpHeightInMillimetres(height, spacing) < done.bumps->heightMm)
+      if (ToleranceInMillimetres(height, spacing) < done.tolerance->heightMm)
       {
-        throw UsageError("this core is pruned at bump height " + done.bumps->height + " already, further than " +
-                         height.text + "; make one with bumps=0");
+        throw UsageError("this core is pruned at tolerance " + done.tolerance->height + " already, further than " +
+                         height.text + "; make one with tolerance=0");
       }
     }
     return;
   }
-  if (done.bumps && done.bumps->heightMm > 0)
+  if (done.tolerance && done.tolerance->heightMm > 0)
   {
-    throw UsageError("this core is pruned by bump height " + done.bumps->height +
-                     " already; prune it further with bumps=, or make one with bumps=0 or without");
+    throw UsageError("this core is pruned by tolerance " + done.tolerance->height +
+                     " already; prune it further with tolerance=, or make one with tolerance=0 or without");
   }
   if (!core.hasEdges)
   {
@@ -156,7 +156,7 @@ MakeCores(const ArrayView &        array,
   parameters.weights = ComputeLatticeWeights(report.input.geometry);
   CertifiedRequest request;
   request.lambdas = options.lambdas;
-  request.bumps = options.bumps;
+  request.tolerances = options.tolerances;
   request.engine = options.engine;
   LabelOutcome outcome =
     ProcessLabel(std::move(label), report.input.geometry, std::move(request), PartOfProgress(progress, readEnds, 1));
@@ -176,10 +176,11 @@ Prune(const CoreOfLabel & core, ParameterValues values, const ProgressCallback &
   const LabelRecord &        record = core.report.labels.front();
   const CertifiedShape       shape = RecordedShape(core.report, record);
   const CertifiedCore        before{ record.pruned.front(), core.part };
-  std::vector<CertifiedCore> pruned = options.bumps.empty() ? PruneCertified(before, shape, options.lambdas, progress)
-                                                            : PruneCertified(before, shape, options.bumps);
+  std::vector<CertifiedCore> pruned = options.tolerances.empty()
+                                        ? PruneCertified(before, shape, options.lambdas, progress)
+                                        : PruneCertified(before, shape, options.tolerances);
   CoreReport                 report = core.report;
-  report.parameters.bumps.clear();
+  report.parameters.tolerances.clear();
   report.labels.front().covered.reset(); // there is no boundary here to measure it on
   std::vector<PrunedRecord> records;
   std::vector<ModelPart>    parts;
@@ -205,10 +206,10 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core, ParameterValues values, 
   result->report = core->report;
   SkeletonRequest stage = SkeletonOptionsFrom(values).stage;
   stage.lambda = ParseLambda(core->report.parameters.lambda.front());
-  if (!core->report.parameters.bumps.empty())
+  if (!core->report.parameters.tolerances.empty())
   {
-    const BumpHeight height = ParseBumpHeight(core->report.parameters.bumps.front());
-    stage.bumps = height.value > 0 ? std::optional(height) : std::nullopt;
+    const Tolerance height = ParseTolerance(core->report.parameters.tolerances.front());
+    stage.tolerance = height.value > 0 ? std::optional(height) : std::nullopt;
   }
   LabelRecord & record = result->report.labels.front();
   result->part = TakeSkeleton(SkeletonOf(core->part, RecordedShape(core->report, record), stage, progress), record);

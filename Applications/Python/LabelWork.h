@@ -34,7 +34,7 @@ struct SkeletonOfLabel
 };
 
 /** `values` are options of `voxelcore core` by name. The array must hold one label, or `values` name one. A core for each
- *  lambda or bump height, in the order given.
+ *  lambda or tolerance, in the order given.
  *  \throws InputError, UsageError, CertificateError, Cancelled */
 std::vector<std::shared_ptr<CoreOfLabel>>
 MakeCores(const ArrayView &        array,

@@ -272,10 +272,12 @@ DefineCore(py::module_ & module)
                            [](const Handle & core) { return View(core, core->part.core.vertexLambda); })
     .def_property_readonly("lambda_edges", [](const Handle & core) { return View(core, core->part.core.edgeLambda); })
     .def_property_readonly("lambda_faces", [](const Handle & core) { return View(core, core->part.core.faceLambda); })
-    .def_property_readonly("bump_vertices",
-                           [](const Handle & core) { return View(core, core->part.core.bumps.vertices); })
-    .def_property_readonly("bump_edges", [](const Handle & core) { return View(core, core->part.core.bumps.edges); })
-    .def_property_readonly("bump_faces", [](const Handle & core) { return View(core, core->part.core.bumps.faces); })
+    .def_property_readonly("tolerance_vertices",
+                           [](const Handle & core) { return View(core, core->part.core.tolerances.vertices); })
+    .def_property_readonly("tolerance_edges",
+                           [](const Handle & core) { return View(core, core->part.core.tolerances.edges); })
+    .def_property_readonly("tolerance_faces",
+                           [](const Handle & core) { return View(core, core->part.core.tolerances.faces); })
     .def_property_readonly("label", [](const Handle & core) { return core->report.labels.front().label; })
     .def_property_readonly("lambda_mm",
                            [](const Handle & core) { return core->report.labels.front().pruned.front().lambdaMm; })

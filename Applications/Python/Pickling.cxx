@@ -40,9 +40,9 @@ VisitCore(TPart & part, TVisit && visit)
   visit(core.vertexLambda);
   visit(core.edgeLambda);
   visit(core.faceLambda);
-  visit(core.bumps.vertices);
-  visit(core.bumps.edges);
-  visit(core.bumps.faces);
+  visit(core.tolerances.vertices);
+  visit(core.tolerances.edges);
+  visit(core.tolerances.faces);
   visit(part.displacement);
 }
 
@@ -124,7 +124,7 @@ StateOf(const CoreReport & report)
 {
   const LabelRecord &   label = report.labels.front();
   const PrunedRecord &  pruned = label.pruned.front();
-  std::optional<double> gap = pruned.bumps ? pruned.bumps->boundaryGapMm : std::nullopt;
+  std::optional<double> gap = pruned.tolerance ? pruned.tolerance->boundaryGapMm : std::nullopt;
   return py::make_tuple(ReportJson(report),
                         report.input.path,
                         report.parameters.engine,
@@ -142,9 +142,9 @@ ReportFrom(const py::tuple & state)
   report.parameters.engine = state[2].cast<std::string>();
   report.parameters.threads = state[3].cast<int>();
   label.covered = state[4].cast<std::optional<bool>>();
-  if (label.pruned.at(0).bumps)
+  if (label.pruned.at(0).tolerance)
   {
-    label.pruned.front().bumps->boundaryGapMm = state[5].cast<std::optional<double>>();
+    label.pruned.front().tolerance->boundaryGapMm = state[5].cast<std::optional<double>>();
   }
   return report;
 }

@@ -25,10 +25,12 @@ constexpr std::array kRenamed{ Renamed{ "lambda", "lambda_" },
                                Renamed{ "force", "overwrite=True" } };
 
 /** Options with the same name. */
-constexpr std::array<std::string_view, 16> kSame{
-  "spacing", "bumps",  "threshold", "orthonormalize", "engine",         "threads",   "progress",           "stand-out",
-  "smooth",  "plates", "root",      "also",           "prune-branches", "cut-loops", "split-at-junctions", "triangles"
-};
+constexpr std::array<std::string_view, 16> kSame{ "spacing",        "tolerance", "threshold",
+                                                  "orthonormalize", "engine",    "threads",
+                                                  "progress",       "stand-out", "smooth",
+                                                  "plates",         "root",      "also",
+                                                  "prune-branches", "cut-loops", "split-at-junctions",
+                                                  "triangles" };
 
 /** Keyword arguments that take several numbers as a tuple. */
 bool

@@ -48,7 +48,7 @@ ZshText(std::string_view text)
 std::vector<std::string>
 FlagsOf(const Parameter & parameter)
 {
-  return SplitText(parameter.flags, ',');
+  return parameter.flags.empty() ? std::vector<std::string>() : SplitText(parameter.flags, ',');
 }
 
 std::vector<std::string>

@@ -121,11 +121,21 @@ ParseCommandLine(int argc, char ** argv)
     }
     sub->set_help_flag("-h,--help", "Print this help")->group(std::string(GroupHeading(ParameterGroup::Running)));
   }
-  RequireKnownNames(argc, argv);
+  std::vector<std::string> arguments;
+  std::vector<char *>      renamed;
+  for (int i = 0; i < argc; ++i)
+  {
+    arguments.push_back(WithoutFormerName(argv[i]));
+  }
+  for (std::string & argument : arguments)
+  {
+    renamed.push_back(argument.data());
+  }
+  RequireKnownNames(argc, renamed.data());
   std::string helpHint = "; see 'voxelcore --help'";
   try
   {
-    app.parse(argc, argv);
+    app.parse(argc, renamed.data());
   }
   catch (const CLI::CallForHelp &)
   {

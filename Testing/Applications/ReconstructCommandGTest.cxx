@@ -47,7 +47,7 @@ TEST_F(Reconstruct, OfAPrunedCoreLosesNoMoreThanTheHeight)
   Run({ "phantom", "thick-and-thin", "--size", "48", "-o", Path("a.nrrd") });
   for (const char * height : { "1.2diag", "2diag" })
   {
-    Run({ "core", Path("a.nrrd"), "--bumps", height, "-o", Path("m.vtp"), "--report", Path("m.json"), "--force" });
+    Run({ "core", Path("a.nrrd"), "--tolerance", height, "-o", Path("m.vtp"), "--report", Path("m.json"), "--force" });
     Run({ "reconstruct",
           Path("m.vtp"),
           "-o",
@@ -61,7 +61,7 @@ TEST_F(Reconstruct, OfAPrunedCoreLosesNoMoreThanTheHeight)
     const Json   label = Report("r.json")["labels"][0];
     const double gap = label["boundary_gap_mm"];
     EXPECT_NEAR(gap, pruned["boundary_gap_mm"].get<double>(), 1e-9);
-    EXPECT_LE(gap, pruned["bumps_mm"].get<double>() + 1e-9);
+    EXPECT_LE(gap, pruned["tolerance_mm"].get<double>() + 1e-9);
     // A volume's surface lies within a voxel's diagonal of the balls'.
     EXPECT_LE(label["largest_surface_distance_mm"].get<double>(), gap + 1.74);
     EXPECT_GT(label["largest_surface_distance_mm"].get<double>(), 0.0);

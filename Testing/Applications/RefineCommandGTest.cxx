@@ -257,7 +257,7 @@ TEST_F(RefineCommand, WhatMakesNoSenseIsRefusedInOneLine)
   refuse(2, { "--grey-range" }, { "--refine", "grey", "--grey", Path("grey.nrrd") });
   refuse(2, { "--refine grey" }, { "--grey", Path("grey.nrrd"), "--grey-range", "500:inf" });
   refuse(2, { "no end" }, { "--refine", "grey", "--grey", Path("grey.nrrd"), "--grey-range", "-inf:inf" });
-  refuse(2, { "--bumps" }, { "--refine", "labels", "--bumps", "1.2diag" });
+  refuse(2, { "--tolerance" }, { "--refine", "labels", "--tolerance", "1.2diag" });
   refuse(2, { "--keep-edges" }, { "--refine", "labels", "--keep-edges" });
   refuse(3, { "nothing.nrrd" }, { "--refine", "grey", "--grey", Path("nothing.nrrd"), "--grey-range", "500:inf" });
   // A grey scan that lies elsewhere.

@@ -37,7 +37,7 @@ def prepare(program, folder):
     inputs = set(os.listdir(folder))
     return inputs, {
         "core": ["core", "g.nrrd", "-o", "out.vtp"],
-        "core --bumps": ["core", "g.nrrd", "--bumps", "1.2diag", "-o", "out.vtp"],
+        "core --tolerance": ["core", "g.nrrd", "--tolerance", "1.2diag", "-o", "out.vtp"],
         "core --refine": ["core", "g.nrrd", "--refine", "labels", "-o", "out.vtp"],
         "core --html": ["core", "r.nrrd", "--html", "out.html", "-o", "out.vtp"],
         "prune": ["prune", "whole.vtp", "--lambda", "1.5vox,2vox", "-o", "out.vtp"],

@@ -94,20 +94,20 @@ TEST(Certified, SeveralLambdasAndPruningLaterGiveWhatEachGivesAlone)
   EXPECT_EQ(together.cores[4].numbers.complex.vertices, 1U) << "all of a box prunes to a point";
 }
 
-TEST(Certified, PruningLaterByBumpHeightGivesWhatAskingForItGives)
+TEST(Certified, PruningLaterByToleranceGivesWhatAskingForItGives)
 {
   const ImageGeometry grid = Grid({ 1, 1, 1.5 });
   CertifiedRequest    request = Lambdas({ "0" });
-  request.bumps = { ParseBumpHeight("0") };
+  request.tolerances = { ParseTolerance("0") };
   const CertifiedResult whole = ComputeCertified(Box(12, 9, 7), grid, request);
   EXPECT_EQ(whole.covered, true);
-  request.bumps = { ParseBumpHeight("1diag") };
+  request.tolerances = { ParseTolerance("1diag") };
   const CertifiedResult asked = ComputeCertified(Box(12, 9, 7), grid, request);
-  const auto            later = PruneCertified(whole.cores[0], whole.shape, request.bumps);
+  const auto            later = PruneCertified(whole.cores[0], whole.shape, request.tolerances);
   EXPECT_EQ(later[0].core.core.positions, asked.cores[0].core.core.positions);
-  EXPECT_EQ(later[0].core.core.bumps.faces, asked.cores[0].core.core.bumps.faces);
-  EXPECT_TRUE(asked.cores[0].numbers.bumps->boundaryGapMm.has_value());
-  EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseBumpHeight("0.5diag") }), UsageError);
+  EXPECT_EQ(later[0].core.core.tolerances.faces, asked.cores[0].core.core.tolerances.faces);
+  EXPECT_TRUE(asked.cores[0].numbers.tolerance->boundaryGapMm.has_value());
+  EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseTolerance("0.5diag") }), UsageError);
   EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseLambda("2vox") }), UsageError);
 }
 
@@ -138,7 +138,7 @@ TEST(Certified, RandomShapesPassInEveryWay)
     EXPECT_LE(result.cores[2].numbers.complex.faces, result.cores[1].numbers.complex.faces);
     EXPECT_EQ(result.skeleton->topology, result.shape.topology);
     request = Lambdas({ "0" });
-    request.bumps = { ParseBumpHeight("1.2diag") };
+    request.tolerances = { ParseTolerance("1.2diag") };
     EXPECT_EQ(ComputeCertified(shape, grid, request).covered, true);
     request = Lambdas({ "1.5vox" });
     request.surface = [&](const VoxelShape & voxels, const ProgressCallback & progress) {
@@ -152,7 +152,7 @@ TEST(Certified, ARequestThatContradictsItselfIsRefused)
 {
   EXPECT_THROW(ComputeCertified(Box(2, 2, 2), Grid({ 1, 1, 1 }), Lambdas({})), UsageError);
   CertifiedRequest two = Lambdas({ "0", "1vox" });
-  two.bumps = { ParseBumpHeight("1diag") };
+  two.tolerances = { ParseTolerance("1diag") };
   EXPECT_THROW(ComputeCertified(Box(2, 2, 2), Grid({ 1, 1, 1 }), two), UsageError);
   CertifiedRequest other = Lambdas({ "1vox" });
   other.skeleton = Skeleton();

@@ -44,9 +44,9 @@ std::vector<Stage>
 Stages()
 {
   CertifiedRequest plain;
-  CertifiedRequest bumps;
-  bumps.lambdas = { ParseLambda("0") };
-  bumps.bumps = { ParseBumpHeight("1.2diag") };
+  CertifiedRequest tolerance;
+  tolerance.lambdas = { ParseLambda("0") };
+  tolerance.tolerances = { ParseTolerance("1.2diag") };
   CertifiedRequest refined;
   refined.surface = [](const VoxelShape & voxels, const ProgressCallback & progress) {
     return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, { 1, 1, 1 }, progress));
@@ -57,7 +57,7 @@ Stages()
   skeleton.skeleton->smooth = ParseLambda("6vox");
   return { { "core", "its core", plain },
            { "pruning", "its core pruned at 1.5vox", plain },
-           { "bumps", "its core pruned at bump height 1.2diag", bumps },
+           { "tolerance", "its core pruned at tolerance 1.2diag", tolerance },
            { "refinement", "its core refined at 1.5vox", refined },
            { "skeleton", "its skeleton", skeleton } };
 }

@@ -1,7 +1,7 @@
 // For tests of the promise: what the rooms below Certified give is damaged on its way up, where the environment variable
 // VOXELCORE_SEEDED_FAULT names the stage. The linker's --wrap puts these functions in their place.
 
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/CurveSkeleton.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/Refinement.h"
@@ -34,18 +34,18 @@ Damage(MedialComplex & complex)
     cells.faceVertices.resize(cells.faceOffsets.back());
     cells.faceEdges.resize(cells.faceOffsets.back());
     complex.faceLambda.pop_back();
-    if (!complex.bumps.faces.empty())
+    if (!complex.tolerances.faces.empty())
     {
-      complex.bumps.faces.pop_back();
+      complex.tolerances.faces.pop_back();
     }
   }
   else if (!cells.edges.empty())
   {
     cells.edges.pop_back();
     complex.edgeLambda.pop_back();
-    if (!complex.bumps.edges.empty())
+    if (!complex.tolerances.edges.empty())
     {
-      complex.bumps.edges.pop_back();
+      complex.tolerances.edges.pop_back();
     }
   }
 }
@@ -62,7 +62,7 @@ Damage(MedialComplex & complex)
 #define VOXELCORE_LAMBDA                                                                                   \
   "_ZN9voxelcore13PruneByLambdaERKNS_13MedialComplexERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
   "viewIcSt11char_traitsIcEEdEE"
-#define VOXELCORE_BUMPS "_ZN9voxelcore12PruneByBumpsERKNS_13MedialComplexEd"
+#define VOXELCORE_TOLERANCE "_ZN9voxelcore16PruneByToleranceERKNS_13MedialComplexEd"
 #define VOXELCORE_REFINE                                                                                  \
   "_ZN9voxelcore10RefineCoreERKNS_15RefinementInputERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
   "viewIcSt11char_traitsIcEEdEE"
@@ -130,14 +130,14 @@ FaultyLambda(const MedialComplex & core, const std::vector<double> & thresholds,
 }
 
 MedialComplex
-TrueBumps(const MedialComplex &, double) asm("__real_" VOXELCORE_BUMPS);
+TrueTolerance(const MedialComplex &, double) asm("__real_" VOXELCORE_TOLERANCE);
 MedialComplex
-FaultyBumps(const MedialComplex &, double) asm("__wrap_" VOXELCORE_BUMPS);
+FaultyTolerance(const MedialComplex &, double) asm("__wrap_" VOXELCORE_TOLERANCE);
 MedialComplex
-FaultyBumps(const MedialComplex & core, double height)
+FaultyTolerance(const MedialComplex & core, double height)
 {
-  MedialComplex pruned = TrueBumps(core, height);
-  if (IsSeeded("bumps"))
+  MedialComplex pruned = TrueTolerance(core, height);
+  if (IsSeeded("tolerance"))
   {
     Damage(pruned);
   }

@@ -72,7 +72,7 @@ TEST_F(Manifest, DecimalCommasOfSemicolonTablesAreNotTakenForTwoValues)
 {
   EXPECT_THAT(Refusal("id;scan;lambda\na;b;1,5vox\n"),
               HasSubstr("line 2: lambda: '1,5vox' may be a decimal comma; write 1.5vox"));
-  EXPECT_THAT(Refusal("id;scan;bumps\na;b;1,2diag\n"), HasSubstr("write 1.2diag"));
+  EXPECT_THAT(Refusal("id;scan;tolerance\na;b;1,2diag\n"), HasSubstr("write 1.2diag"));
   EXPECT_EQ(Read("id;scan;lambda\na;b;1vox,5vox\n")[0].values.at("lambda"), "1vox,5vox");
   EXPECT_EQ(Read("id,scan,lambda\na,b,\"1,5vox\"\n")[0].values.at("lambda"), "1,5vox");
 }

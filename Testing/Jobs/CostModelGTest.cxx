@@ -125,8 +125,8 @@ TEST(CostModel, EachThingAskedForCosts)
   options.model.keepEdges = true;
   expectMore("edges", options);
   options = OptionsInto(kFile);
-  options.bumps = ParseBumpHeights("1.2diag");
-  expectMore("bumps", options);
+  options.tolerances = ParseTolerances("1.2diag");
+  expectMore("tolerance", options);
   options = OptionsInto(kFile);
   options.crossCheck = true;
   expectMore("cross-check", options);

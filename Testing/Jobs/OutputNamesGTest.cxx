@@ -58,10 +58,10 @@ TEST(OutputNames, SeveralLambdasGetTheirTextIntoTheName)
   EXPECT_EQ(FolderOutputPath("d", "aal.nii.gz", 4, one[0]), "d/aal_label-4_medial.vtp");
   EXPECT_EQ(FolderOutputPath("d/", "aal.nii.gz", 4, two[1]), "d/aal_label-4_medial_lambda-2.5pct.vtp");
   EXPECT_EQ(FolderOutputPath("d", "aal.nii.gz", 4, two[1], 12), "d/aal_label-4_component-12_medial_lambda-2.5pct.vtp");
-  const auto bumps = ResultSuffixes(ParseLambdas("0"), ParseBumpHeights("0,1,1.2 diag"));
-  EXPECT_EQ(bumps, (std::vector<std::string>{ "_bumps-0", "_bumps-1mm", "_bumps-1.2diag" }));
-  EXPECT_EQ(FileOutputPath("d/OUT.vtp", bumps[2]), "d/OUT_bumps-1.2diag.vtp");
-  EXPECT_EQ(ResultSuffixes(ParseLambdas("0"), ParseBumpHeights("1diag")), std::vector<std::string>{ "" });
+  const auto suffixes = ResultSuffixes(ParseLambdas("0"), ParseTolerances("0,1,1.2 diag"));
+  EXPECT_EQ(suffixes, (std::vector<std::string>{ "_tolerance-0", "_tolerance-1mm", "_tolerance-1.2diag" }));
+  EXPECT_EQ(FileOutputPath("d/OUT.vtp", suffixes[2]), "d/OUT_tolerance-1.2diag.vtp");
+  EXPECT_EQ(ResultSuffixes(ParseLambdas("0"), ParseTolerances("1diag")), std::vector<std::string>{ "" });
 }
 
 TEST(OutputNames, ASlashOrAnExistingFolderMeansAFolder)

@@ -109,7 +109,7 @@ TEST_F(Progress, OfCoresNeverGoesBackAndEndsAtOne)
 {
   Make("root", "a.nrrd", "48");
   Core({ { "lambda", "0,1vox,2vox" }, { "keep-edges", "true" } });
-  Core({ { "bumps", "0,1.2diag" } });
+  Core({ { "tolerance", "0,1.2diag" } });
   Core({ { "refine", "labels" } });
   Core({ { "with-skeleton", "true" }, { "lambda", "0,2vox" } });
   Core({ { "mend-shape", "true" }, { "fill-cavities", "true" }, { "smooth-shape", "true" } });

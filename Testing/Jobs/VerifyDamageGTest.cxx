@@ -254,11 +254,11 @@ TEST_F(HeavyVerifyDamage, OfACorePrunedByLambdaIsSeen)
   ExpectEveryDamageIsSeen(MakeCore({ { "lambda", "1.5vox" } }));
 }
 
-TEST_F(HeavyVerifyDamage, OfACorePrunedByBumpsIsSeen)
+TEST_F(HeavyVerifyDamage, OfACorePrunedByToleranceIsSeen)
 {
   MakeScan("24");
-  ExpectEveryDamageIsSeen(MakeCore({ { "lambda", "0" }, { "bumps", "0.5diag" } }));
-  ExpectEveryDamageIsSeen(MakeCore({ { "lambda", "0" }, { "bumps", "1.2diag" }, { "triangles", "true" } }));
+  ExpectEveryDamageIsSeen(MakeCore({ { "lambda", "0" }, { "tolerance", "0.5diag" } }));
+  ExpectEveryDamageIsSeen(MakeCore({ { "lambda", "0" }, { "tolerance", "1.2diag" }, { "triangles", "true" } }));
 }
 
 TEST_F(HeavyVerifyDamage, OfARefinedCoreIsSeen)

@@ -148,9 +148,10 @@ ScoreNoise(std::uint64_t seeds)
 }
 
 MedialComplex
-BumpedSurfaceOf(const VoxelShape & shape, const Spacing3 & spacing, double diagonals)
+SurfaceAtToleranceOf(const VoxelShape & shape, const Spacing3 & spacing, double diagonals)
 {
-  MedialComplex surface = PruneByBumps(BumpedCoreOf(shape, spacing), diagonals * Distance(spacing, { 0, 0, 0 }));
+  MedialComplex surface =
+    PruneByTolerance(CoreWithTolerancesOf(shape, spacing), diagonals * Distance(spacing, { 0, 0, 0 }));
   for (auto & position : surface.positions)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -199,9 +200,9 @@ ScoreSurfaces(std::uint64_t seeds)
         const double voxel = std::min({ spacing[0], spacing[1], spacing[2] });
         return GraphOfSurface(SurfaceOf(shape, spacing, 1.5 * voxel), spacing);
       } },
-    { "bumps 1.2diag",
+    { "tolerance 1.2diag",
       [](const VoxelShape & shape, const Spacing3 & spacing) {
-        return GraphOfSurface(BumpedSurfaceOf(shape, spacing, 1.2), spacing);
+        return GraphOfSurface(SurfaceAtToleranceOf(shape, spacing, 1.2), spacing);
       } },
   };
   std::printf(

@@ -111,8 +111,8 @@ def test_what_makes_no_sense_is_refused_in_one_line(array, words):
         (dict(lambda_="0,1mm"), "give a list"),
         (dict(lambda_=[]), "empty"),
         (dict(lambda_=[1, None]), "None"),
-        (dict(lambda_=[0, 1], bumps=1), "one value"),
-        (dict(bumps="x"), "x"),
+        (dict(lambda_=[0, 1], tolerance=1), "one value"),
+        (dict(tolerance="x"), "x"),
         (dict(label=77), "77"),
         (dict(label=1.5), r"1\.5"),
         (dict(label="one"), "one"),
@@ -140,7 +140,7 @@ def test_a_grey_array_asks_for_a_threshold():
         with pytest.raises(ValueError, match=r"looks like a grey scan.*threshold=\((-?[\d.]+), numpy.inf\)") as caught:
             voxelcore.core(array)
         low = float(re.search(r"threshold=\((-?[\d.]+)", str(caught.value)).group(1))
-        core = voxelcore.core(array, threshold=(low, numpy.inf), bumps="1.2diag")
+        core = voxelcore.core(array, threshold=(low, numpy.inf), tolerance="1.2diag")
         assert abs(core.voxels - inside.sum()) < 0.02 * inside.sum()
 
 

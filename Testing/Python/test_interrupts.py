@@ -21,7 +21,7 @@ if sys.argv[1] == "read":
     core.save("core.vtp", keep_edges=True)
 work = {
     "core": lambda: voxelcore.core(array),
-    "bumps": lambda: voxelcore.core(array, bumps="1diag"),
+    "tolerance": lambda: voxelcore.core(array, tolerance="1diag"),
     "skeleton": lambda: core.skeleton(),
     "prune": lambda: core.prune([1, 1.5, 2, 2.5, 3, 3.5]),
     "save": lambda: core.save("out.vtp", keep_edges=True, overwrite=True),
@@ -38,7 +38,7 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("work", ["core", "bumps", "skeleton", "prune", "save", "read", "of array"])
+@pytest.mark.parametrize("work", ["core", "tolerance", "skeleton", "prune", "save", "read", "of array"])
 def test_ctrl_c_at_any_moment_stops_a_call_soon(tmp_path, work):
     seed = random.SystemRandom().randrange(1 << 32)
     wait = random.Random(seed).uniform(0.05, 2)

@@ -71,10 +71,10 @@ FORK = """
 import os, signal, sys, tempfile, threading, numpy, voxelcore
 array = numpy.random.default_rng(1).random((30, 30, 30)) < 0.7
 def all_of_it(folder):
-    core = voxelcore.core(array, bumps=0, threads=2)
+    core = voxelcore.core(array, tolerance=0, threads=2)
     core.save(os.path.join(folder, "core.vtp"), overwrite=True)
     skeleton = voxelcore.read(os.path.join(folder, "core.vtp")).skeleton(threads=2)
-    return skeleton.points.tobytes() + core.prune(bumps="1diag").vertices.tobytes()
+    return skeleton.points.tobytes() + core.prune(tolerance="1diag").vertices.tobytes()
 with tempfile.TemporaryDirectory() as folder:
     expected = all_of_it(folder)
     busy = threading.Thread(target=lambda: [voxelcore.core(array) for _ in range(4)])
@@ -115,7 +115,7 @@ def saved(result, folder):
 
 
 @pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize("options", [{}, dict(lambda_=0), dict(bumps="1diag", lambda_="1vox"), dict(threshold=(0.5, 2))])
+@pytest.mark.parametrize("options", [{}, dict(lambda_=0), dict(tolerance="1diag", lambda_="1vox"), dict(threshold=(0.5, 2))])
 def test_a_pickled_core_is_the_same_to_the_last_bit(tmp_path, place, options):
     core = voxelcore.core(blobs(11), **place, **options)
     for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
@@ -125,7 +125,7 @@ def test_a_pickled_core_is_the_same_to_the_last_bit(tmp_path, place, options):
     assert saved(again, tmp_path) == saved(core, tmp_path)
     assert views(copy.deepcopy(core)) == views(copy.copy(core)) == views(core)
     assert views(again.skeleton()) == views(core.skeleton())
-    if "bumps" not in options:
+    if "tolerance" not in options:
         assert views(again.prune("2vox")) == views(core.prune("2vox"))
 
 

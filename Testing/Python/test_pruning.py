@@ -1,4 +1,4 @@
-"""lambda_ and bumps in Python mean what --lambda and --bumps mean to the command line: each combination has its bits."""
+"""lambda_ and tolerance in Python mean what --lambda and --tolerance mean to the command line: each combination has its bits."""
 
 import itertools
 import json
@@ -11,7 +11,7 @@ from test_results import arrays, polydata
 
 SPACING = (0.5, 0.5, 1)
 LAMBDAS = [None, 0, "1vox", "1.5vox", 0.6, "4%"]
-BUMPS = [None, 0, "1.2diag", "1.5vox", 0.4]
+TOLERANCES = [None, 0, "1.2diag", "1.5vox", 0.4]
 
 
 def words(given):
@@ -44,31 +44,31 @@ def scan(tmp_path_factory):
     return volume, path
 
 
-@pytest.mark.parametrize("lambda_, bumps", itertools.product(LAMBDAS, BUMPS))
-def test_a_core_is_pruned_as_by_the_command_line(tmp_path, scan, lambda_, bumps):
+@pytest.mark.parametrize("lambda_, tolerance", itertools.product(LAMBDAS, TOLERANCES))
+def test_a_core_is_pruned_as_by_the_command_line(tmp_path, scan, lambda_, tolerance):
     volume, path = scan
-    done = run("core", path, "-o", tmp_path / "cli.vtp", *words({"lambda": lambda_, "bumps": bumps}))
+    done = run("core", path, "-o", tmp_path / "cli.vtp", *words({"lambda": lambda_, "tolerance": tolerance}))
     assert done.returncode == 0, done.stderr
-    assert same(voxelcore.core(volume, spacing=SPACING, lambda_=lambda_, bumps=bumps), tmp_path / "cli.vtp", tmp_path)
+    assert same(voxelcore.core(volume, spacing=SPACING, lambda_=lambda_, tolerance=tolerance), tmp_path / "cli.vtp", tmp_path)
 
 
-def test_the_floor_beside_bumps_changes_the_result(scan):
-    faces = [len(voxelcore.core(scan[0], bumps="0.5diag", lambda_=floor).face_offsets) for floor in ("1.5vox", 0, None)]
+def test_the_floor_beside_a_tolerance_changes_the_result(scan):
+    faces = [len(voxelcore.core(scan[0], tolerance="0.5diag", lambda_=floor).face_offsets) for floor in ("1.5vox", 0, None)]
     assert 100 < faces[0] < faces[1] == faces[2]
 
 
-@pytest.mark.parametrize("lambda_, bumps", itertools.product([None, 0, "1.5vox"], BUMPS))
-def test_a_skeleton_is_of_the_core_the_command_line_takes(tmp_path, scan, lambda_, bumps):
+@pytest.mark.parametrize("lambda_, tolerance", itertools.product([None, 0, "1.5vox"], TOLERANCES))
+def test_a_skeleton_is_of_the_core_the_command_line_takes(tmp_path, scan, lambda_, tolerance):
     volume, path = scan
-    done = run("skeleton", path, "-o", tmp_path / "cli.vtp", *words({"lambda": lambda_, "bumps": bumps}))
+    done = run("skeleton", path, "-o", tmp_path / "cli.vtp", *words({"lambda": lambda_, "tolerance": tolerance}))
     assert done.returncode == 0, done.stderr
-    skeleton = voxelcore.skeleton(volume, spacing=SPACING, lambda_=lambda_, bumps=bumps)
+    skeleton = voxelcore.skeleton(volume, spacing=SPACING, lambda_=lambda_, tolerance=tolerance)
     assert same(skeleton, tmp_path / "cli.vtp", tmp_path)
     told = json.loads(polydata(tmp_path / "cli.vtp").GetFieldData().GetAbstractArray("Provenance").GetValue(0))
     ours = json.loads(polydata(tmp_path / "python.vtp").GetFieldData().GetAbstractArray("Provenance").GetValue(0))
     assert told["skeleton"] == ours["skeleton"]
     assert told["parameters"]["lambda"] == ours["parameters"]["lambda"]
-    if bumps != 0:  # of a core that holds every height the step that made it is skipped
+    if tolerance != 0:  # of a core that holds every height the step that made it is skipped
         assert told["labels"][0]["pruned"] == ours["labels"][0]["pruned"]
 
 
@@ -77,11 +77,11 @@ def test_a_skeleton_is_of_the_core_the_command_line_takes(tmp_path, scan, lambda
     [
         (dict(lambda_=0), dict(lambda_="1.5vox")),
         (dict(lambda_="1vox"), dict(lambda_=0.8)),
-        (dict(bumps=0), dict(bumps="1.2diag")),
-        (dict(bumps=0), dict(lambda_="1.5vox")),
-        (dict(bumps=0, lambda_="1vox"), dict(bumps="1.5vox")),
-        (dict(bumps=0, lambda_="1vox"), dict(lambda_="2vox")),
-        (dict(bumps="1vox"), dict(bumps="1.5vox")),
+        (dict(tolerance=0), dict(tolerance="1.2diag")),
+        (dict(tolerance=0), dict(lambda_="1.5vox")),
+        (dict(tolerance=0, lambda_="1vox"), dict(tolerance="1.5vox")),
+        (dict(tolerance=0, lambda_="1vox"), dict(lambda_="2vox")),
+        (dict(tolerance="1vox"), dict(tolerance="1.5vox")),
     ],
 )
 def test_a_core_is_pruned_further_as_by_the_command_line(tmp_path, scan, made, wanted):
@@ -101,11 +101,11 @@ def test_a_core_is_pruned_further_as_by_the_command_line(tmp_path, scan, made, w
 @pytest.mark.parametrize(
     "made, wanted, words",
     [
-        (dict(), dict(), "give either lambda_ or bumps, such as lambda_='1.5mm' or bumps='1.2diag'"),
-        (dict(), dict(lambda_=2, bumps=2), "give either lambda_ or bumps"),
-        (dict(), dict(bumps=1), "make it with bumps=0"),
-        (dict(bumps=1), dict(lambda_=2), "pruned by bump height 1mm? already"),
-        (dict(bumps=1), dict(bumps=0.5), "pruned at bump height 1mm? already"),
+        (dict(), dict(), "give either lambda_ or tolerance, such as lambda_='1.5mm' or tolerance='1.2diag'"),
+        (dict(), dict(lambda_=2, tolerance=2), "give either lambda_ or tolerance"),
+        (dict(), dict(tolerance=1), "make it with tolerance=0"),
+        (dict(tolerance=1), dict(lambda_=2), "pruned by tolerance 1mm? already"),
+        (dict(tolerance=1), dict(tolerance=0.5), "pruned at tolerance 1mm? already"),
         (dict(lambda_=2), dict(lambda_=1), "pruned at 2mm? already"),
     ],
 )
@@ -114,7 +114,7 @@ def test_what_cannot_be_pruned_so_is_refused(scan, made, wanted, words):
         voxelcore.core(scan[0], **made).prune(**wanted)
 
 
-@pytest.mark.parametrize("name, given", [("lambda_", [0, "1.5vox", 0.8]), ("bumps", ("1.2diag", 0, 0.5))])
+@pytest.mark.parametrize("name, given", [("lambda_", [0, "1.5vox", 0.8]), ("tolerance", ("1.2diag", 0, 0.5))])
 def test_a_list_gives_a_result_for_each(tmp_path, scan, name, given):
     volume, path = scan
     option = name.strip("_")

@@ -66,12 +66,12 @@ def test_a_core_has_the_bits_of_the_command_line(tmp_path, place, lambda_):
     assert verified.returncode == 0, verified.stderr
 
 
-def test_bump_heights_have_the_bits_of_the_command_line(tmp_path):
+def test_tolerances_have_the_bits_of_the_command_line(tmp_path):
     volume = blobs(12)
     write_nrrd(tmp_path / "scan.nrrd", volume)
-    assert run("core", tmp_path / "scan.nrrd", "--bumps", "1.2diag", "-o", tmp_path / "cli.vtp").returncode == 0
-    core = voxelcore.core(volume, bumps="1.2diag")
-    assert len(core.bump_vertices) == len(core.vertices)
+    assert run("core", tmp_path / "scan.nrrd", "--tolerance", "1.2diag", "-o", tmp_path / "cli.vtp").returncode == 0
+    core = voxelcore.core(volume, tolerance="1.2diag")
+    assert len(core.tolerance_vertices) == len(core.vertices)
     core.save(tmp_path / "python.vtp")
     assert arrays(polydata(tmp_path / "python.vtp")) == arrays(polydata(tmp_path / "cli.vtp"))
 

@@ -68,7 +68,7 @@ def test_values_and_flags_are_written_as_python_takes_them(told, words):
         (dict(engine="magic"), r"^engine='magic': expected"),
         (dict(threads=-2), r"^threads=-2: expected"),
         (dict(threshold=(1, 2), label="any"), r"^give only one of label, label='any' and threshold"),
-        (dict(lambda_=[0, 1], bumps=1), r"^lambda_.*: expected one value"),
+        (dict(lambda_=[0, 1], tolerance=1), r"^lambda_.*: expected one value"),
     ],
 )
 def test_what_core_refuses_names_no_option(volume, options, words):

@@ -48,11 +48,11 @@ TEST(ReportTable, HasARowPerLabelAndAColumnPerLambda)
 TEST(ReportTable, NanometresAreNoZeros)
 {
   CoreReport report;
-  report.parameters.bumps = { "1.2diag" };
+  report.parameters.tolerances = { "1.2diag" };
   LabelRecord label;
   label.pruned.resize(1);
-  label.pruned[0].bumps = BumpNumbers{};
-  label.pruned[0].bumps->boundaryGapMm = 48.07e-6;
+  label.pruned[0].tolerance = ToleranceNumbers{};
+  label.pruned[0].tolerance->boundaryGapMm = 48.07e-6;
   label.skeleton = SkeletonRecord{};
   label.skeleton->numbers.totalLength = 0.32e-3;
   label.skeleton->numbers.meanRadius = 32.1e-6;

@@ -3,7 +3,7 @@
 #include "VoxelCoreTesting/Cores.h"
 
 #include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 
 #include <gtest/gtest.h>
 
@@ -102,8 +102,8 @@ TEST(BoundaryGap, NamesThePlace)
   EXPECT_DOUBLE_EQ(gap.largest, std::sqrt(0.25 + 0.25 + 4.5 * 4.5) - 0.5);
 }
 
-// What pruning by bump height promises, at heights on the values, where a step too many would show.
-TEST(BoundaryGap, OfACorePrunedByBumpsIsAtMostTheHeight)
+// What pruning by tolerance promises, at heights on the values, where a step too many would show.
+TEST(BoundaryGap, OfACorePrunedByToleranceIsAtMostTheTolerance)
 {
   std::cout << "seeds from 100\n";
   for (std::uint64_t seed = 100; seed < 200; ++seed)
@@ -117,9 +117,9 @@ TEST(BoundaryGap, OfACorePrunedByBumpsIsAtMostTheHeight)
     }
     SCOPED_TRACE(volume.Describe());
     const SpacingWeights weights = ComputeSpacingWeights(volume.spacing);
-    const MedialComplex  core = testing::BumpedCoreOf(volume.shape, volume.spacing);
+    const MedialComplex  core = testing::CoreWithTolerancesOf(volume.shape, volume.spacing);
     std::vector<double>  heights;
-    for (const double value : core.bumps.vertices)
+    for (const double value : core.tolerances.vertices)
     {
       heights.push_back(std::isfinite(value) ? value : 1e9);
     }
@@ -127,7 +127,7 @@ TEST(BoundaryGap, OfACorePrunedByBumpsIsAtMostTheHeight)
     heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
     for (std::size_t i = 0; i + 1 < heights.size(); i += 1 + heights.size() / 8)
     {
-      const MedialComplex rest = PruneByBumps(core, heights[i]);
+      const MedialComplex rest = PruneByTolerance(core, heights[i]);
       ASSERT_LE(LargestBoundaryGap(volume.shape, weights, rest.positions, rest.radius).largest,
                 heights[i] * (1 + 1e-12) + 1e-9);
     }

@@ -100,9 +100,9 @@ TEST(CoreProvenance, WhatIsNoRecordOfTheseLabelsGivesNone)
   EXPECT_EQ(PrunedProvenanceJson("no JSON", { pruning }), "");
   EXPECT_EQ(PrunedProvenanceJson(ProvenanceOf("0", 0), { pruning }), "") << "of two labels";
   EXPECT_EQ(PrunedProvenanceJson(ProvenanceOf("0", 0), {}), "");
-  Json bumped = Json::parse(ProvenanceOf("0", 0));
-  bumped["labels"][0]["pruned"][0]["bumps"] = "1diag";
-  EXPECT_EQ(PrunedProvenanceJson(bumped.dump(), { pruning, pruning }), "") << "lambda no longer says what is left";
+  Json pruned = Json::parse(ProvenanceOf("0", 0));
+  pruned["labels"][0]["pruned"][0]["tolerance"] = "1diag";
+  EXPECT_EQ(PrunedProvenanceJson(pruned.dump(), { pruning, pruning }), "") << "lambda no longer says what is left";
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 #include "VoxelCoreTesting/Cores.h"
 #include "VoxelCoreTesting/Threads.h"
 
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/Phantom.h"
 
@@ -19,14 +19,14 @@ namespace
 using testing::Size3;
 using testing::Spacing3;
 
-/** Whole, pruned by lambda, and pruned by bump height. */
+/** Whole, pruned by lambda, and pruned by tolerance. */
 std::vector<MedialComplex>
 AllResults(const VoxelShape & shape, const Spacing3 & spacing)
 {
   const double               smallest = *std::min_element(spacing.begin(), spacing.end());
-  const MedialComplex        core = testing::BumpedCoreOf(shape, spacing);
+  const MedialComplex        core = testing::CoreWithTolerancesOf(shape, spacing);
   std::vector<MedialComplex> results = PruneByLambda(core, { 0, 1.5 * smallest });
-  results.push_back(PruneByBumps(core, 1.2 * std::sqrt(3) * smallest));
+  results.push_back(PruneByTolerance(core, 1.2 * std::sqrt(3) * smallest));
   return results;
 }
 

@@ -4,7 +4,7 @@
 #include "VoxelCoreTesting/Shapes.h"
 
 #include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/TopologyNumbers.h"
 #include "voxelcore/VoxelCore.h"
 
@@ -35,19 +35,19 @@ CoreOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 })
   return ComputeVoxelCore(shape, ComputeSpacingWeights(spacing));
 }
 
-/** With its bump heights. */
+/** With its tolerances. */
 inline MedialComplex
-BumpedCoreOf(const VoxelShape & shape,
-             const Spacing3 &   spacing = { 1, 1, 1 },
-             Engine             engine = Engine::Auto,
-             double             floor = 0)
+CoreWithTolerancesOf(const VoxelShape & shape,
+                     const Spacing3 &   spacing = { 1, 1, 1 },
+                     Engine             engine = Engine::Auto,
+                     double             floor = 0)
 {
   const SpacingWeights weights = ComputeSpacingWeights(spacing);
   const auto           points = BoundaryVertices(shape);
   DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, engine);
   auto                 touching = LargestTouchingBalls(cells, points, weights);
   MedialComplex        core = BuildVoxelCore(shape, points, std::move(cells), weights);
-  core.bumps = ComputeBumps(core, weights, points, std::move(touching), floor);
+  core.tolerances = ComputeTolerances(core, weights, points, std::move(touching), floor);
   return core;
 }
 
@@ -64,9 +64,9 @@ ExpectSameCore(const MedialComplex & a, const MedialComplex & b, bool exactPosit
   ASSERT_EQ(a.vertexLambda, b.vertexLambda);
   ASSERT_EQ(a.edgeLambda, b.edgeLambda);
   ASSERT_EQ(a.faceLambda, b.faceLambda);
-  ASSERT_EQ(a.bumps.vertices, b.bumps.vertices);
-  ASSERT_EQ(a.bumps.edges, b.bumps.edges);
-  ASSERT_EQ(a.bumps.faces, b.bumps.faces);
+  ASSERT_EQ(a.tolerances.vertices, b.tolerances.vertices);
+  ASSERT_EQ(a.tolerances.edges, b.tolerances.edges);
+  ASSERT_EQ(a.tolerances.faces, b.tolerances.faces);
   if (exactPositions)
   {
     ASSERT_EQ(a.positions, b.positions);

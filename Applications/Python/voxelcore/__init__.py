@@ -47,17 +47,17 @@ def _text(value):
     return numpy.format_float_positional(float(value), trim="-")
 
 
-def _pruning(lambda_, bumps):
-    """Options for lambda_ and bumps, of which None is not given, and whether one of them asks for several results."""
+def _pruning(lambda_, tolerance):
+    """Options for lambda_ and tolerance, of which None is not given, and whether one of them asks for several results."""
     values = {}
-    for name, given in (("lambda", lambda_), ("bumps", bumps)):
+    for name, given in (("lambda", lambda_), ("tolerance", tolerance)):
         if isinstance(given, (list, tuple)):
             if not given:
                 raise ValueError(f"{name}: the list is empty")
             values[name] = ",".join(map(_text, given))
         elif given is not None:
             values[name] = _text(given)
-    return values, isinstance(lambda_, (list, tuple)) or isinstance(bumps, (list, tuple))
+    return values, isinstance(lambda_, (list, tuple)) or isinstance(tolerance, (list, tuple))
 
 
 def _share(progress, begin, end):
@@ -125,7 +125,7 @@ def core(
     origin=(0, 0, 0),
     direction=(1, 0, 0, 0, 1, 0, 0, 0, 1),
     axes="ijk",
-    bumps=None,
+    tolerance=None,
     threshold=None,
     orthonormalize=False,
     engine="auto",
@@ -133,21 +133,21 @@ def core(
     progress=None,
 ):
     """The medial surface of one label: its voxel core, pruned, with the topology of its voxels. Returns a Core, or a list of
-    them where lambda_ or bumps is a list.
+    them where lambda_ or tolerance is a list.
 
     array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array masks. It
         is read once, into one bit a voxel, and not kept. It must not change meanwhile.
     spacing: mm between voxels along i, j and k.
     lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
         number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side of
-        the label's box). 0 keeps the whole core. None: '1.5vox', but 0 beside bumps. A list shares one computation.
+        the label's box). 0 keeps the whole core. None: '1.5vox', but 0 beside tolerance. A list shares one computation.
     label: its value. None: the array holds one; 'any': all but 0 are one shape.
     origin: LPS mm of the centre of voxel (0, 0, 0).
     direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
         SimpleITK has it.
     axes: 'ijk' for arrays a[i, j, k] (nibabel), 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of spacing, origin
         and direction the order is i, j, k in either case.
-    bumps: prune by the height of bumps instead: a number of mm, '1.2diag' (voxel diagonals) or '2vox'. A lambda_ beside it
+    tolerance: prune by tolerance instead: a number of mm, '1.2diag' (voxel diagonals) or '2vox'. A lambda_ beside it
         is a floor that is pruned first. A list shares one computation.
     threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
     orthonormalize: accept skewed axes by taking the nearest that stand at right angles.
@@ -170,7 +170,7 @@ def core(
     if axes not in ("ijk", "kji"):
         raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
     values = _options(orthonormalize=orthonormalize, engine=engine, threads=int(threads))
-    pruning, several = _pruning(lambda_, bumps)
+    pruning, several = _pruning(lambda_, tolerance)
     values.update(pruning)
     if threshold is not None:
         try:
@@ -209,7 +209,7 @@ def skeleton(
     """The curve skeleton of a label, with the topology of its voxels. Returns a Skeleton.
 
     source: an array, with the other arguments of core() (spacing, label, ...; its whole core is then taken unless lambda_ or
-        bumps say otherwise), or a Core. Of a pruned one the tips of slender branches are gone.
+        tolerance say otherwise), or a Core. Of a pruned one the tips of slender branches are gone.
     stand_out: branches stand out by so much at least. Lengths are mm or text with a unit, as lambda_.
     smooth: each point is fitted over so much of its branch before and behind it, and moves half a voxel at most; 0: not.
     plates: parts of the surface that are at least so erosion-thick stay surfaces.
@@ -230,8 +230,8 @@ def skeleton(
         if of_array:
             raise ValueError(f"{next(iter(of_array))}: is for arrays; the core was made already")
     else:
-        if isinstance(of_array.get("lambda_"), (list, tuple)) or isinstance(of_array.get("bumps"), (list, tuple)):
-            raise ValueError("lambda_, bumps: give one; a skeleton has one core")
+        if isinstance(of_array.get("lambda_"), (list, tuple)) or isinstance(of_array.get("tolerance"), (list, tuple)):
+            raise ValueError("lambda_, tolerance: give one; a skeleton has one core")
         if of_array.get("lambda_") is None:
             of_array["lambda_"] = 0
         source = core(source, threads=threads, progress=_share(progress, 0, 0.5), **of_array)
@@ -384,19 +384,19 @@ class Core(_Result):
         return self._data.lambda_faces
 
     @property
-    def bump_vertices(self):
-        """(n,) float64: height of the bump each vertex stands for, mm; empty unless made with bumps=."""
-        return self._data.bump_vertices
+    def tolerance_vertices(self):
+        """(n,) float64: tolerance at which each vertex disappears, mm; empty unless made with tolerance=."""
+        return self._data.tolerance_vertices
 
     @property
-    def bump_edges(self):
+    def tolerance_edges(self):
         """(m,) float64, mm, or empty."""
-        return self._data.bump_edges
+        return self._data.tolerance_edges
 
     @property
-    def bump_faces(self):
+    def tolerance_faces(self):
         """(f,) float64, mm, or empty."""
-        return self._data.bump_faces
+        return self._data.tolerance_faces
 
     @property
     def lambda_mm(self):
@@ -418,15 +418,15 @@ class Core(_Result):
         """Euler number and Betti numbers of the voxels, counted by other means than `topology`."""
         return self._data.shape_topology
 
-    def prune(self, lambda_=None, *, bumps=None, progress=None):
+    def prune(self, lambda_=None, *, tolerance=None, progress=None):
         """This core pruned further, bit for bit as core() would give it: one computation serves many lambdas. A list gives a
-        list of cores. By bumps only what was made with bumps: with bumps=0, every height is in it.
+        list of cores. By tolerance only what was made with tolerance: with tolerance=0, every height is in it.
 
-        >>> ragged = core(numpy.ones((9, 9, 3), bool), bumps=0)
-        >>> ragged.prune(bumps="1diag").topology == ragged.prune("1.5vox").topology
+        >>> ragged = core(numpy.ones((9, 9, 3), bool), tolerance=0)
+        >>> ragged.prune(tolerance="1diag").topology == ragged.prune("1.5vox").topology
         True
         """
-        values, several = _pruning(lambda_, bumps)
+        values, several = _pruning(lambda_, tolerance)
         cores = [Core(data) for data in _voxelcore.prune(self._data, values, progress)]
         return cores if several else cores[0]
 

@@ -41,11 +41,11 @@ class Core(_Result):
     @property
     def lambda_faces(self) -> NDArray[numpy.float64]: ...
     @property
-    def bump_vertices(self) -> NDArray[numpy.float64]: ...
+    def tolerance_vertices(self) -> NDArray[numpy.float64]: ...
     @property
-    def bump_edges(self) -> NDArray[numpy.float64]: ...
+    def tolerance_edges(self) -> NDArray[numpy.float64]: ...
     @property
-    def bump_faces(self) -> NDArray[numpy.float64]: ...
+    def tolerance_faces(self) -> NDArray[numpy.float64]: ...
     @property
     def lambda_mm(self) -> float: ...
     @property
@@ -56,12 +56,12 @@ class Core(_Result):
     def shape_topology(self) -> Dict[str, Any]: ...
     @overload
     def prune(
-        self, lambda_: Optional[Length] = ..., *, bumps: Optional[Length] = ..., progress: Progress = ...
+        self, lambda_: Optional[Length] = ..., *, tolerance: Optional[Length] = ..., progress: Progress = ...
     ) -> Core: ...
     @overload
     def prune(self, lambda_: Lengths, *, progress: Progress = ...) -> List[Core]: ...
     @overload
-    def prune(self, *, bumps: Lengths, progress: Progress = ...) -> List[Core]: ...
+    def prune(self, *, tolerance: Lengths, progress: Progress = ...) -> List[Core]: ...
     def skeleton(self, **options: Any) -> Skeleton: ...
     def save(
         self,
@@ -115,7 +115,7 @@ def core(
     origin: Vector = ...,
     direction: ArrayLike = ...,
     axes: str = ...,
-    bumps: Optional[Length] = ...,
+    tolerance: Optional[Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
     orthonormalize: bool = ...,
     engine: str = ...,
@@ -132,7 +132,7 @@ def core(
     origin: Vector = ...,
     direction: ArrayLike = ...,
     axes: str = ...,
-    bumps: Optional[Length] = ...,
+    tolerance: Optional[Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
     orthonormalize: bool = ...,
     engine: str = ...,
@@ -149,7 +149,7 @@ def core(
     origin: Vector = ...,
     direction: ArrayLike = ...,
     axes: str = ...,
-    bumps: Lengths,
+    tolerance: Lengths,
     threshold: Optional[Tuple[float, float]] = ...,
     orthonormalize: bool = ...,
     engine: str = ...,

@@ -30,7 +30,7 @@ constexpr double kShapeTime = 0.03;
 constexpr double kDelaunayTime = 0.47;
 constexpr double kCoreTime = 0.4;
 constexpr double kPruneTime = 0.1;
-constexpr double kBumpTime = 0.35;
+constexpr double kToleranceTime = 0.35;
 constexpr double kCoverageTime = 0.1;
 constexpr double kRefineTime = 1.5;
 constexpr double kSkeletonTime = 1.1;
@@ -38,7 +38,7 @@ constexpr double kSkeletonTime = 1.1;
 bool
 BurnsWhole(const CertifiedRequest & request)
 {
-  return request.skeleton && request.skeleton->lambda.value == 0 && !request.skeleton->bumps;
+  return request.skeleton && request.skeleton->lambda.value == 0 && !request.skeleton->tolerance;
 }
 
 /** Of the stages, in the order in which Work takes them. */
@@ -46,16 +46,16 @@ std::vector<double>
 StageTimes(const CertifiedRequest & request)
 {
   std::vector<double> times{ kShapeTime, kDelaunayTime, kCoreTime };
-  if (!request.bumps.empty())
+  if (!request.tolerances.empty())
   {
-    times.push_back(kBumpTime);
+    times.push_back(kToleranceTime);
   }
   times.push_back(kPruneTime);
   if (BurnsWhole(request))
   {
     times.push_back(kSkeletonTime);
   }
-  times.push_back(request.surface ? kRefineTime : request.bumps.empty() ? kPruneTime : kCoverageTime);
+  times.push_back(request.surface ? kRefineTime : request.tolerances.empty() ? kPruneTime : kCoverageTime);
   if (request.skeleton && !BurnsWhole(request))
   {
     times.push_back(kSkeletonTime);
@@ -70,11 +70,11 @@ RequireSense(const CertifiedRequest & request)
   {
     throw UsageError(request.name + ": no lambda was asked for");
   }
-  if (!request.bumps.empty() && request.lambdas.size() > 1)
+  if (!request.tolerances.empty() && request.lambdas.size() > 1)
   {
-    throw UsageError(request.name + ": give one lambda with bump heights, which is pruned first");
+    throw UsageError(request.name + ": give one lambda with tolerances, which is pruned first");
   }
-  if (request.surface && (!request.bumps.empty() || request.skeleton))
+  if (request.surface && (!request.tolerances.empty() || request.skeleton))
   {
     throw UsageError(request.name + ": refinement goes with lambdas alone");
   }
@@ -82,12 +82,12 @@ RequireSense(const CertifiedRequest & request)
 
 /** As ended in files: what never goes, and what would go beyond the scan's diagonal, has that height. */
 void
-EndBumps(BumpValues & bumps, const ImageGeometry & geometry)
+EndTolerances(ToleranceValues & values, const ImageGeometry & geometry)
 {
   const double end = ScanDiagonal(geometry);
-  for (auto * values : { &bumps.vertices, &bumps.edges, &bumps.faces })
+  for (auto * one : { &values.vertices, &values.edges, &values.faces })
   {
-    for (double & value : *values)
+    for (double & value : *one)
     {
       value = std::min(value, end);
     }
@@ -160,7 +160,7 @@ private:
     Stopwatch             watch;
     const ImageGeometry & geometry = m_Result.shape.geometry;
     CertifiedSeconds &    seconds = m_Result.seconds;
-    const bool            bumps = !m_Request.bumps.empty();
+    const bool            byTolerance = !m_Request.tolerances.empty();
     MedialComplex         core;
     {
       ReportProgress(m_Plan.Next("shape"), "", 0);
@@ -179,19 +179,19 @@ private:
 
       const ProgressCallback building = m_Plan.Next("core");
       ReportProgress(building, "", 0);
-      TouchingBalls touching = bumps ? LargestTouchingBalls(cells, points, m_Weights) : TouchingBalls();
+      TouchingBalls touching = byTolerance ? LargestTouchingBalls(cells, points, m_Weights) : TouchingBalls();
       if (m_Request.surface)
       {
         m_Kept.edgePoints = NearestToEdges(cells);
       }
       ReportProgress(building, "", 0.1);
       core = BuildVoxelCore(m_Voxels, points, std::move(cells), m_Weights);
-      if (bumps)
+      if (byTolerance)
       {
         seconds.core += watch.Lap();
-        core.bumps =
-          ComputeBumps(core, m_Weights, points, std::move(touching), m_Thresholds.front(), m_Plan.Next("prune"));
-        EndBumps(core.bumps, geometry);
+        core.tolerances =
+          ComputeTolerances(core, m_Weights, points, std::move(touching), m_Thresholds.front(), m_Plan.Next("prune"));
+        EndTolerances(core.tolerances, geometry);
         seconds.prune += watch.Lap();
       }
       if (m_Request.surface)
@@ -223,7 +223,7 @@ private:
     RunBoth(
       core.cells.FaceCount() > 10000,
       [&] {
-        if (m_Request.bumps.empty() && !m_Request.surface)
+        if (m_Request.tolerances.empty() && !m_Request.surface)
         {
           m_Pruned = PruneAscending(core, 0, m_Thresholds, prune);
         }
@@ -253,7 +253,7 @@ private:
                                         m_Thresholds,
                                         m_Plan.Next());
     }
-    else if (m_Request.bumps.empty())
+    else if (m_Request.tolerances.empty())
     {
       m_Voxels = VoxelShape();
       m_Result.cores = CertifyPruned(std::move(m_Whole),
@@ -267,7 +267,7 @@ private:
     {
       m_Whole.numbers.lambda = m_Request.lambdas.front().text;
       m_Whole.numbers.lambdaMm = m_Thresholds.front();
-      m_Result.cores = PruneCertified(m_Whole, m_Result.shape, m_Request.bumps);
+      m_Result.cores = PruneCertified(m_Whole, m_Result.shape, m_Request.tolerances);
       m_Whole = CertifiedCore();
       const ProgressCallback coverage = m_Plan.Next("certificate");
       for (std::size_t i = 0; i < m_Result.cores.size(); ++i)
@@ -284,17 +284,17 @@ private:
   CertifyCoverage(CertifiedCore & core)
   {
     const ImageGeometry & geometry = m_Result.shape.geometry;
-    BumpNumbers &         bumps = *core.numbers.bumps;
-    bumps.boundaryGapMm = BoundaryGapOf(core.core, m_Voxels, geometry);
+    ToleranceNumbers &    tolerance = *core.numbers.tolerance;
+    tolerance.boundaryGapMm = BoundaryGapOf(core.core, m_Voxels, geometry);
     if (core.numbers.lambdaMm > 0)
     {
       return;
     }
-    if (*bumps.boundaryGapMm > bumps.heightMm + BoundaryGapTolerance(geometry))
+    if (*tolerance.boundaryGapMm > tolerance.heightMm + BoundaryGapTolerance(geometry))
     {
       RefuseResult(m_Request.name,
-                   "a boundary vertex lies " + std::to_string(*bumps.boundaryGapMm) +
-                     " mm from its core pruned at bump height " + bumps.height);
+                   "a boundary vertex lies " + std::to_string(*tolerance.boundaryGapMm) +
+                     " mm from its core pruned at tolerance " + tolerance.height);
     }
     m_Result.covered = true;
   }
@@ -302,7 +302,7 @@ private:
   const PlacedCore &
   CoreToBurn() const
   {
-    if (m_Request.skeleton->bumps)
+    if (m_Request.skeleton->tolerance)
     {
       return m_Result.cores.front().core;
     }

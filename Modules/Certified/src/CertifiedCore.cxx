@@ -83,9 +83,9 @@ PruneCertified(CertifiedCore               core,
                const ProgressCallback &    progress)
 {
   const CoreNumbers & done = core.numbers;
-  if (done.refined || (done.bumps && done.bumps->heightMm > 0))
+  if (done.refined || (done.tolerance && done.tolerance->heightMm > 0))
   {
-    throw UsageError(shape.name + ": its core is " + (done.refined ? "refined" : "pruned by bump height") +
+    throw UsageError(shape.name + ": its core is " + (done.refined ? "refined" : "pruned by tolerance") +
                      " already and cannot be pruned by lambda");
   }
   const SpacingWeights weights = ComputeSpacingWeights(shape.geometry.spacing);
@@ -99,7 +99,7 @@ PruneCertified(CertifiedCore               core,
     }
   }
   StagePlan plan(progress, { 0.8, 0.2 });
-  core.core.core.bumps = {};
+  core.core.core.tolerances = {};
   auto complexes = PruneAscending(core.core.core, done.lambdaMm, thresholds, plan.Next("prune"));
   return CertifyPruned(std::move(core), std::move(complexes), shape, lambdas, thresholds, plan.Next("certificate"));
 }
@@ -117,28 +117,28 @@ ScanDiagonal(const ImageGeometry & geometry)
 }
 
 std::vector<CertifiedCore>
-PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const std::vector<BumpHeight> & heights)
+PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const std::vector<Tolerance> & heights)
 {
   std::vector<CertifiedCore> results(heights.size());
   for (std::size_t i = 0; i < heights.size(); ++i)
   {
     const ImageGeometry & geometry = shape.geometry;
-    const double height = std::min(BumpHeightInMillimetres(heights[i], geometry.spacing), ScanDiagonal(geometry));
-    if (!core.core.core.HasBumps() && core.core.core.cells.vertexCount > 0)
+    const double height = std::min(ToleranceInMillimetres(heights[i], geometry.spacing), ScanDiagonal(geometry));
+    if (!core.core.core.HasTolerances() && core.core.core.cells.vertexCount > 0)
     {
-      throw UsageError(shape.name + ": its core does not hold bump heights");
+      throw UsageError(shape.name + ": its core does not hold tolerances");
     }
-    if (core.numbers.bumps && height < core.numbers.bumps->heightMm)
+    if (core.numbers.tolerance && height < core.numbers.tolerance->heightMm)
     {
-      throw UsageError(shape.name + ": its core is pruned at bump height " + core.numbers.bumps->height +
+      throw UsageError(shape.name + ": its core is pruned at tolerance " + core.numbers.tolerance->height +
                        " already, beyond " + heights[i].text);
     }
     CertifiedCore & result = results[i];
-    result.core = { core.core.label, PruneByBumps(core.core.core, height), core.core.component };
+    result.core = { core.core.label, PruneByTolerance(core.core.core, height), core.core.component };
     const TopologyNumbers topology = ComputeComplexTopology(result.core.core.cells);
-    RequireEqualTopology(shape.topology, topology, "its core pruned at bump height " + heights[i].text, shape.name);
+    RequireEqualTopology(shape.topology, topology, "its core pruned at tolerance " + heights[i].text, shape.name);
     result.numbers = core.numbers;
-    result.numbers.bumps = { heights[i].text, height, {} };
+    result.numbers.tolerance = { heights[i].text, height, {} };
     result.numbers.complex = DescribeComplex(result.core.core, topology);
   }
   return results;

@@ -80,7 +80,7 @@ IsOfTheBatch(std::string_view name)
 ColumnRole
 RoleOf(const std::string & head, const std::string & where)
 {
-  const std::string name = Normalized(Trimmed(head));
+  const std::string name = WithoutFormerName("--" + Normalized(Trimmed(head))).substr(2);
   if (name == "id" || name == "participant-id")
   {
     return { Column::Id, nullptr };
@@ -161,7 +161,7 @@ RefuseDecimalComma(const std::string & name, const std::string & text, const std
 {
   const std::size_t comma = text.find(',');
   const auto        isDigit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
-  if ((name == "lambda" || name == "bumps") && comma != std::string::npos && comma > 0 && isDigit(comma - 1) &&
+  if ((name == "lambda" || name == "tolerance") && comma != std::string::npos && comma > 0 && isDigit(comma - 1) &&
       isDigit(comma + 1) && text.substr(0, comma).find_first_not_of("0123456789") == std::string::npos)
   {
     std::string point = text;

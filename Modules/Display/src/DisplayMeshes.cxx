@@ -166,7 +166,7 @@ MedialPolyData(const DisplayLabel & label, PictureColoring coloring)
 {
   MedialModel model;
   model.parts = { label.medial };
-  model.parts.front().core.bumps = {}; // with them edges of faces would be lines, too, for thresholds
+  model.parts.front().core.tolerances = {}; // with them edges of faces would be lines, too, for thresholds
   const vtkSmartPointer<vtkPolyData> data = MakePolyData(model, false);
   AddShown(data, MedialValues(label, coloring));
   constexpr double           kSharpDegrees = 50;

@@ -69,9 +69,9 @@ DescribeParameters(const CoreOptions &    options,
   {
     parameters.lambda.push_back(lambda.text);
   }
-  for (const BumpHeight & height : options.bumps)
+  for (const Tolerance & height : options.tolerances)
   {
-    parameters.bumps.push_back(height.text);
+    parameters.tolerances.push_back(height.text);
   }
   parameters.refine.surface = options.refine.surface;
   if (!options.refine.grey.empty())
@@ -96,13 +96,13 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
   {
     throw UsageError("no --lambda given");
   }
-  if (!options.bumps.empty() && options.lambdas.size() > 1)
+  if (!options.tolerances.empty() && options.lambdas.size() > 1)
   {
-    throw UsageError("with --bumps give one --lambda, the floor");
+    throw UsageError("with --tolerance give one --lambda, the floor");
   }
-  if (!options.refine.surface.empty() && (!options.bumps.empty() || options.skeleton || options.model.keepEdges))
+  if (!options.refine.surface.empty() && (!options.tolerances.empty() || options.skeleton || options.model.keepEdges))
   {
-    throw UsageError("--refine does not go with --bumps, --with-skeleton or --keep-edges");
+    throw UsageError("--refine does not go with --tolerance, --with-skeleton or --keep-edges");
   }
   if (options.report)
   {
@@ -136,7 +136,7 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
       throw UsageError(options.output.string() +
                        ": unknown extension; use .vtp .vtk .ply .obj .stl or .ma, or a folder ending in /");
     }
-    for (const std::string & suffix : ResultSuffixes(options.lambdas, options.bumps))
+    for (const std::string & suffix : ResultSuffixes(options.lambdas, options.tolerances))
     {
       transaction.CheckTarget(FileOutputPath(options.output, suffix));
     }
@@ -168,7 +168,7 @@ public:
     , m_ToFolder(toFolder)
     , m_Transaction(transaction)
     , m_Result(result)
-    , m_Suffixes(ResultSuffixes(options.lambdas, options.bumps))
+    , m_Suffixes(ResultSuffixes(options.lambdas, options.tolerances))
     , m_Models(m_Suffixes.size())
   {}
 
@@ -259,7 +259,7 @@ private:
   OutputTransaction &      m_Transaction;
   CoreResult &             m_Result;
   std::vector<std::string> m_Suffixes;
-  std::vector<MedialModel> m_Models; ///< one per lambda or bump height
+  std::vector<MedialModel> m_Models; ///< one per lambda or tolerance
 };
 
 /** Where a folder says which of its labels are finished. */

@@ -42,11 +42,11 @@ constexpr double kWholeCoreBytes = 200; // a boundary vertex: of a whole core ke
 constexpr double kPrunedBytes = 97;     // an edge of a pruned core, kept likewise
 constexpr double kFurtherBytes = 50;    // of each further result at the peak of a label
 constexpr double kEdgeBytes = 40;       // of --keep-edges
-constexpr double kBumpBytes = 70;       // of bump heights
+constexpr double kToleranceBytes = 70;  // of tolerances
 constexpr double kTetgenBytes = 1050;   // TetGen's mesh
 constexpr double kTetgenSeconds = 6e-5;
 constexpr double kFurtherSeconds = 8e-7; // of each further result
-constexpr double kBumpSeconds = 8e-6;
+constexpr double kToleranceSeconds = 8e-6;
 constexpr double kRefineBytes = 700; // the band of the field, and what is kept of the whole core
 constexpr double kRefineSeconds = 4e-5;
 
@@ -84,7 +84,7 @@ struct LabelCost
 bool
 ShowsWhole(const CoreOptions & options)
 {
-  return options.bumps.empty() && options.lambdas.front().value == 0;
+  return options.tolerances.empty() && options.lambdas.front().value == 0;
 }
 
 LabelCost
@@ -93,7 +93,7 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const Co
   CostTerms terms = ComputeCostTerms(counts, constants);
   terms.values[0] = 0;
   const auto   border = static_cast<double>(counts.borderVoxels);
-  const double results = static_cast<double>(std::max(options.lambdas.size(), options.bumps.size()));
+  const double results = static_cast<double>(std::max(options.lambdas.size(), options.tolerances.size()));
   const bool   tetgen = options.engine == Engine::TetGen || options.crossCheck;
   LabelCost    cost;
   cost.bytes = Sum(terms.values, constants.bytes) + border * (results - 1) * kFurtherBytes;
@@ -101,7 +101,7 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const Co
   // Of a skeleton alone no core is kept.
   for (std::size_t i = 0; !options.output.empty() && i < static_cast<std::size_t>(results); ++i)
   {
-    const bool whole = options.bumps.empty() && options.lambdas[i].value == 0;
+    const bool whole = options.tolerances.empty() && options.lambdas[i].value == 0;
     cost.kept +=
       whole ? static_cast<double>(counts.vertices) * kWholeCoreBytes : PrunedEdges(counts, constants) * kPrunedBytes;
     cost.kept += options.model.keepEdges ? border * kEdgeBytes : 0;
@@ -110,10 +110,10 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const Co
   {
     cost.bytes += border * kEdgeBytes;
   }
-  if (!options.bumps.empty())
+  if (!options.tolerances.empty())
   {
-    cost.bytes += border * kBumpBytes;
-    cost.seconds += border * kBumpSeconds;
+    cost.bytes += border * kToleranceBytes;
+    cost.seconds += border * kToleranceSeconds;
   }
   if (!options.refine.surface.empty())
   {

@@ -30,8 +30,9 @@ TellFacelessLabels(const CoreReport &                 report,
       {
         continue;
       }
-      threshold = pruned.bumps ? "--bumps " + pruned.bumps->height : "--lambda " + pruned.lambda;
-      isFar = isFar || (pruned.bumps ? pruned.bumps->heightMm : pruned.lambdaMm) > farBeyond * label.core.maxRadiusMm;
+      threshold = pruned.tolerance ? "--tolerance " + pruned.tolerance->height : "--lambda " + pruned.lambda;
+      isFar =
+        isFar || (pruned.tolerance ? pruned.tolerance->heightMm : pruned.lambdaMm) > farBeyond * label.core.maxRadiusMm;
       if (++count <= named)
       {
         char radius[32];

@@ -274,8 +274,8 @@ std::string
 LabelKey(const CoreReport & report, const std::string & more)
 {
   std::string text = report.input.sha256 + "\n" + SourceDigest() + "\n" + more + "\n";
-  // With bump heights there is one lambda.
-  const std::size_t results = std::max(report.parameters.lambda.size(), report.parameters.bumps.size());
+  // With tolerances there is one lambda.
+  const std::size_t results = std::max(report.parameters.lambda.size(), report.parameters.tolerances.size());
   for (std::size_t which = 0; which < results; ++which)
   {
     text += ProvenanceJson(report, {}, which) + "\n";

@@ -102,7 +102,7 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
     };
     CertifiedRequest request;
     request.lambdas = options.lambdas;
-    request.bumps = options.bumps;
+    request.tolerances = options.tolerances;
     request.surface = surface;
     request.skeleton = options.skeleton;
     request.engine = options.engine;

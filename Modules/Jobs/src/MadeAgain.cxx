@@ -36,7 +36,7 @@ MadeAgain::MadeAgain(const CoreReport &            made,
                      std::vector<std::string> &    notes)
   : m_Made(made)
   , m_Geometry(volume.geometry)
-  , m_Needed(!made.parameters.refine.surface.empty() || !made.parameters.bumps.empty())
+  , m_Needed(!made.parameters.refine.surface.empty() || !made.parameters.tolerances.empty())
 {
   if (!m_Needed)
   {
@@ -66,9 +66,9 @@ MadeAgain::Check(const ModelPart &        part,
   }
   CertifiedRequest request;
   request.lambdas = { ParseLambda(pruned.lambda) };
-  if (pruned.bumps)
+  if (pruned.tolerance)
   {
-    request.bumps = { ParseBumpHeight(pruned.bumps->height) };
+    request.tolerances = { ParseTolerance(pruned.tolerance->height) };
   }
   request.surface = m_Surface;
   LabelOutcome    outcome = ProcessLabel(label, m_Geometry, std::move(request), progress);
@@ -90,10 +90,7 @@ MadeAgain::Check(const ModelPart &        part,
   VerificationCheck check{ "made again", true, 0, {} };
   if (!SameBits(part, again))
   {
-    check = { "made again",
-              false,
-              1,
-              "the scan gives other places, radii, measures or bump heights than the file has." };
+    check = { "made again", false, 1, "the scan gives other places, radii, measures or tolerances than the file has." };
   }
   return check;
 }

@@ -13,7 +13,7 @@
 namespace voxelcore
 {
 
-/** Bump heights, and the radii and measures of a refined core, follow from no property that a finished file could be
+/** Tolerances, and the radii and measures of a refined core, follow from no property that a finished file could be
  *  checked for. They are made again from the scan and compared bit by bit. */
 class MadeAgain
 {

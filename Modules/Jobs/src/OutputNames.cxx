@@ -100,21 +100,21 @@ ParseLambdas(std::string_view text)
   return ParseLengths<Lambda>(text, ParseLambda, "--lambda");
 }
 
-std::vector<BumpHeight>
-ParseBumpHeights(std::string_view text)
+std::vector<Tolerance>
+ParseTolerances(std::string_view text)
 {
-  return ParseLengths<BumpHeight>(text, ParseBumpHeight, "--bumps");
+  return ParseLengths<Tolerance>(text, ParseTolerance, "--tolerance");
 }
 
 std::vector<std::string>
-ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<BumpHeight> & bumps)
+ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<Tolerance> & tolerances)
 {
   std::vector<std::string> suffixes;
-  for (const BumpHeight & height : bumps)
+  for (const Tolerance & height : tolerances)
   {
-    suffixes.push_back("_bumps-" + height.text);
+    suffixes.push_back("_tolerance-" + height.text);
   }
-  for (const Lambda & lambda : bumps.empty() ? lambdas : std::vector<Lambda>())
+  for (const Lambda & lambda : tolerances.empty() ? lambdas : std::vector<Lambda>())
   {
     suffixes.push_back("_lambda-" + LambdaTag(lambda));
   }

@@ -19,16 +19,16 @@ void
 RequirePrunable(const PruneOptions & options, const MedialModel & model, const CoreReport & made)
 {
   const std::string where = options.core.string();
-  const bool        hasBumps = !made.parameters.bumps.empty();
-  if (!options.bumps.empty() && !hasBumps)
+  const bool        hasTolerance = !made.parameters.tolerances.empty();
+  if (!options.tolerances.empty() && !hasTolerance)
   {
-    throw InputError(where + ": does not hold bump heights; make it with 'voxelcore core --bumps 0'");
+    throw InputError(where + ": does not hold tolerances; make it with 'voxelcore core --tolerance 0'");
   }
-  if (options.bumps.empty() && !model.hasEdges)
+  if (options.tolerances.empty() && !model.hasEdges)
   {
     throw InputError(where + ": does not hold the measures of its edges; make it with 'voxelcore core --keep-edges'");
   }
-  if (made.parameters.lambda.size() != 1 || made.parameters.bumps.size() > 1 ||
+  if (made.parameters.lambda.size() != 1 || made.parameters.tolerances.size() > 1 ||
       made.labels.size() != model.parts.size())
   {
     throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
@@ -36,8 +36,8 @@ RequirePrunable(const PruneOptions & options, const MedialModel & model, const C
   for (std::size_t i = 0; i < made.labels.size(); ++i)
   {
     if (made.labels[i].label != model.parts[i].label || made.labels[i].component != model.parts[i].component ||
-        made.labels[i].pruned.size() != 1 || made.labels[i].pruned.front().bumps.has_value() != hasBumps ||
-        model.parts[i].core.HasBumps() != hasBumps)
+        made.labels[i].pruned.size() != 1 || made.labels[i].pruned.front().tolerance.has_value() != hasTolerance ||
+        model.parts[i].core.HasTolerances() != hasTolerance)
     {
       throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
     }
@@ -48,10 +48,10 @@ RequirePrunable(const PruneOptions & options, const MedialModel & model, const C
 void
 RequireSmaller(const PruneOptions & options, const CertifiedShape & shape, const PrunedRecord & done)
 {
-  if (done.bumps && done.bumps->heightMm > 0)
+  if (done.tolerance && done.tolerance->heightMm > 0)
   {
     throw InputError(options.core.string() +
-                     ": is pruned by bump height already; give --bumps, or a file made without");
+                     ": is pruned by tolerance already; give --tolerance, or a file made without");
   }
   const SpacingWeights weights = ComputeSpacingWeights(shape.geometry.spacing);
   for (const Lambda & lambda : options.lambdas)
@@ -66,14 +66,14 @@ RequireSmaller(const PruneOptions & options, const CertifiedShape & shape, const
 
 /** \throws InputError when the file is pruned beyond one of the heights. */
 void
-RequireLower(const PruneOptions & options, const CoreReport & made, const BumpNumbers & done)
+RequireLower(const PruneOptions & options, const CoreReport & made, const ToleranceNumbers & done)
 {
-  for (const BumpHeight & height : options.bumps)
+  for (const Tolerance & height : options.tolerances)
   {
-    if (BumpHeightInMillimetres(height, made.input.geometry.spacing) < done.heightMm)
+    if (ToleranceInMillimetres(height, made.input.geometry.spacing) < done.heightMm)
     {
-      throw InputError(options.core.string() + ": is pruned at bump height " + done.height + " already; for " +
-                       height.text + " give a file made with a smaller --bumps, best 0");
+      throw InputError(options.core.string() + ": is pruned at tolerance " + done.height + " already; for " +
+                       height.text + " give a file made with a smaller --tolerance, best 0");
     }
   }
 }
@@ -88,10 +88,10 @@ PruneLabel(ModelPart                part,
 {
   const CertifiedShape shape = RecordedShape(made, label);
   const PrunedRecord & done = label.pruned.front();
-  if (!options.bumps.empty())
+  if (!options.tolerances.empty())
   {
-    RequireLower(options, made, *done.bumps);
-    return PruneCertified({ done, std::move(part) }, shape, options.bumps);
+    RequireLower(options, made, *done.tolerance);
+    return PruneCertified({ done, std::move(part) }, shape, options.tolerances);
   }
   RequireSmaller(options, shape, done);
   return PruneCertified({ done, std::move(part) }, shape, options.lambdas, progress);
@@ -113,7 +113,7 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
     throw UsageError(options.output.string() + ": unknown extension; use .vtp .vtk .ply .obj .stl or .ma");
   }
   transaction.Protect(options.core);
-  const std::vector<std::string> suffixes = ResultSuffixes(options.lambdas, options.bumps);
+  const std::vector<std::string> suffixes = ResultSuffixes(options.lambdas, options.tolerances);
   for (const std::string & suffix : suffixes)
   {
     transaction.CheckTarget(FileOutputPath(options.output, suffix));
@@ -130,11 +130,11 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
   RequirePrunable(options, model, report);
   report.command = options.command;
   report.input.path = options.core.string();
-  // Of what is pruned by bump height on, the lambda stays what it was.
-  report.parameters.bumps.clear();
-  for (const BumpHeight & height : options.bumps)
+  // Of what is pruned by tolerance on, the lambda stays what it was.
+  report.parameters.tolerances.clear();
+  for (const Tolerance & height : options.tolerances)
   {
-    report.parameters.bumps.push_back(height.text);
+    report.parameters.tolerances.push_back(height.text);
   }
   if (!options.lambdas.empty())
   {

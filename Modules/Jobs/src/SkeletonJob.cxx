@@ -26,9 +26,9 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
   core.resolution = options.resolution;
   core.edits = options.edits;
   core.lambdas = { options.stage.lambda };
-  if (options.stage.bumps)
+  if (options.stage.tolerance)
   {
-    core.bumps = { *options.stage.bumps };
+    core.tolerances = { *options.stage.tolerance };
   }
   core.skeleton = options.stage;
   core.skeletonOutput = options.output;
@@ -63,7 +63,7 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   RequireUnrefined(model, options.input);
   report = ParseProvenance(model.provenance, options.input.string());
   if (report.labels.size() != model.parts.size() || report.parameters.lambda.size() != 1 ||
-      report.parameters.bumps.size() > 1)
+      report.parameters.tolerances.size() > 1)
   {
     throw InputError(options.input.string() + ": its field Provenance does not fit its cells; make the file again");
   }
@@ -73,10 +73,10 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   report.parameters.threads = options.threads;
   report.skeleton = options.stage;
   report.skeleton->lambda = ParseLambda(report.parameters.lambda.front());
-  if (!report.parameters.bumps.empty())
+  if (!report.parameters.tolerances.empty())
   {
-    const BumpHeight height = ParseBumpHeight(report.parameters.bumps.front());
-    report.skeleton->bumps = height.value > 0 ? std::optional(height) : std::nullopt;
+    const Tolerance height = ParseTolerance(report.parameters.tolerances.front());
+    report.skeleton->tolerance = height.value > 0 ? std::optional(height) : std::nullopt;
   }
   report.seconds.read = watch.Lap();
   for (std::size_t i = 0; i < model.parts.size(); ++i)
@@ -100,9 +100,9 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
     result.notes.push_back(options.input.string() + " is pruned at lambda " + report.skeleton->lambda.text +
                            ": parts thinner than that have no branches; for these make the core with --lambda 0");
   }
-  if (report.skeleton->bumps)
+  if (report.skeleton->tolerance)
   {
-    result.notes.push_back(options.input.string() + " is pruned at bump height " + report.skeleton->bumps->text +
+    result.notes.push_back(options.input.string() + " is pruned at tolerance " + report.skeleton->tolerance->text +
                            ": tips are that much shorter; for all of them make the core with --lambda 0");
   }
   ReportProgress(context.progress, "writing", 0.95);

@@ -78,12 +78,12 @@ VerifyPart(ModelPart                part,
   input.positionTolerance = PositionTolerance(geometry);
   input.polygonsReversed = IsLeftHanded(geometry);
   input.threshold = pruned.lambdaMm;
-  if (pruned.bumps)
+  if (pruned.tolerance)
   {
-    input.bumpHeight = pruned.bumps->heightMm;
-    input.vertexBump = part.core.bumps.vertices;
-    input.edgeBump = part.core.bumps.edges;
-    input.faceBump = part.core.bumps.faces;
+    input.pruningTolerance = pruned.tolerance->heightMm;
+    input.vertexTolerance = part.core.tolerances.vertices;
+    input.edgeTolerance = part.core.tolerances.edges;
+    input.faceTolerance = part.core.tolerances.faces;
   }
   return VerifyComplex(input, progress);
 }
@@ -125,7 +125,7 @@ CheckProvenance(const LabelRecord &        recorded,
   return { "provenance", true, 0, {} };
 }
 
-/** How far the boundary lies from a core pruned by bump height; empty for others. */
+/** How far the boundary lies from a core pruned by tolerance; empty for others. */
 std::string
 GapText(const LabelVerification & label)
 {
@@ -133,10 +133,10 @@ GapText(const LabelVerification & label)
   {
     return {};
   }
-  const LengthUnit unit = LengthUnit::For(std::max(*label.report.boundaryGap, label.bumpHeightMm));
+  const LengthUnit unit = LengthUnit::For(std::max(*label.report.boundaryGap, label.toleranceMm));
   const auto       length = [&unit](double mm) { return ShortText(unit.Of(mm), 4) + " " + unit.Name(); };
-  return "; boundary within " + length(*label.report.boundaryGap) + " of it (bump height " + label.bumpHeight + ", " +
-         length(label.bumpHeightMm) + ")";
+  return "; boundary within " + length(*label.report.boundaryGap) + " of it (tolerance " + label.pruningTolerance +
+         ", " + length(label.toleranceMm) + ")";
 }
 
 } // namespace
@@ -196,10 +196,10 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
     one.name = found->name;
     const PrunedRecord & pruned = RecordedPruning(made, i, options.core.string());
     one.lambdaMm = pruned.lambdaMm;
-    if (pruned.bumps)
+    if (pruned.tolerance)
     {
-      one.bumpHeight = pruned.bumps->height;
-      one.bumpHeightMm = pruned.bumps->heightMm;
+      one.pruningTolerance = pruned.tolerance->height;
+      one.toleranceMm = pruned.tolerance->heightMm;
     }
     const ComplexRecord cells = DescribeComplex(model.parts[i].core, {});
     const auto          again = madeAgain.Check(model.parts[i],

@@ -90,8 +90,8 @@ StudyRows(std::int64_t resolution, const CoreReport & report)
       const auto            add = [&row](const std::string & cell) { row += "," + cell; };
       add(Digits(report.input.geometry.spacing[0]));
       add(std::to_string(label.component));
-      add(pruned.bumps ? "bumps " + pruned.bumps->height : pruned.lambda);
-      add(Digits(pruned.bumps ? pruned.bumps->heightMm : pruned.lambdaMm));
+      add(pruned.tolerance ? "tolerance " + pruned.tolerance->height : pruned.lambda);
+      add(Digits(pruned.tolerance ? pruned.tolerance->heightMm : pruned.lambdaMm));
       for (const std::uint64_t count :
            { label.voxels, label.boundaryVertices, label.core.faces, complex.vertices, complex.edges, complex.faces })
       {

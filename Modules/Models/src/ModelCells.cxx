@@ -77,9 +77,9 @@ VertexCells(const MedialComplex & core)
   std::vector<double> most(core.cells.vertexCount, -1.0);
   for (std::size_t edge = 0; edge < core.cells.edges.size(); ++edge)
   {
-    Raise(most, core.cells.edges[edge], core.HasBumps() ? core.bumps.edges[edge] : 0.0);
+    Raise(most, core.cells.edges[edge], core.HasTolerances() ? core.tolerances.edges[edge] : 0.0);
   }
-  return Outlasting(most, core.bumps.vertices);
+  return Outlasting(most, core.tolerances.vertices);
 }
 
 std::vector<ElementIndex>
@@ -88,9 +88,9 @@ LineCells(const MedialComplex & core)
   std::vector<double> most(core.cells.edges.size(), -1.0);
   for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
   {
-    Raise(most, core.cells.FaceEdges(face), core.HasBumps() ? core.bumps.faces[face] : 0.0);
+    Raise(most, core.cells.FaceEdges(face), core.HasTolerances() ? core.tolerances.faces[face] : 0.0);
   }
-  return Outlasting(most, core.bumps.edges);
+  return Outlasting(most, core.tolerances.edges);
 }
 
 void
@@ -165,7 +165,7 @@ MedialComplex
 Triangulated(const MedialComplex & core)
 {
   MedialComplex result;
-  result.bumps.vertices = core.bumps.vertices;
+  result.tolerances.vertices = core.tolerances.vertices;
   result.positions = core.positions;
   result.radius = core.radius;
   result.vertexLambda = core.vertexLambda;
@@ -178,9 +178,9 @@ Triangulated(const MedialComplex & core)
       result.cells.faceVertices.insert(result.cells.faceVertices.end(), { corners[0], corners[i - 1], corners[i] });
       result.cells.faceOffsets.push_back(result.cells.faceVertices.size());
       result.faceLambda.push_back(core.faceLambda[face]);
-      if (core.HasBumps())
+      if (core.HasTolerances())
       {
-        result.bumps.faces.push_back(core.bumps.faces[face]);
+        result.tolerances.faces.push_back(core.tolerances.faces[face]);
       }
     }
   }
@@ -201,12 +201,12 @@ Triangulated(const MedialComplex & core)
   {
     result.edgeLambda[result.cells.faceEdges[corner]] = result.faceLambda[corner / 3];
   }
-  if (core.HasBumps())
+  if (core.HasTolerances())
   {
-    result.bumps.edges.assign(result.cells.edges.size(), 0);
+    result.tolerances.edges.assign(result.cells.edges.size(), 0);
     for (std::size_t corner = 0; corner < result.cells.faceEdges.size(); ++corner)
     {
-      result.bumps.edges[result.cells.faceEdges[corner]] = result.bumps.faces[corner / 3];
+      result.tolerances.edges[result.cells.faceEdges[corner]] = result.tolerances.faces[corner / 3];
     }
   }
   // Both lists are sorted, and every old edge is among the new ones.
@@ -217,9 +217,9 @@ Triangulated(const MedialComplex & core)
       ++edge;
     }
     result.edgeLambda[edge] = core.edgeLambda[old];
-    if (core.HasBumps())
+    if (core.HasTolerances())
     {
-      result.bumps.edges[edge] = core.bumps.edges[old];
+      result.tolerances.edges[edge] = core.tolerances.edges[old];
     }
   }
   return result;

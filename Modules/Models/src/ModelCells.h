@@ -14,7 +14,7 @@ IsolatedVertices(const CellComplex & cells);
 std::vector<std::uint8_t>
 EdgesOnFaces(const CellComplex & cells);
 
-/** The vertices and edges that are cells of a file, in order: those on no edge, or face; with bump heights also those
+/** The vertices and edges that are cells of a file, in order: those on no edge, or face; with tolerances also those
  *  that outlast theirs, so that a threshold on the heights of a file's cells shows what is left at any height. */
 std::vector<ElementIndex>
 VertexCells(const MedialComplex & core);

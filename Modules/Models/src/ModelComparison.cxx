@@ -50,8 +50,8 @@ SameBits(const ModelPart & a, const ModelPart & b)
          x.cells.faceVertices == y.cells.faceVertices && x.cells.faceEdges == y.cells.faceEdges &&
          Same(x.positions, y.positions) && Same(x.radius, y.radius) && Same(x.vertexLambda, y.vertexLambda) &&
          Same(x.edgeLambda, y.edgeLambda) && Same(x.faceLambda, y.faceLambda) &&
-         Same(x.bumps.vertices, y.bumps.vertices) && Same(x.bumps.edges, y.bumps.edges) &&
-         Same(x.bumps.faces, y.bumps.faces) && Same(a.displacement, b.displacement);
+         Same(x.tolerances.vertices, y.tolerances.vertices) && Same(x.tolerances.edges, y.tolerances.edges) &&
+         Same(x.tolerances.faces, y.tolerances.faces) && Same(a.displacement, b.displacement);
 }
 
 bool

@@ -178,31 +178,31 @@ RequireCells(const std::array<CellList, 3> &   kinds,
   RequireFit(fit, "its vertex cells are not its isolated vertices");
 }
 
-/** Bump heights of a part from those of its points and cells. Edges that are no cells go with the last of their faces. */
+/** Tolerances of a part from those of its points and cells. Edges that are no cells go with the last of their faces. */
 void
-ReadBumps(const std::array<CellList, 3> & kinds,
-          const PartRange &               range,
-          const std::vector<double> &     pointBump,
-          const std::vector<double> &     cellBump,
-          MedialComplex &                 core)
+ReadTolerances(const std::array<CellList, 3> & kinds,
+               const PartRange &               range,
+               const std::vector<double> &     pointTolerance,
+               const std::vector<double> &     cellTolerance,
+               MedialComplex &                 core)
 {
   const CellComplex & cells = core.cells;
-  const auto          firstPoint = pointBump.begin() + range.firstPoint;
-  core.bumps.vertices.assign(firstPoint, firstPoint + static_cast<std::ptrdiff_t>(cells.vertexCount));
+  const auto          firstPoint = pointTolerance.begin() + range.firstPoint;
+  core.tolerances.vertices.assign(firstPoint, firstPoint + static_cast<std::ptrdiff_t>(cells.vertexCount));
   const std::size_t firstFace = kinds[0].Count() + kinds[1].Count() + range.firstCell[2];
-  core.bumps.faces.assign(cellBump.begin() + static_cast<std::ptrdiff_t>(firstFace),
-                          cellBump.begin() + static_cast<std::ptrdiff_t>(firstFace + range.cells[2]));
-  for (const auto * values : { &core.bumps.vertices, &core.bumps.faces })
+  core.tolerances.faces.assign(cellTolerance.begin() + static_cast<std::ptrdiff_t>(firstFace),
+                               cellTolerance.begin() + static_cast<std::ptrdiff_t>(firstFace + range.cells[2]));
+  for (const auto * values : { &core.tolerances.vertices, &core.tolerances.faces })
   {
     RequireFit(std::all_of(values->begin(), values->end(), [](double value) { return value >= 0; }),
-               "a bump height is below 0");
+               "a tolerance is below 0");
   }
-  core.bumps.edges.assign(cells.edges.size(), 0);
+  core.tolerances.edges.assign(cells.edges.size(), 0);
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
     for (const ElementIndex edge : cells.FaceEdges(face))
     {
-      core.bumps.edges[edge] = std::max(core.bumps.edges[edge], core.bumps.faces[face]);
+      core.tolerances.edges[edge] = std::max(core.tolerances.edges[edge], core.tolerances.faces[face]);
     }
   }
   std::size_t line = 0;
@@ -211,16 +211,16 @@ ReadBumps(const std::array<CellList, 3> & kinds,
     const auto ends = kinds[1][range.firstCell[1] + line];
     if (ends[0] == range.firstPoint + cells.edges[edge][0] && ends[1] == range.firstPoint + cells.edges[edge][1])
     {
-      core.bumps.edges[edge] = cellBump[kinds[0].Count() + range.firstCell[1] + line];
-      RequireFit(core.bumps.edges[edge] >= 0, "a bump height is below 0");
+      core.tolerances.edges[edge] = cellTolerance[kinds[0].Count() + range.firstCell[1] + line];
+      RequireFit(core.tolerances.edges[edge] >= 0, "a tolerance is below 0");
       ++line;
     }
   }
   for (std::size_t i = 0; i < range.cells[0]; ++i)
   {
     const std::size_t cell = range.firstCell[0] + i;
-    RequireFit(pointBump[static_cast<std::size_t>(kinds[0][cell][0])] == cellBump[cell],
-               "an isolated vertex has two bump heights");
+    RequireFit(pointTolerance[static_cast<std::size_t>(kinds[0][cell][0])] == cellTolerance[cell],
+               "an isolated vertex has two tolerances");
   }
 }
 
@@ -282,11 +282,11 @@ ReadParts(ModelSource & file, bool anywhere)
   const auto cellLambda = ReadValues<double>(file, "CellData", "Lambda", cellCount);
   const auto keys = ReadKeys(file, cellCount);
 
-  const bool                hasBumps = file.Has("CellData", "Bump") || file.Has("PointData", "Bump");
-  const std::vector<double> pointBump =
-    hasBumps ? ReadValues<double>(file, "PointData", "Bump", pointCount) : std::vector<double>();
-  const std::vector<double> cellBump =
-    hasBumps ? ReadValues<double>(file, "CellData", "Bump", cellCount) : std::vector<double>();
+  const bool                hasTolerance = file.Has("CellData", "Tolerance") || file.Has("PointData", "Tolerance");
+  const std::vector<double> pointTolerance =
+    hasTolerance ? ReadValues<double>(file, "PointData", "Tolerance", pointCount) : std::vector<double>();
+  const std::vector<double> cellTolerance =
+    hasTolerance ? ReadValues<double>(file, "CellData", "Tolerance", cellCount) : std::vector<double>();
 
   std::vector<std::int64_t> edgeVertices;
   std::vector<double>       edgeLambda;
@@ -349,9 +349,9 @@ ReadParts(ModelSource & file, bool anywhere)
     }
     core.faceLambda = slice(cellLambda, kinds[0].Count() + kinds[1].Count() + range.firstCell[2], range.cells[2]);
 
-    if (hasBumps)
+    if (hasTolerance)
     {
-      ReadBumps(kinds, range, pointBump, cellBump, core);
+      ReadTolerances(kinds, range, pointTolerance, cellTolerance, core);
     }
     const std::vector<ElementIndex> lines = LineCells(core);
     RequireCells(kinds, range, core, lines);

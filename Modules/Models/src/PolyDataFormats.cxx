@@ -73,10 +73,10 @@ Allocate(ArrayType & array, const char * name, std::uint64_t tuples, int compone
 }
 
 bool
-HaveBumps(const std::vector<PartCells> & parts)
+HaveTolerances(const std::vector<PartCells> & parts)
 {
   return !parts.empty() &&
-         std::all_of(parts.begin(), parts.end(), [](const PartCells & one) { return one.part->core.HasBumps(); });
+         std::all_of(parts.begin(), parts.end(), [](const PartCells & one) { return one.part->core.HasTolerances(); });
 }
 
 void
@@ -104,15 +104,15 @@ AddPoints(vtkPolyData * data, const std::vector<PartCells> & parts)
   data->SetPoints(points);
   data->GetPointData()->AddArray(radius);
   data->GetPointData()->AddArray(lambda);
-  if (HaveBumps(parts))
+  if (HaveTolerances(parts))
   {
-    vtkNew<vtkDoubleArray> bump;
-    double *               b = Allocate(*bump, "Bump", count);
+    vtkNew<vtkDoubleArray> tolerance;
+    double *               b = Allocate(*tolerance, "Tolerance", count);
     for (const PartCells & one : parts)
     {
-      b = std::copy(one.part->core.bumps.vertices.begin(), one.part->core.bumps.vertices.end(), b);
+      b = std::copy(one.part->core.tolerances.vertices.begin(), one.part->core.tolerances.vertices.end(), b);
     }
-    data->GetPointData()->AddArray(bump);
+    data->GetPointData()->AddArray(tolerance);
   }
 }
 
@@ -260,10 +260,10 @@ AddCellArrays(vtkPolyData * data, const std::vector<PartCells> & parts)
   AddMeasure(data, parts, "Lambda", [](const MedialComplex & core) {
     return Measures{ core.vertexLambda, core.edgeLambda, core.faceLambda };
   });
-  if (HaveBumps(parts))
+  if (HaveTolerances(parts))
   {
-    AddMeasure(data, parts, "Bump", [](const MedialComplex & core) {
-      return Measures{ core.bumps.vertices, core.bumps.edges, core.bumps.faces };
+    AddMeasure(data, parts, "Tolerance", [](const MedialComplex & core) {
+      return Measures{ core.tolerances.vertices, core.tolerances.edges, core.tolerances.faces };
     });
   }
   data->GetCellData()->AddArray(label);

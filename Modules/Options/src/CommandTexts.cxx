@@ -17,8 +17,8 @@ of the label's box.
   1.5vox, the default, clears most staircase noise and keeps parts three voxels thick.
   Above 2.44vox (cubic voxels) convergence is proven, but thin parts shrink to curves.
   For thick slices, give mm: about 1.5 times the slice distance.
---bumps suits scans with both thick and thin parts. It ignores boundary bumps lower than the given height.
-1.2diag suits clean segmentations; use more for rough ones. A --lambda given with --bumps is applied first.
+--tolerance suits scans with both thick and thin parts. The boundary stays within H of the balls that remain.
+1.2diag suits clean segmentations; use more for rough ones. A --lambda given with --tolerance is applied first.
 Guide: choosing-the-pruning.md
 
 Shape edits run label by label in this order: --mend-shape, --fill-cavities, --min-voxels, --largest,
@@ -39,7 +39,7 @@ skeletons.md
 Examples:
   voxelcore core scan.nii.gz -o medial.vtp --report medial.json
   voxelcore core scan.seg.nrrd --labels liver,4 --lambda 0,1mm,2.5% -o medial.vtp
-  voxelcore core scan.nii.gz --bumps 1.2diag -o medial.vtp
+  voxelcore core scan.nii.gz --tolerance 1.2diag -o medial.vtp
   voxelcore core atlas.nii.gz -o surfaces/
   voxelcore core ct.nrrd --threshold 300:3000 --lambda 2vox -o bone.vtp
   voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp
@@ -69,14 +69,14 @@ Example:
   voxelcore verify scan.nii.gz medial.vtp)";
 
 constexpr std::string_view kPruneFooter =
-  R"(The result equals that of 'voxelcore core' at the same lambda or bump height, bit for bit. For --lambda, make
-the file with --keep-edges. For --bumps, make it with --bumps at a smaller height, best 0.
+  R"(The result equals that of 'voxelcore core' at the same lambda or tolerance, bit for bit. For --lambda, make
+the file with --keep-edges. For --tolerance, make it with a smaller --tolerance, best 0.
 
 Examples:
   voxelcore core scan.nii.gz --lambda 0 --keep-edges -o whole.vtp
   voxelcore prune whole.vtp --lambda 1.5mm,3mm -o medial.vtp
-  voxelcore core scan.nii.gz --bumps 0 -o bumps.vtp
-  voxelcore prune bumps.vtp --bumps 1diag,2diag -o medial.vtp)";
+  voxelcore core scan.nii.gz --tolerance 0 -o every.vtp
+  voxelcore prune every.vtp --tolerance 1diag,2diag -o medial.vtp)";
 
 constexpr std::string_view kReconstructFooter =
   R"(A voxel belongs to the result if its centre lies in a ball of the core. A whole core of cubic voxels reproduces
@@ -84,7 +84,7 @@ its label exactly. A pruned one shows what was treated as noise. On thick slices
 corners of the slices.
 
 Example:
-  voxelcore core scan.nii.gz --bumps 1.2diag -o medial.vtp
+  voxelcore core scan.nii.gz --tolerance 1.2diag -o medial.vtp
   voxelcore reconstruct medial.vtp -o rebuilt.nii.gz --scan scan.nii.gz --report rebuilt.json)";
 
 constexpr std::string_view kVoxelizeFooter =

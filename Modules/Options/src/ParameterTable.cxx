@@ -86,4 +86,15 @@ Parameters()
   return kParameters;
 }
 
+std::string
+WithoutFormerName(std::string argument)
+{
+  constexpr std::string_view former = "--bumps";
+  if (argument == former || argument.starts_with("--bumps="))
+  {
+    argument.replace(0, former.size(), "--tolerance");
+  }
+  return argument;
+}
+
 } // namespace voxelcore

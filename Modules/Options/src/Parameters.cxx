@@ -196,19 +196,19 @@ ShapeEditsFrom(const ParameterValues & values, CommandId command)
 namespace
 {
 
-/** `--lambda` and `--bumps`, of which the latter makes the former a floor. */
+/** `--lambda` and `--tolerance`, of which the latter makes the former a floor. */
 void
-ReadPruning(const ParameterReader & reader, std::vector<Lambda> & lambdas, std::vector<BumpHeight> & bumps)
+ReadPruning(const ParameterReader & reader, std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances)
 {
-  const bool hasBumps = reader.IsGiven("bumps");
-  if (hasBumps)
+  const bool hasTolerance = reader.IsGiven("tolerance");
+  if (hasTolerance)
   {
-    bumps = ParseBumpHeights(reader.Text("bumps"));
+    tolerances = ParseTolerances(reader.Text("tolerance"));
   }
-  lambdas = ParseLambdas(hasBumps && !reader.IsGiven("lambda") ? "0" : reader.Text("lambda"));
-  if (hasBumps && lambdas.size() > 1)
+  lambdas = ParseLambdas(hasTolerance && !reader.IsGiven("lambda") ? "0" : reader.Text("lambda"));
+  if (hasTolerance && lambdas.size() > 1)
   {
-    throw UsageError("--lambda " + reader.Text("lambda") + ": expected one value, the floor of --bumps");
+    throw UsageError("--lambda " + reader.Text("lambda") + ": expected one value, the floor of --tolerance");
   }
 }
 
@@ -319,7 +319,7 @@ CoreOptionsFrom(const ParameterValues & values)
   options.reading = ReadOptionsFrom(values, CommandId::Core);
   options.edits = ShapeEditsFrom(values, CommandId::Core);
   options.resolution = FirstResolution(values, CommandId::Core);
-  ReadPruning(reader, options.lambdas, options.bumps);
+  ReadPruning(reader, options.lambdas, options.tolerances);
   options.refine = RefineFrom(reader);
   options.output = OutputFrom(reader);
   options.report = ReportFrom(reader);
@@ -404,13 +404,13 @@ PruneOptionsFrom(const ParameterValues & values)
   const ParameterReader reader(values, CommandId::Prune);
   PruneOptions          options;
   options.core = reader.Text("core");
-  if (reader.IsGiven("bumps") == reader.IsGiven("lambda"))
+  if (reader.IsGiven("tolerance") == reader.IsGiven("lambda"))
   {
-    throw UsageError("give either --lambda or --bumps, such as --lambda 1.5mm or --bumps 1.2diag");
+    throw UsageError("give either --lambda or --tolerance, such as --lambda 1.5mm or --tolerance 1.2diag");
   }
-  if (reader.IsGiven("bumps"))
+  if (reader.IsGiven("tolerance"))
   {
-    options.bumps = ParseBumpHeights(reader.Text("bumps"));
+    options.tolerances = ParseTolerances(reader.Text("tolerance"));
   }
   else
   {

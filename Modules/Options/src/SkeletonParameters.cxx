@@ -120,7 +120,7 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
   {
     const bool ofScans = BelongsTo(parameter, CommandId::Skeleton) &&
                          (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" ||
-                          parameter.name == "bumps" || parameter.name == "engine") &&
+                          parameter.name == "tolerance" || parameter.name == "engine") &&
                          parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
                          parameter.name != "quiet";
     if (ofScans && values.contains(parameter.name))
@@ -193,14 +193,14 @@ SkeletonOptionsFrom(const ParameterValues & values)
   options.stage = StageFrom(values, command);
   options.stage.lambda = LengthFrom(values, command, "lambda");
   options.targets = TargetsFrom(values, command);
-  if (values.contains("bumps"))
+  if (values.contains("tolerance"))
   {
-    const auto heights = ParseBumpHeights(ValueOf(values, command, "bumps"));
+    const auto heights = ParseTolerances(ValueOf(values, command, "tolerance"));
     if (heights.size() > 1)
     {
-      throw UsageError("--bumps " + ValueOf(values, command, "bumps") + ": expected one value");
+      throw UsageError("--tolerance " + ValueOf(values, command, "tolerance") + ": expected one value");
     }
-    options.stage.bumps = heights.front().value > 0 ? std::optional(heights.front()) : std::nullopt;
+    options.stage.tolerance = heights.front().value > 0 ? std::optional(heights.front()) : std::nullopt;
   }
   options.output = OutputFrom(values, command);
   if (values.contains("report"))

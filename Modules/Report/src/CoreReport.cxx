@@ -104,16 +104,16 @@ LabelJson(const LabelRecord & label, bool inFile)
   for (const PrunedRecord & pruned : label.pruned)
   {
     Json one = { { "lambda", pruned.lambda }, { "lambda_mm", pruned.lambdaMm } };
-    if (pruned.bumps)
+    if (pruned.tolerance)
     {
-      one["bumps"] = pruned.bumps->height;
-      one["bumps_mm"] = pruned.bumps->heightMm;
+      one["tolerance"] = pruned.tolerance->height;
+      one["tolerance_mm"] = pruned.tolerance->heightMm;
     }
     AddComplex(one, pruned.complex);
-    if (!inFile && pruned.bumps)
+    if (!inFile && pruned.tolerance)
     {
       // Whoever prunes a finished file has no boundary to measure it on.
-      one["boundary_gap_mm"] = pruned.bumps->boundaryGapMm ? Json(*pruned.bumps->boundaryGapMm) : Json(nullptr);
+      one["boundary_gap_mm"] = pruned.tolerance->boundaryGapMm ? Json(*pruned.tolerance->boundaryGapMm) : Json(nullptr);
     }
     if (pruned.refined)
     {
@@ -300,9 +300,9 @@ ReadLabel(const Json & json)
     one.at("lambda").get_to(pruned.lambda);
     one.at("lambda_mm").get_to(pruned.lambdaMm);
     pruned.complex = ReadComplex(one);
-    if (one.contains("bumps"))
+    if (one.contains("tolerance"))
     {
-      pruned.bumps = { one.at("bumps").get<std::string>(), one.at("bumps_mm").get<double>(), {} };
+      pruned.tolerance = { one.at("tolerance").get<std::string>(), one.at("tolerance_mm").get<double>(), {} };
     }
     if (one.contains("max_displacement_vox"))
     {
@@ -371,13 +371,13 @@ ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & label
   part.input = report.input;
   part.parameters = report.parameters;
   part.parameters.labels.clear();
-  if (report.parameters.bumps.empty())
+  if (report.parameters.tolerances.empty())
   {
     part.parameters.lambda = { report.parameters.lambda.at(which) };
   }
   else
   {
-    part.parameters.bumps = { report.parameters.bumps.at(which) };
+    part.parameters.tolerances = { report.parameters.tolerances.at(which) };
   }
   for (const std::size_t index : labels)
   {
@@ -397,7 +397,7 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
   part.parameters = report.parameters;
   part.parameters.labels.clear();
   part.parameters.lambda = { report.skeleton.value().lambda.text };
-  part.parameters.bumps.clear();
+  part.parameters.tolerances.clear();
   part.parameters.model.keepEdges = false; // changes nothing here
   part.skeleton = report.skeleton;
   for (const std::size_t index : labels)
@@ -406,8 +406,8 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
     PrunedRecord source{ { "0", 0, label.core, {}, {} } };
     for (const PrunedRecord & pruned : report.labels[index].pruned)
     {
-      const auto & height = report.skeleton->bumps;
-      const bool   same = height ? pruned.bumps && pruned.bumps->height == height->text : !pruned.bumps;
+      const auto & height = report.skeleton->tolerance;
+      const bool   same = height ? pruned.tolerance && pruned.tolerance->height == height->text : !pruned.tolerance;
       source = pruned.lambda == report.skeleton->lambda.text && same ? pruned : source;
     }
     label.pruned = { source };
@@ -462,9 +462,9 @@ ParseLabelRecord(const std::string & text)
     for (std::size_t i = 0; i < label.pruned.size(); ++i)
     {
       const Json & pruned = json.at("pruned").at(i);
-      if (label.pruned[i].bumps && !pruned.at("boundary_gap_mm").is_null())
+      if (label.pruned[i].tolerance && !pruned.at("boundary_gap_mm").is_null())
       {
-        label.pruned[i].bumps->boundaryGapMm = pruned.at("boundary_gap_mm").get<double>();
+        label.pruned[i].tolerance->boundaryGapMm = pruned.at("boundary_gap_mm").get<double>();
       }
     }
     if (json.at("certificate").contains("covered"))

@@ -1,5 +1,7 @@
 #include "ParametersJson.h"
 
+#include "voxelcore/Error.h"
+
 #include <cmath>
 #include <limits>
 
@@ -109,9 +111,9 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
   json["crop"] = parameters.crop ? CropJson(*parameters.crop) : Json(nullptr);
   AddEdits(json, parameters.edits);
   json["lambda"] = parameters.lambda;
-  if (!parameters.bumps.empty())
+  if (!parameters.tolerances.empty())
   {
-    json["bumps"] = parameters.bumps;
+    json["tolerance"] = parameters.tolerances;
   }
   if (!parameters.refine.surface.empty())
   {
@@ -161,7 +163,11 @@ ReadParameters(const nlohmann::ordered_json & json)
   }
   parameters.edits = ReadEdits(json);
   json.at("lambda").get_to(parameters.lambda);
-  parameters.bumps = json.value("bumps", std::vector<std::string>());
+  if (json.contains("bumps"))
+  {
+    throw InputError("was pruned by the tolerance of VoxelCore 0.1; make it again");
+  }
+  parameters.tolerances = json.value("tolerance", std::vector<std::string>());
   parameters.refine.surface = json.value("refine", std::string());
   parameters.refine.greySha256 = json.value("grey_sha256", std::string());
   if (json.contains("grey_range"))

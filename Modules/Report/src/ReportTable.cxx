@@ -73,19 +73,19 @@ std::string
 ReportTable(const CoreReport & report)
 {
   std::vector<std::string> head{ "label", "name", "voxels", "boundary vertices", "core faces" };
-  const bool               bumps = !report.parameters.bumps.empty();
+  const bool               byTolerance = !report.parameters.tolerances.empty();
   const LengthUnit         unit = UnitOf(report, [](const LabelRecord & label) {
     double gap = 0;
     for (const PrunedRecord & pruned : label.pruned)
     {
-      gap = std::max(gap, pruned.bumps ? pruned.bumps->boundaryGapMm.value_or(0) : 0);
+      gap = std::max(gap, pruned.tolerance ? pruned.tolerance->boundaryGapMm.value_or(0) : 0);
     }
     return gap;
   });
-  for (const std::string & value : bumps ? report.parameters.bumps : report.parameters.lambda)
+  for (const std::string & value : byTolerance ? report.parameters.tolerances : report.parameters.lambda)
   {
     head.push_back("faces at " + value);
-    if (bumps)
+    if (byTolerance)
     {
       head.emplace_back("gap " + unit.Name());
     }
@@ -106,9 +106,9 @@ ReportTable(const CoreReport & report)
     for (const PrunedRecord & pruned : label.pruned)
     {
       row.push_back(std::to_string(pruned.complex.faces));
-      if (bumps)
+      if (byTolerance)
       {
-        const auto gap = pruned.bumps ? pruned.bumps->boundaryGapMm : std::nullopt;
+        const auto gap = pruned.tolerance ? pruned.tolerance->boundaryGapMm : std::nullopt;
         row.push_back(gap ? unit.Text(*gap, 1, 3) : "-");
       }
     }
@@ -188,7 +188,7 @@ LabelTableCsv(const CoreReport & report)
                     static_cast<long long>(complex.topology.betti[1]),
                     static_cast<long long>(complex.topology.betti[2]));
       text += std::to_string(label.label) + "," + CsvField(label.name) + "," + std::to_string(label.component) + "," +
-              CsvField(pruned.bumps ? pruned.bumps->height : pruned.lambda) + "," + numbers;
+              CsvField(pruned.tolerance ? pruned.tolerance->height : pruned.lambda) + "," + numbers;
     }
   }
   return text;

@@ -37,9 +37,9 @@ SkeletonStageJson(const SkeletonRequest & stage)
              { "cut_loops", branches.cutLoops },
              { "split_at_junctions", branches.splitAtJunctions },
              { "root", RootText(branches.root) } };
-  if (stage.bumps)
+  if (stage.tolerance)
   {
-    json["bumps"] = stage.bumps->text;
+    json["tolerance"] = stage.tolerance->text;
   }
   return json;
 }
@@ -49,9 +49,9 @@ ReadSkeletonStage(const Json & json)
 {
   SkeletonRequest stage;
   stage.lambda = ParseLambda(json.at("lambda").get<std::string>());
-  if (json.contains("bumps"))
+  if (json.contains("tolerance"))
   {
-    stage.bumps = ParseBumpHeight(json.at("bumps").get<std::string>());
+    stage.tolerance = ParseTolerance(json.at("tolerance").get<std::string>());
   }
   stage.standOut = ParseLambda(json.at("stand_out").get<std::string>());
   stage.plates = ReadLength(json.at("plates"));

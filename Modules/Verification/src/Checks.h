@@ -115,7 +115,7 @@ CheckCompleteness(VerificationReport & report, const Subject & subject);
 void
 CheckPruning(VerificationReport & report, const Subject & subject);
 void
-CheckBumps(VerificationReport & report, const Subject & subject);
+CheckTolerances(VerificationReport & report, const Subject & subject);
 void
 CheckCoverage(VerificationReport & report, const Subject & subject);
 

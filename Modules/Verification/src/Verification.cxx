@@ -158,13 +158,13 @@ constexpr std::array<const char *, 29> kAllChecks{ "arrays",          "numbers",
 
 /** Adds the checks that were not run. */
 void
-AddUnchecked(VerificationReport & report, bool bumps)
+AddUnchecked(VerificationReport & report, bool byTolerance)
 {
   for (std::size_t i = report.checks.size(); i < kAllChecks.size(); ++i)
   {
     const std::string_view name = kAllChecks[i];
-    report.checks.push_back({ !bumps                   ? kAllChecks[i]
-                              : name == "completeness" ? "bump heights"
+    report.checks.push_back({ !byTolerance             ? kAllChecks[i]
+                              : name == "completeness" ? "tolerances"
                               : name == "pruning"      ? "coverage"
                                                        : kAllChecks[i],
                               false,
@@ -195,9 +195,9 @@ CheckGeometry(VerificationReport &      report,
   CheckMeasures(report, subject);
   CheckOrder(report, subject);
   ReportProgress(progress, "verify", 0.8);
-  if (input.bumpHeight)
+  if (input.pruningTolerance)
   {
-    CheckBumps(report, subject);
+    CheckTolerances(report, subject);
     CheckCoverage(report, subject);
     return;
   }
@@ -235,7 +235,7 @@ VerifyComplex(const VerificationInput & input, const ProgressCallback & progress
   }
   else
   {
-    AddUnchecked(report, input.bumpHeight.has_value());
+    AddUnchecked(report, input.pruningTolerance.has_value());
   }
   FinishReport(report);
   ReportProgress(progress, "verify", 1.0);

@@ -190,7 +190,7 @@ PrunedProvenanceJson(const std::string & text, const std::vector<CorePruning> & 
     {
       CorePruning  pruning = prunings[i];
       const Json & before = labels.at(i).at("pruned").at(0);
-      if (before.contains("bumps"))
+      if (before.contains("tolerance"))
       {
         return {}; // lambda no longer says what is left
       }

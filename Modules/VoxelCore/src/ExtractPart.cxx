@@ -23,11 +23,11 @@ ExtractPart(const MedialComplex & core, const LiveElements & live)
   gather(core.vertexLambda, vertices, part.vertexLambda);
   gather(core.edgeLambda, edges, part.edgeLambda);
   gather(core.faceLambda, faces, part.faceLambda);
-  if (core.HasBumps())
+  if (core.HasTolerances())
   {
-    gather(core.bumps.vertices, vertices, part.bumps.vertices);
-    gather(core.bumps.edges, edges, part.bumps.edges);
-    gather(core.bumps.faces, faces, part.bumps.faces);
+    gather(core.tolerances.vertices, vertices, part.tolerances.vertices);
+    gather(core.tolerances.edges, edges, part.tolerances.edges);
+    gather(core.tolerances.faces, faces, part.tolerances.faces);
   }
   return part;
 }

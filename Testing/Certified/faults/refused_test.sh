@@ -26,7 +26,7 @@ refused() {
 }
 refused core 4 "$program" core scan.nrrd -o out.vtp
 refused pruning 4 "$program" core scan.nrrd -o out.vtp
-refused bumps 4 "$program" core scan.nrrd --bumps 1.2diag -o out.vtp
+refused tolerance 4 "$program" core scan.nrrd --tolerance 1.2diag -o out.vtp
 refused refinement 4 "$program" core scan.nrrd --lambda 2.5vox --refine labels -o out.vtp
 refused skeleton 4 "$program" skeleton scan.nrrd -o out.vtp
 [ -z "$vtk" ] || { refused core any "$vtk" scan.mha 2 3 out.vtp; refused pruning any "$vtk" scan.mha 2 3 out.vtp; }

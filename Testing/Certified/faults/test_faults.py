@@ -11,7 +11,7 @@ def cores_from(path):
     """What is made from a core that was saved without a fault."""
     return {
         "pruned further": lambda: voxelcore.read(path).prune("2vox"),
-        "pruned by bumps": lambda: voxelcore.read(path).prune(bumps="2diag"),
+        "pruned by tolerance": lambda: voxelcore.read(path).prune(tolerance="2diag"),
         "skeleton of a core": lambda: voxelcore.skeleton(voxelcore.read(path)),
     }
 
@@ -20,7 +20,7 @@ FROM_ARRAY = {
     "core": lambda: voxelcore.core(ROD, lambda_=0),
     "pruned": lambda: voxelcore.core(ROD, lambda_="1.5vox"),
     "several": lambda: voxelcore.core(ROD, lambda_=["1vox", "2vox"]),
-    "by bumps": lambda: voxelcore.core(ROD, bumps="1.2diag"),
+    "by tolerance": lambda: voxelcore.core(ROD, tolerance="1.2diag"),
     "skeleton": lambda: voxelcore.skeleton(ROD),
     "table": lambda: voxelcore.measure(ROD),
 }
@@ -28,7 +28,7 @@ FROM_ARRAY = {
 
 @pytest.fixture
 def path(tmp_path):
-    voxelcore.core(ROD, bumps=0).save(tmp_path / "core.vtp", keep_edges=True)
+    voxelcore.core(ROD, tolerance=0).save(tmp_path / "core.vtp", keep_edges=True)
     return tmp_path / "core.vtp"
 
 
@@ -44,11 +44,11 @@ def refuses(monkeypatch, stage, make):
     [
         ("core", "core"),
         ("core", "pruned"),
-        ("core", "by bumps"),
+        ("core", "by tolerance"),
         ("core", "skeleton"),
         ("pruning", "pruned"),
         ("pruning", "several"),
-        ("bumps", "by bumps"),
+        ("tolerance", "by tolerance"),
         ("skeleton", "skeleton"),
         ("skeleton", "table"),
     ],
@@ -59,7 +59,7 @@ def test_a_fault_below_an_array_is_refused(monkeypatch, stage, what):
 
 @pytest.mark.parametrize(
     "stage, what",
-    [("pruning", "pruned further"), ("bumps", "pruned by bumps"), ("skeleton", "skeleton of a core")],
+    [("pruning", "pruned further"), ("tolerance", "pruned by tolerance"), ("skeleton", "skeleton of a core")],
 )
 def test_a_fault_below_a_finished_core_is_refused(monkeypatch, path, stage, what):
     refuses(monkeypatch, stage, cores_from(path)[what])

@@ -3,7 +3,7 @@
 // with that of the shape. What the program, the ITK and VTK filters and the Python module give away comes from here.
 //
 // The certificate. Euler number and Betti numbers are counted in the voxels and, independently, in every complex. They
-// are equal, every vertex lies in the open shape, and after pruning by bump height every boundary vertex lies within the
+// are equal, every vertex lies in the open shape, and after pruning by tolerance every boundary vertex lies within the
 // height of the balls that are left; else a CertificateError is thrown and there is no result.
 
 #include "voxelcore/CertifiedCore.h"
@@ -35,9 +35,9 @@ struct CertifiedRequest
 {
   std::string name = "the shape"; ///< in errors: "label 4 (liver)"
 
-  std::vector<Lambda>     lambdas{ { 1.5, Lambda::Unit::Voxel, "1.5vox" } }; ///< one core each; 0: the whole core
-  std::vector<BumpHeight> bumps;           ///< where there are some: one core each, the only lambda is pruned first
-  SurfaceSource           surface;         ///< refines the cores to this surface; goes with lambdas alone
+  std::vector<Lambda>    lambdas{ { 1.5, Lambda::Unit::Voxel, "1.5vox" } }; ///< one core each; 0: the whole core
+  std::vector<Tolerance> tolerances;       ///< where there are some: one core each, the only lambda is pruned first
+  SurfaceSource          surface;          ///< refines the cores to this surface; goes with lambdas alone
   std::optional<SkeletonRequest> skeleton; ///< of the core it names, which is whole or one of those asked for
 
   Engine     engine = Engine::Auto;
@@ -59,10 +59,10 @@ struct CertifiedResult
 {
   CertifiedShape                   shape;
   std::uint64_t                    boundaryVertices = 0;
-  ComplexRecord                   whole; ///< of the whole core
-  std::vector<CertifiedCore>       cores; ///< one per lambda or bump height, in the order asked for
+  ComplexRecord                    whole; ///< of the whole core
+  std::vector<CertifiedCore>       cores; ///< one per lambda or tolerance, in the order asked for
   std::optional<CertifiedSkeleton> skeleton;
-  std::optional<bool>              covered; ///< true: no boundary gap exceeds its bump height; none: not promised
+  std::optional<bool>              covered; ///< true: no boundary gap exceeds its tolerance; none: not promised
   CertifiedSeconds                 seconds;
 };
 

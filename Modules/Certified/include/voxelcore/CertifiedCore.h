@@ -1,7 +1,7 @@
 #pragma once
 // A certified medial surface, and pruning one further without its voxels.
 
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/CoreProvenance.h"
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/LambdaPruning.h"
@@ -27,8 +27,8 @@ struct CertifiedShape
   ImageGeometry   geometry;
 };
 
-/** What pruning by bump height did. */
-struct BumpNumbers
+/** What pruning by tolerance did. */
+struct ToleranceNumbers
 {
   std::string           height; ///< as asked for
   double                heightMm = 0;
@@ -45,11 +45,11 @@ struct RefinedNumbers
 /** How a core was pruned, and what is left. */
 struct CoreNumbers
 {
-  std::string                   lambda; ///< as asked for
-  double                        lambdaMm = 0;
-  ComplexRecord                 complex;
-  std::optional<BumpNumbers>    bumps;
-  std::optional<RefinedNumbers> refined;
+  std::string                     lambda; ///< as asked for
+  double                          lambdaMm = 0;
+  ComplexRecord                   complex;
+  std::optional<ToleranceNumbers> tolerance;
+  std::optional<RefinedNumbers>   refined;
 };
 
 struct CertifiedCore
@@ -70,8 +70,8 @@ PruneCertified(CertifiedCore               core,
                const std::vector<Lambda> & lambdas,
                const ProgressCallback &    progress = {});
 
-/** The same by bump height, of a core that has its heights. The boundary gap is not measured: this needs the voxels. */
+/** The same by tolerance, of a core that has its heights. The boundary gap is not measured: this needs the voxels. */
 std::vector<CertifiedCore>
-PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const std::vector<BumpHeight> & heights);
+PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const std::vector<Tolerance> & heights);
 
 } // namespace voxelcore

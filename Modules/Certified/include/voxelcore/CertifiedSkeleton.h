@@ -23,12 +23,12 @@ struct BranchRequest
 /** From a core to a curve skeleton. */
 struct SkeletonRequest
 {
-  Lambda                    lambda;   ///< of the core to burn
-  std::optional<BumpHeight> bumps;    ///< of the core to burn, above 0
-  Lambda                    standOut; ///< CurveOptions::branchThreshold
-  std::optional<Lambda>     plates;   ///< CurveOptions::plateThreshold
-  Lambda                    smooth;   ///< window of FitBranches
-  BranchRequest             branches;
+  Lambda                   lambda;    ///< of the core to burn
+  std::optional<Tolerance> tolerance; ///< of the core to burn, above 0
+  Lambda                   standOut;  ///< CurveOptions::branchThreshold
+  std::optional<Lambda>    plates;    ///< CurveOptions::plateThreshold
+  Lambda                   smooth;    ///< window of FitBranches
+  BranchRequest            branches;
 };
 
 struct CertifiedSkeleton
@@ -38,7 +38,7 @@ struct CertifiedSkeleton
   std::vector<LoopCut> cuts;
 };
 
-/** Burns the core to curves; lambda and bumps of the request only say what `core` is.
+/** Burns the core to curves; lambda and tolerance of the request only say what `core` is.
  *  \throws CertificateError when the skeleton does not have the shape's topology; Cancelled */
 CertifiedSkeleton
 SkeletonOf(const PlacedCore &       core,

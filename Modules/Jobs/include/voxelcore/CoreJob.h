@@ -23,17 +23,17 @@ namespace voxelcore
 
 struct CoreOptions
 {
-  std::filesystem::path        scan; ///< or a mesh
-  ReadOptions                  reading;
-  std::optional<std::int64_t>  resolution; ///< of a mesh; else its voxels have the spacing in `reading`
-  ShapeEditOptions             edits;
-  std::vector<Lambda>          lambdas;  ///< at least one; ParseLambdas gives them
-  std::vector<BumpHeight>      bumps;    ///< none: pruned by lambda; else there is one lambda, the floor
-  RefineOptions                refine;   ///< by lambda only, without skeletons
-  std::filesystem::path        output;   ///< a model file, or a folder (IsFolderOutput); empty: no core is written
-  std::optional<SkeletonRequest> skeleton; ///< skeletons too; its lambda is 0 or one of `lambdas`
+  std::filesystem::path          scan; ///< or a mesh
+  ReadOptions                    reading;
+  std::optional<std::int64_t>    resolution; ///< of a mesh; else its voxels have the spacing in `reading`
+  ShapeEditOptions               edits;
+  std::vector<Lambda>            lambdas;    ///< at least one; ParseLambdas gives them
+  std::vector<Tolerance>         tolerances; ///< none: pruned by lambda; else there is one lambda, the floor
+  RefineOptions                  refine;     ///< by lambda only, without skeletons
+  std::filesystem::path          output;     ///< a model file, or a folder (IsFolderOutput); empty: no core is written
+  std::optional<SkeletonRequest> skeleton;   ///< skeletons too; its lambda is 0 or one of `lambdas`
   SkeletonTargets                skeletonTargets;
-  std::filesystem::path        skeletonOutput; ///< .vtp, or a folder
+  std::filesystem::path          skeletonOutput; ///< .vtp, or a folder
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> table;   ///< .csv, a row per label
   DisplayTargets                       display; ///< of the first result of each label
@@ -67,7 +67,7 @@ RunCoreJob(const CoreOptions & options, const JobContext & context = {});
 struct LabelOutcome
 {
   LabelRecord                 record;
-  std::vector<ModelPart>      parts; ///< one per lambda or bump height, in LPS mm
+  std::vector<ModelPart>      parts; ///< one per lambda or tolerance, in LPS mm
   std::optional<SkeletonPart> skeleton;
   StageSeconds                seconds;
   std::string                 failure; ///< why its certificate failed, where other labels go on

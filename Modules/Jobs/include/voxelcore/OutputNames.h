@@ -1,7 +1,7 @@
 #pragma once
 // What result files are called.
 
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/LambdaPruning.h"
 
 #include <cstdint>
@@ -30,14 +30,14 @@ LambdaTag(const Lambda & lambda);
 std::vector<Lambda>
 ParseLambdas(std::string_view text);
 
-/** The same for bump heights. */
-std::vector<BumpHeight>
-ParseBumpHeights(std::string_view text);
+/** The same for tolerances. */
+std::vector<Tolerance>
+ParseTolerances(std::string_view text);
 
 /** What tells the results of a run apart in their names: "" for a single one, else "_lambda-1mm" and so on, or, with
- *  bump heights (then there is one lambda), "_bumps-1.2diag" and so on. */
+ *  tolerances (then there is one lambda), "_tolerance-1.2diag" and so on. */
 std::vector<std::string>
-ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<BumpHeight> & bumps = {});
+ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<Tolerance> & tolerances = {});
 
 /** "OUT<suffix>.vtp" for "OUT.vtp". */
 std::filesystem::path

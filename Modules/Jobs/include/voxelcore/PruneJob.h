@@ -1,7 +1,7 @@
 #pragma once
 // `voxelcore prune`: a finished core to other thresholds, without its scan.
 
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LambdaPruning.h"
@@ -16,10 +16,10 @@ namespace voxelcore
 
 struct PruneOptions
 {
-  std::filesystem::path                core;    ///< .vtp written with --keep-edges, or with bump heights
-  std::vector<Lambda>                  lambdas; ///< these or
-  std::vector<BumpHeight>              bumps;   ///< these
-  std::filesystem::path                output;  ///< a model file
+  std::filesystem::path                core;       ///< .vtp written with --keep-edges, or with tolerances
+  std::vector<Lambda>                  lambdas;    ///< these or
+  std::vector<Tolerance>               tolerances; ///< these
+  std::filesystem::path                output;     ///< a model file
   std::optional<std::filesystem::path> report;
   ModelOptions                         model;
   int                                  threads = 0; ///< only recorded
@@ -35,7 +35,7 @@ struct PruneResult
 };
 
 /** Writes, to the last bit, what `voxelcore core` would have written at these thresholds.
- *  \throws InputError when the file lacks the measures of its edges or bump heights, or is pruned further than asked;
+ *  \throws InputError when the file lacks the measures of its edges or tolerances, or is pruned further than asked;
  *  and whatever RunCoreJob throws. */
 PruneResult
 RunPruneJob(const PruneOptions & options, const JobContext & context = {});

@@ -23,15 +23,15 @@ struct LabelVerification
   std::int64_t       label = 0;
   std::string        name;
   double             lambdaMm = 0;
-  std::string        bumpHeight; ///< as given; empty when pruned by lambda
-  double             bumpHeightMm = 0;
+  std::string        pruningTolerance; ///< as given; empty when pruned by lambda
+  double             toleranceMm = 0;
   VerificationReport report;
 };
 
 struct VerifyResult
 {
   bool                           passed = true;
-  std::vector<std::string>       notes; ///< e.g. that the scan's file is not the one the core was made from
+  std::vector<std::string>       notes;    ///< e.g. that the scan's file is not the one the core was made from
   std::vector<std::string>       warnings; ///< about the scan; a user must see them
   std::vector<LabelVerification> labels;
 };
@@ -41,7 +41,7 @@ struct VerifyResult
 VerifyResult
 RunVerifyJob(const VerifyOptions & options, const JobContext & context = {});
 
-/** A line per label, with bump heights also how far the boundary lies from it, and check; with one label per check, otherwise failed checks only. */
+/** A line per label, with tolerances also how far the boundary lies from it, and check; with one label per check, otherwise failed checks only. */
 std::string
 VerifyText(const VerifyResult & result);
 

@@ -53,8 +53,8 @@ IsModelPath(const std::filesystem::path & path);
  *  measures of edges on faces; .obj places, cells and labels as groups; .ma the balls, all edges and triangles; .stl
  *  triangles in single precision. Equal models give equal bytes. Components are the cell array `Component` (in .ply a
  *  property, in .obj part of a group's name), which is there only when a label is split.
- *  Bump heights, where every part has them, are the point and cell arrays `Bump` of .vtp and .vtk. Edges that outlast
- *  their faces, and vertices that outlast their edges, are cells there too: the cells with Bump >= h are then what is
+ *  Tolerances, where every part has them, are the point and cell arrays `Tolerance` of .vtp and .vtk. Edges that outlast
+ *  their faces, and vertices that outlast their edges, are cells there too: the cells with Tolerance >= h are then what is
  *  left at height h, for every h from the file's own.
  *  Refined cores have their displacements as the point array `Displacement`, and the surface as the field string `Refined`
  *  (.vtp and .vtk).

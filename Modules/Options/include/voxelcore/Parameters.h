@@ -110,6 +110,10 @@ BelongsTo(const Parameter & parameter, CommandId command)
   return has(command) || (command == CommandId::Batch && has(CommandId::Core) && !ofOneRun);
 }
 
+/** An argument of a command line with the name its option has now: `--bumps` was `--tolerance` until 0.1. */
+std::string
+WithoutFormerName(std::string argument);
+
 /** What was given, as text, by Parameter::name; a flag that was given is "true". */
 using ParameterValues = std::map<std::string, std::string, std::less<>>;
 

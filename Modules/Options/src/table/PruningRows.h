@@ -34,23 +34,24 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     false,
     kSkeleton,
     "Prune the core of a scan first, at this threshold: 1.5mm, 2.5vox, 2.5%" },
-  { "bumps",
-    "--bumps",
+  { "tolerance",
+    "--tolerance",
     Text,
     "H[,H..]",
     "",
     false,
     kModels,
-    "Prune by bump height instead: 1.2diag (voxel diagonals), 2vox, 1.5mm; several H write OUT_bumps-1.2diag.vtp and "
-    "so on" },
-  { "bumps",
-    "--bumps",
+    "Prune so that the boundary stays within H of the remaining balls: 1.2diag (voxel diagonals), 2vox, 1.5mm; several "
+    "H write OUT_tolerance-1.2diag.vtp and so on" },
+  { "tolerance",
+    "--tolerance",
     Text,
     "H",
     "",
     false,
     kSkeleton,
-    "Prune the core of a scan by bump height first: 1.2diag (voxel diagonals), 2vox, 1.5mm; tips shorten by about H" },
+    "Prune the core of a scan first so that the boundary stays within H of the remaining balls: 1.2diag (voxel "
+    "diagonals), 2vox, 1.5mm; tips shorten by about H" },
 });
 
 inline constexpr auto kRefinementRows = std::to_array<Parameter>({

@@ -52,7 +52,7 @@ struct ParameterRecord
   std::string                              niftiForm = "auto";
   ShapeEditOptions                         edits;
   std::vector<std::string>                 lambda;
-  std::vector<std::string>                 bumps; ///< heights; where there are some, one lambda, the floor
+  std::vector<std::string>                 tolerances; ///< heights; where there are some, one lambda, the floor
   RefineRecord                             refine;
   ModelOptions                             model;
   std::string                              engine;
@@ -88,11 +88,11 @@ struct LabelRecord
   VoxelBox                      box; ///< tight
   std::uint64_t                 boundaryVertices = 0;
   TopologyNumbers               shape;
-  ComplexRecord                core;
-  std::vector<PrunedRecord>     pruned; ///< one per lambda or bump height, in the order given
+  ComplexRecord                 core;
+  std::vector<PrunedRecord>     pruned; ///< one per lambda or tolerance, in the order given
   bool                          topologyEqual = false;
   bool                          enclosed = false;
-  std::optional<bool>           covered; ///< no boundary gap exceeds the bump height; none where this is not promised
+  std::optional<bool>           covered; ///< no boundary gap exceeds the tolerance; none where this is not promised
   std::optional<SkeletonRecord> skeleton;
   double                        seconds = 0; ///< for the table
 
@@ -119,14 +119,14 @@ struct StageSeconds
 
 struct CoreReport
 {
-  std::string                  version; ///< of the VoxelCore that made it; known only of what ParseProvenance read
-  std::string                  command;
-  InputRecord                  input;
-  ParameterRecord              parameters;
+  std::string                    version; ///< of the VoxelCore that made it; known only of what ParseProvenance read
+  std::string                    command;
+  InputRecord                    input;
+  ParameterRecord                parameters;
   std::optional<SkeletonRequest> skeleton; ///< where skeletons were made
-  std::vector<LabelRecord>     labels;
-  StageSeconds                 seconds;
-  double                       peakMemoryMb = 0;
+  std::vector<LabelRecord>       labels;
+  StageSeconds                   seconds;
+  double                         peakMemoryMb = 0;
 };
 
 /** The version all reports name. */

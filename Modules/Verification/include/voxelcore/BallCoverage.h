@@ -1,5 +1,5 @@
 #pragma once
-// How well the balls of a medial surface rebuild the boundary they came from: what pruning by bump height promises,
+// How well the balls of a medial surface rebuild the boundary they came from: what pruning by tolerance promises,
 // measured with a kd-tree over the balls and nothing of what made them.
 
 #include "voxelcore/Progress.h"

@@ -44,11 +44,11 @@ struct VerificationInput
   bool polygonsReversed = false;
   /** The pruning threshold in mm; none or 0: a whole core, which is then also checked for completeness. */
   std::optional<double> threshold;
-  /** With bump heights: the height it is pruned to in mm, and what each element has. */
-  std::optional<double>   bumpHeight;
-  std::span<const double> vertexBump;
-  std::span<const double> edgeBump;
-  std::span<const double> faceBump;
+  /** With tolerances: the height it is pruned to in mm, and what each element has. */
+  std::optional<double>   pruningTolerance;
+  std::span<const double> vertexTolerance;
+  std::span<const double> edgeTolerance;
+  std::span<const double> faceTolerance;
 };
 
 /** One property and what violates it. */
@@ -67,7 +67,7 @@ struct VerificationReport
   TopologyNumbers                shapeTopology;   ///< from the voxels
   TopologyNumbers                complexTopology; ///< by column reduction
   std::vector<VerificationCheck> checks;
-  std::optional<double> boundaryGap; ///< mm; with bump heights: of any boundary vertex to the balls, the largest
+  std::optional<double>          boundaryGap; ///< mm; with tolerances: of any boundary vertex to the balls, the largest
 };
 
 /** Stored radii and measures may differ from recomputed ones by this relative amount. Both come from exact integers by
@@ -96,8 +96,8 @@ PositionTolerance(const ImageGeometry & geometry);
  *  - completeness: no element with a measure >= threshold is missing beside a vertex that is there. For a whole core
  *    nothing is missing: together with the topology check this proves that it is the voxel core.
  *  - pruning: no simple pair with both measures below the threshold is left
- *  With bump heights, instead of the last two, as lambda does not say what is left:
- *  - bump heights: numbers, none below that of the whole, and they do not fall from faces to edges to vertices
+ *  With tolerances, instead of the last two, as lambda does not say what is left:
+ *  - tolerances: numbers, none below that of the whole, and they do not fall from faces to edges to vertices
  *  - coverage: no boundary vertex lies farther than the height from the ball of a vertex (where a
  *    threshold > 0 took elements first nothing is promised, and this is not checked)
  *  - shape Euler number: recounted corner by corner

@@ -9,9 +9,9 @@
 namespace voxelcore
 {
 
-/** Per element the height of the bump it stands for, in mm: what is left at height h is what has a value >= h. See
- *  BumpPruning.h. value(face) <= value(edge) <= value(vertex) along incidences. */
-struct BumpValues
+/** Per element the tolerance from which on it is pruned, in mm: what is left at tolerance h has a value >= h. See
+ *  TolerancePruning.h. value(face) <= value(edge) <= value(vertex) along incidences. */
+struct ToleranceValues
 {
   std::vector<double> vertices;
   std::vector<double> edges;
@@ -33,12 +33,12 @@ struct MedialComplex
   std::vector<double>                vertexLambda; ///< radius measure in mm
   std::vector<double>                edgeLambda;   ///< radius measure in mm
   std::vector<double>                faceLambda;   ///< radius measure in mm
-  BumpValues                         bumps;        ///< empty where they were not asked for
+  ToleranceValues                    tolerances;   ///< empty where they were not asked for
 
   bool
-  HasBumps() const
+  HasTolerances() const
   {
-    return bumps.vertices.size() == cells.vertexCount && cells.vertexCount > 0;
+    return tolerances.vertices.size() == cells.vertexCount && cells.vertexCount > 0;
   }
 };
 

@@ -1,4 +1,4 @@
-// Pruning by bump height as a user runs it.
+// Pruning by tolerance as a user runs it.
 
 #include "CommandFixture.h"
 #include "Program.h"
@@ -16,7 +16,7 @@ namespace
 using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
-class BumpCommand : public CommandFixture
+class ToleranceCommand : public CommandFixture
 {
 protected:
   /** A ball with a rod of one voxel and a plate of one voxel on it, label 1; a box, label 3. */
@@ -45,27 +45,50 @@ protected:
   }
 };
 
-TEST_F(BumpCommand, SeveralHeightsShareARunAndGiveWhatEachGivesAlone)
+TEST_F(ToleranceCommand, SeveralHeightsShareARunAndGiveWhatEachGivesAlone)
 {
   WriteBallWithRodAndPlate("a.nrrd");
-  Run({ "core", Path("a.nrrd"), "--bumps", "0,1.2diag,2.5vox,4", "-o", Path("m.vtp"), "--report", Path("r.json") });
-  EXPECT_EQ(
-    m_Folder.Names(),
-    (Names{ "a.nrrd", "r.json", "m_bumps-0.vtp", "m_bumps-1.2diag.vtp", "m_bumps-2.5vox.vtp", "m_bumps-4mm.vtp" }));
-  Run({ "core", Path("a.nrrd"), "--bumps", "1.2diag", "-o", Path("one.vtp"), "--threads", "1", "--engine", "lattice" });
-  EXPECT_EQ(ReadAll(m_Folder / "one.vtp"), ReadAll(m_Folder / "m_bumps-1.2diag.vtp"));
+  Run({ "core", Path("a.nrrd"), "--tolerance", "0,1.2diag,2.5vox,4", "-o", Path("m.vtp"), "--report", Path("r.json") });
+  EXPECT_EQ(m_Folder.Names(),
+            (Names{ "a.nrrd",
+                    "r.json",
+                    "m_tolerance-0.vtp",
+                    "m_tolerance-1.2diag.vtp",
+                    "m_tolerance-2.5vox.vtp",
+                    "m_tolerance-4mm.vtp" }));
+  Run({ "core",
+        Path("a.nrrd"),
+        "--tolerance",
+        "1.2diag",
+        "-o",
+        Path("one.vtp"),
+        "--threads",
+        "1",
+        "--engine",
+        "lattice" });
+  EXPECT_EQ(ReadAll(m_Folder / "one.vtp"), ReadAll(m_Folder / "m_tolerance-1.2diag.vtp"));
+  // The option's name in 0.1.
+  for (const std::vector<std::string> & former :
+       { std::vector<std::string>{ "--bumps", "1.2diag" }, { "--bumps=1.2diag" } })
+  {
+    std::vector<std::string> arguments{ "core", Path("a.nrrd"), "-o", Path("former.vtp"), "--force" };
+    arguments.insert(arguments.end(), former.begin(), former.end());
+    Run(arguments);
+    EXPECT_EQ(ReadAll(m_Folder / "former.vtp"), ReadAll(m_Folder / "one.vtp"));
+    std::filesystem::remove(m_Folder / "former.vtp");
+  }
   const Json report = Report("r.json");
-  EXPECT_EQ(report["parameters"]["bumps"], (Json{ "0", "1.2diag", "2.5vox", "4mm" }));
+  EXPECT_EQ(report["parameters"]["tolerance"], (Json{ "0", "1.2diag", "2.5vox", "4mm" }));
   ASSERT_EQ(report["labels"].size(), 2U);
   for (const Json & label : report["labels"])
   {
     EXPECT_EQ(label["certificate"]["covered"], true);
     std::uint64_t faces = label["core"]["faces"].get<std::uint64_t>();
     EXPECT_EQ(label["pruned"][0]["faces"], faces) << "height 0 is not the whole core";
-    EXPECT_NEAR(label["pruned"][1]["bumps_mm"].get<double>(), 1.2 * std::sqrt(4.25), 1e-12);
+    EXPECT_NEAR(label["pruned"][1]["tolerance_mm"].get<double>(), 1.2 * std::sqrt(4.25), 1e-12);
     for (const Json & pruned : label["pruned"])
     {
-      EXPECT_LE(pruned["boundary_gap_mm"].get<double>(), pruned["bumps_mm"].get<double>() + 1e-9);
+      EXPECT_LE(pruned["boundary_gap_mm"].get<double>(), pruned["tolerance_mm"].get<double>() + 1e-9);
       EXPECT_LE(pruned["faces"].get<std::uint64_t>(), faces);
       EXPECT_EQ(pruned["betti"], label["shape"]["betti"]);
       faces = pruned["faces"].get<std::uint64_t>();
@@ -77,64 +100,65 @@ TEST_F(BumpCommand, SeveralHeightsShareARunAndGiveWhatEachGivesAlone)
   EXPECT_LT(ball["faces"].get<std::uint64_t>(), report["labels"][0]["core"]["faces"].get<std::uint64_t>() / 4);
 }
 
-TEST_F(BumpCommand, FilesInAFolderAreNamedByHeight)
+TEST_F(ToleranceCommand, FilesInAFolderAreNamedByHeight)
 {
   WriteBallWithRodAndPlate("a.nrrd");
-  Run({ "core", Path("a.nrrd"), "--labels", "3", "--bumps", "1vox,2vox", "-o", Path("out/") });
+  Run({ "core", Path("a.nrrd"), "--labels", "3", "--tolerance", "1vox,2vox", "-o", Path("out/") });
   Names names;
   for (const auto & entry : std::filesystem::directory_iterator(m_Folder / "out"))
   {
     names.insert(entry.path().filename().string());
   }
-  EXPECT_EQ(names,
-            (Names{ "a_label-3_medial_bumps-1vox.vtp", "a_label-3_medial_bumps-2vox.vtp", "a_medial_finished.jsonl" }));
+  EXPECT_EQ(
+    names,
+    (Names{ "a_label-3_medial_tolerance-1vox.vtp", "a_label-3_medial_tolerance-2vox.vtp", "a_medial_finished.jsonl" }));
 }
 
-TEST_F(BumpCommand, PruneGivesTheBytesOfCore)
+TEST_F(ToleranceCommand, PruneGivesTheBytesOfCore)
 {
   WriteBallWithRodAndPlate("a.nrrd");
-  Run({ "core", Path("a.nrrd"), "--bumps", "0,1vox,1.5vox,2diag", "-o", Path("m.vtp") });
-  Run({ "prune", Path("m_bumps-0.vtp"), "--bumps", "1vox,1.5vox", "-o", Path("p.vtp") });
-  Run({ "prune", Path("p_bumps-1.5vox.vtp"), "--bumps", "2diag", "-o", Path("p_bumps-2diag.vtp") });
+  Run({ "core", Path("a.nrrd"), "--tolerance", "0,1vox,1.5vox,2diag", "-o", Path("m.vtp") });
+  Run({ "prune", Path("m_tolerance-0.vtp"), "--tolerance", "1vox,1.5vox", "-o", Path("p.vtp") });
+  Run({ "prune", Path("p_tolerance-1.5vox.vtp"), "--tolerance", "2diag", "-o", Path("p_tolerance-2diag.vtp") });
   for (const char * height : { "1vox", "1.5vox", "2diag" })
   {
-    const std::string name = "_bumps-" + std::string(height) + ".vtp";
+    const std::string name = "_tolerance-" + std::string(height) + ".vtp";
     EXPECT_EQ(ReadAll(m_Folder / ("m" + name)), ReadAll(m_Folder / ("p" + name))) << height;
   }
   // A whole core has all that lambda needs, too.
-  Run({ "core", Path("a.nrrd"), "--bumps", "0", "--keep-edges", "-o", Path("whole.vtp") });
+  Run({ "core", Path("a.nrrd"), "--tolerance", "0", "--keep-edges", "-o", Path("whole.vtp") });
   Run({ "prune", Path("whole.vtp"), "--lambda", "1.5vox", "-o", Path("l.vtp") });
   Run({ "core", Path("a.nrrd"), "--lambda", "1.5vox", "-o", Path("lambda.vtp") });
   EXPECT_EQ(ReadAll(m_Folder / "l.vtp"), ReadAll(m_Folder / "lambda.vtp"));
 }
 
-TEST_F(BumpCommand, VerifyMeasuresTheGapItself)
+TEST_F(ToleranceCommand, VerifyMeasuresTheGapItself)
 {
   WriteBallWithRodAndPlate("a.nrrd");
   for (const char * options : { "0", "1.2diag", "3vox" })
   {
-    Run({ "core", Path("a.nrrd"), "--bumps", options, "-o", Path("m.vtp"), "--force" });
+    Run({ "core", Path("a.nrrd"), "--tolerance", options, "-o", Path("m.vtp"), "--force" });
     const std::string text = Run({ "verify", Path("a.nrrd"), Path("m.vtp") });
     EXPECT_NE(text.find("boundary within"), std::string::npos) << text;
   }
   // A file that claims a lower height than it was made at.
   const std::string good = ReadAll(m_Folder / "m.vtp");
   std::string       bad = good;
-  const std::size_t at = bad.find("\"bumps_mm\":3.0");
+  const std::size_t at = bad.find("\"tolerance_mm\":3.0");
   ASSERT_NE(at, std::string::npos);
-  bad.replace(at, 14, "\"bumps_mm\":0.1");
+  bad.replace(at, 14, "\"tolerance_mm\":0.1");
   WriteAll(m_Folder / "bad.vtp", bad);
   const ProgramResult result = RunProgram({ "verify", Path("a.nrrd"), Path("bad.vtp") });
   EXPECT_EQ(result.code, 4) << result.output << result.error;
   EXPECT_NE(result.output.find("coverage"), std::string::npos) << result.output;
 }
 
-TEST_F(BumpCommand, AFloorIsPrunedFirstAndPromisesNothing)
+TEST_F(ToleranceCommand, AFloorIsPrunedFirstAndPromisesNothing)
 {
   WriteBallWithRodAndPlate("a.nrrd");
   Run({ "core",
         Path("a.nrrd"),
-        "--bumps",
+        "--tolerance",
         "0,1vox",
         "--lambda",
         "2vox",
@@ -153,30 +177,30 @@ TEST_F(BumpCommand, AFloorIsPrunedFirstAndPromisesNothing)
     EXPECT_FALSE(report["labels"][i]["certificate"].contains("covered"));
     EXPECT_TRUE(pruned[0]["boundary_gap_mm"].is_number());
   }
-  const std::string text = Run({ "verify", Path("a.nrrd"), Path("m_bumps-1vox.vtp") });
+  const std::string text = Run({ "verify", Path("a.nrrd"), Path("m_tolerance-1vox.vtp") });
   EXPECT_NE(text.find("all passed"), std::string::npos) << text;
 }
 
-TEST_F(BumpCommand, SkeletonAndOtherFormatsTakeWhatIsLeft)
+TEST_F(ToleranceCommand, SkeletonAndOtherFormatsTakeWhatIsLeft)
 {
   WriteBallWithRodAndPlate("a.nrrd");
-  Run({ "core", Path("a.nrrd"), "--bumps", "1.2diag", "-o", Path("m.vtp") });
+  Run({ "core", Path("a.nrrd"), "--tolerance", "1.2diag", "-o", Path("m.vtp") });
   Run({ "skeleton", Path("m.vtp"), "-o", Path("s.vtp") });
   for (const char * extension : { "vtk", "ply", "obj", "ma" })
   {
-    Run({ "core", Path("a.nrrd"), "--bumps", "1.2diag", "-o", Path("m." + std::string(extension)) });
+    Run({ "core", Path("a.nrrd"), "--tolerance", "1.2diag", "-o", Path("m." + std::string(extension)) });
   }
 }
 
-TEST_F(BumpCommand, ASkeletonOfAScanIsThatOfThePrunedCore)
+TEST_F(ToleranceCommand, ASkeletonOfAScanIsThatOfThePrunedCore)
 {
   WriteBallWithRodAndPlate("a.nrrd");
-  Run({ "core", Path("a.nrrd"), "--bumps", "1.2diag", "-o", Path("m.vtp") });
+  Run({ "core", Path("a.nrrd"), "--tolerance", "1.2diag", "-o", Path("m.vtp") });
   const std::string note = Run({ "skeleton", Path("m.vtp"), "-o", Path("two.vtp") });
   EXPECT_NE(note.find("1.2diag"), std::string::npos) << note;
-  Run({ "skeleton", Path("a.nrrd"), "--bumps", "1.2diag", "-o", Path("one.vtp"), "--report", Path("r.json") });
+  Run({ "skeleton", Path("a.nrrd"), "--tolerance", "1.2diag", "-o", Path("one.vtp"), "--report", Path("r.json") });
   EXPECT_EQ(ReadAll(m_Folder / "one.vtp"), ReadAll(m_Folder / "two.vtp"));
-  EXPECT_EQ(Report("r.json")["skeleton"]["bumps"], "1.2diag");
+  EXPECT_EQ(Report("r.json")["skeleton"]["tolerance"], "1.2diag");
   for (const Json & label : Report("r.json")["labels"])
   {
     EXPECT_EQ(label["skeleton"]["betti"], label["shape"]["betti"]);
@@ -185,19 +209,19 @@ TEST_F(BumpCommand, ASkeletonOfAScanIsThatOfThePrunedCore)
   // It says of itself what it was made of, and nought prunes nothing.
   Run({ "skeleton", Path("a.nrrd"), "-o", Path("whole.vtp") });
   EXPECT_NE(ReadAll(m_Folder / "one.vtp"), ReadAll(m_Folder / "whole.vtp"));
-  EXPECT_NE(ReadAll(m_Folder / "one.vtp").find("\"bumps\":\"1.2diag\""), std::string::npos);
-  Run({ "skeleton", Path("a.nrrd"), "--bumps", "0", "-o", Path("nought.vtp") });
+  EXPECT_NE(ReadAll(m_Folder / "one.vtp").find("\"tolerance\":\"1.2diag\""), std::string::npos);
+  Run({ "skeleton", Path("a.nrrd"), "--tolerance", "0", "-o", Path("nought.vtp") });
   EXPECT_EQ(ReadAll(m_Folder / "nought.vtp"), ReadAll(m_Folder / "whole.vtp"));
   const auto refused = [&](std::vector<std::string> options) {
     options.insert(options.begin(), "skeleton");
     options.insert(options.end(), { "-o", Path("x.vtp") });
     return RunProgram(options);
   };
-  ExpectRefusal(refused({ Path("a.nrrd"), "--bumps", "1vox,2vox" }), 2, { "--bumps", "one" });
-  ExpectRefusal(refused({ Path("m.vtp"), "--bumps", "2vox" }), 2, { "--bumps", "m.vtp" });
+  ExpectRefusal(refused({ Path("a.nrrd"), "--tolerance", "1vox,2vox" }), 2, { "--tolerance", "one" });
+  ExpectRefusal(refused({ Path("m.vtp"), "--tolerance", "2vox" }), 2, { "--tolerance", "m.vtp" });
 }
 
-TEST_F(BumpCommand, DegenerateShapesPass)
+TEST_F(ToleranceCommand, DegenerateShapesPass)
 {
   TestScan scan({ 40, 24, 24 });
   scan.Fill({ 1, 1, 1 }, { 1, 1, 1 }, 1);   // a voxel
@@ -211,7 +235,7 @@ TEST_F(BumpCommand, DegenerateShapesPass)
   WriteNrrd(m_Folder / "a.nrrd", scan);
   Run({ "core",
         Path("a.nrrd"),
-        "--bumps",
+        "--tolerance",
         "0,1vox,1.2diag,100vox",
         "-o",
         Path("m.vtp"),
@@ -232,11 +256,11 @@ TEST_F(BumpCommand, DegenerateShapesPass)
       EXPECT_GT(last["faces"].get<int>(), 0) << "a shell cannot shrink";
     }
   }
-  Run({ "verify", Path("a.nrrd"), Path("m_bumps-1.2diag.vtp") });
-  Run({ "verify", Path("a.nrrd"), Path("m_bumps-100vox.vtp") });
+  Run({ "verify", Path("a.nrrd"), Path("m_tolerance-1.2diag.vtp") });
+  Run({ "verify", Path("a.nrrd"), Path("m_tolerance-100vox.vtp") });
 }
 
-TEST_F(BumpCommand, ManyLabelsAtOncePass)
+TEST_F(ToleranceCommand, ManyLabelsAtOncePass)
 {
   constexpr std::size_t side = 45;
   std::string           bytes(2 * side * side * side, '\0');
@@ -267,7 +291,7 @@ TEST_F(BumpCommand, ManyLabelsAtOncePass)
   WriteNrrd(m_Folder / "a.nrrd",
             "type: uint16\nendian: little\ndimension: 3\nsizes: 45 45 45\nspacings: 1 1 1\n",
             bytes);
-  Run({ "core", Path("a.nrrd"), "--bumps", "1vox", "-o", Path("m.vtp"), "--report", Path("r.json") });
+  Run({ "core", Path("a.nrrd"), "--tolerance", "1vox", "-o", Path("m.vtp"), "--report", Path("r.json") });
   const Json report = Report("r.json");
   ASSERT_EQ(report["labels"].size(), 724U);
   for (const Json & label : report["labels"])
@@ -276,30 +300,32 @@ TEST_F(BumpCommand, ManyLabelsAtOncePass)
   }
 }
 
-TEST_F(BumpCommand, RefusesWhatMakesNoSense)
+TEST_F(ToleranceCommand, RefusesWhatMakesNoSense)
 {
   WriteBallWithRodAndPlate("a.nrrd");
   Run({ "core", Path("a.nrrd"), "-o", Path("lambda.vtp"), "--keep-edges" });
-  Run({ "core", Path("a.nrrd"), "--bumps", "2vox", "--keep-edges", "-o", Path("bumps.vtp") });
+  Run({ "core", Path("a.nrrd"), "--tolerance", "2vox", "--keep-edges", "-o", Path("tolerance.vtp") });
   const Names before = m_Folder.Names();
   const auto  core = [&](std::vector<std::string> options) {
     options.insert(options.begin(), { "core", Path("a.nrrd"), "-o", Path("x.vtp") });
     return RunProgram(options);
   };
-  ExpectRefusal(core({ "--bumps", "2%" }), 2, { "2%", "diag" });
-  ExpectRefusal(core({ "--bumps", "-1vox" }), 2, { "-1vox" });
-  ExpectRefusal(core({ "--bumps", "" }), 2, { "bump height" });
-  ExpectRefusal(core({ "--bumps", "1,1mm" }), 2, { "--bumps", "twice" });
-  ExpectRefusal(core({ "--bumps", "1vox", "--lambda", "0,1mm" }), 2, { "--lambda", "floor" });
+  ExpectRefusal(core({ "--tolerance", "2%" }), 2, { "2%", "diag" });
+  ExpectRefusal(core({ "--tolerance", "-1vox" }), 2, { "-1vox" });
+  ExpectRefusal(core({ "--tolerance", "" }), 2, { "tolerance" });
+  ExpectRefusal(core({ "--tolerance", "1,1mm" }), 2, { "--tolerance", "twice" });
+  ExpectRefusal(core({ "--tolerance", "1vox", "--lambda", "0,1mm" }), 2, { "--lambda", "floor" });
   const auto prune = [&](const std::string & file, std::vector<std::string> options) {
     options.insert(options.begin(), { "prune", Path(file), "-o", Path("x.vtp") });
     return RunProgram(options);
   };
-  ExpectRefusal(prune("bumps.vtp", {}), 2, { "--lambda", "--bumps" });
-  ExpectRefusal(prune("bumps.vtp", { "--bumps", "3vox", "--lambda", "3vox" }), 2, { "--lambda", "--bumps" });
-  ExpectRefusal(prune("lambda.vtp", { "--bumps", "3vox" }), 3, { "lambda.vtp", "--bumps 0" });
-  ExpectRefusal(prune("bumps.vtp", { "--bumps", "1vox" }), 3, { "bumps.vtp", "2vox", "1vox" });
-  ExpectRefusal(prune("bumps.vtp", { "--lambda", "3vox" }), 3, { "bumps.vtp", "bump height" });
+  ExpectRefusal(prune("tolerance.vtp", {}), 2, { "--lambda", "--tolerance" });
+  ExpectRefusal(prune("tolerance.vtp", { "--tolerance", "3vox", "--lambda", "3vox" }),
+                2,
+                { "--lambda", "--tolerance" });
+  ExpectRefusal(prune("lambda.vtp", { "--tolerance", "3vox" }), 3, { "lambda.vtp", "--tolerance 0" });
+  ExpectRefusal(prune("tolerance.vtp", { "--tolerance", "1vox" }), 3, { "tolerance.vtp", "2vox", "1vox" });
+  ExpectRefusal(prune("tolerance.vtp", { "--lambda", "3vox" }), 3, { "tolerance.vtp", "tolerance" });
   EXPECT_EQ(m_Folder.Names(), before);
 }
 

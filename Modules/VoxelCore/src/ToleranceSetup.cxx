@@ -1,6 +1,6 @@
 // What the collapse begins with.
 
-#include "BumpCollapse.h"
+#include "ToleranceCollapse.h"
 
 #include "voxelcore/SimplePairCollapse.h"
 
@@ -10,19 +10,19 @@
 namespace voxelcore
 {
 
-BumpCollapse::BumpCollapse(const MedialComplex &             core,
-                           const SpacingWeights &            weights,
-                           const std::vector<LatticePoint> & points,
-                           TouchingBalls                     touching,
-                           double                            floor,
-                           const ProgressCallback &          progress)
+ToleranceCollapse::ToleranceCollapse(const MedialComplex &             core,
+                                     const SpacingWeights &            weights,
+                                     const std::vector<LatticePoint> & points,
+                                     TouchingBalls                     touching,
+                                     double                            floor,
+                                     const ProgressCallback &          progress)
   : m_Core(&core)
   , m_Points(&points)
   , m_Scale{ weights.unit * static_cast<double>(weights.weight[0]),
              weights.unit * static_cast<double>(weights.weight[1]),
              weights.unit * static_cast<double>(weights.weight[2]) }
   , m_Measured(kMeasured * std::sqrt(SquaredDistance(m_Scale, { 0, 0, 0 })))
-  , m_FaceBumps(core.cells.FaceCount(), std::numeric_limits<double>::infinity())
+  , m_FaceTolerances(core.cells.FaceCount(), std::numeric_limits<double>::infinity())
   , m_Vertices(core.cells.vertexCount + 1)
   , m_VertexStanding(core.cells.vertexCount)
   , m_EdgeStanding(core.cells.edges.size())
@@ -55,7 +55,7 @@ BumpCollapse::BumpCollapse(const MedialComplex &             core,
 }
 
 void
-BumpCollapse::DropBelow(double floor, const ProgressCallback & progress)
+ToleranceCollapse::DropBelow(double floor, const ProgressCallback & progress)
 {
   SimplePairCollapse collapse(m_Core->cells, m_Core->vertexLambda, m_Core->edgeLambda, m_Core->faceLambda);
   collapse.CollapseBelow(floor, progress);
@@ -70,11 +70,11 @@ BumpCollapse::DropBelow(double floor, const ProgressCallback & progress)
   };
   drop(collapse.Live().vertices, [this](std::size_t vertex) { m_VertexStanding[vertex].Go(kBelowFloor); });
   drop(collapse.Live().edges, [this](std::size_t edge) { m_EdgeStanding[edge].Go(kBelowFloor); });
-  drop(collapse.Live().faces, [this](std::size_t face) { m_FaceBumps[face] = kBelowFloor; });
+  drop(collapse.Live().faces, [this](std::size_t face) { m_FaceTolerances[face] = kBelowFloor; });
 }
 
 void
-BumpCollapse::CountCofaces()
+ToleranceCollapse::CountCofaces()
 {
   const CellComplex & cells = m_Core->cells;
   for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
@@ -87,7 +87,7 @@ BumpCollapse::CountCofaces()
   }
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
-    if (m_FaceBumps[face] != kBelowFloor)
+    if (m_FaceTolerances[face] != kBelowFloor)
     {
       for (const ElementIndex edge : cells.FaceEdges(face))
       {
@@ -98,7 +98,7 @@ BumpCollapse::CountCofaces()
 }
 
 void
-BumpCollapse::FindNeighbours()
+ToleranceCollapse::FindNeighbours()
 {
   const CellComplex & cells = m_Core->cells;
   std::uint32_t       end = 0;

@@ -1,13 +1,13 @@
 #pragma once
-// Pruning by bump height: one length that serves thick and thin parts at once.
+// Pruning by tolerance: one length that serves thick and thin parts at once.
 //
 // Lambda cannot: a bump of height b on a part of radius R has a radius measure of about sqrt(2 b R), so the staircase of
 // the voxels grows with the thickness, while a rod of radius r has measures up to r only. The height of a bump is the
 // same on both: D(x, y) = |x - y| + R(x) - R(y) says by how much the ball of core vertex x sticks out of the ball of y.
 //
-// The promise. In the result of height h every boundary vertex p lies within h of the ball of a vertex x that is still
-// there: gap(p, x) = |p - x| - R(x) < h. Bumps lower than h are ignored, and what is left rebuilds the boundary to
-// within h. At height 0 all is left.
+// The promise. At tolerance h every boundary vertex p lies within h of the ball of a vertex x that is still there:
+// gap(p, x) = |p - x| - R(x) < h. So bumps lower than h are ignored, and what is left rebuilds the boundary to within h.
+// At tolerance 0 all is left.
 
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/MedialComplex.h"
@@ -20,8 +20,8 @@
 namespace voxelcore
 {
 
-/** A bump height as a user writes it. */
-struct BumpHeight
+/** A tolerance as a user writes it. */
+struct Tolerance
 {
   enum class Unit
   {
@@ -36,11 +36,11 @@ struct BumpHeight
 
 /** Reads "1.5mm", "2.5vox", "1diag", "1.5" (mm). Decimal numbers, not negative, finite.
  *  \throws UsageError that quotes the text and names the units. */
-BumpHeight
-ParseBumpHeight(std::string_view text);
+Tolerance
+ParseTolerance(std::string_view text);
 
 double
-BumpHeightInMillimetres(const BumpHeight & height, const std::array<double, 3> & spacing);
+ToleranceInMillimetres(const Tolerance & height, const std::array<double, 3> & spacing);
 
 /** What the heights need of the Delaunay cells, whose order is that of the core's vertices. */
 struct TouchingBalls
@@ -78,16 +78,16 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *  reached go at once; of the rest ties go by radius measure, then dimension, then index: the same bits on every machine,
  *  for every engine and thread count, and for a volume that is cropped or padded.
  *  \throws Cancelled when the callback says so. */
-BumpValues
-ComputeBumps(const MedialComplex &             core,
-             const SpacingWeights &            weights,
-             const std::vector<LatticePoint> & points,
-             TouchingBalls                     touching,
-             double                            floor = 0,
-             const ProgressCallback &          progress = {});
+ToleranceValues
+ComputeTolerances(const MedialComplex &             core,
+                  const SpacingWeights &            weights,
+                  const std::vector<LatticePoint> & points,
+                  TouchingBalls                     touching,
+                  double                            floor = 0,
+                  const ProgressCallback &          progress = {});
 
-/** What is left at a height in mm of a core that has its heights (MedialComplex::bumps). */
+/** What is left at a height in mm of a core that has its heights (MedialComplex::tolerances). */
 MedialComplex
-PruneByBumps(const MedialComplex & core, double height);
+PruneByTolerance(const MedialComplex & core, double height);
 
 } // namespace voxelcore

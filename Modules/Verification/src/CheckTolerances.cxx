@@ -9,37 +9,37 @@ namespace voxelcore::verification
 {
 
 void
-CheckBumps(VerificationReport & report, const Subject & subject)
+CheckTolerances(VerificationReport & report, const Subject & subject)
 {
   const VerificationInput & input = subject.input;
   const CellComplex &       cells = subject.cells;
-  if (input.vertexBump.size() != cells.vertexCount || input.edgeBump.size() != cells.edges.size() ||
-      input.faceBump.size() != cells.FaceCount())
+  if (input.vertexTolerance.size() != cells.vertexCount || input.edgeTolerance.size() != cells.edges.size() ||
+      input.faceTolerance.size() != cells.FaceCount())
   {
-    report.checks.push_back({ "bump heights", false, 1, "some elements have none." });
+    report.checks.push_back({ "tolerances", false, 1, "some elements have none." });
     return;
   }
-  const double height = *input.bumpHeight;
+  const double height = *input.pruningTolerance;
   // A comparison with what is no number fails.
   const auto isWrong = [&](double lower, double upper) { return !(lower >= height && lower <= upper); };
   const auto edgeOffends = [&](std::size_t edge) {
-    return isWrong(input.edgeBump[edge], input.vertexBump[cells.edges[edge][0]]) ||
-           isWrong(input.edgeBump[edge], input.vertexBump[cells.edges[edge][1]]);
+    return isWrong(input.edgeTolerance[edge], input.vertexTolerance[cells.edges[edge][0]]) ||
+           isWrong(input.edgeTolerance[edge], input.vertexTolerance[cells.edges[edge][1]]);
   };
   const auto faceOffends = [&](std::size_t face) {
     const auto edges = cells.FaceEdges(face);
     return std::any_of(edges.begin(), edges.end(), [&](ElementIndex edge) {
-      return isWrong(input.faceBump[face], input.edgeBump[edge]);
+      return isWrong(input.faceTolerance[face], input.edgeTolerance[edge]);
     });
   };
   AddCheck(
     report,
-    "bump heights",
+    "tolerances",
     cells.vertexCount + cells.edges.size() + cells.FaceCount(),
     [&](std::size_t i) {
       if (i < cells.vertexCount)
       {
-        return !(input.vertexBump[i] >= height);
+        return !(input.vertexTolerance[i] >= height);
       }
       i -= cells.vertexCount;
       return i < cells.edges.size() ? edgeOffends(i) : faceOffends(i - cells.edges.size());
@@ -65,15 +65,15 @@ CheckCoverage(VerificationReport & report, const Subject & subject)
   }
   const auto         largestWeight = *std::max_element(input.weights.weight.begin(), input.weights.weight.end());
   const double       slack = 4 * subject.tolerance * static_cast<double>(largestWeight) * input.weights.unit;
-  const bool         covered = gap.largest <= *input.bumpHeight * (1 + kMeasureTolerance) + slack;
+  const bool         covered = gap.largest <= *input.pruningTolerance * (1 + kMeasureTolerance) + slack;
   const LatticePoint place{ gap.place[0], gap.place[1], gap.place[2] };
   report.checks.push_back({ "coverage",
                             covered,
                             covered ? 0U : 1U,
                             covered ? std::string()
                                     : "boundary vertex " + Describe(place) + " lies " + Describe(gap.largest) +
-                                        " mm from the nearest ball, the bump height is " + Describe(*input.bumpHeight) +
-                                        " mm." });
+                                        " mm from the nearest ball, the tolerance is " +
+                                        Describe(*input.pruningTolerance) + " mm." });
 }
 
 } // namespace voxelcore::verification

@@ -1,4 +1,4 @@
-// Bump heights in files: one file serves every height.
+// Tolerances in files: one file serves every height.
 
 #include "Models/ModelFixtures.h"
 #include "VoxelCoreTesting/Cores.h"
@@ -66,7 +66,7 @@ ElementsOf(const std::vector<ModelPart> & parts, double height)
   Elements elements;
   for (const ModelPart & part : parts)
   {
-    const MedialComplex rest = PruneByBumps(part.core, height);
+    const MedialComplex rest = PruneByTolerance(part.core, height);
     const auto          add = [&](std::span<const ElementIndex> corners) {
       Element element;
       for (const ElementIndex corner : corners)
@@ -97,7 +97,7 @@ Thresholded(vtkPolyData * data, double height)
 {
   vtkNew<vtkThreshold> threshold;
   threshold->SetInputData(data);
-  threshold->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Bump");
+  threshold->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Tolerance");
   threshold->SetThresholdFunction(vtkThreshold::THRESHOLD_UPPER);
   threshold->SetUpperThreshold(height);
   threshold->Update();
@@ -142,18 +142,18 @@ ReadAllWithVtk<vtkXMLPolyDataReader>(const std::filesystem::path & path)
 
 /** Two labels side by side; what never goes has the height `end`. */
 MedialModel
-BumpedModel(std::uint64_t seed, double end)
+ModelWithTolerances(std::uint64_t seed, double end)
 {
   MedialModel model;
   for (std::uint64_t i = 0; i < 2; ++i)
   {
     const auto volume = testing::RandomVolumes(seed + 1000 * i, 1).front();
-    ModelPart  part{ static_cast<std::int64_t>(i + 1), testing::BumpedCoreOf(volume.shape, volume.spacing) };
+    ModelPart  part{ static_cast<std::int64_t>(i + 1), testing::CoreWithTolerancesOf(volume.shape, volume.spacing) };
     for (auto & position : part.core.positions)
     {
       position[0] += 1000.0 * static_cast<double>(i);
     }
-    for (auto * values : { &part.core.bumps.vertices, &part.core.bumps.edges, &part.core.bumps.faces })
+    for (auto * values : { &part.core.tolerances.vertices, &part.core.tolerances.edges, &part.core.tolerances.faces })
     {
       for (double & value : *values)
       {
@@ -165,20 +165,20 @@ BumpedModel(std::uint64_t seed, double end)
   return model;
 }
 
-TEST(BumpModel, AThresholdOnTheFileGivesTheResultOfEveryHeight)
+TEST(ToleranceModel, AThresholdOnTheFileGivesTheResultOfEveryHeight)
 {
   const TemporaryFolder folder;
   constexpr double      end = 500;
   for (std::uint64_t seed = 2000; seed < 2025; ++seed)
   {
     SCOPED_TRACE(seed);
-    const MedialModel whole = BumpedModel(seed, end);
+    const MedialModel whole = ModelWithTolerances(seed, end);
     std::set<double>  heights{ 0, 0.3, end };
     for (const ModelPart & part : whole.parts)
     {
-      for (std::size_t i = 0; i < part.core.bumps.edges.size(); i += 1 + part.core.bumps.edges.size() / 6)
+      for (std::size_t i = 0; i < part.core.tolerances.edges.size(); i += 1 + part.core.tolerances.edges.size() / 6)
       {
-        heights.insert({ part.core.bumps.edges[i], 1.01 * part.core.bumps.edges[i] });
+        heights.insert({ part.core.tolerances.edges[i], 1.01 * part.core.tolerances.edges[i] });
       }
     }
     heights.erase(heights.upper_bound(end), heights.end());
@@ -188,7 +188,7 @@ TEST(BumpModel, AThresholdOnTheFileGivesTheResultOfEveryHeight)
       MedialModel model;
       for (const ModelPart & part : whole.parts)
       {
-        model.parts.push_back({ part.label, PruneByBumps(part.core, from), part.component });
+        model.parts.push_back({ part.label, PruneByTolerance(part.core, from), part.component });
       }
       WriteModel(folder / "m.vtp", folder / "m.vtp", model);
       WriteModel(folder / "m.vtk", folder / "m.vtk", model);
@@ -208,13 +208,13 @@ TEST(BumpModel, AThresholdOnTheFileGivesTheResultOfEveryHeight)
 }
 
 // Also without the measures of edges: heights are all there, and the measures of those that will ever stand alone.
-TEST(BumpModel, AFileIsReadAsItWasWritten)
+TEST(ToleranceModel, AFileIsReadAsItWasWritten)
 {
   const TemporaryFolder folder;
   for (std::uint64_t seed = 2100; seed < 2120; ++seed)
   {
     SCOPED_TRACE(seed);
-    const MedialModel model = BumpedModel(seed, 500);
+    const MedialModel model = ModelWithTolerances(seed, 500);
     for (const ModelOptions options :
          { ModelOptions{ false, false }, ModelOptions{ false, true }, ModelOptions{ true, true } })
     {
@@ -226,15 +226,15 @@ TEST(BumpModel, AFileIsReadAsItWasWritten)
       {
         if (!options.triangles)
         {
-          EXPECT_EQ(read.parts[i].core.bumps.edges, model.parts[i].core.bumps.edges);
+          EXPECT_EQ(read.parts[i].core.tolerances.edges, model.parts[i].core.tolerances.edges);
         }
         WriteModel(folder / "c.vtp",
                    folder / "c.vtp",
-                   { { { 1, PruneByBumps(read.parts[i].core, 1.1) } }, {} },
+                   { { { 1, PruneByTolerance(read.parts[i].core, 1.1) } }, {} },
                    { options.triangles, options.keepEdges });
         WriteModel(folder / "d.vtp",
                    folder / "d.vtp",
-                   { { { 1, PruneByBumps(model.parts[i].core, 1.1) } }, {} },
+                   { { { 1, PruneByTolerance(model.parts[i].core, 1.1) } }, {} },
                    { options.triangles, options.keepEdges });
         EXPECT_EQ(testing::ReadBytes(folder / "c.vtp"), testing::ReadBytes(folder / "d.vtp"));
       }

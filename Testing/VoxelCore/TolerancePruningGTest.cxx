@@ -1,4 +1,4 @@
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 
 #include "VoxelCoreTesting/Cores.h"
 
@@ -20,13 +20,13 @@ namespace
 
 // All finite values, and heights between and beyond them.
 std::vector<double>
-Heights(const BumpValues & bumps, testing::Random & random)
+Heights(const ToleranceValues & values, testing::Random & random)
 {
   std::vector<double> heights{ 0 };
-  for (int i = 0; i < 6 && !bumps.edges.empty(); ++i)
+  for (int i = 0; i < 6 && !values.edges.empty(); ++i)
   {
-    const auto   at = static_cast<std::size_t>(random.Between(0, static_cast<std::int64_t>(bumps.edges.size()) - 1));
-    const double value = bumps.edges[at];
+    const auto   at = static_cast<std::size_t>(random.Between(0, static_cast<std::int64_t>(values.edges.size()) - 1));
+    const double value = values.edges[at];
     heights.push_back(std::isfinite(value) ? value * (i % 2 == 0 ? 1.0 : 1.01) : 1e9);
   }
   return heights;
@@ -50,55 +50,55 @@ FreePairs(const CellComplex & cells)
                                   std::count(edgesAt.begin(), edgesAt.end(), 1));
 }
 
-TEST(BumpPruning, KeepsTheTopologyAtEveryHeight)
+TEST(TolerancePruning, KeepsTheTopologyAtEveryHeight)
 {
   for (const auto & volume : testing::RandomVolumes(1000, 100))
   {
     SCOPED_TRACE(volume.Describe());
     testing::Random       random(volume.seed);
-    const MedialComplex   bumped = testing::BumpedCoreOf(volume.shape, volume.spacing);
-    const TopologyNumbers topology = ComputeComplexTopology(bumped.cells);
-    for (const double height : Heights(bumped.bumps, random))
+    const MedialComplex   core = testing::CoreWithTolerancesOf(volume.shape, volume.spacing);
+    const TopologyNumbers topology = ComputeComplexTopology(core.cells);
+    for (const double height : Heights(core.tolerances, random))
     {
-      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(bumped, height).cells), topology) << "at " << height;
+      ASSERT_EQ(ComputeComplexTopology(PruneByTolerance(core, height).cells), topology) << "at " << height;
     }
   }
 }
 
 // So what has a value above any height is a complex again, and a slider needs nothing but the values.
-TEST(BumpPruning, ValuesDoNotFallFromFacesToEdgesToVertices)
+TEST(TolerancePruning, ValuesDoNotFallFromFacesToEdgesToVertices)
 {
   for (const auto & volume : testing::RandomVolumes(1200, 60))
   {
     SCOPED_TRACE(volume.Describe());
-    const MedialComplex core = testing::BumpedCoreOf(volume.shape, volume.spacing);
-    const BumpValues &  bumps = core.bumps;
-    ASSERT_EQ(bumps.vertices.size(), core.cells.vertexCount);
-    ASSERT_EQ(bumps.edges.size(), core.cells.edges.size());
-    ASSERT_EQ(bumps.faces.size(), core.cells.FaceCount());
-    for (std::size_t edge = 0; edge < bumps.edges.size(); ++edge)
+    const MedialComplex     core = testing::CoreWithTolerancesOf(volume.shape, volume.spacing);
+    const ToleranceValues & values = core.tolerances;
+    ASSERT_EQ(values.vertices.size(), core.cells.vertexCount);
+    ASSERT_EQ(values.edges.size(), core.cells.edges.size());
+    ASSERT_EQ(values.faces.size(), core.cells.FaceCount());
+    for (std::size_t edge = 0; edge < values.edges.size(); ++edge)
     {
-      ASSERT_GE(bumps.edges[edge], 0.0);
-      ASSERT_LE(bumps.edges[edge], bumps.vertices[core.cells.edges[edge][0]]);
-      ASSERT_LE(bumps.edges[edge], bumps.vertices[core.cells.edges[edge][1]]);
+      ASSERT_GE(values.edges[edge], 0.0);
+      ASSERT_LE(values.edges[edge], values.vertices[core.cells.edges[edge][0]]);
+      ASSERT_LE(values.edges[edge], values.vertices[core.cells.edges[edge][1]]);
     }
-    for (std::size_t face = 0; face < bumps.faces.size(); ++face)
+    for (std::size_t face = 0; face < values.faces.size(); ++face)
     {
       for (const ElementIndex edge : core.cells.FaceEdges(face))
       {
-        ASSERT_LE(bumps.faces[face], bumps.edges[edge]);
+        ASSERT_LE(values.faces[face], values.edges[edge]);
       }
     }
   }
 }
 
-TEST(BumpPruning, LeavesOnlyWhatTheTopologyNeedsInTheEnd)
+TEST(TolerancePruning, LeavesOnlyWhatTheTopologyNeedsInTheEnd)
 {
   for (const auto & volume : testing::RandomVolumes(1300, 60))
   {
     SCOPED_TRACE(volume.Describe());
-    const MedialComplex core = testing::BumpedCoreOf(volume.shape, volume.spacing);
-    const MedialComplex rest = PruneByBumps(core, std::numeric_limits<double>::max());
+    const MedialComplex core = testing::CoreWithTolerancesOf(volume.shape, volume.spacing);
+    const MedialComplex rest = PruneByTolerance(core, std::numeric_limits<double>::max());
     ASSERT_EQ(FreePairs(rest.cells), 0U);
     const TopologyNumbers numbers = ComputeComplexTopology(core.cells);
     if (numbers.betti[1] == 0 && numbers.betti[2] == 0)
@@ -108,7 +108,7 @@ TEST(BumpPruning, LeavesOnlyWhatTheTopologyNeedsInTheEnd)
   }
 }
 
-TEST(BumpPruning, IsTheSameForBothEngines)
+TEST(TolerancePruning, IsTheSameForBothEngines)
 {
   if (!HasEngine(Engine::TetGen))
   {
@@ -117,15 +117,15 @@ TEST(BumpPruning, IsTheSameForBothEngines)
   for (const auto & volume : testing::RandomVolumes(1400, 30))
   {
     SCOPED_TRACE(volume.Describe());
-    const MedialComplex a = testing::BumpedCoreOf(volume.shape, volume.spacing, Engine::Lattice);
-    const MedialComplex b = testing::BumpedCoreOf(volume.shape, volume.spacing, Engine::TetGen);
-    ASSERT_EQ(a.bumps.vertices, b.bumps.vertices);
-    ASSERT_EQ(a.bumps.edges, b.bumps.edges);
-    ASSERT_EQ(a.bumps.faces, b.bumps.faces);
+    const MedialComplex a = testing::CoreWithTolerancesOf(volume.shape, volume.spacing, Engine::Lattice);
+    const MedialComplex b = testing::CoreWithTolerancesOf(volume.shape, volume.spacing, Engine::TetGen);
+    ASSERT_EQ(a.tolerances.vertices, b.tolerances.vertices);
+    ASSERT_EQ(a.tolerances.edges, b.tolerances.edges);
+    ASSERT_EQ(a.tolerances.faces, b.tolerances.faces);
   }
 }
 
-TEST(BumpPruning, TakesDegenerateShapes)
+TEST(TolerancePruning, TakesDegenerateShapes)
 {
   const auto shell = testing::ShapeWhere({ 9, 9, 9 }, [](int x, int y, int z) {
     return x == 0 || y == 0 || z == 0 || x == 8 || y == 8 || z == 8;
@@ -137,22 +137,22 @@ TEST(BumpPruning, TakesDegenerateShapes)
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     SCOPED_TRACE("shape " + std::to_string(i));
-    const MedialComplex   core = testing::BumpedCoreOf(shapes[i]);
+    const MedialComplex   core = testing::CoreWithTolerancesOf(shapes[i]);
     const TopologyNumbers topology = ComputeComplexTopology(core.cells);
     for (const double height : { 0.0, 0.5, 1.0, 2.0, 100.0 })
     {
-      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(core, height).cells), topology);
+      ASSERT_EQ(ComputeComplexTopology(PruneByTolerance(core, height).cells), topology);
     }
   }
 }
 
 // A rod of one voxel is a path of balls all alike: from each end it shrinks by the height, but for the last step.
-TEST(BumpPruning, ShortensARodByTheHeightAtEachEnd)
+TEST(TolerancePruning, ShortensARodByTheHeightAtEachEnd)
 {
-  const MedialComplex core = testing::BumpedCoreOf(testing::Box({ 1, 1, 40 }));
+  const MedialComplex core = testing::CoreWithTolerancesOf(testing::Box({ 1, 1, 40 }));
   for (const double height : { 1.5, 3.0, 6.0 })
   {
-    const MedialComplex rest = PruneByBumps(core, height);
+    const MedialComplex rest = PruneByTolerance(core, height);
     ASSERT_FALSE(rest.positions.empty());
     EXPECT_GE(rest.positions.front()[2], 0.5);
     EXPECT_LE(rest.positions.front()[2], 0.5 + height + 1.0);
@@ -164,7 +164,7 @@ TEST(BumpPruning, ShortensARodByTheHeightAtEachEnd)
 }
 
 // What one lambda cannot do: the thick part is cleared and the thin ones stay.
-TEST(BumpPruning, ClearsAThickPartAndKeepsThinOnesOnIt)
+TEST(TolerancePruning, ClearsAThickPartAndKeepsThinOnesOnIt)
 {
   const auto inRod = [](double x, double y, double z) { return y * y + z * z <= 1.6 * 1.6 && x >= 0 && x <= 30; };
   const auto inBall = [](double x, double y, double z) { return x * x + y * y + z * z <= 11 * 11; };
@@ -175,8 +175,8 @@ TEST(BumpPruning, ClearsAThickPartAndKeepsThinOnesOnIt)
     const double z = k + 0.5 - 13.1;
     return inRod(x, y, z) || inBall(x, y, z);
   });
-  const MedialComplex core = testing::BumpedCoreOf(shape);
-  const MedialComplex rest = PruneByBumps(core, 1.2 * std::sqrt(3.0));
+  const MedialComplex core = testing::CoreWithTolerancesOf(shape);
+  const MedialComplex rest = PruneByTolerance(core, 1.2 * std::sqrt(3.0));
   double              farthest = 0;
   double              outermost = 0;
   for (const auto & position : rest.positions)
@@ -191,10 +191,10 @@ TEST(BumpPruning, ClearsAThickPartAndKeepsThinOnesOnIt)
   EXPECT_GT(outermost, 30 - 1.6 - 2.6) << "the rod is lost";
 }
 
-TEST(BumpPruning, DoesNotTearASheet)
+TEST(TolerancePruning, DoesNotTearASheet)
 {
-  const MedialComplex core = testing::BumpedCoreOf(testing::Box({ 30, 5, 24 }));
-  const MedialComplex rest = PruneByBumps(core, 1.5);
+  const MedialComplex core = testing::CoreWithTolerancesOf(testing::Box({ 30, 5, 24 }));
+  const MedialComplex rest = PruneByTolerance(core, 1.5);
   double              area = 0;
   for (std::size_t face = 0; face < rest.cells.FaceCount(); ++face)
   {
@@ -213,7 +213,7 @@ TEST(BumpPruning, DoesNotTearASheet)
 }
 
 // Loose ends along the rim of a slab: a ball beside them often keeps what theirs kept.
-TEST(BumpPruning, LeavesFewLooseEndsAlongARim)
+TEST(TolerancePruning, LeavesFewLooseEndsAlongARim)
 {
   std::size_t all = 0;
   for (int turn = 1; turn <= 4; ++turn)
@@ -231,7 +231,7 @@ TEST(BumpPruning, LeavesFewLooseEndsAlongARim)
       const double dv = std::max(0.0, std::abs(v) - 9);
       return du * du + dv * dv + w * w <= 5 * 5;
     });
-    const MedialComplex rest = PruneByBumps(testing::BumpedCoreOf(shape), 1.2 * std::sqrt(3.0));
+    const MedialComplex rest = PruneByTolerance(testing::CoreWithTolerancesOf(shape), 1.2 * std::sqrt(3.0));
     std::vector<int>    edgesAt(rest.cells.vertexCount, 0);
     for (const auto & edge : rest.cells.edges)
     {
@@ -246,36 +246,36 @@ TEST(BumpPruning, LeavesFewLooseEndsAlongARim)
 }
 
 // What a floor takes goes whatever bump it stands for; of the rest nothing goes before its height.
-TEST(BumpPruning, BeginsWithWhatAFloorLeaves)
+TEST(TolerancePruning, BeginsWithWhatAFloorLeaves)
 {
   for (const auto & volume : testing::RandomVolumes(1600, 40))
   {
     SCOPED_TRACE(volume.Describe());
     const double        floor = 1.2 * *std::min_element(volume.spacing.begin(), volume.spacing.end());
-    const MedialComplex core = testing::BumpedCoreOf(volume.shape, volume.spacing, Engine::Auto, floor);
-    const MedialComplex least = PruneByBumps(core, 0);
+    const MedialComplex core = testing::CoreWithTolerancesOf(volume.shape, volume.spacing, Engine::Auto, floor);
+    const MedialComplex least = PruneByTolerance(core, 0);
     MedialComplex       byLambda = PruneByLambda(core, { floor }).front();
-    byLambda.bumps = least.bumps;
+    byLambda.tolerances = least.tolerances;
     testing::ExpectSameCore(least, byLambda);
     testing::Random random(volume.seed);
-    for (const double height : Heights(core.bumps, random))
+    for (const double height : Heights(core.tolerances, random))
     {
-      ASSERT_EQ(ComputeComplexTopology(PruneByBumps(core, height).cells), ComputeComplexTopology(core.cells));
+      ASSERT_EQ(ComputeComplexTopology(PruneByTolerance(core, height).cells), ComputeComplexTopology(core.cells));
     }
   }
 }
 
-TEST(BumpPruning, LeavesAllAtHeightZero)
+TEST(TolerancePruning, LeavesAllAtHeightZero)
 {
   for (const auto & volume : testing::RandomVolumes(1650, 20))
   {
     SCOPED_TRACE(volume.Describe());
-    const MedialComplex core = testing::BumpedCoreOf(volume.shape, volume.spacing);
-    testing::ExpectSameCore(core, PruneByBumps(core, 0));
+    const MedialComplex core = testing::CoreWithTolerancesOf(volume.shape, volume.spacing);
+    testing::ExpectSameCore(core, PruneByTolerance(core, 0));
   }
 }
 
-TEST(BumpPruning, CanBeCancelled)
+TEST(TolerancePruning, CanBeCancelled)
 {
   const VoxelShape     shape = testing::Ellipsoid(24);
   const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
@@ -284,24 +284,24 @@ TEST(BumpPruning, CanBeCancelled)
   auto                 touching = LargestTouchingBalls(cells, points, weights);
   const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
   EXPECT_THROW(
-    ComputeBumps(core, weights, points, std::move(touching), 0, [](std::string_view, double) { return false; }),
+    ComputeTolerances(core, weights, points, std::move(touching), 0, [](std::string_view, double) { return false; }),
     Cancelled);
 }
 
-TEST(BumpHeight, IsReadWithItsUnit)
+TEST(Tolerance, IsReadWithItsUnit)
 {
-  EXPECT_EQ(BumpHeightInMillimetres(ParseBumpHeight("1.5"), { 3, 2, 6 }), 1.5);
-  EXPECT_EQ(BumpHeightInMillimetres(ParseBumpHeight(" 1.5 mm"), { 3, 2, 6 }), 1.5);
-  EXPECT_EQ(BumpHeightInMillimetres(ParseBumpHeight("1.5vox"), { 3, 2, 6 }), 3.0);
-  EXPECT_EQ(BumpHeightInMillimetres(ParseBumpHeight("2diag"), { 3, 2, 6 }), 14.0);
-  EXPECT_EQ(ParseBumpHeight("2 diag").text, "2diag");
+  EXPECT_EQ(ToleranceInMillimetres(ParseTolerance("1.5"), { 3, 2, 6 }), 1.5);
+  EXPECT_EQ(ToleranceInMillimetres(ParseTolerance(" 1.5 mm"), { 3, 2, 6 }), 1.5);
+  EXPECT_EQ(ToleranceInMillimetres(ParseTolerance("1.5vox"), { 3, 2, 6 }), 3.0);
+  EXPECT_EQ(ToleranceInMillimetres(ParseTolerance("2diag"), { 3, 2, 6 }), 14.0);
+  EXPECT_EQ(ParseTolerance("2 diag").text, "2diag");
 }
 
-TEST(BumpHeight, WithoutSenseIsRefused)
+TEST(Tolerance, WithoutSenseIsRefused)
 {
   for (const char * text : { "", "vox", "-1vox", "1 5vox", "nan", "inf", "1voxel", "1%", "1.5.2", "-0.1" })
   {
-    EXPECT_THROW(ParseBumpHeight(text), UsageError) << text;
+    EXPECT_THROW(ParseTolerance(text), UsageError) << text;
   }
 }
 

@@ -11,7 +11,7 @@ namespace voxelcore
 
 /** While an element is there, its cofaces; then the height at which it went: in one word, as collapses jump about in
  *  memory and ask for both. Heights are -1, 0 or more; their two highest bits are never both set. */
-class BumpStanding
+class RemainingElements
 {
 public:
   void

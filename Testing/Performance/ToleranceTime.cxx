@@ -1,6 +1,6 @@
-// Pruning by bump height beside pruning by lambda, on the same core in the same process: processor time and memory.
+// Pruning by tolerance beside pruning by lambda, on the same core in the same process: processor time and memory.
 //
-//     VoxelCoreBumpTime KIND SIZE [REPEATS]          # a phantom; OMP_NUM_THREADS=1 for one processor
+//     VoxelCoreToleranceTime KIND SIZE [REPEATS]          # a phantom; OMP_NUM_THREADS=1 for one processor
 //
 // Both begin with the Delaunay cells and end with what is left at one threshold, 1.5 voxels and 1.2 diagonals. They take
 // turns; the medians and the median of the quotients of neighbours are shown. Memory is what is in use at the most while
@@ -9,7 +9,7 @@
 #include "ProcessFigures.h"
 
 #include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/Phantom.h"
 #include "voxelcore/VoxelCore.h"
@@ -73,15 +73,15 @@ Main(int argc, char ** argv)
   const DelaunayCells  cells = ComputeDelaunayCells(shape, points, weights, Engine::Lattice);
   MedialComplex        core = BuildVoxelCore(shape, points, DelaunayCells(cells), weights);
   std::vector<double>  lambda[2];
-  std::vector<double>  bumps[2];
+  std::vector<double>  byTolerances[2];
   std::vector<double>  quotients;
   std::vector<double>  stages[3];
   std::size_t          faces[2]{};
   for (int i = 0; i < repeats; ++i)
   {
-    core.bumps = {};
+    core.tolerances = {};
     const Cost byLambda = Measure([&] { faces[0] = PruneByLambda(core, { 1.5 }).front().cells.FaceCount(); });
-    const Cost byBumps = Measure([&] {
+    const Cost byTolerance = Measure([&] {
       double     start = ProcessorSeconds();
       const auto lap = [&](std::size_t stage) {
         stages[stage].push_back(ProcessorSeconds() - start);
@@ -89,16 +89,16 @@ Main(int argc, char ** argv)
       };
       TouchingBalls touching = LargestTouchingBalls(cells, points, weights);
       lap(0);
-      core.bumps = ComputeBumps(core, weights, points, std::move(touching));
+      core.tolerances = ComputeTolerances(core, weights, points, std::move(touching));
       lap(1);
-      faces[1] = PruneByBumps(core, 1.2 * std::sqrt(3.0)).cells.FaceCount();
+      faces[1] = PruneByTolerance(core, 1.2 * std::sqrt(3.0)).cells.FaceCount();
       lap(2);
     });
     lambda[0].push_back(byLambda.seconds);
     lambda[1].push_back(byLambda.bytes);
-    bumps[0].push_back(byBumps.seconds);
-    bumps[1].push_back(byBumps.bytes);
-    quotients.push_back(byBumps.seconds / byLambda.seconds);
+    byTolerances[0].push_back(byTolerance.seconds);
+    byTolerances[1].push_back(byTolerance.bytes);
+    quotients.push_back(byTolerance.seconds / byLambda.seconds);
   }
   const auto each = 1.0 / static_cast<double>(points.size());
   std::printf("%s %d: %zu boundary vertices, core of %zu vertices, %zu edges, %zu faces\n",
@@ -112,14 +112,14 @@ Main(int argc, char ** argv)
               Median(lambda[0]),
               each * Median(lambda[1]),
               faces[0]);
-  std::printf("bumps 1.2diag   %.3f s (balls %.3f, heights %.3f, taking out %.3f), %.0f bytes, %zu faces left\n",
-              Median(bumps[0]),
+  std::printf("tolerance 1.2diag   %.3f s (balls %.3f, heights %.3f, taking out %.3f), %.0f bytes, %zu faces left\n",
+              Median(byTolerances[0]),
               Median(stages[0]),
               Median(stages[1]),
               Median(stages[2]),
-              each * Median(bumps[1]),
+              each * Median(byTolerances[1]),
               faces[1]);
-  std::printf("bumps / lambda  %.2f\n", Median(quotients));
+  std::printf("tolerance / lambda  %.2f\n", Median(quotients));
   return 0;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-// The collapse behind ComputeBumps().
+// The collapse behind ComputeTolerances().
 
-#include "BumpStanding.h"
+#include "RemainingElements.h"
 
 #include "voxelcore/BucketQueue.h"
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 
 #include <cmath>
 #include <cstdint>
@@ -14,17 +14,17 @@
 namespace voxelcore
 {
 
-class BumpCollapse
+class ToleranceCollapse
 {
 public:
-  BumpCollapse(const MedialComplex &             core,
-               const SpacingWeights &            weights,
-               const std::vector<LatticePoint> & points,
-               TouchingBalls                     touching,
-               double                            floor,
-               const ProgressCallback &          progress);
+  ToleranceCollapse(const MedialComplex &             core,
+                    const SpacingWeights &            weights,
+                    const std::vector<LatticePoint> & points,
+                    TouchingBalls                     touching,
+                    double                            floor,
+                    const ProgressCallback &          progress);
 
-  BumpValues
+  ToleranceValues
   Run(const ProgressCallback & progress);
 
 private:
@@ -140,7 +140,7 @@ private:
     return m_VertexStanding[vertex].IsLive();
   }
 
-  // BumpSetup.cxx
+  // ToleranceSetup.cxx
   void
   DropBelow(double floor, const ProgressCallback & progress);
   void
@@ -187,18 +187,18 @@ private:
   RemoveVertex(ElementIndex vertex);
   void
   DropEdge(ElementIndex edge);
-  BumpValues
-  TakeBumps();
+  ToleranceValues
+  TakeTolerances();
 
   const MedialComplex *                m_Core;
   const std::vector<LatticePoint> *    m_Points;
   Position                             m_Scale; // mm a lattice unit
   double                               m_Level = 0;
-  double                               m_Measured;  // level up to which gaps are looked at, mm
-  std::vector<double>                  m_FaceBumps; // infinity while the face is there
-  std::vector<Vertex>                  m_Vertices;  // and one at the end, where neighbours end
-  std::vector<BumpStanding>            m_VertexStanding;
-  std::vector<BumpStanding>            m_EdgeStanding;
+  double                               m_Measured;       // level up to which gaps are looked at, mm
+  std::vector<double>                  m_FaceTolerances; // infinity while the face is there
+  std::vector<Vertex>                  m_Vertices;       // and one at the end, where neighbours end
+  std::vector<RemainingElements>       m_VertexStanding;
+  std::vector<RemainingElements>       m_EdgeStanding;
   std::vector<ElementIndex>            m_Neighbours; // along the edges of the core, gone or not
   std::vector<std::uint32_t>           m_NextKept;
   BucketQueue<Pair, WaitingPair, Wake> m_Queue;

@@ -1,9 +1,9 @@
-// How well pruned cores match known medial axes: lambda pruning, and pruning by bump height, on bodies at random
+// How well pruned cores match known medial axes: lambda pruning, and pruning by tolerance, on bodies at random
 // rotations, three resolutions and two spacings, clean and rough. Half of the seeds were for tuning; the other half shows
 // what is worth of it elsewhere. README.md has the table and what the columns mean.
 //
-//     VoxelCoreBumpEvaluation [--seeds tuned|aside] [--rotations N] [--body NAME] [--noise SD] [--mend-shape]
-//                             [--smooth-shape] [--bumps H,H..] [--each] [--quick] [--keep FILE]
+//     VoxelCoreToleranceEvaluation [--seeds tuned|aside] [--rotations N] [--body NAME] [--noise SD] [--mend-shape]
+//                             [--smooth-shape] [--tolerance H,H..] [--each] [--quick] [--keep FILE]
 //
 // With --keep each body at each spacing is written to FILE when it is done, and not done again by the next run with the
 // same options: a run that is interrupted goes on where it was.
@@ -15,7 +15,7 @@
 
 #include "voxelcore/BallCoverage.h"
 #include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/ShapeSmoothing.h"
@@ -74,7 +74,7 @@ struct Options
     char text[200];
     std::snprintf(text,
                   sizeof(text),
-                  "%s, %d rotations, %zu resolutions, noise %g%s%s, bumps %s",
+                  "%s, %d rotations, %zu resolutions, noise %g%s%s, tolerances %s",
                   aside ? "aside" : "tuned",
                   rotations,
                   Resolutions().size(),
@@ -134,12 +134,12 @@ PruneInAllWays(MedialComplex                     core,
   add(PruneByLambda(core, thresholds), [&](std::size_t i) { return "lambda " + options.lambdas[i] + "vox"; });
   add(PruneByErosionThickness(core, weights, fine, { 1.0 * fine, 2.0 * fine, 3.0 * fine }),
       [](std::size_t i) { return "erosion thickness " + std::to_string(i + 1) + "vox"; });
-  core.bumps = ComputeBumps(core, weights, points, std::move(touching));
+  core.tolerances = ComputeTolerances(core, weights, points, std::move(touching));
   const double seconds = Seconds() - start;
   for (const std::string & text : Split(options.heights))
   {
-    const double height = BumpHeightInMillimetres(ParseBumpHeight(text), spacing);
-    all.push_back({ "bumps " + text, PruneByBumps(core, height), seconds });
+    const double height = ToleranceInMillimetres(ParseTolerance(text), spacing);
+    all.push_back({ "tolerance " + text, PruneByTolerance(core, height), seconds });
   }
   return all;
 }
@@ -220,7 +220,7 @@ ReadOptions(int argc, char ** argv)
                                                         { "--mend-shape", &Options::mend },
                                                         { "--smooth-shape", &Options::smooth } };
     const std::map<std::string, std::string Options::*> texts{ { "--body", &Options::body },
-                                                               { "--bumps", &Options::heights },
+                                                               { "--tolerance", &Options::heights },
                                                                { "--keep", &Options::keep } };
     if (const auto flag = flags.find(option); flag != flags.end())
     {

@@ -1,4 +1,4 @@
-#include "BumpCollapse.h"
+#include "ToleranceCollapse.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@ namespace voxelcore
 {
 
 void
-BumpCollapse::OfferVertex(ElementIndex vertex)
+ToleranceCollapse::OfferVertex(ElementIndex vertex)
 {
   // A vertex in one edge is in no face, as a face would need two edges there; so cofaces one dimension up suffice.
   if (m_VertexStanding[vertex].IsFree())
@@ -17,7 +17,7 @@ BumpCollapse::OfferVertex(ElementIndex vertex)
 }
 
 void
-BumpCollapse::RemoveLoose()
+ToleranceCollapse::RemoveLoose()
 {
   // What can go at this level goes at once, end by end, while it is at hand.
   while (!m_Loose.empty())
@@ -41,7 +41,7 @@ BumpCollapse::RemoveLoose()
 }
 
 void
-BumpCollapse::OfferEdges(std::span<const ElementIndex> edges)
+ToleranceCollapse::OfferEdges(std::span<const ElementIndex> edges)
 {
   for (const ElementIndex edge : edges)
   {
@@ -50,7 +50,7 @@ BumpCollapse::OfferEdges(std::span<const ElementIndex> edges)
 }
 
 void
-BumpCollapse::OfferAll()
+ToleranceCollapse::OfferAll()
 {
   const std::size_t     edges = m_EdgeStanding.size();
   constexpr std::size_t chunk = std::size_t{ 1 } << 16; // what is computed side by side waits here for its turn
@@ -89,7 +89,7 @@ BumpCollapse::OfferAll()
 }
 
 void
-BumpCollapse::DropEdge(ElementIndex edge)
+ToleranceCollapse::DropEdge(ElementIndex edge)
 {
   m_EdgeStanding[edge].Go(m_Level);
   for (const ElementIndex vertex : m_Core->cells.edges[edge])
@@ -103,7 +103,7 @@ BumpCollapse::DropEdge(ElementIndex edge)
 }
 
 void
-BumpCollapse::RemoveFace(ElementIndex edge)
+ToleranceCollapse::RemoveFace(ElementIndex edge)
 {
   const CellComplex & cells = m_Core->cells;
   const ElementIndex  face = m_EdgeStanding[edge].Coface();
@@ -112,7 +112,7 @@ BumpCollapse::RemoveFace(ElementIndex edge)
     m_Vertices[reached.vertex].burnt = reached.time;
     m_Vertices[reached.vertex].witness = reached.witness;
   }
-  m_FaceBumps[face] = m_Level;
+  m_FaceTolerances[face] = m_Level;
   // What the faces behind will ask for is fetched in three steps, with other work between them.
   m_Freed.clear();
   for (const ElementIndex side : cells.FaceEdges(face))
@@ -140,7 +140,7 @@ BumpCollapse::RemoveFace(ElementIndex edge)
 }
 
 void
-BumpCollapse::RemoveVertex(ElementIndex vertex)
+ToleranceCollapse::RemoveVertex(ElementIndex vertex)
 {
   const ElementIndex edge = m_VertexStanding[vertex].Coface();
   m_VertexStanding[vertex].Go(m_Level);
@@ -162,7 +162,7 @@ BumpCollapse::RemoveVertex(ElementIndex vertex)
 }
 
 void
-BumpCollapse::FetchFace(ElementIndex face) const
+ToleranceCollapse::FetchFace(ElementIndex face) const
 {
   const CellComplex & cells = m_Core->cells;
   for (const ElementIndex edge : cells.FaceEdges(face))
@@ -176,7 +176,7 @@ BumpCollapse::FetchFace(ElementIndex face) const
 }
 
 void
-BumpCollapse::Fetch() const
+ToleranceCollapse::Fetch() const
 {
   // Removing in order of cost jumps about in memory: what the pairs ahead will ask for is fetched step by step.
   const CellComplex & cells = m_Core->cells;
@@ -192,7 +192,7 @@ BumpCollapse::Fetch() const
   if (const ElementIndex face = faceOf(m_Queue.Ahead(24)); face != kNone)
   {
     __builtin_prefetch(&cells.faceOffsets[face]);
-    __builtin_prefetch(&m_FaceBumps[face], 1);
+    __builtin_prefetch(&m_FaceTolerances[face], 1);
   }
   if (const ElementIndex face = faceOf(m_Queue.Ahead(16)); face != kNone)
   {
@@ -216,8 +216,8 @@ BumpCollapse::Fetch() const
   }
 }
 
-BumpValues
-BumpCollapse::Run(const ProgressCallback & progress)
+ToleranceValues
+ToleranceCollapse::Run(const ProgressCallback & progress)
 {
   OfferAll();
   RemoveLoose();
@@ -253,30 +253,30 @@ BumpCollapse::Run(const ProgressCallback & progress)
       RemoveLoose();
     }
   }
-  return TakeBumps();
+  return TakeTolerances();
 }
 
-BumpValues
-BumpCollapse::TakeBumps()
+ToleranceValues
+ToleranceCollapse::TakeTolerances()
 {
   // What is no longer needed makes room.
   std::vector<Vertex>().swap(m_Vertices);
   std::vector<ElementIndex>().swap(m_Neighbours);
-  const auto take = [](std::vector<BumpStanding> & standing) {
+  const auto take = [](std::vector<RemainingElements> & standing) {
     std::vector<double> heights;
     heights.reserve(standing.size());
-    for (const BumpStanding & one : standing)
+    for (const RemainingElements & one : standing)
     {
       heights.push_back(one.IsLive() ? std::numeric_limits<double>::infinity() : one.Height());
     }
-    std::vector<BumpStanding>().swap(standing);
+    std::vector<RemainingElements>().swap(standing);
     return heights;
   };
-  BumpValues bumps;
-  bumps.vertices = take(m_VertexStanding);
-  bumps.edges = take(m_EdgeStanding);
-  bumps.faces = std::move(m_FaceBumps);
-  return bumps;
+  ToleranceValues values;
+  values.vertices = take(m_VertexStanding);
+  values.edges = take(m_EdgeStanding);
+  values.faces = std::move(m_FaceTolerances);
+  return values;
 }
 
 } // namespace voxelcore

@@ -1,6 +1,6 @@
-#include "voxelcore/BumpPruning.h"
+#include "voxelcore/TolerancePruning.h"
 
-#include "BumpCollapse.h"
+#include "ToleranceCollapse.h"
 #include "ExtractPart.h"
 #include "LengthText.h"
 
@@ -20,7 +20,7 @@ namespace
 [[noreturn]] void
 RefuseHeight(std::string_view text, const char * why)
 {
-  throw UsageError("bump height '" + std::string(text) + "' " + why +
+  throw UsageError("tolerance '" + std::string(text) + "' " + why +
                    "; write a number and mm, vox or diag, for example 1.5mm, 2vox or 1diag");
 }
 
@@ -36,25 +36,25 @@ AtLeast(const std::vector<double> & values, double height)
 
 } // namespace
 
-BumpHeight
-ParseBumpHeight(std::string_view text)
+Tolerance
+ParseTolerance(std::string_view text)
 {
   const LengthText length = ReadLength(text, [&](const char * why) { RefuseHeight(text, why); });
-  BumpHeight       height;
+  Tolerance        height;
   height.value = std::abs(length.value);
   height.text = length.text;
   const std::string & unit = length.unit;
   if (unit.empty() || unit == "mm")
   {
-    height.unit = BumpHeight::Unit::Millimetre;
+    height.unit = Tolerance::Unit::Millimetre;
   }
   else if (unit == "vox")
   {
-    height.unit = BumpHeight::Unit::Voxel;
+    height.unit = Tolerance::Unit::Voxel;
   }
   else if (unit == "diag")
   {
-    height.unit = BumpHeight::Unit::Diagonal;
+    height.unit = Tolerance::Unit::Diagonal;
   }
   else
   {
@@ -64,15 +64,15 @@ ParseBumpHeight(std::string_view text)
 }
 
 double
-BumpHeightInMillimetres(const BumpHeight & height, const std::array<double, 3> & spacing)
+ToleranceInMillimetres(const Tolerance & height, const std::array<double, 3> & spacing)
 {
   switch (height.unit)
   {
-    case BumpHeight::Unit::Millimetre:
+    case Tolerance::Unit::Millimetre:
       return height.value;
-    case BumpHeight::Unit::Voxel:
+    case Tolerance::Unit::Voxel:
       return height.value * std::min({ spacing[0], spacing[1], spacing[2] });
-    case BumpHeight::Unit::Diagonal:
+    case Tolerance::Unit::Diagonal:
       break;
   }
   return height.value * std::sqrt(spacing[0] * spacing[0] + spacing[1] * spacing[1] + spacing[2] * spacing[2]);
@@ -135,23 +135,24 @@ LargestTouchingBalls(const DelaunayCells &             cells,
   return balls;
 }
 
-BumpValues
-ComputeBumps(const MedialComplex &             core,
-             const SpacingWeights &            weights,
-             const std::vector<LatticePoint> & points,
-             TouchingBalls                     touching,
-             double                            floor,
-             const ProgressCallback &          progress)
+ToleranceValues
+ComputeTolerances(const MedialComplex &             core,
+                  const SpacingWeights &            weights,
+                  const std::vector<LatticePoint> & points,
+                  TouchingBalls                     touching,
+                  double                            floor,
+                  const ProgressCallback &          progress)
 {
-  return BumpCollapse(core, weights, points, std::move(touching), floor, progress).Run(progress);
+  return ToleranceCollapse(core, weights, points, std::move(touching), floor, progress).Run(progress);
 }
 
 MedialComplex
-PruneByBumps(const MedialComplex & core, double height)
+PruneByTolerance(const MedialComplex & core, double height)
 {
-  const BumpValues & bumps = core.bumps;
-  return ExtractPart(core,
-                     { AtLeast(bumps.vertices, height), AtLeast(bumps.edges, height), AtLeast(bumps.faces, height) });
+  const ToleranceValues & values = core.tolerances;
+  return ExtractPart(
+    core,
+    { AtLeast(values.vertices, height), AtLeast(values.edges, height), AtLeast(values.faces, height) });
 }
 
 } // namespace voxelcore

@@ -1,6 +1,6 @@
 // What it costs to take an element away, and who keeps what it kept.
 
-#include "BumpCollapse.h"
+#include "ToleranceCollapse.h"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ constexpr double kMargin = 1.25;
 } // namespace
 
 void
-BumpCollapse::Keep(ElementIndex vertex, std::uint32_t point, double gap)
+ToleranceCollapse::Keep(ElementIndex vertex, std::uint32_t point, double gap)
 {
   Vertex & keeper = m_Vertices[vertex];
   if (keeper.lastKept == kNone)
@@ -43,7 +43,7 @@ BumpCollapse::Keep(ElementIndex vertex, std::uint32_t point, double gap)
 }
 
 void
-BumpCollapse::HandOver(ElementIndex from, ElementIndex to, double gap)
+ToleranceCollapse::HandOver(ElementIndex from, ElementIndex to, double gap)
 {
   const std::uint32_t last = m_Vertices[from].lastKept;
   if (last == kNone)
@@ -60,7 +60,7 @@ BumpCollapse::HandOver(ElementIndex from, ElementIndex to, double gap)
 }
 
 double
-BumpCollapse::FaceCost(ElementIndex edge, std::vector<Reached> & reached) const
+ToleranceCollapse::FaceCost(ElementIndex edge, std::vector<Reached> & reached) const
 {
   const CellComplex & cells = m_Core->cells;
   const ElementIndex  face = m_EdgeStanding[edge].Coface();
@@ -115,7 +115,7 @@ BumpCollapse::FaceCost(ElementIndex edge, std::vector<Reached> & reached) const
 }
 
 ElementIndex
-BumpCollapse::Uphill(ElementIndex vertex)
+ToleranceCollapse::Uphill(ElementIndex vertex)
 {
   Vertex & from = m_Vertices[vertex];
   if (from.uphill == kNone)
@@ -143,7 +143,7 @@ BumpCollapse::Uphill(ElementIndex vertex)
 }
 
 void
-BumpCollapse::CollectKeepers(ElementIndex vertex, ElementIndex other)
+ToleranceCollapse::CollectKeepers(ElementIndex vertex, ElementIndex other)
 {
   m_Keepers.clear();
   // Uphill from both. Where the second way meets the first they are one.
@@ -191,7 +191,7 @@ BumpCollapse::CollectKeepers(ElementIndex vertex, ElementIndex other)
 }
 
 double
-BumpCollapse::VertexCost(ElementIndex vertex)
+ToleranceCollapse::VertexCost(ElementIndex vertex)
 {
   const Vertex & loose = m_Vertices[vertex];
   const auto &   ends = m_Core->cells.edges[m_VertexStanding[vertex].Coface()];
@@ -221,7 +221,7 @@ BumpCollapse::VertexCost(ElementIndex vertex)
 }
 
 double
-BumpCollapse::FindHomes(ElementIndex vertex)
+ToleranceCollapse::FindHomes(ElementIndex vertex)
 {
   m_ToHeir = false;
   m_NewHomes.clear();
@@ -264,7 +264,7 @@ BumpCollapse::FindHomes(ElementIndex vertex)
 // Those around the next vertex, nearest first by number of edges: at the rim of a sheet balls beside the loose end are
 // as near as those further in.
 void
-BumpCollapse::CollectAround(ElementIndex vertex)
+ToleranceCollapse::CollectAround(ElementIndex vertex)
 {
   m_Around.assign(1, m_Heir);
   for (std::size_t i = 0; i < m_Around.size() && m_Around.size() < kAround; ++i)
