@@ -95,9 +95,9 @@ TEST_F(BatchCommand, ColumnsOfTheManifestComeBeforeTheOptionsOfTheBatch)
 
 TEST_F(BatchCommand, WhatHangsOrWantsTooMuchMemoryIsListed)
 {
-  ASSERT_EQ(RunProgram({ "phantom", "gyroid", "--size", "96", "-o", m_Folder / "large.nrrd" }).code, 0);
+  ASSERT_EQ(RunProgram({ "phantom", "gyroid", "--size", "256", "-o", m_Folder / "large.nrrd" }).code, 0);
   WriteTinyScan(m_Folder / "small.nrrd", 1);
-  const ProgramResult late = Batch({ m_Folder.Path(), "--timeout", "0.4s", "--jobs", "1" });
+  const ProgramResult late = Batch({ m_Folder.Path(), "--timeout", "3s", "--jobs", "1" });
   EXPECT_THAT(late.output, HasSubstr("failed: large: took longer than --timeout"));
   EXPECT_THAT(late.output, HasSubstr("1 of 2 cases done"));
   const ProgramResult poor = Batch({ m_Folder.Path(), "--memory", "100MB" });

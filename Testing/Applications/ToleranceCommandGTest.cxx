@@ -146,7 +146,7 @@ TEST_F(ToleranceCommand, VerifyMeasuresTheGapItself)
   std::string       bad = good;
   const std::size_t at = bad.find("\"tolerance_mm\":3.0");
   ASSERT_NE(at, std::string::npos);
-  bad.replace(at, 14, "\"tolerance_mm\":0.1");
+  bad.replace(at, 18, "\"tolerance_mm\":0.1");
   WriteAll(m_Folder / "bad.vtp", bad);
   const ProgramResult result = RunProgram({ "verify", Path("a.nrrd"), Path("bad.vtp") });
   EXPECT_EQ(result.code, 4) << result.output << result.error;
