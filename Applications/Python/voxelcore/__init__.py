@@ -20,6 +20,8 @@ like any other, whether or not the parent has computed before.
 """
 
 import atexit
+import difflib
+import inspect
 import operator
 import os
 
@@ -87,6 +89,16 @@ def _without_mask(array, threshold):
     return numpy.where(mask, voxels.dtype.type(value), voxels)
 
 
+def _labels(label):
+    """Values as the command line takes them."""
+    if isinstance(label, str) and label == "all":
+        return label
+    values = label if isinstance(label, (list, tuple)) else [label]
+    if not values or any(isinstance(value, (bool, str)) or int(value) != value for value in values):
+        raise ValueError(f"label {label!r}: expected a whole number, a list of them, 'all', 'any' or None")
+    return ",".join(str(int(value)) for value in values)
+
+
 def _three(name, values):
     try:
         numbers = [float(value) for value in values]
@@ -107,13 +119,49 @@ def _nine(values):
     return [float(value) for value in matrix.reshape(9)]
 
 
-def _options(**given):
-    """Options of the command line by name; what is None or False is not given."""
+def _rows(command, *groups):
+    """The rows of the option table that are keyword arguments here, by keyword."""
+    return {
+        row["keyword"]: row
+        for row in _voxelcore.option_table()
+        if row["command"] == command and row["group"] in groups and row["keyword"]
+    }
+
+
+_OF_CORE = _rows("core", "Input", "Pruning", "Shape edits", "Refinement", "Running")
+_OF_SKELETON = _rows("skeleton", "Skeleton")
+del _OF_SKELETON["also"]  # of Skeleton.save()
+
+
+def _values(function, rows, given):
+    """Options of the command line from keyword arguments; what is None or False is not given."""
     values = {}
-    for name, value in given.items():
-        if value is not None and value is not False:
-            values[name.replace("_", "-")] = "true" if value is True else str(value)
+    for keyword, value in given.items():
+        row = rows.get(keyword)
+        if row is None:
+            near = difflib.get_close_matches(keyword, rows, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise TypeError(f"{function}() got an unexpected keyword argument {keyword!r}{hint}")
+        if value is None or value is False:
+            continue
+        if row["is_flag"] != (value is True):
+            raise ValueError(f"{keyword}={value!r}: expected " + ("True or False" if row["is_flag"] else "a value"))
+        values[row["name"]] = "true" if row["is_flag"] else value if isinstance(value, str) else _text(value)
     return values
+
+
+def _documented(function, rows):
+    """Adds to the function's text what the option table says of its further arguments."""
+    own = inspect.signature(function).parameters
+    lines = [
+        f"    {keyword}: {row['description']}" + (f" Default: {row['default']}." if row["default"] else "")
+        for keyword, row in rows.items()
+        if keyword.isidentifier() and keyword not in own
+    ]
+    head, _, rest = function.__doc__.partition("    further options: ")
+    words, _, rest = rest.partition("\n")
+    function.__doc__ = head + "\n".join(lines) + "\n" + rest
+    return function
 
 
 def core(
@@ -127,21 +175,19 @@ def core(
     axes="ijk",
     tolerance=None,
     threshold=None,
-    orthonormalize=False,
-    engine="auto",
-    threads=0,
     progress=None,
+    **options,
 ):
-    """The medial surface of one label: its voxel core, pruned, with the topology of its voxels. Returns a Core, or a list of
-    them where lambda_ or tolerance is a list.
+    """The medial surface of a label: its voxel core, pruned, with the topology of its voxels. Returns a Core; a list of them
+    where lambda_ or tolerance is a list; a dict of these by label where several labels were asked for.
 
-    array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array masks. It
-        is read once, into one bit a voxel, and not kept. It must not change meanwhile.
+    array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array masks.
+        It is read once, into one bit a voxel, and not kept. It must not change meanwhile.
     spacing: mm between voxels along i, j and k.
     lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
         number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side of
         the label's box). 0 keeps the whole core. None: '1.5vox', but 0 beside tolerance. A list shares one computation.
-    label: its value. None: the array holds one; 'any': all but 0 are one shape.
+    label: its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
     origin: LPS mm of the centre of voxel (0, 0, 0).
     direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
         SimpleITK has it.
@@ -150,11 +196,9 @@ def core(
     tolerance: prune by tolerance instead: a number of mm, '1.2diag' (voxel diagonals) or '2vox'. A lambda_ beside it
         is a floor that is pruned first. A list shares one computation.
     threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
-    orthonormalize: accept skewed axes by taking the nearest that stand at right angles.
-    engine: 'auto', 'lattice' or 'tetgen'; the result is the same.
-    threads: processors to use; 0 means all.
     progress: a function that is called with the stage and the fraction done, a few times a second. The fraction never
         falls, and is 1 in the last call.
+    further options: those of 'voxelcore core'
 
     >>> slab = numpy.ones((9, 9, 3), bool)
     >>> surface = core(slab, spacing=(1, 1, 2), lambda_="1mm")
@@ -162,14 +206,22 @@ def core(
     (3, 'float64', 3.1)
     >>> [len(surface.vertices) for surface in core(slab, lambda_=[0, "1mm", "1.5vox"])]
     [117, 49, 49]
+    >>> two = numpy.ones((9, 9, 9), numpy.uint8)
+    >>> two[4] = [[0]]
+    >>> two[5:] *= 2
+    >>> {label: surface.voxels for label, surface in core(two, label="all").items()}
+    {1: 324, 2: 324}
+    >>> core(two == 1, min_voxels=100, fill_cavities=True).voxels
+    324
     >>> core(slab.astype(complex))
     Traceback (most recent call last):
     ...
-    ValueError: the array: its type is complex128; give whole numbers (bool, int8 to uint64, or float32 and float64 that hold whole numbers)
+    ValueError: the array: its type is complex128; give whole numbers (bool, int8 to uint64, or float32 and float64 \
+that hold whole numbers)
     """
     if axes not in ("ijk", "kji"):
         raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
-    values = _options(orthonormalize=orthonormalize, engine=engine, threads=int(threads))
+    values = _values("core", _OF_CORE, options)
     pruning, several = _pruning(lambda_, tolerance)
     values.update(pruning)
     if threshold is not None:
@@ -181,43 +233,32 @@ def core(
     if isinstance(label, str) and label == "any":
         values["binary"] = "true"
     elif label is not None:
-        if isinstance(label, (bool, str)) or int(label) != label:
-            raise ValueError(f"label {label!r}: expected a whole number, 'any' or None")
-        values["labels"] = str(int(label))
+        values["labels"] = _labels(label)
     voxels = _without_mask(array, threshold)
     if axes == "kji":
         voxels = voxels.T
     place = _three("spacing", spacing), _three("origin", origin), _nine(direction)
-    cores = [Core(data) for data in _voxelcore.cores(voxels, *place, values, progress)]
-    return cores if several else cores[0]
+    by_label = {}
+    for data in _voxelcore.cores(voxels, *place, values, progress):
+        one = Core(data)
+        by_label.setdefault((one.label, one.component) if one.component else one.label, []).append(one)
+    results = {key: cores if several else cores[0] for key, cores in by_label.items()}
+    if isinstance(label, (list, tuple)) or label == "all" or values.get("split-components"):
+        return results
+    return next(iter(results.values()))
 
 
-def skeleton(
-    source,
-    *,
-    stand_out="3vox",
-    smooth="6vox",
-    plates=None,
-    prune_branches="1r",
-    cut_loops=False,
-    split_at_junctions=False,
-    root="thickest",
-    threads=0,
-    progress=None,
-    **of_array,
-):
+def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progress=None, **options):
     """The curve skeleton of a label, with the topology of its voxels. Returns a Skeleton.
 
-    source: an array, with the other arguments of core() (spacing, label, ...; its whole core is then taken unless lambda_ or
-        tolerance say otherwise), or a Core. Of a pruned one the tips of slender branches are gone.
-    stand_out: branches stand out by so much at least. Lengths are mm or text with a unit, as lambda_.
-    smooth: each point is fitted over so much of its branch before and behind it, and moves half a voxel at most; 0: not.
-    plates: parts of the surface that are at least so erosion-thick stay surfaces.
+    source: an array, with the arguments of core() beside it (spacing, label, ...; its whole core is then taken unless
+        lambda_ or tolerance say otherwise), or a Core. Of a pruned one the tips of slender branches are gone.
     prune_branches: branches with a tip that are shorter go: a length, or '1.5r', times the radius where they begin; 0 or
         None: none.
-    cut_loops: cut each cycle at its thinnest branch.
-    split_at_junctions: give each branch end points of its own.
     root: where the hierarchy of branches begins: 'thickest', 'top', or a point (x, y, z), LPS mm.
+    threads: processors to use; 0 means all.
+    progress: as of core().
+    further options: those of 'voxelcore skeleton'. Lengths are mm or text with a unit, as lambda_
 
     >>> rod = numpy.zeros((40, 9, 9), numpy.uint8)
     >>> rod[2:38, 2:7, 2:7] = 7
@@ -225,28 +266,31 @@ def skeleton(
     >>> curve.numbers["branches"], curve.numbers["tips"], curve.topology["betti"]
     (1, 2, (1, 0, 0))
     """
-    own = progress
+    own = {keyword: value for keyword, value in options.items() if keyword in _OF_SKELETON}
+    of_array = {keyword: value for keyword, value in options.items() if keyword not in own}
+    values = _values(
+        "skeleton",
+        _OF_SKELETON,
+        dict(
+            own,
+            prune_branches="0" if prune_branches is None else prune_branches,
+            root=root if isinstance(root, str) else ",".join(repr(value) for value in _three("root", root)),
+        ),
+    )
+    values["threads"] = str(int(threads))
     if isinstance(source, Core):
         if of_array:
             raise ValueError(f"{next(iter(of_array))}: is for arrays; the core was made already")
-    else:
-        if isinstance(of_array.get("lambda_"), (list, tuple)) or isinstance(of_array.get("tolerance"), (list, tuple)):
-            raise ValueError("lambda_, tolerance: give one; a skeleton has one core")
-        if of_array.get("lambda_") is None:
-            of_array["lambda_"] = 0
-        source = core(source, threads=threads, progress=_share(progress, 0, 0.5), **of_array)
-        own = _share(progress, 0.5, 1)
-    values = _options(
-        stand_out=_text(stand_out),
-        smooth=_text(smooth),
-        plates=None if plates is None else _text(plates),
-        prune_branches="0" if prune_branches is None else _text(prune_branches),
-        cut_loops=bool(cut_loops),
-        split_at_junctions=bool(split_at_junctions),
-        root=root if isinstance(root, str) else ",".join(repr(value) for value in _three("root", root)),
-        threads=int(threads),
-    )
-    return Skeleton(_voxelcore.skeleton(source._data, values, own))
+        return Skeleton(_voxelcore.skeleton(source._data, values, progress))
+    if isinstance(of_array.get("lambda_"), (list, tuple)) or isinstance(of_array.get("tolerance"), (list, tuple)):
+        raise ValueError("lambda_, tolerance: give one; a skeleton has one core")
+    if of_array.get("lambda_") is None:
+        of_array["lambda_"] = 0
+    of_array.update(threads=threads, progress=_share(progress, 0, 0.5))
+    whole = core(source, **of_array)
+    if not isinstance(whole, Core):
+        raise ValueError("label, split_components: give one label; make cores first, then the skeleton of each")
+    return Skeleton(_voxelcore.skeleton(whole._data, values, _share(progress, 0.5, 1)))
 
 
 def measure(source, **options):
@@ -294,6 +338,10 @@ def columns():
     return json.loads(_voxelcore.skeleton_columns())["branches"]
 
 
+_documented(core, _OF_CORE)
+_documented(skeleton, _OF_SKELETON)
+
+
 class _Result:
     __slots__ = ("_data",)
 
@@ -307,6 +355,11 @@ class _Result:
     def label(self):
         """The label's value."""
         return self._data.label
+
+    @property
+    def component(self):
+        """Which component of the label it is, from 1 by size; 0: the whole label."""
+        return self._data.component
 
     @property
     def topology(self):

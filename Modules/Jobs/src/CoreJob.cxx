@@ -41,6 +41,8 @@ DescribeInput(const CoreOptions & options, const LabelMap & volume)
   return { options.scan.string(), {}, volume.format, volume.geometry, volume.notes };
 }
 
+} // namespace
+
 ParameterRecord
 DescribeParameters(const CoreOptions &    options,
                    const LabelMap &       volume,
@@ -55,16 +57,11 @@ DescribeParameters(const CoreOptions &    options,
       parameters.labels.push_back(one.label.value);
     }
   }
-  parameters.edits = options.edits;
-  parameters.crop = volume.crop;
-  parameters.binary = options.reading.binary;
-  parameters.threshold = options.reading.threshold;
-  parameters.volume = options.reading.volume;
-  parameters.component = options.reading.component;
-  parameters.spacing = options.reading.spacing;
+  parameters.reading = options.reading;
+  parameters.reading.crop = volume.crop;
   parameters.resolution = options.resolution;
-  parameters.orthonormalize = options.reading.orthonormalize;
-  parameters.niftiForm = options.reading.niftiForm;
+  parameters.edits = options.edits;
+  parameters.further = options.further;
   for (const Lambda & lambda : options.lambdas)
   {
     parameters.lambda.push_back(lambda.text);
@@ -86,8 +83,6 @@ DescribeParameters(const CoreOptions &    options,
   parameters.weights = weights;
   return parameters;
 }
-
-} // namespace
 
 void
 CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)

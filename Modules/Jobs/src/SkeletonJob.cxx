@@ -25,6 +25,7 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
   core.reading = options.reading;
   core.resolution = options.resolution;
   core.edits = options.edits;
+  core.further = options.further;
   core.lambdas = { options.stage.lambda };
   if (options.stage.tolerance)
   {

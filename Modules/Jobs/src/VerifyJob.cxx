@@ -156,7 +156,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   EditedLabels         edited = EditLabels(std::move(volume.labels),
                                    made.parameters.edits,
-                                   !made.parameters.binary && !made.parameters.threshold,
+                                   !made.parameters.reading.binary && !made.parameters.reading.threshold,
                                    options.scan.string(),
                                    PartOfProgress(context.progress, 0.05, 0.1));
   if (made.parameters.refine.surface != model.refined)

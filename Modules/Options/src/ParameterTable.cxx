@@ -7,6 +7,8 @@
 #include "table/RunningRows.h"
 #include "table/SkeletonRows.h"
 
+#include <algorithm>
+
 namespace voxelcore
 {
 
@@ -84,6 +86,22 @@ std::span<const Parameter>
 Parameters()
 {
   return kParameters;
+}
+
+std::string
+KeywordOf(const Parameter & parameter)
+{
+  if (!parameter.keyword.empty())
+  {
+    return parameter.keyword == "-" ? std::string() : std::string(parameter.keyword);
+  }
+  const bool isFile = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output;
+  const bool isNamedAlike =
+    parameter.group == ParameterGroup::Pruning || parameter.group == ParameterGroup::ShapeEdits ||
+    parameter.group == ParameterGroup::Refinement || parameter.group == ParameterGroup::Skeleton;
+  std::string keyword(isNamedAlike && !isFile && !parameter.flags.empty() ? parameter.name : "");
+  std::replace(keyword.begin(), keyword.end(), '-', '_');
+  return keyword;
 }
 
 std::string

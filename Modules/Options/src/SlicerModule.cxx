@@ -316,7 +316,8 @@ SlicerXml(CommandId command)
     });
   }
   xml += "  <parameters>\n    <label>Results</label>\n    <description>Summed over all labels</description>\n";
-  for (const Output & output : Outputs(command, {}))
+  const CoreReport none;
+  for (const Output & output : Outputs(command, none))
   {
     const std::string tag = output.whole ? "integer" : "double";
     xml += "    <" + tag + ">\n" + Element("name", output.name) + Element("label", output.label) +

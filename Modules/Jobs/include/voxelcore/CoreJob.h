@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ struct CoreOptions
   std::optional<std::filesystem::path> table;   ///< .csv, a row per label
   DisplayTargets                       display; ///< of the first result of each label
   ModelOptions                         model;
+  std::map<std::string, std::string>   further; ///< options without a field of their own; recorded
   Engine                               engine = Engine::Auto;
   std::filesystem::path                join; ///< folder of parts (BlockJob.h) to take the cells from; empty: computed
   bool                                 crossCheck = false; ///< both engines must find the same cells
@@ -62,6 +64,13 @@ struct CoreResult
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 CoreResult
 RunCoreJob(const CoreOptions & options, const JobContext & context = {});
+
+/** What was asked for, as reports and files have it. */
+ParameterRecord
+DescribeParameters(const CoreOptions &    options,
+                   const LabelMap &       map,
+                   const EditedLabels &   edited,
+                   const SpacingWeights & weights);
 
 /** One label's share of a job. */
 struct LabelOutcome
