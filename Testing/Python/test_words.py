@@ -61,7 +61,7 @@ def test_a_mistyped_argument_suggests_the_nearest():
         ("--engine magic box: expected one of auto|lattice", "engine='magic box': expected one of auto|lattice"),
         ("accept them with --orthonormalize", "accept them with orthonormalize=True"),
         ("give only one of --labels, --binary and --threshold", "give only one of label, label='any' and threshold"),
-        ("cut it with --crop 1:2,:,:", "cut it with crop='1:2,:,:'"),
+        ("cut it with --crop 1:2,3:4,5:6", "cut it with crop='1:2,3:4,5:6'"),
         ("a--spacing and /x/--force/y stay", "a--spacing and /x/--force/y stay"),
         ("made with 'voxelcore core --lambda 0'", "made with 'voxelcore core --lambda 0'"),
         ("--unheard-of and - and -- and -1", "--unheard-of and - and -- and -1"),
