@@ -15,7 +15,7 @@ packages_of() {
     demo) echo mricron-data ;;
     picture) echo xvfb xauth ;;
     guide) echo mkdocs ;;
-    test) echo xvfb libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest xauth mricron-data ;;
+    test) echo clang-format xvfb libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest xauth mricron-data ;;
     package) echo dpkg-dev debootstrap doxygen graphviz groff mkdocs mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
     browser) echo chromium chromium-headless-shell python3 ;;

@@ -1,4 +1,5 @@
-# `cpack` in the build folder makes Debian packages: the program, the libraries and headers, the Python module. With TetGen
+# `cpack` in the build folder makes Debian packages: the program, the libraries and headers, the Python module. With
+# TetGen
 # in it a package falls under the AGPL as a whole, so it has a name of its own.
 if(VOXELCORE_TETGEN)
   set(variant -tetgen)

@@ -164,7 +164,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
 {
   CoreReport report = MakeReport();
   report.parameters.reading.threshold = { { -std::numeric_limits<double>::infinity(),
-                                    std::numeric_limits<double>::infinity() } };
+                                            std::numeric_limits<double>::infinity() } };
   report.parameters.reading.crop = CropRange{ { 0, 1, 2 }, { 10, 11, 12 } };
   report.parameters.reading.component = 2;
   report.parameters.edits = { true, true, 50, 3, true, true };

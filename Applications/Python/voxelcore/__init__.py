@@ -8,15 +8,15 @@
 >>> core.topology == core.shape_topology == {"euler": 1, "betti": (1, 0, 0)}
 True
 
-All lengths are millimetres, all points LPS (as ITK and 3D Slicer have them). Arrays in results are read-only views of the
-memory the computation left them in; nothing is copied, and they stay valid as long as anybody holds them.
+All lengths are millimetres, all points LPS (as ITK and 3D Slicer have them). Arrays in results are read-only views of
+the memory the computation left them in; nothing is copied, and they stay valid as long as anybody holds them.
 
 Errors: ValueError for an array or an option that makes no sense, OSError for a file that cannot be written,
 CertificateError when a result contradicts its own proof (then there is none), each with one line that says what to do.
 
 Ctrl-C stops any call within half a second, reading and saving included; a file that was being written does not appear.
-Results can be pickled and copied, with the same bits. Processes made by fork (multiprocessing, concurrent.futures) compute
-like any other, whether or not the parent has computed before.
+Results can be pickled and copied, with the same bits. Processes made by fork (multiprocessing, concurrent.futures)
+compute like any other, whether or not the parent has computed before.
 """
 
 import atexit
@@ -50,7 +50,7 @@ def _text(value):
 
 
 def _pruning(lambda_, tolerance):
-    """Options for lambda_ and tolerance, of which None is not given, and whether one of them asks for several results."""
+    """Options for lambda_ and tolerance, of which None is not given; whether one of them asks for several results."""
     values = {}
     for name, given in (("lambda", lambda_), ("tolerance", tolerance)):
         if isinstance(given, (list, tuple)):
@@ -178,15 +178,16 @@ def core(
     progress=None,
     **options,
 ):
-    """The medial surface of a label: its voxel core, pruned, with the topology of its voxels. Returns a Core; a list of them
-    where lambda_ or tolerance is a list; a dict of these by label where several labels were asked for.
+    """The medial surface of a label: its voxel core, pruned, with the topology of its voxels. Returns a Core; a list of
+    them where lambda_ or tolerance is a list; a dict of these by label where several labels were asked for.
 
-    array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array masks.
-        It is read once, into one bit a voxel, and not kept. It must not change meanwhile.
+    array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array
+        masks. It is read once, into one bit a voxel, and not kept. It must not change meanwhile.
     spacing: mm between voxels along i, j and k.
     lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
-        number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side of
-        the label's box). 0 keeps the whole core. None: '1.5vox', but 0 beside tolerance. A list shares one computation.
+        number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side
+        of the label's box). 0 keeps the whole core. None: '1.5vox', but 0 beside tolerance. A list shares one
+        computation.
     label: its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
     origin: LPS mm of the centre of voxel (0, 0, 0).
     direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
@@ -253,8 +254,8 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
 
     source: an array, with the arguments of core() beside it (spacing, label, ...; its whole core is then taken unless
         lambda_ or tolerance say otherwise), or a Core. Of a pruned one the tips of slender branches are gone.
-    prune_branches: branches with a tip that are shorter go: a length, or '1.5r', times the radius where they begin; 0 or
-        None: none.
+    prune_branches: terminal branches that are shorter are removed: a length, or '1.5r', times the radius where they
+        begin; 0 or None: none.
     root: where the hierarchy of branches begins: 'thickest', 'top', or a point (x, y, z), LPS mm.
     threads: processors to use; 0 means all.
     progress: as of core().
@@ -294,8 +295,8 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
 
 
 def measure(source, **options):
-    """The numbers of a skeleton's branches: a dict of arrays, one entry a branch, under the names of 'voxelcore measure'
-    (columns() says what each means and its unit). Ready for pandas.DataFrame.
+    """The numbers of a skeleton's branches: a dict of arrays, one entry a branch, under the names of 'voxelcore
+    measure' (columns() says what each means and its unit). Ready for pandas.DataFrame.
 
     source: a Skeleton, or whatever skeleton() takes, with its arguments.
 
@@ -422,8 +423,8 @@ class Core(_Result):
 
     @property
     def lambda_vertices(self):
-        """(n,) float64: radius measure of each vertex, mm. Of edges and faces: lambda_edges, lambda_faces. NaN for edges of
-        faces read from a file that lacks them."""
+        """(n,) float64: radius measure of each vertex, mm. Of edges and faces: lambda_edges, lambda_faces. NaN for
+        edges of faces read from a file that lacks them."""
         return self._data.lambda_vertices
 
     @property
@@ -472,8 +473,8 @@ class Core(_Result):
         return self._data.shape_topology
 
     def prune(self, lambda_=None, *, tolerance=None, progress=None):
-        """This core pruned further, bit for bit as core() would give it: one computation serves many lambdas. A list gives a
-        list of cores. By tolerance only what was made with tolerance: with tolerance=0, every height is in it.
+        """This core pruned further, bit for bit as core() would give it: one computation serves many lambdas. A list
+        gives a list of cores. By tolerance only what was made with tolerance: with tolerance=0, every height is in it.
 
         >>> ragged = core(numpy.ones((9, 9, 3), bool), tolerance=0)
         >>> ragged.prune(tolerance="1diag").topology == ragged.prune("1.5vox").topology
@@ -507,8 +508,8 @@ class Core(_Result):
         return numpy.flatnonzero(free).astype(numpy.uint32)
 
     def to_polydata(self):
-        """A vtkPolyData (package python3-vtk9) for VTK and PyVista, as in the .vtp file: point arrays Radius and Lambda, cell
-        arrays Lambda and Label.
+        """A vtkPolyData (package python3-vtk9) for VTK and PyVista, as in the .vtp file: point arrays Radius and
+        Lambda, cell arrays Lambda and Label.
 
         >>> pieces = core(numpy.ones((9, 9, 3), bool)).to_polydata()
         >>> round(pieces.GetPointData().GetArray("Radius").GetRange()[1], 1)
@@ -612,11 +613,12 @@ class Skeleton(_Result):
         _voxelcore.save_skeleton(self._data, os.fsencode(path), also, bool(overwrite))
 
     def to_polydata(self):
-        """A vtkPolyData (package python3-vtk9): a poly line a branch, polygons of faces that stay; point arrays Radius and
-        ErosionThickness, cell arrays BranchId and Label."""
+        """A vtkPolyData (package python3-vtk9): a poly line a branch, polygons of faces that stay; point arrays Radius
+        and ErosionThickness, cell arrays BranchId and Label."""
         from . import _polydata
 
         return _polydata.of_skeleton(self)
 
     def __repr__(self):
-        return f"<voxelcore.Skeleton of label {self.label}: {len(self.branch_nodes)} branches, {len(self.points)} points>"
+        counts = f"{len(self.branch_nodes)} branches, {len(self.points)} points"
+        return f"<voxelcore.Skeleton of label {self.label}: {counts}>"

@@ -6,8 +6,8 @@
 namespace voxelcore
 {
 
-/** For a file of no kind that is read: told by its first bytes, else by its extension. \throws InputError, always: one line
- *  that says what it is and which program or option leads on */
+/** For a file of no kind that is read: told by its first bytes, else by its extension. \throws InputError, always: one
+ *  line that says what it is and which program or option leads on */
 [[noreturn]] void
 RefuseForeign(const std::filesystem::path & path);
 

@@ -270,7 +270,8 @@ FinishedLabelsPath(const CoreOptions & options)
 class FolderLabels
 {
 public:
-  /** Takes out of `labels` those that are finished. Refuses before hours of work what could not be written in the end. */
+  /** Takes out of `labels` those that are finished. Refuses before hours of work what could not be written in the
+   *  end. */
   FolderLabels(const CoreOptions &        options,
                std::vector<EditedLabel> & labels,
                const ResultFiles &        files,

@@ -17,8 +17,8 @@
 namespace voxelcore
 {
 
-/** Fills each field its command has an option for. Counts are unsigned and begin at 1, places are signed and begin at 0.
- *  \throws UsageError, naming the option, for a value without sense */
+/** Fills each field its command has an option for. Counts are unsigned and begin at 1, places are signed and begin at
+ *  0. \throws UsageError, naming the option, for a value without sense */
 class FieldReader
 {
 public:
@@ -101,7 +101,7 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
   reading.refuseGrey = !reader.IsGiven("labels");
   if (reading.labels.empty())
   {
-    reader.Refuse("labels", "'all', or values or names separated by commas");
+    reader.ThrowUsageError("labels", "'all', or values or names separated by commas");
   }
   if ((reading.labels != "all" ? 1 : 0) + (reading.binary ? 1 : 0) + (reading.threshold ? 1 : 0) > 1)
   {

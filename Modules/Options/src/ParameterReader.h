@@ -74,7 +74,7 @@ public:
   }
 
   [[noreturn]] void
-  Refuse(std::string_view name, const std::string & expected) const
+  ThrowUsageError(std::string_view name, const std::string & expected) const
   {
     const Parameter & parameter = Describe(name);
     const auto        comma = parameter.flags.find(',');
@@ -91,9 +91,9 @@ public:
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
     {
-      Refuse(name,
-             "a whole number from " + std::to_string(least) +
-               (most < std::numeric_limits<std::int64_t>::max() ? " to " + std::to_string(most) : " up"));
+      ThrowUsageError(name,
+                      "a whole number from " + std::to_string(least) +
+                        (most < std::numeric_limits<std::int64_t>::max() ? " to " + std::to_string(most) : " up"));
     }
     return value;
   }
@@ -109,7 +109,7 @@ public:
     const auto value = ParseReal(Text(name));
     if (!value || !std::isfinite(*value))
     {
-      Refuse(name, "a number");
+      ThrowUsageError(name, "a number");
     }
     return value;
   }
@@ -128,7 +128,7 @@ public:
     }
     if (std::find(words.begin(), words.end(), text) == words.end())
     {
-      Refuse(name, "one of " + std::string(all) + DidYouMean(text, words));
+      ThrowUsageError(name, "one of " + std::string(all) + DidYouMean(text, words));
     }
     return text;
   }
@@ -142,7 +142,7 @@ public:
     const auto high = ParseReal(parts.back());
     if (parts.size() != 2 || !low || !high || !(*low <= *high))
     {
-      Refuse(name, "LO:HI with LO <= HI, such as 300:3000 (inf is allowed)");
+      ThrowUsageError(name, "LO:HI with LO <= HI, such as 300:3000 (inf is allowed)");
     }
     return { *low, *high };
   }
@@ -166,7 +166,7 @@ public:
     }
     if (!good)
     {
-      Refuse("spacing", "three positive numbers in mm, such as 0.5,0.5,2");
+      ThrowUsageError("spacing", "three positive numbers in mm, such as 0.5,0.5,2");
     }
     return spacing;
   }
@@ -188,7 +188,7 @@ public:
   {
     if (Text(name).empty())
     {
-      Refuse(name, "a file name");
+      ThrowUsageError(name, "a file name");
     }
     return Text(name);
   }

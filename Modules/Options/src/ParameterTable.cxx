@@ -25,7 +25,7 @@ struct Rows
 
 template <std::size_t... N>
 constexpr auto
-Together(const Rows<N> &... parts)
+JoinedRows(const Rows<N> &... parts)
 {
   std::array<Parameter, (N + ...)> all{};
   std::size_t                      end = 0;
@@ -40,16 +40,16 @@ Together(const Rows<N> &... parts)
   return all;
 }
 
-constexpr auto kParameters = Together(Rows{ ParameterGroup::Input, table::kInputRows },
-                                      Rows{ ParameterGroup::Output, table::kOutputRows },
-                                      Rows{ ParameterGroup::Picture, table::kPictureRows },
-                                      Rows{ ParameterGroup::Cohort, table::kCohortRows },
-                                      Rows{ ParameterGroup::Phantom, table::kPhantomRows },
-                                      Rows{ ParameterGroup::Pruning, table::kPruningRows },
-                                      Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
-                                      Rows{ ParameterGroup::Refinement, table::kRefinementRows },
-                                      Rows{ ParameterGroup::Skeleton, table::kSkeletonRows },
-                                      Rows{ ParameterGroup::Running, table::kRunningRows });
+constexpr auto kParameters = JoinedRows(Rows{ ParameterGroup::Input, table::kInputRows },
+                                        Rows{ ParameterGroup::Output, table::kOutputRows },
+                                        Rows{ ParameterGroup::Picture, table::kPictureRows },
+                                        Rows{ ParameterGroup::Cohort, table::kCohortRows },
+                                        Rows{ ParameterGroup::Phantom, table::kPhantomRows },
+                                        Rows{ ParameterGroup::Pruning, table::kPruningRows },
+                                        Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
+                                        Rows{ ParameterGroup::Refinement, table::kRefinementRows },
+                                        Rows{ ParameterGroup::Skeleton, table::kSkeletonRows },
+                                        Rows{ ParameterGroup::Running, table::kRunningRows });
 
 } // namespace
 

@@ -30,7 +30,7 @@ SizeFrom(const ParameterReader & reader)
   }
   if (!good)
   {
-    reader.Refuse("size", "one or three whole numbers of voxels from 1 to 32768, such as 64 or 64,64,32");
+    reader.ThrowUsageError("size", "one or three whole numbers of voxels from 1 to 32768, such as 64 or 64,64,32");
   }
   return size;
 }

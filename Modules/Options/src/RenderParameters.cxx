@@ -32,7 +32,7 @@ ReadColorRange(const ParameterReader & reader, RenderJobOptions & options)
   }
   if (!isRange || !(values[0] < values[1]) || (shares && !reader.Text("range").ends_with('%')))
   {
-    reader.Refuse("range", "LO:HI with LO < HI, in mm such as 0:5, or in per cent such as 2%:98% or 0%:100%");
+    reader.ThrowUsageError("range", "LO:HI with LO < HI, in mm such as 0:5, or in per cent such as 2%:98% or 0%:100%");
   }
   options.eachLabel = reader.IsSet("each-label");
   if (shares)
@@ -72,7 +72,7 @@ RenderOptionsFrom(const ParameterValues & values)
   };
   if (sides.size() != 2 || !fits(width) || !fits(height))
   {
-    reader.Refuse("size", "WIDTHxHEIGHT in pixels, each from 64 to 8192, such as 1600x1200");
+    reader.ThrowUsageError("size", "WIDTHxHEIGHT in pixels, each from 64 to 8192, such as 1600x1200");
   }
   options.shrink = !reader.IsGiven("size");
   options.width = static_cast<int>(*width);
@@ -84,7 +84,7 @@ RenderOptionsFrom(const ParameterValues & values)
   options.tubes = ParseReal(reader.Text("tubes")).value_or(-1);
   if (!(options.tubes > 0 && options.tubes <= 1))
   {
-    reader.Refuse("tubes", "a number above 0, up to 1");
+    reader.ThrowUsageError("tubes", "a number above 0, up to 1");
   }
   options.panels = reader.IsSet("panels");
   options.turntable = static_cast<int>(reader.Whole("turntable", 1, 999));

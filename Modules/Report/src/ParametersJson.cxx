@@ -154,7 +154,7 @@ private:
 nlohmann::ordered_json
 ParametersJson(const ParameterRecord & parameters, bool inFile)
 {
-  Json              json = Json::object();
+  Json                  json = Json::object();
   const JsonFieldWriter write(json);
   json["labels"] = parameters.labels;
   VisitScanFields(parameters, write);
@@ -193,7 +193,7 @@ ParameterRecord
 ReadParameters(const nlohmann::ordered_json & json)
 {
   ParameterRecord parameters;
-  JsonFieldReader     read(json);
+  JsonFieldReader read(json);
   if (json.contains("bumps"))
   {
     throw InputError("was pruned by the tolerance of VoxelCore 0.1; make it again");

@@ -44,11 +44,11 @@ struct ReadOptions
  *  are: the numbers their labels get must not depend on the crop). Places do not move: shapes lie where they lie in the
  *  whole scan.
  *
- *  The voxel size is the file's: of TIFF as ImageJ, OME-XML or its resolution tags state it. Where there is none, 1 mm is
- *  assumed and warned of. Of hyperstacks, options.component picks the channel and options.volume the time point.
+ *  The voxel size is the file's: of TIFF as ImageJ, OME-XML or its resolution tags state it. Where there is none, 1 mm
+ *  is assumed and warned of. Of hyperstacks, options.component picks the channel and options.volume the time point.
  *
- *  With options.refuseGrey a grey scan is told from labels and refused with a threshold proposed (GreyScanError), as long
- *  as neither binary nor threshold is set and the file names no labels.
+ *  With options.refuseGrey a grey scan is told from labels and refused with a threshold proposed (GreyScanError), as
+ *  long as neither binary nor threshold is set and the file names no labels.
  *
  *  Progress is reported as stage "read". May be called from several threads at once.
  *  \throws InputError with one line when the file is missing, damaged or unfit, when a label asked for does not occur,
@@ -70,8 +70,8 @@ ScanFiles(const std::filesystem::path & path);
 
 /** Writes labels as a volume: .nrrd .nii .nii.gz .mha .mhd .tif by the extension of `path`; the smallest unsigned type
  *  that holds the values. Packed when `compress` and the format can (.nii never, .nii.gz always). NIfTI keeps the
- *  geometry in single precision, TIFF the spacing alone. The file is read back before it takes its name, so a full disk leaves
- *  nothing.
+ *  geometry in single precision, TIFF the spacing alone. The file is read back before it takes its name, so a full disk
+ *  leaves nothing.
  *  \throws OutputError when it cannot be written; UsageError for an unknown extension, a value below 1, labels that
  *  overlap or reach beyond the volume. */
 void
@@ -80,9 +80,10 @@ WriteLabelVolume(const std::filesystem::path &   path,
                  const std::vector<LabelShape> & labels,
                  bool                            compress = true);
 
-/** Writes labels as a segmentation of 3D Slicer (.seg.nrrd, packed) with their names and colours. Labels that overlap get
- *  layers of their own; labels that share a value, as components do, or beyond 65535 are numbered anew from 1.
- *  \throws OutputError when it cannot be written in full; UsageError for a label beyond the volume, and above 65535 labels */
+/** Writes labels as a segmentation of 3D Slicer (.seg.nrrd, packed) with their names and colours. Labels that overlap
+ *  get layers of their own; labels that share a value, as components do, or beyond 65535 are numbered anew from 1.
+ *  \throws OutputError when it cannot be written in full; UsageError for a label beyond the volume, and above 65535
+ *  labels */
 void
 WriteSegmentation(const std::filesystem::path &   path,
                   const ImageGeometry &           geometry,

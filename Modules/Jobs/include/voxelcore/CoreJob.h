@@ -60,8 +60,9 @@ struct CoreResult
  *  nothing. In a folder each label is written when it is done, and the same job, run again, goes on: labels whose files
  *  are there as they were written, from the same scan, options and sources, are not computed again. A label whose
  *  certificate fails is not written, nor are tables and report then; the others are. What is for looking at
- *  (CoreOptions::display) needs all labels in memory: with it a folder, too, is written as one. The result does not depend on the number of threads (OpenMP's).
- *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
+ *  (CoreOptions::display) needs all labels in memory: with it a folder, too, is written as one. The result does not
+ *  depend on the number of threads (OpenMP's). \throws UsageError, InputError, OutputError, CertificateError,
+ *  Cancelled */
 CoreResult
 RunCoreJob(const CoreOptions & options, const JobContext & context = {});
 

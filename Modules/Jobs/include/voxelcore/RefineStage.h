@@ -21,8 +21,8 @@ struct RefineOptions
 };
 
 /** The source for a job's scan, or mesh, that was read like this: none when nothing is to be refined.
- *  \throws UsageError when a surface is asked for that the input does not have; InputError when the grey scan does not lie
- *  where the labels do, or the mesh cannot be read again */
+ *  \throws UsageError when a surface is asked for that the input does not have; InputError when the grey scan does not
+ *  lie where the labels do, or the mesh cannot be read again */
 SurfaceSource
 MakeSurfaceSource(const RefineOptions &         options,
                   const std::filesystem::path & scan,

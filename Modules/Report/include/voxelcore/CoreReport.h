@@ -143,8 +143,8 @@ ReportJson(const CoreReport & report);
 std::string
 ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t which);
 
-/** The same for a file of these labels' skeletons. It is the same whether these were made from the scan, beside its core,
- *  or from the file of its whole core. */
+/** The same for a file of these labels' skeletons. It is the same whether these were made from the scan, beside its
+ *  core, or from the file of its whole core. */
 std::string
 SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels);
 
