@@ -141,7 +141,7 @@ MakeCores(const ArrayView &        array,
 
   constexpr double readEnds = 0.05;
   constexpr double editEnds = 0.1;
-  LabelMap         map;
+  InputScan        map;
   map.geometry = report.input.geometry;
   try
   {

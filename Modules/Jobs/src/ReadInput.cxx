@@ -94,7 +94,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
                      "the size of a voxel in mm");
   }
   ReportProgress(progress, "read", 0);
-  const MeshFile file = ReadMesh(path);
+  MeshFile file = ReadMesh(path);
   try
   {
     const VoxelGrid grid = resolution ? GridOfResolution(file.mesh, *resolution) : GridOfSpacing(file.mesh, *spacing);
@@ -108,6 +108,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
     result.findings = made.findings;
     result.doubtful = made.doubtful;
     result.volume = AsVolume(path, file, grid, made);
+    result.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
     return result;
   }
   catch (const InputError & error)
@@ -116,7 +117,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
   }
 }
 
-LabelMap
+InputScan
 ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,
                const std::optional<std::int64_t> & resolution,
@@ -129,7 +130,7 @@ ReadScanOrMesh(const std::filesystem::path &       path,
       throw UsageError("--resolution " + std::to_string(*resolution) + ": is for meshes, and " + path.string() +
                        " is none");
     }
-    return ReadLabelVolume(path, options, progress);
+    return { ReadLabelVolume(path, options, progress), {} };
   }
   if ((options.labels != "all" && options.labels != "1") || options.binary || options.threshold || options.volume ||
       options.component || options.crop || options.orthonormalize || options.niftiForm != "auto")
@@ -137,7 +138,8 @@ ReadScanOrMesh(const std::filesystem::path &       path,
     throw UsageError(path.string() + ": a mesh is one shape, without labels, values or directions; of the options " +
                      "about reading only --resolution and --spacing are for meshes");
   }
-  return VoxelizeMeshFile(path, resolution, options.spacing, progress).volume;
+  MeshVolume made = VoxelizeMeshFile(path, resolution, options.spacing, progress);
+  return { std::move(made.volume), std::move(made.mesh) };
 }
 
 std::vector<std::int64_t>
