@@ -70,7 +70,7 @@ RequireSamePlace(const ImageGeometry & grey, const ImageGeometry & labels, const
   }
 }
 
-/** The grey values around labels. Those of a second label are read with all that are left, if these are not too many. */
+/** The grey values around labels. When a second label asks, all are read and kept, if they are not too many. */
 class GreyValues
 {
 public:
