@@ -22,7 +22,7 @@ BoxOf(const LabelMap & volume)
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     box.lower[axis] = volume.crop ? volume.crop->first[axis] : 0;
-    const auto end = volume.crop ? volume.crop->end[axis] : static_cast<std::int32_t>(input.geometry.size[axis]);
+    const auto end = volume.crop ? volume.crop->end[axis] : static_cast<std::int32_t>(volume.geometry.size[axis]);
     box.size[axis] = end - box.lower[axis];
   }
   return box;
@@ -137,9 +137,9 @@ GreySource(const RefineOptions &         options,
   const VoxelBox      whole = BoxOf(input);
   const ImageGeometry geometry = input.geometry;
   const auto          path = other ? options.grey : scan;
-  const auto          values = std::make_shared<GreyValues>(path, how, whole);
+  const auto          greyValues = std::make_shared<GreyValues>(path, how, whole);
   return [=](const VoxelShape & shape, const ProgressCallback & progress) -> std::shared_ptr<const SurfaceEstimate> {
-    const std::shared_ptr<const GreyVolume> read = values->Around(AroundShape(shape.Box(), whole), progress);
+    const std::shared_ptr<const GreyVolume> read = greyValues->Around(AroundShape(shape.Box(), whole), progress);
     const GreyVolume &                      grey = *read;
     RequireSamePlace(grey.geometry, geometry, path);
     const auto rows = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
