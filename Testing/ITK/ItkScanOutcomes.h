@@ -1,6 +1,5 @@
 #pragma once
-// A scan read by voxelcore::ReadLabelVolume, by itk::ImageFileReader with LabelScanImageIO, and by
-// itk::LabelScanReader.
+// A scan by voxelcore::ReadLabelVolume, by itk::ImageFileReader with LabelScanImageIO, and by itk::LabelScanReader.
 
 #include "ScanBytes.h"
 

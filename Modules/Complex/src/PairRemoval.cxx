@@ -2,7 +2,7 @@
 
 #include "RemovalTimes.h"
 
-#include "voxelcore/ParallelTasks.h"
+#include "voxelcore/SideBySide.h"
 
 #include <algorithm>
 #include <atomic>

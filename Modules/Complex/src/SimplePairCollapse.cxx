@@ -2,7 +2,7 @@
 
 #include "PairRemoval.h"
 
-#include "voxelcore/ParallelTasks.h"
+#include "voxelcore/SideBySide.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "CellTracer.h"
 
-#include "voxelcore/ParallelTasks.h"
+#include "voxelcore/SideBySide.h"
 
 namespace voxelcore
 {

@@ -31,7 +31,7 @@ Obstacle(const CoreReport & made, const ImageGeometry & geometry)
 } // namespace
 
 MadeAgain::MadeAgain(const CoreReport &            made,
-                     const InputScan &             volume,
+                     const LabelMap &              volume,
                      const std::filesystem::path & scan,
                      std::vector<std::string> &    notes)
   : m_Made(made)

@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadMesh.h"
+#include "voxelcore/ScanRows.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -82,6 +83,12 @@ AsVolume(const std::filesystem::path & path, const MeshFile & file, const VoxelG
 
 } // namespace
 
+bool
+IsMeshFile(const std::filesystem::path & path)
+{
+  return IsMeshPath(path) && !IsVtkImage(path);
+}
+
 MeshVolume
 VoxelizeMeshFile(const std::filesystem::path &       path,
                  const std::optional<std::int64_t> & resolution,
@@ -94,7 +101,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
                      "the size of a voxel in mm");
   }
   ReportProgress(progress, "read", 0);
-  MeshFile file = ReadMesh(path);
+  const MeshFile file = ReadMesh(path);
   try
   {
     const VoxelGrid grid = resolution ? GridOfResolution(file.mesh, *resolution) : GridOfSpacing(file.mesh, *spacing);
@@ -108,7 +115,6 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
     result.findings = made.findings;
     result.doubtful = made.doubtful;
     result.volume = AsVolume(path, file, grid, made);
-    result.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
     return result;
   }
   catch (const InputError & error)
@@ -117,20 +123,20 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
   }
 }
 
-InputScan
+LabelMap
 ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,
                const std::optional<std::int64_t> & resolution,
                const ProgressCallback &            progress)
 {
-  if (!IsMeshPath(path))
+  if (options.raw || !IsMeshFile(path))
   {
     if (resolution)
     {
       throw UsageError("--resolution " + std::to_string(*resolution) + ": is for meshes, and " + path.string() +
                        " is none");
     }
-    return { ReadLabelVolume(path, options, progress), {} };
+    return ReadLabelVolume(path, options, progress);
   }
   if ((options.labels != "all" && options.labels != "1") || options.binary || options.threshold || options.volume ||
       options.component || options.crop || options.orthonormalize || options.niftiForm != "auto")
@@ -138,8 +144,7 @@ ReadScanOrMesh(const std::filesystem::path &       path,
     throw UsageError(path.string() + ": a mesh is one shape, without labels, values or directions; of the options " +
                      "about reading only --resolution and --spacing are for meshes");
   }
-  MeshVolume made = VoxelizeMeshFile(path, resolution, options.spacing, progress);
-  return { std::move(made.volume), std::move(made.mesh) };
+  return VoxelizeMeshFile(path, resolution, options.spacing, progress).volume;
 }
 
 std::vector<std::int64_t>

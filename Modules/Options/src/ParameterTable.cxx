@@ -7,8 +7,6 @@
 #include "table/RunningRows.h"
 #include "table/SkeletonRows.h"
 
-#include <algorithm>
-
 namespace voxelcore
 {
 
@@ -25,7 +23,7 @@ struct Rows
 
 template <std::size_t... N>
 constexpr auto
-JoinedRows(const Rows<N> &... parts)
+Together(const Rows<N> &... parts)
 {
   std::array<Parameter, (N + ...)> all{};
   std::size_t                      end = 0;
@@ -40,16 +38,16 @@ JoinedRows(const Rows<N> &... parts)
   return all;
 }
 
-constexpr auto kParameters = JoinedRows(Rows{ ParameterGroup::Input, table::kInputRows },
-                                        Rows{ ParameterGroup::Output, table::kOutputRows },
-                                        Rows{ ParameterGroup::Picture, table::kPictureRows },
-                                        Rows{ ParameterGroup::Cohort, table::kCohortRows },
-                                        Rows{ ParameterGroup::Phantom, table::kPhantomRows },
-                                        Rows{ ParameterGroup::Pruning, table::kPruningRows },
-                                        Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
-                                        Rows{ ParameterGroup::Refinement, table::kRefinementRows },
-                                        Rows{ ParameterGroup::Skeleton, table::kSkeletonRows },
-                                        Rows{ ParameterGroup::Running, table::kRunningRows });
+constexpr auto kParameters = Together(Rows{ ParameterGroup::Input, table::kInputRows },
+                                      Rows{ ParameterGroup::Output, table::kOutputRows },
+                                      Rows{ ParameterGroup::Picture, table::kPictureRows },
+                                      Rows{ ParameterGroup::Cohort, table::kCohortRows },
+                                      Rows{ ParameterGroup::Phantom, table::kPhantomRows },
+                                      Rows{ ParameterGroup::Pruning, table::kPruningRows },
+                                      Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
+                                      Rows{ ParameterGroup::Refinement, table::kRefinementRows },
+                                      Rows{ ParameterGroup::Skeleton, table::kSkeletonRows },
+                                      Rows{ ParameterGroup::Running, table::kRunningRows });
 
 } // namespace
 
@@ -86,22 +84,6 @@ std::span<const Parameter>
 Parameters()
 {
   return kParameters;
-}
-
-std::string
-KeywordOf(const Parameter & parameter)
-{
-  if (!parameter.keyword.empty())
-  {
-    return parameter.keyword == "-" ? std::string() : std::string(parameter.keyword);
-  }
-  const bool isFile = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output;
-  const bool isNamedAlike =
-    parameter.group == ParameterGroup::Pruning || parameter.group == ParameterGroup::ShapeEdits ||
-    parameter.group == ParameterGroup::Refinement || parameter.group == ParameterGroup::Skeleton;
-  std::string keyword(isNamedAlike && !isFile && !parameter.flags.empty() ? parameter.name : "");
-  std::replace(keyword.begin(), keyword.end(), '-', '_');
-  return keyword;
 }
 
 std::string

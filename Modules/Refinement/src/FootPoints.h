@@ -20,28 +20,27 @@ struct FootPoint
   double        distance = 0; ///< mm from the core vertex
 };
 
-/** Finds foot points; thread-safe after construction. */
+/** Finds feet; thread-safe after construction. */
 class FootPointFinder
 {
 public:
   /** Projects each boundary vertex onto the surface. */
   FootPointFinder(const RefinementInput & input, const ProgressCallback & progress);
 
-  /** Whether the foot points of a pair meet about `place`, by the places and normals of the surface at its boundary
-   *  vertices alone: then the distance from `place` falls from either towards the other. */
+  /** Whether the foot points of a pair meet about `place`, by the places and normals of the surface at its boundary vertices
+   *  alone: then the distance from `place` falls from either towards the other. */
   bool
   Meet(const Vector3 & place, const PointPair & pair) const;
 
-  /** The foot points of a core vertex at `place` (mm along the lattice axes), one for each boundary vertex in `pairs`,
-   *  by index. Foot points stay near their boundary vertex: so near that those of a pair cannot meet by passing each
-   *  other. */
+  /** The feet of a core vertex at `place` (mm along the lattice axes), one for each boundary vertex in `pairs`, by index.
+   *  Feet stay near their boundary vertex: so near that those of a pair cannot meet by passing each other. */
   void
-  Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const;
+  Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const;
 
-  /** The same, but each foot goes on to where it is nearest, however far that is from its boundary vertex: about a
-   *  place beside the axis of a tube all foot points meet. */
+  /** The same, but each foot goes on to where it is nearest, however far that is from its boundary vertex: about a place
+   *  beside the axis of a tube all feet meet. */
   void
-  Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const;
+  Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const;
 
 private:
   Vector3
@@ -60,10 +59,10 @@ private:
 
 /** How far the nearest foot is. */
 inline double
-NearestDistance(std::span<const FootPoint> footPoints)
+NearestDistance(std::span<const FootPoint> feet)
 {
-  double least = footPoints[0].distance;
-  for (const FootPoint & foot : footPoints)
+  double least = feet[0].distance;
+  for (const FootPoint & foot : feet)
   {
     least = std::min(least, foot.distance);
   }
@@ -73,19 +72,19 @@ NearestDistance(std::span<const FootPoint> footPoints)
 /** The foot of a boundary vertex among those that Find() gave. */
 template <typename TFeet>
 auto &
-FootPointOf(TFeet & footPoints, std::uint32_t point)
+FootPointOf(TFeet & feet, std::uint32_t point)
 {
   std::size_t first = 0;
-  for (std::size_t size = footPoints.size(); size > 1;)
+  for (std::size_t size = feet.size(); size > 1;)
   {
     const std::size_t half = size / 2;
-    if (footPoints[first + half].point <= point)
+    if (feet[first + half].point <= point)
     {
       first += half;
     }
     size -= half;
   }
-  return footPoints[first];
+  return feet[first];
 }
 
 } // namespace voxelcore

@@ -17,8 +17,7 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     false,
     kCore,
     "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; 0 keeps the whole core; several L write OUT_lambda-1mm.vtp and so "
-    "on",
-    "lambda_" },
+    "on" },
   { "lambda",
     "-l,--lambda",
     Text,
@@ -26,8 +25,7 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     "",
     false,
     kPrune,
-    "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; several L write OUT_lambda-1mm.vtp and so on",
-    "lambda_" },
+    "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; several L write OUT_lambda-1mm.vtp and so on" },
   { "lambda",
     "-l,--lambda",
     Text,
@@ -35,8 +33,7 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     "0",
     false,
     kSkeleton,
-    "Prune the core of a scan first, at this threshold: 1.5mm, 2.5vox, 2.5%",
-    "lambda_" },
+    "Prune the core of a scan first, at this threshold: 1.5mm, 2.5vox, 2.5%" },
   { "tolerance",
     "--tolerance",
     Text,
@@ -81,8 +78,7 @@ inline constexpr auto kRefinementRows = std::to_array<Parameter>({
     "",
     false,
     kCore,
-    "For --grey: the grey values inside the labels, such as 300:inf",
-    "-" },
+    "For --grey: the grey values inside the labels, such as 300:inf" },
 });
 
 } // namespace voxelcore::table

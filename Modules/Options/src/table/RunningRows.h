@@ -9,7 +9,7 @@ namespace voxelcore::table
 {
 
 inline constexpr auto kRunningRows = std::to_array<Parameter>({
-  { "threads", "--threads", Integer, "N", "0", false, kAll, "Number of processors to use; 0 means all", "threads" },
+  { "threads", "--threads", Integer, "N", "0", false, kAll, "Number of processors to use; 0 means all" },
   { "memory",
     "--memory",
     Text,
@@ -26,8 +26,7 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "",
     false,
     kAll,
-    "Show progress on stderr; default: a bar on a terminal, else none",
-    "progress" },
+    "Show progress on stderr; default: a bar on a terminal, else none" },
   { "quiet", "-q,--quiet", Flag, "", "", false, kAll, "Print errors only" },
   { "engine",
     "--engine",
@@ -36,8 +35,7 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "auto",
     false,
     kStages,
-    "Choose the Delaunay engine; the result is the same",
-    "engine" },
+    "Choose the Delaunay engine; the result is the same" },
   { "cross-check",
     "--cross-check",
     Flag,
@@ -45,8 +43,7 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "",
     false,
     kCore,
-    "Run both engines for each label and require identical results",
-    "cross_check" },
+    "Run both engines for each label and require identical results" },
   { "blocks",
     "--blocks",
     Integer,

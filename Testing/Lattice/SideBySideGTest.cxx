@@ -1,4 +1,4 @@
-#include "voxelcore/ParallelTasks.h"
+#include "voxelcore/SideBySide.h"
 
 #include "VoxelCoreTesting/Threads.h"
 
