@@ -15,8 +15,8 @@ struct Slab
   std::int64_t firstJ, endJ, firstK, endK;
 };
 
-/** Copies a slab into whole rows, i fastest. Walks along the axis along which memory is dense, a tile of rows at a time, so
- *  that of both sides the cache lines at work stay in the cache. */
+/** Copies a slab into whole rows, i fastest. Walks along the axis along which memory is dense, a tile of rows at a
+ *  time, so that of both sides the cache lines at work stay in the cache. */
 template <std::size_t TBytes>
 void
 Gather(const ArrayView & array, const Slab & slab, std::byte * rows)

@@ -6,6 +6,7 @@
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Parameters.h"
+#include "voxelcore/RefineStage.h"
 #include "voxelcore/ResultRecords.h"
 #include "voxelcore/StagedModel.h"
 #include "voxelcore/SkeletonFiles.h"
@@ -18,7 +19,7 @@ namespace voxelcore
 namespace
 {
 
-/** Where the command line has files. */
+/** The command line's files. */
 void
 NameFiles(ParameterValues & values)
 {
@@ -26,13 +27,13 @@ NameFiles(ParameterValues & values)
   values["output"] = "result.vtp";
 }
 
-/** The one label that is there. */
-LabelShape
-OnlyLabel(std::vector<LabelShape> labels)
+/** Who names no label expects one. */
+void
+RequireOneLabel(const std::vector<LabelShape> & labels)
 {
   if (labels.size() == 1)
   {
-    return std::move(labels.front());
+    return;
   }
   std::string text;
   for (std::size_t i = 0; i < labels.size() && i < 10; ++i)
@@ -41,7 +42,7 @@ OnlyLabel(std::vector<LabelShape> labels)
   }
   throw InputError("the array: it holds " + std::to_string(labels.size()) + " labels (" + text +
                    (labels.size() > 10 ? ", ..." : "") +
-                   "); choose one with label=, or take all but 0 as one shape with label='any'");
+                   "); choose with label=, take each by label='all', or all but 0 as one shape with label='any'");
 }
 
 /** A core for each part, with a report that names it alone, as a file's provenance does. */
@@ -132,12 +133,19 @@ MakeCores(const ArrayView &        array,
   report.input.format = "array";
   report.input.geometry = CheckedGeometry("the array", geometry, options.reading.orthonormalize);
 
+  if (options.refine.surface == "grey" || options.refine.surface == "mesh")
+  {
+    throw UsageError("--refine " + options.refine.surface +
+                     ": expected labels; the others need files, so use the program");
+  }
+
   constexpr double readEnds = 0.05;
-  LabelShape       label;
+  constexpr double editEnds = 0.1;
+  InputScan        map;
+  map.geometry = report.input.geometry;
   try
   {
-    label = OnlyLabel(
-      LabelsOf(array, report.input.geometry, options.reading, PartOfProgress(progress, "reading", 0, readEnds)));
+    map.labels = LabelsOf(array, map.geometry, options.reading, PartOfProgress(progress, "reading", 0, readEnds));
   }
   catch (const GreyScanError & error)
   {
@@ -146,23 +154,52 @@ MakeCores(const ArrayView &        array,
                      range.substr(0, range.find(':')) +
                      ", numpy.inf) by Otsu, or give label= if its values are labels");
   }
-  ParameterRecord & parameters = report.parameters;
-  parameters.labels = { label.value };
-  parameters.binary = options.reading.binary;
-  parameters.threshold = options.reading.threshold;
-  parameters.orthonormalize = options.reading.orthonormalize;
-  parameters.lambda = { options.lambdas.front().text };
-  parameters.engine = options.engine == Engine::TetGen ? "tetgen" : "lattice";
-  parameters.weights = ComputeLatticeWeights(report.input.geometry);
-  CertifiedRequest request;
-  request.lambdas = options.lambdas;
-  request.tolerances = options.tolerances;
-  request.engine = options.engine;
-  LabelOutcome outcome =
-    ProcessLabel(std::move(label), report.input.geometry, std::move(request), PartOfProgress(progress, readEnds, 1));
-  const std::vector<PrunedRecord> pruned = std::move(outcome.record.pruned);
-  report.labels = { std::move(outcome.record) };
-  return ResultsOf(report, pruned, std::move(outcome.parts));
+  if (options.reading.crop)
+  {
+    map.crop = ResolveCrop(options.reading.crop, map.geometry.size, "the array");
+  }
+  if (!values.contains("labels"))
+  {
+    RequireOneLabel(map.labels);
+  }
+  EditedLabels        edited = EditLabels(std::move(map.labels),
+                                   options.edits,
+                                   options.reading.labels != "all",
+                                   "the array",
+                                   PartOfProgress(progress, "reading", readEnds, editEnds));
+  const SurfaceSource surface = MakeSurfaceSource(options.refine, options.scan, options.reading, map);
+  report.parameters = DescribeParameters(options, map, edited, ComputeLatticeWeights(map.geometry));
+
+  std::vector<std::shared_ptr<CoreOfLabel>> results;
+  for (std::size_t i = 0; i < edited.labels.size(); ++i)
+  {
+    EditedLabel &    one = edited.labels[i];
+    CertifiedRequest request;
+    request.lambdas = options.lambdas;
+    request.tolerances = options.tolerances;
+    request.surface = surface;
+    request.engine = options.engine;
+    request.crossCheck = options.crossCheck;
+    const auto place = [&](std::size_t done) {
+      return editEnds + (1 - editEnds) * static_cast<double>(done) / static_cast<double>(edited.labels.size());
+    };
+    LabelOutcome outcome = ProcessLabel(std::move(one.label),
+                                        map.geometry,
+                                        std::move(request),
+                                        PartOfProgress(progress, place(i), place(i + 1)));
+    outcome.record.component = one.component;
+    outcome.record.edits = one.edits;
+    const std::vector<PrunedRecord> pruned = std::move(outcome.record.pruned);
+    report.parameters.labels = { outcome.record.label };
+    report.labels = { std::move(outcome.record) };
+    for (auto & result : ResultsOf(report, pruned, std::move(outcome.parts)))
+    {
+      result->part.component = one.component;
+      result->refined = options.refine.surface;
+      results.push_back(std::move(result));
+    }
+  }
+  return results;
 }
 
 std::vector<std::shared_ptr<CoreOfLabel>>

@@ -33,8 +33,8 @@ struct SkeletonOfLabel
   std::shared_ptr<const CoreOfLabel> surface;
 };
 
-/** `values` are options of `voxelcore core` by name. The array must hold one label, or `values` name one. A core for each
- *  lambda or tolerance, in the order given.
+/** `values` are options of `voxelcore core` by name. The array must hold one label, unless `values` say which. Of each
+ *  label, or component where these are split, a core for each lambda or tolerance, in the order given.
  *  \throws InputError, UsageError, CertificateError, Cancelled */
 std::vector<std::shared_ptr<CoreOfLabel>>
 MakeCores(const ArrayView &        array,

@@ -128,14 +128,29 @@ ReadCoreFile(const std::string & path)
   return RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback &) { return ReadCore(path); });
 }
 
-/** Command, name and flags of each option, for tests. */
+/** What each command's options are to Python: a dict an option. */
 py::list
 OptionTable()
 {
   py::list table;
-  for (const Parameter & parameter : Parameters())
+  for (const Command & command : Commands())
   {
-    table.append(py::make_tuple(std::string(parameter.name), std::string(parameter.flags)));
+    for (const Parameter & parameter : Parameters())
+    {
+      if (BelongsTo(parameter, command.id))
+      {
+        py::dict row;
+        row["command"] = std::string(command.name);
+        row["group"] = std::string(GroupHeading(parameter.group));
+        row["name"] = std::string(parameter.name);
+        row["flags"] = std::string(parameter.flags);
+        row["keyword"] = KeywordOf(parameter);
+        row["is_flag"] = parameter.kind == ParameterKind::Flag;
+        row["default"] = std::string(parameter.defaultValue);
+        row["description"] = std::string(parameter.description);
+        table.append(row);
+      }
+    }
   }
   return table;
 }
@@ -279,6 +294,7 @@ DefineCore(py::module_ & module)
     .def_property_readonly("tolerance_faces",
                            [](const Handle & core) { return View(core, core->part.core.tolerances.faces); })
     .def_property_readonly("label", [](const Handle & core) { return core->report.labels.front().label; })
+    .def_property_readonly("component", [](const Handle & core) { return core->report.labels.front().component; })
     .def_property_readonly("lambda_mm",
                            [](const Handle & core) { return core->report.labels.front().pruned.front().lambdaMm; })
     .def_property_readonly("voxels", [](const Handle & core) { return core->report.labels.front().voxels; })
@@ -314,6 +330,7 @@ DefineSkeleton(py::module_ & module)
     .def_property_readonly("face_offsets", [graph](const Handle & s) { return View(s, graph(s).faceOffsets); })
     .def_property_readonly("face_vertices", [graph](const Handle & s) { return View(s, graph(s).faceVertices); })
     .def_property_readonly("label", [](const Handle & s) { return s->part.label; })
+    .def_property_readonly("component", [](const Handle & s) { return s->report.labels.front().component; })
     .def_property_readonly(
       "topology",
       [](const Handle & s) { return Topology(s->report.labels.front().skeleton.value().topology); })

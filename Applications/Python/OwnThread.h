@@ -1,9 +1,9 @@
 #pragma once
 // Work in a thread of its own, without the interpreter's lock.
 //
-// Ctrl-C ends the call at once, however long the work takes to notice: the thread is told to stop, and left behind if it
-// does not stop in time. A new thread for each call also makes the module safe after a fork: OpenMP keeps its workers with
-// the thread that started them, and these workers do not exist in the child.
+// Ctrl-C ends the call at once, however long the work takes to notice: the thread is told to stop, and left behind if
+// it does not stop in time. A new thread for each call also makes the module safe after a fork: OpenMP keeps its
+// workers with the thread that started them, and these workers do not exist in the child.
 
 #include "voxelcore/Progress.h"
 
@@ -57,8 +57,8 @@ private:
   std::exception_ptr      m_Failure;
 };
 
-/** Waits for the end of an errand. Several times a second it lets Python handle signals and tells `listener` (a function
- *  or None) how far the work is. What these raise ends the wait. `kept` lives as long as the work.
+/** Waits for the end of an errand. Several times a second it lets Python handle signals and tells `listener` (a
+ *  function or None) how far the work is. What these raise ends the wait. `kept` lives as long as the work.
  *  To be called with the interpreter's lock. */
 void
 AwaitErrand(const std::shared_ptr<Errand> & errand,

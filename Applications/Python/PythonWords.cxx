@@ -3,7 +3,6 @@
 #include "voxelcore/Parameters.h"
 
 #include <algorithm>
-#include <array>
 #include <regex>
 #include <string_view>
 
@@ -13,53 +12,11 @@ namespace voxelcore
 namespace
 {
 
-/** Options that have another name in Python. The value given takes the place of the %. */
-struct Renamed
-{
-  std::string_view option;
-  std::string_view keyword;
-};
-constexpr std::array kRenamed{ Renamed{ "lambda", "lambda_" },
-                               Renamed{ "labels", "label" },
-                               Renamed{ "binary", "label='any'" },
-                               Renamed{ "force", "overwrite=True" } };
-
-/** Options with the same name. */
-constexpr std::array<std::string_view, 16> kSame{ "spacing",        "tolerance", "threshold",
-                                                  "orthonormalize", "engine",    "threads",
-                                                  "progress",       "stand-out", "smooth",
-                                                  "plates",         "root",      "also",
-                                                  "prune-branches", "cut-loops", "split-at-junctions",
-                                                  "triangles" };
-
 /** Keyword arguments that take several numbers as a tuple. */
 bool
 TakesTuple(std::string_view option)
 {
   return option == "spacing" || option == "threshold";
-}
-
-std::string
-WithUnderscores(std::string_view option)
-{
-  std::string keyword(option);
-  std::replace(keyword.begin(), keyword.end(), '-', '_');
-  return keyword;
-}
-
-/** Empty when Python has no such argument. */
-std::string
-KeywordOf(std::string_view option)
-{
-  const auto renamed = std::find_if(kRenamed.begin(), kRenamed.end(), [option](const Renamed & candidate) {
-    return candidate.option == option;
-  });
-  if (renamed != kRenamed.end())
-  {
-    return std::string(renamed->keyword);
-  }
-  const bool same = std::find(kSame.begin(), kSame.end(), option) != kSame.end() || option == "keep-edges";
-  return same ? WithUnderscores(option) : std::string();
 }
 
 /** The option with this flag, -x or --name; null when there is none. */
@@ -98,7 +55,7 @@ ValueInPython(std::string_view option, const std::string & value)
 std::string
 Translate(const Parameter & parameter, const std::string & flag, const std::string & value)
 {
-  const std::string keyword = KeywordOf(parameter.name);
+  const std::string keyword = KeywordOf(parameter);
   if (keyword.empty())
   {
     return "the command line's " + flag + (value.empty() ? "" : " " + value);

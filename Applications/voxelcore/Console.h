@@ -10,7 +10,8 @@ namespace voxelcore
 class Console
 {
 public:
-  /** Takes over both streams, unless the environment has VOXELCORE_LIBRARY_MESSAGES (to look into a library's faults). */
+  /** Takes over both streams, unless the environment has VOXELCORE_LIBRARY_MESSAGES (to look into a library's
+   *  faults). */
   Console();
   Console(const Console &) = delete;
   Console &

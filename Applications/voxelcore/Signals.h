@@ -6,12 +6,12 @@
 namespace voxelcore
 {
 
-/** From now on: the first SIGINT makes WasInterrupted() true, so that a job stops at its next look; when the program has
- *  not ended half a second later, and at once after a second SIGINT, after SIGTERM and after SIGHUP, the handler ends it,
- *  whatever runs then: it prints "interrupted; `whatIsLeft`", removes the temporary files and exits with 130. Only the moment
- *  in which finished files get their names is not cut short.
- *  A crash prints one line to `errorDescriptor`, removes the temporary files and ends with 1, without a core dump. Writing
- *  beyond a limit or to a closed pipe is an error, not the end.
+/** From now on: the first SIGINT makes WasInterrupted() true, so that a job stops at its next look; when the program
+ *  has not ended half a second later, and at once after a second SIGINT, after SIGTERM and after SIGHUP, the handler
+ *  ends it, whatever runs then: it prints "interrupted; `whatIsLeft`", removes the temporary files and exits with 130.
+ *  Only the moment in which finished files get their names is not cut short.
+ *  A crash prints one line to `errorDescriptor`, removes the temporary files and ends with 1, without a core dump.
+ *  Writing beyond a limit or to a closed pipe is an error, not the end.
  *  Must be called once, with a registry and a text that live as long as the process. */
 void
 HandleSignals(const TemporaryRegistry & registry, int errorDescriptor, const char * whatIsLeft = "nothing was written");

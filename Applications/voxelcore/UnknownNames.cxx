@@ -61,7 +61,7 @@ public:
     const std::string asLong = "-" + std::string(word.substr(0, word.find('=')));
     if (asLong.size() > 3 && Find(asLong) != nullptr)
     {
-      Refuse(std::string(word) + ": long options begin with two dashes; did you mean '" + asLong + "'?");
+      ThrowUsageError(std::string(word) + ": long options begin with two dashes; did you mean '" + asLong + "'?");
     }
     // "-qo FILE": options without values may stand before one with a value.
     for (std::size_t i = 1; i < word.size(); ++i)
@@ -84,8 +84,8 @@ public:
     }
     if (m_Room == 0)
     {
-      Refuse("'" + std::string(word) + "': one argument too many; '" + std::string(m_Command.name) + "' takes " +
-             m_Positionals);
+      ThrowUsageError("'" + std::string(word) + "': one argument too many; '" + std::string(m_Command.name) +
+                      "' takes " + m_Positionals);
     }
     --m_Room;
   }
@@ -119,8 +119,8 @@ private:
         }
       }
       const std::string_view whole = typed.size() > 3 ? typed : name;
-      Refuse(std::string(typed.size() > 3 ? typed.substr(1) : name) + ": unknown option" +
-             DidYouMean(whole.substr(std::min<std::size_t>(2, whole.size())), names, "--"));
+      ThrowUsageError(std::string(typed.size() > 3 ? typed.substr(1) : name) + ": unknown option" +
+                      DidYouMean(whole.substr(std::min<std::size_t>(2, whole.size())), names, "--"));
     }
     return flag->parameter != nullptr && flag->parameter->kind != ParameterKind::Flag;
   }
@@ -131,7 +131,7 @@ private:
   {
     if (at + 1 == argc)
     {
-      Refuse(std::string(name) + ": needs a value: " + std::string(Find(name)->parameter->placeholder));
+      ThrowUsageError(std::string(name) + ": needs a value: " + std::string(Find(name)->parameter->placeholder));
     }
     return 2;
   }
@@ -145,7 +145,7 @@ private:
   }
 
   [[noreturn]] void
-  Refuse(const std::string & what) const
+  ThrowUsageError(const std::string & what) const
   {
     throw UsageError(what + "; see 'voxelcore " + std::string(m_Command.name) + " --help'");
   }

@@ -6,8 +6,8 @@
 namespace voxelcore
 {
 
-/** \throws UsageError for a command or an option there is not, with the nearest there is; for an option without its value;
- *  and for one argument too many. */
+/** \throws UsageError for a command or an option there is not, with the nearest there is; for an option without its
+ *  value; and for one argument too many. */
 void
 RequireKnownNames(int argc, const char * const * argv);
 

@@ -1,5 +1,6 @@
 # cmake -DMODULES=<folder Modules> -DOUT=<header> -P SourceDigest.cmake
-# Writes the digest of all that results are made by, names and contents of the modules' sources, as a macro. By it a cohort
+# Writes the digest of all that results are made by, names and contents of the modules' sources, as a macro. By it a
+# cohort
 # that is started again knows whether another state of the program made what lies there, also between two versions and
 # where there is no git.
 file(GLOB_RECURSE files RELATIVE "${MODULES}" "${MODULES}/*/include/*" "${MODULES}/*/src/*")

@@ -1,4 +1,5 @@
-# `cpack` in the build folder makes Debian packages: the program, the libraries and headers, the Python module. With TetGen
+# `cpack` in the build folder makes Debian packages: the program, the libraries and headers, the Python module. With
+# TetGen
 # in it a package falls under the AGPL as a whole, so it has a name of its own.
 if(VOXELCORE_TETGEN)
   set(variant -tetgen)
@@ -41,8 +42,7 @@ if(TARGET VoxelCoreDisplay)
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
-# The program's package holds what reads DICOM and others through ITK.
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-vtk9, voxelcore")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-vtk9)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtiff-dev, libpng-dev, zlib1g-dev, libbz2-dev, libexpat1-dev, libssl-dev, libvtk9-dev")
 if(VOXELCORE_TETGEN)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libtet1.5-dev")

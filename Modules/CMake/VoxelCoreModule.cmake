@@ -9,7 +9,8 @@ target_compile_options(VoxelCoreBuildRules INTERFACE
   $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${VOXELCORE_WERROR}>>:-Werror>)
 
 # voxelcore_library(target SOURCES...): a static library by these rules, alias VoxelCore::<target without VoxelCore>.
-# A program or plugin linked with it exports nothing of it, nor of what it uses: all is hidden, and what Boost, ITK and VTK
+# A program or plugin linked with it exports nothing of it, nor of what it uses: all is hidden, and what Boost, ITK and
+# VTK
 # mark for export against that (type information, inline functions) is left out by the linker.
 function(voxelcore_library target)
   add_library(${target} STATIC ${ARGN})
@@ -43,7 +44,8 @@ function(voxelcore_tests name)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/Testing")
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS ON)
   target_link_libraries(${target} PRIVATE VoxelCoreBuildRules ${arg_LIBRARIES} GTest::gtest_main)
-  # What is tested is optimized in full. Of the tests themselves, macros for the most part, -O3 makes half the build's time.
+  # What is tested is optimized in full. Of the tests themselves, macros for the most part, -O3 makes half the build's
+  # time.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(${target} TEST_FILTER "-Heavy*:*/Heavy*" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${name} TIMEOUT 600 ENVIRONMENT "${arg_ENVIRONMENT}")

@@ -1,4 +1,5 @@
-# What `cmake --install` puts where, and the files by which other projects find it. Every path is relative to the prefix,
+# What `cmake --install` puts where, and the files by which other projects find it. Every path is relative to the
+# prefix,
 # so the installed tree may be moved.
 include(CMakePackageConfigHelpers)
 set(VOXELCORE_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/VoxelCore")
@@ -6,7 +7,8 @@ set(VOXELCORE_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/VoxelCore")
 # A component of find_package(VoxelCore COMPONENTS ...) is a set of libraries and the components it builds on; what is
 # not built is left out.
 set(VOXELCORE_COMPONENTS Core Imaging Models Display Jobs ITK VTK)
-set(component_Core Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Core)
+set(component_Core Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Voxelization Phantom Verification
+  Certified Core)
 foreach(component Imaging Models Display ITK VTK)
   set(component_${component} ${component})
 endforeach()
@@ -28,10 +30,6 @@ foreach(component ${VOXELCORE_COMPONENTS})
       COMPONENT development)
   endif()
 endforeach()
-
-if(TARGET voxelcore_itk_reader)
-  install(TARGETS voxelcore_itk_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/voxelcore" COMPONENT program)
-endif()
 
 # Only public headers lie in an include folder. Those of ITK and VTK classes need these libraries.
 foreach(module ${VOXELCORE_MODULES})

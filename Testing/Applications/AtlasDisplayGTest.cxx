@@ -1,5 +1,5 @@
-// A whole atlas to look at: a scene, a page and a picture of 116 labels, each within a minute. Processor time of all threads
-// counts, which is the same on a busy machine, and on a free one no less than the time somebody waits.
+// A whole atlas to look at: a scene, a page and a picture of 116 labels, each within a minute. Processor time of all
+// threads counts, which is the same on a busy machine, and on a free one no less than the time somebody waits.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"

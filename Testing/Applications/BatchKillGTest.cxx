@@ -31,7 +31,8 @@ ChildrenOf(pid_t process)
   return children;
 }
 
-/** Kills the batch, or one of its cases and then the batch, `kills` times at random moments of the work: until `longest`
+/** Kills the batch, or one of its cases and then the batch, `kills` times at random moments of the work: until
+ *  `longest`
  * after a start. What comes to its end before it is hit begins anew. Returns how often it hit. */
 int
 KillAtRandom(const std::vector<std::string> & arguments,

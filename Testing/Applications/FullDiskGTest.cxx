@@ -49,8 +49,8 @@ protected:
     ASSERT_TRUE(filler.good());
   }
 
-  /** The arguments, of which those that begin with @ name files on the disk. Each must fail for lack of room, the last of
-   *  them with the name of its file. */
+  /** The arguments, of which those that begin with @ name files on the disk. Each must fail for lack of room, the last
+   *  of them with the name of its file. */
   void
   ExpectNoRoom(const std::vector<std::string> & arguments, std::size_t room = 0)
   {

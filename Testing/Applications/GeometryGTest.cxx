@@ -1,5 +1,5 @@
-// Where things lie, from end to end: lone voxels of a scan written by hand are found in the .vtp, at the LPS millimetres
-// that a person computes from the numbers of the header.
+// Where things lie, from end to end: lone voxels of a scan written by hand are found in the .vtp, at the LPS
+// millimetres that a person computes from the numbers of the header.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"

@@ -101,7 +101,7 @@ TEST_F(Interrupt, AReaderThatNeverReturnsIsEnded)
 
     const ProgramResult result =
       RunProgram({ "core", pipe, "-o", m_Folder / "out.vtp" }, limits, [&](pid_t process, const std::string &) {
-        if (!sent && Clock::now() - start > 500ms)
+        if (!sent && Clock::now() - start > 1500ms)
         {
           sent = Clock::now();
           for (const int signal : send)

@@ -34,8 +34,8 @@ using Watcher = std::function<void(pid_t, const std::string &)>;
 ProgramResult
 RunProgram(const std::vector<std::string> & arguments, const ProgramLimits & limits = {}, const Watcher & watcher = {});
 
-/** Fails the test unless the program ended with `code`, said exactly one line on stderr, and nothing on stdout. The line
- *  must hold each of `words`. */
+/** Fails the test unless the program ended with `code`, said exactly one line on stderr, and nothing on stdout. The
+ *  line must hold each of `words`. */
 void
 ExpectRefusal(const ProgramResult & result, int code, const std::vector<std::string> & words);
 

@@ -24,7 +24,7 @@ constexpr Vector3                kCentre{ 19.3, 18.6, 18.1 };
 constexpr std::array<Vector3, 3> kAxes{ { { 0.64, 0.48, 0.6 }, { -0.6, 0.8, 0 }, { -0.48, -0.36, 0.8 } } };
 
 double
-Along(const Vector3 & place, std::size_t axis)
+AddScaled(const Vector3 & place, std::size_t axis)
 {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -46,7 +46,8 @@ PartInside(const Vector3 & centre, double slice)
     const Vector3 place{ centre[0] + offset(i % places),
                          centre[1] + offset(i / places % places),
                          centre[2] + slice * offset(i / places / places) };
-    inside += std::hypot(Along(place, 0) / kSemi[0], Along(place, 1) / kSemi[1], Along(place, 2) / kSemi[2]) <= 1;
+    inside +=
+      std::hypot(AddScaled(place, 0) / kSemi[0], AddScaled(place, 1) / kSemi[1], AddScaled(place, 2) / kSemi[2]) <= 1;
   }
   return static_cast<double>(inside) / (places * places * places);
 }
@@ -130,7 +131,7 @@ protected:
     double          sum = 0;
     for (const Vector3 & p : part.core.positions)
     {
-      sum += std::abs(Along({ p[0] - origin[0], p[1] - origin[1], p[2] - origin[2] }, 2));
+      sum += std::abs(AddScaled({ p[0] - origin[0], p[1] - origin[1], p[2] - origin[2] }, 2));
     }
     return sum / static_cast<double>(part.core.positions.size());
   }

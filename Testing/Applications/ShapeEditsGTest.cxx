@@ -1,4 +1,5 @@
-// --crop, --mend-shape, --fill-cavities, --min-voxels, --largest, --smooth-shape, --split-components as a user gives them.
+// --crop, --mend-shape, --fill-cavities, --min-voxels, --largest, --smooth-shape, --split-components as a user gives
+// them.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"

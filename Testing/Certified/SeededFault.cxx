@@ -1,5 +1,5 @@
-// For tests of the promise: what the rooms below Certified give is damaged on its way up, where the environment variable
-// VOXELCORE_SEEDED_FAULT names the stage. The linker's --wrap puts these functions in their place.
+// For tests of the promise: what the rooms below Certified give is damaged on its way up, where the environment
+// variable VOXELCORE_SEEDED_FAULT names the stage. The linker's --wrap puts these functions in their place.
 
 #include "voxelcore/TolerancePruning.h"
 #include "voxelcore/CurveSkeleton.h"

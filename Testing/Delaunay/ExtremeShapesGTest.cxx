@@ -1,5 +1,5 @@
-// The lattice engine at its limits: long, hollow, far apart, porous, cospherical by the thousand, flat by weight. Compared
-// with TetGen where that can be done, else with what is known.
+// The lattice engine at its limits: long, hollow, far apart, porous, cospherical by the thousand, flat by weight.
+// Compared with TetGen where that can be done, else with what is known.
 
 #include "SameCells.h"
 
@@ -31,7 +31,7 @@ Hollow(std::int32_t side, std::int32_t wall)
 }
 
 Size3
-Along(int axis, std::int32_t length, std::int32_t width)
+AddScaled(int axis, std::int32_t length, std::int32_t width)
 {
   Size3 size{ width, width, width };
   size[static_cast<std::size_t>(axis)] = length;
@@ -63,7 +63,7 @@ TEST(ExtremeShapes, CollinearRodsOfAMillionVoxels)
   for (const int axis : { 0, 1, 2 })
   {
     SCOPED_TRACE(axis);
-    VoxelShape rods(VoxelBox{ { 0, 0, 0 }, Along(axis, 2 * half, 1) });
+    VoxelShape rods(VoxelBox{ { 0, 0, 0 }, AddScaled(axis, 2 * half, 1) });
     for (std::int32_t i = 0; i < 2 * half; ++i)
     {
       if (i != half && i != half + 1) // two rods with a gap of two voxels
@@ -93,7 +93,7 @@ TEST(ExtremeShapes, TwoFarClusters)
     constexpr int    distance = (1 << 20) - 9; // as far as the exact range goes
     const VoxelShape near = RandomShape(random, { 9, 9, 9 }, 0.8);
     const VoxelShape far = RandomShape(random, { 9, 9, 9 }, 0.6);
-    VoxelShape       both(VoxelBox{ { 0, 0, 0 }, Along(axis, distance + 9, 9) });
+    VoxelShape       both(VoxelBox{ { 0, 0, 0 }, AddScaled(axis, distance + 9, 9) });
     const Size3      shift = { axis == 0 ? distance : 0, axis == 1 ? distance : 0, axis == 2 ? distance : 0 };
     for (std::int32_t z = 0; z < 9; ++z)
     {
@@ -127,8 +127,8 @@ TEST(ExtremeShapes, NoiseOfEveryDensity)
   }
 }
 
-/** The voxels that meet the open ball about the origin whose squared radius, at most `limit`, has the most lattice points
- *  on it. These points are boundary vertices, no other is nearer: one cell, with all of them. */
+/** The voxels that meet the open ball about the origin whose squared radius, at most `limit`, has the most lattice
+ *  points on it. These points are boundary vertices, no other is nearer: one cell, with all of them. */
 void
 ExpectOneCellOfManyPoints(std::int32_t limit, std::size_t least)
 {
@@ -209,7 +209,7 @@ TEST(ExtremeShapes, BarsOfFourThousandVoxels)
   for (const int axis : { 0, 1, 2 })
   {
     SCOPED_TRACE(axis);
-    ExpectAgreement(Box(Along(axis, 4096, 2)), {});
+    ExpectAgreement(Box(AddScaled(axis, 4096, 2)), {});
   }
 }
 

@@ -76,7 +76,8 @@ TEST(LabelSurface, StaysWithinAVoxelOfTheBoundary)
   }
 }
 
-/** How often the mesh goes around a point: the solid angles of its triangles (van Oosterom and Strackee) over the sphere. */
+/** How often the mesh goes around a point: the solid angles of its triangles (van Oosterom and Strackee) over the
+ *  sphere. */
 double
 WindingNumber(const LabelSurfaceMesh & mesh, const Vector3 & point)
 {

@@ -1,5 +1,6 @@
 #pragma once
-// A scan by voxelcore::ReadLabelVolume, by itk::ImageFileReader with LabelScanImageIO, and by itk::LabelScanReader.
+// A scan read by voxelcore::ReadLabelVolume, by itk::ImageFileReader with LabelScanImageIO, and by
+// itk::LabelScanReader.
 
 #include "ScanBytes.h"
 

@@ -144,8 +144,8 @@ TEST_F(GreyScans, WithoutNoiseOrClippedOrCutOutAreFoundToo)
 TEST_F(GreyScans, LabelsOfManyKindsAreNone)
 {
   const auto cell = [](int x, int y, int z, int side) { return 1 + x / side + 16 * (y / side) + 256 * (z / side); };
-  // Blocks numbered in order and at random, down to two voxels a side; layers; a handful of labels in pure noise; a mask
-  // with salt and pepper; two bodies among thousands of specks, as watersheds leave them.
+  // Blocks numbered in order and at random, down to two voxels a side; layers; a handful of labels in pure noise; a
+  // mask with salt and pepper; two bodies among thousands of specks, as watersheds leave them.
   for (const int side : { 12, 6, 4, 3 })
   {
     EXPECT_FALSE(

@@ -160,7 +160,7 @@ WriteManyLabels(const std::filesystem::path & path, std::uint64_t seed)
              voxels);
 }
 
-TEST(SideBySide, FilesDoNotDependOnTheNumberOfThreads)
+TEST(ParallelTasks, FilesDoNotDependOnTheNumberOfThreads)
 {
   const std::uint64_t seed = std::random_device{}();
   RecordProperty("seed", std::to_string(seed));

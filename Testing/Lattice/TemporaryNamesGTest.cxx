@@ -62,12 +62,12 @@ TEST(TemporaryNames, WhatOnlyLooksLikeOneIsNobodys)
 {
   const std::string name = TemporaryName("a.vtp", { 0xabcU, 1, 42, 7 }).string();
   for (const std::string & other : { std::string("a.vtp"),
-                                   std::string("a.vtp.part123"),
-                                   std::string("a.part-1-2-3-4"),
-                                   name + "x",
-                                   name + ".vtp",
-                                   name.substr(0, name.size() - 2),
-                                   name.substr(5) })
+                                     std::string("a.vtp.part123"),
+                                     std::string("a.part-1-2-3-4"),
+                                     name + "x",
+                                     name + ".vtp",
+                                     name.substr(0, name.size() - 2),
+                                     name.substr(5) })
   {
     EXPECT_EQ(WriterOf(other), std::nullopt) << other;
   }

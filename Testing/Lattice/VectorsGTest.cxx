@@ -14,12 +14,12 @@ TEST(Vectors, OfWholeNumbersAreExact)
   const Vector3 a{ 3, -4, 12 };
   const Vector3 b{ 2, 5, -1 };
   EXPECT_EQ(Minus(a, b), (Vector3{ 1, -9, 13 }));
-  EXPECT_EQ(Along(a, 2, b), (Vector3{ 7, 6, 10 }));
+  EXPECT_EQ(AddScaled(a, 2, b), (Vector3{ 7, 6, 10 }));
   EXPECT_EQ(Times(a, b), (Vector3{ 6, -20, -12 }));
   EXPECT_EQ(Over(Times(a, b), b), a);
   EXPECT_EQ(Dot(a, b), 3 * 2 - 4 * 5 - 12);
   EXPECT_EQ(Length(a), 13);
-  EXPECT_EQ(Distance(Along(b, 1, a), b), 13);
+  EXPECT_EQ(Distance(AddScaled(b, 1, a), b), 13);
 }
 
 TEST(Vectors, TheCrossProductIsRightHandedOrthogonalAndTheParallelogramsArea)

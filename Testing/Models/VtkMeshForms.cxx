@@ -87,7 +87,8 @@ Sheet(int pointType)
   return sheet;
 }
 
-/** The sheet in one form of XML. LZMA takes a moment to set up: it has one block, the others several, the last short. */
+/** The sheet in one form of XML. LZMA takes a moment to set up: it has one block, the others several, the last
+ *  short. */
 std::string
 XmlForm(int pointType, const std::string & mode, vtkDataCompressor * compressor, bool isLarge)
 {

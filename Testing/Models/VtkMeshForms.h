@@ -18,8 +18,8 @@ inline constexpr std::uint32_t kSheetSide = 5;
 std::vector<std::array<std::uint32_t, 3>>
 SheetTriangles();
 
-/** .vtp files of the sheet, by name: text, base64, raw and base64 appended; no compression, zlib, LZ4, LZMA; headers of 32
- *  and 64 bits, either byte order. */
+/** .vtp files of the sheet, by name: text, base64, raw and base64 appended; no compression, zlib, LZ4, LZMA; headers of
+ *  32 and 64 bits, either byte order. */
 const std::map<std::string, std::string> &
 XmlForms();
 

@@ -1,5 +1,5 @@
-// Meshes in VTK's formats: every form VTK writes reads as the same mesh, and damaged files are refused in one line, in time
-// and in memory in proportion to the file.
+// Meshes in VTK's formats: every form VTK writes reads as the same mesh, and damaged files are refused in one line, in
+// time and in memory in proportion to the file.
 
 #include "Models/ModelFixtures.h"
 #include "Models/VtkMeshForms.h"
@@ -89,8 +89,8 @@ ProcessorSeconds()
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/** Reads what may be damaged; whether it was refused. It must be so in one line and in time, or read as a mesh that fits
- *  together. */
+/** Reads what may be damaged; whether it was refused. It must be so in one line and in time, or read as a mesh that
+ *  fits together. */
 bool
 IsRefused(const std::filesystem::path & path)
 {

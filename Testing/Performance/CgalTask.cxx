@@ -1,6 +1,6 @@
-// The Delaunay tetrahedralization by CGAL, for comparison: a process of its own, as CGAL is GPL and not part of VoxelCore.
-// usage: VoxelCoreCgalTask FILE.points [THREADS]    points: three int32 each; with THREADS in parallel under TBB.
-// Prints the seconds of the call alone.
+// The Delaunay tetrahedralization by CGAL, for comparison: a process of its own, as CGAL is GPL and not part of
+// VoxelCore. usage: VoxelCoreCgalTask FILE.points [THREADS]    points: three int32 each; with THREADS in parallel under
+// TBB. Prints the seconds of the call alone.
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

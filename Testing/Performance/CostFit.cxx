@@ -1,9 +1,9 @@
-// Fits the constants of CostModel to phantoms on this machine, prints them as they stand in CostModel.cxx, and then how far
-// they miss on shapes they were not fitted to, and on scans named on the command line.
+// Fits the constants of CostModel to phantoms on this machine, prints them as they stand in CostModel.cxx, and then how
+// far they miss on shapes they were not fitted to, and on scans named on the command line.
 // usage: VoxelCoreCostFit [--further] [--seconds N] [--rounds N] FOLDER [SCAN...]
 // --further: the constants of skeletons and pages instead of those of cores.
-// FOLDER: for volumes and results, about 100 MB, and for what was measured: a call that ends after N seconds is taken up by
-// the next with the same FOLDER.
+// FOLDER: for volumes and results, about 100 MB, and for what was measured: a call that ends after N seconds is taken
+// up by the next with the same FOLDER.
 
 #include "CostPhantoms.h"
 #include "CostSamples.h"

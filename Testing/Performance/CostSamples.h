@@ -44,8 +44,8 @@ struct JobCost
   double share;   ///< of these seconds: of a skeleton the stage's own, else those of writing
 };
 
-/** The speed of a machine whose memory others use as well drifts by half within minutes. So every run stands between two
- *  of a reference shape; what counts are its seconds over theirs. */
+/** The speed of a machine whose memory others use as well drifts by half within minutes. So every run stands between
+ *  two of a reference shape; what counts are its seconds over theirs. */
 class CostSamples
 {
 public:

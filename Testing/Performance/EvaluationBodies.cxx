@@ -16,7 +16,7 @@ namespace
 constexpr double kStep = 0.25;
 
 Vector
-Along(const Vector & a, const Vector & b, double t)
+AddScaled(const Vector & a, const Vector & b, double t)
 {
   return { a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]) };
 }
@@ -39,7 +39,7 @@ AddSegment(const Vector & a, const Vector & b, std::vector<Vector> & samples)
   const int steps = std::max(1, static_cast<int>(std::ceil(Distance(a, b) / kStep)));
   for (int i = 0; i <= steps; ++i)
   {
-    samples.push_back(Along(a, b, static_cast<double>(i) / steps));
+    samples.push_back(AddScaled(a, b, static_cast<double>(i) / steps));
   }
 }
 
@@ -56,11 +56,11 @@ ConeDistance(const Vector & p, const Vector & a, const Vector & b, double ra, do
   }
   t /= length * length;
   // Normals lean by the slope of the radius.
-  const Vector foot = Along(a, b, t);
+  const Vector foot = AddScaled(a, b, t);
   const double slope = (rb - ra) / length;
   t += Distance(p, foot) * slope / std::sqrt(std::max(1e-12, 1 - slope * slope)) / length;
   t = std::clamp(t, 0.0, 1.0);
-  return Distance(p, Along(a, b, t)) - (ra + t * (rb - ra));
+  return Distance(p, AddScaled(a, b, t)) - (ra + t * (rb - ra));
 }
 
 Body
@@ -169,8 +169,8 @@ ThickAndThin()
   {
     // Outside the thick part and a little more, as the branch bends where it joins.
     const double length = Distance(rod.from, rod.to);
-    AddSegment(Along(rod.from, rod.to, (thick + 3) / length), rod.to, body.axis);
-    AddSegment(rod.from, Along(rod.from, rod.to, (thick + 3) / length), body.allowed);
+    AddSegment(AddScaled(rod.from, rod.to, (thick + 3) / length), rod.to, body.axis);
+    AddSegment(rod.from, AddScaled(rod.from, rod.to, (thick + 3) / length), body.allowed);
     body.tips.push_back(rod.to);
   }
   AddPlate({ 0, -21.5, 0 }, 20, 13, body.axis);

@@ -46,8 +46,8 @@ Place(const Body & body, const Vector & spacing, std::uint64_t seed);
 Vector
 ToBody(const Placement & placement, const Vector & lattice);
 
-/** noise: standard deviation, in voxels, of what is added to the distance at each voxel; then only the largest component
- *  is kept and its cavities are filled. */
+/** noise: standard deviation, in voxels, of what is added to the distance at each voxel; then only the largest
+ *  component is kept and its cavities are filled. */
 VoxelShape
 Sample(const Body & body, const Placement & placement, double noise, std::uint64_t seed);
 

@@ -52,8 +52,8 @@ private:
 void
 PrintTable(const std::string & title, const std::vector<Record> & records);
 
-/** Per way of pruning the bodies on which it is worst: ends, lost parts and distances, each the mean of a body's samples,
- *  and the least stable. */
+/** Per way of pruning the bodies on which it is worst: ends, lost parts and distances, each the mean of a body's
+ *  samples, and the least stable. */
 void
 PrintWorst(const std::vector<Record> & records);
 

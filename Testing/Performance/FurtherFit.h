@@ -7,7 +7,8 @@
 namespace voxelcore::performance
 {
 
-/** Measures, fits, prints the constants as they stand in CostModel.cxx, and how far these and the ones compiled in miss. */
+/** Measures, fits, prints the constants as they stand in CostModel.cxx, and how far these and the ones compiled in
+ *  miss. */
 void
 FitSkeletonsAndPages(const std::filesystem::path &              folder,
                      double                                     limit,

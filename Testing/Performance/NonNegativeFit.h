@@ -47,8 +47,8 @@ Fit(const std::vector<std::array<double, n>> & terms,
   return constants;
 }
 
-/** The same, with twice too much as bad as half too little: errors count over the geometric mean of what was measured and
- *  what is foretold. */
+/** The same, with twice too much as bad as half too little: errors count over the geometric mean of what was measured
+ *  and what is foretold. */
 template <std::size_t n>
 std::array<double, n>
 FitRatios(const std::vector<std::array<double, n>> & terms, const std::vector<double> & measured)

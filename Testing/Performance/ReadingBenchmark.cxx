@@ -29,8 +29,8 @@ struct Choice
   int                   repetitions = 3;
 };
 
-/** What a reading child prints: seconds and processor seconds of reading, seconds of the boundary vertices, their number,
- *  voxels, labels, peak MB. Of several runs the one that read quickest. */
+/** What a reading child prints: seconds and processor seconds of reading, seconds of the boundary vertices, their
+ *  number, voxels, labels, peak MB. Of several runs the one that read quickest. */
 struct Reading
 {
   double seconds = std::numeric_limits<double>::infinity();

@@ -18,9 +18,10 @@ struct ReadingScan
 std::vector<ReadingScan>
 ReadingScans();
 
-/** `--task write X,Y,Z FOLDER` writes a root phantom in every format. `--task read SCAN labels|binary` reads it, makes the
- *  boundary vertices of all its labels and prints figures. `--task inflate SCAN` unpacks the voxels of a packed scan with
- *  zlib into a buffer that nobody looks at and prints seconds and processor seconds. Returns the exit code. */
+/** `--task write X,Y,Z FOLDER` writes a root phantom in every format. `--task read SCAN labels|binary` reads it, makes
+ *  the boundary vertices of all its labels and prints figures. `--task inflate SCAN` unpacks the voxels of a packed
+ *  scan with zlib into a buffer that nobody looks at and prints seconds and processor seconds. Returns the exit
+ *  code. */
 int
 RunReadingTask(int argc, char ** argv);
 

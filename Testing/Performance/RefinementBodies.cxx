@@ -245,10 +245,10 @@ SharpBox(double size, double lambda)
 }
 
 // All within r of three rectangles that meet along z at equal angles.
-// Where the seam of three sheets ends, under the top of its body, each crease between two walls turns away as the crease between
-// two round ends. Balls touch it twice: on its upright part, and on its bent part at angle t (0 where it begins to bend, 90
-// degrees at the top). Their centres are a roof over the seam's end. `away` is how far from the seam, towards the crease, and
-// `below` how far under the beginning of the bend.
+// Where the seam of three sheets ends, under the top of its body, each crease between two walls turns away as the
+// crease between two round ends. Balls touch it twice: on its upright part, and on its bent part at angle t (0 where it
+// begins to bend, 90 degrees at the top). Their centres are a roof over the seam's end. `away` is how far from the
+// seam, towards the crease, and `below` how far under the beginning of the bend.
 struct RoofPoint
 {
   double away = 0;
@@ -257,7 +257,8 @@ struct RoofPoint
 };
 
 // Both feet are equally far, and the second is nearest along the bend:
-// below^2 - r^2 sin^2 t / 3 + 2 below r sin t + x (1 - cos t) = 0, x = 2 r cos t / sin t (r sin t / 3 - below), away = x sqrt(3) / 4 r.
+// below^2 - r^2 sin^2 t / 3 + 2 below r sin t + x (1 - cos t) = 0, x = 2 r cos t / sin t (r sin t / 3 - below), away =
+// x sqrt(3) / 4 r.
 RoofPoint
 RoofAt(double t, double r)
 {

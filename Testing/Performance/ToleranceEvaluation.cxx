@@ -1,6 +1,6 @@
 // How well pruned cores match known medial axes: lambda pruning, and pruning by tolerance, on bodies at random
-// rotations, three resolutions and two spacings, clean and rough. Half of the seeds were for tuning; the other half shows
-// what is worth of it elsewhere. README.md has the table and what the columns mean.
+// rotations, three resolutions and two spacings, clean and rough. Half of the seeds were for tuning; the other half
+// shows what is worth of it elsewhere. README.md has the table and what the columns mean.
 //
 //     VoxelCoreToleranceEvaluation [--seeds tuned|aside] [--rotations N] [--body NAME] [--noise SD] [--mend-shape]
 //                             [--smooth-shape] [--tolerance H,H..] [--each] [--quick] [--keep FILE]

@@ -2,9 +2,9 @@
 //
 //     VoxelCoreToleranceTime KIND SIZE [REPEATS]          # a phantom; OMP_NUM_THREADS=1 for one processor
 //
-// Both begin with the Delaunay cells and end with what is left at one threshold, 1.5 voxels and 1.2 diagonals. They take
-// turns; the medians and the median of the quotients of neighbours are shown. Memory is what is in use at the most while
-// they run, less what was before.
+// Both begin with the Delaunay cells and end with what is left at one threshold, 1.5 voxels and 1.2 diagonals. They
+// take turns; the medians and the median of the quotients of neighbours are shown. Memory is what is in use at the most
+// while they run, less what was before.
 
 #include "ProcessFigures.h"
 

@@ -9,31 +9,46 @@ import pytest
 import voxelcore
 from voxelcore import _voxelcore
 
-FUNCTIONS = [voxelcore.core, voxelcore.skeleton, voxelcore.Core.prune, voxelcore.Core.save, voxelcore.Skeleton.save]
-KEYWORDS = {name for function in FUNCTIONS for name in inspect.signature(function).parameters}
+TABLE = [row for row in _voxelcore.option_table() if row["flags"]]
+# What only a program with files can do.
+OF_FILES = {
+    *("volume", "component", "nifti-form", "resolution", "grey", "grey-range", "with-skeleton", "join"),
+    *("blocks", "block", "memory", "json", "quiet"),
+}
 
-TABLE = _voxelcore.option_table()
-RENAMED = {"lambda": "lambda_", "labels": "label", "binary": "label='any'", "force": "overwrite=True"}
 
-
-@pytest.mark.parametrize("name, flags", [(name, flags) for name, flags in TABLE if flags])
+@pytest.mark.parametrize("name, flags", sorted({(row["name"], row["flags"]) for row in TABLE}))
 def test_an_option_is_named_by_its_keyword_or_as_the_command_lines(name, flags):
-    keyword = RENAMED.get(name, name.replace("-", "_"))
-    known = keyword.split("=")[0] in KEYWORDS
+    keyword = next(row["keyword"] for row in TABLE if (row["name"], row["flags"]) == (name, flags))
     for flag in flags.split(","):
         for message in (f"mend it with {flag}", f"{flag}: is not known", f"(give {flag}); or wait", f"use {flag}, or none"):
             words = _voxelcore.in_python_words(message)
-            if known:
+            if keyword:
                 assert flag not in re.findall(r"[\w-]+", words)
                 assert re.search(rf"(^|[ (]){re.escape(keyword)}(=True)?($|[ :,)])", words), words
             else:
                 assert words == message.replace(flag, f"the command line's {flag}")
 
 
-def test_every_keyword_that_is_an_option_is_reached():
-    reached = {RENAMED.get(name, name.replace("-", "_")).split("=")[0] for name, flags in TABLE if flags}
-    own = {"array", "source", "self", "path", "origin", "direction", "axes", "of_array"}
-    assert KEYWORDS - own <= reached
+@pytest.mark.parametrize("command, function", [("core", voxelcore.core), ("skeleton", voxelcore.skeleton)])
+def test_every_option_is_an_argument_and_told_of(command, function):
+    """Those of files aside; what has another form in Python is in the signature."""
+    own = set(inspect.signature(function).parameters) | set(inspect.signature(voxelcore.core).parameters) | {"label='any'"}
+    groups = {"core": ("Input", "Pruning", "Shape edits", "Refinement", "Running"), "skeleton": ("Skeleton",)}[command]
+    for row in TABLE:
+        if row["command"] == command and row["group"] in groups and row["name"] not in OF_FILES | {"also"}:
+            assert row["keyword"] in own or f"    {row['keyword']}: {row['description']}" in function.__doc__, row["name"]
+            if row["keyword"] not in own:
+                with pytest.raises((ValueError, TypeError)) as refusal:
+                    function(numpy.zeros((2, 2), int), **{row["keyword"]: "never"})
+                assert "unexpected keyword" not in str(refusal.value)
+
+
+def test_a_mistyped_argument_suggests_the_nearest():
+    with pytest.raises(TypeError, match="unexpected keyword argument 'fil_cavities'; did you mean 'fill_cavities'"):
+        voxelcore.core(numpy.ones((3, 3, 3), int), fil_cavities=True)
+    with pytest.raises(ValueError, match="fill_cavities='yes': expected True or False"):
+        voxelcore.core(numpy.ones((3, 3, 3), int), fill_cavities="yes")
 
 
 @pytest.mark.parametrize(
@@ -46,7 +61,7 @@ def test_every_keyword_that_is_an_option_is_reached():
         ("--engine magic box: expected one of auto|lattice", "engine='magic box': expected one of auto|lattice"),
         ("accept them with --orthonormalize", "accept them with orthonormalize=True"),
         ("give only one of --labels, --binary and --threshold", "give only one of label, label='any' and threshold"),
-        ("cut it with --crop 1:2,:,:", "cut it with the command line's --crop 1:2,:,:"),
+        ("cut it with --crop 1:2,3:4,5:6", "cut it with crop='1:2,3:4,5:6'"),
         ("a--spacing and /x/--force/y stay", "a--spacing and /x/--force/y stay"),
         ("made with 'voxelcore core --lambda 0'", "made with 'voxelcore core --lambda 0'"),
         ("--unheard-of and - and -- and -1", "--unheard-of and - and -- and -1"),

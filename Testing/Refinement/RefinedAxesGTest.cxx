@@ -14,8 +14,9 @@ namespace
 
 using Triangle3 = std::array<std::uint32_t, 3>;
 
-// The axis of this slab, off the grid's directions, is the plane through its middle. It is wide enough that its sharp rim,
-// which labels do not show, is far from where it is looked at; counted in voxels it is 7.6 thick on the thick slices.
+// The axis of this slab, off the grid's directions, is the plane through its middle. It is wide enough that its sharp
+// rim, which labels do not show, is far from where it is looked at; counted in voxels it is 7.6 thick on the thick
+// slices.
 TEST(RefineCore, BringsASlabsCoreToItsMiddlePlaneAndItsRadiusToHalfItsThickness)
 {
   constexpr double middle = 22;
@@ -56,8 +57,8 @@ TEST(RefineCore, BringsASlabsCoreToItsMiddlePlaneAndItsRadiusToHalfItsThickness)
   }
 }
 
-// Beside the axis of a tube the feet of a wing of the core meet, so that wings go: what is left lies near the axis. What the
-// guard holds back beside it has met there as well, and goes.
+// Beside the axis of a tube the feet of a wing of the core meet, so that wings go: what is left lies near the axis.
+// What the guard holds back beside it has met there as well, and goes.
 TEST(RefineCore, LeavesOfATubeALineOnItsAxis)
 {
   constexpr double radius = 6.3;
@@ -229,8 +230,8 @@ private:
   static constexpr Vector3 kAlong{ 0.25, 0.87, 0.42510 };
 };
 
-// Where all feet meet beside the axis, measures do not tell what is nearest to it; and what has been moved as a line is measured
-// where it is.
+// Where all feet meet beside the axis, measures do not tell what is nearest to it; and what has been moved as a line is
+// measured where it is.
 TEST(RefineCore, LeavesOfACapsuleNothingBesideItsAxis)
 {
   const CapsuleSurface surface;

@@ -37,7 +37,7 @@ MakeReport()
   report.input.geometry.origin = { -1e-17, 12345.678901234567, 0 };
   report.parameters.labels = { 1, 7 };
   report.parameters.lambda = { "0", "1.5vox" };
-  report.parameters.threshold = { { -100.5, 3000 } };
+  report.parameters.reading.threshold = { { -100.5, 3000 } };
   report.parameters.engine = "tetgen";
   report.parameters.threads = 2;
   report.parameters.weights.weight = { 3, 10, 60 };
@@ -155,18 +155,18 @@ TEST(CoreReport, ProvenanceSurvivesReadingToTheLastBit)
   EXPECT_EQ(ProvenanceJson(read, { 0, 1 }, 0), text);
   EXPECT_EQ(read.labels[1].volumeMm3, 0.1 + 0.2);
   EXPECT_EQ(read.input.geometry.spacing[1], 1.0 / 3);
-  ASSERT_TRUE(read.parameters.threshold.has_value());
-  EXPECT_EQ(read.parameters.threshold->first, -100.5);
-  EXPECT_FALSE(read.parameters.spacing.has_value());
+  ASSERT_TRUE(read.parameters.reading.threshold.has_value());
+  EXPECT_EQ(read.parameters.reading.threshold->first, -100.5);
+  EXPECT_FALSE(read.parameters.reading.spacing.has_value());
 }
 
 TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
 {
   CoreReport report = MakeReport();
-  report.parameters.threshold = { { -std::numeric_limits<double>::infinity(),
-                                    std::numeric_limits<double>::infinity() } };
-  report.parameters.crop = CropRange{ { 0, 1, 2 }, { 10, 11, 12 } };
-  report.parameters.component = 2;
+  report.parameters.reading.threshold = { { -std::numeric_limits<double>::infinity(),
+                                            std::numeric_limits<double>::infinity() } };
+  report.parameters.reading.crop = CropRange{ { 0, 1, 2 }, { 10, 11, 12 } };
+  report.parameters.reading.component = 2;
   report.parameters.edits = { true, true, 50, 3, true, true };
   for (LabelRecord & label : report.labels)
   {
@@ -177,12 +177,12 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   const std::string text = ProvenanceJson(report, { 0, 1 }, 1);
   const CoreReport  read = ParseProvenance(text, "a.vtp");
   EXPECT_EQ(ProvenanceJson(read, { 0, 1 }, 0), text);
-  EXPECT_EQ(read.parameters.threshold, report.parameters.threshold);
+  EXPECT_EQ(read.parameters.reading.threshold, report.parameters.reading.threshold);
   EXPECT_EQ(read.parameters.labels, (std::vector<std::int64_t>{ 7 })) << "a label of two components is one label";
   EXPECT_EQ(read.labels[1].component, 2);
-  ASSERT_TRUE(read.parameters.crop && read.labels[1].edits);
-  EXPECT_EQ(read.parameters.crop, report.parameters.crop);
-  EXPECT_EQ(read.parameters.component, 2);
+  ASSERT_TRUE(read.parameters.reading.crop && read.labels[1].edits);
+  EXPECT_EQ(read.parameters.reading.crop, report.parameters.reading.crop);
+  EXPECT_EQ(read.parameters.reading.component, 2);
   EXPECT_EQ(read.labels[1].edits->componentsRemoved, 5U);
   const Json json = Json::parse(text);
   EXPECT_EQ(json["parameters"]["crop"], (Json{ { 0, 10 }, { 1, 11 }, { 2, 12 } }));

@@ -44,7 +44,7 @@ def content(path, folder):
     if path.suffix in (".csv", ".mrml", ".swc"):
         text = data.decode().replace(str(folder), "OUT")
         return re.sub(r"VoxelCore [0-9.]+", "VoxelCore", text).encode()
-    return data
+    return re.sub(rb'("version": ?"|VoxelCore )[0-9.]+', rb"\1", data)
 
 
 def outputs(folder):

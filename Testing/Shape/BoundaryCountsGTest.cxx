@@ -172,8 +172,8 @@ TEST(BoundaryCounts, OfNothingAreZero)
 
 TEST(BoundaryCounts, OfABlockAreItsShellAndSides)
 {
-  // 7^3 voxels around 5^3 inner ones; 8^3 corners around 6^3. Twelve edges of five voxels and eight corners have cells of
-  // their own; on each side 5^2 voxels are flat, 3^2 of them amid such.
+  // 7^3 voxels around 5^3 inner ones; 8^3 corners around 6^3. Twelve edges of five voxels and eight corners have cells
+  // of their own; on each side 5^2 voxels are flat, 3^2 of them amid such.
   ExpectEqual(CountBoundary(Box({ 7, 7, 7 }, { -3, 0, 7 })),
               { 343, 343 - 125, 512 - 216, 12 * 5 + 8, 0, 6 * 25, 6 * 9, 0, 0 });
 }

@@ -94,8 +94,8 @@ CountTubesOff(const std::vector<double> & radii, int turns)
   return off;
 }
 
-// Where the curve leaves for the side of a cap instead of its pole, the end is off by two voxels or more: that happens to
-// one end in thirty, and then the length is off by more than the one percent.
+// Where the curve leaves for the side of a cap instead of its pole, the end is off by two voxels or more: that happens
+// to one end in thirty, and then the length is off by more than the one percent.
 TEST(BranchFit, StraightTubesAtAnyAngleHaveTheirLength)
 {
   EXPECT_LE(CountTubesOff({ 1.5, 2.5, 4.0 }, 8), 5); // of 24

@@ -80,8 +80,8 @@ TEST(CurveSkeleton, EllipsoidIsASegmentAlongItsLongAxis)
     low = std::min(low, p[0]);
     high = std::max(high, p[0]);
   }
-  // The medial surface is an ellipse with semi-axes a = (A^2 - C^2) / A and b = (B^2 - C^2) / B; its own medial axis ends
-  // (a^2 - b^2) / a from the centre. Where curve and rim run side by side the end is not sharp.
+  // The medial surface is an ellipse with semi-axes a = (A^2 - C^2) / A and b = (B^2 - C^2) / B; its own medial axis
+  // ends (a^2 - b^2) / a from the centre. Where curve and rim run side by side the end is not sharp.
   const double a = n * (0.45 * 0.45 - 0.2 * 0.2) / 0.45;
   const double b = n * (0.3 * 0.3 - 0.2 * 0.2) / 0.3;
   const double half = (a * a - b * b) / a;

@@ -49,7 +49,8 @@ TEST(RootSkeleton, IsTheSameInAllRotationsOfTheGrid)
   }
 }
 
-/** Of 5 % noise on roots the thinnest of which are a voxel thick; with `simple` it keeps the topology, else it is mended. */
+/** Of 5 % noise on roots the thinnest of which are a voxel thick; with `simple` it keeps the topology, else it is
+ *  mended. */
 void
 ExpectNoBranchesOfNoise(std::uint64_t seeds, bool simple)
 {

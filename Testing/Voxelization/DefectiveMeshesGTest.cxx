@@ -189,8 +189,8 @@ TEST(DefectiveMeshes, APartWithinIsACavityOnlyWhenItIsInsideOut)
 
 TEST(DefectiveMeshes, AClosedSurfaceOfNoOrientationIsDecidedByParity)
 {
-  // The projective plane as a polyhedron of four triangles and three squares that cross each other: each edge lies on two
-  // faces, and it has no orientation. Its four open octants are in by parity.
+  // The projective plane as a polyhedron of four triangles and three squares that cross each other: each edge lies on
+  // two faces, and it has no orientation. Its four open octants are in by parity.
   const TriangleMesh octahedron = OctahedronMesh({ 12.1, 12.2, 12.3 }, 10);
   TriangleMesh       mesh{ octahedron.points, {} };
   for (const auto & t : { std::array<std::uint32_t, 3>{ 0, 2, 4 }, { 0, 3, 5 }, { 1, 2, 5 }, { 1, 3, 4 } })

@@ -1,6 +1,6 @@
 #pragma once
-// Winding numbers by brute force, in whole numbers of any length: another way to what Voxelize decides. Centres are really
-// moved by (e, e^2, e^3) with e = 2^-400 mm, and any of the three axes may be the ray's.
+// Winding numbers by brute force, in whole numbers of any length: another way to what Voxelize decides. Centres are
+// really moved by (e, e^2, e^3) with e = 2^-400 mm, and any of the three axes may be the ray's.
 
 #include "voxelcore/Voxelization.h"
 

@@ -24,7 +24,8 @@ StarMesh(const Vector3 & centre, double radius, int rings, double roughness, std
 TriangleMesh
 TorusMesh(const Vector3 & centre, double radius, double tube, int around, int across);
 
-/** The boundary of random cells of a block of 4^3, each a cube of side `cell`; squares are cut along random diagonals. */
+/** The boundary of random cells of a block of 4^3, each a cube of side `cell`; squares are cut along random
+ *  diagonals. */
 TriangleMesh
 BlocksMesh(const Vector3 & lower, double cell, double density, std::mt19937 & random);
 

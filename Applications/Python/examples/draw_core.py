@@ -10,7 +10,13 @@ import nibabel
 import numpy
 import voxelcore
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkWindowToImageFilter,
+)
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  the window's inside
 
 scan, label, picture = sys.argv[1:]

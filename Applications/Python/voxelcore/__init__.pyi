@@ -17,6 +17,8 @@ class _Result:
     @property
     def label(self) -> int: ...
     @property
+    def component(self) -> int: ...
+    @property
     def topology(self) -> Dict[str, Any]: ...
     @property
     def report(self) -> Dict[str, Any]: ...
@@ -117,10 +119,8 @@ def core(
     axes: str = ...,
     tolerance: Optional[Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
-    orthonormalize: bool = ...,
-    engine: str = ...,
-    threads: int = ...,
     progress: Progress = ...,
+    **options: Any,
 ) -> Core: ...
 @overload
 def core(
@@ -134,10 +134,8 @@ def core(
     axes: str = ...,
     tolerance: Optional[Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
-    orthonormalize: bool = ...,
-    engine: str = ...,
-    threads: int = ...,
     progress: Progress = ...,
+    **options: Any,
 ) -> List[Core]: ...
 @overload
 def core(
@@ -151,24 +149,32 @@ def core(
     axes: str = ...,
     tolerance: Lengths,
     threshold: Optional[Tuple[float, float]] = ...,
-    orthonormalize: bool = ...,
-    engine: str = ...,
-    threads: int = ...,
     progress: Progress = ...,
+    **options: Any,
 ) -> List[Core]: ...
+@overload
+def core(
+    array: ArrayLike,
+    *,
+    spacing: Vector = ...,
+    lambda_: Optional[Length] = ...,
+    label: List[int],
+    origin: Vector = ...,
+    direction: ArrayLike = ...,
+    axes: str = ...,
+    tolerance: Optional[Length] = ...,
+    threshold: Optional[Tuple[float, float]] = ...,
+    progress: Progress = ...,
+    **options: Any,
+) -> Dict[Any, Core]: ...
 def skeleton(
     source: Union[Core, ArrayLike],
     *,
-    stand_out: Length = ...,
-    smooth: Length = ...,
-    plates: Optional[Length] = ...,
     prune_branches: Optional[Length] = ...,
-    cut_loops: bool = ...,
-    split_at_junctions: bool = ...,
     root: Union[str, Vector] = ...,
     threads: int = ...,
     progress: Progress = ...,
-    **of_array: Any,
+    **options: Any,
 ) -> Skeleton: ...
 def measure(source: Union[Skeleton, Core, ArrayLike], **options: Any) -> Dict[str, NDArray[Any]]: ...
 def read(path: Union[str, PathLike[str]]) -> Core: ...

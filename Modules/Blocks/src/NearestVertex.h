@@ -12,9 +12,9 @@
 namespace voxelcore
 {
 
-/** Answers from one bit for every 8^3 lattice corners and the bits of those that hold boundary vertices. Places are box-relative and doubled, so that
- *  middles of voxels are integers; squared distances are weighted and, with the doubled places, four times themselves:
- *  at most 3 * 2^24 * 2^42 in the exact range. */
+/** Answers from one bit for every 8^3 lattice corners and the bits of those that hold boundary vertices. Places are
+ *  box-relative and doubled, so that middles of voxels are integers; squared distances are weighted and, with the
+ *  doubled places, four times themselves: at most 3 * 2^24 * 2^42 in the exact range. */
 class NearestVertex
 {
 public:

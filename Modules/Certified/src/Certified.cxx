@@ -8,7 +8,7 @@
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/ShapeTopology.h"
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
 #include "voxelcore/Stopwatch.h"
@@ -231,7 +231,8 @@ private:
       [&] {
         const TopologyNumbers topology = ComputeComplexTopology(core.cells);
         RequireEqualTopology(m_Result.shape.topology, topology, "its core", m_Request.name);
-        // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last bit.
+        // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last
+        // bit.
         m_Whole.numbers.complex = DescribeComplex(core, topology);
       });
     m_Result.whole = m_Whole.numbers.complex;

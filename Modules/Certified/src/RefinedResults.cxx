@@ -3,7 +3,7 @@
 #include "CertificateText.h"
 #include "PruneStages.h"
 #include "voxelcore/ComplexTopology.h"
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
 
 #include <algorithm>

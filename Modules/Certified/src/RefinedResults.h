@@ -17,8 +17,8 @@ struct RefinementParts
   MedialComplex             core; ///< in lattice coordinates
 };
 
-/** Results in the order of the lambdas. \throws CertificateError when the topology is no longer the shape's, or a vertex
- *  has left it; Cancelled */
+/** Results in the order of the lambdas. \throws CertificateError when the topology is no longer the shape's, or a
+ *  vertex has left it; Cancelled */
 std::vector<CertifiedCore>
 RefineAndCertify(const VoxelShape &          voxels,
                  const CertifiedShape &      shape,

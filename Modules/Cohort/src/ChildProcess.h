@@ -21,8 +21,8 @@ struct ChildEnd
 class ChildProcess
 {
 public:
-  /** Starts this program with `arguments` (the first is its name). The child is killed when the calling thread's process
-   *  ends; it is the first that a kernel short of memory takes; it inherits `lock`.
+  /** Starts this program with `arguments` (the first is its name). The child is killed when the calling thread's
+   *  process ends; it is the first that a kernel short of memory takes; it inherits `lock`.
    *  \throws Error when no process can be started */
   ChildProcess(const std::vector<std::string> & arguments, int lock);
   ChildProcess(ChildProcess && other) noexcept;

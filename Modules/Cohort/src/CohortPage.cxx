@@ -47,12 +47,15 @@ constexpr std::string_view kHead = R"html(<!DOCTYPE html>
 <style>
 :root { color-scheme: light; --line: #d8dce2; --soft: #5c6673; --bad: #b3261e; --mark: #fff1c2; }
 body { font: 14px/1.4 system-ui, "DejaVu Sans", sans-serif; margin: 0; color: #1b2028; background: #fff; }
-header { padding: 14px 20px 10px; border-bottom: 1px solid var(--line); position: sticky; top: 0; left: 0; background: #fff; z-index: 2; }
+header { padding: 14px 20px 10px; border-bottom: 1px solid var(--line); position: sticky; top: 0; left: 0;
+  background: #fff; z-index: 2; }
 h1 { font-size: 18px; margin: 0 0 6px; }
-#filter { font: inherit; padding: 5px 8px; width: 22em; max-width: 60vw; border: 1px solid #9aa3af; border-radius: 4px; }
+#filter { font: inherit; padding: 5px 8px; width: 22em; max-width: 60vw; border: 1px solid #9aa3af;
+  border-radius: 4px; }
 #status, label { color: var(--soft); margin-left: 12px; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
-th { position: sticky; top: var(--top, 76px); background: #f3f5f8; text-align: left; font-weight: 600; vertical-align: bottom; border-bottom: 1px solid var(--line); padding: 0; }
+th { position: sticky; top: var(--top, 76px); background: #f3f5f8; text-align: left; font-weight: 600;
+  vertical-align: bottom; border-bottom: 1px solid var(--line); padding: 0; }
 th button { all: unset; cursor: pointer; padding: 5px 8px; line-height: 1.2; display: block; }
 th button:focus-visible { outline: 2px solid #3d6fd1; outline-offset: -2px; }
 td { padding: 4px 8px; border-bottom: 1px solid #e8ebef; vertical-align: middle; }
@@ -64,7 +67,8 @@ tr.more td.id:nth-child(2) { color: #a3acb8; }
 td.reason { color: var(--bad); overflow-wrap: anywhere; }
 td.id { overflow-wrap: anywhere; min-width: 11em; max-width: 22em; }
 td.w { color: var(--soft); font-size: 12px; }
-td.w div { overflow: hidden; min-width: 18em; max-width: 30em; display: -webkit-box; -webkit-box-orient: vertical; -webkit-line-clamp: 4; }
+td.w div { overflow: hidden; min-width: 18em; max-width: 30em; display: -webkit-box; -webkit-box-orient: vertical;
+  -webkit-line-clamp: 4; }
 td.files { min-width: 15em; line-height: 1.2; }
 img { width: 64px; height: 64px; display: block; }
 .pass { color: #14713a; } .bad { color: var(--bad); font-weight: 600; }
@@ -93,7 +97,8 @@ const all = [];
 data.cases.forEach((c, order) => {
   if (!c.done) all.push({ c, order, failed: true, text: [c.id, c.reason].join(" ").toLowerCase() });
   c.labels.forEach(l => all.push({ c, l, order, failed: false,
-    text: [c.id, l.name, l.label, c.warnings.join(" "), l.certificate ? "passed" : "failed"].join(" ").toLowerCase() }));
+    text: [c.id, l.name, l.label, c.warnings.join(" "), l.certificate ? "passed" : "failed"].join(" ")
+      .toLowerCase() }));
 });
 const heads = ["", "id", "label", ...data.columns, "certificate", "outliers", "warnings", "files"];
 const valueOf = (row, k) => {
@@ -107,12 +112,17 @@ const valueOf = (row, k) => {
   return null;
 };
 const natural = new Intl.Collator(undefined, { numeric: true });
-const compare = (a, b) => typeof a === "number" && typeof b === "number" ? a - b : natural.compare(String(a), String(b));
+const compare = (a, b) =>
+  typeof a === "number" && typeof b === "number" ? a - b : natural.compare(String(a), String(b));
 let key = 1, down = false, shown = [], painted = 0;
 const CHUNK = 150;
 const number = v => v === null ? "" : Number.isInteger(v) ? String(v) : Number(v.toPrecision(5)).toString();
-const cell = (tr, text, cls) => { const td = tr.insertCell(); td.textContent = text; if (cls) td.className = cls; return td; };
-const link = (td, name, file) => { const a = document.createElement("a"); a.textContent = name; a.href = encodeURI(file); td.append(a, " "); };
+const cell = (tr, text, cls) => {
+  const td = tr.insertCell(); td.textContent = text; if (cls) td.className = cls; return td;
+};
+const link = (td, name, file) => {
+  const a = document.createElement("a"); a.textContent = name; a.href = encodeURI(file); td.append(a, " ");
+};
 // Rows of one case that stand together show its picture, warnings and files once.
 function paintRow(row, goesOn) {
   const tr = document.createElement("tr");
@@ -168,7 +178,8 @@ function more() {
 function fill() {
   const words = byId("filter").value.toLowerCase().split(/\s+/).filter(w => w);
   const marked = byId("marked").checked;
-  shown = all.filter(r => words.every(w => r.text.includes(w)) && (!marked || (!r.failed && Object.keys(r.l.outliers).length)));
+  shown = all.filter(r => words.every(w => r.text.includes(w)) &&
+    (!marked || (!r.failed && Object.keys(r.l.outliers).length)));
   shown.sort((a, b) => {
     if (a.failed !== b.failed) return a.failed ? -1 : 1;
     const x = valueOf(a, key), y = valueOf(b, key);
@@ -179,7 +190,8 @@ function fill() {
   painted = 0;
   more();
   const failed = data.cases.filter(c => !c.done).length;
-  byId("status").textContent = shown.length + " of " + all.length + " rows; " + data.cases.length + " cases, " + failed + " failed";
+  byId("status").textContent =
+    shown.length + " of " + all.length + " rows; " + data.cases.length + " cases, " + failed + " failed";
   document.querySelectorAll("#heads th").forEach((th, k) => {
     th.setAttribute("aria-sort", k === key ? (down ? "descending" : "ascending") : "none");
     const b = th.firstChild;
@@ -194,7 +206,9 @@ heads.forEach((name, k) => {
 });
 byId("filter").oninput = fill;
 byId("marked").onchange = fill;
-addEventListener("scroll", () => { if (painted < shown.length && innerHeight + scrollY > document.body.scrollHeight - 1500) more(); });
+addEventListener("scroll", () => {
+  if (painted < shown.length && innerHeight + scrollY > document.body.scrollHeight - 1500) more();
+});
 document.documentElement.style.setProperty("--top", document.querySelector("header").offsetHeight + "px");
 fill();
 document.body.dataset.ready = Math.round(performance.now());

@@ -18,8 +18,8 @@ struct PageCase
   std::vector<Row> labels; ///< its rows of labels.csv
 };
 
-/** The whole page as HTML with everything it needs in it: works from disk, offline. Nothing of the cases is ever taken for
- *  markup: it comes as data and becomes text. */
+/** The whole page as HTML with everything it needs in it: works from disk, offline. Nothing of the cases is ever taken
+ *  for markup: it comes as data and becomes text. */
 std::string
 CohortPage(const std::vector<PageCase> & cases);
 

@@ -12,7 +12,7 @@ namespace
 {
 
 [[noreturn]] void
-Refuse(const std::string & where, std::size_t line, const std::string & why)
+ThrowInputError(const std::string & where, std::size_t line, const std::string & why)
 {
   throw InputError(where + ": line " + std::to_string(line) + ": " + why);
 }
@@ -54,7 +54,7 @@ ParseCsv(std::string_view text, const std::string & where, char separator)
     const bool crlf = c == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
     if (c == '\0')
     {
-      Refuse(where, line, "holds a NUL byte; this is no text file");
+      ThrowInputError(where, line, "holds a NUL byte; this is no text file");
     }
     if (quoted)
     {
@@ -84,13 +84,13 @@ ParseCsv(std::string_view text, const std::string & where, char separator)
     }
     else if (wasQuoted)
     {
-      Refuse(where, line, "text follows a closing quote; write a quote inside a quoted field twice");
+      ThrowInputError(where, line, "text follows a closing quote; write a quote inside a quoted field twice");
     }
     else if (c == '"')
     {
       if (!field.empty())
       {
-        Refuse(where, line, "a quote inside a field; quote the whole field and write the quote twice");
+        ThrowInputError(where, line, "a quote inside a field; quote the whole field and write the quote twice");
       }
       quoted = wasQuoted = true;
     }
@@ -101,7 +101,7 @@ ParseCsv(std::string_view text, const std::string & where, char separator)
   }
   if (quoted)
   {
-    Refuse(where, row.line, "a quote is opened and never closed");
+    ThrowInputError(where, row.line, "a quote is opened and never closed");
   }
   endRow();
   return rows;

@@ -44,15 +44,13 @@ EndsInOneOf(const fs::path & path, std::initializer_list<const char *> endings)
 bool
 IsVolume(const fs::path & path)
 {
-  return EndsInOneOf(
-    path,
-    { ".nrrd", ".nhdr", ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".mha", ".mhd", ".mrc", ".mnc", ".gipl", ".gipl.gz" });
+  return EndsInOneOf(path, { ".nrrd", ".nhdr", ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".mha", ".mhd" });
 }
 
 bool
 IsImage(const fs::path & path)
 {
-  return EndsInOneOf(path, { ".tif", ".tiff", ".png", ".dcm" });
+  return EndsInOneOf(path, { ".tif", ".tiff", ".png" });
 }
 
 /** Whether a file is read together with the scan beside it: its voxels, the names of its labels, its description. */

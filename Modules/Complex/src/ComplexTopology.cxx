@@ -1,6 +1,6 @@
 #include "voxelcore/ComplexTopology.h"
 
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>

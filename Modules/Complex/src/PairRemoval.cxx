@@ -2,7 +2,7 @@
 
 #include "RemovalTimes.h"
 
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <atomic>

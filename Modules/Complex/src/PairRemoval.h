@@ -1,14 +1,14 @@
 #pragma once
 // The removals of a simple-pair collapse, in whatever order is fast.
 //
-// The collapse is defined by an order: always the pair of smallest key goes, of all that are simple at that moment. Which
-// element goes with which follows from it, and little of it has to be obeyed. Let pair p = (a, b), a on the boundary of b,
-// become simple by the removal of pairs r, the removers of a.
+// The collapse is defined by an order: always the pair of smallest key goes, of all that are simple at that moment.
+// Which element goes with which follows from it, and little of it has to be obeyed. Let pair p = (a, b), a on the
+// boundary of b, become simple by the removal of pairs r, the removers of a.
 //
 // When does p go? While p waits, only smaller keys go. So the keys that went last, read backwards from any moment, each
-// being greater than all that followed it, are a falling sequence, the time; it ends with the key of the pair that goes.
-// Of the latest remover of a, the keys above that of p, and then p's own, are the time of p, and times are ordered
-// lexicographically. The first key of a time is the greatest of all that have gone.
+// being greater than all that followed it, are a falling sequence, the time; it ends with the key of the pair that
+// goes. Of the latest remover of a, the keys above that of p, and then p's own, are the time of p, and times are
+// ordered lexicographically. The first key of a time is the greatest of all that have gone.
 //
 // Which pairs may go at once? p goes at its time unless another element a' of the boundary of b took b before. Its pair
 // has a time whose first key is at least its own. So when the keys of all others a' that are left are greater than the

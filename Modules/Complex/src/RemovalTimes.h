@@ -11,8 +11,8 @@ namespace voxelcore
 
 inline constexpr ElementIndex kNoPair = std::numeric_limits<ElementIndex>::max();
 
-/** By this pairs are ordered; no two are equal. A pair is named by its lower element e: a vertex, whose only edge goes with
- *  it, or an edge with its only face. */
+/** By this pairs are ordered; no two are equal. A pair is named by its lower element e: a vertex, whose only edge goes
+ *  with it, or an edge with its only face. */
 struct PairKey
 {
   double       measure;
@@ -35,16 +35,16 @@ struct PairKey
   }
 };
 
-/** A key, and the time of a pair that has gone before, all of whose keys are greater. That pair is named by its edge; each
- *  edge is in one pair at most. */
+/** A key, and the time of a pair that has gone before, all of whose keys are greater. That pair is named by its edge;
+ *  each edge is in one pair at most. */
 struct RemovalTime
 {
   PairKey      key;
   ElementIndex before; ///< or kNoPair
 };
 
-/** The elements of one dimension, of those that can be lower ones. Plain pointers: loops over vectors would look them up
- *  after each flag that is written. */
+/** The elements of one dimension, of those that can be lower ones. Plain pointers: loops over vectors would look them
+ *  up after each flag that is written. */
 struct LowerElements
 {
   const double * measure;
@@ -60,10 +60,10 @@ struct LowerElements
   }
 };
 
-/** Where a pair that has gone stands in its time. Times branch as a tree whose nodes are pairs: each follows the one before
- *  it, and what two times have in common is the way from the root to where they part. A jump leads far up, by a number of
- *  steps that depends on the depth alone, so that a place on the way is found in a number of steps logarithmic in its
- *  length (E. W. Myers: An applicative random-access stack, 1983). */
+/** Where a pair that has gone stands in its time. Times branch as a tree whose nodes are pairs: each follows the one
+ *  before it, and what two times have in common is the way from the root to where they part. A jump leads far up, by a
+ *  number of steps that depends on the depth alone, so that a place on the way is found in a number of steps
+ *  logarithmic in its length (E. W. Myers: An applicative random-access stack, 1983). */
 struct TimeNode
 {
   ElementIndex jump;  ///< a pair further up, or kNoPair above the first

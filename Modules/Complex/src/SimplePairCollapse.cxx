@@ -2,7 +2,7 @@
 
 #include "PairRemoval.h"
 
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include "SharedProgress.h"
 
 #include "voxelcore/Error.h"
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <omp.h>
 
@@ -114,8 +114,8 @@ public:
     }
   }
 
-  // Adds the points from `first` on side by side, each thread those of a slab; points whose cavity reaches out of it are
-  // returned in order.
+  // Adds the points from `first` on side by side, each thread those of a slab; points whose cavity reaches out of it
+  // are returned in order.
   std::vector<std::uint32_t>
   AddSideBySide(std::uint32_t first, const std::vector<std::uint8_t> & slabOf, std::size_t slabs)
   {

@@ -53,7 +53,8 @@ struct BrickGrid
   }
 };
 
-/** How many of the points each brick holds, those on its sides included: a brick with none has nothing to start from. */
+/** How many of the points each brick holds, those on its sides included: a brick with none has nothing to start
+ *  from. */
 std::vector<std::uint32_t>
 BrickLoad(const BrickGrid & grid, const std::vector<LatticePoint> & points);
 

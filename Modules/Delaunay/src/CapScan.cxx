@@ -23,8 +23,8 @@ constexpr float margin = 1e-3F; // columns, far more than single precision is of
 VOXELCORE_EIGHT_LANES void
 ScanCap(const Cap & cap, CapVertices & found)
 {
-  // Where the height is positive is a bound of x from one side, linear in the height at x = 0: from below or from above,
-  // or all or nothing. Heights are integers below 2^24, so exact.
+  // Where the height is positive is a bound of x from one side, linear in the height at x = 0: from below or from
+  // above, or all or nothing. Heights are integers below 2^24, so exact.
   float fromBase = -1.0F;
   float fromSlope = 0.0F;
   float toBase = 17.0F;

@@ -8,8 +8,8 @@
 namespace voxelcore
 {
 
-/** A ball and a plane, in coordinates from the corner of a box of at most 16^3 lattice points that holds the part of the
- *  ball beyond the plane. The plane cuts the ball in the circle through which all spheres of a pencil go. */
+/** A ball and a plane, in coordinates from the corner of a box of at most 16^3 lattice points that holds the part of
+ *  the ball beyond the plane. The plane cuts the ball in the circle through which all spheres of a pencil go. */
 struct Cap
 {
   const std::uint64_t * rows = nullptr;  ///< of the vertices' bits at the box's corner; a layer on is 64 rows on
@@ -31,8 +31,8 @@ struct CapVertices
 {
   std::size_t                     count = 0;
   std::array<std::uint16_t, 4096> place;
-  /** (|q - middle|^2 - circle2) / height, which orders the spheres of the pencil, and what it is at most off by; vertices
-   *  on the plane or on its near side have infinity. */
+  /** (|q - middle|^2 - circle2) / height, which orders the spheres of the pencil, and what it is at most off by;
+   *  vertices on the plane or on its near side have infinity. */
   std::array<float, 4096> low;
   float                   least = 0.0F; ///< no vertex whose low is greater can be the least
 };

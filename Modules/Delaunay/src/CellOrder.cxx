@@ -165,8 +165,8 @@ TurnFacets(DelaunayCells & cells, const std::vector<std::uint32_t> & rank)
   });
 }
 
-// The canonical order of facets with a cell, by buckets of their first cell. Two cells share at most one facet, so points need
-// comparing only among the boundary facets of a cell: two of them share at most two points.
+// The canonical order of facets with a cell, by buckets of their first cell. Two cells share at most one facet, so
+// points need comparing only among the boundary facets of a cell: two of them share at most two points.
 std::vector<std::uint32_t>
 FacetOrder(const DelaunayCells & cells)
 {

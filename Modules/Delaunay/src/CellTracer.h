@@ -3,7 +3,8 @@
 //
 // Boundary squares are facets (Theorem 3.1). From a facet whose inner side is unknown, the next cell is fixed by the
 // boundary vertex that minimises the pencil parameter of the spheres through the facet's circle; a growing ball on the
-// bits of a window finds it, exact integers decide. The smallest cells, the corners of single voxels, come from a table.
+// bits of a window finds it, exact integers decide. The smallest cells, the corners of single voxels, come from a
+// table.
 
 #include "BrickGrid.h"
 #include "BrickQueue.h"
@@ -46,8 +47,8 @@ JoinTracings(std::vector<Tracing> parts);
 
 /** Finds the cells of radius up to 7 times the smallest weight whose centres lie in the bricks it takes from a queue,
  *  ascending from its start or descending from its end, as far as they can be reached within them. Which bricks it gets
- *  may differ from run to run; with those of all tracers joined and gone on from, nothing found does. Not for use by two
- *  threads at once. */
+ *  may differ from run to run; with those of all tracers joined and gone on from, nothing found does. Not for use by
+ *  two threads at once. */
 class CellTracer
 {
 public:

@@ -40,8 +40,8 @@ public:
     std::vector<std::uint32_t> next(m_Start.begin(), m_Start.end() - 1);
     for (const std::uint32_t facet : tracing.deep) // ascending within each list
     {
-      // A polygon runs counter-clockwise seen from outside its first cell, which is where the region is unless that cell
-      // is the one that is missing.
+      // A polygon runs counter-clockwise seen from outside its first cell, which is where the region is unless that
+      // cell is the one that is missing.
       const auto polygon = tracing.cells.FacetPoints(facet);
       const bool turn = tracing.cells.facetCells[facet][0] == kOpen;
       for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -132,8 +132,8 @@ AddDeepCells(Tracing &                         tracing,
   }
   Tetrahedra tetrahedra = BowyerWatson(deepPoints, weights, meanwhile, progress);
 
-  // Tetrahedra, all of them positive, at the far side of an open facet are in the region, and so is what is reached from
-  // them without crossing one.
+  // Tetrahedra, all of them positive, at the far side of an open facet are in the region, and so is what is reached
+  // from them without crossing one.
   const WallFinder                          finder(tracing, used, points.size());
   const std::size_t                         count = tetrahedra.corners.size();
   std::vector<std::array<std::uint32_t, 4>> wall(count);

@@ -23,7 +23,8 @@ public:
     m_Far.Clear(expectedFar);
   }
 
-  /** What is there so far belongs to earlier bricks; the next one is expected to make about so many facets at a time. */
+  /** What is there so far belongs to earlier bricks; the next one is expected to make about so many facets at a
+   *  time. */
   void
   StartBrick(std::size_t expected)
   {

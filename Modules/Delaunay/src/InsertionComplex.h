@@ -15,9 +15,9 @@ namespace voxelcore
 /** The Delaunay tetrahedra of the first of a list of points, and those beyond their hull, each a facet of it and the
  *  infinite vertex. TNumber holds the in-sphere value 72 w^2 N^5 (see Predicates.h).
  *
- *  Several threads can add points at the same time, each within a territory: the points are given owners, and an inserter
- *  changes only tetrahedra all of whose finite vertices are its own. It reads those and the ones that border on them,
- *  which are either its own too or have vertices of several owners, so that nobody changes them. */
+ *  Several threads can add points at the same time, each within a territory: the points are given owners, and an
+ *  inserter changes only tetrahedra all of whose finite vertices are its own. It reads those and the ones that border
+ *  on them, which are either its own too or have vertices of several owners, so that nobody changes them. */
 template <typename TNumber>
 class InsertionComplex
 {
@@ -133,8 +133,8 @@ public:
     return m_Mark[t] != dead && m_Tetrahedra[t].vertex[3] != infinite;
   }
 
-  /** Adds a point; false, and nothing done, where that would change a tetrahedron outside of the inserter's territory, or
-   *  it has no place left. */
+  /** Adds a point; false, and nothing done, where that would change a tetrahedron outside of the inserter's territory,
+   *  or it has no place left. */
   bool
   Insert(Inserter & by, std::uint32_t p)
   {
@@ -194,7 +194,8 @@ public:
     {
       const auto          f = tetrahedronFaces[rim[i].face];
       const Tetrahedron & old = m_Tetrahedra[rim[i].inner];
-      // The rim face counter-clockwise from outside the cavity, so with the point inside it the order 0, 2, 1 is positive.
+      // The rim face counter-clockwise from outside the cavity, so with the point inside it the order 0, 2, 1 is
+      // positive.
       std::array<std::uint32_t, 3> side{ old.vertex[f[0]], old.vertex[f[2]], old.vertex[f[1]] };
       // A ghost keeps the infinite vertex last: rotate it to the third place, then swap places with the point evenly.
       Tetrahedron own{};

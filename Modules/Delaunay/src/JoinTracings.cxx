@@ -1,6 +1,6 @@
 #include "CellTracer.h"
 
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 namespace voxelcore
 {

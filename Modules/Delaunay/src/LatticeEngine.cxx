@@ -120,7 +120,8 @@ LatticeCells(const VoxelShape &                shape,
   constexpr std::size_t worthAThread = 20000; // points
   const std::size_t     threads =
     std::clamp<std::size_t>(points.size() / worthAThread, 1, static_cast<std::size_t>(omp_get_max_threads()));
-  // How many deep points there will be only tracing tells. Most of the time goes into tracing, unless a part is very thick.
+  // How many deep points there will be only tracing tells. Most of the time goes into tracing, unless a part is very
+  // thick.
   StagePlan              plan(progress, { 0.7, 0.3 });
   const ProgressCallback tracingPart = plan.Next();
   Tracing                tracing;

@@ -11,7 +11,8 @@
 namespace voxelcore
 {
 
-/** A ProgressCallback for the threads of a team: only the first one's calls are passed on, the others see its answer. */
+/** A ProgressCallback for the threads of a team: only the first one's calls are passed on, the others see its
+ *  answer. */
 class SharedProgress
 {
 public:

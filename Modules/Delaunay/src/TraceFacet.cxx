@@ -43,8 +43,9 @@ public:
     m_Cap.circle2 = static_cast<float>(pencil.circle2);
   }
 
-  // The cap of the ball at a distance from the circle, and the corner of its box; false where it holds no lattice point.
-  // It reaches as far as its ball where the ball's outermost point lies beyond the plane, else as far as the circle.
+  // The cap of the ball at a distance from the circle, and the corner of its box; false where it holds no lattice
+  // point. It reaches as far as its ball where the ball's outermost point lies beyond the plane, else as far as the
+  // circle.
   bool
   Make(const LatticeWindow & window, double from, double radius, const std::array<double, 3> & centre)
   {
@@ -65,7 +66,8 @@ public:
     m_Cap.firstColumn = static_cast<unsigned>(m_Corner[0]);
     m_Cap.rowCount = size[1];
     m_Cap.layerCount = size[2];
-    // Coordinates from the corner are off by up to 2e-6 in single precision: grown by more than that, no vertex is missed.
+    // Coordinates from the corner are off by up to 2e-6 in single precision: grown by more than that, no vertex is
+    // missed.
     const double grown = radius + 1e-5 * (m_Weight[0] + m_Weight[1] + m_Weight[2]);
     m_Cap.radius2 = static_cast<float>(grown * grown) * 1.0001F;
     m_Cap.cornerHeight = static_cast<float>(m_Pencil.Height({ m_Corner[0], m_Corner[1], m_Corner[2] }));

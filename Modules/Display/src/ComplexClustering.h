@@ -6,8 +6,8 @@
 namespace voxelcore
 {
 
-/** Gives `mesh` in at most about `most` triangles and segments. `rims` are its edges with one triangle, each with the third
- *  corner of that triangle. */
+/** Gives `mesh` in at most about `most` triangles and segments. `rims` are its edges with one triangle, each with the
+ *  third corner of that triangle. */
 ShownMesh
 ClusteredMesh(const ShownMesh & mesh, const std::vector<std::array<std::uint32_t, 3>> & rims, std::size_t most);
 

@@ -9,8 +9,8 @@
 namespace voxelcore
 {
 
-/** The array of point scalars that the functions below add: the lengths to be coloured by, in mm. Where there is none for
- *  a point (erosion thickness of closed surfaces is infinite) it is NaN. */
+/** The array of point scalars that the functions below add: the lengths to be coloured by, in mm. Where there is none
+ *  for a point (erosion thickness of closed surfaces is infinite) it is NaN. */
 constexpr const char * kShownArray = "Shown";
 
 vtkSmartPointer<vtkPolyData>
@@ -20,8 +20,8 @@ SurfacePolyData(const LabelSurfaceMesh & mesh);
 vtkSmartPointer<vtkPolyData>
 MedialPolyData(const DisplayLabel & label, PictureColoring coloring);
 
-/** Tubes of `scale` times the radius, at least `least` mm thick; points without a branch as balls, faces that stay as they
- *  are. */
+/** Tubes of `scale` times the radius, at least `least` mm thick; points without a branch as balls, faces that stay as
+ *  they are. */
 vtkSmartPointer<vtkPolyData>
 CurvePolyData(const DisplayLabel & label, PictureColoring coloring, double scale, double least);
 

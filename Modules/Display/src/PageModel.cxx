@@ -5,7 +5,7 @@
 #include "voxelcore/ColorRange.h"
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <nlohmann/json.hpp>
 
@@ -48,8 +48,8 @@ CurveArrays(const DisplayLabel & label)
   return { &label.curves.radius, nullptr, &label.curves.erosionThickness };
 }
 
-/** Takes all values into `range`'s least and greatest, those too which no colour goes by as they are of points: the page's
- *  codes run from one to the other. */
+/** Takes all values into `range`'s least and greatest, those too which no colour goes by as they are of points: the
+ *  page's codes run from one to the other. */
 void
 Widen(ColorRange & range, const std::vector<double> & values)
 {

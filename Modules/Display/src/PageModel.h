@@ -27,8 +27,8 @@ struct MeshDemand
   double      weight = 1; ///< up to 1: how much a triangle of it matters
 };
 
-/** How many triangles of a budget each mesh gets: in proportion to its own, but a few dozen at least where that is to be
- *  had. */
+/** How many triangles of a budget each mesh gets: in proportion to its own, but a few dozen at least where that is to
+ *  be had. */
 std::vector<std::size_t>
 SharesOfBudget(const std::vector<MeshDemand> & meshes, std::size_t budget);
 

@@ -53,7 +53,8 @@ MeanOf(const PointCloud & points)
   return mean;
 }
 
-/** The direction in which the points spread least, pointing to where a viewer stands by habit: anterior, left, superior. */
+/** The direction in which the points spread least, pointing to where a viewer stands by habit: anterior, left,
+ *  superior. */
 Vector3
 FlatDirection(const PointCloud & points)
 {

@@ -11,8 +11,8 @@ namespace voxelcore
 {
 
 /** Adds a mesh to a renderer, polygons lit, lines and points in their plain colour: that of `scale` for the point array
- *  kShownArray, or `color` where there is no scale. `pixel`: pixels drawn for each of the picture. Nothing is added for a
- *  mesh that is null or has an opacity of 0. */
+ *  kShownArray, or `color` where there is no scale. `pixel`: pixels drawn for each of the picture. Nothing is added for
+ *  a mesh that is null or has an opacity of 0. */
 void
 AddMesh(vtkRenderer *    renderer,
         vtkPolyData *    mesh,

@@ -22,7 +22,8 @@ public:
     , m_Ink(dark ? Color{ 1, 1, 1 } : Color{ 0, 0, 0 })
   {}
 
-  /** A vertical bar with its title above and its caption below; a triangle at each end beyond which there are values. */
+  /** A vertical bar with its title above and its caption below; a triangle at each end beyond which there are
+   *  values. */
   void
   AddColorBar(const ColorBar & bar, double x, double y, double height, double text);
 

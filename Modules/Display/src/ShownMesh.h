@@ -26,14 +26,14 @@ struct ComplexSize
 ComplexSize
 SizeOf(const CellComplex & cells);
 
-/** A surface in about `most` triangles: edges collapsed by meshoptimizer (quadric error metric of Garland and Heckbert 1997),
- *  pieces, handles and closedness as they were. More triangles are left where fewer would change these. */
+/** A surface in about `most` triangles: edges collapsed by meshoptimizer (quadric error metric of Garland and Heckbert
+ *  1997), pieces, handles and closedness as they were. More triangles are left where fewer would change these. */
 ShownMesh
 SimplifiedSurface(const LabelSurfaceMesh & mesh, std::size_t most);
 
 /** Triangles, edges on no face and vertices on no edge of a complex. Where these are more than `most`, vertices are
- *  clustered in cells of a grid (Lindstrom 2000), each at its vertex of least quadric error, so that rims and seams stay.
- *  Nothing vanishes: what is narrower than a cell becomes a segment, what is smaller a point. */
+ *  clustered in cells of a grid (Lindstrom 2000), each at its vertex of least quadric error, so that rims and seams
+ *  stay. Nothing vanishes: what is narrower than a cell becomes a segment, what is smaller a point. */
 ShownMesh
 SimplifiedComplex(const MedialComplex & complex, std::size_t most);
 

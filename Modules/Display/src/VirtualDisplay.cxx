@@ -20,7 +20,8 @@ namespace voxelcore
 namespace
 {
 
-/** What Xvfb writes to its -displayfd: the number it has chosen, and a line end. Empty when it ended or took too long. */
+/** What Xvfb writes to its -displayfd: the number it has chosen, and a line end. Empty when it ended or took too
+ *  long. */
 std::string
 ReadDisplayNumber(int descriptor)
 {

@@ -6,8 +6,8 @@
 namespace voxelcore
 {
 
-/** A connection to the X server of the environment or, where that cannot be reached, to an Xvfb of our own, which lives as
- *  long as this object and never longer than the process. */
+/** A connection to the X server of the environment or, where that cannot be reached, to an Xvfb of our own, which lives
+ *  as long as this object and never longer than the process. */
 class VirtualDisplay
 {
 public:

@@ -18,8 +18,8 @@ namespace itk
  *
  * Streams: with SetNumberOfStreamDivisions(n) the image is asked for in up to n slabs, one after the other, and what
  * stays in memory is one slab and the packed shapes. Any scalar pixel type is taken. Values are labels: whole numbers
- * from 0, the background, up; others are refused, as is a direction that is not orthonormal. Messages name parameters as
- * the command line does (`--labels` is SetLabels and so on).
+ * from 0, the background, up; others are refused, as is a direction that is not orthonormal. Messages name parameters
+ * as the command line does (`--labels` is SetLabels and so on).
  *
  * The image may start at any index: voxel (0,0,0) of the shapes is the first of its largest region.
  *

@@ -18,8 +18,8 @@ namespace itk
  * points lie at least 2 lambda apart. "0" passes the cores on as they are, shared. Changing lambda does not run the
  * filters upstream again. Cores that are pruned already may be pruned further: that gives what pruning at once would.
  *
- * Progress and abort are forwarded; an ExceptionObject says what was wrong in one line: also when the topology of a core
- * is not, or no longer, its shape's.
+ * Progress and abort are forwarded; an ExceptionObject says what was wrong in one line: also when the topology of a
+ * core is not, or no longer, its shape's.
  * \sa VoxelCoreFilter
  */
 class LambdaPruningFilter : public MedialComplexSource

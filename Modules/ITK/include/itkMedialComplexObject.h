@@ -66,8 +66,8 @@ public:
     return this->GetPart(label).core->core;
   }
 
-  /** What MedialModel::provenance has to be in a file of these cores, so that `voxelcore verify`, `prune`, `skeleton` and
-   *  `render` take it. `keepEdges` as in the ModelOptions it is written with. */
+  /** What MedialModel::provenance has to be in a file of these cores, so that `voxelcore verify`, `prune`, `skeleton`
+   *  and `render` take it. `keepEdges` as in the ModelOptions it is written with. */
   std::string
   GetProvenance(bool keepEdges = false) const;
 

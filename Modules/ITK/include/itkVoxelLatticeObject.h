@@ -15,8 +15,8 @@ namespace itk
  * \brief Data on the lattice of an image's voxels.
  *
  * Lattice coordinates are in voxels and start at the corner of the first voxel of the image's largest region, whatever
- * index that voxel has: `continuous index = StartIndex + lattice - 1/2`. Geometry().origin is the physical point of that
- * first voxel's centre, as a writer of files would store it.
+ * index that voxel has: `continuous index = StartIndex + lattice - 1/2`. Geometry().origin is the physical point of
+ * that first voxel's centre, as a writer of files would store it.
  *
  * Geometry and start index are the information of the object, known before the data are: they stay when the data are
  * released, and setting them to what they are does not modify the object.

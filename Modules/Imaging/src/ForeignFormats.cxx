@@ -1,7 +1,6 @@
 #include "ForeignFormats.h"
 
 #include "ScanFile.h"
-#include "voxelcore/ScanRows.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -21,9 +20,7 @@ struct ForeignFormat
   std::size_t      at;         ///< where the magic stands
   std::string_view magic;      ///< empty: told by the extension alone
   std::string_view what;
-  std::string_view advice;                ///< {file} stands for its name, {stem} for that without the extension
-  ItkFormat        itk = ItkFormat::None; ///< what the helper reads it as
-  bool             andExtension = false;  ///< the magic is that of others, too
+  std::string_view advice; ///< {file} stands for its name, {stem} for that without the extension
 };
 
 constexpr std::string_view kDicomSegmentation = "1.2.840.10008.5.1.4.1.1.66.4"sv;
@@ -35,7 +32,7 @@ constexpr std::string_view kUnpack = "unpack it and give what is in it"sv;
 
 /** The first that fits is taken: magics before extensions. */
 constexpr std::array kFormats{
-  ForeignFormat{ " dcm dicom ima ", 128, "DICM"sv, "DICOM file", kDicomAdvice, ItkFormat::Dicom },
+  ForeignFormat{ " dcm dicom ima ", 128, "DICM"sv, "DICOM file", kDicomAdvice },
   ForeignFormat{ " mgh mgz ",
                  SIZE_MAX,
                  ""sv,
@@ -45,39 +42,22 @@ constexpr std::array kFormats{
                  208,
                  "MAP "sv,
                  "MRC map",
-                 "convert it with 'mrc2tif -s {file} {stem}.tif' of IMOD, or open it in Fiji and save it as TIFF",
-                 ItkFormat::Mrc },
+                 "convert it with 'mrc2tif -s {file} {stem}.tif' of IMOD, or open it in Fiji and save it as TIFF" },
   ForeignFormat{ " mnc ",
                  0,
                  "CDF\1"sv,
                  "MINC volume",
-                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools",
-                 ItkFormat::Minc },
-  ForeignFormat{ " mnc ",
-                 0,
-                 "\x89HDF\r\n\x1A\n"sv,
-                 "MINC volume",
-                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools",
-                 ItkFormat::Minc,
-                 true },
+                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools" },
   ForeignFormat{ " mnc ",
                  SIZE_MAX,
                  ""sv,
                  "MINC volume",
-                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools",
-                 ItkFormat::Minc },
+                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools" },
   ForeignFormat{ " h5 hdf5 ims hdf nxs ilp ",
                  0,
                  "\x89HDF\r\n\x1A\n"sv,
                  "HDF5 file",
-                 "export its labels as TIFF: from the program that wrote it, from Fiji, or with h5py and tifffile",
-                 ItkFormat::Hdf5 },
-  ForeignFormat{ " vtk ",
-                 0,
-                 "# vtk DataFile"sv,
-                 "VTK image",
-                 "load it in 3D Slicer and save it as .nrrd, or in ParaView and save it as Meta Image .mhd",
-                 ItkFormat::Vtk },
+                 "export its labels as TIFF: from the program that wrote it, from Fiji, or with h5py and tifffile" },
   ForeignFormat{ " czi ", 0, "ZISRAWFILE"sv, "Zeiss CZI file", kBioFormats },
   ForeignFormat{ " nd2 ", 0, "\xDA\xCE\xBE\x0A"sv, "Nikon ND2 file", kBioFormats },
   ForeignFormat{ " lif ", SIZE_MAX, ""sv, "Leica LIF file", kBioFormats },
@@ -136,12 +116,11 @@ constexpr std::array kFormats{
                  ""sv,
                  "VTK image",
                  "load it in 3D Slicer and save it as .nrrd, or in ParaView and save it as Meta Image .mhd" },
-  ForeignFormat{ " gipl gipl.gz ",
+  ForeignFormat{ " gipl ",
                  SIZE_MAX,
                  ""sv,
                  "GIPL volume",
-                 "convert it with 'c3d {file} -o {stem}.nii.gz' (Convert3D), or save it as .nii.gz in ITK-SNAP",
-                 ItkFormat::Gipl },
+                 "convert it with 'c3d {file} -o {stem}.nii.gz' (Convert3D), or save it as .nii.gz in ITK-SNAP" },
   ForeignFormat{ " oif vsi lsm stk ndpi svs scn dv r3d lei zvi ", SIZE_MAX, ""sv, "microscope file", kBioFormats },
   ForeignFormat{ " zarr n5 ", SIZE_MAX, ""sv, "Zarr or N5 store", "open it in Fiji and save its labels as TIFF" },
   ForeignFormat{ " par rec ",
@@ -154,8 +133,7 @@ constexpr std::array kFormats{
     SIZE_MAX,
     ""sv,
     "bare voxels without a header",
-    "say what they are with --raw, such as --raw 512,512,300,uint16 and --spacing 0.02,0.02,0.02, or write {stem}.nhdr "
-    "beside it with these eight lines, its own type, sizes and spacings in them, and "
+    "write {stem}.nhdr beside it with these eight lines, its own type, sizes and spacings in them, and "
     "give that: 'NRRD0004', 'type: uint8', 'dimension: 3', 'sizes: 512 512 300', 'spacings: 0.02 0.02 0.02', "
     "'encoding: raw', 'endian: little', 'data file: {file}'" },
   ForeignFormat{ " npz pkl pt ",
@@ -200,15 +178,14 @@ const ForeignFormat *
 FindFormat(const std::filesystem::path & path, std::string_view bytes)
 {
   const std::string extension = LowerCase(path.extension().string());
-  const std::string before = extension == ".gz" ? LowerCase(path.stem().extension().string()) : std::string();
-  std::string       word = extension.empty() ? std::string() : Text(" ", (before + extension).substr(1), " ");
+  const std::string word = extension.empty() ? std::string() : Text(" ", extension.substr(1), " ");
   const auto        has = [&](const ForeignFormat & format) {
     return !word.empty() && format.extensions.find(word) != std::string_view::npos;
   };
   const auto is = [&](const ForeignFormat & format) {
     // A short magic may stand anywhere by chance.
     return !format.magic.empty() && bytes.size() > format.at && bytes.substr(format.at).starts_with(format.magic) &&
-           ((format.magic.size() > 2 && !format.andExtension) || has(format));
+           (format.magic.size() > 2 || has(format));
   };
   // A gzip-packed file is what its extension says (.mgz), if that says anything.
   const bool packed = bytes.starts_with("\x1F\x8B"sv);
@@ -217,69 +194,10 @@ FindFormat(const std::filesystem::path & path, std::string_view bytes)
   {
     found = std::find_if(kFormats.begin(), kFormats.end(), has);
   }
-  if (found == kFormats.end() && !before.empty())
-  {
-    word = " gz ";
-    found = std::find_if(kFormats.begin(), kFormats.end(), has);
-  }
   return found == kFormats.end() ? nullptr : &*found;
 }
 
 } // namespace
-
-ItkFormat
-ItkFormatOf(const std::filesystem::path & path)
-{
-  const ForeignFormat * format = FindFormat(path, FirstBytes(path));
-  return format == nullptr ? ItkFormat::None : format->itk;
-}
-
-bool
-IsVtkImage(const std::filesystem::path & path)
-{
-  if (LowerCase(path.extension().string()) != ".vtk")
-  {
-    return false;
-  }
-  const std::string bytes = FirstBytes(path);
-  std::size_t       at = 0;
-  for (int line = 0; line < 8 && at < bytes.size(); ++line)
-  {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    const auto        words = Words(Trim(std::string_view(bytes).substr(at, end - at)));
-    if (line > 1 && words.size() == 2 && words[0] == "DATASET")
-    {
-      return words[1] == "STRUCTURED_POINTS";
-    }
-    at = end + 1;
-  }
-  return false;
-}
-
-bool
-IsDicomFolder(const std::filesystem::path & path)
-{
-  std::error_code ignored;
-  // The first files by name tell what the folder holds.
-  std::vector<std::filesystem::path> files;
-  for (const auto & entry : std::filesystem::directory_iterator(path, ignored))
-  {
-    const std::string name = LowerCase(entry.path().filename().string());
-    if (name.ends_with(".tif") || name.ends_with(".tiff") || name.ends_with(".png"))
-    {
-      return false; // slices
-    }
-    if (entry.is_regular_file(ignored) && !name.starts_with('.'))
-    {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  files.resize(std::min<std::size_t>(files.size(), 8));
-  return std::any_of(files.begin(), files.end(), [](const auto & file) {
-    return ItkFormatOf(file) == ItkFormat::Dicom;
-  });
-}
 
 void
 RefuseForeign(const std::filesystem::path & path)
@@ -291,24 +209,22 @@ RefuseForeign(const std::filesystem::path & path)
     {
       RefuseInput(
         path,
-        "DICOM segmentation, which this build, without ITK, does not read",
+        "DICOM segmentation, not read directly",
         Filled("convert it with 'segimage2itkimage --inputDICOM {file} --outputType nrrd --outputDirectory OUT' of "
                "dcmqi",
                path));
     }
     if (format->magic == "DICM" && bytes.find(kDicomContours) != std::string::npos)
     {
-      RefuseInput(path, "DICOM contours (RTSTRUCT), not read", "load them in 3D Slicer (SlicerRT) and save .seg.nrrd");
+      RefuseInput(path,
+                  "DICOM contours (RTSTRUCT), not read directly",
+                  "load them in 3D Slicer (SlicerRT) and save .seg.nrrd");
     }
-    RefuseInput(
-      path,
-      Text(format->what,
-           format->itk == ItkFormat::None ? ", not read directly" : ", which this build, without ITK, does not read"),
-      Filled(format->advice, path));
+    RefuseInput(path, Text(format->what, ", not read directly"), Filled(format->advice, path));
   }
   RefuseInput(path,
               "unknown kind of scan",
-              "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF, PNG or DICOM slices");
+              "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF or PNG slices");
 }
 
 void
@@ -339,7 +255,7 @@ RefuseForeignFolder(const std::filesystem::path & path)
     if (format != nullptr && format->magic == "DICM")
     {
       RefuseInput(path,
-                  "folder of DICOM files, which this build, without ITK, does not read",
+                  "folder of DICOM files, not read directly",
                   Filled("convert it with 'dcm2niix -z y -o OUT {file}', or load it in 3D Slicer and save it as .nrrd",
                          path.has_filename() ? path : path.parent_path()));
     }

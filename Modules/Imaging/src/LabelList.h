@@ -10,8 +10,8 @@
 namespace voxelcore
 {
 
-/** From "<scan without .gz>.txt", "<scan without extensions>.txt", or the same with .label, .ctab or .lut, beside the scan;
- *  the first that says anything gives the names, the first with colours the colours. A line each:
+/** From "<scan without .gz>.txt", "<scan without extensions>.txt", or the same with .label, .ctab or .lut, beside the
+ *  scan; the first that says anything gives the names, the first with colours the colours. A line each:
  *  - ITK-SNAP's label descriptions: value, red, green, blue (0 to 255), opacity, two flags, "name";
  *  - FreeSurfer's colour tables: value, name, red, green, blue, and one more number;
  *  - value, blank or tab, name; columns of numbers behind the name that every line has are dropped.

@@ -20,8 +20,9 @@ struct StatedSpacing
   operator==(const StatedSpacing &) const = default;
 };
 
-/** The spacing for SetGeometry(), which takes options.spacing instead where there is one. What is not stated is warned of: k is then as i (cubic voxels), and
- *  where i or j is not stated all three are 1 mm. Tells the scan's notes where the rest is from. */
+/** The spacing for SetGeometry(), which takes options.spacing instead where there is one. What is not stated is warned
+ *  of: k is then as i (cubic voxels), and where i or j is not stated all three are 1 mm. Tells the scan's notes where
+ *  the rest is from. */
 Vector3
 CompleteSpacing(const StatedSpacing & stated, const ReadOptions & options, ScanFile & scan);
 

@@ -51,8 +51,8 @@ WithoutEscapes(std::string text)
 /** An XML element's attributes. */
 using Attributes = std::map<std::string, std::string, std::less<>>;
 
-/** The attributes of each element of this name, whatever its namespace prefix. Enough for what is looked up here; a file
- *  that is no XML has none. */
+/** The attributes of each element of this name, whatever its namespace prefix. Enough for what is looked up here; a
+ *  file that is no XML has none. */
 std::vector<Attributes>
 Elements(std::string_view xml, std::string_view name)
 {
@@ -173,7 +173,8 @@ IsPrintResolution(double dotsPerInch)
   });
 }
 
-/** libtiff gives resolutions in single precision, and files hold fractions of few digits: 1 / 3.333333 stands for 0.3. */
+/** libtiff gives resolutions in single precision, and files hold fractions of few digits: 1 / 3.333333 stands for
+ *  0.3. */
 double
 FewDigits(double value)
 {

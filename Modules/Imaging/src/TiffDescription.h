@@ -38,8 +38,8 @@ ChoosePages(const std::filesystem::path &      path,
             const ReadOptions &                options);
 
 /** The voxel size, the first of these that is there:
- *  - ImageJ: "unit=", and with it XResolution and YResolution (pixels a unit) and "spacing=" between slices; "yunit=" and
- *    "zunit=" where axes differ;
+ *  - ImageJ: "unit=", and with it XResolution and YResolution (pixels a unit) and "spacing=" between slices; "yunit="
+ *    and "zunit=" where axes differ;
  *  - OME-XML: PhysicalSizeX, Y, Z of Pixels with their units, micrometres by default;
  *  - XResolution and YResolution in dots an inch or cm, unless it is one dot, or one of the resolutions that image
  *    programs write for screens and printers (72, 90, 96, 100, 120, 144, 150, 180, 200, 240, 300, 350, 360, 400, 600,
@@ -47,7 +47,8 @@ ChoosePages(const std::filesystem::path &      path,
 StatedSpacing
 ReadTiffSpacing(const TiffHandle & tiff, const std::string & description);
 
-/** The lines by which ImageJ, and this reader, know the voxel size; XResolution and YResolution are to be pixels a mm. */
+/** The lines by which ImageJ, and this reader, know the voxel size; XResolution and YResolution are to be pixels a
+ *  mm. */
 std::string
 ImageJDescription(const ImageGeometry & geometry);
 

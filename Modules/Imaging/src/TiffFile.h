@@ -37,8 +37,8 @@ struct TiffPages
   }
 };
 
-/** \throws InputError when the file is damaged, its pages are not alike, or hold no whole numbers; several values a pixel
- *  or channels need options.component, several frames options.volume. */
+/** \throws InputError when the file is damaged, its pages are not alike, or hold no whole numbers; several values a
+ *  pixel or channels need options.component, several frames options.volume. */
 TiffPages
 InspectTiff(const std::filesystem::path & path, const ReadOptions & options);
 

@@ -19,8 +19,8 @@ namespace
 // Label volumes shrink to a hundredth at any level; the lower ones are several times faster.
 constexpr int kLevel = 4;
 
-// Labels of one byte are runs of equal bytes: looking for nothing else takes half the time. One label takes less room so,
-// many up to 40 % more.
+// Labels of one byte are runs of equal bytes: looking for nothing else takes half the time. One label takes less room
+// so, many up to 40 % more.
 int
 Strategy(const VolumeToWrite & volume)
 {

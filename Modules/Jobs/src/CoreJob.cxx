@@ -3,9 +3,10 @@
 #include "CoreJobSteps.h"
 #include "DisplayFiles.h"
 #include "FacelessLabels.h"
-#include "FinishedLabels.h"
+#include "FolderLabels.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
+#include "ResultFiles.h"
 #include "voxelcore/SkeletonFiles.h"
 #include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
@@ -41,6 +42,8 @@ DescribeInput(const CoreOptions & options, const LabelMap & volume)
   return { options.scan.string(), {}, volume.format, volume.geometry, volume.notes };
 }
 
+} // namespace
+
 ParameterRecord
 DescribeParameters(const CoreOptions &    options,
                    const LabelMap &       volume,
@@ -55,17 +58,11 @@ DescribeParameters(const CoreOptions &    options,
       parameters.labels.push_back(one.label.value);
     }
   }
-  parameters.edits = options.edits;
-  parameters.crop = volume.crop;
-  parameters.binary = options.reading.binary;
-  parameters.threshold = options.reading.threshold;
-  parameters.volume = options.reading.volume;
-  parameters.component = options.reading.component;
-  parameters.raw = options.reading.raw;
-  parameters.spacing = options.reading.spacing;
+  parameters.reading = options.reading;
+  parameters.reading.crop = volume.crop;
   parameters.resolution = options.resolution;
-  parameters.orthonormalize = options.reading.orthonormalize;
-  parameters.niftiForm = options.reading.niftiForm;
+  parameters.edits = options.edits;
+  parameters.further = options.further;
   for (const Lambda & lambda : options.lambdas)
   {
     parameters.lambda.push_back(lambda.text);
@@ -87,8 +84,6 @@ DescribeParameters(const CoreOptions &    options,
   parameters.weights = weights;
   return parameters;
 }
-
-} // namespace
 
 void
 CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
@@ -160,210 +155,6 @@ RequireMemory(const CoreOptions & options, const std::vector<EditedLabel> & labe
   }
 }
 
-/** The result files of a run, in memory until their turn to be written. */
-class ResultFiles
-{
-public:
-  ResultFiles(const CoreOptions & options, bool toFolder, OutputTransaction & transaction, CoreResult & result)
-    : m_Options(options)
-    , m_ToFolder(toFolder)
-    , m_Transaction(transaction)
-    , m_Result(result)
-    , m_Suffixes(ResultSuffixes(options.lambdas, options.tolerances))
-    , m_Models(m_Suffixes.size())
-  {}
-
-  /** Takes a label's cores; in a folder they go to disk at once. */
-  void
-  Add(LabelRecord record, std::vector<ModelPart> parts)
-  {
-    if (m_Options.output.empty())
-    {
-      m_Result.report.labels.push_back(std::move(record));
-      return;
-    }
-    for (std::size_t i = 0; i < m_Models.size(); ++i)
-    {
-      record.pruned[i].output = Target(record, i).string();
-      m_Models[i].parts.push_back(std::move(parts[i]));
-    }
-    m_Result.report.labels.push_back(std::move(record));
-    if (m_ToFolder)
-    {
-      Write({ m_Result.report.labels.size() - 1 });
-    }
-  }
-
-  /** Takes what is in its folder already. */
-  void
-  AddFinished(LabelRecord record)
-  {
-    for (std::size_t i = 0; i < m_Models.size() && !m_Options.output.empty(); ++i)
-    {
-      record.pruned[i].output = Target(record, i).string();
-    }
-    m_Result.report.labels.push_back(std::move(record));
-  }
-
-  /** The files a label of a folder gets. */
-  std::vector<fs::path>
-  Targets(const LabelRecord & record) const
-  {
-    std::vector<fs::path> targets;
-    for (std::size_t i = 0; i < m_Models.size() && !m_Options.output.empty(); ++i)
-    {
-      targets.push_back(Target(record, i));
-    }
-    return targets;
-  }
-
-  /** Writes what Add() kept. */
-  void
-  Finish()
-  {
-    if (!m_ToFolder && !m_Options.output.empty())
-    {
-      std::vector<std::size_t> all(m_Result.report.labels.size());
-      std::iota(all.begin(), all.end(), std::size_t{ 0 });
-      Write(all);
-    }
-  }
-
-private:
-  fs::path
-  Target(const LabelRecord & record, std::size_t which) const
-  {
-    return m_ToFolder
-             ? FolderOutputPath(m_Options.output, m_Options.scan, record.label, m_Suffixes[which], record.component)
-             : FileOutputPath(m_Options.output, m_Suffixes[which]);
-  }
-
-  void
-  Write(const std::vector<std::size_t> & labels)
-  {
-    Stopwatch watch;
-    for (std::size_t i = 0; i < m_Models.size(); ++i)
-    {
-      MedialModel & model = m_Models[i];
-      model.provenance = ProvenanceJson(m_Result.report, labels, i);
-      model.hasEdges = m_Options.model.keepEdges;
-      model.refined = m_Options.refine.surface;
-      const LabelRecord & first = m_Result.report.labels[labels.front()];
-      WriteStagedModel(m_Transaction, Target(first, i), model, m_Options.model, m_Result.notes);
-      model = MedialModel();
-    }
-    m_Result.report.seconds.write += watch.Lap();
-  }
-
-  const CoreOptions &      m_Options;
-  bool                     m_ToFolder;
-  OutputTransaction &      m_Transaction;
-  CoreResult &             m_Result;
-  std::vector<std::string> m_Suffixes;
-  std::vector<MedialModel> m_Models; ///< one per lambda or tolerance
-};
-
-/** Where a folder says which of its labels are finished. */
-fs::path
-FinishedLabelsPath(const CoreOptions & options)
-{
-  const bool isCore = !options.output.empty();
-  return (isCore ? options.output : options.skeletonOutput) /
-         (ScanName(options.scan) + (isCore ? "_medial" : "_skeleton") + "_finished.jsonl");
-}
-
-/** The labels of a folder, of which some are finished. */
-class FolderLabels
-{
-public:
-  /** Takes out of `labels` those that are finished. Refuses before hours of work what could not be written in the end. */
-  FolderLabels(const CoreOptions &        options,
-               std::vector<EditedLabel> & labels,
-               const ResultFiles &        files,
-               const SkeletonFiles *      skeletons,
-               const OutputTransaction &  transaction,
-               const CoreReport &         report)
-    : m_Finished(FinishedLabelsPath(options), LabelKey(report, KeyText(skeletons)))
-  {
-    std::vector<EditedLabel> left;
-    for (EditedLabel & one : labels)
-    {
-      auto known = m_Finished.Find(one.label.value, one.component, one.label.name);
-      if (!known)
-      {
-        LabelRecord record;
-        record.label = one.label.value;
-        record.component = one.component;
-        for (const fs::path & target : files.Targets(record))
-        {
-          transaction.CheckTarget(target);
-        }
-        if (skeletons != nullptr)
-        {
-          transaction.CheckTarget(skeletons->FolderTarget(record.label, record.component));
-        }
-        left.push_back(std::move(one));
-      }
-      m_Known.push_back(std::move(known));
-    }
-    labels = std::move(left);
-    for (const fs::path & table : skeletons != nullptr ? skeletons->FolderTables() : std::vector<fs::path>())
-    {
-      if (!m_Finished.IsTable(table))
-      {
-        transaction.CheckTarget(table);
-      }
-    }
-  }
-
-  std::size_t
-  CountFinished() const
-  {
-    return static_cast<std::size_t>(
-      std::count_if(m_Known.begin(), m_Known.end(), [](const auto & known) { return known.has_value(); }));
-  }
-
-  /** Hands over, in their order, the finished labels before the next that is not. */
-  template <typename Take>
-  void
-  TakeFinished(Take && take)
-  {
-    for (; m_Next < m_Known.size() && m_Known[m_Next]; ++m_Next)
-    {
-      take(std::move(*m_Known[m_Next]));
-    }
-  }
-
-  /** The next that was not finished has come. */
-  void
-  Pass()
-  {
-    ++m_Next;
-  }
-
-  FinishedLabels &
-  Finished()
-  {
-    return m_Finished;
-  }
-
-private:
-  static std::string
-  KeyText(const SkeletonFiles * skeletons)
-  {
-    std::string text;
-    for (const std::string & ending : skeletons != nullptr ? skeletons->Endings() : std::vector<std::string>())
-    {
-      text += ending == "csv" ? "" : ending + " "; // tables are of all labels
-    }
-    return text;
-  }
-
-  FinishedLabels                                    m_Finished;
-  std::vector<std::optional<FinishedLabels::Label>> m_Known;
-  std::size_t                                       m_Next = 0;
-};
-
 } // namespace
 
 CoreResult
@@ -395,7 +186,7 @@ StageCoreJob(const CoreOptions & options,
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
   auto                 digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
-  LabelMap             volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
+  InputScan            volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   EditedLabels         edited = EditLabels(std::move(volume.labels),
                                    options.edits,
@@ -412,6 +203,7 @@ StageCoreJob(const CoreOptions & options,
                            PredictJob(CountBoundaries(edited.labels), options, omp_get_max_threads()).memoryBytes));
   }
   const SurfaceSource estimates = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
+  volume.mesh.reset();
   shown.AddScan(edited.labels, volume.geometry);
   report.command = options.command;
   report.input = DescribeInput(options, volume);

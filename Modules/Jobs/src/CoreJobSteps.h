@@ -11,8 +11,8 @@ namespace voxelcore
 void
 CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction);
 
-/** RunCoreJob up to the moment at which its files get their names. CheckCoreTargets comes first. With `labelByLabel`, into a
- *  folder, those of each label get theirs when it is done, and labels that are done are passed over. */
+/** RunCoreJob up to the moment at which its files get their names. CheckCoreTargets comes first. With `labelByLabel`,
+ *  into a folder, those of each label get theirs when it is done, and labels that are done are passed over. */
 CoreResult
 StageCoreJob(const CoreOptions & options,
              OutputTransaction & transaction,

@@ -8,7 +8,7 @@
 #include "voxelcore/HtmlPage.h"
 #include "voxelcore/LabelSurface.h"
 #include "voxelcore/OutputNames.h"
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SlicerScene.h"
 
 #include <algorithm>

@@ -38,10 +38,10 @@ namespace
 using LabelKey = std::pair<std::int64_t, std::int64_t>; ///< label, component
 
 /** Which labels a user asked for. */
-class Wishes
+class LabelSelection
 {
 public:
-  explicit Wishes(const std::string & text)
+  explicit LabelSelection(const std::string & text)
   {
     for (std::size_t from = 0; text != "all" && from <= text.size();)
     {
@@ -49,17 +49,17 @@ public:
       m_Open.insert(text.substr(from, comma - from));
       from = comma + 1;
     }
-    m_Wishes = m_Open;
+    m_Selection = m_Open;
   }
 
   bool
   Take(std::int64_t label, const std::string & name)
   {
-    bool taken = m_Wishes.empty();
+    bool taken = m_Selection.empty();
     for (const std::string & word : { std::to_string(label), name, name.substr(0, name.rfind('#')) })
     {
       const auto meant = [&](const std::string & wish) { return EqualIgnoringCase(wish, word); };
-      taken = taken || std::any_of(m_Wishes.begin(), m_Wishes.end(), meant);
+      taken = taken || std::any_of(m_Selection.begin(), m_Selection.end(), meant);
       std::erase_if(m_Open, meant);
       m_Names.insert(word);
     }
@@ -78,7 +78,7 @@ public:
   }
 
 private:
-  std::set<std::string> m_Wishes;
+  std::set<std::string> m_Selection;
   std::set<std::string> m_Open;
   std::set<std::string> m_Names; ///< of all labels seen
 };
@@ -95,7 +95,7 @@ public:
   Loader(const DisplaySources & sources, const ProgressCallback & progress)
     : m_Sources(sources)
     , m_Progress(progress)
-    , m_Wishes(sources.labels)
+    , m_Selection(sources.labels)
   {}
 
   DisplayContent
@@ -107,7 +107,7 @@ public:
       LoadFile(m_Sources.files[i],
                PartOfProgress(m_Progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     }
-    m_Wishes.RequireAllTaken();
+    m_Selection.RequireAllTaken();
     if (m_Sources.scan)
     {
       LoadScan(notes, warnings);
@@ -170,7 +170,7 @@ private:
     for (std::size_t i = 0; i < parts; ++i)
     {
       const LabelRecord & record = report.labels[i];
-      if (!m_Wishes.Take(record.label, record.name))
+      if (!m_Selection.Take(record.label, record.name))
       {
         continue;
       }
@@ -245,7 +245,7 @@ private:
 
   const DisplaySources &           m_Sources;
   const ProgressCallback &         m_Progress;
-  Wishes                           m_Wishes;
+  LabelSelection                   m_Selection;
   std::optional<CoreReport>        m_Report; ///< of the first file
   std::map<LabelKey, DisplayLabel> m_Labels;
 };

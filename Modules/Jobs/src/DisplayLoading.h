@@ -20,8 +20,8 @@ struct DisplaySources
   bool                                 erosionThickness = false; ///< of medial surfaces, too
 };
 
-/** Labels of all files together; names from the files' provenance, colours from the scan or the fixed palette. Of the scan
- *  the same labels, edited as the first file says, for their surfaces.
+/** Labels of all files together; names from the files' provenance, colours from the scan or the fixed palette. Of the
+ *  scan the same labels, edited as the first file says, for their surfaces.
  *  \throws InputError, UsageError, Cancelled */
 DisplayContent
 LoadDisplayContent(const DisplaySources &     sources,

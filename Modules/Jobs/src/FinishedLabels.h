@@ -12,10 +12,10 @@
 namespace voxelcore
 {
 
-/** A line of JSON for each label that was finished: the key of all it depends on, its files with their digests, what the
- *  report says of it, and the digest of the line. A line is appended before its files get their names, so that every file
- *  is known; and a label is finished when its files are there, to the last bit, so that nothing depends on the order in
- *  which a disk writes. A line cut off by a kill is passed over. */
+/** A line of JSON for each label that was finished: the key of all it depends on, its files with their digests, what
+ *  the report says of it, and the digest of the line. A line is appended before its files get their names, so that
+ *  every file is known; and a label is finished when its files are there, to the last bit, so that nothing depends on
+ *  the order in which a disk writes. A line cut off by a kill is passed over. */
 class FinishedLabels
 {
 public:
@@ -25,8 +25,8 @@ public:
     std::vector<std::string> notes; ///< what a user was told
   };
 
-  /** `file` need not be there; it is made with the first label. Files of labels that were stopped or damaged while they were
-   *  made with this key are removed when they are looked for.
+  /** `file` need not be there; it is made with the first label. Files of labels that were stopped or damaged while they
+   *  were made with this key are removed when they are looked for.
    *  \throws OutputError also when another run is writing into it. */
   FinishedLabels(std::filesystem::path file, std::string key);
   FinishedLabels(const FinishedLabels &) = delete;
@@ -46,8 +46,8 @@ public:
   bool
   IsTable(const std::filesystem::path & target) const;
 
-  /** The tables of a folder depend on which labels there are: those that an earlier run left are known by their line, too.
-   *  Removes them, to make room for new ones. */
+  /** The tables of a folder depend on which labels there are: those that an earlier run left are known by their line,
+   *  too. Removes them, to make room for new ones. */
   void
   RemoveTables() const;
 
@@ -97,8 +97,8 @@ private:
   std::vector<Line>     m_Lines;
 };
 
-/** The digest of what a label of this report depends on, and of `more`: the scan, the options and the program's sources. The
- *  report needs its input and its parameters. */
+/** The digest of what a label of this report depends on, and of `more`: the scan, the options and the program's
+ *  sources. The report needs its input and its parameters. */
 std::string
 LabelKey(const CoreReport & report, const std::string & more);
 

@@ -50,7 +50,7 @@ BoxText(const VoxelBox & box)
 
 /** What surprises those who count voxels that touch at edges or corners as one piece; empty where nobody would be. */
 std::vector<std::string>
-Surprises(const std::vector<LabelInfo> & labels)
+NotableLabels(const std::vector<LabelInfo> & labels)
 {
   constexpr std::size_t    shown = 10;
   std::vector<std::string> lines;
@@ -292,7 +292,7 @@ InfoText(const ScanInfo & info)
                      std::to_string(label.boundary.vertices) });
   }
   text += "\n" + FormatTable(rows);
-  for (const std::string & line : Surprises(info.labels))
+  for (const std::string & line : NotableLabels(info.labels))
   {
     text += "note: " + line + "\n";
   }

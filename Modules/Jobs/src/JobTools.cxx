@@ -48,16 +48,9 @@ RequireUnrefined(const MedialModel & model, const std::filesystem::path & path)
 ReadOptions
 RecordedReading(const ParameterRecord & parameters)
 {
-  ReadOptions reading;
-  reading.binary = parameters.binary;
-  reading.threshold = parameters.threshold;
-  reading.volume = parameters.volume;
-  reading.component = parameters.component;
-  reading.raw = parameters.raw;
-  reading.crop = parameters.crop;
-  reading.spacing = parameters.spacing;
-  reading.orthonormalize = parameters.orthonormalize;
-  reading.niftiForm = parameters.niftiForm;
+  ReadOptions reading = parameters.reading;
+  reading.labels = "all";
+  reading.refuseGrey = false;
   if (!reading.binary && !reading.threshold)
   {
     reading.labels.clear();

@@ -16,8 +16,8 @@
 namespace voxelcore
 {
 
-/** The end of every job: the last moment at which an interruption is heeded; then its files appear, and the context hears
- *  of them. */
+/** The end of every job: the last moment at which an interruption is heeded; then its files appear, and the context
+ *  hears of them. */
 void
 Finish(OutputTransaction & transaction, const JobContext & context);
 

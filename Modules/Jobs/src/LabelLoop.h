@@ -10,9 +10,9 @@ namespace voxelcore
 {
 
 /** Computes the core of each label and hands it to `take`, in the labels' order, from the calling thread. The labels'
- *  shapes are used up. Adds to `seconds`, for shape, delaunay, core and prune; the clock stands still while `take` works.
- *  With `goOn` a label whose certificate fails is handed over with its failure and nothing else, and the others go on.
- *  \throws what ProcessLabel and `take` throw; of several labels that fail, the first decides. */
+ *  shapes are used up. Adds to `seconds`, for shape, delaunay, core and prune; the clock stands still while `take`
+ *  works. With `goOn` a label whose certificate fails is handed over with its failure and nothing else, and the others
+ *  go on. \throws what ProcessLabel and `take` throw; of several labels that fail, the first decides. */
 void
 ProcessLabels(std::vector<EditedLabel> &                labels,
               const CoreOptions &                       options,

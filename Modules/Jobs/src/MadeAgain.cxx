@@ -31,7 +31,7 @@ Obstacle(const CoreReport & made, const ImageGeometry & geometry)
 } // namespace
 
 MadeAgain::MadeAgain(const CoreReport &            made,
-                     const LabelMap &              volume,
+                     const InputScan &             volume,
                      const std::filesystem::path & scan,
                      std::vector<std::string> &    notes)
   : m_Made(made)

@@ -2,7 +2,7 @@
 // Part of `voxelcore verify`: what cannot be checked without making it is made again.
 
 #include "voxelcore/CoreReport.h"
-#include "voxelcore/LabelVolume.h"
+#include "voxelcore/ReadInput.h"
 #include "voxelcore/Verification.h"
 
 #include <filesystem>
@@ -20,7 +20,7 @@ class MadeAgain
 public:
   /** `volume` is the scan, read as `made` says; what is in the way is added to `notes`. */
   MadeAgain(const CoreReport &            made,
-            const LabelMap &              volume,
+            const InputScan &             volume,
             const std::filesystem::path & scan,
             std::vector<std::string> &    notes);
 

@@ -174,7 +174,7 @@ private:
 };
 
 [[noreturn]] void
-Refuse(const fs::path & path, const std::string & why)
+ThrowOutputError(const fs::path & path, const std::string & why)
 {
   throw OutputError(path.string() + ": " + why);
 }
@@ -243,7 +243,7 @@ OutputTransaction::MakeDirectory(const fs::path & directory)
   std::error_code error;
   if (!fs::create_directory(clean, error))
   {
-    Refuse(clean, "cannot make this folder: " + (error ? error.message() : std::string("it is a file")));
+    ThrowOutputError(clean, "cannot make this folder: " + (error ? error.message() : std::string("it is a file")));
   }
   m_Directories.push_back(clean);
   Remember(clean);
@@ -255,27 +255,27 @@ OutputTransaction::CheckTarget(const fs::path & target) const
   const fs::path directory = DirectoryOf(target);
   if (!fs::is_directory(directory))
   {
-    Refuse(target, "cannot write: the folder " + directory.string() + " does not exist; make it first");
+    ThrowOutputError(target, "cannot write: the folder " + directory.string() + " does not exist; make it first");
   }
   if (fs::is_directory(target))
   {
-    Refuse(target, "cannot write: this is a folder; give a file name");
+    ThrowOutputError(target, "cannot write: this is a folder; give a file name");
   }
   if (access(directory.c_str(), W_OK | X_OK) != 0)
   {
-    Refuse(target, "cannot write into the folder " + directory.string() + ": " + std::strerror(errno));
+    ThrowOutputError(target, "cannot write into the folder " + directory.string() + ": " + std::strerror(errno));
   }
   for (const fs::path & input : m_Protected)
   {
     std::error_code notThere;
     if (fs::equivalent(input, target, notThere))
     {
-      Refuse(target, "is the input; give another name for the output");
+      ThrowOutputError(target, "is the input; give another name for the output");
     }
   }
   if (!m_Force && fs::exists(fs::symlink_status(target)))
   {
-    Refuse(target, "exists already; give --force to replace it, or another name");
+    ThrowOutputError(target, "exists already; give --force to replace it, or another name");
   }
 }
 
@@ -326,7 +326,7 @@ OutputTransaction::StageWithCompanions(const fs::path & target)
   m_Items.push_back({ directory, clean, true });
   if (!fs::create_directory(directory, error))
   {
-    Refuse(clean, "cannot write: " + (error ? error.message() : std::string("the temporary name is taken")));
+    ThrowOutputError(clean, "cannot write: " + (error ? error.message() : std::string("the temporary name is taken")));
   }
   return directory / clean.filename();
 }
@@ -389,13 +389,13 @@ OutputTransaction::Commit()
     if (replaces && !m_Force)
     {
       undo();
-      Refuse(item.target, "appeared while the job ran; give --force to replace it, or another name");
+      ThrowOutputError(item.target, "appeared while the job ran; give --force to replace it, or another name");
     }
     fs::rename(item.temporary, item.target, error);
     if (error)
     {
       undo();
-      Refuse(item.target, "cannot give the finished file its name: " + error.message());
+      ThrowOutputError(item.target, "cannot give the finished file its name: " + error.message());
     }
     if (!replaces)
     {

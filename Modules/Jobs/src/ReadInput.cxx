@@ -4,7 +4,6 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadMesh.h"
-#include "voxelcore/ScanRows.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -83,12 +82,6 @@ AsVolume(const std::filesystem::path & path, const MeshFile & file, const VoxelG
 
 } // namespace
 
-bool
-IsMeshFile(const std::filesystem::path & path)
-{
-  return IsMeshPath(path) && !IsVtkImage(path);
-}
-
 MeshVolume
 VoxelizeMeshFile(const std::filesystem::path &       path,
                  const std::optional<std::int64_t> & resolution,
@@ -101,7 +94,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
                      "the size of a voxel in mm");
   }
   ReportProgress(progress, "read", 0);
-  const MeshFile file = ReadMesh(path);
+  MeshFile file = ReadMesh(path);
   try
   {
     const VoxelGrid grid = resolution ? GridOfResolution(file.mesh, *resolution) : GridOfSpacing(file.mesh, *spacing);
@@ -115,6 +108,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
     result.findings = made.findings;
     result.doubtful = made.doubtful;
     result.volume = AsVolume(path, file, grid, made);
+    result.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
     return result;
   }
   catch (const InputError & error)
@@ -123,20 +117,20 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
   }
 }
 
-LabelMap
+InputScan
 ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,
                const std::optional<std::int64_t> & resolution,
                const ProgressCallback &            progress)
 {
-  if (options.raw || !IsMeshFile(path))
+  if (!IsMeshPath(path))
   {
     if (resolution)
     {
       throw UsageError("--resolution " + std::to_string(*resolution) + ": is for meshes, and " + path.string() +
                        " is none");
     }
-    return ReadLabelVolume(path, options, progress);
+    return { ReadLabelVolume(path, options, progress), {} };
   }
   if ((options.labels != "all" && options.labels != "1") || options.binary || options.threshold || options.volume ||
       options.component || options.crop || options.orthonormalize || options.niftiForm != "auto")
@@ -144,7 +138,8 @@ ReadScanOrMesh(const std::filesystem::path &       path,
     throw UsageError(path.string() + ": a mesh is one shape, without labels, values or directions; of the options " +
                      "about reading only --resolution and --spacing are for meshes");
   }
-  return VoxelizeMeshFile(path, resolution, options.spacing, progress).volume;
+  MeshVolume made = VoxelizeMeshFile(path, resolution, options.spacing, progress);
+  return { std::move(made.volume), std::move(made.mesh) };
 }
 
 std::vector<std::int64_t>

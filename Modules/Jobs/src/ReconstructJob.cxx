@@ -161,8 +161,10 @@ ReadScanLabels(const std::filesystem::path & scan,
   }
   ShapeEditOptions edits = made.parameters.edits;
   edits.splitComponents = false; // the balls of all components of a label are one volume
-  EditedLabels edited =
-    EditLabels(std::move(volume.labels), edits, !made.parameters.binary && !made.parameters.threshold, scan.string());
+  EditedLabels            edited = EditLabels(std::move(volume.labels),
+                                   edits,
+                                   !made.parameters.reading.binary && !made.parameters.reading.threshold,
+                                   scan.string());
   std::vector<LabelShape> labels;
   for (EditedLabel & one : edited.labels)
   {

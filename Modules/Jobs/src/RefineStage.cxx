@@ -2,11 +2,11 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
-#include "voxelcore/ReadInput.h"
-#include "voxelcore/ReadMesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 namespace voxelcore
 {
@@ -70,11 +70,52 @@ RequireSamePlace(const ImageGeometry & grey, const ImageGeometry & labels, const
   }
 }
 
+/** The grey values around labels. When a second label asks, all are read and kept, if they are not too many. */
+class GreyValues
+{
+public:
+  GreyValues(std::filesystem::path path, ReadOptions options, const VoxelBox & whole)
+    : m_Path(std::move(path))
+    , m_Options(std::move(options))
+    , m_Whole(whole)
+  {}
+
+  std::shared_ptr<const GreyVolume>
+  Around(const VoxelBox & box, const ProgressCallback & progress)
+  {
+    constexpr double most = 512e6 / sizeof(float); // voxels
+    double           voxels = 1;
+    for (const std::int32_t side : m_Whole.size)
+    {
+      voxels *= side;
+    }
+    std::unique_lock lock(m_Mutex);
+    if (m_Labels++ == 0 || voxels > most)
+    {
+      lock.unlock();
+      return std::make_shared<const GreyVolume>(ReadGreyVolume(m_Path, box, m_Options, progress));
+    }
+    if (!m_Values)
+    {
+      m_Values = std::make_shared<const GreyVolume>(ReadGreyVolume(m_Path, m_Whole, m_Options, progress));
+    }
+    return m_Values;
+  }
+
+private:
+  std::filesystem::path             m_Path;
+  ReadOptions                       m_Options;
+  VoxelBox                          m_Whole;
+  std::mutex                        m_Mutex;
+  std::size_t                       m_Labels = 0; ///< asked for so far
+  std::shared_ptr<const GreyVolume> m_Values;
+};
+
 SurfaceSource
 GreySource(const RefineOptions &         options,
            const std::filesystem::path & scan,
            const ReadOptions &           reading,
-           const LabelMap &              volume)
+           const InputScan &             input)
 {
   const bool other = !options.grey.empty();
   if (!other && !reading.threshold)
@@ -92,13 +133,14 @@ GreySource(const RefineOptions &         options,
   {
     how.volume.reset();
     how.component.reset();
-    how.raw.reset();
   }
-  const VoxelBox              whole = BoxOf(volume);
-  const ImageGeometry         geometry = volume.geometry;
-  const std::filesystem::path path = other ? options.grey : scan;
+  const VoxelBox      whole = BoxOf(input);
+  const ImageGeometry geometry = input.geometry;
+  const auto          path = other ? options.grey : scan;
+  const auto          greyValues = std::make_shared<GreyValues>(path, how, whole);
   return [=](const VoxelShape & shape, const ProgressCallback & progress) -> std::shared_ptr<const SurfaceEstimate> {
-    const GreyVolume grey = ReadGreyVolume(path, AroundShape(shape.Box(), whole), how, progress);
+    const std::shared_ptr<const GreyVolume> read = greyValues->Around(AroundShape(shape.Box(), whole), progress);
+    const GreyVolume &                      grey = *read;
     RequireSamePlace(grey.geometry, geometry, path);
     const auto rows = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
       const float * from = grey.Row(x, y, z);
@@ -116,7 +158,7 @@ SurfaceSource
 MakeSurfaceSource(const RefineOptions &         options,
                   const std::filesystem::path & scan,
                   const ReadOptions &           reading,
-                  const LabelMap &              volume)
+                  const InputScan &             input)
 {
   if (options.surface.empty())
   {
@@ -124,25 +166,25 @@ MakeSurfaceSource(const RefineOptions &         options,
   }
   if (options.surface == "labels")
   {
-    return [spacing = volume.geometry.spacing](const VoxelShape & shape, const ProgressCallback & progress) {
+    return [spacing = input.geometry.spacing](const VoxelShape & shape, const ProgressCallback & progress) {
       return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(shape, spacing, progress));
     };
   }
   if (options.surface == "grey")
   {
-    return GreySource(options, scan, reading, volume);
+    return GreySource(options, scan, reading, input);
   }
-  if (!IsMeshFile(scan))
+  if (!input.mesh)
   {
     throw UsageError("--refine mesh: " + scan.string() + " is no mesh; a scan has labels or grey values");
   }
-  TriangleMesh mesh = ReadMesh(scan).mesh;
+  TriangleMesh mesh = *input.mesh;
   for (Vector3 & point : mesh.points)
   {
-    point = PhysicalToLattice(volume.geometry, point);
+    point = PhysicalToLattice(input.geometry, point);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      point[axis] *= volume.geometry.spacing[axis];
+      point[axis] *= input.geometry.spacing[axis];
     }
   }
   const std::shared_ptr<const SurfaceEstimate> surface = SurfaceFromTriangles(mesh.points, mesh.triangles);

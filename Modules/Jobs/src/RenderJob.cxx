@@ -88,7 +88,8 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & given)
   sources.scan = options.scan;
   sources.labels = options.labels;
   sources.erosionThickness = options.coloring == "ErosionThickness";
-  const DisplayContent content = LoadDisplayContent(sources, result.notes, result.warnings, PartOfProgress(context.progress, 0, 0.7));
+  const DisplayContent content =
+    LoadDisplayContent(sources, result.notes, result.warnings, PartOfProgress(context.progress, 0, 0.7));
   if (options.coloring == "Lambda")
   {
     for (const DisplayLabel & label : content.labels)

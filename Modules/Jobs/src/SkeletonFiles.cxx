@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/** Plain text in the form "x y z r" a line, after their count: what the program of Yan et al. (2016) takes with a .ma. */
+/** Plain text in the form "x y z r" a line, after their count: what the program of Yan et al. (2016) takes with a
+ *  .ma. */
 std::string
 RadiiText(const MedialModel & surfaces)
 {

@@ -25,6 +25,7 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
   core.reading = options.reading;
   core.resolution = options.resolution;
   core.edits = options.edits;
+  core.further = options.further;
   core.lambdas = { options.stage.lambda };
   if (options.stage.tolerance)
   {
@@ -121,7 +122,7 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
 
 /** What was done to a skeleton when it was made and what is done to it now. */
 BranchRequest
-Together(const BranchRequest & before, const BranchRequest & now)
+CombinedRequest(const BranchRequest & before, const BranchRequest & now)
 {
   BranchRequest all = now;
   all.pruneLength = now.pruneLength ? now.pruneLength : before.pruneLength;
@@ -164,7 +165,7 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   {
     throw InputError(options.skeleton.string() + ": its field Provenance does not fit its cells; make the file again");
   }
-  report.skeleton->branches = Together(report.skeleton->branches, options.branches);
+  report.skeleton->branches = CombinedRequest(report.skeleton->branches, options.branches);
   const Vector3 & spacing = report.input.geometry.spacing;
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {

@@ -19,8 +19,8 @@ ParseAlso(const std::string & text)
   {
     if (std::find(known.begin(), known.end(), ending) == known.end())
     {
-      throw UsageError("--also " + text + ": '" + std::string(ending) + "' is not one of csv, swc, mrk.json, graphml, ma" +
-                       DidYouMean(ending, known));
+      throw UsageError("--also " + text + ": '" + std::string(ending) +
+                       "' is not one of csv, swc, mrk.json, graphml, ma" + DidYouMean(ending, known));
     }
     if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     {

@@ -149,14 +149,14 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   MedialModel model = ReadModel(options.core);
   RequireVtkReads(options.core, model);
   const CoreReport     made = ParseProvenance(model.provenance, options.core.string());
-  LabelMap             volume = ReadScanOrMesh(options.scan,
-                                   RecordedReading(made.parameters),
-                                   made.parameters.resolution,
-                                   PartOfProgress(context.progress, "reading", 0, 0.05));
+  InputScan            volume = ReadScanOrMesh(options.scan,
+                                    RecordedReading(made.parameters),
+                                    made.parameters.resolution,
+                                    PartOfProgress(context.progress, "reading", 0, 0.05));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   EditedLabels         edited = EditLabels(std::move(volume.labels),
                                    made.parameters.edits,
-                                   !made.parameters.binary && !made.parameters.threshold,
+                                   !made.parameters.reading.binary && !made.parameters.reading.threshold,
                                    options.scan.string(),
                                    PartOfProgress(context.progress, 0.05, 0.1));
   if (made.parameters.refine.surface != model.refined)

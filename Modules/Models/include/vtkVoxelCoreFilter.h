@@ -6,25 +6,25 @@
 
 class vtkMatrix4x4;
 
-/** The whole voxel core of the labels of an image, as polydata: what `voxelcore core --lambda 0 --keep-edges` writes, its
- *  point arrays Radius and Lambda, cell arrays Lambda and Label, field arrays EdgeVertices, EdgeLambda and Provenance.
- *  Written by vtkXMLPolyDataWriter as raw appended data without compression, with headers of 64 bits, it is a file that
- *  `voxelcore verify`, `prune`, `skeleton` and `render` take.
+/** The whole voxel core of the labels of an image, as polydata: what `voxelcore core --lambda 0 --keep-edges` writes,
+ *  its point arrays Radius and Lambda, cell arrays Lambda and Label, field arrays EdgeVertices, EdgeLambda and
+ *  Provenance. Written by vtkXMLPolyDataWriter as raw appended data without compression, with headers of 64 bits, it is
+ *  a file that `voxelcore verify`, `prune`, `skeleton` and `render` take.
  *
  *  Input: vtkImageData with point scalars of one component, whole numbers from 0; a pixel's point is its centre.
  *
- *  Where the points lie. They are placed by the image's origin, spacing and direction, in mm, and then by the matrix that
- *  was set, if any. The field SPACE says LPS where that is known to be so:
+ *  Where the points lie. They are placed by the image's origin, spacing and direction, in mm, and then by the matrix
+ *  that was set, if any. The field SPACE says LPS where that is known to be so:
  *  - a matrix was set: it says how the image lies in the patient;
  *  - ImageIsInLPS is on: the caller knows that the image's own place is in LPS;
  *  - the image has a direction other than the identity: its source keeps directions, as ITK's does, and these are LPS.
- *  Else there is no field SPACE, and a file without it is refused by `voxelcore`: an identity may be what a reader left of a
- *  direction that it did not understand. vtkNIFTIImageReader drops it, but keeps it in a matrix:
+ *  Else there is no field SPACE, and a file without it is refused by `voxelcore`: an identity may be what a reader left
+ *  of a direction that it did not understand. vtkNIFTIImageReader drops it, but keeps it in a matrix:
  *  \code
  *    core->SetImageToRASMatrix(reader->GetQFormMatrix() ? reader->GetQFormMatrix() : reader->GetSFormMatrix());
  *  \endcode
- *  vtkNrrdReader drops it for good: set the matrix of the file's `space directions`, without the lengths of their vectors,
- *  as SetImageToLPSMatrix or SetImageToRASMatrix, whichever the file's `space` is.
+ *  vtkNrrdReader drops it for good: set the matrix of the file's `space directions`, without the lengths of their
+ *  vectors, as SetImageToLPSMatrix or SetImageToRASMatrix, whichever the file's `space` is.
  *
  *  Faults are reported by vtkErrorMacro, set the ErrorCode and leave the output empty; AbortExecute leaves it empty. */
 class vtkVoxelCoreFilter : public vtkPolyDataAlgorithm

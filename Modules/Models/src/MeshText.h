@@ -1,6 +1,6 @@
 #pragma once
-// Meshes of text, line by line, every word checked. VTK has readers for most of these formats; they keep single precision
-// and take a file that is cut off for a whole one.
+// Meshes of text, line by line, every word checked. VTK has readers for most of these formats; they keep single
+// precision and take a file that is cut off for a whole one.
 
 #include "VtpFile.h"
 #include "voxelcore/ReadMesh.h"

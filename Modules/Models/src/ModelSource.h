@@ -11,8 +11,8 @@
 namespace voxelcore
 {
 
-/** Arrays by section and name, as VtpFile describes them. Functions throw UnfitFile for what is missing or of another type
- *  or size. */
+/** Arrays by section and name, as VtpFile describes them. Functions throw UnfitFile for what is missing or of another
+ *  type or size. */
 class ModelSource
 {
 public:

@@ -11,8 +11,9 @@
 #include <cerrno>
 #include <new>
 
-/** Fills `output` with what `work` returns. When it throws, `output` is empty; what it throws is reported as an error of
- *  `filter`, but for an abort, which is none, and `setError` gets its code. Returns what RequestData has to return. */
+/** Fills `output` with what `work` returns. When it throws, `output` is empty; what it throws is reported as an error
+ *  of `filter`, but for an abort, which is none, and `setError` gets its code. Returns what RequestData has to
+ *  return. */
 template <typename SetError, typename Work>
 int
 vtkFilterWork(vtkAlgorithm * filter, const SetError & setError, vtkPolyData * output, const Work & work)

@@ -39,11 +39,11 @@ vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** in
       throw voxelcore::InputError("the input lacks the measures of its edges; write it with --keep-edges");
     }
     std::vector<voxelcore::CorePruning> prunings;
-    const voxelcore::Lambda wanted{ this->Lambda,
+    const voxelcore::Lambda             wanted{ this->Lambda,
                                     voxelcore::Lambda::Unit::Millimetre,
                                     voxelcore::RoundTripText(this->Lambda) + "mm" };
-    const double            share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
-    double                  before = 0;
+    const double                        share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
+    double                              before = 0;
     for (voxelcore::ModelPart & part : model.parts)
     {
       // What an image's core was compared with is in its Provenance, if it has one; pruning keeps the topology it has.

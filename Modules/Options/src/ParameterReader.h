@@ -5,13 +5,16 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/ParseReal.h"
+#include "voxelcore/Text.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -26,17 +29,29 @@ public:
     , m_Command(command)
   {}
 
-  const Parameter &
-  Describe(std::string_view name) const
+  /** The option's row; null where the command has no such option. */
+  const Parameter *
+  Find(std::string_view name) const
   {
     for (const Parameter & parameter : Parameters())
     {
       if (parameter.name == name && BelongsTo(parameter, m_Command))
       {
-        return parameter;
+        return &parameter;
       }
     }
-    throw std::logic_error("no such parameter: " + std::string(name));
+    return nullptr;
+  }
+
+  const Parameter &
+  Describe(std::string_view name) const
+  {
+    const Parameter * const found = Find(name);
+    if (found == nullptr)
+    {
+      throw std::logic_error("no such parameter: " + std::string(name));
+    }
+    return *found;
   }
 
   std::string
@@ -59,7 +74,7 @@ public:
   }
 
   [[noreturn]] void
-  Refuse(std::string_view name, const std::string & expected) const
+  ThrowUsageError(std::string_view name, const std::string & expected) const
   {
     const Parameter & parameter = Describe(name);
     const auto        comma = parameter.flags.find(',');
@@ -76,9 +91,9 @@ public:
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
     {
-      Refuse(name,
-             "a whole number from " + std::to_string(least) +
-               (most < std::numeric_limits<std::int64_t>::max() ? " to " + std::to_string(most) : " up"));
+      ThrowUsageError(name,
+                      "a whole number from " + std::to_string(least) +
+                        (most < std::numeric_limits<std::int64_t>::max() ? " to " + std::to_string(most) : " up"));
     }
     return value;
   }
@@ -94,7 +109,7 @@ public:
     const auto value = ParseReal(Text(name));
     if (!value || !std::isfinite(*value))
     {
-      Refuse(name, "a number");
+      ThrowUsageError(name, "a number");
     }
     return value;
   }
@@ -113,9 +128,75 @@ public:
     }
     if (std::find(words.begin(), words.end(), text) == words.end())
     {
-      Refuse(name, "one of " + std::string(all) + DidYouMean(text, words));
+      ThrowUsageError(name, "one of " + std::string(all) + DidYouMean(text, words));
     }
     return text;
+  }
+
+  /** LO:HI with LO <= HI. */
+  std::pair<double, double>
+  Range(std::string_view name) const
+  {
+    const auto parts = SplitText(Text(name), ':');
+    const auto low = ParseReal(parts.front());
+    const auto high = ParseReal(parts.back());
+    if (parts.size() != 2 || !low || !high || !(*low <= *high))
+    {
+      ThrowUsageError(name, "LO:HI with LO <= HI, such as 300:3000 (inf is allowed)");
+    }
+    return { *low, *high };
+  }
+
+  /** Voxel sizes in mm; of a mesh one number serves all axes. */
+  Vector3
+  Spacing(bool isOfMesh = false) const
+  {
+    auto parts = SplitText(Text("spacing"), ',');
+    if (parts.size() == 1 && isOfMesh)
+    {
+      parts.resize(3, parts.front());
+    }
+    Vector3 spacing{};
+    bool    good = parts.size() == 3;
+    for (std::size_t k = 0; good && k < 3; ++k)
+    {
+      const auto value = ParseReal(parts[k]);
+      good = value && *value > 0 && std::isfinite(*value);
+      spacing[k] = value.value_or(0);
+    }
+    if (!good)
+    {
+      ThrowUsageError("spacing", "three positive numbers in mm, such as 0.5,0.5,2");
+    }
+    return spacing;
+  }
+
+  /** The first of the resolutions given; only `core` and `voxelize` take several. */
+  std::optional<std::int64_t>
+  FirstResolution() const
+  {
+    const auto resolutions = ResolutionsFrom(m_Values, m_Command);
+    if (resolutions.size() > 1 && m_Command != CommandId::Core)
+    {
+      throw UsageError("--resolution " + Text("resolution") + ": expected one value");
+    }
+    return resolutions.empty() ? std::nullopt : std::optional(resolutions.front());
+  }
+
+  std::filesystem::path
+  File(std::string_view name) const
+  {
+    if (Text(name).empty())
+    {
+      ThrowUsageError(name, "a file name");
+    }
+    return Text(name);
+  }
+
+  std::optional<std::filesystem::path>
+  FileIfGiven(std::string_view name) const
+  {
+    return IsGiven(name) ? std::optional(File(name)) : std::nullopt;
   }
 
 private:

@@ -7,6 +7,8 @@
 #include "table/RunningRows.h"
 #include "table/SkeletonRows.h"
 
+#include <algorithm>
+
 namespace voxelcore
 {
 
@@ -23,7 +25,7 @@ struct Rows
 
 template <std::size_t... N>
 constexpr auto
-Together(const Rows<N> &... parts)
+JoinedRows(const Rows<N> &... parts)
 {
   std::array<Parameter, (N + ...)> all{};
   std::size_t                      end = 0;
@@ -38,16 +40,16 @@ Together(const Rows<N> &... parts)
   return all;
 }
 
-constexpr auto kParameters = Together(Rows{ ParameterGroup::Input, table::kInputRows },
-                                      Rows{ ParameterGroup::Output, table::kOutputRows },
-                                      Rows{ ParameterGroup::Picture, table::kPictureRows },
-                                      Rows{ ParameterGroup::Cohort, table::kCohortRows },
-                                      Rows{ ParameterGroup::Phantom, table::kPhantomRows },
-                                      Rows{ ParameterGroup::Pruning, table::kPruningRows },
-                                      Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
-                                      Rows{ ParameterGroup::Refinement, table::kRefinementRows },
-                                      Rows{ ParameterGroup::Skeleton, table::kSkeletonRows },
-                                      Rows{ ParameterGroup::Running, table::kRunningRows });
+constexpr auto kParameters = JoinedRows(Rows{ ParameterGroup::Input, table::kInputRows },
+                                        Rows{ ParameterGroup::Output, table::kOutputRows },
+                                        Rows{ ParameterGroup::Picture, table::kPictureRows },
+                                        Rows{ ParameterGroup::Cohort, table::kCohortRows },
+                                        Rows{ ParameterGroup::Phantom, table::kPhantomRows },
+                                        Rows{ ParameterGroup::Pruning, table::kPruningRows },
+                                        Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
+                                        Rows{ ParameterGroup::Refinement, table::kRefinementRows },
+                                        Rows{ ParameterGroup::Skeleton, table::kSkeletonRows },
+                                        Rows{ ParameterGroup::Running, table::kRunningRows });
 
 } // namespace
 
@@ -84,6 +86,22 @@ std::span<const Parameter>
 Parameters()
 {
   return kParameters;
+}
+
+std::string
+KeywordOf(const Parameter & parameter)
+{
+  if (!parameter.keyword.empty())
+  {
+    return parameter.keyword == "-" ? std::string() : std::string(parameter.keyword);
+  }
+  const bool isFile = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output;
+  const bool isNamedAlike =
+    parameter.group == ParameterGroup::Pruning || parameter.group == ParameterGroup::ShapeEdits ||
+    parameter.group == ParameterGroup::Refinement || parameter.group == ParameterGroup::Skeleton;
+  std::string keyword(isNamedAlike && !isFile && !parameter.flags.empty() ? parameter.name : "");
+  std::replace(keyword.begin(), keyword.end(), '-', '_');
+  return keyword;
 }
 
 std::string

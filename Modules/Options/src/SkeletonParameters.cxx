@@ -1,3 +1,5 @@
+#include "FieldReader.h"
+#include "ParameterReader.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ParseReal.h"
@@ -41,17 +43,6 @@ LengthFrom(const ParameterValues & values, CommandId command, std::string_view n
   {
     throw UsageError("--" + std::string(name) + ": " + error.what());
   }
-}
-
-std::filesystem::path
-OutputFrom(const ParameterValues & values, CommandId command)
-{
-  const std::string output = ValueOf(values, command, "output");
-  if (output.empty())
-  {
-    throw UsageError("--output '': expected a file name");
-  }
-  return output;
 }
 
 /** Fills pruneLength or pruneRadii from "5mm", "8vox", "2%" or "1.5r". */
@@ -172,24 +163,16 @@ CoreSkeletonFrom(const ParameterValues & values)
 SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values)
 {
-  constexpr CommandId command = CommandId::Skeleton;
-  SkeletonOptions     options;
-  options.input = ValueOf(values, command, "scan");
-  const auto resolutions = ResolutionsFrom(values, command);
-  if (resolutions.size() > 1)
-  {
-    throw UsageError("--resolution " + ValueOf(values, command, "resolution") + ": expected one value");
-  }
-  if (!resolutions.empty())
-  {
-    options.resolution = resolutions.front();
-  }
-  if (options.input.extension() == ".vtp" && !options.resolution)
+  constexpr CommandId   command = CommandId::Skeleton;
+  const ParameterReader reader(values, command);
+  SkeletonOptions       options;
+  options.input = reader.Text("scan");
+  if (options.input.extension() == ".vtp" && !reader.FirstResolution())
   {
     RefuseScanOptions(values, options.input);
   }
-  options.reading = ReadOptionsFrom(values, command);
-  options.edits = ShapeEditsFrom(values, command);
+  ReadScanFields(reader, options);
+  options.further = FurtherOptions(reader);
   options.stage = StageFrom(values, command);
   options.stage.lambda = LengthFrom(values, command, "lambda");
   options.targets = TargetsFrom(values, command);
@@ -202,19 +185,9 @@ SkeletonOptionsFrom(const ParameterValues & values)
     }
     options.stage.tolerance = heights.front().value > 0 ? std::optional(heights.front()) : std::nullopt;
   }
-  options.output = OutputFrom(values, command);
-  if (values.contains("report"))
-  {
-    options.report = ValueOf(values, command, "report");
-    if (options.report->empty())
-    {
-      throw UsageError("--report '': expected a file name");
-    }
-  }
-  if (values.contains("table"))
-  {
-    options.targets.table = ValueOf(values, command, "table");
-  }
+  options.output = reader.File("output");
+  options.report = reader.FileIfGiven("report");
+  options.targets.table = reader.FileIfGiven("table");
   options.display = DisplayTargetsFrom(values, command);
   const std::string engine = ChoiceOf(values, command, "engine");
   options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
@@ -230,7 +203,7 @@ MeasureOptionsFrom(const ParameterValues & values)
   return { ValueOf(values, command, "skeleton"),
            BranchRequestFrom(values, command),
            TargetsFrom(values, command),
-           OutputFrom(values, command),
+           ParameterReader(values, command).File("output"),
            values.contains("force") };
 }
 

@@ -53,9 +53,9 @@ Describe(CommandId command)
 }
 
 /** What only a person at a terminal has use for. */
-constexpr std::array<std::string_view, 11> kOfTerminals{ "progress", "quiet",          "force",     "report",
-                                                         "also",     "memory",         "scene",     "html",
-                                                         "json",     "html-triangles", "resolution" };
+constexpr std::array<std::string_view, 11> kTerminalOptions{ "progress", "quiet",          "force",     "report",
+                                                             "also",     "memory",         "scene",     "html",
+                                                             "json",     "html-triangles", "resolution" };
 
 /** The parameters in the first, open group; in the table's order. */
 constexpr std::array<std::string_view, 8> kMain{ "scan",   "output",    "table",         "labels",
@@ -71,7 +71,7 @@ IsIn(const TNames & names, std::string_view name)
 bool
 IsShown(const Parameter & parameter, CommandId command)
 {
-  if (!BelongsTo(parameter, command) || IsIn(kOfTerminals, parameter.name))
+  if (!BelongsTo(parameter, command) || IsIn(kTerminalOptions, parameter.name))
   {
     return false;
   }
@@ -316,7 +316,8 @@ SlicerXml(CommandId command)
     });
   }
   xml += "  <parameters>\n    <label>Results</label>\n    <description>Summed over all labels</description>\n";
-  for (const Output & output : Outputs(command, {}))
+  const CoreReport none;
+  for (const Output & output : Outputs(command, none))
   {
     const std::string tag = output.whole ? "integer" : "double";
     xml += "    <" + tag + ">\n" + Element("name", output.name) + Element("label", output.label) +

@@ -3,7 +3,7 @@
 #include "RoundCone.h"
 
 #include "voxelcore/Error.h"
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <cmath>
 #include <limits>
@@ -140,7 +140,7 @@ private:
     SplitMix64    random(m_Options.seed, 2 + std::uint64_t{ body });
     const Vector3 place = RandomPlace(random);
     const double  radius = m_Unit * random.Uniform(0.02, 0.09);
-    const Vector3 end = Along(place, 2 * radius, RandomInBall(random));
+    const Vector3 end = AddScaled(place, 2 * radius, RandomInBall(random));
     m_Limbs.push_back({ { place, radius }, { end, 0.7 * radius }, body });
   }
 
@@ -180,15 +180,15 @@ private:
     double       swelling = 0;
     for (double done = 0; done < sprout.length && IsInside(end.position); done += step)
     {
-      direction = Direction(Along(direction, 0.45, RandomInBall(random)));
+      direction = Direction(AddScaled(direction, 0.45, RandomInBall(random)));
       swelling = 0.8 * swelling + random.Uniform(-0.25, 0.25); // within 1.25
-      const ConeEnd next{ Along(end.position, step, direction), sprout.radius * (1 + 0.5 * swelling) };
+      const ConeEnd next{ AddScaled(end.position, step, direction), sprout.radius * (1 + 0.5 * swelling) };
       m_Limbs.push_back({ end, next, body });
       end = next;
       if (sprout.order < 3 && random.Uniform() < 0.08)
       {
         sprouts.push_back({ end.position,
-                            Direction(Along(direction, 2, RandomInBall(random))),
+                            Direction(AddScaled(direction, 2, RandomInBall(random))),
                             std::max(0.7 * sprout.radius, 0.045 * m_Unit),
                             sprout.length * random.Uniform(0.15, 0.6),
                             sprout.order + 1 });

@@ -59,7 +59,8 @@ FillRows(const PhantomOptions & options, const ProgressCallback & progress, Make
   return shape;
 }
 
-/** ellipsoid, ball, capsule, box, plate, rod, torus, shell, tanglecube, gyroid, thick-and-thin; empty for another kind. */
+/** ellipsoid, ball, capsule, box, plate, rod, torus, shell, tanglecube, gyroid, thick-and-thin; empty for another
+ *  kind. */
 std::optional<VoxelShape>
 MakeSolid(const PhantomOptions & options, const ProgressCallback & progress);
 

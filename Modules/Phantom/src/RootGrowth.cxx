@@ -133,10 +133,10 @@ private:
     const Vector3      tangent = Direction(
       Minus(from.position, m_Points[static_cast<std::size_t>(std::max<std::int64_t>(from.parent, 0))].position));
     Vector3 sideways = RandomInBall(random);
-    sideways = Direction(Along(sideways, -Dot(sideways, tangent), tangent));
+    sideways = Direction(AddScaled(sideways, -Dot(sideways, tangent), tangent));
     Growth growth;
     growth.start = from.position;
-    growth.direction = Direction(Along(sideways, order == 1 ? 0.35 : 0.7, tangent));
+    growth.direction = Direction(AddScaled(sideways, order == 1 ? 0.35 : 0.7, tangent));
     growth.length = order == 1 ? (0.6 - 0.3 * along) * m_Shortest * random.Uniform(0.7, 1.2)
                                : (0.24 - 0.1 * along) * m_Shortest * random.Uniform(0.5, 1.2);
     growth.baseRadius = (order == 1 ? 0.45 : 0.6) * from.radius * random.Uniform(0.8, 1.0);
@@ -171,9 +171,9 @@ private:
       }
       points.push_back(point);
       // The turning itself changes slowly: the line is smooth.
-      turn = Along({ 0.8 * turn[0], 0.8 * turn[1], 0.8 * turn[2] }, 0.3 * growth.wander, RandomInBall(random));
-      direction = Direction(Along(Along(direction, 1, turn), growth.gravity, { 0, 0, -1 }));
-      position = Along(position, m_Step, direction);
+      turn = AddScaled({ 0.8 * turn[0], 0.8 * turn[1], 0.8 * turn[2] }, 0.3 * growth.wander, RandomInBall(random));
+      direction = Direction(AddScaled(AddScaled(direction, 1, turn), growth.gravity, { 0, 0, -1 }));
+      position = AddScaled(position, m_Step, direction);
     }
     return points;
   }

@@ -14,8 +14,8 @@ struct GrownPoint : ConeEnd
   std::int32_t order = 0;
 };
 
-/** Stem, laterals and their laterals. Depends on the sides of the grid and the options alone (and on the spacing where no detail is given).
- *  \throws UsageError when not even the stem fits. */
+/** Stem, laterals and their laterals. Depends on the sides of the grid and the options alone (and on the spacing where
+ *  no detail is given). \throws UsageError when not even the stem fits. */
 std::vector<GrownPoint>
 GrowRoot(const PhantomOptions & options);
 

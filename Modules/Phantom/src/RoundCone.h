@@ -39,8 +39,8 @@ struct ConeEnd
   double  radius = 0;
 };
 
-/** The voxels, first and last, whose centres may lie within `reach` mm of the segment from a to b along an axis; none when
- *  the last comes before the first. */
+/** The voxels, first and last, whose centres may lie within `reach` mm of the segment from a to b along an axis; none
+ *  when the last comes before the first. */
 inline std::pair<std::int32_t, std::int32_t>
 VoxelsWithin(const PhantomOptions & options, std::size_t axis, double a, double b, double reach)
 {
@@ -82,7 +82,7 @@ VisitRoundCone(const PhantomOptions & options,
                               (z + 0.5) * options.spacing[2] };
         const Vector3 offset = Minus(centre, a.position);
         const double  t = squared > 0 ? std::clamp(Dot(offset, along) / squared, 0.0, 1.0) : 0.0;
-        const Vector3 away = Along(offset, -t, along);
+        const Vector3 away = AddScaled(offset, -t, along);
         const double  radius = a.radius + t * (b.radius - a.radius);
         if (Dot(away, away) <= radius * radius)
         {

@@ -9,8 +9,8 @@
 namespace voxelcore
 {
 
-/** One value at the centre of each voxel near the boundary, and some beyond. Positive inside. What has no brick counts as
- *  far away: +Far() inside the shape, -Far() outside. */
+/** One value at the centre of each voxel near the boundary, and some beyond. Positive inside. What has no brick counts
+ *  as far away: +Far() inside the shape, -Far() outside. */
 class BandField
 {
 public:
@@ -33,8 +33,8 @@ public:
   void
   FillGrey(const VoxelBox & scan, const GreyRows & rows);
 
-  /** K = (1 + w) G - w G G. With w = 1, in frequencies 1 - (sigma k)^4 / 4 + ..., bends of a linear field are flattened,
-   *  and what is curved evenly keeps its place. Then 0 where the sign contradicts the label. */
+  /** K = (1 + w) G - w G G. With w = 1, in frequencies 1 - (sigma k)^4 / 4 + ..., bends of a linear field are
+   *  flattened, and what is curved evenly keeps its place. Then 0 where the sign contradicts the label. */
   void
   Smooth(float weight);
 
@@ -52,9 +52,9 @@ public:
   void
   SmoothToCoefficients(float weight);
 
-  /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them and
-   *  are cubes of side 1. G moves a step of standard width s and curvature c by c s^2 times its slope, which goes as 1 / s: so
-   *  (1 + w) s1 = w s2, with s1^2 = sigma^2 + 1/12 and s2^2 = 2 sigma^2 + 1/12. */
+  /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them
+   *  and are cubes of side 1. G moves a step of standard width s and curvature c by c s^2 times its slope, which goes
+   *  as 1 / s: so (1 + w) s1 = w s2, with s1^2 = sigma^2 + 1/12 and s2^2 = 2 sigma^2 + 1/12. */
   static float
   StepWeight(double sigma);
 
@@ -73,9 +73,9 @@ public:
   void
   MarkBends(double most, double radius, SmoothingZones & zones) const;
 
-  /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no brick.
-   *  What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian of variance
-   *  1/3 nearly, which SmoothToCoefficients() takes off its own. */
+  /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no
+   *  brick. What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian
+   *  of variance 1/3 nearly, which SmoothToCoefficients() takes off its own. */
   bool
   Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const;
 

@@ -9,8 +9,8 @@
 namespace voxelcore
 {
 
-// The curvatures of the level set through a voxel, root of the sum of their squares: from differences two voxels apart, which
-// see less of ripples.
+// The curvatures of the level set through a voxel, root of the sum of their squares: from differences two voxels apart,
+// which see less of ripples.
 double
 BandField::CurvatureAt(std::size_t brick, std::size_t voxel) const
 {
@@ -28,7 +28,7 @@ BandField::CurvatureAt(std::size_t brick, std::size_t voxel) const
   };
   Vector3                slope{};
   std::array<Vector3, 3> bend{};
-  const Vector3          step = Along({ 0, 0, 0 }, apart, m_Sides);
+  const Vector3          step = AddScaled({ 0, 0, 0 }, apart, m_Sides);
   const double           here = m_Values[brick * kVoxels + voxel];
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -48,21 +48,21 @@ BandField::CurvatureAt(std::size_t brick, std::size_t voxel) const
     return 0;
   }
   // Of the bends what lies across the slope, from both sides.
-  const Vector3          n = Along({ 0, 0, 0 }, 1 / length, slope);
+  const Vector3          n = AddScaled({ 0, 0, 0 }, 1 / length, slope);
   std::array<Vector3, 3> across{};
   for (std::size_t k = 0; k < 3; ++k)
   {
-    across[k] = Along(bend[k], -Dot(bend[k], n), n);
+    across[k] = AddScaled(bend[k], -Dot(bend[k], n), n);
   }
   Vector3 along{};
   for (std::size_t k = 0; k < 3; ++k)
   {
-    along = Along(along, n[k], across[k]);
+    along = AddScaled(along, n[k], across[k]);
   }
   double squares = 0;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const Vector3 row = Along(across[k], -n[k], along);
+    const Vector3 row = AddScaled(across[k], -n[k], along);
     squares += Dot(row, row);
   }
   return std::sqrt(squares) / length;

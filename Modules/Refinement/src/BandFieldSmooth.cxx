@@ -19,8 +19,8 @@ constexpr std::size_t kSide = BrickGrid::kSide;
 constexpr std::size_t kVoxels = BrickGrid::kCells;
 using Eight = float __attribute__((vector_size(32), aligned(4), may_alias));
 
-// Along y or z: eight voxels at once that lie beside each other along x. `along` is how far apart voxels are that are summed,
-// `across` how far apart the eight lines of eight voxels are.
+// Along y or z: eight voxels at once that lie beside each other along x. `along` is how far apart voxels are that are
+// summed, `across` how far apart the eight lines of eight voxels are.
 VOXELCORE_EIGHT_LANES void
 SumLayers(const std::array<const float *, 3> & from,
           float *                              to,
@@ -139,8 +139,8 @@ BandField::StepWeight(double sigma)
   return static_cast<float>(once / (twice - once));
 }
 
-// The sums of a kernel along one axis, in place unless they come from elsewhere. Rows of bricks are gone along, what a brick held
-// before is kept for the next one.
+// The sums of a kernel along one axis, in place unless they come from elsewhere. Rows of bricks are gone along, what a
+// brick held before is kept for the next one.
 void
 BandField::Sweep(std::size_t                       axis,
                  const Kernel &                    kernel,

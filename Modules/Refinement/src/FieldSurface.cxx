@@ -27,16 +27,16 @@ FieldSurface::Project(const Vector3 & place, double reach) const
     }
     const Vector3 normal = Over(slope, m_Spacing); // per mm
     const double  squared = Dot(normal, normal);
-    Vector3       move = Over(Along({ 0, 0, 0 }, -value / squared, normal), m_Spacing);
+    Vector3       move = Over(AddScaled({ 0, 0, 0 }, -value / squared, normal), m_Spacing);
     const double  length = Length(move);
     if (length < close || step == steps)
     {
       point.position = Times(at, m_Spacing);
-      point.normal = Along({ 0, 0, 0 }, -1 / std::sqrt(squared), normal);
+      point.normal = AddScaled({ 0, 0, 0 }, -1 / std::sqrt(squared), normal);
       point.found = length < 10 * close && Distance(point.position, place) <= reach;
       return point;
     }
-    at = Along(at, std::min(1.0, longest / length), move);
+    at = AddScaled(at, std::min(1.0, longest / length), move);
   }
   return point;
 }

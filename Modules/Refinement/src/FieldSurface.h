@@ -12,8 +12,8 @@ namespace voxelcore
 class FieldSurface : public SurfaceEstimate
 {
 public:
-  /** A field of coefficients. `spacing` in mm, `sides` those of the field. A slope (per unit of `sides`) less than `flattest`
-   *  tells nothing: where labels allow no surface, the field is flat. */
+  /** A field of coefficients. `spacing` in mm, `sides` those of the field. A slope (per unit of `sides`) less than
+   *  `flattest` tells nothing: where labels allow no surface, the field is flat. */
   FieldSurface(BandField field, const Vector3 & spacing, const Vector3 & sides, double flattest)
     : m_Field(std::move(field))
     , m_Spacing(spacing)

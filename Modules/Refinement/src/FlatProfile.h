@@ -6,10 +6,10 @@
 namespace voxelcore
 {
 
-/** Distances that end at +-clip, smoothed pass by pass. Where the boundary has the curvature h (the sum of both), G moves it
- *  by h sigma^2 / 2 to the first order, and G G by h sigma^2, each times the slope across it. So (1 + w) G - w G G leaves it
- *  where it is if w = a / (2 b - a), a and b the slopes after G and G G: 1 while the profile is straight for some way, and
- *  more when the bends at the clip have come near. */
+/** Distances that end at +-clip, smoothed pass by pass. Where the boundary has the curvature h (the sum of both), G
+ *  moves it by h sigma^2 / 2 to the first order, and G G by h sigma^2, each times the slope across it. So (1 + w) G - w
+ *  G G leaves it where it is if w = a / (2 b - a), a and b the slopes after G and G G: 1 while the profile is straight
+ *  for some way, and more when the bends at the clip have come near. */
 class FlatProfile
 {
 public:

@@ -15,14 +15,15 @@ namespace
 
 // Of each boundary vertex the foot that may go farthest.
 void
-KeepOneOfEach(std::vector<FootPoint> & feet)
+KeepOneOfEach(std::vector<FootPoint> & footPoints)
 {
-  std::sort(feet.begin(), feet.end(), [](const FootPoint & a, const FootPoint & b) {
+  std::sort(footPoints.begin(), footPoints.end(), [](const FootPoint & a, const FootPoint & b) {
     return a.point != b.point ? a.point < b.point : a.distance > b.distance;
   });
-  feet.erase(
-    std::unique(feet.begin(), feet.end(), [](const FootPoint & a, const FootPoint & b) { return a.point == b.point; }),
-    feet.end());
+  footPoints.erase(std::unique(footPoints.begin(),
+                               footPoints.end(),
+                               [](const FootPoint & a, const FootPoint & b) { return a.point == b.point; }),
+                   footPoints.end());
 }
 
 // Two directions at right angles to a normal and to each other, the first nearest to `slide`.
@@ -30,8 +31,8 @@ std::array<Vector3, 2>
 TangentsOf(const Vector3 & n, const Vector3 & slide)
 {
   const Vector3 axis = std::abs(n[0]) < 0.6 ? Vector3{ 1, 0, 0 } : Vector3{ 0, 1, 0 };
-  const Vector3 along = Length(slide) > 0 ? slide : Along(axis, -Dot(axis, n), n);
-  const Vector3 u = Along({ 0, 0, 0 }, 1 / Length(along), along);
+  const Vector3 along = Length(slide) > 0 ? slide : AddScaled(axis, -Dot(axis, n), n);
+  const Vector3 u = AddScaled({ 0, 0, 0 }, 1 / Length(along), along);
   return { u, Cross(n, u) };
 }
 
@@ -46,8 +47,8 @@ FootPointFinder::FootPointFinder(const RefinementInput & input, const ProgressCa
   , m_Anchors(input.points->size())
 {
   m_Voxel = std::cbrt(input.spacing[0] * input.spacing[1] * input.spacing[2]);
-  // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal; smoothed, a little
-  // beyond.
+  // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal; smoothed, a
+  // little beyond.
   const double reach = 0.75 * Length(input.spacing);
   const auto   count = static_cast<std::ptrdiff_t>(m_Anchors.size());
   ReportProgress(progress, "refining", 0);
@@ -66,8 +67,8 @@ FootPointFinder::Place(std::uint32_t point) const
   return Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, m_Input.spacing);
 }
 
-// From either end the way downhill along the surface, as far as it leads to the other end: all of the way between them where
-// the surface is flat, none where it is bent about `place`.
+// From either end the way downhill along the surface, as far as it leads to the other end: all of the way between them
+// where the surface is flat, none where it is bent about `place`.
 bool
 FootPointFinder::Meet(const Vector3 & place, const PointPair & pair) const
 {
@@ -85,21 +86,24 @@ FootPointFinder::Meet(const Vector3 & place, const PointPair & pair) const
   {
     return false;
   }
-  return Dot(Along(toA, -awayA, a.normal), way) - Dot(Along(toB, -awayB, b.normal), way) > ofWay * Dot(way, way);
+  return Dot(AddScaled(toA, -awayA, a.normal), way) - Dot(AddScaled(toB, -awayB, b.normal), way) >
+         ofWay * Dot(way, way);
 }
 
 void
-FootPointFinder::Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const
+FootPointFinder::Find(const Vector3 &            place,
+                      std::span<const PointPair> pairs,
+                      std::vector<FootPoint> &   footPoints) const
 {
-  feet.clear();
+  footPoints.clear();
   for (const PointPair & pair : pairs)
   {
     const double width = 0.45 * Distance(Place(pair[0]), Place(pair[1]));
-    feet.push_back({ pair[0], {}, width });
-    feet.push_back({ pair[1], {}, width });
+    footPoints.push_back({ pair[0], {}, width });
+    footPoints.push_back({ pair[1], {}, width });
   }
-  KeepOneOfEach(feet);
-  for (FootPoint & foot : feet)
+  KeepOneOfEach(footPoints);
+  for (FootPoint & foot : footPoints)
   {
     foot.position = Slide(place, foot.point, foot.distance);
     foot.distance = Distance(place, foot.position);
@@ -107,22 +111,24 @@ FootPointFinder::Find(const Vector3 & place, std::span<const PointPair> pairs, s
 }
 
 void
-FootPointFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const
+FootPointFinder::Settle(const Vector3 &            place,
+                        std::span<const PointPair> pairs,
+                        std::vector<FootPoint> &   footPoints) const
 {
-  feet.clear();
+  footPoints.clear();
   for (const PointPair & pair : pairs)
   {
-    feet.push_back({ pair[0], {}, 0 });
-    feet.push_back({ pair[1], {}, 0 });
+    footPoints.push_back({ pair[0], {}, 0 });
+    footPoints.push_back({ pair[1], {}, 0 });
   }
-  KeepOneOfEach(feet);
+  KeepOneOfEach(footPoints);
   // Of those that meet one alone goes all the way.
   constexpr double open = -1;
-  for (FootPoint & foot : feet)
+  for (FootPoint & foot : footPoints)
   {
     foot.distance = open;
   }
-  for (FootPoint & foot : feet)
+  for (FootPoint & foot : footPoints)
   {
     if (foot.distance != open)
     {
@@ -135,8 +141,8 @@ FootPointFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs,
       more = false;
       for (const PointPair & pair : pairs)
       {
-        FootPoint & a = FootPointOf(feet, pair[0]);
-        FootPoint & b = FootPointOf(feet, pair[1]);
+        FootPoint & a = FootPointOf(footPoints, pair[0]);
+        FootPoint & b = FootPointOf(footPoints, pair[1]);
         if ((a.distance == open) != (b.distance == open) && Meet(place, pair))
         {
           FootPoint &       one = a.distance == open ? a : b;
@@ -150,8 +156,8 @@ FootPointFinder::Settle(const Vector3 & place, std::span<const PointPair> pairs,
   }
 }
 
-// A try to come nearer to `place` by way of `to`, a place beside the surface. Returns how much farther that is; where it is
-// nearer (less than 0), the foot goes there.
+// A try to come nearer to `place` by way of `to`, a place beside the surface. Returns how much farther that is; where
+// it is nearer (less than 0), the foot goes there.
 double
 FootPointFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & foot, double & distance) const
 {
@@ -170,9 +176,9 @@ FootPointFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint
   return rise;
 }
 
-// Long strides first: near the axis of a tube the surface falls less than its ripples and facets do, and the way down cannot
-// be told from its normal. So four ways are tried there besides, until it is seen to rise on all of them nearly as a flat one
-// does.
+// Long strides first: near the axis of a tube the surface falls less than its ripples and facets do, and the way down
+// cannot be told from its normal. So four ways are tried there besides, until it is seen to rise on all of them nearly
+// as a flat one does.
 Vector3
 FootPointFinder::Descend(const Vector3 & place, std::uint32_t point) const
 {
@@ -191,14 +197,14 @@ FootPointFinder::Descend(const Vector3 & place, std::uint32_t point) const
   bool         flat = false;
   // What is nearly as near lies along the ball, not along the surface's tangents, which leave a tube soon.
   const auto onBall = [&](double length, const Vector3 & way) {
-    const Vector3 ray = Minus(Along(foot.position, length, way), place);
+    const Vector3 ray = Minus(AddScaled(foot.position, length, way), place);
     const double  away = Length(ray);
-    return away > 0 ? Along(place, distance / away, ray) : place;
+    return away > 0 ? AddScaled(place, distance / away, ray) : place;
   };
   for (int step = 0; step < steps && stride >= shortest * m_Voxel; ++step)
   {
     const Vector3 gap = Minus(place, foot.position);
-    const Vector3 slide = Along(gap, -Dot(gap, foot.normal), foot.normal);
+    const Vector3 slide = AddScaled(gap, -Dot(gap, foot.normal), foot.normal);
     const double  length = Length(slide);
     if (flat && length < kClose * m_Voxel)
     {
@@ -252,7 +258,7 @@ FootPointFinder::Slide(const Vector3 & place, std::uint32_t point, double most) 
   for (int step = 0; step < steps && shorter >= shortest; ++step)
   {
     const Vector3 gap = Minus(place, foot.position);
-    const Vector3 slide = Along(gap, -Dot(gap, foot.normal), foot.normal);
+    const Vector3 slide = AddScaled(gap, -Dot(gap, foot.normal), foot.normal);
     const double  length = Length(slide);
     if (shorter * length < kClose * m_Voxel)
     {
@@ -261,8 +267,10 @@ FootPointFinder::Slide(const Vector3 & place, std::uint32_t point, double most) 
     const double part = shorter * std::min(1.0, kLongestStride * m_Voxel / length);
     SurfacePoint next = foot;
     double       closer = distance;
-    // A crease that draws back from `place` is nearest itself: steps end on it from either side only if they get shorter.
-    if (TryFoot(place, Along(foot.position, part, slide), next, closer) >= 0 || Distance(next.position, home) > reach)
+    // A crease that draws back from `place` is nearest itself: steps end on it from either side only if they get
+    // shorter.
+    if (TryFoot(place, AddScaled(foot.position, part, slide), next, closer) >= 0 ||
+        Distance(next.position, home) > reach)
     {
       shorter *= 0.5;
       continue;

@@ -20,27 +20,28 @@ struct FootPoint
   double        distance = 0; ///< mm from the core vertex
 };
 
-/** Finds feet; thread-safe after construction. */
+/** Finds foot points; thread-safe after construction. */
 class FootPointFinder
 {
 public:
   /** Projects each boundary vertex onto the surface. */
   FootPointFinder(const RefinementInput & input, const ProgressCallback & progress);
 
-  /** Whether the foot points of a pair meet about `place`, by the places and normals of the surface at its boundary vertices
-   *  alone: then the distance from `place` falls from either towards the other. */
+  /** Whether the foot points of a pair meet about `place`, by the places and normals of the surface at its boundary
+   *  vertices alone: then the distance from `place` falls from either towards the other. */
   bool
   Meet(const Vector3 & place, const PointPair & pair) const;
 
-  /** The feet of a core vertex at `place` (mm along the lattice axes), one for each boundary vertex in `pairs`, by index.
-   *  Feet stay near their boundary vertex: so near that those of a pair cannot meet by passing each other. */
+  /** The foot points of a core vertex at `place` (mm along the lattice axes), one for each boundary vertex in `pairs`,
+   *  by index. Foot points stay near their boundary vertex: so near that those of a pair cannot meet by passing each
+   *  other. */
   void
-  Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const;
+  Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const;
 
-  /** The same, but each foot goes on to where it is nearest, however far that is from its boundary vertex: about a place
-   *  beside the axis of a tube all feet meet. */
+  /** The same, but each foot goes on to where it is nearest, however far that is from its boundary vertex: about a
+   *  place beside the axis of a tube all foot points meet. */
   void
-  Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & feet) const;
+  Settle(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const;
 
 private:
   Vector3
@@ -59,10 +60,10 @@ private:
 
 /** How far the nearest foot is. */
 inline double
-NearestDistance(std::span<const FootPoint> feet)
+NearestDistance(std::span<const FootPoint> footPoints)
 {
-  double least = feet[0].distance;
-  for (const FootPoint & foot : feet)
+  double least = footPoints[0].distance;
+  for (const FootPoint & foot : footPoints)
   {
     least = std::min(least, foot.distance);
   }
@@ -72,19 +73,19 @@ NearestDistance(std::span<const FootPoint> feet)
 /** The foot of a boundary vertex among those that Find() gave. */
 template <typename TFeet>
 auto &
-FootPointOf(TFeet & feet, std::uint32_t point)
+FootPointOf(TFeet & footPoints, std::uint32_t point)
 {
   std::size_t first = 0;
-  for (std::size_t size = feet.size(); size > 1;)
+  for (std::size_t size = footPoints.size(); size > 1;)
   {
     const std::size_t half = size / 2;
-    if (feet[first + half].point <= point)
+    if (footPoints[first + half].point <= point)
     {
       first += half;
     }
     size -= half;
   }
-  return feet[first];
+  return footPoints[first];
 }
 
 } // namespace voxelcore

@@ -7,8 +7,8 @@
 namespace voxelcore
 {
 
-/** A part of a core without faces below the threshold whose foot points meet wherever they start from: between its two boundary
- *  vertices the estimated surface is so flat that it has one nearest point alone. Only simple pairs go.
+/** A part of a core without faces below the threshold whose foot points meet wherever they start from: between its two
+ *  boundary vertices the estimated surface is so flat that it has one nearest point alone. Only simple pairs go.
  *  \throws CertificateError where a face has no two nearest boundary vertices. */
 CorePart
 RemoveFringe(const RefinementInput & input, const FootPointFinder & finder, const CorePart & part);

@@ -7,8 +7,8 @@
 namespace voxelcore
 {
 
-/** By distance from the centre, 0 to `radius` steps; both sides together sum up to 1. The exponential is made of sums and
- *  products, as the last bit of exp() differs between libraries. */
+/** By distance from the centre, 0 to `radius` steps; both sides together sum up to 1. The exponential is made of sums
+ *  and products, as the last bit of exp() differs between libraries. */
 inline std::vector<double>
 GaussWeights(double variance, std::size_t radius)
 {

@@ -13,9 +13,9 @@ namespace voxelcore
 namespace
 {
 
-// Of two estimates the one that is smoothed much, as ripples of a few hundredths of a voxel hold feet up, which makes wings of
-// the core of a tube. It moves the walls of parts less than five voxels thick and rounds edges: where it is off by more than
-// ripples can be, towards the other.
+// Of two estimates the one that is smoothed much, as ripples of a few hundredths of a voxel hold foot points up, which
+// makes wings of the core of a tube. It moves the walls of parts less than five voxels thick and rounds edges: where it
+// is off by more than ripples can be, towards the other.
 class GreySurface : public SurfaceEstimate
 {
 public:
@@ -39,10 +39,10 @@ public:
     const Vector3 gap = Minus(narrow.position, wide.position);
     const double  part = std::clamp((Length(Over(gap, m_Spacing)) - ripple) / (wrong - ripple), 0.0, 1.0);
     SurfacePoint  point;
-    point.position = Along(wide.position, part, gap);
-    point.normal = Along(wide.normal, part, Minus(narrow.normal, wide.normal));
+    point.position = AddScaled(wide.position, part, gap);
+    point.normal = AddScaled(wide.normal, part, Minus(narrow.normal, wide.normal));
     const double length = Length(point.normal);
-    point.normal = Along({ 0, 0, 0 }, 1 / length, point.normal);
+    point.normal = AddScaled({ 0, 0, 0 }, 1 / length, point.normal);
     point.found = length > 0 && Distance(point.position, place) <= reach;
     return point;
   }

@@ -16,12 +16,12 @@ namespace voxelcore
 namespace
 {
 
-// Distances end before the middle of all but thin parts, and on both sides of the surface alike: the bend of a ridge in the
-// middle of a part would be carried to its surface.
+// Distances end before the middle of all but thin parts, and on both sides of the surface alike: the bend of a ridge in
+// the middle of a part would be carried to its surface.
 constexpr double kClip = 5.5;
-// Terraces get longer as the root of the surface's radius, and what flattens them grows as the fourth power of their length. So
-// there are wider passes where balls of such a radius (in sigmas) fit in beside the surface, the widest where greater balls do and no
-// edge is near, and few passes in the thinnest parts, which do not survive more.
+// Terraces get longer as the root of the surface's radius, and what flattens them grows as the fourth power of their
+// length. So there are wider passes where balls of such a radius (in sigmas) fit in beside the surface, the widest
+// where greater balls do and no edge is near, and few passes in the thinnest parts, which do not survive more.
 constexpr int    kOnePass = 1;
 constexpr int    kFewPasses = 3;
 constexpr int    kSomePasses = 20;
@@ -33,8 +33,8 @@ constexpr double kBend = 7.5;
 constexpr double kNearBend = 8;
 constexpr double kFlattest = 0.32;
 
-// Bends are flattened, and distances measured, in millimetres: in voxels a round tube in thick slices is an oval one. But
-// between very thick slices there is nothing to flatten by.
+// Bends are flattened, and distances measured, in millimetres: in voxels a round tube in thick slices is an oval one.
+// But between very thick slices there is nothing to flatten by.
 Vector3
 SidesOf(const Vector3 & spacing)
 {

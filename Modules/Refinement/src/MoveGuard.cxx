@@ -16,15 +16,15 @@ KeepInShape(const VoxelShape & shape, const Vector3 & place, const Vector3 & dis
   const double  length = Length(kept);
   if (length > 1)
   {
-    kept = Along({ 0, 0, 0 }, (1 - 1e-9) / length, kept);
+    kept = AddScaled({ 0, 0, 0 }, (1 - 1e-9) / length, kept);
   }
   for (int i = 0; i < halvings; ++i)
   {
-    if (ContainsInside(shape, Along(place, 1, kept)))
+    if (ContainsInside(shape, AddScaled(place, 1, kept)))
     {
       return kept;
     }
-    kept = Along({ 0, 0, 0 }, 0.5, kept);
+    kept = AddScaled({ 0, 0, 0 }, 0.5, kept);
   }
   return { 0, 0, 0 };
 }
@@ -52,8 +52,8 @@ public:
   void
   Run()
   {
-    // What moves as one does not turn over, so corners of a triangle that does are first moved more alike. That keeps the
-    // move; the last resort does not.
+    // What moves as one does not turn over, so corners of a triangle that does are first moved more alike. That keeps
+    // the move; the last resort does not.
     constexpr int evening = 8;
     constexpr int halving = 8;
     for (int pass = 0;; ++pass)
@@ -71,11 +71,12 @@ public:
         Vector3 & move = m_Displacement[vertex];
         if (pass < evening)
         {
-          move = KeepInShape(m_Shape, m_Positions[vertex], Along({ 0, 0, 0 }, 1.0 / m_Count[vertex], m_Sum[vertex]));
+          move =
+            KeepInShape(m_Shape, m_Positions[vertex], AddScaled({ 0, 0, 0 }, 1.0 / m_Count[vertex], m_Sum[vertex]));
         }
         else if (pass < evening + halving)
         {
-          move = KeepInShape(m_Shape, m_Positions[vertex], Along({ 0, 0, 0 }, 0.5, move));
+          move = KeepInShape(m_Shape, m_Positions[vertex], AddScaled({ 0, 0, 0 }, 0.5, move));
         }
         else
         {
@@ -93,7 +94,7 @@ private:
     for (std::size_t i = 0; i < 3; ++i)
     {
       const Vector3 & place = m_Positions[corners[i]];
-      at[i] = Times(moved ? Along(place, 1, m_Displacement[corners[i]]) : place, m_Spacing);
+      at[i] = Times(moved ? AddScaled(place, 1, m_Displacement[corners[i]]) : place, m_Spacing);
     }
     return Cross(Minus(at[1], at[0]), Minus(at[2], at[0]));
   }
@@ -126,11 +127,11 @@ private:
       Vector3 mean{ 0, 0, 0 };
       for (const ElementIndex corner : m_Cells.FaceVertices(face))
       {
-        mean = Along(mean, 1.0 / 3, m_Displacement[corner]);
+        mean = AddScaled(mean, 1.0 / 3, m_Displacement[corner]);
       }
       for (const ElementIndex corner : m_Cells.FaceVertices(face))
       {
-        m_Sum[corner] = Along(m_Sum[corner], 1, mean);
+        m_Sum[corner] = AddScaled(m_Sum[corner], 1, mean);
         ++m_Count[corner];
       }
     }

@@ -1,7 +1,7 @@
 #include "voxelcore/Refinement.h"
 
 #include "Fringe.h"
-#include "WorkingCore.h"
+#include "RefinementState.h"
 
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/TriangleTree.h"
@@ -50,9 +50,9 @@ TreeOfPoints(std::span<const LatticePoint> points, const Vector3 & spacing)
   return { places, triangles };
 }
 
-// Each boundary vertex has surface within half a diagonal, and the surface has a boundary vertex as near everywhere: so no
-// ball that touches the surface is smaller or greater by more than that than one that touches a boundary vertex. A radius
-// that is has not been measured to the nearest part of a rough surface.
+// Each boundary vertex has surface within half a diagonal, and the surface has a boundary vertex as near everywhere: so
+// no ball that touches the surface is smaller or greater by more than that than one that touches a boundary vertex. A
+// radius that is has not been measured to the nearest part of a rough surface.
 void
 BoundRadii(const TriangleTree & boundary, const Vector3 & spacing, MedialComplex & core)
 {
@@ -83,7 +83,7 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   for (const double threshold : thresholds)
   {
     collapse.CollapseBelow(kWorkingPart * threshold, progress);
-    WorkingCore working(input, RemoveFringe(input, finder, PartOf(input.core->cells, collapse.Live())));
+    RefinementState working(input, RemoveFringe(input, finder, PartOf(input.core->cells, collapse.Live())));
     working.Move(finder, progress);
     refined.push_back(working.Finish(finder, threshold));
     BoundRadii(boundary, input.spacing, refined.back().core);

@@ -102,7 +102,7 @@ BoundaryDepth::BoundaryDepth(const VoxelShape &            shape,
                              const Vector3 &               sides,
                              double                        reach)
   : m_Grid(shape, points, 1, static_cast<std::int32_t>(std::ceil(reach)))
-  , m_Squares(Along({ 0, 0, 0 }, 4, Times(sides, sides)))
+  , m_Squares(AddScaled({ 0, 0, 0 }, 4, Times(sides, sides)))
   , m_Depths(m_Grid.Count() * kCells)
 {
   const auto  squares = AsFloats(Times(sides, sides));
@@ -151,8 +151,8 @@ BoundaryDepth::BoundaryDepth(const VoxelShape &            shape,
   }
 }
 
-// A ball that touches the boundary nearest to a voxel has its centre farther from it by the voxel's own distance, or nearer
-// by it on its own side.
+// A ball that touches the boundary nearest to a voxel has its centre farther from it by the voxel's own distance, or
+// nearer by it on its own side.
 SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius)
   : m_Depth(&depth)
   , m_Parts(depth.Depths().size(), 0)

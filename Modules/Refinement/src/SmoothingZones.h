@@ -54,8 +54,8 @@ public:
     , m_Parts(depth.Grid().Count() * BrickGrid::kCells, 255)
   {}
 
-  /** All where balls of `radius` touch the boundary from inside and from outside, none where one is kept two units or more away
-   *  from it, by another wall, an edge or a crease. */
+  /** All where balls of `radius` touch the boundary from inside and from outside, none where one is kept two units or
+   *  more away from it, by another wall, an edge or a crease. */
   SmoothingZones(const BoundaryDepth & depth, double radius);
 
   bool

@@ -30,7 +30,7 @@ public:
     const double  length = Length(normal);
     if (length > 0)
     {
-      point = { nearest.point, Along({ 0, 0, 0 }, 1 / length, normal), true };
+      point = { nearest.point, AddScaled({ 0, 0, 0 }, 1 / length, normal), true };
     }
     return point;
   }

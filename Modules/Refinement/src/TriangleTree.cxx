@@ -33,7 +33,7 @@ NearestOnSegment(const Vector3 & place, const Vector3 & a, const Vector3 & b)
   const Vector3 ab = Minus(b, a);
   const double  length = Dot(ab, ab);
   const double  t = length > 0 ? std::clamp(Dot(Minus(place, a), ab) / length, 0.0, 1.0) : 0.0;
-  return Along(a, t, ab);
+  return AddScaled(a, t, ab);
 }
 
 } // namespace
@@ -59,7 +59,7 @@ NearestOnTriangle(const Vector3 & place, const std::array<Vector3, 3> & corners)
   if (va > 0 && vb > 0 && vc > 0)
   {
     const double sum = va + vb + vc;
-    return Along(Along(a, vb / sum, ab), vc / sum, ac);
+    return AddScaled(AddScaled(a, vb / sum, ab), vc / sum, ac);
   }
   // Outside, or no triangle: the nearest of the sides, which is right in either case.
   Vector3 best = NearestOnSegment(place, a, b);

@@ -2,7 +2,6 @@
 
 #include "ParametersJson.h"
 #include "SkeletonJson.h"
-#include "voxelcore/Error.h"
 #include "voxelcore/PolygonArea.h"
 
 #include <algorithm>
@@ -210,136 +209,6 @@ Milliseconds(double seconds)
   return std::round(seconds * 1000) / 1000;
 }
 
-TopologyNumbers
-ReadTopology(const Json & json)
-{
-  TopologyNumbers topology;
-  json.at("euler").get_to(topology.euler);
-  json.at("betti").get_to(topology.betti);
-  return topology;
-}
-
-ComplexRecord
-ReadComplex(const Json & json)
-{
-  ComplexRecord complex;
-  json.at("vertices").get_to(complex.vertices);
-  json.at("edges").get_to(complex.edges);
-  json.at("faces").get_to(complex.faces);
-  complex.topology = ReadTopology(json);
-  json.at("area_mm2").get_to(complex.areaMm2);
-  json.at("max_radius_mm").get_to(complex.maxRadiusMm);
-  return complex;
-}
-
-InputRecord
-ReadInput(const Json & json)
-{
-  InputRecord input;
-  json.at("sha256").get_to(input.sha256);
-  json.at("format").get_to(input.format);
-  json.at("size").get_to(input.geometry.size);
-  json.at("spacing_mm").get_to(input.geometry.spacing);
-  json.at("origin_mm").get_to(input.geometry.origin);
-  json.at("direction").get_to(input.geometry.direction);
-  json.at("notes").get_to(input.notes);
-  return input;
-}
-
-EditRecord
-ReadEditRecord(const Json & json)
-{
-  EditRecord edits;
-  json.at("cavities_filled").get_to(edits.cavitiesFilled);
-  json.at("voxels_added").get_to(edits.voxelsAdded);
-  json.at("components_joined").get_to(edits.componentsJoined);
-  json.at("components_removed").get_to(edits.componentsRemoved);
-  json.at("voxels_removed").get_to(edits.voxelsRemoved);
-  if (json.contains("mended"))
-  {
-    const Json &         from = json.at("mended");
-    EditRecord::Mended & mended = edits.mended.emplace();
-    from.at("pieces_joined").get_to(mended.piecesJoined);
-    from.at("loops_closed").get_to(mended.loopsClosed);
-    from.at("cavities_filled").get_to(mended.cavitiesFilled);
-    from.at("voxels_added").get_to(mended.voxelsAdded);
-    from.at("voxels_removed").get_to(mended.voxelsRemoved);
-  }
-  if (json.contains("smoothed"))
-  {
-    const Json &           from = json.at("smoothed");
-    EditRecord::Smoothed & smoothed = edits.smoothed.emplace();
-    from.at("voxels_added").get_to(smoothed.voxelsAdded);
-    from.at("voxels_removed").get_to(smoothed.voxelsRemoved);
-    from.at("largest_shift_voxels").get_to(smoothed.largestShift);
-  }
-  return edits;
-}
-
-LabelRecord
-ReadLabel(const Json & json)
-{
-  LabelRecord label;
-  json.at("label").get_to(label.label);
-  label.component = json.value("component", std::int64_t{ 0 });
-  json.at("name").get_to(label.name);
-  if (json.contains("edits"))
-  {
-    label.edits = ReadEditRecord(json.at("edits"));
-  }
-  json.at("voxels").get_to(label.voxels);
-  json.at("volume_mm3").get_to(label.volumeMm3);
-  json.at("bounding_box").at("lower").get_to(label.box.lower);
-  json.at("bounding_box").at("size").get_to(label.box.size);
-  json.at("boundary_vertices").get_to(label.boundaryVertices);
-  label.shape = ReadTopology(json.at("shape"));
-  label.core = ReadComplex(json.at("core"));
-  for (const Json & one : json.at("pruned"))
-  {
-    PrunedRecord pruned;
-    one.at("lambda").get_to(pruned.lambda);
-    one.at("lambda_mm").get_to(pruned.lambdaMm);
-    pruned.complex = ReadComplex(one);
-    if (one.contains("tolerance"))
-    {
-      pruned.tolerance = { one.at("tolerance").get<std::string>(), one.at("tolerance_mm").get<double>(), {} };
-    }
-    if (one.contains("max_displacement_vox"))
-    {
-      pruned.refined = { one.at("mean_displacement_vox").get<double>(), one.at("max_displacement_vox").get<double>() };
-    }
-    label.pruned.push_back(std::move(pruned));
-  }
-  if (json.contains("skeleton"))
-  {
-    label.skeleton = ReadSkeletonRecord(json.at("skeleton"));
-  }
-  json.at("certificate").at("topology").get_to(label.topologyEqual);
-  json.at("certificate").at("enclosed").get_to(label.enclosed);
-  return label;
-}
-
-/** A record with weights that are not those of its spacing tells of wrong lengths.
- *  \throws InputError, also where the lattice is one that no core is made on. */
-void
-RequireSoundLattice(const CoreReport & report, const std::string & where)
-{
-  SpacingWeights weights;
-  try
-  {
-    weights = ComputeLatticeWeights(report.input.geometry);
-  }
-  catch (const InputError & error)
-  {
-    throw InputError(where + ": its field Provenance cannot be true: " + error.what() + ", and make the file again");
-  }
-  if (weights.weight != report.parameters.weights.weight)
-  {
-    throw InputError(where +
-                     ": its field Provenance has lattice weights that its spacing does not have; make the file again");
-  }
-}
-
 } // namespace
 
 std::string
@@ -416,71 +285,12 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
   return Dump(WholeJson(part, true));
 }
 
-CoreReport
-ParseProvenance(const std::string & text, const std::string & where)
-{
-  CoreReport report;
-  try
-  {
-    const Json json = Json::parse(text);
-    json.at("voxelcore").at("version").get_to(report.version);
-    report.input = ReadInput(json.at("input"));
-    report.parameters = ReadParameters(json.at("parameters"));
-    if (json.contains("skeleton"))
-    {
-      report.skeleton = ReadSkeletonStage(json.at("skeleton"));
-    }
-    for (const Json & label : json.at("labels"))
-    {
-      report.labels.push_back(ReadLabel(label));
-    }
-  }
-  catch (const nlohmann::json::exception &)
-  {
-    throw InputError(where + ": its field Provenance is missing or damaged; make the file again with 'voxelcore core'");
-  }
-  RequireSoundLattice(report, where);
-  return report;
-}
-
 std::string
 LabelRecordJson(const LabelRecord & label)
 {
   Json json = LabelJson(label, false);
   json["seconds"] = label.seconds;
   return Dump(json);
-}
-
-LabelRecord
-ParseLabelRecord(const std::string & text)
-{
-  try
-  {
-    const Json  json = Json::parse(text);
-    LabelRecord label = ReadLabel(json);
-    json.at("seconds").get_to(label.seconds);
-    for (std::size_t i = 0; i < label.pruned.size(); ++i)
-    {
-      const Json & pruned = json.at("pruned").at(i);
-      if (label.pruned[i].tolerance && !pruned.at("boundary_gap_mm").is_null())
-      {
-        label.pruned[i].tolerance->boundaryGapMm = pruned.at("boundary_gap_mm").get<double>();
-      }
-    }
-    if (json.at("certificate").contains("covered"))
-    {
-      label.covered = json.at("certificate").at("covered").get<bool>();
-    }
-    if (label.skeleton)
-    {
-      label.skeleton->cuts = ReadLoopCuts(json.at("skeleton"));
-    }
-    return label;
-  }
-  catch (const nlohmann::json::exception &)
-  {
-    throw InputError("a label's record is damaged");
-  }
 }
 
 double

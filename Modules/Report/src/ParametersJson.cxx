@@ -1,9 +1,11 @@
 #include "ParametersJson.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/ParameterFields.h"
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace voxelcore
 {
@@ -12,18 +14,13 @@ namespace
 {
 
 using Json = nlohmann::ordered_json;
+using Range = std::pair<double, double>;
 
 /** JSON has no infinite numbers. */
 Json
 BoundJson(double bound)
 {
   return std::isfinite(bound) ? Json(bound) : Json(bound > 0 ? "inf" : "-inf");
-}
-
-Json
-ThresholdJson(const std::pair<double, double> & threshold)
-{
-  return Json::array({ BoundJson(threshold.first), BoundJson(threshold.second) });
 }
 
 double
@@ -33,8 +30,21 @@ ReadBound(const Json & json)
   return !json.is_string() ? json.get<double>() : json.get<std::string>() == "inf" ? infinity : -infinity;
 }
 
+template <typename T>
 Json
-CropJson(const CropRange & crop)
+ValueJson(const T & value)
+{
+  return value;
+}
+
+Json
+ValueJson(const Range & range)
+{
+  return Json::array({ BoundJson(range.first), BoundJson(range.second) });
+}
+
+Json
+ValueJson(const CropRange & crop)
 {
   Json json = Json::array();
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -44,76 +54,110 @@ CropJson(const CropRange & crop)
   return json;
 }
 
-CropRange
-ReadCrop(const Json & json)
+template <typename T>
+Json
+ValueJson(const std::optional<T> & value)
 {
-  CropRange crop;
+  return value ? ValueJson(*value) : Json(nullptr);
+}
+
+template <typename T>
+void
+ReadValue(const Json & json, T & value)
+{
+  json.get_to(value);
+}
+
+void
+ReadValue(const Json & json, Range & range)
+{
+  range = { ReadBound(json.at(0)), ReadBound(json.at(1)) };
+}
+
+void
+ReadValue(const Json & json, CropRange & crop)
+{
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     json.at(axis).at(0).get_to(crop.first[axis]);
     json.at(axis).at(1).get_to(crop.end[axis]);
   }
-  return crop;
-}
-
-void
-AddEdits(Json & json, const ShapeEditOptions & edits)
-{
-  json["mend_shape"] = edits.mend;
-  json["fill_cavities"] = edits.fillCavities;
-  json["min_voxels"] = edits.minVoxels ? Json(*edits.minVoxels) : Json(nullptr);
-  json["largest"] = edits.largest ? Json(*edits.largest) : Json(nullptr);
-  json["smooth_shape"] = edits.smooth;
-  json["split_components"] = edits.splitComponents;
 }
 
 template <typename T>
 void
-ReadOptional(const Json & json, std::optional<T> & value)
+ReadValue(const Json & json, std::optional<T> & value)
 {
   if (!json.is_null())
   {
-    value = json.get<T>();
+    ReadValue(json, value.emplace());
   }
 }
 
-ShapeEditOptions
-ReadEdits(const Json & json)
+/** Only of meshes, so only in the files of meshes. */
+constexpr std::string_view kResolution = "resolution";
+
+/** Writes fields, or reads them and remembers their names. */
+class JsonFieldWriter
 {
-  ShapeEditOptions edits;
-  edits.mend = json.value("mend_shape", false);
-  json.at("fill_cavities").get_to(edits.fillCavities);
-  ReadOptional(json.at("min_voxels"), edits.minVoxels);
-  ReadOptional(json.at("largest"), edits.largest);
-  edits.smooth = json.value("smooth_shape", false);
-  json.at("split_components").get_to(edits.splitComponents);
-  return edits;
-}
+public:
+  explicit JsonFieldWriter(Json & json)
+    : m_Json(json)
+  {}
+
+  template <typename T>
+  void
+  operator()(const char * name, const T & value) const
+  {
+    const Json json = ValueJson(value);
+    if (name != kResolution || !json.is_null())
+    {
+      m_Json[name] = json;
+    }
+  }
+
+private:
+  Json & m_Json;
+};
+
+class JsonFieldReader
+{
+public:
+  explicit JsonFieldReader(const Json & json)
+    : m_Json(json)
+  {}
+
+  template <typename T>
+  void
+  operator()(const char * name, T & value)
+  {
+    m_Names.insert(name);
+    if (name != kResolution || m_Json.contains(name))
+    {
+      ReadValue(m_Json.at(name), value);
+    }
+  }
+
+  bool
+  Knows(const std::string & name) const
+  {
+    return m_Names.contains(name);
+  }
+
+private:
+  const Json &          m_Json;
+  std::set<std::string> m_Names;
+};
 
 } // namespace
 
 nlohmann::ordered_json
 ParametersJson(const ParameterRecord & parameters, bool inFile)
 {
-  Json json = Json::object();
+  Json                  json = Json::object();
+  const JsonFieldWriter write(json);
   json["labels"] = parameters.labels;
-  json["binary"] = parameters.binary;
-  json["threshold"] = parameters.threshold ? ThresholdJson(*parameters.threshold) : Json(nullptr);
-  json["volume"] = parameters.volume ? Json(*parameters.volume) : Json(nullptr);
-  json["component"] = parameters.component ? Json(*parameters.component) : Json(nullptr);
-  if (parameters.raw)
-  {
-    json["raw"] = RawLayoutText(*parameters.raw);
-  }
-  json["spacing"] = parameters.spacing ? Json(*parameters.spacing) : Json(nullptr);
-  if (parameters.resolution)
-  {
-    json["resolution"] = *parameters.resolution;
-  }
-  json["orthonormalize"] = parameters.orthonormalize;
-  json["nifti_form"] = parameters.niftiForm;
-  json["crop"] = parameters.crop ? CropJson(*parameters.crop) : Json(nullptr);
-  AddEdits(json, parameters.edits);
+  VisitScanFields(parameters, write);
   json["lambda"] = parameters.lambda;
   if (!parameters.tolerances.empty())
   {
@@ -125,11 +169,14 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
     if (parameters.refine.greyRange)
     {
       json["grey_sha256"] = parameters.refine.greySha256;
-      json["grey_range"] = ThresholdJson(*parameters.refine.greyRange);
+      json["grey_range"] = ValueJson(*parameters.refine.greyRange);
     }
   }
-  json["triangles"] = parameters.model.triangles;
-  json["keep_edges"] = parameters.model.keepEdges;
+  VisitModelFields(parameters.model, write);
+  for (const auto & [name, text] : parameters.further)
+  {
+    json[name] = text;
+  }
   if (!inFile)
   {
     json["engine"] = parameters.engine;
@@ -146,47 +193,35 @@ ParameterRecord
 ReadParameters(const nlohmann::ordered_json & json)
 {
   ParameterRecord parameters;
-  json.at("labels").get_to(parameters.labels);
-  json.at("binary").get_to(parameters.binary);
-  if (!json.at("threshold").is_null())
-  {
-    parameters.threshold = { ReadBound(json.at("threshold").at(0)), ReadBound(json.at("threshold").at(1)) };
-  }
-  ReadOptional(json.at("volume"), parameters.volume);
-  ReadOptional(json.at("component"), parameters.component);
-  if (json.contains("raw"))
-  {
-    parameters.raw = ParseRawLayout(json.at("raw").get<std::string>());
-  }
-  ReadOptional(json.at("spacing"), parameters.spacing);
-  if (json.contains("resolution"))
-  {
-    parameters.resolution = json.at("resolution").get<std::int64_t>();
-  }
-  json.at("orthonormalize").get_to(parameters.orthonormalize);
-  json.at("nifti_form").get_to(parameters.niftiForm);
-  if (!json.at("crop").is_null())
-  {
-    parameters.crop = ReadCrop(json.at("crop"));
-  }
-  parameters.edits = ReadEdits(json);
-  json.at("lambda").get_to(parameters.lambda);
+  JsonFieldReader read(json);
   if (json.contains("bumps"))
   {
     throw InputError("was pruned by the tolerance of VoxelCore 0.1; make it again");
   }
+  read("labels", parameters.labels);
+  VisitScanFields(parameters, read);
+  read("lambda", parameters.lambda);
   parameters.tolerances = json.value("tolerance", std::vector<std::string>());
   parameters.refine.surface = json.value("refine", std::string());
   parameters.refine.greySha256 = json.value("grey_sha256", std::string());
   if (json.contains("grey_range"))
   {
-    parameters.refine.greyRange = { ReadBound(json.at("grey_range").at(0)), ReadBound(json.at("grey_range").at(1)) };
+    ReadValue(json.at("grey_range"), parameters.refine.greyRange);
   }
-  json.at("triangles").get_to(parameters.model.triangles);
-  json.at("keep_edges").get_to(parameters.model.keepEdges);
-  json.at("lattice_weights").get_to(parameters.weights.weight);
-  json.at("lattice_unit_mm").get_to(parameters.weights.unit);
-  json.at("lattice_deviation").get_to(parameters.weights.deviation);
+  VisitModelFields(parameters.model, read);
+  read("lattice_weights", parameters.weights.weight);
+  read("lattice_unit_mm", parameters.weights.unit);
+  read("lattice_deviation", parameters.weights.deviation);
+  static const std::set<std::string> others{
+    "tolerance", "refine", "grey_sha256", "grey_range", "engine", "cross_check"
+  };
+  for (const auto & [name, value] : json.items())
+  {
+    if (value.is_string() && !read.Knows(name) && !others.contains(name))
+    {
+      parameters.further[name] = value.get<std::string>();
+    }
+  }
   return parameters;
 }
 

@@ -21,7 +21,8 @@ Count(Bits bits)
   return bits == 0 ? 0 : static_cast<std::uint64_t>(std::popcount(bits));
 }
 
-/** Which of 64 voxels have how many boundary vertices, from the bits of their eight corners (corner c = x + 2 y + 4 z). */
+/** Which of 64 voxels have how many boundary vertices, from the bits of their eight corners (corner c = x + 2 y + 4
+ *  z). */
 struct CornerSums
 {
   Bits four = 0;

@@ -2,12 +2,13 @@
 // Looks at rows of a scan as they come by, and tells a grey scan from labels.
 //
 // What tells them apart is how often neighbours are equal. A label is a body: most of its voxels lie beside one of its
-// own. A grey value is spread over the scan, and noise sets it apart from its neighbours. So for each value other than 0
-// the share of its neighbours (both not 0, along i and j) that have it is taken, and of these shares the median: a few
-// values that fill large parts, as clipped ones do, do not move it. In atlases of 30 to 700 labels it is 0.56 to 0.99, in
-// grey scans of 8 bits and more 0 to 0.18. A scan is grey when it has at least 24 values and
+// own. A grey value is spread over the scan, and noise sets it apart from its neighbours. So for each value other than
+// 0 the share of its neighbours (both not 0, along i and j) that have it is taken, and of these shares the median: a
+// few values that fill large parts, as clipped ones do, do not move it. In atlases of 30 to 700 labels it is 0.56 to
+// 0.99, in grey scans of 8 bits and more 0 to 0.18. A scan is grey when it has at least 24 values and
 // - the median is below 0.3, and less than 0.6 of all neighbours are equal (the two most frequent values left out), or
-// - the median is below 0.6, less than 0.65 of all are equal, and those that differ do so by less than a quarter of what
+// - the median is below 0.6, less than 0.65 of all are equal, and those that differ do so by less than a quarter of
+// what
 //   voxels anywhere do: a smooth ramp.
 // Bodies of single voxels have no neighbours of their own and do not count.
 

@@ -44,7 +44,8 @@ EditShape(VoxelShape & shape, const ShapeEditOptions & options, const ProgressCa
                       mended.cavitiesFilled };
   }
   ReportProgress(plan.Next("editing"), "", 0);
-  // Filled before counting: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any longer.
+  // Filled before counting: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any
+  // longer.
   if (options.fillCavities)
   {
     const EditedShape filled = take(FillCavities(std::move(shape)));

@@ -7,7 +7,8 @@ namespace voxelcore
 {
 
 // Weights (1 2 1) along each axis, applied once, blur; 2 x once - twice keeps what is curved where it is, to second
-// order (one step of the sharpening behind Taubin's smoothing of meshes), so that thin parts do not seem to lie outside.
+// order (one step of the sharpening behind Taubin's smoothing of meshes), so that thin parts do not seem to lie
+// outside.
 constexpr std::array<std::int32_t, 5> kBlurOnce{ 0, 4, 8, 4, 0 };  ///< / 16
 constexpr std::array<std::int32_t, 5> kBlurTwice{ 1, 4, 6, 4, 1 }; ///< / 16
 constexpr std::int32_t                kFieldWhole = 4096;

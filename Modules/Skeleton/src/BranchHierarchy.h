@@ -6,8 +6,8 @@
 namespace voxelcore
 {
 
-/** Given the numbers of each branch by itself, fills in their places in the hierarchy, and the axes; counts components and
- *  cycles. */
+/** Given the numbers of each branch by itself, fills in their places in the hierarchy, and the axes; counts components
+ *  and cycles. */
 void
 BuildHierarchy(const SkeletonGraph & graph, const MeasureOptions & options, BranchTable & table);
 

@@ -19,8 +19,9 @@ namespace voxelcore
  *  A sector is a set of faces around a point that hang together across edges with exactly two faces (a fan of the
  *  point's link between seams). Fire that comes into a sector burns all of it at once. Sectors of vertices are numbered
  *  vertex by vertex, then come those of samples, edge by edge: a row of one sector per sample for both faces of an edge
- *  with two, a row for each face where there are three or more, so that a face finds the sectors of an edge side by side.
- *  A point without faces has none. `corner` numbers positions in CellComplex::faceVertices and faceEdges, and `sides`.
+ *  with two, a row for each face where there are three or more, so that a face finds the sectors of an edge side by
+ *  side. A point without faces has none. `corner` numbers positions in CellComplex::faceVertices and faceEdges, and
+ *  `sides`.
  *
  *  Positions and radii of samples are computed when they are asked for: that is less work than fetching them. */
 struct BurnNetwork

@@ -64,8 +64,8 @@ BurnCurves(const MedialComplex &       surface,
     double       length;
   };
   std::vector<Anchor> anchors(count);
-  // The same for the fire that has come the longest way. Short twigs at a right angle to it often win by a hair, and from
-  // their anchors the next step would seem to take no time.
+  // The same for the fire that has come the longest way. Short twigs at a right angle to it often win by a hair, and
+  // from their anchors the next step would seem to take no time.
   std::vector<Anchor> longest(count, { kNoEdge, 0, 0 });
   std::vector<double> runnerUpTime(count, 0);
   std::vector<double> pushed(count, kNever);

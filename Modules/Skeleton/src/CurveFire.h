@@ -23,8 +23,8 @@ struct CurveFire
 
 constexpr ElementIndex kNoEdge = 0xFFFFFFFFU;
 
-/** Burns the live edges. Fire starts at an end when the surface burned there and goes on from a vertex when one live edge
- *  is left there; it never enters a vertex of a live face, nor a cycle.
+/** Burns the live edges. Fire starts at an end when the surface burned there and goes on from a vertex when one live
+ *  edge is left there; it never enters a vertex of a live face, nor a cycle.
  *  The way is measured by chords of about `chord`: the curve follows edges of the complex, and their zigzag must not
  *  count. */
 CurveFire

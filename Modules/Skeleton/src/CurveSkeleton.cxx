@@ -62,9 +62,9 @@ RemoveBranches(const CellComplex & cells, const CurveFire & fire, double thresho
   }
 }
 
-// Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much further
-// to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of voxels, half of
-// it; a thick one begins in the centre. Measured on tubes and tapering roots at all angles; voxels.
+// Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much
+// further to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of
+// voxels, half of it; a thick one begins in the centre. Measured on tubes and tapering roots at all angles; voxels.
 constexpr double kCornerBeyondBall = 1.25;
 constexpr double kLineBeyondBall = 0.6;
 
@@ -76,7 +76,8 @@ struct PathPlace
 };
 
 /** The first place on a path, from point `start` on, that is as far from the path's end as the radius has grown since:
- *  there, whatever way the end lies, is the centre of the ball that closes a tube. The radius is a mean over `window`. */
+ *  there, whatever way the end lies, is the centre of the ball that closes a tube. The radius is a mean over
+ *  `window`. */
 PathPlace
 CapCentre(const MedialComplex &             surface,
           const std::vector<ElementIndex> & path,
@@ -127,8 +128,8 @@ struct EndPlace
   double       part;
 };
 
-/** Takes off the outermost part of each branch up to where the curve begins to run along the middle of the surface, seen
- *  over a way of a few edges: fire on the curve falls behind there. */
+/** Takes off the outermost part of each branch up to where the curve begins to run along the middle of the surface,
+ *  seen over a way of a few edges: fire on the curve falls behind there. */
 void
 TrimEnds(const MedialComplex &       surface,
          const CurveFire &           fire,

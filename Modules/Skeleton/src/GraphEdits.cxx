@@ -78,7 +78,8 @@ CopyPoint(SkeletonGraph & graph, ElementIndex point)
   return copy;
 }
 
-/** One round: branches are looked at from the shortest on; one that has lost its neighbours waits for the next round. */
+/** One round: branches are looked at from the shortest on; one that has lost its neighbours waits for the next
+ *  round. */
 std::size_t
 PruneOnce(SkeletonGraph & graph, const BranchLimit & limit)
 {

@@ -31,7 +31,8 @@ struct Entries
   std::uint32_t                   count = 0;
 };
 
-/** Where fire can still go in a face that is small, with one sample on each edge: what has burned need not be looked at. */
+/** Where fire can still go in a face that is small, with one sample on each edge: what has burned need not be looked
+ *  at. */
 struct FaceAhead
 {
   static constexpr std::uint32_t mostSides = 8;
@@ -110,7 +111,8 @@ private:
   bool
   IsOvertaken(const Flame & flame, const Entries & entries) const;
 
-  /** From a corner (`step` 0) or the edge behind it (1). False when it is of no use but along the edges the point is on. */
+  /** From a corner (`step` 0) or the edge behind it (1). False when it is of no use but along the edges the point is
+   *  on. */
   bool
   SpreadInFace(const Flame & flame, const BurnNetwork::FaceCorner & at, std::uint32_t step);
 

@@ -26,9 +26,9 @@ struct TimedElement
 };
 
 /** A queue for fires, whose events nearly always lie ahead of the present. What is to come waits unsorted in buckets by
- *  time, as bare indices; when the turn of a bucket comes the times are looked up and sorted. What is added to the present
- *  bucket, or before it, goes to a small heap beside. The order is that of one heap, in a few cache lines instead of all
- *  of memory. */
+ *  time, as bare indices; when the turn of a bucket comes the times are looked up and sorted. What is added to the
+ *  present bucket, or before it, goes to a small heap beside. The order is that of one heap, in a few cache lines
+ *  instead of all of memory. */
 class TimeHeap
 {
 public:
@@ -74,8 +74,8 @@ public:
     }
   }
 
-  /** Takes out what is next; false when there is nothing. `due(element)` gives the time an element waits for: that of its
-   *  earliest push that has not been taken out, or NaN when it waits no longer. An element may come more
+  /** Takes out what is next; false when there is nothing. `due(element)` gives the time an element waits for: that of
+   *  its earliest push that has not been taken out, or NaN when it waits no longer. An element may come more
    *  often than that, at most as often as it was pushed. After one that waits for several times PushAgain() the next.
    *  Where looking up takes long, `due.Fetch(element, 0)`, `(element, 1)` and `(element, 2)` are called some elements
    *  ahead, in turn. */

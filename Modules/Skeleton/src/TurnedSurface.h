@@ -8,8 +8,8 @@ namespace voxelcore
 {
 
 /** A surface in the one of its 48 turned and mirrored places on the grid that its own shape picks, in canonical order
- *  there. What is computed on it, ties by index and sums in order included, is the same for a scan and for the same scan
- *  turned, up to a symmetry of the shape. */
+ *  there. What is computed on it, ties by index and sums in order included, is the same for a scan and for the same
+ *  scan turned, up to a symmetry of the shape. */
 struct TurnedSurface
 {
   MedialComplex             surface; ///< cells, positions (mm from its corner, along turned axes), radius; nothing else

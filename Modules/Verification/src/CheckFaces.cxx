@@ -1,4 +1,5 @@
-// Whether edges and faces are dual to facets and edges of the Delaunay cells, and polygons are planar, convex, oriented.
+// Whether edges and faces are dual to facets and edges of the Delaunay cells, and polygons are planar, convex,
+// oriented.
 #include "Checks.h"
 
 #include <numbers>

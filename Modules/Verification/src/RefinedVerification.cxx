@@ -48,9 +48,9 @@ DotOf(const Position & a, const Position & b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/** A measure is half the width between two feet, taken as the mean over an element's corners where these agree and else as
- *  the least; so none exceeds the mean distance of the farthest feet, or, where it was taken at other corners, too, twice
- *  that of any one. */
+/** A measure is half the width between two feet, taken as the mean over an element's corners where these agree and else
+ *  as the least; so none exceeds the mean distance of the farthest feet, or, where it was taken at other corners, too,
+ *  twice that of any one. */
 void
 CheckRefinedMeasures(VerificationReport &             report,
                      const RefinedVerificationInput & input,

@@ -1,6 +1,6 @@
 #pragma once
-// Vectors in lattice axes scaled by the weights, where lengths are distances. Verification has its own, in a namespace of
-// its own: it shares no arithmetic with what it checks.
+// Vectors in lattice axes scaled by the weights, where lengths are distances. Verification has its own, in a namespace
+// of its own: it shares no arithmetic with what it checks.
 
 #include "voxelcore/SpacingWeights.h"
 

@@ -15,8 +15,8 @@ struct LengthText
   std::string text;      ///< as written, without blanks
 };
 
-/** Reads "1.5mm" and the like, blanks around the number and before the unit allowed. `refuse` is told why a text is none
- *  and must throw. */
+/** Reads "1.5mm" and the like, blanks around the number and before the unit allowed. `refuse` is told why a text is
+ *  none and must throw. */
 LengthText
 ReadLength(std::string_view text, const std::function<void(const char *)> & refuse);
 

@@ -182,8 +182,8 @@ RaiseTo(double & value, double to)
   {}
 }
 
-// A facet on the boundary is a side of a voxel (Theorem 3.1). No lattice point lies within the ball that has its diagonal
-// for diameter, so that the centre of the cell beside it is on the cell's side.
+// A facet on the boundary is a side of a voxel (Theorem 3.1). No lattice point lies within the ball that has its
+// diagonal for diameter, so that the centre of the cell beside it is on the cell's side.
 bool
 IsVoxelSide(const DelaunayCells & cells, std::size_t facet)
 {

@@ -18,9 +18,10 @@ struct CellMeasures
   std::vector<double> facet;  ///< per facet: of the smallest ball enclosing its points
 };
 
-/** Measures cells and facets. On the way the points of the facets inside are renumbered to their lexicographic order by (x, y, z),
- *  in which the points come back, and sides on the boundary get the mark kBoundarySide: cells and facets are in the order
- *  of their centres' x, so that what is worked on together then lies together in memory. Below 2^31 points. */
+/** Measures cells and facets. On the way the points of the facets inside are renumbered to their lexicographic order by
+ *  (x, y, z), in which the points come back, and sides on the boundary get the mark kBoundarySide: cells and facets are
+ *  in the order of their centres' x, so that what is worked on together then lies together in memory. Below 2^31
+ *  points. */
 CellMeasures
 MeasureCells(const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,

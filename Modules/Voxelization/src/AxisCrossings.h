@@ -28,8 +28,8 @@ struct PlaneRuns
   std::vector<RayRun> several; ///< by rule Winding: winding number beyond what `in` means
 };
 
-/** The crossings of rays along an axis, a plane of them at a time: planes lie across `outer`, the greater of the other two
- *  axes. Planes of several slabs may be asked for at the same time by several threads. */
+/** The crossings of rays along an axis, a plane of them at a time: planes lie across `outer`, the greater of the other
+ *  two axes. Planes of several slabs may be asked for at the same time by several threads. */
 class AxisCrossings
 {
 public:

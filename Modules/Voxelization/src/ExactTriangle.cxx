@@ -89,9 +89,9 @@ IndexMesh::IndexMesh(const TriangleMesh & given, const VoxelGrid & grid)
   error = 4 * 0x1p-53 * (farthest + 1);
 }
 
-// Error bounds. Let d be the error of a coordinate and L the greatest difference of two: differences are off by less than
-// 2.5 d, products of two by less than 7 L d, the difference of two products by less than 15 L d. The bounds used are about
-// twice what follows from that; u L <= d, so rounding is in it.
+// Error bounds. Let d be the error of a coordinate and L the greatest difference of two: differences are off by less
+// than 2.5 d, products of two by less than 7 L d, the difference of two products by less than 15 L d. The bounds used
+// are about twice what follows from that; u L <= d, so rounding is in it.
 ExactTriangle::ExactTriangle(const IndexMesh & mesh, const std::array<std::uint32_t, 3> & corners, std::size_t axis)
   : m_Mesh(mesh)
   , m_Corners(corners)
@@ -259,8 +259,8 @@ ExactTriangle::FirstBeyond(std::int64_t inner, std::int64_t outer) const
   }
   auto first = static_cast<std::int64_t>(std::ceil(low));
   auto last = static_cast<std::int64_t>(std::ceil(high));
-  // The crossing lies from low to high: centres before `first` are not beyond. One at `last` may lie on it when it equals
-  // high, which it does not where floating point decides.
+  // The crossing lies from low to high: centres before `first` are not beyond. One at `last` may lie on it when it
+  // equals high, which it does not where floating point decides.
   if (first == last && high < static_cast<double>(last))
   {
     return first;

@@ -35,7 +35,8 @@ private:
   std::array<BigInteger, 3> m_HalfSpacing;
 };
 
-/** A mesh in the coordinates of a grid's indices, in which centres are whole numbers, and what these lack in precision. */
+/** A mesh in the coordinates of a grid's indices, in which centres are whole numbers, and what these lack in
+ *  precision. */
 struct IndexMesh
 {
   IndexMesh(const TriangleMesh & mesh, const VoxelGrid & grid);

@@ -1,5 +1,6 @@
 #pragma once
-// A mesh made ready: points welded, triangles that say nothing left out, orientation repaired, and what it is judged to be.
+// A mesh made ready: points welded, triangles that say nothing left out, orientation repaired, and what it is judged to
+// be.
 
 #include "voxelcore/Voxelization.h"
 

@@ -3,7 +3,7 @@
 #include "AxisCrossings.h"
 #include "RowBits.h"
 #include "voxelcore/Error.h"
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <bit>

@@ -53,7 +53,8 @@ BoundsOf(const TriangleMesh & mesh)
 VoxelGrid
 GridOver(const Bounds & bounds, const Vector3 & spacing)
 {
-  // The longest side divided by a rounded spacing may come out a hair above a whole number; no centre lies in that hair.
+  // The longest side divided by a rounded spacing may come out a hair above a whole number; no centre lies in that
+  // hair.
   constexpr double hair = 1e-6;
   VoxelGrid        grid{ bounds.lower, spacing, {} };
   for (std::size_t axis = 0; axis < 3; ++axis)

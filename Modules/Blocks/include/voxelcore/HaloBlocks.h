@@ -7,7 +7,8 @@
 // distance over the voxels of S in a small box B of b that holds c, bounds it. Let S' agree with S in all voxels around
 // every lattice point within r(B) of B, for all B.
 //  1. Within the closed ball of c, S and S' have the same boundary vertices: the cell is a cell of S'.
-//  2. Conversely, let c be the centre of a cell inside S', in B. The distance from c to the boundary vertices of S is at
+//  2. Conversely, let c be the centre of a cell inside S', in B. The distance from c to the boundary vertices of S is
+//  at
 //     most r(B), and these are boundary vertices of S' as well: the radius is at most r(B), and as in 1 it is a cell of
 //     S.
 //  3. The cells in a 6-connected component of S' need that component alone: its boundary squares are facets of the
@@ -124,8 +125,8 @@ using ShareSource = std::function<BlockShare(std::size_t)>;
 
 /** Joins `count` shares, in any order. Each is asked for twice, one at a time, so that never more than one is in memory
  *  beside the result. Checks exactly that the cells fill the shape once: the surface of each cell is closed and its
- *  points lie on one sphere; each facet is a boundary square, of which there are as many as the shape has, or is met from
- *  both sides by one cell each.
+ *  points lie on one sphere; each facet is a boundary square, of which there are as many as the shape has, or is met
+ *  from both sides by one cell each.
  *  Takes up to 300 bytes a boundary vertex at its peak (roots 233, gyroid sheets 296), the result included (133, 169).
  *  \throws InputError when shares are missing, repeated or do not belong together; CertificateError, naming the place,
  *  when cells are missing, doubled or do not fit; Cancelled when the callback says so. */

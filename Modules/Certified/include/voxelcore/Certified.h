@@ -66,8 +66,8 @@ struct CertifiedResult
   CertifiedSeconds                 seconds;
 };
 
-/** Everything from a shape to its certified cores and skeleton; positions are in LPS mm of `geometry`, the shape lies in
- *  its voxels. The same bits for every engine and number of threads (OpenMP's).
+/** Everything from a shape to its certified cores and skeleton; positions are in LPS mm of `geometry`, the shape lies
+ *  in its voxels. The same bits for every engine and number of threads (OpenMP's).
  *  \throws CertificateError, which names the shape; InputError for a shape or spacing that is beyond exact numbers;
  *  UsageError for a request that contradicts itself; Cancelled */
 CertifiedResult

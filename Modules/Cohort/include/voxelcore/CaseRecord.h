@@ -29,8 +29,8 @@ struct CaseRecord
   double                    seconds = 0;
 };
 
-/** Digest of what a result depends on: the scan's content (and that of the label names beside it), the options that were
- *  given, and the sources of the program. Where the scan lies does not matter.
+/** Digest of what a result depends on: the scan's content (and that of the label names beside it), the options that
+ *  were given, and the sources of the program. Where the scan lies does not matter.
  *  \throws InputError when the scan cannot be read */
 std::string
 CaseKey(const std::filesystem::path & scan, const std::string & options);
@@ -39,8 +39,8 @@ CaseKey(const std::filesystem::path & scan, const std::string & options);
 std::filesystem::path
 RecordPath(const std::filesystem::path & folder);
 
-/** Everything the case has left in its folder, by name, with digests; the record itself and files that were not finished
- *  are no outputs. */
+/** Everything the case has left in its folder, by name, with digests; the record itself and files that were not
+ *  finished are no outputs. */
 std::vector<RecordedFile>
 ListOutputs(const std::filesystem::path & folder);
 

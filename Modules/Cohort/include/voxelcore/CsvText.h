@@ -15,19 +15,19 @@ struct CsvRow
   std::vector<std::string> fields;
 };
 
-/** Fields may be quoted, then "" is a quote and line ends belong to the field. Lines end in LF or CRLF; a byte order mark
- *  of UTF-8 and empty lines are passed over. `where` names the file in errors.
+/** Fields may be quoted, then "" is a quote and line ends belong to the field. Lines end in LF or CRLF; a byte order
+ *  mark of UTF-8 and empty lines are passed over. `where` names the file in errors.
  *  \throws InputError for UTF-16, NUL bytes, a quote that is never closed or stands inside a field. */
 std::vector<CsvRow>
 ParseCsv(std::string_view text, const std::string & where, char separator = ',');
 
-/** What separates the fields of a table: of comma, semicolon and tab the one that its first line that is not empty has most
- *  of, not counting what is quoted; a comma where there is none. */
+/** What separates the fields of a table: of comma, semicolon and tab the one that its first line that is not empty has
+ *  most of, not counting what is quoted; a comma where there is none. */
 char
 FindSeparator(std::string_view text);
 
-/** A field that holds text of others, quoted where it must be. What spreadsheets would take for a formula (it begins with
- *  one of = + - @ or a control character) gets an apostrophe in front. */
+/** A field that holds text of others, quoted where it must be. What spreadsheets would take for a formula (it begins
+ *  with one of = + - @ or a control character) gets an apostrophe in front. */
 std::string
 CsvTextField(std::string_view text);
 

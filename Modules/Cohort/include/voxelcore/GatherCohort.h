@@ -17,14 +17,14 @@ struct CohortSummary
 };
 
 /** Writes, all at once, from the records and reports of the cases in `folder` (whichever batch made them):
- *  - cases.csv: a row per case: id, status, reason, and every number and word of its report outside its labels, whose values
- *    stand in one column;
- *  - labels.csv: a row per case and label with every number of the report's label (of `cuts` only how many there are), and
- *    `outliers`: FindOutliers();
+ *  - cases.csv: a row per case: id, status, reason, and every number and word of its report outside its labels, whose
+ *    values stand in one column;
+ *  - labels.csv: a row per case and label with every number of the report's label (of `cuts` only how many there are),
+ *    and `outliers`: FindOutliers();
  *  - dataset_description.json, of BIDS derivatives;
  *  - index.html: the same for people, without anything from elsewhere.
- *  Columns: the keys of the report joined by "_"; numbers in lists from 0. Text that a spreadsheet would take for a formula
- *  has an apostrophe in front. Cases of `expected` that have left no record count as failed. Ordered by id.
+ *  Columns: the keys of the report joined by "_"; numbers in lists from 0. Text that a spreadsheet would take for a
+ *  formula has an apostrophe in front. Cases of `expected` that have left no record count as failed. Ordered by id.
  *  \throws OutputError; InputError when there is nothing to gather */
 CohortSummary
 GatherCohort(const std::filesystem::path &   folder,

@@ -1,6 +1,6 @@
 #pragma once
-// A small picture of a medial surface, painted by ourselves: needs no window, no graphics card, and equal models give equal
-// bytes.
+// A small picture of a medial surface, painted by ourselves: needs no window, no graphics card, and equal models give
+// equal bytes.
 
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/MedialModel.h"
@@ -20,8 +20,8 @@ struct Thumbnail
   std::vector<std::uint8_t> rgb;
 };
 
-/** A parallel projection of all parts, from the patient's left front and above, that fills the picture: faces lit from the
- *  viewer's side and coloured by label, edges on no face and isolated vertices as lines and points. */
+/** A parallel projection of all parts, from the patient's left front and above, that fills the picture: faces lit from
+ *  the viewer's side and coloured by label, edges on no face and isolated vertices as lines and points. */
 Thumbnail
 PaintModel(const MedialModel & model, int size);
 

@@ -12,8 +12,8 @@
 namespace voxelcore
 {
 
-/** Items in order, smallest first, while more arrive. Those ahead wait in buckets by key; the nearest bucket is sorted, so
- *  that what comes next is known and can be fetched from memory in time; those that arrive for it go to a heap.
+/** Items in order, smallest first, while more arrive. Those ahead wait in buckets by key; the nearest bucket is sorted,
+ *  so that what comes next is known and can be fetched from memory in time; those that arrive for it go to a heap.
  *  An Item has operator< that orders by `double Key() const` first. What waits may be smaller, with the same Key():
  *  wake(waiting) makes an Item of it when its bucket is next. */
 template <typename Item, typename Waiting = Item, typename Wake = std::identity>

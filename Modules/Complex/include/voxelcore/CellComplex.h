@@ -41,8 +41,8 @@ struct CellComplex
   }
 };
 
-/** The cofaces of an element, the elements one dimension up that it bounds: how many there are (left), and their indices
- *  by exclusive or, which is the index of one alone. */
+/** The cofaces of an element, the elements one dimension up that it bounds: how many there are (left), and their
+ *  indices by exclusive or, which is the index of one alone. */
 struct Cofaces
 {
   ElementIndex count = 0;

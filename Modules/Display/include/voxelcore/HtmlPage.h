@@ -21,10 +21,10 @@ struct HtmlOptions
 bool
 HasHtml();
 
-/** Writes one HTML file: meshes and values of `content`, three.js (MIT licence, named in the page) and a viewer. Places are
- *  rounded to 1/65535 of a mesh's box, values to 1/65534 of their range. Only what is shown is decimated; the page says
- *  from how many triangles. Its colours run from the 2nd to the 98th percentile; all values and each label's own are a
- *  choice. It asks nothing of any network, and forbids itself to. Damaged, or without WebGL, it says so.
+/** Writes one HTML file: meshes and values of `content`, three.js (MIT licence, named in the page) and a viewer. Places
+ *  are rounded to 1/65535 of a mesh's box, values to 1/65534 of their range. Only what is shown is decimated; the page
+ *  says from how many triangles. Its colours run from the 2nd to the 98th percentile; all values and each label's own
+ *  are a choice. It asks nothing of any network, and forbids itself to. Damaged, or without WebGL, it says so.
  *  \throws UsageError where HasHtml() is false; Error where a place is no finite number; OutputError; Cancelled */
 void
 WriteHtml(const std::filesystem::path & path,

@@ -45,9 +45,10 @@ struct Picture
 };
 
 /** Draws each frame and hands it to `take`. Parallel projection, so that the scale bar holds everywhere; a colour bar
- *  that names its unit and says what lies beyond its ends, or the names of up to a dozen labels; a cross with the directions of the patient. The surface is translucent where
- *  something is in it. Where there is no display that can be used, Xvfb is started for the time being.
- *  \throws UsageError when nothing is there to be shown; OutputError when there is neither a display nor Xvfb; Cancelled */
+ *  that names its unit and says what lies beyond its ends, or the names of up to a dozen labels; a cross with the
+ *  directions of the patient. The surface is translucent where something is in it. Where there is no display that can
+ *  be used, Xvfb is started for the time being. \throws UsageError when nothing is there to be shown; OutputError when
+ *  there is neither a display nor Xvfb; Cancelled */
 void
 RenderPictures(const DisplayContent &                                  content,
                const PictureOptions &                                  options,

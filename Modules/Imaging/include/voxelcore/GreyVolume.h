@@ -27,10 +27,10 @@ struct GreyVolume
   }
 };
 
-/** Reads the values within a box of a scan (any that ReadLabelVolume reads), slope and intercept applied. 4 bytes a voxel
- *  of the box. Of the options, those about geometry, volume and component count. May be called from several threads.
- *  \throws InputError when the scan is missing, damaged or unfit, does not hold the box, or has a value in it that is no
- *  finite number; Cancelled */
+/** Reads the values within a box of a scan (any that ReadLabelVolume reads), slope and intercept applied. 4 bytes a
+ *  voxel of the box. Of the options, those about geometry, volume and component count. May be called from several
+ *  threads. \throws InputError when the scan is missing, damaged or unfit, does not hold the box, or has a value in it
+ *  that is no finite number; Cancelled */
 GreyVolume
 ReadGreyVolume(const std::filesystem::path & path,
                const VoxelBox &              box,

@@ -5,7 +5,6 @@
 #include "voxelcore/LabelChoice.h"
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
-#include "voxelcore/RawLayout.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -24,7 +23,6 @@ struct ReadOptions
   std::string                 niftiForm = "auto"; ///< "auto" (ITK's rule), "sform" or "qform"
   std::optional<std::int64_t> volume;             ///< which volume of a 4-D file, counted from 0
   std::optional<std::int64_t> component;          ///< which of several values a voxel, from 0
-  std::optional<RawLayout>    raw;                ///< the file is bare voxels of this layout, whatever its name
 };
 
 /** Reads the labels of a scan in one pass over its voxels:
@@ -33,10 +31,6 @@ struct ReadOptions
  *  - NIfTI-1 and -2 (.nii, .nii.gz, .hdr/.img, .hdr.gz/.img.gz);
  *  - MetaImage (.mha, .mhd; raw, compressed, text);
  *  - TIFF (.tif, .tiff; many pages, BigTIFF, tiles, packed bits, any compression of libtiff);
- *  - bare voxels (.raw .vol .bin .dat) with options.raw, or with a text beside them: a .dat with Resolution,
- *    SliceThickness and Format (OpenQVis, North Star), or lines as of MetaImage in .mhd, .txt or .info;
- *  - through ITK and GDCM, by a program of its own: DICOM series, multi-frame images and segmentations, MRC, MINC, GIPL,
- *    legacy VTK images, and HDF5 that ITK wrote;
  *  - slices, one TIFF or one PNG each (grey, 1 to 16 bits): a folder, or a pattern in the last part of the path, where
  *    `*` stands for anything and `%d`, `%04d` or a run of `#` for a number. They are taken in natural order (2 before
  *    10) and must be numbered without a gap.
@@ -50,11 +44,11 @@ struct ReadOptions
  *  are: the numbers their labels get must not depend on the crop). Places do not move: shapes lie where they lie in the
  *  whole scan.
  *
- *  The voxel size is the file's: of TIFF as ImageJ, OME-XML or its resolution tags state it. Where there is none, 1 mm is
- *  assumed and warned of. Of hyperstacks, options.component picks the channel and options.volume the time point.
+ *  The voxel size is the file's: of TIFF as ImageJ, OME-XML or its resolution tags state it. Where there is none, 1 mm
+ *  is assumed and warned of. Of hyperstacks, options.component picks the channel and options.volume the time point.
  *
- *  With options.refuseGrey a grey scan is told from labels and refused with a threshold proposed (GreyScanError), as long
- *  as neither binary nor threshold is set and the file names no labels.
+ *  With options.refuseGrey a grey scan is told from labels and refused with a threshold proposed (GreyScanError), as
+ *  long as neither binary nor threshold is set and the file names no labels.
  *
  *  Progress is reported as stage "read". May be called from several threads at once.
  *  \throws InputError with one line when the file is missing, damaged or unfit, when a label asked for does not occur,
@@ -76,8 +70,8 @@ ScanFiles(const std::filesystem::path & path);
 
 /** Writes labels as a volume: .nrrd .nii .nii.gz .mha .mhd .tif by the extension of `path`; the smallest unsigned type
  *  that holds the values. Packed when `compress` and the format can (.nii never, .nii.gz always). NIfTI keeps the
- *  geometry in single precision, TIFF the spacing alone. The file is read back before it takes its name, so a full disk leaves
- *  nothing.
+ *  geometry in single precision, TIFF the spacing alone. The file is read back before it takes its name, so a full disk
+ *  leaves nothing.
  *  \throws OutputError when it cannot be written; UsageError for an unknown extension, a value below 1, labels that
  *  overlap or reach beyond the volume. */
 void
@@ -86,9 +80,10 @@ WriteLabelVolume(const std::filesystem::path &   path,
                  const std::vector<LabelShape> & labels,
                  bool                            compress = true);
 
-/** Writes labels as a segmentation of 3D Slicer (.seg.nrrd, packed) with their names and colours. Labels that overlap get
- *  layers of their own; labels that share a value, as components do, or beyond 65535 are numbered anew from 1.
- *  \throws OutputError when it cannot be written in full; UsageError for a label beyond the volume, and above 65535 labels */
+/** Writes labels as a segmentation of 3D Slicer (.seg.nrrd, packed) with their names and colours. Labels that overlap
+ *  get layers of their own; labels that share a value, as components do, or beyond 65535 are numbered anew from 1.
+ *  \throws OutputError when it cannot be written in full; UsageError for a label beyond the volume, and above 65535
+ *  labels */
 void
 WriteSegmentation(const std::filesystem::path &   path,
                   const ImageGeometry &           geometry,

@@ -1,6 +1,6 @@
 #pragma once
-// One volume in parts: `core --blocks N --block K` computes one part, by itself, on any machine; `core --join` makes of all
-// of them the file that a single run writes, bit for bit. See HaloBlocks.h for why.
+// One volume in parts: `core --blocks N --block K` computes one part, by itself, on any machine; `core --join` makes of
+// all of them the file that a single run writes, bit for bit. See HaloBlocks.h for why.
 
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/DelaunayCells.h"

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ struct CoreOptions
   std::optional<std::filesystem::path> table;   ///< .csv, a row per label
   DisplayTargets                       display; ///< of the first result of each label
   ModelOptions                         model;
+  std::map<std::string, std::string>   further; ///< options without a field of their own; recorded
   Engine                               engine = Engine::Auto;
   std::filesystem::path                join; ///< folder of parts (BlockJob.h) to take the cells from; empty: computed
   bool                                 crossCheck = false; ///< both engines must find the same cells
@@ -58,10 +60,18 @@ struct CoreResult
  *  nothing. In a folder each label is written when it is done, and the same job, run again, goes on: labels whose files
  *  are there as they were written, from the same scan, options and sources, are not computed again. A label whose
  *  certificate fails is not written, nor are tables and report then; the others are. What is for looking at
- *  (CoreOptions::display) needs all labels in memory: with it a folder, too, is written as one. The result does not depend on the number of threads (OpenMP's).
- *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
+ *  (CoreOptions::display) needs all labels in memory: with it a folder, too, is written as one. The result does not
+ *  depend on the number of threads (OpenMP's). \throws UsageError, InputError, OutputError, CertificateError,
+ *  Cancelled */
 CoreResult
 RunCoreJob(const CoreOptions & options, const JobContext & context = {});
+
+/** What was asked for, as reports and files have it. */
+ParameterRecord
+DescribeParameters(const CoreOptions &    options,
+                   const LabelMap &       map,
+                   const EditedLabels &   edited,
+                   const SpacingWeights & weights);
 
 /** One label's share of a job. */
 struct LabelOutcome

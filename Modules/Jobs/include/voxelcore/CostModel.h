@@ -1,10 +1,10 @@
 #pragma once
-// What `voxelcore core`, `skeleton` and a page will need, foretold from the shapes alone. Counts of the boundary tell how many
-// Delaunay cells there will be, and these what a job costs; all of it is linear, with constants fitted by Testing/Performance
-// (VoxelCoreCostFit, and VoxelCoreCostFit --further for skeletons and pages), which prints them and how far they miss.
-// On shapes and scans not fitted to, memory of skeletons was 0.9 to 1.5 times what was measured, of pages 0.8 to 1.8 times;
-// seconds on one thread 0.5 to 1.2 and 0.9 to 1.3 times, but for a thin plate (2.1 and 1.6) and a scan of 3.6 times thicker
-// slices (0.5 and 0.4).
+// What `voxelcore core`, `skeleton` and a page will need, foretold from the shapes alone. Counts of the boundary tell
+// how many Delaunay cells there will be, and these what a job costs; all of it is linear, with constants fitted by
+// Testing/Performance (VoxelCoreCostFit, and VoxelCoreCostFit --further for skeletons and pages), which prints them and
+// how far they miss. On shapes and scans not fitted to, memory of skeletons was 0.9 to 1.5 times what was measured, of
+// pages 0.8 to 1.8 times; seconds on one thread 0.5 to 1.2 and 0.9 to 1.3 times, but for a thin plate (2.1 and 1.6) and
+// a scan of 3.6 times thicker slices (0.5 and 0.4).
 
 #include "voxelcore/BoundaryCounts.h"
 #include "voxelcore/CoreJob.h"
@@ -23,8 +23,8 @@ struct CostTerms
 {
   static constexpr std::size_t kSize = 6;
   /** 1; boundary vertices; Delaunay cells expected; the boundary of parts so thick that their cells go through
-   *  Bowyer-Watson, and of this the flat part, which goes there with all its vertices, the rest with a fifth; the core's
-   *  edges expected times the doublings of their number over 1000, as caches miss more. */
+   *  Bowyer-Watson, and of this the flat part, which goes there with all its vertices, the rest with a fifth; the
+   *  core's edges expected times the doublings of their number over 1000, as caches miss more. */
   std::array<double, kSize> values{};
 };
 
@@ -32,11 +32,12 @@ struct CostTerms
  *  Delaunay cell of their own, but for those with all eight; the latter. */
 using BorderKinds = std::array<double, 4>;
 
-/** What a page's cost grows with, of one shape: 1; boundary vertices, as its surface is shown; edges of the core shown. */
+/** What a page's cost grows with, of one shape: 1; boundary vertices, as its surface is shown; edges of the core
+ *  shown. */
 using PageTerms = std::array<double, 3>;
 
-/** The fitted constants. Seconds are those of the machine named in Testing/Performance/README.md; another may be twice as
- *  fast or half. */
+/** The fitted constants. Seconds are those of the machine named in Testing/Performance/README.md; another may be twice
+ *  as fast or half. */
 struct CostConstants
 {
   BorderKinds                          cells{};    ///< Delaunay cells for each border voxel of a kind
@@ -76,9 +77,9 @@ struct CostPrediction
 CostPrediction
 PredictLabel(const BoundaryCounts & counts, int threads, const CostConstants & constants = FittedCosts());
 
-/** A whole job over labels, in the order given, as RunCoreJob goes about it: small labels side by side, results kept until
- *  they are written. Takes from `options` what decides cost: number of results, output, edges, engine, skeleton, page.
- *  With TetGen the figures are coarse (within a factor of two). */
+/** A whole job over labels, in the order given, as RunCoreJob goes about it: small labels side by side, results kept
+ *  until they are written. Takes from `options` what decides cost: number of results, output, edges, engine, skeleton,
+ *  page. With TetGen the figures are coarse (within a factor of two). */
 CostPrediction
 PredictJob(const std::vector<BoundaryCounts> & labels,
            const CoreOptions &                 options,

@@ -24,8 +24,8 @@ struct InfoOptions
   ShapeEditOptions      edits;
 
   std::optional<std::int64_t> resolution; ///< of a mesh
-  std::vector<Lambda>         coreLambdas;     ///< what `core` and `skeleton` do when nothing is said: to foretell what they need
-  std::vector<Lambda>         skeletonLambdas;
+  std::vector<Lambda> coreLambdas; ///< what `core` and `skeleton` do when nothing is said: to foretell what they need
+  std::vector<Lambda> skeletonLambdas;
 };
 
 struct LabelInfo

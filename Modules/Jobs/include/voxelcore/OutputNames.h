@@ -52,8 +52,9 @@ FolderOutputPath(const std::filesystem::path & folder,
                  const std::string &           suffix,
                  std::int64_t                  component = 0);
 
-/** "<folder>/<scan>_label-<value>_skeleton.vtp", of a component (not 0) "..._label-<value>_component-<n>_skeleton.vtp". Of a
- *  core's file, "<scan>_label-<value>_medial.vtp", what comes before "_label-" or "_medial" counts as the scan's name. */
+/** "<folder>/<scan>_label-<value>_skeleton.vtp", of a component (not 0) "..._label-<value>_component-<n>_skeleton.vtp".
+ *  Of a core's file, "<scan>_label-<value>_medial.vtp", what comes before "_label-" or "_medial" counts as the scan's
+ *  name. */
 std::filesystem::path
 SkeletonFolderPath(const std::filesystem::path & folder,
                    const std::filesystem::path & input,
@@ -64,7 +65,8 @@ SkeletonFolderPath(const std::filesystem::path & folder,
 std::filesystem::path
 SkeletonTablesPath(const std::filesystem::path & folder, const std::filesystem::path & input);
 
-/** Where `core` writes the skeletons to: "OUT_skeleton.vtp" for "OUT.vtp" and for "OUT_medial.vtp", a folder for a folder. */
+/** Where `core` writes the skeletons to: "OUT_skeleton.vtp" for "OUT.vtp" and for "OUT_medial.vtp", a folder for a
+ *  folder. */
 std::filesystem::path
 SkeletonBesideCore(const std::filesystem::path & output);
 

@@ -101,8 +101,8 @@ public:
   std::vector<StagedFile>
   StagedFiles() const;
 
-  /** Gives every staged file its final name; others may be staged afterwards. On failure those that got theirs are removed again.
-   *  \throws OutputError */
+  /** Gives every staged file its final name; others may be staged afterwards. On failure those that got theirs are
+   *  removed again. \throws OutputError */
   void
   Commit();
 

@@ -24,8 +24,8 @@ struct PhantomJobOptions
 std::string
 PhantomList();
 
-/** Makes and writes a volume with one label, 1, or with labels from 1 on, a body each, and the true centre lines of a root: SWC in micrometres, LPS axes, type
- *  the order of the branch. Returns one line that says what was made.
+/** Makes and writes a volume with one label, 1, or with labels from 1 on, a body each, and the true centre lines of a
+ *  root: SWC in micrometres, LPS axes, type the order of the branch. Returns one line that says what was made.
  *  \throws UsageError, OutputError, Cancelled */
 std::string
 RunPhantomJob(const PhantomJobOptions & options, const JobContext & context = {});

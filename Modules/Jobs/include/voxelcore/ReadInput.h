@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,14 +17,12 @@ namespace voxelcore
 /** A mesh as a volume of one label, 1, named after its file. */
 struct MeshVolume
 {
-  LabelMap      volume; ///< its box is that of the mesh; notes and warnings say what was found in the mesh
-  MeshFindings  findings;
-  std::uint64_t doubtful = 0; ///< voxels the mesh is not clear about
-};
+  LabelMap     volume; ///< its box is that of the mesh; notes and warnings say what was found in the mesh
+  MeshFindings findings;
 
-/** Whether a path names a mesh, and not an image in a .vtk file. */
-bool
-IsMeshFile(const std::filesystem::path & path);
+  std::shared_ptr<const TriangleMesh> mesh;         ///< as it stands in the file
+  std::uint64_t                       doubtful = 0; ///< voxels the mesh is not clear about
+};
 
 /** Reads and voxelizes a mesh, either with `resolution` voxels on its longest side or with voxels of this size, mm.
  *  \throws UsageError unless exactly one of the two is given; InputError; Cancelled */
@@ -33,9 +32,15 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
                  const std::optional<Vector3> &      spacing,
                  const ProgressCallback &            progress = {});
 
+/** What a job works on, opened once. */
+struct InputScan : LabelMap
+{
+  std::shared_ptr<const TriangleMesh> mesh; ///< of which the voxels were made; none of a scan
+};
+
 /** ReadLabelVolume, or for the path of a mesh VoxelizeMeshFile with the spacing of `options`.
  *  \throws as these; UsageError for a resolution that is none of a mesh, or options that are those of scans */
-LabelMap
+InputScan
 ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,
                const std::optional<std::int64_t> & resolution,

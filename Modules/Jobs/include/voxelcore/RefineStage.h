@@ -2,7 +2,7 @@
 // `--refine`: cores moved, within a voxel, to the medial axis of the smooth surface their voxels stand for.
 
 #include "voxelcore/Certified.h"
-#include "voxelcore/LabelVolume.h"
+#include "voxelcore/ReadInput.h"
 
 #include <filesystem>
 #include <optional>
@@ -21,12 +21,13 @@ struct RefineOptions
 };
 
 /** The source for a job's scan, or mesh, that was read like this: none when nothing is to be refined.
- *  \throws UsageError when a surface is asked for that the input does not have; InputError when the grey scan does not lie
- *  where the labels do, or the mesh cannot be read again */
+ *  Grey values are read around a label; of several labels all at once, where they fit into 512 MB.
+ *  \throws UsageError when a surface is asked for that the input does not have; InputError when the grey scan does not
+ *  lie where the labels do */
 SurfaceSource
 MakeSurfaceSource(const RefineOptions &         options,
                   const std::filesystem::path & scan,
                   const ReadOptions &           reading,
-                  const LabelMap &              volume);
+                  const InputScan &             input);
 
 } // namespace voxelcore

@@ -15,9 +15,9 @@ namespace voxelcore
 {
 
 /** Takes the labels' skeletons, then writes all files. Names beside "OUT.vtp": OUT_branches.csv, OUT_summary.csv and
- *  OUT_columns.json for csv (with --table that file takes the place of OUT_branches.csv); OUT.swc, OUT.mrk.json, OUT.graphml, OUT.ma with OUT.r for the others. In a folder there is an
- *  OUT for each label, SkeletonFolderPath(); the tables, all labels in one, are called <scan>_skeleton_branches.csv and so
- *  on. */
+ *  OUT_columns.json for csv (with --table that file takes the place of OUT_branches.csv); OUT.swc, OUT.mrk.json,
+ *  OUT.graphml, OUT.ma with OUT.r for the others. In a folder there is an OUT for each label, SkeletonFolderPath(); the
+ *  tables, all labels in one, are called <scan>_skeleton_branches.csv and so on. */
 class SkeletonFiles
 {
 public:
@@ -35,8 +35,8 @@ public:
     return Wants("ma");
   }
 
-  /** Takes the skeleton of label number `label` of the report and enters the file's name there; in a folder it goes to disk
-   *  at once. Adds to notes what a user must be told. */
+  /** Takes the skeleton of label number `label` of the report and enters the file's name there; in a folder it goes to
+   *  disk at once. Adds to notes what a user must be told. */
   void
   Add(CoreReport & report, std::size_t label, SkeletonPart part, ModelPart surface, std::vector<std::string> & notes);
 

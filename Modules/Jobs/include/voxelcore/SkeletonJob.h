@@ -24,6 +24,7 @@ struct SkeletonOptions
   ReadOptions reading;
   std::optional<std::int64_t>          resolution; ///< of a mesh
   ShapeEditOptions                     edits;
+  std::map<std::string, std::string>   further; ///< options without a field of their own; recorded
   SkeletonRequest                      stage;
   SkeletonTargets                      targets;
   std::filesystem::path                output; ///< .vtp, or a folder (IsFolderOutput)

@@ -41,7 +41,8 @@ struct VerifyResult
 VerifyResult
 RunVerifyJob(const VerifyOptions & options, const JobContext & context = {});
 
-/** A line per label, with tolerances also how far the boundary lies from it, and check; with one label per check, otherwise failed checks only. */
+/** A line per label, with tolerances also how far the boundary lies from it, and check; with one label per check,
+ *  otherwise failed checks only. */
 std::string
 VerifyText(const VerifyResult & result);
 

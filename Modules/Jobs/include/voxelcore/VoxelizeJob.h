@@ -41,9 +41,9 @@ struct StudyResult
   std::filesystem::path   table;
 };
 
-/** RunCoreJob at each resolution: OUT_resolution-256.vtp and so on, before what several lambdas add, or in a folder DIR/
- *  DIR/resolution-256/; reports likewise; and one table, `options.table` or OUT.csv, a row for each resolution and result.
- *  All or nothing.
+/** RunCoreJob at each resolution: OUT_resolution-256.vtp and so on, before what several lambdas add, or in a folder
+ *  DIR/ DIR/resolution-256/; reports likewise; and one table, `options.table` or OUT.csv, a row for each resolution and
+ *  result. All or nothing.
  *  \throws what RunCoreJob throws */
 StudyResult
 RunStudyJob(const CoreOptions &               options,

@@ -1,7 +1,7 @@
 #pragma once
 // Counting sort, side by side.
 
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace voxelcore
 {
 
 /** Sorts items 0 .. items - 1 by bucketOf(item), stable; an item of a bucket beyond the last is left out, and up to
- *  2^32 - 1 are not. Puts valueOf(item) for each into `sorted` and returns where each bucket starts there, with the end behind.
- *  Both functions are called from several threads, bucketOf more than once an item. */
+ *  2^32 - 1 are not. Puts valueOf(item) for each into `sorted` and returns where each bucket starts there, with the end
+ *  behind. Both functions are called from several threads, bucketOf more than once an item. */
 template <typename TBucketOf, typename TValueOf, typename TValue>
 std::vector<std::uint32_t>
 SortIntoBuckets(std::size_t           items,

@@ -17,8 +17,9 @@ EqualIgnoringCase(std::string_view a, std::string_view b);
 std::size_t
 EditDistance(std::string_view a, std::string_view b);
 
-/** The candidate nearest to `word`, the first of several; empty when none is close. Close is up to a third of the letters
- *  of the longer word, and never all of them; else the only candidate that begins with `word`, of three letters or more. */
+/** The candidate nearest to `word`, the first of several; empty when none is close. Close is up to a third of the
+ *  letters of the longer word, and never all of them; else the only candidate that begins with `word`, of three letters
+ *  or more. */
 std::string_view
 NearestName(std::string_view word, std::span<const std::string_view> candidates);
 

@@ -1,7 +1,7 @@
 #pragma once
-// VOXELCORE_EIGHT_LANES before a function makes it twice: for processors with eight lanes of 32 bits, and for others. Which one is
-// chosen when the program starts; sanitizers are not ready that early, so that with them it is the other one. Both do the same
-// additions and products in the same order, so results are the same bits.
+// VOXELCORE_EIGHT_LANES before a function makes it twice: for processors with eight lanes of 32 bits, and for others.
+// Which one is chosen when the program starts; sanitizers are not ready that early, so that with them it is the other
+// one. Both do the same additions and products in the same order, so results are the same bits.
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #  define VOXELCORE_SANITIZED

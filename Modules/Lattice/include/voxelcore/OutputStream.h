@@ -1,5 +1,6 @@
 #pragma once
-// A stream into an OutputFile, for what writes to streams. Streams and libraries lose the reason of a failure: it is kept.
+// A stream into an OutputFile, for what writes to streams. Streams and libraries lose the reason of a failure: it is
+// kept.
 
 #include "voxelcore/OutputFile.h"
 

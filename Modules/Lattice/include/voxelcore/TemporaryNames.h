@@ -10,8 +10,8 @@
 namespace voxelcore
 {
 
-/** Which process writes a file. A process id alone would not do: another machine may share the folder, another container
- *  counts processes anew, and ids are used again. */
+/** Which process writes a file. A process id alone would not do: another machine may share the folder, another
+ *  container counts processes anew, and ids are used again. */
 struct WriterIdentity
 {
   std::uint32_t machine = 0; ///< digest of the host's name and its machine id
@@ -39,7 +39,8 @@ WriterOf(const std::filesystem::path & path);
 std::filesystem::path
 FinalName(const std::filesystem::path & path);
 
-/** Whether the writer is certain to have ended. Of another machine, or another space of process ids, nothing is certain. */
+/** Whether the writer is certain to have ended. Of another machine, or another space of process ids, nothing is
+ *  certain. */
 bool
 HasEnded(const WriterIdentity & writer);
 

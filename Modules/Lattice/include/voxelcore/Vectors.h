@@ -16,7 +16,7 @@ Minus(const Vector3 & a, const Vector3 & b)
 
 /** a + t * b */
 inline Vector3
-Along(const Vector3 & a, double t, const Vector3 & b)
+AddScaled(const Vector3 & a, double t, const Vector3 & b)
 {
   return { a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2] };
 }

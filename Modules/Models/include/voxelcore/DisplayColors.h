@@ -8,7 +8,8 @@ namespace voxelcore
 
 /** The colour of a length at t from 0 to 1: the middle part of the colour map plasma (S. van der Walt, N. Smith; CC0),
  *  from violet to orange. It is perceptually uniform, readable with any colour blindness and in grey, and both its ends
- *  stand out from white and from black. By the polynomial that M. Zucker fitted to it (shadertoy.com/view/WlfXRN, CC0). */
+ *  stand out from white and from black. By the polynomial that M. Zucker fitted to it (shadertoy.com/view/WlfXRN,
+ *  CC0). */
 Color
 LengthColor(double t);
 
@@ -20,8 +21,8 @@ Luminance(const Color & color);
 double
 Contrast(const Color & a, const Color & b);
 
-/** The colour of a label that comes without one. A fixed list of 255 colours, each as far as can be from those before it
- *  (CIELAB, as C. Glasbey et al. 2007 choose them), none of them near to white, black or
+/** The colour of a label that comes without one. A fixed list of 255 colours, each as far as can be from those before
+ *  it (CIELAB, as C. Glasbey et al. 2007 choose them), none of them near to white, black or
  *  grey, and none garish; larger values begin again. */
 Color
 LabelColor(std::int64_t label);

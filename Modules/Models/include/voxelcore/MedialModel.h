@@ -38,9 +38,9 @@ struct ModelOmissions
   std::uint64_t labels = 0;   ///< labels, or components of them, merged into one
 };
 
-/** The same core with each polygon cut into the fan of triangles from its first vertex, in the order of the polygons, as
- *  ModelOptions::triangles writes it. A diagonal lies within its face and has the face's two nearest boundary vertices: so
- *  its measure is the face's. */
+/** The same core with each polygon cut into the fan of triangles from its first vertex, in the order of the polygons,
+ *  as ModelOptions::triangles writes it. A diagonal lies within its face and has the face's two nearest boundary
+ *  vertices: so its measure is the face's. */
 MedialComplex
 Triangulated(const MedialComplex & core);
 
@@ -53,11 +53,11 @@ IsModelPath(const std::filesystem::path & path);
  *  measures of edges on faces; .obj places, cells and labels as groups; .ma the balls, all edges and triangles; .stl
  *  triangles in single precision. Equal models give equal bytes. Components are the cell array `Component` (in .ply a
  *  property, in .obj part of a group's name), which is there only when a label is split.
- *  Tolerances, where every part has them, are the point and cell arrays `Tolerance` of .vtp and .vtk. Edges that outlast
- *  their faces, and vertices that outlast their edges, are cells there too: the cells with Tolerance >= h are then what is
- *  left at height h, for every h from the file's own.
- *  Refined cores have their displacements as the point array `Displacement`, and the surface as the field string `Refined`
- *  (.vtp and .vtk).
+ *  Tolerances, where every part has them, are the point and cell arrays `Tolerance` of .vtp and .vtk. Edges that
+ *  outlast their faces, and vertices that outlast their edges, are cells there too: the cells with Tolerance >= h are
+ *  then what is left at height h, for every h from the file's own.
+ *  Refined cores have their displacements as the point array `Displacement`, and the surface as the field string
+ *  `Refined` (.vtp and .vtk).
  *  \throws OutputError with one line when it cannot be written completely; a broken file is removed.
  *  \throws UsageError for an unknown extension, or when edges are to be kept whose measures are not known.
  *  \throws Error when parts are not sorted by label and component or not in canonical order. */
@@ -72,8 +72,8 @@ std::string
 ModelLibrary();
 
 /** Reads a .vtp that WriteModel wrote, with every bit as it was written; writing it again gives the same bytes. Edges
- *  come back in canonical order; without hasEdges the measures of those on faces that are no lines are NaN. A part without vertices leaves
- *  no trace in a file. Written with `triangles`, the triangles are the faces.
+ *  come back in canonical order; without hasEdges the measures of those on faces that are no lines are NaN. A part
+ *  without vertices leaves no trace in a file. Written with `triangles`, the triangles are the faces.
  *  \throws InputError when it is missing, damaged, or was not written by VoxelCore. */
 MedialModel
 ReadModel(const std::filesystem::path & path);

@@ -15,8 +15,8 @@ namespace voxelcore
 vtkSmartPointer<vtkPolyData>
 MakePolyData(const MedialModel & model, bool keepEdges);
 
-/** The inverse: the model in polydata that MakePolyData made, or VTK's reader found in a .vtp of ours. Its arrays must be as
- *  they were; only SPACE may be missing (MedialModel::inLps). \throws InputError */
+/** The inverse: the model in polydata that MakePolyData made, or VTK's reader found in a .vtp of ours. Its arrays must
+ *  be as they were; only SPACE may be missing (MedialModel::inLps). \throws InputError */
 MedialModel
 ModelFromPolyData(vtkPolyData & data);
 

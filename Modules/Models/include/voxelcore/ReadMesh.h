@@ -23,9 +23,9 @@ struct MeshFile
 bool
 IsMeshPath(const std::filesystem::path & path);
 
-/** Reads STL (text and binary), OBJ, PLY (text and binary of either byte order), OFF (text), VTK's polydata (.vtk, .vtp).
- *  Coordinates are read in full precision and taken for LPS mm. Colours, normals, textures, lines and single points are
- *  passed over.
+/** Reads STL (text and binary), OBJ, PLY (text and binary of either byte order), OFF (text), VTK's polydata (.vtk,
+ *  .vtp). Coordinates are read in full precision and taken for LPS mm. Colours, normals, textures, lines and single
+ *  points are passed over.
  *  \throws InputError when it is missing, damaged, cut off, no mesh, or holds a coordinate that is no finite number */
 MeshFile
 ReadMesh(const std::filesystem::path & path);

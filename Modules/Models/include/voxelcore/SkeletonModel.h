@@ -30,8 +30,8 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
 SkeletonModel
 ReadSkeletonVtp(const std::filesystem::path & path);
 
-/** SWC in micrometres, LPS axes: `id type x y z radius parent`, parents first. Cycles are cut (CutLoops), which the header
- *  lists; where faces stay a tree begins anew. `root` as in MeasureOptions. \throws OutputError */
+/** SWC in micrometres, LPS axes: `id type x y z radius parent`, parents first. Cycles are cut (CutLoops), which the
+ *  header lists; where faces stay a tree begins anew. `root` as in MeasureOptions. \throws OutputError */
 void
 WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const MeasureOptions & options);
 

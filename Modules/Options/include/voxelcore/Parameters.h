@@ -81,14 +81,16 @@ GroupHeading(ParameterGroup group);
 /** An option or, without flags, a positional argument. */
 struct Parameter
 {
-  std::string_view name;                            ///< key of ParameterValues
-  std::string_view flags;                           ///< "-o,--output"; empty: positional
-  ParameterKind    kind;                            ///< of its value
-  std::string_view placeholder;                     ///< stands for the value in help texts, with its unit
-  std::string_view defaultValue;                    ///< empty: none
-  bool             required;                        ///< must be given
-  std::uint32_t    commands;                        ///< bits of CommandId
-  std::string_view description;                     ///< one line
+  std::string_view name;             ///< key of ParameterValues
+  std::string_view flags;            ///< "-o,--output"; empty: positional
+  ParameterKind    kind;             ///< of its value
+  std::string_view placeholder;      ///< stands for the value in help texts, with its unit
+  std::string_view defaultValue;     ///< empty: none
+  bool             required;         ///< must be given
+  std::uint32_t    commands;         ///< bits of CommandId
+  std::string_view description;      ///< one line
+  std::string_view keyword = {};     ///< in Python, where KeywordOf() does not follow from the name; "-": none
+  bool             recorded = false; ///< has no field of its own: stands in reports and files as it was given
   ParameterGroup   group = ParameterGroup::Running; ///< that of the table the row stands in
 };
 
@@ -98,6 +100,11 @@ Commands();
 /** Group by group; within a group the most needed first. */
 std::span<const Parameter>
 Parameters();
+
+/** The keyword argument of the Python module that does the same; empty where there is none. Those of pruning, shape
+ *  edits, refinement and skeletons have the option's name with underscores; others are there if their row says so. */
+std::string
+KeywordOf(const Parameter & parameter);
 
 inline bool
 BelongsTo(const Parameter & parameter, CommandId command)
@@ -131,10 +138,6 @@ int
 ThreadsFrom(const ParameterValues & values, CommandId command);
 
 /** Each throws UsageError, naming the option, for a value without sense. */
-ReadOptions
-ReadOptionsFrom(const ParameterValues & values, CommandId command);
-ShapeEditOptions
-ShapeEditsFrom(const ParameterValues & values, CommandId command);
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values);
 /** None unless --blocks is given. */

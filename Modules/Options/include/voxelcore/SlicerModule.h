@@ -11,8 +11,8 @@
 namespace voxelcore
 {
 
-/** What `MODULE --xml` prints: every parameter of the command that makes sense in Slicer. Input and output stand last on
- *  Slicer's command line, in the order of their index. \throws std::logic_error but for Core and Skeleton. */
+/** What `MODULE --xml` prints: every parameter of the command that makes sense in Slicer. Input and output stand last
+ *  on Slicer's command line, in the order of their index. \throws std::logic_error but for Core and Skeleton. */
 std::string
 SlicerXml(CommandId command);
 
@@ -24,8 +24,8 @@ struct SlicerCall
   std::optional<std::string> returnParameterFile;
 };
 
-/** Options with an empty value count as not given: Slicer passes each text field. Files may be replaced, since Slicer hands
- *  out names of temporary files. \throws UsageError */
+/** Options with an empty value count as not given: Slicer passes each text field. Files may be replaced, since Slicer
+ *  hands out names of temporary files. \throws UsageError */
 SlicerCall
 ParseSlicerCall(CommandId command, const std::vector<std::string> & arguments);
 

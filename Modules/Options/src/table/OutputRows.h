@@ -115,8 +115,9 @@ inline constexpr auto kOutputRows = std::to_array<Parameter>({
     "",
     false,
     kModels,
-    "Store the measures of all edges, which 'voxelcore prune' needs" },
-  { "triangles", "--triangles", Flag, "", "", false, kModels, "Write triangles instead of polygons" },
+    "Store the measures of all edges, which 'voxelcore prune' needs",
+    "keep_edges" },
+  { "triangles", "--triangles", Flag, "", "", false, kModels, "Write triangles instead of polygons", "triangles" },
   { "centre-lines",
     "--centre-lines",
     Output,
@@ -125,7 +126,7 @@ inline constexpr auto kOutputRows = std::to_array<Parameter>({
     false,
     kPhantom,
     "Write the true centre lines of a root (SWC, micrometres, LPS)" },
-  { "force", "--force", Flag, "", "", false, kWrites, "Replace existing files" },
+  { "force", "--force", Flag, "", "", false, kWrites, "Replace existing files", "overwrite=True" },
 });
 
 } // namespace voxelcore::table

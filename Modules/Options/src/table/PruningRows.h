@@ -17,7 +17,8 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     false,
     kCore,
     "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; 0 keeps the whole core; several L write OUT_lambda-1mm.vtp and so "
-    "on" },
+    "on",
+    "lambda_" },
   { "lambda",
     "-l,--lambda",
     Text,
@@ -25,7 +26,8 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     "",
     false,
     kPrune,
-    "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; several L write OUT_lambda-1mm.vtp and so on" },
+    "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; several L write OUT_lambda-1mm.vtp and so on",
+    "lambda_" },
   { "lambda",
     "-l,--lambda",
     Text,
@@ -33,7 +35,8 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     "0",
     false,
     kSkeleton,
-    "Prune the core of a scan first, at this threshold: 1.5mm, 2.5vox, 2.5%" },
+    "Prune the core of a scan first, at this threshold: 1.5mm, 2.5vox, 2.5%",
+    "lambda_" },
   { "tolerance",
     "--tolerance",
     Text,
@@ -78,7 +81,8 @@ inline constexpr auto kRefinementRows = std::to_array<Parameter>({
     "",
     false,
     kCore,
-    "For --grey: the grey values inside the labels, such as 300:inf" },
+    "For --grey: the grey values inside the labels, such as 300:inf",
+    "-" },
 });
 
 } // namespace voxelcore::table

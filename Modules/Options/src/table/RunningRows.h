@@ -9,7 +9,7 @@ namespace voxelcore::table
 {
 
 inline constexpr auto kRunningRows = std::to_array<Parameter>({
-  { "threads", "--threads", Integer, "N", "0", false, kAll, "Number of processors to use; 0 means all" },
+  { "threads", "--threads", Integer, "N", "0", false, kAll, "Number of processors to use; 0 means all", "threads" },
   { "memory",
     "--memory",
     Text,
@@ -26,7 +26,8 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "",
     false,
     kAll,
-    "Show progress on stderr; default: a bar on a terminal, else none" },
+    "Show progress on stderr; default: a bar on a terminal, else none",
+    "progress" },
   { "quiet", "-q,--quiet", Flag, "", "", false, kAll, "Print errors only" },
   { "engine",
     "--engine",
@@ -35,7 +36,8 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "auto",
     false,
     kStages,
-    "Choose the Delaunay engine; the result is the same" },
+    "Choose the Delaunay engine; the result is the same",
+    "engine" },
   { "cross-check",
     "--cross-check",
     Flag,
@@ -43,7 +45,8 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "",
     false,
     kCore,
-    "Run both engines for each label and require identical results" },
+    "Run both engines for each label and require identical results",
+    "cross_check" },
   { "blocks",
     "--blocks",
     Integer,

@@ -1,6 +1,6 @@
 #pragma once
-// Synthetic voxel shapes whose answers are known: solids given by formulas, seeded noise, a branching root system with its
-// centre lines, and a volume full of touching bodies.
+// Synthetic voxel shapes whose answers are known: solids given by formulas, seeded noise, a branching root system with
+// its centre lines, and a volume full of touching bodies.
 //
 // The same options give the same voxels on every machine: random numbers come from splitmix64, and no function of the
 // C library is used whose last bit may differ (of those that round, only sqrt).
@@ -32,7 +32,8 @@ std::span<const PhantomKind>
 PhantomKinds();
 
 /** What to make. A body is defined in millimetres by the sides of the whole grid (size times spacing), so any grid over
- *  the same sides samples the same body; a voxel is in when its centre is. Lengths left open take the kind's default. */
+ *  the same sides samples the same body; a voxel is in when its centre is. Lengths left open take the kind's
+ *  default. */
 struct PhantomOptions
 {
   std::string                 kind;
@@ -54,8 +55,8 @@ struct PhantomOptions
 VoxelShape
 MakePhantom(const PhantomOptions & options, const ProgressCallback & progress = {});
 
-/** The bodies of a phantom, each in its tight box: one, or those of `cells`, which fill the volume without overlap. A body
- *  that lies wholly within others' share is left out, so that there may be a few less than were asked for.
+/** The bodies of a phantom, each in its tight box: one, or those of `cells`, which fill the volume without overlap. A
+ *  body that lies wholly within others' share is left out, so that there may be a few less than were asked for.
  *  \throws as MakePhantom */
 std::vector<VoxelShape>
 MakePhantomBodies(const PhantomOptions & options, const ProgressCallback & progress = {});

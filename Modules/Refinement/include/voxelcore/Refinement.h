@@ -1,9 +1,9 @@
 #pragma once
 // Sub-voxel refinement: a finished core moved towards the medial axis of the smooth surface that the voxels stand for.
 //
-// The balls of a voxel core touch lattice points. Put the places where an estimate of the surface passes these points in
-// their stead, and a core vertex belongs where its balls touch all of them: each vertex is moved there, its measures are
-// taken again, and the complex is pruned once more. Only simple pairs go, so the topology stays that of the shape.
+// The balls of a voxel core touch lattice points. Put the places where an estimate of the surface passes these points
+// in their stead, and a core vertex belongs where its balls touch all of them: each vertex is moved there, its measures
+// are taken again, and the complex is pruned once more. Only simple pairs go, so the topology stays that of the shape.
 
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/MedialComplex.h"
@@ -51,10 +51,10 @@ struct RefinementInput
   Vector3                           spacing{ 1, 1, 1 }; ///< mm
 };
 
-/** Refines the part of the core that a threshold leaves, for each threshold in mm. Guarded: every vertex lies in the open
- *  shape, none is farther than one voxel (length of the displacement in lattice coordinates) from where it was, and no
- *  triangle's normal has turned by 90 degrees or more against that of the same triangle in the whole core; no radius differs
- *  from the distance of the nearest boundary vertex by more than half a voxel's diagonal. Where there is
+/** Refines the part of the core that a threshold leaves, for each threshold in mm. Guarded: every vertex lies in the
+ *  open shape, none is farther than one voxel (length of the displacement in lattice coordinates) from where it was,
+ *  and no triangle's normal has turned by 90 degrees or more against that of the same triangle in the whole core; no
+ *  radius differs from the distance of the nearest boundary vertex by more than half a voxel's diagonal. Where there is
  *  no estimate of the surface the boundary vertices themselves stand for it.
  *  The same bits for every number of threads.
  *  \throws Cancelled when the callback says so. */

@@ -30,7 +30,8 @@ class SurfaceEstimate
 public:
   virtual ~SurfaceEstimate() = default;
 
-  /** The point of the surface that lies near `place`, found along the surface's normals: not farther than `reach` mm. */
+  /** The point of the surface that lies near `place`, found along the surface's normals: not farther than `reach`
+   *  mm. */
   virtual SurfacePoint
   Project(const Vector3 & place, double reach) const = 0;
 };
@@ -45,8 +46,8 @@ using GreyRows = std::function<void(std::int32_t x, std::int32_t y, std::int32_t
 std::unique_ptr<SurfaceEstimate>
 SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress = {});
 
-/** From grey values: where they are 0 after smoothing that keeps curvature, little where more would move a wall of a thin
- *  part or round an edge. `scan` is the box that has values; beyond it
+/** From grey values: where they are 0 after smoothing that keeps curvature, little where more would move a wall of a
+ *  thin part or round an edge. `scan` is the box that has values; beyond it
  *  they are mirrored with their sign turned, as the scan's border is the shape's.
  *  \throws Cancelled when the callback says so. */
 std::unique_ptr<SurfaceEstimate>

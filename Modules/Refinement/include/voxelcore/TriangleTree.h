@@ -11,8 +11,8 @@
 namespace voxelcore
 {
 
-/** A tree of boxes over triangles; degenerate ones stand for segments and points. O(n log n) to build, about 100 bytes a
- *  triangle. Thread-safe once built; of equally near triangles the one of smallest index is found. */
+/** A tree of boxes over triangles; degenerate ones stand for segments and points. O(n log n) to build, about 100 bytes
+ *  a triangle. Thread-safe once built; of equally near triangles the one of smallest index is found. */
 class TriangleTree
 {
 public:

@@ -6,8 +6,8 @@
 namespace voxelcore
 {
 
-/** Which sources this was built from, as 16 hexadecimal digits: another number when a file differs that results are made
- *  by. */
+/** Which sources this was built from, as 16 hexadecimal digits: another number when a file differs that results are
+ *  made by. */
 std::string
 SourceDigest();
 

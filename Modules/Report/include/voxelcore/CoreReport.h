@@ -4,8 +4,8 @@
 #include "voxelcore/Certified.h"
 #include "voxelcore/CoreProvenance.h"
 #include "voxelcore/ImageGeometry.h"
+#include "voxelcore/LabelVolume.h"
 #include "voxelcore/MedialModel.h"
-#include "voxelcore/RawLayout.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/TopologyNumbers.h"
@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,26 +42,19 @@ struct RefineRecord
 /** Every option that changes the result, and how the work was done. */
 struct ParameterRecord
 {
-  std::vector<std::int64_t>                labels; ///< values of the labels worked on
-  bool                                     binary = false;
-  std::optional<std::pair<double, double>> threshold;
-  std::optional<std::int64_t>              volume;
-  std::optional<std::int64_t>              component;
-  std::optional<RawLayout>                 raw;
-  std::optional<CropRange>                 crop;       ///< with its ends filled in
-  std::optional<Vector3>                   spacing;    ///< as given, mm
-  std::optional<std::int64_t>              resolution; ///< of a mesh
-  bool                                     orthonormalize = false;
-  std::string                              niftiForm = "auto";
-  ShapeEditOptions                         edits;
-  std::vector<std::string>                 lambda;
-  std::vector<std::string>                 tolerances; ///< heights; where there are some, one lambda, the floor
-  RefineRecord                             refine;
-  ModelOptions                             model;
-  std::string                              engine;
-  bool                                     crossCheck = false; ///< both engines ran and agreed
-  int                                      threads = 0;
-  SpacingWeights                           weights;
+  std::vector<std::int64_t>          labels;     ///< values of the labels worked on
+  ReadOptions                        reading;    ///< but for the choice of labels; the crop with its ends filled in
+  std::optional<std::int64_t>        resolution; ///< of a mesh
+  ShapeEditOptions                   edits;
+  std::vector<std::string>           lambda;
+  std::vector<std::string>           tolerances; ///< heights; where there are some, one lambda, the floor
+  RefineRecord                       refine;
+  ModelOptions                       model;
+  std::map<std::string, std::string> further; ///< options without a field of their own, as given
+  std::string                        engine;
+  bool                               crossCheck = false; ///< both engines ran and agreed
+  int                                threads = 0;
+  SpacingWeights                     weights;
 };
 
 /** One result of a label. */
@@ -149,8 +143,8 @@ ReportJson(const CoreReport & report);
 std::string
 ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels, std::size_t which);
 
-/** The same for a file of these labels' skeletons. It is the same whether these were made from the scan, beside its core,
- *  or from the file of its whole core. */
+/** The same for a file of these labels' skeletons. It is the same whether these were made from the scan, beside its
+ *  core, or from the file of its whole core. */
 std::string
 SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & labels);
 

@@ -19,8 +19,8 @@ FormatTable(const std::vector<std::vector<std::string>> & rows);
 std::string
 ReportTable(const CoreReport & report);
 
-/** A row per label that has a skeleton: label, name, branches, tips, junctions, cycles, length, mean radius, chi/b0/b1/b2
- *  of the shape and of the skeleton, certificate. */
+/** A row per label that has a skeleton: label, name, branches, tips, junctions, cycles, length, mean radius,
+ *  chi/b0/b1/b2 of the shape and of the skeleton, certificate. */
 std::string
 SkeletonTable(const CoreReport & report);
 
@@ -28,8 +28,8 @@ SkeletonTable(const CoreReport & report);
 std::string
 TopologyText(const TopologyNumbers & topology);
 
-/** The labels of a report as .csv, a row for each and result: label, name, component, lambda, voxels, volume_mm3, vertices,
- *  edges, faces, area_mm2, max_radius_mm, b0, b1, b2. */
+/** The labels of a report as .csv, a row for each and result: label, name, component, lambda, voxels, volume_mm3,
+ *  vertices, edges, faces, area_mm2, max_radius_mm, b0, b1, b2. */
 std::string
 LabelTableCsv(const CoreReport & report);
 

@@ -10,8 +10,8 @@
 namespace voxelcore
 {
 
-/** The voxels of a box whose centres lie inside at least one of the balls: nearer to its centre than its radius. Centres
- *  in lattice coordinates (voxel index + 1/2), spacing and radii in mm. The same for every number of threads.
+/** The voxels of a box whose centres lie inside at least one of the balls: nearer to its centre than its radius.
+ *  Centres in lattice coordinates (voxel index + 1/2), spacing and radii in mm. The same for every number of threads.
  *  \throws Cancelled when the callback says so. */
 VoxelShape
 UnionOfBalls(const VoxelBox &                       box,

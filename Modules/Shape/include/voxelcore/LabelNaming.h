@@ -35,8 +35,9 @@ public:
   /** \throws UsageError when choice.labels makes no sense. */
   LabelNaming(const StoredVoxels & scan, const LabelChoice & choice);
 
-  /** The label that a value above 0 in a layer stands for; to be asked once for each. Layers may use a value twice: then
-   *  segments are numbered from 1 in the order of the file, and values that no segment names get numbers behind all. */
+  /** The label that a value above 0 in a layer stands for; to be asked once for each. Layers may use a value twice:
+   *  then segments are numbered from 1 in the order of the file, and values that no segment names get numbers behind
+   *  all. */
   Label
   Identify(std::size_t layer, std::int64_t value);
 

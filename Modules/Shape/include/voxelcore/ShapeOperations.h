@@ -41,8 +41,8 @@ KeepLargestComponents(VoxelShape shape, std::uint64_t count);
 EditedShape
 FillCavities(VoxelShape shape);
 
-/** Each component as a shape of its own, by number of voxels, the largest first; equally large ones by their first voxel
- *  in scan order. */
+/** Each component as a shape of its own, by number of voxels, the largest first; equally large ones by their first
+ *  voxel in scan order. */
 std::vector<VoxelShape>
 SplitComponents(const VoxelShape & shape);
 

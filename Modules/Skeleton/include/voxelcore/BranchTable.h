@@ -28,9 +28,9 @@ struct MeasureOptions
 {
   RootChoice root;
 
-  /** Added to each radius, mm. The largest ball in voxels ends at the nearest corner of a voxel, which lies between zero
-   *  and half a voxel's diagonal within the body that was scanned, on average a quarter: with that much added, radii of
-   *  tubes are right to within half a voxel. 0 gives the radii of balls in the voxel shape. */
+  /** Added to each radius, mm. The largest ball in voxels ends at the nearest corner of a voxel, which lies between
+   *  zero and half a voxel's diagonal within the body that was scanned, on average a quarter: with that much added,
+   *  radii of tubes are right to within half a voxel. 0 gives the radii of balls in the voxel shape. */
   double radiusShift = 0;
 };
 
@@ -46,8 +46,8 @@ enum class BranchType : std::uint8_t
 constexpr ElementIndex kNoBranch = 0xFFFFFFFFU;
 
 /** Lengths in mm, angles in degrees. Radii are means along the branch, without the parts within the ball at a junction
- *  (there the ball of the thicker neighbour is measured) unless nothing else is left; volume and surface are those of the
- *  round cones between points along the same parts. */
+ *  (there the ball of the thicker neighbour is measured) unless nothing else is left; volume and surface are those of
+ *  the round cones between points along the same parts. */
 struct BranchRecord
 {
   ElementIndex component = 0; ///< from 1, in the order of nodes

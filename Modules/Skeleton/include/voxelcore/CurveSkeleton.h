@@ -16,8 +16,8 @@ namespace voxelcore
 /** Lengths in mm. */
 struct CurveOptions
 {
-  /** Branches end where they no longer stand out by so much: fire along the curve reaches the end of a branch that stands
-   *  out by h later than fire on the surface burns it, by about h. 0 keeps all. */
+  /** Branches end where they no longer stand out by so much: fire along the curve reaches the end of a branch that
+   *  stands out by h later than fire on the surface burns it, by about h. 0 keeps all. */
   double branchThreshold = 0;
 
   /** Faces at least so erosion-thick stay: plates. Infinite: curves only. */

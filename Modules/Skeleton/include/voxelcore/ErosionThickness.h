@@ -11,9 +11,9 @@ namespace voxelcore
 {
 
 /** Burn times in mm. Fire starts on the free boundary of the surface, at each point at the time of its radius, and runs
- *  inwards along the surface with unit speed; a point has burned when fire has cut it off. Infinite on closed parts, which
- *  fire never enters. Points of curves are free boundary themselves: they burn at their radius. A burn time is at least
- *  the radius; the difference is the erosion thickness. */
+ *  inwards along the surface with unit speed; a point has burned when fire has cut it off. Infinite on closed parts,
+ *  which fire never enters. Points of curves are free boundary themselves: they burn at their radius. A burn time is at
+ *  least the radius; the difference is the erosion thickness. */
 struct BurnTimes
 {
   std::vector<double> vertices;
@@ -22,9 +22,9 @@ struct BurnTimes
                              ///< sheet
 };
 
-/** Burn times by Dijkstra over the vertices and sample points on edges, of which each edge has at least one and which are
- *  about `sampling` apart. Within a polygon fire runs straight from any point on its sides to any other. A computed time
- *  is at least the true one; paths over sample points are a few percent longer than straight ones.
+/** Burn times by Dijkstra over the vertices and sample points on edges, of which each edge has at least one and which
+ *  are about `sampling` apart. Within a polygon fire runs straight from any point on its sides to any other. A computed
+ *  time is at least the true one; paths over sample points are a few percent longer than straight ones.
  *  Positions and radii in mm. Only + - * / and sqrt in a fixed order: the same bits everywhere.
  *  \throws InputError above 2^32 - 2 sample points; Cancelled when the callback says so. */
 BurnTimes

@@ -20,9 +20,9 @@ enum class NodeKind : std::uint8_t
   Surface   ///< where curves meet faces that stay
 };
 
-/** Flat arrays; lengths in mm. A branch is a poly line of points from one node to another, or back to the same; only its
- *  ends may be shared with other branches. Branches begin at the node of the smaller point and stand in the order of
- *  these points; so do nodes. */
+/** Flat arrays; lengths in mm. A branch is a poly line of points from one node to another, or back to the same; only
+ *  its ends may be shared with other branches. Branches begin at the node of the smaller point and stand in the order
+ *  of these points; so do nodes. */
 struct SkeletonGraph
 {
   std::vector<std::array<double, 3>> positions;
@@ -71,15 +71,15 @@ BuildSkeletonGraph(const CurveSkeleton & skeleton);
 void
 SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>> & lines, bool join);
 
-/** How far a point may move: the ellipsoid that touches the faces of a voxel around it. Row k is a voxel's axis k (a unit
- *  vector) over half its spacing, 1/mm: a displacement d is allowed when the squares of its products with the rows sum up
- *  to 1 at most. */
+/** How far a point may move: the ellipsoid that touches the faces of a voxel around it. Row k is a voxel's axis k (a
+ *  unit vector) over half its spacing, 1/mm: a displacement d is allowed when the squares of its products with the rows
+ *  sum up to 1 at most. */
 using VoxelReach = std::array<std::array<double, 3>, 3>;
 
 /** Smooths the branches: each point goes to the value, at its own arc length, of the parabola that fits its branch best
  *  within `window` mm before and behind it, but no further than `reach` from the branch as it lies on the medial
- *  surface. Nodes stay. A window of 0 puts the points back on the medial surface. Curved lines keep their length to second order,
- *  where averaging would shorten them. */
+ *  surface. Nodes stay. A window of 0 puts the points back on the medial surface. Curved lines keep their length to
+ *  second order, where averaging would shorten them. */
 void
 FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach);
 
@@ -103,8 +103,9 @@ struct LoopCut
   double                radius = 0;
 };
 
-/** Cuts every cycle of branches at its thinnest branch, there at the thinnest point between the ends: that point becomes
- *  two tips. What is left is a forest of which the thick parts are whole. Cycles within faces that stay remain. */
+/** Cuts every cycle of branches at its thinnest branch, there at the thinnest point between the ends: that point
+ *  becomes two tips. What is left is a forest of which the thick parts are whole. Cycles within faces that stay
+ *  remain. */
 std::vector<LoopCut>
 CutLoops(SkeletonGraph & graph);
 

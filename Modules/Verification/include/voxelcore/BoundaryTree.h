@@ -17,7 +17,8 @@ namespace voxelcore
 class BoundaryTree
 {
 public:
-  /** A point and its squared distance to the query, in units of SpacingWeights::unit squared; with a spacing in mm^2. */
+  /** A point and its squared distance to the query, in units of SpacingWeights::unit squared; with a spacing in
+   *  mm^2. */
   struct Candidate
   {
     double        squaredDistance;

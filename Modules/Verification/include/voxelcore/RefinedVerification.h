@@ -29,10 +29,10 @@ struct RefinedVerificationInput
  *  - origins equidistant: where each vertex was is the centre of an empty sphere through at least four affinely
  *    independent boundary vertices, exactly, so that the file is a moved voxel core and nothing else
  *  - faces not turned over: against where their corners were
- *  - radius: above 0, and within half a voxel's diagonal of the distance to the nearest boundary vertex: each of these has
- *    surface that near, and the surface has one of them
- *  - measures: not greater than how far the surface can lie where the vertex was, and they do not fall from faces to edges
- *    to vertices
+ *  - radius: above 0, and within half a voxel's diagonal of the distance to the nearest boundary vertex: each of these
+ *    has surface that near, and the surface has one of them
+ *  - measures: not greater than how far the surface can lie where the vertex was, and they do not fall from faces to
+ *    edges to vertices
  *  - shape Euler number, topology
  *  \throws InputError when shape and weights exceed the exact range; Cancelled when the callback says so. */
 VerificationReport

@@ -86,9 +86,9 @@ PositionTolerance(const ImageGeometry & geometry);
  *  - vertices inside: in the open shape
  *  - vertices equidistant: centres of empty spheres through 4 affinely independent boundary vertices, exactly
  *  - nothing nearer, radius: no boundary vertex nearer than the stated radius, and the radius is attained
- *  - true spacing: every radius is the distance to the nearest boundary vertex, and every face's measure half that of its
- *    two, measured with the spacing instead of the weights; within the deviation of the weights, and never more than
- *    kLargestDeviation
+ *  - true spacing: every radius is the distance to the nearest boundary vertex, and every face's measure half that of
+ *    its two, measured with the spacing instead of the weights; within the deviation of the weights, and never more
+ *    than kLargestDeviation
  *  - edges dual, faces dual: ends share 3 or more, corners exactly 2 nearest boundary vertices
  *  - faces planar, faces convex, faces oriented
  *  - vertex measures, edge measures, face measures, measures monotone

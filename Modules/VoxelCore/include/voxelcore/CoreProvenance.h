@@ -1,7 +1,7 @@
 #pragma once
-// What the cores of an image are and what they came from, as the field Provenance of a file has it. `voxelcore core` says
-// more there, of the scan's file and its options; what stands here is what those have at hand who hold the image in
-// memory, and it suffices for verify, prune, skeleton and render.
+// What the cores of an image are and what they came from, as the field Provenance of a file has it. `voxelcore core`
+// says more there, of the scan's file and its options; what stands here is what those have at hand who hold the image
+// in memory, and it suffices for verify, prune, skeleton and render.
 
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialComplex.h"

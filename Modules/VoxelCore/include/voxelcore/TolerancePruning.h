@@ -1,13 +1,14 @@
 #pragma once
 // Pruning by tolerance: one length that serves thick and thin parts at once.
 //
-// Lambda cannot: a bump of height b on a part of radius R has a radius measure of about sqrt(2 b R), so the staircase of
-// the voxels grows with the thickness, while a rod of radius r has measures up to r only. The height of a bump is the
-// same on both: D(x, y) = |x - y| + R(x) - R(y) says by how much the ball of core vertex x sticks out of the ball of y.
+// Lambda cannot: a bump of height b on a part of radius R has a radius measure of about sqrt(2 b R), so the staircase
+// of the voxels grows with the thickness, while a rod of radius r has measures up to r only. The height of a bump is
+// the same on both: D(x, y) = |x - y| + R(x) - R(y) says by how much the ball of core vertex x sticks out of the ball
+// of y.
 //
 // The promise. At tolerance h every boundary vertex p lies within h of the ball of a vertex x that is still there:
-// gap(p, x) = |p - x| - R(x) < h. So bumps lower than h are ignored, and what is left rebuilds the boundary to within h.
-// At tolerance 0 all is left.
+// gap(p, x) = |p - x| - R(x) < h. So bumps lower than h are ignored, and what is left rebuilds the boundary to within
+// h. At tolerance 0 all is left.
 
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/MedialComplex.h"
@@ -45,7 +46,8 @@ ToleranceInMillimetres(const Tolerance & height, const std::array<double, 3> & s
 /** What the heights need of the Delaunay cells, whose order is that of the core's vertices. */
 struct TouchingBalls
 {
-  /** Per boundary vertex the cell whose ball is the largest of those it touches; of equals the one of smallest index. */
+  /** Per boundary vertex the cell whose ball is the largest of those it touches; of equals the one of smallest
+   *  index. */
   std::vector<ElementIndex> largest;
   /** Per cell its centre in lattice steps from the first boundary vertex, each coordinate the exact rational rounded
    *  once: unlike the core's positions the same wherever the volume begins. */
@@ -68,15 +70,15 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *    witness; it reaches a vertex when this ball sticks out by h. The face goes when fire has crossed it, or when fires
  *    from two sides have met on it. So a sheet shrinks evenly from its rims and does not tear.
  *  - A vertex at the loose end of an edge goes when each of the boundary vertices it keeps, at first those of which its
- *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on. Beyond four
- *    voxel diagonals h is an upper bound of that, along the path the end has gone.
+ *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on. Beyond
+ *    four voxel diagonals h is an upper bound of that, along the path the end has gone.
  *
  *  With `floor` (mm) > 0 what PruneByLambda(core, {floor}) takes goes first, whatever bump it stands for: its value is
  *  -1, and the boundary vertices of its balls are no longer looked at, so that nothing is promised of them.
  *
  *  Costs are made of +, -, *, / and sqrt of canonical doubles in a fixed order. Loose ends that can go at the height
- *  reached go at once; of the rest ties go by radius measure, then dimension, then index: the same bits on every machine,
- *  for every engine and thread count, and for a volume that is cropped or padded.
+ *  reached go at once; of the rest ties go by radius measure, then dimension, then index: the same bits on every
+ *  machine, for every engine and thread count, and for a volume that is cropped or padded.
  *  \throws Cancelled when the callback says so. */
 ToleranceValues
 ComputeTolerances(const MedialComplex &             core,

@@ -1,7 +1,8 @@
 #pragma once
-// Triangle mesh in, voxel shape out: Gauss digitization (paper, section 4.1). A voxel is in when its centre is in, decided
-// exactly for closed meshes: coordinates are taken as the numbers they are, and a centre on the surface as if it were
-// moved by (e, e^2, e^3) for an arbitrarily small e (simulation of simplicity), so no crossing is missed or counted twice.
+// Triangle mesh in, voxel shape out: Gauss digitization (paper, section 4.1). A voxel is in when its centre is in,
+// decided exactly for closed meshes: coordinates are taken as the numbers they are, and a centre on the surface as if
+// it were moved by (e, e^2, e^3) for an arbitrarily small e (simulation of simplicity), so no crossing is missed or
+// counted twice.
 
 #include "voxelcore/Progress.h"
 #include "voxelcore/TriangleMesh.h"
@@ -22,7 +23,8 @@ struct VoxelGrid
 };
 
 /** Cubic voxels, `resolution` of them (1 to 2^20) along the longest side of the bounding box, from its minimum corner.
- *  \throws InputError for a mesh without triangles or extent, or with a coordinate that is not finite or beyond 1e9 mm */
+ *  \throws InputError for a mesh without triangles or extent, or with a coordinate that is not finite or beyond 1e9
+ *  mm */
 VoxelGrid
 GridOfResolution(const TriangleMesh & mesh, std::int64_t resolution);
 
@@ -57,16 +59,16 @@ struct Voxelization
   MeshFindings  findings;
   std::uint64_t voxels = 0;
 
-  /** By rule Winding: voxels in several parts at once, or in one that is inside out. By Votes: voxels, in or not, of which
-   *  the rays do not all say the same. */
+  /** By rule Winding: voxels in several parts at once, or in one that is inside out. By Votes: voxels, in or not, of
+   *  which the rays do not all say the same. */
   std::uint64_t doubtful = 0;
 };
 
 /** Time and memory grow with the surface, besides one bit a voxel of the grid (nine bits for a rule of Votes, of two
  *  slices only). The result does not depend on the number of threads.
  *  Progress is reported as stage "voxelize".
- *  \throws InputError, without the name of a file, for a mesh that bounds nothing (no voxel is in, or nowhere do five of
- *  six rays say in), or three, five, ... triangles of which meet at an edge; Cancelled */
+ *  \throws InputError, without the name of a file, for a mesh that bounds nothing (no voxel is in, or nowhere do five
+ *  of six rays say in), or three, five, ... triangles of which meet at an edge; Cancelled */
 Voxelization
 Voxelize(const TriangleMesh & mesh, const VoxelGrid & grid, const ProgressCallback & progress = {});
 

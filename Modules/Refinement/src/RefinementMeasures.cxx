@@ -1,6 +1,6 @@
 // What the elements of a working core measure where they have moved to.
 
-#include "WorkingCore.h"
+#include "RefinementState.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -9,16 +9,16 @@
 namespace voxelcore
 {
 
-// How wide the feet of each pair of these vertices are apart, and how far the nearest one is.
+// How wide the foot points of each pair of these vertices are apart, and how far the nearest one is.
 void
-WorkingCore::MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices)
+RefinementState::MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices)
 {
   m_Widths.resize(m_Pairs.All().size(), 0);
   m_Radius.resize(m_Positions.size(), 0);
   const auto count = static_cast<std::ptrdiff_t>(vertices.size());
 #pragma omp parallel if (count > 512)
   {
-    std::vector<FootPoint> feet;
+    std::vector<FootPoint> footPoints;
 #pragma omp for schedule(dynamic, 256)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
@@ -29,19 +29,19 @@ WorkingCore::MeasureVertices(const FootPointFinder & finder, const std::vector<E
         m_Radius[vertex] = m_Input.core->radius[m_VertexIds[vertex]];
         continue;
       }
-      finder.Settle(Place(vertex), pairs, feet);
-      m_Radius[vertex] = NearestDistance(feet);
+      finder.Settle(Place(vertex), pairs, footPoints);
+      m_Radius[vertex] = NearestDistance(footPoints);
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {
         m_Widths[m_Pairs.First(vertex) + k] =
-          0.5 * Distance(FootPointOf(feet, pairs[k][0]).position, FootPointOf(feet, pairs[k][1]).position);
+          0.5 * Distance(FootPointOf(footPoints, pairs[k][0]).position, FootPointOf(footPoints, pairs[k][1]).position);
       }
     }
   }
 }
 
 double
-WorkingCore::WidthAt(ElementIndex vertex, const PointPair & pair) const
+RefinementState::WidthAt(ElementIndex vertex, const PointPair & pair) const
 {
   const auto pairs = Pairs(vertex);
   const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
@@ -51,7 +51,7 @@ WorkingCore::WidthAt(ElementIndex vertex, const PointPair & pair) const
 namespace
 {
 
-// Where the feet of one corner have met there is nothing, whatever the others say.
+// Where the foot points of one corner have met there is nothing, whatever the others say.
 double
 MeasureOf(std::span<const double> widths)
 {
@@ -65,7 +65,7 @@ MeasureOf(std::span<const double> widths)
 
 // Measures do not fall from faces to edges to vertices.
 void
-WorkingCore::MeasureElements()
+RefinementState::MeasureElements()
 {
   m_VertexMeasure.assign(m_Positions.size(), 0);
   m_EdgeMeasure.assign(m_Cells.edges.size(), 0);

@@ -15,11 +15,12 @@
 namespace voxelcore
 {
 
-/** The part of a core that is worked on, as triangles, and between which boundary vertices each of its elements lies. */
-class WorkingCore
+/** The part of a core that is worked on, as triangles, and between which boundary vertices each of its elements
+ *  lies. */
+class RefinementState
 {
 public:
-  WorkingCore(const RefinementInput & input, CorePart part);
+  RefinementState(const RefinementInput & input, CorePart part);
 
   /** Moves vertices to where their balls touch alike. */
   void
@@ -39,14 +40,14 @@ private:
   Vector3
   Place(std::size_t vertex) const
   {
-    return Times(Along(m_Positions[vertex], 1, m_Displacement[vertex]), m_Input.spacing);
+    return Times(AddScaled(m_Positions[vertex], 1, m_Displacement[vertex]), m_Input.spacing);
   }
 
   void
   MoveVertex(const FootPointFinder &    finder,
              std::size_t                vertex,
              std::span<const PointPair> pairs,
-             std::vector<FootPoint> &   feet);
+             std::vector<FootPoint> &   footPoints);
   void
   MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices);
   double

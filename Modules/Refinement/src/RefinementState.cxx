@@ -1,4 +1,4 @@
-#include "WorkingCore.h"
+#include "RefinementState.h"
 
 #include "MoveGuard.h"
 #include "voxelcore/Vectors.h"
@@ -12,29 +12,29 @@ namespace voxelcore
 namespace
 {
 
-// Least squares: the step after which the feet of each pair are equally far. What no pair asks for stays: a sheet moves
-// along its normal, a seam of sheets in two directions.
+// Least squares: the step after which the foot points of each pair are equally far. What no pair asks for stays: a
+// sheet moves along its normal, a seam of sheets in two directions.
 Vector3
-Step(const Vector3 & place, std::span<const PointPair> pairs, std::span<const FootPoint> feet)
+Step(const Vector3 & place, std::span<const PointPair> pairs, std::span<const FootPoint> footPoints)
 {
   constexpr double      regular = 0.02;
   std::array<double, 6> a{ 0, 0, 0, 0, 0, 0 }; // xx yy zz xy xz yz
   Vector3               b{ 0, 0, 0 };
   for (const PointPair & pair : pairs)
   {
-    const FootPoint & p = FootPointOf(feet, pair[0]);
-    const FootPoint & q = FootPointOf(feet, pair[1]);
+    const FootPoint & p = FootPointOf(footPoints, pair[0]);
+    const FootPoint & q = FootPointOf(footPoints, pair[1]);
     if (!(p.distance > 0) || !(q.distance > 0))
     {
       continue;
     }
-    const Vector3 up = Along({ 0, 0, 0 }, 1 / p.distance, Minus(place, p.position));
-    const Vector3 uq = Along({ 0, 0, 0 }, 1 / q.distance, Minus(place, q.position));
+    const Vector3 up = AddScaled({ 0, 0, 0 }, 1 / p.distance, Minus(place, p.position));
+    const Vector3 uq = AddScaled({ 0, 0, 0 }, 1 / q.distance, Minus(place, q.position));
     const Vector3 g = Minus(up, uq);
     const double  r = q.distance - p.distance;
     a = { a[0] + g[0] * g[0], a[1] + g[1] * g[1], a[2] + g[2] * g[2],
           a[3] + g[0] * g[1], a[4] + g[0] * g[2], a[5] + g[1] * g[2] };
-    b = Along(b, r, g);
+    b = AddScaled(b, r, g);
   }
   const double count = static_cast<double>(pairs.size());
   for (double & value : a)
@@ -44,13 +44,13 @@ Step(const Vector3 & place, std::span<const PointPair> pairs, std::span<const Fo
   a[0] += regular;
   a[1] += regular;
   a[2] += regular;
-  b = Along({ 0, 0, 0 }, 1 / count, b);
+  b = AddScaled({ 0, 0, 0 }, 1 / count, b);
   // The inverse of a symmetric matrix by its adjugate.
   const Vector3 x{ a[1] * a[2] - a[5] * a[5], a[4] * a[5] - a[3] * a[2], a[3] * a[5] - a[4] * a[1] };
   const Vector3 y{ x[1], a[0] * a[2] - a[4] * a[4], a[3] * a[4] - a[0] * a[5] };
   const Vector3 z{ x[2], y[2], a[0] * a[1] - a[3] * a[3] };
   const double  determinant = a[0] * x[0] + a[3] * x[1] + a[4] * x[2];
-  return Along({ 0, 0, 0 }, 1 / determinant, Vector3{ Dot(x, b), Dot(y, b), Dot(z, b) });
+  return AddScaled({ 0, 0, 0 }, 1 / determinant, Vector3{ Dot(x, b), Dot(y, b), Dot(z, b) });
 }
 
 std::vector<double>
@@ -64,7 +64,7 @@ Pick(const std::vector<double> & values, const std::vector<ElementIndex> & ids)
 
 } // namespace
 
-WorkingCore::WorkingCore(const RefinementInput & input, CorePart part)
+RefinementState::RefinementState(const RefinementInput & input, CorePart part)
   : m_Input(input)
   , m_VertexIds(std::move(part.vertices))
 {
@@ -86,10 +86,10 @@ WorkingCore::WorkingCore(const RefinementInput & input, CorePart part)
 }
 
 void
-WorkingCore::MoveVertex(const FootPointFinder &    finder,
-                        std::size_t                vertex,
-                        std::span<const PointPair> pairs,
-                        std::vector<FootPoint> &   feet)
+RefinementState::MoveVertex(const FootPointFinder &    finder,
+                            std::size_t                vertex,
+                            std::span<const PointPair> pairs,
+                            std::vector<FootPoint> &   footPoints)
 {
   constexpr double       longest = 0.5; // voxels a pass
   const Vector3          place = Place(vertex);
@@ -102,15 +102,15 @@ WorkingCore::MoveVertex(const FootPointFinder &    finder,
     return;
   }
   pairs = apart;
-  finder.Find(place, pairs, feet);
-  Vector3      step = Over(Step(place, pairs, feet), m_Input.spacing);
+  finder.Find(place, pairs, footPoints);
+  Vector3      step = Over(Step(place, pairs, footPoints), m_Input.spacing);
   const double length = Length(step);
-  step = Along({ 0, 0, 0 }, length > longest ? longest / length : 1.0, step);
-  m_Displacement[vertex] = KeepInShape(*m_Input.shape, m_Positions[vertex], Along(m_Displacement[vertex], 1, step));
+  step = AddScaled({ 0, 0, 0 }, length > longest ? longest / length : 1.0, step);
+  m_Displacement[vertex] = KeepInShape(*m_Input.shape, m_Positions[vertex], AddScaled(m_Displacement[vertex], 1, step));
 }
 
 void
-WorkingCore::Move(const FootPointFinder & finder, const ProgressCallback & progress)
+RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & progress)
 {
   constexpr int passes = 3;
   const auto    count = static_cast<std::ptrdiff_t>(m_Positions.size());
@@ -119,24 +119,24 @@ WorkingCore::Move(const FootPointFinder & finder, const ProgressCallback & progr
     ReportProgress(progress, "refining", static_cast<double>(pass + 1) / (passes + 2));
 #pragma omp parallel if (count > 512)
     {
-      std::vector<FootPoint> feet;
+      std::vector<FootPoint> footPoints;
 #pragma omp for schedule(dynamic, 256)
       for (std::ptrdiff_t i = 0; i < count; ++i)
       {
         const auto vertex = static_cast<std::size_t>(i);
         if (!Pairs(vertex).empty())
         {
-          MoveVertex(finder, vertex, Pairs(vertex), feet);
+          MoveVertex(finder, vertex, Pairs(vertex), footPoints);
         }
       }
     }
   }
 }
 
-// Of a part that is a line the pairs of a vertex may all lie on one side: those of its neighbours lie around it. Returns what
-// was moved.
+// Of a part that is a line the pairs of a vertex may all lie on one side: those of its neighbours lie around it.
+// Returns what was moved.
 std::vector<ElementIndex>
-WorkingCore::MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted)
+RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted)
 {
   constexpr int                          passes = 3;
   std::vector<std::uint8_t>              onFace(part.vertices.size(), 0);
@@ -161,7 +161,7 @@ WorkingCore::MoveLines(const FootPointFinder & finder, const CorePart & part, co
   const auto count = static_cast<std::ptrdiff_t>(lines.size());
 #pragma omp parallel if (count > 64)
   {
-    std::vector<FootPoint> feet;
+    std::vector<FootPoint> footPoints;
     std::vector<PointPair> pairs;
 #pragma omp for schedule(dynamic, 16)
     for (std::ptrdiff_t i = 0; i < count; ++i)
@@ -184,7 +184,7 @@ WorkingCore::MoveLines(const FootPointFinder & finder, const CorePart & part, co
       m_Displacement[vertex] = wanted[vertex];
       for (int pass = 0; pass < passes && !pairs.empty(); ++pass)
       {
-        MoveVertex(finder, vertex, pairs, feet);
+        MoveVertex(finder, vertex, pairs, footPoints);
       }
     }
   }
@@ -196,7 +196,7 @@ WorkingCore::MoveLines(const FootPointFinder & finder, const CorePart & part, co
 }
 
 CorePart
-WorkingCore::All() const
+RefinementState::All() const
 {
   CorePart part;
   part.cells = m_Cells;
@@ -209,10 +209,10 @@ WorkingCore::All() const
   return part;
 }
 
-// Below the threshold the greater radius stays, not the greater measure: beside the axis of a tube all feet meet, and measures
-// no longer tell what is nearest to it. So a line that topology holds is the one in the middle.
+// Below the threshold the greater radius stays, not the greater measure: beside the axis of a tube all foot points
+// meet, and measures no longer tell what is nearest to it. So a line that topology holds is the one in the middle.
 CorePart
-WorkingCore::Collapse(const CorePart & part, double threshold) const
+RefinementState::Collapse(const CorePart & part, double threshold) const
 {
   auto         vertexMeasure = Pick(m_VertexMeasure, part.vertices);
   auto         edgeMeasure = Pick(m_EdgeMeasure, part.edges);
@@ -248,7 +248,7 @@ WorkingCore::Collapse(const CorePart & part, double threshold) const
 
 // What has moved is guarded, and then measured where it is: so more may go, and what held it back with it.
 RefinedCore
-WorkingCore::Finish(const FootPointFinder & finder, double threshold)
+RefinementState::Finish(const FootPointFinder & finder, double threshold)
 {
   CorePart part = All();
   MeasureVertices(finder, part.vertices);
@@ -300,7 +300,7 @@ WorkingCore::Finish(const FootPointFinder & finder, double threshold)
   refined.core.cells = std::move(part.cells);
   for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
   {
-    refined.core.positions[vertex] = Along(refined.core.positions[vertex], 1, refined.displacement[vertex]);
+    refined.core.positions[vertex] = AddScaled(refined.core.positions[vertex], 1, refined.displacement[vertex]);
   }
   return refined;
 }

@@ -1,4 +1,4 @@
-#include "voxelcore/SideBySide.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include "VoxelCoreTesting/Threads.h"
 

@@ -1,0 +1,134 @@
+"""Keyword arguments as options of the command line."""
+
+import difflib
+import inspect
+
+import numpy
+
+from . import _voxelcore
+
+
+def text(value):
+    """A length as the command line takes it: a number is millimetres."""
+    if isinstance(value, str):
+        if "," in value:
+            raise ValueError(f"{value!r}: expected one length; for several give a list")
+        return value
+    if isinstance(value, (bool, numpy.bool_)) or not numpy.isscalar(value):
+        raise ValueError(f"{value!r}: expected a length such as '1.5vox' or a number of mm")
+    return numpy.format_float_positional(float(value), trim="-")
+
+
+def pruning(lambda_, tolerance):
+    """Options for lambda_ and tolerance, of which None is not given; whether one of them asks for several results."""
+    values = {}
+    for name, given in (("lambda", lambda_), ("tolerance", tolerance)):
+        if isinstance(given, (list, tuple)):
+            if not given:
+                raise ValueError(f"{name}: the list is empty")
+            values[name] = ",".join(map(text, given))
+        elif given is not None:
+            values[name] = text(given)
+    return values, isinstance(lambda_, (list, tuple)) or isinstance(tolerance, (list, tuple))
+
+
+def share(progress, begin, end):
+    """A listener to a part of the work, which runs from `begin` to `end` of the whole."""
+    if progress is None:
+        return None
+    return lambda stage, done: progress(stage if end == 1 or stage != "done" else "core", begin + (end - begin) * done)
+
+
+def without_mask(array, threshold):
+    """A plain array, in which the masked voxels of a numpy.ma array are background."""
+    voxels = numpy.ma.getdata(array) if isinstance(array, numpy.ma.MaskedArray) else numpy.asarray(array)
+    mask = numpy.ma.getmaskarray(array) if isinstance(array, numpy.ma.MaskedArray) else numpy.False_
+    if not mask.any():
+        return voxels
+    if mask.dtype != bool:
+        raise ValueError("the array: its mask has fields; give one of plain True and False")
+    value = 0
+    if threshold is not None:
+        if voxels.dtype == bool:
+            voxels = voxels.astype(numpy.uint8)
+        limits = (numpy.finfo if voxels.dtype.kind == "f" else numpy.iinfo)(voxels.dtype)
+        outside = [limit for limit in (limits.min, limits.max) if not threshold[0] <= limit <= threshold[1]]
+        if not outside:
+            raise ValueError(f"threshold: every {voxels.dtype} lies within it; no value is left for masked voxels")
+        value = outside[0]
+    return numpy.where(mask, voxels.dtype.type(value), voxels)
+
+
+def labels(label):
+    """Values as the command line takes them."""
+    if isinstance(label, str) and label == "all":
+        return label
+    values = label if isinstance(label, (list, tuple)) else [label]
+    if not values or any(isinstance(value, (bool, str)) or int(value) != value for value in values):
+        raise ValueError(f"label {label!r}: expected a whole number, a list of them, 'all', 'any' or None")
+    return ",".join(str(int(value)) for value in values)
+
+
+def three(name, values):
+    try:
+        numbers = [float(value) for value in values]
+    except (TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 3:
+        raise ValueError(f"{name}: expected three numbers")
+    return numbers
+
+
+def nine(values):
+    try:
+        matrix = numpy.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        matrix = numpy.empty(0)
+    if matrix.size != 9:
+        raise ValueError("direction: expected a 3 by 3 matrix or its nine numbers row by row")
+    return [float(value) for value in matrix.reshape(9)]
+
+
+def rows(command, *groups):
+    """The rows of the option table that are keyword arguments here, by keyword."""
+    return {
+        row["keyword"]: row
+        for row in _voxelcore.option_table()
+        if row["command"] == command and row["group"] in groups and row["keyword"]
+    }
+
+
+OF_CORE = rows("core", "Input", "Pruning", "Shape edits", "Refinement", "Running")
+OF_SKELETON = rows("skeleton", "Skeleton")
+del OF_SKELETON["also"]  # of Skeleton.save()
+
+
+def values(function, rows, given):
+    """Options of the command line from keyword arguments; what is None or False is not given."""
+    values = {}
+    for keyword, value in given.items():
+        row = rows.get(keyword)
+        if row is None:
+            near = difflib.get_close_matches(keyword, rows, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise TypeError(f"{function}() got an unexpected keyword argument {keyword!r}{hint}")
+        if value is None or value is False:
+            continue
+        if row["is_flag"] != (value is True):
+            raise ValueError(f"{keyword}={value!r}: expected " + ("True or False" if row["is_flag"] else "a value"))
+        values[row["name"]] = "true" if row["is_flag"] else value if isinstance(value, str) else text(value)
+    return values
+
+
+def documented(function, rows):
+    """Adds to the function's text what the option table says of its further arguments."""
+    own = inspect.signature(function).parameters
+    lines = [
+        f"    {keyword}: {row['description']}" + (f"; default: {row['default']}" if row["default"] else "")
+        for keyword, row in rows.items()
+        if keyword.isidentifier() and keyword not in own
+    ]
+    head, _, rest = function.__doc__.partition("    further options: ")
+    words, _, rest = rest.partition("\n")
+    function.__doc__ = head + "\n".join(lines) + "\n" + rest
+    return function

@@ -1,0 +1,300 @@
+"""What core() and skeleton() give."""
+
+import operator
+import os
+
+import numpy
+
+from . import _arguments, _voxelcore
+
+
+def _functions():
+    """The module whose functions make results; it needs this one first."""
+    import voxelcore
+
+    return voxelcore
+
+
+class _Result:
+    __slots__ = ("_data",)
+
+    def __init__(self, data):
+        self._data = data
+
+    def __reduce__(self):
+        return type(self)._from_state, (self._data.state(),)
+
+    @property
+    def label(self):
+        """The label's value."""
+        return self._data.label
+
+    @property
+    def component(self):
+        """Which component of the label it is, from 1 by size; 0: the whole label."""
+        return self._data.component
+
+    @property
+    def topology(self):
+        """Euler number and Betti numbers (pieces, loops, cavities) as counted in this result; those of the voxels."""
+        return self._data.topology
+
+    @property
+    def report(self):
+        """What was done and found, as the command line's --report has it: a dict."""
+        import json
+
+        return json.loads(self._data.report)
+
+
+class Core(_Result):
+    """A medial surface: vertices, edges between them, polygons. Made by core().
+
+    >>> surface = core(numpy.ones((9, 9, 3), bool), lambda_=0)
+    >>> surface.face_offsets[-1] == len(surface.face_vertices) == len(surface.face_edges)
+    True
+    >>> surface.prune("1.5vox").lambda_mm
+    1.5
+    """
+
+    __slots__ = ()
+
+    @classmethod
+    def _from_state(cls, state):
+        return cls(_voxelcore.core_from_state(state))
+
+    @property
+    def vertices(self):
+        """(n, 3) float64: LPS mm."""
+        return self._data.vertices
+
+    @property
+    def radius(self):
+        """(n,) float64: mm from each vertex to the nearest corners of voxels on the boundary of the label."""
+        return self._data.radius
+
+    @property
+    def edges(self):
+        """(m, 2) uint32: vertices, the smaller first. Edges of faces are among them."""
+        return self._data.edges
+
+    @property
+    def face_offsets(self):
+        """(f + 1,) uint64: face g has the corners face_vertices[face_offsets[g]:face_offsets[g + 1]]."""
+        return self._data.face_offsets
+
+    @property
+    def face_vertices(self):
+        """uint32: the corners of all faces, in cyclic order."""
+        return self._data.face_vertices
+
+    @property
+    def face_edges(self):
+        """uint32, in the places of face_vertices: the edge from each corner to the next."""
+        return self._data.face_edges
+
+    @property
+    def lambda_vertices(self):
+        """(n,) float64: radius measure of each vertex, mm. Of edges and faces: lambda_edges, lambda_faces. NaN for
+        edges of faces read from a file that lacks them."""
+        return self._data.lambda_vertices
+
+    @property
+    def lambda_edges(self):
+        """(m,) float64, mm."""
+        return self._data.lambda_edges
+
+    @property
+    def lambda_faces(self):
+        """(f,) float64, mm."""
+        return self._data.lambda_faces
+
+    @property
+    def tolerance_vertices(self):
+        """(n,) float64: tolerance at which each vertex disappears, mm; empty unless made with tolerance=."""
+        return self._data.tolerance_vertices
+
+    @property
+    def tolerance_edges(self):
+        """(m,) float64, mm, or empty."""
+        return self._data.tolerance_edges
+
+    @property
+    def tolerance_faces(self):
+        """(f,) float64, mm, or empty."""
+        return self._data.tolerance_faces
+
+    @property
+    def lambda_mm(self):
+        """The lambda it is pruned at, mm."""
+        return self._data.lambda_mm
+
+    @property
+    def voxels(self):
+        """Number of voxels of the label."""
+        return self._data.voxels
+
+    @property
+    def spacing(self):
+        """mm between voxels along i, j and k."""
+        return tuple(self._data.spacing)
+
+    @property
+    def shape_topology(self):
+        """Euler number and Betti numbers of the voxels, counted by other means than `topology`."""
+        return self._data.shape_topology
+
+    def prune(self, lambda_=None, *, tolerance=None, progress=None):
+        """This core pruned further, bit for bit as core() would give it: one computation serves many lambdas. A list
+        gives a list of cores. By tolerance only what was made with tolerance: with tolerance=0, every height is in it.
+
+        >>> ragged = core(numpy.ones((9, 9, 3), bool), tolerance=0)
+        >>> ragged.prune(tolerance="1diag").topology == ragged.prune("1.5vox").topology
+        True
+        """
+        values, several = _arguments.pruning(lambda_, tolerance)
+        cores = [Core(data) for data in _voxelcore.prune(self._data, values, progress)]
+        return cores if several else cores[0]
+
+    def skeleton(self, **options):
+        """skeleton(self, **options)."""
+        return _functions().skeleton(self, **options)
+
+    def save(self, path, *, triangles=False, keep_edges=False, overwrite=False):
+        """Writes .vtp .vtk .ply .obj .stl or .ma, as the command line does.
+
+        keep_edges: with the measures of all edges (.vtp, .vtk), for 'voxelcore prune' and read(...).prune().
+        """
+        _voxelcore.save_core(self._data, os.fsencode(path), bool(triangles), bool(keep_edges), bool(overwrite))
+
+    def free_edges(self):
+        """uint32: the edges that bound no face."""
+        free = numpy.ones(len(self.edges), bool)
+        free[self.face_edges] = False
+        return numpy.flatnonzero(free).astype(numpy.uint32)
+
+    def isolated_vertices(self):
+        """uint32: the vertices on no edge."""
+        free = numpy.ones(len(self.vertices), bool)
+        free[self.edges.ravel()] = False
+        return numpy.flatnonzero(free).astype(numpy.uint32)
+
+    def to_polydata(self):
+        """A vtkPolyData (package python3-vtk9) for VTK and PyVista, as in the .vtp file: point arrays Radius and
+        Lambda, cell arrays Lambda and Label.
+
+        >>> pieces = core(numpy.ones((9, 9, 3), bool)).to_polydata()
+        >>> round(pieces.GetPointData().GetArray("Radius").GetRange()[1], 1)
+        1.7
+        """
+        from . import _polydata
+
+        return _polydata.of_core(self)
+
+    def __repr__(self):
+        return (
+            f"<voxelcore.Core of label {self.label}: {len(self.vertices)} vertices, {len(self.edges)} edges, "
+            f"{len(self.face_offsets) - 1} faces, lambda {self.lambda_mm:g} mm>"
+        )
+
+
+class Skeleton(_Result):
+    """A curve skeleton: branches are poly lines from node to node. Made by skeleton()."""
+
+    __slots__ = ()
+
+    @classmethod
+    def _from_state(cls, state):
+        return cls(_voxelcore.skeleton_from_state(state))
+
+    @property
+    def points(self):
+        """(n, 3) float64: LPS mm."""
+        return self._data.points
+
+    @property
+    def radius(self):
+        """(n,) float64: radius of the largest ball in the voxels around each point, mm."""
+        return self._data.radius
+
+    @property
+    def erosion_thickness(self):
+        """(n,) float64, mm; infinite on closed surfaces."""
+        return self._data.erosion_thickness
+
+    @property
+    def branch_offsets(self):
+        """(b + 1,) uint64: branch c runs through branch_points[branch_offsets[c]:branch_offsets[c + 1]]."""
+        return self._data.branch_offsets
+
+    @property
+    def branch_points(self):
+        """uint32: the points of all branches."""
+        return self._data.branch_points
+
+    @property
+    def branch_nodes(self):
+        """(b, 2) uint32: nodes at the first and the last point of each branch."""
+        return self._data.branch_nodes
+
+    @property
+    def node_points(self):
+        """uint32: the point of each node."""
+        return self._data.node_points
+
+    @property
+    def node_kinds(self):
+        """uint8: 0 tip, 1 junction, 2 where a closed curve begins, 3 isolated point, 4 where a surface stays."""
+        return self._data.node_kinds
+
+    @property
+    def face_offsets(self):
+        """uint64: faces that stay (around cavities, and plates), as in Core."""
+        return self._data.face_offsets
+
+    @property
+    def face_vertices(self):
+        """uint32: points of these faces."""
+        return self._data.face_vertices
+
+    @property
+    def numbers(self):
+        """Totals: branches, tips, junctions, cycles, total_length (mm), ... as a dict."""
+        return self._data.numbers
+
+    def branch(self, number):
+        """(p, 3) float64: the points of one branch, LPS mm. Negative numbers count from the last one."""
+        place = operator.index(number)
+        count = len(self.branch_nodes)
+        if not -count <= place < count:
+            raise IndexError(f"branch {number}: there are {count} branches, from 0")
+        place %= count
+        begin, end = self.branch_offsets[place], self.branch_offsets[place + 1]
+        return self.points[self.branch_points[begin:end]]
+
+    def measure(self):
+        """measure(self)."""
+        return _functions().measure(self)
+
+    def save(self, path, *, also=(), overwrite=False):
+        """Writes .vtp, or .csv for the tables alone, as the command line does.
+
+        also: further files beside it: any of 'csv', 'swc', 'mrk.json', 'graphml', 'ma'.
+        """
+        also = also if isinstance(also, str) else ",".join(also)
+        _voxelcore.save_skeleton(self._data, os.fsencode(path), also, bool(overwrite))
+
+    def to_polydata(self):
+        """A vtkPolyData (package python3-vtk9): a poly line a branch, polygons of faces that stay; point arrays Radius
+        and ErosionThickness, cell arrays BranchId and Label."""
+        from . import _polydata
+
+        return _polydata.of_skeleton(self)
+
+    def __repr__(self):
+        counts = f"{len(self.branch_nodes)} branches, {len(self.points)} points"
+        return f"<voxelcore.Skeleton of label {self.label}: {counts}>"
+
+
+for _result in (Core, Skeleton):
+    _result.__module__ = "voxelcore"  # where users find them; pickles name it

@@ -1,0 +1,129 @@
+#pragma once
+// Fields of options (ParameterFields.h) from the values given: a field's row in the table has its name, with dashes.
+
+#include "ParameterReader.h"
+#include "voxelcore/CropRange.h"
+#include "voxelcore/ParameterFields.h"
+#include "voxelcore/ReadMesh.h"
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace voxelcore
+{
+
+/** Fills each field its command has an option for. Counts are unsigned and begin at 1, places are signed and begin at
+ *  0. \throws UsageError, naming the option, for a value without sense */
+class FieldReader
+{
+public:
+  explicit FieldReader(const ParameterReader & reader)
+    : m_Reader(reader)
+  {}
+
+  template <typename T>
+  void
+  operator()(std::string_view field, T & value) const
+  {
+    std::string name(field);
+    std::replace(name.begin(), name.end(), '_', '-');
+    if (const Parameter * const row = m_Reader.Find(name))
+    {
+      Read(*row, value);
+    }
+  }
+
+private:
+  void
+  Read(const Parameter & row, bool & value) const
+  {
+    value = m_Reader.IsSet(row.name);
+  }
+
+  void
+  Read(const Parameter & row, std::string & value) const
+  {
+    value = m_Reader.Choice(row.name);
+  }
+
+  template <typename T>
+  void
+  Read(const Parameter & row, std::optional<T> & value) const
+  {
+    if (m_Reader.IsGiven(row.name))
+    {
+      value = Given<T>(row);
+    }
+  }
+
+  template <typename T>
+  T
+  Given(const Parameter & row) const
+  {
+    if constexpr (std::is_integral_v<T>)
+    {
+      return row.kind == ParameterKind::Integer
+               ? static_cast<T>(
+                   m_Reader.Whole(row.name, std::is_unsigned_v<T> ? 1 : 0, std::numeric_limits<std::int64_t>::max()))
+               : static_cast<T>(*m_Reader.FirstResolution());
+    }
+    else if constexpr (std::is_same_v<T, CropRange>)
+    {
+      return ParseCrop(m_Reader.Text(row.name));
+    }
+    else if constexpr (std::is_same_v<T, Vector3>)
+    {
+      return m_Reader.Spacing(IsMeshPath(m_Reader.Text("scan")));
+    }
+    else
+    {
+      static_assert(std::is_same_v<T, std::pair<double, double>>);
+      return m_Reader.Range(row.name);
+    }
+  }
+
+  const ParameterReader & m_Reader;
+};
+
+/** What is read of a scan and how its shapes are edited: `reading`, `resolution`, `edits`. */
+template <typename TOptions>
+void
+ReadScanFields(const ParameterReader & reader, TOptions & options)
+{
+  ReadOptions & reading = options.reading;
+  VisitScanFields(options, FieldReader(reader));
+  reading.labels = reader.Text("labels");
+  reading.refuseGrey = !reader.IsGiven("labels");
+  if (reading.labels.empty())
+  {
+    reader.ThrowUsageError("labels", "'all', or values or names separated by commas");
+  }
+  if ((reading.labels != "all" ? 1 : 0) + (reading.binary ? 1 : 0) + (reading.threshold ? 1 : 0) > 1)
+  {
+    throw UsageError("give only one of --labels, --binary and --threshold");
+  }
+}
+
+/** The values given of options that have no field of their own, by the names reports have for them. */
+inline std::map<std::string, std::string>
+FurtherOptions(const ParameterReader & reader)
+{
+  std::map<std::string, std::string> further;
+  for (const Parameter & parameter : Parameters())
+  {
+    if (parameter.recorded && reader.Find(parameter.name) == &parameter && reader.IsGiven(parameter.name))
+    {
+      std::string name(parameter.name);
+      std::replace(name.begin(), name.end(), '-', '_');
+      further[name] = reader.Text(parameter.name);
+    }
+  }
+  return further;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,75 @@
+// The options of `voxelcore phantom`.
+
+#include "ParameterReader.h"
+#include "voxelcore/Error.h"
+
+#include <array>
+#include <cmath>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+std::array<std::int32_t, 3>
+SizeFrom(const ParameterReader & reader)
+{
+  auto parts = SplitText(reader.Text("size"), ',');
+  if (parts.size() == 1)
+  {
+    parts.resize(3, parts.front());
+  }
+  std::array<std::int32_t, 3> size{};
+  bool                        good = parts.size() == 3;
+  for (std::size_t k = 0; good && k < 3; ++k)
+  {
+    const auto value = ParseReal(parts[k]);
+    good = value && *value >= 1 && *value <= 32768 && std::floor(*value) == *value;
+    size[k] = good ? static_cast<std::int32_t>(*value) : 0;
+  }
+  if (!good)
+  {
+    reader.ThrowUsageError("size", "one or three whole numbers of voxels from 1 to 32768, such as 64 or 64,64,32");
+  }
+  return size;
+}
+
+} // namespace
+
+PhantomJobOptions
+PhantomOptionsFrom(const ParameterValues & values)
+{
+  const ParameterReader reader(values, CommandId::Phantom);
+  PhantomJobOptions     options;
+  options.phantom.kind = reader.Text("kind");
+  options.phantom.size = SizeFrom(reader);
+  options.phantom.spacing = reader.Spacing();
+  options.phantom.seed = static_cast<std::uint64_t>(reader.Whole("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  options.phantom.radius = reader.Real("radius");
+  options.phantom.thickness = reader.Real("thickness");
+  options.phantom.period = reader.Real("period");
+  options.phantom.density = reader.Real("density");
+  options.phantom.detail = reader.Real("detail");
+  if (reader.IsGiven("laterals"))
+  {
+    options.phantom.laterals = static_cast<int>(reader.Whole("laterals", 0, 100000));
+  }
+  if (reader.IsGiven("sub-laterals"))
+  {
+    options.phantom.subLaterals = static_cast<int>(reader.Whole("sub-laterals", 0, 100000));
+  }
+  if (reader.IsGiven("cells"))
+  {
+    options.phantom.cells = static_cast<int>(reader.Whole("cells", 1, 1000000));
+  }
+  if (reader.IsGiven("centre-lines"))
+  {
+    options.centreLines = reader.Text("centre-lines");
+  }
+  options.output = reader.File("output");
+  options.force = reader.IsSet("force");
+  return options;
+}
+
+} // namespace voxelcore
