@@ -19,14 +19,6 @@ namespace voxelcore
 namespace
 {
 
-/** The command line's files. */
-void
-NameFiles(ParameterValues & values)
-{
-  values["scan"] = "the array";
-  values["output"] = "result.vtp";
-}
-
 /** Who names no label expects one. */
 void
 RequireOneLabel(const std::vector<LabelShape> & labels)
@@ -123,12 +115,12 @@ RequirePrunable(const CoreOfLabel & core, const PruneOptions & options)
 std::vector<std::shared_ptr<CoreOfLabel>>
 MakeCores(const ArrayView &        array,
           const ImageGeometry &    geometry,
-          ParameterValues          values,
+          const ParameterValues &  values,
           const ProgressCallback & progress)
 {
-  NameFiles(values);
-  const CoreOptions options = CoreOptionsFrom(values);
-  CoreReport        report;
+  CoreOptions options = CoreOptionsWithoutFiles(values);
+  options.scan = "the array";
+  CoreReport report;
   report.input.path = "the array";
   report.input.format = "array";
   report.input.geometry = CheckedGeometry("the array", geometry, options.reading.orthonormalize);
@@ -203,12 +195,10 @@ MakeCores(const ArrayView &        array,
 }
 
 std::vector<std::shared_ptr<CoreOfLabel>>
-Prune(const CoreOfLabel & core, ParameterValues values, const ProgressCallback & progress)
+Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCallback & progress)
 {
   RequireUnrefinedCore(core);
-  values["core"] = "the core";
-  values["output"] = "result.vtp";
-  const PruneOptions options = PruneOptionsFrom(values);
+  const PruneOptions options = PruneOptionsWithoutFiles(values);
   RequirePrunable(core, options);
   const LabelRecord &        record = core.report.labels.front();
   const CertifiedShape       shape = RecordedShape(core.report, record);
@@ -235,13 +225,14 @@ Prune(const CoreOfLabel & core, ParameterValues values, const ProgressCallback &
 }
 
 std::shared_ptr<SkeletonOfLabel>
-MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core, ParameterValues values, const ProgressCallback & progress)
+MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
+               const ParameterValues &            values,
+               const ProgressCallback &           progress)
 {
   RequireUnrefinedCore(*core);
-  NameFiles(values);
   auto result = std::make_shared<SkeletonOfLabel>();
   result->report = core->report;
-  SkeletonRequest stage = SkeletonOptionsFrom(values).stage;
+  SkeletonRequest stage = SkeletonRequestFrom(values);
   stage.lambda = ParseLambda(core->report.parameters.lambda.front());
   if (!core->report.parameters.tolerances.empty())
   {

@@ -39,17 +39,19 @@ struct SkeletonOfLabel
 std::vector<std::shared_ptr<CoreOfLabel>>
 MakeCores(const ArrayView &        array,
           const ImageGeometry &    geometry,
-          ParameterValues          values,
+          const ParameterValues &  values,
           const ProgressCallback & progress);
 
 /** A core pruned further, as if at once; `values` are options of `voxelcore prune`.
  *  \throws UsageError, also when it is pruned further already */
 std::vector<std::shared_ptr<CoreOfLabel>>
-Prune(const CoreOfLabel & core, ParameterValues values, const ProgressCallback & progress);
+Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCallback & progress);
 
 /** `values` are options of `voxelcore skeleton`. */
 std::shared_ptr<SkeletonOfLabel>
-MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core, ParameterValues values, const ProgressCallback & progress);
+MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
+               const ParameterValues &            values,
+               const ProgressCallback &           progress);
 
 /** Asks `progress` once more before the file gets its name. \throws OutputError, UsageError, Cancelled */
 void

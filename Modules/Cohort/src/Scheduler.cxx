@@ -2,6 +2,7 @@
 
 #include "TimeLeft.h"
 #include "voxelcore/CaseRecord.h"
+#include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Sha256.h"
 
@@ -22,9 +23,14 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr int    kInterrupted = 130;
-constexpr int    kPollMilliseconds = 200;
-constexpr double kMegabytesPerGigabyte = 1000;
+std::uint64_t
+Bytes(double megabytes)
+{
+  return static_cast<std::uint64_t>(std::llround(megabytes * 1e6));
+}
+
+constexpr int kInterrupted = 130;
+constexpr int kPollMilliseconds = 200;
 
 std::string
 ClockText(double seconds)
@@ -38,21 +44,6 @@ ClockText(double seconds)
   else
   {
     std::snprintf(text, sizeof(text), "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-  }
-  return text;
-}
-
-std::string
-MemoryText(double megabytes)
-{
-  char text[32];
-  if (megabytes < kMegabytesPerGigabyte)
-  {
-    std::snprintf(text, sizeof(text), "%.0f MB", megabytes);
-  }
-  else
-  {
-    std::snprintf(text, sizeof(text), "%.1f GB", megabytes / kMegabytesPerGigabyte);
   }
   return text;
 }
@@ -259,8 +250,9 @@ Scheduler::GrantMemory()
     }
     if (running.wanted > m_Options.memoryMb)
     {
-      running.killed = "needs about " + MemoryText(running.wanted) + " of memory, more than the " +
-                       MemoryText(m_Options.memoryMb) + " there are; give more --memory, single --labels, or a --crop";
+      running.killed = "needs about " + MemoryText(Bytes(running.wanted)) + " of memory, more than the " +
+                       MemoryText(Bytes(m_Options.memoryMb)) +
+                       " there are; give more --memory, single --labels, or a --crop";
       running.process.Kill();
     }
     else if (used + running.wanted <= m_Options.memoryMb)

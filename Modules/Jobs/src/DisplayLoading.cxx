@@ -159,10 +159,7 @@ private:
     }
     const CoreReport  report = ParseProvenance(provenance, path.string());
     const std::size_t parts = IsSkeleton(report) ? skeletons.parts.size() : surfaces.parts.size();
-    if (report.labels.size() != parts)
-    {
-      throw InputError(path.string() + ": its field Provenance does not fit its cells; make the file again");
-    }
+    RequireFittingProvenance(report.labels.size() == parts, path);
     if (!m_Report)
     {
       m_Report = report;

@@ -45,6 +45,15 @@ RequireUnrefined(const MedialModel & model, const std::filesystem::path & path)
   }
 }
 
+void
+RequireFittingProvenance(bool fits, const std::filesystem::path & path)
+{
+  if (!fits)
+  {
+    throw InputError(path.string() + ": its field Provenance does not fit its cells; make the file again");
+  }
+}
+
 ReadOptions
 RecordedReading(const ParameterRecord & parameters)
 {

@@ -29,6 +29,10 @@ ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan);
 void
 RequireUnrefined(const MedialModel & model, const std::filesystem::path & path);
 
+/** \throws InputError, naming the file, unless its field Provenance `fits` its cells. */
+void
+RequireFittingProvenance(bool fits, const std::filesystem::path & path);
+
 /** How the scan was read when a file was made. */
 ReadOptions
 RecordedReading(const ParameterRecord & parameters);

@@ -28,20 +28,15 @@ RequirePrunable(const PruneOptions & options, const MedialModel & model, const C
   {
     throw InputError(where + ": does not hold the measures of its edges; make it with 'voxelcore core --keep-edges'");
   }
-  if (made.parameters.lambda.size() != 1 || made.parameters.tolerances.size() > 1 ||
-      made.labels.size() != model.parts.size())
+  bool fits = made.parameters.lambda.size() == 1 && made.parameters.tolerances.size() <= 1 &&
+              made.labels.size() == model.parts.size();
+  for (std::size_t i = 0; fits && i < made.labels.size(); ++i)
   {
-    throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
+    fits = made.labels[i].label == model.parts[i].label && made.labels[i].component == model.parts[i].component &&
+           made.labels[i].pruned.size() == 1 && made.labels[i].pruned.front().tolerance.has_value() == hasTolerance &&
+           model.parts[i].core.HasTolerances() == hasTolerance;
   }
-  for (std::size_t i = 0; i < made.labels.size(); ++i)
-  {
-    if (made.labels[i].label != model.parts[i].label || made.labels[i].component != model.parts[i].component ||
-        made.labels[i].pruned.size() != 1 || made.labels[i].pruned.front().tolerance.has_value() != hasTolerance ||
-        model.parts[i].core.HasTolerances() != hasTolerance)
-    {
-      throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
-    }
-  }
+  RequireFittingProvenance(fits, where);
 }
 
 /** \throws InputError when the file is pruned beyond one of the thresholds, or not by lambda. */

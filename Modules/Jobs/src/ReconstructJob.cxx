@@ -234,10 +234,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
   ReportProgress(context.progress, "reading", 0);
   const MedialModel model = ReadModel(options.core);
   const CoreReport  made = ParseProvenance(model.provenance, options.core.string());
-  if (made.labels.size() != model.parts.size())
-  {
-    throw InputError(options.core.string() + ": its field Provenance does not fit its cells; make the file again");
-  }
+  RequireFittingProvenance(made.labels.size() == model.parts.size(), options.core);
   ReconstructResult result;
   result.command = options.command;
   result.core = options.core.string();

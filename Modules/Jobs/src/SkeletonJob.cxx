@@ -63,11 +63,9 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   MedialModel model = ReadModel(options.input);
   RequireUnrefined(model, options.input);
   report = ParseProvenance(model.provenance, options.input.string());
-  if (report.labels.size() != model.parts.size() || report.parameters.lambda.size() != 1 ||
-      report.parameters.tolerances.size() > 1)
-  {
-    throw InputError(options.input.string() + ": its field Provenance does not fit its cells; make the file again");
-  }
+  RequireFittingProvenance(report.labels.size() == model.parts.size() && report.parameters.lambda.size() == 1 &&
+                             report.parameters.tolerances.size() <= 1,
+                           options.input);
   report.command = options.command;
   report.input.path = options.input.string();
   report.parameters.engine = "none";
@@ -161,21 +159,15 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   SkeletonModel model = ReadSkeletonVtp(options.skeleton);
   CoreReport &  report = result.report;
   report = ParseProvenance(model.provenance, options.skeleton.string());
-  if (!report.skeleton || report.labels.size() != model.parts.size())
-  {
-    throw InputError(options.skeleton.string() + ": its field Provenance does not fit its cells; make the file again");
-  }
+  RequireFittingProvenance(report.skeleton && report.labels.size() == model.parts.size(), options.skeleton);
   report.skeleton->branches = CombinedRequest(report.skeleton->branches, options.branches);
   const Vector3 & spacing = report.input.geometry.spacing;
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
     SkeletonPart & part = model.parts[i];
     LabelRecord &  record = report.labels[i];
-    if (part.label != record.label || part.component != record.component || !record.skeleton)
-    {
-      throw InputError(options.skeleton.string() +
-                       ": its field Provenance does not fit its cells; make the file again");
-    }
+    RequireFittingProvenance(part.label == record.label && part.component == record.component && record.skeleton,
+                             options.skeleton);
     part.name = record.name;
     const auto & length = options.branches.pruneLength;
     const double limit = length ? LambdaInMillimetres(*length, report.parameters.weights, spacing, record.box) : 0;

@@ -92,10 +92,7 @@ VerifyPart(ModelPart                part,
 const PrunedRecord &
 RecordedPruning(const CoreReport & made, std::size_t label, const std::string & where)
 {
-  if (label >= made.labels.size() || made.labels[label].pruned.size() != 1)
-  {
-    throw InputError(where + ": its field Provenance does not fit its cells; make the file again");
-  }
+  RequireFittingProvenance(label < made.labels.size() && made.labels[label].pruned.size() == 1, where);
   return made.labels[label].pruned.front();
 }
 

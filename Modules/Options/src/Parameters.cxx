@@ -118,14 +118,28 @@ RefineFrom(const ParameterReader & reader)
 } // namespace
 
 CoreOptions
-CoreOptionsFrom(const ParameterValues & values)
+CoreOptionsWithoutFiles(const ParameterValues & values)
 {
   const ParameterReader reader(values, CommandId::Core);
   CoreOptions           options;
-  options.scan = reader.Text("scan");
   ReadScanFields(reader, options);
   ReadPruning(reader, options.lambdas, options.tolerances);
   options.refine = RefineFrom(reader);
+  VisitModelFields(options.model, FieldReader(reader));
+  const std::string engine = reader.Choice("engine");
+  options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
+  options.crossCheck = reader.IsSet("cross-check");
+  options.threads = ThreadsFrom(values, CommandId::Core);
+  options.further = FurtherOptions(reader);
+  return options;
+}
+
+CoreOptions
+CoreOptionsFrom(const ParameterValues & values)
+{
+  const ParameterReader reader(values, CommandId::Core);
+  CoreOptions           options = CoreOptionsWithoutFiles(values);
+  options.scan = reader.Text("scan");
   options.output = reader.File("output");
   options.report = reader.FileIfGiven("report");
   options.table = reader.FileIfGiven("table");
@@ -133,22 +147,16 @@ CoreOptionsFrom(const ParameterValues & values)
   options.skeleton = CoreSkeletonFrom(values);
   options.skeletonTargets = TargetsFrom(values, CommandId::Core);
   options.skeletonOutput = options.skeleton ? SkeletonBesideCore(options.output) : std::filesystem::path();
-  VisitModelFields(options.model, FieldReader(reader));
-  const std::string engine = reader.Choice("engine");
-  options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
-  options.crossCheck = reader.IsSet("cross-check");
   options.join = reader.Text("join");
   if (options.crossCheck && !options.join.empty())
   {
     throw UsageError("give only one of --cross-check and --join");
   }
-  options.threads = ThreadsFrom(values, CommandId::Core);
   if (reader.IsGiven("memory"))
   {
     options.memory = ParseMemory(reader.Text("memory"));
   }
   options.force = reader.IsSet("force");
-  options.further = FurtherOptions(reader);
   return options;
 }
 
@@ -203,11 +211,10 @@ VerifyOptionsFrom(const ParameterValues & values)
 }
 
 PruneOptions
-PruneOptionsFrom(const ParameterValues & values)
+PruneOptionsWithoutFiles(const ParameterValues & values)
 {
   const ParameterReader reader(values, CommandId::Prune);
   PruneOptions          options;
-  options.core = reader.Text("core");
   if (reader.IsGiven("tolerance") == reader.IsGiven("lambda"))
   {
     throw UsageError("give either --lambda or --tolerance, such as --lambda 1.5mm or --tolerance 1.2diag");
@@ -220,10 +227,19 @@ PruneOptionsFrom(const ParameterValues & values)
   {
     options.lambdas = ParseLambdas(reader.Text("lambda"));
   }
-  options.output = reader.File("output");
-  options.report = reader.FileIfGiven("report");
   VisitModelFields(options.model, FieldReader(reader));
   options.threads = ThreadsFrom(values, CommandId::Prune);
+  return options;
+}
+
+PruneOptions
+PruneOptionsFrom(const ParameterValues & values)
+{
+  const ParameterReader reader(values, CommandId::Prune);
+  PruneOptions          options = PruneOptionsWithoutFiles(values);
+  options.core = reader.Text("core");
+  options.output = reader.File("output");
+  options.report = reader.FileIfGiven("report");
   options.force = reader.IsSet("force");
   return options;
 }

@@ -160,6 +160,12 @@ CoreSkeletonFrom(const ParameterValues & values)
   return std::nullopt;
 }
 
+SkeletonRequest
+SkeletonRequestFrom(const ParameterValues & values)
+{
+  return StageFrom(values, CommandId::Skeleton);
+}
+
 SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values)
 {

@@ -140,6 +140,9 @@ ThreadsFrom(const ParameterValues & values, CommandId command);
 /** Each throws UsageError, naming the option, for a value without sense. */
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values);
+/** What is asked of shapes and cores, wherever they come from: no path is read from `values`, and none need be there. */
+CoreOptions
+CoreOptionsWithoutFiles(const ParameterValues & values);
 /** None unless --blocks is given. */
 std::optional<BlockOptions>
 BlockOptionsFrom(const ParameterValues & values);
@@ -149,6 +152,8 @@ VerifyOptions
 VerifyOptionsFrom(const ParameterValues & values);
 PruneOptions
 PruneOptionsFrom(const ParameterValues & values);
+PruneOptions
+PruneOptionsWithoutFiles(const ParameterValues & values);
 ReconstructOptions
 ReconstructOptionsFrom(const ParameterValues & values);
 /** `--resolution`: of meshes; none unless it is given. */
@@ -166,6 +171,9 @@ SkeletonTargets
 TargetsFrom(const ParameterValues & values, CommandId command);
 SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values);
+/** How a finished core is burned; its lambda is 0. */
+SkeletonRequest
+SkeletonRequestFrom(const ParameterValues & values);
 MeasureJobOptions
 MeasureOptionsFrom(const ParameterValues & values);
 RenderJobOptions
