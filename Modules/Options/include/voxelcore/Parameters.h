@@ -140,7 +140,7 @@ ThreadsFrom(const ParameterValues & values, CommandId command);
 /** Each throws UsageError, naming the option, for a value without sense. */
 CoreOptions
 CoreOptionsFrom(const ParameterValues & values);
-/** What is asked of shapes and cores, wherever they come from: no path is read from `values`, and none need be there. */
+/** What is asked of shapes and cores, wherever they come from: no path is read, and none need be there. */
 CoreOptions
 CoreOptionsWithoutFiles(const ParameterValues & values);
 /** None unless --blocks is given. */
