@@ -397,7 +397,7 @@ PYBIND11_MODULE(_voxelcore, module)
   module.def("read_core", &ReadCoreFile);
   module.def("core_from_state", &CoreFromState);
   module.def("skeleton_from_state", &SkeletonFromState);
-  module.def("skeleton_columns", &SkeletonColumnsJson);
+  module.def("skeleton_columns", [] { return SkeletonColumnsJson(SpatialUnit::Millimetres); });
   module.def("await_left_behind", &AwaitLeftBehind);
   module.def("forget_left_behind", &ForgetLeftBehind);
   module.def("in_python_words", &InPythonWords);

@@ -59,11 +59,10 @@ TEST_F(ScanWords, AMissingVoxelSizeIsWarnedOfOnceByEveryCommand)
 {
   const std::string scan = WithoutSpacing();
   const std::string warning =
-    "a.nrrd: no voxel size in the file; 1 mm is assumed, so all lengths are in voxels. Give "
-    "--spacing X,Y,Z.";
+    "a.nrrd: no voxel size in the file: all lengths are in voxels. Give the true size with --spacing X,Y,Z.";
   const std::vector<std::vector<std::string>> commands{
     { "info", scan },
-    { "core", scan, "-o", Path("a.vtp"), "--lambda", "1mm" },
+    { "core", scan, "-o", Path("a.vtp"), "--lambda", "1vox" },
     { "skeleton", scan, "-o", Path("s.vtp") },
     { "verify", scan, Path("a.vtp") },
     { "reconstruct", Path("a.vtp"), "-o", Path("r.nrrd"), "--scan", scan },
@@ -79,7 +78,7 @@ TEST_F(ScanWords, AMissingVoxelSizeIsWarnedOfOnceByEveryCommand)
     EXPECT_EQ(result.error, "voxelcore: warning: " + warning + "\n") << command[0];
   }
   Run({ "core", scan, "-o", Path("b.vtp"), "--spacing", "1,1,1" });
-  Run({ "batch", scan, "-o", Path("cohort"), "--lambda", "1mm" });
+  Run({ "batch", scan, "-o", Path("cohort"), "--lambda", "1vox" });
   const auto record = Report("cohort/sub-a/sub-a_case.json");
   EXPECT_EQ(record["warnings"], (nlohmann::json{ "warning: " + warning }));
 }
@@ -95,7 +94,7 @@ TEST_F(ScanWords, AGreyScanStopsCoreSkeletonAndItsCaseAlone)
   ExpectRefusal(RunProgram({ "core", scan, "-o", Path("a.vtp") }), 3, words);
   ExpectRefusal(RunProgram({ "skeleton", scan, "-o", Path("a.vtp") }), 3, words);
   const std::string   labels = WithoutSpacing();
-  const ProgramResult batch = RunProgram({ "batch", scan, labels, "-o", Path("cohort"), "--lambda", "1mm" });
+  const ProgramResult batch = RunProgram({ "batch", scan, labels, "-o", Path("cohort"), "--lambda", "1vox" });
   EXPECT_EQ(batch.code, 1);
   EXPECT_THAT(std::string(Report("cohort/sub-ct/sub-ct_case.json")["reason"]), HasSubstr("looks like a grey scan"));
   EXPECT_EQ(Report("cohort/sub-a/sub-a_case.json")["status"], "done");

@@ -214,6 +214,29 @@ TEST_F(ItkLabelScan, SegmentsAreInTheDictionaryUnderTheNumbersOfTheirPixels)
   }
 }
 
+TEST_F(ItkLabelScan, ShapesOfAScanWithoutAVoxelSizeAreInVoxels)
+{
+  using Image = itk::Image<std::uint8_t, 3>;
+  for (const bool sized : { true, false })
+  {
+    const std::string header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 3 3\nencoding: raw\n";
+    const auto        path = m_Folder.Write("a.nrrd",
+                                     header + (sized ? "spacings: 1 1 1\n\n" : "\n") + std::string(13, '\0') + '\1' +
+                                       std::string(13, '\0'));
+    const auto        expect = [&](auto reader) {
+      reader->SetFileName(path.string());
+      auto shapes = itk::LabelImageToVoxelShapeFilter<Image>::New();
+      shapes->SetInput(reader->GetOutput());
+      shapes->Update();
+      EXPECT_EQ(shapes->GetOutput()->GetGeometry().unit, sized ? SpatialUnit::Millimetres : SpatialUnit::Voxels);
+    };
+    expect(itk::LabelScanReader<Image>::New());
+    auto file = itk::ImageFileReader<Image>::New();
+    file->SetImageIO(itk::LabelScanImageIO::New());
+    expect(file);
+  }
+}
+
 TEST_F(ItkLabelScan, TheFactoryGivesItForItsFormatsAndNoOthers)
 {
   const auto nameOf = [](const char * file) {

@@ -40,6 +40,7 @@ main(int argc, char ** argv)
     }
     // With the measures of all edges, and a record of what they are of, `voxelcore prune` and others take the file.
     const voxelcore::ModelOptions options{ .keepEdges = true };
+    model.unit = pruned->GetOutput()->GetGeometry().unit;
     model.provenance = pruned->GetOutput()->GetProvenance(options.keepEdges);
     voxelcore::WriteModel(argv[3], argv[3], model, options);
   }

@@ -105,7 +105,7 @@ TEST(NrrdGeometry, SpacingsWithoutDirectionsAreKeptAndNoted)
   EXPECT_TRUE(HasNote(volume.notes, "spacings but no directions"));
   const LabelMap bare =
     ReadLabelVolume(folder.Write("b.nrrd", Nrrd(With(lines, "spacings", ""), RawAll<std::uint8_t>(kValues))));
-  EXPECT_TRUE(HasNote(bare.warnings, "b.nrrd: no voxel size in the file; 1 mm is assumed"));
+  EXPECT_TRUE(HasNote(bare.warnings, "b.nrrd: no voxel size in the file: all lengths are in voxels"));
   for (const char * bad : { "0.5 0 2", "0.5 -1 2", "0.5 nan 2" })
   {
     const auto path = folder.Write("c.nrrd", Nrrd(With(lines, "spacings", bad), RawAll<std::uint8_t>(kValues)));

@@ -77,7 +77,7 @@ protected:
     ExpectNear(volume.geometry.spacing, { 1, 1, 1 });
     ASSERT_EQ(volume.warnings.size(), 1U);
     EXPECT_EQ(volume.warnings[0],
-              "a.tif: no voxel size in the file; 1 mm is assumed, so all lengths are in voxels. Give --spacing X,Y,Z.");
+              "a.tif: no voxel size in the file: all lengths are in voxels. Give the true size with --spacing X,Y,Z.");
     ReadOptions given;
     given.spacing = Vector3{ 0.5, 0.5, 2 };
     const LabelMap scaled = Read(pages, given);

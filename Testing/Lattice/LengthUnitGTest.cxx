@@ -23,6 +23,17 @@ TEST(LengthUnit, SuitsTheSizeOfWhatIsShown)
   EXPECT_EQ(LengthUnit::For(std::numeric_limits<double>::quiet_NaN()).Name(), "mm");
 }
 
+TEST(LengthUnit, VoxelsStayVoxelsWhateverTheirSize)
+{
+  for (const double typical : { 0.0, 1e-9, 0.02, 7.0 })
+  {
+    const LengthUnit unit = LengthUnit::For(typical, SpatialUnit::Voxels);
+    EXPECT_EQ(unit.Name(2), "vox2");
+    EXPECT_EQ(unit.Symbol(3), "vox³");
+    EXPECT_EQ(unit.Of(typical), typical);
+  }
+}
+
 TEST(LengthUnit, SquaresAndCubesAreThoseOfTheUnit)
 {
   const LengthUnit unit = LengthUnit::For(4e-6);

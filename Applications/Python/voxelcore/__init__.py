@@ -55,7 +55,8 @@ def core(
 
     array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array
         masks. It is read once, into one bit a voxel, and not kept. It must not change meanwhile.
-    spacing: mm between voxels along i, j and k.
+    spacing: mm between voxels along i, j and k. Where it is not known leave it at 1: lengths are then in voxels,
+        though they are called mm here.
     lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
         number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side
         of the label's box). 0 keeps the whole core. None: '1.5vox', but 0 beside tolerance. A list shares one

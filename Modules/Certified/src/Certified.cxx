@@ -126,6 +126,7 @@ public:
     , m_Weights(ComputeLatticeWeights(geometry))
     , m_Plan(progress, StageTimes(request))
   {
+    RequireLengthsIn(geometry.unit, request);
     m_Result.shape = { request.name, {}, m_Voxels.Box(), geometry };
     for (const Lambda & lambda : request.lambdas)
     {
@@ -294,8 +295,8 @@ private:
     if (*tolerance.boundaryGapMm > tolerance.heightMm + BoundaryGapTolerance(geometry))
     {
       RefuseResult(m_Request.name,
-                   "a boundary vertex lies " + std::to_string(*tolerance.boundaryGapMm) +
-                     " mm from its core pruned at tolerance " + tolerance.height);
+                   "a boundary vertex lies " + std::to_string(*tolerance.boundaryGapMm) + InUnit(" mm", geometry.unit) +
+                     " from its core pruned at tolerance " + tolerance.height);
     }
     m_Result.covered = true;
   }
@@ -338,6 +339,23 @@ private:
 };
 
 } // namespace
+
+void
+RequireLengthsIn(SpatialUnit unit, const CertifiedRequest & request)
+{
+  for (const Lambda & lambda : request.lambdas)
+  {
+    RequireLengthIn(unit, lambda);
+  }
+  for (const Tolerance & height : request.tolerances)
+  {
+    RequireLengthIn(unit, height);
+  }
+  if (request.skeleton)
+  {
+    RequireLengthsIn(unit, *request.skeleton);
+  }
+}
 
 CertifiedResult
 ComputeCertified(VoxelShape               shape,

@@ -92,6 +92,7 @@ PruneCertified(CertifiedCore               core,
   std::vector<double>  thresholds;
   for (const Lambda & lambda : lambdas)
   {
+    RequireLengthIn(shape.geometry.unit, lambda);
     thresholds.push_back(LambdaInMillimetres(lambda, weights, shape.geometry.spacing, shape.box));
     if (thresholds.back() < done.lambdaMm)
     {
@@ -123,6 +124,7 @@ PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const s
   for (std::size_t i = 0; i < heights.size(); ++i)
   {
     const ImageGeometry & geometry = shape.geometry;
+    RequireLengthIn(geometry.unit, heights[i]);
     const double height = std::min(ToleranceInMillimetres(heights[i], geometry.spacing), ScanDiagonal(geometry));
     if (!core.core.core.HasTolerances() && core.core.core.cells.vertexCount > 0)
     {

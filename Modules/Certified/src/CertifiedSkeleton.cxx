@@ -68,12 +68,39 @@ CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, const
   skeleton.skeleton.table = MeasureBranches(graph, MeasuringOf(request, spacing));
 }
 
+void
+RequireLengthsIn(SpatialUnit unit, const BranchRequest & request)
+{
+  if (request.pruneLength)
+  {
+    RequireLengthIn(unit, *request.pruneLength);
+  }
+}
+
+void
+RequireLengthsIn(SpatialUnit unit, const SkeletonRequest & request)
+{
+  RequireLengthIn(unit, request.lambda);
+  if (request.tolerance)
+  {
+    RequireLengthIn(unit, *request.tolerance);
+  }
+  RequireLengthIn(unit, request.standOut);
+  if (request.plates)
+  {
+    RequireLengthIn(unit, *request.plates);
+  }
+  RequireLengthIn(unit, request.smooth);
+  RequireLengthsIn(unit, request.branches);
+}
+
 CertifiedSkeleton
 SkeletonOf(const PlacedCore &       core,
            const CertifiedShape &   shape,
            const SkeletonRequest &  request,
            const ProgressCallback & progress)
 {
+  RequireLengthsIn(shape.geometry.unit, request);
   const Vector3 &      spacing = shape.geometry.spacing;
   const SpacingWeights weights = ComputeSpacingWeights(spacing);
   const auto           length = [&](const Lambda & l) { return LambdaInMillimetres(l, weights, spacing, shape.box); };

@@ -232,34 +232,80 @@ InScript(const Json & json)
   return text;
 }
 
+/** A column of the page, its lengths in one unit. */
+struct ShownColumn
+{
+  std::string title;
+  std::string key;
+  int         power;
+  LengthUnit  unit;
+};
+
+bool
+HasColumn(const std::vector<PageCase> & cases, const std::string & key)
+{
+  return std::any_of(cases.begin(), cases.end(), [&](const PageCase & one) {
+    return std::any_of(one.labels.begin(), one.labels.end(), [&](const Row & row) { return row.contains(key); });
+  });
+}
+
 /** One for the whole page, by its largest body, as `info` does for a scan. */
 LengthUnit
-UnitOf(const std::vector<PageCase> & cases)
+UnitOf(const std::vector<PageCase> & cases, SpatialUnit lengths)
 {
-  double largest = 0;
+  const std::string volume = InUnit("volume_mm3", lengths);
+  double            largest = 0;
   for (const PageCase & one : cases)
   {
     for (const Row & row : one.labels)
     {
-      const auto found = row.find("volume_mm3");
+      const auto found = row.find(volume);
       largest = std::max(largest, found != row.end() && found->is_number() ? found->get<double>() : 0.0);
     }
   }
-  return LengthUnit::For(std::cbrt(largest));
+  return LengthUnit::For(std::cbrt(largest), lengths);
+}
+
+/** Cases without a voxel size have columns of their own, in voxels. */
+std::vector<ShownColumn>
+ColumnsOf(const std::vector<PageCase> & cases)
+{
+  const bool               inVoxels = HasColumn(cases, InUnit("volume_mm3", SpatialUnit::Voxels));
+  std::vector<SpatialUnit> units;
+  if (!inVoxels || HasColumn(cases, "volume_mm3"))
+  {
+    units.push_back(SpatialUnit::Millimetres);
+  }
+  if (inVoxels)
+  {
+    units.push_back(SpatialUnit::Voxels);
+  }
+  std::vector<ShownColumn> columns;
+  for (const PageColumn & column : kColumns)
+  {
+    for (const SpatialUnit lengths : column.power > 0 ? units : std::vector{ units.front() })
+    {
+      const LengthUnit unit = UnitOf(cases, lengths);
+      columns.push_back({ column.title + (column.power > 0 ? " " + unit.Symbol(column.power) : std::string()),
+                          InUnit(column.key, lengths),
+                          column.power,
+                          unit });
+    }
+  }
+  return columns;
 }
 
 Json
-LabelJson(const Row & row, const LengthUnit & unit)
+LabelJson(const Row & row, const std::vector<ShownColumn> & columns)
 {
   Json              values = Json::array();
   Json              outliers = Json::object();
   const std::string marks = " " + row.at("outliers").get<std::string>() + " ";
-  for (std::size_t i = 0; i < std::size(kColumns); ++i)
+  for (std::size_t i = 0; i < columns.size(); ++i)
   {
-    const std::string key = kColumns[i].key;
-    const auto        found = row.find(key);
-    const int         power = kColumns[i].power;
-    const bool        known = found != row.end() && found->is_number();
+    const auto & [title, key, power, unit] = columns[i];
+    const auto found = row.find(key);
+    const bool known = found != row.end() && found->is_number();
     values.push_back(!known ? Json(nullptr) : power == 0 ? *found : Json(unit.Of(found->get<double>(), power)));
     if (marks.find(" " + key + "+ ") != std::string::npos)
     {
@@ -279,7 +325,7 @@ LabelJson(const Row & row, const LengthUnit & unit)
 }
 
 Json
-CaseJson(const PageCase & one, const LengthUnit & unit)
+CaseJson(const PageCase & one, const std::vector<ShownColumn> & columns)
 {
   Json json = { { "id", one.record.id },
                 { "folder", one.folder },
@@ -308,7 +354,7 @@ CaseJson(const PageCase & one, const LengthUnit & unit)
   }
   for (const Row & row : one.labels)
   {
-    json["labels"].push_back(LabelJson(row, unit));
+    json["labels"].push_back(LabelJson(row, columns));
   }
   return json;
 }
@@ -318,19 +364,18 @@ CaseJson(const PageCase & one, const LengthUnit & unit)
 std::string
 CohortPage(const std::vector<PageCase> & cases)
 {
-  const LengthUnit unit = UnitOf(cases);
-  Json             data;
+  const std::vector<ShownColumn> columns = ColumnsOf(cases);
+  Json                           data;
   data["version"] = VoxelCoreVersion();
   data["columns"] = Json::array();
-  for (const PageColumn & column : kColumns)
+  for (const ShownColumn & column : columns)
   {
-    data["columns"].push_back(column.power == 0 ? std::string(column.title)
-                                                : std::string(column.title) + " " + unit.Symbol(column.power));
+    data["columns"].push_back(column.title);
   }
   data["cases"] = Json::array();
   for (const PageCase & one : cases)
   {
-    data["cases"].push_back(CaseJson(one, unit));
+    data["cases"].push_back(CaseJson(one, columns));
   }
   return std::string(kHead) + InScript(data) + std::string(kTail);
 }

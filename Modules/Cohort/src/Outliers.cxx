@@ -1,4 +1,5 @@
 #include "CaseTable.h"
+#include "voxelcore/SpatialUnit.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +32,7 @@ Median(std::vector<double> values)
 }
 
 std::optional<double>
-NumberAt(const Row & row, const char * column)
+NumberAt(const Row & row, const std::string & column)
 {
   const auto found = row.find(column);
   return found != row.end() && found->is_number() ? std::optional<double>(found->get<double>()) : std::nullopt;
@@ -39,7 +40,7 @@ NumberAt(const Row & row, const char * column)
 
 /** Compares rows of one label in one column. */
 void
-Mark(std::vector<Row> & rows, const std::vector<std::size_t> & which, const char * column)
+Mark(std::vector<Row> & rows, const std::vector<std::size_t> & which, const std::string & column)
 {
   std::vector<double>      values;
   std::vector<std::size_t> places;
@@ -71,7 +72,7 @@ Mark(std::vector<Row> & rows, const std::vector<std::size_t> & which, const char
     if (distances[i] > kFar * deviation)
     {
       std::string text = rows[places[i]].at("outliers").get<std::string>();
-      text += (text.empty() ? "" : " ") + std::string(column) + (values[i] > median ? "+" : "-");
+      text += (text.empty() ? "" : " ") + column + (values[i] > median ? "+" : "-");
       rows[places[i]]["outliers"] = text;
     }
   }
@@ -92,7 +93,13 @@ FindOutliers(std::vector<Row> & rows)
   {
     for (const char * column : kCompared)
     {
+      // Scans without a voxel size have columns of their own, and are compared with each other.
+      const std::string inVoxels = InUnit(column, SpatialUnit::Voxels);
       Mark(rows, which, column);
+      if (inVoxels != column)
+      {
+        Mark(rows, which, inVoxels);
+      }
     }
   }
 }

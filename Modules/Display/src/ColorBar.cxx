@@ -73,7 +73,7 @@ RoundTicks(double low, double high, int parts)
 }
 
 ColorBar
-DescribeColorBar(const PictureOptions & options, const ColorRange & range)
+DescribeColorBar(const PictureOptions & options, const ColorRange & range, SpatialUnit lengths)
 {
   ColorBar          bar;
   const std::string quantity = QuantityOf(options.coloring);
@@ -87,7 +87,7 @@ DescribeColorBar(const PictureOptions & options, const ColorRange & range)
     bar.ticks = { { 0, Percent(options.shares.low) + " %" }, { 1, Percent(options.shares.high) + " %" } };
     return bar;
   }
-  const LengthUnit unit = LengthUnit::For(std::max(std::abs(range.low), std::abs(range.high)));
+  const LengthUnit unit = LengthUnit::For(std::max(std::abs(range.low), std::abs(range.high)), lengths);
   bar.title = quantity + " (" + unit.Symbol() + ")";
   bar.below = range.least < range.low;
   bar.above = range.greatest > range.high;

@@ -20,9 +20,9 @@ struct ColorBar
   bool                                        above = false; ///< greater ones the last
 };
 
-/** In nm, um or mm, whichever suits the range; ends with values beyond them as "≤ 1.2" and "≥ 9.5". */
+/** In nm, um or mm, whichever suits the range, or voxels; ends with values beyond them as "≤ 1.2" and "≥ 9.5". */
 ColorBar
-DescribeColorBar(const PictureOptions & options, const ColorRange & range);
+DescribeColorBar(const PictureOptions & options, const ColorRange & range, SpatialUnit unit = SpatialUnit::Millimetres);
 
 /** Round numbers that split a range into about `parts`. */
 std::vector<double>

@@ -46,7 +46,7 @@ ColorScale::ColorScale(const DisplayContent & content, const PictureOptions & op
     m_Range.low = (*options.range)[0];
     m_Range.high = (*options.range)[1];
   }
-  m_Bar = DescribeColorBar(options, m_Range);
+  m_Bar = DescribeColorBar(options, m_Range, content.unit);
   if (!options.eachLabel)
   {
     m_Tables = { MakeTable(m_Range) };

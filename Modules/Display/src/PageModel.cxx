@@ -5,6 +5,7 @@
 #include "voxelcore/ColorRange.h"
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/ParallelTasks.h"
 
 #include <nlohmann/json.hpp>
@@ -107,6 +108,25 @@ Flat(const std::vector<std::array<std::uint32_t, N>> & elements)
   return flat;
 }
 
+/** The units that people read lengths in: name, size, and the least length each is taken for; as LengthUnit. */
+Json
+UnitsJson(SpatialUnit unit)
+{
+  Json units = Json::array();
+  for (const double typical : { 1.0, 1e-3, 1e-6 })
+  {
+    const LengthUnit one = LengthUnit::For(typical, unit);
+    const double     size = 1 / one.Of(1);
+    units.push_back({ { "name", one.Symbol() }, { "size", size }, { "from", 0.1 * size } });
+    if (unit == SpatialUnit::Voxels)
+    {
+      break;
+    }
+  }
+  units.back()["from"] = 0;
+  return units;
+}
+
 class PageMaker
 {
 public:
@@ -146,6 +166,7 @@ public:
     }
     const Json  json{ { "title", m_Options.title },
                      { "anatomical", m_Options.anatomical },
+                     { "units", UnitsJson(m_Content.unit) },
                      { "bytes", m_Numbers.Bytes().size() },
                      { "adler32", Adler32(m_Numbers.Bytes()) },
                      { "map", map },

@@ -143,11 +143,11 @@ PictureOverlay::AddLegend(const std::vector<std::pair<std::string, Color>> & nam
 }
 
 void
-PictureOverlay::AddScaleBar(double mmPerPixel, double most, double x, double y, double text)
+PictureOverlay::AddScaleBar(double mmPerPixel, SpatialUnit lengths, double most, double x, double y, double text)
 {
   const double     mm = RoundDown(mmPerPixel * most);
   const double     length = mm / mmPerPixel;
-  const LengthUnit unit = LengthUnit::For(mm * (1 + 1e-9)); // powers of ten are not exact
+  const LengthUnit unit = LengthUnit::For(mm * (1 + 1e-9), lengths); // powers of ten are not exact
   AddLine(x, y, x + length, y, text / 6);
   AddLine(x, y - text / 4, x, y + text / 4, text / 12);
   AddLine(x + length, y - text / 4, x + length, y + text / 4, text / 12);

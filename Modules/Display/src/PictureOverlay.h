@@ -33,7 +33,7 @@ public:
 
   /** A bar of a round length, at most `most` pixels long. */
   void
-  AddScaleBar(double mmPerPixel, double most, double x, double y, double text);
+  AddScaleBar(double mmPerPixel, SpatialUnit lengths, double most, double x, double y, double text);
 
   /** Letters at the ends of a cross: `right` and `up` are the picture's axes in LPS. */
   void

@@ -21,6 +21,8 @@ namespace itk
  * from 0, the background, up; others are refused, as is a direction that is not orthonormal. Messages name parameters
  * as the command line does (`--labels` is SetLabels and so on).
  *
+ * Lengths are mm, or voxels where the entry "Units" of the image's dictionary is "voxel", as LabelScanReader sets it.
+ *
  * The image may start at any index: voxel (0,0,0) of the shapes is the first of its largest region.
  *
  * Unlike ImageSink's, Update does nothing when nothing changed. After a failure or an abort, its own or of a filter

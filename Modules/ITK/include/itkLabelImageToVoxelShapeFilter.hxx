@@ -3,6 +3,8 @@
 
 #include "itkLabelImageToVoxelShapeFilter.h"
 
+#include "itkMetaDataObject.h"
+
 #include <algorithm>
 
 namespace itk
@@ -127,6 +129,11 @@ LabelImageToVoxelShapeFilter<TInputImage>::GenerateOutputInformation()
     {
       geometry.direction[3 * row + axis] = image->GetDirection()(row, axis);
     }
+  }
+  std::string unit;
+  if (ExposeMetaData(image->GetMetaDataDictionary(), "Units", unit))
+  {
+    geometry.unit = voxelcore::UnitNamed(unit).value_or(geometry.unit);
   }
   this->GetOutput()->SetGeometry(VoxelShapeAssembler::CheckGeometry(geometry, m_Orthonormalize));
   this->GetOutput()->SetStartIndex(region.GetIndex());

@@ -30,6 +30,8 @@ namespace itk
  * The segments of a .seg.nrrd are in the MetaDataDictionary as Segment0_Name, Segment0_LabelValue (the value of its
  * pixels) and Segment0_Color, and so on.
  *
+ * Where a file gives no voxel size, spacing is 1 and the entry "Units" of the dictionary "voxel"; else it is "mm".
+ *
  * It streams: a region read takes as much memory as the region, and a few MB. Regions in the order of the file read it
  * once, also where it is compressed.
  *

@@ -150,6 +150,7 @@ LabelScanImageIO::ReadImageInformation()
   this->SetNumberOfComponents(1);
   this->SetComponentType(ComponentOf(m_Rows->Type()));
   this->DescribeSegments();
+  EncapsulateMetaData<std::string>(this->GetMetaDataDictionary(), "Units", voxelcore::UnitName(geometry.unit));
   m_Notes = m_Rows->Notes();
   m_Warnings = m_Rows->Warnings();
 }

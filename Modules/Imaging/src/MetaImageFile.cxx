@@ -171,7 +171,14 @@ ReadGeometry(const MetaHeader & header, std::size_t dimensions, const ReadOption
   if (const auto unit = header.Field({ "distanceunits" }); !unit.empty())
   {
     const auto millimetres = MillimetresIn(unit);
-    if (!millimetres && unit != "?" && !options.spacing)
+    if (IsVoxelUnit(unit) && !options.spacing)
+    {
+      if (scan.geometry.unit != SpatialUnit::Voxels)
+      {
+        SpacingInVoxels(scan);
+      }
+    }
+    else if (!millimetres && unit != "?" && !options.spacing)
     {
       RefuseInput(scan.path,
                   Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),

@@ -5,6 +5,7 @@
 
 #include "NiftiForms.h"
 #include "ScanFile.h"
+#include "StatedSpacing.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -58,6 +59,7 @@ struct NiftiHeader
   double                      slope = 0;
   double                      intercept = 0;
   int                         units = 0;
+  bool                        inVoxels = true; ///< where its description says so
   NiftiPlacement              placement;
 };
 
@@ -79,6 +81,10 @@ ReadVersion1(const Fields & f, NiftiHeader & h)
   h.slope = f.At<float>(112);
   h.intercept = f.At<float>(116);
   h.units = std::to_integer<int>(f.At<std::byte>(123));
+  for (std::size_t i = 0; i < kNiftiInVoxels.size(); ++i)
+  {
+    h.inVoxels = h.inVoxels && f.At<char>(148 + i) == kNiftiInVoxels[i];
+  }
   h.placement.qformCode = f.At<std::int16_t>(252);
   h.placement.sformCode = f.At<std::int16_t>(254);
   for (std::size_t i = 0; i < 4; ++i)
@@ -102,6 +108,7 @@ ReadVersion2(const Fields & f, NiftiHeader & h)
   {
     h.dim[i] = f.At<std::int64_t>(16 + 8 * i);
   }
+  h.inVoxels = false;
   h.datatype = f.At<std::int16_t>(12);
   h.voxOffset = static_cast<double>(f.At<std::int64_t>(168));
   h.slope = f.At<double>(176);
@@ -250,8 +257,16 @@ ReadScaling(const NiftiHeader & h, ScanFile & scan)
 }
 
 void
-ReadUnits(NiftiHeader & h, ScanFile & scan)
+ReadUnits(NiftiHeader & h, const ReadOptions & options, ScanFile & scan)
 {
+  if (h.inVoxels)
+  {
+    if (!options.spacing)
+    {
+      SpacingInVoxels(scan);
+    }
+    return;
+  }
   switch (h.units & 7)
   {
     case 1:
@@ -367,7 +382,7 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
                 "the file is truncated: fetch or write it anew");
   }
   ReadScaling(h, scan);
-  ReadUnits(h, scan);
+  ReadUnits(h, options, scan);
   PlaceNifti(h.placement, options, scan);
   scan.voxels = OpenBytes(dataPath, 0, packing);
   scan.voxels->Skip(offset + block * bytes);

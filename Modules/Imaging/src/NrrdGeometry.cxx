@@ -55,6 +55,18 @@ UnitsInMillimetres(std::string_view                   text,
     {
       continue;
     }
+    if (IsVoxelUnit(unit) && units.size() > 0 && !options.spacing)
+    {
+      const auto isVoxel = [](const std::string & one) { return IsVoxelUnit(one); };
+      if (std::all_of(units.begin(), units.end(), isVoxel) && scan.geometry.unit != SpatialUnit::Voxels)
+      {
+        SpacingInVoxels(scan);
+      }
+      if (scan.geometry.unit == SpatialUnit::Voxels)
+      {
+        continue;
+      }
+    }
     const auto millimetres = MillimetresIn(unit);
     if (!millimetres && !options.spacing)
     {

@@ -27,7 +27,8 @@ SetGeometry(ScanFile &                     scan,
             const Vector3 &                origin,
             const ReadOptions &            options)
 {
-  scan.geometry = CheckedGeometry(scan.path, { scan.geometry.size, axes, spacing, origin }, options, scan.notes);
+  scan.geometry =
+    CheckedGeometry(scan.path, { scan.geometry.size, axes, spacing, origin, scan.geometry.unit }, options, scan.notes);
 }
 
 std::uint64_t

@@ -35,6 +35,9 @@ struct ScanFile : StoredVoxels
 std::vector<std::string>
 WarningsOf(const ScanFile & scan);
 
+/** What VoxelCore writes as the description of a NIfTI file whose lengths are in voxels: the format has no such unit. */
+inline constexpr std::string_view kNiftiInVoxels = "VoxelCore: lengths in voxels";
+
 /** One opener a format. \throws InputError */
 ScanFile
 OpenNrrd(const std::filesystem::path & path, const ReadOptions & options);
@@ -80,7 +83,7 @@ ScanKindOf(const std::filesystem::path & path);
 ScanFile
 OpenScan(const std::filesystem::path & path, const ReadOptions & options);
 
-/** CheckedGeometry() of scan.geometry.size, with the notes in the scan's. */
+/** CheckedGeometry() of scan.geometry.size and unit, with the notes in the scan's. */
 void
 SetGeometry(ScanFile &                     scan,
             const std::array<Vector3, 3> & axes,

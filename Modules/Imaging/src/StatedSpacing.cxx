@@ -6,6 +6,16 @@ namespace voxelcore
 {
 
 Vector3
+SpacingInVoxels(ScanFile & scan)
+{
+  scan.warnings.push_back(
+    "no voxel size in the file: all lengths are in voxels. Give the true size with --spacing "
+    "X,Y,Z.");
+  scan.geometry.unit = SpatialUnit::Voxels;
+  return { 1, 1, 1 };
+}
+
+Vector3
 CompleteSpacing(const StatedSpacing & stated, const ReadOptions & options, ScanFile & scan)
 {
   if (options.spacing)
@@ -19,9 +29,7 @@ CompleteSpacing(const StatedSpacing & stated, const ReadOptions & options, ScanF
   }
   if (!mm[0] || !mm[1])
   {
-    scan.warnings.push_back(
-      "no voxel size in the file; 1 mm is assumed, so all lengths are in voxels. Give --spacing X,Y,Z.");
-    return { 1, 1, 1 };
+    return SpacingInVoxels(scan);
   }
   scan.notes.push_back(Text("the voxel size is from ", stated.source));
   if (!mm[2])

@@ -20,9 +20,13 @@ struct StatedSpacing
   operator==(const StatedSpacing &) const = default;
 };
 
+/** The scan's unit is the voxel, which is told as a warning; gives the spacing, 1. */
+Vector3
+SpacingInVoxels(ScanFile & scan);
+
 /** The spacing for SetGeometry(), which takes options.spacing instead where there is one. What is not stated is warned
- *  of: k is then as i (cubic voxels), and where i or j is not stated all three are 1 mm. Tells the scan's notes where
- *  the rest is from. */
+ *  of: k is then as i (cubic voxels), and where i or j is not stated the scan's unit is the voxel. Tells the scan's
+ *  notes where the rest is from. */
 Vector3
 CompleteSpacing(const StatedSpacing & stated, const ReadOptions & options, ScanFile & scan);
 

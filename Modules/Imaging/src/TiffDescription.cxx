@@ -373,8 +373,8 @@ ImageJDescription(const ImageGeometry & geometry)
   // No number of images: ImageJ would then take all voxels to lie in one piece behind the first page.
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  out << kImageJ << "1.53t\nslices=" << geometry.size[2] << "\nunit=mm\nspacing=" << std::setprecision(17)
-      << geometry.spacing[2] << "\nloop=false\n";
+  out << kImageJ << "1.53t\nslices=" << geometry.size[2] << "\nunit=" << UnitName(geometry.unit)
+      << "\nspacing=" << std::setprecision(17) << geometry.spacing[2] << "\nloop=false\n";
   return out.str();
 }
 

@@ -175,7 +175,7 @@ WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
     TIFFSetField(t, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     TIFFSetField(t, TIFFTAG_COMPRESSION, volume.compress ? COMPRESSION_ADOBE_DEFLATE : COMPRESSION_NONE);
     TIFFSetField(t, TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(rowsPerStrip));
-    TIFFSetField(t, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE); // mm, as the description says
+    TIFFSetField(t, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE); // in the unit that the description names
     TIFFSetField(t, TIFFTAG_XRESOLUTION, 1 / volume.geometry.spacing[0]);
     TIFFSetField(t, TIFFTAG_YRESOLUTION, 1 / volume.geometry.spacing[1]);
     if (z == 0)

@@ -220,6 +220,7 @@ WriteNrrd(const std::filesystem::path & path, const VolumeToWrite & volume)
          "\nspace directions:",
          volume.layers > 1 ? " none" : "",
          directions,
+         g.unit == SpatialUnit::Voxels ? "\nspace units: \"voxel\" \"voxel\" \"voxel\"" : "",
          volume.layers > 1 ? "\nkinds: list domain domain domain" : "\nkinds: domain domain domain",
          "\nendian: ",
          kBigEndian ? "big" : "little",
@@ -273,7 +274,17 @@ WriteNifti(const std::filesystem::path & path, const VolumeToWrite & volume)
   h.Put(76, leftHanded ? -1.0F : 1.0F);
   h.Put(108, 352.0F);
   h.Put(112, 1.0F);
-  h.Put(123, std::int8_t{ 2 }); // mm
+  if (g.unit == SpatialUnit::Voxels)
+  {
+    for (std::size_t i = 0; i < kNiftiInVoxels.size(); ++i)
+    {
+      h.Put(148 + i, kNiftiInVoxels[i]);
+    }
+  }
+  else
+  {
+    h.Put(123, std::int8_t{ 2 }); // mm
+  }
   h.Put(252, std::int16_t{ 1 });
   h.Put(254, std::int16_t{ 1 });
   const auto quaternion = QuaternionOf(axes);
@@ -324,6 +335,7 @@ WriteMetaImage(const std::filesystem::path & path, const VolumeToWrite & volume)
                        numbers(g.origin),
                        "\nCenterOfRotation = 0 0 0\nElementSpacing = ",
                        numbers(g.spacing),
+                       g.unit == SpatialUnit::Voxels ? "\nDistanceUnits = voxel" : "",
                        "\nDimSize = ",
                        g.size[0],
                        " ",

@@ -172,12 +172,17 @@ CheckWritten(const std::filesystem::path & path,
   ReadOptions    options;
   const ScanFile scan = OpenScan(path, options);
   bool           same = scan.geometry.size == geometry.size && scan.type == type && !scan.IsScaled();
-  // NIfTI keeps single precision, TIFF nothing.
-  const double tolerance = kind == Kind::Nifti ? 1e-5 : 1e-9;
+  same = same && scan.geometry.unit == geometry.unit;
+  // NIfTI and TIFF keep single precision, TIFF of the spacing alone.
+  const double tolerance = kind == Kind::Nifti || kind == Kind::Tiff ? 1e-5 : 1e-9;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    same = same && std::abs(scan.geometry.spacing[a] - geometry.spacing[a]) <= tolerance * geometry.spacing[a];
+  }
   for (std::size_t a = 0; a < 3 && kind != Kind::Tiff; ++a)
   {
-    same = same && std::abs(scan.geometry.spacing[a] - geometry.spacing[a]) <= tolerance * geometry.spacing[a] &&
-           std::abs(scan.geometry.origin[a] - geometry.origin[a]) <= tolerance * (1 + std::abs(geometry.origin[a]));
+    same =
+      same && std::abs(scan.geometry.origin[a] - geometry.origin[a]) <= tolerance * (1 + std::abs(geometry.origin[a]));
     for (std::size_t c = 0; c < 3; ++c)
     {
       same = same && std::abs(scan.geometry.direction[3 * c + a] - geometry.direction[3 * c + a]) <= 10 * tolerance;

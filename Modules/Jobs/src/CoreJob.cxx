@@ -142,6 +142,17 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
 namespace
 {
 
+/** Before hours of work. */
+void
+RequireLengths(const CoreOptions & options, SpatialUnit unit)
+{
+  CertifiedRequest request;
+  request.lambdas = options.lambdas;
+  request.tolerances = options.tolerances;
+  request.skeleton = options.skeleton;
+  RequireLengthsOf(options.scan, unit, request);
+}
+
 /** Before anything large is allocated. */
 void
 RequireMemory(const CoreOptions & options, const std::vector<EditedLabel> & labels)
@@ -188,7 +199,8 @@ StageCoreJob(const CoreOptions & options,
   auto                 digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
   InputScan            volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
-  EditedLabels         edited = EditLabels(std::move(volume.labels),
+  RequireLengths(options, volume.geometry.unit);
+  EditedLabels edited = EditLabels(std::move(volume.labels),
                                    options.edits,
                                    options.reading.labels != "all",
                                    options.scan.string(),
@@ -272,7 +284,9 @@ StageCoreJob(const CoreOptions & options,
       if (folder)
       {
         const auto firstNote = result.notes.begin() + static_cast<std::ptrdiff_t>(notesBefore);
-        folder->Finished().Finish({ report.labels.back(), { firstNote, result.notes.end() } }, transaction);
+        folder->Finished().Finish({ report.labels.back(), { firstNote, result.notes.end() } },
+                                  report.input.geometry.unit,
+                                  transaction);
       }
     },
     report.seconds,

@@ -213,6 +213,7 @@ DisplayFiles::State::AddSkeletons(const CoreReport &                            
     {
       SkeletonModel model;
       model.parts = { part };
+      model.unit = report.input.geometry.unit;
       model.provenance = SkeletonProvenanceJson(report, { i });
       scene.models.push_back({ part.name + " skeleton", name + "_skeleton.vtp", color });
       WriteSkeletonVtp(stage(scene.models.back().file), model);
@@ -222,6 +223,7 @@ DisplayFiles::State::AddSkeletons(const CoreReport &                            
     {
       const auto    points = part.graph.Branch(branch);
       SkeletonModel one;
+      one.unit = report.input.geometry.unit;
       one.parts.emplace_back();
       one.parts[0].label = part.label;
       one.parts[0].component = part.component;
@@ -272,6 +274,7 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
     }
     MedialModel model;
     model.parts = { part };
+    model.unit = report.input.geometry.unit;
     model.provenance = ProvenanceJson(report, { i }, 0);
     scene.models.push_back({ record.name + " medial surface",
                              PartName(record.label, record.component) + "_medial.vtp",
@@ -322,6 +325,7 @@ DisplayContent
 DisplayFiles::State::Content(const CoreReport & report, const ProgressCallback & progress) const
 {
   DisplayContent content;
+  content.unit = report.input.geometry.unit;
   content.labels.resize(surfaces.size());
   RunEach(
     surfaces.size(),

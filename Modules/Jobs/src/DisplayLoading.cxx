@@ -113,6 +113,7 @@ public:
       LoadScan(notes, warnings);
     }
     DisplayContent content;
+    content.unit = m_Report ? m_Report->input.geometry.unit : SpatialUnit::Millimetres;
     for (auto & [key, label] : m_Labels)
     {
       content.labels.push_back(std::move(label));
@@ -164,6 +165,7 @@ private:
     {
       m_Report = report;
     }
+    RequireSameUnit(path, report.input.geometry.unit, m_Sources.files.front(), m_Report->input.geometry.unit);
     for (std::size_t i = 0; i < parts; ++i)
     {
       const LabelRecord & record = report.labels[i];
@@ -212,6 +214,7 @@ private:
     ReadOptions  reading = RecordedReading(m_Report->parameters);
     LabelMap volume = ReadScanOrMesh(*m_Sources.scan, reading, m_Report->parameters.resolution, plan.Next("reading"));
     warnings = volume.warnings;
+    RequireSameUnit(m_Sources.files.front(), m_Report->input.geometry.unit, *m_Sources.scan, volume.geometry.unit);
     EditedLabels           edited = EditLabels(std::move(volume.labels),
                                      m_Report->parameters.edits,
                                      false,

@@ -37,8 +37,8 @@ TellFacelessLabels(const CoreReport &                 report,
       {
         char radius[32];
         std::snprintf(radius, sizeof(radius), "%.3g", label.core.maxRadiusMm);
-        text +=
-          (count > 1 ? ", " : "") + LabelText(label.label, label.name) + " with a largest radius of " + radius + " mm";
+        text += (count > 1 ? ", " : "") + LabelText(label.label, label.name) + " with a largest radius of " + radius +
+                InUnit(" mm", report.input.geometry.unit);
       }
     }
     if (count > 0)

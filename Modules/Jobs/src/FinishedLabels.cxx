@@ -191,13 +191,13 @@ FinishedLabels::RemoveUnlessOthers(const Line & line) const
 }
 
 void
-FinishedLabels::Finish(const Label & label, OutputTransaction & transaction)
+FinishedLabels::Finish(const Label & label, SpatialUnit unit, OutputTransaction & transaction)
 {
   Append({ m_Key,
            label.record.label,
            label.record.component,
            StagedInFolder(transaction),
-           LabelRecordJson(label.record),
+           LabelRecordJson(label.record, unit),
            label.notes });
   transaction.Commit();
 }

@@ -40,7 +40,7 @@ public:
 
   /** Notes a label whose files are staged, and gives them their names. \throws OutputError */
   void
-  Finish(const Label & label, OutputTransaction & transaction);
+  Finish(const Label & label, SpatialUnit unit, OutputTransaction & transaction);
 
   /** Whether it is a table that an earlier run left. */
   bool

@@ -240,7 +240,8 @@ InfoText(const ScanInfo & info)
   text += "format       " + info.format + ", " + info.pixelType + "\n";
   text += "size         " + std::to_string(geometry.size[0]) + " x " + std::to_string(geometry.size[1]) + " x " +
           std::to_string(geometry.size[2]) + " voxels\n";
-  const LengthUnit voxelUnit = LengthUnit::For(*std::max_element(geometry.spacing.begin(), geometry.spacing.end()));
+  const LengthUnit voxelUnit =
+    LengthUnit::For(*std::max_element(geometry.spacing.begin(), geometry.spacing.end()), geometry.unit);
   text += "spacing      " + LengthsText(geometry.spacing, voxelUnit, " x ") + "\n";
   text += "origin       " + LengthsText(geometry.origin, voxelUnit, ", ") + " (LPS)\n";
   text += "orientation  " + info.orientation + " (where i, j and k run to)\n";
@@ -270,7 +271,7 @@ InfoText(const ScanInfo & info)
   {
     largest = std::max(largest, label.volumeMm3);
   }
-  const LengthUnit                      unit = LengthUnit::For(std::cbrt(largest));
+  const LengthUnit                      unit = LengthUnit::For(std::cbrt(largest), geometry.unit);
   std::vector<std::vector<std::string>> rows{ { "label",
                                                 "name",
                                                 "voxels",
@@ -332,6 +333,10 @@ InfoJson(const ScanInfo & info)
                 { "direction", info.geometry.direction },
                 { "orientation", info.orientation },
                 { "notes", info.notes } };
+  if (info.geometry.unit == SpatialUnit::Voxels)
+  {
+    json["unit"] = UnitName(info.geometry.unit);
+  }
   if (info.core)
   {
     json["core"] = CostJson(*info.core, info.threads);
@@ -354,6 +359,7 @@ InfoJson(const ScanInfo & info)
                      { "threshold", OtsuRange(*info.grey) },
                      { "histogram", { { "edges", info.grey->edges }, { "voxels", info.grey->counts } } } };
   }
+  json = KeysInUnit(json, info.geometry.unit);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -36,6 +36,30 @@ ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan)
 }
 
 void
+RequireLengthsOf(const std::filesystem::path & scan, SpatialUnit unit, const CertifiedRequest & request)
+{
+  try
+  {
+    RequireLengthsIn(unit, request);
+  }
+  catch (const InputError & error)
+  {
+    throw InputError(scan.string() + ": " + error.what());
+  }
+}
+
+void
+RequireSameUnit(const std::filesystem::path & one, SpatialUnit unit, const std::filesystem::path & other, SpatialUnit otherUnit)
+{
+  if (unit != otherUnit)
+  {
+    const auto text = [](SpatialUnit of) { return of == SpatialUnit::Voxels ? "in voxels" : "in mm"; };
+    throw InputError(one.string() + ": its lengths are " + text(unit) + ", those of " + other.string() + " " +
+                     text(otherUnit) + "; give --spacing X,Y,Z where the scan without voxel size is read");
+  }
+}
+
+void
 RequireUnrefined(const MedialModel & model, const std::filesystem::path & path)
 {
   if (!model.refined.empty())

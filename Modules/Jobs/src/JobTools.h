@@ -25,6 +25,17 @@ Finish(OutputTransaction & transaction, const JobContext & context);
 SpacingWeights
 ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan);
 
+/** \throws InputError that names the scan where its lengths are in voxels and one is asked for in mm. */
+void
+RequireLengthsOf(const std::filesystem::path & scan, SpatialUnit unit, const CertifiedRequest & request);
+
+/** \throws InputError where the lengths of two files are not in one unit. */
+void
+RequireSameUnit(const std::filesystem::path & one,
+                SpatialUnit                   unit,
+                const std::filesystem::path & other,
+                SpatialUnit                   otherUnit);
+
 /** \throws InputError for a refined core: what works on exact ones does not take it. */
 void
 RequireUnrefined(const MedialModel & model, const std::filesystem::path & path);

@@ -123,6 +123,10 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
   report = ParseProvenance(model.provenance, options.core.string());
   RequireUnrefined(model, options.core);
   RequirePrunable(options, model, report);
+  CertifiedRequest request;
+  request.lambdas = options.lambdas;
+  request.tolerances = options.tolerances;
+  RequireLengthsOf(options.core, report.input.geometry.unit, request);
   report.command = options.command;
   report.input.path = options.core.string();
   // Of what is pruned by tolerance on, the lambda stays what it was.
@@ -183,6 +187,7 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
   {
     models[k].provenance = ProvenanceJson(report, all, k);
     models[k].hasEdges = options.model.keepEdges;
+    models[k].unit = model.unit;
     WriteStagedModel(transaction, FileOutputPath(options.output, suffixes[k]), models[k], options.model, result.notes);
     models[k] = MedialModel();
   }

@@ -199,6 +199,11 @@ ReportJson(const ReconstructResult & result)
     }
     json["labels"].push_back(std::move(one));
   }
+  if (result.geometry.unit == SpatialUnit::Voxels)
+  {
+    json["unit"] = UnitName(result.geometry.unit);
+  }
+  json = KeysInUnit(json, result.geometry.unit);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -242,6 +247,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
   if (options.like)
   {
     LabelMap like = ReadLabelVolume(*options.like, ReadOptions(), PartOfProgress(context.progress, "reading", 0, 0.1));
+    RequireSameUnit(options.core, made.input.geometry.unit, *options.like, like.geometry.unit);
     result.geometry = like.geometry;
     result.warnings = std::move(like.warnings);
   }
@@ -329,7 +335,7 @@ ReconstructText(const ReconstructResult & result)
       longest = std::max({ longest, label.comparison->surfaceDistanceMm, label.comparison->boundaryGapMm });
     }
   }
-  const LengthUnit                      unit = LengthUnit::For(longest);
+  const LengthUnit                      unit = LengthUnit::For(longest, result.geometry.unit);
   std::vector<std::vector<std::string>> rows{ { "label", "name", "voxels", "contested" } };
   if (compared)
   {

@@ -47,7 +47,7 @@ void
 RequireSamePlace(const ImageGeometry & grey, const ImageGeometry & labels, const std::filesystem::path & path)
 {
   constexpr double close = 1e-3; // voxels
-  bool             same = grey.size == labels.size;
+  bool             same = grey.size == labels.size && grey.unit == labels.unit;
   // Opposite corners and those between them.
   for (int corner = 0; corner < 8; ++corner)
   {

@@ -104,6 +104,7 @@ private:
       model.provenance = ProvenanceJson(m_Result.report, labels, i);
       model.hasEdges = m_Options.model.keepEdges;
       model.refined = m_Options.refine.surface;
+      model.unit = m_Result.report.input.geometry.unit;
       const LabelRecord & first = m_Result.report.labels[labels.front()];
       WriteStagedModel(m_Transaction, Target(first, i), model, m_Options.model, m_Result.notes);
       model = MedialModel();

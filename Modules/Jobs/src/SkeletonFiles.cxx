@@ -42,9 +42,9 @@ RadiiText(const MedialModel & surfaces)
 }
 
 std::string
-CutText(const LoopCut & cut)
+CutText(const LoopCut & cut, SpatialUnit lengths)
 {
-  const LengthUnit unit = LengthUnit::For(cut.radius);
+  const LengthUnit unit = LengthUnit::For(cut.radius, lengths);
   const auto       at = [&](std::size_t axis) { return unit.Text(cut.position[axis]); };
   return ": a cycle was cut at " + at(0) + ", " + at(1) + ", " + at(2) + " (LPS " + unit.Name() + "), radius " +
          unit.Text(cut.radius) + " " + unit.Name();
@@ -130,7 +130,7 @@ SkeletonFiles::Add(CoreReport &               report,
   skeleton.output = output.string();
   for (const LoopCut & cut : skeleton.cuts)
   {
-    notes.push_back(text + CutText(cut));
+    notes.push_back(text + CutText(cut, report.input.geometry.unit));
   }
   if (skeleton.numbers.closedFaces > 0)
   {
@@ -194,7 +194,7 @@ SkeletonFiles::WriteTables(const fs::path & output, const SkeletonModel & model)
     WriteBranchCsv(m_Transaction.Stage(tables[0]), model);
   }
   WriteSummaryCsv(m_Transaction.Stage(tables[1]), model);
-  WriteTextFile(m_Transaction.Stage(tables[2]), SkeletonColumnsJson());
+  WriteTextFile(m_Transaction.Stage(tables[2]), SkeletonColumnsJson(model.unit));
 }
 
 void
@@ -203,6 +203,8 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
                           const std::vector<std::size_t> & labels,
                           std::vector<std::string> &       notes)
 {
+  m_Model.unit = report.input.geometry.unit;
+  m_Surfaces.unit = report.input.geometry.unit;
   if (output.extension() == ".vtp")
   {
     m_Model.provenance = SkeletonProvenanceJson(report, labels);
@@ -248,6 +250,7 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
 void
 SkeletonFiles::Finish(const CoreReport & report, std::vector<std::string> & notes)
 {
+  m_AllLabels.unit = report.input.geometry.unit;
   if (!m_ToFolder)
   {
     const std::vector<std::size_t> labels = m_Labels;

@@ -77,6 +77,9 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
     const Tolerance height = ParseTolerance(report.parameters.tolerances.front());
     report.skeleton->tolerance = height.value > 0 ? std::optional(height) : std::nullopt;
   }
+  CertifiedRequest request;
+  request.skeleton = report.skeleton;
+  RequireLengthsOf(options.input, report.input.geometry.unit, request);
   report.seconds.read = watch.Lap();
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
@@ -160,6 +163,10 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   CoreReport &  report = result.report;
   report = ParseProvenance(model.provenance, options.skeleton.string());
   RequireFittingProvenance(report.skeleton && report.labels.size() == model.parts.size(), options.skeleton);
+  CertifiedRequest request;
+  request.skeleton = *report.skeleton;
+  request.skeleton->branches = options.branches;
+  RequireLengthsOf(options.skeleton, report.input.geometry.unit, request);
   report.skeleton->branches = CombinedRequest(report.skeleton->branches, options.branches);
   const Vector3 & spacing = report.input.geometry.spacing;
   for (std::size_t i = 0; i < model.parts.size(); ++i)

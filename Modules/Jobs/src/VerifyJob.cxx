@@ -124,13 +124,13 @@ CheckProvenance(const LabelRecord &        recorded,
 
 /** How far the boundary lies from a core pruned by tolerance; empty for others. */
 std::string
-GapText(const LabelVerification & label)
+GapText(const LabelVerification & label, SpatialUnit lengths)
 {
   if (!label.report.boundaryGap)
   {
     return {};
   }
-  const LengthUnit unit = LengthUnit::For(std::max(*label.report.boundaryGap, label.toleranceMm));
+  const LengthUnit unit = LengthUnit::For(std::max(*label.report.boundaryGap, label.toleranceMm), lengths);
   const auto       length = [&unit](double mm) { return ShortText(unit.Of(mm), 4) + " " + unit.Name(); };
   return "; boundary within " + length(*label.report.boundaryGap) + " of it (tolerance " + label.pruningTolerance +
          ", " + length(label.toleranceMm) + ")";
@@ -150,6 +150,8 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
                                     RecordedReading(made.parameters),
                                     made.parameters.resolution,
                                     PartOfProgress(context.progress, "reading", 0, 0.05));
+  RequireSameUnit(options.core, made.input.geometry.unit, options.scan, volume.geometry.unit);
+  RequireSameUnit(options.core, model.unit, options.scan, volume.geometry.unit);
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   EditedLabels         edited = EditLabels(std::move(volume.labels),
                                    made.parameters.edits,
@@ -162,6 +164,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   }
   VerifyResult result;
   result.warnings = volume.warnings;
+  result.unit = volume.geometry.unit;
   if (made.input.sha256.empty())
   {
     result.notes.push_back(options.core.string() + ": was made from an image in memory, so it names no scan file");
@@ -250,12 +253,12 @@ VerifyText(const VerifyResult & result)
     const auto & checks = label.report.checks;
     const auto   failed = std::count_if(checks.begin(), checks.end(), [](const auto & check) { return !check.passed; });
     text += LabelText(label.label, label.name) + ": " + std::to_string(checks.size()) + " checks, " +
-            (failed == 0 ? std::string("all passed") : std::to_string(failed) + " FAILED") + GapText(label) + "\n";
+            (failed == 0 ? std::string("all passed") : std::to_string(failed) + " FAILED") + GapText(label, result.unit) + "\n";
     for (const VerificationCheck & check : checks)
     {
       if (!check.passed)
       {
-        text += "  FAILED  " + check.name + ": " + check.firstOffender +
+        text += "  FAILED  " + check.name + ": " + InUnit(check.firstOffender, result.unit) +
                 (check.offenders > 1 ? " (and " + std::to_string(check.offenders - 1) + " more)" : "") + "\n";
       }
       else if (result.labels.size() == 1)

@@ -70,6 +70,7 @@ CheckedGeometry(const std::filesystem::path & scan,
   geometry.size = stated.size;
   geometry.spacing = options.spacing.value_or(stated.spacing);
   geometry.origin = stated.origin;
+  geometry.unit = options.spacing ? SpatialUnit::Millimetres : stated.unit;
   std::array<Vector3, 3> axes{};
   for (std::size_t a = 0; a < 3; ++a)
   {
@@ -137,7 +138,7 @@ ImageGeometry
 CheckedGeometry(const std::filesystem::path & image, const ImageGeometry & geometry, bool orthonormalize)
 {
   CheckSize(image, geometry.size, 1, UINT64_MAX);
-  StatedGeometry stated{ geometry.size, {}, geometry.spacing, geometry.origin };
+  StatedGeometry stated{ geometry.size, {}, geometry.spacing, geometry.origin, geometry.unit };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto & m = geometry.direction;

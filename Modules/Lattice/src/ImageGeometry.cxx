@@ -113,7 +113,7 @@ RequireDistinctPositions(const ImageGeometry & geometry)
     text << "the image lies so far off (origin " << geometry.origin[0] << ", " << geometry.origin[1] << ", "
          << geometry.origin[2] << " mm, finest spacing " << finest
          << " mm) that doubles cannot tell places within a voxel apart; correct its origin";
-    throw InputError(text.str());
+    throw InputError(InUnit(text.str(), geometry.unit));
   }
 }
 

@@ -18,8 +18,12 @@ constexpr double       kLeast = 0.1; ///< of a unit, for which the next smaller 
 } // namespace
 
 LengthUnit
-LengthUnit::For(double typicalMm)
+LengthUnit::For(double typicalMm, SpatialUnit unit)
 {
+  if (unit == SpatialUnit::Voxels)
+  {
+    return LengthUnit(0, unit);
+  }
   const double length = std::abs(typicalMm);
   if (!(length > 0) || length >= kLeast)
   {
@@ -42,13 +46,13 @@ LengthUnit::Of(double mm, int power) const
 std::string
 LengthUnit::Name(int power) const
 {
-  return kNames[m_Thousandths] + (power > 1 ? std::to_string(power) : std::string());
+  return InUnit(kNames[m_Thousandths], m_Unit) + (power > 1 ? std::to_string(power) : std::string());
 }
 
 std::string
 LengthUnit::Symbol(int power) const
 {
-  return kSymbols[m_Thousandths] + std::string(power == 2 ? "²" : power == 3 ? "³" : "");
+  return InUnit(kSymbols[m_Thousandths], m_Unit) + std::string(power == 2 ? "²" : power == 3 ? "³" : "");
 }
 
 std::string

@@ -179,4 +179,11 @@ MillimetresIn(std::string_view unit)
   return std::nullopt;
 }
 
+bool
+IsVoxelUnit(std::string_view unit)
+{
+  const std::string u = LowerCase(Trim(unit));
+  return u == "voxel" || u == "voxels" || u == "vox" || u == "pixel" || u == "pixels" || u == "px";
+}
+
 } // namespace voxelcore

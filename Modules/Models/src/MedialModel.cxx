@@ -86,7 +86,7 @@ WriteModel(const std::filesystem::path & path,
   CheckModel(model, options.keepEdges);
   if (options.triangles || format == ".stl" || format == ".ma")
   {
-    MedialModel triangles{ {}, model.provenance, model.hasEdges, model.refined, model.inLps };
+    MedialModel triangles{ {}, model.provenance, model.hasEdges, model.refined, model.inLps, model.unit };
     for (const ModelPart & part : model.parts)
     {
       triangles.parts.push_back({ part.label, Triangulated(part.core), part.component, part.displacement });

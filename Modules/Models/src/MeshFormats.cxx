@@ -133,8 +133,8 @@ WritePly(const std::filesystem::path & path, const MedialModel & model)
   OutputFile  file(path);
   std::string bytes =
     "ply\nformat binary_little_endian 1.0\ncomment VoxelCore medial surface\ncomment SPACE=LPS\n"
-    "comment Units=mm\nelement vertex " +
-    std::to_string(counts.vertices) +
+    "comment Units=" +
+    UnitName(model.unit) + "\nelement vertex " + std::to_string(counts.vertices) +
     "\nproperty double x\nproperty double y\nproperty double z\nproperty double radius\n"
     "property double lambda\n" +
     labelProperty + "element face " + std::to_string(counts.faces) +
@@ -207,7 +207,7 @@ ModelOmissions
 WriteObj(const std::filesystem::path & path, const MedialModel & model)
 {
   TextFile file(path);
-  file << "# VoxelCore medial surface\n# SPACE=LPS\n# Units=mm\n";
+  file << "# VoxelCore medial surface\n# SPACE=LPS\n# Units=" << UnitName(model.unit) << "\n";
   for (const ModelPart & part : model.parts)
   {
     for (const auto & position : part.core.positions)
@@ -258,7 +258,8 @@ WriteStl(const std::filesystem::path & path, const MedialModel & model)
   const Counts counts = Count(model);
   RequireAtMost(counts.faces, std::numeric_limits<std::uint32_t>::max(), path, "triangles");
   OutputFile  file(path);
-  std::string bytes = "VoxelCore medial surface. SPACE=LPS Units=mm"; // must not begin with "solid"
+  std::string bytes =
+    "VoxelCore medial surface. SPACE=LPS Units=" + UnitName(model.unit); // must not begin with "solid"
   bytes.resize(80, ' ');
   Append(bytes, static_cast<std::uint32_t>(counts.faces));
   for (const ModelPart & part : model.parts)

@@ -58,6 +58,7 @@ bool
 SameBits(const MedialModel & a, const MedialModel & b)
 {
   return a.provenance == b.provenance && a.hasEdges == b.hasEdges && a.refined == b.refined && a.inLps == b.inLps &&
+         a.unit == b.unit &&
          std::equal(a.parts.begin(),
                     a.parts.end(),
                     b.parts.begin(),

@@ -265,8 +265,9 @@ MedialModel
 ReadParts(ModelSource & file, bool anywhere)
 {
   const bool inLps = !anywhere || file.Has("FieldData", "SPACE");
-  RequireFit((!inLps || file.ReadText("FieldData", "SPACE") == "LPS") && file.ReadText("FieldData", "Units") == "mm",
-             "its field data do not say SPACE = LPS and Units = mm");
+  const auto unit = UnitNamed(file.ReadText("FieldData", "Units"));
+  RequireFit((!inLps || file.ReadText("FieldData", "SPACE") == "LPS") && unit,
+             "its field data do not say SPACE = LPS and Units = mm or voxel");
   RequireFit(file.PieceCount("NumberOfStrips") == 0, "it has triangle strips");
   const std::vector<double> positions = file.Read<double>("Points", "Points", 3);
   const auto                pointCount = static_cast<std::int64_t>(positions.size() / 3);
@@ -300,6 +301,7 @@ ReadParts(ModelSource & file, bool anywhere)
 
   MedialModel model;
   model.inLps = inLps;
+  model.unit = *unit;
   if (file.Has("FieldData", "Provenance"))
   {
     model.provenance = file.ReadText("FieldData", "Provenance");

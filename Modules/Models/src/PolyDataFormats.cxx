@@ -339,7 +339,7 @@ MakePolyData(const MedialModel & model, bool keepEdges)
   {
     AddString(data->GetFieldData(), "SPACE", "LPS");
   }
-  AddString(data->GetFieldData(), "Units", "mm");
+  AddString(data->GetFieldData(), "Units", UnitName(model.unit));
   if (!model.refined.empty())
   {
     AddString(data->GetFieldData(), "Refined", model.refined);
@@ -421,7 +421,7 @@ WriteVtk(const std::filesystem::path & path, const MedialModel & model, bool kee
   writer->SetInputData(MakePolyData(model, keepEdges));
   writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2); // as Slicer writes; 5.1 is new to many tools
   writer->SetFileTypeToBinary();
-  writer->SetHeader("VoxelCore medial surface. SPACE=LPS Units=mm");
+  writer->SetHeader(("VoxelCore medial surface. SPACE=LPS Units=" + UnitName(model.unit)).c_str());
   writer->WriteToOutputStringOn();
   if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError || !messages.First().empty())
   {

@@ -35,10 +35,12 @@ KindName(NodeKind kind)
 void
 WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const MeasureOptions & options)
 {
-  constexpr double kMicrometres = 1000;
+  const bool       inVoxels = model.unit == SpatialUnit::Voxels;
+  const double     scale = inVoxels ? 1 : 1000;
   TextFile         file(path, 9);
   std::uint64_t    next = 1;
-  file << "# VoxelCore curve skeleton\n# micrometres, LPS axes; radii of the largest balls\n";
+  file << "# VoxelCore curve skeleton\n# " << (inVoxels ? "voxels" : "micrometres")
+       << ", LPS axes; radii of the largest balls\n";
   for (const SkeletonPart & part : model.parts)
   {
     SkeletonGraph graph = part.graph;
@@ -47,8 +49,8 @@ WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const 
     file << "# label " << part.label << "\n";
     for (const LoopCut & cut : cuts)
     {
-      file << "# a cycle was cut at " << kMicrometres * cut.position[0] << " " << kMicrometres * cut.position[1] << " "
-           << kMicrometres * cut.position[2] << "\n";
+      file << "# a cycle was cut at " << scale * cut.position[0] << " " << scale * cut.position[1] << " "
+           << scale * cut.position[2] << "\n";
     }
     std::vector<std::uint64_t> ids(graph.positions.size(), 0);
     const auto                 write = [&](ElementIndex point, std::uint64_t parent) {
@@ -56,9 +58,9 @@ WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const 
       file << ids[point] << " 0";
       for (const double coordinate : graph.positions[point])
       {
-        file << " " << kMicrometres * coordinate;
+        file << " " << scale * coordinate;
       }
-      file << " " << kMicrometres * graph.radius[point] << " ";
+      file << " " << scale * graph.radius[point] << " ";
       if (parent == 0)
       {
         file << "-1\n";
@@ -103,7 +105,8 @@ WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const 
 void
 WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model)
 {
-  TextFile file(path, 9);
+  const std::string unit = UnitName(model.unit);
+  TextFile          file(path, 9);
   file << "{\n  \"@schema\": "
           "\"https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"
           "markups-schema-v1.0.3.json#\",\n  \"markups\": [";
@@ -113,7 +116,8 @@ WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model)
     for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch)
     {
       file << (first ? "\n" : ",\n") << "    {\"type\": \"Curve\", \"name\": \"label " << part.label << " branch "
-           << branch << "\", \"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\",\n     \"controlPoints\": [";
+           << branch << "\", \"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"" << unit
+           << "\",\n     \"controlPoints\": [";
       first = false;
       std::uint64_t id = 0;
       for (const ElementIndex point : part.graph.Branch(branch))
@@ -124,7 +128,8 @@ WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model)
              << "], \"positionStatus\": \"defined\"}";
         ++id;
       }
-      file << "],\n     \"measurements\": [{\"name\": \"Radius\", \"enabled\": true, \"units\": \"mm\", "
+      file << "],\n     \"measurements\": [{\"name\": \"Radius\", \"enabled\": true, \"units\": \"" << unit
+           << "\", "
               "\"controlPointValues\": [";
       bool firstValue = true;
       for (const ElementIndex point : part.graph.Branch(branch))

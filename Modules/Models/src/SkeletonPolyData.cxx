@@ -100,8 +100,8 @@ CellsOf(const Cells & cells, std::size_t pointCount)
 SkeletonModel
 ReadParts(VtpFile & file)
 {
-  RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && file.ReadText("FieldData", "Units") == "mm",
-             "it is not in LPS mm");
+  const auto unit = UnitNamed(file.ReadText("FieldData", "Units"));
+  RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && unit, "it is not in LPS mm or voxels");
   RequireFit(file.Has("PointData", "ErosionThickness") && file.Has("CellData", "BranchId"), "it holds no skeleton");
   const std::vector<double> positions = file.Read<double>("Points", "Points", 3);
   const std::vector<double> radius = file.Read<double>("PointData", "Radius");
@@ -122,7 +122,8 @@ ReadParts(VtpFile & file)
              "its arrays differ in length");
 
   // A point belongs to the part of its cells.
-  SkeletonModel                                                model;
+  SkeletonModel model;
+  model.unit = *unit;
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> partOf;
   for (std::size_t cell = 0; cell < labels.size(); ++cell)
   {
@@ -264,7 +265,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
   AppendedArrays arrays;
   arrays.Tag("FieldData");
   arrays.AddText("SPACE", "LPS");
-  arrays.AddText("Units", "mm");
+  arrays.AddText("Units", UnitName(model.unit));
   arrays.AddText("Provenance", model.provenance);
   arrays.Tag("/FieldData");
   const std::string fields = arrays.TakeHeader();

@@ -122,14 +122,14 @@ namespace
 
 template <typename Columns>
 std::string
-ColumnsJson(const Columns & columns)
+ColumnsJson(const Columns & columns, SpatialUnit unit)
 {
   std::string json = "{";
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
     json += (i > 0 ? ",\n    \"" : "\n    \"") + std::string(columns[i].name) + "\": {\"Description\": \"" +
             columns[i].meaning + "\"" +
-            (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + std::string(columns[i].unit) + "\"" : "") + "}";
+            (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + InUnit(columns[i].unit, unit) + "\"" : "") + "}";
   }
   return json + "\n  }";
 }
@@ -196,10 +196,10 @@ WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model)
 }
 
 std::string
-SkeletonColumnsJson()
+SkeletonColumnsJson(SpatialUnit unit)
 {
-  return "{\n  \"branches\": " + ColumnsJson(kBranchColumns) + ",\n  \"summary\": " + ColumnsJson(kSummaryColumns) +
-         "\n}\n";
+  return "{\n  \"branches\": " + ColumnsJson(kBranchColumns, unit) +
+         ",\n  \"summary\": " + ColumnsJson(kSummaryColumns, unit) + "\n}\n";
 }
 
 } // namespace voxelcore

@@ -50,6 +50,10 @@ InputJson(const InputRecord & input, bool inFile)
   json["origin_mm"] = input.geometry.origin;
   json["direction"] = input.geometry.direction;
   json["notes"] = input.notes;
+  if (input.geometry.unit == SpatialUnit::Voxels)
+  {
+    json["unit"] = UnitName(input.geometry.unit);
+  }
   return json;
 }
 
@@ -159,7 +163,7 @@ WholeJson(const CoreReport & report, bool inFile)
   {
     json["labels"].push_back(LabelJson(label, inFile));
   }
-  return json;
+  return KeysInUnit(json, report.input.geometry.unit);
 }
 
 /** Adds a label, and its value to the parameters once. */
@@ -286,9 +290,9 @@ SkeletonProvenanceJson(const CoreReport & report, const std::vector<std::size_t>
 }
 
 std::string
-LabelRecordJson(const LabelRecord & label)
+LabelRecordJson(const LabelRecord & label, SpatialUnit unit)
 {
-  Json json = LabelJson(label, false);
+  Json json = KeysInUnit(LabelJson(label, false), unit);
   json["seconds"] = label.seconds;
   return Dump(json);
 }

@@ -2,6 +2,7 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/ParameterFields.h"
+#include "voxelcore/SpatialUnit.h"
 
 #include <cmath>
 #include <limits>
@@ -134,7 +135,7 @@ public:
     m_Names.insert(name);
     if (name != kResolution || m_Json.contains(name))
     {
-      ReadValue(m_Json.at(name), value);
+      ReadValue(AtLength(m_Json, name), value);
     }
   }
 

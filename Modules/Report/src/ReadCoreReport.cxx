@@ -32,8 +32,8 @@ ReadComplex(const Json & json)
   json.at("edges").get_to(complex.edges);
   json.at("faces").get_to(complex.faces);
   complex.topology = ReadTopology(json);
-  json.at("area_mm2").get_to(complex.areaMm2);
-  json.at("max_radius_mm").get_to(complex.maxRadiusMm);
+  AtLength(json, "area_mm2").get_to(complex.areaMm2);
+  AtLength(json, "max_radius_mm").get_to(complex.maxRadiusMm);
   return complex;
 }
 
@@ -44,8 +44,8 @@ ReadInput(const Json & json)
   json.at("sha256").get_to(input.sha256);
   json.at("format").get_to(input.format);
   json.at("size").get_to(input.geometry.size);
-  json.at("spacing_mm").get_to(input.geometry.spacing);
-  json.at("origin_mm").get_to(input.geometry.origin);
+  AtLength(json, "spacing_mm").get_to(input.geometry.spacing);
+  AtLength(json, "origin_mm").get_to(input.geometry.origin);
   json.at("direction").get_to(input.geometry.direction);
   json.at("notes").get_to(input.notes);
   return input;
@@ -93,7 +93,7 @@ ReadLabel(const Json & json)
     label.edits = ReadEditRecord(json.at("edits"));
   }
   json.at("voxels").get_to(label.voxels);
-  json.at("volume_mm3").get_to(label.volumeMm3);
+  AtLength(json, "volume_mm3").get_to(label.volumeMm3);
   json.at("bounding_box").at("lower").get_to(label.box.lower);
   json.at("bounding_box").at("size").get_to(label.box.size);
   json.at("boundary_vertices").get_to(label.boundaryVertices);
@@ -103,11 +103,11 @@ ReadLabel(const Json & json)
   {
     PrunedRecord pruned;
     one.at("lambda").get_to(pruned.lambda);
-    one.at("lambda_mm").get_to(pruned.lambdaMm);
+    AtLength(one, "lambda_mm").get_to(pruned.lambdaMm);
     pruned.complex = ReadComplex(one);
     if (one.contains("tolerance"))
     {
-      pruned.tolerance = { one.at("tolerance").get<std::string>(), one.at("tolerance_mm").get<double>(), {} };
+      pruned.tolerance = { one.at("tolerance").get<std::string>(), AtLength(one, "tolerance_mm").get<double>(), {} };
     }
     if (one.contains("max_displacement_vox"))
     {
@@ -156,6 +156,12 @@ ParseProvenance(const std::string & text, const std::string & where)
     const Json json = Json::parse(text);
     json.at("voxelcore").at("version").get_to(report.version);
     report.input = ReadInput(json.at("input"));
+    const auto unit = UnitNamed(json.at("input").value("unit", UnitName(SpatialUnit::Millimetres)));
+    if (!unit)
+    {
+      throw InputError(where + ": its field Provenance names no unit known here; make the file again");
+    }
+    report.input.geometry.unit = *unit;
     report.parameters = ReadParameters(json.at("parameters"));
     if (json.contains("skeleton"))
     {
@@ -189,9 +195,9 @@ ParseLabelRecord(const std::string & text)
     for (std::size_t i = 0; i < label.pruned.size(); ++i)
     {
       const Json & pruned = json.at("pruned").at(i);
-      if (label.pruned[i].tolerance && !pruned.at("boundary_gap_mm").is_null())
+      if (label.pruned[i].tolerance && !AtLength(pruned, "boundary_gap_mm").is_null())
       {
-        label.pruned[i].tolerance->boundaryGapMm = pruned.at("boundary_gap_mm").get<double>();
+        label.pruned[i].tolerance->boundaryGapMm = AtLength(pruned, "boundary_gap_mm").get<double>();
       }
     }
     if (json.at("certificate").contains("covered"))

@@ -30,7 +30,7 @@ UnitOf(const CoreReport & report, LengthOf && lengthOf)
   {
     longest = std::max(longest, lengthOf(label));
   }
-  return LengthUnit::For(longest);
+  return LengthUnit::For(longest, report.input.geometry.unit);
 }
 
 } // namespace
@@ -167,7 +167,8 @@ std::string
 LabelTableCsv(const CoreReport & report)
 {
   std::string text =
-    "label,name,component,lambda,voxels,volume_mm3,vertices,edges,faces,area_mm2,max_radius_mm,b0,b1,b2\n";
+    InUnit("label,name,component,lambda,voxels,volume_mm3,vertices,edges,faces,area_mm2,max_radius_mm,b0,b1,b2\n",
+           report.input.geometry.unit);
   for (const LabelRecord & label : report.labels)
   {
     for (const PrunedRecord & pruned : label.pruned)

@@ -1,6 +1,7 @@
 #include "SkeletonJson.h"
 
 #include "voxelcore/SkeletonTexts.h"
+#include "voxelcore/SpatialUnit.h"
 
 namespace voxelcore
 {
@@ -104,8 +105,8 @@ ReadLoopCuts(const Json & json)
   for (const Json & one : json.at("cuts"))
   {
     LoopCut & cut = cuts.emplace_back();
-    one.at("position_mm").get_to(cut.position);
-    one.at("radius_mm").get_to(cut.radius);
+    AtLength(one, "position_mm").get_to(cut.position);
+    AtLength(one, "radius_mm").get_to(cut.radius);
   }
   return cuts;
 }

@@ -166,13 +166,17 @@ CoreProvenanceJson(const ImageGeometry &            geometry,
                     { "origin_mm", geometry.origin },
                     { "direction", geometry.direction },
                     { "notes", Json::array() } };
+  if (geometry.unit == SpatialUnit::Voxels)
+  {
+    json["input"]["unit"] = UnitName(geometry.unit);
+  }
   json["parameters"] = ParametersJson(geometry, origins, prunings.empty() ? "0" : prunings.front().lambda, keepEdges);
   json["labels"] = Json::array();
   for (std::size_t i = 0; i < origins.size(); ++i)
   {
     json["labels"].push_back(OriginJson(origins[i], prunings.at(i), geometry));
   }
-  return Dump(json);
+  return Dump(KeysInUnit(json, geometry.unit));
 }
 
 std::string
@@ -180,7 +184,12 @@ PrunedProvenanceJson(const std::string & text, const std::vector<CorePruning> & 
 {
   try
   {
-    Json   json = Json::parse(text);
+    Json       json = Json::parse(text);
+    const auto unit = UnitNamed(json.at("input").value("unit", UnitName(SpatialUnit::Millimetres)));
+    if (!unit)
+    {
+      return {};
+    }
     Json & labels = json.at("labels");
     if (labels.size() != prunings.size() || prunings.empty())
     {
@@ -194,16 +203,16 @@ PrunedProvenanceJson(const std::string & text, const std::vector<CorePruning> & 
       {
         return {}; // lambda no longer says what is left
       }
-      if (before.at("lambda_mm").get<double>() >= pruning.lambdaMm)
+      if (AtLength(before, "lambda_mm").get<double>() >= pruning.lambdaMm)
       {
         before.at("lambda").get_to(pruning.lambda);
-        before.at("lambda_mm").get_to(pruning.lambdaMm);
+        AtLength(before, "lambda_mm").get_to(pruning.lambdaMm);
       }
       if (i == 0)
       {
         json.at("parameters").at("lambda") = Json::array({ pruning.lambda });
       }
-      labels.at(i).at("pruned") = Json::array({ PruningJson(pruning) });
+      labels.at(i).at("pruned") = Json::array({ KeysInUnit(PruningJson(pruning), *unit) });
     }
     json.at("parameters").at("keep_edges") = true;
     return Dump(json);

@@ -93,6 +93,15 @@ ParseLambda(std::string_view text)
   return lambda;
 }
 
+void
+RequireLengthIn(SpatialUnit unit, const Lambda & length)
+{
+  if (unit == SpatialUnit::Voxels && length.unit == Lambda::Unit::Millimetre && length.value != 0)
+  {
+    RefuseMillimetres(length.text);
+  }
+}
+
 double
 LambdaInMillimetres(const Lambda &                lambda,
                     const SpacingWeights &        weights,

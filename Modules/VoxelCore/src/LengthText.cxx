@@ -1,5 +1,7 @@
 #include "LengthText.h"
 
+#include "voxelcore/Error.h"
+
 #include <charconv>
 #include <cmath>
 
@@ -37,6 +39,14 @@ ReadLength(std::string_view text, const std::function<void(const char *)> & refu
   }
   length.unit.assign(parsed.ptr, last);
   return length;
+}
+
+void
+RefuseMillimetres(const std::string & length)
+{
+  throw InputError(length + " is a length in mm, and the scan has no voxel size; give the length in voxels (" +
+                   length.substr(0, length.find('m')) +
+                   "vox), or the voxel size with --spacing X,Y,Z where the scan is read");
 }
 
 } // namespace voxelcore

@@ -20,4 +20,8 @@ struct LengthText
 LengthText
 ReadLength(std::string_view text, const std::function<void(const char *)> & refuse);
 
+/** \throws InputError, which says what to do instead of asking for a length in mm. */
+[[noreturn]] void
+RefuseMillimetres(const std::string & length);
+
 } // namespace voxelcore

@@ -63,6 +63,15 @@ ParseTolerance(std::string_view text)
   return height;
 }
 
+void
+RequireLengthIn(SpatialUnit unit, const Tolerance & height)
+{
+  if (unit == SpatialUnit::Voxels && height.unit == Tolerance::Unit::Millimetre && height.value != 0)
+  {
+    RefuseMillimetres(height.text);
+  }
+}
+
 double
 ToleranceInMillimetres(const Tolerance & height, const std::array<double, 3> & spacing)
 {

@@ -66,6 +66,10 @@ struct CertifiedResult
   CertifiedSeconds                 seconds;
 };
 
+/** \throws InputError where lengths are in voxels and the request has one in mm. ComputeCertified() asks this first. */
+void
+RequireLengthsIn(SpatialUnit unit, const CertifiedRequest & request);
+
 /** Everything from a shape to its certified cores and skeleton; positions are in LPS mm of `geometry`, the shape lies
  *  in its voxels. The same bits for every engine and number of threads (OpenMP's).
  *  \throws CertificateError, which names the shape; InputError for a shape or spacing that is beyond exact numbers;

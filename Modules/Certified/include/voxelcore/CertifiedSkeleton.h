@@ -31,6 +31,12 @@ struct SkeletonRequest
   BranchRequest            branches;
 };
 
+/** \throws InputError where lengths are in voxels and the request has one in mm. */
+void
+RequireLengthsIn(SpatialUnit unit, const BranchRequest & request);
+void
+RequireLengthsIn(SpatialUnit unit, const SkeletonRequest & request);
+
 struct CertifiedSkeleton
 {
   MeasuredSkeleton     skeleton;

@@ -42,7 +42,7 @@ const Page = (function () {
     return points;
   }
 
-  // One number a point in mm, NaN where there is none; null when the mesh has no such array.
+  // One number a point, NaN where there is none; null when the mesh has no such array.
   const known = new Map();
   function valuesOf(mesh, name) {
     if (!mesh.values[name]) return null;
@@ -56,10 +56,10 @@ const Page = (function () {
 
   const names = { Radius: 'Radius', Lambda: 'Lambda', ErosionThickness: 'Erosion thickness', Label: 'Label' };
 
-  // The unit in which people read lengths of about so many mm, as LengthUnit chooses it.
-  function unitFor(mm) {
-    const length = Math.abs(mm);
-    return !(length > 0) || length >= 0.1 ? { name: 'mm', mm: 1 } : length >= 1e-4 ? { name: 'µm', mm: 1e-3 } : { name: 'nm', mm: 1e-6 };
+  // The unit in which people read lengths of about this one.
+  function unitFor(length) {
+    const size = Math.abs(length);
+    return size > 0 ? model.units.find(unit => size >= unit.from) : model.units[0];
   }
   // 1, 2 or 5 times a power of ten, the largest that is not above `value`.
   function roundDown(value) {
@@ -67,9 +67,9 @@ const Page = (function () {
     return [5, 2, 1].map(f => f * power).find(s => s <= value * (1 + 1e-9)) || power;
   }
   const digits = value => String(+value.toPrecision(6));
-  function lengthText(mm, significant) {
-    const unit = unitFor(mm);
-    return String(+(mm / unit.mm).toPrecision(significant || 4)) + ' ' + unit.name;
+  function lengthText(length, significant) {
+    const unit = unitFor(length);
+    return String(+(length / unit.size).toPrecision(significant || 4)) + ' ' + unit.name;
   }
 
   // The colour map: `model.map` at equal steps.

@@ -43,7 +43,7 @@ if (Page) Page.overlay = (function () {
       tick(y + long, 'low');
       return;
     }
-    const a = low / unit.mm, b = high / unit.mm;
+    const a = low / unit.size, b = high / unit.size;
     if (!(b > a)) {
       tick(y + long / 2, digits(a));
       return;
@@ -72,8 +72,8 @@ if (Page) Page.overlay = (function () {
 
   // Parallel projection: the bar holds everywhere in the picture.
   function scaleBar(pen, scene, ink) {
-    const mm = roundDown(scene.mmPerPixel * Math.min(180, 0.36 * scene.width));
-    const unit = unitFor(mm), long = mm / scene.mmPerPixel, x = 20, y = scene.height - 20;
+    const length = roundDown(scene.mmPerPixel * Math.min(180, 0.36 * scene.width));
+    const unit = unitFor(length), long = length / scene.mmPerPixel, x = 20, y = scene.height - 20;
     pen.fillStyle = ink;
     pen.fillRect(x, y - 1, long, 3);
     pen.fillRect(x, y - 5, 1.5, 11);
@@ -81,9 +81,9 @@ if (Page) Page.overlay = (function () {
     pen.font = font(13);
     pen.textAlign = 'left';
     pen.textBaseline = 'alphabetic';
-    const words = digits(mm / unit.mm) + ' ' + unit.name;
+    const words = digits(length / unit.size) + ' ' + unit.name;
     pen.fillText(words, x, y - 9);
-    return { words, pixels: long, mm };
+    return { words, pixels: long, length };
   }
 
   // Axes x, y, z as they point in the picture: letters of the patient where the scan names a space, else of the axes.

@@ -290,7 +290,8 @@ if (Page) Page.view = (function () {
       if (values && !Number.isNaN(values[nearest])) lines.push(names[name] + ' ' + lengthText(values[nearest]));
     }
     const at = hit.point.toArray().map((v, k) => v + meshes.middle[k]), digits = Math.max(1, Math.ceil(2 - Math.log10(size)));
-    lines.push((model.anatomical ? 'LPS ' : 'x, y, z ') + at.map(v => v.toFixed(Math.min(digits, 12))).join(', ') + ' mm');
+    const place = at.map(v => v.toFixed(Math.min(digits, 12))).join(', ');
+    lines.push((model.anatomical ? 'LPS ' : 'x, y, z ') + place + ' ' + model.units[0].name);
     box.textContent = '';
     for (const line of lines) {
       const row = document.createElement('div');

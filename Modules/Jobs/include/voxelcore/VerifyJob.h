@@ -34,6 +34,7 @@ struct VerifyResult
   std::vector<std::string>       notes;    ///< e.g. that the scan's file is not the one the core was made from
   std::vector<std::string>       warnings; ///< about the scan; a user must see them
   std::vector<LabelVerification> labels;
+  SpatialUnit                    unit = SpatialUnit::Millimetres; ///< of all lengths
 };
 
 /** Reads the scan with the options recorded in the file and checks label by label.

@@ -26,6 +26,7 @@ struct StatedGeometry
   std::array<Vector3, 3>      axes{}; ///< directions of i, j, k in LPS, of any length
   Vector3                     spacing{};
   Vector3                     origin{}; ///< LPS mm
+  SpatialUnit                 unit = SpatialUnit::Millimetres;
 };
 
 /** `scan` names it in errors; what was changed is added to `notes`.

@@ -1,5 +1,8 @@
 #pragma once
-// Where the voxels of a scan lie in the patient: LPS millimetres, as ITK has them.
+// Where the voxels of a scan lie in the patient: LPS millimetres, as ITK has them. Where a file gives no voxel size,
+// the unit is the voxel, and every length and place called mm in this library is one in voxels.
+
+#include "voxelcore/SpatialUnit.h"
 
 #include <array>
 #include <cstdint>
@@ -16,6 +19,7 @@ struct ImageGeometry
   Vector3                     spacing{ 1, 1, 1 };                     ///< mm
   Vector3                     origin{ 0, 0, 0 };                      ///< LPS mm of the centre of voxel (0,0,0)
   std::array<double, 9>       direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }; ///< row-major; its columns are the axes
+  SpatialUnit                 unit = SpatialUnit::Millimetres;        ///< of spacing, origin and all that follows
 };
 
 /** LPS mm of a point given in lattice coordinates (lattice = voxel index + 1/2). */

@@ -65,4 +65,8 @@ RefuseInput(const std::filesystem::path & file, std::string_view wrong, std::str
 std::optional<double>
 MillimetresIn(std::string_view unit);
 
+/** Whether a unit of length is the voxel itself ("voxel", "pixel", "px", ...). */
+bool
+IsVoxelUnit(std::string_view unit);
+
 } // namespace voxelcore

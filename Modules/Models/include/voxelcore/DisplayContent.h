@@ -39,6 +39,7 @@ struct DisplayLabel
 struct DisplayContent
 {
   std::vector<DisplayLabel> labels;
+  SpatialUnit               unit = SpatialUnit::Millimetres; ///< of all lengths
 };
 
 } // namespace voxelcore

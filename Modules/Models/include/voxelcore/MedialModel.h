@@ -21,6 +21,7 @@ struct MedialModel
   bool        hasEdges = true;       ///< reading: no edge's measure is missing (--keep-edges, or no edge on a face)
   std::string refined{};    ///< "labels", "grey" or "mesh": the surface its cores are refined to; empty: they are not
   bool        inLps = true; ///< positions are known to be in LPS: files say so (SPACE), and ReadModel takes no other
+  SpatialUnit unit = SpatialUnit::Millimetres; ///< of all lengths; files say so (Units)
 };
 
 /** How to write. */

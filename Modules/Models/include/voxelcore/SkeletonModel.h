@@ -2,6 +2,7 @@
 // Curve skeletons as files: .vtp for viewers and for VoxelCore, .swc .mrk.json .graphml for others, .csv tables.
 
 #include "voxelcore/MeasuredSkeleton.h"
+#include "voxelcore/SpatialUnit.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +18,7 @@ struct SkeletonModel
 {
   std::vector<SkeletonPart> parts;      ///< by label, then component
   std::string               provenance; ///< JSON text of the field array Provenance
+  SpatialUnit               unit = SpatialUnit::Millimetres; ///< of all lengths
 };
 
 /** XML polydata: isolated points as verts, a poly line per branch, polygons of faces that stay. Point arrays Radius,
@@ -30,12 +32,13 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
 SkeletonModel
 ReadSkeletonVtp(const std::filesystem::path & path);
 
-/** SWC in micrometres, LPS axes: `id type x y z radius parent`, parents first. Cycles are cut (CutLoops), which the
- *  header lists; where faces stay a tree begins anew. `root` as in MeasureOptions. \throws OutputError */
+/** SWC in micrometres (in voxels where the unit is the voxel), LPS axes: `id type x y z radius parent`, parents
+ *  first. Cycles are cut (CutLoops), which the header lists; where faces stay a tree begins anew. `root` as in
+ *  MeasureOptions. \throws OutputError */
 void
 WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const MeasureOptions & options);
 
-/** A Slicer curve per branch, in LPS mm, its radii as a measurement. \throws OutputError */
+/** A Slicer curve per branch, in LPS mm (or voxels), its radii as a measurement. \throws OutputError */
 void
 WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model);
 
@@ -57,6 +60,6 @@ CsvField(const std::string & text);
 
 /** The data dictionary of both tables as JSON: meaning and unit of each column. */
 std::string
-SkeletonColumnsJson();
+SkeletonColumnsJson(SpatialUnit unit);
 
 } // namespace voxelcore

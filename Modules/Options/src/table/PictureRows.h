@@ -40,7 +40,8 @@ inline constexpr auto kPictureRows = std::to_array<Parameter>({
     "2%:98%",
     false,
     kRender,
-    "Ends of the colour bar: in mm, or as shares of the area; 0%:100% is the full range" },
+    "Ends of the colour bar: in mm (in voxels where the scan has no voxel size), or as shares of the area; 0%:100% is "
+    "the full range" },
   { "each-label", "--each-label", Flag, "", "", false, kRender, "Colour each label over its own range" },
   { "size",
     "--size",

@@ -133,7 +133,8 @@ VoxelCoreVersion();
 std::string
 VersionText();
 
-/** The report as indented JSON with a final newline. Keys stand in a fixed order. */
+/** The report as indented JSON with a final newline. Keys stand in a fixed order. Of a scan without voxel size they name
+ *  voxels ("area_vox2"), and "unit" is "voxel". */
 std::string
 ReportJson(const CoreReport & report);
 
@@ -155,7 +156,7 @@ ParseProvenance(const std::string & json, const std::string & where);
 
 /** A label's record as the report has it, with its seconds, on one line. */
 std::string
-LabelRecordJson(const LabelRecord & label);
+LabelRecordJson(const LabelRecord & label, SpatialUnit unit);
 
 /** The inverse, but for outputs and for the skeleton's numbers, which its file gives. \throws InputError */
 LabelRecord

@@ -3,6 +3,7 @@
 
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/Progress.h"
+#include "voxelcore/SpatialUnit.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/VoxelShape.h"
 
@@ -30,6 +31,10 @@ struct Lambda
  *  \throws UsageError that quotes the text and names the units. */
 Lambda
 ParseLambda(std::string_view text);
+
+/** \throws InputError for a length in mm, unless it is 0, where lengths are in voxels. */
+void
+RequireLengthIn(SpatialUnit unit, const Lambda & length);
 
 /** The threshold in mm, made by the same rounding as the measures of a core: a lambda in vox whose exact square equals
  *  the exact squared measure of an element compares equal to it. */

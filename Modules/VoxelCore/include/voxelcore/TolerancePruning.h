@@ -14,6 +14,7 @@
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/SpacingWeights.h"
+#include "voxelcore/SpatialUnit.h"
 
 #include <string>
 #include <string_view>
@@ -39,6 +40,10 @@ struct Tolerance
  *  \throws UsageError that quotes the text and names the units. */
 Tolerance
 ParseTolerance(std::string_view text);
+
+/** \throws InputError for a length in mm, unless it is 0, where lengths are in voxels. */
+void
+RequireLengthIn(SpatialUnit unit, const Tolerance & height);
 
 double
 ToleranceInMillimetres(const Tolerance & height, const std::array<double, 3> & spacing);
