@@ -60,4 +60,5 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/VoxelCoreConfig.cmake.i
   NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/VoxelCoreConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/VoxelCoreConfig.cmake" "${PROJECT_BINARY_DIR}/VoxelCoreConfigVersion.cmake"
-  "${CMAKE_CURRENT_LIST_DIR}/FindTetGen.cmake" DESTINATION "${VOXELCORE_CONFIG_DIR}" COMPONENT development)
+  "${CMAKE_CURRENT_LIST_DIR}/FindTetGen.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindBlosc.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/FindZstd.cmake" DESTINATION "${VOXELCORE_CONFIG_DIR}" COMPONENT development)

@@ -158,7 +158,7 @@ TEST_F(Manifest, AHundredThousandRowsAreRead)
 
 TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
 {
-  for (const char * folder : { "one/deep", "two", "stack", "single" })
+  for (const char * folder : { "one/deep", "two", "stack", "single", "stores/cells.zarr/0" })
   {
     std::filesystem::create_directories(m_Folder / folder);
   }
@@ -169,7 +169,11 @@ TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
                              "two/.hidden.nii",
                              "stack/1.png",
                              "stack/2.png",
-                             "single/only.tif" })
+                             "single/only.tif",
+                             "single/aseg.mgz",
+                             "stores/cells.zarr/.zgroup",
+                             "stores/cells.zarr/0/.zarray",
+                             "stores/cells.zarr/0/1.0.0" })
   {
     WriteAll(m_Folder / file, "");
   }
@@ -188,13 +192,16 @@ TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
                                                            { "two/seg.nrrd", "two/seg.nrrd" },
                                                            { "two/seg.nii.gz", "two/seg.nii.gz" },
                                                            { "stack", "stack" },
-                                                           { "single/only", "single/only.tif" } }));
+                                                           { "single/only", "single/only.tif" },
+                                                           { "single/aseg", "single/aseg.mgz" },
+                                                           { "stores/cells", "stores/cells.zarr" } }));
   EXPECT_EQ(passedOver,
             (std::vector<std::filesystem::path>{ m_Folder / "stack/thumbs.db",
                                                  m_Folder / "two/readme.docx",
                                                  m_Folder / "two/series.dcm" }));
   EXPECT_EQ(FindCases({ m_Folder / "*/seg.*" }).size(), 2U);
   EXPECT_EQ(FindCases({ m_Folder / "two", m_Folder / "two/seg.nrrd" }).size(), 2U); // the same file twice
+  EXPECT_EQ(FindCases({ m_Folder / "stores/cells.zarr/" }).size(), 1U);
   EXPECT_THROW(FindCases({ m_Folder / "none*" }), InputError);
   std::filesystem::create_directory(m_Folder / "empty");
   EXPECT_THROW(FindCases({ m_Folder / "empty" }), InputError);

@@ -57,8 +57,6 @@ TEST(ForeignFormats, AreToldByTheirExtensionWhereBytesSayNothing)
 {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
     { "a.dcm", { "DICOM file", "dcm2niix" } },
-    { "a.mgz", { "FreeSurfer", "mri_convert a.mgz a.nii.gz" } },
-    { "a.MGH", { "FreeSurfer" } },
     { "a.mrc", { "MRC" } },
     { "a.rec", { "PAR/REC", "MRC" } },
     { "a.mnc", { "MINC" } },
@@ -82,7 +80,6 @@ TEST(ForeignFormats, AreToldByTheirExtensionWhereBytesSayNothing)
   {
     ExpectRefused(folder.Write(name, "some bytes that no format begins with"), texts);
   }
-  ExpectRefused(folder.Write("b.mgz", Gzip("FreeSurfer packs its volumes")), { "mri_convert b.mgz b.nii.gz" });
   ExpectRefused(folder.Write("c.nrrd.gz", Gzip("NRRD0004")), { "gzip file", "unpack" });
 }
 
@@ -104,8 +101,8 @@ TEST(ForeignFormats, FoldersWithoutSlicesSayWhatTheyHold)
   ExpectRefused(folder / "series", { "DICOM", "dcm2niix -z y -o OUT series" });
   folder.Write("photos/a.jpg", At(0, "\xFF\xD8\xFF"));
   ExpectRefused(folder / "photos", { "'a.jpg'", "TIFF or PNG" });
-  folder.Write("a.zarr/.zgroup", "{}");
-  ExpectRefused(folder / "a.zarr", { "Zarr", "Fiji" });
+  folder.Write("a.n5/attributes.json", "{}");
+  ExpectRefused(folder / "a.n5", { "N5", "Fiji" });
   folder.Write("text/readme.txt", "nothing");
   ExpectRefused(folder / "text", { "no TIFF or PNG slices" });
 }

@@ -58,7 +58,7 @@ def compare(dump, path, form):
     names = values.dtype.names or [None]
     for component, name in enumerate(names):
         stored = values if name is None else values[name]
-        chosen = [] if name is None else [str(component)]
+        chosen = [] if name is None else [f"component={component}"]
         run = subprocess.run([dump, path, form] + chosen, capture_output=True, text=True, check=False)
         if not fits(stored):
             if run.returncode != 3:

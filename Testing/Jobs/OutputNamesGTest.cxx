@@ -14,6 +14,9 @@ TEST(OutputNames, ScanNameLosesFolderAndExtensions)
   EXPECT_EQ(ScanName("/data/aal.nii.gz"), "aal");
   EXPECT_EQ(ScanName("liver.seg.nrrd"), "liver");
   EXPECT_EQ(ScanName("liver.v2.NRRD"), "liver.v2");
+  EXPECT_EQ(ScanName("aparc+aseg.mgz"), ScanName("aparc+aseg.nrrd"));
+  EXPECT_EQ(ScanName("a/cells.ome.zarr/"), "cells");
+  EXPECT_EQ(ScanName("a/cells.zarr"), "cells");
   EXPECT_EQ(ScanName("a/slices/"), "slices");
   EXPECT_EQ(ScanName("a/slices"), "slices");
   EXPECT_EQ(ScanName("my scan (2).tif"), "my_scan__2_");

@@ -1,6 +1,7 @@
 // Inputs of a batch that are no manifests: scans, patterns, folders.
 
 #include "voxelcore/Error.h"
+#include "voxelcore/LabelVolume.h"
 #include "voxelcore/Manifest.h"
 #include "voxelcore/OutputNames.h"
 
@@ -44,7 +45,7 @@ EndsInOneOf(const fs::path & path, std::initializer_list<const char *> endings)
 bool
 IsVolume(const fs::path & path)
 {
-  return EndsInOneOf(path, { ".nrrd", ".nhdr", ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".mha", ".mhd" });
+  return EndsInOneOf(path, { ".nrrd", ".nhdr", ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".mha", ".mhd", ".mgh", ".mgz" });
 }
 
 bool
@@ -78,6 +79,11 @@ Walk(const fs::path &        folder,
   std::error_code notThere;
   if (fs::equivalent(folder, output, notThere))
   {
+    return;
+  }
+  if (IsZarrFolder(folder))
+  {
+    scans.push_back(folder);
     return;
   }
   std::vector<fs::path> entries;

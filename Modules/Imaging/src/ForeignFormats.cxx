@@ -33,11 +33,6 @@ constexpr std::string_view kUnpack = "unpack it and give what is in it"sv;
 /** The first that fits is taken: magics before extensions. */
 constexpr std::array kFormats{
   ForeignFormat{ " dcm dicom ima ", 128, "DICM"sv, "DICOM file", kDicomAdvice },
-  ForeignFormat{ " mgh mgz ",
-                 SIZE_MAX,
-                 ""sv,
-                 "FreeSurfer volume",
-                 "convert it with 'mri_convert {file} {stem}.nii.gz' of FreeSurfer" },
   ForeignFormat{ " mrc map st ali ccp4 ",
                  208,
                  "MAP "sv,
@@ -122,7 +117,7 @@ constexpr std::array kFormats{
                  "GIPL volume",
                  "convert it with 'c3d {file} -o {stem}.nii.gz' (Convert3D), or save it as .nii.gz in ITK-SNAP" },
   ForeignFormat{ " oif vsi lsm stk ndpi svs scn dv r3d lei zvi ", SIZE_MAX, ""sv, "microscope file", kBioFormats },
-  ForeignFormat{ " zarr n5 ", SIZE_MAX, ""sv, "Zarr or N5 store", "open it in Fiji and save its labels as TIFF" },
+  ForeignFormat{ " n5 ", SIZE_MAX, ""sv, "N5 store", "open it in Fiji and save its labels as TIFF" },
   ForeignFormat{ " par rec ",
                  SIZE_MAX,
                  ""sv,
@@ -187,7 +182,7 @@ FindFormat(const std::filesystem::path & path, std::string_view bytes)
     return !format.magic.empty() && bytes.size() > format.at && bytes.substr(format.at).starts_with(format.magic) &&
            (format.magic.size() > 2 || has(format));
   };
-  // A gzip-packed file is what its extension says (.mgz), if that says anything.
+  // A gzip-packed file is what its extension says, if that says anything.
   const bool packed = bytes.starts_with("\x1F\x8B"sv);
   auto       found = packed ? kFormats.end() : std::find_if(kFormats.begin(), kFormats.end(), is);
   if (found == kFormats.end())
@@ -231,12 +226,9 @@ void
 RefuseForeignFolder(const std::filesystem::path & path)
 {
   std::error_code ignored;
-  for (const char * mark : { ".zgroup", ".zarray", "zarr.json", "attributes.json" })
+  if (std::filesystem::exists(path / "attributes.json", ignored))
   {
-    if (std::filesystem::exists(path / mark, ignored))
-    {
-      RefuseInput(path, "Zarr or N5 store, not read directly", "open it in Fiji and save its labels as TIFF");
-    }
+    RefuseInput(path, "N5 store, not read directly", "open it in Fiji and save its labels as TIFF");
   }
   // The first files by name tell what the folder holds.
   std::vector<std::filesystem::path> files;

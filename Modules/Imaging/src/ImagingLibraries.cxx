@@ -1,8 +1,10 @@
 #include "voxelcore/LabelVolume.h"
 
+#include <blosc.h>
 #include <png.h>
 #include <tiffio.h>
 #include <zlib.h>
+#include <zstd.h>
 #ifdef VOXELCORE_BZIP2
 #  include <bzlib.h>
 #endif
@@ -27,7 +29,9 @@ ImagingLibraries()
 {
   std::vector<std::string> libraries{ "libtiff " + VersionIn(TIFFGetVersion()),
                                       "libpng " + VersionIn(png_get_libpng_ver(nullptr)),
-                                      "zlib " + VersionIn(zlibVersion()) };
+                                      "zlib " + VersionIn(zlibVersion()),
+                                      "blosc " + VersionIn(blosc_get_version_string()),
+                                      "zstd " + VersionIn(ZSTD_versionString()) };
 #ifdef VOXELCORE_BZIP2
   libraries.push_back("bzip2 " + VersionIn(BZ2_bzlibVersion()));
 #endif

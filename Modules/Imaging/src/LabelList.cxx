@@ -1,8 +1,11 @@
 #include "LabelList.h"
 
+#include "ScanFile.h"
+
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 namespace voxelcore
@@ -158,6 +161,25 @@ ReadByteTable(const std::filesystem::path & path)
   return labels;
 }
 
+/** The table that FreeSurfer comes with, copied beside a scan or where it is installed. */
+std::map<std::int64_t, ListedLabel>
+ReadFreeSurferTable(const std::filesystem::path & folder)
+{
+  const char * const home = std::getenv("FREESURFER_HOME");
+  for (const auto & place : { folder, std::filesystem::path(home != nullptr ? home : "") })
+  {
+    const auto      path = place / "FreeSurferColorLUT.txt";
+    std::error_code error;
+    if ((place != folder && place.empty()) || !std::filesystem::is_regular_file(path, error) ||
+        std::filesystem::file_size(path, error) > kLargestList)
+    {
+      continue;
+    }
+    return ReadTextList(path);
+  }
+  return {};
+}
+
 } // namespace
 
 std::map<std::int64_t, ListedLabel>
@@ -168,6 +190,7 @@ ReadLabelList(const std::filesystem::path & scan)
   {
     whole = scan.parent_path().filename().string();
   }
+  const bool isMgh = ScanKindOf(scan) == ScanKind::Mgh;
   if (LowerCase(whole).ends_with(".gz"))
   {
     whole.resize(whole.size() - 3);
@@ -209,7 +232,7 @@ ReadLabelList(const std::filesystem::path & scan)
       hasColors = hasColors || takeColors;
     }
   }
-  return labels;
+  return labels.empty() && isMgh ? ReadFreeSurferTable(folder) : labels;
 }
 
 } // namespace voxelcore

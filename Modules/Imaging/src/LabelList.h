@@ -16,7 +16,8 @@ namespace voxelcore
  *  - FreeSurfer's colour tables: value, name, red, green, blue, and one more number;
  *  - value, blank or tab, name; columns of numbers behind the name that every line has are dropped.
  *  Lines that do not begin with a number are ignored. A .lut of 768 bytes is MRIcron's: 256 reds, greens and blues.
- *  Empty when there is no such file. */
+ *  Of a FreeSurfer volume (.mgh, .mgz) that has none of these: FreeSurferColorLUT.txt beside it, else in
+ *  $FREESURFER_HOME. Empty when there is no such file. */
 std::map<std::int64_t, ListedLabel>
 ReadLabelList(const std::filesystem::path & scan);
 

@@ -3,6 +3,7 @@
 // The header is read here and not by itk::NiftiImageIO, which gives the first volume of a series with its direction
 // lost, floats instead of scaled whole numbers, 1 mm for a missing spacing, and believes any size.
 
+#include "HeaderFields.h"
 #include "NiftiForms.h"
 #include "ScanFile.h"
 #include "StatedSpacing.h"
@@ -19,33 +20,6 @@ namespace voxelcore
 {
 namespace
 {
-
-/** Fields of the header by their offset, in the file's byte order. */
-class Fields
-{
-public:
-  Fields(std::span<const std::byte> bytes, bool swapped)
-    : m_Bytes(bytes)
-    , m_Swapped(swapped)
-  {}
-
-  template <typename T>
-  T
-  At(std::size_t offset) const
-  {
-    std::array<std::byte, sizeof(T)> raw;
-    std::copy_n(m_Bytes.begin() + static_cast<std::ptrdiff_t>(offset), sizeof(T), raw.begin());
-    if (m_Swapped)
-    {
-      std::reverse(raw.begin(), raw.end());
-    }
-    return std::bit_cast<T>(raw);
-  }
-
-private:
-  std::span<const std::byte> m_Bytes;
-  bool                       m_Swapped;
-};
 
 /** What both versions of the header say. */
 struct NiftiHeader
@@ -70,7 +44,7 @@ constexpr std::size_t  kSize2 = 540;
 constexpr std::int64_t kMostBlocks = 1 << 30; // on the axes behind the third
 
 void
-ReadVersion1(const Fields & f, NiftiHeader & h)
+ReadVersion1(const HeaderFields & f, NiftiHeader & h)
 {
   for (std::size_t i = 0; i < 8; ++i)
   {
@@ -102,7 +76,7 @@ ReadVersion1(const Fields & f, NiftiHeader & h)
 }
 
 void
-ReadVersion2(const Fields & f, NiftiHeader & h)
+ReadVersion2(const HeaderFields & f, NiftiHeader & h)
 {
   for (std::size_t i = 0; i < 8; ++i)
   {
@@ -146,7 +120,7 @@ ReadNiftiHeader(const std::filesystem::path & path)
   const auto swappedSize = static_cast<std::int32_t>(__builtin_bswap32(static_cast<std::uint32_t>(size)));
   h.swapped = swappedSize == std::int32_t{ kSize1 } || swappedSize == std::int32_t{ kSize2 };
   const std::int32_t trueSize = h.swapped ? swappedSize : size;
-  const Fields       fields(bytes, h.swapped);
+  const HeaderFields fields(bytes, h.swapped);
   const auto         magicIs = [&](std::size_t at, std::string_view text) {
     return std::memcmp(bytes.data() + at, text.data(), text.size()) == 0;
   };

@@ -14,16 +14,21 @@ ReadGreyVolume(const std::filesystem::path & path,
                const ReadOptions &           options,
                const ProgressCallback &      progress)
 {
-  ScanFile scan = OpenScan(path, options);
-  if (scan.interleaved > 1 && scan.component < 0)
-  {
-    RefuseInput(path, "it is a segmentation in layers, without grey values", "give the scan it was made of");
-  }
   CropRange part;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     part.first[axis] = box.lower[axis];
     part.end[axis] = box.lower[axis] + box.size[axis];
+  }
+  ReadOptions ofPart = options;
+  ofPart.crop = part;
+  ScanFile scan = OpenScan(path, ofPart);
+  if (scan.interleaved > 1 && scan.component < 0)
+  {
+    RefuseInput(path, "it is a segmentation in layers, without grey values", "give the scan it was made of");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
     if (part.first[axis] < 0 || part.end[axis] > scan.geometry.size[axis] || box.size[axis] < 1)
     {
       RefuseInput(path, "it is smaller than the segmentation", "give the scan the segmentation was made of");

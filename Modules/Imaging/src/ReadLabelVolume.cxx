@@ -34,7 +34,7 @@ LabelMap
 ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options, const ProgressCallback & progress)
 {
   ScanFile scan = OpenScan(path, options);
-  if (scan.segments.empty())
+  if (scan.segments.empty() && scan.listed.empty())
   {
     scan.listed = ReadLabelList(path);
   }
@@ -62,7 +62,7 @@ ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options,
     }
     reader.Finish(progress);
   }
-  if (!scan.moreVolumes && scan.voxels->Finish())
+  if (!scan.moreVolumes && scan.voxels->Finish() && !scan.hasMore)
   {
     scan.warnings.push_back("the file is longer than its header says; check that the header belongs to it");
   }

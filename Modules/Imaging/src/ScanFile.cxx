@@ -1,6 +1,7 @@
 #include "ScanFile.h"
 
 #include "ForeignFormats.h"
+#include "ZarrArray.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -80,9 +81,19 @@ ChooseComponent(const std::filesystem::path & path,
   return static_cast<std::uint64_t>(*options.component);
 }
 
+bool
+IsZarrFolder(const std::filesystem::path & path)
+{
+  return IsZarr(path);
+}
+
 ScanKind
 ScanKindOf(const std::filesystem::path & path)
 {
+  if (IsZarr(path))
+  {
+    return ScanKind::Zarr;
+  }
   if (AreSlices(path))
   {
     return ScanKind::Slices;
@@ -96,6 +107,7 @@ ScanKindOf(const std::filesystem::path & path)
   return ends({ ".nrrd", ".nhdr" })                                          ? ScanKind::Nrrd
          : ends({ ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz" }) ? ScanKind::Nifti
          : ends({ ".mha", ".mhd" })                                          ? ScanKind::MetaImage
+         : ends({ ".mgh", ".mgz", ".mgh.gz" })                               ? ScanKind::Mgh
          : ends({ ".tif", ".tiff" })                                         ? ScanKind::Tiff
          : ends({ ".png" })                                                  ? ScanKind::Png
                                                                              : ScanKind::Unknown;
@@ -105,6 +117,15 @@ ScanFile
 OpenScan(const std::filesystem::path & path, const ReadOptions & options)
 {
   const ScanKind kind = ScanKindOf(path);
+  if (kind == ScanKind::Zarr)
+  {
+    return OpenZarr(path, options);
+  }
+  if (options.level)
+  {
+    throw UsageError(
+      Text("--level: ", Printable(path.string(), 4096), " has one resolution; only OME-Zarr has several"));
+  }
   if (kind == ScanKind::Slices)
   {
     return OpenSlices(path, options);
@@ -121,11 +142,14 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
       return OpenNifti(path, options);
     case ScanKind::MetaImage:
       return OpenMetaImage(path, options);
+    case ScanKind::Mgh:
+      return OpenMgh(path, options);
     case ScanKind::Tiff:
       return OpenTiff(path, options);
     case ScanKind::Png:
       RefuseInput(path, "2-D image", "a volume is needed: name the folder of slices, or a pattern such as slice_*.png");
     case ScanKind::Slices:
+    case ScanKind::Zarr:
     case ScanKind::Unknown:
       break;
   }
@@ -133,11 +157,13 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
 }
 
 std::vector<std::filesystem::path>
-ScanFiles(const std::filesystem::path & path)
+ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
 {
   std::vector<std::filesystem::path> files;
   switch (ScanKindOf(path))
   {
+    case ScanKind::Zarr:
+      return ZarrFiles(path, options);
     case ScanKind::Slices:
       files = SlicePaths(path);
       std::sort(files.begin(), files.end());
@@ -151,6 +177,7 @@ ScanFiles(const std::filesystem::path & path)
     case ScanKind::MetaImage:
       files = MetaImageDataFiles(path);
       break;
+    case ScanKind::Mgh:
     case ScanKind::Tiff:
     case ScanKind::Png:
     case ScanKind::Unknown:

@@ -28,6 +28,7 @@ struct ScanFile : StoredVoxels
   std::vector<std::string> warnings;
 
   bool                        moreVolumes = false; ///< the stream goes on behind the volume that is read
+  bool                        hasMore = false;     ///< what follows the voxels in the file is no surprise
   std::unique_ptr<ByteStream> voxels;              ///< i fastest, then j, then k, from the first voxel on
 };
 
@@ -35,7 +36,8 @@ struct ScanFile : StoredVoxels
 std::vector<std::string>
 WarningsOf(const ScanFile & scan);
 
-/** What VoxelCore writes as the description of a NIfTI file whose lengths are in voxels: the format has no such unit. */
+/** What VoxelCore writes as the description of a NIfTI file whose lengths are in voxels: the format has no such unit.
+ *  */
 inline constexpr std::string_view kNiftiInVoxels = "VoxelCore: lengths in voxels";
 
 /** One opener a format. \throws InputError */
@@ -46,11 +48,16 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options);
 ScanFile
 OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options);
 ScanFile
+OpenMgh(const std::filesystem::path & path, const ReadOptions & options);
+ScanFile
 OpenTiff(const std::filesystem::path & path, const ReadOptions & options);
 /** A folder, or a pattern in the last part of the path: `*` stands for anything, `%d`, `%04d` or a run of `#` for a
  *  number. */
 ScanFile
 OpenSlices(const std::filesystem::path & path, const ReadOptions & options);
+/** A Zarr store, an image or an array in it. Only chunks that options.crop touches are read; beyond it voxels are 0. */
+ScanFile
+OpenZarr(const std::filesystem::path & path, const ReadOptions & options);
 /** Whether the path names slices: a folder, or a pattern that is no file. */
 bool
 AreSlices(const std::filesystem::path & path);
@@ -61,6 +68,9 @@ std::vector<std::filesystem::path>
 MetaImageDataFiles(const std::filesystem::path & path);
 std::vector<std::filesystem::path>
 NiftiPartner(const std::filesystem::path & path);
+/** Metadata and chunks of the part that options choose. */
+std::vector<std::filesystem::path>
+ZarrFiles(const std::filesystem::path & path, const ReadOptions & options);
 /** The slices that a folder or pattern stands for, in natural order. */
 std::vector<std::filesystem::path>
 SlicePaths(const std::filesystem::path & path);
@@ -71,9 +81,11 @@ enum class ScanKind : std::uint8_t
   Nrrd,
   Nifti,
   MetaImage,
+  Mgh,
   Tiff,
   Png,
   Slices,
+  Zarr,
   Unknown
 };
 ScanKind

@@ -196,8 +196,8 @@ StageCoreJob(const CoreOptions & options,
 
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
-  auto                 digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan); });
-  InputScan            volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
+  auto      digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan, options.reading); });
+  InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   RequireLengths(options, volume.geometry.unit);
   EditedLabels edited = EditLabels(std::move(volume.labels),

@@ -49,7 +49,10 @@ RequireLengthsOf(const std::filesystem::path & scan, SpatialUnit unit, const Cer
 }
 
 void
-RequireSameUnit(const std::filesystem::path & one, SpatialUnit unit, const std::filesystem::path & other, SpatialUnit otherUnit)
+RequireSameUnit(const std::filesystem::path & one,
+                SpatialUnit                   unit,
+                const std::filesystem::path & other,
+                SpatialUnit                   otherUnit)
 {
   if (unit != otherUnit)
   {

@@ -133,7 +133,7 @@ ReadScanOrMesh(const std::filesystem::path &       path,
     return { ReadLabelVolume(path, options, progress), {} };
   }
   if ((options.labels != "all" && options.labels != "1") || options.binary || options.threshold || options.volume ||
-      options.component || options.crop || options.orthonormalize || options.niftiForm != "auto")
+      options.component || options.level || options.crop || options.orthonormalize || options.niftiForm != "auto")
   {
     throw UsageError(path.string() + ": a mesh is one shape, without labels, values or directions; of the options " +
                      "about reading only --resolution and --spacing are for meshes");

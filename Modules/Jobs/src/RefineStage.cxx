@@ -133,6 +133,7 @@ GreySource(const RefineOptions &         options,
   {
     how.volume.reset();
     how.component.reset();
+    how.level.reset();
   }
   const VoxelBox      whole = BoxOf(input);
   const ImageGeometry geometry = input.geometry;

@@ -145,8 +145,8 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   ReportProgress(context.progress, "reading", 0);
   MedialModel model = ReadModel(options.core);
   RequireVtkReads(options.core, model);
-  const CoreReport     made = ParseProvenance(model.provenance, options.core.string());
-  InputScan            volume = ReadScanOrMesh(options.scan,
+  const CoreReport made = ParseProvenance(model.provenance, options.core.string());
+  InputScan        volume = ReadScanOrMesh(options.scan,
                                     RecordedReading(made.parameters),
                                     made.parameters.resolution,
                                     PartOfProgress(context.progress, "reading", 0, 0.05));
@@ -169,7 +169,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   {
     result.notes.push_back(options.core.string() + ": was made from an image in memory, so it names no scan file");
   }
-  else if (ScanSha256(options.scan) != made.input.sha256)
+  else if (ScanSha256(options.scan, RecordedReading(made.parameters)) != made.input.sha256)
   {
     result.notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +
                            " was made from (another SHA-256); checked all the same");
@@ -253,7 +253,8 @@ VerifyText(const VerifyResult & result)
     const auto & checks = label.report.checks;
     const auto   failed = std::count_if(checks.begin(), checks.end(), [](const auto & check) { return !check.passed; });
     text += LabelText(label.label, label.name) + ": " + std::to_string(checks.size()) + " checks, " +
-            (failed == 0 ? std::string("all passed") : std::to_string(failed) + " FAILED") + GapText(label, result.unit) + "\n";
+            (failed == 0 ? std::string("all passed") : std::to_string(failed) + " FAILED") +
+            GapText(label, result.unit) + "\n";
     for (const VerificationCheck & check : checks)
     {
       if (!check.passed)

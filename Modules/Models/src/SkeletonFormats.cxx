@@ -35,10 +35,10 @@ KindName(NodeKind kind)
 void
 WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const MeasureOptions & options)
 {
-  const bool       inVoxels = model.unit == SpatialUnit::Voxels;
-  const double     scale = inVoxels ? 1 : 1000;
-  TextFile         file(path, 9);
-  std::uint64_t    next = 1;
+  const bool    inVoxels = model.unit == SpatialUnit::Voxels;
+  const double  scale = inVoxels ? 1 : 1000;
+  TextFile      file(path, 9);
+  std::uint64_t next = 1;
   file << "# VoxelCore curve skeleton\n# " << (inVoxels ? "voxels" : "micrometres")
        << ", LPS axes; radii of the largest balls\n";
   for (const SkeletonPart & part : model.parts)

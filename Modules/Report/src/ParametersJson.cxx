@@ -95,8 +95,12 @@ ReadValue(const Json & json, std::optional<T> & value)
   }
 }
 
-/** Only of meshes, so only in the files of meshes. */
-constexpr std::string_view kResolution = "resolution";
+/** What only meshes or some formats have is only in their files. */
+bool
+IsOfSome(std::string_view name)
+{
+  return name == "resolution" || name == "level";
+}
 
 /** Writes fields, or reads them and remembers their names. */
 class JsonFieldWriter
@@ -111,7 +115,7 @@ public:
   operator()(const char * name, const T & value) const
   {
     const Json json = ValueJson(value);
-    if (name != kResolution || !json.is_null())
+    if (!IsOfSome(name) || !json.is_null())
     {
       m_Json[name] = json;
     }
@@ -133,7 +137,7 @@ public:
   operator()(const char * name, T & value)
   {
     m_Names.insert(name);
-    if (name != kResolution || m_Json.contains(name))
+    if (!IsOfSome(name) || m_Json.contains(name))
     {
       ReadValue(AtLength(m_Json, name), value);
     }

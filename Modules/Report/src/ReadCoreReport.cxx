@@ -159,7 +159,7 @@ ParseProvenance(const std::string & text, const std::string & where)
     const auto unit = UnitNamed(json.at("input").value("unit", UnitName(SpatialUnit::Millimetres)));
     if (!unit)
     {
-      throw InputError(where + ": its field Provenance names no unit known here; make the file again");
+      throw InputError("its field Provenance names no unit known here; make the file again");
     }
     report.input.geometry.unit = *unit;
     report.parameters = ReadParameters(json.at("parameters"));

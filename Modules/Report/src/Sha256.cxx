@@ -1,7 +1,6 @@
 #include "voxelcore/Sha256.h"
 
 #include "voxelcore/Error.h"
-#include "voxelcore/LabelVolume.h"
 
 #include <openssl/evp.h>
 
@@ -88,9 +87,9 @@ FileSha256(const std::filesystem::path & path)
 }
 
 std::string
-ScanSha256(const std::filesystem::path & scan)
+ScanSha256(const std::filesystem::path & scan, const ReadOptions & reading)
 {
-  const auto files = ScanFiles(scan);
+  const auto files = ScanFiles(scan, reading);
   if (files.size() == 1)
   {
     return FileSha256(files.front());
@@ -101,6 +100,12 @@ ScanSha256(const std::filesystem::path & scan)
     digest.Update(AsBytes(FileSha256(file) + "  " + file.filename().string() + "\n"));
   }
   return digest.Finish();
+}
+
+std::string
+ScanSha256(const std::filesystem::path & scan)
+{
+  return ScanSha256(scan, ReadOptions());
 }
 
 } // namespace voxelcore

@@ -23,6 +23,7 @@ struct ReadOptions
   std::string                 niftiForm = "auto"; ///< "auto" (ITK's rule), "sform" or "qform"
   std::optional<std::int64_t> volume;             ///< which volume of a 4-D file, counted from 0
   std::optional<std::int64_t> component;          ///< which of several values a voxel, from 0
+  std::optional<std::int64_t> level;              ///< which resolution of an OME-Zarr image, from 0, the finest
 };
 
 /** Reads the labels of a scan in one pass over its voxels:
@@ -34,6 +35,9 @@ struct ReadOptions
  *  - slices, one TIFF or one PNG each (grey, 1 to 16 bits): a folder, or a pattern in the last part of the path, where
  *    `*` stands for anything and `%d`, `%04d` or a run of `#` for a number. They are taken in natural order (2 before
  *    10) and must be numbered without a gap.
+ *  - FreeSurfer (.mgh, .mgz), named by FreeSurferColorLUT.txt beside it or in $FREESURFER_HOME;
+ *  - OME-Zarr, Zarr versions 2 and 3 (a folder; blosc, zstd, gzip, zlib, bzip2, crc32c, shards): an image, a label
+ *    image or an array; options.level picks the resolution. Of a part only its chunks are read.
  *  Colour images and vectors have several values a voxel: options.component picks one of them as it is stored.
  *
  *  Values are whole numbers or the scan is refused; nothing is ever rounded, clipped or reinterpreted (a NIfTI slope
@@ -44,8 +48,9 @@ struct ReadOptions
  *  are: the numbers their labels get must not depend on the crop). Places do not move: shapes lie where they lie in the
  *  whole scan.
  *
- *  The voxel size is the file's: of TIFF as ImageJ, OME-XML or its resolution tags state it. Where there is none, 1 mm
- *  is assumed and warned of. Of hyperstacks, options.component picks the channel and options.volume the time point.
+ *  The voxel size is the file's: of TIFF as ImageJ, OME-XML or its resolution tags state it. Where there is none, the
+ *  unit of the geometry is the voxel, which is warned of. Of hyperstacks, options.component picks the channel and
+ *  options.volume the time point.
  *
  *  With options.refuseGrey a grey scan is told from labels and refused with a threshold proposed (GreyScanError), as
  *  long as neither binary nor threshold is set and the file names no labels.
@@ -58,15 +63,20 @@ ReadLabelVolume(const std::filesystem::path & path,
                 const ReadOptions &           options = {},
                 const ProgressCallback &      progress = {});
 
+/** Whether a folder belongs to a Zarr store: it is read as a scan, and what lies in it is its own. */
+bool
+IsZarrFolder(const std::filesystem::path & path);
+
 /** The libraries that read and write scans, as they are loaded: "libtiff 4.5.0", "libpng 1.6.39", ... */
 std::vector<std::string>
 ImagingLibraries();
 
 /** The files a scan consists of: the file itself first, then, sorted by name, the data files that a detached header
  *  points to, or the other half of a NIfTI pair; for a folder or a pattern the slices alone. Files that are not there
- *  are left out. \throws InputError when a header that must be looked into is none. */
+ *  are left out. Of a Zarr store its metadata and the chunks that the options' level and crop touch.
+ *  \throws InputError when a header that must be looked into is none. */
 std::vector<std::filesystem::path>
-ScanFiles(const std::filesystem::path & path);
+ScanFiles(const std::filesystem::path & path, const ReadOptions & options = {});
 
 /** Writes labels as a volume: .nrrd .nii .nii.gz .mha .mhd .tif by the extension of `path`; the smallest unsigned type
  *  that holds the values. Packed when `compress` and the format can (.nii never, .nii.gz always). NIfTI keeps the

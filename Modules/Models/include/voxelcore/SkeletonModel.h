@@ -16,8 +16,8 @@ using SkeletonPart = MeasuredSkeleton;
 
 struct SkeletonModel
 {
-  std::vector<SkeletonPart> parts;      ///< by label, then component
-  std::string               provenance; ///< JSON text of the field array Provenance
+  std::vector<SkeletonPart> parts;                           ///< by label, then component
+  std::string               provenance;                      ///< JSON text of the field array Provenance
   SpatialUnit               unit = SpatialUnit::Millimetres; ///< of all lengths
 };
 

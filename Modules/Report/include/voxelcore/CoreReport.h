@@ -133,8 +133,8 @@ VoxelCoreVersion();
 std::string
 VersionText();
 
-/** The report as indented JSON with a final newline. Keys stand in a fixed order. Of a scan without voxel size they name
- *  voxels ("area_vox2"), and "unit" is "voxel". */
+/** The report as indented JSON with a final newline. Keys stand in a fixed order. Of a scan without voxel size they
+ *  name voxels ("area_vox2"), and "unit" is "voxel". */
 std::string
 ReportJson(const CoreReport & report);
 

@@ -15,6 +15,7 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("threshold", options.reading.threshold);
   visit("volume", options.reading.volume);
   visit("component", options.reading.component);
+  visit("level", options.reading.level);
   visit("spacing", options.reading.spacing);
   visit("resolution", options.resolution);
   visit("orthonormalize", options.reading.orthonormalize);

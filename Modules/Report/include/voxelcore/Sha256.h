@@ -1,6 +1,8 @@
 #pragma once
 // SHA-256 (FIPS 180-4), and the digest that names a scan in a report.
 
+#include "voxelcore/LabelVolume.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -38,7 +40,9 @@ std::string
 FileSha256(const std::filesystem::path & path);
 
 /** FileSha256 of a scan in one file; of several, the digest of the lines "<digest>  <file name>\n". So the folder's
- *  place does not matter, its content does. */
+ *  place does not matter, its content does. Of a Zarr store, of what `reading` reads of it. */
+std::string
+ScanSha256(const std::filesystem::path & scan, const ReadOptions & reading);
 std::string
 ScanSha256(const std::filesystem::path & scan);
 
