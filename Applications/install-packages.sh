@@ -10,14 +10,15 @@ set -euo pipefail
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build ccache libvtk9-dev libtet1.5-dev libtiff-dev libpng-dev zlib1g-dev libbz2-dev \
-                libblosc-dev libzstd-dev \
-                libexpat1-dev libx11-dev libzip-dev libmeshoptimizer-dev libssl-dev libjs-three libboost-dev libcli11-dev nlohmann-json3-dev ;;
+                 libblosc-dev libzstd-dev libexpat1-dev libinsighttoolkit5-dev libx11-dev libzip-dev \
+                 libmeshoptimizer-dev libssl-dev libjs-three libboost-dev libcli11-dev nlohmann-json3-dev ;;
     python) echo pybind11-dev python3-dev python3-numpy python3-vtk9 ;;
     demo) echo mricron-data ;;
     picture) echo xvfb xauth ;;
     guide) echo mkdocs ;;
-    test) echo clang-format xvfb libinsighttoolkit5-dev libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest \
-               python3-tifffile python3-zarr xauth mricron-data ;;
+    test) echo clang-format xvfb libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest \
+               python3-pydicom python3-mrcfile python3-h5py minc-tools python3-tifffile python3-zarr xauth \
+               mricron-data ;;
     package) echo dpkg-dev debootstrap doxygen graphviz groff mkdocs mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
     browser) echo chromium chromium-headless-shell python3 ;;

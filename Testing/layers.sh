@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Holds the house together: each module includes only headers of the modules it may use (Modules/README.md), and only
-# module ITK knows ITK, only Models and Display know VTK, only Display its rendering.
+# module ITK and Imaging's helper program (Modules/Imaging/itk) know ITK and GDCM, only Models and Display know VTK, only
+# Display its rendering.
 # usage: layers.sh [FOLDER WITH Modules/]
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
@@ -47,13 +48,17 @@ for folder in Modules/*/; do
       complain "$file:$line: $module must not use $owner ($name)"
     fi
     case "$name" in
-      itk*) [ "$module" = ITK ] || complain "$file:$line: only module ITK knows ITK ($name)" ;;
+      itk* | gdcm*) [[ "$module" = ITK || "$file" = Modules/Imaging/itk/* ]] ||
+        complain "$file:$line: only module ITK and Modules/Imaging/itk know ITK ($name)" ;;
       voxelcore/ModelPolyData.h) [[ "$module" = Models || "$module" = Display ]] ||
         complain "$file:$line: only Models and Display know VTK ($name)" ;;
       vtk*) [[ "$module" = Models || "$module" = Display ]] ||
         complain "$file:$line: only Models and Display know VTK ($name)" ;;
       tetgen.h) [ "$file" = Modules/Delaunay/src/TetGenEngine.cxx ] || complain "$file:$line: TetGen belongs in one file" ;;
     esac
+    if [[ "$name" = *.h && -e "Modules/Imaging/itk/$name" && "$file" != Modules/Imaging/itk/* ]]; then
+      complain "$file:$line: what the helper program is made of is its own ($name)"
+    fi
   done < <(grep -rnE '^ *# *include' "$folder" --include='*.h' --include='*.hxx' --include='*.cxx')
 done
 [ "$bad" -eq 0 ] && echo "All includes point the right way."

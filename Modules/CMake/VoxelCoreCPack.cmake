@@ -42,7 +42,8 @@ if(TARGET VoxelCoreDisplay)
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-vtk9)
+# The program's package holds what reads DICOM and others through ITK.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-vtk9, voxelcore")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtiff-dev, libpng-dev, zlib1g-dev, libbz2-dev, libblosc-dev")
 string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libzstd-dev, libexpat1-dev, libssl-dev, libvtk9-dev")
 if(VOXELCORE_TETGEN)

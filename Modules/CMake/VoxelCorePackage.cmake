@@ -31,6 +31,10 @@ foreach(component ${VOXELCORE_COMPONENTS})
   endif()
 endforeach()
 
+if(TARGET voxelcore_itk_reader)
+  install(TARGETS voxelcore_itk_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/voxelcore" COMPONENT program)
+endif()
+
 # Only public headers lie in an include folder. Those of ITK and VTK classes need these libraries.
 foreach(module ${VOXELCORE_MODULES})
   if(EXISTS "${PROJECT_SOURCE_DIR}/Modules/${module}/include/voxelcore")

@@ -18,6 +18,9 @@ fail() { echo "guide_test.sh: $*" >&2; exit 1; }
 # A ball of radius 7 with a soft rim, and a needle of two triangles a side, so that 1024 voxels along it are few.
 make_inputs() {
   voxelcore phantom torus --size 40,40,24 --spacing 0.5,0.5,1 -o scan.nii.gz -q
+  voxelcore phantom torus --size 40,40,24 -o torus.nii -q
+  tail -c $((40 * 40 * 24)) torus.nii >scan.raw
+  rm torus.nii
   voxelcore phantom root --size 40 -o root.nii.gz -q
   voxelcore phantom root --size 40 -o huge.nrrd -q
   voxelcore phantom thick-and-thin --size 32 -o atlas.nii.gz -q

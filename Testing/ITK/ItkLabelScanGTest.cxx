@@ -1,5 +1,6 @@
 // What itk::ImageFileReader and LabelScanReader give of a scan: pixels that hold their values, regions, streams.
 
+#include "ForeignBytes.h"
 #include "ItkFixtures.h"
 #include "ItkScanOutcomes.h"
 #include "NrrdFixtures.h"
@@ -249,6 +250,7 @@ TEST_F(ItkLabelScan, TheFactoryGivesItForItsFormatsAndNoOthers)
   }
   EXPECT_EQ(nameOf("a.png"), "");
   EXPECT_EQ(nameOf("a.dcm"), "");
+  EXPECT_EQ(nameOf("a.mrc"), ""); // ITK's own readers keep their formats
   auto io = itk::LabelScanImageIO::New();
   EXPECT_FALSE(io->CanWriteFile("a.nrrd"));
   EXPECT_NE(ThrownBy([&] { io->Write(nullptr); }).find("only reads"), std::string::npos);
@@ -301,6 +303,28 @@ TEST_F(ItkLabelScan, AnyRegionsInAnyOrderAreThoseOfTheWhole)
 TEST_F(ItkLabelScan, ARawNrrdStreamsWithinTwoSlabs)
 {
   ExpectAtMostTwoSlabs(m_Folder, 512, 512); // 256 MB
+}
+
+TEST_F(ItkLabelScan, FormatsOfItkAreReadByTheStrictRules)
+{
+  const auto values = ForeignValues();
+  for (const auto & [name, bytes] :
+       std::vector<std::pair<std::string, std::string>>{ { "a.mrc", MrcBytes() },
+                                                         { "a.gipl", GiplBytes() },
+                                                         { "a.dcm", DicomSegmentationBytes() } })
+  {
+    auto reader = itk::LabelScanReader<itk::Image<unsigned char, 3>>::New();
+    reader->SetFileName(m_Folder.Write(name, bytes).string());
+    reader->Update();
+    const auto * image = reader->GetOutput();
+    EXPECT_TRUE(std::equal(values.begin(), values.end(), image->GetBufferPointer())) << name;
+    const LabelMap expected = ReadLabelVolume(m_Folder / name);
+    for (unsigned axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_EQ(image->GetSpacing()[axis], expected.geometry.spacing[axis]) << name;
+      EXPECT_EQ(image->GetOrigin()[axis], expected.geometry.origin[axis]) << name;
+    }
+  }
 }
 
 using HeavyItkLabelScan = ItkLabelScan;

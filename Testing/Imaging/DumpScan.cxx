@@ -1,6 +1,7 @@
 // Prints what ReadLabelVolume makes of a scan, as JSON on one line, for comparison with other readers.
 //
-// usage: VoxelCoreDumpScan SCAN [NIFTI_FORM] [component=N] [volume=N] [level=N] [crop=I0:I1,J0:J1,K0:K1]
+// usage: VoxelCoreDumpScan SCAN [form=auto|sform|qform] [component=N] [volume=N] [level=N]
+//                          [threshold=LO:HI] [crop=I0:I1,J0:J1,K0:K1] [names]
 //        VoxelCoreDumpScan -        the same for each line of standard input, words separated by tabs
 
 #include "voxelcore/Error.h"
@@ -14,6 +15,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include <zlib.h>
 
 namespace
 {
@@ -37,12 +39,42 @@ OptionsOf(const std::vector<std::string> & words)
     {
       options.crop = voxelcore::ParseCrop(word.substr(5));
     }
-    if (word.find('=') == std::string::npos)
+    else if (word.starts_with("form="))
     {
-      options.niftiForm = word;
+      options.niftiForm = word.substr(5);
+    }
+    else if (word.starts_with("threshold="))
+    {
+      options.threshold = { std::stod(word.substr(10)), std::stod(word.substr(word.find(':') + 1)) };
     }
   }
   return options;
+}
+
+/** The CRC-32 of a label's voxels as bytes 0 and 1, x fastest. */
+unsigned long
+MaskDigest(const voxelcore::LabelShape & label, const voxelcore::ImageGeometry & geometry)
+{
+  unsigned long      digest = crc32(0, nullptr, 0);
+  const auto &       size = geometry.size;
+  std::vector<Bytef> row(static_cast<std::size_t>(size[0]));
+  const auto &       box = label.shape.Box();
+  const auto         inside = [&](std::int64_t value, std::size_t axis) {
+    return value >= box.lower[axis] && value < box.lower[axis] + box.size[axis];
+  };
+  for (std::int32_t z = 0; z < size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < size[1]; ++y)
+    {
+      for (std::int32_t x = 0; x < size[0]; ++x)
+      {
+        row[static_cast<std::size_t>(x)] =
+          inside(x, 0) && inside(y, 1) && inside(z, 2) && label.shape.Contains(x, y, z) ? 1 : 0;
+      }
+      digest = crc32(digest, row.data(), static_cast<uInt>(row.size()));
+    }
+  }
+  return digest;
 }
 
 Json
@@ -50,10 +82,8 @@ Dump(const std::vector<std::string> & words)
 {
   const auto   volume = voxelcore::ReadLabelVolume(words.at(0), OptionsOf(words));
   const auto & g = volume.geometry;
-  Json         json{ { "unit", voxelcore::UnitName(g.unit) },
-             { "size", g.size },
-             { "spacing", g.spacing },
-             { "affine", Json::array() } };
+  Json         json{ { "format", volume.format }, { "type", volume.pixelType }, { "unit", voxelcore::UnitName(g.unit) },
+             { "size", g.size },          { "spacing", g.spacing },     { "affine", Json::array() } };
   for (std::size_t row = 0; row < 3; ++row)
   {
     for (std::size_t column = 0; column < 3; ++column)
@@ -75,6 +105,15 @@ Dump(const std::vector<std::string> & words)
     if (label.color)
     {
       json["colors"][value] = *label.color;
+    }
+  }
+  if (words.back() == "names")
+  {
+    for (const auto & label : volume.labels)
+    {
+      json["more"][std::to_string(label.value)] = { { "name", label.name },
+                                                    { "color", label.color.value_or(voxelcore::Color{ -1, -1, -1 }) },
+                                                    { "mask", MaskDigest(label, g) } };
     }
   }
   return json;

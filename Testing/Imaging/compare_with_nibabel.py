@@ -59,7 +59,7 @@ def compare(dump, path, form):
     for component, name in enumerate(names):
         stored = values if name is None else values[name]
         chosen = [] if name is None else [f"component={component}"]
-        run = subprocess.run([dump, path, form] + chosen, capture_output=True, text=True, check=False)
+        run = subprocess.run([dump, path, f"form={form}"] + chosen, capture_output=True, text=True, check=False)
         if not fits(stored):
             if run.returncode != 3:
                 return False

@@ -57,6 +57,10 @@ run "$root/bin/voxelcore" core "$atlas" -o "$scratch/jhu.vtp" --report "$scratch
 ! grep -q '"passed": false' "$scratch/jhu.json" || fail "a certificate failed"
 run "$build/bin/voxelcore" core "$atlas" -o "$scratch/build.vtp" -q
 cmp "$scratch/jhu.vtp" "$scratch/build.vtp"
+{ printf '# vtk DataFile Version 3.0\nscan\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 3\nSPACING 1 1 2\n'
+  printf 'ORIGIN 0 0 0\nPOINT_DATA 27\nSCALARS labels short 1\nLOOKUP_TABLE default\n'
+  printf '4 %.0s' {1..27}; } > "$scratch/image.vtk"
+run "$root/bin/voxelcore" info "$scratch/image.vtk" | grep -q "ITK's VTKImageIO" || fail "no reading through ITK"
 [ -s "$root/share/man/man1/voxelcore-core.1" ] || [ -s "$root/share/man/man1/voxelcore-core.1.gz" ] || fail "no manual"
 [ -s "$root/share/bash-completion/completions/voxelcore" ] || fail "no completion"
 run PYTHONPATH="$root/lib/python3/dist-packages" /usr/bin/python3 -c "

@@ -34,6 +34,14 @@ case "$how" in
     mv "$scratch/first" "$moved/second"
     "$moved/second/bin/voxelcore" --version | head -1 | grep -qE '^voxelcore [0-9]+\.[0-9]+\.[0-9]+$' ||
       fail "the installed program does not say its version"
+    # What is read through ITK, a program beside it reads, found from where the tree was moved to.
+    if [ -x "$build/libexec/voxelcore/voxelcore-itk-reader" ]; then
+      { printf '# vtk DataFile Version 3.0\nscan\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 3\nSPACING 1 1 2\n'
+        printf 'ORIGIN 0 0 0\nPOINT_DATA 27\nSCALARS labels short 1\nLOOKUP_TABLE default\n'
+        printf '4 %.0s' {1..27}; } > "$scratch/image.vtk"
+      "$moved/second/bin/voxelcore" info "$scratch/image.vtk" | grep -q "ITK's VTKImageIO" ||
+        fail "the installed program does not read through ITK"
+    fi
     if grep -rlE "$source|$build" "$moved/second" --include='*.cmake' --include='*.h' --include='*.hxx'; then
       fail "these installed files name the folder they were built in"
     fi

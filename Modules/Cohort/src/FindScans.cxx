@@ -45,13 +45,27 @@ EndsInOneOf(const fs::path & path, std::initializer_list<const char *> endings)
 bool
 IsVolume(const fs::path & path)
 {
-  return EndsInOneOf(path, { ".nrrd", ".nhdr", ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".mha", ".mhd", ".mgh", ".mgz" });
+  return EndsInOneOf(path,
+                     { ".nrrd",
+                       ".nhdr",
+                       ".nii",
+                       ".nii.gz",
+                       ".hdr",
+                       ".hdr.gz",
+                       ".mha",
+                       ".mhd",
+                       ".mgh",
+                       ".mgz",
+                       ".mrc",
+                       ".mnc",
+                       ".gipl",
+                       ".gipl.gz" });
 }
 
 bool
 IsImage(const fs::path & path)
 {
-  return EndsInOneOf(path, { ".tif", ".tiff", ".png" });
+  return EndsInOneOf(path, { ".tif", ".tiff", ".png", ".dcm" });
 }
 
 /** Whether a file is read together with the scan beside it: its voxels, the names of its labels, its description. */

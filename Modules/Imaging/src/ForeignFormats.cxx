@@ -1,6 +1,7 @@
 #include "ForeignFormats.h"
 
 #include "ScanFile.h"
+#include "voxelcore/ScanRows.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -20,7 +21,9 @@ struct ForeignFormat
   std::size_t      at;         ///< where the magic stands
   std::string_view magic;      ///< empty: told by the extension alone
   std::string_view what;
-  std::string_view advice; ///< {file} stands for its name, {stem} for that without the extension
+  std::string_view advice;                ///< {file} stands for its name, {stem} for that without the extension
+  ItkFormat        itk = ItkFormat::None; ///< what the helper reads it as
+  bool             andExtension = false;  ///< the magic is that of others, too
 };
 
 constexpr std::string_view kDicomSegmentation = "1.2.840.10008.5.1.4.1.1.66.4"sv;
@@ -32,27 +35,44 @@ constexpr std::string_view kUnpack = "unpack it and give what is in it"sv;
 
 /** The first that fits is taken: magics before extensions. */
 constexpr std::array kFormats{
-  ForeignFormat{ " dcm dicom ima ", 128, "DICM"sv, "DICOM file", kDicomAdvice },
+  ForeignFormat{ " dcm dicom ima ", 128, "DICM"sv, "DICOM file", kDicomAdvice, ItkFormat::Dicom },
   ForeignFormat{ " mrc map st ali ccp4 ",
                  208,
                  "MAP "sv,
                  "MRC map",
-                 "convert it with 'mrc2tif -s {file} {stem}.tif' of IMOD, or open it in Fiji and save it as TIFF" },
+                 "convert it with 'mrc2tif -s {file} {stem}.tif' of IMOD, or open it in Fiji and save it as TIFF",
+                 ItkFormat::Mrc },
   ForeignFormat{ " mnc ",
                  0,
                  "CDF\1"sv,
                  "MINC volume",
-                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools" },
+                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools",
+                 ItkFormat::Minc },
+  ForeignFormat{ " mnc ",
+                 0,
+                 "\x89HDF\r\n\x1A\n"sv,
+                 "MINC volume",
+                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools",
+                 ItkFormat::Minc,
+                 true },
   ForeignFormat{ " mnc ",
                  SIZE_MAX,
                  ""sv,
                  "MINC volume",
-                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools" },
+                 "convert it with 'mnc2nii {file} {stem}.nii' of the MINC tools",
+                 ItkFormat::Minc },
   ForeignFormat{ " h5 hdf5 ims hdf nxs ilp ",
                  0,
                  "\x89HDF\r\n\x1A\n"sv,
                  "HDF5 file",
-                 "export its labels as TIFF: from the program that wrote it, from Fiji, or with h5py and tifffile" },
+                 "export its labels as TIFF: from the program that wrote it, from Fiji, or with h5py and tifffile",
+                 ItkFormat::Hdf5 },
+  ForeignFormat{ " vtk ",
+                 0,
+                 "# vtk DataFile"sv,
+                 "VTK image",
+                 "load it in 3D Slicer and save it as .nrrd, or in ParaView and save it as Meta Image .mhd",
+                 ItkFormat::Vtk },
   ForeignFormat{ " czi ", 0, "ZISRAWFILE"sv, "Zeiss CZI file", kBioFormats },
   ForeignFormat{ " nd2 ", 0, "\xDA\xCE\xBE\x0A"sv, "Nikon ND2 file", kBioFormats },
   ForeignFormat{ " lif ", SIZE_MAX, ""sv, "Leica LIF file", kBioFormats },
@@ -111,11 +131,12 @@ constexpr std::array kFormats{
                  ""sv,
                  "VTK image",
                  "load it in 3D Slicer and save it as .nrrd, or in ParaView and save it as Meta Image .mhd" },
-  ForeignFormat{ " gipl ",
+  ForeignFormat{ " gipl gipl.gz ",
                  SIZE_MAX,
                  ""sv,
                  "GIPL volume",
-                 "convert it with 'c3d {file} -o {stem}.nii.gz' (Convert3D), or save it as .nii.gz in ITK-SNAP" },
+                 "convert it with 'c3d {file} -o {stem}.nii.gz' (Convert3D), or save it as .nii.gz in ITK-SNAP",
+                 ItkFormat::Gipl },
   ForeignFormat{ " oif vsi lsm stk ndpi svs scn dv r3d lei zvi ", SIZE_MAX, ""sv, "microscope file", kBioFormats },
   ForeignFormat{ " n5 ", SIZE_MAX, ""sv, "N5 store", "open it in Fiji and save its labels as TIFF" },
   ForeignFormat{ " par rec ",
@@ -128,7 +149,8 @@ constexpr std::array kFormats{
     SIZE_MAX,
     ""sv,
     "bare voxels without a header",
-    "write {stem}.nhdr beside it with these eight lines, its own type, sizes and spacings in them, and "
+    "say what they are with --raw, such as --raw 512,512,300,uint16 and --spacing 0.02,0.02,0.02, or write {stem}.nhdr "
+    "beside it with these eight lines, its own type, sizes and spacings in them, and "
     "give that: 'NRRD0004', 'type: uint8', 'dimension: 3', 'sizes: 512 512 300', 'spacings: 0.02 0.02 0.02', "
     "'encoding: raw', 'endian: little', 'data file: {file}'" },
   ForeignFormat{ " npz pkl pt ",
@@ -173,14 +195,15 @@ const ForeignFormat *
 FindFormat(const std::filesystem::path & path, std::string_view bytes)
 {
   const std::string extension = LowerCase(path.extension().string());
-  const std::string word = extension.empty() ? std::string() : Text(" ", extension.substr(1), " ");
+  const std::string before = extension == ".gz" ? LowerCase(path.stem().extension().string()) : std::string();
+  std::string       word = extension.empty() ? std::string() : Text(" ", (before + extension).substr(1), " ");
   const auto        has = [&](const ForeignFormat & format) {
     return !word.empty() && format.extensions.find(word) != std::string_view::npos;
   };
   const auto is = [&](const ForeignFormat & format) {
     // A short magic may stand anywhere by chance.
     return !format.magic.empty() && bytes.size() > format.at && bytes.substr(format.at).starts_with(format.magic) &&
-           (format.magic.size() > 2 || has(format));
+           ((format.magic.size() > 2 && !format.andExtension) || has(format));
   };
   // A gzip-packed file is what its extension says, if that says anything.
   const bool packed = bytes.starts_with("\x1F\x8B"sv);
@@ -189,10 +212,69 @@ FindFormat(const std::filesystem::path & path, std::string_view bytes)
   {
     found = std::find_if(kFormats.begin(), kFormats.end(), has);
   }
+  if (found == kFormats.end() && !before.empty())
+  {
+    word = " gz ";
+    found = std::find_if(kFormats.begin(), kFormats.end(), has);
+  }
   return found == kFormats.end() ? nullptr : &*found;
 }
 
 } // namespace
+
+ItkFormat
+ItkFormatOf(const std::filesystem::path & path)
+{
+  const ForeignFormat * format = FindFormat(path, FirstBytes(path));
+  return format == nullptr ? ItkFormat::None : format->itk;
+}
+
+bool
+IsVtkImage(const std::filesystem::path & path)
+{
+  if (LowerCase(path.extension().string()) != ".vtk")
+  {
+    return false;
+  }
+  const std::string bytes = FirstBytes(path);
+  std::size_t       at = 0;
+  for (int line = 0; line < 8 && at < bytes.size(); ++line)
+  {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    const auto        words = Words(Trim(std::string_view(bytes).substr(at, end - at)));
+    if (line > 1 && words.size() == 2 && words[0] == "DATASET")
+    {
+      return words[1] == "STRUCTURED_POINTS";
+    }
+    at = end + 1;
+  }
+  return false;
+}
+
+bool
+IsDicomFolder(const std::filesystem::path & path)
+{
+  std::error_code ignored;
+  // The first files by name tell what the folder holds.
+  std::vector<std::filesystem::path> files;
+  for (const auto & entry : std::filesystem::directory_iterator(path, ignored))
+  {
+    const std::string name = LowerCase(entry.path().filename().string());
+    if (name.ends_with(".tif") || name.ends_with(".tiff") || name.ends_with(".png"))
+    {
+      return false; // slices
+    }
+    if (entry.is_regular_file(ignored) && !name.starts_with('.'))
+    {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  files.resize(std::min<std::size_t>(files.size(), 8));
+  return std::any_of(files.begin(), files.end(), [](const auto & file) {
+    return ItkFormatOf(file) == ItkFormat::Dicom;
+  });
+}
 
 void
 RefuseForeign(const std::filesystem::path & path)
@@ -204,22 +286,24 @@ RefuseForeign(const std::filesystem::path & path)
     {
       RefuseInput(
         path,
-        "DICOM segmentation, not read directly",
+        "DICOM segmentation, which this build, without ITK, does not read",
         Filled("convert it with 'segimage2itkimage --inputDICOM {file} --outputType nrrd --outputDirectory OUT' of "
                "dcmqi",
                path));
     }
     if (format->magic == "DICM" && bytes.find(kDicomContours) != std::string::npos)
     {
-      RefuseInput(path,
-                  "DICOM contours (RTSTRUCT), not read directly",
-                  "load them in 3D Slicer (SlicerRT) and save .seg.nrrd");
+      RefuseInput(path, "DICOM contours (RTSTRUCT), not read", "load them in 3D Slicer (SlicerRT) and save .seg.nrrd");
     }
-    RefuseInput(path, Text(format->what, ", not read directly"), Filled(format->advice, path));
+    RefuseInput(
+      path,
+      Text(format->what,
+           format->itk == ItkFormat::None ? ", not read directly" : ", which this build, without ITK, does not read"),
+      Filled(format->advice, path));
   }
   RefuseInput(path,
               "unknown kind of scan",
-              "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF or PNG slices");
+              "give .nrrd .nhdr .nii .nii.gz .hdr .img .mha .mhd .tif .tiff, or a folder of TIFF, PNG or DICOM slices");
 }
 
 void
@@ -247,7 +331,7 @@ RefuseForeignFolder(const std::filesystem::path & path)
     if (format != nullptr && format->magic == "DICM")
     {
       RefuseInput(path,
-                  "folder of DICOM files, not read directly",
+                  "folder of DICOM files, which this build, without ITK, does not read",
                   Filled("convert it with 'dcm2niix -z y -o OUT {file}', or load it in 3D Slicer and save it as .nrrd",
                          path.has_filename() ? path : path.parent_path()));
     }

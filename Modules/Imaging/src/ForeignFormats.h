@@ -1,10 +1,21 @@
 #pragma once
-// Formats that are not read: what they are, and what makes of them something that is.
+// Formats that have no reader here: which of them the helper reads through ITK (ItkProcess.h); of the others what they
+// are, and what makes of them something that is read.
+
+#include "ItkScan.h"
 
 #include <filesystem>
 
 namespace voxelcore
 {
+
+/** By the first bytes, else by the extension. */
+ItkFormat
+ItkFormatOf(const std::filesystem::path & path);
+
+/** Whether the first files of a folder are DICOM, and there are no slices of other kinds. */
+bool
+IsDicomFolder(const std::filesystem::path & path);
 
 /** For a file of no kind that is read: told by its first bytes, else by its extension. \throws InputError, always: one
  *  line that says what it is and which program or option leads on */

@@ -41,8 +41,9 @@ struct MetaHeader
   }
 };
 
+/** `isBeside`: of a text beside the data, which need not name them. */
 MetaHeader
-ReadMetaHeader(const std::filesystem::path & path)
+ReadMetaHeader(const std::filesystem::path & path, bool isBeside = false)
 {
   std::string text(kLongestMetaHeader, '\0');
   text.resize(OpenBytes(path, 0, Packing::Plain)->ReadSome(reinterpret_cast<std::byte *>(text.data()), text.size()));
@@ -66,6 +67,10 @@ ReadMetaHeader(const std::filesystem::path & path)
       continue;
     }
     const std::size_t equals = line.find('=');
+    if (isBeside && equals == std::string_view::npos)
+    {
+      continue;
+    }
     if (equals == std::string_view::npos || line.size() > 65536 || line.find('\0') != std::string_view::npos)
     {
       RefuseInput(path, Text("not a MetaImage header ('", Printable(line, 30), "')"), "check what kind of file it is");
@@ -82,7 +87,7 @@ ReadMetaHeader(const std::filesystem::path & path)
       }
     }
   }
-  if (!inList)
+  if (!inList && !isBeside)
   {
     RefuseInput(path, "not a MetaImage header: it has no ElementDataFile", "the file is damaged or of another kind");
   }
@@ -244,11 +249,27 @@ MetaImageDataFiles(const std::filesystem::path & path)
   return LowerCase(name) == "local" ? std::vector<std::filesystem::path>() : FilesNamed(path, name, header.list);
 }
 
-ScanFile
-OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
+bool
+IsMetaText(const std::filesystem::path & path)
 {
-  const MetaHeader header = ReadMetaHeader(path);
-  ScanFile         scan;
+  std::string text(4096, '\0');
+  text.resize(OpenBytes(path, 0, Packing::Plain)->ReadSome(reinterpret_cast<std::byte *>(text.data()), text.size()));
+  text = LowerCase(text);
+  return text.find('\0') == std::string::npos && text.find("dimsize") != std::string::npos &&
+         text.find("elementtype") != std::string::npos;
+}
+
+namespace
+{
+
+/** `data`: the voxels, where the header does not say where they are. */
+ScanFile
+OpenMeta(const std::filesystem::path & path,
+         const MetaHeader &            header,
+         const std::filesystem::path & data,
+         const ReadOptions &           options)
+{
+  ScanFile scan;
   scan.path = path;
   scan.format = "MetaImage";
   const auto dimensions = ParseInteger(header.Field({ "ndims" }));
@@ -300,7 +321,11 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
     scan.component = static_cast<std::ptrdiff_t>(component);
   }
 
-  const DataSource    source = FindData(path, header);
+  DataSource source = FindData(data.empty() ? path : data, header);
+  if (!data.empty())
+  {
+    source.files = { data };
+  }
   const std::uint64_t possible = LargestData(source, scan.type);
   const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * scan.interleaved;
   const std::uint64_t bytes = bytesPerVoxel * CheckSize(path, scan.geometry.size, bytesPerVoxel, possible);
@@ -314,6 +339,40 @@ OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
   scan.voxels = OpenData(path, source, scan.type, bytes * volumes);
   scan.moreVolumes = volumes > 1;
   scan.voxels->Skip(volume * bytes);
+  return scan;
+}
+
+} // namespace
+
+ScanFile
+OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options)
+{
+  return OpenMeta(path, ReadMetaHeader(path), {}, options);
+}
+
+ScanFile
+OpenMetaText(const std::filesystem::path & data, const std::filesystem::path & text, const ReadOptions & options)
+{
+  MetaHeader header = ReadMetaHeader(text, true);
+  header.fields.try_emplace("ndims", "3");
+  header.fields["elementdatafile"] = data.filename().string();
+  header.fields.erase("compresseddata");
+  ScanFile scan = OpenMeta(data, header, data, options);
+  scan.format = "raw";
+  scan.notes.push_back(Text("bare voxels, as '", Printable(text.filename().string(), 100), "' says"));
+  const std::uint64_t skipped =
+    static_cast<std::uint64_t>(std::max<std::int64_t>(0, ParseInteger(header.Field({ "headersize" })).value_or(0)));
+  std::uint64_t bytes = PixelBytes(scan.type) * scan.interleaved;
+  for (const std::int64_t side : scan.geometry.size)
+  {
+    bytes *= static_cast<std::uint64_t>(side);
+  }
+  if (!scan.moreVolumes && FileSize(data) != skipped + bytes && header.Field({ "headersize" }) != "-1")
+  {
+    RefuseInput(data,
+                Text("it has ", FileSize(data), " bytes, but its text describes ", skipped + bytes),
+                Text("mend '", Printable(text.filename().string(), 100), "'"));
+  }
   return scan;
 }
 

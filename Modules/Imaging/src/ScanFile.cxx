@@ -2,12 +2,32 @@
 
 #include "ForeignFormats.h"
 #include "ZarrArray.h"
+#include "ItkProcess.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
 
 namespace voxelcore
 {
+namespace
+{
+
+/** What the helper reads a file or folder as; None where there is no helper in this build. */
+ItkFormat
+ByHelper(const std::filesystem::path & path)
+{
+#ifdef VOXELCORE_LIBEXEC
+  std::error_code ignored;
+  return !std::filesystem::is_directory(path, ignored) ? ItkFormatOf(path)
+         : IsDicomFolder(path)                         ? ItkFormat::Dicom
+                                                       : ItkFormat::None;
+#else
+  static_cast<void>(path);
+  return ItkFormat::None;
+#endif
+}
+
+} // namespace
 
 std::vector<std::string>
 WarningsOf(const ScanFile & scan)
@@ -116,6 +136,10 @@ ScanKindOf(const std::filesystem::path & path)
 ScanFile
 OpenScan(const std::filesystem::path & path, const ReadOptions & options)
 {
+  if (options.raw)
+  {
+    return OpenRaw(path, options);
+  }
   const ScanKind kind = ScanKindOf(path);
   if (kind == ScanKind::Zarr)
   {
@@ -128,7 +152,7 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
   }
   if (kind == ScanKind::Slices)
   {
-    return OpenSlices(path, options);
+    return ByHelper(path) == ItkFormat::Dicom ? OpenByItk(path, ItkFormat::Dicom, options) : OpenSlices(path, options);
   }
   if (FileSize(path) == 0)
   {
@@ -153,6 +177,14 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
     case ScanKind::Unknown:
       break;
   }
+  if (IsRawFile(path))
+  {
+    return OpenRaw(path, options);
+  }
+  if (const ItkFormat format = ByHelper(path); format != ItkFormat::None)
+  {
+    return OpenByItk(path, format, options);
+  }
   RefuseForeign(path);
 }
 
@@ -165,7 +197,7 @@ ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
     case ScanKind::Zarr:
       return ZarrFiles(path, options);
     case ScanKind::Slices:
-      files = SlicePaths(path);
+      files = ByHelper(path) == ItkFormat::Dicom ? ItkScanFiles(path, ItkFormat::Dicom) : SlicePaths(path);
       std::sort(files.begin(), files.end());
       return files;
     case ScanKind::Nrrd:
@@ -177,10 +209,23 @@ ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
     case ScanKind::MetaImage:
       files = MetaImageDataFiles(path);
       break;
+    case ScanKind::Unknown:
+      if (ByHelper(path) == ItkFormat::Dicom) // a file may stand for its series
+      {
+        files = ItkScanFiles(path, ItkFormat::Dicom);
+        std::erase_if(files, [&](const auto & file) {
+          std::error_code notThere;
+          return std::filesystem::equivalent(file, path, notThere);
+        });
+      }
+      else if (IsRawFile(path))
+      {
+        files = RawFileTexts(path);
+      }
+      break;
     case ScanKind::Mgh:
     case ScanKind::Tiff:
     case ScanKind::Png:
-    case ScanKind::Unknown:
       break;
   }
   std::error_code ignored;

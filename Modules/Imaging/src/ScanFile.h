@@ -51,6 +51,21 @@ ScanFile
 OpenMgh(const std::filesystem::path & path, const ReadOptions & options);
 ScanFile
 OpenTiff(const std::filesystem::path & path, const ReadOptions & options);
+/** Bare voxels, by options.raw or by a text beside them. */
+ScanFile
+OpenRaw(const std::filesystem::path & path, const ReadOptions & options);
+/** Whether a text beside bare voxels says what they are, or the file is such a text (.dat). */
+bool
+IsRawFile(const std::filesystem::path & path);
+/** That text, or for it the voxels. */
+std::vector<std::filesystem::path>
+RawFileTexts(const std::filesystem::path & path);
+/** Voxels in `data` that a text in the manner of MetaImage describes. */
+ScanFile
+OpenMetaText(const std::filesystem::path & data, const std::filesystem::path & text, const ReadOptions & options);
+/** Whether a file begins as such a text. */
+bool
+IsMetaText(const std::filesystem::path & path);
 /** A folder, or a pattern in the last part of the path: `*` stands for anything, `%d`, `%04d` or a run of `#` for a
  *  number. */
 ScanFile

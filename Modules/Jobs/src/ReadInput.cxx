@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadMesh.h"
+#include "voxelcore/ScanRows.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -82,6 +83,12 @@ AsVolume(const std::filesystem::path & path, const MeshFile & file, const VoxelG
 
 } // namespace
 
+bool
+IsMeshFile(const std::filesystem::path & path)
+{
+  return IsMeshPath(path) && !IsVtkImage(path);
+}
+
 MeshVolume
 VoxelizeMeshFile(const std::filesystem::path &       path,
                  const std::optional<std::int64_t> & resolution,
@@ -123,7 +130,7 @@ ReadScanOrMesh(const std::filesystem::path &       path,
                const std::optional<std::int64_t> & resolution,
                const ProgressCallback &            progress)
 {
-  if (!IsMeshPath(path))
+  if (options.raw || !IsMeshFile(path))
   {
     if (resolution)
     {

@@ -134,6 +134,7 @@ GreySource(const RefineOptions &         options,
     how.volume.reset();
     how.component.reset();
     how.level.reset();
+    how.raw.reset();
   }
   const VoxelBox      whole = BoxOf(input);
   const ImageGeometry geometry = input.geometry;

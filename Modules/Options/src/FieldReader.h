@@ -4,7 +4,8 @@
 #include "ParameterReader.h"
 #include "voxelcore/CropRange.h"
 #include "voxelcore/ParameterFields.h"
-#include "voxelcore/ReadMesh.h"
+#include "voxelcore/RawLayout.h"
+#include "voxelcore/ReadInput.h"
 
 #include <cstdint>
 #include <limits>
@@ -76,9 +77,13 @@ private:
     {
       return ParseCrop(m_Reader.Text(row.name));
     }
+    else if constexpr (std::is_same_v<T, RawLayout>)
+    {
+      return ParseRawLayout(m_Reader.Text(row.name));
+    }
     else if constexpr (std::is_same_v<T, Vector3>)
     {
-      return m_Reader.Spacing(IsMeshPath(m_Reader.Text("scan")));
+      return m_Reader.Spacing(IsMeshFile(m_Reader.Text("scan")));
     }
     else
     {

@@ -55,6 +55,12 @@ ValueJson(const CropRange & crop)
   return json;
 }
 
+Json
+ValueJson(const RawLayout & layout)
+{
+  return RawLayoutText(layout);
+}
+
 template <typename T>
 Json
 ValueJson(const std::optional<T> & value)
@@ -85,6 +91,12 @@ ReadValue(const Json & json, CropRange & crop)
   }
 }
 
+void
+ReadValue(const Json & json, RawLayout & layout)
+{
+  layout = ParseRawLayout(json.get<std::string>());
+}
+
 template <typename T>
 void
 ReadValue(const Json & json, std::optional<T> & value)
@@ -99,7 +111,7 @@ ReadValue(const Json & json, std::optional<T> & value)
 bool
 IsOfSome(std::string_view name)
 {
-  return name == "resolution" || name == "level";
+  return name == "resolution" || name == "level" || name == "raw";
 }
 
 /** Writes fields, or reads them and remembers their names. */

@@ -5,6 +5,7 @@
 #include "voxelcore/LabelChoice.h"
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
+#include "voxelcore/RawLayout.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +25,7 @@ struct ReadOptions
   std::optional<std::int64_t> volume;             ///< which volume of a 4-D file, counted from 0
   std::optional<std::int64_t> component;          ///< which of several values a voxel, from 0
   std::optional<std::int64_t> level;              ///< which resolution of an OME-Zarr image, from 0, the finest
+  std::optional<RawLayout>    raw;                ///< the file is bare voxels of this layout, whatever its name
 };
 
 /** Reads the labels of a scan in one pass over its voxels:
@@ -32,6 +34,10 @@ struct ReadOptions
  *  - NIfTI-1 and -2 (.nii, .nii.gz, .hdr/.img, .hdr.gz/.img.gz);
  *  - MetaImage (.mha, .mhd; raw, compressed, text);
  *  - TIFF (.tif, .tiff; many pages, BigTIFF, tiles, packed bits, any compression of libtiff);
+ *  - bare voxels (.raw .vol .bin .dat) with options.raw, or with a text beside them: a .dat with Resolution,
+ *    SliceThickness and Format (OpenQVis, North Star), or lines as of MetaImage in .mhd, .txt or .info;
+ *  - through ITK and GDCM, by a program of its own: DICOM series, multi-frame images and segmentations, MRC, MINC,
+ *    GIPL, legacy VTK images, and HDF5 that ITK wrote;
  *  - slices, one TIFF or one PNG each (grey, 1 to 16 bits): a folder, or a pattern in the last part of the path, where
  *    `*` stands for anything and `%d`, `%04d` or a run of `#` for a number. They are taken in natural order (2 before
  *    10) and must be numbered without a gap.

@@ -20,6 +20,10 @@ namespace voxelcore
 bool
 IsScanFormat(const std::filesystem::path & path);
 
+/** Whether a .vtk file holds an image (STRUCTURED_POINTS), not a mesh. */
+bool
+IsVtkImage(const std::filesystem::path & path);
+
 class ScanRows
 {
 public:

@@ -24,6 +24,10 @@ struct MeshVolume
   std::uint64_t                       doubtful = 0; ///< voxels the mesh is not clear about
 };
 
+/** Whether a path names a mesh, and not an image in a .vtk file. */
+bool
+IsMeshFile(const std::filesystem::path & path);
+
 /** Reads and voxelizes a mesh, either with `resolution` voxels on its longest side or with voxels of this size, mm.
  *  \throws UsageError unless exactly one of the two is given; InputError; Cancelled */
 MeshVolume

@@ -16,6 +16,7 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("volume", options.reading.volume);
   visit("component", options.reading.component);
   visit("level", options.reading.level);
+  visit("raw", options.reading.raw);
   visit("spacing", options.reading.spacing);
   visit("resolution", options.resolution);
   visit("orthonormalize", options.reading.orthonormalize);

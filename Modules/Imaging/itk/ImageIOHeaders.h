@@ -1,0 +1,16 @@
+#pragma once
+// What ITK's ImageIOs leave out, or take for something else without a word, looked up in the file itself.
+
+#include "ItkScan.h"
+
+#include <filesystem>
+
+namespace voxelcore::itkreader
+{
+
+/** Looks into the header that ITK has read already: corrects `scan`, adds notes, or refuses.
+ *  \throws InputError */
+void
+CheckHeader(const std::filesystem::path & path, ItkFormat format, ItkScan & scan);
+
+} // namespace voxelcore::itkreader

@@ -1,0 +1,188 @@
+// Formats that are read through ITK and GDCM: labels and places come right, and notes say who read them. More of each
+// is compared with the programs that define them (compare_with_oracles.py).
+
+#include "ForeignBytes.h"
+#include "ScanBytes.h"
+#include "voxelcore/ScanRows.h"
+
+#include <itkHDF5ImageIO.h>
+#include <itkImage.h>
+#include <itkImageFileWriter.h>
+
+#include <thread>
+
+using namespace voxelcore;
+using namespace voxelcore::testing;
+
+namespace
+{
+
+void
+ExpectForeignValues(const LabelMap & volume)
+{
+  const auto values = ForeignValues();
+  EXPECT_EQ(AllValues(volume), std::vector<std::int64_t>(values.begin(), values.end()));
+}
+
+std::filesystem::path
+WriteSeries(const TempFolder & folder)
+{
+  for (const auto & [name, bytes] : DicomSeriesBytes())
+  {
+    folder.Write("series/" + name, bytes);
+  }
+  return folder / "series";
+}
+
+} // namespace
+
+TEST(ItkFormats, ValuesPlacesAndReadersAreThoseOfTheFile)
+{
+  struct Case
+  {
+    std::filesystem::path path;
+    std::string           format;
+    std::string           reader;
+    Vector3               spacing;
+    Vector3               origin;
+  };
+  const TempFolder        folder;
+  const std::vector<Case> cases{
+    { folder.Write("a.mrc", MrcBytes()), "MRC", "ITK's MRCImageIO", { 1e-6, 2e-6, 3e-6 }, { 0, 0, 0 } },
+    { folder.Write("a.gipl", GiplBytes()), "GIPL", "ITK's GiplImageIO", { 0.5, 0.75, 2 }, { 0, 0, 0 } },
+    { folder.Write("a.gipl.gz", Gzip(GiplBytes())), "GIPL", "ITK's GiplImageIO", { 0.5, 0.75, 2 }, { 0, 0, 0 } },
+    { folder.Write("a.vtk", VtkBytes(false)), "VTK", "ITK's VTKImageIO", { 0.5, 0.75, 2 }, { 1, 2, 3 } },
+    { folder.Write("b.vtk", VtkBytes(true)), "VTK", "ITK's VTKImageIO", { 0.5, 0.75, 2 }, { 1, 2, 3 } },
+    { WriteSeries(folder), "DICOM", "GDCM", { 0.5, 0.75, 2 }, { -1, 2, 0 } },
+    { folder / "series/IM2", "DICOM", "GDCM", { 0.5, 0.75, 2 }, { -1, 2, 0 } },
+    { folder.Write("seg", DicomSegmentationBytes()), "DICOM-SEG", "GDCM", { 0.5, 0.75, 2 }, { -1, 2, 0 } },
+  };
+  for (const Case & one : cases)
+  {
+    SCOPED_TRACE(one.path);
+    const LabelMap volume = ReadLabelVolume(one.path);
+    ExpectForeignValues(volume);
+    EXPECT_EQ(volume.format, one.format);
+    EXPECT_TRUE(HasNote(volume.notes, "read by " + one.reader)) << volume.notes.front();
+    ExpectNear(volume.geometry.spacing, one.spacing, 1e-12);
+    ExpectNear(volume.geometry.origin, one.origin, 1e-12);
+  }
+}
+
+TEST(ItkFormats, AllOrientationsThatItkWritesComeBack)
+{
+  using Image = itk::Image<unsigned short, 3>;
+  const TempFolder folder;
+  const auto       values = ForeignValues();
+  int              turns = 0;
+  for (int code = 0; code < 27; ++code)
+  {
+    const int axes[]{ code % 3, code / 3 % 3, code / 9 };
+    if (axes[0] == axes[1] || axes[0] == axes[2] || axes[1] == axes[2])
+    {
+      continue;
+    }
+    for (int signs = 0; signs < 8; ++signs, ++turns)
+    {
+      auto                 image = Image::New();
+      Image::DirectionType direction;
+      direction.Fill(0);
+      for (unsigned a = 0; a < 3; ++a)
+      {
+        direction(static_cast<unsigned>(axes[a]), a) = (signs >> a & 1) != 0 ? -1 : 1;
+      }
+      const double spacing[]{ 0.5, 0.75, 2 };
+      const double origin[]{ 10, -20, 30.5 };
+      image->SetRegions(Image::SizeType{ { 6, 5, 4 } });
+      image->SetDirection(direction);
+      image->SetSpacing(spacing);
+      image->SetOrigin(origin);
+      image->Allocate();
+      std::copy(values.begin(), values.end(), image->GetBufferPointer());
+      {
+        auto writer = itk::ImageFileWriter<Image>::New();
+        writer->SetImageIO(itk::HDF5ImageIO::New());
+        writer->SetFileName((folder / "a.h5").string());
+        writer->SetInput(image);
+        writer->Update();
+      } // which closes the file
+      const LabelMap volume = ReadLabelVolume(folder / "a.h5");
+      ExpectForeignValues(volume);
+      const Image::IndexType corner{ { 5, 4, 3 } };
+      Image::PointType       place;
+      image->TransformIndexToPhysicalPoint(corner, place);
+      ExpectNear(CentreOf(volume, 5, 4, 3), { place[0], place[1], place[2] }, 1e-9);
+    }
+  }
+  EXPECT_EQ(turns, 48);
+}
+
+TEST(ItkFormats, ANameOfASegmentIsThatOfTheFile)
+{
+  const TempFolder folder;
+  const LabelMap   volume = ReadLabelVolume(folder.Write("a.dcm", DicomSegmentationBytes()));
+  ASSERT_EQ(volume.labels.size(), 6U);
+  EXPECT_EQ(volume.labels[3].name, "segment 4");
+}
+
+TEST(ItkFormats, AllFilesOfASeriesAreTheScans)
+{
+  const TempFolder folder;
+  const auto       series = WriteSeries(folder);
+  const auto       files = ScanFiles(series);
+  ASSERT_EQ(files.size(), 4U);
+  EXPECT_EQ(files[0].filename(), "IM0");
+  const auto byFile = ScanFiles(series / "IM2");
+  ASSERT_EQ(byFile.size(), 4U);
+  EXPECT_EQ(byFile[0], series / "IM2");
+  EXPECT_EQ(byFile[3].filename(), "IM3");
+}
+
+TEST(ItkFormats, RowsComeInAnyOrder)
+{
+  const TempFolder folder;
+  ScanRows         rows(folder.Write("a.mrc", MrcBytes()), {});
+  const auto       values = ForeignValues();
+  for (const std::uint64_t first : { 7U, 3U, 18U, 0U })
+  {
+    rows.Read(first, 2, [&](const std::byte * row, std::uint64_t number) {
+      for (std::size_t x = 0; x < 6; ++x)
+      {
+        EXPECT_EQ(static_cast<int>(row[x]), values[number * 6 + x]);
+      }
+    });
+  }
+}
+
+TEST(ItkFormats, SeveralThreadsReadAtATime)
+{
+  const TempFolder         folder;
+  const auto               path = folder.Write("a.vtk", VtkBytes(false));
+  std::vector<std::thread> threads;
+  for (int n = 0; n < 4; ++n)
+  {
+    threads.emplace_back([&path] { ExpectForeignValues(ReadLabelVolume(path)); });
+  }
+  for (std::thread & thread : threads)
+  {
+    thread.join();
+  }
+}
+
+TEST(ItkFormats, WhatIsCutOffIsRefused)
+{
+  const TempFolder folder;
+  for (const auto & [name, bytes] : std::vector<std::pair<std::string, std::string>>{ { "a.mrc", MrcBytes() },
+                                                                                      { "a.gipl", GiplBytes() },
+                                                                                      { "a.vtk", VtkBytes(false) },
+                                                                                      { "b.vtk", VtkBytes(true) } })
+  {
+    ExpectRefused(folder.Write(name, bytes.substr(0, bytes.size() - 20)), { "truncated" });
+  }
+  const std::string segmentation = DicomSegmentationBytes();
+  ExpectRefused(folder.Write("c.dcm", segmentation.substr(0, segmentation.size() - 4)), {});
+  WriteSeries(folder);
+  const std::string slice = DicomSeriesBytes().at("IM2");
+  folder.Write("series/IM2", slice.substr(0, slice.size() - 4));
+  ExpectRefused(folder / "series", {});
+}
