@@ -232,7 +232,7 @@ StackPlanes(const std::filesystem::path & path, const std::vector<DicomPlane> & 
     for (std::size_t n = 0; n < places.size(); ++n)
     {
       const auto    k = spacing.numbers[n];
-      const Vector3 place = Along(*planes[base].position, static_cast<double>(k), step);
+      const Vector3 place = AddScaled(*planes[base].position, static_cast<double>(k), step);
       for (const std::size_t plane : places[n])
       {
         if (LargestPart(Minus(*planes[plane].position, place)) > kOffPlace * std::max(pixel, 1e-4))
