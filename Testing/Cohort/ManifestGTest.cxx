@@ -191,16 +191,15 @@ TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
             (std::map<std::string, std::filesystem::path>{ { "one/deep/seg", "one/deep/seg.nrrd" },
                                                            { "two/seg.nrrd", "two/seg.nrrd" },
                                                            { "two/seg.nii.gz", "two/seg.nii.gz" },
+                                                           { "two/series", "two/series.dcm" },
                                                            { "stack", "stack" },
                                                            { "single/only", "single/only.tif" },
                                                            { "single/aseg", "single/aseg.mgz" },
                                                            { "stores/cells", "stores/cells.zarr" } }));
   EXPECT_EQ(passedOver,
-            (std::vector<std::filesystem::path>{ m_Folder / "stack/thumbs.db",
-                                                 m_Folder / "two/readme.docx",
-                                                 m_Folder / "two/series.dcm" }));
+            (std::vector<std::filesystem::path>{ m_Folder / "stack/thumbs.db", m_Folder / "two/readme.docx" }));
   EXPECT_EQ(FindCases({ m_Folder / "*/seg.*" }).size(), 2U);
-  EXPECT_EQ(FindCases({ m_Folder / "two", m_Folder / "two/seg.nrrd" }).size(), 2U); // the same file twice
+  EXPECT_EQ(FindCases({ m_Folder / "two", m_Folder / "two/seg.nrrd" }).size(), 3U); // the same file twice
   EXPECT_EQ(FindCases({ m_Folder / "stores/cells.zarr/" }).size(), 1U);
   EXPECT_THROW(FindCases({ m_Folder / "none*" }), InputError);
   std::filesystem::create_directory(m_Folder / "empty");

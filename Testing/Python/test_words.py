@@ -12,7 +12,7 @@ from voxelcore import _voxelcore
 TABLE = [row for row in _voxelcore.option_table() if row["flags"]]
 # What only a program with files can do.
 OF_FILES = {
-    *("volume", "component", "level", "nifti-form", "resolution", "grey", "grey-range", "with-skeleton", "join"),
+    *("volume", "component", "level", "raw", "nifti-form", "resolution", "grey", "grey-range", "with-skeleton", "join"),
     *("blocks", "block", "memory", "json", "quiet"),
 }
 

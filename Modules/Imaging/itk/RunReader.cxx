@@ -219,6 +219,10 @@ RunReader(int argc, char ** argv)
   {
     refusal = Text(path.string(), ": cannot be read (", OneLine(error.what()), "); the file is damaged");
   }
+  catch (...) // HDF5's exceptions have no common base with others
+  {
+    refusal = path.string() + ": cannot be read; the file is damaged";
+  }
   static_cast<void>(!::write(refusals, refusal.data(), refusal.size()));
   return 3;
 }
