@@ -165,28 +165,18 @@ MakeCores(const ArrayView &        array,
   std::vector<std::shared_ptr<CoreOfLabel>> results;
   for (std::size_t i = 0; i < edited.labels.size(); ++i)
   {
-    EditedLabel &    one = edited.labels[i];
-    CertifiedRequest request;
-    request.lambdas = options.lambdas;
-    request.tolerances = options.tolerances;
-    request.surface = surface;
-    request.engine = options.engine;
-    request.crossCheck = options.crossCheck;
     const auto place = [&](std::size_t done) {
       return editEnds + (1 - editEnds) * static_cast<double>(done) / static_cast<double>(edited.labels.size());
     };
-    LabelOutcome outcome = ProcessLabel(std::move(one.label),
+    LabelOutcome                    outcome = ProcessLabel(std::move(edited.labels[i]),
                                         map.geometry,
-                                        std::move(request),
+                                        RequestOf(options, surface),
                                         PartOfProgress(progress, place(i), place(i + 1)));
-    outcome.record.component = one.component;
-    outcome.record.edits = one.edits;
     const std::vector<PrunedRecord> pruned = std::move(outcome.record.pruned);
     report.parameters.labels = { outcome.record.label };
     report.labels = { std::move(outcome.record) };
     for (auto & result : ResultsOf(report, pruned, std::move(outcome.parts)))
     {
-      result->part.component = one.component;
       result->refined = options.refine.surface;
       results.push_back(std::move(result));
     }

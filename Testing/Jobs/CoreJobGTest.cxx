@@ -27,7 +27,7 @@ TEST(ProcessLabel, TellsWhatWasFound)
   geometry.spacing = { 2, 2, 2 };
   CertifiedRequest request;
   request.lambdas = ParseLambdas("0,1.5vox");
-  const LabelOutcome outcome = ProcessLabel({ 5, "rod", 7, shape }, geometry, request);
+  const LabelOutcome outcome = ProcessLabel({ { 5, "rod", 7, shape }, 0, {} }, geometry, request);
   EXPECT_EQ(outcome.record.label, 5);
   EXPECT_EQ(outcome.record.core.vertices, 7U);
   EXPECT_EQ(outcome.record.core.edges, 6U);

@@ -129,6 +129,5 @@ def documented(function, rows):
         if keyword.isidentifier() and keyword not in own
     ]
     head, _, rest = function.__doc__.partition("    further options: ")
-    words, _, rest = rest.partition("\n")
-    function.__doc__ = head + "\n".join(lines) + "\n" + rest
+    function.__doc__ = head + "\n".join(lines) + "\n" + rest.partition("\n")[2]
     return function

@@ -18,18 +18,6 @@ constexpr double kSameDirection = 1e-4; // of a unit vector
 constexpr double kSameSize = 1e-5;      // of a pixel's side
 constexpr double kSamePlace = 1e-4;     // mm
 
-Vector3
-Cross(const Vector3 & a, const Vector3 & b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double
-Length(const Vector3 & a)
-{
-  return std::sqrt(Dot(a, a));
-}
-
 double
 LargestPart(const Vector3 & a)
 {

@@ -97,29 +97,13 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
   const LabelWork compute = [&](std::size_t label, const ProgressCallback & part) {
     EditedLabel &      one = labels[label];
     const std::int64_t value = one.label.value;
+    const std::int64_t component = one.component;
     const CellSource   join = [&](const std::vector<LatticePoint> & points, const ProgressCallback & inner) {
-      return JoinParts(options.join, options.scan, value, one.component, points, inner);
+      return JoinParts(options.join, options.scan, value, component, points, inner);
     };
-    CertifiedRequest request;
-    request.lambdas = options.lambdas;
-    request.tolerances = options.tolerances;
-    request.surface = surface;
-    request.skeleton = options.skeleton;
-    request.engine = options.engine;
-    request.crossCheck = options.crossCheck;
+    CertifiedRequest request = RequestOf(options, surface);
     request.cells = options.join.empty() ? CellSource() : join;
-    LabelOutcome outcome = ProcessLabel(std::move(one.label), geometry, std::move(request), part);
-    outcome.record.component = one.component;
-    if (outcome.skeleton)
-    {
-      outcome.skeleton->component = one.component;
-    }
-    outcome.record.edits = one.edits;
-    for (ModelPart & model : outcome.parts)
-    {
-      model.component = one.component;
-    }
-    return outcome;
+    return ProcessLabel(std::move(one), geometry, std::move(request), part);
   };
   const LabelWork work = [&](std::size_t label, const ProgressCallback & part) {
     try

@@ -71,7 +71,7 @@ MadeAgain::Check(const ModelPart &        part,
     request.tolerances = { ParseTolerance(pruned.tolerance->height) };
   }
   request.surface = m_Surface;
-  LabelOutcome    outcome = ProcessLabel(label, m_Geometry, std::move(request), progress);
+  LabelOutcome    outcome = ProcessLabel({ label, 0, {} }, m_Geometry, std::move(request), progress);
   ModelPart       again = std::move(outcome.parts.front());
   MedialComplex & core = again.core;
   again.component = part.component;

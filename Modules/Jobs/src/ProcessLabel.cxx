@@ -6,8 +6,21 @@
 namespace voxelcore
 {
 
+CertifiedRequest
+RequestOf(const CoreOptions & options, SurfaceSource surface)
+{
+  CertifiedRequest request;
+  request.lambdas = options.lambdas;
+  request.tolerances = options.tolerances;
+  request.surface = std::move(surface);
+  request.skeleton = options.skeleton;
+  request.engine = options.engine;
+  request.crossCheck = options.crossCheck;
+  return request;
+}
+
 LabelOutcome
-ProcessLabel(LabelShape               label,
+ProcessLabel(EditedLabel              edited,
              const ImageGeometry &    geometry,
              CertifiedRequest         request,
              const ProgressCallback & progress)
@@ -15,7 +28,10 @@ ProcessLabel(LabelShape               label,
   Stopwatch     watch;
   LabelOutcome  outcome;
   LabelRecord & record = outcome.record;
+  LabelShape &  label = edited.label;
   record.label = label.value;
+  record.component = edited.component;
+  record.edits = edited.edits;
   record.name = label.name;
   record.voxels = label.voxels;
   record.volumeMm3 =
@@ -35,6 +51,7 @@ ProcessLabel(LabelShape               label,
     record.pruned.push_back({ std::move(one.numbers) });
     outcome.parts.push_back(std::move(one.core));
     outcome.parts.back().label = record.label;
+    outcome.parts.back().component = record.component;
   }
   if (result.skeleton)
   {

@@ -123,9 +123,7 @@ FurtherOptions(const ParameterReader & reader)
   {
     if (parameter.recorded && reader.Find(parameter.name) == &parameter && reader.IsGiven(parameter.name))
     {
-      std::string name(parameter.name);
-      std::replace(name.begin(), name.end(), '-', '_');
-      further[name] = reader.Text(parameter.name);
+      further[WithUnderscores(parameter.name)] = reader.Text(parameter.name);
     }
   }
   return further;

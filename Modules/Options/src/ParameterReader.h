@@ -20,6 +20,15 @@
 namespace voxelcore
 {
 
+/** An option's name as reports and Python have it, with underscores. */
+inline std::string
+WithUnderscores(std::string_view option)
+{
+  std::string name(option);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 /** The values given to one command, read with its defaults. */
 class ParameterReader
 {

@@ -1,3 +1,4 @@
+#include "ParameterReader.h"
 #include "table/CohortRows.h"
 #include "table/InputRows.h"
 #include "table/OutputRows.h"
@@ -6,8 +7,6 @@
 #include "table/PruningRows.h"
 #include "table/RunningRows.h"
 #include "table/SkeletonRows.h"
-
-#include <algorithm>
 
 namespace voxelcore
 {
@@ -99,9 +98,7 @@ KeywordOf(const Parameter & parameter)
   const bool isNamedAlike =
     parameter.group == ParameterGroup::Pruning || parameter.group == ParameterGroup::ShapeEdits ||
     parameter.group == ParameterGroup::Refinement || parameter.group == ParameterGroup::Skeleton;
-  std::string keyword(isNamedAlike && !isFile && !parameter.flags.empty() ? parameter.name : "");
-  std::replace(keyword.begin(), keyword.end(), '-', '_');
-  return keyword;
+  return isNamedAlike && !isFile && !parameter.flags.empty() ? WithUnderscores(parameter.name) : std::string();
 }
 
 std::string

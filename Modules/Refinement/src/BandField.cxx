@@ -125,18 +125,7 @@ BandField::FillDistances(const VoxelShape & shape, double clip)
     const auto & at = m_Grid.At(brick);
     LabelRows    in;
     LabelRows    out;
-    for (std::int32_t z = 0; z < LabelRows::kSide; ++z)
-    {
-      for (std::int32_t y = 0; y < LabelRows::kSide; ++y)
-      {
-        constexpr std::uint64_t all = (std::uint64_t{ 1 } << LabelRows::kSide) - 1;
-        const auto              row = static_cast<std::size_t>(z * LabelRows::kSide + y);
-        const std::uint64_t     bits =
-          BitsOfRow(shape, kSide * at[0] - kMargin, kSide * at[1] - kMargin + y, kSide * at[2] - kMargin + z);
-        in.bits[row] = bits & all;
-        out.bits[row] = ~bits & all;
-      }
-    }
+    ReadRows(shape, { kSide * at[0] - kMargin, kSide * at[1] - kMargin, kSide * at[2] - kMargin }, in, out);
     tile::Squared<BrickGrid::kSide> toIn;
     tile::Squared<BrickGrid::kSide> toOut;
     FindDistances(in, squares, toIn);

@@ -107,4 +107,22 @@ BitsOfRow(const VoxelShape & shape, std::int32_t x, std::int32_t y, std::int32_t
   return shift == 0 ? word(first) : (word(first) >> shift) | (word(first + 1) << (64 - shift));
 }
 
+/** The rows of bits of a cube that begins at `lower`: what of it is in the shape, and what is not. */
+template <typename TRows>
+void
+ReadRows(const VoxelShape & shape, const std::array<std::int32_t, 3> & lower, TRows & in, TRows & out)
+{
+  constexpr std::uint64_t all = (std::uint64_t{ 1 } << TRows::kSide) - 1;
+  for (std::int32_t z = 0; z < TRows::kSide; ++z)
+  {
+    for (std::int32_t y = 0; y < TRows::kSide; ++y)
+    {
+      const std::uint64_t bits = BitsOfRow(shape, lower[0], lower[1] + y, lower[2] + z);
+      const auto          row = static_cast<std::size_t>(z * TRows::kSide + y);
+      in.bits[row] = bits & all;
+      out.bits[row] = ~bits & all;
+    }
+  }
+}
+
 } // namespace voxelcore

@@ -115,20 +115,10 @@ BoundaryDepth::BoundaryDepth(const VoxelShape &            shape,
     const auto & at = m_Grid.At(brick);
     LabelRows    in;
     LabelRows    out;
-    for (std::int32_t z = 0; z < LabelRows::kSide; ++z)
-    {
-      for (std::int32_t y = 0; y < LabelRows::kSide; ++y)
-      {
-        const std::uint64_t     bits = BitsOfRow(shape,
-                                             2 * kSide * at[0] - kDeepest,
-                                             2 * kSide * at[1] - kDeepest + y,
-                                             2 * kSide * at[2] - kDeepest + z);
-        const auto              row = static_cast<std::size_t>(z * LabelRows::kSide + y);
-        constexpr std::uint64_t all = (std::uint64_t{ 1 } << LabelRows::kSide) - 1;
-        in.bits[row] = bits & all;
-        out.bits[row] = ~bits & all;
-      }
-    }
+    ReadRows(shape,
+             { 2 * kSide * at[0] - kDeepest, 2 * kSide * at[1] - kDeepest, 2 * kSide * at[2] - kDeepest },
+             in,
+             out);
     tile::Squared<2 * kSide> toIn;
     tile::Squared<2 * kSide> toOut;
     FindDistances(in, squares, toIn);

@@ -114,7 +114,7 @@ IsOfSome(std::string_view name)
   return name == "resolution" || name == "level" || name == "raw";
 }
 
-/** Writes fields, or reads them and remembers their names. */
+/** Writes fields. */
 class JsonFieldWriter
 {
 public:
@@ -137,6 +137,7 @@ private:
   Json & m_Json;
 };
 
+/** Reads fields, and remembers their names. */
 class JsonFieldReader
 {
 public:

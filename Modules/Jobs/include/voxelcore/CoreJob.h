@@ -73,6 +73,10 @@ DescribeParameters(const CoreOptions &    options,
                    const EditedLabels &   edited,
                    const SpacingWeights & weights);
 
+/** What is asked of each label, but for where its cells come from. */
+CertifiedRequest
+RequestOf(const CoreOptions & options, SurfaceSource surface);
+
 /** One label's share of a job. */
 struct LabelOutcome
 {
@@ -86,7 +90,7 @@ struct LabelOutcome
 /** Everything between reading and writing for one label: what ComputeCertified() gives, told as a record.
  *  \throws what ComputeCertified() throws; the errors name the label */
 LabelOutcome
-ProcessLabel(LabelShape               label,
+ProcessLabel(EditedLabel              edited,
              const ImageGeometry &    geometry,
              CertifiedRequest         request,
              const ProgressCallback & progress = {});
