@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Holds the house together: each module includes only headers of the modules it may use (Modules/README.md), and only
-# module ITK and Imaging's helper program (Modules/Imaging/itk) know ITK and GDCM, only Models and Display know VTK, only
+# module ITK and the helper program (Modules/ItkReader/itk) know ITK and GDCM, only Models and Display know VTK, only
 # Display its rendering.
 # usage: layers.sh [FOLDER WITH Modules/]
 set -euo pipefail
@@ -16,14 +16,16 @@ may_use() {
     Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;
     Certified) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification" ;;
-    Imaging) echo "Lattice Shape" ;;
-    ITK) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Imaging" ;;
+    Formats) echo "Lattice Shape" ;;
+    ItkReader) echo "Lattice Shape Formats" ;;
+    Imaging) echo "Lattice Shape Formats ItkReader" ;;
+    ITK) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Formats Imaging" ;;
     Models) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Verification Certified" ;;
     Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models Certified" ;;
-    Report) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Imaging Models" ;;
-    Jobs) echo "Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Imaging Models Display Report" ;;
-    Options) echo "Lattice Shape VoxelCore Skeleton Certified Imaging Models Report Jobs" ;;
-    Cohort) echo "Lattice Shape Delaunay Models Imaging Complex VoxelCore Certified Skeleton Refinement Report Jobs Options" ;;
+    Report) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Formats Imaging Models" ;;
+    Jobs) echo "Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Formats ItkReader Imaging Models Display Report" ;;
+    Options) echo "Lattice Shape VoxelCore Skeleton Certified Formats Imaging Models Report Jobs" ;;
+    Cohort) echo "Lattice Shape Delaunay Models Formats Imaging Complex VoxelCore Certified Skeleton Refinement Report Jobs Options" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac
 }
@@ -48,15 +50,15 @@ for folder in Modules/*/; do
       complain "$file:$line: $module must not use $owner ($name)"
     fi
     case "$name" in
-      itk* | gdcm*) [[ "$module" = ITK || "$file" = Modules/Imaging/itk/* ]] ||
-        complain "$file:$line: only module ITK and Modules/Imaging/itk know ITK ($name)" ;;
+      itk* | gdcm*) [[ "$module" = ITK || "$file" = Modules/ItkReader/itk/* ]] ||
+        complain "$file:$line: only module ITK and Modules/ItkReader/itk know ITK ($name)" ;;
       voxelcore/ModelPolyData.h) [[ "$module" = Models || "$module" = Display ]] ||
         complain "$file:$line: only Models and Display know VTK ($name)" ;;
       vtk*) [[ "$module" = Models || "$module" = Display ]] ||
         complain "$file:$line: only Models and Display know VTK ($name)" ;;
       tetgen.h) [ "$file" = Modules/Delaunay/src/TetGenEngine.cxx ] || complain "$file:$line: TetGen belongs in one file" ;;
     esac
-    if [[ "$name" = *.h && -e "Modules/Imaging/itk/$name" && "$file" != Modules/Imaging/itk/* ]]; then
+    if [[ "$name" = *.h && -e "Modules/ItkReader/itk/$name" && "$file" != Modules/ItkReader/itk/* ]]; then
       complain "$file:$line: what the helper program is made of is its own ($name)"
     fi
   done < <(grep -rnE '^ *# *include' "$folder" --include='*.h' --include='*.hxx' --include='*.cxx')

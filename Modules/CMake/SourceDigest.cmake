@@ -3,7 +3,7 @@
 # cohort
 # that is started again knows whether another state of the program made what lies there, also between two versions and
 # where there is no git.
-file(GLOB_RECURSE files RELATIVE "${MODULES}" "${MODULES}/*/include/*" "${MODULES}/*/src/*")
+file(GLOB_RECURSE files RELATIVE "${MODULES}" "${MODULES}/*/include/*" "${MODULES}/*/src/*" "${MODULES}/*/itk/*")
 list(SORT files)
 set(all "")
 foreach(file ${files})

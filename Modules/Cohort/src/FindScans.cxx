@@ -1,6 +1,7 @@
 // Inputs of a batch that are no manifests: scans, patterns, folders.
 
 #include "voxelcore/Error.h"
+#include "voxelcore/FormatOpeners.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/Manifest.h"
 #include "voxelcore/OutputNames.h"
@@ -95,7 +96,7 @@ Walk(const fs::path &        folder,
   {
     return;
   }
-  if (IsZarrFolder(folder))
+  if (IsZarr(folder))
   {
     scans.push_back(folder);
     return;

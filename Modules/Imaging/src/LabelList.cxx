@@ -1,6 +1,6 @@
 #include "LabelList.h"
 
-#include "ScanFile.h"
+#include "voxelcore/FormatOpeners.h"
 
 #include "voxelcore/TextFields.h"
 

@@ -1,4 +1,4 @@
-#include "ScanFile.h"
+#include "OpenScan.h"
 #include "SlabReader.h"
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/TextFields.h"

@@ -1,5 +1,5 @@
+#include "OpenScan.h"
 #include "LabelList.h"
-#include "ScanFile.h"
 #include "SlabReader.h"
 #include "voxelcore/GreyScan.h"
 #include "voxelcore/LabelAssembler.h"

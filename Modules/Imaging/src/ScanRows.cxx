@@ -1,7 +1,8 @@
 #include "voxelcore/ScanRows.h"
 
-#include "ScanFile.h"
+#include "OpenScan.h"
 #include "SlabReader.h"
+#include "voxelcore/FormatOpeners.h"
 #include "voxelcore/LabelNaming.h"
 #include "voxelcore/ScaledValue.h"
 

@@ -1,6 +1,6 @@
-#include "ScanFile.h"
+#include "OpenScan.h"
 #include "voxelcore/TextFields.h"
-#include "VolumeWriters.h"
+#include "voxelcore/VolumeWriters.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputFile.h"
 #include "voxelcore/TemporaryNames.h"

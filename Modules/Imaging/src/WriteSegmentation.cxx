@@ -1,5 +1,5 @@
 #include "voxelcore/TextFields.h"
-#include "VolumeWriters.h"
+#include "voxelcore/VolumeWriters.h"
 #include "voxelcore/LabelVolume.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadMesh.h"
-#include "voxelcore/ScanRows.h"
+#include "voxelcore/ForeignFormats.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>

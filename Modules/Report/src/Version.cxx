@@ -2,7 +2,7 @@
 #include "voxelcore/BuildFacts.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/DelaunayCells.h"
-#include "voxelcore/LabelVolume.h"
+#include "voxelcore/FormatOpeners.h"
 
 namespace voxelcore
 {
@@ -28,7 +28,7 @@ VersionText()
     text += ", tetgen (AGPL-3, and so is this program as a whole)";
   }
   text += "\nlibraries: " + ModelLibrary();
-  for (const std::string & library : ImagingLibraries())
+  for (const std::string & library : FormatLibraries())
   {
     text += ", " + library;
   }

@@ -1,32 +1,15 @@
 #pragma once
 // Label volumes: segmented scans as files, read and written.
 
-#include "voxelcore/CheckedGeometry.h"
-#include "voxelcore/LabelChoice.h"
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
-#include "voxelcore/RawLayout.h"
+#include "voxelcore/ReadOptions.h"
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace voxelcore
 {
-
-/** How to read. A combination without sense is a UsageError. */
-struct ReadOptions
-  : LabelChoice
-  , GeometryOptions
-{
-  std::string                 niftiForm = "auto"; ///< "auto" (ITK's rule), "sform" or "qform"
-  std::optional<std::int64_t> volume;             ///< which volume of a 4-D file, counted from 0
-  std::optional<std::int64_t> component;          ///< which of several values a voxel, from 0
-  std::optional<std::int64_t> level;              ///< which resolution of an OME-Zarr image, from 0, the finest
-  std::optional<RawLayout>    raw;                ///< the file is bare voxels of this layout, whatever its name
-};
 
 /** Reads the labels of a scan in one pass over its voxels:
  *  - NRRD (.nrrd, .nhdr; raw, gzip, bzip2, ascii, hex; data detached, listed or by pattern) with the names and
@@ -68,14 +51,6 @@ LabelMap
 ReadLabelVolume(const std::filesystem::path & path,
                 const ReadOptions &           options = {},
                 const ProgressCallback &      progress = {});
-
-/** Whether a folder belongs to a Zarr store: it is read as a scan, and what lies in it is its own. */
-bool
-IsZarrFolder(const std::filesystem::path & path);
-
-/** The libraries that read and write scans, as they are loaded: "libtiff 4.5.0", "libpng 1.6.39", ... */
-std::vector<std::string>
-ImagingLibraries();
 
 /** The files a scan consists of: the file itself first, then, sorted by name, the data files that a detached header
  *  points to, or the other half of a NIfTI pair; for a folder or a pattern the slices alone. Files that are not there

@@ -20,10 +20,6 @@ namespace voxelcore
 bool
 IsScanFormat(const std::filesystem::path & path);
 
-/** Whether a .vtk file holds an image (STRUCTURED_POINTS), not a mesh. */
-bool
-IsVtkImage(const std::filesystem::path & path);
-
 class ScanRows
 {
 public:
