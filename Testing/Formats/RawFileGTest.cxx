@@ -112,20 +112,3 @@ TEST_F(RawFile, IsDescribedByATextInTheMannerOfMetaImage)
   m_Folder.Write("b.txt", "7 voxels wide, says my notebook\n");
   ExpectRefused(m_Folder.Write("b.raw", m_Bytes), { "bare voxels without a header", "--raw 512,512,300,uint16" });
 }
-
-TEST_F(RawFile, LayoutsThatMakeNoSenseAreMistakesOfTheUser)
-{
-  for (const char * text : { "",
-                             "6,5,4",
-                             "6,5,uint8",
-                             "6,5,4,uint12",
-                             "6,5,0,uint8",
-                             "6,5,-4,uint8",
-                             "6,5,4,uint8,middle",
-                             "6,5,4,uint8,big,big",
-                             "6.5,5,4,uint8",
-                             "9999999999,1,1,uint8" })
-  {
-    EXPECT_THROW(ParseRawLayout(text), UsageError) << text;
-  }
-}

@@ -2,6 +2,7 @@
 // The rows of a scan, a few MB at a time: a thread of its own reads and unpacks the next slab while the last one is
 // worked on.
 
+#include "voxelcore/Progress.h"
 #include "voxelcore/ScanFile.h"
 
 #include <condition_variable>

@@ -3,12 +3,15 @@
 
 #include "ForeignBytes.h"
 #include "ScanBytes.h"
+#include "voxelcore/ItkProcess.h"
 #include "voxelcore/ScanRows.h"
 
 #include <itkHDF5ImageIO.h>
 #include <itkImage.h>
 #include <itkImageFileWriter.h>
 
+#include <cerrno>
+#include <sys/wait.h>
 #include <thread>
 
 using namespace voxelcore;
@@ -36,7 +39,7 @@ WriteSeries(const TempFolder & folder)
 
 } // namespace
 
-TEST(ItkFormats, ValuesPlacesAndReadersAreThoseOfTheFile)
+TEST(ItkProcess, ValuesPlacesAndReadersAreThoseOfTheFile)
 {
   struct Case
   {
@@ -69,7 +72,7 @@ TEST(ItkFormats, ValuesPlacesAndReadersAreThoseOfTheFile)
   }
 }
 
-TEST(ItkFormats, AllOrientationsThatItkWritesComeBack)
+TEST(ItkProcess, AllOrientationsThatItkWritesComeBack)
 {
   using Image = itk::Image<unsigned short, 3>;
   const TempFolder folder;
@@ -117,7 +120,7 @@ TEST(ItkFormats, AllOrientationsThatItkWritesComeBack)
   EXPECT_EQ(turns, 48);
 }
 
-TEST(ItkFormats, ANameOfASegmentIsThatOfTheFile)
+TEST(ItkProcess, ANameOfASegmentIsThatOfTheFile)
 {
   const TempFolder folder;
   const LabelMap   volume = ReadLabelVolume(folder.Write("a.dcm", DicomSegmentationBytes()));
@@ -125,7 +128,7 @@ TEST(ItkFormats, ANameOfASegmentIsThatOfTheFile)
   EXPECT_EQ(volume.labels[3].name, "segment 4");
 }
 
-TEST(ItkFormats, AllFilesOfASeriesAreTheScans)
+TEST(ItkProcess, AllFilesOfASeriesAreTheScans)
 {
   const TempFolder folder;
   const auto       series = WriteSeries(folder);
@@ -138,7 +141,7 @@ TEST(ItkFormats, AllFilesOfASeriesAreTheScans)
   EXPECT_EQ(byFile[3].filename(), "IM3");
 }
 
-TEST(ItkFormats, RowsComeInAnyOrder)
+TEST(ItkProcess, RowsComeInAnyOrder)
 {
   const TempFolder folder;
   ScanRows         rows(folder.Write("a.mrc", MrcBytes()), {});
@@ -154,7 +157,7 @@ TEST(ItkFormats, RowsComeInAnyOrder)
   }
 }
 
-TEST(ItkFormats, SeveralThreadsReadAtATime)
+TEST(ItkProcess, SeveralThreadsReadAtATime)
 {
   const TempFolder         folder;
   const auto               path = folder.Write("a.vtk", VtkBytes(false));
@@ -169,7 +172,7 @@ TEST(ItkFormats, SeveralThreadsReadAtATime)
   }
 }
 
-TEST(ItkFormats, WhatIsCutOffIsRefused)
+TEST(ItkProcess, WhatIsCutOffIsRefused)
 {
   const TempFolder folder;
   for (const auto & [name, bytes] : std::vector<std::pair<std::string, std::string>>{ { "a.mrc", MrcBytes() },
@@ -185,4 +188,43 @@ TEST(ItkFormats, WhatIsCutOffIsRefused)
   const std::string slice = DicomSeriesBytes().at("IM2");
   folder.Write("series/IM2", slice.substr(0, slice.size() - 4));
   ExpectRefused(folder / "series", {});
+}
+
+TEST(ItkProcess, FilesAndFoldersGoToItByTheirFirstBytes)
+{
+  ASSERT_TRUE(HasItkReader());
+  const TempFolder folder;
+  EXPECT_EQ(FormatByItk(folder.Write("a.mrc", MrcBytes())), ItkFormat::Mrc);
+  EXPECT_EQ(FormatByItk(WriteSeries(folder)), ItkFormat::Dicom);
+  EXPECT_EQ(FormatByItk(folder.Write("seg", DicomSegmentationBytes())), ItkFormat::Dicom);
+  EXPECT_EQ(FormatByItk(folder.Write("a.nrrd", "NRRD0004\n")), ItkFormat::None);
+  EXPECT_EQ(FormatByItk(folder / "nowhere"), ItkFormat::None);
+  folder.Write("series/slice.tif", "");
+  EXPECT_EQ(FormatByItk(folder / "series"), ItkFormat::None);
+}
+
+TEST(ItkProcess, GivesHeaderAndVoxelsOfOneScan)
+{
+  const TempFolder folder;
+  ScanFile         scan = OpenByItk(folder.Write("a.gipl", GiplBytes()), ItkFormat::Gipl, {});
+  EXPECT_EQ(scan.geometry.size, (std::array<std::int64_t, 3>{ 6, 5, 4 }));
+  std::vector<std::uint8_t> voxels(120);
+  ASSERT_EQ(scan.type, PixelType::UInt8);
+  scan.voxels->Read(reinterpret_cast<std::byte *>(voxels.data()), voxels.size());
+  const auto values = ForeignValues();
+  EXPECT_EQ(voxels, std::vector<std::uint8_t>(values.begin(), values.end()));
+  EXPECT_FALSE(scan.voxels->Finish());
+  EXPECT_EQ(ItkScanFiles(folder / "a.gipl", ItkFormat::Gipl), std::vector<std::filesystem::path>{ folder / "a.gipl" });
+}
+
+TEST(ItkProcess, WhatIsLeftUnreadLeavesNoProcessBehind)
+{
+  const TempFolder folder;
+  const auto       path = folder.Write("a.gipl", GiplBytes());
+  for (int n = 0; n < 3; ++n)
+  {
+    OpenByItk(path, ItkFormat::Gipl, {});
+  }
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
 }

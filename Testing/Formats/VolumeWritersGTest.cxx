@@ -1,0 +1,100 @@
+#include "voxelcore/VolumeWriters.h"
+#include "ScanBytes.h"
+#include "voxelcore/FormatOpeners.h"
+
+#include <map>
+#include <random>
+
+using namespace voxelcore;
+using namespace voxelcore::testing;
+
+namespace
+{
+
+struct Writer
+{
+  void (*write)(const std::filesystem::path &, const VolumeToWrite &);
+  ScanFile (*open)(const std::filesystem::path &, const ReadOptions &);
+};
+
+const std::map<std::string, Writer> kWriters{
+  { "a.nrrd", { WriteNrrd, OpenNrrd } },          { "a.nii", { WriteNifti, OpenNifti } },
+  { "a.nii.gz", { WriteNifti, OpenNifti } },      { "a.mha", { WriteMetaImage, OpenMetaImage } },
+  { "a.mhd", { WriteMetaImage, OpenMetaImage } }, { "a.tif", { WriteTiff, OpenTiff } }
+};
+
+} // namespace
+
+TEST(VolumeWriters, EveryFormatAndTypeGivesItsBytesBackInOrder)
+{
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  for (const PixelType type : { PixelType::UInt8, PixelType::UInt16, PixelType::UInt32, PixelType::UInt64 })
+  {
+    VolumeToWrite volume;
+    volume.geometry.size = { 5, 4, 3 };
+    volume.geometry.spacing = { 0.5, 0.75, 2 };
+    volume.type = type;
+    const std::size_t      sliceBytes = 20 * PixelBytes(type);
+    std::vector<std::byte> bytes(3 * sliceBytes);
+    std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::byte>(random() % 3); });
+    volume.slice = [&](std::int64_t k) {
+      return std::span<const std::byte>(bytes).subspan(static_cast<std::size_t>(k) * sliceBytes, sliceBytes);
+    };
+    for (const auto & [name, format] : kWriters)
+    {
+      for (const bool compress : { true, false })
+      {
+        SCOPED_TRACE(name + " " + PixelName(type));
+        const TempFolder folder;
+        volume.compress = compress;
+        format.write(folder / name, volume);
+        ScanFile scan = format.open(folder / name, {});
+        EXPECT_EQ(scan.type, type);
+        EXPECT_FALSE(scan.swapBytes);
+        EXPECT_EQ(scan.geometry.size, volume.geometry.size);
+        ExpectNear(scan.geometry.spacing, volume.geometry.spacing);
+        std::vector<std::byte> got(bytes.size());
+        scan.voxels->Read(got.data(), got.size());
+        EXPECT_TRUE(got == bytes);
+        EXPECT_FALSE(scan.voxels->Finish());
+      }
+    }
+  }
+}
+
+TEST(VolumeWriters, LayersAndFurtherFieldsGoIntoNrrd)
+{
+  const TempFolder folder;
+  VolumeToWrite    volume;
+  volume.geometry.size = { 2, 1, 1 };
+  volume.layers = 2;
+  volume.fields = "Segment0_ID:=S\nSegment0_Layer:=1\nSegment0_LabelValue:=4\nSegment0_Name:=liver\n";
+  const std::array<std::byte, 4> bytes{ std::byte{ 0 }, std::byte{ 4 }, std::byte{ 1 }, std::byte{ 0 } };
+  volume.slice = [&](std::int64_t) { return std::span<const std::byte>(bytes); };
+  WriteNrrd(folder / "a.seg.nrrd", volume);
+  const ScanFile scan = OpenNrrd(folder / "a.seg.nrrd", {});
+  EXPECT_EQ(scan.interleaved, 2U);
+  ASSERT_EQ(scan.segments.size(), 1U);
+  EXPECT_EQ(scan.segments[0].name, "liver");
+  EXPECT_EQ(scan.segments[0].layer, 1U);
+  EXPECT_EQ(scan.segments[0].value, 4);
+}
+
+TEST(VolumeWriters, AFullDiskIsAnOutputErrorInEveryFormat)
+{
+  VolumeToWrite volume;
+  volume.geometry.size = { 300, 300, 20 };
+  volume.compress = false;
+  std::vector<std::byte> slice(90000);
+  volume.slice = [&](std::int64_t) { return std::span<const std::byte>(slice); };
+  for (const auto & [name, format] : kWriters)
+  {
+    if (name.find(".mhd") == std::string::npos && name.find(".gz") == std::string::npos)
+    {
+      EXPECT_THROW(format.write("/dev/full", volume), OutputError) << name;
+    }
+    EXPECT_THROW(format.write("/nowhere/" + name, volume), OutputError) << name;
+  }
+}
