@@ -27,6 +27,26 @@ With(std::vector<std::string> lines, const std::string & field, const std::strin
   return lines;
 }
 
+/** Of a segmentation of two segments, Liver and Vessel, in a layer each; 3 x 2 x 2. */
+inline std::vector<std::string>
+LayerLines(int liver = 1, int vessel = 4)
+{
+  return { "type: uint8",
+           "dimension: 4",
+           "space: left-posterior-superior",
+           "sizes: 2 3 2 2",
+           "space directions: none (1,0,0) (0,1,0) (0,0,1)",
+           "kinds: list domain domain domain",
+           "encoding: raw",
+           "space origin: (0,0,0)",
+           "Segment0_Name:=Liver",
+           "Segment0_LabelValue:=" + std::to_string(liver),
+           "Segment0_Layer:=0",
+           "Segment1_Name:=Vessel",
+           "Segment1_LabelValue:=" + std::to_string(vessel),
+           "Segment1_Layer:=1" };
+}
+
 inline void
 ExpectValues(const LabelMap & volume, const std::vector<int> & values = kValues)
 {

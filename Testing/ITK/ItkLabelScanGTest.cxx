@@ -143,21 +143,7 @@ TEST_F(ItkLabelScan, APixelHoldsAValueExactlyOrNotAtAll)
 TEST_F(ItkLabelScan, SegmentsInLayersAreTheNumbersOfTheirLabels)
 {
   const auto path = [&](const std::vector<int> & values, int secondValue) {
-    const std::vector<std::string> lines{ "type: uint8",
-                                          "dimension: 4",
-                                          "space: left-posterior-superior",
-                                          "sizes: 2 3 2 2",
-                                          "space directions: none (1,0,0) (0,1,0) (0,0,1)",
-                                          "kinds: list domain domain domain",
-                                          "encoding: raw",
-                                          "space origin: (0,0,0)",
-                                          "Segment0_Name:=Liver",
-                                          "Segment0_LabelValue:=1",
-                                          "Segment0_Layer:=0",
-                                          "Segment1_Name:=Vessel",
-                                          "Segment1_LabelValue:=" + std::to_string(secondValue),
-                                          "Segment1_Layer:=1" };
-    return m_Folder.Write("a.seg.nrrd", Nrrd(lines, RawAll<std::uint8_t>(values)));
+    return m_Folder.Write("a.seg.nrrd", Nrrd(LayerLines(1, secondValue), RawAll<std::uint8_t>(values)));
   };
   std::vector<int> apart(24, 0);
   for (std::size_t voxel = 0; voxel < 12; ++voxel)

@@ -236,28 +236,14 @@ NoSpacing(const TempFolder & in)
 std::vector<Reading>
 Layers(const TempFolder & in)
 {
-  const std::vector<std::string> lines{ "type: uint8",
-                                        "dimension: 4",
-                                        "space: left-posterior-superior",
-                                        "sizes: 2 3 2 2",
-                                        "space directions: none (1,0,0) (0,1,0) (0,0,1)",
-                                        "kinds: list domain domain domain",
-                                        "encoding: raw",
-                                        "space origin: (0,0,0)",
-                                        "Segment0_Name:=Liver",
-                                        "Segment0_LabelValue:=1",
-                                        "Segment0_Layer:=0",
-                                        "Segment1_Name:=Vessel",
-                                        "Segment1_LabelValue:=4",
-                                        "Segment1_Layer:=1" };
-  std::vector<int>               stored(24, 0);
-  std::vector<int>               values(12, 0);
+  std::vector<int> stored(24, 0);
+  std::vector<int> values(12, 0);
   for (std::size_t voxel = 0; voxel < 12; ++voxel)
   {
     values[voxel] = voxel % 5 == 0 ? 0 : voxel < 6 ? 1 : 4;
     stored[2 * voxel + (voxel < 6 ? 0 : 1)] = values[voxel];
   }
-  return { { in.Write("a.seg.nrrd", Nrrd(lines, RawAll<std::uint8_t>(stored))), "", {}, {}, {}, {}, values } };
+  return { { in.Write("a.seg.nrrd", Nrrd(LayerLines(), RawAll<std::uint8_t>(stored))), "", {}, {}, {}, {}, values } };
 }
 
 std::vector<Reading>

@@ -81,30 +81,15 @@ TEST(ScanRows, OfAScaledScanAreItsValues)
 TEST(ScanRows, OfLayersAreNumbersOfLabelsUnlessTwoOverlap)
 {
   const TempFolder folder;
-  auto             lines = NrrdLines("uint8", { 3, 1, 1 });
-  std::erase_if(lines, [](const std::string & line) {
-    return line.starts_with("dimension") || line.starts_with("sizes") || line.starts_with("kinds") ||
-           line.starts_with("space directions");
-  });
-  lines.insert(lines.begin() + 1, { "dimension: 4", "sizes: 2 3 1 1", "kinds: list domain domain domain" });
-  lines.push_back("space directions: none (1,0,0) (0,1,0) (0,0,1)");
-  for (const auto & [key, value] : std::vector<std::pair<std::string, std::string>>{ { "0_Name", "bone" },
-                                                                                     { "0_Layer", "0" },
-                                                                                     { "0_LabelValue", "1" },
-                                                                                     { "1_Name", "marrow" },
-                                                                                     { "1_Layer", "1" },
-                                                                                     { "1_LabelValue", "2" } })
-  {
-    lines.push_back("Segment" + key + ":=" + value);
-  }
-  ScanRows rows(folder.Write("a.seg.nrrd", Nrrd(lines, RawAll<std::uint8_t>(std::vector<int>{ 1, 0, 0, 2, 0, 0 }))),
-                {});
+  std::vector<int> stored(24, 0);
+  stored[0] = 1;
+  stored[3] = 4;
+  ScanRows rows(folder.Write("a.seg.nrrd", Nrrd(nrrd::LayerLines(), RawAll<std::uint8_t>(stored))), {});
   EXPECT_EQ(rows.Type(), PixelType::Int64);
   EXPECT_EQ(rows.Segments().size(), 2U);
-  EXPECT_EQ(RowsOf(rows, 0, 1), (std::vector<double>{ 1, 2, 0 }));
-  ScanRows overlapping(
-    folder.Write("b.seg.nrrd", Nrrd(lines, RawAll<std::uint8_t>(std::vector<int>{ 1, 2, 0, 0, 0, 0 }))),
-    {});
+  EXPECT_EQ(RowsOf(rows, 0, 1), (std::vector<double>{ 1, 4, 0 }));
+  stored[1] = 4; // beside the 1
+  ScanRows overlapping(folder.Write("b.seg.nrrd", Nrrd(nrrd::LayerLines(), RawAll<std::uint8_t>(stored))), {});
   EXPECT_THROW(RowsOf(overlapping, 0, 1), InputError);
 }
 

@@ -21,6 +21,7 @@ FROM_ARRAY = {
     "pruned": lambda: voxelcore.core(ROD, lambda_="1.5vox"),
     "several": lambda: voxelcore.core(ROD, lambda_=["1vox", "2vox"]),
     "by tolerance": lambda: voxelcore.core(ROD, tolerance="1.2diag"),
+    "refined": lambda: voxelcore.core(ROD, lambda_=0, refine="labels"),
     "skeleton": lambda: voxelcore.skeleton(ROD),
     "table": lambda: voxelcore.measure(ROD),
 }
@@ -49,6 +50,7 @@ def refuses(monkeypatch, stage, make):
         ("pruning", "pruned"),
         ("pruning", "several"),
         ("tolerance", "by tolerance"),
+        ("refinement", "refined"),
         ("skeleton", "skeleton"),
         ("skeleton", "table"),
     ],
