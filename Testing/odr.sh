@@ -96,17 +96,30 @@ done
 
 bash "$source/Testing/debug.sh" "$build" voxelcore
 
-# What the program is linked with, apart from our own objects and archives.
-libraries=()
-for word in $(ninja -C "$build" -t commands voxelcore | tail -1); do
-  case "$word" in
-    Modules/*) ;;
-    *.so | *.so.* | -l* | /*.a) libraries+=("$word") ;;
-  esac
-done
-mapfile -t objects < <(find "$build/Modules" "$build/Applications/voxelcore" -path '*.dir/*' -name '*.cxx.o' | sort)
-if ! check /Modules/ "$seed/tree.log" "${objects[@]}" "${libraries[@]}"; then
-  cat "$seed/tree.log" >&2
-  exit 1
+# check_program TARGET OBJECTS...: with what the program is linked with apart from our own objects and archives.
+check_program() {
+  local word libraries=()
+  for word in $(ninja -C "$build" -t commands "$1" | tail -1); do
+    case "$word" in
+      Modules/*) ;;
+      *.so | *.so.* | -l* | /*.a) libraries+=("$word") ;;
+    esac
+  done
+  if ! check /Modules/ "$seed/$1.log" "${@:2}" "${libraries[@]}"; then
+    cat "$seed/$1.log" >&2
+    exit 1
+  fi
+  echo "$1: $(($# - 1)) objects, no name defined in two ways."
+}
+
+# objects_in FOLDER...: of these folders of the build; the helper program, with a main of its own, apart.
+objects_in() { find "${@/#/$build/}" -path '*.dir/*' -name '*.cxx.o' "${filter[@]}" | sort; }
+filter=(-not -path '*itk_reader*')
+mapfile -t objects < <(objects_in Modules Applications/voxelcore)
+check_program voxelcore "${objects[@]}"
+if [ -e "$build/Modules/ItkReader/CMakeFiles/voxelcore_itk_reader.dir" ]; then
+  mapfile -t objects < <(objects_in Modules/Lattice Modules/Shape)
+  filter=(-path '*itk_reader*')
+  mapfile -t -O "${#objects[@]}" objects < <(objects_in Modules/ItkReader)
+  check_program voxelcore_itk_reader "${objects[@]}"
 fi
-echo "${#objects[@]} objects, no name defined in two ways."

@@ -1,5 +1,6 @@
 // What a page is made of is valid JSON whatever is shown, and nothing of a label is lost.
 
+#include "MeshBudget.h"
 #include "PageModel.h"
 
 #include "VoxelCoreTesting/Shapes.h"

@@ -1,52 +1,17 @@
 // VTK's legacy polydata. VTK 9.1's own reader takes every count in the file on trust and crashes where one is wrong.
 
-#include "MeshNumbers.h"
+#include "LegacyWords.h"
 
 namespace voxelcore
 {
 namespace
 {
 
-struct NamedType
-{
-  std::string_view name;
-  NumberType       type;
-};
-
-constexpr std::array<NamedType, 16> kTypes{ { { "char", { 'i', 1 } },
-                                              { "signed_char", { 'i', 1 } },
-                                              { "unsigned_char", { 'u', 1 } },
-                                              { "short", { 'i', 2 } },
-                                              { "unsigned_short", { 'u', 2 } },
-                                              { "int", { 'i', 4 } },
-                                              { "unsigned_int", { 'u', 4 } },
-                                              { "vtkidtype", { 'i', 4 } },
-                                              { "long", { 'i', 8 } },
-                                              { "unsigned_long", { 'u', 8 } },
-                                              { "vtktypeint64", { 'i', 8 } },
-                                              { "vtktypeuint64", { 'u', 8 } },
-                                              { "float", { 'f', 4 } },
-                                              { "double", { 'f', 8 } },
-                                              { "vtktypeint32", { 'i', 4 } },
-                                              { "vtktypeuint32", { 'u', 4 } } } };
-
-std::string
-LowerCase(std::string_view word)
-{
-  std::string lower(word);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) {
-    return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  });
-  return lower;
-}
-
 /** Reads a whole file, attributes included: a file that ends within them is cut off, too. */
-class LegacyParser
+class LegacyParser : private LegacyWords
 {
 public:
-  explicit LegacyParser(std::string_view bytes)
-    : m_Bytes(bytes)
-  {}
+  using LegacyWords::LegacyWords;
 
   MeshFile
   Parse()
@@ -304,126 +269,12 @@ private:
     }
   }
 
-  static NumberType
-  Type(std::string_view name)
-  {
-    const std::string  lower = LowerCase(name);
-    const auto * const found =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const auto & t) { return t.name == lower; });
-    if (found == kTypes.end())
-    {
-      throw UnfitFile{ "'" + MeshText::Shown(name) + "' where a type of numbers is expected" };
-    }
-    return found->type;
-  }
-
-  template <typename Value>
-  std::vector<Value>
-  Numbers(std::uint64_t tuples, std::uint64_t components, NumberType type)
-  {
-    const std::uint64_t count = Product(tuples, components);
-    std::vector<Value>  numbers;
-    if (m_IsText)
-    {
-      // A number takes two bytes at least, so that memory stays in proportion to the file whatever the count.
-      RequireFit(count <= m_Bytes.size() - m_At, "it promises more numbers than it has room for");
-      numbers.reserve(count);
-      for (std::uint64_t i = 0; i < count; ++i)
-      {
-        const std::string_view word = Word();
-        RequireFit(!word.empty(), "it ends in the middle of its numbers");
-        numbers.push_back(ParseNumber<Value>(word, type));
-      }
-      return numbers;
-    }
-    EndLine();
-    const std::string_view bytes = Take(Product(count, type.bytes));
-    numbers.reserve(count);
-    for (std::uint64_t i = 0; i < count; ++i)
-    {
-      numbers.push_back(LoadNumber<Value>(bytes.data() + i * type.bytes, type, true));
-    }
-    return numbers;
-  }
-
-  static std::uint64_t
-  Product(std::uint64_t a, std::uint64_t b)
-  {
-    RequireFit(b == 0 || a <= std::numeric_limits<std::int64_t>::max() / b, "counts that cannot be");
-    return a * b;
-  }
-
-  std::uint64_t
-  Count()
-  {
-    const std::string_view word = Word();
-    const auto             count = ParseNumber<std::int64_t>(word, { 'i', 8 });
-    RequireFit(count >= 0, "counts that cannot be");
-    return static_cast<std::uint64_t>(count);
-  }
-
-  static bool
-  IsBlank(char c)
-  {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-  }
-
-  /** The word at or behind `at`, which moves behind it; empty at the end of the file. */
-  std::string_view
-  Word(std::size_t & at) const
-  {
-    while (at < m_Bytes.size() && IsBlank(m_Bytes[at]))
-    {
-      ++at;
-    }
-    const std::size_t begin = at;
-    while (at < m_Bytes.size() && !IsBlank(m_Bytes[at]))
-    {
-      ++at;
-    }
-    return m_Bytes.substr(begin, at - begin);
-  }
-
-  std::string_view
-  Word()
-  {
-    return Word(m_At);
-  }
-
-  std::string_view
-  Line()
-  {
-    const std::size_t      end = std::min(m_Bytes.find('\n', m_At), m_Bytes.size());
-    const std::string_view line = m_Bytes.substr(m_At, end - m_At);
-    m_At = std::min(end + 1, m_Bytes.size());
-    return line;
-  }
-
-  /** Bytes begin behind the line that announces them. */
-  void
-  EndLine()
-  {
-    RequireFit(Line().find_first_not_of(" \t\r") == std::string_view::npos, "a line is longer than it should be");
-  }
-
-  std::string_view
-  Take(std::uint64_t count)
-  {
-    RequireFit(count <= m_Bytes.size() - m_At, "it ends in the middle of an array");
-    const std::string_view bytes = m_Bytes.substr(m_At, count);
-    m_At += count;
-    return bytes;
-  }
-
-  std::string_view m_Bytes;
-  std::size_t      m_At = 0;
-  bool             m_IsText = true;
-  bool             m_HasPoints = false;
-  MeshFile         m_File;
-  Cells            m_Polygons;
-  Cells            m_Strips;
-  std::uint64_t    m_OtherCells = 0;
-  std::uint64_t    m_Tuples = 0;
+  bool          m_HasPoints = false;
+  MeshFile      m_File;
+  Cells         m_Polygons;
+  Cells         m_Strips;
+  std::uint64_t m_OtherCells = 0;
+  std::uint64_t m_Tuples = 0;
 };
 
 } // namespace
