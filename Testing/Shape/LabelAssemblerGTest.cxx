@@ -1,6 +1,4 @@
-#include "voxelcore/Error.h"
-#include "voxelcore/GreyScan.h"
-#include "voxelcore/LabelAssembler.h"
+#include "LabelsInMemory.h"
 
 #include <gtest/gtest.h>
 
@@ -12,40 +10,6 @@ namespace voxelcore::testing
 {
 namespace
 {
-
-ImageGeometry
-SizedGeometry(std::int64_t x, std::int64_t y, std::int64_t z)
-{
-  ImageGeometry geometry;
-  geometry.size = { x, y, z };
-  return geometry;
-}
-
-/** The labels of values that lie in memory, x fastest. */
-template <typename T>
-std::vector<LabelShape>
-LabelsOf(const std::vector<T> & values, const ImageGeometry & geometry, const LabelChoice & choice = {})
-{
-  LabelAssembler assembler("the image", geometry, LabelAssembler::Pixel::Of<T>(), choice);
-  assembler.AddRows(values.data(), 0, static_cast<std::size_t>(geometry.size[1] * geometry.size[2]));
-  return assembler.TakeShapes();
-}
-
-template <typename TError = InputError, typename Work>
-std::string
-MessageOf(const Work & work)
-{
-  try
-  {
-    work();
-  }
-  catch (const TError & error)
-  {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
-}
 
 template <typename T>
 class LabelAssemblerOf : public ::testing::Test
@@ -97,50 +61,6 @@ TYPED_TEST(LabelAssemblerOf, EachValueHasItsShapeInItsTightBox)
                 std::string::npos);
     }
   }
-}
-
-TEST(LabelAssembler, TakesTheLabelsThatAreChosen)
-{
-  const std::vector<std::uint8_t> values{ 0, 1, 2, 3 };
-  const ImageGeometry             row = SizedGeometry(4, 1, 1);
-  LabelChoice                     choice;
-  choice.labels = "3, label-1";
-  auto labels = LabelsOf(values, row, choice);
-  ASSERT_EQ(labels.size(), 2U);
-  EXPECT_EQ(labels[0].value, 1);
-  EXPECT_EQ(labels[1].value, 3);
-  choice.binary = true;
-  labels = LabelsOf(values, row, choice);
-  ASSERT_EQ(labels.size(), 1U);
-  EXPECT_EQ(labels[0].value, 1);
-  EXPECT_EQ(labels[0].voxels, 2U);
-  choice.labels = "4";
-  EXPECT_EQ(MessageOf([&] { LabelsOf(values, row, choice); }), "the image: there is no label '4'; it has 1, 2, 3");
-  choice.labels = "1,,2";
-  MessageOf<UsageError>([&] { LabelsOf(values, row, choice); });
-  choice = {};
-  choice.crop = ParseCrop("2:,:,:");
-  labels = LabelsOf(values, row, choice);
-  ASSERT_EQ(labels.size(), 2U);
-  EXPECT_EQ(labels[0].shape.Box().lower[0], 2); // places do not move
-  EXPECT_EQ(
-    MessageOf([&] { LabelsOf(std::vector<std::uint8_t>(4, 0), row); }).find("the image: nothing but background"),
-    0U);
-}
-
-TEST(LabelAssembler, AThresholdMakesOneShape)
-{
-  LabelChoice choice;
-  choice.threshold = { -0.5, 2 };
-  const ImageGeometry row = SizedGeometry(4, 1, 1);
-  const auto          labels = LabelsOf(std::vector<float>{ -1, -0.5F, 2, 2.5F }, row, choice);
-  ASSERT_EQ(labels.size(), 1U);
-  EXPECT_EQ(labels[0].voxels, 2U);
-  choice.labels = "1";
-  MessageOf<UsageError>([&] { LabelsOf(std::vector<float>(4, 1), row, choice); });
-  choice = {};
-  choice.threshold = { 2, 1 };
-  MessageOf<UsageError>([&] { LabelsOf(std::vector<float>(4, 1), row, choice); });
 }
 
 TEST(LabelAssembler, LayersKeepTheirNumbersUnderACrop)
@@ -204,24 +124,6 @@ TEST(LabelAssembler, RowsMayComeInAnyPortions)
       }
     }
   }
-}
-
-TEST(LabelAssembler, GreyImagesAreRefusedWhenAsked)
-{
-  std::mt19937              random(20261122);
-  const ImageGeometry       geometry = SizedGeometry(40, 40, 40);
-  std::vector<std::uint8_t> values(40 * 40 * 40);
-  for (auto & value : values)
-  {
-    value = static_cast<std::uint8_t>(50 + random() % 100);
-  }
-  LabelChoice choice;
-  EXPECT_GT(LabelsOf(values, geometry, choice).size(), 90U);
-  choice.refuseGrey = true;
-  EXPECT_NE(MessageOf<GreyScanError>([&] { LabelsOf(values, geometry, choice); }).find("--threshold"),
-            std::string::npos);
-  choice.binary = true;
-  EXPECT_EQ(LabelsOf(values, geometry, choice).size(), 1U);
 }
 
 } // namespace

@@ -1,0 +1,50 @@
+#pragma once
+// Labels of values that lie in memory, and what is said where there are none.
+
+#include "voxelcore/Error.h"
+#include "voxelcore/LabelAssembler.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace voxelcore::testing
+{
+
+inline ImageGeometry
+SizedGeometry(std::int64_t x, std::int64_t y, std::int64_t z)
+{
+  ImageGeometry geometry;
+  geometry.size = { x, y, z };
+  return geometry;
+}
+
+/** The labels of values that lie in memory, x fastest. */
+template <typename T>
+std::vector<LabelShape>
+LabelsOf(const std::vector<T> & values, const ImageGeometry & geometry, const LabelChoice & choice = {})
+{
+  LabelAssembler assembler("the image", geometry, LabelAssembler::Pixel::Of<T>(), choice);
+  assembler.AddRows(values.data(), 0, static_cast<std::size_t>(geometry.size[1] * geometry.size[2]));
+  return assembler.TakeShapes();
+}
+
+template <typename TError = InputError, typename Work>
+std::string
+MessageOf(const Work & work)
+{
+  try
+  {
+    work();
+  }
+  catch (const TError & error)
+  {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+} // namespace voxelcore::testing
