@@ -1,4 +1,4 @@
-#include "SkeletonFixtures.h"
+#include "GraphBuilder.h"
 
 #include "voxelcore/BranchTable.h"
 
@@ -7,66 +7,6 @@ namespace voxelcore::testing
 
 namespace
 {
-
-/** A graph of straight branches between places, with a point every mm, all of one radius per branch. */
-class GraphBuilder
-{
-public:
-  void
-  Line(const Spacing3 & from, const Spacing3 & to, double radius)
-  {
-    const int                 steps = std::max(2, static_cast<int>(Distance(from, to) + 0.5));
-    std::vector<ElementIndex> line;
-    for (int i = 0; i <= steps; ++i)
-    {
-      const double t = static_cast<double>(i) / steps;
-      line.push_back(
-        Point({ from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2]) },
-              radius));
-    }
-    m_Lines.push_back(line);
-  }
-
-  SkeletonGraph
-  Graph()
-  {
-    SortBranches(m_Graph, m_Lines, true);
-    return m_Graph;
-  }
-
-private:
-  ElementIndex
-  Point(const Spacing3 & place, double radius)
-  {
-    const auto [found, isNew] = m_Points.try_emplace(place, static_cast<ElementIndex>(m_Graph.positions.size()));
-    if (isNew)
-    {
-      m_Graph.positions.push_back(place);
-      m_Graph.radius.push_back(radius);
-      m_Graph.erosionThickness.push_back(0);
-    }
-    return found->second;
-  }
-
-  SkeletonGraph                          m_Graph;
-  std::vector<std::vector<ElementIndex>> m_Lines;
-  std::map<Spacing3, ElementIndex>       m_Points;
-};
-
-/** A stem of 60 with two laterals, of which one has a lateral of its own. */
-GraphBuilder
-SmallRoot()
-{
-  GraphBuilder builder;
-  builder.Line({ 0, 0, 60 }, { 0, 0, 40 }, 3);
-  builder.Line({ 0, 0, 40 }, { 0, 0, 20 }, 3);
-  builder.Line({ 0, 0, 20 }, { 0, 0, 0 }, 2);
-  builder.Line({ 0, 0, 40 }, { 30, 0, 40 }, 1.5);
-  builder.Line({ 0, 0, 20 }, { 0, 20, 20 }, 1.5);
-  builder.Line({ 0, 20, 20 }, { 0, 40, 20 }, 1);
-  builder.Line({ 0, 20, 20 }, { 0, 20, 10 }, 0.5);
-  return builder;
-}
 
 TEST(BranchTable, SmallRootHasItsLevels)
 {
@@ -160,31 +100,6 @@ TEST(BranchTable, RingIsOneIsolatedLoop)
   EXPECT_EQ(table.numbers.cycles, 0);
   EXPECT_EQ(table.numbers.tips, 2);
   EXPECT_NEAR(table.numbers.totalLength, 20 + std::sqrt(200), 1e-9);
-}
-
-TEST(BranchTable, ShortBranchesArePrunedShortestFirst)
-{
-  SkeletonGraph graph = SmallRoot().Graph();
-  // 10 and 20 mm branches go one after another; the 10 goes first, and what it hung on becomes one lateral of 40.
-  EXPECT_EQ(PruneBranches(graph, { 12, 0 }), 1U);
-  EXPECT_EQ(MeasureBranches(graph).numbers.branches, 5);
-  EXPECT_EQ(PruneBranches(graph, { 35, 0 }), 2U); // both ends of the stem; then the laterals are one line
-  const BranchTable table = MeasureBranches(graph);
-  EXPECT_EQ(table.numbers.branches, 1);
-  EXPECT_NEAR(table.numbers.totalLength, 30 + 20 + 40, 1e-9);
-}
-
-TEST(BranchTable, BranchesSplitAtJunctionsShareNoPoint)
-{
-  SkeletonGraph graph = SmallRoot().Graph();
-  SplitAtJunctions(graph);
-  EXPECT_EQ(graph.BranchCount(), 7U);
-  std::vector<int> uses(graph.positions.size(), 0);
-  for (const ElementIndex point : graph.branchPoints)
-  {
-    EXPECT_EQ(++uses[point], 1);
-  }
-  EXPECT_EQ(MeasureBranches(graph).numbers.components, 7);
 }
 
 TEST(BranchTable, ComponentsAndCyclesAreTheShapes)

@@ -59,8 +59,8 @@ struct Voxelization
   MeshFindings  findings;
   std::uint64_t voxels = 0;
 
-  /** By rule Winding: voxels in several parts at once, or in one that is inside out. By Votes: voxels, in or not, of
-   *  which the rays do not all say the same. */
+  /** By rule Winding: voxels in several parts at once, or in one that is inside out while the mesh as a whole is not.
+   *  By Votes: voxels, in or not, of which the rays do not all say the same. */
   std::uint64_t doubtful = 0;
 };
 

@@ -312,7 +312,7 @@ ExpectCanonicalOrder(const MedialComplex & core)
   }
 }
 
-TEST(MedialGeometry, MeasuresAreSmallestBallsOfTheNearestBoundaryVertices)
+TEST(MedialComplex, MeasuresAreSmallestBallsOfTheNearestBoundaryVertices)
 {
   std::cout << "seeds from 7000\n";
   for (std::uint64_t seed = 7000; seed < 7080; ++seed)
@@ -323,7 +323,7 @@ TEST(MedialGeometry, MeasuresAreSmallestBallsOfTheNearestBoundaryVertices)
   }
 }
 
-TEST(MedialGeometry, MeasuresAreRightInThickShapesToo)
+TEST(MedialComplex, MeasuresAreRightInThickShapesToo)
 {
   for (const auto & spacing : testing::TestSpacings())
   {
@@ -341,7 +341,7 @@ TEST(MedialGeometry, MeasuresAreRightInThickShapesToo)
   }
 }
 
-TEST(MedialGeometry, FacesAreConvexOrientedAndInCanonicalOrder)
+TEST(MedialComplex, FacesAreConvexOrientedAndInCanonicalOrder)
 {
   std::cout << "seeds from 7200\n";
   for (std::uint64_t seed = 7200; seed < 7400; ++seed)
@@ -352,6 +352,22 @@ TEST(MedialGeometry, FacesAreConvexOrientedAndInCanonicalOrder)
     ASSERT_NO_FATAL_FAILURE(ExpectOrientedConvexFaces(judged));
     ASSERT_NO_FATAL_FAILURE(ExpectCanonicalOrder(judged.core));
   }
+}
+
+TEST(MedialComplex, HasTolerancesWhereThereIsOneForEachVertex)
+{
+  const VoxelShape shape = testing::Ellipsoid(12);
+  EXPECT_FALSE(testing::CoreOf(shape).HasTolerances());
+  MedialComplex core = testing::CoreWithTolerancesOf(shape);
+  EXPECT_TRUE(core.HasTolerances());
+  const double        middle = *std::max_element(core.tolerances.vertices.begin(), core.tolerances.vertices.end()) / 2;
+  const MedialComplex pruned = PruneByTolerance(core, middle);
+  EXPECT_TRUE(pruned.HasTolerances());
+  EXPECT_LT(pruned.cells.vertexCount, core.cells.vertexCount);
+  EXPECT_GE(*std::min_element(pruned.tolerances.vertices.begin(), pruned.tolerances.vertices.end()), middle);
+  core.tolerances.vertices.pop_back();
+  EXPECT_FALSE(core.HasTolerances());
+  EXPECT_FALSE(MedialComplex{}.HasTolerances()) << "nothing has no heights";
 }
 
 } // namespace

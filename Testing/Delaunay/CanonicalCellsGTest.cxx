@@ -1,0 +1,188 @@
+#include "SameCells.h"
+#include "VoxelCoreTesting/ExactNumbers.h"
+
+#include "voxelcore/CanonicalCells.h"
+#include "voxelcore/Error.h"
+
+#include <algorithm>
+#include <iostream>
+#include <numeric>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+/** A shape's cells as they come from an engine. */
+struct Answer
+{
+  std::vector<LatticePoint> points;
+  SpacingWeights            weights;
+  DelaunayCells             cells;
+
+  explicit Answer(const RandomVolume & volume)
+    : points(BoundaryVertices(volume.shape))
+    , weights(ComputeSpacingWeights(volume.spacing))
+    , cells(ComputeDelaunayCells(volume.shape, points, weights, Engine::Lattice))
+  {}
+};
+
+template <typename T>
+void
+Shuffle(Random & random, std::vector<T> & items)
+{
+  for (std::size_t i = items.size(); i > 1; --i)
+  {
+    std::swap(items[i - 1], items[static_cast<std::size_t>(random.Between(0, static_cast<std::int64_t>(i) - 1))]);
+  }
+}
+
+/** The same cells under other numbers: facets in any order, from either side, polygons from any corner, and facets that
+ *  no cell has among them; the first cells sorted already. */
+RawCells
+Disorder(const Answer & answer, Random & random, double sortedShare)
+{
+  const DelaunayCells &      cells = answer.cells;
+  std::vector<std::uint32_t> number(cells.CellCount());
+  std::iota(number.begin(), number.end(), 0U);
+  Shuffle(random, number);
+  RawCells raw;
+  raw.cells.tetrahedra.resize(cells.CellCount());
+  for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
+  {
+    std::vector<std::uint32_t> corners(cells.tetrahedra[cell].begin(), cells.tetrahedra[cell].end());
+    Shuffle(random, corners);
+    std::copy(corners.begin(), corners.end(), raw.cells.tetrahedra[number[cell]].begin());
+  }
+  std::vector<std::size_t> order(cells.FacetCount());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  Shuffle(random, order);
+  for (const std::size_t facet : order)
+  {
+    const auto                 given = cells.FacetPoints(facet);
+    std::vector<std::uint32_t> polygon(given.begin(), given.end());
+    if (random.Chance(0.1))
+    {
+      raw.cells.facetCells.push_back({ kOutside, kOutside });
+      raw.cells.facetPoints.insert(raw.cells.facetPoints.end(), polygon.begin(), polygon.end());
+      raw.cells.facetOffsets.push_back(raw.cells.facetPoints.size());
+    }
+    auto pair = cells.facetCells[facet];
+    pair[0] = number[pair[0]];
+    pair[1] = pair[1] == kOutside ? kOutside : number[pair[1]];
+    if (pair[1] != kOutside && random.Chance(0.5))
+    {
+      std::swap(pair[0], pair[1]);
+      std::reverse(polygon.begin(), polygon.end());
+    }
+    std::rotate(polygon.begin(),
+                polygon.begin() + random.Between(0, static_cast<std::int64_t>(polygon.size()) - 1),
+                polygon.end());
+    raw.cells.facetCells.push_back(pair);
+    raw.cells.facetPoints.insert(raw.cells.facetPoints.end(), polygon.begin(), polygon.end());
+    raw.cells.facetOffsets.push_back(raw.cells.facetPoints.size());
+  }
+  DelaunayCells first;
+  first.tetrahedra.assign(raw.cells.tetrahedra.begin(),
+                          raw.cells.tetrahedra.begin() +
+                            static_cast<std::ptrdiff_t>(sortedShare * static_cast<double>(cells.CellCount())));
+  raw.sorted = SortByCentre(first, 0, answer.points, answer.weights);
+  return raw;
+}
+
+TEST(CanonicalCells, AreTheSameWhateverTheOrderOfWhatCameIn)
+{
+  constexpr std::uint64_t firstSeed = 4400;
+  std::cout << "seeds from " << firstSeed << '\n';
+  for (const RandomVolume & volume : RandomVolumes(firstSeed, 40))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const Answer answer(volume);
+    Random       random(volume.seed);
+    for (const double sortedShare : { 0.0, 0.4, 1.0 })
+    {
+      ASSERT_NO_FATAL_FAILURE(
+        ExpectSameCells(MakeCanonical(Disorder(answer, random, sortedShare), answer.points, answer.weights),
+                        answer.cells));
+    }
+  }
+}
+
+TEST(CanonicalCells, ThousandsAreTheSameWithAnyNumberOfThreads)
+{
+  RandomVolume volume;
+  Random       random(5);
+  volume.shape = RandomShape(random, { 34, 34, 34 }, 0.8);
+  volume.spacing = { 1, 1, 2 };
+  const Answer answer(volume);
+  ASSERT_GT(answer.cells.CellCount(), 20000U) << "enough for several threads";
+  for (const int count : { 1, 3 })
+  {
+    const Threads  threads(count);
+    const RawCells raw = Disorder(answer, random, 0.5);
+    ASSERT_NO_FATAL_FAILURE(ExpectSameCells(MakeCanonical(raw, answer.points, answer.weights), answer.cells));
+  }
+}
+
+TEST(CanonicalCells, CellsAreSortedByTheirExactCentres)
+{
+  constexpr std::uint64_t firstSeed = 4500;
+  std::cout << "seeds from " << firstSeed << '\n';
+  for (const RandomVolume & volume : RandomVolumes(firstSeed, 12))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const Answer   answer(volume);
+    Random         random(volume.seed);
+    const RawCells raw = Disorder(answer, random, 0);
+    const auto     first = raw.cells.CellCount() / 3;
+    const auto     sorted = SortByCentre(raw.cells, first, answer.points, answer.weights);
+    ASSERT_EQ(sorted.size(), raw.cells.CellCount() - first);
+    std::optional<BigVector> before;
+    for (const CentredCell & entry : sorted)
+    {
+      ASSERT_GE(entry.cell, first);
+      std::vector<LatticePoint> corners;
+      for (const std::uint32_t corner : raw.cells.tetrahedra[entry.cell])
+      {
+        corners.push_back(answer.points[corner]);
+      }
+      const auto centre = ExactCircumcentre(corners, answer.weights);
+      ASSERT_TRUE(centre.has_value());
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        ASSERT_TRUE(IsNearestDouble(entry.centre[axis], (*centre)[axis]));
+        ASSERT_LE(denominator((*centre)[axis]), BigInteger(static_cast<std::int64_t>(entry.denominator)));
+      }
+      ASSERT_TRUE(!before || *before < *centre) << "cell " << entry.cell;
+      before = centre;
+    }
+  }
+}
+
+TEST(CanonicalCells, TwoOfOneCentreAreRefusedWhereverTheyCome)
+{
+  const Answer answer(MakeRandomVolume(77, 4, 6));
+  Random       random(77);
+  for (const double sortedShare : { 0.0, 0.5, 1.0 })
+  {
+    for (const bool atTheEnd : { false, true })
+    {
+      RawCells   raw = Disorder(answer, random, sortedShare);
+      const auto twin = atTheEnd ? raw.cells.tetrahedra.back() : raw.cells.tetrahedra.front();
+      raw.cells.tetrahedra.push_back(twin);
+      EXPECT_THROW(MakeCanonical(std::move(raw), answer.points, answer.weights), CertificateError)
+        << sortedShare << ' ' << atTheEnd;
+    }
+  }
+}
+
+TEST(CanonicalCells, OfNothingAreNone)
+{
+  const DelaunayCells none = MakeCanonical({}, {}, ComputeSpacingWeights({ 1, 1, 1 }));
+  EXPECT_EQ(none.CellCount(), 0U);
+  EXPECT_EQ(none.FacetCount(), 0U);
+  EXPECT_EQ(none.facetOffsets, (std::vector<std::uint64_t>{ 0 }));
+}
+
+} // namespace
+} // namespace voxelcore::testing
