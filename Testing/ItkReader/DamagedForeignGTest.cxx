@@ -80,7 +80,7 @@ ReadMutations(int countOfEach)
 
 TEST(DamagedForeign, FilesEndInAVolumeOrARefusal)
 {
-  ReadMutations(10);
+  ReadMutations(5);
 }
 
 TEST(HeavyDamagedForeign, FilesEndInAVolumeOrARefusal)

@@ -185,7 +185,7 @@ Damage(int countOfEach)
 
 TEST(ItkReader, DamagedFilesTakeNoMoreThanTheirDue)
 {
-  Damage(60);
+  Damage(20);
 }
 
 TEST(HeavyItkReader, TenThousandDamagedFilesOfEachFormatTakeNoMoreThanTheirDue)

@@ -3,7 +3,7 @@ values, names and colours of labels, and every voxel's place, over all 48 orient
 is known to take for something else must come right or be refused with one line.
 
 usage: compare_with_oracles.py DUMP_PROGRAM SCRATCH_FOLDER FORMAT STEP [FOLDER OF FOREIGN SCANS]
-FORMAT: dicom seg mrc minc vtk hdf5 gipl    STEP: 1 for all orientations, 7 for every seventh
+FORMAT: dicom seg mrc minc vtk hdf5 gipl    STEP: 1 for all orientations, 11 for every eleventh
 exit 77: the oracle is not installed
 """
 import importlib

@@ -38,7 +38,7 @@ def same(result, path, tmp_path):
 
 @pytest.fixture(scope="module")
 def scan(tmp_path_factory):
-    volume = numpy.kron(blobs(31, shape=(20, 18, 16)), numpy.ones((2, 2, 2), numpy.uint8))
+    volume = numpy.kron(blobs(31, shape=(14, 13, 12)), numpy.ones((2, 2, 2), numpy.uint8))
     path = tmp_path_factory.mktemp("scan") / "scan.nrrd"
     write_nrrd(path, volume, SPACING)
     return volume, path

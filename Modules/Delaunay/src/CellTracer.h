@@ -6,7 +6,7 @@
 // bits of a window finds it, exact integers decide. The smallest cells, the corners of single voxels, come from a
 // table.
 
-#include "BrickGrid.h"
+#include "TracingBricks.h"
 #include "BrickQueue.h"
 #include "CapScan.h"
 #include "CellHull.h"
@@ -28,7 +28,7 @@ struct TracingInput
   const std::vector<LatticePoint> &  points;
   const SpacingWeights &             weights;
   const VertexRows &                 rows;
-  const BrickGrid &                  grid;
+  const TracingBricks &              grid;
   const std::vector<std::uint32_t> & load; ///< per brick: boundary vertices that it or a side of it holds
 };
 

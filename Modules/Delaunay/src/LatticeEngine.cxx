@@ -81,7 +81,7 @@ TraceSideBySide(const TracingInput & input, std::size_t threads, const ProgressC
 } // namespace
 
 std::vector<std::uint32_t>
-BrickLoad(const BrickGrid & grid, const std::vector<LatticePoint> & points)
+BrickLoad(const TracingBricks & grid, const std::vector<LatticePoint> & points)
 {
   std::vector<std::uint32_t> load(grid.Size(), 0);
   for (const LatticePoint & p : points)
@@ -113,7 +113,7 @@ LatticeCells(const VoxelShape &                shape,
              const ProgressCallback &          progress)
 {
   const VertexRows                 rows(shape, points);
-  const BrickGrid                  grid(shape.Box());
+  const TracingBricks              grid(shape.Box());
   const std::vector<std::uint32_t> load = BrickLoad(grid, points);
   const TracingInput               input{ shape, points, weights, rows, grid, load };
 

@@ -9,12 +9,12 @@ namespace voxelcore
 {
 
 /** Bricks in scan order (x fastest). */
-struct BrickGrid
+struct TracingBricks
 {
   LatticePoint                lower{};
   std::array<std::int32_t, 3> count{};
 
-  explicit BrickGrid(const VoxelBox & box)
+  explicit TracingBricks(const VoxelBox & box)
     : lower{ box.lower[0], box.lower[1], box.lower[2] }
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -56,6 +56,6 @@ struct BrickGrid
 /** How many of the points each brick holds, those on its sides included: a brick with none has nothing to start
  *  from. */
 std::vector<std::uint32_t>
-BrickLoad(const BrickGrid & grid, const std::vector<LatticePoint> & points);
+BrickLoad(const TracingBricks & grid, const std::vector<LatticePoint> & points);
 
 } // namespace voxelcore
