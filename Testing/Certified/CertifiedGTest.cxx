@@ -1,4 +1,4 @@
-#include "voxelcore/Certified.h"
+#include "CertifiedFixtures.h"
 
 #include "RefinedResults.h"
 #include "voxelcore/Error.h"
@@ -14,53 +14,6 @@ namespace voxelcore
 namespace
 {
 
-VoxelShape
-Box(std::int32_t x, std::int32_t y, std::int32_t z)
-{
-  VoxelShape shape(VoxelBox{ { 2, 3, 4 }, { x, y, z } });
-  for (std::int32_t k = 0; k < z; ++k)
-  {
-    for (std::int32_t j = 0; j < y; ++j)
-    {
-      for (std::int32_t i = 0; i < x; ++i)
-      {
-        shape.Insert(2 + i, 3 + j, 4 + k);
-      }
-    }
-  }
-  return shape;
-}
-
-ImageGeometry
-Grid(const Vector3 & spacing)
-{
-  ImageGeometry geometry;
-  geometry.size = { 40, 40, 40 };
-  geometry.spacing = spacing;
-  return geometry;
-}
-
-CertifiedRequest
-Lambdas(const std::vector<std::string> & texts)
-{
-  CertifiedRequest request;
-  request.lambdas.clear();
-  for (const std::string & text : texts)
-  {
-    request.lambdas.push_back(ParseLambda(text));
-  }
-  return request;
-}
-
-SkeletonRequest
-Skeleton()
-{
-  SkeletonRequest request;
-  request.standOut = ParseLambda("3vox");
-  request.smooth = ParseLambda("6vox");
-  return request;
-}
-
 TEST(Certified, ASingleVoxelHasOneVertexInItsMiddle)
 {
   const CertifiedResult result = ComputeCertified(Box(1, 1, 1), Grid({ 2, 2, 2 }), Lambdas({ "0", "1.5vox" }));
@@ -71,44 +24,6 @@ TEST(Certified, ASingleVoxelHasOneVertexInItsMiddle)
   // Voxel (2,3,4) of a scan with 2 mm voxels at the origin.
   EXPECT_EQ(result.cores[0].core.core.positions[0], (std::array<double, 3>{ 4, 6, 8 }));
   EXPECT_EQ(result.shape.topology, result.cores[1].numbers.complex.topology);
-}
-
-TEST(Certified, SeveralLambdasAndPruningLaterGiveWhatEachGivesAlone)
-{
-  const ImageGeometry            grid = Grid({ 1, 1, 2 });
-  const std::vector<std::string> texts{ "2mm", "0", "1.5vox", "1.5mm", "100mm" };
-  const CertifiedResult          together = ComputeCertified(Box(9, 7, 5), grid, Lambdas(texts));
-  const CertifiedResult          whole = ComputeCertified(Box(9, 7, 5), grid, Lambdas({ "0" }));
-  for (std::size_t i = 0; i < texts.size(); ++i)
-  {
-    const CertifiedResult alone = ComputeCertified(Box(9, 7, 5), grid, Lambdas({ texts[i] }));
-    const auto            later = PruneCertified(whole.cores[0], whole.shape, { ParseLambda(texts[i]) });
-    for (const CertifiedCore & other : { alone.cores[0], later[0] })
-    {
-      EXPECT_EQ(other.core.core.positions, together.cores[i].core.core.positions) << texts[i];
-      EXPECT_EQ(other.core.core.cells.faceVertices, together.cores[i].core.core.cells.faceVertices) << texts[i];
-      EXPECT_EQ(other.numbers.lambdaMm, together.cores[i].numbers.lambdaMm) << texts[i];
-      EXPECT_EQ(other.numbers.complex.areaMm2, together.cores[i].numbers.complex.areaMm2) << texts[i];
-    }
-  }
-  EXPECT_EQ(together.cores[4].numbers.complex.vertices, 1U) << "all of a box prunes to a point";
-}
-
-TEST(Certified, PruningLaterByToleranceGivesWhatAskingForItGives)
-{
-  const ImageGeometry grid = Grid({ 1, 1, 1.5 });
-  CertifiedRequest    request = Lambdas({ "0" });
-  request.tolerances = { ParseTolerance("0") };
-  const CertifiedResult whole = ComputeCertified(Box(12, 9, 7), grid, request);
-  EXPECT_EQ(whole.covered, true);
-  request.tolerances = { ParseTolerance("1diag") };
-  const CertifiedResult asked = ComputeCertified(Box(12, 9, 7), grid, request);
-  const auto            later = PruneCertified(whole.cores[0], whole.shape, request.tolerances);
-  EXPECT_EQ(later[0].core.core.positions, asked.cores[0].core.core.positions);
-  EXPECT_EQ(later[0].core.core.tolerances.faces, asked.cores[0].core.core.tolerances.faces);
-  EXPECT_TRUE(asked.cores[0].numbers.tolerance->boundaryGapMm.has_value());
-  EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseTolerance("0.5diag") }), UsageError);
-  EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseLambda("2vox") }), UsageError);
 }
 
 TEST(Certified, RandomShapesPassInEveryWay)

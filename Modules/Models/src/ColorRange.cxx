@@ -120,7 +120,16 @@ MedialValues(const DisplayLabel & label, PictureColoring coloring)
 const std::vector<double> &
 CurveValues(const DisplayLabel & label, PictureColoring coloring)
 {
-  return coloring == PictureColoring::ErosionThickness ? label.curves.erosionThickness : label.curves.radius;
+  static const std::vector<double> none;
+  switch (coloring)
+  {
+    case PictureColoring::Lambda:
+      return none;
+    case PictureColoring::ErosionThickness:
+      return label.curves.erosionThickness;
+    default:
+      return label.curves.radius;
+  }
 }
 
 ColorRange

@@ -342,6 +342,10 @@ MakePolyData(const MedialModel & model, bool keepEdges)
   }
   if (keepEdges)
   {
+    for (const ModelPart & part : model.parts)
+    {
+      RequireEdgeMeasures(part.core);
+    }
     AddEdgeArrays(data, parts);
   }
   return data;

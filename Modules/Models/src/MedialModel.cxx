@@ -7,7 +7,6 @@
 #include "voxelcore/Error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace voxelcore
@@ -47,16 +46,7 @@ CheckModel(const MedialModel & model, bool keepEdges)
     }
     if (keepEdges)
     {
-      const std::vector<std::uint8_t> onFace = EdgesOnFaces(cells);
-      for (std::size_t edge = 0; edge < onFace.size(); ++edge)
-      {
-        if (onFace[edge] && std::isnan(core.edgeLambda[edge]))
-        {
-          throw UsageError(
-            "the measures of the edges on faces are not known (the model was read from a file written "
-            "without --keep-edges), so they cannot be written");
-        }
-      }
+      RequireEdgeMeasures(core);
     }
   }
 }

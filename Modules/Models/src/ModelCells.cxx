@@ -4,6 +4,7 @@
 #include "voxelcore/MedialModel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -39,6 +40,21 @@ EdgesOnFaces(const CellComplex & cells)
     onFace[edge] = 1;
   }
   return onFace;
+}
+
+void
+RequireEdgeMeasures(const MedialComplex & core)
+{
+  const std::vector<std::uint8_t> onFace = EdgesOnFaces(core.cells);
+  for (std::size_t edge = 0; edge < onFace.size(); ++edge)
+  {
+    if (onFace[edge] && std::isnan(core.edgeLambda[edge]))
+    {
+      throw UsageError(
+        "the measures of the edges on faces are not known (the model was read from a file written "
+        "without --keep-edges), so they cannot be written");
+    }
+  }
 }
 
 namespace

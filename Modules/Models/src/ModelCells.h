@@ -14,6 +14,10 @@ IsolatedVertices(const CellComplex & cells);
 std::vector<std::uint8_t>
 EdgesOnFaces(const CellComplex & cells);
 
+/** \throws UsageError where the measure of an edge on a face is not known (NaN), so that it cannot be kept. */
+void
+RequireEdgeMeasures(const MedialComplex & core);
+
 /** The vertices and edges that are cells of a file, in order: those on no edge, or face; with tolerances also those
  *  that outlast theirs, so that a threshold on the heights of a file's cells shows what is left at any height. */
 std::vector<ElementIndex>

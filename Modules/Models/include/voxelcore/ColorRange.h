@@ -55,7 +55,7 @@ RangeOfShares(std::vector<WeightedValue> values, const ColorShares & shares = {}
 const std::vector<double> &
 MedialValues(const DisplayLabel & label, PictureColoring coloring);
 
-/** The same of each point of its curve skeleton. */
+/** The same of each point of its curve skeleton, which has no lambda. */
 const std::vector<double> &
 CurveValues(const DisplayLabel & label, PictureColoring coloring);
 

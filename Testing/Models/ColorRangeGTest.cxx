@@ -1,10 +1,12 @@
-// What a colour map runs over, and what is said of it.
+// What a colour map runs over.
 
-#include "ColorBar.h"
 #include "voxelcore/ColorRange.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iostream>
 #include <limits>
 #include <random>
 
@@ -39,19 +41,6 @@ Strip(const std::vector<double> & radius)
   }
   core.cells.edges.push_back({ 0, 1 });
   return label;
-}
-
-std::string
-WordsAt(const ColorBar & bar, double place)
-{
-  for (const auto & [at, words] : bar.ticks)
-  {
-    if (at == place)
-    {
-      return words;
-    }
-  }
-  return "";
 }
 
 TEST(ColorRange, LeavesOutTwoPerCentOfTheWeightAtEachEnd)
@@ -128,50 +117,66 @@ TEST(ColorRange, IsAllThereIsWhereThatIsOneValueOrNearlySo)
   EXPECT_EQ(weightless.high, 4);
 }
 
-TEST(ColorBar, SaysWhatLiesBeyondItsEndsAndWhy)
+TEST(ColorRange, EachColoringTakesItsOwnValues)
 {
-  const ColorBar bar = DescribeColorBar({}, { 1.234, 9.876, 0.5, 20 });
-  EXPECT_EQ(bar.title, "Radius (mm)");
-  EXPECT_EQ(bar.caption, "2 to 98 % of area");
-  EXPECT_EQ(WordsAt(bar, 0), "≤ 1.23");
-  EXPECT_EQ(WordsAt(bar, 1), "≥ 9.88");
-  EXPECT_TRUE(bar.below);
-  EXPECT_TRUE(bar.above);
-  const ColorBar all = DescribeColorBar({}, { 1, 9, 1, 9 });
-  EXPECT_EQ(all.caption, "");
-  EXPECT_EQ(WordsAt(all, 0), "1.00");
-  EXPECT_EQ(WordsAt(all, 1), "9.00");
-  EXPECT_FALSE(all.below || all.above);
-  PictureOptions options;
-  options.range = { 0, 5 };
-  const ColorBar own = DescribeColorBar(options, { 0, 5, 0.5, 20 });
-  EXPECT_EQ(own.caption, "");
-  EXPECT_EQ(WordsAt(own, 0), "0");
-  EXPECT_EQ(WordsAt(own, 1), "≥ 5");
+  DisplayLabel label = Strip({ 1, 2, 3 });
+  label.medial.core.vertexLambda.assign(label.medial.core.positions.size(), 20);
+  label.erosionThickness.assign(label.medial.core.positions.size(), 300);
+  label.curves.positions = { { 0, 0, 0 }, { 1, 0, 0 } };
+  label.curves.radius = { 5, 6 };
+  label.curves.erosionThickness = { 700, 800 };
+  SortBranches(label.curves, { { 0, 1 } }, false);
+  EXPECT_EQ(&MedialValues(label, PictureColoring::Radius), &label.medial.core.radius);
+  EXPECT_EQ(&MedialValues(label, PictureColoring::Lambda), &label.medial.core.vertexLambda);
+  EXPECT_EQ(&MedialValues(label, PictureColoring::ErosionThickness), &label.erosionThickness);
+  EXPECT_EQ(&CurveValues(label, PictureColoring::Radius), &label.curves.radius);
+  EXPECT_EQ(&CurveValues(label, PictureColoring::ErosionThickness), &label.curves.erosionThickness);
+  EXPECT_TRUE(CurveValues(label, PictureColoring::Lambda).empty()) << "curves have none";
+  const auto ends = [&](PictureColoring coloring) {
+    const ColorRange range = RangeOfLabels({ &label, 1 }, coloring, { 0, 1 });
+    return std::pair(range.low, range.high);
+  };
+  EXPECT_EQ(ends(PictureColoring::Radius), std::pair(1.0, 6.0));
+  EXPECT_EQ(ends(PictureColoring::Lambda), std::pair(20.0, 20.0));
+  EXPECT_EQ(ends(PictureColoring::ErosionThickness), std::pair(300.0, 800.0));
 }
 
-TEST(ColorBar, NamesAUnitThatSuitsTheRange)
+TEST(ColorRange, SharesOfRandomWeightsAreThoseOfAPlainSum)
 {
-  const ColorBar nanometres = DescribeColorBar({}, { 2e-6, 56.71e-6, 1e-6, 60e-6 });
-  EXPECT_EQ(nanometres.title, "Radius (nm)");
-  EXPECT_EQ(WordsAt(nanometres, 0), "≤ 2.00");
-  EXPECT_EQ(WordsAt(nanometres, 1), "≥ 56.7");
-  PictureOptions options;
-  options.coloring = PictureColoring::ErosionThickness;
-  const ColorBar micrometres = DescribeColorBar(options, { 0, 0.05, 0, 0.05 });
-  EXPECT_EQ(micrometres.title, "Erosion thickness (µm)");
-  EXPECT_EQ(WordsAt(micrometres, 0.4), "20");
-}
-
-TEST(ColorBar, OfEachLabelHasNoLengths)
-{
-  PictureOptions options;
-  options.eachLabel = true;
-  const ColorBar bar = DescribeColorBar(options, { 1, 9, 0, 20 });
-  EXPECT_EQ(bar.title, "Radius");
-  EXPECT_EQ(bar.caption, "of each label");
-  EXPECT_EQ(WordsAt(bar, 0), "2 %");
-  EXPECT_EQ(WordsAt(bar, 1), "98 %");
+  constexpr unsigned seed = 20261122;
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 random(seed);
+  for (int round = 0; round < 200; ++round)
+  {
+    std::vector<WeightedValue> values(2 + random() % 40);
+    double                     whole = 0;
+    for (auto & v : values)
+    {
+      // Powers of two and whole numbers: sums are exact.
+      v = { static_cast<double>(random() % 12), static_cast<double>(random() % 4) / 4 };
+      whole += v.weight;
+    }
+    const ColorShares shares{ static_cast<double>(random() % 8) / 16, static_cast<double>(9 + random() % 8) / 16 };
+    const ColorRange  range = RangeOfShares(values, shares);
+    if (whole == 0 || range.low == range.high || (range.low == range.least && range.high == range.greatest))
+    {
+      continue;
+    }
+    const auto below = [&](double end) {
+      double sum = 0;
+      for (const auto & v : values)
+      {
+        sum += v.value < end ? v.weight : 0;
+      }
+      return sum;
+    };
+    // No more than the share lies below the low end, and no more than the rest above the high one.
+    ASSERT_LE(below(range.low), shares.low * whole) << "round " << round;
+    ASSERT_GE(below(std::nextafter(range.high, HUGE_VAL)), shares.high * whole) << "round " << round;
+    ASSERT_LE(range.least, range.low);
+    ASSERT_LT(range.low, range.high);
+    ASSERT_LE(range.high, range.greatest);
+  }
 }
 
 } // namespace

@@ -1,0 +1,161 @@
+#include "CertifiedFixtures.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/Refinement.h"
+
+#include <gtest/gtest.h>
+
+namespace voxelcore
+{
+namespace
+{
+
+/** The words of the error that is thrown. */
+template <typename TError, typename TWork>
+std::string
+MessageOf(const TWork & work)
+{
+  try
+  {
+    work();
+  }
+  catch (const TError & error)
+  {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+TEST(CertifiedCore, SeveralLambdasAndPruningLaterGiveWhatEachGivesAlone)
+{
+  const ImageGeometry            grid = Grid({ 1, 1, 2 });
+  const std::vector<std::string> texts{ "2mm", "0", "1.5vox", "1.5mm", "100mm" };
+  const CertifiedResult          together = ComputeCertified(Box(9, 7, 5), grid, Lambdas(texts));
+  const CertifiedResult          whole = ComputeCertified(Box(9, 7, 5), grid, Lambdas({ "0" }));
+  for (std::size_t i = 0; i < texts.size(); ++i)
+  {
+    const CertifiedResult alone = ComputeCertified(Box(9, 7, 5), grid, Lambdas({ texts[i] }));
+    const auto            later = PruneCertified(whole.cores[0], whole.shape, { ParseLambda(texts[i]) });
+    for (const CertifiedCore & other : { alone.cores[0], later[0] })
+    {
+      EXPECT_EQ(other.core.core.positions, together.cores[i].core.core.positions) << texts[i];
+      EXPECT_EQ(other.core.core.cells.faceVertices, together.cores[i].core.core.cells.faceVertices) << texts[i];
+      EXPECT_EQ(other.numbers.lambdaMm, together.cores[i].numbers.lambdaMm) << texts[i];
+      EXPECT_EQ(other.numbers.complex.areaMm2, together.cores[i].numbers.complex.areaMm2) << texts[i];
+    }
+  }
+  EXPECT_EQ(together.cores[4].numbers.complex.vertices, 1U) << "all of a box prunes to a point";
+}
+
+TEST(CertifiedCore, PruningLaterByToleranceGivesWhatAskingForItGives)
+{
+  const ImageGeometry grid = Grid({ 1, 1, 1.5 });
+  CertifiedRequest    request = Lambdas({ "0" });
+  request.tolerances = { ParseTolerance("0") };
+  const CertifiedResult whole = ComputeCertified(Box(12, 9, 7), grid, request);
+  EXPECT_EQ(whole.covered, true);
+  request.tolerances = { ParseTolerance("1diag") };
+  const CertifiedResult asked = ComputeCertified(Box(12, 9, 7), grid, request);
+  const auto            later = PruneCertified(whole.cores[0], whole.shape, request.tolerances);
+  EXPECT_EQ(later[0].core.core.positions, asked.cores[0].core.core.positions);
+  EXPECT_EQ(later[0].core.core.tolerances.faces, asked.cores[0].core.core.tolerances.faces);
+  EXPECT_TRUE(asked.cores[0].numbers.tolerance->boundaryGapMm.has_value());
+  EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseTolerance("0.5diag") }), UsageError);
+  EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseLambda("2vox") }), UsageError);
+}
+
+TEST(CertifiedCore, ACoreWithOtherNumbersThanItsShapeIsRefused)
+{
+  CertifiedResult result = ComputeCertified(Box(5, 4, 3), Grid({ 1, 1, 1 }), Lambdas({ "0" }));
+  CertifiedCore   core = result.cores[0];
+  CertifiedShape  shape = result.shape;
+  shape.name = "label 4 (bone)";
+  EXPECT_NO_THROW(RequireTopologyOf(shape, core));
+  for (std::size_t dimension = 0; dimension < 3; ++dimension)
+  {
+    CertifiedShape other = shape;
+    ++other.topology.betti[dimension];
+    other.topology.euler += dimension == 1 ? -1 : 1;
+    const auto message = MessageOf<CertificateError>([&] { RequireTopologyOf(other, core); });
+    EXPECT_NE(message.find("label 4 (bone)"), std::string::npos) << message;
+    // Pruning looks at what is left, whatever was said of the core before.
+    CertifiedCore claimed = core;
+    claimed.numbers.complex.topology = other.topology;
+    EXPECT_THROW(PruneCertified(claimed, other, { ParseLambda("2vox") }), CertificateError);
+  }
+}
+
+TEST(CertifiedCore, ACoreThatLostAFaceIsSeenWhenItIsPruned)
+{
+  // The core of a plate with a hole in the middle of it, after the fact.
+  CertifiedResult result = ComputeCertified(Box(9, 9, 1), Grid({ 1, 1, 1 }), Lambdas({ "0" }));
+  CertifiedCore   core = result.cores[0];
+  CellComplex &   cells = core.core.core.cells;
+  const auto      middle = cells.FaceCount() / 2;
+  for (auto * corners : { &cells.faceVertices, &cells.faceEdges })
+  {
+    corners->erase(corners->begin() + static_cast<std::ptrdiff_t>(cells.faceOffsets[middle]),
+                   corners->begin() + static_cast<std::ptrdiff_t>(cells.faceOffsets[middle + 1]));
+  }
+  const std::uint64_t size = cells.faceOffsets[middle + 1] - cells.faceOffsets[middle];
+  cells.faceOffsets.erase(cells.faceOffsets.begin() + static_cast<std::ptrdiff_t>(middle));
+  for (std::size_t face = middle; face < cells.faceOffsets.size(); ++face)
+  {
+    cells.faceOffsets[face] -= face > 0 && face >= middle && cells.faceOffsets[face] >= size ? size : 0;
+  }
+  auto & measures = core.core.core.faceLambda;
+  measures.erase(measures.begin() + static_cast<std::ptrdiff_t>(middle));
+  EXPECT_THROW(PruneCertified(core, result.shape, { ParseLambda("1.2vox") }), CertificateError);
+}
+
+TEST(CertifiedCore, WhatIsPrunedFurtherOrOtherwiseAlreadyIsNotPrunedBack)
+{
+  const VoxelShape      box = Box(8, 7, 6);
+  const ImageGeometry   grid = Grid({ 1, 1, 1 });
+  const CertifiedResult pruned = ComputeCertified(box, grid, Lambdas({ "2vox" }));
+  const auto            message =
+    MessageOf<UsageError>([&] { PruneCertified(pruned.cores[0], pruned.shape, { ParseLambda("1.5vox") }); });
+  EXPECT_NE(message.find("pruned at 2vox already, beyond 1.5vox"), std::string::npos) << message;
+  // To what it is pruned to nothing changes.
+  const auto same = PruneCertified(pruned.cores[0], pruned.shape, { ParseLambda("2mm") });
+  EXPECT_EQ(same[0].core.core.positions, pruned.cores[0].core.core.positions);
+  EXPECT_EQ(same[0].numbers.lambda, "2mm");
+  EXPECT_THROW(PruneCertified(pruned.cores[0], pruned.shape, { ParseTolerance("1diag") }), UsageError)
+    << "it holds no tolerances";
+  CertifiedCore refined = pruned.cores[0];
+  refined.numbers.refined = RefinedNumbers{};
+  EXPECT_THROW(PruneCertified(refined, pruned.shape, { ParseLambda("3vox") }), UsageError);
+}
+
+TEST(CertifiedCore, LengthsInMillimetresNeedAScanThatHasThem)
+{
+  ImageGeometry grid = Grid({ 1, 1, 1 });
+  grid.unit = SpatialUnit::Voxels;
+  const CertifiedResult whole = ComputeCertified(Box(5, 4, 3), grid, Lambdas({ "0" }));
+  EXPECT_THROW(PruneCertified(whole.cores[0], whole.shape, { ParseLambda("2mm") }), InputError);
+  EXPECT_EQ(PruneCertified(whole.cores[0], whole.shape, { ParseLambda("2vox") }).size(), 1U);
+}
+
+TEST(CertifiedCore, PruningCanBeStopped)
+{
+  const CertifiedResult whole = ComputeCertified(Box(9, 7, 5), Grid({ 1, 1, 1 }), Lambdas({ "0" }));
+  double                last = 0;
+  const auto            all = PruneCertified(whole.cores[0],
+                                  whole.shape,
+                                  { ParseLambda("1vox"), ParseLambda("2vox") },
+                                  [&](std::string_view, double fraction) {
+                                    EXPECT_GE(fraction, last);
+                                    last = fraction;
+                                    return true;
+                                  });
+  EXPECT_EQ(all.size(), 2U);
+  EXPECT_THROW(PruneCertified(whole.cores[0],
+                              whole.shape,
+                              { ParseLambda("2vox") },
+                              [](std::string_view, double) { return false; }),
+               Cancelled);
+}
+
+} // namespace
+} // namespace voxelcore

@@ -1,0 +1,161 @@
+#include "CertifiedFixtures.h"
+
+#include "voxelcore/Error.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace voxelcore
+{
+namespace
+{
+
+/** A frame of beams, `thick` voxels wide, around a window of `inner` x `inner`: one loop. */
+VoxelShape
+Frame(std::int32_t inner, std::int32_t thick)
+{
+  const std::int32_t side = inner + 2 * thick;
+  VoxelShape         shape(VoxelBox{ { 0, 0, 0 }, { side, side, thick } });
+  for (std::int32_t z = 0; z < thick; ++z)
+  {
+    for (std::int32_t y = 0; y < side; ++y)
+    {
+      for (std::int32_t x = 0; x < side; ++x)
+      {
+        const bool isWindow = x >= thick && x < side - thick && y >= thick && y < side - thick;
+        if (!isWindow)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  return shape;
+}
+
+CertifiedResult
+WholeOf(const VoxelShape & shape, const ImageGeometry & grid = Grid({ 1, 1, 1 }))
+{
+  return ComputeCertified(shape, grid, Lambdas({ "0" }));
+}
+
+TEST(CertifiedSkeleton, OfARodIsOneBranchAlongItsAxis)
+{
+  const CertifiedResult   whole = WholeOf(Box(31, 3, 3), Grid({ 2, 2, 2 }));
+  const CertifiedSkeleton skeleton = SkeletonOf(whole.cores[0].core, whole.shape, Skeleton());
+  EXPECT_EQ(skeleton.topology, whole.shape.topology);
+  const auto & table = skeleton.skeleton.table;
+  ASSERT_EQ(table.branches.size(), 1U);
+  EXPECT_EQ(table.branches[0].type, BranchType::TipToTip);
+  // 62 mm long; it may end up to the radius of a ball, that ends at the rod's edges, before the ends.
+  EXPECT_GT(table.branches[0].length, 62 - 2 * std::hypot(3.0, 3.0));
+  EXPECT_LE(table.branches[0].length, 62);
+  for (const auto & position : skeleton.skeleton.graph.positions)
+  {
+    // Voxels (2,3,4) to (32,5,6) of 2 mm.
+    EXPECT_NEAR(position[1], 8, 1e-9);
+    EXPECT_NEAR(position[2], 10, 1e-9);
+  }
+}
+
+TEST(CertifiedSkeleton, TheTopologyIsThatBeforeLoopsWereCut)
+{
+  const CertifiedResult whole = WholeOf(Frame(15, 3));
+  SkeletonRequest       request = Skeleton();
+  const auto            ring = SkeletonOf(whole.cores[0].core, whole.shape, request);
+  EXPECT_EQ(ring.topology.betti, (std::array<std::int64_t, 3>{ 1, 1, 0 }));
+  EXPECT_EQ(ring.skeleton.table.numbers.cycles, 1);
+  EXPECT_TRUE(ring.cuts.empty());
+  request.branches.cutLoops = true;
+  const auto cut = SkeletonOf(whole.cores[0].core, whole.shape, request);
+  EXPECT_EQ(cut.topology, ring.topology);
+  EXPECT_EQ(cut.cuts.size(), 1U);
+  EXPECT_EQ(cut.skeleton.table.numbers.cycles, 0);
+  EXPECT_EQ(cut.skeleton.table.numbers.tips, 2);
+  // Later is the same as at once.
+  CertifiedSkeleton later = ring;
+  CutAndMeasure(later, request.branches, whole.shape.geometry.spacing);
+  EXPECT_EQ(later.skeleton.graph.positions, cut.skeleton.graph.positions);
+  EXPECT_EQ(later.skeleton.graph.branchPoints, cut.skeleton.graph.branchPoints);
+  EXPECT_EQ(later.skeleton.table.numbers.totalLength, cut.skeleton.table.numbers.totalLength);
+}
+
+TEST(CertifiedSkeleton, OneThatHasNotTheShapesTopologyIsRefused)
+{
+  const CertifiedResult rod = WholeOf(Box(31, 3, 3));
+  const CertifiedResult frame = WholeOf(Frame(15, 3));
+  EXPECT_THROW(SkeletonOf(rod.cores[0].core, frame.shape, Skeleton()), CertificateError);
+  EXPECT_THROW(SkeletonOf(frame.cores[0].core, rod.shape, Skeleton()), CertificateError);
+}
+
+TEST(CertifiedSkeleton, BranchesAreCutOffByEitherLimit)
+{
+  // A rod with a twig of eight voxels.
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 41, 12, 3 } });
+  for (std::int32_t z = 0; z < 3; ++z)
+  {
+    for (std::int32_t x = 0; x < 41; ++x)
+    {
+      for (std::int32_t y = 0; y < 12; ++y)
+      {
+        if (y < 3 || (x >= 19 && x < 22))
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  const CertifiedResult whole = WholeOf(shape);
+  const auto            branches = [&](const char * length, double radii) {
+    SkeletonRequest request = Skeleton();
+    request.standOut = ParseLambda("1vox");
+    request.branches.pruneLength = ParseLambda(length);
+    request.branches.pruneRadii = radii;
+    return SkeletonOf(whole.cores[0].core, whole.shape, request).skeleton.table.branches.size();
+  };
+  EXPECT_EQ(branches("0", 0), 3U);
+  EXPECT_EQ(branches("3vox", 0), 3U);
+  EXPECT_EQ(branches("14vox", 0), 1U);
+  EXPECT_EQ(branches("14mm", 0), 1U);
+  EXPECT_EQ(branches("0", 1), 3U);
+  EXPECT_EQ(branches("0", 8), 1U);
+}
+
+TEST(CertifiedSkeleton, LengthsInMillimetresNeedAScanThatHasThem)
+{
+  const Lambda                 millimetres = ParseLambda("2mm");
+  std::vector<SkeletonRequest> requests(6, Skeleton());
+  requests[0].lambda = millimetres;
+  requests[1].tolerance = ParseTolerance("2mm");
+  requests[2].standOut = millimetres;
+  requests[3].plates = millimetres;
+  requests[4].smooth = millimetres;
+  requests[5].branches.pruneLength = millimetres;
+  for (std::size_t i = 0; i < requests.size(); ++i)
+  {
+    EXPECT_THROW(RequireLengthsIn(SpatialUnit::Voxels, requests[i]), InputError) << i;
+    EXPECT_NO_THROW(RequireLengthsIn(SpatialUnit::Millimetres, requests[i])) << i;
+  }
+  EXPECT_THROW(RequireLengthsIn(SpatialUnit::Voxels, requests[5].branches), InputError);
+  EXPECT_NO_THROW(RequireLengthsIn(SpatialUnit::Voxels, Skeleton()));
+}
+
+TEST(CertifiedSkeleton, RadiiGrowByAQuarterOfAVoxelsDiagonal)
+{
+  BranchRequest request;
+  request.root = { RootChoice::Kind::Point, { 1, 2, 3 } };
+  const MeasureOptions options = MeasuringOf(request, { 2, 3, 6 });
+  EXPECT_DOUBLE_EQ(options.radiusShift, 7.0 / 4);
+  EXPECT_EQ(options.root.kind, RootChoice::Kind::Point);
+  EXPECT_EQ(options.root.point, (std::array<double, 3>{ 1, 2, 3 }));
+}
+
+TEST(CertifiedSkeleton, CanBeStopped)
+{
+  const CertifiedResult whole = WholeOf(Frame(15, 3));
+  EXPECT_THROW(SkeletonOf(whole.cores[0].core, whole.shape, Skeleton(), [](std::string_view, double) { return false; }),
+               Cancelled);
+}
+
+} // namespace
+} // namespace voxelcore

@@ -1,0 +1,368 @@
+#include "Models/ModelFixtures.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/SkeletonModel.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+/** Places and radii that need all bits of a double. */
+SkeletonGraph
+Points(std::size_t count, double seed)
+{
+  SkeletonGraph graph;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double t = static_cast<double>(i) + seed;
+    graph.positions.push_back({ t / 3, std::sin(t), -t * t / 7 });
+    graph.radius.push_back(0.5 + 1 / (t + 2));
+    graph.erosionThickness.push_back(i % 5 == 3 ? std::numeric_limits<double>::infinity() : t / 11);
+  }
+  return graph;
+}
+
+/** Label 3: a cycle with a tail, and a point by itself. Label 7, component 2: a face that stays and a curve on it. */
+SkeletonModel
+Mixed()
+{
+  SkeletonModel model;
+  model.provenance = "{}";
+  SkeletonPart ring;
+  ring.label = 3;
+  ring.name = "a, \"b\"";
+  ring.graph = Points(7, 0.1);
+  SortBranches(ring.graph, { { 0, 1, 2 }, { 2, 3, 4, 5, 2 } }, true);
+  ring.table = MeasureBranches(ring.graph);
+  SkeletonPart plate;
+  plate.label = 7;
+  plate.component = 2;
+  plate.name = "plate";
+  plate.graph = Points(6, 40.3);
+  plate.graph.faceOffsets = { 0, 4 };
+  plate.graph.faceVertices = { 0, 1, 2, 3 };
+  plate.graph.closedFace = { 1 };
+  SortBranches(plate.graph, { { 3, 4, 5 } }, true);
+  plate.table = MeasureBranches(plate.graph);
+  model.parts = { ring, plate };
+  return model;
+}
+
+TEST(SkeletonModel, AVtpIsReadAsItWasWritten)
+{
+  const TemporaryFolder folder;
+  SkeletonModel         model = Mixed();
+  for (const auto unit : { SpatialUnit::Millimetres, SpatialUnit::Voxels })
+  {
+    model.unit = unit;
+    WriteSkeletonVtp(folder / "a.vtp", model);
+    const SkeletonModel read = ReadSkeletonVtp(folder / "a.vtp");
+    EXPECT_EQ(read.unit, unit);
+    EXPECT_EQ(read.provenance, model.provenance);
+    ASSERT_EQ(read.parts.size(), 2U);
+    for (std::size_t p = 0; p < 2; ++p)
+    {
+      const SkeletonGraph & a = read.parts[p].graph;
+      const SkeletonGraph & b = model.parts[p].graph;
+      EXPECT_EQ(read.parts[p].label, model.parts[p].label);
+      EXPECT_EQ(read.parts[p].component, model.parts[p].component);
+      EXPECT_EQ(a.positions, b.positions);
+      EXPECT_EQ(a.radius, b.radius);
+      EXPECT_EQ(a.erosionThickness, b.erosionThickness);
+      EXPECT_EQ(a.branchOffsets, b.branchOffsets);
+      EXPECT_EQ(a.branchPoints, b.branchPoints);
+      EXPECT_EQ(a.nodePoints, b.nodePoints);
+      EXPECT_EQ(a.nodeKinds, b.nodeKinds);
+      EXPECT_EQ(a.faceOffsets, b.faceOffsets);
+      EXPECT_EQ(a.faceVertices, b.faceVertices);
+      EXPECT_EQ(a.closedFace, b.closedFace);
+      EXPECT_TRUE(read.parts[p].name.empty());
+      EXPECT_TRUE(read.parts[p].table.branches.empty());
+    }
+    // What is written of what was read, measured anew, is the same file.
+    SkeletonModel again = read;
+    for (std::size_t p = 0; p < 2; ++p)
+    {
+      again.parts[p].table = MeasureBranches(again.parts[p].graph);
+    }
+    WriteSkeletonVtp(folder / "b.vtp", again);
+    EXPECT_EQ(ReadBytes(folder / "b.vtp"), ReadBytes(folder / "a.vtp"));
+  }
+}
+
+TEST(SkeletonModel, DamagedFilesAreRefused)
+{
+  const TemporaryFolder folder;
+  WriteSkeletonVtp(folder / "a.vtp", Mixed());
+  const std::string bytes = ReadBytes(folder / "a.vtp");
+  EXPECT_THROW(ReadSkeletonVtp(folder / "none.vtp"), InputError);
+  WriteModel(folder / "core.vtp", "core.vtp", MixedModel(), {});
+  EXPECT_THROW(ReadSkeletonVtp(folder / "core.vtp"), InputError) << "a core is no skeleton";
+  for (std::size_t length = 0; length + 40 < bytes.size(); length += 97)
+  {
+    WriteBytes(folder / "b.vtp", bytes.substr(0, length));
+    EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError) << length;
+  }
+  for (const char * name : { "Name=\"Radius\"", "Name=\"BranchId\"", "Name=\"Label\"", "Name=\"ErosionThickness\"" })
+  {
+    std::string damaged = bytes;
+    const auto  at = damaged.find(name);
+    ASSERT_NE(at, std::string::npos) << name;
+    damaged[at + 6] = '_';
+    WriteBytes(folder / "b.vtp", damaged);
+    EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError) << name;
+  }
+}
+
+TEST(SkeletonModel, SwcIsAForestInMicrometresOrVoxels)
+{
+  const TemporaryFolder folder;
+  SkeletonModel         model = Mixed();
+  for (const auto unit : { SpatialUnit::Millimetres, SpatialUnit::Voxels })
+  {
+    model.unit = unit;
+    const double scale = unit == SpatialUnit::Voxels ? 1 : 1000;
+    WriteSwc(folder / "a.swc", model, {});
+    std::istringstream file(ReadBytes(folder / "a.swc"));
+    std::string        line;
+    std::string        header;
+    long               count = 0;
+    int                roots = 0;
+    std::size_t        known = 0;
+    while (std::getline(file, line))
+    {
+      if (line[0] == '#')
+      {
+        header += line + "\n";
+        continue;
+      }
+      std::istringstream    row(line);
+      long                  id = 0;
+      long                  type = 0;
+      long                  parent = 0;
+      std::array<double, 3> place{};
+      double                radius = 0;
+      ASSERT_TRUE(row >> id >> type >> place[0] >> place[1] >> place[2] >> radius >> parent) << line;
+      EXPECT_EQ(id, ++count);
+      EXPECT_TRUE(parent == -1 || (parent >= 1 && parent < id)) << line;
+      roots += parent == -1 ? 1 : 0;
+      for (const SkeletonPart & part : model.parts)
+      {
+        for (std::size_t point = 0; point < part.graph.positions.size(); ++point)
+        {
+          const auto & p = part.graph.positions[point];
+          known += std::abs(scale * p[0] - place[0]) < 1e-5 * scale &&
+                       std::abs(scale * p[1] - place[1]) < 1e-5 * scale &&
+                       std::abs(scale * p[2] - place[2]) < 1e-5 * scale &&
+                       std::abs(scale * part.graph.radius[point] - radius) < 1e-5 * scale
+                     ? 1
+                     : 0;
+        }
+      }
+    }
+    // The ring's 6 points and one of them twice, where it is cut; the point by itself; the curve's 3.
+    EXPECT_EQ(count, 7 + 1 + 3);
+    EXPECT_EQ(known, static_cast<std::size_t>(count));
+    EXPECT_EQ(roots, 3);
+    EXPECT_NE(header.find("a cycle was cut at"), std::string::npos);
+    EXPECT_NE(header.find(unit == SpatialUnit::Voxels ? "# voxels" : "# micrometres"), std::string::npos);
+  }
+}
+
+TEST(SkeletonModel, MarkupsHoldACurveForEachBranch)
+{
+  const TemporaryFolder folder;
+  const SkeletonModel   model = Mixed();
+  WriteMarkups(folder / "a.mrk.json", model);
+  const Json  curves = Json::parse(ReadBytes(folder / "a.mrk.json")).at("markups");
+  std::size_t at = 0;
+  for (const SkeletonPart & part : model.parts)
+  {
+    for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch, ++at)
+    {
+      const Json & curve = curves.at(at);
+      EXPECT_EQ(curve.at("coordinateSystem"), "LPS");
+      EXPECT_EQ(curve.at("coordinateUnits"), "mm");
+      const auto points = part.graph.Branch(branch);
+      ASSERT_EQ(curve.at("controlPoints").size(), points.size());
+      const Json & radii = curve.at("measurements").at(0).at("controlPointValues");
+      ASSERT_EQ(radii.size(), points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        EXPECT_NEAR(radii.at(i).get<double>(), part.graph.radius[points[i]], 1e-8);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          EXPECT_NEAR(curve.at("controlPoints").at(i).at("position").at(axis).get<double>(),
+                      part.graph.positions[points[i]][axis],
+                      1e-6);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(curves.size(), at);
+}
+
+TEST(SkeletonModel, GraphMlHasANodeForEachNodeAndAnEdgeForEachBranch)
+{
+  const TemporaryFolder folder;
+  const SkeletonModel   model = Mixed();
+  WriteGraphMl(folder / "a.graphml", model);
+  const std::string text = ReadBytes(folder / "a.graphml");
+  const auto        count = [&](const std::string & what) {
+    std::size_t found = 0;
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    {
+      ++found;
+    }
+    return found;
+  };
+  std::size_t nodes = 0;
+  std::size_t branches = 0;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+  {
+    const SkeletonGraph & graph = model.parts[p].graph;
+    nodes += graph.nodePoints.size();
+    branches += graph.BranchCount();
+    for (const auto & ends : graph.branchNodes)
+    {
+      const std::string stem = "p" + std::to_string(p) + "n";
+      EXPECT_GE(count("source=\"" + stem + std::to_string(ends[0]) + "\" target=\"" + stem + std::to_string(ends[1])),
+                1U);
+    }
+  }
+  EXPECT_EQ(count("<node id="), nodes);
+  EXPECT_EQ(count("<edge source="), branches);
+  EXPECT_EQ(count("<data key=\"kind\">isolated</data>"), 1U);
+  EXPECT_EQ(count("<data key=\"kind\">surface</data>"), 1U);
+}
+
+/** The fields of a row, quotes taken off. */
+std::vector<std::string>
+Fields(const std::string & row)
+{
+  std::vector<std::string> fields(1);
+  bool                     quoted = false;
+  for (std::size_t i = 0; i < row.size(); ++i)
+  {
+    if (row[i] == '"')
+    {
+      const bool isTwice = quoted && i + 1 < row.size() && row[i + 1] == '"';
+      if (isTwice)
+      {
+        fields.back() += row[++i];
+      }
+      else
+      {
+        quoted = !quoted;
+      }
+    }
+    else if (row[i] == ',' && !quoted)
+    {
+      fields.emplace_back();
+    }
+    else
+    {
+      fields.back() += row[i];
+    }
+  }
+  return fields;
+}
+
+TEST(SkeletonModel, TablesHaveTheColumnsThatAreExplained)
+{
+  const TemporaryFolder folder;
+  SkeletonModel         model = Mixed();
+  for (const auto unit : { SpatialUnit::Millimetres, SpatialUnit::Voxels })
+  {
+    model.unit = unit;
+    WriteBranchCsv(folder / "branches.csv", model);
+    WriteSummaryCsv(folder / "summary.csv", model);
+    const std::string text = SkeletonColumnsJson(unit);
+    const Json        explained = Json::parse(text);
+    EXPECT_EQ(text.find("\"mm") != std::string::npos, unit == SpatialUnit::Millimetres);
+    for (const char * table : { "branches", "summary" })
+    {
+      std::istringstream       file(ReadBytes(folder / (std::string(table) + ".csv")));
+      std::string              row;
+      std::vector<std::string> keys;
+      for (const auto & [key, value] : explained.at(table).items())
+      {
+        keys.push_back(key);
+      }
+      std::getline(file, row);
+      EXPECT_EQ(Fields(row), keys) << table;
+      std::size_t rows = 0;
+      while (std::getline(file, row))
+      {
+        const auto fields = Fields(row);
+        ASSERT_EQ(fields.size(), keys.size()) << row;
+        EXPECT_EQ(fields[0], rows < 2 ? "3" : fields[0]) << row;
+        if (fields[0] == "3")
+        {
+          EXPECT_EQ(fields[1], "a, \"b\"") << "the name comes back";
+        }
+        ++rows;
+      }
+      if (std::string(table) == "branches")
+      {
+        EXPECT_EQ(rows, model.parts[0].graph.BranchCount() + model.parts[1].graph.BranchCount());
+      }
+    }
+  }
+}
+
+TEST(SkeletonModel, FieldsAreQuotedWhereTheyHaveToBe)
+{
+  EXPECT_EQ(CsvField("plain text"), "plain text");
+  EXPECT_EQ(CsvField(""), "");
+  for (const char * text : { "a,b", "a\"b", "\"", "a\nb", ",,", "\"a\"" })
+  {
+    const std::string field = CsvField(text);
+    EXPECT_EQ(field.front(), '"') << text;
+    EXPECT_EQ(Fields(field), (std::vector<std::string>{ text }));
+  }
+}
+
+TEST(SkeletonModel, EqualModelsGiveEqualBytesAndWhatCannotBeWrittenLeavesNothing)
+{
+  const TemporaryFolder folder;
+  const auto            write = [&](const std::string & stem, const SkeletonModel & model) {
+    WriteSkeletonVtp(folder / (stem + ".vtp"), model);
+    WriteSwc(folder / (stem + ".swc"), model, {});
+    WriteMarkups(folder / (stem + ".mrk.json"), model);
+    WriteGraphMl(folder / (stem + ".graphml"), model);
+    WriteBranchCsv(folder / (stem + ".branches.csv"), model);
+    WriteSummaryCsv(folder / (stem + ".summary.csv"), model);
+  };
+  write("a", Mixed());
+  write("b", Mixed());
+  for (const char * ending : { ".vtp", ".swc", ".mrk.json", ".graphml", ".branches.csv", ".summary.csv" })
+  {
+    EXPECT_FALSE(ReadBytes(folder / (std::string("a") + ending)).empty());
+    EXPECT_EQ(ReadBytes(folder / (std::string("a") + ending)), ReadBytes(folder / (std::string("b") + ending)))
+      << ending;
+  }
+  const SkeletonModel         model = Mixed();
+  const std::filesystem::path nowhere = folder / "nowhere";
+  EXPECT_THROW(WriteSkeletonVtp(nowhere / "a.vtp", model), OutputError);
+  EXPECT_THROW(WriteSwc(nowhere / "a.swc", model, {}), OutputError);
+  EXPECT_THROW(WriteMarkups(nowhere / "a.mrk.json", model), OutputError);
+  EXPECT_THROW(WriteGraphMl(nowhere / "a.graphml", model), OutputError);
+  EXPECT_THROW(WriteBranchCsv(nowhere / "a.csv", model), OutputError);
+  EXPECT_THROW(WriteSummaryCsv(nowhere / "a.csv", model), OutputError);
+  EXPECT_FALSE(std::filesystem::exists(nowhere));
+}
+
+} // namespace
+} // namespace voxelcore::testing
