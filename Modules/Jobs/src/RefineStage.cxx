@@ -118,7 +118,7 @@ GreySource(const RefineOptions &         options,
            const InputScan &             input)
 {
   const bool other = !options.grey.empty();
-  if (!other && !reading.threshold)
+  if (other ? !options.greyRange : !reading.threshold)
   {
     throw UsageError(
       "--refine grey needs grey values: a scan with --threshold LO:HI, or --grey FILE --grey-range LO:HI");

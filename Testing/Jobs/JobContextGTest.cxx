@@ -2,11 +2,14 @@
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
+#include "voxelcore/Error.h"
+#include "voxelcore/JobContext.h"
 #include "voxelcore/Parameters.h"
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -170,6 +173,65 @@ TEST_F(Progress, OfFinishedFilesNeverGoesBackAndEndsAtOne)
   Watch("info", [&](const JobContext & context) {
     RunInfoJob(InfoOptionsFrom({ { "scan", At("a.nrrd") }, { "mend-shape", "true" } }), context);
   });
+}
+
+TEST(JobContext, ForwardOnlyKeepsAllButStepsBack)
+{
+  std::vector<double> seen;
+  JobContext          context;
+  TemporaryRegistry   registry;
+  context.temporaries = &registry;
+  context.progress = [&](std::string_view, double fraction) {
+    seen.push_back(fraction);
+    return fraction < 0.9;
+  };
+  double admitted = 0;
+  context.admit = [&](double megabytes) { admitted = megabytes; };
+  const JobContext forward = ForwardOnly(context);
+  for (const double fraction : { 0.2, 0.5, 0.3, 0.6 })
+  {
+    EXPECT_TRUE(forward.progress("stage", fraction));
+  }
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(seen.back(), 0.6);
+  EXPECT_FALSE(forward.progress("stage", 0.95)) << "a wish to stop comes through";
+  EXPECT_EQ(forward.temporaries, &registry);
+  forward.admit(7);
+  EXPECT_EQ(admitted, 7);
+  EXPECT_FALSE(ForwardOnly(JobContext{}).progress) << "of nobody is nobody";
+}
+
+TEST_F(Progress, MemoryIsAskedForOnceAndFilesAreNamedWhenAllIsDone)
+{
+  Make("cells", "a.nrrd", "24");
+  int                                admissions = 0;
+  std::vector<std::filesystem::path> written;
+  JobContext                         context;
+  context.admit = [&](double megabytes) {
+    ++admissions;
+    EXPECT_GT(megabytes, 0);
+    EXPECT_FALSE(std::filesystem::exists(At("a.vtp")));
+  };
+  context.wrote = [&](const std::vector<std::filesystem::path> & files) {
+    EXPECT_TRUE(written.empty()) << "once";
+    written = files;
+    for (const auto & file : files)
+    {
+      EXPECT_TRUE(std::filesystem::exists(file)) << file;
+    }
+  };
+  const ParameterValues values{ { "scan", At("a.nrrd") }, { "output", At("a.vtp") }, { "report", At("a.json") } };
+  RunCoreJob(CoreOptionsFrom(values), context);
+  EXPECT_EQ(admissions, 1);
+  EXPECT_EQ((std::set<std::filesystem::path>(written.begin(), written.end())),
+            (std::set<std::filesystem::path>{ At("a.vtp"), At("a.json") }));
+  // What is not admitted is not done.
+  context.admit = [](double) { throw Cancelled(); };
+  ParameterValues other = values;
+  other["output"] = At("b.vtp");
+  other["report"] = At("b.json");
+  EXPECT_THROW(RunCoreJob(CoreOptionsFrom(other), context), Cancelled);
+  EXPECT_FALSE(std::filesystem::exists(At("b.vtp")));
 }
 
 } // namespace
