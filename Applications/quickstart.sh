@@ -25,7 +25,7 @@ fi
 cmake --build "$build" --target voxelcore
 
 program=$build/bin/voxelcore
-options=(--lambda 1.5vox --report "$out/aal_medial.json" --html "$out/aal.html" --force)
+options=(--report "$out/aal_medial.json" --html "$out/aal.html" --force)
 stamp=$(sha256sum "$scan" "$program" | cut -d' ' -f1 | tr '\n' ' ')"${options[*]}"
 if [ -s "$out/aal_medial.vtp" ] && [ -s "$out/aal_medial.json" ] && [ -s "$out/table.txt" ] &&
    [ -s "$out/aal.html" ] && [ -s "$out/aal.png" ] && [ "$(cat "$out/stamp" 2>/dev/null)" = "$stamp" ]; then

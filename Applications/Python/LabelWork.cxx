@@ -94,7 +94,7 @@ RequirePrunable(const CoreOfLabel & core, const PruneOptions & options)
   if (done.tolerance && done.tolerance->heightMm > 0)
   {
     throw UsageError("this core is pruned by tolerance " + done.tolerance->height +
-                     " already; prune it further with tolerance=, or make one with tolerance=0 or without");
+                     " already; prune it further with tolerance=, or make one with lambda_=0");
   }
   if (!core.hasEdges)
   {

@@ -13,22 +13,22 @@ cd "$work"
 atlas=/usr/share/mricron/templates/aal.nii.gz
 
 "$voxelcore" phantom root --size 192,192,288 --seed 7 -o root.nrrd -q
-"$voxelcore" core root.nrrd --tolerance 1.2diag -o root.vtp --with-skeleton -q
+"$voxelcore" core root.nrrd -o root.vtp --with-skeleton -q
 "$voxelcore" render root.vtp root_skeleton.vtp --scan root.nrrd --panels --size 1050x590 -o "$to/root.png" --force -q
 
-"$voxelcore" core "$atlas" --labels Hippocampus_L --tolerance 0.6diag -o part.vtp --with-skeleton -q
+"$voxelcore" core "$atlas" --labels Hippocampus_L -o part.vtp --with-skeleton -q
 "$voxelcore" render part.vtp part_skeleton.vtp --scan "$atlas" --panels --size 1050x500 -o "$to/hippocampus.png" --force -q
 
 "$voxelcore" phantom thick-and-thin --size 96 -o t.nrrd -q
 "$voxelcore" core t.nrrd --lambda 0,1.5vox,2.5vox -o t.vtp -q
-"$voxelcore" core t.nrrd --tolerance 1.2diag -o t_tolerance-1.2diag.vtp -q
+"$voxelcore" core t.nrrd -o t_tolerance-1.2diag.vtp -q
 tiles=()
 for shown in "t_lambda-0=whole core" "t_lambda-1.5vox=--lambda 1.5vox" "t_lambda-2.5vox=--lambda 2.5vox" \
-  "t_tolerance-1.2diag=--tolerance 1.2diag"; do
+  "t_tolerance-1.2diag=--tolerance 1.2diag, the default"; do
   "$voxelcore" render "${shown%%=*}.vtp" --scan t.nrrd --view iso --range 1:15 --size 525x375 -o "${shown%%=*}.png" -q
   tiles+=("${shown%%=*}.png" "${shown#*=}")
 done
 /usr/bin/python3 "$here/tile.py" "$to/pruning.png" 2 "${tiles[@]}"
 
-"$voxelcore" core "$atlas" -o aal.vtp --tolerance 1.2diag -q
+"$voxelcore" core "$atlas" -o aal.vtp -q
 "$voxelcore" render aal.vtp --color Label --view iso --size 800x650 -o "$to/atlas.png" --force -q

@@ -125,11 +125,7 @@ TEST_F(Prediction, OfSkeletonAndPageIsWithinAFactor)
     };
     expectNear("skeleton", { "skeleton", scan, "-o", m_Folder / "s.vtp" });
     expectNear("page", { "core", scan, "-o", m_Folder / "a.vtp", "--html", m_Folder / "a.html" });
-    // Each is more than the core alone.
-    for (const char * job : { "skeleton", "page" })
-    {
-      EXPECT_GT(info[job]["seconds"], info["core"]["seconds"]) << job;
-    }
+    EXPECT_GT(info["page"]["seconds"], info["core"]["seconds"]); // the page is of the same core
   }
 }
 

@@ -191,6 +191,37 @@ TEST_F(RefineCommand, LabelsAndGreyValuesBringACoreNearerToTheAxisOnThickSlicesT
   }
 }
 
+TEST_F(RefineCommand, WhatToleranceLeavesIsRefinedWithItsPromiseAndVerified)
+{
+  WriteEllipsoid(1);
+  const std::vector<std::string> core{ "core", Path("labels.nrrd"), "--with-skeleton" };
+  const auto                     made = [&](const std::string & name, std::vector<std::string> options) {
+    options.insert(options.begin(), core.begin(), core.end());
+    options.insert(options.end(), { "-o", Path(name + ".vtp"), "--report", Path(name + ".json") });
+    Run(options);
+    ExpectVerified("labels.nrrd", name + ".vtp");
+    return Report(name + ".json")["labels"][0];
+  };
+  const Json raw = made("raw", {});
+  const Json refined = made("refined", { "--refine", "labels" });
+  EXPECT_LT(MeanHeight("refined.vtp", kOrigin), 0.5 * MeanHeight("raw.vtp", kOrigin));
+  const Json & before = raw["pruned"][0];
+  const Json & after = refined["pruned"][0];
+  EXPECT_EQ(after["tolerance"], before["tolerance"]);
+  EXPECT_EQ(after["vertices"], before["vertices"]); // all of what the tolerance leaves
+  EXPECT_EQ(after["betti"], refined["shape"]["betti"]);
+  EXPECT_TRUE(refined["certificate"]["covered"] && refined["certificate"]["passed"]);
+  const double moved = after["max_displacement_vox"].get<double>();
+  EXPECT_GT(moved, 0.01);
+  EXPECT_LE(after["boundary_gap_mm"].get<double>(),
+            after["tolerance_mm"].get<double>() + 2 * moved + 0.5 * std::sqrt(3.0));
+  // The skeleton is that of the core as it was computed.
+  for (const char * number : { "betti", "branches", "max_length_mm", "mean_length_mm" })
+  {
+    EXPECT_EQ(refined["skeleton"][number], raw["skeleton"][number]) << number;
+  }
+}
+
 TEST_F(RefineCommand, AMeshBringsItsCoreNearerStillAndThreadsDoNotMatter)
 {
   WriteMesh();
@@ -258,7 +289,6 @@ TEST_F(RefineCommand, WhatMakesNoSenseIsRefusedInOneLine)
   refuse(2, { "--grey-range" }, { "--refine", "grey", "--grey", Path("grey.nrrd") });
   refuse(2, { "--refine grey" }, { "--grey", Path("grey.nrrd"), "--grey-range", "500:inf" });
   refuse(2, { "no end" }, { "--refine", "grey", "--grey", Path("grey.nrrd"), "--grey-range", "-inf:inf" });
-  refuse(2, { "--tolerance" }, { "--refine", "labels", "--tolerance", "1.2diag" });
   refuse(2, { "--keep-edges" }, { "--refine", "labels", "--keep-edges" });
   refuse(3, { "nothing.nrrd" }, { "--refine", "grey", "--grey", Path("nothing.nrrd"), "--grey-range", "500:inf" });
   // A grey scan that lies elsewhere.

@@ -303,7 +303,7 @@ TEST_F(ToleranceCommand, ManyLabelsAtOncePass)
 TEST_F(ToleranceCommand, RefusesWhatMakesNoSense)
 {
   WriteBallWithRodAndPlate("a.nrrd");
-  Run({ "core", Path("a.nrrd"), "-o", Path("lambda.vtp"), "--keep-edges" });
+  Run({ "core", Path("a.nrrd"), "--lambda", "1.5vox", "-o", Path("lambda.vtp"), "--keep-edges" });
   Run({ "core", Path("a.nrrd"), "--tolerance", "2vox", "--keep-edges", "-o", Path("tolerance.vtp") });
   const Names before = m_Folder.Names();
   const auto  core = [&](std::vector<std::string> options) {

@@ -113,14 +113,14 @@ def main():
             file.write("# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    \"Clear Label\"\n")
             for value, title in NAMES.items():
                 file.write('%5d %5d %4d %4d        1  1  1    "%s"\n' % (value, *COLORS[value], title))
-        run(program, "core", folder / "case 01.nrrd", "-o", folder / "out.vtp", "--with-skeleton", "--scene",
-            folder / "my scene.mrml")
+        run(program, "core", folder / "case 01.nrrd", "--lambda", "1.5vox", "-o", folder / "out.vtp",
+            "--with-skeleton", "--scene", folder / "my scene.mrml")
         used = walk(folder / "my scene.mrml", program, dump, voxels)
         check(used == set((folder / "my scene_Data").iterdir()), "files that no node names, or the reverse")
         run(program, "skeleton", folder / "out.vtp", "-o", folder / "again.vtp", "--scene", folder / "again.mrml")
 
-        run(program, "core", folder / "case 01.nrrd", "-o", folder / "out.vtp", "--with-skeleton", "--scene",
-            folder / "box.mrb", "--force")
+        run(program, "core", folder / "case 01.nrrd", "--lambda", "1.5vox", "-o", folder / "out.vtp",
+            "--with-skeleton", "--scene", folder / "box.mrb", "--force")
         with zipfile.ZipFile(folder / "box.mrb") as archive:
             check(archive.testzip() is None, "the archive is damaged")
             names = archive.namelist()

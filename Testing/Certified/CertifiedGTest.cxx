@@ -63,9 +63,22 @@ TEST(Certified, RandomShapesPassInEveryWay)
   }
 }
 
+TEST(Certified, ARequestThatSaysNothingIsPrunedAtTheUsualTolerance)
+{
+  CertifiedRequest said;
+  said.lambdas = { ParseLambda("0") };
+  said.tolerances = { ParseTolerance(kUsualTolerance) };
+  const CertifiedResult asked = ComputeCertified(Box(9, 8, 7), Grid({ 1, 1, 2 }), said);
+  const CertifiedResult silent = ComputeCertified(Box(9, 8, 7), Grid({ 1, 1, 2 }), {});
+  ASSERT_EQ(silent.cores.size(), 1U);
+  EXPECT_EQ(silent.cores[0].numbers.tolerance->height, kUsualTolerance);
+  EXPECT_EQ(silent.cores[0].core.core.positions, asked.cores[0].core.core.positions);
+  EXPECT_EQ(silent.cores[0].core.core.cells.faceVertices, asked.cores[0].core.core.cells.faceVertices);
+  EXPECT_TRUE(silent.covered.value_or(false));
+}
+
 TEST(Certified, ARequestThatContradictsItselfIsRefused)
 {
-  EXPECT_THROW(ComputeCertified(Box(2, 2, 2), Grid({ 1, 1, 1 }), Lambdas({})), UsageError);
   CertifiedRequest two = Lambdas({ "0", "1vox" });
   two.tolerances = { ParseTolerance("1diag") };
   EXPECT_THROW(ComputeCertified(Box(2, 2, 2), Grid({ 1, 1, 1 }), two), UsageError);

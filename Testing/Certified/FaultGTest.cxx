@@ -44,13 +44,16 @@ std::vector<Stage>
 Stages()
 {
   CertifiedRequest plain;
+  plain.lambdas = { ParseLambda("1.5vox") };
   CertifiedRequest tolerance;
   tolerance.lambdas = { ParseLambda("0") };
   tolerance.tolerances = { ParseTolerance("1.2diag") };
-  CertifiedRequest refined;
+  CertifiedRequest refined = plain;
   refined.surface = [](const VoxelShape & voxels, const ProgressCallback & progress) {
     return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, { 1, 1, 1 }, progress));
   };
+  CertifiedRequest both = tolerance;
+  both.surface = refined.surface;
   CertifiedRequest skeleton;
   skeleton.skeleton.emplace();
   skeleton.skeleton->standOut = ParseLambda("3vox");
@@ -59,6 +62,7 @@ Stages()
            { "pruning", "its core pruned at 1.5vox", plain },
            { "tolerance", "its core pruned at tolerance 1.2diag", tolerance },
            { "refinement", "its core refined at 1.5vox", refined },
+           { "refinement", "its core refined at 1.2diag", both },
            { "skeleton", "its skeleton", skeleton } };
 }
 

@@ -145,7 +145,10 @@ TEST(Parameters, DefaultsAreThoseOfTheTable)
   const CoreOptions options = CoreOptionsFrom(CoreValues({}));
   EXPECT_EQ(options.scan, "a.nrrd");
   ASSERT_EQ(options.lambdas.size(), 1U);
-  EXPECT_EQ(options.lambdas[0].text, "1.5vox");
+  EXPECT_EQ(options.lambdas[0].text, "0");
+  ASSERT_EQ(options.tolerances.size(), 1U);
+  EXPECT_EQ(options.tolerances[0].text, kUsualTolerance);
+  EXPECT_TRUE(CoreOptionsFrom(CoreValues({ { "lambda", "2vox" } })).tolerances.empty());
   EXPECT_EQ(options.reading.labels, "all");
   EXPECT_FALSE(options.reading.threshold || options.reading.spacing || options.reading.volume || options.report);
   EXPECT_FALSE(options.reading.binary || options.reading.orthonormalize || options.force);

@@ -103,7 +103,8 @@ def test_a_core_is_pruned_further_as_by_the_command_line(tmp_path, scan, made, w
     [
         (dict(), dict(), "give either lambda_ or tolerance, such as lambda_='1.5mm' or tolerance='1.2diag'"),
         (dict(), dict(lambda_=2, tolerance=2), "give either lambda_ or tolerance"),
-        (dict(), dict(tolerance=1), "make it with tolerance=0"),
+        (dict(lambda_=0), dict(tolerance=1), "make it with tolerance=0"),
+        (dict(), dict(lambda_=2), "pruned by tolerance 1.2diag already"),
         (dict(tolerance=1), dict(lambda_=2), "pruned by tolerance 1mm? already"),
         (dict(tolerance=1), dict(tolerance=0.5), "pruned at tolerance 1mm? already"),
         (dict(lambda_=2), dict(lambda_=1), "pruned at 2mm? already"),

@@ -178,7 +178,7 @@ def test_no_memory_is_lost(volume):
 
 
 def test_what_is_written_is_whole_or_not_there(tmp_path, volume):
-    core = voxelcore.core(volume)
+    core = voxelcore.core(volume, lambda_="1.5vox")
     with pytest.raises(ValueError, match="unknown extension"):
         core.save(tmp_path / "core.doc")
     with pytest.raises(OSError, match="nowhere"):

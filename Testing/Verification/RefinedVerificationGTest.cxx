@@ -47,7 +47,7 @@ GoodRefined()
 }
 
 std::vector<std::string>
-FailuresOf(const RefinedCase & subject)
+FailuresOf(const RefinedCase & subject, std::optional<double> tolerance = {})
 {
   RefinedVerificationInput input;
   input.shape = &subject.shape;
@@ -61,6 +61,7 @@ FailuresOf(const RefinedCase & subject)
   input.vertexLambda = core.vertexLambda;
   input.edgeLambda = core.edgeLambda;
   input.faceLambda = core.faceLambda;
+  input.pruningTolerance = tolerance;
   const VerificationReport report = VerifyRefinedCore(input);
   EXPECT_EQ(report.passed, FailedChecks(report).empty());
   return FailedChecks(report);
@@ -86,6 +87,19 @@ TEST(RefinedVerification, ARefinedCorePasses)
 {
   EXPECT_EQ(FailuresOf(GoodRefined()), std::vector<std::string>{});
   EXPECT_GT(GoodRefined().refined.core.cells.FaceCount(), 20U);
+}
+
+TEST(RefinedVerification, AToleranceThatTheBallsDoNotKeepIsSeen)
+{
+  EXPECT_EQ(FailuresOf(GoodRefined(), 10), std::vector<std::string>{});
+  RefinedCase shrunk = GoodRefined();
+  for (std::size_t v = 0; v < shrunk.refined.core.radius.size(); ++v)
+  {
+    shrunk.refined.core.radius[v] *= v % 2 == 0 ? 1 : 0.01; // which the check of radii sees, too
+  }
+  EXPECT_EQ(FailuresOf(GoodRefined(), -10), std::vector<std::string>{ "coverage" });
+  const auto failed = FailuresOf(shrunk, 0.0);
+  EXPECT_NE(std::find(failed.begin(), failed.end(), "radius"), failed.end());
 }
 
 TEST(RefinedVerification, EachDamageIsSeenByTheCheckOfItsName)

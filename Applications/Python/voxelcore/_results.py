@@ -192,9 +192,11 @@ class Core(_Result):
         return _polydata.of_core(self)
 
     def __repr__(self):
+        pruned = self.report["labels"][0]["pruned"][0]
+        measure = "tolerance" if "tolerance" in pruned else "lambda"
         return (
             f"<voxelcore.Core of label {self.label}: {len(self.vertices)} vertices, {len(self.edges)} edges, "
-            f"{len(self.face_offsets) - 1} faces, lambda {self.lambda_mm:g} mm>"
+            f"{len(self.face_offsets) - 1} faces, {measure} {pruned[measure + '_mm']:g} mm>"
         )
 
 

@@ -55,7 +55,18 @@ StageTimes(const CertifiedRequest & request)
   {
     times.push_back(kSkeletonTime);
   }
-  times.push_back(request.surface ? kRefineTime : request.tolerances.empty() ? kPruneTime : kCoverageTime);
+  if (request.surface)
+  {
+    times.push_back(kRefineTime);
+  }
+  if (!request.tolerances.empty())
+  {
+    times.push_back(kCoverageTime);
+  }
+  else if (!request.surface)
+  {
+    times.push_back(kPruneTime);
+  }
   if (request.skeleton && !BurnsWhole(request))
   {
     times.push_back(kSkeletonTime);
@@ -66,18 +77,29 @@ StageTimes(const CertifiedRequest & request)
 void
 RequireSense(const CertifiedRequest & request)
 {
-  if (request.lambdas.empty())
-  {
-    throw UsageError(request.name + ": no lambda was asked for");
-  }
   if (!request.tolerances.empty() && request.lambdas.size() > 1)
   {
     throw UsageError(request.name + ": give one lambda with tolerances, which is pruned first");
   }
-  if (request.surface && (!request.tolerances.empty() || request.skeleton))
+  if (request.surface && request.skeleton && !BurnsWhole(request))
   {
-    throw UsageError(request.name + ": refinement goes with lambdas alone");
+    throw UsageError(request.name + ": beside refined cores, the skeleton is that of the whole core");
   }
+}
+
+/** Where nothing is said of how to prune, tolerances; where these are alone, the lambda that is pruned first. */
+CertifiedRequest
+WithDefaults(CertifiedRequest request)
+{
+  if (request.lambdas.empty())
+  {
+    request.lambdas.emplace_back();
+    if (request.tolerances.empty())
+    {
+      request.tolerances.push_back(ParseTolerance(kUsualTolerance));
+    }
+  }
+  return request;
 }
 
 /** As ended in files: what never goes, and what would go beyond the scan's diagonal, has that height. */
@@ -247,13 +269,9 @@ private:
     if (m_Request.surface)
     {
       m_Whole = CertifiedCore();
-      m_Result.cores = RefineAndCertify(m_Voxels,
-                                        m_Result.shape,
-                                        std::move(m_Kept),
-                                        m_Request.surface,
-                                        m_Request.lambdas,
-                                        m_Thresholds,
-                                        m_Plan.Next());
+      m_Result.cores =
+        RefineAndCertify(m_Voxels, m_Result.shape, std::move(m_Kept), m_Request.surface, Asked(), m_Plan.Next());
+      CertifyCoverage();
     }
     else if (m_Request.tolerances.empty())
     {
@@ -271,12 +289,45 @@ private:
       m_Whole.numbers.lambdaMm = m_Thresholds.front();
       m_Result.cores = PruneCertified(m_Whole, m_Result.shape, m_Request.tolerances);
       m_Whole = CertifiedCore();
-      const ProgressCallback coverage = m_Plan.Next("certificate");
-      for (std::size_t i = 0; i < m_Result.cores.size(); ++i)
-      {
-        ReportProgress(coverage, "", static_cast<double>(i) / static_cast<double>(m_Result.cores.size()));
-        CertifyCoverage(m_Result.cores[i]);
-      }
+      CertifyCoverage();
+    }
+  }
+
+  /** How each result is pruned. */
+  std::vector<CoreNumbers>
+  Asked() const
+  {
+    std::vector<CoreNumbers> asked;
+    for (std::size_t i = 0; i < m_Request.lambdas.size(); ++i)
+    {
+      asked.emplace_back();
+      asked.back().lambda = m_Request.lambdas[i].text;
+      asked.back().lambdaMm = m_Thresholds[i];
+    }
+    if (m_Request.tolerances.empty())
+    {
+      return asked;
+    }
+    asked.resize(m_Request.tolerances.size(), asked.front());
+    for (std::size_t i = 0; i < asked.size(); ++i)
+    {
+      asked[i].tolerance = DescribeTolerance(m_Request.tolerances[i], m_Result.shape.geometry);
+    }
+    return asked;
+  }
+
+  void
+  CertifyCoverage()
+  {
+    if (m_Request.tolerances.empty())
+    {
+      return;
+    }
+    const ProgressCallback coverage = m_Plan.Next("certificate");
+    for (std::size_t i = 0; i < m_Result.cores.size(); ++i)
+    {
+      ReportProgress(coverage, "", static_cast<double>(i) / static_cast<double>(m_Result.cores.size()));
+      CertifyCoverage(m_Result.cores[i]);
     }
   }
 
@@ -292,7 +343,8 @@ private:
     {
       return;
     }
-    if (*tolerance.boundaryGapMm > tolerance.heightMm + BoundaryGapTolerance(geometry))
+    const double promised = tolerance.heightMm + RefinedGapBound(core.core.displacement, geometry.spacing);
+    if (*tolerance.boundaryGapMm > promised + BoundaryGapTolerance(geometry))
     {
       RefuseResult(m_Request.name,
                    "a boundary vertex lies " + std::to_string(*tolerance.boundaryGapMm) + InUnit(" mm", geometry.unit) +
@@ -363,9 +415,10 @@ ComputeCertified(VoxelShape               shape,
                  const CertifiedRequest & request,
                  const ProgressCallback & progress)
 {
-  RequireSense(request);
+  const CertifiedRequest whole = WithDefaults(request);
+  RequireSense(whole);
   const ProgressCallback forward = ForwardOnly(progress);
-  CertifiedResult        result = Work(std::move(shape), geometry, request, forward).Run();
+  CertifiedResult        result = Work(std::move(shape), geometry, whole, forward).Run();
   ReportProgress(forward, "done", 1);
   return result;
 }

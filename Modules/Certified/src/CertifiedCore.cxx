@@ -117,6 +117,12 @@ ScanDiagonal(const ImageGeometry & geometry)
   return std::sqrt(squared);
 }
 
+ToleranceNumbers
+DescribeTolerance(const Tolerance & height, const ImageGeometry & geometry)
+{
+  return { height.text, std::min(ToleranceInMillimetres(height, geometry.spacing), ScanDiagonal(geometry)), {} };
+}
+
 std::vector<CertifiedCore>
 PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const std::vector<Tolerance> & heights)
 {
@@ -125,7 +131,8 @@ PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const s
   {
     const ImageGeometry & geometry = shape.geometry;
     RequireLengthIn(geometry.unit, heights[i]);
-    const double height = std::min(ToleranceInMillimetres(heights[i], geometry.spacing), ScanDiagonal(geometry));
+    ToleranceNumbers tolerance = DescribeTolerance(heights[i], geometry);
+    const double     height = tolerance.heightMm;
     if (!core.core.core.HasTolerances() && core.core.core.cells.vertexCount > 0)
     {
       throw UsageError(shape.name + ": its core does not hold tolerances");
@@ -140,7 +147,7 @@ PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const s
     const TopologyNumbers topology = ComputeComplexTopology(result.core.core.cells);
     RequireEqualTopology(shape.topology, topology, "its core pruned at tolerance " + heights[i].text, shape.name);
     result.numbers = core.numbers;
-    result.numbers.tolerance = { heights[i].text, height, {} };
+    result.numbers.tolerance = std::move(tolerance);
     result.numbers.complex = DescribeComplex(result.core.core, topology);
   }
   return results;

@@ -29,6 +29,10 @@ CertifyPruned(CertifiedCore               whole,
               const std::vector<double> & thresholdsMm,
               const ProgressCallback &    progress);
 
+/** How a core pruned to a height is described; no height is greater than the scan's diagonal. */
+ToleranceNumbers
+DescribeTolerance(const Tolerance & height, const ImageGeometry & geometry);
+
 /** The diagonal of a scan in mm: no bump is higher. */
 double
 ScanDiagonal(const ImageGeometry & geometry);

@@ -18,14 +18,11 @@ namespace
 {
 
 CertifiedCore
-CertifyRefined(RefinedCore            refined,
-               const VoxelShape &     voxels,
-               const CertifiedShape & shape,
-               const Lambda &         lambda,
-               double                 thresholdMm)
+CertifyRefined(RefinedCore refined, const VoxelShape & voxels, const CertifiedShape & shape, CoreNumbers numbers)
 {
+  const std::string what = "its core refined at " + (numbers.tolerance ? numbers.tolerance->height : numbers.lambda);
   const TopologyNumbers topology = ComputeComplexTopology(refined.core.cells);
-  RequireEqualTopology(shape.topology, topology, "its core refined at " + lambda.text, shape.name);
+  RequireEqualTopology(shape.topology, topology, what, shape.name);
   RefinedNumbers moved;
   for (const Vector3 & d : refined.displacement)
   {
@@ -35,9 +32,7 @@ CertifyRefined(RefinedCore            refined,
   }
   if (!IsEnclosed(refined.core, voxels) || moved.maxDisplacement > 1)
   {
-    RefuseResult(shape.name,
-                 "a vertex of its core refined at " + lambda.text +
-                   " lies outside the shape or was moved by more than a voxel");
+    RefuseResult(shape.name, "a vertex of " + what + " lies outside the shape or was moved by more than a voxel");
   }
   // A displacement in LPS mm is the difference of two places.
   std::vector<Vector3> moves(refined.displacement.size());
@@ -52,8 +47,7 @@ CertifyRefined(RefinedCore            refined,
   CertifiedCore result;
   result.core = ToPhysical(std::move(refined.core), shape.geometry, 0);
   result.core.displacement = std::move(moves);
-  result.numbers.lambda = lambda.text;
-  result.numbers.lambdaMm = thresholdMm;
+  result.numbers = std::move(numbers);
   result.numbers.complex = DescribeComplex(result.core.core, topology);
   result.numbers.refined = moved;
   return result;
@@ -62,26 +56,34 @@ CertifyRefined(RefinedCore            refined,
 } // namespace
 
 std::vector<CertifiedCore>
-RefineAndCertify(const VoxelShape &          voxels,
-                 const CertifiedShape &      shape,
-                 RefinementParts             parts,
-                 const SurfaceSource &       source,
-                 const std::vector<Lambda> & lambdas,
-                 const std::vector<double> & thresholdsMm,
-                 const ProgressCallback &    progress)
+RefineAndCertify(const VoxelShape &       voxels,
+                 const CertifiedShape &   shape,
+                 RefinementParts          parts,
+                 const SurfaceSource &    source,
+                 std::vector<CoreNumbers> asked,
+                 const ProgressCallback & progress)
 {
   const auto            surface = source(voxels, PartOfProgress(progress, "surface", 0, 0.3));
-  const RefinementInput input{ &voxels,           &parts.points, &parts.core,
-                               &parts.edgePoints, surface.get(), shape.geometry.spacing };
+  const RefinementInput input{ &voxels,
+                               &parts.points,
+                               &parts.core,
+                               &parts.edgePoints,
+                               surface.get(),
+                               shape.geometry.spacing,
+                               asked.front().tolerance.has_value() };
+  std::vector<double>   thresholdsMm;
+  for (const CoreNumbers & one : asked)
+  {
+    thresholdsMm.push_back(one.tolerance ? one.tolerance->heightMm : one.lambdaMm);
+  }
   // Each threshold goes on from where the last one stopped.
   const std::vector<double>  ascending = AscendingBeyond(-HUGE_VAL, thresholdsMm);
   const auto                 refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.3, 1));
   std::vector<CertifiedCore> results;
-  for (std::size_t i = 0; i < lambdas.size(); ++i)
+  for (std::size_t i = 0; i < asked.size(); ++i)
   {
     const auto at = std::lower_bound(ascending.begin(), ascending.end(), thresholdsMm[i]) - ascending.begin();
-    results.push_back(
-      CertifyRefined(refined[static_cast<std::size_t>(at)], voxels, shape, lambdas[i], thresholdsMm[i]));
+    results.push_back(CertifyRefined(refined[static_cast<std::size_t>(at)], voxels, shape, std::move(asked[i])));
   }
   return results;
 }

@@ -17,16 +17,15 @@ struct RefinementParts
   MedialComplex             core; ///< in lattice coordinates
 };
 
-/** Results in the order of the lambdas. \throws CertificateError when the topology is no longer the shape's, or a
+/** A result for each of `asked`, which says how it was pruned, by lambda or by tolerance. \throws CertificateError when the topology is no longer the shape's, or a
  *  vertex has left it; Cancelled */
 std::vector<CertifiedCore>
-RefineAndCertify(const VoxelShape &          voxels,
-                 const CertifiedShape &      shape,
-                 RefinementParts             parts,
-                 const SurfaceSource &       source,
-                 const std::vector<Lambda> & lambdas,
-                 const std::vector<double> & thresholdsMm,
-                 const ProgressCallback &    progress);
+RefineAndCertify(const VoxelShape &       voxels,
+                 const CertifiedShape &   shape,
+                 RefinementParts          parts,
+                 const SurfaceSource &    source,
+                 std::vector<CoreNumbers> asked,
+                 const ProgressCallback & progress);
 
 /** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
 bool

@@ -96,9 +96,9 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
   {
     throw UsageError("with --tolerance give one --lambda, the floor");
   }
-  if (!options.refine.surface.empty() && (!options.tolerances.empty() || options.skeleton || options.model.keepEdges))
+  if (!options.refine.surface.empty() && options.model.keepEdges)
   {
-    throw UsageError("--refine does not go with --tolerance, --with-skeleton or --keep-edges");
+    throw UsageError("--keep-edges is for pruning further, and a refined core cannot be");
   }
   if (options.report)
   {

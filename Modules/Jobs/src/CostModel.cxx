@@ -46,7 +46,7 @@ constexpr double kToleranceBytes = 70;  // of tolerances
 constexpr double kTetgenBytes = 1050;   // TetGen's mesh
 constexpr double kTetgenSeconds = 6e-5;
 constexpr double kFurtherSeconds = 8e-7; // of each further result
-constexpr double kToleranceSeconds = 8e-6;
+constexpr double kToleranceSeconds = 3e-6;
 constexpr double kRefineBytes = 700; // the band of the field, and what is kept of the whole core
 constexpr double kRefineSeconds = 4e-5;
 

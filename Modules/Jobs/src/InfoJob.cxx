@@ -185,10 +185,12 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   const std::vector<BoundaryCounts> boundaries = CountBoundaries(edited.labels);
   CoreOptions                       defaults;
   defaults.lambdas = options.coreLambdas;
+  defaults.tolerances = options.coreTolerances;
   defaults.output = "medial.vtp";
   info.core = PredictJob(boundaries, defaults, info.threads);
-  defaults.display.html = "medial.html";
-  info.page = PredictJob(boundaries, defaults, info.threads);
+  CoreOptions page = defaults;
+  page.display.html = "medial.html";
+  info.page = PredictJob(boundaries, page, info.threads);
   CoreOptions skeletons;
   skeletons.lambdas = options.skeletonLambdas;
   skeletons.skeleton.emplace();
@@ -208,7 +210,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
     one.topology = ComputeShapeTopology(label.shape);
     one.components26 = CountComponents26(label.shape);
     one.boundary = boundaries[info.labels.size()];
-    one.cost = PredictLabel(one.boundary, info.threads);
+    one.cost = PredictJob({ one.boundary }, defaults, info.threads);
     info.labels.push_back(std::move(one));
   }
   ReportProgress(context.progress, "done", 1);

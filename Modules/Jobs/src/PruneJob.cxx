@@ -46,7 +46,7 @@ RequireSmaller(const PruneOptions & options, const CertifiedShape & shape, const
   if (done.tolerance && done.tolerance->heightMm > 0)
   {
     throw InputError(options.core.string() +
-                     ": is pruned by tolerance already; give --tolerance, or a file made without");
+                     ": is pruned by tolerance already; give --tolerance, or a file made with --lambda");
   }
   const SpacingWeights weights = ComputeSpacingWeights(shape.geometry.spacing);
   for (const Lambda & lambda : options.lambdas)

@@ -63,6 +63,11 @@ VerifyPart(ModelPart                part,
     moved.edgeLambda = part.core.edgeLambda;
     moved.faceLambda = part.core.faceLambda;
     moved.positionTolerance = PositionTolerance(geometry);
+    if (pruned.tolerance)
+    {
+      moved.threshold = pruned.lambdaMm;
+      moved.pruningTolerance = pruned.tolerance->heightMm;
+    }
     return VerifyRefinedCore(moved, progress);
   }
   VerificationInput input;

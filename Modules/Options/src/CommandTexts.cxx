@@ -11,15 +11,14 @@ namespace
 {
 
 constexpr std::string_view kCoreFooter =
-  R"(Pruning. --lambda keeps all of the surface whose nearest boundary points lie at least 2 lambda apart. It never
-changes the topology. A bare number is mm; vox means times the smallest voxel spacing; % is of the longest side
-of the label's box.
-  1.5vox, the default, clears most staircase noise and keeps parts three voxels thick.
+  R"(Pruning never changes the topology. --tolerance H keeps the boundary within H of the balls that remain, on thick
+and thin parts alike. 1.2diag, the default, suits clean segmentations; use more for rough ones. --lambda L keeps
+all of the surface whose nearest boundary points lie at least 2 L apart. A bare number is mm; vox means times the
+smallest voxel spacing; diag, times a voxel's diagonal; % is of the longest side of the label's box.
+  --lambda 1.5vox clears most staircase noise and keeps parts three voxels thick.
   Above 2.44vox (cubic voxels) convergence is proven, but thin parts shrink to curves.
   For thick slices, give mm: about 1.5 times the slice distance.
---tolerance suits scans with both thick and thin parts. The boundary stays within H of the balls that remain.
-1.2diag suits clean segmentations; use more for rough ones. A --lambda given with --tolerance is applied first.
-Guide: choosing-the-pruning.md
+A --lambda given with --tolerance is applied first. Guide: choosing-the-pruning.md
 
 Shape edits run label by label in this order: --mend-shape, --fill-cavities, --min-voxels, --largest,
 --smooth-shape, --split-components. Components are 6-connected. --mend-shape and --fill-cavities also remove
@@ -39,7 +38,7 @@ skeletons.md
 Examples:
   voxelcore core scan.nii.gz -o medial.vtp --report medial.json
   voxelcore core scan.seg.nrrd --labels liver,4 --lambda 0,1mm,2.5% -o medial.vtp
-  voxelcore core scan.nii.gz --tolerance 1.2diag -o medial.vtp
+  voxelcore core scan.nii.gz --tolerance 2diag -o medial.vtp
   voxelcore core atlas.nii.gz -o surfaces/
   voxelcore core ct.nrrd --threshold 300:3000 --lambda 2vox -o bone.vtp
   voxelcore core slices/ --spacing 0.5,0.5,2 --binary -o part.vtp
@@ -48,8 +47,8 @@ Examples:
   voxelcore core huge.nrrd --blocks 8 --block 1 -o parts/     (and so on to --block 8, on any machines)
   voxelcore core huge.nrrd --join parts/ -o huge.vtp
   voxelcore core teeth.nii.gz --crop 100:300,80:220,: --split-components -o teeth/
-  voxelcore core ct.nrrd --threshold 300:inf --lambda 2.5vox --refine grey -o bone.vtp
-  voxelcore core part.stl --resolution 256 --lambda 2.5% -o part.vtp
+  voxelcore core ct.nrrd --threshold 300:inf --refine grey -o bone.vtp
+  voxelcore core part.stl --resolution 256 -o part.vtp
   voxelcore core part.ply --resolution 256,512,1024 --lambda 1%,2.5% -o study/   (each, and one table))";
 
 constexpr std::string_view kInfoFooter =
@@ -84,7 +83,7 @@ its label exactly. A pruned one shows what was treated as noise. On thick slices
 corners of the slices.
 
 Example:
-  voxelcore core scan.nii.gz --tolerance 1.2diag -o medial.vtp
+  voxelcore core scan.nii.gz --tolerance 2diag -o medial.vtp
   voxelcore reconstruct medial.vtp -o rebuilt.nii.gz --scan scan.nii.gz --report rebuilt.json)";
 
 constexpr std::string_view kVoxelizeFooter =

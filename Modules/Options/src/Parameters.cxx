@@ -37,12 +37,13 @@ namespace
 void
 ReadPruning(const ParameterReader & reader, std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances)
 {
-  const bool hasTolerance = reader.IsGiven("tolerance");
+  const bool hasLambda = reader.IsGiven("lambda");
+  const bool hasTolerance = reader.IsGiven("tolerance") || !hasLambda;
   if (hasTolerance)
   {
-    tolerances = ParseTolerances(reader.Text("tolerance"));
+    tolerances = ParseTolerances(reader.IsGiven("tolerance") ? reader.Text("tolerance") : std::string(kUsualTolerance));
   }
-  lambdas = ParseLambdas(hasTolerance && !reader.IsGiven("lambda") ? "0" : reader.Text("lambda"));
+  lambdas = ParseLambdas(hasLambda ? reader.Text("lambda") : "0");
   if (hasTolerance && lambdas.size() > 1)
   {
     throw UsageError("--lambda " + reader.Text("lambda") + ": expected one value, the floor of --tolerance");
@@ -199,7 +200,7 @@ InfoOptionsFrom(const ParameterValues & values)
   InfoOptions           options;
   options.scan = reader.Text("scan");
   ReadScanFields(reader, options);
-  options.coreLambdas = ParseLambdas(ValueOf({}, CommandId::Core, "lambda"));
+  ReadPruning(ParameterReader({}, CommandId::Core), options.coreLambdas, options.coreTolerances);
   options.skeletonLambdas = ParseLambdas(ValueOf({}, CommandId::Skeleton, "lambda"));
   return options;
 }

@@ -58,7 +58,7 @@ constexpr std::array<std::string_view, 11> kTerminalOptions{ "progress", "quiet"
                                                              "json",     "html-triangles", "resolution" };
 
 /** The parameters in the first, open group; in the table's order. */
-constexpr std::array<std::string_view, 8> kMain{ "scan",   "output",    "table",         "labels",
+constexpr std::array<std::string_view, 9> kMain{ "scan",   "output",    "table",         "labels", "tolerance",
                                                  "lambda", "stand-out", "fill-cavities", "binary" };
 
 template <typename TNames>

@@ -4,6 +4,7 @@
 #include "RefinementState.h"
 
 #include "voxelcore/SimplePairCollapse.h"
+#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/TriangleTree.h"
 #include "voxelcore/Vectors.h"
 
@@ -82,10 +83,19 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   const TriangleTree       boundary = TreeOfPoints(*input.points, input.spacing);
   for (const double threshold : thresholds)
   {
-    collapse.CollapseBelow(kWorkingPart * threshold, progress);
-    RefinementState working(input, RemoveFringe(input, finder, PartOf(input.core->cells, collapse.Live())));
+    CorePart part;
+    if (input.byTolerance)
+    {
+      part = PartOf(input.core->cells, LeftByTolerance(*input.core, threshold));
+    }
+    else
+    {
+      collapse.CollapseBelow(kWorkingPart * threshold, progress);
+      part = RemoveFringe(input, finder, PartOf(input.core->cells, collapse.Live()));
+    }
+    RefinementState working(input, std::move(part));
     working.Move(finder, progress);
-    refined.push_back(working.Finish(finder, threshold));
+    refined.push_back(working.Finish(finder, input.byTolerance ? 0 : threshold));
     BoundRadii(boundary, input.spacing, refined.back().core);
   }
   return refined;

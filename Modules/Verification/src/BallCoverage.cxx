@@ -131,6 +131,21 @@ BallTree::Gap(const std::array<double, 3> & place, double enough) const
   return search.best;
 }
 
+double
+RefinedGapBound(std::span<const std::array<double, 3>> displacement, const std::array<double, 3> & spacing)
+{
+  if (displacement.empty())
+  {
+    return 0;
+  }
+  double farthest = 0;
+  for (const auto & d : displacement)
+  {
+    farthest = std::max(farthest, std::hypot(d[0], d[1], d[2]));
+  }
+  return 2 * farthest + 0.5 * std::hypot(spacing[0], spacing[1], spacing[2]);
+}
+
 BoundaryGap
 LargestBoundaryGap(const VoxelShape &                     shape,
                    const SpacingWeights &                 weights,

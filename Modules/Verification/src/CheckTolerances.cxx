@@ -54,26 +54,25 @@ CheckTolerances(VerificationReport & report, const Subject & subject)
 }
 
 void
-CheckCoverage(VerificationReport & report, const Subject & subject)
+CheckCoverage(VerificationReport & report, const VerificationInput & input, double positionTolerance, double beyond)
 {
-  const VerificationInput & input = subject.input;
-  const BoundaryGap         gap = LargestBoundaryGap(*input.shape, input.weights, input.positions, input.radius);
+  const BoundaryGap gap = LargestBoundaryGap(*input.shape, input.weights, input.positions, input.radius);
   report.boundaryGap = gap.largest;
   if (input.threshold.value_or(0.0) > 0)
   {
     return;
   }
   const auto         largestWeight = *std::max_element(input.weights.weight.begin(), input.weights.weight.end());
-  const double       slack = 4 * subject.tolerance * static_cast<double>(largestWeight) * input.weights.unit;
-  const bool         covered = gap.largest <= *input.pruningTolerance * (1 + kMeasureTolerance) + slack;
+  const double       slack = 4 * positionTolerance * static_cast<double>(largestWeight) * input.weights.unit;
+  const double       promised = *input.pruningTolerance + beyond;
+  const bool         covered = gap.largest <= promised * (1 + kMeasureTolerance) + slack;
   const LatticePoint place{ gap.place[0], gap.place[1], gap.place[2] };
   report.checks.push_back({ "coverage",
                             covered,
                             covered ? 0U : 1U,
                             covered ? std::string()
                                     : "boundary vertex " + Describe(place) + " lies " + Describe(gap.largest) +
-                                        " mm from the nearest ball, the tolerance is " +
-                                        Describe(*input.pruningTolerance) + " mm." });
+                                        " mm from the nearest ball, " + Describe(promised) + " mm are promised." });
 }
 
 } // namespace voxelcore::verification

@@ -117,7 +117,10 @@ CheckPruning(VerificationReport & report, const Subject & subject);
 void
 CheckTolerances(VerificationReport & report, const Subject & subject);
 void
-CheckCoverage(VerificationReport & report, const Subject & subject);
+CheckCoverage(VerificationReport &      report,
+              const VerificationInput & input,
+              double                    positionTolerance,
+              double                    beyond = 0);
 
 /** "shape Euler number", "topology"; fills shapeTopology. `recount` is the shape's Euler number by other means. */
 void

@@ -1,6 +1,7 @@
 #include "voxelcore/RefinedVerification.h"
 
 #include "Checks.h"
+#include "voxelcore/BallCoverage.h"
 #include "voxelcore/BettiReduction.h"
 #include "voxelcore/OctantScan.h"
 
@@ -229,6 +230,8 @@ VerifyRefinedCore(const RefinedVerificationInput & input, const ProgressCallback
   plain.vertexLambda = input.vertexLambda;
   plain.edgeLambda = input.edgeLambda;
   plain.faceLambda = input.faceLambda;
+  plain.pruningTolerance = input.pruningTolerance;
+  plain.threshold = input.threshold;
   OctantScan scan = ScanOctants(*input.shape);
   bool       usable = CheckArrays(report, plain) && CheckIncidences(report, *input.cells);
   if (usable && input.displacement.size() != input.positions.size())
@@ -241,6 +244,15 @@ VerifyRefinedCore(const RefinedVerificationInput & input, const ProgressCallback
     const BoundaryTree tree(std::move(scan.boundary), input.weights);
     CheckMoves(report, input, tree, progress);
     ReportProgress(progress, "verify", 0.9);
+    if (input.pruningTolerance)
+    {
+      std::vector<Position> moves(input.displacement.begin(), input.displacement.end());
+      for (Position & move : moves)
+      {
+        move = { move[0] * input.spacing[0], move[1] * input.spacing[1], move[2] * input.spacing[2] };
+      }
+      CheckCoverage(report, plain, input.positionTolerance, RefinedGapBound(moves, input.spacing));
+    }
     report.complexTopology = ReduceToTopologyNumbers(*input.cells);
     CheckTopology(report, *input.shape, scan.euler);
   }

@@ -198,7 +198,7 @@ CheckGeometry(VerificationReport &      report,
   if (input.pruningTolerance)
   {
     CheckTolerances(report, subject);
-    CheckCoverage(report, subject);
+    CheckCoverage(report, subject.input, subject.tolerance);
     return;
   }
   CheckCompleteness(report, subject);

@@ -155,13 +155,17 @@ ComputeTolerances(const MedialComplex &             core,
   return ToleranceCollapse(core, weights, points, std::move(touching), floor, progress).Run(progress);
 }
 
+LiveElements
+LeftByTolerance(const MedialComplex & core, double height)
+{
+  const ToleranceValues & values = core.tolerances;
+  return { AtLeast(values.vertices, height), AtLeast(values.edges, height), AtLeast(values.faces, height) };
+}
+
 MedialComplex
 PruneByTolerance(const MedialComplex & core, double height)
 {
-  const ToleranceValues & values = core.tolerances;
-  return ExtractPart(
-    core,
-    { AtLeast(values.vertices, height), AtLeast(values.edges, height), AtLeast(values.faces, height) });
+  return ExtractPart(core, LeftByTolerance(core, height));
 }
 
 } // namespace voxelcore

@@ -25,9 +25,10 @@ refused() {
   [ "$(ls)" = "$before" ] || fail "a fault in $fault left $(ls)"
 }
 refused core 4 "$program" core scan.nrrd -o out.vtp
-refused pruning 4 "$program" core scan.nrrd -o out.vtp
-refused tolerance 4 "$program" core scan.nrrd --tolerance 1.2diag -o out.vtp
+refused pruning 4 "$program" core scan.nrrd --lambda 1.5vox -o out.vtp
+refused tolerance 4 "$program" core scan.nrrd -o out.vtp
 refused refinement 4 "$program" core scan.nrrd --lambda 2.5vox --refine labels -o out.vtp
+refused refinement 4 "$program" core scan.nrrd --refine labels -o out.vtp
 refused skeleton 4 "$program" skeleton scan.nrrd -o out.vtp
 [ -z "$vtk" ] || { refused core any "$vtk" scan.mha 2 3 out.vtp; refused pruning any "$vtk" scan.mha 2 3 out.vtp; }
 [ -z "$itk" ] || { refused core any "$itk" scan.mha 2vox out.vtp; refused pruning any "$itk" scan.mha 2vox out.vtp; }

@@ -30,15 +30,15 @@ using CellSource =
 using SurfaceSource =
   std::function<std::shared_ptr<const SurfaceEstimate>(const VoxelShape & shape, const ProgressCallback & progress)>;
 
-/** What is asked of one shape. */
+/** What is asked of one shape. With neither lambdas nor tolerances: one core, pruned at kUsualTolerance. */
 struct CertifiedRequest
 {
   std::string name = "the shape"; ///< in errors: "label 4 (liver)"
 
-  std::vector<Lambda>    lambdas{ { 1.5, Lambda::Unit::Voxel, "1.5vox" } }; ///< one core each; 0: the whole core
-  std::vector<Tolerance> tolerances;       ///< where there are some: one core each, the only lambda is pruned first
-  SurfaceSource          surface;          ///< refines the cores to this surface; goes with lambdas alone
-  std::optional<SkeletonRequest> skeleton; ///< of the core it names, which is whole or one of those asked for
+  std::vector<Lambda>            lambdas;    ///< one core each; 0: the whole core
+  std::vector<Tolerance>         tolerances; ///< where there are some: one core each, the only lambda is pruned first
+  SurfaceSource                  surface;    ///< refines the cores to this surface; goes with lambdas alone
+  std::optional<SkeletonRequest> skeleton;   ///< of the core it names, which is whole or one of those asked for
 
   Engine     engine = Engine::Auto;
   bool       crossCheck = false; ///< both engines run, one after the other, and must agree bit for bit

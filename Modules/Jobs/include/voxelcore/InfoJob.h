@@ -24,7 +24,9 @@ struct InfoOptions
   ShapeEditOptions      edits;
 
   std::optional<std::int64_t> resolution; ///< of a mesh
-  std::vector<Lambda> coreLambdas; ///< what `core` and `skeleton` do when nothing is said: to foretell what they need
+  // What `core` and `skeleton` do when nothing is said: to foretell what they need.
+  std::vector<Lambda>    coreLambdas;
+  std::vector<Tolerance> coreTolerances;
   std::vector<Lambda> skeletonLambdas;
 };
 

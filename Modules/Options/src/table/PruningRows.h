@@ -13,11 +13,11 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     "-l,--lambda",
     Text,
     "L[,L..]",
-    "1.5vox",
+    "",
     false,
     kCore,
-    "Prune at this threshold: 1.5mm, 2.5vox, 2.5%; 0 keeps the whole core; several L write OUT_lambda-1mm.vtp and so "
-    "on",
+    "Prune at this threshold of the radius measure instead: 1.5mm, 2.5vox, 2.5%; 0 keeps the whole core; several L "
+    "write OUT_lambda-1mm.vtp and so on. With --tolerance: one L, pruned first",
     "lambda_" },
   { "lambda",
     "-l,--lambda",
@@ -43,7 +43,16 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     "H[,H..]",
     "",
     false,
-    kModels,
+    kCore,
+    "Prune so that the boundary stays within H of the remaining balls: 1.2diag (voxel diagonals; the default without "
+    "--lambda), 2vox, 1.5mm; several H write OUT_tolerance-1.2diag.vtp and so on" },
+  { "tolerance",
+    "--tolerance",
+    Text,
+    "H[,H..]",
+    "",
+    false,
+    kPrune,
     "Prune so that the boundary stays within H of the remaining balls: 1.2diag (voxel diagonals), 2vox, 1.5mm; several "
     "H write OUT_tolerance-1.2diag.vtp and so on" },
   { "tolerance",

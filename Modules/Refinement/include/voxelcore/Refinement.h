@@ -49,9 +49,12 @@ struct RefinementInput
   const EdgePoints *                edgePoints = nullptr;
   const SurfaceEstimate *           surface = nullptr;
   Vector3                           spacing{ 1, 1, 1 }; ///< mm
+  bool                              byTolerance = false; ///< thresholds are tolerances, whose heights the core has
 };
 
-/** Refines the part of the core that a threshold leaves, for each threshold in mm. Guarded: every vertex lies in the
+/** Refines the part of the core that a threshold leaves, for each threshold in mm: by lambda, which is measured again
+ *  where vertices have moved to, or by tolerance, where all of the part stays, so that the boundary lies within the
+ *  tolerance, twice the farthest move and half a voxel's diagonal of its balls. Guarded: every vertex lies in the
  *  open shape, none is farther than one voxel (length of the displacement in lattice coordinates) from where it was,
  *  and no triangle's normal has turned by 90 degrees or more against that of the same triangle in the whole core; no
  *  radius differs from the distance of the nearest boundary vertex by more than half a voxel's diagonal. Where there is

@@ -55,6 +55,12 @@ struct BoundaryGap
   std::array<std::int32_t, 3> place{};     ///< lattice corner where it is; the first of equals
 };
 
+/** By how much a gap may exceed the tolerance after refinement, which moves each vertex by `displacement` (mm) and leaves
+ *  its radius within half a voxel's diagonal of the distance to the nearest boundary vertex, which falls by no more than
+ *  the move: twice the farthest move and that half diagonal. 0 where nothing was moved. */
+double
+RefinedGapBound(std::span<const std::array<double, 3>> displacement, const std::array<double, 3> & spacing);
+
 /** Largest gap between a boundary vertex of the shape and the union of the balls of a complex. The same for every
  *  number of threads. \throws Cancelled when the callback says so. */
 BoundaryGap

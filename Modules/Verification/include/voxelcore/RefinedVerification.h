@@ -20,6 +20,8 @@ struct RefinedVerificationInput
   std::span<const double>                edgeLambda;   ///< mm; NaN = unknown, allowed for edges that lie on a face
   std::span<const double>                faceLambda;   ///< mm
   double                                 positionTolerance = 0; ///< as VerificationInput has it
+  std::optional<double>                  threshold;             ///< mm; above 0 nothing is promised of the boundary
+  std::optional<double>                  pruningTolerance;      ///< mm; the boundary is promised to lie that near
 };
 
 /** Checks, in this order:
@@ -33,6 +35,7 @@ struct RefinedVerificationInput
  *    has surface that near, and the surface has one of them
  *  - measures: not greater than how far the surface can lie where the vertex was, and they do not fall from faces to
  *    edges to vertices
+ *  - with a tolerance, coverage: no boundary vertex lies farther from the ball of a vertex than it and RefinedGapBound()
  *  - shape Euler number, topology
  *  \throws InputError when shape and weights exceed the exact range; Cancelled when the callback says so. */
 VerificationReport

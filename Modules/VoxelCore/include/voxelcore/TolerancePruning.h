@@ -13,6 +13,7 @@
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/Progress.h"
+#include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/SpatialUnit.h"
 
@@ -35,6 +36,10 @@ struct Tolerance
   Unit        unit = Unit::Millimetre;
   std::string text = "0"; ///< as written, without blanks
 };
+
+/** What is taken where nothing is asked for: of all prunings the best by score, on bodies whose medial axes are known and
+ *  on scans (Testing/Performance/README.md). */
+inline constexpr std::string_view kUsualTolerance = "1.2diag";
 
 /** Reads "1.5mm", "2.5vox", "1diag", "1.5" (mm). Decimal numbers, not negative, finite.
  *  \throws UsageError that quotes the text and names the units. */
@@ -94,6 +99,8 @@ ComputeTolerances(const MedialComplex &             core,
                   const ProgressCallback &          progress = {});
 
 /** What is left at a height in mm of a core that has its heights (MedialComplex::tolerances). */
+LiveElements
+LeftByTolerance(const MedialComplex & core, double height);
 MedialComplex
 PruneByTolerance(const MedialComplex & core, double height);
 
