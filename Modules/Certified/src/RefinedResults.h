@@ -17,8 +17,8 @@ struct RefinementParts
   MedialComplex             core; ///< in lattice coordinates
 };
 
-/** A result for each of `asked`, which says how it was pruned, by lambda or by tolerance. \throws CertificateError when the topology is no longer the shape's, or a
- *  vertex has left it; Cancelled */
+/** A result for each of `asked`, which says how it was pruned, by lambda or by tolerance. \throws CertificateError when
+ *  the topology is no longer the shape's, or a vertex has left it; Cancelled */
 std::vector<CertifiedCore>
 RefineAndCertify(const VoxelShape &       voxels,
                  const CertifiedShape &   shape,

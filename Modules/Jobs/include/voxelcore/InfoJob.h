@@ -27,7 +27,7 @@ struct InfoOptions
   // What `core` and `skeleton` do when nothing is said: to foretell what they need.
   std::vector<Lambda>    coreLambdas;
   std::vector<Tolerance> coreTolerances;
-  std::vector<Lambda> skeletonLambdas;
+  std::vector<Lambda>    skeletonLambdas;
 };
 
 struct LabelInfo

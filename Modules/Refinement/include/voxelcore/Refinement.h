@@ -48,7 +48,7 @@ struct RefinementInput
   const MedialComplex *             core = nullptr;   ///< the whole core
   const EdgePoints *                edgePoints = nullptr;
   const SurfaceEstimate *           surface = nullptr;
-  Vector3                           spacing{ 1, 1, 1 }; ///< mm
+  Vector3                           spacing{ 1, 1, 1 };  ///< mm
   bool                              byTolerance = false; ///< thresholds are tolerances, whose heights the core has
 };
 

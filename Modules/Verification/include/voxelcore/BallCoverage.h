@@ -55,9 +55,9 @@ struct BoundaryGap
   std::array<std::int32_t, 3> place{};     ///< lattice corner where it is; the first of equals
 };
 
-/** By how much a gap may exceed the tolerance after refinement, which moves each vertex by `displacement` (mm) and leaves
- *  its radius within half a voxel's diagonal of the distance to the nearest boundary vertex, which falls by no more than
- *  the move: twice the farthest move and that half diagonal. 0 where nothing was moved. */
+/** By how much a gap may exceed the tolerance after refinement: twice the farthest move and half a voxel's diagonal.
+ *  Refinement moves each vertex by `displacement` (mm) and leaves its radius within that half diagonal of the distance
+ *  to the nearest boundary vertex, which falls by no more than the move. 0 where nothing was moved. */
 double
 RefinedGapBound(std::span<const std::array<double, 3>> displacement, const std::array<double, 3> & spacing);
 

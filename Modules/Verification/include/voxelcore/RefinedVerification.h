@@ -35,7 +35,7 @@ struct RefinedVerificationInput
  *    has surface that near, and the surface has one of them
  *  - measures: not greater than how far the surface can lie where the vertex was, and they do not fall from faces to
  *    edges to vertices
- *  - with a tolerance, coverage: no boundary vertex lies farther from the ball of a vertex than it and RefinedGapBound()
+ *  - with a tolerance, coverage: no boundary vertex lies farther than it and RefinedGapBound() from the nearest ball
  *  - shape Euler number, topology
  *  \throws InputError when shape and weights exceed the exact range; Cancelled when the callback says so. */
 VerificationReport
