@@ -1,11 +1,9 @@
 // Estimates of surfaces that are known.
 
-#include "VoxelCoreTesting/Random.h"
 #include "VoxelCoreTesting/Shapes.h"
 
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/SurfaceEstimate.h"
-#include "voxelcore/TriangleTree.h"
 
 #include <gtest/gtest.h>
 
@@ -237,47 +235,6 @@ TEST(SurfaceEstimate, AtTheScansBorderTheSurfaceIsTheBorder)
   const SurfacePoint point = surface->Project({ 4, 4, 0.3 }, 1);
   ASSERT_TRUE(point.found);
   EXPECT_NEAR(point.position[2], 0, 1e-3);
-}
-
-TEST(TriangleTree, FindsWhatTryingAllTrianglesFinds)
-{
-  Random                                    random(7);
-  std::vector<Vector3>                      vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (int i = 0; i < 90; ++i)
-  {
-    vertices.push_back({ random.Unit(), random.Unit(), random.Unit() });
-  }
-  for (int i = 0; i < 200; ++i)
-  {
-    const auto any = [&] { return static_cast<std::uint32_t>(random.Between(0, 89)); };
-    triangles.push_back({ any(), any(), any() }); // some degenerate
-  }
-  const TriangleTree tree(vertices, triangles);
-  for (int i = 0; i < 300; ++i)
-  {
-    const Vector3 place{ 2 * random.Unit() - 0.5, 2 * random.Unit() - 0.5, 2 * random.Unit() - 0.5 };
-    double        least = 1e9;
-    for (const auto & [a, b, c] : triangles)
-    {
-      const Vector3 at = NearestOnTriangle(place, { vertices[a], vertices[b], vertices[c] });
-      const double  gap = std::hypot(at[0] - place[0], at[1] - place[1], at[2] - place[2]);
-      least = std::min(least, gap);
-      // No point of the triangle that one happens to look at is nearer.
-      const double u = random.Unit();
-      const double v = (1 - u) * random.Unit();
-      double       other = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        const double d = (1 - u - v) * vertices[a][k] + u * vertices[b][k] + v * vertices[c][k] - place[k];
-        other += d * d;
-      }
-      EXPECT_LE(gap, std::sqrt(other) + 1e-12);
-    }
-    EXPECT_NEAR(std::sqrt(tree.FindNearest(place, 10).squaredDistance), least, 1e-12);
-    EXPECT_LT(tree.FindNearest(place, 10).triangle, triangles.size());
-    EXPECT_GE(tree.FindNearest(place, 0.5 * least).triangle, triangles.size());
-  }
 }
 
 } // namespace

@@ -1,0 +1,79 @@
+#include "voxelcore/TriangleTree.h"
+
+#include "VoxelCoreTesting/Random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+TEST(TriangleTree, FindsWhatTryingAllTrianglesFinds)
+{
+  Random                                    random(7);
+  std::vector<Vector3>                      vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (int i = 0; i < 90; ++i)
+  {
+    vertices.push_back({ random.Unit(), random.Unit(), random.Unit() });
+  }
+  for (int i = 0; i < 200; ++i)
+  {
+    const auto any = [&] { return static_cast<std::uint32_t>(random.Between(0, 89)); };
+    triangles.push_back({ any(), any(), any() }); // some degenerate
+  }
+  const TriangleTree tree(vertices, triangles);
+  for (int i = 0; i < 300; ++i)
+  {
+    const Vector3 place{ 2 * random.Unit() - 0.5, 2 * random.Unit() - 0.5, 2 * random.Unit() - 0.5 };
+    double        least = 1e9;
+    for (const auto & [a, b, c] : triangles)
+    {
+      const Vector3 at = NearestOnTriangle(place, { vertices[a], vertices[b], vertices[c] });
+      const double  gap = std::hypot(at[0] - place[0], at[1] - place[1], at[2] - place[2]);
+      least = std::min(least, gap);
+      // No point of the triangle that one happens to look at is nearer.
+      const double u = random.Unit();
+      const double v = (1 - u) * random.Unit();
+      double       other = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const double d = (1 - u - v) * vertices[a][k] + u * vertices[b][k] + v * vertices[c][k] - place[k];
+        other += d * d;
+      }
+      EXPECT_LE(gap, std::sqrt(other) + 1e-12);
+    }
+    EXPECT_NEAR(std::sqrt(tree.FindNearest(place, 10).squaredDistance), least, 1e-12);
+    EXPECT_LT(tree.FindNearest(place, 10).triangle, triangles.size());
+    EXPECT_GE(tree.FindNearest(place, 0.5 * least).triangle, triangles.size());
+  }
+}
+
+TEST(TriangleTree, OfEquallyNearTrianglesTheFirstIsFound)
+{
+  const std::vector<Vector3>                      vertices{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+  const std::vector<std::array<std::uint32_t, 3>> triangles(9, { 0, 1, 2 });
+  const TriangleTree                              tree(vertices, triangles);
+  EXPECT_EQ(tree.TriangleCount(), 9U);
+  const auto nearest = tree.FindNearest({ 0.25, 0.25, 2 }, 5);
+  EXPECT_EQ(nearest.triangle, 0U);
+  EXPECT_EQ(nearest.squaredDistance, 4);
+  EXPECT_EQ(nearest.point, (Vector3{ 0.25, 0.25, 0 }));
+}
+
+TEST(TriangleTree, NormalsFollowTheCornersAndADegenerateTriangleHasNone)
+{
+  const std::vector<Vector3>                      vertices{ { 0, 0, 0 }, { 2, 0, 0 }, { 0, 3, 0 } };
+  const std::vector<std::array<std::uint32_t, 3>> triangles{ { 0, 1, 2 }, { 0, 2, 1 }, { 0, 1, 1 } };
+  const TriangleTree                              tree(vertices, triangles);
+  EXPECT_EQ(tree.Normal(0), (Vector3{ 0, 0, 6 }));
+  EXPECT_EQ(tree.Normal(1), (Vector3{ 0, 0, -6 }));
+  EXPECT_EQ(tree.Normal(2), (Vector3{ 0, 0, 0 }));
+}
+
+} // namespace
+} // namespace voxelcore::testing
