@@ -24,8 +24,11 @@ packages_of() {
     browser) echo chromium chromium-headless-shell python3 ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
     reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
-    bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy python3-nibabel ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, picture, guide, test, package, sanitizer, browser, cluster, reproduction and bench" >&2; return 2 ;;
+    bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
+                python3-nibabel ;;
+    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, picture, guide, test, package," \
+            "sanitizer, browser, cluster, reproduction and bench" >&2
+       return 2 ;;
   esac
 }
 

@@ -11,7 +11,8 @@ scan=/usr/share/mricron/templates/aal.nii.gz
 build=build/release
 out=build/quickstart
 if [ ! -r "$scan" ]; then
-  echo "quickstart: $scan is missing although mricron-data is installed; try 'apt-get install --reinstall mricron-data'" >&2
+  echo "quickstart: $scan is missing although mricron-data is installed;" \
+    "try 'apt-get install --reinstall mricron-data'" >&2
   exit 1
 fi
 
@@ -33,7 +34,8 @@ if [ -s "$out/aal_medial.vtp" ] && [ -s "$out/aal_medial.json" ] && [ -s "$out/t
 else
   rm -f "$out/stamp"
   "$program" core "$scan" -o "$out/aal_medial.vtp" "${options[@]}" >"$out/table.txt"
-  "$program" render "$out/aal_medial.vtp" --color Label --background dark --size 1600x1200 -o "$out/aal.png" --force --quiet
+  "$program" render "$out/aal_medial.vtp" --color Label --background dark --size 1600x1200 -o "$out/aal.png" \
+    --force --quiet
   echo "$stamp" >"$out/stamp"
 fi
 cat "$out/table.txt"

@@ -11,7 +11,8 @@ shift
 cmake -S "$source" -B "$build" -G Ninja -DBUILD_TESTING=ON -DVOXELCORE_UNITY=OFF \
   -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
   -DCMAKE_CXX_FLAGS="-D_GLIBCXX_ASSERTIONS -flto -ffat-lto-objects" -DCMAKE_EXE_LINKER_FLAGS=-fno-lto \
-  -DCMAKE_SHARED_LINKER_FLAGS=-fno-lto -DCMAKE_MODULE_LINKER_FLAGS=-fno-lto >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
+  -DCMAKE_SHARED_LINKER_FLAGS=-fno-lto -DCMAKE_MODULE_LINKER_FLAGS=-fno-lto >"$build.log" 2>&1 ||
+    { cat "$build.log" >&2; exit 1; }
 if [ $# -gt 0 ]; then
   nice cmake --build "$build" --target "$@"
   exit

@@ -7,6 +7,7 @@ set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 may_use() {
+  local mathematics="Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified"
   case "$1" in
     Lattice) echo "" ;;
     Shape | Complex) echo "Lattice" ;;
@@ -19,13 +20,14 @@ may_use() {
     Formats) echo "Lattice Shape" ;;
     ItkReader) echo "Lattice Shape Formats" ;;
     Imaging) echo "Lattice Shape Formats ItkReader" ;;
-    ITK) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Formats Imaging" ;;
-    Models) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Voxelization Verification Certified" ;;
+    ITK) echo "$mathematics Formats Imaging" ;;
+    Models) echo "$mathematics Voxelization" ;;
     Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models Certified" ;;
-    Report) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified Formats Imaging Models" ;;
-    Jobs) echo "Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Voxelization Phantom Verification Certified Formats ItkReader Imaging Models Display Report" ;;
+    Report) echo "$mathematics Formats Imaging Models" ;;
+    Jobs) echo "$mathematics Blocks Voxelization Phantom Formats ItkReader Imaging Models Display Report" ;;
     Options) echo "Lattice Shape VoxelCore Skeleton Certified Formats Imaging Models Report Jobs" ;;
-    Cohort) echo "Lattice Shape Delaunay Models Formats Imaging Complex VoxelCore Certified Skeleton Refinement Report Jobs Options" ;;
+    Cohort) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Certified Formats Imaging" \
+                 "Models Report Jobs Options" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac
 }
@@ -56,7 +58,8 @@ for folder in Modules/*/; do
         complain "$file:$line: only Models and Display know VTK ($name)" ;;
       vtk*) [[ "$module" = Models || "$module" = Display ]] ||
         complain "$file:$line: only Models and Display know VTK ($name)" ;;
-      tetgen.h) [ "$file" = Modules/Delaunay/src/TetGenEngine.cxx ] || complain "$file:$line: TetGen belongs in one file" ;;
+      tetgen.h) [ "$file" = Modules/Delaunay/src/TetGenEngine.cxx ] ||
+        complain "$file:$line: TetGen belongs in one file" ;;
     esac
     if [[ "$name" = *.h && -e "Modules/ItkReader/itk/$name" && "$file" != Modules/ItkReader/itk/* ]]; then
       complain "$file:$line: what the helper program is made of is its own ($name)"

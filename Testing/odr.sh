@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Looks for names that two sources define differently: two structs, or two functions, of one name and namespace. The
-# linker takes one of them, another one in another build. First that a seeded clash of each kind is found; then that none
-# is in the modules and the program. The objects are those of the Debug build (debug.sh), which both kinds of check need.
+# linker takes one of them, another one in another build. First that a seeded clash of each kind is found; then that
+# none is in the modules and the program. The objects are those of the Debug build (debug.sh), which both kinds of check
+# need.
 # usage: odr.sh BUILD_DIR
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -11,8 +12,8 @@ seed=$build/odr
 
 compile=(-std=gnu++20 -O0 -g1 -flto -ffat-lto-objects)
 
-# where FOLDER OBJECTS...: names of functions that stand at two places of a folder's sources, each with its places. Finds those of equal
-# size, too, which gold passes over.
+# where FOLDER OBJECTS...: names of functions that stand at two places of a folder's sources, each with its places.
+# Finds those of equal size, too, which gold passes over.
 where() {
   local object folder=$1
   for object in "${@:2}"; do
@@ -32,14 +33,15 @@ where() {
             print line " defined in two ways" } }' | c++filt
 }
 
-# check FOLDER LOG OBJECTS AND LIBRARIES...: links them twice; GCC compares types, gold the sizes of functions and, where these
-# differ, their places. `where` compares all places.
+# check FOLDER LOG OBJECTS AND LIBRARIES...: links them twice; GCC compares types, gold the sizes of functions and,
+# where these differ, their places. `where` compares all places.
 check() {
   local folder=$1 log=$2
   shift 2
   : >"$log"
   g++ -O0 -flto=auto -Wodr -Wlto-type-mismatch "$@" -o "$log.lto" >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
-  g++ -fno-lto -fuse-ld=gold -Wl,--detect-odr-violations "$@" -o "$log.gold" >>"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+  g++ -fno-lto -fuse-ld=gold -Wl,--detect-odr-violations "$@" -o "$log.gold" >>"$log" 2>&1 ||
+    { cat "$log" >&2; exit 1; }
   rm -f "$log.lto" "$log.gold"
   local word objects=()
   for word in "$@"; do

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Builds the tests of some modules with a sanitizer, in a folder of their own, and runs those that are not heavy, and with
-# `address` the hostile files in full. Non-zero when a test fails or the sanitizer finds anything.
+# Builds the tests of some modules with a sanitizer, in a folder of their own, and runs those that are not heavy, and
+# with `address` the hostile files in full. Non-zero when a test fails or the sanitizer finds anything.
 # usage: sanitize.sh address|thread BUILD_DIR "CONFIGURED;MODULES" "TESTED;MODULES"    exit 77: a package is missing
 #
 # address: AddressSanitizer with its leak check, and UndefinedBehaviorSanitizer, with the compiler at hand (CXX).
-# thread:  ThreadSanitizer with clang and LLVM's OpenMP. GCC's own OpenMP is not built for it and every barrier would look
+# thread:  ThreadSanitizer with clang and LLVM's OpenMP. GCC's own OpenMP is not built for it and every barrier would
+# look
 #          like a race; LLVM's tells ThreadSanitizer of its barriers through the tool libarcher (package libomp-dev).
 set -euo pipefail
 
@@ -59,7 +60,8 @@ done
 cmake --build "$build" --target "${targets[@]}"
 
 # Tests carry the name of their module as label. Left out is what asks for a time.
-ctest --test-dir "$build" -E WritingIsFastBesideComputing -L "^(${tested//;/|})\$" --output-on-failure --no-tests=error </dev/null
+ctest --test-dir "$build" -E WritingIsFastBesideComputing -L "^(${tested//;/|})\$" --output-on-failure \
+  --no-tests=error </dev/null
 if [ "$kind" = address ]; then
   ctest --test-dir "$build" -R '^HeavyHostile' --output-on-failure </dev/null
 fi

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Every command of voxelcore that README.md and the guide show runs, page by page, on small inputs of the names it uses;
-# every link leads somewhere; every page of the guide stands in the site's table of contents; C++ said to be from an example
-# stands there. What needs a cluster is run by the test in Testing/Cluster.
+# every link leads somewhere; every page of the guide stands in the site's table of contents; C++ said to be from an
+# example stands there. What needs a cluster is run by the test in Testing/Cluster.
 # usage: guide_test.sh PROGRAM SOURCE_DIR
 set -euo pipefail
 
@@ -42,14 +42,15 @@ make_inputs() {
     side(0, 2, 3, 1); side(4, 5, 7, 6); side(0, 1, 5, 4); side(2, 6, 7, 3); side(0, 4, 6, 2); side(1, 3, 7, 5)
   }' >part.ply
   awk 'function corner(c) { printf " vertex %g %g %g\n", 10 * (c % 2), 0.2 * (int(c / 2) % 2), 0.2 * int(c / 4) }
-  function triangle(a, b, c) { print "facet normal 0 0 0\nouter loop"; corner(a); corner(b); corner(c); print "endloop\nendfacet" }
+  function triangle(a, b, c) {
+    print "facet normal 0 0 0\nouter loop"; corner(a); corner(b); corner(c); print "endloop\nendfacet" }
   function side(a, b, c, d) { triangle(a, b, c); triangle(a, c, d) }
   BEGIN { print "solid part"; side(0, 2, 3, 1); side(4, 5, 7, 6); side(0, 1, 5, 4); side(2, 6, 7, 3); side(0, 4, 6, 2)
     side(1, 3, 7, 5); print "endsolid part" }' >part.stl
 }
 
-# Lines of C++ that a page says are from an example stand there, in the same order, comments apart; the example is built and
-# run by a test of its own.
+# Lines of C++ that a page says are from an example stand there, in the same order, comments apart; the example is built
+# and run by a test of its own.
 quoted=0
 check_quotes() {
   local before='' at=0 code=()
@@ -80,7 +81,8 @@ for page in "$source/README.md" "$guide"/*.md; do
   done < <(grep -oE '\]\([^)#:]+\)' "$page" | sed 's/^](//; s/)$//')
   check_quotes "$page"
   # Indented lines, and the second column of tables that map a shape to its command.
-  commands=$(sed -nE -e 's/^    ((voxelcore |for k in ).*)$/\1/p' -e 's/^\| [^|`]+ \| `(voxelcore [^`]+ -o [^`]+)` \|$/\1/p' "$page")
+  commands=$(sed -nE -e 's/^    ((voxelcore |for k in ).*)$/\1/p' \
+    -e 's/^\| [^|`]+ \| `(voxelcore [^`]+ -o [^`]+)` \|$/\1/p' "$page")
   [ -n "$commands" ] || continue
   mkdir "$folder/$name"
   cd "$folder/$name"

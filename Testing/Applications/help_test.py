@@ -1,5 +1,5 @@
-"""Runs the examples of every command's --help (the manual pages have the same), one after the other, on small inputs of the
-names they use. Options that README.md and the guide name are there.
+"""Runs the examples of every command's --help (the manual pages have the same), one after the other, on small inputs of
+the names they use. Options that README.md and the guide name are there.
 usage: help_test.py VOXELCORE SOURCE_DIR"""
 import gzip
 import os
@@ -46,7 +46,8 @@ def write_segmentation(path, names):
 
 def write_slice(path, rows):
     chunk = lambda kind, body: struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0)) +
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" +
+                     chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0)) +
                      chunk(b"IDAT", zlib.compress(b"".join(b"\0" + bytes(row) for row in rows))) + chunk(b"IEND", b""))
 
 
@@ -68,7 +69,8 @@ def write_inputs(program):
                         for k in range(20) for j in range(20) for i in range(20))
     Path("slices").mkdir()
     for k in range(5):
-        write_slice(Path("slices/%d.png" % k), [[255 * (3 < i < 17 and 2 < j < 9) for i in range(20)] for j in range(12)])
+        write_slice(Path("slices/%d.png" % k),
+                    [[255 * (3 < i < 17 and 2 < j < 9) for i in range(20)] for j in range(12)])
     with open("part.stl", "w") as file:
         file.write("solid part\n")
         for triangle in TRIANGLES:
@@ -116,9 +118,11 @@ def run_examples(command, text, drawn):
         for block in range(1, 9) if "--block 1 " in line else [1]:
             each = line.replace("--block 1 ", "--block %d " % block)
             result = subprocess.run(["bash", "-c", each], capture_output=True, text=True, stdin=subprocess.DEVNULL)
-            check(result.returncode == 0, "%s --help: %s\nends with %d\n%s" % (command, each, result.returncode, result.stderr))
+            check(result.returncode == 0,
+                  "%s --help: %s\nends with %d\n%s" % (command, each, result.returncode, result.stderr))
         if target:
-            written = list(target.iterdir()) if target.is_dir() else list(Path().glob(target.stem.split(".")[0] + "[._]*"))
+            written = list(target.iterdir()) if target.is_dir() else list(
+                Path().glob(target.stem.split(".")[0] + "[._]*"))
             check(written, "%s --help: %s\nleaves nothing" % (command, line))
         count += 1
     return count
@@ -136,7 +140,9 @@ def main():
     others = {"--heavy", "--build", "--config", "--install", "--prefix", "--profile", "--array", "--test-dir"}
     known = set(re.findall(r"--[a-z][a-z-]*", " ".join(helps.values())))
     named = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", " ".join(page.read_text() for page in pages))) - others
-    check(len(named) > 40 and named <= known, "README.md or the guide names options there are not: %s" % sorted(named - known))
+    check(
+        len(named) > 40 and named <= known,
+        "README.md or the guide names options there are not: %s" % sorted(named - known))
 
     drawn = bool(shutil.which("Xvfb")) and "off in this build" not in helps["render"]
     with tempfile.TemporaryDirectory() as folder:

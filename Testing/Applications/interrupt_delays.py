@@ -60,7 +60,10 @@ def main():
         inputs, commands = prepare(program, folder)
         for name, words in commands.items():
             began = time.monotonic()
-            done = subprocess.run([program, *words, *force(words), "--quiet"], cwd=folder, capture_output=True, text=True)
+            done = subprocess.run([program, *words, *force(words), "--quiet"],
+                                  cwd=folder,
+                                  capture_output=True,
+                                  text=True)
             length = time.monotonic() - began
             if done.returncode not in (0, 4):
                 failures.append(f"{name}: {done.stderr.strip()}")

@@ -59,7 +59,8 @@ def label_at(voxels, point):
 
 def run(*command, code=0):
     result = subprocess.run([str(word) for word in command], capture_output=True, text=True)
-    check(result.returncode == code, "%s\nexit code %d\n%s%s" % (command, result.returncode, result.stdout, result.stderr))
+    check(result.returncode == code,
+          "%s\nexit code %d\n%s%s" % (command, result.returncode, result.stdout, result.stderr))
     return result
 
 

@@ -39,7 +39,8 @@ def main():
             run(program, "core", folder / (scan + ".nrrd"), "--lambda", "0", "-o", folder / (scan + ".vtp"), "--html",
                 page)
             model = model_of(page.read_text())
-            check([label["medial"]["dots"][1] for label in model["labels"]] == dots, "points by themselves are not there")
+            check([label["medial"]["dots"][1] for label in model["labels"]] == dots,
+                  "points by themselves are not there")
             picture = folder / (scan + ".png")
             visit(page, folder, "--screenshot=%s" % picture)
             check(colored(picture) > 20, "nothing of %s is to be seen" % scan)
@@ -50,7 +51,9 @@ def main():
 
         text = page.read_text()
         for name, bad, words in (
-                ("numbers", re.sub(r'(id="data">.{8})(.)', lambda m: m.group(1) + ("B" if m.group(2) == "A" else "A"), text), "damaged"),
+                ("numbers",
+                 re.sub(r'(id="data">.{8})(.)', lambda m: m.group(1) + ("B" if m.group(2) == "A" else "A"), text),
+                 "damaged"),
                 ("letters", text.replace('id="data">', 'id="data">%%%'), "damaged"),
                 ("json", text.replace('{"title"', '{"title":inf,"old"'), "damaged"),
                 ("short", text[:text.index('id="data">') + 40], "incomplete"),

@@ -17,8 +17,10 @@ PROBE = """<script>
 (async function () {
   const $ = id => document.getElementById(id), wait = ms => new Promise(done => setTimeout(done, ms));
   const found = {}, fire = (element, name) => element.dispatchEvent(new Event(name, { bubbles: true }));
-  const names = () => [...document.querySelectorAll('#labels li')].filter(row => !row.hidden).map(row => row.querySelector('.name').textContent);
-  const point = (name, x, y) => $('view').dispatchEvent(new PointerEvent(name, { clientX: x, clientY: y, pointerType: 'mouse', pointerId: 1 }));
+  const names = () => [...document.querySelectorAll('#labels li')].filter(row => !row.hidden)
+    .map(row => row.querySelector('.name').textContent);
+  const point = (name, x, y) => $('view').dispatchEvent(
+    new PointerEvent(name, { clientX: x, clientY: y, pointerType: 'mouse', pointerId: 1 }));
   await wait(300);
   found.folded = document.body.classList.contains('folded');
   found.view = $('view').getBoundingClientRect().width / innerWidth;
@@ -57,7 +59,8 @@ PROBE = """<script>
   found.chosen = document.querySelectorAll('#labels [aria-pressed="true"]').length;
   document.querySelectorAll('#labels .name')[0].click();
 
-  // The picture is read where it becomes a file: decoding the file again takes time that a headless browser does not give.
+  // The picture is read where it becomes a file: decoding the file again takes time that a headless browser does not
+  // give.
   let saved = null, name = '', data = null, width = 0;
   const make = URL.createObjectURL, toBlob = HTMLCanvasElement.prototype.toBlob;
   URL.createObjectURL = blob => { saved = blob; return make(blob); };
@@ -69,7 +72,8 @@ PROBE = """<script>
   };
   $('save').click();
   for (let i = 0; i < 100 && !saved; ++i) await wait(50);
-  found.saved = { name, type: saved.type, bytes: saved.size, width: width / $('view').clientWidth, colored: 0, white: 0 };
+  found.saved = { name, type: saved.type, bytes: saved.size, width: width / $('view').clientWidth,
+                  colored: 0, white: 0 };
   for (let i = 0; i < data.length; i += 4) {
     const low = Math.min(data[i], data[i + 1], data[i + 2]), high = Math.max(data[i], data[i + 1], data[i + 2]);
     if (high - low > 40) ++found.saved.colored;
@@ -77,14 +81,17 @@ PROBE = """<script>
   }
 
   found.unnamed = [...document.querySelectorAll('button, input, select')].filter(element =>
-    !element.textContent.trim() && !element.getAttribute('aria-label') && !(element.labels && element.labels.length)).map(element => element.id);
+    !element.textContent.trim() && !element.getAttribute('aria-label') &&
+    !(element.labels && element.labels.length)).map(element => element.id);
   $('ground').click();
   found.dark = getComputedStyle(document.body).backgroundColor;
   $('coloring').value = 'Label';
   fire($('coloring'), 'change');
   found.range = $('range').hidden;
   document.body.dataset.found = encodeURIComponent(JSON.stringify(found));
-})().catch(error => { document.body.dataset.found = encodeURIComponent(JSON.stringify({ error: String(error.stack) })); });
+})().catch(error => {
+  document.body.dataset.found = encodeURIComponent(JSON.stringify({ error: String(error.stack) }));
+});
 </script>"""
 
 
@@ -99,7 +106,8 @@ def probed(page, folder, probe=PROBE, **how):
     return found
 
 
-# Solid surfaces from the front, nothing in them: how many pixels of one picture are the scale bar's, how many the body's.
+# Solid surfaces from the front, nothing in them: how many pixels of one picture are the scale bar's, how many the
+# body's.
 MEASURE = """<script>
 setTimeout(function () {
   const slider = document.getElementById('surface-opacity');
@@ -135,7 +143,8 @@ def check_scale_bar(program, folder, spacing):
         for j in range(12, 28):
             at = (k * size + j) * size
             voxels[at + 5:at + 35] = b"\1" * 30
-    header = "NRRD0004\ntype: uint8\ndimension: 3\nspacings: %s\nsizes: 40 40 40\nencoding: raw\n\n" % " ".join(3 * [spacing])
+    header = "NRRD0004\ntype: uint8\ndimension: 3\nspacings: %s\nsizes: 40 40 40\nencoding: raw\n\n" % " ".join(
+        3 * [spacing])
     (folder / "bar.nrrd").write_bytes(header.encode() + bytes(voxels))
     page = folder / "bar.html"
     run(program, "core", folder / "bar.nrrd", "-o", folder / "bar.vtp", "--html", page, "--force")
@@ -175,24 +184,32 @@ def main():
         check(colored > 3000, "only %d pixels are coloured: nothing is drawn" % colored)
         check(white > 30000, "only %d pixels are white" % white)
         last = bytes.fromhex(model_of(text)["map"][-1][1:])
-        check(sum(max(abs(a - b) for a, b in zip(p, last)) < 40 for p in middle) > 10, "thick parts do not have the map's last colour")
+        check(
+            sum(max(abs(a - b) for a, b in zip(p, last)) < 40 for p in middle) > 10,
+            "thick parts do not have the map's last colour")
 
         found = probed(page, folder)
         check(found["folded"] is False and found["view"] < 0.8, "the panel is folded where there is room")
-        check(found["foldedAfter"] is True and found["viewAfter"] > 0.99 and found["panelAfter"] == 0, "the panel does not fold")
-        check(found["colorings"] == ["Radius", "Lambda", "ErosionThickness", "Label"], "colourings %s" % found["colorings"])
+        check(found["foldedAfter"] is True and found["viewAfter"] > 0.99 and found["panelAfter"] == 0,
+              "the panel does not fold")
+        check(found["colorings"] == ["Radius", "Lambda", "ErosionThickness", "Label"],
+              "colourings %s" % found["colorings"])
         check(found["labels"] == ["</script><b>left", "right & back"], "labels %s" % found["labels"])
-        check(found["searched"] == ["right & back"] and found["count"] == "1 of 2 found", "the search finds %s" % found["searched"])
+        check(found["searched"] == ["right & back"] and found["count"] == "1 of 2 found",
+              "the search finds %s" % found["searched"])
         check(found["boxes"] == [True, False] and found["countAfter"] == "1 of 2 shown", "hidden: %s" % found["boxes"])
         check(found["chosen"] == 1, "no label is chosen")
-        check(found["saved"]["name"] == "blocks.png" and found["saved"]["type"] == "image/png", "saved %s" % found["saved"])
-        check(found["saved"]["width"] >= 2 and found["saved"]["bytes"] > 20000 and found["saved"]["colored"] > 12000 and found["saved"]["white"] > 100000,
-              "the saved picture is empty: %s" % found["saved"])
+        check(found["saved"]["name"] == "blocks.png" and found["saved"]["type"] == "image/png",
+              "saved %s" % found["saved"])
+        check(
+            found["saved"]["width"] >= 2 and found["saved"]["bytes"] > 20000 and found["saved"]["colored"] > 12000
+            and found["saved"]["white"] > 100000, "the saved picture is empty: %s" % found["saved"])
         check(found["unnamed"] == [], "controls without a name: %s" % found["unnamed"])
         check(found["dark"] == "rgb(20, 23, 26)" and found["range"] is True, "ground %s" % found["dark"])
         seen = " | ".join(found["seen"])
-        check(re.search(r"\(3\)Radius [0-9.]+ mm", seen) and re.search(r"\(8\)Radius [0-9.]+ mm", seen) and "LPS" in seen,
-              "under the pointer: %s" % seen[:300])
+        check(
+            re.search(r"\(3\)Radius [0-9.]+ mm", seen) and re.search(r"\(8\)Radius [0-9.]+ mm", seen) and "LPS" in seen,
+            "under the pointer: %s" % seen[:300])
 
         phone = probed(page, folder, size=(390, 844))
         check(phone["folded"] is True and phone["view"] > 0.99, "the panel covers a phone: %s" % phone["view"])
@@ -209,10 +226,12 @@ def main():
         plain = folder / "plain.vtp"
         run(program, "core", folder / "g.nrrd", "-o", plain, "--lambda", "0")
         check(plain.read_bytes() == (folder / "g.vtp").read_bytes(), "decimation reached the result")
-        shown, whole = (int(re.search(r'"%s":(\d+)' % key, small.read_text()).group(1)) for key in ("triangles", "allTriangles"))
+        shown, whole = (int(re.search(r'"%s":(\d+)' % key, small.read_text()).group(1))
+                        for key in ("triangles", "allTriangles"))
         check(whole > 60000 and 5000 < shown <= 22000, "%d of %d triangles for a budget of 20000" % (shown, whole))
         dom = visit(small, folder, "--dump-dom")
-        check('data-state="ready"' in dom and "of %s; the files hold all of them" % format(whole, ",") in dom, "the page does not say so")
+        check('data-state="ready"' in dom and "of %s; the files hold all of them" % format(whole, ",") in dom,
+              "the page does not say so")
 
 
 main()

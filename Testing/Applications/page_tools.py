@@ -19,10 +19,17 @@ def browser():
 
 
 def visit(page, folder, *more, size=(1000, 700), webgl=True, quiet=True):
-    """Runs the browser on a page; gives what it printed. Any message in the page's console fails where it is to be quiet."""
-    command = [browser(), "--headless", "--no-sandbox", *(("--use-angle=swiftshader", "--enable-unsafe-swiftshader") if webgl else ("--disable-gpu", "--disable-3d-apis")),
-               "--user-data-dir=%s" % (folder / "profile"), "--window-size=%d,%d" % size, "--virtual-time-budget=20000",
-               "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr", "--v=0", *more, page.as_uri()]
+    """Runs the browser on a page; gives what it printed. Any message in the page's console fails where it is to be
+    quiet."""
+    command = [
+        browser(), "--headless", "--no-sandbox",
+        *(("--use-angle=swiftshader", "--enable-unsafe-swiftshader") if webgl else
+          ("--disable-gpu", "--disable-3d-apis")),
+        "--user-data-dir=%s" % (folder / "profile"),
+        "--window-size=%d,%d" % size, "--virtual-time-budget=20000", "--host-resolver-rules=MAP * ~NOTFOUND",
+        "--enable-logging=stderr", "--v=0", *more,
+        page.as_uri()
+    ]
     result = subprocess.run(command, capture_output=True, text=True, timeout=240)
     check(result.returncode == 0, "the browser ended with %d: %s" % (result.returncode, result.stderr))
     console = [line for line in result.stderr.splitlines() if "CONSOLE" in line and

@@ -64,8 +64,10 @@ def walk(scene, program, dump, voxels):
         model = next(n for n in kinds["Model"] if n.get("name") == name + " medial surface")
         display = part(model, "display")
         check(near(display.get("color"), COLORS[label]), "colour of " + name)
-        check(display.get("activeScalarName") == "Radius" and display.get("scalarVisibility") == "true" and
-              display.get("activeAttributeLocation") == "point" and display.get("backfaceCulling") == "false", "scalars")
+        check(
+            display.get("activeScalarName") == "Radius" and display.get("scalarVisibility") == "true"
+            and display.get("activeAttributeLocation") == "point" and display.get("backfaceCulling") == "false",
+            "scalars")
         check(part(model, "storage").get("coordinateSystem") == "LPS", "space")
         data = polydata(dump, scene.parent / unquote(part(model, "storage").get("fileName")))
         check(data["space"] == "LPS" and "Radius" in data["pointArrays"], "the file of " + name)
@@ -78,7 +80,9 @@ def walk(scene, program, dump, voxels):
     # Colours: one range for all, that of most of the surface, so that the few smallest radii do not take the map.
     check(len(ranges) == 1, "ranges %s" % ranges)
     low, high = (float(x) for x in ranges.pop().split())
-    check(min(radii) < low - 1e-3 and low < high <= max(radii) + 1e-6, "%s to %s of %s to %s" % (low, high, min(radii), max(radii)))
+    check(
+        min(radii) < low - 1e-3 and low < high <= max(radii) + 1e-6,
+        "%s to %s of %s to %s" % (low, high, min(radii), max(radii)))
     # curves
     for curve in kinds["MarkupsCurve"]:
         markups = json.loads((scene.parent / unquote(part(curve, "storage").get("fileName"))).read_text())["markups"]

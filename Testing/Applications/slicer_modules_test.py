@@ -90,7 +90,8 @@ def drive(program, module, command, dump, folder):
     help_text = run(program, command, "--help").stdout
     for p in parameters(description):
         flag = p.findtext("longflag")
-        check(flag is None or re.search(re.escape(flag) + r"\b", help_text), "%s is not in the help of %s" % (flag, command))
+        check(flag is None or re.search(re.escape(flag) + r"\b", help_text),
+              "%s is not in the help of %s" % (flag, command))
     answers = folder / "abc_4.params"
     words = ["--returnparameterfile", str(answers)] + arguments(description, files, {})
     code, fractions, tags, error = run_module(module, words)

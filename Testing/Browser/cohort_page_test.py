@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The page over a cohort in headless Chromium: 1,000 cases open from disk in under 2 s without a network; sorting, filter,
-outliers, failed cases on top, links, and hostile names. usage: cohort_page_test.py PROGRAM [SCREENSHOT.png]; 77: skipped"""
+"""The page over a cohort in headless Chromium: 1,000 cases open from disk in under 2 s without a network; sorting,
+filter, outliers, failed cases on top, links, and hostile names. usage: cohort_page_test.py PROGRAM [SCREENSHOT.png];
+77: skipped"""
 import hashlib
 import json
 import os
@@ -46,7 +47,8 @@ document.getElementById("marked").checked = false; document.getElementById("mark
 scrollTo(0, document.body.scrollHeight); dispatchEvent(new Event("scroll"));
 out.more = rows().length;
 out.title = document.title;
-const pre = document.createElement("pre"); pre.id = "probe"; pre.textContent = JSON.stringify(out); document.body.append(pre);
+const pre = document.createElement("pre"); pre.id = "probe"; pre.textContent = JSON.stringify(out);
+document.body.append(pre);
 </script></body>"""
 
 
@@ -96,7 +98,8 @@ def main():
         assert run([program, "batch", "--gather", "-o", out]).returncode == 1
         with open(f"{out}/index.html", encoding="utf-8") as file:
             page = file.read()
-        assert not re.search(r"https?:|//[a-z]", page.split('<script id="data"')[0] + page.split("</script>", 1)[1]), "foreign"
+        assert not re.search(r"https?:|//[a-z]",
+                             page.split('<script id="data"')[0] + page.split("</script>", 1)[1]), "foreign"
         with open(f"{out}/probe.html", "w", encoding="utf-8") as file:
             file.write(page.replace("</body>", PROBE))
         words = [browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={work}/profile",
@@ -108,7 +111,9 @@ def main():
             got = json.loads(found.group(1).replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&"))
             if got["ready"] < 2000:
                 break
-        print(f"{CASES} cases: ready after {got['ready']} ms, sorted in {got['sortMs']:.0f} ms, page {len(page) // 1024} KiB")
+        print(
+            f"{CASES} cases: ready after {got['ready']} ms, sorted in {got['sortMs']:.0f} ms, "
+            f"page {len(page) // 1024} KiB")
         assert got["ready"] < 2000, got["ready"]
         assert got["status"] == f"{CASES + 1} of {CASES + 1} rows; {CASES + 1} cases, 1 failed", got["status"]
         assert got["failedFirst"] == "failed" and got["first"][0] == "bad", got["first"]
@@ -125,7 +130,8 @@ def main():
         shown = run(words[:3] + ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] + words[4:] +
                     ["--virtual-time-budget=20000", "--dump-dom", f"file://{out}/{got['around']}"], timeout=240)
         assert 'data-state="ready"' in shown.stdout, shown.stderr[-2000:]
-        assert {"medial.vtp", "skeleton.swc", "report.json"} <= {link.split("_", 1)[1] for link in got["links"]}, got["links"]
+        assert {"medial.vtp", "skeleton.swc", "report.json"} <= {link.split("_", 1)[1]
+                                                                 for link in got["links"]}, got["links"]
         if len(sys.argv) > 2:
             run(words + [f"--screenshot={sys.argv[2]}", f"file://{out}/index.html"], timeout=120)
     return 0

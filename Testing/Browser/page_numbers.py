@@ -115,8 +115,9 @@ def check(out):
     in_tables = check_tables(out, data)
     failed = [case["id"] for case in data["cases"] if not case["done"]]
     labels = sum(len(case["labels"]) for case in data["cases"])
-    print(f"{len(data['cases'])} cases, {len(failed)} failed, {labels} labels: {on_page} numbers on the page and {in_tables} in "
-          "labels.csv are those of the reports")
+    print(
+        f"{len(data['cases'])} cases, {len(failed)} failed, {labels} labels: {on_page} numbers on the page and "
+        f"{in_tables} in labels.csv are those of the reports")
     return on_page, failed
 
 
@@ -129,7 +130,9 @@ def main():
         with open(f"{work}/bad.nrrd", "w", encoding="utf-8") as file:
             file.write("no scan")
         chosen = [os.path.join(scans, name) for name in ("ball-40.nii.gz", "box.nrrd", "plate-3.nrrd", "torus.nrrd")]
-        made = subprocess.run([program, "batch", *chosen, f"{work}/bad.nrrd", "-o", f"{work}/out"], capture_output=True, text=True,
+        made = subprocess.run([program, "batch", *chosen, f"{work}/bad.nrrd", "-o", f"{work}/out"],
+                              capture_output=True,
+                              text=True,
                               check=False)
         assert made.returncode == 1, made.stderr
         on_page, failed = check(f"{work}/out")

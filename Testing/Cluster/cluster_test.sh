@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# A cohort through a real SLURM with one node, on the loopback address, with a munge of its own: once as an array job, once by
-# Snakemake; and one volume in blocks. 20 small scans, one that is no scan and one that needs more memory than its job has.
+# A cohort through a real SLURM with one node, on the loopback address, with a munge of its own: once as an array job,
+# once by Snakemake; and one volume in blocks. 20 small scans, one that is no scan and one that needs more memory than
+# its job has.
 # usage: cluster_test.sh PROGRAM SOURCE     exit code 77: cannot be done here, with the reason
 set -euo pipefail
 program=$1 source=$2
 
 skip() { echo "skipped: $1"; exit 77; }
 [ "$(id -u)" -eq 0 ] || skip "starting slurmd needs root"
-bash "$source/Applications/install-packages.sh" cluster >/dev/null 2>&1 || skip "the packages of group cluster cannot be installed"
+bash "$source/Applications/install-packages.sh" cluster >/dev/null 2>&1 ||
+  skip "the packages of group cluster cannot be installed"
 for tool in munged slurmctld slurmd sbatch snakemake python3; do
   command -v "$tool" >/dev/null || skip "there is no $tool"
 done
@@ -116,7 +118,8 @@ EOF
 }
 
 # 1. An array job. The memory of a job is less than the large case takes; it must cost only itself.
-job=$(VOXELCORE=$program sbatch --parsable --array=1-20 --mem=150M "$source/Applications/Snakemake/array.sbatch" cohort.csv array \
+job=$(VOXELCORE=$program sbatch --parsable --array=1-20 --mem=150M \
+  "$source/Applications/Snakemake/array.sbatch" cohort.csv array \
   --memory 2GB)
 for ((i = 0; i < 1200; ++i)); do
   [ -z "$(squeue -h -j "$job" 2>/dev/null)" ] && break
@@ -127,7 +130,8 @@ check array
 
 # 2. The same manifest by Snakemake, on SLURM.
 if snakemake -s "$source/Applications/Snakemake/Snakefile" --profile "$source/Applications/Snakemake/slurm" --nocolor \
-  --latency-wait 5 --config manifest=cohort.csv out=flow program="$program" mem_mb=150 minutes=5 options="--memory 2GB" \
+  --latency-wait 5 --config manifest=cohort.csv out=flow program="$program" mem_mb=150 minutes=5 \
+  options="--memory 2GB" \
   >snakemake.log 2>&1; then
   fail "the workflow did not tell of the failures"
 fi
@@ -135,7 +139,8 @@ check flow
 
 # 3. One volume in blocks, each a job.
 "$program" core scans/s18.nrrd -o single.vtp --lambda 1vox --quiet
-snakemake -s "$source/Applications/Snakemake/Blocks.smk" --profile "$source/Applications/Snakemake/slurm" --nocolor --latency-wait 5 \
+snakemake -s "$source/Applications/Snakemake/Blocks.smk" --profile "$source/Applications/Snakemake/slurm" \
+  --nocolor --latency-wait 5 \
   --config scan=scans/s18.nrrd out=joined.vtp blocks=3 program="$program" mem_mb=150 join_mem_mb=150 minutes=5 \
   options="--lambda 1vox" >blocks.log 2>&1 || fail "the blocks' workflow failed"
 cmp single.vtp joined.vtp || fail "the joined file is not that of a single run"
@@ -156,10 +161,12 @@ for ((i = 0; i < 1200; ++i)); do
   [ -z "$(squeue -h 2>/dev/null)" ] && break
   sleep 0.25
 done
-bash -euc "$(sed -n 's/^    \(voxelcore batch .* --gather\).*/\1/p' "$source/Applications/manual/guide/cohorts.md")" >gather.log || fail "the guide: --gather"
+cohorts=$source/Applications/manual/guide/cohorts.md
+bash -euc "$(sed -n 's/^    \(voxelcore batch .* --gather\).*/\1/p' "$cohorts")" >gather.log ||
+  fail "the guide: --gather"
 [ "$(grep -c ',done,' results/cases.csv)" = 2 ] || fail "the guide's array job: $(cat results/cases.csv)"
 rm -r results
-line=$(sed -n '/^    snakemake .*\\$/,/[^\\]$/p' "$source/Applications/manual/guide/cohorts.md" | sed 's/mem_mb=[0-9]*/mem_mb=500/')
+line=$(sed -n '/^    snakemake .*\\$/,/[^\\]$/p' "$cohorts" | sed 's/mem_mb=[0-9]*/mem_mb=500/')
 [ -n "$line" ] || fail "the guide has no line of snakemake"
 bash -euc "$line --nocolor --latency-wait 5" >snakemake.log 2>&1 || { cat snakemake.log >&2; fail "the guide: $line"; }
 [ "$(grep -c ',done,' results/cases.csv)" = 2 ] || fail "the guide's workflow: $(cat results/cases.csv)"

@@ -1,7 +1,8 @@
-"""Compares what VoxelCore reads with what nibabel reads: size, spacing, affine of the form chosen (of the sform: the one
-nibabel itself takes), voxels of each label; of colours each component. Files damaged on purpose (fuzz, faults) are left out.
+"""Compares what VoxelCore reads with what nibabel reads: size, spacing, affine of the form chosen (of the sform: the
+one nibabel itself takes), voxels of each label; of colours each component. Files damaged on purpose (fuzz, faults) are
+left out.
 
-usage: compare_with_nibabel.py DUMP_PROGRAM LARGEST_FILE_IN_BYTES FOLDER...    exit 77: nothing to compare with or nothing to compare
+usage: compare_with_nibabel.py DUMP_PROGRAM LARGEST_FILE_IN_BYTES FOLDER...    exit 77: no nibabel or no files
 """
 import glob
 import json
@@ -81,7 +82,8 @@ def compare(dump, path, form):
 compared = failed = 0
 for folder in sys.argv[3:]:
     for path in sorted(glob.glob(folder + "/**/*.nii*", recursive=True)):
-        if not path.endswith((".nii", ".nii.gz")) or "fuzz" in path or "/faults/" in path or os.path.getsize(path) > int(sys.argv[2]):
+        if (not path.endswith((".nii", ".nii.gz")) or "fuzz" in path or "/faults/" in path
+                or os.path.getsize(path) > int(sys.argv[2])):
             continue
         for form in ("auto", "sform", "qform"):
             same = compare(sys.argv[1], path, form)

@@ -77,7 +77,8 @@ def compare():
     refused("unequal", made("unequal", change=moved(lambda k: numpy.array([0, 0, 0.1]) * (k > 2))), "not equally far")
     refused("tilted gantry", made("tilt", change=moved(lambda k: numpy.array([0, 0.2 * k, 0]))), "skewed")
     refused("off the line", made("line", change=moved(lambda k: numpy.array([0.2, 0, 0]) * (k == 2))), "straight line")
-    same("rounded places", made("rounded", change=moved(lambda k: numpy.array([0, 0, 0.004]) * (k == 2))), VOLUME, plain)
+    same("rounded places", made("rounded", change=moved(lambda k: numpy.array([0, 0, 0.004]) * (k == 2))), VOLUME,
+         plain)
 
     def turned(ds, k):
         ds.ImageOrientationPatient = [0, 1, 0, 1, 0, 0] if k == 4 else [1, 0, 0, 0, 1, 0]

@@ -21,7 +21,11 @@ def compare():
     raw = SCRATCH / "a.raw"
     VOLUME.tofile(raw)
 
-    def made(name, order="-transverse", signs=(1, 1, 1), more=(), kind=("-byte", "-unsigned", "-range", "0", "255", "-real_range", "0", "255")):
+    def made(name,
+             order="-transverse",
+             signs=(1, 1, 1),
+             more=(),
+             kind=("-byte", "-unsigned", "-range", "0", "255", "-real_range", "0", "255")):
         path = SCRATCH / (name + ".mnc")
         words = ["rawtominc", "-clobber", *kind, *more]
         for axis, sign, step, start in zip("xyz", signs, SPACING, (1, 2, 3)):
@@ -73,6 +77,8 @@ def compare():
     # 4-D
     numpy.stack([VOLUME, VOLUME]).tofile(raw)
     path = SCRATCH / "time.mnc"
-    subprocess.run(["rawtominc", "-clobber", "-byte", "-unsigned", "-input", raw, "-transverse", path, "2", "5", "6", "7"], check=True)
+    subprocess.run(
+        ["rawtominc", "-clobber", "-byte", "-unsigned", "-input", raw, "-transverse", path, "2", "5", "6", "7"],
+        check=True)
     found = read(path)
     check("in time", isinstance(found, str), found)

@@ -13,7 +13,8 @@ from oracle_files import SPACING, VOLUME
 def compare():
     import pydicom
 
-    rows = [(1, "Liver", [40000, 45000, 40000]), (2, "Gall \u00e4", None), (3, "Cyst", [30000, 20000, 50000]), (9, "Dot", None)]
+    rows = [(1, "Liver", [40000, 45000, 40000]), (2, "Gall \u00e4", None), (3, "Cyst", [30000, 20000, 50000]),
+            (9, "Dot", None)]
 
     def frames_of(volume, numbers=(1, 2, 3, 9), most=1):
         return [

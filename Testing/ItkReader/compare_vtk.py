@@ -51,5 +51,7 @@ def compare():
         path.write_bytes(data[: data.index(b"LOOKUP_TABLE") + 300])
         refused(f"cut off {binary}", path, "truncated")
     mesh = SCRATCH / "mesh.vtk"
-    mesh.write_text("# vtk DataFile Version 3.0\nm\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n")
+    mesh.write_text(
+        "# vtk DataFile Version 3.0\nm\nASCII\nDATASET POLYDATA\n"
+        "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n")
     refused("a mesh", mesh, "does not know it")

@@ -1,5 +1,5 @@
-"""Small scans of foreign formats, written by the programs that define them (pydicom, mrcfile, h5py, MINC's and VTK's own
-tools) or byte by byte, with what must be read of them. Used by compare_with_oracles.py."""
+"""Small scans of foreign formats, written by the programs that define them (pydicom, mrcfile, h5py, MINC's and VTK's
+own tools) or byte by byte, with what must be read of them. Used by compare_with_oracles.py."""
 import struct
 
 import numpy

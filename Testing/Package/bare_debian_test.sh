@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The Debian packages in a Debian 12 that has nothing else (debootstrap): installed with what they ask for, the program runs
-# the JHU atlas and gives the bits it gives here; libraries and headers are enough to build a project; the Python module
-# works. Every group of install-packages.sh can be installed there.
+# The Debian packages in a Debian 12 that has nothing else (debootstrap): installed with what they ask for, the program
+# runs the JHU atlas and gives the bits it gives here; libraries and headers are enough to build a project; the Python
+# module works. Every group of install-packages.sh can be installed there.
 # usage: bare_debian_test.sh BUILD_DIR PACKAGES    PACKAGES: folder of .deb, made by deb_test.sh
 # exit 77: it cannot be done here, with the reason. VOXELCORE_DEBIAN_MIRROR: another mirror
 set -euo pipefail
@@ -69,10 +69,12 @@ inside voxelcore --version
 inside sh -c "cd /given && voxelcore core $atlas -o jhu.vtp --report jhu.json -q && voxelcore verify $atlas jhu.vtp -q"
 "$build/bin/voxelcore" core "$root$atlas" -o "$scratch/jhu.vtp" -q --force
 cmp "$root/given/jhu.vtp" "$scratch/jhu.vtp" || fail "the bits are others there"
-inside sh -c "cd /given && voxelcore skeleton $atlas -o skeleton.vtp -q && voxelcore core $atlas -o page.vtp --html page.html -q"
+inside sh -c "cd /given && voxelcore skeleton $atlas -o skeleton.vtp -q &&
+  voxelcore core $atlas -o page.vtp --html page.html -q"
 # What it takes for pictures is said.
 ! inside voxelcore render /given/jhu.vtp -o /given/jhu.png 2>"$scratch/render.log" || fail "it draws without Xvfb?"
-grep -q 'apt-get install xvfb' "$scratch/render.log" || { cat "$scratch/render.log" >&2; fail "render does not say what it lacks"; }
+grep -q 'apt-get install xvfb' "$scratch/render.log" ||
+  { cat "$scratch/render.log" >&2; fail "render does not say what it lacks"; }
 
 install "$(in_packages python3-voxelcore)"
 inside python3 -c "
@@ -89,5 +91,6 @@ inside sh -euc 'cd /given
   consumer-build/UsesFiles torus.nrrd files.vtp
   consumer-build/UsesJobs torus.nrrd jobs.vtp
   voxelcore core torus.nrrd -o program.vtp -q
-  cmp jobs.vtp program.vtp' >"$scratch/consumer.log" 2>&1 || { tail -n 30 "$scratch/consumer.log" >&2; fail "no project can be built"; }
+  cmp jobs.vtp program.vtp' >"$scratch/consumer.log" 2>&1 ||
+    { tail -n 30 "$scratch/consumer.log" >&2; fail "no project can be built"; }
 echo "bare Debian: works"

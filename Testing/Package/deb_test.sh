@@ -41,7 +41,8 @@ for name in voxelcore libvoxelcore-dev python3-voxelcore; do
   for need in $needs; do
     grep -qE "(^|[ ,])$need" <<<"$depends" || fail "$name does not depend on $need: $depends"
   done
-  [ "$(grep -c 'libtet1' <<<"$depends")" = "$([ -n "$suffix" ] && echo 1 || echo 0)" ] || fail "$name and TetGen: $depends"
+  [ "$(grep -c 'libtet1' <<<"$depends")" = "$([ -n "$suffix" ] && echo 1 || echo 0)" ] ||
+    fail "$name and TetGen: $depends"
   dpkg -x "$file" "$scratch/root"
   grep -q "^This package: $([ -n "$suffix" ] && echo AGPL-3 || echo Apache-2.0)" \
     "$scratch/root/usr/share/doc/$name$suffix/copyright" || fail "$name does not say its licence"

@@ -10,7 +10,8 @@ mkdocs build --quiet --strict --config-file "$1/Applications/manual/mkdocs.yml" 
 for page in "$1"/Applications/manual/guide/*.md; do
   [ -s "$site/$(basename "$page" .md).html" ] || { echo "guide_site_test.sh: $page is not in the site" >&2; exit 1; }
 done
-grep -q '"Choosing the pruning' "$site/search/search_index.json" || { echo "guide_site_test.sh: no search" >&2; exit 1; }
+grep -q '"Choosing the pruning' "$site/search/search_index.json" ||
+  { echo "guide_site_test.sh: no search" >&2; exit 1; }
 if grep -rnE '<(script|link|img)[^>]*(src|href)="(https?:)?//' "$site" --include='*.html'; then
   echo "guide_site_test.sh: the site needs a network" >&2
   exit 1

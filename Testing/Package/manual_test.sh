@@ -36,7 +36,8 @@ done
 first=$(bash -c 'source "$1"; COMP_WORDS=(voxelcore sk); COMP_CWORD=1; _voxelcore; echo "${COMPREPLY[*]}"' bash \
   "$folder/voxelcore.bash")
 [ "$first" = skeleton ] || fail "'sk' is completed to '$first'"
-engines=$(bash -c 'source "$1"; COMP_WORDS=(voxelcore core --engine ""); COMP_CWORD=3; _voxelcore; echo "${COMPREPLY[*]}"' \
+engines=$(bash -c 'source "$1"; COMP_WORDS=(voxelcore core --engine ""); COMP_CWORD=3; _voxelcore
+  echo "${COMPREPLY[*]}"' \
   bash "$folder/voxelcore.bash")
 [ "$engines" = "auto lattice tetgen" ] || fail "engines are '$engines'"
 if command -v zsh >/dev/null; then

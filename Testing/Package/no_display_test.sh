@@ -14,7 +14,8 @@ fail() {
 
 mkdir -p "$scratch"
 cmake -S "$source" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF -DVOXELCORE_WERROR=ON \
-  -DVOXELCORE_DISPLAY=OFF "$@" >"$scratch/configure.log" 2>&1 || { cat "$scratch/configure.log" >&2; fail "cannot be configured"; }
+  -DVOXELCORE_DISPLAY=OFF "$@" >"$scratch/configure.log" 2>&1 ||
+    { cat "$scratch/configure.log" >&2; fail "cannot be configured"; }
 cmake --build "$scratch/build" --target voxelcore
 program=$scratch/build/bin/voxelcore
 ! ldd "$program" | grep -E 'libvtkRendering|libX11|libGL' || fail "it is linked with rendering"

@@ -91,7 +91,8 @@ case "$how" in
     for wrong in -DWANTED_VERSION=99.0 -DPARTS=Nonsense; do
       ! cmake -S "$source/Testing/Package/consumer" -B "$scratch/wrong" -G Ninja -DHOW=find_package -DPARTS=Core \
         "${options[@]}" "$wrong" >"$scratch/wrong.log" 2>&1 || fail "$wrong was accepted"
-      grep -qE '99\.0|no component Nonsense' "$scratch/wrong.log" || { cat "$scratch/wrong.log"; fail "refused, but why?"; }
+      grep -qE '99\.0|no component Nonsense' "$scratch/wrong.log" ||
+        { cat "$scratch/wrong.log"; fail "refused, but why?"; }
       rm -rf "$scratch/wrong"
     done
     ;;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Does what README.md and the guide say from a fresh clone on: the quickstart, twice; the build by hand, with Python module and packages;
-# installing; the pictures. In a copy of the sources.
+# Does what README.md and the guide say from a fresh clone on: the quickstart, twice; the build by hand, with Python
+# module and packages; installing; the pictures. In a copy of the sources.
 # usage: readme_build_test.sh BUILD_DIR      exit 77: something needed is missing
 set -euo pipefail
 
@@ -10,7 +10,8 @@ fail() {
   echo "readme_build_test.sh: $1" >&2
   exit 1
 }
-[ -r /usr/share/mricron/templates/aal.nii.gz ] || { echo "readme_build_test.sh: mricron-data is not installed" >&2; exit 77; }
+[ -r /usr/share/mricron/templates/aal.nii.gz ] ||
+  { echo "readme_build_test.sh: mricron-data is not installed" >&2; exit 77; }
 command -v Xvfb >/dev/null || { echo "readme_build_test.sh: Xvfb is not installed" >&2; exit 77; }
 
 rm -rf "$scratch"
@@ -19,8 +20,10 @@ cp -r "$source"/{Applications,Data,Modules,Testing,CMakeLists.txt,LICENSE,README
 cd "$scratch/clone"
 
 grep -qx '    bash Applications/quickstart.sh .*' README.md || fail "README.md has no quickstart"
-bash Applications/quickstart.sh >"$scratch/first.log" </dev/null || { cat "$scratch/first.log" >&2; fail "the quickstart failed"; }
-[ -s build/quickstart/aal_medial.vtp ] && [ -s build/quickstart/aal_medial.json ] || fail "the quickstart left no result"
+bash Applications/quickstart.sh >"$scratch/first.log" </dev/null ||
+  { cat "$scratch/first.log" >&2; fail "the quickstart failed"; }
+[ -s build/quickstart/aal_medial.vtp ] && [ -s build/quickstart/aal_medial.json ] ||
+  fail "the quickstart left no result"
 rows=$(grep -c 'Hippocampus_[LR]' "$scratch/first.log") || true
 [ "$rows" = 2 ] || fail "the quickstart printed $rows rows of the hippocampi"
 bash Applications/quickstart.sh >"$scratch/second.log" </dev/null
@@ -40,7 +43,8 @@ guide=(Applications/manual/guide/{building,python,cpp}.md)
 echo 'cd /; /usr/bin/python3 -c "import voxelcore; print(voxelcore.__version__)"' >>"$scratch/lines.sh"
 bash -eux "$scratch/lines.sh" >"$scratch/lines.log" 2>&1 </dev/null ||
   { tail -n 30 "$scratch/lines.log" >&2; fail "the lines of the guide failed"; }
-for file in "$scratch"/prefix/{bin/voxelcore,lib/VoxelCore/cli-modules/VoxelCoreMedialSurface,share/man/man1/voxelcore.1} \
+for file in "$scratch"/prefix/{bin/voxelcore,share/man/man1/voxelcore.1} \
+  "$scratch/prefix/lib/VoxelCore/cli-modules/VoxelCoreMedialSurface" \
   {voxelcore,libvoxelcore-dev,python3-voxelcore}*.deb; do
   [ -s "$file" ] || fail "there is no $file"
 done

@@ -3,9 +3,9 @@
 
 usage: batch_throughput.py PROGRAM [--cases 500] [--size 40] [--rounds 3]      on a machine that does nothing else
 
-Each round runs, one after the other: the program itself once per case (alone), the same in two loops side by side (alone 2:
-what the machine has to give), a batch of all cases with one job and with two, --threads 1 throughout. Medians over the
-rounds, wall-clock seconds and processor time of all processes, which other work disturbs less.
+Each round runs, one after the other: the program itself once per case (alone), the same in two loops side by side
+(alone 2: what the machine has to give), a batch of all cases with one job and with two, --threads 1 throughout. Medians
+over the rounds, wall-clock seconds and processor time of all processes, which other work disturbs less.
 """
 import argparse
 import os
@@ -44,8 +44,10 @@ def main():
         def alone(part, stride):
             for i in range(part, options.cases, stride):
                 stem = f"{work}/alone{i:04}"  # what a batch asks of each case
-                quietly([program, "core", scans[i], "-o", f"{stem}_medial.vtp", "--report", f"{stem}_report.json", "--force",
-                         "--progress", "none", "--threads=1", "--with-skeleton", "--also=csv,swc"])
+                quietly([
+                    program, "core", scans[i], "-o", f"{stem}_medial.vtp", "--report", f"{stem}_report.json", "--force",
+                    "--progress", "none", "--threads=1", "--with-skeleton", "--also=csv,swc"
+                ])
 
         def side_by_side():
             loops = [threading.Thread(target=alone, args=(part, 2)) for part in (0, 1)]
@@ -55,7 +57,10 @@ def main():
                 loop.join()
 
         def batch(jobs):
-            quietly([program, "batch", f"{work}/scans", "-o", f"{work}/out", "--jobs", str(jobs), "--threads", "1", "--force"])
+            quietly([
+                program, "batch", f"{work}/scans", "-o", f"{work}/out", "--jobs",
+                str(jobs), "--threads", "1", "--force"
+            ])
 
         kinds = {
             "alone": lambda: alone(0, 1),
@@ -77,7 +82,8 @@ def main():
         return 1000 * statistics.median(pair[clock] for pair in taken[kind]) / options.cases
 
     def extra(clock):
-        return 1000 * statistics.median(b[clock] - a[clock] for a, b in zip(taken["alone"], taken["batch 1"])) / options.cases
+        return 1000 * statistics.median(b[clock] - a[clock]
+                                        for a, b in zip(taken["alone"], taken["batch 1"])) / options.cases
 
     print(f"{options.cases} cases, {each('alone', 0):.0f} ms each alone, {each('alone', 1):.0f} ms of processor time")
     print(f"a batch adds {extra(0):.1f} ms a case, {extra(1):.1f} ms of processor time")

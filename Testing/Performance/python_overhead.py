@@ -3,9 +3,9 @@
 
 usage: python_overhead.py PROGRAM FOLDER_OF_THE_PYTHON_PACKAGE [--kind root] [--size 512] [--rounds 3] [--threads 1]
 
-Seconds, on a machine that does nothing else: of the program from start to end, and of core() and save() on an array that is
-in memory; medians over the rounds, and the median of their quotients. Processor time, of both, is what other work disturbs
-less.
+Seconds, on a machine that does nothing else: of the program from start to end, and of core() and save() on an array
+that is in memory; medians over the rounds, and the median of their quotients. Processor time, of both, is what other
+work disturbs less.
 """
 import argparse
 import os
@@ -43,8 +43,11 @@ def main():
         array = numpy.frombuffer(data, numpy.uint8).reshape((options.size,) * 3, order="F")
 
         def by_program():
-            subprocess.run([program, "core", scan, "-o", f"{work}/program.vtp", "--threads", str(options.threads), "--force",
-                            "-q"], check=True)
+            subprocess.run([
+                program, "core", scan, "-o", f"{work}/program.vtp", "--threads",
+                str(options.threads), "--force", "-q"
+            ],
+                           check=True)
 
         def by_python():
             core = voxelcore.core(array, threads=options.threads)

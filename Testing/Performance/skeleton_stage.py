@@ -3,9 +3,9 @@
 
 usage: skeleton_stage.py VOXELCORE [--size N] [--repetitions N] [--threads N]
 
-What is asked: the skeleton stage takes at most the time of the TetGen engine's core stage (cells and core), with twice the
-lattice engine's as the aim, and the whole run at most twice the memory of `core`. The runs of a repetition follow each
-other directly; the medians of all count. For a machine with nothing else to do.
+What is asked: the skeleton stage takes at most the time of the TetGen engine's core stage (cells and core), with twice
+the lattice engine's as the aim, and the whole run at most twice the memory of `core`. The runs of a repetition follow
+each other directly; the medians of all count. For a machine with nothing else to do.
 """
 import argparse
 import json
@@ -35,7 +35,9 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         scan = os.path.join(folder, "root.nrrd")
-        subprocess.run([options.program, "phantom", "root", "--size", str(options.size), "-o", scan, "--quiet"], check=True)
+        subprocess.run([options.program, "phantom", "root", "--size",
+                        str(options.size), "-o", scan, "--quiet"],
+                       check=True)
         common = ["--threads", str(options.threads), "-o", os.path.join(folder, "out.vtp")]
         rows = []
         for _ in range(options.repetitions):
@@ -51,8 +53,10 @@ def main():
               f"{'' if stage <= tetgen else '  TOO SLOW'}")
         print(f"core stage, lattice      {lattice:9.3f} s   skeleton over it {stage / lattice:5.2f}  (aim: 2)"
               f"{'' if stage <= 2 * lattice else '  MISSED'}")
-        print(f"memory, skeleton, core   {memory:9.1f} MB {core_memory:9.1f} MB   ratio {memory / core_memory:5.2f}  (asked: 2)"
-              f"{'' if memory <= 2 * core_memory else '  TOO MUCH'}")
+        print(
+            f"memory, skeleton, core   {memory:9.1f} MB {core_memory:9.1f} MB   "
+            f"ratio {memory / core_memory:5.2f}  (asked: 2)"
+            f"{'' if memory <= 2 * core_memory else '  TOO MUCH'}")
 
 
 if __name__ == "__main__":

@@ -242,7 +242,10 @@ def plot(table, path):
         shapes = [shape for shape in table.rows if task in table.rows[shape]]
         vertices = [table.median(shape, "job 1", "vertices") for shape in shapes]
         axes[0].plot(vertices, [table.median(s, task, "seconds") for s in shapes], marker, color="black", label=label)
-        axes[1].plot(vertices, [table.median(s, task, "memory") / 1e6 for s in shapes], marker, color="black", label=label)
+        axes[1].plot(vertices, [table.median(s, task, "memory") / 1e6 for s in shapes],
+                     marker,
+                     color="black",
+                     label=label)
     for axis, label in zip(axes, ("seconds after reading", "peak memory, MB")):
         axis.set(xscale="log", yscale="log", xlabel="boundary vertices", ylabel=label)
         axis.grid(True, which="major", alpha=0.4)

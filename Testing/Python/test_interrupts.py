@@ -55,7 +55,8 @@ def test_ctrl_c_at_any_moment_stops_a_call_soon(tmp_path, work):
     print(f"delay {float(lines[0].split()[1]) - sent:.3f} s")
     assert lines[0].startswith("stopped ") and float(lines[0].split()[1]) - sent < SOON
     left = set(os.listdir(tmp_path))
-    assert left <= {"core.vtp", "out.vtp"}, "what was not finished when the call ended is gone when the process has ended"
+    assert left <= {"core.vtp", "out.vtp"
+                    }, "what was not finished when the call ended is gone when the process has ended"
 
 
 # The listener blocks the thread that waits, not the work; an error in it is as good as Ctrl-C.

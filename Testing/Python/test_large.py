@@ -66,8 +66,10 @@ def program_needs(tmp_path_factory):
 @pytest.mark.parametrize("order", ["F", "C"])
 def test_an_array_costs_one_bit_a_voxel_more_than_a_scan(program_needs, order):
     told = subprocess.run(
-        [sys.executable, "-B", "-c", COMPUTE, os.path.dirname(__file__), str(SIDE), order], capture_output=True, text=True
-    )
+        [sys.executable, "-B", "-c", COMPUTE,
+         os.path.dirname(__file__), str(SIDE), order],
+        capture_output=True,
+        text=True)
     assert told.returncode == 0, told.stderr
     print(f"order {order}: the command line {program_needs / 1e6:.1f} MB, Python {told.stdout.strip()}")
     assert 1e6 < float(told.stdout.split()[0]) <= program_needs + ONE_BIT_A_VOXEL

@@ -1,5 +1,5 @@
-"""Every option of the command line that arrays can have is an argument, and gives the same bits: edits, crop, refinement,
-several labels, components."""
+"""Every option of the command line that arrays can have is an argument, and gives the same bits: edits, crop,
+refinement, several labels, components."""
 
 import numpy
 import pytest

@@ -132,7 +132,9 @@ def test_a_pickled_core_is_the_same_to_the_last_bit(tmp_path, place, options):
     assert views(again.prune(**further)) == views(core.prune(**further))
 
 
-@pytest.mark.parametrize("options", [{}, dict(cut_loops=True, root=(3, 2, 1)), dict(plates="2vox", split_at_junctions=True)])
+@pytest.mark.parametrize("options",
+                         [{}, dict(cut_loops=True, root=(3, 2, 1)),
+                          dict(plates="2vox", split_at_junctions=True)])
 def test_a_pickled_skeleton_is_the_same_to_the_last_bit(tmp_path, options):
     skeleton = voxelcore.skeleton(blobs(13, shape=(60, 30, 30)), **PLACES[1], **options)
     again = pickle.loads(pickle.dumps(skeleton))

@@ -1,4 +1,5 @@
-"""lambda_ and tolerance in Python mean what --lambda and --tolerance mean to the command line: each combination has its bits."""
+"""lambda_ and tolerance in Python mean what --lambda and --tolerance mean to the command line: each combination has its
+bits."""
 
 import itertools
 import json
@@ -49,11 +50,14 @@ def test_a_core_is_pruned_as_by_the_command_line(tmp_path, scan, lambda_, tolera
     volume, path = scan
     done = run("core", path, "-o", tmp_path / "cli.vtp", *words({"lambda": lambda_, "tolerance": tolerance}))
     assert done.returncode == 0, done.stderr
-    assert same(voxelcore.core(volume, spacing=SPACING, lambda_=lambda_, tolerance=tolerance), tmp_path / "cli.vtp", tmp_path)
+    assert same(voxelcore.core(volume, spacing=SPACING, lambda_=lambda_, tolerance=tolerance), tmp_path / "cli.vtp",
+                tmp_path)
 
 
 def test_the_floor_beside_a_tolerance_changes_the_result(scan):
-    faces = [len(voxelcore.core(scan[0], tolerance="0.5diag", lambda_=floor).face_offsets) for floor in ("1.5vox", 0, None)]
+    faces = [
+        len(voxelcore.core(scan[0], tolerance="0.5diag", lambda_=floor).face_offsets) for floor in ("1.5vox", 0, None)
+    ]
     assert 100 < faces[0] < faces[1] == faces[2]
 
 
@@ -128,6 +132,7 @@ def test_a_list_gives_a_result_for_each(tmp_path, scan, name, given):
     further = whole.prune(**{name: given})
     assert len(results) == len(further) == 3
     for value, result, pruned in zip(given, results, further):
-        text = next(name for name in files if name[4:].split("-", 1)[1].removesuffix(".vtp") in (str(value), f"{value}mm"))
+        text = next(name for name in files
+                    if name[4:].split("-", 1)[1].removesuffix(".vtp") in (str(value), f"{value}mm"))
         assert same(result, files[text], tmp_path) and same(pruned, files[text], tmp_path)
     assert [len(voxelcore.core(volume, spacing=SPACING, **{name: [given[0]]}))] == [1]

@@ -21,7 +21,8 @@ OF_FILES = {
 def test_an_option_is_named_by_its_keyword_or_as_the_command_lines(name, flags):
     keyword = next(row["keyword"] for row in TABLE if (row["name"], row["flags"]) == (name, flags))
     for flag in flags.split(","):
-        for message in (f"mend it with {flag}", f"{flag}: is not known", f"(give {flag}); or wait", f"use {flag}, or none"):
+        for message in (f"mend it with {flag}", f"{flag}: is not known", f"(give {flag}); or wait",
+                        f"use {flag}, or none"):
             words = _voxelcore.in_python_words(message)
             if keyword:
                 assert flag not in re.findall(r"[\w-]+", words)
@@ -33,11 +34,13 @@ def test_an_option_is_named_by_its_keyword_or_as_the_command_lines(name, flags):
 @pytest.mark.parametrize("command, function", [("core", voxelcore.core), ("skeleton", voxelcore.skeleton)])
 def test_every_option_is_an_argument_and_told_of(command, function):
     """Those of files aside; what has another form in Python is in the signature."""
-    own = set(inspect.signature(function).parameters) | set(inspect.signature(voxelcore.core).parameters) | {"label='any'"}
+    own = set(inspect.signature(function).parameters) | set(inspect.signature(
+        voxelcore.core).parameters) | {"label='any'"}
     groups = {"core": ("Input", "Pruning", "Shape edits", "Refinement", "Running"), "skeleton": ("Skeleton",)}[command]
     for row in TABLE:
         if row["command"] == command and row["group"] in groups and row["name"] not in OF_FILES | {"also"}:
-            assert row["keyword"] in own or f"    {row['keyword']}: {row['description']}" in function.__doc__, row["name"]
+            assert row["keyword"] in own or f"    {row['keyword']}: {row['description']}" in function.__doc__, row[
+                "name"]
             if row["keyword"] not in own:
                 with pytest.raises((ValueError, TypeError)) as refusal:
                     function(numpy.zeros((2, 2), int), **{row["keyword"]: "never"})
@@ -54,7 +57,8 @@ def test_a_mistyped_argument_suggests_the_nearest():
 @pytest.mark.parametrize(
     "told, words",
     [
-        ("give the voxel spacing with --spacing 0.5,0.5,2 in mm", "give the voxel spacing with spacing=(0.5, 0.5, 2) in mm"),
+        ("give the voxel spacing with --spacing 0.5,0.5,2 in mm",
+         "give the voxel spacing with spacing=(0.5, 0.5, 2) in mm"),
         ("make one with --lambda 0, best", "make one with lambda_=0, best"),
         ("such as --lambda 1.5mm or -l 2%.", "such as lambda_='1.5mm' or lambda_='2%'."),
         ("--threshold 3:1: expected LO:HI", "threshold=(3, 1): expected LO:HI"),
@@ -93,8 +97,12 @@ def test_what_core_refuses_names_no_option(volume, options, words):
 
 
 @pytest.mark.parametrize(
-    "options", [dict(stand_out="x"), dict(plates=-1), dict(smooth="1 mile"), dict(prune_branches="1x"), dict(root="side")]
-)
+    "options",
+    [dict(stand_out="x"),
+     dict(plates=-1),
+     dict(smooth="1 mile"),
+     dict(prune_branches="1x"),
+     dict(root="side")])
 def test_what_skeleton_refuses_names_no_option(volume, options):
     core = voxelcore.core(volume)
     with pytest.raises(ValueError, match=next(iter(options))) as caught:

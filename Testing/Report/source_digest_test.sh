@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The program names the sources it was built from: their digest is that of the files as they are, another one when a byte
-# or a name is another, and the same wherever they lie.
+# The program names the sources it was built from: their digest is that of the files as they are, another one when a
+# byte or a name is another, and the same wherever they lie.
 # usage: source_digest_test.sh PROGRAM MODULES
 set -euo pipefail
 

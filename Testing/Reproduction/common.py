@@ -31,7 +31,10 @@ def arguments(description, resolutions, small):
     parser.add_argument("--small", action="store_true", help="what the tests run")
     parser.add_argument("--resolutions", help=f"comma-separated; default {resolutions}")
     parser.add_argument("--meshes", help=f"folder with CGAL's data/meshes; default: out of {CGAL}")
-    parser.add_argument("--continue", dest="go_on", action="store_true", help="with what an earlier run left in the output folder")
+    parser.add_argument("--continue",
+                        dest="go_on",
+                        action="store_true",
+                        help="with what an earlier run left in the output folder")
     options = parser.parse_args()
     text = options.resolutions or (small if options.small else resolutions)
     options.resolutions = [int(n) for n in text.split(",")]
@@ -64,7 +67,8 @@ class Kept:
 
 
 class Meshes:
-    """CGAL's meshes, unpacked for the time being where no folder is given. Exits with 77, a skipped test, without them."""
+    """CGAL's meshes, unpacked for the time being where no folder is given. Exits with 77, a skipped test, without
+    them."""
 
     def __init__(self, folder):
         self._temporary = None
@@ -99,7 +103,8 @@ def core(program, source, folder, *options):
 
 
 class Core:
-    """Points and triangles (polygons as fans) of a .vtp that voxelcore wrote; lines and single points as triangles, too."""
+    """Points and triangles (polygons as fans) of a .vtp that voxelcore wrote; lines and single points as triangles,
+    too."""
 
     def __init__(self, path):
         with open(path, "rb") as file:
@@ -134,7 +139,8 @@ class Core:
             for i in range(2, max(3, int(sides.max(initial=0)))):
                 has = sides > i if i > 2 else sides > 0
                 s, n = starts[has], sides[has]
-                parts.append(np.stack([corners[s], corners[s + np.minimum(i - 1, n - 1)], corners[s + np.minimum(i, n - 1)]], 1))
+                parts.append(
+                    np.stack([corners[s], corners[s + np.minimum(i - 1, n - 1)], corners[s + np.minimum(i, n - 1)]], 1))
         self.triangles = np.concatenate(parts) if parts else np.zeros((0, 3), np.int64)
 
 
@@ -184,10 +190,9 @@ def write_nrrd(path, voxels, spacing, origin=(0, 0, 0)):
     step = " ".join("(" + ",".join(repr(float(spacing if a == b else 0)) for b in range(3)) + ")" for a in range(3))
     place = ",".join(repr(float(x)) for x in origin)
     with open(path, "wb") as file:
-        file.write(
-            f"NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: {size}\n"
-            f"space directions: {step}\nkinds: domain domain domain\nencoding: raw\nspace origin: ({place})\n\n".encode()
-        )
+        file.write(f"NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: {size}\n"
+                   f"space directions: {step}\nkinds: domain domain domain\nencoding: raw\nspace origin: ({place})\n\n".
+                   encode())
         for k in range(voxels.shape[2]):
             file.write(np.ascontiguousarray(voxels[:, :, k].T).astype(np.uint8).tobytes())
 
@@ -200,7 +205,9 @@ def processor():
 
 def write_table(folder, name, head, rows, note=""):
     """OUT.csv and OUT.md, which also says when and where."""
-    text = [[cell if isinstance(cell, str) else f"{cell:.4g}" if isinstance(cell, float) else str(cell) for cell in row] for row in rows]
+    text = [[
+        cell if isinstance(cell, str) else f"{cell:.4g}" if isinstance(cell, float) else str(cell) for cell in row
+    ] for row in rows]
     with open(os.path.join(folder, name + ".csv"), "w", encoding="utf8") as file:
         for row in [head] + text:
             file.write(",".join(row) + "\n")
@@ -233,8 +240,8 @@ def standing_view(points):
 def paint(one, turn=VIEW, values=None, pixels=360, box=None, measure_first=False, colours="viridis", most=None):
     """A Core in parallel projection: columns of `turn` are the picture's right, its up, and towards the eye. Colours by
     `values` per point up to `most`, light by the normal. Where elements hide each other the nearest is seen, or with
-    `measure_first` the one of greatest value. Returns the pixels, for hang(), and the box (left, right, bottom, top); lines are
-    a pixel wide."""
+    `measure_first` the one of greatest value. Returns the pixels, for hang(), and the box (left, right, bottom, top);
+    lines are a pixel wide."""
     turned = one.points @ turn
     values = one.radius if values is None else values
     most = most or values.max(initial=0) or 1

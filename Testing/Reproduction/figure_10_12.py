@@ -7,7 +7,8 @@ import tempfile
 import numpy as np
 from scipy.spatial import cKDTree
 
-from common import Core, Kept, Meshes, arguments, core, hang, paint, plt, standing_view, require, run, save, write_nrrd, write_table
+from common import (Core, Kept, Meshes, arguments, core, hang, paint,
+                    plt, standing_view, require, run, save, write_nrrd, write_table)
 
 NAMES = ["elephant", "elk", "femur", "hand", "cheese", "armadillo", "dragknob", "rotor"]
 THIN = 1.16  # voxels: thinner places may be lost or joined
@@ -58,9 +59,9 @@ def thinnest_by_block(places, lower, block):
 
 
 def thin_places(points, triangles, thinner, lower, block):
-    """Middles of ways through the solid, or through the outside, that are shorter than `thinner`, between faces that look away
-    from or at each other; and their lengths. Looked for along the normals of points all over the faces, half that apart. The
-    thinnest in each cube of side `block`, thinnest first."""
+    """Middles of ways through the solid, or through the outside, that are shorter than `thinner`, between faces that
+    look away from or at each other; and their lengths. Looked for along the normals of points all over the faces, half
+    that apart. The thinnest in each cube of side `block`, thinnest first."""
     corners = points[triangles]
     along = corners[:, 1:] - corners[:, :1]
     normals = np.cross(along[:, 0], along[:, 1])
@@ -89,7 +90,8 @@ def thin_places(points, triangles, thinner, lower, block):
         turned = np.cross(to, first)
         a, b = (to * across).sum(axis=2) * inverse, turned @ normals[t] * inverse
         width = (turned * second).sum(axis=2) * inverse
-        point, _ = hit = np.nonzero((a >= 0) & (b >= 0) & (a + b <= 1) & (np.abs(width) > least) & (np.abs(width) <= thinner))
+        point, _ = hit = np.nonzero((a >= 0) & (b >= 0) & (a + b <= 1) & (np.abs(width) > least)
+                                    & (np.abs(width) <= thinner))
         found.append(np.column_stack([at[point] + width[hit][:, None] / 2 * normals[t], np.abs(width[hit])]))
         rows += len(point)
         if rows > 500000:
@@ -102,15 +104,18 @@ def inside_mesh(points, triangles, centres_x, centres_y, centres_z):
     """Whether the centres of a small grid lie in a closed mesh: parity of crossings along x."""
     corners = points[triangles]
     low, high = corners.min(axis=1), corners.max(axis=1)
-    near = ((high[:, 1] >= centres_y[0]) & (low[:, 1] <= centres_y[-1]) & (high[:, 2] >= centres_z[0]) & (low[:, 2] <= centres_z[-1])
+    near = ((high[:, 1] >= centres_y[0]) & (low[:, 1] <= centres_y[-1]) & (high[:, 2] >= centres_z[0]) &
+            (low[:, 2] <= centres_z[-1])
             & (low[:, 0] <= centres_x[-1]))
     inside = np.zeros((len(centres_x), len(centres_y), len(centres_z)), bool)
     for a, b, c in corners[near]:
         area = (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])
         if area == 0:
             continue
-        ys = slice(np.searchsorted(centres_y, min(a[1], b[1], c[1])), np.searchsorted(centres_y, max(a[1], b[1], c[1]), "right"))
-        zs = slice(np.searchsorted(centres_z, min(a[2], b[2], c[2])), np.searchsorted(centres_z, max(a[2], b[2], c[2]), "right"))
+        ys = slice(np.searchsorted(centres_y, min(a[1], b[1], c[1])),
+                   np.searchsorted(centres_y, max(a[1], b[1], c[1]), "right"))
+        zs = slice(np.searchsorted(centres_z, min(a[2], b[2], c[2])),
+                   np.searchsorted(centres_z, max(a[2], b[2], c[2]), "right"))
         y, z = centres_y[ys][:, None], centres_z[zs][None, :]
         u = ((y - a[1]) * (c[2] - a[2]) - (z - a[2]) * (c[1] - a[1])) / area
         v = ((b[1] - a[1]) * (z - a[2]) - (b[2] - a[2]) * (y - a[1])) / area
@@ -121,7 +126,8 @@ def inside_mesh(points, triangles, centres_x, centres_y, centres_z):
 
 
 def hangs_together(block):
-    """Pieces of the solid over faces, of the outside over corners, and the Euler number of the open shape in a block."""
+    """Pieces of the solid over faces, of the outside over corners, and the Euler number of the open shape in a
+    block."""
     from scipy.ndimage import label
 
     b = block.astype(np.int64)
@@ -135,8 +141,8 @@ def hangs_together(block):
 
 
 def difference(voxels, step, points, triangles, middle, reach):
-    """In how much the voxels within `reach` of a voxel hang together otherwise than the mesh does, which is looked at with four times
-    as many."""
+    """In how much the voxels within `reach` of a voxel hang together otherwise than the mesh does, which is looked at
+    with four times as many."""
     low, size, fine = middle - reach, 2 * reach + 1, 4
     grid = np.pad(voxels[tuple(slice(max(0, l), max(0, l + size)) for l in low)],
                   [(max(0, -l), max(0, l + size - n)) for l, n in zip(low, voxels.shape)])
@@ -147,9 +153,10 @@ def difference(voxels, step, points, triangles, middle, reach):
 
 
 def wrong_place(voxels, step, points, triangles):
-    """The thinnest place around which voxels and mesh hang together otherwise, by as much within 9 x 9 x 9 voxels as within 13 x 13
-    x 13, so that it does not lie at the rim of these: which of the thin places that is, one in each block of 4^3 voxels and the
-    thinnest first, how many there are, and how thin it is, in voxels. None if it is none of MOST."""
+    """The thinnest place around which voxels and mesh hang together otherwise, by as much within 9 x 9 x 9 voxels as
+    within 13 x 13 x 13, so that it does not lie at the rim of these: which of the thin places that is, one in each
+    block of 4^3 voxels and the thinnest first, how many there are, and how thin it is, in voxels. None if it is none of
+    MOST."""
     lower = points.min(axis=0)
     thin = thin_places(points, triangles, THIN * step, lower, 4 * step)
     for i, middle in enumerate(np.floor((thin[:MOST, :3] - lower) / step).astype(int)):
@@ -208,8 +215,11 @@ class Result:
         self.right = shape["betti"] == [*expected, 0]
         self.euler, self.pieces = found["euler"], found["betti"][0]
         self.traced = True
-        self.row = [name, "/".join(map(str, expected)) + ("" if closed else " (not a manifold)"), n, numbers(shape), numbers(found),
-                    "equal" if self.equal else "DIFFERENT", "right" if self.right else "wrong", ""]
+        self.row = [
+            name, "/".join(map(str, expected)) + ("" if closed else " (not a manifold)"), n,
+            numbers(shape),
+            numbers(found), "equal" if self.equal else "DIFFERENT", "right" if self.right else "wrong", ""
+        ]
 
     def __getitem__(self, _):  # what Kept prints
         return self.row

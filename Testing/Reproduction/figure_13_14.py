@@ -24,9 +24,14 @@ def measure(options, meshes, name, n):
         pruned = label["pruned"][0]
         seconds = report["seconds"]
         topology = lambda one: f"{one['euler']}: {'/'.join(map(str, one['betti']))}"  # noqa: E731
-        row = [name, n, part, label["voxels"], label["boundary_vertices"], seconds["read"], seconds["delaunay"], seconds["core"],
-               seconds["prune"], seconds["total"], after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
-               float(report["peak_memory_mb"]), topology(label["shape"]), topology(pruned)]
+        row = [
+            name, n, part, label["voxels"], label["boundary_vertices"], seconds["read"], seconds["delaunay"],
+            seconds["core"], seconds["prune"], seconds["total"],
+            after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
+            float(report["peak_memory_mb"]),
+            topology(label["shape"]),
+            topology(pruned)
+        ]
         return row, paint(Core(out), standing_view(read_off(meshes.path(name))[0]), pixels=420)
 
 
@@ -36,7 +41,10 @@ def main():
     meshes = Meshes(options.meshes)
     jobs = [(name, n) for n in options.resolutions for name in (NAMES if n < 2048 and not options.small else NAMES[:1])]
     rows = []
-    figure, panels = plt.subplots(-(-len(jobs) // 2), min(2, len(jobs)), squeeze=False, figsize=(8.4, 3.1 * -(-len(jobs) // 2)))
+    figure, panels = plt.subplots(-(-len(jobs) // 2),
+                                  min(2, len(jobs)),
+                                  squeeze=False,
+                                  figsize=(8.4, 3.1 * -(-len(jobs) // 2)))
     for panel in panels.flat:
         panel.set_axis_off()
     for (name, n), panel in zip(jobs, panels.flat):
@@ -44,9 +52,10 @@ def main():
         rows.append(row)
         hang(panel, painted)
         panel.set_title(f"{name} {n}, lambda {row[2]}", fontsize=9)
-    write_table(options.output, "figure-13",
-                ["mesh", "resolution", "lambda", "voxels", "boundary vertices", "s voxelize", "s Delaunay", "s core", "s prune",
-                 "s total", "processor s", "memory MB", "shape chi: b0/b1/b2", "pruned core"], rows)
+    write_table(options.output, "figure-13", [
+        "mesh", "resolution", "lambda", "voxels", "boundary vertices", "s voxelize", "s Delaunay", "s core", "s prune",
+        "s total", "processor s", "memory MB", "shape chi: b0/b1/b2", "pruned core"
+    ], rows)
     save(figure, options.output, "figure-13")
 
 

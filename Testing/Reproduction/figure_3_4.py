@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Figures 3 and 4: a voxel shape whose voxels are cut into k^3 each. Its core nears the true medial axis of the shape (of the
-cubes, not of anything smooth): the paper proves a distance of at most sqrt(3)/(2k) voxel from core to axis."""
+"""Figures 3 and 4: a voxel shape whose voxels are cut into k^3 each. Its core nears the true medial axis of the shape
+(of the cubes, not of anything smooth): the paper proves a distance of at most sqrt(3)/(2k) voxel from core to axis."""
 
 import os
 import tempfile
@@ -8,7 +8,8 @@ import tempfile
 import numpy as np
 from scipy.spatial import cKDTree
 
-from common import VIEW, Core, Middles, arguments, core, distance_to_core, hang, paint, plt, require, save, write_nrrd, write_table
+from common import (VIEW, Core, Middles, arguments, core, distance_to_core,
+                    hang, paint, plt, require, save, write_nrrd, write_table)
 
 
 def shape():
@@ -59,7 +60,8 @@ def nearest_on_boundary(points, faces):
 
 
 def greatest_ball(p, d, faces):
-    """How far from boundary points `p` along `d` the centre of the greatest ball is that touches there, by bisection."""
+    """How far from boundary points `p` along `d` the centre of the greatest ball is that touches there, by
+    bisection."""
     low, high = np.full(len(p), 1e-6), np.full(len(p), 4.0)
     for _ in range(30):
         middle = (low + high) / 2
@@ -69,8 +71,8 @@ def greatest_ball(p, d, faces):
 
 
 def to_axis(points, samples, faces):
-    """Distances to the true axis, from above: to its nearest sample, or to the centre of the greatest ball that touches where a
-    point's own does."""
+    """Distances to the true axis, from above: to its nearest sample, or to the centre of the greatest ball that touches
+    where a point's own does."""
     best = cKDTree(samples).query(points)[0]
     feet = nearest_on_boundary(points, faces)
     way = points - feet
@@ -80,9 +82,9 @@ def to_axis(points, samples, faces):
 
 
 def true_axis(faces, per_side, wanted=lambda place: True):
-    """Centres of the greatest balls inside that touch the boundary at samples: by bisection, with the distance to all squares.
-    Every such ball touches the inside of a square, or an edge or corner that juts into the shape; of the latter the balls
-    along a fan of directions are taken. `wanted` chooses squares by their corner: fewer samples."""
+    """Centres of the greatest balls inside that touch the boundary at samples: by bisection, with the distance to all
+    squares. Every such ball touches the inside of a square, or an edge or corner that juts into the shape; of the
+    latter the balls along a fan of directions are taken. `wanted` chooses squares by their corner: fewer samples."""
     starts, directions = [], []
     t = (np.arange(per_side) + 0.5) / per_side
     u, v = (g.ravel() for g in np.meshgrid(t, t))
@@ -143,7 +145,11 @@ def draw_voxels(panel, voxels, k, box):
         if towards > 0:
             found.append((around[:, 2].mean(), around[:, :2], 0.55 + 0.4 * towards))
     found.sort(key=lambda one: one[0])
-    panel.add_collection(PolyCollection([f[1] for f in found], facecolors=[(f[2],) * 3 for f in found], edgecolors="0.3", linewidths=0.4))
+    panel.add_collection(
+        PolyCollection([f[1] for f in found],
+                       facecolors=[(f[2], ) * 3 for f in found],
+                       edgecolors="0.3",
+                       linewidths=0.4))
     panel.set_xlim(box[:2])
     panel.set_ylim(box[2:])
     panel.set_aspect("equal")
@@ -203,9 +209,16 @@ def figure_3(options, folder):
             crosses = (p[:, 2] < height) != (q[:, 2] < height)
             t = (height - p[:, 2]) / np.where(crosses, q[:, 2] - p[:, 2], 1)
             lines.append(np.where(crosses[:, None], p + t[:, None] * (q - p), np.nan)[:, :2])
-        ends = np.sort(np.stack(lines, 1).view([("x", float), ("y", float)])[..., 0], axis=1)  # of three the nan is last
-        panel.pcolormesh(np.arange(len(pattern) * k + 1) / k, np.arange(len(pattern[0]) * k + 1) / k,
-                         np.where(pattern, 0.0, 1.0).repeat(k, 0).repeat(k, 1).T, cmap="gray", vmin=-8, vmax=1, edgecolors="0.75", linewidth=0.2)
+        ends = np.sort(np.stack(lines, 1).view([("x", float), ("y", float)])[..., 0],
+                       axis=1)  # of three the nan is last
+        panel.pcolormesh(np.arange(len(pattern) * k + 1) / k,
+                         np.arange(len(pattern[0]) * k + 1) / k,
+                         np.where(pattern, 0.0, 1.0).repeat(k, 0).repeat(k, 1).T,
+                         cmap="gray",
+                         vmin=-8,
+                         vmax=1,
+                         edgecolors="0.75",
+                         linewidth=0.2)
         panel.plot(axis[:, 0], axis[:, 1], ".", color="limegreen", markersize=1.5)
         panel.plot(ends["x"][:, :2].T, ends["y"][:, :2].T, "b-", linewidth=0.8)
         panel.set_aspect("equal")
@@ -231,7 +244,8 @@ def main():
             # Points all over the core, too: elements are as large as a voxel.
             corners = found.points[found.triangles]
             weights = np.random.default_rng(1).dirichlet((1, 1, 1), 8)
-            there = np.concatenate([found.points, np.concatenate([np.einsum("c,ncd->nd", w, corners) for w in weights])])
+            there = np.concatenate(
+                [found.points, np.concatenate([np.einsum("c,ncd->nd", w, corners) for w in weights])])
             forward = to_axis(there, axis, faces).max()
             back = distance_to_core(axis, Middles(found), 32).max()
             bound = np.sqrt(3) / (2 * k)
@@ -240,9 +254,10 @@ def main():
             require(forward <= bound, f"core to axis within sqrt(3)/(2k) at k = {k}")
         figure_3(options, folder)
     figure_4(options, voxels, cores, axis)
-    write_table(options.output, "figure-4",
-                ["k", "core vertices", "core to axis", "sqrt(3)/(2k)", "of that bound", "h/4", "in h/4", "axis to core"], rows,
-                f"Distances in voxels of the given shape; the axis as {len(axis)} centres of greatest balls.")
+    write_table(
+        options.output, "figure-4",
+        ["k", "core vertices", "core to axis", "sqrt(3)/(2k)", "of that bound", "h/4", "in h/4", "axis to core"], rows,
+        f"Distances in voxels of the given shape; the axis as {len(axis)} centres of greatest balls.")
     figure, panel = plt.subplots(figsize=(5.5, 4))
     ks = [row[0] for row in rows]
     panel.loglog(ks, [row[2] for row in rows], "o-", label="core to axis")

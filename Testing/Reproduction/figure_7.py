@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Figure 7: time and memory against boundary vertices, of phantoms and meshes at growing resolution, with fitted exponents and
-TetGen's part."""
+"""Figure 7: time and memory against boundary vertices, of phantoms and meshes at growing resolution, with fitted
+exponents and TetGen's part."""
 
 import os
 import resource
@@ -41,7 +41,10 @@ def measure(options, meshes, kind, n):
             begin = processor_seconds()
             report = core(options.program, scan, folder, "--lambda", part, "-o", out, "--threads", 1, *engine)
             taken = after_reading(processor_seconds() - begin, report)
-            return report, [taken, report["seconds"]["delaunay"] / report["seconds"]["total"], float(report["peak_memory_mb"])]
+            return report, [
+                taken, report["seconds"]["delaunay"] / report["seconds"]["total"],
+                float(report["peak_memory_mb"])
+            ]
 
         report, row = of_engine()
         vertices = sum(label["boundary_vertices"] for label in report["labels"])
@@ -60,7 +63,10 @@ def main():
                 last = curves[kind][-1]
                 growth = (n / last[1]) ** 2
                 if growth * last[5] > MEMORY or growth * last[3] > SECONDS:
-                    print(f"{kind} {n}: left out, as about {growth * last[5]:.0f} MB and {growth * last[3]:.0f} s are to be expected")
+                    print(
+                        f"{kind} {n}: left out, as about {growth * last[5]:.0f} MB and {growth * last[3]:.0f} s are "
+                        "to be expected"
+                    )
                     continue
             row = kept.get(f"{kind} {n}", lambda: measure(options, meshes, kind, n))[0]
             rows.append(row)
@@ -73,15 +79,22 @@ def main():
             of_engine = [p for p in points if p[columns[0]] != "" and (p[2] > 50000 or options.small)]
             if len(of_engine) > 1:
                 x = np.log([p[2] for p in of_engine])
-                fits.append([kind, engine, *(float(np.polyfit(x, np.log([p[c] for p in of_engine]), 1)[0]) for c in columns)])
-    write_table(options.output, "figure-7",
-                ["shape", "resolution", "boundary vertices", "processor s", "Delaunay's part", "memory MB", "processor s, TetGen",
-                 "TetGen's part", "memory MB, TetGen"], rows)
-    write_table(options.output, "figure-7-exponents", ["shape", "engine", "exponent of time", "exponent of memory"], fits)
+                fits.append(
+                    [kind, engine, *(float(np.polyfit(x, np.log([p[c] for p in of_engine]), 1)[0]) for c in columns)])
+    write_table(options.output, "figure-7", [
+        "shape", "resolution", "boundary vertices", "processor s", "Delaunay's part", "memory MB",
+        "processor s, TetGen", "TetGen's part", "memory MB, TetGen"
+    ], rows)
+    write_table(options.output, "figure-7-exponents", ["shape", "engine", "exponent of time", "exponent of memory"],
+                fits)
     figure, axes = plt.subplots(1, 2, figsize=(10, 4))
     for panel, columns, name in zip(axes, ((3, 6), (5, 8)), ("seconds of one processor", "peak memory, MB")):
         for i, (kind, points) in enumerate(curves.items()):
-            panel.plot([p[2] / 1e6 for p in points], [p[columns[0]] for p in points], "o-", color=f"C{i}", markersize=3, label=kind)
+            panel.plot([p[2] / 1e6 for p in points], [p[columns[0]] for p in points],
+                       "o-",
+                       color=f"C{i}",
+                       markersize=3,
+                       label=kind)
             other = [p for p in points if p[columns[1]] != ""]
             panel.plot([p[2] / 1e6 for p in other], [p[columns[1]] for p in other], "x--", color=f"C{i}", linewidth=0.8,
                        label=kind + ", TetGen")

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Figure 9: the core of an ellipsoid against its medial axis, an ellipse's disc in the plane of the two longest axes, and
-against its lambda-medial axis, that disc scaled by sqrt(1 - lambda^2/c^2). Hausdorff distances, both ways."""
+"""Figure 9: the core of an ellipsoid against its medial axis, an ellipse's disc in the plane of the two longest axes,
+and against its lambda-medial axis, that disc scaled by sqrt(1 - lambda^2/c^2). Hausdorff distances, both ways."""
 
 import os
 import tempfile
 
 import numpy as np
 
-from common import Core, Kept, Middles, arguments, core, distance_to_core, hang, paint, plt, require, save, write_nrrd, write_table
+from common import (Core, Kept, Middles, arguments, core, distance_to_core,
+                    hang, paint, plt, require, save, write_nrrd, write_table)
 
 A, B, C = 0.5, 0.35, 0.2  # semi-axes; the longest side of its box is about 1
 LAMBDAS = [0, 1.5, 2.5, 5, 8.5]  # % of the longest side of the voxels' box
@@ -56,7 +57,8 @@ def to_disc(points, a, b):
 
 
 def farthest_from_disc(points, a, b):
-    """The greatest of to_disc(): of those for which a bound from above, the way to the rim towards the middle, is greater."""
+    """The greatest of to_disc(): of those for which a bound from above, the way to the rim towards the middle, is
+    greater."""
     over = np.sqrt((points[:, 0] / a) ** 2 + (points[:, 1] / b) ** 2)
     inward = np.hypot(points[:, 0], points[:, 1]) * np.where(over > 1, 1 - 1 / np.maximum(over, 1), 0)
     bound = np.hypot(inward, points[:, 2])
@@ -77,7 +79,8 @@ def disc(a, b, count):
 
 
 def draw(found, value):
-    """As the paper has it: seen along the shortest axis; of the whole core what has the greatest measure lies in front."""
+    """As the paper has it: seen along the shortest axis; of the whole core what has the greatest measure lies in
+    front."""
     return paint(found, np.eye(3), found.measure, pixels=230, box=(-A, A, -B, B), measure_first=value == 0,
                  colours="turbo" if value == 0 else "viridis", most=C)
 
@@ -94,7 +97,8 @@ def frame(panel, painted, value, n, semi):
 
 
 def measure(options, n, turn, semi):
-    """Of a resolution: the table's rows, the distances by (lambda, whether to the whole axis), and a picture by lambda."""
+    """Of a resolution: the table's rows, the distances by (lambda, whether to the whole axis), and a picture by
+    lambda."""
     rows, distances, painted = [], {}, {}
     with tempfile.TemporaryDirectory() as folder:
         scan = os.path.join(folder, "ellipsoid.nrrd")
@@ -139,10 +143,12 @@ def main():
         for line, value in enumerate(LAMBDAS):
             frame(panels[line][column], painted[value], value, n, semi)
     rows.sort(key=lambda row: (float(row[0][:-2]), row[1]))
-    write_table(options.output, "figure-9",
-                ["lambda", "resolution", "lambda in voxels", "core to axis", "axis to core", "core to lambda-axis",
-                 "lambda-axis to core", "Hausdorff in voxels", "note"], rows,
-                "Distances are parts of the ellipsoid's longest axis. lambda at most 2.44 voxels is beyond the theorem.")
+    write_table(
+        options.output, "figure-9", [
+            "lambda", "resolution", "lambda in voxels", "core to axis", "axis to core", "core to lambda-axis",
+            "lambda-axis to core", "Hausdorff in voxels", "note"
+        ], rows,
+        "Distances are parts of the ellipsoid's longest axis. lambda at most 2.44 voxels is beyond the theorem.")
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), sharey=True)
     for panel, whole in zip(axes, (True, False)):
         for value in LAMBDAS:

@@ -3,8 +3,8 @@
 
 usage: same_results.py VOXELCORE SOURCE_DIR [--record | --against OTHER_VOXELCORE] [--only NAME,...]
 
-Without an option each output's SHA-256 must be the recorded one. --record writes digests.json anew; a change that alters
-results on purpose records them and says so in its message. --against compares two programs byte by byte instead.
+Without an option each output's SHA-256 must be the recorded one. --record writes digests.json anew; a change that
+alters results on purpose records them and says so in its message. --against compares two programs byte by byte instead.
 What varies from run to run (times, memory, paths, version) is taken out of JSON, CSV and text first.
 """
 
@@ -51,7 +51,8 @@ def outputs(folder):
     found = {}
     for path in sorted(folder.rglob("*")):
         name = path.relative_to(folder).as_posix()
-        if not path.is_file() or path.suffix in SKIPPED or name.endswith("_finished.jsonl") or "/." in "/" + name or name.startswith("cohort/"):
+        if not path.is_file() or path.suffix in SKIPPED or name.endswith(
+                "_finished.jsonl") or "/." in "/" + name or name.startswith("cohort/"):
             if not (name.startswith("cohort/") and path.suffix in (".vtp", ".swc")):
                 continue
         found[name] = hashlib.sha256(content(path, folder)).hexdigest()
@@ -97,7 +98,8 @@ def differences(expected, found):
             continue
         for file in sorted(set(files) | set(before)):
             if files.get(file) != before.get(file):
-                yield f"{name}: {file} " + ("is new" if file not in before else "is gone" if file not in files else "differs")
+                yield f"{name}: {file} " + ("is new"
+                                            if file not in before else "is gone" if file not in files else "differs")
 
 
 def main():
