@@ -1,6 +1,6 @@
 #include "CertifiedFixtures.h"
+#include "VoxelCoreTesting/Messages.h"
 
-#include "voxelcore/Error.h"
 #include "voxelcore/Refinement.h"
 
 #include <gtest/gtest.h>
@@ -10,22 +10,7 @@ namespace voxelcore
 namespace
 {
 
-/** The words of the error that is thrown. */
-template <typename TError, typename TWork>
-std::string
-MessageOf(const TWork & work)
-{
-  try
-  {
-    work();
-  }
-  catch (const TError & error)
-  {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
-}
+using testing::MessageOf;
 
 TEST(CertifiedCore, SeveralLambdasAndPruningLaterGiveWhatEachGivesAlone)
 {

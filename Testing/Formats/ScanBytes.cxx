@@ -10,33 +10,14 @@
 namespace voxelcore::testing
 {
 
-TempFolder::TempFolder()
-{
-  std::string name = (std::filesystem::temp_directory_path() / "voxelcore-imaging-XXXXXX").string();
-  m_Path = ::mkdtemp(name.data());
-}
-
-TempFolder::~TempFolder()
-{
-  std::error_code ignored;
-  std::filesystem::remove_all(m_Path, ignored);
-}
-
 std::filesystem::path
 TempFolder::Write(const std::string & name, std::string_view bytes) const
 {
-  const auto path = m_Path / name;
+  const auto path = *this / name;
   std::filesystem::create_directories(path.parent_path());
   std::filesystem::remove(path); // file systems wait for the disk when a file is truncated and written anew
   std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return path;
-}
-
-std::string
-ReadFile(const std::filesystem::path & path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
 }
 
 namespace

@@ -1,6 +1,7 @@
 #pragma once
 // Scans written byte by byte, as their formats define them: never with the writers that belong to the readers.
 
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelVolume.h"
 
@@ -21,35 +22,13 @@ namespace voxelcore::testing
 {
 
 /** A folder that goes with the test. */
-class TempFolder
+class TempFolder : public TemporaryFolder
 {
 public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder &) = delete;
-  TempFolder &
-  operator=(const TempFolder &) = delete;
-
-  std::filesystem::path
-  operator/(const std::string & name) const
-  {
-    return m_Path / name;
-  }
-  const std::filesystem::path &
-  Path() const
-  {
-    return m_Path;
-  }
   /** Writes a file and returns its path. */
   std::filesystem::path
   Write(const std::string & name, std::string_view bytes) const;
-
-private:
-  std::filesystem::path m_Path;
 };
-
-std::string
-ReadFile(const std::filesystem::path & path);
 
 /** One value's bytes. */
 template <typename T>

@@ -1,29 +1,9 @@
 #include "voxelcore/ScanFile.h"
 #include "ScanBytes.h"
+#include "VoxelCoreTesting/Messages.h"
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
-
-namespace
-{
-
-/** The refusal's text; empty where there is none. */
-template <typename Function>
-std::string
-RefusalOf(const Function & function)
-{
-  try
-  {
-    function();
-  }
-  catch (const InputError & error)
-  {
-    return error.what();
-  }
-  return {};
-}
-
-} // namespace
 
 TEST(ScanFile, WarningsNameTheScan)
 {
@@ -39,13 +19,13 @@ TEST(ScanFile, AVolumeOfSeveralMustBeChosenAndBeThere)
 {
   ReadOptions options;
   EXPECT_EQ(ChooseVolume("a.nii", 1, options), 0U);
-  EXPECT_NE(RefusalOf([&] { ChooseVolume("a.nii", 3, options); }).find("--volume 0 to --volume 2"), std::string::npos);
+  EXPECT_NE(MessageOf([&] { ChooseVolume("a.nii", 3, options); }).find("--volume 0 to --volume 2"), std::string::npos);
   options.volume = 2;
   EXPECT_EQ(ChooseVolume("a.nii", 3, options), 2U);
   for (const std::int64_t wrong : { -1, 3 })
   {
     options.volume = wrong;
-    const std::string text = RefusalOf([&] { ChooseVolume("a.nii", 3, options); });
+    const std::string text = MessageOf([&] { ChooseVolume("a.nii", 3, options); });
     EXPECT_NE(text.find("no volume " + std::to_string(wrong)), std::string::npos) << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);
   }
@@ -55,14 +35,14 @@ TEST(ScanFile, AComponentOfSeveralMustBeChosenAndBeThere)
 {
   ReadOptions options;
   EXPECT_EQ(ChooseComponent("a.tif", 1, "colour image", options), 0U);
-  EXPECT_NE(RefusalOf([&] { ChooseComponent("a.tif", 3, "colour image", options); }).find("colour image (3 values"),
+  EXPECT_NE(MessageOf([&] { ChooseComponent("a.tif", 3, "colour image", options); }).find("colour image (3 values"),
             std::string::npos);
   options.component = 2;
   EXPECT_EQ(ChooseComponent("a.tif", 3, "colour image", options), 2U);
   for (const std::int64_t wrong : { -1, 3 })
   {
     options.component = wrong;
-    EXPECT_FALSE(RefusalOf([&] { ChooseComponent("a.tif", 3, "colour image", options); }).empty());
+    EXPECT_FALSE(MessageOf([&] { ChooseComponent("a.tif", 3, "colour image", options); }).empty());
   }
 }
 
@@ -80,6 +60,6 @@ TEST(ScanFile, ItsGeometryIsTheHeadersUnlessTheUserGivesAnother)
   options.spacing = Vector3{ 0.5, 0.5, 0.5 };
   SetGeometry(scan, axes, { 1, 2, 3 }, { 7, 8, 9 }, options);
   ExpectNear(scan.geometry.spacing, { 0.5, 0.5, 0.5 });
-  EXPECT_FALSE(RefusalOf([&] { SetGeometry(scan, axes, { 1, 2, -3 }, { 7, 8, 9 }, {}); }).empty());
-  EXPECT_FALSE(RefusalOf([&] { SetGeometry(scan, { axes[0], axes[0], axes[2] }, { 1, 2, 3 }, {}, {}); }).empty());
+  EXPECT_FALSE(MessageOf([&] { SetGeometry(scan, axes, { 1, 2, -3 }, { 7, 8, 9 }, {}); }).empty());
+  EXPECT_FALSE(MessageOf([&] { SetGeometry(scan, { axes[0], axes[0], axes[2] }, { 1, 2, 3 }, {}, {}); }).empty());
 }

@@ -134,7 +134,7 @@ TEST(ItkFiles, TheExampleWritesTheLibrarysBytes)
                                 "\"";
     return std::system(command.c_str());
   };
-  ASSERT_EQ(run("scan.nrrd", "2vox", "itk.vtp"), 0) << ReadFile(folder / "err");
+  ASSERT_EQ(run("scan.nrrd", "2vox", "itk.vtp"), 0) << ReadAll(folder / "err");
 
   const LabelMap scan = ReadLabelVolume(path);
   const auto     weights = ComputeSpacingWeights(scan.geometry.spacing);
@@ -149,7 +149,7 @@ TEST(ItkFiles, TheExampleWritesTheLibrarysBytes)
   model.provenance = ReadModel(folder / "itk.vtp").provenance;
   EXPECT_NE(model.provenance, "");
   WriteModel(folder / "library.vtp", folder / "library.vtp", model, { .keepEdges = true });
-  EXPECT_EQ(ReadFile(folder / "itk.vtp"), ReadFile(folder / "library.vtp"));
+  EXPECT_EQ(ReadAll(folder / "itk.vtp"), ReadAll(folder / "library.vtp"));
 
 #ifdef VOXELCORE_PROGRAM
   // The program takes the file: the scan is left-handed, too.
@@ -157,20 +157,20 @@ TEST(ItkFiles, TheExampleWritesTheLibrarysBytes)
     const std::string command = "cd \"" + folder.Path().string() + "\" && \"" VOXELCORE_PROGRAM "\" " + arguments;
     return std::system((command + " -q > out 2>&1").c_str());
   };
-  EXPECT_EQ(program("verify scan.nrrd itk.vtp"), 0) << ReadFile(folder / "out");
-  ASSERT_EQ(run("scan.nrrd", "0", "whole.vtp"), 0) << ReadFile(folder / "err");
-  EXPECT_EQ(program("verify scan.nrrd whole.vtp"), 0) << ReadFile(folder / "out");
-  EXPECT_EQ(program("prune whole.vtp --lambda 2vox --keep-edges -o pruned.vtp"), 0) << ReadFile(folder / "out");
+  EXPECT_EQ(program("verify scan.nrrd itk.vtp"), 0) << ReadAll(folder / "out");
+  ASSERT_EQ(run("scan.nrrd", "0", "whole.vtp"), 0) << ReadAll(folder / "err");
+  EXPECT_EQ(program("verify scan.nrrd whole.vtp"), 0) << ReadAll(folder / "out");
+  EXPECT_EQ(program("prune whole.vtp --lambda 2vox --keep-edges -o pruned.vtp"), 0) << ReadAll(folder / "out");
   EXPECT_TRUE(SameBits(ReadModel(folder / "pruned.vtp"), ReadModel(folder / "itk.vtp")));
-  EXPECT_EQ(program("skeleton whole.vtp -o skeleton.vtp"), 0) << ReadFile(folder / "out");
+  EXPECT_EQ(program("skeleton whole.vtp -o skeleton.vtp"), 0) << ReadAll(folder / "out");
   if (std::system("command -v Xvfb > /dev/null") == 0)
   {
-    EXPECT_EQ(program("render itk.vtp -o itk.png"), 0) << ReadFile(folder / "out");
+    EXPECT_EQ(program("render itk.vtp -o itk.png"), 0) << ReadAll(folder / "out");
   }
 #endif
 
   EXPECT_NE(run("scan.nrrd", "2ells", "bad.vtp"), 0);
-  EXPECT_NE(ReadFile(folder / "err").find("2ells"), std::string::npos);
+  EXPECT_NE(ReadAll(folder / "err").find("2ells"), std::string::npos);
   EXPECT_NE(run("none.nrrd", "2vox", "bad.vtp"), 0);
   EXPECT_FALSE(std::filesystem::exists(folder / "bad.vtp"));
 }

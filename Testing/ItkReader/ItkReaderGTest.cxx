@@ -91,7 +91,7 @@ WrittenByItk(const TempFolder & folder, const std::string & name)
     writer->SetInput(image);
     writer->Update();
   } // which closes the file
-  return ReadFile(folder / name);
+  return ReadAll(folder / name);
 }
 
 struct Seed

@@ -3,6 +3,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/TemporaryNames.h"
 
+#include "VoxelCoreTesting/Messages.h"
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -17,24 +18,10 @@ namespace voxelcore
 namespace
 {
 
+using testing::MessageOf;
 using testing::ReadAll;
 using testing::TemporaryFolder;
 using testing::WriteAll;
-
-template <typename Work>
-std::string
-MessageOf(const Work & work)
-{
-  try
-  {
-    work();
-  }
-  catch (const OutputError & error)
-  {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 /** Exit code of a child that may write files of `bytes` at most: for who writes, that is a full disk. */
 template <typename Work>
@@ -85,7 +72,7 @@ TEST(OutputFile, AFullDiskLeavesNoFileOnWhicheverCallItShows)
   for (const std::size_t bytes : { std::size_t{ 5000 }, std::size_t{ 5 << 20 } }) // stays in the buffer, and does not
   {
     const int code = WithFileLimit(4000, [&] {
-      const std::string message = MessageOf([&] { WriteTextFile(folder / "a", std::string(bytes, 'x')); });
+      const std::string message = MessageOf<OutputError>([&] { WriteTextFile(folder / "a", std::string(bytes, 'x')); });
       return message.find("free some space") != std::string::npos ? 0 : 1;
     });
     EXPECT_EQ(code, 0) << bytes;
@@ -97,17 +84,19 @@ TEST(OutputFile, AnErrorNamesTheFinalNameAndWhatToDo)
 {
   const TemporaryFolder folder;
   const auto            missing = folder / "no" / "a.vtp";
-  const std::string     message = MessageOf([&] { OutputFile file(TemporaryName(missing)); });
+  const std::string     message = MessageOf<OutputError>([&] { OutputFile file(TemporaryName(missing)); });
   EXPECT_EQ(message, "cannot write '" + missing.string() + "': No such file or directory; create the folder first");
-  EXPECT_NE(MessageOf([&] { FailOutput(folder / "a", EROFS); }).find("choose a folder you may write to"),
+  EXPECT_NE(MessageOf<OutputError>([&] { FailOutput(folder / "a", EROFS); }).find("choose a folder you may write to"),
             std::string::npos);
 }
 
 TEST(OutputFile, FoldersAndDevicesAreRefusedAndLeftAlone)
 {
   const TemporaryFolder folder;
-  EXPECT_NE(MessageOf([&] { OutputFile file(folder.Path()); }).find("not a regular file"), std::string::npos);
-  EXPECT_NE(MessageOf([&] { OutputFile file("/dev/null"); }).find("not a regular file"), std::string::npos);
+  EXPECT_NE(MessageOf<OutputError>([&] { OutputFile file(folder.Path()); }).find("not a regular file"),
+            std::string::npos);
+  EXPECT_NE(MessageOf<OutputError>([&] { OutputFile file("/dev/null"); }).find("not a regular file"),
+            std::string::npos);
   EXPECT_THROW(FailOutput("/dev/null", EIO), OutputError);
   EXPECT_TRUE(std::filesystem::is_directory(folder.Path()));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));

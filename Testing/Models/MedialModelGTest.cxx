@@ -150,7 +150,7 @@ TEST(MedialModel, LegacyVtkHoldsTheSameAndSaysItsSpaceInTheSecondLine)
   const MedialModel     model = MixedModel();
   WriteModel(folder / "a.vtk", "a.vtk", model, { .triangles = false, .keepEdges = true });
   CheckMixedPolyData(ReadWithVtk<vtkPolyDataReader>(folder / "a.vtk"), model);
-  const std::string bytes = ReadBytes(folder / "a.vtk");
+  const std::string bytes = ReadAll(folder / "a.vtk");
   EXPECT_EQ(bytes.rfind("# vtk DataFile Version 4.2\n", 0), 0U);
   const std::string second = bytes.substr(27, bytes.find('\n', 27) - 27);
   EXPECT_NE(second.find("SPACE=LPS"), std::string::npos) << second;
@@ -181,7 +181,7 @@ TEST(MedialModel, ReadsBackEveryBit)
     }
     EXPECT_TRUE(SameBits(read, model));
     WriteModel(folder / "b.vtp", "b.vtp", read, { .triangles = false, .keepEdges = keepEdges });
-    EXPECT_EQ(ReadBytes(folder / "a.vtp"), ReadBytes(folder / "b.vtp"));
+    EXPECT_EQ(ReadAll(folder / "a.vtp"), ReadAll(folder / "b.vtp"));
   }
 }
 
@@ -196,7 +196,7 @@ TEST(MedialModel, RandomModelsReadBackEveryBit)
     const MedialModel read = ReadModel(folder / "a.vtp");
     ASSERT_TRUE(SameBits(read, model));
     WriteModel(folder / "b.vtp", "b.vtp", read, { .triangles = false, .keepEdges = true });
-    ASSERT_EQ(ReadBytes(folder / "a.vtp"), ReadBytes(folder / "b.vtp"));
+    ASSERT_EQ(ReadAll(folder / "a.vtp"), ReadAll(folder / "b.vtp"));
   }
 }
 
@@ -260,7 +260,7 @@ TEST(MedialModel, KeepingEdgesChangesNothingWhereNoEdgeLiesOnAFace)
   model.parts.push_back({ 1, MakeCore(3, { { 0, 1 }, { 1, 2 } }, {}) });
   WriteModel(folder / "a.vtp", "a.vtp", model, { .triangles = false, .keepEdges = true });
   WriteModel(folder / "b.vtp", "b.vtp", model);
-  EXPECT_EQ(ReadBytes(folder / "a.vtp"), ReadBytes(folder / "b.vtp"));
+  EXPECT_EQ(ReadAll(folder / "a.vtp"), ReadAll(folder / "b.vtp"));
   EXPECT_TRUE(ReadModel(folder / "b.vtp").hasEdges);
 }
 

@@ -47,7 +47,7 @@ std::vector<std::string>
 Lines(const std::filesystem::path & path)
 {
   std::vector<std::string> lines;
-  std::istringstream       text(ReadBytes(path));
+  std::istringstream       text(ReadAll(path));
   for (std::string line; std::getline(text, line);)
   {
     lines.push_back(line);
@@ -77,7 +77,7 @@ TEST(MeshFormats, PlyHoldsEverythingInDoublePrecision)
   const MedialModel     model = MixedModel();
   const ModelOmissions  omissions = WriteModel(folder / "tmp.part", "a.ply", model);
   EXPECT_EQ(omissions.vertices + omissions.edges + omissions.labels, 0U);
-  Bytes bytes{ ReadBytes(folder / "tmp.part") };
+  Bytes bytes{ ReadAll(folder / "tmp.part") };
   EXPECT_EQ(bytes.Line(), "ply");
   EXPECT_EQ(bytes.Line(), "format binary_little_endian 1.0");
   std::string header;
@@ -131,10 +131,10 @@ TEST(MeshFormats, PlyLabelsBeyondItsIntegersStayExactOrAreCounted)
   MedialModel           model = MixedModel();
   model.parts[2].label = std::int64_t{ 1 } << 40;
   EXPECT_EQ(WriteModel(folder / "a.ply", "a.ply", model).labels, 0U);
-  EXPECT_NE(ReadBytes(folder / "a.ply").find("property double label\n"), std::string::npos);
+  EXPECT_NE(ReadAll(folder / "a.ply").find("property double label\n"), std::string::npos);
   model.parts[2].label = (std::int64_t{ 1 } << 53) + 1;
   EXPECT_EQ(WriteModel(folder / "a.ply", "a.ply", model).labels, 3U);
-  EXPECT_EQ(ReadBytes(folder / "a.ply").find("label\n"), std::string::npos);
+  EXPECT_EQ(ReadAll(folder / "a.ply").find("label\n"), std::string::npos);
 }
 
 TEST(MeshFormats, ObjHoldsAllElementsByLabel)
@@ -184,10 +184,10 @@ TEST(MeshFormats, ComponentsAreNamedWhereTheFormatCan)
   }
   const std::size_t whole = [&] {
     WriteModel(folder / "w.ply", "w.ply", MixedModel());
-    return ReadBytes(folder / "w.ply").size();
+    return ReadAll(folder / "w.ply").size();
   }();
   EXPECT_EQ(WriteModel(folder / "a.ply", "a.ply", model).labels, 0U);
-  const std::string ply = ReadBytes(folder / "a.ply");
+  const std::string ply = ReadAll(folder / "a.ply");
   const std::string property = "property int component\n";
   EXPECT_NE(ply.find("property int label\n" + property + "element face"), std::string::npos);
   // A number for each of the 13 points, the 2 polygons and the 2 edges.
@@ -204,7 +204,7 @@ TEST(MeshFormats, StlHoldsTrianglesAndCountsTheRest)
   EXPECT_EQ(omissions.vertices, 3U);
   EXPECT_EQ(omissions.edges, 2U);
   EXPECT_EQ(omissions.labels, 3U);
-  Bytes bytes{ ReadBytes(folder / "a.stl") };
+  Bytes bytes{ ReadAll(folder / "a.stl") };
   EXPECT_EQ(bytes.text.size(), 84U + 5 * 50);
   EXPECT_NE(bytes.text.substr(0, 80).find("SPACE=LPS"), std::string::npos);
   EXPECT_NE(bytes.text.substr(0, 5), "solid");
@@ -276,7 +276,7 @@ TEST(MeshFormats, EqualModelsGiveEqualBytes)
       WriteModel(folder / "1", name, model, { triangles, true });
       WriteModel(folder / "2", name, model, { triangles, true });
       EXPECT_GT(std::filesystem::file_size(folder / "1"), 1000U);
-      EXPECT_EQ(ReadBytes(folder / "1"), ReadBytes(folder / "2")) << name;
+      EXPECT_EQ(ReadAll(folder / "1"), ReadAll(folder / "2")) << name;
     }
   }
 }

@@ -1,6 +1,5 @@
 #include "Models/ModelFixtures.h"
-
-#include "voxelcore/Error.h"
+#include "VoxelCoreTesting/Messages.h"
 
 #include <gtest/gtest.h>
 
@@ -20,21 +19,6 @@ namespace
 {
 
 const std::vector<std::string> kFormats{ "a.vtp", "a.vtk", "a.ply", "a.obj", "a.stl", "a.ma" };
-
-template <typename ErrorType, typename Function>
-std::string
-MessageOf(Function && function)
-{
-  try
-  {
-    function();
-  }
-  catch (const ErrorType & error)
-  {
-    return error.what();
-  }
-  return "(nothing thrown)";
-}
 
 std::string
 Quoted(const std::filesystem::path & path)
@@ -73,21 +57,21 @@ TEST(ModelFailures, MissingAndForeignFilesAreRefusedInOneLine)
   const TemporaryFolder folder;
   ExpectUnreadable(folder / "missing.vtp");
   ExpectUnreadable(folder.Path());
-  WriteBytes(folder / "empty.vtp", "");
+  WriteAll(folder / "empty.vtp", "");
   ExpectUnreadable(folder / "empty.vtp");
-  WriteBytes(folder / "text.vtp", "hello\n");
+  WriteAll(folder / "text.vtp", "hello\n");
   ExpectUnreadable(folder / "text.vtp");
   WriteModel(folder / "a.vtk", "a.vtk", MixedModel());
   std::filesystem::rename(folder / "a.vtk", folder / "legacy.vtp");
   ExpectUnreadable(folder / "legacy.vtp");
-  WriteBytes(folder / "foreign.vtp",
-             "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece NumberOfPoints=\"1\" NumberOfVerts=\"1\">"
-             "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points>"
-             "<Verts><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0</DataArray>"
-             "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">1</DataArray></Verts>"
-             "</Piece></PolyData></VTKFile>");
+  WriteAll(folder / "foreign.vtp",
+           "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece NumberOfPoints=\"1\" NumberOfVerts=\"1\">"
+           "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points>"
+           "<Verts><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0</DataArray>"
+           "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">1</DataArray></Verts>"
+           "</Piece></PolyData></VTKFile>");
   ExpectUnreadable(folder / "foreign.vtp");
-  WriteBytes(folder / "grid.vtp", "<VTKFile type=\"ImageData\" version=\"0.1\"></VTKFile>");
+  WriteAll(folder / "grid.vtp", "<VTKFile type=\"ImageData\" version=\"0.1\"></VTKFile>");
   ExpectUnreadable(folder / "grid.vtp");
 }
 
@@ -95,17 +79,17 @@ TEST(ModelFailures, ATruncatedFileIsRefusedWhereverItEnds)
 {
   const TemporaryFolder folder;
   WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
-  const std::string bytes = ReadBytes(folder / "a.vtp");
+  const std::string bytes = ReadAll(folder / "a.vtp");
   // The very last bytes close the XML elements; before them the data must be all there.
   const auto data = bytes.rfind("\n  </AppendedData>");
   ASSERT_NE(data, std::string::npos);
   for (std::size_t length = 0; length < data; length += length < 100 ? 9 : 61)
   {
     SCOPED_TRACE(length);
-    WriteBytes(folder / "b.vtp", bytes.substr(0, length));
+    WriteAll(folder / "b.vtp", bytes.substr(0, length));
     ExpectUnreadable(folder / "b.vtp");
   }
-  WriteBytes(folder / "b.vtp", bytes.substr(0, data - 1));
+  WriteAll(folder / "b.vtp", bytes.substr(0, data - 1));
   ExpectUnreadable(folder / "b.vtp");
 }
 
@@ -113,7 +97,7 @@ TEST(ModelFailures, MissingArraysAndWrongSpaceAreRefused)
 {
   const TemporaryFolder folder;
   WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
-  const std::string bytes = ReadBytes(folder / "a.vtp");
+  const std::string bytes = ReadAll(folder / "a.vtp");
   for (const auto & [what, with] :
        std::vector<std::pair<std::string, std::string>>{ { "Name=\"Radius\"", "Name=\"radius\"" },
                                                          { "Name=\"Lambda\"", "Name=\"lambda\"" },
@@ -126,7 +110,7 @@ TEST(ModelFailures, MissingArraysAndWrongSpaceAreRefused)
                                                          { "type=\"PolyData\"", "type=\"PolyDatx\"" } })
   {
     SCOPED_TRACE(what);
-    WriteBytes(folder / "b.vtp", Replaced(bytes, what, with));
+    WriteAll(folder / "b.vtp", Replaced(bytes, what, with));
     ExpectUnreadable(folder / "b.vtp");
   }
 }
@@ -135,7 +119,7 @@ TEST(ModelFailures, FlippedBitsNeverCrashNorPrint)
 {
   const TemporaryFolder folder;
   WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
-  const std::string bytes = ReadBytes(folder / "a.vtp");
+  const std::string bytes = ReadAll(folder / "a.vtp");
   std::mt19937_64   random(20);
   std::cout << "seed 20\n";
   int refused = 0;
@@ -147,7 +131,7 @@ TEST(ModelFailures, FlippedBitsNeverCrashNorPrint)
     {
       damaged[random() % damaged.size()] ^= static_cast<char>(1U << (random() % 8));
     }
-    WriteBytes(folder / "b.vtp", damaged);
+    WriteAll(folder / "b.vtp", damaged);
     try
     {
       const MedialModel read = ReadModel(folder / "b.vtp");
@@ -166,7 +150,7 @@ TEST(ModelFailures, FlippedBitsNeverCrashNorPrint)
 TEST(ModelFailures, UnwritablePathsAreOneLineAndNoFile)
 {
   const TemporaryFolder folder;
-  WriteBytes(folder / "file", "x");
+  WriteAll(folder / "file", "x");
   for (const std::string & format : kFormats)
   {
     for (const auto & path : { folder / "no/such/folder/a", folder / "file/a", folder.Path() })
@@ -178,7 +162,7 @@ TEST(ModelFailures, UnwritablePathsAreOneLineAndNoFile)
       EXPECT_EQ(message.find('\n'), std::string::npos);
     }
   }
-  EXPECT_EQ(ReadBytes(folder / "file"), "x");
+  EXPECT_EQ(ReadAll(folder / "file"), "x");
 }
 
 TEST(ModelFailures, DevicesAreRefusedAndLeftAlone)
@@ -223,7 +207,7 @@ TEST(ModelFailures, AFullDiskLeavesNoFile)
       EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
         << format << " limit " << limit << " status " << status;
       EXPECT_FALSE(std::filesystem::exists(folder / "part")) << format << " limit " << limit;
-      EXPECT_EQ(ReadBytes(folder / "stderr"), "") << format << " limit " << limit;
+      EXPECT_EQ(ReadAll(folder / "stderr"), "") << format << " limit " << limit;
     }
   }
 }

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <map>
 #include <random>
-#include <sstream>
-#include <stdexcept>
 
 namespace voxelcore::testing
 {
@@ -111,37 +107,6 @@ RandomModel(std::uint64_t seed, int n, int parts)
   }
   model.provenance = "{}";
   return model;
-}
-
-void
-WriteBytes(const std::filesystem::path & path, const std::string & bytes)
-{
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
-std::string
-ReadBytes(const std::filesystem::path & path)
-{
-  std::ifstream      file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
-}
-
-TemporaryFolder::TemporaryFolder()
-{
-  std::string pattern = (std::filesystem::temp_directory_path() / "voxelcore-models-XXXXXX").string();
-  if (!mkdtemp(pattern.data()))
-  {
-    throw std::runtime_error("cannot make a temporary folder");
-  }
-  m_Path = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder()
-{
-  std::error_code ignored;
-  std::filesystem::remove_all(m_Path, ignored);
 }
 
 } // namespace voxelcore::testing

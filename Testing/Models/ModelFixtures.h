@@ -1,10 +1,12 @@
 #pragma once
-// Small models, and a folder of its own for each test.
+// Small models.
 
+#include "VoxelCoreTesting/TemporaryFolder.h"
 #include "voxelcore/MedialModel.h"
 
-#include <filesystem>
-#include <string>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 namespace voxelcore::testing
 {
@@ -25,34 +27,5 @@ MixedModel();
 /** Squares, edges and vertices of an n^3 grid, each there by chance. */
 MedialModel
 RandomModel(std::uint64_t seed, int n, int parts);
-
-std::string
-ReadBytes(const std::filesystem::path & path);
-void
-WriteBytes(const std::filesystem::path & path, const std::string & bytes);
-
-/** A new folder, removed with all in it at the end. */
-class TemporaryFolder
-{
-public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder &) = delete;
-  TemporaryFolder &
-  operator=(const TemporaryFolder &) = delete;
-  ~TemporaryFolder();
-  std::filesystem::path
-  operator/(const std::string & name) const
-  {
-    return m_Path / name;
-  }
-  const std::filesystem::path &
-  Path() const
-  {
-    return m_Path;
-  }
-
-private:
-  std::filesystem::path m_Path;
-};
 
 } // namespace voxelcore::testing

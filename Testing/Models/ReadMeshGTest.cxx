@@ -189,7 +189,7 @@ TEST(ReadMesh, CoordinatesAreReadInFullPrecisionFromEveryFormat)
   const TemporaryFolder folder;
   for (const auto & [name, bytes] : AllForms())
   {
-    WriteBytes(folder / name, bytes);
+    WriteAll(folder / name, bytes);
     const MeshFile read = ReadMesh(folder / name);
     EXPECT_EQ(read.polygons, 0U) << name;
     EXPECT_FALSE(read.mayBeCut) << name;
@@ -216,7 +216,7 @@ TEST(ReadMesh, FormatsAreNamedAndKnownByTheirExtensionInAnyCase)
   const TemporaryFolder folder;
   for (const auto & [name, bytes] : AllForms())
   {
-    WriteBytes(folder / name, bytes);
+    WriteAll(folder / name, bytes);
     const std::string extension = name.substr(name.find('.') + 1);
     std::string       expected = extension;
     std::transform(expected.begin(), expected.end(), expected.begin(), [](char c) {
@@ -238,7 +238,7 @@ TEST(ReadMesh, PolygonsBecomeFans)
 {
   const TemporaryFolder folder;
   const std::string     corners = "0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n";
-  WriteBytes(folder / "a.off", "OFF\n5 2 0\n" + corners + "5 0 1 2 3 4\n3 0 1 2\n");
+  WriteAll(folder / "a.off", "OFF\n5 2 0\n" + corners + "5 0 1 2 3 4\n3 0 1 2\n");
   const MeshFile read = ReadMesh(folder / "a.off");
   EXPECT_EQ(read.polygons, 1U);
   // Over the same area, in the same sense: half the cross products add up to those of the polygon.
@@ -263,7 +263,7 @@ TEST(ReadMesh, WhatIsCutOffIsRefusedOrSaidToBe)
   {
     for (std::size_t length = 0; length + 2 < bytes.size(); length += length + 60 < bytes.size() ? 7 : 1)
     {
-      WriteBytes(folder / name, bytes.substr(0, length));
+      WriteAll(folder / name, bytes.substr(0, length));
       if (Refusal(folder / name).empty())
       {
         // Of STL only the name behind "endsolid" may be missing. OBJ does not say how long it is: after a whole line
@@ -292,18 +292,18 @@ TEST(ReadMesh, NumbersThatAreNoneAndCornersThatAreNoPointsAreRefused)
     {
       std::string damaged = bytes;
       damaged.replace(at, 18, number);
-      WriteBytes(folder / name, damaged);
+      WriteAll(folder / name, damaged);
       EXPECT_NE(Refusal(folder / name), "") << name << ' ' << number;
     }
   }
   for (const char * corners : { "0 1 4", "0 1 -1", "0 1", "0 1 4294967296", "0 1 x" })
   {
-    WriteBytes(folder / "a.off", "OFF\n4 1 0\n" + Rows("") + "3 " + corners + "\n");
+    WriteAll(folder / "a.off", "OFF\n4 1 0\n" + Rows("") + "3 " + corners + "\n");
     EXPECT_NE(Refusal(folder / "a.off"), "") << corners;
   }
   for (const char * corners : { "0 1 2", "1 2 5", "1 2 -5", "1 2" })
   {
-    WriteBytes(folder / "a.obj", Rows("v ") + "f " + corners + "\n");
+    WriteAll(folder / "a.obj", Rows("v ") + "f " + corners + "\n");
     EXPECT_NE(Refusal(folder / "a.obj"), "") << corners;
   }
 }
@@ -313,15 +313,15 @@ TEST(ReadMesh, WhatIsNoMeshIsRefusedByName)
   const TemporaryFolder folder;
   EXPECT_NE(Refusal(folder / "none.stl").find("there is no such file"), std::string::npos);
   EXPECT_NE(Refusal(folder.Path()).find("it is not a file"), std::string::npos);
-  WriteBytes(folder / "a.txt", AsOff());
+  WriteAll(folder / "a.txt", AsOff());
   EXPECT_NE(Refusal(folder / "a.txt").find("unknown extension"), std::string::npos);
-  WriteBytes(folder / "points.obj", Rows("v "));
+  WriteAll(folder / "points.obj", Rows("v "));
   EXPECT_NE(Refusal(folder / "points.obj").find("it has no triangles"), std::string::npos);
   for (const char * name : { "a.stl", "a.obj", "a.ply", "a.off", "a.vtk", "a.vtp" })
   {
-    WriteBytes(folder / name, "");
+    WriteAll(folder / name, "");
     EXPECT_NE(Refusal(folder / name).find("it is empty"), std::string::npos) << name;
-    WriteBytes(folder / name, std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
+    WriteAll(folder / name, std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
     EXPECT_NE(Refusal(folder / name), "") << name;
   }
 }

@@ -97,7 +97,7 @@ TEST(SkeletonModel, AVtpIsReadAsItWasWritten)
       again.parts[p].table = MeasureBranches(again.parts[p].graph);
     }
     WriteSkeletonVtp(folder / "b.vtp", again);
-    EXPECT_EQ(ReadBytes(folder / "b.vtp"), ReadBytes(folder / "a.vtp"));
+    EXPECT_EQ(ReadAll(folder / "b.vtp"), ReadAll(folder / "a.vtp"));
   }
 }
 
@@ -105,13 +105,13 @@ TEST(SkeletonModel, DamagedFilesAreRefused)
 {
   const TemporaryFolder folder;
   WriteSkeletonVtp(folder / "a.vtp", Mixed());
-  const std::string bytes = ReadBytes(folder / "a.vtp");
+  const std::string bytes = ReadAll(folder / "a.vtp");
   EXPECT_THROW(ReadSkeletonVtp(folder / "none.vtp"), InputError);
   WriteModel(folder / "core.vtp", "core.vtp", MixedModel(), {});
   EXPECT_THROW(ReadSkeletonVtp(folder / "core.vtp"), InputError) << "a core is no skeleton";
   for (std::size_t length = 0; length + 40 < bytes.size(); length += 97)
   {
-    WriteBytes(folder / "b.vtp", bytes.substr(0, length));
+    WriteAll(folder / "b.vtp", bytes.substr(0, length));
     EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError) << length;
   }
   for (const char * name : { "Name=\"Radius\"", "Name=\"BranchId\"", "Name=\"Label\"", "Name=\"ErosionThickness\"" })
@@ -120,7 +120,7 @@ TEST(SkeletonModel, DamagedFilesAreRefused)
     const auto  at = damaged.find(name);
     ASSERT_NE(at, std::string::npos) << name;
     damaged[at + 6] = '_';
-    WriteBytes(folder / "b.vtp", damaged);
+    WriteAll(folder / "b.vtp", damaged);
     EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError) << name;
   }
 }
@@ -134,7 +134,7 @@ TEST(SkeletonModel, SwcIsAForestInMicrometresOrVoxels)
     model.unit = unit;
     const double scale = unit == SpatialUnit::Voxels ? 1 : 1000;
     WriteSwc(folder / "a.swc", model, {});
-    std::istringstream file(ReadBytes(folder / "a.swc"));
+    std::istringstream file(ReadAll(folder / "a.swc"));
     std::string        line;
     std::string        header;
     long               count = 0;
@@ -185,7 +185,7 @@ TEST(SkeletonModel, MarkupsHoldACurveForEachBranch)
   const TemporaryFolder folder;
   const SkeletonModel   model = Mixed();
   WriteMarkups(folder / "a.mrk.json", model);
-  const Json  curves = Json::parse(ReadBytes(folder / "a.mrk.json")).at("markups");
+  const Json  curves = Json::parse(ReadAll(folder / "a.mrk.json")).at("markups");
   std::size_t at = 0;
   for (const SkeletonPart & part : model.parts)
   {
@@ -218,7 +218,7 @@ TEST(SkeletonModel, GraphMlHasANodeForEachNodeAndAnEdgeForEachBranch)
   const TemporaryFolder folder;
   const SkeletonModel   model = Mixed();
   WriteGraphMl(folder / "a.graphml", model);
-  const std::string text = ReadBytes(folder / "a.graphml");
+  const std::string text = ReadAll(folder / "a.graphml");
   const auto        count = [&](const std::string & what) {
     std::size_t found = 0;
     for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
@@ -293,7 +293,7 @@ TEST(SkeletonModel, TablesHaveTheColumnsThatAreExplained)
     EXPECT_EQ(text.find("\"mm") != std::string::npos, unit == SpatialUnit::Millimetres);
     for (const char * table : { "branches", "summary" })
     {
-      std::istringstream       file(ReadBytes(folder / (std::string(table) + ".csv")));
+      std::istringstream       file(ReadAll(folder / (std::string(table) + ".csv")));
       std::string              row;
       std::vector<std::string> keys;
       for (const auto & [key, value] : explained.at(table).items())
@@ -349,9 +349,8 @@ TEST(SkeletonModel, EqualModelsGiveEqualBytesAndWhatCannotBeWrittenLeavesNothing
   write("b", Mixed());
   for (const char * ending : { ".vtp", ".swc", ".mrk.json", ".graphml", ".branches.csv", ".summary.csv" })
   {
-    EXPECT_FALSE(ReadBytes(folder / (std::string("a") + ending)).empty());
-    EXPECT_EQ(ReadBytes(folder / (std::string("a") + ending)), ReadBytes(folder / (std::string("b") + ending)))
-      << ending;
+    EXPECT_FALSE(ReadAll(folder / (std::string("a") + ending)).empty());
+    EXPECT_EQ(ReadAll(folder / (std::string("a") + ending)), ReadAll(folder / (std::string("b") + ending))) << ending;
   }
   const SkeletonModel         model = Mixed();
   const std::filesystem::path nowhere = folder / "nowhere";

@@ -221,7 +221,7 @@ TEST(ToleranceModel, AFileIsReadAsItWasWritten)
       WriteModel(folder / "a.vtp", folder / "a.vtp", model, options);
       const MedialModel read = ReadModel(folder / "a.vtp");
       WriteModel(folder / "b.vtp", folder / "b.vtp", read, { false, options.keepEdges });
-      EXPECT_EQ(testing::ReadBytes(folder / "a.vtp"), testing::ReadBytes(folder / "b.vtp"));
+      EXPECT_EQ(testing::ReadAll(folder / "a.vtp"), testing::ReadAll(folder / "b.vtp"));
       for (std::size_t i = 0; i < model.parts.size(); ++i)
       {
         if (!options.triangles)
@@ -236,7 +236,7 @@ TEST(ToleranceModel, AFileIsReadAsItWasWritten)
                    folder / "d.vtp",
                    { { { 1, PruneByTolerance(model.parts[i].core, 1.1) } }, {} },
                    { options.triangles, options.keepEdges });
-        EXPECT_EQ(testing::ReadBytes(folder / "c.vtp"), testing::ReadBytes(folder / "d.vtp"));
+        EXPECT_EQ(testing::ReadAll(folder / "c.vtp"), testing::ReadAll(folder / "d.vtp"));
       }
     }
   }

@@ -106,7 +106,7 @@ XmlForm(int pointType, const std::string & mode, vtkDataCompressor * compressor,
   isLarge ? writer->SetHeaderTypeToUInt64() : writer->SetHeaderTypeToUInt32();
   isLarge ? writer->SetByteOrderToBigEndian() : writer->SetByteOrderToLittleEndian();
   EXPECT_EQ(writer->Write(), 1);
-  return ReadBytes(folder / "a.vtp");
+  return ReadAll(folder / "a.vtp");
 }
 
 } // namespace
@@ -187,7 +187,7 @@ LegacyForms()
           writer->SetFileVersion(version);
           EXPECT_EQ(writer->Write(), 1);
           forms[std::string(isText ? "text-" : "binary-") + std::to_string(version) +
-                (pointType == VTK_FLOAT ? "-float" : "-double") + ".vtk"] = ReadBytes(folder / "a.vtk");
+                (pointType == VTK_FLOAT ? "-float" : "-double") + ".vtk"] = ReadAll(folder / "a.vtk");
         }
       }
     }

@@ -41,7 +41,7 @@ TEST(VtkMeshes, EveryFormThatVtkWritesReadsAsTheSameMesh)
   std::transform(expected.begin(), expected.end(), expected.begin(), Turned);
   for (const auto & [name, bytes] : forms)
   {
-    WriteBytes(folder / name, bytes);
+    WriteAll(folder / name, bytes);
     MeshFile read;
     ASSERT_NO_THROW(read = ReadMesh(folder / name)) << name;
     EXPECT_EQ(read.polygons, 12U) << name;
@@ -66,7 +66,7 @@ TEST(VtkMeshes, PiecesOfAFileAreOneMesh)
     "NumberOfComponents='3'>0 0 0 1 0 0 0 1e0 -0</DataArray></Points><Polys><DataArray "
     "type='Int32' Name='connectivity'>0 1 2</DataArray><DataArray type='UInt8' "
     "Name='offsets'>3</DataArray></Polys></Piece>";
-  WriteBytes(folder / "a.vtp", "<VTKFile type='PolyData'><PolyData>" + piece + piece + "</PolyData></VTKFile>");
+  WriteAll(folder / "a.vtp", "<VTKFile type='PolyData'><PolyData>" + piece + piece + "</PolyData></VTKFile>");
   const MeshFile read = ReadMesh(folder / "a.vtp");
   EXPECT_EQ(read.mesh.points.size(), 6U);
   ASSERT_EQ(read.mesh.triangles.size(), 2U);
@@ -151,7 +151,7 @@ TEST(VtkMeshes, CountsThatTheFileDoesNotHoldAreRefused)
     {
       std::string damaged = bytes;
       damaged.replace(begin, end - begin, number);
-      WriteBytes(folder / name, damaged);
+      WriteAll(folder / name, damaged);
       EXPECT_TRUE(IsRefused(folder / name) || damaged == bytes || number == "0") << name << " " << key << number;
     }
   };
@@ -188,7 +188,7 @@ TEST(VtkMeshes, FilesThatAreCutOffAreRefused)
   {
     for (std::size_t length = 0; length + 100 < bytes.size(); length += 197)
     {
-      WriteBytes(folder / name, bytes.substr(0, length));
+      WriteAll(folder / name, bytes.substr(0, length));
       // A text may be cut between two of its sections: that cannot be told.
       EXPECT_TRUE(IsRefused(folder / name) || name.ends_with(".vtk")) << name << " " << length;
     }
@@ -251,7 +251,7 @@ ReadDamaged(const std::map<std::string, std::string> & forms, int runs, std::uin
     for (auto form = forms.begin(); form != forms.end() && run < runs; ++form, ++run)
     {
       const auto path = folder / ("bad" + std::filesystem::path(form->first).extension().string());
-      WriteBytes(path, Damaged(form->second, random));
+      WriteAll(path, Damaged(form->second, random));
       refused += IsRefused(path) ? 1 : 0;
       ASSERT_FALSE(::testing::Test::HasFailure()) << form->first << " " << run;
     }

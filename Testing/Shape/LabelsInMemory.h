@@ -1,13 +1,10 @@
 #pragma once
-// Labels of values that lie in memory, and what is said where there are none.
+// Labels of values that lie in memory.
 
-#include "voxelcore/Error.h"
+#include "VoxelCoreTesting/Messages.h"
 #include "voxelcore/LabelAssembler.h"
 
-#include <gtest/gtest.h>
-
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace voxelcore::testing
@@ -29,22 +26,6 @@ LabelsOf(const std::vector<T> & values, const ImageGeometry & geometry, const La
   LabelAssembler assembler("the image", geometry, LabelAssembler::Pixel::Of<T>(), choice);
   assembler.AddRows(values.data(), 0, static_cast<std::size_t>(geometry.size[1] * geometry.size[2]));
   return assembler.TakeShapes();
-}
-
-template <typename TError = InputError, typename Work>
-std::string
-MessageOf(const Work & work)
-{
-  try
-  {
-    work();
-  }
-  catch (const TError & error)
-  {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
 }
 
 } // namespace voxelcore::testing

@@ -1,7 +1,7 @@
 // Meshes as they come: with holes, turned faces, doubled faces, parts in parts.
 
 #include "MeshFixtures.h"
-#include "voxelcore/Error.h"
+#include "VoxelCoreTesting/Messages.h"
 
 #include <gtest/gtest.h>
 #include <random>
@@ -36,21 +36,6 @@ Differences(const VoxelShape & a, const VoxelShape & b)
     }
   }
   return count;
-}
-
-template <typename Action>
-std::string
-MessageOf(const Action & action)
-{
-  try
-  {
-    action();
-  }
-  catch (const InputError & error)
-  {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 } // namespace
