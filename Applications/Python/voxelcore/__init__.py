@@ -59,15 +59,15 @@ def core(
         though they are called mm here.
     lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
         number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side
-        of the label's box). 0 keeps the whole core. Beside a tolerance it is a floor that is pruned first. A list
-        shares one computation.
+        of the label's box). 0 keeps the whole core. With tolerance, it is applied first. A list shares
+        one computation.
     label: its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
     origin: LPS mm of the centre of voxel (0, 0, 0).
     direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
         SimpleITK has it.
     axes: 'ijk' for arrays a[i, j, k] (nibabel), 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of spacing, origin
         and direction the order is i, j, k in either case.
-    tolerance: the boundary stays within it of the balls that remain: a number of mm, '1.2diag' (voxel diagonals; the
+    tolerance: how far the boundary may lie from the balls that remain: a number of mm, '1.2diag' (voxel diagonals; the
         default without lambda_) or '2vox'. A list shares one computation.
     threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
     progress: a function that is called with the stage and the fraction done, a few times a second. The fraction never

@@ -83,23 +83,8 @@ RequireSense(const CertifiedRequest & request)
   }
   if (request.surface && request.skeleton && !BurnsWhole(request))
   {
-    throw UsageError(request.name + ": beside refined cores, the skeleton is that of the whole core");
+    throw UsageError(request.name + ": with refinement, only the whole core's skeleton can be asked for");
   }
-}
-
-/** Where nothing is said of how to prune, tolerances; where these are alone, the lambda that is pruned first. */
-CertifiedRequest
-WithDefaults(CertifiedRequest request)
-{
-  if (request.lambdas.empty())
-  {
-    request.lambdas.emplace_back();
-    if (request.tolerances.empty())
-    {
-      request.tolerances.push_back(ParseTolerance(kUsualTolerance));
-    }
-  }
-  return request;
 }
 
 /** As ended in files: what never goes, and what would go beyond the scan's diagonal, has that height. */
@@ -393,6 +378,19 @@ private:
 } // namespace
 
 void
+CompletePruning(std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances)
+{
+  if (lambdas.empty() && tolerances.empty())
+  {
+    tolerances.push_back(ParseTolerance(kUsualTolerance));
+  }
+  if (lambdas.empty())
+  {
+    lambdas.emplace_back();
+  }
+}
+
+void
 RequireLengthsIn(SpatialUnit unit, const CertifiedRequest & request)
 {
   for (const Lambda & lambda : request.lambdas)
@@ -415,10 +413,11 @@ ComputeCertified(VoxelShape               shape,
                  const CertifiedRequest & request,
                  const ProgressCallback & progress)
 {
-  const CertifiedRequest whole = WithDefaults(request);
-  RequireSense(whole);
+  CertifiedRequest complete = request;
+  CompletePruning(complete.lambdas, complete.tolerances);
+  RequireSense(complete);
   const ProgressCallback forward = ForwardOnly(progress);
-  CertifiedResult        result = Work(std::move(shape), geometry, whole, forward).Run();
+  CertifiedResult        result = Work(std::move(shape), geometry, complete, forward).Run();
   ReportProgress(forward, "done", 1);
   return result;
 }

@@ -4,6 +4,7 @@
 
 namespace voxelcore
 {
+
 std::vector<std::string>
 WarningsOf(const ScanFile & scan)
 {

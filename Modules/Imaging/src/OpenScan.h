@@ -1,5 +1,5 @@
 #pragma once
-// Whichever the format.
+// A scan opened, whichever its format.
 
 #include "voxelcore/ScanFile.h"
 
@@ -8,7 +8,7 @@
 namespace voxelcore
 {
 
-/** Opens a scan by its kind; what has no reader of ours, through the helper program. \throws InputError, UsageError */
+/** By our own reader where there is one, else through the helper program. \throws InputError, UsageError */
 ScanFile
 OpenScan(const std::filesystem::path & path, const ReadOptions & options);
 

@@ -98,7 +98,7 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
   }
   if (!options.refine.surface.empty() && options.model.keepEdges)
   {
-    throw UsageError("--keep-edges is for pruning further, and a refined core cannot be");
+    throw UsageError("--keep-edges does not go with --refine: a refined core cannot be pruned further");
   }
   if (options.report)
   {

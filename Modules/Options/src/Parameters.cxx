@@ -2,6 +2,7 @@
 
 #include "FieldReader.h"
 #include "ParameterReader.h"
+#include "voxelcore/Certified.h"
 #include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
@@ -37,14 +38,16 @@ namespace
 void
 ReadPruning(const ParameterReader & reader, std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances)
 {
-  const bool hasLambda = reader.IsGiven("lambda");
-  const bool hasTolerance = reader.IsGiven("tolerance") || !hasLambda;
-  if (hasTolerance)
+  if (reader.IsGiven("tolerance"))
   {
-    tolerances = ParseTolerances(reader.IsGiven("tolerance") ? reader.Text("tolerance") : std::string(kUsualTolerance));
+    tolerances = ParseTolerances(reader.Text("tolerance"));
   }
-  lambdas = ParseLambdas(hasLambda ? reader.Text("lambda") : "0");
-  if (hasTolerance && lambdas.size() > 1)
+  if (reader.IsGiven("lambda"))
+  {
+    lambdas = ParseLambdas(reader.Text("lambda"));
+  }
+  CompletePruning(lambdas, tolerances);
+  if (!tolerances.empty() && lambdas.size() > 1)
   {
     throw UsageError("--lambda " + reader.Text("lambda") + ": expected one value, the floor of --tolerance");
   }

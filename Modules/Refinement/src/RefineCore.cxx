@@ -9,6 +9,7 @@
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace voxelcore
 {
@@ -74,24 +75,25 @@ BoundRadii(const TriangleTree & boundary, const Vector3 & spacing, MedialComplex
 std::vector<RefinedCore>
 RefineCore(const RefinementInput & input, const std::vector<double> & thresholds, const ProgressCallback & progress)
 {
-  std::vector<RefinedCore> refined;
-  SimplePairCollapse       collapse(input.core->cells,
-                              input.core->vertexLambda,
-                              input.core->edgeLambda,
-                              input.core->faceLambda);
-  const FootPointFinder    finder(input, progress);
-  const TriangleTree       boundary = TreeOfPoints(*input.points, input.spacing);
+  std::vector<RefinedCore>          refined;
+  std::optional<SimplePairCollapse> byLambda;
+  if (!input.byTolerance)
+  {
+    byLambda.emplace(input.core->cells, input.core->vertexLambda, input.core->edgeLambda, input.core->faceLambda);
+  }
+  const FootPointFinder finder(input, progress);
+  const TriangleTree    boundary = TreeOfPoints(*input.points, input.spacing);
   for (const double threshold : thresholds)
   {
     CorePart part;
-    if (input.byTolerance)
+    if (byLambda)
     {
-      part = PartOf(input.core->cells, LeftByTolerance(*input.core, threshold));
+      byLambda->CollapseBelow(kWorkingPart * threshold, progress);
+      part = RemoveFringe(input, finder, PartOf(input.core->cells, byLambda->Live()));
     }
     else
     {
-      collapse.CollapseBelow(kWorkingPart * threshold, progress);
-      part = RemoveFringe(input, finder, PartOf(input.core->cells, collapse.Live()));
+      part = PartOf(input.core->cells, LeftByTolerance(*input.core, threshold));
     }
     RefinementState working(input, std::move(part));
     working.Move(finder, progress);

@@ -4,7 +4,8 @@
 //
 // The certificate. Euler number and Betti numbers are counted in the voxels and, independently, in every complex. They
 // are equal, every vertex lies in the open shape, and after pruning by tolerance every boundary vertex lies within the
-// height of the balls that are left; else a CertificateError is thrown and there is no result.
+// tolerance of the balls that are left (once these are refined, within RefinedGapBound() more). Else a CertificateError
+// is thrown, and there is no result.
 
 #include "voxelcore/CertifiedCore.h"
 #include "voxelcore/CertifiedSkeleton.h"
@@ -30,15 +31,15 @@ using CellSource =
 using SurfaceSource =
   std::function<std::shared_ptr<const SurfaceEstimate>(const VoxelShape & shape, const ProgressCallback & progress)>;
 
-/** What is asked of one shape. With neither lambdas nor tolerances: one core, pruned at kUsualTolerance. */
+/** What is asked of one shape; CompletePruning() fills in what is not said of lambdas and tolerances. */
 struct CertifiedRequest
 {
   std::string name = "the shape"; ///< in errors: "label 4 (liver)"
 
   std::vector<Lambda>            lambdas;    ///< one core each; 0: the whole core
   std::vector<Tolerance>         tolerances; ///< where there are some: one core each, the only lambda is pruned first
-  SurfaceSource                  surface;    ///< refines the cores to this surface; goes with lambdas alone
-  std::optional<SkeletonRequest> skeleton;   ///< of the core it names, which is whole or one of those asked for
+  SurfaceSource                  surface;    ///< refines the cores to this surface
+  std::optional<SkeletonRequest> skeleton;   ///< of the whole core, or of one asked for that is not refined
 
   Engine     engine = Engine::Auto;
   bool       crossCheck = false; ///< both engines run, one after the other, and must agree bit for bit
@@ -62,9 +63,13 @@ struct CertifiedResult
   ComplexRecord                    whole; ///< of the whole core
   std::vector<CertifiedCore>       cores; ///< one per lambda or tolerance, in the order asked for
   std::optional<CertifiedSkeleton> skeleton;
-  std::optional<bool>              covered; ///< true: no boundary gap exceeds its tolerance; none: not promised
+  std::optional<bool>              covered; ///< true: every boundary gap is as promised; none: nothing is promised
   CertifiedSeconds                 seconds;
 };
+
+/** Without either, one core at kUsualTolerance is asked for. Tolerances without a lambda begin at the whole core. */
+void
+CompletePruning(std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances);
 
 /** \throws InputError where lengths are in voxels and the request has one in mm. ComputeCertified() asks this first. */
 void

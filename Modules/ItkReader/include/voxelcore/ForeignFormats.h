@@ -1,6 +1,6 @@
 #pragma once
-// Formats that have no reader here: which of them the helper reads through ITK (ItkProcess.h); of the others what they
-// are, and what makes of them something that is read.
+// Formats without a reader of ours. Some are read through ITK (ItkProcess.h). The others are named, and how to convert
+// them.
 
 #include <cstdint>
 #include <filesystem>

@@ -16,8 +16,8 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     "",
     false,
     kCore,
-    "Prune at this threshold of the radius measure instead: 1.5mm, 2.5vox, 2.5%; 0 keeps the whole core; several L "
-    "write OUT_lambda-1mm.vtp and so on. With --tolerance: one L, pruned first",
+    "Prune at this threshold instead: 1.5mm, 2.5vox, 2.5%; 0 keeps the whole core; several L write "
+    "OUT_lambda-1mm.vtp and so on; with --tolerance, one L is applied first",
     "lambda_" },
   { "lambda",
     "-l,--lambda",

@@ -52,13 +52,13 @@ struct RefinementInput
   bool                              byTolerance = false; ///< thresholds are tolerances, whose heights the core has
 };
 
-/** Refines the part of the core that a threshold leaves, for each threshold in mm: by lambda, which is measured again
- *  where vertices have moved to, or by tolerance, where all of the part stays, so that the boundary lies within the
- *  tolerance, twice the farthest move and half a voxel's diagonal of its balls. Guarded: every vertex lies in the
- *  open shape, none is farther than one voxel (length of the displacement in lattice coordinates) from where it was,
- *  and no triangle's normal has turned by 90 degrees or more against that of the same triangle in the whole core; no
- *  radius differs from the distance of the nearest boundary vertex by more than half a voxel's diagonal. Where there is
- *  no estimate of the surface the boundary vertices themselves stand for it.
+/** Refines the part of the core that a threshold leaves, for each threshold in mm. A part by lambda is measured again
+ *  where its vertices have moved to, and pruned once more. A part by tolerance stays as it is: the boundary then lies
+ *  within the tolerance, twice the farthest move and half a voxel's diagonal of its balls.
+ *  Guarded: every vertex lies in the open shape, none is farther than one voxel (length of the displacement in lattice
+ *  coordinates) from where it was, and no triangle's normal has turned by 90 degrees or more against that of the same
+ *  triangle in the whole core; no radius differs from the distance of the nearest boundary vertex by more than half a
+ *  voxel's diagonal. Where there is no estimate of the surface the boundary vertices themselves stand for it.
  *  The same bits for every number of threads.
  *  \throws Cancelled when the callback says so. */
 std::vector<RefinedCore>
