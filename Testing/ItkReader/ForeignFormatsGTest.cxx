@@ -27,7 +27,7 @@ TEST(ForeignFormats, AreToldByTheirFirstBytesWhateverTheirName)
   const std::vector<Case> cases{
 #ifdef VOXELCORE_TESTS_ITK // the helper is asked, who knows better
     { At(128, "DICM"), { "GDCM cannot read it" } },
-    { At(208, "MAP "), { "Wanted 1024 bytes" } },
+    { At(208, "MAP "), { "276 of 1024 bytes" } },
     { At(0, "CDF\1"), { "MINCImageIO" } },
     { At(0, "\x89HDF\r\n\x1A\n"), { "HDF5", "h5py" } },
 #else
@@ -65,7 +65,7 @@ TEST(ForeignFormats, AreToldByTheirExtensionWhereBytesSayNothing)
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
 #ifdef VOXELCORE_TESTS_ITK
     { "a.dcm", { "GDCM cannot read it" } },
-    { "a.mrc", { "Wanted 1024 bytes" } },
+    { "a.mrc", { "of 1024 bytes" } },
     { "a.mnc", { "ITK" } },
     { "a.gipl", { "GiplImageIO does not know it" } },
     { "a.h5", { "HDF5", "h5py" } },

@@ -211,6 +211,18 @@ TEST(ItkProcess, WhatIsCutOffIsRefused)
   ExpectRefused(folder / "series", {});
 }
 
+// ITK 5.2.1 frees memory twice where the extended header of MRC is shorter than the header says.
+TEST(ItkProcess, AnExtendedHeaderThatIsNotThereIsRefusedBeforeItkLooks)
+{
+  const TempFolder folder;
+  for (const std::int32_t length : { -1, 1 << 30, 1000 })
+  {
+    std::string bytes = MrcBytes();
+    bytes.replace(92, 4, Raw<std::int32_t>(length));
+    ExpectRefused(folder.Write("a.mrc", bytes), { "of another header", "damaged" });
+  }
+}
+
 TEST(ItkProcess, FilesAndFoldersGoToItByTheirFirstBytes)
 {
   ASSERT_TRUE(HasItkReader());

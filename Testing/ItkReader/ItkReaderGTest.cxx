@@ -53,10 +53,10 @@ RunOn(const std::string & format, const std::filesystem::path & path)
     std::array<char *, 3> words{ word.data(), word.data(), file.data() };
     _exit(itkreader::RunReader(3, words.data()));
   }
+  static_cast<void>(!write(orders[1], "0 0\n", 4)); // while this end is open, a child that has ended is no SIGPIPE
   close(orders[0]);
-  close(refusal[1]);
-  static_cast<void>(!write(orders[1], "0 0\n", 4)); // the other end is there until the child ends
   close(orders[1]);
+  close(refusal[1]);
   Ended                  ended;
   std::array<char, 4096> text{};
   for (::ssize_t got = 1; got > 0;)
@@ -170,7 +170,8 @@ Damage(int countOfEach)
       }
     }
     std::cout << one.name << ": " << read << " read, " << refused << " refused, " << crashed << " crashed the helper, "
-              << slow << " stopped by its time limit; at most " << longest << " s and " << largest << " MB\n";
+              << slow << " stopped by its time limit; at most " << longest << " s and " << largest << " MB"
+              << std::endl;
     folder.Write(one.name, one.bytes);
     EXPECT_EQ(read + refused + crashed + slow, countOfEach);
     EXPECT_GT(refused, 0);

@@ -64,16 +64,35 @@ CheckLength(const std::filesystem::path & path, std::uint64_t length, std::uint6
   }
 }
 
-/** MRC2014. ITK takes angstroms for millimetres, a map without a size of its cell for one with 1, bytes for unsigned
+/** The 256 words of MRC2014, counted from 1. */
+class MrcHeader
+{
+public:
+  explicit MrcHeader(const std::filesystem::path & path)
+    : m_Bytes(FirstBytes(path, 1024))
+  {
+    CheckLength(path, m_Bytes.size(), 1024);
+  }
+
+  template <typename T>
+  T
+  Word(std::size_t number) const
+  {
+    return At<T>(m_Bytes, 4 * (number - 1), m_Bytes[212] == 0x11);
+  }
+
+private:
+  std::string m_Bytes;
+};
+
+/** ITK takes angstroms for millimetres, a map without a size of its cell for one with 1, bytes for unsigned
  *  ones, and every order of axes for the common one. */
 void
 CheckMrc(const std::filesystem::path & path, ItkScan & scan)
 {
-  const std::string header = FirstBytes(path, 1024);
-  CheckLength(path, header.size(), 1024);
-  const bool big = header[212] == 0x11;
-  const auto word = [&](std::size_t number) { return At<std::int32_t>(header, 4 * (number - 1), big); };
-  const auto real = [&](std::size_t number) { return static_cast<double>(At<float>(header, 4 * (number - 1), big)); };
+  const MrcHeader header(path);
+  const auto      word = [&](std::size_t number) { return header.Word<std::int32_t>(number); };
+  const auto      real = [&](std::size_t number) { return static_cast<double>(header.Word<float>(number)); };
   if (word(17) != 1 || word(18) != 2 || word(19) != 3)
   {
     RefuseInput(path,
@@ -111,9 +130,7 @@ CheckMrc(const std::filesystem::path & path, ItkScan & scan)
     scan.origin[axis] = kMmInAngstrom * (begin != 0 ? begin : start * step);
   }
   scan.notes.push_back("lengths were converted to mm from angstroms");
-  CheckLength(path,
-              std::filesystem::file_size(path),
-              1024 + static_cast<std::uint64_t>(std::max(0, word(24))) + VolumeBytes(scan));
+  CheckLength(path, std::filesystem::file_size(path), 1024 + static_cast<std::uint64_t>(word(24)) + VolumeBytes(scan));
 }
 
 /** MINC has x to the right and y to the front, which ITK before 5.4 takes for LPS. */
@@ -314,6 +331,21 @@ CheckVtk(const std::filesystem::path & path, ItkScan & scan)
 }
 
 } // namespace
+
+void
+CheckBeforeItk(const std::filesystem::path & path, ItkFormat format)
+{
+  if (format == ItkFormat::Mrc)
+  {
+    const std::int64_t extended = MrcHeader(path).Word<std::int32_t>(24);
+    if (extended < 0 || extended > static_cast<std::int64_t>(std::filesystem::file_size(path)) - 1024)
+    {
+      RefuseInput(path,
+                  Text("its header says that ", extended, " bytes of another header follow"),
+                  "the file is damaged: fetch or write it anew");
+    }
+  }
+}
 
 void
 CheckHeader(const std::filesystem::path & path, ItkFormat format, ItkScan & scan)

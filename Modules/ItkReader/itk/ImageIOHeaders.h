@@ -8,6 +8,11 @@
 namespace voxelcore::itkreader
 {
 
+/** Looks for what ITK must not see: a length in the header of MRC that the file does not have makes its reader free
+ *  memory twice. \throws InputError */
+void
+CheckBeforeItk(const std::filesystem::path & path, ItkFormat format);
+
 /** Looks into the header that ITK has read already: corrects `scan`, adds notes, or refuses.
  *  \throws InputError */
 void

@@ -111,6 +111,7 @@ public:
                   Text("ITK's ", m_IO->GetNameOfClass(), " does not know it"),
                   "the file is damaged or another's");
     }
+    CheckBeforeItk(path, format);
     m_IO->SetFileName(path.string());
     m_IO->ReadImageInformation();
     const unsigned int dimensions = m_IO->GetNumberOfDimensions();
