@@ -98,5 +98,111 @@ TEST_F(BlockJob, WhatFailsLeavesNothing)
   EXPECT_EQ(Names(), (std::set<std::string>{ "a.nrrd" }));
 }
 
+/** A rod along k in a store of Zarr, versions 2 and 3, a chunk for every 8 slices. */
+struct RodStore
+{
+  std::filesystem::path folder;
+  int                   version = 2;
+  int                   chunks = 0;
+
+  std::filesystem::path
+  Chunk(int k) const
+  {
+    return folder / (version == 2 ? std::to_string(k) + ".0.0" : "c/" + std::to_string(k) + "/0/0");
+  }
+  void
+  WriteChunks() const
+  {
+    std::string bytes;
+    for (int n = 0; n < 8 * 12 * 12; ++n)
+    {
+      const int i = n % 12;
+      const int j = n / 12 % 12;
+      bytes += i > 2 && i < 9 && j > 3 && j < 8 ? '\1' : '\0';
+    }
+    for (int k = 0; k < chunks; ++k)
+    {
+      std::filesystem::create_directories(Chunk(k).parent_path());
+      WriteAll(Chunk(k), bytes);
+    }
+  }
+  void
+  Write() const
+  {
+    WriteChunks();
+    const std::string shape = R"("shape":[)" + std::to_string(8 * chunks) + ",12,12],";
+    if (version == 2)
+    {
+      WriteAll(folder / ".zarray",
+               R"({"zarr_format":2,)" + shape + R"("chunks":[8,12,12],"dtype":"|u1","order":"C",)" +
+                 R"("compressor":null,"filters":null,"fill_value":null})");
+      return;
+    }
+    WriteAll(folder / "zarr.json",
+             R"({"zarr_format":3,"node_type":"array",)" + shape + R"("data_type":"uint8",)" +
+               R"("chunk_grid":{"name":"regular","configuration":{"chunk_shape":[8,12,12]}},)" +
+               R"("chunk_key_encoding":{"name":"default"},"codecs":[{"name":"bytes"}],"fill_value":0})");
+  }
+};
+
+TEST_F(BlockJob, ABlockOfAStoreReadsItsChunksAlone)
+{
+  constexpr int blocks = 8;
+  for (const int version : { 2, 3 })
+  {
+    SCOPED_TRACE("version " + std::to_string(version));
+    const std::string name = "v" + std::to_string(version) + ".zarr";
+    const RodStore    store{ At(name), version, 64 };
+    store.Write();
+    const auto shape = ReadLabelVolume(store.folder, {}).labels.at(0).shape;
+    const auto points = BoundaryVertices(shape);
+    const auto whole = ComputeDelaunayCells(shape, points, ComputeSpacingWeights({ 1, 1, 1 }), Engine::Auto);
+    RunBlockJob(Options(1, blocks, name)); // plans
+    for (int block = 1; block <= blocks; ++block)
+    {
+      // A chunk of another size is refused when it is read.
+      store.WriteChunks();
+      int damaged = 0;
+      for (int k = 0; k < store.chunks; ++k)
+      {
+        const int first = (block - 1) * store.chunks / blocks;
+        if (k < first - 1 || k > first + store.chunks / blocks)
+        {
+          WriteAll(store.Chunk(k), "damaged");
+          ++damaged;
+        }
+      }
+      EXPECT_GE(damaged, 54);
+      BlockOptions options = Options(static_cast<std::size_t>(block), blocks, name);
+      options.core.force = true;
+      EXPECT_EQ(RunBlockJob(options).parts.at(0).boundaryVertices, points.size()) << "of the whole";
+    }
+    const DelaunayCells joined = Join(points, name);
+    EXPECT_TRUE(joined.centres == whole.centres);
+    EXPECT_TRUE(joined.facetCells == whole.facetCells);
+    EXPECT_TRUE(joined.facetPoints == whole.facetPoints);
+  }
+}
+
+TEST_F(BlockJob, APlanOfAnotherScanIsMadeAnew)
+{
+  const RodStore store{ At("a.zarr"), 2, 16 };
+  store.Write();
+  RunBlockJob(Options(1, 4, "a.zarr"));
+  const std::string plan = ReadAll(At("parts/a_blocks-4.vcp"));
+  // One voxel less, behind the back of the plan: it looks at the date of the store, not of each chunk.
+  std::string chunk = ReadAll(store.Chunk(8));
+  chunk.at(6 * 12 + 6) = '\0';
+  WriteAll(store.Chunk(8), chunk);
+  BlockOptions options = Options(3, 4, "a.zarr");
+  const auto   share = ReadAll(RunBlockJob(options).parts.at(0).file);
+  EXPECT_NE(ReadAll(At("parts/a_blocks-4.vcp")), plan);
+  std::filesystem::remove(At("parts/a_blocks-4.vcp"));
+  options.core.force = true;
+  EXPECT_EQ(ReadAll(RunBlockJob(options).parts.at(0).file), share) << "as without a plan";
+  options.core.reading.spacing = Vector3{ 1, 1, 2 };
+  EXPECT_NE(ReadAll(RunBlockJob(options).parts.at(0).file), share) << "other options";
+}
+
 } // namespace
 } // namespace voxelcore::testing

@@ -1,3 +1,4 @@
+#include "voxelcore/BlockRegions.h"
 #include "voxelcore/HaloBlocks.h"
 
 #include "BoundaryBits.h"
@@ -136,11 +137,12 @@ ListPoints(BlockShare &                      share,
            const std::vector<LatticePoint> & subshapePoints)
 {
   const auto & o = shape.Box().lower;
-  BoundaryBits(shape).Visit({ block.lower.x - o[0], block.lower.y - o[1], block.lower.z - o[2] },
-                            { block.upper.x - o[0], block.upper.y - o[1], block.upper.z - o[2] },
-                            [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-                              share.points.push_back({ o[0] + x, o[1] + y, o[2] + z });
-                            });
+  BoundaryBits(shape).Visit(
+    { std::max(block.lower.x - o[0], 0), std::max(block.lower.y - o[1], 0), std::max(block.lower.z - o[2], 0) },
+    { block.upper.x - o[0], block.upper.y - o[1], block.upper.z - o[2] },
+    [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+      share.points.push_back({ o[0] + x, o[1] + y, o[2] + z });
+    });
   // Those the cells use beside their own, merged in: both lists are in scan order.
   std::vector<std::uint8_t> used(subshapePoints.size(), 0);
   for (const std::uint32_t point : share.cells.facetPoints)
@@ -189,23 +191,18 @@ ListPoints(BlockShare &                      share,
 
 } // namespace
 
-BlockShare
-ComputeBlockShare(const VoxelShape &       shape,
-                  const SpacingWeights &   weights,
-                  const BlockPlan &        plan,
-                  std::size_t              block,
-                  Engine                   engine,
-                  const ProgressCallback & progress)
+namespace
 {
-  if (block >= plan.blocks.size())
-  {
-    throw UsageError("there is no block " + std::to_string(block) + " in a plan of " +
-                     std::to_string(plan.blocks.size()));
-  }
-  if (!IsPlanOf(plan, shape, weights))
-  {
-    throw InputError("the plan of the blocks was made for another shape or other weights; make it again");
-  }
+
+/** `shape` agrees with the planned one around the block. */
+BlockShare
+ShareOf(const VoxelShape &       shape,
+        const SpacingWeights &   weights,
+        const BlockPlan &        plan,
+        std::size_t              block,
+        Engine                   engine,
+        const ProgressCallback & progress)
+{
   BlockShare share;
   share.digest = plan.digest;
   share.blockCount = plan.blocks.size();
@@ -229,6 +226,51 @@ ComputeBlockShare(const VoxelShape &       shape,
     share.subshapeReal += bits.Contains(p.x - o[0], p.y - o[1], p.z - o[2]) ? 1 : 0;
   }
   return share;
+}
+
+void
+RequireBlock(const BlockPlan & plan, std::size_t block)
+{
+  if (block >= plan.blocks.size())
+  {
+    throw UsageError("there is no block " + std::to_string(block) + " in a plan of " +
+                     std::to_string(plan.blocks.size()));
+  }
+}
+
+} // namespace
+
+BlockShare
+ComputeBlockShare(const VoxelShape &       shape,
+                  const SpacingWeights &   weights,
+                  const BlockPlan &        plan,
+                  std::size_t              block,
+                  Engine                   engine,
+                  const ProgressCallback & progress)
+{
+  RequireBlock(plan, block);
+  if (!IsPlanOf(plan, shape, weights))
+  {
+    throw InputError("the plan of the blocks was made for another shape or other weights; make it again");
+  }
+  return ShareOf(shape, weights, plan, block, engine, progress);
+}
+
+BlockShare
+ComputeBlockShare(const VoxelShape &       part,
+                  const SpacingWeights &   weights,
+                  const BlockPlan &        plan,
+                  const BlockRegion &      region,
+                  std::size_t              block,
+                  Engine                   engine,
+                  const ProgressCallback & progress)
+{
+  RequireBlock(plan, block);
+  if (plan.weight != weights.weight || !IsRegionOf(region, part))
+  {
+    throw InputError("the plan of the blocks was made for another shape or other weights; make it again");
+  }
+  return ShareOf(part, weights, plan, block, engine, progress);
 }
 
 } // namespace voxelcore

@@ -1,11 +1,11 @@
 #include "HaloRegion.h"
 
 #include "HaloComponents.h"
-#include "NearestVertex.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace voxelcore
@@ -55,10 +55,13 @@ constexpr std::int32_t greatestGrain = 64;
 class RegionMaker
 {
 public:
-  RegionMaker(const VoxelShape & shape, const SpacingWeights & weights, const Range & block)
+  RegionMaker(const VoxelShape &     shape,
+              const SpacingWeights & weights,
+              const NearestVertex &  nearest,
+              const Range &          block)
     : m_Shape(shape)
     , m_Weights(weights)
-    , m_Nearest(shape, weights)
+    , m_Nearest(nearest)
     , m_Block(block)
   {}
 
@@ -78,6 +81,13 @@ public:
         m_Around.upper[axis] = std::max(m_Around.upper[axis], high);
       }
     }
+  }
+
+  // Voxels of the block and of all halos.
+  const Range &
+  Around() const
+  {
+    return m_Around;
   }
 
   // The shape in the block and in what its balls can reach.
@@ -320,13 +330,45 @@ private:
 
   const VoxelShape &       m_Shape;
   const SpacingWeights &   m_Weights;
-  NearestVertex            m_Nearest;
+  const NearestVertex &    m_Nearest;
   Range                    m_Block;  // voxels
   Range                    m_Around; // voxels of the block and of all halos
   std::vector<Reach>       m_Reaches;
   std::size_t              m_Divided = 0;
   const ProgressCallback * m_Progress = nullptr;
 };
+
+// The voxels of a block that lie in the shape's box, relative to it; nothing where there are none.
+std::optional<Range>
+VoxelsOf(const HaloBlock & block, const VoxelBox & box)
+{
+  const Place low{ block.lower.x, block.lower.y, block.lower.z };
+  const Place high{ block.upper.x, block.upper.y, block.upper.z };
+  Range       voxels;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    voxels.lower[axis] = std::max(low[axis] - box.lower[axis], 0);
+    voxels.upper[axis] = std::min(high[axis] - box.lower[axis], box.size[axis]);
+    if (voxels.lower[axis] >= voxels.upper[axis])
+    {
+      return std::nullopt;
+    }
+  }
+  return voxels;
+}
+
+// In indices of the scan.
+VoxelBox
+AsBox(const Range & range, const VoxelBox & shapeBox)
+{
+  VoxelBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = shapeBox.lower[axis] + range.lower[axis];
+    box.size[axis] = range.upper[axis] - range.lower[axis];
+  }
+  return box;
+}
 
 } // namespace
 
@@ -336,25 +378,32 @@ MakeHaloRegion(const VoxelShape &       shape,
                const HaloBlock &        block,
                const ProgressCallback & progress)
 {
-  const auto & [lower, size] = shape.Box();
-  const Place low{ block.lower.x, block.lower.y, block.lower.z };
-  const Place high{ block.upper.x, block.upper.y, block.upper.z };
-  Range       voxels; // of the block, relative to the shape's box
-  VoxelBox    indices;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  const std::optional<Range> voxels = VoxelsOf(block, shape.Box());
+  if (!voxels)
   {
-    voxels.lower[axis] = low[axis] - lower[axis];
-    voxels.upper[axis] = std::min(high[axis] - lower[axis], size[axis]);
-    if (voxels.lower[axis] >= voxels.upper[axis])
-    {
-      return {};
-    }
-    indices.lower[axis] = low[axis];
-    indices.size[axis] = voxels.upper[axis] - voxels.lower[axis];
+    return {};
   }
-  RegionMaker maker(shape, weights, voxels);
+  const NearestVertex nearest(shape, weights);
+  RegionMaker         maker(shape, weights, nearest, *voxels);
   maker.Measure(progress);
-  return ComponentsThatMeet(maker.Restrict(), indices);
+  return ComponentsThatMeet(maker.Restrict(), AsBox(*voxels, shape.Box()));
+}
+
+VoxelBox
+HaloBox(const VoxelShape &       shape,
+        const SpacingWeights &   weights,
+        const NearestVertex &    nearest,
+        const HaloBlock &        block,
+        const ProgressCallback & progress)
+{
+  const std::optional<Range> voxels = VoxelsOf(block, shape.Box());
+  if (!voxels)
+  {
+    return {};
+  }
+  RegionMaker maker(shape, weights, nearest, *voxels);
+  maker.Measure(progress);
+  return AsBox(maker.Around(), shape.Box());
 }
 
 } // namespace voxelcore

@@ -1,6 +1,8 @@
 #pragma once
 // The part of a shape that decides which cells have their centre in a block (HaloBlocks.h says why).
 
+#include "NearestVertex.h"
+
 #include "voxelcore/HaloBlocks.h"
 
 namespace voxelcore
@@ -13,5 +15,14 @@ MakeHaloRegion(const VoxelShape &       shape,
                const SpacingWeights &   weights,
                const HaloBlock &        block,
                const ProgressCallback & progress);
+
+/** The voxels, in indices of the scan, that MakeHaloRegion() looks at. No voxels when the block holds none.
+ *  `nearest` is that of the shape. */
+VoxelBox
+HaloBox(const VoxelShape &       shape,
+        const SpacingWeights &   weights,
+        const NearestVertex &    nearest,
+        const HaloBlock &        block,
+        const ProgressCallback & progress);
 
 } // namespace voxelcore

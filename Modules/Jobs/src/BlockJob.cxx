@@ -1,6 +1,7 @@
 #include "voxelcore/BlockJob.h"
 
 #include "JobTools.h"
+#include "PlannedBlock.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/HaloBlocks.h"
 #include "voxelcore/OutputNames.h"
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace voxelcore
@@ -101,10 +103,17 @@ FindParts(const fs::path & folder, const std::string & start)
   return files;
 }
 
-void
-WriteShareFile(const fs::path & path, const BlockShare & share)
+/** Writes the share of a label under the name it gets in the end. */
+BlockPart
+WriteShare(const BlockShare &   share,
+           std::int64_t         label,
+           std::int64_t         component,
+           const std::string &  name,
+           const BlockOptions & options,
+           OutputTransaction &  transaction)
 {
-  OutputStream file(path);
+  const fs::path target = BlockPath(options, label, component);
+  OutputStream   file(transaction.Stage(target));
   try
   {
     WriteBlockShare(share, file);
@@ -115,6 +124,86 @@ WriteShareFile(const fs::path & path, const BlockShare & share)
     throw;
   }
   file.Finish();
+  return {
+    label, component, name, share.cells.tetrahedra.size(), share.boundaryVertices, share.subshapeVertices, target
+  };
+}
+
+constexpr double kReadEnds = 0.2;
+
+/** The progress of one label of several. */
+ProgressCallback
+ProgressOf(const JobContext & context, const std::string & name, std::size_t label, std::size_t count)
+{
+  const auto at = [&](std::size_t number) {
+    return kReadEnds + (1 - kReadEnds) * static_cast<double>(number) / static_cast<double>(count);
+  };
+  return PartOfProgress(context.progress, name, at(label), at(label + 1));
+}
+
+/** The blocks of all labels, from the voxels around them. */
+void
+ComputeFrom(PlannedBlock &       found,
+            const BlockOptions & options,
+            OutputTransaction &  transaction,
+            const JobContext &   context,
+            BlockResult &        result)
+{
+  result.warnings = found.warnings;
+  const std::size_t count = found.plan.labels.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const PlannedLabel & label = found.plan.labels[i];
+    const BlockShare     share = ComputeBlockShare(found.shapes[i],
+                                               found.weights,
+                                               label.plan,
+                                               label.regions[options.block - 1],
+                                               options.block - 1,
+                                               options.core.engine,
+                                               ProgressOf(context, label.name, i, count));
+    result.parts.push_back(WriteShare(share, label.value, 0, label.name, options, transaction));
+    found.shapes[i] = VoxelShape();
+  }
+}
+
+/** The blocks of all labels, from the whole scan; with a plan for the others, where they can do with less. */
+std::optional<ScanPlan>
+ComputeFromWhole(const BlockOptions & options,
+                 OutputTransaction &  transaction,
+                 const JobContext &   context,
+                 BlockResult &        result)
+{
+  const CoreOptions & core = options.core;
+  LabelMap            volume =
+    ReadScanOrMesh(core.scan, core.reading, core.resolution, PartOfProgress(context.progress, "reading", 0, kReadEnds));
+  EditedLabels            edited = EditLabels(std::move(volume.labels),
+                                   core.edits,
+                                   core.reading.labels != "all",
+                                   core.scan.string(),
+                                   PartOfProgress(context.progress, kReadEnds, kReadEnds));
+  const SpacingWeights    weights = ScanWeights(volume.geometry, core.scan);
+  std::optional<ScanPlan> kept;
+  if (CanReadBlockAlone(options))
+  {
+    kept = ScanPlan{ PlanSource(options), {} };
+  }
+  result.warnings = volume.warnings;
+  for (std::size_t i = 0; i < edited.labels.size(); ++i)
+  {
+    EditedLabel &    one = edited.labels[i];
+    const auto       progress = ProgressOf(context, one.label.name, i, edited.labels.size());
+    const BlockPlan  plan = PlanBlocks(one.label.shape, weights, options.blocks);
+    const BlockShare share =
+      ComputeBlockShare(one.label.shape, weights, plan, options.block - 1, core.engine, progress);
+    result.parts.push_back(WriteShare(share, one.label.value, one.component, one.label.name, options, transaction));
+    if (kept)
+    {
+      auto regions = FindBlockRegions(one.label.shape, weights, plan, progress);
+      kept->labels.push_back({ one.label.value, one.label.name, plan, std::move(regions) });
+    }
+    one.label.shape = VoxelShape();
+  }
+  return kept;
 }
 
 } // namespace
@@ -130,7 +219,6 @@ BlockResult
 RunBlockJob(const BlockOptions & options, const JobContext & given)
 {
   const JobContext    context = ForwardOnly(given);
-  constexpr double    kReadEnds = 0.2;
   const CoreOptions & core = options.core;
   if (options.block < 1 || options.block > options.blocks)
   {
@@ -144,41 +232,22 @@ RunBlockJob(const BlockOptions & options, const JobContext & given)
   OutputTransaction transaction(core.force, context.temporaries);
   transaction.Protect(core.scan);
   transaction.MakeDirectory(core.output);
-  LabelMap volume =
-    ReadScanOrMesh(core.scan, core.reading, core.resolution, PartOfProgress(context.progress, "reading", 0, kReadEnds));
-  EditedLabels         edited = EditLabels(std::move(volume.labels),
-                                   core.edits,
-                                   core.reading.labels != "all",
-                                   core.scan.string(),
-                                   PartOfProgress(context.progress, kReadEnds, kReadEnds));
-  const SpacingWeights weights = ScanWeights(volume.geometry, core.scan);
-  BlockResult          result;
-  result.warnings = volume.warnings;
-  for (std::size_t i = 0; i < edited.labels.size(); ++i)
+  BlockResult result;
+  if (CanReadBlockAlone(options))
   {
-    const auto at = [&](std::size_t label) {
-      return kReadEnds + (1 - kReadEnds) * static_cast<double>(label) / static_cast<double>(edited.labels.size());
-    };
-    EditedLabel &    one = edited.labels[i];
-    const BlockPlan  plan = PlanBlocks(one.label.shape, weights, options.blocks);
-    const BlockShare share = ComputeBlockShare(one.label.shape,
-                                               weights,
-                                               plan,
-                                               options.block - 1,
-                                               core.engine,
-                                               PartOfProgress(context.progress, one.label.name, at(i), at(i + 1)));
-    const fs::path   file = BlockPath(options, one.label.value, one.component);
-    WriteShareFile(transaction.Stage(file), share);
-    result.parts.push_back({ one.label.value,
-                             one.component,
-                             one.label.name,
-                             share.cells.tetrahedra.size(),
-                             share.boundaryVertices,
-                             share.subshapeVertices,
-                             file });
-    one.label.shape = VoxelShape();
+    if (auto found = ReadPlannedBlock(options, PartOfProgress(context.progress, "reading", 0, kReadEnds)))
+    {
+      ComputeFrom(*found, options, transaction, context, result);
+      Finish(transaction, context);
+      return result;
+    }
   }
+  const std::optional<ScanPlan> plan = ComputeFromWhole(options, transaction, context, result);
   Finish(transaction, context);
+  if (plan)
+  {
+    KeepPlan(*plan, options, context);
+  }
   return result;
 }
 

@@ -44,7 +44,9 @@ struct BlockResult
 std::filesystem::path
 BlockPath(const BlockOptions & options, std::int64_t label, std::int64_t component);
 
-/** Computes one block of every label and writes each into a file of its own. All files appear, or none.
+/** Computes one block of every label and writes each into a file of its own. All files appear, or none. Unless labels
+ *  are edited, the first run keeps a plan beside them, "<folder>/<scan>_blocks-<n>.vcp"; later ones read only the part
+ *  of the scan that their block needs, as long as scan and options are those of the plan.
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 BlockResult
 RunBlockJob(const BlockOptions & options, const JobContext & context = {});
