@@ -73,6 +73,55 @@ MrcBytes()
 }
 
 std::string
+LsmBytes(const LsmLayout & layout)
+{
+  std::string block = Raw<std::uint32_t>(layout.magic) + Raw<std::int32_t>(512);
+  for (const int side : { layout.width, static_cast<int>(kJ), layout.slices, layout.channels, layout.frames, 1, 8, 8 })
+  {
+    block += Raw<std::int32_t>(side);
+  }
+  for (const double metres : layout.metres)
+  {
+    block += Raw<double>(metres);
+  }
+  block += std::string(24, '\0') + Raw<std::uint16_t>(static_cast<std::uint16_t>(layout.kind));
+  block.resize(layout.blockBytes, '\0');
+  constexpr std::uint16_t kNewSubfileType = 254;
+  constexpr std::uint16_t kPlanarConfig = 284;
+  const std::string       values = RawAll<std::uint8_t>(ForeignValues());
+  std::vector<TiffPage>   pages;
+  for (int number = 0; number < (layout.frames == 2 ? 2 : 1) * static_cast<int>(kK); ++number)
+  {
+    TiffPage page;
+    page.width = kI;
+    page.height = kJ;
+    page.samples = layout.channels;
+    page.more = { { kNewSubfileType, 0 } };
+    page.parts.push_back(values.substr(static_cast<std::size_t>(number) % kK * kI * kJ, kI * kJ));
+    if (layout.channels == 2)
+    {
+      page.more.push_back({ kPlanarConfig, 2 });
+      page.parts.emplace_back(kI * kJ, '\0');
+    }
+    if (number == 0)
+    {
+      page.blocks = { { 34412, block } };
+    }
+    pages.push_back(page);
+    if (layout.thumbnails)
+    {
+      TiffPage small;
+      small.width = 8;
+      small.height = 8;
+      small.more = { { kNewSubfileType, 1 } };
+      small.parts = { std::string(64, 'c') };
+      pages.push_back(small);
+    }
+  }
+  return Tiff(pages);
+}
+
+std::string
 GiplBytes()
 {
   std::string header;

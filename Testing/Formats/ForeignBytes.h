@@ -1,7 +1,9 @@
 #pragma once
-// Small scans of formats that are read through ITK and GDCM, byte by byte as their formats define them. All hold
-// ForeignValues(), 6 x 5 x 4 voxels.
+// Small scans of formats that ITK and GDCM read, byte by byte as their formats define them. All hold ForeignValues(),
+// 6 x 5 x 4 voxels.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -25,6 +27,24 @@ GiplBytes();
 /** Legacy VTK, STRUCTURED_POINTS, short, 0.5 x 0.75 x 2 mm. */
 std::string
 VtkBytes(bool text);
+
+/** What the block of an LSM file says; pages are there for one frame of four slices, for two with `frames` 2. */
+struct LsmLayout
+{
+  std::array<double, 3> metres{ 2e-7, 3e-7, 5e-7 };
+  bool                  thumbnails = true;
+  int                   width = 6;
+  int                   slices = 4;
+  int                   channels = 1; ///< the second holds 0
+  int                   frames = 1;
+  int                   kind = 0;
+  std::uint32_t         magic = 0x0400494C;
+  std::size_t           blockBytes = 512;
+};
+
+/** LSM of Zeiss, unsigned bytes, each slice followed by its thumbnail. */
+std::string
+LsmBytes(const LsmLayout & layout = {});
 
 /** An element of a DICOM data set, explicit VR, little endian. */
 std::string

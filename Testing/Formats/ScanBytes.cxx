@@ -236,6 +236,10 @@ Tiff(const std::vector<TiffPage> & pages, const TiffLayout & layout)
       const auto millionths = static_cast<std::uint32_t>(std::lround(value * 1e6));
       entries.push_back({ tag, 5, 1, Raw<std::uint32_t>(millionths, big) + Raw<std::uint32_t>(1000000, big) });
     }
+    for (const auto & [tag, bytes] : page.blocks)
+    {
+      entries.push_back({ tag, 1, bytes.size(), bytes });
+    }
     std::sort(entries.begin(), entries.end(), [](const Entry & a, const Entry & b) { return a.tag < b.tag; });
     const std::size_t inlineBytes = wide ? 8 : 4;
     for (Entry & entry : entries)

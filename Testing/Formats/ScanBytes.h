@@ -115,6 +115,7 @@ struct TiffPage
   std::vector<std::pair<std::uint16_t, std::uint32_t>> more; ///< further LONG tags
   std::vector<std::string>                             parts;
   std::vector<std::pair<std::uint16_t, double>>        rationals{}; ///< in millionths
+  std::vector<std::pair<std::uint16_t, std::string>>   blocks{};    ///< further BYTE tags, more than four bytes each
 };
 struct TiffLayout
 {

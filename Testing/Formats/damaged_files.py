@@ -2,7 +2,7 @@
 memory
 than what the file's bytes can stand for. The process reads one after the other; a new one takes its place when it dies.
 
-usage: damaged_files.py DUMP_PROGRAM mgh|zarr|tiff COUNT      exit 77: what writes the format is not there
+usage: damaged_files.py DUMP_PROGRAM mgh|zarr|tiff|lsm COUNT      exit 77: what writes the format is not there
 """
 import json
 import os
@@ -45,6 +45,17 @@ def write_tiff(folder):
     tifffile.imwrite(folder / "c.tif", values[0, :, 0], photometric="minisblack", compression="zlib", tile=(16, 16))
     tifffile.imwrite(folder / "d.tif", values[0, :, 0], photometric="minisblack", bigtiff=True)
     names = [folder / f"{letter}.tif" for letter in "abcd"]
+    return [[name] for name in names], names
+
+
+def write_lsm(folder):
+    import lsm_test
+    import numpy
+    values = numpy.zeros((2, 6, 20, 16), numpy.uint16)
+    values[:, 1:5, 3:12, 4:9] = 7
+    lsm_test.write_lsm(folder / "a.lsm", values[:1], (1e-6, 1e-6, 2e-6))
+    lsm_test.write_lsm(folder / "b.lsm", values, (1e-6, 1e-6, 2e-6))
+    names = [folder / "a.lsm", folder / "b.lsm"]
     return [[name] for name in names], names
 
 
@@ -141,7 +152,8 @@ def main(dump, form, count):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         try:
-            parts, scans = {"mgh": write_mgh, "tiff": write_tiff, "zarr": write_zarr}[form](folder)
+            writers = {"mgh": write_mgh, "tiff": write_tiff, "lsm": write_lsm, "zarr": write_zarr}
+            parts, scans = writers[form](folder)
         except ImportError as missing:
             print(missing)
             return 77

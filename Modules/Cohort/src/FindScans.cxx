@@ -57,6 +57,7 @@ IsVolume(const fs::path & path)
                        ".mhd",
                        ".mgh",
                        ".mgz",
+                       ".lsm",
                        ".mrc",
                        ".mnc",
                        ".gipl",

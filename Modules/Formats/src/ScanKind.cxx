@@ -27,7 +27,7 @@ ScanKindOf(const std::filesystem::path & path)
          : ends({ ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz" }) ? ScanKind::Nifti
          : ends({ ".mha", ".mhd" })                                          ? ScanKind::MetaImage
          : ends({ ".mgh", ".mgz", ".mgh.gz" })                               ? ScanKind::Mgh
-         : ends({ ".tif", ".tiff" })                                         ? ScanKind::Tiff
+         : ends({ ".tif", ".tiff", ".lsm" })                                 ? ScanKind::Tiff
          : ends({ ".png" })                                                  ? ScanKind::Png
                                                                              : ScanKind::Unknown;
 }

@@ -2,6 +2,7 @@
 
 #include "voxelcore/FormatOpeners.h"
 
+#include "LsmInfo.h"
 #include "TiffDescription.h"
 #include "TiffHandle.h"
 #include "voxelcore/TextFields.h"
@@ -158,20 +159,36 @@ InspectTiff(const std::filesystem::path & path, const ReadOptions & options)
   const std::uint64_t fileBytes = FileSize(path);
   const TiffHandle    tiff(path);
   const std::string   description = tiff.Description();
-  const PageOrder     order = ReadPageOrder(description, tiff.Field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1));
-  ReadOptions         ofPages = options;
+  const auto          lsm = ReadLsmInfo(path, tiff);
+  const PageOrder     order =
+    lsm ? lsm->pages : ReadPageOrder(description, tiff.Field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1));
+  ReadOptions ofPages = options;
   if (order.channels > 1)
   {
     ofPages.component.reset(); // chooses among pages, not among the values of a pixel
   }
   TiffPages pages = ReadPage(path, tiff, fileBytes, ofPages);
-  pages.spacing = ReadTiffSpacing(tiff, description);
+  pages.isLsm = lsm.has_value();
+  pages.spacing = lsm ? lsm->spacing : ReadTiffSpacing(tiff, description);
   pages.offsets.push_back(TIFFCurrentDirOffset(tiff.Get()));
+  if (lsm && (lsm->width != pages.width || lsm->height != pages.height))
+  {
+    tiff.RefuseDamaged("its block of LSM speaks of other pages");
+  }
+  std::uint64_t directories = 1;
   while (TIFFLastDirectory(tiff.Get()) == 0)
   {
     if (TIFFReadDirectory(tiff.Get()) == 0 || tiff.HasError())
     {
       tiff.RefuseDamaged(Text("the page after page ", pages.offsets.size(), " cannot be found"));
+    }
+    if (++directories * 8 > fileBytes)
+    {
+      tiff.RefuseDamaged("its pages go in circles");
+    }
+    if (lsm && (tiff.Field<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0) & FILETYPE_REDUCEDIMAGE) != 0)
+    {
+      continue; // a thumbnail
     }
     const TiffPages page = ReadPage(path, tiff, fileBytes, ofPages);
     if (!AreAlike(page, pages))
@@ -196,14 +213,16 @@ InspectTiff(const std::filesystem::path & path, const ReadOptions & options)
     }
     pages.lossy = pages.lossy || page.lossy;
     pages.offsets.push_back(TIFFCurrentDirOffset(tiff.Get()));
-    if (pages.offsets.size() * 8 > fileBytes)
-    {
-      tiff.RefuseDamaged("its pages go in circles");
-    }
   }
   if (tiff.HasError())
   {
     tiff.RefuseDamaged("its directory is damaged");
+  }
+  if (lsm && order.images != pages.offsets.size())
+  {
+    RefuseInput(path,
+                Text("LSM speaks of ", order.images, " slices, it has ", pages.offsets.size()),
+                "the file is truncated: fetch it anew");
   }
   pages.frames = order.frames;
   pages.offsets = ChoosePages(path, order, pages.offsets, options);
@@ -246,7 +265,7 @@ OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
   }
   ScanFile scan;
   scan.path = path;
-  scan.format = "TIFF";
+  scan.format = pages.isLsm ? "LSM" : "TIFF";
   DescribeTiff(pages, scan);
   scan.geometry.size = { pages.width, pages.height, static_cast<std::int64_t>(pages.offsets.size()) };
   ChooseVolume(path, pages.frames, options);

@@ -26,6 +26,7 @@ struct TiffPages
   PixelType                  type = PixelType::UInt8;
   bool                       minIsWhite = false;
   bool                       lossy = false;
+  bool                       isLsm = false;
   std::vector<std::uint64_t> offsets;    ///< of the directory of each page to read, in the file
   std::uint64_t              frames = 1; ///< of which options.volume chose one
   StatedSpacing              spacing;    ///< as the first page states it

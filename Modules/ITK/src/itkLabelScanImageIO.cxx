@@ -90,7 +90,7 @@ LabelScanImageIO::LabelScanImageIO()
 {
   this->SetNumberOfDimensions(3);
   for (const char * extension :
-       { ".nrrd", ".nhdr", ".nii", ".nii.gz", ".hdr", ".img", ".mha", ".mhd", ".tif", ".tiff" })
+       { ".nrrd", ".nhdr", ".nii", ".nii.gz", ".hdr", ".img", ".mha", ".mhd", ".tif", ".tiff", ".lsm" })
   {
     this->AddSupportedReadExtension(extension);
   }

@@ -30,6 +30,9 @@ constexpr std::string_view kDicomContours = "1.2.840.10008.5.1.4.1.1.481.3"sv;
 constexpr std::string_view kDicomAdvice =
   "convert its series with 'dcm2niix -z y -o OUT FOLDER', or load it in 3D Slicer and save it as .nrrd"sv;
 constexpr std::string_view kBioFormats = "convert it with 'bfconvert {file} {stem}.ome.tif' of Bio-Formats"sv;
+constexpr std::string_view kJpeg2000 =
+  "a volume is needed, and only lossless ones keep labels: 'opj_decompress -ImgDir SLICES -OutFor TIF', then name the "
+  "folder"sv;
 constexpr std::string_view kUnpack = "unpack it and give what is in it"sv;
 
 /** The first that fits is taken: magics before extensions. */
@@ -108,6 +111,8 @@ constexpr std::array kFormats{
                  "2-D picture",
                  "a volume is needed: save slices as TIFF or PNG and name their folder" },
   ForeignFormat{ " gif ", 0, "GIF8"sv, "2-D picture", "save slices as TIFF or PNG and name their folder" },
+  ForeignFormat{ " jp2 jpx ", 0, "\0\0\0\x0CjP  \r\n\x87\n"sv, "JPEG 2000 picture", kJpeg2000 },
+  ForeignFormat{ " j2k j2c jpc ", 0, "\xFF\x4F\xFF\x51"sv, "JPEG 2000 picture", kJpeg2000 },
   ForeignFormat{ "", 0, "NRRD0"sv, "NRRD file of another extension", "name it {stem}.nrrd" },
   ForeignFormat{ "", 344, "n+1\0"sv, "NIfTI file of another extension", "name it {stem}.nii" },
   ForeignFormat{ "", 0, "II*\0"sv, "TIFF file of another extension", "name it {stem}.tif, or open it in Fiji" },
@@ -136,7 +141,7 @@ constexpr std::array kFormats{
                  "GIPL volume",
                  "convert it with 'c3d {file} -o {stem}.nii.gz' (Convert3D), or save it as .nii.gz in ITK-SNAP",
                  ItkFormat::Gipl },
-  ForeignFormat{ " oif vsi lsm stk ndpi svs scn dv r3d lei zvi ", SIZE_MAX, ""sv, "microscope file", kBioFormats },
+  ForeignFormat{ " oif vsi stk ndpi svs scn dv r3d lei zvi ", SIZE_MAX, ""sv, "microscope file", kBioFormats },
   ForeignFormat{ " n5 ", SIZE_MAX, ""sv, "N5 store", "open it in Fiji and save its labels as TIFF" },
   ForeignFormat{ " par rec ",
                  SIZE_MAX,
@@ -157,12 +162,21 @@ constexpr std::array kFormats{
                  ""sv,
                  "Python data",
                  "write the array with tifffile, or use the Python module voxelcore" },
-  ForeignFormat{ " webp heic jp2 jpx ",
-                 SIZE_MAX,
-                 ""sv,
-                 "2-D picture",
-                 "save slices as TIFF or PNG and name their folder" },
+  ForeignFormat{ " webp heic ", SIZE_MAX, ""sv, "2-D picture", "save slices as TIFF or PNG and name their folder" },
 };
+
+/** Bruker's 2dseq has no extension and no magic: visu_pars beside it says what it is. */
+void
+RefuseBruker(const std::filesystem::path & file)
+{
+  std::error_code ignored;
+  if (file.filename() == "2dseq" && std::filesystem::exists(file.parent_path() / "visu_pars", ignored))
+  {
+    RefuseInput(file,
+                "images of a Bruker scanner (2dseq), not read directly",
+                "convert the folder of the study with 'brkraw tonii' or Bru2Nii");
+  }
+}
 
 std::string
 Filled(std::string_view advice, const std::filesystem::path & path)
@@ -278,6 +292,7 @@ IsDicomFolder(const std::filesystem::path & path)
 void
 RefuseForeign(const std::filesystem::path & path)
 {
+  RefuseBruker(path);
   const std::string bytes = FirstBytes(path);
   if (const ForeignFormat * format = FindFormat(path, bytes))
   {
@@ -313,6 +328,7 @@ RefuseForeignFolder(const std::filesystem::path & path)
   {
     RefuseInput(path, "N5 store, not read directly", "open it in Fiji and save its labels as TIFF");
   }
+  RefuseBruker(path / "2dseq");
   for (const auto & file : FirstFiles(path))
   {
     const ForeignFormat * format = FindFormat(file, FirstBytes(file));

@@ -17,6 +17,7 @@ namespace voxelcore
  *  - NIfTI-1 and -2 (.nii, .nii.gz, .hdr/.img, .hdr.gz/.img.gz);
  *  - MetaImage (.mha, .mhd; raw, compressed, text);
  *  - TIFF (.tif, .tiff; many pages, BigTIFF, tiles, packed bits, any compression of libtiff);
+ *  - LSM of Zeiss microscopes (.lsm);
  *  - bare voxels (.raw .vol .bin .dat) with options.raw, or with a text beside them: a .dat with Resolution,
  *    SliceThickness and Format (OpenQVis, North Star), or lines as of MetaImage in .mhd, .txt or .info;
  *  - through ITK and GDCM, by a program of its own: DICOM series, multi-frame images and segmentations, MRC, MINC,
