@@ -1,3 +1,4 @@
+#include "BurnNetwork.h"
 #include "SkeletonFixtures.h"
 
 #include "voxelcore/ErosionThickness.h"
@@ -9,6 +10,114 @@ namespace
 {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/** Burn times of vertices by trying every way again and again until no time falls any more. */
+std::vector<double>
+TimesByTrying(const MedialComplex & surface, double sampling)
+{
+  const BurnNetwork   network(surface, sampling);
+  const CellComplex & cells = surface.cells;
+  std::vector<double> times(network.SectorCount(), kInfinity);
+  const auto          atSample = [&](std::uint32_t corner, ElementIndex edge, std::uint32_t i) {
+    return std::pair{ network.sides[corner].sector[1] + i, network.edgeFirst[edge].point + i };
+  };
+  struct Place
+  {
+    std::uint32_t sector;
+    Vector3       at;
+    double        radius;
+  };
+  std::vector<std::vector<Place>> faces(cells.FaceCount());
+  for (std::size_t face = 0; face < cells.FaceCount(); ++face)
+  {
+    for (std::uint64_t corner = cells.faceOffsets[face]; corner < cells.faceOffsets[face + 1]; ++corner)
+    {
+      const auto         c = static_cast<std::uint32_t>(corner);
+      const ElementIndex vertex = cells.faceVertices[corner];
+      const ElementIndex edge = cells.faceEdges[corner];
+      faces[face].push_back({ network.sides[c].sector[0], surface.positions[vertex], surface.radius[vertex] });
+      if (network.openSector[network.sides[c].sector[0]])
+      {
+        times[network.sides[c].sector[0]] = surface.radius[vertex];
+      }
+      for (std::uint32_t i = 0; i < network.SampleCount(edge); ++i)
+      {
+        const auto [sector, point] = atSample(c, edge, i);
+        faces[face].push_back({ sector, network.Position(point), network.SampleRadius(edge, i) });
+        if (network.EdgeFaceCount(edge) == 1)
+        {
+          times[sector] = network.SampleRadius(edge, i);
+        }
+      }
+    }
+  }
+  for (bool falls = true; falls;)
+  {
+    falls = false;
+    const auto note = [&](std::uint32_t sector, double time) {
+      if (time < times[sector])
+      {
+        times[sector] = time;
+        falls = true;
+      }
+    };
+    // A sector at a seam burns when all others there have.
+    const auto free = [&](const std::vector<std::uint32_t> & seam) {
+      for (std::size_t i = 0; i < seam.size(); ++i)
+      {
+        double latest = 0;
+        for (std::size_t j = 0; j < seam.size(); ++j)
+        {
+          latest = j == i ? latest : std::max(latest, times[seam[j]]);
+        }
+        note(seam[i], latest);
+      }
+    };
+    for (const auto & places : faces)
+    {
+      for (const Place & from : places)
+      {
+        for (const Place & to : places)
+        {
+          const Vector3 way = Minus(to.at, from.at);
+          note(to.sector, std::max(times[from.sector] + std::sqrt(Dot(way, way)), to.radius));
+        }
+      }
+    }
+    for (std::size_t vertex = 0; vertex < cells.vertexCount; ++vertex)
+    {
+      std::map<ElementIndex, std::vector<std::uint32_t>> seams;
+      for (std::uint32_t i = network.seamEndOffsets[vertex]; i < network.seamEndOffsets[vertex + 1]; ++i)
+      {
+        seams[network.seamEnds[i].edge].push_back(network.seamEnds[i].sector);
+      }
+      for (const auto & [edge, seam] : seams)
+      {
+        free(seam);
+      }
+    }
+    for (std::uint32_t point = static_cast<std::uint32_t>(cells.vertexCount); point < network.PointCount(); ++point)
+    {
+      const BurnNetwork::SectorRange range = network.Sectors(point);
+      std::vector<std::uint32_t>     seam;
+      for (std::uint32_t i = 0; range.count > 1 && i < range.count; ++i)
+      {
+        seam.push_back(range.first + i * range.stride);
+      }
+      free(seam);
+    }
+  }
+  std::vector<double> result(surface.radius);
+  for (std::uint32_t vertex = 0; vertex < cells.vertexCount; ++vertex)
+  {
+    const BurnNetwork::SectorRange range = network.Sectors(vertex);
+    for (std::uint32_t i = 0; i < range.count; ++i)
+    {
+      result[vertex] = i == 0 ? times[range.first] : std::max(result[vertex], times[range.first + i]);
+    }
+  }
+  return result;
+}
 
 TEST(ErosionThickness, SheetBurnsFromItsRimInwards)
 {
@@ -119,6 +228,26 @@ TEST(ErosionThickness, IsAtLeastZeroOnRandomVolumes)
     {
       ASSERT_GE(times.vertices[v], surface.radius[v]) << volume.Describe();
     }
+  }
+}
+
+TEST(ErosionThickness, IsTheLeastBoundOverAllWays)
+{
+  for (std::uint64_t seed = 1; seed <= 40; ++seed)
+  {
+    const RandomVolume        volume = MakeRandomVolume(seed, 3, 12);
+    const MedialComplex       surface = SurfaceOf(volume.shape, volume.spacing);
+    const BurnTimes           times = ComputeBurnTimes(surface, 1);
+    const std::vector<double> expected = TimesByTrying(surface, 1);
+    for (std::size_t v = 0; v < expected.size(); ++v)
+    {
+      ASSERT_EQ(times.vertices[v], expected[v]) << volume.Describe() << ", vertex " << v;
+    }
+  }
+  for (const char * kind : { "gyroid", "root", "ellipsoid" })
+  {
+    const MedialComplex surface = SurfaceOf(PhantomShape(kind, 40, 2));
+    ASSERT_EQ(ComputeBurnTimes(surface, 1.5).vertices, TimesByTrying(surface, 1.5)) << kind;
   }
 }
 

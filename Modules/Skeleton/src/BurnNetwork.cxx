@@ -1,16 +1,25 @@
 #include "BurnNetwork.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <utility>
 
 namespace voxelcore
 {
 
 namespace
 {
+
+// Along an edge whose radius grows so fast fire hardly needs longer than the radius says, from whichever point it
+// comes. Most of the fringe that voxels make is like that.
+constexpr double kSteep = 0.95;
+
+constexpr std::size_t kFewVertices = 10000; // for one thread
 
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max() - 1;
 
@@ -88,9 +97,11 @@ BurnNetwork::BurnNetwork(const MedialComplex & complex, double sampling)
 void
 BurnNetwork::BuildIncidence()
 {
-  Bucket(m_Cells->vertexCount, *m_Cells, m_Cells->faceVertices, vertexCornerOffsets, vertexCorners);
   std::vector<std::uint32_t> sideOffsets;
-  Bucket(m_Cells->edges.size(), *m_Cells, m_Cells->faceEdges, sideOffsets, edgeSides);
+  RunBoth(
+    m_Cells->vertexCount > kFewVertices,
+    [&] { Bucket(m_Cells->vertexCount, *m_Cells, m_Cells->faceVertices, vertexCornerOffsets, vertexCorners); },
+    [&] { Bucket(m_Cells->edges.size(), *m_Cells, m_Cells->faceEdges, sideOffsets, edgeSides); });
   edgeFirst.resize(sideOffsets.size());
   for (std::size_t edge = 0; edge < sideOffsets.size(); ++edge)
   {
@@ -112,6 +123,10 @@ BurnNetwork::PlaceSamples(double sampling)
     }
     const auto   ends = m_Cells->edges[edge];
     const double length = Distance(m_Complex->positions[ends[0]], m_Complex->positions[ends[1]]);
+    if (std::abs(m_Complex->radius[ends[0]] - m_Complex->radius[ends[1]]) > kSteep * length)
+    {
+      continue;
+    }
     const double ideal = sampling > 0 ? std::min(std::max(length / sampling - 1, 1.0), 1000.0) : 1.0;
     points += static_cast<std::uint32_t>(ideal + 0.5);
     RequireIndexable(points, "sample points");
@@ -137,18 +152,17 @@ BurnNetwork::SampleRadius(ElementIndex edge, std::uint32_t rank) const
   return RadiusBetween(ra, rb, Dot(way, way), static_cast<double>(rank + 1) / (SampleCount(edge) + 1));
 }
 
-void
-BurnNetwork::BuildSectors()
+BurnNetwork::SectorPart
+BurnNetwork::FindSectors(std::size_t firstVertex, std::size_t lastVertex)
 {
-  vertexSectorOffsets.reserve(m_Cells->vertexCount + 1);
-  seamEndOffsets.reserve(m_Cells->vertexCount + 1);
-  sides.resize(m_Cells->faceVertices.size());
-  Fan fan;
-  for (std::size_t vertex = 0; vertex < m_Cells->vertexCount; ++vertex)
+  SectorPart part{ firstVertex, lastVertex, {}, {} };
+  Fan        fan;
+  for (std::size_t vertex = firstVertex; vertex < lastVertex; ++vertex)
   {
-    const auto firstSector = static_cast<std::uint32_t>(openSector.size());
-    vertexSectorOffsets.push_back(firstSector);
-    seamEndOffsets.push_back(static_cast<std::uint32_t>(seamEnds.size()));
+    const auto firstSector = static_cast<std::uint32_t>(part.open.size());
+    const auto firstEnd = static_cast<std::uint32_t>(part.seamEnds.size());
+    vertexSectorOffsets[vertex] = firstSector;
+    seamEndOffsets[vertex] = firstEnd;
     const std::uint32_t first = vertexCornerOffsets[vertex];
     const std::uint32_t count = vertexCornerOffsets[vertex + 1] - first;
     fan.corners.resize(count);
@@ -183,17 +197,17 @@ BurnNetwork::BuildSectors()
       Fan::Corner & corner = fan.corners[i];
       if (corner.label == i)
       {
-        corner.rank = static_cast<std::uint32_t>(openSector.size());
-        openSector.push_back(0);
+        corner.rank = static_cast<std::uint32_t>(part.open.size());
+        part.open.push_back(0);
       }
       corner.rank = fan.corners[corner.label].rank;
       sides[vertexCorners[first + i].corner].sector[0] = corner.rank;
       if (corner.sides[0].faces == 1 || corner.sides[1].faces == 1)
       {
-        openSector[corner.rank] = 1;
+        part.open[corner.rank] = 1;
       }
     }
-    if (openSector.size() > firstSector + std::size_t{ 1 })
+    if (part.open.size() > firstSector + std::size_t{ 1 })
     {
       for (const Fan::Corner & corner : fan.corners)
       {
@@ -201,17 +215,64 @@ BurnNetwork::BuildSectors()
         {
           if (side.faces >= 3)
           {
-            seamEnds.push_back({ side.edge, corner.rank });
+            part.seamEnds.push_back({ side.edge, corner.rank });
           }
         }
       }
-      std::sort(seamEnds.begin() + seamEndOffsets.back(), seamEnds.end(), [](const SeamEnd & a, const SeamEnd & b) {
+      std::sort(part.seamEnds.begin() + firstEnd, part.seamEnds.end(), [](const SeamEnd & a, const SeamEnd & b) {
         return a.edge != b.edge ? a.edge < b.edge : a.sector < b.sector;
       });
     }
   }
-  seamEndOffsets.push_back(static_cast<std::uint32_t>(seamEnds.size()));
-  vertexSectorOffsets.push_back(static_cast<std::uint32_t>(openSector.size()));
+  return part;
+}
+
+void
+BurnNetwork::BuildSectors()
+{
+  const std::size_t vertexCount = m_Cells->vertexCount;
+  const bool        worthIt = vertexCount > kFewVertices;
+  vertexSectorOffsets.resize(vertexCount + 1);
+  seamEndOffsets.resize(vertexCount + 1);
+  sides.resize(m_Cells->faceVertices.size());
+  std::vector<SectorPart> parts;
+  std::mutex              guard;
+  RunInParts(worthIt, vertexCount, [&](std::size_t first, std::size_t last) {
+    SectorPart             part = FindSectors(first, last);
+    const std::scoped_lock lock(guard);
+    parts.push_back(std::move(part));
+  });
+  std::sort(parts.begin(), parts.end(), [](const SectorPart & a, const SectorPart & b) {
+    return a.firstVertex < b.firstVertex;
+  });
+  // Each part numbered its own from 0 on.
+  for (SectorPart & part : parts)
+  {
+    const auto firstSector = static_cast<std::uint32_t>(openSector.size());
+    const auto firstEnd = static_cast<std::uint32_t>(seamEnds.size());
+    RequireIndexable(openSector.size() + part.open.size(), "sectors");
+    openSector.insert(openSector.end(), part.open.begin(), part.open.end());
+    for (SeamEnd & end : part.seamEnds)
+    {
+      end.sector += firstSector;
+    }
+    seamEnds.insert(seamEnds.end(), part.seamEnds.begin(), part.seamEnds.end());
+    RunInParts(worthIt && firstSector > 0,
+               part.lastVertex - part.firstVertex,
+               [&](std::size_t first, std::size_t last) {
+                 for (std::size_t vertex = part.firstVertex + first; vertex < part.firstVertex + last; ++vertex)
+                 {
+                   vertexSectorOffsets[vertex] += firstSector;
+                   seamEndOffsets[vertex] += firstEnd;
+                   for (std::uint32_t i = vertexCornerOffsets[vertex]; i < vertexCornerOffsets[vertex + 1]; ++i)
+                   {
+                     sides[vertexCorners[i].corner].sector[0] += firstSector;
+                   }
+                 }
+               });
+  }
+  seamEndOffsets.back() = static_cast<std::uint32_t>(seamEnds.size());
+  vertexSectorOffsets.back() = static_cast<std::uint32_t>(openSector.size());
   std::uint64_t sectors = openSector.size();
   for (ElementIndex edge = 0; edge < m_Cells->edges.size(); ++edge)
   {
@@ -226,22 +287,28 @@ BurnNetwork::BuildSectors()
 void
 BurnNetwork::BuildSides()
 {
-  for (std::size_t corner = 0; corner < sides.size(); ++corner)
-  {
-    sides[corner].point[0] = m_Cells->faceVertices[corner];
-  }
-  for (ElementIndex edge = 0; edge < m_Cells->edges.size(); ++edge)
-  {
-    const EdgeFirst &   at = edgeFirst[edge];
-    const std::uint32_t row = EdgeFaceCount(edge) >= 3 ? SampleCount(edge) : 0;
-    std::uint32_t       sector = at.sector;
-    for (std::uint32_t i = at.side; i < edgeFirst[edge + std::size_t{ 1 }].side; ++i, sector += row)
+  const bool worthIt = m_Cells->vertexCount > kFewVertices;
+  RunInParts(worthIt, sides.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t corner = first; corner < last; ++corner)
     {
-      Side & side = sides[edgeSides[i].corner];
-      side.sector[1] = sector;
-      side.point[1] = at.point;
+      sides[corner].point[0] = m_Cells->faceVertices[corner];
     }
-  }
+  });
+  RunInParts(worthIt, m_Cells->edges.size(), [&](std::size_t firstEdge, std::size_t lastEdge) {
+    for (std::size_t edge = firstEdge; edge < lastEdge; ++edge)
+    {
+      const EdgeFirst &   at = edgeFirst[edge];
+      const auto          number = static_cast<ElementIndex>(edge);
+      const std::uint32_t row = EdgeFaceCount(number) >= 3 ? SampleCount(number) : 0;
+      std::uint32_t       sector = at.sector;
+      for (std::uint32_t i = at.side; i < edgeFirst[edge + 1].side; ++i, sector += row)
+      {
+        Side & side = sides[edgeSides[i].corner];
+        side.sector[1] = sector;
+        side.point[1] = at.point;
+      }
+    }
+  });
 }
 
 } // namespace voxelcore

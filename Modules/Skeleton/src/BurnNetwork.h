@@ -173,6 +173,17 @@ private:
   BuildIncidence();
   void
   PlaceSamples(double sampling);
+  /** Sectors of some vertices, numbered from 0 on. */
+  struct SectorPart
+  {
+    std::size_t               firstVertex;
+    std::size_t               lastVertex;
+    std::vector<std::uint8_t> open;
+    std::vector<SeamEnd>      seamEnds;
+  };
+
+  SectorPart
+  FindSectors(std::size_t firstVertex, std::size_t lastVertex);
   void
   BuildSectors();
   void

@@ -14,7 +14,7 @@ SurfaceFire::TimeOf(const SectorRange & range) const
   double time = 0;
   for (std::uint32_t i = 0; i < range.count; ++i)
   {
-    time = std::max(time, std::abs(m_Arrival[range.first + i * range.stride]));
+    time = std::max(time, std::abs(m_Times[range.first + i * range.stride]));
   }
   return time;
 }
@@ -24,6 +24,35 @@ SurfaceFire::TimeOfVertex(ElementIndex vertex) const
 {
   const SectorRange range = m_Network.Sectors(vertex);
   return range.count == 0 ? m_Complex.radius[vertex] : TimeOf(range);
+}
+
+double
+SurfaceFire::TimeOfEdge(ElementIndex edge, const std::vector<double> & vertices) const
+{
+  const BurnNetwork::EdgeFirst & first = m_Network.edgeFirst[edge];
+  const BurnNetwork::EdgeFirst & end = m_Network.edgeFirst[edge + std::size_t{ 1 }];
+  double                         time = 0;
+  if (first.point < end.point)
+  {
+    for (std::uint32_t point = first.point; point < end.point; ++point)
+    {
+      time += TimeOf(m_Network.Sectors(point));
+    }
+    return time / (end.point - first.point);
+  }
+  if (first.side == end.side)
+  {
+    const auto & ends = m_Cells.edges[edge];
+    return 0.5 * (vertices[ends[0]] + vertices[ends[1]]);
+  }
+  for (std::uint32_t i = first.side; i < end.side; ++i)
+  {
+    const BurnNetwork::FaceCorner & at = m_Network.edgeSides[i];
+    const double                    begin = Time(m_Network.sides[at.corner].sector[0]);
+    const double                    next = Time(m_Network.sides[m_Network.CornerAfter(at)].sector[0]);
+    time = std::max(time, 0.5 * (std::abs(begin) + std::abs(next)));
+  }
+  return time;
 }
 
 BurnTimes
@@ -36,17 +65,9 @@ SurfaceFire::Times() const
     times.vertices[vertex] = TimeOfVertex(vertex);
   }
   times.edges.resize(m_Cells.edges.size());
-  for (std::size_t edge = 0; edge < m_Cells.edges.size(); ++edge)
+  for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
   {
-    const std::uint32_t first = m_Network.edgeFirst[edge].point;
-    const std::uint32_t end = m_Network.edgeFirst[edge + 1].point;
-    double              sum = 0;
-    for (std::uint32_t point = first; point < end; ++point)
-    {
-      sum += TimeOf(m_Network.Sectors(point));
-    }
-    const auto & ends = m_Cells.edges[edge];
-    times.edges[edge] = first < end ? sum / (end - first) : 0.5 * (times.vertices[ends[0]] + times.vertices[ends[1]]);
+    times.edges[edge] = TimeOfEdge(edge, times.vertices);
   }
   times.faces.resize(m_Cells.FaceCount());
   for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
@@ -56,7 +77,7 @@ SurfaceFire::Times() const
     double              sum = 0;
     for (std::uint64_t corner = first; corner < end; ++corner)
     {
-      sum += std::abs(m_Arrival[m_Network.sides[corner].sector[0]]);
+      sum += std::abs(m_Times[m_Network.sides[corner].sector[0]]);
     }
     times.faces[face] = sum / static_cast<double>(end - first);
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
 
 namespace voxelcore
 {
@@ -17,13 +16,16 @@ constexpr double kRounding = 1 + 1e-14;
 
 template <typename Place, typename Radius>
 void
-SurfaceFire::Reach(const Flame &  flame,
+SurfaceFire::Reach(Block &        block,
+                   Queue &        queue,
+                   const Flame &  flame,
                    std::uint32_t  sector,
                    const Place &  place,
                    const Radius & radius,
                    std::uint32_t  point)
 {
-  const double left = m_Arrival[sector] - flame.time;
+  const double before = Time(sector);
+  const double left = std::abs(before) - flame.time;
   if (left <= 0)
   {
     return; // burned, or as good as
@@ -34,17 +36,19 @@ SurfaceFire::Reach(const Flame &  flame,
   {
     return;
   }
-  const double arrival = std::max(flame.time + std::sqrt(squared), radius());
-  if (arrival < m_Arrival[sector])
+  const double time = std::max(flame.time + std::sqrt(squared), radius());
+  if (time >= std::abs(before))
   {
-    m_Heap.PushEarlier({ arrival, point }, std::exchange(m_Arrival[sector], arrival));
+    return;
   }
-}
-
-bool
-SurfaceFire::IsFresh(std::uint32_t sector) const
-{
-  return std::find(m_Fresh.begin(), m_Fresh.end(), sector) != m_Fresh.end();
+  if (block.Has(point, m_Cells.vertexCount))
+  {
+    Arrive(block, queue, { time, sector, point }, before);
+  }
+  else
+  {
+    block.out.push_back({ time, sector, point });
+  }
 }
 
 bool
@@ -61,56 +65,55 @@ SurfaceFire::IsOvertaken(const Flame & flame, const Entries & entries) const
 }
 
 void
-SurfaceFire::SpreadAhead(const Flame & flame, FaceAhead & face, std::uint32_t place)
+SurfaceFire::SpreadInSmallFace(Block & block, Queue & queue, const Flame & flame, std::uint32_t face)
 {
-  face.ahead &= static_cast<std::uint16_t>(~(1U << place));
-  const BurnNetwork::Side * sides = &m_Network.sides[face.first];
-  // Whether fire comes earlier is hard to foretell: first of all, then what there is to do where it does.
-  std::uint32_t                                reached = 0;
-  std::array<double, 2 * FaceAhead::mostSides> squares;
-  for (std::uint32_t left = face.ahead; left != 0; left &= left - 1)
+  const std::uint64_t       first = m_Cells.faceOffsets[face];
+  const auto                count = static_cast<std::uint32_t>(m_Cells.faceOffsets[face + std::size_t{ 1 }] - first);
+  const BurnNetwork::Side * sides = &m_Network.sides[first];
+  for (std::uint32_t left = m_Small[face]; left != 0; left &= left - 1)
   {
-    const auto          at = static_cast<std::uint32_t>(std::countr_zero(left));
-    const std::uint32_t i = at >> 1U;
-    const std::uint32_t step = at & 1U;
-    const double        most = m_Arrival[sides[i].sector[step]] - flame.time;
-    const Vector3 &     a = m_Complex.positions[sides[i].point[0]];
-    const Vector3 &     b = m_Complex.positions[sides[i + step == face.sides ? 0 : i + step].point[0]];
-    // A corner is halfway between itself and itself.
-    const Vector3 way =
-      Minus(Vector3{ 0.5 * a[0] + 0.5 * b[0], 0.5 * a[1] + 0.5 * b[1], 0.5 * a[2] + 0.5 * b[2] }, flame.place);
-    squares[at] = Dot(way, way);
-    reached |= static_cast<std::uint32_t>((most > 0) & (squares[at] < most * most)) << at;
-  }
-  for (; reached != 0; reached &= reached - 1)
-  {
-    const auto                at = static_cast<std::uint32_t>(std::countr_zero(reached));
+    const auto                at = static_cast<std::uint32_t>(std::countr_zero(left));
+    const std::uint32_t       i = at >> 1U;
     const std::uint32_t       step = at & 1U;
-    const BurnNetwork::Side & side = sides[at >> 1U];
-    const std::uint32_t       a = side.point[0];
-    double                    radius = m_Complex.radius[a];
-    if (step == 1)
+    const BurnNetwork::Side & side = sides[i];
+    const Vector3 &           a = m_Complex.positions[side.point[0]];
+    if (step == 0)
     {
-      const std::uint32_t b = sides[(at >> 1U) + 1 == face.sides ? 0 : (at >> 1U) + 1].point[0];
-      const Vector3       way = Minus(m_Complex.positions[b], m_Complex.positions[a]);
-      radius = BurnNetwork::RadiusBetween(radius, m_Complex.radius[b], Dot(way, way), 0.5);
+      Reach(
+        block,
+        queue,
+        flame,
+        side.sector[0],
+        [&]() -> const Vector3 & { return a; },
+        [&] { return m_Complex.radius[side.point[0]]; },
+        side.point[0]);
+      continue;
     }
-    double &     before = m_Arrival[side.sector[step]];
-    const double arrival = std::max(flame.time + std::sqrt(squares[at]), radius);
-    if (arrival < before)
-    {
-      m_Heap.PushEarlier({ arrival, side.point[step] }, std::exchange(before, arrival));
-    }
+    const std::uint32_t next = sides[i + 1 == count ? 0 : i + 1].point[0];
+    const Vector3 &     b = m_Complex.positions[next];
+    Reach(
+      block,
+      queue,
+      flame,
+      side.sector[1],
+      [&] {
+        return Vector3{ 0.5 * a[0] + 0.5 * b[0], 0.5 * a[1] + 0.5 * b[1], 0.5 * a[2] + 0.5 * b[2] };
+      },
+      [&] {
+        const Vector3 way = Minus(b, a);
+        return BurnNetwork::RadiusBetween(m_Complex.radius[side.point[0]], m_Complex.radius[next], Dot(way, way), 0.5);
+      },
+      side.point[1]);
   }
 }
 
 bool
-SurfaceFire::SpreadInFace(const Flame & flame, const BurnNetwork::FaceCorner & place, std::uint32_t step)
+SurfaceFire::SpreadInFace(Block & block, Queue & queue, const Flame & flame, const BurnNetwork::FaceCorner & at)
 {
-  const std::uint32_t face = place.face;
-  if (FaceAhead & ahead = m_Faces[face]; ahead.sides > 0)
+  const std::uint32_t face = at.face;
+  if (m_Small[face] != 0)
   {
-    SpreadAhead(flame, ahead, 2 * (place.corner - ahead.first) + step);
+    SpreadInSmallFace(block, queue, flame, face);
     return true;
   }
   if (m_FaceEntries[face] != Entries::none)
@@ -127,27 +130,29 @@ SurfaceFire::SpreadInFace(const Flame & flame, const BurnNetwork::FaceCorner & p
     }
   }
   const std::uint64_t end = m_Cells.faceOffsets[face + std::size_t{ 1 }];
-  for (std::uint64_t at = m_Cells.faceOffsets[face]; at < end; ++at)
+  for (std::uint64_t corner = m_Cells.faceOffsets[face]; corner < end; ++corner)
   {
-    SpreadToCorner(flame, static_cast<std::uint32_t>(at));
-    SpreadToSamples(flame, static_cast<std::uint32_t>(at));
+    SpreadToCorner(block, queue, flame, static_cast<std::uint32_t>(corner));
+    SpreadToSamples(block, queue, flame, static_cast<std::uint32_t>(corner));
   }
   return true;
 }
 
 void
-SurfaceFire::SpreadAlong(const Flame & flame, const BurnNetwork::FaceCorner & at)
+SurfaceFire::SpreadAlong(Block & block, Queue & queue, const Flame & flame, const BurnNetwork::FaceCorner & at)
 {
-  SpreadToCorner(flame, at.corner);
-  SpreadToSamples(flame, at.corner);
-  SpreadToCorner(flame, m_Network.CornerAfter(at));
+  SpreadToCorner(block, queue, flame, at.corner);
+  SpreadToSamples(block, queue, flame, at.corner);
+  SpreadToCorner(block, queue, flame, m_Network.CornerAfter(at));
 }
 
 void
-SurfaceFire::SpreadToCorner(const Flame & flame, std::uint32_t corner)
+SurfaceFire::SpreadToCorner(Block & block, Queue & queue, const Flame & flame, std::uint32_t corner)
 {
   const ElementIndex vertex = m_Cells.faceVertices[corner];
   Reach(
+    block,
+    queue,
     flame,
     m_Network.sides[corner].sector[0],
     [&] { return m_Complex.positions[vertex]; },
@@ -156,7 +161,7 @@ SurfaceFire::SpreadToCorner(const Flame & flame, std::uint32_t corner)
 }
 
 void
-SurfaceFire::SpreadToSamples(const Flame & flame, std::uint32_t corner)
+SurfaceFire::SpreadToSamples(Block & block, Queue & queue, const Flame & flame, std::uint32_t corner)
 {
   const ElementIndex  edge = m_Cells.faceEdges[corner];
   const std::uint32_t count = m_Network.SampleCount(edge);
@@ -166,6 +171,8 @@ SurfaceFire::SpreadToSamples(const Flame & flame, std::uint32_t corner)
   for (std::uint32_t i = 0; i < count; ++i)
   {
     Reach(
+      block,
+      queue,
       flame,
       sector + i,
       [&] { return BurnNetwork::SamplePosition(a, b, i, count); },
@@ -175,18 +182,26 @@ SurfaceFire::SpreadToSamples(const Flame & flame, std::uint32_t corner)
 }
 
 void
-SurfaceFire::Spread(std::uint32_t point, const SectorRange & range, double time)
+SurfaceFire::Spread(Block & block, Queue & queue, std::uint32_t point, const SectorRange & range)
 {
-  const Flame flame{ point, m_Network.Position(point), time };
+  Flame      flame{ point, m_Network.Position(point), 0 };
+  const auto isFresh = [&](std::uint32_t sector) {
+    return range.count == 1 || std::find(queue.fresh.begin(), queue.fresh.end(), sector) != queue.fresh.end();
+  };
   if (point < m_Cells.vertexCount)
   {
     for (std::uint32_t i = m_Network.vertexCornerOffsets[point]; i < m_Network.vertexCornerOffsets[point + 1]; ++i)
     {
       const BurnNetwork::FaceCorner & at = m_Network.vertexCorners[i];
-      if ((range.count == 1 || IsFresh(m_Network.sides[at.corner].sector[0])) && !SpreadInFace(flame, at, 0))
+      const std::uint32_t             sector = m_Network.sides[at.corner].sector[0];
+      if (isFresh(sector))
       {
-        SpreadAlong(flame, { m_Network.SideBefore(at), at.face });
-        SpreadAlong(flame, at);
+        flame.time = std::abs(Time(sector));
+        if (!SpreadInFace(block, queue, flame, at))
+        {
+          SpreadAlong(block, queue, flame, { m_Network.SideBefore(at), at.face });
+          SpreadAlong(block, queue, flame, at);
+        }
       }
     }
     return;
@@ -197,11 +212,13 @@ SurfaceFire::Spread(std::uint32_t point, const SectorRange & range, double time)
   for (std::uint32_t i = first; i < m_Network.edgeFirst[edge + 1].side; ++i)
   {
     const BurnNetwork::FaceCorner & side = m_Network.edgeSides[i];
-    if (range.count == 1 || IsFresh(range.first + (i - first) * range.stride))
+    const std::uint32_t             sector = range.first + (range.count > 1 ? (i - first) * range.stride : 0);
+    if (isFresh(sector))
     {
-      if (!SpreadInFace(flame, side, 1) && (range.count > 1 || !isDone))
+      flame.time = std::abs(Time(sector));
+      if (!SpreadInFace(block, queue, flame, side) && (range.count > 1 || !isDone))
       {
-        SpreadAlong(flame, side);
+        SpreadAlong(block, queue, flame, side);
       }
       isDone = true;
     }

@@ -1,6 +1,9 @@
 #include "SurfaceFire.h"
 
+#include "voxelcore/ParallelTasks.h"
+
 #include <algorithm>
+#include <numeric>
 
 namespace voxelcore
 {
@@ -8,7 +11,15 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::uint32_t kNoSector = 0xFFFFFFFFU;
+// Vertices whose data, with their share of edges and faces, are half a megabyte.
+constexpr std::size_t kBlock = 2048;
+
+// In sample distances: so little of a block that fire has come through burns again, as fire comes over its border, and
+// so rarely threads wait for each other.
+constexpr double kWindow = 3;
+
+// Corners and samples that fit the bits of SurfaceFire::m_Small.
+constexpr std::size_t kMostSides = 8;
 
 // In a face of so many points fire spreads over all of it faster than it finds out whether that is of use.
 constexpr std::uint32_t kSmallFace = 16;
@@ -19,142 +30,104 @@ SurfaceFire::SurfaceFire(const MedialComplex & complex, double sampling)
   : m_Complex(complex)
   , m_Cells(complex.cells)
   , m_Network(complex, sampling)
-  , m_Arrival(m_Network.SectorCount(), kNever)
-  , m_Faces(m_Cells.FaceCount() + 1)
-  , m_FaceEntries(m_Cells.FaceCount(), Entries::none)
-  , m_Heap(FireBucket(complex.radius))
+  , m_Window(kWindow * sampling)
+  , m_Times(m_Network.SectorCount(), kNever)
 {
+  CutBlocks();
+  FindFaces();
+}
+
+void
+SurfaceFire::CutBlocks()
+{
+  const std::size_t count = std::max<std::size_t>(1, m_Cells.vertexCount / kBlock);
+  std::size_t       firstEdge = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Block block;
+    block.firstVertex = static_cast<std::uint32_t>(m_Cells.vertexCount * i / count);
+    block.lastVertex = static_cast<std::uint32_t>(m_Cells.vertexCount * (i + 1) / count);
+    // Edges go with their first end, where they are in order; any other cut is as right.
+    const auto last = std::partition_point(m_Cells.edges.begin() + static_cast<std::ptrdiff_t>(firstEdge),
+                                           m_Cells.edges.end(),
+                                           [&](const auto & ends) { return ends[0] < block.lastVertex; });
+    const auto lastEdge =
+      i + 1 == count ? m_Cells.edges.size() : static_cast<std::size_t>(last - m_Cells.edges.begin());
+    block.firstSample = m_Network.edgeFirst[firstEdge].point;
+    block.lastSample = m_Network.edgeFirst[lastEdge].point;
+    firstEdge = lastEdge;
+    m_Blocks.push_back(std::move(block));
+  }
+}
+
+std::size_t
+SurfaceFire::OwnerOf(std::uint32_t point) const
+{
+  const bool isVertex = point < m_Cells.vertexCount;
+  const auto after = std::partition_point(m_Blocks.begin(), m_Blocks.end(), [&](const Block & block) {
+    return (isVertex ? block.lastVertex : block.lastSample) <= point;
+  });
+  return static_cast<std::size_t>(after - m_Blocks.begin());
+}
+
+void
+SurfaceFire::FindFaces()
+{
+  m_Small.assign(m_Cells.FaceCount(), 0);
+  m_FaceEntries.assign(m_Cells.FaceCount(), Entries::none);
   for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
   {
     const auto    edges = m_Cells.FaceEdges(face);
     std::uint32_t points = 0;
-    for (const ElementIndex edge : edges)
+    std::uint32_t mostSamples = 0;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i)
     {
-      points += 1 + m_Network.SampleCount(edge);
+      const std::uint32_t samples = m_Network.SampleCount(edges[i]);
+      points += 1 + samples;
+      mostSamples = std::max(mostSamples, samples);
+      bits |= i < kMostSides ? (samples > 0 ? 3U : 1U) << (2 * i) : 0;
     }
-    m_Faces[face].first = static_cast<std::uint32_t>(m_Cells.faceOffsets[face]);
-    if (edges.size() <= FaceAhead::mostSides && points == 2 * edges.size())
+    if (edges.size() <= kMostSides && mostSamples <= 1)
     {
-      m_Faces[face].sides = static_cast<std::uint8_t>(edges.size());
-      m_Faces[face].ahead = static_cast<std::uint16_t>((1U << points) - 1);
+      m_Small[face] = static_cast<std::uint16_t>(bits);
     }
-    if (points > kSmallFace)
+    else if (points > kSmallFace)
     {
-      m_FaceEntries[face] = static_cast<std::uint32_t>(m_Entries.size());
-      m_Entries.emplace_back();
-    }
-  }
-}
-
-BurnTimes
-SurfaceFire::Run(const ProgressCallback & progress)
-{
-  Ignite();
-  std::size_t       pops = 0;
-  const std::size_t points = m_Network.PointCount();
-  TimedElement      next;
-  while (m_Heap.Pop(*this, next))
-  {
-    if ((pops++ & 0xFFFFU) == 0)
-    {
-      ReportProgress(progress, "burning", std::min(1.0, static_cast<double>(pops) / static_cast<double>(points)));
-    }
-    FetchAhead();
-    BurnPoint(next.element, next.time);
-  }
-  return Times();
-}
-
-double
-SurfaceFire::operator()(std::uint32_t point) const
-{
-  const SectorRange range = m_Network.Sectors(point);
-  double            next = kNever;
-  for (std::uint32_t i = 0; i < range.count; ++i)
-  {
-    const double arrival = m_Arrival[range.first + i * range.stride];
-    next = !std::signbit(arrival) && arrival < next ? arrival : next;
-  }
-  return next < kNever ? next : std::numeric_limits<double>::quiet_NaN();
-}
-
-void
-SurfaceFire::Fetch(std::uint32_t point, int step) const
-{
-  const bool   isSample = point >= m_Cells.vertexCount;
-  const auto   sample = point - static_cast<std::uint32_t>(m_Cells.vertexCount);
-  const void * what = nullptr;
-  switch (step)
-  {
-    case 0:
-      what = isSample ? &m_Network.pointEdge[sample] : &m_Network.vertexSectorOffsets[point];
-      break;
-    case 1:
-      what = isSample ? static_cast<const void *>(&m_Network.edgeFirst[m_Network.pointEdge[sample]])
-                      : &m_Network.vertexCornerOffsets[point];
-      break;
-    default:
-    {
-      const SectorRange range = m_Network.Sectors(point);
-      for (std::uint32_t i = 1; i < range.count; ++i)
+      const Block & block = m_Blocks[OwnerOf(m_Cells.FaceVertices(face).front())];
+      const auto    isHere = [&](ElementIndex edge) {
+        const std::uint32_t first = m_Network.edgeFirst[edge].point;
+        return block.Has(m_Cells.edges[edge][0], m_Cells.vertexCount) &&
+               block.Has(m_Cells.edges[edge][1], m_Cells.vertexCount) &&
+               (m_Network.SampleCount(edge) == 0 || block.Has(first, m_Cells.vertexCount));
+      };
+      if (std::all_of(edges.begin(), edges.end(), isHere))
       {
-        __builtin_prefetch(&m_Arrival[range.first + i * range.stride], 1);
+        m_FaceEntries[face] = static_cast<std::uint32_t>(m_Entries.size());
+        m_Entries.emplace_back();
       }
-      what = range.count > 0 ? &m_Arrival[range.first] : nullptr;
-      break;
     }
-  }
-  __builtin_prefetch(what, 1);
-}
-
-void
-SurfaceFire::FetchAhead() const
-{
-  for (int step = 0; step < 3; ++step)
-  {
-    if (const TimedElement * item = m_Heap.Ahead(static_cast<std::size_t>(24 - 8 * step)))
-    {
-      Fetch(item->element, step);
-    }
-  }
-  if (const TimedElement * item = m_Heap.Ahead(4); item != nullptr && item->element >= m_Cells.vertexCount)
-  {
-    const ElementIndex edge = m_Network.pointEdge[item->element - m_Cells.vertexCount];
-    __builtin_prefetch(&m_Network.edgeSides[m_Network.edgeFirst[edge].side]);
-    __builtin_prefetch(&m_Cells.edges[edge]);
-  }
-  if (const TimedElement * item = m_Heap.Ahead(2); item != nullptr && item->element >= m_Cells.vertexCount)
-  {
-    const ElementIndex edge = m_Network.pointEdge[item->element - m_Cells.vertexCount];
-    for (std::uint32_t side = m_Network.edgeFirst[edge].side; side < m_Network.edgeFirst[edge + 1].side; ++side)
-    {
-      const BurnNetwork::FaceCorner & at = m_Network.edgeSides[side];
-      __builtin_prefetch(&m_Faces[at.face], 1);
-      __builtin_prefetch(&m_Network.sides[at.corner]);
-    }
-    __builtin_prefetch(&m_Complex.positions[m_Cells.edges[edge][0]]);
-    __builtin_prefetch(&m_Complex.positions[m_Cells.edges[edge][1]]);
   }
 }
 
 void
 SurfaceFire::Ignite()
 {
+  const auto ignite = [&](std::uint32_t sector, std::uint32_t point, double radius) {
+    SetTime(sector, radius);
+    Block & block = m_Blocks[OwnerOf(point)];
+    block.waiting.push_back(point);
+    block.next = std::min(block.next, radius);
+  };
   for (std::uint32_t vertex = 0; vertex < m_Cells.vertexCount; ++vertex)
   {
     const SectorRange range = m_Network.Sectors(vertex);
-    bool              open = false;
     for (std::uint32_t sector = range.first; sector < range.first + range.count; ++sector)
     {
       if (m_Network.openSector[sector])
       {
-        m_Arrival[sector] = m_Complex.radius[vertex];
-        open = true;
+        ignite(sector, vertex, m_Complex.radius[vertex]);
       }
-    }
-    if (open)
-    {
-      m_Heap.Push({ m_Complex.radius[vertex], vertex });
     }
   }
   for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
@@ -163,96 +136,272 @@ SurfaceFire::Ignite()
     {
       for (std::uint32_t i = 0; i < m_Network.SampleCount(edge); ++i)
       {
-        const double radius = m_Network.SampleRadius(edge, i);
-        m_Arrival[m_Network.edgeFirst[edge].sector + i] = radius;
-        m_Heap.Push({ radius, m_Network.edgeFirst[edge].point + i });
+        ignite(m_Network.edgeFirst[edge].sector + i,
+               m_Network.edgeFirst[edge].point + i,
+               m_Network.SampleRadius(edge, i));
       }
     }
+  }
+}
+
+BurnTimes
+SurfaceFire::Run(const ProgressCallback & progress)
+{
+  Ignite();
+  if (!(m_Window > 0))
+  {
+    m_Window = kNever;
+  }
+  std::vector<std::size_t> active(m_Blocks.size());
+  std::iota(active.begin(), active.end(), std::size_t{ 0 });
+  const auto points = static_cast<double>(std::max<std::size_t>(1, m_Network.PointCount()));
+  double     start = 0;
+  double     end = 0;
+  for (double next = HandOver(active); next < kNever; next = HandOver(active))
+  {
+    if (next >= end)
+    {
+      std::uint64_t burned = 0;
+      for (const Block & block : m_Blocks)
+      {
+        burned += block.burned;
+      }
+      ReportProgress(progress, "burning", std::min(1.0, static_cast<double>(burned) / points));
+      start = next;
+      end = next + m_Window;
+    }
+    active.clear();
+    for (std::size_t i = 0; i < m_Blocks.size(); ++i)
+    {
+      if (m_Blocks[i].next < end)
+      {
+        active.push_back(i);
+      }
+    }
+    const auto burn = [&](std::size_t i) { BurnBlock(m_Blocks[active[i]], start, end); };
+    if (active.size() == 1)
+    {
+      burn(0);
+    }
+    else
+    {
+      RunEach(active.size(), burn);
+    }
+  }
+  return Times();
+}
+
+double
+SurfaceFire::HandOver(const std::vector<std::size_t> & from)
+{
+  for (const std::size_t i : from)
+  {
+    for (const Arrival & arrival : m_Blocks[i].out)
+    {
+      Block & to = m_Blocks[OwnerOf(arrival.point)];
+      to.in.push_back(arrival);
+      to.next = std::min(to.next, arrival.time);
+    }
+    m_Blocks[i].out.clear();
+  }
+  double next = kNever;
+  for (const Block & block : m_Blocks)
+  {
+    next = std::min(next, block.next);
+  }
+  return next;
+}
+
+void
+SurfaceFire::BurnBlock(Block & block, double start, double end)
+{
+  thread_local Queue queue;
+  queue.start = start;
+  queue.end = end;
+  queue.perTime = static_cast<double>(Queue::most) / (end - start);
+  queue.present = 0;
+  for (auto & bucket : queue.buckets)
+  {
+    bucket.clear(); // what a run left that was cut short
+  }
+  block.next = kNever;
+
+  std::size_t kept = 0;
+  for (const std::uint32_t point : block.waiting)
+  {
+    const double due = Due(point);
+    if (due < end)
+    {
+      queue.buckets[queue.BucketOf(due)].push_back(point);
+    }
+    else if (due < kNever)
+    {
+      block.waiting[kept++] = point;
+      block.next = std::min(block.next, due);
+    }
+  }
+  block.waiting.resize(kept);
+  // Of what came for one sector only the earliest counts, whether later fire was told of as well or not: that depends
+  // on when another thread looked.
+  for (Arrival & arrival : block.in)
+  {
+    if (arrival.time < std::abs(Time(arrival.sector)))
+    {
+      SetTime(arrival.sector, arrival.time);
+    }
+    else
+    {
+      arrival.time = kNever;
+    }
+  }
+  for (const Arrival & arrival : block.in)
+  {
+    if (arrival.time == Time(arrival.sector) && arrival.time < kNever)
+    {
+      Line(block, queue, arrival.point, arrival.time);
+    }
+  }
+  block.in.clear();
+  for (; queue.present < Queue::most; ++queue.present)
+  {
+    std::vector<std::uint32_t> & bucket = queue.buckets[queue.present];
+    while (!bucket.empty())
+    {
+      const std::uint32_t point = bucket.back();
+      bucket.pop_back();
+      BurnPoint(block, queue, point);
+    }
+  }
+}
+
+double
+SurfaceFire::Due(std::uint32_t point) const
+{
+  const SectorRange range = m_Network.Sectors(point);
+  double            due = kNever;
+  for (std::uint32_t i = 0; i < range.count; ++i)
+  {
+    const double time = Time(range.first + i * range.stride);
+    due = !HasSpread(time) && time < due ? time : due;
+  }
+  return due;
+}
+
+void
+SurfaceFire::Line(Block & block, Queue & queue, std::uint32_t point, double time)
+{
+  if (time >= queue.end)
+  {
+    block.next = std::min(block.next, time);
+    block.waiting.push_back(point);
+  }
+  else
+  {
+    queue.buckets[std::max(queue.BucketOf(time), queue.present)].push_back(point);
   }
 }
 
 void
-SurfaceFire::BurnPoint(std::uint32_t point, double time)
+SurfaceFire::Arrive(Block & block, Queue & queue, const Arrival & arrival, double before)
+{
+  SetTime(arrival.sector, arrival.time);
+  const bool waits = !HasSpread(before) && before < kNever;
+  if (arrival.time >= queue.end && waits)
+  {
+    block.next = std::min(block.next, arrival.time); // it is in line
+  }
+  else if (!waits || before >= queue.end || arrival.time >= queue.end ||
+           queue.BucketOf(before) != std::max(queue.BucketOf(arrival.time), queue.present))
+  {
+    Line(block, queue, arrival.point, arrival.time);
+  }
+}
+
+void
+SurfaceFire::BurnPoint(Block & block, Queue & queue, std::uint32_t point)
 {
   const SectorRange range = m_Network.Sectors(point);
-  m_Fresh.clear();
-  std::uint32_t left = 0;
+  queue.fresh.clear();
   for (std::uint32_t i = 0; i < range.count; ++i)
   {
     const std::uint32_t sector = range.first + i * range.stride;
-    if (!IsBurned(sector))
+    const double        time = Time(sector);
+    if (!HasSpread(time) && time < queue.end && queue.BucketOf(time) <= queue.present)
     {
-      if (m_Arrival[sector] <= time)
-      {
-        Burn(sector, time);
-      }
-      else
-      {
-        ++left;
-      }
+      SetTime(sector, -time);
+      queue.fresh.push_back(sector);
     }
   }
-  if (m_Fresh.empty())
+  if (queue.fresh.empty())
   {
-    return; // an entry that an earlier arrival has overtaken
+    return; // an earlier arrival has burned it
   }
-  // A seam with one sheet left is a free edge: what is left there burns now too.
-  for (; left > 0; --left)
+  ++block.burned;
+  while (range.count > 1 && BurnFreed(queue, point, range))
+  {}
+  Spread(block, queue, point, range);
+  // The point was in line once for all of its sectors, perhaps.
+  for (std::uint32_t i = 0; range.count > 1 && i < range.count; ++i)
   {
-    const std::uint32_t freed = FindFreedSector(point, range);
-    if (freed == kNoSector)
+    const double time = Time(range.first + i * range.stride);
+    if (!HasSpread(time) && time < kNever)
     {
-      break;
-    }
-    Burn(freed, time);
-  }
-  Spread(point, range, time);
-  if (left > 0)
-  {
-    if (const double next = (*this)(point); !std::isnan(next))
-    {
-      m_Heap.PushAgain({ next, point });
+      Line(block, queue, point, time);
     }
   }
 }
 
-std::uint32_t
-SurfaceFire::FindFreedSector(std::uint32_t point, const SectorRange & range)
+template <typename TSectorAt>
+bool
+SurfaceFire::BurnLast(Queue & queue, std::uint32_t count, TSectorAt sectorAt)
+{
+  std::uint32_t last = 0;
+  double        lastTime = -1;
+  double        time = -1; // of the one before
+  std::uint32_t ahead = 0; // have not spread
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const std::uint32_t sector = sectorAt(i);
+    const double        noted = Time(sector);
+    const double        own = std::abs(noted);
+    ahead += HasSpread(noted) ? 0 : 1;
+    time = own > lastTime ? lastTime : std::max(time, own);
+    last = own > lastTime ? sector : last;
+    lastTime = std::max(lastTime, own);
+  }
+  if (ahead > (HasSpread(Time(last)) ? 0U : 1U) || time < 0 || !(time < lastTime))
+  {
+    return false;
+  }
+  SetTime(last, -time);
+  if (std::find(queue.fresh.begin(), queue.fresh.end(), last) == queue.fresh.end())
+  {
+    queue.fresh.push_back(last);
+  }
+  return true;
+}
+
+bool
+SurfaceFire::BurnFreed(Queue & queue, std::uint32_t point, const SectorRange & range)
 {
   if (point >= m_Cells.vertexCount)
   {
-    std::uint32_t found = kNoSector;
-    for (std::uint32_t i = 0; i < range.count; ++i)
-    {
-      if (!IsBurned(range.first + i * range.stride))
-      {
-        if (found != kNoSector)
-        {
-          return kNoSector;
-        }
-        found = range.first + i * range.stride;
-      }
-    }
-    return found;
+    return BurnLast(queue, range.count, [&](std::uint32_t i) { return range.first + i * range.stride; });
   }
-  std::uint32_t ends = 0; // in the same seam, of sectors that have not burned
-  std::uint32_t last = kNoSector;
-  ElementIndex  seam = 0;
-  for (std::uint32_t i = m_Network.seamEndOffsets[point]; i < m_Network.seamEndOffsets[point + 1]; ++i)
+  const auto *        ends = m_Network.seamEnds.data();
+  const std::uint32_t all = m_Network.seamEndOffsets[point + std::size_t{ 1 }];
+  bool                isNews = false;
+  for (std::uint32_t first = m_Network.seamEndOffsets[point]; first < all;)
   {
-    const BurnNetwork::SeamEnd & end = m_Network.seamEnds[i];
-    if (!IsBurned(end.sector))
+    std::uint32_t next = first;
+    while (next < all && ends[next].edge == ends[first].edge)
     {
-      if (end.edge != seam && ends == 1)
-      {
-        return last;
-      }
-      ends = end.edge == seam ? ends + 1 : 1;
-      seam = end.edge;
-      last = end.sector;
+      ++next;
     }
+    isNews |= BurnLast(queue, next - first, [&](std::uint32_t i) { return ends[first + i].sector; });
+    first = next;
   }
-  return ends == 1 ? last : kNoSector;
+  return isNews;
 }
 
 } // namespace voxelcore

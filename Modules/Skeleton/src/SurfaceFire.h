@@ -1,13 +1,13 @@
 #pragma once
-// Fire on a medial surface: Dijkstra in which a point burns sector by sector (Yan et al. 2016, section 5.2).
+// Fire on a medial surface: a point burns sector by sector (Yan et al. 2016, section 5.2).
 
 #include "BurnNetwork.h"
-#include "TimeHeap.h"
 
 #include "voxelcore/ErosionThickness.h"
 #include "voxelcore/Vectors.h"
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -24,25 +24,18 @@ namespace voxelcore
 struct Entries
 {
   static constexpr std::uint32_t most = 5;
-  static constexpr std::uint32_t none = 0xFFFFFFFFU; ///< of a face that is small
+  static constexpr std::uint32_t none = 0xFFFFFFFFU; ///< of a face that is small, or not of one block
 
   std::array<double, most>        times;
   std::array<std::uint32_t, most> points;
   std::uint32_t                   count = 0;
 };
 
-/** Where fire can still go in a face that is small, with one sample on each edge: what has burned need not be looked
- *  at. */
-struct FaceAhead
-{
-  static constexpr std::uint32_t mostSides = 8;
-
-  std::uint32_t first = 0; ///< corner
-  std::uint16_t ahead = 0; ///< bit 2 i for corner i, 2 i + 1 for the sample behind it; unset when it has burned
-  std::uint8_t  sides = 0; ///< 0 for other faces
-};
-
-/** Burns a surface once. SurfaceFire.cxx has what burns when, FireSpread.cxx how fire goes on from there. */
+/** Burns a surface once. When a sector burns is a least bound over all ways of fire, whatever order they are looked at
+ *  in, so neither queue nor threads change a bit of it. Times are bounds that only fall: within a block of points near
+ *  each other, which fits a cache, in nearly the order in which they burn; in rounds over all blocks side by side, with
+ *  what fire carries from one to another handed over in between; until none changes before the end of a window of
+ *  time, then in the next. SurfaceFire.cxx has blocks and windows, FireSpread.cxx how fire goes on from a point. */
 class SurfaceFire
 {
 public:
@@ -56,48 +49,37 @@ private:
 
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  bool
-  IsBurned(std::uint32_t sector) const
+  /** Fire that comes to a sector of another block's point. */
+  struct Arrival
   {
-    return std::signbit(m_Arrival[sector]);
-  }
+    double        time;
+    std::uint32_t sector;
+    std::uint32_t point;
+  };
 
-  void
-  Burn(std::uint32_t sector, double time)
+  /** Points that burn on one thread at a time: vertices and samples in a row each. */
+  struct Block
   {
-    m_Arrival[sector] = -time;
-    m_Fresh.push_back(sector);
-  }
+    std::uint32_t              firstVertex;
+    std::uint32_t              lastVertex;
+    std::uint32_t              firstSample;
+    std::uint32_t              lastSample;
+    double                     next = kNever; ///< nothing here burns before
+    std::vector<std::uint32_t> waiting;       ///< points to burn when their window comes
+    std::vector<Arrival>       in;
+    std::vector<Arrival>       out;
+    std::uint64_t              burned = 0;
 
-  friend TimeHeap;
+    bool
+    Has(std::uint32_t point, std::size_t vertexCount) const
+    {
+      return point < vertexCount ? point - firstVertex < lastVertex - firstVertex
+                                 : point - firstSample < lastSample - firstSample;
+    }
+  };
 
-  /** When the next sector of a point burns; NaN when it waits for no fire. */
-  double
-  operator()(std::uint32_t point) const;
-
-  /** Points burn all over the surface in turn; what the next ones need is fetched from memory meanwhile, step by step:
-   *  where a point is, where its edge's data are, these. */
-  void
-  Fetch(std::uint32_t point, int step) const;
-
-  void
-  FetchAhead() const;
-
-  void
-  Ignite();
-
-  void
-  BurnPoint(std::uint32_t point, double time);
-
-  /** An unburned sector with an end on an edge where no other end is unburned. */
-  std::uint32_t
-  FindFreedSector(std::uint32_t point, const SectorRange & range);
-
-  bool
-  IsFresh(std::uint32_t sector) const;
-
-  void
-  Spread(std::uint32_t point, const SectorRange & range, double time);
+  /** The part of a window's time that a thread is at, and what is to burn in each. */
+  struct Queue;
 
   /** A point that burns now. */
   struct Flame
@@ -107,6 +89,65 @@ private:
     double        time;
   };
 
+  // Other threads look at times of points on the border of their block, to see whether fire there is of use.
+  double
+  Time(std::uint32_t sector) const
+  {
+    return std::atomic_ref(const_cast<double &>(m_Times[sector])).load(std::memory_order_relaxed);
+  }
+
+  void
+  SetTime(std::uint32_t sector, double time)
+  {
+    std::atomic_ref(m_Times[sector]).store(time, std::memory_order_relaxed);
+  }
+
+  static bool
+  HasSpread(double time)
+  {
+    return std::signbit(time);
+  }
+
+  void
+  CutBlocks();
+
+  void
+  FindFaces();
+
+  void
+  Ignite();
+
+  std::size_t
+  OwnerOf(std::uint32_t point) const;
+
+  /** Hands over what fire carries between blocks; returns when the next point burns. */
+  double
+  HandOver(const std::vector<std::size_t> & from);
+
+  /** Burns what burns in a block before the end of the window. */
+  void
+  BurnBlock(Block & block, double start, double end);
+
+  void
+  BurnPoint(Block & block, Queue & queue, std::uint32_t point);
+
+  /** A seam with one sheet left is a free edge: what is left there burns when the last of the others does. True when
+   *  that is news; the sector is among the fresh ones then. */
+  bool
+  BurnFreed(Queue & queue, std::uint32_t point, const SectorRange & range);
+
+  /** Of the sectors at one seam, of which all but the last to burn have spread. */
+  template <typename TSectorAt>
+  bool
+  BurnLast(Queue & queue, std::uint32_t count, TSectorAt sectorAt);
+
+  /** When the next sector of a point burns; never when it waits for no fire. */
+  double
+  Due(std::uint32_t point) const;
+
+  void
+  Spread(Block & block, Queue & queue, std::uint32_t point, const SectorRange & range);
+
   /** Whether other fire in this face has reached before all that fire from here could. */
   bool
   IsOvertaken(const Flame & flame, const Entries & entries) const;
@@ -114,26 +155,40 @@ private:
   /** From a corner (`step` 0) or the edge behind it (1). False when it is of no use but along the edges the point is
    *  on. */
   bool
-  SpreadInFace(const Flame & flame, const BurnNetwork::FaceCorner & at, std::uint32_t step);
+  SpreadInFace(Block & block, Queue & queue, const Flame & flame, const BurnNetwork::FaceCorner & at);
 
-  /** The same where there is a FaceAhead; `place` of the two that it numbers. */
+  /** The same where no edge has more than one sample. */
   void
-  SpreadAhead(const Flame & flame, FaceAhead & face, std::uint32_t place);
+  SpreadInSmallFace(Block & block, Queue & queue, const Flame & flame, std::uint32_t face);
 
   /** Along the edge that begins in this corner of a face, both ends included. */
   void
-  SpreadAlong(const Flame & flame, const BurnNetwork::FaceCorner & at);
+  SpreadAlong(Block & block, Queue & queue, const Flame & flame, const BurnNetwork::FaceCorner & at);
 
   void
-  SpreadToCorner(const Flame & flame, std::uint32_t corner);
+  SpreadToCorner(Block & block, Queue & queue, const Flame & flame, std::uint32_t corner);
 
   void
-  SpreadToSamples(const Flame & flame, std::uint32_t corner);
+  SpreadToSamples(Block & block, Queue & queue, const Flame & flame, std::uint32_t corner);
 
   /** Notes when fire comes to a sector of a point, if that is earlier than any before. */
   template <typename Place, typename Radius>
   void
-  Reach(const Flame & flame, std::uint32_t sector, const Place & place, const Radius & radius, std::uint32_t point);
+  Reach(Block &        block,
+        Queue &        queue,
+        const Flame &  flame,
+        std::uint32_t  sector,
+        const Place &  place,
+        const Radius & radius,
+        std::uint32_t  point);
+
+  /** Puts a point in line to burn then. */
+  void
+  Line(Block & block, Queue & queue, std::uint32_t point, double time);
+
+  /** Fire comes to a sector earlier than any before: `before`, as it was noted. */
+  void
+  Arrive(Block & block, Queue & queue, const Arrival & arrival, double before);
 
   /** When the last sector of a point burned. */
   double
@@ -143,18 +198,42 @@ private:
   double
   TimeOfVertex(ElementIndex vertex) const;
 
+  /** Mean over its samples; where it has none, halfway between its ends, as seen from the face that burned last. */
+  double
+  TimeOfEdge(ElementIndex edge, const std::vector<double> & vertices) const;
+
   BurnTimes
   Times() const;
 
   const MedialComplex &      m_Complex;
   const CellComplex &        m_Cells;
   BurnNetwork                m_Network;
-  std::vector<double>        m_Arrival; ///< per sector; when it has burned, the negative of when
-  std::vector<FaceAhead>     m_Faces;
+  double                     m_Window;      ///< mm
+  std::vector<double>        m_Times;       ///< per sector; when fire has spread from it, the negative of when
+  std::vector<std::uint16_t> m_Small;       ///< per face: 0, or bit 2 i for corner i, 2 i + 1 for the sample behind it
   std::vector<std::uint32_t> m_FaceEntries; ///< per face
-  std::vector<Entries>       m_Entries;     ///< of faces that are not small
-  TimeHeap                   m_Heap;
-  std::vector<std::uint32_t> m_Fresh; ///< sectors of a point that burn now
+  std::vector<Entries>       m_Entries;
+  std::vector<Block>         m_Blocks;
+};
+
+/** Buckets by time. */
+struct SurfaceFire::Queue
+{
+  static constexpr std::size_t most = 16;
+
+  std::array<std::vector<std::uint32_t>, most> buckets;
+  std::vector<std::uint32_t>                   fresh; ///< sectors of a point that burn now
+  double                                       start = 0;
+  double                                       end = 0;
+  double                                       perTime = 0;
+  std::size_t                                  present = 0;
+
+  std::size_t
+  BucketOf(double time) const
+  {
+    const double at = (time - start) * perTime;
+    return at < static_cast<double>(most - 1) ? static_cast<std::size_t>(std::max(at, 0.0)) : most - 1;
+  }
 };
 
 } // namespace voxelcore

@@ -53,32 +53,7 @@ public:
     m_Buckets[bucket].push_back(item.element);
   }
 
-  /** The same for an element that waits for `before` already: where the bucket is the same it need not be told. */
-  void
-  PushEarlier(const TimedElement & item, double before)
-  {
-    const std::size_t bucket = BucketOf(item.time);
-    if (bucket <= m_Present || !(before < std::numeric_limits<double>::infinity()) || BucketOf(before) != bucket)
-    {
-      Push(item);
-    }
-  }
-
-  /** An element taken out waits for another of its pushes still: in the present bucket its one look-up may be past. */
-  void
-  PushAgain(const TimedElement & item)
-  {
-    if (BucketOf(item.time) <= m_Present)
-    {
-      PushHeap(item);
-    }
-  }
-
-  /** Takes out what is next; false when there is nothing. `due(element)` gives the time an element waits for: that of
-   *  its earliest push that has not been taken out, or NaN when it waits no longer. An element may come more
-   *  often than that, at most as often as it was pushed. After one that waits for several times PushAgain() the next.
-   *  Where looking up takes long, `due.Fetch(element, 0)`, `(element, 1)` and `(element, 2)` are called some elements
-   *  ahead, in turn. */
+  /** Takes out what is next; false when there is nothing. `due(element)` gives the time an element waits for. */
   template <typename Due>
   bool
   Pop(const Due & due, TimedElement & item)
@@ -102,13 +77,6 @@ public:
     return true;
   }
 
-  /** The item that comes `steps` later as far as is known, or null. */
-  const TimedElement *
-  Ahead(std::size_t steps) const
-  {
-    return m_Next + steps < m_Sorted.size() ? &m_Sorted[m_Next + steps] : nullptr;
-  }
-
 private:
   // Times beyond (infinite ones too) share the last bucket.
   static constexpr std::size_t kLastBucket = 4096;
@@ -120,7 +88,7 @@ private:
     return bucket < static_cast<double>(kLastBucket) ? static_cast<std::size_t>(std::max(bucket, 0.0)) : kLastBucket;
   }
 
-  /** Makes the next bucket the present one. What was pushed again for an earlier time waits there, or has gone. */
+  /** Makes the next bucket the present one. */
   template <typename Due>
   void
   Open(const Due & due)
@@ -128,27 +96,11 @@ private:
     const std::vector<std::uint32_t> elements = std::exchange(m_Buckets[++m_Present], {});
     m_Sorted.clear();
     m_Next = 0;
-    for (std::size_t i = 0; i < elements.size(); ++i)
+    for (const std::uint32_t element : elements)
     {
-      if constexpr (requires { due.Fetch(elements[i], 0); })
-      {
-        for (std::size_t step = 0; step < 3 && i + 24 - 8 * step < elements.size(); ++step)
-        {
-          due.Fetch(elements[i + 24 - 8 * step], static_cast<int>(step));
-        }
-      }
-      const std::uint32_t element = elements[i];
-      const double        time = due(element);
-      if (!std::isnan(time) && BucketOf(time) == m_Present)
-      {
-        m_Sorted.push_back({ time, element });
-      }
+      m_Sorted.push_back({ due(element), element });
     }
     std::sort(m_Sorted.begin(), m_Sorted.end());
-    const auto same = [](const TimedElement & a, const TimedElement & b) {
-      return a.time == b.time && a.element == b.element;
-    };
-    m_Sorted.erase(std::unique(m_Sorted.begin(), m_Sorted.end(), same), m_Sorted.end());
   }
 
   /** Four children a node: half as deep as a binary heap, and siblings share a cache line. */

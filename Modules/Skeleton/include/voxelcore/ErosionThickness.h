@@ -22,9 +22,10 @@ struct BurnTimes
                              ///< sheet
 };
 
-/** Burn times by Dijkstra over the vertices and sample points on edges, of which each edge has at least one and which
- *  are about `sampling` apart. Within a polygon fire runs straight from any point on its sides to any other. A computed
- *  time is at least the true one; paths over sample points are a few percent longer than straight ones.
+/** Burn times over the ways between vertices and sample points on edges, of which each edge has at least one and which
+ *  are about `sampling` apart; edges along which the radius grows by nearly their length have none. Within a polygon
+ *  fire runs straight from any point on its sides to any other. A computed time is at least the true one; paths over
+ *  sample points are a few percent longer than straight ones. On as many threads as OpenMP gives.
  *  Positions and radii in mm. Only + - * / and sqrt in a fixed order: the same bits everywhere.
  *  \throws InputError above 2^32 - 2 sample points; Cancelled when the callback says so. */
 BurnTimes
