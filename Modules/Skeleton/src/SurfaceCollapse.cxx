@@ -3,6 +3,7 @@
 #include "TimeHeap.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace voxelcore
 {
@@ -53,12 +54,13 @@ struct RemovedPair
 
 /** The full collapse, pair by pair. */
 std::vector<RemovedPair>
-CollapseOrder(const CellComplex & cells, const BurnTimes & times, double bucket)
+CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
 {
+  const CellComplex &      cells = surface.cells;
   EdgeCofaces              cofaces(cells);
   std::vector<RemovedPair> order;
   order.reserve(cells.FaceCount());
-  TimeHeap heap(bucket);
+  TimeHeap heap(FireBucket(surface.radius));
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
     if (cofaces.IsFree(edge))
@@ -98,10 +100,20 @@ CollapseSurface(const MedialComplex &       surface,
                 std::vector<std::uint8_t> & closed)
 {
   const CellComplex &            cells = surface.cells;
-  const std::vector<RemovedPair> order = CollapseOrder(cells, times, FireBucket(surface.radius));
+  const std::vector<RemovedPair> order = CollapseOrder(surface, times);
   LiveElements                   live{ std::vector<std::uint8_t>(cells.vertexCount, 1),
                      std::vector<std::uint8_t>(cells.edges.size(), 1),
                      std::vector<std::uint8_t>(cells.FaceCount(), 1) };
+  const auto                     remove = [&](const RemovedPair & pair) {
+    live.faces[pair.face] = 0;
+    live.edges[pair.edge] = 0;
+  };
+  if (plateThreshold == std::numeric_limits<double>::infinity())
+  {
+    std::for_each(order.begin(), order.end(), remove);
+    closed = live.faces;
+    return live;
+  }
   closed.assign(cells.FaceCount(), 1);
   EdgeCofaces cofaces(cells);
   for (const RemovedPair & pair : order)
@@ -117,8 +129,7 @@ CollapseSurface(const MedialComplex &       surface,
     if (thickness < plateThreshold && cofaces.IsFree(pair.edge))
     {
       cofaces.Remove(pair.face);
-      live.faces[pair.face] = 0;
-      live.edges[pair.edge] = 0;
+      remove(pair);
     }
   }
   return live;

@@ -3,12 +3,12 @@
 #include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/FaceName.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace voxelcore
 {
@@ -82,26 +82,41 @@ Mix(std::uint64_t h, std::uint64_t value)
   return h ^ (h >> 32);
 }
 
-// Names a set of vertices, in whatever order. Only those with short binary fractions count: the others' last step may
-// differ between two turned volumes. Balls around them are as many as one needs.
+// Names a set of vertices, in whatever order.
 std::uint64_t
-NameOf(const Places & places, const std::vector<double> & radius, const Turning & turning)
+NameOf(const Places &                    places,
+       const std::vector<double> &       radius,
+       const std::vector<ElementIndex> & vertices,
+       const Turning &                   turning)
 {
   std::uint64_t name = 0;
-  for (std::size_t vertex = 0; vertex < places.steps.size(); ++vertex)
+  for (const ElementIndex vertex : vertices)
   {
-    const Steps & steps = places.steps[vertex];
-    if (((steps[0] | steps[1] | steps[2]) & (kFraction - 1)) == 0)
+    std::uint64_t h = std::bit_cast<std::uint64_t>(radius[vertex]);
+    for (const std::int64_t step : places.At(vertex, turning))
     {
-      std::uint64_t h = std::bit_cast<std::uint64_t>(radius[vertex]);
-      for (const std::int64_t step : places.At(vertex, turning))
-      {
-        h = Mix(h, static_cast<std::uint64_t>(step));
-      }
-      name += h;
+      h = Mix(h, static_cast<std::uint64_t>(step));
     }
+    name += h;
   }
   return name;
+}
+
+// The turning that gives the vertices the least name.
+Turning
+LeastNamed(const Places &                    places,
+           const std::vector<double> &       radius,
+           const std::vector<ElementIndex> & vertices,
+           const std::vector<Turning> &      turnings)
+{
+  std::vector<std::uint64_t> names(turnings.size());
+  RunInParts(vertices.size() > 10000, turnings.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      names[i] = NameOf(places, radius, vertices, turnings[i]);
+    }
+  });
+  return turnings[static_cast<std::size_t>(std::min_element(names.begin(), names.end()) - names.begin())];
 }
 
 // Across coarse slices first, then along long axes, then by name; what is alike in all of these is symmetric.
@@ -113,25 +128,92 @@ PickTurning(const Places & places, const std::vector<double> & radius, const Vec
     return std::make_pair(spacing[axis], (places.high[axis] - places.low[axis]) / kFraction);
   };
   std::sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) { return key(a) > key(b); });
-  const auto    first = axes;
-  Turning       best;
-  std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+  const auto           first = axes;
+  std::vector<Turning> turnings;
   std::sort(axes.begin(), axes.end());
   do
   {
     const bool isFirst = key(axes[0]) == key(first[0]) && key(axes[1]) == key(first[1]);
     for (unsigned backwards = 0; isFirst && backwards < 8; ++backwards)
     {
-      const Turning       turning{ axes, { (backwards & 1U) != 0, (backwards & 2U) != 0, (backwards & 4U) != 0 } };
-      const std::uint64_t name = NameOf(places, radius, turning);
-      if (name <= least)
-      {
-        least = name;
-        best = turning;
-      }
+      turnings.push_back({ axes, { (backwards & 1U) != 0, (backwards & 2U) != 0, (backwards & 4U) != 0 } });
     }
   } while (std::next_permutation(axes.begin(), axes.end()));
-  return best;
+
+  // Only vertices with short binary fractions count: the others' last step may differ between two turned volumes. Balls
+  // around them are as many as one needs.
+  std::vector<ElementIndex> vertices;
+  for (ElementIndex vertex = 0; vertex < places.steps.size(); ++vertex)
+  {
+    const Steps & steps = places.steps[vertex];
+    if (((steps[0] | steps[1] | steps[2]) & (kFraction - 1)) == 0)
+    {
+      vertices.push_back(vertex);
+    }
+  }
+  return LeastNamed(places, radius, vertices, turnings);
+}
+
+// Side of the cells in whose order vertices come; within one they come in canonical order.
+constexpr std::uint64_t kCell = static_cast<std::uint64_t>(32 * kStepsPerVoxel);
+
+// Bits of a cell's numbers in turn.
+std::uint64_t
+MortonOf(const Steps & steps)
+{
+  std::uint64_t morton = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    std::uint64_t bits = (static_cast<std::uint64_t>(steps[axis]) / kCell) & 0x1FFFFFU; // 21 of them
+    bits = (bits | bits << 32U) & 0x1F00000000FFFFU;
+    bits = (bits | bits << 16U) & 0x1F0000FF0000FFU;
+    bits = (bits | bits << 8U) & 0x100F00F00F00F00FU;
+    bits = (bits | bits << 4U) & 0x10C30C30C30C30C3U;
+    bits = (bits | bits << 2U) & 0x1249249249249249U;
+    morton |= bits << axis;
+  }
+  return morton;
+}
+
+// Vertices that lie near each other come near each other, so that what is computed on them is in a cache together.
+std::vector<ElementIndex>
+SortVertices(const Places & places, const std::vector<double> & radius, const Turning & turning)
+{
+  struct Place
+  {
+    std::uint64_t morton;
+    ElementIndex  vertex;
+  };
+  std::vector<Place> sorted(places.steps.size());
+  const auto         isLess = [&](const Place & a, const Place & b) {
+    if (a.morton != b.morton)
+    {
+      return a.morton < b.morton;
+    }
+    const Steps at = places.At(a.vertex, turning);
+    const Steps bt = places.At(b.vertex, turning);
+    return at != bt                               ? at < bt
+                   : radius[a.vertex] != radius[b.vertex] ? radius[a.vertex] < radius[b.vertex]
+                                                          : a.vertex < b.vertex;
+  };
+  const bool worthIt = sorted.size() > 10000;
+  const auto middle = static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  const auto sort = [&](std::ptrdiff_t first, std::ptrdiff_t last) {
+    for (std::ptrdiff_t i = first; i < last; ++i)
+    {
+      const auto vertex = static_cast<ElementIndex>(i);
+      sorted[vertex] = { MortonOf(places.At(vertex, turning)), vertex };
+    }
+    std::sort(sorted.begin() + first, sorted.begin() + last, isLess);
+  };
+  RunBoth(
+    worthIt,
+    [&] { sort(0, middle); },
+    [&] { sort(middle, static_cast<std::ptrdiff_t>(sorted.size())); });
+  std::inplace_merge(sorted.begin(), sorted.begin() + middle, sorted.end(), isLess);
+  std::vector<ElementIndex> vertices(sorted.size());
+  std::transform(sorted.begin(), sorted.end(), vertices.begin(), [](const Place & place) { return place.vertex; });
+  return vertices;
 }
 
 // Corners of a face, from the smallest on towards the smaller of its two neighbours, and the edges behind each.
@@ -140,25 +222,25 @@ CopyFace(const CellComplex &               from,
          std::size_t                       face,
          const std::vector<ElementIndex> & vertexNumber,
          const std::vector<ElementIndex> & edgeNumber,
-         CellComplex &                     to)
+         ElementIndex *                    vertices,
+         ElementIndex *                    edges)
 {
   const auto        corners = from.FaceVertices(face);
   const auto        sides = from.FaceEdges(face);
   const std::size_t count = corners.size();
-  const auto        corner = [&](std::size_t i) { return vertexNumber[corners[i % count]]; };
+  const auto        corner = [&](std::size_t i) { return vertexNumber[corners[i < count ? i : i - count]]; };
   std::size_t       start = 0;
   for (std::size_t i = 1; i < count; ++i)
   {
     start = corner(i) < corner(start) ? i : start;
   }
-  const bool back = corner(start + count - 1) < corner(start + 1);
+  const bool back = corner(start == 0 ? count - 1 : start - 1) < corner(start + 1);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::size_t at = back ? start + count - i : start + i;
-    to.faceVertices.push_back(corner(at));
-    to.faceEdges.push_back(edgeNumber[sides[(back ? at + count - 1 : at) % count]]);
+    const std::size_t at = (back ? start + count - i : start + i) % count;
+    *vertices++ = corner(at);
+    *edges++ = edgeNumber[sides[back ? (at == 0 ? count - 1 : at - 1) : at]];
   }
-  to.faceOffsets.push_back(to.faceVertices.size());
 }
 
 FaceName
@@ -172,17 +254,6 @@ NameOfFace(const CellComplex & cells, std::size_t face, const std::vector<Elemen
   return name;
 }
 
-std::vector<ElementIndex>
-Inverse(const std::vector<ElementIndex> & order)
-{
-  std::vector<ElementIndex> inverse(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    inverse[order[i]] = static_cast<ElementIndex>(i);
-  }
-  return inverse;
-}
-
 } // namespace
 
 TurnedSurface
@@ -194,30 +265,27 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry)
   TurnedSurface       turned;
   CellComplex &       to = turned.surface.cells;
 
-  std::vector<Steps> at(cells.vertexCount);
-  for (std::size_t vertex = 0; vertex < at.size(); ++vertex)
-  {
-    at[vertex] = places.At(vertex, turning);
-  }
-  turned.vertices.resize(cells.vertexCount);
-  std::iota(turned.vertices.begin(), turned.vertices.end(), ElementIndex{ 0 });
-  std::sort(turned.vertices.begin(), turned.vertices.end(), [&](ElementIndex a, ElementIndex b) {
-    return at[a] != at[b]                           ? at[a] < at[b]
-           : surface.radius[a] != surface.radius[b] ? surface.radius[a] < surface.radius[b]
-                                                    : a < b;
-  });
-  to.vertexCount = cells.vertexCount;
-  for (const ElementIndex vertex : turned.vertices)
-  {
-    Vector3 position;
-    for (std::size_t k = 0; k < 3; ++k)
+  const std::size_t vertexCount = cells.vertexCount;
+  const bool        worthIt = vertexCount > 10000;
+  turned.vertices = SortVertices(places, surface.radius, turning);
+  to.vertexCount = vertexCount;
+  turned.surface.positions.resize(vertexCount);
+  turned.surface.radius.resize(vertexCount);
+  std::vector<ElementIndex> vertexNumber(vertexCount);
+  RunInParts(worthIt, vertexCount, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
     {
-      position[k] = static_cast<double>(at[vertex][k]) / kStepsPerVoxel * geometry.spacing[turning.axis[k]];
+      const ElementIndex vertex = turned.vertices[i];
+      const Steps        at = places.At(vertex, turning);
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        turned.surface.positions[i][k] =
+          static_cast<double>(at[k]) / kStepsPerVoxel * geometry.spacing[turning.axis[k]];
+      }
+      turned.surface.radius[i] = surface.radius[vertex];
+      vertexNumber[vertex] = static_cast<ElementIndex>(i);
     }
-    turned.surface.positions.push_back(position);
-    turned.surface.radius.push_back(surface.radius[vertex]);
-  }
-  const std::vector<ElementIndex> vertexNumber = Inverse(turned.vertices);
+  });
 
   const auto ends = [&](std::size_t edge) {
     const auto [a, b] = std::minmax(vertexNumber[cells.edges[edge][0]], vertexNumber[cells.edges[edge][1]]);
@@ -226,29 +294,50 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry)
   const auto index = [](std::size_t i) { return static_cast<ElementIndex>(i); };
   auto       start = SortIntoBuckets(
     cells.edges.size(),
-    cells.vertexCount,
+    vertexCount,
     [&](std::size_t e) { return std::size_t{ ends(e)[0] }; },
     index,
     turned.edges);
   SortEachBucket(start, turned.edges, [&](ElementIndex a, ElementIndex b) { return ends(a)[1] < ends(b)[1]; });
-  for (const ElementIndex edge : turned.edges)
-  {
-    to.edges.push_back(ends(edge));
-  }
-  const std::vector<ElementIndex> edgeNumber = Inverse(turned.edges);
+  to.edges.resize(turned.edges.size());
+  std::vector<ElementIndex> edgeNumber(turned.edges.size());
+  RunInParts(worthIt, turned.edges.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      to.edges[i] = ends(turned.edges[i]);
+      edgeNumber[turned.edges[i]] = static_cast<ElementIndex>(i);
+    }
+  });
 
-  const auto nameOf = [&](std::size_t face) { return NameOfFace(cells, face, vertexNumber); };
+  const std::size_t     faceCount = cells.FaceCount();
+  std::vector<FaceName> names(faceCount);
+  RunInParts(worthIt, faceCount, [&](std::size_t first, std::size_t last) {
+    for (std::size_t face = first; face < last; ++face)
+    {
+      names[face] = NameOfFace(cells, face, vertexNumber);
+    }
+  });
   start = SortIntoBuckets(
-    cells.FaceCount(),
-    cells.vertexCount,
-    [&](std::size_t face) { return std::size_t{ nameOf(face)[0] }; },
+    faceCount,
+    vertexCount,
+    [&](std::size_t face) { return std::size_t{ names[face][0] }; },
     index,
     turned.faces);
-  SortEachBucket(start, turned.faces, [&](ElementIndex a, ElementIndex b) { return nameOf(a) < nameOf(b); });
-  for (const ElementIndex face : turned.faces)
+  SortEachBucket(start, turned.faces, [&](ElementIndex a, ElementIndex b) { return names[a] < names[b]; });
+  to.faceOffsets.resize(faceCount + 1);
+  for (std::size_t i = 0; i < faceCount; ++i)
   {
-    CopyFace(cells, face, vertexNumber, edgeNumber, to);
+    to.faceOffsets[i + 1] = to.faceOffsets[i] + cells.FaceVertices(turned.faces[i]).size();
   }
+  to.faceVertices.resize(cells.faceVertices.size());
+  to.faceEdges.resize(cells.faceEdges.size());
+  RunInParts(worthIt, faceCount, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const std::uint64_t at = to.faceOffsets[i];
+      CopyFace(cells, turned.faces[i], vertexNumber, edgeNumber, to.faceVertices.data() + at, to.faceEdges.data() + at);
+    }
+  });
   return turned;
 }
 
