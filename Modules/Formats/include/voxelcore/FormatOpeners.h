@@ -1,6 +1,14 @@
 #pragma once
 // One opener a format: its header is read and checked, its voxels are a stream. Which format a path has is told by its
-// name.
+// name. A format has an opener here only where ITK 5.2.1 takes its files for something else, or does not stream them
+// (ItkShortcomingsGTest.cxx shows each; further rows are in ItkReadingTableGTest.cxx):
+//   NRRD        units of length dropped, layers of segments lost, skewed axes taken; comes whole
+//   NIfTI       a spacing of 0 becomes 1, units applied to half of the geometry, scaled values rounded; comes whole
+//   MetaImage   no spacing becomes 1 mm; comes whole where it is packed
+//   TIFF        no distance between slices, tiles become colours, pages counted with 16 bits; comes whole
+//   LSM         crashes on thumbnails, metres are millimetres
+//   MGH, Zarr, bare voxels with a text beside them, folders of slices: unknown
+// All else that ITK reads goes through it (ItkProcess.h).
 
 #include "voxelcore/ScanFile.h"
 
