@@ -3,6 +3,8 @@
 
 #include "voxelcore/ErosionThickness.h"
 
+#include <omp.h>
+
 namespace voxelcore::testing
 {
 
@@ -249,6 +251,24 @@ TEST(ErosionThickness, IsTheLeastBoundOverAllWays)
     const MedialComplex surface = SurfaceOf(PhantomShape(kind, 40, 2));
     ASSERT_EQ(ComputeBurnTimes(surface, 1.5).vertices, TimesByTrying(surface, 1.5)) << kind;
   }
+}
+
+TEST(ErosionThickness, IsTheSameOnAnyNumberOfThreads)
+{
+  // Some forty blocks.
+  const MedialComplex surface = SurfaceOf(PhantomShape("gyroid", 64));
+  ASSERT_GT(surface.cells.vertexCount, 80000U);
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const BurnTimes expected = ComputeBurnTimes(surface, 1.5);
+  for (const int threads : { 2, 3, 7 })
+  {
+    omp_set_num_threads(threads);
+    const BurnTimes times = ComputeBurnTimes(surface, 1.5);
+    EXPECT_TRUE(times.vertices == expected.vertices && times.edges == expected.edges && times.faces == expected.faces)
+      << threads;
+  }
+  omp_set_num_threads(before);
 }
 
 TEST(ErosionThickness, GrowsWithTheShape)

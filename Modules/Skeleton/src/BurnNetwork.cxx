@@ -33,13 +33,13 @@ RequireIndexable(std::uint64_t count, const char * what)
   }
 }
 
-/** Corners listed by the key each has: counting, then filling in order. */
+/** Faces listed by the key each of their corners has: counting, then filling in order. */
 void
-Bucket(std::size_t                            keys,
-       const CellComplex &                    cells,
-       const std::vector<ElementIndex> &      keyOf,
-       std::vector<std::uint32_t> &           offsets,
-       std::vector<BurnNetwork::FaceCorner> & corners)
+Bucket(std::size_t                       keys,
+       const CellComplex &               cells,
+       const std::vector<ElementIndex> & keyOf,
+       std::vector<std::uint32_t> &      offsets,
+       std::vector<std::uint32_t> &      faces)
 {
   offsets.assign(keys + 1, 0);
   for (const ElementIndex key : keyOf)
@@ -50,13 +50,13 @@ Bucket(std::size_t                            keys,
   {
     offsets[key + 1] += offsets[key];
   }
-  corners.resize(keyOf.size());
+  faces.resize(keyOf.size());
   std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
   for (std::uint32_t face = 0; face < cells.FaceCount(); ++face)
   {
     for (std::uint64_t i = cells.faceOffsets[face]; i < cells.faceOffsets[face + std::size_t{ 1 }]; ++i)
     {
-      corners[next[keyOf[i]]++] = { static_cast<std::uint32_t>(i), face };
+      faces[next[keyOf[i]]++] = face;
     }
   }
 }
@@ -74,6 +74,7 @@ struct Fan
   struct Corner
   {
     std::array<Side, 2> sides; ///< before and after
+    std::uint32_t       at;
     std::uint32_t       label; ///< smallest corner (position in the list) of its sector
     std::uint32_t       rank;
   };
@@ -97,15 +98,15 @@ BurnNetwork::BurnNetwork(const MedialComplex & complex, double sampling)
 void
 BurnNetwork::BuildIncidence()
 {
-  std::vector<std::uint32_t> sideOffsets;
+  std::vector<std::uint32_t> faceOffsets;
   RunBoth(
     m_Cells->vertexCount > kFewVertices,
-    [&] { Bucket(m_Cells->vertexCount, *m_Cells, m_Cells->faceVertices, vertexCornerOffsets, vertexCorners); },
-    [&] { Bucket(m_Cells->edges.size(), *m_Cells, m_Cells->faceEdges, sideOffsets, edgeSides); });
-  edgeFirst.resize(sideOffsets.size());
-  for (std::size_t edge = 0; edge < sideOffsets.size(); ++edge)
+    [&] { Bucket(m_Cells->vertexCount, *m_Cells, m_Cells->faceVertices, vertexFaceOffsets, vertexFaces); },
+    [&] { Bucket(m_Cells->edges.size(), *m_Cells, m_Cells->faceEdges, faceOffsets, edgeFaces); });
+  edgeFirst.resize(faceOffsets.size());
+  for (std::size_t edge = 0; edge < faceOffsets.size(); ++edge)
   {
-    edgeFirst[edge].side = sideOffsets[edge];
+    edgeFirst[edge].face = faceOffsets[edge];
   }
 }
 
@@ -163,13 +164,14 @@ BurnNetwork::FindSectors(std::size_t firstVertex, std::size_t lastVertex)
     const auto firstEnd = static_cast<std::uint32_t>(part.seamEnds.size());
     vertexSectorOffsets[vertex] = firstSector;
     seamEndOffsets[vertex] = firstEnd;
-    const std::uint32_t first = vertexCornerOffsets[vertex];
-    const std::uint32_t count = vertexCornerOffsets[vertex + 1] - first;
+    const std::uint32_t first = vertexFaceOffsets[vertex];
+    const std::uint32_t count = vertexFaceOffsets[vertex + 1] - first;
     fan.corners.resize(count);
     for (std::uint32_t i = 0; i < count; ++i)
     {
-      const FaceCorner & at = vertexCorners[first + i];
-      Fan::Corner &      corner = fan.corners[i];
+      const FaceCorner at = CornerAt(vertexFaces[first + i], static_cast<ElementIndex>(vertex));
+      Fan::Corner &    corner = fan.corners[i];
+      corner.at = at.corner;
       const ElementIndex before = m_Cells->faceEdges[SideBefore(at)];
       const ElementIndex after = m_Cells->faceEdges[at.corner];
       corner.sides = { Fan::Side{ before, EdgeFaceCount(before) }, Fan::Side{ after, EdgeFaceCount(after) } };
@@ -201,7 +203,7 @@ BurnNetwork::FindSectors(std::size_t firstVertex, std::size_t lastVertex)
         part.open.push_back(0);
       }
       corner.rank = fan.corners[corner.label].rank;
-      sides[vertexCorners[first + i].corner].sector[0] = corner.rank;
+      sides[corner.at].sector[0] = corner.rank;
       if (corner.sides[0].faces == 1 || corner.sides[1].faces == 1)
       {
         part.open[corner.rank] = 1;
@@ -264,9 +266,9 @@ BurnNetwork::BuildSectors()
                  {
                    vertexSectorOffsets[vertex] += firstSector;
                    seamEndOffsets[vertex] += firstEnd;
-                   for (std::uint32_t i = vertexCornerOffsets[vertex]; i < vertexCornerOffsets[vertex + 1]; ++i)
+                   for (std::uint32_t i = vertexFaceOffsets[vertex]; i < vertexFaceOffsets[vertex + 1]; ++i)
                    {
-                     sides[vertexCorners[i].corner].sector[0] += firstSector;
+                     sides[CornerAt(vertexFaces[i], static_cast<ElementIndex>(vertex)).corner].sector[0] += firstSector;
                    }
                  }
                });
@@ -288,12 +290,6 @@ void
 BurnNetwork::BuildSides()
 {
   const bool worthIt = m_Cells->vertexCount > kFewVertices;
-  RunInParts(worthIt, sides.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t corner = first; corner < last; ++corner)
-    {
-      sides[corner].point[0] = m_Cells->faceVertices[corner];
-    }
-  });
   RunInParts(worthIt, m_Cells->edges.size(), [&](std::size_t firstEdge, std::size_t lastEdge) {
     for (std::size_t edge = firstEdge; edge < lastEdge; ++edge)
     {
@@ -301,11 +297,9 @@ BurnNetwork::BuildSides()
       const auto          number = static_cast<ElementIndex>(edge);
       const std::uint32_t row = EdgeFaceCount(number) >= 3 ? SampleCount(number) : 0;
       std::uint32_t       sector = at.sector;
-      for (std::uint32_t i = at.side; i < edgeFirst[edge + 1].side; ++i, sector += row)
+      for (std::uint32_t i = at.face; i < edgeFirst[edge + 1].face; ++i, sector += row)
       {
-        Side & side = sides[edgeSides[i].corner];
-        side.sector[1] = sector;
-        side.point[1] = at.point;
+        sides[SideAt(edgeFaces[i], number).corner].sector[1] = sector;
       }
     }
   });

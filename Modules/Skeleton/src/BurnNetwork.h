@@ -31,14 +31,13 @@ struct BurnNetwork
   {
     std::uint32_t point;  ///< its first sample
     std::uint32_t sector; ///< the first of its samples' sectors
-    std::uint32_t side;   ///< in edgeSides
+    std::uint32_t face;   ///< in edgeFaces
   };
 
-  /** What fire in a face needs of a corner [0] and of the first sample on the edge that begins there [1]. */
+  /** The sectors that hold a face: of a corner [0], of the first sample on the edge that begins there [1]. */
   struct Side
   {
-    std::array<std::uint32_t, 2> sector; ///< the one that holds the face
-    std::array<std::uint32_t, 2> point;
+    std::array<std::uint32_t, 2> sector;
   };
 
   struct FaceCorner
@@ -60,10 +59,10 @@ struct BurnNetwork
   const MedialComplex *      m_Complex;
   const CellComplex *        m_Cells;
   std::vector<Side>          sides;               ///< per corner
-  std::vector<std::uint32_t> vertexCornerOffsets; ///< vertices + 1 entries
-  std::vector<FaceCorner>    vertexCorners;       ///< corners at each vertex
+  std::vector<std::uint32_t> vertexFaceOffsets;   ///< vertices + 1 entries
+  std::vector<std::uint32_t> vertexFaces;         ///< faces at each vertex
   std::vector<EdgeFirst>     edgeFirst;           ///< edges + 1 entries
-  std::vector<FaceCorner>    edgeSides;           ///< corners that begin each edge, edge by edge, face by face
+  std::vector<std::uint32_t> edgeFaces;           ///< faces at each edge
   std::vector<std::uint32_t> pointEdge;           ///< per sample point (from vertexCount on) its edge
   std::vector<std::uint32_t> vertexSectorOffsets; ///< vertices + 1 entries
   std::vector<std::uint8_t>  openSector;          ///< per sector of a vertex: 1 when it ends in an edge with one face
@@ -85,7 +84,7 @@ struct BurnNetwork
   std::uint32_t
   EdgeFaceCount(ElementIndex edge) const
   {
-    return edgeFirst[edge + std::size_t{ 1 }].side - edgeFirst[edge].side;
+    return edgeFirst[edge + std::size_t{ 1 }].face - edgeFirst[edge].face;
   }
 
   std::uint32_t
@@ -151,6 +150,20 @@ struct BurnNetwork
                           SampleCount(edge));
   }
 
+  /** Where a vertex of a face is among its corners. */
+  FaceCorner
+  CornerAt(std::uint32_t face, ElementIndex vertex) const
+  {
+    return { PlaceOf(m_Cells->faceVertices, face, vertex), face };
+  }
+
+  /** The corner of a face in which one of its edges begins. */
+  FaceCorner
+  SideAt(std::uint32_t face, ElementIndex edge) const
+  {
+    return { PlaceOf(m_Cells->faceEdges, face, edge), face };
+  }
+
   /** The side of the same face that ends in this corner. */
   std::uint32_t
   SideBefore(const FaceCorner & at) const
@@ -169,6 +182,15 @@ struct BurnNetwork
   }
 
 private:
+  std::uint32_t
+  PlaceOf(const std::vector<ElementIndex> & elements, std::uint32_t face, ElementIndex element) const
+  {
+    const auto begin = elements.begin();
+    const auto first = begin + static_cast<std::ptrdiff_t>(m_Cells->faceOffsets[face]);
+    const auto last = begin + static_cast<std::ptrdiff_t>(m_Cells->faceOffsets[face + std::size_t{ 1 }]);
+    return static_cast<std::uint32_t>(std::find(first, last, element) - begin);
+  }
+
   void
   BuildIncidence();
   void

@@ -40,16 +40,16 @@ SurfaceFire::TimeOfEdge(ElementIndex edge, const std::vector<double> & vertices)
     }
     return time / (end.point - first.point);
   }
-  if (first.side == end.side)
+  if (first.face == end.face)
   {
     const auto & ends = m_Cells.edges[edge];
     return 0.5 * (vertices[ends[0]] + vertices[ends[1]]);
   }
-  for (std::uint32_t i = first.side; i < end.side; ++i)
+  for (std::uint32_t i = first.face; i < end.face; ++i)
   {
-    const BurnNetwork::FaceCorner & at = m_Network.edgeSides[i];
-    const double                    begin = Time(m_Network.sides[at.corner].sector[0]);
-    const double                    next = Time(m_Network.sides[m_Network.CornerAfter(at)].sector[0]);
+    const BurnNetwork::FaceCorner at = m_Network.SideAt(m_Network.edgeFaces[i], edge);
+    const double                  begin = Time(m_Network.sides[at.corner].sector[0]);
+    const double                  next = Time(m_Network.sides[m_Network.CornerAfter(at)].sector[0]);
     time = std::max(time, 0.5 * (std::abs(begin) + std::abs(next)));
   }
   return time;

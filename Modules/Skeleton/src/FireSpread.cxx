@@ -14,7 +14,7 @@ constexpr double kRounding = 1 + 1e-14;
 
 } // namespace
 
-template <typename Place, typename Radius>
+template <typename Place, typename Radius, typename Point>
 void
 SurfaceFire::Reach(Block &        block,
                    Queue &        queue,
@@ -22,7 +22,7 @@ SurfaceFire::Reach(Block &        block,
                    std::uint32_t  sector,
                    const Place &  place,
                    const Radius & radius,
-                   std::uint32_t  point)
+                   const Point &  pointOf)
 {
   const double before = Time(sector);
   const double left = std::abs(before) - flame.time;
@@ -41,6 +41,7 @@ SurfaceFire::Reach(Block &        block,
   {
     return;
   }
+  const std::uint32_t point = pointOf();
   if (block.Has(point, m_Cells.vertexCount))
   {
     Arrive(block, queue, { time, sector, point }, before);
@@ -67,43 +68,43 @@ SurfaceFire::IsOvertaken(const Flame & flame, const Entries & entries) const
 void
 SurfaceFire::SpreadInSmallFace(Block & block, Queue & queue, const Flame & flame, std::uint32_t face)
 {
-  const std::uint64_t       first = m_Cells.faceOffsets[face];
-  const auto                count = static_cast<std::uint32_t>(m_Cells.faceOffsets[face + std::size_t{ 1 }] - first);
-  const BurnNetwork::Side * sides = &m_Network.sides[first];
+  const std::uint64_t  first = m_Cells.faceOffsets[face];
+  const auto           count = static_cast<std::uint32_t>(m_Cells.faceOffsets[face + std::size_t{ 1 }] - first);
+  const auto *         sides = &m_Network.sides[first];
+  const ElementIndex * vertices = &m_Cells.faceVertices[first];
   for (std::uint32_t left = m_Small[face]; left != 0; left &= left - 1)
   {
-    const auto                at = static_cast<std::uint32_t>(std::countr_zero(left));
-    const std::uint32_t       i = at >> 1U;
-    const std::uint32_t       step = at & 1U;
-    const BurnNetwork::Side & side = sides[i];
-    const Vector3 &           a = m_Complex.positions[side.point[0]];
-    if (step == 0)
+    const auto          at = static_cast<std::uint32_t>(std::countr_zero(left));
+    const std::uint32_t i = at >> 1U;
+    const std::uint32_t vertex = vertices[i];
+    const Vector3 &     a = m_Complex.positions[vertex];
+    if ((at & 1U) == 0)
     {
       Reach(
         block,
         queue,
         flame,
-        side.sector[0],
+        sides[i].sector[0],
         [&]() -> const Vector3 & { return a; },
-        [&] { return m_Complex.radius[side.point[0]]; },
-        side.point[0]);
+        [&] { return m_Complex.radius[vertex]; },
+        [&] { return vertex; });
       continue;
     }
-    const std::uint32_t next = sides[i + 1 == count ? 0 : i + 1].point[0];
+    const std::uint32_t next = vertices[i + 1 == count ? 0 : i + 1];
     const Vector3 &     b = m_Complex.positions[next];
     Reach(
       block,
       queue,
       flame,
-      side.sector[1],
+      sides[i].sector[1],
       [&] {
         return Vector3{ 0.5 * a[0] + 0.5 * b[0], 0.5 * a[1] + 0.5 * b[1], 0.5 * a[2] + 0.5 * b[2] };
       },
       [&] {
         const Vector3 way = Minus(b, a);
-        return BurnNetwork::RadiusBetween(m_Complex.radius[side.point[0]], m_Complex.radius[next], Dot(way, way), 0.5);
+        return BurnNetwork::RadiusBetween(m_Complex.radius[vertex], m_Complex.radius[next], Dot(way, way), 0.5);
       },
-      side.point[1]);
+      [&] { return m_Network.edgeFirst[m_Cells.faceEdges[first + i]].point; });
   }
 }
 
@@ -116,7 +117,7 @@ SurfaceFire::SpreadInFace(Block & block, Queue & queue, const Flame & flame, con
     SpreadInSmallFace(block, queue, flame, face);
     return true;
   }
-  if (m_FaceEntries[face] != Entries::none)
+  if (!m_FaceEntries.empty() && m_FaceEntries[face] != Entries::none)
   {
     Entries & entries = m_Entries[m_FaceEntries[face]];
     if (IsOvertaken(flame, entries))
@@ -157,7 +158,7 @@ SurfaceFire::SpreadToCorner(Block & block, Queue & queue, const Flame & flame, s
     m_Network.sides[corner].sector[0],
     [&] { return m_Complex.positions[vertex]; },
     [&] { return m_Complex.radius[vertex]; },
-    vertex);
+    [&] { return vertex; });
 }
 
 void
@@ -177,7 +178,7 @@ SurfaceFire::SpreadToSamples(Block & block, Queue & queue, const Flame & flame, 
       sector + i,
       [&] { return BurnNetwork::SamplePosition(a, b, i, count); },
       [&] { return m_Network.SampleRadius(edge, i); },
-      m_Network.edgeFirst[edge].point + i);
+      [&] { return m_Network.edgeFirst[edge].point + i; });
   }
 }
 
@@ -190,10 +191,10 @@ SurfaceFire::Spread(Block & block, Queue & queue, std::uint32_t point, const Sec
   };
   if (point < m_Cells.vertexCount)
   {
-    for (std::uint32_t i = m_Network.vertexCornerOffsets[point]; i < m_Network.vertexCornerOffsets[point + 1]; ++i)
+    for (std::uint32_t i = m_Network.vertexFaceOffsets[point]; i < m_Network.vertexFaceOffsets[point + 1]; ++i)
     {
-      const BurnNetwork::FaceCorner & at = m_Network.vertexCorners[i];
-      const std::uint32_t             sector = m_Network.sides[at.corner].sector[0];
+      const BurnNetwork::FaceCorner at = m_Network.CornerAt(m_Network.vertexFaces[i], point);
+      const std::uint32_t           sector = m_Network.sides[at.corner].sector[0];
       if (isFresh(sector))
       {
         flame.time = std::abs(Time(sector));
@@ -207,12 +208,12 @@ SurfaceFire::Spread(Block & block, Queue & queue, std::uint32_t point, const Sec
     return;
   }
   const ElementIndex  edge = m_Network.pointEdge[point - m_Cells.vertexCount];
-  const std::uint32_t first = m_Network.edgeFirst[edge].side;
+  const std::uint32_t first = m_Network.edgeFirst[edge].face;
   bool                isDone = false; // along the edge, which two faces share
-  for (std::uint32_t i = first; i < m_Network.edgeFirst[edge + 1].side; ++i)
+  for (std::uint32_t i = first; i < m_Network.edgeFirst[edge + 1].face; ++i)
   {
-    const BurnNetwork::FaceCorner & side = m_Network.edgeSides[i];
-    const std::uint32_t             sector = range.first + (range.count > 1 ? (i - first) * range.stride : 0);
+    const BurnNetwork::FaceCorner side = m_Network.SideAt(m_Network.edgeFaces[i], edge);
+    const std::uint32_t           sector = range.first + (range.count > 1 ? (i - first) * range.stride : 0);
     if (isFresh(sector))
     {
       flame.time = std::abs(Time(sector));

@@ -74,7 +74,6 @@ void
 SurfaceFire::FindFaces()
 {
   m_Small.assign(m_Cells.FaceCount(), 0);
-  m_FaceEntries.assign(m_Cells.FaceCount(), Entries::none);
   for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
   {
     const auto    edges = m_Cells.FaceEdges(face);
@@ -103,6 +102,7 @@ SurfaceFire::FindFaces()
       };
       if (std::all_of(edges.begin(), edges.end(), isHere))
       {
+        m_FaceEntries.resize(m_Cells.FaceCount(), Entries::none);
         m_FaceEntries[face] = static_cast<std::uint32_t>(m_Entries.size());
         m_Entries.emplace_back();
       }
@@ -202,7 +202,7 @@ SurfaceFire::HandOver(const std::vector<std::size_t> & from)
       to.in.push_back(arrival);
       to.next = std::min(to.next, arrival.time);
     }
-    m_Blocks[i].out.clear();
+    std::vector<Arrival>().swap(m_Blocks[i].out);
   }
   double next = kNever;
   for (const Block & block : m_Blocks)
@@ -261,7 +261,7 @@ SurfaceFire::BurnBlock(Block & block, double start, double end)
       Line(block, queue, arrival.point, arrival.time);
     }
   }
-  block.in.clear();
+  std::vector<Arrival>().swap(block.in);
   for (; queue.present < Queue::most; ++queue.present)
   {
     std::vector<std::uint32_t> & bucket = queue.buckets[queue.present];

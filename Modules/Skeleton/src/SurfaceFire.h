@@ -172,7 +172,7 @@ private:
   SpreadToSamples(Block & block, Queue & queue, const Flame & flame, std::uint32_t corner);
 
   /** Notes when fire comes to a sector of a point, if that is earlier than any before. */
-  template <typename Place, typename Radius>
+  template <typename Place, typename Radius, typename Point>
   void
   Reach(Block &        block,
         Queue &        queue,
@@ -180,7 +180,7 @@ private:
         std::uint32_t  sector,
         const Place &  place,
         const Radius & radius,
-        std::uint32_t  point);
+        const Point &  pointOf);
 
   /** Puts a point in line to burn then. */
   void
@@ -211,7 +211,7 @@ private:
   double                     m_Window;      ///< mm
   std::vector<double>        m_Times;       ///< per sector; when fire has spread from it, the negative of when
   std::vector<std::uint16_t> m_Small;       ///< per face: 0, or bit 2 i for corner i, 2 i + 1 for the sample behind it
-  std::vector<std::uint32_t> m_FaceEntries; ///< per face
+  std::vector<std::uint32_t> m_FaceEntries; ///< per face; empty where no face has entries
   std::vector<Entries>       m_Entries;
   std::vector<Block>         m_Blocks;
 };
