@@ -190,6 +190,10 @@ Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCa
   RequireUnrefinedCore(core);
   const PruneOptions options = PruneOptionsWithoutFiles(values);
   RequirePrunable(core, options);
+  CertifiedRequest lengths;
+  lengths.lambdas = options.lambdas;
+  lengths.tolerances = options.tolerances;
+  RequireLengthsIn(core.report.input.geometry.unit, lengths);
   const LabelRecord &        record = core.report.labels.front();
   const CertifiedShape       shape = RecordedShape(core.report, record);
   const CertifiedCore        before{ record.pruned.front(), core.part };
@@ -251,6 +255,7 @@ Save(const CoreOfLabel &           core,
   MedialModel       model;
   CoreReport        report = core.report;
   report.parameters.model = options;
+  model.unit = report.input.geometry.unit;
   model.parts = { core.part };
   model.hasEdges = core.hasEdges;
   model.refined = core.refined;

@@ -57,19 +57,20 @@ ViewOf(const py::array & array)
   return view;
 }
 
-/** `values` are options of the command line. */
+/** `values` are options of the command line. Without a spacing lengths are in voxels. */
 std::vector<std::shared_ptr<CoreOfLabel>>
-CoresOfArray(const py::array &             array,
-             const std::array<double, 3> & spacing,
-             const std::array<double, 3> & origin,
-             const std::array<double, 9> & direction,
-             const ParameterValues &       values,
-             const py::object &            listener)
+CoresOfArray(const py::array &                            array,
+             const std::optional<std::array<double, 3>> & spacing,
+             const std::array<double, 3> &                origin,
+             const std::array<double, 9> &                direction,
+             const ParameterValues &                      values,
+             const py::object &                           listener)
 {
   const ArrayView view = ViewOf(array);
   ImageGeometry   geometry;
   geometry.size = view.size;
-  geometry.spacing = spacing;
+  geometry.spacing = spacing.value_or(Vector3{ 1, 1, 1 });
+  geometry.unit = spacing ? SpatialUnit::Millimetres : SpatialUnit::Voxels;
   geometry.origin = origin;
   geometry.direction = direction;
   return RunInOwnThread(ThreadsFrom(values, CommandId::Core), listener, array, [=](const ProgressCallback & progress) {
@@ -299,6 +300,7 @@ DefineCore(py::module_ & module)
                            [](const Handle & core) { return core->report.labels.front().pruned.front().lambdaMm; })
     .def_property_readonly("voxels", [](const Handle & core) { return core->report.labels.front().voxels; })
     .def_property_readonly("spacing", [](const Handle & core) { return core->report.input.geometry.spacing; })
+    .def_property_readonly("unit", [](const Handle & core) { return UnitName(core->report.input.geometry.unit); })
     .def_property_readonly(
       "topology",
       [](const Handle & core) { return Topology(core->report.labels.front().pruned.front().complex.topology); })
@@ -334,6 +336,7 @@ DefineSkeleton(py::module_ & module)
     .def_property_readonly(
       "topology",
       [](const Handle & s) { return Topology(s->report.labels.front().skeleton.value().topology); })
+    .def_property_readonly("unit", [](const Handle & s) { return UnitName(s->report.input.geometry.unit); })
     .def_property_readonly("numbers", [](const Handle & s) { return NumbersOf(s->part.table.numbers); })
     .def_property_readonly("report", [](const Handle & s) { return ReportJson(s->report); })
     .def("branch_columns", [](const Handle & s) { return BranchColumns(*s); })
@@ -397,7 +400,14 @@ PYBIND11_MODULE(_voxelcore, module)
   module.def("read_core", &ReadCoreFile);
   module.def("core_from_state", &CoreFromState);
   module.def("skeleton_from_state", &SkeletonFromState);
-  module.def("skeleton_columns", [] { return SkeletonColumnsJson(SpatialUnit::Millimetres); });
+  module.def("skeleton_columns", [](const std::string & unit) {
+    const auto named = UnitNamed(unit);
+    if (!named)
+    {
+      throw UsageError("unit " + unit + ": expected 'mm' or 'voxel'");
+    }
+    return SkeletonColumnsJson(*named);
+  });
   module.def("await_left_behind", &AwaitLeftBehind);
   module.def("forget_left_behind", &ForgetLeftBehind);
   module.def("in_python_words", &InPythonWords);

@@ -50,7 +50,7 @@ def main():
                            check=True)
 
         def by_python():
-            core = voxelcore.core(array, threads=options.threads)
+            core = voxelcore.core(array, spacing=(1, 1, 1), threads=options.threads)
             core.save(f"{work}/python.vtp", overwrite=True)
 
         taken = {by_program: [], by_python: []}

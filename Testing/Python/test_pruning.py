@@ -109,9 +109,9 @@ def test_a_core_is_pruned_further_as_by_the_command_line(tmp_path, scan, made, w
         (dict(), dict(lambda_=2, tolerance=2), "give either lambda_ or tolerance"),
         (dict(lambda_=0), dict(tolerance=1), "make it with tolerance=0"),
         (dict(), dict(lambda_=2), "pruned by tolerance 1.2diag already"),
-        (dict(tolerance=1), dict(lambda_=2), "pruned by tolerance 1mm? already"),
-        (dict(tolerance=1), dict(tolerance=0.5), "pruned at tolerance 1mm? already"),
-        (dict(lambda_=2), dict(lambda_=1), "pruned at 2mm? already"),
+        (dict(tolerance=1), dict(lambda_=2), "pruned by tolerance 1vox already"),
+        (dict(tolerance=1), dict(tolerance=0.5), "pruned at tolerance 1vox already"),
+        (dict(lambda_=2), dict(lambda_=1), "pruned at 2vox already"),
     ],
 )
 def test_what_cannot_be_pruned_so_is_refused(scan, made, wanted, words):

@@ -15,10 +15,10 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 TURNED = numpy.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
 PLACES = [
-    dict(),
+    dict(spacing=(1, 1, 1)),
     dict(spacing=(0.5, 0.5, 2), origin=(-3, 7.25, 100)),
     dict(spacing=(1, 2, 3), direction=TURNED),
-    dict(direction=numpy.diag([-1, 1, 1])),
+    dict(spacing=(1, 1, 1), direction=numpy.diag([-1, 1, 1])),
 ]
 
 
@@ -233,3 +233,30 @@ def test_other_threads_run_meanwhile_and_compute_at_once(volume):
         time.sleep(0.005)
     assert len(ticks) > 5, "the interpreter was locked"
     assert results == {0: expected, 1: expected}
+
+
+def test_without_a_spacing_lengths_are_in_voxels_and_called_so(tmp_path):
+    volume = blobs(11)
+    core = voxelcore.core(volume, lambda_=2)
+    same = voxelcore.core(volume, lambda_=2, spacing=(1, 1, 1))
+    assert (core.unit, same.unit) == ("voxel", "mm")
+    assert numpy.array_equal(core.vertices, same.vertices)
+    assert "2 vox" in repr(core) and "2 mm" in repr(same)
+    assert "lambda_vox" in core.report["labels"][0]["pruned"][0]
+    curve = core.skeleton(prune_branches=1)
+    assert curve.unit == "voxel" and voxelcore.skeleton(volume, spacing=(1, 1, 1)).unit == "mm"
+    for result in (core, curve):
+        units = result.to_polydata().GetFieldData().GetAbstractArray("Units")
+        assert units.GetValue(0) == "voxel"
+        result.save(tmp_path / "saved.vtp", overwrite=True)
+        assert polydata(tmp_path / "saved.vtp").GetFieldData().GetAbstractArray("Units").GetValue(0) == "voxel"
+    core.save(tmp_path / "core.vtp", keep_edges=True)
+    assert voxelcore.read(tmp_path / "core.vtp").unit == "voxel"
+    for act in (
+        lambda: voxelcore.core(volume, lambda_="2mm"),
+        lambda: voxelcore.core(volume, tolerance="1mm"),
+        lambda: voxelcore.core(volume, lambda_=0).prune("2mm"),
+        lambda: core.skeleton(prune_branches="1mm"),
+    ):
+        with pytest.raises(ValueError, match="spacing"):
+            act()

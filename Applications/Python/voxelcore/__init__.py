@@ -39,7 +39,7 @@ atexit.register(_voxelcore.await_left_behind)
 def core(
     array,
     *,
-    spacing=(1, 1, 1),
+    spacing=None,
     lambda_=None,
     label=None,
     origin=(0, 0, 0),
@@ -55,19 +55,19 @@ def core(
 
     array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array
         masks. It is read once, into one bit a voxel, and not kept. It must not change meanwhile.
-    spacing: mm between voxels along i, j and k. Where it is not known leave it at 1: lengths are then in voxels,
-        though they are called mm here.
+    spacing: mm between voxels along i, j and k. None: it is not known; all lengths are then in voxels, results have
+        the unit 'voxel', and a length in mm is refused.
     lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
-        number of mm, or text with a unit: '1.5mm', '1.5vox' (times the smallest spacing), '2.5%' (of the longest side
-        of the label's box). 0 keeps the whole core. With tolerance, it is applied first. A list shares
-        one computation.
+        number (of mm, or of voxels without a spacing), or text with a unit: '1.5mm', '1.5vox' (times the smallest
+        spacing), '2.5%' (of the longest side of the label's box). 0 keeps the whole core. With tolerance, it is
+        applied first. A list shares one computation.
     label: its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
     origin: LPS mm of the centre of voxel (0, 0, 0).
     direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
         SimpleITK has it.
     axes: 'ijk' for arrays a[i, j, k] (nibabel), 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of spacing, origin
         and direction the order is i, j, k in either case.
-    tolerance: how far the boundary may lie from the balls that remain: a number of mm, '1.2diag' (voxel diagonals; the
+    tolerance: how far the boundary may lie from the balls that remain: a number, '1.2diag' (voxel diagonals; the
         default without lambda_) or '2vox'. A list shares one computation.
     threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
     progress: a function that is called with the stage and the fraction done, a few times a second. The fraction never
@@ -78,7 +78,7 @@ def core(
     >>> surface = core(slab, spacing=(1, 1, 2), lambda_="1mm")
     >>> surface.vertices.shape[1], surface.vertices.dtype.name, round(surface.radius.max(), 1)
     (3, 'float64', 3.1)
-    >>> [len(surface.vertices) for surface in core(slab, lambda_=[0, "1mm", "1.5vox"])]
+    >>> [len(surface.vertices) for surface in core(slab, lambda_=[0, 1, "1.5vox"])]
     [117, 49, 49]
     >>> two = numpy.ones((9, 9, 9), numpy.uint8)
     >>> two[4] = [[0]]
@@ -96,7 +96,7 @@ that hold whole numbers)
     if axes not in ("ijk", "kji"):
         raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
     values = _arguments.values("core", _arguments.OF_CORE, options)
-    pruning, several = _arguments.pruning(lambda_, tolerance)
+    pruning, several = _arguments.pruning(lambda_, tolerance, "voxel" if spacing is None else "mm")
     values.update(pruning)
     if threshold is not None:
         try:
@@ -111,7 +111,8 @@ that hold whole numbers)
     voxels = _arguments.without_mask(array, threshold)
     if axes == "kji":
         voxels = voxels.T
-    place = _arguments.three("spacing", spacing), _arguments.three("origin", origin), _arguments.nine(direction)
+    size = None if spacing is None else _arguments.three("spacing", spacing)
+    place = size, _arguments.three("origin", origin), _arguments.nine(direction)
     by_label = {}
     for data in _voxelcore.cores(voxels, *place, values, progress):
         one = Core(data)
@@ -142,12 +143,13 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
     """
     own = {keyword: value for keyword, value in options.items() if keyword in _arguments.OF_SKELETON}
     of_array = {keyword: value for keyword, value in options.items() if keyword not in own}
+    unit = source.unit if isinstance(source, Core) else "voxel" if of_array.get("spacing") is None else "mm"
     values = _arguments.values(
         "skeleton",
         _arguments.OF_SKELETON,
         dict(
             own,
-            prune_branches="0" if prune_branches is None else prune_branches,
+            prune_branches="0" if prune_branches is None else _arguments.text(prune_branches, unit),
             root=root if isinstance(root, str) else ",".join(repr(value) for value in _arguments.three("root", root)),
         ),
     )
@@ -201,15 +203,17 @@ def read(path):
     return Core(_voxelcore.read_core(os.fsencode(path)))
 
 
-def columns():
-    """What the columns of measure() mean, and their units.
+def columns(unit="mm"):
+    """What the columns of measure() mean, and their units: those of a skeleton with this `unit`.
 
     >>> columns()["branch_distance"]
     {'Description': 'length along the branch', 'Units': 'mm'}
+    >>> columns("voxel")["branch_distance"]["Units"]
+    'vox'
     """
     import json
 
-    return json.loads(_voxelcore.skeleton_columns())["branches"]
+    return json.loads(_voxelcore.skeleton_columns(unit))["branches"]
 
 
 _arguments.documented(core, _arguments.OF_CORE)

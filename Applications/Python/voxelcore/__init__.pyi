@@ -19,6 +19,8 @@ class _Result:
     @property
     def component(self) -> int: ...
     @property
+    def unit(self) -> str: ...
+    @property
     def topology(self) -> Dict[str, Any]: ...
     @property
     def report(self) -> Dict[str, Any]: ...
@@ -111,7 +113,7 @@ class Skeleton(_Result):
 def core(
     array: ArrayLike,
     *,
-    spacing: Vector = ...,
+    spacing: Optional[Vector] = ...,
     lambda_: Optional[Length] = ...,
     label: Union[None, int, str] = ...,
     origin: Vector = ...,
@@ -126,7 +128,7 @@ def core(
 def core(
     array: ArrayLike,
     *,
-    spacing: Vector = ...,
+    spacing: Optional[Vector] = ...,
     lambda_: Lengths,
     label: Union[None, int, str] = ...,
     origin: Vector = ...,
@@ -141,7 +143,7 @@ def core(
 def core(
     array: ArrayLike,
     *,
-    spacing: Vector = ...,
+    spacing: Optional[Vector] = ...,
     lambda_: Optional[Length] = ...,
     label: Union[None, int, str] = ...,
     origin: Vector = ...,
@@ -156,7 +158,7 @@ def core(
 def core(
     array: ArrayLike,
     *,
-    spacing: Vector = ...,
+    spacing: Optional[Vector] = ...,
     lambda_: Optional[Length] = ...,
     label: List[int],
     origin: Vector = ...,
@@ -178,4 +180,4 @@ def skeleton(
 ) -> Skeleton: ...
 def measure(source: Union[Skeleton, Core, ArrayLike], **options: Any) -> Dict[str, NDArray[Any]]: ...
 def read(path: Union[str, PathLike[str]]) -> Core: ...
-def columns() -> Dict[str, Dict[str, str]]: ...
+def columns(unit: str = ...) -> Dict[str, Dict[str, str]]: ...

@@ -8,27 +8,28 @@ import numpy
 from . import _voxelcore
 
 
-def text(value):
-    """A length as the command line takes it: a number is millimetres."""
+def text(value, unit="mm"):
+    """A length as the command line takes it: a number is in the unit of the spacing."""
     if isinstance(value, str):
         if "," in value:
             raise ValueError(f"{value!r}: expected one length; for several give a list")
         return value
     if isinstance(value, (bool, numpy.bool_)) or not numpy.isscalar(value):
-        raise ValueError(f"{value!r}: expected a length such as '1.5vox' or a number of mm")
-    return numpy.format_float_positional(float(value), trim="-")
+        raise ValueError(f"{value!r}: expected a length such as '1.5vox' or a number")
+    number = numpy.format_float_positional(float(value), trim="-")
+    return number + "vox" if unit == "voxel" and float(value) != 0 else number
 
 
-def pruning(lambda_, tolerance):
+def pruning(lambda_, tolerance, unit):
     """Options for lambda_ and tolerance, of which None is not given; whether one of them asks for several results."""
     values = {}
     for name, given in (("lambda", lambda_), ("tolerance", tolerance)):
         if isinstance(given, (list, tuple)):
             if not given:
                 raise ValueError(f"{name}: the list is empty")
-            values[name] = ",".join(map(text, given))
+            values[name] = ",".join(text(value, unit) for value in given)
         elif given is not None:
-            values[name] = text(given)
+            values[name] = text(given, unit)
     return values, isinstance(lambda_, (list, tuple)) or isinstance(tolerance, (list, tuple))
 
 

@@ -2,7 +2,7 @@
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 
@@ -25,8 +25,14 @@ def _add(attributes, name, values):
     attributes.AddArray(array)
 
 
-def _polydata(points):
+def _polydata(points, unit):
+    """With the field strings that the files have."""
     data = vtkPolyData()
+    for name, text in (("SPACE", "LPS"), ("Units", unit)):
+        strings = vtkStringArray()
+        strings.SetName(name)
+        strings.InsertNextValue(text)
+        data.GetFieldData().AddArray(strings)
     places = vtkPoints()
     places.SetData(numpy_to_vtk(numpy.ascontiguousarray(points), deep=1))
     data.SetPoints(places)
@@ -34,7 +40,7 @@ def _polydata(points):
 
 
 def of_core(core):
-    data = _polydata(core.vertices)
+    data = _polydata(core.vertices, core.unit)
     alone, free = core.isolated_vertices(), core.free_edges()
     data.SetVerts(_even(alone, 1))
     data.SetLines(_even(core.edges[free], 2))
@@ -48,7 +54,7 @@ def of_core(core):
 
 
 def of_skeleton(skeleton):
-    data = _polydata(skeleton.points)
+    data = _polydata(skeleton.points, skeleton.unit)
     used = numpy.zeros(len(skeleton.points), bool)
     used[skeleton.branch_points] = True
     used[skeleton.face_vertices] = True

@@ -35,6 +35,11 @@ class _Result:
         return self._data.component
 
     @property
+    def unit(self):
+        """Of all lengths: 'mm'; 'voxel' where no voxel size is known."""
+        return self._data.unit
+
+    @property
     def topology(self):
         """Euler number and Betti numbers (pieces, loops, cavities) as counted in this result; those of the voxels."""
         return self._data.topology
@@ -48,7 +53,8 @@ class _Result:
 
 
 class Core(_Result):
-    """A medial surface: vertices, edges between them, polygons. Made by core().
+    """A medial surface: vertices, edges between them, polygons. Made by core(). Where `unit` is 'voxel', what is said
+    to be in mm here is in voxels.
 
     >>> surface = core(numpy.ones((9, 9, 3), bool), lambda_=0)
     >>> surface.face_offsets[-1] == len(surface.face_vertices) == len(surface.face_edges)
@@ -152,7 +158,7 @@ class Core(_Result):
         >>> ragged.prune(tolerance="1diag").topology == ragged.prune("1.5vox").topology
         True
         """
-        values, several = _arguments.pruning(lambda_, tolerance)
+        values, several = _arguments.pruning(lambda_, tolerance, self.unit)
         cores = [Core(data) for data in _voxelcore.prune(self._data, values, progress)]
         return cores if several else cores[0]
 
@@ -194,14 +200,16 @@ class Core(_Result):
     def __repr__(self):
         pruned = self.report["labels"][0]["pruned"][0]
         measure = "tolerance" if "tolerance" in pruned else "lambda"
+        unit = "vox" if self.unit == "voxel" else "mm"
         return (
             f"<voxelcore.Core of label {self.label}: {len(self.vertices)} vertices, {len(self.edges)} edges, "
-            f"{len(self.face_offsets) - 1} faces, {measure} {pruned[measure + '_mm']:g} mm>"
+            f"{len(self.face_offsets) - 1} faces, {measure} {pruned[f'{measure}_{unit}']:g} {unit}>"
         )
 
 
 class Skeleton(_Result):
-    """A curve skeleton: branches are poly lines from node to node. Made by skeleton()."""
+    """A curve skeleton: branches are poly lines from node to node. Made by skeleton(). Where `unit` is 'voxel', what is
+    said to be in mm here is in voxels."""
 
     __slots__ = ()
 
