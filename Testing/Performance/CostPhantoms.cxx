@@ -39,7 +39,9 @@ std::vector<BoundaryCounts>
 CountScan(const fs::path & scan)
 {
   std::vector<BoundaryCounts> counts;
-  for (const LabelShape & label : ReadLabelVolume(scan).labels)
+  const ReadOptions           options;
+  const auto                  volume = ReadLabelVolume(scan, options);
+  for (const LabelShape & label : volume.labels)
   {
     counts.push_back(CountBoundary(label.shape));
   }

@@ -28,11 +28,11 @@ constexpr CostConstants kFitted{
   { 0, 0, 2.83e-6, 2.82e-6, 5.17e-6, 1.14e-7 },
   0.6,
   // By VoxelCoreCostFit --further.
-  { 3.61e7, 0, 435, 134, 0, 0 },
-  { 0, 0, 0, 0, 0, 3.32e-7 },
-  { 1.65e3, 58.2 },
-  { 4.07e7, 92.6, 311 },
-  { 0, 2.94e-6, 9.04e-7 },
+  { 3.54e7, 0, 483, 116, 13.8, 0 },
+  { 0, 0, 0, 0, 0, 2.34e-7 },
+  { 2.15e3, 58.4 },
+  { 4.34e7, 152, 212 },
+  { 0, 2.28e-6, 0 },
 };
 
 // Bytes a border voxel, where nothing else is said, measured on phantoms and atlases: small beside the above, so not
@@ -240,7 +240,7 @@ PredictJob(const std::vector<BoundaryCounts> & labels,
     }
     peak = std::max({ peak, kept + running, kept + results });
     kept = keeps ? kept + results : 0;
-    seconds += end - first == 1 ? WithThreads(group, threads, constants.serial) + skeletons
+    seconds += end - first == 1 ? WithThreads(group + skeletons, threads, constants.serial)
                                 : std::max(largest, (group + skeletons) / threads);
     first = end;
   }

@@ -101,7 +101,7 @@ Add(const EditRecord & record, EditRecord & sum)
   sum.voxelsRemoved += record.voxelsRemoved;
   if (record.mended)
   {
-    EditRecord::Mended & mended = sum.mended ? *sum.mended : sum.mended.emplace();
+    EditRecord::Mended & mended = sum.mended ? *sum.mended : sum.mended.emplace(EditRecord::Mended());
     mended.voxelsAdded += record.mended->voxelsAdded;
     mended.voxelsRemoved += record.mended->voxelsRemoved;
     mended.piecesJoined += record.mended->piecesJoined;
@@ -110,7 +110,7 @@ Add(const EditRecord & record, EditRecord & sum)
   }
   if (record.smoothed)
   {
-    EditRecord::Smoothed & smoothed = sum.smoothed ? *sum.smoothed : sum.smoothed.emplace();
+    EditRecord::Smoothed & smoothed = sum.smoothed ? *sum.smoothed : sum.smoothed.emplace(EditRecord::Smoothed());
     smoothed.voxelsAdded += record.smoothed->voxelsAdded;
     smoothed.voxelsRemoved += record.smoothed->voxelsRemoved;
     smoothed.largestShift = std::max(smoothed.largestShift, record.smoothed->largestShift);

@@ -69,7 +69,7 @@ BurnCurves(const MedialComplex &       surface,
   std::vector<Anchor> longest(count, { kNoEdge, 0, 0 });
   std::vector<double> runnerUpTime(count, 0);
   std::vector<double> pushed(count, kNever);
-  TimeHeap            heap(chord / 8);
+  TimeHeap            heap(FireBucket(surface.radius));
   const auto          push = [&](ElementIndex vertex) {
     pushed[vertex] = fire.time[vertex];
     heap.Push({ fire.time[vertex], vertex });
@@ -111,6 +111,20 @@ BurnCurves(const MedialComplex &       surface,
   TimedElement item;
   while (heap.Pop(due, item))
   {
+    if (const ElementIndex ahead = heap.Ahead(8); ahead != TimeHeap::none)
+    {
+      __builtin_prefetch(&degrees[ahead], 1);
+      __builtin_prefetch(&fire.nextEdge[ahead], 1);
+      __builtin_prefetch(&fire.time[ahead], 1);
+      __builtin_prefetch(&fire.prominence[ahead], 1);
+      __builtin_prefetch(&anchors[ahead], 1);
+      __builtin_prefetch(&longest[ahead], 1);
+      __builtin_prefetch(&surface.positions[ahead]);
+    }
+    if (const ElementIndex ahead = heap.Ahead(4); ahead != TimeHeap::none && degrees[ahead].count > 0)
+    {
+      __builtin_prefetch(&cells.edges[degrees[ahead].exclusiveOr]);
+    }
     const ElementIndex vertex = item.element;
     fire.order.push_back(vertex);
     if (degrees[vertex].count == 0)

@@ -33,6 +33,12 @@ public:
   }
 
   void
+  Fetch(ElementIndex edge) const
+  {
+    __builtin_prefetch(&m_Cofaces[edge], 1);
+  }
+
+  void
   Remove(ElementIndex face)
   {
     for (const ElementIndex edge : m_Cells.FaceEdges(face))
@@ -70,8 +76,31 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
   }
   const auto   due = [&](ElementIndex edge) { return times.edges[edge]; };
   TimedElement next;
+  // Free edges burn all over the surface in turn: what the next ones need is fetched meanwhile, step by step.
+  const auto fetch = [&] {
+    if (const ElementIndex edge = heap.Ahead(16); edge != TimeHeap::none)
+    {
+      cofaces.Fetch(edge);
+    }
+    const auto fetchFace = [&](std::size_t steps, auto && what) {
+      if (const ElementIndex edge = heap.Ahead(steps); edge != TimeHeap::none && cofaces.IsFree(edge))
+      {
+        what(cofaces.OnlyFace(edge));
+      }
+    };
+    fetchFace(12, [&](ElementIndex face) { __builtin_prefetch(&cells.faceOffsets[face]); });
+    fetchFace(8, [&](ElementIndex face) { __builtin_prefetch(&cells.faceEdges[cells.faceOffsets[face]]); });
+    fetchFace(4, [&](ElementIndex face) {
+      for (const ElementIndex side : cells.FaceEdges(face))
+      {
+        cofaces.Fetch(side);
+        __builtin_prefetch(&times.edges[side]);
+      }
+    });
+  };
   while (heap.Pop(due, next))
   {
+    fetch();
     const ElementIndex edge = next.element;
     if (!cofaces.IsFree(edge))
     {

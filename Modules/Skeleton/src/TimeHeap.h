@@ -77,6 +77,15 @@ public:
     return true;
   }
 
+  /** The element that comes `steps` later as far as is known, or none: for those who fetch what they will need. */
+  std::uint32_t
+  Ahead(std::size_t steps) const
+  {
+    return m_Next + steps < m_Sorted.size() ? m_Sorted[m_Next + steps].element : none;
+  }
+
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
+
 private:
   // Times beyond (infinite ones too) share the last bucket.
   static constexpr std::size_t kLastBucket = 4096;

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <mutex>
 
 namespace voxelcore
 {
@@ -82,41 +84,48 @@ Mix(std::uint64_t h, std::uint64_t value)
   return h ^ (h >> 32);
 }
 
-// Names a set of vertices, in whatever order.
-std::uint64_t
-NameOf(const Places &                    places,
-       const std::vector<double> &       radius,
-       const std::vector<ElementIndex> & vertices,
-       const Turning &                   turning)
+// Names a set of vertices, in whatever order, turned in each of some ways. Turnings that begin with the same axes share
+// what is computed of these.
+std::vector<std::uint64_t>
+NamesOf(const Places &                    places,
+        const std::vector<double> &       radius,
+        const std::vector<ElementIndex> & vertices,
+        const std::vector<Turning> &      turnings)
 {
-  std::uint64_t name = 0;
-  for (const ElementIndex vertex : vertices)
-  {
-    std::uint64_t h = std::bit_cast<std::uint64_t>(radius[vertex]);
-    for (const std::int64_t step : places.At(vertex, turning))
-    {
-      h = Mix(h, static_cast<std::uint64_t>(step));
-    }
-    name += h;
-  }
-  return name;
-}
-
-// The turning that gives the vertices the least name.
-Turning
-LeastNamed(const Places &                    places,
-           const std::vector<double> &       radius,
-           const std::vector<ElementIndex> & vertices,
-           const std::vector<Turning> &      turnings)
-{
-  std::vector<std::uint64_t> names(turnings.size());
-  RunInParts(vertices.size() > 10000, turnings.size(), [&](std::size_t first, std::size_t last) {
+  std::vector<std::uint64_t> names(turnings.size(), 0);
+  std::mutex                 guard;
+  RunInParts(vertices.size() > 10000, vertices.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint64_t> sums(turnings.size(), 0);
     for (std::size_t i = first; i < last; ++i)
     {
-      names[i] = NameOf(places, radius, vertices, turnings[i]);
+      const ElementIndex                          vertex = vertices[i];
+      const std::uint64_t                         h = std::bit_cast<std::uint64_t>(radius[vertex]);
+      std::array<std::uint64_t, 6>                steps; // per axis: forwards, backwards
+      std::array<std::array<std::uint64_t, 6>, 6> two;   // of the first two axes
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        steps[2 * axis] = static_cast<std::uint64_t>(places.steps[vertex][axis] - places.low[axis]);
+        steps[2 * axis + 1] = static_cast<std::uint64_t>(places.high[axis] - places.steps[vertex][axis]);
+      }
+      for (std::size_t a = 0; a < 6; ++a)
+      {
+        const std::uint64_t one = Mix(h, steps[a]);
+        for (std::size_t b = 0; b < 6; ++b)
+        {
+          two[a][b] = Mix(one, steps[b]);
+        }
+      }
+      for (std::size_t t = 0; t < turnings.size(); ++t)
+      {
+        const Turning & turning = turnings[t];
+        const auto      way = [&](std::size_t k) { return 2 * turning.axis[k] + (turning.back[k] ? 1 : 0); };
+        sums[t] += Mix(two[way(0)][way(1)], steps[way(2)]);
+      }
     }
+    const std::scoped_lock lock(guard);
+    std::transform(names.begin(), names.end(), sums.begin(), names.begin(), std::plus());
   });
-  return turnings[static_cast<std::size_t>(std::min_element(names.begin(), names.end()) - names.begin())];
+  return names;
 }
 
 // Across coarse slices first, then along long axes, then by name; what is alike in all of these is symmetric.
@@ -151,7 +160,8 @@ PickTurning(const Places & places, const std::vector<double> & radius, const Vec
       vertices.push_back(vertex);
     }
   }
-  return LeastNamed(places, radius, vertices, turnings);
+  const std::vector<std::uint64_t> names = NamesOf(places, radius, vertices, turnings);
+  return turnings[static_cast<std::size_t>(std::min_element(names.begin(), names.end()) - names.begin())];
 }
 
 // Side of the cells in whose order vertices come; within one they come in canonical order.
@@ -182,6 +192,7 @@ SortVertices(const Places & places, const std::vector<double> & radius, const Tu
   struct Place
   {
     std::uint64_t morton;
+    std::uint64_t inCell; // along the first two axes
     ElementIndex  vertex;
   };
   std::vector<Place> sorted(places.steps.size());
@@ -189,6 +200,10 @@ SortVertices(const Places & places, const std::vector<double> & radius, const Tu
     if (a.morton != b.morton)
     {
       return a.morton < b.morton;
+    }
+    if (a.inCell != b.inCell)
+    {
+      return a.inCell < b.inCell;
     }
     const Steps at = places.At(a.vertex, turning);
     const Steps bt = places.At(b.vertex, turning);
@@ -201,8 +216,10 @@ SortVertices(const Places & places, const std::vector<double> & radius, const Tu
   const auto sort = [&](std::ptrdiff_t first, std::ptrdiff_t last) {
     for (std::ptrdiff_t i = first; i < last; ++i)
     {
-      const auto vertex = static_cast<ElementIndex>(i);
-      sorted[vertex] = { MortonOf(places.At(vertex, turning)), vertex };
+      const auto  vertex = static_cast<ElementIndex>(i);
+      const Steps at = places.At(vertex, turning);
+      const auto  inCell = [&](std::size_t axis) { return static_cast<std::uint64_t>(at[axis]) % kCell; };
+      sorted[vertex] = { MortonOf(at), inCell(0) << 29U | inCell(1), vertex };
     }
     std::sort(sorted.begin() + first, sorted.begin() + last, isLess);
   };

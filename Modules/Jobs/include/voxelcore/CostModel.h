@@ -2,9 +2,8 @@
 // What `voxelcore core`, `skeleton` and a page will need, foretold from the shapes alone. Counts of the boundary tell
 // how many Delaunay cells there will be, and these what a job costs; all of it is linear, with constants fitted by
 // Testing/Performance (VoxelCoreCostFit, and VoxelCoreCostFit --further for skeletons and pages), which prints them and
-// how far they miss. On shapes and scans not fitted to, memory of skeletons was 0.9 to 1.5 times what was measured, of
-// pages 0.8 to 1.8 times; seconds on one thread 0.5 to 1.2 and 0.9 to 1.3 times, but for a thin plate (2.1 and 1.6) and
-// a scan of 3.6 times thicker slices (0.5 and 0.4).
+// how far they miss. On shapes not fitted to, memory of skeletons was 0.96 to 1.2 times what was measured, of pages 0.7
+// to 1.5 times; seconds on one thread 0.7 to 1.5 and 0.7 to 1.4 times, but for the skeleton of a thin plate (2.0).
 
 #include "voxelcore/BoundaryCounts.h"
 #include "voxelcore/CoreJob.h"
@@ -46,7 +45,7 @@ struct CostConstants
   std::array<double, CostTerms::kSize> seconds{};  ///< one thread, without reading
   double                               serial = 0; ///< part of the seconds that more threads do not shorten
 
-  // More threads do several labels at a time, but make no single skeleton and no single label of a page faster.
+  // More threads do several labels at a time, but make no single label of a page faster.
   std::array<double, CostTerms::kSize> skeletonBytes{};   ///< at the peak of a job with a skeleton of one label
   std::array<double, CostTerms::kSize> skeletonSeconds{}; ///< of the skeleton alone
   std::array<double, 2>                skeletonKept{};    ///< bytes a label, and a vertex of it, until all are written
