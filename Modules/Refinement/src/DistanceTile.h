@@ -31,17 +31,16 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
 {
   constexpr std::int32_t side = Rows<Count, Margin>::kSide;
   // By x alone, by x and y, by all.
-  float      byX[side * side][Count];
-  float      byY[side * Count][Count];
-  const auto lower = [](float * to, const float * from, float more) {
-    for (std::int32_t x = 0; x < Count; ++x)
-    {
-      to[x] = std::min(to[x], from[x] + more);
-    }
-  };
+  float byX[side * side][Count];
+  float byY[side * Count][Count];
   for (std::int32_t row = 0; row < side * side; ++row)
   {
     const std::uint64_t bits = rows.bits[static_cast<std::size_t>(row)];
+    if (bits == 0)
+    {
+      std::fill_n(byX[row], Count, kNone);
+      continue;
+    }
     for (std::int32_t x = 0; x < Count; ++x)
     {
       const std::int32_t at = x + Margin;
@@ -49,21 +48,44 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
       byX[row][x] = away > Margin ? kNone : static_cast<float>(away * away) * squares[0];
     }
   }
+  // From near to far, as long as what is farther may still be less.
+  const auto lowerAll = [](float * to, const auto & from, float square) {
+    std::copy_n(from(0), Count, to);
+    for (std::int32_t d = 1; d <= Margin; ++d)
+    {
+      const float  more = static_cast<float>(d * d) * square;
+      std::int32_t open = 0;
+      for (std::int32_t x = 0; x < Count; ++x)
+      {
+        open |= to[x] > more ? 1 : 0;
+      }
+      if (open == 0)
+      {
+        break;
+      }
+      const float * const before = from(-d);
+      const float * const after = from(d);
+      for (std::int32_t x = 0; x < Count; ++x)
+      {
+        to[x] = std::min(to[x], std::min(before[x], after[x]) + more);
+      }
+    }
+  };
   for (std::int32_t row = 0; row < side * Count; ++row)
   {
-    std::fill_n(byY[row], Count, kNone);
-    for (std::int32_t d = -Margin; d <= Margin; ++d)
-    {
-      lower(byY[row], byX[row / Count * side + row % Count + Margin + d], static_cast<float>(d * d) * squares[1]);
-    }
+    const auto * const middle = byX + (row / Count * side + row % Count + Margin);
+    lowerAll(
+      byY[row],
+      [&](std::int32_t d) { return middle[d]; },
+      squares[1]);
   }
-  std::fill(least.begin(), least.end(), kNone);
   for (std::int32_t row = 0; row < Count * Count; ++row)
   {
-    for (std::int32_t d = -Margin; d <= Margin; ++d)
-    {
-      lower(least.data() + row * Count, byY[row + (Margin + d) * Count], static_cast<float>(d * d) * squares[2]);
-    }
+    const auto * const middle = byY + (row + Margin * Count);
+    lowerAll(
+      least.data() + row * Count,
+      [&](std::int32_t d) { return middle[d * Count]; },
+      squares[2]);
   }
 }
 
