@@ -112,12 +112,20 @@ def limited():
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
+def is_sanitized(program):
+    """Whether AddressSanitizer is in it, which maps terabytes, holds freed memory back, and says what it finds."""
+    return b"__asan_init" in pathlib.Path(program).read_bytes()
+
+
 class Reader:
     """A process of DumpScan."""
 
     def __init__(self, dump):
-        self.process = subprocess.Popen([dump, "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, preexec_fn=limited,
-                                        stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        self.sanitized = is_sanitized(dump)
+        self.process = subprocess.Popen([dump, "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        preexec_fn=None if self.sanitized else limited,
+                                        stderr=None if self.sanitized else subprocess.DEVNULL,
+                                        env={**os.environ, "OMP_NUM_THREADS": "1"})
 
     def read(self, words):
         """What it answers; None when it dies or takes too long, and then it is dead."""
@@ -171,7 +179,7 @@ def main(dump, form, count):
             memory = reader.memory() if answer is not None else 0
             slowest, largest = max(slowest, seconds), max(largest, memory)
             read += answer is not None and "refused" not in answer
-            if answer is None or memory > ROOM + LARGEST_RUN * size[scan]:
+            if answer is None or (memory > ROOM + LARGEST_RUN * size[scan] and not reader.sanitized):
                 failures += 1
                 print("FAILED", scan.name, file.name, *options, f"{seconds:.1f} s, {memory >> 20} MB,",
                       "dead" if answer is None else "alive", flush=True)
