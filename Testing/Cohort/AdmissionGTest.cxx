@@ -72,8 +72,11 @@ TEST(Admission, AProcessThatNoBatchStartedNeedsNone)
 {
   unsetenv(kAdmissionVariable);
   EXPECT_FALSE(AdmissionFromEnvironment(kNever));
-  setenv(kAdmissionVariable, "no number", 1);
-  EXPECT_FALSE(AdmissionFromEnvironment(kNever));
+  for (const char * text : { "", "no number", "5abc" })
+  {
+    setenv(kAdmissionVariable, text, 1);
+    EXPECT_FALSE(AdmissionFromEnvironment(kNever)) << text;
+  }
   unsetenv(kAdmissionVariable);
 }
 

@@ -138,12 +138,20 @@ TEST(GatherCohort, ADoneCaseWhoseReportIsGoneOrDamagedIsNotPassedOverInSilence)
 {
   const TemporaryFolder folder;
   MakeCase(folder, "a", true, ReportOf(R"({"label":1,"name":"n"})"));
-  MakeCase(folder, "b", true, "{ no json");
+  const std::vector<std::string> damaged{
+    "{ no json", "[]", R"({"labels":[]})", ReportOf(R"({"name":"n"})"), ReportOf(R"({"label":1})"), ReportOf("3")
+  };
+  for (std::size_t i = 0; i < damaged.size(); ++i)
+  {
+    MakeCase(folder, "b" + std::to_string(i), true, damaged[i]);
+  }
   const CohortSummary summary = GatherCohort(folder.Path(), {});
-  EXPECT_EQ(summary.cases, 2U);
-  ASSERT_EQ(summary.failed.size(), 1U);
-  EXPECT_EQ(summary.failed[0].id, "b");
+  EXPECT_EQ(summary.cases, 1 + damaged.size());
+  ASSERT_EQ(summary.failed.size(), damaged.size());
+  EXPECT_EQ(summary.failed[0].id, "b0");
+  EXPECT_THAT(summary.failed[0].reason, HasSubstr("its report is missing or damaged"));
   EXPECT_EQ(Table(folder / "labels.csv").size(), 1U);
+  EXPECT_EQ(Table(folder / "cases.csv")[1].at("status"), "failed");
 }
 
 TEST(GatherCohort, WithoutACaseThereIsNothingToGather)

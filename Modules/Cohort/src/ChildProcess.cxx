@@ -195,7 +195,13 @@ AdmissionFromEnvironment(std::function<bool()> stop)
 {
   const char * text = std::getenv(kAdmissionVariable);
   int          channel = -1;
-  if (text == nullptr || std::from_chars(text, text + std::strlen(text), channel).ec != std::errc())
+  if (text == nullptr)
+  {
+    return {};
+  }
+  const char * end = text + std::strlen(text);
+  const auto   read = std::from_chars(text, end, channel);
+  if (read.ec != std::errc() || read.ptr != end)
   {
     return {};
   }

@@ -105,18 +105,36 @@ CaseRow(const std::string & folder, const CaseRecord & record)
   return row;
 }
 
+/** \throws Json::exception when the label is not as reports have it */
 Row
 LabelRow(const std::string & folder, const CaseRecord & record, const Json & label)
 {
   Row row;
   row["id"] = record.id;
   row["folder"] = folder;
+  row["label"] = label.at("label");
+  row["name"] = label.at("name");
   Flatten(label, "", { "skeleton_cuts" }, row);
   if (label.contains("skeleton"))
   {
     row["skeleton_cuts"] = label.at("skeleton").at("cuts").size();
   }
   return row;
+}
+
+/** Adds what a report says to its case's row; returns a row a label. \throws Json::exception when it is damaged */
+std::vector<Row>
+TakeReport(const std::string & folder, const CaseRecord & record, const Json & report, Row & row)
+{
+  std::vector<Row> labels;
+  for (const Json & label : report.at("labels"))
+  {
+    labels.push_back(LabelRow(folder, record, label));
+  }
+  row["labels"] = labels.size();
+  row["parameters_labels"] = Joined(report.at("parameters").value("labels", Json::array()));
+  Flatten(report, "", { "labels", "parameters_labels" }, row);
+  return labels;
 }
 
 std::string
@@ -162,25 +180,23 @@ GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, 
   const CaseLock lock = WaitForTables(folder, context.progress);
   for (auto & [name, record] : FindRecords(folder, expected))
   {
-    Json report = record.done ? ReadReport(folder / name / (name + "_report.json")) : Json::object();
-    if (record.done && (!report.is_object() || !report.contains("labels")))
-    {
-      record.done = false;
-      record.reason = "its report is missing or damaged; run the batch again";
-      report = Json::object();
-    }
     Row row = CaseRow(name, record);
     if (record.done)
     {
-      row["labels"] = report["labels"].size();
-      for (const Json & label : report["labels"])
+      try
       {
-        labelRows.push_back(LabelRow(name, record, label));
+        const std::vector<Row> labels =
+          TakeReport(name, record, ReadReport(folder / name / (name + "_report.json")), row);
+        labelRows.insert(labelRows.end(), labels.begin(), labels.end());
       }
-      row["parameters_labels"] = Joined(report.at("parameters").value("labels", Json::array()));
-      Flatten(report, "", { "labels", "parameters_labels" }, row);
+      catch (const Json::exception &)
+      {
+        record.done = false;
+        record.reason = "its report is missing or damaged; run the batch again";
+        row = CaseRow(name, record);
+      }
     }
-    else
+    if (!record.done)
     {
       summary.failed.push_back({ record.id, record.reason });
     }
