@@ -190,7 +190,7 @@ TEST_F(BlockJob, APlanOfAnotherScanIsMadeAnew)
   store.Write();
   RunBlockJob(Options(1, 4, "a.zarr"));
   const std::string plan = ReadAll(At("parts/a_blocks-4.vcp"));
-  // One voxel less, behind the back of the plan: it looks at the date of the store, not of each chunk.
+  // One voxel less, of which the plan's file knows nothing but the region's digest.
   std::string chunk = ReadAll(store.Chunk(8));
   chunk.at(6 * 12 + 6) = '\0';
   WriteAll(store.Chunk(8), chunk);

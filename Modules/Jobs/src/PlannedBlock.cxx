@@ -68,13 +68,13 @@ FindPlan(const BlockOptions & options)
   }
 }
 
+/** Without its date: equal scans have equal plans. What is not seen here, the region's digest and the join see. */
 std::string
 FileText(const fs::path & path)
 {
-  std::error_code error;
-  const auto      time = fs::last_write_time(path, error).time_since_epoch().count();
-  const auto      size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
-  return Text(path.filename().string(), " ", time, " ", size, "\n");
+  std::error_code ignored;
+  const auto      size = fs::is_regular_file(path, ignored) ? fs::file_size(path, ignored) : 0;
+  return Text(path.filename().string(), " ", size, "\n");
 }
 
 } // namespace

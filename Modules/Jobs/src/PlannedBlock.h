@@ -18,7 +18,7 @@ CanReadBlockAlone(const BlockOptions & options);
 std::filesystem::path
 PlanPath(const BlockOptions & options);
 
-/** The scan and what of the options decides how it is read; with the scan's dates and sizes. */
+/** The scan's files and sizes, and what of the options decides how it is read. */
 std::string
 PlanSource(const BlockOptions & options);
 
