@@ -17,6 +17,7 @@
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkVoxelCoreFilter.h>
 
 #include <cmath>
@@ -180,6 +181,7 @@ TEST_F(VtkFilters, PrintTheirParameters)
   m_Core->Print(core);
   m_Pruned->Print(pruned);
   EXPECT_NE(core.str().find("vtkVoxelCoreFilter ("), std::string::npos);
+  EXPECT_NE(core.str().find("LengthsInVoxels: Off\n"), std::string::npos);
   EXPECT_NE(core.str().find("Label: 5\n"), std::string::npos);
   EXPECT_NE(pruned.str().find("vtkLambdaPruningFilter ("), std::string::npos);
   EXPECT_NE(pruned.str().find("Lambda: 0.75\n"), std::string::npos);
@@ -327,6 +329,41 @@ TEST_F(VtkFilters, SayWhereThePointsLieOnlyWhereItIsKnown)
   EXPECT_TRUE(isSaid());
   m_Core->SetImageToRASMatrix(nullptr);
   EXPECT_FALSE(isSaid());
+}
+
+TEST_F(VtkFilters, SayVoxelsWhereTheScanGaveNoVoxelSize)
+{
+  const auto unit = [&] {
+    m_Pruned->Update();
+    const MedialModel core = ModelFromPolyData(*m_Core->GetOutput());
+    EXPECT_EQ(core.unit, ModelFromPolyData(*m_Pruned->GetOutput()).unit);
+    EXPECT_EQ(core.provenance.find("area_vox2") != std::string::npos, core.unit == SpatialUnit::Voxels);
+    EXPECT_EQ(core.provenance.find("mm") == std::string::npos, core.unit == SpatialUnit::Voxels);
+    return core.unit;
+  };
+  m_Core->SetLabel(5);
+  EXPECT_EQ(unit(), SpatialUnit::Millimetres);
+  m_Core->LengthsInVoxelsOn();
+  EXPECT_EQ(unit(), SpatialUnit::Voxels);
+  m_Core->LengthsInVoxelsOff();
+  EXPECT_EQ(unit(), SpatialUnit::Millimetres);
+  vtkNew<vtkStringArray> units;
+  units->SetName("Units");
+  units->InsertNextValue("voxel");
+  m_Image->GetFieldData()->AddArray(units);
+  m_Image->Modified();
+  EXPECT_EQ(unit(), SpatialUnit::Voxels);
+  units->SetValue(0, "mm");
+  m_Image->Modified();
+  EXPECT_EQ(unit(), SpatialUnit::Millimetres);
+  units->SetValue(0, "um");
+  m_Image->Modified();
+  Counter errors;
+  Observe(m_Core, vtkCommand::ErrorEvent, errors);
+  m_Core->Update();
+  EXPECT_EQ(errors.calls, 1);
+  EXPECT_NE(errors.said.find("must say mm or voxel, not 'um'"), std::string::npos) << errors.said;
+  EXPECT_EQ(m_Core->GetOutput()->GetNumberOfPoints(), 0);
 }
 
 TEST_F(VtkFilters, AMatrixPlacesPointsAsADirectionDoes)

@@ -26,6 +26,10 @@ class vtkMatrix4x4;
  *  vtkNrrdReader drops it for good: set the matrix of the file's `space directions`, without the lengths of their
  *  vectors, as SetImageToLPSMatrix or SetImageToRASMatrix, whichever the file's `space` is.
  *
+ *  The unit. Lengths are in mm, or in voxels where the image's scan gave no voxel size: its field data holds a string
+ *  array Units that says voxel (as this filter's output then does), or LengthsInVoxels is on. An array Units that says
+ *  neither mm nor voxel is a fault.
+ *
  *  Faults are reported by vtkErrorMacro, set the ErrorCode and leave the output empty; AbortExecute leaves it empty. */
 class vtkVoxelCoreFilter : public vtkPolyDataAlgorithm
 {
@@ -55,6 +59,12 @@ public:
   vtkGetMacro(ImageIsInLPS, bool);
   vtkBooleanMacro(ImageIsInLPS, bool);
 
+  /** The image's spacing counts voxels and is no mm: its file gave none, and its reader left 1. Off at first; what the
+   *  image's field data say in Units holds all the same. */
+  vtkSetMacro(LengthsInVoxels, bool);
+  vtkGetMacro(LengthsInVoxels, bool);
+  vtkBooleanMacro(LengthsInVoxels, bool);
+
 protected:
   vtkVoxelCoreFilter();
   ~vtkVoxelCoreFilter() override;
@@ -74,5 +84,6 @@ private:
 
   vtkTypeInt64                  Label = 0;
   bool                          ImageIsInLPS = false;
+  bool                          LengthsInVoxels = false;
   vtkSmartPointer<vtkMatrix4x4> ImageToLPS;
 };

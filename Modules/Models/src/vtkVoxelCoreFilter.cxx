@@ -6,8 +6,10 @@
 #include "voxelcore/CoreProvenance.h"
 #include "voxelcore/LabelAssembler.h"
 #include "voxelcore/ModelPolyData.h"
+#include "voxelcore/SpatialUnit.h"
 
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -18,6 +20,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,12 +36,30 @@ vtkVoxelCoreFilter::~vtkVoxelCoreFilter() = default;
 namespace
 {
 
+/** What the image's field data say of its lengths. */
+voxelcore::SpatialUnit
+UnitOf(vtkImageData & image)
+{
+  auto * const words = vtkStringArray::SafeDownCast(image.GetFieldData()->GetAbstractArray("Units"));
+  if (words == nullptr || words->GetNumberOfValues() < 1)
+  {
+    return voxelcore::SpatialUnit::Millimetres;
+  }
+  const auto unit = voxelcore::UnitNamed(words->GetValue(0));
+  if (!unit)
+  {
+    throw voxelcore::InputError("the image's field Units must say mm or voxel, not '" + words->GetValue(0) + "'");
+  }
+  return *unit;
+}
+
 /** Where the image lies, moved by `matrix` where there is one. */
 voxelcore::ImageGeometry
-GeometryOf(vtkImageData & image, vtkMatrix4x4 * matrix)
+GeometryOf(vtkImageData & image, vtkMatrix4x4 * matrix, bool inVoxels)
 {
   voxelcore::ImageGeometry geometry;
-  int                      extent[6];
+  geometry.unit = inVoxels ? voxelcore::SpatialUnit::Voxels : UnitOf(image);
+  int extent[6];
   image.GetExtent(extent);
   double first[4] = { 0, 0, 0, 1 };
   image.TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], first);
@@ -103,6 +124,7 @@ vtkVoxelCoreFilter::PrintSelf(ostream & os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Label: " << this->Label << "\n";
   os << indent << "ImageIsInLPS: " << (this->ImageIsInLPS ? "On" : "Off") << "\n";
+  os << indent << "LengthsInVoxels: " << (this->LengthsInVoxels ? "On" : "Off") << "\n";
   os << indent << "ImageToLPSMatrix:" << (this->ImageToLPS ? "\n" : " (none)\n");
   if (this->ImageToLPS)
   {
@@ -182,9 +204,10 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
     {
       throw voxelcore::InputError("the input needs point scalars of one component");
     }
-    const voxelcore::ImageGeometry geometry = GeometryOf(*image, this->ImageToLPS);
+    const voxelcore::ImageGeometry geometry = GeometryOf(*image, this->ImageToLPS, this->LengthsInVoxels);
     auto                           shapes = ShapesOf(*values, geometry, this->Label);
     voxelcore::MedialModel         model;
+    model.unit = geometry.unit;
     model.inLps = this->ImageToLPS || this->ImageIsInLPS || !image->GetDirectionMatrix()->IsIdentity();
     std::vector<voxelcore::CoreOrigin>  origins;
     std::vector<voxelcore::CorePruning> prunings;
