@@ -1,7 +1,8 @@
 # One volume larger than a machine: its blocks as jobs, then the join; the file is that of a single run, bit for bit.
 #   snakemake -s Applications/Snakemake/Blocks.smk --profile Applications/Snakemake/slurm --config scan=huge.nrrd out=huge.vtp blocks=8
 # Further --config keys: program (voxelcore), reading ("--threshold 300:3000", for blocks and join), options ("--lambda 2vox",
-# for the join alone), mem_mb (4000, of a block), join_mem_mb (16000), minutes (120), threads (1).
+# for the join alone), mem_mb (4000, of a block), first_mem_mb (of the first block, which reads the whole scan: mem_mb),
+# join_mem_mb (16000), minutes (120), threads (1).
 import shlex
 
 SCAN = str(config["scan"])
@@ -19,14 +20,21 @@ rule all:
         OUT,
 
 
+def memory(wildcards):
+    return int(config.get("first_mem_mb" if wildcards.k == "1" else "mem_mb", config.get("mem_mb", 4000)))
+
+
+# The first block reads the whole scan and leaves a plan by which the others read only their part of it: they wait. That
+# it was done again is no reason to do them again.
 rule block:
     input:
         SCAN,
+        lambda wildcards: [] if wildcards.k == "1" else ancient(PARTS + "/block-1.done"),
     output:
         touch(PARTS + "/block-{k}.done"),
     threads: int(config.get("threads", 1))
     resources:
-        mem_mb=int(config.get("mem_mb", 4000)),
+        mem_mb=memory,
         runtime=int(config.get("minutes", 120)),
     shell:
         CORE + f" --blocks {N} --block {{wildcards.k}} -o {shlex.quote(PARTS)}/ --threads {{threads}} --force"

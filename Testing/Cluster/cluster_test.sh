@@ -144,6 +144,10 @@ snakemake -s "$source/Applications/Snakemake/Blocks.smk" --profile "$source/Appl
   --config scan=scans/s18.nrrd out=joined.vtp blocks=3 program="$program" mem_mb=150 join_mem_mb=150 minutes=5 \
   options="--lambda 1vox" >blocks.log 2>&1 || fail "the blocks' workflow failed"
 cmp single.vtp joined.vtp || fail "the joined file is not that of a single run"
+[ -e joined.vtp.parts/s18_blocks-3.vcp ] || fail "the first block left no plan"
+for k in 2 3; do
+  [ joined.vtp.parts/block-1.done -ot joined.vtp.parts/block-$k.done ] || fail "block $k did not wait for the plan"
+done
 echo "blocks: the joined file is that of a single run"
 
 # 4. What the guide says, word for word but for the memory of a job, which this node has not.
