@@ -1,6 +1,6 @@
 """Damaged files: each must be read or refused within 10 seconds, by a process that survives it and does not take more
-memory
-than what the file's bytes can stand for. The process reads one after the other; a new one takes its place when it dies.
+memory than what the file's bytes can stand for. The process reads one after the other; a new one takes its place when
+it dies.
 
 usage: damaged_files.py DUMP_PROGRAM mgh|zarr|tiff|lsm COUNT      exit 77: what writes the format is not there
 """
@@ -196,4 +196,5 @@ def main(dump, form, count):
     return 1 if failures else 0
 
 
-sys.exit(main(sys.argv[1], sys.argv[2], int(sys.argv[3])))
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2], int(sys.argv[3])))
