@@ -69,8 +69,9 @@ SumRows(const std::array<const float *, 16> & rows, const SplineWeights & weight
 BandField::BandField(const VoxelShape &            shape,
                      std::span<const LatticePoint> points,
                      const Vector3 &               sides,
-                     double                        sigma)
-  : m_Grid(shape, points, 0, kReach)
+                     double                        sigma,
+                     std::int32_t                  reach)
+  : m_Grid(shape, points, 0, reach)
   , m_Sides(sides)
   , m_Labels(m_Grid.Count())
   , m_Values(m_Grid.Count() * kVoxels, 0.0F)

@@ -15,10 +15,12 @@ class BandField
 {
 public:
   /** Values are 0. `sides` are those of a voxel, the shortest 1: the unit of distances and of `sigma`, the width of the
-   *  Gaussian G, at most 1.5. `points` are the boundary vertices; what is within kReach voxels of one has a value. */
-  BandField(const VoxelShape & shape, std::span<const LatticePoint> points, const Vector3 & sides, double sigma);
-
-  static constexpr std::int32_t kReach = 7;
+   *  Gaussian G, at most 1.5. `points` are the boundary vertices; what is within `reach` voxels of one has a value. */
+  BandField(const VoxelShape &            shape,
+            std::span<const LatticePoint> points,
+            const Vector3 &               sides,
+            double                        sigma,
+            std::int32_t                  reach);
 
   /** Another width of G. */
   void

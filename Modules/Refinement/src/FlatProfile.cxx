@@ -33,6 +33,17 @@ Convolve(const std::vector<double> & from, const std::vector<double> & weights)
   return to;
 }
 
+// What has moved by `shift` units more, to the first order.
+std::vector<double>
+Shifted(std::vector<double> bent, const std::vector<double> & values, double shift)
+{
+  for (std::size_t i = 1; i + 1 < bent.size(); ++i)
+  {
+    bent[i] += shift * (values[i + 1] - values[i - 1]) / (2 * kStep);
+  }
+  return bent;
+}
+
 } // namespace
 
 FlatProfile::FlatProfile(double clip)
@@ -41,6 +52,7 @@ FlatProfile::FlatProfile(double clip)
   {
     m_Values.push_back(std::clamp(static_cast<double>(i) * kStep, -clip, clip));
   }
+  m_Bent.assign(m_Values.size(), 0.0);
 }
 
 FlatProfile::Passes
@@ -51,8 +63,9 @@ FlatProfile::Pass(double sigma) const
   Passes                    passes;
   passes.once = Convolve(m_Values, weights);
   passes.twice = Convolve(passes.once, weights);
-  constexpr std::size_t beside = kHalf + 1; // odd: the value one step off the middle stands for the slope
-  passes.weight = passes.once[beside] / (2 * passes.twice[beside] - passes.once[beside]);
+  passes.bentOnce = Shifted(Convolve(m_Bent, weights), passes.once, sigma * sigma / 2);
+  passes.bentTwice = Shifted(Convolve(passes.bentOnce, weights), passes.twice, sigma * sigma / 2);
+  passes.weight = passes.bentOnce[kHalf] / (passes.bentTwice[kHalf] - passes.bentOnce[kHalf]);
   return passes;
 }
 
@@ -69,6 +82,7 @@ FlatProfile::Smooth(double sigma)
   for (std::size_t i = 0; i < m_Values.size(); ++i)
   {
     m_Values[i] = (1 + passes.weight) * passes.once[i] - passes.weight * passes.twice[i];
+    m_Bent[i] = (1 + passes.weight) * passes.bentOnce[i] - passes.weight * passes.bentTwice[i];
   }
   return static_cast<float>(passes.weight);
 }

@@ -64,7 +64,8 @@ SurfaceFromGrey(const VoxelShape &       shape,
 {
   constexpr Vector3 sides{ 1, 1, 1 };
   constexpr double  flattest = 0.08; // of the mean magnitude
-  BandField         field(shape, BoundaryVertices(shape), sides, 1.5);
+  constexpr int     reach = 7;
+  BandField         field(shape, BoundaryVertices(shape), sides, 1.5, reach);
   field.FillGrey(scan, rows);
   const auto smoothed = [&](BandField one, double sigma) {
     one.SetWidth(sigma);

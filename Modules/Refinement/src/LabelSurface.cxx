@@ -32,6 +32,8 @@ constexpr double kThickest = 12;
 constexpr double kBend = 7.5;
 constexpr double kNearBend = 8;
 constexpr double kFlattest = 0.32;
+// How far passes look, in sigmas: what ends nearer stands in the widest ones' way.
+constexpr double kReach = 7;
 
 // Bends are flattened, and distances measured, in millimetres: in voxels a round tube in thick slices is an oval one.
 // But between very thick slices there is nothing to flatten by.
@@ -59,7 +61,7 @@ public:
     , m_Sigma(0.8 + 0.2 * std::max({ m_Sides[0], m_Sides[1], m_Sides[2] }))
     , m_Points(BoundaryVertices(shape))
     , m_Depth(shape, m_Points, m_Sides, kThickest * m_Sigma)
-    , m_Field(shape, m_Points, m_Sides, m_Sigma)
+    , m_Field(shape, m_Points, m_Sides, m_Sigma, static_cast<std::int32_t>(std::ceil(kReach * m_Sigma)))
     , m_Profile(kClip)
   {
     m_Field.FillDistances(shape, kClip);
