@@ -155,6 +155,7 @@ MakeCores(const ArrayView &        array,
     RequireOneLabel(map.labels);
   }
   EditedLabels        edited = EditLabels(std::move(map.labels),
+                                   map.geometry,
                                    options.edits,
                                    options.reading.labels != "all",
                                    "the array",

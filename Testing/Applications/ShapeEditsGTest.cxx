@@ -143,6 +143,61 @@ TEST_F(ShapeEdits, FillingJoinsWhatFloatsInside)
   EXPECT_EQ(report["labels"][1]["edits"]["cavities_filled"], 0);
 }
 
+TEST_F(ShapeEdits, GapsCloseUpToTheWidthGiven)
+{
+  // The blocks of label 2 lie two voxels (2 mm) apart, and those of label 1 so, too.
+  const Json wide = Core({ "--close", "2mm" });
+  EXPECT_EQ(wide["parameters"]["close"], "2mm");
+  EXPECT_EQ(wide["labels"][1]["shape"]["betti"], (Json{ 1, 0, 0 }));
+  EXPECT_EQ(wide["labels"][1]["edits"]["closed"]["components_joined"], 1);
+  EXPECT_GT(wide["labels"][0]["edits"]["closed"]["voxels_added"], 0);
+  const Json narrow = Core({ "--close", "1.9mm" });
+  EXPECT_EQ(narrow["labels"][1]["shape"]["betti"], (Json{ 2, 0, 0 }));
+  EXPECT_EQ(Info({ "--close", "2vox" })["labels"][1]["betti"], (Json{ 1, 0, 0 }));
+  EXPECT_FALSE(Core({})["parameters"].contains("close"));
+  Run(With({ "skeleton", "-o", m_Folder / "s.vtp", "--force" }, { "--close", "2vox", "--labels", "2" }));
+}
+
+/** A tube along i that is open at its ends, 3 wide inside, and a box with a hole of two voxels through its wall. */
+TestScan
+Hollow()
+{
+  TestScan scan({ 40, 20, 20 });
+  scan.Fill({ 1, 1, 1 }, { 15, 5, 5 }, 1);
+  scan.Fill({ 1, 2, 2 }, { 15, 4, 4 }, 0);
+  scan.Fill({ 20, 1, 1 }, { 38, 16, 16 }, 3);
+  scan.Fill({ 22, 3, 3 }, { 36, 14, 14 }, 0);
+  scan.Fill({ 28, 6, 1 }, { 29, 7, 2 }, 0);
+  return scan;
+}
+
+TEST_F(ShapeEdits, LumensFillSliceBySliceOrBehindTheirHoles)
+{
+  WriteNrrd(m_Folder / "a.nrrd", Hollow());
+  const Json slices = Core({ "--fill-slices", "i" });
+  EXPECT_EQ(slices["parameters"]["fill_slices"], "i");
+  EXPECT_EQ(First(slices), (Numbers{ 15 * 5 * 5, 1, 0, 0 }));
+  EXPECT_EQ(slices["labels"][0]["edits"]["slices_filled"]["holes"], 15);
+  const Json hollows = Core({ "--fill-hollows", "2vox" });
+  EXPECT_EQ(hollows["labels"][0]["edits"]["hollows_filled"]["voxels_added"], 0) << "a tube with open ends has a mouth";
+  EXPECT_EQ(hollows["labels"][1]["edits"]["hollows_filled"]["holes"], 1);
+  EXPECT_EQ(hollows["labels"][1]["shape"]["betti"], (Json{ 1, 0, 0 }));
+  EXPECT_EQ(Core({ "--fill-slices", "k" })["labels"][0]["edits"]["slices_filled"]["holes"], 0);
+}
+
+TEST_F(ShapeEdits, WidthsAndAxesThatAreNoneAreRefused)
+{
+  const auto refused = [&](const Texts & edits, int code, const char * word) {
+    const ProgramResult result = RunProgram(With({ "info" }, edits));
+    EXPECT_EQ(result.code, code) << result.error;
+    EXPECT_NE(result.error.find(word), std::string::npos) << result.error;
+  };
+  refused({ "--close", "4%" }, 2, "--close: width '4%' has an unknown unit");
+  refused({ "--fill-hollows", "0" }, 2, "--fill-hollows: width '0' is 0");
+  refused({ "--fill-slices", "z" }, 2, "--fill-slices z: expected i, j or k");
+  refused({ "--close", "5000vox" }, 3, "more than 2000 voxels");
+}
+
 TEST_F(ShapeEdits, DustIsRemovedAndTheLargestKept)
 {
   const Json clean = Core({ "--min-voxels", "126" });

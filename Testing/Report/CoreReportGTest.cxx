@@ -167,12 +167,23 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                                             std::numeric_limits<double>::infinity() } };
   report.parameters.reading.crop = CropRange{ { 0, 1, 2 }, { 10, 11, 12 } };
   report.parameters.reading.component = 2;
-  report.parameters.edits = { true, true, 50, 3, true, true };
+  report.parameters.edits = {
+    true, ParseGapWidth("4vox"), ParseGapWidth("2.5mm"), SliceAxis::J, true, 50, 3, true, true
+  };
   for (LabelRecord & label : report.labels)
   {
     label.label = 7;
     label.component = &label - report.labels.data() + 1;
-    label.edits = EditRecord{ 2, 3, 4, 5, 6, EditRecord::Mended{ 7, 8, 9, 10, 11 }, EditRecord::Smoothed{ 12, 13, 1 } };
+    label.edits = EditRecord{ 2,
+                              3,
+                              4,
+                              5,
+                              6,
+                              EditRecord::Mended{ 7, 8, 9, 10, 11 },
+                              EditRecord::Filled{ 21, 22, 0 },
+                              EditRecord::Filled{ 23, 24, 25 },
+                              EditRecord::Filled{ 26, 27, 28 },
+                              EditRecord::Smoothed{ 12, 13, 1 } };
   }
   const std::string text = ProvenanceJson(report, { 0, 1 }, 1);
   const CoreReport  read = ParseProvenance(text, "a.vtp");
@@ -189,6 +200,8 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   EXPECT_EQ(json["labels"][0]["edits"]["voxels_added"], 3);
   EXPECT_EQ(json["labels"][0]["edits"]["mended"]["pieces_joined"], 9);
   EXPECT_EQ(json["labels"][0]["edits"]["smoothed"]["voxels_removed"], 13);
+  EXPECT_EQ(json["labels"][0]["edits"]["closed"]["components_joined"], 22);
+  EXPECT_EQ(read.labels[1].edits->slices->holes, 28U);
   // The second component by itself, as in a file of its own.
   EXPECT_EQ(Json::parse(ProvenanceJson(report, { 1 }, 1))["parameters"]["labels"], Json{ 7 });
 }

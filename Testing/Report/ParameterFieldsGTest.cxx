@@ -53,6 +53,17 @@ SetOther(std::optional<RawLayout> & field)
   field = ParseRawLayout("3,4,5,uint16");
 }
 
+void
+SetOther(std::optional<GapWidth> & field)
+{
+  field = ParseGapWidth("1.5vox");
+}
+void
+SetOther(std::optional<SliceAxis> & field)
+{
+  field = SliceAxis::J;
+}
+
 /** A record of which field number `which` is another, or none. */
 CoreReport
 With(int which)

@@ -177,6 +177,7 @@ ComputeFromWhole(const BlockOptions & options,
   LabelMap            volume =
     ReadScanOrMesh(core.scan, core.reading, core.resolution, PartOfProgress(context.progress, "reading", 0, kReadEnds));
   EditedLabels            edited = EditLabels(std::move(volume.labels),
+                                   volume.geometry,
                                    core.edits,
                                    core.reading.labels != "all",
                                    core.scan.string(),

@@ -201,6 +201,7 @@ StageCoreJob(const CoreOptions & options,
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   RequireLengths(options, volume.geometry.unit);
   EditedLabels edited = EditLabels(std::move(volume.labels),
+                                   volume.geometry,
                                    options.edits,
                                    options.reading.labels != "all",
                                    options.scan.string(),

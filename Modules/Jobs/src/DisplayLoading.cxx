@@ -216,6 +216,7 @@ private:
     warnings = volume.warnings;
     RequireSameUnit(m_Sources.files.front(), m_Report->input.geometry.unit, *m_Sources.scan, volume.geometry.unit);
     EditedLabels           edited = EditLabels(std::move(volume.labels),
+                                     volume.geometry,
                                      m_Report->parameters.edits,
                                      false,
                                      m_Sources.scan->string(),

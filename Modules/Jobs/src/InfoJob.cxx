@@ -155,6 +155,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   if (!info.grey)
   {
     edited = EditLabels(std::move(volume.labels),
+                        volume.geometry,
                         options.edits,
                         options.reading.labels != "all",
                         options.scan.string(),

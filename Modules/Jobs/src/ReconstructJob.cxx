@@ -162,6 +162,7 @@ ReadScanLabels(const std::filesystem::path & scan,
   ShapeEditOptions edits = made.parameters.edits;
   edits.splitComponents = false; // the balls of all components of a label are one volume
   EditedLabels            edited = EditLabels(std::move(volume.labels),
+                                   volume.geometry,
                                    edits,
                                    !made.parameters.reading.binary && !made.parameters.reading.threshold,
                                    scan.string());

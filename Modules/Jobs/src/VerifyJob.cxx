@@ -159,6 +159,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   RequireSameUnit(options.core, model.unit, options.scan, volume.geometry.unit);
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   EditedLabels         edited = EditLabels(std::move(volume.labels),
+                                   volume.geometry,
                                    made.parameters.edits,
                                    !made.parameters.reading.binary && !made.parameters.reading.threshold,
                                    options.scan.string(),

@@ -20,9 +20,9 @@ smallest voxel spacing; diag, times a voxel's diagonal; % is of the longest side
   For thick slices, give mm: about 1.5 times the slice distance.
 A --lambda given with --tolerance is applied first. Guide: choosing-the-pruning.md
 
-Shape edits run label by label in this order: --mend-shape, --fill-cavities, --min-voxels, --largest,
---smooth-shape, --split-components. Components are 6-connected. --mend-shape and --fill-cavities also remove
-true holes. Guide: noisy-masks.md
+Shape edits run label by label in this order: --mend-shape, --close, --fill-hollows, --fill-slices,
+--fill-cavities, --min-voxels, --largest, --smooth-shape, --split-components. Components are 6-connected.
+--mend-shape and all that fill or close also remove true holes. Guide: noisy-masks.md
 
 --refine helps most with smooth shapes at coarse resolution; it needs parts at least three voxels thick. Radius
 and Lambda are then measured from the estimated surface. Guide: refinement.md

@@ -6,6 +6,8 @@
 #include "voxelcore/ParameterFields.h"
 #include "voxelcore/RawLayout.h"
 #include "voxelcore/ReadInput.h"
+#include "voxelcore/ShapeClosing.h"
+#include "voxelcore/SliceHoles.h"
 
 #include <cstdint>
 #include <limits>
@@ -80,6 +82,26 @@ private:
     else if constexpr (std::is_same_v<T, RawLayout>)
     {
       return ParseRawLayout(m_Reader.Text(row.name));
+    }
+    else if constexpr (std::is_same_v<T, GapWidth>)
+    {
+      try
+      {
+        return ParseGapWidth(m_Reader.Text(row.name));
+      }
+      catch (const UsageError & error)
+      {
+        throw UsageError(std::string(row.flags) + ": " + error.what());
+      }
+    }
+    else if constexpr (std::is_same_v<T, SliceAxis>)
+    {
+      const auto axis = SliceAxisNamed(m_Reader.Text(row.name));
+      if (!axis)
+      {
+        m_Reader.ThrowUsageError(row.name, "i, j or k");
+      }
+      return *axis;
     }
     else if constexpr (std::is_same_v<T, Vector3>)
     {

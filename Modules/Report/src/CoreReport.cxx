@@ -73,6 +73,17 @@ EditRecordJson(const EditRecord & edits)
                        { "voxels_added", edits.mended->voxelsAdded },
                        { "voxels_removed", edits.mended->voxelsRemoved } };
   }
+  for (const auto & [name, filled] : { std::pair("closed", &edits.closed),
+                                       std::pair("hollows_filled", &edits.hollows),
+                                       std::pair("slices_filled", &edits.slices) })
+  {
+    if (*filled)
+    {
+      json[name] = { { "holes", (*filled)->holes },
+                     { "voxels_added", (*filled)->voxelsAdded },
+                     { "components_joined", (*filled)->componentsJoined } };
+    }
+  }
   if (edits.smoothed)
   {
     json["smoothed"] = { { "voxels_added", edits.smoothed->voxelsAdded },

@@ -61,6 +61,18 @@ ValueJson(const RawLayout & layout)
   return RawLayoutText(layout);
 }
 
+Json
+ValueJson(const GapWidth & width)
+{
+  return width.text;
+}
+
+Json
+ValueJson(SliceAxis axis)
+{
+  return SliceAxisName(axis);
+}
+
 template <typename T>
 Json
 ValueJson(const std::optional<T> & value)
@@ -97,6 +109,30 @@ ReadValue(const Json & json, RawLayout & layout)
   layout = ParseRawLayout(json.get<std::string>());
 }
 
+void
+ReadValue(const Json & json, GapWidth & width)
+{
+  try
+  {
+    width = ParseGapWidth(json.get<std::string>());
+  }
+  catch (const UsageError & error)
+  {
+    throw InputError(std::string("its ") + error.what());
+  }
+}
+
+void
+ReadValue(const Json & json, SliceAxis & axis)
+{
+  const auto named = SliceAxisNamed(json.get<std::string>());
+  if (!named)
+  {
+    throw InputError("its axis of slices is none");
+  }
+  axis = *named;
+}
+
 template <typename T>
 void
 ReadValue(const Json & json, std::optional<T> & value)
@@ -107,11 +143,12 @@ ReadValue(const Json & json, std::optional<T> & value)
   }
 }
 
-/** What only meshes or some formats have is only in their files. */
+/** What only meshes or some formats have is only in their files; and so is what few ask for. */
 bool
 IsOfSome(std::string_view name)
 {
-  return name == "resolution" || name == "level" || name == "raw";
+  return name == "resolution" || name == "level" || name == "raw" || name == "close" || name == "fill_hollows" ||
+         name == "fill_slices";
 }
 
 /** Writes fields. */

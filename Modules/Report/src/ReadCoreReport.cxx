@@ -70,6 +70,19 @@ ReadEditRecord(const Json & json)
     from.at("voxels_added").get_to(mended.voxelsAdded);
     from.at("voxels_removed").get_to(mended.voxelsRemoved);
   }
+  for (const auto & [name, filled] : { std::pair("closed", &edits.closed),
+                                       std::pair("hollows_filled", &edits.hollows),
+                                       std::pair("slices_filled", &edits.slices) })
+  {
+    if (json.contains(name))
+    {
+      const Json & from = json.at(name);
+      filled->emplace();
+      from.at("holes").get_to((*filled)->holes);
+      from.at("voxels_added").get_to((*filled)->voxelsAdded);
+      from.at("components_joined").get_to((*filled)->componentsJoined);
+    }
+  }
   if (json.contains("smoothed"))
   {
     const Json &           from = json.at("smoothed");

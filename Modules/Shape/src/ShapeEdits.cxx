@@ -17,7 +17,10 @@ namespace
 {
 
 EditRecord
-EditShape(VoxelShape & shape, const ShapeEditOptions & options, const ProgressCallback & progress)
+EditShape(VoxelShape &             shape,
+          const ImageGeometry &    geometry,
+          const ShapeEditOptions & options,
+          const ProgressCallback & progress)
 {
   EditRecord record;
   const auto take = [&shape](EditedShape edited) {
@@ -30,8 +33,18 @@ EditShape(VoxelShape & shape, const ShapeEditOptions & options, const ProgressCa
     record.voxelsRemoved += edited.voxelsRemoved;
     shape = std::move(edited.shape);
   };
+  const auto takeFilled = [&](EditedShape edited) {
+    shape = std::move(edited.shape);
+    return EditRecord::Filled{ edited.voxelsAdded, edited.componentsJoined, edited.cavitiesFilled };
+  };
   // Mended before anything is dropped: pieces torn off belong to what they were torn from.
-  StagePlan              plan(progress, { options.mend ? 2.0 : 0.0, 0.1, options.smooth ? 1.0 : 0.0 });
+  StagePlan              plan(progress,
+                 { options.mend ? 2.0 : 0.0,
+                   options.close ? 0.5 : 0.0,
+                   options.fillHollows ? 0.5 : 0.0,
+                   options.fillSlices ? 0.2 : 0.0,
+                   0.1,
+                   options.smooth ? 1.0 : 0.0 });
   const ProgressCallback mending = plan.Next();
   if (options.mend)
   {
@@ -42,6 +55,22 @@ EditShape(VoxelShape & shape, const ShapeEditOptions & options, const ProgressCa
                       mended.piecesJoined,
                       mended.loopsClosed,
                       mended.cavitiesFilled };
+  }
+  // After mending, as holes of one voxel need no ball; before cavities are filled, as these make some.
+  const ProgressCallback closing = plan.Next();
+  if (options.close)
+  {
+    record.closed = takeFilled(CloseShape(std::move(shape), BallOfDiameter(*options.close, geometry), closing));
+  }
+  const ProgressCallback hollows = plan.Next();
+  if (options.fillHollows)
+  {
+    record.hollows = takeFilled(FillHollows(std::move(shape), BallOfDiameter(*options.fillHollows, geometry), hollows));
+  }
+  const ProgressCallback slices = plan.Next();
+  if (options.fillSlices)
+  {
+    record.slices = takeFilled(FillSlices(std::move(shape), *options.fillSlices, slices));
   }
   ReportProgress(plan.Next("editing"), "", 0);
   // Filled before counting: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any
@@ -108,6 +137,17 @@ Add(const EditRecord & record, EditRecord & sum)
     mended.loopsClosed += record.mended->loopsClosed;
     mended.cavitiesFilled += record.mended->cavitiesFilled;
   }
+  for (auto EditRecord::*const member : { &EditRecord::closed, &EditRecord::hollows, &EditRecord::slices })
+  {
+    if (const auto & one = record.*member)
+    {
+      auto & all = sum.*member;
+      all = all.value_or(EditRecord::Filled());
+      all->voxelsAdded += one->voxelsAdded;
+      all->componentsJoined += one->componentsJoined;
+      all->holes += one->holes;
+    }
+  }
   if (record.smoothed)
   {
     EditRecord::Smoothed & smoothed = sum.smoothed ? *sum.smoothed : sum.smoothed.emplace(EditRecord::Smoothed());
@@ -130,6 +170,16 @@ Describe(const EditRecord & sum, const ShapeEditOptions & options)
                     Counted(sum.mended->voxelsAdded, "voxel", "voxels") + " added, " +
                     std::to_string(sum.mended->voxelsRemoved) + " removed");
   }
+  const auto filled = [&notes](const std::string & what, const std::optional<EditRecord::Filled> & record) {
+    if (record)
+    {
+      notes.push_back(what + " with " + Counted(record->voxelsAdded, "voxel", "voxels") + ", " +
+                      Counted(record->componentsJoined, "component", "components") + " joined");
+    }
+  };
+  filled("gaps up to " + (options.close ? options.close->text : "") + " closed", sum.closed);
+  filled(Counted(sum.hollows ? sum.hollows->holes : 0, "hollow", "hollows") + " filled", sum.hollows);
+  filled(Counted(sum.slices ? sum.slices->holes : 0, "hole", "holes") + " of slices filled", sum.slices);
   if (options.fillCavities)
   {
     notes.push_back(Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
@@ -156,6 +206,7 @@ Describe(const EditRecord & sum, const ShapeEditOptions & options)
 
 EditedLabels
 EditLabels(std::vector<LabelShape>  labels,
+           const ImageGeometry &    geometry,
            const ShapeEditOptions & options,
            bool                     keepAll,
            const std::string &      where,
@@ -178,6 +229,7 @@ EditLabels(std::vector<LabelShape>  labels,
     const double     count = static_cast<double>(labels.size());
     const EditRecord record =
       EditShape(label.shape,
+                geometry,
                 options,
                 PartOfProgress(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     Add(record, sum);

@@ -43,6 +43,34 @@ AppendVoxelRuns(std::span<const std::uint64_t> row, Runs & runs)
   }
 }
 
+/** The runs of a slice's complement, with a row and a voxel more on each side; of one that is not there, all. `voxels`
+ *  is room for the runs of a row. */
+void
+AppendSliceBackground(const VoxelShape & shape, std::int32_t z, Runs & voxels, Runs & runs)
+{
+  const auto & size = shape.Box().size;
+  for (std::int32_t y = -1; y <= size[1]; ++y)
+  {
+    std::int32_t from = -1;
+    if (y >= 0 && z >= 0 && y < size[1] && z < size[2])
+    {
+      voxels.begin.clear();
+      voxels.end.clear();
+      AppendVoxelRuns(shape.Row(y, z), voxels);
+      for (std::size_t run = 0; run < voxels.begin.size(); ++run)
+      {
+        // begin >= 0 > from for the first one, so no run is empty.
+        runs.begin.push_back(from);
+        runs.end.push_back(voxels.begin[run]);
+        from = voxels.end[run];
+      }
+    }
+    runs.begin.push_back(from);
+    runs.end.push_back(size[0] + 1);
+    runs.rowStart.push_back(runs.begin.size());
+  }
+}
+
 // Unites the runs of two rows that overlap when one is grown by `reach` voxels at both ends.
 void
 UniteRows(const Runs & runs, std::size_t rowA, std::size_t rowB, std::int32_t reach, UnionFind & sets)
@@ -91,32 +119,27 @@ Runs
 BackgroundRuns(const VoxelShape & shape)
 {
   const auto & size = shape.Box().size;
-  const Runs   voxels = VoxelRuns(shape);
   Runs         runs;
+  Runs         voxels;
   runs.rowsY = size[1] + 2;
   runs.rowsZ = size[2] + 2;
   runs.rowStart.push_back(0);
   for (std::int32_t z = -1; z <= size[2]; ++z)
   {
-    for (std::int32_t y = -1; y <= size[1]; ++y)
-    {
-      std::int32_t from = -1;
-      if (y >= 0 && z >= 0 && y < size[1] && z < size[2])
-      {
-        const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(y);
-        for (std::size_t run = voxels.rowStart[row]; run < voxels.rowStart[row + 1]; ++run)
-        {
-          // begin >= 0 > from for the first one, so no run is empty.
-          runs.begin.push_back(from);
-          runs.end.push_back(voxels.begin[run]);
-          from = voxels.end[run];
-        }
-      }
-      runs.begin.push_back(from);
-      runs.end.push_back(size[0] + 1);
-      runs.rowStart.push_back(runs.begin.size());
-    }
+    AppendSliceBackground(shape, z, voxels, runs);
   }
+  return runs;
+}
+
+Runs
+SliceBackgroundRuns(const VoxelShape & shape, std::int32_t z)
+{
+  Runs runs;
+  Runs voxels;
+  runs.rowsY = shape.Box().size[1] + 2;
+  runs.rowsZ = 1;
+  runs.rowStart.push_back(0);
+  AppendSliceBackground(shape, z, voxels, runs);
   return runs;
 }
 

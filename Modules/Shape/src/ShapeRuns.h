@@ -30,6 +30,10 @@ VoxelRuns(const VoxelShape & shape);
 Runs
 BackgroundRuns(const VoxelShape & shape);
 
+/** The same of one slice (box-relative z), grown in y alone: row 0 is row -1 of the slice. */
+Runs
+SliceBackgroundRuns(const VoxelShape & shape, std::int32_t z);
+
 /** Sets of runs that touch over faces, or with `diagonals` over faces, edges or corners. A set's representative is its
  *  first run in scan order. */
 UnionFind

@@ -1,7 +1,7 @@
 #include "voxelcore/LambdaPruning.h"
 
 #include "ExtractPart.h"
-#include "LengthText.h"
+#include "voxelcore/LengthText.h"
 #include "Measures.h"
 
 #include "voxelcore/Error.h"

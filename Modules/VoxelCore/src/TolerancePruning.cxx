@@ -2,7 +2,7 @@
 
 #include "ToleranceCollapse.h"
 #include "ExtractPart.h"
-#include "LengthText.h"
+#include "voxelcore/LengthText.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/Predicates.h"

@@ -23,6 +23,9 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("nifti_form", options.reading.niftiForm);
   visit("crop", options.reading.crop);
   visit("mend_shape", options.edits.mend);
+  visit("close", options.edits.close);
+  visit("fill_hollows", options.edits.fillHollows);
+  visit("fill_slices", options.edits.fillSlices);
   visit("fill_cavities", options.edits.fillCavities);
   visit("min_voxels", options.edits.minVoxels);
   visit("largest", options.edits.largest);

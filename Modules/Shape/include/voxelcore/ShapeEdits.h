@@ -3,6 +3,8 @@
 
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
+#include "voxelcore/ShapeClosing.h"
+#include "voxelcore/SliceHoles.h"
 
 #include <cstdint>
 #include <optional>
@@ -16,6 +18,9 @@ namespace voxelcore
 struct ShapeEditOptions
 {
   bool                         mend = false; ///< what flips of single voxels have torn or pierced
+  std::optional<GapWidth>      close;        ///< gaps up to so wide
+  std::optional<GapWidth>      fillHollows;  ///< lumens that open only through holes up to so wide
+  std::optional<SliceAxis>     fillSlices;   ///< holes of the slices across this axis
   bool                         fillCavities = false;
   std::optional<std::uint64_t> minVoxels; ///< components (6-connected) of fewer voxels are removed
   std::optional<std::uint64_t> largest;   ///< so many components are kept
@@ -25,7 +30,8 @@ struct ShapeEditOptions
   bool
   AreAsked() const
   {
-    return mend || fillCavities || minVoxels || largest || smooth || splitComponents;
+    return mend || close || fillHollows || fillSlices || fillCavities || minVoxels || largest || smooth ||
+           splitComponents;
   }
 };
 
@@ -56,7 +62,18 @@ struct EditRecord
     double        largestShift = 0; ///< voxels
   };
 
+  /** What CloseShape, FillHollows or FillSlices changed. */
+  struct Filled
+  {
+    std::uint64_t voxelsAdded = 0;
+    std::uint64_t componentsJoined = 0;
+    std::uint64_t holes = 0; ///< lumens, or holes over all slices; of closing 0
+  };
+
   std::optional<Mended>   mended;   ///< when asked
+  std::optional<Filled>   closed;   ///< when asked
+  std::optional<Filled>   hollows;  ///< when asked
+  std::optional<Filled>   slices;   ///< when asked
   std::optional<Smoothed> smoothed; ///< when asked
 };
 
@@ -74,11 +91,13 @@ struct EditedLabels
   std::vector<std::string> notes;  ///< what was changed in all, one sentence each
 };
 
-/** Edits the labels of a scan. A label of which nothing is left is named in a note, or refused with `keepAll`: who
- *  names labels wants each of them.
- *  \throws InputError, naming the scan `where`, also when nothing is left at all; Cancelled */
+/** Edits the labels of a scan, whose geometry says what widths mean. A label of which nothing is left is named in a
+ *  note, or refused with `keepAll`: who names labels wants each of them.
+ *  \throws InputError, naming the scan `where`, also when nothing is left at all, or for a width in mm where the scan
+ *  has none; Cancelled */
 EditedLabels
 EditLabels(std::vector<LabelShape>  labels,
+           const ImageGeometry &    geometry,
            const ShapeEditOptions & options,
            bool                     keepAll,
            const std::string &      where,

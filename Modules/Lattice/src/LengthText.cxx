@@ -1,4 +1,4 @@
-#include "LengthText.h"
+#include "voxelcore/LengthText.h"
 
 #include "voxelcore/Error.h"
 

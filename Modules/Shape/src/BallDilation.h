@@ -1,0 +1,82 @@
+#pragma once
+// Dilation of a shape by a ball, a word of 64 voxels at a time.
+
+#include "voxelcore/Progress.h"
+#include "voxelcore/ShapeClosing.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** The rows of a ball along x: each is 2 h + 1 voxels long, and they are kept by h. */
+struct BallRows
+{
+  struct Offset
+  {
+    std::int32_t y;
+    std::int32_t z;
+  };
+  std::vector<std::vector<Offset>> ofHalfLength;
+  std::array<std::int32_t, 3>      reach;
+
+  explicit BallRows(const LatticeBall & ball);
+
+  bool
+  IsOneVoxel() const
+  {
+    return reach == std::array<std::int32_t, 3>{ 0, 0, 0 };
+  }
+
+  /** By how much a box grows on each side so that the ball has room: in x by whole words. */
+  std::array<std::int32_t, 3>
+  Room() const
+  {
+    return { (reach[0] + 63) / 64 * 64, reach[1], reach[2] };
+  }
+};
+
+using BitRow = std::vector<std::uint64_t>;
+
+/** Each bit or'ed (and'ed) with its two neighbours; beyond the row is 0. */
+template <bool grow>
+void
+Spread(BitRow & row, BitRow & spare)
+{
+  const std::size_t count = row.size();
+  for (std::size_t word = 0; word < count; ++word)
+  {
+    const std::uint64_t lower = row[word] << 1U | (word > 0 ? row[word - 1] >> 63U : 0);
+    const std::uint64_t upper = row[word] >> 1U | (word + 1 < count ? row[word + 1] << 63U : 0);
+    spare[word] = grow ? row[word] | lower | upper : row[word] & lower & upper;
+  }
+  row.swap(spare);
+}
+
+/** Calls work(z) for all slices on all threads, and reports between them. */
+template <typename TWork>
+void
+ForSlices(std::int32_t slices, const ProgressCallback & progress, double from, double to, const TWork & work)
+{
+  constexpr std::int32_t step = 32;
+  for (std::int32_t first = 0; first < slices; first += step)
+  {
+    ReportProgress(progress, "closing", from + (to - from) * first / slices);
+    const std::int32_t end = std::min(slices, first + step);
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::int32_t z = first; z < end; ++z)
+    {
+      work(z);
+    }
+  }
+}
+
+/** All places within the ball's reach of a voxel, in the shape's box grown by the ball's room. */
+VoxelShape
+Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback & progress, double from, double to);
+
+} // namespace voxelcore
