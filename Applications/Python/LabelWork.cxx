@@ -224,10 +224,10 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
                const ParameterValues &            values,
                const ProgressCallback &           progress)
 {
-  RequireUnrefinedCore(*core);
   auto result = std::make_shared<SkeletonOfLabel>();
   result->report = core->report;
   SkeletonRequest stage = SkeletonRequestFrom(values);
+  stage.refined = !core->refined.empty();
   stage.lambda = ParseLambda(core->report.parameters.lambda.front());
   if (!core->report.parameters.tolerances.empty())
   {

@@ -221,8 +221,7 @@ SkeletonFromState(const py::tuple & state)
   VisitGraph(part.graph, arrays);
   arrays(record.cuts);
   const CoreReport & report = skeleton->report;
-  part.table =
-    MeasureBranches(part.graph, MeasuringOf(report.skeleton.value().branches, report.input.geometry.spacing));
+  part.table = MeasureBranches(part.graph, MeasuringOf(report.skeleton.value(), report.input.geometry.spacing));
   record.numbers = part.table.numbers;
   return skeleton;
 }

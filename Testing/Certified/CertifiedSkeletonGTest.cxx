@@ -2,6 +2,7 @@
 
 #include "voxelcore/Error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -74,7 +75,7 @@ TEST(CertifiedSkeleton, TheTopologyIsThatBeforeLoopsWereCut)
   EXPECT_EQ(cut.skeleton.table.numbers.tips, 2);
   // Later is the same as at once.
   CertifiedSkeleton later = ring;
-  CutAndMeasure(later, request.branches, whole.shape.geometry.spacing);
+  CutAndMeasure(later, request, whole.shape.geometry.spacing);
   EXPECT_EQ(later.skeleton.graph.positions, cut.skeleton.graph.positions);
   EXPECT_EQ(later.skeleton.graph.branchPoints, cut.skeleton.graph.branchPoints);
   EXPECT_EQ(later.skeleton.table.numbers.totalLength, cut.skeleton.table.numbers.totalLength);
@@ -140,14 +141,115 @@ TEST(CertifiedSkeleton, LengthsInMillimetresNeedAScanThatHasThem)
   EXPECT_NO_THROW(RequireLengthsIn(SpatialUnit::Voxels, Skeleton()));
 }
 
-TEST(CertifiedSkeleton, RadiiGrowByAQuarterOfAVoxelsDiagonal)
+TEST(CertifiedSkeleton, RadiiGrowByAQuarterOfAVoxelsDiagonalUnlessRefined)
 {
-  BranchRequest request;
-  request.root = { RootChoice::Kind::Point, { 1, 2, 3 } };
+  SkeletonRequest request;
+  request.branches.root = { RootChoice::Kind::Point, { 1, 2, 3 } };
   const MeasureOptions options = MeasuringOf(request, { 2, 3, 6 });
   EXPECT_DOUBLE_EQ(options.radiusShift, 7.0 / 4);
+  request.refined = true;
+  EXPECT_DOUBLE_EQ(MeasuringOf(request, { 2, 3, 6 }).radiusShift, 0);
   EXPECT_EQ(options.root.kind, RootChoice::Kind::Point);
   EXPECT_EQ(options.root.point, (std::array<double, 3>{ 1, 2, 3 }));
+}
+
+/** A rod of radius 6 with round ends, oblique, in voxels of 1 x 1 x 2 mm. */
+VoxelShape
+ObliqueRod()
+{
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 40, 40, 20 } });
+  for (std::int32_t z = 0; z < 20; ++z)
+  {
+    for (std::int32_t y = 0; y < 40; ++y)
+    {
+      for (std::int32_t x = 0; x < 40; ++x)
+      {
+        const Vector3 p{ x + 0.5 - 20.2, y + 0.5 - 19.9, 2 * z + 1 - 20.3 };
+        const double  along = std::clamp((3 * p[0] + 2 * p[1] + p[2]) / std::sqrt(14.0), -12.0, 12.0);
+        const double  s = along / std::sqrt(14.0);
+        if (std::hypot(p[0] - 3 * s, p[1] - 2 * s, p[2] - s) <= 6)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  return shape;
+}
+
+CertifiedRequest
+RefinedSkeleton(const std::vector<std::string> & lambdas, const Vector3 & spacing)
+{
+  CertifiedRequest request = Lambdas(lambdas);
+  request.skeleton = Skeleton();
+  request.skeleton->refined = true;
+  request.surface = [spacing](const VoxelShape & voxels, const ProgressCallback & progress) {
+    return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, spacing, progress));
+  };
+  return request;
+}
+
+TEST(CertifiedSkeleton, ARefinedOneHasTheRadiusOfTheSmoothBodyAndTheBranchesOfTheOther)
+{
+  const ImageGeometry grid = Grid({ 1, 1, 2 });
+  CertifiedRequest    request = RefinedSkeleton({ "0" }, grid.spacing);
+  request.refineCores = false;
+  const CertifiedResult refined = ComputeCertified(ObliqueRod(), grid, request);
+  request.skeleton->refined = false;
+  const CertifiedResult plain = ComputeCertified(ObliqueRod(), grid, request);
+  EXPECT_EQ(refined.skeleton->topology, refined.shape.topology);
+  ASSERT_EQ(refined.skeleton->skeleton.table.branches.size(), 1U);
+  EXPECT_EQ(refined.skeleton->skeleton.graph.branchPoints, plain.skeleton->skeleton.graph.branchPoints);
+  EXPECT_NE(refined.skeleton->skeleton.graph.medial, plain.skeleton->skeleton.graph.medial);
+  const double radius = refined.skeleton->skeleton.table.branches[0].meanRadius;
+  EXPECT_NEAR(radius, 6, 0.15);
+  EXPECT_LT(std::abs(radius - 6), std::abs(plain.skeleton->skeleton.table.branches[0].meanRadius - 6));
+  // Without refineCores the cores are those of the voxels.
+  EXPECT_EQ(refined.cores[0].core.core.positions, plain.cores[0].core.core.positions);
+  EXPECT_FALSE(refined.cores[0].numbers.refined.has_value());
+}
+
+TEST(CertifiedSkeleton, ARefinedOneDoesNotDependOnTheCoresBesideIt)
+{
+  const ImageGeometry   grid = Grid({ 1, 1, 2 });
+  const CertifiedResult one = ComputeCertified(ObliqueRod(), grid, RefinedSkeleton({ "1.5vox" }, grid.spacing));
+  CertifiedRequest      tolerance = RefinedSkeleton({ "0" }, grid.spacing);
+  tolerance.tolerances = { ParseTolerance("1diag"), ParseTolerance("2diag") };
+  const CertifiedResult other = ComputeCertified(ObliqueRod(), grid, tolerance);
+  EXPECT_EQ(one.skeleton->skeleton.graph.positions, other.skeleton->skeleton.graph.positions);
+  EXPECT_EQ(one.skeleton->skeleton.graph.radius, other.skeleton->skeleton.graph.radius);
+  EXPECT_TRUE(one.cores[0].numbers.refined && other.cores[1].numbers.refined);
+}
+
+TEST(CertifiedSkeleton, OneOfAPrunedCoreCanBeRefinedToo)
+{
+  const ImageGeometry grid = Grid({ 1, 1, 2 });
+  for (const char * tolerance : { "", "1diag" })
+  {
+    CertifiedRequest request = RefinedSkeleton({ *tolerance ? "0" : "1.5vox" }, grid.spacing);
+    request.skeleton->lambda = request.lambdas[0];
+    if (*tolerance)
+    {
+      request.tolerances = { ParseTolerance(tolerance) };
+      request.skeleton->tolerance = request.tolerances[0];
+    }
+    const CertifiedResult refined = ComputeCertified(ObliqueRod(), grid, request);
+    request.refineCores = false;
+    request.skeleton->refined = false;
+    request.surface = {};
+    const CertifiedResult plain = ComputeCertified(ObliqueRod(), grid, request);
+    EXPECT_EQ(refined.skeleton->topology, refined.shape.topology);
+    EXPECT_EQ(refined.skeleton->skeleton.graph.branchPoints, plain.skeleton->skeleton.graph.branchPoints) << tolerance;
+    EXPECT_NE(refined.skeleton->skeleton.graph.radius, plain.skeleton->skeleton.graph.radius) << tolerance;
+  }
+}
+
+TEST(CertifiedSkeleton, ARefinedOneNeedsASurface)
+{
+  CertifiedRequest request = Lambdas({ "0" });
+  request.skeleton = Skeleton();
+  request.skeleton->refined = true;
+  EXPECT_THROW(ComputeCertified(Box(4, 4, 4), Grid({ 1, 1, 1 }), request), UsageError);
 }
 
 TEST(CertifiedSkeleton, CanBeStopped)

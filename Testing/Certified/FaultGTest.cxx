@@ -58,12 +58,18 @@ Stages()
   skeleton.skeleton.emplace();
   skeleton.skeleton->standOut = ParseLambda("3vox");
   skeleton.skeleton->smooth = ParseLambda("6vox");
+  CertifiedRequest curves = skeleton;
+  curves.surface = refined.surface;
+  curves.refineCores = false;
+  curves.skeleton->refined = true;
   return { { "core", "its core", plain },
            { "pruning", "its core pruned at 1.5vox", plain },
            { "tolerance", "its core pruned at tolerance 1.2diag", tolerance },
            { "refinement", "its core refined at 1.5vox", refined },
            { "refinement", "its core refined at 1.2diag", both },
-           { "skeleton", "its skeleton", skeleton } };
+           { "skeleton", "its skeleton", skeleton },
+           { "skeleton", "its skeleton", curves },
+           { "refinement", "its refined skeleton", curves } };
 }
 
 TEST(SeededFaults, AreRefusedAtEveryStage)

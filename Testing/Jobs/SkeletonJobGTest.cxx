@@ -92,6 +92,53 @@ TEST_F(SkeletonJob, ScanItsWholeCoreAndTheCoreCommandGiveTheSameBytes)
   EXPECT_EQ(ReadModel(At("b_lambda-0.vtp")).provenance.find("skeleton"), std::string::npos);
 }
 
+TEST_F(SkeletonJob, RefinedOneIsTheSameAloneAndBesideACoreAndIsMeasuredAsItIs)
+{
+  MakePhantom("torus", "torus.nrrd");
+  const ParameterValues more{ { "refine", "labels" }, { "also", "csv" } };
+  Skeleton("torus.nrrd", "a.vtp", more);
+  ParameterValues core = more;
+  core.insert(
+    { { "scan", At("torus.nrrd").string() }, { "with-skeleton", "true" }, { "output", At("b.vtp").string() } });
+  RunCoreJob(CoreOptionsFrom(core));
+  EXPECT_EQ(Bytes(At("a_branches.csv")), Bytes(At("b_skeleton_branches.csv")));
+  EXPECT_EQ(ReadModel(At("b.vtp")).refined, "labels");
+  const SkeletonModel refined = ReadSkeletonVtp(At("a.vtp"));
+  const CoreReport    made = ParseProvenance(refined.provenance, "it");
+  EXPECT_TRUE(made.skeleton->refined);
+  EXPECT_EQ(made.parameters.refine.surface, "labels");
+  // Measured later, radii are as little shifted as at once.
+  MeasureJobOptions measure;
+  measure.skeleton = At("a.vtp");
+  measure.output = At("c.csv");
+  RunMeasureJob(measure);
+  EXPECT_EQ(Bytes(At("a_branches.csv")), Bytes(At("c_branches.csv")));
+  // That of the voxels has the same branches elsewhere.
+  Skeleton("torus.nrrd", "d.vtp", { { "also", "csv" } });
+  const SkeletonModel plain = ReadSkeletonVtp(At("d.vtp"));
+  EXPECT_FALSE(ParseProvenance(plain.provenance, "it").skeleton->refined);
+  EXPECT_EQ(plain.parts[0].graph.branchPoints, refined.parts[0].graph.branchPoints);
+  EXPECT_NE(plain.parts[0].graph.positions, refined.parts[0].graph.positions);
+}
+
+TEST_F(SkeletonJob, OneOfARefinedCoreHasItsRadiiAndTopology)
+{
+  MakePhantom("torus", "torus.nrrd");
+  RunCoreJob(CoreOptionsFrom(
+    { { "scan", At("torus.nrrd").string() }, { "refine", "labels" }, { "output", At("core.vtp").string() } }));
+  Skeleton("core.vtp", "a.vtp");
+  const SkeletonModel model = ReadSkeletonVtp(At("a.vtp"));
+  const CoreReport    made = ParseProvenance(model.provenance, "it");
+  EXPECT_TRUE(made.skeleton->refined);
+  EXPECT_EQ(made.labels.at(0).skeleton->topology, made.labels.at(0).shape);
+  const std::vector<double> radii = ReadModel(At("core.vtp")).parts.at(0).core.radius;
+  for (const double radius : model.parts.at(0).graph.radius)
+  {
+    EXPECT_NE(std::find(radii.begin(), radii.end(), radius), radii.end());
+  }
+  EXPECT_THROW(Skeleton("core.vtp", "b.vtp", { { "refine", "labels" } }), UsageError);
+}
+
 TEST_F(SkeletonJob, FolderHoldsAFilePerLabelAndOneTable)
 {
   RunPhantomJob(PhantomOptionsFrom(

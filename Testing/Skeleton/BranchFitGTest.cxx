@@ -1,5 +1,8 @@
 #include "TubeShapes.h"
 
+#include <iostream>
+#include <random>
+
 namespace voxelcore::testing
 {
 
@@ -104,6 +107,44 @@ TEST(BranchFit, StraightTubesAtAnyAngleHaveTheirLength)
 TEST(HeavyBranchFit, StraightTubesAtManyAnglesHaveTheirLength)
 {
   EXPECT_LE(CountTubesOff({ 1.5, 2.0, 2.5, 3.0, 4.0, 6.0 }, 24), 14); // of 144
+}
+
+// In tubes along diagonals of the grid the same few cells repeat: narrow ribbons run all along the axis, and all twigs
+// across it are equally long. Times that are off by a little put two lines side by side here, or lost the whole branch.
+TEST(BranchFit, TubesAlongDiagonalsAreOneBranchWhereverTheyLie)
+{
+  constexpr double                       length = 70;
+  std::mt19937_64                        random(20261123);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  std::cout << "seed 20261123\n";
+  for (const Spacing3 & spacing : { Spacing3{ 1, 1, 1 }, Spacing3{ 1, 1, 2 } })
+  {
+    for (const Spacing3 & along : { Spacing3{ 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, -1, 1 } })
+    {
+      const double norm = Distance(along, { 0, 0, 0 });
+      for (const double thickness : { 2.9, 3.2, 6.4, 12.0, 12.6 })
+      {
+        const double   radius = thickness + 0.2 * uniform(random);
+        const Spacing3 centre{ 50 + uniform(random), 50 + uniform(random), 50 + spacing[2] * uniform(random) };
+        const Curve    curve = SampleCurve(
+          [&](double t) {
+            Spacing3 p = centre;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+            {
+              p[axis] += (t - 0.5) * length * along[axis] / norm;
+            }
+            return p;
+          },
+          140);
+        const SkeletonGraph graph = GraphOf(Tube(curve, radius, { 100, 100, 100 }, spacing), spacing);
+        const std::string   what = "radius " + std::to_string(radius) + ", along " + std::to_string(along[0]) + ", " +
+                                 std::to_string(along[1]) + ", " + std::to_string(along[2]) + ", slices " +
+                                 std::to_string(spacing[2]);
+        EXPECT_EQ(graph.BranchCount(), 1U) << what;
+        EXPECT_NEAR(TotalLength(graph), length, 0.1 * length) << what;
+      }
+    }
+  }
 }
 
 TEST(BranchFit, HelicesAtAnyAngleHaveTheirLength)

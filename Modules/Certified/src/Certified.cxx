@@ -4,6 +4,7 @@
 #include "CrossCheck.h"
 #include "PruneStages.h"
 #include "RefinedResults.h"
+#include "RequestStages.h"
 #include "voxelcore/BallCoverage.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/ComplexTopology.h"
@@ -24,68 +25,6 @@ namespace voxelcore
 
 namespace
 {
-
-// The time of the stages, in that of the core; measured on phantoms of 128 to 256 voxels.
-constexpr double kShapeTime = 0.03;
-constexpr double kDelaunayTime = 0.47;
-constexpr double kCoreTime = 0.4;
-constexpr double kPruneTime = 0.1;
-constexpr double kToleranceTime = 0.35;
-constexpr double kCoverageTime = 0.1;
-constexpr double kRefineTime = 1.5;
-constexpr double kSkeletonTime = 1.1;
-
-bool
-BurnsWhole(const CertifiedRequest & request)
-{
-  return request.skeleton && request.skeleton->lambda.value == 0 && !request.skeleton->tolerance;
-}
-
-/** Of the stages, in the order in which Work takes them. */
-std::vector<double>
-StageTimes(const CertifiedRequest & request)
-{
-  std::vector<double> times{ kShapeTime, kDelaunayTime, kCoreTime };
-  if (!request.tolerances.empty())
-  {
-    times.push_back(kToleranceTime);
-  }
-  times.push_back(kPruneTime);
-  if (BurnsWhole(request))
-  {
-    times.push_back(kSkeletonTime);
-  }
-  if (request.surface)
-  {
-    times.push_back(kRefineTime);
-  }
-  if (!request.tolerances.empty())
-  {
-    times.push_back(kCoverageTime);
-  }
-  else if (!request.surface)
-  {
-    times.push_back(kPruneTime);
-  }
-  if (request.skeleton && !BurnsWhole(request))
-  {
-    times.push_back(kSkeletonTime);
-  }
-  return times;
-}
-
-void
-RequireSense(const CertifiedRequest & request)
-{
-  if (!request.tolerances.empty() && request.lambdas.size() > 1)
-  {
-    throw UsageError(request.name + ": give one lambda with tolerances, which is pruned first");
-  }
-  if (request.surface && request.skeleton && !BurnsWhole(request))
-  {
-    throw UsageError(request.name + ": with refinement, only the whole core's skeleton can be asked for");
-  }
-}
 
 /** As ended in files: what never goes, and what would go beyond the scan's diagonal, has that height. */
 void
@@ -132,6 +71,7 @@ public:
     , m_Request(request)
     , m_Weights(ComputeLatticeWeights(geometry))
     , m_Plan(progress, StageTimes(request))
+    , m_Refines(RefinesCores(request) || RefinesCurves(request))
   {
     RequireLengthsIn(geometry.unit, request);
     m_Result.shape = { request.name, {}, m_Voxels.Box(), geometry };
@@ -146,16 +86,20 @@ public:
   {
     MakeWholeCore();
     CertifyWhole();
-    if (BurnsWhole(m_Request))
+    if (BurnsBeforePruning(m_Request))
     {
-      Burn(m_Whole.core);
+      BurnBeforePruning();
     }
     Stopwatch watch;
     MakeResults();
     m_Result.seconds.prune += watch.Lap();
-    if (m_Request.skeleton && !BurnsWhole(m_Request))
+    if (m_Request.skeleton)
     {
-      Burn(CoreToBurn());
+      if (!BurnsBeforePruning(m_Request))
+      {
+        Burn(CoreToBurn());
+      }
+      Measure();
     }
     return std::move(m_Result);
   }
@@ -188,7 +132,7 @@ private:
       const ProgressCallback building = m_Plan.Next("core");
       ReportProgress(building, "", 0);
       TouchingBalls touching = byTolerance ? LargestTouchingBalls(cells, points, m_Weights) : TouchingBalls();
-      if (m_Request.surface)
+      if (m_Refines)
       {
         m_Kept.edgePoints = NearestToEdges(cells);
       }
@@ -202,7 +146,7 @@ private:
         EndTolerances(core.tolerances, geometry);
         seconds.prune += watch.Lap();
       }
-      if (m_Request.surface)
+      if (m_Refines)
       {
         m_Kept.points = std::move(points);
       }
@@ -211,7 +155,7 @@ private:
     {
       RefuseResult(m_Request.name, "a vertex of the core lies outside the shape");
     }
-    if (m_Request.surface)
+    if (m_Refines)
     {
       m_Kept.core = core;
     }
@@ -225,13 +169,13 @@ private:
   CertifyWhole()
   {
     Stopwatch              watch;
-    const ProgressCallback prune = m_Plan.Next(m_Request.surface ? "core" : "prune");
+    const ProgressCallback prune = m_Plan.Next(RefinesCores(m_Request) ? "core" : "prune");
     ReportProgress(prune, "", 0);
     const MedialComplex & core = m_Whole.core.core;
     RunBoth(
       core.cells.FaceCount() > 10000,
       [&] {
-        if (m_Request.tolerances.empty() && !m_Request.surface)
+        if (m_Request.tolerances.empty() && !RefinesCores(m_Request))
         {
           m_Pruned = PruneAscending(core, 0, m_Thresholds, prune);
         }
@@ -251,11 +195,27 @@ private:
   void
   MakeResults()
   {
-    if (m_Request.surface)
+    if (m_Refines)
     {
-      m_Whole = CertifiedCore();
-      m_Result.cores =
-        RefineAndCertify(m_Voxels, m_Result.shape, std::move(m_Kept), m_Request.surface, Asked(), m_Plan.Next());
+      RefinementTask task;
+      if (RefinesCores(m_Request))
+      {
+        m_Whole = CertifiedCore();
+        task.asked = Asked();
+      }
+      if (RefinesCurves(m_Request))
+      {
+        task.curves = &*m_Curves;
+      }
+      m_Result.cores = RefineAndCertify(m_Voxels,
+                                        m_Result.shape,
+                                        std::move(m_Kept),
+                                        m_Request.surface,
+                                        std::move(task),
+                                        m_Plan.Next());
+    }
+    if (RefinesCores(m_Request))
+    {
       CertifyCoverage();
     }
     else if (m_Request.tolerances.empty())
@@ -338,18 +298,18 @@ private:
     m_Result.covered = true;
   }
 
-  const PlacedCore &
+  const MedialComplex &
   CoreToBurn() const
   {
     if (m_Request.skeleton->tolerance)
     {
-      return m_Result.cores.front().core;
+      return m_Result.cores.front().core.core;
     }
     for (std::size_t i = 0; i < m_Request.lambdas.size(); ++i)
     {
       if (m_Request.lambdas[i].text == m_Request.skeleton->lambda.text)
       {
-        return m_Result.cores[i].core;
+        return m_Result.cores[i].core.core;
       }
     }
     throw UsageError(m_Request.name + ": a skeleton is asked for of a core that is not: lambda " +
@@ -357,22 +317,46 @@ private:
   }
 
   void
-  Burn(const PlacedCore & core)
+  Burn(const MedialComplex & core)
   {
     Stopwatch watch;
-    m_Result.skeleton = SkeletonOf(core, m_Result.shape, *m_Request.skeleton, m_Plan.Next());
+    m_Curves = BurnToCurves(core, m_Result.shape, *m_Request.skeleton, m_Plan.Next());
     m_Result.seconds.skeleton += watch.Lap();
   }
 
-  VoxelShape                 m_Voxels;
-  const CertifiedRequest &   m_Request;
-  SpacingWeights             m_Weights;
-  StagePlan                  m_Plan;
-  std::vector<double>        m_Thresholds; ///< mm
-  RefinementParts            m_Kept;       ///< where cores are to be refined
-  CertifiedCore              m_Whole;
-  std::vector<MedialComplex> m_Pruned; ///< by lambda, ascending
-  CertifiedResult            m_Result;
+  /** Curves that may be refined: they know their places in the whole core. */
+  void
+  BurnBeforePruning()
+  {
+    if (BurnsWhole(m_Request))
+    {
+      Burn(m_Whole.core.core);
+      return;
+    }
+    PartElements part;
+    Burn(PartToBurn(m_Whole.core.core, m_Result.shape, *m_Request.skeleton, part));
+    NameInWhole(part, m_Curves->curves.inSurface);
+  }
+
+  void
+  Measure()
+  {
+    Stopwatch watch;
+    m_Result.skeleton = MeasureCurves(*m_Curves, m_Result.shape, *m_Request.skeleton);
+    m_Result.seconds.skeleton += watch.Lap();
+  }
+
+  VoxelShape                  m_Voxels;
+  const CertifiedRequest &    m_Request;
+  SpacingWeights              m_Weights;
+  StagePlan                   m_Plan;
+  std::vector<double>         m_Thresholds; ///< mm
+  const bool                  m_Refines;    ///< cores or curves
+  RefinementParts             m_Kept;       ///< where it does
+  CertifiedCore               m_Whole;
+  std::vector<MedialComplex>  m_Pruned; ///< by lambda, ascending
+  std::optional<BurnedCurves> m_Curves;
+  CertifiedResult             m_Result;
 };
 
 } // namespace

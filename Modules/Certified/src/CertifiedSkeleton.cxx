@@ -1,8 +1,10 @@
 #include "voxelcore/CertifiedSkeleton.h"
 
 #include "CertificateText.h"
+#include "SkeletonSteps.h"
 #include "voxelcore/ComplexTopology.h"
-#include "voxelcore/CurveSkeleton.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
 
@@ -42,26 +44,33 @@ HalfAVoxel(const ImageGeometry & geometry)
   return reach;
 }
 
+double
+LengthOn(const CertifiedShape & shape, const Lambda & length)
+{
+  const Vector3 & spacing = shape.geometry.spacing;
+  return LambdaInMillimetres(length, ComputeSpacingWeights(spacing), spacing, shape.box);
+}
+
 } // namespace
 
 MeasureOptions
-MeasuringOf(const BranchRequest & request, const Vector3 & spacing)
+MeasuringOf(const SkeletonRequest & request, const Vector3 & spacing)
 {
   MeasureOptions measuring;
-  measuring.root = request.root;
-  measuring.radiusShift = 0.25 * Diagonal(spacing);
+  measuring.root = request.branches.root;
+  measuring.radiusShift = request.refined ? 0 : 0.25 * Diagonal(spacing);
   return measuring;
 }
 
 void
-CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, const Vector3 & spacing)
+CutAndMeasure(CertifiedSkeleton & skeleton, const SkeletonRequest & request, const Vector3 & spacing)
 {
   SkeletonGraph & graph = skeleton.skeleton.graph;
-  if (request.cutLoops)
+  if (request.branches.cutLoops)
   {
     skeleton.cuts = CutLoops(graph);
   }
-  if (request.splitAtJunctions)
+  if (request.branches.splitAtJunctions)
   {
     SplitAtJunctions(graph);
   }
@@ -94,43 +103,84 @@ RequireLengthsIn(SpatialUnit unit, const SkeletonRequest & request)
   RequireLengthsIn(unit, request.branches);
 }
 
-CertifiedSkeleton
-SkeletonOf(const PlacedCore &       core,
-           const CertifiedShape &   shape,
-           const SkeletonRequest &  request,
-           const ProgressCallback & progress)
+MedialComplex
+PartToBurn(const MedialComplex &   whole,
+           const CertifiedShape &  shape,
+           const SkeletonRequest & request,
+           PartElements &          elements)
+{
+  LiveElements live;
+  if (request.tolerance)
+  {
+    if (!whole.HasTolerances())
+    {
+      throw UsageError(shape.name + ": a skeleton is asked for of a core that is not: tolerance " +
+                       request.tolerance->text);
+    }
+    live = LeftByTolerance(whole, ToleranceInMillimetres(*request.tolerance, shape.geometry.spacing));
+  }
+  else
+  {
+    SimplePairCollapse collapse(whole.cells, whole.vertexLambda, whole.edgeLambda, whole.faceLambda);
+    collapse.CollapseBelow(LengthOn(shape, request.lambda));
+    live = std::move(collapse).TakeLive();
+  }
+  return ExtractPart(whole, live, elements);
+}
+
+void
+NameInWhole(const PartElements & part, PartElements & curves)
+{
+  const auto name = [](const std::vector<ElementIndex> & whole, std::vector<ElementIndex> & indices) {
+    for (ElementIndex & index : indices)
+    {
+      index = whole[index];
+    }
+  };
+  name(part.vertices, curves.vertices);
+  name(part.edges, curves.edges);
+  name(part.faces, curves.faces);
+}
+
+BurnedCurves
+BurnToCurves(const MedialComplex &    core,
+             const CertifiedShape &   shape,
+             const SkeletonRequest &  request,
+             const ProgressCallback & progress)
 {
   RequireLengthsIn(shape.geometry.unit, request);
-  const Vector3 &      spacing = shape.geometry.spacing;
-  const SpacingWeights weights = ComputeSpacingWeights(spacing);
-  const auto           length = [&](const Lambda & l) { return LambdaInMillimetres(l, weights, spacing, shape.box); };
-  CurveOptions         curves;
-  curves.branchThreshold = length(request.standOut);
+  const Vector3 & spacing = shape.geometry.spacing;
+  CurveOptions    curves;
+  curves.branchThreshold = LengthOn(shape, request.standOut);
   if (request.plates)
   {
-    curves.plateThreshold = length(*request.plates);
+    curves.plateThreshold = LengthOn(shape, *request.plates);
   }
   curves.sampling = 1.5 * *std::min_element(spacing.begin(), spacing.end());
   curves.geometry = shape.geometry;
   curves.voxel = VoxelSide(spacing);
-  StagePlan           plan(progress, { 0.98, 0.02 });
-  const CurveSkeleton curve = ComputeCurveSkeleton(core.core, curves, plan.Next());
-  CertifiedSkeleton   result;
-  result.topology = ComputeComplexTopology(curve.complex.cells);
-  RequireEqualTopology(shape.topology, result.topology, "its skeleton", shape.name);
+  BurnedCurves burned;
+  burned.curves = ComputeCurveSkeleton(core, curves, progress);
+  burned.topology = ComputeComplexTopology(burned.curves.complex.cells);
+  RequireEqualTopology(shape.topology, burned.topology, "its skeleton", shape.name);
+  return burned;
+}
 
-  ReportProgress(plan.Next("branches"), "", 0);
-  result.skeleton.label = core.label;
-  result.skeleton.component = core.component;
+CertifiedSkeleton
+MeasureCurves(const BurnedCurves & burned, const CertifiedShape & shape, const SkeletonRequest & request)
+{
+  const Vector3 &   spacing = shape.geometry.spacing;
+  CertifiedSkeleton result;
+  result.topology = burned.topology;
   SkeletonGraph & graph = result.skeleton.graph;
-  graph = BuildSkeletonGraph(curve);
+  graph = BuildSkeletonGraph(burned.curves);
   // The zigzag that is to go is that of voxels, which is as long as they are across slices.
   const bool       inVoxels = request.smooth.unit == Lambda::Unit::Voxel;
-  const double     window = inVoxels ? request.smooth.value * VoxelSide(spacing) : length(request.smooth);
+  const double     window = inVoxels ? request.smooth.value * VoxelSide(spacing) : LengthOn(shape, request.smooth);
   const VoxelReach reach = HalfAVoxel(shape.geometry);
   FitBranches(graph, window, reach);
   const BranchRequest & branches = request.branches;
-  const double          limit = branches.pruneLength ? length(*branches.pruneLength) : 0;
+  const double          limit = branches.pruneLength ? LengthOn(shape, *branches.pruneLength) : 0;
   if (PruneBranches(graph, { limit, branches.pruneRadii }) > 0)
   {
     FitBranches(graph, window, reach);
@@ -141,7 +191,22 @@ SkeletonOf(const PlacedCore &       core,
   {
     RefuseResult(shape.name, "the branches do not have the shape's topology");
   }
-  CutAndMeasure(result, branches, spacing);
+  CutAndMeasure(result, request, spacing);
+  return result;
+}
+
+CertifiedSkeleton
+SkeletonOf(const PlacedCore &       core,
+           const CertifiedShape &   shape,
+           const SkeletonRequest &  request,
+           const ProgressCallback & progress)
+{
+  StagePlan          plan(progress, { 0.98, 0.02 });
+  const BurnedCurves burned = BurnToCurves(core.core, shape, request, plan.Next());
+  ReportProgress(plan.Next("branches"), "", 0);
+  CertifiedSkeleton result = MeasureCurves(burned, shape, request);
+  result.skeleton.label = core.label;
+  result.skeleton.component = core.component;
   return result;
 }
 

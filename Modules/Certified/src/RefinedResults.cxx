@@ -5,6 +5,7 @@
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <atomic>
@@ -17,12 +18,13 @@ namespace voxelcore
 namespace
 {
 
-CertifiedCore
-CertifyRefined(RefinedCore refined, const VoxelShape & voxels, const CertifiedShape & shape, CoreNumbers numbers)
+/** Compares what was refined with the shape, and tells how far it was moved. */
+RefinedNumbers
+RequireRefined(const RefinedCore & refined,
+               const VoxelShape &  voxels,
+               const std::string & name,
+               const std::string & what)
 {
-  const std::string what = "its core refined at " + (numbers.tolerance ? numbers.tolerance->height : numbers.lambda);
-  const TopologyNumbers topology = ComputeComplexTopology(refined.core.cells);
-  RequireEqualTopology(shape.topology, topology, what, shape.name);
   RefinedNumbers moved;
   for (const Vector3 & d : refined.displacement)
   {
@@ -32,25 +34,121 @@ CertifyRefined(RefinedCore refined, const VoxelShape & voxels, const CertifiedSh
   }
   if (!IsEnclosed(refined.core, voxels) || moved.maxDisplacement > 1)
   {
-    RefuseResult(shape.name, "a vertex of " + what + " lies outside the shape or was moved by more than a voxel");
+    RefuseResult(name, "a vertex of " + what + " lies outside the shape or was moved by more than a voxel");
   }
-  // A displacement in LPS mm is the difference of two places.
+  return moved;
+}
+
+/** What moved each vertex, in LPS mm: the difference of two places. */
+std::vector<Vector3>
+MovesInLps(const RefinedCore & refined, const ImageGeometry & geometry)
+{
   std::vector<Vector3> moves(refined.displacement.size());
   for (std::size_t v = 0; v < moves.size(); ++v)
   {
     const Vector3 & place = refined.core.positions[v];
-    const Vector3 & d = refined.displacement[v];
-    const Vector3   from = LatticeToPhysical(shape.geometry, { place[0] - d[0], place[1] - d[1], place[2] - d[2] });
-    const Vector3   to = LatticeToPhysical(shape.geometry, place);
-    moves[v] = { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
+    const Vector3   from = LatticeToPhysical(geometry, Minus(place, refined.displacement[v]));
+    moves[v] = Minus(LatticeToPhysical(geometry, place), from);
   }
-  CertifiedCore result;
+  return moves;
+}
+
+CertifiedCore
+CertifyRefined(RefinedCore refined, const VoxelShape & voxels, const CertifiedShape & shape, CoreNumbers numbers)
+{
+  const std::string what = "its core refined at " + (numbers.tolerance ? numbers.tolerance->height : numbers.lambda);
+  const TopologyNumbers topology = ComputeComplexTopology(refined.core.cells);
+  RequireEqualTopology(shape.topology, topology, what, shape.name);
+  numbers.refined = RequireRefined(refined, voxels, shape.name, what);
+  std::vector<Vector3> moves = MovesInLps(refined, shape.geometry);
+  CertifiedCore        result;
   result.core = ToPhysical(std::move(refined.core), shape.geometry, 0);
   result.core.displacement = std::move(moves);
   result.numbers = std::move(numbers);
   result.numbers.complex = DescribeComplex(result.core.core, topology);
-  result.numbers.refined = moved;
   return result;
+}
+
+/** The elements of the core that are in the curves. */
+LiveElements
+ElementsOf(const PartElements & curves, const CellComplex & core)
+{
+  LiveElements elements{ std::vector<std::uint8_t>(core.vertexCount, 0),
+                         std::vector<std::uint8_t>(core.edges.size(), 0),
+                         std::vector<std::uint8_t>(core.FaceCount(), 0) };
+  for (const auto & [indices, flags] : { std::pair(&curves.vertices, &elements.vertices),
+                                         std::pair(&curves.edges, &elements.edges),
+                                         std::pair(&curves.faces, &elements.faces) })
+  {
+    for (const ElementIndex index : *indices)
+    {
+      (*flags)[index] = 1;
+    }
+  }
+  return elements;
+}
+
+/** From each end of the curves the way inwards, seen over `reach` mm: unit vectors by vertex. */
+std::vector<std::pair<ElementIndex, Vector3>>
+WaysInwards(const MedialComplex & curves, double reach)
+{
+  std::vector<Cofaces> ends(curves.cells.vertexCount); // of edges at each vertex, the vertex at their other end
+  for (const auto & [a, b] : curves.cells.edges)
+  {
+    ends[a].Add(b);
+    ends[b].Add(a);
+  }
+  std::vector<std::pair<ElementIndex, Vector3>> ways;
+  for (ElementIndex tip = 0; tip < ends.size(); ++tip)
+  {
+    if (ends[tip].count != 1)
+    {
+      continue;
+    }
+    ElementIndex before = tip;
+    ElementIndex at = ends[tip].exclusiveOr;
+    while (ends[at].count == 2 && Distance(curves.positions[tip], curves.positions[at]) < reach)
+    {
+      const ElementIndex next = ends[at].exclusiveOr ^ before;
+      before = at;
+      at = next;
+    }
+    const Vector3 way = Minus(curves.positions[at], curves.positions[tip]);
+    ways.emplace_back(tip, AddScaled({ 0, 0, 0 }, 1 / Length(way), way));
+  }
+  return ways;
+}
+
+/** Puts the curves where refinement has moved them. Ends do not draw back: the surface about a tip shrinks when it is
+ *  smoothed, the branch does not. */
+void
+MoveCurves(const RefinedCore & refined, const VoxelShape & voxels, const CertifiedShape & shape, BurnedCurves & burned)
+{
+  const std::string what = "its refined skeleton";
+  RequireEqualTopology(shape.topology, ComputeComplexTopology(refined.core.cells), what, shape.name);
+  RequireRefined(refined, voxels, shape.name, what);
+  MedialComplex &      curves = burned.curves.complex;
+  std::vector<Vector3> moves = MovesInLps(refined, shape.geometry);
+  for (const auto & [tip, inwards] : WaysInwards(curves, 3 * Length(shape.geometry.spacing)))
+  {
+    moves[tip] = AddScaled(moves[tip], -std::max(0.0, Dot(moves[tip], inwards)), inwards);
+  }
+  const auto isInside = [&](const Vector3 & place) {
+    return ContainsInside(voxels, PhysicalToLattice(shape.geometry, place));
+  };
+  for (std::size_t v = 0; v < moves.size(); ++v)
+  {
+    Vector3 &     position = curves.positions[v];
+    Vector3 &     end = burned.curves.places[v];
+    const Vector3 beyond = AddScaled(end, 1, moves[v]);
+    const Vector3 place = AddScaled(position, 1, moves[v]);
+    if (isInside(place))
+    {
+      end = end != position && isInside(beyond) ? beyond : place;
+      position = place;
+    }
+  }
+  curves.radius = refined.core.radius;
 }
 
 } // namespace
@@ -60,30 +158,34 @@ RefineAndCertify(const VoxelShape &       voxels,
                  const CertifiedShape &   shape,
                  RefinementParts          parts,
                  const SurfaceSource &    source,
-                 std::vector<CoreNumbers> asked,
+                 RefinementTask           task,
                  const ProgressCallback & progress)
 {
-  const auto            surface = source(voxels, PartOfProgress(progress, "surface", 0, 0.3));
-  const RefinementInput input{ &voxels,
-                               &parts.points,
-                               &parts.core,
-                               &parts.edgePoints,
-                               surface.get(),
-                               shape.geometry.spacing,
-                               asked.front().tolerance.has_value() };
-  std::vector<double>   thresholdsMm;
-  for (const CoreNumbers & one : asked)
+  const auto          surface = source(voxels, PartOfProgress(progress, "surface", 0, 0.3));
+  RefinementInput     input{ &voxels,       &parts.points,          &parts.core, &parts.edgePoints,
+                         surface.get(), shape.geometry.spacing, false };
+  std::vector<double> thresholdsMm;
+  for (const CoreNumbers & one : task.asked)
   {
     thresholdsMm.push_back(one.tolerance ? one.tolerance->heightMm : one.lambdaMm);
+    input.byTolerance = one.tolerance.has_value();
+  }
+  if (task.curves)
+  {
+    input.parts.push_back(ElementsOf(task.curves->curves.inSurface, parts.core.cells));
   }
   // Each threshold goes on from where the last one stopped.
   const std::vector<double>  ascending = AscendingBeyond(-HUGE_VAL, thresholdsMm);
   const auto                 refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.3, 1));
   std::vector<CertifiedCore> results;
-  for (std::size_t i = 0; i < asked.size(); ++i)
+  for (std::size_t i = 0; i < task.asked.size(); ++i)
   {
     const auto at = std::lower_bound(ascending.begin(), ascending.end(), thresholdsMm[i]) - ascending.begin();
-    results.push_back(CertifyRefined(refined[static_cast<std::size_t>(at)], voxels, shape, std::move(asked[i])));
+    results.push_back(CertifyRefined(refined[static_cast<std::size_t>(at)], voxels, shape, std::move(task.asked[i])));
+  }
+  if (task.curves)
+  {
+    MoveCurves(refined.back(), voxels, shape, *task.curves);
   }
   return results;
 }

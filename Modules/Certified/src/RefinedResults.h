@@ -1,6 +1,7 @@
 #pragma once
-// A shape's core refined at each of its thresholds.
+// A shape's core refined at each of its thresholds, and the curves that it burns to.
 
+#include "SkeletonSteps.h"
 #include "voxelcore/Certified.h"
 #include "voxelcore/Refinement.h"
 
@@ -17,14 +18,21 @@ struct RefinementParts
   MedialComplex             core; ///< in lattice coordinates
 };
 
-/** A result for each of `asked`, which says how it was pruned, by lambda or by tolerance. \throws CertificateError when
- *  the topology is no longer the shape's, or a vertex has left it; Cancelled */
+/** What is refined. */
+struct RefinementTask
+{
+  std::vector<CoreNumbers> asked;            ///< cores, as they are pruned: by lambda, or all by tolerance
+  BurnedCurves *           curves = nullptr; ///< of the whole core; points and radii are moved
+};
+
+/** A result for each core of the task. \throws CertificateError when the topology is no longer the shape's, or a vertex
+ *  has left it; Cancelled */
 std::vector<CertifiedCore>
 RefineAndCertify(const VoxelShape &       voxels,
                  const CertifiedShape &   shape,
                  RefinementParts          parts,
                  const SurfaceSource &    source,
-                 std::vector<CoreNumbers> asked,
+                 RefinementTask           task,
                  const ProgressCallback & progress);
 
 /** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */

@@ -13,6 +13,7 @@ RequestOf(const CoreOptions & options, SurfaceSource surface)
   request.lambdas = options.lambdas;
   request.tolerances = options.tolerances;
   request.surface = std::move(surface);
+  request.refineCores = !options.output.empty() || !options.skeleton;
   request.skeleton = options.skeleton;
   request.engine = options.engine;
   request.crossCheck = options.crossCheck;

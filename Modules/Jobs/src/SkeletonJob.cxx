@@ -31,6 +31,7 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
   {
     core.tolerances = { *options.stage.tolerance };
   }
+  core.refine = options.refine;
   core.skeleton = options.stage;
   core.skeletonOutput = options.output;
   core.skeletonTargets = options.targets;
@@ -61,7 +62,6 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   DisplayFiles shown(options.display, options.input, transaction);
   ReportProgress(context.progress, "reading", 0);
   MedialModel model = ReadModel(options.input);
-  RequireUnrefined(model, options.input);
   report = ParseProvenance(model.provenance, options.input.string());
   RequireFittingProvenance(report.labels.size() == model.parts.size() && report.parameters.lambda.size() == 1 &&
                              report.parameters.tolerances.size() <= 1,
@@ -72,6 +72,7 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   report.parameters.threads = options.threads;
   report.skeleton = options.stage;
   report.skeleton->lambda = ParseLambda(report.parameters.lambda.front());
+  report.skeleton->refined = !model.refined.empty();
   if (!report.parameters.tolerances.empty())
   {
     const Tolerance height = ParseTolerance(report.parameters.tolerances.front());
@@ -180,7 +181,7 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
     const double limit = length ? LambdaInMillimetres(*length, report.parameters.weights, spacing, record.box) : 0;
     PruneBranches(part.graph, { limit, options.branches.pruneRadii });
     CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {} };
-    CutAndMeasure(skeleton, options.branches, spacing);
+    CutAndMeasure(skeleton, *request.skeleton, spacing);
     files.Add(report, i, TakeSkeleton(std::move(skeleton), record), {}, result.notes);
   }
   files.Finish(report, result.notes);

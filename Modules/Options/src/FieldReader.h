@@ -6,6 +6,7 @@
 #include "voxelcore/ParameterFields.h"
 #include "voxelcore/RawLayout.h"
 #include "voxelcore/ReadInput.h"
+#include "voxelcore/RefineStage.h"
 #include "voxelcore/ShapeClosing.h"
 #include "voxelcore/SliceHoles.h"
 
@@ -135,6 +136,10 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
     throw UsageError("give only one of --labels, --binary and --threshold");
   }
 }
+
+/** `--refine` and the scan with grey values that goes with it. */
+RefineOptions
+RefineFrom(const ParameterReader & reader);
 
 /** The values given of options that have no field of their own, by the names reports have for them. */
 inline std::map<std::string, std::string>

@@ -94,9 +94,6 @@ VoxelizeOptionsFrom(const ParameterValues & values)
   return options;
 }
 
-namespace
-{
-
 RefineOptions
 RefineFrom(const ParameterReader & reader)
 {
@@ -118,8 +115,6 @@ RefineFrom(const ParameterReader & reader)
   }
   return refine;
 }
-
-} // namespace
 
 CoreOptions
 CoreOptionsWithoutFiles(const ParameterValues & values)

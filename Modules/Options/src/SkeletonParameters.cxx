@@ -111,7 +111,8 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
   {
     const bool ofScans = BelongsTo(parameter, CommandId::Skeleton) &&
                          (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" ||
-                          parameter.name == "tolerance" || parameter.name == "engine") &&
+                          parameter.name == "tolerance" || parameter.name == "engine" || parameter.name == "refine" ||
+                          parameter.name == "grey" || parameter.name == "grey-range") &&
                          parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
                          parameter.name != "quiet";
     if (ofScans && values.contains(parameter.name))
@@ -143,6 +144,7 @@ CoreSkeletonFrom(const ParameterValues & values)
   {
     SkeletonRequest stage = StageFrom(values, CommandId::Core);
     stage.lambda = ParseLength("0");
+    stage.refined = !RefineFrom(ParameterReader(values, CommandId::Core)).surface.empty();
     const auto also = TargetsFrom(values, CommandId::Core).also;
     if (std::find(also.begin(), also.end(), "ma") != also.end())
     {
@@ -181,6 +183,8 @@ SkeletonOptionsFrom(const ParameterValues & values)
   options.further = FurtherOptions(reader);
   options.stage = StageFrom(values, command);
   options.stage.lambda = LengthFrom(values, command, "lambda");
+  options.refine = RefineFrom(reader);
+  options.stage.refined = !options.refine.surface.empty();
   options.targets = TargetsFrom(values, command);
   if (values.contains("tolerance"))
   {

@@ -77,28 +77,33 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
 {
   std::vector<RefinedCore>          refined;
   std::optional<SimplePairCollapse> byLambda;
-  if (!input.byTolerance)
+  if (!input.byTolerance && !thresholds.empty())
   {
     byLambda.emplace(input.core->cells, input.core->vertexLambda, input.core->edgeLambda, input.core->faceLambda);
   }
   const FootPointFinder finder(input, progress);
   const TriangleTree    boundary = TreeOfPoints(*input.points, input.spacing);
+  const auto            refine = [&](CorePart part, double threshold) {
+    RefinementState working(input, std::move(part));
+    working.Move(finder, progress);
+    refined.push_back(working.Finish(finder, threshold));
+    BoundRadii(boundary, input.spacing, refined.back().core);
+  };
   for (const double threshold : thresholds)
   {
-    CorePart part;
     if (byLambda)
     {
       byLambda->CollapseBelow(kWorkingPart * threshold, progress);
-      part = RemoveFringe(input, finder, PartOf(input.core->cells, byLambda->Live()));
+      refine(RemoveFringe(input, finder, PartOf(input.core->cells, byLambda->Live())), threshold);
     }
     else
     {
-      part = PartOf(input.core->cells, LeftByTolerance(*input.core, threshold));
+      refine(PartOf(input.core->cells, LeftByTolerance(*input.core, threshold)), 0);
     }
-    RefinementState working(input, std::move(part));
-    working.Move(finder, progress);
-    refined.push_back(working.Finish(finder, input.byTolerance ? 0 : threshold));
-    BoundRadii(boundary, input.spacing, refined.back().core);
+  }
+  for (const LiveElements & part : input.parts)
+  {
+    refine(PartOf(input.core->cells, part), 0);
   }
   return refined;
 }

@@ -42,6 +42,10 @@ SkeletonStageJson(const SkeletonRequest & stage)
   {
     json["tolerance"] = stage.tolerance->text;
   }
+  if (stage.refined)
+  {
+    json["refined"] = true;
+  }
   return json;
 }
 
@@ -54,6 +58,7 @@ ReadSkeletonStage(const Json & json)
   {
     stage.tolerance = ParseTolerance(json.at("tolerance").get<std::string>());
   }
+  stage.refined = json.value("refined", false);
   stage.standOut = ParseLambda(json.at("stand_out").get<std::string>());
   stage.plates = ReadLength(json.at("plates"));
   stage.smooth = ParseLambda(json.at("smooth").get<std::string>());

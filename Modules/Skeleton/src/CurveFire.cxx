@@ -67,7 +67,10 @@ BurnCurves(const MedialComplex &       surface,
   // The same for the fire that has come the longest way. Short twigs at a right angle to it often win by a hair, and
   // from their anchors the next step would seem to take no time.
   std::vector<Anchor> longest(count, { kNoEdge, 0, 0 });
-  std::vector<double> runnerUpTime(count, 0);
+  // What goes on as a branch is decided by the whole way along the edges: straight lines from the tips of twigs that
+  // stand across a branch grow so slowly along it that each next twig would seem to have come as far.
+  std::vector<double> way(count, 0);
+  std::vector<double> runnerUpWay(count, 0);
   std::vector<double> pushed(count, kNever);
   TimeHeap            heap(FireBucket(surface.radius));
   const auto          push = [&](ElementIndex vertex) {
@@ -80,6 +83,7 @@ BurnCurves(const MedialComplex &       surface,
     {
       // The surface burned later than the way along the curve says: its fire counts.
       fire.time[vertex] = surfaceTime[vertex];
+      way[vertex] = surfaceTime[vertex];
       anchors[vertex] = { vertex, surfaceTime[vertex], fire.length[vertex] };
     }
     else if (Distance(surface.positions[anchors[vertex].vertex], surface.positions[vertex]) > chord)
@@ -148,20 +152,22 @@ BurnCurves(const MedialComplex &       surface,
     {
       longest[next] = far;
     }
-    if (fire.winner[next] == kNoEdge || arrival > fire.time[next])
+    const double whole = way[vertex] + Distance(surface.positions[vertex], surface.positions[next]);
+    if (fire.winner[next] == kNoEdge || whole > way[next])
     {
       fire.runnerUp[next] = fire.winner[next];
-      runnerUpTime[next] = fire.time[next];
+      runnerUpWay[next] = way[next];
       fire.winner[next] = edge;
-      fire.time[next] = arrival;
+      way[next] = whole;
       fire.length[next] = anchor.length + step;
       anchors[next] = anchor;
     }
-    else if (fire.runnerUp[next] == kNoEdge || arrival > runnerUpTime[next])
+    else if (fire.runnerUp[next] == kNoEdge || whole > runnerUpWay[next])
     {
       fire.runnerUp[next] = edge;
-      runnerUpTime[next] = arrival;
+      runnerUpWay[next] = whole;
     }
+    fire.time[next] = std::max(fire.time[next], arrival);
     // What came in counts for what goes out, or the part of a branch behind a shorter one could be cut off.
     fire.prominence[vertex] = std::max(fire.prominence[vertex], arrival - surfaceTime[next]);
     fire.prominence[next] = std::max(fire.prominence[next], fire.prominence[vertex]);

@@ -263,29 +263,18 @@ ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options
     }
   }
 
-  CurveSkeleton             skeleton;
-  std::vector<ElementIndex> vertices;
-  std::vector<ElementIndex> edges;
-  std::vector<ElementIndex> faces;
-  skeleton.complex.cells = ExtractLive(surface.cells, stays, vertices, edges, faces);
-  for (const ElementIndex vertex : vertices)
+  CurveSkeleton skeleton;
+  skeleton.complex = ExtractPart(surface, stays, skeleton.inSurface);
+  for (const ElementIndex vertex : skeleton.inSurface.vertices)
   {
-    skeleton.complex.positions.push_back(surface.positions[vertex]);
-    skeleton.complex.radius.push_back(surface.radius[vertex]);
     skeleton.places.push_back(places[vertex]);
-    skeleton.complex.vertexLambda.push_back(surface.vertexLambda[vertex]);
     skeleton.erosionThickness.push_back(surfaceTime[vertex] - surface.radius[vertex]);
     skeleton.branchThickness.push_back(curveTime[vertex] < std::numeric_limits<double>::infinity()
                                          ? std::max(0.0, curveTime[vertex] - surfaceTime[vertex])
                                          : std::numeric_limits<double>::infinity());
   }
-  for (const ElementIndex edge : edges)
+  for (const ElementIndex face : skeleton.inSurface.faces)
   {
-    skeleton.complex.edgeLambda.push_back(surface.edgeLambda[edge]);
-  }
-  for (const ElementIndex face : faces)
-  {
-    skeleton.complex.faceLambda.push_back(surface.faceLambda[face]);
     skeleton.closedFace.push_back(closed[face]);
   }
   return skeleton;

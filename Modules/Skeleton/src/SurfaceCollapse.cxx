@@ -1,6 +1,7 @@
 #include "SurfaceCollapse.h"
 
 #include "TimeHeap.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <limits>
@@ -52,6 +53,62 @@ private:
   std::vector<Cofaces> m_Cofaces;
 };
 
+// Ways over sample points are longer than straight ones, those to vertices less so: an edge that fire reaches from the
+// side would seem to burn after both its ends.
+std::vector<double>
+TimesOfEdges(const CellComplex & cells, const BurnTimes & times)
+{
+  std::vector<double> edges = times.edges;
+  for (std::size_t edge = 0; edge < edges.size(); ++edge)
+  {
+    const auto & [a, b] = cells.edges[edge];
+    edges[edge] = std::min(edges[edge], std::max(times.vertices[a], times.vertices[b]));
+  }
+  return edges;
+}
+
+// Fire that runs along an edge comes to its middle when half its length has burned. An edge that burns sooner after its
+// end than this part of its length was burned from the side.
+constexpr double kBurnsFromTheSide = 0.28;
+
+/** Times of edges are true to a part of their length only, and along a ribbon narrower than that they rise and fall:
+ *  its cross edges then seem to burn before its sides, and it would go from its end on until two lines are left. So
+ *  where a face has a free side that is much longer than the edge that burns, meets it, and burns from the side, that
+ *  goes with the face. Gives the edge that goes. */
+ElementIndex
+EdgeThatGoes(const MedialComplex &       surface,
+             const std::vector<double> & vertexTimes,
+             const std::vector<double> & edgeTimes,
+             const EdgeCofaces &         cofaces,
+             ElementIndex                edge,
+             ElementIndex                face)
+{
+  const CellComplex & cells = surface.cells;
+  const auto          length = [&](ElementIndex of) {
+    return Distance(surface.positions[cells.edges[of][0]], surface.positions[cells.edges[of][1]]);
+  };
+  const auto & ends = cells.edges[edge];
+  ElementIndex goes = edge;
+  double       longest = -1;
+  for (const ElementIndex side : cells.FaceEdges(face))
+  {
+    const auto & [a, b] = cells.edges[side];
+    const bool meetsFirst = a == ends[0] || a == ends[1];
+    if (side == edge || !cofaces.IsFree(side) || (!meetsFirst && b != ends[0] && b != ends[1]))
+    {
+      continue;
+    }
+    longest = longest < 0 ? 2 * length(edge) : longest;
+    const double sideLength = length(side);
+    if (sideLength > longest && edgeTimes[side] < vertexTimes[meetsFirst ? a : b] + kBurnsFromTheSide * sideLength)
+    {
+      longest = sideLength;
+      goes = side;
+    }
+  }
+  return goes;
+}
+
 struct RemovedPair
 {
   ElementIndex edge;
@@ -62,19 +119,20 @@ struct RemovedPair
 std::vector<RemovedPair>
 CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
 {
-  const CellComplex &      cells = surface.cells;
-  EdgeCofaces              cofaces(cells);
-  std::vector<RemovedPair> order;
+  const CellComplex &       cells = surface.cells;
+  const std::vector<double> edgeTimes = TimesOfEdges(cells, times);
+  EdgeCofaces               cofaces(cells);
+  std::vector<RemovedPair>  order;
   order.reserve(cells.FaceCount());
   TimeHeap heap(FireBucket(surface.radius));
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
     if (cofaces.IsFree(edge))
     {
-      heap.Push({ times.edges[edge], edge });
+      heap.Push({ edgeTimes[edge], edge });
     }
   }
-  const auto   due = [&](ElementIndex edge) { return times.edges[edge]; };
+  const auto   due = [&](ElementIndex edge) { return edgeTimes[edge]; };
   TimedElement next;
   // Free edges burn all over the surface in turn: what the next ones need is fetched meanwhile, step by step.
   const auto fetch = [&] {
@@ -94,7 +152,7 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
       for (const ElementIndex side : cells.FaceEdges(face))
       {
         cofaces.Fetch(side);
-        __builtin_prefetch(&times.edges[side]);
+        __builtin_prefetch(&edgeTimes[side]);
       }
     });
   };
@@ -107,13 +165,13 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
       continue; // its face went with another of its edges
     }
     const ElementIndex face = cofaces.OnlyFace(edge);
+    order.push_back({ EdgeThatGoes(surface, times.vertices, edgeTimes, cofaces, edge, face), face });
     cofaces.Remove(face);
-    order.push_back({ edge, face });
     for (const ElementIndex side : cells.FaceEdges(face))
     {
-      if (side != edge && cofaces.IsFree(side))
+      if (cofaces.IsFree(side))
       {
-        heap.Push({ times.edges[side], side });
+        heap.Push({ edgeTimes[side], side });
       }
     }
   }

@@ -1,15 +1,13 @@
-#include "ExtractPart.h"
+#include "voxelcore/ExtractPart.h"
 
 namespace voxelcore
 {
 
 MedialComplex
-ExtractPart(const MedialComplex & core, const LiveElements & live)
+ExtractPart(const MedialComplex & core, const LiveElements & live, PartElements & elements)
 {
-  std::vector<ElementIndex> vertices;
-  std::vector<ElementIndex> edges;
-  std::vector<ElementIndex> faces;
-  MedialComplex             part;
+  auto & [vertices, edges, faces] = elements;
+  MedialComplex part;
   part.cells = ExtractLive(core.cells, live, vertices, edges, faces);
   const auto gather = [](const auto & from, const std::vector<ElementIndex> & ids, auto & to) {
     to.reserve(ids.size());
@@ -30,6 +28,13 @@ ExtractPart(const MedialComplex & core, const LiveElements & live)
     gather(core.tolerances.faces, faces, part.tolerances.faces);
   }
   return part;
+}
+
+MedialComplex
+ExtractPart(const MedialComplex & core, const LiveElements & live)
+{
+  PartElements elements;
+  return ExtractPart(core, live, elements);
 }
 
 } // namespace voxelcore

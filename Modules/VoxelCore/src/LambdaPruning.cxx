@@ -1,6 +1,6 @@
 #include "voxelcore/LambdaPruning.h"
 
-#include "ExtractPart.h"
+#include "voxelcore/ExtractPart.h"
 #include "voxelcore/LengthText.h"
 #include "Measures.h"
 

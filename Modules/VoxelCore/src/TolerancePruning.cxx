@@ -1,7 +1,7 @@
 #include "voxelcore/TolerancePruning.h"
 
 #include "ToleranceCollapse.h"
-#include "ExtractPart.h"
+#include "voxelcore/ExtractPart.h"
 #include "voxelcore/LengthText.h"
 
 #include "voxelcore/Error.h"

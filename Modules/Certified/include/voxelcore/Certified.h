@@ -38,8 +38,9 @@ struct CertifiedRequest
 
   std::vector<Lambda>            lambdas;    ///< one core each; 0: the whole core
   std::vector<Tolerance>         tolerances; ///< where there are some: one core each, the only lambda is pruned first
-  SurfaceSource                  surface;    ///< refines the cores to this surface
-  std::optional<SkeletonRequest> skeleton;   ///< of the whole core, or of one asked for that is not refined
+  SurfaceSource                  surface;    ///< to which cores, and skeletons that ask for it, are refined
+  bool                           refineCores = true; ///< where there is a surface; false: skeletons alone are refined
+  std::optional<SkeletonRequest> skeleton; ///< of the whole core, or of one asked for as it is before refinement
 
   Engine     engine = Engine::Auto;
   bool       crossCheck = false; ///< both engines run, one after the other, and must agree bit for bit

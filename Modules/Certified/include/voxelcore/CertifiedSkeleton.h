@@ -23,11 +23,12 @@ struct BranchRequest
 /** From a core to a curve skeleton. */
 struct SkeletonRequest
 {
-  Lambda                   lambda;    ///< of the core to burn
-  std::optional<Tolerance> tolerance; ///< of the core to burn, above 0
-  Lambda                   standOut;  ///< CurveOptions::branchThreshold
-  std::optional<Lambda>    plates;    ///< CurveOptions::plateThreshold
-  Lambda                   smooth;    ///< window of FitBranches
+  Lambda                   lambda;          ///< of the core to burn
+  std::optional<Tolerance> tolerance;       ///< of the core to burn, above 0
+  Lambda                   standOut;        ///< CurveOptions::branchThreshold
+  std::optional<Lambda>    plates;          ///< CurveOptions::plateThreshold
+  Lambda                   smooth;          ///< window of FitBranches
+  bool                     refined = false; ///< points and radii are those of CertifiedRequest::surface
   BranchRequest            branches;
 };
 
@@ -44,7 +45,7 @@ struct CertifiedSkeleton
   std::vector<LoopCut> cuts;
 };
 
-/** Burns the core to curves; lambda and tolerance of the request only say what `core` is.
+/** Burns the core to curves; lambda, tolerance and refinement of the request only say what `core` is.
  *  \throws CertificateError when the skeleton does not have the shape's topology; Cancelled */
 CertifiedSkeleton
 SkeletonOf(const PlacedCore &       core,
@@ -54,10 +55,10 @@ SkeletonOf(const PlacedCore &       core,
 
 /** Cuts and splits branches as asked for, and measures them anew on voxels of this spacing (mm). */
 void
-CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, const Vector3 & spacing);
+CutAndMeasure(CertifiedSkeleton & skeleton, const SkeletonRequest & request, const Vector3 & spacing);
 
-/** How branches are measured on voxels of this spacing (mm). */
+/** How branches are measured on voxels of this spacing (mm): refined radii are taken as they are. */
 MeasureOptions
-MeasuringOf(const BranchRequest & request, const Vector3 & spacing);
+MeasuringOf(const SkeletonRequest & request, const Vector3 & spacing);
 
 } // namespace voxelcore

@@ -30,7 +30,7 @@ struct CoreOptions
   ShapeEditOptions               edits;
   std::vector<Lambda>            lambdas;    ///< at least one; ParseLambdas gives them
   std::vector<Tolerance>         tolerances; ///< none: pruned by lambda; else there is one lambda, the floor
-  RefineOptions                  refine;     ///< by lambda only, without skeletons
+  RefineOptions                  refine;     ///< of cores that are written, and of skeletons that ask for it
   std::filesystem::path          output;     ///< a model file, or a folder (IsFolderOutput); empty: no core is written
   std::optional<SkeletonRequest> skeleton;   ///< skeletons too; its lambda is 0 or one of `lambdas`
   SkeletonTargets                skeletonTargets;

@@ -6,6 +6,7 @@
 #include "voxelcore/DisplayTargets.h"
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/RefineStage.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonTargets.h"
 
@@ -25,7 +26,8 @@ struct SkeletonOptions
   std::optional<std::int64_t>          resolution; ///< of a mesh
   ShapeEditOptions                     edits;
   std::map<std::string, std::string>   further; ///< options without a field of their own; recorded
-  SkeletonRequest                      stage;
+  SkeletonRequest                      stage;   ///< says too whether it is refined
+  RefineOptions                        refine;  ///< to which surface
   SkeletonTargets                      targets;
   std::filesystem::path                output; ///< .vtp, or a folder (IsFolderOutput)
   std::optional<std::filesystem::path> report;

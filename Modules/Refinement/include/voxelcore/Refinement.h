@@ -7,6 +7,7 @@
 
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/MedialComplex.h"
+#include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/SurfaceEstimate.h"
 
 #include <cstdint>
@@ -50,11 +51,13 @@ struct RefinementInput
   const SurfaceEstimate *           surface = nullptr;
   Vector3                           spacing{ 1, 1, 1 };  ///< mm
   bool                              byTolerance = false; ///< thresholds are tolerances, whose heights the core has
+  std::vector<LiveElements>         parts{};             ///< of the core, refined as they are
 };
 
-/** Refines the part of the core that a threshold leaves, for each threshold in mm. A part by lambda is measured again
- *  where its vertices have moved to, and pruned once more. A part by tolerance stays as it is: the boundary then lies
- *  within the tolerance, twice the farthest move and half a voxel's diagonal of its balls.
+/** Refines the part of the core that a threshold leaves, for each threshold in mm, and then the parts of the input. A
+ *  part by lambda is measured again where its vertices have moved to, and pruned once more. Other parts stay as they
+ *  are: of one by tolerance the boundary then lies within the tolerance, twice the farthest move and half a voxel's
+ *  diagonal of its balls; a curve goes to where all the boundary about it is equally far.
  *  Guarded: every vertex lies in the open shape, none is farther than one voxel (length of the displacement in lattice
  *  coordinates) from where it was, and no triangle's normal has turned by 90 degrees or more against that of the same
  *  triangle in the whole core; no radius differs from the distance of the nearest boundary vertex by more than half a

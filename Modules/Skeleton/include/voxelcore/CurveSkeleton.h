@@ -3,6 +3,7 @@
 // Shapes", SIGGRAPH 2016, section 6), without a change of topology.
 
 #include "voxelcore/ImageGeometry.h"
+#include "voxelcore/ExtractPart.h"
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/Progress.h"
 
@@ -41,6 +42,7 @@ struct CurveSkeleton
                                              ///< infinite on cycles, between them, and on faces that stay
   std::vector<std::uint8_t> closedFace;      ///< per face: 1 when it is part of a closed surface, which cannot be
                                              ///< collapsed; 0 for plates
+  PartElements inSurface;                    ///< indices in the surface
 
   std::size_t
   ClosedFaceCount() const;

@@ -1,0 +1,36 @@
+#pragma once
+// What a request means for the order of the work.
+
+#include "voxelcore/Certified.h"
+
+#include <vector>
+
+namespace voxelcore
+{
+
+/** \throws UsageError for a request that contradicts itself. */
+void
+RequireSense(const CertifiedRequest & request);
+
+/** Whether the cores that come out are refined. */
+bool
+RefinesCores(const CertifiedRequest & request);
+
+/** Whether the curves that come out are refined. */
+bool
+RefinesCurves(const CertifiedRequest & request);
+
+/** Whether the skeleton is that of the whole core. */
+bool
+BurnsWhole(const CertifiedRequest & request);
+
+/** Whether the skeleton is burned while the whole core is there; else a pruned core that comes out is. */
+bool
+BurnsBeforePruning(const CertifiedRequest & request);
+
+/** Shares of the time of the stages, in the order in which they follow: shape, Delaunay cells, core, tolerances, whole
+ *  core's certificate, skeleton, refinement, coverage or pruned cores' certificates, skeleton. */
+std::vector<double>
+StageTimes(const CertifiedRequest & request);
+
+} // namespace voxelcore

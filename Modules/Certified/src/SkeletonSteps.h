@@ -1,0 +1,40 @@
+#pragma once
+// The two steps from a core to its skeleton, between which the curves may be refined.
+
+#include "voxelcore/CertifiedSkeleton.h"
+#include "voxelcore/CurveSkeleton.h"
+
+namespace voxelcore
+{
+
+/** What a core has burned to, in LPS mm. */
+struct BurnedCurves
+{
+  CurveSkeleton   curves;
+  TopologyNumbers topology;
+};
+
+/** What lambda or tolerance of the request leave of the whole core. \throws UsageError for a tolerance where the core
+ *  has none */
+MedialComplex
+PartToBurn(const MedialComplex &   whole,
+           const CertifiedShape &  shape,
+           const SkeletonRequest & request,
+           PartElements &          elements);
+
+/** Names the elements of curves that a part of the core burned to by their indices in the whole core. */
+void
+NameInWhole(const PartElements & part, PartElements & curves);
+
+/** \throws CertificateError when the curves do not have the shape's topology; Cancelled */
+BurnedCurves
+BurnToCurves(const MedialComplex &    core,
+             const CertifiedShape &   shape,
+             const SkeletonRequest &  request,
+             const ProgressCallback & progress);
+
+/** \throws CertificateError when the branches do not have the topology of the curves. */
+CertifiedSkeleton
+MeasureCurves(const BurnedCurves & burned, const CertifiedShape & shape, const SkeletonRequest & request);
+
+} // namespace voxelcore

@@ -1,0 +1,27 @@
+#pragma once
+// A part of a core as a complex of its own.
+
+#include "voxelcore/MedialComplex.h"
+#include "voxelcore/SimplePairCollapse.h"
+
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Per element of a part its index in what it is a part of. */
+struct PartElements
+{
+  std::vector<ElementIndex> vertices;
+  std::vector<ElementIndex> edges;
+  std::vector<ElementIndex> faces;
+};
+
+/** The live elements with their geometry and measures, in the order they have in `core`; `elements` receives their
+ *  indices there. */
+MedialComplex
+ExtractPart(const MedialComplex & core, const LiveElements & live, PartElements & elements);
+MedialComplex
+ExtractPart(const MedialComplex & core, const LiveElements & live);
+
+} // namespace voxelcore
