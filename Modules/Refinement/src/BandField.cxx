@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace voxelcore
 {
@@ -26,42 +27,48 @@ FindDistances(const LabelRows & rows, const std::array<float, 3> & squares, tile
 // Of the four voxels on either side of a place along each axis.
 struct SplineWeights
 {
-  std::array<std::array<double, 4>, 3> value;
-  std::array<std::array<double, 4>, 3> slope;
+  std::array<std::array<float, 4>, 3> value;
+  std::array<std::array<float, 4>, 3> slope;
 };
 
-// Rows by y, then by z. What is along y and z is summed first, for the four of a row side by side.
+// Rows by y, then by z. What is along y and z is summed first, for the four of two rows side by side.
 VOXELCORE_EIGHT_LANES void
 SumRows(const std::array<const float *, 16> & rows, const SplineWeights & weights, double & value, Vector3 & gradient)
 {
-  using Four = double __attribute__((vector_size(32)));
-  Four sum{};
-  Four alongY{};
-  Four alongZ{};
+  using Eight = float __attribute__((vector_size(32)));
+  const auto &               y = weights.value[1];
+  const auto &               dy = weights.slope[1];
+  const std::array<Eight, 2> valueY{ Eight{ y[0], y[0], y[0], y[0], y[1], y[1], y[1], y[1] },
+                                     Eight{ y[2], y[2], y[2], y[2], y[3], y[3], y[3], y[3] } };
+  const std::array<Eight, 2> slopeY{ Eight{ dy[0], dy[0], dy[0], dy[0], dy[1], dy[1], dy[1], dy[1] },
+                                     Eight{ dy[2], dy[2], dy[2], dy[2], dy[3], dy[3], dy[3], dy[3] } };
+  Eight                      sum{};
+  Eight                      alongY{};
+  Eight                      alongZ{};
   for (std::size_t z = 0; z < 4; ++z)
   {
-    Four ofPlane{};
-    Four slopeOfPlane{};
-    for (std::size_t y = 0; y < 4; ++y)
+    std::array<Eight, 2> pairs;
+    for (std::size_t i = 0; i < 2; ++i)
     {
-      const float * const row = rows[4 * z + y];
-      const Four          four{ row[0], row[1], row[2], row[3] };
-      ofPlane += weights.value[1][y] * four;
-      slopeOfPlane += weights.slope[1][y] * four;
+      std::memcpy(&pairs[i], rows[4 * z + 2 * i], 4 * sizeof(float));
+      std::memcpy(reinterpret_cast<char *>(&pairs[i]) + 4 * sizeof(float), rows[4 * z + 2 * i + 1], 4 * sizeof(float));
     }
+    const Eight ofPlane = valueY[0] * pairs[0] + valueY[1] * pairs[1];
+    const Eight slopeOfPlane = slopeY[0] * pairs[0] + slopeY[1] * pairs[1];
     sum += weights.value[2][z] * ofPlane;
     alongY += weights.value[2][z] * slopeOfPlane;
     alongZ += weights.slope[2][z] * ofPlane;
   }
-  value = 0;
-  gradient = { 0, 0, 0 };
+  std::array<float, 4> along{};
   for (std::size_t x = 0; x < 4; ++x)
   {
-    value += weights.value[0][x] * sum[x];
-    gradient[0] += weights.slope[0][x] * sum[x];
-    gradient[1] += weights.value[0][x] * alongY[x];
-    gradient[2] += weights.value[0][x] * alongZ[x];
+    along[0] += weights.value[0][x] * (sum[x] + sum[x + 4]);
+    along[1] += weights.slope[0][x] * (sum[x] + sum[x + 4]);
+    along[2] += weights.value[0][x] * (alongY[x] + alongY[x + 4]);
+    along[3] += weights.value[0][x] * (alongZ[x] + alongZ[x + 4]);
   }
+  value = along[0];
+  gradient = { along[1], along[2], along[3] };
 }
 
 } // namespace
@@ -73,7 +80,8 @@ BandField::BandField(const VoxelShape &            shape,
                      std::int32_t                  reach)
   : m_Grid(shape, points, 0, reach)
   , m_Sides(sides)
-  , m_Labels(m_Grid.Count())
+  , m_In(m_Grid.Count())
+  , m_Out(m_Grid.Count())
   , m_Values(m_Grid.Count() * kVoxels, 0.0F)
 {
   SetWidth(sigma);
@@ -85,10 +93,17 @@ BandField::BandField(const VoxelShape &            shape,
     const auto & at = m_Grid.At(static_cast<std::size_t>(i));
     for (std::int32_t row = 0; row < kSide * kSide; ++row)
     {
-      m_Labels[static_cast<std::size_t>(i)][static_cast<std::size_t>(row)] = static_cast<std::uint8_t>(
-        BitsOfRow(shape, at[0] * kSide, at[1] * kSide + (row & 7), at[2] * kSide + (row >> 3)));
+      const std::uint64_t bits = BitsOfRow(shape, at[0] * kSide, at[1] * kSide + (row & 7), at[2] * kSide + (row >> 3));
+      m_In[static_cast<std::size_t>(i)][static_cast<std::size_t>(row)] = static_cast<std::uint8_t>(bits);
+      m_Out[static_cast<std::size_t>(i)][static_cast<std::size_t>(row)] = static_cast<std::uint8_t>(~bits);
     }
   }
+  FindRowStarts();
+}
+
+void
+BandField::FindRowStarts()
+{
   for (std::size_t brick = 0; brick < m_Grid.Count(); ++brick)
   {
     for (std::size_t axis = 0, stride = 1; axis < 3; ++axis, stride *= 3)
@@ -148,16 +163,17 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
   SplineWeights    weights;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double at = place[axis] - 0.5; // in voxel indices, where centres are whole
-    const double floor = std::floor(at);
-    const double t = at - floor;
-    const double s = 1.0 - t;
+    const double    at = place[axis] - 0.5; // in voxel indices, where centres are whole
+    const double    floor = std::floor(at);
+    const auto      t = static_cast<float>(at - floor);
+    const float     s = 1.0F - t;
+    constexpr float sixth = 1.0F / 6;
     base[axis] = static_cast<std::int32_t>(floor);
-    weights.value[axis] = { s * s * s / 6,
-                            (4.0 - 3.0 * t * t * (1.0 + s)) / 6,
-                            (4.0 - 3.0 * s * s * (1.0 + t)) / 6,
-                            t * t * t / 6 };
-    weights.slope[axis] = { -0.5 * s * s, (1.5 * t - 2.0) * t, (2.0 - 1.5 * s) * s, 0.5 * t * t };
+    weights.value[axis] = { s * s * s * sixth,
+                            (4.0F - 3.0F * t * t * (1.0F + s)) * sixth,
+                            (4.0F - 3.0F * s * s * (1.0F + t)) * sixth,
+                            t * t * t * sixth };
+    weights.slope[axis] = { -0.5F * s * s, (1.5F * t - 2.0F) * t, (2.0F - 1.5F * s) * s, 0.5F * t * t };
   }
   const BrickGrid::Brick home{ base[0] >> 3, base[1] >> 3, base[2] >> 3 };
   const std::int32_t     found = m_Grid.Find(home);
@@ -166,28 +182,40 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
     return false;
   }
   const auto & neighbours = m_Grid.Neighbours(static_cast<std::size_t>(found));
+  // Of the four rows along y and z where they are in a brick, and which of two bricks beside each other they are in.
+  std::array<std::array<std::size_t, 4>, 2> within{};
+  std::array<std::array<std::size_t, 4>, 2> beside{};
+  for (std::size_t axis = 1; axis < 3; ++axis)
+  {
+    const std::size_t stride = axis == 1 ? kSide : kSide * kSide;
+    const std::size_t apart = axis == 1 ? 3 : 9;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const std::int32_t at = base[axis] - 1 + static_cast<std::int32_t>(i);
+      within[axis - 1][i] = stride * static_cast<std::size_t>(at & 7);
+      beside[axis - 1][i] = apart * static_cast<std::size_t>((at >> 3) - home[axis] + 1);
+    }
+  }
   // The rows of four as they lie, or put together from two bricks.
   std::array<const float *, 16> rows;
-  std::array<float, 64>         mixed;
-  const std::int32_t            first = (base[0] - 1) & 7;
-  const bool                    left = base[0] - 1 < 8 * home[0];
-  for (std::int32_t row = 0; row < 16; ++row)
+  std::array<float, 128>        mixed;
+  const auto                    first = static_cast<std::size_t>((base[0] - 1) & 7);
+  const std::size_t             left = base[0] - 1 < kSide * home[0] ? 0 : 1;
+  for (std::size_t z = 0, r = 0; z < 4; ++z)
   {
-    const auto         r = static_cast<std::size_t>(row);
-    const std::int32_t y = base[1] - 1 + (row & 3);
-    const std::int32_t z = base[2] - 1 + (row >> 2);
-    const std::int32_t within = kSide * (y & 7) + kSide * kSide * (z & 7);
-    const auto    middle = static_cast<std::size_t>(1 + 3 * ((y >> 3) - home[1] + 1) + 9 * ((z >> 3) - home[2] + 1));
-    const float * from = Block(m_Values, neighbours[left ? middle - 1 : middle]) + within;
-    rows[r] = from + first;
-    if (first > kSide - 4)
+    for (std::size_t y = 0; y < 4; ++y, ++r)
     {
-      const float * next = Block(m_Values, neighbours[left ? middle : middle + 1]) + within;
-      for (std::int32_t i = 0; i < 4; ++i)
+      const std::size_t   middle = left + beside[0][y] + beside[1][z];
+      const std::size_t   row = within[0][y] + within[1][z];
+      const float * const from = Block(m_Values, neighbours[middle]) + row;
+      rows[r] = from + first;
+      if (first > kSide - 4)
       {
-        mixed[4 * r + static_cast<std::size_t>(i)] = first + i < kSide ? from[first + i] : next[first + i - kSide];
+        const float * const next = Block(m_Values, neighbours[middle + 1]) + row;
+        std::memcpy(mixed.data() + 8 * r, from + 4, 4 * sizeof(float));
+        std::memcpy(mixed.data() + 8 * r + 4, next, 4 * sizeof(float));
+        rows[r] = mixed.data() + 8 * r + (first - 4);
       }
-      rows[r] = mixed.data() + 4 * r;
     }
   }
   SumRows(rows, weights, value, gradient);

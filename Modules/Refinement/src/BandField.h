@@ -36,19 +36,19 @@ public:
   FillGrey(const VoxelBox & scan, const GreyRows & rows);
 
   /** K = (1 + w) G - w G G. With w = 1, in frequencies 1 - (sigma k)^4 / 4 + ..., bends of a linear field are
-   *  flattened, and what is curved evenly keeps its place. Then 0 where the sign contradicts the label. */
+   *  flattened, and what is curved evenly keeps its place. Then 0 where the sign contradicts the label. With zones as
+   *  far as these say. */
   void
-  Smooth(float weight);
+  Smooth(float weight, const SmoothingZones * zones);
 
-  /** As far as zones say. */
-  void
-  Smooth(float weight, const SmoothingZones & zones);
+  /** The means of cells of 2^3 voxels, for passes with G at least twice as wide as a voxel; cells have the depths'
+   *  bricks. Far away is clip. */
+  BandField
+  Halved(const VoxelShape & shape, const BoundaryDepth & depth) const;
 
-  /** The same with G wider by the root of 2, and twice as wide: passes of four and of sixteen others. */
+  /** Adds what passes have changed in the means of cells. */
   void
-  SmoothWider(float weight, const SmoothingZones & zones);
-  void
-  SmoothWidest(float weight, const SmoothingZones & zones);
+  AddChange(const BandField & halved);
 
   /** K once more, but values become coefficients of Evaluate(): to be done once, last. */
   void
@@ -88,9 +88,11 @@ public:
   }
 
 private:
+  BandField(const BrickGrid & grid, const Vector3 & sides, float far);
+
   static constexpr std::int32_t kSide = BrickGrid::kSide;
   static constexpr std::size_t  kVoxels = BrickGrid::kCells;
-  static constexpr std::int32_t kMostRadius = kSide; ///< of a kernel: a brick's neighbours hold all it needs
+  static constexpr std::size_t  kMostRadius = BrickGrid::kSide; ///< of a kernel: a brick's neighbours hold all it needs
   struct Kernel
   {
     std::int32_t                       radius = 0;
@@ -100,23 +102,21 @@ private:
   using Far8 = std::array<float, kVoxels>;
 
   static Kernel
-  Gauss(double variance, std::int32_t mostRadius);
+  Gauss(double variance);
+  static Kernel
+  Binomial(double variance, std::size_t mostRadius);
   void
   SetFar(float far);
   void
   Sweep(std::size_t                       axis,
         const Kernel &                    kernel,
-        std::int32_t                      step,
         const std::vector<float> *        from,
         std::vector<float> &              values,
         const std::vector<std::uint8_t> & needed) const;
   void
-  Smooth(float                  weight,
-         const Kernels &        first,
-         const Kernels &        second,
-         std::int32_t           step,
-         bool                   bound,
-         const SmoothingZones * zones);
+  Smooth(float weight, const Kernels & first, const Kernels & second, bool bound, const SmoothingZones * zones);
+  void
+  FindRowStarts();
   double
   CurvatureAt(std::size_t brick, std::size_t voxel) const;
   const float *
@@ -129,14 +129,16 @@ private:
   BrickGrid                                 m_Grid;
   Vector3                                   m_Sides;
   Kernels                                   m_Gauss;
-  Kernels                                   m_GaussWider;
-  Kernels                                   m_GaussWidest;   ///< of every other voxel
+  Kernels                                   m_Binomial;      ///< as wide as m_Gauss
   Kernels                                   m_GaussToSpline; ///< with B-splines after it as wide as m_Gauss
-  std::vector<BrickGrid::Flags>             m_Labels;
-  std::array<std::vector<std::uint32_t>, 3> m_RowStarts; ///< bricks with none before them along an axis
+  int                                       m_Level = 0;     ///< 1 where values are means of cells of 2^3 voxels
+  std::vector<BrickGrid::Flags>             m_In;            ///< whose value is never less than 0
+  std::vector<BrickGrid::Flags>             m_Out;           ///< whose value is never more than 0
+  std::array<std::vector<std::uint32_t>, 3> m_RowStarts;     ///< bricks with none before them along an axis
   std::vector<float>                        m_Values;
   std::vector<float>                        m_Once; ///< of a pass
   std::vector<float>                        m_Twice;
+  std::vector<float>                        m_Former; ///< what values were when they were halved
   float                                     m_Far = 0;
   std::array<Far8, 2>                       m_FarBlocks; ///< outside, inside
 };

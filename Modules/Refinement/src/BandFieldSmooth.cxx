@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace voxelcore
 {
@@ -21,69 +23,97 @@ using Eight = float __attribute__((vector_size(32), aligned(4), may_alias));
 
 // Along y or z: eight voxels at once that lie beside each other along x. `along` is how far apart voxels are that are
 // summed, `across` how far apart the eight lines of eight voxels are.
-VOXELCORE_EIGHT_LANES void
-SumLayers(const std::array<const float *, 3> & from,
-          float *                              to,
-          std::size_t                          along,
-          std::size_t                          across,
-          const float *                        weights,
-          std::size_t                          radius,
-          std::size_t                          step)
+template <std::size_t Radius>
+[[gnu::always_inline]] inline void
+SumLayersOf(const std::array<const float *, 3> & from,
+            float *                              to,
+            std::size_t                          along,
+            std::size_t                          across,
+            const float *                        weights)
 {
   for (std::size_t line = 0; line < kSide; ++line)
   {
-    Eight column[3 * kSide];
-    for (std::size_t i = 0; i < 3 * kSide; ++i)
+    Eight column[kSide + 2 * Radius];
+    for (std::size_t i = 0; i < kSide + 2 * Radius; ++i)
     {
-      column[i] = *reinterpret_cast<const Eight *>(from[i / kSide] + (i % kSide) * along + line * across);
+      const std::size_t layer = i + kSide - Radius;
+      column[i] = *reinterpret_cast<const Eight *>(from[layer / kSide] + (layer % kSide) * along + line * across);
     }
     for (std::size_t i = 0; i < kSide; ++i)
     {
-      Eight sum = weights[0] * column[i + kSide];
-      for (std::size_t k = 1; k <= radius; ++k)
+      Eight sum = weights[0] * column[i + Radius];
+      for (std::size_t k = 1; k <= Radius; ++k)
       {
-        sum += weights[k] * (column[i + kSide - k * step] + column[i + kSide + k * step]);
+        sum += weights[k] * (column[i + Radius - k] + column[i + Radius + k]);
       }
       *reinterpret_cast<Eight *>(to + i * along + line * across) = sum;
     }
   }
 }
 
-VOXELCORE_EIGHT_LANES void
-SumRows(const std::array<const float *, 3> & from,
-        float *                              to,
-        const float *                        weights,
-        std::size_t                          radius,
-        std::size_t                          step)
+template <std::size_t Radius>
+[[gnu::always_inline]] inline void
+SumRowsOf(const std::array<const float *, 3> & from, float * to, const float * weights)
 {
-  float rows[kSide * kSide][3 * kSide];
   for (std::size_t row = 0; row < kSide * kSide; ++row)
   {
+    float line[3 * kSide];
     for (std::size_t part = 0; part < 3; ++part)
     {
-      std::copy_n(from[part] + row * kSide, kSide, rows[row] + part * kSide);
+      std::copy_n(from[part] + row * kSide, kSide, line + part * kSide);
     }
-  }
-  for (std::size_t row = 0; row < kSide * kSide; ++row)
-  {
-    const float * const middle = rows[row] + kSide;
+    const float * const middle = line + kSide;
     Eight               sum = weights[0] * *reinterpret_cast<const Eight *>(middle);
-    for (std::size_t k = 1; k <= radius; ++k)
+    for (std::size_t k = 1; k <= Radius; ++k)
     {
-      sum += weights[k] * (*reinterpret_cast<const Eight *>(middle - k * step) +
-                           *reinterpret_cast<const Eight *>(middle + k * step));
+      sum += weights[k] * (*reinterpret_cast<const Eight *>(middle - k) + *reinterpret_cast<const Eight *>(middle + k));
     }
     *reinterpret_cast<Eight *>(to + row * kSide) = sum;
   }
 }
 
-// Where `parts` are given former values are kept in part; where labels are, no value contradicts them.
+// sum(std::integral_constant<std::size_t, radius>): loops of known length, for each radius that kernels have.
+template <typename TSum>
+[[gnu::always_inline]] inline void
+WithRadius(std::size_t radius, TSum sum)
+{
+  const auto any = [&]<std::size_t... Less>(std::index_sequence<Less...>) __attribute__((always_inline))
+  {
+    (void)((radius == Less + 1 && (sum(std::integral_constant<std::size_t, Less + 1>{}), true)) || ...);
+  };
+  any(std::make_index_sequence<kSide>{});
+}
+
+VOXELCORE_EIGHT_LANES void
+SumLayers(const std::array<const float *, 3> & from,
+          float *                              to,
+          std::size_t                          along,
+          std::size_t                          across,
+          const float *                        weights,
+          std::size_t                          radius)
+{
+  WithRadius(
+    radius,
+    [&](auto known)
+      __attribute__((always_inline)) { SumLayersOf<decltype(known)::value>(from, to, along, across, weights); });
+}
+
+VOXELCORE_EIGHT_LANES void
+SumRows(const std::array<const float *, 3> & from, float * to, const float * weights, std::size_t radius)
+{
+  WithRadius(
+    radius,
+    [&](auto known) __attribute__((always_inline)) { SumRowsOf<decltype(known)::value>(from, to, weights); });
+}
+
+// Where `parts` are given former values are kept in part; where flags are, no value contradicts them.
 VOXELCORE_EIGHT_LANES void
 Combine(float *              values,
         const float *        once,
         const float *        twice,
         float                weight,
-        const std::uint8_t * labels,
+        const std::uint8_t * in,
+        const std::uint8_t * out,
         const float *        parts)
 {
   for (std::size_t i = 0; i < kVoxels; ++i)
@@ -91,12 +121,12 @@ Combine(float *              values,
     const float smoothed = (1 + weight) * once[i] - weight * twice[i];
     values[i] = parts == nullptr ? smoothed : values[i] + parts[i] * (smoothed - values[i]);
   }
-  if (labels != nullptr)
+  if (in != nullptr)
   {
     for (std::size_t i = 0; i < kVoxels; ++i)
     {
-      const bool in = (labels[i / kSide] >> (i % kSide) & 1) != 0;
-      values[i] = in ? std::max(values[i], 0.0F) : std::min(values[i], 0.0F);
+      values[i] = (in[i / kSide] >> (i % kSide) & 1) != 0 ? std::max(values[i], 0.0F) : values[i];
+      values[i] = (out[i / kSide] >> (i % kSide) & 1) != 0 ? std::min(values[i], 0.0F) : values[i];
     }
   }
 }
@@ -111,23 +141,50 @@ BandField::SetWidth(double sigma)
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double variance = sigma * sigma / (m_Sides[axis] * m_Sides[axis]);
-    m_Gauss[axis] = Gauss(variance, kMostRadius);
-    m_GaussWider[axis] = Gauss(2 * variance, kMostRadius);
-    m_GaussWidest[axis] = Gauss(variance, kMostRadius / 2);
-    m_GaussToSpline[axis] = Gauss(std::max(variance - 1.0 / 3, 0.02), kMostRadius);
+    m_Gauss[axis] = Gauss(variance);
+    m_Binomial[axis] = Binomial(variance, kMostRadius);
+    m_GaussToSpline[axis] = Gauss(std::max(variance - 1.0 / 3, 0.02));
   }
 }
 
 // Four sigma far, normalised.
 BandField::Kernel
-BandField::Gauss(double variance, std::int32_t mostRadius)
+BandField::Gauss(double variance)
 {
   Kernel kernel;
-  kernel.radius = std::min(mostRadius, static_cast<std::int32_t>(std::ceil(4 * std::sqrt(variance))));
+  kernel.radius =
+    std::min(static_cast<std::int32_t>(kMostRadius), static_cast<std::int32_t>(std::ceil(4 * std::sqrt(variance))));
   const std::vector<double> weights = GaussWeights(variance, static_cast<std::size_t>(kernel.radius));
   std::transform(weights.begin(), weights.end(), kernel.weights.begin(), [](double w) {
     return static_cast<float>(w);
   });
+  return kernel;
+}
+
+// Steps of a voxel or none, as many as give the variance while no step is taken more often than not. A binomial ends at
+// half the distance where a sampled Gaussian of the same variance is small.
+BandField::Kernel
+BandField::Binomial(double variance, std::size_t mostRadius)
+{
+  const auto   steps = std::clamp(static_cast<std::size_t>(std::ceil(2 * variance)), std::size_t{ 1 }, mostRadius);
+  const double part = variance / (2 * static_cast<double>(steps));
+  std::vector<double> weights(2 * steps + 3, 0.0); // from -steps - 1 on
+  weights[steps + 1] = 1;
+  for (std::size_t step = 0; step < steps; ++step)
+  {
+    std::vector<double> next(weights.size(), 0.0);
+    for (std::size_t i = 1; i + 1 < weights.size(); ++i)
+    {
+      next[i] = (1 - 2 * part) * weights[i] + part * (weights[i - 1] + weights[i + 1]);
+    }
+    weights = std::move(next);
+  }
+  Kernel kernel;
+  kernel.radius = static_cast<std::int32_t>(steps);
+  std::transform(weights.begin() + static_cast<std::ptrdiff_t>(steps) + 1,
+                 weights.end() - 1,
+                 kernel.weights.begin(),
+                 [](double w) { return static_cast<float>(w); });
   return kernel;
 }
 
@@ -144,14 +201,12 @@ BandField::StepWeight(double sigma)
 void
 BandField::Sweep(std::size_t                       axis,
                  const Kernel &                    kernel,
-                 std::int32_t                      step,
                  const std::vector<float> *        from,
                  std::vector<float> &              values,
                  const std::vector<std::uint8_t> & needed) const
 {
   constexpr std::array<std::size_t, 3> neighbour{ 1, 3, 9 };
   const auto                           radius = static_cast<std::size_t>(kernel.radius);
-  const auto                           apart = static_cast<std::size_t>(step);
   const std::vector<std::uint32_t> &   starts = m_RowStarts[axis];
   const auto                           count = static_cast<std::ptrdiff_t>(starts.size());
 #pragma omp parallel for schedule(dynamic, 16) if (m_Grid.Count() > static_cast <std::size_t>(BrickGrid::kMany))
@@ -180,12 +235,12 @@ BandField::Sweep(std::size_t                       axis,
         const std::array<const float *, 3> blocks{ before, middle, Block(source, next) };
         if (axis == 0)
         {
-          SumRows(blocks, here, kernel.weights.data(), radius, apart);
+          SumRows(blocks, here, kernel.weights.data(), radius);
         }
         else
         {
           const std::array<std::size_t, 2> strides{ kSide, kSide * kSide };
-          SumLayers(blocks, here, strides[axis - 1], strides[2 - axis], kernel.weights.data(), radius, apart);
+          SumLayers(blocks, here, strides[axis - 1], strides[2 - axis], kernel.weights.data(), radius);
         }
       }
       before = middle;
@@ -195,44 +250,21 @@ BandField::Sweep(std::size_t                       axis,
 }
 
 void
-BandField::Smooth(float weight)
+BandField::Smooth(float weight, const SmoothingZones * zones)
 {
-  Smooth(weight, m_Gauss, m_Gauss, 1, true, nullptr);
+  Smooth(weight, m_Binomial, m_Binomial, true, zones);
 }
 
 void
 BandField::SmoothToCoefficients(float weight)
 {
-  Smooth(weight, m_GaussToSpline, m_Gauss, 1, false, nullptr);
+  Smooth(weight, m_GaussToSpline, m_Gauss, false, nullptr);
   std::vector<float>().swap(m_Once);
   std::vector<float>().swap(m_Twice);
 }
 
 void
-BandField::Smooth(float weight, const SmoothingZones & zones)
-{
-  Smooth(weight, m_Gauss, m_Gauss, 1, true, &zones);
-}
-
-void
-BandField::SmoothWider(float weight, const SmoothingZones & zones)
-{
-  Smooth(weight, m_GaussWider, m_GaussWider, 1, true, &zones);
-}
-
-void
-BandField::SmoothWidest(float weight, const SmoothingZones & zones)
-{
-  Smooth(weight, m_GaussWidest, m_GaussWidest, 2, true, &zones);
-}
-
-void
-BandField::Smooth(float                  weight,
-                  const Kernels &        first,
-                  const Kernels &        second,
-                  std::int32_t           step,
-                  bool                   bound,
-                  const SmoothingZones * zones)
+BandField::Smooth(float weight, const Kernels & first, const Kernels & second, bool bound, const SmoothingZones * zones)
 {
   const auto count = static_cast<std::ptrdiff_t>(m_Grid.Count());
   // The bricks that change, and those around them that sums are taken from.
@@ -241,7 +273,7 @@ BandField::Smooth(float                  weight,
   if (zones != nullptr)
   {
     std::transform(needed[0].begin(), needed[0].end(), needed[0].begin(), [&](const std::uint8_t & flag) {
-      return zones->AnyIn(m_Grid.At(static_cast<std::size_t>(&flag - needed[0].data()))) ? 1 : 0;
+      return zones->AnyIn(m_Level, m_Grid.At(static_cast<std::size_t>(&flag - needed[0].data()))) ? 1 : 0;
     });
   }
   for (std::size_t ring = 1; ring < 3; ++ring)
@@ -259,12 +291,12 @@ BandField::Smooth(float                  weight,
   std::vector<float> & twice = m_Twice;
   once.resize(m_Values.size());
   twice.resize(m_Values.size());
-  Sweep(2, first[2], step, &m_Values, once, needed[2]);
-  Sweep(1, first[1], step, nullptr, once, needed[2]);
-  Sweep(0, first[0], step, nullptr, once, needed[2]);
-  Sweep(2, second[2], step, &once, twice, needed[1]);
-  Sweep(1, second[1], step, nullptr, twice, needed[1]);
-  Sweep(0, second[0], step, nullptr, twice, needed[1]);
+  Sweep(2, first[2], &m_Values, once, needed[2]);
+  Sweep(1, first[1], nullptr, once, needed[2]);
+  Sweep(0, first[0], nullptr, once, needed[2]);
+  Sweep(2, second[2], &once, twice, needed[1]);
+  Sweep(1, second[1], nullptr, twice, needed[1]);
+  Sweep(0, second[0], nullptr, twice, needed[1]);
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
@@ -276,14 +308,15 @@ BandField::Smooth(float                  weight,
     std::array<float, kVoxels> parts;
     if (zones != nullptr)
     {
-      zones->Fill(m_Grid.At(brick), parts);
+      zones->Fill(m_Level, m_Grid.At(brick), parts);
     }
     const std::size_t at = brick * kVoxels;
     Combine(m_Values.data() + at,
             once.data() + at,
             twice.data() + at,
             weight,
-            bound ? m_Labels[brick].data() : nullptr,
+            bound ? m_In[brick].data() : nullptr,
+            m_Out[brick].data(),
             zones != nullptr ? parts.data() : nullptr);
   }
 }
@@ -318,7 +351,7 @@ BandField::BlendWith(const Snapshot & former, const SmoothingZones & zones)
   {
     const auto                 brick = static_cast<std::size_t>(i);
     std::array<float, kVoxels> parts;
-    zones.Fill(m_Grid.At(brick), parts);
+    zones.Fill(m_Level, m_Grid.At(brick), parts);
     for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
     {
       if (parts[voxel] < 1)

@@ -14,7 +14,7 @@ FieldSurface::Project(const Vector3 & place, double reach) const
 {
   constexpr int    steps = 6;
   constexpr double longest = 1.0; // voxels a step
-  constexpr double close = 1e-4;  // voxels
+  constexpr double close = 3e-2;  // voxels: what is left after such a step goes as its square
   Vector3          at = Over(place, m_Spacing);
   SurfacePoint     point;
   for (int step = 0; step <= steps; ++step)
@@ -31,9 +31,9 @@ FieldSurface::Project(const Vector3 & place, double reach) const
     const double  length = Length(move);
     if (length < close || step == steps)
     {
-      point.position = Times(at, m_Spacing);
+      point.position = Times(AddScaled(at, 1, move), m_Spacing);
       point.normal = AddScaled({ 0, 0, 0 }, -1 / std::sqrt(squared), normal);
-      point.found = length < 10 * close && Distance(point.position, place) <= reach;
+      point.found = length < close && Distance(point.position, place) <= reach;
       return point;
     }
     at = AddScaled(at, std::min(1.0, longest / length), move);

@@ -24,6 +24,12 @@ public:
   SurfacePoint
   Project(const Vector3 & place, double reach) const override;
 
+  double
+  Ripples() const override
+  {
+    return 0.03;
+  }
+
   /** Another field after all: change(field). */
   template <typename TChange>
   void

@@ -36,8 +36,25 @@ TangentsOf(const Vector3 & n, const Vector3 & slide)
   return { u, Cross(n, u) };
 }
 
+// What is left to the foot of the plane through the surface at a place.
+Vector3
+SlideOf(const Vector3 & place, const SurfacePoint & foot)
+{
+  const Vector3 gap = Minus(place, foot.position);
+  return AddScaled(gap, -Dot(gap, foot.normal), foot.normal);
+}
+
+// Of a quadratic form the least value among all directions, by what it makes of two at right angles.
+double
+LeastOf(const std::array<Vector3, 2> & ways, const std::array<Vector3, 2> & made)
+{
+  const double a = Dot(ways[0], made[0]);
+  const double b = Dot(ways[1], made[1]);
+  const double c = 0.5 * (Dot(ways[0], made[1]) + Dot(ways[1], made[0]));
+  return 0.5 * (a + b) - std::hypot(0.5 * (a - b), c);
+}
+
 constexpr double kLongestStride = 2.0; // voxels
-constexpr double kClose = 1e-3;        // voxels
 constexpr double kTurn = 0.3;          // cosine: beyond it is another side of the surface
 
 } // namespace
@@ -45,6 +62,7 @@ constexpr double kTurn = 0.3;          // cosine: beyond it is another side of t
 FootPointFinder::FootPointFinder(const RefinementInput & input, const ProgressCallback & progress)
   : m_Input(input)
   , m_Anchors(input.points->size())
+  , m_Close(input.surface->Ripples() > 0 ? 1e-2 : 1e-3)
 {
   m_Voxel = std::cbrt(input.spacing[0] * input.spacing[1] * input.spacing[2]);
   // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal; smoothed, a
@@ -156,36 +174,31 @@ FootPointFinder::Settle(const Vector3 &            place,
   }
 }
 
-// A try to come nearer to `place` by way of `to`, a place beside the surface. Returns how much farther that is; where
-// it is nearer (less than 0), the foot goes there.
+// A try to come nearer to `place` by way of `to`, a place beside the surface. Returns how much farther than `distance`
+// the surface is there, at `next`; infinity where it is another side of it.
 double
-FootPointFinder::TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & foot, double & distance) const
+FootPointFinder::TryFoot(const Vector3 &      place,
+                         const Vector3 &      to,
+                         const SurfacePoint & foot,
+                         double               distance,
+                         SurfacePoint &       next) const
 {
-  const SurfacePoint next = m_Input.surface->Project(to, m_Voxel);
-  if (!next.found || std::abs(Dot(next.normal, foot.normal)) < kTurn)
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double nearer = Distance(place, next.position);
-  const double rise = nearer - distance;
-  if (rise < 0)
-  {
-    foot = next;
-    distance = nearer;
-  }
-  return rise;
+  next = m_Input.surface->Project(to, m_Voxel);
+  return !next.found || std::abs(Dot(next.normal, foot.normal)) < kTurn ? std::numeric_limits<double>::infinity()
+                                                                        : Distance(place, next.position) - distance;
 }
 
-// Long strides first: near the axis of a tube the surface falls less than its ripples and facets do, and the way down
-// cannot be told from its normal. So four ways are tried there besides, until it is seen to rise on all of them nearly
-// as a flat one does.
+// Near the axis of a tube the surface falls less than its ripples and facets do, and the way down cannot be told from
+// its normal. So where no slope is left, ways at right angles are tried with long strides, until slopes beside the foot
+// show that it lies lower than all around nearly as that of a flat surface does.
 Vector3
 FootPointFinder::Descend(const Vector3 & place, std::uint32_t point) const
 {
   constexpr int    steps = 120;
   constexpr double shortest = 0.1; // voxels
   constexpr double ofRadius = 0.25;
-  constexpr double ofFlatRise = 0.6; // on two ways at right angles: then at least 0.2 on all
+  constexpr double ofFlatRise = 0.2;
+  constexpr double ofFlatRiseOfTwo = 0.6; // on two ways at right angles: then at least 0.2 on all
   SurfacePoint     foot = m_Anchors[point];
   if (!foot.found)
   {
@@ -195,55 +208,74 @@ FootPointFinder::Descend(const Vector3 & place, std::uint32_t point) const
   const double longest = std::max(kLongestStride * m_Voxel, ofRadius * distance);
   double       stride = std::max(0.5 * m_Voxel, ofRadius * distance);
   bool         flat = false;
+  SurfacePoint next;
   // What is nearly as near lies along the ball, not along the surface's tangents, which leave a tube soon.
-  const auto onBall = [&](double length, const Vector3 & way) {
+  double     rise = 0;
+  const auto descends = [&](double length, const Vector3 & way) {
     const Vector3 ray = Minus(AddScaled(foot.position, length, way), place);
     const double  away = Length(ray);
-    return away > 0 ? AddScaled(place, distance / away, ray) : place;
+    const Vector3 to = away > 0 ? AddScaled(place, distance / away, ray) : place;
+    rise = TryFoot(place, to, foot, distance, next);
+    if (rise < 0)
+    {
+      foot = next;
+      distance += rise;
+    }
+    return rise < 0;
   };
+  // Facets have no slopes to go by, so that on a mesh ways are tried all around.
+  const bool bySlopes = Ripples() > 0;
   for (int step = 0; step < steps && stride >= shortest * m_Voxel; ++step)
   {
-    const Vector3 gap = Minus(place, foot.position);
-    const Vector3 slide = AddScaled(gap, -Dot(gap, foot.normal), foot.normal);
+    const Vector3 slide = SlideOf(place, foot);
     const double  length = Length(slide);
-    if (flat && length < kClose * m_Voxel)
+    const bool    slopes = length >= m_Close * m_Voxel;
+    if (flat && !slopes)
     {
       break;
     }
-    const double part = (flat ? std::min(stride, length) : stride) / length;
-    if (length > 0 && TryFoot(place, onBall(part, slide), foot, distance) < 0)
+    const double part = (flat || bySlopes ? std::min(stride, length) : stride) / length;
+    if ((bySlopes ? slopes : length > 0) && descends(part, slide))
     {
       stride = std::min(longest, 2 * stride);
       continue;
     }
     if (!flat)
     {
-      const auto [u, v] = TangentsOf(foot.normal, slide);
-      double rise = std::numeric_limits<double>::infinity();
-      for (const Vector3 & way : { u, v, Minus({ 0, 0, 0 }, u), Minus({ 0, 0, 0 }, v) })
+      const std::array<Vector3, 2> ways = TangentsOf(foot.normal, slide);
+      std::array<Vector3, 2>       back{};
+      bool                         found = true;
+      bool                         lower = false;
+      double                       least = std::numeric_limits<double>::infinity();
+      for (std::size_t way = 0; way < 4 && !lower && !flat; ++way)
       {
-        rise = std::min(rise, TryFoot(place, onBall(stride, way), foot, distance));
-        if (rise < 0)
+        lower = descends(way < 2 ? stride : -stride, ways[way % 2]);
+        least = std::min(least, rise);
+        if (bySlopes && !lower && way < 2)
         {
-          break;
+          found = found && next.found;
+          back[way] = AddScaled({ 0, 0, 0 }, 1 / stride, Minus(slide, SlideOf(place, next)));
+          flat = way == 1 && found && LeastOf(ways, back) > ofFlatRise;
         }
       }
-      if (rise < 0)
+      if (lower)
       {
         continue;
       }
-      flat = rise > ofFlatRise * stride * stride / (2 * distance);
+      flat = flat || (!bySlopes && least > ofFlatRiseOfTwo * stride * stride / (2 * distance));
     }
     stride *= 0.5;
   }
   return foot.position;
 }
 
-// From where the surface passes the boundary vertex downhill to where a ball about `place` touches it.
+// From where the surface passes the boundary vertex downhill towards where a ball about `place` touches it. Where it is
+// nearly as near in many directions, as about the axis of a tube, going all the way would lead to the deepest ripple,
+// and both foot points of a pair to the same: a few steps reach the foot on all that is flatter.
 Vector3
 FootPointFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
 {
-  constexpr int    steps = 24;
+  const int        steps = Ripples() > 0 ? 4 : 24;
   constexpr double shortest = 1.0 / 16;
   const Vector3    home = Place(point);
   SurfacePoint     foot = m_Anchors[point];
@@ -255,28 +287,26 @@ FootPointFinder::Slide(const Vector3 & place, std::uint32_t point, double most) 
   const double reach = std::min(most, 1.5 * std::sqrt(2 * radius * m_Voxel) + 2 * m_Voxel);
   double       distance = Distance(place, foot.position);
   double       shorter = 1;
+  SurfacePoint next;
   for (int step = 0; step < steps && shorter >= shortest; ++step)
   {
-    const Vector3 gap = Minus(place, foot.position);
-    const Vector3 slide = AddScaled(gap, -Dot(gap, foot.normal), foot.normal);
+    const Vector3 slide = SlideOf(place, foot);
     const double  length = Length(slide);
-    if (shorter * length < kClose * m_Voxel)
+    if (shorter * length < m_Close * m_Voxel)
     {
       break;
     }
     const double part = shorter * std::min(1.0, kLongestStride * m_Voxel / length);
-    SurfacePoint next = foot;
-    double       closer = distance;
+    const double rise = TryFoot(place, AddScaled(foot.position, part, slide), foot, distance, next);
     // A crease that draws back from `place` is nearest itself: steps end on it from either side only if they get
     // shorter.
-    if (TryFoot(place, AddScaled(foot.position, part, slide), next, closer) >= 0 ||
-        Distance(next.position, home) > reach)
+    if (rise >= 0 || Distance(next.position, home) > reach)
     {
       shorter *= 0.5;
       continue;
     }
     foot = next;
-    distance = closer;
+    distance += rise;
   }
   return foot.position;
 }

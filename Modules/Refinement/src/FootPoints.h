@@ -27,6 +27,13 @@ public:
   /** Projects each boundary vertex onto the surface. */
   FootPointFinder(const RefinementInput & input, const ProgressCallback & progress);
 
+  /** Of the surface, in voxels. */
+  double
+  Ripples() const
+  {
+    return m_Input.surface->Ripples();
+  }
+
   /** Whether the foot points of a pair meet about `place`, by the places and normals of the surface at its boundary
    *  vertices alone: then the distance from `place` falls from either towards the other. */
   bool
@@ -47,7 +54,8 @@ private:
   Vector3
   Place(std::uint32_t point) const;
   double
-  TryFoot(const Vector3 & place, const Vector3 & to, SurfacePoint & foot, double & distance) const;
+  TryFoot(const Vector3 & place, const Vector3 & to, const SurfacePoint & foot, double distance, SurfacePoint & next)
+    const;
   Vector3
   Slide(const Vector3 & place, std::uint32_t point, double most) const;
   Vector3
@@ -56,6 +64,7 @@ private:
   const RefinementInput &   m_Input;
   std::vector<SurfacePoint> m_Anchors;
   double                    m_Voxel = 1; ///< mm: geometric mean of the spacing
+  double                    m_Close;     ///< voxels: what distances are off by then goes as its square
 };
 
 /** How far the nearest foot is. */

@@ -20,11 +20,12 @@ namespace
 // the middle of a part would be carried to its surface.
 constexpr double kClip = 5.5;
 // Terraces get longer as the root of the surface's radius, and what flattens them grows as the fourth power of their
-// length. So there are wider passes where balls of such a radius (in sigmas) fit in beside the surface, the widest
-// where greater balls do and no edge is near, and few passes in the thinnest parts, which do not survive more.
+// length. So there are wider passes (sigma times the root of 2, worth four others) where balls of such a radius
+// (in sigmas) fit in beside the surface, the widest (2 sigma, worth sixteen) where greater balls do and no edge is
+// near, and few passes in the thinnest parts, which do not survive more.
 constexpr int    kOnePass = 1;
 constexpr int    kFewPasses = 3;
-constexpr int    kSomePasses = 20;
+constexpr int    kSomePasses = 18;
 constexpr int    kWiderPasses = 14;
 constexpr int    kWidestPasses = 24;
 constexpr double kThick = 8;
@@ -54,7 +55,8 @@ class LabelPasses
 {
 public:
   LabelPasses(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress)
-    : m_Spacing(spacing)
+    : m_Shape(shape)
+    , m_Spacing(spacing)
     , m_Progress(progress)
     , m_Sides(SidesOf(spacing))
     // Steps of thick slices need more smoothing than steps of thin ones.
@@ -77,8 +79,7 @@ public:
       {
         former.push_back(m_Field.Save());
       }
-      m_Field.Smooth(m_Profile.Smooth(m_Sigma));
-      End();
+      SmoothWith(m_Field, m_Sigma, nullptr);
     }
     if (const SmoothingZones thick(m_Depth, kThick * m_Sigma); thick.Any())
     {
@@ -110,21 +111,25 @@ public:
   }
 
 private:
+  // A pass of a field whose width is `sigma`.
   void
-  End()
+  SmoothWith(BandField & field, double sigma, const SmoothingZones * zones)
   {
     constexpr double all = kSomePasses + kWiderPasses + kWidestPasses + 1;
+    field.Smooth(m_Profile.Smooth(sigma), zones);
     ReportProgress(m_Progress, "surface", ++m_Passes / all);
   }
 
-  // What is near an edge sees it in a wider pass, and is left out of the widest.
+  // What is near an edge sees it in a wider pass, and is left out of the widest. Those need no more than the means of
+  // 2^3 voxels: nothing is left that is shorter.
   void
   SmoothThick(const SmoothingZones & thick)
   {
+    const double wider = std::sqrt(2.0) * m_Sigma;
+    m_Field.SetWidth(wider);
     for (int pass = 0; pass < kWiderPasses; ++pass)
     {
-      m_Field.SmoothWider(m_Profile.Smooth(std::sqrt(2.0) * m_Sigma), thick);
-      End();
+      SmoothWith(m_Field, wider, &thick);
     }
     SmoothingZones thickest(m_Depth, kThickest * m_Sigma);
     if (thickest.Any())
@@ -132,14 +137,16 @@ private:
       constexpr double onSurface = 1;
       m_Field.MarkBends(onSurface, kBend, thickest);
       thickest.LeaveOutAroundMarks(kNearBend);
+      BandField halved = m_Field.Halved(m_Shape, m_Depth);
+      halved.SetWidth(2 * m_Sigma);
       for (int pass = 0; pass < kWidestPasses; ++pass)
       {
-        m_Field.SmoothWidest(m_Profile.Smooth(2 * m_Sigma), thickest);
-        End();
+        SmoothWith(halved, 2 * m_Sigma, &thickest);
       }
+      m_Field.AddChange(halved);
     }
-    m_Field.Smooth(m_Profile.Smooth(m_Sigma), thick);
-    End();
+    m_Field.SetWidth(m_Sigma);
+    SmoothWith(m_Field, m_Sigma, &thick);
   }
 
   // Boundary vertices that are far off the surface.
@@ -169,6 +176,7 @@ private:
     return any;
   }
 
+  const VoxelShape &        m_Shape;
   const Vector3 &           m_Spacing;
   const ProgressCallback &  m_Progress;
   Vector3                   m_Sides;

@@ -9,6 +9,7 @@
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace voxelcore
@@ -55,18 +56,31 @@ TreeOfPoints(std::span<const LatticePoint> points, const Vector3 & spacing)
 // Each boundary vertex has surface within half a diagonal, and the surface has a boundary vertex as near everywhere: so
 // no ball that touches the surface is smaller or greater by more than that than one that touches a boundary vertex. A
 // radius that is has not been measured to the nearest part of a rough surface.
+// What is nearest before and after a move is told by how far it went, mostly closely enough.
 void
-BoundRadii(const TriangleTree & boundary, const Vector3 & spacing, MedialComplex & core)
+BoundRadii(const TriangleTree &        boundary,
+           const Vector3 &             spacing,
+           const std::vector<double> & former,
+           RefinedCore &               refined)
 {
-  const double half = 0.5 * Length(spacing);
-  const auto   count = static_cast<std::ptrdiff_t>(core.positions.size());
+  MedialComplex & core = refined.core;
+  const double    half = 0.5 * Length(spacing);
+  const double    slack = 1e-6 * half;
+  const auto      count = static_cast<std::ptrdiff_t>(core.positions.size());
 #pragma omp parallel for schedule(dynamic, 256) if (count > 512)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto   vertex = static_cast<std::size_t>(i);
+    const double moved = Length(Times(refined.displacement[vertex], spacing)) + slack;
+    double &     radius = core.radius[vertex];
+    if (std::abs(radius - former[vertex]) <= half - moved)
+    {
+      continue;
+    }
+    const double farthest = former[vertex] + moved;
     const double nearest =
-      std::sqrt(boundary.FindNearest(Times(core.positions[vertex], spacing), 1e150).squaredDistance);
-    core.radius[vertex] = std::clamp(core.radius[vertex], nearest - half, nearest + half);
+      std::sqrt(boundary.FindNearest(Times(core.positions[vertex], spacing), farthest * farthest).squaredDistance);
+    radius = std::clamp(radius, nearest - half, nearest + half);
   }
 }
 
@@ -86,8 +100,9 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   const auto            refine = [&](CorePart part, double threshold) {
     RefinementState working(input, std::move(part));
     working.Move(finder, progress);
-    refined.push_back(working.Finish(finder, threshold));
-    BoundRadii(boundary, input.spacing, refined.back().core);
+    std::vector<double> formerRadius;
+    refined.push_back(working.Finish(finder, threshold, formerRadius));
+    BoundRadii(boundary, input.spacing, formerRadius, refined.back());
   };
   for (const double threshold : thresholds)
   {

@@ -85,7 +85,7 @@ RefinementState::RefinementState(const RefinementInput & input, CorePart part)
   }
 }
 
-void
+double
 RefinementState::MoveVertex(const FootPointFinder &    finder,
                             std::size_t                vertex,
                             std::span<const PointPair> pairs,
@@ -99,7 +99,7 @@ RefinementState::MoveVertex(const FootPointFinder &    finder,
   });
   if (apart.empty())
   {
-    return;
+    return 0;
   }
   pairs = apart;
   finder.Find(place, pairs, footPoints);
@@ -107,30 +107,41 @@ RefinementState::MoveVertex(const FootPointFinder &    finder,
   const double length = Length(step);
   step = AddScaled({ 0, 0, 0 }, length > longest ? longest / length : 1.0, step);
   m_Displacement[vertex] = KeepInShape(*m_Input.shape, m_Positions[vertex], AddScaled(m_Displacement[vertex], 1, step));
+  return length;
+}
+
+void
+RefinementState::MoveInPasses(const FootPointFinder &    finder,
+                              std::size_t                vertex,
+                              std::span<const PointPair> pairs,
+                              std::vector<FootPoint> &   footPoints)
+{
+  constexpr int passes = 3;
+  for (int pass = 0; pass < passes && !pairs.empty(); ++pass)
+  {
+    if (MoveVertex(finder, vertex, pairs, footPoints) < finder.Ripples()) // the next step is much shorter
+    {
+      break;
+    }
+  }
 }
 
 void
 RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & progress)
 {
-  constexpr int passes = 3;
-  const auto    count = static_cast<std::ptrdiff_t>(m_Positions.size());
-  for (int pass = 0; pass < passes; ++pass)
-  {
-    ReportProgress(progress, "refining", static_cast<double>(pass + 1) / (passes + 2));
+  const auto count = static_cast<std::ptrdiff_t>(m_Positions.size());
+  ReportProgress(progress, "refining", 0.2);
 #pragma omp parallel if (count > 512)
+  {
+    std::vector<FootPoint> footPoints;
+#pragma omp for schedule(dynamic, 64)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
     {
-      std::vector<FootPoint> footPoints;
-#pragma omp for schedule(dynamic, 256)
-      for (std::ptrdiff_t i = 0; i < count; ++i)
-      {
-        const auto vertex = static_cast<std::size_t>(i);
-        if (!Pairs(vertex).empty())
-        {
-          MoveVertex(finder, vertex, Pairs(vertex), footPoints);
-        }
-      }
+      const auto vertex = static_cast<std::size_t>(i);
+      MoveInPasses(finder, vertex, Pairs(vertex), footPoints);
     }
   }
+  ReportProgress(progress, "refining", 0.8);
 }
 
 // Of a part that is a line the pairs of a vertex may all lie on one side: those of its neighbours lie around it.
@@ -138,7 +149,6 @@ RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & p
 std::vector<ElementIndex>
 RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted)
 {
-  constexpr int                          passes = 3;
   std::vector<std::uint8_t>              onFace(part.vertices.size(), 0);
   std::vector<std::vector<ElementIndex>> near(part.vertices.size());
   for (const ElementIndex corner : part.cells.faceVertices)
@@ -182,10 +192,7 @@ RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part
       std::sort(pairs.begin(), pairs.end());
       pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
       m_Displacement[vertex] = wanted[vertex];
-      for (int pass = 0; pass < passes && !pairs.empty(); ++pass)
-      {
-        MoveVertex(finder, vertex, pairs, footPoints);
-      }
+      MoveInPasses(finder, vertex, pairs, footPoints);
     }
   }
   for (ElementIndex & vertex : lines)
@@ -248,7 +255,7 @@ RefinementState::Collapse(const CorePart & part, double threshold) const
 
 // What has moved is guarded, and then measured where it is: so more may go, and what held it back with it.
 RefinedCore
-RefinementState::Finish(const FootPointFinder & finder, double threshold)
+RefinementState::Finish(const FootPointFinder & finder, double threshold, std::vector<double> & formerRadius)
 {
   CorePart part = All();
   MeasureVertices(finder, part.vertices);
@@ -294,6 +301,11 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold)
   }
   settle(std::move(lines));
   refined.core.radius = Pick(m_Radius, part.vertices);
+  formerRadius.clear();
+  for (const ElementIndex vertex : part.vertices)
+  {
+    formerRadius.push_back(m_Input.core->radius[m_VertexIds[vertex]]);
+  }
   refined.core.vertexLambda = Pick(m_VertexMeasure, part.vertices);
   refined.core.edgeLambda = Pick(m_EdgeMeasure, part.edges);
   refined.core.faceLambda = Pick(m_FaceMeasure, part.faces);

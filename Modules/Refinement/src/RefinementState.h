@@ -26,9 +26,9 @@ public:
   void
   Move(const FootPointFinder & finder, const ProgressCallback & progress);
 
-  /** What is left at a threshold. */
+  /** What is left at a threshold, and of each vertex its radius before it was moved. */
   RefinedCore
-  Finish(const FootPointFinder & finder, double threshold);
+  Finish(const FootPointFinder & finder, double threshold, std::vector<double> & formerRadius);
 
 private:
   std::span<const PointPair>
@@ -43,11 +43,17 @@ private:
     return Times(AddScaled(m_Positions[vertex], 1, m_Displacement[vertex]), m_Input.spacing);
   }
 
-  void
+  /** Returns how far, in voxels. */
+  double
   MoveVertex(const FootPointFinder &    finder,
              std::size_t                vertex,
              std::span<const PointPair> pairs,
              std::vector<FootPoint> &   footPoints);
+  void
+  MoveInPasses(const FootPointFinder &    finder,
+               std::size_t                vertex,
+               std::span<const PointPair> pairs,
+               std::vector<FootPoint> &   footPoints);
   void
   MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices);
   double

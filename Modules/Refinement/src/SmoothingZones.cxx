@@ -253,29 +253,37 @@ SmoothingZones::LeaveOutAroundMarks(double near)
 }
 
 const std::uint8_t *
-SmoothingZones::PartsOf(const BrickGrid::Brick & brick) const
+SmoothingZones::PartsOf(int level, const BrickGrid::Brick & brick) const
 {
+  if (level == 1)
+  {
+    return m_Parts.data() + static_cast<std::size_t>(m_Depth->Grid().Find(brick)) * kCells;
+  }
   const auto found = static_cast<std::size_t>(m_Depth->Grid().Find({ brick[0] >> 1, brick[1] >> 1, brick[2] >> 1 }));
   const auto first = ((brick[2] & 1) * kSide + (brick[1] & 1)) * kSide + (brick[0] & 1);
   return m_Parts.data() + found * kCells + static_cast<std::size_t>(kSide / 2 * first);
 }
 
 void
-SmoothingZones::Fill(const BrickGrid::Brick & brick, std::array<float, BrickGrid::kCells> & parts) const
+SmoothingZones::Fill(int level, const BrickGrid::Brick & brick, std::array<float, BrickGrid::kCells> & parts) const
 {
-  const std::uint8_t * const own = PartsOf(brick);
-  for (std::size_t voxel = 0; voxel < kCells; ++voxel)
+  const std::uint8_t * const own = PartsOf(level, brick);
+  for (std::size_t i = 0; i < kCells; ++i)
   {
-    const std::size_t cell = (voxel >> 1 & 3) + kSide * (voxel >> 4 & 3) + kSide * kSide * (voxel >> 7);
-    parts[voxel] = static_cast<float>(own[cell]) / 255;
+    const std::size_t cell = level == 1 ? i : (i >> 1 & 3) + kSide * (i >> 4 & 3) + kSide * kSide * (i >> 7);
+    parts[i] = static_cast<float>(own[cell]) / 255;
   }
 }
 
 bool
-SmoothingZones::AnyIn(const BrickGrid::Brick & brick) const
+SmoothingZones::AnyIn(int level, const BrickGrid::Brick & brick) const
 {
-  const std::uint8_t * const own = PartsOf(brick);
-  std::uint8_t               any = 0;
+  const std::uint8_t * const own = PartsOf(level, brick);
+  if (level == 1)
+  {
+    return std::any_of(own, own + kCells, [](std::uint8_t part) { return part != 0; });
+  }
+  std::uint8_t any = 0;
   for (std::size_t row = 0; row < 16; ++row)
   {
     const std::uint8_t * const four = own + kSide * (row & 3) + kSide * kSide * (row >> 2);

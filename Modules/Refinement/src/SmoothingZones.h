@@ -69,18 +69,18 @@ public:
   void
   LeaveOutAroundMarks(double near);
 
-  /** The parts, 0 to 1, of a brick of 8^3 voxels, which must have depths. */
+  /** The parts, 0 to 1, of a brick of 8^3 voxels (level 0) or cells (level 1), which must have depths. */
   void
-  Fill(const BrickGrid::Brick & brick, std::array<float, BrickGrid::kCells> & parts) const;
+  Fill(int level, const BrickGrid::Brick & brick, std::array<float, BrickGrid::kCells> & parts) const;
 
-  /** Whether some voxel of such a brick takes a part. */
+  /** Whether anything in such a brick takes a part. */
   bool
-  AnyIn(const BrickGrid::Brick & brick) const;
+  AnyIn(int level, const BrickGrid::Brick & brick) const;
 
 private:
   /** Of the first voxel; rows of cells are those of a brick of 8^3 cells. */
   const std::uint8_t *
-  PartsOf(const BrickGrid::Brick & brick) const;
+  PartsOf(int level, const BrickGrid::Brick & brick) const;
 
   const BoundaryDepth *         m_Depth;
   std::vector<std::uint8_t>     m_Parts;

@@ -34,6 +34,13 @@ public:
    *  mm. */
   virtual SurfacePoint
   Project(const Vector3 & place, double reach) const = 0;
+
+  /** How high ripples are that the true surface does not have, in voxels: nothing is sought more closely on it. */
+  virtual double
+  Ripples() const
+  {
+    return 0;
+  }
 };
 
 /** Grey values along x: those of the voxels (x, y, z) to (x + values.size() - 1, y, z) in indices of the scan, all
