@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""Whole jobs of voxelcore over `core --lambda 1.5vox` on the same scan: elapsed time and peak memory.
+
+usage: whole_jobs.py VOXELCORE [SCAN ...] [--repetitions 5] [--threads 2] [--labels all]
+
+Without scans phantoms are made: ellipsoid 256, gyroid 128, root 512. The jobs of a repetition follow each other
+directly; medians of each are compared. For a machine with nothing else to do.
+"""
+import argparse
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+PHANTOMS = [("ellipsoid", "256"), ("gyroid", "128"), ("root", "512")]
+MARK = "lambda 1.5vox"
+JOBS = {MARK: ["core", "--lambda", "1.5vox"],
+        "tolerance": ["core"],
+        "skeleton": ["skeleton"],
+        "refine labels": ["core", "--lambda", "1.5vox", "--refine", "labels"],
+        "tolerance, refine, skeleton": ["core", "--refine", "labels", "--with-skeleton"]}
+
+
+def cost(command):
+    """Seconds and peak memory in MB."""
+    start = time.perf_counter()
+    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(child.pid, 0)
+    if status != 0:
+        sys.exit(f"whole_jobs.py: exit {os.waitstatus_to_exitcode(status)} of {' '.join(command)}")
+    return time.perf_counter() - start, usage.ru_maxrss / 1024
+
+
+def compare(options, scan, folder):
+    costs = {job: [] for job in JOBS}
+    more = [] if options.labels is None else ["--labels", options.labels]
+    for _ in range(options.repetitions):
+        for job, (command, *words) in JOBS.items():
+            costs[job].append(cost([options.voxelcore, command, str(scan), *words, *more, "--threads",
+                                    str(options.threads), "-o", str(folder / "out.vtp"), "--force", "--quiet"]))
+    medians = {job: [statistics.median(column) for column in zip(*rows)] for job, rows in costs.items()}
+    seconds, memory = medians[MARK]
+    cells = [f"{medians[job][0] / seconds:.2f} ({medians[job][1] / memory:.2f})" for job in JOBS if job != MARK]
+    print(f"| {pathlib.Path(scan).name} | {seconds:.2f} s, {memory:.0f} MB | {' | '.join(cells)} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("voxelcore")
+    parser.add_argument("scans", nargs="*")
+    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--labels")
+    options = parser.parse_args()
+    print("| scan | " + " | ".join(job + ("" if job == MARK else ", time (memory)") for job in JOBS) + " |")
+    print("|---" * (len(JOBS) + 1) + "|")
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for scan in options.scans:
+            compare(options, scan, folder)
+        for kind, size in [] if options.scans else PHANTOMS:
+            scan = folder / f"{kind}-{size}.nrrd"
+            subprocess.run([options.voxelcore, "phantom", kind, "--size", size, "-o", scan, "--quiet"], check=True)
+            compare(options, scan, folder)
+
+
+if __name__ == "__main__":
+    main()
