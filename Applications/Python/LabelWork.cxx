@@ -64,7 +64,7 @@ RequireUnrefinedCore(const CoreOfLabel & core)
   if (!core.refined.empty())
   {
     throw UsageError("this core was made with --refine " + core.refined +
-                     ", and only cores as they come out of the voxels are worked on; make one without");
+                     "; a refined core cannot be pruned further; make one without");
   }
 }
 

@@ -56,5 +56,15 @@ TEST(ExtractPart, ElementsKeepTheirGeometryMeasuresAndOrder)
   EXPECT_EQ(ExtractPart(core, collapse.Live()).positions, part.positions);
 }
 
+TEST(ExtractPart, APartsPartIsNamedInTheWhole)
+{
+  const PartElements part{ { 2, 5, 7 }, { 1, 4 }, { 9 } };
+  PartElements       ofPart{ { 0, 2 }, { 1 }, {} };
+  NameInWhole(part, ofPart);
+  EXPECT_EQ(ofPart.vertices, (std::vector<ElementIndex>{ 2, 7 }));
+  EXPECT_EQ(ofPart.edges, (std::vector<ElementIndex>{ 4 }));
+  EXPECT_TRUE(ofPart.faces.empty());
+}
+
 } // namespace
 } // namespace voxelcore

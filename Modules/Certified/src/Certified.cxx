@@ -71,7 +71,6 @@ public:
     , m_Request(request)
     , m_Weights(ComputeLatticeWeights(geometry))
     , m_Plan(progress, StageTimes(request))
-    , m_Refines(RefinesCores(request) || RefinesCurves(request))
   {
     RequireLengthsIn(geometry.unit, request);
     m_Result.shape = { request.name, {}, m_Voxels.Box(), geometry };
@@ -132,7 +131,7 @@ private:
       const ProgressCallback building = m_Plan.Next("core");
       ReportProgress(building, "", 0);
       TouchingBalls touching = byTolerance ? LargestTouchingBalls(cells, points, m_Weights) : TouchingBalls();
-      if (m_Refines)
+      if (Refines(m_Request))
       {
         m_Kept.edgePoints = NearestToEdges(cells);
       }
@@ -146,7 +145,7 @@ private:
         EndTolerances(core.tolerances, geometry);
         seconds.prune += watch.Lap();
       }
-      if (m_Refines)
+      if (Refines(m_Request))
       {
         m_Kept.points = std::move(points);
       }
@@ -155,7 +154,7 @@ private:
     {
       RefuseResult(m_Request.name, "a vertex of the core lies outside the shape");
     }
-    if (m_Refines)
+    if (Refines(m_Request))
     {
       m_Kept.core = core;
     }
@@ -195,7 +194,7 @@ private:
   void
   MakeResults()
   {
-    if (m_Refines)
+    if (Refines(m_Request))
     {
       RefinementTask task;
       if (RefinesCores(m_Request))
@@ -351,8 +350,7 @@ private:
   SpacingWeights              m_Weights;
   StagePlan                   m_Plan;
   std::vector<double>         m_Thresholds; ///< mm
-  const bool                  m_Refines;    ///< cores or curves
-  RefinementParts             m_Kept;       ///< where it does
+  RefinementParts             m_Kept;       ///< where there is something to refine
   CertifiedCore               m_Whole;
   std::vector<MedialComplex>  m_Pruned; ///< by lambda, ascending
   std::optional<BurnedCurves> m_Curves;

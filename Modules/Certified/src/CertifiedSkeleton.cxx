@@ -128,20 +128,6 @@ PartToBurn(const MedialComplex &   whole,
   return ExtractPart(whole, live, elements);
 }
 
-void
-NameInWhole(const PartElements & part, PartElements & curves)
-{
-  const auto name = [](const std::vector<ElementIndex> & whole, std::vector<ElementIndex> & indices) {
-    for (ElementIndex & index : indices)
-    {
-      index = whole[index];
-    }
-  };
-  name(part.vertices, curves.vertices);
-  name(part.edges, curves.edges);
-  name(part.faces, curves.faces);
-}
-
 BurnedCurves
 BurnToCurves(const MedialComplex &    core,
              const CertifiedShape &   shape,

@@ -92,26 +92,24 @@ ElementsOf(const PartElements & curves, const CellComplex & core)
 std::vector<std::pair<ElementIndex, Vector3>>
 WaysInwards(const MedialComplex & curves, double reach)
 {
-  std::vector<Cofaces> ends(curves.cells.vertexCount); // of edges at each vertex, the vertex at their other end
-  for (const auto & [a, b] : curves.cells.edges)
-  {
-    ends[a].Add(b);
-    ends[b].Add(a);
-  }
+  const CellComplex &        cells = curves.cells;
+  const std::vector<Cofaces> edgesAt = CountVertexCofaces(cells);
+  const auto                 otherEnd = [&](ElementIndex edge, ElementIndex vertex) {
+    return cells.edges[edge][0] ^ cells.edges[edge][1] ^ vertex;
+  };
   std::vector<std::pair<ElementIndex, Vector3>> ways;
-  for (ElementIndex tip = 0; tip < ends.size(); ++tip)
+  for (ElementIndex tip = 0; tip < edgesAt.size(); ++tip)
   {
-    if (ends[tip].count != 1)
+    if (edgesAt[tip].count != 1)
     {
       continue;
     }
-    ElementIndex before = tip;
-    ElementIndex at = ends[tip].exclusiveOr;
-    while (ends[at].count == 2 && Distance(curves.positions[tip], curves.positions[at]) < reach)
+    ElementIndex edge = edgesAt[tip].exclusiveOr;
+    ElementIndex at = otherEnd(edge, tip);
+    while (edgesAt[at].count == 2 && Distance(curves.positions[tip], curves.positions[at]) < reach)
     {
-      const ElementIndex next = ends[at].exclusiveOr ^ before;
-      before = at;
-      at = next;
+      edge ^= edgesAt[at].exclusiveOr;
+      at = otherEnd(edge, at);
     }
     const Vector3 way = Minus(curves.positions[at], curves.positions[tip]);
     ways.emplace_back(tip, AddScaled({ 0, 0, 0 }, 1 / Length(way), way));

@@ -46,6 +46,12 @@ RefinesCurves(const CertifiedRequest & request)
 }
 
 bool
+Refines(const CertifiedRequest & request)
+{
+  return RefinesCores(request) || RefinesCurves(request);
+}
+
+bool
 BurnsWhole(const CertifiedRequest & request)
 {
   return request.skeleton && request.skeleton->lambda.value == 0 && !request.skeleton->tolerance;
@@ -54,7 +60,7 @@ BurnsWhole(const CertifiedRequest & request)
 bool
 BurnsBeforePruning(const CertifiedRequest & request)
 {
-  return BurnsWhole(request) || (request.skeleton && (RefinesCores(request) || RefinesCurves(request)));
+  return BurnsWhole(request) || (request.skeleton && Refines(request));
 }
 
 std::vector<double>
@@ -70,7 +76,7 @@ StageTimes(const CertifiedRequest & request)
   {
     times.push_back(kSkeletonTime);
   }
-  if (RefinesCores(request) || RefinesCurves(request))
+  if (Refines(request))
   {
     times.push_back(kRefineTime);
   }

@@ -20,6 +20,10 @@ RefinesCores(const CertifiedRequest & request);
 bool
 RefinesCurves(const CertifiedRequest & request);
 
+/** Whether either is. */
+bool
+Refines(const CertifiedRequest & request);
+
 /** Whether the skeleton is that of the whole core. */
 bool
 BurnsWhole(const CertifiedRequest & request);

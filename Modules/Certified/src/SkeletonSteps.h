@@ -22,10 +22,6 @@ PartToBurn(const MedialComplex &   whole,
            const SkeletonRequest & request,
            PartElements &          elements);
 
-/** Names the elements of curves that a part of the core burned to by their indices in the whole core. */
-void
-NameInWhole(const PartElements & part, PartElements & curves);
-
 /** \throws CertificateError when the curves do not have the shape's topology; Cancelled */
 BurnedCurves
 BurnToCurves(const MedialComplex &    core,

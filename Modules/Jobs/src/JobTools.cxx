@@ -68,7 +68,7 @@ RequireUnrefined(const MedialModel & model, const std::filesystem::path & path)
   if (!model.refined.empty())
   {
     throw InputError(path.string() + ": was made with --refine " + model.refined +
-                     ", and only cores as they come out of the voxels are worked on; make one without");
+                     "; a refined core cannot be pruned further; make one without");
   }
 }
 

@@ -59,8 +59,8 @@ public:
   vtkGetMacro(ImageIsInLPS, bool);
   vtkBooleanMacro(ImageIsInLPS, bool);
 
-  /** The image's spacing counts voxels and is no mm: its file gave none, and its reader left 1. Off at first; what the
-   *  image's field data say in Units holds all the same. */
+  /** The image's spacing counts voxels and is no mm: its file gave none, and its reader left 1. Off by default; then
+   *  the array Units of the image's field data decides. */
   vtkSetMacro(LengthsInVoxels, bool);
   vtkGetMacro(LengthsInVoxels, bool);
   vtkBooleanMacro(LengthsInVoxels, bool);

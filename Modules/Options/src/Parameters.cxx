@@ -144,6 +144,10 @@ CoreOptionsFrom(const ParameterValues & values)
   options.table = reader.FileIfGiven("table");
   options.display = DisplayTargetsFrom(values, CommandId::Core);
   options.skeleton = CoreSkeletonFrom(values);
+  if (options.skeleton)
+  {
+    options.skeleton->refined = !options.refine.surface.empty();
+  }
   options.skeletonTargets = TargetsFrom(values, CommandId::Core);
   options.skeletonOutput = options.skeleton ? SkeletonBesideCore(options.output) : std::filesystem::path();
   options.join = reader.Text("join");

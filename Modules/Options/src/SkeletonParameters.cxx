@@ -144,7 +144,6 @@ CoreSkeletonFrom(const ParameterValues & values)
   {
     SkeletonRequest stage = StageFrom(values, CommandId::Core);
     stage.lambda = ParseLength("0");
-    stage.refined = !RefineFrom(ParameterReader(values, CommandId::Core)).surface.empty();
     const auto also = TargetsFrom(values, CommandId::Core).also;
     if (std::find(also.begin(), also.end(), "ma") != also.end())
     {

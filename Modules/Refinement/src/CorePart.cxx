@@ -20,16 +20,8 @@ CollapsePart(const CorePart &            part,
 {
   SimplePairCollapse collapse(part.cells, vertexMeasure, edgeMeasure, faceMeasure);
   collapse.CollapseBelow(threshold);
-  CorePart   left = PartOf(part.cells, collapse.Live());
-  const auto ofWhole = [](const std::vector<ElementIndex> & ids, std::vector<ElementIndex> & some) {
-    for (ElementIndex & id : some)
-    {
-      id = ids[id];
-    }
-  };
-  ofWhole(part.vertices, left.vertices);
-  ofWhole(part.edges, left.edges);
-  ofWhole(part.faces, left.faces);
+  CorePart left = PartOf(part.cells, collapse.Live());
+  NameInWhole(part, left);
   return left;
 }
 

@@ -1,18 +1,15 @@
 #pragma once
 // A part of a core.
 
-#include "voxelcore/SimplePairCollapse.h"
+#include "voxelcore/ExtractPart.h"
 
 namespace voxelcore
 {
 
 /** Elements of a complex as a complex of their own, and their indices in the other one. */
-struct CorePart
+struct CorePart : PartElements
 {
-  CellComplex               cells;
-  std::vector<ElementIndex> vertices;
-  std::vector<ElementIndex> edges;
-  std::vector<ElementIndex> faces;
+  CellComplex cells;
 };
 
 /** What `live` holds of a complex. */

@@ -143,7 +143,7 @@ ReadValue(const Json & json, std::optional<T> & value)
   }
 }
 
-/** What only meshes or some formats have is only in their files; and so is what few ask for. */
+/** Written only where they are set: what meshes or some formats alone have, and what few ask for. */
 bool
 IsOfSome(std::string_view name)
 {

@@ -17,8 +17,9 @@ struct CurveFire
   std::vector<double>       time;       ///< per vertex; infinite when it never burned
   std::vector<double>       length;     ///< per vertex: how far the fire that burned it had come
   std::vector<double>       prominence; ///< per vertex: the most by which fire fell behind the surface's so far
-  std::vector<ElementIndex> winner;     ///< per vertex the edge by which the last fire came; kNoEdge at an end
-  std::vector<ElementIndex> runnerUp;   ///< the same for the last but one; set where fire ended for want of more curve
+  std::vector<ElementIndex> winner;     ///< per vertex the edge by which fire came the longest way along the edges;
+                                        ///< kNoEdge at an end
+  std::vector<ElementIndex> runnerUp;   ///< the same for the second longest; set where fire ended for want of curve
 };
 
 constexpr ElementIndex kNoEdge = 0xFFFFFFFFU;

@@ -3,6 +3,20 @@
 namespace voxelcore
 {
 
+void
+NameInWhole(const PartElements & part, PartElements & ofPart)
+{
+  const auto name = [](const std::vector<ElementIndex> & whole, std::vector<ElementIndex> & indices) {
+    for (ElementIndex & index : indices)
+    {
+      index = whole[index];
+    }
+  };
+  name(part.vertices, ofPart.vertices);
+  name(part.edges, ofPart.edges);
+  name(part.faces, ofPart.faces);
+}
+
 MedialComplex
 ExtractPart(const MedialComplex & core, const LiveElements & live, PartElements & elements)
 {

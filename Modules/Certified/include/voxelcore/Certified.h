@@ -38,7 +38,7 @@ struct CertifiedRequest
 
   std::vector<Lambda>            lambdas;    ///< one core each; 0: the whole core
   std::vector<Tolerance>         tolerances; ///< where there are some: one core each, the only lambda is pruned first
-  SurfaceSource                  surface;    ///< to which cores, and skeletons that ask for it, are refined
+  SurfaceSource                  surface;    ///< cores are refined to it, and skeletons that ask for it
   bool                           refineCores = true; ///< where there is a surface; false: skeletons alone are refined
   std::optional<SkeletonRequest> skeleton; ///< of the whole core, or of one asked for as it is before refinement
 

@@ -17,6 +17,10 @@ struct PartElements
   std::vector<ElementIndex> faces;
 };
 
+/** Turns the indices of a part of `part` into those in what `part` is a part of. */
+void
+NameInWhole(const PartElements & part, PartElements & ofPart);
+
 /** The live elements with their geometry and measures, in the order they have in `core`; `elements` receives their
  *  indices there. */
 MedialComplex
