@@ -4,6 +4,7 @@
 
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/ComplexTopology.h"
+#include "voxelcore/Error.h"
 #include "voxelcore/LambdaPruning.h"
 
 #include <gtest/gtest.h>
@@ -273,6 +274,46 @@ TEST(TolerancePruning, LeavesAllAtHeightZero)
     const MedialComplex core = testing::CoreWithTolerancesOf(volume.shape, volume.spacing);
     testing::ExpectSameCore(core, PruneByTolerance(core, 0));
   }
+}
+
+// So that rounding decides nothing where a round height is asked for.
+TEST(TolerancePruning, GoesByLevelsBetweenRoundHeights)
+{
+  const MedialComplex core = testing::CoreWithTolerancesOf(testing::Ellipsoid(24));
+  std::size_t         low = 0;
+  for (const auto * values : { &core.tolerances.vertices, &core.tolerances.edges, &core.tolerances.faces })
+  {
+    for (const double value : *values)
+    {
+      const double steps = value / std::sqrt(3.0) * 80;
+      if (steps < 320)
+      {
+        EXPECT_NEAR(steps - std::floor(steps), 0.5, 1e-9);
+        ++low;
+      }
+    }
+  }
+  EXPECT_GT(low, 1000U);
+}
+
+TEST(TolerancePruning, DoesOtherWorkOnceAndPassesOnWhatItThrows)
+{
+  const VoxelShape     shape = testing::Ellipsoid(96);
+  const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
+  const auto           points = BoundaryVertices(shape);
+  DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
+  const auto           touching = LargestTouchingBalls(cells, points, weights);
+  const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
+  ASSERT_GT(core.cells.FaceCount(), 10000U) << "too small for a second thread";
+  int        done = 0;
+  const auto alone = ComputeTolerances(core, weights, points, touching);
+  const auto beside = ComputeTolerances(core, weights, points, touching, 0, {}, [&] { ++done; });
+  EXPECT_EQ(done, 1);
+  EXPECT_EQ(alone.vertices, beside.vertices);
+  EXPECT_EQ(alone.edges, beside.edges);
+  EXPECT_EQ(alone.faces, beside.faces);
+  EXPECT_THROW(ComputeTolerances(core, weights, points, touching, 0, {}, [] { throw CertificateError("no"); }),
+               CertificateError);
 }
 
 TEST(TolerancePruning, CanBeCancelled)

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace voxelcore
@@ -140,8 +141,14 @@ private:
       if (byTolerance)
       {
         seconds.core += watch.Lap();
-        core.tolerances =
-          ComputeTolerances(core, m_Weights, points, std::move(touching), m_Thresholds.front(), m_Plan.Next("prune"));
+        ToleranceValues heights = ComputeTolerances(core,
+                                                    m_Weights,
+                                                    points,
+                                                    std::move(touching),
+                                                    m_Thresholds.front(),
+                                                    m_Plan.Next("prune"),
+                                                    [&] { CheckWhole(core); });
+        core.tolerances = std::move(heights);
         EndTolerances(core.tolerances, geometry);
         seconds.prune += watch.Lap();
       }
@@ -150,9 +157,9 @@ private:
         m_Kept.points = std::move(points);
       }
     }
-    if (!IsEnclosed(core, m_Voxels))
+    if (!byTolerance)
     {
-      RefuseResult(m_Request.name, "a vertex of the core lies outside the shape");
+      RequireEnclosed(core);
     }
     if (Refines(m_Request))
     {
@@ -161,6 +168,29 @@ private:
     m_Whole.core = ToPhysical(std::move(core), geometry, 0);
     m_Whole.numbers.lambda = "0";
     seconds.core += watch.Lap();
+  }
+
+  void
+  RequireEnclosed(const MedialComplex & core) const
+  {
+    if (!IsEnclosed(core, m_Voxels))
+    {
+      RefuseResult(m_Request.name, "a vertex of the core lies outside the shape");
+    }
+  }
+
+  void
+  RequireTopology(const MedialComplex & core)
+  {
+    m_Topology = ComputeComplexTopology(core.cells);
+    RequireEqualTopology(m_Result.shape.topology, *m_Topology, "its core", m_Request.name);
+  }
+
+  void
+  CheckWhole(const MedialComplex & core)
+  {
+    RequireEnclosed(core);
+    RequireTopology(core);
   }
 
   /** Prunes by lambda at the same time: neither changes the core, and each is work for one processor. */
@@ -180,11 +210,13 @@ private:
         }
       },
       [&] {
-        const TopologyNumbers topology = ComputeComplexTopology(core.cells);
-        RequireEqualTopology(m_Result.shape.topology, topology, "its core", m_Request.name);
+        if (!m_Topology)
+        {
+          RequireTopology(core);
+        }
         // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last
         // bit.
-        m_Whole.numbers.complex = DescribeComplex(core, topology);
+        m_Whole.numbers.complex = DescribeComplex(core, *m_Topology);
       });
     m_Result.whole = m_Whole.numbers.complex;
     m_Result.seconds.prune += watch.Lap();
@@ -345,16 +377,17 @@ private:
     m_Result.seconds.skeleton += watch.Lap();
   }
 
-  VoxelShape                  m_Voxels;
-  const CertifiedRequest &    m_Request;
-  SpacingWeights              m_Weights;
-  StagePlan                   m_Plan;
-  std::vector<double>         m_Thresholds; ///< mm
-  RefinementParts             m_Kept;       ///< where there is something to refine
-  CertifiedCore               m_Whole;
-  std::vector<MedialComplex>  m_Pruned; ///< by lambda, ascending
-  std::optional<BurnedCurves> m_Curves;
-  CertifiedResult             m_Result;
+  VoxelShape                     m_Voxels;
+  const CertifiedRequest &       m_Request;
+  SpacingWeights                 m_Weights;
+  StagePlan                      m_Plan;
+  std::vector<double>            m_Thresholds; ///< mm
+  RefinementParts                m_Kept;       ///< where there is something to refine
+  std::optional<TopologyNumbers> m_Topology;   ///< of the whole core, once it was found to be the shape's
+  CertifiedCore                  m_Whole;
+  std::vector<MedialComplex>     m_Pruned; ///< by lambda, ascending
+  std::optional<BurnedCurves>    m_Curves;
+  CertifiedResult                m_Result;
 };
 
 } // namespace

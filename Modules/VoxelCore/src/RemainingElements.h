@@ -5,9 +5,13 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace voxelcore
 {
+
+inline constexpr double kBelowFloor = -1; ///< the height of what a floor took
 
 /** While an element is there, its cofaces; then the height at which it went: in one word, as collapses jump about in
  *  memory and ask for both. Heights are -1, 0 or more; their two highest bits are never both set. */
@@ -66,5 +70,18 @@ private:
 
   std::uint64_t m_Word = kLive;
 };
+
+/** Infinity for those that are there. */
+inline std::vector<double>
+HeightsOf(const std::vector<RemainingElements> & elements)
+{
+  std::vector<double> heights;
+  heights.reserve(elements.size());
+  for (const RemainingElements & element : elements)
+  {
+    heights.push_back(element.IsLive() ? std::numeric_limits<double>::infinity() : element.Height());
+  }
+  return heights;
+}
 
 } // namespace voxelcore

@@ -1,6 +1,5 @@
 #include "voxelcore/TolerancePruning.h"
 
-#include "ToleranceCollapse.h"
 #include "voxelcore/ExtractPart.h"
 #include "voxelcore/LengthText.h"
 
@@ -142,17 +141,6 @@ LargestTouchingBalls(const DelaunayCells &             cells,
     }
   }
   return balls;
-}
-
-ToleranceValues
-ComputeTolerances(const MedialComplex &             core,
-                  const SpacingWeights &            weights,
-                  const std::vector<LatticePoint> & points,
-                  TouchingBalls                     touching,
-                  double                            floor,
-                  const ProgressCallback &          progress)
-{
-  return ToleranceCollapse(core, weights, points, std::move(touching), floor, progress).Run(progress);
 }
 
 LiveElements

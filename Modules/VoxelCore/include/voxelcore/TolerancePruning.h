@@ -17,6 +17,7 @@
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/SpatialUnit.h"
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -73,8 +74,10 @@ LargestTouchingBalls(const DelaunayCells &             cells,
 /** The heights of all elements of a whole core. `points` are the boundary vertices, `touching` as above (move it in:
  *  its memory is given back on the way). Infinity for what never goes, as the topology needs it.
  *
- *  Only simple pairs go, the cheapest first; the height at which a pair goes is the greatest cost met so far. So all
- *  results have the topology of the core, are nested, and one run serves every h.
+ *  Only simple pairs go, the cheapest first, level by level: levels are 1/80 of a voxel's diagonal apart up to four
+ *  diagonals, then by the same proportion, and lie between the round multiples of the diagonal. What goes at a level
+ *  costs no more than it and has it as its height. So all results have the topology of the core, are nested, and one
+ *  run serves every h.
  *
  *  - An edge and its face burn. Fire enters sheets at their rims and is carried by the ball that burnt first there, the
  *    witness; it reaches a vertex when this ball sticks out by h. The face goes when fire has crossed it, or when fires
@@ -86,17 +89,19 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *  With `floor` (mm) > 0 what PruneByLambda(core, {floor}) takes goes first, whatever bump it stands for: its value is
  *  -1, and the boundary vertices of its balls are no longer looked at, so that nothing is promised of them.
  *
- *  Costs are made of +, -, *, / and sqrt of canonical doubles in a fixed order. Loose ends that can go at the height
- *  reached go at once; of the rest ties go by radius measure, then dimension, then index: the same bits on every
- *  machine, for every engine and thread count, and for a volume that is cropped or padded.
- *  \throws Cancelled when the callback says so. */
+ *  Costs are made of +, -, *, / and sqrt of canonical doubles in a fixed order. Within a level fire comes in waves,
+ *  each in the order in which the one before freed its edges; loose ends follow the burnt edges. Fire does not ask for
+ *  them, so that they may follow in a second thread: the same bits on every machine, for every engine and thread
+ *  count, and for a volume that is cropped or padded. `beside` is other work for that second thread.
+ *  \throws Cancelled when the callback says so, and what `beside` throws. */
 ToleranceValues
 ComputeTolerances(const MedialComplex &             core,
                   const SpacingWeights &            weights,
                   const std::vector<LatticePoint> & points,
                   TouchingBalls                     touching,
                   double                            floor = 0,
-                  const ProgressCallback &          progress = {});
+                  const ProgressCallback &          progress = {},
+                  const std::function<void()> &     beside = {});
 
 /** What is left at a height in mm of a core that has its heights (MedialComplex::tolerances). */
 LiveElements

@@ -1,0 +1,181 @@
+#include "LooseEnds.h"
+
+namespace voxelcore
+{
+
+LooseEnds::LooseEnds(const CellComplex &               cells,
+                     const LiveElements &              left,
+                     const std::vector<LatticePoint> & points,
+                     const BallCentre &                scale,
+                     const std::vector<ElementIndex> & largest,
+                     const ToleranceLevels &           levels,
+                     std::vector<CoreBall> &           balls)
+  : m_Cells(cells)
+  , m_Points(points)
+  , m_Scale(scale)
+  , m_Levels(levels)
+  , m_Balls(balls)
+  , m_Standing(cells.vertexCount)
+  , m_NextKept(points.size())
+  , m_Turns(levels.Count())
+{
+  for (std::size_t vertex = 0; vertex < left.vertices.size(); ++vertex)
+  {
+    if (left.vertices[vertex] == 0)
+    {
+      m_Standing[vertex].Go(kBelowFloor);
+    }
+  }
+  for (std::uint32_t point = 0; point < points.size(); ++point)
+  {
+    const ElementIndex ball = largest[point];
+    if (IsLive(ball))
+    {
+      Keep(ball, point, Gap(PlaceOf(point), m_Balls[ball]));
+    }
+  }
+  FindNeighbours(left);
+  for (std::size_t vertex = 0; vertex < m_Standing.size(); ++vertex)
+  {
+    if (m_Standing[vertex].IsFree())
+    {
+      m_Turns.front().push_back(static_cast<ElementIndex>(vertex));
+    }
+  }
+}
+
+void
+LooseEnds::FindNeighbours(const LiveElements & left)
+{
+  const auto isLeft = [&](std::size_t edge) { return left.edges.empty() || left.edges[edge] != 0; };
+  for (std::size_t edge = 0; edge < m_Cells.edges.size(); ++edge)
+  {
+    if (isLeft(edge))
+    {
+      m_Standing[m_Cells.edges[edge][0]].Add(static_cast<ElementIndex>(edge));
+      m_Standing[m_Cells.edges[edge][1]].Add(static_cast<ElementIndex>(edge));
+    }
+  }
+  m_FirstNeighbour.reserve(m_Cells.vertexCount + 1);
+  std::uint32_t end = 0;
+  for (std::size_t vertex = 0; vertex < m_Cells.vertexCount; ++vertex)
+  {
+    m_FirstNeighbour.push_back(end);
+    end += IsLive(static_cast<ElementIndex>(vertex)) ? m_Standing[vertex].Count() : 0;
+  }
+  m_FirstNeighbour.push_back(end);
+  m_Neighbours.resize(end);
+  std::vector<std::uint32_t> next(m_FirstNeighbour.begin(), m_FirstNeighbour.end() - 1);
+  for (std::size_t edge = 0; edge < m_Cells.edges.size(); ++edge)
+  {
+    if (isLeft(edge))
+    {
+      const auto & [a, b] = m_Cells.edges[edge];
+      m_Neighbours[next[a]++] = b;
+      m_Neighbours[next[b]++] = a;
+    }
+  }
+}
+
+void
+LooseEnds::Drop(ElementIndex edge)
+{
+  for (const ElementIndex vertex : m_Cells.edges[edge])
+  {
+    if (IsLive(vertex))
+    {
+      m_Standing[vertex].Remove(edge);
+      // A vertex in one edge is in no face, as a face would need two edges there; so the edges at it suffice.
+      if (m_Standing[vertex].IsFree())
+      {
+        m_Open.push_back(vertex);
+      }
+    }
+  }
+}
+
+void
+LooseEnds::TakeOpen()
+{
+  // What can go at this level goes at once, end by end, while it is at hand.
+  while (!m_Open.empty())
+  {
+    const ElementIndex vertex = m_Open.back();
+    m_Open.pop_back();
+    if (!m_Standing[vertex].IsFree())
+    {
+      continue;
+    }
+    const double cost = CostOf(vertex);
+    if (cost <= m_Height)
+    {
+      Remove(vertex);
+    }
+    else
+    {
+      m_Turns[m_Levels.LevelOf(cost)].push_back(vertex);
+    }
+  }
+}
+
+void
+LooseEnds::Remove(ElementIndex vertex)
+{
+  const ElementIndex edge = m_Standing[vertex].Coface();
+  m_Standing[vertex].Go(m_Height);
+  m_Gone.emplace_back(edge, m_Height);
+  if (m_ToHeir)
+  {
+    HandOver(vertex, m_Heir, m_HeirGap);
+  }
+  else
+  {
+    std::uint32_t point = m_NextKept[m_Balls[vertex].lastKept];
+    for (const Home & home : m_NewHomes)
+    {
+      const std::uint32_t next = m_NextKept[point];
+      Keep(home.vertex, point, home.gap);
+      point = next;
+    }
+  }
+  Drop(edge);
+}
+
+void
+LooseEnds::Take(std::size_t level, std::span<const ElementIndex> burnt)
+{
+  m_Height = m_Levels.Height(level);
+  std::vector<ElementIndex> turns;
+  turns.swap(m_Turns[level]);
+  for (std::size_t i = 0; i < burnt.size(); ++i)
+  {
+    if (i + 16 < burnt.size())
+    {
+      __builtin_prefetch(&m_Cells.edges[burnt[i + 16]]);
+    }
+    if (i + 8 < burnt.size())
+    {
+      for (const ElementIndex vertex : m_Cells.edges[burnt[i + 8]])
+      {
+        __builtin_prefetch(&m_Standing[vertex], 1);
+      }
+    }
+    Drop(burnt[i]);
+    TakeOpen();
+  }
+  for (const ElementIndex vertex : turns)
+  {
+    m_Open.push_back(vertex);
+    TakeOpen();
+  }
+}
+
+std::vector<double>
+LooseEnds::TakeVertexHeights()
+{
+  std::vector<double> heights = HeightsOf(m_Standing);
+  std::vector<RemainingElements>().swap(m_Standing);
+  return heights;
+}
+
+} // namespace voxelcore

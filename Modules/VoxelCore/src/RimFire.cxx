@@ -1,0 +1,281 @@
+#include "RimFire.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Fire costs that much more than what sticks out. Sheets stop a little before the balls at their rims are used up, so
+// that the loose edges a burnt face leaves behind still find keepers; without it sheets grow hair along their rims.
+constexpr double kMargin = 1.25;
+
+constexpr std::size_t kChunk = std::size_t{ 1 } << 16; // what is computed side by side waits here for its turn
+
+// Levels of faces that have not burnt.
+constexpr std::uint16_t kThere = 0xFFFF;
+constexpr std::uint16_t kFloorTookIt = 0xFFFE;
+
+} // namespace
+
+RimFire::RimFire(const CellComplex &     cells,
+                 const LiveElements &    left,
+                 const ToleranceLevels & levels,
+                 std::vector<CoreBall> & balls)
+  : m_Cells(cells)
+  , m_Levels(levels)
+  , m_Balls(balls)
+  , m_Edges(cells.edges.size())
+  , m_Turns(levels.Count())
+{
+  m_Burnt.reserve(cells.FaceCount());
+  GatherFaces(left);
+  OfferAll();
+}
+
+void
+RimFire::GatherFaces(const LiveElements & left)
+{
+  if (m_Cells.faceEdges.size() > std::numeric_limits<std::uint32_t>::max() || m_Levels.Count() > kFloorTookIt)
+  {
+    throw std::length_error("a core of so many faces cannot be pruned by tolerance");
+  }
+  m_Faces.resize(m_Cells.faceEdges.size());
+  for (std::size_t edge = 0; edge < left.edges.size(); ++edge)
+  {
+    if (left.edges[edge] == 0)
+    {
+      m_Edges[edge].Go(kBelowFloor);
+    }
+  }
+  for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
+  {
+    const auto place = static_cast<std::uint32_t>(m_Cells.faceOffsets[face]);
+    const auto edges = m_Cells.FaceEdges(face);
+    const bool isLeft = left.faces.empty() || left.faces[face] != 0;
+    if (edges.size() > std::numeric_limits<Word>::max())
+    {
+      throw std::length_error("a core with a face of so many corners cannot be pruned by tolerance");
+    }
+    m_Faces[place] = isLeft ? kThere : kFloorTookIt;
+    m_Faces[place + 1] = static_cast<Word>(edges.size());
+    if (isLeft)
+    {
+      for (const ElementIndex edge : edges)
+      {
+        m_Edges[edge].Add(place);
+      }
+    }
+  }
+}
+
+void
+RimFire::OfferAll()
+{
+  std::vector<double> costs(std::min(m_Edges.size(), kChunk));
+  for (std::size_t first = 0; first < m_Edges.size(); first += kChunk)
+  {
+    const std::size_t last = std::min(m_Edges.size(), first + kChunk);
+#pragma omp parallel if (last - first > 4096)
+    {
+      std::vector<Reached> reached;
+#pragma omp for schedule(static)
+      for (std::size_t edge = first; edge < last; ++edge)
+      {
+        if (const std::size_t ahead = edge + 12; ahead < m_Edges.size() && m_Edges[ahead].IsFree())
+        {
+          FetchFace(m_Edges[ahead].Coface());
+        }
+        if (m_Edges[edge].IsFree())
+        {
+          costs[edge - first] = CostOf(static_cast<ElementIndex>(edge), reached);
+        }
+      }
+    }
+    for (std::size_t edge = first; edge < last; ++edge)
+    {
+      if (m_Edges[edge].IsFree())
+      {
+        m_Turns[m_Levels.LevelOf(costs[edge - first])].push_back(static_cast<ElementIndex>(edge));
+      }
+    }
+  }
+}
+
+// When fire that comes over a free edge has crossed its face.
+double
+RimFire::CostOf(ElementIndex edge, std::vector<Reached> & reached) const
+{
+  const std::uint32_t place = m_Edges[edge].Coface();
+  const auto          corners = VerticesAt(place);
+  const auto          sides = EdgesAt(place);
+  std::size_t         here = 0;
+  while (sides[here] != edge)
+  {
+    ++here;
+  }
+  const auto [a, c] = std::minmax(corners[here], corners[here + 1 == corners.size() ? 0 : here + 1]);
+  const CoreBall & atA = m_Balls[a];
+  const CoreBall & atC = m_Balls[c];
+  // The witness must not stick out, and neither must the end that fire comes from: else fire that came in along one
+  // sheet would run out again along the next one, towards balls beside its witness.
+  const bool       ownA = atA.witness == a;
+  const bool       ownC = atC.witness == c;
+  const CoreBall & fireA = m_Balls[atA.witness];
+  const CoreBall & fireC = m_Balls[atC.witness];
+  double           cost = std::max(atA.burnt, atC.burnt);
+  bool             isFreeBefore = m_Edges[sides.back()].IsFree();
+  reached.clear();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    const bool isFree = m_Edges[sides[i]].IsFree();
+    const bool meets = isFreeBefore || isFree;
+    isFreeBefore = isFree;
+    const ElementIndex corner = corners[i];
+    if (corner == a || corner == c)
+    {
+      continue;
+    }
+    const CoreBall & w = m_Balls[corner];
+    double           fromA = Protrusion(atA, w);
+    double           fromC = Protrusion(atC, w);
+    if (!ownA)
+    {
+      fromA = std::max(fromA, Protrusion(fireA, w));
+    }
+    if (!ownC)
+    {
+      fromC = std::max(fromC, Protrusion(fireC, w));
+    }
+    const double across = std::max(kMargin * std::min(fromA, fromC), w.burnt);
+    // The edge before the corner and that after it meet there. Where one of them is free, fire comes from there, too,
+    // and the two meet.
+    if (meets)
+    {
+      cost = std::max(cost, (w.burnt + across) / 2);
+    }
+    else
+    {
+      cost = std::max(cost, across);
+      reached.push_back({ corner, fromC < fromA ? atC.witness : atA.witness, across });
+    }
+  }
+  return cost;
+}
+
+void
+RimFire::Remove(ElementIndex edge, std::size_t level)
+{
+  const std::uint32_t place = m_Edges[edge].Coface();
+  for (const Reached & reached : m_Reached)
+  {
+    m_Balls[reached.vertex].burnt = reached.time;
+    m_Balls[reached.vertex].witness = reached.witness;
+  }
+  m_Faces[place] = static_cast<Word>(level);
+  for (const ElementIndex side : EdgesAt(place))
+  {
+    m_Edges[side].Remove(place);
+    if (side != edge && m_Edges[side].IsFree())
+    {
+      m_Open.push_back(side);
+    }
+  }
+  m_Edges[edge].Go(m_Levels.Height(level));
+  m_Burnt.push_back(edge);
+}
+
+void
+RimFire::Burn(std::size_t level)
+{
+  const double height = m_Levels.Height(level);
+  m_Open.clear();
+  m_Open.swap(m_Turns[level]);
+  for (std::size_t at = 0; at < m_Open.size(); ++at)
+  {
+    FetchAhead(at);
+    const ElementIndex edge = m_Open[at];
+    if (!m_Edges[edge].IsFree())
+    {
+      continue;
+    }
+    // Fire may have come from elsewhere since.
+    const double cost = CostOf(edge, m_Reached);
+    if (cost <= height)
+    {
+      Remove(edge, level);
+    }
+    else
+    {
+      m_Turns[m_Levels.LevelOf(cost)].push_back(edge);
+    }
+  }
+}
+
+void
+RimFire::FetchFace(std::uint32_t place) const
+{
+  for (const ElementIndex edge : EdgesAt(place))
+  {
+    __builtin_prefetch(&m_Edges[edge], 1);
+  }
+  for (const ElementIndex vertex : VerticesAt(place))
+  {
+    __builtin_prefetch(&m_Balls[vertex], 1);
+  }
+}
+
+void
+RimFire::FetchAhead(std::size_t at) const
+{
+  // Waves jump about in memory: what the edges ahead will ask for is fetched step by step.
+  if (at + 24 < m_Open.size())
+  {
+    __builtin_prefetch(&m_Edges[m_Open[at + 24]], 1);
+  }
+  if (at + 16 < m_Open.size())
+  {
+    if (const RemainingElements & edge = m_Edges[m_Open[at + 16]]; edge.IsFree())
+    {
+      __builtin_prefetch(&m_Faces[edge.Coface()], 1);
+      __builtin_prefetch(&m_Cells.faceEdges[edge.Coface()]);
+      __builtin_prefetch(&m_Cells.faceVertices[edge.Coface()]);
+    }
+  }
+  if (at + 8 < m_Open.size())
+  {
+    if (const RemainingElements & edge = m_Edges[m_Open[at + 8]]; edge.IsFree())
+    {
+      FetchFace(edge.Coface());
+    }
+  }
+}
+
+std::vector<double>
+RimFire::TakeFaceHeights()
+{
+  std::vector<double> heights(m_Cells.FaceCount());
+  for (std::size_t face = 0; face < heights.size(); ++face)
+  {
+    const Word level = m_Faces[m_Cells.faceOffsets[face]];
+    heights[face] = level == kThere         ? std::numeric_limits<double>::infinity()
+                    : level == kFloorTookIt ? kBelowFloor
+                                            : m_Levels.Height(level);
+  }
+  std::vector<Word>().swap(m_Faces);
+  return heights;
+}
+
+std::vector<double>
+RimFire::TakeEdgeHeights()
+{
+  std::vector<double> heights = HeightsOf(m_Edges);
+  std::vector<RemainingElements>().swap(m_Edges);
+  return heights;
+}
+
+} // namespace voxelcore

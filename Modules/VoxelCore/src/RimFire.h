@@ -1,0 +1,101 @@
+#pragma once
+// Fire that burns the sheets of a core from their rims.
+
+#include "CoreBall.h"
+#include "RemainingElements.h"
+#include "ToleranceLevels.h"
+
+#include "voxelcore/CellComplex.h"
+#include "voxelcore/SimplePairCollapse.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Burns edges with their faces, level by level and, within a level, in waves. It asks for nothing but edges and faces:
+ *  what becomes of vertices, and of edges that bound no face, is for others to see, at the same time. */
+class RimFire
+{
+public:
+  /** `left`: what is there to begin with; all where it is empty. */
+  RimFire(const CellComplex &     cells,
+          const LiveElements &    left,
+          const ToleranceLevels & levels,
+          std::vector<CoreBall> & balls);
+
+  /** Burns what goes at this level; levels are to be taken in order. */
+  void
+  Burn(std::size_t level);
+
+  /** How many edges have burnt. */
+  std::size_t
+  BurntCount() const
+  {
+    return m_Burnt.size();
+  }
+  /** Some of those that have burnt, in that order; safe while others burn. */
+  std::span<const ElementIndex>
+  Burnt(std::size_t first, std::size_t end) const
+  {
+    return { m_Burnt.data() + first, end - first };
+  }
+
+  /** At which height each face burnt, infinity where it did not. */
+  std::vector<double>
+  TakeFaceHeights();
+  /** The same of edges. */
+  std::vector<double>
+  TakeEdgeHeights();
+
+private:
+  // A face is known by the place of its first corner, where its level stands; how many corners it has stands at the
+  // next one. So nobody has to ask for its number, nor for where its corners are.
+  using Word = std::uint16_t;
+
+  struct Reached
+  {
+    ElementIndex vertex;
+    ElementIndex witness;
+    double       time;
+  };
+
+  std::span<const ElementIndex>
+  VerticesAt(std::uint32_t place) const
+  {
+    return { &m_Cells.faceVertices[place], m_Faces[place + 1] };
+  }
+  std::span<const ElementIndex>
+  EdgesAt(std::uint32_t place) const
+  {
+    return { &m_Cells.faceEdges[place], m_Faces[place + 1] };
+  }
+
+  void
+  GatherFaces(const LiveElements & left);
+  void
+  OfferAll();
+  double
+  CostOf(ElementIndex edge, std::vector<Reached> & reached) const;
+  void
+  Remove(ElementIndex edge, std::size_t level);
+  void
+  FetchFace(std::uint32_t place) const;
+  void
+  FetchAhead(std::size_t at) const;
+
+  const CellComplex &                    m_Cells;
+  const ToleranceLevels &                m_Levels;
+  std::vector<CoreBall> &                m_Balls;
+  std::vector<RemainingElements>         m_Edges;
+  std::vector<Word>                      m_Faces;
+  std::vector<std::vector<ElementIndex>> m_Turns; // edges by level
+  std::vector<ElementIndex>              m_Open;  // free edges, wave after wave
+  std::vector<Reached>                   m_Reached;
+  std::vector<ElementIndex>              m_Burnt; // never moves
+};
+
+} // namespace voxelcore
