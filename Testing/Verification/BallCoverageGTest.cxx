@@ -102,6 +102,36 @@ TEST(BoundaryGap, NamesThePlace)
   EXPECT_DOUBLE_EQ(gap.largest, std::sqrt(0.25 + 0.25 + 4.5 * 4.5) - 0.5);
 }
 
+// Looks where it begins and skips what is near, in several threads: it must still be the first of the farthest.
+TEST(BoundaryGap, IsThatOfTheFirstOfTheFarthestPoints)
+{
+  std::vector<VoxelShape> shapes{ testing::Ellipsoid(64), testing::Box({ 40, 40, 40 }) };
+  for (const auto & volume : testing::RandomVolumes(300, 30))
+  {
+    shapes.push_back(volume.shape);
+  }
+  for (const VoxelShape & shape : shapes)
+  {
+    const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
+    const MedialComplex  rest = PruneByTolerance(testing::CoreWithTolerancesOf(shape), 1.5);
+    const BallTree       tree(rest.positions, rest.radius, weights);
+    BoundaryGap          expected;
+    bool                 isFirst = true;
+    for (const LatticePoint & p : BoundaryVertices(shape))
+    {
+      const double gap = tree.Gap({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) });
+      if (isFirst || gap > expected.largest)
+      {
+        expected = { gap, { p.x, p.y, p.z } };
+      }
+      isFirst = false;
+    }
+    const BoundaryGap gap = LargestBoundaryGap(shape, weights, rest.positions, rest.radius);
+    EXPECT_EQ(gap.largest, std::max(0.0, expected.largest));
+    EXPECT_EQ(gap.place, expected.place);
+  }
+}
+
 // What pruning by tolerance promises, at heights on the values, where a step too many would show.
 TEST(BoundaryGap, OfACorePrunedByToleranceIsAtMostTheTolerance)
 {

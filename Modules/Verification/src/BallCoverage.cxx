@@ -13,6 +13,23 @@ namespace
 
 constexpr std::size_t kLeafBalls = 8;
 
+// The first of the points that lie farthest, in whatever order they come.
+struct Farthest
+{
+  double      gap = -std::numeric_limits<double>::infinity();
+  std::size_t point = 0;
+
+  void
+  Take(double other, std::size_t at)
+  {
+    if (other > gap || (other == gap && at < point))
+    {
+      gap = other;
+      point = at;
+    }
+  }
+};
+
 } // namespace
 
 struct BallTree::Search
@@ -21,6 +38,7 @@ struct BallTree::Search
   std::array<double, 3> offsets{ 0, 0, 0 }; ///< from the place to the current range's box, by axis
   double                enough;
   double                best = std::numeric_limits<double>::infinity();
+  std::size_t           nearest = 0; ///< the ball that is the best
 };
 
 BallTree::BallTree(std::span<const std::array<double, 3>> positions,
@@ -82,6 +100,21 @@ BallTree::Build(std::size_t first, std::size_t last)
 }
 
 void
+BallTree::Test(Search & search, std::size_t i) const
+{
+  const Ball & ball = m_Balls[i];
+  const double dx = search.place[0] - ball.centre[0];
+  const double dy = search.place[1] - ball.centre[1];
+  const double dz = search.place[2] - ball.centre[2];
+  const double gap = std::sqrt(dx * dx + dy * dy + dz * dz) - ball.radius;
+  if (gap < search.best)
+  {
+    search.best = gap;
+    search.nearest = i;
+  }
+}
+
+void
 BallTree::Descend(Search & search, std::size_t first, std::size_t last, double squared) const
 {
   if (first == last || search.best < search.enough)
@@ -94,13 +127,7 @@ BallTree::Descend(Search & search, std::size_t first, std::size_t last, double s
   {
     return;
   }
-  const auto test = [&](std::size_t i) {
-    const Ball & ball = m_Balls[i];
-    const double dx = search.place[0] - ball.centre[0];
-    const double dy = search.place[1] - ball.centre[1];
-    const double dz = search.place[2] - ball.centre[2];
-    search.best = std::min(search.best, std::sqrt(dx * dx + dy * dy + dz * dz) - ball.radius);
-  };
+  const auto test = [&](std::size_t i) { Test(search, i); };
   if (last - first <= kLeafBalls)
   {
     for (std::size_t i = first; i < last; ++i)
@@ -126,8 +153,20 @@ BallTree::Descend(Search & search, std::size_t first, std::size_t last, double s
 double
 BallTree::Gap(const std::array<double, 3> & place, double enough) const
 {
+  std::size_t nearest = 0;
+  return Gap(place, enough, nearest);
+}
+
+double
+BallTree::Gap(const std::array<double, 3> & place, double enough, std::size_t & nearest) const
+{
   Search search{ .place = { m_Scale[0] * place[0], m_Scale[1] * place[1], m_Scale[2] * place[2] }, .enough = enough };
+  if (nearest < m_Balls.size())
+  {
+    Test(search, nearest);
+  }
   Descend(search, 0, m_Balls.size(), 0.0);
+  nearest = search.nearest;
   return search.best;
 }
 
@@ -155,28 +194,39 @@ LargestBoundaryGap(const VoxelShape &                     shape,
 {
   const std::vector<LatticePoint> points = BoundaryVertices(shape);
   const BallTree                  tree(positions, radius, weights);
-  std::vector<double>             gaps(points.size());
-  BoundaryGap                     result;
-  // What lies nearer than the farthest so far needs no closer look.
-  constexpr std::size_t chunk = std::size_t{ 1 } << 13;
-  for (std::size_t first = 0; first < points.size(); first += chunk)
+  Farthest                        farthest;
+  // What lies nearer than the farthest so far needs no closer look: a few places from everywhere come first.
+  for (const std::size_t step : { std::size_t{ 16 }, std::size_t{ 1 } })
   {
-    ReportProgress(progress, "coverage", static_cast<double>(first) / static_cast<double>(points.size()));
-    const std::size_t last = std::min(points.size(), first + chunk);
-#pragma omp parallel for schedule(dynamic, 512) if (last - first > 4096)
-    for (std::size_t i = first; i < last; ++i)
+    const std::size_t     count = (points.size() + step - 1) / step;
+    constexpr std::size_t chunk = std::size_t{ 1 } << 16;
+    for (std::size_t first = 0; first < count; first += chunk)
     {
-      gaps[i] = tree.Gap(
-        { static_cast<double>(points[i].x), static_cast<double>(points[i].y), static_cast<double>(points[i].z) },
-        first == 0 ? -HUGE_VAL : result.largest);
-    }
-    for (std::size_t i = first; i < last; ++i)
-    {
-      if (i == 0 || gaps[i] > result.largest)
+      ReportProgress(progress, "coverage", static_cast<double>(first) / static_cast<double>(count));
+      const std::size_t last = std::min(count, first + chunk);
+#pragma omp parallel if (last - first > 4096)
       {
-        result = { gaps[i], { points[i].x, points[i].y, points[i].z } };
+        Farthest    own = farthest;
+        std::size_t nearest = 0;
+#pragma omp for schedule(dynamic, 512)
+        for (std::size_t i = first; i < last; ++i)
+        {
+          const LatticePoint & p = points[i * step];
+          own.Take(tree.Gap({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) },
+                            own.gap,
+                            nearest),
+                   i * step);
+        }
+#pragma omp critical(voxelcoreFarthest)
+        farthest.Take(own.gap, own.point);
       }
     }
+  }
+  BoundaryGap result;
+  if (!points.empty())
+  {
+    const LatticePoint & p = points[farthest.point];
+    result = { farthest.gap, { p.x, p.y, p.z } };
   }
   result.largest = std::max(result.largest, 0.0);
   return result;

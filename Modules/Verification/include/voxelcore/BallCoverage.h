@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,6 +29,10 @@ public:
    *  Place in lattice coordinates. Once a ball nearer than `enough` is found, its gap is returned. Thread-safe. */
   double
   Gap(const std::array<double, 3> & place, double enough = -HUGE_VAL) const;
+  /** The same, for places next to each other: looks at ball `nearest` first, and leaves there the one found. It is the
+   *  tree's own number of a ball, 0 to begin with. */
+  double
+  Gap(const std::array<double, 3> & place, double enough, std::size_t & nearest) const;
 
 private:
   struct Ball
@@ -39,6 +44,8 @@ private:
 
   void
   Build(std::size_t first, std::size_t last);
+  void
+  Test(Search & search, std::size_t i) const;
   void
   Descend(Search & search, std::size_t first, std::size_t last, double squared) const;
 
