@@ -257,6 +257,9 @@ BranchColumns(const SkeletonOfLabel & skeleton)
   real("min_radius", &Branch::minRadius);
   real("max_radius", &Branch::maxRadius);
   real("sd_radius", &Branch::sdRadius);
+  real("mean_ball_radius", &Branch::meanBallRadius);
+  real("min_ball_radius", &Branch::minBallRadius);
+  real("max_ball_radius", &Branch::maxBallRadius);
   real("volume", &Branch::volume);
   real("surface", &Branch::surface);
   dict["parent_branch"] = Column<std::int64_t>(branches, [](const Branch & branch) {
@@ -318,6 +321,7 @@ DefineSkeleton(py::module_ & module)
   py::class_<SkeletonOfLabel, Handle>(module, "SkeletonData")
     .def_property_readonly("points", [graph](const Handle & s) { return View(s, graph(s).positions); })
     .def_property_readonly("radius", [graph](const Handle & s) { return View(s, graph(s).radius); })
+    .def_property_readonly("section_radius", [graph](const Handle & s) { return View(s, graph(s).sectionRadius); })
     .def_property_readonly("erosion_thickness",
                            [graph](const Handle & s) { return View(s, graph(s).erosionThickness); })
     .def_property_readonly("branch_offsets", [graph](const Handle & s) { return View(s, graph(s).branchOffsets); })

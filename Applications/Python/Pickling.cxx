@@ -53,6 +53,7 @@ VisitGraph(TGraph & graph, TVisit && visit)
   visit(graph.positions);
   visit(graph.medial);
   visit(graph.radius);
+  visit(graph.sectionRadius);
   visit(graph.erosionThickness);
   visit(graph.nodePoints);
   visit(graph.nodeKinds);
@@ -221,7 +222,7 @@ SkeletonFromState(const py::tuple & state)
   VisitGraph(part.graph, arrays);
   arrays(record.cuts);
   const CoreReport & report = skeleton->report;
-  part.table = MeasureBranches(part.graph, MeasuringOf(report.skeleton.value(), report.input.geometry.spacing));
+  part.table = MeasureBranches(part.graph, { report.skeleton.value().branches.root });
   record.numbers = part.table.numbers;
   return skeleton;
 }

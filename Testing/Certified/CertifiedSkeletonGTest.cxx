@@ -75,7 +75,7 @@ TEST(CertifiedSkeleton, TheTopologyIsThatBeforeLoopsWereCut)
   EXPECT_EQ(cut.skeleton.table.numbers.tips, 2);
   // Later is the same as at once.
   CertifiedSkeleton later = ring;
-  CutAndMeasure(later, request, whole.shape.geometry.spacing);
+  CutAndMeasure(later, request.branches);
   EXPECT_EQ(later.skeleton.graph.positions, cut.skeleton.graph.positions);
   EXPECT_EQ(later.skeleton.graph.branchPoints, cut.skeleton.graph.branchPoints);
   EXPECT_EQ(later.skeleton.table.numbers.totalLength, cut.skeleton.table.numbers.totalLength);
@@ -141,16 +141,17 @@ TEST(CertifiedSkeleton, LengthsInMillimetresNeedAScanThatHasThem)
   EXPECT_NO_THROW(RequireLengthsIn(SpatialUnit::Voxels, Skeleton()));
 }
 
-TEST(CertifiedSkeleton, RadiiGrowByAQuarterOfAVoxelsDiagonalUnlessRefined)
+TEST(CertifiedSkeleton, AWholeCoreHasTheRadiiOfItsVoxels)
 {
-  SkeletonRequest request;
-  request.branches.root = { RootChoice::Kind::Point, { 1, 2, 3 } };
-  const MeasureOptions options = MeasuringOf(request, { 2, 3, 6 });
-  EXPECT_DOUBLE_EQ(options.radiusShift, 7.0 / 4);
-  request.refined = true;
-  EXPECT_DOUBLE_EQ(MeasuringOf(request, { 2, 3, 6 }).radiusShift, 0);
-  EXPECT_EQ(options.root.kind, RootChoice::Kind::Point);
-  EXPECT_EQ(options.root.point, (std::array<double, 3>{ 1, 2, 3 }));
+  CertifiedRequest request;
+  request.lambdas = { Lambda() };
+  request.skeleton = Skeleton();
+  const auto made = ComputeCertified(Box(40, 6, 8), Grid({ 1, 1, 1 }), request);
+  const auto later = SkeletonOf(made.cores[0].core, made.shape, Skeleton());
+  EXPECT_EQ(made.skeleton->skeleton.graph.sectionRadius, later.skeleton.graph.sectionRadius);
+  ASSERT_EQ(later.skeleton.table.branches.size(), 1U);
+  EXPECT_NEAR(later.skeleton.table.branches[0].meanRadius, std::sqrt(48 / 3.14159265), 0.1);
+  EXPECT_NEAR(later.skeleton.table.branches[0].maxBallRadius, std::sqrt(1.0 + 9.0), 1.0);
 }
 
 /** A rod of radius 6 with round ends, oblique, in voxels of 1 x 1 x 2 mm. */
@@ -201,9 +202,11 @@ TEST(CertifiedSkeleton, ARefinedOneHasTheRadiusOfTheSmoothBodyAndTheBranchesOfTh
   ASSERT_EQ(refined.skeleton->skeleton.table.branches.size(), 1U);
   EXPECT_EQ(refined.skeleton->skeleton.graph.branchPoints, plain.skeleton->skeleton.graph.branchPoints);
   EXPECT_NE(refined.skeleton->skeleton.graph.medial, plain.skeleton->skeleton.graph.medial);
-  const double radius = refined.skeleton->skeleton.table.branches[0].meanRadius;
+  const double radius = refined.skeleton->skeleton.table.branches[0].meanBallRadius;
   EXPECT_NEAR(radius, 6, 0.15);
-  EXPECT_LT(std::abs(radius - 6), std::abs(plain.skeleton->skeleton.table.branches[0].meanRadius - 6));
+  EXPECT_LT(std::abs(radius - 6), std::abs(plain.skeleton->skeleton.table.branches[0].meanBallRadius - 6));
+  EXPECT_NEAR(refined.skeleton->skeleton.table.branches[0].meanRadius, 6, 0.1);
+  EXPECT_NEAR(plain.skeleton->skeleton.table.branches[0].meanRadius, 6, 0.1);
   // Without refineCores the cores are those of the voxels.
   EXPECT_EQ(refined.cores[0].core.core.positions, plain.cores[0].core.core.positions);
   EXPECT_FALSE(refined.cores[0].numbers.refined.has_value());

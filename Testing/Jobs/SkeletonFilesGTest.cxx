@@ -125,7 +125,6 @@ TEST_F(SkeletonFilesOfJobs, AFinishedLabelOfAFolderIsInTheTablesAgain)
     files.Finish(m_Report, notes);
     transaction.Commit();
   }
-  // Radii are those of balls and a quarter of a voxel's diagonal: measured as the job asks.
   const std::string again = Bytes("out/scan_skeleton_branches.csv");
   EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), std::count(first.begin(), first.end(), '\n'));
 }

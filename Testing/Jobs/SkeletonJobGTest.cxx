@@ -251,7 +251,7 @@ TEST_F(SkeletonJob, EveryColumnIsExplained)
     {
       EXPECT_EQ(static_cast<std::size_t>(std::count(row.begin(), row.end(), ',')) + 1, names.size()) << row;
     }
-    EXPECT_NE(explained.at(table).at("mean_radius").at("Description").get<std::string>().find("quarter of a voxel"),
+    EXPECT_NE(explained.at(table).at("mean_radius").at("Description").get<std::string>().find("cross-section"),
               std::string::npos);
   }
 }

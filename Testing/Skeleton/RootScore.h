@@ -3,6 +3,8 @@
 
 #include "TubeShapes.h"
 
+#include "voxelcore/CrossSections.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -79,6 +81,16 @@ struct Score
   double      worstRadius = 0; ///< mean over a phantom, as part of a voxel (of the cube with the same diagonal)
 };
 
+/** Radii of the body around a skeleton in mm. */
+inline std::vector<double>
+SectionRadiiOf(const SkeletonGraph & graph, const VoxelShape & shape, const Spacing3 & spacing)
+{
+  ImageGeometry geometry;
+  geometry.spacing = spacing;
+  geometry.origin = { 0.5 * spacing[0], 0.5 * spacing[1], 0.5 * spacing[2] };
+  return CrossSectionRadii(graph, shape, geometry);
+}
+
 /** Length and radius of a skeleton against the lines the phantom was grown along. */
 inline void
 CompareLines(const PhantomOptions & options, const SkeletonGraph & graph, Score & score)
@@ -110,7 +122,7 @@ CompareLines(const PhantomOptions & options, const SkeletonGraph & graph, Score 
         radius = line.radius;
       }
     }
-    sum += graph.radius[point] + 0.25 * diagonal - radius;
+    sum += SectionRadii(graph)[point] - radius;
   }
   const double mean = sum / static_cast<double>(graph.branchPoints.size());
   score.worstRadius = std::max(score.worstRadius, std::abs(mean) * std::sqrt(3.0) / diagonal);
@@ -142,7 +154,9 @@ CompareRoot(std::int32_t size, double slice, std::uint64_t seed, Score & score, 
   options.spacing = { 1, 1, slice };
   options.size = { size, size, static_cast<std::int32_t>(size / slice) };
   options.seed = seed;
-  const SkeletonGraph   graph = graphOf(MakePhantom(options), options.spacing);
+  const VoxelShape shape = MakePhantom(options);
+  SkeletonGraph    graph = graphOf(shape, options.spacing);
+  graph.sectionRadius = SectionRadiiOf(graph, shape, options.spacing);
   std::vector<Spacing3> ends;
   for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
   {

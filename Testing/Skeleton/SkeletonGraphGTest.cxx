@@ -1,4 +1,5 @@
 #include "GraphBuilder.h"
+#include "TubeShapes.h"
 
 #include "voxelcore/BranchTable.h"
 #include "voxelcore/UnionFind.h"
@@ -104,17 +105,6 @@ CountCycles(const SkeletonGraph & graph)
     }
   }
   return cycles;
-}
-
-double
-TotalLength(const SkeletonGraph & graph)
-{
-  double length = 0;
-  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
-  {
-    length += graph.BranchLength(branch);
-  }
-  return length;
 }
 
 TEST(SkeletonGraph, BranchesRunFromNodeToNodeHoweverTheLinesWereCut)

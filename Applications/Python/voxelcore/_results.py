@@ -228,6 +228,11 @@ class Skeleton(_Result):
         return self._data.radius
 
     @property
+    def section_radius(self):
+        """(n,) float64: radius of the round tube whose cross-section has the area of the body's at each point, mm."""
+        return self._data.section_radius
+
+    @property
     def erosion_thickness(self):
         """(n,) float64, mm; infinite on closed surfaces."""
         return self._data.erosion_thickness

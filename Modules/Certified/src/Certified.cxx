@@ -251,7 +251,10 @@ private:
     }
     else if (m_Request.tolerances.empty())
     {
-      m_Voxels = VoxelShape();
+      if (!m_Request.skeleton)
+      {
+        m_Voxels = VoxelShape();
+      }
       m_Result.cores = CertifyPruned(std::move(m_Whole),
                                      std::move(m_Pruned),
                                      m_Result.shape,
@@ -373,7 +376,7 @@ private:
   Measure()
   {
     Stopwatch watch;
-    m_Result.skeleton = MeasureCurves(*m_Curves, m_Result.shape, *m_Request.skeleton);
+    m_Result.skeleton = MeasureCurves(*m_Curves, m_Voxels, m_Result.shape, *m_Request.skeleton);
     m_Result.seconds.skeleton += watch.Lap();
   }
 

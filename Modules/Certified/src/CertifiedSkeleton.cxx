@@ -2,7 +2,9 @@
 
 #include "CertificateText.h"
 #include "SkeletonSteps.h"
+#include "voxelcore/BallUnion.h"
 #include "voxelcore/ComplexTopology.h"
+#include "voxelcore/CrossSections.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/SpacingWeights.h"
@@ -51,30 +53,33 @@ LengthOn(const CertifiedShape & shape, const Lambda & length)
   return LambdaInMillimetres(length, ComputeSpacingWeights(spacing), spacing, shape.box);
 }
 
-} // namespace
-
-MeasureOptions
-MeasuringOf(const SkeletonRequest & request, const Vector3 & spacing)
+/** The voxels in the balls of a core. */
+VoxelShape
+BodyOf(const MedialComplex & core, const CertifiedShape & shape)
 {
-  MeasureOptions measuring;
-  measuring.root = request.branches.root;
-  measuring.radiusShift = request.refined ? 0 : 0.25 * Diagonal(spacing);
-  return measuring;
+  std::vector<Vector3> centres = core.positions;
+  for (Vector3 & centre : centres)
+  {
+    centre = PhysicalToLattice(shape.geometry, centre);
+  }
+  return UnionOfBalls(shape.box, shape.geometry.spacing, centres, core.radius);
 }
 
+} // namespace
+
 void
-CutAndMeasure(CertifiedSkeleton & skeleton, const SkeletonRequest & request, const Vector3 & spacing)
+CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request)
 {
   SkeletonGraph & graph = skeleton.skeleton.graph;
-  if (request.branches.cutLoops)
+  if (request.cutLoops)
   {
     skeleton.cuts = CutLoops(graph);
   }
-  if (request.branches.splitAtJunctions)
+  if (request.splitAtJunctions)
   {
     SplitAtJunctions(graph);
   }
-  skeleton.skeleton.table = MeasureBranches(graph, MeasuringOf(request, spacing));
+  skeleton.skeleton.table = MeasureBranches(graph, { request.root });
 }
 
 void
@@ -153,7 +158,10 @@ BurnToCurves(const MedialComplex &    core,
 }
 
 CertifiedSkeleton
-MeasureCurves(const BurnedCurves & burned, const CertifiedShape & shape, const SkeletonRequest & request)
+MeasureCurves(const BurnedCurves &    burned,
+              const VoxelShape &      voxels,
+              const CertifiedShape &  shape,
+              const SkeletonRequest & request)
 {
   const Vector3 &   spacing = shape.geometry.spacing;
   CertifiedSkeleton result;
@@ -177,7 +185,8 @@ MeasureCurves(const BurnedCurves & burned, const CertifiedShape & shape, const S
   {
     RefuseResult(shape.name, "the branches do not have the shape's topology");
   }
-  CutAndMeasure(result, request, spacing);
+  graph.sectionRadius = CrossSectionRadii(graph, voxels, shape.geometry);
+  CutAndMeasure(result, request.branches);
   return result;
 }
 
@@ -190,7 +199,7 @@ SkeletonOf(const PlacedCore &       core,
   StagePlan          plan(progress, { 0.98, 0.02 });
   const BurnedCurves burned = BurnToCurves(core.core, shape, request, plan.Next());
   ReportProgress(plan.Next("branches"), "", 0);
-  CertifiedSkeleton result = MeasureCurves(burned, shape, request);
+  CertifiedSkeleton result = MeasureCurves(burned, BodyOf(core.core, shape), shape, request);
   result.skeleton.label = core.label;
   result.skeleton.component = core.component;
   return result;

@@ -29,8 +29,12 @@ BurnToCurves(const MedialComplex &    core,
              const SkeletonRequest &  request,
              const ProgressCallback & progress);
 
-/** \throws CertificateError when the branches do not have the topology of the curves. */
+/** Branches, and how wide the body in `voxels` is around them. \throws CertificateError when they do not have the
+ *  topology of the curves. */
 CertifiedSkeleton
-MeasureCurves(const BurnedCurves & burned, const CertifiedShape & shape, const SkeletonRequest & request);
+MeasureCurves(const BurnedCurves &    burned,
+              const VoxelShape &      voxels,
+              const CertifiedShape &  shape,
+              const SkeletonRequest & request);
 
 } // namespace voxelcore

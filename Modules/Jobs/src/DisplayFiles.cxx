@@ -233,7 +233,7 @@ DisplayFiles::State::AddSkeletons(const CoreReport &                            
       {
         line.push_back(static_cast<ElementIndex>(graph.positions.size()));
         graph.positions.push_back(part.graph.positions[point]);
-        graph.radius.push_back(part.graph.radius[point]);
+        graph.radius.push_back(SectionRadii(part.graph)[point]);
       }
       SortBranches(graph, { line }, false);
       const std::string number = std::to_string(branch);

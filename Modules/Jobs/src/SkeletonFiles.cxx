@@ -176,7 +176,7 @@ SkeletonFiles::AddFinished(CoreReport & report, std::size_t label)
   part.label = record.label;
   part.component = record.component;
   part.name = record.name;
-  part.table = MeasureBranches(part.graph, MeasuringOf(*report.skeleton, report.input.geometry.spacing));
+  part.table = MeasureBranches(part.graph, { report.skeleton->branches.root });
   skeleton.numbers = part.table.numbers;
   skeleton.output = output.string();
   if (Wants("csv") || m_Targets.table)
@@ -214,7 +214,6 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
   {
     WriteBranchCsv(m_Transaction.Stage(*m_Targets.table), m_Model);
   }
-  const MeasureOptions measuring = MeasuringOf(*report.skeleton, report.input.geometry.spacing);
   for (const std::string & ending : m_Targets.also)
   {
     const std::vector<fs::path> targets = Beside(output, ending);
@@ -224,7 +223,7 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
     }
     else if (ending == "swc")
     {
-      WriteSwc(m_Transaction.Stage(targets[0]), m_Model, measuring);
+      WriteSwc(m_Transaction.Stage(targets[0]), m_Model, { report.skeleton->branches.root });
     }
     else if (ending == "mrk.json")
     {

@@ -181,7 +181,7 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
     const double limit = length ? LambdaInMillimetres(*length, report.parameters.weights, spacing, record.box) : 0;
     PruneBranches(part.graph, { limit, options.branches.pruneRadii });
     CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {} };
-    CutAndMeasure(skeleton, *request.skeleton, spacing);
+    CutAndMeasure(skeleton, request.skeleton->branches);
     files.Add(report, i, TakeSkeleton(std::move(skeleton), record), {}, result.notes);
   }
   files.Finish(report, result.notes);

@@ -40,7 +40,7 @@ WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const 
   TextFile      file(path, 9);
   std::uint64_t next = 1;
   file << "# VoxelCore curve skeleton\n# " << (inVoxels ? "voxels" : "micrometres")
-       << ", LPS axes; radii of the largest balls\n";
+       << ", LPS axes; radii of round cross-sections\n";
   for (const SkeletonPart & part : model.parts)
   {
     SkeletonGraph graph = part.graph;
@@ -60,7 +60,7 @@ WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const 
       {
         file << " " << scale * coordinate;
       }
-      file << " " << scale * graph.radius[point] << " ";
+      file << " " << scale * SectionRadii(graph)[point] << " ";
       if (parent == 0)
       {
         file << "-1\n";
@@ -134,7 +134,7 @@ WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model)
       bool firstValue = true;
       for (const ElementIndex point : part.graph.Branch(branch))
       {
-        file << (firstValue ? "" : ", ") << part.graph.radius[point];
+        file << (firstValue ? "" : ", ") << SectionRadii(part.graph)[point];
         firstValue = false;
       }
       file << "]}]}";
@@ -153,13 +153,14 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
     file << "  <key id=\"" << id << "\" for=\"" << of << "\" attr.name=\"" << id << "\" attr.type=\"" << type
          << "\"/>\n";
   };
-  for (const char * name : { "x", "y", "z", "radius" })
+  for (const char * name : { "x", "y", "z", "radius", "ball_radius" })
   {
     key(name, "node", "double");
   }
   key("kind", "node", "string");
   key("label", "all", "long");
-  for (const char * name : { "length", "chord", "mean_radius", "min_radius", "max_radius", "volume", "surface" })
+  for (const char * name :
+       { "length", "chord", "mean_radius", "min_radius", "max_radius", "mean_ball_radius", "volume", "surface" })
   {
     key(name, "edge", "double");
   }
@@ -181,7 +182,8 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
       data("x", part.graph.positions[point][0]);
       data("y", part.graph.positions[point][1]);
       data("z", part.graph.positions[point][2]);
-      data("radius", part.graph.radius[point]);
+      data("radius", SectionRadii(part.graph)[point]);
+      data("ball_radius", part.graph.radius[point]);
       data("kind", std::string_view(KindName(part.graph.nodeKinds[node])));
       data("label", part.label);
       file << "</node>\n";
@@ -197,6 +199,7 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
       data("mean_radius", record.meanRadius);
       data("min_radius", record.minRadius);
       data("max_radius", record.maxRadius);
+      data("mean_ball_radius", record.meanBallRadius);
       data("volume", record.volume);
       data("surface", record.surface);
       data("branch_id", branch);

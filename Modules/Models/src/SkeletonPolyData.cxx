@@ -105,12 +105,15 @@ ReadParts(VtpFile & file)
   RequireFit(file.Has("PointData", "ErosionThickness") && file.Has("CellData", "BranchId"), "it holds no skeleton");
   const std::vector<double> positions = file.Read<double>("Points", "Points", 3);
   const std::vector<double> radius = file.Read<double>("PointData", "Radius");
+  RequireFit(file.Has("PointData", "SectionRadius"), "an older version wrote it; make it anew");
+  const std::vector<double> sections = file.Read<double>("PointData", "SectionRadius");
   const std::vector<double> thickness = file.Read<double>("PointData", "ErosionThickness");
   const auto                labels = file.Read<std::int64_t>("CellData", "Label");
   const auto                components = file.Read<std::int64_t>("CellData", "Component");
   const auto                closed = file.Read<std::int64_t>("CellData", "Closed");
   const std::size_t         count = positions.size() / 3;
-  RequireFit(radius.size() == count && thickness.size() == count && count < 0xFFFFFFFFU, "its arrays differ in length");
+  RequireFit(radius.size() == count && sections.size() == count && thickness.size() == count && count < 0xFFFFFFFFU,
+             "its arrays differ in length");
   const auto read = [&](const char * section) {
     return CellsOf({ file.ReadIndices(section, "offsets"), file.ReadIndices(section, "connectivity") }, count);
   };
@@ -165,6 +168,7 @@ ReadParts(VtpFile & file)
     number[point] = static_cast<ElementIndex>(graph.positions.size());
     graph.positions.push_back({ positions[3 * point], positions[3 * point + 1], positions[3 * point + 2] });
     graph.radius.push_back(radius[point]);
+    graph.sectionRadius.push_back(sections[point]);
     graph.erosionThickness.push_back(thickness[point]);
   }
   std::vector<std::vector<std::vector<ElementIndex>>> branches(model.parts.size());
@@ -202,6 +206,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
 {
   std::vector<double> positions;
   std::vector<double> radius;
+  std::vector<double> sections;
   std::vector<double> thickness;
   Cells               cells[3]; // verts, lines, polys
   struct CellData
@@ -241,6 +246,8 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
       positions.insert(positions.end(), position.begin(), position.end());
     }
     radius.insert(radius.end(), graph.radius.begin(), graph.radius.end());
+    const auto & widths = SectionRadii(graph);
+    sections.insert(sections.end(), widths.begin(), widths.end());
     thickness.insert(thickness.end(), graph.erosionThickness.begin(), graph.erosionThickness.end());
     for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
     {
@@ -272,6 +279,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
   arrays.Tag("PointData");
   arrays.Add("Radius", radius);
   arrays.Add("MaximumInscribedSphereRadius", radius);
+  arrays.Add("SectionRadius", sections);
   arrays.Add("ErosionThickness", thickness);
   arrays.Tag("/PointData");
   arrays.Tag("CellData");

@@ -35,12 +35,17 @@ constexpr auto kBranchColumns = std::to_array<Column>({
   { "free_length", "mm", "length outside the balls at its junctions" },
   { "mean_radius",
     "mm",
-    "mean along the part outside the balls at its junctions; to this and the other radii a quarter of a voxel's "
-    "diagonal is "
-    "added, as the nearest voxel corners lie so far within the body on average" },
+    "of the round tube whose cross-section has the area of the body's: mean along the part outside the balls at its "
+    "junctions" },
   { "min_radius", "mm", "least there" },
   { "max_radius", "mm", "greatest there" },
   { "sd_radius", "mm", "standard deviation there" },
+  { "mean_ball_radius",
+    "mm",
+    "of the largest balls in the voxels, or in the estimated surface when refined: mean there; half the least width, "
+    "so well below mean_radius where the cross-section is flat" },
+  { "min_ball_radius", "mm", "least there" },
+  { "max_ball_radius", "mm", "greatest there" },
   { "volume", "mm^3", "of the round cones of these radii along the part outside the balls at its junctions" },
   { "surface", "mm^2", "lateral area of these cones" },
   { "parent_branch", "", "branch it hangs on, nearer to the root; empty at the root" },
@@ -67,7 +72,7 @@ constexpr auto kSummaryColumns = std::to_array<Column>({
   { "count", "", "axes of this level; for 'all' branches (# Branches)" },
   { "total_length", "mm", "sum of their lengths; a lateral begins at its parent's surface" },
   { "mean_length", "mm", "Average Branch Length" },
-  { "mean_radius", "mm", "weighted by length; a quarter of a voxel's diagonal is added to radii" },
+  { "mean_radius", "mm", "weighted by length, of round cross-sections as in the other table" },
   { "mean_tortuosity", "1", "" },
   { "mean_emergence_angle", "deg", "between the parent's direction and the lateral's at its base" },
   { "mean_midpoint_angle", "deg", "the same, to its middle" },
@@ -150,7 +155,8 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
       file << part.label << "," << CsvField(part.name) << "," << part.component << "," << branch << "," << r.component
            << "," << nodes[0] << "," << nodes[1] << "," << static_cast<int>(r.type) << "," << r.length << "," << r.chord
            << "," << r.tortuosity << "," << r.freeLength << "," << r.meanRadius << "," << r.minRadius << ","
-           << r.maxRadius << "," << r.sdRadius << "," << r.volume << "," << r.surface << ",";
+           << r.maxRadius << "," << r.sdRadius << "," << r.meanBallRadius << "," << r.minBallRadius << ","
+           << r.maxBallRadius << "," << r.volume << "," << r.surface << ",";
       if (r.parent != kNoBranch)
       {
         file << r.parent;

@@ -37,6 +37,12 @@ struct BranchSums
     volume += kPi / 3 * h * (r * r + r * s + s * s);
     surface += kPi * (r + s) * std::sqrt(h * h + (r - s) * (r - s));
   }
+
+  double
+  Mean() const
+  {
+    return length > 0 ? radius / length : least;
+  }
 };
 
 bool
@@ -48,7 +54,7 @@ HasBall(NodeKind kind)
 } // namespace
 
 BranchRecord
-MeasureBranch(const SkeletonGraph & graph, std::size_t branch, double radiusShift)
+MeasureBranch(const SkeletonGraph & graph, std::size_t branch)
 {
   const auto   points = graph.Branch(branch);
   const auto & nodes = graph.branchNodes[branch];
@@ -57,22 +63,29 @@ MeasureBranch(const SkeletonGraph & graph, std::size_t branch, double radiusShif
     const ElementIndex centre = graph.nodePoints[nodes[end]];
     return HasBall(kind(end)) && Distance(p, graph.positions[centre]) < graph.radius[centre];
   };
-  BranchSums all;
-  BranchSums outside;
+  const auto & widths = SectionRadii(graph);
+  BranchSums   all;
+  BranchSums   outside;
+  BranchSums   ballsOfAll;
+  BranchSums   ballsOutside;
   for (std::size_t i = 1; i < points.size(); ++i)
   {
     const Vector3 & a = graph.positions[points[i - 1]];
     const Vector3 & b = graph.positions[points[i]];
     const double    h = Distance(a, b);
-    const double    r = graph.radius[points[i - 1]] + radiusShift;
-    const double    s = graph.radius[points[i]] + radiusShift;
-    all.Add(h, r, s);
+    const auto      add = [&](BranchSums & sums, const std::vector<double> & radius) {
+      sums.Add(h, radius[points[i - 1]], radius[points[i]]);
+    };
+    add(all, widths);
+    add(ballsOfAll, graph.radius);
     if (!inBall(a, 0) && !inBall(a, 1) && !inBall(b, 0) && !inBall(b, 1))
     {
-      outside.Add(h, r, s);
+      add(outside, widths);
+      add(ballsOutside, graph.radius);
     }
   }
   const BranchSums & along = outside.length > 0 ? outside : all;
+  const BranchSums & balls = outside.length > 0 ? ballsOutside : ballsOfAll;
   BranchRecord       record;
   record.length = all.length;
   record.freeLength = outside.length;
@@ -80,7 +93,10 @@ MeasureBranch(const SkeletonGraph & graph, std::size_t branch, double radiusShif
   record.tortuosity = record.chord > 0 ? record.length / record.chord : std::numeric_limits<double>::infinity();
   record.minRadius = along.least;
   record.maxRadius = along.most;
-  record.meanRadius = along.length > 0 ? along.radius / along.length : along.least;
+  record.meanRadius = along.Mean();
+  record.meanBallRadius = balls.Mean();
+  record.minBallRadius = balls.least;
+  record.maxBallRadius = balls.most;
   if (along.length > 0)
   {
     const double variance = along.squares / along.length - record.meanRadius * record.meanRadius;

@@ -8,6 +8,6 @@ namespace voxelcore
 
 /** All of a record but its place among other branches. */
 BranchRecord
-MeasureBranch(const SkeletonGraph & graph, std::size_t branch, double radiusShift);
+MeasureBranch(const SkeletonGraph & graph, std::size_t branch);
 
 } // namespace voxelcore

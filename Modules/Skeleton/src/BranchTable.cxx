@@ -91,7 +91,7 @@ MeasureBranches(const SkeletonGraph & graph, const MeasureOptions & options)
   BranchTable table;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
-    table.branches.push_back(MeasureBranch(graph, branch, options.radiusShift));
+    table.branches.push_back(MeasureBranch(graph, branch));
   }
   BuildHierarchy(graph, options, table);
   SumLevels(table);

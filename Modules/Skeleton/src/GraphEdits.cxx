@@ -40,6 +40,10 @@ KeepPoints(SkeletonGraph & graph, Lines & lines, const std::vector<std::uint8_t>
       graph.positions[kept] = graph.positions[point];
       graph.radius[kept] = graph.radius[point];
       graph.erosionThickness[kept] = graph.erosionThickness[point];
+      if (!graph.sectionRadius.empty())
+      {
+        graph.sectionRadius[kept] = graph.sectionRadius[point];
+      }
       if (!graph.medial.empty())
       {
         graph.medial[kept] = graph.medial[point];
@@ -51,6 +55,7 @@ KeepPoints(SkeletonGraph & graph, Lines & lines, const std::vector<std::uint8_t>
   graph.radius.resize(kept);
   graph.erosionThickness.resize(kept);
   graph.medial.resize(graph.medial.empty() ? 0 : kept);
+  graph.sectionRadius.resize(graph.sectionRadius.empty() ? 0 : kept);
   for (auto & line : lines)
   {
     for (ElementIndex & point : line)
@@ -74,6 +79,10 @@ CopyPoint(SkeletonGraph & graph, ElementIndex point)
   if (!graph.medial.empty())
   {
     graph.medial.push_back(graph.medial[point]);
+  }
+  if (!graph.sectionRadius.empty())
+  {
+    graph.sectionRadius.push_back(graph.sectionRadius[point]);
   }
   return copy;
 }
@@ -248,6 +257,10 @@ CutLoops(SkeletonGraph & graph)
         }
       }
       graph.radius[middle] = 0.5 * (graph.radius[line[0]] + graph.radius[line[1]]);
+      if (!graph.sectionRadius.empty())
+      {
+        graph.sectionRadius[middle] = 0.5 * (graph.sectionRadius[line[0]] + graph.sectionRadius[line[1]]);
+      }
       line.insert(line.begin() + 1, middle);
     }
     const auto at = std::min_element(line.begin() + 1, line.end() - 1, [&](ElementIndex a, ElementIndex b) {

@@ -45,7 +45,8 @@ struct CertifiedSkeleton
   std::vector<LoopCut> cuts;
 };
 
-/** Burns the core to curves; lambda, tolerance and refinement of the request only say what `core` is.
+/** Burns the core to curves; lambda, tolerance and refinement of the request only say what `core` is. The body that is
+ *  measured around them is the union of the core's balls; of a whole core that is the shape.
  *  \throws CertificateError when the skeleton does not have the shape's topology; Cancelled */
 CertifiedSkeleton
 SkeletonOf(const PlacedCore &       core,
@@ -53,12 +54,8 @@ SkeletonOf(const PlacedCore &       core,
            const SkeletonRequest &  request,
            const ProgressCallback & progress = {});
 
-/** Cuts and splits branches as asked for, and measures them anew on voxels of this spacing (mm). */
+/** Cuts and splits branches as asked for, and measures them anew. */
 void
-CutAndMeasure(CertifiedSkeleton & skeleton, const SkeletonRequest & request, const Vector3 & spacing);
-
-/** How branches are measured on voxels of this spacing (mm): refined radii are taken as they are. */
-MeasureOptions
-MeasuringOf(const SkeletonRequest & request, const Vector3 & spacing);
+CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request);
 
 } // namespace voxelcore

@@ -22,9 +22,9 @@ struct SkeletonModel
 };
 
 /** XML polydata: isolated points as verts, a poly line per branch, polygons of faces that stay. Point arrays Radius,
- *  MaximumInscribedSphereRadius (the same under VMTK's name), ErosionThickness; cell arrays BranchId (per part, from 0;
- *  -1 for verts and polygons), Label, Component, Closed (1 for faces of closed surfaces), and of branches Length,
- *  Tortuosity, Level, Strahler (0 elsewhere). Equal models give equal bytes. \throws OutputError */
+ *  MaximumInscribedSphereRadius (the same under VMTK's name), SectionRadius, ErosionThickness; cell arrays BranchId
+ *  (per part, from 0; -1 for verts and polygons), Label, Component, Closed (1 for faces of closed surfaces), and of
+ *  branches Length, Tortuosity, Level, Strahler (0 elsewhere). Equal models give equal bytes. \throws OutputError */
 void
 WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model);
 

@@ -27,11 +27,6 @@ struct RootChoice
 struct MeasureOptions
 {
   RootChoice root;
-
-  /** Added to each radius, mm. The largest ball in voxels ends at the nearest corner of a voxel, which lies between
-   *  zero and half a voxel's diagonal within the body that was scanned, on average a quarter: with that much added,
-   *  radii of tubes are right to within half a voxel. 0 gives the radii of balls in the voxel shape. */
-  double radiusShift = 0;
 };
 
 /** skan's numbers for how a branch ends. */
@@ -45,9 +40,9 @@ enum class BranchType : std::uint8_t
 
 constexpr ElementIndex kNoBranch = 0xFFFFFFFFU;
 
-/** Lengths in mm, angles in degrees. Radii are means along the branch, without the parts within the ball at a junction
- *  (there the ball of the thicker neighbour is measured) unless nothing else is left; volume and surface are those of
- *  the round cones between points along the same parts. */
+/** Lengths in mm, angles in degrees. Radii are the graph's `sectionRadius`, where it is empty those of the balls; they
+ *  are taken along the branch without the parts within the ball at a junction (there the thicker neighbour is measured)
+ *  unless nothing else is left. Volume and surface are those of the round cones between points along the same parts. */
 struct BranchRecord
 {
   ElementIndex component = 0; ///< from 1, in the order of nodes
@@ -60,6 +55,9 @@ struct BranchRecord
   double       minRadius = 0;
   double       maxRadius = 0;
   double       sdRadius = 0;
+  double       meanBallRadius = 0; ///< of the largest balls, along the same parts
+  double       minBallRadius = 0;
+  double       maxBallRadius = 0;
   double       volume = 0;
   double       surface = 0;
   ElementIndex parent = kNoBranch; ///< the branch nearer to the root it hangs on

@@ -29,6 +29,7 @@ struct SkeletonGraph
   std::vector<std::array<double, 3>>
                       medial;           ///< where the points lay on the medial surface before fitting; may be empty
   std::vector<double> radius;           ///< of the largest ball in the shape around `medial`
+  std::vector<double> sectionRadius;    ///< as CrossSectionRadii() gives it; may be empty
   std::vector<double> erosionThickness; ///< infinite on closed surfaces
 
   std::vector<ElementIndex> nodePoints;
@@ -60,6 +61,13 @@ struct SkeletonGraph
   double
   BranchLength(std::size_t branch) const;
 };
+
+/** What is measured as a radius: `sectionRadius`, or that of the balls where there is none. */
+inline const std::vector<double> &
+SectionRadii(const SkeletonGraph & graph)
+{
+  return graph.sectionRadius.empty() ? graph.radius : graph.sectionRadius;
+}
 
 /** A skeleton's nodes and branches. Edges of faces that stay are no branches. */
 SkeletonGraph

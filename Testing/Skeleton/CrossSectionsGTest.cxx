@@ -1,0 +1,185 @@
+#include "RootScore.h"
+
+#include "voxelcore/BranchTable.h"
+#include "voxelcore/Vectors.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <omp.h>
+
+namespace voxelcore::testing
+{
+
+namespace
+{
+
+/** Voxels whose middle lies in a body of so many mm to each side of the origin, which is anywhere in a voxel. */
+template <typename IsIn>
+VoxelShape
+Around(const Spacing3 & half, const Spacing3 & spacing, const Spacing3 & shift, const IsIn & isIn)
+{
+  Size3    size{};
+  Spacing3 origin{};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    size[k] = static_cast<std::int32_t>(std::ceil(2 * half[k] / spacing[k])) + 3;
+    origin[k] = (0.5 * size[k] + shift[k]) * spacing[k];
+  }
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, size });
+  for (std::int32_t z = 0; z < size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < size[1]; ++y)
+    {
+      for (std::int32_t x = 0; x < size[0]; ++x)
+      {
+        if (isIn(Spacing3{ (x + 0.5) * spacing[0] - origin[0],
+                           (y + 0.5) * spacing[1] - origin[1],
+                           (z + 0.5) * spacing[2] - origin[2] }))
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  return CropToVoxels(std::move(shape));
+}
+
+SkeletonGraph
+Measured(const VoxelShape & shape, const Spacing3 & spacing)
+{
+  SkeletonGraph graph = GraphOf(shape, spacing);
+  graph.sectionRadius = SectionRadiiOf(graph, shape, spacing);
+  return graph;
+}
+
+/** The radius in the table of the longest branch. */
+double
+RadiusOf(const SkeletonGraph & graph)
+{
+  BranchRecord longest;
+  for (const BranchRecord & branch : MeasureBranches(graph).branches)
+  {
+    longest = branch.length > longest.length ? branch : longest;
+  }
+  return longest.meanRadius;
+}
+
+/** Radius of a tube with round ends in voxels. */
+double
+TubeRadius(double radius, Spacing3 way, const Spacing3 & spacing, const Spacing3 & shift)
+{
+  const double length = std::max(8 * radius, 30.0);
+  way = AddScaled({}, 1 / Length(way), way);
+  Spacing3 half{};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    half[k] = 0.5 * length * std::abs(way[k]) + radius;
+  }
+  const VoxelShape shape = Around(half, spacing, shift, [&](const Spacing3 & p) {
+    const double along = std::clamp(Dot(p, way), -0.5 * length, 0.5 * length);
+    return Length(AddScaled(p, -along, way)) <= radius;
+  });
+  return RadiusOf(Measured(shape, spacing));
+}
+
+} // namespace
+
+TEST(CrossSections, TubesOfAnyRadiusAndDirectionHaveTheirRadiusOnAverage)
+{
+  for (const double slice : { 1.0, 3.0 })
+  {
+    for (const double radius : { 0.87, 1.5, 3.0, 8.0 })
+    {
+      if (slice > 1 && radius < slice)
+      {
+        continue; // voxels of such tubes fall apart
+      }
+      double sum = 0;
+      int    count = 0;
+      for (const Spacing3 & way : std::initializer_list<Spacing3>{ { 1, 0, 0 },
+                                                                   { 0, 0, 1 },
+                                                                   { 1, 1, 0 },
+                                                                   { 1, 0, 1 },
+                                                                   { 1, 1, 1 },
+                                                                   { 1, 2, 3 },
+                                                                   { 3, 1, -2 },
+                                                                   { 0, 2, 5 } })
+      {
+        for (const Spacing3 & shift : std::initializer_list<Spacing3>{ { .11, .37, -.23 }, { -.41, .05, .29 } })
+        {
+          const double found = TubeRadius(radius, way, { 1, 1, slice }, shift);
+          EXPECT_NEAR(found, radius, 0.25 * std::cbrt(slice)) << way[0] << way[1] << way[2];
+          sum += found;
+          ++count;
+        }
+      }
+      EXPECT_NEAR(sum / count, radius, 0.06) << "slice " << slice;
+    }
+  }
+}
+
+TEST(CrossSections, OfAFlatTubeItIsTheRadiusOfACircleOfThatArea)
+{
+  const VoxelShape    shape = Around({ 60, 12, 4 }, { 1, 1, 1 }, { .2, .3, .4 }, [](const Spacing3 & p) {
+    return std::abs(p[0]) <= 60 && p[1] * p[1] / 144 + p[2] * p[2] / 16 <= 1;
+  });
+  const SkeletonGraph graph = Measured(shape, { 1, 1, 1 });
+  const double        area = static_cast<double>(shape.CountVoxels()) / shape.Box().size[0]; // equal in all slices
+  EXPECT_NEAR(RadiusOf(graph), std::sqrt(area / std::numbers::pi), 0.12);
+  const BranchTable table = MeasureBranches(graph);
+  for (const BranchRecord & branch : table.branches)
+  {
+    EXPECT_LT(branch.maxBallRadius, 4.2);
+    EXPECT_LE(branch.minBallRadius, branch.meanBallRadius);
+    EXPECT_LE(branch.meanBallRadius, branch.maxBallRadius);
+  }
+}
+
+TEST(CrossSections, WhatHasNoSectionIsARodOfItsVolume)
+{
+  const VoxelShape ball =
+    Around({ 9, 9, 9 }, { 1, 1, 1 }, { 0, 0, 0 }, [](const Spacing3 & p) { return Length(p) <= 9; });
+  const SkeletonGraph graph = Measured(ball, { 1, 1, 1 });
+  ASSERT_EQ(graph.positions.size(), 1U);
+  EXPECT_NEAR(graph.sectionRadius[0],
+              std::cbrt(0.75 * static_cast<double>(ball.CountVoxels()) / std::numbers::pi),
+              1e-9);
+}
+
+TEST(CrossSections, AClosedTubeIsMeasuredAllAround)
+{
+  const Curve ring = SampleCurve(
+    [](double t) {
+      const double angle = 2 * std::numbers::pi * t;
+      return Turned({ 20 * std::cos(angle), 20 * std::sin(angle), 0 }, 0.3, 0.7, { 30, 30, 30 });
+    },
+    600);
+  const VoxelShape    shape = Tube(ring, 4, { 60, 60, 60 });
+  const SkeletonGraph graph = Measured(shape, { 1, 1, 1 });
+  ASSERT_EQ(graph.BranchCount(), 1U);
+  for (const double radius : graph.sectionRadius)
+  {
+    EXPECT_NEAR(radius, 4, 0.25);
+  }
+  EXPECT_NEAR(RadiusOf(graph), 4, 0.06);
+}
+
+TEST(CrossSections, ThreadsDoNotMatterAndNothingHasNone)
+{
+  PhantomOptions options;
+  options.size = { 96, 96, 96 };
+  options.kind = "root";
+  const VoxelShape    shape = MakePhantom(options);
+  const SkeletonGraph graph = GraphOf(shape);
+  const int           threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const std::vector<double> one = SectionRadiiOf(graph, shape, { 1, 1, 1 });
+  omp_set_num_threads(4);
+  EXPECT_EQ(SectionRadiiOf(graph, shape, { 1, 1, 1 }), one);
+  omp_set_num_threads(threads);
+  EXPECT_TRUE(std::all_of(one.begin(), one.end(), [](double radius) { return radius > 0 && radius < 100; }));
+  EXPECT_TRUE(SectionRadiiOf(SkeletonGraph(), VoxelShape(), { 1, 1, 1 }).empty());
+}
+
+} // namespace voxelcore::testing
