@@ -75,7 +75,7 @@ TEST(CertifiedSkeleton, TheTopologyIsThatBeforeLoopsWereCut)
   EXPECT_EQ(cut.skeleton.table.numbers.tips, 2);
   // Later is the same as at once.
   CertifiedSkeleton later = ring;
-  CutAndMeasure(later, request.branches);
+  CutAndMeasure(later, request.branches, 0);
   EXPECT_EQ(later.skeleton.graph.positions, cut.skeleton.graph.positions);
   EXPECT_EQ(later.skeleton.graph.branchPoints, cut.skeleton.graph.branchPoints);
   EXPECT_EQ(later.skeleton.table.numbers.totalLength, cut.skeleton.table.numbers.totalLength);

@@ -181,6 +181,47 @@ TEST(SkeletonGraph, LinesThatAreNotJoinedStayApart)
   }
 }
 
+TEST(SkeletonGraph, WhatHangsLooseAfterACutStaysOnlyWhereItStandsOut)
+{
+  // A line of balls of radius 3 with a bypass at each of two places, one of 6, one of 26 in height.
+  const auto make = [] {
+    SkeletonGraph     graph;
+    std::vector<Line> lines;
+    const auto        point = [&](double x, double y, double radius) {
+      graph.positions.push_back({ x, y, 0 });
+      graph.radius.push_back(radius);
+      graph.erosionThickness.push_back(0);
+      return static_cast<ElementIndex>(graph.positions.size() - 1);
+    };
+    std::vector<ElementIndex> main;
+    for (int x = 0; x <= 60; x += 10)
+    {
+      main.push_back(point(x, 0, 3));
+    }
+    lines.push_back({ main[0], main[1] });
+    lines.push_back({ main[1], main[2] });
+    lines.push_back({ main[2], main[3], main[4] });
+    lines.push_back({ main[4], main[5] });
+    lines.push_back({ main[5], main[6] });
+    lines.push_back({ main[1], point(15, 3, 1), main[2] });
+    lines.push_back({ main[4], point(45, 26, 1), main[5] });
+    SortBranches(graph, lines, true);
+    return graph;
+  };
+  const auto tips = [](const SkeletonGraph & graph) {
+    return std::count(graph.nodeKinds.begin(), graph.nodeKinds.end(), NodeKind::Tip);
+  };
+  for (const auto & [standOut, expected] : std::vector<std::pair<double, int>>{ { 0, 6 }, { 5, 4 }, { 30, 2 } })
+  {
+    SkeletonGraph graph = make();
+    const auto    cuts = CutLoops(graph);
+    ASSERT_EQ(cuts.size(), 2U);
+    EXPECT_EQ(tips(graph), 6);
+    PruneCutEnds(graph, cuts, standOut);
+    EXPECT_EQ(tips(graph), expected) << standOut;
+  }
+}
+
 TEST(SkeletonGraph, CuttingLeavesAForestOfTheSameLength)
 {
   for (std::uint64_t seed = 1; seed <= 300; ++seed)

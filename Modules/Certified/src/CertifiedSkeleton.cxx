@@ -68,12 +68,13 @@ BodyOf(const MedialComplex & core, const CertifiedShape & shape)
 } // namespace
 
 void
-CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request)
+CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, double standOut)
 {
   SkeletonGraph & graph = skeleton.skeleton.graph;
   if (request.cutLoops)
   {
     skeleton.cuts = CutLoops(graph);
+    PruneCutEnds(graph, skeleton.cuts, standOut);
   }
   if (request.splitAtJunctions)
   {
@@ -186,7 +187,7 @@ MeasureCurves(const BurnedCurves &    burned,
     RefuseResult(shape.name, "the branches do not have the shape's topology");
   }
   graph.sectionRadius = CrossSectionRadii(graph, voxels, shape.geometry);
-  CutAndMeasure(result, request.branches);
+  CutAndMeasure(result, request.branches, LengthOn(shape, request.standOut));
   return result;
 }
 

@@ -178,10 +178,12 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
                              options.skeleton);
     part.name = record.name;
     const auto & length = options.branches.pruneLength;
-    const double limit = length ? LambdaInMillimetres(*length, report.parameters.weights, spacing, record.box) : 0;
-    PruneBranches(part.graph, { limit, options.branches.pruneRadii });
+    const auto   inMm = [&](const Lambda & of) {
+      return LambdaInMillimetres(of, report.parameters.weights, spacing, record.box);
+    };
+    PruneBranches(part.graph, { length ? inMm(*length) : 0, options.branches.pruneRadii });
     CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {} };
-    CutAndMeasure(skeleton, request.skeleton->branches);
+    CutAndMeasure(skeleton, request.skeleton->branches, inMm(report.skeleton->standOut));
     files.Add(report, i, TakeSkeleton(std::move(skeleton), record), {}, result.notes);
   }
   files.Finish(report, result.notes);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace voxelcore
 {
@@ -87,10 +88,11 @@ CopyPoint(SkeletonGraph & graph, ElementIndex point)
   return copy;
 }
 
-/** One round: branches are looked at from the shortest on; one that has lost its neighbours waits for the next
- *  round. */
+/** One round: branches with a tip for which goes(length, tip, base) holds, nodes given by their points, are looked at
+ *  from the shortest on; one that has lost its neighbours waits for the next round. */
+template <typename Goes>
 std::size_t
-PruneOnce(SkeletonGraph & graph, const BranchLimit & limit)
+PruneOnce(SkeletonGraph & graph, const Goes & goes)
 {
   std::vector<std::uint32_t> degree(graph.nodePoints.size(), 0);
   for (const auto & nodes : graph.branchNodes)
@@ -116,7 +118,7 @@ PruneOnce(SkeletonGraph & graph, const BranchLimit & limit)
     }
     const ElementIndex base = nodes[firstIsTip ? 1 : 0];
     const double       length = graph.BranchLength(branch);
-    if (length < limit.lengthMm || length < limit.radiusRatio * graph.radius[graph.nodePoints[base]])
+    if (goes(length, graph.nodePoints[nodes[firstIsTip ? 0 : 1]], graph.nodePoints[base]))
     {
       candidates.push_back({ length, branch, base });
     }
@@ -176,17 +178,40 @@ PruneOnce(SkeletonGraph & graph, const BranchLimit & limit)
   return count;
 }
 
+/** Rounds until none goes; gives the number of branches that went. */
+template <typename Goes>
+std::size_t
+PruneWhere(SkeletonGraph & graph, const Goes & goes)
+{
+  std::size_t all = 0;
+  for (std::size_t count = PruneOnce(graph, goes); count > 0; count = PruneOnce(graph, goes))
+  {
+    all += count;
+  }
+  return all;
+}
+
 } // namespace
 
 std::size_t
 PruneBranches(SkeletonGraph & graph, const BranchLimit & limit)
 {
-  std::size_t all = 0;
-  for (std::size_t count = PruneOnce(graph, limit); count > 0; count = PruneOnce(graph, limit))
+  return PruneWhere(graph, [&](double length, ElementIndex, ElementIndex base) {
+    return length < limit.lengthMm || length < limit.radiusRatio * graph.radius[base];
+  });
+}
+
+std::size_t
+PruneCutEnds(SkeletonGraph & graph, const std::vector<LoopCut> & cuts, double standOut)
+{
+  std::set<Vector3> places;
+  for (const LoopCut & cut : cuts)
   {
-    all += count;
+    places.insert(cut.position);
   }
-  return all;
+  return PruneWhere(graph, [&](double length, ElementIndex tip, ElementIndex base) {
+    return length + graph.radius[tip] - graph.radius[base] < standOut && places.count(graph.positions[tip]) > 0;
+  });
 }
 
 std::vector<LoopCut>

@@ -54,8 +54,9 @@ SkeletonOf(const PlacedCore &       core,
            const SkeletonRequest &  request,
            const ProgressCallback & progress = {});
 
-/** Cuts and splits branches as asked for, and measures them anew. */
+/** Cuts and splits branches as asked for, and measures them anew. What hangs loose after a cut stays where it stands
+ *  out by `standOut` mm. */
 void
-CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request);
+CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, double standOut);
 
 } // namespace voxelcore

@@ -117,6 +117,11 @@ struct LoopCut
 std::vector<LoopCut>
 CutLoops(SkeletonGraph & graph);
 
+/** Takes off what hangs loose after cuts: branches whose tip is at a cut, and whose ball there stands out of the ball
+ *  at their other end by less than `standOut` mm, the shortest first, until none is left. Gives their number. */
+std::size_t
+PruneCutEnds(SkeletonGraph & graph, const std::vector<LoopCut> & cuts, double standOut);
+
 /** Gives each branch end points of its own: branches no longer hang together. */
 void
 SplitAtJunctions(SkeletonGraph & graph);
