@@ -24,51 +24,77 @@ FindDistances(const LabelRows & rows, const std::array<float, 3> & squares, tile
   tile::FindSquaredDistances(rows, squares, least);
 }
 
-// Of the four voxels on either side of a place along each axis.
-struct SplineWeights
+// The 8 x 4 x 4 values around a place, rows by y, then by z: each as two of four beside each other along x.
+struct SplineRows
 {
-  std::array<std::array<float, 4>, 3> value;
-  std::array<std::array<float, 4>, 3> slope;
+  std::array<const float *, 16> low;
+  std::array<const float *, 16> high;
+  float                         x = 0; ///< where the place is in a row
+  std::array<float, 2>          rest;  ///< how far it is beyond the second of four along y and z
 };
 
-// Rows by y, then by z. What is along y and z is summed first, for the four of two rows side by side.
+// Cubic B-splines. What is along y and z is summed first, for eight voxels along x at once, of which four count.
 VOXELCORE_EIGHT_LANES void
-SumRows(const std::array<const float *, 16> & rows, const SplineWeights & weights, double & value, Vector3 & gradient)
+SumRows(const SplineRows & rows, std::array<float, 4> & valueAndSlopes)
 {
   using Eight = float __attribute__((vector_size(32)));
-  const auto &               y = weights.value[1];
-  const auto &               dy = weights.slope[1];
-  const std::array<Eight, 2> valueY{ Eight{ y[0], y[0], y[0], y[0], y[1], y[1], y[1], y[1] },
-                                     Eight{ y[2], y[2], y[2], y[2], y[3], y[3], y[3], y[3] } };
-  const std::array<Eight, 2> slopeY{ Eight{ dy[0], dy[0], dy[0], dy[0], dy[1], dy[1], dy[1], dy[1] },
-                                     Eight{ dy[2], dy[2], dy[2], dy[2], dy[3], dy[3], dy[3], dy[3] } };
-  Eight                      sum{};
-  Eight                      alongY{};
-  Eight                      alongZ{};
+  using Four = float __attribute__((vector_size(16)));
+  constexpr float                     sixth = 1.0F / 6;
+  std::array<std::array<float, 4>, 2> weight;
+  std::array<std::array<float, 4>, 2> slope;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const float t = rows.rest[axis];
+    const float s = 1.0F - t;
+    weight[axis] = { s * s * s * sixth,
+                     (4.0F - 3.0F * t * t * (1.0F + s)) * sixth,
+                     (4.0F - 3.0F * s * s * (1.0F + t)) * sixth,
+                     t * t * t * sixth };
+    slope[axis] = { -0.5F * s * s, (1.5F * t - 2.0F) * t, (2.0F - 1.5F * s) * s, 0.5F * t * t };
+  }
+  Eight sum{};
+  Eight alongY{};
+  Eight alongZ{};
   for (std::size_t z = 0; z < 4; ++z)
   {
-    std::array<Eight, 2> pairs;
-    for (std::size_t i = 0; i < 2; ++i)
+    Eight ofPlane{};
+    Eight slopeOfPlane{};
+    for (std::size_t y = 0; y < 4; ++y)
     {
-      std::memcpy(&pairs[i], rows[4 * z + 2 * i], 4 * sizeof(float));
-      std::memcpy(reinterpret_cast<char *>(&pairs[i]) + 4 * sizeof(float), rows[4 * z + 2 * i + 1], 4 * sizeof(float));
+      Four low;
+      Four high;
+      std::memcpy(&low, rows.low[4 * z + y], sizeof(low));
+      std::memcpy(&high, rows.high[4 * z + y], sizeof(high));
+      const Eight row = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+      ofPlane += weight[0][y] * row;
+      slopeOfPlane += slope[0][y] * row;
     }
-    const Eight ofPlane = valueY[0] * pairs[0] + valueY[1] * pairs[1];
-    const Eight slopeOfPlane = slopeY[0] * pairs[0] + slopeY[1] * pairs[1];
-    sum += weights.value[2][z] * ofPlane;
-    alongY += weights.value[2][z] * slopeOfPlane;
-    alongZ += weights.slope[2][z] * ofPlane;
+    sum += weight[1][z] * ofPlane;
+    alongY += weight[1][z] * slopeOfPlane;
+    alongZ += slope[1][z] * ofPlane;
   }
-  std::array<float, 4> along{};
-  for (std::size_t x = 0; x < 4; ++x)
+  // (2 - |u|)+^3 / 6 - 4 (1 - |u|)+^3 / 6, and its slope.
+  const Eight u = Eight{ 0, 1, 2, 3, 4, 5, 6, 7 } - rows.x;
+  const Eight zero{};
+  const Eight away = u < 0 ? -u : u;
+  const Eight outer = away < 2 ? 2 - away : zero;
+  const Eight inner = away < 1 ? 1 - away : zero;
+  const Eight half = u < 0 ? zero - 0.5F : zero + 0.5F;
+  const Eight weightX = (outer * outer * outer - 4 * inner * inner * inner) * sixth;
+  const Eight slopeX = (outer * outer - 4 * inner * inner) * half;
+  const auto  four = [](const Eight & v) __attribute__((always_inline))
   {
-    along[0] += weights.value[0][x] * (sum[x] + sum[x + 4]);
-    along[1] += weights.slope[0][x] * (sum[x] + sum[x + 4]);
-    along[2] += weights.value[0][x] * (alongY[x] + alongY[x + 4]);
-    along[3] += weights.value[0][x] * (alongZ[x] + alongZ[x + 4]);
-  }
-  value = along[0];
-  gradient = { along[1], along[2], along[3] };
+    return __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  };
+  const Four a = four(sum * weightX);
+  const Four b = four(sum * slopeX);
+  const Four c = four(alongY * weightX);
+  const Four d = four(alongZ * weightX);
+  // Four sums of four at once.
+  const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Four cd = __builtin_shufflevector(c, d, 0, 4, 1, 5) + __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  const Four all = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  std::memcpy(valueAndSlopes.data(), &all, sizeof(all));
 }
 
 } // namespace
@@ -159,21 +185,14 @@ BandField::FillDistances(const VoxelShape & shape, double clip)
 bool
 BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const
 {
-  BrickGrid::Brick base{};
-  SplineWeights    weights;
+  BrickGrid::Brick      base{}; // in voxel indices, where centres are whole
+  std::array<double, 3> rest{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double    at = place[axis] - 0.5; // in voxel indices, where centres are whole
-    const double    floor = std::floor(at);
-    const auto      t = static_cast<float>(at - floor);
-    const float     s = 1.0F - t;
-    constexpr float sixth = 1.0F / 6;
+    const double at = place[axis] - 0.5;
+    const double floor = std::floor(at);
     base[axis] = static_cast<std::int32_t>(floor);
-    weights.value[axis] = { s * s * s * sixth,
-                            (4.0F - 3.0F * t * t * (1.0F + s)) * sixth,
-                            (4.0F - 3.0F * s * s * (1.0F + t)) * sixth,
-                            t * t * t * sixth };
-    weights.slope[axis] = { -0.5F * s * s, (1.5F * t - 2.0F) * t, (2.0F - 1.5F * s) * s, 0.5F * t * t };
+    rest[axis] = at - floor;
   }
   const BrickGrid::Brick home{ base[0] >> 3, base[1] >> 3, base[2] >> 3 };
   const std::int32_t     found = m_Grid.Find(home);
@@ -182,43 +201,32 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
     return false;
   }
   const auto & neighbours = m_Grid.Neighbours(static_cast<std::size_t>(found));
-  // Of the four rows along y and z where they are in a brick, and which of two bricks beside each other they are in.
-  std::array<std::array<std::size_t, 4>, 2> within{};
-  std::array<std::array<std::size_t, 4>, 2> beside{};
-  for (std::size_t axis = 1; axis < 3; ++axis)
+  // Eight along x from the half of a brick on that the first of the four lies in.
+  const std::int32_t first = base[0] - 1;
+  const std::int32_t low = first >> 2;
+  const auto         lowHalf = static_cast<std::size_t>(low & 1);
+  const auto         lowBrick = static_cast<std::size_t>((low >> 1) - home[0] + 1);
+  const auto         highBrick = lowBrick + lowHalf;
+  SplineRows         rows;
+  rows.x = static_cast<float>((first & 3) + 1 + rest[0]);
+  rows.rest = { static_cast<float>(rest[1]), static_cast<float>(rest[2]) };
+  for (std::int32_t z = 0, r = 0; z < 4; ++z)
   {
-    const std::size_t stride = axis == 1 ? kSide : kSide * kSide;
-    const std::size_t apart = axis == 1 ? 3 : 9;
-    for (std::size_t i = 0; i < 4; ++i)
+    const std::int32_t atZ = base[2] - 1 + z;
+    for (std::int32_t y = 0; y < 4; ++y, ++r)
     {
-      const std::int32_t at = base[axis] - 1 + static_cast<std::int32_t>(i);
-      within[axis - 1][i] = stride * static_cast<std::size_t>(at & 7);
-      beside[axis - 1][i] = apart * static_cast<std::size_t>((at >> 3) - home[axis] + 1);
+      const std::int32_t atY = base[1] - 1 + y;
+      const auto beside = static_cast<std::size_t>(3 * ((atY >> 3) - home[1] + 1) + 9 * ((atZ >> 3) - home[2] + 1));
+      const auto row = static_cast<std::size_t>(kSide * (atY & 7) + kSide * kSide * (atZ & 7));
+      rows.low[static_cast<std::size_t>(r)] = Block(m_Coefficients, neighbours[lowBrick + beside]) + row + 4 * lowHalf;
+      rows.high[static_cast<std::size_t>(r)] =
+        Block(m_Coefficients, neighbours[highBrick + beside]) + row + 4 * (1 - lowHalf);
     }
   }
-  // The rows of four as they lie, or put together from two bricks.
-  std::array<const float *, 16> rows;
-  std::array<float, 128>        mixed;
-  const auto                    first = static_cast<std::size_t>((base[0] - 1) & 7);
-  const std::size_t             left = base[0] - 1 < kSide * home[0] ? 0 : 1;
-  for (std::size_t z = 0, r = 0; z < 4; ++z)
-  {
-    for (std::size_t y = 0; y < 4; ++y, ++r)
-    {
-      const std::size_t   middle = left + beside[0][y] + beside[1][z];
-      const std::size_t   row = within[0][y] + within[1][z];
-      const float * const from = Block(m_Values, neighbours[middle]) + row;
-      rows[r] = from + first;
-      if (first > kSide - 4)
-      {
-        const float * const next = Block(m_Values, neighbours[middle + 1]) + row;
-        std::memcpy(mixed.data() + 8 * r, from + 4, 4 * sizeof(float));
-        std::memcpy(mixed.data() + 8 * r + 4, next, 4 * sizeof(float));
-        rows[r] = mixed.data() + 8 * r + (first - 4);
-      }
-    }
-  }
-  SumRows(rows, weights, value, gradient);
+  std::array<float, 4> sums;
+  SumRows(rows, sums);
+  value = sums[0];
+  gradient = { sums[1], sums[2], sums[3] };
   return true;
 }
 

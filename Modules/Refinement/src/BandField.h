@@ -50,9 +50,9 @@ public:
   void
   AddChange(const BandField & halved);
 
-  /** K once more, but values become coefficients of Evaluate(): to be done once, last. */
+  /** Finds coefficients for Evaluate(): those of the values after K once more. */
   void
-  SmoothToCoefficients(float weight);
+  FindCoefficients(float weight);
 
   /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them
    *  and are cubes of side 1. G moves a step of standard width s and curvature c by c s^2 times its slope, which goes
@@ -64,12 +64,21 @@ public:
   using Snapshot = std::vector<std::int16_t>;
   Snapshot
   Save() const;
-  void
-  Restore(const Snapshot & former);
 
-  /** Former values where zones are none, by degrees where they are in part. */
+  /** Former values where zones are none, by degrees where they are in part, and coefficients of these. Returns of each
+   *  brick whether what is evaluated in it may have changed. */
+  std::vector<std::uint8_t>
+  BlendWith(const Snapshot & former, const SmoothingZones & zones, float weight);
+
+  const BrickGrid &
+  Grid() const
+  {
+    return m_Grid;
+  }
+
+  /** Leaves the coefficients alone. */
   void
-  BlendWith(const Snapshot & former, const SmoothingZones & zones);
+  DropValues();
 
   /** Marks the voxels at most `most` units off the surface where that has a radius of curvature under `radius`. */
   void
@@ -77,7 +86,7 @@ public:
 
   /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no
    *  brick. What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian
-   *  of variance 1/3 nearly, which SmoothToCoefficients() takes off its own. */
+   *  of variance 1/3 nearly, which FindCoefficients() takes off its own. */
   bool
   Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const;
 
@@ -113,8 +122,12 @@ private:
         const std::vector<float> *        from,
         std::vector<float> &              values,
         const std::vector<std::uint8_t> & needed) const;
+  std::array<std::vector<std::uint8_t>, 3>
+  Rings(std::vector<std::uint8_t> changed) const;
   void
-  Smooth(float weight, const Kernels & first, const Kernels & second, bool bound, const SmoothingZones * zones);
+  SumTwice(const Kernels & first, const Kernels & second, const std::array<std::vector<std::uint8_t>, 3> & needed);
+  void
+  FindCoefficients(float weight, std::vector<std::uint8_t> changed);
   void
   FindRowStarts();
   double
@@ -136,6 +149,7 @@ private:
   std::vector<BrickGrid::Flags>             m_Out;           ///< whose value is never more than 0
   std::array<std::vector<std::uint32_t>, 3> m_RowStarts;     ///< bricks with none before them along an axis
   std::vector<float>                        m_Values;
+  std::vector<float>                        m_Coefficients;
   std::vector<float>                        m_Once; ///< of a pass
   std::vector<float>                        m_Twice;
   std::vector<float>                        m_Former; ///< what values were when they were halved

@@ -249,37 +249,16 @@ BandField::Sweep(std::size_t                       axis,
   }
 }
 
-void
-BandField::Smooth(float weight, const SmoothingZones * zones)
+// Bricks that change, and those around them that sums are taken from.
+std::array<std::vector<std::uint8_t>, 3>
+BandField::Rings(std::vector<std::uint8_t> changed) const
 {
-  Smooth(weight, m_Binomial, m_Binomial, true, zones);
-}
-
-void
-BandField::SmoothToCoefficients(float weight)
-{
-  Smooth(weight, m_GaussToSpline, m_Gauss, false, nullptr);
-  std::vector<float>().swap(m_Once);
-  std::vector<float>().swap(m_Twice);
-}
-
-void
-BandField::Smooth(float weight, const Kernels & first, const Kernels & second, bool bound, const SmoothingZones * zones)
-{
-  const auto count = static_cast<std::ptrdiff_t>(m_Grid.Count());
-  // The bricks that change, and those around them that sums are taken from.
   std::array<std::vector<std::uint8_t>, 3> needed;
-  needed[0].assign(m_Grid.Count(), 1);
-  if (zones != nullptr)
-  {
-    std::transform(needed[0].begin(), needed[0].end(), needed[0].begin(), [&](const std::uint8_t & flag) {
-      return zones->AnyIn(m_Level, m_Grid.At(static_cast<std::size_t>(&flag - needed[0].data()))) ? 1 : 0;
-    });
-  }
+  needed[0] = std::move(changed);
   for (std::size_t ring = 1; ring < 3; ++ring)
   {
     needed[ring] = needed[ring - 1];
-    for (std::size_t brick = 0; zones != nullptr && brick < needed[ring].size(); ++brick)
+    for (std::size_t brick = 0; brick < needed[ring].size(); ++brick)
     {
       const auto & around = m_Grid.Neighbours(brick);
       needed[ring][brick] = std::any_of(around.begin(), around.end(), [&](std::int32_t other) {
@@ -287,16 +266,36 @@ BandField::Smooth(float weight, const Kernels & first, const Kernels & second, b
       });
     }
   }
-  std::vector<float> & once = m_Once;
-  std::vector<float> & twice = m_Twice;
-  once.resize(m_Values.size());
-  twice.resize(m_Values.size());
-  Sweep(2, first[2], &m_Values, once, needed[2]);
-  Sweep(1, first[1], nullptr, once, needed[2]);
-  Sweep(0, first[0], nullptr, once, needed[2]);
-  Sweep(2, second[2], &once, twice, needed[1]);
-  Sweep(1, second[1], nullptr, twice, needed[1]);
-  Sweep(0, second[0], nullptr, twice, needed[1]);
+  return needed;
+}
+
+// m_Once and m_Twice of values where they are needed; where they are not, m_Twice stays what it is.
+void
+BandField::SumTwice(const Kernels &                                  first,
+                    const Kernels &                                  second,
+                    const std::array<std::vector<std::uint8_t>, 3> & needed)
+{
+  m_Once.resize(m_Values.size());
+  m_Twice.resize(m_Values.size());
+  Sweep(2, first[2], &m_Values, m_Once, needed[2]);
+  Sweep(1, first[1], nullptr, m_Once, needed[2]);
+  Sweep(0, first[0], nullptr, m_Once, needed[2]);
+  Sweep(2, second[2], &m_Once, m_Twice, needed[1]);
+  Sweep(1, second[1], nullptr, m_Twice, needed[1]);
+  Sweep(0, second[0], nullptr, m_Twice, needed[1]);
+}
+
+void
+BandField::Smooth(float weight, const SmoothingZones * zones)
+{
+  const auto                count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+  std::vector<std::uint8_t> changed(m_Grid.Count(), 1);
+  for (std::size_t brick = 0; zones != nullptr && brick < changed.size(); ++brick)
+  {
+    changed[brick] = zones->AnyIn(m_Level, m_Grid.At(brick)) ? 1 : 0;
+  }
+  const auto needed = Rings(std::move(changed));
+  SumTwice(m_Binomial, m_Binomial, needed);
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
@@ -312,13 +311,68 @@ BandField::Smooth(float weight, const Kernels & first, const Kernels & second, b
     }
     const std::size_t at = brick * kVoxels;
     Combine(m_Values.data() + at,
-            once.data() + at,
-            twice.data() + at,
+            m_Once.data() + at,
+            m_Twice.data() + at,
             weight,
-            bound ? m_In[brick].data() : nullptr,
+            m_In[brick].data(),
             m_Out[brick].data(),
             zones != nullptr ? parts.data() : nullptr);
   }
+}
+
+void
+BandField::FindCoefficients(float weight, std::vector<std::uint8_t> changed)
+{
+  const auto                count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+  const auto                needed = Rings(std::move(changed));
+  std::vector<std::uint8_t> kept(m_Grid.Count(), 0); // sums are taken in the memory of the coefficients
+  std::vector<float>        former;
+  for (std::size_t brick = 0; brick < kept.size(); ++brick)
+  {
+    kept[brick] = needed[1][brick] != 0 && needed[0][brick] == 0 && !m_Coefficients.empty();
+    if (kept[brick] != 0)
+    {
+      const float * const from = m_Coefficients.data() + brick * kVoxels;
+      former.insert(former.end(), from, from + kVoxels);
+    }
+  }
+  m_Twice.swap(m_Coefficients);
+  SumTwice(m_GaussToSpline, m_Gauss, needed);
+  m_Twice.swap(m_Coefficients);
+#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    if (needed[0][static_cast<std::size_t>(i)] != 0)
+    {
+      const std::size_t   at = static_cast<std::size_t>(i) * kVoxels;
+      const float * const twice = m_Coefficients.data() + at;
+      Combine(m_Coefficients.data() + at, m_Once.data() + at, twice, weight, nullptr, nullptr, nullptr);
+    }
+  }
+  for (std::size_t brick = 0, from = 0; brick < kept.size(); ++brick)
+  {
+    if (kept[brick] != 0)
+    {
+      std::copy_n(former.data() + from, kVoxels, m_Coefficients.data() + brick * kVoxels);
+      from += kVoxels;
+    }
+  }
+}
+
+void
+BandField::FindCoefficients(float weight)
+{
+  std::vector<float>().swap(m_Twice);
+  FindCoefficients(weight, std::vector<std::uint8_t>(m_Grid.Count(), 1));
+}
+
+void
+BandField::DropValues()
+{
+  std::vector<float>().swap(m_Values);
+  std::vector<float>().swap(m_Once);
+  std::vector<BrickGrid::Flags>().swap(m_In);
+  std::vector<BrickGrid::Flags>().swap(m_Out);
 }
 
 BandField::Snapshot
@@ -332,20 +386,12 @@ BandField::Save() const
   return saved;
 }
 
-void
-BandField::Restore(const Snapshot & former)
+std::vector<std::uint8_t>
+BandField::BlendWith(const Snapshot & former, const SmoothingZones & zones, float weight)
 {
-  const float unit = m_Far / kSavedUnits;
-  std::transform(former.begin(), former.end(), m_Values.begin(), [&](std::int16_t value) {
-    return unit * static_cast<float>(value);
-  });
-}
-
-void
-BandField::BlendWith(const Snapshot & former, const SmoothingZones & zones)
-{
-  const float unit = m_Far / kSavedUnits;
-  const auto  count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+  const float               unit = m_Far / kSavedUnits;
+  const auto                count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+  std::vector<std::uint8_t> changed(m_Grid.Count(), 0);
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
@@ -359,9 +405,19 @@ BandField::BlendWith(const Snapshot & former, const SmoothingZones & zones)
         float &     value = m_Values[brick * kVoxels + voxel];
         const float before = unit * static_cast<float>(former[brick * kVoxels + voxel]);
         value = before + parts[voxel] * (value - before);
+        changed[brick] = 1;
       }
     }
   }
+  // Sums reach one or two bricks far, and what is evaluated one more.
+  std::int32_t reach = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    reach = std::max(reach, m_GaussToSpline[axis].radius + m_Gauss[axis].radius);
+  }
+  changed = Rings(std::move(changed))[reach > BrickGrid::kSide ? 2 : 1];
+  FindCoefficients(weight, changed);
+  return Rings(std::move(changed))[1];
 }
 
 } // namespace voxelcore

@@ -21,22 +21,23 @@ FieldSurface::Project(const Vector3 & place, double reach) const
   {
     double  value = 0;
     Vector3 slope{};
-    if (!m_Field.Evaluate(at, value, slope) || Length(Over(slope, m_Sides)) < m_Flattest)
+    if (!m_Field.Evaluate(at, value, slope) || Dot(Times(slope, slope), m_BySides) < m_Flattest * m_Flattest)
     {
       return point;
     }
-    const Vector3 normal = Over(slope, m_Spacing); // per mm
-    const double  squared = Dot(normal, normal);
-    Vector3       move = Over(AddScaled({ 0, 0, 0 }, -value / squared, normal), m_Spacing);
-    const double  length = Length(move);
-    if (length < close || step == steps)
+    const Vector3 up = Times(slope, m_BySpacing);
+    const double  squared = Dot(slope, up); // of the slope per mm
+    const Vector3 move = AddScaled({ 0, 0, 0 }, -value / squared, up);
+    const double  length = Dot(move, move);
+    if (length < close * close || step == steps)
     {
       point.position = Times(AddScaled(at, 1, move), m_Spacing);
-      point.normal = AddScaled({ 0, 0, 0 }, -1 / std::sqrt(squared), normal);
-      point.found = length < close && Distance(point.position, place) <= reach;
+      point.normal = AddScaled({ 0, 0, 0 }, -1 / std::sqrt(squared), Times(up, m_Spacing));
+      const Vector3 way = Minus(point.position, place);
+      point.found = length < close * close && Dot(way, way) <= reach * reach;
       return point;
     }
-    at = AddScaled(at, std::min(1.0, longest / length), move);
+    at = AddScaled(at, length > longest * longest ? longest / std::sqrt(length) : 1.0, move);
   }
   return point;
 }

@@ -3,6 +3,8 @@
 
 #include "BandField.h"
 
+#include "voxelcore/Vectors.h"
+
 #include "voxelcore/SurfaceEstimate.h"
 
 namespace voxelcore
@@ -17,7 +19,8 @@ public:
   FieldSurface(BandField field, const Vector3 & spacing, const Vector3 & sides, double flattest)
     : m_Field(std::move(field))
     , m_Spacing(spacing)
-    , m_Sides(sides)
+    , m_BySpacing(Over({ 1, 1, 1 }, Times(spacing, spacing)))
+    , m_BySides(Over({ 1, 1, 1 }, Times(sides, sides)))
     , m_Flattest(flattest)
   {}
 
@@ -38,10 +41,17 @@ public:
     change(m_Field);
   }
 
+  const BandField &
+  Field() const
+  {
+    return m_Field;
+  }
+
 private:
   BandField m_Field;
   Vector3   m_Spacing;
-  Vector3   m_Sides;
+  Vector3   m_BySpacing; ///< 1 / spacing^2
+  Vector3   m_BySides;   ///< 1 / sides^2
   double    m_Flattest;
 };
 

@@ -13,19 +13,6 @@ namespace voxelcore
 namespace
 {
 
-// Of each boundary vertex the foot that may go farthest.
-void
-KeepOneOfEach(std::vector<FootPoint> & footPoints)
-{
-  std::sort(footPoints.begin(), footPoints.end(), [](const FootPoint & a, const FootPoint & b) {
-    return a.point != b.point ? a.point < b.point : a.distance > b.distance;
-  });
-  footPoints.erase(std::unique(footPoints.begin(),
-                               footPoints.end(),
-                               [](const FootPoint & a, const FootPoint & b) { return a.point == b.point; }),
-                   footPoints.end());
-}
-
 // Two directions at right angles to a normal and to each other, the first nearest to `slide`.
 std::array<Vector3, 2>
 TangentsOf(const Vector3 & n, const Vector3 & slide)
@@ -62,7 +49,7 @@ constexpr double kTurn = 0.3;          // cosine: beyond it is another side of t
 FootPointFinder::FootPointFinder(const RefinementInput & input, const ProgressCallback & progress)
   : m_Input(input)
   , m_Anchors(input.points->size())
-  , m_Close(input.surface->Ripples() > 0 ? 1e-2 : 1e-3)
+  , m_Close(std::max(2 * input.surface->Ripples(), 1e-3))
 {
   m_Voxel = std::cbrt(input.spacing[0] * input.spacing[1] * input.spacing[2]);
   // The surface parts the eight centres around a boundary vertex, so it passes within half a diagonal; smoothed, a
@@ -108,23 +95,63 @@ FootPointFinder::Meet(const Vector3 & place, const PointPair & pair) const
          ofWay * Dot(way, way);
 }
 
+// Of each boundary vertex in pairs one foot, that may go farthest: where it was found before, or where the surface
+// passes the vertex.
 void
-FootPointFinder::Find(const Vector3 &            place,
-                      std::span<const PointPair> pairs,
-                      std::vector<FootPoint> &   footPoints) const
+FootPointFinder::Begin(std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const
 {
-  footPoints.clear();
+  constexpr double former = -1;
+  if (Ripples() == 0)
+  {
+    footPoints.clear(); // facets hold feet where they were
+  }
+  for (FootPoint & foot : footPoints)
+  {
+    foot.distance = former;
+  }
   for (const PointPair & pair : pairs)
   {
     const double width = 0.45 * Distance(Place(pair[0]), Place(pair[1]));
     footPoints.push_back({ pair[0], {}, width });
     footPoints.push_back({ pair[1], {}, width });
   }
-  KeepOneOfEach(footPoints);
+  std::sort(footPoints.begin(), footPoints.end(), [](const FootPoint & a, const FootPoint & b) {
+    return a.point != b.point ? a.point < b.point : a.distance > b.distance;
+  });
+  std::size_t kept = 0;
+  for (std::size_t first = 0, end = 0; first < footPoints.size(); first = end)
+  {
+    const std::uint32_t point = footPoints[first].point;
+    const double        width = footPoints[first].distance;
+    while (end < footPoints.size() && footPoints[end].point == point)
+    {
+      ++end;
+    }
+    if (width == former)
+    {
+      continue;
+    }
+    FootPoint foot = footPoints[end - 1];
+    if (foot.distance != former)
+    {
+      const SurfacePoint & anchor = m_Anchors[point];
+      foot = { point, anchor.found ? anchor.position : Place(point), 0, anchor.normal, anchor.found };
+    }
+    foot.distance = width;
+    footPoints[kept++] = foot;
+  }
+  footPoints.resize(kept);
+}
+
+void
+FootPointFinder::Find(const Vector3 &            place,
+                      std::span<const PointPair> pairs,
+                      std::vector<FootPoint> &   footPoints) const
+{
+  Begin(pairs, footPoints);
   for (FootPoint & foot : footPoints)
   {
-    foot.position = Slide(place, foot.point, foot.distance);
-    foot.distance = Distance(place, foot.position);
+    Slide(place, foot.distance, foot);
   }
 }
 
@@ -133,13 +160,7 @@ FootPointFinder::Settle(const Vector3 &            place,
                         std::span<const PointPair> pairs,
                         std::vector<FootPoint> &   footPoints) const
 {
-  footPoints.clear();
-  for (const PointPair & pair : pairs)
-  {
-    footPoints.push_back({ pair[0], {}, 0 });
-    footPoints.push_back({ pair[1], {}, 0 });
-  }
-  KeepOneOfEach(footPoints);
+  Begin(pairs, footPoints);
   // Of those that meet one alone goes all the way.
   constexpr double open = -1;
   for (FootPoint & foot : footPoints)
@@ -152,8 +173,28 @@ FootPointFinder::Settle(const Vector3 &            place,
     {
       continue;
     }
-    foot.position = Descend(place, foot.point);
-    foot.distance = Distance(place, foot.position);
+    Descend(place, foot);
+    const auto meet = [&](FootPoint & one, double widest) {
+      const bool met = one.distance == open && Falls(place, one.point, foot, widest);
+      if (met)
+      {
+        one.position = foot.position;
+        one.distance = foot.distance;
+      }
+      return met;
+    };
+    // Small angles tell little, as a rim is flat about its end, but where the surface is round about `place`. Without
+    // ripples descents tell more.
+    constexpr double rightAngle = 0;
+    bool             round = false;
+    for (std::size_t i = 0; Ripples() > 0 && i < footPoints.size(); ++i)
+    {
+      round = meet(footPoints[i], rightAngle) || round;
+    }
+    for (std::size_t i = 0; round && i < footPoints.size(); ++i)
+    {
+      meet(footPoints[i], 1);
+    }
     for (bool more = true; more;)
     {
       more = false;
@@ -174,6 +215,42 @@ FootPointFinder::Settle(const Vector3 &            place,
   }
 }
 
+// Whether the way along the ball from where the surface passes a boundary vertex to a foot falls all along, but for
+// ripples. The cosine of the angle between both is at most `most`.
+bool
+FootPointFinder::Falls(const Vector3 & place, std::uint32_t point, const FootPoint & to, double most) const
+{
+  constexpr double     opposite = -0.9; // cosine: there are many ways
+  const double         ripples = Ripples() * m_Voxel;
+  const SurfacePoint & anchor = m_Anchors[point];
+  const Vector3        first = Minus(anchor.position, place);
+  const Vector3        last = Minus(to.position, place);
+  const double         distance = Length(first);
+  double               farthest = distance + ripples;
+  const double         cosine = Dot(first, last) / (distance * to.distance);
+  if (!anchor.found || to.distance > farthest || !(cosine >= opposite) || cosine > most)
+  {
+    return false;
+  }
+  const auto   steps = static_cast<int>(std::ceil(Distance(first, last) / m_Voxel));
+  SurfacePoint before = anchor;
+  SurfacePoint next;
+  for (int step = 1; step <= steps; ++step)
+  {
+    const double  part = step / (steps + 1.0);
+    const Vector3 ray = AddScaled(first, part, Minus(last, first));
+    const double  away = distance + part * (to.distance - distance);
+    const double  rise = TryFoot(place, AddScaled(place, away / Length(ray), ray), before, farthest, next);
+    if (!(rise <= 0))
+    {
+      return false;
+    }
+    farthest = std::min(farthest, farthest + rise + ripples);
+    before = next;
+  }
+  return true;
+}
+
 // A try to come nearer to `place` by way of `to`, a place beside the surface. Returns how much farther than `distance`
 // the surface is there, at `next`; infinity where it is another side of it.
 double
@@ -191,40 +268,45 @@ FootPointFinder::TryFoot(const Vector3 &      place,
 // Near the axis of a tube the surface falls less than its ripples and facets do, and the way down cannot be told from
 // its normal. So where no slope is left, ways at right angles are tried with long strides, until slopes beside the foot
 // show that it lies lower than all around nearly as that of a flat surface does.
-Vector3
-FootPointFinder::Descend(const Vector3 & place, std::uint32_t point) const
+void
+FootPointFinder::Descend(const Vector3 & place, FootPoint & begin) const
 {
   constexpr int    steps = 120;
-  constexpr double shortest = 0.1; // voxels
+  const double     shortest = Ripples() > 0 ? 0.3 : 0.1; // voxels
   constexpr double ofRadius = 0.25;
   constexpr double ofFlatRise = 0.2;
   constexpr double ofFlatRiseOfTwo = 0.6; // on two ways at right angles: then at least 0.2 on all
-  SurfacePoint     foot = m_Anchors[point];
+  SurfacePoint     foot{ begin.position, begin.normal, begin.found };
+  double           distance = Distance(place, foot.position);
+  begin.distance = distance;
   if (!foot.found)
   {
-    return Place(point);
+    return;
   }
-  double       distance = Distance(place, foot.position);
   const double longest = std::max(kLongestStride * m_Voxel, ofRadius * distance);
   double       stride = std::max(0.5 * m_Voxel, ofRadius * distance);
   bool         flat = false;
   SurfacePoint next;
-  // What is nearly as near lies along the ball, not along the surface's tangents, which leave a tube soon.
-  double     rise = 0;
-  const auto descends = [&](double length, const Vector3 & way) {
+  // Facets have no slopes to go by, so that on a mesh ways are tried all around.
+  const bool bySlopes = Ripples() > 0;
+  // What is nearly as near lies along the ball, not along the surface's tangents, which leave a tube soon. From one
+  // shallow ripple to the next it would be a long way.
+  constexpr double ofRipples = 0.1;
+  const double     shallowest = ofRipples * Ripples() * m_Voxel;
+  double           rise = 0;
+  const auto       descends = [&](double length, const Vector3 & way) {
     const Vector3 ray = Minus(AddScaled(foot.position, length, way), place);
     const double  away = Length(ray);
     const Vector3 to = away > 0 ? AddScaled(place, distance / away, ray) : place;
     rise = TryFoot(place, to, foot, distance, next);
-    if (rise < 0)
+    if (rise >= -shallowest)
     {
-      foot = next;
-      distance += rise;
+      return false;
     }
-    return rise < 0;
+    foot = next;
+    distance += rise;
+    return true;
   };
-  // Facets have no slopes to go by, so that on a mesh ways are tried all around.
-  const bool bySlopes = Ripples() > 0;
   for (int step = 0; step < steps && stride >= shortest * m_Voxel; ++step)
   {
     const Vector3 slide = SlideOf(place, foot);
@@ -266,26 +348,27 @@ FootPointFinder::Descend(const Vector3 & place, std::uint32_t point) const
     }
     stride *= 0.5;
   }
-  return foot.position;
+  begin = { begin.point, foot.position, distance, foot.normal, true };
 }
 
 // From where the surface passes the boundary vertex downhill towards where a ball about `place` touches it. Where it is
 // nearly as near in many directions, as about the axis of a tube, going all the way would lead to the deepest ripple,
 // and both foot points of a pair to the same: a few steps reach the foot on all that is flatter.
-Vector3
-FootPointFinder::Slide(const Vector3 & place, std::uint32_t point, double most) const
+void
+FootPointFinder::Slide(const Vector3 & place, double most, FootPoint & begin) const
 {
   const int        steps = Ripples() > 0 ? 4 : 24;
   constexpr double shortest = 1.0 / 16;
-  const Vector3    home = Place(point);
-  SurfacePoint     foot = m_Anchors[point];
+  const Vector3    home = Place(begin.point);
+  SurfacePoint     foot{ begin.position, begin.normal, begin.found };
+  begin.distance = Distance(place, foot.position);
   if (!foot.found)
   {
-    return home;
+    return;
   }
   const double radius = Distance(place, home);
   const double reach = std::min(most, 1.5 * std::sqrt(2 * radius * m_Voxel) + 2 * m_Voxel);
-  double       distance = Distance(place, foot.position);
+  double       distance = begin.distance;
   double       shorter = 1;
   SurfacePoint next;
   for (int step = 0; step < steps && shorter >= shortest; ++step)
@@ -308,7 +391,7 @@ FootPointFinder::Slide(const Vector3 & place, std::uint32_t point, double most) 
     foot = next;
     distance += rise;
   }
-  return foot.position;
+  begin = { begin.point, foot.position, distance, foot.normal, true };
 }
 
 } // namespace voxelcore

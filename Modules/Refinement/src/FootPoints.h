@@ -17,7 +17,9 @@ struct FootPoint
 {
   std::uint32_t point = 0; ///< the boundary vertex it belongs to
   Vector3       position{};
-  double        distance = 0; ///< mm from the core vertex
+  double        distance = 0;  ///< mm from the core vertex
+  Vector3       normal{};      ///< of the surface
+  bool          found = false; ///< false: the surface is not known there
 };
 
 /** Finds foot points; thread-safe after construction. */
@@ -40,8 +42,8 @@ public:
   Meet(const Vector3 & place, const PointPair & pair) const;
 
   /** The foot points of a core vertex at `place` (mm along the lattice axes), one for each boundary vertex in `pairs`,
-   *  by index. Foot points stay near their boundary vertex: so near that those of a pair cannot meet by passing each
-   *  other. */
+   *  by index; sought from where `footPoints` are, those of a place nearby, or none. They stay near their boundary
+   *  vertex: so near that those of a pair cannot meet by passing each other. */
   void
   Find(const Vector3 & place, std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const;
 
@@ -53,13 +55,17 @@ public:
 private:
   Vector3
   Place(std::uint32_t point) const;
+  void
+  Begin(std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const;
   double
   TryFoot(const Vector3 & place, const Vector3 & to, const SurfacePoint & foot, double distance, SurfacePoint & next)
     const;
-  Vector3
-  Slide(const Vector3 & place, std::uint32_t point, double most) const;
-  Vector3
-  Descend(const Vector3 & place, std::uint32_t point) const;
+  bool
+  Falls(const Vector3 & place, std::uint32_t point, const FootPoint & to, double most) const;
+  void
+  Slide(const Vector3 & place, double most, FootPoint & foot) const;
+  void
+  Descend(const Vector3 & place, FootPoint & foot) const;
 
   const RefinementInput &   m_Input;
   std::vector<SurfacePoint> m_Anchors;

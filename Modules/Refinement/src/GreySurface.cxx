@@ -47,6 +47,12 @@ public:
     return point;
   }
 
+  double
+  Ripples() const override
+  {
+    return 0.01;
+  }
+
 private:
   FieldSurface m_Wide;
   FieldSurface m_Narrow;
@@ -69,7 +75,8 @@ SurfaceFromGrey(const VoxelShape &       shape,
   field.FillGrey(scan, rows);
   const auto smoothed = [&](BandField one, double sigma) {
     one.SetWidth(sigma);
-    one.SmoothToCoefficients(BandField::StepWeight(sigma));
+    one.FindCoefficients(BandField::StepWeight(sigma));
+    one.DropValues();
     const double least = flattest * one.Far();
     return FieldSurface(std::move(one), spacing, sides, least);
   };

@@ -86,27 +86,22 @@ public:
       former.push_back(m_Field.Save());
       SmoothThick(thick);
     }
-    const float         weight = m_Profile.Weight(m_Sigma);
-    BandField::Snapshot last = m_Field.Save();
-    m_Field.SmoothToCoefficients(weight);
+    const float weight = m_Profile.Weight(m_Sigma);
+    m_Field.FindCoefficients(weight);
     FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest);
     // Where labels allow no surface so smooth, a less smooth one.
-    for (; !former.empty(); former.pop_back())
+    for (std::vector<std::uint8_t> changed; !former.empty(); former.pop_back())
     {
       SmoothingZones zones(m_Depth);
-      if (!MarkPassedBy(surface, zones))
+      if (!MarkPassedBy(surface, changed, zones))
       {
         break;
       }
       constexpr double near = 5;
       zones.LeaveOutAroundMarks(near);
-      surface.Change([&](BandField & field) {
-        field.Restore(last);
-        field.BlendWith(former.back(), zones);
-        last = field.Save();
-        field.SmoothToCoefficients(weight);
-      });
+      surface.Change([&](BandField & field) { changed = field.BlendWith(former.back(), zones, weight); });
     }
+    surface.Change([](BandField & field) { field.DropValues(); });
     return surface;
   }
 
@@ -149,18 +144,23 @@ private:
     SmoothWith(m_Field, m_Sigma, &thick);
   }
 
-  // Boundary vertices that are far off the surface.
+  // Boundary vertices that are far off the surface, of those in bricks that have changed, if any are named.
   bool
-  MarkPassedBy(const SurfaceEstimate & surface, SmoothingZones & zones) const
+  MarkPassedBy(const FieldSurface & surface, const std::vector<std::uint8_t> & changed, SmoothingZones & zones) const
   {
     constexpr double          ofDiagonal = 0.8;
+    const BrickGrid &         grid = surface.Field().Grid();
     std::vector<std::uint8_t> passed(m_Points.size(), 0);
     const auto                count = static_cast<std::ptrdiff_t>(m_Points.size());
 #pragma omp parallel for schedule(dynamic, 256) if (count > 4096)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
       const LatticePoint & p = m_Points[static_cast<std::size_t>(i)];
-      const Vector3        place =
+      if (!changed.empty() && changed[static_cast<std::size_t>(grid.Find({ p.x >> 3, p.y >> 3, p.z >> 3 }))] == 0)
+      {
+        continue;
+      }
+      const Vector3 place =
         Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, m_Spacing);
       passed[static_cast<std::size_t>(i)] = surface.Project(place, ofDiagonal * Length(m_Spacing)).found ? 0 : 1;
     }

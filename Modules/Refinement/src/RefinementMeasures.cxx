@@ -9,12 +9,28 @@
 namespace voxelcore
 {
 
-// How wide the foot points of each pair of these vertices are apart, and how far the nearest one is.
+// How wide the foot points of each pair are apart, and how far the nearest one is; they are sought from `footPoints`.
+void
+RefinementState::MeasureVertex(const FootPointFinder & finder, std::size_t vertex, std::vector<FootPoint> & footPoints)
+{
+  const auto pairs = Pairs(vertex);
+  if (pairs.empty())
+  {
+    m_Radius[vertex] = m_Input.core->radius[m_VertexIds[vertex]];
+    return;
+  }
+  finder.Settle(Place(vertex), pairs, footPoints);
+  m_Radius[vertex] = NearestDistance(footPoints);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+  {
+    m_Widths[m_Pairs.First(vertex) + k] =
+      0.5 * Distance(FootPointOf(footPoints, pairs[k][0]).position, FootPointOf(footPoints, pairs[k][1]).position);
+  }
+}
+
 void
 RefinementState::MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices)
 {
-  m_Widths.resize(m_Pairs.All().size(), 0);
-  m_Radius.resize(m_Positions.size(), 0);
   const auto count = static_cast<std::ptrdiff_t>(vertices.size());
 #pragma omp parallel if (count > 512)
   {
@@ -22,20 +38,8 @@ RefinementState::MeasureVertices(const FootPointFinder & finder, const std::vect
 #pragma omp for schedule(dynamic, 256)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
-      const std::size_t vertex = vertices[static_cast<std::size_t>(i)];
-      const auto        pairs = Pairs(vertex);
-      if (pairs.empty())
-      {
-        m_Radius[vertex] = m_Input.core->radius[m_VertexIds[vertex]];
-        continue;
-      }
-      finder.Settle(Place(vertex), pairs, footPoints);
-      m_Radius[vertex] = NearestDistance(footPoints);
-      for (std::size_t k = 0; k < pairs.size(); ++k)
-      {
-        m_Widths[m_Pairs.First(vertex) + k] =
-          0.5 * Distance(FootPointOf(footPoints, pairs[k][0]).position, FootPointOf(footPoints, pairs[k][1]).position);
-      }
+      footPoints.clear();
+      MeasureVertex(finder, vertices[static_cast<std::size_t>(i)], footPoints);
     }
   }
 }

@@ -117,6 +117,7 @@ RefinementState::MoveInPasses(const FootPointFinder &    finder,
                               std::vector<FootPoint> &   footPoints)
 {
   constexpr int passes = 3;
+  footPoints.clear();
   for (int pass = 0; pass < passes && !pairs.empty(); ++pass)
   {
     if (MoveVertex(finder, vertex, pairs, footPoints) < finder.Ripples()) // the next step is much shorter
@@ -130,6 +131,8 @@ void
 RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & progress)
 {
   const auto count = static_cast<std::ptrdiff_t>(m_Positions.size());
+  m_Widths.assign(m_Pairs.All().size(), 0);
+  m_Radius.assign(m_Positions.size(), 0);
   ReportProgress(progress, "refining", 0.2);
 #pragma omp parallel if (count > 512)
   {
@@ -139,6 +142,7 @@ RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & p
     {
       const auto vertex = static_cast<std::size_t>(i);
       MoveInPasses(finder, vertex, Pairs(vertex), footPoints);
+      MeasureVertex(finder, vertex, footPoints);
     }
   }
   ReportProgress(progress, "refining", 0.8);
@@ -258,7 +262,6 @@ RefinedCore
 RefinementState::Finish(const FootPointFinder & finder, double threshold, std::vector<double> & formerRadius)
 {
   CorePart part = All();
-  MeasureVertices(finder, part.vertices);
   MeasureElements();
   part = Collapse(part, threshold);
   std::vector<Vector3> wanted = m_Displacement;

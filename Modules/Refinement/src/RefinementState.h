@@ -22,7 +22,7 @@ class RefinementState
 public:
   RefinementState(const RefinementInput & input, CorePart part);
 
-  /** Moves vertices to where their balls touch alike. */
+  /** Moves vertices to where their balls touch alike, and measures them there. */
   void
   Move(const FootPointFinder & finder, const ProgressCallback & progress);
 
@@ -54,6 +54,8 @@ private:
                std::size_t                vertex,
                std::span<const PointPair> pairs,
                std::vector<FootPoint> &   footPoints);
+  void
+  MeasureVertex(const FootPointFinder & finder, std::size_t vertex, std::vector<FootPoint> & footPoints);
   void
   MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices);
   double
