@@ -46,7 +46,8 @@ struct CertifiedSkeleton
 };
 
 /** Burns the core to curves; lambda, tolerance and refinement of the request only say what `core` is. The body that is
- *  measured around them is the union of the core's balls; of a whole core that is the shape.
+ *  measured around them is the union of the core's balls: of a whole core of cubic voxels the shape, of flat voxels
+ *  more, as balls bulge through large faces, of a pruned core less.
  *  \throws CertificateError when the skeleton does not have the shape's topology; Cancelled */
 CertifiedSkeleton
 SkeletonOf(const PlacedCore &       core,
