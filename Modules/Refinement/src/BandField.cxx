@@ -154,12 +154,9 @@ void
 BandField::FillDistances(const VoxelShape & shape, double clip)
 {
   SetFar(static_cast<float>(clip));
-  std::array<float, 3> squares{};
-  std::transform(m_Sides.begin(), m_Sides.end(), squares.begin(), [](double side) {
-    return static_cast<float>(side * side);
-  });
-  const float half = 0.5F * static_cast<float>(std::min({ m_Sides[0], m_Sides[1], m_Sides[2] }));
-  const auto  count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+  const std::array<float, 3> squares = tile::AsFloats(Times(m_Sides, m_Sides));
+  const float                half = 0.5F * static_cast<float>(std::min({ m_Sides[0], m_Sides[1], m_Sides[2] }));
+  const auto                 count = static_cast<std::ptrdiff_t>(m_Grid.Count());
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {

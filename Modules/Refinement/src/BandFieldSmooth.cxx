@@ -255,17 +255,8 @@ BandField::Rings(std::vector<std::uint8_t> changed) const
 {
   std::array<std::vector<std::uint8_t>, 3> needed;
   needed[0] = std::move(changed);
-  for (std::size_t ring = 1; ring < 3; ++ring)
-  {
-    needed[ring] = needed[ring - 1];
-    for (std::size_t brick = 0; brick < needed[ring].size(); ++brick)
-    {
-      const auto & around = m_Grid.Neighbours(brick);
-      needed[ring][brick] = std::any_of(around.begin(), around.end(), [&](std::int32_t other) {
-        return other >= 0 && needed[ring - 1][static_cast<std::size_t>(other)] != 0;
-      });
-    }
-  }
+  needed[1] = m_Grid.AndAround(needed[0]);
+  needed[2] = m_Grid.AndAround(needed[1]);
   return needed;
 }
 

@@ -83,4 +83,17 @@ BrickGrid::BrickGrid(const VoxelShape & shape, std::span<const LatticePoint> poi
   }
 }
 
+std::vector<std::uint8_t>
+BrickGrid::AndAround(const std::vector<std::uint8_t> & flags) const
+{
+  std::vector<std::uint8_t> more(flags.size());
+  for (std::size_t brick = 0; brick < flags.size(); ++brick)
+  {
+    more[brick] = std::any_of(m_Neighbours[brick].begin(), m_Neighbours[brick].end(), [&](std::int32_t other) {
+      return other >= 0 && flags[static_cast<std::size_t>(other)] != 0;
+    });
+  }
+  return more;
+}
+
 } // namespace voxelcore

@@ -59,6 +59,10 @@ public:
     return m_Neighbours[brick];
   }
 
+  /** Flags of bricks, and of those around them. */
+  std::vector<std::uint8_t>
+  AndAround(const std::vector<std::uint8_t> & flags) const;
+
 private:
   std::size_t
   BitOf(const Brick & brick) const

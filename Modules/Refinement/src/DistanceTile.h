@@ -1,6 +1,8 @@
 #pragma once
 // Distances of the points of a cube to the nearest one whose bit is set in it or around it.
 
+#include "voxelcore/ImageGeometry.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -22,6 +24,12 @@ struct Rows
 /** Of each point, by x, then y, then z. */
 template <std::int32_t Count>
 using Squared = std::array<float, static_cast<std::size_t>(Count) * Count * Count>;
+
+inline std::array<float, 3>
+AsFloats(const Vector3 & v)
+{
+  return { static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]) };
+}
 
 /** With the `squares` of the sides: kNone or more where no bit is set within the margin. */
 template <std::int32_t Count, std::int32_t Margin>

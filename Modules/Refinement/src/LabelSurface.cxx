@@ -62,7 +62,7 @@ public:
     // Steps of thick slices need more smoothing than steps of thin ones.
     , m_Sigma(0.8 + 0.2 * std::max({ m_Sides[0], m_Sides[1], m_Sides[2] }))
     , m_Points(BoundaryVertices(shape))
-    , m_Depth(shape, m_Points, m_Sides, kThickest * m_Sigma)
+    , m_Depth(shape, m_Points, m_Sides, kThickest * m_Sigma, kThick * m_Sigma)
     , m_Field(shape, m_Points, m_Sides, m_Sigma, static_cast<std::int32_t>(std::ceil(kReach * m_Sigma)))
     , m_Profile(kClip)
   {

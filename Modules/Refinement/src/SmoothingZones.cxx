@@ -16,16 +16,10 @@ namespace
 
 constexpr std::int32_t kSide = BrickGrid::kSide;
 constexpr std::size_t  kCells = BrickGrid::kCells;
-constexpr std::int32_t kDeepest = 16; ///< voxels
-constexpr std::int32_t kMargin = 12;  ///< cells
-using LabelRows = tile::Rows<2 * kSide, kDeepest>;
+constexpr std::int32_t kMargin = 12; ///< cells
+constexpr std::int32_t kNear = 5;    ///< cells: as far as anything is left out around a mark
 using FlagRows = tile::Rows<kSide, kMargin>;
-
-VOXELCORE_EIGHT_LANES void
-FindDistances(const LabelRows & rows, const std::array<float, 3> & squares, tile::Squared<2 * kSide> & least)
-{
-  tile::FindSquaredDistances(rows, squares, least);
-}
+using NearRows = tile::Rows<kSide, kNear>;
 
 VOXELCORE_EIGHT_LANES void
 FindDistances(const FlagRows & rows, const std::array<float, 3> & squares, tile::Squared<kSide> & least)
@@ -33,10 +27,10 @@ FindDistances(const FlagRows & rows, const std::array<float, 3> & squares, tile:
   tile::FindSquaredDistances(rows, squares, least);
 }
 
-std::array<float, 3>
-AsFloats(const Vector3 & v)
+VOXELCORE_EIGHT_LANES void
+FindDistances(const NearRows & rows, const std::array<float, 3> & squares, tile::Squared<kSide> & least)
 {
-  return { static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]) };
+  tile::FindSquaredDistances(rows, squares, least);
 }
 
 // 1 up to `from`, 0 from `to` on.
@@ -47,17 +41,18 @@ Ramp(double value, double from, double to)
 }
 
 // Flags of the cells around a brick; `farInside` and `farOutside` where there is no brick. False when none is set.
+template <std::int32_t Margin>
 bool
 GatherFlags(const BrickGrid &                     grid,
             const std::vector<BrickGrid::Flags> & flags,
             bool                                  farInside,
             bool                                  farOutside,
             std::size_t                           brick,
-            FlagRows &                            rows)
+            tile::Rows<kSide, Margin> &           rows)
 {
-  constexpr std::int32_t beyond = (kMargin + kSide - 1) / kSide;
+  constexpr std::int32_t beyond = (Margin + kSide - 1) / kSide;
   constexpr std::int32_t bricks = 2 * beyond + 1;
-  constexpr std::int32_t skipped = beyond * kSide - kMargin; // cells of the outermost bricks
+  constexpr std::int32_t skipped = beyond * kSide - Margin; // cells of the outermost bricks
   std::uint64_t          any = 0;
   rows.bits.fill(0);
   for (std::int32_t n = 0; n < bricks * bricks * bricks; ++n)
@@ -77,11 +72,16 @@ GatherFlags(const BrickGrid &                     grid,
       found = grid.Neighbours(static_cast<std::size_t>(found))[neighbour];
     }
     const std::uint64_t all = (found == BrickGrid::kInside ? farInside : farOutside) ? 0xFF : 0;
+    if (found < 0 ? all == 0 : flags[static_cast<std::size_t>(found)] == BrickGrid::Flags{})
+    {
+      continue;
+    }
     for (std::int32_t row = 0; row < 64; ++row)
     {
-      const std::int32_t y = place[1] * kSide + (row & 7) - skipped;
-      const std::int32_t z = place[2] * kSide + (row >> 3) - skipped;
-      if (y < 0 || y >= FlagRows::kSide || z < 0 || z >= FlagRows::kSide)
+      const std::int32_t     y = place[1] * kSide + (row & 7) - skipped;
+      const std::int32_t     z = place[2] * kSide + (row >> 3) - skipped;
+      constexpr std::int32_t side = tile::Rows<kSide, Margin>::kSide;
+      if (y < 0 || y >= side || z < 0 || z >= side)
       {
         continue;
       }
@@ -89,57 +89,13 @@ GatherFlags(const BrickGrid &                     grid,
         found < 0 ? all : flags[static_cast<std::size_t>(found)][static_cast<std::size_t>(row)];
       const std::int32_t x = place[0] * kSide - skipped;
       any |= bits;
-      rows.bits[static_cast<std::size_t>(z * FlagRows::kSide + y)] |= x < 0 ? bits >> -x : bits << x;
+      rows.bits[static_cast<std::size_t>(z * side + y)] |= x < 0 ? bits >> -x : bits << x;
     }
   }
   return any != 0;
 }
 
 } // namespace
-
-BoundaryDepth::BoundaryDepth(const VoxelShape &            shape,
-                             std::span<const LatticePoint> points,
-                             const Vector3 &               sides,
-                             double                        reach)
-  : m_Grid(shape, points, 1, static_cast<std::int32_t>(std::ceil(reach)))
-  , m_Squares(AddScaled({ 0, 0, 0 }, 4, Times(sides, sides)))
-  , m_Depths(m_Grid.Count() * kCells)
-{
-  const auto  squares = AsFloats(Times(sides, sides));
-  const float half = 0.5F * static_cast<float>(std::min({ sides[0], sides[1], sides[2] }));
-  const auto  count = static_cast<std::ptrdiff_t>(m_Grid.Count());
-#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-  {
-    const auto   brick = static_cast<std::size_t>(i);
-    const auto & at = m_Grid.At(brick);
-    LabelRows    in;
-    LabelRows    out;
-    ReadRows(shape,
-             { 2 * kSide * at[0] - kDeepest, 2 * kSide * at[1] - kDeepest, 2 * kSide * at[2] - kDeepest },
-             in,
-             out);
-    tile::Squared<2 * kSide> toIn;
-    tile::Squared<2 * kSide> toOut;
-    FindDistances(in, squares, toIn);
-    FindDistances(out, squares, toOut);
-    for (std::size_t cell = 0; cell < kCells; ++cell)
-    {
-      Depth & depth = m_Depths[brick * kCells + cell];
-      for (std::size_t corner = 0; corner < 8; ++corner)
-      {
-        const std::size_t x = 2 * (cell & 7) + (corner & 1);
-        const std::size_t y = 2 * (cell >> 3 & 7) + (corner >> 1 & 1);
-        const std::size_t voxel = x + 16 * (y + 16 * (2 * (cell >> 6) + (corner >> 2)));
-        const bool        inside = toIn[voxel] == 0;
-        const float       distance = std::sqrt(inside ? toOut[voxel] : toIn[voxel]) - half;
-        depth.mean += (inside ? distance : -distance) / 8;
-        float & deepest = inside ? depth.inside : depth.outside;
-        deepest = std::max(deepest, distance);
-      }
-    }
-  }
-}
 
 // A ball that touches the boundary nearest to a voxel has its centre farther from it by the voxel's own distance, or
 // nearer by it on its own side.
@@ -172,7 +128,7 @@ SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius)
   {
     return;
   }
-  const auto squares = AsFloats(depth.Squares());
+  const auto squares = tile::AsFloats(depth.Squares());
   const auto count = static_cast<std::ptrdiff_t>(grid.Count());
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
@@ -229,13 +185,13 @@ SmoothingZones::LeaveOutAroundMarks(double near)
     return;
   }
   const BrickGrid & grid = m_Depth->Grid();
-  const auto        squares = AsFloats(m_Depth->Squares());
+  const auto        squares = tile::AsFloats(m_Depth->Squares());
   const auto        count = static_cast<std::ptrdiff_t>(grid.Count());
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
     const auto           brick = static_cast<std::size_t>(i);
-    FlagRows             rows;
+    NearRows             rows;
     tile::Squared<kSide> toMark;
     if (!GatherFlags(grid, m_Marks, false, false, brick, rows))
     {

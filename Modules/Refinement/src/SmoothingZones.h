@@ -1,48 +1,10 @@
 #pragma once
 // How strongly each place near a boundary may be smoothed.
 
-#include "BrickGrid.h"
-
-#include "voxelcore/ImageGeometry.h"
+#include "BoundaryDepth.h"
 
 namespace voxelcore
 {
-
-/** How far cubes of 2^3 voxels are from a boundary, farther off than a band field reaches. */
-class BoundaryDepth
-{
-public:
-  /** `sides` as for BandField, at most 2; what is within `reach` units of the boundary has a depth. */
-  BoundaryDepth(const VoxelShape & shape, std::span<const LatticePoint> points, const Vector3 & sides, double reach);
-
-  const BrickGrid &
-  Grid() const
-  {
-    return m_Grid;
-  }
-  const Vector3 &
-  Squares() const
-  {
-    return m_Squares;
-  }
-  /** Of the distances of the voxels of a cell. */
-  struct Depth
-  {
-    float mean = 0;    ///< positive inside
-    float inside = 0;  ///< the greatest of voxels that are in, 0 when there are none
-    float outside = 0; ///< the same of the others
-  };
-  const std::vector<Depth> &
-  Depths() const
-  {
-    return m_Depths;
-  }
-
-private:
-  BrickGrid          m_Grid;
-  Vector3            m_Squares; ///< of the sides of a cell
-  std::vector<Depth> m_Depths;
-};
 
 /** How much of a pass each voxel takes, 255 for all of it: the same for the eight of a cube of 2^3. */
 class SmoothingZones
@@ -54,8 +16,8 @@ public:
     , m_Parts(depth.Grid().Count() * BrickGrid::kCells, 255)
   {}
 
-  /** All where balls of `radius` touch the boundary from inside and from outside, none where one is kept two units or
-   *  more away from it, by another wall, an edge or a crease. */
+  /** All where balls of `radius`, at least that of the depths, touch the boundary from inside and from outside, none
+   *  where one is kept two units or more away from it, by another wall, an edge or a crease. */
   SmoothingZones(const BoundaryDepth & depth, double radius);
 
   bool
@@ -65,7 +27,8 @@ public:
   void
   Mark(std::int32_t x, std::int32_t y, std::int32_t z);
 
-  /** Takes away what lies within `near` units of a mark, and by degrees to 2 units farther. Marks are gone then. */
+  /** Takes away what lies within `near` units of a mark, at most 8, and by degrees to 2 units farther. Marks are gone
+   *  then. */
   void
   LeaveOutAroundMarks(double near);
 
