@@ -169,6 +169,7 @@ MakeCores(const ArrayView &        array,
     const auto place = [&](std::size_t done) {
       return editEnds + (1 - editEnds) * static_cast<double>(done) / static_cast<double>(edited.labels.size());
     };
+    const auto                      shape = std::make_shared<const VoxelShape>(edited.labels[i].label.shape);
     LabelOutcome                    outcome = ProcessLabel(std::move(edited.labels[i]),
                                         map.geometry,
                                         RequestOf(options, surface),
@@ -179,6 +180,7 @@ MakeCores(const ArrayView &        array,
     for (auto & result : ResultsOf(report, pruned, std::move(outcome.parts)))
     {
       result->refined = options.refine.surface;
+      result->shape = shape;
       results.push_back(std::move(result));
     }
   }
@@ -215,6 +217,7 @@ Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCa
   for (const auto & result : results)
   {
     result->hasEdges = core.hasEdges;
+    result->shape = core.shape;
   }
   return results;
 }
@@ -235,7 +238,9 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
     stage.tolerance = height.value > 0 ? std::optional(height) : std::nullopt;
   }
   LabelRecord & record = result->report.labels.front();
-  result->part = TakeSkeleton(SkeletonOf(core->part, RecordedShape(core->report, record), stage, progress), record);
+  result->part =
+    TakeSkeleton(SkeletonOf(core->part, RecordedShape(core->report, record), stage, progress, core->shape.get()),
+                 record);
   result->report.skeleton = std::move(stage);
   result->surface = std::move(core);
   return result;

@@ -6,6 +6,7 @@
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/SkeletonModel.h"
+#include "voxelcore/VoxelShape.h"
 
 #include <filesystem>
 #include <memory>
@@ -23,6 +24,8 @@ struct CoreOfLabel
   bool       hasEdges = true; ///< the measures of all edges are known
 
   std::string refined{}; ///< the surface it was refined to, as MedialModel::refined
+
+  std::shared_ptr<const VoxelShape> shape{}; ///< what it is the core of; none when it was read from a file
 };
 
 /** A certified skeleton; the surface it was made of is kept for files that hold both. */

@@ -2,6 +2,7 @@
 
 #include "voxelcore/Error.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <pybind11/stl.h>
@@ -159,6 +160,58 @@ RequireState(const py::tuple & state, std::size_t size)
   }
 }
 
+void
+WriteShape(const VoxelShape * shape, ArrayWriter & arrays)
+{
+  std::vector<VoxelBox>      boxes;
+  std::vector<std::uint64_t> words;
+  if (shape != nullptr)
+  {
+    boxes.push_back(shape->Box());
+    for (std::int32_t z = 0; z < shape->Box().size[2]; ++z)
+    {
+      for (std::int32_t y = 0; y < shape->Box().size[1]; ++y)
+      {
+        const auto row = shape->Row(y, z);
+        words.insert(words.end(), row.begin(), row.end());
+      }
+    }
+  }
+  arrays(boxes);
+  arrays(words);
+}
+
+std::shared_ptr<const VoxelShape>
+ReadShape(ArrayReader & arrays)
+{
+  std::vector<VoxelBox>      boxes;
+  std::vector<std::uint64_t> words;
+  arrays(boxes);
+  arrays(words);
+  if (boxes.empty())
+  {
+    return nullptr;
+  }
+  const VoxelBox & box = boxes.front();
+  const auto       rows = static_cast<std::size_t>(box.size[1]) * static_cast<std::size_t>(box.size[2]);
+  if (words.size() != rows * ((static_cast<std::size_t>(box.size[0]) + 63) / 64))
+  {
+    RefuseState();
+  }
+  auto shape = std::make_shared<VoxelShape>(box);
+  auto from = words.begin();
+  for (std::int32_t z = 0; z < box.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
+    {
+      const auto row = shape->Row(y, z);
+      std::copy_n(from, row.size(), row.begin());
+      from += static_cast<std::ptrdiff_t>(row.size());
+    }
+  }
+  return shape;
+}
+
 } // namespace
 
 py::tuple
@@ -166,6 +219,7 @@ StateOf(const CoreOfLabel & core)
 {
   ArrayWriter arrays;
   VisitCore(core.part, arrays);
+  WriteShape(core.shape.get(), arrays);
   return py::make_tuple(VoxelCoreVersion(),
                         StateOf(core.report),
                         core.hasEdges,
@@ -185,7 +239,9 @@ CoreFromState(const py::tuple & state)
   core->refined = state[3].cast<std::string>();
   core->part.label = state[4].cast<std::int64_t>();
   core->part.component = state[5].cast<std::int64_t>();
-  VisitCore(core->part, ArrayReader(state[6]));
+  ArrayReader arrays(state[6]);
+  VisitCore(core->part, arrays);
+  core->shape = ReadShape(arrays);
   core->part.core.cells.vertexCount = core->part.core.positions.size();
   return core;
 }

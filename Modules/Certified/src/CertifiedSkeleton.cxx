@@ -195,12 +195,13 @@ CertifiedSkeleton
 SkeletonOf(const PlacedCore &       core,
            const CertifiedShape &   shape,
            const SkeletonRequest &  request,
-           const ProgressCallback & progress)
+           const ProgressCallback & progress,
+           const VoxelShape *       body)
 {
   StagePlan          plan(progress, { 0.98, 0.02 });
   const BurnedCurves burned = BurnToCurves(core.core, shape, request, plan.Next());
   ReportProgress(plan.Next("branches"), "", 0);
-  CertifiedSkeleton result = MeasureCurves(burned, BodyOf(core.core, shape), shape, request);
+  CertifiedSkeleton result = MeasureCurves(burned, body != nullptr ? *body : BodyOf(core.core, shape), shape, request);
   result.skeleton.label = core.label;
   result.skeleton.component = core.component;
   return result;

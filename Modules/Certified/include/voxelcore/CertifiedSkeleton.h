@@ -46,14 +46,15 @@ struct CertifiedSkeleton
 };
 
 /** Burns the core to curves; lambda, tolerance and refinement of the request only say what `core` is. The body that is
- *  measured around them is the union of the core's balls: of a whole core of cubic voxels the shape, of flat voxels
- *  more, as balls bulge through large faces, of a pruned core less.
+ *  measured around them is `body`; without it the union of the core's balls: of a whole core of cubic voxels the
+ *  shape, of flat voxels more, as balls bulge through large faces, of a pruned core less.
  *  \throws CertificateError when the skeleton does not have the shape's topology; Cancelled */
 CertifiedSkeleton
 SkeletonOf(const PlacedCore &       core,
            const CertifiedShape &   shape,
            const SkeletonRequest &  request,
-           const ProgressCallback & progress = {});
+           const ProgressCallback & progress = {},
+           const VoxelShape *       body = nullptr);
 
 /** Cuts and splits branches as asked for, and measures them anew. What hangs loose after a cut stays where it stands
  *  out by `standOut` mm. */
