@@ -3,8 +3,9 @@
 
 usage: same_results.py VOXELCORE SOURCE_DIR [--record | --against OTHER_VOXELCORE] [--only NAME,...]
 
-Without an option each output's SHA-256 must be the recorded one. --record writes digests.json anew; a change that
-alters results on purpose records them and says so in its message. --against compares two programs byte by byte instead.
+Without an option each output's SHA-256 must be the recorded one. --record writes what was run into
+digests.json; a change that alters results on purpose records them and says so in its message. --against compares two
+programs byte by byte instead.
 What varies from run to run (times, memory, paths, version) is taken out of JSON, CSV and text first.
 """
 
@@ -115,7 +116,13 @@ def main():
         print(f"{name}: passed over, its scan is not there")
     digests = HERE / "digests.json"
     if arguments.record:
-        digests.write_text(json.dumps(found, indent=1, sort_keys=True) + "\n")
+        # What was not run keeps its record; what is no longer in the list loses it.
+        names = {line.split(None, 1)[0] for line in (HERE / "runs.txt").read_text().splitlines()
+                 if line and not line.startswith("#")}
+        kept = {name: files for name, files in json.loads(digests.read_text()).items()
+                if name in names and name not in found}
+        digests.write_text(json.dumps({**kept, **found}, indent=1, sort_keys=True) + "\n")
+        print(f"{len(found)} runs recorded, {len(kept)} kept as they were")
         return 0
     if arguments.against:
         expected, _ = run_list(os.path.abspath(arguments.against), arguments.source.resolve(), arguments.only)

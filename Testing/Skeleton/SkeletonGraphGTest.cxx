@@ -288,6 +288,36 @@ TEST(SkeletonGraph, PruningGoesByTheRadiusAtTheOtherEndToo)
   }
 }
 
+TEST(SkeletonGraph, PruningFurtherLeavesPartOfWhatWasLeft)
+{
+  std::size_t shrunk = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed)
+  {
+    RandomLines   made(seed);
+    SkeletonGraph whole = made.graph;
+    SortBranches(whole, made.lines, true);
+    for (const bool isRatio : { false, true })
+    {
+      std::set<Spacing3> before(whole.positions.begin(), whole.positions.end());
+      std::int64_t       tipsBefore = MeasureBranches(whole).numbers.tips;
+      for (const double limit : { 0.3, 0.6, 0.9, 1.2, 1.6, 2.1, 3.0, 5.0 })
+      {
+        SkeletonGraph graph = whole;
+        PruneBranches(graph, isRatio ? BranchLimit{ 0, limit } : BranchLimit{ limit, 0 });
+        const std::set<Spacing3> after(graph.positions.begin(), graph.positions.end());
+        ASSERT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()))
+          << "seed " << seed << ", limit " << limit << (isRatio ? " radii" : " mm");
+        const std::int64_t tips = MeasureBranches(graph).numbers.tips;
+        ASSERT_LE(tips, tipsBefore) << "seed " << seed << ", limit " << limit;
+        shrunk += tips < tipsBefore ? 1 : 0;
+        before = after;
+        tipsBefore = tips;
+      }
+    }
+  }
+  EXPECT_GT(shrunk, 100U);
+}
+
 TEST(SkeletonGraph, PruningToAnyLengthKeepsComponentsAndCycles)
 {
   for (std::uint64_t seed = 1; seed <= 300; ++seed)

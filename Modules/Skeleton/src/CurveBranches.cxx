@@ -1,0 +1,270 @@
+#include "CurveBranches.h"
+
+#include "voxelcore/Vectors.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Where the curve runs along the middle of the surface, fire along it falls behind as fast as it goes; into a corner of
+// the surface of 90 degrees by 0.29 of the way, into a corner of a box by 0.42 of it.
+constexpr double kRunsAlongTheMiddle = 0.5;
+
+// A thin branch on a thick body is short beside the edges within the body, and ways of a few voxels are too short for
+// times to tell it from a corner. There the radius does: into a corner of 90 degrees it grows by 0.71 of the way, into
+// that of a box by 0.58.
+constexpr double kThinWindow = 6;
+constexpr double kThinGrowth = 0.3;
+
+// Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much
+// further to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of
+// voxels, half of it; a thick one begins in the centre. Measured on tubes and tapering roots at all angles; voxels.
+constexpr double kCornerBeyondBall = 1.25;
+constexpr double kLineBeyondBall = 0.6;
+
+/** Looks for the end of the body along the path of a branch. */
+class EndSearch
+{
+public:
+  EndSearch(const MedialComplex &       surface,
+            const CurveFire &           fire,
+            const std::vector<double> & surfaceTime,
+            const BranchScale &         scale,
+            CurveBranch &               branch)
+    : m_Surface(surface)
+    , m_Fire(fire)
+    , m_SurfaceTime(surfaceTime)
+    , m_Scale(scale)
+    , m_Branch(branch)
+    , m_Path(branch.path)
+  {}
+
+  /** False when the curve nowhere runs along the middle of the surface: it is the way into a corner. */
+  bool
+  Run()
+  {
+    return FindFrom(m_Scale.window, [this](std::size_t start, std::size_t end) { return RunsAlong(start, end); }) ||
+           FindFrom(std::min(m_Scale.window, kThinWindow * m_Scale.voxel), [this](std::size_t start, std::size_t end) {
+             const double growth = m_Surface.radius[m_Path[end]] - m_Surface.radius[m_Path[start]];
+             return RunsAlong(start, end) && growth <= kThinGrowth * Way(start, end);
+           });
+  }
+
+private:
+  double
+  Way(std::size_t from, std::size_t to) const
+  {
+    return Distance(m_Surface.positions[m_Path[from]], m_Surface.positions[m_Path[to]]);
+  }
+
+  bool
+  RunsAlong(std::size_t start, std::size_t end) const
+  {
+    const auto late = [&](std::size_t at) { return m_Fire.time[m_Path[at]] - m_SurfaceTime[m_Path[at]]; };
+    return late(end) - late(start) >= kRunsAlongTheMiddle * Way(start, end);
+  }
+
+  /** From the first window on of which that holds. */
+  template <typename Holds>
+  bool
+  FindFrom(double window, const Holds & holds)
+  {
+    for (std::size_t start = 0; start + 1 < m_Path.size(); ++start)
+    {
+      std::size_t end = start;
+      while (Way(start, end) < window && GoesOn(end))
+      {
+        ++end;
+      }
+      if (2 * Way(start, end) >= window && holds(start, end))
+      {
+        CapCentre(start, window);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Where the fire of another branch took over, the ways before and after cannot be compared.
+  bool
+  GoesOn(std::size_t at) const
+  {
+    return at + 1 < m_Path.size() && m_Fire.winner[m_Path[at + 1]] == m_Fire.nextEdge[m_Path[at]];
+  }
+
+  /** The first place on the path, from `start` on, that is as far from the path's end as the radius has grown since:
+   *  there, whatever way the end lies, is the centre of the ball that closes a tube. The radius is a mean over
+   *  `window`. */
+  void
+  CapCentre(std::size_t start, double window)
+  {
+    m_Branch.end = start;
+    m_Branch.part = 0;
+    double before = Excess(start, window);
+    if (before >= 0)
+    {
+      return;
+    }
+    for (std::size_t at = start; at + 2 < m_Path.size(); ++at)
+    {
+      const double after = Excess(at + 1, window);
+      if (after >= 0)
+      {
+        m_Branch.end = at;
+        m_Branch.part = before / (before - after);
+        return;
+      }
+      before = after;
+      m_Branch.end = at + 1;
+    }
+  }
+
+  /** How much further from the end a point lies than it must. */
+  double
+  Excess(std::size_t from, double window) const
+  {
+    double      sum = 0;
+    std::size_t at = from;
+    for (; at < m_Path.size() && Way(from, at) <= window; ++at)
+    {
+      sum += m_Surface.radius[m_Path[at]];
+    }
+    const double first = m_Surface.radius[m_Path[0]];
+    const double grown = sum / static_cast<double>(at - from) - first;
+    const double beyond = grown > 0.1 * m_Scale.voxel ? kCornerBeyondBall
+                          : first < 2 * m_Scale.voxel ? kLineBeyondBall
+                                                      : 0;
+    return Way(0, from) - grown - beyond * m_Scale.voxel;
+  }
+
+  const MedialComplex &             m_Surface;
+  const CurveFire &                 m_Fire;
+  const std::vector<double> &       m_SurfaceTime;
+  const BranchScale                 m_Scale;
+  CurveBranch &                     m_Branch;
+  const std::vector<ElementIndex> & m_Path;
+};
+
+ElementIndex
+Across(const CellComplex & cells, ElementIndex edge, ElementIndex vertex)
+{
+  return cells.edges[edge][0] ^ cells.edges[edge][1] ^ vertex;
+}
+
+/** What a branch is before its end is looked for. */
+struct Candidate
+{
+  ElementIndex tip = 0;
+  ElementIndex parent = kNoEdge; ///< the branch it lost to
+  double       standOut = 0;     ///< mm: the most by which its fire fell behind the surface's
+  bool         isAxis = false;   ///< goes on to where fire ended
+  bool         isStanding = false;
+};
+
+/** The branches in the order of their ends' fire, and per vertex its branch; kNoEdge where fire never came. */
+std::vector<Candidate>
+FindBranches(const CellComplex & cells, const CurveFire & fire, std::vector<ElementIndex> & branchOf)
+{
+  std::vector<Candidate> all;
+  branchOf.assign(cells.vertexCount, kNoEdge);
+  for (const ElementIndex vertex : fire.order)
+  {
+    const ElementIndex before = fire.winner[vertex];
+    if (before == kNoEdge)
+    {
+      branchOf[vertex] = static_cast<ElementIndex>(all.size());
+      all.push_back({ vertex });
+    }
+    else
+    {
+      branchOf[vertex] = branchOf[Across(cells, before, vertex)];
+    }
+  }
+  for (const ElementIndex vertex : fire.order)
+  {
+    Candidate &        branch = all[branchOf[vertex]];
+    const ElementIndex edge = fire.nextEdge[vertex];
+    if (edge == kNoEdge)
+    {
+      branch.standOut = fire.prominence[vertex];
+      branch.isAxis = true;
+      continue;
+    }
+    const ElementIndex next = Across(cells, edge, vertex);
+    if (branchOf[next] == kNoEdge)
+    {
+      branch.standOut = fire.prominence[vertex]; // on a cycle or a face that stays
+    }
+    else if (fire.winner[next] != edge)
+    {
+      branch.isAxis = fire.nextEdge[next] == kNoEdge && fire.runnerUp[next] == edge;
+      branch.standOut = fire.prominence[branch.isAxis ? next : vertex];
+      branch.parent = branch.isAxis ? kNoEdge : branchOf[next];
+    }
+  }
+  return all;
+}
+
+} // namespace
+
+std::vector<CurveBranch>
+StandingBranches(const MedialComplex &       surface,
+                 const CurveFire &           fire,
+                 const std::vector<double> & surfaceTime,
+                 const BranchScale &         scale,
+                 double                      standOut)
+{
+  std::vector<ElementIndex> branchOf;
+  std::vector<Candidate>    all = FindBranches(surface.cells, fire, branchOf);
+  std::vector<CurveBranch>  branches;
+  std::vector<ElementIndex> numbers; // of these
+  for (ElementIndex number = 0; number < all.size(); ++number)
+  {
+    Candidate & candidate = all[number];
+    if (candidate.standOut < standOut)
+    {
+      continue;
+    }
+    CurveBranch branch;
+    branch.path.push_back(candidate.tip);
+    while (fire.nextEdge[branch.path.back()] != kNoEdge && branchOf[branch.path.back()] == number)
+    {
+      branch.path.push_back(Across(surface.cells, fire.nextEdge[branch.path.back()], branch.path.back()));
+    }
+    const bool isFound = EndSearch(surface, fire, surfaceTime, scale, branch).Run();
+    if (!isFound)
+    {
+      branch.end = branch.path.size() - 1;
+    }
+    candidate.isStanding = isFound || candidate.isAxis;
+    branches.push_back(std::move(branch));
+    numbers.push_back(number);
+  }
+  for (const ElementIndex number : numbers)
+  {
+    if (all[number].isStanding)
+    {
+      for (ElementIndex at = all[number].parent; at != kNoEdge; at = all[at].parent)
+      {
+        all[at].isStanding = true;
+      }
+    }
+  }
+  std::vector<CurveBranch> standing;
+  for (std::size_t i = 0; i < branches.size(); ++i)
+  {
+    if (all[numbers[i]].isStanding)
+    {
+      standing.push_back(std::move(branches[i]));
+    }
+  }
+  return standing;
+}
+
+} // namespace voxelcore
