@@ -16,26 +16,28 @@ namespace
 {
 
 constexpr std::int32_t kMargin = 8; // voxels
-using LabelRows = tile::Rows<BrickGrid::kSide, kMargin>;
+constexpr std::int32_t kTile = 2 * BrickGrid::kSide;
+using LabelRows = tile::Rows<kTile, kMargin>;
 
 VOXELCORE_EIGHT_LANES void
-FindDistances(const LabelRows & rows, const std::array<float, 3> & squares, tile::Squared<BrickGrid::kSide> & least)
+FindDistances(const LabelRows & rows, const std::array<float, 3> & squares, tile::Squared<kTile> & least)
 {
   tile::FindSquaredDistances(rows, squares, least);
 }
 
-// The 8 x 4 x 4 values around a place, rows by y, then by z: each as two of four beside each other along x.
-struct SplineRows
+// Where the 8 x 4 x 4 values around a place are.
+struct SplineBlocks
 {
-  std::array<const float *, 16> low;
-  std::array<const float *, 16> high;
-  float                         x = 0; ///< where the place is in a row
-  std::array<float, 2>          rest;  ///< how far it is beyond the second of four along y and z
+  std::array<const float *, 4> low;   ///< of two bricks along y, then z: half a brick, with the first four along x
+  std::array<const float *, 4> high;  ///< the same of the four behind these
+  std::array<std::uint32_t, 2> first; ///< of four rows along y and z, in the first of the bricks
+  float                        x = 0; ///< where the place is among the eight
+  std::array<float, 2>         rest;  ///< how far it is beyond the second of four along y and z
 };
 
 // Cubic B-splines. What is along y and z is summed first, for eight voxels along x at once, of which four count.
 VOXELCORE_EIGHT_LANES void
-SumRows(const SplineRows & rows, std::array<float, 4> & valueAndSlopes)
+SumRows(const SplineBlocks & blocks, std::array<float, 4> & valueAndSlopes)
 {
   using Eight = float __attribute__((vector_size(32)));
   using Four = float __attribute__((vector_size(16)));
@@ -44,7 +46,7 @@ SumRows(const SplineRows & rows, std::array<float, 4> & valueAndSlopes)
   std::array<std::array<float, 4>, 2> slope;
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
-    const float t = rows.rest[axis];
+    const float t = blocks.rest[axis];
     const float s = 1.0F - t;
     weight[axis] = { s * s * s * sixth,
                      (4.0F - 3.0F * t * t * (1.0F + s)) * sixth,
@@ -55,16 +57,20 @@ SumRows(const SplineRows & rows, std::array<float, 4> & valueAndSlopes)
   Eight sum{};
   Eight alongY{};
   Eight alongZ{};
-  for (std::size_t z = 0; z < 4; ++z)
+  for (std::uint32_t z = 0; z < 4; ++z)
   {
-    Eight ofPlane{};
-    Eight slopeOfPlane{};
-    for (std::size_t y = 0; y < 4; ++y)
+    const std::uint32_t atZ = blocks.first[1] + z;
+    Eight               ofPlane{};
+    Eight               slopeOfPlane{};
+    for (std::uint32_t y = 0; y < 4; ++y)
     {
-      Four low;
-      Four high;
-      std::memcpy(&low, rows.low[4 * z + y], sizeof(low));
-      std::memcpy(&high, rows.high[4 * z + y], sizeof(high));
+      const std::uint32_t atY = blocks.first[0] + y;
+      const std::uint32_t block = (atZ & 8) / 4 + (atY & 8) / 8;
+      const std::uint32_t from = 64 * (atZ & 7) + 8 * (atY & 7);
+      Four                low;
+      Four                high;
+      std::memcpy(&low, blocks.low[block] + from, sizeof(low));
+      std::memcpy(&high, blocks.high[block] + from, sizeof(high));
       const Eight row = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
       ofPlane += weight[0][y] * row;
       slopeOfPlane += slope[0][y] * row;
@@ -74,7 +80,7 @@ SumRows(const SplineRows & rows, std::array<float, 4> & valueAndSlopes)
     alongZ += slope[1][z] * ofPlane;
   }
   // (2 - |u|)+^3 / 6 - 4 (1 - |u|)+^3 / 6, and its slope.
-  const Eight u = Eight{ 0, 1, 2, 3, 4, 5, 6, 7 } - rows.x;
+  const Eight u = Eight{ 0, 1, 2, 3, 4, 5, 6, 7 } - blocks.x;
   const Eight zero{};
   const Eight away = u < 0 ? -u : u;
   const Eight outer = away < 2 ? 2 - away : zero;
@@ -132,12 +138,9 @@ BandField::FindRowStarts()
 {
   for (std::size_t brick = 0; brick < m_Grid.Count(); ++brick)
   {
-    for (std::size_t axis = 0, stride = 1; axis < 3; ++axis, stride *= 3)
+    if (m_Grid.Neighbours(brick)[BrickGrid::kSelf - 1] < 0)
     {
-      if (m_Grid.Neighbours(brick)[BrickGrid::kSelf - stride] < 0)
-      {
-        m_RowStarts[axis].push_back(static_cast<std::uint32_t>(brick));
-      }
+      m_RowStarts.push_back(static_cast<std::uint32_t>(brick));
     }
   }
 }
@@ -156,72 +159,72 @@ BandField::FillDistances(const VoxelShape & shape, double clip)
   SetFar(static_cast<float>(clip));
   const std::array<float, 3> squares = tile::AsFloats(Times(m_Sides, m_Sides));
   const float                half = 0.5F * static_cast<float>(std::min({ m_Sides[0], m_Sides[1], m_Sides[2] }));
-  const auto                 count = static_cast<std::ptrdiff_t>(m_Grid.Count());
-#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-  {
-    const auto   brick = static_cast<std::size_t>(i);
-    const auto & at = m_Grid.At(brick);
-    LabelRows    in;
-    LabelRows    out;
-    ReadRows(shape, { kSide * at[0] - kMargin, kSide * at[1] - kMargin, kSide * at[2] - kMargin }, in, out);
-    tile::Squared<BrickGrid::kSide> toIn;
-    tile::Squared<BrickGrid::kSide> toOut;
-    FindDistances(in, squares, toIn);
-    FindDistances(out, squares, toOut);
-    float * const values = m_Values.data() + brick * kVoxels;
-    for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
-    {
-      const bool  inside = toIn[voxel] == 0;
-      const float distance = std::min(std::sqrt(inside ? toOut[voxel] : toIn[voxel]) - half, m_Far);
-      values[voxel] = inside ? distance : -distance;
-    }
-  }
+  tile::ForTiles(
+    m_Grid,
+    std::vector<std::uint8_t>(m_Grid.Count(), 1),
+    [&](const BrickGrid::Brick & tile, auto forBricks) {
+      LabelRows in;
+      LabelRows out;
+      ReadRows(shape, { kTile * tile[0] - kMargin, kTile * tile[1] - kMargin, kTile * tile[2] - kMargin }, in, out);
+      tile::Squared<kTile> toIn;
+      tile::Squared<kTile> toOut;
+      FindDistances(in, squares, toIn);
+      FindDistances(out, squares, toOut);
+      forBricks([&](std::size_t brick, const BrickGrid::Brick & part) {
+        float * const values = m_Values.data() + brick * kVoxels;
+        for (std::size_t row = 0; row < kVoxels; row += kSide)
+        {
+          const std::size_t from = tile::Place<kTile>(part, row);
+          for (std::size_t x = 0; x < kSide; ++x)
+          {
+            const bool  inside = toIn[from + x] == 0;
+            const float distance = std::min(std::sqrt(inside ? toOut[from + x] : toIn[from + x]) - half, m_Far);
+            values[row + x] = inside ? distance : -distance;
+          }
+        }
+      });
+    });
 }
 
 bool
 BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const
 {
-  BrickGrid::Brick      base{}; // in voxel indices, where centres are whole
+  BrickGrid::Brick      first{}; // of four voxels along an axis
   std::array<double, 3> rest{};
+  BrickGrid::Brick      home{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double at = place[axis] - 0.5;
-    const double floor = std::floor(at);
-    base[axis] = static_cast<std::int32_t>(floor);
-    rest[axis] = at - floor;
+    const double at = place[axis] - 0.5; // in voxel indices, where centres are whole
+    const auto   cut = static_cast<std::int32_t>(at);
+    const auto   base = cut - (at < cut ? 1 : 0);
+    first[axis] = base - 1;
+    rest[axis] = at - base;
+    home[axis] = base >> 3;
   }
-  const BrickGrid::Brick home{ base[0] >> 3, base[1] >> 3, base[2] >> 3 };
-  const std::int32_t     found = m_Grid.Find(home);
+  const std::int32_t found = m_Grid.Find(home);
   if (found < 0)
   {
     return false;
   }
   const auto & neighbours = m_Grid.Neighbours(static_cast<std::size_t>(found));
+  const auto   brickOf = [&](std::size_t axis, std::int32_t voxel) {
+    return static_cast<std::size_t>((voxel >> 3) - home[axis] + 1);
+  };
   // Eight along x from the half of a brick on that the first of the four lies in.
-  const std::int32_t first = base[0] - 1;
-  const std::int32_t low = first >> 2;
-  const auto         lowHalf = static_cast<std::size_t>(low & 1);
-  const auto         lowBrick = static_cast<std::size_t>((low >> 1) - home[0] + 1);
-  const auto         highBrick = lowBrick + lowHalf;
-  SplineRows         rows;
-  rows.x = static_cast<float>((first & 3) + 1 + rest[0]);
-  rows.rest = { static_cast<float>(rest[1]), static_cast<float>(rest[2]) };
-  for (std::int32_t z = 0, r = 0; z < 4; ++z)
+  const auto        half = static_cast<std::size_t>(first[0] >> 2 & 1);
+  const std::size_t low = brickOf(0, first[0]) + 3 * brickOf(1, first[1]) + 9 * brickOf(2, first[2]);
+  SplineBlocks      blocks;
+  for (std::size_t i = 0; i < 4; ++i)
   {
-    const std::int32_t atZ = base[2] - 1 + z;
-    for (std::int32_t y = 0; y < 4; ++y, ++r)
-    {
-      const std::int32_t atY = base[1] - 1 + y;
-      const auto beside = static_cast<std::size_t>(3 * ((atY >> 3) - home[1] + 1) + 9 * ((atZ >> 3) - home[2] + 1));
-      const auto row = static_cast<std::size_t>(kSide * (atY & 7) + kSide * kSide * (atZ & 7));
-      rows.low[static_cast<std::size_t>(r)] = Block(m_Coefficients, neighbours[lowBrick + beside]) + row + 4 * lowHalf;
-      rows.high[static_cast<std::size_t>(r)] =
-        Block(m_Coefficients, neighbours[highBrick + beside]) + row + 4 * (1 - lowHalf);
-    }
+    const std::size_t beside = low + 3 * (i & 1) + 9 * (i >> 1);
+    blocks.low[i] = Block(m_Coefficients, neighbours[beside]) + 4 * half;
+    blocks.high[i] = Block(m_Coefficients, neighbours[beside + half]) + 4 * (1 - half);
   }
+  blocks.first = { static_cast<std::uint32_t>(first[1] & 7), static_cast<std::uint32_t>(first[2] & 7) };
+  blocks.x = static_cast<float>((first[0] & 3) + 1 + rest[0]);
+  blocks.rest = { static_cast<float>(rest[1]), static_cast<float>(rest[2]) };
   std::array<float, 4> sums;
-  SumRows(rows, sums);
+  SumRows(blocks, sums);
   value = sums[0];
   gradient = { sums[1], sums[2], sums[3] };
   return true;

@@ -1,7 +1,7 @@
 #pragma once
 // A scalar field on the voxels near a shape's boundary.
 
-#include "BrickGrid.h"
+#include "BrickSums.h"
 #include "SmoothingZones.h"
 
 #include "voxelcore/SurfaceEstimate.h"
@@ -101,14 +101,6 @@ private:
 
   static constexpr std::int32_t kSide = BrickGrid::kSide;
   static constexpr std::size_t  kVoxels = BrickGrid::kCells;
-  static constexpr std::size_t  kMostRadius = BrickGrid::kSide; ///< of a kernel: a brick's neighbours hold all it needs
-  struct Kernel
-  {
-    std::int32_t                       radius = 0;
-    std::array<float, kMostRadius + 1> weights{}; ///< by distance from the centre
-  };
-  using Kernels = std::array<Kernel, 3>;
-  using Far8 = std::array<float, kVoxels>;
 
   static Kernel
   Gauss(double variance);
@@ -116,18 +108,16 @@ private:
   Binomial(double variance, std::size_t mostRadius);
   void
   SetFar(float far);
+  template <typename TUse>
   void
-  Sweep(std::size_t                       axis,
-        const Kernel &                    kernel,
-        const std::vector<float> *        from,
-        std::vector<float> &              values,
-        const std::vector<std::uint8_t> & needed) const;
-  std::array<std::vector<std::uint8_t>, 3>
-  Rings(std::vector<std::uint8_t> changed) const;
+  Sum(const Kernels &                   kernels,
+      const std::vector<float> &        values,
+      const std::vector<std::uint8_t> & needed,
+      TUse                              use) const;
   void
-  SumTwice(const Kernels & first, const Kernels & second, const std::array<std::vector<std::uint8_t>, 3> & needed);
+  SumOnce(const Kernels & kernels, const std::vector<std::uint8_t> & changed);
   void
-  FindCoefficients(float weight, std::vector<std::uint8_t> changed);
+  FindCoefficients(float weight, const std::vector<std::uint8_t> & changed);
   void
   FindRowStarts();
   double
@@ -139,22 +129,21 @@ private:
                        : m_FarBlocks[source == BrickGrid::kInside ? 1 : 0].data();
   }
 
-  BrickGrid                                 m_Grid;
-  Vector3                                   m_Sides;
-  Kernels                                   m_Gauss;
-  Kernels                                   m_Binomial;      ///< as wide as m_Gauss
-  Kernels                                   m_GaussToSpline; ///< with B-splines after it as wide as m_Gauss
-  int                                       m_Level = 0;     ///< 1 where values are means of cells of 2^3 voxels
-  std::vector<BrickGrid::Flags>             m_In;            ///< whose value is never less than 0
-  std::vector<BrickGrid::Flags>             m_Out;           ///< whose value is never more than 0
-  std::array<std::vector<std::uint32_t>, 3> m_RowStarts;     ///< bricks with none before them along an axis
-  std::vector<float>                        m_Values;
-  std::vector<float>                        m_Coefficients;
-  std::vector<float>                        m_Once; ///< of a pass
-  std::vector<float>                        m_Twice;
-  std::vector<float>                        m_Former; ///< what values were when they were halved
-  float                                     m_Far = 0;
-  std::array<Far8, 2>                       m_FarBlocks; ///< outside, inside
+  BrickGrid                     m_Grid;
+  Vector3                       m_Sides;
+  Kernels                       m_Gauss;
+  Kernels                       m_Binomial;      ///< as wide as m_Gauss
+  Kernels                       m_GaussToSpline; ///< with B-splines after it as wide as m_Gauss
+  int                           m_Level = 0;     ///< 1 where values are means of cells of 2^3 voxels
+  std::vector<BrickGrid::Flags> m_In;            ///< whose value is never less than 0
+  std::vector<BrickGrid::Flags> m_Out;           ///< whose value is never more than 0
+  std::vector<std::uint32_t>    m_RowStarts;     ///< bricks with none before them along x
+  std::vector<float>            m_Values;
+  std::vector<float>            m_Coefficients;
+  std::vector<float>            m_Once;   ///< of a pass
+  std::vector<float>            m_Former; ///< what values were when they were halved
+  float                         m_Far = 0;
+  std::array<BrickValues, 2>    m_FarBlocks; ///< outside, inside
 };
 
 } // namespace voxelcore

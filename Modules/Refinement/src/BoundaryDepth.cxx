@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace voxelcore
 {
@@ -16,10 +17,11 @@ namespace
 
 constexpr std::int32_t kVoxelsAlong = 2 * BrickGrid::kSide; ///< of a brick
 constexpr std::int32_t kDeepest = 16;
-using DepthRows = tile::Rows<kVoxelsAlong, kDeepest>;
+constexpr std::int32_t kDepthTile = 2 * kVoxelsAlong;
+using DepthRows = tile::Rows<kDepthTile, kDeepest>;
 
 VOXELCORE_EIGHT_LANES void
-FindDistances(const DepthRows & rows, const std::array<float, 3> & squares, tile::Squared<kVoxelsAlong> & least)
+FindDistances(const DepthRows & rows, const std::array<float, 3> & squares, tile::Squared<kDepthTile> & least)
 {
   tile::FindSquaredDistances(rows, squares, least);
 }
@@ -122,43 +124,36 @@ BoundaryDepth::BoundaryDepth(const VoxelShape &            shape,
 {
   const auto  squares = tile::AsFloats(Times(sides, sides));
   const float half = 0.5F * static_cast<float>(std::min({ sides[0], sides[1], sides[2] }));
-  const auto  count = static_cast<std::ptrdiff_t>(m_Grid.Count());
-  const auto  near = NearBalls(shape, m_Grid, sides, radius);
-#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-  {
-    const auto brick = static_cast<std::size_t>(i);
-    if (near[brick] == 0)
-    {
-      continue;
-    }
-    const auto & at = m_Grid.At(brick);
-    DepthRows    in;
-    DepthRows    out;
+  tile::ForTiles(m_Grid, NearBalls(shape, m_Grid, sides, radius), [&](const BrickGrid::Brick & tile, auto forBricks) {
+    auto in = std::make_unique<DepthRows>();
+    auto out = std::make_unique<DepthRows>();
     ReadRows(shape,
-             { kVoxelsAlong * at[0] - kDeepest, kVoxelsAlong * at[1] - kDeepest, kVoxelsAlong * at[2] - kDeepest },
-             in,
-             out);
-    tile::Squared<kVoxelsAlong> toIn;
-    tile::Squared<kVoxelsAlong> toOut;
-    FindDistances(in, squares, toIn);
-    FindDistances(out, squares, toOut);
-    for (std::size_t cell = 0; cell < BrickGrid::kCells; ++cell)
-    {
-      Depth & depth = m_Depths[brick * BrickGrid::kCells + cell];
-      for (std::size_t corner = 0; corner < 8; ++corner)
+             { kDepthTile * tile[0] - kDeepest, kDepthTile * tile[1] - kDeepest, kDepthTile * tile[2] - kDeepest },
+             *in,
+             *out);
+    auto toIn = std::make_unique<tile::Squared<kDepthTile>>();
+    auto toOut = std::make_unique<tile::Squared<kDepthTile>>();
+    FindDistances(*in, squares, *toIn);
+    FindDistances(*out, squares, *toOut);
+    forBricks([&](std::size_t brick, const BrickGrid::Brick & part) {
+      for (std::size_t cell = 0; cell < BrickGrid::kCells; ++cell)
       {
-        const std::size_t x = 2 * (cell & 7) + (corner & 1);
-        const std::size_t y = 2 * (cell >> 3 & 7) + (corner >> 1 & 1);
-        const std::size_t voxel = x + 16 * (y + 16 * (2 * (cell >> 6) + (corner >> 2)));
-        const bool        inside = toIn[voxel] == 0;
-        const float       distance = std::sqrt(inside ? toOut[voxel] : toIn[voxel]) - half;
-        depth.mean += (inside ? distance : -distance) / 8;
-        float & deepest = inside ? depth.inside : depth.outside;
-        deepest = std::max(deepest, distance);
+        Depth & depth = m_Depths[brick * BrickGrid::kCells + cell];
+        for (std::size_t corner = 0; corner < 8; ++corner)
+        {
+          const std::size_t x = 16 * part[0] + 2 * (cell & 7) + (corner & 1);
+          const std::size_t y = 16 * part[1] + 2 * (cell >> 3 & 7) + (corner >> 1 & 1);
+          const std::size_t z = 16 * part[2] + 2 * (cell >> 6) + (corner >> 2);
+          const std::size_t voxel = x + kDepthTile * (y + kDepthTile * z);
+          const bool        inside = (*toIn)[voxel] == 0;
+          const float       distance = std::sqrt(inside ? (*toOut)[voxel] : (*toIn)[voxel]) - half;
+          depth.mean += (inside ? distance : -distance) / 8;
+          float & deepest = inside ? depth.inside : depth.outside;
+          deepest = std::max(deepest, distance);
+        }
       }
-    }
-  }
+    });
+  });
 }
 
 } // namespace voxelcore

@@ -49,7 +49,7 @@ public:
       return kOutside;
     }
     const std::uint64_t below = m_Bits[bit >> 6] & ((std::uint64_t{ 1 } << (bit & 63)) - 1);
-    return static_cast<std::int32_t>(m_Ranks[bit >> 6]) + __builtin_popcountll(below);
+    return static_cast<std::int32_t>(m_Ranks[bit >> 6]) + CountBits(below);
   }
 
   /** Of a brick and those around it, by x, then y, then z: their indices, kOutside or kInside where there is none. */
@@ -78,6 +78,16 @@ private:
       bit = bit * m_Size[axis] + at;
     }
     return bit;
+  }
+
+  // Where processors may lack an instruction std::popcount is a call.
+  static std::int32_t
+  CountBits(std::uint64_t bits)
+  {
+    bits -= bits >> 1 & 0x5555555555555555;
+    bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
+    bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0F;
+    return static_cast<std::int32_t>(bits * 0x0101010101010101 >> 56);
   }
 
   Brick                                     m_Lower{};
@@ -116,7 +126,7 @@ template <typename TRows>
 void
 ReadRows(const VoxelShape & shape, const std::array<std::int32_t, 3> & lower, TRows & in, TRows & out)
 {
-  constexpr std::uint64_t all = (std::uint64_t{ 1 } << TRows::kSide) - 1;
+  constexpr std::uint64_t all = ~std::uint64_t{ 0 } >> (64 - TRows::kSide);
   for (std::int32_t z = 0; z < TRows::kSide; ++z)
   {
     for (std::int32_t y = 0; y < TRows::kSide; ++y)

@@ -1,11 +1,15 @@
 #pragma once
 // Distances of the points of a cube to the nearest one whose bit is set in it or around it.
 
+#include "BrickGrid.h"
+
 #include "voxelcore/ImageGeometry.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
+#include <vector>
 
 namespace voxelcore::tile
 {
@@ -31,74 +35,114 @@ AsFloats(const Vector3 & v)
   return { static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]) };
 }
 
+/** Along a row alone, squared. */
+template <std::int32_t Count, std::int32_t Margin>
+[[gnu::always_inline]] inline void
+FindAlongRow(std::uint64_t bits, float square, float * squared)
+{
+  if (bits == 0)
+  {
+    std::fill_n(squared, Count, kNone);
+    return;
+  }
+  // A point is as far away as the first dilation that holds it: all points at once, a byte each.
+  static_assert(Count <= 32);
+  using Bytes = std::uint8_t __attribute__((vector_size(32)));
+  using Words = std::uint64_t __attribute__((vector_size(32)));
+  constexpr std::uint64_t eight = 0x8040201008040201;
+  constexpr std::uint64_t all = (std::uint64_t{ 1 } << Count) - 1;
+  Bytes                   away{};
+  for (std::int32_t d = 0; d <= Margin; ++d)
+  {
+    const std::uint64_t some = bits >> Margin & all;
+    if (some == all)
+    {
+      break;
+    }
+    const auto four = reinterpret_cast<Bytes>(Words{ some, some, some, some });
+    // clang-format off
+    const Bytes spread = __builtin_shufflevector(four, four, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1,
+                                                 18, 18, 18, 18, 18, 18, 18, 18, 19, 19, 19, 19, 19, 19, 19, 19);
+    // clang-format on
+    away -= reinterpret_cast<Bytes>((spread & reinterpret_cast<Bytes>(Words{ eight, eight, eight, eight })) == 0);
+    bits |= bits << 1 | bits >> 1;
+  }
+  using Eight = float __attribute__((vector_size(32)));
+  using Integers = std::int32_t __attribute__((vector_size(32)));
+  using EightBytes = std::uint8_t __attribute__((vector_size(8)));
+  for (std::size_t x = 0; x < Count; x += 8)
+  {
+    EightBytes some;
+    std::memcpy(&some, reinterpret_cast<const std::uint8_t *>(&away) + x, sizeof(some));
+    const Integers d = __builtin_convertvector(some, Integers);
+    const Eight    found = __builtin_convertvector(d * d, Eight) * square;
+    const Eight    kept = d > Margin ? Eight{} + kNone : found;
+    std::memcpy(squared + x, &kept, sizeof(kept));
+  }
+}
+
 /** With the `squares` of the sides: kNone or more where no bit is set within the margin. */
 template <std::int32_t Count, std::int32_t Margin>
 [[gnu::always_inline]] inline void
 FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3> & squares, Squared<Count> & least)
 {
   constexpr std::int32_t side = Rows<Count, Margin>::kSide;
-  // By x alone, by x and y, by all.
-  float byX[side * side][Count];
-  float byY[side * Count][Count];
-  for (std::int32_t row = 0; row < side * side; ++row)
-  {
-    const std::uint64_t bits = rows.bits[static_cast<std::size_t>(row)];
-    if (bits == 0)
-    {
-      std::fill_n(byX[row], Count, kNone);
-      continue;
-    }
-    // A point is as far away as the first dilation that holds it: eight points at once.
-    using Eight = std::int32_t __attribute__((vector_size(32)));
-    constexpr Eight              single{ 1, 2, 4, 8, 16, 32, 64, 128 };
-    constexpr std::uint64_t      all = (std::uint64_t{ 1 } << Count) - 1;
-    std::array<Eight, Count / 8> away{};
-    std::uint64_t                reached = bits;
-    for (std::int32_t d = 0; d <= Margin && (reached >> Margin & all) != all; ++d)
-    {
-      for (std::int32_t part = 0; part < Count / 8; ++part)
-      {
-        const auto some = static_cast<std::int32_t>(reached >> (Margin + 8 * part) & 0xFF);
-        away[static_cast<std::size_t>(part)] -= (single & some) == 0;
-      }
-      reached |= reached << 1 | reached >> 1;
-    }
-    for (std::int32_t x = 0; x < Count; ++x)
-    {
-      const std::int32_t d = away[static_cast<std::size_t>(x / 8)][x % 8];
-      byX[row][x] = d > Margin ? kNone : static_cast<float>(d * d) * squares[0];
-    }
-  }
   // From near to far, as long as what is farther may still be less.
-  const auto lowerAll = [](float * to, const auto & from, float square) {
-    std::copy_n(from(0), Count, to);
+  using Eight = float __attribute__((vector_size(32), aligned(4), may_alias));
+  using Words = std::uint64_t __attribute__((vector_size(32)));
+  constexpr std::size_t parts = Count / 8;
+  const auto            lowerAll = [](float * to, const auto & from, float square) __attribute__((always_inline))
+  {
+    const auto part = [](const float * row, std::size_t i) __attribute__((always_inline))
+    {
+      return reinterpret_cast<const Eight *>(row) + i;
+    };
+    Eight nearest[parts];
+    for (std::size_t i = 0; i < parts; ++i)
+    {
+      nearest[i] = *part(from(0), i);
+    }
     for (std::int32_t d = 1; d <= Margin; ++d)
     {
-      const float  more = static_cast<float>(d * d) * square;
-      std::int32_t open = 0;
-      for (std::int32_t x = 0; x < Count; ++x)
+      const float more = static_cast<float>(d * d) * square;
+      Words       open{};
+      for (std::size_t i = 0; i < parts; ++i)
       {
-        open |= to[x] > more ? 1 : 0;
+        open |= reinterpret_cast<Words>(nearest[i] > more);
       }
-      if (open == 0)
+      if ((open[0] | open[1] | open[2] | open[3]) == 0)
       {
         break;
       }
       const float * const before = from(-d);
       const float * const after = from(d);
-      for (std::int32_t x = 0; x < Count; ++x)
+      for (std::size_t i = 0; i < parts; ++i)
       {
-        to[x] = std::min(to[x], std::min(before[x], after[x]) + more);
+        const Eight nearer = (*part(before, i) < *part(after, i) ? *part(before, i) : *part(after, i)) + more;
+        nearest[i] = nearer < nearest[i] ? nearer : nearest[i];
       }
     }
+    for (std::size_t i = 0; i < parts; ++i)
+    {
+      *(reinterpret_cast<Eight *>(to) + i) = nearest[i];
+    }
   };
-  for (std::int32_t row = 0; row < side * Count; ++row)
+  // By x alone, of a layer; by x and y.
+  float byX[side][Count];
+  float byY[side * Count][Count];
+  for (std::int32_t z = 0; z < side; ++z)
   {
-    const auto * const middle = byX + (row / Count * side + row % Count + Margin);
-    lowerAll(
-      byY[row],
-      [&](std::int32_t d) { return middle[d]; },
-      squares[1]);
+    for (std::int32_t y = 0; y < side; ++y)
+    {
+      FindAlongRow<Count, Margin>(rows.bits[static_cast<std::size_t>(z * side + y)], squares[0], byX[y]);
+    }
+    for (std::int32_t y = 0; y < Count; ++y)
+    {
+      lowerAll(
+        byY[z * Count + y],
+        [&](std::int32_t d) { return byX[y + Margin + d]; },
+        squares[1]);
+    }
   }
   for (std::int32_t row = 0; row < Count * Count; ++row)
   {
@@ -107,6 +151,51 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
       least.data() + row * Count,
       [&](std::int32_t d) { return middle[d * Count]; },
       squares[2]);
+  }
+}
+
+/** Where a row of a brick begins in a tile of so many voxels a side; `part` is 0 or 1 along each axis. */
+template <std::int32_t Count>
+std::size_t
+Place(const BrickGrid::Brick & part, std::size_t row)
+{
+  constexpr std::size_t half = Count / 2;
+  const auto            at = [&](std::size_t axis) { return half * static_cast<std::size_t>(part[axis]); };
+  return at(0) + Count * (at(1) + (row >> 3 & 7) + Count * (at(2) + (row >> 6)));
+}
+
+/** Cubes of 2^3 bricks that hold one that is needed: use(tile, forBricks), in units of such cubes, in any order;
+ *  forBricks(useBrick) calls useBrick(brick, part) of each one that is needed, with 0 or 1 along each axis. */
+template <typename TUse>
+void
+ForTiles(const BrickGrid & grid, const std::vector<std::uint8_t> & needed, TUse use)
+{
+  std::vector<BrickGrid::Brick> tiles;
+  for (std::size_t brick = 0; brick < grid.Count(); ++brick)
+  {
+    if (const auto & at = grid.At(brick); needed[brick] != 0)
+    {
+      tiles.push_back({ at[2] >> 1, at[1] >> 1, at[0] >> 1 });
+    }
+  }
+  std::sort(tiles.begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+  const auto count = static_cast<std::ptrdiff_t>(tiles.size());
+#pragma omp parallel for schedule(dynamic, 2) if (count > BrickGrid::kMany / 8)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto & [z, y, x] = tiles[static_cast<std::size_t>(i)];
+    use(BrickGrid::Brick{ x, y, z }, [&](auto useBrick) {
+      for (std::int32_t n = 0; n < 8; ++n)
+      {
+        const BrickGrid::Brick part{ n & 1, n >> 1 & 1, n >> 2 };
+        const std::int32_t     brick = grid.Find({ 2 * x + part[0], 2 * y + part[1], 2 * z + part[2] });
+        if (brick >= 0 && needed[static_cast<std::size_t>(brick)] != 0)
+        {
+          useBrick(static_cast<std::size_t>(brick), part);
+        }
+      }
+    });
   }
 }
 
