@@ -58,16 +58,6 @@ ResultsOf(const CoreReport & report, const std::vector<PrunedRecord> & pruned, s
   return results;
 }
 
-void
-RequireUnrefinedCore(const CoreOfLabel & core)
-{
-  if (!core.refined.empty())
-  {
-    throw UsageError("this core was made with --refine " + core.refined +
-                     "; a refined core cannot be pruned further; make one without");
-  }
-}
-
 /** \throws UsageError, in Python's words, when the core is pruned further than asked for, or in another way */
 void
 RequirePrunable(const CoreOfLabel & core, const PruneOptions & options)
@@ -190,7 +180,6 @@ MakeCores(const ArrayView &        array,
 std::vector<std::shared_ptr<CoreOfLabel>>
 Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCallback & progress)
 {
-  RequireUnrefinedCore(core);
   const PruneOptions options = PruneOptionsWithoutFiles(values);
   RequirePrunable(core, options);
   CertifiedRequest lengths;
@@ -204,6 +193,7 @@ Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCa
                                         ? PruneCertified(before, shape, options.lambdas, progress)
                                         : PruneCertified(before, shape, options.tolerances);
   CoreReport                 report = core.report;
+  NoteRefinedAt(report.parameters);
   report.parameters.tolerances.clear();
   report.labels.front().covered.reset(); // there is no boundary here to measure it on
   std::vector<PrunedRecord> records;
@@ -217,6 +207,7 @@ Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCa
   for (const auto & result : results)
   {
     result->hasEdges = core.hasEdges;
+    result->refined = core.refined;
     result->shape = core.shape;
   }
   return results;

@@ -290,7 +290,6 @@ TEST_F(RefineCommand, WhatMakesNoSenseIsRefusedInOneLine)
   refuse(2, { "--grey-range" }, { "--refine", "grey", "--grey", Path("grey.nrrd") });
   refuse(2, { "--refine grey" }, { "--grey", Path("grey.nrrd"), "--grey-range", "500:inf" });
   refuse(2, { "no end" }, { "--refine", "grey", "--grey", Path("grey.nrrd"), "--grey-range", "-inf:inf" });
-  refuse(2, { "--keep-edges" }, { "--refine", "labels", "--keep-edges" });
   refuse(3, { "nothing.nrrd" }, { "--refine", "grey", "--grey", Path("nothing.nrrd"), "--grey-range", "500:inf" });
   // A grey scan that lies elsewhere.
   TestScan other({ 39, 38, 37 });
@@ -300,7 +299,7 @@ TEST_F(RefineCommand, WhatMakesNoSenseIsRefusedInOneLine)
   Run({ "core", Path("labels.nrrd"), "--refine", "labels", "-o", Path("l.vtp") });
   ExpectRefusal(RunProgram({ "prune", Path("l.vtp"), "--lambda", "4mm", "-o", Path("x.vtp") }),
                 3,
-                { "l.vtp", "--refine labels" });
+                { "l.vtp", "measures of its edges", "--keep-edges" });
   ExpectRefusal(RunProgram({ "skeleton", Path("l.vtp"), "--refine", "labels", "-o", Path("x.vtp") }),
                 2,
                 { "--refine", "needs a scan" });

@@ -3,7 +3,10 @@
 
 #include "voxelcore/Refinement.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
+#include <tuple>
 
 namespace voxelcore
 {
@@ -108,9 +111,87 @@ TEST(CertifiedCore, WhatIsPrunedFurtherOrOtherwiseAlreadyIsNotPrunedBack)
   EXPECT_EQ(same[0].numbers.lambda, "2mm");
   EXPECT_THROW(PruneCertified(pruned.cores[0], pruned.shape, { ParseTolerance("1diag") }), UsageError)
     << "it holds no tolerances";
-  CertifiedCore refined = pruned.cores[0];
-  refined.numbers.refined = RefinedNumbers{};
-  EXPECT_THROW(PruneCertified(refined, pruned.shape, { ParseLambda("3vox") }), UsageError);
+}
+
+/** A box's core, refined. */
+CertifiedResult
+RefinedBox(const Vector3 & spacing, const std::string & lambda, const std::vector<std::string> & tolerances = {})
+{
+  CertifiedRequest request = Lambdas({ lambda });
+  for (const std::string & text : tolerances)
+  {
+    request.tolerances.push_back(ParseTolerance(text));
+  }
+  request.surface = [spacing](const VoxelShape & voxels, const ProgressCallback & progress) {
+    return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, spacing, progress));
+  };
+  return ComputeCertified(Box(14, 11, 8), Grid(spacing), request);
+}
+
+/** Of each vertex where it was, where it is and its radius: each of `part` is one of `whole`. */
+void
+ExpectPlacesAmong(const PlacedCore & part, const PlacedCore & whole)
+{
+  const auto placesOf = [](const PlacedCore & core) {
+    std::set<std::tuple<Vector3, Vector3, double>> places;
+    for (std::size_t v = 0; v < core.core.positions.size(); ++v)
+    {
+      places.emplace(core.core.positions[v], core.displacement.at(v), core.core.radius[v]);
+    }
+    return places;
+  };
+  ASSERT_EQ(part.displacement.size(), part.core.positions.size());
+  const auto some = placesOf(part);
+  const auto all = placesOf(whole);
+  EXPECT_TRUE(std::includes(all.begin(), all.end(), some.begin(), some.end()));
+  EXPECT_LT(some.size(), all.size());
+}
+
+TEST(CertifiedCore, ARefinedOneIsPrunedOnByItsOwnMeasuresAndKeepsItsPlaces)
+{
+  const CertifiedResult refined = RefinedBox({ 1, 1, 1.5 }, "0.5vox");
+  const auto pruned = PruneCertified(refined.cores[0], refined.shape, { ParseLambda("1.5vox"), ParseLambda("2vox") });
+  for (const CertifiedCore & one : pruned)
+  {
+    ExpectPlacesAmong(one.core, refined.cores[0].core);
+    EXPECT_EQ(one.numbers.complex.topology, refined.shape.topology);
+    EXPECT_EQ(one.numbers.refined->maxDisplacement, refined.cores[0].numbers.refined->maxDisplacement);
+    const auto & before = refined.cores[0].core.core.faceLambda;
+    const auto   isWide = [&](double lambda) { return lambda >= one.numbers.lambdaMm; };
+    EXPECT_LE(std::count_if(before.begin(), before.end(), isWide), one.core.core.cells.FaceCount())
+      << "what is wide enough stays";
+  }
+  // On and on is as at once.
+  const auto again = PruneCertified(pruned[0], refined.shape, { ParseLambda("2vox") });
+  EXPECT_EQ(again[0].core.core.positions, pruned[1].core.core.positions);
+  EXPECT_EQ(again[0].core.core.cells.faceVertices, pruned[1].core.core.cells.faceVertices);
+  EXPECT_EQ(again[0].core.displacement, pruned[1].core.displacement);
+  // To what it is pruned to nothing changes.
+  const auto same = PruneCertified(refined.cores[0], refined.shape, { ParseLambda("0.5mm") });
+  EXPECT_EQ(same[0].core.core.positions, refined.cores[0].core.core.positions);
+  EXPECT_EQ(same[0].core.displacement, refined.cores[0].core.displacement);
+}
+
+TEST(CertifiedCore, ARefinedOnePrunedOnByToleranceHasTheCellsOfOneRefinedThere)
+{
+  for (const Vector3 & spacing : { Vector3{ 1, 1, 1 }, Vector3{ 1, 1, 2.5 } })
+  {
+    const CertifiedResult low = RefinedBox(spacing, "0", { "0", "0.3diag" });
+    const CertifiedResult high = RefinedBox(spacing, "0", { "0.8diag" });
+    for (const CertifiedCore & from : low.cores)
+    {
+      const auto later = PruneCertified(from, low.shape, { ParseTolerance("0.8diag") });
+      ExpectPlacesAmong(later[0].core, from.core);
+      const MedialComplex & core = later[0].core.core;
+      const MedialComplex & once = high.cores[0].core.core;
+      EXPECT_EQ(core.cells.edges, once.cells.edges);
+      EXPECT_EQ(core.cells.faceVertices, once.cells.faceVertices);
+      EXPECT_EQ(core.tolerances.vertices, once.tolerances.vertices);
+      EXPECT_EQ(core.tolerances.edges, once.tolerances.edges);
+      EXPECT_EQ(core.tolerances.faces, once.tolerances.faces);
+      EXPECT_GT(core.cells.FaceCount(), 10U);
+    }
+  }
 }
 
 TEST(CertifiedCore, LengthsInMillimetresNeedAScanThatHasThem)

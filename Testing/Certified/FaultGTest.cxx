@@ -95,5 +95,34 @@ TEST(SeededFaults, AreRefusedAtEveryStage)
   unsetenv("VOXELCORE_SEEDED_FAULT");
 }
 
+TEST(SeededFaults, AreRefusedWhereACoreIsPrunedOnRefinedOrNot)
+{
+  ImageGeometry geometry;
+  geometry.size = { 20, 20, 16 };
+  CertifiedRequest request;
+  request.lambdas = { ParseLambda("0") };
+  request.tolerances = { ParseTolerance("0") };
+  for (const bool refined : { false, true })
+  {
+    if (refined)
+    {
+      request.surface = [](const VoxelShape & voxels, const ProgressCallback & progress) {
+        return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, { 1, 1, 1 }, progress));
+      };
+    }
+    unsetenv("VOXELCORE_SEEDED_FAULT");
+    const CertifiedResult whole = ComputeCertified(PlateWithARod(), geometry, request);
+    const auto            byLambda = [&] { PruneCertified(whole.cores[0], whole.shape, { ParseLambda("1.5vox") }); };
+    const auto byTolerance = [&] { PruneCertified(whole.cores[0], whole.shape, { ParseTolerance("1diag") }); };
+    EXPECT_NO_THROW(byLambda());
+    EXPECT_NO_THROW(byTolerance());
+    setenv("VOXELCORE_SEEDED_FAULT", "pruning", 1);
+    EXPECT_THROW(byLambda(), CertificateError) << refined;
+    setenv("VOXELCORE_SEEDED_FAULT", "tolerance", 1);
+    EXPECT_THROW(byTolerance(), CertificateError) << refined;
+  }
+  unsetenv("VOXELCORE_SEEDED_FAULT");
+}
+
 } // namespace
 } // namespace voxelcore

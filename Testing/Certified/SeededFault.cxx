@@ -62,7 +62,10 @@ Damage(MedialComplex & complex)
 #define VOXELCORE_LAMBDA                                                                                   \
   "_ZN9voxelcore13PruneByLambdaERKNS_13MedialComplexERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
   "viewIcSt11char_traitsIcEEdEE"
-#define VOXELCORE_TOLERANCE "_ZN9voxelcore16PruneByToleranceERKNS_13MedialComplexEd"
+#define VOXELCORE_MOVED_LAMBDA                                                                                     \
+  "_ZN9voxelcore13PruneByLambdaERKNS_13MedialComplexERKSt6vectorIdSaIdEERS3_IS3_IjSaIjEESaIS9_EERKSt8functionIFbS" \
+  "t17basic_string_viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_TOLERANCE "_ZN9voxelcore16PruneByToleranceERKNS_13MedialComplexEdRSt6vectorIjSaIjEE"
 #define VOXELCORE_REFINE                                                                                  \
   "_ZN9voxelcore10RefineCoreERKNS_15RefinementInputERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
   "viewIcSt11char_traitsIcEEdEE"
@@ -129,14 +132,38 @@ FaultyLambda(const MedialComplex & core, const std::vector<double> & thresholds,
   return pruned;
 }
 
-MedialComplex
-TrueTolerance(const MedialComplex &, double) asm("__real_" VOXELCORE_TOLERANCE);
-MedialComplex
-FaultyTolerance(const MedialComplex &, double) asm("__wrap_" VOXELCORE_TOLERANCE);
-MedialComplex
-FaultyTolerance(const MedialComplex & core, double height)
+std::vector<MedialComplex>
+TrueMovedLambda(const MedialComplex &,
+                const std::vector<double> &,
+                std::vector<std::vector<ElementIndex>> &,
+                const ProgressCallback &) asm("__real_" VOXELCORE_MOVED_LAMBDA);
+std::vector<MedialComplex>
+FaultyMovedLambda(const MedialComplex &,
+                  const std::vector<double> &,
+                  std::vector<std::vector<ElementIndex>> &,
+                  const ProgressCallback &) asm("__wrap_" VOXELCORE_MOVED_LAMBDA);
+std::vector<MedialComplex>
+FaultyMovedLambda(const MedialComplex &                    core,
+                  const std::vector<double> &              thresholds,
+                  std::vector<std::vector<ElementIndex>> & vertices,
+                  const ProgressCallback &                 progress)
 {
-  MedialComplex pruned = TrueTolerance(core, height);
+  auto pruned = TrueMovedLambda(core, thresholds, vertices, progress);
+  if (IsSeeded("pruning") && !pruned.empty())
+  {
+    Damage(pruned.back());
+  }
+  return pruned;
+}
+
+MedialComplex
+TrueTolerance(const MedialComplex &, double, std::vector<ElementIndex> &) asm("__real_" VOXELCORE_TOLERANCE);
+MedialComplex
+FaultyTolerance(const MedialComplex &, double, std::vector<ElementIndex> &) asm("__wrap_" VOXELCORE_TOLERANCE);
+MedialComplex
+FaultyTolerance(const MedialComplex & core, double height, std::vector<ElementIndex> & vertices)
+{
+  MedialComplex pruned = TrueTolerance(core, height, vertices);
   if (IsSeeded("tolerance"))
   {
     Damage(pruned);

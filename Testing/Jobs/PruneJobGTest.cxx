@@ -1,6 +1,7 @@
 #include "JobFolder.h"
 
 #include "voxelcore/PruneJob.h"
+#include "voxelcore/VerifyJob.h"
 
 namespace voxelcore::testing
 {
@@ -38,6 +39,34 @@ TEST_F(PruneJob, WritesTheBytesThatCoreWouldHaveWritten)
   Core("core.vtp", { { "tolerance", "1.2diag" }, { "force", "true" } });
   Prune("heights.vtp", "pruned.vtp", { { "tolerance", "1.2diag" }, { "force", "true" } });
   EXPECT_EQ(ReadModel(At("pruned.vtp")).parts[0].core.positions, ReadModel(At("core.vtp")).parts[0].core.positions);
+}
+
+TEST_F(PruneJob, OfARefinedCoreGivesWhatVerifyFindsAgain)
+{
+  Phantom("thick-and-thin", "a.nrrd", "24");
+  const auto verify = [&](const std::string & core) {
+    const VerifyResult result = RunVerifyJob({ At("a.nrrd"), At(core) });
+    EXPECT_TRUE(result.passed) << core << "\n" << VerifyText(result);
+    EXPECT_NE(VerifyText(result).find("made again"), std::string::npos);
+  };
+  Core("l.vtp", { { "lambda", "0.5vox" }, { "refine", "labels" }, { "keep-edges", "true" } });
+  Prune("l.vtp", "p.vtp", { { "lambda", "1vox,2vox" }, { "keep-edges", "true" } });
+  Prune("p_lambda-1vox.vtp", "q.vtp", { { "lambda", "2vox" }, { "keep-edges", "true" } });
+  EXPECT_EQ(Bytes("q.vtp"), Bytes("p_lambda-2vox.vtp"));
+  verify("p_lambda-1vox.vtp");
+  verify("q.vtp");
+  // To what it is pruned to already: nothing changes.
+  Prune("l.vtp", "same.vtp", { { "lambda", "0.5vox" }, { "keep-edges", "true" } });
+  EXPECT_EQ(Bytes("same.vtp"), Bytes("l.vtp"));
+  Core("t.vtp", { { "tolerance", "0" }, { "refine", "labels" }, { "keep-edges", "true" } });
+  Prune("t.vtp", "h.vtp", { { "tolerance", "1.2diag" } });
+  verify("h.vtp");
+  Prune("t.vtp", "tl.vtp", { { "lambda", "1.5vox" } });
+  verify("tl.vtp");
+  const MedialModel read = ReadModel(At("h.vtp"));
+  EXPECT_EQ(read.refined, "labels");
+  Core("once.vtp", { { "tolerance", "1.2diag" }, { "refine", "labels" } });
+  EXPECT_EQ(read.parts[0].core.cells.faceVertices, ReadModel(At("once.vtp")).parts[0].core.cells.faceVertices);
 }
 
 TEST_F(PruneJob, SeveralThresholdsGiveAFileEachAndWhatOneGives)

@@ -4,6 +4,7 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
+#include "voxelcore/PruneJob.h"
 #include "voxelcore/VerifyJob.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -264,7 +266,35 @@ TEST_F(HeavyVerifyDamage, OfACorePrunedByToleranceIsSeen)
 TEST_F(HeavyVerifyDamage, OfARefinedCoreIsSeen)
 {
   MakeScan("24");
-  ExpectEveryDamageIsSeen(MakeCore({ { "lambda", "1.5vox" }, { "refine", "labels" } }));
+  ExpectEveryDamageIsSeen(MakeCore({ { "lambda", "1.5vox" }, { "refine", "labels" }, { "keep-edges", "true" } }));
+}
+
+TEST_F(HeavyVerifyDamage, OfARefinedCorePrunedByToleranceIsSeen)
+{
+  MakeScan("24");
+  MakeCore({ { "tolerance", "0.5diag" }, { "refine", "labels" } });
+  ParameterValues further{ { "core", At("core.vtp") }, { "output", At("further.vtp") }, { "tolerance", "1.2diag" } };
+  RunPruneJob(PruneOptionsFrom(further));
+  ExpectEveryDamageIsSeen(ReadAll(At("further.vtp")));
+}
+
+TEST_F(VerifyDamage, OfARefinedCoreThatCannotBeCheckedAllIsNamed)
+{
+  MakeScan("24");
+  const std::string file = MakeCore({ { "tolerance", "1.2diag" }, { "refine", "labels" } });
+  const auto        arrays = ArraysOf(file);
+  WriteAll(At("damaged.vtp"), Changed(file, arrays.at("PointData/Radius"), [](auto & values) {
+             values[values.size() / 2] = std::numeric_limits<double>::quiet_NaN();
+           }));
+  const VerifyResult result = RunVerifyJob({ At("scan.nrrd"), At("damaged.vtp") });
+  const VerifyResult whole = RunVerifyJob({ At("scan.nrrd"), At("core.vtp") });
+  ASSERT_EQ(result.labels.size(), 1U);
+  const auto & checks = result.labels[0].report.checks;
+  ASSERT_EQ(checks.size(), whole.labels.at(0).report.checks.size());
+  for (std::size_t i = 0; i < checks.size(); ++i)
+  {
+    EXPECT_EQ(checks[i].name, whole.labels[0].report.checks[i].name);
+  }
 }
 
 } // namespace

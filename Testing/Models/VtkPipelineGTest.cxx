@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <vtkImageData.h>
+#include <vtkLambdaPruningFilter.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNIFTIImageReader.h>
 #include <vtkNIFTIImageWriter.h>
@@ -77,6 +78,24 @@ TEST_F(VtkPipelineExample, WritesAFileThatTheProgramTakes)
   {
     EXPECT_EQ(Run("render @example.vtp -o @example.png"), 0);
   }
+}
+
+TEST_F(VtkPipelineExample, ARefinedCoreIsPrunedAsByTheProgram)
+{
+  ASSERT_EQ(Run("phantom ellipsoid --size 40 --spacing 0.5,0.5,1 -o @scan.mha"), 0);
+  ASSERT_EQ(Run("core @scan.mha --lambda 0.5mm --refine labels --keep-edges -o @refined.vtp"), 0);
+  ASSERT_EQ(Run("prune @refined.vtp --lambda 4mm --keep-edges -o @pruned.vtp"), 0);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(At("refined.vtp").c_str());
+  vtkNew<vtkLambdaPruningFilter> prune;
+  prune->SetInputConnection(reader->GetOutputPort());
+  prune->SetLambda(4);
+  prune->Update();
+  const MedialModel found = ModelFromPolyData(*prune->GetOutput());
+  const MedialModel expected = ReadModel(m_Folder / "pruned.vtp");
+  EXPECT_EQ(found.provenance, expected.provenance);
+  EXPECT_TRUE(SameBits(found, expected));
+  EXPECT_LT(found.parts.at(0).displacement.size(), ReadModel(m_Folder / "refined.vtp").parts.at(0).displacement.size());
 }
 
 TEST_F(VtkPipelineExample, ARotatedNiftiLiesWhereTheProgramPutsIt)

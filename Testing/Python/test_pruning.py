@@ -86,6 +86,8 @@ def test_a_skeleton_is_of_the_core_the_command_line_takes(tmp_path, scan, lambda
         (dict(tolerance=0, lambda_="1vox"), dict(tolerance="1.5vox")),
         (dict(tolerance=0, lambda_="1vox"), dict(lambda_="2vox")),
         (dict(tolerance="1vox"), dict(tolerance="1.5vox")),
+        (dict(lambda_="1vox", refine="labels"), dict(lambda_="1.5vox")),
+        (dict(tolerance="1vox", refine="labels"), dict(tolerance="1.5vox")),
     ],
 )
 def test_a_core_is_pruned_further_as_by_the_command_line(tmp_path, scan, made, wanted):

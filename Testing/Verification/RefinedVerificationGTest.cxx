@@ -62,6 +62,9 @@ FailuresOf(const RefinedCase & subject, std::optional<double> tolerance = {})
   input.edgeLambda = core.edgeLambda;
   input.faceLambda = core.faceLambda;
   input.pruningTolerance = tolerance;
+  input.vertexTolerance = core.tolerances.vertices;
+  input.edgeTolerance = core.tolerances.edges;
+  input.faceTolerance = core.tolerances.faces;
   const VerificationReport report = VerifyRefinedCore(input);
   EXPECT_EQ(report.passed, FailedChecks(report).empty());
   return FailedChecks(report);
@@ -89,15 +92,45 @@ TEST(RefinedVerification, ARefinedCorePasses)
   EXPECT_GT(GoodRefined().refined.core.cells.FaceCount(), 20U);
 }
 
+/** With a height for all elements. */
+RefinedCase
+WithTolerances(double height)
+{
+  RefinedCase         one = GoodRefined();
+  const CellComplex & cells = one.refined.core.cells;
+  ToleranceValues &   values = one.refined.core.tolerances;
+  values.vertices.assign(cells.vertexCount, height);
+  values.edges.assign(cells.edges.size(), height);
+  values.faces.assign(cells.FaceCount(), height);
+  return one;
+}
+
+TEST(RefinedVerification, TolerancesThatAreMissingTooLowOrFallAreSeen)
+{
+  const std::vector<std::string> seen{ "tolerances" };
+  EXPECT_EQ(FailuresOf(GoodRefined(), 10), seen) << "there are none";
+  EXPECT_EQ(FailuresOf(WithTolerances(9.9), 10), seen);
+  for (auto values : { &ToleranceValues::vertices, &ToleranceValues::edges, &ToleranceValues::faces })
+  {
+    RefinedCase damaged = WithTolerances(11);
+    for (double & value : damaged.refined.core.tolerances.*values)
+    {
+      value = values == &ToleranceValues::faces ? 12 : 9;
+    }
+    EXPECT_EQ(FailuresOf(damaged, 10), seen);
+  }
+}
+
 TEST(RefinedVerification, AToleranceThatTheBallsDoNotKeepIsSeen)
 {
-  EXPECT_EQ(FailuresOf(GoodRefined(), 10), std::vector<std::string>{});
-  RefinedCase shrunk = GoodRefined();
+  const RefinedCase good = WithTolerances(10);
+  EXPECT_EQ(FailuresOf(good, 10), std::vector<std::string>{});
+  RefinedCase shrunk = good;
   for (std::size_t v = 0; v < shrunk.refined.core.radius.size(); ++v)
   {
     shrunk.refined.core.radius[v] *= v % 2 == 0 ? 1 : 0.01; // which the check of radii sees, too
   }
-  EXPECT_EQ(FailuresOf(GoodRefined(), -10), std::vector<std::string>{ "coverage" });
+  EXPECT_EQ(FailuresOf(good, -10), std::vector<std::string>{ "coverage" });
   const auto failed = FailuresOf(shrunk, 0.0);
   EXPECT_NE(std::find(failed.begin(), failed.end(), "radius"), failed.end());
 }

@@ -257,6 +257,7 @@ private:
       }
       m_Result.cores = CertifyPruned(std::move(m_Whole),
                                      std::move(m_Pruned),
+                                     {},
                                      m_Result.shape,
                                      m_Request.lambdas,
                                      m_Thresholds,

@@ -8,10 +8,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace voxelcore
 {
+
+namespace
+{
+
+/** The displacements of some vertices of a refined core. */
+std::vector<Vector3>
+MovesOf(const PlacedCore & refined, const std::vector<ElementIndex> & vertices)
+{
+  std::vector<Vector3> moves;
+  moves.reserve(vertices.size());
+  std::transform(vertices.begin(), vertices.end(), std::back_inserter(moves), [&](ElementIndex vertex) {
+    return refined.displacement[vertex];
+  });
+  return moves;
+}
+
+} // namespace
 
 std::vector<double>
 AscendingBeyond(double doneMm, std::vector<double> thresholdsMm)
@@ -33,12 +51,13 @@ PruneAscending(const MedialComplex &       whole,
 }
 
 std::vector<CertifiedCore>
-CertifyPruned(CertifiedCore               whole,
-              std::vector<MedialComplex>  complexes,
-              const CertifiedShape &      shape,
-              const std::vector<Lambda> & lambdas,
-              const std::vector<double> & thresholdsMm,
-              const ProgressCallback &    progress)
+CertifyPruned(CertifiedCore                     whole,
+              std::vector<MedialComplex>        complexes,
+              std::vector<std::vector<Vector3>> moves,
+              const CertifiedShape &            shape,
+              const std::vector<Lambda> &       lambdas,
+              const std::vector<double> &       thresholdsMm,
+              const ProgressCallback &          progress)
 {
   const double               doneMm = whole.numbers.lambdaMm;
   const std::vector<double>  ascending = AscendingBeyond(doneMm, thresholdsMm);
@@ -57,11 +76,16 @@ CertifyPruned(CertifiedCore               whole,
       });
     CertifiedCore & result = results[i];
     result.core = { whole.core.label, neededAgain ? source : std::move(source), whole.core.component };
+    if (!whole.core.displacement.empty())
+    {
+      result.core.displacement = unchanged ? whole.core.displacement : moves[static_cast<std::size_t>(place)];
+    }
     const TopologyNumbers topology =
       unchanged ? whole.numbers.complex.topology : ComputeComplexTopology(result.core.core.cells);
     RequireEqualTopology(shape.topology, topology, "its core pruned at " + lambdas[i].text, shape.name);
     result.numbers.lambda = lambdas[i].text;
     result.numbers.lambdaMm = threshold;
+    result.numbers.refined = whole.numbers.refined;
     result.numbers.complex = unchanged ? whole.numbers.complex : DescribeComplex(result.core.core, topology);
   }
   return results;
@@ -83,10 +107,9 @@ PruneCertified(CertifiedCore               core,
                const ProgressCallback &    progress)
 {
   const CoreNumbers & done = core.numbers;
-  if (done.refined || (done.tolerance && done.tolerance->heightMm > 0))
+  if (done.tolerance && done.tolerance->heightMm > 0)
   {
-    throw UsageError(shape.name + ": its core is " + (done.refined ? "refined" : "pruned by tolerance") +
-                     " already and cannot be pruned by lambda");
+    throw UsageError(shape.name + ": its core is pruned by tolerance already and cannot be pruned by lambda");
   }
   const SpacingWeights weights = ComputeSpacingWeights(shape.geometry.spacing);
   std::vector<double>  thresholds;
@@ -101,8 +124,29 @@ PruneCertified(CertifiedCore               core,
   }
   StagePlan plan(progress, { 0.8, 0.2 });
   core.core.core.tolerances = {};
-  auto complexes = PruneAscending(core.core.core, done.lambdaMm, thresholds, plan.Next("prune"));
-  return CertifyPruned(std::move(core), std::move(complexes), shape, lambdas, thresholds, plan.Next("certificate"));
+  const ProgressCallback            prune = plan.Next("prune");
+  std::vector<MedialComplex>        complexes;
+  std::vector<std::vector<Vector3>> moves;
+  if (core.core.displacement.empty())
+  {
+    complexes = PruneAscending(core.core.core, done.lambdaMm, thresholds, prune);
+  }
+  else if (const std::vector<double> ascending = AscendingBeyond(done.lambdaMm, thresholds); !ascending.empty())
+  {
+    std::vector<std::vector<ElementIndex>> vertices;
+    complexes = PruneByLambda(core.core.core, ascending, vertices, prune);
+    for (const std::vector<ElementIndex> & left : vertices)
+    {
+      moves.push_back(MovesOf(core.core, left));
+    }
+  }
+  return CertifyPruned(std::move(core),
+                       std::move(complexes),
+                       std::move(moves),
+                       shape,
+                       lambdas,
+                       thresholds,
+                       plan.Next("certificate"));
 }
 
 double
@@ -142,8 +186,13 @@ PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const s
       throw UsageError(shape.name + ": its core is pruned at tolerance " + core.numbers.tolerance->height +
                        " already, beyond " + heights[i].text);
     }
-    CertifiedCore & result = results[i];
-    result.core = { core.core.label, PruneByTolerance(core.core.core, height), core.core.component };
+    CertifiedCore &           result = results[i];
+    std::vector<ElementIndex> left;
+    result.core = { core.core.label, PruneByTolerance(core.core.core, height, left), core.core.component };
+    if (!core.core.displacement.empty())
+    {
+      result.core.displacement = MovesOf(core.core, left);
+    }
     const TopologyNumbers topology = ComputeComplexTopology(result.core.core.cells);
     RequireEqualTopology(shape.topology, topology, "its core pruned at tolerance " + heights[i].text, shape.name);
     result.numbers = core.numbers;

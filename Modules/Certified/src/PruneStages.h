@@ -19,15 +19,17 @@ PruneAscending(const MedialComplex &       whole,
                const std::vector<double> & thresholdsMm,
                const ProgressCallback &    progress);
 
-/** Checks and describes what PruneAscending() made of `whole`: a core for each lambda.
+/** Checks and describes what PruneAscending() made of `whole`: a core for each lambda. `moves`, where `whole` is
+ *  refined: the displacements of each complex.
  *  \throws CertificateError when the topology is no longer the shape's. */
 std::vector<CertifiedCore>
-CertifyPruned(CertifiedCore               whole,
-              std::vector<MedialComplex>  complexes,
-              const CertifiedShape &      shape,
-              const std::vector<Lambda> & lambdas,
-              const std::vector<double> & thresholdsMm,
-              const ProgressCallback &    progress);
+CertifyPruned(CertifiedCore                     whole,
+              std::vector<MedialComplex>        complexes,
+              std::vector<std::vector<Vector3>> moves,
+              const CertifiedShape &            shape,
+              const std::vector<Lambda> &       lambdas,
+              const std::vector<double> &       thresholdsMm,
+              const ProgressCallback &          progress);
 
 /** How a core pruned to a height is described; no height is greater than the scan's diagonal. */
 ToleranceNumbers

@@ -2,6 +2,7 @@
 
 #include "CertificateText.h"
 #include "PruneStages.h"
+#include "RefinedTolerances.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
@@ -54,12 +55,20 @@ MovesInLps(const RefinedCore & refined, const ImageGeometry & geometry)
 }
 
 CertifiedCore
-CertifyRefined(RefinedCore refined, const VoxelShape & voxels, const CertifiedShape & shape, CoreNumbers numbers)
+CertifyRefined(RefinedCore            refined,
+               const MedialComplex &  whole,
+               const VoxelShape &     voxels,
+               const CertifiedShape & shape,
+               CoreNumbers            numbers)
 {
   const std::string what = "its core refined at " + (numbers.tolerance ? numbers.tolerance->height : numbers.lambda);
   const TopologyNumbers topology = ComputeComplexTopology(refined.core.cells);
   RequireEqualTopology(shape.topology, topology, what, shape.name);
   numbers.refined = RequireRefined(refined, voxels, shape.name, what);
+  if (numbers.tolerance)
+  {
+    refined.core.tolerances = TolerancesOfTriangles(refined.core.cells, whole, numbers.tolerance->heightMm);
+  }
   std::vector<Vector3> moves = MovesInLps(refined, shape.geometry);
   CertifiedCore        result;
   result.core = ToPhysical(std::move(refined.core), shape.geometry, 0);
@@ -178,8 +187,9 @@ RefineAndCertify(const VoxelShape &       voxels,
   std::vector<CertifiedCore> results;
   for (std::size_t i = 0; i < task.asked.size(); ++i)
   {
-    const auto at = std::lower_bound(ascending.begin(), ascending.end(), thresholdsMm[i]) - ascending.begin();
-    results.push_back(CertifyRefined(refined[static_cast<std::size_t>(at)], voxels, shape, std::move(task.asked[i])));
+    const auto          at = std::lower_bound(ascending.begin(), ascending.end(), thresholdsMm[i]) - ascending.begin();
+    const RefinedCore & core = refined[static_cast<std::size_t>(at)];
+    results.push_back(CertifyRefined(core, parts.core, voxels, shape, std::move(task.asked[i])));
   }
   if (task.curves)
   {

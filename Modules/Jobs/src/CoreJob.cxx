@@ -96,10 +96,6 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
   {
     throw UsageError("with --tolerance give one --lambda, the floor");
   }
-  if (!options.refine.surface.empty() && options.model.keepEdges)
-  {
-    throw UsageError("--keep-edges does not go with --refine: a refined core cannot be pruned further");
-  }
   if (options.report)
   {
     transaction.CheckTarget(*options.report);

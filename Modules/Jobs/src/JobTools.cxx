@@ -63,16 +63,6 @@ RequireSameUnit(const std::filesystem::path & one,
 }
 
 void
-RequireUnrefined(const MedialModel & model, const std::filesystem::path & path)
-{
-  if (!model.refined.empty())
-  {
-    throw InputError(path.string() + ": was made with --refine " + model.refined +
-                     "; a refined core cannot be pruned further; make one without");
-  }
-}
-
-void
 RequireFittingProvenance(bool fits, const std::filesystem::path & path)
 {
   if (!fits)

@@ -36,10 +36,6 @@ RequireSameUnit(const std::filesystem::path & one,
                 const std::filesystem::path & other,
                 SpatialUnit                   otherUnit);
 
-/** \throws InputError for a refined core: what works on exact ones does not take it. */
-void
-RequireUnrefined(const MedialModel & model, const std::filesystem::path & path);
-
 /** \throws InputError, naming the file, unless its field Provenance `fits` its cells. */
 void
 RequireFittingProvenance(bool fits, const std::filesystem::path & path);

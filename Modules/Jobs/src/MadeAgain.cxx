@@ -54,6 +54,32 @@ MadeAgain::MadeAgain(const CoreReport &            made,
   m_Surface = MakeSurfaceSource(refine, scan, RecordedReading(made.parameters), volume);
 }
 
+ModelPart
+MadeAgain::MakeAgain(const LabelShape & label, const PrunedRecord & pruned, const ProgressCallback & progress) const
+{
+  // A refined core may have been pruned further than it was when it was refined.
+  const RefinedAt & at = m_Made.parameters.refine.at.value_or(
+    RefinedAt{ pruned.lambda, pruned.tolerance ? pruned.tolerance->height : std::string() });
+  CertifiedRequest request;
+  request.lambdas = { ParseLambda(at.lambda) };
+  if (!at.tolerance.empty())
+  {
+    request.tolerances = { ParseTolerance(at.tolerance) };
+  }
+  request.surface = m_Surface;
+  LabelOutcome outcome = ProcessLabel({ label, 0, {} }, m_Geometry, std::move(request), progress);
+  ModelPart    again = std::move(outcome.parts.front());
+  if (m_Made.parameters.refine.at)
+  {
+    const CertifiedShape shape{ label.name, outcome.record.shape, outcome.record.box, m_Geometry };
+    CertifiedCore        refined{ outcome.record.pruned.front(), std::move(again) };
+    auto further = pruned.tolerance ? PruneCertified(refined, shape, { ParseTolerance(pruned.tolerance->height) })
+                                    : PruneCertified(std::move(refined), shape, { ParseLambda(pruned.lambda) });
+    again = std::move(further.front().core);
+  }
+  return again;
+}
+
 std::optional<VerificationCheck>
 MadeAgain::Check(const ModelPart &        part,
                  const LabelShape &       label,
@@ -64,15 +90,7 @@ MadeAgain::Check(const ModelPart &        part,
   {
     return std::nullopt;
   }
-  CertifiedRequest request;
-  request.lambdas = { ParseLambda(pruned.lambda) };
-  if (pruned.tolerance)
-  {
-    request.tolerances = { ParseTolerance(pruned.tolerance->height) };
-  }
-  request.surface = m_Surface;
-  LabelOutcome    outcome = ProcessLabel({ label, 0, {} }, m_Geometry, std::move(request), progress);
-  ModelPart       again = std::move(outcome.parts.front());
+  ModelPart       again = MakeAgain(label, pruned, progress);
   MedialComplex & core = again.core;
   again.component = part.component;
   if (m_Made.parameters.model.triangles)

@@ -32,6 +32,9 @@ public:
         const ProgressCallback & progress) const;
 
 private:
+  ModelPart
+  MakeAgain(const LabelShape & label, const PrunedRecord & pruned, const ProgressCallback & progress) const;
+
   const CoreReport &    m_Made;
   const ImageGeometry & m_Geometry;
   SurfaceSource         m_Surface;

@@ -121,7 +121,6 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
   ReportProgress(context.progress, "reading", 0);
   MedialModel model = ReadModel(options.core);
   report = ParseProvenance(model.provenance, options.core.string());
-  RequireUnrefined(model, options.core);
   RequirePrunable(options, model, report);
   CertifiedRequest request;
   request.lambdas = options.lambdas;
@@ -129,6 +128,7 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
   RequireLengthsOf(options.core, report.input.geometry.unit, request);
   report.command = options.command;
   report.input.path = options.core.string();
+  NoteRefinedAt(report.parameters);
   // Of what is pruned by tolerance on, the lambda stays what it was.
   report.parameters.tolerances.clear();
   for (const Tolerance & height : options.tolerances)
@@ -187,6 +187,7 @@ RunPruneJob(const PruneOptions & options, const JobContext & given)
   {
     models[k].provenance = ProvenanceJson(report, all, k);
     models[k].hasEdges = options.model.keepEdges;
+    models[k].refined = model.refined;
     models[k].unit = model.unit;
     WriteStagedModel(transaction, FileOutputPath(options.output, suffixes[k]), models[k], options.model, result.notes);
     models[k] = MedialModel();

@@ -67,6 +67,9 @@ VerifyPart(ModelPart                part,
     {
       moved.threshold = pruned.lambdaMm;
       moved.pruningTolerance = pruned.tolerance->heightMm;
+      moved.vertexTolerance = part.core.tolerances.vertices;
+      moved.edgeTolerance = part.core.tolerances.edges;
+      moved.faceTolerance = part.core.tolerances.faces;
     }
     return VerifyRefinedCore(moved, progress);
   }

@@ -69,7 +69,8 @@ Example:
 
 constexpr std::string_view kPruneFooter =
   R"(The result equals that of 'voxelcore core' at the same lambda or tolerance, bit for bit. For --lambda, make
-the file with --keep-edges. For --tolerance, make it with a smaller --tolerance, best 0.
+the file with --keep-edges. For --tolerance, make it with a smaller --tolerance, best 0. What remains of a refined
+core keeps its places and radii.
 
 Examples:
   voxelcore core scan.nii.gz --lambda 0 --keep-edges -o whole.vtp

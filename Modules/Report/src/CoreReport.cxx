@@ -226,6 +226,16 @@ Milliseconds(double seconds)
 
 } // namespace
 
+void
+NoteRefinedAt(ParameterRecord & parameters)
+{
+  if (!parameters.refine.surface.empty() && !parameters.refine.at)
+  {
+    parameters.refine.at = { parameters.lambda.front(),
+                             parameters.tolerances.empty() ? std::string() : parameters.tolerances.front() };
+  }
+}
+
 std::string
 ReportJson(const CoreReport & report)
 {
@@ -262,6 +272,17 @@ ProvenanceJson(const CoreReport & report, const std::vector<std::size_t> & label
   else
   {
     part.parameters.tolerances = { report.parameters.tolerances.at(which) };
+  }
+  if (report.parameters.refine.at)
+  {
+    ParameterRecord now = part.parameters;
+    now.refine.at.reset();
+    NoteRefinedAt(now);
+    if (now.refine.at->lambda == part.parameters.refine.at->lambda &&
+        now.refine.at->tolerance == part.parameters.refine.at->tolerance)
+    {
+      part.parameters.refine.at.reset();
+    }
   }
   for (const std::size_t index : labels)
   {

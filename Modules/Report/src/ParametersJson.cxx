@@ -226,6 +226,14 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
       json["grey_sha256"] = parameters.refine.greySha256;
       json["grey_range"] = ValueJson(*parameters.refine.greyRange);
     }
+    if (parameters.refine.at)
+    {
+      json["refined_at"]["lambda"] = parameters.refine.at->lambda;
+      if (!parameters.refine.at->tolerance.empty())
+      {
+        json["refined_at"]["tolerance"] = parameters.refine.at->tolerance;
+      }
+    }
   }
   VisitModelFields(parameters.model, write);
   for (const auto & [name, text] : parameters.further)
@@ -262,6 +270,11 @@ ReadParameters(const nlohmann::ordered_json & json)
   if (json.contains("grey_range"))
   {
     ReadValue(json.at("grey_range"), parameters.refine.greyRange);
+  }
+  if (json.contains("refined_at"))
+  {
+    const Json & at = json.at("refined_at");
+    parameters.refine.at = { at.at("lambda").get<std::string>(), at.value("tolerance", std::string()) };
   }
   VisitModelFields(parameters.model, read);
   read("lattice_weights", parameters.weights.weight);

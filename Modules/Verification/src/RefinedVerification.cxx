@@ -5,7 +5,9 @@
 #include "voxelcore/BettiReduction.h"
 #include "voxelcore/OctantScan.h"
 
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace voxelcore
 {
@@ -15,7 +17,7 @@ namespace verification
 namespace
 {
 
-constexpr std::array<const char *, 14> kRefinedChecks{ "arrays",
+constexpr std::array<const char *, 16> kRefinedChecks{ "arrays",
                                                        "numbers",
                                                        "edge ends",
                                                        "polygons",
@@ -27,6 +29,8 @@ constexpr std::array<const char *, 14> kRefinedChecks{ "arrays",
                                                        "faces not turned over",
                                                        "radius",
                                                        "measures",
+                                                       "tolerances",
+                                                       "coverage",
                                                        "shape Euler number",
                                                        "topology" };
 
@@ -232,6 +236,9 @@ VerifyRefinedCore(const RefinedVerificationInput & input, const ProgressCallback
   plain.faceLambda = input.faceLambda;
   plain.pruningTolerance = input.pruningTolerance;
   plain.threshold = input.threshold;
+  plain.vertexTolerance = input.vertexTolerance;
+  plain.edgeTolerance = input.edgeTolerance;
+  plain.faceTolerance = input.faceTolerance;
   OctantScan scan = ScanOctants(*input.shape);
   bool       usable = CheckArrays(report, plain) && CheckIncidences(report, *input.cells);
   if (usable && input.displacement.size() != input.positions.size())
@@ -246,6 +253,7 @@ VerifyRefinedCore(const RefinedVerificationInput & input, const ProgressCallback
     ReportProgress(progress, "verify", 0.9);
     if (input.pruningTolerance)
     {
+      CheckTolerances(report, { plain, *input.cells, tree, 0, {}, {} });
       std::vector<Position> moves(input.displacement.begin(), input.displacement.end());
       for (Position & move : moves)
       {
@@ -260,7 +268,12 @@ VerifyRefinedCore(const RefinedVerificationInput & input, const ProgressCallback
   {
     for (std::size_t i = report.checks.size(); i < kRefinedChecks.size(); ++i)
     {
-      report.checks.push_back({ kRefinedChecks[i], false, 0, "Not checked: what it builds on is damaged." });
+      const std::string_view name = kRefinedChecks[i];
+      const bool             isCovered = input.pruningTolerance && input.threshold.value_or(0.0) == 0;
+      if ((name != "tolerances" || input.pruningTolerance) && (name != "coverage" || isCovered))
+      {
+        report.checks.push_back({ kRefinedChecks[i], false, 0, "Not checked: what it builds on is damaged." });
+      }
     }
   }
   FinishReport(report);

@@ -97,6 +97,27 @@ OriginJson(const CoreOrigin & origin, const CorePruning & pruning, const ImageGe
   return json;
 }
 
+/** Says of a refined core that is pruned on at which lambda it was refined; in the form and place of CoreReport. */
+void
+NoteRefinedAt(Json & parameters, const std::string & lambda)
+{
+  const Json & before = parameters.at("lambda").at(0);
+  if (!parameters.contains("refine") || parameters.contains("refined_at") || before == lambda)
+  {
+    return;
+  }
+  Json changed = Json::object();
+  for (const auto & [name, value] : parameters.items())
+  {
+    if (name == "triangles")
+    {
+      changed["refined_at"]["lambda"] = before;
+    }
+    changed[name] = value;
+  }
+  parameters = std::move(changed);
+}
+
 std::string
 Dump(const Json & json)
 {
@@ -210,9 +231,18 @@ PrunedProvenanceJson(const std::string & text, const std::vector<CorePruning> & 
       }
       if (i == 0)
       {
+        NoteRefinedAt(json.at("parameters"), pruning.lambda);
         json.at("parameters").at("lambda") = Json::array({ pruning.lambda });
       }
-      labels.at(i).at("pruned") = Json::array({ KeysInUnit(PruningJson(pruning), *unit) });
+      Json after = KeysInUnit(PruningJson(pruning), *unit);
+      for (const char * moves : { "mean_displacement_vox", "max_displacement_vox" })
+      {
+        if (before.contains(moves))
+        {
+          after[moves] = before.at(moves);
+        }
+      }
+      labels.at(i).at("pruned") = Json::array({ std::move(after) });
     }
     json.at("parameters").at("keep_edges") = true;
     return Dump(json);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace voxelcore
 {
@@ -142,11 +143,25 @@ LambdaInMillimetres(const Lambda &                lambda,
   return lambda.value * static_cast<double>(smallest) * weights.unit;
 }
 
+namespace
+{
+
 std::vector<MedialComplex>
-PruneByLambda(const MedialComplex & core, const std::vector<double> & thresholds, const ProgressCallback & progress)
+Prune(const MedialComplex &                    core,
+      const std::vector<double> &              thresholds,
+      std::vector<std::vector<ElementIndex>> * vertices,
+      const ProgressCallback &                 progress)
 {
   std::vector<MedialComplex> pruned;
   pruned.reserve(thresholds.size());
+  const auto take = [&](const LiveElements & live) {
+    PartElements elements;
+    pruned.push_back(ExtractPart(core, live, elements));
+    if (vertices != nullptr)
+    {
+      vertices->push_back(std::move(elements.vertices));
+    }
+  };
   SimplePairCollapse collapse(core.cells, core.vertexLambda, core.edgeLambda, core.faceLambda);
   for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
@@ -156,14 +171,32 @@ PruneByLambda(const MedialComplex & core, const std::vector<double> & thresholds
     collapse.CollapseBelow(thresholds[i], PartOfProgress(progress, at(i), at(i + 1)));
     if (i + 1 < thresholds.size())
     {
-      pruned.push_back(ExtractPart(core, collapse.Live()));
+      take(collapse.Live());
     }
     else
     {
-      pruned.push_back(ExtractPart(core, std::move(collapse).TakeLive()));
+      take(std::move(collapse).TakeLive());
     }
   }
   return pruned;
+}
+
+} // namespace
+
+std::vector<MedialComplex>
+PruneByLambda(const MedialComplex & core, const std::vector<double> & thresholds, const ProgressCallback & progress)
+{
+  return Prune(core, thresholds, nullptr, progress);
+}
+
+std::vector<MedialComplex>
+PruneByLambda(const MedialComplex &                    core,
+              const std::vector<double> &              thresholds,
+              std::vector<std::vector<ElementIndex>> & vertices,
+              const ProgressCallback &                 progress)
+{
+  vertices.clear();
+  return Prune(core, thresholds, &vertices, progress);
 }
 
 } // namespace voxelcore

@@ -156,4 +156,13 @@ PruneByTolerance(const MedialComplex & core, double height)
   return ExtractPart(core, LeftByTolerance(core, height));
 }
 
+MedialComplex
+PruneByTolerance(const MedialComplex & core, double height, std::vector<ElementIndex> & vertices)
+{
+  PartElements  elements;
+  MedialComplex left = ExtractPart(core, LeftByTolerance(core, height), elements);
+  vertices = std::move(elements.vertices);
+  return left;
+}
+
 } // namespace voxelcore

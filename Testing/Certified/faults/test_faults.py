@@ -12,6 +12,7 @@ def cores_from(path):
     return {
         "pruned further": lambda: voxelcore.read(path).prune("2vox"),
         "pruned by tolerance": lambda: voxelcore.read(path).prune(tolerance="2diag"),
+        "refined, pruned further": lambda: voxelcore.read(path.with_name("refined.vtp")).prune("2vox"),
         "skeleton of a core": lambda: voxelcore.skeleton(voxelcore.read(path)),
     }
 
@@ -30,6 +31,7 @@ FROM_ARRAY = {
 @pytest.fixture
 def path(tmp_path):
     voxelcore.core(ROD, tolerance=0).save(tmp_path / "core.vtp", keep_edges=True)
+    voxelcore.core(ROD, lambda_=0, refine="labels").save(tmp_path / "refined.vtp", keep_edges=True)
     return tmp_path / "core.vtp"
 
 
@@ -61,7 +63,12 @@ def test_a_fault_below_an_array_is_refused(monkeypatch, stage, what):
 
 @pytest.mark.parametrize(
     "stage, what",
-    [("pruning", "pruned further"), ("tolerance", "pruned by tolerance"), ("skeleton", "skeleton of a core")],
+    [
+        ("pruning", "pruned further"),
+        ("pruning", "refined, pruned further"),
+        ("tolerance", "pruned by tolerance"),
+        ("skeleton", "skeleton of a core"),
+    ],
 )
 def test_a_fault_below_a_finished_core_is_refused(monkeypatch, path, stage, what):
     refuses(monkeypatch, stage, cores_from(path)[what])

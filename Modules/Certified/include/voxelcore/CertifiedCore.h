@@ -35,7 +35,7 @@ struct ToleranceNumbers
   std::optional<double> boundaryGapMm; ///< of a boundary vertex to the balls that are left, the largest; where measured
 };
 
-/** What refining did, in voxels (length in lattice coordinates). */
+/** What refining did to all that was refined, in voxels (length in lattice coordinates). */
 struct RefinedNumbers
 {
   double meanDisplacement = 0;
@@ -62,7 +62,9 @@ struct CertifiedCore
 void
 RequireTopologyOf(const CertifiedShape & shape, const CertifiedCore & core);
 
-/** A certified core pruned to each lambda, in the order given: the bits ComputeCertified() gives at once.
+/** A certified core pruned to each lambda, in the order given: the bits ComputeCertified() gives at once. Of a refined
+ *  core the measures to the estimated surface decide, and what is left keeps its places and radii: pruning on equals
+ *  pruning at once, but what is pruned first and then refined may be moved otherwise at its rims.
  *  \throws UsageError when it is pruned further already; CertificateError; Cancelled */
 std::vector<CertifiedCore>
 PruneCertified(CertifiedCore               core,
@@ -70,7 +72,8 @@ PruneCertified(CertifiedCore               core,
                const std::vector<Lambda> & lambdas,
                const ProgressCallback &    progress = {});
 
-/** The same by tolerance, of a core that has its heights. The boundary gap is not measured: this needs the voxels. */
+/** The same by tolerance, of a core that has its heights; of a refined core the cells are those of one refined at that
+ *  height. The boundary gap is not measured: this needs the voxels. */
 std::vector<CertifiedCore>
 PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const std::vector<Tolerance> & heights);
 

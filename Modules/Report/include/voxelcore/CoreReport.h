@@ -31,12 +31,20 @@ struct InputRecord
   std::vector<std::string> notes;
 };
 
+/** How a core was pruned when it was refined. */
+struct RefinedAt
+{
+  std::string lambda;
+  std::string tolerance; ///< empty: by lambda alone
+};
+
 /** What refinement was asked for, as it stands in a file. */
 struct RefineRecord
 {
   std::string                              surface; ///< empty: not refined
   std::string                              greySha256;
   std::optional<std::pair<double, double>> greyRange;
+  std::optional<RefinedAt>                 at; ///< where it was pruned further afterwards
 };
 
 /** Every option that changes the result, and how the work was done. */
@@ -124,6 +132,10 @@ struct CoreReport
   StageSeconds                   seconds;
   double                         peakMemoryMb = 0;
 };
+
+/** Notes in the parameters of a file's core, before it is pruned further, how it is pruned now: it was refined so. */
+void
+NoteRefinedAt(ParameterRecord & parameters);
 
 /** The version all reports name. */
 std::string

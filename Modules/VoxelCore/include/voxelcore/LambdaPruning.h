@@ -52,4 +52,11 @@ PruneByLambda(const MedialComplex &       core,
               const std::vector<double> & thresholds,
               const ProgressCallback &    progress = {});
 
+/** The same; `vertices` receives, for each result, of each of its vertices the index in `core`. */
+std::vector<MedialComplex>
+PruneByLambda(const MedialComplex &                    core,
+              const std::vector<double> &              thresholds,
+              std::vector<std::vector<ElementIndex>> & vertices,
+              const ProgressCallback &                 progress = {});
+
 } // namespace voxelcore

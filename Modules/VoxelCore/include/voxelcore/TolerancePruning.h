@@ -108,5 +108,8 @@ LiveElements
 LeftByTolerance(const MedialComplex & core, double height);
 MedialComplex
 PruneByTolerance(const MedialComplex & core, double height);
+/** The same; `vertices` receives of each vertex of the result the index in `core`. */
+MedialComplex
+PruneByTolerance(const MedialComplex & core, double height, std::vector<ElementIndex> & vertices);
 
 } // namespace voxelcore
