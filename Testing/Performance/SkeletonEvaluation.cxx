@@ -147,19 +147,20 @@ ScoreNoise(std::uint64_t seeds)
   }
 }
 
-MedialComplex
-SurfaceAtToleranceOf(const VoxelShape & shape, const Spacing3 & spacing, double diagonals)
+/** The graph of what tolerance leaves of a core, in the fire of all of it. */
+SkeletonGraph
+GraphAtToleranceOf(const VoxelShape & shape, const Spacing3 & spacing, double diagonals)
 {
-  MedialComplex surface =
-    PruneByTolerance(CoreWithTolerancesOf(shape, spacing), diagonals * Distance(spacing, { 0, 0, 0 }));
-  for (auto & position : surface.positions)
+  MedialComplex core = CoreWithTolerancesOf(shape, spacing);
+  for (auto & position : core.positions)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       position[axis] *= spacing[axis];
     }
   }
-  return surface;
+  const LiveElements left = LeftByTolerance(core, diagonals * Distance(spacing, { 0, 0, 0 }));
+  return GraphOfSurface(core, spacing, &left);
 }
 
 /** Tips of the hand that no tip of the skeleton comes near to, and tips beyond them. */
@@ -201,9 +202,7 @@ ScoreSurfaces(std::uint64_t seeds)
         return GraphOfSurface(SurfaceOf(shape, spacing, 1.5 * voxel), spacing);
       } },
     { "tolerance 1.2diag",
-      [](const VoxelShape & shape, const Spacing3 & spacing) {
-        return GraphOfSurface(SurfaceAtToleranceOf(shape, spacing, 1.2), spacing);
-      } },
+      [](const VoxelShape & shape, const Spacing3 & spacing) { return GraphAtToleranceOf(shape, spacing, 1.2); } },
   };
   std::printf(
     "\nskeletons of surfaces, %d seeds   true tips  missed  found  spurious  length off %%: mean  worst  "

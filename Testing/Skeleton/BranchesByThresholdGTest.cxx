@@ -4,6 +4,7 @@
 #include "VoxelCoreTesting/Random.h"
 
 #include "voxelcore/BranchTable.h"
+#include "voxelcore/TolerancePruning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -165,6 +166,62 @@ TEST(BranchesByThreshold, MoreThresholdNeverGivesMoreBranches)
     }
   }
   EXPECT_GT(fewer, 2);
+}
+
+/** A tube of elliptic section across a random direction. */
+VoxelShape
+FlatTube(Random & random, double wide, double thin, double length)
+{
+  const Spacing3 along = RandomDirection(random);
+  Spacing3       across{ along[1], -along[0], 0 };
+  for (double & value : across)
+  {
+    value /= std::hypot(along[0], along[1]);
+  }
+  const Spacing3     third{ along[1] * across[2] - along[2] * across[1],
+                        along[2] * across[0] - along[0] * across[2],
+                        along[0] * across[1] - along[1] * across[0] };
+  const std::int32_t side = static_cast<std::int32_t>(length + 2 * wide) + 4;
+  const Spacing3     centre{ 0.5 * side + random.Unit(), 0.5 * side + random.Unit(), 0.5 * side + random.Unit() };
+  VoxelShape         shape(VoxelBox{ { 0, 0, 0 }, { side, side, side } });
+  for (std::int32_t z = 0; z < side; ++z)
+  {
+    for (std::int32_t y = 0; y < side; ++y)
+    {
+      for (std::int32_t x = 0; x < side; ++x)
+      {
+        const Spacing3 d{ x + 0.5 - centre[0], y + 0.5 - centre[1], z + 0.5 - centre[2] };
+        const auto     onto = [&](const Spacing3 & axis) { return d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2]; };
+        const double   beyond = std::max(std::abs(onto(along)) - 0.5 * length, 0.0);
+        if (std::hypot(onto(across) / wide, onto(third) / thin, beyond / thin) <= 1)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  return shape;
+}
+
+TEST(BranchesByThreshold, PruningByToleranceGivesNoBranches)
+{
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+  {
+    Random        random(seed);
+    const bool    isFlat = seed < 3;
+    MedialComplex core = CoreWithTolerancesOf(isFlat ? FlatTube(random, 10, 4, 60) : BodyOf(RandomTree(random)));
+    const auto    tipsOf = [&](const LiveElements * part) {
+      return TipsOf(SkeletonOf(core, 3, std::numeric_limits<double>::infinity(), 1, 0, part)).size();
+    };
+    std::size_t before = tipsOf(nullptr);
+    EXPECT_EQ(before, isFlat ? 2U : before) << "seed " << seed;
+    for (const double height : { 1.0, 1.5, 2.1, 3.0, 5.0 })
+    {
+      const LiveElements left = LeftByTolerance(core, height);
+      EXPECT_LE(tipsOf(&left), before) << "seed " << seed << ", height " << height;
+      before = tipsOf(&left);
+    }
+  }
 }
 
 TEST(BranchesByThreshold, AThinStubOnAThickStemIsABranchOnEverySide)

@@ -110,14 +110,15 @@ SkeletonOf(const MedialComplex & surface,
            double                branchThreshold,
            double                plateThreshold = std::numeric_limits<double>::infinity(),
            double                voxel = 1,
-           double                side = 0)
+           double                side = 0,
+           const LiveElements *  part = nullptr)
 {
   CurveOptions options;
   options.branchThreshold = branchThreshold;
   options.plateThreshold = plateThreshold;
   options.sampling = 1.5 * voxel;
   options.voxel = side > 0 ? side : voxel;
-  return ComputeCurveSkeleton(surface, options);
+  return ComputeCurveSkeleton(surface, part, options);
 }
 
 /** Number of edges at each vertex. */

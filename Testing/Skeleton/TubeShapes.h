@@ -99,14 +99,17 @@ HalfAVoxel(const Spacing3 & spacing = { 1, 1, 1 })
   return { { { 2 / spacing[0], 0, 0 }, { 0, 2 / spacing[1], 0 }, { 0, 0, 2 / spacing[2] } } };
 }
 
-/** The graph of a surface's skeleton at 3 voxels, fitted with the default window and reach. Positions in mm. */
+/** The graph of a surface's skeleton at 3 voxels, or of a part of it, fitted with the default window and reach.
+ *  Positions in mm. */
 inline SkeletonGraph
-GraphOfSurface(const MedialComplex & surface, const Spacing3 & spacing = { 1, 1, 1 })
+GraphOfSurface(const MedialComplex & surface,
+               const Spacing3 &      spacing = { 1, 1, 1 },
+               const LiveElements *  part = nullptr)
 {
   const double  unit = std::min({ spacing[0], spacing[1], spacing[2] });
   const double  side = Distance(spacing, { 0, 0, 0 }) / std::sqrt(3.0);
   SkeletonGraph graph =
-    BuildSkeletonGraph(SkeletonOf(surface, 3 * unit, std::numeric_limits<double>::infinity(), unit, side));
+    BuildSkeletonGraph(SkeletonOf(surface, 3 * unit, std::numeric_limits<double>::infinity(), unit, side, part));
   FitBranches(graph, 6 * side, HalfAVoxel(spacing));
   return graph;
 }

@@ -336,10 +336,6 @@ private:
   const MedialComplex &
   CoreToBurn() const
   {
-    if (m_Request.skeleton->tolerance)
-    {
-      return m_Result.cores.front().core.core;
-    }
     for (std::size_t i = 0; i < m_Request.lambdas.size(); ++i)
     {
       if (m_Request.lambdas[i].text == m_Request.skeleton->lambda.text)
@@ -352,24 +348,31 @@ private:
   }
 
   void
-  Burn(const MedialComplex & core)
+  Burn(const MedialComplex & core, const LiveElements * part = nullptr)
   {
     Stopwatch watch;
-    m_Curves = BurnToCurves(core, m_Result.shape, *m_Request.skeleton, m_Plan.Next());
+    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next());
     m_Result.seconds.skeleton += watch.Lap();
   }
 
-  /** Curves that may be refined: they know their places in the whole core. */
+  /** Curves that know their places in the whole core: they may be refined. */
   void
   BurnBeforePruning()
   {
+    const MedialComplex & core = m_Whole.core.core;
     if (BurnsWhole(m_Request))
     {
-      Burn(m_Whole.core.core);
+      Burn(core);
+      return;
+    }
+    const LiveElements left = PartToBurn(core, m_Result.shape, *m_Request.skeleton);
+    if (m_Request.skeleton->tolerance)
+    {
+      Burn(core, &left);
       return;
     }
     PartElements part;
-    Burn(PartToBurn(m_Whole.core.core, m_Result.shape, *m_Request.skeleton, part));
+    Burn(ExtractPart(core, left, part));
     NameInWhole(part, m_Curves->curves.inSurface);
   }
 

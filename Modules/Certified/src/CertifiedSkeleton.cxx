@@ -109,13 +109,9 @@ RequireLengthsIn(SpatialUnit unit, const SkeletonRequest & request)
   RequireLengthsIn(unit, request.branches);
 }
 
-MedialComplex
-PartToBurn(const MedialComplex &   whole,
-           const CertifiedShape &  shape,
-           const SkeletonRequest & request,
-           PartElements &          elements)
+LiveElements
+PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request)
 {
-  LiveElements live;
   if (request.tolerance)
   {
     if (!whole.HasTolerances())
@@ -123,19 +119,16 @@ PartToBurn(const MedialComplex &   whole,
       throw UsageError(shape.name + ": a skeleton is asked for of a core that is not: tolerance " +
                        request.tolerance->text);
     }
-    live = LeftByTolerance(whole, ToleranceInMillimetres(*request.tolerance, shape.geometry.spacing));
+    return LeftByTolerance(whole, ToleranceInMillimetres(*request.tolerance, shape.geometry.spacing));
   }
-  else
-  {
-    SimplePairCollapse collapse(whole.cells, whole.vertexLambda, whole.edgeLambda, whole.faceLambda);
-    collapse.CollapseBelow(LengthOn(shape, request.lambda));
-    live = std::move(collapse).TakeLive();
-  }
-  return ExtractPart(whole, live, elements);
+  SimplePairCollapse collapse(whole.cells, whole.vertexLambda, whole.edgeLambda, whole.faceLambda);
+  collapse.CollapseBelow(LengthOn(shape, request.lambda));
+  return std::move(collapse).TakeLive();
 }
 
 BurnedCurves
 BurnToCurves(const MedialComplex &    core,
+             const LiveElements *     part,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
              const ProgressCallback & progress)
@@ -152,7 +145,7 @@ BurnToCurves(const MedialComplex &    core,
   curves.geometry = shape.geometry;
   curves.voxel = VoxelSide(spacing);
   BurnedCurves burned;
-  burned.curves = ComputeCurveSkeleton(core, curves, progress);
+  burned.curves = ComputeCurveSkeleton(core, part, curves, progress);
   burned.topology = ComputeComplexTopology(burned.curves.complex.cells);
   RequireEqualTopology(shape.topology, burned.topology, "its skeleton", shape.name);
   return burned;
@@ -199,7 +192,7 @@ SkeletonOf(const PlacedCore &       core,
            const VoxelShape *       body)
 {
   StagePlan          plan(progress, { 0.98, 0.02 });
-  const BurnedCurves burned = BurnToCurves(core.core, shape, request, plan.Next());
+  const BurnedCurves burned = BurnToCurves(core.core, nullptr, shape, request, plan.Next());
   ReportProgress(plan.Next("branches"), "", 0);
   CertifiedSkeleton result = MeasureCurves(burned, body != nullptr ? *body : BodyOf(core.core, shape), shape, request);
   result.skeleton.label = core.label;

@@ -60,7 +60,7 @@ BurnsWhole(const CertifiedRequest & request)
 bool
 BurnsBeforePruning(const CertifiedRequest & request)
 {
-  return BurnsWhole(request) || (request.skeleton && Refines(request));
+  return BurnsWhole(request) || (request.skeleton && (request.skeleton->tolerance || Refines(request)));
 }
 
 std::vector<double>

@@ -16,15 +16,14 @@ struct BurnedCurves
 
 /** What lambda or tolerance of the request leave of the whole core. \throws UsageError for a tolerance where the core
  *  has none */
-MedialComplex
-PartToBurn(const MedialComplex &   whole,
-           const CertifiedShape &  shape,
-           const SkeletonRequest & request,
-           PartElements &          elements);
+LiveElements
+PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request);
 
-/** \throws CertificateError when the curves do not have the shape's topology; Cancelled */
+/** Of a part of the core, in the fire of all of it, unless that is null.
+ *  \throws CertificateError when the curves do not have the shape's topology; Cancelled */
 BurnedCurves
 BurnToCurves(const MedialComplex &    core,
+             const LiveElements *     part,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
              const ProgressCallback & progress);

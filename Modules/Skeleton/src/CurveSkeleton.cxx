@@ -2,6 +2,7 @@
 
 #include "CurveBranches.h"
 #include "CurveFire.h"
+#include "PartOfCurves.h"
 #include "SurfaceCollapse.h"
 #include "TurnedSurface.h"
 #include "voxelcore/StagePlan.h"
@@ -33,6 +34,21 @@ MeanEdgeLength(const MedialComplex & surface)
   return surface.cells.edges.empty() ? 0 : sum / static_cast<double>(surface.cells.edges.size());
 }
 
+std::vector<std::uint32_t>
+LiveDegrees(const CellComplex & cells, const LiveElements & live)
+{
+  std::vector<std::uint32_t> degree(cells.vertexCount, 0);
+  for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    if (live.edges[edge])
+    {
+      ++degree[cells.edges[edge][0]];
+      ++degree[cells.edges[edge][1]];
+    }
+  }
+  return degree;
+}
+
 /** Where the end of a branch is: so much of the way from a vertex that is gone to the last one. */
 struct EndPlace
 {
@@ -40,6 +56,18 @@ struct EndPlace
   ElementIndex beyond;
   double       part;
 };
+
+Vector3
+PlaceOf(const EndPlace & end, const std::vector<Vector3> & positions)
+{
+  Vector3 place{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double from = positions[end.beyond][axis];
+    place[axis] = from + end.part * (positions[end.vertex][axis] - from);
+  }
+  return place;
+}
 
 /** Takes off the branches that are not there, and of the others what lies beyond their end or, where that is beyond a
  *  junction, beyond the junction. */
@@ -66,15 +94,7 @@ KeepBranches(const CellComplex &              cells,
       live.edges[fire.nextEdge[vertex]] = 0;
     }
   }
-  std::vector<std::uint32_t> degree(cells.vertexCount, 0);
-  for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
-  {
-    if (live.edges[edge])
-    {
-      ++degree[cells.edges[edge][0]];
-      ++degree[cells.edges[edge][1]];
-    }
-  }
+  std::vector<std::uint32_t> degree = LiveDegrees(cells, live);
   for (const CurveBranch & branch : branches)
   {
     // The vertex after the place becomes the end.
@@ -94,6 +114,30 @@ KeepBranches(const CellComplex &              cells,
   }
 }
 
+std::vector<TipPlace>
+TipsOf(const MedialComplex &              surface,
+       const LiveElements &               live,
+       const std::vector<EndPlace> &      ends,
+       const std::vector<std::uint32_t> & components)
+{
+  const CellComplex &        cells = surface.cells;
+  std::vector<Vector3>       places = surface.positions;
+  std::vector<std::uint32_t> degree = LiveDegrees(cells, live);
+  for (const EndPlace & end : ends)
+  {
+    places[end.vertex] = PlaceOf(end, surface.positions);
+  }
+  std::vector<TipPlace> tips;
+  for (std::size_t vertex = 0; vertex < degree.size(); ++vertex)
+  {
+    if (live.vertices[vertex] && degree[vertex] == 1)
+    {
+      tips.push_back({ places[vertex], components[vertex] });
+    }
+  }
+  return tips;
+}
+
 } // namespace
 
 std::size_t
@@ -105,50 +149,70 @@ CurveSkeleton::ClosedFaceCount() const
 CurveSkeleton
 ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
 {
-  const TurnedSurface turned = TurnSurface(surface, options.geometry);
-  StagePlan           plan(progress, { 0.9, 0.06, 0.04 });
-  const BurnTimes     times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
+  return ComputeCurveSkeleton(surface, nullptr, options, progress);
+}
+
+CurveSkeleton
+ComputeCurveSkeleton(const MedialComplex &    surface,
+                     const LiveElements *     part,
+                     const CurveOptions &     options,
+                     const ProgressCallback & progress)
+{
+  TurnedSurface turned = TurnSurface(surface, options.geometry);
+  StagePlan     plan(progress, { 0.9, 0.06, 0.04 });
+  BurnTimes     times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
   ReportProgress(plan.Next("collapsing"), "", 0);
   std::vector<std::uint8_t> closed;
   LiveElements              live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
   ReportProgress(plan.Next("curves"), "", 0);
-  const double          edgeLength = MeanEdgeLength(turned.surface);
-  const CurveFire       fire = BurnCurves(turned.surface, live, times.vertices, kChordInEdges * edgeLength);
+  const double          chord = kChordInEdges * MeanEdgeLength(turned.surface);
+  CurveFire             fire = BurnCurves(turned.surface, live, times.vertices, chord);
   std::vector<EndPlace> ends;
   if (options.branchThreshold > 0)
   {
-    const BranchScale scale{ kChordInEdges * edgeLength, options.voxel };
-    KeepBranches(turned.surface.cells,
-                 fire,
-                 StandingBranches(turned.surface, fire, times.vertices, scale, options.branchThreshold),
-                 live,
-                 ends);
+    KeepBranches(
+      turned.surface.cells,
+      fire,
+      StandingBranches(turned.surface, fire, times.vertices, { chord, options.voxel }, options.branchThreshold),
+      live,
+      ends);
+  }
+  if (part != nullptr)
+  {
+    std::vector<std::uint32_t>  components = ComponentOfVertices(turned.surface.cells);
+    const std::vector<TipPlace> tips = TipsOf(turned.surface, live, ends, components);
+    ends.clear();
+    KeepPart(*part, turned, times, components);
+    live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
+    fire = BurnCurves(turned.surface, live, times.vertices, chord);
+    if (options.branchThreshold > 0)
+    {
+      KeepWaysBetween(tips, turned.surface, components, fire, live);
+    }
   }
 
   // Back to the surface as it was.
-  const auto back = [](const std::vector<ElementIndex> & places, const auto & values) {
+  const auto back = [](const std::vector<ElementIndex> & places, const auto & values, std::size_t count) {
     auto result = values;
+    result.assign(count, 0);
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       result[places[i]] = values[i];
     }
     return result;
   };
-  const LiveElements        stays{ back(turned.vertices, live.vertices),
-                            back(turned.edges, live.edges),
-                            back(turned.faces, live.faces) };
-  const std::vector<double> surfaceTime = back(turned.vertices, times.vertices);
-  const std::vector<double> curveTime = back(turned.vertices, fire.time);
-  closed = back(turned.faces, closed);
+  const CellComplex &       cells = surface.cells;
+  const LiveElements        stays{ back(turned.vertices, live.vertices, cells.vertexCount),
+                            back(turned.edges, live.edges, cells.edges.size()),
+                            back(turned.faces, live.faces, cells.FaceCount()) };
+  const std::vector<double> surfaceTime = back(turned.vertices, times.vertices, cells.vertexCount);
+  const std::vector<double> curveTime = back(turned.vertices, fire.time, cells.vertexCount);
+  closed = back(turned.faces, closed, cells.FaceCount());
   std::vector<Vector3> places = surface.positions;
   for (const EndPlace & end : ends)
   {
-    const Vector3 & a = surface.positions[turned.vertices[end.beyond]];
-    const Vector3 & b = surface.positions[turned.vertices[end.vertex]];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      places[turned.vertices[end.vertex]][axis] = a[axis] + end.part * (b[axis] - a[axis]);
-    }
+    const EndPlace there{ turned.vertices[end.vertex], turned.vertices[end.beyond], end.part };
+    places[there.vertex] = PlaceOf(there, surface.positions);
   }
 
   CurveSkeleton skeleton;

@@ -6,6 +6,7 @@
 #include "voxelcore/ExtractPart.h"
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/Progress.h"
+#include "voxelcore/SimplePairCollapse.h"
 
 #include <cstdint>
 #include <limits>
@@ -59,6 +60,15 @@ struct CurveSkeleton
  *  Positions of `surface` in LPS mm of the geometry, radii in mm. \throws InputError when it is too large; Cancelled */
 CurveSkeleton
 ComputeCurveSkeleton(const MedialComplex &    surface,
+                     const CurveOptions &     options,
+                     const ProgressCallback & progress = {});
+
+/** The curves of the surface followed into a part of it that pruning has left: burn times are those of all of it, and
+ *  each end is the part's place nearest to one of its ends, as the ragged rim of what is left is no end. Without a
+ *  branch threshold all curves of the part stay. `part` may be null: all of it. */
+CurveSkeleton
+ComputeCurveSkeleton(const MedialComplex &    surface,
+                     const LiveElements *     part,
                      const CurveOptions &     options,
                      const ProgressCallback & progress = {});
 
