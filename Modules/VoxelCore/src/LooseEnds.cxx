@@ -56,23 +56,23 @@ LooseEnds::FindNeighbours(const LiveElements & left)
       m_Standing[m_Cells.edges[edge][1]].Add(static_cast<ElementIndex>(edge));
     }
   }
+  // Filled from the ends of their places backwards, so that each vertex is left with where its own begin.
   m_FirstNeighbour.reserve(m_Cells.vertexCount + 1);
   std::uint32_t end = 0;
   for (std::size_t vertex = 0; vertex < m_Cells.vertexCount; ++vertex)
   {
-    m_FirstNeighbour.push_back(end);
     end += IsLive(static_cast<ElementIndex>(vertex)) ? m_Standing[vertex].Count() : 0;
+    m_FirstNeighbour.push_back(end);
   }
   m_FirstNeighbour.push_back(end);
   m_Neighbours.resize(end);
-  std::vector<std::uint32_t> next(m_FirstNeighbour.begin(), m_FirstNeighbour.end() - 1);
-  for (std::size_t edge = 0; edge < m_Cells.edges.size(); ++edge)
+  for (std::size_t edge = m_Cells.edges.size(); edge-- > 0;)
   {
     if (isLeft(edge))
     {
       const auto & [a, b] = m_Cells.edges[edge];
-      m_Neighbours[next[a]++] = b;
-      m_Neighbours[next[b]++] = a;
+      m_Neighbours[--m_FirstNeighbour[a]] = b;
+      m_Neighbours[--m_FirstNeighbour[b]] = a;
     }
   }
 }
@@ -123,7 +123,7 @@ LooseEnds::Remove(ElementIndex vertex)
 {
   const ElementIndex edge = m_Standing[vertex].Coface();
   m_Standing[vertex].Go(m_Height);
-  m_Gone.emplace_back(edge, m_Height);
+  m_Gone.emplace_back(edge, vertex);
   if (m_ToHeir)
   {
     HandOver(vertex, m_Heir, m_HeirGap);

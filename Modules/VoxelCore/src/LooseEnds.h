@@ -36,11 +36,11 @@ public:
   void
   Take(std::size_t level, std::span<const ElementIndex> burnt);
 
-  /** Edges that went with their vertices, and the heights of these. */
-  const std::vector<std::pair<ElementIndex, double>> &
-  Gone() const
+  /** Edges that went with their vertices, and these. */
+  std::vector<std::pair<ElementIndex, ElementIndex>>
+  TakeGone()
   {
-    return m_Gone;
+    return std::move(m_Gone);
   }
 
   /** At which height each vertex went, infinity where it did not. */
@@ -94,19 +94,19 @@ private:
   void
   Remove(ElementIndex vertex);
 
-  const CellComplex &                          m_Cells;
-  const std::vector<LatticePoint> &            m_Points;
-  BallCentre                                   m_Scale;
-  const ToleranceLevels &                      m_Levels;
-  std::vector<CoreBall> &                      m_Balls;
-  std::vector<RemainingElements>               m_Standing;       // vertices, with the edges at each
-  std::vector<ElementIndex>                    m_Neighbours;     // along the edges of the core, gone or not
-  std::vector<std::uint32_t>                   m_FirstNeighbour; // of each vertex, and the end
-  std::vector<std::uint32_t>                   m_NextKept;       // rings of the boundary vertices that a ball keeps
-  std::vector<std::vector<ElementIndex>>       m_Turns;          // vertices by level
-  std::vector<ElementIndex>                    m_Open;           // vertices whose cost is to be looked at
-  std::vector<std::pair<ElementIndex, double>> m_Gone;
-  double                                       m_Height = 0;
+  const CellComplex &                                m_Cells;
+  const std::vector<LatticePoint> &                  m_Points;
+  BallCentre                                         m_Scale;
+  const ToleranceLevels &                            m_Levels;
+  std::vector<CoreBall> &                            m_Balls;
+  std::vector<RemainingElements>                     m_Standing;       // vertices, with the edges at each
+  std::vector<ElementIndex>                          m_Neighbours;     // along the edges of the core, gone or not
+  std::vector<std::uint32_t>                         m_FirstNeighbour; // of each vertex, and the end
+  std::vector<std::uint32_t>                         m_NextKept; // rings of the boundary vertices that a ball keeps
+  std::vector<std::vector<ElementIndex>>             m_Turns;    // vertices by level
+  std::vector<ElementIndex>                          m_Open;     // vertices whose cost is to be looked at
+  std::vector<std::pair<ElementIndex, ElementIndex>> m_Gone;
+  double                                             m_Height = 0;
 
   // What the last cost was made of: Remove() follows a cost computed in the same state.
   ElementIndex              m_Heir = 0;       // the other end of a loose vertex' edge

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace voxelcore
 {
@@ -193,8 +194,7 @@ void
 RimFire::Burn(std::size_t level)
 {
   const double height = m_Levels.Height(level);
-  m_Open.clear();
-  m_Open.swap(m_Turns[level]);
+  m_Open = std::move(m_Turns[level]); // what the last level had is given back
   for (std::size_t at = 0; at < m_Open.size(); ++at)
   {
     FetchAhead(at);

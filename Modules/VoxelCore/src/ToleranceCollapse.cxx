@@ -114,16 +114,15 @@ ComputeTolerances(const MedialComplex &             core,
                   const ProgressCallback &          progress,
                   const std::function<void()> &     beside)
 {
-  const CellComplex &                          cells = core.cells;
-  const BallCentre                             scale = ScaleOf(weights);
-  const ToleranceLevels                        levels(std::sqrt(SquaredDistance(scale, { 0, 0, 0 })));
-  const LiveElements                           left = floor > 0 ? LeftByFloor(core, floor, progress) : LiveElements();
-  std::vector<CoreBall>                        balls = BallsOf(core, std::move(touching.places), scale);
-  ToleranceValues                              values;
-  std::vector<std::pair<ElementIndex, double>> edgesOfEnds;
-  Stages                                       stages;
-  std::optional<RimFire>                       fire;
-  std::vector<double>                          edgeHeights;
+  const CellComplex &   cells = core.cells;
+  const BallCentre      scale = ScaleOf(weights);
+  const ToleranceLevels levels(std::sqrt(SquaredDistance(scale, { 0, 0, 0 })));
+  const LiveElements    left = floor > 0 ? LeftByFloor(core, floor, progress) : LiveElements();
+  std::vector<CoreBall> balls = BallsOf(core, std::move(touching.places), scale);
+  ToleranceValues       values;
+  std::vector<std::pair<ElementIndex, ElementIndex>> edgesOfEnds;
+  Stages                                             stages;
+  std::optional<RimFire>                             fire;
   // Loose ends follow the fire, which does not look back.
   RunBoth(
     cells.FaceCount() > 10000,
@@ -139,15 +138,14 @@ ComputeTolerances(const MedialComplex &             core,
         fire->Burn(level);
         stages.Finish(level, fire->BurntCount());
       }
-      values.faces = fire->TakeFaceHeights();
-      values.edges = fire->TakeEdgeHeights();
     },
     [&] {
-      LooseEnds ends(cells, left, points, scale, touching.largest, levels, balls);
       if (beside)
       {
-        beside();
+        beside(); // while there is room
       }
+      LooseEnds ends(cells, left, points, scale, touching.largest, levels, balls);
+      std::vector<ElementIndex>().swap(touching.largest);
       std::size_t done = 0;
       std::size_t end = 0;
       for (std::size_t level = 0; level < levels.Count() && stages.Await(level, end); ++level)
@@ -156,11 +154,14 @@ ComputeTolerances(const MedialComplex &             core,
         done = end;
       }
       values.vertices = ends.TakeVertexHeights();
-      edgesOfEnds = ends.Gone();
+      edgesOfEnds = ends.TakeGone();
     });
-  for (const auto & [edge, height] : edgesOfEnds)
+  std::vector<CoreBall>().swap(balls);
+  values.faces = fire->TakeFaceHeights();
+  values.edges = fire->TakeEdgeHeights();
+  for (const auto & [edge, vertex] : edgesOfEnds)
   {
-    values.edges[edge] = height;
+    values.edges[edge] = values.vertices[vertex];
   }
   return values;
 }
