@@ -110,6 +110,35 @@ Slab(double thickness)
   return body;
 }
 
+// The nearest point of the surface is (s_i^2 p_i / (s_i^2 - t)) with t from 0 to the square of the shortest semi-axis.
+double
+EllipsoidDepth(const Vector & p, const Vector & semi)
+{
+  const auto foot = [&](double t) {
+    Vector q{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      q[i] = semi[i] * semi[i] * p[i] / (semi[i] * semi[i] - t);
+    }
+    return q;
+  };
+  const auto level = [&](const Vector & q) { return Length({ q[0] / semi[0], q[1] / semi[1], q[2] / semi[2] }); };
+  double     low = 0;
+  double     high = semi[2] * semi[2] * (1 - 1e-12);
+  for (int i = 0; i < 100; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    (level(foot(middle)) < 1 ? low : high) = middle;
+  }
+  Vector       q = foot(low);
+  const double flat = (q[0] * q[0]) / (semi[0] * semi[0]) + (q[1] * q[1]) / (semi[1] * semi[1]);
+  if (level(q) < 1 - 1e-6 && flat < 1)
+  {
+    q[2] = semi[2] * std::sqrt(1 - flat); // on the axis both sides are as near
+  }
+  return Distance(p, q);
+}
+
 Body
 Ellipsoid()
 {
@@ -125,6 +154,7 @@ Ellipsoid()
     const double g = Length({ p[0] / (a * a), p[1] / (b * b), p[2] / (c * c) });
     return g > 0 ? k * (k - 1) / g : -c;
   };
+  body.depth = [](const Vector & p) { return EllipsoidDepth(p, { a, b, c }); };
   // Centres of curvature of the shortest axis bound it: an ellipse.
   const double rx = (a * a - c * c) / a;
   const double ry = (b * b - c * c) / b;
@@ -322,6 +352,13 @@ EvaluationBodies()
   bodies.push_back(Cone("cone", 40, 10, 2));
   bodies.push_back(ThickAndThin());
   bodies.push_back(RootSystem());
+  for (Body & body : bodies)
+  {
+    if (!body.depth)
+    {
+      body.depth = [distance = body.distance](const Vector & p) { return -distance(p); };
+    }
+  }
   return bodies;
 }
 

@@ -21,6 +21,7 @@ struct Body
   std::string                           name;
   double                                reach = 0; ///< all of it lies within this distance of the origin
   std::function<double(const Vector &)> distance;  ///< signed, negative inside; exact to 4 mm from the surface
+  std::function<double(const Vector &)> depth;     ///< of a place near the axis below the surface, mm
   std::vector<Vector>                   axis;      ///< samples of what a medial surface must have, about 0.25 mm apart
   std::vector<Vector>                   allowed;   ///< and of what else belongs to it: where branches join
   std::vector<Vector>                   tips;      ///< ends of curves

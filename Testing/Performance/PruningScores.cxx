@@ -102,6 +102,38 @@ private:
   std::unordered_map<std::uint64_t, std::pair<Vector, double>> m_Known;
 };
 
+void
+ScoreRadii(const std::vector<double> & radius,
+           const std::vector<Vector> & at,
+           const Body &                body,
+           FarFromTruth &              isSpur,
+           double                      voxel,
+           Scores &                    scores)
+{
+  double count = 0;
+  double thin = 0;
+  for (std::size_t v = 0; v < at.size(); ++v)
+  {
+    if (isSpur(at[v]))
+    {
+      continue;
+    }
+    const double depth = body.depth(at[v]) / voxel;
+    const double off = radius[v] / voxel - depth;
+    scores.radiusBias += off;
+    scores.radiusOff += std::abs(off);
+    ++count;
+    if (depth < 3)
+    {
+      scores.thinOff += std::abs(off);
+      ++thin;
+    }
+  }
+  scores.radiusBias /= std::max(1.0, count);
+  scores.radiusOff /= std::max(1.0, count);
+  scores.thinOff /= std::max(1.0, thin);
+}
+
 // The first point in each cube of a grid.
 std::vector<Vector>
 Thinned(const std::vector<Vector> & points, double side)
@@ -120,16 +152,19 @@ Thinned(const std::vector<Vector> & points, double side)
 
 } // namespace
 
-const std::array<ScoreColumn, 11> &
+const std::array<ScoreColumn, 14> &
 ScoreColumns()
 {
-  static const std::array<ScoreColumn, 11> columns{ { { "spur area", &Scores::spurArea, false },
+  static const std::array<ScoreColumn, 14> columns{ { { "spur area", &Scores::spurArea, false },
                                                       { "spur length", &Scores::spurLength, false },
                                                       { "extra ends", &Scores::extraEnds, false },
                                                       { "lost ends", &Scores::lostEnds, false },
                                                       { "lost %", &Scores::lost, false },
                                                       { "core to truth", &Scores::toTruth, false },
                                                       { "truth to core", &Scores::toCore, false },
+                                                      { "radius bias", &Scores::radiusBias, false },
+                                                      { "radius off", &Scores::radiusOff, false },
+                                                      { "thin off", &Scores::thinOff, false },
                                                       { "gap", &Scores::gap, true },
                                                       { "rotations", &Scores::rotations, true },
                                                       { "resolutions", &Scores::resolutions, true },
@@ -202,6 +237,7 @@ ScoreCore(const MedialComplex & core,
     ++edgesAt[cells.edges[edge][0]];
     ++edgesAt[cells.edges[edge][1]];
   }
+  ScoreRadii(core.radius, at, body, isSpur, voxel, scores);
   scores.extraEnds = static_cast<double>(std::count(edgesAt.begin(), edgesAt.end(), 1));
   result.all = std::make_shared<const PointTree>(all);
   result.points = Thinned(all, voxel);

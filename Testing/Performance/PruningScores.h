@@ -24,6 +24,9 @@ struct Scores
   double lost = 0; ///< %
   double toTruth = 0;
   double toCore = 0;
+  double radiusBias = 0; ///< mean of stated less true radii, off spurs
+  double radiusOff = 0;  ///< mean of their differences' sizes
+  double thinOff = 0;    ///< the same where the true radius is below 3 voxels; 0 without such places
   double gap = 0;
   double rotations = 0;
   double resolutions = 0;
@@ -37,7 +40,7 @@ struct ScoreColumn
   bool            worst; ///< of all samples; else the mean
 };
 
-const std::array<ScoreColumn, 11> &
+const std::array<ScoreColumn, 14> &
 ScoreColumns();
 
 class PointTree

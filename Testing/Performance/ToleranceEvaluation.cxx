@@ -3,8 +3,10 @@
 // shows what is worth of it elsewhere. README.md has the table and what the columns mean.
 //
 //     VoxelCoreToleranceEvaluation [--seeds tuned|aside] [--rotations N] [--body NAME] [--noise SD] [--mend-shape]
-//                             [--smooth-shape] [--tolerance H,H..] [--each] [--quick] [--keep FILE]
+//                             [--smooth-shape] [--tolerance H,H..] [--each] [--quick] [--keep FILE] [--defaults]
 //
+// With --defaults what could be the default: lambda 1.5vox, tolerances 1diag and 1.2diag, each also refined from the
+// labels, and refined but for parts below about three voxels in radius.
 // With --keep each body at each spacing is written to FILE when it is done, and not done again by the next run with the
 // same options: a run that is interrupted goes on where it was.
 
@@ -12,6 +14,7 @@
 #include "EvaluationBodies.h"
 #include "EvaluationRecords.h"
 #include "PruningScores.h"
+#include "RefinedCandidates.h"
 
 #include "voxelcore/BallCoverage.h"
 #include "voxelcore/BoundaryVertices.h"
@@ -52,6 +55,7 @@ struct Options
   bool                     quick = false;
   bool                     mend = false;
   bool                     smooth = false;
+  bool                     defaults = false;
   std::string              heights = "1diag,1.1diag,1.2diag,1.3diag,1.5diag";
   std::string              keep;
   std::vector<std::string> lambdas{ "1", "1.5", "2", "2.5", "4" };
@@ -74,13 +78,14 @@ struct Options
     char text[200];
     std::snprintf(text,
                   sizeof(text),
-                  "%s, %d rotations, %zu resolutions, noise %g%s%s, tolerances %s",
+                  "%s, %d rotations, %zu resolutions, noise %g%s%s%s, tolerances %s",
                   aside ? "aside" : "tuned",
                   rotations,
                   Resolutions().size(),
                   noise,
                   mend ? ", mended" : "",
                   smooth ? ", smoothed" : "",
+                  defaults ? ", defaults" : "",
                   heights.c_str());
     return text;
   }
@@ -108,7 +113,9 @@ struct Pruned
 };
 
 std::vector<Pruned>
-PruneInAllWays(MedialComplex                     core,
+PruneInAllWays(const VoxelShape &                shape,
+               MedialComplex                     core,
+               const EdgePoints &                edgePoints,
                const SpacingWeights &            weights,
                const std::vector<LatticePoint> & points,
                TouchingBalls                     touching,
@@ -132,14 +139,34 @@ PruneInAllWays(MedialComplex                     core,
     thresholds.push_back(std::stod(lambda) * fine);
   }
   add(PruneByLambda(core, thresholds), [&](std::size_t i) { return "lambda " + options.lambdas[i] + "vox"; });
-  add(PruneByErosionThickness(core, weights, fine, { 1.0 * fine, 2.0 * fine, 3.0 * fine }),
-      [](std::size_t i) { return "erosion thickness " + std::to_string(i + 1) + "vox"; });
+  if (!options.defaults)
+  {
+    add(PruneByErosionThickness(core, weights, fine, { 1.0 * fine, 2.0 * fine, 3.0 * fine }),
+        [](std::size_t i) { return "erosion thickness " + std::to_string(i + 1) + "vox"; });
+  }
   core.tolerances = ComputeTolerances(core, weights, points, std::move(touching));
-  const double seconds = Seconds() - start;
+  const double        seconds = Seconds() - start;
+  std::vector<double> heights;
   for (const std::string & text : Split(options.heights))
   {
     const double height = ToleranceInMillimetres(ParseTolerance(text), spacing);
     all.push_back({ "tolerance " + text, PruneByTolerance(core, height), seconds });
+    heights.push_back(height);
+  }
+  if (options.defaults)
+  {
+    start = Seconds();
+    const RefinementInput plain{ &shape, &points, &core, &edgePoints, nullptr, spacing };
+    const auto            refined = RefineAll(plain, thresholds, heights);
+    const double          took = (Seconds() - start) / static_cast<double>(refined.size());
+    const std::size_t     before = all.size();
+    for (std::size_t i = 0; i < refined.size(); ++i)
+    {
+      const Pruned & unrefined = all[before - refined.size() + i];
+      const double   sum = unrefined.seconds + took;
+      all.push_back({ unrefined.name + ", refined", refined[i].core, sum });
+      all.push_back({ unrefined.name + ", where thick", RefinedWhereThick(refined[i], core, spacing), sum });
+    }
   }
   return all;
 }
@@ -177,10 +204,11 @@ Evaluate(const Body & body, bool thick, const Options & options)
       const auto           points = BoundaryVertices(shape);
       DelaunayCells        delaunay = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
       auto                 touching = LargestTouchingBalls(delaunay, points, weights);
+      const EdgePoints     edgePoints = NearestToEdges(delaunay);
       MedialComplex        core = BuildVoxelCore(shape, points, std::move(delaunay), weights);
       const auto           topology = ComputeComplexTopology(core.cells);
       for (const Pruned & pruned :
-           PruneInAllWays(std::move(core), weights, points, std::move(touching), spacing, options))
+           PruneInAllWays(shape, std::move(core), edgePoints, weights, points, std::move(touching), spacing, options))
       {
         if (ComputeComplexTopology(pruned.core.cells) != topology)
         {
@@ -218,7 +246,8 @@ ReadOptions(int argc, char ** argv)
     const std::map<std::string, bool Options::*>        flags{ { "--each", &Options::each },
                                                         { "--quick", &Options::quick },
                                                         { "--mend-shape", &Options::mend },
-                                                        { "--smooth-shape", &Options::smooth } };
+                                                        { "--smooth-shape", &Options::smooth },
+                                                        { "--defaults", &Options::defaults } };
     const std::map<std::string, std::string Options::*> texts{ { "--body", &Options::body },
                                                                { "--tolerance", &Options::heights },
                                                                { "--keep", &Options::keep } };
@@ -247,6 +276,11 @@ ReadOptions(int argc, char ** argv)
       std::fprintf(stderr, "unknown option %s\n", option.c_str());
       std::exit(2);
     }
+  }
+  if (options.defaults)
+  {
+    options.lambdas = { "1.5" };
+    options.heights = "1diag,1.2diag";
   }
   return options;
 }
