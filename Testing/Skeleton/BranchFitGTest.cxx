@@ -195,6 +195,61 @@ TEST(BranchFit, ToriAtAnyAngleHaveTheirLength)
   }
 }
 
+/** A straight tube with round ends whose walls rise and fall by `height`, over ways of about six voxels. */
+VoxelShape
+RoughTube(const Spacing3 & from, const Spacing3 & to, double radius, double height, std::int32_t side)
+{
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { side, side, side } });
+  double     squared = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    squared += (to[axis] - from[axis]) * (to[axis] - from[axis]);
+  }
+  for (std::int32_t z = 0; z < side; ++z)
+  {
+    for (std::int32_t y = 0; y < side; ++y)
+    {
+      for (std::int32_t x = 0; x < side; ++x)
+      {
+        const Spacing3 p{ x + 0.5, y + 0.5, z + 0.5 };
+        double         along = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          along += (p[axis] - from[axis]) * (to[axis] - from[axis]);
+        }
+        const double t = std::clamp(along / squared, 0.0, 1.0);
+        Spacing3     near{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          near[axis] = from[axis] + t * (to[axis] - from[axis]);
+        }
+        const double wave = std::sin(0.9 * p[0] + 0.3 * p[1] + 1) * std::sin(0.8 * p[1] - 0.3 * p[2] + 2) +
+                            std::sin(1.0 * p[2] + 0.2 * p[0]) * std::sin(0.7 * p[0] - 0.4 * p[1]);
+        if (Distance(p, near) <= radius + height * wave)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  return shape;
+}
+
+TEST(BranchFit, RoughWallsAddLittleToTheLengthOfAThickTube)
+{
+  for (const Spacing3 & to : { Spacing3{ 80, 62, 48 }, Spacing3{ 76, 40, 84 } })
+  {
+    const Spacing3      from{ 18, 20, 22 };
+    const SkeletonGraph smooth = GraphOf(RoughTube(from, to, 13, 0, 104));
+    SkeletonGraph       rough = GraphOf(RoughTube(from, to, 13, 0.8, 104));
+    ASSERT_EQ(smooth.BranchCount(), 1U);
+    ASSERT_EQ(rough.BranchCount(), 1U);
+    EXPECT_NEAR(rough.BranchLength(0), smooth.BranchLength(0), 0.06 * smooth.BranchLength(0));
+    FitBranches(rough, 0, HalfAVoxel());
+    EXPECT_GT(rough.BranchLength(0), 1.1 * smooth.BranchLength(0)) << "it would be a test of nothing";
+  }
+}
+
 TEST(BranchFit, WindowZeroLeavesTheMedialSurface)
 {
   SkeletonGraph graph = GraphOf(PhantomShape("root", 48));

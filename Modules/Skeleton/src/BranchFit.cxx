@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace voxelcore
 {
 
 namespace
 {
+
+// Rough walls move the curve of a thick body by more than a voxel, over ways as long as the body is wide. So where the
+// radius is more than the window, that grows by as many times what is more, and points may move by as much more.
+constexpr double kWindowGrowth = 3;
 
 // Nodes stay where they are, so a curve near one must heed it more than it heeds another point.
 constexpr double kNodeWeight = 4;
@@ -96,6 +101,7 @@ NearestOnSegment(const VoxelReach & reach, const Vector3 & a, const Vector3 & b,
 struct MedialLine
 {
   std::vector<Vector3> points;
+  std::vector<double>  radius;
   bool                 isLoop = false;
 
   std::size_t
@@ -121,11 +127,12 @@ FitOnce(const MedialLine &           line,
     way[i] = way[i - 1] + Distance(from[i - 1], from[i]);
   }
   // A closed curve goes on where it began; at most half of it lies before and half behind a point.
-  const double half = isLoop ? std::min(window, 0.5 * way[last]) : window;
   for (std::size_t i = isLoop ? 0 : 1; i < last; ++i)
   {
-    Parabola   fit;
-    const auto add = [&](std::size_t j, double shift) {
+    const double wide = window + kWindowGrowth * std::max(0.0, line.radius[i] - window);
+    const double half = isLoop ? std::min(wide, 0.5 * way[last]) : wide;
+    Parabola     fit;
+    const auto   add = [&](std::size_t j, double shift) {
       const double u = (way[j] + shift - way[i]) / half;
       if (std::abs(u) >= 1)
       {
@@ -189,7 +196,8 @@ FitOnce(const MedialLine &           line,
         nearest = place;
       }
     }
-    const double part = away > 1 ? 1 / away : 1;
+    const double most = wide / window;
+    const double part = away > most ? most / away : 1;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       to[i][axis] = nearest[axis] + part * (value[axis] - nearest[axis]);
@@ -225,9 +233,11 @@ FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach)
     const auto points = graph.Branch(branch);
     line.isLoop = graph.nodeKinds[graph.branchNodes[branch][0]] == NodeKind::Loop;
     line.points.clear();
+    line.radius.clear();
     for (const ElementIndex point : points)
     {
       line.points.push_back(graph.medial[point]);
+      line.radius.push_back(graph.radius[point]);
     }
     from = line.points;
     to = line.points;

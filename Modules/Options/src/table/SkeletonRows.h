@@ -74,7 +74,8 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
     "6vox",
     false,
     kStages,
-    "Smooth branches over a window of L to each side, moving points by at most half a voxel; 0 turns it off" },
+    "Smooth branches over a window of L to each side, more in thick parts; points move by at most half a voxel in thin "
+    "parts; 0 turns it off" },
   { "cut-loops",
     "--cut-loops",
     Flag,

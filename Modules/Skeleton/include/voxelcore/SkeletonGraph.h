@@ -86,8 +86,9 @@ using VoxelReach = std::array<std::array<double, 3>, 3>;
 
 /** Smooths the branches: each point goes to the value, at its own arc length, of the parabola that fits its branch best
  *  within `window` mm before and behind it, but no further than `reach` from the branch as it lies on the medial
- *  surface. Nodes stay. A window of 0 puts the points back on the medial surface. Curved lines keep their length to
- *  second order, where averaging would shorten them. */
+ *  surface. Where the radius is more than the window, that grows by three times the difference, and the reach in
+ *  proportion. Nodes stay. A window of 0 puts the points back on the medial surface. Curved lines keep their length
+ *  to second order, where averaging would shorten them. */
 void
 FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach);
 
