@@ -114,10 +114,32 @@ BandField::BandField(const VoxelShape &            shape,
   , m_Sides(sides)
   , m_In(m_Grid.Count())
   , m_Out(m_Grid.Count())
-  , m_Values(m_Grid.Count() * kVoxels, 0.0F)
+  , m_Values(m_Grid.Count() * kVoxels)
 {
   SetWidth(sigma);
   SetFar(0);
+  FillFlags(shape);
+  FindRowStarts();
+}
+
+BandField::BandField(const VoxelShape & shape, const BandField & other, const std::vector<std::uint8_t> & wanted)
+  : m_Grid(shape, other.m_Grid, wanted)
+  , m_Sides(other.m_Sides)
+  , m_Gauss(other.m_Gauss)
+  , m_Binomial(other.m_Binomial)
+  , m_GaussToSpline(other.m_GaussToSpline)
+  , m_In(m_Grid.Count())
+  , m_Out(m_Grid.Count())
+  , m_Values(m_Grid.Count() * kVoxels)
+{
+  SetFar(other.m_Far);
+  FillFlags(shape);
+  FindRowStarts();
+}
+
+void
+BandField::FillFlags(const VoxelShape & shape)
+{
   const auto count = static_cast<std::ptrdiff_t>(m_Grid.Count());
 #pragma omp parallel for schedule(static) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
@@ -130,7 +152,6 @@ BandField::BandField(const VoxelShape &            shape,
       m_Out[static_cast<std::size_t>(i)][static_cast<std::size_t>(row)] = static_cast<std::uint8_t>(~bits);
     }
   }
-  FindRowStarts();
 }
 
 void
@@ -138,11 +159,17 @@ BandField::FindRowStarts()
 {
   for (std::size_t brick = 0; brick < m_Grid.Count(); ++brick)
   {
+    const auto next = static_cast<std::uint32_t>(brick);
+    if (brick == 0 || m_Grid.At(brick)[2] != m_Grid.At(brick - 1)[2])
+    {
+      m_Planes.push_back({ next, static_cast<std::uint32_t>(m_RowStarts.size()) });
+    }
     if (m_Grid.Neighbours(brick)[BrickGrid::kSelf - 1] < 0)
     {
-      m_RowStarts.push_back(static_cast<std::uint32_t>(brick));
+      m_RowStarts.push_back(next);
     }
   }
+  m_Planes.push_back({ static_cast<std::uint32_t>(m_Grid.Count()), static_cast<std::uint32_t>(m_RowStarts.size()) });
 }
 
 void

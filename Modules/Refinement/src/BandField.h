@@ -14,13 +14,20 @@ namespace voxelcore
 class BandField
 {
 public:
-  /** Values are 0. `sides` are those of a voxel, the shortest 1: the unit of distances and of `sigma`, the width of the
-   *  Gaussian G, at most 1.5. `points` are the boundary vertices; what is within `reach` voxels of one has a value. */
+  template <typename T>
+  using Values = std::vector<T, Unset<T>>;
+
+  /** No values yet. `sides` are those of a voxel, the shortest 1: the unit of distances and of `sigma`, the width of
+   *  the Gaussian G, at most 1.5. `points` are the boundary vertices; what is within `reach` voxels of one has a
+   *  value. */
   BandField(const VoxelShape &            shape,
             std::span<const LatticePoint> points,
             const Vector3 &               sides,
             double                        sigma,
             std::int32_t                  reach);
+
+  /** No values yet, of those of another field's bricks that are wanted. */
+  BandField(const VoxelShape & shape, const BandField & other, const std::vector<std::uint8_t> & wanted);
 
   /** Another width of G. */
   void
@@ -60,15 +67,25 @@ public:
   static float
   StepWeight(double sigma);
 
-  /** Values for later, in half the memory. */
-  using Snapshot = std::vector<std::int16_t>;
+  /** Values for later, of what zones are about to change, in half the memory. */
+  struct Snapshot
+  {
+    std::vector<std::uint32_t> bricks;
+    Values<std::int16_t>       values;
+  };
   Snapshot
-  Save() const;
+  Save(const SmoothingZones & zones) const;
+
+  /** Bricks that zones leave out in part, and those within so many passes of them. */
+  std::vector<std::uint8_t>
+  LeftOut(const SmoothingZones & zones, int passes) const;
 
   /** Former values where zones are none, by degrees where they are in part, and coefficients of these. Returns of each
    *  brick whether what is evaluated in it may have changed. */
   std::vector<std::uint8_t>
   BlendWith(const Snapshot & former, const SmoothingZones & zones, float weight);
+  std::vector<std::uint8_t>
+  BlendWith(const BandField & former, const SmoothingZones & zones, float weight);
 
   const BrickGrid &
   Grid() const
@@ -99,9 +116,20 @@ public:
 private:
   BandField(const BrickGrid & grid, const Vector3 & sides, float far);
 
+  template <typename TFormer>
+  std::vector<std::uint8_t>
+  Blend(const TFormer & formerOf, const SmoothingZones & zones, float weight);
+  void
+  FillFlags(const VoxelShape & shape);
+
   static constexpr std::int32_t kSide = BrickGrid::kSide;
   static constexpr std::size_t  kVoxels = BrickGrid::kCells;
 
+  struct Plane
+  {
+    std::uint32_t brick = 0; ///< the first
+    std::uint32_t row = 0;
+  };
   static Kernel
   Gauss(double variance);
   static Kernel
@@ -110,12 +138,7 @@ private:
   SetFar(float far);
   template <typename TUse>
   void
-  Sum(const Kernels &                   kernels,
-      const std::vector<float> &        values,
-      const std::vector<std::uint8_t> & needed,
-      TUse                              use) const;
-  void
-  SumOnce(const Kernels & kernels, const std::vector<std::uint8_t> & changed);
+  SumTwice(const Kernels & first, const Kernels & second, const std::vector<std::uint8_t> & changed, TUse use);
   void
   FindCoefficients(float weight, const std::vector<std::uint8_t> & changed);
   void
@@ -123,7 +146,7 @@ private:
   double
   CurvatureAt(std::size_t brick, std::size_t voxel) const;
   const float *
-  Block(const std::vector<float> & values, std::int32_t source) const
+  Block(const Values<float> & values, std::int32_t source) const
   {
     return source >= 0 ? values.data() + static_cast<std::size_t>(source) * kVoxels
                        : m_FarBlocks[source == BrickGrid::kInside ? 1 : 0].data();
@@ -138,10 +161,10 @@ private:
   std::vector<BrickGrid::Flags> m_In;            ///< whose value is never less than 0
   std::vector<BrickGrid::Flags> m_Out;           ///< whose value is never more than 0
   std::vector<std::uint32_t>    m_RowStarts;     ///< bricks with none before them along x
-  std::vector<float>            m_Values;
-  std::vector<float>            m_Coefficients;
-  std::vector<float>            m_Once;   ///< of a pass
-  std::vector<float>            m_Former; ///< what values were when they were halved
+  std::vector<Plane>            m_Planes;        ///< along z, and an end
+  Values<float>                 m_Values;
+  Values<float>                 m_Coefficients;
+  Values<float>                 m_Former; ///< what values were when they were halved
   float                         m_Far = 0;
   std::array<BrickValues, 2>    m_FarBlocks; ///< outside, inside
 };

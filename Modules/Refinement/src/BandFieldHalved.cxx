@@ -13,7 +13,7 @@ BandField::BandField(const BrickGrid & grid, const Vector3 & sides, float far)
   , m_Level(1)
   , m_In(grid.Count())
   , m_Out(grid.Count())
-  , m_Values(grid.Count() * kVoxels, 0.0F)
+  , m_Values(grid.Count() * kVoxels)
 {
   SetFar(far);
   FindRowStarts();

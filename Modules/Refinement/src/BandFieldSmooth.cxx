@@ -117,40 +117,83 @@ BandField::StepWeight(double sigma)
   return static_cast<float>(once / (twice - once));
 }
 
-// Goes through the bricks that are needed, row by row: use(brick, sums).
+// Sums of sums, where something changes: use(brick, once, twice). Plane by plane, two behind the first sums, so that
+// these are needed of four planes alone, and values of what has been used may change.
 template <typename TUse>
 void
-BandField::Sum(const Kernels &                   kernels,
-               const std::vector<float> &        values,
-               const std::vector<std::uint8_t> & needed,
-               TUse                              use) const
+BandField::SumTwice(const Kernels & first, const Kernels & second, const std::vector<std::uint8_t> & changed, TUse use)
 {
-  const auto count = static_cast<std::ptrdiff_t>(m_RowStarts.size());
-#pragma omp parallel for schedule(dynamic, 16) if (m_Grid.Count() > static_cast <std::size_t>(BrickGrid::kMany))
-  for (std::ptrdiff_t i = 0; i < count; ++i)
+  constexpr std::size_t           slots = 4;
+  const std::vector<std::uint8_t> needed = m_Grid.AndAround(changed);
+  const std::size_t               planes = m_Planes.size() - 1;
+  std::size_t                     most = 0;
+  for (std::size_t plane = 0; plane < planes; ++plane)
   {
-    BrickSums   row(m_Grid, kernels, values, m_FarBlocks);
-    BrickValues sums;
-    for (auto brick = static_cast<std::int32_t>(m_RowStarts[static_cast<std::size_t>(i)]); brick >= 0;
+    most = std::max<std::size_t>(most, m_Planes[plane + 1].brick - m_Planes[plane].brick);
+  }
+  Values<float> once(slots * most * kVoxels);
+  const auto    shiftOf = [&](std::size_t plane) {
+    return static_cast<std::ptrdiff_t>(plane % slots * most) - static_cast<std::ptrdiff_t>(m_Planes[plane].brick);
+  };
+  const auto sumRow = [&](std::size_t                       row,
+                          const Kernels &                   kernels,
+                          const PlaneValues &               values,
+                          const std::vector<std::uint8_t> & wanted,
+                          auto                              get) {
+    BrickSums sums(m_Grid, kernels, values, m_FarBlocks);
+    for (auto brick = static_cast<std::int32_t>(m_RowStarts[row]); brick >= 0;
          brick = m_Grid.Neighbours(static_cast<std::size_t>(brick))[BrickGrid::kSelf + 1])
     {
-      if (needed[static_cast<std::size_t>(brick)] != 0)
+      if (wanted[static_cast<std::size_t>(brick)] != 0)
       {
-        row.Of(static_cast<std::size_t>(brick), sums.data());
-        use(static_cast<std::size_t>(brick), sums);
+        get(static_cast<std::size_t>(brick), sums);
       }
     }
+  };
+  const PlaneValues values{ m_Values.data(), {} };
+#pragma omp parallel if (m_Grid.Count() > static_cast <std::size_t>(BrickGrid::kMany))
+  for (std::size_t plane = 0; plane < planes + 2; ++plane)
+  {
+    const auto range = [&](std::size_t which) {
+      return which < planes ? std::array{ m_Planes[which].row, m_Planes[which + 1].row }
+                            : std::array<std::uint32_t, 2>{ 0, 0 };
+    };
+    const auto        ahead = range(plane);
+    const auto        behind = range(plane - 2);
+    const std::size_t own = plane - 2;
+    PlaneValues       sums{ once.data(), {} };
+    for (std::size_t i = 0; i < 3 && behind[0] < behind[1]; ++i)
+    {
+      sums.shift[i] = own + i >= 1 && own + i <= planes ? shiftOf(own + i - 1) : 0;
+    }
+    const std::ptrdiff_t shift = ahead[0] < ahead[1] ? shiftOf(plane) : 0;
+    const auto           firsts = static_cast<std::ptrdiff_t>(ahead[1] - ahead[0]);
+    const auto           count = firsts + static_cast<std::ptrdiff_t>(behind[1] - behind[0]);
+#pragma omp for schedule(dynamic, 2)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+    {
+      if (i < firsts)
+      {
+        sumRow(ahead[0] + static_cast<std::size_t>(i), first, values, needed, [&](std::size_t brick, BrickSums & row) {
+          row.Of(brick,
+                 once.data() + (static_cast<std::ptrdiff_t>(brick) + shift) * static_cast<std::ptrdiff_t>(kVoxels));
+        });
+        continue;
+      }
+      sumRow(behind[0] + static_cast<std::size_t>(i - firsts),
+             second,
+             sums,
+             changed,
+             [&](std::size_t brick, BrickSums & row) {
+               BrickValues twice;
+               row.Of(brick, twice.data());
+               use(brick,
+                   once.data() +
+                     (static_cast<std::ptrdiff_t>(brick) + sums.shift[1]) * static_cast<std::ptrdiff_t>(kVoxels),
+                   twice.data());
+             });
+    }
   }
-}
-
-// m_Once of values, in bricks where something changes and around them.
-void
-BandField::SumOnce(const Kernels & kernels, const std::vector<std::uint8_t> & changed)
-{
-  m_Once.resize(m_Values.size());
-  Sum(kernels, m_Values, m_Grid.AndAround(changed), [&](std::size_t brick, const BrickValues & sums) {
-    std::copy(sums.begin(), sums.end(), m_Once.begin() + static_cast<std::ptrdiff_t>(brick * kVoxels));
-  });
 }
 
 void
@@ -161,17 +204,15 @@ BandField::Smooth(float weight, const SmoothingZones * zones)
   {
     changed[brick] = zones->AnyIn(m_Level, m_Grid.At(brick)) ? 1 : 0;
   }
-  SumOnce(m_Binomial, changed);
-  Sum(m_Binomial, m_Once, changed, [&](std::size_t brick, const BrickValues & twice) {
+  SumTwice(m_Binomial, m_Binomial, changed, [&](std::size_t brick, const float * once, const float * twice) {
     BrickValues parts;
     if (zones != nullptr)
     {
       zones->Fill(m_Level, m_Grid.At(brick), parts);
     }
-    const std::size_t at = brick * kVoxels;
-    Combine(m_Values.data() + at,
-            m_Once.data() + at,
-            twice.data(),
+    Combine(m_Values.data() + brick * kVoxels,
+            once,
+            twice,
             weight,
             m_In[brick].data(),
             m_Out[brick].data(),
@@ -183,10 +224,8 @@ void
 BandField::FindCoefficients(float weight, const std::vector<std::uint8_t> & changed)
 {
   m_Coefficients.resize(m_Values.size());
-  SumOnce(m_GaussToSpline, changed);
-  Sum(m_Gauss, m_Once, changed, [&](std::size_t brick, const BrickValues & twice) {
-    const std::size_t at = brick * kVoxels;
-    Combine(m_Coefficients.data() + at, m_Once.data() + at, twice.data(), weight, nullptr, nullptr, nullptr);
+  SumTwice(m_GaussToSpline, m_Gauss, changed, [&](std::size_t brick, const float * once, const float * twice) {
+    Combine(m_Coefficients.data() + brick * kVoxels, once, twice, weight, nullptr, nullptr, nullptr);
   });
 }
 
@@ -199,44 +238,121 @@ BandField::FindCoefficients(float weight)
 void
 BandField::DropValues()
 {
-  std::vector<float>().swap(m_Values);
-  std::vector<float>().swap(m_Once);
+  Values<float>().swap(m_Values);
   std::vector<BrickGrid::Flags>().swap(m_In);
   std::vector<BrickGrid::Flags>().swap(m_Out);
 }
 
 BandField::Snapshot
-BandField::Save() const
+BandField::Save(const SmoothingZones & zones) const
 {
+  Snapshot saved;
+  for (std::size_t brick = 0; brick < m_Grid.Count(); ++brick)
+  {
+    if (zones.AnyIn(m_Level, m_Grid.At(brick)))
+    {
+      saved.bricks.push_back(static_cast<std::uint32_t>(brick));
+    }
+  }
   const float unit = kSavedUnits / m_Far;
-  Snapshot    saved(m_Values.size());
-  std::transform(m_Values.begin(), m_Values.end(), saved.begin(), [&](float value) {
-    return static_cast<std::int16_t>(std::clamp(value * unit, -32767.0F, 32767.0F));
-  });
+  const auto  count = static_cast<std::ptrdiff_t>(saved.bricks.size());
+  saved.values.resize(saved.bricks.size() * kVoxels);
+#pragma omp parallel for schedule(static) if (count > BrickGrid::kMany)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const float * const from = m_Values.data() + saved.bricks[static_cast<std::size_t>(i)] * kVoxels;
+    std::transform(
+      from,
+      from + kVoxels,
+      saved.values.begin() + i * static_cast<std::ptrdiff_t>(kVoxels),
+      [&](float value) { return static_cast<std::int16_t>(std::clamp(value * unit, -32767.0F, 32767.0F)); });
+  }
   return saved;
+}
+
+std::vector<std::uint8_t>
+BandField::LeftOut(const SmoothingZones & zones, int passes) const
+{
+  const auto                count = static_cast<std::ptrdiff_t>(m_Grid.Count());
+  std::vector<std::uint8_t> bricks(m_Grid.Count(), 0);
+#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto  brick = static_cast<std::size_t>(i);
+    BrickValues parts;
+    zones.Fill(m_Level, m_Grid.At(brick), parts);
+    bricks[brick] = std::any_of(parts.begin(), parts.end(), [](float part) { return part < 1; }) ? 1 : 0;
+  }
+  std::size_t reach = 0;
+  for (const Kernel & kernel : m_Binomial)
+  {
+    reach = std::max(reach, 2 * kernel.radius * static_cast<std::size_t>(passes));
+  }
+  for (std::size_t ring = 0; ring < reach; ring += kSide)
+  {
+    bricks = m_Grid.AndAround(bricks);
+  }
+  return bricks;
 }
 
 std::vector<std::uint8_t>
 BandField::BlendWith(const Snapshot & former, const SmoothingZones & zones, float weight)
 {
-  const float               unit = m_Far / kSavedUnits;
+  const float                unit = m_Far / kSavedUnits;
+  std::vector<std::uint32_t> places(m_Grid.Count(), 0); // one more than in the snapshot
+  for (std::size_t i = 0; i < former.bricks.size(); ++i)
+  {
+    places[former.bricks[i]] = static_cast<std::uint32_t>(i + 1);
+  }
+  const auto formerOf = [&](std::size_t brick, BrickValues & values) {
+    const auto from =
+      former.values.begin() + (static_cast<std::ptrdiff_t>(places[brick]) - 1) * static_cast<std::ptrdiff_t>(kVoxels);
+    const bool saved = places[brick] != 0;
+    if (saved)
+    {
+      std::transform(from, from + static_cast<std::ptrdiff_t>(kVoxels), values.begin(), [&](std::int16_t value) {
+        return unit * static_cast<float>(value);
+      });
+    }
+    return saved;
+  };
+  return Blend(formerOf, zones, weight);
+}
+
+std::vector<std::uint8_t>
+BandField::BlendWith(const BandField & former, const SmoothingZones & zones, float weight)
+{
+  const auto formerOf = [&](std::size_t brick, BrickValues & values) {
+    const auto from = static_cast<std::size_t>(former.m_Grid.Find(m_Grid.At(brick))) * kVoxels;
+    std::copy_n(former.m_Values.begin() + static_cast<std::ptrdiff_t>(from), kVoxels, values.begin());
+    return true;
+  };
+  return Blend(formerOf, zones, weight);
+}
+
+// formerOf(brick, values): whether it has changed, and what its values were.
+template <typename TFormer>
+std::vector<std::uint8_t>
+BandField::Blend(const TFormer & formerOf, const SmoothingZones & zones, float weight)
+{
   const auto                count = static_cast<std::ptrdiff_t>(m_Grid.Count());
-  std::vector<std::uint8_t> changed(m_Grid.Count(), 0);
+  std::vector<std::uint8_t> changed = LeftOut(zones, 0);
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
-    const auto                 brick = static_cast<std::size_t>(i);
-    std::array<float, kVoxels> parts;
+    const auto  brick = static_cast<std::size_t>(i);
+    BrickValues former;
+    if (changed[brick] == 0 || !formerOf(brick, former))
+    {
+      changed[brick] = 0;
+      continue;
+    }
+    BrickValues parts;
     zones.Fill(m_Level, m_Grid.At(brick), parts);
+    float * const values = m_Values.data() + brick * kVoxels;
     for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
     {
-      if (parts[voxel] < 1)
-      {
-        float &     value = m_Values[brick * kVoxels + voxel];
-        const float before = unit * static_cast<float>(former[brick * kVoxels + voxel]);
-        value = before + parts[voxel] * (value - before);
-        changed[brick] = 1;
-      }
+      values[voxel] = former[voxel] + parts[voxel] * (values[voxel] - former[voxel]);
     }
   }
   // Sums reach one or two bricks far, and what is evaluated one more.

@@ -42,6 +42,12 @@ public:
   {
     return m_Depths;
   }
+  /** Leaves the grid alone. */
+  void
+  DropDepths()
+  {
+    std::vector<Depth>().swap(m_Depths);
+  }
 
 private:
   BrickGrid          m_Grid;

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace voxelcore
 {
 
 BrickGrid::BrickGrid(const VoxelShape & shape, std::span<const LatticePoint> points, int level, std::int32_t reach)
 {
-  const int shift = 3 + level;
+  const int shift = m_Shift = 3 + level;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     m_Lower[axis] = (shape.Box().lower[axis] - 1 - reach) >> shift;
@@ -17,31 +18,75 @@ BrickGrid::BrickGrid(const VoxelShape & shape, std::span<const LatticePoint> poi
   }
   m_BitCount = std::size_t{ m_Size[0] } * m_Size[1] * m_Size[2];
   m_Bits.assign(m_BitCount / 64 + 1, 0);
-  std::array<Brick, 2> last{ { { 1, 1, 1 }, { 0, 0, 0 } } };
+  // Of many points the bricks around are the same. Each range counts once: along an axis its first brick, and a bit
+  // where it is one longer.
+  const std::int32_t         length = ((2 * reach + 1) >> shift) + 1;
+  std::vector<std::uint64_t> ranges;
   for (const LatticePoint & p : points)
   {
     // A boundary vertex lies between the voxels p - 1 and p.
-    const std::array<Brick, 2> range{
-      { { (p.x - 1 - reach) >> shift, (p.y - 1 - reach) >> shift, (p.z - 1 - reach) >> shift },
-        { (p.x + reach) >> shift, (p.y + reach) >> shift, (p.z + reach) >> shift } }
-    };
-    if (range == last)
+    std::uint64_t range = 0;
+    for (const auto & [at, axis] : { std::pair{ p.z, 2 }, std::pair{ p.y, 1 }, std::pair{ p.x, 0 } })
     {
-      continue;
+      const std::int32_t first = (at - 1 - reach) >> shift;
+      const std::int32_t longer = ((at + reach) >> shift) - first + 1 - length;
+      range =
+        (range << 21) | static_cast<std::uint64_t>(2 * (first - m_Lower[static_cast<std::size_t>(axis)]) + longer);
     }
-    last = range;
-    for (std::int32_t z = range[0][2]; z <= range[1][2]; ++z)
+    if (ranges.empty() || ranges.back() != range)
     {
-      for (std::int32_t y = range[0][1]; y <= range[1][1]; ++y)
+      ranges.push_back(range);
+    }
+  }
+  std::sort(ranges.begin(), ranges.end());
+  ranges.erase(std::unique(ranges.begin(), ranges.end()), ranges.end());
+  for (const std::uint64_t range : ranges)
+  {
+    std::array<std::size_t, 3> first{};
+    std::array<std::size_t, 3> end{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::size_t part = range >> (21 * axis) & 0x1FFFFF;
+      first[axis] = part >> 1;
+      end[axis] = first[axis] + static_cast<std::size_t>(length) + (part & 1);
+    }
+    for (std::size_t z = first[2]; z < end[2]; ++z)
+    {
+      for (std::size_t y = first[1]; y < end[1]; ++y)
       {
-        const std::size_t first = BitOf({ range[0][0], y, z });
-        for (std::size_t bit = first; bit <= first + static_cast<std::size_t>(range[1][0] - range[0][0]); ++bit)
+        const std::size_t row = (z * m_Size[1] + y) * m_Size[0];
+        for (std::size_t bit = row + first[0]; bit < row + end[0]; ++bit)
         {
           m_Bits[bit >> 6] |= std::uint64_t{ 1 } << (bit & 63);
         }
       }
     }
   }
+  ListBricks(shape);
+}
+
+BrickGrid::BrickGrid(const VoxelShape & shape, const BrickGrid & other, const std::vector<std::uint8_t> & wanted)
+  : m_Shift(other.m_Shift)
+  , m_Lower(other.m_Lower)
+  , m_Size(other.m_Size)
+  , m_BitCount(other.m_BitCount)
+  , m_Bits(other.m_Bits.size(), 0)
+{
+  for (std::size_t brick = 0; brick < wanted.size(); ++brick)
+  {
+    if (wanted[brick] != 0)
+    {
+      const std::size_t bit = BitOf(other.At(brick));
+      m_Bits[bit >> 6] |= std::uint64_t{ 1 } << (bit & 63);
+    }
+  }
+  ListBricks(shape);
+}
+
+// What has a bit, and its neighbours.
+void
+BrickGrid::ListBricks(const VoxelShape & shape)
+{
   std::uint32_t count = 0;
   for (std::size_t word = 0; word < m_Bits.size(); ++word)
   {
@@ -75,7 +120,7 @@ BrickGrid::BrickGrid(const VoxelShape & shape, std::span<const LatticePoint> poi
       std::int32_t found = Find(other);
       if (found < 0) // no boundary near it, so any voxel speaks for all of it
       {
-        const std::int32_t side = 1 << shift;
+        const std::int32_t side = 1 << m_Shift;
         found = shape.Contains(other[0] * side, other[1] * side, other[2] * side) ? kInside : kOutside;
       }
       neighbours[n] = found;

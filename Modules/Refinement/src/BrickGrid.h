@@ -4,11 +4,38 @@
 #include "voxelcore/VoxelShape.h"
 
 #include <cstdint>
+#include <memory>
+#include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
 {
+
+/** An allocator for values that are all written before they are read: memory is taken where they are written first, by
+ *  several threads. */
+template <typename T>
+struct Unset : std::allocator<T>
+{
+  template <typename TOther>
+  struct rebind
+  {
+    using other = Unset<TOther>;
+  };
+  template <typename TOther>
+  void
+  construct(TOther * place)
+  {
+    ::new (static_cast<void *>(place)) TOther;
+  }
+  template <typename TOther, typename... TArguments>
+  void
+  construct(TOther * place, TArguments &&... arguments)
+  {
+    ::new (static_cast<void *>(place)) TOther(std::forward<TArguments>(arguments)...);
+  }
+};
 
 /** The bricks within some voxels of a boundary, by (z, y, x). Cells are voxels, or cubes of 2^3 of them. */
 class BrickGrid
@@ -25,6 +52,9 @@ public:
 
   /** What is within `reach` voxels of a boundary vertex has a brick; the sides of a cell are 2^level voxels. */
   BrickGrid(const VoxelShape & shape, std::span<const LatticePoint> points, int level, std::int32_t reach);
+
+  /** Those of another one's bricks that are wanted. */
+  BrickGrid(const VoxelShape & shape, const BrickGrid & other, const std::vector<std::uint8_t> & wanted);
 
   std::size_t
   Count() const
@@ -64,6 +94,8 @@ public:
   AndAround(const std::vector<std::uint8_t> & flags) const;
 
 private:
+  void
+  ListBricks(const VoxelShape & shape);
   std::size_t
   BitOf(const Brick & brick) const
   {
@@ -90,6 +122,7 @@ private:
     return static_cast<std::int32_t>(bits * 0x0101010101010101 >> 56);
   }
 
+  int                                       m_Shift = 0; ///< of a brick's side
   Brick                                     m_Lower{};
   std::array<std::uint32_t, 3>              m_Size{};
   std::size_t                               m_BitCount = 0;

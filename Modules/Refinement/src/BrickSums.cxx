@@ -143,7 +143,7 @@ BrickSums::AlongZAndY(std::int32_t brick)
 {
   if (brick < 0)
   {
-    return Block(brick);
+    return Block(brick, 1);
   }
   for (std::size_t i = 0; i < m_Bricks.size(); ++i)
   {
@@ -164,7 +164,7 @@ BrickSums::AlongZAndY(std::int32_t brick)
     float * const     to = lines.data() + (y == 0 ? 0 : y == 1 ? kernelY.radius : kernelY.radius + kCube) * kCube;
     if (around[at] >= 0)
     {
-      SumLayers({ Block(around[at - 9]), Block(around[at]), Block(around[at + 9]) },
+      SumLayers({ Block(around[at - 9], 0), Block(around[at], 1), Block(around[at + 9], 2) },
                 first,
                 end,
                 m_Kernels[2],
@@ -174,7 +174,7 @@ BrickSums::AlongZAndY(std::int32_t brick)
     }
     for (std::size_t layer = 0; layer < kCube; ++layer)
     {
-      std::fill_n(to + layer * rows * kCube, (end - first) * kCube, Block(around[at])[0]);
+      std::fill_n(to + layer * rows * kCube, (end - first) * kCube, Block(around[at], 1)[0]);
     }
   }
   float * const sums = m_Kept[m_Turn].data();

@@ -14,7 +14,6 @@ FieldSurface::Project(const Vector3 & place, double reach) const
 {
   constexpr int    steps = 6;
   constexpr double longest = 1.0; // voxels a step
-  constexpr double close = 3e-2;  // voxels: what is left after such a step goes as its square
   Vector3          at = Over(place, m_Spacing);
   SurfacePoint     point;
   for (int step = 0; step <= steps; ++step)
@@ -29,12 +28,12 @@ FieldSurface::Project(const Vector3 & place, double reach) const
     const double  squared = Dot(slope, up); // of the slope per mm
     const Vector3 move = AddScaled({ 0, 0, 0 }, -value / squared, up);
     const double  length = Dot(move, move);
-    if (length < close * close || step == steps)
+    if (length < m_Close * m_Close || step == steps)
     {
       point.position = Times(AddScaled(at, 1, move), m_Spacing);
       point.normal = AddScaled({ 0, 0, 0 }, -1 / std::sqrt(squared), Times(up, m_Spacing));
       const Vector3 way = Minus(point.position, place);
-      point.found = length < close * close && Dot(way, way) <= reach * reach;
+      point.found = length < m_Close * m_Close && Dot(way, way) <= reach * reach;
       return point;
     }
     at = AddScaled(at, length > longest * longest ? longest / std::sqrt(length) : 1.0, move);

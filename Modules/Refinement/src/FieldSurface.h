@@ -15,13 +15,15 @@ class FieldSurface : public SurfaceEstimate
 {
 public:
   /** A field of coefficients. `spacing` in mm, `sides` those of the field. A slope (per unit of `sides`) less than
-   *  `flattest` tells nothing: where labels allow no surface, the field is flat. */
-  FieldSurface(BandField field, const Vector3 & spacing, const Vector3 & sides, double flattest)
+   *  `flattest` tells nothing: where labels allow no surface, the field is flat. The last step onto the surface is less
+   *  than `close` voxels; what is left then goes as its square. */
+  FieldSurface(BandField field, const Vector3 & spacing, const Vector3 & sides, double flattest, double close)
     : m_Field(std::move(field))
     , m_Spacing(spacing)
     , m_BySpacing(Over({ 1, 1, 1 }, Times(spacing, spacing)))
     , m_BySides(Over({ 1, 1, 1 }, Times(sides, sides)))
     , m_Flattest(flattest)
+    , m_Close(close)
   {}
 
   SurfacePoint
@@ -53,6 +55,7 @@ private:
   Vector3   m_BySpacing; ///< 1 / spacing^2
   Vector3   m_BySides;   ///< 1 / sides^2
   double    m_Flattest;
+  double    m_Close;
 };
 
 } // namespace voxelcore

@@ -2,49 +2,11 @@
 
 #include "voxelcore/Vectors.h"
 
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxelcore
 {
-
-namespace
-{
-
-// Two directions at right angles to a normal and to each other, the first nearest to `slide`.
-std::array<Vector3, 2>
-TangentsOf(const Vector3 & n, const Vector3 & slide)
-{
-  const Vector3 axis = std::abs(n[0]) < 0.6 ? Vector3{ 1, 0, 0 } : Vector3{ 0, 1, 0 };
-  const Vector3 along = Length(slide) > 0 ? slide : AddScaled(axis, -Dot(axis, n), n);
-  const Vector3 u = AddScaled({ 0, 0, 0 }, 1 / Length(along), along);
-  return { u, Cross(n, u) };
-}
-
-// What is left to the foot of the plane through the surface at a place.
-Vector3
-SlideOf(const Vector3 & place, const SurfacePoint & foot)
-{
-  const Vector3 gap = Minus(place, foot.position);
-  return AddScaled(gap, -Dot(gap, foot.normal), foot.normal);
-}
-
-// Of a quadratic form the least value among all directions, by what it makes of two at right angles.
-double
-LeastOf(const std::array<Vector3, 2> & ways, const std::array<Vector3, 2> & made)
-{
-  const double a = Dot(ways[0], made[0]);
-  const double b = Dot(ways[1], made[1]);
-  const double c = 0.5 * (Dot(ways[0], made[1]) + Dot(ways[1], made[0]));
-  return 0.5 * (a + b) - std::hypot(0.5 * (a - b), c);
-}
-
-constexpr double kLongestStride = 2.0; // voxels
-constexpr double kTurn = 0.3;          // cosine: beyond it is another side of the surface
-
-} // namespace
 
 FootPointFinder::FootPointFinder(const RefinementInput & input, const ProgressCallback & progress)
   : m_Input(input)
@@ -63,6 +25,38 @@ FootPointFinder::FootPointFinder(const RefinementInput & input, const ProgressCa
     const auto point = static_cast<std::uint32_t>(i);
     m_Anchors[point] = input.surface->Project(Place(point), reach);
   }
+}
+
+// About the places where normals are asked for in Descend().
+void
+FootPointFinder::FindBends(const std::vector<double> & radii)
+{
+  constexpr double ofRadius = 0.25;
+  m_Bends.assign(m_Anchors.size(), SurfaceBend{});
+  const auto count = static_cast<std::ptrdiff_t>(Ripples() > 0 ? m_Anchors.size() : 0);
+#pragma omp parallel for schedule(dynamic, 256) if (count > 512)
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+  {
+    const auto point = static_cast<std::size_t>(i);
+    if (radii[point] > 0 && m_Anchors[point].found)
+    {
+      m_Bends[point] = BendOf(*m_Input.surface, m_Anchors[point], std::max(m_Voxel, ofRadius * radii[point]), m_Voxel);
+    }
+  }
+}
+
+// Where the surface passes a boundary vertex and its bends are known: those of the distance from `place` to it.
+bool
+FootPointFinder::BendsAt(const Vector3 & place, const FootPoint & foot, DistanceBends & bends) const
+{
+  const SurfaceBend &  bend = m_Bends[foot.point];
+  const SurfacePoint & anchor = m_Anchors[foot.point];
+  if (!(bend.stride > 0) || Distance(foot.position, anchor.position) > bend.stride)
+  {
+    return false;
+  }
+  bends = DistanceBendsOf(bend, anchor.normal, Dot(Minus(place, foot.position), foot.normal));
+  return true;
 }
 
 Vector3
@@ -213,185 +207,6 @@ FootPointFinder::Settle(const Vector3 &            place,
       }
     }
   }
-}
-
-// Whether the way along the ball from where the surface passes a boundary vertex to a foot falls all along, but for
-// ripples. The cosine of the angle between both is at most `most`.
-bool
-FootPointFinder::Falls(const Vector3 & place, std::uint32_t point, const FootPoint & to, double most) const
-{
-  constexpr double     opposite = -0.9; // cosine: there are many ways
-  const double         ripples = Ripples() * m_Voxel;
-  const SurfacePoint & anchor = m_Anchors[point];
-  const Vector3        first = Minus(anchor.position, place);
-  const Vector3        last = Minus(to.position, place);
-  const double         distance = Length(first);
-  double               farthest = distance + ripples;
-  const double         cosine = Dot(first, last) / (distance * to.distance);
-  if (!anchor.found || to.distance > farthest || !(cosine >= opposite) || cosine > most)
-  {
-    return false;
-  }
-  const auto   steps = static_cast<int>(std::ceil(Distance(first, last) / m_Voxel));
-  SurfacePoint before = anchor;
-  SurfacePoint next;
-  for (int step = 1; step <= steps; ++step)
-  {
-    const double  part = step / (steps + 1.0);
-    const Vector3 ray = AddScaled(first, part, Minus(last, first));
-    const double  away = distance + part * (to.distance - distance);
-    const double  rise = TryFoot(place, AddScaled(place, away / Length(ray), ray), before, farthest, next);
-    if (!(rise <= 0))
-    {
-      return false;
-    }
-    farthest = std::min(farthest, farthest + rise + ripples);
-    before = next;
-  }
-  return true;
-}
-
-// A try to come nearer to `place` by way of `to`, a place beside the surface. Returns how much farther than `distance`
-// the surface is there, at `next`; infinity where it is another side of it.
-double
-FootPointFinder::TryFoot(const Vector3 &      place,
-                         const Vector3 &      to,
-                         const SurfacePoint & foot,
-                         double               distance,
-                         SurfacePoint &       next) const
-{
-  next = m_Input.surface->Project(to, m_Voxel);
-  return !next.found || std::abs(Dot(next.normal, foot.normal)) < kTurn ? std::numeric_limits<double>::infinity()
-                                                                        : Distance(place, next.position) - distance;
-}
-
-// Near the axis of a tube the surface falls less than its ripples and facets do, and the way down cannot be told from
-// its normal. So where no slope is left, ways at right angles are tried with long strides, until slopes beside the foot
-// show that it lies lower than all around nearly as that of a flat surface does.
-void
-FootPointFinder::Descend(const Vector3 & place, FootPoint & begin) const
-{
-  constexpr int    steps = 120;
-  const double     shortest = Ripples() > 0 ? 0.3 : 0.1; // voxels
-  constexpr double ofRadius = 0.25;
-  constexpr double ofFlatRise = 0.2;
-  constexpr double ofFlatRiseOfTwo = 0.6; // on two ways at right angles: then at least 0.2 on all
-  SurfacePoint     foot{ begin.position, begin.normal, begin.found };
-  double           distance = Distance(place, foot.position);
-  begin.distance = distance;
-  if (!foot.found)
-  {
-    return;
-  }
-  const double longest = std::max(kLongestStride * m_Voxel, ofRadius * distance);
-  double       stride = std::max(0.5 * m_Voxel, ofRadius * distance);
-  bool         flat = false;
-  SurfacePoint next;
-  // Facets have no slopes to go by, so that on a mesh ways are tried all around.
-  const bool bySlopes = Ripples() > 0;
-  // What is nearly as near lies along the ball, not along the surface's tangents, which leave a tube soon. From one
-  // shallow ripple to the next it would be a long way.
-  constexpr double ofRipples = 0.1;
-  const double     shallowest = ofRipples * Ripples() * m_Voxel;
-  double           rise = 0;
-  const auto       descends = [&](double length, const Vector3 & way) {
-    const Vector3 ray = Minus(AddScaled(foot.position, length, way), place);
-    const double  away = Length(ray);
-    const Vector3 to = away > 0 ? AddScaled(place, distance / away, ray) : place;
-    rise = TryFoot(place, to, foot, distance, next);
-    if (rise >= -shallowest)
-    {
-      return false;
-    }
-    foot = next;
-    distance += rise;
-    return true;
-  };
-  for (int step = 0; step < steps && stride >= shortest * m_Voxel; ++step)
-  {
-    const Vector3 slide = SlideOf(place, foot);
-    const double  length = Length(slide);
-    const bool    slopes = length >= m_Close * m_Voxel;
-    if (flat && !slopes)
-    {
-      break;
-    }
-    const double part = (flat || bySlopes ? std::min(stride, length) : stride) / length;
-    if ((bySlopes ? slopes : length > 0) && descends(part, slide))
-    {
-      stride = std::min(longest, 2 * stride);
-      continue;
-    }
-    if (!flat)
-    {
-      const std::array<Vector3, 2> ways = TangentsOf(foot.normal, slide);
-      std::array<Vector3, 2>       back{};
-      bool                         found = true;
-      bool                         lower = false;
-      double                       least = std::numeric_limits<double>::infinity();
-      for (std::size_t way = 0; way < 4 && !lower && !flat; ++way)
-      {
-        lower = descends(way < 2 ? stride : -stride, ways[way % 2]);
-        least = std::min(least, rise);
-        if (bySlopes && !lower && way < 2)
-        {
-          found = found && next.found;
-          back[way] = AddScaled({ 0, 0, 0 }, 1 / stride, Minus(slide, SlideOf(place, next)));
-          flat = way == 1 && found && LeastOf(ways, back) > ofFlatRise;
-        }
-      }
-      if (lower)
-      {
-        continue;
-      }
-      flat = flat || (!bySlopes && least > ofFlatRiseOfTwo * stride * stride / (2 * distance));
-    }
-    stride *= 0.5;
-  }
-  begin = { begin.point, foot.position, distance, foot.normal, true };
-}
-
-// From where the surface passes the boundary vertex downhill towards where a ball about `place` touches it. Where it is
-// nearly as near in many directions, as about the axis of a tube, going all the way would lead to the deepest ripple,
-// and both foot points of a pair to the same: a few steps reach the foot on all that is flatter.
-void
-FootPointFinder::Slide(const Vector3 & place, double most, FootPoint & begin) const
-{
-  const int        steps = Ripples() > 0 ? 4 : 24;
-  constexpr double shortest = 1.0 / 16;
-  const Vector3    home = Place(begin.point);
-  SurfacePoint     foot{ begin.position, begin.normal, begin.found };
-  begin.distance = Distance(place, foot.position);
-  if (!foot.found)
-  {
-    return;
-  }
-  const double radius = Distance(place, home);
-  const double reach = std::min(most, 1.5 * std::sqrt(2 * radius * m_Voxel) + 2 * m_Voxel);
-  double       distance = begin.distance;
-  double       shorter = 1;
-  SurfacePoint next;
-  for (int step = 0; step < steps && shorter >= shortest; ++step)
-  {
-    const Vector3 slide = SlideOf(place, foot);
-    const double  length = Length(slide);
-    if (shorter * length < m_Close * m_Voxel)
-    {
-      break;
-    }
-    const double part = shorter * std::min(1.0, kLongestStride * m_Voxel / length);
-    const double rise = TryFoot(place, AddScaled(foot.position, part, slide), foot, distance, next);
-    // A crease that draws back from `place` is nearest itself: steps end on it from either side only if they get
-    // shorter.
-    if (rise >= 0 || Distance(next.position, home) > reach)
-    {
-      shorter *= 0.5;
-      continue;
-    }
-    foot = next;
-    distance += rise;
-  }
-  begin = { begin.point, foot.position, distance, foot.normal, true };
 }
 
 } // namespace voxelcore

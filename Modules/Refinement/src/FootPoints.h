@@ -1,6 +1,8 @@
 #pragma once
 // Where the balls of core vertices touch the estimated surface.
 
+#include "SurfaceBends.h"
+
 #include "voxelcore/Refinement.h"
 
 #include <algorithm>
@@ -22,12 +24,17 @@ struct FootPoint
   bool          found = false; ///< false: the surface is not known there
 };
 
-/** Finds foot points; thread-safe after construction. */
+/** Finds foot points; what is const is thread-safe. */
 class FootPointFinder
 {
 public:
   /** Projects each boundary vertex onto the surface. */
   FootPointFinder(const RefinementInput & input, const ProgressCallback & progress);
+
+  /** Finds how the surface bends about boundary vertices, of which the greatest ball that touches each has such a
+   *  radius in mm, 0 for those that are not asked for: feet get there in fewer steps. */
+  void
+  FindBends(const std::vector<double> & radii);
 
   /** Of the surface, in voxels. */
   double
@@ -57,6 +64,8 @@ private:
   Place(std::uint32_t point) const;
   void
   Begin(std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const;
+  bool
+  BendsAt(const Vector3 & place, const FootPoint & foot, DistanceBends & bends) const;
   double
   TryFoot(const Vector3 & place, const Vector3 & to, const SurfacePoint & foot, double distance, SurfacePoint & next)
     const;
@@ -69,6 +78,7 @@ private:
 
   const RefinementInput &   m_Input;
   std::vector<SurfacePoint> m_Anchors;
+  std::vector<SurfaceBend>  m_Bends;
   double                    m_Voxel = 1; ///< mm: geometric mean of the spacing
   double                    m_Close;     ///< voxels: what distances are off by then goes as its square
 };

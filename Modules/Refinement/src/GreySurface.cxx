@@ -70,6 +70,7 @@ SurfaceFromGrey(const VoxelShape &       shape,
 {
   constexpr Vector3 sides{ 1, 1, 1 };
   constexpr double  flattest = 0.08; // of the mean magnitude
+  constexpr double  close = 0.03;
   constexpr int     reach = 7;
   BandField         field(shape, BoundaryVertices(shape), sides, 1.5, reach);
   field.FillGrey(scan, rows);
@@ -78,7 +79,7 @@ SurfaceFromGrey(const VoxelShape &       shape,
     one.FindCoefficients(BandField::StepWeight(sigma));
     one.DropValues();
     const double least = flattest * one.Far();
-    return FieldSurface(std::move(one), spacing, sides, least);
+    return FieldSurface(std::move(one), spacing, sides, least, close);
   };
   ReportProgress(progress, "surface", 0.3);
   FieldSurface narrow = smoothed(field, 1.0);

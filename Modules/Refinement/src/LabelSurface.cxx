@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace voxelcore
 {
@@ -33,6 +34,7 @@ constexpr double kThickest = 12;
 constexpr double kBend = 7.5;
 constexpr double kNearBend = 8;
 constexpr double kFlattest = 0.32;
+constexpr double kClose = 0.1; // ripples are longer
 // How far passes look, in sigmas: what ends nearer stands in the widest ones' way.
 constexpr double kReach = 7;
 
@@ -72,47 +74,68 @@ public:
   FieldSurface
   Run() &&
   {
-    std::vector<BandField::Snapshot> former; // the least smooth first
+    std::vector<float> weights;
     for (int pass = 1; pass <= kSomePasses; ++pass)
     {
-      if (pass == kOnePass || pass == kFewPasses)
-      {
-        former.push_back(m_Field.Save());
-      }
-      SmoothWith(m_Field, m_Sigma, nullptr);
+      weights.push_back(SmoothWith(m_Field, m_Sigma, nullptr));
     }
+    std::optional<BandField::Snapshot> former;
     if (const SmoothingZones thick(m_Depth, kThick * m_Sigma); thick.Any())
     {
-      former.push_back(m_Field.Save());
+      former = m_Field.Save(thick);
       SmoothThick(thick);
     }
     const float weight = m_Profile.Weight(m_Sigma);
     m_Field.FindCoefficients(weight);
-    FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest);
+    m_Depth.DropDepths();
+    FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest, kClose);
     // Where labels allow no surface so smooth, a less smooth one.
-    for (std::vector<std::uint8_t> changed; !former.empty(); former.pop_back())
-    {
+    std::vector<std::uint8_t> changed;
+    const auto                replace = [&](auto blend) {
       SmoothingZones zones(m_Depth);
-      if (!MarkPassedBy(surface, changed, zones))
+      const bool     any = MarkPassedBy(surface, changed, zones);
+      if (any)
       {
-        break;
+        constexpr double near = 5;
+        zones.LeaveOutAroundMarks(near);
+        surface.Change([&](BandField & field) { changed = blend(field, zones); });
       }
-      constexpr double near = 5;
-      zones.LeaveOutAroundMarks(near);
-      surface.Change([&](BandField & field) { changed = field.BlendWith(former.back(), zones, weight); });
+      return any;
+    };
+    const auto afterPasses = [&](int passes) { // the last of them by the coefficients
+      return replace([&](BandField & field, const SmoothingZones & zones) {
+        BandField less(m_Shape, field, field.LeftOut(zones, passes - 1));
+        less.SetWidth(m_Sigma);
+        less.FillDistances(m_Shape, kClip);
+        for (int pass = 0; pass < passes - 1; ++pass)
+        {
+          less.Smooth(weights[static_cast<std::size_t>(pass)], nullptr);
+        }
+        return field.BlendWith(less, zones, weight);
+      });
+    };
+    const bool rough = !former || replace([&](BandField & field, const SmoothingZones & zones) {
+      return field.BlendWith(*former, zones, weight);
+    });
+    former.reset();
+    if (rough && afterPasses(kFewPasses))
+    {
+      afterPasses(kOnePass);
     }
     surface.Change([](BandField & field) { field.DropValues(); });
     return surface;
   }
 
 private:
-  // A pass of a field whose width is `sigma`.
-  void
+  // A pass of a field whose width is `sigma`. Returns its weight.
+  float
   SmoothWith(BandField & field, double sigma, const SmoothingZones * zones)
   {
     constexpr double all = kSomePasses + kWiderPasses + kWidestPasses + 1;
-    field.Smooth(m_Profile.Smooth(sigma), zones);
+    const float      weight = m_Profile.Smooth(sigma);
+    field.Smooth(weight, zones);
     ReportProgress(m_Progress, "surface", ++m_Passes / all);
+    return weight;
   }
 
   // What is near an edge sees it in a wider pass, and is left out of the widest. Those need no more than the means of

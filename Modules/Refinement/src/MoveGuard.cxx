@@ -45,6 +45,7 @@ public:
     , m_Positions(positions)
     , m_Spacing(spacing)
     , m_Displacement(displacement)
+    , m_Moved(positions.size(), 1)
     , m_Sum(positions.size())
     , m_Count(positions.size())
   {}
@@ -64,6 +65,7 @@ public:
       }
       for (std::size_t vertex = 0; vertex < m_Positions.size(); ++vertex)
       {
+        m_Moved[vertex] = m_Count[vertex] > 0 ? 1 : 0;
         if (m_Count[vertex] == 0)
         {
           continue;
@@ -109,9 +111,11 @@ private:
     for (std::ptrdiff_t face = 0; face < faces; ++face)
     {
       const auto corners = m_Cells.FaceVertices(static_cast<std::size_t>(face));
-      const bool moves = std::any_of(corners.begin(), corners.end(), [&](ElementIndex corner) {
-        return m_Displacement[corner] != Vector3{ 0, 0, 0 };
-      });
+      const bool again =
+        std::any_of(corners.begin(), corners.end(), [&](ElementIndex corner) { return m_Moved[corner] != 0; });
+      const bool moves = again && std::any_of(corners.begin(), corners.end(), [&](ElementIndex corner) {
+                           return m_Displacement[corner] != Vector3{ 0, 0, 0 };
+                         });
       turned[static_cast<std::size_t>(face)] = moves && !(Dot(Normal(corners, false), Normal(corners, true)) > 0);
     }
     std::fill(m_Sum.begin(), m_Sum.end(), Vector3{ 0, 0, 0 });
@@ -143,6 +147,7 @@ private:
   const std::vector<Vector3> & m_Positions;
   const Vector3 &              m_Spacing;
   std::vector<Vector3> &       m_Displacement;
+  std::vector<std::uint8_t>    m_Moved; ///< since triangles were last looked at
   std::vector<Vector3>         m_Sum;
   std::vector<int>             m_Count;
 };

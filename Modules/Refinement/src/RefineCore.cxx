@@ -95,10 +95,11 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   {
     byLambda.emplace(input.core->cells, input.core->vertexLambda, input.core->edgeLambda, input.core->faceLambda);
   }
-  const FootPointFinder finder(input, progress);
-  const TriangleTree    boundary = TreeOfPoints(*input.points, input.spacing);
-  const auto            refine = [&](CorePart part, double threshold) {
+  FootPointFinder    finder(input, progress);
+  const TriangleTree boundary = TreeOfPoints(*input.points, input.spacing);
+  const auto         refine = [&](CorePart part, double threshold) {
     RefinementState working(input, std::move(part));
+    finder.FindBends(working.GreatestRadii());
     working.Move(finder, progress);
     std::vector<double> formerRadius;
     refined.push_back(working.Finish(finder, threshold, formerRadius));

@@ -47,9 +47,7 @@ RefinementState::MeasureVertices(const FootPointFinder & finder, const std::vect
 double
 RefinementState::WidthAt(ElementIndex vertex, const PointPair & pair) const
 {
-  const auto pairs = Pairs(vertex);
-  const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
-  return m_Widths[m_Pairs.First(vertex) + static_cast<std::size_t>(found - pairs.begin())];
+  return m_Widths[m_Pairs.Find(vertex, pair)];
 }
 
 namespace
@@ -74,24 +72,32 @@ RefinementState::MeasureElements()
   m_VertexMeasure.assign(m_Positions.size(), 0);
   m_EdgeMeasure.assign(m_Cells.edges.size(), 0);
   m_FaceMeasure.assign(m_Cells.FaceCount(), 0);
-  for (std::size_t vertex = 0; vertex < m_Positions.size(); ++vertex)
+  const auto vertices = static_cast<std::ptrdiff_t>(m_Positions.size());
+  const auto faces = static_cast<std::ptrdiff_t>(m_FaceMeasure.size());
+#pragma omp parallel if (faces > 4096)
   {
-    const auto pairs = Pairs(vertex);
-    double &   measure = m_VertexMeasure[vertex];
-    measure = pairs.empty() ? m_Input.core->vertexLambda[m_VertexIds[vertex]] : 0.0;
-    for (std::size_t k = 0; k < pairs.size(); ++k)
+#pragma omp for schedule(static) nowait
+    for (std::ptrdiff_t i = 0; i < vertices; ++i)
     {
-      measure = std::max(measure, m_Widths[m_Pairs.First(vertex) + k]);
+      const auto vertex = static_cast<std::size_t>(i);
+      const auto first = m_Widths.begin() + static_cast<std::ptrdiff_t>(m_Pairs.First(vertex));
+      const auto count = static_cast<std::ptrdiff_t>(Pairs(vertex).size());
+      m_VertexMeasure[vertex] = count == 0 ? m_Input.core->vertexLambda[m_VertexIds[vertex]]
+                                           : std::max(0.0, *std::max_element(first, first + count));
+    }
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t face = 0; face < faces; ++face)
+    {
+      std::array<double, 3> widths;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        widths[i] = m_Widths[m_CornerWidths[3 * static_cast<std::size_t>(face) + i]];
+      }
+      m_FaceMeasure[static_cast<std::size_t>(face)] = MeasureOf(widths);
     }
   }
-  for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
+  for (std::size_t face = 0; face < m_FaceMeasure.size(); ++face)
   {
-    const auto            corners = m_Cells.FaceVertices(face);
-    std::array<double, 3> widths;
-    std::transform(corners.begin(), corners.end(), widths.begin(), [&](ElementIndex corner) {
-      return WidthAt(corner, m_Pairs.OfFace(m_Polygons[face]));
-    });
-    m_FaceMeasure[face] = MeasureOf(widths);
     for (const ElementIndex edge : m_Cells.FaceEdges(face))
     {
       m_EdgeMeasure[edge] = std::max(m_EdgeMeasure[edge], m_FaceMeasure[face]);

@@ -77,12 +77,42 @@ RefinementState::RefinementState(const RefinementInput & input, CorePart part)
   m_Displacement.assign(m_Positions.size(), Vector3{ 0, 0, 0 });
   TriangleComplex cut = CutIntoTriangles(part.cells, m_Positions, input.spacing);
   m_Cells = std::move(cut.cells);
-  m_Polygons = std::move(cut.polygons);
+  const auto faces = static_cast<std::ptrdiff_t>(m_Cells.FaceCount());
+  m_CornerWidths.resize(m_Cells.faceVertices.size());
+#pragma omp parallel for schedule(static) if (faces > 4096)
+  for (std::ptrdiff_t i = 0; i < faces; ++i)
+  {
+    const auto face = static_cast<std::size_t>(i);
+    const auto corners = m_Cells.FaceVertices(face);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      m_CornerWidths[3 * face + k] =
+        static_cast<std::uint32_t>(m_Pairs.Find(corners[k], m_Pairs.OfFace(cut.polygons[face])));
+    }
+  }
   for (const ElementIndex edge : m_Pairs.LooseEdges())
   {
     const auto found = std::lower_bound(m_Cells.edges.begin(), m_Cells.edges.end(), part.cells.edges[edge]);
     m_LooseEdges.emplace_back(static_cast<ElementIndex>(found - m_Cells.edges.begin()), part.edges[edge]);
   }
+}
+
+std::vector<double>
+RefinementState::GreatestRadii() const
+{
+  std::vector<double> radii(m_Input.points->size(), 0.0);
+  for (std::size_t vertex = 0; vertex < m_Positions.size(); ++vertex)
+  {
+    const double radius = m_Input.core->radius[m_VertexIds[vertex]];
+    for (const PointPair & pair : Pairs(vertex))
+    {
+      for (const std::uint32_t point : pair)
+      {
+        radii[point] = std::max(radii[point], radius);
+      }
+    }
+  }
+  return radii;
 }
 
 double

@@ -22,6 +22,10 @@ class RefinementState
 public:
   RefinementState(const RefinementInput & input, CorePart part);
 
+  /** Of the balls that touch each boundary vertex, mm; 0 where none does. */
+  std::vector<double>
+  GreatestRadii() const;
+
   /** Moves vertices to where their balls touch alike, and measures them there. */
   void
   Move(const FootPointFinder & finder, const ProgressCallback & progress);
@@ -71,13 +75,13 @@ private:
 
   const RefinementInput &   m_Input;
   CellComplex               m_Cells;
-  std::vector<ElementIndex> m_Polygons; ///< of each triangle
   std::vector<ElementIndex> m_VertexIds;
   VertexPairs               m_Pairs;
   std::vector<Vector3>      m_Positions;
   std::vector<Vector3>      m_Displacement;
 
-  std::vector<double>                                m_Widths; ///< of each pair of each vertex, mm
+  std::vector<double>                                m_Widths;       ///< of each pair of each vertex, mm
+  std::vector<std::uint32_t>                         m_CornerWidths; ///< whose each corner of each triangle's is
   std::vector<double>                                m_Radius;
   std::vector<double>                                m_VertexMeasure;
   std::vector<double>                                m_EdgeMeasure;

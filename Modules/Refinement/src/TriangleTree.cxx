@@ -14,6 +14,22 @@ namespace
 {
 
 constexpr std::size_t kLeaf = 4;
+constexpr std::size_t kTask = 16384; ///< triangles that are worth a thread of their own
+
+// Of a tree of so many triangles, and of all its parts.
+std::size_t
+NodeCount(std::size_t triangles, std::map<std::size_t, std::size_t> & nodes)
+{
+  if (const auto known = nodes.find(triangles); known != nodes.end())
+  {
+    return known->second;
+  }
+  const std::size_t half = triangles / 2;
+  const std::size_t count =
+    triangles > kLeaf ? 1 + NodeCount(half, nodes) + NodeCount(triangles - half, nodes) : std::size_t{ 1 };
+  nodes[triangles] = count;
+  return count;
+}
 
 double
 SquaredGap(const Vector3 & place, const Vector3 & lower, const Vector3 & upper)
@@ -87,12 +103,20 @@ TriangleTree::TriangleTree(std::span<const Vector3> vertices, std::span<const st
   std::iota(m_Order.begin(), m_Order.end(), std::uint32_t{ 0 });
   if (!m_Order.empty())
   {
-    Build(0, m_Order.size());
+    std::map<std::size_t, std::size_t> nodes;
+    m_Boxes.resize(NodeCount(m_Order.size(), nodes));
+    m_Right.resize(m_Boxes.size(), 0);
+#pragma omp parallel if (m_Order.size() > 2 * kTask)
+#pragma omp single
+    Build(0, 0, m_Order.size(), nodes);
   }
 }
 
-std::size_t
-TriangleTree::Build(std::size_t first, std::size_t last)
+void
+TriangleTree::Build(std::size_t                                node,
+                    std::size_t                                first,
+                    std::size_t                                last,
+                    const std::map<std::size_t, std::size_t> & nodes)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Box              box{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
@@ -107,9 +131,7 @@ TriangleTree::Build(std::size_t first, std::size_t last)
       }
     }
   }
-  const std::size_t node = m_Boxes.size();
-  m_Boxes.push_back(box);
-  m_Right.push_back(0);
+  m_Boxes[node] = box;
   if (last - first > kLeaf)
   {
     std::size_t axis = 0;
@@ -131,10 +153,19 @@ TriangleTree::Build(std::size_t first, std::size_t last)
                        const double cb = centre(b);
                        return ca != cb ? ca < cb : a < b;
                      });
-    Build(first, middle);
-    m_Right[node] = static_cast<std::uint32_t>(Build(middle, last));
+    const std::size_t right = node + 1 + nodes.at(middle - first);
+    m_Right[node] = static_cast<std::uint32_t>(right);
+    if (last - first <= kTask)
+    {
+      Build(node + 1, first, middle, nodes);
+      Build(right, middle, last, nodes);
+      return;
+    }
+#pragma omp task shared(nodes)
+    Build(node + 1, first, middle, nodes);
+    Build(right, middle, last, nodes);
+#pragma omp taskwait
   }
-  return node;
 }
 
 TriangleTree::Nearest

@@ -48,9 +48,35 @@ BestApex(const std::vector<Vector3> & positions, std::span<const ElementIndex> c
 
 struct Cut
 {
-  std::array<ElementIndex, 3> corners; ///< the smallest first
-  ElementIndex                polygon;
+  std::array<ElementIndex, 3> corners{}; ///< the smallest first
+  ElementIndex                polygon = 0;
 };
+
+// By corners, whatever way they are gone around.
+void
+SortByFirstCorner(std::size_t vertexCount, std::vector<Cut> & triangles)
+{
+  std::vector<std::size_t> first(vertexCount + 1, 0);
+  for (const Cut & cut : triangles)
+  {
+    ++first[cut.corners[0] + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  std::vector<Cut>         sorted(triangles.size());
+  for (const Cut & cut : triangles)
+  {
+    sorted[next[cut.corners[0]]++] = cut;
+  }
+  const auto others = [](const Cut & cut) { return std::minmax(cut.corners[1], cut.corners[2]); };
+  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
+  {
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(first[vertex]),
+              sorted.begin() + static_cast<std::ptrdiff_t>(first[vertex + 1]),
+              [&](const Cut & a, const Cut & b) { return others(a) < others(b); });
+  }
+  triangles = std::move(sorted);
+}
 
 } // namespace
 
@@ -78,13 +104,16 @@ CutIntoTriangles(const CellComplex & cells, const std::vector<Vector3> & positio
       triangles.push_back({ triangle, static_cast<ElementIndex>(face) });
     }
   }
-  std::sort(edges.begin(), edges.end());
-  const auto sorted = [](const Cut & cut) {
-    return std::array{ cut.corners[0],
-                       std::min(cut.corners[1], cut.corners[2]),
-                       std::max(cut.corners[1], cut.corners[2]) };
-  };
-  std::sort(triangles.begin(), triangles.end(), [&](const Cut & a, const Cut & b) { return sorted(a) < sorted(b); });
+  const auto added = edges.begin() + static_cast<std::ptrdiff_t>(cells.edges.size());
+  std::sort(added, edges.end());
+  std::inplace_merge(edges.begin(), added, edges.end());
+  SortByFirstCorner(cells.vertexCount, triangles);
+  std::vector<std::size_t> firstEdge(cells.vertexCount + 1, 0); // of those from a vertex on
+  for (const Edge & edge : edges)
+  {
+    ++firstEdge[edge[0] + 1];
+  }
+  std::partial_sum(firstEdge.begin(), firstEdge.end(), firstEdge.begin());
 
   TriangleComplex cut;
   cut.cells.vertexCount = cells.vertexCount;
@@ -96,7 +125,9 @@ CutIntoTriangles(const CellComplex & cells, const std::vector<Vector3> & positio
       const ElementIndex from = triangle.corners[i];
       const ElementIndex to = triangle.corners[(i + 1) % 3];
       const Edge         edge{ std::min(from, to), std::max(from, to) };
-      const auto         found = std::lower_bound(cut.cells.edges.begin(), cut.cells.edges.end(), edge);
+      const auto         first = cut.cells.edges.begin() + static_cast<std::ptrdiff_t>(firstEdge[edge[0]]);
+      const auto         last = cut.cells.edges.begin() + static_cast<std::ptrdiff_t>(firstEdge[edge[0] + 1]);
+      const auto         found = std::lower_bound(first, last, edge);
       cut.cells.faceVertices.push_back(from);
       cut.cells.faceEdges.push_back(static_cast<ElementIndex>(found - cut.cells.edges.begin()));
     }

@@ -3,6 +3,8 @@
 #include "voxelcore/Error.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace voxelcore
 {
@@ -10,7 +12,8 @@ namespace voxelcore
 namespace
 {
 
-// The two boundary vertices that two sides of a face share: facets of a convex cell meet in an edge.
+// The two boundary vertices that two sides of a face share: facets of a convex cell meet in an edge. Twice the same
+// where there are no two.
 PointPair
 PairBetween(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b)
 {
@@ -25,7 +28,7 @@ PairBetween(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b)
   }
   if (found < 2)
   {
-    throw CertificateError("a face of the core has no two nearest boundary vertices; please report this input");
+    return {};
   }
   return { std::min(pair[0], pair[1]), std::max(pair[0], pair[1]) };
 }
@@ -36,10 +39,17 @@ std::vector<PointPair>
 PairsOfFaces(const EdgePoints & edgePoints, const CellComplex & cells, std::span<const ElementIndex> edgeIds)
 {
   std::vector<PointPair> pairs(cells.FaceCount());
-  for (std::size_t face = 0; face < pairs.size(); ++face)
+  const auto             faces = static_cast<std::ptrdiff_t>(pairs.size());
+#pragma omp parallel for schedule(static) if (faces > 4096)
+  for (std::ptrdiff_t face = 0; face < faces; ++face)
   {
-    const auto edges = cells.FaceEdges(face);
-    pairs[face] = PairBetween(edgePoints.Of(edgeIds[edges[0]]), edgePoints.Of(edgeIds[edges[1]]));
+    const auto edges = cells.FaceEdges(static_cast<std::size_t>(face));
+    pairs[static_cast<std::size_t>(face)] =
+      PairBetween(edgePoints.Of(edgeIds[edges[0]]), edgePoints.Of(edgeIds[edges[1]]));
+  }
+  if (std::any_of(pairs.begin(), pairs.end(), [](const PointPair & pair) { return pair[0] == pair[1]; }))
+  {
+    throw CertificateError("a face of the core has no two nearest boundary vertices; please report this input");
   }
   return pairs;
 }
@@ -64,9 +74,20 @@ VertexPairs::VertexPairs(const MedialComplex &         core,
                          std::span<const ElementIndex> vertexIds,
                          std::span<const ElementIndex> edgeIds)
 {
-  std::vector<std::vector<PointPair>> ofVertex(cells.vertexCount);
-  std::vector<char>                   onFace(cells.edges.size(), 0);
   m_FacePairs = PairsOfFaces(edgePoints, cells, edgeIds);
+  std::vector<char>                               onFace(cells.edges.size(), 0);
+  std::vector<std::pair<ElementIndex, PointPair>> loose; // of vertices on no face, or not on faces alone
+  std::vector<PointPair>                          around;
+  const auto                                      addAround = [&](std::size_t edge, std::size_t vertex) {
+    around.clear();
+    AddPairsAround(edgePoints.Of(edge), around);
+    for (const PointPair & pair : around)
+    {
+      loose.emplace_back(static_cast<ElementIndex>(vertex), pair);
+    }
+  };
+  // Counted first, then where the pairs of each vertex begin.
+  m_Offsets.assign(cells.vertexCount + 1, 0);
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
     for (const ElementIndex edge : cells.FaceEdges(face))
@@ -75,7 +96,7 @@ VertexPairs::VertexPairs(const MedialComplex &         core,
     }
     for (const ElementIndex corner : cells.FaceVertices(face))
     {
-      ofVertex[corner].push_back(m_FacePairs[face]);
+      ++m_Offsets[corner + 1];
     }
   }
   for (std::size_t edge = 0; edge < onFace.size(); ++edge)
@@ -85,46 +106,63 @@ VertexPairs::VertexPairs(const MedialComplex &         core,
       m_LooseEdges.push_back(static_cast<ElementIndex>(edge));
       for (const ElementIndex end : cells.edges[edge])
       {
-        AddPairsAround(edgePoints.Of(edgeIds[edge]), ofVertex[end]);
+        addAround(edgeIds[edge], end);
       }
     }
+  }
+  for (const auto & [vertex, pair] : loose)
+  {
+    ++m_Offsets[vertex + 1];
   }
   // A vertex of its own, as of a ball: what was nearest to it and its edges.
-  std::vector<std::uint8_t> alone(core.cells.vertexCount, 0);
-  bool                      any = false;
-  for (std::size_t vertex = 0; vertex < ofVertex.size(); ++vertex)
+  std::vector<ElementIndex> alone; // by its place in the core, one more than here
+  for (std::size_t vertex = 0; vertex < cells.vertexCount; ++vertex)
   {
-    if (ofVertex[vertex].empty())
+    if (m_Offsets[vertex + 1] == 0)
     {
-      alone[vertexIds[vertex]] = 1;
-      any = true;
+      alone.resize(core.cells.vertexCount, 0);
+      alone[vertexIds[vertex]] = static_cast<ElementIndex>(vertex + 1);
     }
   }
-  if (any)
+  for (std::size_t edge = 0; edge < core.cells.edges.size() && !alone.empty(); ++edge)
   {
-    std::vector<ElementIndex> place(core.cells.vertexCount, 0);
-    for (std::size_t vertex = 0; vertex < vertexIds.size(); ++vertex)
+    for (const ElementIndex end : core.cells.edges[edge])
     {
-      place[vertexIds[vertex]] = static_cast<ElementIndex>(vertex);
-    }
-    for (std::size_t edge = 0; edge < core.cells.edges.size(); ++edge)
-    {
-      for (const ElementIndex end : core.cells.edges[edge])
+      if (alone[end] != 0)
       {
-        if (alone[end] != 0)
-        {
-          AddPairsAround(edgePoints.Of(edge), ofVertex[place[end]]);
-        }
+        const std::size_t before = loose.size();
+        addAround(edge, alone[end] - 1);
+        m_Offsets[alone[end]] += loose.size() - before;
       }
     }
   }
-  for (std::vector<PointPair> & pairs : ofVertex)
+  std::partial_sum(m_Offsets.begin(), m_Offsets.end(), m_Offsets.begin());
+  m_Pairs.resize(m_Offsets.back());
+  std::vector<std::uint64_t> next(m_Offsets.begin(), m_Offsets.end() - 1);
+  for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    m_Pairs.insert(m_Pairs.end(), pairs.begin(), pairs.end());
-    m_Offsets.push_back(m_Pairs.size());
+    for (const ElementIndex corner : cells.FaceVertices(face))
+    {
+      m_Pairs[next[corner]++] = m_FacePairs[face];
+    }
   }
+  for (const auto & [vertex, pair] : loose)
+  {
+    m_Pairs[next[vertex]++] = pair;
+  }
+  // Each pair once.
+  std::size_t kept = 0;
+  for (std::size_t vertex = 0; vertex < cells.vertexCount; ++vertex)
+  {
+    const auto first = m_Pairs.begin() + static_cast<std::ptrdiff_t>(m_Offsets[vertex]);
+    const auto last = m_Pairs.begin() + static_cast<std::ptrdiff_t>(next[vertex]);
+    std::sort(first, last);
+    m_Offsets[vertex] = kept;
+    const auto end = std::unique_copy(first, last, m_Pairs.begin() + static_cast<std::ptrdiff_t>(kept));
+    kept = static_cast<std::size_t>(end - m_Pairs.begin());
+  }
+  m_Offsets.back() = kept;
+  m_Pairs.resize(kept);
 }
 
 } // namespace voxelcore

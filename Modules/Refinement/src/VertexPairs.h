@@ -5,6 +5,7 @@
 
 #include "voxelcore/Refinement.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,15 @@ public:
   First(std::size_t vertex) const
   {
     return m_Offsets[vertex];
+  }
+
+  /** Where a pair of a vertex is in All(). */
+  std::size_t
+  Find(std::size_t vertex, const PointPair & pair) const
+  {
+    const auto pairs = Of(vertex);
+    const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
+    return First(vertex) + static_cast<std::size_t>(found - pairs.begin());
   }
 
   const std::vector<PointPair> &

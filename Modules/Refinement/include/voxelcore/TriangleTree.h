@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -47,8 +48,8 @@ private:
     Vector3 upper;
   };
 
-  std::size_t
-  Build(std::size_t first, std::size_t last);
+  void
+  Build(std::size_t node, std::size_t first, std::size_t last, const std::map<std::size_t, std::size_t> & nodes);
   void
   Descend(std::size_t node, std::size_t first, std::size_t last, const Vector3 & place, Nearest & best) const;
 
