@@ -278,10 +278,8 @@ BandField::LeftOut(const SmoothingZones & zones, int passes) const
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
-    const auto  brick = static_cast<std::size_t>(i);
-    BrickValues parts;
-    zones.Fill(m_Level, m_Grid.At(brick), parts);
-    bricks[brick] = std::any_of(parts.begin(), parts.end(), [](float part) { return part < 1; }) ? 1 : 0;
+    const auto brick = static_cast<std::size_t>(i);
+    bricks[brick] = zones.AnyLeftOutIn(m_Level, m_Grid.At(brick)) ? 1 : 0;
   }
   std::size_t reach = 0;
   for (const Kernel & kernel : m_Binomial)

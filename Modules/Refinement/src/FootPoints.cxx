@@ -94,47 +94,41 @@ FootPointFinder::Meet(const Vector3 & place, const PointPair & pair) const
 void
 FootPointFinder::Begin(std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const
 {
-  constexpr double former = -1;
   if (Ripples() == 0)
   {
     footPoints.clear(); // facets hold feet where they were
   }
+  constexpr double unwanted = -1;
   for (FootPoint & foot : footPoints)
   {
-    foot.distance = former;
+    foot.distance = unwanted;
   }
+  const std::size_t before = footPoints.size();
   for (const PointPair & pair : pairs)
   {
     const double width = 0.45 * Distance(Place(pair[0]), Place(pair[1]));
-    footPoints.push_back({ pair[0], {}, width });
-    footPoints.push_back({ pair[1], {}, width });
-  }
-  std::sort(footPoints.begin(), footPoints.end(), [](const FootPoint & a, const FootPoint & b) {
-    return a.point != b.point ? a.point < b.point : a.distance > b.distance;
-  });
-  std::size_t kept = 0;
-  for (std::size_t first = 0, end = 0; first < footPoints.size(); first = end)
-  {
-    const std::uint32_t point = footPoints[first].point;
-    const double        width = footPoints[first].distance;
-    while (end < footPoints.size() && footPoints[end].point == point)
+    for (const std::uint32_t point : pair)
     {
-      ++end;
-    }
-    if (width == former)
-    {
-      continue;
-    }
-    FootPoint foot = footPoints[end - 1];
-    if (foot.distance != former)
-    {
+      const auto found =
+        std::find_if(footPoints.begin(), footPoints.end(), [&](const FootPoint & foot) { return foot.point == point; });
+      if (found != footPoints.end())
+      {
+        found->distance = std::max(found->distance, width);
+        continue;
+      }
       const SurfacePoint & anchor = m_Anchors[point];
-      foot = { point, anchor.found ? anchor.position : Place(point), 0, anchor.normal, anchor.found };
+      footPoints.push_back(
+        { point, anchor.found ? anchor.position : Place(point), width, anchor.normal, anchor.found });
     }
-    foot.distance = width;
-    footPoints[kept++] = foot;
   }
-  footPoints.resize(kept);
+  const bool added = footPoints.size() > before;
+  std::erase_if(footPoints, [&](const FootPoint & foot) { return foot.distance == unwanted; });
+  if (added)
+  {
+    std::sort(footPoints.begin(), footPoints.end(), [](const FootPoint & a, const FootPoint & b) {
+      return a.point < b.point;
+    });
+  }
 }
 
 void

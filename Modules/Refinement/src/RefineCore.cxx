@@ -1,11 +1,11 @@
 #include "voxelcore/Refinement.h"
 
 #include "Fringe.h"
+#include "PointTree.h"
 #include "RefinementState.h"
 
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/TolerancePruning.h"
-#include "voxelcore/TriangleTree.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -37,28 +37,12 @@ namespace
 // More is moved than is left in the end, as measures that are taken again may be greater.
 constexpr double kWorkingPart = 0.75;
 
-TriangleTree
-TreeOfPoints(std::span<const LatticePoint> points, const Vector3 & spacing)
-{
-  std::vector<Vector3>                      places;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  places.reserve(points.size());
-  triangles.reserve(points.size());
-  for (const LatticePoint & p : points)
-  {
-    const auto i = static_cast<std::uint32_t>(places.size());
-    places.push_back(Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, spacing));
-    triangles.push_back({ i, i, i });
-  }
-  return { places, triangles };
-}
-
 // Each boundary vertex has surface within half a diagonal, and the surface has a boundary vertex as near everywhere: so
 // no ball that touches the surface is smaller or greater by more than that than one that touches a boundary vertex. A
 // radius that is has not been measured to the nearest part of a rough surface.
 // What is nearest before and after a move is told by how far it went, mostly closely enough.
 void
-BoundRadii(const TriangleTree &        boundary,
+BoundRadii(const PointTree &           boundary,
            const Vector3 &             spacing,
            const std::vector<double> & former,
            RefinedCore &               refined)
@@ -78,8 +62,7 @@ BoundRadii(const TriangleTree &        boundary,
       continue;
     }
     const double farthest = former[vertex] + moved;
-    const double nearest =
-      std::sqrt(boundary.FindNearest(Times(core.positions[vertex], spacing), farthest * farthest).squaredDistance);
+    const double nearest = std::sqrt(boundary.SquaredDistance(Times(core.positions[vertex], spacing), farthest));
     radius = std::clamp(radius, nearest - half, nearest + half);
   }
 }
@@ -95,9 +78,9 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   {
     byLambda.emplace(input.core->cells, input.core->vertexLambda, input.core->edgeLambda, input.core->faceLambda);
   }
-  FootPointFinder    finder(input, progress);
-  const TriangleTree boundary = TreeOfPoints(*input.points, input.spacing);
-  const auto         refine = [&](CorePart part, double threshold) {
+  FootPointFinder finder(input, progress);
+  const PointTree boundary(*input.points, input.spacing);
+  const auto      refine = [&](CorePart part, double threshold) {
     RefinementState working(input, std::move(part));
     finder.FindBends(working.GreatestRadii());
     working.Move(finder, progress);

@@ -231,21 +231,34 @@ SmoothingZones::Fill(int level, const BrickGrid::Brick & brick, std::array<float
   }
 }
 
+template <typename TTest>
 bool
-SmoothingZones::AnyIn(int level, const BrickGrid::Brick & brick) const
+SmoothingZones::AnyPart(int level, const BrickGrid::Brick & brick, TTest test) const
 {
   const std::uint8_t * const own = PartsOf(level, brick);
   if (level == 1)
   {
-    return std::any_of(own, own + kCells, [](std::uint8_t part) { return part != 0; });
+    return std::any_of(own, own + kCells, test);
   }
-  std::uint8_t any = 0;
+  bool any = false;
   for (std::size_t row = 0; row < 16; ++row)
   {
     const std::uint8_t * const four = own + kSide * (row & 3) + kSide * kSide * (row >> 2);
-    any |= four[0] | four[1] | four[2] | four[3];
+    any = any || test(four[0]) || test(four[1]) || test(four[2]) || test(four[3]);
   }
-  return any != 0;
+  return any;
+}
+
+bool
+SmoothingZones::AnyIn(int level, const BrickGrid::Brick & brick) const
+{
+  return AnyPart(level, brick, [](std::uint8_t part) { return part != 0; });
+}
+
+bool
+SmoothingZones::AnyLeftOutIn(int level, const BrickGrid::Brick & brick) const
+{
+  return AnyPart(level, brick, [](std::uint8_t part) { return part != 255; });
 }
 
 } // namespace voxelcore

@@ -40,7 +40,14 @@ public:
   bool
   AnyIn(int level, const BrickGrid::Brick & brick) const;
 
+  /** Whether anything in it does not take all of a pass. */
+  bool
+  AnyLeftOutIn(int level, const BrickGrid::Brick & brick) const;
+
 private:
+  template <typename TTest>
+  bool
+  AnyPart(int level, const BrickGrid::Brick & brick, TTest test) const;
   /** Of the first voxel; rows of cells are those of a brick of 8^3 cells. */
   const std::uint8_t *
   PartsOf(int level, const BrickGrid::Brick & brick) const;
