@@ -69,9 +69,9 @@ Damage(MedialComplex & complex)
 #define VOXELCORE_REFINE                                                                                  \
   "_ZN9voxelcore10RefineCoreERKNS_15RefinementInputERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
   "viewIcSt11char_traitsIcEEdEE"
-#define VOXELCORE_CURVES                                                                                           \
-  "_ZN9voxelcore20ComputeCurveSkeletonERKNS_13MedialComplexERKNS_12CurveOptionsERKSt8functionIFbSt17basic_string_" \
-  "viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_CURVES                                                                                             \
+  "_ZN9voxelcore20ComputeCurveSkeletonERKNS_13MedialComplexEPKNS_12LiveElementsERKNS_12CurveOptionsERKSt8functionIF" \
+  "bSt17basic_string_viewIcSt11char_traitsIcEEdEE"
 // NOLINTEND
 
 MedialComplex
@@ -191,13 +191,22 @@ FaultyRefine(const RefinementInput & input, const std::vector<double> & threshol
 }
 
 CurveSkeleton
-TrueCurves(const MedialComplex &, const CurveOptions &, const ProgressCallback &) asm("__real_" VOXELCORE_CURVES);
+TrueCurves(const MedialComplex &,
+           const LiveElements *,
+           const CurveOptions &,
+           const ProgressCallback &) asm("__real_" VOXELCORE_CURVES);
 CurveSkeleton
-FaultyCurves(const MedialComplex &, const CurveOptions &, const ProgressCallback &) asm("__wrap_" VOXELCORE_CURVES);
+FaultyCurves(const MedialComplex &,
+             const LiveElements *,
+             const CurveOptions &,
+             const ProgressCallback &) asm("__wrap_" VOXELCORE_CURVES);
 CurveSkeleton
-FaultyCurves(const MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
+FaultyCurves(const MedialComplex &    surface,
+             const LiveElements *     part,
+             const CurveOptions &     options,
+             const ProgressCallback & progress)
 {
-  CurveSkeleton skeleton = TrueCurves(surface, options, progress);
+  CurveSkeleton skeleton = TrueCurves(surface, part, options, progress);
   if (IsSeeded("skeleton"))
   {
     Damage(skeleton.complex);

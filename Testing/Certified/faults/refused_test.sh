@@ -10,6 +10,8 @@ cd "$folder"
 fail() { echo "refused_test.sh: $*" >&2; exit 1; }
 "$program" phantom thick-and-thin --size 32 -o scan.nrrd -q
 "$program" phantom thick-and-thin --size 32 -o scan.mha -q
+"$program" core scan.nrrd --tolerance 0 --keep-edges -o whole.vtp -q
+"$program" core scan.nrrd --tolerance 0 --refine labels --keep-edges -o refined.vtp -q
 before=$(ls)
 
 # refused FAULT EXIT_CODE COMMAND...
@@ -30,6 +32,10 @@ refused tolerance 4 "$program" core scan.nrrd -o out.vtp
 refused refinement 4 "$program" core scan.nrrd --lambda 2.5vox --refine labels -o out.vtp
 refused refinement 4 "$program" core scan.nrrd --refine labels -o out.vtp
 refused skeleton 4 "$program" skeleton scan.nrrd -o out.vtp
+for core in whole refined; do
+  refused pruning 4 "$program" prune $core.vtp --lambda 2vox -o out.vtp
+  refused tolerance 4 "$program" prune $core.vtp --tolerance 2diag -o out.vtp
+done
 [ -z "$vtk" ] || { refused core any "$vtk" scan.mha 2 3 out.vtp; refused pruning any "$vtk" scan.mha 2 3 out.vtp; }
 [ -z "$itk" ] || { refused core any "$itk" scan.mha 2vox out.vtp; refused pruning any "$itk" scan.mha 2vox out.vtp; }
 rm -f "$folder.log"
