@@ -117,6 +117,7 @@ private:
     {
       ReportProgress(m_Plan.Next("shape"), "", 0);
       m_Result.shape.topology = ComputeShapeTopology(m_Voxels);
+      m_Result.fine = FindFineTopology(m_Voxels, m_Result.shape.topology);
       std::vector<LatticePoint> points = BoundaryVertices(m_Voxels);
       m_Result.boundaryVertices = points.size();
       seconds.shape += watch.Lap();

@@ -3,6 +3,7 @@
 #include "CoreJobSteps.h"
 #include "DisplayFiles.h"
 #include "FacelessLabels.h"
+#include "NoisyLabels.h"
 #include "FolderLabels.h"
 #include "JobTools.h"
 #include "LabelLoop.h"
@@ -331,6 +332,7 @@ StageCoreJob(const CoreOptions & options,
     faces.push_back(label.core.faces);
   }
   TellFacelessLabels(report, faces, result.notes, result.warnings);
+  TellNoisyLabels(report, result.warnings);
   report.seconds.total = total.Lap();
   report.peakMemoryMb = PeakMemoryMb();
   if (options.report)

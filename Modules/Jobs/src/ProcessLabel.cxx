@@ -42,6 +42,7 @@ ProcessLabel(EditedLabel              edited,
   CertifiedResult result = ComputeCertified(std::move(label.shape), geometry, request, progress);
   record.boundaryVertices = result.boundaryVertices;
   record.shape = result.shape.topology;
+  record.fine = result.fine;
   record.core = result.whole;
   // No result without a certificate.
   record.topologyEqual = true;

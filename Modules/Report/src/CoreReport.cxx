@@ -112,6 +112,13 @@ LabelJson(const LabelRecord & label, bool inFile)
   json["bounding_box"] = { { "lower", label.box.lower }, { "size", label.box.size } };
   json["boundary_vertices"] = label.boundaryVertices;
   json["shape"] = TopologyJson(label.shape);
+  if (!inFile && label.fine)
+  {
+    json["shape"]["less_than_three_voxels_wide"] = { { "loops", label.fine->loops },
+                                                     { "cavities", label.fine->cavities },
+                                                     { "pieces_a_voxel_apart", label.fine->joined },
+                                                     { "pieces_below_27_voxels", label.fine->specks } };
+  }
   json["core"] = Json::object();
   AddComplex(json["core"], label.core);
   json["pruned"] = Json::array();

@@ -213,6 +213,13 @@ ParseLabelRecord(const std::string & text)
         label.pruned[i].tolerance->boundaryGapMm = AtLength(pruned, "boundary_gap_mm").get<double>();
       }
     }
+    if (const auto fine = json.at("shape").find("less_than_three_voxels_wide"); fine != json.at("shape").end())
+    {
+      label.fine = FineTopology{ fine->at("loops").get<std::uint64_t>(),
+                                 fine->at("cavities").get<std::uint64_t>(),
+                                 fine->at("pieces_a_voxel_apart").get<std::uint64_t>(),
+                                 fine->at("pieces_below_27_voxels").get<std::uint64_t>() };
+    }
     if (json.at("certificate").contains("covered"))
     {
       label.covered = json.at("certificate").at("covered").get<bool>();

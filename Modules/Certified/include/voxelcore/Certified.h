@@ -10,6 +10,7 @@
 #include "voxelcore/CertifiedCore.h"
 #include "voxelcore/CertifiedSkeleton.h"
 #include "voxelcore/DelaunayCells.h"
+#include "voxelcore/FineTopology.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/SurfaceEstimate.h"
 
@@ -60,6 +61,7 @@ struct CertifiedSeconds
 struct CertifiedResult
 {
   CertifiedShape                   shape;
+  std::optional<FineTopology>      fine; ///< where much of the shape's topology is
   std::uint64_t                    boundaryVertices = 0;
   ComplexRecord                    whole; ///< of the whole core
   std::vector<CertifiedCore>       cores; ///< one per lambda or tolerance, in the order asked for

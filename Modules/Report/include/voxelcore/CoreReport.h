@@ -92,6 +92,7 @@ struct LabelRecord
   VoxelBox                      box; ///< tight
   std::uint64_t                 boundaryVertices = 0;
   TopologyNumbers               shape;
+  std::optional<FineTopology>   fine; ///< where much of the shape's topology is; in reports, not in files
   ComplexRecord                 core;
   std::vector<PrunedRecord>     pruned; ///< one per lambda or tolerance, in the order given
   bool                          topologyEqual = false;
