@@ -20,8 +20,11 @@ public:
   SurfacePoint
   Project(const Vector3 & place, double reach) const override
   {
-    const TriangleTree::Nearest nearest = m_Tree.FindNearest(place, reach);
-    SurfacePoint                point;
+    // Places are asked for one beside the other.
+    static thread_local std::uint32_t last = TriangleTree::kNoTriangle;
+    const TriangleTree::Nearest       nearest = m_Tree.FindNearest(place, reach, last);
+    last = nearest.triangle;
+    SurfacePoint point;
     if (nearest.triangle >= m_Tree.TriangleCount())
     {
       return point;

@@ -77,17 +77,30 @@ NearestOnTriangle(const Vector3 & place, const std::array<Vector3, 3> & corners)
     const double sum = va + vb + vc;
     return AddScaled(AddScaled(a, vb / sum, ab), vc / sum, ac);
   }
-  // Outside, or no triangle: the nearest of the sides, which is right in either case.
-  Vector3 best = NearestOnSegment(place, a, b);
-  double  least = Distance(place, best);
-  for (const Vector3 & other : { NearestOnSegment(place, b, c), NearestOnSegment(place, c, a) })
-  {
-    const double distance = Distance(place, other);
-    if (distance < least)
+  // Outside, or no triangle: the nearest of the sides, of those that it lies beyond.
+  Vector3    best{};
+  double     least = std::numeric_limits<double>::infinity();
+  const auto lookAt = [&](const Vector3 & from, const Vector3 & to) {
+    const Vector3 other = NearestOnSegment(place, from, to);
+    const Vector3 gap = Minus(place, other);
+    const double  squared = Dot(gap, gap);
+    if (squared < least)
     {
-      least = distance;
+      least = squared;
       best = other;
     }
+  };
+  if (!(vc > 0))
+  {
+    lookAt(a, b);
+  }
+  if (!(va > 0))
+  {
+    lookAt(b, c);
+  }
+  if (!(vb > 0))
+  {
+    lookAt(c, a);
   }
   return best;
 }
@@ -169,16 +182,32 @@ TriangleTree::Build(std::size_t                                node,
 }
 
 TriangleTree::Nearest
-TriangleTree::FindNearest(const Vector3 & place, double within) const
+TriangleTree::FindNearest(const Vector3 & place, double within, std::uint32_t likely) const
 {
   Nearest best;
   best.squaredDistance = within * within;
-  best.triangle = std::numeric_limits<std::uint32_t>::max();
+  best.triangle = kNoTriangle;
+  if (likely < m_Corners.size())
+  {
+    LookAt(likely, place, best);
+  }
   if (!m_Boxes.empty())
   {
     Descend(0, 0, m_Order.size(), place, best);
   }
   return best;
+}
+
+void
+TriangleTree::LookAt(std::uint32_t triangle, const Vector3 & place, Nearest & best) const
+{
+  const Vector3 point = NearestOnTriangle(place, m_Corners[triangle]);
+  const Vector3 gap = Minus(place, point);
+  const double  squared = Dot(gap, gap);
+  if (squared < best.squaredDistance || (squared == best.squaredDistance && triangle < best.triangle))
+  {
+    best = { point, squared, triangle };
+  }
 }
 
 void
@@ -189,14 +218,7 @@ TriangleTree::Descend(std::size_t node, std::size_t first, std::size_t last, con
   {
     for (std::size_t i = first; i < last; ++i)
     {
-      const std::uint32_t triangle = m_Order[i];
-      const Vector3       point = NearestOnTriangle(place, m_Corners[triangle]);
-      const Vector3       gap = Minus(place, point);
-      const double        squared = Dot(gap, gap);
-      if (squared < best.squaredDistance || (squared == best.squaredDistance && triangle < best.triangle))
-      {
-        best = { point, squared, triangle };
-      }
+      LookAt(m_Order[i], place, best);
     }
     return;
   }

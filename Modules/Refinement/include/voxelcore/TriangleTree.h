@@ -24,6 +24,8 @@ public:
     std::uint32_t triangle = 0;
   };
 
+  static constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
+
   /** Below 2^32 triangles. */
   TriangleTree(std::span<const Vector3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
 
@@ -33,9 +35,10 @@ public:
     return m_Corners.size();
   }
 
-  /** The point nearest to `place`; squaredDistance is `within`^2 when none is nearer than `within`. */
+  /** The point nearest to `place`, of equally near triangles on the first; squaredDistance is `within`^2 when none is
+   *  nearer than `within`. Sooner found when a triangle that is `likely` near is named; then it is the same. */
   Nearest
-  FindNearest(const Vector3 & place, double within) const;
+  FindNearest(const Vector3 & place, double within, std::uint32_t likely = kNoTriangle) const;
 
   /** Not normalised; (0,0,0) for a degenerate triangle. */
   Vector3
@@ -50,6 +53,8 @@ private:
 
   void
   Build(std::size_t node, std::size_t first, std::size_t last, const std::map<std::size_t, std::size_t> & nodes);
+  void
+  LookAt(std::uint32_t triangle, const Vector3 & place, Nearest & best) const;
   void
   Descend(std::size_t node, std::size_t first, std::size_t last, const Vector3 & place, Nearest & best) const;
 
