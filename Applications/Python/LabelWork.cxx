@@ -159,7 +159,7 @@ MakeCores(const ArrayView &        array,
     const auto place = [&](std::size_t done) {
       return editEnds + (1 - editEnds) * static_cast<double>(done) / static_cast<double>(edited.labels.size());
     };
-    const auto                      shape = std::make_shared<const VoxelShape>(edited.labels[i].label.shape);
+    const auto                      shape = std::make_shared<const PackedShape>(Pack(edited.labels[i].label.shape));
     LabelOutcome                    outcome = ProcessLabel(std::move(edited.labels[i]),
                                         map.geometry,
                                         RequestOf(options, surface),
@@ -216,6 +216,7 @@ Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCa
 std::shared_ptr<SkeletonOfLabel>
 MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
                const ParameterValues &            values,
+               bool                               ofArray,
                const ProgressCallback &           progress)
 {
   auto result = std::make_shared<SkeletonOfLabel>();
@@ -228,10 +229,28 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
     const Tolerance height = ParseTolerance(core->report.parameters.tolerances.front());
     stage.tolerance = height.value > 0 ? std::optional(height) : std::nullopt;
   }
-  LabelRecord & record = result->report.labels.front();
-  result->part =
-    TakeSkeleton(SkeletonOf(core->part, RecordedShape(core->report, record), stage, progress, core->shape.get()),
-                 record);
+  LabelRecord &             record = result->report.labels.front();
+  const CertifiedShape      shape = RecordedShape(core->report, record);
+  std::optional<VoxelShape> voxels;
+  if (core->shape != nullptr)
+  {
+    voxels = Unpack(*core->shape);
+  }
+  if (ofArray && voxels && stage.tolerance && core->refined.empty())
+  {
+    CertifiedRequest request;
+    request.name = shape.name;
+    request.lambdas = { stage.lambda };
+    request.tolerances = { *stage.tolerance };
+    request.skeleton = stage;
+    result->part =
+      TakeSkeleton(std::move(*ComputeCertified(std::move(*voxels), shape.geometry, request, progress).skeleton),
+                   record);
+  }
+  else
+  {
+    result->part = TakeSkeleton(SkeletonOf(core->part, shape, stage, progress, voxels ? &*voxels : nullptr), record);
+  }
   result->report.skeleton = std::move(stage);
   result->surface = std::move(core);
   return result;

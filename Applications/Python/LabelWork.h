@@ -3,10 +3,11 @@
 
 #include "ArrayLabels.h"
 #include "voxelcore/CoreReport.h"
+#include "PackedShape.h"
+
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/SkeletonModel.h"
-#include "voxelcore/VoxelShape.h"
 
 #include <filesystem>
 #include <memory>
@@ -25,7 +26,7 @@ struct CoreOfLabel
 
   std::string refined{}; ///< the surface it was refined to, as MedialModel::refined
 
-  std::shared_ptr<const VoxelShape> shape{}; ///< what it is the core of; none when it was read from a file
+  std::shared_ptr<const PackedShape> shape{}; ///< what it is the core of; none when it was read from a file
 };
 
 /** A certified skeleton; the surface it was made of is kept for files that hold both. */
@@ -50,10 +51,12 @@ MakeCores(const ArrayView &        array,
 std::vector<std::shared_ptr<CoreOfLabel>>
 Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCallback & progress);
 
-/** `values` are options of `voxelcore skeleton`. */
+/** `values` are options of `voxelcore skeleton`. `ofArray`: as of the array that the core was made of: by tolerance its
+ *  branches are those of the whole core, which is made again. */
 std::shared_ptr<SkeletonOfLabel>
 MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
                const ParameterValues &            values,
+               bool                               ofArray,
                const ProgressCallback &           progress);
 
 /** Asks `progress` once more before the file gets its name. \throws OutputError, UsageError, Cancelled */

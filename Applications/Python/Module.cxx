@@ -87,12 +87,16 @@ PruneCore(const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & val
 }
 
 std::shared_ptr<SkeletonOfLabel>
-SkeletonOfCore(const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & values, const py::object & listener)
+SkeletonOfCore(const std::shared_ptr<CoreOfLabel> & core,
+               const ParameterValues &              values,
+               const py::object &                   listener,
+               bool                                 ofArray)
 {
-  return RunInOwnThread(ThreadsFrom(values, CommandId::Skeleton),
-                        listener,
-                        py::none(),
-                        [=](const ProgressCallback & progress) { return MakeSkeletonOf(core, values, progress); });
+  return RunInOwnThread(
+    ThreadsFrom(values, CommandId::Skeleton),
+    listener,
+    py::none(),
+    [=](const ProgressCallback & progress) { return MakeSkeletonOf(core, values, ofArray, progress); });
 }
 
 /** Paths arrive as bytes, so that any file name will do. Work left behind may still hold the same temporary name. */

@@ -2,8 +2,8 @@
 
 #include "voxelcore/Error.h"
 
-#include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
@@ -161,55 +161,35 @@ RequireState(const py::tuple & state, std::size_t size)
 }
 
 void
-WriteShape(const VoxelShape * shape, ArrayWriter & arrays)
+WriteShape(const PackedShape * shape, ArrayWriter & arrays)
 {
-  std::vector<VoxelBox>      boxes;
-  std::vector<std::uint64_t> words;
-  if (shape != nullptr)
-  {
-    boxes.push_back(shape->Box());
-    for (std::int32_t z = 0; z < shape->Box().size[2]; ++z)
-    {
-      for (std::int32_t y = 0; y < shape->Box().size[1]; ++y)
-      {
-        const auto row = shape->Row(y, z);
-        words.insert(words.end(), row.begin(), row.end());
-      }
-    }
-  }
-  arrays(boxes);
-  arrays(words);
+  arrays(shape != nullptr ? std::vector<VoxelBox>{ shape->box } : std::vector<VoxelBox>());
+  arrays(shape != nullptr ? shape->words : std::vector<std::uint64_t>());
+  arrays(shape != nullptr ? shape->counts : std::vector<std::uint32_t>());
 }
 
-std::shared_ptr<const VoxelShape>
+std::shared_ptr<const PackedShape>
 ReadShape(ArrayReader & arrays)
 {
-  std::vector<VoxelBox>      boxes;
-  std::vector<std::uint64_t> words;
+  std::vector<VoxelBox> boxes;
+  PackedShape           shape;
   arrays(boxes);
-  arrays(words);
+  arrays(shape.words);
+  arrays(shape.counts);
   if (boxes.empty())
   {
     return nullptr;
   }
-  const VoxelBox & box = boxes.front();
-  const auto       rows = static_cast<std::size_t>(box.size[1]) * static_cast<std::size_t>(box.size[2]);
-  if (words.size() != rows * ((static_cast<std::size_t>(box.size[0]) + 63) / 64))
+  shape.box = boxes.front();
+  const auto & size = shape.box.size;
+  const auto   rows = static_cast<std::uint64_t>(size[1]) * static_cast<std::uint64_t>(size[2]);
+  if (shape.words.size() != shape.counts.size() ||
+      std::accumulate(shape.counts.begin(), shape.counts.end(), std::uint64_t{ 0 }) !=
+        rows * ((static_cast<std::uint64_t>(size[0]) + 63) / 64))
   {
     RefuseState();
   }
-  auto shape = std::make_shared<VoxelShape>(box);
-  auto from = words.begin();
-  for (std::int32_t z = 0; z < box.size[2]; ++z)
-  {
-    for (std::int32_t y = 0; y < box.size[1]; ++y)
-    {
-      const auto row = shape->Row(y, z);
-      std::copy_n(from, row.size(), row.begin());
-      from += static_cast<std::ptrdiff_t>(row.size());
-    }
-  }
-  return shape;
+  return std::make_shared<const PackedShape>(std::move(shape));
 }
 
 } // namespace

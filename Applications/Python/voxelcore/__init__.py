@@ -127,7 +127,8 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
     """The curve skeleton of a label, with the topology of its voxels. Returns a Skeleton.
 
     source: an array, with the arguments of core() beside it (spacing, label, ...; its whole core is then taken unless
-        lambda_ or tolerance say otherwise), or a Core. Of a pruned one the tips of slender branches are gone.
+        lambda_ or tolerance say otherwise), or a Core. Of a pruned one the tips of slender branches are gone. Of an
+        array with a tolerance the branches are those of the whole core, as far as the tolerance leaves them.
     prune_branches: terminal branches that are shorter are removed: a length, or '1.5r', times the radius where they
         begin; 0 or None: none.
     root: where the hierarchy of branches begins: 'thickest', 'top', or a point (x, y, z), LPS mm.
@@ -157,7 +158,7 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
     if isinstance(source, Core):
         if of_array:
             raise ValueError(f"{next(iter(of_array))}: is for arrays; the core was made already")
-        return Skeleton(_voxelcore.skeleton(source._data, values, progress))
+        return Skeleton(_voxelcore.skeleton(source._data, values, progress, False))
     if isinstance(of_array.get("lambda_"), (list, tuple)) or isinstance(of_array.get("tolerance"), (list, tuple)):
         raise ValueError("lambda_, tolerance: give one; a skeleton has one core")
     if of_array.get("lambda_") is None:
@@ -166,7 +167,7 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
     whole = core(source, **of_array)
     if not isinstance(whole, Core):
         raise ValueError("label, split_components: give one label; make cores first, then the skeleton of each")
-    return Skeleton(_voxelcore.skeleton(whole._data, values, _arguments.share(progress, 0.5, 1)))
+    return Skeleton(_voxelcore.skeleton(whole._data, values, _arguments.share(progress, 0.5, 1), True))
 
 
 def measure(source, **options):
