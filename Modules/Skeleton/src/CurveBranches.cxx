@@ -70,7 +70,8 @@ private:
     return late(end) - late(start) >= kRunsAlongTheMiddle * Way(start, end);
   }
 
-  /** From the first window on of which that holds. */
+  /** From the first window on of which that holds. Short branches end within their first one; in the middle of a plate,
+   *  where times of the surface end, less than a whole one tells nothing. */
   template <typename Holds>
   bool
   FindFrom(double window, const Holds & holds)
@@ -82,7 +83,8 @@ private:
       {
         ++end;
       }
-      if (2 * Way(start, end) >= window && holds(start, end))
+      const double way = Way(start, end);
+      if ((way >= window || (2 * way >= window && Way(0, end) < 2 * window)) && holds(start, end))
       {
         CapCentre(start, window);
         return true;
