@@ -178,8 +178,11 @@ TEST_F(HeavySkeletonCommand, HundredsOfLabelsGiveTheSameWhateverTheThreads)
   for (const auto & entry : std::filesystem::directory_iterator(m_Folder / "1"))
   {
     const std::string name = entry.path().filename().string();
-    ASSERT_EQ(ReadAll(entry.path()), ReadAll(m_Folder.Path() / "3" / name)) << name;
     ++files;
+    if (entry.path().extension() != ".jsonl") // tells of labels as they were finished, and how long they took
+    {
+      ASSERT_EQ(ReadAll(entry.path()), ReadAll(m_Folder.Path() / "3" / name)) << name;
+    }
   }
   EXPECT_EQ(files, 724U + 3U);
   for (const Json & label : labels)

@@ -63,15 +63,21 @@ private:
     return Distance(m_Surface.positions[m_Path[from]], m_Surface.positions[m_Path[to]]);
   }
 
+  double
+  FallsBehind(std::size_t start, std::size_t end) const
+  {
+    const auto late = [&](std::size_t at) { return m_Fire.time[m_Path[at]] - m_SurfaceTime[m_Path[at]]; };
+    return late(end) - late(start);
+  }
+
   bool
   RunsAlong(std::size_t start, std::size_t end) const
   {
-    const auto late = [&](std::size_t at) { return m_Fire.time[m_Path[at]] - m_SurfaceTime[m_Path[at]]; };
-    return late(end) - late(start) >= kRunsAlongTheMiddle * Way(start, end);
+    return FallsBehind(start, end) >= kRunsAlongTheMiddle * Way(start, end);
   }
 
-  /** From the first window on of which that holds. Short branches end within their first one; in the middle of a plate,
-   *  where times of the surface end, less than a whole one tells nothing. */
+  /** From the first window on of which that holds. Short branches may end within one, where fire falls behind as far as
+   *  it must over a whole one: in the middle of a plate times of the surface end, too. */
   template <typename Holds>
   bool
   FindFrom(double window, const Holds & holds)
@@ -84,7 +90,8 @@ private:
         ++end;
       }
       const double way = Way(start, end);
-      if ((way >= window || (2 * way >= window && Way(0, end) < 2 * window)) && holds(start, end))
+      const bool   isShort = Way(0, end) < 3 * window && FallsBehind(start, end) >= kRunsAlongTheMiddle * window;
+      if ((way >= window || (2 * way >= window && isShort)) && holds(start, end))
       {
         CapCentre(start, window);
         return true;
