@@ -2,9 +2,9 @@
 // What the Python module does with a label, without a word of Python: the work of jobs on arrays in memory.
 
 #include "ArrayLabels.h"
-#include "voxelcore/CoreReport.h"
 #include "PackedShape.h"
 
+#include "voxelcore/CoreReport.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/SkeletonModel.h"

@@ -247,20 +247,20 @@ FootPointFinder::Slide(const Vector3 & place, double most, FootPoint & begin) co
     const double part = shorter * std::min(1.0, kLongestStride * m_Voxel / length);
     const double rise = TryFoot(place, AddScaled(foot.position, part, slide), foot, distance, next);
     const bool   fails = rise >= 0 || Distance(next.position, home) > reach;
-    if (stretched)
+    if (stretched) // it stands for three of the steps, or for none, which then begin with a whole one
     {
       stretched = false;
       steps += fails ? 1 : -2;
       shorter *= fails ? 2 : 1;
     }
-    // A crease that draws back from `place` is nearest itself: steps end on it from either side only if they get
-    // shorter.
-    if (fails && length < nearly * m_Voxel)
-    {
-      break;
-    }
     if (fails)
     {
+      if (length < nearly * m_Voxel)
+      {
+        break;
+      }
+      // A crease that draws back from `place` is nearest itself: steps end on it from either side only if they get
+      // shorter.
       shorter *= 0.5;
       continue;
     }

@@ -24,13 +24,14 @@ BendOf(const SurfaceEstimate & surface, const SurfacePoint & at, double stride, 
 std::array<Vector3, 2>
 TangentsOf(const Vector3 & normal, const Vector3 & near);
 
-/** Of the distance from places `away` mm off the surface along its normal, to the surface's tangential second order:
- *  its bends along two directions, 1 where the surface is flat, and less the rounder it is about the place. */
+/** How the distance from a place grows along the surface, as half its square is bent: 1 where the surface is flat, 0
+ *  where it is round about the place. Along the two directions where that is least and most. */
 struct DistanceBends
 {
   std::array<double, 2>  bends{};      ///< the lesser first
   std::array<Vector3, 2> directions{}; ///< unit vectors
 };
+/** Of a place `away` mm off the surface along its normal. */
 DistanceBends
 DistanceBendsOf(const SurfaceBend & bend, const Vector3 & normal, double away);
 
