@@ -1,5 +1,7 @@
 #include "JobFolder.h"
 
+#include "voxelcore/Error.h"
+#include "voxelcore/GreyVolume.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/PhantomJob.h"
 
@@ -54,6 +56,27 @@ TEST_F(PhantomJob, TheVolumeHoldsTheVoxelsOfThePhantom)
     }
     EXPECT_NE(line.find(std::to_string(voxels) + " of them in"), std::string::npos) << line;
   }
+}
+
+TEST_F(PhantomJob, AGreyScanHoldsTheValuesOfItsRoot)
+{
+  PhantomJobOptions options = Options("root", "a.nrrd");
+  options.phantom.size = { 40, 40, 48 };
+  options.scan.emplace();
+  options.scan->noise = 0.1;
+  const std::string line = RunPhantomJob(options);
+  RootScanOptions   request = *options.scan;
+  request.root = options.phantom;
+  const RootScan scan = MakeRootScan(request);
+  VoxelBox       box;
+  box.size = options.phantom.size;
+  const GreyVolume read = ReadGreyVolume(options.output, box);
+  ASSERT_EQ(read.values.size(), scan.values.size());
+  EXPECT_TRUE(std::equal(scan.values.begin(), scan.values.end(), read.values.begin()));
+  EXPECT_NE(line.find("0 contacts"), std::string::npos) << line;
+  options.phantom.kind = "ball";
+  options.force = true;
+  EXPECT_THROW(RunPhantomJob(options), UsageError);
 }
 
 TEST_F(PhantomJob, BodiesAreLabelsFromOneOn)

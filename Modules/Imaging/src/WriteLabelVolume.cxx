@@ -1,6 +1,7 @@
 #include "OpenScan.h"
 #include "voxelcore/TextFields.h"
 #include "voxelcore/VolumeWriters.h"
+#include "voxelcore/GreyVolume.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputFile.h"
 #include "voxelcore/TemporaryNames.h"
@@ -260,18 +261,11 @@ OneLine(std::string text)
   return Printable(Trim(text), 200);
 }
 
-} // namespace
-
+/** \throws UsageError for a size the format cannot hold. */
 void
-WriteLabelVolume(const std::filesystem::path &   path,
-                 const ImageGeometry &           geometry,
-                 const std::vector<LabelShape> & labels,
-                 bool                            compress)
+RequireSize(const std::filesystem::path & path, Kind kind, const std::array<std::int64_t, 3> & size)
 {
-  const Kind      kind = KindOf(path);
-  const PixelType type = SmallestType(labels, path);
-  const auto &    size = geometry.size;
-  const auto      longest = std::max({ size[0], size[1], size[2] });
+  const auto longest = std::max({ size[0], size[1], size[2] });
   if (std::min({ size[0], size[1], size[2] }) < 1 || longest > (std::int64_t{ 1 } << 30))
   {
     throw UsageError(Text(path.string(), ": a volume of ", size[0], " x ", size[1], " x ", size[2], " voxels"));
@@ -284,17 +278,12 @@ WriteLabelVolume(const std::filesystem::path &   path,
   {
     throw UsageError(Text(path.string(), ": one page is a picture, not a volume; write .nrrd"));
   }
-  std::vector<std::byte> bytes;
-  const SliceSource      slice = SlicesOf(path, size, labels, type, bytes);
-  for (const LabelShape & label : labels)
-  {
-    RequireWithin(path, size, label);
-  }
-  for (std::int64_t k = 0; k < size[2] && labels.size() > 1; ++k)
-  {
-    slice(k); // says where labels overlap before anything is written
-  }
+}
 
+/** Writes, reads back, and only then gives the file its name. */
+void
+WriteVolume(const std::filesystem::path & path, Kind kind, const VolumeToWrite & volume)
+{
   const StagingFolder staging(path);
   const auto          fail = [&path](const std::string & why) {
     throw OutputError(Text(Printable(FinalName(path).string(), 4096),
@@ -304,7 +293,6 @@ WriteLabelVolume(const std::filesystem::path &   path,
   };
   try
   {
-    const VolumeToWrite volume{ geometry, type, slice, compress };
     switch (kind)
     {
       case Kind::Nrrd:
@@ -320,7 +308,7 @@ WriteLabelVolume(const std::filesystem::path &   path,
         WriteTiff(staging.File(), volume);
         break;
     }
-    CheckWritten(staging.File(), kind, geometry, type, slice);
+    CheckWritten(staging.File(), kind, volume.geometry, volume.type, volume.slice);
     staging.Publish();
   }
   catch (const OutputError &)
@@ -335,6 +323,50 @@ WriteLabelVolume(const std::filesystem::path &   path,
   {
     fail(error.what());
   }
+}
+
+} // namespace
+
+void
+WriteLabelVolume(const std::filesystem::path &   path,
+                 const ImageGeometry &           geometry,
+                 const std::vector<LabelShape> & labels,
+                 bool                            compress)
+{
+  const Kind      kind = KindOf(path);
+  const PixelType type = SmallestType(labels, path);
+  const auto &    size = geometry.size;
+  RequireSize(path, kind, size);
+  std::vector<std::byte> bytes;
+  const SliceSource      slice = SlicesOf(path, size, labels, type, bytes);
+  for (const LabelShape & label : labels)
+  {
+    RequireWithin(path, size, label);
+  }
+  for (std::int64_t k = 0; k < size[2] && labels.size() > 1; ++k)
+  {
+    slice(k); // says where labels overlap before anything is written
+  }
+  WriteVolume(path, kind, { geometry, type, slice, compress });
+}
+
+void
+WriteGreyVolume(const std::filesystem::path &  path,
+                const ImageGeometry &          geometry,
+                std::span<const std::uint16_t> values,
+                bool                           compress)
+{
+  const Kind kind = KindOf(path);
+  RequireSize(path, kind, geometry.size);
+  const auto plane = static_cast<std::size_t>(geometry.size[0]) * static_cast<std::size_t>(geometry.size[1]);
+  if (values.size() != plane * static_cast<std::size_t>(geometry.size[2]))
+  {
+    throw UsageError(Text(path.string(), ": ", values.size(), " values do not fill the volume"));
+  }
+  const SliceSource slice = [&](std::int64_t k) {
+    return std::as_bytes(values.subspan(static_cast<std::size_t>(k) * plane, plane));
+  };
+  WriteVolume(path, kind, { geometry, PixelType::UInt16, slice, compress });
 }
 
 } // namespace voxelcore

@@ -2,6 +2,7 @@
 
 #include "JobTools.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/GreyVolume.h"
 #include "voxelcore/LabelVolume.h"
 
 #include <cstdio>
@@ -55,6 +56,50 @@ CentreLinesText(const PhantomOptions & options, const ImageGeometry & geometry)
   return text;
 }
 
+/** Each gives what was made, in words. */
+std::string
+WriteBodies(const PhantomJobOptions & options,
+            const ImageGeometry &     geometry,
+            OutputTransaction &       transaction,
+            const JobContext &        context)
+{
+  std::vector<LabelShape> labels;
+  std::uint64_t           voxels = 0;
+  for (VoxelShape & shape : MakePhantomBodies(options.phantom, PartOfProgress(context.progress, "sampling", 0, 0.5)))
+  {
+    const std::uint64_t count = shape.CountVoxels();
+    const auto          value = static_cast<std::int64_t>(labels.size()) + 1;
+    voxels += count;
+    labels.push_back({ value, options.phantom.kind, count, std::move(shape) });
+  }
+  if (voxels == 0)
+  {
+    throw UsageError("phantom " + options.phantom.kind + ": no voxel's centre lies in it; give a greater --size");
+  }
+  ReportProgress(context.progress, "writing", 0.5);
+  WriteLabelVolume(transaction.StageWithCompanions(options.output), geometry, labels);
+  return std::to_string(voxels) + " of them in" +
+         (labels.size() > 1 ? ", " + std::to_string(labels.size()) + " labels" : "");
+}
+
+std::string
+WriteScan(const PhantomJobOptions & options,
+          const ImageGeometry &     geometry,
+          OutputTransaction &       transaction,
+          const JobContext &        context)
+{
+  RootScanOptions request = *options.scan;
+  request.root = options.phantom;
+  const RootScan scan = MakeRootScan(request, PartOfProgress(context.progress, "sampling", 0, 0.5));
+  ReportProgress(context.progress, "writing", 0.5);
+  WriteGreyVolume(transaction.StageWithCompanions(options.output), geometry, scan.values);
+  const auto count = [](std::size_t n, const char * what) {
+    return ", " + std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+  };
+  return "grey values: air " + std::to_string(kRootScanAir) + ", root " + std::to_string(kRootScanRoot) +
+         count(scan.contacts.size(), "contact") + count(scan.holes.size(), "hole") + count(scan.breaks.size(), "break");
+}
+
 } // namespace
 
 std::string
@@ -71,19 +116,6 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & given)
     }
     transaction.CheckTarget(*options.centreLines);
   }
-  std::vector<LabelShape> labels;
-  std::uint64_t           voxels = 0;
-  for (VoxelShape & shape : MakePhantomBodies(options.phantom, PartOfProgress(context.progress, "sampling", 0, 0.5)))
-  {
-    const std::uint64_t count = shape.CountVoxels();
-    const auto          value = static_cast<std::int64_t>(labels.size()) + 1;
-    voxels += count;
-    labels.push_back({ value, options.phantom.kind, count, std::move(shape) });
-  }
-  if (voxels == 0)
-  {
-    throw UsageError("phantom " + options.phantom.kind + ": no voxel's centre lies in it; give a greater --size");
-  }
   ImageGeometry geometry;
   std::string   sizeText;
   for (std::size_t k = 0; k < 3; ++k)
@@ -92,16 +124,14 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & given)
     sizeText += (k > 0 ? " x " : "") + std::to_string(options.phantom.size[k]);
   }
   geometry.spacing = options.phantom.spacing;
-  ReportProgress(context.progress, "writing", 0.5);
-  WriteLabelVolume(transaction.StageWithCompanions(options.output), geometry, labels);
+  const std::string what = options.scan ? WriteScan(options, geometry, transaction, context)
+                                        : WriteBodies(options, geometry, transaction, context);
   if (options.centreLines)
   {
     WriteTextFile(transaction.Stage(*options.centreLines), CentreLinesText(options.phantom, geometry));
   }
   Finish(transaction, context);
-  return options.output.string() + ": " + options.phantom.kind + ", " + sizeText + " voxels, " +
-         std::to_string(voxels) + " of them in" +
-         (labels.size() > 1 ? ", " + std::to_string(labels.size()) + " labels" : "");
+  return options.output.string() + ": " + options.phantom.kind + ", " + sizeText + " voxels, " + what;
 }
 
 } // namespace voxelcore

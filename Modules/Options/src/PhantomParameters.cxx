@@ -35,6 +35,37 @@ SizeFrom(const ParameterReader & reader)
   return size;
 }
 
+/** A root's grey scan; none unless it is asked for. */
+std::optional<RootScanOptions>
+ScanFrom(const ParameterReader & reader)
+{
+  RootScanOptions scan;
+  scan.hollow = reader.Real("hollow").value_or(0);
+  scan.noise = reader.Real("noise-level").value_or(0);
+  scan.rings = reader.Real("rings").value_or(0);
+  scan.soil = reader.Real("soil");
+  if (reader.IsGiven("holes"))
+  {
+    scan.holes = static_cast<int>(reader.Whole("holes", 0, 10000));
+  }
+  if (reader.IsGiven("breaks"))
+  {
+    scan.breaks = static_cast<int>(reader.Whole("breaks", 0, 10000));
+  }
+  if (reader.IsSet("grey-values"))
+  {
+    return scan;
+  }
+  for (const char * name : { "hollow", "holes", "breaks", "noise-level", "rings", "soil" })
+  {
+    if (reader.IsGiven(name))
+    {
+      throw UsageError("--" + std::string(name) + ": needs --grey-values");
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 PhantomJobOptions
@@ -59,6 +90,15 @@ PhantomOptionsFrom(const ParameterValues & values)
   {
     options.phantom.subLaterals = static_cast<int>(reader.Whole("sub-laterals", 0, 100000));
   }
+  if (reader.IsGiven("whorls"))
+  {
+    options.phantom.whorls = static_cast<int>(reader.Whole("whorls", 1, 1000));
+  }
+  if (reader.IsGiven("contacts"))
+  {
+    options.phantom.contacts = static_cast<int>(reader.Whole("contacts", 0, 1000));
+  }
+  options.scan = ScanFrom(reader);
   if (reader.IsGiven("cells"))
   {
     options.phantom.cells = static_cast<int>(reader.Whole("cells", 1, 1000000));

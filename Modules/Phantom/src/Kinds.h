@@ -80,4 +80,11 @@ MakeCells(const PhantomOptions & options, const ProgressCallback & progress);
 std::vector<CentreLinePoint>
 CentreLinesOfRoot(const PhantomOptions & options);
 
+std::vector<RootContact>
+ContactsOfRoot(const PhantomOptions & options);
+
+/** \throws UsageError for a value without sense. */
+void
+CheckPhantomOptions(const PhantomOptions & options);
+
 } // namespace voxelcore

@@ -40,7 +40,7 @@ constexpr std::array<PhantomKind, 15> kKinds{ {
     "a branching root system along z: stem, laterals and their laterals",
     "seed, radius of the stem (0.045 of "
     "the shortest side), laterals, "
-    "sub-laterals, detail" },
+    "sub-laterals, whorls, contacts, detail" },
   { "cells",
     "a volume full of touching bodies, a label each, as in connectomics: branching neurites, bodies between them, "
     "fragments",
@@ -53,44 +53,6 @@ CheckLength(const std::optional<double> & value, const char * name)
   if (value && !(std::isfinite(*value) && *value > 0))
   {
     throw UsageError(std::string("the ") + name + " of a phantom must be a number of mm above 0");
-  }
-}
-
-void
-CheckOptions(const PhantomOptions & options)
-{
-  for (const std::int32_t side : options.size)
-  {
-    if (side < 1 || side > (1 << 20))
-    {
-      throw UsageError("the size of a phantom must be 1 to 1048576 voxels along each axis");
-    }
-  }
-  for (const double spacing : options.spacing)
-  {
-    if (!(std::isfinite(spacing) && spacing > 0))
-    {
-      throw UsageError("the spacing of a phantom must be a number of mm above 0 along each axis");
-    }
-  }
-  CheckLength(options.radius, "radius");
-  CheckLength(options.thickness, "thickness");
-  CheckLength(options.period, "period");
-  CheckLength(options.detail, "detail");
-  if (options.density && !(*options.density >= 0 && *options.density <= 1))
-  {
-    throw UsageError("the density of a phantom must be between 0 and 1");
-  }
-  for (const std::optional<int> & count : { options.laterals, options.subLaterals })
-  {
-    if (count && (*count < 0 || *count > 10000))
-    {
-      throw UsageError("the number of laterals of a root must be between 0 and 10000");
-    }
-  }
-  if (options.cells && (*options.cells < 1 || *options.cells > 1000000))
-  {
-    throw UsageError("the number of cells must be between 1 and 1000000");
   }
 }
 
@@ -120,6 +82,44 @@ Union(const PhantomOptions & options, const std::vector<VoxelShape> & bodies)
 
 } // namespace
 
+void
+CheckPhantomOptions(const PhantomOptions & options)
+{
+  for (const std::int32_t side : options.size)
+  {
+    if (side < 1 || side > (1 << 20))
+    {
+      throw UsageError("the size of a phantom must be 1 to 1048576 voxels along each axis");
+    }
+  }
+  for (const double spacing : options.spacing)
+  {
+    if (!(std::isfinite(spacing) && spacing > 0))
+    {
+      throw UsageError("the spacing of a phantom must be a number of mm above 0 along each axis");
+    }
+  }
+  CheckLength(options.radius, "radius");
+  CheckLength(options.thickness, "thickness");
+  CheckLength(options.period, "period");
+  CheckLength(options.detail, "detail");
+  if (options.density && !(*options.density >= 0 && *options.density <= 1))
+  {
+    throw UsageError("the density of a phantom must be between 0 and 1");
+  }
+  for (const std::optional<int> & count : { options.laterals, options.subLaterals, options.whorls, options.contacts })
+  {
+    if (count && (*count < 0 || *count > 10000))
+    {
+      throw UsageError("the numbers of laterals, whorls and contacts of a root must be between 0 and 10000");
+    }
+  }
+  if (options.cells && (*options.cells < 1 || *options.cells > 1000000))
+  {
+    throw UsageError("the number of cells must be between 1 and 1000000");
+  }
+}
+
 std::span<const PhantomKind>
 PhantomKinds()
 {
@@ -129,7 +129,7 @@ PhantomKinds()
 VoxelShape
 MakePhantom(const PhantomOptions & options, const ProgressCallback & progress)
 {
-  CheckOptions(options);
+  CheckPhantomOptions(options);
   if (std::optional<VoxelShape> solid = MakeSolid(options, progress))
   {
     return std::move(*solid);
@@ -166,7 +166,7 @@ MakePhantomBodies(const PhantomOptions & options, const ProgressCallback & progr
 {
   if (options.kind == "cells")
   {
-    CheckOptions(options);
+    CheckPhantomOptions(options);
     return MakeCells(options, progress);
   }
   std::vector<VoxelShape> one;
@@ -177,12 +177,23 @@ MakePhantomBodies(const PhantomOptions & options, const ProgressCallback & progr
 std::vector<CentreLinePoint>
 RootCentreLines(const PhantomOptions & options)
 {
-  CheckOptions(options);
+  CheckPhantomOptions(options);
   if (options.kind != "root")
   {
     throw UsageError("only the phantom 'root' has known centre lines");
   }
   return CentreLinesOfRoot(options);
+}
+
+std::vector<RootContact>
+RootContacts(const PhantomOptions & options)
+{
+  CheckPhantomOptions(options);
+  if (options.kind != "root")
+  {
+    throw UsageError("only the phantom 'root' has known contacts");
+  }
+  return ContactsOfRoot(options);
 }
 
 } // namespace voxelcore

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <unordered_map>
 
 namespace voxelcore
@@ -41,9 +43,11 @@ public:
     const double room = m_Sides[2] / m_Detail;
     m_Laterals = options.laterals.value_or(static_cast<int>(std::clamp(room / 16, 3.0, 50.0)));
     m_SubLaterals = options.subLaterals.value_or(static_cast<int>(std::clamp(m_Shortest / m_Detail / 60, 1.0, 8.0)));
+    m_Whorls = options.whorls.value_or(0);
+    m_Wanted = options.contacts.value_or(0);
   }
 
-  std::vector<GrownPoint>
+  GrownRoot
   Grow()
   {
     const std::size_t stem = GrowStem();
@@ -56,7 +60,11 @@ public:
     {
       GrowOn(lateral, m_SubLaterals, 2);
     }
-    return std::move(m_Points);
+    for (int i = 0; i < m_Wanted; ++i)
+    {
+      GrowContact(stem, static_cast<std::uint64_t>(i));
+    }
+    return { std::move(m_Points), std::move(m_Contacts) };
   }
 
 private:
@@ -98,9 +106,13 @@ private:
       for (std::uint64_t attempt = 0; attempt < 12 && bestPart < 1; ++attempt)
       {
         // A stream for each attempt: whether one is needed must not change the branches that come after.
-        SplitMix64   random(m_Seed, (((parentBranch + 1) << 20) + static_cast<std::uint64_t>(i)) * 64 + attempt + 1);
-        const double along =
+        SplitMix64 random(m_Seed, (((parentBranch + 1) << 20) + static_cast<std::uint64_t>(i)) * 64 + attempt + 1);
+        double     along =
           order == 1 ? 0.04 + 0.9 * (i + random.Uniform()) / count : 0.2 + 0.7 * (i + random.Uniform()) / count;
+        if (order == 1 && m_Whorls > 0)
+        {
+          along = 0.08 + 0.7 * (static_cast<double>(i * m_Whorls / count) + 0.5) / m_Whorls;
+        }
         const std::size_t origin = std::min(parent.last - 1, parent.first + static_cast<std::size_t>(along * points));
         const Growth      growth = GrowthAt(origin, along, order, random);
         if (growth.length <= 0)
@@ -148,8 +160,9 @@ private:
 
   /** The points of a branch, from its start on: straight on, a little astray, a little down. It ends at the margin. */
   std::vector<GrownPoint>
-  Trace(const Growth & growth, SplitMix64 & random) const
+  Trace(const Growth & growth, SplitMix64 & random, const std::optional<Vector3> & target = {}) const
   {
+    bool                    reached = !target;
     std::vector<GrownPoint> points;
     const int               steps = std::max(1, static_cast<int>(growth.length / m_Step));
     Vector3                 position = growth.start;
@@ -173,6 +186,12 @@ private:
       // The turning itself changes slowly: the line is smooth.
       turn = AddScaled({ 0.8 * turn[0], 0.8 * turn[1], 0.8 * turn[2] }, 0.3 * growth.wander, RandomInBall(random));
       direction = Direction(AddScaled(AddScaled(direction, 1, turn), growth.gravity, { 0, 0, -1 }));
+      if (!reached)
+      {
+        const double away = Distance(position, *target);
+        direction = Direction(AddScaled(direction, m_Step / away, Minus(*target, position)));
+        reached = away < 3 * m_Step;
+      }
       position = AddScaled(position, m_Step, direction);
     }
     return points;
@@ -180,7 +199,11 @@ private:
 
   /** How many points a branch has before it comes too near to another, or back to the one it springs from. */
   std::size_t
-  FreeLength(const std::vector<GrownPoint> & points, std::size_t origin, std::size_t parentBranch) const
+  FreeLength(const std::vector<GrownPoint> & points,
+             std::size_t                     origin,
+             std::size_t                     parentBranch,
+             const ConeEnd &                 touched = {},
+             std::int32_t                    touchedBranch = -1) const
   {
     const GrownPoint & from = m_Points[origin];
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -199,6 +222,10 @@ private:
         {
           return;
         }
+        if (other.branch == touchedBranch && Distance(point.position, touched.position) < touched.radius)
+        {
+          return;
+        }
         if (Distance(point.position, other.position) < point.radius + other.radius + 3 * m_Detail + m_Step / 2)
         {
           ++blocked;
@@ -210,6 +237,73 @@ private:
       }
     }
     return points.size();
+  }
+
+  /** Lets a lateral grow that touches another branch on its way, in one place, and goes on beyond. */
+  void
+  GrowContact(std::size_t stem, std::uint64_t number)
+  {
+    for (std::uint64_t attempt = 0; attempt < 2000; ++attempt)
+    {
+      SplitMix64 random(m_Seed, (std::uint64_t{ 1 } << 50) + (number << 12) + attempt);
+      const auto pick = [&random](std::size_t count) {
+        return static_cast<std::size_t>(random.Uniform() * static_cast<double>(count));
+      };
+      const Branch      other = m_Branches[1 + pick(m_Branches.size() - 1)];
+      const std::size_t length = other.last - other.first;
+      if (m_Branches.size() < 2 || length < 30)
+      {
+        continue;
+      }
+      const std::size_t at = other.first + length / 3 + pick(length / 2);
+      const GrownPoint  there = m_Points[at];
+      const Vector3     tangent = Direction(Minus(m_Points[at + 1].position, m_Points[at - 1].position));
+      Vector3           sideways = RandomInBall(random);
+      sideways = Direction(AddScaled(sideways, -Dot(sideways, tangent), tangent));
+      const Branch &    trunk = m_Branches[stem];
+      const double      along = 0.04 + 0.7 * random.Uniform();
+      const std::size_t origin =
+        trunk.first + static_cast<std::size_t>(along * static_cast<double>(trunk.last - trunk.first));
+      Growth growth = GrowthAt(origin, along, 1, random);
+      growth.baseRadius = std::max(growth.baseRadius, m_Detail);
+      const double  thickness = std::max(m_Detail, 0.7 * growth.baseRadius);
+      const Vector3 target = AddScaled(there.position, 0.85 * (there.radius + thickness), sideways);
+      growth.direction = Direction(Minus(target, growth.start));
+      growth.length = Distance(target, growth.start) * random.Uniform(1.4, 1.8);
+      growth.wander *= 0.5;
+      if (std::abs(Dot(growth.direction, tangent)) > 0.8)
+      {
+        continue; // along the other rather than across it
+      }
+      std::vector<GrownPoint> points = Trace(growth, random, target);
+      const ConeEnd           window{ there.position, 4 * (there.radius + thickness) + 4 * m_Detail };
+      points.resize(FreeLength(points, origin, stem, window, there.branch));
+      std::size_t nearest = 0;
+      double      gap = std::numeric_limits<double>::infinity();
+      Vector3     between{};
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        for (std::size_t k = other.first; k < other.last; ++k)
+        {
+          const double away = Distance(points[i].position, m_Points[k].position);
+          const double apart = away / (points[i].radius + m_Points[k].radius);
+          if (apart < gap)
+          {
+            gap = apart;
+            nearest = i;
+            between = AddScaled(points[i].position, 0.5, Minus(m_Points[k].position, points[i].position));
+          }
+        }
+      }
+      const double beyond = static_cast<double>(points.size() - std::min(points.size(), nearest)) * m_Step;
+      if (gap > 0.95 || beyond < window.radius)
+      {
+        continue;
+      }
+      const std::size_t branch = Accept(std::move(points), static_cast<std::int64_t>(origin), 1);
+      m_Contacts.push_back({ between, { there.branch, static_cast<std::int32_t>(branch) } });
+      return;
+    }
   }
 
   /** Adds a branch whose first point follows the point `parent`. */
@@ -271,6 +365,9 @@ private:
   double                                                      m_CellSide;
   int                                                         m_Laterals = 0;
   int                                                         m_SubLaterals = 0;
+  int                                                         m_Whorls = 0; ///< 0: laterals spring from anywhere
+  int                                                         m_Wanted = 0; ///< contacts
+  std::vector<GrownContact>                                   m_Contacts;
   std::vector<GrownPoint>                                     m_Points;
   std::vector<Branch>                                         m_Branches;
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> m_Cells; ///< points by coarse cells
@@ -278,15 +375,15 @@ private:
 
 } // namespace
 
-std::vector<GrownPoint>
+GrownRoot
 GrowRoot(const PhantomOptions & options)
 {
-  std::vector<GrownPoint> points = RootGrower(options).Grow();
-  if (points.empty())
+  GrownRoot root = RootGrower(options).Grow();
+  if (root.points.empty())
   {
     throw UsageError("a root does not fit into a grid this small; enlarge its size or give a smaller detail");
   }
-  return points;
+  return root;
 }
 
 } // namespace voxelcore

@@ -14,9 +14,22 @@ struct GrownPoint : ConeEnd
   std::int32_t order = 0;
 };
 
+/** Where a branch touches another; in mm. */
+struct GrownContact
+{
+  Vector3                     position{};
+  std::array<std::int32_t, 2> branches{};
+};
+
+struct GrownRoot
+{
+  std::vector<GrownPoint>   points;
+  std::vector<GrownContact> contacts;
+};
+
 /** Stem, laterals and their laterals. Depends on the sides of the grid and the options alone (and on the spacing where
  *  no detail is given). \throws UsageError when not even the stem fits. */
-std::vector<GrownPoint>
+GrownRoot
 GrowRoot(const PhantomOptions & options);
 
 } // namespace voxelcore

@@ -6,7 +6,7 @@ VoxelShape
 MakeRoot(const PhantomOptions & options, const ProgressCallback & progress)
 {
   VoxelShape                    shape(VoxelBox{ { 0, 0, 0 }, options.size });
-  const std::vector<GrownPoint> points = GrowRoot(options);
+  const std::vector<GrownPoint> points = GrowRoot(options).points;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     if (i % 64 == 0)
@@ -29,7 +29,7 @@ std::vector<CentreLinePoint>
 CentreLinesOfRoot(const PhantomOptions & options)
 {
   std::vector<CentreLinePoint> lines;
-  for (const GrownPoint & point : GrowRoot(options))
+  for (const GrownPoint & point : GrowRoot(options).points)
   {
     const Vector3 lattice{ point.position[0] / options.spacing[0],
                            point.position[1] / options.spacing[1],
@@ -37,6 +37,20 @@ CentreLinesOfRoot(const PhantomOptions & options)
     lines.push_back({ lattice, point.radius, point.parent, point.branch, point.order });
   }
   return lines;
+}
+
+std::vector<RootContact>
+ContactsOfRoot(const PhantomOptions & options)
+{
+  std::vector<RootContact> contacts;
+  for (const GrownContact & contact : GrowRoot(options).contacts)
+  {
+    contacts.push_back({ { contact.position[0] / options.spacing[0],
+                           contact.position[1] / options.spacing[1],
+                           contact.position[2] / options.spacing[2] },
+                         contact.branches });
+  }
+  return contacts;
 }
 
 } // namespace voxelcore

@@ -3,7 +3,9 @@
 
 #include "voxelcore/LabelVolume.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace voxelcore
@@ -36,5 +38,13 @@ ReadGreyVolume(const std::filesystem::path & path,
                const VoxelBox &              box,
                const ReadOptions &           options = {},
                const ProgressCallback &      progress = {});
+
+/** Writes values, x fastest, as WriteLabelVolume writes labels: the same extensions and checks.
+ *  \throws OutputError when it cannot be written; UsageError for an unknown extension or values that do not fill it */
+void
+WriteGreyVolume(const std::filesystem::path &  path,
+                const ImageGeometry &          geometry,
+                std::span<const std::uint16_t> values,
+                bool                           compress = true);
 
 } // namespace voxelcore

@@ -47,6 +47,8 @@ struct PhantomOptions
   std::optional<double>       detail;      ///< mm: smallest radius of a root; half a voxel's diagonal keeps it whole
   std::optional<int>          laterals;    ///< root: number of laterals on the stem
   std::optional<int>          subLaterals; ///< root: number of laterals on each of these
+  std::optional<int>          whorls;      ///< root: heights of the stem that the laterals spring from; else any
+  std::optional<int>          contacts;    ///< root: further laterals, each of which touches another on its way
   std::optional<int>          cells;       ///< cells: number of bodies
 };
 
@@ -76,5 +78,17 @@ struct CentreLinePoint
  *  \throws UsageError when the kind is not root or a value has no sense. */
 std::vector<CentreLinePoint>
 RootCentreLines(const PhantomOptions & options);
+
+/** A place where two branches of a root touch that do not spring from each other. */
+struct RootContact
+{
+  Vector3                     position{}; ///< lattice coordinates, between the two centre lines
+  std::array<std::int32_t, 2> branches{}; ///< the one that was there, the one that touches it
+};
+
+/** The contacts of the phantom `root`; where there is no room for all that were asked for there are fewer.
+ *  \throws as RootCentreLines */
+std::vector<RootContact>
+RootContacts(const PhantomOptions & options);
 
 } // namespace voxelcore
