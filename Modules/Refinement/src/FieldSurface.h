@@ -2,10 +2,14 @@
 // The surface where a scalar field is 0.
 
 #include "BandField.h"
+#include "WallSwelling.h"
 
 #include "voxelcore/Vectors.h"
 
 #include "voxelcore/SurfaceEstimate.h"
+
+#include <algorithm>
+#include <optional>
 
 namespace voxelcore
 {
@@ -21,6 +25,7 @@ public:
     : m_Field(std::move(field))
     , m_Spacing(spacing)
     , m_BySpacing(Over({ 1, 1, 1 }, Times(spacing, spacing)))
+    , m_Unit(std::min({ spacing[0] / sides[0], spacing[1] / sides[1], spacing[2] / sides[2] }))
     , m_BySides(Over({ 1, 1, 1 }, Times(sides, sides)))
     , m_Flattest(flattest)
     , m_Close(close)
@@ -33,6 +38,19 @@ public:
   Ripples() const override
   {
     return 0.03;
+  }
+
+  /** In units of `sides`. */
+  void
+  SetSwelling(WallSwelling walls)
+  {
+    m_Walls = std::move(walls);
+  }
+
+  double
+  Swelling(double half) const override
+  {
+    return m_Walls ? m_Unit * m_Walls->At(half / m_Unit) : 0;
   }
 
   /** Another field after all: change(field). */
@@ -53,9 +71,12 @@ private:
   BandField m_Field;
   Vector3   m_Spacing;
   Vector3   m_BySpacing; ///< 1 / spacing^2
+  double    m_Unit;      ///< of sides, mm; slices may be farther apart than sides say
   Vector3   m_BySides;   ///< 1 / sides^2
   double    m_Flattest;
   double    m_Close;
+
+  std::optional<WallSwelling> m_Walls;
 };
 
 } // namespace voxelcore

@@ -1,6 +1,7 @@
 #include "FlatProfile.h"
 
 #include "GaussWeights.h"
+#include "SampledProfile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,27 +12,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr double         kStep = 0.25;
 constexpr std::ptrdiff_t kHalf = 120; // far beyond any clip
-
-std::vector<double>
-Convolve(const std::vector<double> & from, const std::vector<double> & weights)
-{
-  const auto          size = static_cast<std::ptrdiff_t>(from.size());
-  std::vector<double> to(from.size());
-  for (std::ptrdiff_t i = 0; i < size; ++i)
-  {
-    double sum = weights[0] * from[static_cast<std::size_t>(i)];
-    for (std::size_t k = 1; k < weights.size(); ++k)
-    {
-      const auto lower = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, i - static_cast<std::ptrdiff_t>(k)));
-      const auto upper = static_cast<std::size_t>(std::min(size - 1, i + static_cast<std::ptrdiff_t>(k)));
-      sum += weights[k] * (from[lower] + from[upper]);
-    }
-    to[static_cast<std::size_t>(i)] = sum;
-  }
-  return to;
-}
 
 // What has moved by `shift` units more, to the first order.
 std::vector<double>
@@ -39,7 +20,7 @@ Shifted(std::vector<double> bent, const std::vector<double> & values, double shi
 {
   for (std::size_t i = 1; i + 1 < bent.size(); ++i)
   {
-    bent[i] += shift * (values[i + 1] - values[i - 1]) / (2 * kStep);
+    bent[i] += shift * (values[i + 1] - values[i - 1]) / (2 * kProfileStep);
   }
   return bent;
 }
@@ -50,7 +31,7 @@ FlatProfile::FlatProfile(double clip)
 {
   for (std::ptrdiff_t i = -kHalf; i <= kHalf; ++i)
   {
-    m_Values.push_back(std::clamp(static_cast<double>(i) * kStep, -clip, clip));
+    m_Values.push_back(std::clamp(static_cast<double>(i) * kProfileStep, -clip, clip));
   }
   m_Bent.assign(m_Values.size(), 0.0);
 }
@@ -58,13 +39,13 @@ FlatProfile::FlatProfile(double clip)
 FlatProfile::Passes
 FlatProfile::Pass(double sigma) const
 {
-  const double              width = sigma / kStep;
+  const double              width = sigma / kProfileStep;
   const std::vector<double> weights = GaussWeights(width * width, static_cast<std::size_t>(std::ceil(5 * width)));
   Passes                    passes;
-  passes.once = Convolve(m_Values, weights);
-  passes.twice = Convolve(passes.once, weights);
-  passes.bentOnce = Shifted(Convolve(m_Bent, weights), passes.once, sigma * sigma / 2);
-  passes.bentTwice = Shifted(Convolve(passes.bentOnce, weights), passes.twice, sigma * sigma / 2);
+  passes.once = ConvolveProfile(m_Values, weights);
+  passes.twice = ConvolveProfile(passes.once, weights);
+  passes.bentOnce = Shifted(ConvolveProfile(m_Bent, weights), passes.once, sigma * sigma / 2);
+  passes.bentTwice = Shifted(ConvolveProfile(passes.bentOnce, weights), passes.twice, sigma * sigma / 2);
   passes.weight = passes.bentOnce[kHalf] / (passes.bentTwice[kHalf] - passes.bentOnce[kHalf]);
   return passes;
 }

@@ -89,6 +89,7 @@ public:
     m_Field.FindCoefficients(weight);
     m_Depth.DropDepths();
     FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest, kClose);
+    surface.SetSwelling(SwellingAfter(weights));
     // Where labels allow no surface so smooth, a less smooth one.
     std::vector<std::uint8_t> changed;
     const auto                replace = [&](auto blend) {
@@ -165,6 +166,14 @@ private:
     }
     m_Field.SetWidth(m_Sigma);
     SmoothWith(m_Field, m_Sigma, &thick);
+  }
+
+  // Where walls are thin, there were no wider passes; the last is that of the coefficients.
+  WallSwelling
+  SwellingAfter(std::vector<float> weights) const
+  {
+    weights.push_back(weights.back());
+    return { kClip, m_Sigma, weights };
   }
 
   // Boundary vertices that are far off the surface, of those in bricks that have changed, if any are named.

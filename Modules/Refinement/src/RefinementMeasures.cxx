@@ -4,10 +4,52 @@
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
+#include <span>
 
 namespace voxelcore
 {
+
+namespace
+{
+
+// How much of a wall there is about a vertex: 1 between two parallel sides, 0 on the axis of a round tube and where two
+// sides meet.
+double
+WallPart(std::span<const PointPair> pairs, std::span<const FootPoint> footPoints)
+{
+  std::array<double, 6> sums{};
+  for (const PointPair & pair : pairs)
+  {
+    const FootPoint & one = FootPointOf(footPoints, pair[0]);
+    const FootPoint & other = FootPointOf(footPoints, pair[1]);
+    const double      unit = 0.5 / std::max(one.distance, other.distance);
+    const Vector3     across = Minus(one.position, other.position);
+    const Vector3     half{ unit * across[0], unit * across[1], unit * across[2] };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      sums[axis] += half[axis] * half[axis];
+      sums[3 + axis] += half[axis] * half[(axis + 1) % 3];
+    }
+  }
+  const double trace = sums[0] + sums[1] + sums[2];
+  if (!(trace > 0))
+  {
+    return 0;
+  }
+  double squares = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    squares += sums[axis] * sums[axis] + 2 * sums[3 + axis] * sums[3 + axis];
+  }
+  // Of two directions alone, with shares a and b: the square of (a - b) / (a + b).
+  const double single = 2 * squares / (trace * trace) - 1;
+  return std::clamp(single * trace / static_cast<double>(pairs.size()), 0.0, 1.0);
+}
+
+} // namespace
 
 // How wide the foot points of each pair are apart, and how far the nearest one is; they are sought from `footPoints`.
 void
@@ -21,10 +63,18 @@ RefinementState::MeasureVertex(const FootPointFinder & finder, std::size_t verte
   }
   finder.Settle(Place(vertex), pairs, footPoints);
   m_Radius[vertex] = NearestDistance(footPoints);
+  double part = 1; // of the widths, that is the body's
+  m_Swelling[vertex] = m_Input.surface->Swelling(m_Radius[vertex]);
+  if (m_Swelling[vertex] > 0)
+  {
+    m_Swelling[vertex] *= WallPart(pairs, footPoints);
+    part -= m_Swelling[vertex] / m_Radius[vertex];
+  }
   for (std::size_t k = 0; k < pairs.size(); ++k)
   {
     m_Widths[m_Pairs.First(vertex) + k] =
-      0.5 * Distance(FootPointOf(footPoints, pairs[k][0]).position, FootPointOf(footPoints, pairs[k][1]).position);
+      part * 0.5 *
+      Distance(FootPointOf(footPoints, pairs[k][0]).position, FootPointOf(footPoints, pairs[k][1]).position);
   }
 }
 

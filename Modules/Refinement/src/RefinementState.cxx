@@ -163,6 +163,7 @@ RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & p
   const auto count = static_cast<std::ptrdiff_t>(m_Positions.size());
   m_Widths.assign(m_Pairs.All().size(), 0);
   m_Radius.assign(m_Positions.size(), 0);
+  m_Swelling.assign(m_Positions.size(), 0);
   ReportProgress(progress, "refining", 0.2);
 #pragma omp parallel if (count > 512)
   {
@@ -334,6 +335,15 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, std::v
   }
   settle(std::move(lines));
   refined.core.radius = Pick(m_Radius, part.vertices);
+  std::vector<std::uint8_t> onFace(part.vertices.size(), 0); // lines are of tubes, which have no sides
+  for (const ElementIndex corner : part.cells.faceVertices)
+  {
+    onFace[corner] = 1;
+  }
+  for (std::size_t vertex = 0; vertex < onFace.size(); ++vertex)
+  {
+    refined.core.radius[vertex] -= onFace[vertex] != 0 ? m_Swelling[part.vertices[vertex]] : 0;
+  }
   formerRadius.clear();
   for (const ElementIndex vertex : part.vertices)
   {

@@ -83,6 +83,7 @@ private:
   std::vector<double>                                m_Widths;       ///< of each pair of each vertex, mm
   std::vector<std::uint32_t>                         m_CornerWidths; ///< whose each corner of each triangle's is
   std::vector<double>                                m_Radius;
+  std::vector<double>                                m_Swelling; ///< by how much of a radius walls are too thick, mm
   std::vector<double>                                m_VertexMeasure;
   std::vector<double>                                m_EdgeMeasure;
   std::vector<double>                                m_FaceMeasure;

@@ -41,6 +41,13 @@ public:
   {
     return 0;
   }
+
+  /** By how much each side of a wall lies too far out, mm, where the sides lie twice `half` mm apart. */
+  virtual double
+  Swelling(double /*half*/) const
+  {
+    return 0;
+  }
 };
 
 /** Grey values along x: those of the voxels (x, y, z) to (x + values.size() - 1, y, z) in indices of the scan, all
