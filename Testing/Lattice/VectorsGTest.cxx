@@ -40,5 +40,13 @@ TEST(Vectors, TheCrossProductIsRightHandedOrthogonalAndTheParallelogramsArea)
   }
 }
 
+TEST(Vectors, AnglesAreInDegreesWhateverTheLengths)
+{
+  EXPECT_NEAR(AngleDegrees({ 2, 0, 0 }, { 0, 0, 5 }), 90, 1e-12);
+  EXPECT_NEAR(AngleDegrees({ 1, 1, 0 }, { 3, 0, 0 }), 45, 1e-12);
+  EXPECT_NEAR(AngleDegrees({ 0.1, 0.7, 0.3 }, { -0.2, -1.4, -0.6 }), 180, 1e-5);
+  EXPECT_TRUE(std::isnan(AngleDegrees({ 0, 0, 0 }, { 1, 0, 0 })));
+}
+
 } // namespace
 } // namespace voxelcore

@@ -132,7 +132,7 @@ TEST(Parameters, MistypedWordsOfAChoiceSuggestTheNearest)
             }),
             "--view frnot: expected one of front|top|iso|auto; did you mean 'front'?");
   EXPECT_EQ(Refused([] { ParseRoot("thikest"); }),
-            "--root thikest: expected top, thickest, or a point in LPS mm such as 12.5,-30,101; did you mean "
+            "--root thikest: expected top, bottom, thickest, or a point in LPS mm such as 12.5,-30,101; did you mean "
             "'thickest'?");
   EXPECT_EQ(Refused([] {
               CoreOptionsFrom(CoreValues({ { "refine", "xyz" } }));

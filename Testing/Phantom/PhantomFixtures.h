@@ -2,6 +2,7 @@
 // Short ways to ask for phantoms.
 
 #include "voxelcore/Phantom.h"
+#include "voxelcore/RootScan.h"
 
 #include <ostream>
 
@@ -51,6 +52,28 @@ Fingerprint(const VoxelShape & shape)
     }
   }
   return hash;
+}
+
+/** The voxels nearer to root than to air. */
+inline VoxelShape
+Brighter(const RootScan & scan, const PhantomOptions & root)
+{
+  VoxelShape  shape(VoxelBox{ { 0, 0, 0 }, root.size });
+  std::size_t at = 0;
+  for (std::int32_t z = 0; z < root.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < root.size[1]; ++y)
+    {
+      for (std::int32_t x = 0; x < root.size[0]; ++x, ++at)
+      {
+        if (scan.values[at] >= (kRootScanAir + kRootScanRoot) / 2)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  return shape;
 }
 
 } // namespace voxelcore::testing

@@ -23,28 +23,6 @@ ScanOptions(std::int32_t size, std::uint64_t seed, const Vector3 & spacing = { 1
   return options;
 }
 
-/** The voxels nearer to root than to air. */
-VoxelShape
-Brighter(const RootScan & scan, const PhantomOptions & root)
-{
-  VoxelShape  shape(VoxelBox{ { 0, 0, 0 }, root.size });
-  std::size_t at = 0;
-  for (std::int32_t z = 0; z < root.size[2]; ++z)
-  {
-    for (std::int32_t y = 0; y < root.size[1]; ++y)
-    {
-      for (std::int32_t x = 0; x < root.size[0]; ++x, ++at)
-      {
-        if (scan.values[at] >= (kRootScanAir + kRootScanRoot) / 2)
-        {
-          shape.Insert(x, y, z);
-        }
-      }
-    }
-  }
-  return shape;
-}
-
 double
 Apart(const CentreLinePoint & a, const CentreLinePoint & b)
 {

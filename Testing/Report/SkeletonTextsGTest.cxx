@@ -23,6 +23,8 @@ TEST(SkeletonTexts, ARootIsAWordOrAPoint)
   EXPECT_EQ(point.point, (std::array<double, 3>{ 12.5, -30, 100 }));
   EXPECT_EQ(RootText(ParseRoot("thickest")), "thickest");
   EXPECT_EQ(RootText(ParseRoot("top")), "top");
+  EXPECT_EQ(ParseRoot("bottom").kind, RootChoice::Kind::Bottom);
+  EXPECT_EQ(RootText(ParseRoot("bottom")), "bottom");
 }
 
 TEST(SkeletonTexts, PointsComeBackToTheLastBit)
@@ -57,7 +59,8 @@ TEST(SkeletonTexts, WhatIsNeitherIsRefused)
   }
   catch (const UsageError & error)
   {
-    EXPECT_NE(std::string(error.what()).find("--root tpo: expected top, thickest, or a point"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("--root tpo: expected top, bottom, thickest, or a point"),
+              std::string::npos);
     EXPECT_NE(std::string(error.what()).find("did you mean"), std::string::npos) << error.what();
   }
 }

@@ -39,6 +39,18 @@ TEST(BranchTable, SmallRootHasItsLevels)
   }
 }
 
+TEST(BranchTable, TheRootMayLieAtTheBottom)
+{
+  const SkeletonGraph graph = SmallRoot().Graph();
+  MeasureOptions      options;
+  options.root.kind = RootChoice::Kind::Bottom;
+  const BranchTable table = MeasureBranches(graph, options);
+  ASSERT_FALSE(table.axes.empty());
+  const ElementIndex first = table.axes[0].branches[0];
+  const auto         points = graph.Branch(first);
+  EXPECT_EQ(graph.positions[table.branches[first].baseIsLast ? points.back() : points.front()], (Spacing3{ 0, 0, 0 }));
+}
+
 TEST(BranchTable, NumbersOfAStraightBranch)
 {
   GraphBuilder builder;

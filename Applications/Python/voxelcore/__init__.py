@@ -131,7 +131,7 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
         array with a tolerance the branches are those of the whole core, as far as the tolerance leaves them.
     prune_branches: terminal branches that are shorter are removed: a length, or '1.5r', times the radius where they
         begin; 0 or None: none.
-    root: where the hierarchy of branches begins: 'thickest', 'top', or a point (x, y, z), LPS mm.
+    root: where the hierarchy of branches begins: 'thickest', 'top', 'bottom', or a point (x, y, z), LPS mm.
     threads: processors to use; 0 means all.
     progress: as of core().
     further options: those of 'voxelcore skeleton'. Lengths are mm or text with a unit, as lambda_

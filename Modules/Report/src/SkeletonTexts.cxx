@@ -22,6 +22,10 @@ ParseRoot(const std::string & text)
   {
     return { RootChoice::Kind::Top, {} };
   }
+  if (text == "bottom")
+  {
+    return { RootChoice::Kind::Bottom, {} };
+  }
   const auto parts = SplitText(text, ',');
   RootChoice root{ RootChoice::Kind::Point, {} };
   bool       good = parts.size() == 3;
@@ -33,8 +37,8 @@ ParseRoot(const std::string & text)
   }
   if (!good)
   {
-    constexpr std::array<std::string_view, 2> words{ "top", "thickest" };
-    throw UsageError("--root " + text + ": expected top, thickest, or a point in LPS mm such as 12.5,-30,101" +
+    constexpr std::array<std::string_view, 3> words{ "top", "bottom", "thickest" };
+    throw UsageError("--root " + text + ": expected top, bottom, thickest, or a point in LPS mm such as 12.5,-30,101" +
                      DidYouMean(text, words));
   }
   return root;
@@ -45,7 +49,7 @@ RootText(const RootChoice & root)
 {
   if (root.kind != RootChoice::Kind::Point)
   {
-    return root.kind == RootChoice::Kind::Top ? "top" : "thickest";
+    return root.kind == RootChoice::Kind::Top ? "top" : root.kind == RootChoice::Kind::Bottom ? "bottom" : "thickest";
   }
   std::string text;
   for (const double coordinate : root.point)

@@ -17,17 +17,6 @@ namespace
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-double
-AngleDegrees(const Vector3 & a, const Vector3 & b)
-{
-  const double lengths = std::sqrt(Dot(a, a)) * std::sqrt(Dot(b, b));
-  if (!(lengths > 0))
-  {
-    return kNan;
-  }
-  return std::acos(std::clamp(Dot(a, b) / lengths, -1.0, 1.0)) * (180 / 3.14159265358979323846);
-}
-
 /** Builds the hierarchy of all components. */
 class Hierarchy
 {
@@ -168,6 +157,10 @@ private:
       if (kind == Kind::Top)
       {
         value = position[2];
+      }
+      else if (kind == Kind::Bottom)
+      {
+        value = -position[2];
       }
       else if (kind == Kind::Point)
       {

@@ -3,7 +3,9 @@
 
 #include "voxelcore/ImageGeometry.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace voxelcore
 {
@@ -55,6 +57,18 @@ inline double
 Distance(const Vector3 & a, const Vector3 & b)
 {
   return Length(Minus(a, b));
+}
+
+/** Between two directions, in degrees; NaN where one has no length. */
+inline double
+AngleDegrees(const Vector3 & a, const Vector3 & b)
+{
+  const double lengths = std::sqrt(Dot(a, a)) * std::sqrt(Dot(b, b));
+  if (!(lengths > 0))
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::acos(std::clamp(Dot(a, b) / lengths, -1.0, 1.0)) * (180 / 3.14159265358979323846);
 }
 
 } // namespace voxelcore

@@ -29,12 +29,12 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
   { "root",
     "--root",
     Text,
-    "X,Y,Z|top|thickest",
+    "X,Y,Z|top|bottom|thickest",
     "thickest",
     false,
     kStages | kMeasure,
-    "Start the hierarchy of branches at the tip nearest to a point (LPS mm), the highest tip, or the tip of the "
-    "thickest branch" },
+    "Start the hierarchy of branches at the tip nearest to a point (LPS mm), the tip with the greatest z (top) or the "
+    "least (bottom), or the tip of the thickest branch" },
   { "prune-branches",
     "--prune-branches",
     Text,

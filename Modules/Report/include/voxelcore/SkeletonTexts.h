@@ -8,7 +8,7 @@
 namespace voxelcore
 {
 
-/** "top", "thickest" or "x,y,z" in LPS mm. \throws UsageError */
+/** "top", "bottom", "thickest" or "x,y,z" in LPS mm. \throws UsageError */
 RootChoice
 ParseRoot(const std::string & text);
 

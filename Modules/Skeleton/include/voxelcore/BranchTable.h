@@ -18,6 +18,7 @@ struct RootChoice
   {
     Thickest, ///< the tip whose branch is thickest (mean radius)
     Top,      ///< the tip that lies highest (greatest third coordinate: superior in LPS)
+    Bottom,   ///< the tip that lies lowest
     Point     ///< the tip nearest to `point`, in the component nearest to it; others by Thickest
   };
   Kind                  kind = Kind::Thickest;

@@ -1,0 +1,94 @@
+#pragma once
+// Which root springs from which: the axes of a root system in a curve skeleton, also where roots touch and the skeleton
+// has loops there.
+//
+// The rules, in the order they apply:
+// 1. Up. Given, or the coordinate axis along which the base of the stem lies farthest from the skeleton's centre.
+// 2. Stems. Each begins at a tip. That with the greatest sum of thickness (mean radius of its branch, over the largest)
+//    and height along `up` (0 to 1; 0 where up is not known yet) is the first. More are taken as asked; to find how
+//    many there are, those with 0.6 of its thickness that lie in the upper quarter count.
+// 3. Flow. Every branch is run through in the direction in which the way from a stem is cheapest: going on costs
+//    little, the less it turns and thins; springing from a side costs 1; what goes into a much thicker branch costs
+//    more. Where a branch arrives at a junction that another reached before, there is a loop: two roots touch.
+// 4. Contacts. A bridge between the two, or a stretch they share, if it is short against their radii, is part of the
+//    contact. The arms that arrive and those that leave are paired so that the sum over pairs of
+//    cos(turn) + (thinner radius / thicker radius) - 1 is greatest; a pair below 0 is not made. Directions are measured
+//    outside the contact. An arm that arrives and has no partner ends there; one that leaves and has none is a lateral.
+//    Where the next best pairing is worse by less than `undecided`, the contact is marked.
+// 5. Junctions. Elsewhere the branch goes on that is best by cos(turn) + 2 (thinner / thicker); the others are its
+//    laterals, a level further out. The stem has level 0.
+// 6. Whorls. Laterals of a stem whose places along it follow each other by less than `whorlGap` stem radii form one if
+//    there are `whorlSize` of them or more.
+// Pieces that hang together with no stem have a stem of their own, found by thickness; they are marked as loose.
+
+#include "voxelcore/SkeletonGraph.h"
+#include "voxelcore/Vectors.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct RootRules
+{
+  std::optional<Vector3> up;                 ///< unit vector in the space of the positions; none: found
+  int                    stems = 1;          ///< 0: found
+  double                 bridgeLength = 1.6; ///< longest bridge between roots that touch, in sums of their radii
+  double                 sharedLength = 4;   ///< longest stretch that two roots share, in sums of their radii
+  double                 undecided = 0.15;   ///< margin below which a contact is marked
+  double                 whorlGap = 1;       ///< in radii of the stem
+  int                    whorlSize = 3;
+};
+
+constexpr ElementIndex kNoRoot = 0xFFFFFFFFU;
+
+/** One root from its base, on the axis it springs from, to its tip. */
+struct RootAxis
+{
+  std::int32_t              level = 0; ///< 0 a stem
+  ElementIndex              stem = 0;  ///< the stem it belongs to, as an axis
+  ElementIndex              parent = kNoRoot;
+  std::size_t               parentPoint = 0;       ///< in the parent's points, the nearest to its own first
+  std::vector<ElementIndex> points;                ///< of the graph; where roots touch one may be on two axes
+  bool                      endsAtContact = false; ///< rather than at a tip
+  bool                      undecided = false;     ///< goes through a contact that is marked
+  bool                      loose = false;         ///< of a piece without a stem
+  std::int32_t              children = 0;
+};
+
+/** Where roots touch. */
+struct RootMeeting
+{
+  Vector3                                  position{};
+  double                                   radius = 0; ///< of the largest ball there
+  std::vector<std::array<ElementIndex, 2>> pairs;      ///< branches that go on as one root: arriving, leaving
+  double                                   margin = 0; ///< to the next best pairing
+  bool                                     undecided = false;
+};
+
+/** Laterals that spring from a stem at nearly one place. */
+struct RootWhorl
+{
+  ElementIndex              stem = 0;
+  double                    along = 0; ///< mm along the stem from its base, mean of the laterals'
+  Vector3                   position{};
+  std::vector<ElementIndex> roots; ///< axes
+};
+
+struct RootHierarchy
+{
+  Vector3                   up{ 0, 0, 1 };
+  bool                      upFound = false; ///< rather than given
+  std::vector<RootAxis>     axes;            ///< stems, then level by level; a parent before its children
+  std::vector<RootMeeting>  meetings;
+  std::vector<RootWhorl>    whorls; ///< from the base of each stem on
+  std::vector<ElementIndex> rootOf; ///< per branch of the graph its axis; kNoRoot for a bridge between roots that touch
+};
+
+/** The axes of a skeleton. The graph need not be a tree. */
+RootHierarchy
+FindRoots(const SkeletonGraph & graph, const RootRules & rules = {});
+
+} // namespace voxelcore

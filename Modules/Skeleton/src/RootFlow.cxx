@@ -1,0 +1,244 @@
+#include "RootFlow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+Vector3
+UnitVector(const Vector3 & a)
+{
+  const double length = Length(a);
+  return length > 0 ? Vector3{ a[0] / length, a[1] / length, a[2] / length } : Vector3{ 0, 0, 0 };
+}
+
+} // namespace
+
+RootBranches::RootBranches(const SkeletonGraph & graph)
+  : m_Graph(graph)
+  , m_Hubs(NodeHubs(graph))
+  , m_HubEnds(m_Hubs.empty() ? 0 : *std::max_element(m_Hubs.begin(), m_Hubs.end()) + std::size_t{ 1 })
+  , m_Radius(graph.BranchCount(), 0)
+  , m_Length(graph.BranchCount(), 0)
+{
+  const std::vector<double> & radii = SectionRadii(graph);
+  for (ElementIndex branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    for (const std::uint8_t last : { std::uint8_t{ 0 }, std::uint8_t{ 1 } })
+    {
+      m_HubEnds[HubOf({ branch, last })].push_back({ branch, last });
+    }
+  }
+  for (ElementIndex branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto points = graph.Branch(branch);
+    m_Length[branch] = graph.BranchLength(branch);
+    double                      sums[2] = { 0, 0 };
+    int                         counts[2] = { 0, 0 };
+    const std::array<double, 2> balls{ BallAt({ branch, 0 }), BallAt({ branch, 1 }) };
+    for (const ElementIndex point : points)
+    {
+      bool outside = true;
+      for (const std::uint8_t last : { std::uint8_t{ 0 }, std::uint8_t{ 1 } })
+      {
+        const ElementIndex end = last ? points.back() : points.front();
+        outside = outside && (!IsJunction(HubOf({ branch, last })) ||
+                              Distance(graph.positions[point], graph.positions[end]) > 1.2 * balls[last]);
+      }
+      sums[outside] += radii[point];
+      ++counts[outside];
+    }
+    const int which = counts[1] > 0 ? 1 : 0;
+    m_Radius[branch] = sums[which] / counts[which];
+  }
+}
+
+Vector3
+RootBranches::DirectionFrom(const BranchEnd & end, double skip) const
+{
+  const auto      points = m_Graph.Branch(end.branch);
+  const Vector3 & start = m_Graph.positions[PointFrom(end, 0)];
+  const double    near = IsJunction(HubOf(end)) ? 1.2 * BallAt(end) + skip : 0;
+  const double    far = near + 5 * m_Radius[end.branch];
+  std::size_t     first = 0;
+  std::size_t     last = 1;
+  for (std::size_t i = 1; i < points.size(); ++i)
+  {
+    const double away = Distance(start, m_Graph.positions[PointFrom(end, i)]);
+    first = first + 1 == i && away < near ? i : first;
+    last = i;
+    if (away >= far)
+    {
+      break;
+    }
+  }
+  const Vector3 & to = m_Graph.positions[PointFrom(end, last)];
+  // Too short to have much outside: from the end itself.
+  const Vector3 & from = m_Graph.positions[PointFrom(end, first)];
+  return UnitVector(Distance(from, to) < 2 * m_Radius[end.branch] ? Minus(to, start) : Minus(to, from));
+}
+
+double
+RootBranches::Likeness(ElementIndex a, ElementIndex b) const
+{
+  const double most = std::max(m_Radius[a], m_Radius[b]);
+  return most > 0 ? std::min(m_Radius[a], m_Radius[b]) / most : 1;
+}
+
+std::vector<BranchEnd>
+FindStems(const RootBranches & branches, const std::optional<Vector3> & up, int stems)
+{
+  struct Candidate
+  {
+    BranchEnd end;
+    double    radius = 0;
+    double    height = 0;
+  };
+  std::vector<Candidate> tips;
+  double                 thickest = 0;
+  double                 lowest = std::numeric_limits<double>::infinity();
+  double                 highest = -lowest;
+  for (ElementIndex hub = 0; hub < branches.HubCount(); ++hub)
+  {
+    if (branches.EndsAt(hub).size() != 1)
+    {
+      continue;
+    }
+    const BranchEnd end = branches.EndsAt(hub).front();
+    const Vector3 & place = branches.Graph().positions[branches.PointFrom(end, 0)];
+    tips.push_back({ end, branches.Radius(end.branch), up ? Dot(place, *up) : 0 });
+    thickest = std::max(thickest, tips.back().radius);
+    lowest = std::min(lowest, tips.back().height);
+    highest = std::max(highest, tips.back().height);
+  }
+  const double range = highest > lowest ? highest - lowest : 1;
+  const auto   value = [&](const Candidate & tip) { return tip.radius / thickest + (tip.height - lowest) / range; };
+  std::stable_sort(tips.begin(), tips.end(), [&](const Candidate & a, const Candidate & b) {
+    return value(a) > value(b);
+  });
+  std::vector<BranchEnd> found;
+  for (const Candidate & tip : tips)
+  {
+    const bool isStem = stems > 0 ? static_cast<int>(found.size()) < stems
+                                  : found.empty() || (tip.radius >= 0.6 * tips.front().radius &&
+                                                      (!up || (tip.height - lowest) / range >= 0.75));
+    if (isStem)
+    {
+      found.push_back(tip.end);
+    }
+  }
+  return found;
+}
+
+Vector3
+FindUp(const RootBranches & branches, const BranchEnd & stem)
+{
+  const SkeletonGraph & graph = branches.Graph();
+  Vector3               centre{};
+  for (const ElementIndex point : graph.branchPoints)
+  {
+    centre = AddScaled(centre, 1.0 / static_cast<double>(graph.branchPoints.size()), graph.positions[point]);
+  }
+  const Vector3 away = Minus(graph.positions[branches.PointFrom(stem, 0)], centre);
+  std::size_t   axis = 2;
+  for (const std::size_t other : { std::size_t{ 1 }, std::size_t{ 0 } })
+  {
+    axis = std::abs(away[other]) > std::abs(away[axis]) ? other : axis;
+  }
+  Vector3 up{};
+  up[axis] = away[axis] < 0 ? -1 : 1;
+  return up;
+}
+
+RootFlow
+FlowFrom(const RootBranches & branches, std::vector<BranchEnd> stems)
+{
+  const std::size_t count = branches.Graph().BranchCount();
+  RootFlow          flow;
+  flow.base.assign(count, 0);
+  flow.before.assign(count, kNoRoot);
+  flow.arrivals.resize(branches.HubCount());
+  double total = 0;
+  for (ElementIndex branch = 0; branch < count; ++branch)
+  {
+    total += branches.LengthOf(branch);
+  }
+  std::vector<std::uint8_t> settled(count, 0);
+
+  using Entry = std::tuple<double, ElementIndex, std::uint8_t, ElementIndex>; // cost, branch, its base, from where
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto                                                     spread = [&] {
+    while (!queue.empty())
+    {
+      const auto [cost, branch, base, before] = queue.top();
+      queue.pop();
+      if (settled[branch])
+      {
+        continue;
+      }
+      settled[branch] = 1;
+      flow.base[branch] = base;
+      flow.before[branch] = before;
+      const BranchEnd far = BranchEnd{ branch, base }.Other();
+      flow.arrivals[branches.HubOf(far)].push_back(far);
+      for (const BranchEnd & next : branches.EndsAt(branches.HubOf(far)))
+      {
+        if (settled[next.branch])
+        {
+          continue;
+        }
+        const double turn = 0.5 * (1 - branches.Straightness(far, next));
+        const double thinning = 1 - branches.Likeness(branch, next.branch);
+        const bool   thickens = branches.Radius(next.branch) > 1.5 * branches.Radius(branch);
+        const double step = std::min(1.0, turn + 0.5 * thinning) + (thickens ? 1 : 0);
+        queue.emplace(cost + step + 0.5 * branches.LengthOf(next.branch) / total, next.branch, next.last, branch);
+      }
+    }
+  };
+  const auto start = [&](const BranchEnd & end, bool isLoose) {
+    flow.sources.push_back(end);
+    flow.loose.push_back(isLoose);
+    queue.emplace(0.0, end.branch, end.last, kNoRoot);
+  };
+  for (const BranchEnd & stem : stems)
+  {
+    start(stem, false);
+  }
+  spread();
+  // Pieces without a stem: from their thickest tip, or where there is none from any branch.
+  for (;;)
+  {
+    std::optional<BranchEnd> best;
+    bool                     bestIsTip = false;
+    for (ElementIndex branch = 0; branch < count; ++branch)
+    {
+      for (const std::uint8_t last : { std::uint8_t{ 0 }, std::uint8_t{ 1 } })
+      {
+        const BranchEnd end{ branch, last };
+        const bool      isTip = branches.EndsAt(branches.HubOf(end)).size() == 1;
+        if (!settled[branch] &&
+            (!best || std::pair(isTip, branches.Radius(branch)) > std::pair(bestIsTip, branches.Radius(best->branch))))
+        {
+          best = end;
+          bestIsTip = isTip;
+        }
+      }
+    }
+    if (!best)
+    {
+      break;
+    }
+    start(*best, true);
+    spread();
+  }
+  return flow;
+}
+
+} // namespace voxelcore

@@ -1,0 +1,130 @@
+#pragma once
+// In which direction each branch of a root system is run through, away from the stems.
+
+#include "voxelcore/RootHierarchy.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** A branch seen from one of its ends. */
+struct BranchEnd
+{
+  ElementIndex branch = 0;
+  std::uint8_t last = 0; ///< 1: from its last point
+
+  BranchEnd
+  Other() const
+  {
+    return { branch, static_cast<std::uint8_t>(1 - last) };
+  }
+};
+
+/** The branches of a graph with what decisions rest on. */
+class RootBranches
+{
+public:
+  explicit RootBranches(const SkeletonGraph & graph);
+
+  const SkeletonGraph &
+  Graph() const
+  {
+    return m_Graph;
+  }
+  std::size_t
+  HubCount() const
+  {
+    return m_HubEnds.size();
+  }
+  ElementIndex
+  HubOf(const BranchEnd & end) const
+  {
+    return m_Hubs[m_Graph.branchNodes[end.branch][end.last]];
+  }
+  /** The ends of branches at a hub. */
+  const std::vector<BranchEnd> &
+  EndsAt(ElementIndex hub) const
+  {
+    return m_HubEnds[hub];
+  }
+  bool
+  IsJunction(ElementIndex hub) const
+  {
+    return m_HubEnds[hub].size() > 2;
+  }
+  /** Mean along it outside the balls at its ends; all of it where nothing is outside. */
+  double
+  Radius(ElementIndex branch) const
+  {
+    return m_Radius[branch];
+  }
+  double
+  LengthOf(ElementIndex branch) const
+  {
+    return m_Length[branch];
+  }
+  /** The point number i from an end on. */
+  ElementIndex
+  PointFrom(const BranchEnd & end, std::size_t i) const
+  {
+    const auto points = m_Graph.Branch(end.branch);
+    return end.last ? points[points.size() - 1 - i] : points[i];
+  }
+  /** The ball at an end. */
+  double
+  BallAt(const BranchEnd & end) const
+  {
+    return m_Graph.radius[PointFrom(end, 0)];
+  }
+  /** Unit vector away from an end, along the branch outside the ball there; `skip` mm more are left out. */
+  Vector3
+  DirectionFrom(const BranchEnd & end, double skip = 0) const;
+  /** cos(turn) of going from a branch that arrives (its end there) on to one that leaves. */
+  double
+  Straightness(const BranchEnd & arrives, const BranchEnd & leaves) const
+  {
+    return -Dot(DirectionFrom(arrives), DirectionFrom(leaves));
+  }
+  /** Thinner radius over thicker. */
+  double
+  Likeness(ElementIndex a, ElementIndex b) const;
+
+private:
+  const SkeletonGraph &               m_Graph;
+  std::vector<ElementIndex>           m_Hubs; ///< per node
+  std::vector<std::vector<BranchEnd>> m_HubEnds;
+  std::vector<double>                 m_Radius;
+  std::vector<double>                 m_Length;
+};
+
+/** How branches are run through. */
+struct RootFlow
+{
+  std::vector<BranchEnd>              sources;
+  std::vector<std::uint8_t>           loose;    ///< per source
+  std::vector<std::uint8_t>           base;     ///< per branch: which end is nearer to the stem
+  std::vector<ElementIndex>           before;   ///< per branch: the one the way comes from; kNoRoot at a source
+  std::vector<std::vector<BranchEnd>> arrivals; ///< per hub the ends of branches that arrive, the cheapest first
+
+  BranchEnd
+  Base(ElementIndex branch) const
+  {
+    return { branch, base[branch] };
+  }
+};
+
+/** The tips that stems begin at, the first the main one; with `up` where it is known. */
+std::vector<BranchEnd>
+FindStems(const RootBranches & branches, const std::optional<Vector3> & up, int stems);
+
+/** The coordinate axis, or its opposite, that points most from the centre of the skeleton to the base of the stem. */
+Vector3
+FindUp(const RootBranches & branches, const BranchEnd & stem);
+
+RootFlow
+FlowFrom(const RootBranches & branches, std::vector<BranchEnd> stems);
+
+} // namespace voxelcore

@@ -1,0 +1,414 @@
+#include "voxelcore/RootTraits.h"
+
+#include "ConvexHull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr double      kNotKnown = std::numeric_limits<double>::quiet_NaN();
+constexpr double      kPi = 3.14159265358979323846;
+constexpr std::size_t kClasses = 20;
+
+/** The mean of what is known. */
+class Mean
+{
+public:
+  void
+  Add(double value, double weight = 1)
+  {
+    if (std::isfinite(value))
+    {
+      m_Sum += weight * value;
+      m_Weight += weight;
+    }
+  }
+  double
+  Value() const
+  {
+    return m_Weight > 0 ? m_Sum / m_Weight : kNotKnown;
+  }
+
+private:
+  double m_Sum = 0;
+  double m_Weight = 0;
+};
+
+class Measurer
+{
+public:
+  Measurer(const SkeletonGraph & graph, const RootHierarchy & roots)
+    : m_Graph(graph)
+    , m_Roots(roots)
+    , m_Radii(SectionRadii(graph))
+    , m_Down(AddScaled({ 0, 0, 0 }, -1, roots.up))
+    , m_Ways(roots.axes.size())
+    , m_First(roots.axes.size(), 0)
+  {
+    for (std::size_t axis = 0; axis < roots.axes.size(); ++axis)
+    {
+      const auto & points = roots.axes[axis].points;
+      m_Ways[axis].assign(points.size(), 0);
+      for (std::size_t i = 1; i < points.size(); ++i)
+      {
+        m_Ways[axis][i] = m_Ways[axis][i - 1] + Distance(Place(points[i - 1]), Place(points[i]));
+      }
+      if (roots.axes[axis].parent != kNoRoot)
+      {
+        const RootAxis &   parent = roots.axes[roots.axes[axis].parent];
+        const ElementIndex origin = parent.points[roots.axes[axis].parentPoint];
+        std::size_t &      first = m_First[axis];
+        while (first + 2 < points.size() && Distance(Place(points[first]), Place(origin)) < m_Radii[origin])
+        {
+          ++first;
+        }
+      }
+    }
+  }
+
+  RootTraits
+  Measure(std::optional<double> soilDepth)
+  {
+    RootTraits traits;
+    for (std::size_t axis = 0; axis < m_Roots.axes.size(); ++axis)
+    {
+      traits.roots.push_back(MeasureRoot(axis));
+    }
+    SumLevels(traits);
+    MeasureStems(traits);
+    MeasureExtent(traits);
+    FillClasses(traits);
+    traits.contacts = static_cast<std::int64_t>(m_Roots.meetings.size());
+    traits.undecidedContacts = std::count_if(m_Roots.meetings.begin(),
+                                             m_Roots.meetings.end(),
+                                             [](const RootMeeting & m) { return m.undecided; });
+    if (soilDepth)
+    {
+      CountAboveSoil(traits, *soilDepth);
+    }
+    return traits;
+  }
+
+private:
+  const Vector3 &
+  Place(ElementIndex point) const
+  {
+    return m_Graph.positions[point];
+  }
+
+  /** Below the base of the first stem. */
+  double
+  DepthOf(const Vector3 & place) const
+  {
+    return Dot(Minus(place, Place(m_Roots.axes.front().points.front())), m_Down);
+  }
+
+  /** Which way an axis runs at one of its points, over two of its diameters there. */
+  Vector3
+  DirectionAt(std::size_t axis, std::size_t at) const
+  {
+    const auto & points = m_Roots.axes[axis].points;
+    const auto & way = m_Ways[axis];
+    const double reach = 2 * m_Radii[points[at]];
+    std::size_t  before = at;
+    std::size_t  after = at;
+    while (before > 0 && way[at] - way[before] < reach)
+    {
+      --before;
+    }
+    while (after + 1 < points.size() && way[after] - way[at] < reach)
+    {
+      ++after;
+    }
+    return Minus(Place(points[after]), Place(points[before]));
+  }
+
+  RootRecord
+  MeasureRoot(std::size_t axis) const
+  {
+    const RootAxis &  root = m_Roots.axes[axis];
+    const auto &      points = root.points;
+    const auto &      way = m_Ways[axis];
+    const std::size_t first = m_First[axis];
+    RootRecord        record;
+    record.base = Place(points[first]);
+    record.tip = Place(points.back());
+    record.length = way.back() - way[first];
+    record.chord = Distance(record.base, record.tip);
+    record.tortuosity = record.chord > 0 ? record.length / record.chord : kNotKnown;
+    record.children = root.children;
+    record.baseDepth = DepthOf(record.base);
+    record.tipDepth = DepthOf(record.tip);
+    record.minDiameter = 2 * m_Radii[points[first]];
+    record.maxDiameter = record.minDiameter;
+    Mean diameter;
+    for (std::size_t i = first + 1; i < points.size(); ++i)
+    {
+      const double a = m_Radii[points[i - 1]];
+      const double b = m_Radii[points[i]];
+      const double step = way[i] - way[i - 1];
+      diameter.Add(a + b, step);
+      record.minDiameter = std::min(record.minDiameter, 2 * b);
+      record.maxDiameter = std::max(record.maxDiameter, 2 * b);
+      record.volume += kPi / 3 * (a * a + a * b + b * b) * step;
+      record.surface += kPi * (a + b) * std::sqrt(step * step + (a - b) * (a - b));
+    }
+    record.meanDiameter = record.length > 0 ? diameter.Value() : record.maxDiameter;
+    std::size_t near = first;
+    while (near + 1 < points.size() && way[near] - way[first] < 2 * record.meanDiameter)
+    {
+      ++near;
+    }
+    std::size_t middle = first;
+    while (middle + 1 < points.size() && way[middle] - way[first] < 0.5 * record.length)
+    {
+      ++middle;
+    }
+    const Vector3 start = Minus(Place(points[near]), record.base);
+    const Vector3 toMiddle = Minus(Place(points[middle]), record.base);
+    const Vector3 toTip = Minus(record.tip, record.base);
+    record.emergenceFromDown = AngleDegrees(m_Down, start);
+    record.midpointFromDown = AngleDegrees(m_Down, toMiddle);
+    record.tipFromDown = AngleDegrees(m_Down, toTip);
+    record.emergenceAngle = record.midpointAngle = record.tipAngle = record.alongParent = kNotKnown;
+    if (root.parent != kNoRoot)
+    {
+      const Vector3 parent = DirectionAt(root.parent, root.parentPoint);
+      record.emergenceAngle = AngleDegrees(parent, start);
+      record.midpointAngle = AngleDegrees(parent, toMiddle);
+      record.tipAngle = AngleDegrees(parent, toTip);
+      const auto & along = m_Ways[root.parent];
+      record.alongParent = std::max(0.0, along[root.parentPoint] - along[m_First[root.parent]]);
+    }
+    return record;
+  }
+
+  void
+  SumLevels(RootTraits & traits) const
+  {
+    using Kind = RootLevelRecord::Kind;
+    std::int32_t deepest = -1;
+    for (const RootAxis & axis : m_Roots.axes)
+    {
+      deepest = std::max(deepest, axis.level);
+    }
+    for (std::int32_t level = 0; level <= deepest; ++level)
+    {
+      traits.levels.push_back(SumUp(traits, Kind::Level, level));
+    }
+    traits.levels.push_back(SumUp(traits, Kind::Laterals, 0));
+    traits.levels.push_back(SumUp(traits, Kind::All, 0));
+  }
+
+  RootLevelRecord
+  SumUp(const RootTraits & traits, RootLevelRecord::Kind kind, std::int32_t level) const
+  {
+    using Kind = RootLevelRecord::Kind;
+    RootLevelRecord sum;
+    sum.kind = kind;
+    sum.level = level;
+    Mean length, diameter, tortuosity, emergence, midpoint, tip, emergenceDown, midpointDown, tipDown, children;
+    for (std::size_t axis = 0; axis < traits.roots.size(); ++axis)
+    {
+      const std::int32_t of = m_Roots.axes[axis].level;
+      const RootRecord & root = traits.roots[axis];
+      if ((kind == Kind::Level && of != level) || (kind == Kind::Laterals && of == 0))
+      {
+        continue;
+      }
+      ++sum.count;
+      sum.totalLength += root.length;
+      sum.volume += root.volume;
+      sum.surface += root.surface;
+      length.Add(root.length);
+      diameter.Add(root.meanDiameter, root.length);
+      tortuosity.Add(root.tortuosity);
+      emergence.Add(root.emergenceAngle);
+      midpoint.Add(root.midpointAngle);
+      tip.Add(root.tipAngle);
+      emergenceDown.Add(root.emergenceFromDown);
+      midpointDown.Add(root.midpointFromDown);
+      tipDown.Add(root.tipFromDown);
+      children.Add(root.children);
+    }
+    sum.meanLength = length.Value();
+    sum.meanDiameter = diameter.Value();
+    sum.meanTortuosity = tortuosity.Value();
+    sum.meanEmergenceAngle = emergence.Value();
+    sum.meanMidpointAngle = midpoint.Value();
+    sum.meanTipAngle = tip.Value();
+    sum.meanEmergenceFromDown = emergenceDown.Value();
+    sum.meanMidpointFromDown = midpointDown.Value();
+    sum.meanTipFromDown = tipDown.Value();
+    sum.meanChildren = children.Value();
+    return sum;
+  }
+
+  void
+  MeasureStems(RootTraits & traits) const
+  {
+    Mean diameter;
+    for (std::size_t axis = 0; axis < traits.roots.size(); ++axis)
+    {
+      if (m_Roots.axes[axis].level == 0 && !m_Roots.axes[axis].loose)
+      {
+        ++traits.stems;
+        traits.stemLength += traits.roots[axis].length;
+        diameter.Add(traits.roots[axis].meanDiameter, traits.roots[axis].length);
+      }
+    }
+    traits.stemDiameter = diameter.Value();
+    traits.whorls = static_cast<std::int64_t>(m_Roots.whorls.size());
+    Mean between;
+    for (std::size_t i = 1; i < m_Roots.whorls.size(); ++i)
+    {
+      if (m_Roots.whorls[i].stem == m_Roots.whorls[i - 1].stem)
+      {
+        between.Add(m_Roots.whorls[i].along - m_Roots.whorls[i - 1].along);
+      }
+    }
+    traits.meanWhorlDistance = between.Value();
+  }
+
+  /** The greatest distance across down between places, up to a thousandth: seen from 180 sides. */
+  double
+  WidthOf(const std::vector<Vector3> & places) const
+  {
+    Vector3 across = std::abs(m_Down[0]) < 0.9 ? Vector3{ 1, 0, 0 } : Vector3{ 0, 1, 0 };
+    across = AddScaled(across, -Dot(across, m_Down), m_Down);
+    across = AddScaled({ 0, 0, 0 }, 1 / Length(across), across);
+    const Vector3 other = Cross(m_Down, across);
+    double        width = 0;
+    for (int side = 0; side < 180 && !places.empty(); ++side)
+    {
+      const double  turn = side * kPi / 180;
+      const Vector3 direction = AddScaled(AddScaled({ 0, 0, 0 }, std::cos(turn), across), std::sin(turn), other);
+      double        least = std::numeric_limits<double>::infinity();
+      double        most = -least;
+      for (const Vector3 & place : places)
+      {
+        const double at = Dot(place, direction);
+        least = std::min(least, at);
+        most = std::max(most, at);
+      }
+      width = std::max(width, most - least);
+    }
+    return width;
+  }
+
+  void
+  MeasureExtent(RootTraits & traits) const
+  {
+    std::vector<Vector3> places;
+    double               highest = std::numeric_limits<double>::infinity();
+    double               deepest = -highest;
+    for (const RootAxis & axis : m_Roots.axes)
+    {
+      for (const ElementIndex point : axis.points)
+      {
+        places.push_back(Place(point));
+        highest = std::min(highest, DepthOf(places.back()));
+        deepest = std::max(deepest, DepthOf(places.back()));
+      }
+    }
+    if (places.empty())
+    {
+      return;
+    }
+    const HullSize hull = ConvexHullSize(places);
+    traits.hullVolume = hull.volume;
+    traits.hullSurface = hull.surface;
+    traits.depth = deepest - highest;
+    traits.width = WidthOf(places);
+    std::vector<std::vector<Vector3>> slices(kClasses);
+    const auto                        sliceOf = [&](const Vector3 & place) {
+      const double part = traits.depth > 0 ? (DepthOf(place) - highest) / traits.depth : 0;
+      return std::min(kClasses - 1, static_cast<std::size_t>(std::max(0.0, part) * kClasses));
+    };
+    traits.depths.resize(kClasses);
+    for (std::size_t axis = 0; axis < m_Roots.axes.size(); ++axis)
+    {
+      const auto & points = m_Roots.axes[axis].points;
+      for (std::size_t i = m_First[axis]; i < points.size(); ++i)
+      {
+        slices[sliceOf(Place(points[i]))].push_back(Place(points[i]));
+        if (i > m_First[axis])
+        {
+          const Vector3 middle = AddScaled(Place(points[i]), 0.5, Minus(Place(points[i - 1]), Place(points[i])));
+          traits.depths[sliceOf(middle)].length += m_Ways[axis][i] - m_Ways[axis][i - 1];
+        }
+      }
+    }
+    for (std::size_t slice = 0; slice < kClasses; ++slice)
+    {
+      traits.depths[slice].depth = highest + (static_cast<double>(slice) + 0.5) / kClasses * traits.depth;
+      traits.depths[slice].width = WidthOf(slices[slice]);
+    }
+  }
+
+  void
+  FillClasses(RootTraits & traits) const
+  {
+    double greatest = 0;
+    for (const RootRecord & root : traits.roots)
+    {
+      greatest = std::max(greatest, root.maxDiameter);
+    }
+    traits.diameters.resize(kClasses);
+    for (std::size_t i = 0; i < kClasses; ++i)
+    {
+      traits.diameters[i].from = greatest * static_cast<double>(i) / kClasses;
+      traits.diameters[i].to = greatest * static_cast<double>(i + 1) / kClasses;
+    }
+    for (std::size_t axis = 0; axis < m_Roots.axes.size(); ++axis)
+    {
+      const auto & points = m_Roots.axes[axis].points;
+      for (std::size_t i = m_First[axis] + 1; i < points.size() && greatest > 0; ++i)
+      {
+        const double diameter = m_Radii[points[i - 1]] + m_Radii[points[i]];
+        const auto   at = std::min(kClasses - 1, static_cast<std::size_t>(diameter / greatest * kClasses));
+        traits.diameters[at].length += m_Ways[axis][i] - m_Ways[axis][i - 1];
+      }
+    }
+  }
+
+  void
+  CountAboveSoil(RootTraits & traits, double soilDepth) const
+  {
+    traits.soilDepth = soilDepth;
+    for (std::size_t axis = 0; axis < traits.roots.size(); ++axis)
+    {
+      if (m_Roots.axes[axis].level > 0)
+      {
+        ++(traits.roots[axis].baseDepth < soilDepth ? traits.rootsAboveSoil : traits.rootsBelowSoil);
+      }
+    }
+    for (const RootWhorl & whorl : m_Roots.whorls)
+    {
+      ++(DepthOf(whorl.position) < soilDepth ? traits.whorlsAboveSoil : traits.whorlsBelowSoil);
+    }
+  }
+
+  const SkeletonGraph &            m_Graph;
+  const RootHierarchy &            m_Roots;
+  const std::vector<double> &      m_Radii;
+  Vector3                          m_Down;
+  std::vector<std::vector<double>> m_Ways;  ///< per axis and point: mm from its first point
+  std::vector<std::size_t>         m_First; ///< per axis: its first point outside the parent
+};
+
+} // namespace
+
+RootTraits
+MeasureRoots(const SkeletonGraph & graph, const RootHierarchy & roots, std::optional<double> soilDepth)
+{
+  return Measurer(graph, roots).Measure(soilDepth);
+}
+
+} // namespace voxelcore

@@ -1,0 +1,98 @@
+#pragma once
+// The axes found in a root phantom against those it was grown along.
+
+#include "../Skeleton/RootScore.h"
+
+#include "voxelcore/RootHierarchy.h"
+
+namespace voxelcore::testing
+{
+
+struct RootScores
+{
+  std::size_t tips = 0; ///< true ones that can be found
+  std::size_t missed = 0;
+  std::size_t found = 0;
+  std::size_t spurious = 0;
+  double      trueLength = 0;
+  double      length = 0;
+  double      rightLevel = 0; ///< mm of `length`
+  std::size_t undecided = 0;
+  std::size_t contacts = 0; ///< in the phantom
+};
+
+/** Positions of `graph` are mm from the corner of the phantom's grid. */
+inline RootScores
+ScoreRoots(const PhantomOptions & options, const SkeletonGraph & graph, const RootHierarchy & roots)
+{
+  RootScores                         score;
+  const std::vector<CentreLinePoint> lines = RootCentreLines(options);
+  std::vector<Spacing3>              places;
+  for (const CentreLinePoint & point : lines)
+  {
+    places.push_back(PlaceOf(options, point));
+    if (point.parent >= 0)
+    {
+      score.trueLength += Distance(places.back(), places[static_cast<std::size_t>(point.parent)]);
+    }
+  }
+  const double          slice = std::max({ options.spacing[0], options.spacing[1], options.spacing[2] });
+  std::vector<Spacing3> ends;
+  for (const RootAxis & axis : roots.axes)
+  {
+    if (axis.parent == kNoRoot)
+    {
+      ends.push_back(graph.positions[axis.points.front()]);
+    }
+    if (!axis.endsAtContact)
+    {
+      ends.push_back(graph.positions[axis.points.back()]);
+    }
+    for (std::size_t i = 1; i < axis.points.size(); ++i)
+    {
+      const Spacing3 & a = graph.positions[axis.points[i - 1]];
+      const Spacing3 & b = graph.positions[axis.points[i]];
+      const Spacing3   middle{ (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2 };
+      // On the centre line of a lateral's first piece within its parent both lie near: any level there is right.
+      double       nearest = std::numeric_limits<double>::infinity();
+      const double step = Distance(a, b);
+      for (const Spacing3 & place : places)
+      {
+        nearest = std::min(nearest, Distance(place, middle));
+      }
+      bool right = false;
+      for (std::size_t k = 0; k < places.size() && !right; ++k)
+      {
+        right = lines[k].order == axis.level && Distance(places[k], middle) <= nearest + 0.5 * slice;
+      }
+      score.length += step;
+      score.rightLevel += right ? step : 0;
+    }
+  }
+  std::vector<std::uint8_t> used(ends.size(), 0);
+  for (const Tip & tip : TrueTips(options))
+  {
+    std::size_t nearest = 0;
+    for (std::size_t end = 1; end < ends.size(); ++end)
+    {
+      nearest = Distance(ends[end], tip.position) < Distance(ends[nearest], tip.position) ? end : nearest;
+    }
+    const bool isFound = !ends.empty() && Distance(ends[nearest], tip.position) <= tip.radius + 3 * slice;
+    if (isFound)
+    {
+      used[nearest] = 1;
+    }
+    score.tips += tip.expected ? 1 : 0;
+    score.missed += tip.expected && !isFound ? 1 : 0;
+  }
+  score.found = ends.size();
+  score.spurious = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{ 0 }));
+  for (const RootMeeting & meeting : roots.meetings)
+  {
+    score.undecided += meeting.undecided ? 1 : 0;
+  }
+  score.contacts = RootContacts(options).size();
+  return score;
+}
+
+} // namespace voxelcore::testing

@@ -1,0 +1,233 @@
+#include "GraphBuilder.h"
+
+#include "voxelcore/RootHierarchy.h"
+
+#include <gtest/gtest.h>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+/** A stem with two laterals that run into each other at (30, 0, 50) and go on beyond; `touch` is what they share. */
+GraphBuilder
+TouchingRoots(const Spacing3 & touch)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 120 }, { 0, 0, 100 }, 4);
+  builder.Line({ 0, 0, 100 }, { 0, 0, 40 }, 4);
+  builder.Line({ 0, 0, 40 }, { 0, 0, 0 }, 3);
+  const Spacing3 a{ 40 - touch[0] / 2, -touch[1] / 2, 70 - touch[2] / 2 };
+  const Spacing3 b{ 40 + touch[0] / 2, touch[1] / 2, 70 + touch[2] / 2 };
+  builder.Line({ 0, 0, 100 }, a, 2); // goes down and out
+  builder.Line({ 0, 0, 40 }, a, 1);
+  if (a != b)
+  {
+    builder.Line(a, b, 2);
+  }
+  builder.Line(b, { 80, 0, 40 }, 2);
+  builder.Line(b, { 80, 0, 100 }, 1);
+  return builder;
+}
+
+std::vector<std::int32_t>
+Levels(const RootHierarchy & roots)
+{
+  std::vector<std::int32_t> levels;
+  for (const RootAxis & axis : roots.axes)
+  {
+    levels.push_back(axis.level);
+  }
+  return levels;
+}
+
+Spacing3
+TipOf(const SkeletonGraph & graph, const RootAxis & axis)
+{
+  return graph.positions[axis.points.back()];
+}
+
+} // namespace
+
+TEST(RootHierarchy, ATreeHasItsStemLateralsAndTheirs)
+{
+  const SkeletonGraph graph = SmallRoot().Graph();
+  const RootHierarchy roots = FindRoots(graph);
+  EXPECT_TRUE(roots.upFound);
+  EXPECT_EQ(roots.up, (Vector3{ 0, 0, 1 }));
+  EXPECT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 1, 2 }));
+  EXPECT_EQ(graph.positions[roots.axes[0].points.front()], (Spacing3{ 0, 0, 60 }));
+  EXPECT_EQ(TipOf(graph, roots.axes[0]), (Spacing3{ 0, 0, 0 }));
+  EXPECT_EQ(roots.axes[0].children, 2);
+  EXPECT_EQ(roots.axes[3].parent == 1 || roots.axes[3].parent == 2, true);
+  EXPECT_EQ(TipOf(graph, roots.axes[3]), (Spacing3{ 0, 20, 10 }));
+  EXPECT_TRUE(roots.meetings.empty());
+  for (const RootAxis & axis : roots.axes)
+  {
+    if (axis.parent != kNoRoot)
+    {
+      const RootAxis & parent = roots.axes[axis.parent];
+      EXPECT_EQ(graph.positions[parent.points[axis.parentPoint]], graph.positions[axis.points.front()]);
+    }
+  }
+}
+
+TEST(RootHierarchy, UpIsAlongAnyAxis)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (const double sign : { 1.0, -1.0 })
+    {
+      SkeletonGraph graph = SmallRoot().Graph();
+      for (auto & place : graph.positions)
+      {
+        Spacing3 turned{ place[0], place[1], place[2] };
+        std::swap(turned[axis], turned[2]);
+        turned[axis] *= sign;
+        place = turned;
+      }
+      Vector3 up{};
+      up[axis] = sign;
+      const RootHierarchy roots = FindRoots(graph);
+      EXPECT_EQ(roots.up, up);
+      EXPECT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 1, 2 }));
+      RootRules rules;
+      rules.up = up;
+      EXPECT_EQ(Levels(FindRoots(graph, rules)), Levels(roots));
+      EXPECT_FALSE(FindRoots(graph, rules).upFound);
+    }
+  }
+}
+
+TEST(RootHierarchy, CrossingRootsGoOnAsThemselvesWhateverTheyShare)
+{
+  for (const Spacing3 & touch : { Spacing3{ 0, 0, 0 }, Spacing3{ 6, 0, 0 } })
+  {
+    const SkeletonGraph graph = TouchingRoots(touch).Graph();
+    const RootHierarchy roots = FindRoots(graph);
+    ASSERT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 1 }));
+    for (const RootAxis & axis : roots.axes)
+    {
+      const Spacing3 tip = TipOf(graph, axis);
+      const Spacing3 base = graph.positions[axis.points.front()];
+      EXPECT_FALSE(axis.endsAtContact);
+      if (axis.level == 1)
+      {
+        EXPECT_EQ(tip[2], base[2] == 100 ? 40 : 100); // straight across
+      }
+    }
+    ASSERT_EQ(roots.meetings.size(), 1U);
+    EXPECT_EQ(roots.meetings[0].pairs.size(), 2U);
+    EXPECT_FALSE(roots.meetings[0].undecided);
+    EXPECT_NEAR(roots.meetings[0].position[0], 40, 1e-9);
+  }
+}
+
+TEST(RootHierarchy, ABridgeBetweenTwoRootsIsNoRoot)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 100 }, { 0, 0, 90 }, 4);
+  builder.Line({ 0, 0, 90 }, { 0, 0, 0 }, 4);
+  builder.Line({ 0, 0, 90 }, { 40, 0, 60 }, 2);
+  builder.Line({ 40, 0, 60 }, { 80, 0, 30 }, 2);
+  builder.Line({ 0, 0, 90 }, { 40, 5, 62 }, 2);
+  builder.Line({ 40, 5, 62 }, { 80, 40, 40 }, 2);
+  builder.Line({ 40, 0, 60 }, { 40, 5, 62 }, 1);
+  const SkeletonGraph graph = builder.Graph();
+  const RootHierarchy roots = FindRoots(graph);
+  EXPECT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 1 }));
+  EXPECT_EQ(std::count(roots.rootOf.begin(), roots.rootOf.end(), kNoRoot), 1);
+  ASSERT_EQ(roots.meetings.size(), 1U);
+}
+
+TEST(RootHierarchy, ARootThatEndsAtAnotherEndsThere)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 100 }, { 0, 0, 90 }, 4);
+  builder.Line({ 0, 0, 90 }, { 0, 0, 30 }, 4);
+  builder.Line({ 0, 0, 30 }, { 0, 0, 0 }, 4);
+  builder.Line({ 0, 0, 90 }, { 40, 0, 60 }, 2);
+  builder.Line({ 40, 0, 60 }, { 80, 0, 30 }, 2);
+  builder.Line({ 0, 0, 30 }, { 40, 0, 60 }, 1); // from below into the side of the other
+  const RootHierarchy roots = FindRoots(builder.Graph());
+  ASSERT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 1 }));
+  EXPECT_EQ(roots.axes[1].endsAtContact + roots.axes[2].endsAtContact, 1);
+}
+
+TEST(RootHierarchy, EqualArmsInACrossAreMarkedUndecided)
+{
+  // Seen from the contact all four arms lie at right angles in space: each pairing is as good as the other.
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 100 }, { 0, 0, 60 }, 4);
+  builder.Line({ 0, 0, 60 }, { 0, 0, 0 }, 4);
+  builder.Line({ 0, 0, 60 }, { 20, 40, 30 }, 2);
+  builder.Line({ 20, 40, 30 }, { 50, 0, 30 }, 2);
+  builder.Line({ 0, 0, 60 }, { 20, -40, 30 }, 2);
+  builder.Line({ 20, -40, 30 }, { 50, 0, 30 }, 2);
+  builder.Line({ 50, 0, 30 }, { 90, 0, 70 }, 2);
+  builder.Line({ 50, 0, 30 }, { 90, 0, -10 }, 2);
+  const RootHierarchy roots = FindRoots(builder.Graph());
+  ASSERT_EQ(roots.meetings.size(), 1U);
+  EXPECT_TRUE(roots.meetings[0].undecided);
+  EXPECT_LT(roots.meetings[0].margin, 1e-9);
+  EXPECT_EQ(std::count_if(roots.axes.begin(), roots.axes.end(), [](const RootAxis & axis) { return axis.undecided; }),
+            2);
+}
+
+TEST(RootHierarchy, SeveralStemsAreTakenAsAskedOrFound)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 100 }, { 0, 0, 50 }, 4);
+  builder.Line({ 60, 0, 100 }, { 60, 0, 50 }, 3.5);
+  builder.Line({ 0, 0, 50 }, { 60, 0, 50 }, 1.5);
+  builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 3);
+  builder.Line({ 60, 0, 50 }, { 60, 0, 0 }, 3);
+  const SkeletonGraph graph = builder.Graph();
+  RootRules           rules;
+  rules.up = Vector3{ 0, 0, 1 };
+  EXPECT_EQ(Levels(FindRoots(graph, rules))[1], 1);
+  rules.stems = 2;
+  const RootHierarchy two = FindRoots(graph, rules);
+  EXPECT_EQ(two.axes[0].level + two.axes[1].level, 0);
+  EXPECT_EQ(TipOf(graph, two.axes[1])[2], 0);
+  rules.stems = 0;
+  EXPECT_EQ(Levels(FindRoots(graph, rules)), Levels(two));
+}
+
+TEST(RootHierarchy, APieceByItselfIsLoose)
+{
+  GraphBuilder builder = SmallRoot();
+  builder.Line({ 100, 0, 10 }, { 120, 0, 10 }, 1);
+  const RootHierarchy roots = FindRoots(builder.Graph());
+  EXPECT_EQ(std::count_if(roots.axes.begin(), roots.axes.end(), [](const RootAxis & axis) { return axis.loose; }), 1);
+  EXPECT_EQ(roots.axes.size(), 5U);
+}
+
+TEST(RootHierarchy, WhorlsAreLateralsFromOnePlace)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 100 }, { 0, 0, 80 }, 4);
+  builder.Line({ 0, 0, 80 }, { 0, 0, 50 }, 4);
+  builder.Line({ 0, 0, 50 }, { 0, 0, 48 }, 4);
+  builder.Line({ 0, 0, 48 }, { 0, 0, 0 }, 4);
+  for (const double z : { 80.0, 50.0 })
+  {
+    builder.Line({ 0, 0, z }, { 40, 0, z - 10 }, 1);
+    builder.Line({ 0, 0, z }, { -40, 0, z - 10 }, 1);
+    builder.Line({ 0, 0, z }, { 0, 40, z - 10 }, 1);
+  }
+  builder.Line({ 0, 0, 48 }, { 0, -40, 40 }, 1);
+  const RootHierarchy roots = FindRoots(builder.Graph());
+  ASSERT_EQ(roots.whorls.size(), 2U);
+  EXPECT_EQ(roots.whorls[0].roots.size(), 3U);
+  EXPECT_EQ(roots.whorls[1].roots.size(), 4U);
+  EXPECT_NEAR(roots.whorls[0].along, 20, 1e-9);
+  EXPECT_NEAR(roots.whorls[1].along, 50.5, 1e-9);
+}
+
+TEST(RootHierarchy, NothingHasNoRoots)
+{
+  EXPECT_TRUE(FindRoots(SkeletonGraph()).axes.empty());
+}
+
+} // namespace voxelcore::testing

@@ -1,0 +1,99 @@
+#include "GraphBuilder.h"
+
+#include "voxelcore/RootTraits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace voxelcore::testing
+{
+
+TEST(RootTraits, NumbersOfASmallRootAreThoseOfItsLines)
+{
+  const SkeletonGraph graph = SmallRoot().Graph();
+  const RootHierarchy roots = FindRoots(graph);
+  const RootTraits    traits = MeasureRoots(graph, roots, 30);
+  ASSERT_EQ(traits.roots.size(), 4U);
+  EXPECT_EQ(traits.stems, 1);
+  EXPECT_NEAR(traits.stemLength, 60, 1e-9);
+  EXPECT_NEAR(traits.stemDiameter, (6 * 40 + 4 * 20) / 60.0, 0.2); // radii change at a point
+  EXPECT_NEAR(traits.depth, 60, 1e-9);
+  EXPECT_NEAR(traits.width, 50, 0.05); // from (30, 0) to (0, 40)
+  ASSERT_EQ(traits.levels.size(), 5U);
+  EXPECT_EQ(traits.levels[1].count, 2);
+  // Laterals begin at the first point outside the stem's radius, of 3 and of 3 or 2.
+  EXPECT_NEAR(traits.levels[1].totalLength, 27 + 37, 1.1);
+  EXPECT_NEAR(traits.levels[1].meanEmergenceAngle, 90, 1e-6);
+  EXPECT_NEAR(traits.levels[1].meanTipFromDown, 90, 1e-6);
+  EXPECT_NEAR(traits.levels[2].meanTipFromDown, 0, 1e-6);
+  EXPECT_NEAR(traits.levels[2].meanTipAngle, 90, 1e-6);
+  EXPECT_NEAR(traits.levels[0].meanChildren, 2, 1e-12);
+  EXPECT_EQ(traits.levels[3].kind, RootLevelRecord::Kind::Laterals);
+  EXPECT_EQ(traits.levels[3].count, 3);
+  EXPECT_EQ(traits.levels[4].count, 4);
+  EXPECT_NEAR(traits.levels[4].totalLength, traits.levels[3].totalLength + 60, 1e-9);
+  EXPECT_EQ(traits.rootsAboveSoil, 1);
+  EXPECT_EQ(traits.rootsBelowSoil, 2);
+  double byDepth = 0;
+  double byDiameter = 0;
+  for (std::size_t i = 0; i < traits.depths.size(); ++i)
+  {
+    byDepth += traits.depths[i].length;
+    byDiameter += traits.diameters[i].length;
+  }
+  EXPECT_NEAR(byDepth, traits.levels[4].totalLength, 1e-9);
+  EXPECT_NEAR(byDiameter, traits.levels[4].totalLength, 1e-9);
+  for (std::size_t axis = 1; axis < roots.axes.size(); ++axis)
+  {
+    EXPECT_NEAR(traits.roots[axis].tortuosity, 1, 1e-12);
+    EXPECT_NEAR(traits.roots[axis].chord, traits.roots[axis].length, 1e-9);
+  }
+}
+
+TEST(RootTraits, ASlantingRootHasItsAngles)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 100 }, { 0, 0, 60 }, 3);
+  builder.Line({ 0, 0, 60 }, { 0, 0, 0 }, 3);
+  builder.Line({ 0, 0, 60 }, { 30, 40, 10 }, 1); // 45 degrees
+  const SkeletonGraph graph = builder.Graph();
+  const RootTraits    traits = MeasureRoots(graph, FindRoots(graph));
+  ASSERT_EQ(traits.roots.size(), 2U);
+  EXPECT_NEAR(traits.roots[1].emergenceAngle, 45, 1e-6);
+  EXPECT_NEAR(traits.roots[1].tipFromDown, 45, 1e-6);
+  EXPECT_NEAR(traits.roots[1].alongParent, 40, 1e-9);
+  EXPECT_NEAR(traits.roots[1].tipDepth, 90, 1e-9);
+  EXPECT_TRUE(std::isnan(traits.roots[0].emergenceAngle));
+  EXPECT_FALSE(traits.soilDepth);
+}
+
+TEST(RootTraits, TheHullOfACubesCornersIsTheCube)
+{
+  GraphBuilder builder;
+  for (const double y : { 0.0, 10.0 })
+  {
+    for (const double z : { 0.0, 10.0 })
+    {
+      builder.Line({ 0, y, z }, { 10, y, z }, 1);
+    }
+  }
+  const SkeletonGraph graph = builder.Graph();
+  const RootTraits    traits = MeasureRoots(graph, FindRoots(graph));
+  EXPECT_NEAR(traits.hullVolume, 1000, 1e-6);
+  EXPECT_NEAR(traits.hullSurface, 600, 1e-6);
+  EXPECT_NEAR(traits.width, 10 * std::sqrt(2.0), 0.01);
+}
+
+TEST(RootTraits, VolumeAndSurfaceAreThoseOfRoundCones)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 2);
+  const SkeletonGraph graph = builder.Graph();
+  const RootTraits    traits = MeasureRoots(graph, FindRoots(graph));
+  EXPECT_NEAR(traits.levels.back().volume, M_PI * 4 * 50, 1e-6);
+  EXPECT_NEAR(traits.levels.back().surface, M_PI * 4 * 50, 1e-6);
+  EXPECT_EQ(traits.roots[0].minDiameter, 4);
+}
+
+} // namespace voxelcore::testing
