@@ -185,6 +185,15 @@ TEST_F(ShapeEdits, LumensFillSliceBySliceOrBehindTheirHoles)
   EXPECT_EQ(Core({ "--fill-slices", "k" })["labels"][0]["edits"]["slices_filled"]["holes"], 0);
 }
 
+TEST_F(ShapeEdits, AMedianTakesEdgesAndFillsCorners)
+{
+  WriteNrrd(m_Folder / "a.nrrd", Hollow());
+  const Json median = Core({ "--median", "3", "--labels", "3" });
+  EXPECT_EQ(median["parameters"]["median"], 3);
+  EXPECT_GT(median["labels"][0]["edits"]["median"]["voxels_removed"], 0);
+  EXPECT_GT(median["labels"][0]["edits"]["median"]["voxels_added"], 0);
+}
+
 TEST_F(ShapeEdits, WidthsAndAxesThatAreNoneAreRefused)
 {
   const auto refused = [&](const Texts & edits, int code, const char * word) {
@@ -195,6 +204,7 @@ TEST_F(ShapeEdits, WidthsAndAxesThatAreNoneAreRefused)
   refused({ "--close", "4%" }, 2, "--close: width '4%' has an unknown unit");
   refused({ "--fill-hollows", "0" }, 2, "--fill-hollows: width '0' is 0");
   refused({ "--fill-slices", "z" }, 2, "--fill-slices z: expected i, j or k");
+  refused({ "--median", "4" }, 2, "--median 4: expected an odd number from 3 to 15");
   refused({ "--close", "5000vox" }, 3, "more than 2000 voxels");
 }
 

@@ -168,7 +168,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   report.parameters.reading.crop = CropRange{ { 0, 1, 2 }, { 10, 11, 12 } };
   report.parameters.reading.component = 2;
   report.parameters.edits = {
-    true, ParseGapWidth("4vox"), ParseGapWidth("2.5mm"), SliceAxis::J, true, 50, 3, true, true
+    MedianWidth{ 5 }, true, ParseGapWidth("4vox"), ParseGapWidth("2.5mm"), SliceAxis::J, true, 50, 3, true, true
   };
   for (LabelRecord & label : report.labels)
   {
@@ -179,6 +179,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               4,
                               5,
                               6,
+                              EditRecord::Filtered{ 29, 30 },
                               EditRecord::Mended{ 7, 8, 9, 10, 11 },
                               EditRecord::Filled{ 21, 22, 0 },
                               EditRecord::Filled{ 23, 24, 25 },

@@ -59,6 +59,11 @@ SetOther(std::optional<GapWidth> & field)
   field = ParseGapWidth("1.5vox");
 }
 void
+SetOther(std::optional<MedianWidth> & field)
+{
+  field = MedianWidth{ 5 };
+}
+void
 SetOther(std::optional<SliceAxis> & field)
 {
   field = SliceAxis::J;

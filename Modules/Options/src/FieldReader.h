@@ -8,6 +8,7 @@
 #include "voxelcore/ReadInput.h"
 #include "voxelcore/RefineStage.h"
 #include "voxelcore/ShapeClosing.h"
+#include "voxelcore/ShapeMedian.h"
 #include "voxelcore/SliceHoles.h"
 
 #include <cstdint>
@@ -93,6 +94,17 @@ private:
       catch (const UsageError & error)
       {
         throw UsageError(std::string(row.flags) + ": " + error.what());
+      }
+    }
+    else if constexpr (std::is_same_v<T, MedianWidth>)
+    {
+      try
+      {
+        return ParseMedianWidth(m_Reader.Text(row.name));
+      }
+      catch (const UsageError &)
+      {
+        m_Reader.ThrowUsageError(row.name, "an odd number from 3 to 15");
       }
     }
     else if constexpr (std::is_same_v<T, SliceAxis>)

@@ -65,6 +65,11 @@ EditRecordJson(const EditRecord & edits)
              { "components_joined", edits.componentsJoined },
              { "components_removed", edits.componentsRemoved },
              { "voxels_removed", edits.voxelsRemoved } };
+  if (edits.filtered)
+  {
+    json["median"] = { { "voxels_added", edits.filtered->voxelsAdded },
+                       { "voxels_removed", edits.filtered->voxelsRemoved } };
+  }
   if (edits.mended)
   {
     json["mended"] = { { "pieces_joined", edits.mended->piecesJoined },

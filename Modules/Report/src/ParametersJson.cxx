@@ -68,6 +68,12 @@ ValueJson(const GapWidth & width)
 }
 
 Json
+ValueJson(MedianWidth width)
+{
+  return width.voxels;
+}
+
+Json
 ValueJson(SliceAxis axis)
 {
   return SliceAxisName(axis);
@@ -123,6 +129,19 @@ ReadValue(const Json & json, GapWidth & width)
 }
 
 void
+ReadValue(const Json & json, MedianWidth & width)
+{
+  try
+  {
+    width = ParseMedianWidth(std::to_string(json.get<std::int32_t>()));
+  }
+  catch (const UsageError & error)
+  {
+    throw InputError(std::string("its width of a median: ") + error.what());
+  }
+}
+
+void
 ReadValue(const Json & json, SliceAxis & axis)
 {
   const auto named = SliceAxisNamed(json.get<std::string>());
@@ -148,7 +167,7 @@ bool
 IsOfSome(std::string_view name)
 {
   return name == "resolution" || name == "level" || name == "raw" || name == "close" || name == "fill_hollows" ||
-         name == "fill_slices";
+         name == "fill_slices" || name == "median";
 }
 
 /** Writes fields. */

@@ -60,6 +60,13 @@ ReadEditRecord(const Json & json)
   json.at("components_joined").get_to(edits.componentsJoined);
   json.at("components_removed").get_to(edits.componentsRemoved);
   json.at("voxels_removed").get_to(edits.voxelsRemoved);
+  if (json.contains("median"))
+  {
+    const Json &           from = json.at("median");
+    EditRecord::Filtered & filtered = edits.filtered.emplace();
+    from.at("voxels_added").get_to(filtered.voxelsAdded);
+    from.at("voxels_removed").get_to(filtered.voxelsRemoved);
+  }
   if (json.contains("mended"))
   {
     const Json &         from = json.at("mended");

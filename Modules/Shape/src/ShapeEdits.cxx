@@ -39,12 +39,19 @@ EditShape(VoxelShape &             shape,
   };
   // Mended before anything is dropped: pieces torn off belong to what they were torn from.
   StagePlan              plan(progress,
-                 { options.mend ? 2.0 : 0.0,
+                 { options.median ? 0.3 : 0.0,
+                   options.mend ? 2.0 : 0.0,
                    options.close ? 0.5 : 0.0,
                    options.fillHollows ? 0.5 : 0.0,
                    options.fillSlices ? 0.2 : 0.0,
                    0.1,
                    options.smooth ? 1.0 : 0.0 });
+  const ProgressCallback filtering = plan.Next();
+  if (options.median)
+  {
+    EditedShape filtered = take(MedianShape(shape, *options.median, filtering));
+    record.filtered = { filtered.voxelsAdded, filtered.voxelsRemoved };
+  }
   const ProgressCallback mending = plan.Next();
   if (options.mend)
   {
@@ -128,6 +135,12 @@ Add(const EditRecord & record, EditRecord & sum)
   sum.componentsJoined += record.componentsJoined;
   sum.componentsRemoved += record.componentsRemoved;
   sum.voxelsRemoved += record.voxelsRemoved;
+  if (record.filtered)
+  {
+    EditRecord::Filtered & filtered = sum.filtered ? *sum.filtered : sum.filtered.emplace(EditRecord::Filtered());
+    filtered.voxelsAdded += record.filtered->voxelsAdded;
+    filtered.voxelsRemoved += record.filtered->voxelsRemoved;
+  }
   if (record.mended)
   {
     EditRecord::Mended & mended = sum.mended ? *sum.mended : sum.mended.emplace(EditRecord::Mended());
@@ -162,6 +175,12 @@ std::vector<std::string>
 Describe(const EditRecord & sum, const ShapeEditOptions & options)
 {
   std::vector<std::string> notes;
+  if (sum.filtered)
+  {
+    notes.push_back("median of " + std::to_string(options.median->voxels) +
+                    " voxels: " + Counted(sum.filtered->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.filtered->voxelsRemoved) + " removed");
+  }
   if (sum.mended)
   {
     notes.push_back("mended: " + Counted(sum.mended->piecesJoined, "piece", "pieces") + " joined, " +

@@ -4,6 +4,7 @@
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/ShapeClosing.h"
+#include "voxelcore/ShapeMedian.h"
 #include "voxelcore/SliceHoles.h"
 
 #include <cstdint>
@@ -17,6 +18,7 @@ namespace voxelcore
 /** Done to each label by itself, in this order. */
 struct ShapeEditOptions
 {
+  std::optional<MedianWidth>   median;
   bool                         mend = false; ///< what flips of single voxels have torn or pierced
   std::optional<GapWidth>      close;        ///< gaps up to so wide
   std::optional<GapWidth>      fillHollows;  ///< lumens that open only through holes up to so wide
@@ -30,7 +32,7 @@ struct ShapeEditOptions
   bool
   AreAsked() const
   {
-    return mend || close || fillHollows || fillSlices || fillCavities || minVoxels || largest || smooth ||
+    return median || mend || close || fillHollows || fillSlices || fillCavities || minVoxels || largest || smooth ||
            splitComponents;
   }
 };
@@ -43,6 +45,13 @@ struct EditRecord
   std::uint64_t componentsJoined = 0; ///< components that lay in cavities
   std::uint64_t componentsRemoved = 0;
   std::uint64_t voxelsRemoved = 0; ///< with these components
+
+  /** What MedianShape changed. */
+  struct Filtered
+  {
+    std::uint64_t voxelsAdded = 0;
+    std::uint64_t voxelsRemoved = 0;
+  };
 
   /** By how much MendShape lowered each topology number. */
   struct Mended
@@ -70,6 +79,7 @@ struct EditRecord
     std::uint64_t holes = 0; ///< lumens, or holes over all slices; of closing 0
   };
 
+  std::optional<Filtered> filtered; ///< when asked
   std::optional<Mended>   mended;   ///< when asked
   std::optional<Filled>   closed;   ///< when asked
   std::optional<Filled>   hollows;  ///< when asked
