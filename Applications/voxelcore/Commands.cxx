@@ -173,6 +173,19 @@ RunSkeleton(const Run & run)
 }
 
 int
+RunRoots(const Run & run)
+{
+  RootsOptions options = RootsOptionsFrom(run.line.values);
+  options.threads = run.threads;
+  options.command = run.line.whole;
+  const RootsResult result = RunRootsJob(options, run.context);
+  run.Warn(result.warnings);
+  run.Print(RootsText(result));
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
 RunRender(const Run & run)
 {
   const RenderResult result = RunRenderJob(RenderOptionsFrom(run.line.values), run.context);
@@ -206,6 +219,8 @@ RunCommand(const Run & run)
       return RunVoxelize(run);
     case CommandId::Skeleton:
       return RunSkeleton(run);
+    case CommandId::Roots:
+      return RunRoots(run);
     case CommandId::Render:
       return RunRender(run);
     case CommandId::Measure:

@@ -61,7 +61,7 @@ TEST(ParameterTable, OptionsOfAGroupStandTogetherInTheOrderOfTheHeadings)
     last = parameter.group;
     headings.insert(GroupHeading(parameter.group));
   }
-  EXPECT_EQ(headings.size(), 10U);
+  EXPECT_EQ(headings.size(), 11U);
 }
 
 /** "--words" in a text. */

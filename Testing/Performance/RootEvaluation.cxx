@@ -40,6 +40,37 @@ ScoreHierarchy(std::uint64_t seeds, std::int32_t size, double slice, int contact
     PruneBranches(graph, { 0, 1 });
     const RootHierarchy roots = FindRoots(graph);
     const RootScores    score = ScoreRoots(options.root, graph, roots);
+    if (std::getenv("AXES") && static_cast<int>(seed) == std::atoi(std::getenv("AXES")))
+    {
+      std::printf("up %g %g %g\n", roots.up[0], roots.up[1], roots.up[2]);
+      for (std::size_t i = 0; i < roots.axes.size(); ++i)
+      {
+        const auto & a = roots.axes[i];
+        const auto & p = graph.positions[a.points.front()];
+        const auto & q = graph.positions[a.points.back()];
+        std::printf("axis %zu level %d parent %d points %zu  %.0f %.0f %.0f r %.2f -> %.0f %.0f %.0f r %.2f\n",
+                    i,
+                    a.level,
+                    static_cast<int>(a.parent),
+                    a.points.size(),
+                    p[0],
+                    p[1],
+                    p[2],
+                    SectionRadii(graph)[a.points.front()],
+                    q[0],
+                    q[1],
+                    q[2],
+                    SectionRadii(graph)[a.points.back()]);
+      }
+      for (const auto & m : roots.meetings)
+        std::printf("meeting %.0f %.0f %.0f r %.2f margin %.2f pairs %zu\n",
+                    m.position[0],
+                    m.position[1],
+                    m.position[2],
+                    m.radius,
+                    m.margin,
+                    m.pairs.size());
+    }
     // As it was: the tree of the thickest branches.
     MeasureOptions before;
     before.root.kind = RootChoice::Kind::Top;

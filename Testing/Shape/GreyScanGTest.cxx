@@ -37,6 +37,28 @@ Look(const std::vector<T> & values)
   return {};
 }
 
+TEST(GreyScan, TheHalfwayThresholdFindsAHundredthOfTheVoxelsThatOtsuMisses)
+{
+  std::mt19937                     random(5);
+  std::normal_distribution<double> noise(0, 80);
+  std::vector<double>              values;
+  for (int i = 0; i < 200000; ++i)
+  {
+    values.push_back((i % 100 == 0 ? 3000 : 1000) + noise(random));
+  }
+  std::sort(values.begin(), values.end());
+  EXPECT_NEAR(HalfwayThreshold(values), 2000, 60);
+  // Air around a pot, soil that is brighter, and roots: what is half of the voxels is background itself.
+  values.clear();
+  for (int i = 0; i < 200000; ++i)
+  {
+    values.push_back((i % 100 == 0 ? 3000 : i % 5 < 3 ? 0 : 1000) + noise(random));
+  }
+  std::sort(values.begin(), values.end());
+  EXPECT_NEAR(HalfwayThreshold(values), 2000, 60);
+  EXPECT_EQ(HalfwayThreshold(std::vector<double>{ 7, 7, 7 }), 7);
+}
+
 /** A dark and a bright class, both noisy. */
 std::vector<std::uint8_t>
 TwoClasses(std::uint64_t seed)

@@ -304,7 +304,10 @@ private:
       overlay.AddLegend(names, x, m_Layout.height - 2 * m_Text, kSmall * m_Text);
     }
     overlay.AddScaleBar(m_Layout.mmPerPixel, m_Content.unit, m_Request.right - 2 * m_Text, x, 1.2 * m_Text, m_Text);
-    overlay.AddDirections(axes.right, axes.up, x + 2.5 * m_Text, 6.6 * m_Text, 1.7 * m_Text, m_Text);
+    if (m_Options.anatomical)
+    {
+      overlay.AddDirections(axes.right, axes.up, x + 2.5 * m_Text, 6.6 * m_Text, 1.7 * m_Text, m_Text);
+    }
     for (std::size_t i = 0; m_Options.panels && i < m_Panels.size(); ++i)
     {
       const auto   corner = m_Layout.Corner(i, m_Request);

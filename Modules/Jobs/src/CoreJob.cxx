@@ -169,7 +169,8 @@ CoreResult
 StageCoreJob(const CoreOptions & options,
              OutputTransaction & transaction,
              const JobContext &  context,
-             bool                labelByLabel)
+             bool                labelByLabel,
+             const ShapesSeen &  seen)
 {
   // Shares of the whole job's time: reading, editing, the labels, writing, pages and scenes.
   StagePlan                    plan(context.progress,
@@ -203,6 +204,10 @@ StageCoreJob(const CoreOptions & options,
                                    options.reading.labels != "all",
                                    options.scan.string(),
                                    plan.Next());
+  if (seen)
+  {
+    seen(edited.labels, volume.geometry);
+  }
   if (options.memory)
   {
     RequireMemory(options, edited.labels);

@@ -4,6 +4,9 @@
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/OutputTransaction.h"
 
+#include <functional>
+#include <vector>
+
 namespace voxelcore
 {
 
@@ -11,12 +14,16 @@ namespace voxelcore
 void
 CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction);
 
+/** Called once with the labels that are worked on, before their shapes are used up. */
+using ShapesSeen = std::function<void(const std::vector<EditedLabel> & labels, const ImageGeometry & geometry)>;
+
 /** RunCoreJob up to the moment at which its files get their names. CheckCoreTargets comes first. With `labelByLabel`,
  *  into a folder, those of each label get theirs when it is done, and labels that are done are passed over. */
 CoreResult
 StageCoreJob(const CoreOptions & options,
              OutputTransaction & transaction,
              const JobContext &  context,
-             bool                labelByLabel = false);
+             bool                labelByLabel = false,
+             const ShapesSeen &  seen = {});
 
 } // namespace voxelcore

@@ -1,4 +1,4 @@
-#include "TextFile.h"
+#include "TableColumns.h"
 
 #include "voxelcore/SkeletonModel.h"
 
@@ -9,8 +9,6 @@ namespace voxelcore
 
 namespace
 {
-
-constexpr int tableDigits = 7; // significant, of numbers that are not whole
 
 struct Column
 {
@@ -93,18 +91,6 @@ constexpr auto kSummaryColumns = std::to_array<Column>({
   { "surface", "mm^2", "sum over branches" },
 });
 
-template <typename Columns>
-void
-WriteHead(TextFile & file, const Columns & columns)
-{
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    file << (i > 0 ? "," : "") << columns[i].name;
-  }
-  file << "\n";
-}
-
-/** A value of CSV: quoted when it needs it. */
 } // namespace
 
 std::string
@@ -121,25 +107,6 @@ CsvField(const std::string & text)
   }
   return quoted + "\"";
 }
-
-namespace
-{
-
-template <typename Columns>
-std::string
-ColumnsJson(const Columns & columns, SpatialUnit unit)
-{
-  std::string json = "{";
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    json += (i > 0 ? ",\n    \"" : "\n    \"") + std::string(columns[i].name) + "\": {\"Description\": \"" +
-            columns[i].meaning + "\"" +
-            (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + InUnit(columns[i].unit, unit) + "\"" : "") + "}";
-  }
-  return json + "\n  }";
-}
-
-} // namespace
 
 void
 WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)

@@ -127,6 +127,20 @@ Examples:
   voxelcore skeleton vessels.seg.nrrd --prune-branches 1.5r --also mrk.json -o vessels.vtp
   voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp)";
 
+constexpr std::string_view kRootsFooter =
+  R"(OUTDIR gets roots.rsml, roots.csv (a row per root), levels.csv, plant.csv, profile.csv, columns.json (what the
+columns mean), page.html (a summary), roots.html (3-D), roots.png, mask.nrrd, medial.vtp, skeleton.vtp and
+report.json. All of it is written, or nothing.
+
+A grey scan without --threshold gets one halfway between background and roots, which is reported. Where roots
+touch, those that go on straight and as thick are the same root; contacts that may be read otherwise are listed.
+Guide: roots.md
+
+Examples:
+  voxelcore roots slices/ --spacing 0.5,0.5,0.5 --threshold 15:inf -o maize/
+  voxelcore roots root.nii.gz --up z- -o root/
+  voxelcore roots root.nrrd --close 5vox --stems auto --soil-depth 30 -o crown/)";
+
 constexpr std::string_view kMeasureFooter =
   R"(OUT.csv writes OUT_branches.csv, OUT_summary.csv, and OUT_columns.json, which explains the columns.
 
@@ -164,9 +178,10 @@ Examples:
   voxelcore batch cohort.csv -o results --jobs 4 --memory 12GB --timeout 30m
   voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton)";
 
-constexpr std::array<Command, 11> kCommands{ {
+constexpr std::array<Command, 12> kCommands{ {
   { CommandId::Core, "core", "Compute the medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Skeleton, "skeleton", "Compute the curve skeleton of a scan or of a medial surface", kSkeletonFooter },
+  { CommandId::Roots, "roots", "Find the roots of a plant in a CT or MRI scan, and measure them", kRootsFooter },
   { CommandId::Info, "info", "Show what is in a scan, and the time and memory it will need", kInfoFooter },
   { CommandId::Verify, "verify", "Recheck a medial surface against its scan", kVerifyFooter },
   { CommandId::Render, "render", "Draw pictures of medial surfaces and skeletons", kRenderFooter },

@@ -5,6 +5,7 @@
 #include "table/PhantomRows.h"
 #include "table/PictureRows.h"
 #include "table/PruningRows.h"
+#include "table/RootRows.h"
 #include "table/RunningRows.h"
 #include "table/SkeletonRows.h"
 
@@ -44,6 +45,7 @@ constexpr auto kParameters = JoinedRows(Rows{ ParameterGroup::Input, table::kInp
                                         Rows{ ParameterGroup::Picture, table::kPictureRows },
                                         Rows{ ParameterGroup::Cohort, table::kCohortRows },
                                         Rows{ ParameterGroup::Phantom, table::kPhantomRows },
+                                        Rows{ ParameterGroup::Roots, table::kRootRows },
                                         Rows{ ParameterGroup::Pruning, table::kPruningRows },
                                         Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
                                         Rows{ ParameterGroup::Refinement, table::kRefinementRows },
@@ -75,6 +77,8 @@ GroupHeading(ParameterGroup group)
       return "Cohort";
     case ParameterGroup::Phantom:
       return "Phantom";
+    case ParameterGroup::Roots:
+      return "Roots";
     case ParameterGroup::Running:
       break;
   }

@@ -1,5 +1,6 @@
 #include "FieldReader.h"
 #include "ParameterReader.h"
+#include "SkeletonValues.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ParseReal.h"
@@ -70,13 +71,20 @@ ParseBranchLimit(const std::string & text, BranchRequest & options)
 }
 
 BranchRequest
-BranchRequestFrom(const ParameterValues & values, CommandId command)
+PruningFrom(const ParameterValues & values, CommandId command)
 {
   BranchRequest options;
   if (const std::string limit = ValueOf(values, command, "prune-branches"); !limit.empty())
   {
     ParseBranchLimit(limit, options);
   }
+  return options;
+}
+
+BranchRequest
+BranchRequestFrom(const ParameterValues & values, CommandId command)
+{
+  BranchRequest options = PruningFrom(values, command);
   options.cutLoops = values.contains("cut-loops");
   options.splitAtJunctions = values.contains("split-at-junctions");
   options.root = ParseRoot(ValueOf(values, command, "root"));
@@ -92,9 +100,7 @@ constexpr std::array<const char *, 8> kStageOptions{ "stand-out",      "plates",
 SkeletonRequest
 StageFrom(const ParameterValues & values, CommandId command)
 {
-  SkeletonRequest stage;
-  stage.standOut = LengthFrom(values, command, "stand-out");
-  stage.smooth = LengthFrom(values, command, "smooth");
+  SkeletonRequest stage = BurningFrom(values, command);
   if (values.contains("plates"))
   {
     stage.plates = LengthFrom(values, command, "plates");
@@ -125,6 +131,16 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
 }
 
 } // namespace
+
+SkeletonRequest
+BurningFrom(const ParameterValues & values, CommandId command)
+{
+  SkeletonRequest stage;
+  stage.standOut = LengthFrom(values, command, "stand-out");
+  stage.smooth = LengthFrom(values, command, "smooth");
+  stage.branches = PruningFrom(values, command);
+  return stage;
+}
 
 SkeletonTargets
 TargetsFrom(const ParameterValues & values, CommandId command)

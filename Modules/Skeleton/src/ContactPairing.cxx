@@ -190,7 +190,9 @@ private:
         here = one.branch == end.branch ? here : std::max(here, m_Branches.Radius(one.branch));
       }
       const double there = m_Branches.Radius(m_Flow.arrivals[other].front().branch);
-      if (m_Branches.LengthOf(end.branch) <= m_Rules.bridgeLength * (here + there))
+      // What arrives first is a root's own piece, unless all that meets there is as thin as a bridge is short.
+      const double sum = end.branch == arrivals.front().branch ? 2 * std::min(here, there) : here + there;
+      if (m_Branches.LengthOf(end.branch) <= m_Rules.bridgeLength * sum)
       {
         m_Clusters.Unite(hub, other);
         bridged = true;

@@ -19,6 +19,35 @@ UnitVector(const Vector3 & a)
   return length > 0 ? Vector3{ a[0] / length, a[1] / length, a[2] / length } : Vector3{ 0, 0, 0 };
 }
 
+/** Mean radius along the way from a tip inwards, at each junction on by the thickest branch, for `length` mm. */
+double
+ThicknessFrom(const RootBranches & branches, BranchEnd end, double length)
+{
+  std::vector<std::uint8_t> taken(branches.Graph().BranchCount(), 0);
+  double                    sum = 0;
+  double                    way = 0;
+  for (;;)
+  {
+    taken[end.branch] = 1;
+    const double step = std::min(branches.LengthOf(end.branch), length - way);
+    sum += step * branches.Radius(end.branch);
+    way += step;
+    std::optional<BranchEnd> next;
+    for (const BranchEnd & other : branches.EndsAt(branches.HubOf(end.Other())))
+    {
+      if (!taken[other.branch] && (!next || branches.Radius(other.branch) > branches.Radius(next->branch)))
+      {
+        next = other;
+      }
+    }
+    if (!next || way >= length)
+    {
+      return way > 0 ? sum / way : branches.Radius(end.branch);
+    }
+    end = *next;
+  }
+}
+
 } // namespace
 
 RootBranches::RootBranches(const SkeletonGraph & graph)
@@ -102,9 +131,19 @@ FindStems(const RootBranches & branches, const std::optional<Vector3> & up, int 
     double    height = 0;
   };
   std::vector<Candidate> tips;
-  double                 thickest = 0;
-  double                 lowest = std::numeric_limits<double>::infinity();
-  double                 highest = -lowest;
+  Vector3                least{ 1e300, 1e300, 1e300 };
+  Vector3                most{ -1e300, -1e300, -1e300 };
+  for (const ElementIndex point : branches.Graph().branchPoints)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      least[axis] = std::min(least[axis], branches.Graph().positions[point][axis]);
+      most[axis] = std::max(most[axis], branches.Graph().positions[point][axis]);
+    }
+  }
+  double thickest = 0;
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
   for (ElementIndex hub = 0; hub < branches.HubCount(); ++hub)
   {
     if (branches.EndsAt(hub).size() != 1)
@@ -113,7 +152,7 @@ FindStems(const RootBranches & branches, const std::optional<Vector3> & up, int 
     }
     const BranchEnd end = branches.EndsAt(hub).front();
     const Vector3 & place = branches.Graph().positions[branches.PointFrom(end, 0)];
-    tips.push_back({ end, branches.Radius(end.branch), up ? Dot(place, *up) : 0 });
+    tips.push_back({ end, ThicknessFrom(branches, end, 0.1 * Distance(least, most)), up ? Dot(place, *up) : 0 });
     thickest = std::max(thickest, tips.back().radius);
     lowest = std::min(lowest, tips.back().height);
     highest = std::max(highest, tips.back().height);

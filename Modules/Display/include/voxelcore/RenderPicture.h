@@ -32,6 +32,7 @@ struct PictureOptions
   double                               tubes = 0.3;    ///< radius of a curve's tube, in radii of the shape
   std::optional<std::array<double, 2>> range;          ///< mm that the colour map runs over; else `shares`
   ColorShares                          shares;
+  bool                                 anatomical = true; ///< whether the axes are the patient's: else no letters
   bool                                 eachLabel = false; ///< the map runs over each label's own range
   int                                  frames = 1;        ///< of a full turn around the vertical
 };

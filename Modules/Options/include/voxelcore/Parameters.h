@@ -10,6 +10,7 @@
 #include "voxelcore/ReconstructJob.h"
 #include "voxelcore/RenderJob.h"
 #include "voxelcore/ShapeEdits.h"
+#include "voxelcore/RootsJob.h"
 #include "voxelcore/SkeletonJob.h"
 #include "voxelcore/VerifyJob.h"
 #include "voxelcore/VoxelizeJob.h"
@@ -37,7 +38,8 @@ enum class CommandId : std::uint32_t
   Render = 128,
   Batch = 256, ///< takes besides its own all options of Core that do not name a file
   Reconstruct = 512,
-  Voxelize = 1024
+  Voxelize = 1024,
+  Roots = 2048
 };
 
 struct Command
@@ -68,6 +70,7 @@ enum class ParameterGroup
   Picture,
   Cohort,
   Phantom,
+  Roots,
   Pruning,
   ShapeEdits,
   Refinement,
@@ -176,6 +179,8 @@ SkeletonRequest
 SkeletonRequestFrom(const ParameterValues & values);
 MeasureJobOptions
 MeasureOptionsFrom(const ParameterValues & values);
+RootsOptions
+RootsOptionsFrom(const ParameterValues & values);
 RenderJobOptions
 RenderOptionsFrom(const ParameterValues & values);
 

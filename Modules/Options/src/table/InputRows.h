@@ -15,7 +15,7 @@ inline constexpr auto kInputRows = std::to_array<Parameter>({
     "SCAN",
     "",
     true,
-    kCore | kInfo | kVerify,
+    kCore | kInfo | kVerify | kRoots,
     "Segmented scan (.nrrd .nhdr .seg.nrrd .nii .nii.gz .hdr .mha .mhd .mgz .tif, OME-Zarr, DICOM, .mrc .mnc .gipl, "
     "...), folder or 'pattern*' of slices, or mesh (.stl .obj .ply .off .vtk .vtp)" },
   { "scan",
@@ -94,7 +94,7 @@ inline constexpr auto kInputRows = std::to_array<Parameter>({
     "N",
     "",
     false,
-    kInfo | kSkeleton,
+    kInfo | kSkeleton | kRoots,
     "Voxelize a mesh with N voxels along its longest side" },
   { "resolution",
     "--resolution",

@@ -35,7 +35,7 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "auto|lattice|tetgen",
     "auto",
     false,
-    kStages,
+    kStages | kRoots,
     "Choose the Delaunay engine; the result is the same",
     "engine" },
   { "cross-check",

@@ -4,9 +4,10 @@
 //
 // The rules, in the order they apply:
 // 1. Up. Given, or the coordinate axis along which the base of the stem lies farthest from the skeleton's centre.
-// 2. Stems. Each begins at a tip. That with the greatest sum of thickness (mean radius of its branch, over the largest)
-//    and height along `up` (0 to 1; 0 where up is not known yet) is the first. More are taken as asked; to find how
-//    many there are, those with 0.6 of its thickness that lie in the upper quarter count.
+// 2. Stems. Each begins at a tip. That with the greatest sum of thickness (mean radius over a tenth of the skeleton's
+//    diagonal inwards, over the largest) and height along `up` (0 to 1; 0 where up is not known yet) is the first.
+//    More are taken as asked; to find how many there are, those with 0.6 of its thickness that lie in the upper quarter
+//    count.
 // 3. Flow. Every branch is run through in the direction in which the way from a stem is cheapest: going on costs
 //    little, the less it turns and thins; springing from a side costs 1; what goes into a much thicker branch costs
 //    more. Where a branch arrives at a junction that another reached before, there is a loop: two roots touch.

@@ -1,0 +1,132 @@
+#include "RootsDisplay.h"
+
+#include "voxelcore/DisplayColors.h"
+#include "voxelcore/HtmlPage.h"
+#include "voxelcore/LabelSurface.h"
+#include "voxelcore/RenderPicture.h"
+#include "voxelcore/StagePlan.h"
+
+#include <cmath>
+#include <map>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** Turns places so that `up` becomes the third axis. */
+class Upright
+{
+public:
+  explicit Upright(const Vector3 & up)
+    : m_Z(up)
+  {
+    const Vector3 side = std::abs(up[0]) < 0.9 ? Vector3{ 1, 0, 0 } : Vector3{ 0, 1, 0 };
+    m_X = AddScaled(side, -Dot(side, up), up);
+    m_X = AddScaled({ 0, 0, 0 }, 1 / Length(m_X), m_X);
+    m_Y = Cross(m_Z, m_X);
+  }
+
+  Vector3
+  operator()(const Vector3 & place) const
+  {
+    return { Dot(place, m_X), Dot(place, m_Y), Dot(place, m_Z) };
+  }
+
+private:
+  Vector3 m_X{};
+  Vector3 m_Y{};
+  Vector3 m_Z{};
+};
+
+/** A label per level, with its roots as curves, and one with the surface of all. */
+DisplayContent
+ContentOf(const RootModel & model, const VoxelShape & shape, const ImageGeometry & geometry)
+{
+  const Upright                        turn(model.roots.up);
+  DisplayContent                       content;
+  std::map<std::int32_t, DisplayLabel> levels;
+  for (const RootAxis & axis : model.roots.axes)
+  {
+    DisplayLabel & label = levels[axis.level];
+    label.label = axis.level + 1;
+    label.name = axis.level == 0 ? std::string("stem") : "level " + std::to_string(axis.level);
+    label.color = LabelColor(label.label);
+    SkeletonGraph & curves = label.curves;
+    for (const ElementIndex point : axis.points)
+    {
+      curves.branchPoints.push_back(static_cast<ElementIndex>(curves.positions.size()));
+      curves.positions.push_back(turn(model.graph.positions[point]));
+      curves.radius.push_back(SectionRadii(model.graph)[point]);
+      curves.erosionThickness.push_back(0);
+    }
+    for (const ElementIndex point :
+         { static_cast<ElementIndex>(curves.branchOffsets.back()), curves.branchPoints.back() })
+    {
+      curves.nodePoints.push_back(point);
+      curves.nodeKinds.push_back(NodeKind::Tip);
+    }
+    curves.branchOffsets.push_back(curves.branchPoints.size());
+    const auto nodes = static_cast<ElementIndex>(curves.nodePoints.size());
+    curves.branchNodes.push_back({ nodes - 2, nodes - 1 });
+  }
+  for (auto & [level, label] : levels)
+  {
+    content.labels.push_back(std::move(label));
+  }
+  DisplayLabel surface;
+  surface.label = static_cast<std::int64_t>(levels.size()) + 1;
+  surface.name = "surface";
+  surface.color = { 0.75, 0.72, 0.65 };
+  surface.surface = LabelSurface(shape, geometry);
+  for (auto & point : surface.surface.points)
+  {
+    const Vector3 turned = turn({ point[0], point[1], point[2] });
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = static_cast<float>(turned[axis]);
+    }
+  }
+  content.labels.push_back(std::move(surface));
+  content.unit = model.unit;
+  return content;
+}
+
+} // namespace
+
+bool
+DrawsRoots()
+{
+  return HasHtml();
+}
+
+void
+DrawRoots(const RootModel &             model,
+          const VoxelShape &            shape,
+          const ImageGeometry &         geometry,
+          std::size_t                   triangles,
+          const std::filesystem::path & folder,
+          OutputTransaction &           transaction,
+          const ProgressCallback &      progress)
+{
+  const DisplayContent content = ContentOf(model, shape, geometry);
+  PictureOptions       picture;
+  picture.view = PictureView::Front;
+  picture.coloring = PictureColoring::Label;
+  picture.tubes = 0.6;
+  picture.shrink = true;
+  picture.anatomical = false;
+  RenderPictures(
+    content,
+    picture,
+    [&](int, const Picture & drawn) { WritePng(transaction.Stage(folder / "roots.png"), drawn); },
+    PartOfProgress(progress, 0, 0.5));
+  HtmlOptions page;
+  page.title = model.name;
+  page.triangles = triangles;
+  page.anatomical = false;
+  WriteHtml(transaction.Stage(folder / "roots.html"), content, page, PartOfProgress(progress, 0.5, 1));
+}
+
+} // namespace voxelcore

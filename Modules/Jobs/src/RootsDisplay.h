@@ -1,0 +1,36 @@
+#pragma once
+// What `voxelcore roots` writes for looking at.
+
+#include "voxelcore/OutputTransaction.h"
+#include "voxelcore/Progress.h"
+#include "voxelcore/RootFiles.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Whether this build draws roots: it has module Display and the library for pages. */
+bool
+DrawsRoots();
+
+/** roots.png, the roots inside their surface, upright, in the colours of their levels; and roots.html, the same in
+ *  three dimensions. Throws std::logic_error unless DrawsRoots(). \throws OutputError, Cancelled */
+void
+DrawRoots(const RootModel &             model,
+          const VoxelShape &            shape,
+          const ImageGeometry &         geometry,
+          std::size_t                   triangles,
+          const std::filesystem::path & folder,
+          OutputTransaction &           transaction,
+          const ProgressCallback &      progress);
+
+/** The summary: a page of its own that needs nothing but roots.png beside it (`drawn`). */
+std::string
+RootsPage(const RootModel & model, double volume, const std::vector<std::string> & remarks, bool drawn);
+
+} // namespace voxelcore

@@ -1,0 +1,59 @@
+#pragma once
+// Root systems as files: tables, and RSML (Lobet et al., Plant Physiology 2015), which archiDART, SmartRoot and others
+// read.
+
+#include "voxelcore/RootTraits.h"
+#include "voxelcore/SpatialUnit.h"
+
+#include <filesystem>
+#include <string>
+
+namespace voxelcore
+{
+
+/** A root system with its numbers; positions in LPS mm, or in voxels. */
+struct RootModel
+{
+  std::string   name; ///< of the scan
+  SkeletonGraph graph;
+  RootHierarchy roots;
+  RootTraits    traits;
+  SpatialUnit   unit = SpatialUnit::Millimetres;
+};
+
+/** What a file says of itself. */
+struct RsmlOptions
+{
+  std::string lastModified; ///< yyyy-mm-ddThh:mm:ss: of the scan, so that equal scans give equal files
+  std::string software;     ///< with its version
+  std::string sha256;       ///< of the scan; may be empty
+};
+
+/** RSML 1: a plant per stem, roots nested as they spring from each other, each a polyline from its base on, the first
+ *  point on its parent's axis, with the diameter at each point. `unit` is mm with a resolution of 1, or pixel. Roots
+ *  have the properties level, length, mean-diameter, emergence-angle, parent-node (the point of the parent's polyline
+ *  it springs from, counted from 0) and parent-position (mm along the parent to there). \throws OutputError */
+void
+WriteRsml(const std::filesystem::path & path, const RootModel & model, const RsmlOptions & options);
+
+/** A row per root. \throws OutputError */
+void
+WriteRootCsv(const std::filesystem::path & path, const RootModel & model);
+
+/** A row per level, one for all laterals, one for all roots. \throws OutputError */
+void
+WriteRootLevelCsv(const std::filesystem::path & path, const RootModel & model);
+
+/** One row: the plant as a whole. `volume` is that of the voxels. \throws OutputError */
+void
+WritePlantCsv(const std::filesystem::path & path, const RootModel & model, double volume);
+
+/** Length by depth and by diameter, and width by depth. \throws OutputError */
+void
+WriteRootProfileCsv(const std::filesystem::path & path, const RootModel & model);
+
+/** The data dictionary of these tables as JSON: meaning and unit of each column. */
+std::string
+RootColumnsJson(SpatialUnit unit);
+
+} // namespace voxelcore

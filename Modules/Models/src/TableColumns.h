@@ -1,0 +1,41 @@
+#pragma once
+// Tables whose columns are described in a list: each has `name`, `unit` and `meaning`.
+
+#include "TextFile.h"
+
+#include "voxelcore/SpatialUnit.h"
+
+#include <string>
+
+namespace voxelcore
+{
+
+constexpr int tableDigits = 7; // significant, of numbers that are not whole
+
+template <typename Columns>
+void
+WriteHead(TextFile & file, const Columns & columns)
+{
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    file << (i > 0 ? "," : "") << columns[i].name;
+  }
+  file << "\n";
+}
+
+/** What the columns mean, as a JSON object. */
+template <typename Columns>
+std::string
+ColumnsJson(const Columns & columns, SpatialUnit unit)
+{
+  std::string json = "{";
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    json += (i > 0 ? ",\n    \"" : "\n    \"") + std::string(columns[i].name) + "\": {\"Description\": \"" +
+            columns[i].meaning + "\"" +
+            (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + InUnit(columns[i].unit, unit) + "\"" : "") + "}";
+  }
+  return json + "\n  }";
+}
+
+} // namespace voxelcore

@@ -1,0 +1,40 @@
+// The options of `voxelcore roots`.
+
+#include "FieldReader.h"
+#include "ParameterReader.h"
+#include "SkeletonValues.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/Parameters.h"
+
+namespace voxelcore
+{
+
+RootsOptions
+RootsOptionsFrom(const ParameterValues & values)
+{
+  constexpr CommandId   command = CommandId::Roots;
+  const ParameterReader reader(values, command);
+  RootsOptions          options;
+  options.scan = reader.Text("scan");
+  ReadScanFields(reader, options);
+  if (options.edits.splitComponents)
+  {
+    throw UsageError("--split-components: roots works on one piece");
+  }
+  options.asIs = reader.IsSet("as-is");
+  options.stage = BurningFrom(values, command);
+  options.stage.lambda.text = "0";
+  options.rules.up = ParseUp(reader.Text("up"));
+  options.rules.stems = reader.Text("stems") == "auto" ? 0 : static_cast<int>(reader.Whole("stems", 1, 1000));
+  options.soilDepth = reader.Real("soil-depth");
+  options.pictures = !reader.IsSet("no-pictures");
+  options.htmlTriangles = static_cast<std::size_t>(reader.Whole("html-triangles", 1000, 20000000));
+  options.output = reader.File("output");
+  const std::string engine = ChoiceOf(values, command, "engine");
+  options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
+  options.threads = ThreadsFrom(values, command);
+  options.force = reader.IsSet("force");
+  return options;
+}
+
+} // namespace voxelcore

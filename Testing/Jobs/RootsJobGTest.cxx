@@ -1,0 +1,207 @@
+#include "JobFolder.h"
+
+#include "voxelcore/GreyVolume.h"
+#include "voxelcore/RootsJob.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <set>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+const std::set<std::string> kTables{ "mask.nrrd",    "medial.vtp",  "skeleton.vtp", "roots.rsml",
+                                     "roots.csv",    "levels.csv",  "plant.csv",    "profile.csv",
+                                     "columns.json", "report.json", "page.html" };
+
+class RootsJob : public JobFolder
+{
+protected:
+  PhantomJobOptions
+  Scan(const std::string & name, double hollow = 0, int contacts = 0) const
+  {
+    PhantomJobOptions options;
+    options.phantom.kind = "root";
+    options.phantom.size = { 96, 96, 96 };
+    options.phantom.seed = 3;
+    options.phantom.radius = 6;
+    options.phantom.laterals = 6;
+    options.phantom.subLaterals = 1;
+    options.phantom.contacts = contacts;
+    options.output = At(name);
+    options.scan.emplace();
+    options.scan->hollow = hollow;
+    options.scan->holes = hollow > 0 ? 4 : 0;
+    options.scan->noise = 0.05;
+    RunPhantomJob(options);
+    return options;
+  }
+
+  RootsResult
+  Roots(const std::string & scan, const std::string & output, ParameterValues more = {}) const
+  {
+    more.insert({ { "scan", At(scan) }, { "output", At(output) }, { "no-pictures", "true" } });
+    return RunRootsJob(RootsOptionsFrom(more));
+  }
+
+  std::set<std::string>
+  In(const std::string & folder) const
+  {
+    std::set<std::string> names;
+    for (const auto & entry : std::filesystem::directory_iterator(At(folder)))
+    {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
+  }
+};
+
+double
+TrueLength(const PhantomOptions & options)
+{
+  const auto lines = RootCentreLines(options);
+  double     length = 0;
+  for (const CentreLinePoint & point : lines)
+  {
+    if (point.parent >= 0)
+    {
+      const auto & before = lines[static_cast<std::size_t>(point.parent)];
+      double       squares = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        squares += std::pow((point.position[k] - before.position[k]) * options.spacing[k], 2);
+      }
+      length += std::sqrt(squares);
+    }
+  }
+  return length;
+}
+
+TEST_F(RootsJob, AGreyScanGivesItsRootsWithoutAnyOption)
+{
+  const PhantomJobOptions phantom = Scan("a.nrrd");
+  const RootsResult       result = Roots("a.nrrd", "out/");
+  EXPECT_EQ(In("out"), kTables);
+  EXPECT_EQ(UpText(result.model.roots.up), "z+");
+  std::set<std::int32_t> branches;
+  for (const CentreLinePoint & point : RootCentreLines(phantom.phantom))
+  {
+    branches.insert(point.branch);
+  }
+  EXPECT_EQ(result.model.roots.axes.size(), branches.size());
+  const double length = TrueLength(phantom.phantom);
+  // Roots are measured from the surface of their parents on.
+  EXPECT_LT(result.model.traits.levels.back().totalLength, length);
+  EXPECT_GT(result.model.traits.levels.back().totalLength, 0.85 * length);
+  ASSERT_FALSE(result.notes.empty());
+  EXPECT_NE(result.notes.front().find("halfway between background and roots"), std::string::npos);
+  const auto threshold = result.report.parameters.reading.threshold;
+  ASSERT_TRUE(threshold);
+  EXPECT_NEAR(threshold->first, (kRootScanAir + kRootScanRoot) / 2.0, 0.05 * (kRootScanRoot - kRootScanAir));
+}
+
+TEST_F(RootsJob, HollowRootsAreFilledUnlessTheMaskIsTakenAsItIs)
+{
+  Scan("a.nrrd", 0.7);
+  const RootsResult filled = Roots("a.nrrd", "out/");
+  EXPECT_EQ(filled.report.labels.at(0).shape.betti[2], 0);
+  const RootsResult hollow = Roots("a.nrrd", "raw/", { { "as-is", "true" } });
+  EXPECT_GE(hollow.report.labels.at(0).shape.betti[1], filled.report.labels.at(0).shape.betti[1] + 3); // its holes
+  EXPECT_FALSE(hollow.report.parameters.edits.AreAsked());
+}
+
+TEST_F(RootsJob, TouchingRootsAreToldApart)
+{
+  const PhantomJobOptions phantom = Scan("a.nrrd", 0, 3);
+  const RootsResult       result = Roots("a.nrrd", "out/");
+  const auto              contacts = RootContacts(phantom.phantom).size();
+  ASSERT_GT(contacts, 1U);
+  EXPECT_GE(result.model.traits.contacts, static_cast<std::int64_t>(contacts));
+  std::set<std::int32_t> branches;
+  for (const CentreLinePoint & point : RootCentreLines(phantom.phantom))
+  {
+    branches.insert(point.branch);
+  }
+  EXPECT_NEAR(static_cast<double>(result.model.roots.axes.size()), static_cast<double>(branches.size()), 1);
+}
+
+TEST_F(RootsJob, TheReportHoldsTheContactsAndWhichWayIsUp)
+{
+  Scan("a.nrrd", 0, 3);
+  const RootsResult result = Roots("a.nrrd", "out/", { { "up", "z+" } });
+  const auto        report = nlohmann::json::parse(Bytes("out/report.json"));
+  EXPECT_EQ(report.at("roots").at("up"), "z+");
+  EXPECT_FALSE(report.at("roots").at("up_found"));
+  EXPECT_EQ(report.at("roots").at("axes"), result.model.roots.axes.size());
+  EXPECT_EQ(report.at("roots").at("contacts").size(), result.model.roots.meetings.size());
+  EXPECT_TRUE(report.at("labels").at(0).at("certificate").at("passed"));
+  const auto columns = nlohmann::json::parse(Bytes("out/columns.json"));
+  for (const char * table : { "roots", "levels", "plant", "profile" })
+  {
+    const std::string text = Bytes(std::string("out/") + table + ".csv");
+    std::string       head = text.substr(0, text.find('\n')) + ",";
+    for (std::size_t from = 0; from < head.size();)
+    {
+      const std::size_t comma = head.find(',', from);
+      const std::string column = head.substr(from, comma - from);
+      EXPECT_TRUE(column == "scan" || columns.at(table).contains(column)) << table << " " << column;
+      from = comma + 1;
+    }
+  }
+}
+
+TEST_F(RootsJob, UpsideDownItIsTheSamePlant)
+{
+  Scan("a.nrrd");
+  const RootsResult upright = Roots("a.nrrd", "out/");
+  const RootsResult wrong = Roots("a.nrrd", "wrong/", { { "up", "z-" } });
+  EXPECT_EQ(wrong.model.roots.up, (Vector3{ 0, 0, -1 }));
+  EXPECT_LT(wrong.model.traits.roots[0].tipDepth, wrong.model.traits.depth + 1e-9);
+  EXPECT_EQ(upright.model.graph.positions, wrong.model.graph.positions);
+}
+
+TEST_F(RootsJob, NothingIsWrittenWhereSomethingIsInTheWay)
+{
+  Scan("a.nrrd");
+  Roots("a.nrrd", "out/");
+  const std::string before = Bytes("out/roots.csv");
+  EXPECT_THROW(Roots("a.nrrd", "out/"), OutputError);
+  Roots("a.nrrd", "out/", { { "force", "true" } });
+  EXPECT_EQ(Bytes("out/roots.csv"), before);
+  EXPECT_THROW(Roots("none.nrrd", "other/"), InputError);
+  EXPECT_FALSE(std::filesystem::exists(At("other")));
+  Phantom("cells", "cells.nrrd");
+  EXPECT_THROW(Roots("cells.nrrd", "other/"), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(At("other")));
+}
+
+TEST_F(RootsJob, DirectionsAreWordsForTheAxes)
+{
+  EXPECT_FALSE(ParseUp("auto"));
+  for (const char * text : { "x+", "x-", "y+", "y-", "z+", "z-" })
+  {
+    EXPECT_EQ(UpText(*ParseUp(text)), text);
+  }
+  EXPECT_THROW(ParseUp("z"), UsageError);
+}
+
+TEST_F(RootsJob, WhatTheUserAsksForOfTheCleaningTakesPrecedence)
+{
+  ShapeEditOptions edits;
+  CleanForRoots(edits);
+  EXPECT_TRUE(edits.mend && edits.fillCavities);
+  EXPECT_EQ(edits.fillHollows->text, "4vox");
+  EXPECT_EQ(*edits.largest, 1U);
+  ShapeEditOptions own;
+  own.close = ParseGapWidth("5vox");
+  own.minVoxels = 100;
+  CleanForRoots(own);
+  EXPECT_FALSE(own.fillHollows);
+  EXPECT_FALSE(own.largest);
+}
+
+} // namespace
+} // namespace voxelcore::testing
