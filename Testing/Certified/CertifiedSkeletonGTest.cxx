@@ -255,6 +255,51 @@ TEST(CertifiedSkeleton, ARefinedOneNeedsASurface)
   EXPECT_THROW(ComputeCertified(Box(4, 4, 4), Grid({ 1, 1, 1 }), request), UsageError);
 }
 
+TEST(CertifiedSkeleton, AVoxelOfALengthIsTheCubeWithItsDiagonal)
+{
+  const Vector3  flat{ 1, 1, 3 };
+  const VoxelBox box{ { 0, 0, 0 }, { 10, 10, 20 } };
+  const auto     length = [&](const char * text) {
+    return InMeanVoxels(ParseLambda(text), ComputeSpacingWeights(flat), flat, box);
+  };
+  EXPECT_DOUBLE_EQ(length("3vox"), 3 * std::sqrt(11.0 / 3));
+  EXPECT_DOUBLE_EQ(length("3mm"), 3);
+  EXPECT_DOUBLE_EQ(length("5%"), 3);
+}
+
+// Between slices three times as thick the rims of a flat tube are steps that stand out by more than three of the short
+// sides.
+TEST(CertifiedSkeleton, OfAFlatTubeInThickSlicesHasTwoTips)
+{
+  const Vector3 spacing{ 1, 1, 3 };
+  for (const double turn : { 0.3, 0.5, 0.7 })
+  {
+    VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 70, 30, 24 } });
+    for (std::int32_t z = 0; z < 24; ++z)
+    {
+      for (std::int32_t y = 0; y < 30; ++y)
+      {
+        for (std::int32_t x = 0; x < 70; ++x)
+        {
+          const double away[3] = { (x + 0.5 - 35) * spacing[0],
+                                   (y + 0.5 - 15) * spacing[1],
+                                   (z + 0.5 - 12) * spacing[2] };
+          const double along = std::cos(turn) * away[0] + std::sin(turn) * away[2];
+          const double thin = std::cos(turn) * away[2] - std::sin(turn) * away[0];
+          const double end = std::max(0.0, std::abs(along) - 20);
+          if (away[1] * away[1] / 121 + thin * thin / 13 + end * end / 121 < 1)
+          {
+            shape.Insert(x, y, z);
+          }
+        }
+      }
+    }
+    const CertifiedResult   whole = WholeOf(shape, Grid(spacing));
+    const CertifiedSkeleton skeleton = SkeletonOf(whole.cores[0].core, whole.shape, Skeleton());
+    EXPECT_EQ(skeleton.skeleton.table.numbers.tips, 2U) << turn;
+  }
+}
+
 TEST(CertifiedSkeleton, CanBeStopped)
 {
   const CertifiedResult whole = WholeOf(Frame(15, 3));

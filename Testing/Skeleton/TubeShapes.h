@@ -109,7 +109,7 @@ GraphOfSurface(const MedialComplex & surface,
   const double  unit = std::min({ spacing[0], spacing[1], spacing[2] });
   const double  side = Distance(spacing, { 0, 0, 0 }) / std::sqrt(3.0);
   SkeletonGraph graph =
-    BuildSkeletonGraph(SkeletonOf(surface, 3 * unit, std::numeric_limits<double>::infinity(), unit, side, part));
+    BuildSkeletonGraph(SkeletonOf(surface, 3 * side, std::numeric_limits<double>::infinity(), unit, side, part));
   FitBranches(graph, 6 * side, HalfAVoxel(spacing));
   return graph;
 }

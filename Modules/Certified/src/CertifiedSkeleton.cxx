@@ -53,6 +53,13 @@ LengthOn(const CertifiedShape & shape, const Lambda & length)
   return LambdaInMillimetres(length, ComputeSpacingWeights(spacing), spacing, shape.box);
 }
 
+double
+StandOutOn(const CertifiedShape & shape, const SkeletonRequest & request)
+{
+  const Vector3 & spacing = shape.geometry.spacing;
+  return InMeanVoxels(request.standOut, ComputeSpacingWeights(spacing), spacing, shape.box);
+}
+
 /** The voxels in the balls of a core. */
 VoxelShape
 BodyOf(const MedialComplex & core, const CertifiedShape & shape)
@@ -66,6 +73,13 @@ BodyOf(const MedialComplex & core, const CertifiedShape & shape)
 }
 
 } // namespace
+
+double
+InMeanVoxels(const Lambda & length, const SpacingWeights & weights, const Vector3 & spacing, const VoxelBox & shapeBox)
+{
+  return length.unit == Lambda::Unit::Voxel ? length.value * VoxelSide(spacing)
+                                            : LambdaInMillimetres(length, weights, spacing, shapeBox);
+}
 
 void
 CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, double standOut)
@@ -136,7 +150,7 @@ BurnToCurves(const MedialComplex &    core,
   RequireLengthsIn(shape.geometry.unit, request);
   const Vector3 & spacing = shape.geometry.spacing;
   CurveOptions    curves;
-  curves.branchThreshold = LengthOn(shape, request.standOut);
+  curves.branchThreshold = StandOutOn(shape, request);
   if (request.plates)
   {
     curves.plateThreshold = LengthOn(shape, *request.plates);
@@ -162,9 +176,7 @@ MeasureCurves(const BurnedCurves &    burned,
   result.topology = burned.topology;
   SkeletonGraph & graph = result.skeleton.graph;
   graph = BuildSkeletonGraph(burned.curves);
-  // The zigzag that is to go is that of voxels, which is as long as they are across slices.
-  const bool       inVoxels = request.smooth.unit == Lambda::Unit::Voxel;
-  const double     window = inVoxels ? request.smooth.value * VoxelSide(spacing) : LengthOn(shape, request.smooth);
+  const double     window = InMeanVoxels(request.smooth, ComputeSpacingWeights(spacing), spacing, shape.box);
   const VoxelReach reach = HalfAVoxel(shape.geometry);
   FitBranches(graph, window, reach);
   const BranchRequest & branches = request.branches;
@@ -180,7 +192,7 @@ MeasureCurves(const BurnedCurves &    burned,
     RefuseResult(shape.name, "the branches do not have the shape's topology");
   }
   graph.sectionRadius = CrossSectionRadii(graph, voxels, shape.geometry);
-  CutAndMeasure(result, request.branches, LengthOn(shape, request.standOut));
+  CutAndMeasure(result, request.branches, StandOutOn(shape, request));
   return result;
 }
 

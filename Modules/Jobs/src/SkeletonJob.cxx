@@ -183,7 +183,9 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
     };
     PruneBranches(part.graph, { length ? inMm(*length) : 0, options.branches.pruneRadii });
     CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {} };
-    CutAndMeasure(skeleton, request.skeleton->branches, inMm(report.skeleton->standOut));
+    CutAndMeasure(skeleton,
+                  request.skeleton->branches,
+                  InMeanVoxels(report.skeleton->standOut, report.parameters.weights, spacing, record.box));
     files.Add(report, i, TakeSkeleton(std::move(skeleton), record), {}, result.notes);
   }
   files.Finish(report, result.notes);

@@ -41,4 +41,16 @@ FieldSurface::Project(const Vector3 & place, double reach) const
   return point;
 }
 
+double
+FieldSurface::Swelling(const Vector3 & half) const
+{
+  const double length = Length(half);
+  if (!m_Walls || length == 0)
+  {
+    return 0;
+  }
+  const double unit = Length(Times(half, m_Unit)) / length; // across this wall
+  return unit * m_Walls->At(length / unit);
+}
+
 } // namespace voxelcore

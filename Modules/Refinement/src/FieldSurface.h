@@ -8,7 +8,6 @@
 
 #include "voxelcore/SurfaceEstimate.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace voxelcore
@@ -25,7 +24,7 @@ public:
     : m_Field(std::move(field))
     , m_Spacing(spacing)
     , m_BySpacing(Over({ 1, 1, 1 }, Times(spacing, spacing)))
-    , m_Unit(std::min({ spacing[0] / sides[0], spacing[1] / sides[1], spacing[2] / sides[2] }))
+    , m_Unit(Over(spacing, sides))
     , m_BySides(Over({ 1, 1, 1 }, Times(sides, sides)))
     , m_Flattest(flattest)
     , m_Close(close)
@@ -48,10 +47,7 @@ public:
   }
 
   double
-  Swelling(double half) const override
-  {
-    return m_Walls ? m_Unit * m_Walls->At(half / m_Unit) : 0;
-  }
+  Swelling(const Vector3 & half) const override;
 
   /** Another field after all: change(field). */
   template <typename TChange>
@@ -71,7 +67,7 @@ private:
   BandField m_Field;
   Vector3   m_Spacing;
   Vector3   m_BySpacing; ///< 1 / spacing^2
-  double    m_Unit;      ///< of sides, mm; slices may be farther apart than sides say
+  Vector3   m_Unit;      ///< of sides, mm; slices may be farther apart than sides say
   Vector3   m_BySides;   ///< 1 / sides^2
   double    m_Flattest;
   double    m_Close;

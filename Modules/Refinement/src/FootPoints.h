@@ -83,16 +83,12 @@ private:
   double                    m_Close;     ///< voxels: what distances are off by then goes as its square
 };
 
-/** How far the nearest foot is. */
-inline double
-NearestDistance(std::span<const FootPoint> footPoints)
+inline const FootPoint &
+NearestFoot(std::span<const FootPoint> footPoints)
 {
-  double least = footPoints[0].distance;
-  for (const FootPoint & foot : footPoints)
-  {
-    least = std::min(least, foot.distance);
-  }
-  return least;
+  return *std::min_element(footPoints.begin(), footPoints.end(), [](const FootPoint & a, const FootPoint & b) {
+    return a.distance < b.distance;
+  });
 }
 
 /** The foot of a boundary vertex among those that Find() gave. */

@@ -62,9 +62,9 @@ RefinementState::MeasureVertex(const FootPointFinder & finder, std::size_t verte
     return;
   }
   finder.Settle(Place(vertex), pairs, footPoints);
-  m_Radius[vertex] = NearestDistance(footPoints);
+  m_Radius[vertex] = NearestFoot(footPoints).distance;
   double part = 1; // of the widths, that is the body's
-  m_Swelling[vertex] = m_Input.surface->Swelling(m_Radius[vertex]);
+  m_Swelling[vertex] = m_Input.surface->Swelling(Minus(NearestFoot(footPoints).position, Place(vertex)));
   if (m_Swelling[vertex] > 0)
   {
     m_Swelling[vertex] *= WallPart(pairs, footPoints);

@@ -25,12 +25,17 @@ struct SkeletonRequest
 {
   Lambda                   lambda;          ///< of the core to burn
   std::optional<Tolerance> tolerance;       ///< of the core to burn, above 0
-  Lambda                   standOut;        ///< CurveOptions::branchThreshold
+  Lambda                   standOut;        ///< CurveOptions::branchThreshold, by InMeanVoxels()
   std::optional<Lambda>    plates;          ///< CurveOptions::plateThreshold
-  Lambda                   smooth;          ///< window of FitBranches
+  Lambda                   smooth;          ///< window of FitBranches, by InMeanVoxels()
   bool                     refined = false; ///< points and radii are those of CertifiedRequest::surface
   BranchRequest            branches;
 };
+
+/** A length in mm, of which a vox is the side of the cube with a voxel's diagonal: in thick slices, steps and zigzag
+ *  are as long as voxels are across these. */
+double
+InMeanVoxels(const Lambda & length, const SpacingWeights & weights, const Vector3 & spacing, const VoxelBox & shapeBox);
 
 /** \throws InputError where lengths are in voxels and the request has one in mm. */
 void

@@ -42,9 +42,9 @@ public:
     return 0;
   }
 
-  /** By how much each side of a wall lies too far out, mm, where the sides lie twice `half` mm apart. */
+  /** By how much each side of a wall lies too far out, mm; `half` leads from its middle to a side, mm. */
   virtual double
-  Swelling(double /*half*/) const
+  Swelling(const Vector3 & /*half*/) const
   {
     return 0;
   }
