@@ -1,15 +1,17 @@
-// Root systems found in phantoms whose truth is known, scored.
+// `voxelcore roots` on grey phantoms of hollow, touching, noisy roots whose truth is known: one table. Beside it the
+// hierarchy as it was, a tree of the thickest branches, on the same skeletons.
+// usage: VoxelCoreRootEvaluation [SEEDS [BREAKS]]
 
 #include "RootScores.h"
-
-#include "../Phantom/PhantomFixtures.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 
 #include "voxelcore/BranchTable.h"
-#include "voxelcore/RootScan.h"
+#include "voxelcore/PhantomJob.h"
+#include "voxelcore/RootsJob.h"
 
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <exception>
 
 namespace voxelcore::testing
 {
@@ -17,103 +19,184 @@ namespace voxelcore::testing
 namespace
 {
 
-void
-ScoreHierarchy(std::uint64_t seeds, std::int32_t size, double slice, int contacts)
+struct Sum
 {
-  double length = 0;
-  double right = 0;
-  double old = 0;
-  double oldLength = 0;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+  int        phantoms = 0;
+  int        spheres = 0;  ///< with b = (1, 0, 0)
+  int        likeTree = 0; ///< with b = (1, 0, 0) but for loops where roots touch
+  double     worstLength = 0;
+  double     sumOfLengths = 0;
+  double     formerRight = 0;
+  double     formerLength = 0;
+  double     seconds = 0;
+  RootScores scores;
+};
+
+void
+Add(Sum & sum, const RootScores & one)
+{
+  RootScores & all = sum.scores;
+  all.tips += one.tips;
+  all.missed += one.missed;
+  all.found += one.found;
+  all.spurious += one.spurious;
+  all.trueLength += one.trueLength;
+  all.length += one.length;
+  all.rightLevel += one.rightLevel;
+  all.undecided += one.undecided;
+  all.contacts += one.contacts;
+  all.angles += one.angles;
+  all.angleError += one.angleError;
+  all.angleBias += one.angleBias;
+  const double error = (one.length - one.trueLength) / one.trueLength;
+  sum.worstLength = std::max(sum.worstLength, std::abs(error));
+  sum.sumOfLengths += std::abs(error);
+  ++sum.phantoms;
+}
+
+/** The same skeleton with the levels of a spanning tree of the thickest branches. */
+RootScores
+ScoreFormer(const PhantomOptions & options, const SkeletonGraph & graph)
+{
+  MeasureOptions measure;
+  measure.root.kind = RootChoice::Kind::Top;
+  const BranchTable table = MeasureBranches(graph, measure);
+  RootHierarchy     tree;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
-    RootScanOptions options;
-    options.root.kind = "root";
-    options.root.spacing = { 1, 1, slice };
-    options.root.size = { size, size, static_cast<std::int32_t>(size / slice) };
-    options.root.seed = seed;
-    options.root.laterals = 14;
-    options.root.subLaterals = 3;
-    options.root.contacts = contacts;
-    const VoxelShape shape = Brighter(MakeRootScan(options), options.root);
-    SkeletonGraph    graph = GraphOf(shape, options.root.spacing);
-    graph.sectionRadius = SectionRadiiOf(graph, shape, options.root.spacing);
-    PruneBranches(graph, { 0, 1 });
-    const RootHierarchy roots = FindRoots(graph);
-    const RootScores    score = ScoreRoots(options.root, graph, roots);
-    if (std::getenv("AXES") && static_cast<int>(seed) == std::atoi(std::getenv("AXES")))
+    RootAxis axis;
+    axis.level = table.branches[branch].level;
+    axis.points.assign(graph.Branch(branch).begin(), graph.Branch(branch).end());
+    tree.axes.push_back(axis);
+  }
+  return ScoreRoots(options, graph, tree);
+}
+
+void
+RunOne(const PhantomJobOptions & phantom, const std::filesystem::path & folder, Sum & sum)
+{
+  RunPhantomJob(phantom);
+  RootsOptions options = RootsOptions();
+  options.scan = phantom.output;
+  options.reading.labels = "all";
+  options.stage.lambda = ParseLambda("0");
+  options.stage.lambda.text = "0";
+  options.stage.standOut = ParseLambda("3vox");
+  options.stage.smooth = ParseLambda("6vox");
+  options.stage.branches.pruneRadii = 1;
+  options.pictures = false;
+  options.output = folder / "out/";
+  options.force = true;
+  RootsResult     result = RunRootsJob(options);
+  SkeletonGraph & graph = result.model.graph;
+  for (auto & place : graph.positions)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      std::printf("up %g %g %g\n", roots.up[0], roots.up[1], roots.up[2]);
-      for (std::size_t i = 0; i < roots.axes.size(); ++i)
-      {
-        const auto & a = roots.axes[i];
-        const auto & p = graph.positions[a.points.front()];
-        const auto & q = graph.positions[a.points.back()];
-        std::printf("axis %zu level %d parent %d points %zu  %.0f %.0f %.0f r %.2f -> %.0f %.0f %.0f r %.2f\n",
-                    i,
-                    a.level,
-                    static_cast<int>(a.parent),
-                    a.points.size(),
-                    p[0],
-                    p[1],
-                    p[2],
-                    SectionRadii(graph)[a.points.front()],
-                    q[0],
-                    q[1],
-                    q[2],
-                    SectionRadii(graph)[a.points.back()]);
-      }
-      for (const auto & m : roots.meetings)
-        std::printf("meeting %.0f %.0f %.0f r %.2f margin %.2f pairs %zu\n",
-                    m.position[0],
-                    m.position[1],
-                    m.position[2],
-                    m.radius,
-                    m.margin,
-                    m.pairs.size());
-    }
-    // As it was: the tree of the thickest branches.
-    MeasureOptions before;
-    before.root.kind = RootChoice::Kind::Top;
-    const BranchTable table = MeasureBranches(graph, before);
-    RootHierarchy     tree;
-    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
-    {
-      RootAxis axis;
-      axis.level = table.branches[branch].level;
-      axis.points.assign(graph.Branch(branch).begin(), graph.Branch(branch).end());
-      tree.axes.push_back(axis);
-    }
-    const RootScores former = ScoreRoots(options.root, graph, tree);
-    old += former.rightLevel;
-    oldLength += former.length;
-    length += score.length;
-    right += score.rightLevel;
-    if (std::getenv("VERBOSE"))
-    {
-      std::printf(
-        "  seed %d: tips %zu missed %zu found %zu spurious %zu, length %.3f, right %.3f (was %.3f), meetings %zu of "
-        "%zu, "
-        "undecided %zu, axes %zu\n",
-        static_cast<int>(seed),
-        score.tips,
-        score.missed,
-        score.found,
-        score.spurious,
-        score.length / score.trueLength,
-        score.rightLevel / score.length,
-        former.rightLevel / former.length,
-        roots.meetings.size(),
-        score.contacts,
-        score.undecided,
-        roots.axes.size());
+      place[axis] += 0.5 * phantom.phantom.spacing[axis]; // from the first voxel's centre to the grid's corner
     }
   }
-  std::printf("%4d, 1:1:%.0f, %2d contacts: %6.2f %% of the length has its level (was %6.2f %%)\n",
-              size,
-              slice,
-              contacts,
-              100 * right / length,
-              100 * old / oldLength);
+  RootScores score = ScoreRoots(phantom.phantom, graph, result.model.roots);
+  CompareAngles(phantom.phantom, graph, result.model.roots, result.model.traits, score);
+  const RootScores former = ScoreFormer(phantom.phantom, graph);
+  sum.formerRight += former.rightLevel;
+  sum.formerLength += former.length;
+  const auto & betti = result.report.labels.at(0).shape.betti;
+  sum.spheres += betti[0] == 1 && betti[1] == 0 && betti[2] == 0 ? 1 : 0;
+  sum.likeTree += betti[0] == 1 && betti[1] <= static_cast<std::int64_t>(score.contacts) && betti[2] == 0 ? 1 : 0;
+  sum.seconds += result.report.seconds.total;
+  Add(sum, score);
+  if (std::getenv("VERBOSE"))
+  {
+    std::printf(
+      "  %d %g seed %d: b %d %d %d, tips %zu missed %zu found %zu spurious %zu, length %.3f, level %.3f (%.3f), "
+      "angle %.1f, contacts %zu, meetings %zu\n",
+      phantom.phantom.size[0],
+      phantom.phantom.spacing[2] / phantom.phantom.spacing[0],
+      static_cast<int>(phantom.phantom.seed),
+      static_cast<int>(betti[0]),
+      static_cast<int>(betti[1]),
+      static_cast<int>(betti[2]),
+      score.tips,
+      score.missed,
+      score.found,
+      score.spurious,
+      score.length / score.trueLength,
+      score.rightLevel / score.length,
+      former.rightLevel / former.length,
+      score.angleError / std::max<double>(1, static_cast<double>(score.angles)),
+      score.contacts,
+      result.model.roots.meetings.size());
+  }
+}
+
+void
+Print(const char * name, const Sum & sum)
+{
+  const RootScores & s = sum.scores;
+  const auto         percent = [](double part, double whole) { return whole > 0 ? 100 * part / whole : 0; };
+  std::printf("%-22s %4d %9d %9d %9.2f %10.2f %7.2f %7.2f %9.2f %9.2f %8.2f %7.2f %7zu %9zu %7.2f\n",
+              name,
+              sum.phantoms,
+              sum.spheres,
+              sum.likeTree,
+              percent(static_cast<double>(s.tips - s.missed), static_cast<double>(s.tips)),
+              percent(static_cast<double>(s.spurious), static_cast<double>(s.found)),
+              100 * sum.sumOfLengths / std::max(1, sum.phantoms),
+              100 * sum.worstLength,
+              percent(s.rightLevel, s.length),
+              percent(sum.formerRight, sum.formerLength),
+              s.angleError / std::max<double>(1, static_cast<double>(s.angles)),
+              s.angleBias / std::max<double>(1, static_cast<double>(s.angles)),
+              s.contacts,
+              s.undecided,
+              sum.seconds / std::max(1, sum.phantoms));
+  std::fflush(stdout);
+}
+
+void
+Evaluate(int seeds, int breaks)
+{
+  std::printf(
+    "                       runs b=(1,0,0) but for   tips     spurious  length off %%   level     before   "
+    "angle off, deg  contacts undecided seconds\n"
+    "                                      contacts  found %%  %%          mean    worst  right %%   right %% "
+    "  mean     bias\n");
+  for (const int contacts : { 0, 5, 10 })
+  {
+    for (const double slice : { 1.0, 2.0 })
+    {
+      for (const double voxel : { 1.0, 0.75, 0.5 })
+      {
+        Sum sum;
+        for (int seed = 1; seed <= seeds; ++seed)
+        {
+          const TemporaryFolder folder;
+          PhantomJobOptions     phantom;
+          phantom.phantom.kind = "root";
+          phantom.phantom.spacing = { voxel, voxel, slice * voxel };
+          const auto side = static_cast<std::int32_t>(144 / voxel);
+          phantom.phantom.size = { side, side, static_cast<std::int32_t>(side / slice) };
+          phantom.phantom.seed = static_cast<std::uint64_t>(seed);
+          phantom.phantom.detail = 1.4;
+          phantom.phantom.laterals = 14;
+          phantom.phantom.subLaterals = 2;
+          phantom.phantom.contacts = contacts;
+          phantom.scan.emplace();
+          phantom.scan->hollow = 0.65;
+          phantom.scan->holes = 6;
+          phantom.scan->breaks = breaks;
+          phantom.scan->noise = 0.08;
+          phantom.scan->rings = 0.03;
+          phantom.output = folder.Path() / "scan.nrrd";
+          RunOne(phantom, folder.Path(), sum);
+        }
+        char name[64];
+        std::snprintf(name, sizeof(name), "%d contacts %g 1:1:%g", contacts, voxel, slice);
+        Print(name, sum);
+      }
+    }
+  }
 }
 
 } // namespace
@@ -123,12 +206,14 @@ ScoreHierarchy(std::uint64_t seeds, std::int32_t size, double slice, int contact
 int
 main(int argc, char ** argv)
 {
-  using namespace voxelcore::testing;
-  const auto seeds = static_cast<std::uint64_t>(argc > 1 ? std::atoi(argv[1]) : 3);
-  const int  size = argc > 2 ? std::atoi(argv[2]) : 160;
-  for (const int contacts : { 0, 5, 10 })
+  try
   {
-    ScoreHierarchy(seeds, size, 1, contacts);
+    voxelcore::testing::Evaluate(argc > 1 ? std::atoi(argv[1]) : 3, argc > 2 ? std::atoi(argv[2]) : 0);
+    return 0;
   }
-  return 0;
+  catch (const std::exception & error)
+  {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }

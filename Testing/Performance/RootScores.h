@@ -3,10 +3,52 @@
 
 #include "../Skeleton/RootScore.h"
 
-#include "voxelcore/RootHierarchy.h"
+#include "voxelcore/RootTraits.h"
+
+#include <map>
 
 namespace voxelcore::testing
 {
+
+/** The truth in the form in which results come: its traits are measured as theirs are. */
+struct TrueRoots
+{
+  SkeletonGraph graph;
+  RootHierarchy roots; ///< an axis per branch of the phantom, with its number
+  RootTraits    traits;
+};
+
+inline TrueRoots
+TruthOf(const PhantomOptions & options)
+{
+  TrueRoots                truth;
+  std::vector<std::size_t> within; // its branch
+  const auto               lines = RootCentreLines(options);
+  for (const CentreLinePoint & point : lines)
+  {
+    const auto number = static_cast<ElementIndex>(truth.graph.positions.size());
+    truth.graph.positions.push_back(PlaceOf(options, point));
+    truth.graph.radius.push_back(point.radius);
+    if (static_cast<std::size_t>(point.branch) == truth.roots.axes.size())
+    {
+      RootAxis axis;
+      axis.level = point.order;
+      if (point.parent >= 0)
+      {
+        const auto before = static_cast<std::size_t>(point.parent);
+        axis.parent = static_cast<ElementIndex>(lines[before].branch);
+        axis.parentPoint = within[before];
+        ++truth.roots.axes[axis.parent].children;
+      }
+      truth.roots.axes.push_back(axis);
+    }
+    RootAxis & axis = truth.roots.axes[static_cast<std::size_t>(point.branch)];
+    within.push_back(axis.points.size());
+    axis.points.push_back(number);
+  }
+  truth.traits = MeasureRoots(truth.graph, truth.roots);
+  return truth;
+}
 
 struct RootScores
 {
@@ -19,6 +61,9 @@ struct RootScores
   double      rightLevel = 0; ///< mm of `length`
   std::size_t undecided = 0;
   std::size_t contacts = 0; ///< in the phantom
+  std::size_t angles = 0;   ///< roots whose emergence angle was compared
+  double      angleError = 0;
+  double      angleBias = 0; ///< sums over these, degrees
 };
 
 /** Positions of `graph` are mm from the corner of the phantom's grid. */
@@ -93,6 +138,48 @@ ScoreRoots(const PhantomOptions & options, const SkeletonGraph & graph, const Ro
   }
   score.contacts = RootContacts(options).size();
   return score;
+}
+
+/** Adds how far the emergence angles of laterals are from those of the branches they follow for most of their
+ *  length. */
+inline void
+CompareAngles(const PhantomOptions & options,
+              const SkeletonGraph &  graph,
+              const RootHierarchy &  roots,
+              const RootTraits &     traits,
+              RootScores &           score)
+{
+  const TrueRoots                    truth = TruthOf(options);
+  const std::vector<CentreLinePoint> lines = RootCentreLines(options);
+  for (std::size_t axis = 0; axis < roots.axes.size(); ++axis)
+  {
+    std::map<std::int32_t, int> followed;
+    for (const ElementIndex point : roots.axes[axis].points)
+    {
+      std::size_t nearest = 0;
+      for (std::size_t k = 1; k < lines.size(); ++k)
+      {
+        nearest = Distance(truth.graph.positions[k], graph.positions[point]) <
+                      Distance(truth.graph.positions[nearest], graph.positions[point])
+                    ? k
+                    : nearest;
+      }
+      ++followed[lines[nearest].branch];
+    }
+    const auto   most = std::max_element(followed.begin(), followed.end(), [](const auto & a, const auto & b) {
+      return a.second < b.second;
+    });
+    const auto   branch = static_cast<std::size_t>(most->first);
+    const double found = traits.roots[axis].emergenceAngle;
+    const double expected = truth.traits.roots[branch].emergenceAngle;
+    if (truth.roots.axes[branch].level == roots.axes[axis].level && std::isfinite(found) && std::isfinite(expected) &&
+        traits.roots[axis].length > 0.5 * truth.traits.roots[branch].length)
+    {
+      ++score.angles;
+      score.angleError += std::abs(found - expected);
+      score.angleBias += found - expected;
+    }
+  }
 }
 
 } // namespace voxelcore::testing

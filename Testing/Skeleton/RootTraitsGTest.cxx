@@ -85,6 +85,24 @@ TEST(RootTraits, TheHullOfACubesCornersIsTheCube)
   EXPECT_NEAR(traits.width, 10 * std::sqrt(2.0), 0.01);
 }
 
+TEST(RootTraits, TheHullOfManyPointsInFewPlanesIsTheirBox)
+{
+  GraphBuilder builder;
+  for (int y = 0; y <= 40; ++y)
+  {
+    for (int z = 0; z <= 40; z += y % 2 == 0 ? 1 : 40)
+    {
+      builder.Line({ 0, static_cast<double>(y), static_cast<double>(z) },
+                   { 40, static_cast<double>(y), static_cast<double>(z) },
+                   1);
+    }
+  }
+  const SkeletonGraph graph = builder.Graph();
+  const RootTraits    traits = MeasureRoots(graph, FindRoots(graph));
+  EXPECT_NEAR(traits.hullVolume, 64000, 0.1);
+  EXPECT_NEAR(traits.hullSurface, 9600, 0.1);
+}
+
 TEST(RootTraits, VolumeAndSurfaceAreThoseOfRoundCones)
 {
   GraphBuilder builder;
