@@ -191,14 +191,17 @@ TEST_F(RootsJob, DirectionsAreWordsForTheAxes)
 TEST_F(RootsJob, WhatTheUserAsksForOfTheCleaningTakesPrecedence)
 {
   ShapeEditOptions edits;
-  CleanForRoots(edits);
+  CleanForRoots(edits, { 1, 1, 1 });
   EXPECT_TRUE(edits.mend && edits.fillCavities);
-  EXPECT_EQ(edits.fillHollows->text, "4vox");
+  EXPECT_EQ(edits.fillHollows->text, "2.5vox");
   EXPECT_EQ(*edits.largest, 1U);
+  ShapeEditOptions thick;
+  CleanForRoots(thick, { 0.5, 0.5, 1 });
+  EXPECT_EQ(thick.fillHollows->text, "5vox");
   ShapeEditOptions own;
   own.close = ParseGapWidth("5vox");
   own.minVoxels = 100;
-  CleanForRoots(own);
+  CleanForRoots(own, { 1, 1, 1 });
   EXPECT_FALSE(own.fillHollows);
   EXPECT_FALSE(own.largest);
 }

@@ -7,11 +7,14 @@
 #include "voxelcore/GreyScan.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/ReadInput.h"
 #include "voxelcore/ReportTable.h"
+#include "voxelcore/ScanRows.h"
 #include "voxelcore/Text.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <limits>
@@ -32,6 +35,17 @@ constexpr std::array<const char *, 11> kFiles{ "mask.nrrd",    "medial.vtp",  "s
                                                "roots.csv",    "levels.csv",  "plant.csv",    "profile.csv",
                                                "columns.json", "report.json", "page.html" };
 
+/** The voxel size, from the scan's header alone. */
+Vector3
+SpacingOf(const RootsOptions & options)
+{
+  if (options.reading.spacing)
+  {
+    return *options.reading.spacing;
+  }
+  return IsMeshFile(options.scan) ? Vector3{ 1, 1, 1 } : ScanRows(options.scan, options.reading).Geometry().spacing;
+}
+
 CoreOptions
 CoreOptionsOf(const RootsOptions & options)
 {
@@ -43,7 +57,7 @@ CoreOptionsOf(const RootsOptions & options)
   core.edits = options.edits;
   if (!options.asIs)
   {
-    CleanForRoots(core.edits);
+    CleanForRoots(core.edits, SpacingOf(options));
   }
   core.further = options.further;
   CompletePruning(core.lambdas, core.tolerances);
@@ -208,12 +222,14 @@ UpText(const Vector3 & up)
 }
 
 void
-CleanForRoots(ShapeEditOptions & edits)
+CleanForRoots(ShapeEditOptions & edits, const Vector3 & spacing)
 {
   edits.mend = true;
   if (!edits.close && !edits.fillHollows && !edits.fillSlices)
   {
-    edits.fillHollows = ParseGapWidth("4vox");
+    // Wide enough for holes of two voxels, whichever way they lie; lumens must be wider than that to be found.
+    const auto [least, most] = std::minmax({ spacing[0], spacing[1], spacing[2] });
+    edits.fillHollows = ParseGapWidth(RoundTripText(std::round(25 * most / least) / 10) + "vox");
   }
   edits.fillCavities = true;
   if (!edits.largest && !edits.minVoxels)

@@ -49,10 +49,10 @@ std::string
 UpText(const Vector3 & up);
 
 /** What is done to a root's mask before anything is computed unless the user says otherwise: flips of single voxels are
- *  mended, lumens that open through holes of up to four voxels and cavities are filled, the largest piece stays. What
- *  the user asks for of these takes precedence. */
+ *  mended, lumens that open through holes of up to 2.5 voxels (by the largest spacing) and cavities are filled, the
+ *  largest piece stays. What the user asks for of these takes precedence. */
 void
-CleanForRoots(ShapeEditOptions & edits);
+CleanForRoots(ShapeEditOptions & edits, const Vector3 & spacing);
 
 /** Reads, proposes a threshold where grey values come without one (HalfwayThreshold), cleans, computes a certified
  *  medial surface and skeleton, finds the roots, measures them. Writes into the folder: mask.nrrd, medial.vtp,

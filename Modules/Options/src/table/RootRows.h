@@ -40,7 +40,8 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     false,
     kRoots,
-    "Do not clean the mask; without this it is mended, hollow roots (--fill-hollows 4vox) and cavities are filled, and "
+    "Do not clean the mask; without this it is mended, hollow roots (--fill-hollows 2.5vox, more on thick slices) and "
+    "cavities are filled, and "
     "the largest piece is kept" },
   { "no-pictures", "--no-pictures", Flag, "", "", false, kRoots, "Leave out roots.png and roots.html" },
 });
