@@ -191,19 +191,19 @@ TEST_F(RootsJob, DirectionsAreWordsForTheAxes)
 TEST_F(RootsJob, WhatTheUserAsksForOfTheCleaningTakesPrecedence)
 {
   ShapeEditOptions edits;
-  CleanForRoots(edits, { 1, 1, 1 });
+  CleanForRoots(edits);
   EXPECT_TRUE(edits.mend && edits.fillCavities);
-  EXPECT_EQ(edits.fillHollows->text, "2.5vox");
   EXPECT_EQ(*edits.largest, 1U);
-  ShapeEditOptions thick;
-  CleanForRoots(thick, { 0.5, 0.5, 1 });
-  EXPECT_EQ(thick.fillHollows->text, "5vox");
   ShapeEditOptions own;
-  own.close = ParseGapWidth("5vox");
   own.minVoxels = 100;
-  CleanForRoots(own, { 1, 1, 1 });
-  EXPECT_FALSE(own.fillHollows);
+  CleanForRoots(own);
   EXPECT_FALSE(own.largest);
+  Scan("a.nrrd", 0.7);
+  EXPECT_EQ(Roots("a.nrrd", "out/").report.parameters.edits.fillHollows->text, "2.5vox");
+  EXPECT_EQ(Roots("a.nrrd", "wide/", { { "fill-hollows", "3vox" } }).report.parameters.edits.fillHollows->text, "3vox");
+  const auto closed = Roots("a.nrrd", "closed/", { { "close", "4vox" } }).report.parameters.edits;
+  EXPECT_FALSE(closed.fillHollows);
+  EXPECT_TRUE(closed.close);
 }
 
 } // namespace

@@ -175,10 +175,10 @@ Evaluate(int seeds, int breaks)
           PhantomJobOptions     phantom;
           phantom.phantom.kind = "root";
           phantom.phantom.spacing = { voxel, voxel, slice * voxel };
-          const auto side = static_cast<std::int32_t>(144 / voxel);
+          const auto side = static_cast<std::int32_t>(160 / voxel);
           phantom.phantom.size = { side, side, static_cast<std::int32_t>(side / slice) };
           phantom.phantom.seed = static_cast<std::uint64_t>(seed);
-          phantom.phantom.detail = 1.4;
+          phantom.phantom.detail = 1.1;
           phantom.phantom.laterals = 14;
           phantom.phantom.subLaterals = 2;
           phantom.phantom.contacts = contacts;

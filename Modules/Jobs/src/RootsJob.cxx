@@ -9,7 +9,7 @@
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadInput.h"
 #include "voxelcore/ReportTable.h"
-#include "voxelcore/ScanRows.h"
+#include "voxelcore/ShapeTopology.h"
 #include "voxelcore/Text.h"
 
 #include <algorithm>
@@ -35,17 +35,6 @@ constexpr std::array<const char *, 11> kFiles{ "mask.nrrd",    "medial.vtp",  "s
                                                "roots.csv",    "levels.csv",  "plant.csv",    "profile.csv",
                                                "columns.json", "report.json", "page.html" };
 
-/** The voxel size, from the scan's header alone. */
-Vector3
-SpacingOf(const RootsOptions & options)
-{
-  if (options.reading.spacing)
-  {
-    return *options.reading.spacing;
-  }
-  return IsMeshFile(options.scan) ? Vector3{ 1, 1, 1 } : ScanRows(options.scan, options.reading).Geometry().spacing;
-}
-
 CoreOptions
 CoreOptionsOf(const RootsOptions & options)
 {
@@ -57,7 +46,7 @@ CoreOptionsOf(const RootsOptions & options)
   core.edits = options.edits;
   if (!options.asIs)
   {
-    CleanForRoots(core.edits, SpacingOf(options));
+    CleanForRoots(core.edits);
   }
   core.further = options.further;
   CompletePruning(core.lambdas, core.tolerances);
@@ -71,25 +60,72 @@ CoreOptionsOf(const RootsOptions & options)
   return core;
 }
 
-/** The core and the skeleton, with a threshold where grey values come without one; tells it in the notes. */
-CoreResult
-StageCore(CoreOptions & core, OutputTransaction & transaction, const JobContext & context, const ShapesSeen & seen)
+/** The width in voxels up to which holes are closed, of those tried that with the fewest pieces, loops and cavities
+ *  left; the least of equals. */
+GapWidth
+BestWidth(const LabelMap & volume, const CoreOptions & core)
 {
+  // In voxels of the greatest spacing. Lumens must be wider than that to be found, holes narrower to be closed.
+  const Vector3 & spacing = volume.geometry.spacing;
+  const auto [least, most] = std::minmax({ spacing[0], spacing[1], spacing[2] });
+  std::optional<GapWidth> best;
+  std::int64_t            fewest = 0;
+  for (const double holes : { 2.5, 4.0, 6.0 })
+  {
+    ShapeEditOptions edits = core.edits;
+    edits.fillHollows = ParseGapWidth(RoundTripText(std::round(10 * holes * most / least) / 10) + "vox");
+    const EditedLabels edited =
+      EditLabels(volume.labels, volume.geometry, edits, core.reading.labels != "all", core.scan.string());
+    std::int64_t left = 0;
+    for (const EditedLabel & one : edited.labels)
+    {
+      const auto betti = ComputeShapeTopology(one.label.shape).betti;
+      left += betti[0] - 1 + betti[1] + betti[2];
+    }
+    if (!best || left < fewest)
+    {
+      best = edits.fillHollows;
+      fewest = left;
+    }
+    if (fewest == 0)
+    {
+      break;
+    }
+  }
+  return *best;
+}
+
+/** Chooses the threshold of grey values that come without one, and how hollows are filled. */
+void
+LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
+{
+  const bool choosesWidth = !asIs && !core.edits.close && !core.edits.fillHollows && !core.edits.fillSlices;
+  if (!choosesWidth && !core.reading.refuseGrey)
+  {
+    return;
+  }
+  LabelMap volume;
   try
   {
-    return StageCoreJob(core, transaction, context, false, seen);
+    volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
   }
   catch (const GreyScanError & error)
   {
-    const double infinity = std::numeric_limits<double>::infinity();
-    core.reading.threshold = std::pair(error.grey.half, infinity);
+    core.reading.threshold = std::pair(error.grey.half, std::numeric_limits<double>::infinity());
     core.reading.refuseGrey = false;
-    CoreResult result = StageCoreJob(core, transaction, context, false, seen);
-    result.notes.insert(result.notes.begin(),
-                        core.scan.string() + ": " + GreyScanText(error.grey) + "; threshold " +
-                          RoundTripText(error.grey.half) + ":inf, halfway between background and roots (Otsu: " +
-                          OtsuRange(error.grey) + "); for another give --threshold");
-    return result;
+    notes.push_back(
+      core.scan.string() + ": " + GreyScanText(error.grey) + "; threshold " + RoundTripText(error.grey.half) +
+      ":inf, halfway between background and roots (Otsu: " + OtsuRange(error.grey) + "); for another give --threshold");
+    if (choosesWidth)
+    {
+      volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
+    }
+  }
+  if (choosesWidth)
+  {
+    core.edits.fillHollows = BestWidth(volume, core);
+    notes.push_back("hollows are filled where they open through holes up to " + core.edits.fillHollows->text +
+                    " wide; for another width give --fill-hollows");
   }
 }
 
@@ -222,15 +258,9 @@ UpText(const Vector3 & up)
 }
 
 void
-CleanForRoots(ShapeEditOptions & edits, const Vector3 & spacing)
+CleanForRoots(ShapeEditOptions & edits)
 {
   edits.mend = true;
-  if (!edits.close && !edits.fillHollows && !edits.fillSlices)
-  {
-    // Wide enough for holes of two voxels, whichever way they lie; lumens must be wider than that to be found.
-    const auto [least, most] = std::minmax({ spacing[0], spacing[1], spacing[2] });
-    edits.fillHollows = ParseGapWidth(RoundTripText(std::round(25 * most / least) / 10) + "vox");
-  }
   edits.fillCavities = true;
   if (!edits.largest && !edits.minVoxels)
   {
@@ -259,24 +289,30 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   CoreOptions core = CoreOptionsOf(options);
   CheckCoreTargets(core, transaction);
 
-  RootsResult   result;
+  RootsResult result;
+  ReportProgress(context.progress, "looking", 0);
+  LookAtScan(core, options.asIs, result.notes);
   LabelShape    mask;
   ImageGeometry geometry;
   JobContext    part = context;
   part.progress = PartOfProgress(context.progress, 0, draws ? 0.75 : 0.95);
   CoreResult staged =
-    StageCore(core, transaction, part, [&](const std::vector<EditedLabel> & labels, const ImageGeometry & where) {
-      if (labels.size() != 1)
-      {
-        throw UsageError(options.scan.string() + ": " + std::to_string(labels.size()) +
-                         " labels; choose one with --labels, or take all as one with --binary");
-      }
-      mask = labels.front().label;
-      geometry = where;
-    });
+    StageCoreJob(core,
+                 transaction,
+                 part,
+                 false,
+                 [&](const std::vector<EditedLabel> & labels, const ImageGeometry & where) {
+                   if (labels.size() != 1)
+                   {
+                     throw UsageError(options.scan.string() + ": " + std::to_string(labels.size()) +
+                                      " labels; choose one with --labels, or take all as one with --binary");
+                   }
+                   mask = labels.front().label;
+                   geometry = where;
+                 });
   result.report = std::move(staged.report);
   result.warnings = std::move(staged.warnings);
-  result.notes = std::move(staged.notes);
+  result.notes.insert(result.notes.end(), staged.notes.begin(), staged.notes.end());
 
   SkeletonModel skeleton = ReadSkeletonVtp(StagedName(transaction, core.skeletonOutput));
   result.model.name = ScanName(options.scan);

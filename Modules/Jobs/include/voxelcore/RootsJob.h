@@ -49,10 +49,11 @@ std::string
 UpText(const Vector3 & up);
 
 /** What is done to a root's mask before anything is computed unless the user says otherwise: flips of single voxels are
- *  mended, lumens that open through holes of up to 2.5 voxels (by the largest spacing) and cavities are filled, the
- *  largest piece stays. What the user asks for of these takes precedence. */
+ *  mended, cavities are filled, the largest piece stays. What the user asks for of these takes precedence. Hollows are
+ *  filled, too, unless the user closes or fills otherwise; through holes how wide is looked at for each scan: 2.5, 4 or
+ *  6 voxels (by the largest spacing), whichever leaves the fewest loops, cavities and pieces. */
 void
-CleanForRoots(ShapeEditOptions & edits, const Vector3 & spacing);
+CleanForRoots(ShapeEditOptions & edits);
 
 /** Reads, proposes a threshold where grey values come without one (HalfwayThreshold), cleans, computes a certified
  *  medial surface and skeleton, finds the roots, measures them. Writes into the folder: mask.nrrd, medial.vtp,

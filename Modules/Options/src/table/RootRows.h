@@ -40,9 +40,9 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     false,
     kRoots,
-    "Do not clean the mask; without this it is mended, hollow roots (--fill-hollows 2.5vox, more on thick slices) and "
-    "cavities are filled, and "
-    "the largest piece is kept" },
+    "Do not clean the mask; without this it is mended, hollow roots (--fill-hollows, by a width found) and cavities "
+    "are "
+    "filled, and the largest piece is kept" },
   { "no-pictures", "--no-pictures", Flag, "", "", false, kRoots, "Leave out roots.png and roots.html" },
 });
 
