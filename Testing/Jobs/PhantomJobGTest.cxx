@@ -58,6 +58,31 @@ TEST_F(PhantomJob, TheVolumeHoldsTheVoxelsOfThePhantom)
   }
 }
 
+TEST_F(PhantomJob, TheTruthIsRsmlWithARootForEachBranch)
+{
+  PhantomJobOptions options = Options("root", "a.nrrd");
+  options.phantom.size = { 64, 64, 64 };
+  options.centreLines = At("a.rsml");
+  RunPhantomJob(options);
+  std::size_t branches = 0;
+  const auto  lines = RootCentreLines(options.phantom);
+  for (const CentreLinePoint & point : lines)
+  {
+    branches = std::max(branches, static_cast<std::size_t>(point.branch) + 1);
+  }
+  const std::string text = Bytes("a.rsml");
+  const auto        count = [&text](const std::string & what) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    {
+      ++found;
+    }
+    return found;
+  };
+  EXPECT_EQ(count("<root "), branches);
+  EXPECT_EQ(count("<point "), lines.size());
+}
+
 TEST_F(PhantomJob, AGreyScanHoldsTheValuesOfItsRoot)
 {
   PhantomJobOptions options = Options("root", "a.nrrd");

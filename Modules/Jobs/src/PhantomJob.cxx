@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/RootFiles.h"
 
 #include <cstdio>
 #include <utility>
@@ -54,6 +55,39 @@ CentreLinesText(const PhantomOptions & options, const ImageGeometry & geometry)
     text += row;
   }
   return text;
+}
+
+/** The same as RSML, with the numbers its roots have. */
+RootModel
+TrueRoots(const PhantomOptions & options, const ImageGeometry & geometry)
+{
+  RootModel                model;
+  std::vector<std::size_t> within; // its axis
+  const auto               lines = RootCentreLines(options);
+  for (const CentreLinePoint & point : lines)
+  {
+    if (static_cast<std::size_t>(point.branch) == model.roots.axes.size())
+    {
+      RootAxis axis;
+      axis.level = point.order;
+      if (point.parent >= 0)
+      {
+        const auto before = static_cast<std::size_t>(point.parent);
+        axis.parent = static_cast<ElementIndex>(lines[before].branch);
+        axis.parentPoint = within[before];
+        ++model.roots.axes[axis.parent].children;
+      }
+      model.roots.axes.push_back(axis);
+    }
+    RootAxis & axis = model.roots.axes[static_cast<std::size_t>(point.branch)];
+    within.push_back(axis.points.size());
+    axis.points.push_back(static_cast<ElementIndex>(model.graph.positions.size()));
+    model.graph.positions.push_back(LatticeToPhysical(geometry, point.position));
+    model.graph.radius.push_back(point.radius);
+  }
+  model.name = "phantom root, seed " + std::to_string(options.seed);
+  model.traits = MeasureRoots(model.graph, model.roots);
+  return model;
 }
 
 /** Each gives what was made, in words. */
@@ -110,9 +144,10 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & given)
   transaction.CheckTarget(options.output);
   if (options.centreLines)
   {
-    if (options.phantom.kind != "root" || options.centreLines->extension() != ".swc")
+    const std::filesystem::path extension = options.centreLines->extension();
+    if (options.phantom.kind != "root" || (extension != ".swc" && extension != ".rsml"))
     {
-      throw UsageError("--centre-lines: only the kind root has them, and they are written as .swc");
+      throw UsageError("--centre-lines: only the kind root has them, and they are written as .swc or .rsml");
     }
     transaction.CheckTarget(*options.centreLines);
   }
@@ -126,7 +161,14 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & given)
   geometry.spacing = options.phantom.spacing;
   const std::string what = options.scan ? WriteScan(options, geometry, transaction, context)
                                         : WriteBodies(options, geometry, transaction, context);
-  if (options.centreLines)
+  if (options.centreLines && options.centreLines->extension() == ".rsml")
+  {
+    // What is made of numbers has no date.
+    WriteRsml(transaction.Stage(*options.centreLines),
+              TrueRoots(options.phantom, geometry),
+              { "1970-01-01T00:00:00", "VoxelCore " + VoxelCoreVersion(), {} });
+  }
+  else if (options.centreLines)
   {
     WriteTextFile(transaction.Stage(*options.centreLines), CentreLinesText(options.phantom, geometry));
   }

@@ -18,7 +18,7 @@ struct PhantomJobOptions
   std::filesystem::path output; ///< .nrrd .nii .nii.gz .mha .mhd .tif
   bool                  force = false;
 
-  std::optional<std::filesystem::path> centreLines; ///< .swc; of kind root only
+  std::optional<std::filesystem::path> centreLines; ///< .swc or .rsml; of kind root only
   std::optional<RootScanOptions>       scan;        ///< of kind root: grey values of this scan; its `root` is not read
 };
 

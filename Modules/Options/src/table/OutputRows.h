@@ -121,11 +121,11 @@ inline constexpr auto kOutputRows = std::to_array<Parameter>({
   { "centre-lines",
     "--centre-lines",
     Output,
-    "OUT.swc",
+    "OUT.swc|OUT.rsml",
     "",
     false,
     kPhantom,
-    "Write the true centre lines of a root (SWC, micrometres, LPS)" },
+    "Write the true centre lines of a root: SWC in micrometres, or RSML" },
   { "force", "--force", Flag, "", "", false, kWrites, "Replace existing files", "overwrite=True" },
 });
 
