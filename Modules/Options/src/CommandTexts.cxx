@@ -15,7 +15,7 @@ constexpr std::string_view kCoreFooter =
 and thin parts alike. 1.2diag, the default, suits clean segmentations; use more for rough ones. --lambda L keeps
 all of the surface whose nearest boundary points lie at least 2 L apart. A bare number is mm; vox means times the
 smallest voxel spacing; diag, times a voxel's diagonal; % is of the longest side of the label's box.
-  --lambda 1.5vox clears most staircase noise and keeps parts three voxels thick.
+  --lambda 1.5vox clears most staircase noise. It keeps parts three voxels thick along the grid, and four obliquely.
   Above 2.44vox (cubic voxels) convergence is proven, but thin parts shrink to curves.
   For thick slices, give mm: about 1.5 times the slice distance.
 A --lambda given with --tolerance is applied first. Guide: choosing-the-pruning.md
