@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -151,6 +152,23 @@ TEST_F(RootsJob, TheReportHoldsTheContactsAndWhichWayIsUp)
       from = comma + 1;
     }
   }
+}
+
+TEST_F(RootsJob, PiecesThatAreLeftOutAreWarnedOfAndLoosePiecesAreMarked)
+{
+  PhantomJobOptions phantom = Scan("whole.nrrd");
+  EXPECT_TRUE(Roots("whole.nrrd", "whole/").warnings.empty());
+  phantom.scan->breaks = 4;
+  phantom.output = At("torn.nrrd");
+  RunPhantomJob(phantom);
+  const RootsResult torn = Roots("torn.nrrd", "torn/");
+  ASSERT_EQ(torn.warnings.size(), 1U);
+  EXPECT_NE(torn.warnings[0].find("are left out"), std::string::npos);
+  const RootsResult kept = Roots("torn.nrrd", "kept/", { { "min-voxels", "20" } });
+  EXPECT_TRUE(kept.warnings.empty());
+  EXPECT_TRUE(std::any_of(kept.model.roots.axes.begin(), kept.model.roots.axes.end(), [](const RootAxis & axis) {
+    return axis.loose;
+  }));
 }
 
 TEST_F(RootsJob, UpsideDownItIsTheSamePlant)

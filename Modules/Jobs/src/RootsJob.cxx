@@ -186,6 +186,14 @@ AddRemarks(RootsResult & result)
     result.notes.push_back("up is " + UpText(model.roots.up) +
                            ", found by the stem; if the plant stands otherwise, give --up");
   }
+  const LabelRecord & label = result.report.labels.front();
+  if (label.edits && label.edits->voxelsRemoved * 200 > label.voxels)
+  {
+    result.warnings.push_back(std::to_string(label.edits->componentsRemoved) + " pieces with " +
+                              std::to_string(label.edits->voxelsRemoved) +
+                              " voxels are left out; if broken roots are among them, join them with --close D, or keep "
+                              "them as loose pieces with --min-voxels N");
+  }
   const LengthUnit      unit = LengthUnit::For(model.traits.depth, model.unit);
   constexpr std::size_t listed = 10;
   std::size_t           undecided = 0;
