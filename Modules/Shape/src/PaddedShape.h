@@ -43,6 +43,13 @@ public:
     return static_cast<std::uint32_t>(bits) & ((1U << count) - 1);
   }
 
+  /** With the room. */
+  const VoxelShape &
+  Voxels() const
+  {
+    return m_Shape;
+  }
+
   bool
   Contains(const Voxel & at) const
   {

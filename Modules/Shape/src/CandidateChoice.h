@@ -1,0 +1,26 @@
+#pragma once
+// Which cuts and fills to make.
+
+#include "CandidateClusters.h"
+
+#include "voxelcore/TopologySimplification.h"
+
+namespace voxelcore
+{
+
+struct CandidateChoice
+{
+  std::vector<char>          isIn;             ///< of each candidate
+  TopologyShift              shift{ 0, 0, 0 }; ///< against the shape as it was
+  std::vector<TopologyShift> difference;       ///< that each candidate's change makes, all others being as chosen
+};
+
+/** The choice whose numbers are nearest to those asked for (the sum of their differences), and of these the cheapest;
+ *  `before` are the numbers of the shape as it is. \throws Cancelled */
+CandidateChoice
+ChooseCandidates(const CandidateGraph &   graph,
+                 const TopologyShift &    before,
+                 const TopologyRequest &  request,
+                 const ProgressCallback & progress);
+
+} // namespace voxelcore
