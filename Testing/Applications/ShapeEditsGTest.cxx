@@ -1,5 +1,5 @@
-// --crop, --mend-shape, --fill-cavities, --min-voxels, --largest, --smooth-shape, --split-components as a user gives
-// them.
+// --crop, --mend-shape, --fill-cavities, --min-voxels, --largest, --smooth-shape, --simplify-topology,
+// --split-components as a user gives them.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
@@ -358,6 +358,34 @@ TEST_F(ShapeEdits, MendingComesBeforeDustIsRemoved)
   Run({ "skeleton", m_Folder / "a.nrrd", "--mend-shape", "--smooth-shape", "-o", m_Folder / "s.vtp" });
 }
 
+TEST_F(ShapeEdits, TheTopologyAskedForIsMadeAndItsChangesAreListed)
+{
+  const Json   report = Core({ "--labels", "2", "--simplify-topology", "1vox", "--pieces", "1" });
+  const Json & label = report["labels"][0];
+  EXPECT_EQ(label["voxels"], 2 * 27 + 2);
+  EXPECT_EQ(label["shape"]["betti"], (Json{ 1, 0, 0 }));
+  const Json & made = label["edits"]["topology_simplified"];
+  EXPECT_EQ(made["before"]["betti"], (Json{ 2, 0, 0 }));
+  EXPECT_EQ(made["as_asked"], true);
+  ASSERT_EQ(made["changes"].size(), 1U);
+  const Json & fill = made["changes"][0];
+  EXPECT_EQ(fill["kind"], "fill");
+  EXPECT_EQ(fill["voxels"], 2);
+  EXPECT_EQ(fill["cost_voxels"], 2);
+  EXPECT_EQ(fill["pieces"], -1);
+  const double origin = report["input"]["origin_mm"][0];
+  EXPECT_EQ(fill["centre_mm"][0], origin + 23.5) << "between voxels 23 and 24";
+  EXPECT_EQ(report["parameters"]["simplify_topology"], "1vox");
+
+  // Five pieces of label 1 are not nine, and no cut makes them so.
+  const Texts nine{ "--labels", "1", "--simplify-topology", "1vox", "--pieces", "9" };
+  const Json  missed = Core(nine)["labels"][0];
+  EXPECT_EQ(missed["edits"]["topology_simplified"]["as_asked"], false);
+  EXPECT_LT(missed["shape"]["betti"][0], 9);
+  const std::string text = Run(With({ "core", "-o", m_Folder / "n.vtp" }, nine));
+  EXPECT_NE(text.find("was not reached within 1vox of the boundary"), std::string::npos) << text;
+}
+
 TEST_F(ShapeEdits, WrongUseAndUnfitInputAreToldApart)
 {
   const auto refuse = [&](const Texts & edits, int code, const Texts & words) {
@@ -378,6 +406,9 @@ TEST_F(ShapeEdits, WrongUseAndUnfitInputAreToldApart)
   }
   refuse({ "--crop=-1:5,:,:", "--quiet" }, 2, { "--crop", "-1:5" });
   refuse({ "--min-voxels", "0" }, 2, { "--min-voxels" });
+  refuse({ "--pieces", "1" }, 2, { "--pieces", "--simplify-topology" });
+  refuse({ "--simplify-topology", "0" }, 2, { "--simplify-topology" });
+  refuse({ "--simplify-topology", "40vox" }, 3, { "40vox", "32 voxels" });
   refuse({ "--largest", "0" }, 2, { "--largest" });
   refuse({ "--largest", "some" }, 2, { "--largest" });
   refuse({ "--crop", "0:31,:,:" }, 3, { "a.nrrd", "--crop", "30 x 12 x 12" });

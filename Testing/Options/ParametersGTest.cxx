@@ -235,6 +235,19 @@ TEST(Parameters, EditsArriveWhereTheyBelong)
   }
 }
 
+TEST(Parameters, NumbersOfATopologyNeedTheDepthOfItsChanges)
+{
+  const ShapeEditOptions edits =
+    CoreOptionsFrom(CoreValues({ { "simplify-topology", "2vox" }, { "pieces", "1" }, { "cavities", "0" } })).edits;
+  EXPECT_EQ(edits.simplify->text, "2vox");
+  EXPECT_EQ(edits.topology.pieces, 1);
+  EXPECT_FALSE(edits.topology.loops);
+  EXPECT_EQ(edits.topology.cavities, 0);
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "pieces", "1" } })), UsageError);
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "simplify-topology", "2vox" }, { "loops", "-1" } })), UsageError);
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "simplify-topology", "0" } })), UsageError);
+}
+
 TEST(Parameters, WhatToReadArrivesWhereItBelongs)
 {
   const ParameterValues given{ { "crop", "1:2,3:4,5:6" }, { "component", "2" }, { "volume", "3" } };

@@ -167,9 +167,20 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                                             std::numeric_limits<double>::infinity() } };
   report.parameters.reading.crop = CropRange{ { 0, 1, 2 }, { 10, 11, 12 } };
   report.parameters.reading.component = 2;
-  report.parameters.edits = {
-    MedianWidth{ 5 }, true, ParseGapWidth("4vox"), ParseGapWidth("2.5mm"), SliceAxis::J, true, 50, 3, true, true
-  };
+  report.parameters.edits = { MedianWidth{ 5 },
+                              true,
+                              ParseGapWidth("4vox"),
+                              ParseGapWidth("2.5mm"),
+                              SliceAxis::J,
+                              true,
+                              50,
+                              3,
+                              true,
+                              ParseGapWidth("2vox"),
+                              TopologyRequest{ 1, 0, {} },
+                              true };
+  EditRecord::Simplified simplified{ { 2, { 3, 2, 1 } }, { 1, { 1, 1, 1 } }, false, "too deep", 31, 32, 33, 34, {} };
+  simplified.changes.push_back({ true, { 1, 2, 3.5 }, 35, 36.25, { -1, 0, 1 } });
   for (LabelRecord & label : report.labels)
   {
     label.label = 7;
@@ -184,7 +195,8 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               EditRecord::Filled{ 21, 22, 0 },
                               EditRecord::Filled{ 23, 24, 25 },
                               EditRecord::Filled{ 26, 27, 28 },
-                              EditRecord::Smoothed{ 12, 13, 1 } };
+                              EditRecord::Smoothed{ 12, 13, 1 },
+                              simplified };
   }
   const std::string text = ProvenanceJson(report, { 0, 1 }, 1);
   const CoreReport  read = ParseProvenance(text, "a.vtp");
@@ -203,6 +215,23 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   EXPECT_EQ(json["labels"][0]["edits"]["smoothed"]["voxels_removed"], 13);
   EXPECT_EQ(json["labels"][0]["edits"]["closed"]["components_joined"], 22);
   EXPECT_EQ(read.labels[1].edits->slices->holes, 28U);
+  const auto & found = *read.labels[1].edits->simplified;
+  EXPECT_EQ(found.before, simplified.before);
+  EXPECT_EQ(found.after, simplified.after);
+  EXPECT_EQ(found.asAsked, false);
+  EXPECT_EQ(found.reason, "too deep");
+  EXPECT_EQ(found.voxelsRemoved, 34U);
+  EXPECT_EQ(read.parameters.edits.topology.loops, 0);
+  EXPECT_FALSE(json["labels"][0]["edits"]["topology_simplified"].contains("changes")) << "files hold no long list";
+  const Json change = Json::parse(ReportJson(report))["labels"][0]["edits"]["topology_simplified"]["changes"].at(0);
+  EXPECT_EQ(change,
+            (Json{ { "kind", "fill" },
+                   { "centre_mm", { 1, 2, 3.5 } },
+                   { "voxels", 35 },
+                   { "cost_voxels", 36.25 },
+                   { "pieces", -1 },
+                   { "loops", 0 },
+                   { "cavities", 1 } }));
   // The second component by itself, as in a file of its own.
   EXPECT_EQ(Json::parse(ProvenanceJson(report, { 1 }, 1))["parameters"]["labels"], Json{ 7 });
 }

@@ -21,7 +21,8 @@ smallest voxel spacing; diag, times a voxel's diagonal; % is of the longest side
 A --lambda given with --tolerance is applied first. Guide: choosing-the-pruning.md
 
 Shape edits run label by label in this order: --median, --mend-shape, --close, --fill-hollows, --fill-slices,
---fill-cavities, --min-voxels, --largest, --smooth-shape, --split-components. Components are 6-connected.
+--fill-cavities, --min-voxels, --largest, --smooth-shape, --simplify-topology, --split-components. Components are
+6-connected.
 --mend-shape and all that fill or close also remove true holes. Guide: noisy-masks.md
 
 --refine helps most with smooth shapes at coarse resolution; it needs parts at least three voxels thick. Radius

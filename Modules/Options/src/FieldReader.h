@@ -147,6 +147,10 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
   {
     throw UsageError("give only one of --labels, --binary and --threshold");
   }
+  if (options.edits.topology.IsGiven() && !options.edits.simplify)
+  {
+    throw UsageError("--pieces, --loops and --cavities need --simplify-topology, such as --simplify-topology 2vox");
+  }
 }
 
 /** `--refine` and the scan with grey values that goes with it. */

@@ -58,7 +58,35 @@ InputJson(const InputRecord & input, bool inFile)
 }
 
 Json
-EditRecordJson(const EditRecord & edits)
+SimplifiedJson(const EditRecord::Simplified & simplified, bool inFile)
+{
+  Json json{ { "before", TopologyJson(simplified.before) },
+             { "after", TopologyJson(simplified.after) },
+             { "as_asked", simplified.asAsked },
+             { "reason", simplified.reason },
+             { "cuts", simplified.cuts },
+             { "fills", simplified.fills },
+             { "voxels_added", simplified.voxelsAdded },
+             { "voxels_removed", simplified.voxelsRemoved } };
+  if (!inFile)
+  {
+    json["changes"] = Json::array();
+    for (const EditRecord::Change & change : simplified.changes)
+    {
+      json["changes"].push_back({ { "kind", change.isFill ? "fill" : "cut" },
+                                  { "centre_mm", change.centre },
+                                  { "voxels", change.voxels },
+                                  { "cost_voxels", change.cost },
+                                  { "pieces", change.difference[0] },
+                                  { "loops", change.difference[1] },
+                                  { "cavities", change.difference[2] } });
+    }
+  }
+  return json;
+}
+
+Json
+EditRecordJson(const EditRecord & edits, bool inFile)
 {
   Json json{ { "cavities_filled", edits.cavitiesFilled },
              { "voxels_added", edits.voxelsAdded },
@@ -95,6 +123,10 @@ EditRecordJson(const EditRecord & edits)
                          { "voxels_removed", edits.smoothed->voxelsRemoved },
                          { "largest_shift_voxels", edits.smoothed->largestShift } };
   }
+  if (edits.simplified)
+  {
+    json["topology_simplified"] = SimplifiedJson(*edits.simplified, inFile);
+  }
   return json;
 }
 
@@ -110,7 +142,7 @@ LabelJson(const LabelRecord & label, bool inFile)
   json["name"] = label.name;
   if (label.edits)
   {
-    json["edits"] = EditRecordJson(*label.edits);
+    json["edits"] = EditRecordJson(*label.edits, inFile);
   }
   json["voxels"] = label.voxels;
   json["volume_mm3"] = label.volumeMm3;

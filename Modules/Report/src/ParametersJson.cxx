@@ -167,7 +167,8 @@ bool
 IsOfSome(std::string_view name)
 {
   return name == "resolution" || name == "level" || name == "raw" || name == "close" || name == "fill_hollows" ||
-         name == "fill_slices" || name == "median";
+         name == "fill_slices" || name == "median" || name == "simplify_topology" || name == "pieces" ||
+         name == "loops" || name == "cavities";
 }
 
 /** Writes fields. */

@@ -98,6 +98,19 @@ ReadEditRecord(const Json & json)
     from.at("voxels_removed").get_to(smoothed.voxelsRemoved);
     from.at("largest_shift_voxels").get_to(smoothed.largestShift);
   }
+  if (json.contains("topology_simplified"))
+  {
+    const Json &             from = json.at("topology_simplified");
+    EditRecord::Simplified & simplified = edits.simplified.emplace();
+    simplified.before = ReadTopology(from.at("before"));
+    simplified.after = ReadTopology(from.at("after"));
+    from.at("as_asked").get_to(simplified.asAsked);
+    from.at("reason").get_to(simplified.reason);
+    from.at("cuts").get_to(simplified.cuts);
+    from.at("fills").get_to(simplified.fills);
+    from.at("voxels_added").get_to(simplified.voxelsAdded);
+    from.at("voxels_removed").get_to(simplified.voxelsRemoved);
+  }
   return edits;
 }
 

@@ -1,5 +1,6 @@
 #include "voxelcore/ShapeEdits.h"
 
+#include "voxelcore/DepthSimplification.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ShapeOperations.h"
 #include "voxelcore/ShapeSmoothing.h"
@@ -15,6 +16,30 @@ namespace voxelcore
 
 namespace
 {
+
+EditRecord::Simplified
+RecordOf(const DepthSimplified & result, const ImageGeometry & geometry)
+{
+  const SimplifiedShape & simplified = result.simplified;
+  EditRecord::Simplified  record;
+  record.before = simplified.before;
+  record.after = simplified.after;
+  record.asAsked = simplified.asAsked;
+  record.reason = result.reason;
+  record.voxelsAdded = simplified.voxelsAdded;
+  record.voxelsRemoved = simplified.voxelsRemoved;
+  for (const TopologyChange & change : simplified.changes)
+  {
+    ++(change.isFill ? record.fills : record.cuts);
+    const auto & at = change.centre;
+    record.changes.push_back({ change.isFill,
+                               LatticeToPhysical(geometry, { at[0] + 0.5, at[1] + 0.5, at[2] + 0.5 }),
+                               change.voxels,
+                               static_cast<double>(change.cost) / kCostOfOneVoxel,
+                               change.difference });
+  }
+  return record;
+}
 
 EditRecord
 EditShape(VoxelShape &             shape,
@@ -45,7 +70,8 @@ EditShape(VoxelShape &             shape,
                    options.fillHollows ? 0.5 : 0.0,
                    options.fillSlices ? 0.2 : 0.0,
                    0.1,
-                   options.smooth ? 1.0 : 0.0 });
+                   options.smooth ? 1.0 : 0.0,
+                   options.simplify ? 3.0 : 0.0 });
   const ProgressCallback filtering = plan.Next();
   if (options.median)
   {
@@ -97,11 +123,20 @@ EditShape(VoxelShape &             shape,
   {
     takeRemoved(KeepLargestComponents(std::move(shape), *options.largest));
   }
+  const ProgressCallback smoothing = plan.Next();
   if (options.smooth && shape.Box().size[0] > 0)
   {
-    SmoothedShape smoothed = SmoothShape(shape, plan.Next());
+    SmoothedShape smoothed = SmoothShape(shape, smoothing);
     shape = std::move(smoothed.shape);
     record.smoothed = { smoothed.voxelsAdded, smoothed.voxelsRemoved, smoothed.largestShift };
+  }
+  // Last: nothing that comes after changes the topology asked for.
+  if (options.simplify && shape.Box().size[0] > 0)
+  {
+    DepthSimplified result =
+      SimplifyWithin(shape, BallOfDepth(*options.simplify, geometry), options.topology, plan.Next());
+    record.simplified = RecordOf(result, geometry);
+    shape = Tightened(std::move(result.simplified.shape));
   }
   return record;
 }
@@ -168,6 +203,20 @@ Add(const EditRecord & record, EditRecord & sum)
     smoothed.voxelsRemoved += record.smoothed->voxelsRemoved;
     smoothed.largestShift = std::max(smoothed.largestShift, record.smoothed->largestShift);
   }
+  if (record.simplified)
+  {
+    auto &       all = sum.simplified ? *sum.simplified : sum.simplified.emplace(EditRecord::Simplified());
+    const auto & one = *record.simplified;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      all.before.betti[i] += one.before.betti[i];
+      all.after.betti[i] += one.after.betti[i];
+    }
+    all.cuts += one.cuts;
+    all.fills += one.fills;
+    all.voxelsAdded += one.voxelsAdded;
+    all.voxelsRemoved += one.voxelsRemoved;
+  }
 }
 
 /** The sum over all labels in words. */
@@ -218,6 +267,14 @@ Describe(const EditRecord & sum, const ShapeEditOptions & options)
                     std::to_string(sum.smoothed->voxelsRemoved) + " removed; the boundary moved by " + shift +
                     " voxels at most");
   }
+  if (sum.simplified)
+  {
+    const EditRecord::Simplified & simplified = *sum.simplified;
+    notes.push_back("topology simplified: " + CountsText(simplified.before) + " became " +
+                    CountsText(simplified.after) + " by " + Counted(simplified.cuts, "cut", "cuts") + " of " +
+                    Counted(simplified.voxelsRemoved, "voxel", "voxels") + " and " +
+                    Counted(simplified.fills, "fill", "fills") + " of " + std::to_string(simplified.voxelsAdded));
+  }
   return notes;
 }
 
@@ -242,6 +299,7 @@ EditLabels(std::vector<LabelShape>  labels,
   }
   EditRecord               sum;
   std::vector<std::string> gone;
+  std::vector<std::string> missed;
   for (std::size_t i = 0; i < labels.size(); ++i)
   {
     LabelShape &     label = labels[i];
@@ -252,6 +310,12 @@ EditLabels(std::vector<LabelShape>  labels,
                 options,
                 PartOfProgress(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     Add(record, sum);
+    if (record.simplified && !record.simplified->asAsked)
+    {
+      missed.push_back(LabelText(label.value, label.name) + ": the topology asked for was not reached within " +
+                       options.simplify->text + " of the boundary: " + CountsText(record.simplified->after) +
+                       " are left; " + record.simplified->reason);
+    }
     if (label.shape.Box().size[0] == 0)
     {
       gone.push_back(LabelText(label.value, label.name));
@@ -269,6 +333,7 @@ EditLabels(std::vector<LabelShape>  labels,
     throw InputError(where + ": nothing is left of any label after removing components; ask for less");
   }
   result.notes = Describe(sum, options);
+  result.notes.insert(result.notes.end(), missed.begin(), missed.end());
   for (const std::string & label : gone)
   {
     result.notes.push_back("nothing is left of " + label);

@@ -31,6 +31,10 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("min_voxels", options.edits.minVoxels);
   visit("largest", options.edits.largest);
   visit("smooth_shape", options.edits.smooth);
+  visit("simplify_topology", options.edits.simplify);
+  visit("pieces", options.edits.topology.pieces);
+  visit("loops", options.edits.topology.loops);
+  visit("cavities", options.edits.topology.cavities);
   visit("split_components", options.edits.splitComponents);
 }
 

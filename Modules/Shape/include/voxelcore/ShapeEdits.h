@@ -1,12 +1,16 @@
 #pragma once
 // What a user wants done to the shapes of a scan before anything is computed from them.
 
+#include "voxelcore/ImageGeometry.h"
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/ShapeClosing.h"
 #include "voxelcore/ShapeMedian.h"
 #include "voxelcore/SliceHoles.h"
+#include "voxelcore/TopologyNumbers.h"
+#include "voxelcore/TopologySimplification.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,13 +31,15 @@ struct ShapeEditOptions
   std::optional<std::uint64_t> minVoxels; ///< components (6-connected) of fewer voxels are removed
   std::optional<std::uint64_t> largest;   ///< so many components are kept
   bool                         smooth = false;
+  std::optional<GapWidth>      simplify; ///< topology, by changes so deep (DepthSimplification.h)
+  TopologyRequest              topology; ///< what `simplify` is to reach
   bool                         splitComponents = false;
 
   bool
   AreAsked() const
   {
     return median || mend || close || fillHollows || fillSlices || fillCavities || minVoxels || largest || smooth ||
-           splitComponents;
+           simplify || splitComponents;
   }
 };
 
@@ -79,12 +85,37 @@ struct EditRecord
     std::uint64_t holes = 0; ///< lumens, or holes over all slices; of closing 0
   };
 
-  std::optional<Filtered> filtered; ///< when asked
-  std::optional<Mended>   mended;   ///< when asked
-  std::optional<Filled>   closed;   ///< when asked
-  std::optional<Filled>   hollows;  ///< when asked
-  std::optional<Filled>   slices;   ///< when asked
-  std::optional<Smoothed> smoothed; ///< when asked
+  /** One cut or fill of SimplifyWithin. */
+  struct Change
+  {
+    bool                        isFill = false;
+    Vector3                     centre{ 0, 0, 0 }; ///< LPS mm, the mean of its voxels
+    std::uint64_t               voxels = 0;
+    double                      cost = 0;              ///< distance of its voxels to the boundary, summed; voxels
+    std::array<std::int64_t, 3> difference{ 0, 0, 0 }; ///< it makes to pieces, loops and cavities
+  };
+
+  /** What SimplifyWithin changed. */
+  struct Simplified
+  {
+    TopologyNumbers     before;
+    TopologyNumbers     after;
+    bool                asAsked = true;
+    std::string         reason; ///< of what was missed
+    std::uint64_t       cuts = 0;
+    std::uint64_t       fills = 0;
+    std::uint64_t       voxelsAdded = 0;
+    std::uint64_t       voxelsRemoved = 0;
+    std::vector<Change> changes; ///< the costliest first; reports have them, provenance in files does not
+  };
+
+  std::optional<Filtered>   filtered;   ///< when asked
+  std::optional<Mended>     mended;     ///< when asked
+  std::optional<Filled>     closed;     ///< when asked
+  std::optional<Filled>     hollows;    ///< when asked
+  std::optional<Filled>     slices;     ///< when asked
+  std::optional<Smoothed>   smoothed;   ///< when asked
+  std::optional<Simplified> simplified; ///< when asked
 };
 
 /** A label, or one of its components, to work on. */

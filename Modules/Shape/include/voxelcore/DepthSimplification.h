@@ -1,0 +1,49 @@
+#pragma once
+// Topology of a mask simplified (TopologySimplification.h) where no grey values say what may change: by distance to the
+// boundary.
+//
+// Only voxels within a depth of the boundary may change. A voxel stands for its centre. Those of the shape farther than
+// the depth from all background are the kernel and never cut; background within the depth of the shape, in the shape's
+// own box, may be filled. What cutting or filling a voxel costs is its distance to the other side. Distances are the
+// exact integers of the lattice (SpacingWeights.h), so voxels need not be cubes.
+// The box is no limit: a way from piece to piece that leaves it can be moved into it without getting farther from
+// the shape.
+
+#include "voxelcore/ImageGeometry.h"
+#include "voxelcore/Progress.h"
+#include "voxelcore/ShapeClosing.h"
+#include "voxelcore/TopologyNumbers.h"
+#include "voxelcore/TopologySimplification.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <string>
+
+namespace voxelcore
+{
+
+/** Costs are whole numbers: this many are one smallest spacing. */
+inline constexpr double kCostOfOneVoxel = 16;
+
+/** The places within `depth` of one. \throws InputError for a length in mm where the image's are in voxels, and for
+ *  more than 32 voxels. */
+LatticeBall
+BallOfDepth(const GapWidth & depth, const ImageGeometry & geometry);
+
+struct DepthSimplified
+{
+  SimplifiedShape simplified;
+  std::string     reason; ///< of a request that was missed: what the bounds themselves have; else empty
+};
+
+/** Simplifies a shape by changes no deeper than the ball's radius. \throws InputError, Cancelled as SimplifyTopology */
+DepthSimplified
+SimplifyWithin(const VoxelShape &       shape,
+               const LatticeBall &      ball,
+               const TopologyRequest &  request = {},
+               const ProgressCallback & progress = {});
+
+/** "1 piece, 2 loops and 0 cavities" */
+std::string
+CountsText(const TopologyNumbers & numbers);
+
+} // namespace voxelcore
