@@ -1,6 +1,6 @@
 // `voxelcore roots` on grey phantoms of hollow, touching, noisy roots whose truth is known: one table. Beside it the
 // hierarchy as it was, a tree of the thickest branches, on the same skeletons.
-// usage: VoxelCoreRootEvaluation [SEEDS [BREAKS]]
+// usage: VoxelCoreRootEvaluation [SEEDS [BREAKS]]     SIMPLIFY=D in the environment adds --simplify-topology D
 
 #include "RootScores.h"
 #include "VoxelCoreTesting/TemporaryFolder.h"
@@ -8,6 +8,7 @@
 #include "voxelcore/BranchTable.h"
 #include "voxelcore/PhantomJob.h"
 #include "voxelcore/RootsJob.h"
+#include "voxelcore/ShapeClosing.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -87,6 +88,10 @@ RunOne(const PhantomJobOptions & phantom, const std::filesystem::path & folder, 
   options.pictures = false;
   options.output = folder / "out/";
   options.force = true;
+  if (const char * depth = std::getenv("SIMPLIFY"))
+  {
+    options.edits.simplify = ParseGapWidth(depth);
+  }
   RootsResult     result = RunRootsJob(options);
   SkeletonGraph & graph = result.model.graph;
   for (auto & place : graph.positions)

@@ -73,6 +73,7 @@ BestWidth(const LabelMap & volume, const CoreOptions & core)
   for (const double holes : { 2.5, 4.0, 6.0 })
   {
     ShapeEditOptions edits = core.edits;
+    edits.simplify.reset(); // it would cut the loops by which widths are compared
     edits.fillHollows = ParseGapWidth(RoundTripText(std::round(10 * holes * most / least) / 10) + "vox");
     const EditedLabels edited =
       EditLabels(volume.labels, volume.geometry, edits, core.reading.labels != "all", core.scan.string());

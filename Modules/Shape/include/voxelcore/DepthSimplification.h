@@ -9,6 +9,10 @@
 // The box is no limit: a way from piece to piece that leaves it can be moved into it without getting farther from
 // the shape.
 
+// A greater depth need not give fewer loops: it merges candidates into clusters too large to compare all choices.
+// Time, on a root of 480 x 480 x 480 with 593,487 boundary vertices: 1 s for a depth of two voxels, 5 s for four.
+// Memory there: 90 and 110 MB more than reading takes.
+
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/ShapeClosing.h"
