@@ -79,10 +79,14 @@ TEST(PageModel, NoNameEndsTheScriptOrTheJson)
   const std::string hostile = "</script><b>\"\\\n\xE2\x82\xAC";
   content.labels.push_back(LabelOf(Box({ 1, 1, 1 }), 1, hostile));
   content.labels.push_back(LabelOf(Box({ 1, 1, 1 }), 2, "no UTF-8: \xFF"));
-  const std::string text = MakePageModel(content, { hostile }).json;
+  HtmlOptions options;
+  options.title = hostile;
+  options.groups = hostile;
+  const std::string text = MakePageModel(content, options).json;
   EXPECT_EQ(text.find('<'), std::string::npos);
   const Json page = Json::parse(text);
   EXPECT_EQ(page.at("title"), hostile);
+  EXPECT_EQ(page.at("groups"), hostile);
   EXPECT_EQ(page.at("labels")[0].at("name"), hostile);
   EXPECT_EQ(page.at("labels")[1].at("name"), "no UTF-8: \xEF\xBF\xBD");
 }

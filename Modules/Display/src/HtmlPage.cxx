@@ -33,11 +33,10 @@ WriteHtml(const std::filesystem::path & path,
     viewer += script;
   }
   // Each text takes the place of its mark, once, from the end on: marks that data may hold are left alone.
-  const std::pair<std::string_view, std::string_view> texts[] = { { "@VIEWER@", viewer },
-                                                                  { "@THREE@", PageTexts().three },
-                                                                  { "@DATA@", model.numbers },
-                                                                  { "@MODEL@", model.json },
-                                                                  { "@STYLE@", PageTexts().style } };
+  const std::pair<std::string_view, std::string_view> texts[] = {
+    { "@VIEWER@", viewer },    { "@THREE@", PageTexts().three }, { "@DATA@", model.numbers },
+    { "@MODEL@", model.json }, { "@FIGURES@", options.figures }, { "@STYLE@", PageTexts().style }
+  };
   for (const auto & [mark, text] : texts)
   {
     const auto place = page.find(mark);

@@ -167,6 +167,9 @@ public:
     }
     const Json  json{ { "title", m_Options.title },
                      { "anatomical", m_Options.anatomical },
+                     { "byLabel", m_Options.byLabel },
+                     { "groups", m_Options.groups },
+                     { "axes", m_Options.axes },
                      { "units", UnitsJson(m_Content.unit) },
                      { "bytes", m_Numbers.Bytes().size() },
                      { "adler32", Adler32(m_Numbers.Bytes()) },
@@ -366,6 +369,10 @@ private:
     add("surface", m_Shown[i].surface, {});
     add("medial", m_Shown[i].medial, MedialArrays(label));
     add("curves", m_Shown[i].curves, CurveArrays(label));
+    if (!label.curveNames.empty() && json.contains("curves"))
+    {
+      json["curves"]["names"] = label.curveNames;
+    }
     return json;
   }
 

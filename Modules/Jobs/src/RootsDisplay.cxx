@@ -3,10 +3,13 @@
 #include "voxelcore/DisplayColors.h"
 #include "voxelcore/HtmlPage.h"
 #include "voxelcore/LabelSurface.h"
+#include "voxelcore/LengthUnit.h"
 #include "voxelcore/RenderPicture.h"
 #include "voxelcore/StagePlan.h"
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace voxelcore
@@ -34,11 +37,50 @@ public:
     return { Dot(place, m_X), Dot(place, m_Y), Dot(place, m_Z) };
   }
 
+  /** The axes of the turned space. */
+  std::array<Vector3, 3>
+  Axes() const
+  {
+    return { m_X, m_Y, m_Z };
+  }
+
 private:
   Vector3 m_X{};
   Vector3 m_Y{};
   Vector3 m_Z{};
 };
+
+/** The point from which a root is drawn: not on its parent's axis, where its tube would show through the parent's. */
+std::size_t
+FirstShown(const RootModel & model, const RootAxis & axis)
+{
+  if (axis.parent == kNoRoot)
+  {
+    return 0;
+  }
+  const ElementIndex origin = model.roots.axes[axis.parent].points[axis.parentPoint];
+  const double       inside = 0.3 * SectionRadii(model.graph)[origin];
+  std::size_t        first = 0;
+  while (first + 2 < axis.points.size() &&
+         Distance(model.graph.positions[axis.points[first]], model.graph.positions[origin]) < inside)
+  {
+    ++first;
+  }
+  return first;
+}
+
+/** What stands under the pointer. */
+std::string
+RootWords(const RootModel & model, std::size_t number)
+{
+  const RootAxis &   axis = model.roots.axes[number];
+  const RootRecord & record = model.traits.roots[number];
+  const LengthUnit   unit = LengthUnit::For(model.traits.depth, model.unit);
+  return "root " + std::to_string(number) +
+         (axis.parent == kNoRoot ? std::string() : " of " + std::to_string(axis.parent)) + ", " +
+         unit.Text(record.length) + " " + unit.Name() + " long, " + unit.Text(record.meanDiameter) + " " + unit.Name() +
+         " thick";
+}
 
 /** A label per level, with its roots as curves, and one with the surface of all. */
 DisplayContent
@@ -47,19 +89,22 @@ ContentOf(const RootModel & model, const VoxelShape & shape, const ImageGeometry
   const Upright                        turn(model.roots.up);
   DisplayContent                       content;
   std::map<std::int32_t, DisplayLabel> levels;
-  for (const RootAxis & axis : model.roots.axes)
+  for (std::size_t number = 0; number < model.roots.axes.size(); ++number)
   {
-    DisplayLabel & label = levels[axis.level];
-    label.label = axis.level + 1;
+    const RootAxis & axis = model.roots.axes[number];
+    DisplayLabel &   label = levels[axis.level];
+    label.label = axis.level;
     label.name = axis.level == 0 ? std::string("stem") : "level " + std::to_string(axis.level);
-    label.color = LabelColor(label.label);
+    label.color = LabelColor(axis.level + 1);
     SkeletonGraph & curves = label.curves;
-    for (const ElementIndex point : axis.points)
+    label.curveNames.push_back(RootWords(model, number));
+    for (std::size_t i = FirstShown(model, axis); i < axis.points.size(); ++i)
     {
+      const ElementIndex point = axis.points[i];
       curves.branchPoints.push_back(static_cast<ElementIndex>(curves.positions.size()));
       curves.positions.push_back(turn(model.graph.positions[point]));
       curves.radius.push_back(SectionRadii(model.graph)[point]);
-      curves.erosionThickness.push_back(0);
+      curves.erosionThickness.push_back(std::numeric_limits<double>::quiet_NaN());
     }
     for (const ElementIndex point :
          { static_cast<ElementIndex>(curves.branchOffsets.back()), curves.branchPoints.back() })
@@ -76,7 +121,7 @@ ContentOf(const RootModel & model, const VoxelShape & shape, const ImageGeometry
     content.labels.push_back(std::move(label));
   }
   DisplayLabel surface;
-  surface.label = static_cast<std::int64_t>(levels.size()) + 1;
+  surface.label = static_cast<std::int64_t>(levels.size());
   surface.name = "surface";
   surface.color = { 0.75, 0.72, 0.65 };
   surface.surface = LabelSurface(shape, geometry);
@@ -123,7 +168,11 @@ DrawRoots(const RootModel &             model,
     [&](int, const Picture & drawn) { WritePng(transaction.Stage(folder / "roots.png"), drawn); },
     PartOfProgress(progress, 0, 0.5));
   HtmlOptions page;
-  page.title = model.name;
+  page.title = "Roots of " + model.name;
+  page.byLabel = true;
+  page.axes = Upright(model.roots.up).Axes();
+  page.groups = "Level";
+  page.figures = RootsFigures(model);
   page.triangles = triangles;
   page.anatomical = false;
   WriteHtml(transaction.Stage(folder / "roots.html"), content, page, PartOfProgress(progress, 0.5, 1));

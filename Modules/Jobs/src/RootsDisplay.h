@@ -29,6 +29,10 @@ DrawRoots(const RootModel &             model,
           OutputTransaction &           transaction,
           const ProgressCallback &      progress);
 
+/** Charts of length by depth and by diameter, as HTML. */
+std::string
+RootsFigures(const RootModel & model);
+
 /** The summary: a page of its own that needs nothing but roots.png beside it (`drawn`). */
 std::string
 RootsPage(const RootModel & model, double volume, const std::vector<std::string> & remarks, bool drawn);

@@ -26,11 +26,12 @@ Escaped(const std::string & text)
   return escaped;
 }
 
+/** Three digits, and all before the point. */
 std::string
 NumberText(double value)
 {
   char text[40];
-  std::snprintf(text, sizeof(text), "%.4g", value);
+  std::snprintf(text, sizeof(text), std::abs(value) >= 999.5 ? "%.0f" : "%.3g", value);
   return std::isfinite(value) ? text : "";
 }
 
@@ -40,26 +41,28 @@ struct Bar
   std::string label;
 };
 
-/** Bars from the left, the first on top. */
+/** Bars from the left, the first on top; it takes the width and the colour of text that it is given. */
 std::string
 BarChart(const std::string & title, const std::vector<Bar> & bars)
 {
-  double most = 0;
+  constexpr int step = 13;
+  double        most = 0;
   for (const Bar & bar : bars)
   {
     most = std::max(most, bar.value);
   }
-  const int   height = 16 * static_cast<int>(bars.size()) + 8;
-  std::string svg = "<figure><figcaption>" + Escaped(title) + "</figcaption><svg width=\"420\" height=\"" +
-                    std::to_string(height) + "\" role=\"img\">\n";
+  std::string svg = "<figure><figcaption>" + Escaped(title) + "</figcaption><svg viewBox=\"0 0 300 " +
+                    std::to_string(step * bars.size()) +
+                    "\" width=\"100%\" role=\"img\" font-size=\"10\" fill=\"currentColor\">\n";
   for (std::size_t i = 0; i < bars.size(); ++i)
   {
-    const int         y = 16 * static_cast<int>(i) + 2;
-    const std::string width = NumberText(most > 0 ? 250 * bars[i].value / most : 0);
-    svg += "<text x=\"95\" y=\"" + std::to_string(y + 11) + "\" text-anchor=\"end\">" + Escaped(bars[i].label) +
-           "</text><rect x=\"100\" y=\"" + std::to_string(y) + "\" width=\"" + width +
-           "\" height=\"13\"/><text x=\"355\" y=\"" + std::to_string(y + 11) + "\">" + NumberText(bars[i].value) +
-           "</text>\n";
+    const int         y = step * static_cast<int>(i);
+    const double      width = most > 0 ? 185 * bars[i].value / most : 0;
+    const std::string base = std::to_string(y + 9);
+    svg += "<text x=\"64\" y=\"" + base + "\" text-anchor=\"end\">" + Escaped(bars[i].label) +
+           "</text><rect x=\"70\" y=\"" + std::to_string(y) + "\" width=\"" + NumberText(width) +
+           "\" height=\"11\" fill=\"#a8703a\"/><text x=\"" + NumberText(74 + width) + "\" y=\"" + base + "\">" +
+           NumberText(bars[i].value) + "</text>\n";
   }
   return svg + "</svg></figure>\n";
 }
@@ -68,7 +71,7 @@ std::string
 LevelName(const RootLevelRecord & level)
 {
   using Kind = RootLevelRecord::Kind;
-  return level.kind == Kind::All        ? "all"
+  return level.kind == Kind::All        ? "all roots"
          : level.kind == Kind::Laterals ? "all laterals"
          : level.level == 0             ? "stem"
                                         : "level " + std::to_string(level.level);
@@ -77,9 +80,10 @@ LevelName(const RootLevelRecord & level)
 std::string
 LevelTable(const RootModel & model, const std::string & unit)
 {
-  std::string html = "<table><tr><th></th><th>roots</th><th>length, " + unit + "</th><th>mean length, " + unit +
-                     "</th><th>mean diameter, " + unit +
-                     "</th><th>tortuosity</th><th>emergence angle</th><th>from down</th><th>children</th></tr>\n";
+  std::string html =
+    "<table><tr><th></th><th>roots</th><th>length, " + unit + "</th><th>mean length, " + unit +
+    "</th><th>mean diameter, " + unit +
+    "</th><th>tortuosity</th><th>emergence angle, \u00b0</th><th>from down, \u00b0</th><th>children</th></tr>\n";
   for (const RootLevelRecord & level : model.traits.levels)
   {
     html += "<tr><th>" + LevelName(level) + "</th>";
@@ -108,11 +112,11 @@ PlantTable(const RootModel & model, double volume, const std::string & unit)
                                                     { "depth, " + unit, traits.depth },
                                                     { "width, " + unit, traits.width },
                                                     { "volume, " + unit + "\u00b3", volume },
-                                                    { "convex hull, " + unit + "\u00b3", traits.hullVolume },
+                                                    { "volume of convex hull, " + unit + "\u00b3", traits.hullVolume },
                                                     { "whorls", static_cast<double>(traits.whorls) },
-                                                    { "between whorls, " + unit, traits.meanWhorlDistance },
-                                                    { "contacts", static_cast<double>(traits.contacts) },
-                                                    { "of them undecided",
+                                                    { "distance between whorls, " + unit, traits.meanWhorlDistance },
+                                                    { "contacts of roots", static_cast<double>(traits.contacts) },
+                                                    { "undecided contacts",
                                                       static_cast<double>(traits.undecidedContacts) } };
   if (traits.soilDepth)
   {
@@ -132,38 +136,58 @@ PlantTable(const RootModel & model, double volume, const std::string & unit)
 } // namespace
 
 std::string
-RootsPage(const RootModel & model, double volume, const std::vector<std::string> & remarks, bool drawn)
+RootsFigures(const RootModel & model)
 {
   const std::string unit = model.unit == SpatialUnit::Millimetres ? "mm" : "voxels";
   std::vector<Bar>  depths;
-  std::vector<Bar>  widths;
   for (const RootDepthRecord & slice : model.traits.depths)
   {
     depths.push_back({ slice.length, NumberText(slice.depth) });
-    widths.push_back({ slice.width, NumberText(slice.depth) });
   }
   std::vector<Bar> diameters;
   for (const RootDiameterRecord & range : model.traits.diameters)
   {
     diameters.push_back({ range.length, NumberText(range.from) + "\u2013" + NumberText(range.to) });
   }
-  std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + Escaped(model.name) +
-                     "</title>\n<style>body{font:15px sans-serif;margin:2em auto;max-width:75em;color:#222}"
-                     "table{border-collapse:collapse;margin:1em 0}td,th{padding:.2em .8em;text-align:right;"
-                     "border-bottom:1px solid #ddd;font-weight:normal}th:first-child{text-align:left}"
-                     "img{max-width:100%}figure{display:inline-block;margin:1em 1em 1em 0}"
-                     "svg text{font:11px sans-serif;fill:#333}svg rect{fill:#8a5a2b}</style></head><body>\n<h1>" +
-                     Escaped(model.name) + "</h1>\n";
+  return BarChart("Length of roots by depth, " + unit, depths) +
+         BarChart("Length of roots by diameter, " + unit, diameters);
+}
+
+std::string
+RootsPage(const RootModel & model, double volume, const std::vector<std::string> & remarks, bool drawn)
+{
+  const std::string unit = model.unit == SpatialUnit::Millimetres ? "mm" : "voxels";
+  const std::string title = "Roots of " + Escaped(model.name);
+  std::string       html =
+    "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title +
+    "</title>\n<style>body{font:15px sans-serif;margin:2em auto;padding:0 1em;max-width:75em;color:#222}"
+    "table{border-collapse:collapse;margin:1em 0}td,th{padding:.2em .8em;text-align:right;"
+    "border-bottom:1px solid #ddd;font-weight:normal}th:first-child{text-align:left}"
+    ".wide{overflow-x:auto}.beside{display:grid;grid-template-columns:2fr 1fr;gap:1em 2em;align-items:start}"
+    ".two{display:grid;grid-template-columns:1fr 1fr;gap:1em 2em}"
+    "@media(max-width:50em){.beside,.two{grid-template-columns:1fr}}"
+    "img{max-width:100%;max-height:44em}figure{margin:0 0 1em}figcaption{margin-bottom:.4em;font-size:14px}"
+    "</style></head><body>\n<h1>" +
+    title + "</h1>\n";
   if (drawn)
   {
     html +=
-      "<p><a href=\"roots.html\"><img src=\"roots.png\" alt=\"The roots in the colours of their levels\"></a><br>"
-      "<a href=\"roots.html\">In three dimensions</a></p>\n";
+      "<div class=\"beside\"><p><a href=\"roots.html\"><img src=\"roots.png\" alt=\"The roots in the colours of "
+      "their levels\"></a><br><a href=\"roots.html\">View in three dimensions</a></p>\n<div>\n" +
+      RootsFigures(model) + "</div></div>\n";
   }
-  html += "<h2>Roots by level</h2>\n" + LevelTable(model, unit) + "<h2>The plant</h2>\n" +
-          PlantTable(model, volume, unit) + "<h2>Profiles</h2>\n" +
-          BarChart("Length of roots by depth, " + unit, depths) + BarChart("Width by depth, " + unit, widths) +
-          BarChart("Length of roots by diameter, " + unit, diameters);
+  std::vector<Bar> widths;
+  for (const RootDepthRecord & slice : model.traits.depths)
+  {
+    widths.push_back({ slice.width, NumberText(slice.depth) });
+  }
+  html += "<h2>Roots by level</h2>\n<div class=\"wide\">" + LevelTable(model, unit) +
+          "</div>\n<h2>The plant</h2>\n<div class=\"two\"><div>" + PlantTable(model, volume, unit) + "</div>" +
+          BarChart("Width of the plant by depth, " + unit, widths) + "</div>\n";
+  if (!drawn)
+  {
+    html += "<div class=\"two\">\n" + RootsFigures(model) + "</div>\n";
+  }
   if (!remarks.empty())
   {
     html += "<h2>What was done, and what to look at</h2>\n<ul>\n";

@@ -4,6 +4,7 @@
 #include "voxelcore/DisplayContent.h"
 #include "voxelcore/Progress.h"
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -15,6 +16,11 @@ struct HtmlOptions
   std::string title;
   std::size_t triangles = 500000; ///< at most about so many in the page; meshes beyond that are decimated for it
   bool        anatomical = true;  ///< whether the axes are known to be the patient's: else they are named x, y and z
+  bool        byLabel = false;    ///< whether the page opens in the labels' colours
+  std::string groups;             ///< what labels are to the reader ("Level"); their numbers are then not shown
+  /** Axes of the content's space in the scan's, where they differ: places and directions are shown in the scan's. */
+  std::array<std::array<double, 3>, 3> axes{ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
+  std::string figures; ///< HTML shown below the labels, without scripts; the writer answers for it
 };
 
 /** Whether this build has the library that pages are made with (three.js). */

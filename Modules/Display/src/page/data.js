@@ -54,7 +54,7 @@ const Page = (function () {
     return known.get(key);
   }
 
-  const names = { Radius: 'Radius', Lambda: 'Lambda', ErosionThickness: 'Erosion thickness', Label: 'Label' };
+  const names = { Radius: 'Radius', Lambda: 'Lambda', ErosionThickness: 'Erosion thickness', Label: model.groups || 'Label', Branch: 'Branch' };
 
   // The unit in which people read lengths of about this one.
   function unitFor(length) {
@@ -79,5 +79,14 @@ const Page = (function () {
     return [0, 1, 2].map(k => map[i][k] + (map[i + 1][k] - map[i][k]) * f);
   }
 
-  return { $, model, numbers, places, valuesOf, names, unitFor, roundDown, digits, lengthText, mapColor };
+  // A colour of its own for each branch: hues by the golden angle, so that those near each other in number differ.
+  function branchColor(branch) {
+    const hue = branch * 137.508 % 360, light = [0.42, 0.52, 0.34][branch % 3], a = 0.75 * Math.min(light, 1 - light);
+    return [0, 8, 4].map(n => {
+      const k = (n + hue / 30) % 12;
+      return 255 * (light - a * Math.max(-1, Math.min(k - 3, 9 - k, 1)));
+    });
+  }
+
+  return { $, model, numbers, places, valuesOf, names, unitFor, roundDown, digits, lengthText, mapColor, branchColor };
 })();

@@ -59,9 +59,9 @@ if (Page) Page.meshes = (function () {
     return geometry;
   }
 
-  // Tubes around poly lines; per corner the point of the line it belongs to.
+  // Tubes around poly lines; per corner the point and the line it belongs to.
   function tubes(mesh, points, radius, least) {
-    const sides = 10, at = [], owner = [], index = [];
+    const sides = 10, at = [], owner = [], branch = [], index = [];
     const lines = numbers(mesh.lines), offsets = numbers(mesh.offsets);
     const P = i => new THREE.Vector3(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
     for (let l = 0; l + 1 < offsets.length; ++l) {
@@ -80,6 +80,7 @@ if (Page) Page.meshes = (function () {
           const p = here.clone().addScaledVector(normal, r * Math.cos(angle)).addScaledVector(other, r * Math.sin(angle));
           at.push(p.x, p.y, p.z);
           owner.push(lines[k]);
+          branch.push(l);
           if (k > offsets[l]) {
             const t = (s + 1) % sides;
             index.push(first + s - sides, first + t - sides, first + s, first + s, first + t - sides, first + t);
@@ -87,7 +88,7 @@ if (Page) Page.meshes = (function () {
         }
       }
     }
-    return { points: Float32Array.from(at), owner: Uint32Array.from(owner), index: Uint32Array.from(index) };
+    return { points: Float32Array.from(at), owner: Uint32Array.from(owner), branch: Uint32Array.from(branch), index: Uint32Array.from(index) };
   }
 
   const whole = new THREE.Box3();
@@ -107,7 +108,7 @@ if (Page) Page.meshes = (function () {
     size = radius > 0 ? 2 * radius : 1;
   }
 
-  // kind; object; valuesAt(name): a number a corner, or null
+  // kind; object; valuesAt(name): a number a corner, or null; branchAt: of curves with names, the branch of each corner
   const parts = [];
   function add(scene, label, kind, object, valuesAt) {
     object.userData = { label, kind, valuesAt };
@@ -143,6 +144,7 @@ if (Page) Page.meshes = (function () {
             const values = valuesOf(mesh, name);
             return values && Float32Array.from(tube.owner, i => values[i]);
           });
+          if (mesh.names) parts[parts.length - 1].userData.branchAt = tube.branch;
         }
       }
     }

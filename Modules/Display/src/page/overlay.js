@@ -115,8 +115,8 @@ if (Page) Page.overlay = (function () {
   // Gives the scale bar it drew.
   function draw(pen, scene) {
     const ink = scene.dark ? '#eceff2' : '#1d2126', soft = scene.dark ? '#a3abb4' : '#5d6670';
-    if (scene.coloring.name !== 'Label') colorBar(pen, scene, ink, soft);
-    else legend(pen, scene, ink);
+    if (scene.coloring.name in model.ranges) colorBar(pen, scene, ink, soft);
+    else if (scene.coloring.name === 'Label') legend(pen, scene, ink);
     directions(pen, scene, ink, soft);
     return scaleBar(pen, scene, ink);
   }

@@ -5,10 +5,14 @@ if (Page && Page.view) (function () {
   const { $, model, view, names } = Page, { state } = view;
 
   // ---- colours ----
-  for (const name of Object.keys(model.ranges).concat('Label')) $('coloring').add(new Option(names[name], name));
+  for (const name of Object.keys(model.ranges).concat('Label', view.named.length ? 'Branch' : [])) {
+    $('coloring').add(new Option(names[name], name));
+  }
+  if (model.byLabel) $('coloring').value = 'Label';
+  state.coloring = $('coloring').value;
   $('coloring').addEventListener('change', () => {
     state.coloring = $('coloring').value;
-    for (const element of document.querySelectorAll('.ranged')) element.hidden = state.coloring === 'Label';
+    for (const element of document.querySelectorAll('.ranged')) element.hidden = !view.ranged();
     view.paint();
   });
   $('range').addEventListener('change', () => { state.range = $('range').value; view.paint(); });
@@ -38,9 +42,13 @@ if (Page && Page.view) (function () {
     ? { front: ['Front', 'From the front: superior up', [0, -1, 0], [0, 0, 1]],
       left: ['Left', 'From the left: superior up', [1, 0, 0], [0, 0, 1]],
       top: ['Top', 'From above: anterior up', [0, 0, 1], [0, -1, 0]] }
-    : { front: ['−y', 'Along the y axis: z up', [0, -1, 0], [0, 0, 1]],
-      left: ['+x', 'Against the x axis: z up', [1, 0, 0], [0, 0, 1]],
-      top: ['+z', 'Against the z axis: y up', [0, 0, 1], [0, 1, 0]] };
+    : model.groups
+      ? { front: ['Front', 'From the front', [0, -1, 0], [0, 0, 1]],
+        left: ['Side', 'From the side', [1, 0, 0], [0, 0, 1]],
+        top: ['Top', 'From above', [0, 0, 1], [0, 1, 0]] }
+      : { front: ['−y', 'Along the y axis: z up', [0, -1, 0], [0, 0, 1]],
+        left: ['+x', 'Against the x axis: z up', [1, 0, 0], [0, 0, 1]],
+        top: ['+z', 'Against the z axis: y up', [0, 0, 1], [0, 1, 0]] };
   for (const [id, [words, title, from, up]] of Object.entries(views)) {
     $(id).textContent = words;
     $(id).title = title;
@@ -111,7 +119,7 @@ if (Page && Page.view) (function () {
     name.setAttribute('aria-pressed', 'false');
     name.addEventListener('click', () => choose(label));
     number.className = 'number';
-    number.textContent = label.label;
+    number.textContent = model.groups ? '' : label.label;
     row.append(box, swatch, name, number);
     list.append(row);
     Object.assign(label, { row, box, nameElement: name });
@@ -139,6 +147,10 @@ if (Page && Page.view) (function () {
     if (state.chosen) state.chosen.row.scrollIntoView({ block: 'nearest' });
   });
   if (model.labels.length < 2) $('find').hidden = true;
+  if (model.groups) { // few, and not known by number
+    $('search').hidden = true;
+    $('range').options[2].text = 'each one\'s own';
+  }
 
   // ---- folding ----
   function fold(folded) {
@@ -155,8 +167,7 @@ if (Page && Page.view) (function () {
     : thousands(model.triangles) + ' triangles. ') + 'Drag or one finger: turn. Wheel or two fingers: zoom. Right button or Shift: ' +
     'move. Double click: single out a label. Parallel projection: the scale bar holds everywhere. Made by VoxelCore with ' +
     'three.js r' + THREE.REVISION + ' (MIT licence).';
-  state.coloring = $('coloring').value;
-  for (const element of document.querySelectorAll('.ranged')) element.hidden = state.coloring === 'Label';
+  for (const element of document.querySelectorAll('.ranged')) element.hidden = !view.ranged();
   setGround(window.matchMedia('(prefers-color-scheme: dark)').matches);
   view.showParts();
   count();

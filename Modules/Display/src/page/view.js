@@ -2,7 +2,7 @@
 /* global THREE, Page */
 if (Page) Page.view = (function () {
   'use strict';
-  const { $, model, meshes, names, lengthText, mapColor } = Page;
+  const { $, model, meshes, names, lengthText, mapColor, branchColor } = Page;
   const canvas = $('view'), stage = $('stage');
   let renderer;
   try {
@@ -30,16 +30,19 @@ if (Page) Page.view = (function () {
     if (state.range === 'label' && own) return [own.low, own.high];
     return [range.low, range.high];
   };
+  const ranged = () => state.coloring in model.ranges;
+  const named = model.labels.filter(label => label.curves && label.curves.names);
+  named.reduce((first, label) => { label.firstBranch = first; return first + label.curves.names.length; }, 0);
   function paint() {
     for (const part of parts) {
-      const { label, kind, valuesAt } = part.userData, colors = part.geometry.attributes.color.array;
-      const byLabel = state.coloring === 'Label', values = byLabel ? null : valuesAt(state.coloring);
+      const { label, kind, valuesAt, branchAt } = part.userData, colors = part.geometry.attributes.color.array;
+      const byLabel = state.coloring === 'Label', values = ranged() ? valuesAt(state.coloring) : null;
       const plain = byLabel ? label.color.map(c => 255 * c) : kind !== 'surface' ? [150, 150, 150]
         : state.dark ? [206, 214, 226] : [122, 133, 150];
-      const [low, high] = byLabel || kind === 'surface' ? [0, 0] : rangeOf(label);
+      const [low, high] = !ranged() || kind === 'surface' ? [0, 0] : rangeOf(label), byBranch = state.coloring === 'Branch' && branchAt;
       for (let i = 0; 3 * i < colors.length; ++i) {
         const value = values ? values[i] : NaN;
-        const c = Number.isNaN(value) ? plain : mapColor(high > low ? (value - low) / (high - low) : 0.5);
+        const c = byBranch ? branchColor(label.firstBranch + branchAt[i]) : Number.isNaN(value) ? plain : mapColor(high > low ? (value - low) / (high - low) : 0.5);
         colors[3 * i] = c[0];
         colors[3 * i + 1] = c[1];
         colors[3 * i + 2] = c[2];
@@ -50,7 +53,7 @@ if (Page) Page.view = (function () {
   }
   function coloringOfBar() {
     const name = state.coloring;
-    if (name === 'Label') return { name };
+    if (!ranged()) return { name };
     const range = model.ranges[name], chosen = state.chosen && state.chosen.ranges[name];
     const own = state.range === 'label' && !chosen;
     const [low, high] = rangeOf(chosen ? state.chosen : { ranges: {} });
@@ -133,7 +136,7 @@ if (Page) Page.view = (function () {
     if (low[0] > high[0]) return;
     const small = state.width < 640;
     const edge = { left: 24, right: small ? 24 : 116, top: 28, bottom: small ? 84 : 48 };
-    if (small) edge.top = state.coloring === 'Label' ? 64 : 72;
+    if (small) edge.top = ranged() ? 72 : 64;
     const wide = Math.max(state.width - edge.left - edge.right, 40), tall = Math.max(state.height - edge.top - edge.bottom, 40);
     const needed = Math.max((high[0] - low[0]) / wide, (high[1] - low[1]) / tall);
     state.mmPerPixel = needed > 0 ? needed : size / Math.min(wide, tall);
@@ -168,7 +171,7 @@ if (Page) Page.view = (function () {
   function overlayScene() {
     const inverse = camera.quaternion.clone().conjugate();
     return { width: state.width, height: state.height, mmPerPixel: state.mmPerPixel, dark: state.dark, coloring: coloringOfBar(),
-      axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(a => new THREE.Vector3(...a).applyQuaternion(inverse).toArray()) };
+      axes: [0, 1, 2].map(k => new THREE.Vector3(...model.axes.map(a => a[k])).applyQuaternion(inverse).toArray()) };
   }
   function renderModel() {
     renderer.setClearColor(state.dark ? 0x14171a : 0xffffff);
@@ -280,16 +283,18 @@ if (Page) Page.view = (function () {
     const hit = hitAt(x, y), box = $('under');
     box.hidden = !hit;
     if (!hit) return;
-    const { label, kind, valuesAt } = hit.object.userData, geometry = hit.object.geometry;
-    const lines = [label.name + ' (' + label.label + ')'];
+    const { label, kind, valuesAt, branchAt } = hit.object.userData, geometry = hit.object.geometry;
+    const lines = [label.name + (model.groups ? '' : ' (' + label.label + ')')];
     const corners = hit.face ? [hit.face.a, hit.face.b, hit.face.c] : hit.object.isPoints ? [hit.index] : [geometry.index.array[hit.index]];
     const distance = corners.map(i => new THREE.Vector3().fromBufferAttribute(geometry.attributes.position, i).distanceTo(hit.point));
     const nearest = corners[distance.indexOf(Math.min(...distance))];
+    if (branchAt) lines.push(label.curves.names[branchAt[nearest]]);
     for (const name of Object.keys(model.ranges)) {
       const values = kind === 'surface' ? null : valuesAt(name);
       if (values && !Number.isNaN(values[nearest])) lines.push(names[name] + ' ' + lengthText(values[nearest]));
     }
-    const at = hit.point.toArray().map((v, k) => v + meshes.middle[k]), digits = Math.max(1, Math.ceil(2 - Math.log10(size)));
+    const shown = hit.point.toArray().map((v, k) => v + meshes.middle[k]), digits = Math.max(1, Math.ceil(2 - Math.log10(size)));
+    const at = [0, 1, 2].map(k => model.axes.reduce((sum, a, i) => sum + a[k] * shown[i], 0));
     const place = at.map(v => v.toFixed(Math.min(digits, 12))).join(', ');
     lines.push((model.anatomical ? 'LPS ' : 'x, y, z ') + place + ' ' + model.units[0].name);
     box.textContent = '';
@@ -301,5 +306,5 @@ if (Page) Page.view = (function () {
   }
 
   new ResizeObserver(resize).observe(stage);
-  return { state, parts, paint, showParts, fit, lookFrom, resize, draw, picture, hitAt, canvas };
+  return { state, parts, named, ranged, paint, showParts, fit, lookFrom, resize, draw, picture, hitAt, canvas };
 })();

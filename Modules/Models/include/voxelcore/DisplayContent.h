@@ -25,14 +25,15 @@ struct LabelSurfaceMesh
 /** One label, or one component of it; LPS mm. What is not to be shown is empty. */
 struct DisplayLabel
 {
-  std::int64_t        label = 0;
-  std::int64_t        component = 0; ///< from 1 for a label split into its components; 0: the whole label
-  std::string         name;
-  Color               color{ 0.8, 0.8, 0.8 };
-  LabelSurfaceMesh    surface;
-  ModelPart           medial;
-  std::vector<double> erosionThickness; ///< of the medial surface's vertices; empty when it is not known
-  SkeletonGraph       curves;
+  std::int64_t             label = 0;
+  std::int64_t             component = 0; ///< from 1 for a label split into its components; 0: the whole label
+  std::string              name;
+  Color                    color{ 0.8, 0.8, 0.8 };
+  LabelSurfaceMesh         surface;
+  ModelPart                medial;
+  std::vector<double>      erosionThickness; ///< of the medial surface's vertices; empty when it is not known
+  SkeletonGraph            curves;
+  std::vector<std::string> curveNames; ///< per branch of the curves; empty, or pages can colour by branch
 };
 
 /** By label, then component. */
