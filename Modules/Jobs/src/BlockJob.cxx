@@ -189,6 +189,10 @@ ComputeFromWhole(const BlockOptions & options,
     kept = ScanPlan{ PlanSource(options), {} };
   }
   result.warnings = volume.warnings;
+  for (std::string & warning : FindHollowLabels(edited.labels, weights.weight))
+  {
+    result.warnings.push_back(std::move(warning));
+  }
   for (std::size_t i = 0; i < edited.labels.size(); ++i)
   {
     EditedLabel &    one = edited.labels[i];

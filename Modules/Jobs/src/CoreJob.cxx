@@ -198,7 +198,7 @@ StageCoreJob(const CoreOptions & options,
   InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   RequireLengths(options, volume.geometry.unit);
-  EditedLabels edited = EditLabels(std::move(volume.labels),
+  EditedLabels                   edited = EditLabels(std::move(volume.labels),
                                    volume.geometry,
                                    options.edits,
                                    options.reading.labels != "all",
@@ -208,6 +208,7 @@ StageCoreJob(const CoreOptions & options,
   {
     seen(edited.labels, volume.geometry);
   }
+  const std::vector<std::string> hollow = FindHollowLabels(edited.labels, weights.weight);
   if (options.memory)
   {
     RequireMemory(options, edited.labels);
@@ -224,6 +225,7 @@ StageCoreJob(const CoreOptions & options,
   report.input = DescribeInput(options, volume);
   report.parameters = DescribeParameters(options, volume, edited, weights);
   result.warnings = volume.warnings;
+  result.warnings.insert(result.warnings.end(), hollow.begin(), hollow.end());
   result.notes = edited.notes;
   report.seconds.read = watch.Lap();
 

@@ -172,7 +172,11 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   info.warnings = std::move(volume.warnings);
   try
   {
-    ScanWeights(info.geometry, options.scan);
+    const SpacingWeights weights = ScanWeights(info.geometry, options.scan);
+    for (std::string & warning : FindHollowLabels(edited.labels, weights.weight))
+    {
+      info.warnings.push_back(std::move(warning));
+    }
   }
   catch (const InputError & error)
   {
@@ -198,7 +202,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   skeletons.skeletonOutput = "skeleton.vtp";
   info.skeleton = PredictJob(boundaries, skeletons, info.threads);
   const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
-  for (const auto & [label, component, edits] : edited.labels)
+  for (const auto & [label, component, edits, hollow] : edited.labels)
   {
     ReportProgress(counting, "", static_cast<double>(info.labels.size()) / static_cast<double>(edited.labels.size()));
     LabelInfo one;

@@ -33,6 +33,7 @@ ProcessLabel(EditedLabel              edited,
   record.label = label.value;
   record.component = edited.component;
   record.edits = edited.edits;
+  record.hollow = edited.hollow;
   record.name = label.name;
   record.voxels = label.voxels;
   record.volumeMm3 =

@@ -144,6 +144,12 @@ LabelJson(const LabelRecord & label, bool inFile)
   {
     json["edits"] = EditRecordJson(*label.edits, inFile);
   }
+  if (label.hollow && !inFile)
+  {
+    json["hollow"] = { { "voxels", label.hollow->voxels },
+                       { "share", label.hollow->share },
+                       { "holes_vox", label.hollow->holes } };
+  }
   json["voxels"] = label.voxels;
   json["volume_mm3"] = label.volumeMm3;
   json["bounding_box"] = { { "lower", label.box.lower }, { "size", label.box.size } };

@@ -341,4 +341,32 @@ EditLabels(std::vector<LabelShape>  labels,
   return result;
 }
 
+std::vector<std::string>
+FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_t, 3> & weight)
+{
+#pragma omp parallel for schedule(dynamic, 1) if (labels.size() > 1)
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    EditedLabel &                   one = labels[i];
+    std::vector<const VoxelShape *> others;
+    for (const EditedLabel & other : labels)
+    {
+      if (other.label.value != one.label.value)
+      {
+        others.push_back(&other.label.shape);
+      }
+    }
+    one.hollow = FindHollowBody(one.label.shape, weight, others);
+  }
+  std::vector<std::string> warnings;
+  for (const EditedLabel & one : labels)
+  {
+    if (one.hollow)
+    {
+      warnings.push_back(LabelText(one.label.value, one.label.name) + " " + HollowText(*one.hollow));
+    }
+  }
+  return warnings;
+}
+
 } // namespace voxelcore

@@ -86,7 +86,8 @@ struct LabelRecord
   std::int64_t                  label = 0;
   std::int64_t                  component = 0; ///< from 1 by size; 0: the whole label
   std::string                   name;
-  std::optional<EditRecord>     edits; ///< of the whole label; none when none was asked for
+  std::optional<HollowBody>     hollow = std::nullopt; ///< in reports, not in files
+  std::optional<EditRecord>     edits;                 ///< of the whole label; none when none was asked for
   std::uint64_t                 voxels = 0;
   double                        volumeMm3 = 0;
   VoxelBox                      box; ///< tight

@@ -1,6 +1,7 @@
 #pragma once
 // What a user wants done to the shapes of a scan before anything is computed from them.
 
+#include "voxelcore/HollowBody.h"
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
@@ -124,6 +125,7 @@ struct EditedLabel
   LabelShape                label;         ///< of a component: its voxels, and the label's name with "#<component>"
   std::int64_t              component = 0; ///< from 1 by size when components are split; else 0
   std::optional<EditRecord> edits;         ///< of the whole label; none when nothing was asked
+  std::optional<HollowBody> hollow = std::nullopt; ///< filled by FindHollowLabels()
 };
 
 struct EditedLabels
@@ -143,5 +145,9 @@ EditLabels(std::vector<LabelShape>  labels,
            bool                     keepAll,
            const std::string &      where,
            const ProgressCallback & progress = {});
+
+/** Looks which of them look hollow, other labels taken for what fills lumens, and says so of each in a warning. */
+std::vector<std::string>
+FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_t, 3> & weight);
 
 } // namespace voxelcore

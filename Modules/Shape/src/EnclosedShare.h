@@ -1,0 +1,19 @@
+#pragma once
+// What lies between the inside and the outside of a shape, shared out.
+
+#include "voxelcore/Progress.h"
+#include "voxelcore/VoxelShape.h"
+
+namespace voxelcore
+{
+
+/** `enclosed` with its share of `between`: each voxel goes to the one of the two regions that it is nearer to by steps
+ *  over faces, edges and corners through `between`; as near to both, to the outside. Beyond the box is outside. What is
+ *  near neither is enclosed by the shape itself. The three are of one box and have no voxel in common. */
+VoxelShape
+EnclosedShare(VoxelShape               between,
+              VoxelShape               enclosed,
+              VoxelShape               outside,
+              const ProgressCallback & progress = {});
+
+} // namespace voxelcore

@@ -1,0 +1,300 @@
+#include "voxelcore/HollowBody.h"
+
+#include "BallDilation.h"
+#include "EditedBits.h"
+#include "EnclosedShare.h"
+#include "ShapeBits.h"
+#include "ShapeRuns.h"
+
+#include "voxelcore/SliceHoles.h"
+#include "voxelcore/TextFields.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr double kMostVoxels = 1 << 24; // of a box that is looked at as it is
+constexpr double kLeastWall = 0.75;  // of a lumen's surface, holes in walls stopped
+constexpr double kLeastOwn = 0.8;    // of it as it is
+constexpr double kLeastShare = 0.1;  // of the body's volume
+constexpr double kMostOfBox = 0.85;  // of the background in the body's box: a tube leaves the corners free
+constexpr double kLeastLeft = 0.2;   // of lumens, once holes in walls are stopped: what is narrower is a gap
+
+/** The bits begin to end of a row, counted. */
+std::int32_t
+CountBits(std::span<const std::uint64_t> row, std::int32_t begin, std::int32_t end)
+{
+  const auto   first = static_cast<std::size_t>(begin) / 64;
+  const auto   last = static_cast<std::size_t>(end - 1) / 64;
+  std::int32_t count = 0;
+  for (std::size_t word = first; word <= last; ++word)
+  {
+    std::uint64_t bits = row[word];
+    bits &= word == first ? ~std::uint64_t{ 0 } << (static_cast<unsigned>(begin) & 63U) : ~std::uint64_t{ 0 };
+    bits &= word == last ? ~std::uint64_t{ 0 } >> (63U - (static_cast<unsigned>(end - 1) & 63U)) : ~std::uint64_t{ 0 };
+    count += std::popcount(bits);
+  }
+  return count;
+}
+
+/** The components of `holes` whose surface is wall, that is `body`, for the part asked. Both have one box. */
+VoxelShape
+WalledIn(const VoxelShape & holes, const VoxelShape & body, double least)
+{
+  struct Surface
+  {
+    std::int64_t wall = 0;
+    std::int64_t open = 0;
+  };
+  const auto &         size = holes.Box().size;
+  const Runs           runs = VoxelRuns(holes);
+  UnionFind            sets = UniteRuns(runs, false);
+  std::vector<Surface> surfaces(runs.begin.size());
+  VoxelShape           walled(holes.Box());
+  const auto           visit = [&](const auto & work) {
+    for (std::int32_t z = 0; z < size[2]; ++z)
+    {
+      for (std::int32_t y = 0; y < size[1]; ++y)
+      {
+        const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(y);
+        for (std::size_t run = runs.rowStart[row]; run < runs.rowStart[row + 1]; ++run)
+        {
+          work(run, y, z);
+        }
+      }
+    }
+  };
+  visit([&](std::size_t run, std::int32_t y, std::int32_t z) {
+    const std::int32_t begin = runs.begin[run];
+    const std::int32_t end = runs.end[run];
+    Surface &          surface = surfaces[sets.Find(run)];
+    const auto         row = body.Row(y, z);
+    const auto         isWall = [&](std::int32_t x) { return x >= 0 && x < size[0] && CountBits(row, x, x + 1) == 1; };
+    for (const std::int32_t x : { begin - 1, end })
+    {
+      isWall(x) ? ++surface.wall : ++surface.open;
+    }
+    for (const auto & [dy, dz] : { std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1) })
+    {
+      if (y + dy < 0 || z + dz < 0 || y + dy >= size[1] || z + dz >= size[2])
+      {
+        surface.open += end - begin;
+        continue;
+      }
+      const std::int32_t wall = CountBits(body.Row(y + dy, z + dz), begin, end);
+      surface.wall += wall;
+      surface.open += end - begin - wall - CountBits(holes.Row(y + dy, z + dz), begin, end);
+    }
+  });
+  visit([&](std::size_t run, std::int32_t y, std::int32_t z) {
+    const Surface & surface = surfaces[sets.Find(run)];
+    if (static_cast<double>(surface.wall) >= least * static_cast<double>(surface.wall + surface.open))
+    {
+      SetRun(walled.Row(y, z), runs.begin[run], runs.end[run], true);
+    }
+  });
+  return walled;
+}
+
+/** The lumens of a shape in its own box, once holes in its walls are stopped by a ball. */
+VoxelShape
+LumensOf(const VoxelShape & shape, const BallRows & ball)
+{
+  const VoxelShape stopped = ball.IsOneVoxel() ? shape : Dilated(shape, ball, {}, 0, 1);
+  VoxelShape       holes(stopped.Box());
+  std::uint64_t    all = 0;
+  for (const SliceAxis axis : { SliceAxis::I, SliceAxis::J, SliceAxis::K })
+  {
+    std::uint64_t    count = 0;
+    const VoxelShape some = FindSliceHoles(stopped, axis, count);
+    ForWords(holes, some, [](std::uint64_t & word, std::uint64_t more) { word |= more; });
+    all += count;
+  }
+  const VoxelBox & box = shape.Box();
+  VoxelShape       lumens(box);
+  if (all > 0)
+  {
+    lumens = CopyBox(WalledIn(holes, stopped, kLeastWall), box);
+  }
+  const auto left = static_cast<double>(lumens.CountVoxels());
+  if (left == 0 || ball.IsOneVoxel())
+  {
+    return lumens;
+  }
+  // What the ball took goes back to the lumens and to the outside. Walls are what is neither.
+  VoxelShape between = CopyBox(stopped, box);
+  VoxelShape outside(box);
+  for (std::int32_t z = 0; z < box.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
+    {
+      SetRun(outside.Row(y, z), 0, box.size[0], true);
+    }
+  }
+  const auto takeOff = [](std::uint64_t & word, std::uint64_t own) { word &= ~own; };
+  ForWords(outside, between, takeOff);
+  ForWords(outside, lumens, takeOff);
+  ForWords(between, shape, takeOff);
+  lumens = EnclosedShare(std::move(between), std::move(lumens), std::move(outside));
+  return left >= kLeastLeft * static_cast<double>(lumens.CountVoxels())
+           ? WalledIn(lumens, shape, kLeastOwn)
+           : VoxelShape(box);
+}
+
+double
+VoxelsOfBox(const VoxelBox & box)
+{
+  return static_cast<double>(box.size[0]) * box.size[1] * box.size[2];
+}
+
+/** A voxel for each two by two by two of a shape, in where one of them is. */
+VoxelShape
+Halved(const VoxelShape & shape)
+{
+  const VoxelBox & from = shape.Box();
+  VoxelBox         box;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    box.lower[a] = from.lower[a] >> 1;
+    box.size[a] = ((from.lower[a] + from.size[a] - 1) >> 1) - box.lower[a] + 1;
+  }
+  VoxelShape halved(box);
+  const bool isOdd = (from.lower[0] & 1) != 0;
+  for (std::int32_t z = 0; z < from.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < from.size[1]; ++y)
+    {
+      const auto row = shape.Row(y, z);
+      const auto to = halved.Row(((from.lower[1] + y) >> 1) - box.lower[1], ((from.lower[2] + z) >> 1) - box.lower[2]);
+      for (std::size_t word = 0; word < row.size(); ++word)
+      {
+        const std::uint64_t carried = isOdd && word > 0 ? row[word - 1] >> 63U : 0;
+        std::uint64_t       pairs = isOdd ? row[word] << 1U | carried : row[word];
+        pairs = (pairs | pairs >> 1U) & 0x5555555555555555U;
+        for (const unsigned step : { 1U, 2U, 4U, 8U, 16U }) // even bits to the lower half
+        {
+          constexpr std::array<std::uint64_t, 5> kMasks{
+            0x3333333333333333U, 0x0F0F0F0F0F0F0F0FU, 0x00FF00FF00FF00FFU, 0x0000FFFF0000FFFFU, 0x00000000FFFFFFFFU
+          };
+          pairs = (pairs | pairs >> step) & kMasks[static_cast<std::size_t>(std::countr_zero(step))];
+        }
+        to[word / 2] |= pairs << (32 * (word % 2));
+      }
+      if (isOdd && (from.size[0] & 63) == 0 && row.back() >> 63U != 0)
+      {
+        SetRun(to, box.size[0] - 1, box.size[0], true);
+      }
+    }
+  }
+  return halved;
+}
+
+/** Takes a label's voxels off. */
+void
+Remove(const VoxelShape & label, VoxelShape & from)
+{
+  const VoxelBox & box = from.Box();
+  const VoxelBox & other = label.Box();
+  const Runs       runs = VoxelRuns(label);
+  for (std::int32_t z = 0; z < other.size[2]; ++z)
+  {
+    const std::int32_t toZ = z + other.lower[2] - box.lower[2];
+    for (std::int32_t y = 0; y < other.size[1] && toZ >= 0 && toZ < box.size[2]; ++y)
+    {
+      const std::int32_t toY = y + other.lower[1] - box.lower[1];
+      if (toY < 0 || toY >= box.size[1])
+      {
+        continue;
+      }
+      const auto row =
+        static_cast<std::size_t>(z) * static_cast<std::size_t>(other.size[1]) + static_cast<std::size_t>(y);
+      for (std::size_t run = runs.rowStart[row]; run < runs.rowStart[row + 1]; ++run)
+      {
+        const std::int32_t begin = std::max(runs.begin[run] + other.lower[0] - box.lower[0], 0);
+        const std::int32_t end = std::min(runs.end[run] + other.lower[0] - box.lower[0], box.size[0]);
+        if (begin < end)
+        {
+          SetRun(from.Row(toY, toZ), begin, end, false);
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
+std::optional<HollowBody>
+FindHollowBody(const VoxelShape &                  shape,
+               const std::array<std::int64_t, 3> & weight,
+               std::span<const VoxelShape * const> others)
+{
+  // Great bodies are looked at in voxels two, four, ... times as long, so that the look stays quick.
+  std::int64_t              factor = 1;
+  std::optional<VoxelShape> halved;
+  const auto                looked = [&]() -> const VoxelShape & { return halved ? *halved : shape; };
+  while (VoxelsOfBox(looked().Box()) > kMostVoxels)
+  {
+    halved = Halved(looked());
+    factor *= 2;
+  }
+  const auto   smallest = *std::ranges::min_element(weight);
+  const double own = static_cast<double>(shape.CountVoxels());
+  const double most =
+    kMostOfBox * (VoxelsOfBox(looked().Box()) - static_cast<double>(looked().CountVoxels()));
+  HollowBody found;
+  for (const int holes : { 0, 4, 8 })
+  {
+    const std::int64_t radius = holes / 2 / factor;
+    if (holes > 0 && radius == 0)
+    {
+      continue; // longer voxels have stopped them already
+    }
+    VoxelShape lumens = LumensOf(looked(), BallRows(LatticeBall{ weight, radius * smallest * (radius * smallest) }));
+    const auto voxels = [&] { return lumens.CountVoxels() * static_cast<std::uint64_t>(factor * factor * factor); };
+    const auto isEnough = [&] { return static_cast<double>(voxels()) >= std::max(kLeastShare * own, 1.0); };
+    // A labyrinth walls in all there is in its box, but is open at the box's border.
+    const auto isLabyrinth = [&] {
+      return static_cast<double>(lumens.CountVoxels()) >= most && WalledIn(lumens, looked(), 1).CountVoxels() == 0;
+    };
+    if (!isEnough() || isLabyrinth())
+    {
+      continue;
+    }
+    for (std::size_t i = 0; i < others.size() && isEnough(); ++i)
+    {
+      std::optional<VoxelShape> other;
+      for (std::int64_t done = 1; done < factor; done *= 2)
+      {
+        other = Halved(other ? *other : *others[i]);
+      }
+      Remove(other ? *other : *others[i], lumens);
+    }
+    if (isEnough() && voxels() > found.voxels)
+    {
+      found = { voxels(), static_cast<double>(voxels()) / own, holes };
+    }
+  }
+  return found.voxels > 0 ? std::optional(found) : std::nullopt;
+}
+
+std::string
+HollowText(const HollowBody & body)
+{
+  char share[32];
+  std::snprintf(share, sizeof(share), "%.2g", body.share);
+  std::string text = "looks hollow: it walls in " + std::string(share) + " times its own volume (" +
+                     Counted(body.voxels, "voxel", "voxels") + " of background), and its core follows the walls; ";
+  return text + (body.holes == 0
+                   ? "--fill-cavities or --fill-slices fills lumens"
+                   : "--fill-hollows " + std::to_string(body.holes) + "vox or --fill-slices fills lumens");
+}
+
+} // namespace voxelcore
