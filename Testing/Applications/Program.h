@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -20,6 +21,19 @@ struct ProgramResult
   std::string error;      ///< stderr
   double      seconds = 0;
 };
+
+/** What was said but for warnings of labels that look hollow, which shells get by the way. */
+inline std::string
+WithoutHollowWarnings(const std::string & error)
+{
+  std::istringstream lines(error);
+  std::string        rest;
+  for (std::string line; std::getline(lines, line);)
+  {
+    rest += line.find(" looks hollow: ") == std::string::npos ? line + "\n" : "";
+  }
+  return rest;
+}
 
 struct ProgramLimits
 {

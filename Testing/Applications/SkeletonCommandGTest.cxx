@@ -27,7 +27,7 @@ protected:
       arguments.insert(arguments.end(), more.begin(), more.end());
       const ProgramResult result = RunProgram(arguments);
       EXPECT_EQ(result.code, 0) << result.error;
-      EXPECT_EQ(result.error, "");
+      EXPECT_EQ(WithoutHollowWarnings(result.error), "");
       return Json::parse(ReadAll(m_Folder / "report.json")).at("labels");
     };
     const Json beside = run({ "core", m_Folder / "scan.nrrd", "-o", m_Folder / "b.vtp", "--with-skeleton" });
@@ -184,7 +184,7 @@ TEST_F(HeavySkeletonCommand, HundredsOfLabelsGiveTheSameWhateverTheThreads)
       ASSERT_EQ(ReadAll(entry.path()), ReadAll(m_Folder.Path() / "3" / name)) << name;
     }
   }
-  EXPECT_EQ(files, 724U + 3U);
+  EXPECT_EQ(files, 724U + 4U); // tables of branches and labels, their columns, what is finished
   for (const Json & label : labels)
   {
     ASSERT_EQ(label.at("skeleton").at("betti"), label.at("shape").at("betti")) << label.at("name");

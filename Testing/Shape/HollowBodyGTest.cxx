@@ -80,5 +80,43 @@ TEST(HollowBody, AShellIsHollowUnlessALabelFillsIt)
   EXPECT_FALSE(FindHollowBody(shell, kCubes, others));
 }
 
+TEST(HollowBody, GreatBodiesAreLookedAtInLongerVoxelsWhereverTheirBoxBegins)
+{
+  for (const std::array<std::int32_t, 3> & lower :
+       std::initializer_list<std::array<std::int32_t, 3>>{ { 0, 0, 0 }, { 1, -3, 7 }, { -128, 64, -1 } })
+  {
+    for (const double lumen : { 0.0, 14.0 })
+    {
+      // A tube of outer radius 20 between opposite corners of a box of more than 2^24 voxels.
+      const auto tube = ShapeWhere(
+        { 290, 290, 290 },
+        [&](int x, int y, int z) {
+          const double along = (x + y + z) / std::sqrt(3.0);
+          const double squared = static_cast<double>(x) * x + static_cast<double>(y) * y + static_cast<double>(z) * z;
+          const double away = std::sqrt(std::max(squared - along * along, 0.0));
+          return along > 30 && along < 470 && away < 20 && away >= lumen;
+        },
+        lower);
+      const auto body = FindHollowBody(tube, kCubes);
+      ASSERT_EQ(body.has_value(), lumen > 0) << lower[0];
+      if (body)
+      {
+        EXPECT_NEAR(body->share, 196.0 / 204, 0.15);
+      }
+    }
+  }
+}
+
+TEST(HollowBody, ALabyrinthIsNot)
+{
+  // Two systems of channels, either side of a gyroid's sheet, open at the border of the box.
+  const auto sheet = ShapeWhere({ 60, 60, 60 }, [](int x, int y, int z) {
+    const double s = 2 * std::acos(-1.0) / 20;
+    return std::abs(std::sin(s * x) * std::cos(s * y) + std::sin(s * y) * std::cos(s * z) +
+                    std::sin(s * z) * std::cos(s * x)) < 0.4;
+  });
+  EXPECT_FALSE(FindHollowBody(sheet, kCubes));
+}
+
 } // namespace
 } // namespace voxelcore::testing

@@ -198,7 +198,7 @@ StageCoreJob(const CoreOptions & options,
   InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   RequireLengths(options, volume.geometry.unit);
-  EditedLabels                   edited = EditLabels(std::move(volume.labels),
+  EditedLabels edited = EditLabels(std::move(volume.labels),
                                    volume.geometry,
                                    options.edits,
                                    options.reading.labels != "all",

@@ -11,9 +11,6 @@ namespace voxelcore
  *  over faces, edges and corners through `between`; as near to both, to the outside. Beyond the box is outside. What is
  *  near neither is enclosed by the shape itself. The three are of one box and have no voxel in common. */
 VoxelShape
-EnclosedShare(VoxelShape               between,
-              VoxelShape               enclosed,
-              VoxelShape               outside,
-              const ProgressCallback & progress = {});
+EnclosedShare(VoxelShape between, VoxelShape enclosed, VoxelShape outside, const ProgressCallback & progress = {});
 
 } // namespace voxelcore

@@ -22,11 +22,11 @@ namespace
 {
 
 constexpr double kMostVoxels = 1 << 24; // of a box that is looked at as it is
-constexpr double kLeastWall = 0.75;  // of a lumen's surface, holes in walls stopped
-constexpr double kLeastOwn = 0.8;    // of it as it is
-constexpr double kLeastShare = 0.1;  // of the body's volume
-constexpr double kMostOfBox = 0.85;  // of the background in the body's box: a tube leaves the corners free
-constexpr double kLeastLeft = 0.2;   // of lumens, once holes in walls are stopped: what is narrower is a gap
+constexpr double kLeastWall = 0.75;     // of a lumen's surface, holes in walls stopped
+constexpr double kLeastOwn = 0.8;       // of it as it is
+constexpr double kLeastShare = 0.1;     // of the body's volume
+constexpr double kMostOfBox = 0.79; // of the background in the body's box: round tubes leave the corners, 1 - pi / 4
+constexpr double kLeastLeft = 0.2;  // of lumens, once holes in walls are stopped: what is narrower is a gap
 
 /** The bits begin to end of a row, counted. */
 std::int32_t
@@ -45,6 +45,24 @@ CountBits(std::span<const std::uint64_t> row, std::int32_t begin, std::int32_t e
   return count;
 }
 
+/** work(run, y, z) for each run of a box of that size. */
+template <typename TWork>
+void
+ForRuns(const Runs & runs, const std::array<std::int32_t, 3> & size, const TWork & work)
+{
+  for (std::int32_t z = 0; z < size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < size[1]; ++y)
+    {
+      const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(y);
+      for (std::size_t run = runs.rowStart[row]; run < runs.rowStart[row + 1]; ++run)
+      {
+        work(run, y, z);
+      }
+    }
+  }
+}
+
 /** The components of `holes` whose surface is wall, that is `body`, for the part asked. Both have one box. */
 VoxelShape
 WalledIn(const VoxelShape & holes, const VoxelShape & body, double least)
@@ -59,20 +77,7 @@ WalledIn(const VoxelShape & holes, const VoxelShape & body, double least)
   UnionFind            sets = UniteRuns(runs, false);
   std::vector<Surface> surfaces(runs.begin.size());
   VoxelShape           walled(holes.Box());
-  const auto           visit = [&](const auto & work) {
-    for (std::int32_t z = 0; z < size[2]; ++z)
-    {
-      for (std::int32_t y = 0; y < size[1]; ++y)
-      {
-        const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(y);
-        for (std::size_t run = runs.rowStart[row]; run < runs.rowStart[row + 1]; ++run)
-        {
-          work(run, y, z);
-        }
-      }
-    }
-  };
-  visit([&](std::size_t run, std::int32_t y, std::int32_t z) {
+  ForRuns(runs, size, [&](std::size_t run, std::int32_t y, std::int32_t z) {
     const std::int32_t begin = runs.begin[run];
     const std::int32_t end = runs.end[run];
     Surface &          surface = surfaces[sets.Find(run)];
@@ -94,7 +99,7 @@ WalledIn(const VoxelShape & holes, const VoxelShape & body, double least)
       surface.open += end - begin - wall - CountBits(holes.Row(y + dy, z + dz), begin, end);
     }
   });
-  visit([&](std::size_t run, std::int32_t y, std::int32_t z) {
+  ForRuns(runs, size, [&](std::size_t run, std::int32_t y, std::int32_t z) {
     const Surface & surface = surfaces[sets.Find(run)];
     if (static_cast<double>(surface.wall) >= least * static_cast<double>(surface.wall + surface.open))
     {
@@ -102,6 +107,36 @@ WalledIn(const VoxelShape & holes, const VoxelShape & body, double least)
     }
   });
   return walled;
+}
+
+/** Takes off the channels of labyrinths: components that reach all six sides of the body's box, or all if they come to
+ *  `most` and are open anywhere. */
+void
+RemoveLabyrinths(const VoxelShape & body, double most, VoxelShape & lumens)
+{
+  const auto & size = lumens.Box().size;
+  const Runs   runs = VoxelRuns(lumens);
+  if (static_cast<double>(lumens.CountVoxels()) >= most && WalledIn(lumens, body, 1).CountVoxels() == 0)
+  {
+    lumens = VoxelShape(lumens.Box());
+    return;
+  }
+  UnionFind                 sets = UniteRuns(runs, false);
+  std::vector<std::uint8_t> sides(runs.begin.size(), 0);
+  ForRuns(runs, size, [&](std::size_t run, std::int32_t y, std::int32_t z) {
+    const std::array<bool, 6> at{ runs.begin[run] == 0, runs.end[run] == size[0], y == 0, y + 1 == size[1], z == 0,
+                                  z + 1 == size[2] };
+    for (unsigned side = 0; side < 6; ++side)
+    {
+      sides[sets.Find(run)] |= static_cast<std::uint8_t>(at[side] ? 1U << side : 0U);
+    }
+  });
+  ForRuns(runs, size, [&](std::size_t run, std::int32_t y, std::int32_t z) {
+    if (sides[sets.Find(run)] == 63)
+    {
+      SetRun(lumens.Row(y, z), runs.begin[run], runs.end[run], false);
+    }
+  });
 }
 
 /** The lumens of a shape in its own box, once holes in its walls are stopped by a ball. */
@@ -144,9 +179,8 @@ LumensOf(const VoxelShape & shape, const BallRows & ball)
   ForWords(outside, lumens, takeOff);
   ForWords(between, shape, takeOff);
   lumens = EnclosedShare(std::move(between), std::move(lumens), std::move(outside));
-  return left >= kLeastLeft * static_cast<double>(lumens.CountVoxels())
-           ? WalledIn(lumens, shape, kLeastOwn)
-           : VoxelShape(box);
+  return left >= kLeastLeft * static_cast<double>(lumens.CountVoxels()) ? WalledIn(lumens, shape, kLeastOwn)
+                                                                        : VoxelShape(box);
 }
 
 double
@@ -181,9 +215,11 @@ Halved(const VoxelShape & shape)
         pairs = (pairs | pairs >> 1U) & 0x5555555555555555U;
         for (const unsigned step : { 1U, 2U, 4U, 8U, 16U }) // even bits to the lower half
         {
-          constexpr std::array<std::uint64_t, 5> kMasks{
-            0x3333333333333333U, 0x0F0F0F0F0F0F0F0FU, 0x00FF00FF00FF00FFU, 0x0000FFFF0000FFFFU, 0x00000000FFFFFFFFU
-          };
+          constexpr std::array<std::uint64_t, 5> kMasks{ 0x3333333333333333U,
+                                                         0x0F0F0F0F0F0F0F0FU,
+                                                         0x00FF00FF00FF00FFU,
+                                                         0x0000FFFF0000FFFFU,
+                                                         0x00000000FFFFFFFFU };
           pairs = (pairs | pairs >> step) & kMasks[static_cast<std::size_t>(std::countr_zero(step))];
         }
         to[word / 2] |= pairs << (32 * (word % 2));
@@ -247,9 +283,8 @@ FindHollowBody(const VoxelShape &                  shape,
   }
   const auto   smallest = *std::ranges::min_element(weight);
   const double own = static_cast<double>(shape.CountVoxels());
-  const double most =
-    kMostOfBox * (VoxelsOfBox(looked().Box()) - static_cast<double>(looked().CountVoxels()));
-  HollowBody found;
+  const double most = kMostOfBox * (VoxelsOfBox(looked().Box()) - static_cast<double>(looked().CountVoxels()));
+  HollowBody   found;
   for (const int holes : { 0, 4, 8 })
   {
     const std::int64_t radius = holes / 2 / factor;
@@ -260,14 +295,7 @@ FindHollowBody(const VoxelShape &                  shape,
     VoxelShape lumens = LumensOf(looked(), BallRows(LatticeBall{ weight, radius * smallest * (radius * smallest) }));
     const auto voxels = [&] { return lumens.CountVoxels() * static_cast<std::uint64_t>(factor * factor * factor); };
     const auto isEnough = [&] { return static_cast<double>(voxels()) >= std::max(kLeastShare * own, 1.0); };
-    // A labyrinth walls in all there is in its box, but is open at the box's border.
-    const auto isLabyrinth = [&] {
-      return static_cast<double>(lumens.CountVoxels()) >= most && WalledIn(lumens, looked(), 1).CountVoxels() == 0;
-    };
-    if (!isEnough() || isLabyrinth())
-    {
-      continue;
-    }
+    RemoveLabyrinths(looked(), most, lumens);
     for (std::size_t i = 0; i < others.size() && isEnough(); ++i)
     {
       std::optional<VoxelShape> other;
