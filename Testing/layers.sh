@@ -7,16 +7,17 @@ set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 may_use() {
-  local mathematics="Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification Certified"
+  local mathematics="Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Thickness Verification Certified"
   case "$1" in
     Lattice) echo "" ;;
     Shape | Complex) echo "Lattice" ;;
     Blocks) echo "Lattice Shape Delaunay" ;;
     Delaunay | Voxelization | Phantom) echo "Lattice Shape" ;;
+    Thickness) echo "Lattice Shape Delaunay" ;;
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
     Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;
-    Certified) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Verification" ;;
+    Certified) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Thickness Verification" ;;
     Formats) echo "Lattice Shape" ;;
     ItkReader) echo "Lattice Shape Formats" ;;
     Imaging) echo "Lattice Shape Formats ItkReader" ;;

@@ -1,0 +1,66 @@
+#pragma once
+// Local thickness: at each voxel the diameter of the largest ball that holds its centre (Hildebrand, Rueegsegger 1997).
+
+#include "voxelcore/InscribedBalls.h"
+#include "voxelcore/VoxelShape.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** A number at each voxel of a shape, and nothing elsewhere. */
+struct VoxelValues
+{
+  VoxelBox                   box;            ///< the shape's
+  std::vector<std::uint64_t> rowStarts{ 0 }; ///< rows (y fastest) + 1
+  std::vector<float>         values;         ///< of the voxels that are in, in scan order
+
+  /** Of the row at box-relative y, z, a value for each of its voxels that is in. */
+  std::span<const float>
+  Row(std::int32_t y, std::int32_t z) const
+  {
+    const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(box.size[1]) + static_cast<std::size_t>(y);
+    return { values.data() + rowStarts[row], values.data() + rowStarts[row + 1] };
+  }
+};
+
+/** Zero at each voxel of the shape. */
+VoxelValues
+ZeroAtVoxels(const VoxelShape & shape);
+
+/** Gives each voxel that still has zero twice the greatest value of the balls that hold its centre, in mm. A ball is
+ *  taken as closed and by 1e-10 of its radius greater, so that rounding puts no centre on its sphere out of it.
+ *  Rows of voxels are painted from the greatest value down, each voxel once. Time: rows of balls and voxels.
+ *  The same for every number of threads. \throws Cancelled */
+void
+PaintThickness(const VoxelShape &       shape,
+               const SpacingWeights &   weights,
+               const PaintingBalls &    balls,
+               VoxelValues &            map,
+               const ProgressCallback & progress = {});
+
+/** Gives each voxel that still has zero the diameter of the largest inscribed ball about its centre. */
+void
+FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, VoxelValues & map);
+
+/** A truly inscribed ball of the first diameter holds the centre of a voxel, none of more than the second does. */
+struct ThicknessBracket
+{
+  VoxelValues lower; ///< mm
+  VoxelValues upper; ///< mm; empty where it was not asked for
+};
+
+/** The local thickness of a shape from its Delaunay cells (InscribedBalls.h). The same for every number of threads.
+ *  \throws Cancelled */
+ThicknessBracket
+BracketThickness(const VoxelShape &            shape,
+                 std::span<const LatticePoint> points,
+                 const DelaunayCells &         cells,
+                 const SpacingWeights &        weights,
+                 bool                          upper,
+                 const ProgressCallback &      progress = {});
+
+} // namespace voxelcore

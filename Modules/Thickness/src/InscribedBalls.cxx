@@ -1,0 +1,382 @@
+#include "voxelcore/InscribedBalls.h"
+
+#include "OctantAxes.h"
+#include "SquareTree.h"
+
+#include "voxelcore/Vectors.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// How much longer a radius is, or a bound greater, at the far end of a piece of an edge: of a voxel's shortest side.
+constexpr double kInscribedStep = 1.0 / 8;
+constexpr double kBoundingStep = 1.0 / 32;
+
+class Finder
+{
+public:
+  Finder(const VoxelShape &            shape,
+         std::span<const LatticePoint> points,
+         const DelaunayCells &         cells,
+         const SpacingWeights &        weights)
+    : m_Points(points)
+    , m_Cells(cells)
+    , m_Unit(weights.unit)
+    , m_Tree(shape, weights)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      m_Weights[axis] = static_cast<double>(weights.weight[axis]);
+    }
+    m_Least = *std::min_element(m_Weights.begin(), m_Weights.end());
+    const auto table = OctantAxes();
+    m_Axes.reserve(points.size());
+    for (const LatticePoint & at : points)
+    {
+      unsigned octants = 0;
+      for (unsigned octant = 0; octant < 8; ++octant)
+      {
+        const auto side = [octant](unsigned axis) { return static_cast<std::int32_t>(octant >> axis & 1U) - 1; };
+        octants |= (shape.Contains(at.x + side(0), at.y + side(1), at.z + side(2)) ? 1U : 0U) << octant;
+      }
+      m_Axes.push_back(table[octants]);
+    }
+    FindRadii();
+  }
+
+  ThicknessBalls
+  Find(bool bounding, const ProgressCallback & progress)
+  {
+    CutEdges(kInscribedStep * m_Least, false);
+    ThicknessBalls balls;
+    FindInscribed(balls.inscribed, progress);
+    m_Samples.clear();
+    if (bounding)
+    {
+      FindVertexBounds();
+      CutEdges(kBoundingStep * m_Least, true);
+      balls.bounding.centres = m_Cells.centres;
+      balls.bounding.radius = m_Radius;
+      balls.bounding.value = m_Bound;
+      for (const Sample & one : m_Samples)
+      {
+        balls.bounding.Add(one.centre, one.radius, one.bound);
+      }
+      AddNearBoundary(balls.bounding);
+      for (std::size_t i = 0; i < balls.bounding.Count(); ++i)
+      {
+        balls.bounding.radius[i] *= m_Unit;
+        balls.bounding.value[i] *= m_Unit;
+      }
+    }
+    return balls;
+  }
+
+private:
+  /** A place on an edge of the core. Lengths in lattice units. */
+  struct Sample
+  {
+    Vector3       centre;
+    double        radius;
+    double        bound;
+    std::uint32_t edge; ///< a facet
+  };
+
+  Vector3
+  FromPoint(std::uint32_t point, const Vector3 & place) const
+  {
+    const LatticePoint & at = m_Points[point];
+    return { (place[0] - at.x) * m_Weights[0], (place[1] - at.y) * m_Weights[1], (place[2] - at.z) * m_Weights[2] };
+  }
+  double
+  ToPoint(std::uint32_t point, const Vector3 & place) const
+  {
+    const Vector3 d = FromPoint(point, place);
+    return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  }
+  static double
+  LengthIn(std::uint8_t axes, const Vector3 & d)
+  {
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      squared += (axes >> axis & 1U) != 0 ? d[axis] * d[axis] : 0.0;
+    }
+    return std::sqrt(squared);
+  }
+  /** The greatest G of the boundary vertices of a facet. */
+  double
+  BoundAt(std::size_t facet, const Vector3 & place) const
+  {
+    double greatest = 0;
+    for (const std::uint32_t point : m_Cells.FacetPoints(facet))
+    {
+      greatest = std::max(greatest, LengthIn(m_Axes[point], FromPoint(point, place)));
+    }
+    return greatest;
+  }
+
+  void
+  FindRadii()
+  {
+    const auto count = static_cast<std::ptrdiff_t>(m_Cells.CellCount());
+    m_Radius.resize(m_Cells.CellCount());
+    m_Inscribed.resize(m_Cells.CellCount());
+#pragma omp parallel for schedule(dynamic, 256) if (count > 1000)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+    {
+      const auto cell = static_cast<std::size_t>(i);
+      m_Radius[cell] = ToPoint(m_Cells.tetrahedra[cell][0], m_Cells.centres[cell]);
+      m_Inscribed[cell] = m_Tree.Distance(m_Cells.centres[cell], m_Radius[cell]);
+    }
+  }
+
+  void
+  FindVertexBounds()
+  {
+    m_Bound.assign(m_Cells.CellCount(), 0);
+    for (std::size_t facet = 0; facet < m_Cells.FacetCount(); ++facet)
+    {
+      for (const std::uint32_t cell : m_Cells.facetCells[facet])
+      {
+        if (cell != kOutside)
+        {
+          m_Bound[cell] = std::max(m_Bound[cell], BoundAt(facet, m_Cells.centres[cell]));
+        }
+      }
+    }
+  }
+
+  /** Cuts the edges into pieces; each end of a piece gets the greater of both bounds. */
+  void
+  CutEdges(double step, bool bounding)
+  {
+    for (std::size_t facet = 0; facet < m_Cells.FacetCount(); ++facet)
+    {
+      const auto & ends = m_Cells.facetCells[facet];
+      if (ends[1] == kOutside)
+      {
+        continue;
+      }
+      const Vector3 & from = m_Cells.centres[ends[0]];
+      const Vector3 & to = m_Cells.centres[ends[1]];
+      const double    first = bounding ? BoundAt(facet, from) : 0;
+      const double    last = bounding ? BoundAt(facet, to) : 0;
+      const double    change =
+        std::max(std::abs(m_Radius[ends[0]] - m_Radius[ends[1]]), bounding ? std::abs(first - last) : 0.0);
+      const auto pieces = std::max(1, static_cast<int>(std::ceil(change / step * (1 - 1e-9))));
+      double     before = first;
+      for (int piece = 1; piece <= pieces; ++piece)
+      {
+        const bool   isLast = piece == pieces;
+        const double t = static_cast<double>(piece) / pieces;
+        Sample       end{ {}, 0, last, static_cast<std::uint32_t>(facet) };
+        const double reached = before;
+        if (!isLast)
+        {
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            end.centre[axis] = from[axis] + t * (to[axis] - from[axis]);
+          }
+          end.radius = ToPoint(m_Cells.FacetPoints(facet)[0], end.centre);
+          end.bound = bounding ? BoundAt(facet, end.centre) : 0;
+        }
+        before = end.bound;
+        if (bounding)
+        {
+          double & back = piece == 1 ? m_Bound[ends[0]] : m_Samples.back().bound;
+          back = std::max(back, end.bound);
+        }
+        if (isLast)
+        {
+          if (bounding)
+          {
+            m_Bound[ends[1]] = std::max(m_Bound[ends[1]], reached);
+          }
+          continue;
+        }
+        end.bound = std::max(end.bound, reached);
+        m_Samples.push_back(end);
+      }
+    }
+  }
+
+  /** Whether one ball, of places so far apart, lies in the other. */
+  bool
+  LiesIn(const Vector3 & centre, double radius, std::uint32_t other) const
+  {
+    const double more = m_Inscribed[other] - radius;
+    if (!(more > 0))
+    {
+      return false;
+    }
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double d = (centre[axis] - m_Cells.centres[other][axis]) * m_Weights[axis];
+      squared += d * d;
+    }
+    return squared <= more * more;
+  }
+
+  void
+  FindInscribed(PaintingBalls & inscribed, const ProgressCallback & progress)
+  {
+    std::vector<char> needless(m_Cells.CellCount(), 0);
+    for (std::size_t facet = 0; facet < m_Cells.FacetCount(); ++facet)
+    {
+      const auto & ends = m_Cells.facetCells[facet];
+      for (std::size_t end = 0; end < 2 && ends[1] != kOutside; ++end)
+      {
+        const std::uint32_t one = ends[end];
+        if (LiesIn(m_Cells.centres[one], m_Inscribed[one], ends[1 - end]))
+        {
+          needless[one] = 1;
+        }
+      }
+    }
+    for (std::size_t cell = 0; cell < m_Cells.CellCount(); ++cell)
+    {
+      if (needless[cell] == 0)
+      {
+        inscribed.Add(m_Cells.centres[cell], m_Inscribed[cell] * m_Unit, m_Inscribed[cell] * m_Unit);
+      }
+    }
+    ReportProgress(progress, "thickness", 0.5);
+    std::vector<double> radius(m_Samples.size());
+    const auto          count = static_cast<std::ptrdiff_t>(m_Samples.size());
+#pragma omp parallel for schedule(dynamic, 256) if (count > 1000)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+    {
+      const auto     at = static_cast<std::size_t>(i);
+      const Sample & one = m_Samples[at];
+      const double   exact = m_Tree.Distance(one.centre, one.radius);
+      const auto &   ends = m_Cells.facetCells[one.edge];
+      radius[at] = LiesIn(one.centre, exact, ends[0]) || LiesIn(one.centre, exact, ends[1]) ? 0.0 : exact;
+    }
+    for (std::size_t i = 0; i < m_Samples.size(); ++i)
+    {
+      if (radius[i] > 0)
+      {
+        inscribed.Add(m_Samples[i].centre, radius[i] * m_Unit, radius[i] * m_Unit);
+      }
+    }
+  }
+
+  /** The balls of boundary squares: about places on them, and on the edges that pass through them, so far up as one
+   *  can hold the centre of a voxel below. */
+  void
+  AddNearBoundary(PaintingBalls & balls) const
+  {
+    for (std::size_t facet = 0; facet < m_Cells.FacetCount(); ++facet)
+    {
+      if (m_Cells.facetCells[facet][1] == kOutside)
+      {
+        AddSquare(facet, balls);
+      }
+    }
+  }
+  void
+  AddSquare(std::size_t facet, PaintingBalls & balls) const
+  {
+    const auto          corners = m_Cells.FacetPoints(facet);
+    const std::uint32_t cell = m_Cells.facetCells[facet][0];
+    Vector3             middle{};
+    for (const std::uint32_t corner : corners)
+    {
+      const LatticePoint & at = m_Points[corner];
+      middle = { middle[0] + 0.25 * at.x, middle[1] + 0.25 * at.y, middle[2] + 0.25 * at.z };
+    }
+    std::size_t normal = 0;
+    while (FromPoint(corners[0], middle)[normal] != 0)
+    {
+      ++normal;
+    }
+    const double on = BoundAt(facet, middle);
+    const double radius = ToPoint(corners[0], middle);
+    balls.Add(middle, radius, on);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double half = m_Weights[axis] / 2;
+      if (axis == normal || 4 * half * half < SquaresBut(axis))
+      {
+        continue; // too short to hold the centre of a voxel
+      }
+      for (const double side : { -0.5, 0.5 })
+      {
+        Vector3 edge = middle;
+        edge[3 - normal - axis] += side;
+        balls.Add(edge, half, on);
+      }
+    }
+    // A voxel's centre below the square is below the middle, but not in the next voxel, or beside it.
+    const double wide = SquaresBut(normal);
+    const double w = m_Weights[normal];
+    const double highest =
+      std::max((wide / 4 - LeastSquareBut(normal) - w * w / 4) / w, (wide / 4 - w * w * 9 / 4) / (3 * w));
+    const double end = std::min(highest, std::abs(m_Cells.centres[cell][normal] - middle[normal]) * w);
+    if (end <= 0)
+    {
+      return;
+    }
+    const auto   pieces = static_cast<int>(std::ceil(end / (kInscribedStep * m_Least)));
+    const double up = m_Cells.centres[cell][normal] > middle[normal] ? end / w : -end / w;
+    Vector3      from = middle;
+    for (int piece = 1; piece <= pieces; ++piece)
+    {
+      Vector3 to = middle;
+      to[normal] += up * piece / pieces;
+      balls.Add(from, ToPoint(corners[0], from), BoundAt(facet, to));
+      from = to;
+    }
+  }
+  /** Of the weights along the other axes, the sum of the squares. */
+  double
+  SquaresBut(std::size_t axis) const
+  {
+    return Dot(m_Weights, m_Weights) - m_Weights[axis] * m_Weights[axis];
+  }
+  double
+  LeastSquareBut(std::size_t axis) const
+  {
+    const double least = std::min(m_Weights[(axis + 1) % 3], m_Weights[(axis + 2) % 3]);
+    return least * least;
+  }
+
+  std::span<const LatticePoint> m_Points;
+  const DelaunayCells &         m_Cells;
+  double                        m_Unit;
+  SquareTree                    m_Tree;
+  Vector3                       m_Weights{};
+  double                        m_Least = 0; ///< of the weights
+  std::vector<std::uint8_t>     m_Axes;      ///< of each boundary vertex: A, as bits
+  std::vector<double>           m_Radius;    ///< R of each core vertex
+  std::vector<double>           m_Inscribed; ///< r of each core vertex
+  std::vector<double>           m_Bound;     ///< of each core vertex
+  std::vector<Sample>           m_Samples;
+};
+
+} // namespace
+
+ThicknessBalls
+FindThicknessBalls(const VoxelShape &            shape,
+                   std::span<const LatticePoint> points,
+                   const DelaunayCells &         cells,
+                   const SpacingWeights &        weights,
+                   bool                          bounding,
+                   const ProgressCallback &      progress)
+{
+  ReportProgress(progress, "thickness", 0);
+  return Finder(shape, points, cells, weights).Find(bounding, progress);
+}
+
+} // namespace voxelcore
