@@ -152,7 +152,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   const JobContext context = ForwardOnly(given);
   ReportProgress(context.progress, "reading", 0);
   MedialModel model = ReadModel(options.core);
-  RequireVtkReads(options.core, model);
+  const bool vtkReads = RequireVtkReads(options.core, model);
   const CoreReport made = ParseProvenance(model.provenance, options.core.string());
   InputScan        volume = ReadScanOrMesh(options.scan,
                                     RecordedReading(made.parameters),
@@ -174,6 +174,10 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   VerifyResult result;
   result.warnings = volume.warnings;
   result.unit = volume.geometry.unit;
+  if (!vtkReads)
+  {
+    result.notes.push_back(options.core.string() + ": not opened with VTK's reader, as this build has no VTK");
+  }
   if (made.input.sha256.empty())
   {
     result.notes.push_back(options.core.string() + ": was made from an image in memory, so it names no scan file");

@@ -1,13 +1,6 @@
-// Whether two models are the same, and whether VTK reads from a file what we do.
+// Whether two models are the same.
 
-#include "VtkMessages.h"
-#include "voxelcore/Error.h"
 #include "voxelcore/MedialModel.h"
-#include "voxelcore/ModelPolyData.h"
-
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
 #include <bit>
@@ -64,35 +57,6 @@ SameBits(const MedialModel & a, const MedialModel & b)
                     b.parts.begin(),
                     b.parts.end(),
                     [](const ModelPart & x, const ModelPart & y) { return SameBits(x, y); });
-}
-
-void
-RequireVtkReads(const std::filesystem::path & path, const MedialModel & model)
-{
-  std::string trouble;
-  {
-    const VtkMessages            messages;
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    trouble = messages.First();
-    if (trouble.empty() && reader->GetErrorCode() == 0)
-    {
-      try
-      {
-        if (SameBits(ModelFromPolyData(*reader->GetOutput()), model))
-        {
-          return;
-        }
-        trouble = "it finds something else in it";
-      }
-      catch (const InputError & error)
-      {
-        trouble = error.what();
-      }
-    }
-  }
-  throw InputError(path.string() + ": VTK's reader does not open it (" + trouble + "); make the file again");
 }
 
 } // namespace voxelcore

@@ -1,11 +1,6 @@
 #include "XmlArrays.h"
 
-#include "VtkMessages.h"
-
-#include <vtkLZ4DataCompressor.h>
-#include <vtkLZMADataCompressor.h>
-#include <vtkSmartPointer.h>
-#include <vtkZLibDataCompressor.h>
+#include "XmlUnpacking.h"
 
 namespace voxelcore
 {
@@ -70,30 +65,6 @@ private:
   bool             m_IsBase64;
 };
 
-struct Compressor
-{
-  vtkSmartPointer<vtkDataCompressor> decoder;
-  std::uint64_t                      mostGain; ///< what one byte can become at most
-};
-
-Compressor
-MakeCompressor(const std::string & name)
-{
-  if (name == "vtkZLibDataCompressor")
-  {
-    return { vtkSmartPointer<vtkZLibDataCompressor>::New(), 1032 };
-  }
-  if (name == "vtkLZ4DataCompressor")
-  {
-    return { vtkSmartPointer<vtkLZ4DataCompressor>::New(), 255 };
-  }
-  if (name == "vtkLZMADataCompressor")
-  {
-    return { vtkSmartPointer<vtkLZMADataCompressor>::New(), 8192 };
-  }
-  throw UnfitFile{ "it is compressed in a way that VTK does not know" };
-}
-
 /** Blocks of equal size but the last; each size, and each compressed size, stands before them. */
 std::string
 Uncompress(ByteSource & source, const XmlEncoding & encoding, std::string_view start)
@@ -108,10 +79,10 @@ Uncompress(ByteSource & source, const XmlEncoding & encoding, std::string_view s
   const std::uint64_t lastSize = number(start, 2);
   RequireFit(blocks <= std::numeric_limits<std::int64_t>::max() / width - 3, "its compressed blocks are damaged");
   // Read again as a whole: in base64 all of the header is one run.
-  const std::string header = source.Take((3 + blocks) * width);
-  const Compressor  compressor = MakeCompressor(encoding.compressor);
-  std::uint64_t     compressed = 0;
-  constexpr auto    most = std::uint64_t{ std::numeric_limits<int>::max() };
+  const std::string   header = source.Take((3 + blocks) * width);
+  const std::uint64_t mostGain = MostGain(encoding.compressor);
+  std::uint64_t       compressed = 0;
+  constexpr auto      most = std::uint64_t{ std::numeric_limits<int>::max() };
   for (std::uint64_t block = 0; block < blocks; ++block)
   {
     const std::uint64_t size = number(header, 3 + block);
@@ -121,17 +92,15 @@ Uncompress(ByteSource & source, const XmlEncoding & encoding, std::string_view s
   const std::string packed = source.Take(compressed);
   std::string       bytes;
   std::uint64_t     at = 0;
-  const VtkMessages messages; // what is wrong is said by us
   for (std::uint64_t block = 0; block < blocks; ++block)
   {
     const std::uint64_t from = number(header, 3 + block);
     const std::uint64_t size = block + 1 == blocks && lastSize != 0 ? lastSize : blockSize;
-    RequireFit(size <= most && size <= from * compressor.mostGain, "its compressed blocks are damaged");
+    RequireFit(size <= most && size <= from * mostGain, "its compressed blocks are damaged");
     bytes.resize(bytes.size() + size);
     const auto * const begin = reinterpret_cast<const unsigned char *>(packed.data()) + at;
     auto * const       end = reinterpret_cast<unsigned char *>(bytes.data() + (bytes.size() - size));
-    RequireFit(size == 0 || compressor.decoder->Uncompress(begin, from, end, size) == size,
-               "its compressed blocks are damaged");
+    RequireFit(size == 0 || Unpack(encoding.compressor, begin, from, end, size), "its compressed blocks are damaged");
     at += from;
   }
   return bytes;

@@ -68,7 +68,7 @@ WriteModel(const std::filesystem::path & path,
            const MedialModel &           model,
            const ModelOptions &          options = {});
 
-/** The library that writes models, as it is loaded: "VTK 9.1.0". */
+/** The library that writes models, as it is loaded: "VTK 9.1.0", or "no VTK". */
 std::string
 ModelLibrary();
 
@@ -86,8 +86,8 @@ bool
 SameBits(const ModelPart & a, const ModelPart & b);
 
 /** \throws InputError unless VTK's own reader opens the file without complaint and finds in it `model`, which ReadModel
- *  found. */
-void
+ *  found. False where VoxelCore was built without VTK, and nothing was read. */
+[[nodiscard]] bool
 RequireVtkReads(const std::filesystem::path & path, const MedialModel & model);
 
 } // namespace voxelcore

@@ -1,0 +1,44 @@
+// Whether VTK reads from a file what we do.
+
+#include "VtkMessages.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/ModelPolyData.h"
+
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+namespace voxelcore
+{
+
+bool
+RequireVtkReads(const std::filesystem::path & path, const MedialModel & model)
+{
+  std::string trouble;
+  {
+    const VtkMessages            messages;
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    trouble = messages.First();
+    if (trouble.empty() && reader->GetErrorCode() == 0)
+    {
+      try
+      {
+        if (SameBits(ModelFromPolyData(*reader->GetOutput()), model))
+        {
+          return true;
+        }
+        trouble = "it finds something else in it";
+      }
+      catch (const InputError & error)
+      {
+        trouble = error.what();
+      }
+    }
+  }
+  throw InputError(path.string() + ": VTK's reader does not open it (" + trouble + "); make the file again");
+}
+
+} // namespace voxelcore
