@@ -16,8 +16,8 @@ packages_of() {
     demo) echo mricron-data ;;
     picture) echo xvfb xauth ;;
     guide) echo mkdocs ;;
-    test) echo clang-format xvfb libgtest-dev libgmock-dev python3-nibabel python3-numpy python3-pytest \
-               python3-pydicom python3-mrcfile python3-h5py minc-tools python3-tifffile python3-zarr xauth \
+    test) echo clang-format xvfb libgtest-dev libgmock-dev mypy python3-nibabel python3-networkx python3-numpy \
+               python3-pandas python3-pytest python3-xarray python3-pydicom python3-mrcfile python3-h5py minc-tools python3-tifffile python3-zarr xauth \
                mricron-data ;;
     package) echo dpkg-dev debootstrap doxygen graphviz groff mkdocs mricron-data ;;
     sanitizer) echo clang libomp-dev ;;

@@ -305,6 +305,22 @@ Save(const SkeletonOfLabel &       skeleton,
   transaction.Commit();
 }
 
+void
+SaveSwc(const SkeletonOfLabel &       skeleton,
+        const std::filesystem::path & path,
+        bool                          force,
+        const ProgressCallback &      progress)
+{
+  OutputTransaction transaction(force);
+  transaction.CheckTarget(path);
+  SkeletonModel model;
+  model.unit = skeleton.report.input.geometry.unit;
+  model.parts = { skeleton.part };
+  WriteSwc(transaction.Stage(path), model, { skeleton.report.skeleton->branches.root });
+  ReportProgress(progress, "writing", 1);
+  transaction.Commit();
+}
+
 std::shared_ptr<CoreOfLabel>
 ReadCore(const std::filesystem::path & path)
 {

@@ -74,6 +74,13 @@ Save(const SkeletonOfLabel &       skeleton,
      bool                          force,
      const ProgressCallback &      progress);
 
+/** As `--also swc` writes it. Asks `progress` once more, too. \throws OutputError, Cancelled */
+void
+SaveSwc(const SkeletonOfLabel &       skeleton,
+        const std::filesystem::path & path,
+        bool                          force,
+        const ProgressCallback &      progress);
+
 /** What `voxelcore core` wrote, when it holds one label. \throws InputError */
 std::shared_ptr<CoreOfLabel>
 ReadCore(const std::filesystem::path & path);

@@ -127,6 +127,16 @@ SaveSkeleton(const std::shared_ptr<SkeletonOfLabel> & skeleton,
   });
 }
 
+void
+SaveSwcFile(const std::shared_ptr<SkeletonOfLabel> & skeleton, const std::string & path, bool force)
+{
+  AwaitLeftBehind();
+  RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback & progress) {
+    SaveSwc(*skeleton, path, force, progress);
+    return true;
+  });
+}
+
 std::shared_ptr<CoreOfLabel>
 ReadCoreFile(const std::string & path)
 {
@@ -405,6 +415,7 @@ PYBIND11_MODULE(_voxelcore, module)
   module.def("skeleton", &SkeletonOfCore);
   module.def("save_core", &SaveCore);
   module.def("save_skeleton", &SaveSkeleton);
+  module.def("save_swc", &SaveSwcFile);
   module.def("read_core", &ReadCoreFile);
   module.def("core_from_state", &CoreFromState);
   module.def("skeleton_from_state", &SkeletonFromState);

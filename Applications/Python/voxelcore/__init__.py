@@ -24,7 +24,7 @@ import os
 
 import numpy
 
-from . import _arguments, _voxelcore
+from . import _arguments, _images, _voxelcore
 from ._results import Core, Skeleton
 from ._voxelcore import CertificateError, __version__
 
@@ -42,9 +42,9 @@ def core(
     spacing=None,
     lambda_=None,
     label=None,
-    origin=(0, 0, 0),
-    direction=(1, 0, 0, 0, 1, 0, 0, 0, 1),
-    axes="ijk",
+    origin=None,
+    direction=None,
+    axes=None,
     tolerance=None,
     threshold=None,
     progress=None,
@@ -54,7 +54,9 @@ def core(
     them where lambda_ or tolerance is a list; a dict of these by label where several labels were asked for.
 
     array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array
-        masks. It is read once, into one bit a voxel, and not kept. It must not change meanwhile.
+        masks. It is read once, into one bit a voxel, and not kept. It must not change meanwhile. Or an image of
+        nibabel, SimpleITK, ITK or VTK, or an xarray.DataArray with the dimensions x, y and z: spacing, origin,
+        direction and axes are then the image's, unless given.
     spacing: mm between voxels along i, j and k. None: it is not known; all lengths are then in voxels, results have
         the unit 'voxel', and a length in mm is refused.
     lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
@@ -62,11 +64,11 @@ def core(
         spacing), '2.5%' (of the longest side of the label's box). 0 keeps the whole core. With tolerance, it is
         applied first. A list shares one computation.
     label: its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
-    origin: LPS mm of the centre of voxel (0, 0, 0).
+    origin: LPS mm of the centre of voxel (0, 0, 0); of arrays 0, 0, 0 unless given.
     direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
-        SimpleITK has it.
-    axes: 'ijk' for arrays a[i, j, k] (nibabel), 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of spacing, origin
-        and direction the order is i, j, k in either case.
+        SimpleITK has it; of arrays the axes x, y and z unless given.
+    axes: 'ijk' for arrays a[i, j, k] (nibabel), the default, 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of
+        spacing, origin and direction the order is i, j, k in either case.
     tolerance: how far the boundary may lie from the balls that remain: a number, '1.2diag' (voxel diagonals; the
         default without lambda_) or '2vox'. A list shares one computation.
     threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
@@ -93,8 +95,14 @@ def core(
     ValueError: the array: its type is complex128; give whole numbers (bool, int8 to uint64, or float32 and float64 \
 that hold whole numbers)
     """
-    if axes not in ("ijk", "kji"):
+    if axes not in (None, "ijk", "kji"):
         raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
+    image = _images.of(array)
+    if image is not None:
+        array, axes = image.voxels, axes or image.axes
+        spacing = image.spacing if spacing is None else spacing
+        origin = image.origin if origin is None else origin
+        direction = image.direction if direction is None else direction
     values = _arguments.values("core", _arguments.OF_CORE, options)
     pruning, several = _arguments.pruning(lambda_, tolerance, "voxel" if spacing is None else "mm")
     values.update(pruning)
@@ -112,7 +120,11 @@ that hold whole numbers)
     if axes == "kji":
         voxels = voxels.T
     size = None if spacing is None else _arguments.three("spacing", spacing)
-    place = size, _arguments.three("origin", origin), _arguments.nine(direction)
+    place = (
+        size,
+        _arguments.three("origin", (0, 0, 0) if origin is None else origin),
+        _arguments.nine((1, 0, 0, 0, 1, 0, 0, 0, 1) if direction is None else direction),
+    )
     by_label = {}
     for data in _voxelcore.cores(voxels, *place, values, progress):
         one = Core(data)
@@ -144,7 +156,7 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
     """
     own = {keyword: value for keyword, value in options.items() if keyword in _arguments.OF_SKELETON}
     of_array = {keyword: value for keyword, value in options.items() if keyword not in own}
-    unit = source.unit if isinstance(source, Core) else "voxel" if of_array.get("spacing") is None else "mm"
+    unit = source.unit if isinstance(source, Core) else _arguments.unit(source, of_array.get("spacing"))
     values = _arguments.values(
         "skeleton",
         _arguments.OF_SKELETON,

@@ -10,6 +10,7 @@ Length = Union[str, float]
 Lengths = Union[List[Length], Tuple[Length, ...]]
 Progress = Optional[Callable[[str, float], None]]
 Vector = Sequence[float]
+Image = Any  # of nibabel, SimpleITK, ITK, VTK, or an xarray.DataArray
 
 class CertificateError(RuntimeError): ...
 
@@ -78,6 +79,9 @@ class Core(_Result):
     def free_edges(self) -> NDArray[numpy.uint32]: ...
     def isolated_vertices(self) -> NDArray[numpy.uint32]: ...
     def to_polydata(self) -> Any: ...
+    def to_pyvista(self) -> Any: ...
+    def to_trimesh(self) -> Any: ...
+    def to_napari(self) -> List[Tuple[Any, Dict[str, Any], str]]: ...
 
 class Skeleton(_Result):
     @property
@@ -110,17 +114,23 @@ class Skeleton(_Result):
         self, path: Union[str, PathLike[str]], *, also: Union[str, Iterable[str]] = ..., overwrite: bool = ...
     ) -> None: ...
     def to_polydata(self) -> Any: ...
+    def to_pyvista(self) -> Any: ...
+    def to_networkx(self) -> Any: ...
+    def to_pandas(self) -> Any: ...
+    def to_napari(self) -> List[Tuple[Any, Dict[str, Any], str]]: ...
+    def to_osteoid(self, scale: float = ...) -> Any: ...
+    def to_swc(self, path: Union[str, PathLike[str]], *, overwrite: bool = ...) -> None: ...
 
 @overload
 def core(
-    array: ArrayLike,
+    array: Union[ArrayLike, Image],
     *,
     spacing: Optional[Vector] = ...,
     lambda_: Optional[Length] = ...,
     label: Union[None, int, str] = ...,
-    origin: Vector = ...,
-    direction: ArrayLike = ...,
-    axes: str = ...,
+    origin: Optional[Vector] = ...,
+    direction: Optional[ArrayLike] = ...,
+    axes: Optional[str] = ...,
     tolerance: Optional[Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
     progress: Progress = ...,
@@ -128,14 +138,14 @@ def core(
 ) -> Core: ...
 @overload
 def core(
-    array: ArrayLike,
+    array: Union[ArrayLike, Image],
     *,
     spacing: Optional[Vector] = ...,
     lambda_: Lengths,
     label: Union[None, int, str] = ...,
-    origin: Vector = ...,
-    direction: ArrayLike = ...,
-    axes: str = ...,
+    origin: Optional[Vector] = ...,
+    direction: Optional[ArrayLike] = ...,
+    axes: Optional[str] = ...,
     tolerance: Optional[Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
     progress: Progress = ...,
@@ -143,14 +153,14 @@ def core(
 ) -> List[Core]: ...
 @overload
 def core(
-    array: ArrayLike,
+    array: Union[ArrayLike, Image],
     *,
     spacing: Optional[Vector] = ...,
     lambda_: Optional[Length] = ...,
     label: Union[None, int, str] = ...,
-    origin: Vector = ...,
-    direction: ArrayLike = ...,
-    axes: str = ...,
+    origin: Optional[Vector] = ...,
+    direction: Optional[ArrayLike] = ...,
+    axes: Optional[str] = ...,
     tolerance: Lengths,
     threshold: Optional[Tuple[float, float]] = ...,
     progress: Progress = ...,
@@ -158,21 +168,21 @@ def core(
 ) -> List[Core]: ...
 @overload
 def core(
-    array: ArrayLike,
+    array: Union[ArrayLike, Image],
     *,
     spacing: Optional[Vector] = ...,
     lambda_: Optional[Length] = ...,
     label: List[int],
-    origin: Vector = ...,
-    direction: ArrayLike = ...,
-    axes: str = ...,
+    origin: Optional[Vector] = ...,
+    direction: Optional[ArrayLike] = ...,
+    axes: Optional[str] = ...,
     tolerance: Optional[Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
     progress: Progress = ...,
     **options: Any,
 ) -> Dict[Any, Core]: ...
 def skeleton(
-    source: Union[Core, ArrayLike],
+    source: Union[Core, ArrayLike, Image],
     *,
     prune_branches: Optional[Length] = ...,
     root: Union[str, Vector] = ...,
@@ -180,6 +190,6 @@ def skeleton(
     progress: Progress = ...,
     **options: Any,
 ) -> Skeleton: ...
-def measure(source: Union[Skeleton, Core, ArrayLike], **options: Any) -> Dict[str, NDArray[Any]]: ...
+def measure(source: Union[Skeleton, Core, ArrayLike, Image], **options: Any) -> Dict[str, NDArray[Any]]: ...
 def read(path: Union[str, PathLike[str]]) -> Core: ...
 def columns(unit: str = ...) -> Dict[str, Dict[str, str]]: ...

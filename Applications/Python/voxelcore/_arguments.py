@@ -5,7 +5,7 @@ import inspect
 
 import numpy
 
-from . import _voxelcore
+from . import _images, _voxelcore
 
 
 def text(value, unit="mm"):
@@ -18,6 +18,14 @@ def text(value, unit="mm"):
         raise ValueError(f"{value!r}: expected a length such as '1.5vox' or a number")
     number = numpy.format_float_positional(float(value), trim="-")
     return number + "vox" if unit == "voxel" and float(value) != 0 else number
+
+
+def unit(source, spacing):
+    """Of the lengths of what is made of an array or image."""
+    if spacing is None:
+        image = _images.of(source)
+        spacing = image and image.spacing
+    return "voxel" if spacing is None else "mm"
 
 
 def pruning(lambda_, tolerance, unit):

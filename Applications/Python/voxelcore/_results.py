@@ -5,7 +5,7 @@ import os
 
 import numpy
 
-from . import _arguments, _voxelcore
+from . import _arguments, _exchange, _voxelcore
 
 
 def _functions():
@@ -197,6 +197,26 @@ class Core(_Result):
 
         return _polydata.of_core(self)
 
+    def to_pyvista(self):
+        """to_polydata() as a pyvista.PolyData (package pyvista)."""
+        return _exchange.pyvista(self)
+
+    def to_trimesh(self):
+        """A trimesh.Trimesh (package trimesh) of the polygons, as fans of triangles; lines and single points are left
+        out. Vertex attributes radius and lambda, face attribute lambda."""
+        return _exchange.trimesh(self)
+
+    def to_napari(self):
+        """Layers for napari: a list of (data, arguments, type), a surface coloured by radius and, where edges bound no
+        face, their lines. Coordinates are z, y, x (LPS mm): show the volume a[k, j, i] with scale=spacing[::-1].
+
+        >>> for layer in core(numpy.ones((9, 9, 3), bool)).to_napari():
+        ...     layer[2], [part.shape for part in layer[0]]
+        ('surface', [(29, 3), (32, 3), (29,)])
+        ('shapes', [(2, 3), (2, 3), (2, 3), (2, 3)])
+        """
+        return _exchange.napari_of_core(self)
+
     def __repr__(self):
         pruned = self.report["labels"][0]["pruned"][0]
         measure = "tolerance" if "tolerance" in pruned else "lambda"
@@ -305,6 +325,37 @@ class Skeleton(_Result):
         from . import _polydata
 
         return _polydata.of_skeleton(self)
+
+    def to_pyvista(self):
+        """to_polydata() as a pyvista.PolyData (package pyvista)."""
+        return _exchange.pyvista(self)
+
+    def to_networkx(self):
+        """A networkx.MultiGraph (package networkx). Nodes have pos (LPS mm), radius and kind; edges, with the branch's
+        number as key, its columns of measure(), its points ((p, 3), LPS mm) and their radii. Radii are those of round
+        cross-sections (section_radius)."""
+        return _exchange.networkx(self)
+
+    def to_pandas(self):
+        """measure() as a pandas.DataFrame (package pandas), a row a branch."""
+        return _exchange.pandas(self)
+
+    def to_napari(self):
+        """Layers for napari: a list of (data, arguments, type): the branches as paths, with the columns of measure() as
+        features, and the nodes as points. Coordinates are z, y, x (LPS mm): show the volume a[k, j, i] with
+        scale=spacing[::-1]."""
+        return _exchange.napari_of_skeleton(self)
+
+    def to_osteoid(self, scale=1.0):
+        """An osteoid.Skeleton (package osteoid), kimimaro's and cloud-volume's form: float32 vertices and radii, times
+        `scale` (1e6 makes nanometres of mm), and uint32 edges."""
+        return _exchange.osteoid(self, scale)
+
+    def to_swc(self, path, *, overwrite=False):
+        """Writes the .swc file of 'voxelcore skeleton': in micrometres (voxels without a spacing), LPS axes."""
+        if os.path.splitext(os.fspath(path))[1] != ".swc":
+            raise ValueError(f"{os.fspath(path)}: expected a name that ends in .swc")
+        _voxelcore.save_swc(self._data, os.fsencode(path), bool(overwrite))
 
     def __repr__(self):
         counts = f"{len(self.branch_nodes)} branches, {len(self.points)} points"
