@@ -96,7 +96,8 @@ def _xarray(image):
         return None
     names = "".join(str(name).lower() for name in image.dims)
     if names not in ("xyz", "zyx"):
-        raise ValueError(f"the array: its dimensions are {', '.join(map(str, image.dims))}; expected x, y, z or z, y, x")
+        named = ", ".join(map(str, image.dims))
+        raise ValueError(f"the array: its dimensions are {named}; expected x, y, z or z, y, x")
     axes = "ijk" if names == "xyz" else "kji"
     given = [name for name in image.dims if name in image.coords]
     if not given:

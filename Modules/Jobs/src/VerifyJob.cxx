@@ -151,8 +151,8 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
 {
   const JobContext context = ForwardOnly(given);
   ReportProgress(context.progress, "reading", 0);
-  MedialModel model = ReadModel(options.core);
-  const bool vtkReads = RequireVtkReads(options.core, model);
+  MedialModel      model = ReadModel(options.core);
+  const bool       vtkReads = RequireVtkReads(options.core, model);
   const CoreReport made = ParseProvenance(model.provenance, options.core.string());
   InputScan        volume = ReadScanOrMesh(options.scan,
                                     RecordedReading(made.parameters),

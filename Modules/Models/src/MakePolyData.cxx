@@ -90,10 +90,10 @@ private:
   CellBuffers<Index>
   MakeCells(const char * section, std::uint64_t cells, std::uint64_t corners)
   {
-    vtkNew<ArrayType> offsets;
-    vtkNew<ArrayType> points;
-    const auto        buffers = CellBuffers<Index>{ reinterpret_cast<Index *>(Allocate(*offsets, "offsets", cells + 1)),
-                                                    reinterpret_cast<Index *>(Allocate(*points, "connectivity", corners)) };
+    vtkNew<ArrayType>        offsets;
+    vtkNew<ArrayType>        points;
+    const CellBuffers<Index> buffers{ reinterpret_cast<Index *>(Allocate(*offsets, "offsets", cells + 1)),
+                                      reinterpret_cast<Index *>(Allocate(*points, "connectivity", corners)) };
     *buffers.offsets = 0;
     vtkNew<vtkCellArray> array;
     array->SetData(offsets.Get(), points.Get());
