@@ -6,11 +6,11 @@ from numpy.typing import ArrayLike, NDArray
 
 __version__: str
 
-Length = Union[str, float]
-Lengths = Union[List[Length], Tuple[Length, ...]]
-Progress = Optional[Callable[[str, float], None]]
-Vector = Sequence[float]
-Image = Any  # of nibabel, SimpleITK, ITK, VTK, or an xarray.DataArray
+_Length = Union[str, float]
+_Lengths = Union[List[_Length], Tuple[_Length, ...]]
+_Progress = Optional[Callable[[str, float], None]]
+_Vector = Sequence[float]
+_Image = Any  # of nibabel, SimpleITK, ITK, VTK, or an xarray.DataArray
 
 class CertificateError(RuntimeError): ...
 
@@ -61,12 +61,12 @@ class Core(_Result):
     def shape_topology(self) -> Dict[str, Any]: ...
     @overload
     def prune(
-        self, lambda_: Optional[Length] = ..., *, tolerance: Optional[Length] = ..., progress: Progress = ...
+        self, lambda_: Optional[_Length] = ..., *, tolerance: Optional[_Length] = ..., progress: _Progress = ...
     ) -> Core: ...
     @overload
-    def prune(self, lambda_: Lengths, *, progress: Progress = ...) -> List[Core]: ...
+    def prune(self, lambda_: _Lengths, *, progress: _Progress = ...) -> List[Core]: ...
     @overload
-    def prune(self, *, tolerance: Lengths, progress: Progress = ...) -> List[Core]: ...
+    def prune(self, *, tolerance: _Lengths, progress: _Progress = ...) -> List[Core]: ...
     def skeleton(self, **options: Any) -> Skeleton: ...
     def save(
         self,
@@ -123,73 +123,73 @@ class Skeleton(_Result):
 
 @overload
 def core(
-    array: Union[ArrayLike, Image],
+    array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[Vector] = ...,
-    lambda_: Optional[Length] = ...,
+    spacing: Optional[_Vector] = ...,
+    lambda_: Optional[_Length] = ...,
     label: Union[None, int, str] = ...,
-    origin: Optional[Vector] = ...,
+    origin: Optional[_Vector] = ...,
     direction: Optional[ArrayLike] = ...,
     axes: Optional[str] = ...,
-    tolerance: Optional[Length] = ...,
+    tolerance: Optional[_Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
-    progress: Progress = ...,
+    progress: _Progress = ...,
     **options: Any,
 ) -> Core: ...
 @overload
 def core(
-    array: Union[ArrayLike, Image],
+    array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[Vector] = ...,
-    lambda_: Lengths,
+    spacing: Optional[_Vector] = ...,
+    lambda_: _Lengths,
     label: Union[None, int, str] = ...,
-    origin: Optional[Vector] = ...,
+    origin: Optional[_Vector] = ...,
     direction: Optional[ArrayLike] = ...,
     axes: Optional[str] = ...,
-    tolerance: Optional[Length] = ...,
+    tolerance: Optional[_Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
-    progress: Progress = ...,
+    progress: _Progress = ...,
     **options: Any,
 ) -> List[Core]: ...
 @overload
 def core(
-    array: Union[ArrayLike, Image],
+    array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[Vector] = ...,
-    lambda_: Optional[Length] = ...,
+    spacing: Optional[_Vector] = ...,
+    lambda_: Optional[_Length] = ...,
     label: Union[None, int, str] = ...,
-    origin: Optional[Vector] = ...,
+    origin: Optional[_Vector] = ...,
     direction: Optional[ArrayLike] = ...,
     axes: Optional[str] = ...,
-    tolerance: Lengths,
+    tolerance: _Lengths,
     threshold: Optional[Tuple[float, float]] = ...,
-    progress: Progress = ...,
+    progress: _Progress = ...,
     **options: Any,
 ) -> List[Core]: ...
 @overload
 def core(
-    array: Union[ArrayLike, Image],
+    array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[Vector] = ...,
-    lambda_: Optional[Length] = ...,
+    spacing: Optional[_Vector] = ...,
+    lambda_: Optional[_Length] = ...,
     label: List[int],
-    origin: Optional[Vector] = ...,
+    origin: Optional[_Vector] = ...,
     direction: Optional[ArrayLike] = ...,
     axes: Optional[str] = ...,
-    tolerance: Optional[Length] = ...,
+    tolerance: Optional[_Length] = ...,
     threshold: Optional[Tuple[float, float]] = ...,
-    progress: Progress = ...,
+    progress: _Progress = ...,
     **options: Any,
 ) -> Dict[Any, Core]: ...
 def skeleton(
-    source: Union[Core, ArrayLike, Image],
+    source: Union[Core, ArrayLike, _Image],
     *,
-    prune_branches: Optional[Length] = ...,
-    root: Union[str, Vector] = ...,
+    prune_branches: Optional[_Length] = ...,
+    root: Union[str, _Vector] = ...,
     threads: int = ...,
-    progress: Progress = ...,
+    progress: _Progress = ...,
     **options: Any,
 ) -> Skeleton: ...
-def measure(source: Union[Skeleton, Core, ArrayLike, Image], **options: Any) -> Dict[str, NDArray[Any]]: ...
+def measure(source: Union[Skeleton, Core, ArrayLike, _Image], **options: Any) -> Dict[str, NDArray[Any]]: ...
 def read(path: Union[str, PathLike[str]]) -> Core: ...
 def columns(unit: str = ...) -> Dict[str, Dict[str, str]]: ...

@@ -364,3 +364,4 @@ class Skeleton(_Result):
 
 for _result in (Core, Skeleton):
     _result.__module__ = "voxelcore"  # where users find them; pickles name it
+del _result
