@@ -17,7 +17,7 @@ ForWords(TShape & shape, TUse use)
   {
     for (std::int32_t y = 0; y < shape.Box().size[1]; ++y)
     {
-      for (auto & word : shape.Row(y, z))
+      for (auto && word : shape.Row(y, z))
       {
         use(word);
       }
@@ -32,7 +32,7 @@ Pack(const VoxelShape & shape)
 {
   PackedShape packed;
   packed.box = shape.Box();
-  ForWords(shape, [&](const std::uint64_t & word) {
+  ForWords(shape, [&](std::uint64_t word) {
     if (packed.words.empty() || packed.words.back() != word ||
         packed.counts.back() == std::numeric_limits<std::uint32_t>::max())
     {
@@ -53,7 +53,7 @@ Unpack(const PackedShape & packed)
   VoxelShape    shape(packed.box);
   std::size_t   run = 0;
   std::uint32_t used = 0;
-  ForWords(shape, [&](std::uint64_t & word) {
+  ForWords(shape, [&](const ShapeWord & word) {
     if (run >= packed.words.size() || run >= packed.counts.size())
     {
       fail();
@@ -69,6 +69,7 @@ Unpack(const PackedShape & packed)
   {
     fail();
   }
+  shape.Compact();
   return shape;
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 namespace voxelcore
 {
@@ -141,6 +142,56 @@ TEST(VoxelShape, CroppingATightShapeChangesNothing)
     EXPECT_EQ(cropped.Box().size, shape.Box().size);
     EXPECT_EQ(cropped.CountVoxels(), shape.CountVoxels());
   }
+}
+
+TEST(VoxelShape, AroundACornerAreItsEightVoxels)
+{
+  const unsigned seed = std::random_device{}();
+  RecordProperty("seed", static_cast<int>(seed));
+  std::mt19937 random(seed);
+  VoxelShape   shape({ { -3, 5, 2 }, { 131, 11, 9 } });
+  for (int i = 0; i < 5000; ++i)
+  {
+    shape.Insert(-3 + static_cast<std::int32_t>(random() % 131),
+                 5 + static_cast<std::int32_t>(random() % 11),
+                 2 + static_cast<std::int32_t>(random() % 9));
+  }
+  for (std::int32_t z = 0; z < 14; ++z)
+  {
+    for (std::int32_t y = 3; y < 19; ++y)
+    {
+      for (std::int32_t x = -6; x < 132; ++x)
+      {
+        const unsigned around = shape.Around(x, y, z);
+        for (std::int32_t c = 0; c < 8; ++c)
+        {
+          ASSERT_EQ(around >> c & 1U, shape.Contains(x - 1 + (c & 1), y - 1 + (c >> 1 & 1), z - 1 + (c >> 2)) ? 1U : 0U)
+            << "seed " << seed << ": " << x << " " << y << " " << z;
+        }
+      }
+    }
+  }
+}
+
+TEST(VoxelShape, MemoryFollowsTheBoundaryNotTheBox)
+{
+  // A slab that crosses a box of 1024^3, as the reader or a phantom leaves it.
+  VoxelShape shape({ { 0, 0, 0 }, { 1024, 1024, 64 } });
+  for (std::int32_t z = 0; z < 64; ++z)
+  {
+    for (std::int32_t y = 100; y < 900; ++y)
+    {
+      for (std::size_t word = 2; word < 14; ++word)
+      {
+        shape.Row(y, z)[word] = ~std::uint64_t{ 0 };
+      }
+    }
+    shape.Compact(z & ~7, z + 1);
+  }
+  EXPECT_EQ(shape.CountVoxels(), std::uint64_t{ 800 } * 64 * 12 * 64);
+  EXPECT_LT(shape.Bytes(), 600000U); // 8 MB as plain bits
+  EXPECT_EQ(CropToVoxels(shape).CountVoxels(), shape.CountVoxels());
+  EXPECT_LT(CropToVoxels(shape).Bytes(), 600000U);
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <vector>
 
 namespace voxelcore
 {
@@ -16,7 +15,6 @@ class BoundaryBits
 public:
   explicit BoundaryBits(const VoxelShape & shape)
     : m_Shape(shape)
-    , m_Background(shape.WordsPerRow(), 0)
   {}
 
   /** Calls visit(word, bits) for those of the words first .. end - 1 of a row that are not 0: bit b, from the least
@@ -25,13 +23,13 @@ public:
   void
   VisitWords(std::int32_t y, std::int32_t z, std::int32_t first, std::int32_t end, TVisit visit) const
   {
-    const auto * a = Row(y - 1, z - 1);
-    const auto * b = Row(y, z - 1);
-    const auto * c = Row(y - 1, z);
-    const auto * d = Row(y, z);
-    const auto   words = static_cast<std::int32_t>(m_Background.size());
-    const auto   anyAt = [&](std::int32_t w) { return w < words ? a[w] | b[w] | c[w] | d[w] : 0; };
-    const auto   allAt = [&](std::int32_t w) { return w < words ? a[w] & b[w] & c[w] & d[w] : 0; };
+    const auto a = m_Shape.RowAnywhere(y - 1, z - 1);
+    const auto b = m_Shape.RowAnywhere(y, z - 1);
+    const auto c = m_Shape.RowAnywhere(y - 1, z);
+    const auto d = m_Shape.RowAnywhere(y, z);
+    const auto words = static_cast<std::int32_t>(m_Shape.WordsPerRow());
+    const auto anyAt = [&](std::int32_t w) { return w < words ? At(a, w) | At(b, w) | At(c, w) | At(d, w) : 0; };
+    const auto allAt = [&](std::int32_t w) { return w < words ? At(a, w) & At(b, w) & At(c, w) & At(d, w) : 0; };
     // Corner x lies between voxels x - 1 and x.
     std::uint64_t carryAny = first > 0 ? anyAt(first - 1) >> 63 : 0;
     std::uint64_t carryAll = first > 0 ? allAt(first - 1) >> 63 : 0;
@@ -89,15 +87,13 @@ public:
   }
 
 private:
-  const std::uint64_t *
-  Row(std::int32_t y, std::int32_t z) const
+  static std::uint64_t
+  At(const ConstShapeRow & row, std::int32_t word)
   {
-    const auto & size = m_Shape.Box().size;
-    return y < 0 || z < 0 || y >= size[1] || z >= size[2] ? m_Background.data() : m_Shape.Row(y, z).data();
+    return row[static_cast<std::size_t>(word)];
   }
 
-  const VoxelShape &         m_Shape;
-  std::vector<std::uint64_t> m_Background; // a row of it
+  const VoxelShape & m_Shape;
 };
 
 } // namespace voxelcore

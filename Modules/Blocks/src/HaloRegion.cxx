@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
 
@@ -120,9 +119,12 @@ public:
     {
       for (std::int32_t y = box.lower[1]; y < box.upper[1]; ++y)
       {
-        const auto from = m_Shape.Row(y, z).subspan(static_cast<std::size_t>(box.lower[0]) / 64);
+        const auto from = m_Shape.Row(y, z);
         const auto to = part.Row(y - box.lower[1], z - box.lower[2]);
-        std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::bit_and());
+        for (std::size_t word = 0; word < to.size(); ++word)
+        {
+          to[word] &= from[word + static_cast<std::size_t>(box.lower[0]) / 64];
+        }
       }
     }
     return part;
@@ -320,7 +322,7 @@ private:
   }
 
   static void
-  Mark(std::span<std::uint64_t> row, std::int32_t begin, std::int32_t end)
+  Mark(const ShapeRow & row, std::int32_t begin, std::int32_t end)
   {
     for (std::int32_t word = begin >> 6; word << 6 < end; ++word)
     {

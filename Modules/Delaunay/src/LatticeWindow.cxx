@@ -57,14 +57,15 @@ public:
   }
 
   std::uint64_t
-  Here(const std::uint64_t * row) const
+  Here(const ConstShapeRow & row) const
   {
-    return (m_HasLow ? row[m_Word] >> m_Shift : 0) | (m_HasHigh ? row[m_Word + 1] << (64 - m_Shift) : 0);
+    return (m_HasLow ? row[static_cast<std::size_t>(m_Word)] >> m_Shift : 0) |
+           (m_HasHigh ? row[static_cast<std::size_t>(m_Word + 1)] << (64 - m_Shift) : 0);
   }
   std::uint64_t
-  BitBefore(const std::uint64_t * row) const
+  BitBefore(const ConstShapeRow & row) const
   {
-    return m_HasBefore ? row[m_Before] >> ((m_Shift - 1) & 63U) & 1U : 0;
+    return m_HasBefore ? row[static_cast<std::size_t>(m_Before)] >> ((m_Shift - 1) & 63U) & 1U : 0;
   }
 
 private:
@@ -105,7 +106,7 @@ LatticeWindow::Fill(const VoxelShape & shape, const VertexRows & rows, const Lat
       std::uint64_t      before = 0;
       if (exists)
       {
-        const std::uint64_t * const row = shape.Row(boxY, boxZ).data();
+        const ConstShapeRow row = shape.Row(boxY, boxZ);
         here = reader.Here(row);
         before = here << 1 | reader.BitBefore(row);
       }

@@ -36,26 +36,77 @@ Centres(const PhantomOptions & options, std::size_t axis)
   return centres;
 }
 
-/** Fills a shape of the size asked for: `makeRow(y, z)` (indices) gives a function that says of index x whether it is
- *  in. */
+/** Writes the rows of layers begin to end - 1 along z and gives back what memory they do not need. */
 template <typename MakeRow>
-VoxelShape
-FillRows(const PhantomOptions & options, const ProgressCallback & progress, MakeRow && makeRow)
+void
+FillLayers(VoxelShape & shape, std::int32_t begin, std::int32_t end, const MakeRow & makeRow)
 {
-  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, options.size });
-  for (std::int32_t z = 0; z < options.size[2]; ++z)
+  const auto & size = shape.Box().size;
+  for (std::int32_t z = begin; z < end; ++z)
   {
-    ReportProgress(progress, "sampling", static_cast<double>(z) / options.size[2]);
-    for (std::int32_t y = 0; y < options.size[1]; ++y)
+    for (std::int32_t y = 0; y < size[1]; ++y)
     {
-      auto       inside = makeRow(static_cast<std::size_t>(y), static_cast<std::size_t>(z));
-      const auto row = shape.Row(y, z);
-      for (std::int32_t x = 0; x < options.size[0]; ++x)
+      auto           inside = makeRow(static_cast<std::size_t>(y), static_cast<std::size_t>(z));
+      const ShapeRow row = shape.Row(y, z);
+      for (std::int32_t first = 0; first < size[0]; first += 64)
       {
-        row[static_cast<std::size_t>(x >> 6)] |= std::uint64_t{ inside(static_cast<std::size_t>(x)) } << (x & 63);
+        std::uint64_t      bits = 0;
+        const std::int32_t count = std::min(64, size[0] - first);
+        for (std::int32_t bit = 0; bit < count; ++bit)
+        {
+          bits |= std::uint64_t{ inside(static_cast<std::size_t>(first + bit)) } << bit;
+        }
+        row[static_cast<std::size_t>(first) / 64] = bits;
       }
     }
   }
+  shape.Compact(begin, end);
+}
+
+/** Layers that threads fill apart: as high as the bricks of a shape, so that none is written by two. */
+constexpr std::int32_t kPhantomSlab = BitBricks::side;
+
+/** Fills a shape of the size asked for: `makeRow(y, z)` (indices) gives a function that says of index x whether it is
+ *  in. Row by row in order. */
+template <typename MakeRow>
+VoxelShape
+FillRows(const PhantomOptions & options, const ProgressCallback & progress, const MakeRow & makeRow)
+{
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, options.size });
+  for (std::int32_t z = 0; z < options.size[2]; z += kPhantomSlab)
+  {
+    ReportProgress(progress, "sampling", static_cast<double>(z) / options.size[2]);
+    FillLayers(shape, z, std::min(options.size[2], z + kPhantomSlab), makeRow);
+  }
+  return shape;
+}
+
+/** Calls work(begin, end) for all slabs of layers, on all threads; reports between them. */
+template <typename Work>
+void
+ForSlabs(const PhantomOptions & options, const ProgressCallback & progress, const Work & work)
+{
+  constexpr std::int32_t atATime = 16;
+  const std::int32_t     slabs = (options.size[2] + kPhantomSlab - 1) / kPhantomSlab;
+  for (std::int32_t first = 0; first < slabs; first += atATime)
+  {
+    ReportProgress(progress, "sampling", static_cast<double>(first) / slabs);
+    const std::int32_t end = std::min(slabs, first + atATime);
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::int32_t slab = first; slab < end; ++slab)
+    {
+      work(slab * kPhantomSlab, std::min(options.size[2], (slab + 1) * kPhantomSlab));
+    }
+  }
+}
+
+/** The same as FillRows for functions that many threads may ask at once, of rows in any order. */
+template <typename MakeRow>
+VoxelShape
+FillRowsInParallel(const PhantomOptions & options, const ProgressCallback & progress, const MakeRow & makeRow)
+{
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, options.size });
+  ForSlabs(options, progress, [&](std::int32_t begin, std::int32_t end) { FillLayers(shape, begin, end, makeRow); });
   return shape;
 }
 

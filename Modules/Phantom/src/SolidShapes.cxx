@@ -22,7 +22,7 @@ FillBody(const PhantomOptions & options, const ProgressCallback & progress, Insi
   const std::vector<double> xs = Centres(options, 0);
   const std::vector<double> ys = Centres(options, 1);
   const std::vector<double> zs = Centres(options, 2);
-  return FillRows(options, progress, [&](std::size_t yIndex, std::size_t zIndex) {
+  return FillRowsInParallel(options, progress, [&](std::size_t yIndex, std::size_t zIndex) {
     return [&, y = ys[yIndex], z = zs[zIndex]](std::size_t xIndex) -> bool { return inside(xs[xIndex], y, z); };
   });
 }
@@ -79,7 +79,7 @@ MakeGyroid(const PhantomOptions & options, const ProgressCallback & progress)
   }
   // The distance to the surface g = 0 is |g| / |grad g| to first order: a sheet of even thickness.
   const double scale = Square(half * 6.283185307179586 / period);
-  return FillRows(options, progress, [&](std::size_t yIndex, std::size_t zIndex) {
+  return FillRowsInParallel(options, progress, [&](std::size_t yIndex, std::size_t zIndex) {
     return [&, y = waves[1][yIndex], z = waves[2][zIndex]](std::size_t xIndex) -> bool {
       const SineCosine x = waves[0][xIndex];
       const double     g = x.sine * y.cosine + y.sine * z.cosine + z.sine * x.cosine;

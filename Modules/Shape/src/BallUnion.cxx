@@ -12,7 +12,7 @@ namespace
 
 /** Puts in the bits first <= i <= last of a row. */
 void
-FillBits(std::span<std::uint64_t> row, std::int32_t first, std::int32_t last)
+FillBits(const ShapeRow & row, std::int32_t first, std::int32_t last)
 {
   const auto          from = static_cast<std::size_t>(first) >> 6U;
   const auto          to = static_cast<std::size_t>(last) >> 6U;
@@ -74,7 +74,7 @@ private:
     return (voxel + 0.5 - m_Centre[axis]) * m_Spacing[axis];
   }
   void
-  FillRow(std::span<std::uint64_t> row, double squared) const
+  FillRow(const ShapeRow & row, double squared) const
   {
     if (!(squared > 0))
     {

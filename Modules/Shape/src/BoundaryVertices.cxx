@@ -1,5 +1,7 @@
 #include "voxelcore/BoundaryVertices.h"
 
+#include "CornerRows.h"
+
 #include <bit>
 
 namespace voxelcore
@@ -20,35 +22,33 @@ VisitBoundaryWords(const VoxelShape & shape, TVisit visit)
   {
     return;
   }
-  const std::vector<std::uint64_t>     empty(words, 0);
-  const std::span<const std::uint64_t> background(empty);
-  const auto                           rowAt = [&](std::int32_t y, std::int32_t z) {
-    return y < 0 || z < 0 || y >= size[1] || z >= size[2] ? background : shape.Row(y, z);
-  };
+  CornerRows around(shape);
   for (std::int32_t z = 0; z <= size[2]; ++z)
   {
     for (std::int32_t y = 0; y <= size[1]; ++y)
     {
-      const auto    a = rowAt(y - 1, z - 1);
-      const auto    b = rowAt(y, z - 1);
-      const auto    c = rowAt(y - 1, z);
-      const auto    d = rowAt(y, z);
-      std::uint64_t carryAny = 0;
-      std::uint64_t carryAll = 0;
-      for (std::size_t word = 0; word < words; ++word)
+      around.MoveTo(y, z);
+      const auto & [a, b, c, d] = around.rows;
+      for (const std::uint32_t word : around.Words())
       {
         const std::uint64_t any = a[word] | b[word] | c[word] | d[word];
         const std::uint64_t all = a[word] & b[word] & c[word] & d[word];
+        std::uint64_t       carryAny = 0;
+        std::uint64_t       carryAll = 0;
+        if (word > 0)
+        {
+          carryAny = (a[word - 1] | b[word - 1] | c[word - 1] | d[word - 1]) >> 63;
+          carryAll = (a[word - 1] & b[word - 1] & c[word - 1] & d[word - 1]) >> 63;
+        }
         // Corner x lies between voxels x - 1 and x.
         const std::uint64_t boundary = (any | (any << 1) | carryAny) & ~(all & ((all << 1) | carryAll));
-        carryAny = any >> 63;
-        carryAll = all >> 63;
         if (boundary != 0)
         {
           visit(y, z, word, boundary);
         }
       }
-      if (carryAny != 0) // only when the box is a multiple of 64 wide: the corner behind its last voxel
+      // Only when the box is a multiple of 64 wide: the corner behind its last voxel.
+      if ((a[words - 1] | b[words - 1] | c[words - 1] | d[words - 1]) >> 63 != 0)
       {
         visit(y, z, words, std::uint64_t{ 1 });
       }

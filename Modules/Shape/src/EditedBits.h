@@ -12,10 +12,10 @@
 namespace voxelcore
 {
 
-/** Calls work(word of the shape, word of the other) for all words of two shapes of one box. */
-template <typename TShape, typename TWork>
+/** Calls work(word, word of the other) for all words of two shapes of one box; those of the first may be changed. */
+template <typename TWork>
 void
-ForWords(TShape & shape, const VoxelShape & other, const TWork & work)
+ForWords(VoxelShape & shape, const VoxelShape & other, const TWork & work)
 {
   for (std::int32_t z = 0; z < shape.Box().size[2]; ++z)
   {
@@ -25,7 +25,9 @@ ForWords(TShape & shape, const VoxelShape & other, const TWork & work)
       const auto beside = other.Row(y, z);
       for (std::size_t word = 0; word < row.size(); ++word)
       {
-        work(row[word], beside[word]);
+        std::uint64_t bits = row[word];
+        work(bits, beside[word]);
+        row[word] = bits;
       }
     }
   }

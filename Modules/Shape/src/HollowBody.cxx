@@ -30,7 +30,7 @@ constexpr double kLeastLeft = 0.2;  // of lumens, once holes in walls are stoppe
 
 /** The bits begin to end of a row, counted. */
 std::int32_t
-CountBits(std::span<const std::uint64_t> row, std::int32_t begin, std::int32_t end)
+CountBits(const ConstShapeRow & row, std::int32_t begin, std::int32_t end)
 {
   const auto   first = static_cast<std::size_t>(begin) / 64;
   const auto   last = static_cast<std::size_t>(end - 1) / 64;
@@ -210,6 +210,10 @@ Halved(const VoxelShape & shape)
       const auto to = halved.Row(((from.lower[1] + y) >> 1) - box.lower[1], ((from.lower[2] + z) >> 1) - box.lower[2]);
       for (std::size_t word = 0; word < row.size(); ++word)
       {
+        if (row.Brick(word) == BitBricks::Out() && !isOdd)
+        {
+          continue;
+        }
         const std::uint64_t carried = isOdd && word > 0 ? row[word - 1] >> 63U : 0;
         std::uint64_t       pairs = isOdd ? row[word] << 1U | carried : row[word];
         pairs = (pairs | pairs >> 1U) & 0x5555555555555555U;
@@ -228,6 +232,10 @@ Halved(const VoxelShape & shape)
       {
         SetRun(to, box.size[0] - 1, box.size[0], true);
       }
+    }
+    if (const std::int32_t done = ((from.lower[2] + z + 1) >> 1) - box.lower[2]; (done & 7) == 0)
+    {
+      halved.Compact(std::max(done - 8, 0), done);
     }
   }
   return halved;

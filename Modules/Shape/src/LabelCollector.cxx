@@ -63,6 +63,7 @@ LabelCollector::LabelCollector(const StoredVoxels & scan, const LabelChoice & ch
   , m_Naming(scan, choice)
   , m_Binary(choice.binary)
   , m_Threshold(choice.threshold)
+  , m_MayBeMissing(choice.mayBeMissing)
   , m_ZeroIsBackground(scan.intercept == 0)
 {
   const bool layers = scan.HasLayers();

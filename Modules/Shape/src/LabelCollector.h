@@ -65,8 +65,9 @@ private:
   /** A shape within one slab. */
   struct Piece
   {
-    std::vector<Run> runs;
-    VoxelShape       bits;
+    VoxelBox                   box;
+    std::vector<Run>           runs;
+    std::vector<std::uint64_t> bits; ///< of the box, packed by rows; when there are no runs
   };
 
   /** A value found in the scan. */
@@ -127,6 +128,7 @@ private:
   LabelNaming                              m_Naming;
   bool                                     m_Binary;
   std::optional<std::pair<double, double>> m_Threshold;
+  bool                                     m_MayBeMissing;
   bool                                     m_ZeroIsBackground;
   std::vector<Table>                       m_Tables;
   std::vector<Found>                       m_Found;

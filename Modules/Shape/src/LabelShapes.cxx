@@ -4,6 +4,7 @@
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
+#include <span>
 
 namespace voxelcore
 {
@@ -14,8 +15,10 @@ namespace
 constexpr std::uint64_t kShapeBytesAlways = 1ULL << 30;
 constexpr std::uint64_t kShapeBytesPerVoxel = 16;
 
+/** Puts the voxels begin to end - 1 of a row in, of a shape or of packed words. */
+template <typename TRow>
 void
-FillRow(std::span<std::uint64_t> words, std::int32_t begin, std::int32_t end)
+FillRow(const TRow & words, std::int32_t begin, std::int32_t end)
 {
   const auto          first = static_cast<std::size_t>(begin >> 6);
   const auto          last = static_cast<std::size_t>((end - 1) >> 6);
@@ -27,31 +30,45 @@ FillRow(std::span<std::uint64_t> words, std::int32_t begin, std::int32_t end)
     return;
   }
   words[first] |= head;
-  std::fill(words.begin() + static_cast<std::ptrdiff_t>(first) + 1,
-            words.begin() + static_cast<std::ptrdiff_t>(last),
-            ~std::uint64_t{ 0 });
+  for (std::size_t word = first + 1; word < last; ++word)
+  {
+    words[word] = ~std::uint64_t{ 0 };
+  }
   words[last] |= tail;
 }
 
-/** Puts the voxels of `part` into `shape`, whose box contains the part's. */
-void
-AddShape(const VoxelShape & part, VoxelShape & shape)
+std::size_t
+WordsPerRow(const VoxelBox & box)
 {
-  const auto shift = static_cast<std::size_t>(part.Box().lower[0] - shape.Box().lower[0]);
-  const auto bits = static_cast<int>(shift & 63U);
-  for (std::int32_t z = 0; z < part.Box().size[2]; ++z)
+  return (static_cast<std::size_t>(box.size[0]) + 63) / 64;
+}
+
+/** Row y, z of the packed words of a box. */
+std::span<std::uint64_t>
+RowOf(std::vector<std::uint64_t> & bits, const VoxelBox & box, std::int32_t y, std::int32_t z)
+{
+  const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(box.size[1]) + static_cast<std::size_t>(y);
+  return std::span(bits).subspan(row * WordsPerRow(box), WordsPerRow(box));
+}
+
+/** Puts the voxels of a box' packed words into `shape`, whose box contains it. */
+void
+AddBits(std::vector<std::uint64_t> & bits, const VoxelBox & box, VoxelShape & shape)
+{
+  const auto shift = static_cast<std::size_t>(box.lower[0] - shape.Box().lower[0]);
+  const auto by = static_cast<int>(shift & 63U);
+  for (std::int32_t z = 0; z < box.size[2]; ++z)
   {
-    for (std::int32_t y = 0; y < part.Box().size[1]; ++y)
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
-      const auto from = part.Row(y, z);
-      const auto to =
-        shape.Row(y + part.Box().lower[1] - shape.Box().lower[1], z + part.Box().lower[2] - shape.Box().lower[2]);
+      const auto from = RowOf(bits, box, y, z);
+      const auto to = shape.Row(y + box.lower[1] - shape.Box().lower[1], z + box.lower[2] - shape.Box().lower[2]);
       for (std::size_t w = 0; w < from.size(); ++w)
       {
-        to[(shift >> 6) + w] |= from[w] << bits;
-        if (bits != 0 && (from[w] >> (64 - bits)) != 0)
+        to[(shift >> 6) + w] |= from[w] << by;
+        if (by != 0 && (from[w] >> (64 - by)) != 0)
         {
-          to[(shift >> 6) + w + 1] |= from[w] >> (64 - bits);
+          to[(shift >> 6) + w + 1] |= from[w] >> (64 - by);
         }
       }
     }
@@ -107,16 +124,17 @@ LabelCollector::FinishSlab()
                   "give --threshold LO:HI, or choose some with --labels");
     }
     Piece piece;
+    piece.box = Box(lower, upper);
     if (target.runs.size() * sizeof(Run) < BoxBytes(lower, upper))
     {
       piece.runs = std::vector<Run>(target.runs.begin(), target.runs.end()); // without spare capacity
     }
     else
     {
-      piece.bits = VoxelShape(Box(lower, upper));
+      piece.bits.resize(BoxBytes(lower, upper) / sizeof(std::uint64_t));
       for (const Run & run : target.runs)
       {
-        FillRow(piece.bits.Row(run.y - lower[1], run.z - lower[2]), run.x - lower[0], run.end - lower[0]);
+        FillRow(RowOf(piece.bits, piece.box, run.y - lower[1], run.z - lower[2]), run.x - lower[0], run.end - lower[0]);
       }
     }
     target.pieces.push_back(std::move(piece));
@@ -140,18 +158,21 @@ LabelCollector::TakeShapes()
   }
   std::erase_if(m_Targets, [](const Target & target) { return target.pieces.empty(); });
   const std::string where = m_IsPart ? " within the crop" : "";
-  if (m_Threshold && m_Targets.empty())
+  if (m_Threshold && m_Targets.empty() && !m_MayBeMissing)
   {
     RefuseInput(m_Scan.path, "no voxel" + where + " lies within the threshold", "choose other bounds");
   }
-  if (present.empty() && !m_Threshold)
+  if (present.empty() && !m_Threshold && !m_MayBeMissing)
   {
     RefuseInput(m_Scan.path,
                 "nothing but background: every voxel" + where + " is 0",
                 m_IsPart ? "choose another part" : "name a scan with labels");
   }
   std::sort(present.begin(), present.end(), [](const auto & a, const auto & b) { return a.value < b.value; });
-  m_Naming.RefuseMissing(m_Scan.path, present, where);
+  if (!m_MayBeMissing)
+  {
+    m_Naming.RefuseMissing(m_Scan.path, present, where);
+  }
 
   std::sort(m_Targets.begin(), m_Targets.end(), [](const Target & a, const Target & b) {
     return a.label.value < b.label.value;
@@ -165,8 +186,15 @@ LabelCollector::TakeShapes()
     label.name = target.label.name;
     label.color = target.label.color;
     label.shape = VoxelShape(Box(target.lower, target.upper));
+    std::int32_t compact = 0; // as far as this shape takes no more memory than it must
     for (Piece & piece : target.pieces)
     {
+      // Pieces come in the order of their slices.
+      if (const std::int32_t done = (piece.box.lower[2] - target.lower[2]) & ~7; done > compact)
+      {
+        label.shape.Compact(compact, done);
+        compact = done;
+      }
       for (const Run & run : piece.runs)
       {
         FillRow(label.shape.Row(run.y - target.lower[1], run.z - target.lower[2]),
@@ -175,10 +203,11 @@ LabelCollector::TakeShapes()
       }
       if (piece.runs.empty())
       {
-        AddShape(piece.bits, label.shape);
+        AddBits(piece.bits, piece.box, label.shape);
       }
       piece = Piece(); // its memory goes while the shape's comes
     }
+    label.shape.Compact(compact, label.shape.Box().size[2]);
     label.voxels = label.shape.CountVoxels();
     shapes.push_back(std::move(label));
     target = Target();

@@ -108,12 +108,17 @@ template <typename TVisit>
 void
 PaddedShape::VisitBoundary(std::int32_t y, std::int32_t z, const TVisit & visit) const
 {
-  const std::size_t words = m_Shape.WordsPerRow();
-  const auto        columns = [&](std::size_t word) {
+  const std::size_t            words = m_Shape.WordsPerRow();
+  std::array<ConstShapeRow, 9> rows;
+  for (std::int32_t k = 0; k < 9; ++k)
+  {
+    rows[static_cast<std::size_t>(k)] = m_Shape.Row(y + k / 3 - 1, z + k % 3 - 1);
+  }
+  const auto columns = [&](std::size_t word) {
     std::pair<std::uint64_t, std::uint64_t> anyAll{ 0, ~std::uint64_t{ 0 } };
-    for (std::int32_t k = 0; k < 9; ++k)
+    for (const ConstShapeRow & row : rows)
     {
-      const std::uint64_t bits = m_Shape.Row(y + k / 3 - 1, z + k % 3 - 1)[word];
+      const std::uint64_t bits = row[word];
       anyAll = { anyAll.first | bits, anyAll.second & bits };
     }
     return anyAll;

@@ -1,5 +1,7 @@
 #include "voxelcore/ShapeEdits.h"
 
+#include "ShapeBits.h"
+
 #include "voxelcore/DepthSimplification.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ShapeOperations.h"

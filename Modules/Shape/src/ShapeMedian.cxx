@@ -33,7 +33,7 @@ public:
     {
       for (std::int32_t ny = std::max(0, y - reach); ny <= std::min(size[1] - 1, y + reach); ++ny)
       {
-        m_Rows.push_back(shape.Row(ny, nz).data());
+        m_Rows.push_back(shape.Row(ny, nz));
       }
     }
     m_IsWhole = m_Rows.size() == static_cast<std::size_t>((2 * reach + 1) * (2 * reach + 1));
@@ -44,7 +44,7 @@ public:
   {
     Word any = 0;
     Word all = ~Word{ 0 };
-    for (const Word * row : m_Rows)
+    for (const ConstShapeRow & row : m_Rows)
     {
       for (const Word part : { At(row, word, -1), row[word], At(row, word, 1) })
       {
@@ -57,7 +57,7 @@ public:
 
 private:
   Word
-  At(const Word * row, std::size_t word, int beside) const
+  At(const ConstShapeRow & row, std::size_t word, int beside) const
   {
     const std::size_t at = word + static_cast<std::size_t>(beside);
     return at < m_Words ? row[at] : 0; // before the first, it is the greatest number
@@ -69,7 +69,7 @@ private:
     const auto          reach = static_cast<unsigned>(m_Reach);
     const Word          window = (Word{ 1 } << (2 * reach + 1)) - 1;
     std::array<int, 64> counts{};
-    for (const Word * row : m_Rows)
+    for (const ConstShapeRow & row : m_Rows)
     {
       const Word before = At(row, word, -1);
       const Word here = row[word];
@@ -96,11 +96,11 @@ private:
     return median;
   }
 
-  std::int32_t              m_Reach;
-  std::size_t               m_Words;
-  int                       m_Half;
-  bool                      m_IsWhole = false;
-  std::vector<const Word *> m_Rows;
+  std::int32_t               m_Reach;
+  std::size_t                m_Words;
+  int                        m_Half;
+  bool                       m_IsWhole = false;
+  std::vector<ConstShapeRow> m_Rows;
 };
 
 constexpr std::int32_t kWidest = 15;

@@ -223,6 +223,10 @@ SplitComponents(const VoxelShape & shape)
     VoxelShape & part = parts[place[components.of[run]]];
     SetRun(part.Row(y - low[1], z - low[2]), runs.begin[run] - low[0], runs.end[run] - low[0], true);
   });
+  for (VoxelShape & part : parts)
+  {
+    part.Compact();
+  }
   return parts;
 }
 

@@ -9,11 +9,16 @@ namespace
 {
 
 void
-AppendVoxelRuns(std::span<const std::uint64_t> row, Runs & runs)
+AppendVoxelRuns(const ConstShapeRow & row, Runs & runs)
 {
   std::int32_t start = -1;
   for (std::size_t word = 0; word < row.size(); ++word)
   {
+    // What goes on as it was has no end of a run.
+    if (row.Brick(word) == (start < 0 ? BitBricks::Out() : BitBricks::In()))
+    {
+      continue;
+    }
     const auto          base = static_cast<std::int32_t>(64 * word);
     const std::uint64_t bits = row[word];
     for (std::int32_t at = 0; at < 64;)
@@ -177,7 +182,7 @@ UniteRuns(const Runs & runs, bool diagonals)
 }
 
 void
-SetRun(std::span<std::uint64_t> row, std::int32_t begin, std::int32_t end, bool in)
+SetRun(const ShapeRow & row, std::int32_t begin, std::int32_t end, bool in)
 {
   const auto first = static_cast<std::size_t>(begin) / 64;
   const auto last = static_cast<std::size_t>(end - 1) / 64;

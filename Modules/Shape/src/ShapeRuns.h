@@ -5,7 +5,6 @@
 #include "voxelcore/VoxelShape.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace voxelcore
@@ -47,6 +46,6 @@ CountComponents(const Runs & runs, bool diagonals)
 
 /** Puts the voxels [begin, end) of a row in, or out. */
 void
-SetRun(std::span<std::uint64_t> row, std::int32_t begin, std::int32_t end, bool in);
+SetRun(const ShapeRow & row, std::int32_t begin, std::int32_t end, bool in);
 
 } // namespace voxelcore

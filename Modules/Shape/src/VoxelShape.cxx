@@ -3,6 +3,7 @@
 #include "ShapeBits.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -12,17 +13,28 @@ namespace voxelcore
 
 VoxelShape::VoxelShape(const VoxelBox & box)
   : m_Box(box)
-  , m_WordsPerRow((static_cast<std::size_t>(box.size[0]) + 63) / 64)
-  , m_Words(m_WordsPerRow * static_cast<std::size_t>(box.size[1]) * static_cast<std::size_t>(box.size[2]), 0)
+  , m_Bits(static_cast<std::size_t>(box.size[0]),
+           static_cast<std::size_t>(box.size[1]),
+           static_cast<std::size_t>(box.size[2]))
 {}
 
 std::uint64_t
 VoxelShape::CountVoxels() const
 {
   std::uint64_t count = 0;
-  for (const std::uint64_t word : m_Words)
+  for (std::int32_t z = 0; z < m_Box.size[2]; ++z)
   {
-    count += static_cast<std::uint64_t>(std::popcount(word));
+    for (std::int32_t y = 0; y < m_Box.size[1]; ++y)
+    {
+      const ConstShapeRow row = Row(y, z);
+      for (std::size_t word = 0; word < row.size(); ++word)
+      {
+        if (row.Brick(word) != BitBricks::Out())
+        {
+          count += static_cast<std::uint64_t>(std::popcount(row[word]));
+        }
+      }
+    }
   }
   return count;
 }
@@ -63,16 +75,23 @@ TightBox(const VoxelShape & shape)
   {
     for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
-      const auto row = shape.Row(y, z);
-      const auto isSet = [](std::uint64_t word) { return word != 0; };
-      const auto head = std::find_if(row.begin(), row.end(), isSet);
-      if (head == row.end())
+      const ConstShapeRow row = shape.Row(y, z);
+      std::size_t         head = 0;
+      std::size_t         tail = row.size();
+      while (head < tail && row[head] == 0)
+      {
+        ++head;
+      }
+      if (head == tail)
       {
         continue;
       }
-      const auto tail = std::find_if(row.rbegin(), row.rend(), isSet);
-      const auto low = static_cast<std::int32_t>((head - row.begin()) * 64 + std::countr_zero(*head));
-      const auto high = static_cast<std::int32_t>((row.rend() - tail - 1) * 64 + 63 - std::countl_zero(*tail));
+      while (row[tail - 1] == 0)
+      {
+        --tail;
+      }
+      const auto low = static_cast<std::int32_t>(head * 64) + std::countr_zero(row[head]);
+      const auto high = static_cast<std::int32_t>(tail * 64 - 1) - std::countl_zero(row[tail - 1]);
       first = { std::min(first[0], low), std::min(first[1], y), std::min(first[2], z) };
       last = { std::max(last[0], high), std::max(last[1], y), std::max(last[2], z) };
     }
@@ -90,15 +109,10 @@ TightBox(const VoxelShape & shape)
   return tight;
 }
 
-namespace
+VoxelShape
+CopyBox(const VoxelShape & shape, const VoxelBox & box)
 {
-
-/** Copies the rows of `box` out of `shape` to where `rowAt` says. Rows may lie in the shape's own memory, before or on
- *  those they come from: each word is read before its place is written. */
-template <typename RowAt>
-void
-CopyRows(const VoxelShape & shape, const VoxelBox & box, const RowAt & rowAt)
-{
+  VoxelShape                        result(box);
   const std::array<std::int32_t, 3> first{ box.lower[0] - shape.Box().lower[0],
                                            box.lower[1] - shape.Box().lower[1],
                                            box.lower[2] - shape.Box().lower[2] };
@@ -109,8 +123,8 @@ CopyRows(const VoxelShape & shape, const VoxelBox & box, const RowAt & rowAt)
   {
     for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
-      const auto                     from = shape.Row(y + first[1], z + first[2]);
-      const std::span<std::uint64_t> to = rowAt(y, z);
+      const ConstShapeRow from = shape.Row(y + first[1], z + first[2]);
+      const ShapeRow      to = result.Row(y, z);
       for (std::size_t word = 0; word < to.size(); ++word)
       {
         std::uint64_t bits = from[word + skip] >> shift;
@@ -118,23 +132,18 @@ CopyRows(const VoxelShape & shape, const VoxelBox & box, const RowAt & rowAt)
         {
           bits |= from[word + skip + 1] << (64 - shift);
         }
+        if (tailBits != 0 && word + 1 == to.size())
+        {
+          bits &= (std::uint64_t{ 1 } << tailBits) - 1;
+        }
         to[word] = bits;
       }
-      if (tailBits != 0)
-      {
-        to[to.size() - 1] &= (std::uint64_t{ 1 } << tailBits) - 1;
-      }
+    }
+    if ((z & 7) == 7 || z + 1 == box.size[2])
+    {
+      result.Compact(z & ~7, z + 1);
     }
   }
-}
-
-} // namespace
-
-VoxelShape
-CopyBox(const VoxelShape & shape, const VoxelBox & box)
-{
-  VoxelShape result(box);
-  CopyRows(shape, box, [&result](std::int32_t y, std::int32_t z) { return result.Row(y, z); });
   return result;
 }
 
@@ -142,7 +151,12 @@ VoxelShape
 Tightened(VoxelShape shape)
 {
   const VoxelBox tight = TightBox(shape);
-  return tight.size == shape.Box().size ? std::move(shape) : CopyBox(shape, tight);
+  if (tight.size != shape.Box().size)
+  {
+    return CopyBox(shape, tight);
+  }
+  shape.Compact();
+  return shape;
 }
 
 VoxelShape
@@ -154,20 +168,8 @@ CropToVoxels(const VoxelShape & shape)
 VoxelShape
 CropToVoxels(VoxelShape && shape)
 {
-  const VoxelBox tight = TightBox(shape);
-  VoxelShape     result;
-  result.m_Box = tight;
-  result.m_WordsPerRow = (static_cast<std::size_t>(tight.size[0]) + 63) / 64;
-  std::size_t next = 0;
-  CopyRows(shape, tight, [&](std::int32_t, std::int32_t) {
-    const std::span<std::uint64_t> row(shape.m_Words.data() + next, result.m_WordsPerRow);
-    next += result.m_WordsPerRow;
-    return row;
-  });
-  shape.m_Words.resize(next);
-  result.m_Words = std::move(shape.m_Words);
-  shape = VoxelShape();
-  return result;
+  const VoxelShape whole = std::exchange(shape, VoxelShape());
+  return CropToVoxels(whole);
 }
 
 } // namespace voxelcore

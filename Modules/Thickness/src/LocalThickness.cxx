@@ -119,7 +119,7 @@ private:
 
   /** How many voxels of a row that are in lie before x. */
   std::uint32_t
-  RankOf(std::span<const std::uint64_t> bits, const std::uint32_t * ranks, std::int32_t x) const
+  RankOf(const ConstShapeRow & bits, const std::uint32_t * ranks, std::int32_t x) const
   {
     const auto word = static_cast<std::size_t>(x) >> 6U;
     const auto rest = static_cast<unsigned>(x) & 63U;

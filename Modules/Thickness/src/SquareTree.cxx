@@ -27,20 +27,15 @@ SquareTree::SquareTree(const VoxelShape & shape, const SpacingWeights & weights)
   {
     m_Weights[axis] = static_cast<double>(weights.weight[axis]);
   }
-  const VoxelBox &                 box = shape.Box();
-  const std::size_t                words = shape.WordsPerRow();
-  const std::vector<std::uint64_t> empty(words, 0);
-  const auto                       rowAt = [&](std::int32_t y, std::int32_t z) -> std::span<const std::uint64_t> {
-    return y < 0 || z < 0 || y >= box.size[1] || z >= box.size[2] ? std::span<const std::uint64_t>(empty)
-                                                                                        : shape.Row(y, z);
-  };
+  const VoxelBox &  box = shape.Box();
+  const std::size_t words = shape.WordsPerRow();
   for (std::int32_t z = 0; z <= box.size[2]; ++z)
   {
     for (std::int32_t y = 0; y <= box.size[1]; ++y)
     {
-      const auto    here = rowAt(y, z);
-      const auto    before = rowAt(y - 1, z);
-      const auto    below = rowAt(y, z - 1);
+      const auto    here = shape.RowAnywhere(y, z);
+      const auto    before = shape.RowAnywhere(y - 1, z);
+      const auto    below = shape.RowAnywhere(y, z - 1);
       std::uint64_t carry = 0;
       const auto    add = [&](std::uint64_t bits, std::size_t word, const Square & offset) {
         for (; bits != 0; bits &= bits - 1)

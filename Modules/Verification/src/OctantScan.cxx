@@ -63,13 +63,12 @@ ScanOctants(const VoxelShape & shape)
     for (std::int32_t y = 0; y <= box.size[1]; ++y)
     {
       // The four rows of voxels around this row of corners, in the order of the mask bits 0, 2, 4, 6.
-      std::array<const std::uint64_t *, 4> rows{};
+      std::array<ConstShapeRow, 4> rows{};
       for (std::size_t side = 0; side < 4; ++side)
       {
         const std::int32_t ry = y - 1 + static_cast<std::int32_t>(side & 1U);
         const std::int32_t rz = z - 1 + static_cast<std::int32_t>(side >> 1U);
-        const bool         exists = ry >= 0 && rz >= 0 && ry < box.size[1] && rz < box.size[2];
-        rows[side] = exists ? shape.Row(ry, rz).data() : nullptr;
+        rows[side] = shape.RowAnywhere(ry, rz);
       }
       unsigned lower = 0; // the four voxels on the lower side along x, at bits 0, 2, 4, 6
       for (std::size_t word = 0; word <= words; ++word)
@@ -77,7 +76,7 @@ ScanOctants(const VoxelShape & shape)
         std::array<std::uint64_t, 4> bits{};
         for (std::size_t side = 0; side < 4; ++side)
         {
-          bits[side] = rows[side] != nullptr && word < words ? rows[side][word] : 0;
+          bits[side] = word < words ? rows[side][word] : 0;
         }
         const bool allOut = (bits[0] | bits[1] | bits[2] | bits[3]) == 0 && lower == 0;
         const bool allIn = (bits[0] & bits[1] & bits[2] & bits[3]) == ~std::uint64_t{ 0 } && lower == 0x55U;

@@ -42,11 +42,7 @@ constexpr std::array<std::uint64_t, 3> kStep{ 1, std::uint64_t{ 1 } << 21, std::
 std::uint32_t
 BoundaryEdges(const LatticePoint & p, const VoxelShape & shape)
 {
-  unsigned in = 0; // bit c of the voxel at p - 1 + (c & 1, c >> 1 & 1, c >> 2)
-  for (int c = 0; c < 8; ++c)
-  {
-    in |= static_cast<unsigned>(shape.Contains(p.x - 1 + (c & 1), p.y - 1 + ((c >> 1) & 1), p.z - 1 + (c >> 2))) << c;
-  }
+  const unsigned in = shape.Around(p.x, p.y, p.z);
   return ((in & 0xF0U) != 0xF0U ? 1U : 0U) | ((in & 0xCCU) != 0xCCU ? 2U : 0U) | ((in & 0xAAU) != 0xAAU ? 4U : 0U);
 }
 

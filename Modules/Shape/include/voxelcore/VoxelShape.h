@@ -1,12 +1,11 @@
 #pragma once
-// The voxel shape: the interior of a union of voxels, as packed bits of its bounding box (paper, section 3.2).
+// The voxel shape: the interior of a union of voxels, as packed bits (paper, section 3.2).
 
+#include "voxelcore/BitBricks.h"
 #include "voxelcore/LatticePoint.h"
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <vector>
 
 namespace voxelcore
 {
@@ -19,7 +18,8 @@ struct VoxelBox
 };
 
 /** One bit a voxel. Rows run along x in words of 64 voxels, least significant bit first; bits beyond the box are 0.
- *  Everything outside the box is background. Sides up to 2^30. */
+ *  Everything outside the box is background. Sides up to 2^30. Memory follows the boundary, not the box (BitBricks.h),
+ *  once Compact() has looked at what was written. */
 class VoxelShape
 {
 public:
@@ -38,19 +38,46 @@ public:
   std::size_t
   WordsPerRow() const
   {
-    return m_WordsPerRow;
+    return m_Bits.WordsPerRow();
   }
 
-  /** The row at box-relative y, z (0 <= y < size y, 0 <= z < size z). */
-  std::span<const std::uint64_t>
+  /** The row at box-relative y, z (0 <= y < size y, 0 <= z < size z). Threads may write different words. */
+  ConstShapeRow
   Row(std::int32_t y, std::int32_t z) const
   {
-    return { m_Words.data() + RowStart(y, z), m_WordsPerRow };
+    return m_Bits.Row(static_cast<std::size_t>(y), static_cast<std::size_t>(z));
   }
-  std::span<std::uint64_t>
+  ShapeRow
   Row(std::int32_t y, std::int32_t z)
   {
-    return { m_Words.data() + RowStart(y, z), m_WordsPerRow };
+    return m_Bits.Row(static_cast<std::size_t>(y), static_cast<std::size_t>(z));
+  }
+
+  /** The same of any y and z: rows outside the box are background. */
+  ConstShapeRow
+  RowAnywhere(std::int32_t y, std::int32_t z) const
+  {
+    return y < 0 || z < 0 || y >= m_Box.size[1] || z >= m_Box.size[2] ? m_Bits.Background() : Row(y, z);
+  }
+
+  /** To be called after layers begin to end - 1 (box-relative z) have been written: bricks that have become all in or
+   *  all out give their memory back. A brick is eight layers high. */
+  void
+  Compact(std::int32_t begin, std::int32_t end)
+  {
+    m_Bits.Compact(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+  }
+  void
+  Compact()
+  {
+    Compact(0, m_Box.size[2]);
+  }
+
+  /** Bytes that the bits take. */
+  std::size_t
+  Bytes() const
+  {
+    return m_Bits.Bytes();
   }
 
   /** Whether voxel (x,y,z), in indices of the scan, is in; any index may be asked. */
@@ -65,16 +92,20 @@ public:
     {
       return false;
     }
-    return (m_Words[RowStart(static_cast<std::int32_t>(ry), static_cast<std::int32_t>(rz)) + (rx >> 6)] >> (rx & 63U)) &
-           1U;
+    return m_Bits.Get(rx >> 6, ry, rz) >> (rx & 63U) & 1U;
   }
+
+  /** The eight voxels around lattice corner (x,y,z), in coordinates of the scan: bit i + 2 j + 4 k is that of voxel
+   *  (x - 1 + i, y - 1 + j, z - 1 + k). Any corner may be asked. */
+  unsigned
+  Around(std::int32_t x, std::int32_t y, std::int32_t z) const;
 
   /** Puts voxel (x,y,z), in indices of the scan, in. It must lie in the box. */
   void
   Insert(std::int32_t x, std::int32_t y, std::int32_t z)
   {
     const auto rx = static_cast<std::uint32_t>(x - m_Box.lower[0]);
-    m_Words[RowStart(y - m_Box.lower[1], z - m_Box.lower[2]) + (rx >> 6)] |= std::uint64_t{ 1 } << (rx & 63U);
+    Row(y - m_Box.lower[1], z - m_Box.lower[2])[rx >> 6] |= std::uint64_t{ 1 } << (rx & 63U);
   }
 
   /** Number of voxels that are in. */
@@ -82,20 +113,42 @@ public:
   CountVoxels() const;
 
 private:
-  std::size_t
-  RowStart(std::int32_t y, std::int32_t z) const
-  {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(m_Box.size[1]) + static_cast<std::size_t>(y)) *
-           m_WordsPerRow;
-  }
-
-  friend VoxelShape
-  CropToVoxels(VoxelShape && shape);
-
-  VoxelBox                   m_Box;
-  std::size_t                m_WordsPerRow = 0;
-  std::vector<std::uint64_t> m_Words;
+  VoxelBox  m_Box;
+  BitBricks m_Bits;
 };
+
+inline unsigned
+VoxelShape::Around(std::int32_t x, std::int32_t y, std::int32_t z) const
+{
+  const auto below = [&](std::int32_t at, std::size_t axis) { return std::int64_t{ at } - m_Box.lower[axis] - 1; };
+  const auto isWithin = [&](std::int64_t at, std::size_t axis) { return at >= 0 && at + 1 < m_Box.size[axis]; };
+  const std::int64_t rx = below(x, 0);
+  const std::int64_t ry = below(y, 1);
+  const std::int64_t rz = below(z, 2);
+  unsigned           in = 0;
+  if (!isWithin(rx, 0) || !isWithin(ry, 1) || !isWithin(rz, 2))
+  {
+    for (std::int32_t c = 0; c < 8; ++c)
+    {
+      in |= (Contains(x - 1 + (c & 1), y - 1 + (c >> 1 & 1), z - 1 + (c >> 2)) ? 1U : 0U) << c;
+    }
+    return in;
+  }
+  const auto     word = static_cast<std::size_t>(rx) >> 6U;
+  const unsigned shift = static_cast<unsigned>(rx) & 63U;
+  for (unsigned row = 0; row < 4; ++row)
+  {
+    const auto ownY = static_cast<std::size_t>(ry) + (row & 1U);
+    const auto ownZ = static_cast<std::size_t>(rz) + (row >> 1U);
+    auto       pair = static_cast<unsigned>(m_Bits.Get(word, ownY, ownZ) >> shift & 3U);
+    if (shift == 63)
+    {
+      pair |= static_cast<unsigned>(m_Bits.Get(word + 1, ownY, ownZ) & 1U) << 1U;
+    }
+    in |= pair << (2 * row);
+  }
+  return in;
+}
 
 /** Whether a place in lattice coordinates lies in the open shape: every voxel whose closed cube holds it is in. */
 bool
@@ -105,7 +158,7 @@ ContainsInside(const VoxelShape & shape, const std::array<double, 3> & place);
 VoxelShape
 CropToVoxels(const VoxelShape & shape);
 
-/** The same in the memory of the shape itself. */
+/** The same; the shape's memory goes. */
 VoxelShape
 CropToVoxels(VoxelShape && shape);
 
