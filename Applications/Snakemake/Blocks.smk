@@ -1,5 +1,8 @@
 # One volume larger than a machine: its blocks as jobs, then the join; the file is that of a single run, bit for bit.
 #   snakemake -s Applications/Snakemake/Blocks.smk --profile Applications/Snakemake/slurm --config scan=huge.nrrd out=huge.vtp blocks=8
+# Of a scan that no machine shall read whole, cut by its size alone (one shape: reading="--binary", say):
+#   ... --config scan=huge.zarr out=huge.vtp size=16384,16384,16384 block_size=512 reading=--binary
+# and the blocks alone, without the join, with `snakemake ... blocks`.
 # Further --config keys: program (voxelcore), reading ("--threshold 300:3000", for blocks and join), options ("--lambda 2vox",
 # for the join alone), mem_mb (4000, of a block), first_mem_mb (of the first block, which reads the whole scan: mem_mb),
 # join_mem_mb (16000), minutes (120), threads (1).
@@ -7,12 +10,21 @@ import shlex
 
 SCAN = str(config["scan"])
 OUT = str(config["out"])
-N = int(config["blocks"])
+if "block_size" in config:
+    SIDE = int(config["block_size"])
+    N = 1
+    for length in str(config["size"]).replace("x", ",").split(","):
+        N *= -(-int(length) // SIDE)
+    CUT = f"--block-size {SIDE}"
+else:
+    N = int(config["blocks"])
+    CUT = f"--blocks {N}"
+WAIT = "block_size" not in config
 PARTS = OUT + ".parts"
 CORE = f"{shlex.quote(str(config.get('program', 'voxelcore')))} core {shlex.quote(SCAN)} {config.get('reading', '')}"
 
 
-localrules: all
+localrules: all, blocks
 
 
 rule all:
@@ -20,16 +32,21 @@ rule all:
         OUT,
 
 
+rule blocks:
+    input:
+        expand(PARTS + "/block-{k}.done", k=range(1, N + 1)),
+
+
 def memory(wildcards):
-    return int(config.get("first_mem_mb" if wildcards.k == "1" else "mem_mb", config.get("mem_mb", 4000)))
+    return int(config.get("first_mem_mb" if WAIT and wildcards.k == "1" else "mem_mb", config.get("mem_mb", 4000)))
 
 
 # The first block reads the whole scan and leaves a plan by which the others read only their part of it: they wait. That
-# it was done again is no reason to do them again.
+# it was done again is no reason to do them again. Of a scan cut by its size each block reads its part.
 rule block:
     input:
         SCAN,
-        lambda wildcards: [] if wildcards.k == "1" else ancient(PARTS + "/block-1.done"),
+        lambda wildcards: [] if wildcards.k == "1" or not WAIT else ancient(PARTS + "/block-1.done"),
     output:
         touch(PARTS + "/block-{k}.done"),
     threads: int(config.get("threads", 1))
@@ -37,7 +54,7 @@ rule block:
         mem_mb=memory,
         runtime=int(config.get("minutes", 120)),
     shell:
-        CORE + f" --blocks {N} --block {{wildcards.k}} -o {shlex.quote(PARTS)}/ --threads {{threads}} --force"
+        CORE + f" {CUT} --block {{wildcards.k}} -o {shlex.quote(PARTS)}/ --threads {{threads}} --force"
 
 
 rule join:

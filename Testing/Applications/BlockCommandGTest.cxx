@@ -71,6 +71,31 @@ TEST_F(BlockCommand, TheJoinedFileIsThatOfASingleRunForARootAndItsSkeleton)
   EXPECT_TRUE(ReadAll(m_Folder / "joined_skeleton.vtp") == ReadAll(m_Folder / "single_skeleton.vtp"));
 }
 
+TEST_F(BlockCommand, BlocksOfASizeJoinToTheFileOfASingleRun)
+{
+  WriteNrrd(m_Folder / "a.nrrd", ThreeBlocks());
+  const std::array<std::size_t, 3> size = ThreeBlocks().size;
+  std::size_t                      blocks = 1;
+  for (const std::size_t length : size)
+  {
+    blocks *= (length + 8) / 9;
+  }
+  for (std::size_t block = 1; block <= blocks; ++block)
+  {
+    const ProgramResult result = RunProgram({ "core",
+                                              m_Folder / "a.nrrd",
+                                              "--binary",
+                                              "--block-size",
+                                              "9",
+                                              "--block",
+                                              std::to_string(block),
+                                              "-o",
+                                              (m_Folder / "parts").string() + "/" });
+    ASSERT_EQ(result.code, 0) << result.error;
+  }
+  ExpectTheBytesOfASingleRun("a.nrrd", { "--binary" });
+}
+
 TEST_F(BlockCommand, ComponentsHavePartsOfTheirOwn)
 {
   TestScan scan({ 20, 8, 8 });
@@ -111,6 +136,8 @@ TEST_F(BlockCommand, WrongUseIsSaidInOneLine)
   ExpectRefusal(core({ "--blocks", "3" }), 2, { "--blocks N and --block K" });
   ExpectRefusal(core({ "--blocks", "3", "--block", "4" }), 2, { "--block 4", "1 to 3" });
   ExpectRefusal(core({ "--blocks", "0", "--block", "1" }), 2, { "--blocks 0" });
+  ExpectRefusal(core({ "--blocks", "3", "--block-size", "9", "--block", "1" }), 2, { "--blocks", "--block-size" });
+  ExpectRefusal(core({ "--block-size", "9", "--block", "1" }), 2, { "--block-size", "--labels VALUE" });
   ExpectRefusal(core({ "--blocks", "3", "--block", "1", "--join", "x" }), 2, { "--join" });
   EXPECT_FALSE(std::filesystem::exists(m_Folder / "parts"));
 }

@@ -4,6 +4,7 @@
 #include "Delaunay/SameCells.h"
 
 #include "voxelcore/HaloBlocks.h"
+#include "voxelcore/ShapeTopology.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,9 @@ struct WholeShape
   {
     ASSERT_TRUE(joined.points == points);
     ASSERT_NO_FATAL_FAILURE(ExpectSameCells(joined.cells, cells));
+    const TopologyNumbers numbers = ComputeShapeTopology(shape);
+    EXPECT_EQ(joined.topology.euler, numbers.euler);
+    EXPECT_EQ(joined.topology.betti, numbers.betti);
   }
 
   void

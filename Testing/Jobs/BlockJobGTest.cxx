@@ -3,6 +3,7 @@
 #include "voxelcore/BlockJob.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/LabelVolume.h"
+#include "voxelcore/ShapeTopology.h"
 
 namespace voxelcore::testing
 {
@@ -22,9 +23,11 @@ protected:
     return options;
   }
   DelaunayCells
-  Join(const std::vector<LatticePoint> & points, const std::string & scan = "a.nrrd") const
+  Join(const std::vector<LatticePoint> & points,
+       const TopologyNumbers &           topology,
+       const std::string &               scan = "a.nrrd") const
   {
-    return JoinParts(At("parts"), At(scan), 1, 0, points);
+    return JoinParts(At("parts"), At(scan), 1, 0, points, topology);
   }
 };
 
@@ -33,13 +36,14 @@ TEST_F(BlockJob, PartsJoinToTheCellsOfOneRun)
   Phantom("torus", "a.nrrd", "24");
   const VoxelShape shape = ReadLabelVolume(At("a.nrrd"), {}).labels.at(0).shape;
   const auto       points = BoundaryVertices(shape);
+  const auto       topology = ComputeShapeTopology(shape);
   const auto       whole = ComputeDelaunayCells(shape, points, ComputeSpacingWeights({ 1, 1, 1 }), Engine::Auto);
   std::uint64_t    cells = 0;
   for (std::size_t block = 1; block <= 3; ++block)
   {
     if (block > 1)
     {
-      EXPECT_THROW(Join(points), InputError) << "parts are missing";
+      EXPECT_THROW(Join(points, topology), InputError) << "parts are missing";
     }
     const BlockOptions options = Options(block, 3);
     const BlockResult  result = RunBlockJob(options);
@@ -52,7 +56,10 @@ TEST_F(BlockJob, PartsJoinToTheCellsOfOneRun)
     EXPECT_NE(text.find("block " + std::to_string(block) + " of 3 of label 1"), std::string::npos) << text;
   }
   EXPECT_EQ(cells, whole.CellCount()) << "each is in one part";
-  const DelaunayCells joined = Join(points);
+  TopologyNumbers other = topology;
+  ++other.betti[1];
+  EXPECT_THROW(Join(points, other), CertificateError);
+  const DelaunayCells joined = Join(points, topology);
   EXPECT_TRUE(joined.centres == whole.centres);
   EXPECT_TRUE(joined.facetCells == whole.facetCells);
   EXPECT_TRUE(joined.facetPoints == whole.facetPoints);
@@ -70,19 +77,45 @@ TEST_F(BlockJob, PartsAreNamedByScanLabelComponentAndCut)
 TEST_F(BlockJob, PartsOfOtherCutsOrScansAreRefused)
 {
   Phantom("ball", "a.nrrd", "16");
-  const auto points = BoundaryVertices(ReadLabelVolume(At("a.nrrd"), {}).labels.at(0).shape);
-  EXPECT_THROW(Join(points), InputError) << "there is no folder";
+  const auto shape = ReadLabelVolume(At("a.nrrd"), {}).labels.at(0).shape;
+  const auto points = BoundaryVertices(shape);
+  const auto topology = ComputeShapeTopology(shape);
+  EXPECT_THROW(Join(points, topology), InputError) << "there is no folder";
   for (const std::size_t block : { 1, 2 })
   {
     RunBlockJob(Options(block, 2));
   }
-  EXPECT_NO_THROW(Join(points));
-  EXPECT_THROW(Join(points, "b.nrrd"), InputError) << "none of this scan";
+  EXPECT_NO_THROW(Join(points, topology));
+  EXPECT_THROW(Join(points, topology, "b.nrrd"), InputError) << "none of this scan";
   auto others = points;
   others.pop_back();
-  EXPECT_THROW(Join(others), InputError) << "the scan has changed";
+  EXPECT_THROW(Join(others, topology), InputError) << "the scan has changed";
   RunBlockJob(Options(1, 3));
-  EXPECT_THROW(Join(points), InputError) << "two cuts";
+  EXPECT_THROW(Join(points, topology), InputError) << "two cuts";
+}
+
+TEST_F(BlockJob, BlocksOfASizeJoinToTheCellsOfOneRun)
+{
+  Phantom("torus", "a.nrrd", "24");
+  const VoxelShape shape = ReadLabelVolume(At("a.nrrd"), {}).labels.at(0).shape;
+  const auto       points = BoundaryVertices(shape);
+  BlockOptions     options = Options(1, 1);
+  options.side = 9; // 24 voxels: 9, 9 and 6
+  EXPECT_THROW(RunBlockJob(options), UsageError) << "of several shapes nobody knows all";
+  options.core.reading.labels = "1";
+  ASSERT_EQ(CountBlocks(options), 27U);
+  std::uint64_t own = 0;
+  for (options.block = 1; options.block <= 27; ++options.block)
+  {
+    const BlockResult result = RunBlockJob(options);
+    ASSERT_EQ(result.parts.size(), 1U);
+    own += result.parts[0].ownVertices;
+    EXPECT_NE(BlockText(result, options).find("of 27 of label 1"), std::string::npos);
+  }
+  EXPECT_EQ(own, points.size());
+  EXPECT_THROW(RunBlockJob(options), UsageError) << "there is no block 28";
+  const auto whole = ComputeDelaunayCells(shape, points, ComputeSpacingWeights({ 1, 1, 1 }), Engine::Auto);
+  EXPECT_TRUE(Join(points, ComputeShapeTopology(shape)).facetPoints == whole.facetPoints);
 }
 
 TEST_F(BlockJob, WhatFailsLeavesNothing)

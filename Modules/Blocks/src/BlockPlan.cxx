@@ -1,5 +1,6 @@
 #include "voxelcore/HaloBlocks.h"
 
+#include "BlockParts.h"
 #include "BoundaryBits.h"
 #include "Checksum.h"
 
@@ -223,13 +224,7 @@ DigestOf(const VoxelShape & shape, const BlockPlan & plan)
 BlockPlan
 StartPlan(const VoxelShape & shape, const SpacingWeights & weights)
 {
-  const auto &       size = shape.Box().size;
-  const std::int32_t longest = *std::max_element(size.begin(), size.end());
-  if (longest > (1 << 20) || !ExactRangeAllows(longest, weights))
-  {
-    throw InputError(
-      "the shape is too large for exact arithmetic at this spacing; crop it, or give a simpler --spacing");
-  }
+  RequireExactRange(shape.Box().size, weights);
   BlockPlan plan;
   plan.weight = weights.weight;
   plan.boundaryVertices = CountBoundaryVertices(shape);
@@ -264,6 +259,17 @@ CountCommon(const HaloBlock & a, const HaloBlock & b)
 }
 
 } // namespace
+
+void
+RequireExactRange(const std::array<std::int32_t, 3> & size, const SpacingWeights & weights)
+{
+  const std::int32_t longest = *std::max_element(size.begin(), size.end());
+  if (longest > (1 << 20) || !ExactRangeAllows(longest, weights))
+  {
+    throw InputError(
+      "the shape is too large for exact arithmetic at this spacing; crop it, or give a simpler --spacing");
+  }
+}
 
 BlockPlan
 PlanBlocks(const VoxelShape & shape, const SpacingWeights & weights, std::size_t count)

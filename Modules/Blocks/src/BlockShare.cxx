@@ -1,6 +1,7 @@
 #include "voxelcore/BlockRegions.h"
 #include "voxelcore/HaloBlocks.h"
 
+#include "BlockParts.h"
 #include "BoundaryBits.h"
 #include "HaloRegion.h"
 
@@ -189,14 +190,53 @@ ListPoints(BlockShare &                      share,
   }
 }
 
+/** The voxel behind each lattice corner of a block. */
+VoxelBox
+VoxelsOf(const HaloBlock & block)
+{
+  return { { block.lower.x, block.lower.y, block.lower.z },
+           { block.upper.x - block.lower.x, block.upper.y - block.lower.y, block.upper.z - block.lower.z } };
+}
+
+/** Boundary squares whose least corner lies in the block, of a shape that shows all voxels around these. */
+std::uint64_t
+CountOwnSquares(const VoxelShape & shape, const HaloBlock & block)
+{
+  const auto &       o = shape.Box().lower;
+  const std::int32_t first = block.lower.x - o[0];
+  const std::int32_t end = block.upper.x - o[0];
+  std::uint64_t      squares = 0;
+  const auto         at = [&](const ConstShapeRow & row, std::int32_t word) {
+    return word >= 0 && word < static_cast<std::int32_t>(row.size()) ? row[static_cast<std::size_t>(word)]
+                                                                             : std::uint64_t{ 0 };
+  };
+  for (std::int32_t z = block.lower.z - o[2]; z < block.upper.z - o[2]; ++z)
+  {
+    for (std::int32_t y = block.lower.y - o[1]; y < block.upper.y - o[1]; ++y)
+    {
+      const ConstShapeRow here = shape.RowAnywhere(y, z);
+      const ConstShapeRow south = shape.RowAnywhere(y - 1, z);
+      const ConstShapeRow below = shape.RowAnywhere(y, z - 1);
+      for (std::int32_t word = first >> 6; word << 6 < end; ++word)
+      {
+        const std::uint64_t own = BoundaryBits::Between(first, end, word);
+        const std::uint64_t bits = at(here, word);
+        const auto          count = [own](std::uint64_t sides) {
+          return static_cast<std::uint64_t>(std::popcount(sides & own));
+        };
+        squares += count(bits ^ (bits << 1 | at(here, word - 1) >> 63)) + count(bits ^ at(south, word)) +
+                   count(bits ^ at(below, word));
+      }
+    }
+  }
+  return squares;
+}
+
 } // namespace
 
-namespace
-{
-
-/** `shape` agrees with the planned one around the block. */
 BlockShare
 ShareOf(const VoxelShape &       shape,
+        const VoxelShape &       subshape,
         const SpacingWeights &   weights,
         const BlockPlan &        plan,
         std::size_t              block,
@@ -210,8 +250,9 @@ ShareOf(const VoxelShape &       shape,
   share.weight = plan.weight;
   share.boundaryVertices = plan.boundaryVertices;
   share.boundarySquares = plan.boundarySquares;
+  share.ownSquares = CountOwnSquares(shape, plan.blocks[block]);
+  share.topology = ComputeTopologyPart(shape, VoxelsOf(plan.blocks[block]));
 
-  const VoxelShape                subshape = MakeHaloRegion(shape, weights, plan.blocks[block], progress);
   const std::vector<LatticePoint> points = BoundaryVertices(subshape);
   {
     const DelaunayCells all = ComputeDelaunayCells(subshape, points, weights, engine, progress);
@@ -238,8 +279,6 @@ RequireBlock(const BlockPlan & plan, std::size_t block)
   }
 }
 
-} // namespace
-
 BlockShare
 ComputeBlockShare(const VoxelShape &       shape,
                   const SpacingWeights &   weights,
@@ -253,7 +292,13 @@ ComputeBlockShare(const VoxelShape &       shape,
   {
     throw InputError("the plan of the blocks was made for another shape or other weights; make it again");
   }
-  return ShareOf(shape, weights, plan, block, engine, progress);
+  return ShareOf(shape,
+                 MakeHaloRegion(shape, weights, plan.blocks[block], progress),
+                 weights,
+                 plan,
+                 block,
+                 engine,
+                 progress);
 }
 
 BlockShare
@@ -270,7 +315,13 @@ ComputeBlockShare(const VoxelShape &       part,
   {
     throw InputError("the plan of the blocks was made for another shape or other weights; make it again");
   }
-  return ShareOf(part, weights, plan, block, engine, progress);
+  return ShareOf(part,
+                 MakeHaloRegion(part, weights, plan.blocks[block], progress),
+                 weights,
+                 plan,
+                 block,
+                 engine,
+                 progress);
 }
 
 } // namespace voxelcore

@@ -1,8 +1,8 @@
 // A share as bytes. All numbers are little-endian base 128 (seven bits a byte, the highest bit says that more follow);
 // signed ones are folded to 0, -1, 1, -2, ... The parts in order:
-//   "VoxelBlk", version; digest, block count, block, weights, boundary vertices and squares of the whole;
+//   "VoxelBlk", version; digest, block count, block, weights, boundary vertices and squares of the whole, own squares;
 //   numbers of points, cells, facets and corners of facets; checksum of all so far
-//   points in scan order as steps; cells as four points; facets as corners, cells, points; checksum of all
+//   points in scan order as steps; cells as four points; facets as corners, cells, points; topology; checksum of all
 // A checksum is eight bytes. Differences of neighbouring numbers are small: about a third of the bytes in memory.
 
 #include "voxelcore/HaloBlocks.h"
@@ -18,7 +18,7 @@ namespace
 {
 
 constexpr std::array<std::uint8_t, 8> magic{ 'V', 'o', 'x', 'e', 'l', 'B', 'l', 'k' };
-constexpr std::uint64_t               version = 1;
+constexpr std::uint64_t               version = 2;
 constexpr std::int64_t                leastCoordinate = std::numeric_limits<std::int32_t>::min();
 constexpr std::int64_t                greatestCoordinate = std::numeric_limits<std::int32_t>::max();
 
@@ -178,6 +178,83 @@ ReadCells(DelaunayCells & cells, std::size_t pointCount, std::size_t corners, De
   }
 }
 
+void
+WriteRuns(const std::vector<FaceRun> & runs, Encoder & to)
+{
+  to.Number(runs.size());
+  FaceRun last;
+  for (const FaceRun & run : runs)
+  {
+    to.Step(last.row, run.row);
+    to.Step(last.end, run.begin);
+    to.Number(static_cast<std::uint64_t>(run.end - run.begin));
+    to.Number(run.set);
+    last = run;
+  }
+}
+
+std::vector<FaceRun>
+ReadRuns(std::uint32_t sets, Decoder & from)
+{
+  std::vector<FaceRun> runs; // grows as bytes come
+  FaceRun              last;
+  for (std::uint64_t left = from.Number(); left > 0; --left)
+  {
+    FaceRun run;
+    run.row = static_cast<std::int32_t>(from.Step(last.row, leastCoordinate, greatestCoordinate));
+    run.begin = static_cast<std::int32_t>(from.Step(last.end, leastCoordinate, greatestCoordinate));
+    const std::uint64_t length = from.Number(1, static_cast<std::uint64_t>(greatestCoordinate - run.begin));
+    run.end = static_cast<std::int32_t>(run.begin + static_cast<std::int64_t>(length));
+    const std::uint64_t set = from.Number(0, std::uint64_t{ 1 } << 32U);
+    if (set >= sets)
+    {
+      from.FailDamaged();
+    }
+    run.set = static_cast<std::uint32_t>(set);
+    runs.push_back(run);
+    last = run;
+  }
+  return runs;
+}
+
+void
+WriteTopology(const TopologyPart & topology, Encoder & to)
+{
+  for (const std::int64_t number : { topology.euler, topology.closedShape, topology.closedBackground })
+  {
+    to.Number(Fold(number));
+  }
+  to.Number(topology.openShape);
+  to.Number(topology.openBackground);
+  for (const TopologyPart::Face & face : topology.faces)
+  {
+    to.Step(0, face.plane);
+    WriteRuns(face.shape, to);
+    WriteRuns(face.background, to);
+  }
+}
+
+TopologyPart
+ReadTopology(Decoder & from)
+{
+  TopologyPart topology;
+  for (std::int64_t * number : { &topology.euler, &topology.closedShape, &topology.closedBackground })
+  {
+    *number = Unfold(from.Number());
+  }
+  for (std::uint32_t * number : { &topology.openShape, &topology.openBackground })
+  {
+    *number = static_cast<std::uint32_t>(from.Number(0, kOtherBlock));
+  }
+  for (TopologyPart::Face & face : topology.faces)
+  {
+    face.plane = static_cast<std::int32_t>(from.Step(0, leastCoordinate, greatestCoordinate));
+    face.shape = ReadRuns(topology.openShape, from);
+    face.background = ReadRuns(topology.openBackground, from);
+  }
+  return topology;
+}
+
 } // namespace
 
 void
@@ -199,6 +276,7 @@ WriteBlockShare(const BlockShare & share, std::ostream & stream)
   }
   for (const std::uint64_t number : { share.boundaryVertices,
                                       share.boundarySquares,
+                                      share.ownSquares,
                                       std::uint64_t{ share.points.size() },
                                       std::uint64_t{ share.cells.CellCount() },
                                       std::uint64_t{ share.cells.FacetCount() },
@@ -209,6 +287,7 @@ WriteBlockShare(const BlockShare & share, std::ostream & stream)
   to.Sum();
   WritePoints(share, to);
   WriteCells(share.cells, to);
+  WriteTopology(share.topology, to);
   to.Sum();
   to.Flush();
   stream.flush();
@@ -245,6 +324,7 @@ ReadBlockShare(std::istream & stream, const std::string & name)
   }
   share.boundaryVertices = from.Number();
   share.boundarySquares = from.Number();
+  share.ownSquares = from.Number();
   const std::uint64_t points = from.Number();
   const std::uint64_t cells = from.Number();
   const std::uint64_t facets = from.Number();
@@ -262,6 +342,7 @@ ReadBlockShare(std::istream & stream, const std::string & name)
   share.cells.facetOffsets.resize(facets + 1);
   share.cells.facetPoints.resize(corners);
   ReadCells(share.cells, points, corners, from);
+  share.topology = ReadTopology(from);
   from.Sum();
   if (!from.AtEnd())
   {

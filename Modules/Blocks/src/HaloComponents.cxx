@@ -44,7 +44,8 @@ Meets(const VoxelShape & shape, const VoxelBox & range)
   return false;
 }
 
-// Puts the voxels of `part` into `shape`, whose box holds them.
+} // namespace
+
 void
 Include(const VoxelShape & part, VoxelShape & shape)
 {
@@ -72,8 +73,6 @@ Include(const VoxelShape & part, VoxelShape & shape)
     }
   }
 }
-
-} // namespace
 
 VoxelShape
 ComponentsThatMeet(const VoxelShape & shape, const VoxelBox & range)

@@ -10,4 +10,8 @@ namespace voxelcore
 VoxelShape
 ComponentsThatMeet(const VoxelShape & shape, const VoxelBox & range);
 
+/** Puts the voxels of `part` into `shape`, whose box holds its box. */
+void
+Include(const VoxelShape & part, VoxelShape & shape);
+
 } // namespace voxelcore

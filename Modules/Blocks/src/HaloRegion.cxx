@@ -58,11 +58,27 @@ public:
               const SpacingWeights & weights,
               const NearestVertex &  nearest,
               const Range &          block)
+    : RegionMaker(shape, weights, nearest, block, { { 0, 0, 0 }, shape.Box().size })
+  {}
+
+  // `limits` are the voxels there are, known or not.
+  RegionMaker(const VoxelShape &     shape,
+              const SpacingWeights & weights,
+              const NearestVertex &  nearest,
+              const Range &          block,
+              const Range &          limits)
     : m_Shape(shape)
     , m_Weights(weights)
     , m_Nearest(nearest)
     , m_Block(block)
+    , m_Limits(limits)
   {}
+
+  bool
+  BlockHoldsVoxels() const
+  {
+    return HoldsVoxels(m_Block);
+  }
 
   // Finds how far balls can reach out of the block.
   void
@@ -211,9 +227,9 @@ private:
   Halo(const Reach & reach, std::size_t axis) const
   {
     const std::int64_t steps = FloorOfRoot(reach.fourSquared / 4) / m_Weights.weight[axis];
-    const std::int64_t end = m_Shape.Box().size[axis];
-    return { static_cast<std::int32_t>(std::max<std::int64_t>(reach.box.lower[axis] - steps - 1, 0)),
-             static_cast<std::int32_t>(std::min<std::int64_t>(reach.box.upper[axis] + steps + 1, end)) };
+    return { static_cast<std::int32_t>(std::max<std::int64_t>(reach.box.lower[axis] - steps - 1, m_Limits.lower[axis])),
+             static_cast<std::int32_t>(
+               std::min<std::int64_t>(reach.box.upper[axis] + steps + 1, m_Limits.upper[axis])) };
   }
 
   bool
@@ -334,6 +350,7 @@ private:
   const SpacingWeights &   m_Weights;
   const NearestVertex &    m_Nearest;
   Range                    m_Block;  // voxels
+  Range                    m_Limits; // of voxels
   Range                    m_Around; // voxels of the block and of all halos
   std::vector<Reach>       m_Reaches;
   std::size_t              m_Divided = 0;
@@ -389,6 +406,53 @@ MakeHaloRegion(const VoxelShape &       shape,
   RegionMaker         maker(shape, weights, nearest, *voxels);
   maker.Measure(progress);
   return ComponentsThatMeet(maker.Restrict(), AsBox(*voxels, shape.Box()));
+}
+
+std::optional<VoxelShape>
+MakeHaloRegionWithin(const VoxelShape &       shape,
+                     const VoxelBox &         scan,
+                     const SpacingWeights &   weights,
+                     const HaloBlock &        block,
+                     VoxelBox &               needed,
+                     const ProgressCallback & progress)
+{
+  const VoxelBox &           window = shape.Box();
+  const std::optional<Range> voxels = VoxelsOf(block, window);
+  if (!voxels)
+  {
+    return VoxelShape();
+  }
+  // Corners at the edge of the window show what it cuts off, unless the scan ends there.
+  VoxelBox trusted;
+  Range    limits;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    limits.lower[axis] = scan.lower[axis] - window.lower[axis];
+    limits.upper[axis] = limits.lower[axis] + scan.size[axis];
+    trusted.lower[axis] = limits.lower[axis] == 0 ? 0 : 1;
+    trusted.size[axis] = window.size[axis] + (limits.upper[axis] == window.size[axis] ? 1 : 0) - trusted.lower[axis];
+  }
+  const NearestVertex nearest(shape, weights, trusted);
+  RegionMaker         maker(shape, weights, nearest, *voxels, limits);
+  if (!maker.BlockHoldsVoxels())
+  {
+    return VoxelShape();
+  }
+  if (nearest.HasNone())
+  {
+    needed = {};
+    return std::nullopt;
+  }
+  maker.Measure(progress);
+  needed = AsBox(maker.Around(), window);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (maker.Around().lower[axis] < 0 || maker.Around().upper[axis] > window.size[axis])
+    {
+      return std::nullopt;
+    }
+  }
+  return ComponentsThatMeet(maker.Restrict(), AsBox(*voxels, window));
 }
 
 VoxelBox

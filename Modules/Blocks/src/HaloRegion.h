@@ -5,6 +5,8 @@
 
 #include "voxelcore/HaloBlocks.h"
 
+#include <optional>
+
 namespace voxelcore
 {
 
@@ -24,5 +26,15 @@ HaloBox(const VoxelShape &       shape,
         const NearestVertex &    nearest,
         const HaloBlock &        block,
         const ProgressCallback & progress);
+
+/** The same of a shape that is known in a window alone, its box, of a scan. Nothing when balls may reach beyond the
+ *  window: `needed` is then all that must be known, or has no size when no boundary is in sight. */
+std::optional<VoxelShape>
+MakeHaloRegionWithin(const VoxelShape &       shape,
+                     const VoxelBox &         scan,
+                     const SpacingWeights &   weights,
+                     const HaloBlock &        block,
+                     VoxelBox &               needed,
+                     const ProgressCallback & progress);
 
 } // namespace voxelcore

@@ -71,6 +71,8 @@ public:
         m_Joined.points.push_back(share.points[point]);
       }
     }
+    m_OwnSquares += share.ownSquares;
+    m_Topology.push_back(share.topology);
     m_Cells += share.cells.CellCount();
     m_Facets += share.cells.FacetCount();
     m_Corners += share.cells.facetPoints.size();
@@ -101,7 +103,7 @@ public:
     {
       Misfit(*twin, "two blocks claim it");
     }
-    if (points.size() != m_First.boundaryVertices)
+    if (m_First.boundaryVertices != kNotCounted && points.size() != m_First.boundaryVertices)
     {
       throw CertificateError("the blocks hold " + std::to_string(points.size()) + " of the shape's " +
                              std::to_string(m_First.boundaryVertices) + " boundary vertices; compute them again");
@@ -152,16 +154,18 @@ public:
   JoinedCells
   Finish()
   {
-    if (m_SquareCount != m_First.boundarySquares)
+    const std::uint64_t squares = m_First.boundarySquares != kNotCounted ? m_First.boundarySquares : m_OwnSquares;
+    if (m_SquareCount != squares || m_OwnSquares != squares)
     {
       throw CertificateError("the blocks hold " + std::to_string(m_SquareCount) + " of the shape's " +
-                             std::to_string(m_First.boundarySquares) + " boundary squares; compute them again");
+                             std::to_string(squares) + " boundary squares; compute them again");
     }
     std::vector<std::uint8_t>().swap(m_Squares);
     LinkOpenFacets();
     SpacingWeights weights;
     weights.weight = m_First.weight;
     m_Joined.cells = MakeCanonical({ std::move(m_Joined.cells), {} }, m_Joined.points, weights);
+    m_Joined.topology = JoinTopologyParts(m_Topology);
     return std::move(m_Joined);
   }
 
@@ -321,6 +325,8 @@ private:
   BlockShare                 m_First; // what all shares have in common
   std::size_t                m_Shares = 0;
   std::vector<std::uint64_t> m_Blocks; // sorted
+  std::uint64_t              m_OwnSquares = 0;
+  std::vector<TopologyPart>  m_Topology;
   std::uint64_t              m_Cells = 0;
   std::uint64_t              m_Facets = 0;
   std::uint64_t              m_Corners = 0;

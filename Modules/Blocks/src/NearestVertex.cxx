@@ -20,7 +20,16 @@ GoOutward(std::int32_t first, std::int32_t count, TVisit visit)
 } // namespace
 
 NearestVertex::NearestVertex(const VoxelShape & shape, const SpacingWeights & weights)
+  : NearestVertex(shape,
+                  weights,
+                  { { 0, 0, 0 }, { shape.Box().size[0] + 1, shape.Box().size[1] + 1, shape.Box().size[2] + 1 } })
+{}
+
+NearestVertex::NearestVertex(const VoxelShape & shape, const SpacingWeights & weights, const VoxelBox & trusted)
 {
+  const auto isTrusted = [&trusted](std::int32_t at, std::size_t axis) {
+    return at >= trusted.lower[axis] && at < trusted.lower[axis] + trusted.size[axis];
+  };
   const auto & size = shape.Box().size;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -41,12 +50,18 @@ NearestVertex::NearestVertex(const VoxelShape & shape, const SpacingWeights & we
       {
         const unsigned z = line / 8;
         const unsigned y = line % 8;
+        if (!isTrusted(8 * cellY + static_cast<std::int32_t>(y), 1) ||
+            !isTrusted(8 * cellZ + static_cast<std::int32_t>(z), 2))
+        {
+          continue;
+        }
         // A word of corners is a line of eight cells.
         bits.VisitWords(8 * cellY + static_cast<std::int32_t>(y),
                         8 * cellZ + static_cast<std::int32_t>(z),
                         0,
                         static_cast<std::int32_t>(m_RowBytes),
                         [&](std::int32_t word, std::uint64_t corners) {
+                          corners &= BoundaryBits::Between(trusted.lower[0], trusted.lower[0] + trusted.size[0], word);
                           for (auto cell = static_cast<std::size_t>(8 * word); corners != 0; ++cell, corners >>= 8)
                           {
                             row[cell][z] |= (corners & 0xFFU) << (8 * y);

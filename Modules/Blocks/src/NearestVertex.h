@@ -19,6 +19,14 @@ class NearestVertex
 {
 public:
   NearestVertex(const VoxelShape & shape, const SpacingWeights & weights);
+  /** Of the lattice corners in `trusted` alone (box-relative, first to first + size - 1). */
+  NearestVertex(const VoxelShape & shape, const SpacingWeights & weights, const VoxelBox & trusted);
+
+  bool
+  HasNone() const
+  {
+    return m_Layers.empty();
+  }
 
   /** A boundary vertex and its squared distance from the place asked for. */
   struct Answer

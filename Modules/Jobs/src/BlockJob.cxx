@@ -3,10 +3,13 @@
 #include "JobTools.h"
 #include "PlannedBlock.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/GridBlocks.h"
 #include "voxelcore/HaloBlocks.h"
+#include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/OutputStream.h"
 #include "voxelcore/ReadInput.h"
+#include "voxelcore/ScanRows.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -124,9 +127,9 @@ WriteShare(const BlockShare &   share,
     throw;
   }
   file.Finish();
-  return {
-    label, component, name, share.cells.tetrahedra.size(), share.boundaryVertices, share.subshapeVertices, target
-  };
+  const auto own = static_cast<std::uint64_t>(std::count(share.isOwn.begin(), share.isOwn.end(), 1));
+  return { label, component, name, share.cells.tetrahedra.size(), share.boundaryVertices, own, share.subshapeVertices,
+           target };
 }
 
 constexpr double kReadEnds = 0.2;
@@ -211,7 +214,95 @@ ComputeFromWhole(const BlockOptions & options,
   return kept;
 }
 
+/** A scan that is cut by its size alone. */
+struct ScanGrid
+{
+  SpacingWeights weights;
+  VoxelBox       box; ///< of the scan, or of the part that is looked at
+  BlockPlan      plan;
+};
+
+ScanGrid
+GridOf(const BlockOptions & options)
+{
+  const CoreOptions & core = options.core;
+  const auto          isNumber = [](const std::string & text) {
+    return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+  };
+  if (!core.reading.binary && !core.reading.threshold && !isNumber(core.reading.labels))
+  {
+    throw UsageError(
+      "--block-size takes one shape at a time, as no block knows all labels: give --labels VALUE, "
+      "--binary or --threshold LO:HI");
+  }
+  if (core.edits.AreAsked() || (IsMeshFile(core.scan) && !core.reading.raw))
+  {
+    throw UsageError("--block-size reads the blocks of a scan as they are: meshes and edits of shapes need --blocks");
+  }
+  const ImageGeometry geometry = ScanRows(core.scan, core.reading).Geometry();
+  const CropRange     part = ResolveCrop(core.reading.crop, geometry.size, core.scan);
+  ScanGrid            grid;
+  grid.weights = ScanWeights(geometry, core.scan);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    grid.box.lower[axis] = part.first[axis];
+    grid.box.size[axis] = part.end[axis] - part.first[axis];
+  }
+  grid.plan = PlanGrid(grid.box, grid.weights, *options.side);
+  return grid;
+}
+
+/** A block of the one shape, from what its balls can reach. */
+void
+ComputeFromGrid(const BlockOptions & options,
+                OutputTransaction &  transaction,
+                const JobContext &   context,
+                BlockResult &        result)
+{
+  const CoreOptions & core = options.core;
+  const ScanGrid      grid = GridOf(options);
+  std::int64_t        value = 1;
+  std::string         name = "label-1";
+  if (!core.reading.binary && !core.reading.threshold)
+  {
+    value = std::stoll(core.reading.labels);
+    name = "label-" + core.reading.labels;
+  }
+  const RegionReader read = [&](const VoxelBox & box) {
+    ReadOptions reading = core.reading;
+    reading.crop = CropRange{ box.lower, {} };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      reading.crop->end[axis] = box.lower[axis] + box.size[axis];
+    }
+    reading.mayBeMissing = true;
+    reading.refuseGrey = false; // which one block cannot tell
+    LabelMap map = ReadLabelVolume(core.scan, reading, PartOfProgress(context.progress, "reading", 0, kReadEnds));
+    result.warnings = std::move(map.warnings);
+    if (map.labels.empty())
+    {
+      return VoxelShape();
+    }
+    name = map.labels.front().name;
+    return std::move(map.labels.front().shape);
+  };
+  const BlockShare share = ComputeBlockShare(read,
+                                             grid.box,
+                                             grid.weights,
+                                             grid.plan,
+                                             options.block - 1,
+                                             core.engine,
+                                             ProgressOf(context, name, 0, 1));
+  result.parts.push_back(WriteShare(share, value, 0, name, options, transaction));
+}
+
 } // namespace
+
+std::size_t
+CountBlocks(const BlockOptions & options)
+{
+  return options.side ? GridOf(options).plan.blocks.size() : options.blocks;
+}
 
 fs::path
 BlockPath(const BlockOptions & options, std::int64_t label, std::int64_t component)
@@ -221,9 +312,11 @@ BlockPath(const BlockOptions & options, std::int64_t label, std::int64_t compone
 }
 
 BlockResult
-RunBlockJob(const BlockOptions & options, const JobContext & given)
+RunBlockJob(const BlockOptions & asked, const JobContext & given)
 {
-  const JobContext    context = ForwardOnly(given);
+  const JobContext context = ForwardOnly(given);
+  BlockOptions     options = asked;
+  options.blocks = CountBlocks(asked);
   const CoreOptions & core = options.core;
   if (options.block < 1 || options.block > options.blocks)
   {
@@ -238,6 +331,13 @@ RunBlockJob(const BlockOptions & options, const JobContext & given)
   transaction.Protect(core.scan);
   transaction.MakeDirectory(core.output);
   BlockResult result;
+  result.blocks = options.blocks;
+  if (options.side)
+  {
+    ComputeFromGrid(options, transaction, context, result);
+    Finish(transaction, context);
+    return result;
+  }
   if (CanReadBlockAlone(options))
   {
     if (auto found = ReadPlannedBlock(options, PartOfProgress(context.progress, "reading", 0, kReadEnds)))
@@ -262,6 +362,7 @@ JoinParts(const fs::path &                  folder,
           std::int64_t                      label,
           std::int64_t                      component,
           const std::vector<LatticePoint> & points,
+          const TopologyNumbers &           topology,
           const ProgressCallback &          progress)
 {
   const std::vector<fs::path> files = FindParts(folder, Start(scan, label, component));
@@ -281,6 +382,11 @@ JoinParts(const fs::path &                  folder,
     throw InputError(folder.string() + ": the parts of label " + std::to_string(label) +
                      " belong to another scan than " + scan.string() + ", or to other options; make them anew");
   }
+  if (joined.topology.euler != topology.euler || joined.topology.betti != topology.betti)
+  {
+    throw CertificateError(folder.string() + ": the parts of label " + std::to_string(label) +
+                           " add up to another topology than the scan's; compute them again");
+  }
   return std::move(joined.cells);
 }
 
@@ -290,10 +396,13 @@ BlockText(const BlockResult & result, const BlockOptions & options)
   std::string text;
   for (const BlockPart & part : result.parts)
   {
-    text += part.file.string() + ": block " + std::to_string(options.block) + " of " + std::to_string(options.blocks) +
+    const std::string own = part.boundaryVertices == kNotCounted
+                              ? ", " + std::to_string(part.ownVertices) + " of its own"
+                              : " of " + std::to_string(part.boundaryVertices);
+    text += part.file.string() + ": block " + std::to_string(options.block) + " of " + std::to_string(result.blocks) +
             " of " + LabelText(part.label, part.name) + ": " + std::to_string(part.cells) + " cells; computed on " +
-            std::to_string(part.subshapeVertices) + " boundary vertices of " + std::to_string(part.boundaryVertices) +
-            "; peak memory " + std::to_string(static_cast<long>(PeakMemoryMb())) + " MB\n";
+            std::to_string(part.subshapeVertices) + " boundary vertices" + own + "; peak memory " +
+            std::to_string(static_cast<long>(PeakMemoryMb())) + " MB\n";
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include "voxelcore/BlockJob.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/ShapeTopology.h"
 
 #include <numeric>
 #include <omp.h>
@@ -98,9 +99,14 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
     EditedLabel &      one = labels[label];
     const std::int64_t value = one.label.value;
     const std::int64_t component = one.component;
+    TopologyNumbers    topology;
     const CellSource   join = [&](const std::vector<LatticePoint> & points, const ProgressCallback & inner) {
-      return JoinParts(options.join, options.scan, value, component, points, inner);
+      return JoinParts(options.join, options.scan, value, component, points, topology, inner);
     };
+    if (!options.join.empty())
+    {
+      topology = ComputeShapeTopology(one.label.shape);
+    }
     CertifiedRequest request = RequestOf(options, surface);
     request.cells = options.join.empty() ? CellSource() : join;
     return ProcessLabel(std::move(one), geometry, std::move(request), part);

@@ -168,11 +168,16 @@ BlockOptionsFrom(const ParameterValues & values)
 {
   constexpr std::int64_t most = std::int64_t{ 1 } << 20U;
   const ParameterReader  reader(values, CommandId::Core);
-  if (reader.IsGiven("blocks") != reader.IsGiven("block"))
+  const bool             isGrid = reader.IsGiven("block-size");
+  if (isGrid && reader.IsGiven("blocks"))
   {
-    throw UsageError("give --blocks N and --block K together");
+    throw UsageError("give only one of --blocks and --block-size");
   }
-  if (!reader.IsGiven("blocks"))
+  if ((isGrid || reader.IsGiven("blocks")) != reader.IsGiven("block"))
+  {
+    throw UsageError("give --blocks N and --block K together, or --block-size N and --block K");
+  }
+  if (!reader.IsGiven("block"))
   {
     return std::nullopt;
   }
@@ -190,7 +195,14 @@ BlockOptionsFrom(const ParameterValues & values)
   {
     throw UsageError("--refine does not work with --block; give it with --join");
   }
-  options.blocks = static_cast<std::size_t>(reader.Whole("blocks", 1, most));
+  if (isGrid)
+  {
+    options.side = static_cast<std::int32_t>(reader.Whole("block-size", 8, most));
+  }
+  else
+  {
+    options.blocks = static_cast<std::size_t>(reader.Whole("blocks", 1, most));
+  }
   options.block = static_cast<std::size_t>(reader.Whole("block", 1, most));
   return options;
 }

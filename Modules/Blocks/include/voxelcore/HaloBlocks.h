@@ -18,6 +18,7 @@
 // share: no tolerance, no cell twice, none missing. The bounds are exact integers in squared weighted lattice units.
 
 #include "voxelcore/DelaunayCells.h"
+#include "voxelcore/PartTopology.h"
 
 #include <functional>
 #include <iosfwd>
@@ -35,6 +36,9 @@ struct HaloBlock
   friend bool
   operator==(const HaloBlock &, const HaloBlock &) = default;
 };
+
+/** Stands for a number of the whole that no one knew when the plan was made. */
+inline constexpr std::uint64_t kNotCounted = ~std::uint64_t{ 0 };
 
 /** How a shape is cut, and what the parts must add up to. The same for the same shape, weights and count. */
 struct BlockPlan
@@ -75,6 +79,7 @@ struct BlockShare
   std::array<std::int64_t, 3>  weight{ 1, 1, 1 };
   std::uint64_t                boundaryVertices = 0; ///< of the whole shape
   std::uint64_t                boundarySquares = 0;  ///< of the whole shape
+  std::uint64_t                ownSquares = 0;       ///< those whose least corner lies in the block
 
   /** The boundary vertices in the block and those its cells refer to, in scan order (z, then y, then x fastest), in
    *  lattice coordinates of the scan. */
@@ -85,6 +90,9 @@ struct BlockShare
    *  refer to `points`. A facet's second cell may be kOutside, or kOtherBlock: then the polygon runs counter-clockwise
    *  seen from outside its first. The centres are left out: they follow from the tetrahedra. */
   DelaunayCells cells;
+
+  /** Of the voxels in the block. */
+  TopologyPart topology;
 
   // What computing it took; not written to files.
   std::uint64_t subshapeVertices = 0; ///< boundary vertices of the subshape the engine ran on
@@ -118,6 +126,7 @@ struct JoinedCells
 {
   std::vector<LatticePoint> points;
   DelaunayCells             cells;
+  TopologyNumbers           topology; ///< of the shape, from the blocks' voxels
 };
 
 /** Gives share number i of those to join, from a file perhaps. */

@@ -63,6 +63,15 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     false,
     kCore,
     "Compute block K of --blocks, counted from 1, into the folder OUT/; each can run on its own machine" },
+  { "block-size",
+    "--block-size",
+    Integer,
+    "N",
+    "",
+    false,
+    kCore,
+    "Instead of --blocks: cut the scan into blocks of N voxels a side; a block reads the voxels it needs, and none the "
+    "whole scan" },
   { "join", "--join", Input, "DIR", "", false, kCore, "Combine the blocks in DIR; the result is that of a single run" },
 });
 
