@@ -210,7 +210,7 @@ TEST_F(BlockJob, ABlockOfAStoreReadsItsChunksAlone)
       options.core.force = true;
       EXPECT_EQ(RunBlockJob(options).parts.at(0).boundaryVertices, points.size()) << "of the whole";
     }
-    const DelaunayCells joined = Join(points, name);
+    const DelaunayCells joined = Join(points, ComputeShapeTopology(shape), name);
     EXPECT_TRUE(joined.centres == whole.centres);
     EXPECT_TRUE(joined.facetCells == whole.facetCells);
     EXPECT_TRUE(joined.facetPoints == whole.facetPoints);

@@ -18,7 +18,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::int64_t kMostBlocks = std::int64_t{ 1 } << 20;
+constexpr std::int64_t kMostInGrid = std::int64_t{ 1 } << 20;
 constexpr std::int32_t kMargin = 16; // voxels read around a block at first: thin parts need no more
 
 VoxelBox
@@ -94,9 +94,9 @@ PlanGrid(const VoxelBox & scan, const SpacingWeights & weights, std::int32_t sid
   {
     count *= (std::int64_t{ length } + side - 1) / side;
   }
-  if (count > kMostBlocks)
+  if (count > kMostInGrid)
   {
-    throw UsageError("blocks of " + std::to_string(side) + " voxels would be more than " + std::to_string(kMostBlocks) +
+    throw UsageError("blocks of " + std::to_string(side) + " voxels would be more than " + std::to_string(kMostInGrid) +
                      "; make them larger");
   }
   RequireExactRange(scan.size, weights);
