@@ -175,8 +175,8 @@ TEST_F(Shares, DamagedAnywhereAreRefused)
   }
   EXPECT_NE(MessageOf<InputError>([&] { Read(bytes + "x"); }).find("goes on after its end"), std::string::npos);
   std::string newer = bytes;
-  newer[8] = 2;
-  EXPECT_NE(MessageOf<InputError>([&] { Read(newer); }).find("version 2"), std::string::npos);
+  newer[8] = 3;
+  EXPECT_NE(MessageOf<InputError>([&] { Read(newer); }).find("version 3"), std::string::npos);
 }
 
 TEST_F(Shares, ThatCannotBeWrittenAreReported)
