@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr std::size_t    largePage = std::size_t{ 2 } << 20;
-constexpr std::size_t    worthIt = 8 * largePage;
+constexpr std::size_t    worthIt = 2 * largePage;
 constexpr std::uintptr_t insidePage = largePage - 1;
 
 // Left to itself, malloc() learns from arrays of up to 32 MB that it should keep such memory for later.

@@ -88,14 +88,16 @@ TimesByTrying(const MedialComplex & surface, double sampling)
     }
     for (std::size_t vertex = 0; vertex < cells.vertexCount; ++vertex)
     {
-      std::map<ElementIndex, std::vector<std::uint32_t>> seams;
+      std::vector<std::uint32_t> seam;
       for (std::uint32_t i = network.seamEndOffsets[vertex]; i < network.seamEndOffsets[vertex + 1]; ++i)
       {
-        seams[network.seamEnds[i].edge].push_back(network.seamEnds[i].sector);
-      }
-      for (const auto & [edge, seam] : seams)
-      {
-        free(seam);
+        const BurnNetwork::SeamEnd end = network.seamEnds[i];
+        seam.push_back(network.vertexSectorOffsets[vertex] + (end & ~BurnNetwork::kLastAtSeam));
+        if ((end & BurnNetwork::kLastAtSeam) != 0)
+        {
+          free(seam);
+          seam.clear();
+        }
       }
     }
     for (std::uint32_t point = static_cast<std::uint32_t>(cells.vertexCount); point < network.PointCount(); ++point)

@@ -61,8 +61,10 @@ Bucket(std::size_t                       keys,
   }
 }
 
+} // namespace
+
 /** Sectors around one vertex, kept between vertices to save allocations. */
-struct Fan
+struct BurnNetwork::Fan
 {
   /** An edge of a corner. */
   struct Side
@@ -79,10 +81,9 @@ struct Fan
     std::uint32_t       rank;
   };
 
-  std::vector<Corner> corners;
+  std::vector<Corner>                                 corners;
+  std::vector<std::pair<ElementIndex, std::uint32_t>> seamEnds; ///< edges and sectors
 };
-
-} // namespace
 
 BurnNetwork::BurnNetwork(const MedialComplex & complex, double sampling)
   : m_Complex(&complex)
@@ -211,22 +212,33 @@ BurnNetwork::FindSectors(std::size_t firstVertex, std::size_t lastVertex)
     }
     if (part.open.size() > firstSector + std::size_t{ 1 })
     {
-      for (const Fan::Corner & corner : fan.corners)
-      {
-        for (const Fan::Side & side : corner.sides)
-        {
-          if (side.faces >= 3)
-          {
-            part.seamEnds.push_back({ side.edge, corner.rank });
-          }
-        }
-      }
-      std::sort(part.seamEnds.begin() + firstEnd, part.seamEnds.end(), [](const SeamEnd & a, const SeamEnd & b) {
-        return a.edge != b.edge ? a.edge < b.edge : a.sector < b.sector;
-      });
+      FindSeamEnds(fan, firstSector, part.seamEnds);
     }
   }
   return part;
+}
+
+void
+BurnNetwork::FindSeamEnds(Fan & fan, std::uint32_t firstSector, std::vector<SeamEnd> & seamEnds)
+{
+  fan.seamEnds.clear();
+  for (const Fan::Corner & corner : fan.corners)
+  {
+    for (const Fan::Side & side : corner.sides)
+    {
+      if (side.faces >= 3)
+      {
+        fan.seamEnds.emplace_back(side.edge, corner.rank - firstSector);
+      }
+    }
+  }
+  std::sort(fan.seamEnds.begin(), fan.seamEnds.end());
+  for (std::size_t i = 0; i < fan.seamEnds.size(); ++i)
+  {
+    const auto & [edge, sector] = fan.seamEnds[i];
+    const bool isLast = i + 1 == fan.seamEnds.size() || fan.seamEnds[i + 1].first != edge;
+    seamEnds.push_back(sector | (isLast ? kLastAtSeam : 0));
+  }
 }
 
 void
@@ -252,13 +264,10 @@ BurnNetwork::BuildSectors()
   {
     const auto firstSector = static_cast<std::uint32_t>(openSector.size());
     const auto firstEnd = static_cast<std::uint32_t>(seamEnds.size());
-    RequireIndexable(openSector.size() + part.open.size(), "sectors");
+    RequireIndexable(openSector.size() + part.open.size(), "sectors"); // of a vertex they are fewer than 2^31
     openSector.insert(openSector.end(), part.open.begin(), part.open.end());
-    for (SeamEnd & end : part.seamEnds)
-    {
-      end.sector += firstSector;
-    }
     seamEnds.insert(seamEnds.end(), part.seamEnds.begin(), part.seamEnds.end());
+    std::vector<SeamEnd>().swap(part.seamEnds);
     RunInParts(worthIt && firstSector > 0,
                part.lastVertex - part.firstVertex,
                [&](std::size_t first, std::size_t last) {
@@ -303,6 +312,16 @@ BurnNetwork::BuildSides()
       }
     }
   });
+}
+
+void
+BurnNetwork::EndFire()
+{
+  std::vector<std::uint32_t>().swap(vertexFaceOffsets);
+  std::vector<std::uint32_t>().swap(vertexFaces);
+  std::vector<std::uint8_t>().swap(openSector);
+  std::vector<std::uint32_t>().swap(seamEndOffsets);
+  std::vector<SeamEnd>().swap(seamEnds);
 }
 
 } // namespace voxelcore

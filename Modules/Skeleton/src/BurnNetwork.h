@@ -46,12 +46,11 @@ struct BurnNetwork
     std::uint32_t face;
   };
 
-  /** A sector of a vertex that ends in a seam: an edge with three faces or more. */
-  struct SeamEnd
-  {
-    ElementIndex  edge;
-    std::uint32_t sector;
-  };
+  /** A sector of a vertex that ends in a seam, an edge with three faces or more: which of the vertex' sectors it is,
+   *  with the bit below where the next one ends in another seam. */
+  using SeamEnd = std::uint32_t;
+
+  static constexpr SeamEnd kLastAtSeam = 0x80000000U;
 
   /** `complex` must outlive the object. \throws InputError above 2^32 - 2 points or sectors. */
   BurnNetwork(const MedialComplex & complex, double sampling);
@@ -68,6 +67,10 @@ struct BurnNetwork
   std::vector<std::uint8_t>  openSector;          ///< per sector of a vertex: 1 when it ends in an edge with one face
   std::vector<std::uint32_t> seamEndOffsets;      ///< vertices + 1 entries
   std::vector<SeamEnd>       seamEnds;            ///< at each vertex with several sectors, edge by edge
+
+  /** Gives back what only fire asks for. */
+  void
+  EndFire();
 
   std::size_t
   PointCount() const
@@ -195,6 +198,8 @@ private:
   BuildIncidence();
   void
   PlaceSamples(double sampling);
+  struct Fan;
+
   /** Sectors of some vertices, numbered from 0 on. */
   struct SectorPart
   {
@@ -206,6 +211,8 @@ private:
 
   SectorPart
   FindSectors(std::size_t firstVertex, std::size_t lastVertex);
+  static void
+  FindSeamEnds(Fan & fan, std::uint32_t firstSector, std::vector<SeamEnd> & seamEnds);
   void
   BuildSectors();
   void

@@ -2,6 +2,8 @@
 
 #include "SurfaceFire.h"
 
+#include "voxelcore/ParallelTasks.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -58,20 +60,8 @@ SurfaceFire::TimeOfEdge(ElementIndex edge, const std::vector<double> & vertices)
 BurnTimes
 SurfaceFire::Times() const
 {
-  BurnTimes times;
-  times.vertices.resize(m_Cells.vertexCount);
-  for (std::uint32_t vertex = 0; vertex < m_Cells.vertexCount; ++vertex)
-  {
-    times.vertices[vertex] = TimeOfVertex(vertex);
-  }
-  times.edges.resize(m_Cells.edges.size());
-  for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
-  {
-    times.edges[edge] = TimeOfEdge(edge, times.vertices);
-  }
-  times.faces.resize(m_Cells.FaceCount());
-  for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
-  {
+  BurnTimes  times;
+  const auto timeOfFace = [&](std::size_t face) {
     const std::uint64_t first = m_Cells.faceOffsets[face];
     const std::uint64_t end = m_Cells.faceOffsets[face + 1];
     double              sum = 0;
@@ -79,8 +69,21 @@ SurfaceFire::Times() const
     {
       sum += std::abs(m_Times[m_Network.sides[corner].sector[0]]);
     }
-    times.faces[face] = sum / static_cast<double>(end - first);
-  }
+    return sum / static_cast<double>(end - first);
+  };
+  const auto fill = [&](std::vector<double> & values, std::size_t count, const auto & timeOf) {
+    values.resize(count);
+    RunInParts(count > 10000, count, [&](std::size_t first, std::size_t last) {
+      for (std::size_t element = first; element < last; ++element)
+      {
+        values[element] = timeOf(element);
+      }
+    });
+  };
+  const auto index = [](std::size_t element) { return static_cast<ElementIndex>(element); };
+  fill(times.vertices, m_Cells.vertexCount, [&](std::size_t vertex) { return TimeOfVertex(index(vertex)); });
+  fill(times.edges, m_Cells.edges.size(), [&](std::size_t edge) { return TimeOfEdge(index(edge), times.vertices); });
+  fill(times.faces, m_Cells.FaceCount(), timeOfFace);
   return times;
 }
 

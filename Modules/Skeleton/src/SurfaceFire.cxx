@@ -11,18 +11,9 @@ namespace voxelcore
 namespace
 {
 
-// Vertices whose data, with their share of edges and faces, are half a megabyte.
-constexpr std::size_t kBlock = 2048;
-
 // In sample distances: so little of a block that fire has come through burns again, as fire comes over its border, and
 // so rarely threads wait for each other.
-constexpr double kWindow = 3;
-
-// Corners and samples that fit the bits of SurfaceFire::m_Small.
-constexpr std::size_t kMostSides = 8;
-
-// In a face of so many points fire spreads over all of it faster than it finds out whether that is of use.
-constexpr std::uint32_t kSmallFace = 16;
+constexpr double kWindow = 6;
 
 } // namespace
 
@@ -35,79 +26,6 @@ SurfaceFire::SurfaceFire(const MedialComplex & complex, double sampling)
 {
   CutBlocks();
   FindFaces();
-}
-
-void
-SurfaceFire::CutBlocks()
-{
-  const std::size_t count = std::max<std::size_t>(1, m_Cells.vertexCount / kBlock);
-  std::size_t       firstEdge = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    Block block;
-    block.firstVertex = static_cast<std::uint32_t>(m_Cells.vertexCount * i / count);
-    block.lastVertex = static_cast<std::uint32_t>(m_Cells.vertexCount * (i + 1) / count);
-    // Edges go with their first end, where they are in order; any other cut is as right.
-    const auto last = std::partition_point(m_Cells.edges.begin() + static_cast<std::ptrdiff_t>(firstEdge),
-                                           m_Cells.edges.end(),
-                                           [&](const auto & ends) { return ends[0] < block.lastVertex; });
-    const auto lastEdge =
-      i + 1 == count ? m_Cells.edges.size() : static_cast<std::size_t>(last - m_Cells.edges.begin());
-    block.firstSample = m_Network.edgeFirst[firstEdge].point;
-    block.lastSample = m_Network.edgeFirst[lastEdge].point;
-    firstEdge = lastEdge;
-    m_Blocks.push_back(std::move(block));
-  }
-}
-
-std::size_t
-SurfaceFire::OwnerOf(std::uint32_t point) const
-{
-  const bool isVertex = point < m_Cells.vertexCount;
-  const auto after = std::partition_point(m_Blocks.begin(), m_Blocks.end(), [&](const Block & block) {
-    return (isVertex ? block.lastVertex : block.lastSample) <= point;
-  });
-  return static_cast<std::size_t>(after - m_Blocks.begin());
-}
-
-void
-SurfaceFire::FindFaces()
-{
-  m_Small.assign(m_Cells.FaceCount(), 0);
-  for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
-  {
-    const auto    edges = m_Cells.FaceEdges(face);
-    std::uint32_t points = 0;
-    std::uint32_t mostSamples = 0;
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < edges.size(); ++i)
-    {
-      const std::uint32_t samples = m_Network.SampleCount(edges[i]);
-      points += 1 + samples;
-      mostSamples = std::max(mostSamples, samples);
-      bits |= i < kMostSides ? (samples > 0 ? 3U : 1U) << (2 * i) : 0;
-    }
-    if (edges.size() <= kMostSides && mostSamples <= 1)
-    {
-      m_Small[face] = static_cast<std::uint16_t>(bits);
-    }
-    else if (points > kSmallFace)
-    {
-      const Block & block = m_Blocks[OwnerOf(m_Cells.FaceVertices(face).front())];
-      const auto    isHere = [&](ElementIndex edge) {
-        const std::uint32_t first = m_Network.edgeFirst[edge].point;
-        return block.Has(m_Cells.edges[edge][0], m_Cells.vertexCount) &&
-               block.Has(m_Cells.edges[edge][1], m_Cells.vertexCount) &&
-               (m_Network.SampleCount(edge) == 0 || block.Has(first, m_Cells.vertexCount));
-      };
-      if (std::all_of(edges.begin(), edges.end(), isHere))
-      {
-        m_FaceEntries.resize(m_Cells.FaceCount(), Entries::none);
-        m_FaceEntries[face] = static_cast<std::uint32_t>(m_Entries.size());
-        m_Entries.emplace_back();
-      }
-    }
-  }
 }
 
 void
@@ -188,6 +106,11 @@ SurfaceFire::Run(const ProgressCallback & progress)
       RunEach(active.size(), burn);
     }
   }
+  std::vector<Block>().swap(m_Blocks);
+  std::vector<Entries>().swap(m_Entries);
+  std::vector<std::uint32_t>().swap(m_FaceEntries);
+  std::vector<std::uint16_t>().swap(m_Small);
+  m_Network.EndFire();
   return Times();
 }
 
@@ -388,17 +311,19 @@ SurfaceFire::BurnFreed(Queue & queue, std::uint32_t point, const SectorRange & r
   {
     return BurnLast(queue, range.count, [&](std::uint32_t i) { return range.first + i * range.stride; });
   }
-  const auto *        ends = m_Network.seamEnds.data();
-  const std::uint32_t all = m_Network.seamEndOffsets[point + std::size_t{ 1 }];
-  bool                isNews = false;
+  const BurnNetwork::SeamEnd * ends = m_Network.seamEnds.data();
+  const std::uint32_t          all = m_Network.seamEndOffsets[point + std::size_t{ 1 }];
+  bool                         isNews = false;
   for (std::uint32_t first = m_Network.seamEndOffsets[point]; first < all;)
   {
-    std::uint32_t next = first;
-    while (next < all && ends[next].edge == ends[first].edge)
+    std::uint32_t next = first + 1;
+    while ((ends[next - 1] & BurnNetwork::kLastAtSeam) == 0)
     {
       ++next;
     }
-    isNews |= BurnLast(queue, next - first, [&](std::uint32_t i) { return ends[first + i].sector; });
+    isNews |= BurnLast(queue, next - first, [&](std::uint32_t i) {
+      return range.first + (ends[first + i] & ~BurnNetwork::kLastAtSeam);
+    });
     first = next;
   }
   return isNews;

@@ -35,7 +35,8 @@ struct Entries
  *  in, so neither queue nor threads change a bit of it. Times are bounds that only fall: within a block of points near
  *  each other, which fits a cache, in nearly the order in which they burn; in rounds over all blocks side by side, with
  *  what fire carries from one to another handed over in between; until none changes before the end of a window of
- *  time, then in the next. SurfaceFire.cxx has blocks and windows, FireSpread.cxx how fire goes on from a point. */
+ *  time, then in the next. FireBlocks.cxx cuts blocks, SurfaceFire.cxx has windows, and FireSpread.cxx how fire goes on
+ *  from a point. */
 class SurfaceFire
 {
 public:
@@ -113,6 +114,10 @@ private:
 
   void
   FindFaces();
+
+  /** Whether all points of a face are. */
+  bool
+  IsOfOneBlock(std::size_t face) const;
 
   void
   Ignite();
