@@ -34,10 +34,12 @@ EndTolerances(ToleranceValues & values, const ImageGeometry & geometry)
   const double end = ScanDiagonal(geometry);
   for (auto * one : { &values.vertices, &values.edges, &values.faces })
   {
-    for (double & value : *one)
-    {
-      value = std::min(value, end);
-    }
+    RunInParts(one->size() > 10000, one->size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        (*one)[i] = std::min((*one)[i], end);
+      }
+    });
   }
 }
 

@@ -2,6 +2,7 @@
 // Whether an element is still there, and what is asked of it meanwhile and afterwards.
 
 #include "voxelcore/CellComplex.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <bit>
 #include <cstdint>
@@ -75,12 +76,13 @@ private:
 inline std::vector<double>
 HeightsOf(const std::vector<RemainingElements> & elements)
 {
-  std::vector<double> heights;
-  heights.reserve(elements.size());
-  for (const RemainingElements & element : elements)
-  {
-    heights.push_back(element.IsLive() ? std::numeric_limits<double>::infinity() : element.Height());
-  }
+  std::vector<double> heights(elements.size());
+  RunInParts(elements.size() > 10000, elements.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      heights[i] = elements[i].IsLive() ? std::numeric_limits<double>::infinity() : elements[i].Height();
+    }
+  });
   return heights;
 }
 

@@ -259,13 +259,15 @@ std::vector<double>
 RimFire::TakeFaceHeights()
 {
   std::vector<double> heights(m_Cells.FaceCount());
-  for (std::size_t face = 0; face < heights.size(); ++face)
-  {
-    const Word level = m_Faces[m_Cells.faceOffsets[face]];
-    heights[face] = level == kThere         ? std::numeric_limits<double>::infinity()
-                    : level == kFloorTookIt ? kBelowFloor
-                                            : m_Levels.Height(level);
-  }
+  RunInParts(heights.size() > 10000, heights.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t face = first; face < last; ++face)
+    {
+      const Word level = m_Faces[m_Cells.faceOffsets[face]];
+      heights[face] = level == kThere         ? std::numeric_limits<double>::infinity()
+                      : level == kFloorTookIt ? kBelowFloor
+                                              : m_Levels.Height(level);
+    }
+  });
   std::vector<Word>().swap(m_Faces);
   return heights;
 }

@@ -7,7 +7,6 @@
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/TolerancePruning.h"
 
-#include "voxelcore/Stopwatch.h"
 #include <algorithm>
 #include <condition_variable>
 #include <functional>
@@ -159,10 +158,12 @@ ComputeTolerances(const MedialComplex &             core,
   std::vector<CoreBall>().swap(balls);
   values.faces = fire->TakeFaceHeights();
   values.edges = fire->TakeEdgeHeights();
-  for (const auto & [edge, vertex] : edgesOfEnds)
-  {
-    values.edges[edge] = values.vertices[vertex];
-  }
+  RunInParts(edgesOfEnds.size() > 10000, edgesOfEnds.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      values.edges[edgesOfEnds[i].first] = values.vertices[edgesOfEnds[i].second];
+    }
+  });
   return values;
 }
 

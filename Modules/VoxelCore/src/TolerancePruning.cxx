@@ -4,9 +4,11 @@
 #include "voxelcore/LengthText.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -27,10 +29,47 @@ std::vector<std::uint8_t>
 AtLeast(const std::vector<double> & values, double height)
 {
   std::vector<std::uint8_t> live(values.size());
-  std::transform(values.begin(), values.end(), live.begin(), [height](double value) {
-    return value >= height ? 1 : 0;
+  RunInParts(values.size() > 10000, values.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      live[i] = values[i] >= height ? 1 : 0;
+    }
   });
   return live;
+}
+
+// The squared radius of each cell in lattice units. All points of a cell lie on its sphere: the first one of its first
+// facet gives it.
+std::vector<double>
+SquaredRadii(const DelaunayCells &                      cells,
+             const std::vector<LatticePoint> &          points,
+             const SpacingWeights &                     weights,
+             const std::vector<std::array<double, 3>> & places)
+{
+  std::vector<std::uint32_t> firstFacet(cells.CellCount(), 0);
+  for (std::size_t facet = cells.FacetCount(); facet-- > 0;)
+  {
+    for (const std::uint32_t cell : cells.facetCells[facet])
+    {
+      if (cell != kOutside)
+      {
+        firstFacet[cell] = static_cast<std::uint32_t>(facet);
+      }
+    }
+  }
+  std::vector<double> squared(cells.CellCount());
+  RunInParts(cells.CellCount() > 10000, cells.CellCount(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t cell = first; cell < last; ++cell)
+    {
+      const LatticePoint & p = points[cells.FacetPoints(firstFacet[cell]).front()];
+      const auto &         c = places[cell];
+      const double         dx = static_cast<double>(weights.weight[0]) * (c[0] - (p.x - points[0].x));
+      const double         dy = static_cast<double>(weights.weight[1]) * (c[1] - (p.y - points[0].y));
+      const double         dz = static_cast<double>(weights.weight[2]) * (c[2] - (p.z - points[0].z));
+      squared[cell] = dx * dx + dy * dy + dz * dz;
+    }
+  });
+  return squared;
 }
 
 } // namespace
@@ -109,37 +148,29 @@ LargestTouchingBalls(const DelaunayCells &             cells,
       balls.places[static_cast<std::size_t>(cell)][axis] = CentreCoordinate(sphere, axis, weights);
     }
   }
-  // All points of a cell lie on its sphere: one of them gives its radius.
-  std::vector<double> squared(cells.CellCount(), -1.0);
-  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
-  {
-    const auto facetPoints = cells.FacetPoints(facet);
-    for (const std::uint32_t cell : cells.facetCells[facet])
+  const std::vector<double> squared = SquaredRadii(cells, points, weights, balls.places);
+  const auto                isLarger = [&](ElementIndex cell, ElementIndex than) {
+    return than == kOutside || squared[cell] > squared[than] || (squared[cell] == squared[than] && cell < than);
+  };
+  const auto offer = [&](ElementIndex cell, std::uint32_t point) {
+    const std::atomic_ref largest(balls.largest[point]); // what is largest does not depend on who comes first
+    ElementIndex          old = largest.load(std::memory_order_relaxed);
+    while (isLarger(cell, old) && !largest.compare_exchange_weak(old, cell, std::memory_order_relaxed))
+    {}
+  };
+  RunInParts(cells.FacetCount() > 10000, cells.FacetCount(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t facet = first; facet < last; ++facet)
     {
-      if (cell == kOutside)
+      const auto facetPoints = cells.FacetPoints(facet);
+      for (const std::uint32_t cell : cells.facetCells[facet])
       {
-        continue;
-      }
-      if (squared[cell] < 0)
-      {
-        const LatticePoint & p = points[facetPoints.front()];
-        const auto &         c = balls.places[cell];
-        const double         dx = static_cast<double>(weights.weight[0]) * (c[0] - (p.x - points[0].x));
-        const double         dy = static_cast<double>(weights.weight[1]) * (c[1] - (p.y - points[0].y));
-        const double         dz = static_cast<double>(weights.weight[2]) * (c[2] - (p.z - points[0].z));
-        squared[cell] = dx * dx + dy * dy + dz * dz;
-      }
-      for (const std::uint32_t point : facetPoints)
-      {
-        ElementIndex & largest = balls.largest[point];
-        if (largest == kOutside || squared[cell] > squared[largest] ||
-            (squared[cell] == squared[largest] && cell < largest))
+        if (cell != kOutside)
         {
-          largest = cell;
+          std::ranges::for_each(facetPoints, [&](std::uint32_t point) { offer(cell, point); });
         }
       }
     }
-  }
+  });
   return balls;
 }
 
