@@ -10,7 +10,7 @@ namespace voxelcore
 struct CentredCell
 {
   std::array<double, 3> centre;      ///< lattice coordinates, rounded
-  double                denominator; ///< of the exact coordinates, at most
+  float                 denominator; ///< of the exact coordinates, at most
   std::uint32_t         cell;
 };
 

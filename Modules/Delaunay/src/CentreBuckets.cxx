@@ -1,0 +1,203 @@
+#include "CentreBuckets.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+CircumSphere
+SphereOf(const DelaunayCells &             cells,
+         std::uint32_t                     cell,
+         const std::vector<LatticePoint> & points,
+         const SpacingWeights &            weights)
+{
+  const auto & t = cells.tetrahedra[cell];
+  return MakeCircumSphere(points[t[0]], points[t[1]], points[t[2]], points[t[3]], weights);
+}
+
+using Integers3 = std::array<std::int64_t, 3>;
+
+Integers3
+CrossOf(const Integers3 & a, const Integers3 & b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+// The centre of a small cell not far from the origin: where numerator and denominator of a coordinate are doubles,
+// their quotient is rounded once. False where they are not.
+bool
+CentreInDoubles(const std::array<LatticePoint, 4> & corners, const SpacingWeights & weights, CentredCell & entry)
+{
+  constexpr std::int64_t   widest = 63;        // so that sums of products below stay under 2^29 w^2,
+  constexpr std::int64_t   heaviest = 1024;    // under 2^49,
+  constexpr std::int64_t   farthest = 1 << 20; // and denominators times places under 2^62
+  std::array<Integers3, 3> side{};
+  Integers3                square{};
+  const Integers3          base{ corners[0].x, corners[0].y, corners[0].z };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    side[i] = { corners[i + 1].x - base[0], corners[i + 1].y - base[1], corners[i + 1].z - base[2] };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::int64_t w = weights.weight[axis];
+      if (std::abs(side[i][axis]) > widest || w > heaviest || std::abs(base[axis]) > farthest)
+      {
+        return false;
+      }
+      square[i] += w * w * side[i][axis] * side[i][axis];
+    }
+  }
+  const std::array<Integers3, 3> minors{ CrossOf(side[1], side[2]),
+                                         CrossOf(side[2], side[0]),
+                                         CrossOf(side[0], side[1]) };
+  const std::int64_t det = side[0][0] * minors[0][0] + side[0][1] * minors[0][1] + side[0][2] * minors[0][2];
+  std::int64_t       greatest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t w = weights.weight[axis];
+    greatest = std::max(greatest, w);
+    const std::int64_t n = square[0] * minors[0][axis] + square[1] * minors[1][axis] + square[2] * minors[2][axis];
+    const std::int64_t q = 2 * w * w * std::abs(det);
+    const std::int64_t p = base[axis] * q + (det < 0 ? -n : n);
+    if (det == 0 || std::abs(p) > (std::int64_t{ 1 } << 53) || q > (std::int64_t{ 1 } << 53))
+    {
+      return false;
+    }
+    entry.centre[axis] = static_cast<double>(p) / static_cast<double>(q);
+  }
+  entry.denominator = 1.000001F * static_cast<float>(2 * std::abs(det) * greatest * greatest);
+  return true;
+}
+
+} // namespace
+
+CentredCell
+CentreOf(const DelaunayCells &             cells,
+         std::uint32_t                     cell,
+         const std::vector<LatticePoint> & points,
+         const SpacingWeights &            weights)
+{
+  const auto &                      t = cells.tetrahedra[cell];
+  const std::array<LatticePoint, 4> corners{ points[t[0]], points[t[1]], points[t[2]], points[t[3]] };
+  CentredCell                       entry{ {}, 2.0F, cell };
+  // Half of all cells lie in one voxel each, whatever its sides: their spheres have its middle.
+  const auto [lowX, highX] = std::minmax({ corners[0].x, corners[1].x, corners[2].x, corners[3].x });
+  const auto [lowY, highY] = std::minmax({ corners[0].y, corners[1].y, corners[2].y, corners[3].y });
+  const auto [lowZ, highZ] = std::minmax({ corners[0].z, corners[1].z, corners[2].z, corners[3].z });
+  if (highX - lowX <= 1 && highY - lowY <= 1 && highZ - lowZ <= 1)
+  {
+    entry.centre = { lowX + 0.5, lowY + 0.5, lowZ + 0.5 };
+    return entry;
+  }
+  if (CentreInDoubles(corners, weights, entry))
+  {
+    return entry;
+  }
+  const auto         greatest = static_cast<double>(*std::max_element(weights.weight.begin(), weights.weight.end()));
+  const CircumSphere sphere = MakeCircumSphere(corners[0], corners[1], corners[2], corners[3], weights);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    entry.centre[axis] = CentreCoordinate(sphere, axis, weights);
+  }
+  entry.denominator = 1.000001F * static_cast<float>(2.0 * static_cast<double>(sphere.det) * greatest * greatest);
+  return entry;
+}
+
+int
+CentreOrder::CompareExactly(const CentredCell & a, const CentredCell & b, std::size_t axis) const
+{
+  return CompareCentreCoordinates(SphereOf(m_Cells, a.cell, m_Points, m_Weights),
+                                  SphereOf(m_Cells, b.cell, m_Points, m_Weights),
+                                  axis,
+                                  m_Weights);
+}
+
+void
+CentreBuckets::Divide(const std::vector<CentredCell> & entries)
+{
+  std::array<double, 2> low{ HUGE_VAL, HUGE_VAL };
+  std::array<double, 2> high{ -HUGE_VAL, -HUGE_VAL };
+  std::mutex            mutex;
+  RunInParts(entries.size() > 10000, entries.size(), [&](std::size_t first, std::size_t last) {
+    std::array<double, 2> ownLow{ HUGE_VAL, HUGE_VAL };
+    std::array<double, 2> ownHigh{ -HUGE_VAL, -HUGE_VAL };
+    for (std::size_t i = first; i < last; ++i)
+    {
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        ownLow[axis] = std::min(ownLow[axis], entries[i].centre[axis]);
+        ownHigh[axis] = std::max(ownHigh[axis], entries[i].centre[axis]);
+      }
+    }
+    const std::lock_guard lock(mutex);
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      low[axis] = std::min(low[axis], ownLow[axis]);
+      high[axis] = std::max(high[axis], ownHigh[axis]);
+    }
+  });
+  if (entries.empty())
+  {
+    m_Slabs = 0;
+    return;
+  }
+  // A slab more before the first: what rounds to its whole x may lie below.
+  m_LowX = std::floor(low[0]) - 1.0;
+  m_LowY = low[1];
+  m_Slabs = static_cast<std::size_t>(high[0] - m_LowX) + 1;
+  const double length = high[1] - low[1];
+  const auto   steps = static_cast<std::size_t>(2.0 * length) + 1;
+  m_Rows = std::clamp<std::size_t>(entries.size() / (4 * m_Slabs), 1, steps);
+  m_ScaleY = length > 0.0 ? static_cast<double>(m_Rows) / length : 0.0;
+  m_Parts = std::clamp<std::size_t>(m_Rows / 4, 1, 64);
+  m_PerSlab = 2 * (m_Rows + m_Parts);
+}
+
+// Where an exact centre that rounds to x lies: -1 below, 0 at it, 1 above. x is whole or half.
+int
+CentreBuckets::SideOf(const CentredCell & entry, double x) const
+{
+  // As fractions that round to the same number: the other one's denominator is 2.
+  if (2.0 * static_cast<double>(entry.denominator) * std::abs(x) < 0x1p51)
+  {
+    return 0;
+  }
+  // Four points around a sphere whose centre has this x.
+  const auto         below = static_cast<std::int32_t>(std::ceil(x)) - 1;
+  const auto         above = static_cast<std::int32_t>(std::floor(x)) + 1;
+  const CircumSphere at =
+    MakeCircumSphere({ below, 0, 0 }, { above, 0, 0 }, { below, 1, 0 }, { below, 0, 1 }, m_Weights);
+  return CompareCentreCoordinates(SphereOf(m_Cells, entry.cell, m_Points, m_Weights), at, 0, m_Weights);
+}
+
+std::uint32_t
+CentreBuckets::Of(const CentredCell & entry) const
+{
+  const double      x = entry.centre[0];
+  const double      whole = std::floor(x);
+  const double      half = whole + 0.5;
+  const std::size_t slab = m_PerSlab * static_cast<std::size_t>(whole - m_LowX);
+  if (x == whole || x == half)
+  {
+    // Rows hold one x exactly; what lies beside it, by less than a double can tell, belongs beside them.
+    const std::size_t rows = slab + (x == half ? m_Rows + m_Parts : 0);
+    const int         side = SideOf(entry, x);
+    const auto        row = static_cast<std::size_t>((entry.centre[1] - m_LowY) * m_ScaleY);
+    return static_cast<std::uint32_t>(side < 0   ? rows - 1
+                                      : side > 0 ? rows + m_Rows
+                                                 : rows + std::min(row, m_Rows - 1));
+  }
+  const double      within = 2.0 * (x < half ? x - whole : x - half) * static_cast<double>(m_Parts);
+  const std::size_t parts = slab + (x < half ? m_Rows : 2 * m_Rows + m_Parts);
+  return static_cast<std::uint32_t>(parts + std::min(static_cast<std::size_t>(within), m_Parts - 1));
+}
+
+} // namespace voxelcore
