@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <omp.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -106,6 +108,14 @@ TEST(RunInParts, GivesEachItemOnce)
       EXPECT_TRUE(std::all_of(met.begin(), met.end(), [](int times) { return times == 1; })) << count;
     }
   }
+}
+
+TEST(RunInParts, AndRunBothEnterNoParallelRegionWhereOneThreadDoesAll)
+{
+  const testing::Threads scope(2);
+  const auto             level = [] { EXPECT_EQ(omp_get_level(), 0); };
+  RunBoth(false, level, level);
+  RunInParts(false, 5, [&](std::size_t, std::size_t) { level(); });
 }
 
 TEST(RunInParts, ThrowsOnWhatTheFirstPartThatFailsThrows)

@@ -7,6 +7,9 @@
 #include <exception>
 #include <vector>
 
+// Where there is nothing to share out no parallel region is entered, not even one of a single thread: GNU's OpenMP starts
+// and ends threads anew for each region within one.
+
 namespace voxelcore
 {
 
@@ -56,9 +59,15 @@ private:
 void
 RunBoth(bool worthIt, const std::function<void()> & first, const std::function<void()> & second)
 {
-  Failures  failures(2);
-  const int wanted = worthIt ? std::min(2, omp_get_max_threads()) : 1;
-#pragma omp parallel num_threads(wanted)
+  Failures failures(2);
+  if (!worthIt || omp_get_max_threads() == 1)
+  {
+    failures.Guard(0, first);
+    failures.Guard(1, second);
+    failures.Rethrow();
+    return;
+  }
+#pragma omp parallel num_threads(2)
   {
     if (omp_get_thread_num() == 0)
     {
@@ -76,7 +85,12 @@ void
 RunInParts(bool worthIt, std::size_t count, const std::function<void(std::size_t first, std::size_t last)> & work)
 {
   const int wanted = worthIt ? omp_get_max_threads() : 1;
-  Failures  failures(static_cast<std::size_t>(wanted));
+  if (wanted == 1)
+  {
+    work(0, count);
+    return;
+  }
+  Failures failures(static_cast<std::size_t>(wanted));
 #pragma omp parallel num_threads(wanted)
   {
     const auto parts = static_cast<std::size_t>(omp_get_num_threads());

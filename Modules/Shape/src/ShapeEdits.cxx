@@ -346,10 +346,7 @@ EditLabels(std::vector<LabelShape>  labels,
 std::vector<std::string>
 FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_t, 3> & weight)
 {
-#pragma omp parallel for schedule(dynamic, 1) if (labels.size() > 1)
-  for (std::size_t i = 0; i < labels.size(); ++i)
-  {
-    EditedLabel &                   one = labels[i];
+  const auto look = [&](EditedLabel & one) {
     std::vector<const VoxelShape *> others;
     for (const EditedLabel & other : labels)
     {
@@ -359,6 +356,18 @@ FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_
       }
     }
     one.hollow = FindHollowBody(one.label.shape, weight, others);
+  };
+  if (labels.size() == 1) // within a parallel region, even of one thread, each one in there would start threads anew
+  {
+    look(labels.front());
+  }
+  else
+  {
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t i = 0; i < labels.size(); ++i)
+    {
+      look(labels[i]);
+    }
   }
   std::vector<std::string> warnings;
   for (const EditedLabel & one : labels)
