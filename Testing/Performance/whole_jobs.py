@@ -1,14 +1,20 @@
 #!/usr/bin/python3
 """Whole jobs of voxelcore over `core --lambda 1.5vox` on the same scan: elapsed time and peak memory.
 
-usage: whole_jobs.py VOXELCORE [SCAN ...] [--repetitions 5] [--threads 2] [--labels all]
+usage: whole_jobs.py VOXELCORE [SCAN ...] [--mark PROGRAM] [--jobs NAMES] [--with WORDS] [--labels all]
+                     [--repetitions 5] [--threads 2]
 
 Without scans phantoms are made: ellipsoid 256, gyroid 128, root 512. The jobs of a repetition follow each other
 directly; medians of each are compared. For a machine with nothing else to do.
+--mark: the program that the lambda job is of, so that a faster engine does not move what others are compared with.
+--with: more words for all jobs, as "--threshold 300:inf" for a grey scan or "--resolution 384" for a mesh, for which
+there are the jobs "refine grey" and "refine mesh".
+--jobs: some of the jobs, as "skeleton; refine labels".
 """
 import argparse
 import os
 import pathlib
+import shlex
 import statistics
 import subprocess
 import sys
@@ -22,6 +28,8 @@ JOBS = {MARK: ["core", "--lambda", "1.5vox"],
         "skeleton": ["skeleton"],
         "refine labels": ["core", "--lambda", "1.5vox", "--refine", "labels"],
         "tolerance, refine, skeleton": ["core", "--refine", "labels", "--with-skeleton"]}
+MORE_JOBS = {"refine grey": ["core", "--lambda", "1.5vox", "--refine", "grey"],
+             "refine mesh": ["core", "--lambda", "1.5vox", "--refine", "mesh"]}
 
 
 def cost(command):
@@ -35,15 +43,16 @@ def cost(command):
 
 
 def compare(options, scan, folder):
-    costs = {job: [] for job in JOBS}
-    more = [] if options.labels is None else ["--labels", options.labels]
+    costs = {job: [] for job in options.chosen}
+    more = shlex.split(options.more) + ([] if options.labels is None else ["--labels", options.labels])
     for _ in range(options.repetitions):
-        for job, (command, *words) in JOBS.items():
-            costs[job].append(cost([options.voxelcore, command, str(scan), *words, *more, "--threads",
+        for job, (command, *words) in options.chosen.items():
+            program = options.mark if job == MARK else options.voxelcore
+            costs[job].append(cost([program, command, str(scan), *words, *more, "--threads",
                                     str(options.threads), "-o", str(folder / "out.vtp"), "--force", "--quiet"]))
     medians = {job: [statistics.median(column) for column in zip(*rows)] for job, rows in costs.items()}
     seconds, memory = medians[MARK]
-    cells = [f"{medians[job][0] / seconds:.2f} ({medians[job][1] / memory:.2f})" for job in JOBS if job != MARK]
+    cells = [f"{medians[job][0] / seconds:.2f} ({medians[job][1] / memory:.2f})" for job in costs if job != MARK]
     print(f"| {pathlib.Path(scan).name} | {seconds:.2f} s, {memory:.0f} MB | {' | '.join(cells)} |", flush=True)
 
 
@@ -54,9 +63,17 @@ def main():
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--labels")
+    parser.add_argument("--mark")
+    parser.add_argument("--jobs")
+    parser.add_argument("--with", dest="more", default="")
     options = parser.parse_args()
-    print("| scan | " + " | ".join(job + ("" if job == MARK else ", time (memory)") for job in JOBS) + " |")
-    print("|---" * (len(JOBS) + 1) + "|")
+    options.mark = options.mark or options.voxelcore
+    names = list(JOBS) if options.jobs is None else [MARK, *options.jobs.split("; ")]
+    if unknown := [name for name in names if name not in JOBS | MORE_JOBS]:
+        parser.error(f"no such job: {', '.join(unknown)}; there are: {'; '.join(JOBS | MORE_JOBS)}")
+    options.chosen = {name: (JOBS | MORE_JOBS)[name] for name in names}
+    print("| scan | " + " | ".join(job + ("" if job == MARK else ", time (memory)") for job in names) + " |")
+    print("|---" * (len(names) + 1) + "|")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for scan in options.scans:
