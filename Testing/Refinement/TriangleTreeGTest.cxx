@@ -53,6 +53,69 @@ TEST(TriangleTree, FindsWhatTryingAllTrianglesFinds)
   }
 }
 
+// Of many triangles, large and tiny, some as thin as a thread, far from the origin, and asked for from near and far: the
+// one that is found by trying all, to the last bit.
+TEST(TriangleTree, FindsTheVeryTriangleThatTryingAllFinds)
+{
+  Random random(23);
+  for (const double size : { 1e-3, 1.0, 200.0 })
+  {
+    const Vector3                             middle{ 40 * size, -7 * size, 1e3 * random.Unit() };
+    std::vector<Vector3>                      vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    const auto                                near = [&](const Vector3 & at, double far) {
+      Vector3 place = at;
+      for (double & along : place)
+      {
+        along += far * (2 * random.Unit() - 1);
+      }
+      return place;
+    };
+    for (std::uint32_t i = 0; i < 3000; ++i)
+    {
+      const Vector3 at = near(middle, size);
+      const double  side = size * (i % 7 == 0 ? 0.5 : 0.02);
+      vertices.push_back(at);
+      vertices.push_back(near(at, side));
+      vertices.push_back(i % 11 == 0 ? near(vertices.back(), 1e-9 * size) : near(at, side));
+      triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
+      if (i % 13 == 0) // a neighbour over a side, and a second one of the same
+      {
+        triangles.push_back({ 3 * i, 3 * i + 1, static_cast<std::uint32_t>(3 * random.Between(0, i)) });
+        triangles.push_back({ 3 * i + 1, 3 * i + 2, 3 * i });
+      }
+    }
+    const TriangleTree tree(vertices, triangles);
+    for (int i = 0; i < 300; ++i)
+    {
+      const Vector3 place = near(i % 3 == 0 ? vertices[static_cast<std::size_t>(i)] : middle,
+                                 i % 3 == 0 ? 1e-3 * size : (i % 3 == 1 ? size : 30 * size));
+      TriangleTree::Nearest asked;
+      asked.squaredDistance = 1e300;
+      for (std::uint32_t triangle = 0; triangle < triangles.size(); ++triangle)
+      {
+        const auto & [a, b, c] = triangles[triangle];
+        const Vector3 at = NearestOnTriangle(place, { vertices[a], vertices[b], vertices[c] });
+        const double  x = place[0] - at[0];
+        const double  y = place[1] - at[1];
+        const double  z = place[2] - at[2];
+        const double  squared = x * x + y * y + z * z;
+        if (squared < asked.squaredDistance)
+        {
+          asked = { at, squared, triangle };
+        }
+      }
+      const auto likely = static_cast<std::uint32_t>(random.Between(0, static_cast<std::int64_t>(triangles.size())));
+      for (const auto & found : { tree.FindNearest(place, 1e9), tree.FindNearest(place, 1e9, likely) })
+      {
+        ASSERT_EQ(found.triangle, asked.triangle) << "seed 23, size " << size << ", place " << i;
+        ASSERT_EQ(found.squaredDistance, asked.squaredDistance);
+        ASSERT_EQ(found.point, asked.point);
+      }
+    }
+  }
+}
+
 TEST(TriangleTree, OfEquallyNearTrianglesTheFirstIsFound)
 {
   const std::vector<Vector3>                      vertices{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };

@@ -166,11 +166,36 @@ private:
     }
     if (Refines(m_Request))
     {
-      m_Kept.core = core;
+      KeepPlaces(core);
     }
     m_Whole.core = ToPhysical(std::move(core), geometry, 0);
     m_Whole.numbers.lambda = "0";
     seconds.core += watch.Lap();
+  }
+
+  /** For TakeBack(): where nothing but its positions will change, these are enough. */
+  void
+  KeepPlaces(const MedialComplex & core)
+  {
+    if (IsLeftHanded(m_Result.shape.geometry)) // polygons are turned round, too
+    {
+      m_Kept.core = core;
+    }
+    else
+    {
+      m_Kept.core.positions = core.positions;
+    }
+  }
+
+  /** The whole core as it was before it was moved to LPS mm. */
+  void
+  TakeBack(MedialComplex whole)
+  {
+    if (!IsLeftHanded(m_Result.shape.geometry))
+    {
+      whole.positions = std::move(m_Kept.core.positions);
+      m_Kept.core = std::move(whole);
+    }
   }
 
   void
@@ -234,8 +259,13 @@ private:
       RefinementTask task;
       if (RefinesCores(m_Request))
       {
+        TakeBack(std::move(m_Whole.core.core));
         m_Whole = CertifiedCore();
         task.asked = Asked();
+      }
+      else
+      {
+        TakeBack(m_Whole.core.core);
       }
       if (RefinesCurves(m_Request))
       {

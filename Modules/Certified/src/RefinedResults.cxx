@@ -168,28 +168,44 @@ RefineAndCertify(const VoxelShape &       voxels,
                  RefinementTask           task,
                  const ProgressCallback & progress)
 {
-  const auto          surface = source(voxels, PartOfProgress(progress, "surface", 0, 0.3));
-  RefinementInput     input{ &voxels,       &parts.points,          &parts.core, &parts.edgePoints,
-                         surface.get(), shape.geometry.spacing, false };
   std::vector<double> thresholdsMm;
+  bool                byTolerance = false;
   for (const CoreNumbers & one : task.asked)
   {
     thresholdsMm.push_back(one.tolerance ? one.tolerance->heightMm : one.lambdaMm);
-    input.byTolerance = one.tolerance.has_value();
+    byTolerance = one.tolerance.has_value();
   }
+  // What is not refined goes before there is a surface, which takes most memory. Each threshold goes on from where the
+  // last one stopped.
+  const std::vector<double> ascending = AscendingBeyond(-HUGE_VAL, thresholdsMm);
+  auto left = LeftToRefine(parts.core, ascending, byTolerance, PartOfProgress(progress, "refine", 0, 0.05));
+  std::vector<LiveElements> curves;
   if (task.curves)
   {
-    input.parts.push_back(ElementsOf(task.curves->curves.inSurface, parts.core.cells));
+    curves.push_back(ElementsOf(task.curves->curves.inSurface, parts.core.cells));
   }
-  // Each threshold goes on from where the last one stopped.
-  const std::vector<double>  ascending = AscendingBeyond(-HUGE_VAL, thresholdsMm);
-  const auto                 refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.3, 1));
+  std::vector<LatticePoint> points = parts.points;
+  KeepToRefine(shape.geometry.spacing, parts.core, parts.edgePoints, points, left, curves);
+  std::vector<RefinedCore> refined;
+  {
+    const auto      surface = source(voxels, PartOfProgress(progress, "surface", 0.05, 0.35));
+    RefinementInput input{ &voxels,           &points,           &parts.core,
+                           &parts.edgePoints, surface.get(),     shape.geometry.spacing,
+                           byTolerance,       std::move(curves), std::move(left),
+                           &parts.points };
+    refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.35, 1));
+  }
+  parts.edgePoints = EdgePoints();
   std::vector<CertifiedCore> results;
   for (std::size_t i = 0; i < task.asked.size(); ++i)
   {
-    const auto          at = std::lower_bound(ascending.begin(), ascending.end(), thresholdsMm[i]) - ascending.begin();
-    const RefinedCore & core = refined[static_cast<std::size_t>(at)];
-    results.push_back(CertifyRefined(core, parts.core, voxels, shape, std::move(task.asked[i])));
+    const auto    at = std::lower_bound(ascending.begin(), ascending.end(), thresholdsMm[i]) - ascending.begin();
+    RefinedCore & core = refined[static_cast<std::size_t>(at)];
+    const bool    again =
+      std::find(thresholdsMm.begin() + static_cast<std::ptrdiff_t>(i) + 1, thresholdsMm.end(), thresholdsMm[i]) !=
+      thresholdsMm.end();
+    results.push_back(
+      CertifyRefined(again ? RefinedCore(core) : std::move(core), parts.core, voxels, shape, std::move(task.asked[i])));
   }
   if (task.curves)
   {

@@ -15,21 +15,42 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::int32_t kMargin = 8; // voxels
+constexpr std::int32_t kMargin = 6; // voxels
 constexpr std::int32_t kTile = 2 * BrickGrid::kSide;
-using LabelRows = tile::Rows<kTile, kMargin>;
+using LabelCube = tile::Cube<kTile, kMargin>;
 
 VOXELCORE_EIGHT_LANES void
-FindDistances(const LabelRows & rows, const std::array<float, 3> & squares, tile::Squared<kTile> & least)
+FindDistances(LabelCube & cube, const std::array<float, 3> & squares)
 {
-  tile::FindSquaredDistances(rows, squares, least);
+  tile::FindSquaredDistances(cube.in, squares, cube.toIn);
+  tile::FindSquaredDistances(cube.out, squares, cube.toOut);
 }
 
-// Where the 8 x 4 x 4 values around a place are.
-struct SplineBlocks
+// Of a brick of a cube of distances, from its first voxel on: to the nearest centre of the other kind less half a side.
+template <std::int32_t Count>
+void
+FillBrick(const tile::Squared<Count> & toIn,
+          const tile::Squared<Count> & toOut,
+          std::size_t                  first,
+          float                        half,
+          float                        far,
+          float *                      values)
 {
-  std::array<const float *, 4> low;   ///< of two bricks along y, then z: half a brick, with the first four along x
-  std::array<const float *, 4> high;  ///< the same of the four behind these
+  for (std::size_t row = 0; row < BrickGrid::kCells / 8; ++row)
+  {
+    const std::size_t from = first + Count * ((row & 7) + Count * (row >> 3));
+    for (std::size_t x = 0; x < 8; ++x)
+    {
+      const bool  inside = toIn[from + x] == 0;
+      const float distance = std::min(std::sqrt(inside ? toOut[from + x] : toIn[from + x]) - half, far);
+      *values++ = inside ? distance : -distance;
+    }
+  }
+}
+
+// A place among the 8 x 4 x 4 coefficients around it.
+struct SplinePlace
+{
   std::array<std::uint32_t, 2> first; ///< of four rows along y and z, in the first of the bricks
   float                        x = 0; ///< where the place is among the eight
   std::array<float, 2>         rest;  ///< how far it is beyond the second of four along y and z
@@ -37,7 +58,7 @@ struct SplineBlocks
 
 // Cubic B-splines. What is along y and z is summed first, for eight voxels along x at once, of which four count.
 VOXELCORE_EIGHT_LANES void
-SumRows(const SplineBlocks & blocks, std::array<float, 4> & valueAndSlopes)
+SumRows(const BandField::Spot & spot, const SplinePlace & place, std::array<float, 4> & valueAndSlopes)
 {
   using Eight = float __attribute__((vector_size(32)));
   using Four = float __attribute__((vector_size(16)));
@@ -46,7 +67,7 @@ SumRows(const SplineBlocks & blocks, std::array<float, 4> & valueAndSlopes)
   std::array<std::array<float, 4>, 2> slope;
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
-    const float t = blocks.rest[axis];
+    const float t = place.rest[axis];
     const float s = 1.0F - t;
     weight[axis] = { s * s * s * sixth,
                      (4.0F - 3.0F * t * t * (1.0F + s)) * sixth,
@@ -54,23 +75,43 @@ SumRows(const SplineBlocks & blocks, std::array<float, 4> & valueAndSlopes)
                      t * t * t * sixth };
     slope[axis] = { -0.5F * s * s, (1.5F * t - 2.0F) * t, (2.0F - 1.5F * s) * s, 0.5F * t * t };
   }
+  // Where the four rows along y are in the bricks before and behind along z.
+  struct Halves
+  {
+    const float * low;
+    const float * high;
+  };
+  Halves rows[2][4];
+#pragma GCC unroll 2
+  for (std::uint32_t z = 0; z < 2; ++z)
+  {
+#pragma GCC unroll 4
+    for (std::uint32_t y = 0; y < 4; ++y)
+    {
+      const std::uint32_t atY = place.first[0] + y;
+      const std::uint32_t block = 2 * z + (atY >> 3);
+      const std::uint32_t from = 8 * (atY & 7);
+      rows[z][y] = { spot.low[block] + from, spot.high[block] + from };
+    }
+  }
   Eight sum{};
   Eight alongY{};
   Eight alongZ{};
+#pragma GCC unroll 4
   for (std::uint32_t z = 0; z < 4; ++z)
   {
-    const std::uint32_t atZ = blocks.first[1] + z;
-    Eight               ofPlane{};
-    Eight               slopeOfPlane{};
+    const std::uint32_t  atZ = place.first[1] + z;
+    const std::uint32_t  from = 64 * (atZ & 7);
+    const Halves * const halves = rows[atZ >> 3];
+    Eight                ofPlane{};
+    Eight                slopeOfPlane{};
+#pragma GCC unroll 4
     for (std::uint32_t y = 0; y < 4; ++y)
     {
-      const std::uint32_t atY = blocks.first[0] + y;
-      const std::uint32_t block = (atZ & 8) / 4 + (atY & 8) / 8;
-      const std::uint32_t from = 64 * (atZ & 7) + 8 * (atY & 7);
-      Four                low;
-      Four                high;
-      std::memcpy(&low, blocks.low[block] + from, sizeof(low));
-      std::memcpy(&high, blocks.high[block] + from, sizeof(high));
+      Four low;
+      Four high;
+      std::memcpy(&low, halves[y].low + from, sizeof(low));
+      std::memcpy(&high, halves[y].high + from, sizeof(high));
       const Eight row = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
       ofPlane += weight[0][y] * row;
       slopeOfPlane += slope[0][y] * row;
@@ -80,7 +121,7 @@ SumRows(const SplineBlocks & blocks, std::array<float, 4> & valueAndSlopes)
     alongZ += slope[1][z] * ofPlane;
   }
   // (2 - |u|)+^3 / 6 - 4 (1 - |u|)+^3 / 6, and its slope.
-  const Eight u = Eight{ 0, 1, 2, 3, 4, 5, 6, 7 } - blocks.x;
+  const Eight u = Eight{ 0, 1, 2, 3, 4, 5, 6, 7 } - place.x;
   const Eight zero{};
   const Eight away = u < 0 ? -u : u;
   const Eight outer = away < 2 ? 2 - away : zero;
@@ -180,45 +221,88 @@ BandField::SetFar(float far)
   m_FarBlocks[1].fill(far);
 }
 
+float
+BandField::HalfSide() const
+{
+  return 0.5F * static_cast<float>(std::min({ m_Sides[0], m_Sides[1], m_Sides[2] }));
+}
+
 void
-BandField::FillDistances(const VoxelShape & shape, double clip)
+BandField::FillDistances(const VoxelShape & shape, double clip, const std::vector<std::uint8_t> & filled)
 {
   SetFar(static_cast<float>(clip));
   const std::array<float, 3> squares = tile::AsFloats(Times(m_Sides, m_Sides));
-  const float                half = 0.5F * static_cast<float>(std::min({ m_Sides[0], m_Sides[1], m_Sides[2] }));
-  tile::ForTiles(
-    m_Grid,
-    std::vector<std::uint8_t>(m_Grid.Count(), 1),
-    [&](const BrickGrid::Brick & tile, auto forBricks) {
-      LabelRows in;
-      LabelRows out;
-      ReadRows(shape, { kTile * tile[0] - kMargin, kTile * tile[1] - kMargin, kTile * tile[2] - kMargin }, in, out);
-      tile::Squared<kTile> toIn;
-      tile::Squared<kTile> toOut;
-      FindDistances(in, squares, toIn);
-      FindDistances(out, squares, toOut);
-      forBricks([&](std::size_t brick, const BrickGrid::Brick & part) {
-        float * const values = m_Values.data() + brick * kVoxels;
-        for (std::size_t row = 0; row < kVoxels; row += kSide)
-        {
-          const std::size_t from = tile::Place<kTile>(part, row);
-          for (std::size_t x = 0; x < kSide; ++x)
-          {
-            const bool  inside = toIn[from + x] == 0;
-            const float distance = std::min(std::sqrt(inside ? toOut[from + x] : toIn[from + x]) - half, m_Far);
-            values[row + x] = inside ? distance : -distance;
-          }
-        }
-      });
+  std::vector<std::uint8_t>  needed(m_Grid.Count(), 1);
+  std::transform(filled.begin(), filled.end(), needed.begin(), [](std::uint8_t flag) {
+    return static_cast<std::uint8_t>(flag == 0 ? 1 : 0);
+  });
+  tile::ForTiles<LabelCube>(m_Grid, needed, [&](const BrickGrid::Brick & tile, LabelCube & cube, auto forBricks) {
+    ReadRows(shape,
+             { kTile * tile[0] - kMargin, kTile * tile[1] - kMargin, kTile * tile[2] - kMargin },
+             cube.in,
+             cube.out);
+    FindDistances(cube, squares);
+    forBricks([&](std::size_t brick, const BrickGrid::Brick & part) {
+      FillBrick<kTile>(cube.toIn,
+                       cube.toOut,
+                       tile::Place<kTile>(part, 0),
+                       HalfSide(),
+                       m_Far,
+                       m_Values.data() + brick * kVoxels);
     });
+  });
+}
+
+void
+BandField::TakeDistances(const BrickGrid::Brick &         tile,
+                         const BoundaryDepth::Distances & toIn,
+                         const BoundaryDepth::Distances & toOut,
+                         double                           clip,
+                         std::vector<std::uint8_t> &      filled)
+{
+  constexpr std::int32_t side = BoundaryDepth::kTile;
+  constexpr std::int32_t along = side / kSide; // bricks
+  for (std::int32_t n = 0; n < along * along * along; ++n)
+  {
+    const BrickGrid::Brick part{ n % along, n / along % along, n / along / along };
+    const std::int32_t     found =
+      m_Grid.Find({ along * tile[0] + part[0], along * tile[1] + part[1], along * tile[2] + part[2] });
+    if (found >= 0)
+    {
+      const auto brick = static_cast<std::size_t>(found);
+      const auto first = static_cast<std::size_t>(kSide * (part[0] + side * (part[1] + side * part[2])));
+      FillBrick<side>(toIn, toOut, first, HalfSide(), static_cast<float>(clip), m_Values.data() + brick * kVoxels);
+      filled[brick] = 1;
+    }
+  }
+}
+
+void
+BandField::FindBlocks(Spot & spot) const
+{
+  const auto & neighbours = m_Grid.Neighbours(static_cast<std::size_t>(spot.brick));
+  // Eight along x from the half of a brick on that the first of the four lies in.
+  const std::size_t half = spot.corner >> 3;
+  const auto        block = [&](std::int32_t source) {
+    return source >= 0 ? m_Coefficients.data() + (static_cast<std::size_t>(source) - m_FirstCoefficient) * kVoxels
+                              : m_FarBlocks[source == BrickGrid::kInside ? 1 : 0].data();
+  };
+  const std::size_t low = (spot.corner & 1) + 3 * (spot.corner >> 1 & 1) + 9 * (spot.corner >> 2 & 1);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const std::size_t beside = low + 3 * (i & 1) + 9 * (i >> 1);
+    spot.low[i] = block(neighbours[beside]) + 4 * half;
+    spot.high[i] = block(neighbours[beside + half]) + 4 * (1 - half);
+  }
 }
 
 bool
-BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const
+BandField::Evaluate(const Vector3 & place, Spot & spot, double & value, Vector3 & gradient) const
 {
   BrickGrid::Brick      first{}; // of four voxels along an axis
   std::array<double, 3> rest{};
   BrickGrid::Brick      home{};
+  std::uint32_t         corner = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double at = place[axis] - 0.5; // in voxel indices, where centres are whole
@@ -227,31 +311,27 @@ BandField::Evaluate(const Vector3 & place, double & value, Vector3 & gradient) c
     first[axis] = base - 1;
     rest[axis] = at - base;
     home[axis] = base >> 3;
+    corner |= static_cast<std::uint32_t>((first[axis] >> 3) - home[axis] + 1) << axis;
   }
-  const std::int32_t found = m_Grid.Find(home);
-  if (found < 0)
+  corner |= static_cast<std::uint32_t>(first[0] << 1 & 8);
+  const bool found = spot.brick >= 0 && spot.home == home;
+  if (!found || spot.corner != corner)
   {
-    return false;
+    spot.home = home;
+    spot.brick = found ? spot.brick : m_Grid.Find(home);
+    spot.corner = corner;
+    if (spot.brick < 0)
+    {
+      return false;
+    }
+    FindBlocks(spot);
   }
-  const auto & neighbours = m_Grid.Neighbours(static_cast<std::size_t>(found));
-  const auto   brickOf = [&](std::size_t axis, std::int32_t voxel) {
-    return static_cast<std::size_t>((voxel >> 3) - home[axis] + 1);
-  };
-  // Eight along x from the half of a brick on that the first of the four lies in.
-  const auto        half = static_cast<std::size_t>(first[0] >> 2 & 1);
-  const std::size_t low = brickOf(0, first[0]) + 3 * brickOf(1, first[1]) + 9 * brickOf(2, first[2]);
-  SplineBlocks      blocks;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    const std::size_t beside = low + 3 * (i & 1) + 9 * (i >> 1);
-    blocks.low[i] = Block(m_Coefficients, neighbours[beside]) + 4 * half;
-    blocks.high[i] = Block(m_Coefficients, neighbours[beside + half]) + 4 * (1 - half);
-  }
-  blocks.first = { static_cast<std::uint32_t>(first[1] & 7), static_cast<std::uint32_t>(first[2] & 7) };
-  blocks.x = static_cast<float>((first[0] & 3) + 1 + rest[0]);
-  blocks.rest = { static_cast<float>(rest[1]), static_cast<float>(rest[2]) };
+  SplinePlace at;
+  at.first = { static_cast<std::uint32_t>(first[1] & 7), static_cast<std::uint32_t>(first[2] & 7) };
+  at.x = static_cast<float>((first[0] & 3) + 1 + rest[0]);
+  at.rest = { static_cast<float>(rest[1]), static_cast<float>(rest[2]) };
   std::array<float, 4> sums;
-  SumRows(blocks, sums);
+  SumRows(spot, at, sums);
   value = sums[0];
   gradient = { sums[1], sums[2], sums[3] };
   return true;

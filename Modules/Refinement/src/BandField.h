@@ -34,9 +34,17 @@ public:
   SetWidth(double sigma);
 
   /** Signed distance to the boundary: to the nearest centre of the other kind less half the shortest side, clipped to
-   *  +-`clip`, at most 7.5. */
+   *  +-`clip`, at most 5.5. Bricks that are `filled` are left as they are. */
   void
-  FillDistances(const VoxelShape & shape, double clip);
+  FillDistances(const VoxelShape & shape, double clip, const std::vector<std::uint8_t> & filled = {});
+
+  /** The same of the bricks in a cube of distances that are known, which are marked. */
+  void
+  TakeDistances(const BrickGrid::Brick &         tile,
+                const BoundaryDepth::Distances & toIn,
+                const BoundaryDepth::Distances & toOut,
+                double                           clip,
+                std::vector<std::uint8_t> &      filled);
 
   /** Grey values; Far() becomes their mean magnitude. */
   void
@@ -48,18 +56,40 @@ public:
   void
   Smooth(float weight, const SmoothingZones * zones);
 
-  /** The means of cells of 2^3 voxels, for passes with G at least twice as wide as a voxel; cells have the depths'
-   *  bricks. Far away is clip. */
+  /** The means of cells of 2^3 voxels, for passes with G at least twice as wide as a voxel where zones say so; cells
+   *  have those of the depths' bricks that are changed or beside such. */
   BandField
-  Halved(const VoxelShape & shape, const BoundaryDepth & depth) const;
+  Halved(const VoxelShape & shape, const BoundaryDepth & depth, const SmoothingZones & zones) const;
 
-  /** Adds what passes have changed in the means of cells. */
+  /** Adds what passes have changed in the means of cells, which are used up. The values are those that were halved. */
   void
-  AddChange(const BandField & halved);
+  AddChange(const VoxelShape & shape, BandField halved);
 
-  /** Finds coefficients for Evaluate(): those of the values after K once more. */
+  /** Turns values into coefficients for Evaluate(): those of the values after K once more. */
   void
   FindCoefficients(float weight);
+
+  /** Planes of bricks along z, in which a part of all coefficients is found at a time. */
+  struct Slab
+  {
+    std::size_t first = 0;
+    std::size_t end = 0;
+  };
+  std::vector<Slab>
+  Slabs() const;
+
+  /** The slab that a voxel lies in. */
+  bool
+  IsIn(const Slab & slab, std::int32_t z) const
+  {
+    const std::int32_t plane = z >> 3;
+    return plane >= PlaneAt(slab.first) && (slab.end + 1 == m_Planes.size() || plane < PlaneAt(slab.end));
+  }
+
+  /** Finds what Evaluate() needs of a slab, and within 6 voxels of it, but not far from bricks that have `changed`, if
+   *  any are named. Values stay; of a single slab so do the coefficients. */
+  void
+  FindCoefficients(float weight, const Slab & slab, const std::vector<std::uint8_t> & changed);
 
   /** The weight with which a step keeps its place where it is curved evenly, if voxels hold the mean of what is in them
    *  and are cubes of side 1. G moves a step of standard width s and curvature c by c s^2 times its slope, which goes
@@ -80,8 +110,8 @@ public:
   std::vector<std::uint8_t>
   LeftOut(const SmoothingZones & zones, int passes) const;
 
-  /** Former values where zones are none, by degrees where they are in part, and coefficients of these. Returns of each
-   *  brick whether what is evaluated in it may have changed. */
+  /** Former values where zones are none, by degrees where they are in part. Returns of each brick whether what is
+   *  evaluated in it may have changed. */
   std::vector<std::uint8_t>
   BlendWith(const Snapshot & former, const SmoothingZones & zones, float weight);
   std::vector<std::uint8_t>
@@ -101,11 +131,22 @@ public:
   void
   MarkBends(double most, double radius, SmoothingZones & zones) const;
 
+  /** Where the 8 x 4 x 4 coefficients around a place are that Evaluate() was last asked about: of places beside it they
+   *  are mostly the same. For one field that does not change. */
+  struct Spot
+  {
+    BrickGrid::Brick             home{};
+    std::int32_t                 brick = BrickGrid::kOutside; ///< at home
+    std::uint32_t                corner = 0;                  ///< which of the bricks around it begin them, and half
+    std::array<const float *, 4> low{};  ///< of two bricks along y, then z: half a brick, with the first four along x
+    std::array<const float *, 4> high{}; ///< the same of the four behind these
+  };
+
   /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no
    *  brick. What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian
    *  of variance 1/3 nearly, which FindCoefficients() takes off its own. */
   bool
-  Evaluate(const Vector3 & place, double & value, Vector3 & gradient) const;
+  Evaluate(const Vector3 & place, Spot & spot, double & value, Vector3 & gradient) const;
 
   double
   Far() const
@@ -114,13 +155,15 @@ public:
   }
 
 private:
-  BandField(const BrickGrid & grid, const Vector3 & sides, float far);
+  BandField(BrickGrid grid, const Vector3 & sides, float far);
 
   template <typename TFormer>
   std::vector<std::uint8_t>
   Blend(const TFormer & formerOf, const SmoothingZones & zones, float weight);
   void
   FillFlags(const VoxelShape & shape);
+  float
+  HalfSide() const;
 
   static constexpr std::int32_t kSide = BrickGrid::kSide;
   static constexpr std::size_t  kVoxels = BrickGrid::kCells;
@@ -140,11 +183,30 @@ private:
   void
   SumTwice(const Kernels & first, const Kernels & second, const std::vector<std::uint8_t> & changed, TUse use);
   void
-  FindCoefficients(float weight, const std::vector<std::uint8_t> & changed);
+  FindCoefficientsOf(float weight, const std::vector<std::uint8_t> & bricks);
+  bool
+  HasAllCoefficients() const
+  {
+    return m_Coefficients.size() == m_Values.size();
+  }
+  /** In units of bricks. */
+  std::int32_t
+  PlaneAt(std::size_t plane) const
+  {
+    return m_Grid.At(m_Planes[plane].brick)[2];
+  }
+  void
+  HalveBrick(const VoxelShape &       shape,
+             const BrickGrid::Brick & at,
+             float *                  means,
+             BrickGrid::Flags &       in,
+             BrickGrid::Flags &       out) const;
   void
   FindRowStarts();
   double
   CurvatureAt(std::size_t brick, std::size_t voxel) const;
+  void
+  FindBlocks(Spot & spot) const;
   const float *
   Block(const Values<float> & values, std::int32_t source) const
   {
@@ -164,7 +226,8 @@ private:
   std::vector<Plane>            m_Planes;        ///< along z, and an end
   Values<float>                 m_Values;
   Values<float>                 m_Coefficients;
-  Values<float>                 m_Former; ///< what values were when they were halved
+  std::size_t                   m_FirstCoefficient = 0; ///< the brick that coefficients begin with
+  Values<float>                 m_Once;                 ///< what SumTwice() works with
   float                         m_Far = 0;
   std::array<BrickValues, 2>    m_FarBlocks; ///< outside, inside
 };

@@ -53,8 +53,6 @@ Combine(float *              values,
   }
 }
 
-constexpr float kSavedUnits = 24000; // to Far(), so that values may be somewhat greater
-
 } // namespace
 
 void
@@ -131,7 +129,8 @@ BandField::SumTwice(const Kernels & first, const Kernels & second, const std::ve
   {
     most = std::max<std::size_t>(most, m_Planes[plane + 1].brick - m_Planes[plane].brick);
   }
-  Values<float> once(slots * most * kVoxels);
+  m_Once.resize(slots * most * kVoxels);
+  float * const once = m_Once.data();
   const auto    shiftOf = [&](std::size_t plane) {
     return static_cast<std::ptrdiff_t>(plane % slots * most) - static_cast<std::ptrdiff_t>(m_Planes[plane].brick);
   };
@@ -161,7 +160,7 @@ BandField::SumTwice(const Kernels & first, const Kernels & second, const std::ve
     const auto        ahead = range(plane);
     const auto        behind = range(plane - 2);
     const std::size_t own = plane - 2;
-    PlaneValues       sums{ once.data(), {} };
+    PlaneValues       sums{ once, {} };
     for (std::size_t i = 0; i < 3 && behind[0] < behind[1]; ++i)
     {
       sums.shift[i] = own + i >= 1 && own + i <= planes ? shiftOf(own + i - 1) : 0;
@@ -175,8 +174,7 @@ BandField::SumTwice(const Kernels & first, const Kernels & second, const std::ve
       if (i < firsts)
       {
         sumRow(ahead[0] + static_cast<std::size_t>(i), first, values, needed, [&](std::size_t brick, BrickSums & row) {
-          row.Of(brick,
-                 once.data() + (static_cast<std::ptrdiff_t>(brick) + shift) * static_cast<std::ptrdiff_t>(kVoxels));
+          row.Of(brick, once + (static_cast<std::ptrdiff_t>(brick) + shift) * static_cast<std::ptrdiff_t>(kVoxels));
         });
         continue;
       }
@@ -188,8 +186,7 @@ BandField::SumTwice(const Kernels & first, const Kernels & second, const std::ve
                BrickValues twice;
                row.Of(brick, twice.data());
                use(brick,
-                   once.data() +
-                     (static_cast<std::ptrdiff_t>(brick) + sums.shift[1]) * static_cast<std::ptrdiff_t>(kVoxels),
+                   once + (static_cast<std::ptrdiff_t>(brick) + sums.shift[1]) * static_cast<std::ptrdiff_t>(kVoxels),
                    twice.data());
              });
     }
@@ -220,152 +217,95 @@ BandField::Smooth(float weight, const SmoothingZones * zones)
   });
 }
 
-void
-BandField::FindCoefficients(float weight, const std::vector<std::uint8_t> & changed)
+// Where a slab ends what lies beside it is needed, too: feet go 6 voxels far, and so into the next brick, and what is
+// evaluated there reaches into the next but one.
+std::vector<BandField::Slab>
+BandField::Slabs() const
 {
-  m_Coefficients.resize(m_Values.size());
-  SumTwice(m_GaussToSpline, m_Gauss, changed, [&](std::size_t brick, const float * once, const float * twice) {
-    Combine(m_Coefficients.data() + brick * kVoxels, once, twice, weight, nullptr, nullptr, nullptr);
+  constexpr std::size_t few = 24;
+  constexpr std::size_t least = 8;
+  constexpr std::size_t parts = 6;
+  const std::size_t     planes = m_Planes.size() - 1;
+  const std::size_t     length = planes < few ? planes : std::max(least, planes / parts);
+  std::vector<Slab>     slabs;
+  for (std::size_t first = 0; first < planes; first += length)
+  {
+    slabs.push_back({ first, std::min(planes, first + length) });
+  }
+  return slabs;
+}
+
+void
+BandField::FindCoefficients(float weight, const Slab & slab, const std::vector<std::uint8_t> & changed)
+{
+  constexpr std::int32_t beside = 2;
+  if (HasAllCoefficients())
+  {
+    return;
+  }
+  const std::size_t         planes = m_Planes.size() - 1;
+  const bool                all = slab.first == 0 && slab.end == planes;
+  std::vector<std::uint8_t> bricks(m_Grid.Count(), 1);
+  std::size_t               first = 0;
+  std::size_t               end = m_Grid.Count();
+  if (!all)
+  {
+    bricks = changed.empty() ? bricks : m_Grid.AndAround(m_Grid.AndAround(changed));
+    const auto isNear = [&](std::size_t brick) {
+      const std::int32_t plane = m_Grid.At(brick)[2];
+      return plane >= PlaneAt(slab.first) - beside && plane <= PlaneAt(slab.end - 1) + beside;
+    };
+    while (!isNear(first))
+    {
+      bricks[first++] = 0;
+    }
+    while (!isNear(end - 1))
+    {
+      bricks[--end] = 0;
+    }
+  }
+  m_FirstCoefficient = first;
+  m_Coefficients.resize((end - first) * kVoxels);
+  FindCoefficientsOf(weight, bricks);
+}
+
+void
+BandField::FindCoefficientsOf(float weight, const std::vector<std::uint8_t> & bricks)
+{
+  SumTwice(m_GaussToSpline, m_Gauss, bricks, [&](std::size_t brick, const float * once, const float * twice) {
+    Combine(m_Coefficients.data() + (brick - m_FirstCoefficient) * kVoxels,
+            once,
+            twice,
+            weight,
+            nullptr,
+            nullptr,
+            nullptr);
   });
 }
 
 void
 BandField::FindCoefficients(float weight)
 {
-  FindCoefficients(weight, std::vector<std::uint8_t>(m_Grid.Count(), 1));
+  if (!HasAllCoefficients())
+  {
+    Values<float>().swap(m_Coefficients);
+    m_FirstCoefficient = 0;
+    const std::vector<std::uint8_t> all(m_Grid.Count(), 1);
+    SumTwice(m_GaussToSpline, m_Gauss, all, [&](std::size_t brick, const float * once, const float * twice) {
+      Combine(m_Values.data() + brick * kVoxels, once, twice, weight, nullptr, nullptr, nullptr);
+    });
+    m_Coefficients.swap(m_Values);
+  }
+  DropValues();
 }
 
 void
 BandField::DropValues()
 {
   Values<float>().swap(m_Values);
+  Values<float>().swap(m_Once);
   std::vector<BrickGrid::Flags>().swap(m_In);
   std::vector<BrickGrid::Flags>().swap(m_Out);
-}
-
-BandField::Snapshot
-BandField::Save(const SmoothingZones & zones) const
-{
-  Snapshot saved;
-  for (std::size_t brick = 0; brick < m_Grid.Count(); ++brick)
-  {
-    if (zones.AnyIn(m_Level, m_Grid.At(brick)))
-    {
-      saved.bricks.push_back(static_cast<std::uint32_t>(brick));
-    }
-  }
-  const float unit = kSavedUnits / m_Far;
-  const auto  count = static_cast<std::ptrdiff_t>(saved.bricks.size());
-  saved.values.resize(saved.bricks.size() * kVoxels);
-#pragma omp parallel for schedule(static) if (count > BrickGrid::kMany)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-  {
-    const float * const from = m_Values.data() + saved.bricks[static_cast<std::size_t>(i)] * kVoxels;
-    std::transform(
-      from,
-      from + kVoxels,
-      saved.values.begin() + i * static_cast<std::ptrdiff_t>(kVoxels),
-      [&](float value) { return static_cast<std::int16_t>(std::clamp(value * unit, -32767.0F, 32767.0F)); });
-  }
-  return saved;
-}
-
-std::vector<std::uint8_t>
-BandField::LeftOut(const SmoothingZones & zones, int passes) const
-{
-  const auto                count = static_cast<std::ptrdiff_t>(m_Grid.Count());
-  std::vector<std::uint8_t> bricks(m_Grid.Count(), 0);
-#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-  {
-    const auto brick = static_cast<std::size_t>(i);
-    bricks[brick] = zones.AnyLeftOutIn(m_Level, m_Grid.At(brick)) ? 1 : 0;
-  }
-  std::size_t reach = 0;
-  for (const Kernel & kernel : m_Binomial)
-  {
-    reach = std::max(reach, 2 * kernel.radius * static_cast<std::size_t>(passes));
-  }
-  for (std::size_t ring = 0; ring < reach; ring += kSide)
-  {
-    bricks = m_Grid.AndAround(bricks);
-  }
-  return bricks;
-}
-
-std::vector<std::uint8_t>
-BandField::BlendWith(const Snapshot & former, const SmoothingZones & zones, float weight)
-{
-  const float                unit = m_Far / kSavedUnits;
-  std::vector<std::uint32_t> places(m_Grid.Count(), 0); // one more than in the snapshot
-  for (std::size_t i = 0; i < former.bricks.size(); ++i)
-  {
-    places[former.bricks[i]] = static_cast<std::uint32_t>(i + 1);
-  }
-  const auto formerOf = [&](std::size_t brick, BrickValues & values) {
-    const auto from =
-      former.values.begin() + (static_cast<std::ptrdiff_t>(places[brick]) - 1) * static_cast<std::ptrdiff_t>(kVoxels);
-    const bool saved = places[brick] != 0;
-    if (saved)
-    {
-      std::transform(from, from + static_cast<std::ptrdiff_t>(kVoxels), values.begin(), [&](std::int16_t value) {
-        return unit * static_cast<float>(value);
-      });
-    }
-    return saved;
-  };
-  return Blend(formerOf, zones, weight);
-}
-
-std::vector<std::uint8_t>
-BandField::BlendWith(const BandField & former, const SmoothingZones & zones, float weight)
-{
-  const auto formerOf = [&](std::size_t brick, BrickValues & values) {
-    const auto from = static_cast<std::size_t>(former.m_Grid.Find(m_Grid.At(brick))) * kVoxels;
-    std::copy_n(former.m_Values.begin() + static_cast<std::ptrdiff_t>(from), kVoxels, values.begin());
-    return true;
-  };
-  return Blend(formerOf, zones, weight);
-}
-
-// formerOf(brick, values): whether it has changed, and what its values were.
-template <typename TFormer>
-std::vector<std::uint8_t>
-BandField::Blend(const TFormer & formerOf, const SmoothingZones & zones, float weight)
-{
-  const auto                count = static_cast<std::ptrdiff_t>(m_Grid.Count());
-  std::vector<std::uint8_t> changed = LeftOut(zones, 0);
-#pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-  {
-    const auto  brick = static_cast<std::size_t>(i);
-    BrickValues former;
-    if (changed[brick] == 0 || !formerOf(brick, former))
-    {
-      changed[brick] = 0;
-      continue;
-    }
-    BrickValues parts;
-    zones.Fill(m_Level, m_Grid.At(brick), parts);
-    float * const values = m_Values.data() + brick * kVoxels;
-    for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
-    {
-      values[voxel] = former[voxel] + parts[voxel] * (values[voxel] - former[voxel]);
-    }
-  }
-  // Sums reach one or two bricks far, and what is evaluated one more.
-  std::size_t reach = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    reach = std::max(reach, m_GaussToSpline[axis].radius + m_Gauss[axis].radius);
-  }
-  changed = m_Grid.AndAround(changed);
-  if (reach > kSide)
-  {
-    changed = m_Grid.AndAround(changed);
-  }
-  FindCoefficients(weight, changed);
-  return m_Grid.AndAround(changed);
 }
 
 } // namespace voxelcore

@@ -17,13 +17,15 @@ namespace
 
 constexpr std::int32_t kVoxelsAlong = 2 * BrickGrid::kSide; ///< of a brick
 constexpr std::int32_t kDeepest = 16;
-constexpr std::int32_t kDepthTile = 2 * kVoxelsAlong;
-using DepthRows = tile::Rows<kDepthTile, kDeepest>;
+constexpr std::int32_t kDepthTile = BoundaryDepth::kTile;
+static_assert(kDepthTile == 2 * kVoxelsAlong);
+using DepthCube = tile::Cube<kDepthTile, kDeepest>;
 
 VOXELCORE_EIGHT_LANES void
-FindDistances(const DepthRows & rows, const std::array<float, 3> & squares, tile::Squared<kDepthTile> & least)
+FindDistances(DepthCube & cube, const std::array<float, 3> & squares)
 {
-  tile::FindSquaredDistances(rows, squares, least);
+  tile::FindSquaredDistances(cube.in, squares, cube.toIn);
+  tile::FindSquaredDistances(cube.out, squares, cube.toOut);
 }
 
 // Whether a box of so many voxels on either side fits in the shape about a voxel of a brick of cells.
@@ -116,43 +118,62 @@ NearBalls(const VoxelShape & shape, const BrickGrid & grid, const Vector3 & side
 BoundaryDepth::BoundaryDepth(const VoxelShape &            shape,
                              std::span<const LatticePoint> points,
                              const Vector3 &               sides,
-                             double                        reach,
-                             double                        radius)
-  : m_Grid(shape, points, 1, static_cast<std::int32_t>(std::ceil(reach)))
+                             const std::array<double, 2> & radii,
+                             const UseDistances &          use)
+  : m_Grid(shape, points, 1, static_cast<std::int32_t>(std::ceil(radii[1])))
   , m_Squares(AddScaled({ 0, 0, 0 }, 4, Times(sides, sides)))
-  , m_Depths(m_Grid.Count() * BrickGrid::kCells)
+  , m_Places(m_Grid.Count(), kNone)
 {
-  const auto  squares = tile::AsFloats(Times(sides, sides));
-  const float half = 0.5F * static_cast<float>(std::min({ sides[0], sides[1], sides[2] }));
-  tile::ForTiles(m_Grid, NearBalls(shape, m_Grid, sides, radius), [&](const BrickGrid::Brick & tile, auto forBricks) {
-    auto in = std::make_unique<DepthRows>();
-    auto out = std::make_unique<DepthRows>();
+  constexpr double                steps = 0.5; // what distances to centres are off by
+  const auto                      squares = tile::AsFloats(Times(sides, sides));
+  const float                     half = 0.5F * static_cast<float>(std::min({ sides[0], sides[1], sides[2] }));
+  const std::vector<std::uint8_t> near = NearBalls(shape, m_Grid, sides, radii[0]);
+  std::uint32_t                   count = 0;
+  for (std::size_t brick = 0; brick < near.size(); ++brick)
+  {
+    m_Places[brick] = near[brick] != 0 ? count++ : kNone;
+  }
+  m_Means.resize(count);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+  {
+    m_Centres[i].inside.resize(m_Grid.Count());
+    m_Centres[i].outside.resize(m_Grid.Count());
+  }
+  tile::ForTiles<DepthCube>(m_Grid, near, [&](const BrickGrid::Brick & tile, DepthCube & cube, auto forBricks) {
     ReadRows(shape,
              { kDepthTile * tile[0] - kDeepest, kDepthTile * tile[1] - kDeepest, kDepthTile * tile[2] - kDeepest },
-             *in,
-             *out);
-    auto toIn = std::make_unique<tile::Squared<kDepthTile>>();
-    auto toOut = std::make_unique<tile::Squared<kDepthTile>>();
-    FindDistances(*in, squares, *toIn);
-    FindDistances(*out, squares, *toOut);
+             cube.in,
+             cube.out);
+    FindDistances(cube, squares);
     forBricks([&](std::size_t brick, const BrickGrid::Brick & part) {
       for (std::size_t cell = 0; cell < BrickGrid::kCells; ++cell)
       {
-        Depth & depth = m_Depths[brick * BrickGrid::kCells + cell];
+        float mean = 0;
+        float inside = 0;
+        float outside = 0;
         for (std::size_t corner = 0; corner < 8; ++corner)
         {
           const std::size_t x = 16 * part[0] + 2 * (cell & 7) + (corner & 1);
           const std::size_t y = 16 * part[1] + 2 * (cell >> 3 & 7) + (corner >> 1 & 1);
           const std::size_t z = 16 * part[2] + 2 * (cell >> 6) + (corner >> 2);
           const std::size_t voxel = x + kDepthTile * (y + kDepthTile * z);
-          const bool        inside = (*toIn)[voxel] == 0;
-          const float       distance = std::sqrt(inside ? (*toOut)[voxel] : (*toIn)[voxel]) - half;
-          depth.mean += (inside ? distance : -distance) / 8;
-          float & deepest = inside ? depth.inside : depth.outside;
+          const bool        in = cube.toIn[voxel] == 0;
+          const float       distance = std::sqrt(in ? cube.toOut[voxel] : cube.toIn[voxel]) - half;
+          mean += (in ? distance : -distance) / 8;
+          float & deepest = in ? inside : outside;
           deepest = std::max(deepest, distance);
+        }
+        m_Means[m_Places[brick]][cell] = mean;
+        for (std::size_t i = 0; i < radii.size(); ++i)
+        {
+          const auto bit = static_cast<std::uint8_t>(1U << (cell & 7));
+          const auto least = static_cast<float>(radii[i] - steps);
+          m_Centres[i].inside[brick][cell >> 3] |= inside >= least ? bit : std::uint8_t{ 0 };
+          m_Centres[i].outside[brick][cell >> 3] |= outside >= least ? bit : std::uint8_t{ 0 };
         }
       }
     });
+    use(tile, cube.toIn, cube.toOut);
   });
 }
 

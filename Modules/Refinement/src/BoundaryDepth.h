@@ -1,9 +1,11 @@
 #pragma once
 // How far cubes of voxels are from a boundary.
 
-#include "BrickGrid.h"
+#include "DistanceTile.h"
 
 #include "voxelcore/ImageGeometry.h"
+
+#include <functional>
 
 namespace voxelcore
 {
@@ -12,13 +14,21 @@ namespace voxelcore
 class BoundaryDepth
 {
 public:
-  /** `sides` as for BandField, at most 2; what is within `reach` units of the boundary has a depth, but for what no
-   *  ball of `radius` in the shape is near: there depths are 0. */
+  static constexpr std::int32_t kTile = 32; ///< voxels
+  /** Squares of distances to the nearest voxel of a kind, of a cube of voxels; tile::kNone or more where none is within
+   *  16 voxels along each axis. */
+  using Distances = tile::Squared<kTile>;
+  /** What else they are good for: use(tile, to the nearest that is in, to the nearest that is out), by several threads;
+   *  `tile` in units of cubes. */
+  using UseDistances = std::function<void(const BrickGrid::Brick &, const Distances &, const Distances &)>;
+
+  /** `sides` as for BandField, at most 2. Two radii of balls in units, the lesser first, the greater less than 16: what
+   *  is within that of the boundary has a depth, but for what no ball of the lesser in the shape is near. */
   BoundaryDepth(const VoxelShape &            shape,
                 std::span<const LatticePoint> points,
                 const Vector3 &               sides,
-                double                        reach,
-                double                        radius);
+                const std::array<double, 2> & radii,
+                const UseDistances &          use);
 
   const BrickGrid &
   Grid() const
@@ -30,29 +40,40 @@ public:
   {
     return m_Squares;
   }
-  /** Of the distances of the voxels of a cell. */
-  struct Depth
+  /** Of a brick's cells the mean of the distances of their voxels, positive inside; null where there are no depths. */
+  const float *
+  Means(std::size_t brick) const
   {
-    float mean = 0;    ///< positive inside
-    float inside = 0;  ///< the greatest of voxels that are in, 0 when there are none
-    float outside = 0; ///< the same of the others
+    return m_Places[brick] == kNone ? nullptr : m_Means[m_Places[brick]].data();
+  }
+  /** Cells, by brick, with a voxel where a ball about touches the boundary. */
+  struct Centres
+  {
+    std::vector<BrickGrid::Flags> inside;
+    std::vector<BrickGrid::Flags> outside;
   };
-  const std::vector<Depth> &
-  Depths() const
+  /** Of the first or the second radius. */
+  const Centres &
+  CentresOf(std::size_t radius) const
   {
-    return m_Depths;
+    return m_Centres[radius];
   }
   /** Leaves the grid alone. */
   void
   DropDepths()
   {
-    std::vector<Depth>().swap(m_Depths);
+    decltype(m_Means)().swap(m_Means);
+    m_Centres = {};
   }
 
 private:
-  BrickGrid          m_Grid;
-  Vector3            m_Squares; ///< of the sides of a cell
-  std::vector<Depth> m_Depths;
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  BrickGrid                                         m_Grid;
+  Vector3                                           m_Squares; ///< of the sides of a cell
+  std::vector<std::uint32_t>                        m_Places;  ///< of bricks in m_Means, or kNone
+  std::vector<std::array<float, BrickGrid::kCells>> m_Means;
+  std::array<Centres, 2>                            m_Centres;
 };
 
 } // namespace voxelcore

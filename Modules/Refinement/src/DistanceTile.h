@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 namespace voxelcore::tile
@@ -164,9 +165,20 @@ Place(const BrickGrid::Brick & part, std::size_t row)
   return at(0) + Count * (at(1) + (row >> 3 & 7) + Count * (at(2) + (row >> 6)));
 }
 
-/** Cubes of 2^3 bricks that hold one that is needed: use(tile, forBricks), in units of such cubes, in any order;
- *  forBricks(useBrick) calls useBrick(brick, part) of each one that is needed, with 0 or 1 along each axis. */
-template <typename TUse>
+/** What a thread needs for one cube after the other. */
+template <std::int32_t Count, std::int32_t Margin>
+struct Cube
+{
+  Rows<Count, Margin> in; ///< the shape
+  Rows<Count, Margin> out;
+  Squared<Count>      toIn;
+  Squared<Count>      toOut;
+};
+
+/** Cubes of 2^3 bricks that hold one that is needed: use(tile, cube, forBricks), in units of such cubes, in any order,
+ *  with a TCube of the thread's own; forBricks(useBrick) calls useBrick(brick, part) of each one that is needed, with 0
+ *  or 1 along each axis. */
+template <typename TCube, typename TUse>
 void
 ForTiles(const BrickGrid & grid, const std::vector<std::uint8_t> & needed, TUse use)
 {
@@ -181,21 +193,25 @@ ForTiles(const BrickGrid & grid, const std::vector<std::uint8_t> & needed, TUse 
   std::sort(tiles.begin(), tiles.end());
   tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
   const auto count = static_cast<std::ptrdiff_t>(tiles.size());
-#pragma omp parallel for schedule(dynamic, 2) if (count > BrickGrid::kMany / 8)
-  for (std::ptrdiff_t i = 0; i < count; ++i)
+#pragma omp parallel if (count > BrickGrid::kMany / 8)
   {
-    const auto & [z, y, x] = tiles[static_cast<std::size_t>(i)];
-    use(BrickGrid::Brick{ x, y, z }, [&](auto useBrick) {
-      for (std::int32_t n = 0; n < 8; ++n)
-      {
-        const BrickGrid::Brick part{ n & 1, n >> 1 & 1, n >> 2 };
-        const std::int32_t     brick = grid.Find({ 2 * x + part[0], 2 * y + part[1], 2 * z + part[2] });
-        if (brick >= 0 && needed[static_cast<std::size_t>(brick)] != 0)
+    const auto cube = std::make_unique<TCube>();
+#pragma omp for schedule(dynamic, 2)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+    {
+      const auto & [z, y, x] = tiles[static_cast<std::size_t>(i)];
+      use(BrickGrid::Brick{ x, y, z }, *cube, [&](auto useBrick) {
+        for (std::int32_t n = 0; n < 8; ++n)
         {
-          useBrick(static_cast<std::size_t>(brick), part);
+          const BrickGrid::Brick part{ n & 1, n >> 1 & 1, n >> 2 };
+          const std::int32_t     brick = grid.Find({ 2 * x + part[0], 2 * y + part[1], 2 * z + part[2] });
+          if (brick >= 0 && needed[static_cast<std::size_t>(brick)] != 0)
+          {
+            useBrick(static_cast<std::size_t>(brick), part);
+          }
         }
-      }
-    });
+      });
+    }
   }
 }
 

@@ -16,11 +16,12 @@ FieldSurface::Project(const Vector3 & place, double reach) const
   constexpr double longest = 1.0; // voxels a step
   Vector3          at = Over(place, m_Spacing);
   SurfacePoint     point;
+  BandField::Spot  spot;
   for (int step = 0; step <= steps; ++step)
   {
     double  value = 0;
     Vector3 slope{};
-    if (!m_Field.Evaluate(at, value, slope) || Dot(Times(slope, slope), m_BySides) < m_Flattest * m_Flattest)
+    if (!m_Field.Evaluate(at, spot, value, slope) || Dot(Times(slope, slope), m_BySides) < m_Flattest * m_Flattest)
     {
       return point;
     }

@@ -10,11 +10,17 @@
 namespace voxelcore
 {
 
+double
+WidestFringe(const Vector3 & spacing)
+{
+  return 2.5 * std::cbrt(spacing[0] * spacing[1] * spacing[2]);
+}
+
 CorePart
 RemoveFringe(const RefinementInput & input, const FootPointFinder & finder, const CorePart & part)
 {
   constexpr double      stays = std::numeric_limits<double>::infinity();
-  const double          widest = 2.5 * std::cbrt(input.spacing[0] * input.spacing[1] * input.spacing[2]);
+  const double          widest = WidestFringe(input.spacing);
   const MedialComplex & core = *input.core;
   const CellComplex &   cells = part.cells;
   const auto            pairs = PairsOfFaces(*input.edgePoints, cells, part.edges);

@@ -77,7 +77,6 @@ SurfaceFromGrey(const VoxelShape &       shape,
   const auto smoothed = [&](BandField one, double sigma) {
     one.SetWidth(sigma);
     one.FindCoefficients(BandField::StepWeight(sigma));
-    one.DropValues();
     const double least = flattest * one.Far();
     return FieldSurface(std::move(one), spacing, sides, least, close);
   };

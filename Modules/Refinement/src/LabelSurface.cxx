@@ -64,11 +64,18 @@ public:
     // Steps of thick slices need more smoothing than steps of thin ones.
     , m_Sigma(0.8 + 0.2 * std::max({ m_Sides[0], m_Sides[1], m_Sides[2] }))
     , m_Points(BoundaryVertices(shape))
-    , m_Depth(shape, m_Points, m_Sides, kThickest * m_Sigma, kThick * m_Sigma)
     , m_Field(shape, m_Points, m_Sides, m_Sigma, static_cast<std::int32_t>(std::ceil(kReach * m_Sigma)))
+    , m_Filled(m_Field.Grid().Count(), 0)
+    , m_Depth(shape,
+              m_Points,
+              m_Sides,
+              { kThick * m_Sigma, kThickest * m_Sigma },
+              [&](const auto & tile, const auto & toIn, const auto & toOut) {
+                m_Field.TakeDistances(tile, toIn, toOut, kClip, m_Filled);
+              })
     , m_Profile(kClip)
   {
-    m_Field.FillDistances(shape, kClip);
+    m_Field.FillDistances(shape, kClip, m_Filled);
   }
 
   FieldSurface
@@ -80,13 +87,12 @@ public:
       weights.push_back(SmoothWith(m_Field, m_Sigma, nullptr));
     }
     std::optional<BandField::Snapshot> former;
-    if (const SmoothingZones thick(m_Depth, kThick * m_Sigma); thick.Any())
+    if (const SmoothingZones thick(m_Depth, kThick * m_Sigma, 0); thick.Any())
     {
       former = m_Field.Save(thick);
       SmoothThick(thick);
     }
     const float weight = m_Profile.Weight(m_Sigma);
-    m_Field.FindCoefficients(weight);
     m_Depth.DropDepths();
     FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest, kClose);
     surface.SetSwelling(SwellingAfter(weights));
@@ -94,7 +100,7 @@ public:
     std::vector<std::uint8_t> changed;
     const auto                replace = [&](auto blend) {
       SmoothingZones zones(m_Depth);
-      const bool     any = MarkPassedBy(surface, changed, zones);
+      const bool     any = MarkPassedBy(surface, weight, changed, zones);
       if (any)
       {
         constexpr double near = 5;
@@ -123,7 +129,7 @@ public:
     {
       afterPasses(kOnePass);
     }
-    surface.Change([](BandField & field) { field.DropValues(); });
+    surface.Change([&](BandField & field) { field.FindCoefficients(weight); });
     return surface;
   }
 
@@ -150,19 +156,19 @@ private:
     {
       SmoothWith(m_Field, wider, &thick);
     }
-    SmoothingZones thickest(m_Depth, kThickest * m_Sigma);
+    SmoothingZones thickest(m_Depth, kThickest * m_Sigma, 1);
     if (thickest.Any())
     {
       constexpr double onSurface = 1;
       m_Field.MarkBends(onSurface, kBend, thickest);
       thickest.LeaveOutAroundMarks(kNearBend);
-      BandField halved = m_Field.Halved(m_Shape, m_Depth);
+      BandField halved = m_Field.Halved(m_Shape, m_Depth, thickest);
       halved.SetWidth(2 * m_Sigma);
       for (int pass = 0; pass < kWidestPasses; ++pass)
       {
         SmoothWith(halved, 2 * m_Sigma, &thickest);
       }
-      m_Field.AddChange(halved);
+      m_Field.AddChange(m_Shape, std::move(halved));
     }
     m_Field.SetWidth(m_Sigma);
     SmoothWith(m_Field, m_Sigma, &thick);
@@ -178,23 +184,32 @@ private:
 
   // Boundary vertices that are far off the surface, of those in bricks that have changed, if any are named.
   bool
-  MarkPassedBy(const FieldSurface & surface, const std::vector<std::uint8_t> & changed, SmoothingZones & zones) const
+  MarkPassedBy(FieldSurface &                    surface,
+               float                             weight,
+               const std::vector<std::uint8_t> & changed,
+               SmoothingZones &                  zones) const
   {
     constexpr double          ofDiagonal = 0.8;
-    const BrickGrid &         grid = surface.Field().Grid();
+    const BandField &         field = surface.Field();
     std::vector<std::uint8_t> passed(m_Points.size(), 0);
     const auto                count = static_cast<std::ptrdiff_t>(m_Points.size());
-#pragma omp parallel for schedule(dynamic, 256) if (count > 4096)
-    for (std::ptrdiff_t i = 0; i < count; ++i)
+    for (const BandField::Slab & slab : field.Slabs())
     {
-      const LatticePoint & p = m_Points[static_cast<std::size_t>(i)];
-      if (!changed.empty() && changed[static_cast<std::size_t>(grid.Find({ p.x >> 3, p.y >> 3, p.z >> 3 }))] == 0)
+      surface.Change([&](BandField & one) { one.FindCoefficients(weight, slab, changed); });
+#pragma omp parallel for schedule(dynamic, 256) if (count > 4096)
+      for (std::ptrdiff_t i = 0; i < count; ++i)
       {
-        continue;
+        const LatticePoint & p = m_Points[static_cast<std::size_t>(i)];
+        if (!field.IsIn(slab, p.z) ||
+            (!changed.empty() &&
+             changed[static_cast<std::size_t>(field.Grid().Find({ p.x >> 3, p.y >> 3, p.z >> 3 }))] == 0))
+        {
+          continue;
+        }
+        const Vector3 place =
+          Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, m_Spacing);
+        passed[static_cast<std::size_t>(i)] = surface.Project(place, ofDiagonal * Length(m_Spacing)).found ? 0 : 1;
       }
-      const Vector3 place =
-        Times({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) }, m_Spacing);
-      passed[static_cast<std::size_t>(i)] = surface.Project(place, ofDiagonal * Length(m_Spacing)).found ? 0 : 1;
     }
     bool any = false;
     for (std::size_t i = 0; i < passed.size(); ++i)
@@ -214,8 +229,9 @@ private:
   Vector3                   m_Sides;
   double                    m_Sigma;
   std::vector<LatticePoint> m_Points;
-  BoundaryDepth             m_Depth;
   BandField                 m_Field;
+  std::vector<std::uint8_t> m_Filled; ///< bricks whose distances the depths knew
+  BoundaryDepth             m_Depth;
   FlatProfile               m_Profile;
   int                       m_Passes = 0;
 };

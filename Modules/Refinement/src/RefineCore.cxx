@@ -4,13 +4,10 @@
 #include "PointTree.h"
 #include "RefinementState.h"
 
-#include "voxelcore/SimplePairCollapse.h"
-#include "voxelcore/TolerancePruning.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace voxelcore
 {
@@ -33,9 +30,6 @@ NearestToEdges(const DelaunayCells & cells)
 
 namespace
 {
-
-// More is moved than is left in the end, as measures that are taken again may be greater.
-constexpr double kWorkingPart = 0.75;
 
 // Each boundary vertex has surface within half a diagonal, and the surface has a boundary vertex as near everywhere: so
 // no ball that touches the surface is smaller or greater by more than that than one that touches a boundary vertex. A
@@ -73,14 +67,13 @@ std::vector<RefinedCore>
 RefineCore(const RefinementInput & input, const std::vector<double> & thresholds, const ProgressCallback & progress)
 {
   std::vector<RefinedCore>          refined;
-  std::optional<SimplePairCollapse> byLambda;
-  if (!input.byTolerance && !thresholds.empty())
-  {
-    byLambda.emplace(input.core->cells, input.core->vertexLambda, input.core->edgeLambda, input.core->faceLambda);
-  }
-  FootPointFinder finder(input, progress);
-  const PointTree boundary(*input.points, input.spacing);
-  const auto      refine = [&](CorePart part, double threshold) {
+  const std::vector<LiveElements>   found = input.left.empty()
+                                              ? LeftToRefine(*input.core, thresholds, input.byTolerance, progress)
+                                              : std::vector<LiveElements>();
+  const std::vector<LiveElements> & left = input.left.empty() ? found : input.left;
+  FootPointFinder                   finder(input, progress);
+  const PointTree                   boundary(input.Boundary(), input.spacing);
+  const auto                        refine = [&](CorePart part, double threshold) {
     RefinementState working(input, std::move(part));
     finder.FindBends(working.GreatestRadii());
     working.Move(finder, progress);
@@ -88,16 +81,16 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
     refined.push_back(working.Finish(finder, threshold, formerRadius));
     BoundRadii(boundary, input.spacing, formerRadius, refined.back());
   };
-  for (const double threshold : thresholds)
+  for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
-    if (byLambda)
+    CorePart part = PartOf(input.core->cells, left[i]);
+    if (input.byTolerance)
     {
-      byLambda->CollapseBelow(kWorkingPart * threshold, progress);
-      refine(RemoveFringe(input, finder, PartOf(input.core->cells, byLambda->Live())), threshold);
+      refine(std::move(part), 0);
     }
     else
     {
-      refine(PartOf(input.core->cells, LeftByTolerance(*input.core, threshold)), 0);
+      refine(RemoveFringe(input, finder, part), thresholds[i]);
     }
   }
   for (const LiveElements & part : input.parts)

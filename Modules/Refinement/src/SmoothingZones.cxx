@@ -99,32 +99,15 @@ GatherFlags(const BrickGrid &                     grid,
 
 // A ball that touches the boundary nearest to a voxel has its centre farther from it by the voxel's own distance, or
 // nearer by it on its own side.
-SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius)
+SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius, std::size_t which)
   : m_Depth(&depth)
-  , m_Parts(depth.Depths().size(), 0)
+  , m_Parts(depth.Grid().Count() * kCells, 0)
 {
-  constexpr double              steps = 0.5; // what distances to centres are off by
-  constexpr double              inCell = 1;  // how much nearer a cell may seem than the voxel in it
-  constexpr double              other = 3;   // what is farther from the boundary is asked on its own side alone
-  const auto &                  depths = depth.Depths();
-  const BrickGrid &             grid = depth.Grid();
-  std::vector<BrickGrid::Flags> in(grid.Count(), BrickGrid::Flags{});
-  std::vector<BrickGrid::Flags> out(grid.Count(), BrickGrid::Flags{});
-  bool                          any = false;
-  for (std::size_t i = 0; i < depths.size(); ++i)
-  {
-    const auto bit = static_cast<std::uint8_t>(1U << (i & 7));
-    if (depths[i].inside >= static_cast<float>(radius - steps))
-    {
-      in[i / kCells][(i % kCells) >> 3] |= bit;
-      any = true;
-    }
-    if (depths[i].outside >= static_cast<float>(radius - steps))
-    {
-      out[i / kCells][(i % kCells) >> 3] |= bit;
-    }
-  }
-  if (!any)
+  constexpr double  inCell = 1; // how much nearer a cell may seem than the voxel in it
+  constexpr double  other = 3;  // what is farther from the boundary is asked on its own side alone
+  const BrickGrid & grid = depth.Grid();
+  const auto & [in, out] = depth.CentresOf(which);
+  if (std::all_of(in.begin(), in.end(), [](const BrickGrid::Flags & flags) { return flags == BrickGrid::Flags{}; }))
   {
     return;
   }
@@ -137,7 +120,8 @@ SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius)
     FlagRows             rows;
     tile::Squared<kSide> toIn;
     tile::Squared<kSide> toOut;
-    if (!GatherFlags(grid, in, true, false, brick, rows))
+    const float * const  means = depth.Means(brick);
+    if (means == nullptr || !GatherFlags(grid, in, true, false, brick, rows))
     {
       continue; // outside something else is always far enough
     }
@@ -146,7 +130,7 @@ SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius)
     FindDistances(rows, squares, toOut);
     for (std::size_t cell = 0; cell < kCells; ++cell)
     {
-      const double distance = depths[brick * kCells + cell].mean;
+      const double distance = means[cell];
       double       gap = 0;
       if (distance > -other)
       {
@@ -224,10 +208,28 @@ void
 SmoothingZones::Fill(int level, const BrickGrid::Brick & brick, std::array<float, BrickGrid::kCells> & parts) const
 {
   const std::uint8_t * const own = PartsOf(level, brick);
-  for (std::size_t i = 0; i < kCells; ++i)
+  if (level == 1)
   {
-    const std::size_t cell = level == 1 ? i : (i >> 1 & 3) + kSide * (i >> 4 & 3) + kSide * kSide * (i >> 7);
-    parts[i] = static_cast<float>(own[cell]) / 255;
+    for (std::size_t i = 0; i < kCells; ++i)
+    {
+      parts[i] = static_cast<float>(own[i]) / 255;
+    }
+    return;
+  }
+  // Two along each axis are of the same cell.
+  for (std::size_t row = 0; row < 16; ++row)
+  {
+    const std::size_t y = row & 3;
+    const std::size_t z = row >> 2;
+    float * const     first = parts.data() + 2 * kSide * (y + kSide * z);
+    for (std::size_t x = 0; x < 4; ++x)
+    {
+      first[2 * x] = first[2 * x + 1] = static_cast<float>(own[x + kSide * (y + kSide * z)]) / 255;
+    }
+    for (const std::int32_t other : { kSide, kSide * kSide, kSide * kSide + kSide })
+    {
+      std::copy_n(first, kSide, first + other);
+    }
   }
 }
 

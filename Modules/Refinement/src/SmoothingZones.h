@@ -16,9 +16,9 @@ public:
     , m_Parts(depth.Grid().Count() * BrickGrid::kCells, 255)
   {}
 
-  /** All where balls of `radius`, at least that of the depths, touch the boundary from inside and from outside, none
+  /** All where balls of `radius`, the depths' first or second, touch the boundary from inside and from outside, none
    *  where one is kept two units or more away from it, by another wall, an edge or a crease. */
-  SmoothingZones(const BoundaryDepth & depth, double radius);
+  SmoothingZones(const BoundaryDepth & depth, double radius, std::size_t which);
 
   bool
   Any() const;

@@ -4,6 +4,7 @@
 
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -13,227 +14,172 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::size_t kLeaf = 4;
 constexpr std::size_t kTask = 16384; ///< triangles that are worth a thread of their own
-
-// Of a tree of so many triangles, and of all its parts.
-std::size_t
-NodeCount(std::size_t triangles, std::map<std::size_t, std::size_t> & nodes)
+constexpr double      kInfinity = std::numeric_limits<double>::infinity();
+struct Box
 {
-  if (const auto known = nodes.find(triangles); known != nodes.end())
+  Vector3 lower{ kInfinity, kInfinity, kInfinity };
+  Vector3 upper{ -kInfinity, -kInfinity, -kInfinity };
+
+  void
+  Add(const Vector3 & place)
   {
-    return known->second;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      lower[axis] = std::min(lower[axis], place[axis]);
+      upper[axis] = std::max(upper[axis], place[axis]);
+    }
   }
-  const std::size_t half = triangles / 2;
-  const std::size_t count =
-    triangles > kLeaf ? 1 + NodeCount(half, nodes) + NodeCount(triangles - half, nodes) : std::size_t{ 1 };
-  nodes[triangles] = count;
-  return count;
-}
-
-double
-SquaredGap(const Vector3 & place, const Vector3 & lower, const Vector3 & upper)
-{
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const double gap = std::max({ lower[i] - place[i], place[i] - upper[i], 0.0 });
-    sum += gap * gap;
-  }
-  return sum;
-}
-
-Vector3
-NearestOnSegment(const Vector3 & place, const Vector3 & a, const Vector3 & b)
-{
-  const Vector3 ab = Minus(b, a);
-  const double  length = Dot(ab, ab);
-  const double  t = length > 0 ? std::clamp(Dot(Minus(place, a), ab) / length, 0.0, 1.0) : 0.0;
-  return AddScaled(a, t, ab);
-}
+};
 
 } // namespace
-
-Vector3
-NearestOnTriangle(const Vector3 & place, const std::array<Vector3, 3> & corners)
-{
-  const auto & [a, b, c] = corners;
-  const Vector3 ab = Minus(b, a);
-  const Vector3 ac = Minus(c, a);
-  const Vector3 ap = Minus(place, a);
-  const double  d1 = Dot(ab, ap);
-  const double  d2 = Dot(ac, ap);
-  const Vector3 bp = Minus(place, b);
-  const double  d3 = Dot(ab, bp);
-  const double  d4 = Dot(ac, bp);
-  const Vector3 cp = Minus(place, c);
-  const double  d5 = Dot(ab, cp);
-  const double  d6 = Dot(ac, cp);
-  const double  va = d3 * d6 - d5 * d4;
-  const double  vb = d5 * d2 - d1 * d6;
-  const double  vc = d1 * d4 - d3 * d2;
-  if (va > 0 && vb > 0 && vc > 0)
-  {
-    const double sum = va + vb + vc;
-    return AddScaled(AddScaled(a, vb / sum, ab), vc / sum, ac);
-  }
-  // Outside, or no triangle: the nearest of the sides, of those that it lies beyond.
-  Vector3    best{};
-  double     least = std::numeric_limits<double>::infinity();
-  const auto lookAt = [&](const Vector3 & from, const Vector3 & to) {
-    const Vector3 other = NearestOnSegment(place, from, to);
-    const Vector3 gap = Minus(place, other);
-    const double  squared = Dot(gap, gap);
-    if (squared < least)
-    {
-      least = squared;
-      best = other;
-    }
-  };
-  if (!(vc > 0))
-  {
-    lookAt(a, b);
-  }
-  if (!(va > 0))
-  {
-    lookAt(b, c);
-  }
-  if (!(vb > 0))
-  {
-    lookAt(c, a);
-  }
-  return best;
-}
 
 TriangleTree::TriangleTree(std::span<const Vector3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles)
 {
   m_Corners.reserve(triangles.size());
+  Box all;
   for (const auto & triangle : triangles)
   {
     m_Corners.push_back({ vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]] });
+    std::for_each(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) { all.Add(vertices[vertex]); });
   }
-  m_Order.resize(m_Corners.size());
-  std::iota(m_Order.begin(), m_Order.end(), std::uint32_t{ 0 });
-  if (!m_Order.empty())
+  if (triangles.empty())
   {
-    std::map<std::size_t, std::size_t> nodes;
-    m_Boxes.resize(NodeCount(m_Order.size(), nodes));
-    m_Right.resize(m_Boxes.size(), 0);
-#pragma omp parallel if (m_Order.size() > 2 * kTask)
-#pragma omp single
-    Build(0, 0, m_Order.size(), nodes);
+    return;
   }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    m_Middle[axis] = 0.5 * (all.lower[axis] + all.upper[axis]);
+    m_Extent = std::max(m_Extent, 0.5 * (all.upper[axis] - all.lower[axis]));
+  }
+  std::vector<std::uint32_t> order(triangles.size());
+  std::iota(order.begin(), order.end(), std::uint32_t{ 0 });
+#pragma omp parallel if (order.size() > 2 * kTask)
+#pragma omp single
+  Order(0, order.size(), order);
+  m_Leaves.reserve((order.size() + kLanes - 1) / kLanes);
+  for (std::size_t first = 0; first < order.size(); first += kLanes)
+  {
+    m_Leaves.push_back(LeafOf(std::span(order).subspan(first, std::min(kLanes, order.size() - first))));
+  }
+  AddLevels();
+}
+
+// Such that what follows each other in eights, and eights of eights, and so on, lies together: halves, in such blocks,
+// along what is longest.
+void
+TriangleTree::Order(std::size_t first, std::size_t last, std::vector<std::uint32_t> & order) const
+{
+  const std::size_t count = last - first;
+  if (count <= kLanes)
+  {
+    return;
+  }
+  std::size_t block = kLanes;
+  while (block * kLanes < count)
+  {
+    block *= kLanes;
+  }
+  Box box;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    std::for_each(m_Corners[order[i]].begin(), m_Corners[order[i]].end(), [&](const Vector3 & at) { box.Add(at); });
+  }
+  const Vector3 sides = Minus(box.upper, box.lower);
+  const auto    axis = static_cast<std::size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+  const auto    centre = [&](std::uint32_t triangle) {
+    const auto & corners = m_Corners[triangle];
+    return corners[0][axis] + corners[1][axis] + corners[2][axis];
+  };
+  const std::size_t middle = first + (count + block - 1) / block / 2 * block;
+  const auto        begin = order.begin();
+  std::nth_element(begin + static_cast<std::ptrdiff_t>(first),
+                   begin + static_cast<std::ptrdiff_t>(middle),
+                   begin + static_cast<std::ptrdiff_t>(last),
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     const double ca = centre(a);
+                     const double cb = centre(b);
+                     return ca != cb ? ca < cb : a < b;
+                   });
+#pragma omp task shared(order) if (count > kTask)
+  Order(first, middle, order);
+  Order(middle, last, order);
+#pragma omp taskwait
+}
+
+TriangleTree::Leaf
+TriangleTree::LeafOf(std::span<const std::uint32_t> triangles) const
+{
+  constexpr double thinnest = 1e-6; // sine of an angle
+  Leaf             leaf{};
+  leaf.triangles.fill(kNoTriangle);
+  leaf.planes[0][3].fill(std::numeric_limits<float>::infinity());
+  for (std::size_t lane = 0; lane < triangles.size(); ++lane)
+  {
+    leaf.triangles[lane] = triangles[lane];
+    leaf.planes[0][3][lane] = 0;
+    const auto &  corners = m_Corners[triangles[lane]];
+    const Vector3 normal = Normal(triangles[lane]);
+    const double  area = Length(normal);
+    const double  sides = Length(Minus(corners[1], corners[0])) * Length(Minus(corners[2], corners[0]));
+    const double  other = Length(Minus(corners[2], corners[1]));
+    if (!(area > thinnest * sides) || !(area > thinnest * other * other))
+    {
+      continue;
+    }
+    const auto set = [&](std::size_t plane, const Vector3 & across, const Vector3 & on) {
+      const Vector3 unit = AddScaled({ 0, 0, 0 }, 1 / Length(across), across);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        leaf.planes[plane][axis][lane] = static_cast<float>(unit[axis]);
+      }
+      leaf.planes[plane][3][lane] = static_cast<float>(Dot(unit, Minus(m_Middle, on)));
+    };
+    set(0, normal, corners[0]);
+    for (std::size_t side = 0; side < 3; ++side)
+    {
+      set(1 + side, Cross(Minus(corners[(side + 1) % 3], corners[side]), normal), corners[side]);
+    }
+  }
+  return leaf;
 }
 
 void
-TriangleTree::Build(std::size_t                                node,
-                    std::size_t                                first,
-                    std::size_t                                last,
-                    const std::map<std::size_t, std::size_t> & nodes)
+TriangleTree::AddLevels()
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box              box{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
-  for (std::size_t i = first; i < last; ++i)
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Boxes           none;
+  none.lower.fill({ infinity, infinity, infinity, infinity, infinity, infinity, infinity, infinity });
+  none.upper.fill({ -infinity, -infinity, -infinity, -infinity, -infinity, -infinity, -infinity, -infinity });
+  std::vector<Box> boxes;
+  for (const Leaf & leaf : m_Leaves)
   {
-    for (const Vector3 & corner : m_Corners[m_Order[i]])
+    Box & box = boxes.emplace_back();
+    for (const std::uint32_t triangle : leaf.triangles)
     {
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t corner = 0; corner < 3 && triangle != kNoTriangle; ++corner)
       {
-        box.lower[axis] = std::min(box.lower[axis], corner[axis]);
-        box.upper[axis] = std::max(box.upper[axis], corner[axis]);
+        box.Add(Minus(m_Corners[triangle][corner], m_Middle));
       }
     }
   }
-  m_Boxes[node] = box;
-  if (last - first > kLeaf)
+  do
   {
-    std::size_t axis = 0;
-    for (std::size_t other = 1; other < 3; ++other)
+    std::vector<Box> above((boxes.size() + kLanes - 1) / kLanes);
+    m_Levels.emplace_back(above.size(), none);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
     {
-      axis = box.upper[other] - box.lower[other] > box.upper[axis] - box.lower[axis] ? other : axis;
+      Boxes & eight = m_Levels.back()[i / kLanes];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        eight.lower[axis][i % kLanes] = static_cast<float>(boxes[i].lower[axis]);
+        eight.upper[axis][i % kLanes] = static_cast<float>(boxes[i].upper[axis]);
+      }
+      above[i / kLanes].Add(boxes[i].lower);
+      above[i / kLanes].Add(boxes[i].upper);
     }
-    const auto centre = [&](std::uint32_t triangle) {
-      const auto & corners = m_Corners[triangle];
-      return corners[0][axis] + corners[1][axis] + corners[2][axis];
-    };
-    const std::size_t middle = first + (last - first) / 2;
-    const auto        begin = m_Order.begin();
-    std::nth_element(begin + static_cast<std::ptrdiff_t>(first),
-                     begin + static_cast<std::ptrdiff_t>(middle),
-                     begin + static_cast<std::ptrdiff_t>(last),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       const double ca = centre(a);
-                       const double cb = centre(b);
-                       return ca != cb ? ca < cb : a < b;
-                     });
-    const std::size_t right = node + 1 + nodes.at(middle - first);
-    m_Right[node] = static_cast<std::uint32_t>(right);
-    if (last - first <= kTask)
-    {
-      Build(node + 1, first, middle, nodes);
-      Build(right, middle, last, nodes);
-      return;
-    }
-#pragma omp task shared(nodes)
-    Build(node + 1, first, middle, nodes);
-    Build(right, middle, last, nodes);
-#pragma omp taskwait
-  }
-}
-
-TriangleTree::Nearest
-TriangleTree::FindNearest(const Vector3 & place, double within, std::uint32_t likely) const
-{
-  Nearest best;
-  best.squaredDistance = within * within;
-  best.triangle = kNoTriangle;
-  if (likely < m_Corners.size())
-  {
-    LookAt(likely, place, best);
-  }
-  if (!m_Boxes.empty())
-  {
-    Descend(0, 0, m_Order.size(), place, best);
-  }
-  return best;
-}
-
-void
-TriangleTree::LookAt(std::uint32_t triangle, const Vector3 & place, Nearest & best) const
-{
-  const Vector3 point = NearestOnTriangle(place, m_Corners[triangle]);
-  const Vector3 gap = Minus(place, point);
-  const double  squared = Dot(gap, gap);
-  if (squared < best.squaredDistance || (squared == best.squaredDistance && triangle < best.triangle))
-  {
-    best = { point, squared, triangle };
-  }
-}
-
-void
-TriangleTree::Descend(std::size_t node, std::size_t first, std::size_t last, const Vector3 & place, Nearest & best)
-  const
-{
-  if (last - first <= kLeaf)
-  {
-    for (std::size_t i = first; i < last; ++i)
-    {
-      LookAt(m_Order[i], place, best);
-    }
-    return;
-  }
-  const std::size_t middle = first + (last - first) / 2;
-  const std::size_t right = m_Right[node];
-  const double      gapLeft = SquaredGap(place, m_Boxes[node + 1].lower, m_Boxes[node + 1].upper);
-  const double      gapRight = SquaredGap(place, m_Boxes[right].lower, m_Boxes[right].upper);
-  const bool        leftFirst = gapLeft <= gapRight;
-  for (const bool left : { leftFirst, !leftFirst })
-  {
-    if ((left ? gapLeft : gapRight) <= best.squaredDistance)
-    {
-      left ? Descend(node + 1, first, middle, place, best) : Descend(right, middle, last, place, best);
-    }
-  }
+    boxes = std::move(above);
+  } while (boxes.size() > 1);
 }
 
 Vector3

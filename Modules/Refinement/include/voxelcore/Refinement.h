@@ -46,13 +46,39 @@ struct RefinementInput
 {
   const VoxelShape *                shape = nullptr;
   const std::vector<LatticePoint> * points = nullptr; ///< boundary vertices
-  const MedialComplex *             core = nullptr;   ///< the whole core
+  const MedialComplex *             core = nullptr;   ///< the whole core, or what KeepToRefine() leaves of it
   const EdgePoints *                edgePoints = nullptr;
   const SurfaceEstimate *           surface = nullptr;
   Vector3                           spacing{ 1, 1, 1 };  ///< mm
   bool                              byTolerance = false; ///< thresholds are tolerances, whose heights the core has
   std::vector<LiveElements>         parts{};             ///< of the core, refined as they are
+  std::vector<LiveElements>         left{};              ///< LeftToRefine(), if it is known
+  const std::vector<LatticePoint> * boundary = nullptr;  ///< all boundary vertices, where `points` are some of them
+
+  const std::vector<LatticePoint> &
+  Boundary() const
+  {
+    return boundary != nullptr ? *boundary : *points;
+  }
 };
+
+/** What each threshold, in ascending order, leaves of a core to be refined. By lambda that is more than in the end, as
+ *  measures that are taken again may be greater. */
+std::vector<LiveElements>
+LeftToRefine(const MedialComplex &       core,
+             const std::vector<double> & thresholds,
+             bool                        byTolerance,
+             const ProgressCallback &    progress = {});
+
+/** Drops of a whole core, of what is nearest to its edges and of these boundary vertices what parts of it do not need to
+ *  be refined, and names the rest anew, in the parts, too. What is refined of them stays the same to the last bit. */
+void
+KeepToRefine(const Vector3 &             spacing,
+             MedialComplex &             core,
+             EdgePoints &                edgePoints,
+             std::vector<LatticePoint> & points,
+             std::vector<LiveElements> & left,
+             std::vector<LiveElements> & parts);
 
 /** Refines the part of the core that a threshold leaves, for each threshold in mm, and then the parts of the input. A
  *  part by lambda is measured again where its vertices have moved to, and pruned once more. Other parts stay as they

@@ -5,15 +5,15 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
 namespace voxelcore
 {
 
-/** A tree of boxes over triangles; degenerate ones stand for segments and points. O(n log n) to build, about 100 bytes
- *  a triangle. Thread-safe once built; of equally near triangles the one of smallest index is found. */
+/** A tree of boxes over triangles, eight to a node, and eight triangles to a leaf; degenerate ones stand for segments
+ *  and points. O(n log n) to build, about 150 bytes a triangle. Thread-safe once built; of equally near triangles the
+ *  one of smallest index is found. */
 class TriangleTree
 {
 public:
@@ -45,23 +45,38 @@ public:
   Normal(std::uint32_t triangle) const;
 
 private:
-  struct Box
+  static constexpr std::size_t kLanes = 8;
+  using Lanes = std::array<float, kLanes>;
+
+  // Single precision, relative to m_Middle. Nothing seems farther away than it is but by roundings.
+  struct Boxes
   {
-    Vector3 lower;
-    Vector3 upper;
+    std::array<Lanes, 3> lower; ///< by axis
+    std::array<Lanes, 3> upper;
   };
+  // Of each triangle the plane that it lies in and those through its sides at right angles to it, normals outwards: the
+  // first three are a normal, the fourth what the middle is behind the plane. All 0 where it is no triangle.
+  struct Leaf
+  {
+    std::array<std::array<Lanes, 4>, 4> planes;
+    std::array<std::uint32_t, kLanes>   triangles; ///< kNoTriangle: none
+  };
+  struct Search;
 
   void
-  Build(std::size_t node, std::size_t first, std::size_t last, const std::map<std::size_t, std::size_t> & nodes);
+  Order(std::size_t first, std::size_t last, std::vector<std::uint32_t> & order) const;
+  Leaf
+  LeafOf(std::span<const std::uint32_t> triangles) const;
+  void
+  AddLevels();
   void
   LookAt(std::uint32_t triangle, const Vector3 & place, Nearest & best) const;
-  void
-  Descend(std::size_t node, std::size_t first, std::size_t last, const Vector3 & place, Nearest & best) const;
 
   std::vector<std::array<Vector3, 3>> m_Corners; ///< by index
-  std::vector<std::uint32_t>          m_Order;   ///< of the leaves
-  std::vector<Box>                    m_Boxes;   ///< pre-order; the right child follows the left one's subtree
-  std::vector<std::uint32_t>          m_Right;   ///< node of the right child
+  std::vector<Leaf>                   m_Leaves;
+  std::vector<std::vector<Boxes>>     m_Levels; ///< of leaves, of what is in those boxes, and so on up to one of all
+  Vector3                             m_Middle{};
+  double                              m_Extent = 0; ///< along an axis from the middle to what is farthest
 };
 
 /** The point of a triangle that is nearest to `place` (Ericson, Real-Time Collision Detection, 5.1.5). */
