@@ -16,7 +16,7 @@ namespace
 
 const std::set<std::string> kTables{ "mask.nrrd",    "medial.vtp",  "skeleton.vtp", "roots.rsml",
                                      "roots.csv",    "levels.csv",  "plant.csv",    "profile.csv",
-                                     "columns.json", "report.json", "page.html" };
+                                     "columns.json", "changes.txt", "report.json",  "page.html" };
 
 class RootsJob : public JobFolder
 {
@@ -121,12 +121,138 @@ TEST_F(RootsJob, TouchingRootsAreToldApart)
   const auto              contacts = RootContacts(phantom.phantom).size();
   ASSERT_GT(contacts, 1U);
   EXPECT_GE(result.model.traits.contacts, static_cast<std::int64_t>(contacts));
+  EXPECT_EQ(result.report.labels.at(0).shape.betti, (std::array<std::int64_t, 3>{ 1, 0, 0 })) << "cut apart";
+  ASSERT_TRUE(result.topology);
+  EXPECT_GE(result.topology->before.betti[1], static_cast<std::int64_t>(contacts));
+  EXPECT_TRUE(result.topology->asAsked);
+  EXPECT_GE(result.topology->cuts, contacts);
   std::set<std::int32_t> branches;
   for (const CentreLinePoint & point : RootCentreLines(phantom.phantom))
   {
     branches.insert(point.branch);
   }
   EXPECT_NEAR(static_cast<double>(result.model.roots.axes.size()), static_cast<double>(branches.size()), 1);
+}
+
+TEST_F(RootsJob, LoopsStayWhereTheyAreAskedFor)
+{
+  Scan("a.nrrd", 0, 3);
+  const auto loops = [](const RootsResult & result) { return result.report.labels.at(0).shape.betti[1]; };
+  const auto all = loops(Roots("a.nrrd", "all/", { { "keep-loops", "true" } }));
+  ASSERT_GT(all, 1);
+  EXPECT_EQ(loops(Roots("a.nrrd", "one/", { { "loops", "1" } })), 1);
+  const RootsResult tooMany = Roots("a.nrrd", "kernel/", { { "kernel", "19000" }, { "threshold", "18500:inf" } });
+  EXPECT_FALSE(tooMany.topology->asAsked) << "nearly all is kernel";
+  EXPECT_NE(tooMany.topology->reason.find("never cut"), std::string::npos);
+  EXPECT_NE(tooMany.warnings.at(0).find("not what was asked"), std::string::npos);
+}
+
+TEST_F(RootsJob, CutsAndFillsAreListedAndTheListMakesTheSameMask)
+{
+  Scan("a.nrrd", 0.7, 3);
+  const RootsResult result = Roots("a.nrrd", "out/");
+  ASSERT_TRUE(result.topology);
+  const auto json = nlohmann::json::parse(Bytes("out/report.json")).at("roots").at("topology");
+  EXPECT_EQ(json.at("after"), (nlohmann::json{ 1, 0, 0 }));
+  EXPECT_EQ(json.at("changes").size(), result.topology->parts.size());
+  std::uint64_t voxels = 0;
+  for (const auto & change : json.at("changes"))
+  {
+    EXPECT_GT(change.at("cost"), 0);
+    voxels += change.at("voxels").get<std::uint64_t>();
+  }
+  EXPECT_EQ(voxels, result.topology->voxelsAdded + result.topology->voxelsRemoved);
+  const auto & levels = json.at("levels");
+  EXPECT_LT(levels.at("neighborhood"), levels.at("shape"));
+  EXPECT_LT(levels.at("shape"), levels.at("kernel"));
+  for (const RootsChange & change : result.topology->parts)
+  {
+    EXPECT_TRUE(change.isFill ? change.darkest >= result.topology->levels->neighbourhood
+                              : change.brightest < result.topology->levels->kernel);
+  }
+  const std::string page = Bytes("out/page.html");
+  EXPECT_NE(page.find("<h2>Cuts and fills</h2>"), std::string::npos);
+  EXPECT_NE(page.find("type=\"range\""), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(Bytes("out/report.json")).at("parameters").at("change_voxels"),
+            VoxelChangesText(result.topology->changes));
+  Roots("a.nrrd", "again/", { { "change-voxels", At("out/changes.txt").string() } });
+  EXPECT_EQ(Bytes("again/mask.nrrd"), Bytes("out/mask.nrrd"));
+}
+
+/** Values moved: axis k of the new grid is axis `order[k]` of the old, turned round where `mirrored`, in a border. */
+void
+Moved(const RootScan &                  scan,
+      const std::array<std::int32_t, 3> size,
+      const std::array<int, 3> &        order,
+      const std::array<bool, 3> &       mirrored,
+      std::int32_t                      border,
+      const std::filesystem::path &     path)
+{
+  ImageGeometry geometry;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    geometry.size[k] = size[static_cast<std::size_t>(order[k])] + 2 * border;
+  }
+  std::vector<std::uint16_t> values;
+  for (std::int32_t z = -border; z < geometry.size[2] - border; ++z)
+  {
+    for (std::int32_t y = -border; y < geometry.size[1] - border; ++y)
+    {
+      for (std::int32_t x = -border; x < geometry.size[0] - border; ++x)
+      {
+        const std::array<std::int32_t, 3> to{ x, y, z };
+        std::array<std::int32_t, 3>       from{};
+        bool                              isIn = true;
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          const auto axis = static_cast<std::size_t>(order[k]);
+          from[axis] = mirrored[k] ? size[axis] - 1 - to[k] : to[k];
+          isIn = isIn && to[k] >= 0 && to[k] < size[axis];
+        }
+        const auto at = [&] {
+          return (static_cast<std::size_t>(from[2]) * static_cast<std::size_t>(size[1]) +
+                  static_cast<std::size_t>(from[1])) *
+                   static_cast<std::size_t>(size[0]) +
+                 static_cast<std::size_t>(from[0]);
+        };
+        values.push_back(isIn ? scan.values[at()] : kRootScanAir);
+      }
+    }
+  }
+  WriteGreyVolume(path, geometry, values, false);
+}
+
+TEST_F(RootsJob, TurnedMirroredAndPaddedItIsTheSamePlant)
+{
+  PhantomJobOptions phantom = Scan("a.nrrd", 0, 3);
+  phantom.scan->root = phantom.phantom;
+  const RootScan scan = MakeRootScan(*phantom.scan);
+  const auto &   size = phantom.phantom.size;
+  Moved(scan, size, { 0, 1, 2 }, { false, false, false }, 0, At("plain.nrrd"));
+  Moved(scan, size, { 1, 2, 0 }, { false, true, false }, 0, At("turned.nrrd"));
+  Moved(scan, size, { 0, 1, 2 }, { true, false, false }, 0, At("mirrored.nrrd"));
+  Moved(scan, size, { 0, 1, 2 }, { false, false, false }, 7, At("padded.nrrd"));
+  const RootsResult plain = Roots("plain.nrrd", "plain/", { { "threshold", "20000:inf" } });
+  const auto        levels = [](const RootsResult & result) {
+    std::vector<std::int64_t> counts;
+    for (const RootLevelRecord & level : result.model.traits.levels)
+    {
+      counts.push_back(level.count);
+    }
+    return counts;
+  };
+  for (const std::string name : { "turned", "mirrored", "padded" })
+  {
+    const RootsResult moved = Roots(name + ".nrrd", name + "/", { { "threshold", "20000:inf" } });
+    EXPECT_EQ(UpText(moved.model.roots.up), name == "turned" ? "y-" : "z+") << name;
+    EXPECT_EQ(moved.report.labels.at(0).shape.betti, plain.report.labels.at(0).shape.betti) << name;
+    EXPECT_EQ(levels(moved), levels(plain)) << name;
+    EXPECT_NEAR(moved.model.traits.levels.back().totalLength,
+                plain.model.traits.levels.back().totalLength,
+                0.005 * plain.model.traits.levels.back().totalLength)
+      << name;
+    EXPECT_EQ(moved.model.traits.contacts, plain.model.traits.contacts) << name;
+  }
 }
 
 TEST_F(RootsJob, TheReportHoldsTheContactsAndWhichWayIsUp)

@@ -178,7 +178,8 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               true,
                               ParseGapWidth("2vox"),
                               TopologyRequest{ 1, 0, {} },
-                              true };
+                              true,
+                              ParseVoxelChanges("+1,2,3 -4,5,6x7") };
   EditRecord::Simplified simplified{ { 2, { 3, 2, 1 } }, { 1, { 1, 1, 1 } }, false, "too deep", 31, 32, 33, 34, {} };
   simplified.changes.push_back({ true, { 1, 2, 3.5 }, 35, 36.25, { -1, 0, 1 } });
   for (LabelRecord & label : report.labels)
@@ -196,7 +197,8 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               EditRecord::Filled{ 23, 24, 25 },
                               EditRecord::Filled{ 26, 27, 28 },
                               EditRecord::Smoothed{ 12, 13, 1 },
-                              simplified };
+                              simplified,
+                              EditRecord::Filtered{ 37, 38 } };
   }
   const std::string text = ProvenanceJson(report, { 0, 1 }, 1);
   const CoreReport  read = ParseProvenance(text, "a.vtp");
@@ -210,6 +212,9 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   EXPECT_EQ(read.labels[1].edits->componentsRemoved, 5U);
   const Json json = Json::parse(text);
   EXPECT_EQ(json["parameters"]["crop"], (Json{ { 0, 10 }, { 1, 11 }, { 2, 12 } }));
+  EXPECT_EQ(json["parameters"]["change_voxels"], "+1,2,3 -4,5,6x7");
+  EXPECT_EQ(read.parameters.edits.change, report.parameters.edits.change);
+  EXPECT_EQ(json["labels"][0]["edits"]["changed"]["voxels_removed"], 38);
   EXPECT_EQ(json["labels"][0]["edits"]["voxels_added"], 3);
   EXPECT_EQ(json["labels"][0]["edits"]["mended"]["pieces_joined"], 9);
   EXPECT_EQ(json["labels"][0]["edits"]["smoothed"]["voxels_removed"], 13);

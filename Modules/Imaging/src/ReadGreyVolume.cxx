@@ -8,11 +8,12 @@
 namespace voxelcore
 {
 
-GreyVolume
-ReadGreyVolume(const std::filesystem::path & path,
-               const VoxelBox &              box,
-               const ReadOptions &           options,
-               const ProgressCallback &      progress)
+ImageGeometry
+VisitGreyRows(const std::filesystem::path & path,
+              const VoxelBox &              box,
+              const ReadOptions &           options,
+              const GreyRow &               take,
+              const ProgressCallback &      progress)
 {
   CropRange part;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -34,9 +35,7 @@ ReadGreyVolume(const std::filesystem::path & path,
       RefuseInput(path, "it is smaller than the segmentation", "give the scan the segmentation was made of");
     }
   }
-  GreyVolume grey{ scan.geometry, box, {} };
-  grey.values.reserve(static_cast<std::size_t>(box.size[0]) * static_cast<std::size_t>(box.size[1]) *
-                      static_cast<std::size_t>(box.size[2]));
+  std::vector<float> values(static_cast<std::size_t>(box.size[0]));
   const std::size_t bytes = PixelBytes(scan.type);
   const std::size_t stride = bytes * scan.interleaved;
   const std::size_t first = bytes * static_cast<std::size_t>(scan.interleaved > 1 ? scan.component : 0);
@@ -56,13 +55,37 @@ ReadGreyVolume(const std::filesystem::path & path,
           {
             RefuseInput(path, "a voxel near the shape is no finite number", "grey values must be numbers there");
           }
-          grey.values.push_back(static_cast<float>(value));
+          values[static_cast<std::size_t>(x - part.first[0])] = static_cast<float>(value);
         }
+        const auto number = static_cast<std::int64_t>(span.firstRow + row);
+        take(static_cast<std::int32_t>(number % scan.geometry.size[1]),
+             static_cast<std::int32_t>(number / scan.geometry.size[1]),
+             values);
       }
     }
     ReportProgress(progress, "read", reader.Fraction());
   }
   reader.Finish(progress);
+  return scan.geometry;
+}
+
+GreyVolume
+ReadGreyVolume(const std::filesystem::path & path,
+               const VoxelBox &              box,
+               const ReadOptions &           options,
+               const ProgressCallback &      progress)
+{
+  GreyVolume grey{ {}, box, {} };
+  grey.values.reserve(static_cast<std::size_t>(box.size[0]) * static_cast<std::size_t>(box.size[1]) *
+                      static_cast<std::size_t>(box.size[2]));
+  grey.geometry = VisitGreyRows(
+    path,
+    box,
+    options,
+    [&grey](std::int32_t, std::int32_t, std::span<const float> row) {
+      grey.values.insert(grey.values.end(), row.begin(), row.end());
+    },
+    progress);
   return grey;
 }
 

@@ -4,6 +4,7 @@
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/RootFiles.h"
+#include "voxelcore/RootsJob.h"
 #include "voxelcore/VoxelShape.h"
 
 #include <cstddef>
@@ -33,8 +34,12 @@ DrawRoots(const RootModel &             model,
 std::string
 RootsFigures(const RootModel & model);
 
+/** What was cut and filled, from the side and as a table, as HTML. */
+std::string
+RootsChanges(const RootModel & model, const RootsTopology & topology);
+
 /** The summary: a page of its own that needs nothing but roots.png beside it (`drawn`). */
 std::string
-RootsPage(const RootModel & model, double volume, const std::vector<std::string> & remarks, bool drawn);
+RootsPage(const RootsResult & result, double volume, const std::vector<std::string> & remarks, bool drawn);
 
 } // namespace voxelcore

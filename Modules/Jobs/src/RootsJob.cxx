@@ -2,20 +2,20 @@
 
 #include "CoreJobSteps.h"
 #include "JobTools.h"
+#include "RootsApart.h"
 #include "RootsDisplay.h"
+#include "RootsReport.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyScan.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadInput.h"
-#include "voxelcore/ReportTable.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/Text.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <limits>
 #include <utility>
@@ -31,9 +31,9 @@ namespace
 constexpr std::array<const char *, 6> kDirections{ "x+", "x-", "y+", "y-", "z+", "z-" };
 
 /** What is written besides pictures. */
-constexpr std::array<const char *, 11> kFiles{ "mask.nrrd",    "medial.vtp",  "skeleton.vtp", "roots.rsml",
+constexpr std::array<const char *, 12> kFiles{ "mask.nrrd",    "medial.vtp",  "skeleton.vtp", "roots.rsml",
                                                "roots.csv",    "levels.csv",  "plant.csv",    "profile.csv",
-                                               "columns.json", "report.json", "page.html" };
+                                               "columns.json", "changes.txt", "report.json",  "page.html" };
 
 CoreOptions
 CoreOptionsOf(const RootsOptions & options)
@@ -60,22 +60,31 @@ CoreOptionsOf(const RootsOptions & options)
   return core;
 }
 
-/** The width in voxels up to which holes are closed, of those tried that with the fewest pieces, loops and cavities
- *  left; the least of equals. */
-GapWidth
-BestWidth(const LabelMap & volume, const CoreOptions & core)
+/** A mask as it is before roots are told apart. */
+struct CleanMask
+{
+  ImageGeometry geometry;
+  EditedLabels  edited;
+};
+
+/** Edits by the width in voxels up to which holes are closed, of those tried that with the fewest pieces, loops and
+ *  cavities left; the least of equals. Puts it into `core`. */
+EditedLabels
+EditByBestWidth(const LabelMap & volume, CoreOptions & core)
 {
   // In voxels of the greatest spacing. Lumens must be wider than that to be found, holes narrower to be closed.
   const Vector3 & spacing = volume.geometry.spacing;
   const auto [least, most] = std::minmax({ spacing[0], spacing[1], spacing[2] });
-  std::optional<GapWidth> best;
+  EditedLabels            best;
+  std::optional<GapWidth> bestWidth;
   std::int64_t            fewest = 0;
   for (const double holes : { 2.5, 4.0, 6.0 })
   {
     ShapeEditOptions edits = core.edits;
     edits.simplify.reset(); // it would cut the loops by which widths are compared
+    edits.change.reset();
     edits.fillHollows = ParseGapWidth(RoundTripText(std::round(10 * holes * most / least) / 10) + "vox");
-    const EditedLabels edited =
+    EditedLabels edited =
       EditLabels(volume.labels, volume.geometry, edits, core.reading.labels != "all", core.scan.string());
     std::int64_t left = 0;
     for (const EditedLabel & one : edited.labels)
@@ -83,9 +92,10 @@ BestWidth(const LabelMap & volume, const CoreOptions & core)
       const auto betti = ComputeShapeTopology(one.label.shape).betti;
       left += betti[0] - 1 + betti[1] + betti[2];
     }
-    if (!best || left < fewest)
+    if (!bestWidth || left < fewest)
     {
-      best = edits.fillHollows;
+      bestWidth = edits.fillHollows;
+      best = std::move(edited);
       fewest = left;
     }
     if (fewest == 0)
@@ -93,18 +103,14 @@ BestWidth(const LabelMap & volume, const CoreOptions & core)
       break;
     }
   }
-  return *best;
+  core.edits.fillHollows = bestWidth;
+  return best;
 }
 
 /** Chooses the threshold of grey values that come without one, and how hollows are filled. */
-void
+CleanMask
 LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
 {
-  const bool choosesWidth = !asIs && !core.edits.close && !core.edits.fillHollows && !core.edits.fillSlices;
-  if (!choosesWidth && !core.reading.refuseGrey)
-  {
-    return;
-  }
   LabelMap volume;
   try
   {
@@ -117,17 +123,25 @@ LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
     notes.push_back(
       core.scan.string() + ": " + GreyScanText(error.grey) + "; threshold " + RoundTripText(error.grey.half) +
       ":inf, halfway between background and roots (Otsu: " + OtsuRange(error.grey) + "); for another give --threshold");
-    if (choosesWidth)
-    {
-      volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
-    }
+    volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
   }
-  if (choosesWidth)
+  CleanMask mask{ volume.geometry, {} };
+  if (!asIs && !core.edits.close && !core.edits.fillHollows && !core.edits.fillSlices)
   {
-    core.edits.fillHollows = BestWidth(volume, core);
+    mask.edited = EditByBestWidth(volume, core);
     notes.push_back("hollows are filled where they open through holes up to " + core.edits.fillHollows->text +
                     " wide; for another width give --fill-hollows");
+    if (!core.edits.simplify && !core.edits.change)
+    {
+      return mask;
+    }
   }
+  mask.edited = EditLabels(std::move(volume.labels),
+                           volume.geometry,
+                           core.edits,
+                           core.reading.labels != "all",
+                           core.scan.string());
+  return mask;
 }
 
 /** yyyy-mm-ddThh:mm:ss, UTC: when a file was changed last. */
@@ -145,36 +159,6 @@ ModificationTime(const fs::path & path)
   char text[32];
   std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%S", &parts);
   return text;
-}
-
-std::string
-JsonNumber(double value)
-{
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.9g", value);
-  return std::isfinite(value) ? text : "null";
-}
-
-/** The part of the report that is about roots; goes before the last brace of the core's. */
-std::string
-RootsJson(const RootModel & model)
-{
-  const RootTraits & traits = model.traits;
-  std::string        json = ",\n  \"roots\": {\n    \"up\": \"" + UpText(model.roots.up) +
-                     "\",\n    \"up_found\": " + (model.roots.upFound ? "true" : "false") +
-                     ",\n    \"axes\": " + std::to_string(model.roots.axes.size()) +
-                     ",\n    \"stems\": " + std::to_string(traits.stems) + ",\n    \"total_length\": " +
-                     JsonNumber(traits.levels.empty() ? 0 : traits.levels.back().totalLength) +
-                     ",\n    \"whorls\": " + std::to_string(traits.whorls) + ",\n    \"contacts\": [";
-  for (std::size_t i = 0; i < model.roots.meetings.size(); ++i)
-  {
-    const RootMeeting & meeting = model.roots.meetings[i];
-    json += std::string(i > 0 ? "," : "") + "\n      { \"place\": [" + JsonNumber(meeting.position[0]) + ", " +
-            JsonNumber(meeting.position[1]) + ", " + JsonNumber(meeting.position[2]) +
-            "], \"radius\": " + JsonNumber(meeting.radius) + ", \"margin\": " + JsonNumber(meeting.margin) +
-            ", \"undecided\": " + (meeting.undecided ? "true" : "false") + " }";
-  }
-  return json + (model.roots.meetings.empty() ? "]" : "\n    ]") + "\n  }\n}\n";
 }
 
 /** What a user should look at. */
@@ -219,6 +203,25 @@ AddRemarks(RootsResult & result)
   {
     result.notes.push_back(std::to_string(loose) + (loose == 1 ? " piece hangs" : " pieces hang") +
                            " together with no stem; marked as loose");
+  }
+}
+
+/** Where roots touched before they were cut apart. */
+void
+RecallContacts(const RootsTopology & topology, RootModel & model)
+{
+  for (const RootMeeting & meeting : topology.meetings)
+  {
+    for (RootAxis & axis : model.roots.axes)
+    {
+      axis.undecided = axis.undecided ||
+                       (meeting.undecided && std::ranges::any_of(axis.points, [&](ElementIndex point) {
+                          return Distance(model.graph.positions[point], meeting.position) <= meeting.reach;
+                        }));
+    }
+    model.roots.meetings.push_back(meeting);
+    model.roots.meetings.back().pairs.clear(); // branches of a skeleton that is no more
+    model.roots.meetings.back().arms.clear();
   }
 }
 
@@ -300,27 +303,51 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
 
   RootsResult result;
   ReportProgress(context.progress, "looking", 0);
-  LookAtScan(core, options.asIs, result.notes);
+  // Loops of touching roots are cut where the roots say so, not as an edit that knows no roots.
+  const bool            cuts = !options.asIs && !options.keepLoops && !core.edits.change;
+  const GapWidth        depth = core.edits.simplify.value_or(ParseGapWidth("2vox"));
+  const TopologyRequest request = core.edits.topology;
+  if (cuts)
+  {
+    core.edits.simplify.reset();
+    core.edits.topology = {};
+  }
+  CleanMask clean = LookAtScan(core, options.asIs, result.notes);
+  if (clean.edited.labels.size() != 1)
+  {
+    throw UsageError(options.scan.string() + ": " + std::to_string(clean.edited.labels.size()) +
+                     " labels; choose one with --labels, or take all as one with --binary");
+  }
+  if (cuts)
+  {
+    result.topology = TellRootsApart(clean.edited.labels.front().label,
+                                     clean.geometry,
+                                     core,
+                                     options.rules,
+                                     { depth, request, options.kernel, options.neighbourhood },
+                                     PartOfProgress(context.progress, 0, 0.35));
+  }
+  if (result.topology)
+  {
+    core.edits.change = result.topology->changes;
+    (result.topology->asAsked ? result.notes : result.warnings).push_back(RootsTopologyText(*result.topology));
+  }
+  clean = {};
   LabelShape    mask;
   ImageGeometry geometry;
   JobContext    part = context;
-  part.progress = PartOfProgress(context.progress, 0, draws ? 0.75 : 0.95);
+  part.progress = PartOfProgress(context.progress, 0.35, draws ? 0.75 : 0.95);
   CoreResult staged =
     StageCoreJob(core,
                  transaction,
                  part,
                  false,
                  [&](const std::vector<EditedLabel> & labels, const ImageGeometry & where) {
-                   if (labels.size() != 1)
-                   {
-                     throw UsageError(options.scan.string() + ": " + std::to_string(labels.size()) +
-                                      " labels; choose one with --labels, or take all as one with --binary");
-                   }
                    mask = labels.front().label;
                    geometry = where;
                  });
   result.report = std::move(staged.report);
-  result.warnings = std::move(staged.warnings);
+  result.warnings.insert(result.warnings.end(), staged.warnings.begin(), staged.warnings.end());
   result.notes.insert(result.notes.end(), staged.notes.begin(), staged.notes.end());
 
   SkeletonModel skeleton = ReadSkeletonVtp(StagedName(transaction, core.skeletonOutput));
@@ -328,6 +355,10 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   result.model.unit = result.report.input.geometry.unit;
   result.model.graph = std::move(skeleton.parts.at(0).graph);
   result.model.roots = FindRoots(result.model.graph, options.rules);
+  if (result.topology)
+  {
+    RecallContacts(*result.topology, result.model);
+  }
   result.model.traits = MeasureRoots(result.model.graph, result.model.roots, options.soilDepth);
   AddRemarks(result);
 
@@ -342,6 +373,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   WritePlantCsv(transaction.Stage(folder / "plant.csv"), result.model, volume);
   WriteRootProfileCsv(transaction.Stage(folder / "profile.csv"), result.model);
   WriteTextFile(transaction.Stage(folder / "columns.json"), RootColumnsJson(result.model.unit));
+  WriteTextFile(transaction.Stage(folder / "changes.txt"), RootChangesText(result.topology, result.model.unit));
   if (draws)
   {
     DrawRoots(result.model,
@@ -354,50 +386,14 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   }
   std::vector<std::string> remarks = result.warnings;
   remarks.insert(remarks.end(), result.notes.begin(), result.notes.end());
-  WriteTextFile(transaction.Stage(folder / "page.html"), RootsPage(result.model, volume, remarks, draws));
+  WriteTextFile(transaction.Stage(folder / "page.html"), RootsPage(result, volume, remarks, draws));
   result.report.seconds.total = total.Lap();
   result.report.peakMemoryMb = PeakMemoryMb();
   std::string json = ReportJson(result.report);
-  json.replace(json.rfind("\n}"), std::string::npos, RootsJson(result.model));
+  json.replace(json.rfind("\n}"), std::string::npos, RootsJson(result.model, result.topology));
   WriteTextFile(transaction.Stage(folder / "report.json"), json);
   Finish(transaction, context);
   return result;
-}
-
-std::string
-RootsText(const RootsResult & result)
-{
-  const RootTraits & traits = result.model.traits;
-  const LengthUnit   unit = LengthUnit::For(traits.depth, result.model.unit);
-  const auto         angle = [](double value) {
-    char text[24];
-    std::snprintf(text, sizeof(text), "%.0f", value);
-    return std::isfinite(value) ? std::string(text) : std::string("-");
-  };
-  std::vector<std::vector<std::string>> rows{ { "level",
-                                                "roots",
-                                                "length " + unit.Name(),
-                                                "mean " + unit.Name(),
-                                                "diameter " + unit.Name(),
-                                                "emergence deg",
-                                                "from down deg" } };
-  for (const RootLevelRecord & level : traits.levels)
-  {
-    using Kind = RootLevelRecord::Kind;
-    rows.push_back({ level.kind == Kind::All        ? std::string("all")
-                     : level.kind == Kind::Laterals ? std::string("laterals")
-                                                    : std::to_string(level.level),
-                     std::to_string(level.count),
-                     unit.Text(level.totalLength),
-                     level.count > 0 ? unit.Text(level.meanLength) : "-",
-                     level.count > 0 ? unit.Text(level.meanDiameter) : "-",
-                     angle(level.meanEmergenceAngle),
-                     angle(level.meanTipFromDown) });
-  }
-  return FormatTable(rows) + std::to_string(traits.contacts) + (traits.contacts == 1 ? " contact" : " contacts") +
-         " of roots, " + std::to_string(traits.undecidedContacts) + " undecided; " + std::to_string(traits.whorls) +
-         (traits.whorls == 1 ? " whorl" : " whorls") + "; depth " + unit.Text(traits.depth) + " " + unit.Name() +
-         ", width " + unit.Text(traits.width) + " " + unit.Name() + "\n";
 }
 
 } // namespace voxelcore

@@ -154,8 +154,9 @@ RootsFigures(const RootModel & model)
 }
 
 std::string
-RootsPage(const RootModel & model, double volume, const std::vector<std::string> & remarks, bool drawn)
+RootsPage(const RootsResult & result, double volume, const std::vector<std::string> & remarks, bool drawn)
 {
+  const RootModel & model = result.model;
   const std::string unit = model.unit == SpatialUnit::Millimetres ? "mm" : "voxels";
   const std::string title = "Roots of " + Escaped(model.name);
   std::string       html =
@@ -187,6 +188,10 @@ RootsPage(const RootModel & model, double volume, const std::vector<std::string>
   if (!drawn)
   {
     html += "<div class=\"two\">\n" + RootsFigures(model) + "</div>\n";
+  }
+  if (result.topology)
+  {
+    html += RootsChanges(model, *result.topology);
   }
   if (!remarks.empty())
   {

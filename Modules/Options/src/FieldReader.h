@@ -10,6 +10,7 @@
 #include "voxelcore/ShapeClosing.h"
 #include "voxelcore/ShapeMedian.h"
 #include "voxelcore/SliceHoles.h"
+#include "voxelcore/VoxelChanges.h"
 
 #include <cstdint>
 #include <limits>
@@ -96,6 +97,10 @@ private:
         throw UsageError(std::string(row.flags) + ": " + error.what());
       }
     }
+    else if constexpr (std::is_same_v<T, VoxelChanges>)
+    {
+      return ReadVoxelChanges(m_Reader.File(row.name));
+    }
     else if constexpr (std::is_same_v<T, MedianWidth>)
     {
       try
@@ -147,7 +152,8 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
   {
     throw UsageError("give only one of --labels, --binary and --threshold");
   }
-  if (options.edits.topology.IsGiven() && !options.edits.simplify)
+  constexpr bool simplifiesAnyhow = requires { options.keepLoops; };
+  if (!simplifiesAnyhow && options.edits.topology.IsGiven() && !options.edits.simplify)
   {
     throw UsageError("--pieces, --loops and --cavities need --simplify-topology, such as --simplify-topology 2vox");
   }

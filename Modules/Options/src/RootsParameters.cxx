@@ -22,6 +22,9 @@ RootsOptionsFrom(const ParameterValues & values)
     throw UsageError("--split-components: roots works on one piece");
   }
   options.asIs = reader.IsSet("as-is");
+  options.kernel = reader.Real("kernel");
+  options.neighbourhood = reader.Real("neighborhood");
+  options.keepLoops = reader.IsSet("keep-loops");
   options.stage = BurningFrom(values, command);
   options.stage.lambda.text = "0";
   options.rules.up = ParseUp(reader.Text("up"));

@@ -127,6 +127,11 @@ EditRecordJson(const EditRecord & edits, bool inFile)
   {
     json["topology_simplified"] = SimplifiedJson(*edits.simplified, inFile);
   }
+  if (edits.changed)
+  {
+    json["changed"] = { { "voxels_added", edits.changed->voxelsAdded },
+                        { "voxels_removed", edits.changed->voxelsRemoved } };
+  }
   return json;
 }
 

@@ -74,6 +74,12 @@ ValueJson(MedianWidth width)
 }
 
 Json
+ValueJson(const VoxelChanges & changes)
+{
+  return VoxelChangesText(changes);
+}
+
+Json
 ValueJson(SliceAxis axis)
 {
   return SliceAxisName(axis);
@@ -142,6 +148,19 @@ ReadValue(const Json & json, MedianWidth & width)
 }
 
 void
+ReadValue(const Json & json, VoxelChanges & changes)
+{
+  try
+  {
+    changes = ParseVoxelChanges(json.get<std::string>());
+  }
+  catch (const UsageError & error)
+  {
+    throw InputError(std::string("its changed voxels: ") + error.what());
+  }
+}
+
+void
 ReadValue(const Json & json, SliceAxis & axis)
 {
   const auto named = SliceAxisNamed(json.get<std::string>());
@@ -168,7 +187,7 @@ IsOfSome(std::string_view name)
 {
   return name == "resolution" || name == "level" || name == "raw" || name == "close" || name == "fill_hollows" ||
          name == "fill_slices" || name == "median" || name == "simplify_topology" || name == "pieces" ||
-         name == "loops" || name == "cavities";
+         name == "loops" || name == "cavities" || name == "change_voxels";
 }
 
 /** Writes fields. */

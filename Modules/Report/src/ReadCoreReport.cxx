@@ -60,12 +60,15 @@ ReadEditRecord(const Json & json)
   json.at("components_joined").get_to(edits.componentsJoined);
   json.at("components_removed").get_to(edits.componentsRemoved);
   json.at("voxels_removed").get_to(edits.voxelsRemoved);
-  if (json.contains("median"))
+  for (const auto & [name, filtered] :
+       { std::pair("median", &edits.filtered), std::pair("changed", &edits.changed) })
   {
-    const Json &           from = json.at("median");
-    EditRecord::Filtered & filtered = edits.filtered.emplace();
-    from.at("voxels_added").get_to(filtered.voxelsAdded);
-    from.at("voxels_removed").get_to(filtered.voxelsRemoved);
+    if (json.contains(name))
+    {
+      filtered->emplace();
+      json.at(name).at("voxels_added").get_to((*filtered)->voxelsAdded);
+      json.at(name).at("voxels_removed").get_to((*filtered)->voxelsRemoved);
+    }
   }
   if (json.contains("mended"))
   {

@@ -141,6 +141,20 @@ BallOfDepth(const GapWidth & depth, const ImageGeometry & geometry)
   return ball;
 }
 
+VoxelShape
+VoxelsAround(const VoxelShape & shape, const LatticeBall & ball, const ProgressCallback & progress)
+{
+  const BallRows rows(ball);
+  return rows.IsOneVoxel() || shape.Box().size[0] == 0 ? shape
+                                                       : CopyBox(Dilated(shape, rows, progress, 0, 0), shape.Box());
+}
+
+ChangeCost
+DepthCost(const VoxelShape & shape, const LatticeBall & ball)
+{
+  return DistanceCost(shape, ball);
+}
+
 DepthSimplified
 SimplifyWithin(const VoxelShape &       shape,
                const LatticeBall &      ball,
@@ -149,10 +163,9 @@ SimplifyWithin(const VoxelShape &       shape,
 {
   const BallRows rows(ball);
   VoxelShape     kernel = shape;
-  VoxelShape     neighbourhood = shape;
+  VoxelShape     neighbourhood = VoxelsAround(shape, ball, progress);
   if (!rows.IsOneVoxel() && shape.Box().size[0] > 0)
   {
-    neighbourhood = CopyBox(Dilated(shape, rows, progress, 0, 0), shape.Box());
     const VoxelShape nearBackground = CopyBox(Dilated(BackgroundAround(shape), rows, progress, 0, 0), shape.Box());
     ForWords(kernel, nearBackground, [](std::uint64_t & word, std::uint64_t near) { word &= ~near; });
   }

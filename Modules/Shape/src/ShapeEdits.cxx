@@ -140,6 +140,12 @@ EditShape(VoxelShape &             shape,
     record.simplified = RecordOf(result, geometry);
     shape = Tightened(std::move(result.simplified.shape));
   }
+  if (options.change)
+  {
+    ChangedShape changed = ChangeVoxels(shape, *options.change);
+    record.changed = { changed.voxelsAdded, changed.voxelsRemoved };
+    shape = std::move(changed.shape);
+  }
   return record;
 }
 
@@ -177,6 +183,10 @@ Add(const EditRecord & record, EditRecord & sum)
     EditRecord::Filtered & filtered = sum.filtered ? *sum.filtered : sum.filtered.emplace(EditRecord::Filtered());
     filtered.voxelsAdded += record.filtered->voxelsAdded;
     filtered.voxelsRemoved += record.filtered->voxelsRemoved;
+  }
+  if (record.changed)
+  {
+    sum.changed = record.changed; // of the only label
   }
   if (record.mended)
   {
@@ -277,6 +287,11 @@ Describe(const EditRecord & sum, const ShapeEditOptions & options)
                     Counted(simplified.voxelsRemoved, "voxel", "voxels") + " and " +
                     Counted(simplified.fills, "fill", "fills") + " of " + std::to_string(simplified.voxelsAdded));
   }
+  if (sum.changed)
+  {
+    notes.push_back("voxels changed as listed: " + Counted(sum.changed->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.changed->voxelsRemoved) + " removed");
+  }
   return notes;
 }
 
@@ -298,6 +313,11 @@ EditLabels(std::vector<LabelShape>  labels,
       result.labels.push_back({ std::move(label), 0, std::nullopt });
     }
     return result;
+  }
+  if (options.change && labels.size() > 1)
+  {
+    throw InputError(where + ": --change-voxels changes one label, and here are " + std::to_string(labels.size()) +
+                     "; choose one with --labels, or take all as one with --binary");
   }
   EditRecord               sum;
   std::vector<std::string> gone;

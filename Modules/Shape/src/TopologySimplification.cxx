@@ -154,8 +154,10 @@ ListChanges(const CandidateGraph &  graph,
       TopologyChange & change = changes[graph.owner[i]];
       ++change.voxels;
       change.cost += cost(at);
+      std::array<std::int32_t, 3> & place = change.where.emplace_back();
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
+        place[axis] = at[axis] - PaddedShape::kRoom + box.lower[axis];
         change.centre[axis] += at[axis];
       }
     }

@@ -294,6 +294,19 @@ private:
         AddScaled(meeting.position, 1.0 / static_cast<double>(hubs.size()), m_Branches.Graph().positions[point]);
       meeting.radius = std::max(meeting.radius, m_Branches.Graph().radius[point]);
     }
+    for (const ElementIndex hub : hubs)
+    {
+      const ElementIndex point = m_Branches.PointFrom(m_Branches.EndsAt(hub).front(), 0);
+      const double       away = Distance(m_Branches.Graph().positions[point], meeting.position);
+      meeting.reach = std::max(meeting.reach, away + 1.2 * m_Branches.Graph().radius[point]);
+    }
+    for (const auto * ends : { &arriving, &leaving })
+    {
+      for (const BranchEnd & end : *ends)
+      {
+        meeting.arms.push_back(end.branch);
+      }
+    }
     std::vector<std::uint8_t> hasPartner(leaving.size(), 0);
     for (std::size_t i = 0; i < arriving.size(); ++i)
     {

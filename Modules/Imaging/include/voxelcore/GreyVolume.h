@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,17 @@ ReadGreyVolume(const std::filesystem::path & path,
                const VoxelBox &              box,
                const ReadOptions &           options = {},
                const ProgressCallback &      progress = {});
+
+/** Gives the values of a row from box.lower[0] on, at y, z in indices of the scan. */
+using GreyRow = std::function<void(std::int32_t y, std::int32_t z, std::span<const float> values)>;
+
+/** The same row by row, in order, keeping nothing. Gives the geometry of the whole scan. */
+ImageGeometry
+VisitGreyRows(const std::filesystem::path & path,
+              const VoxelBox &              box,
+              const ReadOptions &           options,
+              const GreyRow &               take,
+              const ProgressCallback &      progress = {});
 
 /** Writes values, x fastest, as WriteLabelVolume writes labels: the same extensions and checks.
  *  \throws OutputError when it cannot be written; UsageError for an unknown extension or values that do not fill it */

@@ -43,6 +43,31 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "Do not clean the mask; without this it is mended, hollow roots (--fill-hollows, by a width found) and cavities "
     "are "
     "filled, and the largest piece is kept" },
+  { "keep-loops",
+    "--keep-loops",
+    Flag,
+    "",
+    "",
+    false,
+    kRoots,
+    "Leave the mask joined where roots touch; without this it is cut there, so that there are no loops, or --loops N" },
+  { "kernel",
+    "--kernel",
+    Real,
+    "VALUE",
+    "",
+    false,
+    kRoots,
+    "Never cut voxels of a grey scan with this value or more; without this bright voxels are cut last" },
+  { "neighborhood",
+    "--neighborhood",
+    Real,
+    "VALUE",
+    "",
+    false,
+    kRoots,
+    "Never fill voxels of a grey scan with less than this value; without this a level is proposed by how pieces, loops "
+    "and cavities change with it" },
   { "no-pictures", "--no-pictures", Flag, "", "", false, kRoots, "Leave out roots.png and roots.html" },
 });
 

@@ -35,6 +35,7 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("pieces", options.edits.topology.pieces);
   visit("loops", options.edits.topology.loops);
   visit("cavities", options.edits.topology.cavities);
+  visit("change_voxels", options.edits.change);
   visit("split_components", options.edits.splitComponents);
 }
 

@@ -46,6 +46,14 @@ SimplifyWithin(const VoxelShape &       shape,
                const TopologyRequest &  request = {},
                const ProgressCallback & progress = {});
 
+/** The voxels within the ball's radius of the shape, in its own box. \throws Cancelled */
+VoxelShape
+VoxelsAround(const VoxelShape & shape, const LatticeBall & ball, const ProgressCallback & progress = {});
+
+/** What changing a voxel costs here. The shape must outlive it. */
+ChangeCost
+DepthCost(const VoxelShape & shape, const LatticeBall & ball);
+
 /** "1 piece, 2 loops and 0 cavities" */
 std::string
 CountsText(const TopologyNumbers & numbers);

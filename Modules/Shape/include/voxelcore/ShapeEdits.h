@@ -10,6 +10,7 @@
 #include "voxelcore/SliceHoles.h"
 #include "voxelcore/TopologyNumbers.h"
 #include "voxelcore/TopologySimplification.h"
+#include "voxelcore/VoxelChanges.h"
 
 #include <array>
 #include <cstdint>
@@ -35,12 +36,13 @@ struct ShapeEditOptions
   std::optional<GapWidth>      simplify; ///< topology, by changes so deep (DepthSimplification.h)
   TopologyRequest              topology; ///< what `simplify` is to reach
   bool                         splitComponents = false;
+  std::optional<VoxelChanges>  change; ///< of the only label; before components are split
 
   bool
   AreAsked() const
   {
     return median || mend || close || fillHollows || fillSlices || fillCavities || minVoxels || largest || smooth ||
-           simplify || splitComponents;
+           simplify || change || splitComponents;
   }
 };
 
@@ -117,6 +119,7 @@ struct EditRecord
   std::optional<Filled>     slices;     ///< when asked
   std::optional<Smoothed>   smoothed;   ///< when asked
   std::optional<Simplified> simplified; ///< when asked
+  std::optional<Filtered>   changed;    ///< when asked: by ChangeVoxels
 };
 
 /** A label, or one of its components, to work on. */

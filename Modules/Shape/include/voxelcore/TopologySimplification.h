@@ -55,6 +55,7 @@ struct TopologyChange
   std::uint64_t               cost = 0;
   std::array<double, 3>       centre{ 0, 0, 0 };     ///< mean of its voxels, in indices of the scan
   std::array<std::int64_t, 3> difference{ 0, 0, 0 }; ///< it makes to pieces, loops and cavities, all else being done
+  std::vector<std::array<std::int32_t, 3>> where;    ///< its voxels, in indices of the scan
 };
 
 struct SimplifiedShape

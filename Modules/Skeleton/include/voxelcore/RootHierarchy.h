@@ -64,6 +64,8 @@ struct RootMeeting
 {
   Vector3                                  position{};
   double                                   radius = 0; ///< of the largest ball there
+  double                                   reach = 0;  ///< mm from the position: the arms are outside the contact there
+  std::vector<ElementIndex>                arms;       ///< branches that arrive or leave
   std::vector<std::array<ElementIndex, 2>> pairs;      ///< branches that go on as one root: arriving, leaving
   double                                   margin = 0; ///< to the next best pairing
   bool                                     undecided = false;

@@ -1,0 +1,253 @@
+#include "RootsApart.h"
+
+#include "JobTools.h"
+
+#include "voxelcore/Certified.h"
+#include "voxelcore/DepthSimplification.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/GreyVolume.h"
+#include "voxelcore/LengthUnit.h"
+#include "voxelcore/ReadInput.h"
+#include "voxelcore/RootContacts.h"
+#include "voxelcore/ShapeTopology.h"
+#include "voxelcore/TextFields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+bool
+Has(const TopologyNumbers & numbers, const TopologyRequest & request)
+{
+  const auto & [pieces, loops, cavities] = numbers.betti;
+  if (!request.IsGiven())
+  {
+    return pieces + loops + cavities == 1;
+  }
+  return pieces == request.pieces.value_or(pieces) && loops == request.loops.value_or(loops) &&
+         cavities == request.cavities.value_or(cavities);
+}
+
+SkeletonGraph
+SkeletonOfMask(const LabelShape &       mask,
+               const ImageGeometry &    geometry,
+               const CoreOptions &      core,
+               const ProgressCallback & progress)
+{
+  CertifiedRequest request;
+  request.name = LabelText(mask.value, mask.name);
+  request.skeleton = core.skeleton;
+  request.lambdas = { core.skeleton->lambda };
+  request.engine = core.engine;
+  CertifiedResult result = ComputeCertified(mask.shape, geometry, request, progress);
+  return std::move(result.skeleton->skeleton.graph);
+}
+
+constexpr double kCostOfLevel = 64; ///< from the shape's level to the background's, or to the bright voxels'
+
+/** What a change costs by grey values: 1 in a wall to 4 * kCostOfLevel elsewhere. */
+class GreyCost
+{
+public:
+  GreyCost(const VoxelShape & shape, const BandValues & values, const GreyLevels & levels)
+    : m_Shape(shape)
+    , m_Values(values)
+    , m_Levels(levels)
+  {}
+
+  /** How far the value is from the shape's level, 1 for the background and for bright voxels. Filled on purpose: as
+   *  bright as can be; taken out: as dark. */
+  double
+  operator()(std::int32_t x, std::int32_t y, std::int32_t z) const
+  {
+    const double value = m_Values.At(x, y, z);
+    const bool   isIn = m_Shape.Contains(x, y, z);
+    if (isIn != (value >= m_Levels.shape))
+    {
+      return 2;
+    }
+    const double range = isIn ? m_Levels.bright - m_Levels.shape : m_Levels.shape - m_Levels.background;
+    return range > 0 ? std::min(2.0, std::abs(value - m_Levels.shape) / range) : 1;
+  }
+
+private:
+  const VoxelShape & m_Shape;
+  const BandValues & m_Values;
+  const GreyLevels & m_Levels;
+};
+
+/** The values near the mask; none where there is no grey scan. */
+std::optional<BandValues>
+ReadBand(const CoreOptions & core, VoxelShape around, const ProgressCallback & progress)
+{
+  if (!core.reading.threshold || core.resolution || IsMeshFile(core.scan))
+  {
+    return std::nullopt;
+  }
+  BandValues values(std::move(around));
+  VisitGreyRows(
+    core.scan,
+    values.Band().Box(),
+    core.reading,
+    [&](std::int32_t y, std::int32_t z, std::span<const float> row) { values.SetRow(y, z, row); },
+    progress);
+  return values;
+}
+
+/** One cut or fill with its voxels as runs. */
+RootsChange
+ChangeOf(const TopologyChange & change, const ImageGeometry & geometry)
+{
+  const auto & at = change.centre;
+  RootsChange  one{ { change.isFill,
+                      LatticeToPhysical(geometry, { at[0] + 0.5, at[1] + 0.5, at[2] + 0.5 }),
+                      change.voxels,
+                      0,
+                      change.difference },
+                    {} };
+  for (const auto & voxel : change.where)
+  {
+    VoxelRun * const last = one.runs.empty() ? nullptr : &one.runs.back();
+    if (last != nullptr && last->first[1] == voxel[1] && last->first[2] == voxel[2] &&
+        last->first[0] + last->length == voxel[0])
+    {
+      ++last->length;
+    }
+    else
+    {
+      one.runs.push_back({ change.isFill, voxel, 1 });
+    }
+  }
+  return one;
+}
+
+} // namespace
+
+std::optional<RootsTopology>
+TellRootsApart(LabelShape &             mask,
+               const ImageGeometry &    geometry,
+               const CoreOptions &      core,
+               const RootRules &        rules,
+               const ApartRequest &     request,
+               const ProgressCallback & progress)
+{
+  if (Has(ComputeShapeTopology(mask.shape), request.topology))
+  {
+    return std::nullopt;
+  }
+  const SkeletonGraph graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
+  RootHierarchy       roots = FindRoots(graph, rules);
+  const VoxelShape    walls = ContactWalls(mask.shape, geometry, graph, roots);
+  const LatticeBall   ball = BallOfDepth(request.depth, geometry);
+  RootsTopology       topology;
+  VoxelShape          kernel(mask.shape.Box());
+  VoxelShape          neighbourhood = VoxelsAround(mask.shape, ball);
+  const auto          values = ReadBand(core, neighbourhood, PartOfProgress(progress, 0.5, 0.6));
+  ChangeCost          inVoxels = DepthCost(mask.shape, ball);
+  // Of a change in a wall, of another; and that which is reported.
+  std::function<double(std::int32_t, std::int32_t, std::int32_t)> cost =
+    [&](std::int32_t x, std::int32_t y, std::int32_t z) { return inVoxels(x, y, z) / kCostOfOneVoxel; };
+  if (values)
+  {
+    const double level = core.reading.threshold->first;
+    topology.levels = ProposeLevels(mask.shape, *values, level);
+    topology.levels->neighbourhood = request.neighbourhood.value_or(topology.levels->neighbourhood);
+    if (topology.levels->neighbourhood > level || request.kernel.value_or(level) < level)
+    {
+      throw UsageError("--neighborhood must be at most the threshold, " + Number(level) + ", and --kernel at least");
+    }
+    neighbourhood = AtLeast(mask.shape, *values, level, topology.levels->neighbourhood);
+    if (request.kernel)
+    {
+      topology.levels->kernel = *request.kernel;
+      kernel = AtLeast(mask.shape, *values, level, *request.kernel);
+    }
+    cost = GreyCost(mask.shape, *values, *topology.levels);
+  }
+  const ChangeCost guided = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+    const auto by = static_cast<std::uint32_t>(std::min(8.0, cost(x, y, z)) * kCostOfLevel);
+    return walls.Contains(x, y, z) ? 1 + by / 16 : 64 + by;
+  };
+  SimplifiedShape simplified = SimplifyTopology(
+    kernel, mask.shape, neighbourhood, guided, request.topology, PartOfProgress(progress, 0.6, 1));
+  topology.before = simplified.before;
+  topology.after = simplified.after;
+  topology.asAsked = Has(simplified.after, request.topology);
+  if (!topology.asAsked)
+  {
+    topology.reason = "with all that may be filled, there are " + CountsText(ComputeShapeTopology(neighbourhood)) +
+                      (request.kernel ? "; what is never cut has " + CountsText(ComputeShapeTopology(kernel)) : "");
+  }
+  topology.changes = ChangesBetween(mask.shape, simplified.shape);
+  for (const TopologyChange & change : simplified.changes)
+  {
+    RootsChange one = ChangeOf(change, geometry);
+    one.brightest = -std::numeric_limits<double>::infinity();
+    one.darkest = std::numeric_limits<double>::infinity();
+    for (const auto & at : change.where)
+    {
+      one.cost += cost(at[0], at[1], at[2]);
+      if (values)
+      {
+        one.brightest = std::max<double>(one.brightest, values->At(at[0], at[1], at[2]));
+        one.darkest = std::min<double>(one.darkest, values->At(at[0], at[1], at[2]));
+      }
+    }
+    if (values && !change.isFill && one.brightest >= topology.levels->kernel)
+    {
+      topology.levels->kernel = std::nextafter(one.brightest, std::numeric_limits<double>::infinity());
+    }
+    ++(change.isFill ? topology.fills : topology.cuts);
+    (change.isFill ? topology.voxelsAdded : topology.voxelsRemoved) += change.voxels;
+    topology.parts.push_back(std::move(one));
+  }
+  std::ranges::stable_sort(topology.parts, std::ranges::greater{}, &RootsChange::cost);
+  topology.meetings = std::move(roots.meetings);
+  mask.shape = std::move(simplified.shape);
+  mask.voxels = mask.shape.CountVoxels();
+  return topology;
+}
+
+std::string
+RootChangesText(const std::optional<RootsTopology> & topology, SpatialUnit unit)
+{
+  std::string text = "# Cuts (-) and fills (+) that made the mask, voxels I,J,K from 0, xN for N along I.\n"
+                     "# Take out a cut that you do not want, add your own, and give the file to --change-voxels.\n";
+  if (!topology)
+  {
+    return text + "# Nothing was cut or filled.\n";
+  }
+  const std::string name = unit == SpatialUnit::Millimetres ? "mm" : "voxels";
+  for (const RootsChange & change : topology->parts)
+  {
+    text += "\n# " + std::string(change.isFill ? "fill" : "cut") + " at " + Number(change.centre[0]) + ", " +
+            Number(change.centre[1]) + ", " + Number(change.centre[2]) + " " + name + ": " +
+            Counted(change.voxels, "voxel", "voxels") + ", cost " + Number(change.cost) + "\n" +
+            VoxelChangesText(change.runs) + "\n";
+  }
+  return text;
+}
+
+std::string
+RootsTopologyText(const RootsTopology & topology)
+{
+  return CountsText(topology.before) + " became " + CountsText(topology.after) + " by " +
+         Counted(topology.cuts, "cut", "cuts") + " of " + Counted(topology.voxelsRemoved, "voxel", "voxels") + " and " +
+         Counted(topology.fills, "fill", "fills") + " of " + std::to_string(topology.voxelsAdded) +
+         (topology.levels ? "; levels: shape " + Number(topology.levels->shape) + " (Otsu near the boundary " +
+                              Number(topology.levels->otsu) + ", valley " + Number(topology.levels->valley) +
+                              "), nothing cut from " + Number(topology.levels->kernel) + " on, nothing filled below " +
+                              Number(topology.levels->neighbourhood)
+                          : "") +
+         (topology.asAsked ? "" : "; not what was asked: " + topology.reason);
+}
+
+} // namespace voxelcore

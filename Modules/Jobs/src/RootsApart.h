@@ -1,0 +1,39 @@
+#pragma once
+// Roots that touch are told apart and cut apart, so that the mask of a plant is a tree, too.
+
+#include "voxelcore/RootsJob.h"
+
+namespace voxelcore
+{
+
+/** How the topology of a plant is made what was asked for. */
+struct ApartRequest
+{
+  GapWidth              depth;    ///< farther from the boundary nothing is filled
+  TopologyRequest       topology; ///< none: as few as can be
+  std::optional<double> kernel;
+  std::optional<double> neighbourhood;
+};
+
+/** Finds the roots in the mask as it is, and simplifies its topology with cuts where they touch (RootContacts.h). What
+ *  a change costs is its grey values' distance to the shape's level where `core` reads a grey scan, else its distance
+ *  to the boundary. The mask, one label of a scan, is left with its changes done; `core` says how a skeleton is made.
+ *  Gives nothing where the mask has the topology asked for.
+ *  \throws CertificateError, InputError, Cancelled */
+std::optional<RootsTopology>
+TellRootsApart(LabelShape &             mask,
+               const ImageGeometry &    geometry,
+               const CoreOptions &      core,
+               const RootRules &        rules,
+               const ApartRequest &     request,
+               const ProgressCallback & progress);
+
+/** What was cut and filled, with the voxels, as a file that --change-voxels reads. */
+std::string
+RootChangesText(const std::optional<RootsTopology> & topology, SpatialUnit unit);
+
+/** "7 loops became 0 by 7 cuts of 93 voxels and 0 fills" */
+std::string
+RootsTopologyText(const RootsTopology & topology);
+
+} // namespace voxelcore

@@ -1,0 +1,16 @@
+#pragma once
+// What is said of roots in the report.
+
+#include "voxelcore/RootsJob.h"
+
+#include <optional>
+#include <string>
+
+namespace voxelcore
+{
+
+/** The part of the report that is about roots; goes before the last brace of the core's. */
+std::string
+RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology);
+
+} // namespace voxelcore
