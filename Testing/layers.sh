@@ -13,7 +13,7 @@ may_use() {
     Shape | Complex) echo "Lattice" ;;
     Blocks) echo "Lattice Shape Delaunay" ;;
     Delaunay | Voxelization | Phantom) echo "Lattice Shape" ;;
-    Thickness) echo "Lattice Shape Delaunay" ;;
+    Thickness) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
     Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;

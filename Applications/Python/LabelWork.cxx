@@ -102,15 +102,54 @@ RequirePrunable(const CoreOfLabel & core, const PruneOptions & options)
 
 } // namespace
 
-std::vector<std::shared_ptr<CoreOfLabel>>
-MakeCores(const ArrayView &        array,
-          const ImageGeometry &    geometry,
-          const ParameterValues &  values,
-          const ProgressCallback & progress)
+namespace
 {
-  CoreOptions options = CoreOptionsWithoutFiles(values);
-  options.scan = "the array";
-  CoreReport report;
+
+/** Writes the values of a shape's voxels into a volume, i fastest. */
+void
+SpreadOver(const std::array<std::int64_t, 3> & size,
+           const VoxelShape &                  shape,
+           const VoxelValues &                 values,
+           std::vector<float> &                volume)
+{
+  const auto & box = shape.Box();
+  for (std::int32_t z = 0; z < box.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
+    {
+      const auto row = values.Row(y, z);
+      auto       from = row.begin();
+      const auto first = ((z + box.lower[2]) * size[1] + y + box.lower[1]) * size[0] + box.lower[0];
+      for (std::int32_t x = 0; x < box.size[0] && from != row.end(); ++x)
+      {
+        if (shape.Contains(x + box.lower[0], y + box.lower[1], z + box.lower[2]))
+        {
+          volume[static_cast<std::size_t>(first + x)] = *from++;
+        }
+      }
+    }
+  }
+}
+
+constexpr double kEditEnds = 0.1; ///< of the progress
+
+/** What is read of an array. */
+struct ReadArray
+{
+  CoreReport    report;
+  EditedLabels  edited;
+  SurfaceSource surface;
+};
+
+ReadArray
+Read(const ArrayView &        array,
+     const ImageGeometry &    geometry,
+     const CoreOptions &      options,
+     const ParameterValues &  values,
+     const ProgressCallback & progress)
+{
+  ReadArray    read;
+  CoreReport & report = read.report;
   report.input.path = "the array";
   report.input.format = "array";
   report.input.geometry = CheckedGeometry("the array", geometry, options.reading.orthonormalize);
@@ -122,7 +161,6 @@ MakeCores(const ArrayView &        array,
   }
 
   constexpr double readEnds = 0.05;
-  constexpr double editEnds = 0.1;
   InputScan        map;
   map.geometry = report.input.geometry;
   try
@@ -144,26 +182,43 @@ MakeCores(const ArrayView &        array,
   {
     RequireOneLabel(map.labels);
   }
-  EditedLabels        edited = EditLabels(std::move(map.labels),
-                                   map.geometry,
-                                   options.edits,
-                                   options.reading.labels != "all",
-                                   "the array",
-                                   PartOfProgress(progress, "reading", readEnds, editEnds));
-  const SurfaceSource surface = MakeSurfaceSource(options.refine, options.scan, options.reading, map);
-  report.parameters = DescribeParameters(options, map, edited, ComputeLatticeWeights(map.geometry));
+  read.edited = EditLabels(std::move(map.labels),
+                           map.geometry,
+                           options.edits,
+                           options.reading.labels != "all",
+                           "the array",
+                           PartOfProgress(progress, "reading", readEnds, kEditEnds));
+  read.surface = MakeSurfaceSource(options.refine, options.scan, options.reading, map);
+  report.parameters = DescribeParameters(options, map, read.edited, ComputeLatticeWeights(map.geometry));
+  return read;
+}
+
+} // namespace
+
+std::vector<std::shared_ptr<CoreOfLabel>>
+MakeCores(const ArrayView &        array,
+          const ImageGeometry &    geometry,
+          const ParameterValues &  values,
+          const ProgressCallback & progress)
+{
+  CoreOptions options = CoreOptionsWithoutFiles(values);
+  options.scan = "the array";
+  ReadArray             read = Read(array, geometry, options, values, progress);
+  CoreReport &          report = read.report;
+  EditedLabels &        edited = read.edited;
+  const ImageGeometry & place = report.input.geometry;
 
   std::vector<std::shared_ptr<CoreOfLabel>> results;
   for (std::size_t i = 0; i < edited.labels.size(); ++i)
   {
-    const auto place = [&](std::size_t done) {
-      return editEnds + (1 - editEnds) * static_cast<double>(done) / static_cast<double>(edited.labels.size());
+    const auto share = [&](std::size_t done) {
+      return kEditEnds + (1 - kEditEnds) * static_cast<double>(done) / static_cast<double>(edited.labels.size());
     };
     const auto                      shape = std::make_shared<const PackedShape>(Pack(edited.labels[i].label.shape));
     LabelOutcome                    outcome = ProcessLabel(std::move(edited.labels[i]),
-                                        map.geometry,
-                                        RequestOf(options, surface),
-                                        PartOfProgress(progress, place(i), place(i + 1)));
+                                        place,
+                                        RequestOf(options, read.surface),
+                                        PartOfProgress(progress, share(i), share(i + 1)));
     const std::vector<PrunedRecord> pruned = std::move(outcome.record.pruned);
     report.parameters.labels = { outcome.record.label };
     report.labels = { std::move(outcome.record) };
@@ -175,6 +230,61 @@ MakeCores(const ArrayView &        array,
     }
   }
   return results;
+}
+
+std::shared_ptr<ThicknessOfArray>
+MakeThickness(const ArrayView &        array,
+              const ImageGeometry &    geometry,
+              const ParameterValues &  values,
+              const ProgressCallback & progress)
+{
+  ThicknessOptions options = ThicknessOptionsWithoutFiles(values);
+  options.core.scan = "the array";
+  ReadArray             read = Read(array, geometry, options.core, values, progress);
+  const ImageGeometry & place = read.report.input.geometry;
+  if (options.separation != SeparationRegion::None)
+  {
+    throw UsageError("--separation: use the program, or give the background as an array");
+  }
+  auto result = std::make_shared<ThicknessOfArray>();
+  result->size = place.size;
+  const std::size_t count = static_cast<std::size_t>(place.size[0]) * static_cast<std::size_t>(place.size[1]) *
+                            static_cast<std::size_t>(place.size[2]);
+  result->map.assign(count, 0.0F);
+  result->lower.assign(options.bounds ? count : 0, 0.0F);
+  result->upper.assign(options.bounds ? count : 0, 0.0F);
+  const VoxelBox whole{ { 0, 0, 0 },
+                        { static_cast<std::int32_t>(place.size[0]),
+                          static_cast<std::int32_t>(place.size[1]),
+                          static_cast<std::int32_t>(place.size[2]) } };
+  const auto     labels = static_cast<double>(read.edited.labels.size());
+  for (std::size_t i = 0; i < read.edited.labels.size(); ++i)
+  {
+    const auto share = [&](std::size_t done) {
+      return kEditEnds + (1 - kEditEnds) * static_cast<double>(done) / labels;
+    };
+    CertifiedRequest request = RequestOf(options.core, read.surface);
+    request.refineCores = static_cast<bool>(read.surface);
+    request.thickness = ThicknessRequest{ options.bounds };
+    LabelOutcome    outcome = ProcessLabel(std::move(read.edited.labels[i]),
+                                        place,
+                                        std::move(request),
+                                        PartOfProgress(progress, share(i), share(i + 1)));
+    const auto &    found = *outcome.thickness;
+    ThicknessRecord record;
+    record.label = outcome.record.label;
+    record.component = outcome.record.component;
+    record.name = outcome.record.name;
+    Summarize(found, place, whole, options.border, record);
+    result->records.push_back(std::move(record));
+    SpreadOver(place.size, found.shape, found.map, result->map);
+    if (options.bounds)
+    {
+      SpreadOver(place.size, found.shape, found.bracket.lower, result->lower);
+      SpreadOver(place.size, found.shape, found.bracket.upper, result->upper);
+    }
+  }
+  return result;
 }
 
 std::vector<std::shared_ptr<CoreOfLabel>>

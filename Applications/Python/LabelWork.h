@@ -8,6 +8,7 @@
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/SkeletonModel.h"
+#include "voxelcore/ThicknessFiles.h"
 
 #include <filesystem>
 #include <memory>
@@ -36,6 +37,24 @@ struct SkeletonOfLabel
   SkeletonPart                       part;
   std::shared_ptr<const CoreOfLabel> surface;
 };
+
+/** Local thickness of the labels of an array; values i fastest, 0 outside. */
+struct ThicknessOfArray
+{
+  std::array<std::int64_t, 3>  size{};
+  std::vector<float>           map;
+  std::vector<float>           lower; ///< bounds: empty unless they were asked for
+  std::vector<float>           upper;
+  std::vector<ThicknessRecord> records; ///< per label, or component of one
+};
+
+/** `values` are options of `voxelcore thickness` by name, of which separation needs the program.
+ *  \throws as MakeCores() */
+std::shared_ptr<ThicknessOfArray>
+MakeThickness(const ArrayView &        array,
+              const ImageGeometry &    geometry,
+              const ParameterValues &  values,
+              const ProgressCallback & progress);
 
 /** `values` are options of `voxelcore core` by name. The array must hold one label, unless `values` say which. Of each
  *  label, or component where these are split, a core for each lambda or tolerance, in the order given.

@@ -4,7 +4,9 @@
 #include "OwnThread.h"
 #include "Pickling.h"
 #include "PythonWords.h"
+#include "voxelcore/CertifiedSkeleton.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/MedialSheets.h"
 #include "voxelcore/Progress.h"
 
 #include <pybind11/numpy.h>
@@ -76,6 +78,110 @@ CoresOfArray(const py::array &                            array,
   return RunInOwnThread(ThreadsFrom(values, CommandId::Core), listener, array, [=](const ProgressCallback & progress) {
     return MakeCores(view, geometry, values, progress);
   });
+}
+
+std::shared_ptr<ThicknessOfArray>
+ThicknessOfAnArray(const py::array &                            array,
+                   const std::optional<std::array<double, 3>> & spacing,
+                   const ParameterValues &                      values,
+                   const py::object &                           listener)
+{
+  const ArrayView view = ViewOf(array);
+  ImageGeometry   geometry;
+  geometry.size = view.size;
+  geometry.spacing = spacing.value_or(Vector3{ 1, 1, 1 });
+  geometry.unit = spacing ? SpatialUnit::Millimetres : SpatialUnit::Voxels;
+  return RunInOwnThread(
+    ThreadsFrom(values, CommandId::Thickness),
+    listener,
+    array,
+    [=](const ProgressCallback & progress) { return MakeThickness(view, geometry, values, progress); });
+}
+
+/** How a core is cut into sheets; numbers count from 0, -1 stands for none. */
+py::dict
+SheetsOfCore(const std::shared_ptr<CoreOfLabel> & core, const std::string & sliver)
+{
+  const LabelRecord & record = core->report.labels.front();
+  const Lambda        length = ParseLambda(sliver);
+  CertifiedRequest    lengths;
+  lengths.lambdas = { length };
+  RequireLengthsIn(core->report.input.geometry.unit, lengths);
+  const double mm =
+    InMeanVoxels(length, core->report.parameters.weights, core->report.input.geometry.spacing, record.box);
+  const MedialSheets cut = RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback &) {
+    return CutIntoSheets(core->part.core, mm);
+  });
+  const auto         numbers = [](const std::vector<std::uint32_t> & values) {
+    py::array_t<std::int64_t> array(static_cast<py::ssize_t>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      array.mutable_at(static_cast<py::ssize_t>(i)) = values[i] == kNoPiece ? -1 : std::int64_t{ values[i] };
+    }
+    return array;
+  };
+  py::dict dict;
+  dict["sheet_of_face"] = numbers(cut.sheetOfFace);
+  dict["curve_of_edge"] = numbers(cut.curveOfEdge);
+  dict["junctions"] = numbers(cut.junctions);
+  py::list sheets;
+  for (const SheetRecord & sheet : cut.sheets)
+  {
+    py::dict one;
+    one["area"] = sheet.area;
+    one["thickness"] = sheet.thickness;
+    one["thickness_sd"] = sheet.thicknessDeviation;
+    one["normal"] = py::make_tuple(sheet.normal[0], sheet.normal[1], sheet.normal[2]);
+    one["flatness"] = sheet.flatness;
+    one["free_border"] = sheet.freeBorder;
+    one["seam_border"] = sheet.seamBorder;
+    one["neighbours"] = sheet.neighbours;
+    sheets.append(one);
+  }
+  py::list curves;
+  for (const CurveRecord & curve : cut.curves)
+  {
+    py::dict one;
+    one["kind"] = curve.isRod ? "rod" : "seam";
+    one["closed"] = curve.isClosed;
+    one["length"] = curve.length;
+    one["thickness"] = curve.thickness;
+    one["sheets"] = curve.sheets;
+    one["vertices"] = numbers(curve.vertices);
+    py::list ends;
+    for (const std::uint32_t junction : curve.junctions)
+    {
+      ends.append(junction == kNoPiece ? py::object(py::none()) : py::object(py::int_(junction)));
+    }
+    one["junctions"] = ends;
+    curves.append(one);
+  }
+  dict["sheets"] = sheets;
+  dict["curves"] = curves;
+  return dict;
+}
+
+py::dict
+NumbersOf(const ThicknessRecord & record)
+{
+  const ThicknessNumbers & n = record.numbers;
+  py::dict                 dict;
+  dict["voxels"] = n.voxels;
+  dict["volume"] = static_cast<double>(n.voxels) * record.voxelVolume;
+  dict["mean"] = n.mean;
+  dict["sd"] = n.deviation;
+  dict["min"] = n.least;
+  dict["p5"] = n.quantile5;
+  dict["p25"] = n.quantile25;
+  dict["median"] = n.median;
+  dict["p75"] = n.quantile75;
+  dict["p95"] = n.quantile95;
+  dict["max"] = n.greatest;
+  dict["border_voxels"] = record.borderVoxels;
+  dict["inner_mean"] = record.inner.voxels > 0 ? py::object(py::float_(record.inner.mean)) : py::object(py::none());
+  dict["bin_width"] = n.binWidth;
+  dict["histogram"] = n.bins;
+  return dict;
 }
 
 std::vector<std::shared_ptr<CoreOfLabel>>
@@ -327,6 +433,45 @@ DefineCore(py::module_ & module)
     .def("state", [](const Handle & core) { return StateOf(*core); });
 }
 
+/** Values, i fastest, as an array a[i, j, k]. */
+py::array
+Volume(const std::shared_ptr<ThicknessOfArray> & owner, const std::vector<float> & values)
+{
+  const auto                     size = owner->size;
+  const auto                     step = static_cast<py::ssize_t>(sizeof(float));
+  const std::vector<py::ssize_t> shape{ size[0], size[1], size[2] };
+  const std::vector<py::ssize_t> strides{ step, step * size[0], step * size[0] * size[1] };
+  auto *                         keep = new std::shared_ptr<ThicknessOfArray>(owner);
+  const py::capsule capsule(keep, [](void * kept) { delete static_cast<std::shared_ptr<ThicknessOfArray> *>(kept); });
+  return py::array_t<float>(shape, strides, values.data(), capsule);
+}
+
+void
+DefineThickness(py::module_ & module)
+{
+  using Handle = std::shared_ptr<ThicknessOfArray>;
+  py::class_<ThicknessOfArray, Handle>(module, "ThicknessData")
+    .def_property_readonly("map", [](const Handle & t) { return Volume(t, t->map); })
+    .def_property_readonly("lower",
+                           [](const Handle & t) -> py::object {
+                             return t->lower.empty() ? py::object(py::none()) : py::object(Volume(t, t->lower));
+                           })
+    .def_property_readonly("upper",
+                           [](const Handle & t) -> py::object {
+                             return t->upper.empty() ? py::object(py::none()) : py::object(Volume(t, t->upper));
+                           })
+    .def_property_readonly("numbers", [](const Handle & t) {
+      py::list all;
+      for (const ThicknessRecord & record : t->records)
+      {
+        all.append(py::make_tuple(record.label, record.component, NumbersOf(record)));
+      }
+      return all;
+    });
+  module.def("thickness", &ThicknessOfAnArray);
+  module.def("sheets", &SheetsOfCore);
+}
+
 void
 DefineSkeleton(py::module_ & module)
 {
@@ -410,6 +555,7 @@ PYBIND11_MODULE(_voxelcore, module)
   module.attr("version_text") = VersionText();
   DefineCore(module);
   DefineSkeleton(module);
+  DefineThickness(module);
   module.def("cores", &CoresOfArray);
   module.def("prune", &PruneCore);
   module.def("skeleton", &SkeletonOfCore);

@@ -186,6 +186,32 @@ RunRoots(const Run & run)
 }
 
 int
+RunThickness(const Run & run)
+{
+  ThicknessOptions options = ThicknessOptionsFrom(run.line.values);
+  options.core.threads = run.threads;
+  options.core.command = run.line.whole;
+  const ThicknessResult result = RunThicknessJob(options, run.context);
+  run.Warn(result.warnings);
+  run.Print(ThicknessText(result));
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
+RunSheets(const Run & run)
+{
+  SheetsOptions options = SheetsOptionsFrom(run.line.values);
+  options.core.threads = run.threads;
+  options.core.command = run.line.whole;
+  const SheetsResult result = RunSheetsJob(options, run.context);
+  run.Warn(result.warnings);
+  run.Print(SheetsText(result));
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
 RunRender(const Run & run)
 {
   const RenderResult result = RunRenderJob(RenderOptionsFrom(run.line.values), run.context);
@@ -221,6 +247,10 @@ RunCommand(const Run & run)
       return RunSkeleton(run);
     case CommandId::Roots:
       return RunRoots(run);
+    case CommandId::Thickness:
+      return RunThickness(run);
+    case CommandId::Sheets:
+      return RunSheets(run);
     case CommandId::Render:
       return RunRender(run);
     case CommandId::Measure:

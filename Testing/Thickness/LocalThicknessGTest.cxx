@@ -169,7 +169,7 @@ TEST(LocalThickness, LowerBoundsAreInscribedBalls)
                    2 * balls.inscribed.value[i],
                    painted);
     }
-    VoxelValues map = ZeroAtVoxels(of.shape);
+    VoxelValues map = ZeroAtVoxels<float>(of.shape);
     PaintThickness(of.shape, of.weights, balls.inscribed, map);
     for (std::size_t i = 0; i < painted.size(); ++i)
     {

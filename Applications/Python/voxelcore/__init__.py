@@ -20,6 +20,7 @@ compute like any other, whether or not the parent has computed before.
 """
 
 import atexit
+import collections
 import os
 
 import numpy
@@ -28,7 +29,7 @@ from . import _arguments, _images, _voxelcore
 from ._results import Core, Skeleton
 from ._voxelcore import CertificateError, __version__
 
-__all__ = ["core", "skeleton", "measure", "read", "Core", "Skeleton", "CertificateError", "columns", "__version__"]
+__all__ = ["core", "skeleton", "measure", "read", "thickness", "sheets", "Core", "Skeleton", "Thickness", "CertificateError", "columns", "__version__"]
 
 
 # Threads that Ctrl-C left behind belong to the parent, and must have ended before the process takes itself apart.
@@ -202,6 +203,73 @@ def measure(source, **options):
     return source._data.branch_columns()
 
 
+Thickness = collections.namedtuple("Thickness", "map numbers lower upper")
+Thickness.__doc__ = """Local thickness: `map`, an array of float32 with the shape of the volume, 0 outside; `numbers`, a
+dict by label (or label and component) of the values of the program's table; `lower` and `upper`, as `map`, where bounds
+were asked for, else None."""
+
+
+def thickness(array, *, spacing=None, label=None, axes=None, threshold=None, progress=None, **options):
+    """The local thickness of labels at every voxel: the diameter of the largest ball inside that holds the voxel's
+    centre, mm (or voxels without a spacing). Returns a Thickness.
+
+    array, spacing, axes, threshold, progress: as of core().
+    label: as of core(), but each label is always measured by itself.
+    further options: those of 'voxelcore thickness'
+
+    >>> slab = numpy.zeros((30, 30, 12), numpy.uint8)
+    >>> slab[2:28, 2:28, 3:9] = 1
+    >>> found = thickness(slab, spacing=(0.5, 0.5, 0.5))
+    >>> found.map.shape, found.map.dtype.name, round(float(found.map[15, 15, 5]), 1), float(found.map[0, 0, 0])
+    ((30, 30, 12), 'float32', 3.0, 0.0)
+    >>> abs(found.numbers[1]["median"] - 3) < 0.1
+    True
+    """
+    if axes not in (None, "ijk", "kji"):
+        raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
+    image = _images.of(array)
+    if image is not None:
+        array, axes = image.voxels, axes or image.axes
+        spacing = image.spacing if spacing is None else spacing
+    values = _arguments.values("thickness", _arguments.OF_THICKNESS, options)
+    if threshold is not None:
+        try:
+            low, high = threshold
+        except (TypeError, ValueError):
+            raise ValueError(f"threshold {threshold!r}: expected two numbers, (lo, hi)") from None
+        values["threshold"] = f"{_arguments.text(low)}:{_arguments.text(high)}"
+    if isinstance(label, str) and label == "any":
+        values["binary"] = "true"
+    elif label is not None:
+        values["labels"] = _arguments.labels(label)
+    voxels = _arguments.without_mask(array, threshold)
+    if axes == "kji":
+        voxels = voxels.T
+    size = None if spacing is None else _arguments.three("spacing", spacing)
+    data = _voxelcore.thickness(voxels, size, values, progress)
+    numbers = {(label, component) if component else label: one for label, component, one in data.numbers}
+    turned = [map if map is None or axes != "kji" else map.T for map in (data.map, data.lower, data.upper)]
+    return Thickness(turned[0], numbers, turned[1], turned[2])
+
+
+def sheets(core, sliver="3vox"):
+    """A Core cut into sheets, seams, junctions and rods, as 'voxelcore sheets' does it: a dict.
+
+    sheet_of_face: per face of the core, an index of sheets, the largest first
+    curve_of_edge: per edge, an index of curves; -1: none
+    sheets: a dict each: area, thickness, thickness_sd, normal, flatness, free_border, seam_border, neighbours
+    curves: a dict each: kind ('seam' or 'rod'), length, thickness, closed, sheets (that meet), vertices, junctions
+    junctions: vertices of the core
+    sliver: sheets that stand out from their seams by less join the sheet they continue
+
+    >>> slab = numpy.ones((20, 20, 5), bool)
+    >>> cut = sheets(core(slab))
+    >>> len(cut["sheets"]), len(cut["curves"])
+    (1, 0)
+    """
+    return _voxelcore.sheets(core._data, _arguments.text(sliver, core.unit))
+
+
 def read(path):
     """The Core in a .vtp file with one label that 'voxelcore core' or Core.save() wrote.
 
@@ -231,3 +299,4 @@ def columns(unit="mm"):
 
 _arguments.documented(core, _arguments.OF_CORE)
 _arguments.documented(skeleton, _arguments.OF_SKELETON)
+_arguments.documented(thickness, _arguments.OF_THICKNESS)

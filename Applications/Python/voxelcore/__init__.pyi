@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union, overload
+from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -191,5 +191,22 @@ def skeleton(
     **options: Any,
 ) -> Skeleton: ...
 def measure(source: Union[Skeleton, Core, ArrayLike, _Image], **options: Any) -> Dict[str, NDArray[Any]]: ...
+class Thickness(NamedTuple):
+    map: NDArray[numpy.float32]
+    numbers: Dict[Any, Dict[str, Any]]
+    lower: Optional[NDArray[numpy.float32]]
+    upper: Optional[NDArray[numpy.float32]]
+
+def thickness(
+    array: Union[ArrayLike, _Image],
+    *,
+    spacing: Optional[_Vector] = ...,
+    label: Any = ...,
+    axes: Optional[str] = ...,
+    threshold: Optional[Sequence[float]] = ...,
+    progress: _Progress = ...,
+    **options: Any,
+) -> Thickness: ...
+def sheets(core: Core, sliver: _Length = ...) -> Dict[str, Any]: ...
 def read(path: Union[str, PathLike[str]]) -> Core: ...
 def columns(unit: str = ...) -> Dict[str, Dict[str, str]]: ...

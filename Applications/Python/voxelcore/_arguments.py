@@ -109,6 +109,9 @@ def rows(command, *groups):
 
 OF_CORE = rows("core", "Input", "Pruning", "Shape edits", "Refinement", "Running")
 OF_SKELETON = rows("skeleton", "Skeleton")
+OF_THICKNESS = rows(
+    "thickness", "Input", "Pruning", "Shape edits", "Refinement", "Thickness and sheets", "Running"
+)
 del OF_SKELETON["also"]  # of Skeleton.save()
 
 

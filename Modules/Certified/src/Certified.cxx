@@ -103,6 +103,13 @@ public:
       }
       Measure();
     }
+    if (m_Request.thickness)
+    {
+      Stopwatch thickness;
+      m_Result.thickness =
+        ThicknessOf(m_Result.cores.front(), m_Result.shape, std::move(m_Voxels), std::move(m_Bracket), m_Plan.Next());
+      m_Result.seconds.thickness += thickness.Lap();
+    }
     return std::move(m_Result);
   }
 
@@ -131,6 +138,12 @@ private:
                                        ? CrossCheckedCells(m_Voxels, points, m_Weights, engine, m_Request.name, part)
                                        : ComputeDelaunayCells(m_Voxels, points, m_Weights, engine, part);
       seconds.delaunay += watch.Lap();
+      if (NeedsBracket(m_Request))
+      {
+        m_Bracket =
+          BracketThickness(m_Voxels, points, cells, m_Weights, m_Request.thickness->bounds, m_Plan.Next("thickness"));
+        seconds.thickness += watch.Lap();
+      }
 
       const ProgressCallback building = m_Plan.Next("core");
       ReportProgress(building, "", 0);
@@ -284,7 +297,7 @@ private:
     }
     else if (m_Request.tolerances.empty())
     {
-      if (!m_Request.skeleton)
+      if (!m_Request.skeleton && !m_Request.thickness)
       {
         m_Voxels = VoxelShape();
       }
@@ -427,6 +440,7 @@ private:
   CertifiedCore                  m_Whole;
   std::vector<MedialComplex>     m_Pruned; ///< by lambda, ascending
   std::optional<BurnedCurves>    m_Curves;
+  ThicknessBracket               m_Bracket;
   CertifiedResult                m_Result;
 };
 

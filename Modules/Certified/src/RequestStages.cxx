@@ -17,6 +17,8 @@ constexpr double kToleranceTime = 0.35;
 constexpr double kCoverageTime = 0.1;
 constexpr double kRefineTime = 1.5;
 constexpr double kSkeletonTime = 1.1;
+constexpr double kBracketTime = 1.0;
+constexpr double kThicknessTime = 0.4;
 
 } // namespace
 
@@ -63,10 +65,21 @@ BurnsBeforePruning(const CertifiedRequest & request)
   return BurnsWhole(request) || (request.skeleton && (request.skeleton->tolerance || Refines(request)));
 }
 
+bool
+NeedsBracket(const CertifiedRequest & request)
+{
+  return request.thickness && (request.thickness->bounds || !RefinesCores(request));
+}
+
 std::vector<double>
 StageTimes(const CertifiedRequest & request)
 {
-  std::vector<double> times{ kShapeTime, kDelaunayTime, kCoreTime };
+  std::vector<double> times{ kShapeTime, kDelaunayTime };
+  if (NeedsBracket(request))
+  {
+    times.push_back(kBracketTime);
+  }
+  times.push_back(kCoreTime);
   if (!request.tolerances.empty())
   {
     times.push_back(kToleranceTime);
@@ -91,6 +104,10 @@ StageTimes(const CertifiedRequest & request)
   if (request.skeleton && !BurnsBeforePruning(request))
   {
     times.push_back(kSkeletonTime);
+  }
+  if (request.thickness)
+  {
+    times.push_back(kThicknessTime);
   }
   return times;
 }

@@ -32,8 +32,13 @@ BurnsWhole(const CertifiedRequest & request);
 bool
 BurnsBeforePruning(const CertifiedRequest & request);
 
-/** Shares of the time of the stages, in the order in which they follow: shape, Delaunay cells, core, tolerances, whole
- *  core's certificate, skeleton, refinement, coverage or pruned cores' certificates, skeleton. */
+/** Whether the bracket of the thickness is found while the cells are there. */
+bool
+NeedsBracket(const CertifiedRequest & request);
+
+/** Shares of the time of the stages, in the order in which they follow: shape, Delaunay cells, bracket of the thickness,
+ *  core, tolerances, whole core's certificate, skeleton, refinement, coverage or pruned cores' certificates, skeleton,
+ *  thickness. */
 std::vector<double>
 StageTimes(const CertifiedRequest & request);
 

@@ -21,6 +21,8 @@ QuantityOf(PictureColoring coloring)
       return "Lambda";
     case PictureColoring::ErosionThickness:
       return "Erosion thickness";
+    case PictureColoring::Thickness:
+      return "Thickness";
     default:
       return "Radius";
   }

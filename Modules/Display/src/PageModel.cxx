@@ -27,27 +27,29 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr int                         kMapColors = 65; // enough for the page to go straight between them
-constexpr std::array<const char *, 3> kArrays{ "Radius", "Lambda", "ErosionThickness" };
+constexpr std::array<const char *, 4> kArrays{ "Radius", "Lambda", "ErosionThickness", "Thickness" };
 
-constexpr std::array<PictureColoring, 3> kColorings{ PictureColoring::Radius,
+constexpr std::array<PictureColoring, 4> kColorings{ PictureColoring::Radius,
                                                      PictureColoring::Lambda,
-                                                     PictureColoring::ErosionThickness };
+                                                     PictureColoring::ErosionThickness,
+                                                     PictureColoring::Thickness };
 
 /** In the order of kArrays; null where there is none. */
-using ValueArrays = std::array<const std::vector<double> *, 3>;
+using ValueArrays = std::array<const std::vector<double> *, 4>;
 
 ValueArrays
 MedialArrays(const DisplayLabel & label)
 {
   return { &label.medial.core.radius,
            &label.medial.core.vertexLambda,
-           label.erosionThickness.empty() ? nullptr : &label.erosionThickness };
+           label.erosionThickness.empty() ? nullptr : &label.erosionThickness,
+           label.medial.thickness.empty() ? nullptr : &label.medial.thickness };
 }
 
 ValueArrays
 CurveArrays(const DisplayLabel & label)
 {
-  return { &label.curves.radius, nullptr, &label.curves.erosionThickness };
+  return { &label.curves.radius, nullptr, &label.curves.erosionThickness, nullptr };
 }
 
 /** Takes all values into `range`'s least and greatest, those too which no colour goes by as they are of points: the

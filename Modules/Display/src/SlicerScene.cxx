@@ -118,7 +118,9 @@ SceneXml(const SceneDescription & scene)
                   "ModelDisplay",
                   "color=\"" + ColorText(item.color) +
                     "\" opacity=\"1\" visibility=\"true\" backfaceCulling=\"false\" scalarVisibility=\"true\" "
-                    "activeScalarName=\"Radius\" activeAttributeLocation=\"point\" "
+                    "activeScalarName=\"" +
+                    scene.coloring +
+                    "\" activeAttributeLocation=\"point\" "
                     "colorNodeID=\"vtkMRMLColorTableNodeFilePlasma.txt\" " +
                     RangeAttributes(scene.radius),
                   "ModelStorage",

@@ -265,7 +265,7 @@ WriteNifti(const std::filesystem::path & path, const VolumeToWrite & volume)
     h.Put(40 + 2 * unused, std::int16_t{ 1 });
     h.Put(76 + 4 * unused, 1.0F);
   }
-  const std::array<std::int16_t, 8> codes{ 2, 0, 512, 0, 768, 0, 1280, 0 }; // by PixelType, the unsigned ones
+  const std::array<std::int16_t, 9> codes{ 2, 0, 512, 0, 768, 0, 1280, 0, 16 }; // by PixelType, those that are written
   h.Put(70, codes[static_cast<std::size_t>(volume.type)]);
   h.Put(72, static_cast<std::int16_t>(8 * PixelBytes(volume.type)));
   const bool leftHanded = IsLeftHanded(g);
@@ -323,7 +323,8 @@ WriteMetaImage(const std::filesystem::path & path, const VolumeToWrite & volume)
     }
   }
   const auto numbers = [](const Vector3 & v) { return Text(Exact(v[0]), " ", Exact(v[1]), " ", Exact(v[2])); };
-  const std::array<const char *, 8> types{ "MET_UCHAR", "", "MET_USHORT", "", "MET_UINT", "", "MET_ULONG_LONG", "" };
+  const std::array<const char *, 9> types{ "MET_UCHAR",      "", "MET_USHORT", "", "MET_UINT", "",
+                                           "MET_ULONG_LONG", "", "MET_FLOAT" };
   const bool                        local = LowerCase(path.extension().string()) == ".mha";
   PackedFile                        file(path, Wrapping::None);
   file.WritePlain(Text("ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = ",

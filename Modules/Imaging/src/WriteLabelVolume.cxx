@@ -369,4 +369,45 @@ WriteGreyVolume(const std::filesystem::path &  path,
   WriteVolume(path, kind, { geometry, PixelType::UInt16, slice, compress });
 }
 
+namespace
+{
+
+template <typename T>
+void
+WriteSlices(const std::filesystem::path &                           path,
+            const ImageGeometry &                                   geometry,
+            PixelType                                               type,
+            const std::function<void(std::int64_t, std::span<T>)> & slice)
+{
+  const Kind kind = KindOf(path);
+  RequireSize(path, kind, geometry.size);
+  std::vector<T>    values(static_cast<std::size_t>(geometry.size[0]) * static_cast<std::size_t>(geometry.size[1]));
+  const SliceSource bytes = [&](std::int64_t k) -> std::span<const std::byte> {
+    std::fill(values.begin(), values.end(), T{ 0 });
+    slice(k, values);
+    return std::as_bytes(std::span<const T>(values));
+  };
+  WriteVolume(path, kind, { geometry, type, bytes });
+}
+
+} // namespace
+
+void
+WriteFloatVolume(const std::filesystem::path & path, const ImageGeometry & geometry, const FloatSlice & slice)
+{
+  WriteSlices<float>(path, geometry, PixelType::Float32, slice);
+}
+
+void
+WriteNumberVolume(const std::filesystem::path & path, const ImageGeometry & geometry, const NumberSlice & slice)
+{
+  WriteSlices<std::uint32_t>(path, geometry, PixelType::UInt32, slice);
+}
+
+void
+RequireVolumePath(const std::filesystem::path & path)
+{
+  KindOf(path);
+}
+
 } // namespace voxelcore

@@ -51,6 +51,12 @@ RequirePages()
   }
 }
 
+LabelSurfaceMesh
+SurfaceToShow(const VoxelShape & shape, const ImageGeometry & geometry)
+{
+  return LabelSurface(shape, geometry);
+}
+
 struct DisplayFiles::State
 {
   DisplayTargets            targets;
@@ -110,7 +116,7 @@ struct DisplayFiles::State
                const std::function<fs::path(const std::string &)> & stage,
                std::vector<std::string> &                           notes);
   ColorRange
-  RadiusRange() const;
+  RangeOf(PictureColoring coloring) const;
   DisplayContent
   Content(const CoreReport & report, const ProgressCallback & progress) const;
 };
@@ -281,7 +287,11 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
                              ColorOf(record.label, record.component) });
     WriteModel(stage(scene.models.back().file), "x.vtp", model, {});
   }
-  scene.radius = RadiusRange();
+  const bool areMeasured =
+    !surfaces.empty() &&
+    std::all_of(surfaces.begin(), surfaces.end(), [](const ModelPart & part) { return !part.thickness.empty(); });
+  scene.coloring = areMeasured ? "Thickness" : "Radius";
+  scene.radius = RangeOf(areMeasured ? PictureColoring::Thickness : PictureColoring::Radius);
   AddSkeletons(report, scene, stage, notes);
   for (auto * items : { &scene.segmentations, &scene.models, &scene.curves })
   {
@@ -307,7 +317,7 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
 
 /** As in pictures and pages, of all labels together. */
 ColorRange
-DisplayFiles::State::RadiusRange() const
+DisplayFiles::State::RangeOf(PictureColoring coloring) const
 {
   std::vector<WeightedValue> values;
   for (std::size_t i = 0; i < surfaces.size(); ++i)
@@ -315,7 +325,7 @@ DisplayFiles::State::RadiusRange() const
     DisplayLabel label;
     label.medial = surfaces[i];
     label.curves = skeletons[i].graph;
-    const auto more = ShownValues(label, PictureColoring::Radius);
+    const auto more = ShownValues(label, coloring);
     values.insert(values.end(), more.begin(), more.end());
   }
   return RangeOfShares(std::move(values));

@@ -2,6 +2,7 @@
 // What a job writes for looking at: a scene of 3D Slicer, a page for browsers.
 
 #include "voxelcore/CoreReport.h"
+#include "voxelcore/DisplayContent.h"
 #include "voxelcore/DisplayTargets.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputTransaction.h"
@@ -13,6 +14,10 @@
 
 namespace voxelcore
 {
+
+/** The surface of a label as it is shown. \throws UsageError where this build cannot make it */
+LabelSurfaceMesh
+SurfaceToShow(const VoxelShape & shape, const ImageGeometry & geometry);
 
 /** Gathers labels while they are computed and writes them at the end. Does nothing where nothing is asked for. */
 class DisplayFiles

@@ -16,6 +16,14 @@ RequirePages()
     "(-DVOXELCORE_DISPLAY=ON, with libvtk9-dev, brings them)");
 }
 
+LabelSurfaceMesh
+SurfaceToShow(const VoxelShape &, const ImageGeometry &)
+{
+  throw UsageError(
+    "--surface is off in this build: it was made without VTK's rendering (-DVOXELCORE_DISPLAY=ON, with "
+    "libvtk9-dev, brings it)");
+}
+
 struct DisplayFiles::State
 {};
 

@@ -182,6 +182,16 @@ SkeletonFolderPath(const fs::path & folder, const fs::path & input, std::int64_t
 }
 
 fs::path
+VolumeFolderPath(const fs::path &    folder,
+                 const fs::path &    scan,
+                 std::int64_t        label,
+                 std::int64_t        component,
+                 const std::string & what)
+{
+  return folder / (ScanName(scan) + LabelPart(label, component) + "_" + what + ".nrrd");
+}
+
+fs::path
 SkeletonTablesPath(const fs::path & folder, const fs::path & input)
 {
   return folder / (NameOfScan(input) + "_skeleton.vtp");

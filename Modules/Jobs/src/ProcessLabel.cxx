@@ -60,6 +60,7 @@ ProcessLabel(EditedLabel              edited,
   {
     outcome.skeleton = TakeSkeleton(std::move(*result.skeleton), record);
   }
+  outcome.thickness = std::move(result.thickness);
   outcome.seconds.shape = result.seconds.shape;
   outcome.seconds.delaunay = result.seconds.delaunay;
   outcome.seconds.core = result.seconds.core;

@@ -30,6 +30,7 @@ PictureOptionsOf(const RenderJobOptions & options)
                                          : PictureView::Auto;
   picture.coloring = options.coloring == "Lambda"             ? PictureColoring::Lambda
                      : options.coloring == "ErosionThickness" ? PictureColoring::ErosionThickness
+                     : options.coloring == "Thickness"        ? PictureColoring::Thickness
                      : options.coloring == "Label"            ? PictureColoring::Label
                                                               : PictureColoring::Radius;
   picture.shrink = options.shrink;
@@ -97,6 +98,21 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & given)
       if (!label.curves.positions.empty())
       {
         throw UsageError("--color Lambda: curve skeletons have none; use Radius or ErosionThickness");
+      }
+    }
+  }
+  if (options.coloring == "Thickness")
+  {
+    for (const DisplayLabel & label : content.labels)
+    {
+      if (label.medial.core.cells.vertexCount != label.medial.thickness.size())
+      {
+        throw UsageError("--color Thickness: '" + label.name +
+                         "' was not measured; give a file of 'voxelcore thickness --medial'");
+      }
+      if (!label.curves.positions.empty())
+      {
+        throw UsageError("--color Thickness: curve skeletons have none; use Radius");
       }
     }
   }

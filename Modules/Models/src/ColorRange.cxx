@@ -112,6 +112,8 @@ MedialValues(const DisplayLabel & label, PictureColoring coloring)
       return label.medial.core.vertexLambda;
     case PictureColoring::ErosionThickness:
       return label.erosionThickness;
+    case PictureColoring::Thickness:
+      return label.medial.thickness;
     default:
       return label.medial.core.radius;
   }
@@ -124,6 +126,7 @@ CurveValues(const DisplayLabel & label, PictureColoring coloring)
   switch (coloring)
   {
     case PictureColoring::Lambda:
+    case PictureColoring::Thickness:
       return none;
     case PictureColoring::ErosionThickness:
       return label.curves.erosionThickness;

@@ -44,7 +44,8 @@ SameBits(const ModelPart & a, const ModelPart & b)
          Same(x.positions, y.positions) && Same(x.radius, y.radius) && Same(x.vertexLambda, y.vertexLambda) &&
          Same(x.edgeLambda, y.edgeLambda) && Same(x.faceLambda, y.faceLambda) &&
          Same(x.tolerances.vertices, y.tolerances.vertices) && Same(x.tolerances.edges, y.tolerances.edges) &&
-         Same(x.tolerances.faces, y.tolerances.faces) && Same(a.displacement, b.displacement);
+         Same(x.tolerances.faces, y.tolerances.faces) && Same(a.displacement, b.displacement) &&
+         Same(a.thickness, b.thickness);
 }
 
 bool

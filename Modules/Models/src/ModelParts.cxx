@@ -72,6 +72,23 @@ AddPoints(ModelSink & sink, const std::vector<PartCells> & parts)
 }
 
 void
+AddThickness(ModelSink & sink, const std::vector<PartCells> & parts)
+{
+  const bool areMeasured = !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const PartCells & one) {
+    return one.part->thickness.size() == one.part->core.cells.vertexCount && !one.part->thickness.empty();
+  });
+  if (!areMeasured)
+  {
+    return;
+  }
+  double * t = sink.Reals("PointData", "Thickness", PointCount(parts));
+  for (const PartCells & one : parts)
+  {
+    t = std::copy(one.part->thickness.begin(), one.part->thickness.end(), t);
+  }
+}
+
+void
 AddDisplacements(ModelSink & sink, const std::vector<PartCells> & parts)
 {
   double * d = sink.Reals("PointData", "Displacement", PointCount(parts), 3);
@@ -283,6 +300,7 @@ WriteParts(const MedialModel & model, bool keepEdges, ModelSink & sink)
     AddCells<std::int64_t>(sink, parts);
   }
   AddCellArrays(sink, parts);
+  AddThickness(sink, parts);
   if (model.inLps)
   {
     sink.Text("SPACE", "LPS");

@@ -316,8 +316,11 @@ ReadParts(ModelSource & file, bool anywhere)
                "its field Refined names no surface");
     displacement = ReadValues<double>(file, "PointData", "Displacement", pointCount, 3);
   }
-  std::size_t edgesRead = 0;
-  bool        edgesMissing = false;
+  const std::vector<double> thickness = file.Has("PointData", "Thickness")
+                                          ? ReadValues<double>(file, "PointData", "Thickness", pointCount)
+                                          : std::vector<double>();
+  std::size_t               edgesRead = 0;
+  bool                      edgesMissing = false;
   for (const auto & [key, range] : FindParts(kinds, keys, pointCount))
   {
     ModelPart       part{ key.first, {}, key.second };
@@ -341,6 +344,7 @@ ReadParts(ModelSource & file, bool anywhere)
       return std::vector<double>(from, from + static_cast<std::ptrdiff_t>(size));
     };
     core.radius = slice(radius, first, count);
+    part.thickness = thickness.empty() ? std::vector<double>() : slice(thickness, first, count);
     core.vertexLambda = slice(pointLambda, first, count);
     for (std::size_t i = 0; i < range.cells[0]; ++i)
     {

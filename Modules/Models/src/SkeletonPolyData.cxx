@@ -1,12 +1,10 @@
+#include "AppendedVtp.h"
 #include "VtpFile.h"
 
-#include "voxelcore/OutputFile.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/SkeletonModel.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <map>
 #include <new>
 
@@ -16,69 +14,8 @@ namespace voxelcore
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little, "files are little endian");
-
-/** Raw appended arrays and the header that names them, as VTK's writer makes them. */
-class AppendedArrays
-{
-public:
-  template <typename Value>
-  void
-  Add(const std::string & name, const std::vector<Value> & values, int components = 1)
-  {
-    const char * type = std::is_same_v<Value, double> ? "Float64" : "Int64";
-    m_Header += "        <DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
-                std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(m_Data.size()) +
-                "\"/>\n";
-    Append(values.data(), values.size() * sizeof(Value));
-  }
-
-  void
-  AddText(const std::string & name, const std::string & text)
-  {
-    m_Header += "        <Array type=\"String\" Name=\"" + name +
-                "\" NumberOfTuples=\"1\" format=\"appended\" offset=\"" + std::to_string(m_Data.size()) + "\"/>\n";
-    Append(text.c_str(), text.size() + 1);
-  }
-
-  void
-  Tag(const std::string & tag)
-  {
-    m_Header += "      <" + tag + ">\n";
-  }
-
-  std::string
-  TakeHeader()
-  {
-    return std::move(m_Header);
-  }
-
-  const std::string &
-  Data() const
-  {
-    return m_Data;
-  }
-
-private:
-  void
-  Append(const void * data, std::uint64_t bytes)
-  {
-    m_Data.append(reinterpret_cast<const char *>(&bytes), sizeof(bytes));
-    m_Data.append(static_cast<const char *>(data), bytes);
-  }
-
-  std::string m_Header;
-  std::string m_Data;
-};
-
-struct Cells
-{
-  std::vector<std::int64_t> offsets;
-  std::vector<std::int64_t> points;
-};
-
 std::vector<std::vector<ElementIndex>>
-CellsOf(const Cells & cells, std::size_t pointCount)
+CellsOf(const VtpCells & cells, std::size_t pointCount)
 {
   std::vector<std::vector<ElementIndex>> lists;
   std::int64_t                           from = 0;
@@ -208,7 +145,8 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
   std::vector<double> radius;
   std::vector<double> sections;
   std::vector<double> thickness;
-  Cells               cells[3]; // verts, lines, polys
+  VtpContent          content;
+  auto &              cells = content.cells;
   struct CellData
   {
     std::vector<std::int64_t> branchId, label, component, closed, level, strahler;
@@ -269,27 +207,19 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
     firstPoint += static_cast<std::int64_t>(graph.positions.size());
   }
 
-  AppendedArrays arrays;
-  arrays.Tag("FieldData");
-  arrays.AddText("SPACE", "LPS");
-  arrays.AddText("Units", UnitName(model.unit));
-  arrays.AddText("Provenance", model.provenance);
-  arrays.Tag("/FieldData");
-  const std::string fields = arrays.TakeHeader();
-  arrays.Tag("PointData");
-  arrays.Add("Radius", radius);
-  arrays.Add("MaximumInscribedSphereRadius", radius);
-  arrays.Add("SectionRadius", sections);
-  arrays.Add("ErosionThickness", thickness);
-  arrays.Tag("/PointData");
-  arrays.Tag("CellData");
+  content.texts = { { "SPACE", "LPS" }, { "Units", UnitName(model.unit) }, { "Provenance", model.provenance } };
+  content.positions = std::move(positions);
+  content.pointArrays = { { "Radius", radius },
+                          { "MaximumInscribedSphereRadius", radius },
+                          { "SectionRadius", sections },
+                          { "ErosionThickness", thickness } };
   const auto addCells = [&](const char * name, auto member) {
     auto all = data[0].*member;
     for (const int kind : { 1, 2 })
     {
       all.insert(all.end(), (data[kind].*member).begin(), (data[kind].*member).end());
     }
-    arrays.Add(name, all);
+    content.cellArrays.emplace_back(name, std::move(all));
   };
   addCells("BranchId", &CellData::branchId);
   addCells("Label", &CellData::label);
@@ -299,33 +229,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
   addCells("Strahler", &CellData::strahler);
   addCells("Length", &CellData::length);
   addCells("Tortuosity", &CellData::tortuosity);
-  arrays.Tag("/CellData");
-  arrays.Tag("Points");
-  arrays.Add("Points", positions, 3);
-  arrays.Tag("/Points");
-  const char * ends[3] = { "/Verts", "/Lines", "/Polys" };
-  const char * names[3] = { "Verts", "Lines", "Polys" };
-  for (int kind = 0; kind < 3; ++kind)
-  {
-    arrays.Tag(names[kind]);
-    arrays.Add("connectivity", cells[kind].points);
-    arrays.Add("offsets", cells[kind].offsets);
-    arrays.Tag(ends[kind]);
-  }
-  const auto count = [](std::size_t n) { return "\"" + std::to_string(n) + "\""; };
-  OutputFile file(path);
-  file.Write(
-    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-    "header_type=\"UInt64\">\n  <PolyData>\n");
-  file.Write(fields);
-  file.Write("    <Piece NumberOfPoints=" + count(radius.size()) + " NumberOfVerts=" + count(cells[0].offsets.size()) +
-             " NumberOfLines=" + count(cells[1].offsets.size()) +
-             " NumberOfStrips=\"0\" NumberOfPolys=" + count(cells[2].offsets.size()) + ">\n");
-  file.Write(arrays.TakeHeader());
-  file.Write("    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n   _");
-  file.Write(arrays.Data());
-  file.Write("\n  </AppendedData>\n</VTKFile>\n");
-  file.Finish();
+  WriteVtp(path, content);
 }
 
 SkeletonModel

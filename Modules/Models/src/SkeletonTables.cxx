@@ -10,13 +10,6 @@ namespace voxelcore
 namespace
 {
 
-struct Column
-{
-  const char * name;
-  const char * unit;
-  const char * meaning;
-};
-
 // skan's names where it has the number.
 constexpr auto kBranchColumns = std::to_array<Column>({
   { "label", "", "value of the label" },

@@ -12,6 +12,14 @@ namespace voxelcore
 
 constexpr int tableDigits = 7; // significant, of numbers that are not whole
 
+/** A column whose values are written elsewhere. */
+struct Column
+{
+  const char * name;
+  const char * unit;
+  const char * meaning;
+};
+
 template <typename Columns>
 void
 WriteHead(TextFile & file, const Columns & columns)

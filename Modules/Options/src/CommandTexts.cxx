@@ -142,6 +142,38 @@ Examples:
   voxelcore roots root.nii.gz --up z- -o root/
   voxelcore roots root.nrrd --close 5vox --stems auto --soil-depth 30 -o crown/)";
 
+constexpr std::string_view kThicknessFooter =
+  R"(The map holds, at each voxel, the diameter of the largest ball inside the label that holds the voxel's centre
+(Hildebrand, Rueegsegger 1997), in mm, and 0 outside. Slices of any thickness are measured as they are.
+
+The balls are those of the medial surface of the smooth shape that the voxels stand for. A voxel whose centre lies in
+none of them takes the thickness of the nearest voxel that does. With --refine off they are balls that truly lie in
+the voxels, which makes oblique walls thinner. --bounds adds two maps: the largest of the balls that truly lie in the
+voxels, and a proven upper bound. The local thickness of the voxels as they are is between them.
+
+Each label is measured by itself. Guide: thickness.md
+
+Examples:
+  voxelcore thickness bone.nrrd -o bone-thickness.nrrd --table bone.csv
+  voxelcore thickness ct.nii.gz --threshold 300:inf --separation box -o map.nii.gz --table trabeculae.csv
+  voxelcore thickness atlas.nii.gz --labels cortex -o cortex.nrrd --border drop
+  voxelcore thickness atlas.nii.gz -o maps/ --table maps/thickness.csv)";
+
+constexpr std::string_view kSheetsFooter =
+  R"(A sheet is a piece of the medial surface without branching: the middle of one wall. Sheets meet in seams, and
+seams in junctions. What is a line and no surface is a rod. Walls, plates and struts get numbers of their own.
+
+Noise makes small sheets. One that stands out from its seams by less than --sliver is joined to the sheet it
+continues, and a seam shorter than that is drawn together into one junction.
+
+--voxels gives each voxel the number of the sheet or rod whose ball gives it its thickness. The volumes add up to the
+label's. Guide: thickness.md
+
+Examples:
+  voxelcore sheets foam.nrrd -o sheets.vtp --table sheets.csv --graph sheets.graphml
+  voxelcore sheets bone.nii.gz -o sheets.vtp --voxels sheets.nii.gz --table sheets.csv
+  voxelcore sheets medial.vtp -o sheets.vtp --sliver 0.5mm)";
+
 constexpr std::string_view kMeasureFooter =
   R"(OUT.csv writes OUT_branches.csv, OUT_summary.csv, and OUT_columns.json, which explains the columns.
 
@@ -179,10 +211,12 @@ Examples:
   voxelcore batch cohort.csv -o results --jobs 4 --memory 12GB --timeout 30m
   voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton)";
 
-constexpr std::array<Command, 12> kCommands{ {
+constexpr std::array<Command, 14> kCommands{ {
   { CommandId::Core, "core", "Compute the medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Skeleton, "skeleton", "Compute the curve skeleton of a scan or of a medial surface", kSkeletonFooter },
   { CommandId::Roots, "roots", "Find the roots of a plant in a CT or MRI scan, and measure them", kRootsFooter },
+  { CommandId::Thickness, "thickness", "Measure the local thickness of labels at every voxel", kThicknessFooter },
+  { CommandId::Sheets, "sheets", "Cut medial surfaces into sheets, seams and rods, and measure them", kSheetsFooter },
   { CommandId::Info, "info", "Show what is in a scan, and the time and memory it will need", kInfoFooter },
   { CommandId::Verify, "verify", "Recheck a medial surface against its scan", kVerifyFooter },
   { CommandId::Render, "render", "Draw pictures of medial surfaces and skeletons", kRenderFooter },

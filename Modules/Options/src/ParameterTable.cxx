@@ -8,6 +8,7 @@
 #include "table/RootRows.h"
 #include "table/RunningRows.h"
 #include "table/SkeletonRows.h"
+#include "table/ThicknessRows.h"
 
 namespace voxelcore
 {
@@ -46,6 +47,7 @@ constexpr auto kParameters = JoinedRows(Rows{ ParameterGroup::Input, table::kInp
                                         Rows{ ParameterGroup::Cohort, table::kCohortRows },
                                         Rows{ ParameterGroup::Phantom, table::kPhantomRows },
                                         Rows{ ParameterGroup::Roots, table::kRootRows },
+                                        Rows{ ParameterGroup::Thickness, table::kThicknessRows },
                                         Rows{ ParameterGroup::Pruning, table::kPruningRows },
                                         Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
                                         Rows{ ParameterGroup::Refinement, table::kRefinementRows },
@@ -79,6 +81,8 @@ GroupHeading(ParameterGroup group)
       return "Phantom";
     case ParameterGroup::Roots:
       return "Roots";
+    case ParameterGroup::Thickness:
+      return "Thickness and sheets";
     case ParameterGroup::Running:
       break;
   }
@@ -99,9 +103,10 @@ KeywordOf(const Parameter & parameter)
     return parameter.keyword == "-" ? std::string() : std::string(parameter.keyword);
   }
   const bool isFile = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output;
-  const bool isNamedAlike =
-    parameter.group == ParameterGroup::Pruning || parameter.group == ParameterGroup::ShapeEdits ||
-    parameter.group == ParameterGroup::Refinement || parameter.group == ParameterGroup::Skeleton;
+  const bool isNamedAlike = parameter.group == ParameterGroup::Pruning ||
+                            parameter.group == ParameterGroup::ShapeEdits ||
+                            parameter.group == ParameterGroup::Refinement ||
+                            parameter.group == ParameterGroup::Skeleton || parameter.group == ParameterGroup::Thickness;
   return isNamedAlike && !isFile && !parameter.flags.empty() ? WithUnderscores(parameter.name) : std::string();
 }
 

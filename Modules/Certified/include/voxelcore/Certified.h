@@ -9,6 +9,7 @@
 
 #include "voxelcore/CertifiedCore.h"
 #include "voxelcore/CertifiedSkeleton.h"
+#include "voxelcore/CertifiedThickness.h"
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/FineTopology.h"
 #include "voxelcore/Progress.h"
@@ -37,11 +38,12 @@ struct CertifiedRequest
 {
   std::string name = "the shape"; ///< in errors: "label 4 (liver)"
 
-  std::vector<Lambda>            lambdas;    ///< one core each; 0: the whole core
-  std::vector<Tolerance>         tolerances; ///< where there are some: one core each, the only lambda is pruned first
-  SurfaceSource                  surface;    ///< cores are refined to it, and skeletons that ask for it
-  bool                           refineCores = true; ///< where there is a surface; false: skeletons alone are refined
-  std::optional<SkeletonRequest> skeleton; ///< of the whole core, or of one asked for as it is before refinement
+  std::vector<Lambda>             lambdas;    ///< one core each; 0: the whole core
+  std::vector<Tolerance>          tolerances; ///< where there are some: one core each, the only lambda is pruned first
+  SurfaceSource                   surface;    ///< cores are refined to it, and skeletons that ask for it
+  bool                            refineCores = true; ///< where there is a surface; false: skeletons alone are refined
+  std::optional<SkeletonRequest>  skeleton;  ///< of the whole core, or of one asked for as it is before refinement
+  std::optional<ThicknessRequest> thickness; ///< by the first core
 
   Engine     engine = Engine::Auto;
   bool       crossCheck = false; ///< both engines run, one after the other, and must agree bit for bit
@@ -56,18 +58,20 @@ struct CertifiedSeconds
   double core = 0;
   double prune = 0; ///< with refinement
   double skeleton = 0;
+  double thickness = 0;
 };
 
 struct CertifiedResult
 {
-  CertifiedShape                   shape;
-  std::optional<FineTopology>      fine; ///< where much of the shape's topology is
-  std::uint64_t                    boundaryVertices = 0;
-  ComplexRecord                    whole; ///< of the whole core
-  std::vector<CertifiedCore>       cores; ///< one per lambda or tolerance, in the order asked for
-  std::optional<CertifiedSkeleton> skeleton;
-  std::optional<bool>              covered; ///< true: every boundary gap is as promised; none: nothing is promised
-  CertifiedSeconds                 seconds;
+  CertifiedShape                    shape;
+  std::optional<FineTopology>       fine; ///< where much of the shape's topology is
+  std::uint64_t                     boundaryVertices = 0;
+  ComplexRecord                     whole; ///< of the whole core
+  std::vector<CertifiedCore>        cores; ///< one per lambda or tolerance, in the order asked for
+  std::optional<CertifiedSkeleton>  skeleton;
+  std::optional<CertifiedThickness> thickness;
+  std::optional<bool>               covered; ///< true: every boundary gap is as promised; none: nothing is promised
+  CertifiedSeconds                  seconds;
 };
 
 /** Without either, one core at kUsualTolerance is asked for. Tolerances without a lambda begin at the whole core. */

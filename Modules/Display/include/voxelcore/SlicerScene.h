@@ -23,10 +23,11 @@ struct SceneItem
 
 struct SceneDescription
 {
-  std::vector<SceneItem> segmentations; ///< .seg.nrrd
-  std::vector<SceneItem> models;        ///< .vtp in LPS, coloured by their point array Radius
-  ColorRange             radius;        ///< what these colours run over; empty: each over its own
-  std::vector<SceneItem> curves;        ///< .mrk.json
+  std::vector<SceneItem> segmentations;       ///< .seg.nrrd
+  std::vector<SceneItem> models;              ///< .vtp in LPS, coloured by a point array
+  std::string            coloring = "Radius"; ///< the point array
+  ColorRange             radius;              ///< what these colours run over; empty: each over its own
+  std::vector<SceneItem> curves;              ///< .mrk.json
 };
 
 /** The text of a .mrml: each item a node with its display and storage node, all in LPS. */

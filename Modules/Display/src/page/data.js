@@ -54,7 +54,7 @@ const Page = (function () {
     return known.get(key);
   }
 
-  const names = { Radius: 'Radius', Lambda: 'Lambda', ErosionThickness: 'Erosion thickness', Label: model.groups || 'Label', Branch: 'Branch' };
+  const names = { Radius: 'Radius', Lambda: 'Lambda', ErosionThickness: 'Erosion thickness', Thickness: 'Thickness', Label: model.groups || 'Label', Branch: 'Branch' };
 
   // The unit in which people read lengths of about this one.
   function unitFor(length) {

@@ -15,7 +15,7 @@ namespace voxelcore
 /** The voxels of slice k, good until it is called again; so a volume need never be in memory as a whole. */
 using SliceSource = std::function<std::span<const std::byte>(std::int64_t k)>;
 
-/** A volume about to be written: unsigned whole numbers in this machine's byte order, i fastest. */
+/** A volume about to be written: unsigned whole numbers or float32 in this machine's byte order, i fastest. */
 struct VolumeToWrite
 {
   ImageGeometry geometry;

@@ -59,4 +59,21 @@ WriteGreyVolume(const std::filesystem::path &  path,
                 std::span<const std::uint16_t> values,
                 bool                           compress = true);
 
+/** Fills in the values of slice k, which are all zero, x fastest. */
+using FloatSlice = std::function<void(std::int64_t k, std::span<float> values)>;
+
+/** Writes float32 values slice by slice, as WriteLabelVolume writes labels. `slice` is called twice for each k.
+ *  \throws OutputError when it cannot be written; UsageError for an unknown extension */
+void
+WriteFloatVolume(const std::filesystem::path & path, const ImageGeometry & geometry, const FloatSlice & slice);
+
+/** The same with whole numbers, uint32. */
+using NumberSlice = std::function<void(std::int64_t k, std::span<std::uint32_t> values)>;
+void
+WriteNumberVolume(const std::filesystem::path & path, const ImageGeometry & geometry, const NumberSlice & slice);
+
+/** \throws UsageError unless the path has an extension that volumes are written with. */
+void
+RequireVolumePath(const std::filesystem::path & path);
+
 } // namespace voxelcore

@@ -80,11 +80,12 @@ RequestOf(const CoreOptions & options, SurfaceSource surface);
 /** One label's share of a job. */
 struct LabelOutcome
 {
-  LabelRecord                 record;
-  std::vector<ModelPart>      parts; ///< one per lambda or tolerance, in LPS mm
-  std::optional<SkeletonPart> skeleton;
-  StageSeconds                seconds;
-  std::string                 failure; ///< why its certificate failed, where other labels go on
+  LabelRecord                       record;
+  std::vector<ModelPart>            parts; ///< one per lambda or tolerance, in LPS mm
+  std::optional<SkeletonPart>       skeleton;
+  std::optional<CertifiedThickness> thickness;
+  StageSeconds                      seconds;
+  std::string                       failure; ///< why its certificate failed, where other labels go on
 };
 
 /** Everything between reading and writing for one label: what ComputeCertified() gives, told as a record.

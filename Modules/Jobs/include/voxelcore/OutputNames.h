@@ -61,6 +61,15 @@ SkeletonFolderPath(const std::filesystem::path & folder,
                    std::int64_t                  label,
                    std::int64_t                  component = 0);
 
+/** "<folder>/<scan>_label-<value>_<what>.nrrd", of a component (not 0)
+ *  "..._label-<value>_component-<n>_<what>.nrrd". */
+std::filesystem::path
+VolumeFolderPath(const std::filesystem::path & folder,
+                 const std::filesystem::path & scan,
+                 std::int64_t                  label,
+                 std::int64_t                  component,
+                 const std::string &           what);
+
 /** "<folder>/<scan>_skeleton.vtp": tables of all labels of a folder are named after it. */
 std::filesystem::path
 SkeletonTablesPath(const std::filesystem::path & folder, const std::filesystem::path & input);

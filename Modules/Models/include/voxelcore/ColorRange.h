@@ -14,6 +14,7 @@ enum class PictureColoring
   Radius,
   Lambda,
   ErosionThickness,
+  Thickness,
   Label
 };
 

@@ -11,7 +11,9 @@
 #include "voxelcore/RenderJob.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/RootsJob.h"
+#include "voxelcore/SheetsJob.h"
 #include "voxelcore/SkeletonJob.h"
+#include "voxelcore/ThicknessJob.h"
 #include "voxelcore/VerifyJob.h"
 #include "voxelcore/VoxelizeJob.h"
 
@@ -39,7 +41,9 @@ enum class CommandId : std::uint32_t
   Batch = 256, ///< takes besides its own all options of Core that do not name a file
   Reconstruct = 512,
   Voxelize = 1024,
-  Roots = 2048
+  Roots = 2048,
+  Thickness = 4096,
+  Sheets = 8192
 };
 
 struct Command
@@ -71,6 +75,7 @@ enum class ParameterGroup
   Cohort,
   Phantom,
   Roots,
+  Thickness,
   Pruning,
   ShapeEdits,
   Refinement,
@@ -181,6 +186,12 @@ MeasureJobOptions
 MeasureOptionsFrom(const ParameterValues & values);
 RootsOptions
 RootsOptionsFrom(const ParameterValues & values);
+ThicknessOptions
+ThicknessOptionsWithoutFiles(const ParameterValues & values);
+ThicknessOptions
+ThicknessOptionsFrom(const ParameterValues & values);
+SheetsOptions
+SheetsOptionsFrom(const ParameterValues & values);
 RenderJobOptions
 RenderOptionsFrom(const ParameterValues & values);
 

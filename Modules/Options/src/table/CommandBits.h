@@ -20,12 +20,15 @@ constexpr std::uint32_t kBatch = static_cast<std::uint32_t>(CommandId::Batch);
 constexpr std::uint32_t kReconstruct = static_cast<std::uint32_t>(CommandId::Reconstruct);
 constexpr std::uint32_t kVoxelize = static_cast<std::uint32_t>(CommandId::Voxelize);
 constexpr std::uint32_t kRoots = static_cast<std::uint32_t>(CommandId::Roots);
-constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton | kRoots;
+constexpr std::uint32_t kThickness = static_cast<std::uint32_t>(CommandId::Thickness);
+constexpr std::uint32_t kSheets = static_cast<std::uint32_t>(CommandId::Sheets);
+constexpr std::uint32_t kMaps = kThickness | kSheets;
+constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton | kRoots | kThickness | kSheets;
 constexpr std::uint32_t kModels = kCore | kPrune;
 constexpr std::uint32_t kStages = kCore | kSkeleton;
 constexpr std::uint32_t kBranches = kSkeleton | kMeasure;
-constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches | kRender | kReconstruct | kVoxelize | kRoots;
+constexpr std::uint32_t kWrites = kModels | kPhantom | kBranches | kRender | kReconstruct | kVoxelize | kRoots | kMaps;
 constexpr std::uint32_t kAll =
-  kCore | kInfo | kVerify | kPrune | kPhantom | kBranches | kRender | kReconstruct | kVoxelize | kRoots;
+  kCore | kInfo | kVerify | kPrune | kPhantom | kBranches | kRender | kReconstruct | kVoxelize | kRoots | kMaps;
 
 } // namespace voxelcore::table

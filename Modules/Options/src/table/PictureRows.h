@@ -12,7 +12,7 @@ inline constexpr auto kPictureRows = std::to_array<Parameter>({
   { "color",
     "--color",
     Choice,
-    "Radius|Lambda|ErosionThickness|Label",
+    "Radius|Lambda|ErosionThickness|Thickness|Label",
     "Radius",
     false,
     kRender,

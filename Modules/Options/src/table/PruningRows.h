@@ -64,6 +64,24 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     kSkeleton,
     "Prune the core of a scan first so that the boundary stays within H of the remaining balls: 1.2diag (voxel "
     "diagonals), 2vox, 1.5mm; tips shorten by about H" },
+  { "tolerance",
+    "--tolerance",
+    Text,
+    "H",
+    "1.2diag",
+    false,
+    kThickness,
+    "What lies within H of the balls beneath it is noise and takes their thickness: 1.2diag (voxel diagonals), 2vox, "
+    "1.5mm" },
+  { "tolerance",
+    "--tolerance",
+    Text,
+    "H",
+    "1.2diag",
+    false,
+    kSheets,
+    "Prune the surface of a scan first so that the boundary stays within H of the remaining balls: 1.2diag (voxel "
+    "diagonals), 2vox, 1.5mm" },
 });
 
 inline constexpr auto kRefinementRows = std::to_array<Parameter>({
@@ -75,13 +93,22 @@ inline constexpr auto kRefinementRows = std::to_array<Parameter>({
     false,
     kCore | kSkeleton,
     "Move surface or skeleton by up to a voxel, to the axis of the smooth shape behind labels, grey values or mesh" },
+  { "refine",
+    "--refine",
+    Choice,
+    "off|labels|grey|mesh",
+    "labels",
+    false,
+    kMaps,
+    "Measure the smooth shape behind labels, grey values or mesh; off: the voxels as they are, by balls that lie in "
+    "them" },
   { "grey",
     "--grey",
     Input,
     "SCAN",
     "",
     false,
-    kCore | kSkeleton,
+    kCore | kSkeleton | kMaps,
     "For --refine grey: the grey scan that the labels were segmented from" },
   { "grey-range",
     "--grey-range",
@@ -89,7 +116,7 @@ inline constexpr auto kRefinementRows = std::to_array<Parameter>({
     "LO:HI",
     "",
     false,
-    kCore | kSkeleton,
+    kCore | kSkeleton | kMaps,
     "For --grey: the grey values inside the labels, such as 300:inf",
     "-" },
 });

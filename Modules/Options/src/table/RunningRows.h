@@ -35,7 +35,7 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "auto|lattice|tetgen",
     "auto",
     false,
-    kStages | kRoots,
+    kStages | kRoots | kMaps,
     "Choose the Delaunay engine; the result is the same",
     "engine" },
   { "cross-check",

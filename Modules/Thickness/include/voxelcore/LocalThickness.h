@@ -12,14 +12,15 @@ namespace voxelcore
 {
 
 /** A number at each voxel of a shape, and nothing elsewhere. */
-struct VoxelValues
+template <typename T>
+struct VoxelField
 {
   VoxelBox                   box;            ///< the shape's
   std::vector<std::uint64_t> rowStarts{ 0 }; ///< rows (y fastest) + 1
-  std::vector<float>         values;         ///< of the voxels that are in, in scan order
+  std::vector<T>             values;         ///< of the voxels that are in, in scan order
 
   /** Of the row at box-relative y, z, a value for each of its voxels that is in. */
-  std::span<const float>
+  std::span<const T>
   Row(std::int32_t y, std::int32_t z) const
   {
     const auto row = static_cast<std::size_t>(z) * static_cast<std::size_t>(box.size[1]) + static_cast<std::size_t>(y);
@@ -27,8 +28,14 @@ struct VoxelValues
   }
 };
 
+using VoxelValues = VoxelField<float>;
+
+/** At each voxel, 1 + the index of the ball that gives it its thickness; 0: none does. */
+using VoxelOwners = VoxelField<std::uint32_t>;
+
 /** Zero at each voxel of the shape. */
-VoxelValues
+template <typename T>
+VoxelField<T>
 ZeroAtVoxels(const VoxelShape & shape);
 
 /** Gives each voxel that still has zero twice the greatest value of the balls that hold its centre, in mm. A ball is
@@ -41,6 +48,14 @@ PaintThickness(const VoxelShape &       shape,
                const PaintingBalls &    balls,
                VoxelValues &            map,
                const ProgressCallback & progress = {});
+
+/** The same, but of the balls themselves: at each voxel the one of greatest value, of equal ones the first. */
+void
+PaintOwners(const VoxelShape &       shape,
+            const SpacingWeights &   weights,
+            const PaintingBalls &    balls,
+            VoxelOwners &            owners,
+            const ProgressCallback & progress = {});
 
 /** Gives each voxel that still has zero the diameter of the largest inscribed ball about its centre. */
 void

@@ -19,6 +19,7 @@ struct PlacedCore
   std::int64_t  component = 0; ///< from 1 for a label split into its components; 0: the whole label
 
   std::vector<Vector3> displacement{}; ///< LPS mm, of a refined core: what moved each vertex; else empty
+  std::vector<double>  thickness{};    ///< mm, the shape's local thickness at each vertex, where it was measured
 };
 
 /** A core that PlaceInLps moved to LPS mm. */

@@ -1,0 +1,40 @@
+#pragma once
+// Local thickness of a shape whose core has been certified.
+
+#include "voxelcore/CertifiedCore.h"
+#include "voxelcore/CoreThickness.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace voxelcore
+{
+
+struct ThicknessRequest
+{
+  bool bounds = false; ///< the bracket, too
+};
+
+/** The estimate is that of the first core asked for: of a refined one the diameters of its balls (CoreThickness.h),
+ *  else the lower bound, which is that of truly inscribed balls. */
+struct CertifiedThickness
+{
+  VoxelShape         shape;
+  PaintingBalls      balls;      ///< of the first core's vertices; centres in lattice coordinates
+  VoxelOwners        owners;     ///< among these balls
+  VoxelValues        map;        ///< the estimate, mm
+  ThicknessBracket   bracket;    ///< both empty where they were not asked for
+  std::vector<float> atVertices; ///< the map's value at each vertex of the first core, mm
+};
+
+/** The map of a certified core. `bracket` is that of the shape, or empty; of a core that is not refined it holds the
+ *  lower bound. \throws CertificateError when bounds contradict each other or a voxel has no thickness; Cancelled */
+CertifiedThickness
+ThicknessOf(const CertifiedCore &    core,
+            const CertifiedShape &   shape,
+            VoxelShape               voxels,
+            ThicknessBracket         bracket,
+            const ProgressCallback & progress = {});
+
+} // namespace voxelcore

@@ -1,0 +1,69 @@
+#pragma once
+// `voxelcore thickness`: local thickness at every voxel of a scan's labels.
+
+#include "voxelcore/CoreJob.h"
+#include "voxelcore/ThicknessFiles.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** What becomes of voxels whose ball touches the border of the scan. */
+enum class BorderRule
+{
+  Flag, ///< all count; the numbers without them stand beside
+  Keep, ///< all count
+  Drop  ///< they do not count
+};
+
+/** The background that is measured, too. */
+enum class SeparationRegion
+{
+  None,
+  Box ///< within the box around all labels
+};
+
+struct ThicknessOptions
+{
+  CoreOptions                          core;   ///< what is read and computed, and its report; nothing of it is written
+  std::filesystem::path                output; ///< .nrrd .nii .nii.gz .mha .mhd .tif, or a folder (IsFolderOutput)
+  bool                                 bounds = false; ///< proven bounds as volumes beside: OUT_lower, OUT_upper
+  BorderRule                           border = BorderRule::Flag;
+  SeparationRegion                     separation = SeparationRegion::None; ///< as a volume beside: OUT_separation
+  std::optional<std::filesystem::path> surface; ///< .vtp: the labels' surfaces with the point array Thickness
+  std::optional<std::filesystem::path> medial;  ///< .vtp: the medial surface with it
+  std::optional<std::filesystem::path> table;   ///< .csv; a histogram and a data dictionary go beside
+};
+
+struct ThicknessResult
+{
+  CoreReport                   report;
+  std::vector<ThicknessRecord> thickness; ///< per label of the report; then the separation, where it was asked for
+  std::vector<std::string>     warnings;
+  std::vector<std::string>     notes;
+};
+
+/** The volumes have the scan's grid, float32, mm (or voxels where the scan has no voxel size), and 0 outside. Each label
+ *  is measured by itself. Everything is written or nothing. The same bits for every number of threads.
+ *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
+ThicknessResult
+RunThicknessJob(const ThicknessOptions & options, const JobContext & context = {});
+
+/** The numbers of a map within `region`, in voxel indices. A ball touches the border where it comes within half a voxel
+ *  of a side of the region. */
+void
+Summarize(const CertifiedThickness & found,
+          const ImageGeometry &      geometry,
+          const VoxelBox &           region,
+          BorderRule                 border,
+          ThicknessRecord &          record);
+
+/** A table for people. */
+std::string
+ThicknessText(const ThicknessResult & result);
+
+} // namespace voxelcore

@@ -1,0 +1,405 @@
+#include "voxelcore/ThicknessJob.h"
+
+#include "DisplayFiles.h"
+#include "JobTools.h"
+#include "ThicknessSteps.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/GreyVolume.h"
+#include "voxelcore/LengthUnit.h"
+#include "voxelcore/OutputNames.h"
+#include "voxelcore/ReadInput.h"
+#include "voxelcore/ReportTable.h"
+#include "voxelcore/Sha256.h"
+
+#include <algorithm>
+#include <future>
+#include <numeric>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+class Work
+{
+public:
+  Work(const ThicknessOptions & options, const JobContext & context)
+    : m_Options(options)
+    , m_Context(context)
+    , m_Transaction(options.core.force, context.temporaries)
+    , m_ToFolder(IsFolderOutput(options.output))
+    , m_Shown(options.core.display, options.core.scan, m_Transaction)
+  {
+    CheckTargets();
+  }
+
+  ThicknessResult
+  Run()
+  {
+    StagePlan    plan(m_Context.progress, { 0.05, 0.02, 0.85, 0.08 });
+    Stopwatch    total;
+    CoreReport & report = m_Result.report;
+    Read(plan);
+    const ProgressCallback  computing = plan.Next();
+    const std::size_t       count = m_Edited.labels.size();
+    const bool              separates = m_Options.separation != SeparationRegion::None;
+    std::vector<VoxelShape> shapes;
+    for (std::size_t i = 0; separates && i < count; ++i)
+    {
+      shapes.push_back(m_Edited.labels[i].label.shape);
+    }
+    const auto share = [&](std::size_t i) {
+      return static_cast<double>(i) / static_cast<double>(count + (separates ? 1 : 0));
+    };
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::string name = m_Edited.labels[i].label.name;
+      const std::string which = count == 1 ? "" : " (" + std::to_string(i + 1) + "/" + std::to_string(count) + ")";
+      LabelOutcome      outcome =
+        Compute(std::move(m_Edited.labels[i]), NamedPartOfProgress(computing, name + which, share(i), share(i + 1)));
+      Keep(outcome);
+      Take(outcome, false);
+      report.labels.push_back(std::move(outcome.record));
+      if (m_ToFolder)
+      {
+        WriteVolumes(i);
+      }
+    }
+    if (separates)
+    {
+      Separate(std::move(shapes), NamedPartOfProgress(computing, "separation", share(count), 1));
+    }
+    const ProgressCallback writing = plan.Next("writing");
+    ReportProgress(writing, "", 0);
+    Stopwatch watch;
+    if (!m_ToFolder)
+    {
+      WriteVolumes(0);
+    }
+    WriteSeparation();
+    WriteTables();
+    WriteModels();
+    m_Shown.Finish(report, m_Result.notes, {});
+    report.seconds.write = watch.Lap();
+    report.seconds.total = total.Lap();
+    report.peakMemoryMb = PeakMemoryMb();
+    if (m_Options.core.report)
+    {
+      WriteTextFile(m_Transaction.Stage(*m_Options.core.report), WithThickness(ReportJson(report), m_Result));
+    }
+    Finish(m_Transaction, m_Context);
+    return std::move(m_Result);
+  }
+
+private:
+  void
+  CheckTargets()
+  {
+    m_Transaction.Protect(m_Options.core.scan);
+    if (!m_Options.core.refine.grey.empty())
+    {
+      m_Transaction.Protect(m_Options.core.refine.grey);
+    }
+    if (m_ToFolder)
+    {
+      m_Transaction.MakeDirectory(m_Options.output);
+    }
+    else
+    {
+      RequireVolumePath(m_Options.output);
+      m_Transaction.CheckTarget(m_Options.output);
+    }
+    if (m_Options.table && m_Options.table->extension() != ".csv")
+    {
+      throw UsageError("--table " + m_Options.table->string() + ": unknown extension; give .csv");
+    }
+    for (const auto & target : { m_Options.surface, m_Options.medial })
+    {
+      if (target && target->extension() != ".vtp")
+      {
+        throw UsageError(target->string() + ": unknown extension; give .vtp");
+      }
+    }
+    for (const auto & target : { m_Options.core.report, m_Options.table, m_Options.surface, m_Options.medial })
+    {
+      if (target)
+      {
+        m_Transaction.CheckTarget(*target);
+      }
+    }
+  }
+
+  void
+  Read(StagePlan & plan)
+  {
+    const CoreOptions & options = m_Options.core;
+    Stopwatch           watch;
+    auto      digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan, options.reading); });
+    InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
+    m_Weights = ScanWeights(volume.geometry, options.scan);
+    m_Geometry = volume.geometry;
+    m_Edited = EditLabels(std::move(volume.labels),
+                          volume.geometry,
+                          options.edits,
+                          options.reading.labels != "all",
+                          options.scan.string(),
+                          plan.Next());
+    m_Shown.AddScan(m_Edited.labels, volume.geometry);
+    m_Surface = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
+    CoreReport & report = m_Result.report;
+    report.command = options.command;
+    report.input = { options.scan.string(), {}, volume.format, volume.geometry, volume.notes };
+    report.parameters = DescribeParameters(options, volume, m_Edited, m_Weights);
+    report.input.sha256 = digest.get();
+    m_Result.warnings = volume.warnings;
+    m_Result.notes = m_Edited.notes;
+    report.seconds.read = watch.Lap();
+  }
+
+  LabelOutcome
+  Compute(EditedLabel edited, const ProgressCallback & progress) const
+  {
+    CertifiedRequest request = RequestOf(m_Options.core, m_Surface);
+    request.refineCores = static_cast<bool>(m_Surface);
+    request.thickness = ThicknessRequest{ m_Options.bounds };
+    RequireLengthsOf(m_Options.core.scan, m_Geometry.unit, request);
+    return ProcessLabel(std::move(edited), m_Geometry, std::move(request), progress);
+  }
+
+  /** What is shown of a label, and surfaces that are files. */
+  void
+  Keep(LabelOutcome & outcome)
+  {
+    ModelPart &                part = outcome.parts.front();
+    const CertifiedThickness & found = *outcome.thickness;
+    part.thickness.assign(found.atVertices.begin(), found.atVertices.end());
+    m_Shown.AddLabel(outcome.record, part, nullptr);
+    if (m_Options.surface)
+    {
+      ThicknessSurface one{ outcome.record.label, outcome.record.component, {}, {} };
+      one.surface = SurfaceToShow(found.shape, m_Geometry);
+      const VoxelRanks ranks(found.shape);
+      for (const auto & point : one.surface.points)
+      {
+        const Vector3 place = PhysicalToLattice(m_Geometry, { point[0], point[1], point[2] });
+        one.thickness.push_back(ValueNear(found.shape, ranks, found.map, place));
+      }
+      m_Surfaces.push_back(std::move(one));
+    }
+    if (m_Options.medial)
+    {
+      m_Parts.push_back(std::move(part));
+    }
+  }
+
+  void
+  WriteModels()
+  {
+    const CoreReport &       report = m_Result.report;
+    std::vector<std::size_t> all(report.labels.size());
+    std::iota(all.begin(), all.end(), std::size_t{ 0 });
+    if (m_Options.surface)
+    {
+      WriteThicknessVtp(m_Transaction.Stage(*m_Options.surface),
+                        m_Surfaces,
+                        m_Geometry.unit,
+                        ProvenanceJson(report, all, 0));
+    }
+    if (m_Options.medial)
+    {
+      MedialModel model;
+      model.parts = std::move(m_Parts);
+      model.unit = m_Geometry.unit;
+      model.refined = m_Options.core.refine.surface;
+      model.provenance = ProvenanceJson(report, all, 0);
+      WriteModel(m_Transaction.Stage(*m_Options.medial), *m_Options.medial, model, {});
+    }
+  }
+
+  void
+  Take(LabelOutcome & outcome, bool isSeparation)
+  {
+    StageSeconds & seconds = m_Result.report.seconds;
+    seconds.shape += outcome.seconds.shape;
+    seconds.delaunay += outcome.seconds.delaunay;
+    seconds.core += outcome.seconds.core;
+    seconds.prune += outcome.seconds.prune;
+    CertifiedThickness & found = *outcome.thickness;
+    ThicknessRecord      record;
+    record.label = outcome.record.label;
+    record.component = outcome.record.component;
+    record.name = outcome.record.name;
+    record.isSeparation = isSeparation;
+    Summarize(found,
+              m_Geometry,
+              isSeparation ? m_Region : VoxelBox{ { 0, 0, 0 }, ScanSize() },
+              m_Options.border,
+              record);
+    m_Result.thickness.push_back(std::move(record));
+    found.owners = VoxelOwners();
+    found.balls = PaintingBalls();
+    m_Found.push_back(std::move(found));
+  }
+
+  std::array<std::int32_t, 3>
+  ScanSize() const
+  {
+    return { static_cast<std::int32_t>(m_Geometry.size[0]),
+             static_cast<std::int32_t>(m_Geometry.size[1]),
+             static_cast<std::int32_t>(m_Geometry.size[2]) };
+  }
+
+  void
+  Separate(std::vector<VoxelShape> shapes, const ProgressCallback & progress)
+  {
+    m_Region = BoxAround(shapes);
+    EditedLabel between;
+    between.label.shape = CropToVoxels(BackgroundIn(m_Region, shapes));
+    shapes.clear();
+    between.label.voxels = between.label.shape.CountVoxels();
+    if (between.label.voxels == 0)
+    {
+      throw InputError(m_Options.core.scan.string() +
+                       ": --separation: there is no background in the box of the labels");
+    }
+    between.label.name = "separation";
+    CoreOptions  options = m_Options.core;
+    LabelOutcome outcome = Compute(std::move(between), progress);
+    outcome.record.label = 0;
+    Take(outcome, true);
+  }
+
+  fs::path
+  VolumePath(std::size_t label, const std::string & what) const
+  {
+    if (!m_ToFolder)
+    {
+      return what.empty() ? m_Options.output : Beside(m_Options.output, what);
+    }
+    const LabelRecord & record = m_Result.report.labels[label];
+    return VolumeFolderPath(m_Options.output, m_Options.core.scan, record.label, record.component, "thickness" + what);
+  }
+
+  /** Of a folder those of one label, which then go; else those of all. */
+  void
+  WriteVolumes(std::size_t first)
+  {
+    const std::size_t last = m_ToFolder ? first + 1 : m_Result.report.labels.size();
+    const auto        write = [&](const std::string & what, auto && valuesOf) {
+      VolumeOfLabels<float> volume;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        volume.shapes.push_back(&m_Found[i].shape);
+        volume.values.push_back(&valuesOf(m_Found[i]));
+      }
+      WriteOne(VolumePath(first, what), volume);
+    };
+    write("", [](const CertifiedThickness & found) -> const VoxelValues & { return found.map; });
+    if (m_Options.bounds)
+    {
+      write("_lower", [](const CertifiedThickness & found) -> const VoxelValues & { return found.bracket.lower; });
+      write("_upper", [](const CertifiedThickness & found) -> const VoxelValues & { return found.bracket.upper; });
+    }
+    if (m_ToFolder)
+    {
+      m_Found[first] = CertifiedThickness();
+    }
+  }
+
+  void
+  WriteSeparation()
+  {
+    if (m_Options.separation == SeparationRegion::None)
+    {
+      return;
+    }
+    const VolumeOfLabels<float> volume{ { &m_Found.back().shape }, { &m_Found.back().map } };
+    WriteOne(m_ToFolder ? m_Options.output / (ScanName(m_Options.core.scan) + "_separation.nrrd")
+                        : Beside(m_Options.output, "_separation"),
+             volume);
+  }
+
+  void
+  WriteOne(const fs::path & target, const VolumeOfLabels<float> & volume)
+  {
+    WriteFloatVolume(m_Transaction.StageWithCompanions(target),
+                     m_Geometry,
+                     [&](std::int64_t k, std::span<float> slice) { FillSlice(volume, m_Geometry, k, slice); });
+  }
+
+  void
+  WriteTables()
+  {
+    if (!m_Options.table)
+    {
+      return;
+    }
+    const fs::path & table = *m_Options.table;
+    const fs::path   columns = table.parent_path() / (table.stem().string() + "_columns.json");
+    WriteThicknessCsv(m_Transaction.Stage(table), m_Result.thickness);
+    WriteThicknessHistogramCsv(m_Transaction.Stage(Beside(table, "_histogram")), m_Result.thickness);
+    WriteTextFile(m_Transaction.Stage(columns), ThicknessColumnsJson(m_Geometry.unit));
+  }
+
+  const ThicknessOptions &        m_Options;
+  const JobContext &              m_Context;
+  OutputTransaction               m_Transaction;
+  bool                            m_ToFolder;
+  DisplayFiles                    m_Shown;
+  std::vector<ThicknessSurface>   m_Surfaces;
+  std::vector<ModelPart>          m_Parts;
+  ImageGeometry                   m_Geometry;
+  SpacingWeights                  m_Weights;
+  EditedLabels                    m_Edited;
+  SurfaceSource                   m_Surface;
+  VoxelBox                        m_Region; ///< of the separation
+  std::vector<CertifiedThickness> m_Found;  ///< per label, then the separation
+  ThicknessResult                 m_Result;
+};
+
+} // namespace
+
+ThicknessResult
+RunThicknessJob(const ThicknessOptions & options, const JobContext & given)
+{
+  const JobContext context = ForwardOnly(given);
+  return Work(options, context).Run();
+}
+
+std::string
+ThicknessText(const ThicknessResult & result)
+{
+  double longest = 0;
+  for (const ThicknessRecord & record : result.thickness)
+  {
+    longest = std::max(longest, record.numbers.greatest);
+  }
+  const SpatialUnit                     spatial = result.report.input.geometry.unit;
+  const LengthUnit                      unit = LengthUnit::For(longest, spatial);
+  std::vector<std::vector<std::string>> rows{
+    { "label", "name", "voxels", "mean " + unit.Name(), "sd", "median", "5 %", "95 %", "max", "at border" }
+  };
+  for (const ThicknessRecord & record : result.thickness)
+  {
+    const ThicknessNumbers & n = record.numbers;
+    const std::uint64_t      all = record.withoutBorder ? n.voxels + record.borderVoxels : n.voxels;
+    const double percent = all == 0 ? 0 : 100 * static_cast<double>(record.borderVoxels) / static_cast<double>(all);
+    rows.push_back({ record.isSeparation ? "-" : std::to_string(record.label),
+                     record.name,
+                     std::to_string(n.voxels),
+                     unit.Text(n.mean, 1, 3),
+                     unit.Text(n.deviation, 1, 3),
+                     unit.Text(n.median, 1, 3),
+                     unit.Text(n.quantile5, 1, 3),
+                     unit.Text(n.quantile95, 1, 3),
+                     unit.Text(n.greatest, 1, 3),
+                     FixedText(percent, 1) + " %" });
+  }
+  return FormatTable(rows);
+}
+
+} // namespace voxelcore

@@ -1,0 +1,69 @@
+#pragma once
+// Steps of the job `thickness`.
+
+#include "voxelcore/ThicknessJob.h"
+
+#include <bit>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** "OUT<what>.nii.gz" for "OUT.nii.gz". */
+std::filesystem::path
+Beside(const std::filesystem::path & output, const std::string & what);
+
+/** A volume that several labels share. */
+template <typename T>
+struct VolumeOfLabels
+{
+  std::vector<const VoxelShape *>    shapes;
+  std::vector<const VoxelField<T> *> values;
+};
+
+/** The values of slice k, which is all zero. */
+template <typename T>
+void
+FillSlice(const VolumeOfLabels<T> & volume, const ImageGeometry & geometry, std::int64_t k, std::span<T> slice)
+{
+  for (std::size_t i = 0; i < volume.shapes.size(); ++i)
+  {
+    const VoxelShape & shape = *volume.shapes[i];
+    const auto &       box = shape.Box();
+    const auto         z = static_cast<std::int32_t>(k - box.lower[2]);
+    if (z < 0 || z >= box.size[2])
+    {
+      continue;
+    }
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
+    {
+      T * const  to = slice.data() + (y + box.lower[1]) * geometry.size[0] + box.lower[0];
+      auto       from = volume.values[i]->Row(y, z).begin();
+      const auto row = shape.Row(y, z);
+      for (std::size_t word = 0; word < row.size(); ++word)
+      {
+        for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
+        {
+          to[64 * word + static_cast<std::size_t>(std::countr_zero(bits))] = *from++;
+        }
+      }
+    }
+  }
+}
+
+/** The tight box of all of them. */
+VoxelBox
+BoxAround(const std::vector<VoxelShape> & shapes);
+
+/** The voxels of a box that none of the shapes has. */
+VoxelShape
+BackgroundIn(const VoxelBox & box, const std::vector<VoxelShape> & shapes);
+
+/** The report with what was measured as its last member. */
+std::string
+WithThickness(std::string report, const ThicknessResult & result);
+
+} // namespace voxelcore

@@ -1,0 +1,47 @@
+#pragma once
+// Options of `thickness` and `sheets` alone.
+
+#include "CommandBits.h"
+
+#include <array>
+
+namespace voxelcore::table
+{
+
+inline constexpr auto kThicknessRows = std::to_array<Parameter>({
+  { "bounds",
+    "--bounds",
+    Flag,
+    "",
+    "",
+    false,
+    kThickness,
+    "Write OUT_lower and OUT_upper, too: the largest ball that truly lies in the voxels, and a proven upper bound" },
+  { "border",
+    "--border",
+    Choice,
+    "flag|keep|drop",
+    "flag",
+    false,
+    kThickness,
+    "Voxels whose ball touches the border of the scan: count them and give the numbers without them, too; just count "
+    "them; or leave them out" },
+  { "separation",
+    "--separation",
+    Choice,
+    "off|box",
+    "off",
+    false,
+    kThickness,
+    "Measure the background, too, within the box around the labels (Tb.Sp, pore size): OUT_separation" },
+  { "sliver",
+    "--sliver",
+    Text,
+    "L",
+    "3vox",
+    false,
+    kSheets,
+    "Join sheets that stand out from their seams by less than L to the sheet they continue: 1.5mm, 3vox, 2.5%" },
+});
+
+} // namespace voxelcore::table

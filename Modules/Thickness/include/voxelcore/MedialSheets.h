@@ -1,0 +1,73 @@
+#pragma once
+// A medial surface cut into sheets: where it branches lie seams, and where seams meet, junctions.
+//
+// Sheets are the pieces of faces that hang together through edges with two faces. A seam is a chain of edges with three
+// faces or more, a rod one of edges without any; a point that stands alone is a rod without length.
+//
+// Slivers. How far a piece stands out from its seams is the greatest of what the ball of one of its vertices reaches
+// beyond the balls of its seams: way along edges to a seam's vertex, plus radius, minus that vertex' radius. What stands
+// out by less than a length `sliver` is a sliver, in two kinds:
+//  - A fin, at least a quarter of whose border is free, is passed over: where two faces are left, what it parted is one
+//    sheet. Fins go in four steps of rising height, so that a rib that fins have cut up is whole before it is judged.
+//  - Else it lies between seams, and is joined to the neighbour it continues: the one with the greatest sum, over the
+//    common edges, of length times the cosine of the bend; the smallest piece first.
+// A seam shorter than `sliver` that ends on the way or in a junction is drawn together into one junction.
+
+#include "voxelcore/CoreThickness.h"
+#include "voxelcore/MedialComplex.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxelcore
+{
+
+inline constexpr std::uint32_t kNoPiece = 0xFFFFFFFFU;
+
+/** Lengths in the unit of the core's positions. */
+struct SheetRecord
+{
+  double                     area = 0;
+  double                     thickness = 0; ///< mean of twice the radius, by area
+  double                     thicknessDeviation = 0;
+  Vector3                    normal{ 0, 0, 1 }; ///< of the plane it is nearest to; the greatest coordinate is positive
+  double                     flatness = 0;      ///< 1 in a plane, 1/3 where normals go everywhere
+  double                     freeBorder = 0;    ///< length of its border that is no seam
+  double                     seamBorder = 0;    ///< length of its seams
+  std::vector<std::uint32_t> neighbours;        ///< sheets that it shares a seam with, ascending
+};
+
+struct CurveRecord
+{
+  bool                         isRod = false;
+  bool                         isClosed = false;
+  double                       length = 0;
+  double                       thickness = 0; ///< mean of twice the radius, by length
+  std::vector<std::uint32_t>   sheets;        ///< that meet in a seam, ascending, one as often as it does
+  std::vector<ElementIndex>    vertices;      ///< in order; of a closed one the first is not repeated
+  std::array<std::uint32_t, 2> junctions{ kNoPiece, kNoPiece }; ///< at its ends; none where it ends freely
+};
+
+struct MedialSheets
+{
+  std::vector<std::uint32_t> sheetOfFace;
+  std::vector<std::uint32_t> curveOfEdge; ///< kNoPiece for the others
+  std::vector<SheetRecord>   sheets;      ///< the largest first
+  std::vector<CurveRecord>   curves;      ///< seams, then rods, the longest first
+  std::vector<ElementIndex>  junctions;   ///< a vertex of each, ascending
+
+  /** Per vertex the sheet with most of its faces or, behind the sheets, the curve: sheets.size() + curve. */
+  std::vector<std::uint32_t> pieceOfVertex;
+};
+
+/** Cuts a core, pruned and best refined. The result does not depend on threads. */
+MedialSheets
+CutIntoSheets(const MedialComplex & core, double sliver);
+
+/** Per voxel 1 + the piece (as pieceOfVertex) whose ball gives it its thickness; voxels without any ball have 0. The
+ *  owners are those among the balls of the same core. */
+VoxelOwners
+PiecesOfVoxels(const MedialSheets & sheets, const VoxelOwners & owners);
+
+} // namespace voxelcore

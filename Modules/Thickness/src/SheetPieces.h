@@ -1,0 +1,87 @@
+#pragma once
+// A complex' faces in pieces, some of which are passed over.
+
+#include "voxelcore/MedialComplex.h"
+#include "voxelcore/MedialSheets.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** A piece of faces. Lengths as in MedialSheets.h. */
+struct SheetPiece
+{
+  double standOut = 0; ///< infinite without seams
+  double freeBorder = 0;
+  double seamBorder = 0;
+  double area = 0;
+};
+
+class SheetPieces
+{
+public:
+  explicit SheetPieces(const MedialComplex & core);
+
+  /** Passes over fins that stand out by less than this, until there are none. */
+  void
+  RemoveFins(double height);
+
+  /** Finds the pieces of the faces that are left. */
+  void
+  Find();
+
+  /** Joins pieces that lie between seams and stand out by less than this. */
+  void
+  JoinStrips(double height);
+
+  /** Of each face its piece; fins have that of the faces they hang on, or are kNoPiece. Pieces that were joined have
+   *  one number. */
+  std::vector<std::uint32_t>
+  PieceOfFaces() const;
+
+  std::span<const ElementIndex>
+  FacesOf(ElementIndex edge) const
+  {
+    return { m_EdgeFaces.data() + m_EdgeOffsets[edge], m_EdgeFaces.data() + m_EdgeOffsets[edge + 1] };
+  }
+  /** Without fins. */
+  std::uint32_t
+  LiveCount(ElementIndex edge) const
+  {
+    return m_Live[edge];
+  }
+  bool
+  IsLive(ElementIndex face) const
+  {
+    return m_Alive[face] != 0;
+  }
+  double
+  EdgeLength(ElementIndex edge) const;
+
+private:
+  void
+  Measure();
+  /** Which pieces are fins; of pieces that hang together one stays. */
+  std::vector<std::uint8_t>
+  FinsBelow(double height) const;
+  double
+  StandOut(std::span<const ElementIndex> faces, double & freeBorder, double & seamBorder);
+  /** Within a face, square to an edge of it, unit length. */
+  Vector3
+  Inwards(ElementIndex face, ElementIndex edge) const;
+
+  const MedialComplex &      m_Core;
+  std::vector<std::uint64_t> m_EdgeOffsets;
+  std::vector<ElementIndex>  m_EdgeFaces;
+  std::vector<std::uint32_t> m_Live; ///< faces per edge without fins
+  std::vector<std::uint8_t>  m_Alive;
+  std::vector<std::uint32_t> m_PieceOf; ///< per face
+  std::vector<SheetPiece>    m_Pieces;
+  std::vector<std::uint32_t> m_Joined; ///< per piece: the one it belongs to
+  std::vector<std::uint32_t> m_Local;  ///< per vertex, while a piece is measured
+};
+
+} // namespace voxelcore

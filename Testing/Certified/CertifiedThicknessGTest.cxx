@@ -1,0 +1,88 @@
+#include "CertifiedFixtures.h"
+
+#include "voxelcore/CertifiedThickness.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace voxelcore
+{
+namespace
+{
+
+CertifiedRequest
+ThicknessOfAll(bool bounds, bool refined)
+{
+  CertifiedRequest request;
+  request.thickness = ThicknessRequest{ bounds };
+  if (refined)
+  {
+    request.surface = [](const VoxelShape & shape, const ProgressCallback & progress) {
+      return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(shape, { 1, 1, 1 }, progress));
+    };
+  }
+  return request;
+}
+
+/** At the middle of a box that begins at (2, 3, 4). */
+float
+AtTheMiddle(const CertifiedThickness & found, const VoxelValues & map, std::int32_t x, std::int32_t y, std::int32_t z)
+{
+  return map.values[VoxelRanks(found.shape).At(2 + x / 2, 3 + y / 2, 4 + z / 2)];
+}
+
+TEST(CertifiedThickness, OfASlabIsItsThicknessRefinedOrNot)
+{
+  for (const bool refined : { false, true })
+  {
+    const CertifiedResult result = ComputeCertified(Box(30, 30, 6), Grid({ 1, 1, 1 }), ThicknessOfAll(true, refined));
+    ASSERT_TRUE(result.thickness.has_value());
+    const CertifiedThickness & found = *result.thickness;
+    EXPECT_EQ(found.map.values.size(), 30U * 30 * 6);
+    EXPECT_NEAR(AtTheMiddle(found, found.map, 30, 30, 6), 6, refined ? 0.1 : 1e-6);
+    EXPECT_NEAR(AtTheMiddle(found, found.bracket.lower, 30, 30, 6), 6, 1e-6);
+    EXPECT_GE(AtTheMiddle(found, found.bracket.upper, 30, 30, 6), 6 - 1e-6);
+    EXPECT_EQ(found.atVertices.size(), result.cores[0].core.core.cells.vertexCount);
+    EXPECT_EQ(found.owners.values.size(), found.map.values.size());
+  }
+}
+
+TEST(CertifiedThickness, WithoutRefinementIsTheLowerBoundAndBoundsAreFoundOnlyWhenAsked)
+{
+  const CertifiedResult both = ComputeCertified(Box(9, 7, 5), Grid({ 1, 1, 2 }), ThicknessOfAll(true, false));
+  const CertifiedResult one = ComputeCertified(Box(9, 7, 5), Grid({ 1, 1, 2 }), ThicknessOfAll(false, false));
+  EXPECT_EQ(both.thickness->map.values, both.thickness->bracket.lower.values);
+  EXPECT_EQ(one.thickness->map.values, both.thickness->map.values);
+  EXPECT_TRUE(one.thickness->bracket.upper.values.empty());
+  for (std::size_t i = 0; i < both.thickness->map.values.size(); ++i)
+  {
+    ASSERT_LE(both.thickness->bracket.lower.values[i], both.thickness->bracket.upper.values[i]);
+  }
+}
+
+TEST(CertifiedThickness, LeavesTheCoresAsTheyAre)
+{
+  CertifiedRequest      plain;
+  const CertifiedResult with = ComputeCertified(Box(12, 9, 7), Grid({ 1, 1, 1 }), ThicknessOfAll(true, false));
+  const CertifiedResult without = ComputeCertified(Box(12, 9, 7), Grid({ 1, 1, 1 }), plain);
+  EXPECT_EQ(with.cores[0].core.core.positions, without.cores[0].core.core.positions);
+  EXPECT_EQ(with.cores[0].core.core.radius, without.cores[0].core.core.radius);
+}
+
+TEST(CertifiedThickness, BoundsThatContradictEachOtherAreRefused)
+{
+  const CertifiedResult result = ComputeCertified(Box(9, 7, 5), Grid({ 1, 1, 1 }), ThicknessOfAll(true, false));
+  CertifiedThickness    found = *result.thickness;
+  CertifiedShape        shape = result.shape;
+  EXPECT_NO_THROW(ThicknessOf(result.cores[0], shape, found.shape, found.bracket));
+  ThicknessBracket wrong = found.bracket;
+  wrong.upper.values[17] = 0.5F * wrong.lower.values[17];
+  EXPECT_THROW(ThicknessOf(result.cores[0], shape, found.shape, wrong), CertificateError);
+  wrong = found.bracket;
+  wrong.lower.values[17] = 0;
+  EXPECT_THROW(ThicknessOf(result.cores[0], shape, found.shape, wrong), CertificateError);
+}
+
+} // namespace
+} // namespace voxelcore

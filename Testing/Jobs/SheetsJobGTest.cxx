@@ -1,0 +1,123 @@
+#include "JobFolder.h"
+
+#include "voxelcore/GreyVolume.h"
+#include "voxelcore/SheetsJob.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <map>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+class SheetsJob : public JobFolder
+{
+protected:
+  SheetsResult
+  Sheets(const std::string & output, ParameterValues more = {}, const JobContext & context = {}) const
+  {
+    more.insert({ { "scan", At("a.nrrd") }, { "output", At(output) } });
+    return RunSheetsJob(SheetsOptionsFrom(more), context);
+  }
+
+  /** Three walls 5 voxels thick that meet in a line. */
+  void
+  ThreeWalls() const
+  {
+    ImageGeometry geometry;
+    geometry.size = { 64, 64, 40 };
+    VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 64, 64, 40 } });
+    for (std::int32_t z = 4; z < 36; ++z)
+    {
+      for (std::int32_t y = 0; y < 64; ++y)
+      {
+        for (std::int32_t x = 0; x < 64; ++x)
+        {
+          for (int k = 0; k < 3; ++k)
+          {
+            const double turn = 0.3 + k * 2 * std::acos(-1.0) / 3;
+            const double along = (x - 31.5) * std::cos(turn) + (y - 31.5) * std::sin(turn);
+            const double across = (y - 31.5) * std::cos(turn) - (x - 31.5) * std::sin(turn);
+            if (along > 0 && along < 26 && std::abs(across) < 2.5)
+            {
+              shape.Insert(x, y, z);
+            }
+          }
+        }
+      }
+    }
+    const std::uint64_t voxels = shape.CountVoxels();
+    WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "walls", voxels, CropToVoxels(shape) } });
+  }
+};
+
+TEST_F(SheetsJob, ThreeWallsAreThreeSheetsAndASeam)
+{
+  ThreeWalls();
+  const SheetsResult result = Sheets(
+    "s.vtp",
+    { { "voxels", At("v.nrrd") }, { "table", At("t.csv") }, { "graph", At("g.graphml") }, { "report", At("r.json") } });
+  ASSERT_EQ(result.totals.size(), 1U);
+  EXPECT_EQ(result.totals[0].sheets, 3U);
+  EXPECT_EQ(result.totals[0].seams, 1U);
+  EXPECT_EQ(result.totals[0].junctions, 0U);
+  for (const SheetRecord & sheet : result.model.parts[0].sheets.sheets)
+  {
+    EXPECT_NEAR(sheet.thickness, 5, 0.5);
+    EXPECT_GT(sheet.flatness, 0.95);
+    EXPECT_EQ(sheet.neighbours.size(), 2U);
+  }
+  EXPECT_EQ(
+    Names(),
+    (std::set<
+      std::string>{ "a.nrrd", "s.vtp", "v.nrrd", "t.csv", "t_seams.csv", "t_columns.json", "g.graphml", "r.json" }));
+  const auto report = nlohmann::json::parse(Bytes("r.json"));
+  EXPECT_EQ(report["sheets"][0]["sheets"], 3);
+  // Every voxel of the label has the number of a sheet or rod, and the numbers add up to what tables say.
+  const GreyVolume             volume = ReadGreyVolume(At("v.nrrd"), VoxelBox{ { 0, 0, 0 }, { 64, 64, 40 } });
+  std::map<int, std::uint64_t> counts;
+  for (const float value : volume.values)
+  {
+    counts[static_cast<int>(value)] += value > 0 ? 1 : 0;
+  }
+  const auto &  voxels = result.model.parts[0].voxels;
+  std::uint64_t sum = 0;
+  for (std::uint32_t sheet = 0; sheet < 3; ++sheet)
+  {
+    EXPECT_EQ(counts[static_cast<int>(sheet + 1)], voxels[sheet]);
+    sum += voxels[sheet];
+  }
+  EXPECT_EQ(sum + result.totals[0].rodVoxels, result.report.labels[0].voxels);
+}
+
+TEST_F(SheetsJob, ACoresFileGivesTheSheetsOfItsScan)
+{
+  ThreeWalls();
+  Core("core.vtp", { { "refine", "labels" } });
+  const SheetsResult from = Sheets("s.vtp", { { "scan", At("core.vtp") } });
+  const SheetsResult direct = Sheets("d.vtp");
+  EXPECT_EQ(from.totals[0].sheets, direct.totals[0].sheets);
+  EXPECT_EQ(from.totals[0].area, direct.totals[0].area);
+  EXPECT_TRUE(from.model.parts[0].voxels.empty());
+  EXPECT_THROW(Sheets("x.vtp", { { "scan", At("core.vtp") }, { "voxels", At("v.nrrd") } }), UsageError);
+}
+
+TEST_F(SheetsJob, RefusesWhatMakesNoSenseAndLeavesNothingWhenStopped)
+{
+  ThreeWalls();
+  EXPECT_THROW(Sheets("s.nrrd"), UsageError);
+  EXPECT_THROW(Sheets("s.vtp", { { "sliver", "wide" } }), UsageError);
+  EXPECT_THROW(Sheets("s.vtp", { { "graph", At("g.xml") } }), UsageError);
+  EXPECT_THROW(Sheets("s.vtp", { { "labels", "9" } }), InputError);
+  for (const int calls : { 1, 10 })
+  {
+    EXPECT_THROW(Sheets("s.vtp", {}, StoppingAfter(calls)), Cancelled);
+  }
+  EXPECT_EQ(Names(), (std::set<std::string>{ "a.nrrd" }));
+}
+
+} // namespace
+} // namespace voxelcore::testing

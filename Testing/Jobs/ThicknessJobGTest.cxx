@@ -1,0 +1,194 @@
+#include "JobFolder.h"
+
+#include "voxelcore/GreyVolume.h"
+#include "voxelcore/ThicknessJob.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numeric>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+class ThicknessJob : public JobFolder
+{
+protected:
+  ThicknessResult
+  Thickness(const std::string & output, ParameterValues more = {}, const JobContext & context = {}) const
+  {
+    more.insert({ { "scan", At("a.nrrd") }, { "output", At(output) } });
+    return RunThicknessJob(ThicknessOptionsFrom(more), context);
+  }
+
+  /** A slab of 6 voxels across z, and a ball of radius 5, as labels 1 and 2. */
+  void
+  TwoLabels(const Vector3 & spacing = { 1, 1, 1 }) const
+  {
+    VoxelShape slab(VoxelBox{ { 4, 4, 4 }, { 32, 32, 6 } });
+    VoxelShape ball(VoxelBox{ { 10, 10, 20 }, { 12, 12, 12 } });
+    for (std::int32_t z = 0; z < 12; ++z)
+    {
+      for (std::int32_t y = 0; y < 32; ++y)
+      {
+        for (std::int32_t x = 0; x < 32; ++x)
+        {
+          if (z < 6)
+          {
+            slab.Insert(4 + x, 4 + y, 4 + z);
+          }
+          if (x < 12 && y < 12 && std::hypot(x - 5.5, y - 5.5, z - 5.5) < 5)
+          {
+            ball.Insert(10 + x, 10 + y, 20 + z);
+          }
+        }
+      }
+    }
+    ImageGeometry geometry;
+    geometry.size = { 40, 40, 36 };
+    geometry.spacing = spacing;
+    const std::uint64_t voxels = ball.CountVoxels();
+    WriteLabelVolume(At("a.nrrd"),
+                     geometry,
+                     { { 1, "slab", 32 * 32 * 6, std::move(slab) }, { 2, "ball", voxels, std::move(ball) } });
+  }
+
+  GreyVolume
+  Map(const std::string & name) const
+  {
+    return ReadGreyVolume(At(name), VoxelBox{ { 0, 0, 0 }, { 40, 40, 36 } });
+  }
+};
+
+TEST_F(ThicknessJob, WritesALengthAtEachVoxelAndZeroOutside)
+{
+  TwoLabels({ 0.5, 0.5, 0.5 });
+  const ThicknessResult result = Thickness("map.nrrd");
+  const GreyVolume      map = Map("map.nrrd");
+  EXPECT_EQ(map.geometry.spacing, (Vector3{ 0.5, 0.5, 0.5 }));
+  EXPECT_NEAR(*map.Row(20, 20, 7), 3, 0.1);
+  EXPECT_NEAR(*map.Row(15, 15, 25), 5, 0.25);
+  EXPECT_EQ(*map.Row(0, 0, 0), 0);
+  EXPECT_EQ(*map.Row(20, 20, 15), 0);
+  ASSERT_EQ(result.thickness.size(), 2U);
+  EXPECT_EQ(result.thickness[0].numbers.voxels, 32U * 32 * 6);
+  EXPECT_NEAR(result.thickness[0].numbers.median, 3, 0.1);
+  EXPECT_EQ(result.thickness[0].borderVoxels, 0U);
+  EXPECT_NE(ThicknessText(result).find("mean mm"), std::string::npos);
+}
+
+TEST_F(ThicknessJob, EveryFormatHoldsTheSameMap)
+{
+  TwoLabels();
+  Thickness("map.nrrd");
+  const std::vector<float> expected = Map("map.nrrd").values;
+  for (const std::string name : { "map.nii.gz", "map.mha", "map.tif" })
+  {
+    Thickness(name);
+    EXPECT_EQ(Map(name).values, expected) << name;
+  }
+  EXPECT_THROW(Thickness("map.vtp"), UsageError);
+}
+
+TEST_F(ThicknessJob, BoundsStandBesideTheMap)
+{
+  TwoLabels();
+  const ThicknessResult result = Thickness("map.nrrd", { { "bounds", "true" }, { "refine", "off" } });
+  const auto            map = Map("map.nrrd").values;
+  const auto            lower = Map("map_lower.nrrd").values;
+  const auto            upper = Map("map_upper.nrrd").values;
+  EXPECT_EQ(map, lower) << "without refinement the map is of balls that lie in the voxels";
+  for (std::size_t i = 0; i < map.size(); ++i)
+  {
+    ASSERT_LE(lower[i], upper[i]);
+    ASSERT_EQ(lower[i] > 0, map[i] > 0);
+  }
+  EXPECT_LE(*result.thickness[0].meanLower, *result.thickness[0].meanUpper);
+}
+
+TEST_F(ThicknessJob, AFolderGetsAMapPerLabel)
+{
+  TwoLabels();
+  Thickness("maps/", { { "labels", "1,2" } });
+  EXPECT_EQ(Names(), (std::set<std::string>{ "a.nrrd", "maps" }));
+  EXPECT_NEAR(*Map("maps/a_label-1_thickness.nrrd").Row(20, 20, 7), 6, 0.2);
+  EXPECT_EQ(*Map("maps/a_label-2_thickness.nrrd").Row(20, 20, 7), 0);
+}
+
+TEST_F(ThicknessJob, VoxelsWhoseBallTouchesTheBorderAreCountedApart)
+{
+  // A slab that fills the scan in x and y: its balls touch the border near its sides only.
+  Phantom("gyroid", "a.nrrd", "40");
+  const ThicknessResult   flagged = Thickness("map.nrrd");
+  const ThicknessRecord & all = flagged.thickness[0];
+  EXPECT_GT(all.borderVoxels, 0U);
+  EXPECT_EQ(all.inner.voxels + all.borderVoxels, all.numbers.voxels);
+  const ThicknessRecord kept = Thickness("map2.nrrd", { { "border", "keep" } }).thickness[0];
+  EXPECT_EQ(kept.numbers.mean, all.numbers.mean);
+  EXPECT_EQ(kept.inner.voxels, 0U);
+  const ThicknessRecord dropped = Thickness("map3.nrrd", { { "border", "drop" } }).thickness[0];
+  EXPECT_EQ(dropped.numbers.mean, all.inner.mean);
+  EXPECT_EQ(dropped.numbers.voxels, all.inner.voxels);
+}
+
+TEST_F(ThicknessJob, TheSeparationIsThatOfTheBackgroundInTheBoxOfAllLabels)
+{
+  TwoLabels();
+  const ThicknessResult result = Thickness("map.nrrd", { { "separation", "box" }, { "table", At("t.csv") } });
+  ASSERT_EQ(result.thickness.size(), 3U);
+  EXPECT_TRUE(result.thickness[2].isSeparation);
+  const auto map = Map("map.nrrd").values;
+  const auto gaps = Map("map_separation.nrrd").values;
+  const auto in = [](const std::vector<float> & values) {
+    return std::count_if(values.begin(), values.end(), [](float v) { return v > 0; });
+  };
+  EXPECT_EQ(in(map) + in(gaps), 32 * 32 * 27) << "the box of both labels";
+  for (std::size_t i = 0; i < map.size(); ++i)
+  {
+    ASSERT_TRUE(map[i] == 0 || gaps[i] == 0);
+  }
+  EXPECT_NE(Bytes("t.csv").find("separation"), std::string::npos);
+  EXPECT_TRUE(Names().contains("t_histogram.csv"));
+  EXPECT_TRUE(Names().contains("t_columns.json"));
+}
+
+TEST_F(ThicknessJob, TheReportHasTheNumbersOfTheTable)
+{
+  TwoLabels();
+  const ThicknessResult result = Thickness("map.nrrd", { { "report", At("r.json") } });
+  const auto            report = nlohmann::json::parse(Bytes("r.json"));
+  ASSERT_EQ(report["thickness"].size(), 2U);
+  EXPECT_EQ(report["thickness"][1]["name"], "ball");
+  EXPECT_EQ(report["thickness"][1]["mean_mm"], result.thickness[1].numbers.mean);
+  EXPECT_EQ(report["labels"].size(), 2U);
+  EXPECT_EQ(report["parameters"]["refine"], "labels");
+}
+
+TEST_F(ThicknessJob, LeavesNothingWhenItIsStopped)
+{
+  TwoLabels();
+  for (const int calls : { 1, 5, 20 })
+  {
+    EXPECT_THROW(Thickness("maps/", {}, StoppingAfter(calls)), Cancelled);
+    EXPECT_EQ(Names(), (std::set<std::string>{ "a.nrrd" })) << calls;
+  }
+}
+
+TEST_F(ThicknessJob, RefusesWhatMakesNoSense)
+{
+  TwoLabels();
+  EXPECT_THROW(Thickness("map.nrrd", { { "border", "left" } }), UsageError);
+  EXPECT_THROW(Thickness("map.nrrd", { { "separation", "ball" } }), UsageError);
+  EXPECT_THROW(Thickness("map.nrrd", { { "tolerance", "1diag,2diag" } }), UsageError);
+  EXPECT_THROW(Thickness("map.nrrd", { { "table", At("t.txt") } }), UsageError);
+  EXPECT_THROW(Thickness("map.nrrd", { { "labels", "9" } }), InputError);
+  EXPECT_EQ(Names(), (std::set<std::string>{ "a.nrrd" }));
+  Thickness("map.nrrd");
+  EXPECT_THROW(Thickness("map.nrrd"), OutputError) << "it is there";
+  EXPECT_NO_THROW(Thickness("map.nrrd", { { "force", "true" } }));
+}
+
+} // namespace
+} // namespace voxelcore::testing

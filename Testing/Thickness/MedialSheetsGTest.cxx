@@ -1,0 +1,343 @@
+#include "VoxelCoreTesting/Random.h"
+#include "VoxelCoreTesting/Shapes.h"
+
+#include "voxelcore/MedialSheets.h"
+#include "voxelcore/Vectors.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace voxelcore
+{
+namespace
+{
+
+/** A complex of squares and lines over places that are welded where they are equal; every ball has one radius, unless
+ *  it is said otherwise. */
+class Builder
+{
+public:
+  ElementIndex
+  At(const Vector3 & place, double radius = 1)
+  {
+    const std::array<long, 3> key{ std::lround(place[0] * 1000),
+                                   std::lround(place[1] * 1000),
+                                   std::lround(place[2] * 1000) };
+    const auto [entry, isNew] = m_Vertices.try_emplace(key, static_cast<ElementIndex>(m_Core.positions.size()));
+    if (isNew)
+    {
+      m_Core.positions.push_back(place);
+      m_Core.radius.push_back(radius);
+      ++m_Core.cells.vertexCount;
+    }
+    return entry->second;
+  }
+
+  ElementIndex
+  Edge(ElementIndex a, ElementIndex b)
+  {
+    const std::array<ElementIndex, 2> ends{ std::min(a, b), std::max(a, b) };
+    const auto [entry, isNew] = m_Edges.try_emplace(ends, static_cast<ElementIndex>(m_Core.cells.edges.size()));
+    if (isNew)
+    {
+      m_Core.cells.edges.push_back(ends);
+    }
+    return entry->second;
+  }
+
+  void
+  Face(const std::vector<ElementIndex> & corners)
+  {
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      m_Core.cells.faceVertices.push_back(corners[i]);
+      m_Core.cells.faceEdges.push_back(Edge(corners[i], corners[(i + 1) % corners.size()]));
+    }
+    m_Core.cells.faceOffsets.push_back(m_Core.cells.faceVertices.size());
+  }
+
+  /** n x m squares from `corner` along two sides. */
+  void
+  Plate(const Vector3 & corner, const Vector3 & along, int n, const Vector3 & up, int m)
+  {
+    const auto at = [&](int i, int j) { return At(AddScaled(AddScaled(corner, i, along), j, up)); };
+    for (int i = 0; i < n; ++i)
+    {
+      for (int j = 0; j < m; ++j)
+      {
+        Face({ at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) });
+      }
+    }
+  }
+
+  void
+  Rod(const Vector3 & from, const Vector3 & step, int n)
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      Edge(At(AddScaled(from, i, step)), At(AddScaled(from, i + 1, step)));
+    }
+  }
+
+  const MedialComplex &
+  Core() const
+  {
+    return m_Core;
+  }
+
+private:
+  MedialComplex                                       m_Core;
+  std::map<std::array<long, 3>, ElementIndex>         m_Vertices;
+  std::map<std::array<ElementIndex, 2>, ElementIndex> m_Edges;
+};
+
+struct Counts
+{
+  std::size_t sheets = 0;
+  std::size_t seams = 0;
+  std::size_t rods = 0;
+  std::size_t junctions = 0;
+
+  bool
+  operator==(const Counts & other) const = default;
+};
+
+Counts
+CountsOf(const MedialSheets & cut)
+{
+  Counts counts{ cut.sheets.size(), 0, 0, cut.junctions.size() };
+  for (const CurveRecord & curve : cut.curves)
+  {
+    ++(curve.isRod ? counts.rods : counts.seams);
+  }
+  return counts;
+}
+
+std::ostream &
+operator<<(std::ostream & to, const Counts & counts)
+{
+  return to << counts.sheets << " sheets, " << counts.seams << " seams, " << counts.rods << " rods, "
+            << counts.junctions << " junctions";
+}
+
+/** Three plates about a line along z. */
+Builder
+ThreePlates()
+{
+  Builder y;
+  y.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 10, { 0, 0, 1 }, 12);
+  y.Plate({ 0, 0, 0 }, { -0.5, 0.866, 0 }, 8, { 0, 0, 1 }, 12);
+  y.Plate({ 0, 0, 0 }, { -0.5, -0.866, 0 }, 6, { 0, 0, 1 }, 12);
+  return y;
+}
+
+TEST(MedialSheets, OfAPlateAreOne)
+{
+  Builder plate;
+  plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 7, { 0, 1, 0 }, 5);
+  const MedialSheets cut = CutIntoSheets(plate.Core(), 3);
+  EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 0, 0 }));
+  const SheetRecord & sheet = cut.sheets[0];
+  EXPECT_DOUBLE_EQ(sheet.area, 35);
+  EXPECT_DOUBLE_EQ(sheet.thickness, 2);
+  EXPECT_NEAR(sheet.thicknessDeviation, 0, 1e-7);
+  EXPECT_NEAR(sheet.normal[2], 1, 1e-12);
+  EXPECT_NEAR(sheet.flatness, 1, 1e-12);
+  EXPECT_DOUBLE_EQ(sheet.freeBorder, 24);
+  EXPECT_DOUBLE_EQ(sheet.seamBorder, 0);
+  EXPECT_TRUE(sheet.neighbours.empty());
+}
+
+TEST(MedialSheets, ThatMeetInALineHaveASeamThatEndsFreely)
+{
+  const MedialSheets cut = CutIntoSheets(ThreePlates().Core(), 3);
+  EXPECT_EQ(CountsOf(cut), (Counts{ 3, 1, 0, 0 }));
+  EXPECT_NEAR(cut.sheets[0].area, 120, 1e-9);
+  EXPECT_NEAR(cut.sheets[2].area, 72, 0.01);
+  EXPECT_DOUBLE_EQ(cut.curves[0].length, 12);
+  EXPECT_EQ(cut.curves[0].sheets, (std::vector<std::uint32_t>{ 0, 1, 2 }));
+  EXPECT_EQ(cut.curves[0].vertices.size(), 13U);
+  EXPECT_EQ(cut.curves[0].junctions, (std::array{ kNoPiece, kNoPiece }));
+  EXPECT_FALSE(cut.curves[0].isClosed);
+  EXPECT_EQ(cut.sheets[1].neighbours, (std::vector<std::uint32_t>{ 0, 2 }));
+  EXPECT_DOUBLE_EQ(cut.sheets[1].seamBorder, 12);
+}
+
+TEST(MedialSheets, AFinThatHardlyStandsOutIsPassedOver)
+{
+  Builder plate;
+  plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 12, { 0, 1, 0 }, 10);
+  plate.Plate({ 6, 0, 0 }, { 0, 0, 1 }, 2, { 0, 1, 0 }, 10);
+  const MedialSheets cut = CutIntoSheets(plate.Core(), 3);
+  EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 0, 0 }));
+  EXPECT_DOUBLE_EQ(cut.sheets[0].area, 140) << "the fin is part of the sheet it hangs on";
+  EXPECT_EQ(CountsOf(CutIntoSheets(plate.Core(), 1)), (Counts{ 3, 1, 0, 0 }));
+}
+
+TEST(MedialSheets, ARibThatFinsCutUpIsWhole)
+{
+  Builder plate;
+  plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 12, { 0, 1, 0 }, 12);
+  plate.Plate({ 6, 0, 0 }, { 0, 0, 1 }, 8, { 0, 1, 0 }, 12);
+  for (int at = 2; at < 8; at += 2) // small fins on the rib
+  {
+    plate.Plate({ 6, 0, static_cast<double>(at) }, { 1, 0, 0 }, 1, { 0, 1, 0 }, 12);
+  }
+  EXPECT_EQ(CountsOf(CutIntoSheets(plate.Core(), 3)), (Counts{ 3, 1, 0, 0 }));
+}
+
+TEST(MedialSheets, ANarrowStripBetweenSeamsJoinsTheSheetItContinues)
+{
+  // Two plates that bend up by 60 degrees from the ends of a strip, and the strip's own plane goes on to the left.
+  Builder x;
+  x.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 2, { 0, 1, 0 }, 12);   // the strip
+  x.Plate({ 0, 0, 0 }, { -1, 0, 0 }, 10, { 0, 1, 0 }, 12); // goes on
+  x.Plate({ 0, 0, 0 }, { -0.5, 0, 0.866 }, 7, { 0, 1, 0 }, 12);
+  x.Plate({ 2, 0, 0 }, { 0.5, 0, 0.866 }, 8, { 0, 1, 0 }, 12);
+  x.Plate({ 2, 0, 0 }, { 0.5, 0, -0.866 }, 9, { 0, 1, 0 }, 12);
+  const MedialSheets cut = CutIntoSheets(x.Core(), 3);
+  EXPECT_EQ(CountsOf(cut), (Counts{ 4, 2, 0, 0 }));
+  EXPECT_NEAR(cut.sheets[0].area, 144, 1e-9) << "ten and two wide";
+}
+
+TEST(MedialSheets, OfATripleOfPlatesOnAPlateMeetInAJunction)
+{
+  // A floor, and the three plates that stand on it: a Y in the floor.
+  Builder      y = ThreePlates();
+  const double reach = 14;
+  // A fan of triangles about the foot of the line; the feet of the plates are edges of it.
+  const auto ring = [&](const Vector3 & along, int n, const Vector3 & next, int m) {
+    const ElementIndex middle = y.At({ 0, 0, 0 });
+    const ElementIndex a = y.At(AddScaled({ 0, 0, 0 }, reach, along));
+    const ElementIndex b = y.At(AddScaled({ 0, 0, 0 }, reach, next));
+    // From the far end of one plate's foot to that of the next, seen from the middle.
+    std::vector<ElementIndex> rim{ middle };
+    for (int i = 1; i <= n; ++i)
+    {
+      rim.push_back(y.At(AddScaled({ 0, 0, 0 }, i, along)));
+    }
+    rim.push_back(a);
+    rim.push_back(b);
+    for (int i = m; i >= 1; --i)
+    {
+      rim.push_back(y.At(AddScaled({ 0, 0, 0 }, i, next)));
+    }
+    y.Face(rim);
+  };
+  ring({ 1, 0, 0 }, 10, { -0.5, 0.866, 0 }, 8);
+  ring({ -0.5, 0.866, 0 }, 8, { -0.5, -0.866, 0 }, 6);
+  ring({ -0.5, -0.866, 0 }, 6, { 1, 0, 0 }, 10);
+  const MedialSheets cut = CutIntoSheets(y.Core(), 3);
+  // The floor is one sheet, as its thirds meet beyond the ends of the plates' feet.
+  EXPECT_EQ(CountsOf(cut), (Counts{ 4, 4, 0, 1 }));
+  for (const CurveRecord & curve : cut.curves)
+  {
+    EXPECT_EQ(std::count(curve.junctions.begin(), curve.junctions.end(), 0U), 1) << "one end in the junction";
+  }
+  // Each seam of the floor has the floor twice.
+  std::size_t twice = 0;
+  for (const CurveRecord & curve : cut.curves)
+  {
+    twice += std::set<std::uint32_t>(curve.sheets.begin(), curve.sheets.end()).size() == 2 ? 1 : 0;
+  }
+  EXPECT_EQ(twice, 3U);
+}
+
+TEST(MedialSheets, RodsAreCutWhereTheyMeetAndWhereTheyReachASheet)
+{
+  Builder rods;
+  rods.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
+  rods.Rod({ 3, 3, 0 }, { 0, 0, 1 }, 10);
+  rods.Rod({ 3, 3, 10 }, { 0.7, 0, 0.7 }, 5);
+  rods.Rod({ 3, 3, 10 }, { -0.7, 0, 0.7 }, 4);
+  const MedialSheets cut = CutIntoSheets(rods.Core(), 3);
+  EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 3, 2 }));
+  EXPECT_DOUBLE_EQ(cut.curves[0].length, 10);
+  EXPECT_NE(cut.curves[0].junctions[0], kNoPiece);
+  EXPECT_NE(cut.curves[0].junctions[1], kNoPiece);
+  EXPECT_TRUE((cut.curves[1].junctions[0] == kNoPiece) != (cut.curves[1].junctions[1] == kNoPiece));
+  EXPECT_TRUE(cut.curves[0].sheets.empty());
+  // The rod's foot is the sheet's.
+  EXPECT_EQ(cut.pieceOfVertex[cut.junctions[0]] < 1 || cut.pieceOfVertex[cut.junctions[1]] < 1, true);
+}
+
+TEST(MedialSheets, AClosedRodAndALonePointAreRods)
+{
+  Builder ring;
+  for (int i = 0; i < 12; ++i)
+  {
+    const auto at = [](int k) {
+      return Vector3{ 5 * std::cos(k * std::acos(-1.0) / 6), 5 * std::sin(k * std::acos(-1.0) / 6), 0 };
+    };
+    ring.Edge(ring.At(at(i)), ring.At(at((i + 1) % 12)));
+  }
+  ring.At({ 40, 0, 0 });
+  const MedialSheets cut = CutIntoSheets(ring.Core(), 3);
+  EXPECT_EQ(CountsOf(cut), (Counts{ 0, 0, 2, 0 }));
+  EXPECT_TRUE(cut.curves[0].isClosed);
+  EXPECT_EQ(cut.curves[0].vertices.size(), 12U);
+  EXPECT_EQ(cut.curves[1].length, 0);
+  EXPECT_EQ(cut.pieceOfVertex[12], 1U);
+}
+
+TEST(MedialSheets, AMoebiusBandIsOneSheetWithoutSeam)
+{
+  Builder      band;
+  const int    n = 40;
+  const double turn = 2 * std::acos(-1.0);
+  const auto   at = [&](int i, int j) {
+    const double t = turn * i / n;
+    const double w = j - 3.0;
+    return Vector3{ (20 + w * std::cos(t / 2)) * std::cos(t),
+                    (20 + w * std::cos(t / 2)) * std::sin(t),
+                    w * std::sin(t / 2) };
+  };
+  for (int i = 0; i < n; ++i)
+  {
+    for (int j = 0; j < 6; ++j)
+    {
+      band.Face({ band.At(at(i, j)), band.At(at(i + 1, j)), band.At(at(i + 1, j + 1)), band.At(at(i, j + 1)) });
+    }
+  }
+  EXPECT_EQ(CountsOf(CutIntoSheets(band.Core(), 3)), (Counts{ 1, 0, 0, 0 }));
+}
+
+TEST(MedialSheets, AndRodsGetEveryVoxelOfRandomShapes)
+{
+  for (const testing::RandomVolume & volume : testing::RandomVolumes(8500, 60))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const SpacingWeights weights = ComputeSpacingWeights(volume.spacing);
+    const MedialComplex  core = ComputeVoxelCore(volume.shape, weights);
+    const MedialSheets   cut = CutIntoSheets(core, 2);
+    for (const std::uint32_t sheet : cut.sheetOfFace)
+    {
+      ASSERT_LT(sheet, cut.sheets.size());
+    }
+    std::uint64_t voxels = 0;
+    for (const std::uint32_t piece : PiecesOfVoxels(cut, OwnersAmong(BallsOfCore(core), volume.shape, weights)).values)
+    {
+      ASSERT_GT(piece, 0U);
+      ASSERT_LE(piece, cut.sheets.size() + cut.curves.size());
+      ASSERT_TRUE(piece <= cut.sheets.size() || cut.curves[piece - cut.sheets.size() - 1].isRod);
+      ++voxels;
+    }
+    ASSERT_EQ(voxels, volume.shape.CountVoxels());
+    double area = 0;
+    for (std::size_t i = 0; i < cut.sheets.size(); ++i)
+    {
+      area += cut.sheets[i].area;
+      ASSERT_TRUE(i == 0 || cut.sheets[i].area <= cut.sheets[i - 1].area * (1 + 1e-9));
+    }
+    ASSERT_TRUE(area > 0 || cut.sheets.empty());
+  }
+}
+
+} // namespace
+} // namespace voxelcore
