@@ -82,7 +82,7 @@ TEST(ThicknessFiles, TheDictionaryNamesEveryColumnInItsUnit)
     }
     EXPECT_EQ(columns[part].size(), count);
   }
-  EXPECT_EQ(columns["thickness"]["mean"]["Units"], "voxel");
+  EXPECT_EQ(columns["thickness"]["mean"]["Units"], "vox");
 }
 
 } // namespace

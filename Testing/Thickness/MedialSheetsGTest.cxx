@@ -267,6 +267,17 @@ TEST(MedialSheets, RodsAreCutWhereTheyMeetAndWhereTheyReachASheet)
   EXPECT_EQ(cut.pieceOfVertex[cut.junctions[0]] < 1 || cut.pieceOfVertex[cut.junctions[1]] < 1, true);
 }
 
+TEST(MedialSheets, ARodThatHardlyStandsOutOfASheetIsPartOfIt)
+{
+  Builder rods;
+  rods.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
+  rods.Rod({ 3, 3, 0 }, { 0, 0, 1 }, 2);
+  const MedialSheets cut = CutIntoSheets(rods.Core(), 3);
+  EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 0, 0 }));
+  EXPECT_EQ(cut.pieceOfVertex, std::vector<std::uint32_t>(cut.pieceOfVertex.size(), 0U));
+  EXPECT_EQ(CountsOf(CutIntoSheets(rods.Core(), 1)), (Counts{ 1, 0, 1, 1 }));
+}
+
 TEST(MedialSheets, AClosedRodAndALonePointAreRods)
 {
   Builder ring;

@@ -29,7 +29,20 @@ from . import _arguments, _images, _voxelcore
 from ._results import Core, Skeleton
 from ._voxelcore import CertificateError, __version__
 
-__all__ = ["core", "skeleton", "measure", "read", "thickness", "sheets", "Core", "Skeleton", "Thickness", "CertificateError", "columns", "__version__"]
+__all__ = [
+    "core",
+    "skeleton",
+    "measure",
+    "read",
+    "thickness",
+    "sheets",
+    "Core",
+    "Skeleton",
+    "Thickness",
+    "CertificateError",
+    "columns",
+    "__version__",
+]
 
 
 # Threads that Ctrl-C left behind belong to the parent, and must have ended before the process takes itself apart.
@@ -222,7 +235,7 @@ def thickness(array, *, spacing=None, label=None, axes=None, threshold=None, pro
     >>> found = thickness(slab, spacing=(0.5, 0.5, 0.5))
     >>> found.map.shape, found.map.dtype.name, round(float(found.map[15, 15, 5]), 1), float(found.map[0, 0, 0])
     ((30, 30, 12), 'float32', 3.0, 0.0)
-    >>> abs(found.numbers[1]["median"] - 3) < 0.1
+    >>> abs(found.numbers[1]["median"] - 3) < 0.15
     True
     """
     if axes not in (None, "ijk", "kji"):

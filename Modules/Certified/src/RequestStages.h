@@ -36,7 +36,7 @@ BurnsBeforePruning(const CertifiedRequest & request);
 bool
 NeedsBracket(const CertifiedRequest & request);
 
-/** Shares of the time of the stages, in the order in which they follow: shape, Delaunay cells, bracket of the thickness,
+/** Shares of the time of the stages, in the order in which they follow: shape, Delaunay cells, bracket of thickness,
  *  core, tolerances, whole core's certificate, skeleton, refinement, coverage or pruned cores' certificates, skeleton,
  *  thickness. */
 std::vector<double>

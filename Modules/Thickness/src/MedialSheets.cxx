@@ -22,7 +22,7 @@ namespace
 
 constexpr int kFinSteps = 4;
 
-/** Eigenvector to the greatest eigenvalue of a symmetric matrix, by Jacobi's rotations; the value goes to `greatest`. */
+/** Eigenvector to the greatest eigenvalue of a symmetric matrix, by Jacobi's rotations; `greatest` gets the value. */
 Vector3
 GreatestAxis(std::array<Vector3, 3> m, double & greatest)
 {
@@ -158,6 +158,29 @@ private:
     return m_FacesAt[vertex] != 0;
   }
 
+  /** Whether a rod that hangs on a sheet by one end hardly stands out of it. */
+  bool
+  IsSpur(const CurveRecord & rod)
+  {
+    const std::array<ElementIndex, 2> ends{ rod.vertices.front(), rod.vertices.back() };
+    for (std::size_t foot = 0; foot < 2 && rod.isRod; ++foot)
+    {
+      const ElementIndex tip = ends[1 - foot];
+      if (HasFaces(ends[foot]) && !HasFaces(tip) && m_EdgesAt.at(m_Nodes.Find(tip)).size() == 1)
+      {
+        double standOut = 0;
+        for (const ElementIndex vertex : rod.vertices)
+        {
+          standOut = std::max(standOut,
+                              Distance(m_Core.positions[ends[foot]], m_Core.positions[vertex]) + m_Core.radius[vertex] -
+                                m_Core.radius[ends[foot]]);
+        }
+        return standOut < m_Sliver;
+      }
+    }
+    return false;
+  }
+
   /** Chains of seams and rods; short seams are drawn together until none is left. */
   void
   FindCurves()
@@ -194,8 +217,17 @@ private:
       FindChains();
       for (const auto & chain : m_Chains)
       {
-        const bool isShort = !chain.record.isRod && chain.record.length < m_Sliver;
-        if (!isShort)
+        if (IsSpur(chain.record))
+        {
+          changed = true;
+          for (const ElementIndex edge : chain.edges)
+          {
+            m_Edges.erase(edge);
+          }
+          m_Spurs.push_back(chain.record.vertices);
+          continue;
+        }
+        if (chain.record.isRod || chain.record.length >= m_Sliver)
         {
           continue;
         }
@@ -472,6 +504,15 @@ private:
         }
       }
     }
+    for (const auto & spur : m_Spurs)
+    {
+      const bool          first = HasFaces(spur.front());
+      const std::uint32_t sheet = pieces[first ? spur.front() : spur.back()];
+      for (const ElementIndex vertex : spur)
+      {
+        pieces[vertex] = pieces[vertex] == kNoPiece ? sheet : pieces[vertex];
+      }
+    }
     const auto sheets = static_cast<std::uint32_t>(m_Result.sheets.size());
     for (std::uint32_t curve = 0; curve < m_Result.curves.size(); ++curve)
     {
@@ -494,6 +535,7 @@ private:
   std::map<ElementIndex, CurveEdge>                  m_Edges;
   std::map<std::uint32_t, std::vector<ElementIndex>> m_EdgesAt; ///< by node
   std::vector<Chain>                                 m_Chains;
+  std::vector<std::vector<ElementIndex>>             m_Spurs; ///< rods that are passed over
   MedialSheets                                       m_Result;
 };
 

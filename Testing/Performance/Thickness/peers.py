@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Local thickness beside other ways to find it, on the same volume: time and bias in one run.
-usage: peers.py PROGRAM [SIDE]   (python3-numpy, python3-scipy)
+usage: peers.py PROGRAM [SIDE [SLICES]]   (python3-numpy, python3-scipy); SLICES: their distance, 1 or 2.5
  - dilation: as the Python package localthickness (Dahl, Dahl 2023) describes its method, after scipy's distance map:
    the map is dilated by one voxel as often as the greatest radius says; a radius counts where it is large enough.
  - painting: distance map, ridge (balls that lie in a neighbour's left out), balls painted over each other (Hildebrand,
@@ -18,6 +18,7 @@ from bodies import places, random_turn, read_nrrd, write_nrrd
 
 PROGRAM = sys.argv[1]
 SIDE = int(sys.argv[2]) if len(sys.argv) > 2 else 256
+SLICES = [float(sys.argv[3])] if len(sys.argv) > 3 else [1, 2.5]
 
 
 def dilation(mask):
@@ -83,7 +84,8 @@ def volume(spacing, random):
     return mask, parts
 
 
-for spacing in ((1, 1, 1), (1, 1, 2.5)):
+for slices in SLICES:
+    spacing = (1, 1, slices)
     mask, parts = volume(spacing, np.random.default_rng(7))
     print(f"\n{SIDE}^3 mm at 1:1:{spacing[2]:g}: {mask.size} voxels, {mask.mean():.0%} solid")
     print("| | seconds | " + " | ".join(name for name, _, _ in parts) + " |")
@@ -98,8 +100,8 @@ for spacing in ((1, 1, 1), (1, 1, 2.5)):
         write_nrrd(f"{folder}/a.nrrd", mask, spacing)
         for name, more in (("voxelcore", []), ("voxelcore --refine off", ["--refine", "off"])):
             begin = time.time()
-            subprocess.run([PROGRAM, "thickness", f"{folder}/a.nrrd", "-o", f"{folder}/map.nrrd", "--force", "-q", *more],
-                           check=True)
+            command = [PROGRAM, "thickness", f"{folder}/a.nrrd", "-o", f"{folder}/map.nrrd", "--force", "-q"]
+            subprocess.run(command + more, check=True)
             report(name, time.time() - begin, read_nrrd(f"{folder}/map.nrrd"))
     begin = time.time()
     values = dilation(mask)

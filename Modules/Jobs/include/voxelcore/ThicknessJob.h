@@ -47,7 +47,7 @@ struct ThicknessResult
   std::vector<std::string>     notes;
 };
 
-/** The volumes have the scan's grid, float32, mm (or voxels where the scan has no voxel size), and 0 outside. Each label
+/** The volumes have the scan's grid, float32, mm (voxels where the scan has no voxel size), and 0 outside. Each label
  *  is measured by itself. Everything is written or nothing. The same bits for every number of threads.
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 ThicknessResult

@@ -23,7 +23,7 @@ struct SheetPart
   double                     voxelVolume = 0; ///< mm^3
 };
 
-/** Numbers run over all parts: sheets from 1, the rods behind them; curves (seams and rods) from 1, junctions from 1. */
+/** Numbers run over all parts: sheets from 1, the rods behind them; curves (seams, rods) from 1, junctions from 1. */
 struct SheetModel
 {
   std::vector<SheetPart> parts;

@@ -19,6 +19,11 @@ namespace voxelcore
 PaintingBalls
 BallsOfCore(const MedialComplex & core);
 
+/** The same with radii that are averaged with those of the vertices around, so many times: the greatest of many radii
+ *  that err this way and that would be too great. An end of a line keeps its own. */
+PaintingBalls
+EvenedBallsOfCore(const MedialComplex & core, int rounds);
+
 /** Finds the values of a field by voxel. The shape must outlive it. */
 class VoxelRanks
 {

@@ -5,12 +5,13 @@
 // faces or more, a rod one of edges without any; a point that stands alone is a rod without length.
 //
 // Slivers. How far a piece stands out from its seams is the greatest of what the ball of one of its vertices reaches
-// beyond the balls of its seams: way along edges to a seam's vertex, plus radius, minus that vertex' radius. What stands
-// out by less than a length `sliver` is a sliver, in two kinds:
+// beyond the balls of its seams: way along edges to a seam's vertex, plus radius, minus that vertex' radius. What
+// stands out by less than a length `sliver` is a sliver, in two kinds:
 //  - A fin, at least a quarter of whose border is free, is passed over: where two faces are left, what it parted is one
 //    sheet. Fins go in four steps of rising height, so that a rib that fins have cut up is whole before it is judged.
 //  - Else it lies between seams, and is joined to the neighbour it continues: the one with the greatest sum, over the
 //    common edges, of length times the cosine of the bend; the smallest piece first.
+// A rod that hangs on a sheet, ends freely and stands out of it by less is part of the sheet.
 // A seam shorter than `sliver` that ends on the way or in a junction is drawn together into one junction.
 
 #include "voxelcore/CoreThickness.h"
