@@ -20,8 +20,8 @@ compute like any other, whether or not the parent has computed before.
 """
 
 import atexit
-import collections
 import os
+import typing
 
 import numpy
 
@@ -216,10 +216,15 @@ def measure(source, **options):
     return source._data.branch_columns()
 
 
-Thickness = collections.namedtuple("Thickness", "map numbers lower upper")
-Thickness.__doc__ = """Local thickness: `map`, an array of float32 with the shape of the volume, 0 outside; `numbers`, a
-dict by label (or label and component) of the values of the program's table; `lower` and `upper`, as `map`, where bounds
-were asked for, else None."""
+class Thickness(typing.NamedTuple):
+    """Local thickness: `map`, an array of float32 with the shape of the volume, 0 outside; `numbers`, a dict by label
+    (or label and component) of the values of the program's table; `lower` and `upper`, as `map`, where bounds were
+    asked for, else None."""
+
+    map: numpy.ndarray
+    numbers: dict
+    lower: typing.Optional[numpy.ndarray]
+    upper: typing.Optional[numpy.ndarray]
 
 
 def thickness(array, *, spacing=None, label=None, axes=None, threshold=None, progress=None, **options):
