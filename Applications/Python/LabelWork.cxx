@@ -349,6 +349,7 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
   if (ofArray && voxels && stage.tolerance && core->refined.empty())
   {
     CertifiedRequest request;
+    request.surface = SurfaceSource(); // nothing is refined
     request.name = shape.name;
     request.lambdas = { stage.lambda };
     request.tolerances = { *stage.tolerance };

@@ -41,6 +41,7 @@ TEST(CertifiedCore, PruningLaterByToleranceGivesWhatAskingForItGives)
   const ImageGeometry grid = Grid({ 1, 1, 1.5 });
   CertifiedRequest    request = Lambdas({ "0" });
   request.tolerances = { ParseTolerance("0") };
+  request.surface = SurfaceSource(); // nothing is refined
   const CertifiedResult whole = ComputeCertified(Box(12, 9, 7), grid, request);
   EXPECT_EQ(whole.covered, true);
   request.tolerances = { ParseTolerance("1diag") };

@@ -55,6 +55,8 @@ TEST(Certified, RandomShapesPassInEveryWay)
     request = Lambdas({ "0" });
     request.tolerances = { ParseTolerance("1.2diag") };
     EXPECT_EQ(ComputeCertified(shape, grid, request).covered, true);
+    request.surface = SurfaceSource();
+    EXPECT_EQ(ComputeCertified(shape, grid, request).covered, true);
     request = Lambdas({ "1.5vox" });
     request.surface = [&](const VoxelShape & voxels, const ProgressCallback & progress) {
       return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, grid.spacing, progress));
@@ -63,11 +65,14 @@ TEST(Certified, RandomShapesPassInEveryWay)
   }
 }
 
-TEST(Certified, ARequestThatSaysNothingIsPrunedAtTheUsualTolerance)
+TEST(Certified, ARequestThatSaysNothingIsPrunedAtTheUsualToleranceAndRefinedFromLabels)
 {
   CertifiedRequest said;
   said.lambdas = { ParseLambda("0") };
   said.tolerances = { ParseTolerance(kUsualTolerance) };
+  said.surface = [](const VoxelShape & voxels, const ProgressCallback & progress) {
+    return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, { 1, 1, 2 }, progress));
+  };
   const CertifiedResult asked = ComputeCertified(Box(9, 8, 7), Grid({ 1, 1, 2 }), said);
   const CertifiedResult silent = ComputeCertified(Box(9, 8, 7), Grid({ 1, 1, 2 }), {});
   ASSERT_EQ(silent.cores.size(), 1U);
@@ -75,6 +80,24 @@ TEST(Certified, ARequestThatSaysNothingIsPrunedAtTheUsualTolerance)
   EXPECT_EQ(silent.cores[0].core.core.positions, asked.cores[0].core.core.positions);
   EXPECT_EQ(silent.cores[0].core.core.cells.faceVertices, asked.cores[0].core.core.cells.faceVertices);
   EXPECT_TRUE(silent.covered.value_or(false));
+  EXPECT_GT(silent.cores[0].numbers.refined->maxDisplacement, 0);
+}
+
+TEST(Certified, WhatIsAskedForByLambdaOrToBePrunedOnStaysExact)
+{
+  CertifiedRequest lambda = Lambdas({ "1.5vox" });
+  CertifiedRequest whole;
+  whole.tolerances = { ParseTolerance("0"), ParseTolerance("1diag") };
+  CertifiedRequest exact;
+  exact.surface = SurfaceSource();
+  for (const CertifiedRequest & request : { lambda, whole, exact })
+  {
+    for (const CertifiedCore & core : ComputeCertified(Box(9, 8, 7), Grid({ 1, 1, 2 }), request).cores)
+    {
+      EXPECT_FALSE(core.numbers.refined.has_value());
+      EXPECT_TRUE(core.core.displacement.empty());
+    }
+  }
 }
 
 TEST(Certified, ARequestThatContradictsItselfIsRefused)

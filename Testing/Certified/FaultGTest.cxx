@@ -48,6 +48,7 @@ Stages()
   CertifiedRequest tolerance;
   tolerance.lambdas = { ParseLambda("0") };
   tolerance.tolerances = { ParseTolerance("1.2diag") };
+  tolerance.surface = SurfaceSource();
   CertifiedRequest refined = plain;
   refined.surface = [](const VoxelShape & voxels, const ProgressCallback & progress) {
     return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(voxels, { 1, 1, 1 }, progress));

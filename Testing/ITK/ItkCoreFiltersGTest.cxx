@@ -89,6 +89,37 @@ TEST(ItkCoreFilters, HaveTheNumbersOfOneRequest)
   }
 }
 
+TEST(ItkCoreFilters, GiveByDefaultWhatARequestThatSaysNothingGives)
+{
+  Pipeline pipeline;
+  pipeline.core->WholeCoreOff();
+  EXPECT_EQ(pipeline.core->GetTolerance(), kUsualTolerance);
+  for (const bool refine : { true, false })
+  {
+    pipeline.core->SetRefine(refine);
+    pipeline.core->Update();
+    for (const LabelShape & label : pipeline.shapes->GetLabels())
+    {
+      CertifiedRequest request;
+      if (!refine)
+      {
+        request.surface = SurfaceSource();
+      }
+      const CertifiedResult asked = ComputeCertified(label.shape, pipeline.shapes->GetGeometry(), request);
+      const auto &          part = pipeline.core->GetOutput()->GetPart(label.value);
+      ExpectSameCore(asked.cores.front().core.core, part.core->core.core);
+      EXPECT_EQ(asked.cores.front().core.displacement, part.core->core.displacement);
+      EXPECT_EQ(part.core->core.displacement.empty(), !refine);
+    }
+    EXPECT_EQ(pipeline.core->GetOutput()->GetRefined(), refine ? "labels" : "");
+    const std::string record = pipeline.core->GetOutput()->GetProvenance();
+    EXPECT_NE(record.find("\"tolerance\":[\"1.2diag\"]"), std::string::npos) << record;
+    EXPECT_EQ(record.find("\"refine\":\"labels\"") != std::string::npos, refine) << record;
+  }
+  EXPECT_THROW(pipeline.core->SetTolerance("wide"), itk::ExceptionObject);
+  EXPECT_THROW(pipeline.pruned->Update(), itk::ExceptionObject) << "by lambda whole cores are pruned";
+}
+
 TEST(ItkCoreFilters, GeometryGoesThrough)
 {
   Pipeline pipeline;

@@ -28,6 +28,7 @@ main(int argc, char ** argv)
     shapes->SetNumberOfStreamDivisions(16);
     auto core = itk::VoxelCoreFilter::New();
     core->SetInput(shapes->GetOutput());
+    core->WholeCoreOn(); // by default it is pruned by tolerance and refined
     auto pruned = itk::LambdaPruningFilter::New();
     pruned->SetInput(core->GetOutput());
     pruned->SetLambda(argv[2]);

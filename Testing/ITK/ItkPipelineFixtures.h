@@ -54,6 +54,7 @@ struct Pipeline
   Pipeline()
   {
     core->SetInput(shapes);
+    core->WholeCoreOn();
     pruned->SetInput(core->GetOutput());
   }
   void

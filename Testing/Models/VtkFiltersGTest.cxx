@@ -90,6 +90,7 @@ protected:
       }
     }
     m_Core->SetInputData(m_Image);
+    m_Core->WholeCoreOn();
     m_Pruned->SetInputConnection(m_Core->GetOutputPort());
   }
 

@@ -24,6 +24,7 @@ main(int argc, char ** argv)
   vtkNew<vtkVoxelCoreFilter> core;
   core->SetInputConnection(reader->GetOutputPort());
   core->ImageIsInLPSOn(); // MetaImage is
+  core->WholeCoreOn();    // by default it is pruned by tolerance and refined
   vtkNew<vtkLambdaPruningFilter> pruned;
   pruned->SetInputConnection(core->GetOutputPort());
   for (const char * lambda : { argv[2], argv[3] }) // the second prunes anew, and does nothing else

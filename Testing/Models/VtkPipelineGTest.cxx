@@ -139,6 +139,7 @@ TEST_F(VtkPipelineExample, ARotatedNiftiLiesWhereTheProgramPutsIt)
   vtkNew<vtkVoxelCoreFilter> core;
   core->SetInputConnection(reader->GetOutputPort());
   core->SetImageToRASMatrix(reader->GetQFormMatrix());
+  core->WholeCoreOn();
   core->Update();
   const MedialModel found = ModelFromPolyData(*core->GetOutput());
   ASSERT_EQ(found.parts.size(), 1U);
@@ -153,6 +154,17 @@ TEST_F(VtkPipelineExample, ARotatedNiftiLiesWhereTheProgramPutsIt)
   }
   WriteModel(m_Folder / "found.vtp", m_Folder / "found.vtp", found, { .keepEdges = true });
   EXPECT_EQ(Run("prune @found.vtp --lambda 1mm -o @pruned.vtp"), 0);
+  // By default it is what the program gives by default.
+  core->WholeCoreOff();
+  core->Update();
+  const MedialModel usual = ModelFromPolyData(*core->GetOutput());
+  ASSERT_EQ(Run("core @scan.nii --keep-edges -o @usual.vtp"), 0);
+  const MedialModel asked = ReadModel(m_Folder / "usual.vtp");
+  EXPECT_EQ(usual.refined, "labels");
+  EXPECT_EQ(usual.refined, asked.refined);
+  EXPECT_EQ(usual.parts.at(0).core.cells.faceVertices, asked.parts.at(0).core.cells.faceVertices);
+  WriteModel(m_Folder / "usual-found.vtp", m_Folder / "usual-found.vtp", usual, { .keepEdges = true });
+  EXPECT_EQ(Run("prune @usual-found.vtp --tolerance 2diag -o @further.vtp"), 0);
 }
 
 } // namespace

@@ -122,7 +122,7 @@ TEST(Parameters, MistypedWordsOfAChoiceSuggestTheNearest)
   EXPECT_EQ(Refused([] {
               CoreOptionsFrom(CoreValues({ { "refine", "label" } }));
             }),
-            "--refine label: expected one of off|labels|grey|mesh; did you mean 'labels'?");
+            "--refine label: expected one of auto|labels|grey|mesh|off; did you mean 'labels'?");
   EXPECT_EQ(Refused([] {
               CoreOptionsFrom(CoreValues({ { "engine", "latice" } }));
             }),
@@ -137,7 +137,55 @@ TEST(Parameters, MistypedWordsOfAChoiceSuggestTheNearest)
   EXPECT_EQ(Refused([] {
               CoreOptionsFrom(CoreValues({ { "refine", "xyz" } }));
             }),
-            "--refine xyz: expected one of off|labels|grey|mesh");
+            "--refine xyz: expected one of auto|labels|grey|mesh|off");
+}
+
+// Of what is asked of `core`, which surface it is refined to; empty: none.
+TEST(Parameters, CoresByToleranceAreRefinedFromLabelsUnlessTheyAreToBePrunedOn)
+{
+  const std::vector<std::pair<ParameterValues, std::string>> cases{
+    { {}, "labels" },
+    { { { "tolerance", "2vox" } }, "labels" },
+    { { { "tolerance", "1diag,2diag" } }, "labels" },
+    { { { "tolerance", "1diag" }, { "lambda", "1vox" } }, "labels" },
+    { { { "tolerance", "1diag" }, { "keep-edges", "" } }, "labels" },
+    { { { "tolerance", "0" } }, "" },
+    { { { "tolerance", "0,1diag" } }, "" },
+    { { { "lambda", "0" } }, "" },
+    { { { "lambda", "1.5vox,2vox" } }, "" },
+    { { { "lambda", "1.5vox" }, { "refine", "labels" } }, "labels" },
+    { { { "tolerance", "0" }, { "refine", "labels" } }, "labels" },
+    { { { "refine", "off" } }, "" },
+    { { { "refine", "auto" } }, "labels" },
+    { { { "refine", "grey" } }, "grey" },
+    { { { "refine", "mesh" } }, "mesh" },
+    { { { "join", "parts/" } }, "labels" },
+  };
+  for (const auto & [values, surface] : cases)
+  {
+    const CoreOptions options = CoreOptionsFrom(CoreValues(values));
+    EXPECT_EQ(options.refine.surface, surface) << ::testing::PrintToString(values);
+    // Beside it a skeleton is the one that `skeleton` gives, unless refinement is asked for.
+    auto with = values;
+    with.insert({ "with-skeleton", "" });
+    const bool asked = values.contains("refine") && values.at("refine") != "auto" && !surface.empty();
+    EXPECT_EQ(CoreOptionsFrom(CoreValues(with)).skeleton->refined, asked) << ::testing::PrintToString(values);
+  }
+  EXPECT_TRUE(InfoOptionsFrom({ { "scan", "a.nrrd" } }).coreRefined);
+}
+
+TEST(Parameters, BlocksAreExactAndTheirJoinIsRefined)
+{
+  const auto blocks = [](ParameterValues more) {
+    more.insert({ { "blocks", "2" }, { "block", "1" }, { "output", "parts/" } });
+    return BlockOptionsFrom(CoreValues(more));
+  };
+  EXPECT_EQ(blocks({})->core.refine.surface, "");
+  EXPECT_EQ(blocks({ { "refine", "off" } })->core.refine.surface, "");
+  EXPECT_EQ(Refused([&] {
+              blocks({ { "refine", "labels" } });
+            }),
+            "--refine labels does not work with --block: blocks are exact; give it with --join");
 }
 
 TEST(Parameters, DefaultsAreThoseOfTheTable)

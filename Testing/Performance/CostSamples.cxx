@@ -75,6 +75,10 @@ CostSamples::Run(const fs::path & scan, int threads, CostJob job) const
                                     std::to_string(threads),
                                     "--force",
                                     "-q" };
+  if (job != CostJob::Skeleton)
+  {
+    command.insert(command.end(), { "--refine", "off" }); // which has constants of its own
+  }
   if (job == CostJob::Page)
   {
     command.insert(command.end(), { "--html", (m_Folder / "result.html").string() });

@@ -3,7 +3,7 @@
 
 #include "EvaluationBodies.h"
 
-#include "voxelcore/BallCoverage.h"
+#include "voxelcore/BallTree.h"
 #include "voxelcore/MedialComplex.h"
 
 #include <array>

@@ -6,7 +6,7 @@
 // label, lost parts (% of the boundary vertices farther than two voxel diagonals from all balls) and the largest gap
 // (voxel diagonals). A voxel is the side of the cube with the same diagonal. README.md has the table.
 
-#include "voxelcore/BallCoverage.h"
+#include "voxelcore/BallTree.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/MedialModel.h"

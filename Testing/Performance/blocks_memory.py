@@ -56,7 +56,7 @@ def main():
     if not os.path.exists(scan):
         subprocess.run([program, "phantom", "root", "--size", str(options.size), "-o", scan, "-q"], check=True)
 
-    core = [program, "core", scan]
+    core = [program, "core", scan, "--refine", "off"]
     worst = 0
     for block in range(1, options.blocks + 1):
         code, peak, seconds, said = run(

@@ -29,12 +29,12 @@ SCANS = [  # name, file, options
     ("skull", "CIBC-Internal+Seg3DData/Skull.nrrd", []),
     ("mouse ventricles", "Gubra-ApS+LSFM-mouse-brain-atlas/gubra_ventricular_mask_olf.nii.gz", []),
 ]
-CANDIDATES = [[*pruning, *refine] for refine in ([], ["--refine", "labels"])
+CANDIDATES = [[*pruning, "--refine", refine] for refine in ("off", "labels")
               for pruning in (["--lambda", "1.5vox"], ["--tolerance", "1diag"], ["--tolerance", "1.2diag"])]
 
 
 def name_of(candidate):
-    return " ".join(candidate[:2]).removeprefix("--") + (", refined" if "--refine" in candidate else "")
+    return " ".join(candidate[:2]).removeprefix("--") + (", refined" if candidate[-1] == "labels" else "")
 
 
 def cost(command):

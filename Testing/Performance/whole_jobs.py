@@ -24,9 +24,10 @@ import time
 PHANTOMS = [("ellipsoid", "256"), ("gyroid", "128"), ("root", "512")]
 MARK = "lambda 1.5vox"
 JOBS = {MARK: ["core", "--lambda", "1.5vox"],
-        "tolerance": ["core"],
+        "tolerance": ["core", "--refine", "off"],
         "skeleton": ["skeleton"],
         "refine labels": ["core", "--lambda", "1.5vox", "--refine", "labels"],
+        "the default": ["core"],
         "tolerance, refine, skeleton": ["core", "--refine", "labels", "--with-skeleton"]}
 MORE_JOBS = {"refine grey": ["core", "--lambda", "1.5vox", "--refine", "grey"],
              "refine mesh": ["core", "--lambda", "1.5vox", "--refine", "mesh"]}

@@ -25,6 +25,22 @@ Refine(const VoxelShape &      shape,
   return std::move(RefineCore({ &shape, &points, &core, &edgePoints, surface, spacing }, { threshold })[0]);
 }
 
+/** What a tolerance in mm leaves of a shape's core, refined from labels. */
+inline RefinedCore
+RefineByTolerance(const VoxelShape & shape, const Spacing3 & spacing, double height)
+{
+  const SpacingWeights weights = ComputeSpacingWeights(spacing);
+  const auto           points = BoundaryVertices(shape);
+  DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
+  const EdgePoints     edgePoints = NearestToEdges(cells);
+  auto                 touching = LargestTouchingBalls(cells, points, weights);
+  MedialComplex        core = BuildVoxelCore(shape, points, std::move(cells), weights);
+  core.tolerances = ComputeTolerances(core, weights, points, std::move(touching));
+  const auto surface = SurfaceFromLabels(shape, spacing);
+  return std::move(
+    RefineCore({ &shape, &points, &core, &edgePoints, surface.get(), spacing, true }, { height }).front());
+}
+
 inline Vector3
 Minus(const Vector3 & a, const Vector3 & b)
 {

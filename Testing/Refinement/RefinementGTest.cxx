@@ -7,6 +7,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxelcore::testing
@@ -123,15 +124,78 @@ TEST(RefineCore, HoldsItsPromisesOnThickShapesWithGrooves)
   }
 }
 
+void
+ExpectCovered(const RefinedCore & refined, const VoxelShape & shape, const Spacing3 & spacing, double height)
+{
+  for (const LatticePoint & q : BoundaryVertices(shape))
+  {
+    double least = 1e9;
+    for (std::size_t vertex = 0; vertex < refined.core.radius.size(); ++vertex)
+    {
+      const Vector3 & p = refined.core.positions[vertex];
+      least = std::min(least,
+                       std::hypot(spacing[0] * (p[0] - q.x), spacing[1] * (p[1] - q.y), spacing[2] * (p[2] - q.z)) -
+                         refined.core.radius[vertex]);
+    }
+    ASSERT_LE(least, height + 1e-6) << q.x << ' ' << q.y << ' ' << q.z;
+  }
+}
+
+/** A rod with round ends that lies obliquely, thin in voxels. */
+VoxelShape
+ThinRod(const Spacing3 & spacing, double radius)
+{
+  const Vector3 way{ 0.48, 0.6, 0.64 };
+  const auto    side = [&](std::size_t axis) { return static_cast<std::int32_t>(20 / spacing[axis]); };
+  return ShapeWhere({ side(0), side(1), side(2) }, [&](int x, int y, int z) {
+    const Vector3 from{ (x + 0.5) * spacing[0] - 10, (y + 0.5) * spacing[1] - 10, (z + 0.5) * spacing[2] - 10 };
+    const double  along = std::clamp(from[0] * way[0] + from[1] * way[1] + from[2] * way[2], -8.0, 8.0);
+    return std::hypot(from[0] - along * way[0], from[1] - along * way[1], from[2] - along * way[2]) <= radius;
+  });
+}
+
+// Refined balls of thin parts would draw back from ends and rims, and become smaller, by up to a voxel each.
+TEST(RefineCore, KeepsTheBoundaryWithinTheToleranceOrHalfADiagonal)
+{
+  for (const Spacing3 & spacing : { Spacing3{ 1, 1, 1 }, Spacing3{ 0.6, 0.6, 1.5 } })
+  {
+    const double diagonal = std::hypot(spacing[0], spacing[1], spacing[2]);
+    for (const double height : { 0.0, 0.7 * diagonal, 1.2 * diagonal })
+    {
+      for (const double radius : { 1.1, 1.6, 2.4 })
+      {
+        SCOPED_TRACE(std::to_string(height) + ", radius " + std::to_string(radius));
+        const VoxelShape  rod = ThinRod(spacing, radius);
+        const RefinedCore refined = RefineByTolerance(rod, spacing, height);
+        ExpectGuarded(refined, rod, spacing);
+        ExpectCovered(refined, rod, spacing, std::max(height, 0.5 * diagonal));
+      }
+    }
+  }
+  for (const RandomVolume & volume : RandomVolumes(5200, 40))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const double      diagonal = std::hypot(volume.spacing[0], volume.spacing[1], volume.spacing[2]);
+    const RefinedCore refined = RefineByTolerance(volume.shape, volume.spacing, diagonal);
+    ExpectGuarded(refined, volume.shape, volume.spacing);
+    ExpectCovered(refined, volume.shape, volume.spacing, diagonal);
+  }
+}
+
 TEST(RefineCore, IsTheSameBitsForAnyNumberOfThreads)
 {
-  const VoxelShape shape = Ellipsoid(40);
+  const VoxelShape rod = ThinRod({ 0.4, 0.4, 1 }, 1.2);
   const int        threads = omp_get_max_threads();
+  const VoxelShape shape = Ellipsoid(40);
   omp_set_num_threads(1);
   const RefinedCore one = Refine(shape, { 1, 1, 1 }, 2);
+  const RefinedCore thin = RefineByTolerance(rod, { 0.4, 0.4, 1 }, 1);
   for (const int count : { 2, 3 })
   {
     omp_set_num_threads(count);
+    const RefinedCore otherThin = RefineByTolerance(rod, { 0.4, 0.4, 1 }, 1);
+    EXPECT_EQ(thin.core.positions, otherThin.core.positions);
+    EXPECT_EQ(thin.core.radius, otherThin.core.radius);
     const RefinedCore other = Refine(shape, { 1, 1, 1 }, 2);
     EXPECT_EQ(one.core.positions, other.core.positions);
     EXPECT_EQ(one.displacement, other.displacement);

@@ -2,6 +2,7 @@
 
 #include "VoxelCoreTesting/Cores.h"
 
+#include "voxelcore/BallTree.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/TolerancePruning.h"
 
@@ -16,60 +17,13 @@ namespace voxelcore
 namespace
 {
 
-double
-GapByLookingAtAll(const std::array<double, 3> &              place,
-                  const std::vector<std::array<double, 3>> & positions,
-                  const std::vector<double> &                radius,
-                  const SpacingWeights &                     weights)
+TEST(RefinedGapBound, IsTheHeightOrHalfADiagonalAndMoreOnlyForWhatWasPrunedOn)
 {
-  double best = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < positions.size(); ++i)
-  {
-    double squared = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double d = weights.unit * static_cast<double>(weights.weight[axis]) * (place[axis] - positions[i][axis]);
-      squared += d * d;
-    }
-    best = std::min(best, std::sqrt(squared) - radius[i]);
-  }
-  return best;
-}
-
-TEST(BallTree, FindsTheBallThatLookingAtAllFinds)
-{
-  for (std::uint64_t seed = 1; seed <= 40; ++seed)
-  {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    testing::Random      random(seed);
-    const SpacingWeights weights = ComputeSpacingWeights(testing::TestSpacings()[seed % 6]);
-    const auto           place = [&] {
-      // On a coarse grid half of the time, so that equal distances and splits occur.
-      const double grid = seed % 2 == 0 ? 1.0 : 1e-3;
-      return std::array<double, 3>{ grid * static_cast<double>(random.Between(0, static_cast<std::int64_t>(20 / grid))),
-                                    grid * static_cast<double>(random.Between(0, static_cast<std::int64_t>(20 / grid))),
-                                    grid *
-                                      static_cast<double>(random.Between(0, static_cast<std::int64_t>(20 / grid))) };
-    };
-    std::vector<std::array<double, 3>> positions;
-    std::vector<double>                radius;
-    for (std::int64_t i = random.Between(1, 200); i > 0; --i)
-    {
-      positions.push_back(place());
-      radius.push_back(random.Unit() * (random.Chance(0.1) ? 10 : 1));
-    }
-    const BallTree tree(positions, radius, weights);
-    for (int i = 0; i < 100; ++i)
-    {
-      const auto at = place();
-      ASSERT_NEAR(tree.Gap(at), GapByLookingAtAll(at, positions, radius, weights), 1e-11);
-    }
-  }
-}
-
-TEST(BallTree, WithoutBallsIsInfinitelyFar)
-{
-  EXPECT_EQ(BallTree({}, {}, SpacingWeights{}).Gap({ 0, 0, 0 }), std::numeric_limits<double>::infinity());
+  const std::array<double, 3> spacing{ 2, 3, 6 }; // a diagonal of 7
+  EXPECT_EQ(RefinedGapBound(8, spacing), 8);
+  EXPECT_EQ(RefinedGapBound(0, spacing), 3.5);
+  const std::array<std::array<double, 3>, 2> moves{ { { 0, 0.5, 0 }, { 1, 2, 2 } } };
+  EXPECT_EQ(RefinedGapBound(8, spacing, moves), 8 + 6 + 3.5);
 }
 
 // The balls of a whole core touch every boundary vertex.

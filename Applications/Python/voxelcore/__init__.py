@@ -189,6 +189,7 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
         raise ValueError("lambda_, tolerance: give one; a skeleton has one core")
     if of_array.get("lambda_") is None:
         of_array["lambda_"] = 0
+    of_array.setdefault("refine", "off")
     of_array.update(threads=threads, progress=_arguments.share(progress, 0, 0.5))
     whole = core(source, **of_array)
     if not isinstance(whole, Core):

@@ -43,6 +43,19 @@ EndTolerances(ToleranceValues & values, const ImageGeometry & geometry)
   }
 }
 
+/** From the labels alone. */
+SurfaceSource
+UsualSurface(const CertifiedRequest & request, const Vector3 & spacing)
+{
+  if (!RefinesUsually(request.tolerances))
+  {
+    return {};
+  }
+  return [spacing](const VoxelShape & shape, const ProgressCallback & progress) {
+    return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(shape, spacing, progress));
+  };
+}
+
 /** Largest distance of a boundary vertex to the balls of a core, in mm. */
 double
 BoundaryGapOf(const PlacedCore & core, const VoxelShape & voxels, const ImageGeometry & geometry)
@@ -287,7 +300,7 @@ private:
       m_Result.cores = RefineAndCertify(m_Voxels,
                                         m_Result.shape,
                                         std::move(m_Kept),
-                                        m_Request.surface,
+                                        *m_Request.surface,
                                         std::move(task),
                                         m_Plan.Next());
     }
@@ -369,7 +382,8 @@ private:
     {
       return;
     }
-    const double promised = tolerance.heightMm + RefinedGapBound(core.core.displacement, geometry.spacing);
+    const double promised =
+      core.numbers.refined ? RefinedGapBound(tolerance.heightMm, geometry.spacing) : tolerance.heightMm;
     if (*tolerance.boundaryGapMm > promised + BoundaryGapTolerance(geometry))
     {
       RefuseResult(m_Request.name,
@@ -459,6 +473,13 @@ CompletePruning(std::vector<Lambda> & lambdas, std::vector<Tolerance> & toleranc
   }
 }
 
+bool
+RefinesUsually(const std::vector<Tolerance> & tolerances)
+{
+  return !tolerances.empty() &&
+         std::all_of(tolerances.begin(), tolerances.end(), [](const Tolerance & height) { return height.value > 0; });
+}
+
 void
 RequireLengthsIn(SpatialUnit unit, const CertifiedRequest & request)
 {
@@ -484,6 +505,10 @@ ComputeCertified(VoxelShape               shape,
 {
   CertifiedRequest complete = request;
   CompletePruning(complete.lambdas, complete.tolerances);
+  if (!complete.surface)
+  {
+    complete.surface = UsualSurface(complete, geometry.spacing);
+  }
   RequireSense(complete);
   const ProgressCallback forward = ForwardOnly(progress);
   CertifiedResult        result = Work(std::move(shape), geometry, complete, forward).Run();
@@ -497,6 +522,24 @@ OriginOf(const CertifiedResult & result, std::int64_t label, std::string name, s
   return {
     label, std::move(name), voxels, result.shape.box, result.boundaryVertices, result.shape.topology, result.whole, true
   };
+}
+
+CorePruning
+PruningOf(const CoreNumbers & numbers)
+{
+  CorePruning pruning{ numbers.lambda, numbers.lambdaMm, numbers.complex };
+  if (numbers.tolerance)
+  {
+    pruning.tolerance = numbers.tolerance->height;
+    pruning.toleranceMm = numbers.tolerance->heightMm;
+  }
+  if (numbers.refined)
+  {
+    pruning.refined = "labels";
+    pruning.meanMove = numbers.refined->meanDisplacement;
+    pruning.farthestMove = numbers.refined->maxDisplacement;
+  }
+  return pruning;
 }
 
 } // namespace voxelcore

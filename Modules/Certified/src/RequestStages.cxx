@@ -29,7 +29,7 @@ RequireSense(const CertifiedRequest & request)
   {
     throw UsageError(request.name + ": give one lambda with tolerances, which is pruned first");
   }
-  if (request.skeleton && request.skeleton->refined && !request.surface)
+  if (request.skeleton && request.skeleton->refined && !*request.surface)
   {
     throw UsageError(request.name + ": a refined skeleton needs an estimate of the surface");
   }
@@ -38,7 +38,7 @@ RequireSense(const CertifiedRequest & request)
 bool
 RefinesCores(const CertifiedRequest & request)
 {
-  return request.surface && request.refineCores;
+  return *request.surface && request.refineCores;
 }
 
 bool

@@ -66,6 +66,10 @@ public:
     return this->GetPart(label).core->core;
   }
 
+  /** What MedialModel::refined has to be in a file of these cores: "labels" where they are refined. */
+  std::string
+  GetRefined() const;
+
   /** What MedialModel::provenance has to be in a file of these cores, so that `voxelcore verify`, `prune`, `skeleton`
    *  and `render` take it. `keepEdges` as in the ModelOptions it is written with. */
   std::string

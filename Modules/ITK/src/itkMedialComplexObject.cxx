@@ -1,6 +1,7 @@
 #include "itkMedialComplexObject.h"
 
 #include "itkErrors.h"
+#include "voxelcore/Certified.h"
 
 #include <algorithm>
 
@@ -68,15 +69,21 @@ MedialComplexObject::GetPart(LabelType label) const -> const Part &
 }
 
 std::string
+MedialComplexObject::GetRefined() const
+{
+  const bool refined = !m_Parts->empty() && m_Parts->front().core->numbers.refined;
+  return refined ? voxelcore::PruningOf(m_Parts->front().core->numbers).refined : std::string();
+}
+
+std::string
 MedialComplexObject::GetProvenance(bool keepEdges) const
 {
   std::vector<voxelcore::CoreOrigin>  origins;
   std::vector<voxelcore::CorePruning> prunings;
   for (const Part & part : *m_Parts)
   {
-    const voxelcore::CoreNumbers & numbers = part.core->numbers;
     origins.push_back(part.origin);
-    prunings.push_back({ numbers.lambda, numbers.lambdaMm, numbers.complex });
+    prunings.push_back(voxelcore::PruningOf(part.core->numbers));
   }
   return WithItkErrors(this->GetNameOfClass(), [&] {
     return voxelcore::CoreProvenanceJson(this->GetGeometry(), origins, prunings, keepEdges);

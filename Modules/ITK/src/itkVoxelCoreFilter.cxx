@@ -6,6 +6,8 @@
 
 #include <omp.h>
 
+#include <utility>
+
 namespace itk
 {
 namespace
@@ -49,6 +51,7 @@ EngineName(voxelcore::Engine engine)
 } // namespace
 
 VoxelCoreFilter::VoxelCoreFilter()
+  : m_Tolerance(voxelcore::ParseTolerance(voxelcore::kUsualTolerance))
 {
   this->SetNumberOfRequiredInputs(1);
 }
@@ -58,6 +61,17 @@ VoxelCoreFilter::SetInput(const InputType * shapes)
 {
   // ProcessObject does not know constness, and does not change its inputs' data.
   this->SetNthInput(0, const_cast<InputType *>(shapes));
+}
+
+void
+VoxelCoreFilter::SetTolerance(const std::string & text)
+{
+  auto height = WithItkErrors(this->GetNameOfClass(), [&text] { return voxelcore::ParseTolerance(text); });
+  if (height.text != m_Tolerance.text)
+  {
+    m_Tolerance = std::move(height);
+    this->Modified();
+  }
 }
 
 auto
@@ -95,7 +109,15 @@ VoxelCoreFilter::GenerateData()
       const double                share = (1 + static_cast<double>(label.voxels)) / total;
       voxelcore::CertifiedRequest request;
       request.name = voxelcore::LabelText(label.value, label.name);
-      request.lambdas = { voxelcore::Lambda() }; // the whole core
+      request.lambdas = { voxelcore::Lambda() };
+      if (!m_WholeCore)
+      {
+        request.tolerances = { m_Tolerance };
+      }
+      if (!m_Refine)
+      {
+        request.surface = voxelcore::SurfaceSource();
+      }
       request.engine = m_Engine;
       voxelcore::CertifiedResult result = voxelcore::ComputeCertified(label.shape,
                                                                       input.GetGeometry(),
@@ -116,6 +138,9 @@ VoxelCoreFilter::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "Engine: " << EngineName(m_Engine) << std::endl;
+  os << indent << "WholeCore: " << (m_WholeCore ? "On" : "Off") << std::endl;
+  os << indent << "Tolerance: " << m_Tolerance.text << std::endl;
+  os << indent << "Refine: " << (m_Refine ? "On" : "Off") << std::endl;
 }
 
 } // namespace itk

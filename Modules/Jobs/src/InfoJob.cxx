@@ -191,6 +191,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   CoreOptions                       defaults;
   defaults.lambdas = options.coreLambdas;
   defaults.tolerances = options.coreTolerances;
+  defaults.refine.surface = options.coreRefined ? "labels" : "";
   defaults.output = "medial.vtp";
   info.core = PredictJob(boundaries, defaults, info.threads);
   CoreOptions page = defaults;

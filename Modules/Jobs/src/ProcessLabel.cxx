@@ -12,7 +12,7 @@ RequestOf(const CoreOptions & options, SurfaceSource surface)
   CertifiedRequest request;
   request.lambdas = options.lambdas;
   request.tolerances = options.tolerances;
-  request.surface = std::move(surface);
+  request.surface = std::move(surface); // empty: nothing is refined
   request.refineCores = !options.output.empty() || !options.skeleton;
   request.skeleton = options.skeleton;
   request.engine = options.engine;

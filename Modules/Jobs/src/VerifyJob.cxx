@@ -26,6 +26,7 @@ VerifyPart(ModelPart                part,
            const ImageGeometry &    geometry,
            const SpacingWeights &   weights,
            const PrunedRecord &     pruned,
+           bool                     prunedOn,
            const ProgressCallback & progress)
 {
   const bool           refined = !part.displacement.empty();
@@ -67,6 +68,7 @@ VerifyPart(ModelPart                part,
     {
       moved.threshold = pruned.lambdaMm;
       moved.pruningTolerance = pruned.tolerance->heightMm;
+      moved.prunedOn = prunedOn;
       moved.vertexTolerance = part.core.tolerances.vertices;
       moved.edgeTolerance = part.core.tolerances.edges;
       moved.faceTolerance = part.core.tolerances.faces;
@@ -224,6 +226,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
                             volume.geometry,
                             weights,
                             pruned,
+                            made.parameters.refine.at.has_value(),
                             NamedPartOfProgress(context.progress, found->name, again ? 0.5 * (from + to) : from, to));
     one.report.checks.push_back(CheckProvenance(made.labels[i],
                                                 *found,

@@ -4,12 +4,16 @@
 #include <vtkPolyDataAlgorithm.h>
 #include <vtkSmartPointer.h>
 
+#include <string>
+
 class vtkMatrix4x4;
 
-/** The whole voxel core of the labels of an image, as polydata: what `voxelcore core --lambda 0 --keep-edges` writes,
- *  its point arrays Radius and Lambda, cell arrays Lambda and Label, field arrays EdgeVertices, EdgeLambda and
- *  Provenance. Written by vtkXMLPolyDataWriter as raw appended data without compression, with headers of 64 bits, it is
- *  a file that `voxelcore verify`, `prune`, `skeleton` and `render` take.
+/** The medial surface of the labels of an image, as polydata: what `voxelcore core --keep-edges` writes, pruned at
+ *  tolerance 1.2diag and refined from the labels unless it is told otherwise; its point arrays Radius, Lambda, Tolerance
+ *  and Displacement, cell arrays Lambda, Tolerance and Label, field arrays EdgeVertices, EdgeLambda and Provenance. With
+ *  WholeCore on what `voxelcore core --lambda 0 --keep-edges` writes, which vtkLambdaPruningFilter prunes. Written by
+ *  vtkXMLPolyDataWriter as raw appended data without compression, with headers of 64 bits, it is a file that
+ *  `voxelcore verify`, `prune`, `skeleton` and `render` take.
  *
  *  Input: vtkImageData with point scalars of one component, whole numbers from 0; a pixel's point is its centre.
  *
@@ -43,6 +47,20 @@ public:
   /** The label to work on; 0, as at first: all but 0. */
   vtkSetMacro(Label, vtkTypeInt64);
   vtkGetMacro(Label, vtkTypeInt64);
+
+  /** The whole voxel core, neither pruned nor refined; off at first. */
+  vtkSetMacro(WholeCore, bool);
+  vtkGetMacro(WholeCore, bool);
+  vtkBooleanMacro(WholeCore, bool);
+
+  /** How far the boundary may lie from the balls that remain, with its unit; "1.2diag" at first. */
+  vtkSetStdStringFromCharMacro(Tolerance);
+  vtkGetCharFromStdStringMacro(Tolerance);
+
+  /** What is left above tolerance 0 is refined from the labels; on at first. Off: the exact core of the voxels. */
+  vtkSetMacro(Refine, bool);
+  vtkGetMacro(Refine, bool);
+  vtkBooleanMacro(Refine, bool);
 
   /** Takes a place in the image (what vtkImageData::TransformIndexToPhysicalPoint gives, mm) to the patient: LPS mm, or
    *  RAS mm, whose first two coordinates then change sign. It is copied. None, as at first: nullptr. */
@@ -83,6 +101,9 @@ private:
   operator=(const vtkVoxelCoreFilter &) = delete;
 
   vtkTypeInt64                  Label = 0;
+  bool                          WholeCore = false;
+  std::string                   Tolerance = "1.2diag";
+  bool                          Refine = true;
   bool                          ImageIsInLPS = false;
   bool                          LengthsInVoxels = false;
   vtkSmartPointer<vtkMatrix4x4> ImageToLPS;

@@ -123,6 +123,9 @@ vtkVoxelCoreFilter::PrintSelf(ostream & os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Label: " << this->Label << "\n";
+  os << indent << "WholeCore: " << (this->WholeCore ? "On" : "Off") << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Refine: " << (this->Refine ? "On" : "Off") << "\n";
   os << indent << "ImageIsInLPS: " << (this->ImageIsInLPS ? "On" : "Off") << "\n";
   os << indent << "LengthsInVoxels: " << (this->LengthsInVoxels ? "On" : "Off") << "\n";
   os << indent << "ImageToLPSMatrix:" << (this->ImageToLPS ? "\n" : " (none)\n");
@@ -217,7 +220,15 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
     {
       voxelcore::CertifiedRequest request;
       request.name = voxelcore::LabelText(label.value, label.name);
-      request.lambdas = { voxelcore::Lambda() }; // the whole core
+      request.lambdas = { voxelcore::Lambda() };
+      if (!this->WholeCore)
+      {
+        request.tolerances = { voxelcore::ParseTolerance(this->Tolerance) };
+      }
+      if (!this->Refine)
+      {
+        request.surface = voxelcore::SurfaceSource();
+      }
       voxelcore::CertifiedResult result = voxelcore::ComputeCertified(std::move(label.shape),
                                                                       geometry,
                                                                       request,
@@ -225,7 +236,8 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
       model.parts.push_back(std::move(result.cores.front().core));
       model.parts.back().label = label.value;
       origins.push_back(voxelcore::OriginOf(result, label.value, label.name, label.voxels));
-      prunings.push_back({ "0", 0, result.whole });
+      prunings.push_back(voxelcore::PruningOf(result.cores.front().numbers));
+      model.refined = prunings.back().refined;
       before += share;
     }
     voxelcore::ReportProgress(vtkForwardProgress(this, 0, 1), "done", 1);

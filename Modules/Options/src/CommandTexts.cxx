@@ -25,8 +25,12 @@ Shape edits run label by label in this order: --median, --mend-shape, --close, -
 6-connected.
 --mend-shape and all that fill or close also remove true holes. Guide: noisy-masks.md
 
---refine helps most with smooth shapes at coarse resolution; it needs parts at least three voxels thick. Radius
-and Lambda are then measured from the estimated surface. Guide: refinement.md
+What a tolerance leaves is refined from the labels: moved by up to a voxel to the axis of the smooth shape behind
+them. Topology stays, and the boundary stays within the tolerance. Radius and Lambda are then measured from the
+estimated surface. --refine off keeps the exact core of the voxels, as --lambda alone and --tolerance 0 do.
+--refine grey is nearer where grey values are clean, and mesh where a mesh was voxelized; both are asked for, as
+grey values may be noisy and a mesh takes two to four times as long. Blocks are exact; --join refines.
+Guide: refinement.md
 
 With -o DIR/ each label is written as soon as it is done, and the same command goes on where it was stopped. If
 a label fails its certificate, only the other labels are written, and the exit code is 4. --scene and --html
@@ -69,9 +73,9 @@ Example:
   voxelcore verify scan.nii.gz medial.vtp)";
 
 constexpr std::string_view kPruneFooter =
-  R"(The result equals that of 'voxelcore core' at the same lambda or tolerance, bit for bit. For --lambda, make
-the file with --keep-edges. For --tolerance, make it with a smaller --tolerance, best 0. What remains of a refined
-core keeps its places and radii.
+  R"(The result equals that of 'voxelcore core --refine off' at the same lambda or tolerance, bit for bit. For
+--lambda, make the file with --keep-edges. For --tolerance, make it with a smaller --tolerance, best 0. What
+remains of a refined core keeps its places and radii.
 
 Examples:
   voxelcore core scan.nii.gz --lambda 0 --keep-edges -o whole.vtp

@@ -159,9 +159,9 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
   }
 }
 
-/** `--refine` and the scan with grey values that goes with it. */
+/** `--refine` and the scan with grey values that goes with it; `usual` is the surface where it is auto. */
 RefineOptions
-RefineFrom(const ParameterReader & reader);
+RefineFrom(const ParameterReader & reader, const std::string & usual = {});
 
 /** The values given of options that have no field of their own, by the names reports have for them. */
 inline std::map<std::string, std::string>

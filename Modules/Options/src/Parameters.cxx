@@ -95,11 +95,11 @@ VoxelizeOptionsFrom(const ParameterValues & values)
 }
 
 RefineOptions
-RefineFrom(const ParameterReader & reader)
+RefineFrom(const ParameterReader & reader, const std::string & usual)
 {
   RefineOptions     refine;
   const std::string surface = reader.Choice("refine");
-  refine.surface = surface == "off" ? std::string() : surface;
+  refine.surface = surface == "off" ? std::string() : surface == "auto" ? usual : surface;
   if (reader.IsGiven("grey") != reader.IsGiven("grey-range"))
   {
     throw UsageError("give --grey SCAN and --grey-range LO:HI together");
@@ -123,7 +123,7 @@ CoreOptionsWithoutFiles(const ParameterValues & values)
   CoreOptions           options;
   ReadScanFields(reader, options);
   ReadPruning(reader, options.lambdas, options.tolerances);
-  options.refine = RefineFrom(reader);
+  options.refine = RefineFrom(reader, RefinesUsually(options.tolerances) ? "labels" : "");
   VisitModelFields(options.model, FieldReader(reader));
   const std::string engine = reader.Choice("engine");
   options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
@@ -146,7 +146,8 @@ CoreOptionsFrom(const ParameterValues & values)
   options.skeleton = CoreSkeletonFrom(values);
   if (options.skeleton)
   {
-    options.skeleton->refined = !options.refine.surface.empty();
+    // Where nothing is said it is the one that `skeleton` gives.
+    options.skeleton->refined = !options.refine.surface.empty() && reader.Choice("refine") != "auto";
   }
   options.skeletonTargets = TargetsFrom(values, CommandId::Core);
   options.skeletonOutput = options.skeleton ? SkeletonBesideCore(options.output) : std::filesystem::path();
@@ -191,10 +192,11 @@ BlockOptionsFrom(const ParameterValues & values)
   }
   BlockOptions options;
   options.core = CoreOptionsFrom(values);
-  if (!options.core.refine.surface.empty())
+  if (const std::string refine = reader.Choice("refine"); refine != "auto" && refine != "off")
   {
-    throw UsageError("--refine does not work with --block; give it with --join");
+    throw UsageError("--refine " + refine + " does not work with --block: blocks are exact; give it with --join");
   }
+  options.core.refine = RefineOptions();
   if (isGrid)
   {
     options.side = static_cast<std::int32_t>(reader.Whole("block-size", 8, most));
@@ -215,6 +217,7 @@ InfoOptionsFrom(const ParameterValues & values)
   options.scan = reader.Text("scan");
   ReadScanFields(reader, options);
   ReadPruning(ParameterReader({}, CommandId::Core), options.coreLambdas, options.coreTolerances);
+  options.coreRefined = RefinesUsually(options.coreTolerances);
   options.skeletonLambdas = ParseLambdas(ValueOf({}, CommandId::Skeleton, "lambda"));
   return options;
 }

@@ -1,6 +1,7 @@
 #include "voxelcore/Refinement.h"
 
 #include "Fringe.h"
+#include "KeepCovered.h"
 #include "PointTree.h"
 #include "RefinementState.h"
 
@@ -73,20 +74,25 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   const std::vector<LiveElements> & left = input.left.empty() ? found : input.left;
   FootPointFinder                   finder(input, progress);
   const PointTree                   boundary(input.Boundary(), input.spacing);
-  const auto                        refine = [&](CorePart part, double threshold) {
+  const auto                        refine = [&](CorePart part, double threshold, std::optional<double> height = {}) {
     RefinementState working(input, std::move(part));
     finder.FindBends(working.GreatestRadii());
     working.Move(finder, progress);
-    std::vector<double> formerRadius;
-    refined.push_back(working.Finish(finder, threshold, formerRadius));
-    BoundRadii(boundary, input.spacing, formerRadius, refined.back());
+    FormerBalls former;
+    refined.push_back(working.Finish(finder, threshold, former));
+    BoundRadii(boundary, input.spacing, former.radius, refined.back());
+    if (height)
+    {
+      const double most = std::max(*height, 0.5 * Length(input.spacing));
+      working.MeasureAgain(finder, KeepBoundaryCovered(input, boundary, most, former, refined.back()), refined.back());
+    }
   };
   for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
     CorePart part = PartOf(input.core->cells, left[i]);
     if (input.byTolerance)
     {
-      refine(std::move(part), 0);
+      refine(std::move(part), 0, thresholds[i]);
     }
     else
     {

@@ -290,7 +290,7 @@ RefinementState::Collapse(const CorePart & part, double threshold) const
 
 // What has moved is guarded, and then measured where it is: so more may go, and what held it back with it.
 RefinedCore
-RefinementState::Finish(const FootPointFinder & finder, double threshold, std::vector<double> & formerRadius)
+RefinementState::Finish(const FootPointFinder & finder, double threshold, FormerBalls & former)
 {
   CorePart part = All();
   MeasureElements();
@@ -344,10 +344,11 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, std::v
   {
     refined.core.radius[vertex] -= onFace[vertex] != 0 ? m_Swelling[part.vertices[vertex]] : 0;
   }
-  formerRadius.clear();
+  former = {};
   for (const ElementIndex vertex : part.vertices)
   {
-    formerRadius.push_back(m_Input.core->radius[m_VertexIds[vertex]]);
+    former.positions.push_back(m_Positions[vertex]);
+    former.radius.push_back(m_Input.core->radius[m_VertexIds[vertex]]);
   }
   refined.core.vertexLambda = Pick(m_VertexMeasure, part.vertices);
   refined.core.edgeLambda = Pick(m_EdgeMeasure, part.edges);
@@ -358,6 +359,26 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, std::v
     refined.core.positions[vertex] = AddScaled(refined.core.positions[vertex], 1, refined.displacement[vertex]);
   }
   return refined;
+}
+
+void
+RefinementState::MeasureAgain(const FootPointFinder &           finder,
+                              const std::vector<ElementIndex> & moved,
+                              RefinedCore &                     refined)
+{
+  if (moved.empty())
+  {
+    return;
+  }
+  for (const ElementIndex vertex : moved)
+  {
+    m_Displacement[vertex] = refined.displacement[vertex];
+  }
+  MeasureVertices(finder, moved);
+  MeasureElements();
+  refined.core.vertexLambda = m_VertexMeasure;
+  refined.core.edgeLambda = m_EdgeMeasure;
+  refined.core.faceLambda = m_FaceMeasure;
 }
 
 } // namespace voxelcore

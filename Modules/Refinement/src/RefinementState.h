@@ -3,6 +3,7 @@
 
 #include "CorePart.h"
 #include "FootPoints.h"
+#include "KeepCovered.h"
 #include "Triangles.h"
 #include "VertexPairs.h"
 
@@ -30,9 +31,13 @@ public:
   void
   Move(const FootPointFinder & finder, const ProgressCallback & progress);
 
-  /** What is left at a threshold, and of each vertex its radius before it was moved. */
+  /** What is left at a threshold, and where its balls were before they were moved. */
   RefinedCore
-  Finish(const FootPointFinder & finder, double threshold, std::vector<double> & formerRadius);
+  Finish(const FootPointFinder & finder, double threshold, FormerBalls & former);
+
+  /** The measures of what Finish() left at threshold 0, some vertices of which have gone elsewhere. */
+  void
+  MeasureAgain(const FootPointFinder & finder, const std::vector<ElementIndex> & moved, RefinedCore & refined);
 
 private:
   std::span<const PointPair>

@@ -1,4 +1,5 @@
 #include "voxelcore/ShapeEdits.h"
+#include "ShapeBits.h"
 
 #include "ShapeBits.h"
 

@@ -1,5 +1,6 @@
 #include "voxelcore/BallCoverage.h"
 
+#include "voxelcore/BallTree.h"
 #include "voxelcore/BoundaryVertices.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@ namespace voxelcore
 {
 namespace
 {
-
-constexpr std::size_t kLeafBalls = 8;
 
 // The first of the points that lie farthest, in whatever order they come.
 struct Farthest
@@ -32,157 +31,22 @@ struct Farthest
 
 } // namespace
 
-struct BallTree::Search
-{
-  std::array<double, 3> place;
-  std::array<double, 3> offsets{ 0, 0, 0 }; ///< from the place to the current range's box, by axis
-  double                enough;
-  double                best = std::numeric_limits<double>::infinity();
-  std::size_t           nearest = 0; ///< the ball that is the best
-};
-
-BallTree::BallTree(std::span<const std::array<double, 3>> positions,
-                   std::span<const double>                radius,
-                   const SpacingWeights &                 weights)
-  : m_Scale{ weights.unit * static_cast<double>(weights.weight[0]),
-             weights.unit * static_cast<double>(weights.weight[1]),
-             weights.unit * static_cast<double>(weights.weight[2]) }
-  , m_Balls(positions.size())
-  , m_Largest(positions.size(), 0.0)
-  , m_Axes(positions.size(), 0)
-{
-  for (std::size_t i = 0; i < positions.size(); ++i)
-  {
-    const auto & p = positions[i];
-    m_Balls[i] = { { m_Scale[0] * p[0], m_Scale[1] * p[1], m_Scale[2] * p[2] }, radius[i] };
-  }
-  Build(0, m_Balls.size());
-}
-
-void
-BallTree::Build(std::size_t first, std::size_t last)
-{
-  if (first == last)
-  {
-    return;
-  }
-  std::array<double, 3> lower = m_Balls[first].centre;
-  std::array<double, 3> upper = lower;
-  double                largest = 0;
-  for (std::size_t i = first; i < last; ++i)
-  {
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      lower[a] = std::min(lower[a], m_Balls[i].centre[a]);
-      upper[a] = std::max(upper[a], m_Balls[i].centre[a]);
-    }
-    largest = std::max(largest, m_Balls[i].radius);
-  }
-  const std::size_t middle = first + (last - first) / 2;
-  m_Largest[middle] = largest;
-  if (last - first <= kLeafBalls)
-  {
-    return;
-  }
-  std::size_t axis = 0;
-  for (std::size_t a = 1; a < 3; ++a)
-  {
-    axis = upper[a] - lower[a] > upper[axis] - lower[axis] ? a : axis;
-  }
-  const auto begin = m_Balls.begin();
-  std::nth_element(begin + static_cast<std::ptrdiff_t>(first),
-                   begin + static_cast<std::ptrdiff_t>(middle),
-                   begin + static_cast<std::ptrdiff_t>(last),
-                   [axis](const Ball & a, const Ball & b) { return a.centre[axis] < b.centre[axis]; });
-  m_Axes[middle] = static_cast<std::uint8_t>(axis);
-  Build(first, middle);
-  Build(middle + 1, last);
-}
-
-void
-BallTree::Test(Search & search, std::size_t i) const
-{
-  const Ball & ball = m_Balls[i];
-  const double dx = search.place[0] - ball.centre[0];
-  const double dy = search.place[1] - ball.centre[1];
-  const double dz = search.place[2] - ball.centre[2];
-  const double gap = std::sqrt(dx * dx + dy * dy + dz * dz) - ball.radius;
-  if (gap < search.best)
-  {
-    search.best = gap;
-    search.nearest = i;
-  }
-}
-
-void
-BallTree::Descend(Search & search, std::size_t first, std::size_t last, double squared) const
-{
-  if (first == last || search.best < search.enough)
-  {
-    return;
-  }
-  const std::size_t middle = first + (last - first) / 2;
-  // A hair below, so that rounding never hides the best ball.
-  if (std::sqrt(squared) * (1 - 1e-12) - m_Largest[middle] >= search.best)
-  {
-    return;
-  }
-  const auto test = [&](std::size_t i) { Test(search, i); };
-  if (last - first <= kLeafBalls)
-  {
-    for (std::size_t i = first; i < last; ++i)
-    {
-      test(i);
-    }
-    return;
-  }
-  test(middle);
-  const std::size_t axis = m_Axes[middle];
-  const double      toSplit = search.place[axis] - m_Balls[middle].centre[axis];
-  const bool        lowerFirst = toSplit < 0;
-  Descend(search, lowerFirst ? first : middle + 1, lowerFirst ? middle : last, squared);
-  const double offset = search.offsets[axis];
-  search.offsets[axis] = toSplit;
-  Descend(search,
-          lowerFirst ? middle + 1 : first,
-          lowerFirst ? last : middle,
-          std::max(0.0, squared - offset * offset) + toSplit * toSplit);
-  search.offsets[axis] = offset;
-}
-
 double
-BallTree::Gap(const std::array<double, 3> & place, double enough) const
+RefinedGapBound(double                                 height,
+                const std::array<double, 3> &          spacing,
+                std::span<const std::array<double, 3>> movesBeforePruning)
 {
-  std::size_t nearest = 0;
-  return Gap(place, enough, nearest);
-}
-
-double
-BallTree::Gap(const std::array<double, 3> & place, double enough, std::size_t & nearest) const
-{
-  Search search{ .place = { m_Scale[0] * place[0], m_Scale[1] * place[1], m_Scale[2] * place[2] }, .enough = enough };
-  if (nearest < m_Balls.size())
+  const double half = 0.5 * std::hypot(spacing[0], spacing[1], spacing[2]);
+  if (movesBeforePruning.empty())
   {
-    Test(search, nearest);
-  }
-  Descend(search, 0, m_Balls.size(), 0.0);
-  nearest = search.nearest;
-  return search.best;
-}
-
-double
-RefinedGapBound(std::span<const std::array<double, 3>> displacement, const std::array<double, 3> & spacing)
-{
-  if (displacement.empty())
-  {
-    return 0;
+    return std::max(height, half);
   }
   double farthest = 0;
-  for (const auto & d : displacement)
+  for (const auto & d : movesBeforePruning)
   {
     farthest = std::max(farthest, std::hypot(d[0], d[1], d[2]));
   }
-  return 2 * farthest + 0.5 * std::hypot(spacing[0], spacing[1], spacing[2]);
+  return height + 2 * farthest + half;
 }
 
 BoundaryGap

@@ -54,7 +54,7 @@ CheckTolerances(VerificationReport & report, const Subject & subject)
 }
 
 void
-CheckCoverage(VerificationReport & report, const VerificationInput & input, double positionTolerance, double beyond)
+CheckCoverage(VerificationReport & report, const VerificationInput & input, double positionTolerance, double promised)
 {
   const BoundaryGap gap = LargestBoundaryGap(*input.shape, input.weights, input.positions, input.radius);
   report.boundaryGap = gap.largest;
@@ -64,7 +64,6 @@ CheckCoverage(VerificationReport & report, const VerificationInput & input, doub
   }
   const auto         largestWeight = *std::max_element(input.weights.weight.begin(), input.weights.weight.end());
   const double       slack = 4 * positionTolerance * static_cast<double>(largestWeight) * input.weights.unit;
-  const double       promised = *input.pruningTolerance + beyond;
   const bool         covered = gap.largest <= promised * (1 + kMeasureTolerance) + slack;
   const LatticePoint place{ gap.place[0], gap.place[1], gap.place[2] };
   report.checks.push_back({ "coverage",

@@ -117,10 +117,7 @@ CheckPruning(VerificationReport & report, const Subject & subject);
 void
 CheckTolerances(VerificationReport & report, const Subject & subject);
 void
-CheckCoverage(VerificationReport &      report,
-              const VerificationInput & input,
-              double                    positionTolerance,
-              double                    beyond = 0);
+CheckCoverage(VerificationReport & report, const VerificationInput & input, double positionTolerance, double promised);
 
 /** "shape Euler number", "topology"; fills shapeTopology. `recount` is the shape's Euler number by other means. */
 void

@@ -254,12 +254,19 @@ VerifyRefinedCore(const RefinedVerificationInput & input, const ProgressCallback
     if (input.pruningTolerance)
     {
       CheckTolerances(report, { plain, *input.cells, tree, 0, {}, {} });
-      std::vector<Position> moves(input.displacement.begin(), input.displacement.end());
+      std::vector<Position> moves;
+      if (input.prunedOn)
+      {
+        moves.assign(input.displacement.begin(), input.displacement.end());
+      }
       for (Position & move : moves)
       {
         move = { move[0] * input.spacing[0], move[1] * input.spacing[1], move[2] * input.spacing[2] };
       }
-      CheckCoverage(report, plain, input.positionTolerance, RefinedGapBound(moves, input.spacing));
+      CheckCoverage(report,
+                    plain,
+                    input.positionTolerance,
+                    RefinedGapBound(*input.pruningTolerance, input.spacing, moves));
     }
     report.complexTopology = ReduceToTopologyNumbers(*input.cells);
     CheckTopology(report, *input.shape, scan.euler);

@@ -198,7 +198,7 @@ CheckGeometry(VerificationReport &      report,
   if (input.pruningTolerance)
   {
     CheckTolerances(report, subject);
-    CheckCoverage(report, subject.input, subject.tolerance);
+    CheckCoverage(report, subject.input, subject.tolerance, *subject.input.pruningTolerance);
     return;
   }
   CheckCompleteness(report, subject);

@@ -35,14 +35,24 @@ Json
 PruningJson(const CorePruning & pruning)
 {
   Json json{ { "lambda", pruning.lambda }, { "lambda_mm", pruning.lambdaMm } };
+  if (!pruning.tolerance.empty())
+  {
+    json["tolerance"] = pruning.tolerance;
+    json["tolerance_mm"] = pruning.toleranceMm;
+  }
   AddComplex(json, pruning.complex);
+  if (!pruning.refined.empty())
+  {
+    json["mean_displacement_vox"] = pruning.meanMove;
+    json["max_displacement_vox"] = pruning.farthestMove;
+  }
   return json;
 }
 
 Json
 ParametersJson(const ImageGeometry &           geometry,
                const std::vector<CoreOrigin> & origins,
-               const std::string &             lambda,
+               const CorePruning &             pruning,
                bool                            keepEdges)
 {
   const SpacingWeights weights = ComputeLatticeWeights(geometry);
@@ -66,7 +76,15 @@ ParametersJson(const ImageGeometry &           geometry,
   json["largest"] = nullptr;
   json["smooth_shape"] = false;
   json["split_components"] = false;
-  json["lambda"] = Json::array({ lambda });
+  json["lambda"] = Json::array({ pruning.lambda });
+  if (!pruning.tolerance.empty())
+  {
+    json["tolerance"] = Json::array({ pruning.tolerance });
+  }
+  if (!pruning.refined.empty())
+  {
+    json["refine"] = pruning.refined;
+  }
   json["triangles"] = false;
   json["keep_edges"] = keepEdges;
   json["lattice_weights"] = weights.weight;
@@ -191,7 +209,8 @@ CoreProvenanceJson(const ImageGeometry &            geometry,
   {
     json["input"]["unit"] = UnitName(geometry.unit);
   }
-  json["parameters"] = ParametersJson(geometry, origins, prunings.empty() ? "0" : prunings.front().lambda, keepEdges);
+  json["parameters"] =
+    ParametersJson(geometry, origins, prunings.empty() ? CorePruning() : prunings.front(), keepEdges);
   json["labels"] = Json::array();
   for (std::size_t i = 0; i < origins.size(); ++i)
   {

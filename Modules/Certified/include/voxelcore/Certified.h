@@ -4,8 +4,8 @@
 //
 // The certificate. Euler number and Betti numbers are counted in the voxels and, independently, in every complex. They
 // are equal, every vertex lies in the open shape, and after pruning by tolerance every boundary vertex lies within the
-// tolerance of the balls that are left (once these are refined, within RefinedGapBound() more). Else a CertificateError
-// is thrown, and there is no result.
+// tolerance of the balls that are left (of refined ones, no less than half a voxel's diagonal: RefinedGapBound()). Else a
+// CertificateError is thrown, and there is no result.
 
 #include "voxelcore/CertifiedCore.h"
 #include "voxelcore/CertifiedSkeleton.h"
@@ -38,9 +38,11 @@ struct CertifiedRequest
 {
   std::string name = "the shape"; ///< in errors: "label 4 (liver)"
 
-  std::vector<Lambda>             lambdas;    ///< one core each; 0: the whole core
-  std::vector<Tolerance>          tolerances; ///< where there are some: one core each, the only lambda is pruned first
-  SurfaceSource                   surface;    ///< cores are refined to it, and skeletons that ask for it
+  std::vector<Lambda>    lambdas;    ///< one core each; 0: the whole core
+  std::vector<Tolerance> tolerances; ///< where there are some: one core each, the only lambda is pruned first
+  /** Cores are refined to it, and skeletons that ask for it. An empty function: nothing is refined. None: cores that
+   *  RefinesUsually(), to the surface of the labels. */
+  std::optional<SurfaceSource>    surface;
   bool                            refineCores = true; ///< where there is a surface; false: skeletons alone are refined
   std::optional<SkeletonRequest>  skeleton;  ///< of the whole core, or of one asked for as it is before refinement
   std::optional<ThicknessRequest> thickness; ///< by the first core
@@ -78,6 +80,11 @@ struct CertifiedResult
 void
 CompletePruning(std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances);
 
+/** Whether cores of a complete request are refined when nothing is said: those by tolerance are. Those by lambda alone
+ *  are the paper's, and where a height is 0, to prune on from, all stay exact. */
+bool
+RefinesUsually(const std::vector<Tolerance> & tolerances);
+
 /** \throws InputError where lengths are in voxels and the request has one in mm. ComputeCertified() asks this first. */
 void
 RequireLengthsIn(SpatialUnit unit, const CertifiedRequest & request);
@@ -95,5 +102,9 @@ ComputeCertified(VoxelShape               shape,
 /** What a file says of the shape and its whole core. */
 CoreOrigin
 OriginOf(const CertifiedResult & result, std::int64_t label, std::string name, std::uint64_t voxels);
+
+/** What a file says of how a core is pruned, and refined, if it is, from the labels. */
+CorePruning
+PruningOf(const CoreNumbers & numbers);
 
 } // namespace voxelcore

@@ -27,6 +27,7 @@ struct InfoOptions
   // What `core` and `skeleton` do when nothing is said: to foretell what they need.
   std::vector<Lambda>    coreLambdas;
   std::vector<Tolerance> coreTolerances;
+  bool                   coreRefined = false; ///< from labels
   std::vector<Lambda>    skeletonLambdas;
 };
 

@@ -22,6 +22,7 @@ struct RefinedVerificationInput
   double                                 positionTolerance = 0; ///< as VerificationInput has it
   std::optional<double>                  threshold;             ///< mm; above 0 nothing is promised of the boundary
   std::optional<double>                  pruningTolerance;      ///< mm; the boundary is promised to lie that near
+  bool                                   prunedOn = false;      ///< by tolerance, after it was refined
   std::span<const double>                vertexTolerance{};     ///< with it: what each element has, mm
   std::span<const double>                edgeTolerance{};
   std::span<const double>                faceTolerance{};
@@ -39,8 +40,8 @@ struct RefinedVerificationInput
  *  - measures: not greater than how far the surface can lie where the vertex was, and they do not fall from faces to
  *    edges to vertices
  *  - with a tolerance, tolerances: as VerifyComplex
- *  - and coverage, where nothing was pruned by lambda before: no boundary vertex lies farther than it and
- *    RefinedGapBound() from the nearest ball
+ *  - and coverage, where nothing was pruned by lambda before: no boundary vertex lies farther than RefinedGapBound()
+ *    from the nearest ball
  *  - shape Euler number, topology
  *  \throws InputError when shape and weights exceed the exact range; Cancelled when the callback says so. */
 VerificationReport

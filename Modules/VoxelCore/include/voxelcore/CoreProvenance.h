@@ -56,7 +56,12 @@ struct CorePruning
 {
   std::string   lambda = "0"; ///< as given, such as "2vox"
   double        lambdaMm = 0;
-  ComplexRecord complex; ///< what is left
+  ComplexRecord complex;     ///< what is left
+  std::string   tolerance{}; ///< as given, such as "1.2diag"; empty: not pruned by tolerance
+  double        toleranceMm = 0;
+  std::string   refined{};    ///< the surface it was refined to, such as "labels"; empty: not refined
+  double        meanMove = 0; ///< of refinement, voxels
+  double        farthestMove = 0;
 };
 
 /** JSON on one line, in the form of `voxelcore core`. One pruning for each origin; they share the text of the first.
