@@ -9,8 +9,8 @@
 class vtkMatrix4x4;
 
 /** The medial surface of the labels of an image, as polydata: what `voxelcore core --keep-edges` writes, pruned at
- *  tolerance 1.2diag and refined from the labels unless it is told otherwise; its point arrays Radius, Lambda, Tolerance
- *  and Displacement, cell arrays Lambda, Tolerance and Label, field arrays EdgeVertices, EdgeLambda and Provenance. With
+ *  tolerance 1.2diag and refined from the labels unless it is told otherwise. Point arrays Radius, Lambda, Tolerance,
+ *  Displacement, cell arrays Lambda, Tolerance and Label, field arrays EdgeVertices, EdgeLambda and Provenance. With
  *  WholeCore on what `voxelcore core --lambda 0 --keep-edges` writes, which vtkLambdaPruningFilter prunes. Written by
  *  vtkXMLPolyDataWriter as raw appended data without compression, with headers of 64 bits, it is a file that
  *  `voxelcore verify`, `prune`, `skeleton` and `render` take.

@@ -4,8 +4,8 @@
 //
 // The certificate. Euler number and Betti numbers are counted in the voxels and, independently, in every complex. They
 // are equal, every vertex lies in the open shape, and after pruning by tolerance every boundary vertex lies within the
-// tolerance of the balls that are left (of refined ones, no less than half a voxel's diagonal: RefinedGapBound()). Else a
-// CertificateError is thrown, and there is no result.
+// tolerance of the balls that are left (of refined ones, no less than half a voxel's diagonal: RefinedGapBound()).
+// Else a CertificateError is thrown, and there is no result.
 
 #include "voxelcore/CertifiedCore.h"
 #include "voxelcore/CertifiedSkeleton.h"

@@ -21,10 +21,10 @@ struct BoundaryGap
 };
 
 /** How far a boundary vertex may lie from the balls of a core that was pruned by tolerance `height` and refined, mm:
- *  the height, but no less than half a voxel's diagonal, within which the smooth surface, that refined balls touch, lies
- *  from the boundary vertices. With moves in mm, of a core pruned on to `height` after it was refined: nobody looked
- *  then, so it is the height, twice the farthest move and half a diagonal, as radii are within that half of the distance
- *  of the nearest boundary vertex, which falls by no more than the move. */
+ *  the height, but no less than half a voxel's diagonal, within which the smooth surface, that refined balls touch,
+ *  lies from the boundary vertices. With moves in mm, of a core pruned on to `height` after it was refined: nobody
+ *  looked then, so it is the height, twice the farthest move and half a diagonal, as radii are within that half of the
+ *  distance of the nearest boundary vertex, which falls by no more than the move. */
 double
 RefinedGapBound(double                                 height,
                 const std::array<double, 3> &          spacing,
