@@ -84,7 +84,8 @@ def core(
     axes: 'ijk' for arrays a[i, j, k] (nibabel), the default, 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of
         spacing, origin and direction the order is i, j, k in either case.
     tolerance: how far the boundary may lie from the balls that remain: a number, '1.2diag' (voxel diagonals; the
-        default without lambda_) or '2vox'. A list shares one computation.
+        default without lambda_) or '2vox'. A list shares one computation. What remains is refined from the labels,
+        but not where a tolerance is 0, nor with lambda_ alone; refine='off' keeps the exact core of the voxels.
     threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
     progress: a function that is called with the stage and the fraction done, a few times a second. The fraction never
         falls, and is 1 in the last call.
