@@ -191,6 +191,19 @@ TEST_F(Combinations, BlocksJoinToTheBytesOfASingleRunHoweverItIsPrunedAndRefined
   }
 }
 
+TEST_F(Combinations, AreShownInScenesAndWrittenBesideSkeletons)
+{
+  for (const std::string refine : { "auto", "off" })
+  {
+    Run(InputFor(refine),
+        { { "refine", refine }, { "scene", At(refine + ".mrml") }, { "with-skeleton", "" }, { "also", "ma" } });
+    ParameterValues of{ { "scan", At(std::to_string(m_Runs) + ".vtp") }, { "output", At(refine + "_of.vtp") } };
+    of["also"] = "ma";
+    RunSkeletonJob(SkeletonOptionsFrom(of));
+    EXPECT_TRUE(std::filesystem::exists(m_Folder / (refine + "_of.vtp")));
+  }
+}
+
 TEST_F(Combinations, WithoutSenseAreRefusedInOneLine)
 {
   const std::vector<std::pair<ParameterValues, std::string>> cases{

@@ -167,6 +167,7 @@ MedialPolyData(const DisplayLabel & label, PictureColoring coloring)
   MedialModel model;
   model.parts = { label.medial };
   model.parts.front().core.tolerances = {}; // with them edges of faces would be lines, too, for thresholds
+  model.parts.front().displacement.clear();
   const vtkSmartPointer<vtkPolyData> data = MakePolyData(model, false);
   AddShown(data, MedialValues(label, coloring));
   constexpr double           kSharpDegrees = 50;

@@ -281,6 +281,7 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
     MedialModel model;
     model.parts = { part };
     model.unit = report.input.geometry.unit;
+    model.refined = part.displacement.empty() ? std::string() : report.parameters.refine.surface;
     model.provenance = ProvenanceJson(report, { i }, 0);
     scene.models.push_back({ record.name + " medial surface",
                              PartName(record.label, record.component) + "_medial.vtp",

@@ -205,6 +205,10 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
 {
   m_Model.unit = report.input.geometry.unit;
   m_Surfaces.unit = report.input.geometry.unit;
+  if (!m_Surfaces.parts.empty() && !m_Surfaces.parts.front().displacement.empty())
+  {
+    m_Surfaces.refined = report.parameters.refine.surface;
+  }
   if (output.extension() == ".vtp")
   {
     m_Model.provenance = SkeletonProvenanceJson(report, labels);
