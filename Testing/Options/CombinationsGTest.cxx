@@ -24,7 +24,7 @@ protected:
   Combinations()
   {
     RunPhantomJob(PhantomOptionsFrom(
-      { { "kind", "capsule" }, { "size", "22" }, { "radius", "4" }, { "output", At("scan.nrrd") } }));
+      { { "kind", "capsule" }, { "size", "18" }, { "radius", "3.4" }, { "output", At("scan.nrrd") } }));
     std::ofstream mesh(m_Folder / "mesh.off");
     mesh << "OFF\n6 8 0\n9 0 0\n-9 0 0\n0 6 0\n0 -6 0\n0 0 5\n0 0 -5\n";
     for (const char * face : { "0 2 4", "2 1 4", "1 3 4", "3 0 4", "2 0 5", "1 2 5", "3 1 5", "0 3 5" })
@@ -123,7 +123,7 @@ TEST_F(Combinations, OfPruningRefinementSkeletonsAndKeptEdgesPassVerifyAndArePru
         }
         if (!extra.empty())
         {
-          values[extra] = "";
+          values[extra] = "true";
         }
         SCOPED_TRACE(::testing::PrintToString(values));
         const ParameterValues input = InputFor(refine);
@@ -195,8 +195,7 @@ TEST_F(Combinations, AreShownInScenesAndWrittenBesideSkeletons)
 {
   for (const std::string refine : { "auto", "off" })
   {
-    Run(InputFor(refine),
-        { { "refine", refine }, { "scene", At(refine + ".mrml") }, { "with-skeleton", "" }, { "also", "ma" } });
+    Run(InputFor(refine), { { "refine", refine }, { "scene", At(refine + ".mrml") }, { "with-skeleton", "true" } });
     ParameterValues of{ { "scan", At(std::to_string(m_Runs) + ".vtp") }, { "output", At(refine + "_of.vtp") } };
     of["also"] = "ma";
     RunSkeletonJob(SkeletonOptionsFrom(of));
