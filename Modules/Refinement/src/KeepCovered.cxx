@@ -33,7 +33,7 @@ public:
     , m_Moves(refined.displacement)
     , m_Radius(refined.core.radius)
     , m_Steps(m_Radius.size(), kWhole)
-    , m_Cover(input.points->size(), 0)
+    , m_Cover(input.Boundary().size(), 0)
   {}
 
   std::vector<ElementIndex>
@@ -82,7 +82,7 @@ private:
   Vector3
   PlaceOf(std::size_t point) const
   {
-    const LatticePoint & p = (*m_Input.points)[point];
+    const LatticePoint & p = m_Input.Boundary()[point];
     return { static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) };
   }
 
