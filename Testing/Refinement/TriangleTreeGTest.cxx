@@ -53,8 +53,8 @@ TEST(TriangleTree, FindsWhatTryingAllTrianglesFinds)
   }
 }
 
-// Of many triangles, large and tiny, some as thin as a thread, far from the origin, asked for from near and far: the one
-// that is found by trying all, to the last bit.
+// Many triangles, large and tiny, some as thin as a thread, far from the origin, asked for from near and far: the one
+// that is found is that of trying all, to the last bit.
 TEST(TriangleTree, FindsTheVeryTriangleThatTryingAllFinds)
 {
   Random random(23);

@@ -7,8 +7,8 @@
 #include <exception>
 #include <vector>
 
-// Where there is nothing to share out no parallel region is entered, not even one of a single thread: GNU's OpenMP starts
-// and ends threads anew for each region within one.
+// Where there is nothing to share out no parallel region is entered, not even one of a single thread: for each region
+// within one GNU's OpenMP starts threads anew.
 
 namespace voxelcore
 {

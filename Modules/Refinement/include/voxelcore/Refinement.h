@@ -70,8 +70,8 @@ LeftToRefine(const MedialComplex &       core,
              bool                        byTolerance,
              const ProgressCallback &    progress = {});
 
-/** Drops of a whole core, of what is nearest to its edges and of these boundary vertices what parts of it do not need to
- *  be refined, and names the rest anew, in the parts, too. What is refined of them stays the same to the last bit. */
+/** Drops of a whole core, of what is nearest to its edges and of these boundary vertices what is not needed to refine
+ *  parts of it, and names the rest anew, in the parts, too. What is refined of them stays the same to the last bit. */
 void
 KeepToRefine(const Vector3 &             spacing,
              MedialComplex &             core,
