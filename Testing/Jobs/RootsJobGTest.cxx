@@ -175,7 +175,7 @@ TEST_F(RootsJob, CutsAndFillsAreListedAndTheListMakesTheSameMask)
   EXPECT_NE(page.find("type=\"range\""), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(Bytes("out/report.json")).at("parameters").at("change_voxels"),
             VoxelChangesText(result.topology->changes));
-  Roots("a.nrrd", "again/", { { "change-voxels", At("out/changes.txt").string() } });
+  Roots("a.nrrd", "again/", { { "change-voxels", At("out/changes.txt") } });
   EXPECT_EQ(Bytes("again/mask.nrrd"), Bytes("out/mask.nrrd"));
 }
 
@@ -290,7 +290,12 @@ TEST_F(RootsJob, PiecesThatAreLeftOutAreWarnedOfAndLoosePiecesAreMarked)
   const RootsResult torn = Roots("torn.nrrd", "torn/");
   ASSERT_EQ(torn.warnings.size(), 1U);
   EXPECT_NE(torn.warnings[0].find("are left out"), std::string::npos);
-  const RootsResult kept = Roots("torn.nrrd", "kept/", { { "min-voxels", "20" } });
+  const RootsResult joined = Roots("torn.nrrd", "joined/", { { "min-voxels", "20" } });
+  EXPECT_TRUE(joined.warnings.empty());
+  ASSERT_TRUE(joined.topology);
+  EXPECT_GT(joined.topology->before.betti[0], 1);
+  EXPECT_EQ(joined.topology->after.betti[0], 1) << "a break of a voxel is filled";
+  const RootsResult kept = Roots("torn.nrrd", "kept/", { { "min-voxels", "20" }, { "keep-loops", "true" } });
   EXPECT_TRUE(kept.warnings.empty());
   EXPECT_TRUE(std::any_of(kept.model.roots.axes.begin(), kept.model.roots.axes.end(), [](const RootAxis & axis) {
     return axis.loose;

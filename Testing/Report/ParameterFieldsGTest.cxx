@@ -64,6 +64,11 @@ SetOther(std::optional<MedianWidth> & field)
   field = MedianWidth{ 5 };
 }
 void
+SetOther(std::optional<VoxelChanges> & field)
+{
+  field = ParseVoxelChanges("-1,2,3x4 +5,6,7");
+}
+void
 SetOther(std::optional<SliceAxis> & field)
 {
   field = SliceAxis::J;

@@ -31,8 +31,8 @@ TEST(VoxelChanges, WhatIsWrittenIsReadBack)
 
 TEST(VoxelChanges, ARunThatIsNoneIsRefusedByItsName)
 {
-  for (const char * word : { "1,2,3", "+1,2", "+1,2,3,4", "-1,2,3x", "-1,2,3x0", "+1,-2,3", "+a,2,3", "+1,2,3y4", "+",
-                             "+99999999999,1,1" })
+  for (const char * word :
+       { "1,2,3", "+1,2", "+1,2,3,4", "-1,2,3x", "-1,2,3x0", "+1,-2,3", "+a,2,3", "+1,2,3y4", "+", "+99999999999,1,1" })
   {
     try
     {

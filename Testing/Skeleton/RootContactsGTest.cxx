@@ -26,20 +26,20 @@ struct Touching
   explicit Touching(const Spacing3 & spacing)
   {
     GraphBuilder builder;
-    builder.Line({ 8, 14, 75 }, { 8, 14, 60 }, 4);
-    builder.Line({ 8, 14, 60 }, { 8, 14, 20 }, 4);
-    builder.Line({ 8, 14, 20 }, { 8, 14, 5 }, 4);
-    // One in the plane y = 14, the other behind it in y = 18.5; where they touch the skeleton runs between.
-    builder.Line({ 8, 14, 60 }, { 30, 16, 40 }, 2.5);
-    builder.Line({ 8, 14, 20 }, { 30, 16, 40 }, 2.5);
-    builder.Line({ 30, 16, 40 }, { 52, 14, 20 }, 2.5);
-    builder.Line({ 30, 16, 40 }, { 52, 18.5, 60 }, 2.5);
+    builder.Line({ 8, 14, 90 }, { 8, 14, 72 }, 4);
+    builder.Line({ 8, 14, 72 }, { 8, 14, 48 }, 4);
+    builder.Line({ 8, 14, 48 }, { 8, 14, 5 }, 4);
+    // One in the plane y = 14, the other behind it in y = 18; where they touch the skeleton runs between.
+    builder.Line({ 8, 14, 72 }, { 30, 16, 42 }, 2.5);
+    builder.Line({ 8, 14, 48 }, { 30, 16, 42 }, 2.5);
+    builder.Line({ 30, 16, 42 }, { 52, 14, 12 }, 2.5);
+    builder.Line({ 30, 16, 42 }, { 52, 18, 36 }, 2.5);
     graph = builder.Graph();
     geometry.spacing = spacing;
     Size3 size{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      size[axis] = static_cast<std::int32_t>((axis == 1 ? 30 : 80) / spacing[axis]);
+      size[axis] = static_cast<std::int32_t>((axis == 1 ? 30 : axis == 2 ? 96 : 60) / spacing[axis]);
       geometry.size[axis] = size[axis];
     }
     const auto within = [](const Spacing3 & p, const Spacing3 & a, const Spacing3 & b, double radius) {
@@ -60,9 +60,8 @@ struct Touching
     };
     shape = ShapeWhere(size, [&](int x, int y, int z) {
       const Vector3 place = LatticeToPhysical(geometry, { x + 0.5, y + 0.5, z + 0.5 });
-      return within(place, { 8, 14, 75 }, { 8, 14, 5 }, 4) || within(place, { 8, 14, 60 }, { 52, 14, 20 }, 2.5) ||
-             within(place, { 8, 14, 20 }, { 30, 18.5, 40 }, 2.5) ||
-             within(place, { 30, 18.5, 40 }, { 52, 18.5, 60 }, 2.5);
+      return within(place, { 8, 14, 90 }, { 8, 14, 5 }, 4) || within(place, { 8, 14, 72 }, { 52, 14, 12 }, 2.5) ||
+             within(place, { 8, 14, 48 }, { 30, 18, 42 }, 2.5) || within(place, { 30, 18, 42 }, { 52, 18, 36 }, 2.5);
     });
   }
 };
@@ -90,6 +89,7 @@ TEST(RootContacts, WallsPartRootsThatTouchAndNothingElse)
     rules.up = Vector3{ 0, 0, 1 };
     const RootHierarchy roots = FindRoots(touching.graph, rules);
     ASSERT_EQ(roots.meetings.size(), 1U);
+    EXPECT_LT(Distance(roots.meetings[0].position, { 30, 16, 42 }), 0.1);
     EXPECT_EQ(roots.meetings[0].arms.size(), 4U);
     EXPECT_GT(roots.meetings[0].reach, roots.meetings[0].radius);
     const VoxelShape walls = ContactWalls(touching.shape, touching.geometry, touching.graph, roots);
@@ -98,7 +98,7 @@ TEST(RootContacts, WallsPartRootsThatTouchAndNothingElse)
     const VoxelShape apart = Without(touching.shape, walls);
     EXPECT_EQ(ComputeShapeTopology(apart).betti, (std::array<std::int64_t, 3>{ 1, 0, 0 }))
       << "slices " << spacing[2] << " mm: one piece still, and no loop";
-    for (const Spacing3 & tip : { Spacing3{ 50, 14, 21.9 }, Spacing3{ 50, 18.5, 58.1 } })
+    for (const Spacing3 & tip : { Spacing3{ 51, 14, 13.4 }, Spacing3{ 51, 18, 36.3 } })
     {
       const Vector3 at = PhysicalToLattice(touching.geometry, tip);
       EXPECT_TRUE(apart.Contains(static_cast<int>(std::floor(at[0])),

@@ -36,10 +36,10 @@ VisitGreyRows(const std::filesystem::path & path,
     }
   }
   std::vector<float> values(static_cast<std::size_t>(box.size[0]));
-  const std::size_t bytes = PixelBytes(scan.type);
-  const std::size_t stride = bytes * scan.interleaved;
-  const std::size_t first = bytes * static_cast<std::size_t>(scan.interleaved > 1 ? scan.component : 0);
-  SlabReader        reader(scan, part);
+  const std::size_t  bytes = PixelBytes(scan.type);
+  const std::size_t  stride = bytes * scan.interleaved;
+  const std::size_t  first = bytes * static_cast<std::size_t>(scan.interleaved > 1 ? scan.component : 0);
+  SlabReader         reader(scan, part);
   while (const Slab * slab = reader.Next())
   {
     std::size_t at = 0;

@@ -51,9 +51,9 @@ SkeletonOfMask(const LabelShape &       mask,
   return std::move(result.skeleton->skeleton.graph);
 }
 
-constexpr double kCostOfLevel = 64; ///< from the shape's level to the background's, or to the bright voxels'
+constexpr double kCostOfLevel = 4096; ///< from the shape's level to the background's, or to the bright voxels'
 
-/** What a change costs by grey values: 1 in a wall to 4 * kCostOfLevel elsewhere. */
+/** What a change costs by grey values: in a wall a small part of what it costs elsewhere. */
 class GreyCost
 {
 public:
@@ -112,7 +112,7 @@ ChangeOf(const TopologyChange & change, const ImageGeometry & geometry)
                       change.voxels,
                       0,
                       change.difference },
-                    {} };
+                   {} };
   for (const auto & voxel : change.where)
   {
     VoxelRun * const last = one.runs.empty() ? nullptr : &one.runs.back();
@@ -174,10 +174,10 @@ TellRootsApart(LabelShape &             mask,
   }
   const ChangeCost guided = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
     const auto by = static_cast<std::uint32_t>(std::min(8.0, cost(x, y, z)) * kCostOfLevel);
-    return walls.Contains(x, y, z) ? 1 + by / 16 : 64 + by;
+    return walls.Contains(x, y, z) ? 1 + by / 16 : static_cast<std::uint32_t>(kCostOfLevel) + by;
   };
-  SimplifiedShape simplified = SimplifyTopology(
-    kernel, mask.shape, neighbourhood, guided, request.topology, PartOfProgress(progress, 0.6, 1));
+  SimplifiedShape simplified =
+    SimplifyTopology(kernel, mask.shape, neighbourhood, guided, request.topology, PartOfProgress(progress, 0.6, 1));
   topology.before = simplified.before;
   topology.after = simplified.after;
   topology.asAsked = Has(simplified.after, request.topology);
@@ -219,8 +219,9 @@ TellRootsApart(LabelShape &             mask,
 std::string
 RootChangesText(const std::optional<RootsTopology> & topology, SpatialUnit unit)
 {
-  std::string text = "# Cuts (-) and fills (+) that made the mask, voxels I,J,K from 0, xN for N along I.\n"
-                     "# Take out a cut that you do not want, add your own, and give the file to --change-voxels.\n";
+  std::string text =
+    "# Cuts (-) and fills (+) that made the mask, voxels I,J,K from 0, xN for N along I.\n"
+    "# Take out a cut that you do not want, add your own, and give the file to --change-voxels.\n";
   if (!topology)
   {
     return text + "# Nothing was cut or filled.\n";
@@ -242,11 +243,11 @@ RootsTopologyText(const RootsTopology & topology)
   return CountsText(topology.before) + " became " + CountsText(topology.after) + " by " +
          Counted(topology.cuts, "cut", "cuts") + " of " + Counted(topology.voxelsRemoved, "voxel", "voxels") + " and " +
          Counted(topology.fills, "fill", "fills") + " of " + std::to_string(topology.voxelsAdded) +
-         (topology.levels ? "; levels: shape " + Number(topology.levels->shape) + " (Otsu near the boundary " +
-                              Number(topology.levels->otsu) + ", valley " + Number(topology.levels->valley) +
-                              "), nothing cut from " + Number(topology.levels->kernel) + " on, nothing filled below " +
-                              Number(topology.levels->neighbourhood)
-                          : "") +
+         (topology.levels
+            ? "; levels: shape " + Number(topology.levels->shape) + " (Otsu near the boundary " +
+                Number(topology.levels->otsu) + ", valley " + Number(topology.levels->valley) + "), nothing cut from " +
+                Number(topology.levels->kernel) + " on, nothing filled below " + Number(topology.levels->neighbourhood)
+            : "") +
          (topology.asAsked ? "" : "; not what was asked: " + topology.reason);
 }
 

@@ -61,7 +61,7 @@ public:
     {
       const std::size_t step = std::max<std::size_t>(1, axis.points.size() / 40);
       svg += "<polyline points=\"";
-      for (std::size_t i = 0; i < axis.points.size(); i += i + step < axis.points.size() ? step : axis.points.size() - i)
+      for (std::size_t i = 0; i < axis.points.size(); i += step)
       {
         svg += Place(m_Model.graph.positions[axis.points[i]], i > 0 ? " " : "", ",");
       }
@@ -127,8 +127,9 @@ RootsChanges(const RootModel & model, const RootsTopology & topology)
     for (std::size_t i = 0; i < levels.tried.size(); ++i)
     {
       const auto & betti = levels.tried[i].numbers.betti;
-      html += std::string(i > 0 ? "," : "") + "[" + ShortNumber(levels.tried[i].level) + "," + std::to_string(betti[0]) +
-              "," + std::to_string(betti[1]) + "," + std::to_string(betti[2]) + "]";
+      html += i > 0 ? "," : "";
+      html += "[" + ShortNumber(levels.tried[i].level) + "," + std::to_string(betti[0]) + "," +
+              std::to_string(betti[1]) + "," + std::to_string(betti[2]) + "]";
     }
     html += "]\"></label> <span id=\"level-words\"></span></p>\n";
   }
@@ -163,7 +164,7 @@ RootsChanges(const RootModel & model, const RootsTopology & topology)
   html += "</svg>\n<div class=\"wide\" style=\"max-height:30em;overflow-y:auto\"><table><tr><th></th><th>x, " + unit +
           "</th><th>y</th><th>z</th><th>voxels</th><th>cost</th><th>pieces</th><th>loops</th><th>cavities</th></tr>\n" +
           rows + "</table></div></div>\n<p>Cuts are red, fills blue. Cost: " +
-          (topology.levels ? "the distance of each voxel from the level of the mask, 1 for the background and for roots, "
+          (topology.levels ? "how far each voxel is from the level of the mask, 1 for the background and for roots, "
                              "summed"
                            : "the distance of each voxel to the boundary, in voxels, summed") +
           ". changes.txt has the voxels; edit it and give it to --change-voxels.</p>\n";

@@ -136,11 +136,8 @@ LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
       return mask;
     }
   }
-  mask.edited = EditLabels(std::move(volume.labels),
-                           volume.geometry,
-                           core.edits,
-                           core.reading.labels != "all",
-                           core.scan.string());
+  mask.edited =
+    EditLabels(std::move(volume.labels), volume.geometry, core.edits, core.reading.labels != "all", core.scan.string());
   return mask;
 }
 
@@ -214,10 +211,10 @@ RecallContacts(const RootsTopology & topology, RootModel & model)
   {
     for (RootAxis & axis : model.roots.axes)
     {
-      axis.undecided = axis.undecided ||
-                       (meeting.undecided && std::ranges::any_of(axis.points, [&](ElementIndex point) {
-                          return Distance(model.graph.positions[point], meeting.position) <= meeting.reach;
-                        }));
+      axis.undecided =
+        axis.undecided || (meeting.undecided && std::ranges::any_of(axis.points, [&](ElementIndex point) {
+                             return Distance(model.graph.positions[point], meeting.position) <= meeting.reach;
+                           }));
     }
     model.roots.meetings.push_back(meeting);
     model.roots.meetings.back().pairs.clear(); // branches of a skeleton that is no more
@@ -337,15 +334,14 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   ImageGeometry geometry;
   JobContext    part = context;
   part.progress = PartOfProgress(context.progress, 0.35, draws ? 0.75 : 0.95);
-  CoreResult staged =
-    StageCoreJob(core,
-                 transaction,
-                 part,
-                 false,
-                 [&](const std::vector<EditedLabel> & labels, const ImageGeometry & where) {
-                   mask = labels.front().label;
-                   geometry = where;
-                 });
+  CoreResult staged = StageCoreJob(core,
+                                   transaction,
+                                   part,
+                                   false,
+                                   [&](const std::vector<EditedLabel> & labels, const ImageGeometry & where) {
+                                     mask = labels.front().label;
+                                     geometry = where;
+                                   });
   result.report = std::move(staged.report);
   result.warnings.insert(result.warnings.end(), staged.warnings.begin(), staged.warnings.end());
   result.notes.insert(result.notes.end(), staged.notes.begin(), staged.notes.end());

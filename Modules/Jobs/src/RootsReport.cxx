@@ -88,8 +88,8 @@ RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology
             "], \"radius\": " + JsonNumber(meeting.radius) + ", \"margin\": " + JsonNumber(meeting.margin) +
             ", \"undecided\": " + (meeting.undecided ? "true" : "false") + " }";
   }
-  return json + (model.roots.meetings.empty() ? "]" : "\n    ]") + (topology ? TopologyJson(*topology) : std::string()) +
-         "\n  }\n}\n";
+  json += model.roots.meetings.empty() ? "]" : "\n    ]";
+  return json + (topology ? TopologyJson(*topology) : std::string()) + "\n  }\n}\n";
 }
 
 std::string

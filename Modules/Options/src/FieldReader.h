@@ -152,7 +152,10 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
   {
     throw UsageError("give only one of --labels, --binary and --threshold");
   }
-  constexpr bool simplifiesAnyhow = requires { options.keepLoops; };
+  constexpr bool simplifiesAnyhow = requires
+  {
+    options.keepLoops;
+  };
   if (!simplifiesAnyhow && options.edits.topology.IsGiven() && !options.edits.simplify)
   {
     throw UsageError("--pieces, --loops and --cavities need --simplify-topology, such as --simplify-topology 2vox");

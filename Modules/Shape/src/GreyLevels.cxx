@@ -83,8 +83,8 @@ public:
   }
 
 private:
-  double                    m_Low;
-  double                    m_Step;
+  double                             m_Low;
+  double                             m_Step;
   std::array<double, kHistogramBins> m_Counts{};
 };
 
@@ -158,9 +158,8 @@ std::size_t
 BandValues::Number(std::int32_t x, std::int32_t y, std::int32_t z) const
 {
   const VoxelBox &  box = m_Band.Box();
-  const std::size_t row =
-    static_cast<std::size_t>(z - box.lower[2]) * static_cast<std::size_t>(box.size[1]) +
-    static_cast<std::size_t>(y - box.lower[1]);
+  const std::size_t row = static_cast<std::size_t>(z - box.lower[2]) * static_cast<std::size_t>(box.size[1]) +
+                          static_cast<std::size_t>(y - box.lower[1]);
   const auto          at = static_cast<std::uint32_t>(x - box.lower[0]);
   const std::uint64_t word = m_Band.Row(y - box.lower[1], z - box.lower[2])[at / 64];
   const std::uint64_t below = word & ((std::uint64_t{ 1 } << (at % 64)) - 1);

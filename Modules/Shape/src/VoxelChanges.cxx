@@ -129,8 +129,7 @@ ParseVoxelChanges(const std::string & text)
       const auto run = ParseRun(word);
       if (!run)
       {
-        throw UsageError(
-          Text(Printable(word), " is no run of voxels; write +I,J,K or -I,J,K, with xN for N along I"));
+        throw UsageError(Text(Printable(word), " is no run of voxels; write +I,J,K or -I,J,K, with xN for N along I"));
       }
       changes.push_back(*run);
     }
@@ -192,11 +191,10 @@ ChangesBetween(const VoxelShape & before, const VoxelShape & after)
       {
         for (std::uint64_t bits = a[word] ^ b[word]; bits != 0; bits &= bits - 1)
         {
-          const int      bit = std::countr_zero(bits);
-          const bool     isAdded = (b[word] >> bit & 1U) != 0;
-          const VoxelRun one{
-            isAdded, { static_cast<std::int32_t>(64 * word) + bit + box.lower[0], y + box.lower[1], z + box.lower[2] }, 1
-          };
+          const int        bit = std::countr_zero(bits);
+          const bool       isAdded = (b[word] >> bit & 1U) != 0;
+          const auto       x = static_cast<std::int32_t>(64 * word) + bit;
+          const VoxelRun   one{ isAdded, { x + box.lower[0], y + box.lower[1], z + box.lower[2] }, 1 };
           VoxelRun * const last = changes.empty() ? nullptr : &changes.back();
           if (last != nullptr && last->isAdded == isAdded && last->first[1] == one.first[1] &&
               last->first[2] == one.first[2] && last->first[0] + last->length == one.first[0])

@@ -174,7 +174,7 @@ private:
     const bool       comes = strand.first > 0;
     const bool       goes = strand.last + 1 < axis.points.size();
     // Radius and direction from the root outside.
-    const double least = std::min(m_Radii[axis.points[strand.first]], m_Radii[axis.points[strand.last]]);
+    const double      least = std::min(m_Radii[axis.points[strand.first]], m_Radii[axis.points[strand.last]]);
     const std::size_t entry = comes ? strand.first - 1 : strand.first;
     const std::size_t exit = goes ? strand.last + 1 : strand.last;
     double            sum = 0;
@@ -331,6 +331,7 @@ private:
     // Which strand a voxel belongs to, 255 for none.
     constexpr std::uint8_t    none = 255;
     std::vector<std::uint8_t> owner(plane * static_cast<std::size_t>(size[2]), none);
+    std::vector<float>        away(owner.size(), 0); ///< from its curve, mm, squared
     const auto                visit = [&](auto && work) {
       std::size_t at = 0;
       for (std::int32_t z = 0; z < size[2]; ++z)
@@ -349,16 +350,18 @@ private:
       {
         return;
       }
-      const Vector3 place = LatticeToPhysical(
-        m_Geometry, { v[0] + lower[0] + 0.5, v[1] + lower[1] + 0.5, v[2] + lower[2] + 0.5 });
+      const Vector3 place =
+        LatticeToPhysical(m_Geometry, { v[0] + lower[0] + 0.5, v[1] + lower[1] + 0.5, v[2] + lower[2] + 0.5 });
       double nearest = kWithin * kWithin;
       for (std::size_t k = 0; k < std::min<std::size_t>(strands.size(), none); ++k)
       {
-        const double radii = SquaredDistance(place, strands[k].line) / (strands[k].radius * strands[k].radius);
+        const double squared = SquaredDistance(place, strands[k].line);
+        const double radii = squared / (strands[k].radius * strands[k].radius);
         if (radii < nearest)
         {
           nearest = radii;
           owner[at] = static_cast<std::uint8_t>(k);
+          away[at] = static_cast<float>(squared);
         }
       }
     });
@@ -385,7 +388,10 @@ private:
             continue;
           }
           const Strand & other = strands[owner[beside]];
-          const bool     hasWall = own.radius > other.radius || (own.radius == other.radius && owner[at] < owner[beside]);
+          // Thin roots would be cut through were it always the thicker's.
+          const bool hasWall = away[at] != away[beside] ? away[at] > away[beside]
+                                                        : own.radius > other.radius ||
+                                                            (own.radius == other.radius && owner[at] < owner[beside]);
           if (hasWall && !AreKin(own, other))
           {
             m_Walls.Insert(v[0] + lower[0], v[1] + lower[1], v[2] + lower[2]);

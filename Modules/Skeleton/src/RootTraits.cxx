@@ -109,13 +109,13 @@ private:
     return Dot(Minus(place, Place(m_Roots.axes.front().points.front())), m_Down);
   }
 
-  /** Which way an axis runs at one of its points, over two of its diameters there. */
+  /** Which way an axis runs at one of its points, over two of its diameters to each side. */
   Vector3
   DirectionAt(std::size_t axis, std::size_t at) const
   {
     const auto & points = m_Roots.axes[axis].points;
     const auto & way = m_Ways[axis];
-    const double reach = 2 * m_Radii[points[at]];
+    const double reach = 4 * m_Radii[points[at]];
     std::size_t  before = at;
     std::size_t  after = at;
     while (before > 0 && way[at] - way[before] < reach)
@@ -160,17 +160,23 @@ private:
       record.surface += kPi * (a + b) * std::sqrt(step * step + (a - b) * (a - b));
     }
     record.meanDiameter = record.length > 0 ? diameter.Value() : record.maxDiameter;
-    std::size_t near = first;
-    while (near + 1 < points.size() && way[near] - way[first] < 2 * record.meanDiameter)
-    {
-      ++near;
-    }
-    std::size_t middle = first;
+    // Its own direction begins behind the bend into its parent.
+    const auto awayFromBase = [&](double diameters) {
+      std::size_t at = first;
+      while (at + 1 < points.size() && way[at] - way[first] < diameters * record.meanDiameter)
+      {
+        ++at;
+      }
+      return at;
+    };
+    const std::size_t near = awayFromBase(3);
+    const std::size_t bend = awayFromBase(0.5) < near ? awayFromBase(0.5) : first;
+    std::size_t       middle = first;
     while (middle + 1 < points.size() && way[middle] - way[first] < 0.5 * record.length)
     {
       ++middle;
     }
-    const Vector3 start = Minus(Place(points[near]), record.base);
+    const Vector3 start = Minus(Place(points[near]), Place(points[bend]));
     const Vector3 toMiddle = Minus(Place(points[middle]), record.base);
     const Vector3 toTip = Minus(record.tip, record.base);
     record.emergenceFromDown = AngleDegrees(m_Down, start);

@@ -19,7 +19,7 @@ struct RootsOptions
   ReadOptions                        reading; ///< must give one label, or grey values
   std::optional<std::int64_t>        resolution;
   ShapeEditOptions                   edits;
-  bool                               asIs = false; ///< without CleanForRoots(), and loops stay
+  bool                               asIs = false;      ///< without CleanForRoots(), and loops stay
   bool                               keepLoops = false; ///< roots that touch stay joined
   std::optional<double>              kernel;            ///< grey values from here on are never cut
   std::optional<double>              neighbourhood;     ///< none below is filled
@@ -47,18 +47,18 @@ struct RootsChange : EditRecord::Change
 /** What was done to make a tree of the mask. */
 struct RootsTopology
 {
-  TopologyNumbers          before;
-  TopologyNumbers          after;
-  bool                     asAsked = true;
-  std::string              reason; ///< of what was missed
-  std::uint64_t            cuts = 0;
-  std::uint64_t            fills = 0;
-  std::uint64_t            voxelsAdded = 0;
-  std::uint64_t            voxelsRemoved = 0;
-  std::vector<RootsChange> parts;    ///< the costliest first
-  VoxelChanges             changes;  ///< all of them
-  std::optional<GreyLevels> levels;  ///< of a grey scan; nothing at or above the kernel's was cut
-  std::vector<RootMeeting> meetings; ///< where roots touched; branches are those of the skeleton with loops
+  TopologyNumbers           before;
+  TopologyNumbers           after;
+  bool                      asAsked = true;
+  std::string               reason; ///< of what was missed
+  std::uint64_t             cuts = 0;
+  std::uint64_t             fills = 0;
+  std::uint64_t             voxelsAdded = 0;
+  std::uint64_t             voxelsRemoved = 0;
+  std::vector<RootsChange>  parts;    ///< the costliest first
+  VoxelChanges              changes;  ///< all of them
+  std::optional<GreyLevels> levels;   ///< of a grey scan; nothing at or above the kernel's was cut
+  std::vector<RootMeeting>  meetings; ///< where roots touched; branches are those of the skeleton with loops
 };
 
 struct RootsResult
@@ -66,8 +66,8 @@ struct RootsResult
   CoreReport                   report;
   RootModel                    model;
   std::optional<RootsTopology> topology; ///< where something was changed
-  std::vector<std::string> warnings;
-  std::vector<std::string> notes;
+  std::vector<std::string>     warnings;
+  std::vector<std::string>     notes;
 };
 
 /** "z-": a direction along an axis; none for "auto". \throws UsageError */
@@ -87,9 +87,9 @@ CleanForRoots(ShapeEditOptions & edits);
 
 /** Reads, proposes a threshold where grey values come without one (HalfwayThreshold), cleans, cuts roots apart where
  *  they touch so that pieces, loops and cavities are as few as can be or as asked for, computes a certified medial
- *  surface and skeleton, finds the roots, measures them. Writes into the folder: mask.nrrd, medial.vtp,
- *  skeleton.vtp, roots.rsml, roots.csv, levels.csv, plant.csv, profile.csv, columns.json, changes.txt (cuts and fills), report.json and page.html
- *  (the summary); with pictures roots.png and roots.html (3-D), too. Everything is written or nothing.
+ *  surface and skeleton, finds the roots, measures them. Writes into the folder: mask.nrrd, medial.vtp, skeleton.vtp,
+ *  roots.rsml, roots.csv, levels.csv, plant.csv, profile.csv, columns.json, changes.txt (cuts and fills), report.json
+ *  and page.html (the summary); with pictures roots.png and roots.html (3-D), too. Everything is written or nothing.
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 RootsResult
 RunRootsJob(const RootsOptions & options, const JobContext & context = {});

@@ -61,8 +61,8 @@ struct LevelNumbers
   TopologyNumbers numbers;
 };
 
-/** A voxel of the shape below its level was filled on purpose and counts as brighter than any level; one outside that is
- *  above it was taken out and counts as darker. */
+/** A voxel of the shape below its level was filled on purpose and counts as brighter than any level; one outside that
+ *  is above it was taken out and counts as darker. */
 struct GreyLevels
 {
   double                    background = 0; ///< median in the band outside the shape

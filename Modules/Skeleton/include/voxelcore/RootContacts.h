@@ -5,8 +5,8 @@
 // leave it. Within, the skeleton of roots that touch runs from one into the other, so each root goes through it on the
 // smooth curve between its two arms (Hermite), and roots that would come nearer than three quarters of the sum of their
 // radii are moved apart. Each voxel belongs to the root whose curve is nearest in radii of that root. Where a voxel of
-// one root has a neighbour across a face in another, and neither springs from the other there, it is a wall: of two
-// roots the thicker has the wall.
+// one root has a neighbour across a face in another, and neither springs from the other there, that of the two which is
+// farther from its own curve is a wall.
 
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/RootHierarchy.h"

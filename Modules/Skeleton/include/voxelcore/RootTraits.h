@@ -18,15 +18,17 @@ namespace voxelcore
 
 struct RootRecord
 {
-  double       length = 0;
-  double       chord = 0;        ///< from its base to its tip
-  double       tortuosity = 0;   ///< length / chord; NaN without a chord
-  double       meanDiameter = 0; ///< weighted by length
-  double       minDiameter = 0;
-  double       maxDiameter = 0;
-  double       volume = 0;            ///< of the round cones between its points
-  double       surface = 0;           ///< of their sides
-  double       emergenceAngle = 0;    ///< between the parent's direction there and its own at the base; NaN for a stem
+  double length = 0;
+  double chord = 0;        ///< from its base to its tip
+  double tortuosity = 0;   ///< length / chord; NaN without a chord
+  double meanDiameter = 0; ///< weighted by length
+  double minDiameter = 0;
+  double maxDiameter = 0;
+  double volume = 0;  ///< of the round cones between its points
+  double surface = 0; ///< of their sides
+  /** Of its direction from half to three diameters behind its base with its parent's, over two diameters to each side;
+   *  NaN for a stem. */
+  double       emergenceAngle = 0;
   double       midpointAngle = 0;     ///< between the parent's direction and the way from its base to its middle
   double       tipAngle = 0;          ///< the same to its tip
   double       emergenceFromDown = 0; ///< between down and its direction at the base
