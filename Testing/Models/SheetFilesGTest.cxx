@@ -78,7 +78,7 @@ TEST(SheetFiles, VtkReadsFacesSeamsAndRodsWithTheirNumbers)
   vtkPolyData * const data = reader->GetOutput();
   EXPECT_EQ(data->GetNumberOfPoints(), 20);
   EXPECT_EQ(data->GetNumberOfPolys(), 6);
-  EXPECT_EQ(data->GetNumberOfLines(), 4);
+  EXPECT_EQ(data->GetNumberOfLines(), 6);
   EXPECT_EQ(data->GetNumberOfVerts(), 2);
   vtkDataArray * const sheets = data->GetCellData()->GetArray("SheetId");
   vtkDataArray * const seams = data->GetCellData()->GetArray("SeamId");

@@ -169,6 +169,30 @@ TEST(MedialSheets, ThatMeetInALineHaveASeamThatEndsFreely)
   EXPECT_DOUBLE_EQ(cut.sheets[1].seamBorder, 12);
 }
 
+TEST(MedialSheets, ASeamThatEndsJustBeforeTheRimIsDrawnOnToIt)
+{
+  // The third plate ends two squares before the rim, round which the other two hang together.
+  Builder y;
+  y.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 10, { 0, 0, 1 }, 14);
+  y.Plate({ 0, 0, 0 }, { -0.5, 0.866, 0 }, 8, { 0, 0, 1 }, 14);
+  y.Plate({ 0, 0, 0 }, { -0.5, -0.866, 0 }, 7, { 0, 0, 1 }, 12);
+  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (Counts{ 3, 1, 0, 0 }));
+  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 0.5)), (Counts{ 2, 1, 0, 0 })) << "two and no radius more";
+}
+
+TEST(MedialSheets, ASeamWithAGapIsOne)
+{
+  Builder y;
+  y.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 10, { 0, 0, 1 }, 22);
+  y.Plate({ 0, 0, 0 }, { -0.5, 0.866, 0 }, 8, { 0, 0, 1 }, 22);
+  y.Plate({ 0, 0, 0 }, { -0.5, -0.866, 0 }, 7, { 0, 0, 1 }, 10);
+  y.Plate({ 0, 0, 12 }, { -0.5, -0.866, 0 }, 7, { 0, 0, 1 }, 10);
+  const MedialSheets cut = CutIntoSheets(y.Core(), 3);
+  // The third wall is two sheets, as there is a slit in it.
+  EXPECT_EQ(cut.sheets.size(), 4U);
+  EXPECT_EQ(CountsOf(cut).junctions, 1U);
+}
+
 TEST(MedialSheets, AFinThatHardlyStandsOutIsPassedOver)
 {
   Builder plate;
@@ -202,8 +226,10 @@ TEST(MedialSheets, ANarrowStripBetweenSeamsJoinsTheSheetItContinues)
   x.Plate({ 2, 0, 0 }, { 0.5, 0, 0.866 }, 8, { 0, 1, 0 }, 12);
   x.Plate({ 2, 0, 0 }, { 0.5, 0, -0.866 }, 9, { 0, 1, 0 }, 12);
   const MedialSheets cut = CutIntoSheets(x.Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 4, 2, 0, 0 }));
+  EXPECT_EQ(CountsOf(cut), (Counts{ 4, 1, 0, 0 })) << "both its sides are one seam";
   EXPECT_NEAR(cut.sheets[0].area, 144, 1e-9) << "ten and two wide";
+  EXPECT_EQ(cut.curves[0].sheets, (std::vector<std::uint32_t>{ 0, 1, 2, 3 }));
+  EXPECT_DOUBLE_EQ(cut.curves[0].length, 12);
 }
 
 TEST(MedialSheets, OfATripleOfPlatesOnAPlateMeetInAJunction)

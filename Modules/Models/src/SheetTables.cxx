@@ -163,13 +163,18 @@ WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model)
     for (std::uint32_t curve = 0; curve < cut.curves.size(); ++curve)
     {
       const CurveRecord & one = cut.curves[curve];
-      const std::int64_t  sheet = one.isRod ? model.SheetId(p, sheets + curve) : 0;
-      auto                line = one.vertices;
-      if (one.isClosed)
+      if (one.vertices.size() == 1)
       {
-        line.push_back(line.front());
+        add(0, one.vertices, model.SheetId(p, sheets + curve), model.SeamId(p, curve), 0);
       }
-      add(line.size() > 1 ? 1 : 0, line, sheet, model.SeamId(p, curve), 0);
+    }
+    for (std::size_t edge = 0; edge < cut.curveOfEdge.size(); ++edge)
+    {
+      if (const std::uint32_t curve = cut.curveOfEdge[edge]; curve != kNoPiece)
+      {
+        const bool isRod = cut.curves[curve].isRod;
+        add(1, core.cells.edges[edge], isRod ? model.SheetId(p, sheets + curve) : 0, model.SeamId(p, curve), 0);
+      }
     }
     const std::int64_t firstSheet = sheets > 0 ? model.SheetId(p, 0) : 0;
     for (std::size_t face = 0; face < cut.sheetOfFace.size(); ++face)

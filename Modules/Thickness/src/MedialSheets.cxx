@@ -107,6 +107,8 @@ public:
       m_Pieces.RemoveFins(m_Sliver * step / kFinSteps);
     }
     m_Pieces.Find();
+    m_Pieces.DrawSeamsOn(m_Sliver);
+    m_Pieces.Find();
     m_Pieces.JoinStrips(m_Sliver);
     NumberSheets();
     FindCurves();
@@ -120,9 +122,105 @@ private:
   /** A seam's edge, or a rod's. */
   struct CurveEdge
   {
-    bool                       isRod;
-    std::vector<std::uint32_t> sheets;
+    bool                       isRod = false;
+    std::vector<std::uint32_t> sheets{};         ///< at the edge, one as often as it is
+    std::vector<std::uint32_t> key{};            ///< those that meet in the seam, each once
+    std::uint32_t              strip = kNoPiece; ///< it is on the border of these strips, which hang together
   };
+
+  static void
+  SortOnce(std::vector<std::uint32_t> & numbers)
+  {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  }
+
+  bool
+  IsSeam(ElementIndex edge) const
+  {
+    return m_Pieces.LiveCount(edge) > 2 || m_Pieces.IsDrawn(edge);
+  }
+
+  /** Calls visit(face, whether it is a strip's) for the faces at an edge that are no fins. */
+  template <typename TVisit>
+  void
+  ForFaces(ElementIndex edge, TVisit && visit) const
+  {
+    for (const ElementIndex face : m_Pieces.FacesOf(edge))
+    {
+      if (m_Pieces.IsLive(face))
+      {
+        visit(face, m_Pieces.IsStrip(face));
+      }
+    }
+  }
+
+  /** What lies between seams is taken for a part of them: all sheets about it meet in one seam, along all its sides. */
+  void
+  FindSeamEdges()
+  {
+    std::uint32_t pieces = 0;
+    for (ElementIndex face = 0; face < m_Result.sheetOfFace.size(); ++face)
+    {
+      pieces = m_Pieces.IsLive(face) ? std::max(pieces, m_Pieces.OwnPiece(face) + 1) : pieces;
+    }
+    UnionFind                               strips(pieces); // those that hang together
+    std::vector<std::vector<std::uint32_t>> about(pieces);  // sheets
+    for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
+    {
+      std::uint32_t before = kNoPiece;
+      if (!IsSeam(edge))
+      {
+        continue;
+      }
+      ForFaces(edge, [&](ElementIndex face, bool isStrip) {
+        if (isStrip)
+        {
+          strips.Unite(before == kNoPiece ? m_Pieces.OwnPiece(face) : before, m_Pieces.OwnPiece(face));
+          before = m_Pieces.OwnPiece(face);
+        }
+      });
+    }
+    for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
+    {
+      if (!IsSeam(edge))
+      {
+        continue;
+      }
+      CurveEdge                  seam;
+      std::vector<std::uint32_t> others;
+      ForFaces(edge, [&](ElementIndex face, bool isStrip) {
+        seam.sheets.push_back(m_Result.sheetOfFace[face]);
+        if (isStrip)
+        {
+          seam.strip = strips.Find(m_Pieces.OwnPiece(face));
+        }
+        else
+        {
+          others.push_back(m_Result.sheetOfFace[face]);
+        }
+      });
+      std::sort(seam.sheets.begin(), seam.sheets.end());
+      if (seam.strip != kNoPiece)
+      {
+        auto & all = about[seam.strip];
+        all.insert(all.end(), others.begin(), others.end());
+        SortOnce(all);
+      }
+      if (m_Pieces.IsDrawn(edge))
+      {
+        // Parts two sheets and is no seam; where it leads to another seam, the two are one.
+        m_Nodes.Unite(m_Cells.edges[edge][0], m_Cells.edges[edge][1]);
+        continue;
+      }
+      m_Edges[edge] = std::move(seam);
+    }
+    for (auto & [edge, seam] : m_Edges)
+    {
+      seam.key = seam.strip != kNoPiece ? about[seam.strip] : seam.sheets;
+      SortOnce(seam.key);
+    }
+  }
 
   void
   NumberSheets()
@@ -190,31 +288,19 @@ private:
     {
       ++m_FacesAt[vertex];
     }
+    FindSeamEdges();
     for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
     {
-      const auto faces = m_Pieces.FacesOf(edge);
-      if (faces.empty())
+      if (m_Pieces.FacesOf(edge).empty())
       {
-        m_Edges[edge] = { true, {} };
-      }
-      else if (m_Pieces.LiveCount(edge) > 2)
-      {
-        CurveEdge seam{ false, {} };
-        for (const ElementIndex face : faces)
-        {
-          if (m_Pieces.IsLive(face))
-          {
-            seam.sheets.push_back(m_Result.sheetOfFace[face]);
-          }
-        }
-        std::sort(seam.sheets.begin(), seam.sheets.end());
-        m_Edges[edge] = std::move(seam);
+        m_Edges[edge].isRod = true;
       }
     }
     for (bool changed = true; changed;)
     {
       changed = false;
       FindChains();
+      GroupChains();
       for (const auto & chain : m_Chains)
       {
         if (IsSpur(chain.record))
@@ -258,7 +344,7 @@ private:
     }
     const CurveEdge & a = m_Edges.at(edges[0]);
     const CurveEdge & b = m_Edges.at(edges[1]);
-    return a.isRod == b.isRod && a.sheets == b.sheets && (!a.isRod || !HasFaces(node));
+    return a.isRod == b.isRod && a.key == b.key && a.sheets == b.sheets && (!a.isRod || !HasFaces(node));
   }
 
   void
@@ -285,7 +371,7 @@ private:
       {
         const auto &       ends = m_Cells.edges[edge];
         const ElementIndex next = ends[0] ^ ends[1] ^ at;
-        const double       length = m_Pieces.EdgeLength(edge);
+        const double       length = m_Pieces.EdgeLength(edge) * (m_Edges.at(edge).strip == kNoPiece ? 1 : 0.5);
         chain.record.thickness += length * (m_Core.radius[at] + m_Core.radius[next]);
         chain.record.length += length;
         chain.edges.push_back(edge);
@@ -336,6 +422,89 @@ private:
     }
   }
 
+  /** Makes chains one seam where the same sheets meet in them and they touch or run along the same strips. */
+  void
+  GroupChains()
+  {
+    std::map<ElementIndex, std::uint32_t> chainOf;
+    for (std::uint32_t chain = 0; chain < m_Chains.size(); ++chain)
+    {
+      for (const ElementIndex edge : m_Chains[chain].edges)
+      {
+        chainOf[edge] = chain;
+      }
+    }
+    UnionFind  groups(m_Chains.size());
+    const auto unite = [&](ElementIndex a, ElementIndex b) {
+      const CurveEdge & one = m_Edges.at(a);
+      const CurveEdge & other = m_Edges.at(b);
+      if (!one.isRod && !other.isRod && one.key == other.key)
+      {
+        groups.Unite(chainOf.at(a), chainOf.at(b));
+      }
+    };
+    for (const auto & [node, edges] : m_EdgesAt)
+    {
+      for (std::size_t i = 0; i < edges.size(); ++i)
+      {
+        for (std::size_t j = i + 1; j < edges.size(); ++j)
+        {
+          unite(edges[i], edges[j]);
+        }
+      }
+    }
+    std::map<std::uint32_t, ElementIndex> along;
+    for (const auto & [edge, curve] : m_Edges)
+    {
+      if (curve.strip != kNoPiece)
+      {
+        unite(along.try_emplace(curve.strip, edge).first->second, edge);
+      }
+    }
+    std::vector<std::vector<std::uint32_t>> members(m_Chains.size());
+    for (std::uint32_t chain = 0; chain < m_Chains.size(); ++chain)
+    {
+      members[groups.Find(chain)].push_back(chain);
+    }
+    std::vector<Chain> grouped;
+    for (auto & group : members)
+    {
+      if (!group.empty())
+      {
+        grouped.push_back(OneOf(group));
+      }
+    }
+    m_Chains = std::move(grouped);
+  }
+
+  /** Several chains as one. */
+  Chain
+  OneOf(std::vector<std::uint32_t> & group) const
+  {
+    std::stable_sort(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return m_Chains[a].record.length > m_Chains[b].record.length;
+    });
+    Chain  one = m_Chains[group.front()];
+    double thickness = one.record.thickness * one.record.length;
+    for (std::size_t i = 1; i < group.size(); ++i)
+    {
+      const Chain & other = m_Chains[group[i]];
+      one.record.length += other.record.length;
+      thickness += other.record.thickness * other.record.length;
+      one.record.isClosed = false;
+      one.edges.insert(one.edges.end(), other.edges.begin(), other.edges.end());
+    }
+    one.record.thickness = one.record.length > 0 ? thickness / one.record.length : one.record.thickness;
+    for (const ElementIndex edge : one.edges)
+    {
+      if (m_Edges.at(edge).strip != kNoPiece)
+      {
+        one.record.sheets = m_Edges.at(edge).key;
+      }
+    }
+    return one;
+  }
+
   void
   NumberCurves()
   {
@@ -360,11 +529,24 @@ private:
     std::stable_sort(m_Chains.begin(), m_Chains.end(), [](const Chain & a, const Chain & b) {
       return a.record.isRod != b.record.isRod ? b.record.isRod : a.record.length > b.record.length;
     });
+    std::map<ElementIndex, std::uint32_t> curveOf;
+    for (std::uint32_t curve = 0; curve < m_Chains.size(); ++curve)
+    {
+      for (const ElementIndex edge : m_Chains[curve].edges)
+      {
+        curveOf[edge] = curve;
+      }
+    }
     std::map<std::uint32_t, std::uint32_t> junctions; // by node
     const auto                             isJunction = [&](std::uint32_t node) {
-      const auto place = m_EdgesAt.find(node);
-      return place != m_EdgesAt.end() && !GoesOn(node) &&
-             (place->second.size() > 1 || (m_Edges.at(place->second[0]).isRod && HasFaces(node)));
+      const auto & edges = m_EdgesAt.at(node);
+      if (GoesOn(node))
+      {
+        return false;
+      }
+      const auto isOther = [&](ElementIndex edge) { return curveOf.at(edge) != curveOf.at(edges[0]); };
+      return m_Edges.at(edges[0]).isRod ? edges.size() > 1 || HasFaces(node)
+                                                                    : std::any_of(edges.begin(), edges.end(), isOther);
     };
     for (const auto & [node, unused] : m_EdgesAt)
     {
@@ -382,12 +564,18 @@ private:
       {
         m_Result.curveOfEdge[edge] = number;
       }
-      const std::array<ElementIndex, 2> ends{ chain.record.vertices.front(), chain.record.vertices.back() };
-      for (std::size_t end = 0; end < 2 && !chain.record.isClosed && !chain.edges.empty(); ++end)
+      std::set<std::uint32_t> ends;
+      for (const ElementIndex edge : chain.edges)
       {
-        const auto place = junctions.find(m_Nodes.Find(ends[end]));
-        chain.record.junctions[end] = place != junctions.end() ? place->second : kNoPiece;
+        for (const ElementIndex vertex : m_Cells.edges[edge])
+        {
+          if (const auto place = junctions.find(m_Nodes.Find(vertex)); place != junctions.end())
+          {
+            ends.insert(place->second);
+          }
+        }
       }
+      std::copy_n(ends.begin(), std::min<std::size_t>(2, ends.size()), chain.record.junctions.begin());
       m_Result.curves.push_back(std::move(chain.record));
     }
   }

@@ -26,6 +26,8 @@ SheetPieces::SheetPieces(const MedialComplex & core)
   : m_Core(core)
   , m_EdgeOffsets(core.cells.edges.size() + 1, 0)
   , m_Live(core.cells.edges.size(), 0)
+  , m_Drawn(core.cells.edges.size(), 0)
+  , m_AroundOffsets(core.cells.vertexCount + 1, 0)
   , m_Alive(core.cells.FaceCount(), 1)
   , m_Local(core.cells.vertexCount, kNoPiece)
 {
@@ -35,6 +37,19 @@ SheetPieces::SheetPieces(const MedialComplex & core)
     ++m_Live[edge];
   }
   std::partial_sum(m_Live.begin(), m_Live.end(), m_EdgeOffsets.begin() + 1);
+  for (const auto & ends : cells.edges)
+  {
+    ++m_AroundOffsets[ends[0] + 1];
+    ++m_AroundOffsets[ends[1] + 1];
+  }
+  std::partial_sum(m_AroundOffsets.begin(), m_AroundOffsets.end(), m_AroundOffsets.begin());
+  m_Around.resize(2 * cells.edges.size());
+  std::vector<std::uint64_t> next(m_AroundOffsets.begin(), m_AroundOffsets.end() - 1);
+  for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    m_Around[next[cells.edges[edge][0]]++] = edge;
+    m_Around[next[cells.edges[edge][1]]++] = edge;
+  }
   m_EdgeFaces.resize(cells.faceEdges.size());
   std::vector<std::uint64_t> at(m_EdgeOffsets.begin(), m_EdgeOffsets.end() - 1);
   for (ElementIndex face = 0; face < cells.FaceCount(); ++face)
@@ -77,7 +92,8 @@ SheetPieces::Find()
       m_Pieces[piece].area += PolygonArea(m_Core.positions, cells.FaceVertices(face));
       for (const ElementIndex edge : cells.FaceEdges(face))
       {
-        for (const ElementIndex other : m_Live[edge] == 2 ? FacesOf(edge) : std::span<const ElementIndex>())
+        const bool leads = m_Live[edge] == 2 && m_Drawn[edge] == 0;
+        for (const ElementIndex other : leads ? FacesOf(edge) : std::span<const ElementIndex>())
         {
           if (m_Alive[other] != 0 && m_PieceOf[other] == kNoPiece)
           {
@@ -88,6 +104,7 @@ SheetPieces::Find()
       }
     }
   }
+  m_Strip.assign(m_Pieces.size(), 0);
   m_Joined.resize(m_Pieces.size());
   std::iota(m_Joined.begin(), m_Joined.end(), 0U);
   Measure();
@@ -142,7 +159,7 @@ SheetPieces::StandOut(std::span<const ElementIndex> faces, double & freeBorder, 
     {
       const std::uint32_t live = m_Live[edge];
       freeBorder += live == 1 ? EdgeLength(edge) : 0.0;
-      seamBorder += live > 2 ? EdgeLength(edge) : 0.0;
+      seamBorder += live > 2 || m_Drawn[edge] != 0 ? EdgeLength(edge) : 0.0;
       edges.push_back(edge);
     }
   }
@@ -171,7 +188,7 @@ SheetPieces::StandOut(std::span<const ElementIndex> faces, double & freeBorder, 
       {
         const std::uint32_t local = m_Local[end];
         around[at[local]++] = edge;
-        if (m_Live[edge] > 2 && reached[local] > -m_Core.radius[end])
+        if ((m_Live[edge] > 2 || m_Drawn[edge] != 0) && reached[local] > -m_Core.radius[end])
         {
           reached[local] = -m_Core.radius[end];
           queue.emplace(reached[local], local);
@@ -226,7 +243,8 @@ SheetPieces::FinsBelow(double height) const
     }
   }
   std::vector<std::uint8_t>  fins(m_Pieces.size(), 0);
-  std::vector<std::uint32_t> kept(m_Pieces.size(), kNoPiece); // per set one that stays
+  std::vector<std::uint32_t> kept(m_Pieces.size(),
+                                  kNoPiece); // per set one that stays
   for (std::uint32_t piece = 0; piece < m_Pieces.size(); ++piece)
   {
     const SheetPiece & one = m_Pieces[piece];
@@ -270,6 +288,133 @@ SheetPieces::RemoveFins(double height)
   }
 }
 
+void
+SheetPieces::DrawSeamsOn(double reach)
+{
+  const auto & edges = m_Core.cells.edges;
+  // Seams that hang together have one number.
+  UnionFind                  sets(m_Core.cells.vertexCount);
+  std::vector<std::uint32_t> seams(m_Core.cells.vertexCount,
+                                   0); ///< edges of seams at a vertex
+  for (ElementIndex edge = 0; edge < edges.size(); ++edge)
+  {
+    if (m_Live[edge] > 2)
+    {
+      sets.Unite(edges[edge][0], edges[edge][1]);
+      ++seams[edges[edge][0]];
+      ++seams[edges[edge][1]];
+    }
+  }
+  std::vector<std::uint32_t> chains(m_Core.cells.vertexCount, kNoPiece);
+  for (ElementIndex vertex = 0; vertex < chains.size(); ++vertex)
+  {
+    chains[vertex] = seams[vertex] > 0 ? sets.Find(vertex) : kNoPiece;
+  }
+  for (ElementIndex edge = 0; edge < edges.size(); ++edge)
+  {
+    for (const ElementIndex end : edges[edge])
+    {
+      if (m_Live[edge] > 2 && seams[end] == 1)
+      {
+        DrawOn(end, edge, chains, reach + m_Core.radius[end]);
+      }
+    }
+  }
+}
+
+void
+SheetPieces::DrawOn(ElementIndex end, ElementIndex seam, const std::vector<std::uint32_t> & chains, double reach)
+{
+  const auto & edges = m_Core.cells.edges;
+  // The edges at the end that lie between two of the seam's faces, round it.
+  std::vector<ElementIndex> first;
+  for (const ElementIndex begin : FacesOf(seam))
+  {
+    std::vector<ElementIndex> passed;
+    ElementIndex              face = m_Alive[begin] != 0 ? begin : kNoPiece;
+    ElementIndex              from = seam;
+    while (face != kNoPiece)
+    {
+      ElementIndex edge = kNoPiece;
+      for (const ElementIndex one : m_Core.cells.FaceEdges(face))
+      {
+        if (one != from && (edges[one][0] == end || edges[one][1] == end))
+        {
+          edge = one;
+        }
+      }
+      if (edge == seam)
+      {
+        first.insert(first.end(), passed.begin(),
+                     passed.end()); // came back: what it passed lies between
+        break;
+      }
+      if (edge == kNoPiece || m_Live[edge] != 2)
+      {
+        break;
+      }
+      passed.push_back(edge);
+      ElementIndex other = kNoPiece;
+      for (const ElementIndex one : FacesOf(edge))
+      {
+        other = m_Alive[one] != 0 && one != face ? one : other;
+      }
+      from = edge;
+      face = other;
+    }
+  }
+  std::map<ElementIndex, std::pair<double, ElementIndex>> reached; // way, and the edge it came by
+  using Entry = std::pair<double, ElementIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto go = [&](ElementIndex from, double way, ElementIndex edge) {
+    const ElementIndex other = edges[edge][0] ^ edges[edge][1] ^ from;
+    const double       further = way + EdgeLength(edge);
+    const auto         place = reached.find(other);
+    if (further < reach && other != end && (place == reached.end() || further < place->second.first))
+    {
+      reached[other] = { further, edge };
+      queue.emplace(further, other);
+    }
+  };
+  for (const ElementIndex edge : first)
+  {
+    go(end, 0, edge);
+  }
+  while (!queue.empty())
+  {
+    const auto [way, vertex] = queue.top();
+    queue.pop();
+    if (way > reached[vertex].first)
+    {
+      continue;
+    }
+    const std::span<const ElementIndex> around{ m_Around.data() + m_AroundOffsets[vertex],
+                                                m_Around.data() + m_AroundOffsets[vertex + 1] };
+    const bool isRim = std::any_of(around.begin(), around.end(), [&](ElementIndex edge) { return m_Live[edge] == 1; });
+    if (isRim || (chains[vertex] != kNoPiece && chains[vertex] != chains[end]))
+    {
+      for (ElementIndex at = vertex; at != end;)
+      {
+        const ElementIndex edge = reached[at].second;
+        m_Drawn[edge] = 1;
+        at = edges[edge][0] ^ edges[edge][1] ^ at;
+      }
+      return;
+    }
+    if (chains[vertex] == chains[end])
+    {
+      continue;
+    }
+    for (const ElementIndex edge : around)
+    {
+      if (m_Live[edge] == 2)
+      {
+        go(vertex, way, edge);
+      }
+    }
+  }
+}
+
 Vector3
 SheetPieces::Inwards(ElementIndex face, ElementIndex edge) const
 {
@@ -297,6 +442,7 @@ SheetPieces::JoinStrips(double height)
   {
     if (m_Pieces[piece].standOut < height)
     {
+      m_Strip[piece] = 1;
       strips.push_back(piece);
     }
   }
@@ -306,7 +452,7 @@ SheetPieces::JoinStrips(double height)
   }
   for (ElementIndex edge = 0; edge < m_Live.size(); ++edge)
   {
-    if (m_Live[edge] < 3)
+    if (m_Live[edge] < 3 && m_Drawn[edge] == 0)
     {
       continue;
     }
@@ -367,7 +513,8 @@ SheetPieces::PieceOfFaces() const
       layer.push_back(face);
     }
   }
-  // Fins, layer by layer, each face from the neighbour with the longest common edge.
+  // Fins, layer by layer, each face from the neighbour with the longest common
+  // edge.
   while (!layer.empty())
   {
     std::map<ElementIndex, std::pair<double, std::uint32_t>> found;

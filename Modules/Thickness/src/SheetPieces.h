@@ -25,7 +25,8 @@ class SheetPieces
 public:
   explicit SheetPieces(const MedialComplex & core);
 
-  /** Passes over fins that stand out by less than this, until there are none. */
+  /** Passes over fins that stand out by less than this, until there are none.
+   */
   void
   RemoveFins(double height);
 
@@ -33,12 +34,38 @@ public:
   void
   Find();
 
+  /** Draws seams that end on the way on to the nearest border, or to another
+   * seam, through what goes round their end: by edges of together less than
+   * `reach` plus the radius there. Pieces are parted there, too. */
+  void
+  DrawSeamsOn(double reach);
+
+  /** Whether an edge parts two pieces where a seam was drawn on. */
+  bool
+  IsDrawn(ElementIndex edge) const
+  {
+    return m_Drawn[edge] != 0;
+  }
+
+  /** Whether a piece was joined as one that lies between seams; pieces as
+   * PieceOfFaces() does not number them. */
+  bool
+  IsStrip(ElementIndex face) const
+  {
+    return m_Strip[m_PieceOf[face]] != 0;
+  }
+  std::uint32_t
+  OwnPiece(ElementIndex face) const
+  {
+    return m_PieceOf[face];
+  }
+
   /** Joins pieces that lie between seams and stand out by less than this. */
   void
   JoinStrips(double height);
 
-  /** Of each face its piece; fins have that of the faces they hang on, or are kNoPiece. Pieces that were joined have
-   *  one number. */
+  /** Of each face its piece; fins have that of the faces they hang on, or are
+   * kNoPiece. Pieces that were joined have one number. */
   std::vector<std::uint32_t>
   PieceOfFaces() const;
 
@@ -64,6 +91,8 @@ public:
 private:
   void
   Measure();
+  void
+  DrawOn(ElementIndex end, ElementIndex seam, const std::vector<std::uint32_t> & chains, double reach);
   /** Which pieces are fins; of pieces that hang together one stays. */
   std::vector<std::uint8_t>
   FinsBelow(double height) const;
@@ -76,7 +105,11 @@ private:
   const MedialComplex &      m_Core;
   std::vector<std::uint64_t> m_EdgeOffsets;
   std::vector<ElementIndex>  m_EdgeFaces;
-  std::vector<std::uint32_t> m_Live; ///< faces per edge without fins
+  std::vector<std::uint32_t> m_Live;          ///< faces per edge without fins
+  std::vector<std::uint8_t>  m_Drawn;         ///< edges on which a seam was drawn on
+  std::vector<std::uint8_t>  m_Strip;         ///< per piece
+  std::vector<std::uint64_t> m_AroundOffsets; ///< per vertex, of its edges
+  std::vector<ElementIndex>  m_Around;
   std::vector<std::uint8_t>  m_Alive;
   std::vector<std::uint32_t> m_PieceOf; ///< per face
   std::vector<SheetPiece>    m_Pieces;

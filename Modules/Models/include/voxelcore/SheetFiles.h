@@ -39,9 +39,9 @@ struct SheetModel
   JunctionId(std::size_t part, std::uint32_t junction) const;
 };
 
-/** .vtp: faces and, as lines, seams and rods; junctions and points that stand alone as vertices. Cell arrays `SheetId`
- *  (of faces and rods; else 0), `SeamId` (of seams and rods; else 0), `JunctionId`, `Label`, `Component`; point arrays
- *  `Radius`, `Thickness`. \throws OutputError */
+/** .vtp: faces and, edge by edge, seams and rods; junctions and points that stand alone as vertices. Cell arrays
+ *  `SheetId` (of faces and rods; else 0), `SeamId` (of seams and rods; else 0), `JunctionId`, `Label`, `Component`;
+ *  point arrays `Radius`, `Thickness`. \throws OutputError */
 void
 WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model);
 

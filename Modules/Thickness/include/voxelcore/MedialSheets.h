@@ -11,6 +11,9 @@
 //    sheet. Fins go in four steps of rising height, so that a rib that fins have cut up is whole before it is judged.
 //  - Else it lies between seams, and is joined to the neighbour it continues: the one with the greatest sum, over the
 //    common edges, of length times the cosine of the bend; the smallest piece first.
+// A seam that ends on the way is drawn on to the border of the sheets that go round its end, or to another seam, where
+// that is nearer than `sliver` and the radius there. What lies between seams and is a sliver belongs to them: those
+// along it are one, in which all sheets about it meet. Seams of the same sheets that touch are one.
 // A rod that hangs on a sheet, ends freely and stands out of it by less is part of the sheet.
 // A seam shorter than `sliver` that ends on the way or in a junction is drawn together into one junction.
 
@@ -45,9 +48,9 @@ struct CurveRecord
   bool                         isClosed = false;
   double                       length = 0;
   double                       thickness = 0; ///< mean of twice the radius, by length
-  std::vector<std::uint32_t>   sheets;        ///< that meet in a seam, ascending, one as often as it does
-  std::vector<ElementIndex>    vertices;      ///< in order; of a closed one the first is not repeated
-  std::array<std::uint32_t, 2> junctions{ kNoPiece, kNoPiece }; ///< at its ends; none where it ends freely
+  std::vector<std::uint32_t>   sheets;        ///< that meet in a seam, ascending
+  std::vector<ElementIndex>    vertices;      ///< of its longest stretch; of a closed one the first is not repeated
+  std::array<std::uint32_t, 2> junctions{ kNoPiece, kNoPiece }; ///< where it meets others, two at most
 };
 
 struct MedialSheets
