@@ -125,6 +125,10 @@ TEST_F(Combinations, OfPruningRefinementSkeletonsAndKeptEdgesPassVerifyAndArePru
         {
           values[extra] = "true";
         }
+        if (extra == "with-skeleton" && (refine == "off" || refine == "mesh"))
+        {
+          continue; // for time
+        }
         SCOPED_TRACE(::testing::PrintToString(values));
         const ParameterValues input = InputFor(refine);
         const bool            byTolerance = pruning.empty() || pruning.contains("tolerance");
@@ -140,9 +144,9 @@ TEST_F(Combinations, OfPruningRefinementSkeletonsAndKeptEdgesPassVerifyAndArePru
           {
             ExpectVerified(scan, Prune(file, { { "tolerance", "3diag" } }), refined);
             const ParameterValues other{ { "lambda", "3vox" } };
-            if (!whole || extra != "keep-edges")
+            if (!whole)
             {
-              EXPECT_THROW(Prune(file, other), InputError) << "by tolerance already, or without edges";
+              EXPECT_THROW(Prune(file, other), InputError) << "by tolerance already";
             }
           }
           else
