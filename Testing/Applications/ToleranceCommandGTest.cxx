@@ -73,7 +73,9 @@ TEST_F(ToleranceCommand, SeveralHeightsShareARunAndGiveWhatEachGivesAlone)
   for (const std::vector<std::string> & former :
        { std::vector<std::string>{ "--bumps", "1.2diag" }, { "--bumps=1.2diag" } })
   {
-    std::vector<std::string> arguments{ "core", Path("a.nrrd"), "-o", Path("former.vtp"), "--force", "--refine", "off" };
+    std::vector<std::string> arguments{
+      "core", Path("a.nrrd"), "-o", Path("former.vtp"), "--force", "--refine", "off"
+    };
     arguments.insert(arguments.end(), former.begin(), former.end());
     Run(arguments);
     EXPECT_EQ(ReadAll(m_Folder / "former.vtp"), ReadAll(m_Folder / "one.vtp"));
