@@ -40,6 +40,24 @@ WholeOf(const VoxelShape & shape, const ImageGeometry & grid = Grid({ 1, 1, 1 })
   return ComputeCertified(shape, grid, Lambdas({ "0" }));
 }
 
+TEST(CertifiedSkeleton, IsTheSameWhereTheCoreIsSpent)
+{
+  CertifiedRequest request = Lambdas({ "0" });
+  request.skeleton = Skeleton();
+  const CertifiedResult kept = ComputeCertified(Box(31, 9, 4), Grid({ 1, 1, 2 }), request);
+  request.spendsCores = true;
+  const CertifiedResult spent = ComputeCertified(Box(31, 9, 4), Grid({ 1, 1, 2 }), request);
+  EXPECT_GT(kept.cores[0].core.core.cells.vertexCount, 0U);
+  EXPECT_EQ(spent.cores[0].core.core.cells.vertexCount, 0U);
+  EXPECT_EQ(spent.cores[0].numbers.complex.vertices, kept.cores[0].numbers.complex.vertices);
+  EXPECT_EQ(spent.skeleton->skeleton.graph.positions, kept.skeleton->skeleton.graph.positions);
+  EXPECT_EQ(spent.skeleton->skeleton.graph.radius, kept.skeleton->skeleton.graph.radius);
+  EXPECT_EQ(spent.skeleton->topology, kept.skeleton->topology);
+  // What is asked for beside it stays.
+  request.lambdas = Lambdas({ "0", "2" }).lambdas;
+  EXPECT_GT(ComputeCertified(Box(31, 9, 4), Grid({ 1, 1, 2 }), request).cores[0].core.core.cells.vertexCount, 0U);
+}
+
 TEST(CertifiedSkeleton, OfARodIsOneBranchAlongItsAxis)
 {
   const CertifiedResult   whole = WholeOf(Box(31, 3, 3), Grid({ 2, 2, 2 }));

@@ -32,6 +32,57 @@ TEST(CurveSkeleton, VoxelsThatTouchInAnEdgeOrACornerAreTwoPoints)
   }
 }
 
+TEST(CurveSkeleton, SurfaceThatIsUsedUpHasTheSameSkeleton)
+{
+  VoxelShape hollow(VoxelBox{ { 0, 0, 0 }, { 14, 12, 9 } });
+  for (std::int32_t z = 0; z < 9; ++z)
+  {
+    for (std::int32_t y = 0; y < 12; ++y)
+    {
+      for (std::int32_t x = 0; x < 14; ++x)
+      {
+        if (x < 4 || x > 9 || y < 4 || y > 7 || z < 3 || z > 5)
+        {
+          hollow.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  std::size_t faces = 0;
+  for (const VoxelShape & shape : { Box({ 30, 22, 3 }), PhantomShape("torus", 32), PhantomShape("porous", 24), hollow })
+  {
+    for (const double plates : { std::numeric_limits<double>::infinity(), 2.0 })
+    {
+      MedialComplex surface = SurfaceOf(shape);
+      CurveOptions  options;
+      options.branchThreshold = 2;
+      options.plateThreshold = plates;
+      options.sampling = 1.5;
+      options.voxel = 1;
+      const CurveSkeleton kept = ComputeCurveSkeleton(surface, options);
+      options.spent = &surface;
+      const CurveSkeleton spent = ComputeCurveSkeleton(surface, options);
+      EXPECT_TRUE(surface.positions.empty());
+      EXPECT_EQ(spent.complex.cells.vertexCount, kept.complex.cells.vertexCount);
+      EXPECT_EQ(spent.complex.cells.edges, kept.complex.cells.edges);
+      EXPECT_EQ(spent.complex.cells.faceOffsets, kept.complex.cells.faceOffsets);
+      EXPECT_EQ(spent.complex.cells.faceVertices, kept.complex.cells.faceVertices);
+      EXPECT_EQ(spent.complex.cells.faceEdges, kept.complex.cells.faceEdges);
+      EXPECT_EQ(spent.complex.positions, kept.complex.positions);
+      EXPECT_EQ(spent.complex.radius, kept.complex.radius);
+      EXPECT_EQ(spent.places, kept.places);
+      EXPECT_EQ(spent.erosionThickness, kept.erosionThickness);
+      EXPECT_EQ(spent.branchThickness, kept.branchThickness);
+      EXPECT_EQ(spent.closedFace, kept.closedFace);
+      EXPECT_EQ(spent.inSurface.vertices, kept.inSurface.vertices);
+      EXPECT_EQ(spent.inSurface.edges, kept.inSurface.edges);
+      EXPECT_EQ(spent.inSurface.faces, kept.inSurface.faces);
+      faces += kept.complex.cells.FaceCount();
+    }
+  }
+  EXPECT_GT(faces, 100U); // plates and closed surfaces were among them
+}
+
 TEST(CurveSkeleton, RodIsItsAxis)
 {
   for (const std::int32_t width : { 1, 2, 3, 4, 5, 6, 8 })

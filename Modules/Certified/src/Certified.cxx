@@ -407,11 +407,20 @@ private:
                      m_Request.skeleton->lambda.text);
   }
 
+  /** Whether the whole core is asked for no more once it has burned. */
+  bool
+  SpendsWhole() const
+  {
+    const auto isWhole = [](double threshold) { return threshold == 0; };
+    return m_Request.spendsCores && m_Request.tolerances.empty() && !m_Request.thickness && !Refines(m_Request) &&
+           std::all_of(m_Thresholds.begin(), m_Thresholds.end(), isWhole);
+  }
+
   void
-  Burn(const MedialComplex & core, const LiveElements * part = nullptr)
+  Burn(const MedialComplex & core, const LiveElements * part = nullptr, MedialComplex * spent = nullptr)
   {
     Stopwatch watch;
-    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next());
+    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), spent);
     m_Result.seconds.skeleton += watch.Lap();
   }
 
@@ -419,10 +428,10 @@ private:
   void
   BurnBeforePruning()
   {
-    const MedialComplex & core = m_Whole.core.core;
+    MedialComplex & core = m_Whole.core.core;
     if (BurnsWhole(m_Request))
     {
-      Burn(core);
+      Burn(core, nullptr, SpendsWhole() ? &core : nullptr);
       return;
     }
     const LiveElements left = PartToBurn(core, m_Result.shape, *m_Request.skeleton);

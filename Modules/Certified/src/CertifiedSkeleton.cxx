@@ -146,7 +146,8 @@ BurnToCurves(const MedialComplex &    core,
              const LiveElements *     part,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
-             const ProgressCallback & progress)
+             const ProgressCallback & progress,
+             MedialComplex *          spent)
 {
   RequireLengthsIn(shape.geometry.unit, request);
   const Vector3 & spacing = shape.geometry.spacing;
@@ -159,6 +160,7 @@ BurnToCurves(const MedialComplex &    core,
   curves.sampling = 1.5 * *std::min_element(spacing.begin(), spacing.end());
   curves.geometry = shape.geometry;
   curves.voxel = VoxelSide(spacing);
+  curves.spent = spent;
   BurnedCurves burned;
   burned.curves = ComputeCurveSkeleton(core, part, curves, progress);
   burned.topology = ComputeComplexTopology(burned.curves.complex.cells);

@@ -19,14 +19,16 @@ struct BurnedCurves
 LiveElements
 PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request);
 
-/** Of a part of the core, in the fire of all of it, unless that is null.
+/** Of a part of the core, in the fire of all of it, unless that is null. `spent`: the core, where nobody needs it
+ *  afterwards, or null (CurveOptions::spent).
  *  \throws CertificateError when the curves do not have the shape's topology; Cancelled */
 BurnedCurves
 BurnToCurves(const MedialComplex &    core,
              const LiveElements *     part,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
-             const ProgressCallback & progress);
+             const ProgressCallback & progress,
+             MedialComplex *          spent = nullptr);
 
 /** Branches, and how wide the body in `voxels` is around them. \throws CertificateError when they do not have the
  *  topology of the curves. */

@@ -1,6 +1,7 @@
 #include "JobTools.h"
 #include "voxelcore/CoreJob.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace voxelcore
@@ -15,6 +16,8 @@ RequestOf(const CoreOptions & options, SurfaceSource surface)
   request.surface = std::move(surface); // empty: nothing is refined
   request.refineCores = !options.output.empty() || !options.skeleton;
   request.skeleton = options.skeleton;
+  const std::vector<std::string> & also = options.skeletonTargets.also;
+  request.spendsCores = options.output.empty() && options.skeleton && std::ranges::find(also, "ma") == also.end();
   request.engine = options.engine;
   request.crossCheck = options.crossCheck;
   return request;

@@ -138,6 +138,15 @@ TipsOf(const MedialComplex &              surface,
   return tips;
 }
 
+/** Gives back what a surface that has been turned is no longer asked for. */
+void
+KeepPositions(MedialComplex & surface)
+{
+  MedialComplex kept;
+  kept.positions = std::move(surface.positions);
+  surface = std::move(kept);
+}
+
 } // namespace
 
 std::size_t
@@ -158,9 +167,16 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
                      const CurveOptions &     options,
                      const ProgressCallback & progress)
 {
-  TurnedSurface turned = TurnSurface(surface, options.geometry);
-  StagePlan     plan(progress, { 0.9, 0.06, 0.04 });
-  BurnTimes     times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
+  const std::size_t vertexCount = surface.cells.vertexCount;
+  const std::size_t edgeCount = surface.cells.edges.size();
+  const std::size_t faceCount = surface.cells.FaceCount();
+  TurnedSurface     turned = TurnSurface(surface, options.geometry, options.spent != nullptr);
+  if (options.spent != nullptr)
+  {
+    KeepPositions(*options.spent);
+  }
+  StagePlan plan(progress, { 0.9, 0.06, 0.04 });
+  BurnTimes times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
   ReportProgress(plan.Next("collapsing"), "", 0);
   std::vector<std::uint8_t> closed;
   LiveElements              live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
@@ -201,13 +217,10 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
     }
     return result;
   };
-  const CellComplex &       cells = surface.cells;
-  const LiveElements        stays{ back(turned.vertices, live.vertices, cells.vertexCount),
-                            back(turned.edges, live.edges, cells.edges.size()),
-                            back(turned.faces, live.faces, cells.FaceCount()) };
-  const std::vector<double> surfaceTime = back(turned.vertices, times.vertices, cells.vertexCount);
-  const std::vector<double> curveTime = back(turned.vertices, fire.time, cells.vertexCount);
-  closed = back(turned.faces, closed, cells.FaceCount());
+  const std::vector<double> surfaceTime = back(turned.vertices, times.vertices, vertexCount);
+  const std::vector<double> curveTime = back(turned.vertices, fire.time, vertexCount);
+  const std::vector<double> radius = back(turned.vertices, turned.surface.radius, vertexCount);
+  closed = back(turned.faces, closed, faceCount);
   std::vector<Vector3> places = surface.positions;
   for (const EndPlace & end : ends)
   {
@@ -216,11 +229,27 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   }
 
   CurveSkeleton skeleton;
-  skeleton.complex = ExtractPart(surface, stays, skeleton.inSurface);
+  if (options.spent == nullptr)
+  {
+    const LiveElements stays{ back(turned.vertices, live.vertices, vertexCount),
+                              back(turned.edges, live.edges, edgeCount),
+                              back(turned.faces, live.faces, faceCount) };
+    skeleton.complex = ExtractPart(surface, stays, skeleton.inSurface);
+  }
+  else
+  {
+    skeleton.complex.cells = CellsBefore(turned, live, skeleton.inSurface);
+    for (const ElementIndex vertex : skeleton.inSurface.vertices)
+    {
+      skeleton.complex.positions.push_back(surface.positions[vertex]);
+      skeleton.complex.radius.push_back(radius[vertex]);
+    }
+    *options.spent = MedialComplex();
+  }
   for (const ElementIndex vertex : skeleton.inSurface.vertices)
   {
     skeleton.places.push_back(places[vertex]);
-    skeleton.erosionThickness.push_back(surfaceTime[vertex] - surface.radius[vertex]);
+    skeleton.erosionThickness.push_back(surfaceTime[vertex] - radius[vertex]);
     skeleton.branchThickness.push_back(curveTime[vertex] < std::numeric_limits<double>::infinity()
                                          ? std::max(0.0, curveTime[vertex] - surfaceTime[vertex])
                                          : std::numeric_limits<double>::infinity());

@@ -233,8 +233,9 @@ SortVertices(const Places & places, const std::vector<double> & radius, const Tu
   return vertices;
 }
 
-// Corners of a face, from the smallest on towards the smaller of its two neighbours, and the edges behind each.
-void
+// Corners of a face, from the smallest on towards the smaller of its two neighbours, and the edges behind each. Gives
+// its entry of TurnedSurface::starts.
+std::uint32_t
 CopyFace(const CellComplex &               from,
          std::size_t                       face,
          const std::vector<ElementIndex> & vertexNumber,
@@ -254,10 +255,11 @@ CopyFace(const CellComplex &               from,
   const bool back = corner(start == 0 ? count - 1 : start - 1) < corner(start + 1);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::size_t at = (back ? start + count - i : start + i) % count;
-    *vertices++ = corner(at);
-    *edges++ = edgeNumber[sides[back ? (at == 0 ? count - 1 : at - 1) : at]];
+    const PlaceBefore at(i, count, start, back);
+    *vertices++ = corner(at.corner);
+    *edges++ = edgeNumber[sides[at.side]];
   }
+  return static_cast<std::uint32_t>(2 * start + (back ? 1 : 0));
 }
 
 FaceName
@@ -274,7 +276,7 @@ NameOfFace(const CellComplex & cells, std::size_t face, const std::vector<Elemen
 } // namespace
 
 TurnedSurface
-TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry)
+TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool withStarts)
 {
   const CellComplex & cells = surface.cells;
   const Places        places = FindPlaces(surface, geometry);
@@ -348,11 +350,21 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry)
   }
   to.faceVertices.resize(cells.faceVertices.size());
   to.faceEdges.resize(cells.faceEdges.size());
+  turned.starts.resize(withStarts ? faceCount : 0);
   RunInParts(worthIt, faceCount, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
     {
       const std::uint64_t at = to.faceOffsets[i];
-      CopyFace(cells, turned.faces[i], vertexNumber, edgeNumber, to.faceVertices.data() + at, to.faceEdges.data() + at);
+      const std::uint32_t start = CopyFace(cells,
+                                           turned.faces[i],
+                                           vertexNumber,
+                                           edgeNumber,
+                                           to.faceVertices.data() + at,
+                                           to.faceEdges.data() + at);
+      if (withStarts)
+      {
+        turned.starts[i] = start;
+      }
     }
   });
   return turned;

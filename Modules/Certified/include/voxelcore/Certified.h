@@ -46,6 +46,8 @@ struct CertifiedRequest
   bool                            refineCores = true; ///< where there is a surface; false: skeletons alone are refined
   std::optional<SkeletonRequest>  skeleton;  ///< of the whole core, or of one asked for as it is before refinement
   std::optional<ThicknessRequest> thickness; ///< by the first core
+  bool spendsCores = false; ///< the skeleton is all that is wanted: whole cores may come described but empty, so that
+                            ///< less memory is needed
 
   Engine     engine = Engine::Auto;
   bool       crossCheck = false; ///< both engines run, one after the other, and must agree bit for bit

@@ -30,6 +30,10 @@ struct CurveOptions
   ImageGeometry geometry; ///< of the scan, for the axes and the lattice that its turning on the grid leaves alike
 
   double voxel = 0; ///< side of the cube with a voxel's diagonal: by about so much shapes end beyond their last ball
+
+  /** The surface, where nobody needs it afterwards: it is used up, so that its memory serves the fire. The complex of
+   *  the skeleton then has no measures. */
+  MedialComplex * spent = nullptr;
 };
 
 /** A part of a medial surface that the surface collapses to: vertices, edges, and the faces that stay. */
