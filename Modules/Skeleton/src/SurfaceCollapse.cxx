@@ -92,9 +92,13 @@ EdgeThatGoes(const MedialComplex &       surface,
   double       longest = -1;
   for (const ElementIndex side : cells.FaceEdges(face))
   {
+    if (side == edge || !cofaces.IsFree(side)) // before its ends are fetched: most are not
+    {
+      continue;
+    }
     const auto & [a, b] = cells.edges[side];
     const bool meetsFirst = a == ends[0] || a == ends[1];
-    if (side == edge || !cofaces.IsFree(side) || (!meetsFirst && b != ends[0] && b != ends[1]))
+    if (!meetsFirst && b != ends[0] && b != ends[1])
     {
       continue;
     }
