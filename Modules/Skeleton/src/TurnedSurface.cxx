@@ -355,15 +355,15 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool 
     for (std::size_t i = first; i < last; ++i)
     {
       const std::uint64_t at = to.faceOffsets[i];
-      const std::uint32_t start = CopyFace(cells,
-                                           turned.faces[i],
-                                           vertexNumber,
-                                           edgeNumber,
-                                           to.faceVertices.data() + at,
-                                           to.faceEdges.data() + at);
+      const std::uint32_t from = CopyFace(cells,
+                                          turned.faces[i],
+                                          vertexNumber,
+                                          edgeNumber,
+                                          to.faceVertices.data() + at,
+                                          to.faceEdges.data() + at);
       if (withStarts)
       {
-        turned.starts[i] = start;
+        turned.starts[i] = from;
       }
     }
   });
