@@ -10,6 +10,7 @@
 #include "voxelcore/ReadInput.h"
 #include "voxelcore/ReportTable.h"
 #include "voxelcore/Sha256.h"
+#include "voxelcore/Text.h"
 
 #include <algorithm>
 #include <future>
