@@ -40,6 +40,7 @@ LooseEnds::LooseEnds(const CellComplex &               cells,
     if (m_Standing[vertex].IsFree())
     {
       m_Turns.front().push_back(static_cast<ElementIndex>(vertex));
+      ++m_Waiting;
     }
   }
 }
@@ -114,6 +115,7 @@ LooseEnds::TakeOpen()
     else
     {
       m_Turns[m_Levels.LevelOf(cost)].push_back(vertex);
+      ++m_Waiting;
     }
   }
 }
@@ -147,6 +149,7 @@ LooseEnds::Take(std::size_t level, std::span<const ElementIndex> burnt)
   m_Height = m_Levels.Height(level);
   std::vector<ElementIndex> turns;
   turns.swap(m_Turns[level]);
+  m_Waiting -= turns.size();
   for (std::size_t i = 0; i < burnt.size(); ++i)
   {
     if (i + 16 < burnt.size())

@@ -36,6 +36,13 @@ public:
   void
   Take(std::size_t level, std::span<const ElementIndex> burnt);
 
+  /** Whether no vertex waits for a later level. */
+  bool
+  IsOut() const
+  {
+    return m_Waiting == 0;
+  }
+
   /** Edges that went with their vertices, and these. */
   std::vector<std::pair<ElementIndex, ElementIndex>>
   TakeGone()
@@ -104,7 +111,8 @@ private:
   std::vector<std::uint32_t>                         m_FirstNeighbour; // of each vertex, and the end
   std::vector<std::uint32_t>                         m_NextKept; // rings of the boundary vertices that a ball keeps
   std::vector<std::vector<ElementIndex>>             m_Turns;    // vertices by level
-  std::vector<ElementIndex>                          m_Open;     // vertices whose cost is to be looked at
+  std::size_t                                        m_Waiting = 0;
+  std::vector<ElementIndex>                          m_Open; // vertices whose cost is to be looked at
   std::vector<std::pair<ElementIndex, ElementIndex>> m_Gone;
   double                                             m_Height = 0;
 

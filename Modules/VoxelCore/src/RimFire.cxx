@@ -101,7 +101,7 @@ RimFire::OfferAll()
     {
       if (m_Edges[edge].IsFree())
       {
-        m_Turns[m_Levels.LevelOf(costs[edge - first])].push_back(static_cast<ElementIndex>(edge));
+        Wait(static_cast<ElementIndex>(edge), costs[edge - first]);
       }
     }
   }
@@ -195,6 +195,7 @@ RimFire::Burn(std::size_t level)
 {
   const double height = m_Levels.Height(level);
   m_Open = std::move(m_Turns[level]); // what the last level had is given back
+  m_Waiting -= m_Open.size();
   for (std::size_t at = 0; at < m_Open.size(); ++at)
   {
     FetchAhead(at);
@@ -211,7 +212,7 @@ RimFire::Burn(std::size_t level)
     }
     else
     {
-      m_Turns[m_Levels.LevelOf(cost)].push_back(edge);
+      Wait(edge, cost);
     }
   }
 }

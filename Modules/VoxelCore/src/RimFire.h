@@ -31,6 +31,13 @@ public:
   void
   Burn(std::size_t level);
 
+  /** Whether nothing is left to burn at any later level. */
+  bool
+  IsOut() const
+  {
+    return m_Waiting == 0;
+  }
+
   /** How many edges have burnt. */
   std::size_t
   BurntCount() const
@@ -86,6 +93,12 @@ private:
   FetchFace(std::uint32_t place) const;
   void
   FetchAhead(std::size_t at) const;
+  void
+  Wait(ElementIndex edge, double cost)
+  {
+    m_Turns[m_Levels.LevelOf(cost)].push_back(edge);
+    ++m_Waiting;
+  }
 
   const CellComplex &                    m_Cells;
   const ToleranceLevels &                m_Levels;
@@ -93,7 +106,8 @@ private:
   std::vector<RemainingElements>         m_Edges;
   std::vector<Word>                      m_Faces;
   std::vector<std::vector<ElementIndex>> m_Turns; // edges by level
-  std::vector<ElementIndex>              m_Open;  // free edges, wave after wave
+  std::size_t                            m_Waiting = 0;
+  std::vector<ElementIndex>              m_Open; // free edges, wave after wave
   std::vector<Reached>                   m_Reached;
   std::vector<ElementIndex>              m_Burnt; // never moves
 };

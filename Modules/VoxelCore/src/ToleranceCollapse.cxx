@@ -31,6 +31,14 @@ public:
     m_Counts.resize(stage + 1, count);
     m_Changed.notify_one();
   }
+  // No stage after those that are finished changes the count.
+  void
+  FinishAll()
+  {
+    const std::lock_guard lock(m_Mutex);
+    m_AreAllFinished = true;
+    m_Changed.notify_one();
+  }
   void
   Stop()
   {
@@ -43,19 +51,27 @@ public:
   Await(std::size_t stage, std::size_t & count)
   {
     std::unique_lock lock(m_Mutex);
-    m_Changed.wait(lock, [&] { return m_IsStopped || stage < m_Counts.size(); });
-    if (stage >= m_Counts.size())
+    m_Changed.wait(lock, [&] { return m_IsStopped || m_AreAllFinished || stage < m_Counts.size(); });
+    if (stage >= m_Counts.size() && !m_AreAllFinished)
     {
       return false;
     }
-    count = m_Counts[stage];
+    count = m_Counts[std::min(stage, m_Counts.size() - 1)];
     return true;
+  }
+  // Whether nothing comes after a stage that is finished.
+  bool
+  IsLast(std::size_t stage)
+  {
+    const std::lock_guard lock(m_Mutex);
+    return m_AreAllFinished && stage + 1 >= m_Counts.size();
   }
 
 private:
   std::mutex               m_Mutex;
   std::condition_variable  m_Changed;
   std::vector<std::size_t> m_Counts;
+  bool                     m_AreAllFinished = false;
   bool                     m_IsStopped = false;
 };
 
@@ -128,7 +144,8 @@ ComputeTolerances(const MedialComplex &             core,
     [&] {
       const StopAtEnd stop{ stages };
       fire.emplace(cells, left, levels, balls);
-      for (std::size_t level = 0; level < levels.Count(); ++level)
+      bool isOut = false; // most levels lie beyond all costs
+      for (std::size_t level = 0; level < levels.Count() && !isOut; ++level)
       {
         if (level % 8 == 0)
         {
@@ -136,7 +153,9 @@ ComputeTolerances(const MedialComplex &             core,
         }
         fire->Burn(level);
         stages.Finish(level, fire->BurntCount());
+        isOut = fire->IsOut();
       }
+      stages.FinishAll();
     },
     [&] {
       if (beside)
@@ -147,10 +166,12 @@ ComputeTolerances(const MedialComplex &             core,
       std::vector<ElementIndex>().swap(touching.largest);
       std::size_t done = 0;
       std::size_t end = 0;
-      for (std::size_t level = 0; level < levels.Count() && stages.Await(level, end); ++level)
+      bool        isOut = false;
+      for (std::size_t level = 0; level < levels.Count() && !isOut && stages.Await(level, end); ++level)
       {
         ends.Take(level, fire->Burnt(done, end));
         done = end;
+        isOut = ends.IsOut() && stages.IsLast(level);
       }
       values.vertices = ends.TakeVertexHeights();
       edgesOfEnds = ends.TakeGone();
