@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -24,16 +26,25 @@ namespace voxelcore
 namespace
 {
 
-bool
-Has(const TopologyNumbers & numbers, const TopologyRequest & request)
+constexpr int kMostRounds = 4;
+
+/** How far numbers are from those asked for, or from one piece and nothing else. */
+std::int64_t
+Excess(const TopologyNumbers & numbers, const TopologyRequest & request)
 {
   const auto & [pieces, loops, cavities] = numbers.betti;
   if (!request.IsGiven())
   {
-    return pieces + loops + cavities == 1;
+    return pieces + loops + cavities - 1;
   }
-  return pieces == request.pieces.value_or(pieces) && loops == request.loops.value_or(loops) &&
-         cavities == request.cavities.value_or(cavities);
+  return std::abs(pieces - request.pieces.value_or(pieces)) + std::abs(loops - request.loops.value_or(loops)) +
+         std::abs(cavities - request.cavities.value_or(cavities));
+}
+
+bool
+Has(const TopologyNumbers & numbers, const TopologyRequest & request)
+{
+  return Excess(numbers, request) == 0;
 }
 
 SkeletonGraph
@@ -177,7 +188,24 @@ TellRootsApart(LabelShape &             mask,
     return walls.Contains(x, y, z) ? 1 + by / 16 : static_cast<std::uint32_t>(kCostOfLevel) + by;
   };
   SimplifiedShape simplified =
-    SimplifyTopology(kernel, mask.shape, neighbourhood, guided, request.topology, PartOfProgress(progress, 0.6, 1));
+    SimplifyTopology(kernel, mask.shape, neighbourhood, guided, request.topology, PartOfProgress(progress, 0.6, 0.9));
+  // What great clusters of cuts and fills have left may go when it is looked at by itself.
+  for (int round = 1; round < kMostRounds && !Has(simplified.after, request.topology); ++round)
+  {
+    SimplifiedShape again = SimplifyTopology(kernel,
+                                             simplified.shape,
+                                             neighbourhood,
+                                             guided,
+                                             request.topology,
+                                             PartOfProgress(progress, 0.9, 1));
+    if (Excess(again.after, request.topology) >= Excess(simplified.after, request.topology))
+    {
+      break;
+    }
+    again.before = simplified.before;
+    again.changes.insert(again.changes.end(), simplified.changes.begin(), simplified.changes.end());
+    simplified = std::move(again);
+  }
   topology.before = simplified.before;
   topology.after = simplified.after;
   topology.asAsked = Has(simplified.after, request.topology);
