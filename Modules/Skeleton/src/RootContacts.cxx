@@ -1,12 +1,11 @@
 #include "voxelcore/RootContacts.h"
 
+#include "RootStrands.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -16,51 +15,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr double      kApart = 0.75;    // of the sum of radii: nearer are no two roots
-constexpr double      kWithin = 2;      // radii from a root's curve: farther is none of its voxels
-constexpr std::size_t kCurvePoints = 9; // within a contact
-
-/** The part of a root that goes through a contact. */
-struct Strand
-{
-  ElementIndex         axis = 0;
-  std::size_t          first = 0; ///< of its points, those in the contact
-  std::size_t          last = 0;
-  double               radius = 0; ///< where it is a root by itself
-  std::vector<Vector3> line;
-  std::size_t          curveFrom = 0; ///< of `line`, the curve within the contact
-  std::size_t          curveTo = 0;
-};
-
-Vector3
-Unit(const Vector3 & a)
-{
-  const double length = Length(a);
-  return length > 0 ? AddScaled({ 0, 0, 0 }, 1 / length, a) : a;
-}
-
-/** The square of the distance from a place to a segment, and where along it. */
-std::pair<double, double>
-ToSegment(const Vector3 & place, const Vector3 & a, const Vector3 & b)
-{
-  const Vector3 along = Minus(b, a);
-  const Vector3 offset = Minus(place, a);
-  const double  squared = Dot(along, along);
-  const double  t = squared > 0 ? std::clamp(Dot(offset, along) / squared, 0.0, 1.0) : 0;
-  const Vector3 away = AddScaled(offset, -t, along);
-  return { Dot(away, away), t };
-}
-
-double
-SquaredDistance(const Vector3 & place, const std::vector<Vector3> & line)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < line.size(); ++i)
-  {
-    least = std::min(least, ToSegment(place, line[i], line[i + 1]).first);
-  }
-  return line.size() == 1 ? ToSegment(place, line[0], line[0]).first : least;
-}
+constexpr double kWithin = 2; // radii from a root's curve: farther is none of its voxels
 
 class WallBuilder
 {
@@ -73,7 +28,6 @@ public:
     , m_Geometry(geometry)
     , m_Graph(graph)
     , m_Roots(roots)
-    , m_Radii(SectionRadii(graph))
     , m_Walls(shape.Box())
   {}
 
@@ -82,10 +36,9 @@ public:
   {
     for (const RootMeeting & meeting : m_Roots.meetings)
     {
-      std::vector<Strand> strands = StrandsOf(meeting);
+      const std::vector<Strand> strands = TraceStrands(m_Graph, m_Roots, meeting);
       if (strands.size() > 1)
       {
-        MoveApart(strands);
         AddWalls(meeting, strands);
       }
     }
@@ -93,219 +46,38 @@ public:
   }
 
 private:
-  const Vector3 &
-  Place(const RootAxis & axis, std::size_t i) const
-  {
-    return m_Graph.positions[axis.points[i]];
-  }
-
-  std::vector<Strand>
-  StrandsOf(const RootMeeting & meeting) const
-  {
-    std::set<ElementIndex> axes;
-    for (const ElementIndex arm : meeting.arms)
-    {
-      if (m_Roots.rootOf[arm] != kNoRoot)
-      {
-        axes.insert(m_Roots.rootOf[arm]);
-      }
-    }
-    std::vector<Strand> strands;
-    for (const ElementIndex number : axes)
-    {
-      const RootAxis &      axis = m_Roots.axes[number];
-      std::optional<Strand> open;
-      for (std::size_t i = 0; i < axis.points.size(); ++i)
-      {
-        const bool isIn = Distance(Place(axis, i), meeting.position) <= meeting.reach;
-        if (isIn && !open)
-        {
-          open = Strand{ number, i, i, 0, {}, 0, 0 };
-        }
-        if (isIn)
-        {
-          open->last = i;
-        }
-        // One that is outside for less than the contact is wide has not left it.
-        const bool isFar = open && WayBetween(axis, open->last, i) > meeting.reach;
-        if (open && (isFar || i + 1 == axis.points.size()))
-        {
-          strands.push_back(*std::exchange(open, std::nullopt));
-        }
-      }
-    }
-    for (Strand & strand : strands)
-    {
-      TraceLine(meeting, strand);
-    }
-    return strands;
-  }
-
-  double
-  WayBetween(const RootAxis & axis, std::size_t from, std::size_t to) const
-  {
-    double way = 0;
-    for (std::size_t i = from; i < to; ++i)
-    {
-      way += Distance(Place(axis, i), Place(axis, i + 1));
-    }
-    return way;
-  }
-
-  /** The point outside the contact, some way along from its border. */
-  std::size_t
-  Outwards(const RootAxis & axis, std::size_t border, bool forward, double way) const
-  {
-    std::size_t at = border;
-    double      gone = 0;
-    while (gone < way && (forward ? at + 1 < axis.points.size() : at > 0))
-    {
-      const std::size_t next = forward ? at + 1 : at - 1;
-      gone += Distance(Place(axis, at), Place(axis, next));
-      at = next;
-    }
-    return at;
-  }
-
+  /** Voxels along a curve, each across a face of the one before. */
+  template <typename TVisit>
   void
-  TraceLine(const RootMeeting & meeting, Strand & strand) const
+  VisitCurve(const Strand & strand, const TVisit & visit) const
   {
-    const RootAxis & axis = m_Roots.axes[strand.axis];
-    const bool       comes = strand.first > 0;
-    const bool       goes = strand.last + 1 < axis.points.size();
-    // Radius and direction from the root outside.
-    const double      least = std::min(m_Radii[axis.points[strand.first]], m_Radii[axis.points[strand.last]]);
-    const std::size_t entry = comes ? strand.first - 1 : strand.first;
-    const std::size_t exit = goes ? strand.last + 1 : strand.last;
-    double            sum = 0;
-    std::size_t       count = 0;
-    const auto        count1 = [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i <= to; ++i, ++count)
-      {
-        sum += m_Radii[axis.points[i]];
-      }
-    };
-    const std::size_t before = comes ? Outwards(axis, entry, false, 3 * least) : entry;
-    const std::size_t after = goes ? Outwards(axis, exit, true, 3 * least) : exit;
-    if (comes)
+    std::array<std::int32_t, 3> last{};
+    bool                        isFirst = true;
+    for (std::size_t i = 0; i + 1 < strand.line.size(); ++i)
     {
-      count1(before, entry);
-    }
-    if (goes)
-    {
-      count1(exit, after);
-    }
-    strand.radius = count > 0 ? sum / static_cast<double>(count) : least;
-    const std::size_t start = comes ? Outwards(axis, entry, false, meeting.reach + 4 * strand.radius) : strand.first;
-    const std::size_t end = goes ? Outwards(axis, exit, true, meeting.reach + 4 * strand.radius) : strand.last;
-    if (comes && goes)
-    {
-      for (std::size_t i = start; i <= entry; ++i)
+      const Vector3 from = PhysicalToLattice(m_Geometry, strand.line[i]);
+      const Vector3 along = Minus(PhysicalToLattice(m_Geometry, strand.line[i + 1]), from);
+      const int     steps = std::max(1, static_cast<int>(std::ceil(4 * Length(along))));
+      for (int step = 0; step <= steps; ++step)
       {
-        strand.line.push_back(Place(axis, i));
-      }
-      strand.curveFrom = strand.line.size();
-      const double  chord = Distance(Place(axis, entry), Place(axis, exit));
-      const Vector3 from = Direction(axis, before, entry, Minus(Place(axis, exit), Place(axis, entry)));
-      const Vector3 to = Direction(axis, exit, after, Minus(Place(axis, exit), Place(axis, entry)));
-      for (std::size_t k = 1; k <= kCurvePoints; ++k)
-      {
-        const double t = static_cast<double>(k) / (kCurvePoints + 1);
-        const double s = 1 - t;
-        Vector3      place{ 0, 0, 0 };
-        place = AddScaled(place, s * s * (1 + 2 * t), Place(axis, entry));
-        place = AddScaled(place, t * t * (1 + 2 * s), Place(axis, exit));
-        place = AddScaled(place, t * s * s * chord, from);
-        place = AddScaled(place, -t * t * s * chord, to);
-        strand.line.push_back(place);
-      }
-      strand.curveTo = strand.line.size();
-      for (std::size_t i = exit; i <= end; ++i)
-      {
-        strand.line.push_back(Place(axis, i));
-      }
-      return;
-    }
-    // One that ends in the contact is its own as far as its border; one that springs there does so from its parent on.
-    const std::size_t to = !goes && comes ? entry : end;
-    for (std::size_t i = start; i <= to; ++i)
-    {
-      strand.line.push_back(Place(axis, i));
-    }
-    strand.curveFrom = strand.curveTo = strand.line.size();
-  }
-
-  Vector3
-  Direction(const RootAxis & axis, std::size_t from, std::size_t to, const Vector3 & otherwise) const
-  {
-    return Unit(from < to ? Minus(Place(axis, to), Place(axis, from)) : otherwise);
-  }
-
-  /** Whether one springs from the other within the contact. */
-  bool
-  AreKin(const Strand & a, const Strand & b) const
-  {
-    const auto springs = [this](const Strand & child, const Strand & parent) {
-      const RootAxis & axis = m_Roots.axes[child.axis];
-      return child.first == 0 && axis.parent == parent.axis && axis.parentPoint + 1 >= parent.first &&
-             axis.parentPoint <= parent.last + 1;
-    };
-    return springs(a, b) || springs(b, a);
-  }
-
-  /** Of two whose curves come too near to each other, the thinner gives way. */
-  void
-  MoveApart(std::vector<Strand> & strands) const
-  {
-    for (std::size_t i = 0; i < strands.size(); ++i)
-    {
-      for (std::size_t k = i + 1; k < strands.size(); ++k)
-      {
-        if (!AreKin(strands[i], strands[k]))
+        const Vector3               at = AddScaled(from, static_cast<double>(step) / steps, along);
+        std::array<std::int32_t, 3> place{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          const bool isFirst = strands[i].curveFrom < strands[i].curveTo &&
-                               (strands[i].radius < strands[k].radius || strands[k].curveFrom == strands[k].curveTo);
-          MoveAway(strands[isFirst ? i : k], strands[isFirst ? k : i]);
+          place[axis] = static_cast<std::int32_t>(std::floor(at[axis]));
+          if (!isFirst && place[axis] != last[axis])
+          {
+            last[axis] = place[axis];
+            visit(last);
+          }
         }
-      }
-    }
-  }
-
-  static void
-  MoveAway(Strand & strand, const Strand & other)
-  {
-    double  least = std::numeric_limits<double>::infinity();
-    Vector3 away{ 0, 0, 0 };
-    Vector3 along{ 0, 0, 0 };
-    Vector3 otherAlong{ 0, 0, 0 };
-    for (std::size_t i = strand.curveFrom; i < strand.curveTo; ++i)
-    {
-      for (std::size_t k = 0; k + 1 < other.line.size(); ++k)
-      {
-        const auto [squared, t] = ToSegment(strand.line[i], other.line[k], other.line[k + 1]);
-        if (squared < least)
+        if (isFirst)
         {
-          least = squared;
-          const Vector3 segment = Minus(other.line[k + 1], other.line[k]);
-          away = Minus(strand.line[i], AddScaled(other.line[k], t, segment));
-          along = Minus(strand.line[std::min(i + 1, strand.line.size() - 1)], strand.line[i > 0 ? i - 1 : 0]);
-          otherAlong = segment;
+          visit(place);
         }
+        last = place;
+        isFirst = false;
       }
-    }
-    const double wanted = kApart * (strand.radius + other.radius);
-    const double apart = std::sqrt(least);
-    if (!(apart < wanted))
-    {
-      return;
-    }
-    // Curves that cross have no side of their own: across both.
-    const Vector3 direction = Unit(apart > 0.05 * wanted ? away : Cross(along, otherAlong));
-    const auto    count = static_cast<double>(strand.curveTo - strand.curveFrom + 1);
-    for (std::size_t i = strand.curveFrom; i < strand.curveTo; ++i)
-    {
-      const double part = std::sin(3.14159265358979 * static_cast<double>(i - strand.curveFrom + 1) / count);
-      strand.line[i] = AddScaled(strand.line[i], (wanted - apart) * part, direction);
     }
   }
 
@@ -345,6 +117,27 @@ private:
         }
       }
     };
+    // Where its curve runs a root is whole, however thin.
+    std::vector<std::uint8_t> onCurve(owner.size(), none);
+    for (std::size_t k = 0; k < std::min<std::size_t>(strands.size(), none); ++k)
+    {
+      VisitCurve(strands[k], [&](const std::array<std::int32_t, 3> & place) {
+        std::size_t at = 0;
+        for (const std::size_t axis : { std::size_t{ 2 }, std::size_t{ 1 }, std::size_t{ 0 } })
+        {
+          const std::int32_t v = place[axis] - lower[axis];
+          if (v < 0 || v >= size[axis])
+          {
+            return;
+          }
+          at = at * static_cast<std::size_t>(size[axis]) + static_cast<std::size_t>(v);
+        }
+        if (onCurve[at] == none && m_Shape.Contains(place[0], place[1], place[2]))
+        {
+          onCurve[at] = static_cast<std::uint8_t>(k);
+        }
+      });
+    }
     visit([&](std::size_t at, const std::array<std::int32_t, 3> & v) {
       if (!m_Shape.Contains(v[0] + lower[0], v[1] + lower[1], v[2] + lower[2]))
       {
@@ -362,6 +155,12 @@ private:
           nearest = radii;
           owner[at] = static_cast<std::uint8_t>(k);
           away[at] = static_cast<float>(squared);
+        }
+        if (onCurve[at] == k)
+        {
+          owner[at] = onCurve[at];
+          away[at] = -1;
+          break;
         }
       }
     });
@@ -392,7 +191,7 @@ private:
           const bool hasWall = away[at] != away[beside] ? away[at] > away[beside]
                                                         : own.radius > other.radius ||
                                                             (own.radius == other.radius && owner[at] < owner[beside]);
-          if (hasWall && !AreKin(own, other))
+          if (hasWall && !AreKin(m_Roots, own, other))
           {
             m_Walls.Insert(v[0] + lower[0], v[1] + lower[1], v[2] + lower[2]);
           }
@@ -401,12 +200,11 @@ private:
     });
   }
 
-  const VoxelShape &          m_Shape;
-  const ImageGeometry &       m_Geometry;
-  const SkeletonGraph &       m_Graph;
-  const RootHierarchy &       m_Roots;
-  const std::vector<double> & m_Radii;
-  VoxelShape                  m_Walls;
+  const VoxelShape &    m_Shape;
+  const ImageGeometry & m_Geometry;
+  const SkeletonGraph & m_Graph;
+  const RootHierarchy & m_Roots;
+  VoxelShape            m_Walls;
 };
 
 } // namespace
