@@ -302,6 +302,12 @@ TEST(MedialSheets, ARodThatHardlyStandsOutOfASheetIsPartOfIt)
   EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 0, 0 }));
   EXPECT_EQ(cut.pieceOfVertex, std::vector<std::uint32_t>(cut.pieceOfVertex.size(), 0U));
   EXPECT_EQ(CountsOf(CutIntoSheets(rods.Core(), 1)), (Counts{ 1, 0, 1, 1 }));
+  // Two twigs at its end change nothing.
+  rods.Rod({ 3, 3, 2 }, { 0.7, 0, 0.7 }, 1);
+  rods.Rod({ 3, 3, 2 }, { -0.7, 0, 0.7 }, 1);
+  const MedialSheets twigs = CutIntoSheets(rods.Core(), 3);
+  EXPECT_EQ(CountsOf(twigs), (Counts{ 1, 0, 0, 0 }));
+  EXPECT_EQ(twigs.pieceOfVertex, std::vector<std::uint32_t>(twigs.pieceOfVertex.size(), 0U));
 }
 
 TEST(MedialSheets, AClosedRodAndALonePointAreRods)

@@ -256,7 +256,7 @@ private:
     return m_FacesAt[vertex] != 0;
   }
 
-  /** Whether a rod that hangs on a sheet by one end hardly stands out of it. */
+  /** Whether a rod that hangs on a sheet, or on other rods, by one end hardly stands out. */
   bool
   IsSpur(const CurveRecord & rod)
   {
@@ -264,7 +264,8 @@ private:
     for (std::size_t foot = 0; foot < 2 && rod.isRod; ++foot)
     {
       const ElementIndex tip = ends[1 - foot];
-      if (HasFaces(ends[foot]) && !HasFaces(tip) && m_EdgesAt.at(m_Nodes.Find(tip)).size() == 1)
+      const bool         hangs = HasFaces(ends[foot]) || m_EdgesAt.at(m_Nodes.Find(ends[foot])).size() > 2;
+      if (hangs && !HasFaces(tip) && m_EdgesAt.at(m_Nodes.Find(tip)).size() == 1)
       {
         double standOut = 0;
         for (const ElementIndex vertex : rod.vertices)
@@ -692,15 +693,6 @@ private:
         }
       }
     }
-    for (const auto & spur : m_Spurs)
-    {
-      const bool          first = HasFaces(spur.front());
-      const std::uint32_t sheet = pieces[first ? spur.front() : spur.back()];
-      for (const ElementIndex vertex : spur)
-      {
-        pieces[vertex] = pieces[vertex] == kNoPiece ? sheet : pieces[vertex];
-      }
-    }
     const auto sheets = static_cast<std::uint32_t>(m_Result.sheets.size());
     for (std::uint32_t curve = 0; curve < m_Result.curves.size(); ++curve)
     {
@@ -712,6 +704,14 @@ private:
         }
       }
     }
+    // The last that went first: its foot has a piece.
+    std::for_each(m_Spurs.rbegin(), m_Spurs.rend(), [&](const std::vector<ElementIndex> & spur) {
+      const std::uint32_t foot = pieces[spur.front()] != kNoPiece ? pieces[spur.front()] : pieces[spur.back()];
+      for (const ElementIndex vertex : spur)
+      {
+        pieces[vertex] = pieces[vertex] == kNoPiece ? foot : pieces[vertex];
+      }
+    });
   }
 
   const MedialComplex &                              m_Core;

@@ -14,7 +14,7 @@
 // A seam that ends on the way is drawn on to the border of the sheets that go round its end, or to another seam, where
 // that is nearer than `sliver` and the radius there. What lies between seams and is a sliver belongs to them: those
 // along it are one, in which all sheets about it meet. Seams of the same sheets that touch are one.
-// A rod that hangs on a sheet, ends freely and stands out of it by less is part of the sheet.
+// A rod that hangs on a sheet or on rods, ends freely and stands out by less is part of what it hangs on.
 // A seam shorter than `sliver` that ends on the way or in a junction is drawn together into one junction.
 
 #include "voxelcore/CoreThickness.h"
