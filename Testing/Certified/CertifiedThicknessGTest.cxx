@@ -16,6 +16,7 @@ ThicknessOfAll(bool bounds, bool refined)
 {
   CertifiedRequest request;
   request.thickness = ThicknessRequest{ bounds };
+  request.surface = SurfaceSource(); // nothing is refined
   if (refined)
   {
     request.surface = [](const VoxelShape & shape, const ProgressCallback & progress) {
@@ -64,6 +65,7 @@ TEST(CertifiedThickness, WithoutRefinementIsTheLowerBoundAndBoundsAreFoundOnlyWh
 TEST(CertifiedThickness, LeavesTheCoresAsTheyAre)
 {
   CertifiedRequest      plain;
+  plain.surface = SurfaceSource();
   const CertifiedResult with = ComputeCertified(Box(12, 9, 7), Grid({ 1, 1, 1 }), ThicknessOfAll(true, false));
   const CertifiedResult without = ComputeCertified(Box(12, 9, 7), Grid({ 1, 1, 1 }), plain);
   EXPECT_EQ(with.cores[0].core.core.positions, without.cores[0].core.core.positions);
