@@ -310,6 +310,17 @@ TEST(MedialSheets, ARodThatHardlyStandsOutOfASheetIsPartOfIt)
   EXPECT_EQ(twigs.pieceOfVertex, std::vector<std::uint32_t>(twigs.pieceOfVertex.size(), 0U));
 }
 
+TEST(MedialSheets, ShortRodsThatMeetAloneDoNotGoAltogether)
+{
+  Builder y;
+  y.Rod({ 0, 0, 0 }, { 1, 0, 0 }, 2);
+  y.Rod({ 0, 0, 0 }, { -0.5, 0.8, 0 }, 2);
+  y.Rod({ 0, 0, 0 }, { -0.5, -0.8, 0 }, 2);
+  const MedialSheets cut = CutIntoSheets(y.Core(), 3);
+  EXPECT_EQ(CountsOf(cut), (Counts{ 0, 0, 1, 0 }));
+  EXPECT_EQ(cut.pieceOfVertex, std::vector<std::uint32_t>(7, 0U));
+}
+
 TEST(MedialSheets, AClosedRodAndALonePointAreRods)
 {
   Builder ring;
