@@ -64,7 +64,7 @@ TEST(CertifiedThickness, WithoutRefinementIsTheLowerBoundAndBoundsAreFoundOnlyWh
 
 TEST(CertifiedThickness, LeavesTheCoresAsTheyAre)
 {
-  CertifiedRequest      plain;
+  CertifiedRequest plain;
   plain.surface = SurfaceSource();
   const CertifiedResult with = ComputeCertified(Box(12, 9, 7), Grid({ 1, 1, 1 }), ThicknessOfAll(true, false));
   const CertifiedResult without = ComputeCertified(Box(12, 9, 7), Grid({ 1, 1, 1 }), plain);
