@@ -45,14 +45,6 @@ Around(const Spacing3 & half, const Spacing3 & spacing, const Spacing3 & shift, 
   return CropToVoxels(std::move(shape));
 }
 
-SkeletonGraph
-Measured(const VoxelShape & shape, const Spacing3 & spacing)
-{
-  SkeletonGraph graph = GraphOf(shape, spacing);
-  graph.sectionRadius = SectionRadiiOf(graph, shape, spacing);
-  return graph;
-}
-
 /** The radius in the table of the longest branch. */
 double
 RadiusOf(const SkeletonGraph & graph)
@@ -80,7 +72,7 @@ TubeRadius(double radius, Spacing3 way, const Spacing3 & spacing, const Spacing3
     const double along = std::clamp(Dot(p, way), -0.5 * length, 0.5 * length);
     return Length(AddScaled(p, -along, way)) <= radius;
   });
-  return RadiusOf(Measured(shape, spacing));
+  return RadiusOf(GraphOf(shape, spacing));
 }
 
 } // namespace
@@ -124,7 +116,7 @@ TEST(CrossSections, OfAFlatTubeItIsTheRadiusOfACircleOfThatArea)
   const VoxelShape    shape = Around({ 60, 12, 4 }, { 1, 1, 1 }, { .2, .3, .4 }, [](const Spacing3 & p) {
     return std::abs(p[0]) <= 60 && p[1] * p[1] / 144 + p[2] * p[2] / 16 <= 1;
   });
-  const SkeletonGraph graph = Measured(shape, { 1, 1, 1 });
+  const SkeletonGraph graph = GraphOf(shape, { 1, 1, 1 });
   const double        area = static_cast<double>(shape.CountVoxels()) / shape.Box().size[0]; // equal in all slices
   EXPECT_NEAR(RadiusOf(graph), std::sqrt(area / std::numbers::pi), 0.12);
   const BranchTable table = MeasureBranches(graph);
@@ -140,7 +132,7 @@ TEST(CrossSections, WhatHasNoSectionIsARodOfItsVolume)
 {
   const VoxelShape ball =
     Around({ 9, 9, 9 }, { 1, 1, 1 }, { 0, 0, 0 }, [](const Spacing3 & p) { return Length(p) <= 9; });
-  const SkeletonGraph graph = Measured(ball, { 1, 1, 1 });
+  const SkeletonGraph graph = GraphOf(ball, { 1, 1, 1 });
   ASSERT_EQ(graph.positions.size(), 1U);
   EXPECT_NEAR(graph.sectionRadius[0],
               std::cbrt(0.75 * static_cast<double>(ball.CountVoxels()) / std::numbers::pi),
@@ -156,7 +148,7 @@ TEST(CrossSections, AClosedTubeIsMeasuredAllAround)
     },
     600);
   const VoxelShape    shape = Tube(ring, 4, { 60, 60, 60 });
-  const SkeletonGraph graph = Measured(shape, { 1, 1, 1 });
+  const SkeletonGraph graph = GraphOf(shape, { 1, 1, 1 });
   ASSERT_EQ(graph.BranchCount(), 1U);
   for (const double radius : graph.sectionRadius)
   {

@@ -81,16 +81,6 @@ struct Score
   double      worstRadius = 0; ///< mean over a phantom, as part of a voxel (of the cube with the same diagonal)
 };
 
-/** Radii of the body around a skeleton in mm. */
-inline std::vector<double>
-SectionRadiiOf(const SkeletonGraph & graph, const VoxelShape & shape, const Spacing3 & spacing)
-{
-  ImageGeometry geometry;
-  geometry.spacing = spacing;
-  geometry.origin = { 0.5 * spacing[0], 0.5 * spacing[1], 0.5 * spacing[2] };
-  return CrossSectionRadii(graph, shape, geometry);
-}
-
 /** Length and radius of a skeleton against the lines the phantom was grown along. */
 inline void
 CompareLines(const PhantomOptions & options, const SkeletonGraph & graph, Score & score)
@@ -156,7 +146,10 @@ CompareRoot(std::int32_t size, double slice, std::uint64_t seed, Score & score, 
   options.seed = seed;
   const VoxelShape shape = MakePhantom(options);
   SkeletonGraph    graph = graphOf(shape, options.spacing);
-  graph.sectionRadius = SectionRadiiOf(graph, shape, options.spacing);
+  if (graph.sectionRadius.empty())
+  {
+    graph.sectionRadius = SectionRadiiOf(graph, shape, options.spacing);
+  }
   std::vector<Spacing3> ends;
   for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
   {

@@ -3,6 +3,9 @@
 
 #include "SkeletonFixtures.h"
 
+#include "voxelcore/BranchTips.h"
+#include "voxelcore/CrossSections.h"
+
 #include <functional>
 
 namespace voxelcore::testing
@@ -114,11 +117,34 @@ GraphOfSurface(const MedialComplex & surface,
   return graph;
 }
 
-/** The same of a shape's whole core. */
+/** A grid along the axes whose lattice corner (0, 0, 0) is at the origin. */
+inline ImageGeometry
+GridFromOrigin(const Spacing3 & spacing)
+{
+  ImageGeometry geometry;
+  geometry.spacing = spacing;
+  geometry.origin = { 0.5 * spacing[0], 0.5 * spacing[1], 0.5 * spacing[2] };
+  return geometry;
+}
+
+/** Radii of the body around a skeleton in mm. */
+inline std::vector<double>
+SectionRadiiOf(const SkeletonGraph & graph, const VoxelShape & shape, const Spacing3 & spacing)
+{
+  return CrossSectionRadii(graph, shape, GridFromOrigin(spacing));
+}
+
+/** The same of a shape's whole core, with radii of the body and the tips placed by its volume. */
 inline SkeletonGraph
 GraphOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 })
 {
-  return GraphOfSurface(SurfaceOf(shape, spacing), spacing);
+  SkeletonGraph graph = GraphOfSurface(SurfaceOf(shape, spacing), spacing);
+  if (PlaceTips(graph, shape, GridFromOrigin(spacing)) > 0)
+  {
+    FitBranches(graph, 6 * Distance(spacing, { 0, 0, 0 }) / std::sqrt(3.0), HalfAVoxel(spacing));
+  }
+  graph.sectionRadius = SectionRadiiOf(graph, shape, spacing);
+  return graph;
 }
 
 } // namespace voxelcore::testing

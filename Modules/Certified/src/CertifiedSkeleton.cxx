@@ -3,6 +3,7 @@
 #include "CertificateText.h"
 #include "SkeletonSteps.h"
 #include "voxelcore/BallUnion.h"
+#include "voxelcore/BranchTips.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CrossSections.h"
 #include "voxelcore/Error.h"
@@ -190,6 +191,10 @@ MeasureCurves(const BurnedCurves &    burned,
       (numbers.components != result.topology.betti[0] || numbers.cycles != result.topology.betti[1]))
   {
     RefuseResult(shape.name, "the branches do not have the shape's topology");
+  }
+  if (window > 0 && PlaceTips(graph, voxels, shape.geometry) > 0)
+  {
+    FitBranches(graph, window, reach);
   }
   graph.sectionRadius = CrossSectionRadii(graph, voxels, shape.geometry);
   CutAndMeasure(result, request.branches, StandOutOn(shape, request));

@@ -23,19 +23,19 @@ struct Facet
 };
 
 Whole
-Minus(const Whole & a, const Whole & b)
+WholeMinus(const Whole & a, const Whole & b)
 {
   return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
 }
 
 Whole
-Cross(const Whole & a, const Whole & b)
+WholeCross(const Whole & a, const Whole & b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
 Wide
-Dot(const Whole & a, const Whole & b)
+WholeDot(const Whole & a, const Whole & b)
 {
   return Wide{ a[0] } * b[0] + Wide{ a[1] } * b[1] + Wide{ a[2] } * b[2];
 }
@@ -80,7 +80,7 @@ WholePoints(const std::vector<Vector3> & points)
 Facet
 MakeFacet(const std::vector<Whole> & points, std::size_t a, std::size_t b, std::size_t c)
 {
-  return { { a, b, c }, Cross(Minus(points[b], points[a]), Minus(points[c], points[a])) };
+  return { { a, b, c }, WholeCross(WholeMinus(points[b], points[a]), WholeMinus(points[c], points[a])) };
 }
 
 } // namespace
@@ -96,7 +96,7 @@ ConvexHullSize(const std::vector<Vector3> & points)
   const std::vector<Whole> whole = WholePoints(points);
   Facet                    base = MakeFacet(whole, 0, 1, 2);
   std::size_t              apex = 3;
-  while (apex < whole.size() && Dot(base.normal, Minus(whole[apex], whole[0])) == 0)
+  while (apex < whole.size() && WholeDot(base.normal, WholeMinus(whole[apex], whole[0])) == 0)
   {
     ++apex;
   }
@@ -104,7 +104,7 @@ ConvexHullSize(const std::vector<Vector3> & points)
   {
     return {};
   }
-  if (Dot(base.normal, Minus(whole[apex], whole[0])) > 0)
+  if (WholeDot(base.normal, WholeMinus(whole[apex], whole[0])) > 0)
   {
     base = MakeFacet(whole, 0, 2, 1);
   }
@@ -116,7 +116,7 @@ ConvexHullSize(const std::vector<Vector3> & points)
   for (std::size_t i = 3; i < whole.size(); ++i)
   {
     const auto hidden = [&](const Facet & facet) {
-      return Dot(facet.normal, Minus(whole[i], whole[facet.corners[0]])) <= 0;
+      return WholeDot(facet.normal, WholeMinus(whole[i], whole[facet.corners[0]])) <= 0;
     };
     const auto firstSeen = std::partition(facets.begin(), facets.end(), hidden);
     if (firstSeen == facets.end())

@@ -1,0 +1,19 @@
+#pragma once
+// Where the branches of a curve skeleton end, by the volume of the body around their ends.
+
+#include "voxelcore/SkeletonGraph.h"
+#include "voxelcore/VoxelShape.h"
+
+namespace voxelcore
+{
+
+/** Moves the tips of round branches along their axes: to where a tube as thick as the branch before its end, closed by
+ *  half a ball around the tip, holds as much as the body does there: before a flat end by two thirds of a radius.
+ *  Volumes see less of steps and bumps than balls do.
+ *  Points within about a radius of it are put on the straight line to the tip, in `medial`, too: the branches are to be
+ *  fitted again. Tips stay where the branch is too short, flat or pointed, or where the move is out of proportion.
+ *  Of a fitted graph, in LPS mm of the geometry. Gives the number of tips that moved. */
+std::size_t
+PlaceTips(SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry & geometry);
+
+} // namespace voxelcore

@@ -1,0 +1,164 @@
+#include "voxelcore/BranchTips.h"
+
+#include "EndByVolume.h"
+#include "voxelcore/Vectors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Balls between the corners of voxels are smaller than the body, by so many diagonals on average.
+constexpr double kMeanExcess = 0.25;
+
+// The ends of balls may be off by so much: steps of the grid, and bumps on the cap.
+constexpr double kMostDiagonals = 2;
+constexpr double kMostRadii = 0.3;
+
+/** A branch from a tip on, and where that tip shall lie. */
+struct Move
+{
+  std::vector<ElementIndex> points;
+  std::vector<double>       way;
+  double                    reach = 0; ///< points go along so far
+  Vector3                   tip{};
+};
+
+class TipPlacing
+{
+public:
+  TipPlacing(const SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry & geometry)
+    : m_Graph(graph)
+    , m_Shape(shape)
+    , m_Geometry(geometry)
+    , m_Diagonal(Length(geometry.spacing))
+  {}
+
+  std::optional<Move>
+  Of(std::size_t branch, std::size_t end) const
+  {
+    Move move;
+    move.points.assign(m_Graph.Branch(branch).begin(), m_Graph.Branch(branch).end());
+    if (end == 1)
+    {
+      std::reverse(move.points.begin(), move.points.end());
+    }
+    WayLine line;
+    for (const ElementIndex point : move.points)
+    {
+      line.Add(OnGrid(m_Graph.positions[point]));
+    }
+    const ElementIndex other = m_Graph.branchNodes[branch][1 - end];
+    const double       free = FreeWay(line, other);
+    const double       radius = RadiusNear(move.points, line, free) + kMeanExcess * m_Diagonal;
+    // Where a branch leaves obliquely the other body reaches further along it.
+    const double margin = m_Graph.nodeKinds[other] == NodeKind::Tip ? 0 : radius;
+    const auto   place = FindEndByVolume(m_Shape, m_Geometry.spacing, line, free - margin, radius);
+    if (!place)
+    {
+      return std::nullopt;
+    }
+    move.tip = LatticeToPhysical(m_Geometry, Over(*place, m_Geometry.spacing));
+    const double by = Distance(move.tip, m_Graph.positions[move.points[0]]);
+    move.reach = std::max(radius, 2 * by) + m_Diagonal;
+    move.way = std::move(line.way);
+    return by <= kMostDiagonals * m_Diagonal + kMostRadii * radius ? std::optional(std::move(move)) : std::nullopt;
+  }
+
+private:
+  Vector3
+  OnGrid(const Vector3 & place) const
+  {
+    return Times(PhysicalToLattice(m_Geometry, place), m_Geometry.spacing);
+  }
+
+  /** How far from the tip a branch is nothing but itself: up to where it comes near its other end. */
+  double
+  FreeWay(const WayLine & line, ElementIndex other) const
+  {
+    if (m_Graph.nodeKinds[other] == NodeKind::Tip)
+    {
+      return 0.6 * line.way.back();
+    }
+    const ElementIndex centre = m_Graph.nodePoints[other];
+    const Vector3      place = OnGrid(m_Graph.positions[centre]);
+    std::size_t        at = 0;
+    while (at < line.way.size() && Distance(line.places[at], place) > m_Graph.radius[centre])
+    {
+      ++at;
+    }
+    return at > 0 ? line.way[at - 1] : 0;
+  }
+
+  /** That of the balls in a branch behind its cap. */
+  double
+  RadiusNear(const std::vector<ElementIndex> & points, const WayLine & line, double free) const
+  {
+    double cap = m_Graph.radius[points[0]];
+    for (std::size_t i = 0; i < points.size() && line.way[i] <= std::min(free, 2 * cap); ++i)
+    {
+      cap = std::max(cap, m_Graph.radius[points[i]]);
+    }
+    double sum = 0;
+    double count = 0;
+    for (std::size_t i = 0; i < points.size() && line.way[i] <= std::min(free, 3 * cap + m_Diagonal); ++i)
+    {
+      const double weight = line.way[i] >= cap ? 1 : 1e-9;
+      sum += weight * m_Graph.radius[points[i]];
+      count += weight;
+    }
+    return sum / count;
+  }
+
+  const SkeletonGraph & m_Graph;
+  const VoxelShape &    m_Shape;
+  const ImageGeometry & m_Geometry;
+  const double          m_Diagonal;
+};
+
+} // namespace
+
+std::size_t
+PlaceTips(SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry & geometry)
+{
+  const TipPlacing  placing(graph, shape, geometry);
+  std::vector<Move> moves;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    for (const std::size_t end : { 0, 1 })
+    {
+      if (graph.nodeKinds[graph.branchNodes[branch][end]] == NodeKind::Tip && graph.Branch(branch).size() > 2)
+      {
+        if (auto move = placing.Of(branch, end))
+        {
+          moves.push_back(std::move(*move));
+        }
+      }
+    }
+  }
+  for (const Move & move : moves)
+  {
+    // Bumps on the cap pull the curve this way and that: it goes straight on to the tip.
+    std::size_t last = 1;
+    while (last + 1 < move.points.size() && move.way[last] < move.reach && 2 * move.way[last + 1] <= move.way.back())
+    {
+      ++last;
+    }
+    const Vector3 to = graph.positions[move.points[last]];
+    for (std::size_t i = 0; i < last; ++i)
+    {
+      const double  part = move.way[i] / move.way[last];
+      const Vector3 place = AddScaled(move.tip, part, Minus(to, move.tip));
+      graph.positions[move.points[i]] = place;
+      graph.medial[move.points[i]] = place;
+    }
+  }
+  return moves.size();
+}
+
+} // namespace voxelcore

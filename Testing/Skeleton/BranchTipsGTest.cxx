@@ -1,0 +1,142 @@
+#include "TubeShapes.h"
+
+#include "voxelcore/BranchTips.h"
+
+#include <iostream>
+#include <random>
+
+namespace voxelcore::testing
+{
+
+namespace
+{
+
+/** The graph of a shape as balls end it, and with its tips placed. */
+struct Placed
+{
+  SkeletonGraph before;
+  SkeletonGraph after;
+};
+
+Placed
+PlaceTipsOf(const VoxelShape & shape)
+{
+  return { GraphOfSurface(SurfaceOf(shape)), GraphOf(shape) };
+}
+
+Spacing3
+AnyDirection(std::mt19937_64 & random)
+{
+  std::normal_distribution<double> normal;
+  const Spacing3                   v{ normal(random), normal(random), normal(random) };
+  const double                     length = Distance(v, { 0, 0, 0 });
+  return { v[0] / length, v[1] / length, v[2] / length };
+}
+
+/** Points of a line of a length, anywhere in the voxel in the middle of a box of `side` mm. */
+Curve
+AnyLine(double length, double side, const Spacing3 & spacing, std::mt19937_64 & random)
+{
+  std::uniform_real_distribution<double> part(0, 1);
+  const Spacing3                         way = AnyDirection(random);
+  Spacing3                               centre{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    centre[axis] = side / 2 + part(random) * spacing[axis];
+  }
+  return SampleCurve(
+    [&](double t) {
+      Spacing3 p = centre;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        p[axis] += (t - 0.5) * length * way[axis];
+      }
+      return p;
+    },
+    static_cast<std::size_t>(4 * length));
+}
+
+/** Root mean square of how far the tips lie from the ends of a line, mm. */
+double
+TipsOff(const SkeletonGraph & graph, const Curve & line)
+{
+  double squares = 0;
+  int    tips = 0;
+  for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
+  {
+    const Spacing3 & tip = graph.positions[graph.nodePoints[node]];
+    const double     off = std::min(Distance(tip, line.front()), Distance(tip, line.back()));
+    squares += off * off;
+    ++tips;
+  }
+  return std::sqrt(squares / std::max(tips, 1));
+}
+
+TEST(BranchTips, OfStraightTubesLieAtTheCentresOfTheirCaps)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64 random(seed);
+  double          before = 0;
+  double          after = 0;
+  double          length = 0;
+  int             count = 0;
+  for (const double radius : { 2.3, 3.1, 4.2, 5.3 })
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      const Curve line = AnyLine(44, 44 + 2 * radius + 6, { 1, 1, 1 }, random);
+      const auto  side = 44 + 2 * radius + 8;
+      const auto  placed = PlaceTipsOf(Tube(line, radius, { side, side, side }));
+      ASSERT_EQ(placed.after.BranchCount(), 1U) << radius << ", seed " << seed;
+      EXPECT_NEAR(placed.after.BranchLength(0), 44, 1.3) << radius << ", seed " << seed;
+      length += (placed.after.BranchLength(0) - 44) / 44;
+      before += std::pow(TipsOff(placed.before, line), 2);
+      after += std::pow(TipsOff(placed.after, line), 2);
+      ++count;
+    }
+  }
+  EXPECT_LT(std::abs(length / count), 0.006) << "seed " << seed;
+  EXPECT_LT(std::sqrt(after / count), 0.4) << "voxels, seed " << seed;
+  EXPECT_LT(after, before) << "seed " << seed;
+}
+
+TEST(BranchTips, OfAFlatEndLieTwoThirdsOfARadiusBeforeIt)
+{
+  // A rod along x from 10 to 70 of radius 6: its ends are planes of the grid.
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 80, 20, 20 } });
+  for (std::int32_t z = 0; z < 20; ++z)
+  {
+    for (std::int32_t y = 0; y < 20; ++y)
+    {
+      for (std::int32_t x = 10; x < 70; ++x)
+      {
+        if (Distance({ 0, y + 0.5, z + 0.5 }, { 0, 10.1, 9.8 }) <= 6)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  const auto placed = PlaceTipsOf(shape);
+  ASSERT_EQ(placed.after.BranchCount(), 1U);
+  EXPECT_NEAR(placed.after.BranchLength(0), 60 - 8, 0.6);
+}
+
+TEST(BranchTips, WhereThereIsNoTubeStay)
+{
+  // Flat: three times as wide as it is thick.
+  const VoxelShape flat = ShapeWhere({ 60, 40, 20 }, [](int x, int y, int z) {
+    const double end = std::max(0.0, std::abs(x + 0.5 - 30) - 14);
+    return std::pow((y + 0.5 - 20) / 12, 2) + std::pow((z + 0.5 - 10) / 4, 2) + std::pow(end / 12, 2) < 1;
+  });
+  SkeletonGraph    graph = GraphOfSurface(SurfaceOf(flat));
+  ASSERT_GT(graph.BranchCount(), 0U);
+  const SkeletonGraph before = graph;
+  EXPECT_EQ(PlaceTips(graph, flat, GridFromOrigin({ 1, 1, 1 })), 0U);
+  EXPECT_EQ(graph.positions, before.positions);
+}
+
+} // namespace
+
+} // namespace voxelcore::testing
