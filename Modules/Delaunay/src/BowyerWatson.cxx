@@ -272,17 +272,8 @@ BowyerWatson(const std::vector<LatticePoint> & points,
              const Meanwhile &                 meanwhile,
              const ProgressCallback &          progress)
 {
-  LatticePoint low = points.at(0);
-  LatticePoint high = low;
-  for (const LatticePoint & p : points)
-  {
-    low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
-    high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
-  }
-  const std::int64_t extent =
-    std::max({ std::int64_t{ high.x } - low.x, std::int64_t{ high.y } - low.y, std::int64_t{ high.z } - low.z });
-  return InSphereBits(extent, weights) < 62.99 ? Run<std::int64_t>(points, weights, meanwhile, progress)
-                                               : Run<__int128>(points, weights, meanwhile, progress);
+  return FitsSmallIntegers(points, weights) ? Run<std::int64_t>(points, weights, meanwhile, progress)
+                                            : Run<__int128>(points, weights, meanwhile, progress);
 }
 
 } // namespace voxelcore

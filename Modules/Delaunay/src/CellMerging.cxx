@@ -1,3 +1,4 @@
+#include "PointPredicates.h"
 #include "Tetrahedra.h"
 
 #include "voxelcore/BucketSort.h"
@@ -115,16 +116,17 @@ AppendFacets(std::uint32_t cell, std::span<Triangle> triangles, Outlines & outli
   }
 }
 
-// Unites tetrahedra inside the shape across faces whose far corner lies exactly on the near sphere.
-UnionFind
-UniteCospherical(const Tetrahedra &                tetrahedra,
-                 const std::vector<std::uint8_t> & inside,
-                 const std::vector<LatticePoint> & points,
-                 const SpacingWeights &            weights)
+// Which faces two cospherical tetrahedra inside the shape share: bit i for the face opposite to corner i.
+template <typename TNumber>
+std::vector<std::uint8_t>
+FindAlike(const Tetrahedra &                tetrahedra,
+          const std::vector<std::uint8_t> & inside,
+          const std::vector<LatticePoint> & points,
+          const SpacingWeights &            weights)
 {
-  // Which faces two cospherical tetrahedra share is asked side by side: bit i for the face opposite to corner i.
-  const std::size_t         count = inside.size();
-  std::vector<std::uint8_t> alike(count, 0);
+  const PointPredicates<TNumber> predicates(points, weights);
+  const std::size_t              count = inside.size();
+  std::vector<std::uint8_t>      alike(count, 0);
 #pragma omp parallel for schedule(dynamic, 4096) if (count > 10000)
   for (std::size_t t = 0; t < count; ++t)
   {
@@ -132,9 +134,6 @@ UniteCospherical(const Tetrahedra &                tetrahedra,
     {
       continue;
     }
-    const auto &       corners = tetrahedra.corners[t];
-    const CircumSphere sphere =
-      MakeCircumSphere(points[corners[0]], points[corners[1]], points[corners[2]], points[corners[3]], weights);
     for (std::size_t i = 0; i < 4; ++i)
     {
       const std::uint32_t neighbour = tetrahedra.neighbours[t][i];
@@ -144,13 +143,27 @@ UniteCospherical(const Tetrahedra &                tetrahedra,
       }
       const auto & across = tetrahedra.neighbours[neighbour];
       const auto   far = static_cast<std::size_t>(std::find(across.begin(), across.end(), t) - across.begin());
-      if (Power(sphere, points[tetrahedra.corners[neighbour][far]], weights) == 0)
+      if (predicates.InSphere(tetrahedra.corners[t], tetrahedra.corners[neighbour][far]) == 0)
       {
         alike[t] = static_cast<std::uint8_t>(alike[t] | 1U << i);
       }
     }
   }
-  UnionFind sets(count);
+  return alike;
+}
+
+// Unites tetrahedra inside the shape across faces whose far corner lies exactly on the near sphere.
+UnionFind
+UniteCospherical(const Tetrahedra &                tetrahedra,
+                 const std::vector<std::uint8_t> & inside,
+                 const std::vector<LatticePoint> & points,
+                 const SpacingWeights &            weights)
+{
+  const std::size_t               count = inside.size();
+  const std::vector<std::uint8_t> alike = FitsSmallIntegers(points, weights)
+                                            ? FindAlike<std::int64_t>(tetrahedra, inside, points, weights)
+                                            : FindAlike<__int128>(tetrahedra, inside, points, weights);
+  UnionFind                       sets(count);
   for (std::size_t t = 0; t < count; ++t)
   {
     for (std::size_t i = 0; alike[t] != 0 && i < 4; ++i)

@@ -335,20 +335,18 @@ CellTracer::SeedSquare(std::int32_t x, std::int32_t y, std::int32_t z, unsigned 
       }
     }
   }
-  const FacetKey key = KeyOf(m_Polygon);
-  if (m_Front.Take(key) != FacetTable::none)
+  if (m_Front.TakeOrInsert(KeyOf(m_Polygon), NextFacet()) != FacetTable::none)
   {
     return; // a cell found earlier has this square, and knows that it is on the boundary
   }
   const std::uint32_t facet = NewFacet(kOpen, kOutside, m_Polygon);
-  m_Front.Insert(key, facet);
   m_Stack.push_back({ facet, 0.0 }); // the square's smallest sphere is empty
 }
 
 std::uint32_t
 CellTracer::NewFacet(std::uint32_t first, std::uint32_t second, std::span<const std::uint32_t> polygon)
 {
-  const auto facet = static_cast<std::uint32_t>(m_Result.FacetCount());
+  const std::uint32_t facet = NextFacet();
   m_Result.facetCells.push_back({ first, second });
   for (const std::uint32_t point : polygon) // three or four: cheaper than a copy of unknown length
   {
@@ -361,8 +359,7 @@ CellTracer::NewFacet(std::uint32_t first, std::uint32_t second, std::span<const 
 void
 CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon)
 {
-  const FacetKey      key = KeyOf(polygon);
-  const std::uint32_t met = m_Front.Take(key);
+  const std::uint32_t met = m_Front.TakeOrInsert(KeyOf(polygon), NextFacet());
   if (met != FacetTable::none)
   {
     Close(met, cell);
@@ -371,11 +368,10 @@ CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon)
   // A boundary square that is not in the table belongs to a voxel whose brick has not been seeded.
   if (IsBoundarySquare(polygon))
   {
-    m_Front.Insert(key, NewFacet(cell, kOutside, polygon));
+    NewFacet(cell, kOutside, polygon);
     return;
   }
   const std::uint32_t facet = NewFacet(cell, kOpen, polygon);
-  m_Front.Insert(key, facet);
   m_Stack.push_back({ facet, unknown });
 }
 

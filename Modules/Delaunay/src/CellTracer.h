@@ -94,6 +94,12 @@ private:
   AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon);
   bool
   IsBoundarySquare(std::span<const std::uint32_t> polygon) const;
+  /** The number of the facet that NewFacet() makes. */
+  std::uint32_t
+  NextFacet() const
+  {
+    return static_cast<std::uint32_t>(m_Result.FacetCount());
+  }
   std::uint32_t
   NewFacet(std::uint32_t first, std::uint32_t second, std::span<const std::uint32_t> polygon);
   void

@@ -106,6 +106,7 @@ private:
 
 void
 AddDeepCells(Tracing &                         tracing,
+             const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
              const Meanwhile &                 meanwhile,
@@ -143,6 +144,21 @@ AddDeepCells(Tracing &                         tracing,
   for (std::size_t t = 0; t < count; ++t)
   {
     const auto & corners = tetrahedra.corners[t];
+    wall[t].fill(none);
+    // The middle of a tetrahedron of the region lies in the open shape, in one voxel or between some that are all in.
+    std::array<std::int64_t, 3> sum{};
+    for (const std::uint32_t corner : corners)
+    {
+      sum[0] += deepPoints[corner].x;
+      sum[1] += deepPoints[corner].y;
+      sum[2] += deepPoints[corner].z;
+    }
+    if (!shape.Contains(static_cast<std::int32_t>(sum[0] >> 2),
+                        static_cast<std::int32_t>(sum[1] >> 2),
+                        static_cast<std::int32_t>(sum[2] >> 2)))
+    {
+      continue;
+    }
     for (std::size_t i = 0; i < 4; ++i)
     {
       const auto &           f = tetrahedronFaces[i];

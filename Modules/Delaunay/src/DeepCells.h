@@ -17,6 +17,7 @@ namespace voxelcore
  *  \throws Cancelled; CertificateError when the region does not close (a fault of this engine). */
 void
 AddDeepCells(Tracing &                         tracing,
+             const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
              const Meanwhile &                 meanwhile,

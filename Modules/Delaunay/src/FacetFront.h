@@ -42,19 +42,19 @@ public:
     }
   }
 
-  /** Takes the facet stored under the key out and returns it, or FacetTable::none. */
+  /** Takes the facet stored under the key out and returns it; where there is none, stores another one and returns
+   *  FacetTable::none. */
   std::uint32_t
-  Take(const FacetKey & key)
+  TakeOrInsert(const FacetKey & key, std::uint32_t facet)
   {
-    const std::uint32_t near = m_Near.Take(key);
-    return near == FacetTable::none && HasFar(key[0]) && HasFar(key[1]) && HasFar(key[2]) ? m_Far.Take(key) : near;
-  }
-
-  /** Stores a facet under a key that is not there yet. */
-  void
-  Insert(const FacetKey & key, std::uint32_t facet)
-  {
-    m_Near.Insert(key, facet);
+    if (HasFar(key[0]) && HasFar(key[1]) && HasFar(key[2]))
+    {
+      if (const std::uint32_t far = m_Far.Take(key); far != FacetTable::none)
+      {
+        return far;
+      }
+    }
+    return m_Near.TakeOrInsert(key, facet);
   }
 
   /** Calls visit(facet) for every one, in no particular order. */

@@ -61,24 +61,32 @@ public:
         return none;
       }
     }
-    const std::uint32_t value = m_Slots[at].value;
-    // Close the gap with entries that may stand there, so that probing needs no tombstones.
-    for (std::size_t gap = at, from = Next(at);; from = Next(from))
+    return TakeAt(at);
+  }
+
+  /** Takes the number stored under the key out and returns it; where there is none, stores another one and returns
+   *  none. */
+  std::uint32_t
+  TakeOrInsert(const FacetKey & key, std::uint32_t value)
+  {
+    std::size_t at = Home(key);
+    for (; m_Slots[at].value != none; at = Next(at))
     {
-      if (m_Slots[from].value == none)
+      if (IsSameKey(m_Slots[at].key, key))
       {
-        m_Slots[gap].value = none;
-        break;
-      }
-      const std::size_t mask = m_Slots.size() - 1;
-      if (((from - Home(m_Slots[from].key)) & mask) >= ((from - gap) & mask))
-      {
-        m_Slots[gap] = m_Slots[from];
-        gap = from;
+        return TakeAt(at);
       }
     }
-    --m_Size;
-    return value;
+    if (2 * (m_Size + 1) > m_Slots.size())
+    {
+      Insert(key, value);
+    }
+    else
+    {
+      m_Slots[at] = { key, value };
+      ++m_Size;
+    }
+    return none;
   }
 
   /** Stores a number under a key that is not there yet. */
@@ -127,6 +135,29 @@ private:
     FacetKey      key;
     std::uint32_t value;
   };
+
+  std::uint32_t
+  TakeAt(std::size_t at)
+  {
+    const std::uint32_t value = m_Slots[at].value;
+    // Close the gap with entries that may stand there, so that probing needs no tombstones.
+    for (std::size_t gap = at, from = Next(at);; from = Next(from))
+    {
+      if (m_Slots[from].value == none)
+      {
+        m_Slots[gap].value = none;
+        break;
+      }
+      const std::size_t mask = m_Slots.size() - 1;
+      if (((from - Home(m_Slots[from].key)) & mask) >= ((from - gap) & mask))
+      {
+        m_Slots[gap] = m_Slots[from];
+        gap = from;
+      }
+    }
+    --m_Size;
+    return value;
+  }
 
   std::size_t
   Home(const FacetKey & key) const

@@ -222,14 +222,7 @@ public:
       Tetrahedron &       own = made[i];
       const std::uint32_t place = by.places[i];
       Tetrahedron &       beyond = m_Tetrahedra[rim[i].outer];
-      for (std::size_t j = 0; j < 4; ++j)
-      {
-        if (beyond.neighbour[j] == rim[i].inner && SharesFace(beyond, j, own, p))
-        {
-          beyond.neighbour[j] = place;
-          break;
-        }
-      }
+      beyond.neighbour[FaceBetween(beyond, rim[i].inner, own, p)] = place;
       for (std::uint32_t j = 0; j < 4; ++j)
       {
         if (own.vertex[j] == p || own.neighbour[j] != none)
@@ -355,6 +348,23 @@ private:
       from = t;
       t = next;
     }
+  }
+
+  // Where `beyond` still has the cavity's tetrahedron `inner` as neighbour across the face that it shares with `own`.
+  std::size_t
+  FaceBetween(const Tetrahedron & beyond, std::uint32_t inner, const Tetrahedron & own, std::uint32_t p) const
+  {
+    const auto &      neighbour = beyond.neighbour;
+    const std::size_t first = neighbour[0] == inner ? 0 : neighbour[1] == inner ? 1 : neighbour[2] == inner ? 2 : 3;
+    // Nearly always it is a neighbour once.
+    for (std::size_t j = first + 1; j < 4; ++j)
+    {
+      if (neighbour[j] == inner && SharesFace(beyond, j, own, p))
+      {
+        return j;
+      }
+    }
+    return first;
   }
 
   // Two tetrahedra can meet the same cavity cell at one face only, unless both faces are the cell's; compare vertices.

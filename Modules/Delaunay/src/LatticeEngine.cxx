@@ -148,7 +148,7 @@ LatticeCells(const VoxelShape &                shape,
         raw.sorted = SortByCentre(tracing.cells, 0, points, weights);
       }
     };
-    AddDeepCells(tracing, points, weights, sortFound, plan.Next());
+    AddDeepCells(tracing, shape, points, weights, sortFound, plan.Next());
   }
   raw.cells = std::move(tracing.cells);
   return raw;

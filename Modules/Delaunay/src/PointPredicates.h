@@ -2,8 +2,10 @@
 // Orientation and in-sphere tests over a list of points, with a number type as wide as they need.
 
 #include "voxelcore/LatticePoint.h"
+#include "voxelcore/Predicates.h"
 #include "voxelcore/SpacingWeights.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -11,6 +13,22 @@
 
 namespace voxelcore
 {
+
+/** Whether 64 bits hold the in-sphere values of these points. */
+inline bool
+FitsSmallIntegers(const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+{
+  LatticePoint low = points.empty() ? LatticePoint{} : points[0];
+  LatticePoint high = low;
+  for (const LatticePoint & p : points)
+  {
+    low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
+    high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
+  }
+  const std::int64_t extent =
+    std::max({ std::int64_t{ high.x } - low.x, std::int64_t{ high.y } - low.y, std::int64_t{ high.z } - low.z });
+  return InSphereBits(extent, weights) < 62.99;
+}
 
 /** TNumber holds the in-sphere value 72 w^2 N^5 (see Predicates.h). */
 template <typename TNumber>

@@ -170,7 +170,8 @@ CellTracer::TraceFacet(Pending pending)
                                m_Input.weights);
   const auto &          weights = m_Input.weights;
 
-  if (pending.from == -std::numeric_limits<double>::infinity())
+  const bool isFirstLook = pending.from == -std::numeric_limits<double>::infinity();
+  if (isFirstLook)
   {
     // The near cell's own sphere is where the search begins: any of its points behind the facet gives it.
     for (const std::uint32_t corner : m_Result.tetrahedra[near])
@@ -183,6 +184,13 @@ CellTracer::TraceFacet(Pending pending)
         break;
       }
     }
+    // In a brick still to come the facet will probably have met its other side before anyone looks.
+    const std::size_t brick = BrickOf(pencil.middle);
+    if (brick != m_Brick && brick >= m_First && brick < m_Last && !m_Done[brick - m_First])
+    {
+      Defer(brick, pending);
+      return;
+    }
   }
 
   if (pencil.circle2 > m_Limit * m_Limit)
@@ -192,7 +200,7 @@ CellTracer::TraceFacet(Pending pending)
   }
   const double smallest = static_cast<double>(std::min({ weights.weight[0], weights.weight[1], weights.weight[2] }));
   const double furthest = std::sqrt(m_Limit * m_Limit - pencil.circle2);
-  double       step = 1.25 * smallest;
+  double       step = 1.5 * smallest;
   CapMaker     caps(pencil, weights);
   for (double at = pending.from;;)
   {
@@ -201,7 +209,8 @@ CellTracer::TraceFacet(Pending pending)
       m_Deep.push_back(pending.facet);
       return;
     }
-    const double          next = std::min(at + step, furthest);
+    // Two looks cost more than one at all that is left, where that is not much.
+    const double          next = at + step + 2.0 * smallest < furthest ? at + step : furthest;
     const double          radius = next == furthest ? m_Limit : std::sqrt(pencil.circle2 + next * next);
     std::array<double, 3> centre{};
     bool                  fits = true;
