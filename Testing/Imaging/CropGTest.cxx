@@ -283,6 +283,64 @@ TEST(Crop, OfAGreatRawScanTakesTimeAndMemoryOfThePart)
 #endif
 }
 
+TEST(Crop, OfLongRowsOnlyThePartIsReadWithTheSameResult)
+{
+  constexpr std::array<int, 3> size{ 9001, 5, 4 };
+  const TempFolder             folder;
+  std::mt19937                 random(5);
+  std::vector<int>             values(9001 * 5 * 4);
+  for (int & value : values)
+  {
+    value = static_cast<int>(random() % 3);
+  }
+  auto big = NrrdLines("short", size);
+  big[6] = "endian: big";
+  auto packed = NrrdLines("uchar", size);
+  packed[7] = "encoding: gzip";
+  const std::string bytes = RawAll<std::uint8_t>(values);
+  for (const auto & path : { folder.Write("raw.nrrd", Nrrd(NrrdLines("uchar", size), bytes)),
+                             folder.Write("big.nrrd", Nrrd(big, RawAll<std::int16_t>(values, true))),
+                             folder.Write("gzip.nrrd", Nrrd(packed, Gzip(bytes))) })
+  {
+    for (const CropRange & crop : { CropRange{ { 0, 1, 1 }, { 60, 4, 3 } },
+                                    CropRange{ { 4000, 0, 0 }, { 4130, 5, 4 } },
+                                    CropRange{ { 8960, 2, 0 }, { 9001, 3, 4 } } })
+    {
+      ExpectSame(path, crop);
+      ReadOptions threshold;
+      threshold.threshold = { 1.5, 2.5 };
+      ExpectSame(path, crop, threshold);
+    }
+  }
+}
+
+TEST(Crop, OfLongRowsTheRestIsNotRead)
+{
+  const TempFolder  folder;
+  const auto        lines = NrrdLines("uchar", { 200000, 50, 20 });
+  const std::string header = Nrrd(lines, "");
+  const auto        path = folder.Write("wide.nrrd", header);
+  std::filesystem::resize_file(path, header.size() + std::uintmax_t{ 200000 } * 50 * 20);
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary)
+    .seekp(static_cast<std::streamoff>(header.size() + std::size_t{ 200000 } * 50 * 10 + 1000))
+    .put(1);
+  const auto bytesRead = [] {
+    std::ifstream io("/proc/self/io");
+    std::string   word;
+    std::uint64_t count = 0;
+    io >> word >> count; // rchar: all that was asked for
+    return count;
+  };
+  ReadOptions options;
+  options.crop = CropRange{ { 900, 0, 0 }, { 1100, 50, 20 } };
+  const std::uint64_t before = bytesRead();
+  const LabelMap      map = ReadLabelVolume(path, options);
+  EXPECT_LT(bytesRead() - before, 3000000U) << "of 200 MB; the part has 200000 bytes";
+  ASSERT_EQ(map.labels.size(), 1U);
+  EXPECT_TRUE(map.labels[0].shape.Contains(1000, 0, 10));
+  EXPECT_EQ(map.labels[0].voxels, 1U);
+}
+
 TEST(Crop, ARangeThatIsNoneIsRefused)
 {
   const TempFolder folder;

@@ -47,9 +47,11 @@ ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options,
   const auto & size = scan.geometry.size;
   ReportProgress(progress, "read", 0.0);
   {
-    const CropRange whole{ { 0, 0, 0 },
-                           { part.end[0], static_cast<std::int32_t>(size[1]), static_cast<std::int32_t>(size[2]) } };
-    SlabReader      reader(scan, assembler.NeedsAllRows() ? whole : part);
+    const CropRange whole{
+      { 0, 0, 0 },
+      { static_cast<std::int32_t>(size[0]), static_cast<std::int32_t>(size[1]), static_cast<std::int32_t>(size[2]) }
+    };
+    SlabReader reader(scan, assembler.NeedsAllRows() ? whole : part);
     while (const Slab * slab = reader.Next())
     {
       std::size_t at = 0;

@@ -8,6 +8,7 @@ namespace
 {
 
 constexpr std::size_t   kSlabBytes = 1U << 20;
+constexpr std::size_t   kShortRow = 4096;       // bytes: reading what is not needed costs less than passing over it
 constexpr std::uint64_t kSkipBytes = 64U << 20; // between two looks whether to go on
 
 template <std::size_t Width>
@@ -47,6 +48,8 @@ SlabReader::SlabReader(ScanFile & scan, const CropRange & part)
   , m_EndZ(static_cast<std::uint64_t>(part.end[2]))
   , m_PartRows((m_EndY - m_FirstY) * (m_EndZ - static_cast<std::uint64_t>(part.first[2])))
   , m_RowBytes(static_cast<std::size_t>(scan.geometry.size[0]) * scan.interleaved * PixelBytes(scan.type))
+  , m_PartStart(static_cast<std::size_t>(part.first[0]) * scan.interleaved * PixelBytes(scan.type))
+  , m_PartBytes(static_cast<std::size_t>(part.end[0] - part.first[0]) * scan.interleaved * PixelBytes(scan.type))
   , m_Next(static_cast<std::uint64_t>(part.first[2]) * m_SizeY + m_FirstY)
 {
   if (m_PartRows > kSlabBytes / m_RowBytes)
@@ -170,6 +173,10 @@ SlabReader::ReadRows(Slab & slab, std::size_t count)
   constexpr std::size_t step = 16U << 20;
   const std::size_t     first = slab.used;
   const std::size_t     end = first + count * m_RowBytes;
+  if (m_PartBytes < m_RowBytes / 4 && m_RowBytes > kShortRow)
+  {
+    ReadPartOfRows(slab, count);
+  }
   while (slab.used < end)
   {
     const std::size_t now = std::min(step, end - slab.used);
@@ -182,6 +189,18 @@ SlabReader::ReadRows(Slab & slab, std::size_t count)
     SwapValues(slab.bytes.data() + first, end - first, m_Scan.type);
   }
   m_At += count;
+}
+
+void
+SlabReader::ReadPartOfRows(Slab & slab, std::size_t count)
+{
+  slab.bytes.resize(std::max(slab.bytes.size(), slab.used + count * m_RowBytes));
+  for (std::size_t row = 0; row < count; ++row, slab.used += m_RowBytes)
+  {
+    m_Scan.voxels->Skip(m_PartStart);
+    m_Scan.voxels->Read(slab.bytes.data() + slab.used + m_PartStart, m_PartBytes);
+    m_Scan.voxels->Skip(m_RowBytes - m_PartStart - m_PartBytes);
+  }
 }
 
 template <typename GoOn>

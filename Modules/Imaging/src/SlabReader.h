@@ -37,7 +37,8 @@ struct Slab
 class SlabReader
 {
 public:
-  /** Rows y, z of `part`; what lies between is skipped, which costs nothing where data are stored plain. The scan must
+  /** Rows y, z of `part`; what lies between is skipped, which costs nothing where data are stored plain. Of long rows
+   *  only what lies in the part is read, if that is little. The scan must
    *  outlive the object, and its stream is not to be touched meanwhile. */
   SlabReader(ScanFile & scan, const CropRange & part);
   SlabReader(const SlabReader &) = delete;
@@ -72,6 +73,9 @@ private:
   Fill(Slab & slab);
   void
   ReadRows(Slab & slab, std::size_t count);
+  /** What lies beside the part along x is passed over, and not defined in the slab. */
+  void
+  ReadPartOfRows(Slab & slab, std::size_t count);
   /** Goes on to a row; false when `goOn` says so on the way. */
   template <typename GoOn>
   bool
@@ -89,6 +93,8 @@ private:
   std::uint64_t m_EndZ;
   std::uint64_t m_PartRows;
   std::size_t   m_RowBytes;
+  std::size_t   m_PartStart; ///< of each row, in bytes
+  std::size_t   m_PartBytes;
   std::uint64_t m_At = 0; ///< the row where the stream stands
   std::uint64_t m_Next;   ///< the row to be read next
   std::uint64_t m_Given = 0;
