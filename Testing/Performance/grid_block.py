@@ -12,11 +12,18 @@ import argparse
 import filecmp
 import gzip
 import os
+import resource
 import subprocess
 import sys
 import tempfile
 
 from blocks_memory import expect, run
+
+
+def processor_seconds():
+    """Of all processes that have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def voxels_of(path):
@@ -76,17 +83,21 @@ def main():
             for y in range(low, low + side):
                 file.write(voxels[(z * body + y) * body + low:(z * body + y) * body + low + side])
     del voxels
+    before = processor_seconds()
     code, alone, alone_seconds, said = run([
-        program, "core", own, "-o", f"{folder}/alone.vtp", "--raw", f"{side},{side},{side},uint8", "--spacing", "1,1,1",
-        "--binary"
+        program, "core", own, "-o", f"{folder}/alone.vtp", "--lambda", "1.5vox", "--raw", f"{side},{side},{side},uint8",
+        "--spacing", "1,1,1", "--binary"
     ] + common)
     expect(code == 0, said)
+    alone_processor = processor_seconds() - before
     code, peak, seconds, said = run([program, "core", bare, "-o", f"{folder}/parts/", "--block-size",
                                      str(side), "--block", str(number)] + reading + common, options.limit)
     expect(code == 0, f"the block fails under {options.limit} MB: {said}")
+    processor = processor_seconds() - before - alone_processor
     print(
-        f"block {number} of {count**3} of {scan}^3: {peak:.0f} MB, {seconds:.1f} s; its voxels alone as a whole job: "
-        f"{alone:.0f} MB, {alone_seconds:.1f} s; file {os.stat(bare).st_size / 1e12:.2f} TB, "
+        f"block {number} of {count**3} of {scan}^3: {peak:.0f} MB, {seconds:.1f} s, {processor:.1f} s of processor; "
+        f"its voxels alone as a whole job: {alone:.0f} MB, {alone_seconds:.1f} s, {alone_processor:.1f} s; "
+        f"file {os.stat(bare).st_size / 1e12:.2f} TB, "
         f"{os.stat(bare).st_blocks * 512 / 1e9:.1f} GB on disk",
         flush=True)
 
