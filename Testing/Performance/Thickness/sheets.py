@@ -65,7 +65,7 @@ def body(kind, p, half):
         t = 2 * np.pi / (0.9 * half)
         x, y, z = p[0] * t, p[1] * t, p[2] * t
         value = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
-        return np.maximum(np.abs(value) / t / 1.3, np.sqrt(p[0] ** 2 + p[1] ** 2 + p[2] ** 2) - half + 2.5)
+        return np.maximum(np.abs(value) / t / 1.73, np.sqrt(p[0] ** 2 + p[1] ** 2 + p[2] ** 2) - half + 2.5)
     raise ValueError(kind)
 
 
