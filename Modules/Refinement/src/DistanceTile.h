@@ -88,11 +88,11 @@ template <std::int32_t Count, std::int32_t Margin>
 FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3> & squares, Squared<Count> & least)
 {
   constexpr std::int32_t side = Rows<Count, Margin>::kSide;
-  // From near to far, as long as what is farther may still be less.
+  // From near to far, as long as what is farther may still be less; has(d): whether anything is so far away.
   using Eight = float __attribute__((vector_size(32), aligned(4), may_alias));
   using Words = std::uint64_t __attribute__((vector_size(32)));
   constexpr std::size_t parts = Count / 8;
-  const auto            lowerAll = [](float * to, const auto & from, float square) __attribute__((always_inline))
+  const auto lowerAll = [](float * to, const auto & from, float square, const auto & has) __attribute__((always_inline))
   {
     const auto part = [](const float * row, std::size_t i) __attribute__((always_inline))
     {
@@ -105,6 +105,10 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
     }
     for (std::int32_t d = 1; d <= Margin; ++d)
     {
+      if (!has(d))
+      {
+        continue;
+      }
       const float more = static_cast<float>(d * d) * square;
       Words       open{};
       for (std::size_t i = 0; i < parts; ++i)
@@ -129,29 +133,45 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
     }
   };
   // By x alone, of a layer; by x and y.
-  float byX[side][Count];
-  float byY[side * Count][Count];
+  float         byX[side][Count];
+  float         byY[side * Count][Count];
+  std::uint64_t layers[side]; // all of their bits
   for (std::int32_t z = 0; z < side; ++z)
   {
+    const std::uint64_t * const bits = rows.bits.data() + z * side;
+    layers[z] = 0;
     for (std::int32_t y = 0; y < side; ++y)
     {
-      FindAlongRow<Count, Margin>(rows.bits[static_cast<std::size_t>(z * side + y)], squares[0], byX[y]);
+      layers[z] |= bits[y];
+    }
+    if (layers[z] == 0)
+    {
+      std::fill_n(byY[z * Count], Count * Count, kNone);
+      continue;
+    }
+    for (std::int32_t y = 0; y < side; ++y)
+    {
+      FindAlongRow<Count, Margin>(bits[y], squares[0], byX[y]);
     }
     for (std::int32_t y = 0; y < Count; ++y)
     {
+      const std::int32_t middle = y + Margin;
       lowerAll(
         byY[z * Count + y],
-        [&](std::int32_t d) { return byX[y + Margin + d]; },
-        squares[1]);
+        [&](std::int32_t d) { return byX[middle + d]; },
+        squares[1],
+        [&](std::int32_t d) { return (bits[middle - d] | bits[middle + d]) != 0; });
     }
   }
   for (std::int32_t row = 0; row < Count * Count; ++row)
   {
-    const auto * const middle = byY + (row + Margin * Count);
+    const auto * const          middle = byY + (row + Margin * Count);
+    const std::uint64_t * const layer = layers + row / Count + Margin;
     lowerAll(
       least.data() + row * Count,
       [&](std::int32_t d) { return middle[d * Count]; },
-      squares[2]);
+      squares[2],
+      [&](std::int32_t d) { return (layer[-d] | layer[d]) != 0; });
   }
 }
 

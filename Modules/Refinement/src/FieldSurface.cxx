@@ -12,16 +12,27 @@ namespace voxelcore
 SurfacePoint
 FieldSurface::Project(const Vector3 & place, double reach) const
 {
+  // Places are asked for one beside the other, some of two fields by turns.
+  struct Remembered
+  {
+    std::uint64_t   of = 0;
+    BandField::Spot spot;
+  };
+  static thread_local std::array<Remembered, 4> remembered;
+  Remembered &                                  own = remembered[m_Number.Value() % remembered.size()];
+  if (own.of != m_Number.Value())
+  {
+    own = { m_Number.Value(), {} };
+  }
   constexpr int    steps = 6;
   constexpr double longest = 1.0; // voxels a step
   Vector3          at = Over(place, m_Spacing);
   SurfacePoint     point;
-  BandField::Spot  spot;
   for (int step = 0; step <= steps; ++step)
   {
     double  value = 0;
     Vector3 slope{};
-    if (!m_Field.Evaluate(at, spot, value, slope) || Dot(Times(slope, slope), m_BySides) < m_Flattest * m_Flattest)
+    if (!m_Field.Evaluate(at, own.spot, value, slope) || Dot(Times(slope, slope), m_BySides) < m_Flattest * m_Flattest)
     {
       return point;
     }

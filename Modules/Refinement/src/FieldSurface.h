@@ -8,10 +8,50 @@
 
 #include "voxelcore/SurfaceEstimate.h"
 
+#include <atomic>
+#include <cstdint>
 #include <optional>
 
 namespace voxelcore
 {
+
+/** A number that no other one has, nor has had: what is remembered by it is of what has it and has not changed. */
+class OwnNumber
+{
+public:
+  OwnNumber()
+    : m_Value(Next())
+  {}
+  OwnNumber(const OwnNumber &)
+    : OwnNumber()
+  {}
+  OwnNumber &
+  operator=(const OwnNumber &)
+  {
+    Renew();
+    return *this;
+  }
+  void
+  Renew()
+  {
+    m_Value = Next();
+  }
+  std::uint64_t
+  Value() const
+  {
+    return m_Value;
+  }
+
+private:
+  static std::uint64_t
+  Next()
+  {
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
+  }
+
+  std::uint64_t m_Value;
+};
 
 /** Where a field is 0. */
 class FieldSurface : public SurfaceEstimate
@@ -55,6 +95,7 @@ public:
   Change(TChange change)
   {
     change(m_Field);
+    m_Number.Renew();
   }
 
   const BandField &
@@ -73,6 +114,7 @@ private:
   double    m_Close;
 
   std::optional<WallSwelling> m_Walls;
+  OwnNumber                   m_Number; ///< of the field as it is where it is
 };
 
 } // namespace voxelcore
