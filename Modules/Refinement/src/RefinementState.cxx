@@ -237,17 +237,18 @@ RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part
   return lines;
 }
 
+// All of it, lent out.
 CorePart
-RefinementState::All() const
+RefinementState::LendAll()
 {
   CorePart part;
-  part.cells = m_Cells;
   part.vertices.resize(m_Cells.vertexCount);
   part.edges.resize(m_Cells.edges.size());
   part.faces.resize(m_Cells.FaceCount());
   std::iota(part.vertices.begin(), part.vertices.end(), 0);
   std::iota(part.edges.begin(), part.edges.end(), 0);
   std::iota(part.faces.begin(), part.faces.end(), 0);
+  part.cells = std::move(m_Cells);
   return part;
 }
 
@@ -292,9 +293,11 @@ RefinementState::Collapse(const CorePart & part, double threshold) const
 RefinedCore
 RefinementState::Finish(const FootPointFinder & finder, double threshold, FormerBalls & former)
 {
-  CorePart part = All();
   MeasureElements();
-  part = Collapse(part, threshold);
+  CorePart all = LendAll();
+  CorePart part = Collapse(all, threshold);
+  m_Cells = std::move(all.cells);
+  all = CorePart();
   std::vector<Vector3> wanted = m_Displacement;
   RefinedCore          refined;
   const auto           settle = [&](std::vector<ElementIndex> changed) {

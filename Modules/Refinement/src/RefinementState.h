@@ -74,7 +74,7 @@ private:
   std::vector<ElementIndex>
   MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted);
   CorePart
-  All() const;
+  LendAll();
   CorePart
   Collapse(const CorePart & part, double threshold) const;
 
