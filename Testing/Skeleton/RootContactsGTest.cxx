@@ -4,6 +4,7 @@
 
 #include "voxelcore/RootContacts.h"
 #include "voxelcore/RootHierarchy.h"
+#include "voxelcore/ShapeOperations.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <gtest/gtest.h>
@@ -96,12 +97,14 @@ TEST(RootContacts, WallsPartRootsThatTouchAndNothingElse)
     EXPECT_GT(walls.CountVoxels(), 0U);
     EXPECT_LT(walls.CountVoxels() * 20, touching.shape.CountVoxels());
     const VoxelShape apart = Without(touching.shape, walls);
-    EXPECT_EQ(ComputeShapeTopology(apart).betti, (std::array<std::int64_t, 3>{ 1, 0, 0 }))
-      << "slices " << spacing[2] << " mm: one piece still, and no loop";
+    EXPECT_EQ(ComputeShapeTopology(apart).betti[1], 0) << "slices " << spacing[2] << " mm";
+    // Splinters between walls may come off, no root.
+    const VoxelShape whole = SplitComponents(apart).front();
+    EXPECT_LT(apart.CountVoxels() - whole.CountVoxels(), 10U) << "slices " << spacing[2] << " mm";
     for (const Spacing3 & tip : { Spacing3{ 51, 14, 13.4 }, Spacing3{ 51, 18, 36.3 } })
     {
       const Vector3 at = PhysicalToLattice(touching.geometry, tip);
-      EXPECT_TRUE(apart.Contains(static_cast<int>(std::floor(at[0])),
+      EXPECT_TRUE(whole.Contains(static_cast<int>(std::floor(at[0])),
                                  static_cast<int>(std::floor(at[1])),
                                  static_cast<int>(std::floor(at[2]))));
     }

@@ -201,7 +201,7 @@ private:
     return Unit(from < to ? Minus(Place(axis, to), Place(axis, from)) : otherwise);
   }
 
-  /** Of two whose curves come too near to each other, the thinner gives way. */
+  /** Two whose curves come too near to each other give way, the thinner more. */
   void
   MoveApart(std::vector<Strand> & strands) const
   {
@@ -211,49 +211,63 @@ private:
       {
         if (!AreKin(m_Roots, strands[i], strands[k]))
         {
-          const bool isFirst = strands[i].curveFrom < strands[i].curveTo &&
-                               (strands[i].radius < strands[k].radius || strands[k].curveFrom == strands[k].curveTo);
-          MoveAway(strands[isFirst ? i : k], strands[isFirst ? k : i]);
+          MovePairApart(strands[i], strands[k]);
         }
       }
     }
   }
 
   static void
-  MoveAway(Strand & strand, const Strand & other)
+  MovePairApart(Strand & a, Strand & b)
   {
     double  least = std::numeric_limits<double>::infinity();
     Vector3 away{ 0, 0, 0 };
-    Vector3 along{ 0, 0, 0 };
-    Vector3 otherAlong{ 0, 0, 0 };
-    for (std::size_t i = strand.curveFrom; i < strand.curveTo; ++i)
+    Vector3 alongA{ 0, 0, 0 };
+    Vector3 alongB{ 0, 0, 0 };
+    for (std::size_t i = a.curveFrom; i < a.curveTo; ++i)
     {
-      for (std::size_t k = 0; k + 1 < other.line.size(); ++k)
+      for (std::size_t k = b.curveFrom; k < b.curveTo; ++k)
       {
-        const auto [squared, t] = ToSegment(strand.line[i], other.line[k], other.line[k + 1]);
+        // A curve has lines before and behind it.
+        const Vector3 segment = Minus(b.line[k + 1], b.line[k - 1]);
+        const auto [squared, t] = ToSegment(a.line[i], b.line[k - 1], b.line[k + 1]);
         if (squared < least)
         {
           least = squared;
-          const Vector3 segment = Minus(other.line[k + 1], other.line[k]);
-          away = Minus(strand.line[i], AddScaled(other.line[k], t, segment));
-          along = Minus(strand.line[std::min(i + 1, strand.line.size() - 1)], strand.line[i > 0 ? i - 1 : 0]);
-          otherAlong = segment;
+          away = Minus(a.line[i], AddScaled(b.line[k - 1], t, segment));
+          alongA = Unit(Minus(a.line[i + 1], a.line[i - 1]));
+          alongB = Unit(segment);
         }
       }
     }
-    const double wanted = kApart * (strand.radius + other.radius);
+    const double wanted = kApart * (a.radius + b.radius);
     const double apart = std::sqrt(least);
     if (!(apart < wanted))
     {
       return;
     }
-    // Curves that cross have no side of their own: across both.
-    const Vector3 direction = Unit(apart > 0.05 * wanted ? away : Cross(along, otherAlong));
-    const auto    count = static_cast<double>(strand.curveTo - strand.curveFrom + 1);
+    // Curves that cross lie over each other on the side on which their arms do.
+    Vector3 direction = Unit(away);
+    if (const Vector3 across = Cross(alongA, alongB); Length(across) > 0.3)
+    {
+      const Vector3 arms =
+        Minus(AddScaled(a.line.front(), 1, a.line.back()), AddScaled(b.line.front(), 1, b.line.back()));
+      direction = AddScaled({ 0, 0, 0 }, Dot(across, arms) < 0 ? -1 : 1, Unit(across));
+    }
+    const double lacking = wanted - Dot(away, direction);
+    Bend(a, b.radius / (a.radius + b.radius) * lacking, direction);
+    Bend(b, -a.radius / (a.radius + b.radius) * lacking, direction);
+  }
+
+  /** Moves the middle of a curve so far, its ends not at all. */
+  static void
+  Bend(Strand & strand, double by, const Vector3 & direction)
+  {
+    const auto count = static_cast<double>(strand.curveTo - strand.curveFrom + 1);
     for (std::size_t i = strand.curveFrom; i < strand.curveTo; ++i)
     {
       const double part = std::sin(3.14159265358979 * static_cast<double>(i - strand.curveFrom + 1) / count);
-      strand.line[i] = AddScaled(strand.line[i], (wanted - apart) * part, direction);
+      strand.line[i] = AddScaled(strand.line[i], by * part, direction);
     }
   }
 
