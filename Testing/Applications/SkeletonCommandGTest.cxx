@@ -30,7 +30,8 @@ protected:
       EXPECT_EQ(WithoutHollowWarnings(result.error), "");
       return Json::parse(ReadAll(m_Folder / "report.json")).at("labels");
     };
-    const Json beside = run({ "core", m_Folder / "scan.nrrd", "-o", m_Folder / "b.vtp", "--with-skeleton" });
+    const Json beside =
+      run({ "core", m_Folder / "scan.nrrd", "-o", m_Folder / "b.vtp", "--with-skeleton", "--refine", "off" });
     const Json labels =
       run({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "a.vtp", "--also", "csv,swc,mrk.json,graphml,ma" });
     EXPECT_EQ(ReadAll(m_Folder / "a.vtp"), ReadAll(m_Folder / "b_skeleton.vtp"));

@@ -126,6 +126,14 @@ TEST_F(VoxelUnit, NoOutputNamesAMillimetre)
       {
         text = text.substr(0, text.find("<script id=\"data\"")); // not the numbers, which are letters there
       }
+      if (extension == ".vtp")
+      {
+        // Of what is appended the texts, not the numbers, whose bytes may be letters.
+        const std::size_t provenance = text.find("{\"voxelcore\"");
+        const std::size_t end = provenance == std::string::npos ? provenance : text.find('\0', provenance);
+        text = text.substr(0, text.find("<AppendedData")) +
+               (provenance == std::string::npos ? std::string() : text.substr(provenance, end - provenance));
+      }
       EXPECT_EQ(Millimetres(text), "") << entry.path();
       ++files;
     }

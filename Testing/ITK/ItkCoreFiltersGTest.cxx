@@ -319,6 +319,7 @@ TEST(ItkCoreFilters, WorkAgainAfterAFailureUpstream)
   shapes->SetNumberOfStreamDivisions(3);
   auto core = itk::VoxelCoreFilter::New();
   core->SetInput(shapes->GetOutput());
+  core->WholeCoreOn();
   auto pruned = itk::LambdaPruningFilter::New();
   pruned->SetInput(core->GetOutput());
   const auto expectRefusal = [&](const char * words) {

@@ -36,7 +36,7 @@ TEST_F(PruneJob, WritesTheBytesThatCoreWouldHaveWritten)
     EXPECT_EQ(result.report.labels[0].pruned.at(0).lambda, lambda);
   }
   Core("heights.vtp", { { "tolerance", "0" } });
-  Core("core.vtp", { { "tolerance", "1.2diag" }, { "force", "true" } });
+  Core("core.vtp", { { "tolerance", "1.2diag" }, { "refine", "off" }, { "force", "true" } });
   Prune("heights.vtp", "pruned.vtp", { { "tolerance", "1.2diag" }, { "force", "true" } });
   EXPECT_EQ(ReadModel(At("pruned.vtp")).parts[0].core.positions, ReadModel(At("core.vtp")).parts[0].core.positions);
 }

@@ -13,7 +13,7 @@ TABLE = [row for row in _voxelcore.option_table() if row["flags"]]
 # What only a program with files can do.
 OF_FILES = {
     *("volume", "component", "level", "raw", "nifti-form", "resolution", "grey", "grey-range", "with-skeleton", "join"),
-    *("blocks", "block", "memory", "json", "quiet"),
+    *("blocks", "block", "block-size", "change-voxels", "memory", "json", "quiet"),
 }
 
 

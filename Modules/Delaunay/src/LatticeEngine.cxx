@@ -3,6 +3,7 @@
 #include "CellTracer.h"
 #include "DeepCells.h"
 #include "SharedProgress.h"
+#include "voxelcore/Error.h"
 #include "voxelcore/StagePlan.h"
 
 #include <omp.h>
@@ -67,12 +68,25 @@ TraceSideBySide(const TracingInput & input, std::size_t threads, const ProgressC
       shared.Stop();
     }
   }
+  // A thread that fails stops the others, which then look cancelled: what failed is said.
+  bool isCancelled = false;
   for (const std::exception_ptr & failure : failures)
   {
-    if (failure)
+    try
     {
-      std::rethrow_exception(failure);
+      if (failure)
+      {
+        std::rethrow_exception(failure);
+      }
     }
+    catch (const Cancelled &)
+    {
+      isCancelled = true;
+    }
+  }
+  if (isCancelled)
+  {
+    throw Cancelled();
   }
   BrickQueue all(0, input.grid.Size());
   return CellTracer(input, all, false).Continue(JoinTracings(std::move(parts)), progress);

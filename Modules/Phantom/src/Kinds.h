@@ -86,8 +86,8 @@ template <typename Work>
 void
 ForSlabs(const PhantomOptions & options, const ProgressCallback & progress, const Work & work)
 {
-  constexpr std::int32_t atATime = 16;
-  const std::int32_t     slabs = (options.size[2] + kPhantomSlab - 1) / kPhantomSlab;
+  const std::int32_t slabs = (options.size[2] + kPhantomSlab - 1) / kPhantomSlab;
+  const std::int32_t atATime = std::clamp(slabs / 8, 2, 16);
   for (std::int32_t first = 0; first < slabs; first += atATime)
   {
     ReportProgress(progress, "sampling", static_cast<double>(first) / slabs);

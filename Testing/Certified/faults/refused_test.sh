@@ -28,7 +28,7 @@ refused() {
 }
 refused core 4 "$program" core scan.nrrd -o out.vtp
 refused pruning 4 "$program" core scan.nrrd --lambda 1.5vox -o out.vtp
-refused tolerance 4 "$program" core scan.nrrd -o out.vtp
+refused tolerance 4 "$program" core scan.nrrd --refine off -o out.vtp
 refused refinement 4 "$program" core scan.nrrd --lambda 2.5vox --refine labels -o out.vtp
 refused refinement 4 "$program" core scan.nrrd --refine labels -o out.vtp
 refused skeleton 4 "$program" skeleton scan.nrrd -o out.vtp

@@ -21,7 +21,7 @@ FROM_ARRAY = {
     "core": lambda: voxelcore.core(ROD, lambda_=0),
     "pruned": lambda: voxelcore.core(ROD, lambda_="1.5vox"),
     "several": lambda: voxelcore.core(ROD, lambda_=["1vox", "2vox"]),
-    "by tolerance": lambda: voxelcore.core(ROD, tolerance="1.2diag"),
+    "by tolerance": lambda: voxelcore.core(ROD, tolerance="1.2diag", refine="off"),
     "refined": lambda: voxelcore.core(ROD, lambda_=0, refine="labels"),
     "skeleton": lambda: voxelcore.skeleton(ROD),
     "table": lambda: voxelcore.measure(ROD),

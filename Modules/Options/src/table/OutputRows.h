@@ -146,7 +146,7 @@ inline constexpr auto kOutputRows = std::to_array<Parameter>({
     "",
     false,
     kThickness,
-    "Write the medial surface with the thickness at each point; for 'voxelcore render --color Thickness'" },
+    "Write the medial surface with the thickness at each point, which 'voxelcore render' can show" },
   { "html",
     "--html",
     Output,

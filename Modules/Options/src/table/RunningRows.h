@@ -70,8 +70,8 @@ inline constexpr auto kRunningRows = std::to_array<Parameter>({
     "",
     false,
     kCore,
-    "Instead of --blocks: cut the scan into blocks of N voxels a side; a block reads the voxels it needs, and none the "
-    "whole scan" },
+    "Cut the scan into blocks of N voxels a side instead of a number of blocks; a block reads the voxels it needs, and "
+    "none the whole scan" },
   { "join", "--join", Input, "DIR", "", false, kCore, "Combine the blocks in DIR; the result is that of a single run" },
 });
 
