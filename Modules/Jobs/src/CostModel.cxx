@@ -47,7 +47,7 @@ constexpr double kTetgenBytes = 1050;   // TetGen's mesh
 constexpr double kTetgenSeconds = 6e-5;
 constexpr double kFurtherSeconds = 8e-7; // of each further result
 constexpr double kToleranceSeconds = 3e-6;
-constexpr double kRefineBytes = 440; // the band of the field, and what is kept of the whole core
+constexpr double kRefineBytes = 180; // the band of the field, and what is kept of the whole core
 constexpr double kRefineSeconds = 1.3e-5;
 
 template <std::size_t n>

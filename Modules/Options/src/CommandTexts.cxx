@@ -160,7 +160,7 @@ Each label is measured by itself. Guide: thickness.md
 Examples:
   voxelcore thickness bone.nrrd -o bone-thickness.nrrd --table bone.csv
   voxelcore thickness ct.nrrd --threshold 300:inf --separation box -o map.nii.gz --table trabeculae.csv
-  voxelcore thickness atlas.nii.gz --labels cortex -o cortex.nrrd --border drop
+  voxelcore thickness atlas.nii.gz --labels 4 -o cortex.nrrd --border drop
   voxelcore thickness atlas.nii.gz -o maps/ --table maps/thickness.csv)";
 
 constexpr std::string_view kSheetsFooter =
