@@ -174,9 +174,9 @@ continues, and a seam shorter than that is drawn together into one junction.
 label's. Guide: thickness.md
 
 Examples:
-  voxelcore sheets foam.nrrd -o sheets.vtp --table sheets.csv --graph sheets.graphml
-  voxelcore sheets bone.nii.gz -o sheets.vtp --voxels sheets.nii.gz --table sheets.csv
-  voxelcore sheets medial.vtp -o sheets.vtp --sliver 0.5mm)";
+  voxelcore sheets atlas.nii.gz --labels 4 -o sheets.vtp --table sheets.csv --graph sheets.graphml
+  voxelcore sheets bone.nrrd -o sheets.vtp --voxels sheets.nii.gz --table sheets.csv
+  voxelcore sheets core.vtp -o sheets.vtp --sliver 0.5mm)";
 
 constexpr std::string_view kMeasureFooter =
   R"(OUT.csv writes OUT_branches.csv, OUT_summary.csv, and OUT_columns.json, which explains the columns.
