@@ -248,10 +248,9 @@ TEST_F(RootsJob, TurnedMirroredAndPaddedItIsTheSamePlantUnlessRootsTouch)
     EXPECT_EQ(UpText(moved.model.roots.up), name == "turned" ? "y-" : "z+") << name;
     EXPECT_EQ(moved.report.labels.at(0).shape.betti, plain.report.labels.at(0).shape.betti) << name;
     EXPECT_EQ(levels(moved), levels(plain)) << name;
-    // Where the ends of thin roots lie is not yet the same after a turn.
     EXPECT_NEAR(moved.model.traits.levels.back().totalLength,
                 plain.model.traits.levels.back().totalLength,
-                (name == "turned" ? 0.02 : 0.005) * plain.model.traits.levels.back().totalLength)
+                0.005 * plain.model.traits.levels.back().totalLength)
       << name;
     EXPECT_EQ(moved.model.traits.contacts, plain.model.traits.contacts) << name;
   }
