@@ -154,15 +154,15 @@ TellRootsApart(LabelShape &             mask,
   {
     return std::nullopt;
   }
-  const SkeletonGraph graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
-  RootHierarchy       roots = FindRoots(graph, rules);
-  const VoxelShape    walls = ContactWalls(mask.shape, geometry, graph, roots);
-  const LatticeBall   ball = BallOfDepth(request.depth, geometry);
-  RootsTopology       topology;
-  VoxelShape          kernel(mask.shape.Box());
-  VoxelShape          neighbourhood = VoxelsAround(mask.shape, ball);
-  const auto          values = ReadBand(core, neighbourhood, PartOfProgress(progress, 0.5, 0.6));
-  ChangeCost          inVoxels = DepthCost(mask.shape, ball);
+  SkeletonGraph     graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
+  RootHierarchy     roots = FindRoots(graph, rules);
+  const VoxelShape  walls = ContactWalls(mask.shape, geometry, graph, roots);
+  const LatticeBall ball = BallOfDepth(request.depth, geometry);
+  RootsTopology     topology;
+  VoxelShape        kernel(mask.shape.Box());
+  VoxelShape        neighbourhood = VoxelsAround(mask.shape, ball);
+  const auto        values = ReadBand(core, neighbourhood, PartOfProgress(progress, 0.5, 0.6));
+  ChangeCost        inVoxels = DepthCost(mask.shape, ball);
   // Of a change in a wall, of another; and that which is reported.
   std::function<double(std::int32_t, std::int32_t, std::int32_t)> cost =
     [&](std::int32_t x, std::int32_t y, std::int32_t z) { return inVoxels(x, y, z) / kCostOfOneVoxel; };
@@ -238,7 +238,8 @@ TellRootsApart(LabelShape &             mask,
     topology.parts.push_back(std::move(one));
   }
   std::ranges::stable_sort(topology.parts, std::ranges::greater{}, &RootsChange::cost);
-  topology.meetings = std::move(roots.meetings);
+  topology.graph = std::move(graph);
+  topology.roots = std::move(roots);
   mask.shape = std::move(simplified.shape);
   mask.voxels = mask.shape.CountVoxels();
   return topology;

@@ -207,7 +207,7 @@ AddRemarks(RootsResult & result)
 void
 RecallContacts(const RootsTopology & topology, RootModel & model)
 {
-  for (const RootMeeting & meeting : topology.meetings)
+  for (const RootMeeting & meeting : topology.roots.meetings)
   {
     for (RootAxis & axis : model.roots.axes)
     {
@@ -349,11 +349,20 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   SkeletonModel skeleton = ReadSkeletonVtp(StagedName(transaction, core.skeletonOutput));
   result.model.name = ScanName(options.scan);
   result.model.unit = result.report.input.geometry.unit;
-  result.model.graph = std::move(skeleton.parts.at(0).graph);
-  result.model.roots = FindRoots(result.model.graph, options.rules);
-  if (result.topology)
+  if (result.topology && result.topology->before.betti[0] == 1)
   {
-    RecallContacts(*result.topology, result.model);
+    // Two roots that cross cannot both be whole in a tree of voxels: they are followed where they still touched.
+    result.model.graph = result.topology->graph;
+    result.model.roots = result.topology->roots;
+  }
+  else
+  {
+    result.model.graph = std::move(skeleton.parts.at(0).graph);
+    result.model.roots = FindRoots(result.model.graph, options.rules);
+    if (result.topology)
+    {
+      RecallContacts(*result.topology, result.model);
+    }
   }
   result.model.traits = MeasureRoots(result.model.graph, result.model.roots, options.soilDepth);
   AddRemarks(result);

@@ -46,37 +46,38 @@ public:
   }
 
 private:
-  /** Voxels along a curve, each across a face of the one before. */
+  /** Voxels along a curve that hang together over faces: the boxes of steps of a quarter of a voxel. What lies between
+   *  two voxels is in both, so that a turned scan has the same. */
   template <typename TVisit>
   void
   VisitCurve(const Strand & strand, const TVisit & visit) const
   {
-    std::array<std::int32_t, 3> last{};
-    bool                        isFirst = true;
     for (std::size_t i = 0; i + 1 < strand.line.size(); ++i)
     {
       const Vector3 from = PhysicalToLattice(m_Geometry, strand.line[i]);
       const Vector3 along = Minus(PhysicalToLattice(m_Geometry, strand.line[i + 1]), from);
       const int     steps = std::max(1, static_cast<int>(std::ceil(4 * Length(along))));
-      for (int step = 0; step <= steps; ++step)
+      for (int step = 0; step < steps; ++step)
       {
-        const Vector3               at = AddScaled(from, static_cast<double>(step) / steps, along);
-        std::array<std::int32_t, 3> place{};
+        const Vector3               a = AddScaled(from, static_cast<double>(step) / steps, along);
+        const Vector3               b = AddScaled(from, static_cast<double>(step + 1) / steps, along);
+        std::array<std::int32_t, 3> least{};
+        std::array<std::int32_t, 3> most{};
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          place[axis] = static_cast<std::int32_t>(std::floor(at[axis]));
-          if (!isFirst && place[axis] != last[axis])
+          least[axis] = static_cast<std::int32_t>(std::floor(std::min(a[axis], b[axis]) - 1e-6));
+          most[axis] = static_cast<std::int32_t>(std::floor(std::max(a[axis], b[axis]) + 1e-6));
+        }
+        for (std::int32_t z = least[2]; z <= most[2]; ++z)
+        {
+          for (std::int32_t y = least[1]; y <= most[1]; ++y)
           {
-            last[axis] = place[axis];
-            visit(last);
+            for (std::int32_t x = least[0]; x <= most[0]; ++x)
+            {
+              visit({ x, y, z });
+            }
           }
         }
-        if (isFirst)
-        {
-          visit(place);
-        }
-        last = place;
-        isFirst = false;
       }
     }
   }
@@ -102,6 +103,7 @@ private:
     const auto plane = row * static_cast<std::size_t>(size[1]);
     // Which strand a voxel belongs to, 255 for none.
     constexpr std::uint8_t    none = 255;
+    constexpr std::uint8_t    several = 254;
     std::vector<std::uint8_t> owner(plane * static_cast<std::size_t>(size[2]), none);
     std::vector<float>        away(owner.size(), 0); ///< from its curve, mm, squared
     const auto                visit = [&](auto && work) {
@@ -119,7 +121,7 @@ private:
     };
     // Where its curve runs a root is whole, however thin.
     std::vector<std::uint8_t> onCurve(owner.size(), none);
-    for (std::size_t k = 0; k < std::min<std::size_t>(strands.size(), none); ++k)
+    for (std::size_t k = 0; k < std::min<std::size_t>(strands.size(), several); ++k)
     {
       VisitCurve(strands[k], [&](const std::array<std::int32_t, 3> & place) {
         std::size_t at = 0;
@@ -132,10 +134,7 @@ private:
           }
           at = at * static_cast<std::size_t>(size[axis]) + static_cast<std::size_t>(v);
         }
-        if (onCurve[at] == none && m_Shape.Contains(place[0], place[1], place[2]))
-        {
-          onCurve[at] = static_cast<std::uint8_t>(k);
-        }
+        onCurve[at] = onCurve[at] == none || onCurve[at] == k ? static_cast<std::uint8_t>(k) : several;
       });
     }
     visit([&](std::size_t at, const std::array<std::int32_t, 3> & v) {
@@ -146,7 +145,7 @@ private:
       const Vector3 place =
         LatticeToPhysical(m_Geometry, { v[0] + lower[0] + 0.5, v[1] + lower[1] + 0.5, v[2] + lower[2] + 0.5 });
       double nearest = kWithin * kWithin;
-      for (std::size_t k = 0; k < std::min<std::size_t>(strands.size(), none); ++k)
+      for (std::size_t k = 0; k < std::min<std::size_t>(strands.size(), several); ++k)
       {
         const double squared = SquaredDistance(place, strands[k].line);
         const double radii = squared / (strands[k].radius * strands[k].radius);

@@ -55,10 +55,11 @@ struct RootsTopology
   std::uint64_t             fills = 0;
   std::uint64_t             voxelsAdded = 0;
   std::uint64_t             voxelsRemoved = 0;
-  std::vector<RootsChange>  parts;    ///< the costliest first
-  VoxelChanges              changes;  ///< all of them
-  std::optional<GreyLevels> levels;   ///< of a grey scan; nothing at or above the kernel's was cut
-  std::vector<RootMeeting>  meetings; ///< where roots touched; branches are those of the skeleton with loops
+  std::vector<RootsChange>  parts;   ///< the costliest first
+  VoxelChanges              changes; ///< all of them
+  std::optional<GreyLevels> levels;  ///< of a grey scan; nothing at or above the kernel's was cut
+  SkeletonGraph             graph;   ///< of the mask before; loops where roots touch
+  RootHierarchy             roots;   ///< in it, each going on through its contacts
 };
 
 struct RootsResult
