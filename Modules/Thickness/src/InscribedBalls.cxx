@@ -3,6 +3,7 @@
 #include "OctantAxes.h"
 #include "SquareTree.h"
 
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <span>
 
 namespace voxelcore
 {
@@ -20,6 +23,9 @@ namespace
 // How much longer a radius is, or a bound greater, at the far end of a piece of an edge: of a voxel's shortest side.
 constexpr double kInscribedStep = 1.0 / 8;
 constexpr double kBoundingStep = 1.0 / 32;
+// A piece may be so long where the ball of its end sticks out of the one before by no more than this.
+constexpr double kCoarseStep = 1.0 / 2;
+constexpr double kNoMore = 1.0 / 64;
 
 class Finder
 {
@@ -56,14 +62,13 @@ public:
   ThicknessBalls
   Find(bool bounding, const ProgressCallback & progress)
   {
-    CutEdges(kInscribedStep * m_Least, false);
     ThicknessBalls balls;
     FindInscribed(balls.inscribed, progress);
-    m_Samples.clear();
+    m_Squares.clear();
     if (bounding)
     {
       FindVertexBounds();
-      CutEdges(kBoundingStep * m_Least, true);
+      CutEdges(kBoundingStep * m_Least);
       balls.bounding.centres = m_Cells.centres;
       balls.bounding.radius = m_Radius;
       balls.bounding.value = m_Bound;
@@ -85,10 +90,9 @@ private:
   /** A place on an edge of the core. Lengths in lattice units. */
   struct Sample
   {
-    Vector3       centre;
-    double        radius;
-    double        bound;
-    std::uint32_t edge; ///< a facet
+    Vector3 centre;
+    double  radius;
+    double  bound;
   };
 
   Vector3
@@ -128,15 +132,29 @@ private:
   void
   FindRadii()
   {
-    const auto count = static_cast<std::ptrdiff_t>(m_Cells.CellCount());
-    m_Radius.resize(m_Cells.CellCount());
-    m_Inscribed.resize(m_Cells.CellCount());
-#pragma omp parallel for schedule(dynamic, 256) if (count > 1000)
-    for (std::ptrdiff_t i = 0; i < count; ++i)
+    constexpr std::size_t                   chunk = 4096;
+    const std::size_t                       cells = m_Cells.CellCount();
+    std::vector<std::vector<std::uint32_t>> found((cells + chunk - 1) / chunk);
+    m_Radius.resize(cells);
+    m_Inscribed.resize(cells);
+    m_SquaresBegin.assign(cells + 1, 0);
+    RunEach(found.size(), [&](std::size_t i) {
+      for (std::size_t cell = i * chunk; cell < std::min((i + 1) * chunk, cells); ++cell)
+      {
+        const std::size_t before = found[i].size();
+        m_Radius[cell] = ToPoint(m_Cells.tetrahedra[cell][0], m_Cells.centres[cell]);
+        m_Tree.Nearer(m_Cells.centres[cell], m_Radius[cell], found[i]);
+        m_Inscribed[cell] =
+          m_Tree.DistanceTo(std::span(found[i]).subspan(before), m_Cells.centres[cell], m_Radius[cell]);
+        m_SquaresBegin[cell + 1] = found[i].size() - before;
+      }
+    });
+    std::partial_sum(m_SquaresBegin.begin(), m_SquaresBegin.end(), m_SquaresBegin.begin());
+    m_Squares.reserve(m_SquaresBegin.back());
+    for (std::vector<std::uint32_t> & part : found)
     {
-      const auto cell = static_cast<std::size_t>(i);
-      m_Radius[cell] = ToPoint(m_Cells.tetrahedra[cell][0], m_Cells.centres[cell]);
-      m_Inscribed[cell] = m_Tree.Distance(m_Cells.centres[cell], m_Radius[cell]);
+      m_Squares.insert(m_Squares.end(), part.begin(), part.end());
+      part = {};
     }
   }
 
@@ -158,7 +176,7 @@ private:
 
   /** Cuts the edges into pieces; each end of a piece gets the greater of both bounds. */
   void
-  CutEdges(double step, bool bounding)
+  CutEdges(double step)
   {
     for (std::size_t facet = 0; facet < m_Cells.FacetCount(); ++facet)
     {
@@ -169,39 +187,27 @@ private:
       }
       const Vector3 & from = m_Cells.centres[ends[0]];
       const Vector3 & to = m_Cells.centres[ends[1]];
-      const double    first = bounding ? BoundAt(facet, from) : 0;
-      const double    last = bounding ? BoundAt(facet, to) : 0;
-      const double    change =
-        std::max(std::abs(m_Radius[ends[0]] - m_Radius[ends[1]]), bounding ? std::abs(first - last) : 0.0);
-      const auto pieces = std::max(1, static_cast<int>(std::ceil(change / step * (1 - 1e-9))));
-      double     before = first;
+      const double    first = BoundAt(facet, from);
+      const double    last = BoundAt(facet, to);
+      const double    change = std::max(std::abs(m_Radius[ends[0]] - m_Radius[ends[1]]), std::abs(first - last));
+      const int       pieces = PiecesOf(change, step);
+      double          before = first;
       for (int piece = 1; piece <= pieces; ++piece)
       {
-        const bool   isLast = piece == pieces;
-        const double t = static_cast<double>(piece) / pieces;
-        Sample       end{ {}, 0, last, static_cast<std::uint32_t>(facet) };
+        Sample       end{ {}, 0, last };
         const double reached = before;
-        if (!isLast)
+        if (piece < pieces)
         {
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            end.centre[axis] = from[axis] + t * (to[axis] - from[axis]);
-          }
+          end.centre = Between(from, to, static_cast<double>(piece) / pieces);
           end.radius = ToPoint(m_Cells.FacetPoints(facet)[0], end.centre);
-          end.bound = bounding ? BoundAt(facet, end.centre) : 0;
+          end.bound = BoundAt(facet, end.centre);
         }
         before = end.bound;
-        if (bounding)
+        double & back = piece == 1 ? m_Bound[ends[0]] : m_Samples.back().bound;
+        back = std::max(back, end.bound);
+        if (piece == pieces)
         {
-          double & back = piece == 1 ? m_Bound[ends[0]] : m_Samples.back().bound;
-          back = std::max(back, end.bound);
-        }
-        if (isLast)
-        {
-          if (bounding)
-          {
-            m_Bound[ends[1]] = std::max(m_Bound[ends[1]], reached);
-          }
+          m_Bound[ends[1]] = std::max(m_Bound[ends[1]], reached);
           continue;
         }
         end.bound = std::max(end.bound, reached);
@@ -210,22 +216,30 @@ private:
     }
   }
 
-  /** Whether one ball, of places so far apart, lies in the other. */
-  bool
-  LiesIn(const Vector3 & centre, double radius, std::uint32_t other) const
+  static int
+  PiecesOf(double change, double step)
   {
-    const double more = m_Inscribed[other] - radius;
-    if (!(more > 0))
-    {
-      return false;
-    }
+    return std::max(1, static_cast<int>(std::ceil(change / step * (1 - 1e-9))));
+  }
+  static Vector3
+  Between(const Vector3 & from, const Vector3 & to, double part)
+  {
+    return { from[0] + part * (to[0] - from[0]),
+             from[1] + part * (to[1] - from[1]),
+             from[2] + part * (to[2] - from[2]) };
+  }
+
+  /** By how much one ball sticks out of another. */
+  double
+  SticksOut(const Vector3 & centre, double radius, const Vector3 & otherCentre, double otherRadius) const
+  {
     double squared = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double d = (centre[axis] - m_Cells.centres[other][axis]) * m_Weights[axis];
+      const double d = (centre[axis] - otherCentre[axis]) * m_Weights[axis];
       squared += d * d;
     }
-    return squared <= more * more;
+    return std::sqrt(squared) + radius - otherRadius;
   }
 
   void
@@ -238,7 +252,9 @@ private:
       for (std::size_t end = 0; end < 2 && ends[1] != kOutside; ++end)
       {
         const std::uint32_t one = ends[end];
-        if (LiesIn(m_Cells.centres[one], m_Inscribed[one], ends[1 - end]))
+        const std::uint32_t other = ends[1 - end];
+        if (m_Inscribed[one] < m_Inscribed[other] &&
+            SticksOut(m_Cells.centres[one], m_Inscribed[one], m_Cells.centres[other], m_Inscribed[other]) <= 0)
         {
           needless[one] = 1;
         }
@@ -252,24 +268,63 @@ private:
       }
     }
     ReportProgress(progress, "thickness", 0.5);
-    std::vector<double> radius(m_Samples.size());
-    const auto          count = static_cast<std::ptrdiff_t>(m_Samples.size());
-#pragma omp parallel for schedule(dynamic, 256) if (count > 1000)
-    for (std::ptrdiff_t i = 0; i < count; ++i)
-    {
-      const auto     at = static_cast<std::size_t>(i);
-      const Sample & one = m_Samples[at];
-      const double   exact = m_Tree.Distance(one.centre, one.radius);
-      const auto &   ends = m_Cells.facetCells[one.edge];
-      radius[at] = LiesIn(one.centre, exact, ends[0]) || LiesIn(one.centre, exact, ends[1]) ? 0.0 : exact;
-    }
-    for (std::size_t i = 0; i < m_Samples.size(); ++i)
-    {
-      if (radius[i] > 0)
+    constexpr std::size_t      chunk = 4096;
+    const std::size_t          count = (m_Cells.FacetCount() + chunk - 1) / chunk;
+    std::vector<PaintingBalls> found(count);
+    RunEach(count, [&](std::size_t i) {
+      for (std::size_t facet = i * chunk; facet < std::min((i + 1) * chunk, m_Cells.FacetCount()); ++facet)
       {
-        inscribed.Add(m_Samples[i].centre, radius[i] * m_Unit, radius[i] * m_Unit);
+        if (m_Cells.facetCells[facet][1] != kOutside)
+        {
+          AddAlongEdge(facet, found[i]);
+        }
+      }
+    });
+    for (PaintingBalls & part : found)
+    {
+      inscribed.centres.insert(inscribed.centres.end(), part.centres.begin(), part.centres.end());
+      inscribed.radius.insert(inscribed.radius.end(), part.radius.begin(), part.radius.end());
+      inscribed.value.insert(inscribed.value.end(), part.value.begin(), part.value.end());
+      part = PaintingBalls();
+    }
+  }
+
+  /** Inscribed balls about places between the ends of an edge, from its greater end on. What lies in a ball through the
+   *  edge's boundary vertices lies in that of one of its ends, so that of all squares those count that are nearer to an
+   *  end than these vertices are. */
+  void
+  AddAlongEdge(std::size_t facet, PaintingBalls & balls) const
+  {
+    const auto & ends = m_Cells.facetCells[facet];
+    const bool   turned = m_Inscribed[ends[0]] < m_Inscribed[ends[1]];
+    const auto   from = ends[turned ? 1 : 0];
+    const auto   to = ends[turned ? 0 : 1];
+    const int    pieces = PiecesOf(std::abs(m_Radius[from] - m_Radius[to]), kInscribedStep * m_Least);
+    Vector3      lastCentre = m_Cells.centres[from];
+    double       lastRadius = m_Inscribed[from];
+    for (int piece = 1; piece < pieces; ++piece)
+    {
+      const Vector3 centre = Between(m_Cells.centres[from], m_Cells.centres[to], static_cast<double>(piece) / pieces);
+      double        radius = ToPoint(m_Cells.FacetPoints(facet)[0], centre);
+      radius = m_Tree.DistanceTo(SquaresOf(from), centre, radius);
+      radius = m_Tree.DistanceTo(SquaresOf(to), centre, radius);
+      const double sticksOut = SticksOut(centre, radius, lastCentre, lastRadius);
+      const bool   isThere =
+        radius <= lastRadius && sticksOut <= (lastRadius - radius < kCoarseStep * m_Least ? kNoMore * m_Least : 0.0);
+      if (!isThere && SticksOut(centre, radius, m_Cells.centres[to], m_Inscribed[to]) > 0)
+      {
+        balls.Add(centre, radius * m_Unit, radius * m_Unit);
+        lastCentre = centre;
+        lastRadius = radius;
       }
     }
+  }
+
+  /** The squares that stick into the ball through the boundary vertices about a core vertex. */
+  std::span<const std::uint32_t>
+  SquaresOf(std::uint32_t cell) const
+  {
+    return { m_Squares.data() + m_SquaresBegin[cell], m_Squares.data() + m_SquaresBegin[cell + 1] };
   }
 
   /** The balls of boundary squares: about places on them, and on the edges that pass through them, so far up as one
@@ -363,6 +418,8 @@ private:
   std::vector<double>           m_Inscribed; ///< r of each core vertex
   std::vector<double>           m_Bound;     ///< of each core vertex
   std::vector<Sample>           m_Samples;
+  std::vector<std::size_t>      m_SquaresBegin;
+  std::vector<std::uint32_t>    m_Squares; ///< of each core vertex: those nearer than R
 };
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "voxelcore/LocalThickness.h"
 
-#include "RodPainter.h"
 #include "SquareTree.h"
+#include "TilePainter.h"
 
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
@@ -27,40 +27,95 @@ WeightsOf(const SpacingWeights & weights)
            static_cast<double>(weights.weight[2]) };
 }
 
-/** In the order they are painted: the greatest value first, of equal ones the first. */
-std::vector<PaintedBall>
-InOrder(const PaintingBalls & balls, const VoxelBox & box, const SpacingWeights & weights)
+/** Which balls may touch which tile of rows. */
+class BallsOfTiles
 {
-  constexpr double           greater = 1 + 1e-10;
-  std::vector<std::uint32_t> order(balls.Count());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return balls.value[a] != balls.value[b] ? balls.value[a] > balls.value[b] : a < b;
-  });
-  std::vector<PaintedBall> sorted;
-  sorted.reserve(order.size());
-  for (const std::uint32_t i : order)
+public:
+  BallsOfTiles(const PaintingBalls & balls, const VoxelBox & box, const SpacingWeights & weights)
+    : m_Balls(balls)
+    , m_Box(box)
+    , m_Unit(weights.unit)
+    , m_Weights(WeightsOf(weights))
+    , m_Across(static_cast<std::size_t>((box.size[1] + kTile - 1) / kTile))
+    , m_Begin(m_Across * static_cast<std::size_t>((box.size[2] + kTile - 1) / kTile) + 1, 0)
   {
-    const double radius = balls.radius[i] / weights.unit * greater;
-    PaintedBall  ball{ balls.centres[i], radius * radius, static_cast<float>(2 * balls.value[i]), i };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      ball.centre[axis] -= box.lower[axis];
-    }
-    sorted.push_back(ball);
+    ForTiles([&](std::size_t tile, std::uint32_t /* ball */) { ++m_Begin[tile + 1]; });
+    std::partial_sum(m_Begin.begin(), m_Begin.end(), m_Begin.begin());
+    m_Indices.resize(m_Begin.back());
+    std::vector<std::size_t> next(m_Begin.begin(), m_Begin.end() - 1);
+    ForTiles([&](std::size_t tile, std::uint32_t ball) { m_Indices[next[tile]++] = ball; });
   }
-  return sorted;
-}
 
-/** The blocks of 16 that a ball may touch along an axis: first and end. */
-std::array<std::int32_t, 2>
-BlocksOf(const PaintedBall & ball, std::size_t axis, double weight, std::int32_t size)
-{
-  const double reach = std::sqrt(ball.squared) / weight + 1;
-  const double blocks = (size + kAlong - 1) / kAlong;
-  return { static_cast<std::int32_t>(std::clamp(std::floor((ball.centre[axis] - reach) / kAlong), 0.0, blocks)),
-           static_cast<std::int32_t>(std::clamp(std::floor((ball.centre[axis] + reach) / kAlong) + 1, 0.0, blocks)) };
-}
+  std::size_t
+  TileCount() const
+  {
+    return m_Begin.size() - 1;
+  }
+  /** Of a tile its first row along y and along z. */
+  std::array<std::int32_t, 2>
+  FirstRow(std::size_t tile) const
+  {
+    return { static_cast<std::int32_t>(tile % m_Across) * kTile, static_cast<std::int32_t>(tile / m_Across) * kTile };
+  }
+  /** In the order they are painted: the greatest value first, of equal ones the first. */
+  std::vector<PaintedBall>
+  InOrder(std::size_t tile) const
+  {
+    std::vector<std::pair<double, std::uint32_t>> order;
+    order.reserve(m_Begin[tile + 1] - m_Begin[tile]);
+    for (std::size_t i = m_Begin[tile]; i < m_Begin[tile + 1]; ++i)
+    {
+      order.emplace_back(-m_Balls.value[m_Indices[i]], m_Indices[i]);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<PaintedBall> balls;
+    balls.reserve(order.size());
+    for (const auto & [value, index] : order)
+    {
+      const Vector3 & at = m_Balls.centres[index];
+      balls.push_back(
+        { { at[0] - m_Box.lower[0], at[1] - m_Box.lower[1], at[2] - m_Box.lower[2] }, RadiusOf(index), -value, index });
+    }
+    return balls;
+  }
+
+private:
+  double
+  RadiusOf(std::size_t ball) const
+  {
+    constexpr double greater = 1 + 1e-10;
+    return m_Balls.radius[ball] / m_Unit * greater;
+  }
+  template <typename TVisit>
+  void
+  ForTiles(TVisit && visit) const
+  {
+    for (std::size_t i = 0; i < m_Balls.Count(); ++i)
+    {
+      const double radius = RadiusOf(i);
+      const auto   rows = [&](std::size_t axis) {
+        return RowsOf(m_Balls.centres[i][axis] - m_Box.lower[axis], radius, m_Weights[axis], m_Box.size[axis]);
+      };
+      const auto [firstY, endY] = rows(1);
+      const auto [firstZ, endZ] = rows(2);
+      for (std::int32_t z = firstZ / kTile; z * kTile < endZ && firstY < endY; ++z)
+      {
+        for (std::int32_t y = firstY / kTile; y * kTile < endY; ++y)
+        {
+          visit(static_cast<std::size_t>(z) * m_Across + static_cast<std::size_t>(y), static_cast<std::uint32_t>(i));
+        }
+      }
+    }
+  }
+
+  const PaintingBalls &      m_Balls;
+  VoxelBox                   m_Box;
+  double                     m_Unit;
+  Vector3                    m_Weights;
+  std::size_t                m_Across; ///< tiles along y
+  std::vector<std::size_t>   m_Begin;  ///< per tile, of its balls among the indices
+  std::vector<std::uint32_t> m_Indices;
+};
 
 } // namespace
 
@@ -104,36 +159,17 @@ PaintBalls(const VoxelShape &       shape,
            VoxelField<T> &          map,
            const ProgressCallback & progress)
 {
-  const Vector3                            sides = WeightsOf(weights);
-  const auto &                             size = shape.Box().size;
-  const std::vector<PaintedBall>           sorted = InOrder(balls, shape.Box(), weights);
-  std::vector<std::array<std::int32_t, 2>> slabsOf;
-  slabsOf.reserve(sorted.size());
-  for (const PaintedBall & ball : sorted)
-  {
-    slabsOf.push_back(BlocksOf(ball, 2, sides[2], size[2]));
-  }
-  const auto rods = static_cast<std::size_t>((size[1] + kAlong - 1) / kAlong);
-  for (std::int32_t slab = 0; slab * kAlong < size[2]; ++slab)
-  {
-    ReportProgress(progress, "thickness", static_cast<double>(slab) * kAlong / size[2]);
-    std::vector<std::vector<std::uint32_t>> chosen(rods);
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-    {
-      if (slabsOf[i][0] <= slab && slab < slabsOf[i][1])
-      {
-        const auto range = BlocksOf(sorted[i], 1, sides[1], size[1]);
-        for (std::int32_t rod = range[0]; rod < range[1]; ++rod)
-        {
-          chosen[static_cast<std::size_t>(rod)].push_back(static_cast<std::uint32_t>(i));
-        }
-      }
-    }
-    RunEach(rods, [&](std::size_t rod) {
-      RodPainter<T>(shape, sides, map)
-        .Paint(static_cast<std::int32_t>(rod) * kAlong, slab * kAlong, sorted, chosen[rod]);
+  ReportProgress(progress, "thickness", 0);
+  const BallsOfTiles tiles(balls, shape.Box(), weights);
+  RunEach(
+    tiles.TileCount(),
+    [&](std::size_t tile) {
+      const auto [firstY, firstZ] = tiles.FirstRow(tile);
+      TilePainter<T>(shape, WeightsOf(weights), map).Paint(firstY, firstZ, tiles.InOrder(tile));
+    },
+    [&](std::size_t done) {
+      ReportProgress(progress, "thickness", static_cast<double>(done) / static_cast<double>(tiles.TileCount()));
     });
-  }
 }
 
 } // namespace

@@ -164,6 +164,56 @@ SquareTree::Descend(std::size_t node, std::size_t first, std::size_t last, const
   }
 }
 
+void
+SquareTree::Collect(std::size_t                  node,
+                    std::size_t                  first,
+                    std::size_t                  last,
+                    const Vector3 &              place,
+                    double                       squared,
+                    std::vector<std::uint32_t> & squares) const
+{
+  if (last - first <= kLeaf)
+  {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      if (ToSquare(m_Squares[i], place) < squared)
+      {
+        squares.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+    return;
+  }
+  const std::size_t middle = MiddleOf(first, last);
+  if (ToBounds(m_Bounds[2 * node + 1], place) < squared)
+  {
+    Collect(2 * node + 1, first, middle, place, squared, squares);
+  }
+  if (ToBounds(m_Bounds[2 * node + 2], place) < squared)
+  {
+    Collect(2 * node + 2, middle, last, place, squared, squares);
+  }
+}
+
+void
+SquareTree::Nearer(const Vector3 & place, double within, std::vector<std::uint32_t> & squares) const
+{
+  if (!m_Squares.empty())
+  {
+    Collect(0, 0, m_Squares.size(), place, within * within, squares);
+  }
+}
+
+double
+SquareTree::DistanceTo(std::span<const std::uint32_t> squares, const Vector3 & place, double within) const
+{
+  double least = within * within;
+  for (const std::uint32_t square : squares)
+  {
+    least = std::min(least, ToSquare(m_Squares[square], place));
+  }
+  return std::min(std::sqrt(least), within);
+}
+
 double
 SquareTree::Distance(const Vector3 & place, double within) const
 {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace voxelcore
@@ -23,6 +24,14 @@ public:
   double
   Distance(const Vector3 & place, double within) const;
 
+  /** Adds the squares nearer than `within` to a list. */
+  void
+  Nearer(const Vector3 & place, double within, std::vector<std::uint32_t> & squares) const;
+
+  /** Distance of a place to the nearest of some squares; `within` when none is nearer. */
+  double
+  DistanceTo(std::span<const std::uint32_t> squares, const Vector3 & place, double within) const;
+
 private:
   /** Twice the lattice coordinates of its middle; the axis it is normal to has the even coordinate of the lattice, the
    *  others odd ones. */
@@ -37,6 +46,13 @@ private:
   Build(std::size_t node, std::size_t first, std::size_t last);
   void
   Descend(std::size_t node, std::size_t first, std::size_t last, const Vector3 & place, double & least) const;
+  void
+  Collect(std::size_t                  node,
+          std::size_t                  first,
+          std::size_t                  last,
+          const Vector3 &              place,
+          double                       squared,
+          std::vector<std::uint32_t> & squares) const;
   double
   ToBounds(const Bounds & bounds, const Vector3 & place) const;
   double
