@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of README.md: surface, medial surface and curve skeleton of a root phantom and of a label of a real
-# atlas, each by one `render`; what pruning does to thick and thin parts; a whole atlas. Needs the packages of groups demo
+# atlas, each by one `render`; what pruning does to thick and thin parts; a whole atlas; what the Slicer module computes;
+# and, without a folder, that module's icon. The last two go to where they belong. Needs the packages of groups demo
 # and python, and Xvfb.
 # usage: make.sh VOXELCORE [FOLDER]      FOLDER: where they go, else beside this file
 set -euo pipefail
@@ -32,3 +33,28 @@ done
 
 "$voxelcore" core "$atlas" -o aal.vtp -q
 "$voxelcore" render aal.vtp --color Label --view iso --size 800x650 -o "$to/atlas.png" --force -q
+
+# What the Slicer module gives of a segment, drawn by this program: its models, the slider at a greater tolerance.
+"$voxelcore" core "$atlas" --labels Precuneus_L --tolerance 1.2diag,3diag -o p.vtp -q
+"$voxelcore" skeleton "$atlas" --labels Precuneus_L -o p_skeleton.vtp -q
+"$voxelcore" thickness "$atlas" --labels Precuneus_L -o p.nrrd --medial p_thickness.vtp -q
+tiles=()
+for shown in "p_tolerance-1.2diag=medial surface, by radius" "p_tolerance-3diag=slider at 3 voxel diagonals" \
+  "p_thickness=by thickness" "p_skeleton=curve skeleton"; do
+  by=Radius
+  [ "${shown%%=*}" != p_thickness ] || by=Thickness
+  "$voxelcore" render "${shown%%=*}.vtp" --color $by --view iso --size 525x375 -o "${shown%%=*}.png" -q
+  tiles+=("${shown%%=*}.png" "${shown#*=}")
+done
+/usr/bin/python3 "$here/tile.py" slicer.png 2 "${tiles[@]}"
+if [ $# -lt 2 ]; then to=$here/../../Applications/manual/guide; fi
+cp slicer.png "$to/"
+
+# The medial surface of a box.
+if [ $# -lt 2 ]; then
+  head -c $((72 * 56 * 60)) /dev/zero | tr '\0' '\1' >box.raw
+  "$voxelcore" core box.raw --raw 72,56,60,uint8 --spacing 1,1,1 --lambda 2.5vox -o box.vtp -q
+  "$voxelcore" render box.vtp --view iso --size 900x720 -o box.png -q
+  /usr/bin/python3 "$here/icon.py" box.png "$here/../../Applications/slicer/VoxelCore/Resources/Icons/VoxelCore.png" \
+    20 0 720
+fi

@@ -321,7 +321,8 @@ SlicerXml(CommandId command)
   {
     const std::string tag = output.whole ? "integer" : "double";
     xml += "    <" + tag + ">\n" + Element("name", output.name) + Element("label", output.label) +
-           Element("default", "0") + Element("channel", "output") + "    </" + tag + ">\n";
+           Element("description", output.label) + Element("default", "0") + Element("channel", "output") + "    </" +
+           tag + ">\n";
   }
   return xml + "  </parameters>\n</executable>\n";
 }

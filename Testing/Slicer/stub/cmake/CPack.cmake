@@ -1,0 +1,6 @@
+foreach(file LICENSE README)
+  if(NOT EXISTS "${EXTENSION_${file}_FILE}")
+    message(FATAL_ERROR "EXTENSION_${file}_FILE: there is no ${EXTENSION_${file}_FILE}")
+  endif()
+endforeach()
+file(APPEND "${CMAKE_BINARY_DIR}/called.txt" "cpack ")
