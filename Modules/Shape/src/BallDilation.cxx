@@ -44,15 +44,10 @@ BallRows::BallRows(const LatticeBall & ball)
 VoxelShape
 Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback & progress, double from, double to)
 {
-  const VoxelBox & box = shape.Box();
-  const auto       margin = ball.Room();
-  const auto       room = static_cast<std::size_t>(margin[0] / 64);
-  VoxelBox         grown = box;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    grown.lower[axis] -= margin[axis];
-    grown.size[axis] += 2 * margin[axis];
-  }
+  const VoxelBox &          box = shape.Box();
+  const auto                margin = ball.Room();
+  const auto                room = static_cast<std::size_t>(margin[0] / 64);
+  const VoxelBox            grown = Grown(box, margin);
   VoxelShape                dilated(grown);
   std::vector<std::uint8_t> holds(static_cast<std::size_t>(box.size[1]) * static_cast<std::size_t>(box.size[2]));
   const auto                rowOf = [&](std::int32_t y, std::int32_t z) {
@@ -71,30 +66,20 @@ Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback 
     for (std::int32_t y = 0; y < grown.size[1]; ++y)
     {
       std::ranges::fill(row, 0);
-      bool any = false;
-      // Rows of the longest ball rows first: they grow with each step by one voxel at both ends.
-      for (std::size_t half = ball.ofHalfLength.size(); half-- > 0;)
-      {
-        if (any)
+      const bool any = AddBallRows(ball, row, spare, [&](std::int32_t dy, std::int32_t dz) {
+        const std::int32_t fromY = y - margin[1] - dy;
+        const std::int32_t fromZ = z - margin[2] - dz;
+        if (fromY < 0 || fromZ < 0 || fromY >= box.size[1] || fromZ >= box.size[2] || holds[rowOf(fromY, fromZ)] == 0)
         {
-          Spread<true>(row, spare);
+          return false;
         }
-        for (const auto [dy, dz] : ball.ofHalfLength[half])
+        const auto source = shape.Row(fromY, fromZ);
+        for (std::size_t word = 0; word < source.size(); ++word)
         {
-          const std::int32_t fromY = y - margin[1] - dy;
-          const std::int32_t fromZ = z - margin[2] - dz;
-          if (fromY < 0 || fromZ < 0 || fromY >= box.size[1] || fromZ >= box.size[2] || holds[rowOf(fromY, fromZ)] == 0)
-          {
-            continue;
-          }
-          any = true;
-          const auto source = shape.Row(fromY, fromZ);
-          for (std::size_t word = 0; word < source.size(); ++word)
-          {
-            row[word + room] |= source[word];
-          }
+          row[word + room] |= source[word];
         }
-      }
+        return true;
+      });
       if (any)
       {
         std::ranges::copy(row, dilated.Row(y, z).begin());

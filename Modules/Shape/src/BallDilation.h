@@ -57,6 +57,39 @@ Spread(BitRow & row, BitRow & spare)
   row.swap(spare);
 }
 
+/** Puts a ball's rows together in `row`: add(dy, dz) adds the source row there and says whether it holds anything. */
+template <typename TAdd>
+bool
+AddBallRows(const BallRows & ball, BitRow & row, BitRow & spare, const TAdd & add)
+{
+  bool any = false;
+  // The longest first: they grow with each step by one voxel at both ends.
+  for (std::size_t half = ball.ofHalfLength.size(); half-- > 0;)
+  {
+    if (any)
+    {
+      Spread<true>(row, spare);
+    }
+    for (const auto [dy, dz] : ball.ofHalfLength[half])
+    {
+      any = add(dy, dz) || any;
+    }
+  }
+  return any;
+}
+
+/** A box with so many voxels more on each side. */
+inline VoxelBox
+Grown(VoxelBox box, const std::array<std::int32_t, 3> & room)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] -= room[axis];
+    box.size[axis] += 2 * room[axis];
+  }
+  return box;
+}
+
 /** Calls work(z) for all slices on all threads, and reports between them. */
 template <typename TWork>
 void

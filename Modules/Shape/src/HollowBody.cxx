@@ -1,12 +1,13 @@
 #include "voxelcore/HollowBody.h"
 
 #include "BallDilation.h"
+#include "DenseBits.h"
 #include "EditedBits.h"
 #include "EnclosedShare.h"
 #include "ShapeBits.h"
 #include "ShapeRuns.h"
 
-#include "voxelcore/SliceHoles.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -22,9 +23,10 @@ namespace
 {
 
 constexpr double kMostVoxels = 1 << 24; // of a box that is looked at as it is
-constexpr double kLeastWall = 0.75;     // of a lumen's surface, holes in walls stopped
-constexpr double kLeastOwn = 0.8;       // of it as it is
-constexpr double kLeastShare = 0.1;     // of the body's volume
+constexpr double kWorthThreads = 1 << 19;
+constexpr double kLeastWall = 0.75; // of a lumen's surface, holes in walls stopped
+constexpr double kLeastOwn = 0.8;   // of it as it is
+constexpr double kLeastShare = 0.1; // of the body's volume
 constexpr double kMostOfBox = 0.79; // of the background in the body's box: round tubes leave the corners, 1 - pi / 4
 constexpr double kLeastLeft = 0.2;  // of lumens, once holes in walls are stopped: what is narrower is a gap
 
@@ -32,15 +34,18 @@ constexpr double kLeastLeft = 0.2;  // of lumens, once holes in walls are stoppe
 std::int32_t
 CountBits(const ConstShapeRow & row, std::int32_t begin, std::int32_t end)
 {
-  const auto   first = static_cast<std::size_t>(begin) / 64;
-  const auto   last = static_cast<std::size_t>(end - 1) / 64;
-  std::int32_t count = 0;
-  for (std::size_t word = first; word <= last; ++word)
+  const auto          first = static_cast<std::size_t>(begin) / 64;
+  const auto          last = static_cast<std::size_t>(end - 1) / 64;
+  const std::uint64_t from = ~std::uint64_t{ 0 } << (static_cast<unsigned>(begin) & 63U);
+  const std::uint64_t to = ~std::uint64_t{ 0 } >> (63U - (static_cast<unsigned>(end - 1) & 63U));
+  if (first == last)
   {
-    std::uint64_t bits = row[word];
-    bits &= word == first ? ~std::uint64_t{ 0 } << (static_cast<unsigned>(begin) & 63U) : ~std::uint64_t{ 0 };
-    bits &= word == last ? ~std::uint64_t{ 0 } >> (63U - (static_cast<unsigned>(end - 1) & 63U)) : ~std::uint64_t{ 0 };
-    count += std::popcount(bits);
+    return std::popcount(row[first] & from & to);
+  }
+  std::int32_t count = std::popcount(row[first] & from) + std::popcount(row[last] & to);
+  for (std::size_t word = first + 1; word < last; ++word)
+  {
+    count += std::popcount(row[word]);
   }
   return count;
 }
@@ -82,7 +87,10 @@ WalledIn(const VoxelShape & holes, const VoxelShape & body, double least)
     const std::int32_t end = runs.end[run];
     Surface &          surface = surfaces[sets.Find(run)];
     const auto         row = body.Row(y, z);
-    const auto         isWall = [&](std::int32_t x) { return x >= 0 && x < size[0] && CountBits(row, x, x + 1) == 1; };
+    const auto         isWall = [&](std::int32_t x) {
+      return x >= 0 && x < size[0] &&
+             (row[static_cast<std::size_t>(x) / 64] >> (static_cast<unsigned>(x) & 63U) & 1U) != 0;
+    };
     for (const std::int32_t x : { begin - 1, end })
     {
       isWall(x) ? ++surface.wall : ++surface.open;
@@ -139,27 +147,22 @@ RemoveLabyrinths(const VoxelShape & body, double most, VoxelShape & lumens)
   });
 }
 
-/** The lumens of a shape in its own box, once holes in its walls are stopped by a ball. */
+/** The lumens of a shape in its own box, once holes in its walls are stopped by a ball; none where they cannot come to
+ *  `least` voxels. */
 VoxelShape
-LumensOf(const VoxelShape & shape, const BallRows & ball)
+LumensOf(const VoxelShape & shape, const BallRows & ball, double least)
 {
-  const VoxelShape stopped = ball.IsOneVoxel() ? shape : Dilated(shape, ball, {}, 0, 1);
-  VoxelShape       holes(stopped.Box());
-  std::uint64_t    all = 0;
-  for (const SliceAxis axis : { SliceAxis::I, SliceAxis::J, SliceAxis::K })
-  {
-    std::uint64_t    count = 0;
-    const VoxelShape some = FindSliceHoles(stopped, axis, count);
-    ForWords(holes, some, [](std::uint64_t & word, std::uint64_t more) { word |= more; });
-    all += count;
-  }
   const VoxelBox & box = shape.Box();
-  VoxelShape       lumens(box);
-  if (all > 0)
+  const DenseBits  bits = DilatedBits(shape, ball);
+  const DenseBits  holes = HolesOfAllSlices(bits);
+  const double     most = static_cast<double>(holes.Count()) / (ball.IsOneVoxel() ? 1 : kLeastLeft);
+  if (most == 0 || most < least)
   {
-    lumens = CopyBox(WalledIn(holes, stopped, kLeastWall), box);
+    return VoxelShape(box);
   }
-  const auto left = static_cast<double>(lumens.CountVoxels());
+  const VoxelShape stopped = bits.ToShape();
+  VoxelShape       lumens = CopyBox(WalledIn(holes.ToShape(), stopped, kLeastWall), box);
+  const auto       left = static_cast<double>(lumens.CountVoxels());
   if (left == 0 || ball.IsOneVoxel())
   {
     return lumens;
@@ -291,18 +294,27 @@ FindHollowBody(const VoxelShape &                  shape,
   }
   const auto   smallest = *std::ranges::min_element(weight);
   const double own = static_cast<double>(shape.CountVoxels());
+  const double atLeast = std::max(kLeastShare * own, 1.0);
+  // With a voxel to spare for what rounds.
+  const double least = atLeast / static_cast<double>(factor * factor * factor) - 1;
   const double most = kMostOfBox * (VoxelsOfBox(looked().Box()) - static_cast<double>(looked().CountVoxels()));
-  HollowBody   found;
-  for (const int holes : { 0, 4, 8 })
-  {
-    const std::int64_t radius = holes / 2 / factor;
-    if (holes > 0 && radius == 0)
+  // The three sizes of holes side by side, the dearest first.
+  constexpr std::array<int, 3> kHoles{ 8, 4, 0 };
+  std::array<std::uint64_t, 3> voxels{};
+  const auto                   look = [&](std::size_t which) {
+    const std::int64_t radius = kHoles[which] / 2 / factor;
+    if (kHoles[which] > 0 && radius == 0)
     {
-      continue; // longer voxels have stopped them already
+      return; // longer voxels have stopped them already
     }
-    VoxelShape lumens = LumensOf(looked(), BallRows(LatticeBall{ weight, radius * smallest * (radius * smallest) }));
-    const auto voxels = [&] { return lumens.CountVoxels() * static_cast<std::uint64_t>(factor * factor * factor); };
-    const auto isEnough = [&] { return static_cast<double>(voxels()) >= std::max(kLeastShare * own, 1.0); };
+    const BallRows ball(LatticeBall{ weight, radius * smallest * (radius * smallest) });
+    VoxelShape     lumens = LumensOf(looked(), ball, least);
+    const auto     count = [&] { return lumens.CountVoxels() * static_cast<std::uint64_t>(factor * factor * factor); };
+    const auto     isEnough = [&] { return static_cast<double>(count()) >= atLeast; };
+    if (!isEnough()) // what follows takes off
+    {
+      return;
+    }
     RemoveLabyrinths(looked(), most, lumens);
     for (std::size_t i = 0; i < others.size() && isEnough(); ++i)
     {
@@ -313,9 +325,24 @@ FindHollowBody(const VoxelShape &                  shape,
       }
       Remove(other ? *other : *others[i], lumens);
     }
-    if (isEnough() && voxels() > found.voxels)
+    voxels[which] = isEnough() ? count() : 0;
+  };
+  if (VoxelsOfBox(looked().Box()) > kWorthThreads)
+  {
+    RunEach(kHoles.size(), look);
+  }
+  else
+  {
+    look(0);
+    look(1);
+    look(2);
+  }
+  HollowBody found;
+  for (std::size_t which = kHoles.size(); which-- > 0;)
+  {
+    if (voxels[which] > found.voxels)
     {
-      found = { voxels(), static_cast<double>(voxels()) / own, holes };
+      found = { voxels[which], static_cast<double>(voxels[which]) / own, kHoles[which] };
     }
   }
   return found.voxels > 0 ? std::optional(found) : std::nullopt;
