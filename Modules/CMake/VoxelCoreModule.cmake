@@ -6,7 +6,8 @@ target_compile_options(VoxelCoreBuildRules INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-ffp-contract=off>
   # Of types in unnamed namespaces GCC asks that they stand in the file it was called for; here that includes it.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${VOXELCORE_UNITY}>>:-Wno-subobject-linkage>
-  $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${VOXELCORE_WERROR}>>:-Werror>)
+  $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${VOXELCORE_WERROR}>>:-Werror>
+  $<$<BOOL:${VOXELCORE_LEAN}>:-ffunction-sections;-fdata-sections>)
 
 # voxelcore_library(target SOURCES...): a static library by these rules, alias VoxelCore::<target without VoxelCore>.
 # A program or plugin linked with it exports nothing of it, nor of what it uses: all is hidden, and what Boost, ITK and

@@ -1,0 +1,172 @@
+#!/usr/bin/python3
+"""Makes a wheel of this machine one for any Linux with a C library and a C++ library that are new enough.
+
+usage: portable_wheel.py WHEEL -o FOLDER
+
+Libraries other than those of C and C++ are put into the wheel, under names of their own, with what Debian says of their
+licences. Names every version of a foreign symbol that is asked for, and from the highest ones follows the wheel's tag,
+manylinux_2_NN. The same wheel gives the same bytes. Needs readelf and patchelf.
+"""
+
+import argparse
+import base64
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+# What every Linux has that the tag names (PEP 600); all else goes into the wheel.
+GIVEN = re.compile(r"(ld-linux.*|libc|libm|libdl|librt|libpthread|libgcc_s|libstdc\+\+)\.so\.\d+$")
+# The C library that came with the first system whose libstdc++ has these symbols: GLIBCXX_3.4.x and CXXABI_1.3.x.
+GLIBC_OF_GLIBCXX = [(19, 17), (22, 24), (25, 28), (28, 31), (29, 34), (30, 35), (32, 38)]
+GLIBC_OF_CXXABI = [(7, 17), (10, 24), (11, 28), (12, 31), (13, 35), (14, 38)]
+
+
+def output(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def needed(library):
+    return re.findall(r"\(NEEDED\).*\[(.+)\]", output("readelf", "-d", library))
+
+
+def versions(library):
+    """(library, version) of all symbols that are asked for."""
+    found, section = set(), None
+    for line in output("readelf", "-V", "-W", library).splitlines():
+        if line.startswith("Version "):
+            section = line
+        if section and section.startswith("Version needs"):
+            if named := re.search(r"File: (\S+)", line):
+                source = named[1]
+            elif named := re.search(r"Name: (\S+)", line):
+                found.add((source, named[1]))
+    return found
+
+
+def glibc(version):
+    """The minor number of the C library that a symbol's version asks for."""
+    name, _, number = version.rpartition("_")
+    parts = [int(part) for part in number.split(".")] if re.fullmatch(r"[0-9.]+", number) else []
+    if name == "GLIBC" and parts:
+        return parts[1]
+    table = {"GLIBCXX": GLIBC_OF_GLIBCXX, "CXXABI": GLIBC_OF_CXXABI}.get(name)
+    if table is None or not parts:
+        return 17  # GCC_3.0 and the like, which are older than any of these
+    minor = parts[2] if len(parts) > 2 else 0
+    for highest, library in table:
+        if minor <= highest:
+            return library
+    sys.exit(f"portable_wheel.py: {version} is newer than any known C library")
+
+
+def place(name):
+    """Where the loader finds a library."""
+    for line in output("ldconfig", "-p").splitlines():
+        if found := re.match(rf"\s+{re.escape(name)} \(.*x86-64.*\) => (\S+)|\s+{re.escape(name)} \(.*\) => (\S+)", line):
+            return pathlib.Path(found[1] or found[2]).resolve()
+    sys.exit(f"portable_wheel.py: {name} is not on this machine")
+
+
+def licence(library):
+    """What Debian's package of a library says of its licence; None elsewhere."""
+    for path in (library, pathlib.Path("/lib") / library.relative_to("/usr/lib") if library.is_relative_to("/usr/lib")
+                 else library):  # fmt: skip
+        found = subprocess.run(["dpkg", "-S", str(path)], capture_output=True, text=True)
+        if found.returncode == 0:
+            package = found.stdout.split(":")[0]
+            text = pathlib.Path("/usr/share/doc") / package / "copyright"
+            return (package, text) if text.exists() else None
+    return None
+
+
+def bring_along(folder, package):
+    """Puts foreign libraries into <package>.libs; the names they have there."""
+    libraries = folder / f"{package}.libs"
+    renamed = {}
+    waiting = list(folder.rglob("*.so"))
+    while waiting:
+        user = waiting.pop()
+        inside = user.parent == libraries
+        for name in needed(user):
+            if GIVEN.match(name):
+                continue
+            if name not in renamed:
+                source = place(name)
+                digest = hashlib.sha256(source.read_bytes()).hexdigest()[:8]
+                stem, _, rest = name.partition(".so")
+                renamed[name] = f"{stem}-{digest}.so{rest}"
+                libraries.mkdir(exist_ok=True)
+                copy = libraries / renamed[name]
+                shutil.copyfile(source, copy)
+                copy.chmod(0o755)
+                subprocess.run(["patchelf", "--set-soname", renamed[name], copy], check=True)
+                waiting.append(copy)
+                if told := licence(source):
+                    notes = next(folder.glob("*.dist-info")) / "licenses"
+                    notes.mkdir(exist_ok=True)
+                    shutil.copyfile(told[1], notes / f"{told[0]}.txt")
+            subprocess.run(["patchelf", "--replace-needed", name, renamed[name], user], check=True)
+        up = os.path.relpath(libraries, user.parent)
+        if inside or any(name in renamed.values() for name in needed(user)):
+            subprocess.run(["patchelf", "--force-rpath", "--set-rpath", "$ORIGIN" if inside else f"$ORIGIN/{up}", user],
+                           check=True)  # fmt: skip
+    return renamed
+
+
+def write(folder, path):
+    """The folder as a wheel; the same content gives the same bytes."""
+    record = next(folder.glob("*.dist-info")) / "RECORD"
+    record.unlink()
+    files = sorted(file for file in folder.rglob("*") if file.is_file())
+    lines = []
+    for file in files:
+        digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_bytes()).digest()).rstrip(b"=").decode()
+        lines.append(f"{file.relative_to(folder)},sha256={digest},{file.stat().st_size}\n")
+    record.write_text("".join(lines) + f"{record.relative_to(folder)},,\n")
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for file in [*files, record]:
+            entry = zipfile.ZipInfo(str(file.relative_to(folder)), (1980, 1, 1, 0, 0, 0))
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = (0o755 if file.suffix == ".so" or ".so." in file.name else 0o644) << 16
+            archive.writestr(entry, file.read_bytes())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("wheel", type=pathlib.Path)
+    parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
+    options = parser.parse_args()
+    name, version, python, abi, platform = options.wheel.stem.rsplit("-", 4)
+    machine = platform.partition("_")[2]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        with zipfile.ZipFile(options.wheel) as archive:
+            archive.extractall(folder)
+        for source, copy in sorted(bring_along(folder, name).items()):
+            print(f"brought along: {source} as {copy}")
+        asked = {}
+        for library in folder.rglob("*.so*"):
+            for source, symbol in versions(library):
+                if GIVEN.match(source):
+                    asked.setdefault(source, set()).add(symbol)
+        lowest = 17
+        for source, symbols in sorted(asked.items()):
+            print(f"{source}: {' '.join(sorted(symbols))}")
+            lowest = max([lowest, *map(glibc, symbols)])
+        tag = f"{python}-{abi}-manylinux_2_{lowest}_{machine}"
+        facts = next(folder.glob("*.dist-info")) / "WHEEL"
+        facts.write_text(re.sub(r"(?m)^Tag: .*$", f"Tag: {tag}", facts.read_text()))
+        options.output.mkdir(parents=True, exist_ok=True)
+        path = options.output / f"{name}-{version}-{tag}.whl"
+        write(folder, path)
+    print(f"{path} ({path.stat().st_size / 1e6:.1f} MB): for C libraries from 2.{lowest} on")
+
+
+if __name__ == "__main__":
+    main()
