@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
-# usage: install-packages.sh GROUP...     groups: build, python (the module), demo (a real scan), picture
+# usage: install-packages.sh GROUP...     groups: build, python (the module), wheel (the same for pip), demo (a real scan), picture
 # (to render where there is no screen), guide (to build the guide's site), test, package (to make and
 # test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
 # pages), cluster (workflows, and the tests on a cluster), reproduction
@@ -13,6 +13,9 @@ packages_of() {
                  libblosc-dev libzstd-dev libexpat1-dev libinsighttoolkit5-dev libx11-dev libzip-dev \
                  libmeshoptimizer-dev libssl-dev libjs-three libboost-dev libcli11-dev nlohmann-json3-dev ;;
     python) echo pybind11-dev python3-dev python3-numpy python3-vtk9 ;;
+    wheel) echo g++ cmake ninja-build ccache libpng-dev zlib1g-dev libbz2-dev libblosc-dev libzstd-dev libexpat1-dev \
+                libssl-dev libboost-dev libcli11-dev nlohmann-json3-dev pybind11-dev python3-dev \
+                python3-numpy python3-pip python3-setuptools python3-skbuild python3-venv python3-wheel patchelf ;;
     demo) echo mricron-data ;;
     picture) echo xvfb xauth ;;
     guide) echo mkdocs ;;
@@ -26,7 +29,7 @@ packages_of() {
     reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, python, demo, picture, guide, test, package," \
+    *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test, package," \
             "sanitizer, browser, cluster, reproduction and bench" >&2
        return 2 ;;
   esac

@@ -43,6 +43,7 @@ setup(
         "-DVOXELCORE_ITK=OFF",
         "-DVOXELCORE_VTK=OFF",
         "-DVOXELCORE_TETGEN=OFF",
+        "-DVOXELCORE_TIFF=OFF",  # Debian's libtiff brings along libjbig, which is under the GPL
         "-DVOXELCORE_PYTHON=ON",
         "-DVOXELCORE_PYTHON_DIR=.",
         "-DVOXELCORE_LEAN=ON",

@@ -2,9 +2,11 @@
 
 #include <blosc.h>
 #include <png.h>
-#include <tiffio.h>
 #include <zlib.h>
 #include <zstd.h>
+#ifdef VOXELCORE_TIFF
+#  include <tiffio.h>
+#endif
 #ifdef VOXELCORE_BZIP2
 #  include <bzlib.h>
 #endif
@@ -27,11 +29,13 @@ VersionIn(const std::string & text)
 std::vector<std::string>
 FormatLibraries()
 {
-  std::vector<std::string> libraries{ "libtiff " + VersionIn(TIFFGetVersion()),
-                                      "libpng " + VersionIn(png_get_libpng_ver(nullptr)),
+  std::vector<std::string> libraries{ "libpng " + VersionIn(png_get_libpng_ver(nullptr)),
                                       "zlib " + VersionIn(zlibVersion()),
                                       "blosc " + VersionIn(blosc_get_version_string()),
                                       "zstd " + VersionIn(ZSTD_versionString()) };
+#ifdef VOXELCORE_TIFF
+  libraries.insert(libraries.begin(), "libtiff " + VersionIn(TIFFGetVersion()));
+#endif
 #ifdef VOXELCORE_BZIP2
   libraries.push_back("bzip2 " + VersionIn(BZ2_bzlibVersion()));
 #endif
