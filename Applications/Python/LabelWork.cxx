@@ -10,6 +10,7 @@
 #include "voxelcore/ResultRecords.h"
 #include "voxelcore/StagedModel.h"
 #include "voxelcore/SkeletonFiles.h"
+#include "voxelcore/SkeletonJob.h"
 
 #include <optional>
 #include <utility>
@@ -365,6 +366,44 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
   result->report.skeleton = std::move(stage);
   result->surface = std::move(core);
   return result;
+}
+
+std::shared_ptr<SkeletonOfLabel>
+Remeasure(const SkeletonOfLabel & skeleton, const ParameterValues & values)
+{
+  auto                      result = std::make_shared<SkeletonOfLabel>(skeleton);
+  std::vector<SkeletonPart> parts{ std::move(result->part) };
+  MeasureAgain(parts, MeasureBranchesFrom(values), result->report, "the skeleton");
+  result->part = std::move(parts.front());
+  return result;
+}
+
+VerifyResult
+Verify(const CoreOfLabel &      core,
+       const ArrayView &        array,
+       const ImageGeometry &    geometry,
+       const ProgressCallback & progress)
+{
+  if (core.refined == "grey" || core.refined == "mesh")
+  {
+    throw UsageError("the core is refined to a surface that the array does not hold (" + core.refined +
+                     "); verify its file with the program");
+  }
+  const VerifyOptions names{ "the array", "the core" };
+  const ReadOptions   reading = RecordedReading(core.report.parameters);
+  InputScan           volume;
+  volume.geometry = CheckedGeometry(names.scan.string(), geometry, reading.orthonormalize);
+  volume.labels = LabelsOf(array, volume.geometry, reading, PartOfProgress(progress, "reading", 0, 0.05));
+  if (reading.crop)
+  {
+    volume.crop = ResolveCrop(reading.crop, volume.geometry.size, names.scan.string());
+  }
+  MedialModel model;
+  model.unit = core.report.input.geometry.unit;
+  model.parts = { core.part };
+  model.hasEdges = core.hasEdges;
+  model.refined = core.refined;
+  return VerifyModel(std::move(model), core.report, std::move(volume), names, progress);
 }
 
 void

@@ -9,6 +9,7 @@
 #include "voxelcore/Parameters.h"
 #include "voxelcore/SkeletonModel.h"
 #include "voxelcore/ThicknessFiles.h"
+#include "voxelcore/VerifyJob.h"
 
 #include <filesystem>
 #include <memory>
@@ -77,6 +78,18 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
                const ParameterValues &            values,
                bool                               ofArray,
                const ProgressCallback &           progress);
+
+/** A finished skeleton cut and measured anew; `values` are options of `voxelcore measure`. \throws UsageError */
+std::shared_ptr<SkeletonOfLabel>
+Remeasure(const SkeletonOfLabel & skeleton, const ParameterValues & values);
+
+/** A core rechecked against its scan, which is read and edited as when the core was made. \throws InputError, UsageError,
+ *  Cancelled */
+VerifyResult
+Verify(const CoreOfLabel &      core,
+       const ArrayView &        array,
+       const ImageGeometry &    geometry,
+       const ProgressCallback & progress);
 
 /** Asks `progress` once more before the file gets its name. \throws OutputError, UsageError, Cancelled */
 void

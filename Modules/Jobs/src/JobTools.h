@@ -40,8 +40,4 @@ RequireSameUnit(const std::filesystem::path & one,
 void
 RequireFittingProvenance(bool fits, const std::filesystem::path & path);
 
-/** How the scan was read when a file was made. */
-ReadOptions
-RecordedReading(const ParameterRecord & parameters);
-
 } // namespace voxelcore

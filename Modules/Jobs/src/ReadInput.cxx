@@ -171,4 +171,21 @@ ParseResolutions(const std::string & text)
   return resolutions;
 }
 
+ReadOptions
+RecordedReading(const ParameterRecord & parameters)
+{
+  ReadOptions reading = parameters.reading;
+  reading.labels = "all";
+  reading.refuseGrey = false;
+  if (!reading.binary && !reading.threshold)
+  {
+    reading.labels.clear();
+    for (const std::int64_t label : parameters.labels)
+    {
+      reading.labels += (reading.labels.empty() ? "" : ",") + std::to_string(label);
+    }
+  }
+  return reading;
+}
+
 } // namespace voxelcore

@@ -143,6 +143,38 @@ RunSkeletonJob(const SkeletonOptions & options, const JobContext & context)
                                                                     : FromScan(options, context);
 }
 
+void
+MeasureAgain(std::vector<SkeletonPart> &   parts,
+             const BranchRequest &         now,
+             CoreReport &                  report,
+             const std::filesystem::path & name)
+{
+  RequireFittingProvenance(report.skeleton && report.labels.size() == parts.size(), name);
+  CertifiedRequest request;
+  request.skeleton = *report.skeleton;
+  request.skeleton->branches = now;
+  RequireLengthsOf(name, report.input.geometry.unit, request);
+  report.skeleton->branches = CombinedRequest(report.skeleton->branches, now);
+  const Vector3 & spacing = report.input.geometry.spacing;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    SkeletonPart & part = parts[i];
+    LabelRecord &  record = report.labels[i];
+    RequireFittingProvenance(part.label == record.label && part.component == record.component && record.skeleton, name);
+    part.name = record.name;
+    const auto & length = now.pruneLength;
+    const auto   inMm = [&](const Lambda & of) {
+      return LambdaInMillimetres(of, report.parameters.weights, spacing, record.box);
+    };
+    PruneBranches(part.graph, { length ? inMm(*length) : 0, now.pruneRadii });
+    CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {} };
+    CutAndMeasure(skeleton,
+                  now,
+                  InMeanVoxels(report.skeleton->standOut, report.parameters.weights, spacing, record.box));
+    part = TakeSkeleton(std::move(skeleton), record);
+  }
+}
+
 SkeletonResult
 RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
 {
@@ -163,30 +195,10 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   SkeletonModel model = ReadSkeletonVtp(options.skeleton);
   CoreReport &  report = result.report;
   report = ParseProvenance(model.provenance, options.skeleton.string());
-  RequireFittingProvenance(report.skeleton && report.labels.size() == model.parts.size(), options.skeleton);
-  CertifiedRequest request;
-  request.skeleton = *report.skeleton;
-  request.skeleton->branches = options.branches;
-  RequireLengthsOf(options.skeleton, report.input.geometry.unit, request);
-  report.skeleton->branches = CombinedRequest(report.skeleton->branches, options.branches);
-  const Vector3 & spacing = report.input.geometry.spacing;
+  MeasureAgain(model.parts, options.branches, report, options.skeleton);
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
-    SkeletonPart & part = model.parts[i];
-    LabelRecord &  record = report.labels[i];
-    RequireFittingProvenance(part.label == record.label && part.component == record.component && record.skeleton,
-                             options.skeleton);
-    part.name = record.name;
-    const auto & length = options.branches.pruneLength;
-    const auto   inMm = [&](const Lambda & of) {
-      return LambdaInMillimetres(of, report.parameters.weights, spacing, record.box);
-    };
-    PruneBranches(part.graph, { length ? inMm(*length) : 0, options.branches.pruneRadii });
-    CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {} };
-    CutAndMeasure(skeleton,
-                  request.skeleton->branches,
-                  InMeanVoxels(report.skeleton->standOut, report.parameters.weights, spacing, record.box));
-    files.Add(report, i, TakeSkeleton(std::move(skeleton), record), {}, result.notes);
+    files.Add(report, i, std::move(model.parts[i]), {}, result.notes);
   }
   files.Finish(report, result.notes);
   Finish(transaction, context);

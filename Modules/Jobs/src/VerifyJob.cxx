@@ -149,47 +149,29 @@ GapText(const LabelVerification & label, SpatialUnit lengths)
 } // namespace
 
 VerifyResult
-RunVerifyJob(const VerifyOptions & options, const JobContext & given)
+VerifyModel(MedialModel              model,
+            const CoreReport &       made,
+            InputScan                volume,
+            const VerifyOptions &    names,
+            const ProgressCallback & progress)
 {
-  const JobContext context = ForwardOnly(given);
-  ReportProgress(context.progress, "reading", 0);
-  MedialModel      model = ReadModel(options.core);
-  const bool       vtkReads = RequireVtkReads(options.core, model);
-  const CoreReport made = ParseProvenance(model.provenance, options.core.string());
-  InputScan        volume = ReadScanOrMesh(options.scan,
-                                    RecordedReading(made.parameters),
-                                    made.parameters.resolution,
-                                    PartOfProgress(context.progress, "reading", 0, 0.05));
-  RequireSameUnit(options.core, made.input.geometry.unit, options.scan, volume.geometry.unit);
-  RequireSameUnit(options.core, model.unit, options.scan, volume.geometry.unit);
-  const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
+  RequireSameUnit(names.core, made.input.geometry.unit, names.scan, volume.geometry.unit);
+  RequireSameUnit(names.core, model.unit, names.scan, volume.geometry.unit);
+  const SpacingWeights weights = ScanWeights(volume.geometry, names.scan);
   EditedLabels         edited = EditLabels(std::move(volume.labels),
                                    volume.geometry,
                                    made.parameters.edits,
                                    !made.parameters.reading.binary && !made.parameters.reading.threshold,
-                                   options.scan.string(),
-                                   PartOfProgress(context.progress, 0.05, 0.1));
+                                   names.scan.string(),
+                                   PartOfProgress(progress, 0.05, 0.1));
   if (made.parameters.refine.surface != model.refined)
   {
-    throw InputError(options.core.string() + ": its fields Refined and Provenance do not agree; make the file again");
+    throw InputError(names.core.string() + ": its fields Refined and Provenance do not agree; make the file again");
   }
   VerifyResult result;
   result.warnings = volume.warnings;
   result.unit = volume.geometry.unit;
-  if (!vtkReads)
-  {
-    result.notes.push_back(options.core.string() + ": not opened with VTK's reader, as this build has no VTK");
-  }
-  if (made.input.sha256.empty())
-  {
-    result.notes.push_back(options.core.string() + ": was made from an image in memory, so it names no scan file");
-  }
-  else if (ScanSha256(options.scan, RecordedReading(made.parameters)) != made.input.sha256)
-  {
-    result.notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +
-                           " was made from (another SHA-256); checked all the same");
-  }
-  const MadeAgain madeAgain(made, volume, options.scan, result.notes);
+  const MadeAgain madeAgain(made, volume, names.scan, result.notes);
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
     const std::int64_t value = model.parts[i].label;
@@ -199,9 +181,9 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
     });
     if (place == edited.labels.end())
     {
-      throw InputError(options.scan.string() + ": label " + std::to_string(value) +
+      throw InputError(names.scan.string() + ": label " + std::to_string(value) +
                        (component > 0 ? ", component " + std::to_string(component) + "," : std::string()) + " of " +
-                       options.core.string() + " does not occur in this scan");
+                       names.core.string() + " does not occur in this scan");
     }
     LabelShape * const found = &place->label;
     const double       from = 0.1 + 0.9 * static_cast<double>(i) / static_cast<double>(model.parts.size());
@@ -209,7 +191,7 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
     LabelVerification  one;
     one.label = value;
     one.name = found->name;
-    const PrunedRecord & pruned = RecordedPruning(made, i, options.core.string());
+    const PrunedRecord & pruned = RecordedPruning(made, i, names.core.string());
     one.lambdaMm = pruned.lambdaMm;
     if (pruned.tolerance)
     {
@@ -220,14 +202,14 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
     const auto          again = madeAgain.Check(model.parts[i],
                                        *found,
                                        pruned,
-                                       NamedPartOfProgress(context.progress, found->name, from, 0.5 * (from + to)));
+                                       NamedPartOfProgress(progress, found->name, from, 0.5 * (from + to)));
     one.report = VerifyPart(std::move(model.parts[i]),
                             found->shape,
                             volume.geometry,
                             weights,
                             pruned,
                             made.parameters.refine.at.has_value(),
-                            NamedPartOfProgress(context.progress, found->name, again ? 0.5 * (from + to) : from, to));
+                            NamedPartOfProgress(progress, found->name, again ? 0.5 * (from + to) : from, to));
     one.report.checks.push_back(CheckProvenance(made.labels[i],
                                                 *found,
                                                 component,
@@ -249,10 +231,41 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   // A label that the record names and the file lacks would otherwise go unnoticed.
   if (made.labels.size() != model.parts.size())
   {
-    throw InputError(options.core.string() + ": its field Provenance names " + std::to_string(made.labels.size()) +
+    throw InputError(names.core.string() + ": its field Provenance names " + std::to_string(made.labels.size()) +
                      " labels, its cells have " + std::to_string(model.parts.size()) + "; make the file again");
   }
-  ReportProgress(context.progress, "done", 1);
+  ReportProgress(progress, "done", 1);
+  return result;
+}
+
+VerifyResult
+RunVerifyJob(const VerifyOptions & options, const JobContext & given)
+{
+  const JobContext context = ForwardOnly(given);
+  ReportProgress(context.progress, "reading", 0);
+  MedialModel              model = ReadModel(options.core);
+  const bool               vtkReads = RequireVtkReads(options.core, model);
+  const CoreReport         made = ParseProvenance(model.provenance, options.core.string());
+  InputScan                volume = ReadScanOrMesh(options.scan,
+                                    RecordedReading(made.parameters),
+                                    made.parameters.resolution,
+                                    PartOfProgress(context.progress, "reading", 0, 0.05));
+  std::vector<std::string> notes;
+  if (!vtkReads)
+  {
+    notes.push_back(options.core.string() + ": not opened with VTK's reader, as this build has no VTK");
+  }
+  if (made.input.sha256.empty())
+  {
+    notes.push_back(options.core.string() + ": was made from an image in memory, so it names no scan file");
+  }
+  else if (ScanSha256(options.scan, RecordedReading(made.parameters)) != made.input.sha256)
+  {
+    notes.push_back(options.scan.string() + ": not the very file that " + options.core.string() +
+                    " was made from (another SHA-256); checked all the same");
+  }
+  VerifyResult result = VerifyModel(std::move(model), made, std::move(volume), options, context.progress);
+  result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
   return result;
 }
 

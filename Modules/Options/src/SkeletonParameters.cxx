@@ -221,6 +221,12 @@ SkeletonOptionsFrom(const ParameterValues & values)
   return options;
 }
 
+BranchRequest
+MeasureBranchesFrom(const ParameterValues & values)
+{
+  return BranchRequestFrom(values, CommandId::Measure);
+}
+
 MeasureJobOptions
 MeasureOptionsFrom(const ParameterValues & values)
 {

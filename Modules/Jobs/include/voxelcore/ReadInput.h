@@ -1,6 +1,7 @@
 #pragma once
 // What a job works on: a scan as it is, or a mesh made voxels.
 
+#include "voxelcore/CoreReport.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/Voxelization.h"
 
@@ -49,6 +50,10 @@ ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,
                const std::optional<std::int64_t> & resolution,
                const ProgressCallback &            progress = {});
+
+/** How the scan was read when a file was made. */
+ReadOptions
+RecordedReading(const ParameterRecord & parameters);
 
 /** "256,512": numbers of voxels, each once. \throws UsageError */
 std::vector<std::int64_t>

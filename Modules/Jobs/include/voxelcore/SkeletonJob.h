@@ -8,6 +8,7 @@
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/RefineStage.h"
 #include "voxelcore/ShapeEdits.h"
+#include "voxelcore/SkeletonModel.h"
 #include "voxelcore/SkeletonTargets.h"
 
 #include <filesystem>
@@ -59,6 +60,14 @@ struct SkeletonResult
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 SkeletonResult
 RunSkeletonJob(const SkeletonOptions & options, const JobContext & context = {});
+
+/** Finished skeletons cut as `now` says, and measured anew. `report` is that on them, with a label for each, and is
+ *  told; `name` is what messages call them. \throws UsageError, InputError */
+void
+MeasureAgain(std::vector<SkeletonPart> &   parts,
+             const BranchRequest &         now,
+             CoreReport &                  report,
+             const std::filesystem::path & name);
 
 /** Measures a finished skeleton, writes its tables. \throws UsageError, InputError, OutputError, Cancelled */
 SkeletonResult

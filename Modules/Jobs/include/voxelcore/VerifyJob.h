@@ -1,7 +1,10 @@
 #pragma once
 // `voxelcore verify`: a finished file rechecked against its scan.
 
+#include "voxelcore/CoreReport.h"
 #include "voxelcore/JobContext.h"
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/ReadInput.h"
 #include "voxelcore/Verification.h"
 
 #include <cstdint>
@@ -41,6 +44,15 @@ struct VerifyResult
  *  \throws InputError when either cannot be read or a label is missing in the scan; Cancelled */
 VerifyResult
 RunVerifyJob(const VerifyOptions & options, const JobContext & context = {});
+
+/** The same of a core in memory, made as `made` says, and a scan read as that says; `names` is what messages call them.
+ *  \throws InputError when they do not belong together; Cancelled */
+VerifyResult
+VerifyModel(MedialModel              model,
+            const CoreReport &       made,
+            InputScan                volume,
+            const VerifyOptions &    names,
+            const ProgressCallback & progress = {});
 
 /** A line per label, with tolerances also how far the boundary lies from it, and check; with one label per check,
  *  otherwise failed checks only. */

@@ -182,6 +182,9 @@ SkeletonOptionsFrom(const ParameterValues & values);
 /** How a finished core is burned; its lambda is 0. */
 SkeletonRequest
 SkeletonRequestFrom(const ParameterValues & values);
+/** What `measure` does to a finished skeleton. */
+BranchRequest
+MeasureBranchesFrom(const ParameterValues & values);
 MeasureJobOptions
 MeasureOptionsFrom(const ParameterValues & values);
 RootsOptions

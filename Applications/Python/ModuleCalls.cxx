@@ -1,0 +1,302 @@
+// Functions of the Python module: arguments in, work in a thread of its own, results out.
+
+#include "LabelWork.h"
+#include "ModuleParts.h"
+#include "OwnThread.h"
+#include "voxelcore/CertifiedSkeleton.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/MedialSheets.h"
+#include "voxelcore/Progress.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <string>
+
+namespace py = pybind11;
+using namespace voxelcore; // NOLINT: the module speaks its library's language
+
+namespace
+{
+
+[[noreturn]] void
+RefuseArray(const std::string & what)
+{
+  throw InputError("the array: " + what);
+}
+
+ArrayView
+ViewOf(const py::array & array)
+{
+  if (array.ndim() != 3)
+  {
+    RefuseArray("it has " + std::to_string(array.ndim()) + " dimensions; give three, of a single slice a[:, :, None]");
+  }
+  const py::dtype type = array.dtype();
+  const char      kind = type.kind();
+  const bool      isWhole = kind == 'b' || kind == 'i' || kind == 'u';
+  if (!(isWhole && type.itemsize() <= 8) && !(kind == 'f' && (type.itemsize() == 4 || type.itemsize() == 8)))
+  {
+    RefuseArray("its type is " + std::string(py::str(py::handle(type))) +
+                "; give whole numbers (bool, int8 to uint64, or float32 and float64 that hold whole numbers)");
+  }
+  ArrayView view;
+  view.data = static_cast<const std::byte *>(array.data());
+  view.pixel = { static_cast<std::size_t>(type.itemsize()), kind == 'i', kind == 'f' };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    view.size[axis] = array.shape(static_cast<py::ssize_t>(axis));
+    view.stride[axis] = array.strides(static_cast<py::ssize_t>(axis));
+    if (view.size[axis] == 0)
+    {
+      RefuseArray("it is empty");
+    }
+  }
+  view.swapped = !type.attr("isnative").cast<bool>();
+  return view;
+}
+
+/** Of an array. Without a spacing lengths are in voxels. */
+ImageGeometry
+GeometryOf(const ArrayView & view, const std::optional<std::array<double, 3>> & spacing)
+{
+  ImageGeometry geometry;
+  geometry.size = view.size;
+  geometry.spacing = spacing.value_or(Vector3{ 1, 1, 1 });
+  geometry.unit = spacing ? SpatialUnit::Millimetres : SpatialUnit::Voxels;
+  return geometry;
+}
+
+/** `values` are options of the command line. */
+std::vector<std::shared_ptr<CoreOfLabel>>
+CoresOfArray(const py::array &                            array,
+             const std::optional<std::array<double, 3>> & spacing,
+             const std::array<double, 3> &                origin,
+             const std::array<double, 9> &                direction,
+             const ParameterValues &                      values,
+             const py::object &                           listener)
+{
+  const ArrayView view = ViewOf(array);
+  ImageGeometry   geometry = GeometryOf(view, spacing);
+  geometry.origin = origin;
+  geometry.direction = direction;
+  return RunInOwnThread(ThreadsFrom(values, CommandId::Core), listener, array, [=](const ProgressCallback & progress) {
+    return MakeCores(view, geometry, values, progress);
+  });
+}
+
+std::shared_ptr<ThicknessOfArray>
+ThicknessOfAnArray(const py::array &                            array,
+                   const std::optional<std::array<double, 3>> & spacing,
+                   const ParameterValues &                      values,
+                   const py::object &                           listener)
+{
+  const ArrayView view = ViewOf(array);
+  ImageGeometry   geometry = GeometryOf(view, spacing);
+  return RunInOwnThread(
+    ThreadsFrom(values, CommandId::Thickness),
+    listener,
+    array,
+    [=](const ProgressCallback & progress) { return MakeThickness(view, geometry, values, progress); });
+}
+
+/** How a core is cut into sheets; numbers count from 0, -1 stands for none. */
+py::dict
+SheetsOfCore(const std::shared_ptr<CoreOfLabel> & core,
+             const std::string &                  sliver,
+             int                                  threads,
+             const py::object &                   listener)
+{
+  const LabelRecord & record = core->report.labels.front();
+  const Lambda        length = ParseLambda(sliver);
+  CertifiedRequest    lengths;
+  lengths.lambdas = { length };
+  RequireLengthsIn(core->report.input.geometry.unit, lengths);
+  const double mm =
+    InMeanVoxels(length, core->report.parameters.weights, core->report.input.geometry.spacing, record.box);
+  const MedialSheets cut = RunInOwnThread(threads, listener, py::none(), [=](const ProgressCallback &) {
+    return CutIntoSheets(core->part.core, mm);
+  });
+  const auto         numbers = [](const std::vector<std::uint32_t> & values) {
+    py::array_t<std::int64_t> array(static_cast<py::ssize_t>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      array.mutable_at(static_cast<py::ssize_t>(i)) = values[i] == kNoPiece ? -1 : std::int64_t{ values[i] };
+    }
+    return array;
+  };
+  py::dict dict;
+  dict["sheet_of_face"] = numbers(cut.sheetOfFace);
+  dict["curve_of_edge"] = numbers(cut.curveOfEdge);
+  dict["junctions"] = numbers(cut.junctions);
+  py::list sheets;
+  for (const SheetRecord & sheet : cut.sheets)
+  {
+    py::dict one;
+    one["area"] = sheet.area;
+    one["thickness"] = sheet.thickness;
+    one["thickness_sd"] = sheet.thicknessDeviation;
+    one["normal"] = py::make_tuple(sheet.normal[0], sheet.normal[1], sheet.normal[2]);
+    one["flatness"] = sheet.flatness;
+    one["free_border"] = sheet.freeBorder;
+    one["seam_border"] = sheet.seamBorder;
+    one["neighbours"] = sheet.neighbours;
+    sheets.append(one);
+  }
+  py::list curves;
+  for (const CurveRecord & curve : cut.curves)
+  {
+    py::dict one;
+    one["kind"] = curve.isRod ? "rod" : "seam";
+    one["closed"] = curve.isClosed;
+    one["length"] = curve.length;
+    one["thickness"] = curve.thickness;
+    one["sheets"] = curve.sheets;
+    one["vertices"] = numbers(curve.vertices);
+    py::list ends;
+    for (const std::uint32_t junction : curve.junctions)
+    {
+      ends.append(junction == kNoPiece ? py::object(py::none()) : py::object(py::int_(junction)));
+    }
+    one["junctions"] = ends;
+    curves.append(one);
+  }
+  dict["sheets"] = sheets;
+  dict["curves"] = curves;
+  return dict;
+}
+
+std::vector<std::shared_ptr<CoreOfLabel>>
+PruneCore(const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & values, const py::object & listener)
+{
+  return RunInOwnThread(ThreadsFrom(values, CommandId::Prune),
+                        listener,
+                        py::none(),
+                        [=](const ProgressCallback & progress) { return Prune(*core, values, progress); });
+}
+
+std::shared_ptr<SkeletonOfLabel>
+MeasureSkeleton(const std::shared_ptr<SkeletonOfLabel> & skeleton, const ParameterValues & values)
+{
+  return RunInOwnThread(ThreadsFrom(values, CommandId::Measure), py::none(), py::none(), [=](const ProgressCallback &) {
+    return Remeasure(*skeleton, values);
+  });
+}
+
+/** Spacing and place are the core's where they are not given. */
+py::dict
+VerifyCore(const std::shared_ptr<CoreOfLabel> &         core,
+           const py::array &                            array,
+           const std::optional<std::array<double, 3>> & spacing,
+           const std::optional<std::array<double, 3>> & origin,
+           const std::optional<std::array<double, 9>> & direction,
+           int                                          threads,
+           const py::object &                           listener)
+{
+  const ArrayView view = ViewOf(array);
+  ImageGeometry   geometry = core->report.input.geometry;
+  geometry.size = view.size;
+  if (spacing)
+  {
+    geometry.spacing = *spacing;
+    geometry.unit = SpatialUnit::Millimetres;
+  }
+  geometry.origin = origin.value_or(geometry.origin);
+  geometry.direction = direction.value_or(geometry.direction);
+  const VerifyResult found = RunInOwnThread(threads, listener, array, [=](const ProgressCallback & progress) {
+    return Verify(*core, view, geometry, progress);
+  });
+  py::dict           checks;
+  py::dict           failed;
+  const auto &       report = found.labels.front().report;
+  for (const VerificationCheck & check : report.checks)
+  {
+    checks[py::str(check.name)] = check.passed;
+    if (!check.passed)
+    {
+      failed[py::str(check.name)] = InUnit(check.firstOffender, found.unit);
+    }
+  }
+  py::dict dict;
+  dict["passed"] = found.passed;
+  dict["checks"] = checks;
+  dict["failed"] = failed;
+  dict["notes"] = found.notes;
+  dict["gap"] = report.boundaryGap ? py::object(py::float_(*report.boundaryGap)) : py::object(py::none());
+  return dict;
+}
+
+std::shared_ptr<SkeletonOfLabel>
+SkeletonOfCore(const std::shared_ptr<CoreOfLabel> & core,
+               const ParameterValues &              values,
+               const py::object &                   listener,
+               bool                                 ofArray)
+{
+  return RunInOwnThread(
+    ThreadsFrom(values, CommandId::Skeleton),
+    listener,
+    py::none(),
+    [=](const ProgressCallback & progress) { return MakeSkeletonOf(core, values, ofArray, progress); });
+}
+
+/** Paths arrive as bytes, so that any file name will do. Work left behind may still hold the same temporary name. */
+void
+SaveCore(const std::shared_ptr<CoreOfLabel> & core,
+         const std::string &                  path,
+         bool                                 triangles,
+         bool                                 keepEdges,
+         bool                                 force)
+{
+  AwaitLeftBehind();
+  RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback & progress) {
+    Save(*core, path, { triangles, keepEdges }, force, progress);
+    return true;
+  });
+}
+
+void
+SaveSkeleton(const std::shared_ptr<SkeletonOfLabel> & skeleton,
+             const std::string &                      path,
+             const std::string &                      also,
+             bool                                     force)
+{
+  AwaitLeftBehind();
+  RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback & progress) {
+    Save(*skeleton, path, also, force, progress);
+    return true;
+  });
+}
+
+void
+SaveSwcFile(const std::shared_ptr<SkeletonOfLabel> & skeleton, const std::string & path, bool force)
+{
+  AwaitLeftBehind();
+  RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback & progress) {
+    SaveSwc(*skeleton, path, force, progress);
+    return true;
+  });
+}
+
+std::shared_ptr<CoreOfLabel>
+ReadCoreFile(const std::string & path)
+{
+  return RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback &) { return ReadCore(path); });
+}
+
+} // namespace
+
+void
+voxelcore::DefineCalls(py::module_ & module)
+{
+  module.def("cores", &CoresOfArray);
+  module.def("prune", &PruneCore);
+  module.def("measure", &MeasureSkeleton);
+  module.def("verify", &VerifyCore);
+  module.def("skeleton", &SkeletonOfCore);
+  module.def("save_core", &SaveCore);
+  module.def("save_skeleton", &SaveSkeleton);
+  module.def("save_swc", &SaveSwcFile);
+  module.def("read_core", &ReadCoreFile);
+  module.def("thickness", &ThicknessOfAnArray);
+  module.def("sheets", &SheetsOfCore);
+}
