@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
-# usage: install-packages.sh GROUP...     groups: build, python (the module), wheel (the same for pip), demo (a real scan), picture
-# (to render where there is no screen), guide (to build the guide's site), test, package (to make and
-# test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
-# pages), cluster (workflows, and the tests on a cluster), reproduction
-# (the paper's figures, Testing/Reproduction), bench (Testing/Performance)
+# usage: install-packages.sh GROUP...     groups: build, python (the module), wheel (the same for pip), demo
+# (a real scan), picture (to render where there is no screen), guide (to build the guide's site), test, package (to make
+# and test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
+# pages), cluster (workflows, and the tests on a cluster), reproduction (the paper's figures, Testing/Reproduction),
+# bench (Testing/Performance)
 set -euo pipefail
 
 packages_of() {
@@ -29,8 +29,8 @@ packages_of() {
     reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
-    *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test, package," \
-            "sanitizer, browser, cluster, reproduction and bench" >&2
+    *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \
+            "package, sanitizer, browser, cluster, reproduction and bench" >&2
        return 2 ;;
   esac
 }

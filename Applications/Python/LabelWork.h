@@ -83,8 +83,8 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
 std::shared_ptr<SkeletonOfLabel>
 Remeasure(const SkeletonOfLabel & skeleton, const ParameterValues & values);
 
-/** A core rechecked against its scan, which is read and edited as when the core was made. \throws InputError, UsageError,
- *  Cancelled */
+/** A core rechecked against its scan, which is read and edited as when the core was made.
+ *  \throws InputError, UsageError, Cancelled */
 VerifyResult
 Verify(const CoreOfLabel &      core,
        const ArrayView &        array,

@@ -33,14 +33,15 @@ for library in $(cd "$scratch/unpacked" && find . -name '*.so*'); do
       [ -e "$scratch/unpacked/voxelcore.libs/$name" ] || fail "$library needs $name, which is not in the wheel"
   done
 done
-foreign=$(find "$scratch/unpacked/voxelcore.libs" -printf '%f\n' | grep -E '^lib(vtk|ITK|itk|tet|X11|GL|tiff|jbig)' || true)
+foreign=$(cd "$scratch/unpacked/voxelcore.libs" && ls | grep -E '^lib(vtk|ITK|itk|tet|X11|GL|tiff|jbig)' || true)
 [ -z "$foreign" ] || fail "the wheel carries $foreign"
 ls "$scratch"/unpacked/voxelcore-*.dist-info/LICENSE >/dev/null || fail "the wheel does not hold its licence"
 
 /usr/bin/python3 "$source/Testing/Package/numpy_wheel.py" "$scratch/wheels"
 /usr/bin/python3 -m venv "$scratch/clean"
 "$scratch/clean/bin/pip" install --quiet --no-index --find-links "$scratch/wheels" voxelcore numpy
-packages=$("$scratch/clean/bin/pip" list --format=freeze | grep -vE '^(pip|setuptools|wheel)==' | sed 's/==.*//' | sort | tr '\n' ' ')
+packages=$("$scratch/clean/bin/pip" list --format=freeze | sed 's/==.*//' | grep -vxE 'pip|setuptools|wheel' | sort |
+  tr '\n' ' ')
 [ "$packages" = "numpy voxelcore " ] || fail "installed are $packages"
 cd "$scratch/empty"
 unset PYTHONPATH
@@ -78,4 +79,5 @@ END
 done
 cd "$source/Testing/Python"
 VOXELCORE_PROGRAM=$program "$scratch/all/bin/python" -B -m pytest -q -p no:cacheprovider \
-  -k "not tetgen and not cross_check" test_{arrays,exchange,images,interrupts,options,processes,pruning,results,words}.py
+  -k "not tetgen and not cross_check" \
+  test_{arrays,exchange,images,interrupts,options,processes,pruning,results,words}.py

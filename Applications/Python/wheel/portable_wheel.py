@@ -68,8 +68,8 @@ def glibc(version):
 def place(name):
     """Where the loader finds a library."""
     for line in output("ldconfig", "-p").splitlines():
-        if found := re.match(rf"\s+{re.escape(name)} \(.*x86-64.*\) => (\S+)|\s+{re.escape(name)} \(.*\) => (\S+)", line):
-            return pathlib.Path(found[1] or found[2]).resolve()
+        if found := re.match(rf"\s+{re.escape(name)} \(.*\) => (\S+)", line):
+            return pathlib.Path(found[1]).resolve()
     sys.exit(f"portable_wheel.py: {name} is not on this machine")
 
 
