@@ -164,6 +164,7 @@ DefineCore(py::module_ & module)
   py::class_<CoreOfLabel, Handle>(module, "CoreData")
     .def_property_readonly("vertices", [](const Handle & core) { return View(core, core->part.core.positions); })
     .def_property_readonly("radius", [](const Handle & core) { return View(core, core->part.core.radius); })
+    .def_property_readonly("radius_margin", [](const Handle & core) { return View(core, core->part.radiusMargin); })
     .def_property_readonly("edges", [cells](const Handle & core) { return View(core, cells(core).edges); })
     .def_property_readonly("face_offsets", [cells](const Handle & core) { return View(core, cells(core).faceOffsets); })
     .def_property_readonly("face_vertices",

@@ -45,6 +45,7 @@ VisitCore(TPart & part, TVisit && visit)
   visit(core.tolerances.edges);
   visit(core.tolerances.faces);
   visit(part.displacement);
+  visit(part.radiusMargin);
 }
 
 template <typename TGraph, typename TVisit>

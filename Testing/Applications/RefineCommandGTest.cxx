@@ -169,6 +169,9 @@ TEST_F(RefineCommand, LabelsAndGreyValuesBringACoreNearerToTheAxisOnThickSlicesT
     EXPECT_EQ(report["parameters"]["refine"], "labels");
     EXPECT_GT(pruned["mean_displacement_vox"].get<double>(), 0.01);
     EXPECT_LE(pruned["max_displacement_vox"].get<double>(), 1);
+    const auto margins = ReadModel(m_Folder / "l.vtp").parts.at(0).radiusMargin;
+    EXPECT_EQ(pruned["max_radius_margin_mm"].get<double>(), *std::max_element(margins.begin(), margins.end()));
+    EXPECT_TRUE(ReadModel(m_Folder / "g.vtp").parts.at(0).radiusMargin.empty()) << "grey values tell";
     EXPECT_EQ(pruned["betti"], report["labels"][0]["shape"]["betti"]);
     EXPECT_EQ(ReadModel(m_Folder / "l.vtp").refined, "labels");
     EXPECT_EQ(ReadModel(m_Folder / "raw.vtp").refined, "");

@@ -134,10 +134,10 @@ void
 ExpectPlacesAmong(const PlacedCore & part, const PlacedCore & whole)
 {
   const auto placesOf = [](const PlacedCore & core) {
-    std::set<std::tuple<Vector3, Vector3, double>> places;
+    std::set<std::tuple<Vector3, Vector3, double, double>> places;
     for (std::size_t v = 0; v < core.core.positions.size(); ++v)
     {
-      places.emplace(core.core.positions[v], core.displacement.at(v), core.core.radius[v]);
+      places.emplace(core.core.positions[v], core.displacement.at(v), core.core.radius[v], core.radiusMargin.at(v));
     }
     return places;
   };
@@ -157,6 +157,8 @@ TEST(CertifiedCore, ARefinedOneIsPrunedOnByItsOwnMeasuresAndKeepsItsPlaces)
     ExpectPlacesAmong(one.core, refined.cores[0].core);
     EXPECT_EQ(one.numbers.complex.topology, refined.shape.topology);
     EXPECT_EQ(one.numbers.refined->maxDisplacement, refined.cores[0].numbers.refined->maxDisplacement);
+    EXPECT_EQ(one.numbers.refined->radiusMargin.value().max,
+              *std::max_element(one.core.radiusMargin.begin(), one.core.radiusMargin.end()));
     const auto & before = refined.cores[0].core.core.faceLambda;
     const auto   isWide = [&](double lambda) { return lambda >= one.numbers.lambdaMm; };
     EXPECT_LE(std::count_if(before.begin(), before.end(), isWide), one.core.core.cells.FaceCount())

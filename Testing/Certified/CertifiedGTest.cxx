@@ -81,6 +81,9 @@ TEST(Certified, ARequestThatSaysNothingIsPrunedAtTheUsualToleranceAndRefinedFrom
   EXPECT_EQ(silent.cores[0].core.core.cells.faceVertices, asked.cores[0].core.core.cells.faceVertices);
   EXPECT_TRUE(silent.covered.value_or(false));
   EXPECT_GT(silent.cores[0].numbers.refined->maxDisplacement, 0);
+  // A box along the grid may be a voxel thicker and thinner.
+  EXPECT_EQ(silent.cores[0].core.radiusMargin.size(), silent.cores[0].core.core.positions.size());
+  EXPECT_GT(silent.cores[0].numbers.refined->radiusMargin.value().max, 0.4);
 }
 
 TEST(Certified, WhatIsAskedForByLambdaOrToBePrunedOnStaysExact)

@@ -76,6 +76,7 @@ TEST(PlainFiles, HaveTheBytesOfVtksWritersForRefinedCoresAndTolerances)
   for (ModelPart & part : model.parts)
   {
     part.displacement.assign(part.core.cells.vertexCount, Vector3{ 0.1, -1.0 / 3, 1e-9 });
+    part.radiusMargin.assign(part.core.cells.vertexCount, 1.0 / 7);
     part.core.tolerances.vertices.assign(part.core.cells.vertexCount, std::numeric_limits<double>::infinity());
     part.core.tolerances.edges.assign(part.core.cells.edges.size(), 2.0 / 3);
     part.core.tolerances.faces.assign(part.core.cells.FaceCount(), 1e300);

@@ -80,6 +80,12 @@ class Core(_Result):
         return self._data.radius
 
     @property
+    def radius_margin(self):
+        """(n,) float64: by how much half a wall's thickness may be off the radius as labels tell, mm. Empty unless the
+        core was refined from labels."""
+        return self._data.radius_margin
+
+    @property
     def edges(self):
         """(m, 2) uint32: vertices, the smaller first. Edges of faces are among them."""
         return self._data.edges

@@ -5,6 +5,7 @@
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,19 +18,65 @@ namespace voxelcore
 namespace
 {
 
-/** The displacements of some vertices of a refined core. */
-std::vector<Vector3>
+/** What some vertices of a refined core have. */
+RefinedVertices
 MovesOf(const PlacedCore & refined, const std::vector<ElementIndex> & vertices)
 {
-  std::vector<Vector3> moves;
-  moves.reserve(vertices.size());
-  std::transform(vertices.begin(), vertices.end(), std::back_inserter(moves), [&](ElementIndex vertex) {
-    return refined.displacement[vertex];
-  });
+  RefinedVertices moves;
+  const auto      take = [&](const auto & from, auto & to) {
+    to.reserve(from.empty() ? 0 : vertices.size());
+    for (std::size_t i = 0; i < vertices.size() && !from.empty(); ++i)
+    {
+      to.push_back(from[vertices[i]]);
+    }
+  };
+  take(refined.displacement, moves.displacement);
+  take(refined.radiusMargin, moves.radiusMargin);
   return moves;
 }
 
+void
+SetMoves(RefinedVertices moves, PlacedCore & core)
+{
+  core.displacement = std::move(moves.displacement);
+  core.radiusMargin = std::move(moves.radiusMargin);
+}
+
+void
+DescribeMarginsLeft(CertifiedCore & pruned)
+{
+  if (pruned.numbers.refined && !pruned.core.radiusMargin.empty())
+  {
+    pruned.numbers.refined->radiusMargin = DescribeMargins(pruned.core);
+  }
+}
+
 } // namespace
+
+MarginNumbers
+DescribeMargins(const PlacedCore & placed)
+{
+  const MedialComplex & core = placed.core;
+  MarginNumbers         numbers;
+  double                whole = 0;
+  for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
+  {
+    const auto      corners = core.cells.FaceVertices(face);
+    const Vector3 & a = core.positions[corners[0]];
+    const double    area = Length(Cross(Minus(core.positions[corners[1]], a), Minus(core.positions[corners[2]], a)));
+    for (const ElementIndex corner : corners)
+    {
+      numbers.mean += area * placed.radiusMargin[corner] / 3;
+    }
+    whole += area;
+  }
+  numbers.mean = whole > 0 ? numbers.mean / whole : 0;
+  for (const double margin : placed.radiusMargin)
+  {
+    numbers.max = std::max(numbers.max, margin);
+  }
+  return numbers;
+}
 
 std::vector<double>
 AscendingBeyond(double doneMm, std::vector<double> thresholdsMm)
@@ -51,13 +98,13 @@ PruneAscending(const MedialComplex &       whole,
 }
 
 std::vector<CertifiedCore>
-CertifyPruned(CertifiedCore                     whole,
-              std::vector<MedialComplex>        complexes,
-              std::vector<std::vector<Vector3>> moves,
-              const CertifiedShape &            shape,
-              const std::vector<Lambda> &       lambdas,
-              const std::vector<double> &       thresholdsMm,
-              const ProgressCallback &          progress)
+CertifyPruned(CertifiedCore                whole,
+              std::vector<MedialComplex>   complexes,
+              std::vector<RefinedVertices> moves,
+              const CertifiedShape &       shape,
+              const std::vector<Lambda> &  lambdas,
+              const std::vector<double> &  thresholdsMm,
+              const ProgressCallback &     progress)
 {
   const double               doneMm = whole.numbers.lambdaMm;
   const std::vector<double>  ascending = AscendingBeyond(doneMm, thresholdsMm);
@@ -78,7 +125,9 @@ CertifyPruned(CertifiedCore                     whole,
     result.core = { whole.core.label, neededAgain ? source : std::move(source), whole.core.component };
     if (!whole.core.displacement.empty())
     {
-      result.core.displacement = unchanged ? whole.core.displacement : moves[static_cast<std::size_t>(place)];
+      SetMoves(unchanged ? RefinedVertices{ whole.core.displacement, whole.core.radiusMargin }
+                         : moves[static_cast<std::size_t>(place)],
+               result.core);
     }
     const TopologyNumbers topology =
       unchanged ? whole.numbers.complex.topology : ComputeComplexTopology(result.core.core.cells);
@@ -86,6 +135,7 @@ CertifyPruned(CertifiedCore                     whole,
     result.numbers.lambda = lambdas[i].text;
     result.numbers.lambdaMm = threshold;
     result.numbers.refined = whole.numbers.refined;
+    DescribeMarginsLeft(result);
     result.numbers.complex = unchanged ? whole.numbers.complex : DescribeComplex(result.core.core, topology);
   }
   return results;
@@ -124,9 +174,9 @@ PruneCertified(CertifiedCore               core,
   }
   StagePlan plan(progress, { 0.8, 0.2 });
   core.core.core.tolerances = {};
-  const ProgressCallback            prune = plan.Next("prune");
-  std::vector<MedialComplex>        complexes;
-  std::vector<std::vector<Vector3>> moves;
+  const ProgressCallback       prune = plan.Next("prune");
+  std::vector<MedialComplex>   complexes;
+  std::vector<RefinedVertices> moves;
   if (core.core.displacement.empty())
   {
     complexes = PruneAscending(core.core.core, done.lambdaMm, thresholds, prune);
@@ -191,12 +241,13 @@ PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const s
     result.core = { core.core.label, PruneByTolerance(core.core.core, height, left), core.core.component };
     if (!core.core.displacement.empty())
     {
-      result.core.displacement = MovesOf(core.core, left);
+      SetMoves(MovesOf(core.core, left), result.core);
     }
     const TopologyNumbers topology = ComputeComplexTopology(result.core.core.cells);
     RequireEqualTopology(shape.topology, topology, "its core pruned at tolerance " + heights[i].text, shape.name);
     result.numbers = core.numbers;
     result.numbers.tolerance = std::move(tolerance);
+    DescribeMarginsLeft(result);
     result.numbers.complex = DescribeComplex(result.core.core, topology);
   }
   return results;

@@ -19,17 +19,28 @@ PruneAscending(const MedialComplex &       whole,
                const std::vector<double> & thresholdsMm,
                const ProgressCallback &    progress);
 
+/** What a refined core has per vertex. */
+struct RefinedVertices
+{
+  std::vector<Vector3> displacement;
+  std::vector<double>  radiusMargin;
+};
+
 /** Checks and describes what PruneAscending() made of `whole`: a core for each lambda. `moves`, where `whole` is
- *  refined: the displacements of each complex.
+ *  refined: what each complex has of it.
  *  \throws CertificateError when the topology is no longer the shape's. */
 std::vector<CertifiedCore>
-CertifyPruned(CertifiedCore                     whole,
-              std::vector<MedialComplex>        complexes,
-              std::vector<std::vector<Vector3>> moves,
-              const CertifiedShape &            shape,
-              const std::vector<Lambda> &       lambdas,
-              const std::vector<double> &       thresholdsMm,
-              const ProgressCallback &          progress);
+CertifyPruned(CertifiedCore                whole,
+              std::vector<MedialComplex>   complexes,
+              std::vector<RefinedVertices> moves,
+              const CertifiedShape &       shape,
+              const std::vector<Lambda> &  lambdas,
+              const std::vector<double> &  thresholdsMm,
+              const ProgressCallback &     progress);
+
+/** Of a core of triangles with its margins: their mean over the area of faces, and the greatest. */
+MarginNumbers
+DescribeMargins(const PlacedCore & placed);
 
 /** How a core pruned to a height is described; no height is greater than the scan's diagonal. */
 ToleranceNumbers

@@ -5,6 +5,7 @@
 #include "RefinedTolerances.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/ParallelTasks.h"
+#include "voxelcore/RadiusMargin.h"
 #include "voxelcore/StagePlan.h"
 #include "voxelcore/Vectors.h"
 
@@ -54,11 +55,13 @@ MovesInLps(const RefinedCore & refined, const ImageGeometry & geometry)
   return moves;
 }
 
+/** Also tells how far radii may be off where the surface is `ofLabels`. */
 CertifiedCore
 CertifyRefined(RefinedCore            refined,
                const MedialComplex &  whole,
                const VoxelShape &     voxels,
                const CertifiedShape & shape,
+               bool                   ofLabels,
                CoreNumbers            numbers)
 {
   const std::string what = "its core refined at " + (numbers.tolerance ? numbers.tolerance->height : numbers.lambda);
@@ -69,11 +72,21 @@ CertifyRefined(RefinedCore            refined,
   {
     refined.core.tolerances = TolerancesOfTriangles(refined.core.cells, whole, numbers.tolerance->heightMm);
   }
+  std::vector<double> margins;
+  if (ofLabels)
+  {
+    margins = RadiusMargins(refined.core, voxels, shape.geometry.spacing);
+  }
   std::vector<Vector3> moves = MovesInLps(refined, shape.geometry);
   CertifiedCore        result;
   result.core = ToPhysical(std::move(refined.core), shape.geometry, 0);
   result.core.displacement = std::move(moves);
+  result.core.radiusMargin = std::move(margins);
   result.numbers = std::move(numbers);
+  if (ofLabels)
+  {
+    result.numbers.refined->radiusMargin = DescribeMargins(result.core);
+  }
   result.numbers.complex = DescribeComplex(result.core.core, topology);
   return result;
 }
@@ -187,12 +200,14 @@ RefineAndCertify(const VoxelShape &       voxels,
   std::vector<LatticePoint> points = parts.points;
   KeepToRefine(shape.geometry.spacing, parts.core, parts.edgePoints, points, left, curves);
   std::vector<RefinedCore> refined;
+  bool                     ofLabels = false;
   {
     const auto      surface = source(voxels, PartOfProgress(progress, "surface", 0.05, 0.35));
     RefinementInput input{ &voxels,           &points,           &parts.core,
                            &parts.edgePoints, surface.get(),     shape.geometry.spacing,
                            byTolerance,       std::move(curves), std::move(left),
                            &parts.points };
+    ofLabels = surface->IsOfLabels();
     refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.35, 1));
   }
   parts.edgePoints = EdgePoints();
@@ -204,8 +219,12 @@ RefineAndCertify(const VoxelShape &       voxels,
     const bool    again =
       std::find(thresholdsMm.begin() + static_cast<std::ptrdiff_t>(i) + 1, thresholdsMm.end(), thresholdsMm[i]) !=
       thresholdsMm.end();
-    results.push_back(
-      CertifyRefined(again ? RefinedCore(core) : std::move(core), parts.core, voxels, shape, std::move(task.asked[i])));
+    results.push_back(CertifyRefined(again ? RefinedCore(core) : std::move(core),
+                                     parts.core,
+                                     voxels,
+                                     shape,
+                                     ofLabels,
+                                     std::move(task.asked[i])));
   }
   if (task.curves)
   {

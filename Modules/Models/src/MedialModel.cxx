@@ -79,7 +79,8 @@ WriteModel(const std::filesystem::path & path,
     MedialModel triangles{ {}, model.provenance, model.hasEdges, model.refined, model.inLps, model.unit };
     for (const ModelPart & part : model.parts)
     {
-      triangles.parts.push_back({ part.label, Triangulated(part.core), part.component, part.displacement });
+      triangles.parts.push_back(
+        { part.label, Triangulated(part.core), part.component, part.displacement, part.thickness, part.radiusMargin });
     }
     if (format == ".stl")
     {

@@ -45,7 +45,7 @@ SameBits(const ModelPart & a, const ModelPart & b)
          Same(x.edgeLambda, y.edgeLambda) && Same(x.faceLambda, y.faceLambda) &&
          Same(x.tolerances.vertices, y.tolerances.vertices) && Same(x.tolerances.edges, y.tolerances.edges) &&
          Same(x.tolerances.faces, y.tolerances.faces) && Same(a.displacement, b.displacement) &&
-         Same(a.thickness, b.thickness);
+         Same(a.thickness, b.thickness) && Same(a.radiusMargin, b.radiusMargin);
 }
 
 bool

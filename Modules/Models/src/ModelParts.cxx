@@ -71,20 +71,24 @@ AddPoints(ModelSink & sink, const std::vector<PartCells> & parts)
   }
 }
 
+/** Where every part has it. */
 void
-AddThickness(ModelSink & sink, const std::vector<PartCells> & parts)
+AddOfVertices(ModelSink &                    sink,
+              const std::vector<PartCells> & parts,
+              const char *                   name,
+              std::vector<double> ModelPart::*values)
 {
-  const bool areMeasured = !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const PartCells & one) {
-    return one.part->thickness.size() == one.part->core.cells.vertexCount && !one.part->thickness.empty();
+  const bool areMeasured = !parts.empty() && std::all_of(parts.begin(), parts.end(), [&](const PartCells & one) {
+    return (one.part->*values).size() == one.part->core.cells.vertexCount && !(one.part->*values).empty();
   });
   if (!areMeasured)
   {
     return;
   }
-  double * t = sink.Reals("PointData", "Thickness", PointCount(parts));
+  double * t = sink.Reals("PointData", name, PointCount(parts));
   for (const PartCells & one : parts)
   {
-    t = std::copy(one.part->thickness.begin(), one.part->thickness.end(), t);
+    t = std::copy((one.part->*values).begin(), (one.part->*values).end(), t);
   }
 }
 
@@ -300,7 +304,8 @@ WriteParts(const MedialModel & model, bool keepEdges, ModelSink & sink)
     AddCells<std::int64_t>(sink, parts);
   }
   AddCellArrays(sink, parts);
-  AddThickness(sink, parts);
+  AddOfVertices(sink, parts, "Thickness", &ModelPart::thickness);
+  AddOfVertices(sink, parts, "RadiusMargin", &ModelPart::radiusMargin);
   if (model.inLps)
   {
     sink.Text("SPACE", "LPS");

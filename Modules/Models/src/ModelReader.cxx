@@ -316,9 +316,12 @@ ReadParts(ModelSource & file, bool anywhere)
                "its field Refined names no surface");
     displacement = ReadValues<double>(file, "PointData", "Displacement", pointCount, 3);
   }
-  const std::vector<double> thickness = file.Has("PointData", "Thickness")
-                                          ? ReadValues<double>(file, "PointData", "Thickness", pointCount)
-                                          : std::vector<double>();
+  const auto readIfThere = [&](const char * name) {
+    return file.Has("PointData", name) ? ReadValues<double>(file, "PointData", name, pointCount)
+                                       : std::vector<double>();
+  };
+  const std::vector<double> thickness = readIfThere("Thickness");
+  const std::vector<double> margin = readIfThere("RadiusMargin");
   std::size_t               edgesRead = 0;
   bool                      edgesMissing = false;
   for (const auto & [key, range] : FindParts(kinds, keys, pointCount))
@@ -345,6 +348,7 @@ ReadParts(ModelSource & file, bool anywhere)
     };
     core.radius = slice(radius, first, count);
     part.thickness = thickness.empty() ? std::vector<double>() : slice(thickness, first, count);
+    part.radiusMargin = margin.empty() ? std::vector<double>() : slice(margin, first, count);
     core.vertexLambda = slice(pointLambda, first, count);
     for (std::size_t i = 0; i < range.cells[0]; ++i)
     {

@@ -79,11 +79,18 @@ public:
     return 0.03;
   }
 
-  /** In units of `sides`. */
+  bool
+  IsOfLabels() const override
+  {
+    return m_IsOfLabels;
+  }
+
+  /** Of a field made of labels: in units of `sides`. */
   void
   SetSwelling(WallSwelling walls)
   {
     m_Walls = std::move(walls);
+    m_IsOfLabels = true;
   }
 
   double
@@ -114,6 +121,7 @@ private:
   double    m_Close;
 
   std::optional<WallSwelling> m_Walls;
+  bool                        m_IsOfLabels = false;
   OwnNumber                   m_Number; ///< of the field as it is where it is
 };
 

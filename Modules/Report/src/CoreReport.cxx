@@ -188,6 +188,12 @@ LabelJson(const LabelRecord & label, bool inFile)
     {
       one["mean_displacement_vox"] = pruned.refined->meanDisplacement;
       one["max_displacement_vox"] = pruned.refined->maxDisplacement;
+      if (!inFile && pruned.refined->radiusMargin)
+      {
+        // Files have it at each vertex.
+        one["mean_radius_margin_mm"] = pruned.refined->radiusMargin->mean;
+        one["max_radius_margin_mm"] = pruned.refined->radiusMargin->max;
+      }
     }
     if (!inFile)
     {

@@ -146,7 +146,9 @@ ReadLabel(const Json & json)
     }
     if (one.contains("max_displacement_vox"))
     {
-      pruned.refined = { one.at("mean_displacement_vox").get<double>(), one.at("max_displacement_vox").get<double>() };
+      pruned.refined = { one.at("mean_displacement_vox").get<double>(),
+                         one.at("max_displacement_vox").get<double>(),
+                         {} };
     }
     label.pruned.push_back(std::move(pruned));
   }
@@ -233,6 +235,12 @@ ParseLabelRecord(const std::string & text)
       if (label.pruned[i].tolerance && !AtLength(pruned, "boundary_gap_mm").is_null())
       {
         label.pruned[i].tolerance->boundaryGapMm = AtLength(pruned, "boundary_gap_mm").get<double>();
+      }
+      const char * most = "max_radius_margin_mm";
+      if (label.pruned[i].refined && (pruned.contains(most) || pruned.contains(InUnit(most, SpatialUnit::Voxels))))
+      {
+        label.pruned[i].refined->radiusMargin = MarginNumbers{ AtLength(pruned, "mean_radius_margin_mm").get<double>(),
+                                                               AtLength(pruned, most).get<double>() };
       }
     }
     if (const auto fine = json.at("shape").find("less_than_three_voxels_wide"); fine != json.at("shape").end())

@@ -35,11 +35,19 @@ struct ToleranceNumbers
   std::optional<double> boundaryGapMm; ///< of a boundary vertex to the balls that are left, the largest; where measured
 };
 
-/** What refining did to all that was refined, in voxels (length in lattice coordinates). */
+/** How far radii may be off as labels tell, in mm: PlacedCore::radiusMargin. */
+struct MarginNumbers
+{
+  double mean = 0; ///< over the area of faces
+  double max = 0;
+};
+
+/** What refining did to all that was refined. */
 struct RefinedNumbers
 {
-  double meanDisplacement = 0;
-  double maxDisplacement = 0;
+  double                       meanDisplacement = 0; ///< in voxels (length in lattice coordinates)
+  double                       maxDisplacement = 0;
+  std::optional<MarginNumbers> radiusMargin{}; ///< of one refined from labels
 };
 
 /** How a core was pruned, and what is left. */

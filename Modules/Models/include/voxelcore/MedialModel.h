@@ -57,7 +57,8 @@ IsModelPath(const std::filesystem::path & path);
  *  Tolerances, where every part has them, are the point and cell arrays `Tolerance` of .vtp and .vtk. Edges that
  *  outlast their faces, and vertices that outlast their edges, are cells there too: the cells with Tolerance >= h are
  *  then what is left at height h, for every h from the file's own.
- *  Local thickness, where every part has it, is the point array `Thickness` (.vtp and .vtk).
+ *  Local thickness, where every part has it, is the point array `Thickness` (.vtp and .vtk);
+ *  what labels leave open of radii, of cores refined from them, `RadiusMargin`.
  *  Refined cores have their displacements as the point array `Displacement`, and the surface as the field string
  *  `Refined` (.vtp and .vtk).
  *  \throws OutputError with one line when it cannot be written completely; a broken file is removed.

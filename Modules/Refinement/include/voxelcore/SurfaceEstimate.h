@@ -42,6 +42,13 @@ public:
     return 0;
   }
 
+  /** Whether nothing but labels tells where it is. */
+  virtual bool
+  IsOfLabels() const
+  {
+    return false;
+  }
+
   /** By how much each side of a wall lies too far out, mm; `half` leads from its middle to a side, mm. */
   virtual double
   Swelling(const Vector3 & /*half*/) const

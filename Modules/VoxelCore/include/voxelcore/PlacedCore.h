@@ -20,6 +20,7 @@ struct PlacedCore
 
   std::vector<Vector3> displacement{}; ///< LPS mm, of a refined core: what moved each vertex; else empty
   std::vector<double>  thickness{};    ///< mm, the shape's local thickness at each vertex, where it was measured
+  std::vector<double>  radiusMargin{}; ///< mm per vertex, of one refined from labels: RadiusMargin.h; else empty
 };
 
 /** A core that PlaceInLps moved to LPS mm. */
