@@ -13,7 +13,7 @@ may_use() {
     Shape | Complex) echo "Lattice" ;;
     Blocks) echo "Lattice Shape Delaunay" ;;
     Delaunay | Voxelization | Phantom) echo "Lattice Shape" ;;
-    Thickness) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
+    Thickness) echo "Lattice Shape Complex Delaunay VoxelCore Refinement" ;;
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
     Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
     Verification) echo "Lattice Shape Complex" ;;

@@ -149,14 +149,16 @@ TEST(CoreThickness, EveningLeavesWhatIsEvenAndTheEndsOfLinesAndTakesOutSingleErr
     }
   }
   core.cells.vertexCount = 7;
-  EXPECT_EQ(EvenedBallsOfCore(core, 0).radius, core.radius);
-  const PaintingBalls once = EvenedBallsOfCore(core, 1);
+  constexpr double far = 1;
+  EXPECT_EQ(EvenedBallsOfCore(core, 0, far).radius, core.radius);
+  const PaintingBalls once = EvenedBallsOfCore(core, 1, far);
   EXPECT_NEAR(once.radius[3], 2.1, 1e-12);
   EXPECT_NEAR(once.radius[2], 2.1, 1e-12);
   EXPECT_EQ(once.radius[0], 2);
   EXPECT_EQ(once.value, once.radius);
+  EXPECT_EQ(EvenedBallsOfCore(core, 1, 0.25).radius, core.radius); // that is a bulge
   core.radius.assign(7, 2);
-  EXPECT_EQ(EvenedBallsOfCore(core, 5).radius, core.radius);
+  EXPECT_EQ(EvenedBallsOfCore(core, 5, far).radius, core.radius);
 }
 
 TEST(CoreThickness, OwnersAreTheSameForEveryNumberOfThreads)

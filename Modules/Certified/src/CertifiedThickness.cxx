@@ -1,7 +1,9 @@
 #include "voxelcore/CertifiedThickness.h"
 
 #include "CertificateText.h"
+#include "voxelcore/FittedBalls.h"
 #include "voxelcore/SpacingWeights.h"
+#include "voxelcore/StagePlan.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,8 +14,9 @@ namespace voxelcore
 namespace
 {
 
-// Takes half off the bias of walls; more changes little.
-constexpr int kEvenings = 3;
+// So far along a core as its noise is long; what differs by more than this part of a voxel's shortest side is no noise.
+constexpr int    kEvenings = 20;
+constexpr double kStep = 0.5;
 
 } // namespace
 
@@ -28,14 +31,22 @@ ThicknessOf(const CertifiedCore &    core,
   CertifiedThickness   result;
   result.shape = std::move(voxels);
   result.bracket = std::move(bracket);
-  result.balls = core.numbers.refined ? EvenedBallsOfCore(core.core.core, kEvenings) : BallsOfCore(core.core.core);
+  const bool   refined = core.numbers.refined.has_value();
+  const auto & spacing = shape.geometry.spacing;
+  result.balls =
+    refined ? EvenedBallsOfCore(core.core.core, kEvenings, kStep * *std::min_element(spacing.begin(), spacing.end()))
+            : BallsOfCore(core.core.core);
   for (Vector3 & centre : result.balls.centres)
   {
     centre = PhysicalToLattice(shape.geometry, centre);
   }
-  result.owners = OwnersAmong(result.balls, result.shape, weights, progress);
-  result.map =
-    core.numbers.refined ? ThicknessOfOwners(result.shape, weights, result.balls, result.owners) : result.bracket.lower;
+  StagePlan plan(progress, { refined ? 0.5 : 0.0, 0.5 });
+  if (const ProgressCallback fitting = plan.Next(); refined)
+  {
+    FitBalls(result.shape, weights, core.core.core.cells, result.balls, fitting);
+  }
+  result.owners = OwnersAmong(result.balls, result.shape, weights, plan.Next());
+  result.map = refined ? ThicknessOfOwners(result.shape, weights, result.balls, result.owners) : result.bracket.lower;
   const VoxelRanks ranks(result.shape);
   result.atVertices.reserve(result.balls.Count());
   for (const Vector3 & centre : result.balls.centres)

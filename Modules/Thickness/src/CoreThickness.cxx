@@ -90,7 +90,7 @@ BallsOfCore(const MedialComplex & core)
 }
 
 PaintingBalls
-EvenedBallsOfCore(const MedialComplex & core, int rounds)
+EvenedBallsOfCore(const MedialComplex & core, int rounds, double step)
 {
   PaintingBalls              balls = BallsOfCore(core);
   std::vector<double>        sums(balls.Count());
@@ -101,10 +101,13 @@ EvenedBallsOfCore(const MedialComplex & core, int rounds)
     std::fill(counts.begin(), counts.end(), 1U);
     for (const auto & ends : core.cells.edges)
     {
-      sums[ends[0]] += balls.value[ends[1]];
-      sums[ends[1]] += balls.value[ends[0]];
-      ++counts[ends[0]];
-      ++counts[ends[1]];
+      if (std::abs(balls.value[ends[0]] - balls.value[ends[1]]) < step)
+      {
+        sums[ends[0]] += balls.value[ends[1]];
+        sums[ends[1]] += balls.value[ends[0]];
+        ++counts[ends[0]];
+        ++counts[ends[1]];
+      }
     }
     for (std::size_t i = 0; i < sums.size(); ++i)
     {

@@ -20,9 +20,10 @@ PaintingBalls
 BallsOfCore(const MedialComplex & core);
 
 /** The same with radii that are averaged with those of the vertices around, so many times: the greatest of many radii
- *  that err this way and that would be too great. An end of a line keeps its own. */
+ *  that err this way and that would be too great. Radii that differ by `step` or more along an edge do not mix: that is
+ *  no error but the body's. An end of a line keeps its own. */
 PaintingBalls
-EvenedBallsOfCore(const MedialComplex & core, int rounds);
+EvenedBallsOfCore(const MedialComplex & core, int rounds, double step);
 
 /** Finds the values of a field by voxel. The shape must outlive it. */
 class VoxelRanks

@@ -1,0 +1,328 @@
+#include "voxelcore/FittedBalls.h"
+
+#include "BallEnvelope.h"
+
+#include "voxelcore/ParallelTasks.h"
+#include "voxelcore/Vectors.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr std::int32_t kReach = 3; ///< cubes
+constexpr int          kStraightenings = 4;
+constexpr double       kRim = 1e-3;  ///< weight of squares at rims
+constexpr double       kStay = 1e-2; ///< what a move costs
+constexpr std::int32_t kLayers = 8;  ///< of voxels, that one thread looks through
+
+/** Normal equations of d = m . u + g, of four unknowns. */
+class Equations
+{
+public:
+  void
+  AddSquare(const Vector3 & way, double gap, double weight)
+  {
+    const std::array<double, 4> row{ way[0], way[1], way[2], 1 };
+    std::size_t                 at = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      m_Right[i] += weight * gap * row[i];
+      for (std::size_t j = 0; j <= i; ++j)
+      {
+        m_Left[at++] += weight * row[i] * row[j];
+      }
+    }
+  }
+  void
+  Add(const Equations & other, double part)
+  {
+    for (std::size_t i = 0; i < m_Left.size(); ++i)
+    {
+      m_Left[i] += part * other.m_Left[i];
+    }
+    for (std::size_t i = 0; i < m_Right.size(); ++i)
+    {
+      m_Right[i] += part * other.m_Right[i];
+    }
+  }
+  /** g, or 0 where the squares face each other's way. By elimination: with what a move costs, the matrix is positive
+   *  where weights are. */
+  double
+  Growth() const
+  {
+    const double                         area = m_Left[9];
+    std::array<std::array<double, 4>, 4> a{};
+    std::array<double, 4>                b = m_Right;
+    std::size_t                          at = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      for (std::size_t j = 0; j <= i; ++j)
+      {
+        a[i][j] = m_Left[at];
+        a[j][i] = m_Left[at++];
+      }
+      a[i][i] += i < 3 ? kStay * area : 0.0;
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      if (!(a[i][i] > 1e-6 * kStay * area))
+      {
+        return 0;
+      }
+      for (std::size_t j = i + 1; j < 4; ++j)
+      {
+        const double factor = a[j][i] / a[i][i];
+        for (std::size_t k = i; k < 4; ++k)
+        {
+          a[j][k] -= factor * a[i][k];
+        }
+        b[j] -= factor * b[i];
+      }
+    }
+    return b[3] / a[3][3];
+  }
+
+private:
+  std::array<double, 10> m_Left{}; ///< row by row up to the diagonal
+  std::array<double, 4>  m_Right{};
+};
+
+using Cube = std::array<std::int32_t, 3>;
+using Cubes = std::map<Cube, Equations>;
+
+/** Whether balls at a vertex are round where a body may have edges: on edges with one face, ends of lines, points. */
+std::vector<std::uint8_t>
+FindRims(const CellComplex & cells)
+{
+  const std::vector<Cofaces> faces = CountEdgeCofaces(cells);
+  const std::vector<Cofaces> edges = CountVertexCofaces(cells);
+  std::vector<std::uint8_t>  rims(cells.vertexCount, 0);
+  for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    for (const ElementIndex end : cells.edges[edge])
+    {
+      rims[end] = faces[edge].count == 1 ? 1 : rims[end];
+    }
+  }
+  for (std::size_t vertex = 0; vertex < cells.vertexCount; ++vertex)
+  {
+    rims[vertex] = edges[vertex].count <= 1 ? 1 : rims[vertex];
+  }
+  return rims;
+}
+
+/** Centres averaged with those of the vertices around, so many times; ends of lines stay. */
+std::vector<Vector3>
+Straightened(const CellComplex & cells, std::vector<Vector3> centres, int rounds)
+{
+  for (int round = 0; round < rounds; ++round)
+  {
+    std::vector<Vector3>       sums = centres;
+    std::vector<std::uint32_t> counts(centres.size(), 1);
+    for (const auto & ends : cells.edges)
+    {
+      for (std::size_t end = 0; end < 2; ++end)
+      {
+        sums[ends[end]] = AddScaled(sums[ends[end]], 1, centres[ends[1 - end]]);
+        ++counts[ends[end]];
+      }
+    }
+    for (std::size_t i = 0; i < centres.size(); ++i)
+    {
+      centres[i] = counts[i] > 2 ? AddScaled({ 0, 0, 0 }, 1.0 / counts[i], sums[i]) : centres[i];
+    }
+  }
+  return centres;
+}
+
+class Fitter
+{
+public:
+  Fitter(const VoxelShape & shape, const SpacingWeights & weights, const CellComplex & cells, PaintingBalls & balls)
+    : m_Shape(shape)
+    , m_Balls(balls)
+    , m_Rims(FindRims(cells))
+    , m_Envelope(cells, balls, weights)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      m_Sides[axis] = static_cast<double>(weights.weight[axis]) * weights.unit;
+    }
+    m_Longest = *std::max_element(m_Sides.begin(), m_Sides.end());
+    m_Cube = m_Longest + *std::min_element(m_Sides.begin(), m_Sides.end());
+  }
+
+  void
+  Fit(const ProgressCallback & progress)
+  {
+    const Cubes            all = SumSquares();
+    std::map<Cube, double> growths;
+    std::vector<Cube>      cubeOf;
+    ReportProgress(progress, "thickness", 0.8);
+    for (const Vector3 & centre : m_Balls.centres)
+    {
+      cubeOf.push_back(CubeOf(centre));
+      growths.emplace(cubeOf.back(), 0);
+    }
+    std::vector<std::pair<const Cube, double> *> items;
+    for (auto & item : growths)
+    {
+      items.push_back(&item);
+    }
+    RunInParts(items.size() > 1000, items.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        items[i]->second = GrowthAt(all, items[i]->first);
+      }
+    });
+    for (std::size_t i = 0; i < m_Balls.Count(); ++i)
+    {
+      const double growth = std::clamp(growths.at(cubeOf[i]), -m_Balls.radius[i] / 2, m_Longest);
+      m_Balls.radius[i] += growth;
+      m_Balls.value[i] += growth;
+    }
+  }
+
+private:
+  Cube
+  CubeOf(const Vector3 & place) const
+  {
+    Cube cube{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      cube[axis] = static_cast<std::int32_t>(std::floor(place[axis] * m_Sides[axis] / m_Cube));
+    }
+    return cube;
+  }
+
+  /** The equations of each cube's balls; of parts of the scan in their order, so that sums are always the same. */
+  Cubes
+  SumSquares() const
+  {
+    const std::int32_t height = m_Shape.Box().size[2] + 1;
+    const auto         parts = static_cast<std::size_t>((height + kLayers - 1) / kLayers);
+    std::vector<Cubes> found(parts);
+    RunEach(parts, [&](std::size_t part) {
+      const auto first = static_cast<std::int32_t>(part) * kLayers;
+      for (std::int32_t z = first; z < std::min(first + kLayers, height); ++z)
+      {
+        AddLayer(z, found[part]);
+      }
+    });
+    Cubes all;
+    for (Cubes & part : found)
+    {
+      for (const auto & [cube, equations] : part)
+      {
+        all[cube].Add(equations, 1);
+      }
+      part.clear();
+    }
+    return all;
+  }
+
+  void
+  AddLayer(std::int32_t z, Cubes & cubes) const
+  {
+    std::size_t likely = 0;
+    for (std::int32_t y = 0; y <= m_Shape.Box().size[1]; ++y)
+    {
+      const auto    here = m_Shape.RowAnywhere(y, z);
+      const auto    before = m_Shape.RowAnywhere(y - 1, z);
+      const auto    below = m_Shape.RowAnywhere(y, z - 1);
+      std::uint64_t carry = 0;
+      const auto    add = [&](std::size_t axis, std::uint64_t changes, std::uint64_t in, std::size_t word) {
+        for (; changes != 0; changes &= changes - 1)
+        {
+          const auto bit = static_cast<unsigned>(std::countr_zero(changes));
+          AddSquare(axis, { static_cast<std::int32_t>(64 * word + bit), y, z }, (in >> bit & 1U) != 0, likely, cubes);
+        }
+      };
+      for (std::size_t word = 0; word < m_Shape.WordsPerRow(); ++word)
+      {
+        add(0, here[word] ^ (here[word] << 1U | carry), here[word], word);
+        add(1, here[word] ^ before[word], here[word], word);
+        add(2, here[word] ^ below[word], here[word], word);
+        carry = here[word] >> 63U;
+      }
+      add(0, carry, 0, m_Shape.WordsPerRow());
+    }
+  }
+
+  /** The square before a voxel along an axis; the voxel is in, or that before it is. */
+  void
+  AddSquare(std::size_t axis, const Cube & voxel, bool isIn, std::size_t & likely, Cubes & cubes) const
+  {
+    Vector3 middle{};
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      middle[a] = m_Shape.Box().lower[a] + voxel[a] + (a == axis ? 0.0 : 0.5);
+    }
+    const NearestBall ball = m_Envelope.Find(middle, likely);
+    const double area = m_Sides[(axis + 1) % 3] * m_Sides[(axis + 2) % 3] * (m_Rims[ball.vertex] != 0 ? kRim : 1.0);
+    cubes[CubeOf(m_Balls.centres[ball.vertex])].AddSquare(ball.way,
+                                                          ball.gap,
+                                                          area * (isIn ? -ball.way[axis] : ball.way[axis]));
+  }
+
+  static double
+  GrowthAt(const Cubes & all, const Cube & cube)
+  {
+    Equations about;
+    for (std::int32_t z = 1 - kReach; z < kReach; ++z)
+    {
+      for (std::int32_t y = 1 - kReach; y < kReach; ++y)
+      {
+        for (std::int32_t x = 1 - kReach; x < kReach; ++x)
+        {
+          const double left = 1 - static_cast<double>(x * x + y * y + z * z) / (kReach * kReach);
+          const auto   at = all.find({ cube[0] + x, cube[1] + y, cube[2] + z });
+          if (left > 0 && at != all.end())
+          {
+            about.Add(at->second, left * left);
+          }
+        }
+      }
+    }
+    return about.Growth();
+  }
+
+  const VoxelShape &        m_Shape;
+  PaintingBalls &           m_Balls;
+  std::vector<std::uint8_t> m_Rims;
+  BallEnvelope              m_Envelope;
+  Vector3                   m_Sides{}; ///< mm a lattice unit
+  double                    m_Longest = 0;
+  double                    m_Cube = 0; ///< side of a cube, mm
+};
+
+} // namespace
+
+void
+FitBalls(const VoxelShape &       shape,
+         const SpacingWeights &   weights,
+         const CellComplex &      cells,
+         PaintingBalls &          balls,
+         const ProgressCallback & progress)
+{
+  ReportProgress(progress, "thickness", 0);
+  if (balls.Count() > 0)
+  {
+    std::vector<Vector3> centres = Straightened(cells, balls.centres, kStraightenings);
+    balls.centres.swap(centres);
+    Fitter(shape, weights, cells, balls).Fit(progress);
+    balls.centres.swap(centres);
+  }
+}
+
+} // namespace voxelcore

@@ -1,0 +1,237 @@
+#include "VoxelCoreTesting/Shapes.h"
+#include "VoxelCoreTesting/Threads.h"
+
+#include "voxelcore/FittedBalls.h"
+#include "voxelcore/Vectors.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace voxelcore
+{
+namespace
+{
+
+using testing::ShapeWhere;
+using testing::Spacing3;
+
+constexpr double kLong = 40; ///< mm along each axis
+
+/** What is within a body, given in mm from the middle of the scan, made voxels. */
+struct Body
+{
+  Body(const Spacing3 & spacing, const std::function<bool(const Vector3 &)> & inside)
+    : weights(ComputeSpacingWeights(spacing))
+  {
+    std::array<std::int32_t, 3> size{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      sides[axis] = static_cast<double>(weights.weight[axis]) * weights.unit;
+      size[axis] = static_cast<std::int32_t>(std::ceil(kLong / sides[axis]));
+      middle[axis] = 0.5 * size[axis] + 0.1 * static_cast<double>(axis);
+    }
+    shape = ShapeWhere(size, [&](int x, int y, int z) {
+      return inside(Times(Minus({ x + 0.5, y + 0.5, z + 0.5 }, middle), sides));
+    });
+  }
+  void
+  AddBall(const Vector3 & place, double radius)
+  {
+    balls.Add(AddScaled(middle, 1, Over(place, sides)), radius, radius);
+    cells.vertexCount = balls.Count();
+  }
+  void
+  Fit()
+  {
+    FitBalls(shape, weights, cells, balls);
+  }
+
+  SpacingWeights weights;
+  Vector3        sides{};
+  Vector3        middle{};
+  VoxelShape     shape;
+  CellComplex    cells;
+  PaintingBalls  balls;
+};
+
+const Vector3 kAlong{ 2.0 / 3, 1.0 / 3, 2.0 / 3 };
+const Vector3 kAcross{ -1 / std::sqrt(5.0), 2 / std::sqrt(5.0), 0 };
+
+const std::array<Spacing3, 3> kSpacings{ { { 1, 1, 1 }, { 1, 1, 2.5 }, { 0.7, 1.1, 0.9 } } };
+
+/** Balls 1 mm apart on a line, the ends of which lie in the body's ends. */
+Body
+Rod(const Spacing3 & spacing, double thick, double radius)
+{
+  Body body(spacing, [&](const Vector3 & p) {
+    const double along = Dot(p, kAlong);
+    return std::abs(along) < 16 && Length(AddScaled(p, -along, kAlong)) < thick;
+  });
+  for (int i = -15; i <= 15; ++i)
+  {
+    body.AddBall(AddScaled({ 0, 0, 0 }, i, kAlong), radius);
+    if (i > -15)
+    {
+      body.cells.edges.push_back({ static_cast<ElementIndex>(i + 14), static_cast<ElementIndex>(i + 15) });
+    }
+  }
+  return body;
+}
+
+/** A disc of triangles 1.5 mm apart, as far off the middle of a disc that is flat at its rim. */
+Body
+Disc(const Spacing3 & spacing, double half, double radius, double off)
+{
+  const Vector3                              other = Cross(kAlong, kAcross);
+  Body                                       body(spacing, [&](const Vector3 & p) {
+    return std::abs(Dot(p, kAlong)) < half && std::hypot(Dot(p, kAcross), Dot(p, other)) < 15;
+  });
+  constexpr int                              count = 8;
+  std::map<std::array<int, 2>, ElementIndex> numbers;
+  for (int j = -count; j <= count; ++j)
+  {
+    for (int i = -count; i <= count; ++i)
+    {
+      if (i * i + j * j <= count * count)
+      {
+        numbers[{ i, j }] = static_cast<ElementIndex>(body.balls.Count());
+        body.AddBall(AddScaled(AddScaled(AddScaled({ 0, 0, 0 }, 1.5 * i, kAcross), 1.5 * j, other), off, kAlong),
+                     radius);
+      }
+    }
+  }
+  std::map<std::array<ElementIndex, 2>, ElementIndex> edges;
+  const auto                                          edge = [&](ElementIndex a, ElementIndex b) {
+    const auto [at, isNew] =
+      edges.emplace(std::array{ std::min(a, b), std::max(a, b) }, static_cast<ElementIndex>(edges.size()));
+    if (isNew)
+    {
+      body.cells.edges.push_back(at->first);
+    }
+    return at->second;
+  };
+  const auto face = [&](const std::array<std::array<int, 2>, 3> & corners) {
+    std::array<ElementIndex, 3> at{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const auto found = numbers.find(corners[i]);
+      if (found == numbers.end())
+      {
+        return;
+      }
+      at[i] = found->second;
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      body.cells.faceVertices.push_back(at[i]);
+      body.cells.faceEdges.push_back(edge(at[i], at[(i + 1) % 3]));
+    }
+    body.cells.faceOffsets.push_back(body.cells.faceVertices.size());
+  };
+  for (const auto & [at, number] : numbers)
+  {
+    const auto [i, j] = at;
+    face({ { { i, j }, { i + 1, j }, { i + 1, j + 1 } } });
+    face({ { { i, j }, { i + 1, j + 1 }, { i, j + 1 } } });
+  }
+  return body;
+}
+
+TEST(FittedBalls, OneBallHoldsWhatItsVoxelsDo)
+{
+  for (const Spacing3 & spacing : kSpacings)
+  {
+    for (const double radius : { 3.0, 6.0, 10.0 })
+    {
+      for (const double off : { -1.0, 0.0, 0.5 })
+      {
+        Body body(spacing, [&](const Vector3 & p) { return Length(p) < radius; });
+        body.AddBall({ 0, 0, 0 }, radius + off);
+        body.Fit();
+        const double volume =
+          static_cast<double>(body.shape.CountVoxels()) * body.sides[0] * body.sides[1] * body.sides[2];
+        EXPECT_NEAR(body.balls.radius[0], std::cbrt(volume * 3 / 4 / 3.14159265358979), 0.1)
+          << spacing[2] << ' ' << radius << ' ' << off;
+        EXPECT_EQ(body.balls.value, body.balls.radius);
+      }
+    }
+  }
+}
+
+TEST(FittedBalls, RodsGetTheirThicknessAndTheirEndsHaveNoSay)
+{
+  for (const Spacing3 & spacing : kSpacings)
+  {
+    for (const double off : { -0.7, 0.0, 0.4 })
+    {
+      Body body = Rod(spacing, 3.2, 3.2 + off);
+      body.Fit();
+      for (const double radius : body.balls.radius)
+      {
+        EXPECT_NEAR(radius, 3.2, 0.1) << spacing[2] << ' ' << off;
+      }
+    }
+  }
+}
+
+TEST(FittedBalls, WallsGetTheirThicknessThoughTheirCoreLiesAside)
+{
+  for (const Spacing3 & spacing : kSpacings)
+  {
+    for (const double off : { -0.4, 0.0, 0.4 })
+    {
+      for (const double aside : { 0.0, 0.3 })
+      {
+        Body body = Disc(spacing, 3, 3 + off, aside);
+        body.Fit();
+        double sum = 0;
+        for (const double radius : body.balls.radius)
+        {
+          EXPECT_NEAR(radius, 3, 0.25) << spacing[2] << ' ' << off << ' ' << aside;
+          sum += radius;
+        }
+        EXPECT_NEAR(sum / static_cast<double>(body.balls.Count()), 3, 0.1) << spacing[2] << ' ' << off << ' ' << aside;
+      }
+    }
+  }
+}
+
+TEST(FittedBalls, ShrinkByHalfAndGrowByAVoxelAtMost)
+{
+  Body small({ 1, 1, 1 }, [](const Vector3 & p) { return Length(p) < 2; });
+  small.AddBall({ 0, 0, 0 }, 8);
+  small.Fit();
+  EXPECT_EQ(small.balls.radius[0], 4);
+  Body large({ 1, 1, 1 }, [](const Vector3 & p) { return Length(p) < 8; });
+  large.AddBall({ 0, 0, 0 }, 2);
+  large.Fit();
+  EXPECT_EQ(large.balls.radius[0], 3);
+  Body none({ 1, 1, 1 }, [](const Vector3 & p) { return Length(p) < 8; });
+  none.Fit();
+  EXPECT_EQ(none.balls.Count(), 0U);
+}
+
+TEST(FittedBalls, AreTheSameForEveryNumberOfThreads)
+{
+  Body one = Disc({ 1, 1, 2.5 }, 3, 2.7, 0.2);
+  Body four = one;
+  {
+    const testing::Threads threads(1);
+    one.Fit();
+  }
+  const testing::Threads threads(4);
+  four.Fit();
+  EXPECT_EQ(one.balls.radius, four.balls.radius);
+}
+
+TEST(FittedBalls, StopWhenAsked)
+{
+  Body body = Rod({ 1, 1, 1 }, 3, 3);
+  EXPECT_THROW(
+    FitBalls(body.shape, body.weights, body.cells, body.balls, [](std::string_view, double) { return false; }),
+    Cancelled);
+}
+
+} // namespace
+} // namespace voxelcore
