@@ -35,15 +35,14 @@ AskForLargePages(void * memory, std::size_t size)
   }
 }
 
-} // namespace
-
-// The standard's replaceable function; the matching operator delete calls free().
+// What operator new does, with memory from `allocate`.
+template <typename TAllocate>
 void *
-operator new(std::size_t size)
+Allocate(std::size_t size, const TAllocate & allocate)
 {
   for (;;)
   {
-    void * const memory = std::malloc(size == 0 ? 1 : size);
+    void * const memory = allocate();
     if (memory != nullptr)
     {
       if (size >= worthIt)
@@ -61,6 +60,25 @@ operator new(std::size_t size)
   }
 }
 
+} // namespace
+
+// The standard's replaceable functions; the matching operator delete calls free().
+void *
+operator new(std::size_t size)
+{
+  return Allocate(size, [size] {
+    return size >= worthIt ? std::aligned_alloc(largePage, (size + 63) / 64 * 64) : std::malloc(size == 0 ? 1 : size);
+  });
+}
+
+void *
+operator new(std::size_t size, std::align_val_t alignment)
+{
+  const auto        unit = static_cast<std::size_t>(alignment);
+  const std::size_t whole = (size == 0 ? unit : size + unit - 1) / unit * unit; // as aligned_alloc() asks
+  return Allocate(size, [unit, whole] { return std::aligned_alloc(unit, whole); });
+}
+
 void
 operator delete(void * memory) noexcept
 {
@@ -69,6 +87,18 @@ operator delete(void * memory) noexcept
 
 void
 operator delete(void * memory, std::size_t) noexcept
+{
+  std::free(memory);
+}
+
+void
+operator delete(void * memory, std::align_val_t) noexcept
+{
+  std::free(memory);
+}
+
+void
+operator delete(void * memory, std::size_t, std::align_val_t) noexcept
 {
   std::free(memory);
 }
