@@ -1,6 +1,7 @@
 #include "SurfaceCollapse.h"
 
 #include "TimeHeap.h"
+#include "voxelcore/Prefetch.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ public:
   void
   Fetch(ElementIndex edge) const
   {
-    __builtin_prefetch(&m_Cofaces[edge], 1);
+    FetchLine(&m_Cofaces[edge]);
   }
 
   void
@@ -150,13 +151,13 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
         what(cofaces.OnlyFace(edge));
       }
     };
-    fetchFace(12, [&](ElementIndex face) { __builtin_prefetch(&cells.faceOffsets[face]); });
-    fetchFace(8, [&](ElementIndex face) { __builtin_prefetch(&cells.faceEdges[cells.faceOffsets[face]]); });
+    fetchFace(12, [&](ElementIndex face) { FetchLine(&cells.faceOffsets[face]); });
+    fetchFace(8, [&](ElementIndex face) { FetchLine(&cells.faceEdges[cells.faceOffsets[face]]); });
     fetchFace(4, [&](ElementIndex face) {
       for (const ElementIndex side : cells.FaceEdges(face))
       {
         cofaces.Fetch(side);
-        __builtin_prefetch(&edgeTimes[side]);
+        FetchLine(&edgeTimes[side]);
       }
     });
   };

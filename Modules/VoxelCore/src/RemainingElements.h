@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace voxelcore
@@ -15,19 +16,27 @@ namespace voxelcore
 inline constexpr double kBelowFloor = -1; ///< the height of what a floor took
 
 /** While an element is there, its cofaces; then the height at which it went: in one word, as collapses jump about in
- *  memory and ask for both. Heights are -1, 0 or more; their two highest bits are never both set. */
+ *  memory and ask for both. Heights are -1, 0 or more; their two highest bits are never both set. Up to kMostCofaces
+ *  cofaces, each with a number below kMostSides that says which of its sides the element is. */
 class RemainingElements
 {
 public:
+  static constexpr std::uint64_t kMostCofaces = 0xFFFF;
+  static constexpr std::uint64_t kMostSides = 0x4000;
+
   void
-  Add(ElementIndex coface)
+  Add(ElementIndex coface, std::uint64_t side = 0)
   {
-    m_Word = (m_Word + kOne) ^ coface;
+    if ((m_Word & kCount) == kCount || side >= kMostSides)
+    {
+      throw std::length_error("an element has too many neighbours to be pruned by tolerance");
+    }
+    m_Word = (m_Word + kOne) ^ (side << kSideBits | coface);
   }
   void
-  Remove(ElementIndex coface)
+  Remove(ElementIndex coface, std::uint64_t side = 0)
   {
-    m_Word = (m_Word - kOne) ^ coface;
+    m_Word = (m_Word - kOne) ^ (side << kSideBits | coface);
   }
   void
   Go(double height)
@@ -43,19 +52,25 @@ public:
   bool
   IsFree() const
   {
-    return (m_Word & ~kIndex) == (kLive | kOne);
+    return (m_Word & (kLive | kCount)) == (kLive | kOne);
   }
   /** Of one that is there. */
   ElementIndex
   Count() const
   {
-    return static_cast<ElementIndex>((m_Word & ~kLive) >> 32U);
+    return static_cast<ElementIndex>((m_Word & kCount) >> kCountBits);
   }
   /** The coface of a free one. */
   ElementIndex
   Coface() const
   {
-    return static_cast<ElementIndex>(m_Word & kIndex);
+    return static_cast<ElementIndex>(m_Word);
+  }
+  /** Which side of that coface it is. */
+  std::uint64_t
+  Side() const
+  {
+    return m_Word >> kSideBits & (kMostSides - 1);
   }
   /** Of one that went. */
   double
@@ -65,9 +80,11 @@ public:
   }
 
 private:
+  static constexpr unsigned      kSideBits = 32;
+  static constexpr unsigned      kCountBits = 46;
   static constexpr std::uint64_t kLive = std::uint64_t{ 3 } << 62U;
-  static constexpr std::uint64_t kOne = std::uint64_t{ 1 } << 32U;
-  static constexpr std::uint64_t kIndex = kOne - 1;
+  static constexpr std::uint64_t kOne = std::uint64_t{ 1 } << kCountBits;
+  static constexpr std::uint64_t kCount = kMostCofaces << kCountBits;
 
   std::uint64_t m_Word = kLive;
 };

@@ -1,5 +1,7 @@
 #include "RimFire.h"
 
+#include "voxelcore/Prefetch.h"
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -22,6 +24,49 @@ constexpr std::uint16_t kThere = 0xFFFF;
 constexpr std::uint16_t kFloorTookIt = 0xFFFE;
 
 } // namespace
+
+void
+RimFire::FetchFace(std::uint32_t place) const
+{
+  for (const ElementIndex edge : EdgesAt(place))
+  {
+    FetchLine(&m_Edges[edge]);
+  }
+  for (const ElementIndex vertex : VerticesAt(place))
+  {
+    FetchLine(&m_Balls[vertex]);
+  }
+}
+
+void
+RimFire::FetchAhead(std::size_t at) const
+{
+  // Waves jump about in memory: what the edges ahead will ask for is fetched step by step.
+  const auto ahead = [&](std::size_t by) -> const RemainingElements * {
+    return at + by < m_Open.size() && m_Edges[m_Open[at + by]].IsFree() ? &m_Edges[m_Open[at + by]] : nullptr;
+  };
+  if (at + 32 < m_Open.size())
+  {
+    FetchLine(&m_Edges[m_Open[at + 32]]);
+  }
+  if (const RemainingElements * edge = ahead(24))
+  {
+    FetchLine(&m_Faces[edge->Coface()]);
+    FetchLine(&m_Cells.faceVertices[edge->Coface()]);
+    FetchLine(&m_Cells.faceEdges[edge->Coface()]);
+  }
+  if (const RemainingElements * edge = ahead(14))
+  {
+    FetchFace(edge->Coface());
+  }
+  if (const RemainingElements * edge = ahead(6))
+  {
+    const auto corners = VerticesAt(edge->Coface());
+    const auto here = static_cast<std::size_t>(edge->Side());
+    FetchLine(&m_Balls[m_Balls[corners[here]].witness]);
+    FetchLine(&m_Balls[m_Balls[corners[here + 1 == corners.size() ? 0 : here + 1]].witness]);
+  }
+}
 
 RimFire::RimFire(const CellComplex &     cells,
                  const LiveElements &    left,
@@ -58,18 +103,21 @@ RimFire::GatherFaces(const LiveElements & left)
     const auto place = static_cast<std::uint32_t>(m_Cells.faceOffsets[face]);
     const auto edges = m_Cells.FaceEdges(face);
     const bool isLeft = left.faces.empty() || left.faces[face] != 0;
-    if (edges.size() > std::numeric_limits<Word>::max())
-    {
-      throw std::length_error("a core with a face of so many corners cannot be pruned by tolerance");
-    }
     m_Faces[place] = isLeft ? kThere : kFloorTookIt;
     m_Faces[place + 1] = static_cast<Word>(edges.size());
     if (isLeft)
     {
-      for (const ElementIndex edge : edges)
+      for (std::size_t side = 0; side < edges.size(); ++side)
       {
-        m_Edges[edge].Add(place);
+        m_Edges[edges[side]].Add(place, side);
       }
+    }
+  }
+  for (const RemainingElements & edge : m_Edges)
+  {
+    if (edge.IsFree())
+    {
+      NoteFree(edge);
     }
   }
 }
@@ -112,13 +160,8 @@ double
 RimFire::CostOf(ElementIndex edge, std::vector<Reached> & reached) const
 {
   const std::uint32_t place = m_Edges[edge].Coface();
+  const auto          here = static_cast<std::size_t>(m_Edges[edge].Side());
   const auto          corners = VerticesAt(place);
-  const auto          sides = EdgesAt(place);
-  std::size_t         here = 0;
-  while (sides[here] != edge)
-  {
-    ++here;
-  }
   const auto [a, c] = std::minmax(corners[here], corners[here + 1 == corners.size() ? 0 : here + 1]);
   const CoreBall & atA = m_Balls[a];
   const CoreBall & atC = m_Balls[c];
@@ -129,11 +172,11 @@ RimFire::CostOf(ElementIndex edge, std::vector<Reached> & reached) const
   const CoreBall & fireA = m_Balls[atA.witness];
   const CoreBall & fireC = m_Balls[atC.witness];
   double           cost = std::max(atA.burnt, atC.burnt);
-  bool             isFreeBefore = m_Edges[sides.back()].IsFree();
+  bool             isFreeBefore = IsSideFree(place, corners.size() - 1);
   reached.clear();
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
-    const bool isFree = m_Edges[sides[i]].IsFree();
+    const bool isFree = IsSideFree(place, i);
     const bool meets = isFreeBefore || isFree;
     isFreeBefore = isFree;
     const ElementIndex corner = corners[i];
@@ -178,12 +221,15 @@ RimFire::Remove(ElementIndex edge, std::size_t level)
     m_Balls[reached.vertex].witness = reached.witness;
   }
   m_Faces[place] = static_cast<Word>(level);
-  for (const ElementIndex side : EdgesAt(place))
+  const auto sides = EdgesAt(place);
+  for (std::size_t i = 0; i < sides.size(); ++i)
   {
-    m_Edges[side].Remove(place);
-    if (side != edge && m_Edges[side].IsFree())
+    RemainingElements & side = m_Edges[sides[i]];
+    side.Remove(place, i);
+    if (sides[i] != edge && side.IsFree())
     {
-      m_Open.push_back(side);
+      NoteFree(side);
+      m_Open.push_back(sides[i]);
     }
   }
   m_Edges[edge].Go(m_Levels.Height(level));
@@ -213,45 +259,6 @@ RimFire::Burn(std::size_t level)
     else
     {
       Wait(edge, cost);
-    }
-  }
-}
-
-void
-RimFire::FetchFace(std::uint32_t place) const
-{
-  for (const ElementIndex edge : EdgesAt(place))
-  {
-    __builtin_prefetch(&m_Edges[edge], 1);
-  }
-  for (const ElementIndex vertex : VerticesAt(place))
-  {
-    __builtin_prefetch(&m_Balls[vertex], 1);
-  }
-}
-
-void
-RimFire::FetchAhead(std::size_t at) const
-{
-  // Waves jump about in memory: what the edges ahead will ask for is fetched step by step.
-  if (at + 24 < m_Open.size())
-  {
-    __builtin_prefetch(&m_Edges[m_Open[at + 24]], 1);
-  }
-  if (at + 16 < m_Open.size())
-  {
-    if (const RemainingElements & edge = m_Edges[m_Open[at + 16]]; edge.IsFree())
-    {
-      __builtin_prefetch(&m_Faces[edge.Coface()], 1);
-      __builtin_prefetch(&m_Cells.faceEdges[edge.Coface()]);
-      __builtin_prefetch(&m_Cells.faceVertices[edge.Coface()]);
-    }
-  }
-  if (at + 8 < m_Open.size())
-  {
-    if (const RemainingElements & edge = m_Edges[m_Open[at + 8]]; edge.IsFree())
-    {
-      FetchFace(edge.Coface());
     }
   }
 }

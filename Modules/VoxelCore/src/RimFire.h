@@ -59,9 +59,12 @@ public:
   TakeEdgeHeights();
 
 private:
-  // A face is known by the place of its first corner, where its level stands; how many corners it has stands at the
-  // next one. So nobody has to ask for its number, nor for where its corners are.
+  // A face is known by the place of its first corner, where its level stands. How many corners it has stands at the
+  // next one, and then which of its first sides are free. So nobody has to ask for its number, nor for where its
+  // corners are, and what a cost needs of the edges around it lies in one place.
   using Word = std::uint16_t;
+
+  static constexpr std::size_t kNoted = 16; ///< sides that are noted as free
 
   struct Reached
   {
@@ -70,6 +73,19 @@ private:
     double       time;
   };
 
+  bool
+  IsSideFree(std::uint32_t place, std::size_t side) const
+  {
+    return side < kNoted ? (m_Faces[place + 2] >> side & 1) != 0 : m_Edges[m_Cells.faceEdges[place + side]].IsFree();
+  }
+  void
+  NoteFree(const RemainingElements & edge)
+  {
+    if (edge.Side() < kNoted)
+    {
+      m_Faces[edge.Coface() + 2] |= static_cast<Word>(1U << edge.Side());
+    }
+  }
   std::span<const ElementIndex>
   VerticesAt(std::uint32_t place) const
   {
