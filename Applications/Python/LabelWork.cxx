@@ -391,7 +391,12 @@ Verify(const CoreOfLabel &      core,
   }
   const VerifyOptions names{ "the array", "the core" };
   const ReadOptions   reading = RecordedReading(core.report.parameters);
-  InputScan           volume;
+  CoreReport          made = core.report;
+  if (made.version.empty())
+  {
+    made.version = VoxelCoreVersion(); // files are told it when they are written
+  }
+  InputScan volume;
   volume.geometry = CheckedGeometry(names.scan.string(), geometry, reading.orthonormalize);
   volume.labels = LabelsOf(array, volume.geometry, reading, PartOfProgress(progress, "reading", 0, 0.05));
   if (reading.crop)
@@ -403,7 +408,7 @@ Verify(const CoreOfLabel &      core,
   model.parts = { core.part };
   model.hasEdges = core.hasEdges;
   model.refined = core.refined;
-  return VerifyModel(std::move(model), core.report, std::move(volume), names, progress);
+  return VerifyModel(std::move(model), made, std::move(volume), names, progress);
 }
 
 void

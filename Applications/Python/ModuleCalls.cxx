@@ -176,9 +176,11 @@ PruneCore(const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & val
 }
 
 std::shared_ptr<SkeletonOfLabel>
-MeasureSkeleton(const std::shared_ptr<SkeletonOfLabel> & skeleton, const ParameterValues & values)
+MeasureSkeleton(const std::shared_ptr<SkeletonOfLabel> & skeleton,
+                const ParameterValues &                  values,
+                const py::object &                       listener)
 {
-  return RunInOwnThread(ThreadsFrom(values, CommandId::Measure), py::none(), py::none(), [=](const ProgressCallback &) {
+  return RunInOwnThread(ThreadsFrom(values, CommandId::Measure), listener, py::none(), [=](const ProgressCallback &) {
     return Remeasure(*skeleton, values);
   });
 }

@@ -5,17 +5,21 @@ import random
 import signal
 import subprocess
 import sys
+import threading
 import time
 
+import numpy
 import pytest
+import voxelcore
 
 SOON = 1.0  # seconds, for which the machine may be busy with other things, too
 
 PREPARE = """
 import os, signal, sys, time, numpy, voxelcore
 side = 110
+needs_core = ("skeleton", "prune", "save", "read", "verify")
 array = numpy.random.default_rng(1).random((side, side, side)) < 0.7
-core = voxelcore.core(array[:70, :70, :70], lambda_=0) if sys.argv[1] in ("skeleton", "prune", "save", "read") else None
+core = voxelcore.core(array[:70, :70, :70], lambda_=0) if sys.argv[1] in needs_core else None
 os.chdir(sys.argv[2])
 if sys.argv[1] == "read":
     core.save("core.vtp", keep_edges=True)
@@ -27,6 +31,9 @@ work = {
     "save": lambda: core.save("out.vtp", keep_edges=True, overwrite=True),
     "read": lambda: voxelcore.read("core.vtp"),
     "of array": lambda: voxelcore.skeleton(array),
+    "thickness": lambda: voxelcore.thickness(array),
+    "sheets": lambda: voxelcore.sheets(array),
+    "verify": lambda: core.verify(array[:70, :70, :70]),
 }[sys.argv[1]]
 print("go", flush=True)
 try:
@@ -38,7 +45,10 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("work", ["core", "tolerance", "skeleton", "prune", "save", "read", "of array"])
+WORKS = ["core", "tolerance", "skeleton", "prune", "save", "read", "of array", "thickness", "sheets", "verify"]
+
+
+@pytest.mark.parametrize("work", WORKS)
 def test_ctrl_c_at_any_moment_stops_a_call_soon(tmp_path, work):
     seed = random.SystemRandom().randrange(1 << 32)
     wait = random.Random(seed).uniform(0.05, 2)
@@ -80,3 +90,33 @@ print("done", flush=True)
 def test_work_that_was_stopped_disturbs_nothing_that_comes_later():
     done = subprocess.run([sys.executable, "-B", "-c", LEFT_BEHIND], capture_output=True, text=True, timeout=60)
     assert (done.returncode, done.stdout) == (0, "refused\n" * 3 + "done\n"), done.stderr
+
+
+def test_other_threads_run_while_a_call_works():
+    array = numpy.random.default_rng(1).random((44, 44, 44)) < 0.7
+    for work in (voxelcore.core, voxelcore.skeleton, voxelcore.thickness):
+        turns, done = [], threading.Event()
+        thread = threading.Thread(target=lambda: (work(array), done.set()))
+        thread.start()
+        while not done.wait(0.01):
+            turns.append(time.monotonic())
+        thread.join()
+        # Had the lock been held for the work, there would be one long gap.
+        assert len(turns) > 10 and max(numpy.diff(turns)) < 0.5 * (turns[-1] - turns[0])
+
+
+@pytest.mark.parametrize("work", ["core", "skeleton", "thickness", "sheets", "verify", "prune"])
+def test_progress_rises_to_one_and_names_its_stages(work):
+    array = numpy.random.default_rng(1).random((44, 44, 44)) < 0.7
+    core = voxelcore.core(array, lambda_=0)
+    told = []
+    arguments = dict(progress=lambda stage, done: told.append((stage, done)))
+    if work == "verify":
+        assert voxelcore.verify(core, array, **arguments).passed
+    elif work == "prune":
+        voxelcore.prune(core, "2vox", **arguments)
+    else:
+        getattr(voxelcore, work)(array, **arguments)
+    assert all(isinstance(stage, str) and isinstance(done, float) for stage, done in told)
+    fractions = [done for _, done in told]
+    assert fractions == sorted(fractions) and fractions[-1] == 1 and fractions.count(1) == 1

@@ -1,11 +1,14 @@
 """Every option of the command line that arrays can have is an argument, and gives the same bits: edits, crop,
 refinement, several labels, components."""
 
+import inspect
+
 import numpy
 import pytest
 import voxelcore
 from conftest import blobs, run, write_nrrd
 from test_pruning import SPACING, same
+from voxelcore import _arguments, _voxelcore
 
 OPTIONS = [
     dict(fill_cavities=True, min_voxels=30),
@@ -17,6 +20,67 @@ OPTIONS = [
     dict(cross_check=True),
     dict(engine="tetgen"),
 ]
+
+
+# Why an option has no argument. Whatever else the table has must be one.
+PATHS = ("scan", "core", "output", "report", "table", "html", "html-triangles", "scene", "surface", "medial")
+WITHOUT = {
+    **dict.fromkeys(PATHS, "results are objects; save() and to_...() write and show them"),
+    **dict.fromkeys(("voxels", "graph", "change-voxels"), "the same: sheet_of_face, junctions, a comparison of arrays"),
+    **dict.fromkeys(("volume", "component", "level", "raw", "nifti-form", "resolution"), "choose how a file is read"),
+    **dict.fromkeys(("grey", "grey-range"), "name a second file"),
+    **dict.fromkeys(("blocks", "block", "block-size", "join", "memory"), "parts of scans that do not fit into memory"),
+    "with-skeleton": "Core.skeleton()",
+    "quiet": "nothing is printed",
+    "separation": "measure the background as an array of its own",
+}
+FUNCTIONS = {
+    "core": (voxelcore.core, _arguments.OF_CORE, voxelcore.Core.save, voxelcore.Skeleton.save, _arguments.OF_SKELETON),
+    "skeleton": (voxelcore.skeleton, _arguments.OF_CORE, _arguments.OF_SKELETON, voxelcore.core,
+                 voxelcore.Skeleton.save),
+    "prune": (voxelcore.prune, voxelcore.Core.save),
+    "measure": (voxelcore.measure, _arguments.OF_MEASURE, voxelcore.Skeleton.save),
+    "thickness": (voxelcore.thickness, _arguments.OF_THICKNESS),
+    "sheets": (voxelcore.sheets, _arguments.OF_CORE, _arguments.OF_SHEETS, voxelcore.core),
+    "verify": (voxelcore.verify,),
+}  # fmt: skip
+TABLE = [row for row in _voxelcore.option_table() if row["command"] in FUNCTIONS]
+SAVING = ("overwrite", "triangles", "keep_edges", "also")
+
+
+@pytest.mark.parametrize("row", TABLE, ids=lambda row: f"{row['command']}-{row['name']}")
+def test_every_option_of_the_table_is_an_argument_or_there_is_a_reason(row):
+    if not row["flags"] or (row["name"] == "force" and row["command"] in ("thickness", "sheets")):
+        return  # the scan itself; nothing is written
+    keywords = set()
+    for place in FUNCTIONS[row["command"]]:
+        keywords |= set(place) if isinstance(place, dict) else set(inspect.signature(place).parameters)
+    keyword = row["keyword"].partition("=")[0]
+    assert (keyword in keywords) != (row["name"] in WITHOUT), "an argument, or a reason why there is none"
+    if keyword in keywords and keyword not in SAVING:
+        assert keyword.strip("_") == row["name"].replace("-", "_") or keyword == "label"
+
+
+def test_no_reason_is_left_of_an_option_that_is_gone():
+    assert set(WITHOUT) <= {row["name"] for row in TABLE}
+
+
+@pytest.mark.parametrize("command", ["core", "skeleton", "thickness", "sheets", "measure"])
+def test_a_value_without_sense_is_refused_by_every_option(command):
+    function = FUNCTIONS[command][0]
+    rod = numpy.ones((12, 5, 5), bool)
+    source = voxelcore.skeleton(rod) if command == "measure" else rod
+    refused = 0
+    for row in TABLE:
+        keyword = row["keyword"]
+        ofSkeletons = command == "core" and row["group"] == "Skeleton"
+        if row["command"] == command and keyword.isidentifier() and not ofSkeletons:
+            if keyword not in (*SAVING, "progress", "separation"):
+                with pytest.raises((ValueError, TypeError)) as refusal:
+                    function(source, **{keyword: "never"})
+                assert "unexpected keyword" not in str(refusal.value), keyword
+                refused += 1
+    assert refused > 4
 
 
 def words(options):

@@ -260,3 +260,59 @@ def test_without_a_spacing_lengths_are_in_voxels_and_called_so(tmp_path):
     ):
         with pytest.raises(ValueError, match="spacing"):
             act()
+
+
+def test_verify_finds_what_the_command_line_finds(tmp_path):
+    volume = blobs(17)
+    place = PLACES[1]
+    write_nrrd(tmp_path / "scan.nrrd", volume, **place)
+    for options in (dict(lambda_=0), dict(), dict(tolerance="1diag", refine="off", fill_cavities=True)):
+        core = voxelcore.core(volume, **place, **options)
+        core.save(tmp_path / "core.vtp", overwrite=True)
+        done = run("verify", tmp_path / "scan.nrrd", tmp_path / "core.vtp")
+        assert done.returncode == 0, done.stderr
+        for one in (core, voxelcore.read(tmp_path / "core.vtp")):
+            found = voxelcore.verify(one, volume)
+            assert found.passed and not found.failed and not found.notes and all(found.checks.values()), found
+            passed = [line.split(None, 1)[1] for line in done.stdout.splitlines() if "passed  " in line]
+            assert list(found.checks) == passed
+            assert (found.gap is None) == ("tolerance" not in core.report["labels"][0]["pruned"][0])
+        turned = numpy.ascontiguousarray(volume.transpose())
+        assert core.verify(turned, axes="kji").passed
+        other = volume.copy()
+        other[tuple(numpy.argwhere(volume)[len(numpy.argwhere(volume)) // 2])] = 0
+        wrong = voxelcore.verify(core, other)
+        assert not wrong.passed and wrong.failed and all(wrong.failed.values())
+        assert [name for name, passed in wrong.checks.items() if not passed] == list(wrong.failed)
+    with pytest.raises(ValueError, match="the array"):
+        voxelcore.verify(core, volume[:5, :5, :5] * 0)
+
+
+def test_a_skeleton_is_measured_again_as_by_the_command_line(tmp_path):
+    volume = blobs(13, shape=(60, 30, 30))
+    place = PLACES[1]
+    skeleton = voxelcore.skeleton(volume, prune_branches=None, **place)
+    skeleton.save(tmp_path / "skeleton.vtp")
+    before = skeleton.measure()
+    options = ["--prune-branches", "15vox", "--cut-loops", "--root", "top"]
+    done = run("measure", tmp_path / "skeleton.vtp", "-o", tmp_path / "cli.csv", *options)
+    assert done.returncode == 0, done.stderr
+    table = skeleton.measure(prune_branches="15vox", cut_loops=True, root="top")
+    lines = [line.split(",") for line in (tmp_path / "cli_branches.csv").read_text().splitlines()]
+    assert 0 < len(lines) - 1 == len(table["branch_distance"]) < len(before["branch_distance"])
+    for name in ("branch_distance", "mean_radius", "strahler", "level", "branch_type"):
+        file = [float(line[lines[0].index(name)]) for line in lines[1:]]
+        assert numpy.allclose(table[name], file, rtol=1e-6, atol=0), name
+    after = skeleton.measure()
+    assert all(numpy.array_equal(before[name], after[name], equal_nan=True) for name in before)
+    with pytest.raises(TypeError, match="spacing"):
+        skeleton.measure(spacing=(1, 1, 1))
+
+
+def test_sheets_of_an_array_are_those_of_its_core(volume):
+    core = voxelcore.core(volume)
+    ours, theirs = voxelcore.sheets(volume), voxelcore.sheets(core)
+    assert numpy.array_equal(ours["sheet_of_face"], theirs["sheet_of_face"]) and ours["sheets"] == theirs["sheets"]
+    assert len(ours["core"].vertices) == len(core.vertices) and theirs["core"] is core
+    with pytest.raises(ValueError, match="was made already"):
+        voxelcore.sheets(core, label=1)

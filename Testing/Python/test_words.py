@@ -1,6 +1,5 @@
 """Messages speak of Python's keywords, and file names may be any bytes."""
 
-import inspect
 import os
 import re
 
@@ -10,11 +9,6 @@ import voxelcore
 from voxelcore import _voxelcore
 
 TABLE = [row for row in _voxelcore.option_table() if row["flags"]]
-# What only a program with files can do.
-OF_FILES = {
-    *("volume", "component", "level", "raw", "nifti-form", "resolution", "grey", "grey-range", "with-skeleton", "join"),
-    *("blocks", "block", "block-size", "change-voxels", "memory", "json", "quiet"),
-}
 
 
 @pytest.mark.parametrize("name, flags", sorted({(row["name"], row["flags"]) for row in TABLE}))
@@ -29,22 +23,6 @@ def test_an_option_is_named_by_its_keyword_or_as_the_command_lines(name, flags):
                 assert re.search(rf"(^|[ (]){re.escape(keyword)}(=True)?($|[ :,)])", words), words
             else:
                 assert words == message.replace(flag, f"the command line's {flag}")
-
-
-@pytest.mark.parametrize("command, function", [("core", voxelcore.core), ("skeleton", voxelcore.skeleton)])
-def test_every_option_is_an_argument_and_told_of(command, function):
-    """Those of files aside; what has another form in Python is in the signature."""
-    own = set(inspect.signature(function).parameters) | set(inspect.signature(
-        voxelcore.core).parameters) | {"label='any'"}
-    groups = {"core": ("Input", "Pruning", "Shape edits", "Refinement", "Running"), "skeleton": ("Skeleton",)}[command]
-    for row in TABLE:
-        if row["command"] == command and row["group"] in groups and row["name"] not in OF_FILES | {"also"}:
-            assert row["keyword"] in own or f"    {row['keyword']}: {row['description']}" in function.__doc__, row[
-                "name"]
-            if row["keyword"] not in own:
-                with pytest.raises((ValueError, TypeError)) as refusal:
-                    function(numpy.zeros((2, 2), int), **{row["keyword"]: "never"})
-                assert "unexpected keyword" not in str(refusal.value)
 
 
 def test_a_mistyped_argument_suggests_the_nearest():

@@ -15,8 +15,8 @@ Errors: ValueError for an array or an option that makes no sense, OSError for a 
 CertificateError when a result contradicts its own proof (then there is none), each with one line that says what to do.
 
 Ctrl-C stops any call within half a second, reading and saving included; a file that was being written does not appear.
-Results can be pickled and copied, with the same bits. Processes made by fork (multiprocessing, concurrent.futures)
-compute like any other, whether or not the parent has computed before.
+Other Python threads run meanwhile. Results can be pickled and copied, with the same bits. Processes made by fork
+(multiprocessing, concurrent.futures) compute like any other, whether or not the parent has computed before.
 """
 
 import atexit
@@ -25,13 +25,15 @@ import typing
 
 import numpy
 
-from . import _arguments, _images, _voxelcore
+from . import _arguments, _voxelcore
 from ._results import Core, Skeleton
 from ._voxelcore import CertificateError, __version__
 
 __all__ = [
     "core",
     "skeleton",
+    "prune",
+    "verify",
     "measure",
     "read",
     "thickness",
@@ -39,6 +41,7 @@ __all__ = [
     "Core",
     "Skeleton",
     "Thickness",
+    "Verification",
     "CertificateError",
     "columns",
     "__version__",
@@ -64,33 +67,52 @@ def core(
     progress=None,
     **options,
 ):
-    """The medial surface of a label: its voxel core, pruned, with the topology of its voxels. Returns a Core; a list of
-    them where lambda_ or tolerance is a list; a dict of these by label where several labels were asked for.
+    """The medial surface of a label: its voxel core, pruned, with the topology of its voxels.
 
-    array: three-dimensional, of whole numbers, any memory order; 0 is background, and so is what a numpy.ma array
-        masks. It is read once, into one bit a voxel, and not kept. It must not change meanwhile. Or an image of
-        nibabel, SimpleITK, ITK or VTK, or an xarray.DataArray with the dimensions x, y and z: spacing, origin,
-        direction and axes are then the image's, unless given.
-    spacing: mm between voxels along i, j and k. None: it is not known; all lengths are then in voxels, results have
-        the unit 'voxel', and a length in mm is refused.
-    lambda_: how much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
+    Parameters
+    ----------
+    array : array_like of whole numbers, shape (ni, nj, nk), or image
+        Any memory order; 0 is background, and so is what a numpy.ma array masks. It is read once, into one bit a
+        voxel, and not kept. It must not change meanwhile. Or an image of nibabel, SimpleITK, ITK or VTK, or an
+        xarray.DataArray with the dimensions x, y and z: spacing, origin, direction and axes are then the image's,
+        unless given.
+    spacing : three floats, mm, optional
+        Between voxels along i, j and k. None: it is not known; all lengths are then in voxels, results have the unit
+        'voxel', and a length in mm is refused.
+    lambda_ : float, str or list of these, mm, optional
+        How much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
         number (of mm, or of voxels without a spacing), or text with a unit: '1.5mm', '1.5vox' (times the smallest
         spacing), '2.5%' (of the longest side of the label's box). 0 keeps the whole core. With tolerance, it is
         applied first. A list shares one computation.
-    label: its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
-    origin: LPS mm of the centre of voxel (0, 0, 0); of arrays 0, 0, 0 unless given.
-    direction: a 3 by 3 matrix (or its nine numbers row by row) whose columns are the LPS directions of i, j and k, as
-        SimpleITK has it; of arrays the axes x, y and z unless given.
-    axes: 'ijk' for arrays a[i, j, k] (nibabel), the default, 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of
+    label : int, str or list of int, optional
+        Its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
+    origin : three floats, mm, optional
+        LPS place of the centre of voxel (0, 0, 0); of arrays 0, 0, 0 unless given.
+    direction : array_like of float, shape (3, 3) or nine numbers row by row, optional
+        Its columns are the LPS directions of i, j and k, as SimpleITK has it; of arrays the axes x, y and z unless
+        given.
+    axes : {'ijk', 'kji'}, optional
+        'ijk' for arrays a[i, j, k] (nibabel), the default, 'kji' for a[k, j, i] (SimpleITK.GetArrayFromImage). Of
         spacing, origin and direction the order is i, j, k in either case.
-    tolerance: how far the boundary may lie from the balls that remain: a number, '1.2diag' (voxel diagonals; the
-        default without lambda_) or '2vox'. A list shares one computation. What remains is refined from the labels,
-        but not where a tolerance is 0, nor with lambda_ alone; refine='off' keeps the exact core of the voxels.
-    threshold: (lo, hi): a grey scan; the shape is where lo <= value <= hi.
-    progress: a function that is called with the stage and the fraction done, a few times a second. The fraction never
-        falls, and is 1 in the last call.
-    further options: those of 'voxelcore core'
+    tolerance : float, str or list of these, mm, optional
+        How far the boundary may lie from the balls that remain: a number, '1.2diag' (voxel diagonals; the default
+        without lambda_) or '2vox'. A list shares one computation. What remains is refined from the labels, but not
+        where a tolerance is 0, nor with lambda_ alone; refine='off' keeps the exact core of the voxels.
+    threshold : tuple (lo, hi) of float, optional
+        A grey scan; the shape is where lo <= value <= hi.
+    progress : callable, optional
+        Is called with the stage (str) and the fraction done (float), a few times a second. The fraction never falls,
+        and is 1 in the last call. An error it raises ends the work.
+    **options
 
+    Returns
+    -------
+    Core, or list of Core, or dict of these
+        A list where lambda_ or tolerance is a list; a dict by label (by label and component with split_components)
+        where several labels were asked for.
+
+    Examples
+    --------
     >>> slab = numpy.ones((9, 9, 3), bool)
     >>> surface = core(slab, spacing=(1, 1, 2), lambda_="1mm")
     >>> surface.vertices.shape[1], surface.vertices.dtype.name, round(surface.radius.max(), 1)
@@ -110,38 +132,14 @@ def core(
     ValueError: the array: its type is complex128; give whole numbers (bool, int8 to uint64, or float32 and float64 \
 that hold whole numbers)
     """
-    if axes not in (None, "ijk", "kji"):
-        raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
-    image = _images.of(array)
-    if image is not None:
-        array, axes = image.voxels, axes or image.axes
-        spacing = image.spacing if spacing is None else spacing
-        origin = image.origin if origin is None else origin
-        direction = image.direction if direction is None else direction
-    values = _arguments.values("core", _arguments.OF_CORE, options)
-    pruning, several = _arguments.pruning(lambda_, tolerance, "voxel" if spacing is None else "mm")
-    values.update(pruning)
-    if threshold is not None:
-        try:
-            low, high = threshold
-        except (TypeError, ValueError):
-            raise ValueError(f"threshold {threshold!r}: expected two numbers, (lo, hi)") from None
-        values["threshold"] = f"{_arguments.text(low)}:{_arguments.text(high)}"
-    if isinstance(label, str) and label == "any":
-        values["binary"] = "true"
-    elif label is not None:
-        values["labels"] = _arguments.labels(label)
-    voxels = _arguments.without_mask(array, threshold)
-    if axes == "kji":
-        voxels = voxels.T
-    size = None if spacing is None else _arguments.three("spacing", spacing)
-    place = (
-        size,
-        _arguments.three("origin", (0, 0, 0) if origin is None else origin),
-        _arguments.nine((1, 0, 0, 0, 1, 0, 0, 0, 1) if direction is None else direction),
+    taken, values = _arguments.of_array(
+        "core", _arguments.OF_CORE, options, array, spacing, axes, label, threshold, origin, direction
     )
+    pruning, several = _arguments.pruning(lambda_, tolerance, "voxel" if taken.spacing is None else "mm")
+    values.update(pruning)
+    place = (taken.spacing, taken.origin or [0.0] * 3, taken.direction or [1.0, 0, 0, 0, 1, 0, 0, 0, 1])
     by_label = {}
-    for data in _voxelcore.cores(voxels, *place, values, progress):
+    for data in _voxelcore.cores(taken.array, *place, values, progress):
         one = Core(data)
         by_label.setdefault((one.label, one.component) if one.component else one.label, []).append(one)
     results = {key: cores if several else cores[0] for key, cores in by_label.items()}
@@ -151,18 +149,31 @@ that hold whole numbers)
 
 
 def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progress=None, **options):
-    """The curve skeleton of a label, with the topology of its voxels. Returns a Skeleton.
+    """The curve skeleton of a label, with the topology of its voxels.
 
-    source: an array, with the arguments of core() beside it (spacing, label, ...; its whole core is then taken unless
+    Parameters
+    ----------
+    source : array_like, image or Core
+        An array, with the arguments of core() beside it (spacing, label, ...; its whole core is then taken unless
         lambda_ or tolerance say otherwise), or a Core. Of a pruned one the tips of slender branches are gone. Of an
         array with a tolerance the branches are those of the whole core, as far as the tolerance leaves them.
-    prune_branches: terminal branches that are shorter are removed: a length, or '1.5r', times the radius where they
-        begin; 0 or None: none.
-    root: where the hierarchy of branches begins: 'thickest', 'top', 'bottom', or a point (x, y, z), LPS mm.
-    threads: processors to use; 0 means all.
-    progress: as of core().
-    further options: those of 'voxelcore skeleton'. Lengths are mm or text with a unit, as lambda_
+    prune_branches : float, str or None, mm, default '1r'
+        Terminal branches that are shorter are removed: a length, or '1.5r', times the radius where they begin; 0 or
+        None: none.
+    root : str or three floats, mm, default 'thickest'
+        Where the hierarchy of branches begins: 'thickest', 'top', 'bottom', or a point (x, y, z), LPS.
+    threads : int, default 0
+        Processors to use; 0 means all.
+    progress : callable, optional
+        As of core().
+    **options
 
+    Returns
+    -------
+    Skeleton
+
+    Examples
+    --------
     >>> rod = numpy.zeros((40, 9, 9), numpy.uint8)
     >>> rod[2:38, 2:7, 2:7] = 7
     >>> curve = skeleton(rod, spacing=(0.1, 0.1, 0.1))
@@ -178,7 +189,7 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
         dict(
             own,
             prune_branches="0" if prune_branches is None else _arguments.text(prune_branches, unit),
-            root=root if isinstance(root, str) else ",".join(repr(value) for value in _arguments.three("root", root)),
+            root=_arguments.root(root),
         ),
     )
     values["threads"] = str(int(threads))
@@ -198,30 +209,135 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
     return Skeleton(_voxelcore.skeleton(whole._data, values, _arguments.share(progress, 0.5, 1), True))
 
 
-def measure(source, **options):
-    """The numbers of a skeleton's branches: a dict of arrays, one entry a branch, under the names of 'voxelcore
-    measure' (columns() says what each means and its unit). Ready for pandas.DataFrame.
+def prune(core, lambda_=None, *, tolerance=None, threads=0, progress=None):
+    """A core pruned further, bit for bit as core() would give it: one computation serves many lambdas.
 
-    source: a Skeleton, or whatever skeleton() takes, with its arguments.
+    Parameters
+    ----------
+    core : Core
+        By tolerance only what was made with tolerance: with tolerance=0, every height is in it.
+    lambda_ : float, str or list of these, mm, optional
+        As of core(); a list gives a list of cores.
+    tolerance : float, str or list of these, mm, optional
+        As of core(), instead of lambda_.
+    threads : int, default 0
+        Processors to use; 0 means all.
+    progress : callable, optional
+        As of core().
 
+    Returns
+    -------
+    Core or list of Core
+
+    Examples
+    --------
+    >>> ragged = core(numpy.ones((9, 9, 3), bool), lambda_=0)
+    >>> [len(surface.vertices) for surface in prune(ragged, [0, "1.5vox"])]
+    [117, 49]
+    """
+    values, several = _arguments.pruning(lambda_, tolerance, core.unit)
+    values["threads"] = str(int(threads))
+    cores = [Core(data) for data in _voxelcore.prune(core._data, values, progress)]
+    return cores if several else cores[0]
+
+
+class Verification(typing.NamedTuple):
+    """What verify() found: `passed`, whether all checks did; `checks`, a dict of bool by the check's name; `failed`, a
+    dict of one sentence for each that did not; `notes`, a list of what could not be looked at; `gap`, mm (or voxels)
+    from the boundary to the balls that are left, the largest there is, None for cores pruned by lambda."""
+
+    passed: bool
+    checks: dict
+    failed: dict
+    notes: list
+    gap: typing.Optional[float]
+
+
+def verify(core, array, *, spacing=None, origin=None, direction=None, axes=None, threads=0, progress=None):
+    """Rechecks a core against its scan by other means than those that made it, as 'voxelcore verify' does.
+
+    Parameters
+    ----------
+    core : Core
+        As it was made, or as read() gives it. Threshold, edits and labels are taken as when it was made.
+    array : array_like of whole numbers, shape (ni, nj, nk), or image
+        The scan, as of core().
+    spacing : three floats, mm, optional
+        The core's, unless given.
+    origin : three floats, mm, optional
+        The core's, unless given.
+    direction : array_like of float, shape (3, 3), optional
+        The core's, unless given.
+    axes : {'ijk', 'kji'}, optional
+        As of core().
+    threads : int, default 0
+        Processors to use; 0 means all.
+    progress : callable, optional
+        As of core().
+
+    Returns
+    -------
+    Verification
+
+    Examples
+    --------
+    >>> slab = numpy.ones((9, 9, 3), bool)
+    >>> surface = core(slab, lambda_=0)
+    >>> verify(surface, slab).passed, len(verify(surface, slab).checks) > 20
+    (True, True)
+    >>> slab[4, 4, 1] = False
+    >>> sorted(verify(surface, slab).failed)[:2]
+    ['completeness', 'nothing nearer']
+    """
+    taken = _arguments.voxels(array, spacing, axes, origin, direction)
+    found = _voxelcore.verify(
+        core._data, taken.array, taken.spacing, taken.origin, taken.direction, int(threads), progress
+    )
+    return Verification(**found)
+
+
+def measure(source, *, progress=None, **options):
+    """The numbers of a skeleton's branches, under the names of 'voxelcore measure'.
+
+    Parameters
+    ----------
+    source : Skeleton, Core, array_like or image
+        A Skeleton, or whatever skeleton() takes, with its arguments.
+    progress : callable, optional
+        As of core().
+    **options
+
+    Returns
+    -------
+    dict of arrays, shape (branches,)
+        One entry a branch; columns() says what each means and its unit. Ready for pandas.DataFrame. Of a Skeleton that
+        is given options it is that of the skeleton cut anew, which itself stays.
+
+    Examples
+    --------
     >>> rod = numpy.zeros((40, 9, 9), numpy.uint8)
     >>> rod[2:38, 2:7, 2:7] = 7
     >>> table = measure(rod, spacing=(0.1, 0.1, 0.1))
     >>> 2.8 < table["branch_distance"][0] < 3.6 and 0.2 < table["mean_radius"][0] < 0.35
     True
     """
-    if isinstance(source, Skeleton):
-        if options:
-            raise ValueError(f"{next(iter(options))}: is for arrays and cores; the skeleton was made already")
-    else:
-        source = skeleton(source, **options)
-    return source._data.branch_columns()
+    if not isinstance(source, Skeleton):
+        return skeleton(source, progress=progress, **options)._data.branch_columns()
+    if not options:
+        return source._data.branch_columns()
+    given = dict(options)
+    if "root" in given:
+        given["root"] = _arguments.root(given["root"])
+    if given.get("prune_branches") is not None:
+        given["prune_branches"] = _arguments.text(given["prune_branches"], source.unit)
+    values = _arguments.values("measure", _arguments.OF_MEASURE, given)
+    return _voxelcore.measure(source._data, values, progress).branch_columns()
 
 
 class Thickness(typing.NamedTuple):
-    """Local thickness: `map`, an array of float32 with the shape of the volume, 0 outside; `numbers`, a dict by label
-    (or label and component) of the values of the program's table; `lower` and `upper`, as `map`, where bounds were
-    asked for, else None."""
+    """Local thickness: `map`, an array of float32 with the shape of the volume, mm (or voxels), 0 outside; `numbers`, a
+    dict by label (or label and component) of the values of the program's table; `lower` and `upper`, as `map`, where
+    bounds were asked for, else None."""
 
     map: numpy.ndarray
     numbers: dict
@@ -231,12 +347,31 @@ class Thickness(typing.NamedTuple):
 
 def thickness(array, *, spacing=None, label=None, axes=None, threshold=None, progress=None, **options):
     """The local thickness of labels at every voxel: the diameter of the largest ball inside that holds the voxel's
-    centre, mm (or voxels without a spacing). Returns a Thickness.
+    centre.
 
-    array, spacing, axes, threshold, progress: as of core().
-    label: as of core(), but each label is always measured by itself.
-    further options: those of 'voxelcore thickness'
+    Parameters
+    ----------
+    array : array_like of whole numbers, shape (ni, nj, nk), or image
+        As of core().
+    spacing : three floats, mm, optional
+        As of core().
+    label : int, str or list of int, optional
+        As of core(), but each label is always measured by itself.
+    axes : {'ijk', 'kji'}, optional
+        As of core().
+    threshold : tuple (lo, hi) of float, optional
+        As of core().
+    progress : callable, optional
+        As of core().
+    **options
 
+    Returns
+    -------
+    Thickness
+        Its maps have the shape and the axes of the array, mm (or voxels without a spacing).
+
+    Examples
+    --------
     >>> slab = numpy.zeros((30, 30, 12), numpy.uint8)
     >>> slab[2:28, 2:28, 3:9] = 1
     >>> found = thickness(slab, spacing=(0.5, 0.5, 0.5))
@@ -245,54 +380,73 @@ def thickness(array, *, spacing=None, label=None, axes=None, threshold=None, pro
     >>> abs(found.numbers[1]["median"] - 3) < 0.15
     True
     """
-    if axes not in (None, "ijk", "kji"):
-        raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
-    image = _images.of(array)
-    if image is not None:
-        array, axes = image.voxels, axes or image.axes
-        spacing = image.spacing if spacing is None else spacing
-    values = _arguments.values("thickness", _arguments.OF_THICKNESS, options)
-    if threshold is not None:
-        try:
-            low, high = threshold
-        except (TypeError, ValueError):
-            raise ValueError(f"threshold {threshold!r}: expected two numbers, (lo, hi)") from None
-        values["threshold"] = f"{_arguments.text(low)}:{_arguments.text(high)}"
-    if isinstance(label, str) and label == "any":
-        values["binary"] = "true"
-    elif label is not None:
-        values["labels"] = _arguments.labels(label)
-    voxels = _arguments.without_mask(array, threshold)
-    if axes == "kji":
-        voxels = voxels.T
-    size = None if spacing is None else _arguments.three("spacing", spacing)
-    data = _voxelcore.thickness(voxels, size, values, progress)
+    taken, values = _arguments.of_array(
+        "thickness", _arguments.OF_THICKNESS, options, array, spacing, axes, label, threshold
+    )
+    data = _voxelcore.thickness(taken.array, taken.spacing, values, progress)
     numbers = {(label, component) if component else label: one for label, component, one in data.numbers}
-    turned = [map if map is None or axes != "kji" else map.T for map in (data.map, data.lower, data.upper)]
-    return Thickness(turned[0], numbers, turned[1], turned[2])
+    return Thickness(taken.turned(data.map), numbers, taken.turned(data.lower), taken.turned(data.upper))
 
 
-def sheets(core, sliver="3vox"):
-    """A Core cut into sheets, seams, junctions and rods, as 'voxelcore sheets' does it: a dict.
+def sheets(source, sliver="3vox", *, threads=0, progress=None, **options):
+    """A medial surface cut into sheets, seams, junctions and rods, as 'voxelcore sheets' does it.
 
-    sheet_of_face: per face of the core, an index of sheets, the largest first
-    curve_of_edge: per edge, an index of curves; -1: none
-    sheets: a dict each: area, thickness, thickness_sd, normal, flatness, free_border, seam_border, neighbours
-    curves: a dict each: kind ('seam' or 'rod'), length, thickness, closed, sheets (that meet), vertices, junctions
-    junctions: vertices of the core
-    sliver: sheets that stand out from their seams by less join the sheet they continue
+    Parameters
+    ----------
+    source : Core, array_like or image
+        A Core, or an array with the arguments of core() beside it.
+    sliver : float or str, mm, default '3vox'
+        Sheets that stand out from their seams by less join the sheet they continue.
+    threads : int, default 0
+        Processors to use; 0 means all.
+    progress : callable, optional
+        As of core().
+    **options
 
+    Returns
+    -------
+    dict
+        core: the Core that was cut, of f faces and m edges.
+        sheet_of_face: int64, shape (f,), an index of sheets, the largest first.
+        curve_of_edge: int64, shape (m,), an index of curves; -1: none.
+        sheets: list of dict: area (mm^2), thickness and thickness_sd (mm), normal, flatness, free_border and
+        seam_border (mm), neighbours.
+        curves: list of dict: kind ('seam' or 'rod'), length and thickness (mm), closed, sheets (that meet), vertices,
+        junctions.
+        junctions: int64, vertices of the core.
+
+    Examples
+    --------
     >>> slab = numpy.ones((20, 20, 5), bool)
     >>> cut = sheets(core(slab))
     >>> len(cut["sheets"]), len(cut["curves"])
     (1, 0)
     """
-    return _voxelcore.sheets(core._data, _arguments.text(sliver, core.unit))
+    of_array = not isinstance(source, Core)
+    if of_array:
+        source = core(source, threads=threads, progress=_arguments.share(progress, 0, 0.9), **options)
+        if not isinstance(source, Core):
+            raise ValueError("label, split_components: give one label; make cores first, then the sheets of each")
+    elif options:
+        raise ValueError(f"{next(iter(options))}: is for arrays; the core was made already")
+    rest = _arguments.share(progress, 0.9 if of_array else 0, 1)
+    cut = _voxelcore.sheets(source._data, _arguments.text(sliver, source.unit), int(threads), rest)
+    return dict(cut, core=source)
 
 
 def read(path):
-    """The Core in a .vtp file with one label that 'voxelcore core' or Core.save() wrote.
+    """The core in a .vtp file with one label that 'voxelcore core' or Core.save() wrote.
 
+    Parameters
+    ----------
+    path : str or path-like
+
+    Returns
+    -------
+    Core
+
+    Examples
+    --------
     >>> import tempfile, os
     >>> surface = core(numpy.ones((9, 9, 3), bool))
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -305,8 +459,19 @@ def read(path):
 
 
 def columns(unit="mm"):
-    """What the columns of measure() mean, and their units: those of a skeleton with this `unit`.
+    """What the columns of measure() mean, and their units: those of a skeleton with this unit.
 
+    Parameters
+    ----------
+    unit : {'mm', 'voxel'}, default 'mm'
+
+    Returns
+    -------
+    dict of dict
+        'Description' and 'Units' by column.
+
+    Examples
+    --------
     >>> columns()["branch_distance"]
     {'Description': 'length along the branch', 'Units': 'mm'}
     >>> columns("voxel")["branch_distance"]["Units"]
@@ -320,3 +485,5 @@ def columns(unit="mm"):
 _arguments.documented(core, _arguments.OF_CORE)
 _arguments.documented(skeleton, _arguments.OF_SKELETON)
 _arguments.documented(thickness, _arguments.OF_THICKNESS)
+_arguments.documented(measure, _arguments.OF_MEASURE)
+_arguments.documented(sheets, _arguments.OF_SHEETS)

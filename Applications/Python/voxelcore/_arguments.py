@@ -2,6 +2,8 @@
 
 import difflib
 import inspect
+import textwrap
+import typing
 
 import numpy
 
@@ -26,6 +28,62 @@ def unit(source, spacing):
         image = _images.of(source)
         spacing = image and image.spacing
     return "voxel" if spacing is None else "mm"
+
+
+class Voxels(typing.NamedTuple):
+    """An array a[i, j, k] and its place: three numbers, three and nine; None where neither image nor caller says it."""
+
+    array: numpy.ndarray
+    spacing: typing.Optional[list]
+    origin: typing.Optional[list]
+    direction: typing.Optional[list]
+    axes: typing.Optional[str]  # of the array that was given
+
+    def turned(self, volume):
+        """A volume [i, j, k] with the axes of the array that was given."""
+        return volume.T if volume is not None and self.axes == "kji" else volume
+
+
+def voxels(array, spacing, axes, origin=None, direction=None, threshold=None):
+    """Of an array, or of an image, whose own place counts where none is given."""
+    if axes not in (None, "ijk", "kji"):
+        raise ValueError(f"axes {axes!r}: expected 'ijk' or 'kji'")
+    image = _images.of(array)
+    if image is not None:
+        array, axes = image.voxels, axes or image.axes
+        spacing = image.spacing if spacing is None else spacing
+        origin = image.origin if origin is None else origin
+        direction = image.direction if direction is None else direction
+    plain = without_mask(array, threshold)
+    return Voxels(
+        plain.T if axes == "kji" else plain,
+        None if spacing is None else three("spacing", spacing),
+        None if origin is None else three("origin", origin),
+        None if direction is None else nine(direction),
+        axes,
+    )
+
+
+def of_array(function, rows, options, array, spacing, axes, label, threshold, origin=None, direction=None):
+    """Voxels, and options of the command line, of the arguments that core() and thickness() share."""
+    given = values(function, rows, options)
+    limits = None
+    if threshold is not None:
+        try:
+            low, high = limits = tuple(threshold)
+        except (TypeError, ValueError):
+            raise ValueError(f"threshold {threshold!r}: expected two numbers, (lo, hi)") from None
+        given["threshold"] = f"{text(low)}:{text(high)}"
+    if isinstance(label, str) and label == "any":
+        given["binary"] = "true"
+    elif label is not None:
+        given["labels"] = labels(label)
+    return voxels(array, spacing, axes, origin, direction, limits), given
+
+
+def root(where):
+    """Where a hierarchy begins, as the command line takes it."""
+    return where if isinstance(where, str) else ",".join(repr(value) for value in three("root", where))
 
 
 def pruning(lambda_, tolerance, unit):
@@ -109,10 +167,13 @@ def rows(command, *groups):
 
 OF_CORE = rows("core", "Input", "Pruning", "Shape edits", "Refinement", "Running")
 OF_SKELETON = rows("skeleton", "Skeleton")
-OF_THICKNESS = rows(
-    "thickness", "Input", "Pruning", "Shape edits", "Refinement", "Thickness and sheets", "Running"
-)
-del OF_SKELETON["also"]  # of Skeleton.save()
+OF_MEASURE = rows("measure", "Skeleton", "Running")
+OF_PRUNE = rows("prune", "Pruning", "Running")
+OF_THICKNESS = rows("thickness", "Input", "Pruning", "Shape edits", "Refinement", "Thickness and sheets", "Running")
+OF_SHEETS = rows("sheets", "Input", "Pruning", "Shape edits", "Refinement", "Thickness and sheets", "Running")
+for _of_saving in (OF_SKELETON, OF_MEASURE):
+    del _of_saving["also"]  # of Skeleton.save()
+del OF_THICKNESS["separation"]  # measure the background as an array of its own
 
 
 def values(function, rows, given):
@@ -132,14 +193,28 @@ def values(function, rows, given):
     return values
 
 
+def _type(row):
+    """As numpydoc has it."""
+    kind = {"choice": "{" + ", ".join(map(repr, row["placeholder"].split("|"))) + "}", "bool": "bool"}
+    word = kind.get(row["kind"], row["kind"])
+    if not row["default"]:
+        return word + ", optional"
+    return word + ", default " + (row["default"] if row["kind"] in ("int", "float") else repr(row["default"]))
+
+
+def told(row):
+    """What an option does, in Python's words."""
+    return _voxelcore.in_python_words(row["description"])
+
+
 def documented(function, rows):
-    """Adds to the function's text what the option table says of its further arguments."""
+    """Puts what the option table says of the function's further arguments where its text has **options."""
     own = inspect.signature(function).parameters
-    lines = [
-        f"    {keyword}: {row['description']}" + (f"; default: {row['default']}" if row["default"] else "")
+    entries = [
+        f"    {keyword} : {_type(row)}\n" + textwrap.indent(textwrap.fill(told(row), 104), " " * 8)
         for keyword, row in rows.items()
         if keyword.isidentifier() and keyword not in own
     ]
-    head, _, rest = function.__doc__.partition("    further options: ")
-    function.__doc__ = head + "\n".join(lines) + "\n" + rest.partition("\n")[2]
+    head, _, rest = function.__doc__.partition("    **options\n")
+    function.__doc__ = head + "\n".join(entries) + "\n" + rest
     return function

@@ -46,10 +46,14 @@ def of_core(core):
     data.SetLines(_even(core.edges[free], 2))
     data.SetPolys(_cells(core.face_offsets, core.face_vertices))
     _add(data.GetPointData(), "Radius", core.radius)
-    _add(data.GetPointData(), "Lambda", core.lambda_vertices)
-    measures = numpy.concatenate([core.lambda_vertices[alone], core.lambda_edges[free], core.lambda_faces])
-    _add(data.GetCellData(), "Lambda", measures)
-    _add(data.GetCellData(), "Label", numpy.full(len(measures), core.label, numpy.int64))
+    for name, vertices, edges, faces in (
+        ("Lambda", core.lambda_vertices, core.lambda_edges, core.lambda_faces),
+        ("Tolerance", core.tolerance_vertices, core.tolerance_edges, core.tolerance_faces),
+    ):
+        if len(vertices) == len(core.vertices):
+            _add(data.GetPointData(), name, vertices)
+            _add(data.GetCellData(), name, numpy.concatenate([vertices[alone], edges[free], faces]))
+    _add(data.GetCellData(), "Label", numpy.full(data.GetNumberOfCells(), core.label, numpy.int64))
     return data
 
 

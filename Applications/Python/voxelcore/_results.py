@@ -5,7 +5,7 @@ import os
 
 import numpy
 
-from . import _arguments, _exchange, _voxelcore
+from . import _exchange, _voxelcore
 
 
 def _functions():
@@ -97,12 +97,12 @@ class Core(_Result):
 
     @property
     def face_vertices(self):
-        """uint32: the corners of all faces, in cyclic order."""
+        """(c,) uint32: the corners of all faces, in cyclic order."""
         return self._data.face_vertices
 
     @property
     def face_edges(self):
-        """uint32, in the places of face_vertices: the edge from each corner to the next."""
+        """(c,) uint32, in the places of face_vertices: the edge from each corner to the next."""
         return self._data.face_edges
 
     @property
@@ -156,45 +156,96 @@ class Core(_Result):
         """Euler number and Betti numbers of the voxels, counted by other means than `topology`."""
         return self._data.shape_topology
 
-    def prune(self, lambda_=None, *, tolerance=None, progress=None):
-        """This core pruned further, bit for bit as core() would give it: one computation serves many lambdas. A list
-        gives a list of cores. By tolerance only what was made with tolerance: with tolerance=0, every height is in it.
+    def prune(self, lambda_=None, *, tolerance=None, threads=0, progress=None):
+        """prune(self, ...): this core pruned further, bit for bit as core() would give it.
 
+        Parameters
+        ----------
+        lambda_ : float, str or list of these, mm, optional
+        tolerance : float, str or list of these, mm, optional
+        threads : int, default 0
+        progress : callable, optional
+
+        Returns
+        -------
+        Core or list of Core
+
+        Examples
+        --------
         >>> ragged = core(numpy.ones((9, 9, 3), bool), tolerance=0)
         >>> ragged.prune(tolerance="1diag").topology == ragged.prune("1.5vox").topology
         True
         """
-        values, several = _arguments.pruning(lambda_, tolerance, self.unit)
-        cores = [Core(data) for data in _voxelcore.prune(self._data, values, progress)]
-        return cores if several else cores[0]
+        return _functions().prune(self, lambda_, tolerance=tolerance, threads=threads, progress=progress)
+
+    def verify(self, array, **options):
+        """verify(self, array, **options): rechecks this core against its scan.
+
+        Parameters
+        ----------
+        array : array_like of whole numbers, shape (ni, nj, nk), or image
+        **options
+            As of verify().
+
+        Returns
+        -------
+        Verification
+        """
+        return _functions().verify(self, array, **options)
 
     def skeleton(self, **options):
-        """skeleton(self, **options)."""
+        """skeleton(self, **options): the curve skeleton of this surface.
+
+        Parameters
+        ----------
+        **options
+            As of skeleton().
+
+        Returns
+        -------
+        Skeleton
+        """
         return _functions().skeleton(self, **options)
 
     def save(self, path, *, triangles=False, keep_edges=False, overwrite=False):
-        """Writes .vtp .vtk .ply .obj .stl or .ma, as the command line does.
+        """Writes a file as the command line does.
 
-        keep_edges: with the measures of all edges (.vtp, .vtk), for 'voxelcore prune' and read(...).prune().
+        Parameters
+        ----------
+        path : str or path-like
+            Ends in .vtp .vtk .ply .obj .stl or .ma.
+        triangles : bool, default False
+            Cuts polygons into triangles.
+        keep_edges : bool, default False
+            With the measures of all edges (.vtp, .vtk), for 'voxelcore prune' and read(...).prune().
+        overwrite : bool, default False
+            Replaces a file that is there, when the new one is whole.
         """
         _voxelcore.save_core(self._data, os.fsencode(path), bool(triangles), bool(keep_edges), bool(overwrite))
 
     def free_edges(self):
-        """uint32: the edges that bound no face."""
+        """The edges that bound no face: (e,) uint32."""
         free = numpy.ones(len(self.edges), bool)
         free[self.face_edges] = False
         return numpy.flatnonzero(free).astype(numpy.uint32)
 
     def isolated_vertices(self):
-        """uint32: the vertices on no edge."""
+        """The vertices on no edge: (v,) uint32."""
         free = numpy.ones(len(self.vertices), bool)
         free[self.edges.ravel()] = False
         return numpy.flatnonzero(free).astype(numpy.uint32)
 
     def to_polydata(self):
-        """A vtkPolyData (package python3-vtk9) for VTK and PyVista, as in the .vtp file: point arrays Radius and
-        Lambda, cell arrays Lambda and Label.
+        """For VTK and PyVista (package vtk), as in the .vtp file.
 
+        Returns
+        -------
+        vtkPolyData
+            Point arrays Radius and Lambda, cell arrays Lambda and Label; Tolerance of both where the core holds it. All
+            are copies.
+
+        Examples
+        --------
         >>> pieces = core(numpy.ones((9, 9, 3), bool)).to_polydata()
         >>> round(pieces.GetPointData().GetArray("Radius").GetRange()[1], 1)
         1.7
@@ -213,9 +264,15 @@ class Core(_Result):
         return _exchange.trimesh(self)
 
     def to_napari(self):
-        """Layers for napari: a list of (data, arguments, type), a surface coloured by radius and, where edges bound no
-        face, their lines. Coordinates are z, y, x (LPS mm): show the volume a[k, j, i] with scale=spacing[::-1].
+        """Layers for napari: a surface coloured by radius and, where edges bound no face, their lines.
 
+        Returns
+        -------
+        list of tuple (data, arguments, type)
+            Coordinates are z, y, x (LPS mm): show the volume a[k, j, i] with scale=spacing[::-1].
+
+        Examples
+        --------
         >>> for layer in core(numpy.ones((9, 9, 3), bool)).to_napari():
         ...     layer[2], [part.shape for part in layer[0]]
         ('surface', [(29, 3), (32, 3), (29,)])
@@ -270,7 +327,7 @@ class Skeleton(_Result):
 
     @property
     def branch_points(self):
-        """uint32: the points of all branches."""
+        """(q,) uint32: the points of all branches."""
         return self._data.branch_points
 
     @property
@@ -280,22 +337,22 @@ class Skeleton(_Result):
 
     @property
     def node_points(self):
-        """uint32: the point of each node."""
+        """(k,) uint32: the point of each node."""
         return self._data.node_points
 
     @property
     def node_kinds(self):
-        """uint8: 0 tip, 1 junction, 2 where a closed curve begins, 3 isolated point, 4 where a surface stays."""
+        """(k,) uint8: 0 tip, 1 junction, 2 where a closed curve begins, 3 isolated point, 4 where a surface stays."""
         return self._data.node_kinds
 
     @property
     def face_offsets(self):
-        """uint64: faces that stay (around cavities, and plates), as in Core."""
+        """(f + 1,) uint64: faces that stay (around cavities, and plates), as in Core."""
         return self._data.face_offsets
 
     @property
     def face_vertices(self):
-        """uint32: points of these faces."""
+        """(c,) uint32: points of these faces."""
         return self._data.face_vertices
 
     @property
@@ -304,7 +361,18 @@ class Skeleton(_Result):
         return self._data.numbers
 
     def branch(self, number):
-        """(p, 3) float64: the points of one branch, LPS mm. Negative numbers count from the last one."""
+        """The points of one branch.
+
+        Parameters
+        ----------
+        number : int
+            Negative ones count from the last branch.
+
+        Returns
+        -------
+        array of float64, shape (p, 3)
+            LPS mm.
+        """
         place = operator.index(number)
         count = len(self.branch_nodes)
         if not -count <= place < count:
@@ -313,14 +381,31 @@ class Skeleton(_Result):
         begin, end = self.branch_offsets[place], self.branch_offsets[place + 1]
         return self.points[self.branch_points[begin:end]]
 
-    def measure(self):
-        """measure(self)."""
-        return _functions().measure(self)
+    def measure(self, **options):
+        """measure(self, **options): the numbers of the branches.
+
+        Parameters
+        ----------
+        **options
+            As of measure() for a Skeleton: root, prune_branches, cut_loops, split_at_junctions.
+
+        Returns
+        -------
+        dict of arrays, shape (branches,)
+        """
+        return _functions().measure(self, **options)
 
     def save(self, path, *, also=(), overwrite=False):
-        """Writes .vtp, or .csv for the tables alone, as the command line does.
+        """Writes a file as the command line does.
 
-        also: further files beside it: any of 'csv', 'swc', 'mrk.json', 'graphml', 'ma'.
+        Parameters
+        ----------
+        path : str or path-like
+            Ends in .vtp, or in .csv for the tables alone.
+        also : str or iterable of str, optional
+            Further files beside it: any of 'csv', 'swc', 'mrk.json', 'graphml', 'ma'.
+        overwrite : bool, default False
+            Replaces files that are there, when the new ones are whole.
         """
         also = also if isinstance(also, str) else ",".join(also)
         _voxelcore.save_skeleton(self._data, os.fsencode(path), also, bool(overwrite))
@@ -353,12 +438,30 @@ class Skeleton(_Result):
         return _exchange.napari_of_skeleton(self)
 
     def to_osteoid(self, scale=1.0):
-        """An osteoid.Skeleton (package osteoid), kimimaro's and cloud-volume's form: float32 vertices and radii, times
-        `scale` (1e6 makes nanometres of mm), and uint32 edges."""
+        """In kimimaro's and cloud-volume's form (package osteoid).
+
+        Parameters
+        ----------
+        scale : float, default 1
+            Of all lengths: 1e6 makes nanometres of mm.
+
+        Returns
+        -------
+        osteoid.Skeleton
+            float32 vertices and radii, uint32 edges.
+        """
         return _exchange.osteoid(self, scale)
 
     def to_swc(self, path, *, overwrite=False):
-        """Writes the .swc file of 'voxelcore skeleton': in micrometres (voxels without a spacing), LPS axes."""
+        """Writes the .swc file of 'voxelcore skeleton': in micrometres (voxels without a spacing), LPS axes.
+
+        Parameters
+        ----------
+        path : str or path-like
+            Ends in .swc.
+        overwrite : bool, default False
+            Replaces a file that is there, when the new one is whole.
+        """
         if os.path.splitext(os.fspath(path))[1] != ".swc":
             raise ValueError(f"{os.fspath(path)}: expected a name that ends in .swc")
         _voxelcore.save_swc(self._data, os.fsencode(path), bool(overwrite))
