@@ -169,6 +169,7 @@ private:
       core = BuildVoxelCore(m_Voxels, points, std::move(cells), m_Weights);
       if (byTolerance)
       {
+        RequireEnclosed(core);
         seconds.core += watch.Lap();
         ToleranceValues heights = ComputeTolerances(core,
                                                     m_Weights,
@@ -176,7 +177,7 @@ private:
                                                     std::move(touching),
                                                     m_Thresholds.front(),
                                                     m_Plan.Next("prune"),
-                                                    [&] { CheckWhole(core); });
+                                                    [&] { RequireTopology(core); });
         core.tolerances = std::move(heights);
         EndTolerances(core.tolerances, geometry);
         seconds.prune += watch.Lap();
@@ -238,13 +239,6 @@ private:
   {
     m_Topology = ComputeComplexTopology(core.cells);
     RequireEqualTopology(m_Result.shape.topology, *m_Topology, "its core", m_Request.name);
-  }
-
-  void
-  CheckWhole(const MedialComplex & core)
-  {
-    RequireEnclosed(core);
-    RequireTopology(core);
   }
 
   /** Prunes by lambda at the same time: neither changes the core, and each is work for one processor. */

@@ -108,12 +108,10 @@ RunEach(std::size_t                                     count,
   Failures          failures(count);
   std::atomic<bool> failed = false;
   std::size_t       number = 0;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t item = 0; item < count; ++item)
-  {
+  const auto        run = [&](std::size_t item) {
     if (failed)
     {
-      continue;
+      return;
     }
     bool finished = false;
     failures.Guard(item, [&] {
@@ -132,6 +130,21 @@ RunEach(std::size_t                                     count,
     if (!finished)
     {
       failed = true;
+    }
+  };
+  if (omp_get_max_threads() == 1)
+  {
+    for (std::size_t item = 0; item < count; ++item)
+    {
+      run(item);
+    }
+  }
+  else
+  {
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t item = 0; item < count; ++item)
+    {
+      run(item);
     }
   }
   failures.Rethrow();

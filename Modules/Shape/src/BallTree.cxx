@@ -1,5 +1,7 @@
 #include "voxelcore/BallTree.h"
 
+#include "voxelcore/ParallelTasks.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -10,6 +12,8 @@ namespace
 {
 
 constexpr std::size_t kLeafBalls = 8;
+constexpr std::size_t kWorthThreads = 10000; ///< balls
+constexpr int         kHalvings = 4;
 
 } // namespace
 
@@ -39,16 +43,32 @@ BallTree::BallTree(std::span<const std::array<double, 3>> positions,
                    radius[i],
                    static_cast<std::uint32_t>(i) };
   }
-  Build(0, m_Balls.size());
+  // Ranges of several threads: halves of halves.
+  std::vector<std::pair<std::size_t, std::size_t>> ranges{ { 0, m_Balls.size() } };
+  for (int halving = 0; halving < kHalvings && m_Balls.size() > kWorthThreads; ++halving)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> halves(2 * ranges.size());
+    RunEach(ranges.size(), [&](std::size_t i) {
+      const auto [first, last] = ranges[i];
+      const std::size_t middle = Split(first, last);
+      halves[2 * i] = { first, middle };
+      halves[2 * i + 1] = { middle + 1, last };
+    });
+    ranges = std::move(halves);
+  }
+  if (ranges.size() == 1)
+  {
+    Build(0, m_Balls.size());
+  }
+  else
+  {
+    RunEach(ranges.size(), [&](std::size_t i) { Build(ranges[i].first, ranges[i].second); });
+  }
 }
 
-void
-BallTree::Build(std::size_t first, std::size_t last)
+std::size_t
+BallTree::Split(std::size_t first, std::size_t last)
 {
-  if (first == last)
-  {
-    return;
-  }
   std::array<double, 3> lower = m_Balls[first].centre;
   std::array<double, 3> upper = lower;
   double                largest = 0;
@@ -65,7 +85,7 @@ BallTree::Build(std::size_t first, std::size_t last)
   m_Largest[middle] = largest;
   if (last - first <= kLeafBalls)
   {
-    return;
+    return middle;
   }
   std::size_t axis = 0;
   for (std::size_t a = 1; a < 3; ++a)
@@ -78,8 +98,22 @@ BallTree::Build(std::size_t first, std::size_t last)
                    begin + static_cast<std::ptrdiff_t>(last),
                    [axis](const Ball & a, const Ball & b) { return a.centre[axis] < b.centre[axis]; });
   m_Axes[middle] = static_cast<std::uint8_t>(axis);
-  Build(first, middle);
-  Build(middle + 1, last);
+  return middle;
+}
+
+void
+BallTree::Build(std::size_t first, std::size_t last)
+{
+  if (first == last)
+  {
+    return;
+  }
+  const std::size_t middle = Split(first, last);
+  if (last - first > kLeafBalls)
+  {
+    Build(first, middle);
+    Build(middle + 1, last);
+  }
 }
 
 double

@@ -209,8 +209,35 @@ GreyTest::CountNeighbours() const
 }
 
 bool
+GreyTest::HasFewValues() const
+{
+  std::vector<double> values;
+  double              last = 0;
+  for (const double value : m_Values)
+  {
+    if (value != last && value == value && value != 0)
+    {
+      last = value;
+      if (std::find(values.begin(), values.end(), value) == values.end())
+      {
+        values.push_back(value);
+        if (values.size() == kFewestGreys)
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+bool
 GreyTest::LooksGrey() const
 {
+  if (HasFewValues())
+  {
+    return false;
+  }
   Neighbours found = CountNeighbours();
   if (found.values.size() < kFewestGreys)
   {

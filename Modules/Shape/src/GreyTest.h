@@ -48,6 +48,8 @@ private:
   struct Neighbours;
   Neighbours
   CountNeighbours() const;
+  bool
+  HasFewValues() const;
 
   const StoredVoxels &       m_Scan;
   CropRange                  m_Part;

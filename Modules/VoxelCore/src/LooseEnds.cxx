@@ -1,5 +1,7 @@
 #include "LooseEnds.h"
 
+#include "voxelcore/Prefetch.h"
+
 namespace voxelcore
 {
 
@@ -144,6 +146,51 @@ LooseEnds::Remove(ElementIndex vertex)
 }
 
 void
+LooseEnds::FetchAhead(std::span<const ElementIndex> burnt, std::size_t at) const
+{
+  if (at + 32 < burnt.size())
+  {
+    FetchLine(&m_Cells.edges[burnt[at + 32]]);
+  }
+  if (at + 24 < burnt.size())
+  {
+    for (const ElementIndex vertex : m_Cells.edges[burnt[at + 24]])
+    {
+      FetchLine(&m_Standing[vertex]);
+    }
+  }
+  // Of a vertex whose last edge but one this is, that last edge, and then what stands at its other end.
+  const auto other = [&](std::size_t ahead, const auto & work) {
+    if (at + ahead >= burnt.size())
+    {
+      return;
+    }
+    const ElementIndex edge = burnt[at + ahead];
+    for (const ElementIndex vertex : m_Cells.edges[edge])
+    {
+      if (IsLive(vertex) && m_Standing[vertex].Count() == 2)
+      {
+        work(vertex, m_Standing[vertex].Coface() ^ edge);
+      }
+    }
+  };
+  other(16, [&](ElementIndex vertex, ElementIndex last) {
+    FetchLine(&m_Balls[vertex]);
+    FetchLine(&m_Cells.edges[last]);
+  });
+  other(8, [&](ElementIndex vertex, ElementIndex last) {
+    const auto &       ends = m_Cells.edges[last];
+    const ElementIndex heir = ends[0] == vertex ? ends[1] : ends[0];
+    FetchLine(&m_Balls[heir]);
+    FetchLine(&m_Standing[heir]);
+    if (const std::uint32_t kept = m_Balls[vertex].lastKept; kept != kNobody)
+    {
+      FetchLine(&m_NextKept[kept]);
+    }
+  });
+}
+
+void
 LooseEnds::Take(std::size_t level, std::span<const ElementIndex> burnt)
 {
   m_Height = m_Levels.Height(level);
@@ -152,17 +199,7 @@ LooseEnds::Take(std::size_t level, std::span<const ElementIndex> burnt)
   m_Waiting -= turns.size();
   for (std::size_t i = 0; i < burnt.size(); ++i)
   {
-    if (i + 16 < burnt.size())
-    {
-      __builtin_prefetch(&m_Cells.edges[burnt[i + 16]]);
-    }
-    if (i + 8 < burnt.size())
-    {
-      for (const ElementIndex vertex : m_Cells.edges[burnt[i + 8]])
-      {
-        __builtin_prefetch(&m_Standing[vertex], 1);
-      }
-    }
+    FetchAhead(burnt, i);
     Drop(burnt[i]);
     TakeOpen();
   }

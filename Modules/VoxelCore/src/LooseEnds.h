@@ -94,6 +94,9 @@ private:
   void
   CollectAround(ElementIndex vertex);
 
+  // What dropping that edge will ask for, step by step.
+  void
+  FetchAhead(std::span<const ElementIndex> burnt, std::size_t at) const;
   void
   TakeOpen();
   void

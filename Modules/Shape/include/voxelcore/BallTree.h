@@ -51,6 +51,9 @@ private:
   };
   struct Search;
 
+  /** Of the balls first to last - 1, puts the one into the middle that splits them, and says where that is. */
+  std::size_t
+  Split(std::size_t first, std::size_t last);
   void
   Build(std::size_t first, std::size_t last);
   double
