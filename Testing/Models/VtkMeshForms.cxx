@@ -87,14 +87,14 @@ Sheet(int pointType)
   return sheet;
 }
 
-/** The sheet in one form of XML. LZMA takes a moment to set up: it has one block, the others several, the last
+/** Polydata in one form of XML. LZMA takes a moment to set up: it has one block, the others several, the last
  *  short. */
 std::string
-XmlForm(int pointType, const std::string & mode, vtkDataCompressor * compressor, bool isLarge)
+XmlForm(vtkPolyData & data, const std::string & mode, vtkDataCompressor * compressor, bool isLarge)
 {
   const TemporaryFolder        folder;
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(Sheet(pointType));
+  writer->SetInputData(&data);
   writer->SetFileName((folder / "a.vtp").c_str());
   mode == "ascii"    ? writer->SetDataModeToAscii()
   : mode == "base64" ? writer->SetDataModeToBinary()
@@ -137,62 +137,91 @@ SheetTriangles()
   return triangles;
 }
 
+std::map<std::string, std::string>
+XmlFormsOf(vtkPolyData & data)
+{
+  std::map<std::string, std::string> forms;
+  vtkNew<vtkLZMADataCompressor>      lzma;
+  lzma->SetCompressionLevel(1);
+  const std::vector<vtkSmartPointer<vtkDataCompressor>> compressors{ nullptr,
+                                                                     vtkSmartPointer<vtkZLibDataCompressor>::New(),
+                                                                     vtkSmartPointer<vtkLZ4DataCompressor>::New(),
+                                                                     lzma.Get() };
+  forms["ascii-32.vtp"] = XmlForm(data, "ascii", nullptr, false);
+  forms["ascii-64.vtp"] = XmlForm(data, "ascii", nullptr, true);
+  for (const std::string mode : { "base64", "raw", "appended64" })
+  {
+    for (const auto & compressor : compressors)
+    {
+      const std::string name = mode + (compressor ? compressor->GetClassName() : "");
+      forms[name + "-32.vtp"] = XmlForm(data, mode, compressor, false);
+      if (compressor != lzma.Get())
+      {
+        forms[name + "-64.vtp"] = XmlForm(data, mode, compressor, true);
+      }
+    }
+  }
+  return forms;
+}
+
+std::map<std::string, std::string>
+LegacyFormsOf(vtkPolyData & data)
+{
+  const TemporaryFolder              folder;
+  std::map<std::string, std::string> forms;
+  for (const bool isText : { false, true })
+  {
+    for (const int version :
+         { vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2, vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1 })
+    {
+      vtkNew<vtkPolyDataWriter> writer;
+      writer->SetInputData(&data);
+      writer->SetFileName((folder / "a.vtk").c_str());
+      isText ? writer->SetFileTypeToASCII() : writer->SetFileTypeToBinary();
+      writer->SetFileVersion(version);
+      EXPECT_EQ(writer->Write(), 1);
+      forms[std::string(isText ? "text-" : "binary-") + std::to_string(version) + ".vtk"] = ReadAll(folder / "a.vtk");
+    }
+  }
+  return forms;
+}
+
+namespace
+{
+
+/** Of the sheet, in double precision and, with 64-bit headers where there are any, in single precision. */
+template <typename FormsOf>
+std::map<std::string, std::string>
+InBothPrecisions(FormsOf && formsOf)
+{
+  std::map<std::string, std::string> all;
+  for (const int type : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    for (auto & [name, bytes] : formsOf(*Sheet(type)))
+    {
+      const bool isOther = name.ends_with(type == VTK_FLOAT ? "-32.vtp" : "-64.vtp");
+      if (!isOther)
+      {
+        all[(type == VTK_FLOAT ? "float-" : "double-") + name] = std::move(bytes);
+      }
+    }
+  }
+  return all;
+}
+
+} // namespace
+
 const std::map<std::string, std::string> &
 XmlForms()
 {
-  static const std::map<std::string, std::string> all = [] {
-    std::map<std::string, std::string> forms;
-    vtkNew<vtkLZMADataCompressor>      lzma;
-    lzma->SetCompressionLevel(1);
-    const std::vector<vtkSmartPointer<vtkDataCompressor>> compressors{ nullptr,
-                                                                       vtkSmartPointer<vtkZLibDataCompressor>::New(),
-                                                                       vtkSmartPointer<vtkLZ4DataCompressor>::New(),
-                                                                       lzma.Get() };
-    forms["ascii-float.vtp"] = XmlForm(VTK_FLOAT, "ascii", nullptr, false);
-    forms["ascii-double.vtp"] = XmlForm(VTK_DOUBLE, "ascii", nullptr, true);
-    for (const std::string mode : { "base64", "raw", "appended64" })
-    {
-      for (const auto & compressor : compressors)
-      {
-        const std::string name = mode + (compressor ? compressor->GetClassName() : "");
-        forms[name + "-32-double.vtp"] = XmlForm(VTK_DOUBLE, mode, compressor, false);
-        if (compressor != lzma.Get())
-        {
-          forms[name + "-64-float.vtp"] = XmlForm(VTK_FLOAT, mode, compressor, true);
-        }
-      }
-    }
-    return forms;
-  }();
+  static const std::map<std::string, std::string> all = InBothPrecisions(XmlFormsOf);
   return all;
 }
 
 const std::map<std::string, std::string> &
 LegacyForms()
 {
-  static const std::map<std::string, std::string> all = [] {
-    const TemporaryFolder              folder;
-    std::map<std::string, std::string> forms;
-    for (const int pointType : { VTK_FLOAT, VTK_DOUBLE })
-    {
-      for (const bool isText : { false, true })
-      {
-        for (const int version :
-             { vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2, vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1 })
-        {
-          vtkNew<vtkPolyDataWriter> writer;
-          writer->SetInputData(Sheet(pointType));
-          writer->SetFileName((folder / "a.vtk").c_str());
-          isText ? writer->SetFileTypeToASCII() : writer->SetFileTypeToBinary();
-          writer->SetFileVersion(version);
-          EXPECT_EQ(writer->Write(), 1);
-          forms[std::string(isText ? "text-" : "binary-") + std::to_string(version) +
-                (pointType == VTK_FLOAT ? "-float" : "-double") + ".vtk"] = ReadAll(folder / "a.vtk");
-        }
-      }
-    }
-    return forms;
-  }();
+  static const std::map<std::string, std::string> all = InBothPrecisions(LegacyFormsOf);
   return all;
 }
 

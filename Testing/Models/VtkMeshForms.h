@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+class vtkPolyData;
+
 namespace voxelcore::testing
 {
 
@@ -17,6 +19,15 @@ inline constexpr std::uint32_t kSheetSide = 5;
 /** What the sheet is in triangles, by hand. */
 std::vector<std::array<std::uint32_t, 3>>
 SheetTriangles();
+
+/** .vtp files of polydata, by name: text, base64, raw and base64 appended; no compression, zlib, LZ4, LZMA; headers of
+ *  32 bits and little endian, or of 64 and big. */
+std::map<std::string, std::string>
+XmlFormsOf(vtkPolyData & data);
+
+/** .vtk files of polydata, by name: text and binary, versions 4.2 and 5.1. */
+std::map<std::string, std::string>
+LegacyFormsOf(vtkPolyData & data);
 
 /** .vtp files of the sheet, by name: text, base64, raw and base64 appended; no compression, zlib, LZ4, LZMA; headers of
  *  32 and 64 bits, either byte order. */

@@ -8,7 +8,9 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/LabelSurface.h"
 #include "voxelcore/MedialModel.h"
+#include "voxelcore/PlainSurface.h"
 #include "voxelcore/ReadInput.h"
+#include "voxelcore/ReadMesh.h"
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SkeletonModel.h"
 
@@ -105,7 +107,8 @@ public:
     {
       const double count = static_cast<double>(m_Sources.files.size() + 1);
       LoadFile(m_Sources.files[i],
-               PartOfProgress(m_Progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
+               PartOfProgress(m_Progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count),
+               notes);
     }
     m_Selection.RequireAllTaken();
     if (m_Sources.scan)
@@ -138,12 +141,18 @@ private:
 
   /** A file's own record tells which of the two kinds it is. */
   void
-  LoadFile(const std::filesystem::path & path, const ProgressCallback & progress)
+  LoadFile(const std::filesystem::path & path, const ProgressCallback & progress, std::vector<std::string> & notes)
   {
     ReportProgress(progress, "reading", 0);
-    if (path.extension() != ".vtp")
+    if (!IsMeshPath(path))
     {
-      throw UsageError(path.string() + ": give .vtp files that 'voxelcore core' or 'voxelcore skeleton' wrote");
+      throw UsageError(path.string() + ": give .vtp files that 'voxelcore core' or 'voxelcore skeleton' wrote, or a " +
+                       "mesh (.vtk .ply .stl .obj .off)");
+    }
+    if (auto plain = ReadPlainSurface(path))
+    {
+      AddPlain(path, std::move(*plain), notes);
+      return;
     }
     std::string   provenance;
     MedialModel   surfaces;
@@ -155,8 +164,15 @@ private:
     }
     catch (const InputError &)
     {
-      surfaces = ReadModel(path); // says what is wrong when it is neither
+      surfaces = ReadModel(path, Precision::AsSaved); // says what is wrong when it is neither
       provenance = surfaces.provenance;
+    }
+    for (const std::string & rounded : { skeletons.rounded, surfaces.rounded })
+    {
+      if (!rounded.empty())
+      {
+        notes.push_back(path.string() + ": " + rounded + ", as another program saved it");
+      }
     }
     const CoreReport  report = ParseProvenance(provenance, path.string());
     const std::size_t parts = IsSkeleton(report) ? skeletons.parts.size() : surfaces.parts.size();
@@ -195,6 +211,27 @@ private:
     }
   }
 
+  /** A file without a record is a label of its own, with a number that no other file's label has. */
+  void
+  AddPlain(const std::filesystem::path & path, PlainSurface && plain, std::vector<std::string> & notes)
+  {
+    notes.push_back(path.string() + ": has no field Provenance, so it is drawn as it is, as one label" +
+                    (plain.hasRadius ? "" : "; it has no array Radius, so it is coloured by label"));
+    std::int64_t value = 1;
+    while (m_Labels.contains({ value, 0 }))
+    {
+      ++value;
+    }
+    const std::string name = path.stem().string();
+    if (m_Selection.Take(value, name))
+    {
+      DisplayLabel & label = LabelOf(value, 0, name);
+      label.medial.label = value;
+      label.medial.core = std::move(plain.surface);
+      label.hasRadius = plain.hasRadius;
+    }
+  }
+
   static void
   RefuseSecond(bool isFirst, const std::filesystem::path & path, const LabelRecord & record, const std::string & what)
   {
@@ -208,6 +245,11 @@ private:
   void
   LoadScan(std::vector<std::string> & notes, std::vector<std::string> & warnings)
   {
+    if (!m_Report)
+    {
+      throw UsageError("--scan: " + m_Sources.files.front().string() +
+                       " has no field Provenance, which says how the scan was read; give a file that has");
+    }
     // The scan is the last of the files.
     const double files = static_cast<double>(m_Sources.files.size());
     StagePlan    plan(PartOfProgress(m_Progress, files / (files + 1), 1), { 1, 1, 1 });

@@ -14,8 +14,8 @@ namespace voxelcore
 
 struct DisplaySources
 {
-  std::vector<std::filesystem::path>   files;                    ///< medial surfaces and curve skeletons, .vtp
-  std::optional<std::filesystem::path> scan;                     ///< read as the first file says
+  std::vector<std::filesystem::path>   files; ///< .vtp and .vtk with a record; other polydata and meshes as they are
+  std::optional<std::filesystem::path> scan;  ///< read as the first file says
   std::string                          labels = "all";           ///< or values and names, separated by commas
   bool                                 erosionThickness = false; ///< of medial surfaces, too
 };

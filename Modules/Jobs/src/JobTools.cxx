@@ -71,4 +71,23 @@ RequireFittingProvenance(bool fits, const std::filesystem::path & path)
   }
 }
 
+bool
+IsFinishedCore(const std::filesystem::path &       path,
+               const ReadOptions &                 reading,
+               const std::optional<std::int64_t> & resolution)
+{
+  return !resolution &&
+         (path.extension() == ".vtp" || (path.extension() == ".vtk" && !reading.spacing && IsMeshFile(path)));
+}
+
+void
+WarnOfRounding(const std::filesystem::path & path, const std::string & rounded, std::vector<std::string> & warnings)
+{
+  if (!rounded.empty())
+  {
+    warnings.push_back(path.string() + ": " + rounded +
+                       ", as another program saved it; results are of these rounded numbers");
+  }
+}
+
 } // namespace voxelcore

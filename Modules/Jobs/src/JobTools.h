@@ -5,11 +5,13 @@
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/MedialModel.h"
+#include "voxelcore/ReadInput.h"
 #include "voxelcore/ResultRecords.h"
 #include "voxelcore/StagedModel.h"
 #include "voxelcore/StagePlan.h"
 #include "voxelcore/Stopwatch.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,5 +41,16 @@ RequireSameUnit(const std::filesystem::path & one,
 /** \throws InputError, naming the file, unless its field Provenance `fits` its cells. */
 void
 RequireFittingProvenance(bool fits, const std::filesystem::path & path);
+
+/** Whether a job that takes scans is given a finished core instead: a .vtp, or polydata in a .vtk, that is not asked to
+ *  be voxelized. */
+bool
+IsFinishedCore(const std::filesystem::path &       path,
+               const ReadOptions &                 reading,
+               const std::optional<std::int64_t> & resolution);
+
+/** Warns where a program that saved a file again has lost digits of its numbers (MedialModel::rounded). */
+void
+WarnOfRounding(const std::filesystem::path & path, const std::string & rounded, std::vector<std::string> & warnings);
 
 } // namespace voxelcore

@@ -154,7 +154,7 @@ ReadScanLabels(const std::filesystem::path & scan,
                const ProgressCallback &      progress)
 {
   LabelMap volume = ReadScanOrMesh(scan, RecordedReading(made.parameters), made.parameters.resolution, progress);
-  warnings = volume.warnings;
+  warnings.insert(warnings.end(), volume.warnings.begin(), volume.warnings.end());
   if (volume.geometry.size != made.input.geometry.size)
   {
     throw InputError(scan.string() + ": has another size than the scan the core was made from; give that one");
@@ -238,10 +238,11 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
   OutputTransaction transaction(options.force, context.temporaries);
   CheckTargets(options, transaction);
   ReportProgress(context.progress, "reading", 0);
-  const MedialModel model = ReadModel(options.core);
+  const MedialModel model = ReadModel(options.core, Precision::AsSaved);
   const CoreReport  made = ParseProvenance(model.provenance, options.core.string());
   RequireFittingProvenance(made.labels.size() == model.parts.size(), options.core);
   ReconstructResult result;
+  WarnOfRounding(options.core, model.rounded, result.warnings);
   result.command = options.command;
   result.core = options.core.string();
   result.geometry = made.input.geometry;
@@ -250,7 +251,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
     LabelMap like = ReadLabelVolume(*options.like, ReadOptions(), PartOfProgress(context.progress, "reading", 0, 0.1));
     RequireSameUnit(options.core, made.input.geometry.unit, *options.like, like.geometry.unit);
     result.geometry = like.geometry;
-    result.warnings = std::move(like.warnings);
+    result.warnings.insert(result.warnings.end(), like.warnings.begin(), like.warnings.end());
   }
   std::vector<LabelShape> scan;
   if (options.scan)

@@ -7,6 +7,7 @@
 #  include "JobTools.h"
 #  include "voxelcore/RenderPicture.h"
 
+#  include <algorithm>
 #  include <cstdio>
 #endif
 
@@ -116,7 +117,15 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & given)
       }
     }
   }
-  const PictureOptions picture = PictureOptionsOf(options);
+  PictureOptions picture = PictureOptionsOf(options);
+  if (std::any_of(content.labels.begin(), content.labels.end(), [](const auto & label) { return !label.hasRadius; }))
+  {
+    if (options.coloring != "Radius" && options.coloring != "Label")
+    {
+      throw UsageError("--color " + options.coloring + ": needs files with an array Radius; use Label");
+    }
+    picture.coloring = PictureColoring::Label;
+  }
   RenderPictures(
     content,
     picture,

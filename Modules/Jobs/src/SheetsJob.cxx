@@ -32,7 +32,7 @@ public:
     : m_Options(options)
     , m_Context(context)
     , m_Transaction(options.core.force, context.temporaries)
-    , m_FromCore(options.core.scan.extension() == ".vtp" && !options.core.resolution)
+    , m_FromCore(IsFinishedCore(options.core.scan, options.core.reading, options.core.resolution))
   {
     CheckTargets();
   }
@@ -223,8 +223,9 @@ private:
   TakeCore()
   {
     ReportProgress(m_Context.progress, "reading", 0);
-    Stopwatch    watch;
-    MedialModel  model = ReadModel(m_Options.core.scan);
+    Stopwatch   watch;
+    MedialModel model = ReadModel(m_Options.core.scan, Precision::AsSaved);
+    WarnOfRounding(m_Options.core.scan, model.rounded, m_Result.warnings);
     CoreReport & report = m_Result.report;
     report = ParseProvenance(model.provenance, m_Options.core.scan.string());
     RequireFittingProvenance(report.labels.size() == model.parts.size() && report.parameters.lambda.size() == 1 &&

@@ -61,7 +61,8 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   }
   DisplayFiles shown(options.display, options.input, transaction);
   ReportProgress(context.progress, "reading", 0);
-  MedialModel model = ReadModel(options.input);
+  MedialModel model = ReadModel(options.input, Precision::AsSaved);
+  WarnOfRounding(options.input, model.rounded, result.warnings);
   report = ParseProvenance(model.provenance, options.input.string());
   RequireFittingProvenance(report.labels.size() == model.parts.size() && report.parameters.lambda.size() == 1 &&
                              report.parameters.tolerances.size() <= 1,
@@ -139,8 +140,8 @@ CombinedRequest(const BranchRequest & before, const BranchRequest & now)
 SkeletonResult
 RunSkeletonJob(const SkeletonOptions & options, const JobContext & context)
 {
-  return options.input.extension() == ".vtp" && !options.resolution ? FromCore(options, context)
-                                                                    : FromScan(options, context);
+  return IsFinishedCore(options.input, options.reading, options.resolution) ? FromCore(options, context)
+                                                                            : FromScan(options, context);
 }
 
 void
@@ -193,7 +194,8 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   SkeletonFiles files(options.output, options.skeleton, options.targets, transaction);
   ReportProgress(context.progress, "reading", 0);
   SkeletonModel model = ReadSkeletonVtp(options.skeleton);
-  CoreReport &  report = result.report;
+  WarnOfRounding(options.skeleton, model.rounded, result.warnings);
+  CoreReport & report = result.report;
   report = ParseProvenance(model.provenance, options.skeleton.string());
   MeasureAgain(model.parts, options.branches, report, options.skeleton);
   for (std::size_t i = 0; i < model.parts.size(); ++i)

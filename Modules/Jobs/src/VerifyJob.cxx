@@ -253,7 +253,8 @@ RunVerifyJob(const VerifyOptions & options, const JobContext & given)
   std::vector<std::string> notes;
   if (!vtkReads)
   {
-    notes.push_back(options.core.string() + ": not opened with VTK's reader, as this build has no VTK");
+    notes.push_back(options.core.string() +
+                    ": not opened with VTK's reader: another program saved the file, or this build has no VTK");
   }
   if (made.input.sha256.empty())
   {

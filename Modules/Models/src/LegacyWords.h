@@ -53,7 +53,7 @@ protected:
 
   template <typename Value>
   std::vector<Value>
-  Numbers(std::uint64_t tuples, std::uint64_t components, NumberType type)
+  Numbers(std::uint64_t tuples, std::uint64_t components, NumberType type, bool finite = true)
   {
     const std::uint64_t count = Product(tuples, components);
     std::vector<Value>  numbers;
@@ -66,7 +66,7 @@ protected:
       {
         const std::string_view word = Word();
         RequireFit(!word.empty(), "it ends in the middle of its numbers");
-        numbers.push_back(ParseNumber<Value>(word, type));
+        numbers.push_back(ParseNumber<Value>(word, type, finite));
       }
       return numbers;
     }
@@ -75,9 +75,27 @@ protected:
     numbers.reserve(count);
     for (std::uint64_t i = 0; i < count; ++i)
     {
-      numbers.push_back(LoadNumber<Value>(bytes.data() + i * type.bytes, type, true));
+      numbers.push_back(LoadNumber<Value>(bytes.data() + i * type.bytes, type, true, finite));
     }
     return numbers;
+  }
+
+  /** Passes over the numbers of an array with `tuples`, `components` and `type`. */
+  template <typename Array>
+  void
+  SkipNumbers(const Array & array)
+  {
+    const std::uint64_t count = Product(array.tuples, array.components);
+    if (!m_IsText)
+    {
+      EndLine();
+      Take(Product(count, array.type.bytes));
+      return;
+    }
+    for (std::uint64_t i = 0; i < count; ++i)
+    {
+      RequireFit(!Word().empty(), "it ends in the middle of an array");
+    }
   }
 
   static std::uint64_t

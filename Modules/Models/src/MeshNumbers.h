@@ -19,10 +19,11 @@ struct NumberType
   std::size_t bytes = 0;  ///< 0: not a number type
 };
 
-/** Reads a stored number as double or std::int64_t. Values that the result cannot hold are refused. */
+/** Reads a stored number as double or std::int64_t. Values that the result cannot hold are refused, and with `finite`
+ *  what is no finite number. */
 template <typename Value>
 Value
-LoadNumber(const char * bytes, NumberType type, bool isBigEndian)
+LoadNumber(const char * bytes, NumberType type, bool isBigEndian, bool finite = true)
 {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < type.bytes; ++i)
@@ -34,7 +35,7 @@ LoadNumber(const char * bytes, NumberType type, bool isBigEndian)
     const double real = type.bytes == 4 ? static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)))
                                         : std::bit_cast<double>(bits);
     RequireFit(std::floating_point<Value>, "an index is not stored as a whole number");
-    RequireFit(std::isfinite(real), "a coordinate is not a finite number");
+    RequireFit(!finite || std::isfinite(real), "a coordinate is not a finite number");
     return static_cast<Value>(real);
   }
   if (type.kind == 'u')
@@ -50,7 +51,7 @@ LoadNumber(const char * bytes, NumberType type, bool isBigEndian)
 /** Reads a number from a word. Type float is rounded to float first, as it would be when stored. */
 template <typename Value>
 Value
-ParseNumber(std::string_view word, NumberType type)
+ParseNumber(std::string_view word, NumberType type, bool finite = true)
 {
   const auto fail = [&] { throw UnfitFile{ "'" + MeshText::Shown(word) + "' where a number is expected" }; };
   const auto parse = [&](auto value) {
@@ -75,7 +76,7 @@ ParseNumber(std::string_view word, NumberType type)
   }
   RequireFit(std::floating_point<Value>, "an index is not stored as a whole number");
   const double real = type.bytes == 4 ? static_cast<double>(parse(float{})) : parse(double{});
-  RequireFit(std::isfinite(real), "a coordinate is not a finite number");
+  RequireFit(!finite || std::isfinite(real), "a coordinate is not a finite number");
   return static_cast<Value>(real);
 }
 

@@ -1,8 +1,12 @@
 #include "ModelSource.h"
+#include "SavedSource.h"
 #include "VtpFile.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/TextFields.h"
 
+#include <fstream>
 #include <new>
+#include <stdexcept>
 
 namespace voxelcore
 {
@@ -51,14 +55,50 @@ private:
   VtpFile m_File;
 };
 
+std::string
+ReadOpened(const std::filesystem::path & path, const std::function<void(ModelSource &)> & read)
+{
+  const auto readAll = [&](ModelSource && source) {
+    read(source);
+    return source.Rounded();
+  };
+  if (LowerCase(path.extension().string()) == ".vtk")
+  {
+    return readAll(LegacySource(WholeFile(path)));
+  }
+  try
+  {
+    return readAll(FileSource(path));
+  }
+  catch (const OtherForm &)
+  {
+    return readAll(XmlSource(WholeFile(path)));
+  }
+}
+
 } // namespace
 
-MedialModel
-ReadModel(const std::filesystem::path & path)
+std::string
+WholeFile(const std::filesystem::path & path)
+{
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  RequireFit(stream.is_open(), "it cannot be opened");
+  std::string bytes(static_cast<std::size_t>(stream.tellg()), '\0');
+  stream.seekg(0);
+  RequireFit(bytes.empty() || bool(stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))),
+             "it cannot be read");
+  return bytes;
+}
+
+std::string
+ReadFrom(const std::filesystem::path &              path,
+         Precision                                  precision,
+         const std::string &                        maker,
+         const std::function<void(ModelSource &)> & read)
 {
   const auto fail = [&](const std::string & reason) {
-    return InputError("cannot read '" + path.string() + "': " + reason +
-                      "; give a .vtp file that 'voxelcore core' wrote");
+    return InputError("cannot read '" + path.string() + "': " + reason + "; give a .vtp file that 'voxelcore " + maker +
+                      "' wrote");
   };
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
@@ -71,8 +111,12 @@ ReadModel(const std::filesystem::path & path)
   }
   try
   {
-    FileSource file(path);
-    return ReadParts(file);
+    std::string rounded = ReadOpened(path, read);
+    if (precision == Precision::Exact && !rounded.empty())
+    {
+      throw fail(rounded + ", as another program saved it, and every digit is needed here");
+    }
+    return rounded;
   }
   catch (const UnfitFile & unfit)
   {
@@ -82,6 +126,19 @@ ReadModel(const std::filesystem::path & path)
   {
     throw fail("it is larger than the memory");
   }
+  catch (const std::length_error &)
+  {
+    throw fail("it is larger than the memory");
+  }
+}
+
+MedialModel
+ReadModel(const std::filesystem::path & path, Precision precision)
+{
+  MedialModel model;
+  std::string rounded = ReadFrom(path, precision, "core", [&](ModelSource & source) { model = ReadParts(source); });
+  model.rounded = std::move(rounded);
+  return model;
 }
 
 } // namespace voxelcore

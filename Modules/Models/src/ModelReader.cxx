@@ -151,6 +151,22 @@ ReadComplex(const std::array<CellList, 3> & kinds, const PartRange & range)
   return cells;
 }
 
+/** The edges that are lines of the file. */
+std::vector<ElementIndex>
+LinesOf(const std::array<CellList, 3> & kinds, const PartRange & range, const CellComplex & cells)
+{
+  std::vector<ElementIndex> lines;
+  for (std::size_t edge = 0; edge < cells.edges.size() && lines.size() < range.cells[1]; ++edge)
+  {
+    const auto line = kinds[1][range.firstCell[1] + lines.size()];
+    if (line[0] == range.firstPoint + cells.edges[edge][0] && line[1] == range.firstPoint + cells.edges[edge][1])
+    {
+      lines.push_back(static_cast<ElementIndex>(edge));
+    }
+  }
+  return lines;
+}
+
 /** Whether the cells of dimension 0 and 1 are those a core's file has. */
 void
 RequireCells(const std::array<CellList, 3> &   kinds,
@@ -158,19 +174,9 @@ RequireCells(const std::array<CellList, 3> &   kinds,
              const MedialComplex &             core,
              const std::vector<ElementIndex> & lines)
 {
-  const auto same = [&](std::size_t i) {
-    const auto line = kinds[1][range.firstCell[1] + i];
-    const auto ends = core.cells.edges[lines[i]];
-    return line[0] == range.firstPoint + ends[0] && line[1] == range.firstPoint + ends[1];
-  };
-  bool fit = lines.size() == range.cells[1];
-  for (std::size_t i = 0; fit && i < lines.size(); ++i)
-  {
-    fit = same(i);
-  }
-  RequireFit(fit, "a line lies on a polygon");
+  RequireFit(lines == LineCells(core), "a line lies on a polygon");
   const std::vector<ElementIndex> verts = VertexCells(core);
-  fit = verts.size() == range.cells[0];
+  bool                            fit = verts.size() == range.cells[0];
   for (std::size_t i = 0; fit && i < verts.size(); ++i)
   {
     fit = kinds[0][range.firstCell[0] + i][0] - range.firstPoint == verts[i];
@@ -184,6 +190,7 @@ ReadTolerances(const std::array<CellList, 3> & kinds,
                const PartRange &               range,
                const std::vector<double> &     pointTolerance,
                const std::vector<double> &     cellTolerance,
+               bool                            isRounded,
                MedialComplex &                 core)
 {
   const CellComplex & cells = core.cells;
@@ -219,7 +226,7 @@ ReadTolerances(const std::array<CellList, 3> & kinds,
   for (std::size_t i = 0; i < range.cells[0]; ++i)
   {
     const std::size_t cell = range.firstCell[0] + i;
-    RequireFit(pointTolerance[static_cast<std::size_t>(kinds[0][cell][0])] == cellTolerance[cell],
+    RequireFit(isRounded || pointTolerance[static_cast<std::size_t>(kinds[0][cell][0])] == cellTolerance[cell],
                "an isolated vertex has two tolerances");
   }
 }
@@ -322,6 +329,7 @@ ReadParts(ModelSource & file, bool anywhere)
   };
   const std::vector<double> thickness = readIfThere("Thickness");
   const std::vector<double> margin = readIfThere("RadiusMargin");
+  const bool                isRounded = !file.Rounded().empty();
   std::size_t               edgesRead = 0;
   bool                      edgesMissing = false;
   for (const auto & [key, range] : FindParts(kinds, keys, pointCount))
@@ -353,18 +361,22 @@ ReadParts(ModelSource & file, bool anywhere)
     for (std::size_t i = 0; i < range.cells[0]; ++i)
     {
       const auto vertex = static_cast<std::size_t>(kinds[0][range.firstCell[0] + i][0]);
-      RequireFit(std::bit_cast<std::uint64_t>(cellLambda[range.firstCell[0] + i]) ==
-                   std::bit_cast<std::uint64_t>(pointLambda[vertex]),
+      RequireFit(isRounded || std::bit_cast<std::uint64_t>(cellLambda[range.firstCell[0] + i]) ==
+                                std::bit_cast<std::uint64_t>(pointLambda[vertex]),
                  "an isolated vertex has two measures");
     }
     core.faceLambda = slice(cellLambda, kinds[0].Count() + kinds[1].Count() + range.firstCell[2], range.cells[2]);
 
     if (hasTolerance)
     {
-      ReadTolerances(kinds, range, pointTolerance, cellTolerance, core);
+      ReadTolerances(kinds, range, pointTolerance, cellTolerance, isRounded, core);
     }
-    const std::vector<ElementIndex> lines = LineCells(core);
-    RequireCells(kinds, range, core, lines);
+    const std::vector<ElementIndex> lines = LinesOf(kinds, range, core.cells);
+    RequireFit(lines.size() == range.cells[1], "its lines are not in canonical order");
+    if (!isRounded) // rounded tolerances say no longer which edges outlast their faces
+    {
+      RequireCells(kinds, range, core, lines);
+    }
     const std::vector<std::uint8_t> onFace = EdgesOnFaces(core.cells);
     const std::size_t               firstLine = kinds[0].Count() + range.firstCell[1];
     core.edgeLambda.assign(onFace.size(), std::numeric_limits<double>::quiet_NaN());
@@ -380,11 +392,12 @@ ReadParts(ModelSource & file, bool anywhere)
       }
       else if (onFace[edge])
       {
-        RequireFit(edgesRead < edgeLambda.size() &&
-                     (std::isnan(core.edgeLambda[edge]) || core.edgeLambda[edge] == edgeLambda[edgesRead]) &&
-                     edgeVertices[2 * edgesRead] == range.firstPoint + core.cells.edges[edge][0] &&
-                     edgeVertices[2 * edgesRead + 1] == range.firstPoint + core.cells.edges[edge][1],
-                   "EdgeVertices are not the edges of its polygons");
+        RequireFit(
+          edgesRead < edgeLambda.size() &&
+            (isRounded || std::isnan(core.edgeLambda[edge]) || core.edgeLambda[edge] == edgeLambda[edgesRead]) &&
+            edgeVertices[2 * edgesRead] == range.firstPoint + core.cells.edges[edge][0] &&
+            edgeVertices[2 * edgesRead + 1] == range.firstPoint + core.cells.edges[edge][1],
+          "EdgeVertices are not the edges of its polygons");
         core.edgeLambda[edge] = edgeLambda[edgesRead++];
       }
     }

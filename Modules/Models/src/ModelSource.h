@@ -4,6 +4,8 @@
 #include "voxelcore/MedialModel.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -29,6 +31,13 @@ public:
   ReadIndices(const std::string & section, const std::string & name) = 0;
   virtual std::string
   ReadText(const std::string & section, const std::string & name) = 0;
+  /** What of the numbers read so far has lost digits, a clause such as "its points are in single precision"; empty for
+   *  what was stored in full. */
+  virtual std::string
+  Rounded() const
+  {
+    return {};
+  }
 
   template <typename Value>
   std::vector<Value>
@@ -44,6 +53,15 @@ public:
     }
   }
 };
+
+/** Opens a file (.vtk: legacy, else .vtp) and calls `read` with it, maybe twice. A .vtp in WriteVtp's form is read
+ *  array by array; what another program saved, as a whole. With Precision::Exact what has lost digits is refused.
+ *  Returns what did (ModelSource::Rounded). `maker`: the command that writes such files. \throws InputError */
+std::string
+ReadFrom(const std::filesystem::path &              path,
+         Precision                                  precision,
+         const std::string &                        maker,
+         const std::function<void(ModelSource &)> & read);
 
 /** The model in a source's arrays, checked throughout. Only with `anywhere` may it lack the field SPACE.
  *  \throws UnfitFile */

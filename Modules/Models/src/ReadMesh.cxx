@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 namespace voxelcore
 {
@@ -24,23 +23,11 @@ Extension(const fs::path & path)
   return extension;
 }
 
-std::string
-ReadBytes(const fs::path & path)
-{
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  RequireFit(stream.is_open(), "it cannot be opened");
-  std::string bytes(static_cast<std::size_t>(stream.tellg()), '\0');
-  stream.seekg(0);
-  RequireFit(bytes.empty() || bool(stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))),
-             "it cannot be read");
-  return bytes;
-}
-
 MeshFile
 ReadByExtension(const fs::path & path)
 {
   const std::string extension = Extension(path);
-  const std::string bytes = ReadBytes(path);
+  const std::string bytes = WholeFile(path);
   RequireFit(!bytes.empty(), "it is empty");
   return extension == ".stl"   ? ParseStl(bytes)
          : extension == ".obj" ? ParseObj(bytes)

@@ -1,12 +1,11 @@
 #include "AppendedVtp.h"
+#include "ModelSource.h"
 #include "VtpFile.h"
 
-#include "voxelcore/Error.h"
 #include "voxelcore/SkeletonModel.h"
 
 #include <algorithm>
 #include <map>
-#include <new>
 
 namespace voxelcore
 {
@@ -35,7 +34,7 @@ CellsOf(const VtpCells & cells, std::size_t pointCount)
 }
 
 SkeletonModel
-ReadParts(VtpFile & file)
+ReadSkeleton(ModelSource & file)
 {
   const auto unit = UnitNamed(file.ReadText("FieldData", "Units"));
   RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && unit, "it is not in LPS mm or voxels");
@@ -235,25 +234,11 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
 SkeletonModel
 ReadSkeletonVtp(const std::filesystem::path & path)
 {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-  {
-    throw InputError("cannot read '" + path.string() + "': there is no such file");
-  }
-  try
-  {
-    VtpFile file(path);
-    return ReadParts(file);
-  }
-  catch (const UnfitFile & unfit)
-  {
-    throw InputError("cannot read '" + path.string() + "': " + unfit.reason +
-                     "; give a .vtp file that 'voxelcore skeleton' wrote");
-  }
-  catch (const std::bad_alloc &)
-  {
-    throw InputError("cannot read '" + path.string() + "': it is larger than the memory");
-  }
+  SkeletonModel model;
+  std::string   rounded =
+    ReadFrom(path, Precision::AsSaved, "skeleton", [&](ModelSource & source) { model = ReadSkeleton(source); });
+  model.rounded = std::move(rounded);
+  return model;
 }
 
 } // namespace voxelcore

@@ -1,6 +1,7 @@
 // Whether VTK reads from a file what we do.
 
 #include "VtkMessages.h"
+#include "VtpFile.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/ModelPolyData.h"
@@ -15,6 +16,14 @@ namespace voxelcore
 bool
 RequireVtkReads(const std::filesystem::path & path, const MedialModel & model)
 {
+  try
+  {
+    const VtpFile file(path); // every count checked, on which VTK's reader relies
+  }
+  catch (const UnfitFile &)
+  {
+    return false; // another program saved it, in a form where nobody checked
+  }
   std::string trouble;
   {
     const VtkMessages            messages;

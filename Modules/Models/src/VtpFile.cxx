@@ -15,6 +15,15 @@ constexpr std::string_view kDataTag = "<AppendedData encoding=\"raw\">";
 constexpr std::string_view kEnding = "\n  </AppendedData>\n</VTKFile>\n";
 constexpr std::uint64_t    kLongestHeader = std::uint64_t{ 1 } << 20; // ours takes 4 KB
 
+void
+RequireForm(bool condition, const char * reason)
+{
+  if (!condition)
+  {
+    throw OtherForm{ { reason } };
+  }
+}
+
 std::uint64_t
 Number(std::string_view text)
 {
@@ -143,7 +152,7 @@ VtpFile::VtpFile(const std::filesystem::path & path)
   RequireFit(header.rfind("<VTKFile", 0) == 0 || header.rfind("<?xml", 0) == 0, "it is no VTK file in XML");
 
   const std::size_t tag = header.find(kDataTag);
-  RequireFit(tag != std::string::npos, "it holds no raw appended data, so it was not written by VoxelCore");
+  RequireForm(tag != std::string::npos, "it holds no raw appended data, so it was not written by VoxelCore");
   const std::size_t mark = header.find_first_not_of(" \n", tag + kDataTag.size());
   RequireFit(mark != std::string::npos && header[mark] == '_', "its appended data are damaged");
   m_DataBegin = mark + 1;
@@ -188,9 +197,9 @@ VtpFile::ParseHeader(const std::string & xml)
     if (tag.name == "VTKFile")
     {
       RequireFit(tag.attributes["type"] == "PolyData", "it is VTK data of another kind than polydata");
-      RequireFit(tag.attributes["byte_order"] == "LittleEndian" && tag.attributes["header_type"] == "UInt64" &&
-                   !tag.attributes.contains("compressor"),
-                 "it was written by another program than VoxelCore");
+      RequireForm(tag.attributes["byte_order"] == "LittleEndian" && tag.attributes["header_type"] == "UInt64" &&
+                    !tag.attributes.contains("compressor"),
+                  "it was written by another program than VoxelCore");
     }
     RequireFit(MayStandIn(tag.name, around), "its header is damaged");
     if (tag.name == "Piece")
@@ -214,7 +223,7 @@ VtpFile::ParseHeader(const std::string & xml)
 void
 VtpFile::AddArray(const std::string & section, std::map<std::string, std::string> & attributes)
 {
-  RequireFit(attributes["format"] == "appended", "an array is not in the appended data");
+  RequireForm(attributes["format"] == "appended", "an array is not in the appended data");
   const auto number = [&](const char * name, std::uint64_t otherwise) {
     const auto found = attributes.find(name);
     return found == attributes.end() ? otherwise : Number(found->second);
@@ -243,7 +252,7 @@ VtpFile::CheckArrays()
   {
     const auto & [section, name] = key;
     const std::uint64_t size = BytesOf(array.type);
-    RequireFit(size != 0, "an array has a type that VTK does not know");
+    RequireForm(size != 0, "an array has a type that VTK does not know");
     const std::uint64_t bytes = OpenBlock(array);
     RequireFit(bytes % size == 0 && bytes / size % array.components == 0, "an array is cut off");
     std::uint64_t tuples = bytes / size / array.components;
@@ -341,7 +350,7 @@ VtpFile::Read(const std::string & section, const std::string & name, int compone
   const char *  type = std::is_same_v<Value, double> ? "Float64" : "Int64";
   if (array.type != type || array.components != static_cast<std::uint64_t>(components))
   {
-    throw UnfitFile{ "its array " + section + "/" + name + " has the wrong type" };
+    throw OtherForm{ { "its array " + section + "/" + name + " has the wrong type" } };
   }
   std::vector<Value> values = ReadBlock<Value>(array);
   RequireFit(values.size() % array.components == 0, "an array is cut off");

@@ -23,6 +23,10 @@ struct UnfitFile
   std::string reason;
 };
 
+/** It may be whole, but it is not in the form that VtpFile reads. */
+struct OtherForm : UnfitFile
+{};
+
 /** Throws UnfitFile when the condition does not hold. */
 inline void
 RequireFit(bool condition, const char * reason)
@@ -32,6 +36,10 @@ RequireFit(bool condition, const char * reason)
     throw UnfitFile{ reason };
   }
 }
+
+/** All bytes of a file. \throws UnfitFile */
+std::string
+WholeFile(const std::filesystem::path & path);
 
 /** Arrays by section ("FieldData", "PointData", "CellData", "Points", "Verts", "Lines", "Polys") and name. Every
  *  function throws UnfitFile when what it is asked for is missing or has another type or size. */

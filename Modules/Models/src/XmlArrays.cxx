@@ -157,7 +157,7 @@ XmlNumberType(std::string_view name)
 
 template <typename Value>
 std::vector<Value>
-ReadXmlArray(const XmlArray & array, const XmlEncoding & encoding)
+ReadXmlArray(const XmlArray & array, const XmlEncoding & encoding, bool finite)
 {
   RequireFit(array.type.bytes > 0, "an array is of an unknown type");
   std::vector<Value> numbers;
@@ -168,7 +168,7 @@ ReadXmlArray(const XmlArray & array, const XmlEncoding & encoding)
     {
       for (std::string_view word = text.Word(); !word.empty(); word = text.Word())
       {
-        numbers.push_back(ParseNumber<Value>(word, array.type));
+        numbers.push_back(ParseNumber<Value>(word, array.type, finite));
       }
     }
     return numbers;
@@ -178,14 +178,14 @@ ReadXmlArray(const XmlArray & array, const XmlEncoding & encoding)
   numbers.reserve(bytes.size() / array.type.bytes);
   for (std::size_t at = 0; at < bytes.size(); at += array.type.bytes)
   {
-    numbers.push_back(LoadNumber<Value>(bytes.data() + at, array.type, encoding.isBigEndian));
+    numbers.push_back(LoadNumber<Value>(bytes.data() + at, array.type, encoding.isBigEndian, finite));
   }
   return numbers;
 }
 
 template std::vector<double>
-ReadXmlArray<double>(const XmlArray &, const XmlEncoding &);
+ReadXmlArray<double>(const XmlArray &, const XmlEncoding &, bool);
 template std::vector<std::int64_t>
-ReadXmlArray<std::int64_t>(const XmlArray &, const XmlEncoding &);
+ReadXmlArray<std::int64_t>(const XmlArray &, const XmlEncoding &, bool);
 
 } // namespace voxelcore

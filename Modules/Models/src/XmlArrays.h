@@ -23,16 +23,18 @@ struct XmlArray
   NumberType    type;
   std::uint64_t offset = 0; ///< into the appended data
   std::string   text;       ///< what stands between its tags
+  std::uint64_t components = 1;
+  bool          isText = false; ///< strings, each with a 0 behind it; their letters are the numbers
 };
 
 /** The type of that name; 0 bytes where it is none of numbers. */
 NumberType
 XmlNumberType(std::string_view name);
 
-/** All numbers of an array, as double or std::int64_t. Memory is in proportion to what the file holds, whatever its
- *  counts say. Throws UnfitFile when it is damaged. */
+/** All numbers of an array, as double or std::int64_t; `finite`: others are refused. Memory is in proportion to what
+ *  the file holds, whatever its counts say. Throws UnfitFile when it is damaged. */
 template <typename Value>
 std::vector<Value>
-ReadXmlArray(const XmlArray & array, const XmlEncoding & encoding);
+ReadXmlArray(const XmlArray & array, const XmlEncoding & encoding, bool finite = true);
 
 } // namespace voxelcore

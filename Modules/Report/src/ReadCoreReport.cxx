@@ -188,6 +188,12 @@ CoreReport
 ParseProvenance(const std::string & text, const std::string & where)
 {
   CoreReport report;
+  if (text.empty())
+  {
+    throw InputError(where +
+                     ": its field Provenance, which says how it was made and from what, is missing: a program "
+                     "that saved it again left it out; give the file as VoxelCore wrote it");
+  }
   try
   {
     const Json json = Json::parse(text);

@@ -13,6 +13,13 @@ namespace voxelcore
 
 using ModelPart = PlacedCore;
 
+/** Which files are read. */
+enum class Precision
+{
+  Exact,  ///< only those with every digit of every number
+  AsSaved ///< also what another program saved with fewer digits; `rounded` says so
+};
+
 /** A file's content. */
 struct MedialModel
 {
@@ -22,6 +29,7 @@ struct MedialModel
   std::string refined{};    ///< "labels", "grey" or "mesh": the surface its cores are refined to; empty: they are not
   bool        inLps = true; ///< positions are known to be in LPS: files say so (SPACE), and ReadModel takes no other
   SpatialUnit unit = SpatialUnit::Millimetres; ///< of all lengths; files say so (Units)
+  std::string rounded{}; ///< reading: what lost digits, such as "its points are in single precision"; empty: nothing
 };
 
 /** How to write. */
@@ -74,12 +82,14 @@ WriteModel(const std::filesystem::path & path,
 std::string
 ModelLibrary();
 
-/** Reads a .vtp that WriteModel wrote, with every bit as it was written; writing it again gives the same bytes. Edges
- *  come back in canonical order; without hasEdges the measures of those on faces that are no lines are NaN. A part
- *  without vertices leaves no trace in a file. Written with `triangles`, the triangles are the faces.
- *  \throws InputError when it is missing, damaged, or was not written by VoxelCore. */
+/** Reads a .vtp or .vtk that WriteModel wrote, or another program saved again (VTK, ParaView, 3D Slicer: in text,
+ *  base64 or raw, of either byte order, compressed, with further arrays). Of WriteModel's own .vtp every bit is as it
+ *  was written, and writing it again gives the same bytes. Edges come back in canonical order; without hasEdges the
+ *  measures of those on faces that are no lines are NaN. A part without vertices leaves no trace in a file. Written
+ *  with `triangles`, the triangles are the faces. \throws InputError when it is missing or damaged, or lacks what
+ *  WriteModel writes, which is named. */
 MedialModel
-ReadModel(const std::filesystem::path & path);
+ReadModel(const std::filesystem::path & path, Precision precision = Precision::Exact);
 
 /** Whether two models, or two parts, are the same to the last bit. */
 bool
@@ -88,7 +98,7 @@ bool
 SameBits(const ModelPart & a, const ModelPart & b);
 
 /** \throws InputError unless VTK's own reader opens the file without complaint and finds in it `model`, which ReadModel
- *  found. False where VoxelCore was built without VTK, and nothing was read. */
+ *  found. False where VoxelCore was built without VTK, or another program saved the file, and nothing was read. */
 [[nodiscard]] bool
 RequireVtkReads(const std::filesystem::path & path, const MedialModel & model);
 

@@ -19,6 +19,7 @@ struct SkeletonModel
   std::vector<SkeletonPart> parts;                           ///< by label, then component
   std::string               provenance;                      ///< JSON text of the field array Provenance
   SpatialUnit               unit = SpatialUnit::Millimetres; ///< of all lengths
+  std::string               rounded{};                       ///< as of MedialModel
 };
 
 /** XML polydata: isolated points as verts, a poly line per branch, polygons of faces that stay. Point arrays Radius,
@@ -28,7 +29,8 @@ struct SkeletonModel
 void
 WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model);
 
-/** Reads what WriteSkeletonVtp wrote; names and tables are empty. \throws InputError */
+/** Reads what WriteSkeletonVtp wrote, also where another program saved it again, as ReadModel does with
+ *  Precision::AsSaved; names and tables are empty. \throws InputError */
 SkeletonModel
 ReadSkeletonVtp(const std::filesystem::path & path);
 

@@ -25,7 +25,8 @@ inline constexpr auto kInputRows = std::to_array<Parameter>({
     "",
     true,
     kSkeleton | kSheets,
-    "Scan or mesh, as for 'voxelcore core', or a medial surface it wrote; with --resolution, .vtp is read as a mesh" },
+    "Scan or mesh, as for 'voxelcore core', or a medial surface it wrote (.vtp .vtk); with --resolution, that is read "
+    "as a mesh" },
   { "mesh", "", Input, "MESH", "", true, kVoxelize, "Closed triangle mesh: .stl .obj .ply .off .vtk .vtp" },
   { "skeleton", "", Input, "SKELETON.vtp", "", true, kMeasure, "Skeleton written by 'voxelcore skeleton'" },
   { "core",
@@ -43,7 +44,8 @@ inline constexpr auto kInputRows = std::to_array<Parameter>({
     "",
     true,
     kRender,
-    "Medial surfaces and skeletons (.vtp) written by VoxelCore; files of one label are drawn together" },
+    "Medial surfaces and skeletons (.vtp .vtk) written by VoxelCore, also saved again by other programs, and meshes; "
+    "files of one label are drawn together" },
   { "inputs", "", Inputs, "INPUT...", "", false, kBatch, "Scans, folders, quoted 'patterns*', or one manifest.csv" },
   { "kind", "", Text, "KIND", "", true, kPhantom, "Kind of shape; 'voxelcore phantom list' prints all kinds" },
   { "labels",

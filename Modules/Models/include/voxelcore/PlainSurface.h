@@ -1,0 +1,24 @@
+#pragma once
+// Surfaces and lines that say nothing of how they were made: meshes, and what other programs saved without field data.
+
+#include "voxelcore/MedialComplex.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace voxelcore
+{
+
+struct PlainSurface
+{
+  MedialComplex surface;           ///< polygons, and the edges of lines; in the file's unit, LPS; measures are 0
+  bool          hasRadius = false; ///< its point array Radius is there; else radii are 0
+};
+
+/** What a file shows: .vtp and .vtk in any encoding, .ply .stl .obj .off. Empty where it has a field Provenance, so
+ *  that it is to be read as VoxelCore's. Of triangle strips and of polygons in .ply, .stl, .obj and .off the triangles.
+ *  \throws InputError when it is missing or damaged, or holds neither polygons nor lines */
+std::optional<PlainSurface>
+ReadPlainSurface(const std::filesystem::path & path);
+
+} // namespace voxelcore

@@ -1,0 +1,157 @@
+#include "voxelcore/PlainSurface.h"
+
+#include "ModelCells.h"
+#include "ModelSource.h"
+#include "VtpFile.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/ReadMesh.h"
+#include "voxelcore/TextFields.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+namespace voxelcore
+{
+namespace
+{
+
+using Cell = std::vector<ElementIndex>;
+
+std::vector<Cell>
+ReadCells(ModelSource & file, const std::string & section, std::size_t points)
+{
+  std::vector<Cell> cells;
+  const auto        ends = file.ReadIndices(section, "offsets");
+  const auto        corners = file.ReadIndices(section, "connectivity");
+  std::int64_t      at = 0;
+  for (const std::int64_t end : ends)
+  {
+    RequireFit(end >= at && end <= static_cast<std::int64_t>(corners.size()), "its cells are damaged");
+    cells.emplace_back();
+    for (; at < end; ++at)
+    {
+      const std::int64_t corner = corners[static_cast<std::size_t>(at)];
+      RequireFit(corner >= 0 && static_cast<std::size_t>(corner) < points, "a cell names a point that is not there");
+      cells.back().push_back(static_cast<ElementIndex>(corner));
+    }
+  }
+  return cells;
+}
+
+/** Only points on cells; polygons that name one twice, and edges from a point to itself, show nothing. */
+PlainSurface
+MakeSurface(const std::vector<Vector3> & points,
+            const std::vector<double> &  radius,
+            const std::vector<Cell> &    polygons,
+            const std::vector<Cell> &    lines)
+{
+  PlainSurface              made;
+  MedialComplex &           core = made.surface;
+  CellComplex &             cells = core.cells;
+  constexpr auto            none = std::numeric_limits<ElementIndex>::max();
+  std::vector<ElementIndex> number(points.size(), none);
+  const auto                take = [&](ElementIndex point) {
+    if (number[point] == none)
+    {
+      number[point] = static_cast<ElementIndex>(core.positions.size());
+      core.positions.push_back(points[point]);
+      core.radius.push_back(radius.empty() ? 0 : radius[point]);
+    }
+    return number[point];
+  };
+  for (const Cell & polygon : polygons)
+  {
+    Cell sorted = polygon;
+    std::sort(sorted.begin(), sorted.end());
+    if (polygon.size() >= 3 && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end())
+    {
+      std::transform(polygon.begin(), polygon.end(), std::back_inserter(cells.faceVertices), take);
+      cells.faceOffsets.push_back(cells.faceVertices.size());
+    }
+  }
+  std::vector<std::array<ElementIndex, 2>> edges;
+  for (const Cell & line : lines)
+  {
+    for (std::size_t i = 1; i < line.size(); ++i)
+    {
+      if (line[i] != line[i - 1])
+      {
+        edges.push_back({ take(line[i - 1]), take(line[i]) });
+      }
+    }
+  }
+  RequireFit(!cells.faceVertices.empty() || !edges.empty(), "it holds neither polygons nor lines");
+  cells.vertexCount = core.positions.size();
+  BuildEdges(cells, edges);
+  core.vertexLambda.assign(cells.vertexCount, 0);
+  core.edgeLambda.assign(cells.edges.size(), 0);
+  core.faceLambda.assign(cells.FaceCount(), 0);
+  made.hasRadius = !radius.empty();
+  return made;
+}
+
+std::optional<PlainSurface>
+SurfaceIn(ModelSource & file)
+{
+  if (file.Has("FieldData", "Provenance"))
+  {
+    return {};
+  }
+  const std::vector<double> numbers = file.Read<double>("Points", "Points", 3);
+  std::vector<Vector3>      points(numbers.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i] = { numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2] };
+  }
+  RequireFit(points.size() == file.PieceCount("NumberOfPoints") &&
+               points.size() < std::numeric_limits<ElementIndex>::max(),
+             "its number of points is damaged");
+  std::vector<double> radius;
+  if (file.Has("PointData", "Radius"))
+  {
+    radius = file.Read<double>("PointData", "Radius");
+    RequireFit(radius.size() == points.size(), "its array PointData/Radius has the wrong length");
+  }
+  std::vector<Cell> polygons = ReadCells(file, "Polys", points.size());
+  for (const Cell & strip :
+       file.PieceCount("NumberOfStrips") > 0 ? ReadCells(file, "Strips", points.size()) : std::vector<Cell>())
+  {
+    for (std::size_t i = 2; i < strip.size(); ++i)
+    {
+      const std::size_t odd = i % 2; // every other triangle of a strip is turned over
+      polygons.push_back({ strip[i - 2 + odd], strip[i - 1 - odd], strip[i] });
+    }
+  }
+  return MakeSurface(points, radius, polygons, ReadCells(file, "Lines", points.size()));
+}
+
+} // namespace
+
+std::optional<PlainSurface>
+ReadPlainSurface(const std::filesystem::path & path)
+{
+  const std::string extension = LowerCase(path.extension().string());
+  if (extension == ".vtp" || extension == ".vtk")
+  {
+    std::optional<PlainSurface> plain;
+    ReadFrom(path, Precision::AsSaved, "core", [&](ModelSource & source) { plain = SurfaceIn(source); });
+    return plain;
+  }
+  const MeshFile    file = ReadMesh(path);
+  std::vector<Cell> triangles;
+  for (const auto & triangle : file.mesh.triangles)
+  {
+    triangles.emplace_back(triangle.begin(), triangle.end());
+  }
+  try
+  {
+    return MakeSurface(file.mesh.points, {}, triangles, {});
+  }
+  catch (const UnfitFile & unfit)
+  {
+    throw InputError("cannot read mesh '" + path.string() + "': " + unfit.reason);
+  }
+}
+
+} // namespace voxelcore
