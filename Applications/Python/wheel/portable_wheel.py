@@ -5,12 +5,14 @@ usage: portable_wheel.py WHEEL -o FOLDER
 
 Libraries other than those of C and C++ are put into the wheel, under names of their own, with what Debian says of their
 licences. Names every version of a foreign symbol that is asked for, and from the highest ones follows the wheel's tag,
-manylinux_2_NN. The same wheel gives the same bytes. Needs readelf and patchelf.
+manylinux_2_NN. What was put in stands in <name>.dist-info/sboms (CycloneDX). The same wheel gives the same bytes. Needs
+readelf and patchelf.
 """
 
 import argparse
 import base64
 import hashlib
+import json
 import os
 import pathlib
 import re
@@ -73,22 +75,26 @@ def place(name):
     sys.exit(f"portable_wheel.py: {name} is not on this machine")
 
 
-def licence(library):
-    """What Debian's package of a library says of its licence; None elsewhere."""
-    for path in (library, pathlib.Path("/lib") / library.relative_to("/usr/lib") if library.is_relative_to("/usr/lib")
-                 else library):  # fmt: skip
+def package_of(library):
+    """Debian's package of a library: its name, version and what it says of its licence. None elsewhere."""
+    paths = [library]
+    if library.is_relative_to("/usr/lib"):
+        paths.append(pathlib.Path("/lib") / library.relative_to("/usr/lib"))
+    for path in paths:
         found = subprocess.run(["dpkg", "-S", str(path)], capture_output=True, text=True)
         if found.returncode == 0:
             package = found.stdout.split(":")[0]
-            text = pathlib.Path("/usr/share/doc") / package / "copyright"
-            return (package, text) if text.exists() else None
+            version = output("dpkg-query", "-W", "-f=${Version}\n", package).splitlines()[0]
+            return package, version, pathlib.Path("/usr/share/doc") / package / "copyright"
     return None
 
 
 def bring_along(folder, package):
-    """Puts foreign libraries into <package>.libs; the names they have there."""
+    """Puts foreign libraries into <package>.libs; the names they have there, and components as CycloneDX has them."""
     libraries = folder / f"{package}.libs"
+    information = next(folder.glob("*.dist-info"))
     renamed = {}
+    components = []
     waiting = list(folder.rglob("*.so"))
     while waiting:
         user = waiting.pop()
@@ -107,15 +113,35 @@ def bring_along(folder, package):
                 copy.chmod(0o755)
                 subprocess.run(["patchelf", "--set-soname", renamed[name], copy], check=True)
                 waiting.append(copy)
-                if told := licence(source):
-                    notes = next(folder.glob("*.dist-info")) / "licenses"
+                if of := package_of(source):
+                    notes = information / "licenses"
                     notes.mkdir(exist_ok=True)
-                    shutil.copyfile(told[1], notes / f"{told[0]}.txt")
+                    shutil.copyfile(of[2], notes / f"{of[0]}.txt")
+                    components.append(
+                        {
+                            "type": "library",
+                            "name": of[0],
+                            "version": of[1],
+                            "purl": f"pkg:deb/debian/{of[0]}@{of[1]}",
+                            "hashes": [
+                                {"alg": "SHA-256", "content": hashlib.sha256(source.read_bytes()).hexdigest()}
+                            ],
+                        }
+                    )
             subprocess.run(["patchelf", "--replace-needed", name, renamed[name], user], check=True)
         up = os.path.relpath(libraries, user.parent)
         if inside or any(name in renamed.values() for name in needed(user)):
             subprocess.run(["patchelf", "--force-rpath", "--set-rpath", "$ORIGIN" if inside else f"$ORIGIN/{up}", user],
                            check=True)  # fmt: skip
+    sboms = information / "sboms"
+    sboms.mkdir(exist_ok=True)
+    document = {
+        "bomFormat": "CycloneDX",
+        "specVersion": "1.4",
+        "version": 1,
+        "components": sorted(components, key=lambda one: one["name"]),
+    }
+    (sboms / "brought-along.cdx.json").write_text(json.dumps(document, indent=2) + "\n")
     return renamed
 
 

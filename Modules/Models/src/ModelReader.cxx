@@ -290,6 +290,7 @@ ReadParts(ModelSource & file, bool anywhere)
   const auto cellLambda = ReadValues<double>(file, "CellData", "Lambda", cellCount);
   const auto keys = ReadKeys(file, cellCount);
 
+  RequireFit(!file.Has("CellData", "Bump"), "VoxelCore 0.1 pruned it by bumps; make it anew with --tolerance");
   const bool                hasTolerance = file.Has("CellData", "Tolerance") || file.Has("PointData", "Tolerance");
   const std::vector<double> pointTolerance =
     hasTolerance ? ReadValues<double>(file, "PointData", "Tolerance", pointCount) : std::vector<double>();
