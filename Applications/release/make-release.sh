@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes a release of the commit that is checked out: runs every test, builds the source archive, the wheel and the Debian
-# packages twice, each time in another folder, and compares the bits; writes checksums and what is in it (CycloneDX).
+# Makes a release of the commit that is checked out: runs every test, builds the source archive, the wheel and the
+# Debian packages twice, each time in another folder, and compares the bits; writes checksums and what is in it
+# (CycloneDX).
 # usage: make-release.sh FOLDER [--without-tests] [--only source,wheel,packages]
 # The second build does without the compiler's cache. Nothing is signed and nothing is uploaded.
 set -euo pipefail

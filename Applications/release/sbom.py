@@ -38,7 +38,8 @@ def of_package(path):
             continue
         done = subprocess.run(["dpkg-query", "-W", "-f=${Version}\n", name[0]], capture_output=True, text=True)
         version = done.stdout.splitlines()[0] if done.returncode == 0 and done.stdout.strip() else ""
-        one = {"type": "library", "name": name[0], "purl": f"pkg:deb/debian/{name[0]}" + (f"@{version}" if version else "")}
+        purl = f"pkg:deb/debian/{name[0]}" + (f"@{version}" if version else "")
+        one = {"type": "library", "name": name[0], "purl": purl}
         found.append(dict(one, version=version) if version else one)
     return found
 

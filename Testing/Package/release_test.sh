@@ -6,7 +6,8 @@ set -euo pipefail
 build=$(realpath "$1")
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 scratch=$build/package-test/release
-git -C "$source" rev-parse HEAD >/dev/null 2>&1 || { echo "release_test.sh: the sources are in no git repository" >&2; exit 77; }
+git -C "$source" rev-parse HEAD >/dev/null 2>&1 ||
+  { echo "release_test.sh: the sources are in no git repository" >&2; exit 77; }
 rm -rf "$scratch"
 mkdir -p "$scratch"
 git clone -q "$source" "$scratch/clone"
