@@ -24,15 +24,6 @@ PlaceTipsOf(const VoxelShape & shape)
   return { GraphOfSurface(SurfaceOf(shape)), GraphOf(shape) };
 }
 
-Spacing3
-AnyDirection(std::mt19937_64 & random)
-{
-  std::normal_distribution<double> normal;
-  const Spacing3                   v{ normal(random), normal(random), normal(random) };
-  const double                     length = Distance(v, { 0, 0, 0 });
-  return { v[0] / length, v[1] / length, v[2] / length };
-}
-
 /** Points of a line of a length, anywhere in the voxel in the middle of a box of `side` mm. */
 Curve
 AnyLine(double length, double side, const Spacing3 & spacing, std::mt19937_64 & random)

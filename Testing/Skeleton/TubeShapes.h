@@ -3,10 +3,12 @@
 
 #include "SkeletonFixtures.h"
 
+#include "voxelcore/BranchJoints.h"
 #include "voxelcore/BranchTips.h"
 #include "voxelcore/CrossSections.h"
 
 #include <functional>
+#include <random>
 
 namespace voxelcore::testing
 {
@@ -34,6 +36,16 @@ CurveLength(const Curve & curve)
     length += Distance(curve[i - 1], curve[i]);
   }
   return length;
+}
+
+/** A unit vector, every direction as likely. */
+inline Spacing3
+AnyDirection(std::mt19937_64 & random)
+{
+  std::normal_distribution<double> normal;
+  const Spacing3                   v{ normal(random), normal(random), normal(random) };
+  const double                     length = Distance(v, { 0, 0, 0 });
+  return { v[0] / length, v[1] / length, v[2] / length };
 }
 
 /** Turns by two angles about two axes through the origin, then moves. */
@@ -134,12 +146,16 @@ SectionRadiiOf(const SkeletonGraph & graph, const VoxelShape & shape, const Spac
   return CrossSectionRadii(graph, shape, GridFromOrigin(spacing));
 }
 
-/** The same of a shape's whole core, with radii of the body and the tips placed by its volume. */
+/** The same of a shape's whole core, with radii of the body, tips placed by its volume and joints by their axes. */
 inline SkeletonGraph
 GraphOf(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 })
 {
   SkeletonGraph graph = GraphOfSurface(SurfaceOf(shape, spacing), spacing);
   if (PlaceTips(graph, shape, GridFromOrigin(spacing)) > 0)
+  {
+    FitBranches(graph, 6 * Distance(spacing, { 0, 0, 0 }) / std::sqrt(3.0), HalfAVoxel(spacing));
+  }
+  if (PlaceJoints(graph, shape, GridFromOrigin(spacing)) > 0)
   {
     FitBranches(graph, 6 * Distance(spacing, { 0, 0, 0 }) / std::sqrt(3.0), HalfAVoxel(spacing));
   }

@@ -3,6 +3,7 @@
 #include "CertificateText.h"
 #include "SkeletonSteps.h"
 #include "voxelcore/BallUnion.h"
+#include "voxelcore/BranchJoints.h"
 #include "voxelcore/BranchTips.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CrossSections.h"
@@ -195,6 +196,10 @@ MeasureCurves(const BurnedCurves &    burned,
     RefuseResult(shape.name, "the branches do not have the shape's topology");
   }
   if (window > 0 && PlaceTips(graph, voxels, shape.geometry) > 0)
+  {
+    FitBranches(graph, window, reach);
+  }
+  if (window > 0 && PlaceJoints(graph, voxels, shape.geometry) > 0)
   {
     FitBranches(graph, window, reach);
   }

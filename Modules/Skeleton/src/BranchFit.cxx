@@ -1,4 +1,4 @@
-
+#include "ParabolaFit.h"
 #include "voxelcore/SkeletonGraph.h"
 #include "voxelcore/Vectors.h"
 
@@ -18,48 +18,6 @@ constexpr double kWindowGrowth = 3;
 
 // Nodes stay where they are, so a curve near one must heed it more than it heeds another point.
 constexpr double kNodeWeight = 4;
-
-/** Sums of a weighted fit of 1, u, u^2. */
-struct Parabola
-{
-  double  moments[5]{};
-  Vector3 sums[3]{};
-
-  void
-  Add(double u, double weight, const Vector3 & point)
-  {
-    double power = weight;
-    for (int k = 0; k < 5; ++k)
-    {
-      moments[k] += power;
-      for (std::size_t axis = 0; k < 3 && axis < 3; ++axis)
-      {
-        sums[k][axis] += power * point[axis];
-      }
-      power *= u;
-    }
-  }
-
-  /** Its value at u = 0; false when too few points define it. */
-  bool
-  Value(Vector3 & value) const
-  {
-    const double * m = moments;
-    const double   c0 = m[2] * m[4] - m[3] * m[3];
-    const double   c1 = m[2] * m[3] - m[1] * m[4];
-    const double   c2 = m[1] * m[3] - m[2] * m[2];
-    const double   determinant = m[0] * c0 + m[1] * c1 + m[2] * c2;
-    if (!(determinant > 1e-9 * m[0] * m[0] * m[0]))
-    {
-      return false;
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      value[axis] = (c0 * sums[0][axis] + c1 * sums[1][axis] + c2 * sums[2][axis]) / determinant;
-    }
-    return true;
-  }
-};
 
 double
 Tricube(double u)
@@ -132,7 +90,7 @@ FitOnce(const MedialLine &           line,
   {
     const double wide = window + kWindowGrowth * std::max(0.0, line.radius[i] - window);
     const double half = isLoop ? std::min(wide, 0.5 * way[last]) : wide;
-    Parabola     fit;
+    ParabolaFit  fit;
     const auto   add = [&](std::size_t j, double shift) {
       const double u = (way[j] + shift - way[i]) / half;
       if (std::abs(u) >= 1)
@@ -215,6 +173,33 @@ FitOnce(const MedialLine &           line,
   }
 }
 
+/** Points that came to lie behind a node, which stays where it is, are put between it and the first that did not: no
+ *  curve turns back at its ends. `node` is the first or the last point of an open line. */
+void
+KeepBefore(std::size_t node, const MedialLine & line, double window, std::vector<Vector3> & places)
+{
+  const std::size_t half = line.Last() / 2;
+  const auto        at = [&](std::size_t i) { return node == 0 ? i : node - i; };
+  const Vector3     end = places[node];
+  const double      far = std::max(window, line.radius[node]);
+  std::size_t       ahead = 0;
+  while (ahead < half && Distance(places[at(ahead)], end) < far)
+  {
+    ++ahead;
+  }
+  const Vector3 onwards = Minus(places[at(ahead)], end);
+  std::size_t   first = 1;
+  while (first < ahead && Dot(Minus(places[at(first)], end), onwards) <= 0)
+  {
+    ++first;
+  }
+  for (std::size_t i = 1; i < first; ++i)
+  {
+    const double part = static_cast<double>(i) / static_cast<double>(first);
+    places[at(i)] = AddScaled(end, part, Minus(places[at(first)], end));
+  }
+}
+
 } // namespace
 
 void
@@ -249,6 +234,11 @@ FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach)
     to = line.points;
     FitOnce(line, line.points, window, nullptr, along);
     FitOnce(line, along, window, &reach, to);
+    if (!line.isLoop)
+    {
+      KeepBefore(0, line, window, to);
+      KeepBefore(line.Last(), line, window, to);
+    }
     for (std::size_t i = line.isLoop ? 0 : 1; i < points.size() - 1; ++i)
     {
       graph.positions[points[i]] = to[i];

@@ -13,9 +13,6 @@ namespace voxelcore
 namespace
 {
 
-// Balls between the corners of voxels are smaller than the body, by so many diagonals on average.
-constexpr double kMeanExcess = 0.25;
-
 // The ends of balls may be off by so much: steps of the grid, and bumps on the cap.
 constexpr double kMostDiagonals = 2;
 constexpr double kMostRadii = 0.3;

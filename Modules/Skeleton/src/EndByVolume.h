@@ -12,6 +12,9 @@
 namespace voxelcore
 {
 
+// Balls between the corners of voxels are smaller than the body, by so many diagonals on average.
+inline constexpr double kMeanExcess = 0.25;
+
 /** A line of points with the way to each. */
 struct WayLine
 {

@@ -1,5 +1,7 @@
 #include "RootStrands.h"
 
+#include "UnitVector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,13 +17,6 @@ namespace
 
 constexpr double      kApart = 0.75;    // of the sum of radii: nearer are no two roots
 constexpr std::size_t kCurvePoints = 9; // within a contact
-
-Vector3
-Unit(const Vector3 & a)
-{
-  const double length = Length(a);
-  return length > 0 ? AddScaled({ 0, 0, 0 }, 1 / length, a) : a;
-}
 
 /** The square of the distance from a place to a segment, and where along it. */
 std::pair<double, double>

@@ -87,8 +87,8 @@ using VoxelReach = std::array<std::array<double, 3>, 3>;
 /** Smooths the branches: each point goes to the value, at its own arc length, of the parabola that fits its branch best
  *  within `window` mm before and behind it, but no further than `reach` from the branch as it lies on the medial
  *  surface. Where the radius is more than the window, that grows by three times the difference, and the reach in
- *  proportion. Nodes stay. A window of 0 puts the points back on the medial surface. Curved lines keep their length
- *  to second order, where averaging would shorten them. */
+ *  proportion. Nodes stay, and no curve turns back at one. A window of 0 puts the points back on the medial surface.
+ *  Curved lines keep their length to second order, where averaging would shorten them. */
 void
 FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach);
 

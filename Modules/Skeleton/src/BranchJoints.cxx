@@ -1,0 +1,333 @@
+#include "voxelcore/BranchJoints.h"
+
+#include "JointAxes.h"
+#include "voxelcore/Vectors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Directions are taken so far outside a junction's ball: half a radius, and two voxels, or steps of the grid tell.
+constexpr double kNearInRadii = 0.5;
+constexpr double kNearInVoxels = 2;
+
+// A branch that leaves is nothing but itself so many of its radii outside the junction's ball, the one it leaves so
+// many of them and a voxel from the junction.
+constexpr double kApartInRadii = 1.5;
+constexpr double kThroughInRadii = 1.5;
+
+// Over what ways axes are fitted: radii of the branch that leaves, at least four voxels.
+constexpr double kAxisInRadii = 2;
+constexpr double kThroughAxisInRadii = 1.5;
+constexpr double kAxisInVoxels = 4;
+constexpr double kShortestInVoxels = 2;
+
+// From no to yes, in degrees: by how much the branch that goes through is straighter than any way into one that leaves;
+// how much it bends at most; how large the angle is at which the axes meet.
+constexpr std::array<double, 2> kStraighter{ 10, 25 };
+constexpr std::array<double, 2> kBend{ 70, 40 };
+constexpr std::array<double, 2> kMeetingAngle{ 30, 50 };
+
+// So many of the ball's radii the axes meet away from the junction, and pass each other, at most.
+constexpr std::array<double, 2> kMove{ 2.5, 1.5 };
+constexpr std::array<double, 2> kGap{ 1.5, 0.5 };
+
+double
+Degrees(double cosine)
+{
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+/** 0 at and before the first, 1 at and behind the second. */
+double
+FromNoToYes(const std::array<double, 2> & range, double value)
+{
+  const double t = std::clamp((value - range[0]) / (range[1] - range[0]), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/** The points of a joint and where they shall lie. */
+struct JointMove
+{
+  std::vector<std::pair<ElementIndex, Vector3>> places;
+};
+
+class JointPlacing
+{
+public:
+  JointPlacing(const SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry & geometry)
+    : m_Graph(graph)
+    , m_Shape(shape)
+    , m_Geometry(geometry)
+    , m_Diagonal(Length(geometry.spacing))
+    , m_Voxel(m_Diagonal / std::sqrt(3.0))
+  {}
+
+  /** Of a junction and the branches that end there, each with which of its ends. */
+  std::optional<JointMove>
+  Of(ElementIndex node, const std::vector<std::pair<std::size_t, std::size_t>> & ends) const
+  {
+    const ElementIndex point = m_Graph.nodePoints[node];
+    const Vector3 &    junction = m_Graph.positions[point];
+    const double       ball = m_Graph.radius[point];
+    std::vector<Arm>   arms;
+    for (const auto & [branch, end] : ends)
+    {
+      arms.push_back(ArmOf(branch, end, ball));
+      if (arms.back().leaves <= 0)
+      {
+        return std::nullopt;
+      }
+    }
+    double yes = PutThroughFirst(arms);
+    if (!(yes > 0) || !PlaceAxes(arms))
+    {
+      return std::nullopt;
+    }
+    ThroughAxis through;
+    if (!through.Fit(arms[0], arms[1], junction))
+    {
+      return std::nullopt;
+    }
+    double meeting = 0;
+    for (std::size_t k = 2; k < arms.size(); ++k)
+    {
+      const auto [way, isSo] = Meeting(through, AxisOf(arms[k]), ball);
+      meeting += way / static_cast<double>(arms.size() - 2);
+      yes *= isSo;
+    }
+    return yes > 0 ? Moved(arms, through, meeting, yes, point) : std::nullopt;
+  }
+
+private:
+  Arm
+  ArmOf(std::size_t branch, std::size_t end, double ball) const
+  {
+    Arm arm;
+    arm.points.assign(m_Graph.Branch(branch).begin(), m_Graph.Branch(branch).end());
+    if (end == 1)
+    {
+      std::reverse(arm.points.begin(), arm.points.end());
+    }
+    for (const ElementIndex point : arm.points)
+    {
+      arm.line.Add(m_Graph.positions[point]);
+    }
+    const auto & [places, way] = arm.line;
+    std::size_t out = 0;
+    while (out < places.size() && Distance(places[out], places[0]) <= ball)
+    {
+      ++out;
+    }
+    if (out == places.size())
+    {
+      return arm;
+    }
+    arm.leaves = way[out];
+    // The middle radius of those behind the ball.
+    std::vector<double> radii;
+    for (std::size_t i = out; i < places.size() && way[i] <= way[out] + std::max(ball, 3 * m_Voxel); ++i)
+    {
+      radii.push_back(m_Graph.radius[arm.points[i]]);
+    }
+    std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
+    arm.radius = radii[radii.size() / 2] + kMeanExcess * m_Diagonal;
+    const ElementIndex other = m_Graph.branchNodes[branch][1 - end];
+    arm.free = way.back();
+    if (m_Graph.nodeKinds[other] != NodeKind::Tip)
+    {
+      const double reach = m_Graph.radius[m_Graph.nodePoints[other]];
+      std::size_t  near = out;
+      while (near < places.size() && (way[near] <= 0.5 * way.back() || Distance(places[near], places.back()) > reach))
+      {
+        ++near;
+      }
+      arm.free = near < places.size() ? way[near] : way.back();
+    }
+    const double there = std::min(way[out] + std::max(kNearInRadii * arm.radius, kNearInVoxels * m_Voxel), arm.free);
+    arm.direction = Unit(Minus(arm.line.At(there), places[0]));
+    return arm;
+  }
+
+  /** The two arms of the branch that goes through to the front. Gives whether there is one, from 0 to 1. */
+  static double
+  PutThroughFirst(std::vector<Arm> & arms)
+  {
+    const auto bend = [&](std::size_t i, std::size_t k) { return Degrees(-Dot(arms[i].direction, arms[k].direction)); };
+    std::pair<std::size_t, std::size_t> best{ 0, 1 };
+    for (std::size_t i = 0; i < arms.size(); ++i)
+    {
+      for (std::size_t k = i + 1; k < arms.size(); ++k)
+      {
+        best = bend(i, k) < bend(best.first, best.second) ? std::pair{ i, k } : best;
+      }
+    }
+    std::swap(arms[0], arms[best.first]);
+    std::swap(arms[1], arms[best.second]);
+    double next = 180;
+    for (std::size_t k = 2; k < arms.size(); ++k)
+    {
+      next = std::min({ next, bend(0, k), bend(1, k) });
+    }
+    return FromNoToYes(kStraighter, next - bend(0, 1)) * FromNoToYes(kBend, bend(0, 1));
+  }
+
+  /** False where an arm is too short to have one. */
+  bool
+  PlaceAxes(std::vector<Arm> & arms) const
+  {
+    double leaving = 0;
+    for (std::size_t k = 2; k < arms.size(); ++k)
+    {
+      leaving = std::max(leaving, arms[k].radius);
+    }
+    for (std::size_t k = 0; k < arms.size(); ++k)
+    {
+      Arm &  arm = arms[k];
+      double length = 0;
+      if (k < 2)
+      {
+        arm.from = std::min(kThroughInRadii * leaving + m_Voxel, arm.leaves + kApartInRadii * leaving);
+        length = std::max(kThroughAxisInRadii * leaving, 0.5 * arm.radius);
+      }
+      else
+      {
+        arm.from = arm.leaves + kApartInRadii * arm.radius;
+        length = kAxisInRadii * arm.radius;
+      }
+      arm.to = std::min(arm.from + std::max(length, kAxisInVoxels * m_Voxel), arm.free);
+      const bool endsInTip = arm.free == arm.line.way.back();
+      if (arm.to - arm.from < kShortestInVoxels * m_Voxel || (!endsInTip && arm.from > 0.5 * arm.line.way.back()))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /** Where along `through` an axis comes nearest to it, and whether they meet there, from 0 to 1. */
+  std::pair<double, double>
+  Meeting(const ThroughAxis & through, const Axis & axis, double ball) const
+  {
+    constexpr int kSteps = 200;
+    const double  reach = kMove[0] * ball;
+    double        gap = std::numeric_limits<double>::infinity();
+    double        at = 0;
+    for (int step = 0; step <= kSteps; ++step)
+    {
+      const double  way = reach * (2.0 * step / kSteps - 1);
+      const Vector3 there = Minus(through.At(way), axis.middle);
+      const double  off = Length(AddScaled(there, -Dot(there, axis.direction), axis.direction));
+      if (off < gap)
+      {
+        gap = off;
+        at = way;
+      }
+    }
+    const double angle = Degrees(std::abs(Dot(through.DirectionAt(at), axis.direction)));
+    return { at,
+             FromNoToYes(kMove, std::abs(at) / ball) * FromNoToYes(kGap, gap / (ball + m_Voxel)) *
+               FromNoToYes(kMeetingAngle, angle) };
+  }
+
+  std::optional<JointMove>
+  Moved(const std::vector<Arm> & arms, const ThroughAxis & through, double meeting, double yes, ElementIndex point)
+    const
+  {
+    const Vector3 to = through.At(meeting);
+    JointMove     move;
+    const auto    add = [&](ElementIndex moved, const Vector3 & place) {
+      const Vector3 & before = m_Graph.positions[moved];
+      move.places.emplace_back(moved, AddScaled(before, yes, Minus(place, before)));
+    };
+    add(point, to);
+    for (std::size_t k = 0; k < arms.size(); ++k)
+    {
+      const auto & [places, way] = arms[k].line;
+      const auto first = static_cast<std::size_t>(std::lower_bound(way.begin(), way.end(), arms[k].from) - way.begin());
+      const std::size_t last = std::min(first, way.size() - 1);
+      const double      end = (k == 0 ? -1 : 1) * Distance(places[last], places[0]);
+      for (std::size_t i = 1; i < last; ++i)
+      {
+        const double part = way[i] / way[last];
+        if (k < 2)
+        {
+          // Along the parabola, which the points behind the joint do not meet exactly.
+          const Vector3 on = through.At(meeting + part * (end - meeting));
+          add(arms[k].points[i], AddScaled(on, part, Minus(places[last], through.At(end))));
+        }
+        else
+        {
+          add(arms[k].points[i], AddScaled(to, part, Minus(places[last], to)));
+        }
+      }
+    }
+    const bool staysIn =
+      std::all_of(move.places.begin(), move.places.end(), [&](const auto & moved) { return IsIn(moved.second); });
+    return staysIn ? std::optional(std::move(move)) : std::nullopt;
+  }
+
+  bool
+  IsIn(const Vector3 & place) const
+  {
+    const Vector3 on = PhysicalToLattice(m_Geometry, place);
+    const auto    voxel = [&](std::size_t axis) { return static_cast<std::int32_t>(std::floor(on[axis])); };
+    return m_Shape.Contains(voxel(0), voxel(1), voxel(2));
+  }
+
+  const SkeletonGraph & m_Graph;
+  const VoxelShape &    m_Shape;
+  const ImageGeometry & m_Geometry;
+  const double          m_Diagonal;
+  const double          m_Voxel; ///< side of the cube with the same diagonal
+};
+
+} // namespace
+
+std::size_t
+PlaceJoints(SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry & geometry)
+{
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> ends(graph.nodePoints.size());
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    for (const std::size_t end : { 0, 1 })
+    {
+      ends[graph.branchNodes[branch][end]].emplace_back(branch, end);
+    }
+  }
+  const JointPlacing     placing(graph, shape, geometry);
+  std::vector<JointMove> moves;
+  for (std::size_t node = 0; node < ends.size(); ++node)
+  {
+    if (graph.nodeKinds[node] == NodeKind::Junction && ends[node].size() > 2)
+    {
+      if (auto move = placing.Of(static_cast<ElementIndex>(node), ends[node]))
+      {
+        moves.push_back(std::move(*move));
+      }
+    }
+  }
+  for (const JointMove & move : moves)
+  {
+    for (const auto & [point, place] : move.places)
+    {
+      graph.positions[point] = place;
+      graph.medial[point] = place;
+    }
+  }
+  return moves.size();
+}
+
+} // namespace voxelcore

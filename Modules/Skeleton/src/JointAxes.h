@@ -1,0 +1,113 @@
+#pragma once
+// The axes of branches that meet, from where their bodies are apart.
+
+#include "EndByVolume.h"
+#include "ParabolaFit.h"
+#include "UnitVector.h"
+#include "voxelcore/SkeletonGraph.h"
+#include "voxelcore/Vectors.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** A branch from a junction on. */
+struct Arm
+{
+  std::vector<ElementIndex> points;
+  WayLine                   line;
+  double                    leaves = 0; ///< the way on which it leaves the junction's ball
+  double                    free = 0;   ///< where it comes near its other end
+  double                    radius = 0;
+  Vector3                   direction{};
+  double                    from = 0; ///< of the axis
+  double                    to = 0;
+};
+
+/** A straight line. */
+struct Axis
+{
+  Vector3 middle{};
+  Vector3 direction{};
+};
+
+/** The axis of the branch that goes through, by the way from the junction; negative on one side. */
+class ThroughAxis
+{
+public:
+  bool
+  Fit(const Arm & before, const Arm & behind, const Vector3 & junction)
+  {
+    m_Scale = std::max(Distance(before.line.At(before.to), junction), Distance(behind.line.At(behind.to), junction));
+    ParabolaFit parabola;
+    for (const auto & [arm, sign] : { std::pair{ &before, -1 }, { &behind, 1 } })
+    {
+      std::vector<std::size_t> used;
+      for (std::size_t i = 0; i < arm->points.size(); ++i)
+      {
+        if (arm->line.way[i] >= arm->from && arm->line.way[i] <= arm->to)
+        {
+          used.push_back(i);
+        }
+      }
+      for (const std::size_t i : used)
+      {
+        const Vector3 & place = arm->line.places[i];
+        parabola.Add(sign * Distance(place, junction) / m_Scale, 1 / static_cast<double>(used.size()), place);
+      }
+    }
+    return parabola.Coefficients(m_Factors);
+  }
+
+  Vector3
+  At(double way) const
+  {
+    const double u = way / m_Scale;
+    return AddScaled(AddScaled(m_Factors[0], u, m_Factors[1]), u * u, m_Factors[2]);
+  }
+
+  Vector3
+  DirectionAt(double way) const
+  {
+    return Unit(AddScaled(m_Factors[1], 2 * way / m_Scale, m_Factors[2]));
+  }
+
+private:
+  Vector3 m_Factors[3]{};
+  double  m_Scale = 1;
+};
+
+/** Least squares by the way along it. */
+inline Axis
+AxisOf(const Arm & arm)
+{
+  double  count = 0;
+  double  sum = 0;
+  double  squares = 0;
+  Vector3 places{};
+  Vector3 products{};
+  for (std::size_t i = 0; i < arm.points.size(); ++i)
+  {
+    const double way = arm.line.way[i] - arm.from;
+    if (way >= 0 && arm.line.way[i] <= arm.to)
+    {
+      ++count;
+      sum += way;
+      squares += way * way;
+      places = AddScaled(places, 1, arm.line.places[i]);
+      products = AddScaled(products, way, arm.line.places[i]);
+    }
+  }
+  if (count < 2)
+  {
+    const Vector3 a = arm.line.At(arm.from);
+    return { a, Unit(Minus(arm.line.At(arm.to), a)) };
+  }
+  return { AddScaled({}, 1 / count, places), Unit(AddScaled(AddScaled({}, count, products), -sum, places)) };
+}
+
+} // namespace voxelcore

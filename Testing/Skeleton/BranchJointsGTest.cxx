@@ -1,0 +1,180 @@
+#include "GraphBuilder.h"
+#include "TubeShapes.h"
+
+#include "voxelcore/BranchJoints.h"
+
+#include <iostream>
+#include <numbers>
+#include <random>
+
+namespace voxelcore::testing
+{
+
+namespace
+{
+
+constexpr double kSide = 90; // of the box, mm
+
+Spacing3
+Along(const Spacing3 & from, double t, const Spacing3 & way)
+{
+  return { from[0] + t * way[0], from[1] + t * way[1], from[2] + t * way[2] };
+}
+
+/** A direction at an angle to another, on any side of it. */
+Spacing3
+AtAngle(const Spacing3 & way, double degrees, std::mt19937_64 & random)
+{
+  const Spacing3 other = AnyDirection(random);
+  const double   along = other[0] * way[0] + other[1] * way[1] + other[2] * way[2];
+  Spacing3       side = Along(other, -along, way);
+  side = Along({ 0, 0, 0 }, 1 / Distance(side, { 0, 0, 0 }), side);
+  const double angle = degrees * std::numbers::pi / 180;
+  return Along(Along({ 0, 0, 0 }, std::cos(angle), way), std::sin(angle), side);
+}
+
+Curve
+Line(const Spacing3 & from, const Spacing3 & to)
+{
+  return SampleCurve([&](double t) { return Along(Along(from, -t, from), t, to); },
+                     static_cast<std::size_t>(4 * Distance(from, to)));
+}
+
+VoxelShape
+Union(const VoxelShape & a, const VoxelShape & b)
+{
+  const auto size = a.Box().size;
+  return ShapeWhere({ size[0], size[1], size[2] },
+                    [&](int x, int y, int z) { return a.Contains(x, y, z) || b.Contains(x, y, z); });
+}
+
+Spacing3
+AnyCentre(std::mt19937_64 & random)
+{
+  std::uniform_real_distribution<double> part(0, 1);
+  return { kSide / 2 + part(random), kSide / 2 + part(random), kSide / 2 + part(random) };
+}
+
+SkeletonGraph
+WithJoints(SkeletonGraph graph, const VoxelShape & shape, const Spacing3 & spacing, std::size_t & moved)
+{
+  moved = PlaceJoints(graph, shape, GridFromOrigin(spacing));
+  FitBranches(graph, 6 * Distance(spacing, { 0, 0, 0 }) / std::sqrt(3.0), HalfAVoxel(spacing));
+  return graph;
+}
+
+/** The only junction's place. */
+Spacing3
+Junction(const SkeletonGraph & graph)
+{
+  Spacing3 place{};
+  int      count = 0;
+  for (std::size_t node = 0; node < graph.nodeKinds.size(); ++node)
+  {
+    if (graph.nodeKinds[node] == NodeKind::Junction)
+    {
+      place = graph.positions[graph.nodePoints[node]];
+      ++count;
+    }
+  }
+  EXPECT_EQ(count, 1);
+  return place;
+}
+
+TEST(BranchJoints, OfLateralsLieWhereTheAxesMeet)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64                        random(seed);
+  std::uniform_real_distribution<double> leans(50, 90);
+  double                                 before = 0;
+  double                                 after = 0;
+  double                                 length = 0;
+  int                                    count = 0;
+  int                                    near = 0;
+  for (const Spacing3 & spacing : { Spacing3{ 1, 1, 1 }, Spacing3{ 1, 1, 2 } })
+  {
+    for (int k = 0; k < 6; ++k)
+    {
+      const Spacing3   centre = AnyCentre(random);
+      const Spacing3   way = AnyDirection(random);
+      const Spacing3   end = Along(centre, 30, AtAngle(way, leans(random), random));
+      const VoxelShape shape =
+        Union(Tube(Line(Along(centre, -30, way), Along(centre, 30, way)), 5, { kSide, kSide, kSide }, spacing),
+              Tube(Line(centre, end), 3.2, { kSide, kSide, kSide }, spacing));
+      std::size_t         moved = 0;
+      const SkeletonGraph as = GraphOfSurface(SurfaceOf(shape, spacing), spacing);
+      const SkeletonGraph placed = WithJoints(as, shape, spacing, moved);
+      ASSERT_EQ(placed.BranchCount(), 3U) << "seed " << seed;
+      before += std::pow(Distance(Junction(as), centre), 2);
+      after += std::pow(Distance(Junction(placed), centre), 2);
+      length += TotalLength(placed) - TotalLength(as);
+      near += moved == 1 && Distance(Junction(placed), centre) < 1;
+      ++count;
+    }
+  }
+  before = std::sqrt(before / count);
+  after = std::sqrt(after / count);
+  std::cout << "off " << before << " -> " << after << " mm, longer by " << length / count << " mm\n";
+  // Where angles do not tell for sure which branch goes through, a junction goes part of the way.
+  EXPECT_GE(near, 9) << "of 12, seed " << seed;
+  EXPECT_LT(after, 0.7 * before) << "seed " << seed;
+  EXPECT_GT(length / count, 0.2) << "corners are no longer cut, seed " << seed;
+  EXPECT_LT(length / count, 2) << "seed " << seed;
+}
+
+TEST(BranchJoints, OfForksStay)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64 random(seed);
+  for (int k = 0; k < 4; ++k)
+  {
+    // Two arms 40 degrees apart: each could be the one that goes on.
+    const Spacing3   centre = AnyCentre(random);
+    const Spacing3   way = AnyDirection(random);
+    const Spacing3   one = AtAngle(way, 20, random);
+    const double     along = one[0] * way[0] + one[1] * way[1] + one[2] * way[2];
+    const Spacing3   other = Along(Along({ 0, 0, 0 }, 2 * along, way), -1, one);
+    const Spacing3   box{ kSide, kSide, kSide };
+    const VoxelShape shape = Union(
+      Tube(Line(Along(centre, -30, way), centre), 4, box),
+      Union(Tube(Line(centre, Along(centre, 36, one)), 4, box), Tube(Line(centre, Along(centre, 36, other)), 4, box)));
+    std::size_t         moved = 0;
+    const SkeletonGraph as = GraphOfSurface(SurfaceOf(shape));
+    const SkeletonGraph placed = WithJoints(as, shape, { 1, 1, 1 }, moved);
+    EXPECT_LT(Distance(Junction(as), Junction(placed)), 1) << "seed " << seed;
+    EXPECT_NEAR(TotalLength(placed), TotalLength(as), 1) << "seed " << seed;
+  }
+}
+
+TEST(BranchJoints, WhosePointsWouldLeaveTheShapeStay)
+{
+  // The graph of a lateral that enters straight, in a shape that is nothing but voxels along another way.
+  GraphBuilder builder;
+  builder.Line({ 20, 30, 30 }, { 29, 30, 30 }, 2);
+  builder.Line({ 29, 30, 30 }, { 40, 30, 30 }, 2);
+  builder.Line({ 29, 30, 30 }, { 30, 31, 30 }, 2);
+  builder.Line({ 30, 31, 30 }, { 30, 45, 30 }, 2);
+  SkeletonGraph graph = builder.Graph();
+  graph.medial = graph.positions;
+  const SkeletonGraph before = graph;
+  const VoxelShape    none = ShapeWhere({ 60, 60, 60 }, [](int x, int, int) { return x < 2; });
+  EXPECT_EQ(PlaceJoints(graph, none, GridFromOrigin({ 1, 1, 1 })), 0U);
+  EXPECT_EQ(graph.positions, before.positions);
+  const VoxelShape all = ShapeWhere({ 60, 60, 60 }, [](int, int, int) { return true; });
+  EXPECT_EQ(PlaceJoints(graph, all, GridFromOrigin({ 1, 1, 1 })), 1U);
+  EXPECT_NEAR(Junction(graph)[0], 30, 0.1);
+  EXPECT_NEAR(Junction(graph)[1], 30, 0.1);
+}
+
+TEST(BranchJoints, OfNothingAreNone)
+{
+  SkeletonGraph graph;
+  EXPECT_EQ(
+    PlaceJoints(graph, ShapeWhere({ 2, 2, 2 }, [](int, int, int) { return true; }), GridFromOrigin({ 1, 1, 1 })),
+    0U);
+}
+
+} // namespace
+} // namespace voxelcore::testing
