@@ -118,16 +118,8 @@ SpreadOver(const std::array<std::int64_t, 3> & size,
   {
     for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
-      const auto row = values.Row(y, z);
-      auto       from = row.begin();
       const auto first = ((z + box.lower[2]) * size[1] + y + box.lower[1]) * size[0] + box.lower[0];
-      for (std::int32_t x = 0; x < box.size[0] && from != row.end(); ++x)
-      {
-        if (shape.Contains(x + box.lower[0], y + box.lower[1], z + box.lower[2]))
-        {
-          volume[static_cast<std::size_t>(first + x)] = *from++;
-        }
-      }
+      WriteRow(shape, values, y, z, volume.data() + first);
     }
   }
 }

@@ -149,7 +149,7 @@ TEST(CoreThickness, EveningLeavesWhatIsEvenAndTheEndsOfLinesAndTakesOutSingleErr
     }
   }
   core.cells.vertexCount = 7;
-  constexpr double far = 1;
+  constexpr double far = 10;
   EXPECT_EQ(EvenedBallsOfCore(core, 0, far).radius, core.radius);
   const PaintingBalls once = EvenedBallsOfCore(core, 1, far);
   EXPECT_NEAR(once.radius[3], 2.1, 1e-12);

@@ -14,9 +14,9 @@ namespace voxelcore
 namespace
 {
 
-// So far along a core as its noise is long; what differs by more than this part of a voxel's shortest side is no noise.
+// So far along a core as its noise is long; what rises as steeply as this is no noise but an edge or the way into one.
 constexpr int    kEvenings = 20;
-constexpr double kStep = 0.5;
+constexpr double kSlope = 0.4;
 
 } // namespace
 
@@ -31,11 +31,8 @@ ThicknessOf(const CertifiedCore &    core,
   CertifiedThickness   result;
   result.shape = std::move(voxels);
   result.bracket = std::move(bracket);
-  const bool   refined = core.numbers.refined.has_value();
-  const auto & spacing = shape.geometry.spacing;
-  result.balls =
-    refined ? EvenedBallsOfCore(core.core.core, kEvenings, kStep * *std::min_element(spacing.begin(), spacing.end()))
-            : BallsOfCore(core.core.core);
+  const bool refined = core.numbers.refined.has_value();
+  result.balls = refined ? EvenedBallsOfCore(core.core.core, kEvenings, kSlope) : BallsOfCore(core.core.core);
   for (Vector3 & centre : result.balls.centres)
   {
     centre = PhysicalToLattice(shape.geometry, centre);

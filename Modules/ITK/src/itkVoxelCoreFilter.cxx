@@ -1,10 +1,8 @@
 #include "itkVoxelCoreFilter.h"
 
 #include "itkErrors.h"
-#include "itkMultiThreaderBase.h"
+#include "itkThreadLimit.h"
 #include "voxelcore/Certified.h"
-
-#include <omp.h>
 
 #include <utility>
 
@@ -12,27 +10,6 @@ namespace itk
 {
 namespace
 {
-
-/** How many threads OpenMP gives this thread; what it was comes back in the end. */
-class ThreadLimit
-{
-public:
-  explicit ThreadLimit(ThreadIdType threads)
-    : m_Before(omp_get_max_threads())
-  {
-    omp_set_num_threads(static_cast<int>(threads));
-  }
-  ThreadLimit(const ThreadLimit &) = delete;
-  ThreadLimit &
-  operator=(const ThreadLimit &) = delete;
-  ~ThreadLimit()
-  {
-    omp_set_num_threads(m_Before);
-  }
-
-private:
-  int m_Before;
-};
 
 const char *
 EngineName(voxelcore::Engine engine)
@@ -93,8 +70,7 @@ VoxelCoreFilter::VerifyPreconditions() ITKv5_CONST
 void
 VoxelCoreFilter::GenerateData()
 {
-  const ThreadLimit limit(
-    std::min(this->GetNumberOfWorkUnits(), this->GetMultiThreader()->GetMaximumNumberOfThreads()));
+  const ThreadLimit         limit(*this);
   const InputType &         input = *this->GetInput();
   OutputType::PartContainer parts;
   WithItkErrors(this->GetNameOfClass(), [&] {

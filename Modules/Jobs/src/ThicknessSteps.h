@@ -3,7 +3,6 @@
 
 #include "voxelcore/ThicknessJob.h"
 
-#include <bit>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -40,16 +39,8 @@ FillSlice(const VolumeOfLabels<T> & volume, const ImageGeometry & geometry, std:
     }
     for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
-      T * const  to = slice.data() + (y + box.lower[1]) * geometry.size[0] + box.lower[0];
-      auto       from = volume.values[i]->Row(y, z).begin();
-      const auto row = shape.Row(y, z);
-      for (std::size_t word = 0; word < row.size(); ++word)
-      {
-        for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
-        {
-          to[64 * word + static_cast<std::size_t>(std::countr_zero(bits))] = *from++;
-        }
-      }
+      T * const to = slice.data() + (y + box.lower[1]) * geometry.size[0] + box.lower[0];
+      WriteRow(shape, *volume.values[i], y, z, to);
     }
   }
 }

@@ -1,5 +1,7 @@
 #include "voxelcore/CoreThickness.h"
 
+#include "voxelcore/Vectors.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -90,7 +92,7 @@ BallsOfCore(const MedialComplex & core)
 }
 
 PaintingBalls
-EvenedBallsOfCore(const MedialComplex & core, int rounds, double step)
+EvenedBallsOfCore(const MedialComplex & core, int rounds, double slope)
 {
   PaintingBalls              balls = BallsOfCore(core);
   std::vector<double>        sums(balls.Count());
@@ -101,7 +103,8 @@ EvenedBallsOfCore(const MedialComplex & core, int rounds, double step)
     std::fill(counts.begin(), counts.end(), 1U);
     for (const auto & ends : core.cells.edges)
     {
-      if (std::abs(balls.value[ends[0]] - balls.value[ends[1]]) < step)
+      const double along = Distance(core.positions[ends[0]], core.positions[ends[1]]);
+      if (std::abs(balls.value[ends[0]] - balls.value[ends[1]]) < slope * along)
       {
         sums[ends[0]] += balls.value[ends[1]];
         sums[ends[1]] += balls.value[ends[0]];

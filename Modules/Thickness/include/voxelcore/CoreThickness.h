@@ -20,10 +20,11 @@ PaintingBalls
 BallsOfCore(const MedialComplex & core);
 
 /** The same with radii that are averaged with those of the vertices around, so many times: the greatest of many radii
- *  that err this way and that would be too great. Radii that differ by `step` or more along an edge do not mix: that is
- *  no error but the body's. An end of a line keeps its own. */
+ *  that err this way and that would be too great. Radii do not mix along an edge on which
+ *  they change by `slope` of its length or more: that is no error but the body's. An end of a line keeps its own. The
+ *  core's positions are in mm along any axes. */
 PaintingBalls
-EvenedBallsOfCore(const MedialComplex & core, int rounds, double step);
+EvenedBallsOfCore(const MedialComplex & core, int rounds, double slope);
 
 /** Finds the values of a field by voxel. The shape must outlive it. */
 class VoxelRanks

@@ -4,6 +4,8 @@
 #include "voxelcore/InscribedBalls.h"
 #include "voxelcore/VoxelShape.h"
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +39,22 @@ using VoxelOwners = VoxelField<std::uint32_t>;
 template <typename T>
 VoxelField<T>
 ZeroAtVoxels(const VoxelShape & shape);
+
+/** Writes the values of the row at box-relative y, z to where its voxels are in a row that begins at the box. */
+template <typename T>
+void
+WriteRow(const VoxelShape & shape, const VoxelField<T> & field, std::int32_t y, std::int32_t z, T * row)
+{
+  auto       value = field.Row(y, z).begin();
+  const auto bits = shape.Row(y, z);
+  for (std::size_t word = 0; word < bits.size(); ++word)
+  {
+    for (std::uint64_t rest = bits[word]; rest != 0; rest &= rest - 1)
+    {
+      row[64 * word + static_cast<std::size_t>(std::countr_zero(rest))] = *value++;
+    }
+  }
+}
 
 /** Gives each voxel that still has zero twice the greatest value of the balls that hold its centre, in mm. A ball is
  *  taken as closed and by 1e-10 of its radius greater, so that rounding puts no centre on its sphere out of it.
