@@ -24,6 +24,7 @@ make_inputs() {
   voxelcore phantom root --size 40 -o root.nii.gz -q
   voxelcore phantom root --size 40 -o huge.nrrd -q
   voxelcore phantom rod --size 40 -o stem.nrrd -q
+  voxelcore phantom shell --size 32 -o vesicle.nrrd -q
   voxelcore phantom thick-and-thin --size 32 -o atlas.nii.gz -q
   voxelcore phantom root --size 40 -o vessels.nrrd -q
   mv vessels.nrrd vessels.seg.nrrd

@@ -14,8 +14,8 @@ python3 sheets.py "$program" "$turns"
 python3 peers.py "$program" 256 1
 python3 peers.py "$program" 256 2.5
 
-# Smooth noise above a threshold, a fifth of it solid: struts and plates 5 to 12 voxels thick.
-"$program" phantom porous --size "$side" --density 0.2 --period 24 -o "$folder/bone.nrrd" -q
+# Smooth noise above a threshold, a fifth of it solid: struts and plates 4 to 12 voxels thick (9 in 10 voxels).
+"$program" phantom porous --size "$side" --density 0.2 --period 12 -o "$folder/bone.nrrd" -q
 for command in "core $folder/bone.nrrd -o $folder/core.vtp" \
                "core $folder/bone.nrrd --refine off -o $folder/exact.vtp" \
                "thickness $folder/bone.nrrd -o $folder/map.nrrd" \
