@@ -3,10 +3,13 @@
 
 #include "voxelcore/CanonicalCells.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/Predicates.h"
+#include "voxelcore/SpacingWeights.h"
 
 #include <algorithm>
 #include <iostream>
 #include <numeric>
+#include <random>
 
 namespace voxelcore::testing
 {
@@ -172,6 +175,37 @@ TEST(CanonicalCells, TwoOfOneCentreAreRefusedWhereverTheyCome)
       raw.cells.tetrahedra.push_back(twin);
       EXPECT_THROW(MakeCanonical(std::move(raw), answer.points, answer.weights), CertificateError)
         << sortedShare << ' ' << atTheEnd;
+    }
+  }
+}
+
+TEST(CanonicalCells, CentresAreTheExactOnesRoundedOnceHoweverFarApartTheCornersLie)
+{
+  std::mt19937_64 random(24);
+  for (const std::int32_t reach : { 1, 3, 60, 1000, 100000 })
+  {
+    for (const SpacingWeights & weights :
+         { ComputeSpacingWeights({ 1, 1, 1 }), ComputeSpacingWeights({ 0.5, 0.7, 2.5 }) })
+    {
+      std::uniform_int_distribution<std::int32_t> near(-reach, reach);
+      for (int repetition = 0; repetition < 200; ++repetition)
+      {
+        std::array<LatticePoint, 4> corners{};
+        for (LatticePoint & corner : corners)
+        {
+          corner = { near(random) + 5, near(random), near(random) + 900 };
+        }
+        if (Orientation(corners[0], corners[1], corners[2], corners[3]) == 0)
+        {
+          continue; // no cell
+        }
+        const CircumSphere sphere = MakeCircumSphere(corners[0], corners[1], corners[2], corners[3], weights);
+        const CentredCell  found = CentreOfCorners(corners, weights);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          EXPECT_EQ(found.centre[axis], CentreCoordinate(sphere, axis, weights)) << reach;
+        }
+      }
     }
   }
 }

@@ -85,9 +85,16 @@ CentreOf(const DelaunayCells &             cells,
          const std::vector<LatticePoint> & points,
          const SpacingWeights &            weights)
 {
-  const auto &                      t = cells.tetrahedra[cell];
-  const std::array<LatticePoint, 4> corners{ points[t[0]], points[t[1]], points[t[2]], points[t[3]] };
-  CentredCell                       entry{ {}, 2.0F, cell };
+  const auto & t = cells.tetrahedra[cell];
+  CentredCell  entry = CentreOfCorners({ points[t[0]], points[t[1]], points[t[2]], points[t[3]] }, weights);
+  entry.cell = cell;
+  return entry;
+}
+
+CentredCell
+CentreOfCorners(const std::array<LatticePoint, 4> & corners, const SpacingWeights & weights)
+{
+  CentredCell entry{ {}, 2.0F, 0 };
   // Half of all cells lie in one voxel each, whatever its sides: their spheres have its middle.
   const auto [lowX, highX] = std::minmax({ corners[0].x, corners[1].x, corners[2].x, corners[3].x });
   const auto [lowY, highY] = std::minmax({ corners[0].y, corners[1].y, corners[2].y, corners[3].y });

@@ -75,29 +75,28 @@ FloodRows(const Slice & slice, std::size_t words, std::uint64_t lastWord, std::v
   const auto look = [&](std::size_t row) {
     std::uint64_t *       here = reached.data() + (row + 1) * words;
     const std::uint64_t * isOpen = open.data() + row * words;
-    if (std::equal(here, here + words, isOpen))
-    {
-      return false;
-    }
-    bool                  wentOn = false;
     const std::uint64_t * before = here - words;
     const std::uint64_t * after = here + words;
     std::uint64_t         below = 0;
+    std::uint64_t         news = 0;
     for (std::size_t word = 0; word < words; ++word)
     {
+      const std::uint64_t left = isOpen[word] & ~here[word];
       const std::uint64_t beside = before[word] | after[word];
-      const std::uint64_t above = word + 1 < words ? (before[word + 1] | after[word + 1]) << 63U : 0;
-      const std::uint64_t touched =
-        here[word] | ((beside | beside << 1U | below | beside >> 1U | above) & isOpen[word]);
+      if (left != 0)
+      {
+        const std::uint64_t above = word + 1 < words ? (before[word + 1] | after[word + 1]) << 63U : 0;
+        const std::uint64_t touched = (beside | beside << 1U | below | beside >> 1U | above) & left;
+        news |= touched;
+        here[word] |= touched;
+      }
       below = beside >> 63U;
-      wentOn = wentOn || touched != here[word];
-      here[word] = touched;
     }
-    if (wentOn)
+    if (news != 0)
     {
       FillRuns(isOpen, { here, words });
     }
-    return wentOn;
+    return news != 0;
   };
   for (std::size_t row = 0; row < slice.rows; ++row)
   {

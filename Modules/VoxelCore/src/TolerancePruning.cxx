@@ -1,11 +1,11 @@
 #include "voxelcore/TolerancePruning.h"
 
+#include "voxelcore/CanonicalCells.h"
 #include "voxelcore/ExtractPart.h"
 #include "voxelcore/LengthText.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/ParallelTasks.h"
-#include "voxelcore/Predicates.h"
 
 #include <algorithm>
 #include <atomic>
@@ -142,11 +142,7 @@ LargestTouchingBalls(const DelaunayCells &             cells,
       const LatticePoint & p = points[cells.tetrahedra[static_cast<std::size_t>(cell)][i]];
       corners[i] = { p.x - points[0].x, p.y - points[0].y, p.z - points[0].z };
     }
-    const CircumSphere sphere = MakeCircumSphere(corners[0], corners[1], corners[2], corners[3], weights);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      balls.places[static_cast<std::size_t>(cell)][axis] = CentreCoordinate(sphere, axis, weights);
-    }
+    balls.places[static_cast<std::size_t>(cell)] = CentreOfCorners(corners, weights).centre;
   }
   const std::vector<double> squared = SquaredRadii(cells, points, weights, balls.places);
   const auto                isLarger = [&](ElementIndex cell, ElementIndex than) {

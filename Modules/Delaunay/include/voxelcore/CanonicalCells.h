@@ -14,6 +14,10 @@ struct CentredCell
   std::uint32_t         cell;
 };
 
+/** The same of four affinely independent corners: each coordinate the exact rational rounded once. */
+CentredCell
+CentreOfCorners(const std::array<LatticePoint, 4> & corners, const SpacingWeights & weights);
+
 /** Cells `first` to the last one, by exact centre.
  *  \throws CertificateError when two cells have the same centre (they were not merged). */
 std::vector<CentredCell>
