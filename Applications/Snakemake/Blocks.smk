@@ -8,6 +8,12 @@
 # join_mem_mb (16000), minutes (120), threads (1).
 import shlex
 
+
+def word(text):
+    """One word of a shell command in a rule, where Snakemake reads braces as names of its own."""
+    return shlex.quote(str(text)).replace("{", "{{").replace("}", "}}")
+
+
 SCAN = str(config["scan"])
 OUT = str(config["out"])
 if "block_size" in config:
@@ -21,7 +27,7 @@ else:
     CUT = f"--blocks {N}"
 WAIT = "block_size" not in config
 PARTS = OUT + ".parts"
-CORE = f"{shlex.quote(str(config.get('program', 'voxelcore')))} core {shlex.quote(SCAN)} {config.get('reading', '')}"
+CORE = f"{word(config.get('program', 'voxelcore'))} core {word(SCAN)} {config.get('reading', '')}"
 
 
 localrules: all, blocks
@@ -54,7 +60,7 @@ rule block:
         mem_mb=memory,
         runtime=int(config.get("minutes", 120)),
     shell:
-        CORE + f" {CUT} --block {{wildcards.k}} -o {shlex.quote(PARTS)}/ --threads {{threads}} --force"
+        CORE + f" {CUT} --block {{wildcards.k}} -o {word(PARTS)}/ --threads {{threads}} --force"
 
 
 rule join:
@@ -68,4 +74,4 @@ rule join:
         mem_mb=int(config.get("join_mem_mb", 16000)),
         runtime=int(config.get("minutes", 120)),
     shell:
-        CORE + f" --join {shlex.quote(PARTS)} -o {{output:q}} --threads {{threads}} {config.get('options', '')}"
+        CORE + f" --join {word(PARTS)} -o {{output:q}} --threads {{threads}} {config.get('options', '')}"

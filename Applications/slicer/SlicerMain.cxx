@@ -135,12 +135,14 @@ main(int argc, char ** argv)
   const Console            console;
   HandleSignals(temporaries, console.ErrorDescriptor());
   const auto fail = [&console](int code, const std::string & message) {
+    EndByItself();
     console.PrintError(message);
     return code;
   };
   try
   {
     Main({ argv + 1, argv + argc }, console, temporaries);
+    EndByItself();
     return 0;
   }
   catch (const Cancelled &)

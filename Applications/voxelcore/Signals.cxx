@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <initializer_list>
@@ -21,6 +22,7 @@ std::atomic<int>                       errorStream{ STDERR_FILENO };
 std::atomic<const char *>              leftBehind{ "" };
 std::atomic<bool>                      onTerminal{ false };
 std::atomic<int>                       commitsWaitedFor{ 0 };
+std::atomic<bool>                      endsByItself{ false };
 timer_t                                deadline{};
 
 constexpr int  kInterrupted = 130;
@@ -44,6 +46,15 @@ Say(const char * text)
 }
 
 void
+SayWhatIsLeft()
+{
+  const char * left = leftBehind.load();
+  Say(temporaries.load()->HasCommitted() && std::strcmp(left, kNothing) == 0
+        ? "the files that have their names are complete"
+        : left);
+}
+
+void
 EndNow()
 {
   const TemporaryRegistry & registry = *temporaries.load();
@@ -55,9 +66,7 @@ EndNow()
   registry.RemoveAllNow();
   Say(onTerminal.load() ? "\r\033[K" : ""); // where a progress bar stood
   Say("voxelcore: interrupted; ");
-  const char * left = leftBehind.load();
-  Say(registry.HasCommitted() && std::strcmp(left, kNothing) == 0 ? "the files that have their names are complete"
-                                                                  : left);
+  SayWhatIsLeft();
   Say("\n");
   _exit(kInterrupted);
 }
@@ -92,6 +101,19 @@ OnCrash(int)
   _exit(1);
 }
 
+// Libraries end a program, too: Xlib where its server is gone.
+void
+OnExit()
+{
+  if (!endsByItself.load())
+  {
+    Say("voxelcore: a library ended the program, as for lack of memory or because the X server is gone; ");
+    SayWhatIsLeft();
+    Say("\n");
+    temporaries.load()->RemoveAllNow();
+  }
+}
+
 void
 Install(int signal, void (*handler)(int), int flags)
 {
@@ -115,6 +137,7 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor, const cha
   errorStream = errorDescriptor;
   leftBehind = whatIsLeft;
   onTerminal = isatty(errorDescriptor) == 1;
+  std::atexit(OnExit);
   timer_create(CLOCK_MONOTONIC, nullptr, &deadline); // sends SIGALRM
   Install(SIGALRM, OnDeadline, SA_RESTART);
   const rlimit noCore{ 0, 0 };
@@ -140,6 +163,12 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor, const cha
     Install(signal, OnCrash, static_cast<int>(SA_RESETHAND) | SA_ONSTACK);
   }
 #endif
+}
+
+void
+EndByItself()
+{
+  endsByItself = true;
 }
 
 bool

@@ -130,12 +130,15 @@ main(int argc, char ** argv)
     GoesOn(argc, argv) ? "what is done stays, and the same command goes on from there" : "nothing was written";
   HandleSignals(temporaries, console.ErrorDescriptor(), whatIsLeft);
   const auto fail = [&console](int code, const std::string & message) {
+    EndByItself();
     console.PrintError(message);
     return code;
   };
   try
   {
-    return Main(argc, argv, console, temporaries);
+    const int code = Main(argc, argv, console, temporaries);
+    EndByItself();
+    return code;
   }
   catch (const Cancelled &)
   {

@@ -326,6 +326,35 @@ TEST_F(RenderCommand, ItsServerEndsWithItAlsoWhenInterrupted)
   }
 }
 
+TEST_F(RenderCommand, WhereItsServerDiesOneLineSaysSoAndNothingIsLeft)
+{
+  // Xlib ends a program whose server is gone, by itself and without a word.
+  const Names before = m_Folder.Names();
+  int         failed = 0;
+  for (int delay = 0; delay < 12 && failed < 3; ++delay)
+  {
+    int                 looks = 0;
+    const ProgramResult result =
+      RunProgram({ "render", m_Folder / "c.vtp", "--turntable", "40", "-o", m_Folder / "t.png" },
+                 {},
+                 [&](pid_t process, const std::string &) {
+                   const auto servers = ServersOf(process);
+                   if (!servers.empty() && ++looks > delay)
+                   {
+                     kill(servers.front(), SIGKILL);
+                   }
+                 });
+    if (result.code == 0)
+    {
+      break;
+    }
+    ++failed;
+    ExpectRefusal(result, 1, {});
+    EXPECT_EQ(m_Folder.Names(), before) << result.error;
+  }
+  EXPECT_GT(failed, 0);
+}
+
 TEST_F(RenderCommand, WithoutADisplayAndWithoutXvfbOneLineSaysSo)
 {
   const std::string path = std::getenv("PATH");

@@ -55,6 +55,25 @@ TEST(OutputFile, HoldsWhatWasWrittenWhereItWasWritten)
   EXPECT_EQ(ReadAll(folder / "a"), "head size" + std::string(3 << 20, 'x'));
 }
 
+TEST(OutputFile, ALinkThatSomebodyPutAtTheTemporaryNameIsNotFollowed)
+{
+  const TemporaryFolder folder;
+  const auto            temporary = TemporaryName(folder / "a.vtp", ThisWriter());
+  WriteAll(folder / "precious", "mine");
+  for (const bool dangling : { false, true })
+  {
+    std::filesystem::create_symlink(folder / (dangling ? "new" : "precious"), temporary);
+    const std::string message = MessageOf<OutputError>([&] { OutputFile file(temporary); });
+    EXPECT_NE(message.find("a.vtp': the temporary name"), std::string::npos) << message;
+    EXPECT_EQ(ReadAll(folder / "precious"), "mine");
+    EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+    EXPECT_TRUE(std::filesystem::is_symlink(temporary)); // whose it is we do not know
+    std::filesystem::remove(temporary);
+  }
+  OutputFile file(temporary);
+  file.Finish();
+}
+
 TEST(OutputFile, OneThatIsNotFinishedGoes)
 {
   const TemporaryFolder folder;

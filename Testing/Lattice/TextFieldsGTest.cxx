@@ -32,6 +32,9 @@ TEST(TextFields, OnlyWholeWordsAreNumbers)
 TEST(TextFields, ForeignTextStaysOnOneLine)
 {
   EXPECT_EQ(Printable("a\nb\x7F"), "a?b?");
+  EXPECT_EQ(Printable("\xC2\x9B"
+                      "2J \xC2\xB5m \xE2\x82\xAC"),
+            "?2J \xC2\xB5m \xE2\x82\xAC"); // a terminal's command; micro and euro signs
   EXPECT_EQ(Printable("abcdef", 3), "abc...");
   EXPECT_EQ(Trim(" \ta b\r\n"), "a b");
   EXPECT_EQ(Words(" a\tb  c "), (std::vector<std::string_view>{ "a", "b", "c" }));

@@ -334,6 +334,14 @@ TEST(SkeletonModel, FieldsAreQuotedWhereTheyHaveToBe)
   }
 }
 
+TEST(SkeletonModel, NamesThatASpreadsheetWouldComputeAreText)
+{
+  for (const std::string text : { "=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "=HYPERLINK(\"http://a\",\"b\")" })
+  {
+    EXPECT_EQ(Fields(CsvField(text)), (std::vector<std::string>{ "'" + text }));
+  }
+}
+
 TEST(SkeletonModel, EqualModelsGiveEqualBytesAndWhatCannotBeWrittenLeavesNothing)
 {
   const TemporaryFolder folder;

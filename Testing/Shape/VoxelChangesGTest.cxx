@@ -1,6 +1,7 @@
 #include "voxelcore/VoxelChanges.h"
 
 #include "VoxelCoreTesting/Shapes.h"
+#include "VoxelCoreTesting/TemporaryFolder.h"
 
 #include "voxelcore/Error.h"
 
@@ -76,6 +77,9 @@ TEST(VoxelChanges, ALaterRunTakesPrecedenceAndBackgroundCanBeTakenOut)
 TEST(VoxelChanges, AFileThatIsMissingOrWrongIsNamed)
 {
   EXPECT_THROW(ReadVoxelChanges("/no/such/file.txt"), InputError);
+  const testing::TemporaryFolder folder;
+  testing::WriteAll(folder / "bad.txt", "+1,2,3 nonsense");
+  EXPECT_THROW(ReadVoxelChanges(folder / "bad.txt"), InputError);
 }
 
 } // namespace

@@ -150,6 +150,22 @@ MakeOutput(const BatchOptions & options)
   }
 }
 
+/** Cases of this batch that were done, and whose results could not be read again for the tables, failed, too. */
+void
+AddLost(const std::vector<FailedCase> & lost, const std::vector<CohortCase> & cases, std::vector<FailedCase> & failed)
+{
+  const auto isIn = [](const auto & all, const std::string & id) {
+    return std::any_of(all.begin(), all.end(), [&](const auto & one) { return one.id == id; });
+  };
+  for (const FailedCase & one : lost)
+  {
+    if (isIn(cases, one.id) && !isIn(failed, one.id))
+    {
+      failed.push_back(one);
+    }
+  }
+}
+
 } // namespace
 
 BatchOptions
@@ -250,7 +266,7 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
   result = Scheduler(options, std::move(jobs), context.progress).Run();
   if (!options.only)
   {
-    GatherCohort(options.output, cases, context);
+    AddLost(GatherCohort(options.output, cases, context).failed, cases, result.failed);
     result.passedOver = std::move(passedOver);
   }
   return result;

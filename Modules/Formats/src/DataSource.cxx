@@ -332,4 +332,20 @@ FilesNamed(const std::filesystem::path & headerPath, std::string_view text, cons
   return files;
 }
 
+void
+WarnOfFilesElsewhere(ScanFile & scan, const DataSource & source)
+{
+  const auto folder = std::filesystem::absolute(scan.path).lexically_normal().parent_path();
+  for (const auto & file : source.files)
+  {
+    const auto from = std::filesystem::absolute(file).lexically_normal().lexically_relative(folder);
+    if (from.empty() || *from.begin() == "..")
+    {
+      scan.warnings.push_back(
+        Text("its voxels are read from '", Printable(file.string(), 300), "', which is outside the header's folder"));
+      return;
+    }
+  }
+}
+
 } // namespace voxelcore

@@ -34,6 +34,11 @@ LargestData(const DataSource & source, PixelType type);
 std::vector<std::filesystem::path>
 FilesNamed(const std::filesystem::path & headerPath, std::string_view text, const std::vector<std::string> & list);
 
+/** Warns of a data file that is not in the header's folder or below: a header of unknown origin could name any file of
+ *  the user's. */
+void
+WarnOfFilesElsewhere(ScanFile & scan, const DataSource & source);
+
 /** Voxels in `data` that a text in the manner of MetaImage describes. */
 ScanFile
 OpenMetaText(const std::filesystem::path & data, const std::filesystem::path & text, const ReadOptions & options);

@@ -326,6 +326,10 @@ OpenMeta(const std::filesystem::path & path,
   {
     source.files = { data };
   }
+  else
+  {
+    WarnOfFilesElsewhere(scan, source);
+  }
   const std::uint64_t possible = LargestData(source, scan.type);
   const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * scan.interleaved;
   const std::uint64_t bytes = bytesPerVoxel * CheckSize(path, scan.geometry.size, bytesPerVoxel, possible);

@@ -330,7 +330,8 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
   ReadSegments(header, scan);
   const std::uint64_t volume = ChooseParts(axes, options, scan);
 
-  const DataSource    source = FindData(path, header);
+  const DataSource source = FindData(path, header);
+  WarnOfFilesElsewhere(scan, source);
   const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * axes.before;
   const std::uint64_t possible = LargestData(source, scan.type);
   const std::uint64_t voxels = CheckSize(path, scan.geometry.size, bytesPerVoxel, possible);

@@ -3,6 +3,7 @@
 #include "TiffDescription.h"
 #include "voxelcore/VolumeWriters.h"
 #include "voxelcore/OutputFile.h"
+#include "voxelcore/TemporaryNames.h"
 
 #include <tiffio.h>
 
@@ -31,7 +32,7 @@ class TiffOutput
 public:
   explicit TiffOutput(const std::filesystem::path & path)
     : m_Path(path)
-    , m_Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+    , m_Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | (WriterOf(path) ? O_EXCL : 0), 0666))
   {
     if (m_Descriptor < 0)
     {

@@ -58,7 +58,7 @@ void
 FinishedLabels::Open(bool create)
 {
   const auto refuse = [this](const std::string & why) { throw OutputError(m_File.string() + ": " + why); };
-  m_Descriptor = open(m_File.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | (create ? O_CREAT : 0), 0666);
+  m_Descriptor = open(m_File.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (create ? O_CREAT : 0), 0666);
   if (m_Descriptor < 0)
   {
     if (!create && errno == ENOENT)
@@ -261,11 +261,16 @@ FinishedLabels::Append(const Line & line)
     Open(true);
   }
   const std::string text = (m_EndsInLine ? "" : "\n") + LineText(line);
-  const ssize_t     written = write(m_Descriptor, text.data(), text.size());
-  if (written != static_cast<ssize_t>(text.size()))
+  m_EndsInLine = false; // until all of it is there
+  for (std::size_t at = 0; at < text.size();)
   {
-    throw OutputError(m_File.string() +
-                      ": cannot write: " + (written < 0 ? std::strerror(errno) : "no space left on device"));
+    // A network folder, or a signal, may take a part of it.
+    const ssize_t written = write(m_Descriptor, text.data() + at, text.size() - at);
+    if (written < 0 && errno != EINTR)
+    {
+      throw OutputError(m_File.string() + ": cannot write: " + std::strerror(errno));
+    }
+    at += written > 0 ? static_cast<std::size_t>(written) : 0;
   }
   m_EndsInLine = true;
 }

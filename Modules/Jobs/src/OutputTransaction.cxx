@@ -280,7 +280,11 @@ OutputTransaction::Commit()
   {
     if (item.isDirectory)
     {
-      fs::remove_all(item.temporary, ignored);
+      // Empty by now, so that nobody need be able to open it.
+      if (!fs::remove(item.temporary, ignored))
+      {
+        fs::remove_all(item.temporary, ignored);
+      }
     }
     else
     {

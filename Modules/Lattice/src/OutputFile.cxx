@@ -27,13 +27,14 @@ OpenForWriting(const std::filesystem::path & path)
 {
   std::error_code ignored;
   const auto      status = std::filesystem::status(path, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+  if (!WriterOf(path) && std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
   {
     throw OutputError("cannot write '" + FinalName(path).string() +
                       "': it exists and is not a regular file; choose another name");
   }
   errno = 0;
-  std::FILE * const file = std::fopen(path.c_str(), "wb");
+  // Others can guess a temporary name, and in a folder they may write to put a link there: it must be new.
+  std::FILE * const file = std::fopen(path.c_str(), WriterOf(path) ? "wbx" : "wb");
   if (!file)
   {
     FailOutput(path, errno);
@@ -46,6 +47,11 @@ OpenForWriting(const std::filesystem::path & path)
 void
 FailOutput(const std::filesystem::path & path, int errorNumber)
 {
+  if (errorNumber == EEXIST) // not ours to remove
+  {
+    throw OutputError("cannot write '" + FinalName(path).string() + "': the temporary name " +
+                      path.filename().string() + " is taken; remove that file");
+  }
   RemoveRegularFile(path);
   std::string message = "cannot write '" + FinalName(path).string() + "'";
   if (errorNumber != 0)

@@ -86,14 +86,18 @@ std::string
 Printable(std::string_view text, std::size_t longest)
 {
   std::string out;
-  for (const char c : text)
+  for (std::size_t at = 0; at < text.size(); ++at)
   {
     if (out.size() >= longest)
     {
       out += "...";
       break;
     }
-    out += (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) ? '?' : c;
+    const auto byte = static_cast<unsigned char>(text[at]);
+    // In UTF-8 some terminals take U+0080 to U+009F for commands, too.
+    const bool isCommand = byte == 0xC2 && at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) < 0xA0;
+    out += (byte < 0x20 || byte == 0x7F || isCommand) ? '?' : text[at];
+    at += isCommand ? 1 : 0;
   }
   return out;
 }

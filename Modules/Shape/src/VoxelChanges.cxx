@@ -154,7 +154,7 @@ ReadVoxelChanges(const std::filesystem::path & path)
   }
   catch (const UsageError & error)
   {
-    throw UsageError(path.string() + ": " + error.what());
+    throw InputError(path.string() + ": " + error.what());
   }
 }
 

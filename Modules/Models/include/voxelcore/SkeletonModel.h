@@ -56,7 +56,8 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model);
 void
 WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model);
 
-/** A text as a field of a .csv: quoted where it has to be. */
+/** A text as a field of a .csv: quoted where it has to be, with an apostrophe in front where a spreadsheet would take
+ *  it for a formula (it begins with one of = + - @ or a control character). */
 std::string
 CsvField(const std::string & text);
 

@@ -31,7 +31,7 @@ using VoxelChanges = std::vector<VoxelRun>;
 VoxelChanges
 ParseVoxelChanges(const std::string & text);
 
-/** Of a text file. \throws InputError where it cannot be read; UsageError, naming the file */
+/** Of a text file. \throws InputError, naming the file, where it cannot be read or holds anything else */
 VoxelChanges
 ReadVoxelChanges(const std::filesystem::path & path);
 
