@@ -85,7 +85,7 @@ std::string
 DifferenceFromDefinition(const MedialComplex & core, const VoxelShape & shape, const SpacingWeights & weights)
 {
   const BruteCore brute = MakeBruteCore(shape, weights);
-  const auto measure = [&](const BigRational & squared) { return std::sqrt(Nearest(squared)) * weights.unit; };
+  const auto      measure = [&](const BigRational & squared) { return std::sqrt(Nearest(squared)) * weights.unit; };
   if (core.cells.vertexCount != brute.centres.size() || core.cells.edges.size() != brute.edges.size() ||
       core.cells.FaceCount() != brute.faces.size())
   {

@@ -115,6 +115,22 @@ TEST(ModelFailures, MissingArraysAndWrongSpaceAreRefused)
   }
 }
 
+TEST(ModelFailures, TheNameOfAnArrayStaysOnItsLine)
+{
+  const TemporaryFolder folder;
+  WriteModel(folder / "a.vtp", "a.vtp", MixedModel());
+  std::string       bytes = ReadAll(folder / "a.vtp");
+  const std::size_t at = bytes.find("Name=\"offsets\"");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at,
+                14,
+                "Name=\"off\n\x1b"
+                "ts\"");
+  WriteAll(folder / "a.vtp", bytes);
+  const std::string message = MessageOf([&] { ReadModel(folder / "a.vtp"); });
+  EXPECT_EQ(message.find_first_of("\n\x1b"), std::string::npos) << message;
+}
+
 TEST(ModelFailures, FlippedBitsNeverCrashNorPrint)
 {
   const TemporaryFolder folder;

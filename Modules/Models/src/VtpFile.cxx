@@ -1,5 +1,7 @@
 #include "VtpFile.h"
 
+#include "voxelcore/TextFields.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -273,7 +275,7 @@ VtpFile::CheckArrays()
                                                                       : name == "connectivity";
     if (!fits || (isCells && array.components != 1))
     {
-      throw UnfitFile{ "its array " + section + "/" + name + " has the wrong length" };
+      throw UnfitFile{ "its array " + section + "/" + Printable(name) + " has the wrong length" };
     }
   }
 }

@@ -1,0 +1,192 @@
+// One whole file, damaged in memory again and again, and read: thousands a second. What is no InputError of one line, a
+// crash, more than ten seconds or 2 GB is found.
+//
+// usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FILE FIRST_SEED COUNT
+// The damaged file stands in /dev/shm while it is read, and stays there where something is found. Prints "READ REFUSED".
+
+#include "VoxelCoreTesting/Random.h"
+
+#include "voxelcore/Error.h"
+#include "voxelcore/LabelVolume.h"
+#include "voxelcore/Manifest.h"
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/PlainSurface.h"
+#include "voxelcore/ReadMesh.h"
+#include "voxelcore/SkeletonModel.h"
+#include "voxelcore/VoxelChanges.h"
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+
+using namespace voxelcore;
+using voxelcore::testing::Random;
+
+namespace
+{
+
+volatile std::uint64_t s_Seed = 0;
+
+void
+OnSignal(int signal)
+{
+  char      text[80];
+  const int length =
+    std::snprintf(text, sizeof(text), "seed %llu: signal %d\n", static_cast<unsigned long long>(s_Seed), signal);
+  static_cast<void>(!write(STDOUT_FILENO, text, static_cast<std::size_t>(length)));
+  _exit(1);
+}
+
+/** One to four changes; half of them where headers are. */
+std::string
+Damaged(std::string bytes, std::uint64_t seed)
+{
+  static const std::string numbers[] = { "-1",         "0",          "1",          "7",
+                                         "255",        "65536",      "2147483647", "2147483648",
+                                         "4294967295", "4294967296", "1e308",      "9223372036854775807",
+                                         "nan",        "inf",        "",           "18446744073709551616" };
+  Random                   random(seed);
+  const auto               below = [&](std::size_t most) {
+    return static_cast<std::size_t>(random.Between(0, static_cast<std::int64_t>(most) - 1));
+  };
+  for (std::int64_t changes = random.Between(1, random.Chance(0.5) ? 1 : 4); changes > 0 && !bytes.empty(); --changes)
+  {
+    const std::size_t at = random.Chance(0.5) ? below(std::min<std::size_t>(bytes.size(), 600)) : below(bytes.size());
+    switch (below(8))
+    {
+      case 0:
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
+        break;
+      case 2:
+        bytes[at] = static_cast<char>(random.Next());
+        break;
+      case 3:
+        bytes.erase(at, 1 + below(40));
+        break;
+      case 4:
+        bytes.insert(at, bytes.substr(below(bytes.size()), 1 + below(100)));
+        break;
+      case 5:
+        for (std::size_t i = at; i < std::min(at + (std::size_t{ 1 } << below(4)), bytes.size()); ++i)
+        {
+          bytes[i] = random.Chance(0.5) ? '\xFF' : '\x7F';
+        }
+        break;
+      case 6:
+        if (random.Chance(0.3))
+        {
+          bytes.resize(at);
+        }
+        break;
+      default:
+      {
+        const std::size_t begin = bytes.find_first_of("0123456789", at);
+        if (begin != std::string::npos)
+        {
+          const std::size_t end = std::min(bytes.find_first_not_of("0123456789.-e", begin), bytes.size());
+          bytes.replace(begin, end - begin, numbers[below(std::size(numbers))]);
+        }
+      }
+    }
+  }
+  return bytes;
+}
+
+void
+Read(const std::string & kind, const std::filesystem::path & path)
+{
+  if (kind == "scan")
+  {
+    ReadLabelVolume(path);
+  }
+  else if (kind == "mesh")
+  {
+    ReadMesh(path);
+  }
+  else if (kind == "model")
+  {
+    ReadPlainSurface(path);
+    ReadModel(path, Precision::AsSaved);
+  }
+  else if (kind == "skeleton")
+  {
+    ReadSkeletonVtp(path);
+  }
+  else if (kind == "manifest")
+  {
+    ReadManifest(path);
+  }
+  else
+  {
+    ReadVoxelChanges(path);
+  }
+}
+
+} // namespace
+
+int
+main(int argc, char ** argv)
+{
+  if (argc != 5)
+  {
+    std::cerr << "usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FILE FIRST_SEED COUNT\n";
+    return 2;
+  }
+  const std::string           kind = argv[1];
+  const std::filesystem::path seed = argv[2];
+  std::ifstream               file(seed, std::ios::binary);
+  const std::string           whole{ std::istreambuf_iterator<char>(file), {} };
+  const std::uint64_t         first = std::strtoull(argv[3], nullptr, 10);
+  const std::uint64_t         count = std::strtoull(argv[4], nullptr, 10);
+  const std::filesystem::path path = "/dev/shm/voxelcore-damaged-" + std::to_string(getpid()) + "-" +
+                                     seed.filename().string(); // the whole name: .nii.gz, .seg.nrrd
+  const rlimit memory{ rlim_t{ 2 } << 30, rlim_t{ 2 } << 30 };
+  setrlimit(RLIMIT_AS, &memory);
+  for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM })
+  {
+    std::signal(signal, OnSignal);
+  }
+  Read(kind, seed); // whole, it must be taken
+  std::uint64_t refused = 0;
+  int           found = 0;
+  for (std::uint64_t at = first; at < first + count; ++at)
+  {
+    s_Seed = at;
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << Damaged(whole, at);
+    alarm(10);
+    std::string trouble;
+    try
+    {
+      Read(kind, path);
+    }
+    catch (const InputError & error)
+    {
+      ++refused;
+      const std::string said = error.what();
+      trouble = said.empty() || said.find('\n') != std::string::npos ? "not one line: " + said : "";
+    }
+    catch (const std::exception & error)
+    {
+      trouble = std::string("no InputError, but ") + error.what();
+    }
+    alarm(0);
+    if (!trouble.empty())
+    {
+      std::cout << "seed " << at << ": " << trouble << std::endl;
+      ++found;
+    }
+  }
+  if (found == 0)
+  {
+    std::filesystem::remove(path);
+  }
+  std::cout << count - refused << " " << refused << std::endl;
+  return found > 0 ? 1 : 0;
+}
