@@ -16,7 +16,7 @@ namespace voxelcore
 void
 HandleSignals(const TemporaryRegistry & registry, int errorDescriptor, const char * whatIsLeft = "nothing was written");
 
-/** The program comes to its end now. Before, an end is a library's doing: it is said, and temporary files are removed. */
+/** The program comes to its end now. Before, an end is a library's doing: it is said, and temporary files go. */
 void
 EndByItself();
 

@@ -2,7 +2,7 @@
 // crash, more than ten seconds or 2 GB is found.
 //
 // usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FILE FIRST_SEED COUNT
-// The damaged file stands in /dev/shm while it is read, and stays there where something is found. Prints "READ REFUSED".
+// The damaged file stands in /dev/shm while it is read, and stays where something is found. Prints "READ REFUSED".
 
 #include "VoxelCoreTesting/Random.h"
 

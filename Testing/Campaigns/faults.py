@@ -1,10 +1,10 @@
 """Every call of a run of each command fails once: is the exit code right, is there one clear line, is nothing left half
 written?
 
-usage: faults.py VOXELCORE LAYER.so [--totals FILE] [--minutes M] [--commands a,b] [--step N] [--most N]
+usage: faults.py VOXELCORE LAYER.so [--totals FILE] [--minutes M] [--commands a,b] [--step N] [--most N] [--kind K]
 
-LAYER.so is FaultLayer.c, built as a library. --step N: only each N-th call, --most N: no more than N of a kind, for a
-quick look. Exit 1: something was found."""
+LAYER.so is FaultLayer.c, built as a library. --step N: only each N-th call, --most N: no more than N of a kind,
+--kind K: only those (o-open, say: opening files of results), for a quick look. Exit 1: something was found."""
 
 import argparse
 import errno
@@ -166,10 +166,10 @@ class Faults:
         return sorted({*range(1, 101), *range(calls - 19, calls + 1), *range(101, calls - 19, (calls - 120) // 80 + 1)}
                       )[::step]
 
-    def go(self, names, step, most, until):
+    def go(self, names, kinds, step, most, until):
         for name in names:
             expected = self.reference(name)
-            for where, kind, error in KINDS:
+            for where, kind, error in kinds:
                 key = f"{name} {where} {kind} {error}"
                 if self.totals.place(key) == "done":
                     continue
@@ -202,12 +202,14 @@ def main():
     parser.add_argument("--commands", default=",".join(COMMANDS))
     parser.add_argument("--step", type=int, default=1)
     parser.add_argument("--most", type=int, default=10**9)
+    parser.add_argument("--kind")
     options = parser.parse_args()
     totals = Totals(options.totals, "faults")
     before = len(totals.of["found"])
     with tempfile.TemporaryDirectory(prefix="voxelcore-faults-") as folder:
+        kinds = [kind for kind in KINDS if options.kind in (None, f"{kind[0]}-{kind[1]}")]
         faults = Faults(os.path.abspath(options.program), os.path.abspath(options.layer), folder, totals)
-        ended = faults.go(options.commands.split(","), options.step, options.most,
+        ended = faults.go(options.commands.split(","), kinds, options.step, options.most,
                           time.monotonic() + 60 * options.minutes)
     totals.save()
     print(f"{totals.of['runs']} runs, {totals.of['counts']}, {len(totals.of['found'])} found"
