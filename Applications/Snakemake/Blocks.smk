@@ -9,13 +9,10 @@
 import shlex
 
 
-def word(text):
-    """One word of a shell command in a rule, where Snakemake reads braces as names of its own."""
-    return shlex.quote(str(text)).replace("{", "{{").replace("}", "}}")
-
-
 SCAN = str(config["scan"])
 OUT = str(config["out"])
+if set("{}") & set(SCAN + OUT):
+    raise WorkflowError(f"{SCAN}, {OUT}: Snakemake takes braces in file names for names of its own; rename the file")
 if "block_size" in config:
     SIDE = int(config["block_size"])
     N = 1
@@ -27,7 +24,7 @@ else:
     CUT = f"--blocks {N}"
 WAIT = "block_size" not in config
 PARTS = OUT + ".parts"
-CORE = f"{word(config.get('program', 'voxelcore'))} core {word(SCAN)} {config.get('reading', '')}"
+CORE = f"{shlex.quote(str(config.get('program', 'voxelcore')))} core {shlex.quote(SCAN)} {config.get('reading', '')}"
 
 
 localrules: all, blocks
@@ -60,7 +57,7 @@ rule block:
         mem_mb=memory,
         runtime=int(config.get("minutes", 120)),
     shell:
-        CORE + f" {CUT} --block {{wildcards.k}} -o {word(PARTS)}/ --threads {{threads}} --force"
+        CORE + f" {CUT} --block {{wildcards.k}} -o {shlex.quote(PARTS)}/ --threads {{threads}} --force"
 
 
 rule join:
@@ -74,4 +71,4 @@ rule join:
         mem_mb=int(config.get("join_mem_mb", 16000)),
         runtime=int(config.get("minutes", 120)),
     shell:
-        CORE + f" --join {word(PARTS)} -o {{output:q}} --threads {{threads}} {config.get('options', '')}"
+        CORE + f" --join {shlex.quote(PARTS)} -o {{output:q}} --threads {{threads}} {config.get('options', '')}"
