@@ -3,8 +3,8 @@
 # usage: install-packages.sh GROUP...     groups: build, python (the module), wheel (the same for pip), demo
 # (a real scan), picture (to render where there is no screen), guide (to build the guide's site), test, package (to make
 # and test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
-# pages), cluster (workflows, and the tests on a cluster), reproduction (the paper's figures, Testing/Reproduction),
-# bench (Testing/Performance)
+# pages), cluster (workflows, and the tests on a cluster), container (to test the image), reproduction (the paper's
+# figures, Testing/Reproduction), bench (Testing/Performance)
 set -euo pipefail
 
 packages_of() {
@@ -25,12 +25,13 @@ packages_of() {
     package) echo dpkg-dev debootstrap doxygen graphviz groff mkdocs mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
     browser) echo chromium chromium-headless-shell python3 ;;
+    container) echo buildah podman runc debootstrap mricron-data ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
     reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \
-            "package, sanitizer, browser, cluster, reproduction and bench" >&2
+            "package, sanitizer, browser, cluster, container, reproduction and bench" >&2
        return 2 ;;
   esac
 }

@@ -3,9 +3,11 @@
 # Of a scan that no machine shall read whole, cut by its size alone (one shape: reading="--binary", say):
 #   ... --config scan=huge.zarr out=huge.vtp size=16384,16384,16384 block_size=512 reading=--binary
 # and the blocks alone, without the join, with `snakemake ... blocks`.
+# With image=voxelcore.sif and --use-singularity jobs run in an image (Applications/container).
 # Further --config keys: program (voxelcore), reading ("--threshold 300:3000", for blocks and join), options ("--lambda 2vox",
 # for the join alone), mem_mb (4000, of a block), first_mem_mb (of the first block, which reads the whole scan: mem_mb),
 # join_mem_mb (16000), minutes (120), threads (1).
+import os
 import shlex
 
 
@@ -25,6 +27,11 @@ else:
 WAIT = "block_size" not in config
 PARTS = OUT + ".parts"
 CORE = f"{shlex.quote(str(config.get('program', 'voxelcore')))} core {shlex.quote(SCAN)} {config.get('reading', '')}"
+
+
+if "image" in config:
+
+    container: os.path.abspath(config["image"]) if os.path.exists(str(config["image"])) else str(config["image"])
 
 
 localrules: all, blocks

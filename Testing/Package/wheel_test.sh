@@ -81,3 +81,6 @@ cd "$source/Testing/Python"
 VOXELCORE_PROGRAM=$program "$scratch/all/bin/python" -B -m pytest -q -p no:cacheprovider \
   -k "not tetgen and not cross_check" \
   test_{arrays,exchange,images,interrupts,options,processes,pruning,results,words}.py
+# And the Slicer module's work, computed by what was installed.
+VOXELCORE_PROGRAM=$program "$scratch/all/bin/python" -B -m pytest -q -p no:cacheprovider -k package \
+  "$source/Testing/Slicer/logic_test.py"
