@@ -170,7 +170,8 @@ bash -euc "$(sed -n 's/^    \(voxelcore batch .* --gather\).*/\1/p' "$cohorts")"
   fail "the guide: --gather"
 [ "$(grep -c ',done,' results/cases.csv)" = 2 ] || fail "the guide's array job: $(cat results/cases.csv)"
 rm -r results
-line=$(sed -n '/^    snakemake .*\\$/,/[^\\]$/p' "$cohorts" | sed 's/mem_mb=[0-9]*/mem_mb=500/')
+# The first; the one after it asks for an image.
+line=$(sed -n '/^    snakemake .*\\$/,/[^\\]$/p' "$cohorts" | sed '/[^\\]$/q' | sed 's/mem_mb=[0-9]*/mem_mb=500/')
 [ -n "$line" ] || fail "the guide has no line of snakemake"
 bash -euc "$line --nocolor --latency-wait 5" >snakemake.log 2>&1 || { cat snakemake.log >&2; fail "the guide: $line"; }
 [ "$(grep -c ',done,' results/cases.csv)" = 2 ] || fail "the guide's workflow: $(cat results/cases.csv)"
