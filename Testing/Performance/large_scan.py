@@ -5,9 +5,9 @@ usage: large_scan.py PROGRAM [--kind root] [--size 4096] [--forms gzip,raw,tiff]
                      [--folder FOLDER]
 
 The phantom is written packed; the other forms are made of it, the bare voxels as a sparse file (about a third of its
-length on disk), the slices packed. Forms are made one at a time and removed. Each job prunes at 1.5vox under a limit in
-MB for what it allocates; its certificate must hold, and all forms must give the same numbers. With --folder the packed
-phantom is kept and used again.
+length on disk), the slices packed. Forms are made one at a time and removed. Each job prunes at 1.5vox and is ended when
+it takes more than --limit MB of memory (what is resident: buffers are reserved for the worst and hardly touched). Its
+certificate must hold, and all forms must give the same numbers. With --folder the packed phantom is kept and used again.
 """
 import argparse
 import json
@@ -16,9 +16,30 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import zlib
 
 from blocks_memory import expect, run
+
+
+def run_within(words, limit):
+    """Exit code, peak memory in MB, seconds, what it said; ended over `limit` MB resident, before others suffer."""
+    start = time.monotonic()
+    with tempfile.TemporaryFile() as said:
+        child = subprocess.Popen(words, stderr=said)
+        peak = 0
+        while child.poll() is None:
+            try:
+                with open(f"/proc/{child.pid}/status", encoding="ascii") as file:
+                    peak = max([peak] + [int(line.split()[1]) * 1.024e-3 for line in file if line.startswith("VmHWM")])
+            except FileNotFoundError:
+                pass
+            if peak > limit:
+                child.kill()
+            time.sleep(.2)
+        said.seek(0)
+        text = said.read().decode(errors="replace").strip()
+    return child.returncode, peak, time.monotonic() - start, text if peak <= limit else f"over {limit} MB"
 
 
 def slices_of(path, size):
@@ -96,7 +117,7 @@ def main():
             for number, voxels in enumerate(slices_of(packed, size)):
                 write_tiff(voxels, size, f"{scan}/{number:05d}.tif")
         report = f"{folder}/report.json"
-        code, peak, seconds, said = run(
+        code, peak, seconds, said = run_within(
             [program, "core", scan, "-o", f"{folder}/core.vtp", "--lambda", "1.5vox", "--report", report, "--threads",
              str(options.threads), "--quiet", "--force"] + reading, options.limit)
         expect(code == 0, f"{form}: exit code {code}: {said}")
