@@ -125,15 +125,21 @@ private:
 py::tuple
 StateOf(const CoreReport & report)
 {
-  const LabelRecord &   label = report.labels.front();
-  const PrunedRecord &  pruned = label.pruned.front();
-  std::optional<double> gap = pruned.tolerance ? pruned.tolerance->boundaryGapMm : std::nullopt;
+  const LabelRecord &                      label = report.labels.front();
+  const PrunedRecord &                     pruned = label.pruned.front();
+  std::optional<double>                    gap = pruned.tolerance ? pruned.tolerance->boundaryGapMm : std::nullopt;
+  std::optional<std::pair<double, double>> margin;
+  if (pruned.refined && pruned.refined->radiusMargin)
+  {
+    margin = { pruned.refined->radiusMargin->mean, pruned.refined->radiusMargin->max };
+  }
   return py::make_tuple(ReportJson(report),
                         report.input.path,
                         report.parameters.engine,
                         report.parameters.threads,
                         label.covered,
-                        gap);
+                        gap,
+                        margin);
 }
 
 CoreReport
@@ -148,6 +154,10 @@ ReportFrom(const py::tuple & state)
   if (label.pruned.at(0).tolerance)
   {
     label.pruned.front().tolerance->boundaryGapMm = state[5].cast<std::optional<double>>();
+  }
+  if (const auto margin = state[6].cast<std::optional<std::pair<double, double>>>())
+  {
+    label.pruned.front().refined.value().radiusMargin = MarginNumbers{ margin->first, margin->second };
   }
   return report;
 }

@@ -26,7 +26,7 @@ WriteSegments(const std::filesystem::path & path)
 {
   std::string header =
     "type: uint8\ndimension: 3\nsizes: 28 6 6\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) "
-    "(0,0,1)\nspace origin: (0,0,0)\nkinds: domain domain domain\nencoding: raw\n";
+    "(0,0,1)\nspace origin: (0,0,0)\nkinds: domain domain domain\n";
   for (std::size_t i = 0; i < kNames.size(); ++i)
   {
     const std::string segment = "Segment" + std::to_string(i) + "_";

@@ -137,7 +137,9 @@ def main():
     helps.update((command, run(program, command, "--help").stdout) for command in commands)
 
     # Options of other programs apart.
-    others = {"--heavy", "--build", "--config", "--install", "--prefix", "--profile", "--array", "--test-dir"}
+    others = {"--array", "--build", "--config", "--cores", "--fakeroot", "--find-links", "--heavy", "--install",
+              "--no-index", "--out", "--prefix", "--profile", "--rm", "--scans", "--test-dir", "--use-singularity",
+              "--userns"}
     known = set(re.findall(r"--[a-z][a-z-]*", " ".join(helps.values())))
     named = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", " ".join(page.read_text() for page in pages))) - others
     check(

@@ -5,9 +5,10 @@ usage: large_scan.py PROGRAM [--kind root] [--size 4096] [--forms gzip,raw,tiff]
                      [--folder FOLDER]
 
 The phantom is written packed; the other forms are made of it, the bare voxels as a sparse file (about a third of its
-length on disk), the slices packed. Forms are made one at a time and removed. Each job prunes at 1.5vox and is ended when
-it takes more than --limit MB of memory (what is resident: buffers are reserved for the worst and hardly touched). Its
-certificate must hold, and all forms must give the same numbers. With --folder the packed phantom is kept and used again.
+length on disk), the slices packed. Forms are made one at a time and removed. Each job prunes at 1.5vox and is ended
+when it takes more than --limit MB of memory (what is resident: buffers are reserved for the worst and hardly touched).
+Its certificate must hold, and all forms must give the same numbers. With --folder the packed phantom is kept and used
+again.
 """
 import argparse
 import json
