@@ -256,7 +256,7 @@ InfoText(const ScanInfo & info)
   if (info.core)
   {
     text += "core needs   about " + CostText(*info.core) + " (" + std::to_string(info.threads) +
-            (info.threads == 1 ? " thread" : " threads") + ", one lambda, one file)\n";
+            (info.threads == 1 ? " thread" : " threads") + ", default pruning and refinement, one file)\n";
   }
   if (info.page)
   {
