@@ -1,6 +1,7 @@
 #include "CaseTable.h"
 
 #include "voxelcore/CsvText.h"
+#include "voxelcore/SkeletonModel.h"
 
 #include <map>
 
@@ -60,7 +61,7 @@ CsvTable(const std::vector<Row> & rows)
     for (const auto & [key, value] : row.items())
     {
       fields[places.at(key)] = value.is_null()     ? ""
-                               : value.is_string() ? CsvTextField(value.get_ref<const std::string &>())
+                               : value.is_string() ? CsvField(value.get_ref<const std::string &>())
                                                    : CsvPlainField(value.dump());
     }
     for (std::size_t i = 0; i < fields.size(); ++i)

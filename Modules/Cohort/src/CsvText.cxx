@@ -147,12 +147,4 @@ CsvPlainField(std::string_view text)
   return field + "\"";
 }
 
-std::string
-CsvTextField(std::string_view text)
-{
-  const bool formula = !text.empty() && (std::string_view("=+-@").find(text.front()) != std::string_view::npos ||
-                                         static_cast<unsigned char>(text.front()) < 0x20U);
-  return CsvPlainField((formula ? "'" : "") + std::string(text));
-}
-
 } // namespace voxelcore

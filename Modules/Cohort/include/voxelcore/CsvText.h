@@ -26,12 +26,7 @@ ParseCsv(std::string_view text, const std::string & where, char separator = ',')
 char
 FindSeparator(std::string_view text);
 
-/** A field that holds text of others, quoted where it must be. What spreadsheets would take for a formula (it begins
- *  with one of = + - @ or a control character) gets an apostrophe in front. */
-std::string
-CsvTextField(std::string_view text);
-
-/** A number or a word of our own as a field. */
+/** A number or a word of our own as a field, quoted where it must be. For text of others see CsvField. */
 std::string
 CsvPlainField(std::string_view text);
 
