@@ -128,9 +128,9 @@ done
 "$program" batch cohort.csv -o array --gather >gather.log 2>&1 && fail "the gathering did not tell of the failures"
 check array
 
-# 2. The same manifest by Snakemake, on SLURM.
+# 2. The same manifest by Snakemake, on SLURM. Each job holds a Snakemake, too.
 if snakemake -s "$source/Applications/Snakemake/Snakefile" --profile "$source/Applications/Snakemake/slurm" --nocolor \
-  --latency-wait 5 --config manifest=cohort.csv out=flow program="$program" mem_mb=150 minutes=5 \
+  --latency-wait 5 --config manifest=cohort.csv out=flow program="$program" mem_mb=300 minutes=5 \
   options="--memory 2GB" \
   >snakemake.log 2>&1; then
   fail "the workflow did not tell of the failures"
