@@ -321,6 +321,32 @@ TEST_F(SkeletonJob, WrongInputLeavesNothing)
     InputError);
 }
 
+TEST_F(SkeletonJob, CoreWhoseCellsAreNotWhatItsProvenanceSaysIsRefused)
+{
+  MakePhantom("ball", "ball.nrrd");
+  RunCoreJob(CoreOptionsFrom(
+    { { "scan", At("ball.nrrd").string() }, { "lambda", "1.5vox" }, { "output", At("core.vtp").string() } }));
+  EXPECT_NO_THROW(Skeleton("core.vtp", "a.vtp"));
+  // A point from elsewhere has come in: a component more.
+  MedialModel     model = ReadModel(At("core.vtp"));
+  MedialComplex & core = model.parts.at(0).core;
+  core.positions.push_back(core.positions.at(0));
+  core.radius.push_back(core.radius.at(0));
+  core.vertexLambda.push_back(core.vertexLambda.at(0));
+  ++core.cells.vertexCount;
+  WriteModel(At("other.vtp"), At("other.vtp"), model);
+  try
+  {
+    Skeleton("other.vtp", "b.vtp");
+    FAIL() << "no refusal";
+  }
+  catch (const InputError & error)
+  {
+    EXPECT_NE(std::string(error.what()).find("does not fit its cells"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(At("b.vtp")));
+}
+
 TEST_F(SkeletonJob, RootsHaveTrueCentreLines)
 {
   RunPhantomJob(PhantomOptionsFrom({ { "kind", "root" },

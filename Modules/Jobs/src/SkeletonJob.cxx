@@ -2,6 +2,7 @@
 
 #include "DisplayFiles.h"
 #include "JobTools.h"
+#include "voxelcore/ComplexTopology.h"
 #include "voxelcore/SkeletonFiles.h"
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/Error.h"
@@ -88,12 +89,13 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
     const auto share = [&](std::size_t done) {
       return 0.05 + 0.9 * static_cast<double>(done) / static_cast<double>(model.parts.size());
     };
-    Stopwatch    labelWatch;
-    SkeletonPart part = TakeSkeleton(SkeletonOf(model.parts[i],
-                                                RecordedShape(report, report.labels[i]),
-                                                *report.skeleton,
-                                                PartOfProgress(context.progress, share(i), share(i + 1))),
-                                     report.labels[i]);
+    Stopwatch            labelWatch;
+    const CertifiedShape shape = RecordedShape(report, report.labels[i]);
+    // Of a damaged file the skeleton would differ from the shape, and that would be told as a fault of the program.
+    RequireFittingProvenance(ComputeComplexTopology(model.parts[i].core.cells) == shape.topology, options.input);
+    SkeletonPart part = TakeSkeleton(
+      SkeletonOf(model.parts[i], shape, *report.skeleton, PartOfProgress(context.progress, share(i), share(i + 1))),
+      report.labels[i]);
     report.labels[i].seconds = labelWatch.Lap();
     report.seconds.skeleton += report.labels[i].seconds;
     shown.AddLabel(report.labels[i], model.parts[i], &part);
