@@ -1,8 +1,7 @@
 #include "itkLocalThicknessImageFilter.h"
 
-#include "itkErrors.h"
+#include "itkEachLabel.h"
 #include "itkThreadLimit.h"
-#include "voxelcore/Certified.h"
 
 #include <utility>
 
@@ -102,30 +101,12 @@ LocalThicknessImageFilter::GenerateData()
   output.SetBufferedRegion(output.GetLargestPossibleRegion());
   output.Allocate(true);
   WithItkErrors(this->GetNameOfClass(), [&] {
-    double total = 0;
-    for (const voxelcore::LabelShape & label : input.GetLabels())
-    {
-      total += 1 + static_cast<double>(label.voxels);
-    }
-    double before = 0;
-    for (const voxelcore::LabelShape & label : input.GetLabels())
-    {
-      const double                share = (1 + static_cast<double>(label.voxels)) / total;
-      voxelcore::CertifiedRequest request;
-      request.name = voxelcore::LabelText(label.value, label.name);
-      request.lambdas = { voxelcore::Lambda() };
-      request.tolerances = { m_Tolerance };
-      if (!m_Refine)
-      {
-        request.surface = voxelcore::SurfaceSource();
-      }
+    EachLabel(this, input.GetLabels(), [&](const voxelcore::LabelShape & label, const auto & progress) {
+      auto request = RequestOf(label, m_Tolerance, m_Refine);
       request.thickness = voxelcore::ThicknessRequest{};
-      const voxelcore::CertifiedResult result =
-        voxelcore::ComputeCertified(label.shape, geometry, request, ForwardProgress(this, before, before + share));
+      const auto result = voxelcore::ComputeCertified(label.shape, geometry, request, progress);
       FillIn(*result.thickness, geometry, output.GetBufferPointer());
-      before += share;
-    }
-    voxelcore::ReportProgress(ForwardProgress(this, 0, 1), "done", 1);
+    });
   });
 }
 

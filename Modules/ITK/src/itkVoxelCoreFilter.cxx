@@ -1,8 +1,7 @@
 #include "itkVoxelCoreFilter.h"
 
-#include "itkErrors.h"
+#include "itkEachLabel.h"
 #include "itkThreadLimit.h"
-#include "voxelcore/Certified.h"
 
 #include <utility>
 
@@ -74,37 +73,14 @@ VoxelCoreFilter::GenerateData()
   const InputType &         input = *this->GetInput();
   OutputType::PartContainer parts;
   WithItkErrors(this->GetNameOfClass(), [&] {
-    double total = 0;
-    for (const voxelcore::LabelShape & label : input.GetLabels())
-    {
-      total += 1 + static_cast<double>(label.voxels);
-    }
-    double before = 0;
-    for (const voxelcore::LabelShape & label : input.GetLabels())
-    {
-      const double                share = (1 + static_cast<double>(label.voxels)) / total;
-      voxelcore::CertifiedRequest request;
-      request.name = voxelcore::LabelText(label.value, label.name);
-      request.lambdas = { voxelcore::Lambda() };
-      if (!m_WholeCore)
-      {
-        request.tolerances = { m_Tolerance };
-      }
-      if (!m_Refine)
-      {
-        request.surface = voxelcore::SurfaceSource();
-      }
+    EachLabel(this, input.GetLabels(), [&](const voxelcore::LabelShape & label, const auto & progress) {
+      auto request = RequestOf(label, m_WholeCore ? std::nullopt : std::optional(m_Tolerance), m_Refine);
       request.engine = m_Engine;
-      voxelcore::CertifiedResult result = voxelcore::ComputeCertified(label.shape,
-                                                                      input.GetGeometry(),
-                                                                      request,
-                                                                      ForwardProgress(this, before, before + share));
+      auto result = voxelcore::ComputeCertified(label.shape, input.GetGeometry(), request, progress);
       result.cores.front().core.label = label.value;
       parts.push_back({ voxelcore::OriginOf(result, label.value, label.name, label.voxels),
                         std::make_shared<const voxelcore::CertifiedCore>(std::move(result.cores.front())) });
-      before += share;
-    }
-    voxelcore::ReportProgress(ForwardProgress(this, 0, 1), "done", 1);
+    });
   });
   this->GetOutput()->SetParts(std::move(parts));
 }
