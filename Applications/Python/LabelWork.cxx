@@ -268,7 +268,7 @@ MakeThickness(const ArrayView &        array,
     record.label = outcome.record.label;
     record.component = outcome.record.component;
     record.name = outcome.record.name;
-    Summarize(found, place, whole, options.border, record);
+    Summarize(found, place, BallsAtSides(found.balls, place, whole), options.border, record);
     result->records.push_back(std::move(record));
     SpreadOver(place.size, found.shape, found.map, result->map);
     if (options.bounds)

@@ -2,6 +2,7 @@
 
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/ThicknessJob.h"
+#include "voxelcore/VoxelHull.h"
 
 #include <nlohmann/json.hpp>
 
@@ -154,6 +155,76 @@ TEST_F(ThicknessJob, TheSeparationIsThatOfTheBackgroundInTheBoxOfAllLabels)
   EXPECT_TRUE(Names().contains("t_columns.json"));
 }
 
+TEST_F(ThicknessJob, TheSeparationInTheHullIsThatOfItsOtherVoxels)
+{
+  TwoLabels();
+  const ThicknessResult   result = Thickness("map.nrrd", { { "separation", "hull" } });
+  std::vector<VoxelShape> shapes;
+  std::uint64_t           labels = 0;
+  for (LabelShape & label : ReadLabelVolume(At("a.nrrd")).labels)
+  {
+    labels += label.voxels;
+    shapes.push_back(std::move(label.shape));
+  }
+  const VoxelShape hull = HullOfVoxels(shapes);
+  ASSERT_EQ(result.thickness.size(), 3U);
+  EXPECT_EQ(result.thickness[2].numbers.voxels, hull.CountVoxels() - labels);
+  const GreyVolume gaps = Map("map_separation.nrrd");
+  std::size_t      at = 0;
+  for (std::int32_t z = 0; z < 36; ++z)
+  {
+    for (std::int32_t y = 0; y < 40; ++y)
+    {
+      for (std::int32_t x = 0; x < 40; ++x, ++at)
+      {
+        const bool isLabel = shapes[0].Contains(x, y, z) || shapes[1].Contains(x, y, z);
+        ASSERT_EQ(gaps.values[at] > 0, hull.Contains(x, y, z) && !isLabel) << x << " " << y << " " << z;
+      }
+    }
+  }
+}
+
+TEST_F(ThicknessJob, TheSeparationWithinALabelIsTheThicknessOfThatLabel)
+{
+  TwoLabels();
+  const ThicknessRecord ball = Thickness("ball.nrrd", { { "labels", "2" } }).thickness[0];
+  const ThicknessResult result = Thickness("slab.nrrd", { { "labels", "1" }, { "within", "2" } });
+  ASSERT_EQ(result.thickness.size(), 2U);
+  EXPECT_TRUE(result.thickness[1].isSeparation);
+  EXPECT_EQ(result.thickness[1].numbers.voxels, ball.numbers.voxels);
+  EXPECT_EQ(result.thickness[1].numbers.mean, ball.numbers.mean);
+}
+
+TEST_F(ThicknessJob, TheSeparationWithinAMaskCountsApartWhatEndsAtTheMask)
+{
+  // Two plates six voxels apart, and a mask of all that lies between and in them.
+  const VoxelBox whole{ { 4, 4, 4 }, { 40, 40, 14 } };
+  VoxelShape     plates(whole);
+  VoxelShape     mask(whole);
+  for (std::int32_t i = 0; i < 40 * 40 * 14; ++i)
+  {
+    const std::int32_t z = i / 1600;
+    mask.Insert(4 + i % 40, 4 + i / 40 % 40, 4 + z);
+    if (z < 4 || z >= 10)
+    {
+      plates.Insert(4 + i % 40, 4 + i / 40 % 40, 4 + z);
+    }
+  }
+  ImageGeometry geometry;
+  geometry.size = { 48, 48, 22 };
+  WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "plates", 1600 * 8, std::move(plates) } });
+  WriteLabelVolume(At("mask.nrrd"), geometry, { { 7, "mask", 1600 * 14, mask } });
+  const ThicknessRecord gap = Thickness("map.nrrd", { { "within", At("mask.nrrd") } }).thickness[1];
+  EXPECT_EQ(gap.numbers.voxels, 1600U * 6);
+  EXPECT_GT(gap.borderVoxels, 0U);
+  EXPECT_GT(gap.inner.voxels, 1600U * 3) << "in the middle balls end at the plates";
+  EXPECT_NEAR(gap.inner.mean, 6, 0.1);
+  geometry.size = { 49, 48, 22 };
+  WriteLabelVolume(At("other.nrrd"), geometry, { { 7, "mask", 1600 * 14, std::move(mask) } });
+  EXPECT_THROW(Thickness("m.nrrd", { { "within", At("other.nrrd") } }), InputError);
+  EXPECT_FALSE(Names().contains("m.nrrd"));
+}
+
 TEST_F(ThicknessJob, TheReportHasTheNumbersOfTheTable)
 {
   TwoLabels();
@@ -181,6 +252,9 @@ TEST_F(ThicknessJob, RefusesWhatMakesNoSense)
   TwoLabels();
   EXPECT_THROW(Thickness("map.nrrd", { { "border", "left" } }), UsageError);
   EXPECT_THROW(Thickness("map.nrrd", { { "separation", "ball" } }), UsageError);
+  EXPECT_THROW(Thickness("map.nrrd", { { "separation", "box" }, { "within", "2" } }), UsageError);
+  EXPECT_THROW(Thickness("map.nrrd", { { "threshold", "1:2" }, { "within", "2" } }), UsageError);
+  EXPECT_THROW(Thickness("map.nrrd", { { "labels", "1" }, { "within", "5" } }), InputError);
   EXPECT_THROW(Thickness("map.nrrd", { { "tolerance", "1diag,2diag" } }), UsageError);
   EXPECT_THROW(Thickness("map.nrrd", { { "table", At("t.txt") } }), UsageError);
   EXPECT_THROW(Thickness("map.nrrd", { { "labels", "9" } }), InputError);

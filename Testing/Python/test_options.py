@@ -32,7 +32,7 @@ WITHOUT = {
     **dict.fromkeys(("blocks", "block", "block-size", "join", "memory"), "parts of scans that do not fit into memory"),
     "with-skeleton": "Core.skeleton()",
     "quiet": "nothing is printed",
-    "separation": "measure the background as an array of its own",
+    **dict.fromkeys(("separation", "within"), "measure the background as an array of its own"),
 }
 FUNCTIONS = {
     "core": (voxelcore.core, _arguments.OF_CORE, voxelcore.Core.save, voxelcore.Skeleton.save, _arguments.OF_SKELETON),
@@ -75,7 +75,7 @@ def test_a_value_without_sense_is_refused_by_every_option(command):
         keyword = row["keyword"]
         ofSkeletons = command == "core" and row["group"] == "Skeleton"
         if row["command"] == command and keyword.isidentifier() and not ofSkeletons:
-            if keyword not in (*SAVING, "progress", "separation"):
+            if keyword not in (*SAVING, "progress", "separation", "within"):
                 with pytest.raises((ValueError, TypeError)) as refusal:
                     function(source, **{keyword: "never"})
                 assert "unexpected keyword" not in str(refusal.value), keyword

@@ -3,6 +3,8 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/SpacingWeights.h"
 
+#include <cmath>
+
 namespace voxelcore
 {
 
@@ -59,6 +61,36 @@ RequireSameUnit(const std::filesystem::path & one,
     const auto text = [](SpatialUnit of) { return of == SpatialUnit::Voxels ? "in voxels" : "in mm"; };
     throw InputError(one.string() + ": its lengths are " + text(unit) + ", those of " + other.string() + " " +
                      text(otherUnit) + "; give --spacing X,Y,Z where the scan without voxel size is read");
+  }
+}
+
+void
+RequireSamePlace(const ImageGeometry &         other,
+                 const ImageGeometry &         labels,
+                 const std::string &           option,
+                 const std::filesystem::path & path)
+{
+  constexpr double close = 1e-3; // voxels
+  bool             same = other.size == labels.size && other.unit == labels.unit;
+  // Opposite corners and those between them.
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Vector3 place{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(labels.size[axis]) : 0.0;
+    }
+    const Vector3 there = PhysicalToLattice(other, LatticeToPhysical(labels, place));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      same = same && std::abs(there[axis] - place[axis]) < close;
+    }
+  }
+  if (!same)
+  {
+    throw InputError(path.string() + ": " + option +
+                     " must have the voxels of the segmentation: the same size, spacing, origin " +
+                     "and direction; resample it");
   }
 }
 

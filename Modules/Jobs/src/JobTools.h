@@ -38,6 +38,14 @@ RequireSameUnit(const std::filesystem::path & one,
                 const std::filesystem::path & other,
                 SpatialUnit                   otherUnit);
 
+/** \throws InputError unless the volume at `path`, given by `option`, has the voxels of the segmentation: size, unit
+ *  and places, to a thousandth of a voxel */
+void
+RequireSamePlace(const ImageGeometry &         other,
+                 const ImageGeometry &         labels,
+                 const std::string &           option,
+                 const std::filesystem::path & path);
+
 /** \throws InputError, naming the file, unless its field Provenance `fits` its cells. */
 void
 RequireFittingProvenance(bool fits, const std::filesystem::path & path);

@@ -1,5 +1,6 @@
 #include "voxelcore/RefineStage.h"
 
+#include "JobTools.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
 
@@ -41,33 +42,6 @@ AroundShape(const VoxelBox & shape, const VoxelBox & scan)
       std::min(scan.lower[axis] + scan.size[axis], shape.lower[axis] + shape.size[axis] + margin) - box.lower[axis];
   }
   return box;
-}
-
-void
-RequireSamePlace(const ImageGeometry & grey, const ImageGeometry & labels, const std::filesystem::path & path)
-{
-  constexpr double close = 1e-3; // voxels
-  bool             same = grey.size == labels.size && grey.unit == labels.unit;
-  // Opposite corners and those between them.
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    Vector3 place{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(labels.size[axis]) : 0.0;
-    }
-    const Vector3 there = PhysicalToLattice(grey, LatticeToPhysical(labels, place));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      same = same && std::abs(there[axis] - place[axis]) < close;
-    }
-  }
-  if (!same)
-  {
-    throw InputError(path.string() +
-                     ": --grey must have the voxels of the segmentation: the same size, spacing, origin " +
-                     "and direction; resample it");
-  }
 }
 
 /** The grey values around labels. When a second label asks, all are read and kept, if they are not too many. */
@@ -143,7 +117,7 @@ GreySource(const RefineOptions &         options,
   return [=](const VoxelShape & shape, const ProgressCallback & progress) -> std::shared_ptr<const SurfaceEstimate> {
     const std::shared_ptr<const GreyVolume> read = greyValues->Around(AroundShape(shape.Box(), whole), progress);
     const GreyVolume &                      grey = *read;
-    RequireSamePlace(grey.geometry, geometry, path);
+    RequireSamePlace(grey.geometry, geometry, "--grey", path);
     const auto rows = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
       const float * from = grey.Row(x, y, z);
       std::transform(from, from + values.size(), values.begin(), [&](float value) {

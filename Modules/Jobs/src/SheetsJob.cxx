@@ -1,17 +1,16 @@
 #include "voxelcore/SheetsJob.h"
 
 #include "JobTools.h"
+#include "LabelReading.h"
 #include "ThicknessSteps.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/ReadInput.h"
 #include "voxelcore/ReportTable.h"
-#include "voxelcore/Sha256.h"
 #include "voxelcore/Text.h"
 
 #include <algorithm>
-#include <future>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -166,47 +165,26 @@ private:
   {
     StagePlan           plan(m_Context.progress, { 0.05, 0.02, 0.85, 0.08 });
     const CoreOptions & options = m_Options.core;
-    Stopwatch           watch;
-    auto      digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan, options.reading); });
-    InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
-    const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
-    EditedLabels         edited = EditLabels(std::move(volume.labels),
-                                     volume.geometry,
-                                     options.edits,
-                                     options.reading.labels != "all",
-                                     options.scan.string(),
-                                     plan.Next());
-    const SurfaceSource  surface = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
-    CoreReport &         report = m_Result.report;
-    report.command = options.command;
-    report.input = { options.scan.string(), {}, volume.format, volume.geometry, volume.notes };
-    report.parameters = DescribeParameters(options, volume, edited, weights);
-    report.input.sha256 = digest.get();
-    m_Result.warnings = volume.warnings;
-    m_Result.notes = edited.notes;
-    report.seconds.read = watch.Lap();
-    CertifiedRequest request = RequestOf(options, surface);
-    request.refineCores = static_cast<bool>(surface);
+    CoreReport &        report = m_Result.report;
+    ScanLabels          read = ReadScanLabels(options, plan, report);
+    m_Result.warnings = std::move(read.warnings);
+    m_Result.notes = read.edited.notes;
+    CertifiedRequest request = RequestOf(options, read.surface);
+    request.refineCores = static_cast<bool>(read.surface);
     request.thickness = ThicknessRequest{ false };
-    RequireLengthsOf(options.scan, volume.geometry.unit, request);
-    RequireLength(volume.geometry.unit);
+    RequireLengthsOf(options.scan, read.geometry.unit, request);
+    RequireLength(read.geometry.unit);
     const ProgressCallback computing = plan.Next();
-    const auto             count = static_cast<double>(edited.labels.size());
-    for (std::size_t i = 0; i < edited.labels.size(); ++i)
+    const std::size_t      count = read.edited.labels.size();
+    const auto share = [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(count); };
+    for (std::size_t i = 0; i < count; ++i)
     {
-      const std::string which = edited.labels.size() == 1
-                                  ? ""
-                                  : " (" + std::to_string(i + 1) + "/" + std::to_string(edited.labels.size()) + ")";
-      const std::string name = edited.labels[i].label.name + which;
-      LabelOutcome      outcome = ProcessLabel(
-        std::move(edited.labels[i]),
-        volume.geometry,
-        request,
-        NamedPartOfProgress(computing, name, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
-      report.seconds.shape += outcome.seconds.shape;
-      report.seconds.delaunay += outcome.seconds.delaunay;
-      report.seconds.core += outcome.seconds.core;
-      report.seconds.prune += outcome.seconds.prune;
+      const std::string name = read.edited.labels[i].label.name;
+      LabelOutcome      outcome = ProcessLabel(std::move(read.edited.labels[i]),
+                                          read.geometry,
+                                          request,
+                                          ProgressOfLabel(computing, name, i, count, share(i), share(i + 1)));
+      AddComputing(report.seconds, outcome.seconds);
       Take(std::move(outcome.record), std::move(outcome.parts.front()), &*outcome.thickness);
     }
   }

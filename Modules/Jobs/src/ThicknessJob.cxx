@@ -1,19 +1,18 @@
 #include "voxelcore/ThicknessJob.h"
 
+#include "BackgroundRegion.h"
 #include "DisplayFiles.h"
 #include "JobTools.h"
+#include "LabelReading.h"
 #include "ThicknessSteps.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
-#include "voxelcore/ReadInput.h"
 #include "voxelcore/ReportTable.h"
-#include "voxelcore/Sha256.h"
 #include "voxelcore/Text.h"
 
 #include <algorithm>
-#include <future>
 #include <numeric>
 #include <utility>
 
@@ -59,11 +58,10 @@ public:
     for (std::size_t i = 0; i < count; ++i)
     {
       const std::string name = m_Edited.labels[i].label.name;
-      const std::string which = count == 1 ? "" : " (" + std::to_string(i + 1) + "/" + std::to_string(count) + ")";
       LabelOutcome      outcome =
-        Compute(std::move(m_Edited.labels[i]), NamedPartOfProgress(computing, name + which, share(i), share(i + 1)));
+        Compute(std::move(m_Edited.labels[i]), ProgressOfLabel(computing, name, i, count, share(i), share(i + 1)));
       Keep(outcome);
-      Take(outcome, false);
+      Take(outcome, BallsAtSides(outcome.thickness->balls, m_Geometry, WholeScan()), false);
       report.labels.push_back(std::move(outcome.record));
       if (m_ToFolder)
       {
@@ -72,7 +70,7 @@ public:
     }
     if (separates)
     {
-      Separate(std::move(shapes), NamedPartOfProgress(computing, "separation", share(count), 1));
+      Separate(shapes, NamedPartOfProgress(computing, "separation", share(count), 1));
     }
     const ProgressCallback writing = plan.Next("writing");
     ReportProgress(writing, "", 0);
@@ -104,6 +102,10 @@ private:
     if (!m_Options.core.refine.grey.empty())
     {
       m_Transaction.Protect(m_Options.core.refine.grey);
+    }
+    if (IsMask(m_Options.within))
+    {
+      m_Transaction.Protect(m_Options.within);
     }
     if (m_ToFolder)
     {
@@ -137,28 +139,13 @@ private:
   void
   Read(StagePlan & plan)
   {
-    const CoreOptions & options = m_Options.core;
-    Stopwatch           watch;
-    auto      digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan, options.reading); });
-    InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
-    m_Weights = ScanWeights(volume.geometry, options.scan);
-    m_Geometry = volume.geometry;
-    m_Edited = EditLabels(std::move(volume.labels),
-                          volume.geometry,
-                          options.edits,
-                          options.reading.labels != "all",
-                          options.scan.string(),
-                          plan.Next());
-    m_Shown.AddScan(m_Edited.labels, volume.geometry);
-    m_Surface = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
-    CoreReport & report = m_Result.report;
-    report.command = options.command;
-    report.input = { options.scan.string(), {}, volume.format, volume.geometry, volume.notes };
-    report.parameters = DescribeParameters(options, volume, m_Edited, m_Weights);
-    report.input.sha256 = digest.get();
-    m_Result.warnings = volume.warnings;
+    ScanLabels read = ReadScanLabels(m_Options.core, plan, m_Result.report);
+    m_Geometry = read.geometry;
+    m_Surface = std::move(read.surface);
+    m_Edited = std::move(read.edited);
+    m_Shown.AddScan(m_Edited.labels, m_Geometry);
+    m_Result.warnings = std::move(read.warnings);
     m_Result.notes = m_Edited.notes;
-    report.seconds.read = watch.Lap();
   }
 
   LabelOutcome
@@ -222,56 +209,51 @@ private:
   }
 
   void
-  Take(LabelOutcome & outcome, bool isSeparation)
+  Take(LabelOutcome & outcome, const std::vector<char> & touches, bool isSeparation)
   {
-    StageSeconds & seconds = m_Result.report.seconds;
-    seconds.shape += outcome.seconds.shape;
-    seconds.delaunay += outcome.seconds.delaunay;
-    seconds.core += outcome.seconds.core;
-    seconds.prune += outcome.seconds.prune;
+    AddComputing(m_Result.report.seconds, outcome.seconds);
     CertifiedThickness & found = *outcome.thickness;
     ThicknessRecord      record;
     record.label = outcome.record.label;
     record.component = outcome.record.component;
     record.name = outcome.record.name;
     record.isSeparation = isSeparation;
-    Summarize(found,
-              m_Geometry,
-              isSeparation ? m_Region : VoxelBox{ { 0, 0, 0 }, ScanSize() },
-              m_Options.border,
-              record);
+    Summarize(found, m_Geometry, touches, m_Options.border, record);
     m_Result.thickness.push_back(std::move(record));
     found.owners = VoxelOwners();
     found.balls = PaintingBalls();
     m_Found.push_back(std::move(found));
   }
 
-  std::array<std::int32_t, 3>
-  ScanSize() const
+  VoxelBox
+  WholeScan() const
   {
-    return { static_cast<std::int32_t>(m_Geometry.size[0]),
-             static_cast<std::int32_t>(m_Geometry.size[1]),
-             static_cast<std::int32_t>(m_Geometry.size[2]) };
+    VoxelBox box;
+    std::copy(m_Geometry.size.begin(), m_Geometry.size.end(), box.size.begin());
+    return box;
   }
 
   void
-  Separate(std::vector<VoxelShape> shapes, const ProgressCallback & progress)
+  Separate(const std::vector<VoxelShape> & shapes, const ProgressCallback & progress)
   {
-    m_Region = BoxAround(shapes);
-    EditedLabel between;
-    between.label.shape = CropToVoxels(BackgroundIn(m_Region, shapes));
-    shapes.clear();
+    StagePlan        plan(progress, { 0.05, 0.95 });
+    const VoxelShape region = RegionOfBackground(m_Options, m_Geometry, shapes, plan.Next());
+    EditedLabel      between;
+    between.label.shape = CropToVoxels(BackgroundIn(region, shapes));
     between.label.voxels = between.label.shape.CountVoxels();
     if (between.label.voxels == 0)
     {
       throw InputError(m_Options.core.scan.string() +
-                       ": --separation: there is no background in the box of the labels");
+                       ": --separation: there is no background where it is to be measured");
     }
     between.label.name = "separation";
-    CoreOptions  options = m_Options.core;
-    LabelOutcome outcome = Compute(std::move(between), progress);
+    LabelOutcome outcome = Compute(std::move(between), plan.Next());
     outcome.record.label = 0;
-    Take(outcome, true);
+    const PaintingBalls & balls = outcome.thickness->balls;
+    Take(outcome,
+         m_Options.separation == SeparationRegion::Box ? BallsAtSides(balls, m_Geometry, region.Box())
+                                                       : BallsAtRegion(balls, m_Geometry, region, shapes),
+         true);
   }
 
   fs::path
@@ -354,11 +336,9 @@ private:
   std::vector<ThicknessSurface>   m_Surfaces;
   std::vector<ModelPart>          m_Parts;
   ImageGeometry                   m_Geometry;
-  SpacingWeights                  m_Weights;
   EditedLabels                    m_Edited;
   SurfaceSource                   m_Surface;
-  VoxelBox                        m_Region; ///< of the separation
-  std::vector<CertifiedThickness> m_Found;  ///< per label, then the separation
+  std::vector<CertifiedThickness> m_Found; ///< per label, then the separation
   ThicknessResult                 m_Result;
 };
 

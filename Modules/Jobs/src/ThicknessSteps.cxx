@@ -1,9 +1,6 @@
 #include "ThicknessSteps.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
@@ -42,26 +39,32 @@ Beside(const std::filesystem::path & output, const std::string & what)
   return output.parent_path() / (name.substr(0, end) + what + name.substr(end));
 }
 
-void
-Summarize(const CertifiedThickness & found,
-          const ImageGeometry &      geometry,
-          const VoxelBox &           region,
-          BorderRule                 border,
-          ThicknessRecord &          record)
+std::vector<char>
+BallsAtSides(const PaintingBalls & balls, const ImageGeometry & geometry, const VoxelBox & box)
 {
-  std::vector<char> touches(found.balls.Count(), 0);
+  std::vector<char> touches(balls.Count(), 0);
   for (std::size_t i = 0; i < touches.size(); ++i)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double reach = found.balls.radius[i] / geometry.spacing[axis] + 0.5;
-      const double place = found.balls.centres[i][axis] - region.lower[axis];
-      if (place < reach || region.size[axis] - place < reach)
+      const double reach = balls.radius[i] / geometry.spacing[axis] + 0.5;
+      const double place = balls.centres[i][axis] - box.lower[axis];
+      if (place < reach || box.size[axis] - place < reach)
       {
         touches[i] = 1;
       }
     }
   }
+  return touches;
+}
+
+void
+Summarize(const CertifiedThickness & found,
+          const ImageGeometry &      geometry,
+          std::span<const char>      touches,
+          BorderRule                 border,
+          ThicknessRecord &          record)
+{
   std::vector<float> inner;
   for (std::size_t i = 0; i < found.map.values.size(); ++i)
   {
@@ -86,62 +89,6 @@ Summarize(const CertifiedThickness & found,
     record.meanLower = MeanOf(found.bracket.lower.values);
     record.meanUpper = MeanOf(found.bracket.upper.values);
   }
-}
-
-VoxelBox
-BoxAround(const std::vector<VoxelShape> & shapes)
-{
-  std::array<std::int32_t, 3> lower{};
-  std::array<std::int32_t, 3> upper{};
-  lower.fill(std::numeric_limits<std::int32_t>::max());
-  upper.fill(0);
-  for (const VoxelShape & shape : shapes)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      lower[axis] = std::min(lower[axis], shape.Box().lower[axis]);
-      upper[axis] = std::max(upper[axis], shape.Box().lower[axis] + shape.Box().size[axis]);
-    }
-  }
-  return { lower, { upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2] } };
-}
-
-VoxelShape
-BackgroundIn(const VoxelBox & box, const std::vector<VoxelShape> & shapes)
-{
-  VoxelShape background(box);
-  for (std::int32_t z = 0; z < box.size[2]; ++z)
-  {
-    for (std::int32_t y = 0; y < box.size[1]; ++y)
-    {
-      const auto row = background.Row(y, z);
-      for (std::int32_t x = 0; x < box.size[0]; ++x)
-      {
-        row[static_cast<std::size_t>(x) >> 6U] |= std::uint64_t{ 1 } << (static_cast<unsigned>(x) & 63U);
-      }
-      for (const VoxelShape & shape : shapes)
-      {
-        const auto &       own = shape.Box();
-        const std::int32_t ownY = y + box.lower[1] - own.lower[1];
-        const std::int32_t ownZ = z + box.lower[2] - own.lower[2];
-        if (ownY < 0 || ownY >= own.size[1] || ownZ < 0 || ownZ >= own.size[2])
-        {
-          continue;
-        }
-        const auto bits = shape.Row(ownY, ownZ);
-        for (std::size_t word = 0; word < bits.size(); ++word)
-        {
-          for (std::uint64_t rest = bits[word]; rest != 0; rest &= rest - 1)
-          {
-            const auto x = static_cast<std::uint32_t>(64 * static_cast<std::int32_t>(word) + std::countr_zero(rest) +
-                                                      own.lower[0] - box.lower[0]);
-            row[x >> 6U] &= ~(std::uint64_t{ 1 } << (x & 63U));
-          }
-        }
-      }
-    }
-  }
-  return background;
 }
 
 std::string

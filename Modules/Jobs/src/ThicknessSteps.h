@@ -45,14 +45,6 @@ FillSlice(const VolumeOfLabels<T> & volume, const ImageGeometry & geometry, std:
   }
 }
 
-/** The tight box of all of them. */
-VoxelBox
-BoxAround(const std::vector<VoxelShape> & shapes);
-
-/** The voxels of a box that none of the shapes has. */
-VoxelShape
-BackgroundIn(const VoxelBox & box, const std::vector<VoxelShape> & shapes);
-
 /** The report with what was measured as its last member. */
 std::string
 WithThickness(std::string report, const ThicknessResult & result);

@@ -52,7 +52,19 @@ ThicknessOptionsWithoutFiles(const ParameterValues & values)
   options.bounds = reader.IsSet("bounds");
   const std::string border = reader.Choice("border");
   options.border = border == "keep" ? BorderRule::Keep : border == "drop" ? BorderRule::Drop : BorderRule::Flag;
-  options.separation = reader.Choice("separation") == "box" ? SeparationRegion::Box : SeparationRegion::None;
+  const std::string separation = reader.Choice("separation");
+  options.separation = separation == "box"    ? SeparationRegion::Box
+                       : separation == "hull" ? SeparationRegion::Hull
+                                              : SeparationRegion::None;
+  options.within = reader.IsGiven("within") ? reader.Text("within") : std::string();
+  if (!options.within.empty())
+  {
+    if (options.separation != SeparationRegion::None)
+    {
+      reader.ThrowUsageError("within", "no --separation beside it");
+    }
+    options.separation = SeparationRegion::Within;
+  }
   return options;
 }
 

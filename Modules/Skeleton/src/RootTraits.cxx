@@ -1,6 +1,6 @@
 #include "voxelcore/RootTraits.h"
 
-#include "ConvexHull.h"
+#include "HullSize.h"
 
 #include <algorithm>
 #include <cmath>

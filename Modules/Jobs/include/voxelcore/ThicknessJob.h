@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,9 @@ enum class BorderRule
 enum class SeparationRegion
 {
   None,
-  Box ///< within the box around all labels
+  Box,   ///< within the box around all labels
+  Hull,  ///< within their convex hull
+  Within ///< within another label of the scan, or a mask
 };
 
 struct ThicknessOptions
@@ -34,6 +37,7 @@ struct ThicknessOptions
   bool                                 bounds = false; ///< proven bounds as volumes beside: OUT_lower, OUT_upper
   BorderRule                           border = BorderRule::Flag;
   SeparationRegion                     separation = SeparationRegion::None; ///< as a volume beside: OUT_separation
+  std::string                          within;  ///< of SeparationRegion::Within: labels as --labels has them, or a mask
   std::optional<std::filesystem::path> surface; ///< .vtp: the labels' surfaces with the point array Thickness
   std::optional<std::filesystem::path> medial;  ///< .vtp: the medial surface with it
   std::optional<std::filesystem::path> table;   ///< .csv; a histogram and a data dictionary go beside
@@ -53,12 +57,15 @@ struct ThicknessResult
 ThicknessResult
 RunThicknessJob(const ThicknessOptions & options, const JobContext & context = {});
 
-/** The numbers of a map within `region`, in voxel indices. A ball touches the border where it comes within half a voxel
- *  of a side of the region. */
+/** Per ball, whether it comes within half a voxel of a side of `box`, in voxel indices. */
+std::vector<char>
+BallsAtSides(const PaintingBalls & balls, const ImageGeometry & geometry, const VoxelBox & box);
+
+/** The numbers of a map. `touches`: per ball, whether it meets the border, where it may have been larger. */
 void
 Summarize(const CertifiedThickness & found,
           const ImageGeometry &      geometry,
-          const VoxelBox &           region,
+          std::span<const char>      touches,
           BorderRule                 border,
           ThicknessRecord &          record);
 

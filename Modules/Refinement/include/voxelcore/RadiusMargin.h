@@ -1,6 +1,7 @@
 #pragma once
 // What labels leave open of a wall's thickness.
 
+#include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/VoxelShape.h"
 

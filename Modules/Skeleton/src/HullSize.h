@@ -1,5 +1,5 @@
 #pragma once
-// The convex hull of points in space.
+// How large the convex hull of points in space is.
 
 #include "voxelcore/Vectors.h"
 
