@@ -1,6 +1,8 @@
 #include "JobFolder.h"
 
 #include "voxelcore/GreyVolume.h"
+#include "voxelcore/PlainSurface.h"
+#include "voxelcore/RenderJob.h"
 #include "voxelcore/SheetsJob.h"
 
 #include <nlohmann/json.hpp>
@@ -53,6 +55,44 @@ protected:
     WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "walls", voxels, CropToVoxels(shape) } });
   }
 };
+
+TEST_F(SheetsJob, TheFileIsReadAgainSheetBySheetAndDrawnInTheirColours)
+{
+  ThreeWalls();
+  const SheetsResult result = Sheets("s.vtp");
+  const auto         read = ReadSheetSurfaces(At("s.vtp"));
+  ASSERT_TRUE(read);
+  const SheetPart & part = result.model.parts.front();
+  std::size_t       rods = 0;
+  for (const CurveRecord & curve : part.sheets.curves)
+  {
+    rods += curve.isRod && curve.vertices.size() > 1 ? 1 : 0;
+  }
+  ASSERT_EQ(read->sheets.size(), part.sheets.sheets.size() + rods);
+  std::size_t faces = 0;
+  for (const SheetSurface & sheet : read->sheets)
+  {
+    faces += sheet.plain.surface.cells.FaceCount();
+    EXPECT_EQ(sheet.thickness.size(), sheet.plain.surface.cells.vertexCount);
+    EXPECT_TRUE(sheet.plain.hasRadius);
+  }
+  EXPECT_EQ(faces, part.sheets.sheetOfFace.size());
+  EXPECT_FALSE(ReadSheetSurfaces(At("a.nrrd")));
+  if (HasDisplay())
+  {
+    RenderJobOptions options;
+    options.files = { At("s.vtp") };
+    options.output = At("s.png");
+    options.coloring = "SheetId";
+    options.scan = At("a.nrrd");
+    EXPECT_THROW(RunRenderJob(options), UsageError) << "sheets are drawn alone";
+    Core("core.vtp");
+    options.scan.reset();
+    options.files = { At("core.vtp") };
+    EXPECT_THROW(RunRenderJob(options), UsageError) << "no sheets";
+    EXPECT_FALSE(Names().contains("s.png"));
+  }
+}
 
 TEST_F(SheetsJob, ThreeWallsAreThreeSheetsAndASeam)
 {

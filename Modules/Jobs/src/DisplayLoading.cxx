@@ -116,6 +116,7 @@ public:
       LoadScan(notes, warnings);
     }
     DisplayContent content;
+    content.areSheets = m_AreSheets;
     content.unit = m_Report ? m_Report->input.geometry.unit : SpatialUnit::Millimetres;
     for (auto & [key, label] : m_Labels)
     {
@@ -152,6 +153,11 @@ private:
     if (auto plain = ReadPlainSurface(path))
     {
       AddPlain(path, std::move(*plain), notes);
+      return;
+    }
+    if (auto sheets = ReadSheetSurfaces(path))
+    {
+      AddSheets(path, std::move(*sheets));
       return;
     }
     std::string   provenance;
@@ -232,6 +238,29 @@ private:
     }
   }
 
+  /** Each sheet and rod is shown as a label of its own. */
+  void
+  AddSheets(const std::filesystem::path & path, SheetSurfaces && read)
+  {
+    if (m_Sources.files.size() > 1 || m_Sources.scan)
+    {
+      throw UsageError(path.string() + ": sheets are drawn alone; give no other file and no --scan");
+    }
+    m_Report = ParseProvenance(read.provenance, path.string());
+    m_AreSheets = true;
+    for (SheetSurface & sheet : read.sheets)
+    {
+      const std::string name = "sheet " + std::to_string(sheet.id);
+      if (m_Selection.Take(sheet.id, name))
+      {
+        DisplayLabel & label = LabelOf(sheet.id, 0, name);
+        label.medial.label = sheet.id;
+        label.medial.core = std::move(sheet.plain.surface);
+        label.medial.thickness = std::move(sheet.thickness);
+      }
+    }
+  }
+
   static void
   RefuseSecond(bool isFirst, const std::filesystem::path & path, const LabelRecord & record, const std::string & what)
   {
@@ -291,6 +320,7 @@ private:
   LabelSelection                   m_Selection;
   std::optional<CoreReport>        m_Report; ///< of the first file
   std::map<LabelKey, DisplayLabel> m_Labels;
+  bool                             m_AreSheets = false;
 };
 
 } // namespace

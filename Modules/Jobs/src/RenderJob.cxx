@@ -33,6 +33,7 @@ PictureOptionsOf(const RenderJobOptions & options)
                      : options.coloring == "ErosionThickness" ? PictureColoring::ErosionThickness
                      : options.coloring == "Thickness"        ? PictureColoring::Thickness
                      : options.coloring == "Label"            ? PictureColoring::Label
+                     : options.coloring == "SheetId"          ? PictureColoring::Label
                                                               : PictureColoring::Radius;
   picture.shrink = options.shrink;
   picture.range = options.range;
@@ -102,6 +103,10 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & given)
       }
     }
   }
+  if (options.coloring == "SheetId" && !content.areSheets)
+  {
+    throw UsageError("--color SheetId: give a file of 'voxelcore sheets'");
+  }
   if (options.coloring == "Thickness")
   {
     for (const DisplayLabel & label : content.labels)
@@ -109,7 +114,7 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & given)
       if (label.medial.core.cells.vertexCount != label.medial.thickness.size())
       {
         throw UsageError("--color Thickness: '" + label.name +
-                         "' was not measured; give a file of 'voxelcore thickness --medial'");
+                         "' was not measured; give a file of 'voxelcore thickness --medial' or 'voxelcore sheets'");
       }
       if (!label.curves.positions.empty())
       {

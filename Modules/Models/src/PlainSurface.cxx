@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <span>
+#include <utility>
 
 namespace voxelcore
 {
@@ -39,12 +41,13 @@ ReadCells(ModelSource & file, const std::string & section, std::size_t points)
   return cells;
 }
 
-/** Only points on cells; polygons that name one twice, and edges from a point to itself, show nothing. */
+/** Only points on cells, whose numbers are added to `taken`; polygons that name one twice, and edges from a point to itself, show nothing. */
 PlainSurface
 MakeSurface(const std::vector<Vector3> & points,
             const std::vector<double> &  radius,
             const std::vector<Cell> &    polygons,
-            const std::vector<Cell> &    lines)
+            const std::vector<Cell> &    lines,
+            std::vector<ElementIndex> *  taken = nullptr)
 {
   PlainSurface              made;
   MedialComplex &           core = made.surface;
@@ -56,6 +59,10 @@ MakeSurface(const std::vector<Vector3> & points,
     {
       number[point] = static_cast<ElementIndex>(core.positions.size());
       core.positions.push_back(points[point]);
+      if (taken != nullptr)
+      {
+        taken->push_back(point);
+      }
       core.radius.push_back(radius.empty() ? 0 : radius[point]);
     }
     return number[point];
@@ -91,13 +98,9 @@ MakeSurface(const std::vector<Vector3> & points,
   return made;
 }
 
-std::optional<PlainSurface>
-SurfaceIn(ModelSource & file)
+std::vector<Vector3>
+ReadPoints(ModelSource & file)
 {
-  if (file.Has("FieldData", "Provenance"))
-  {
-    return {};
-  }
   const std::vector<double> numbers = file.Read<double>("Points", "Points", 3);
   std::vector<Vector3>      points(numbers.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -107,11 +110,29 @@ SurfaceIn(ModelSource & file)
   RequireFit(points.size() == file.PieceCount("NumberOfPoints") &&
                points.size() < std::numeric_limits<ElementIndex>::max(),
              "its number of points is damaged");
-  std::vector<double> radius;
+  return points;
+}
+
+std::vector<double>
+ReadOfPoints(ModelSource & file, const char * name, std::size_t points)
+{
+  std::vector<double> values = file.Read<double>("PointData", name);
+  RequireFit(values.size() == points, "one of its point arrays has the wrong length");
+  return values;
+}
+
+std::optional<PlainSurface>
+SurfaceIn(ModelSource & file)
+{
+  if (file.Has("FieldData", "Provenance"))
+  {
+    return {};
+  }
+  const std::vector<Vector3> points = ReadPoints(file);
+  std::vector<double>        radius;
   if (file.Has("PointData", "Radius"))
   {
-    radius = file.Read<double>("PointData", "Radius");
-    RequireFit(radius.size() == points.size(), "its array PointData/Radius has the wrong length");
+    radius = ReadOfPoints(file, "Radius", points.size());
   }
   std::vector<Cell> polygons = ReadCells(file, "Polys", points.size());
   for (const Cell & strip :
@@ -126,7 +147,59 @@ SurfaceIn(ModelSource & file)
   return MakeSurface(points, radius, polygons, ReadCells(file, "Lines", points.size()));
 }
 
+std::optional<SheetSurfaces>
+SheetsIn(ModelSource & file)
+{
+  if (!file.Has("CellData", "SheetId") || !file.Has("FieldData", "Provenance"))
+  {
+    return {};
+  }
+  const std::vector<Vector3> points = ReadPoints(file);
+  const std::vector<double>  radius = ReadOfPoints(file, "Radius", points.size());
+  const std::vector<double>  thickness = ReadOfPoints(file, "Thickness", points.size());
+  std::vector<Cell>          lines = ReadCells(file, "Lines", points.size());
+  std::vector<Cell>          polygons = ReadCells(file, "Polys", points.size());
+  const auto                 ids = file.Read<std::int64_t>("CellData", "SheetId");
+  const std::size_t          cells = lines.size() + polygons.size();
+  RequireFit(ids.size() == file.PieceCount("NumberOfVerts") + cells, "its array CellData/SheetId has the wrong length");
+  std::map<std::int64_t, std::pair<std::vector<Cell>, std::vector<Cell>>> pieces; // polygons and lines
+  for (std::size_t i = 0; i < cells; ++i)
+  {
+    const bool isLine = i < lines.size();
+    if (const std::int64_t id = ids[ids.size() - cells + i]; id != 0)
+    {
+      auto & piece = pieces[id];
+      (isLine ? piece.second : piece.first).push_back(std::move(isLine ? lines[i] : polygons[i - lines.size()]));
+    }
+  }
+  SheetSurfaces read;
+  read.provenance = file.ReadText("FieldData", "Provenance");
+  for (const auto & [id, piece] : pieces)
+  {
+    std::vector<ElementIndex> taken;
+    SheetSurface              sheet{ id, MakeSurface(points, radius, piece.first, piece.second, &taken), {} };
+    for (const ElementIndex point : taken)
+    {
+      sheet.thickness.push_back(thickness[point]);
+    }
+    read.sheets.push_back(std::move(sheet));
+  }
+  return read;
+}
+
 } // namespace
+
+std::optional<SheetSurfaces>
+ReadSheetSurfaces(const std::filesystem::path & path)
+{
+  std::optional<SheetSurfaces> sheets;
+  const std::string            extension = LowerCase(path.extension().string());
+  if (extension == ".vtp" || extension == ".vtk")
+  {
+    ReadFrom(path, Precision::AsSaved, "core", [&](ModelSource & source) { sheets = SheetsIn(source); });
+  }
+  return sheets;
+}
 
 std::optional<PlainSurface>
 ReadPlainSurface(const std::filesystem::path & path)

@@ -42,6 +42,7 @@ struct DisplayContent
 {
   std::vector<DisplayLabel> labels;
   SpatialUnit               unit = SpatialUnit::Millimetres; ///< of all lengths
+  bool                      areSheets = false;               ///< each label is a sheet or rod
 };
 
 } // namespace voxelcore

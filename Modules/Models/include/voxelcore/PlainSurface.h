@@ -3,8 +3,11 @@
 
 #include "voxelcore/MedialComplex.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace voxelcore
 {
@@ -20,5 +23,23 @@ struct PlainSurface
  *  \throws InputError when it is missing or damaged, or holds neither polygons nor lines */
 std::optional<PlainSurface>
 ReadPlainSurface(const std::filesystem::path & path);
+
+/** A sheet or rod of a file that WriteSheetsVtp() wrote. */
+struct SheetSurface
+{
+  std::int64_t        id = 0;
+  PlainSurface        plain;
+  std::vector<double> thickness; ///< per vertex
+};
+
+struct SheetSurfaces
+{
+  std::vector<SheetSurface> sheets; ///< by id; seams, which bound them, are none
+  std::string               provenance;
+};
+
+/** Empty where the file has no cell array SheetId. \throws InputError when it is missing or damaged */
+std::optional<SheetSurfaces>
+ReadSheetSurfaces(const std::filesystem::path & path);
 
 } // namespace voxelcore
