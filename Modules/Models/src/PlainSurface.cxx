@@ -41,7 +41,8 @@ ReadCells(ModelSource & file, const std::string & section, std::size_t points)
   return cells;
 }
 
-/** Only points on cells, whose numbers are added to `taken`; polygons that name one twice, and edges from a point to itself, show nothing. */
+/** Only points on cells, whose numbers are added to `taken`; polygons that name one twice, and edges from a point to
+ *  itself, show nothing. */
 PlainSurface
 MakeSurface(const std::vector<Vector3> & points,
             const std::vector<double> &  radius,
