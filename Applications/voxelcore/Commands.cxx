@@ -179,6 +179,10 @@ RunRoots(const Run & run)
   options.threads = run.threads;
   options.command = run.line.whole;
   const RootsResult result = RunRootsJob(options, run.context);
+  if (run.context.admit)
+  {
+    PaintCase(result.report); // for the batch's page
+  }
   run.Warn(result.warnings);
   run.Print(RootsText(result));
   run.PrintNotes(result.notes);

@@ -59,6 +59,74 @@ TEST_F(BatchCommand, EachCaseGetsItsFolderAndAFailingOneCostsOnlyItself)
   EXPECT_FALSE(std::filesystem::exists(m_Folder / "out/.voxelcore"));
 }
 
+TEST_F(BatchCommand, ASeasonOfRootsIsComparedByTraitsAndTheOddPlantIsMarked)
+{
+  std::filesystem::create_directory(m_Folder / "season");
+  for (int plant = 1; plant <= 6; ++plant)
+  {
+    const bool isOdd = plant == 6;
+    RunProgram({ "phantom",
+                 "root",
+                 "--size",
+                 "64",
+                 "--radius",
+                 "5",
+                 "--laterals",
+                 isOdd ? "16" : "4",
+                 "--sub-laterals",
+                 "0",
+                 "--seed",
+                 std::to_string(plant),
+                 "--grey-values",
+                 "--noise-level",
+                 "0.03",
+                 "-o",
+                 m_Folder / ("season/p" + std::to_string(plant) + ".nrrd"),
+                 "-q" });
+  }
+  WriteAll(m_Folder / "season/m.csv",
+           "id,scan,up\np1,p1.nrrd,\np2,p2.nrrd,z+\np3,p3.nrrd,z-\np4,p4.nrrd,\n"
+           "p5,p5.nrrd,\np6,p6.nrrd,\n");
+  const ProgramResult result = Batch({ "--roots", "--up", "z+", m_Folder / "season/m.csv" });
+  EXPECT_EQ(result.code, 0) << result.error;
+  const auto plant = [&](int number) {
+    const std::string name = "sub-p" + std::to_string(number);
+    return Json::parse(ReadAll(m_Folder / ("out/" + name + "/" + name + "_report.json"))).at("roots");
+  };
+  EXPECT_EQ(plant(1).at("up"), "z+");
+  EXPECT_EQ(plant(3).at("up"), "z-") << "a case's own option comes first";
+  for (const char * file : { "roots.csv", "roots.rsml", "plant.csv", "mask.nrrd", "page.html", "thumbnail.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(m_Folder / ("out/sub-p6/sub-p6_" + std::string(file)))) << file;
+  }
+  std::istringstream lines(ReadAll(m_Folder / "out/labels.csv"));
+  std::string        head;
+  std::getline(lines, head);
+  const auto column = [&](const std::string & line, const std::string & name) {
+    const auto         before = head.substr(0, head.find("," + name + ",") + 1);
+    auto               skip = std::count(before.begin(), before.end(), ',');
+    std::istringstream fields(line);
+    std::string        field;
+    for (std::getline(fields, field, ','); skip > 0; --skip)
+    {
+      std::getline(fields, field, ',');
+    }
+    return field;
+  };
+  int number = 0;
+  for (std::string line; std::getline(lines, line);)
+  {
+    ++number;
+    EXPECT_NEAR(std::stod(column(line, "plant_total_length_mm")),
+                plant(number).at("plant").at("total_length_mm").get<double>(),
+                1e-6);
+    EXPECT_EQ(column(line, "outliers").find("plant_total_length_mm+") != std::string::npos, number == 6) << number;
+  }
+  EXPECT_EQ(number, 6);
+  EXPECT_THAT(ReadAll(m_Folder / "out/index.html"), HasSubstr("stem diameter mm"));
+  EXPECT_THAT(Batch({ "--roots", "--up", "z+", m_Folder / "season/m.csv" }).output, HasSubstr("6 of them before"));
+}
+
 TEST_F(BatchCommand, OnlyWhatIsNotDoneIsDone)
 {
   WriteTinyScans(m_Folder.Path(), 3);
@@ -213,6 +281,9 @@ TEST_F(BatchCommand, WrongUseIsSaidInOneLine)
   ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--memory", "lots" }), 2, { "--memory lots", "GB" });
   ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--timeout", "-3" }), 2, { "--timeout -3" });
   ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--jobs", "x" }), 2, { "--jobs x" });
+  ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--up", "z+" }), 2, { "--up", "--roots" });
+  ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--roots", "--lambda", "2vox" }), 2, { "--lambda", "voxelcore roots" });
+  ExpectRefusal(Batch({ m_Folder / "s0.nrrd", "--roots", "--no-skeleton" }), 2, { "--no-skeleton", "--roots" });
   EXPECT_FALSE(std::filesystem::exists(m_Folder / "out"));
 }
 

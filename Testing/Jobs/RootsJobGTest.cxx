@@ -303,6 +303,24 @@ TEST_F(RootsJob, PiecesThatAreLeftOutAreWarnedOfAndLoosePiecesAreMarked)
   }));
 }
 
+TEST_F(RootsJob, APrefixBeginsTheNamesOfAllFilesAndNothingElseDiffers)
+{
+  Scan("a.nrrd");
+  Roots("a.nrrd", "out/");
+  Roots("a.nrrd", "named/", { { "prefix", "maize-3_" } });
+  std::set<std::string> names;
+  for (const std::string & name : kTables)
+  {
+    names.insert("maize-3_" + name);
+  }
+  EXPECT_EQ(In("named"), names);
+  EXPECT_EQ(Bytes("named/maize-3_roots.csv"), Bytes("out/roots.csv"));
+  for (const char * wrong : { "a/b", ".hidden", "a b", "\"" })
+  {
+    EXPECT_THROW(Roots("a.nrrd", "wrong/", { { "prefix", wrong } }), UsageError) << wrong;
+  }
+}
+
 TEST_F(RootsJob, UpsideDownItIsTheSamePlant)
 {
   Scan("a.nrrd");

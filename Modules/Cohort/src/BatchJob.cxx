@@ -85,8 +85,33 @@ AvailableMemoryMb()
 bool
 DescribesACase(const Parameter & parameter)
 {
-  return BelongsTo(parameter, CommandId::Batch) && BelongsTo(parameter, CommandId::Core) && parameter.name != "force" &&
-         parameter.name != "progress" && parameter.name != "quiet" && parameter.name != "threads";
+  return BelongsTo(parameter, CommandId::Batch) &&
+         (BelongsTo(parameter, CommandId::Core) || BelongsTo(parameter, CommandId::Roots)) &&
+         parameter.kind != ParameterKind::Output && parameter.name != "force" && parameter.name != "progress" &&
+         parameter.name != "quiet" && parameter.name != "threads";
+}
+
+/** Whether the command that a batch runs takes this option. */
+bool
+IsTaken(std::string_view name, CommandId command)
+{
+  return std::ranges::any_of(Parameters(), [&](const Parameter & parameter) {
+    return parameter.name == name && BelongsTo(parameter, CommandId::Batch) && BelongsTo(parameter, command);
+  });
+}
+
+/** \throws UsageError for options of the command that is not run */
+void
+RequireTaken(const ParameterValues & values, bool roots, const std::string & where)
+{
+  for (const auto & [name, value] : values)
+  {
+    if (!IsTaken(name, roots ? CommandId::Roots : CommandId::Core) && name != "with-skeleton" && name != "also")
+    {
+      throw UsageError(where + (roots ? "--" + name + " is no option of 'voxelcore roots', which --roots runs"
+                                      : "--" + name + " is an option of 'voxelcore roots'; give --roots, too"));
+    }
+  }
 }
 
 /** A path that no parser takes for an option or a command. */
@@ -103,14 +128,28 @@ JobOf(const CohortCase & one, const BatchOptions & options)
   CaseJob job{ one, options.output / one.folder, {}, {} };
   auto    values = one.values;
   values.insert(options.values.begin(), options.values.end()); // those of the case stay
-  values.emplace("with-skeleton", options.skeletons ? "true" : "false");
-  if (values["with-skeleton"] == "true")
-  {
-    values.emplace("also", "csv,swc");
-  }
+  RequireTaken(values, options.roots, one.scan.string() + ": ");
   const std::string stem = (job.folder / one.folder).string();
-  job.arguments = { "voxelcore",           "core",    PlainPath(one.scan), "-o",  stem + "_medial.vtp", "--report",
-                    stem + "_report.json", "--force", "--progress",        "none" };
+  if (options.roots)
+  {
+    job.arguments = { "voxelcore", "roots",          PlainPath(one.scan), "-o",         job.folder.string() + "/",
+                      "--prefix",  one.folder + "_", "--force",           "--progress", "none" };
+    job.options = "roots\n";
+    if (!options.pages)
+    {
+      job.arguments.push_back("--no-pictures");
+    }
+  }
+  else
+  {
+    values.emplace("with-skeleton", options.skeletons ? "true" : "false");
+    if (values["with-skeleton"] == "true")
+    {
+      values.emplace("also", "csv,swc");
+    }
+    job.arguments = { "voxelcore",           "core",    PlainPath(one.scan), "-o",  stem + "_medial.vtp", "--report",
+                      stem + "_report.json", "--force", "--progress",        "none" };
+  }
   const auto threads = values.find("threads");
   job.arguments.push_back("--threads=" + (threads != values.end() ? threads->second : std::to_string(options.threads)));
   for (const Parameter & parameter : Parameters())
@@ -132,7 +171,10 @@ JobOf(const CohortCase & one, const BatchOptions & options)
   }
   if (options.pages)
   {
-    job.arguments.push_back("--html=" + stem + "_view.html");
+    if (!options.roots)
+    {
+      job.arguments.push_back("--html=" + stem + "_view.html");
+    }
     job.options += "--html\n";
   }
   return job;
@@ -215,6 +257,12 @@ BatchOptionsFrom(const ParameterValues & values)
       ? 0
       : NumberWithUnit("--timeout", timeout, std::array<Unit, 3>{ { { "s", 1 }, { "m", 60 }, { "h", 3600 } } });
   options.skeletons = !values.contains("no-skeleton");
+  options.roots = values.contains("roots");
+  if (options.roots && !options.skeletons)
+  {
+    throw UsageError("--no-skeleton does not go with --roots");
+  }
+  RequireTaken(options.values, options.roots, "");
   options.pages = values.contains("html");
   if (options.pages)
   {

@@ -36,6 +36,15 @@ constexpr PageColumn kColumns[] = {
   { "junctions", "skeleton_junctions" },
   { "length", "skeleton_total_length_mm", 1 },
   { "mean radius", "skeleton_mean_radius_mm", 1 },
+  { "roots", "plant_roots" },
+  { "stem length", "plant_stem_length_mm", 1 },
+  { "stem diameter", "plant_stem_diameter_mm", 1 },
+  { "root length", "plant_total_length_mm", 1 },
+  { "depth", "plant_depth_mm", 1 },
+  { "width", "plant_width_mm", 1 },
+  { "hull", "plant_hull_volume_mm3", 3 },
+  { "whorls", "plant_whorls" },
+  { "contacts", "plant_contacts" },
 };
 
 constexpr std::string_view kHead = R"html(<!DOCTYPE html>
@@ -283,6 +292,12 @@ ColumnsOf(const std::vector<PageCase> & cases)
   std::vector<ShownColumn> columns;
   for (const PageColumn & column : kColumns)
   {
+    const std::string_view key = column.key;
+    if (key.starts_with("plant_") && !HasColumn(cases, column.key) &&
+        !HasColumn(cases, InUnit(column.key, SpatialUnit::Voxels)))
+    {
+      continue; // no batch of roots
+    }
     for (const SpatialUnit lengths : column.power > 0 ? units : std::vector{ units.front() })
     {
       const LengthUnit unit = UnitOf(cases, lengths);
@@ -342,7 +357,7 @@ CaseJson(const PageCase & one, const std::vector<ShownColumn> & columns)
     {
       json["thumbnail"] = output.name;
     }
-    else if (output.name.ends_with("_view.html"))
+    else if (output.name.ends_with("_view.html") || output.name == one.folder + "_page.html")
     {
       json["view"] = output.name;
     }

@@ -131,9 +131,20 @@ TakeReport(const std::string & folder, const CaseRecord & record, const Json & r
   {
     labels.push_back(LabelRow(folder, record, label));
   }
+  if (report.contains("roots") && !labels.empty())
+  {
+    const Json & roots = report.at("roots");
+    Flatten(roots.at("plant"), "plant", {}, labels.at(0));
+    row["up"] = roots.at("up");
+    if (roots.contains("topology"))
+    {
+      row["cuts_and_fills"] = roots.at("topology").at("changes").size();
+      row["topology_as_asked"] = roots.at("topology").at("as_asked");
+    }
+  }
   row["labels"] = labels.size();
   row["parameters_labels"] = Joined(report.at("parameters").value("labels", Json::array()));
-  Flatten(report, "", { "labels", "parameters_labels" }, row);
+  Flatten(report, "", { "labels", "parameters_labels", "parameters_change_voxels", "roots" }, row);
   return labels;
 }
 

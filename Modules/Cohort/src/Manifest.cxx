@@ -93,9 +93,10 @@ RoleOf(const std::string & head, const std::string & where)
   std::vector<std::string_view> names{ "id", "scan", "note" };
   for (const Parameter & parameter : Parameters())
   {
-    // What the batch has in common with `core` describes a case.
-    if (BelongsTo(parameter, CommandId::Batch) && BelongsTo(parameter, CommandId::Core) &&
-        !IsOfTheBatch(parameter.name))
+    // What the batch has in common with `core` or `roots` describes a case.
+    if (BelongsTo(parameter, CommandId::Batch) &&
+        (BelongsTo(parameter, CommandId::Core) || BelongsTo(parameter, CommandId::Roots)) &&
+        parameter.kind != ParameterKind::Output && !IsOfTheBatch(parameter.name))
     {
       if (parameter.name == name)
       {

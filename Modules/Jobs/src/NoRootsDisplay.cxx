@@ -17,8 +17,7 @@ void
 DrawRoots(const RootModel &,
           const VoxelShape &,
           const ImageGeometry &,
-          std::size_t,
-          const std::filesystem::path &,
+          const RootsOptions &,
           OutputTransaction &,
           const ProgressCallback &)
 {

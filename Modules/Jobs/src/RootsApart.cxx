@@ -266,17 +266,35 @@ RootChangesText(const std::optional<RootsTopology> & topology, SpatialUnit unit)
   return text;
 }
 
+namespace
+{
+
+/** Up to where cuts went, or where they had to end. */
+std::string
+KernelText(const RootsTopology & topology)
+{
+  double brightest = -std::numeric_limits<double>::infinity();
+  for (const RootsChange & change : topology.parts)
+  {
+    brightest = change.isFill ? brightest : std::max(brightest, change.brightest);
+  }
+  return topology.levels->kernel == std::nextafter(brightest, std::numeric_limits<double>::infinity())
+           ? "nothing cut above " + Number(brightest)
+           : "nothing cut from " + Number(topology.levels->kernel) + " on";
+}
+
+} // namespace
+
 std::string
 RootsTopologyText(const RootsTopology & topology)
 {
   return CountsText(topology.before) + " became " + CountsText(topology.after) + " by " +
          Counted(topology.cuts, "cut", "cuts") + " of " + Counted(topology.voxelsRemoved, "voxel", "voxels") + " and " +
          Counted(topology.fills, "fill", "fills") + " of " + std::to_string(topology.voxelsAdded) +
-         (topology.levels
-            ? "; levels: shape " + Number(topology.levels->shape) + " (Otsu near the boundary " +
-                Number(topology.levels->otsu) + ", valley " + Number(topology.levels->valley) + "), nothing cut from " +
-                Number(topology.levels->kernel) + " on, nothing filled below " + Number(topology.levels->neighbourhood)
-            : "") +
+         (topology.levels ? "; levels: shape " + Number(topology.levels->shape) + " (Otsu near the boundary " +
+                              Number(topology.levels->otsu) + ", valley " + Number(topology.levels->valley) + "), " +
+                              KernelText(topology) + ", nothing filled below " + Number(topology.levels->neighbourhood)
+                          : "") +
          (topology.asAsked ? "" : "; not what was asked: " + topology.reason);
 }
 

@@ -147,13 +147,12 @@ DrawsRoots()
 }
 
 void
-DrawRoots(const RootModel &             model,
-          const VoxelShape &            shape,
-          const ImageGeometry &         geometry,
-          std::size_t                   triangles,
-          const std::filesystem::path & folder,
-          OutputTransaction &           transaction,
-          const ProgressCallback &      progress)
+DrawRoots(const RootModel &        model,
+          const VoxelShape &       shape,
+          const ImageGeometry &    geometry,
+          const RootsOptions &     options,
+          OutputTransaction &      transaction,
+          const ProgressCallback & progress)
 {
   const DisplayContent content = ContentOf(model, shape, geometry);
   PictureOptions       picture;
@@ -165,7 +164,7 @@ DrawRoots(const RootModel &             model,
   RenderPictures(
     content,
     picture,
-    [&](int, const Picture & drawn) { WritePng(transaction.Stage(folder / "roots.png"), drawn); },
+    [&](int, const Picture & drawn) { WritePng(transaction.Stage(options.Place("roots.png")), drawn); },
     PartOfProgress(progress, 0, 0.5));
   HtmlOptions page;
   page.title = "Roots of " + model.name;
@@ -173,9 +172,9 @@ DrawRoots(const RootModel &             model,
   page.axes = Upright(model.roots.up).Axes();
   page.groups = "Level";
   page.figures = RootsFigures(model);
-  page.triangles = triangles;
+  page.triangles = options.htmlTriangles;
   page.anatomical = false;
-  WriteHtml(transaction.Stage(folder / "roots.html"), content, page, PartOfProgress(progress, 0.5, 1));
+  WriteHtml(transaction.Stage(options.Place("roots.html")), content, page, PartOfProgress(progress, 0.5, 1));
 }
 
 } // namespace voxelcore

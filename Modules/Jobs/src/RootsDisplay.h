@@ -22,13 +22,12 @@ DrawsRoots();
 /** roots.png, the roots inside their surface, upright, in the colours of their levels; and roots.html, the same in
  *  three dimensions. Throws std::logic_error unless DrawsRoots(). \throws OutputError, Cancelled */
 void
-DrawRoots(const RootModel &             model,
-          const VoxelShape &            shape,
-          const ImageGeometry &         geometry,
-          std::size_t                   triangles,
-          const std::filesystem::path & folder,
-          OutputTransaction &           transaction,
-          const ProgressCallback &      progress);
+DrawRoots(const RootModel &        model,
+          const VoxelShape &       shape,
+          const ImageGeometry &    geometry,
+          const RootsOptions &     options,
+          OutputTransaction &      transaction,
+          const ProgressCallback & progress);
 
 /** Charts of length by depth and by diameter, as HTML. */
 std::string
@@ -38,8 +37,12 @@ RootsFigures(const RootModel & model);
 std::string
 RootsChanges(const RootModel & model, const RootsTopology & topology);
 
-/** The summary: a page of its own that needs nothing but roots.png beside it (`drawn`). */
+/** The summary: a page of its own that needs nothing but roots.png beside it; `prefix`: of its name, where there is
+ *  one. */
 std::string
-RootsPage(const RootsResult & result, double volume, const std::vector<std::string> & remarks, bool drawn);
+RootsPage(const RootsResult &                result,
+          double                             volume,
+          const std::vector<std::string> &   remarks,
+          const std::optional<std::string> & prefix);
 
 } // namespace voxelcore

@@ -51,8 +51,8 @@ CoreOptionsOf(const RootsOptions & options)
   core.further = options.further;
   CompletePruning(core.lambdas, core.tolerances);
   core.skeleton = options.stage;
-  core.output = options.output / "medial.vtp";
-  core.skeletonOutput = options.output / "skeleton.vtp";
+  core.output = options.Place("medial.vtp");
+  core.skeletonOutput = options.Place("skeleton.vtp");
   core.engine = options.engine;
   core.threads = options.threads;
   core.force = options.force;
@@ -283,17 +283,16 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   const JobContext  context = ForwardOnly(given);
   Stopwatch         total;
   OutputTransaction transaction(options.force, context.temporaries);
-  const fs::path &  folder = options.output;
-  transaction.MakeDirectory(folder);
+  transaction.MakeDirectory(options.output);
   for (const char * file : kFiles)
   {
-    transaction.CheckTarget(folder / file);
+    transaction.CheckTarget(options.Place(file));
   }
   const bool draws = options.pictures && DrawsRoots();
   if (draws)
   {
-    transaction.CheckTarget(folder / "roots.png");
-    transaction.CheckTarget(folder / "roots.html");
+    transaction.CheckTarget(options.Place("roots.png"));
+    transaction.CheckTarget(options.Place("roots.html"));
   }
   CoreOptions core = CoreOptionsOf(options);
   CheckCoreTargets(core, transaction);
@@ -369,34 +368,29 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
 
   ReportProgress(context.progress, "writing", draws ? 0.75 : 0.95);
   const double volume = result.report.labels.front().volumeMm3;
-  WriteLabelVolume(transaction.StageWithCompanions(folder / "mask.nrrd"), geometry, { mask });
-  WriteRsml(transaction.Stage(folder / "roots.rsml"),
+  WriteLabelVolume(transaction.StageWithCompanions(options.Place("mask.nrrd")), geometry, { mask });
+  WriteRsml(transaction.Stage(options.Place("roots.rsml")),
             result.model,
             { ModificationTime(options.scan), "VoxelCore " + VoxelCoreVersion(), result.report.input.sha256 });
-  WriteRootCsv(transaction.Stage(folder / "roots.csv"), result.model);
-  WriteRootLevelCsv(transaction.Stage(folder / "levels.csv"), result.model);
-  WritePlantCsv(transaction.Stage(folder / "plant.csv"), result.model, volume);
-  WriteRootProfileCsv(transaction.Stage(folder / "profile.csv"), result.model);
-  WriteTextFile(transaction.Stage(folder / "columns.json"), RootColumnsJson(result.model.unit));
-  WriteTextFile(transaction.Stage(folder / "changes.txt"), RootChangesText(result.topology, result.model.unit));
+  WriteRootCsv(transaction.Stage(options.Place("roots.csv")), result.model);
+  WriteRootLevelCsv(transaction.Stage(options.Place("levels.csv")), result.model);
+  WritePlantCsv(transaction.Stage(options.Place("plant.csv")), result.model, volume);
+  WriteRootProfileCsv(transaction.Stage(options.Place("profile.csv")), result.model);
+  WriteTextFile(transaction.Stage(options.Place("columns.json")), RootColumnsJson(result.model.unit));
+  WriteTextFile(transaction.Stage(options.Place("changes.txt")), RootChangesText(result.topology, result.model.unit));
   if (draws)
   {
-    DrawRoots(result.model,
-              mask.shape,
-              geometry,
-              options.htmlTriangles,
-              folder,
-              transaction,
-              PartOfProgress(context.progress, 0.8, 1));
+    DrawRoots(result.model, mask.shape, geometry, options, transaction, PartOfProgress(context.progress, 0.8, 1));
   }
   std::vector<std::string> remarks = result.warnings;
   remarks.insert(remarks.end(), result.notes.begin(), result.notes.end());
-  WriteTextFile(transaction.Stage(folder / "page.html"), RootsPage(result, volume, remarks, draws));
+  WriteTextFile(transaction.Stage(options.Place("page.html")),
+                RootsPage(result, volume, remarks, draws ? std::optional(options.prefix) : std::nullopt));
   result.report.seconds.total = total.Lap();
   result.report.peakMemoryMb = PeakMemoryMb();
   std::string json = ReportJson(result.report);
-  json.replace(json.rfind("\n}"), std::string::npos, RootsJson(result.model, result.topology));
-  WriteTextFile(transaction.Stage(folder / "report.json"), json);
+  json.replace(json.rfind("\n}"), std::string::npos, RootsJson(result.model, result.topology, volume));
+  WriteTextFile(transaction.Stage(options.Place("report.json")), json);
   Finish(transaction, context);
   return result;
 }

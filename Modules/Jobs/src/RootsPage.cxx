@@ -154,7 +154,10 @@ RootsFigures(const RootModel & model)
 }
 
 std::string
-RootsPage(const RootsResult & result, double volume, const std::vector<std::string> & remarks, bool drawn)
+RootsPage(const RootsResult &                result,
+          double                             volume,
+          const std::vector<std::string> &   remarks,
+          const std::optional<std::string> & prefix)
 {
   const RootModel & model = result.model;
   const std::string unit = model.unit == SpatialUnit::Millimetres ? "mm" : "voxels";
@@ -170,12 +173,12 @@ RootsPage(const RootsResult & result, double volume, const std::vector<std::stri
     "img{max-width:100%;max-height:44em}figure{margin:0 0 1em}figcaption{margin-bottom:.4em;font-size:14px}"
     "</style></head><body>\n<h1>" +
     title + "</h1>\n";
-  if (drawn)
+  if (prefix)
   {
-    html +=
-      "<div class=\"beside\"><p><a href=\"roots.html\"><img src=\"roots.png\" alt=\"The roots in the colours of "
-      "their levels\"></a><br><a href=\"roots.html\">View in three dimensions</a></p>\n<div>\n" +
-      RootsFigures(model) + "</div></div>\n";
+    const std::string start = Escaped(*prefix);
+    html += "<div class=\"beside\"><p><a href=\"" + start + "roots.html\"><img src=\"" + start +
+            "roots.png\" alt=\"The roots in the colours of their levels\"></a><br><a href=\"" + start +
+            "roots.html\">View in three dimensions</a></p>\n<div>\n" + RootsFigures(model) + "</div></div>\n";
   }
   std::vector<Bar> widths;
   for (const RootDepthRecord & slice : model.traits.depths)
@@ -185,7 +188,7 @@ RootsPage(const RootsResult & result, double volume, const std::vector<std::stri
   html += "<h2>Roots by level</h2>\n<div class=\"wide\">" + LevelTable(model, unit) +
           "</div>\n<h2>The plant</h2>\n<div class=\"two\"><div>" + PlantTable(model, volume, unit) + "</div>" +
           BarChart("Width of the plant by depth, " + unit, widths) + "</div>\n";
-  if (!drawn)
+  if (!prefix)
   {
     html += "<div class=\"two\">\n" + RootsFigures(model) + "</div>\n";
   }

@@ -71,15 +71,17 @@ TopologyJson(const RootsTopology & topology)
 } // namespace
 
 std::string
-RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology)
+RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology, double volume)
 {
   const RootTraits & traits = model.traits;
-  std::string        json = ",\n  \"roots\": {\n    \"up\": \"" + UpText(model.roots.up) +
-                     "\",\n    \"up_found\": " + (model.roots.upFound ? "true" : "false") +
-                     ",\n    \"axes\": " + std::to_string(model.roots.axes.size()) +
-                     ",\n    \"stems\": " + std::to_string(traits.stems) + ",\n    \"total_length\": " +
-                     JsonNumber(traits.levels.empty() ? 0 : traits.levels.back().totalLength) +
-                     ",\n    \"whorls\": " + std::to_string(traits.whorls) + ",\n    \"contacts\": [";
+  std::string        json =
+    ",\n  \"roots\": {\n    \"up\": \"" + UpText(model.roots.up) +
+    "\",\n    \"up_found\": " + (model.roots.upFound ? "true" : "false") +
+    ",\n    \"axes\": " + std::to_string(model.roots.axes.size()) +
+    ",\n    \"stems\": " + std::to_string(traits.stems) +
+    ",\n    \"total_length\": " + JsonNumber(traits.levels.empty() ? 0 : traits.levels.back().totalLength) +
+    ",\n    \"whorls\": " + std::to_string(traits.whorls) + ",\n    \"plant\": " + PlantJson(model, volume) +
+    ",\n    \"contacts\": [";
   for (std::size_t i = 0; i < model.roots.meetings.size(); ++i)
   {
     const RootMeeting & meeting = model.roots.meetings[i];

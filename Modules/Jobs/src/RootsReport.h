@@ -9,8 +9,9 @@
 namespace voxelcore
 {
 
-/** The part of the report that is about roots; goes before the last brace of the core's. */
+/** The part of the report that is about roots; goes before the last brace of the core's. `volume`: of the voxels,
+ *  mm^3. */
 std::string
-RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology);
+RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology, double volume);
 
 } // namespace voxelcore

@@ -4,6 +4,8 @@
 #include "voxelcore/SkeletonModel.h"
 
 #include <array>
+#include <cmath>
+#include <cstdio>
 
 namespace voxelcore
 {
@@ -310,6 +312,28 @@ WritePlantCsv(const std::filesystem::path & path, const RootModel & model, doubl
   file << CsvField(model.name) << ",";
   WriteRow(file, kPlantColumns, PlantRow{ model.traits, volume });
   file.Finish();
+}
+
+std::string
+PlantJson(const RootModel & model, double volume)
+{
+  const PlantRow row{ model.traits, volume };
+  std::string    json;
+  for (const auto & column : kPlantColumns)
+  {
+    const double value = column.value(row);
+    if (!std::isfinite(value))
+    {
+      continue;
+    }
+    std::string unit = InUnit(column.unit, model.unit);
+    std::erase(unit, '^');
+    char text[40];
+    std::snprintf(text, sizeof(text), "%.9g", value);
+    json +=
+      (json.empty() ? "\"" : ", \"") + std::string(column.name) + (unit.empty() ? "" : "_" + unit) + "\": " + text;
+  }
+  return "{ " + json + " }";
 }
 
 void

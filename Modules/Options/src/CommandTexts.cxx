@@ -207,13 +207,17 @@ Each case runs in its own process. A failure costs only that case, and the exit 
 command again to continue: finished cases are recognised by the content of scan, options and program. OUTDIR
 gets a folder sub-<id>/ per case, cases.csv, labels.csv, and index.html, which opens offline.
 
+With --roots each case is one of 'voxelcore roots': a season of plants. labels.csv then holds their traits
+(plant_...), and plants that stand out are marked.
+
 On a cluster, run 'batch manifest.csv -o OUT --case $SLURM_ARRAY_TASK_ID' for each case, then 'batch
 manifest.csv -o OUT --gather'. Applications/Snakemake does both.
 
 Examples:
   voxelcore batch scans/ -o results --lambda 2vox
   voxelcore batch cohort.csv -o results --jobs 4 --memory 12GB --timeout 30m
-  voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton)";
+  voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton
+  voxelcore batch season.csv --roots --up z+ -o season/)";
 
 constexpr std::array<Command, 14> kCommands{ {
   { CommandId::Core, "core", "Compute the medial surface of one, several or all labels of a scan", kCoreFooter },

@@ -30,6 +30,15 @@ RootsOptionsFrom(const ParameterValues & values)
   options.rules.up = ParseUp(reader.Text("up"));
   options.rules.stems = reader.Text("stems") == "auto" ? 0 : static_cast<int>(reader.Whole("stems", 1, 1000));
   options.soilDepth = reader.Real("soil-depth");
+  options.prefix = reader.Text("prefix");
+  // It stands in links of the page, too.
+  if (options.prefix.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.") !=
+        std::string::npos ||
+      options.prefix.starts_with('.'))
+  {
+    throw UsageError("--prefix " + options.prefix +
+                     ": expected letters, digits, '_', '-' and '.', and no '.' in front");
+  }
   options.pictures = !reader.IsSet("no-pictures");
   options.htmlTriangles = static_cast<std::size_t>(reader.Whole("html-triangles", 1000, 20000000));
   options.output = reader.File("output");

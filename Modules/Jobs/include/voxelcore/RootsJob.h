@@ -15,6 +15,14 @@ namespace voxelcore
 
 struct RootsOptions
 {
+  /** Where a result is written: "roots.csv" in the folder, with the prefix. */
+  std::filesystem::path
+  Place(const std::string & file) const
+  {
+    return output / (prefix + file);
+  }
+
+
   std::filesystem::path              scan;    ///< grey values or a mask; or a mesh
   ReadOptions                        reading; ///< must give one label, or grey values
   std::optional<std::int64_t>        resolution;
@@ -27,6 +35,7 @@ struct RootsOptions
   RootRules                          rules;
   std::optional<double>              soilDepth;       ///< mm below the base of the first stem
   std::filesystem::path              output;          ///< a folder
+  std::string                        prefix;          ///< of the names of all files in it
   bool                               pictures = true; ///< where the build can
   std::size_t                        htmlTriangles = 500000;
   std::map<std::string, std::string> further; ///< recorded

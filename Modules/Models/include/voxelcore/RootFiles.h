@@ -48,6 +48,11 @@ WriteRootLevelCsv(const std::filesystem::path & path, const RootModel & model);
 void
 WritePlantCsv(const std::filesystem::path & path, const RootModel & model, double volume);
 
+/** The same row as a JSON object in one line, its units in its names: total_length_mm, volume_mm3; without what is not
+ *  known. */
+std::string
+PlantJson(const RootModel & model, double volume);
+
 /** Length by depth and by diameter, and width by depth. \throws OutputError */
 void
 WriteRootProfileCsv(const std::filesystem::path & path, const RootModel & model);

@@ -1,5 +1,5 @@
 #pragma once
-// Options of `roots` alone.
+// Options of `roots`, and of `batch --roots`.
 
 #include "CommandBits.h"
 
@@ -15,7 +15,7 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "auto|x+|x-|y+|y-|z+|z-",
     "auto",
     false,
-    kRoots,
+    kRoots | kBatch,
     "Direction that was up, along an axis of the scan's space (LPS); auto finds it by the stem" },
   { "stems",
     "--stems",
@@ -23,7 +23,7 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "N|auto",
     "1",
     false,
-    kRoots,
+    kRoots | kBatch,
     "Number of stems; auto counts those about as thick and high" },
   { "soil-depth",
     "--soil-depth",
@@ -31,7 +31,7 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "MM",
     "",
     false,
-    kRoots,
+    kRoots | kBatch,
     "Depth of the soil plane below the base of the stem; counts roots and whorls above and below it" },
   { "as-is",
     "--as-is",
@@ -39,7 +39,7 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     "",
     false,
-    kRoots,
+    kRoots | kBatch,
     "Do not clean the mask; without this it is mended, hollow roots (--fill-hollows, by a width found) and cavities "
     "are "
     "filled, and the largest piece is kept" },
@@ -49,7 +49,7 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     "",
     false,
-    kRoots,
+    kRoots | kBatch,
     "Leave the mask joined where roots touch; without this it is cut there, so that there are no loops, or --loops N" },
   { "kernel",
     "--kernel",
@@ -57,7 +57,7 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "VALUE",
     "",
     false,
-    kRoots,
+    kRoots | kBatch,
     "Never cut voxels of a grey scan with this value or more; without this bright voxels are cut last" },
   { "neighborhood",
     "--neighborhood",
@@ -65,10 +65,11 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "VALUE",
     "",
     false,
-    kRoots,
+    kRoots | kBatch,
     "Never fill voxels of a grey scan with less than this value; without this a level is proposed by how pieces, loops "
     "and cavities change with it" },
   { "no-pictures", "--no-pictures", Flag, "", "", false, kRoots, "Leave out roots.png and roots.html" },
+  { "prefix", "--prefix", Text, "TEXT", "", false, kRoots, "Begin the names of all files in OUTDIR with this" },
 });
 
 } // namespace voxelcore::table
