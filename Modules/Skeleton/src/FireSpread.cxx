@@ -48,7 +48,7 @@ SurfaceFire::Reach(Block &        block,
   }
   else
   {
-    block.out.push_back({ time, sector, point });
+    Send(block, queue, { time, sector, point });
   }
 }
 

@@ -121,9 +121,17 @@ SurfaceFire::HandOver(const std::vector<std::size_t> & from)
   {
     for (const Arrival & arrival : m_Blocks[i].out)
     {
-      Block & to = m_Blocks[OwnerOf(arrival.point)];
-      to.in.push_back(arrival);
-      to.next = std::min(to.next, arrival.time);
+      const double before = Time(arrival.sector);
+      if (arrival.time < std::abs(before))
+      {
+        Block & to = m_Blocks[OwnerOf(arrival.point)];
+        SetTime(arrival.sector, arrival.time);
+        to.next = std::min(to.next, arrival.time);
+        if (HasSpread(before) || before == kNever) // else it is in line
+        {
+          to.waiting.push_back(arrival.point);
+        }
+      }
     }
     std::vector<Arrival>().swap(m_Blocks[i].out);
   }
@@ -164,27 +172,6 @@ SurfaceFire::BurnBlock(Block & block, double start, double end)
     }
   }
   block.waiting.resize(kept);
-  // Of what came for one sector only the earliest counts, whether later fire was told of as well or not: that depends
-  // on when another thread looked.
-  for (Arrival & arrival : block.in)
-  {
-    if (arrival.time < std::abs(Time(arrival.sector)))
-    {
-      SetTime(arrival.sector, arrival.time);
-    }
-    else
-    {
-      arrival.time = kNever;
-    }
-  }
-  for (const Arrival & arrival : block.in)
-  {
-    if (arrival.time == Time(arrival.sector) && arrival.time < kNever)
-    {
-      Line(block, queue, arrival.point, arrival.time);
-    }
-  }
-  std::vector<Arrival>().swap(block.in);
   for (; queue.present < Queue::most; ++queue.present)
   {
     std::vector<std::uint32_t> & bucket = queue.buckets[queue.present];
@@ -195,6 +182,31 @@ SurfaceFire::BurnBlock(Block & block, double start, double end)
       BurnPoint(block, queue, point);
     }
   }
+  KeepFirst(block.out);
+}
+
+void
+SurfaceFire::KeepFirst(std::vector<Arrival> & out)
+{
+  std::sort(out.begin(), out.end(), [](const Arrival & a, const Arrival & b) {
+    return a.sector != b.sector ? a.sector < b.sector : a.time < b.time;
+  });
+  const auto isSame = [](const Arrival & a, const Arrival & b) { return a.sector == b.sector; };
+  out.erase(std::unique(out.begin(), out.end(), isSame), out.end());
+  out.shrink_to_fit();
+}
+
+void
+SurfaceFire::Send(Block & block, Queue & queue, const Arrival & arrival)
+{
+  std::uint32_t & place = queue.sent[arrival.sector % Queue::mostSent];
+  if (place < block.out.size() && block.out[place].sector == arrival.sector)
+  {
+    block.out[place].time = std::min(block.out[place].time, arrival.time);
+    return;
+  }
+  place = static_cast<std::uint32_t>(block.out.size());
+  block.out.push_back(arrival);
 }
 
 double

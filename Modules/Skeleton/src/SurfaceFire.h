@@ -67,7 +67,6 @@ private:
     std::uint32_t              lastSample;
     double                     next = kNever; ///< nothing here burns before
     std::vector<std::uint32_t> waiting;       ///< points to burn when their window comes
-    std::vector<Arrival>       in;
     std::vector<Arrival>       out;
     std::uint64_t              burned = 0;
 
@@ -187,6 +186,15 @@ private:
         const Radius & radius,
         const Point &  pointOf);
 
+  /** Notes what fire carries to another block; of what comes to one sector the earliest is enough. */
+  static void
+  Send(Block & block, Queue & queue, const Arrival & arrival);
+
+  /** The earliest for each sector, in an order that does not tell which later ones were noted: that depends on when
+   *  this thread looked at the times of others. */
+  static void
+  KeepFirst(std::vector<Arrival> & out);
+
   /** Puts a point in line to burn then. */
   void
   Line(Block & block, Queue & queue, std::uint32_t point, double time);
@@ -225,9 +233,11 @@ private:
 struct SurfaceFire::Queue
 {
   static constexpr std::size_t most = 16;
+  static constexpr std::size_t mostSent = 8192;
 
   std::array<std::vector<std::uint32_t>, most> buckets;
-  std::vector<std::uint32_t>                   fresh; ///< sectors of a point that burn now
+  std::vector<std::uint32_t>                   fresh;  ///< sectors of a point that burn now
+  std::array<std::uint32_t, mostSent>          sent{}; ///< where a sector may be in Block::out, by its last bits
   double                                       start = 0;
   double                                       end = 0;
   double                                       perTime = 0;
