@@ -41,7 +41,7 @@ ExpectSameOfParts(const VoxelShape & shape, const Spacing3 & spacing, std::size_
 
   WholeCore                 kept = whole;
   std::vector<LiveElements> left = LeftToRefine(kept.core, thresholds, false);
-  KeepToRefine(spacing, kept.core, kept.edgePoints, kept.points, left, parts);
+  kept.core = KeepToRefine(spacing, whole.core, kept.edgePoints, kept.points, left, parts);
   const auto found = RefineCore(
     { &shape, &kept.points, &kept.core, &kept.edgePoints, surface.get(), spacing, false, parts, left, &whole.points },
     thresholds);

@@ -184,7 +184,7 @@ private:
       }
       if (Refines(m_Request))
       {
-        m_Kept.points = std::move(points);
+        m_Kept.boundary = std::move(points);
       }
     }
     if (!byTolerance)
@@ -214,15 +214,29 @@ private:
     }
   }
 
-  /** The whole core as it was before it was moved to LPS mm. */
+  /** Keeps of the whole core what will be refined, and of the places it had in the lattice no others. */
   void
-  TakeBack(MedialComplex whole)
+  KeepToRefineLater(const ProgressCallback & progress)
   {
-    if (!IsLeftHanded(m_Result.shape.geometry))
+    if (RefinesCores(m_Request))
     {
-      whole.positions = std::move(m_Kept.core.positions);
-      m_Kept.core = std::move(whole);
+      m_Refinement.asked = Asked();
     }
+    if (RefinesCurves(m_Request))
+    {
+      m_Refinement.curves = &*m_Curves;
+    }
+    const Vector3 & spacing = m_Result.shape.geometry.spacing;
+    MedialComplex   former = std::move(m_Kept.core);
+    MedialComplex & whole = m_Whole.core.core;
+    if (IsLeftHanded(m_Result.shape.geometry))
+    {
+      KeepAsked(spacing, former, m_Refinement, m_Kept, progress);
+      return;
+    }
+    whole.positions.swap(former.positions);
+    KeepAsked(spacing, whole, m_Refinement, m_Kept, progress);
+    whole.positions.swap(former.positions);
   }
 
   void
@@ -267,7 +281,30 @@ private:
         m_Whole.numbers.complex = DescribeComplex(core, *m_Topology);
       });
     m_Result.whole = m_Whole.numbers.complex;
+    if (RefinesCores(m_Request) && !RefinesCurves(m_Request))
+    {
+      KeepToRefineLater(PartOfProgress(prune, "core", 0.5, 1));
+      m_WholeIsSpare = true;
+    }
+    else if (!RefinesCores(m_Request) && !m_Request.tolerances.empty())
+    {
+      MakePruned();
+      m_WholeIsSpare = !Refines(m_Request);
+    }
+    if (m_WholeIsSpare && !BurnsBeforePruning(m_Request))
+    {
+      m_Whole = CertifiedCore();
+    }
     m_Result.seconds.prune += watch.Lap();
+  }
+
+  /** The cores by tolerance that are not refined. */
+  void
+  MakePruned()
+  {
+    m_Whole.numbers.lambda = m_Request.lambdas.front().text;
+    m_Whole.numbers.lambdaMm = m_Thresholds.front();
+    m_Result.cores = PruneCertified(m_Whole, m_Result.shape, m_Request.tolerances);
   }
 
   /** The results asked for; the whole core is used up. */
@@ -276,27 +313,25 @@ private:
   {
     if (Refines(m_Request))
     {
-      RefinementTask task;
-      if (RefinesCores(m_Request))
-      {
-        TakeBack(std::move(m_Whole.core.core));
-        m_Whole = CertifiedCore();
-        task.asked = Asked();
-      }
-      else
-      {
-        TakeBack(m_Whole.core.core);
-      }
+      const ProgressCallback refine = m_Plan.Next();
       if (RefinesCurves(m_Request))
       {
-        task.curves = &*m_Curves;
+        KeepToRefineLater(PartOfProgress(refine, "refine", 0, 0.05));
       }
-      m_Result.cores = RefineAndCertify(m_Voxels,
-                                        m_Result.shape,
-                                        std::move(m_Kept),
-                                        *m_Request.surface,
-                                        std::move(task),
-                                        m_Plan.Next());
+      if (RefinesCores(m_Request))
+      {
+        m_Whole = CertifiedCore();
+      }
+      std::vector<CertifiedCore> refined = RefineAndCertify(m_Voxels,
+                                                            m_Result.shape,
+                                                            std::move(m_Kept),
+                                                            *m_Request.surface,
+                                                            std::move(m_Refinement),
+                                                            refine);
+      if (RefinesCores(m_Request))
+      {
+        m_Result.cores = std::move(refined);
+      }
     }
     if (RefinesCores(m_Request))
     {
@@ -318,9 +353,6 @@ private:
     }
     else
     {
-      m_Whole.numbers.lambda = m_Request.lambdas.front().text;
-      m_Whole.numbers.lambdaMm = m_Thresholds.front();
-      m_Result.cores = PruneCertified(m_Whole, m_Result.shape, m_Request.tolerances);
       m_Whole = CertifiedCore();
       CertifyCoverage();
     }
@@ -406,8 +438,9 @@ private:
   SpendsWhole() const
   {
     const auto isWhole = [](double threshold) { return threshold == 0; };
-    return m_Request.spendsCores && m_Request.tolerances.empty() && !m_Request.thickness && !Refines(m_Request) &&
-           std::all_of(m_Thresholds.begin(), m_Thresholds.end(), isWhole);
+    return m_WholeIsSpare ||
+           (m_Request.spendsCores && m_Request.tolerances.empty() && !m_Request.thickness && !Refines(m_Request) &&
+            std::all_of(m_Thresholds.begin(), m_Thresholds.end(), isWhole));
   }
 
   void
@@ -422,20 +455,26 @@ private:
   void
   BurnBeforePruning()
   {
-    MedialComplex & core = m_Whole.core.core;
+    MedialComplex &       core = m_Whole.core.core;
+    MedialComplex * const spent = SpendsWhole() ? &core : nullptr;
     if (BurnsWhole(m_Request))
     {
-      Burn(core, nullptr, SpendsWhole() ? &core : nullptr);
+      Burn(core, nullptr, spent);
       return;
     }
     const LiveElements left = PartToBurn(core, m_Result.shape, *m_Request.skeleton);
     if (m_Request.skeleton->tolerance)
     {
-      Burn(core, &left);
+      Burn(core, &left, spent);
       return;
     }
-    PartElements part;
-    Burn(ExtractPart(core, left, part));
+    PartElements  part;
+    MedialComplex burns = ExtractPart(core, left, part);
+    if (spent != nullptr)
+    {
+      *spent = MedialComplex();
+    }
+    Burn(burns, nullptr, &burns);
     NameInWhole(part, m_Curves->curves.inSurface);
   }
 
@@ -453,8 +492,10 @@ private:
   StagePlan                      m_Plan;
   std::vector<double>            m_Thresholds; ///< mm
   RefinementParts                m_Kept;       ///< where there is something to refine
+  RefinementTask                 m_Refinement; ///< once m_Kept is kept for it
   std::optional<TopologyNumbers> m_Topology;   ///< of the whole core, once it was found to be the shape's
   CertifiedCore                  m_Whole;
+  bool                           m_WholeIsSpare = false; ///< what is left to do with it is to burn it
   std::vector<MedialComplex>     m_Pruned; ///< by lambda, ascending
   std::optional<BurnedCurves>    m_Curves;
   ThicknessBracket               m_Bracket;

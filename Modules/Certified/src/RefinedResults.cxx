@@ -171,7 +171,42 @@ MoveCurves(const RefinedCore & refined, const VoxelShape & voxels, const Certifi
   curves.radius = refined.core.radius;
 }
 
+/** At which each core of the task is pruned, in mm. */
+std::vector<double>
+ThresholdsOf(const RefinementTask & task)
+{
+  std::vector<double> thresholdsMm;
+  for (const CoreNumbers & one : task.asked)
+  {
+    thresholdsMm.push_back(one.tolerance ? one.tolerance->heightMm : one.lambdaMm);
+  }
+  return thresholdsMm;
+}
+
+bool
+IsByTolerance(const RefinementTask & task)
+{
+  return !task.asked.empty() && task.asked.front().tolerance.has_value();
+}
+
 } // namespace
+
+// Each threshold goes on from where the last one stopped.
+void
+KeepAsked(const Vector3 &          spacing,
+          const MedialComplex &    whole,
+          const RefinementTask &   task,
+          RefinementParts &        parts,
+          const ProgressCallback & progress)
+{
+  parts.left = LeftToRefine(whole, AscendingBeyond(-HUGE_VAL, ThresholdsOf(task)), IsByTolerance(task), progress);
+  if (task.curves)
+  {
+    parts.curves.push_back(ElementsOf(task.curves->curves.inSurface, whole.cells));
+  }
+  parts.points = parts.boundary;
+  parts.core = KeepToRefine(spacing, whole, parts.edgePoints, parts.points, parts.left, parts.curves);
+}
 
 std::vector<CertifiedCore>
 RefineAndCertify(const VoxelShape &       voxels,
@@ -181,32 +216,22 @@ RefineAndCertify(const VoxelShape &       voxels,
                  RefinementTask           task,
                  const ProgressCallback & progress)
 {
-  std::vector<double> thresholdsMm;
-  bool                byTolerance = false;
-  for (const CoreNumbers & one : task.asked)
-  {
-    thresholdsMm.push_back(one.tolerance ? one.tolerance->heightMm : one.lambdaMm);
-    byTolerance = one.tolerance.has_value();
-  }
-  // What is not refined goes before there is a surface, which takes most memory. Each threshold goes on from where the
-  // last one stopped.
+  const std::vector<double> thresholdsMm = ThresholdsOf(task);
   const std::vector<double> ascending = AscendingBeyond(-HUGE_VAL, thresholdsMm);
-  auto left = LeftToRefine(parts.core, ascending, byTolerance, PartOfProgress(progress, "refine", 0, 0.05));
-  std::vector<LiveElements> curves;
-  if (task.curves)
-  {
-    curves.push_back(ElementsOf(task.curves->curves.inSurface, parts.core.cells));
-  }
-  std::vector<LatticePoint> points = parts.points;
-  KeepToRefine(shape.geometry.spacing, parts.core, parts.edgePoints, points, left, curves);
   std::vector<RefinedCore> refined;
   bool                     ofLabels = false;
   {
     const auto      surface = source(voxels, PartOfProgress(progress, "surface", 0.05, 0.35));
-    RefinementInput input{ &voxels,           &points,           &parts.core,
-                           &parts.edgePoints, surface.get(),     shape.geometry.spacing,
-                           byTolerance,       std::move(curves), std::move(left),
-                           &parts.points };
+    RefinementInput input{ &voxels,
+                           &parts.points,
+                           &parts.core,
+                           &parts.edgePoints,
+                           surface.get(),
+                           shape.geometry.spacing,
+                           IsByTolerance(task),
+                           std::move(parts.curves),
+                           std::move(parts.left),
+                           &parts.boundary };
     ofLabels = surface->IsOfLabels();
     refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.35, 1));
   }

@@ -125,9 +125,9 @@ LeftToRefine(const MedialComplex &       core,
   return left;
 }
 
-void
+MedialComplex
 KeepToRefine(const Vector3 &             spacing,
-             MedialComplex &             core,
+             const MedialComplex &       core,
              EdgePoints &                edgePoints,
              std::vector<LatticePoint> & points,
              std::vector<LiveElements> & left,
@@ -140,8 +140,8 @@ KeepToRefine(const Vector3 &             spacing,
       return &part;
     });
   }
-  PartElements kept;
-  core = ExtractPart(core, NeededFor(core, all, WidestFringe(spacing)), kept);
+  PartElements  kept;
+  MedialComplex part = ExtractPart(core, NeededFor(core, all, WidestFringe(spacing)), kept);
   const auto pick = [](std::vector<std::uint8_t> & flags, const std::vector<ElementIndex> & indices) {
     std::vector<std::uint8_t> some(indices.size());
     std::transform(indices.begin(), indices.end(), some.begin(), [&](ElementIndex index) { return flags[index]; });
@@ -149,22 +149,26 @@ KeepToRefine(const Vector3 &             spacing,
   };
   for (auto * const some : { &left, &parts })
   {
-    for (LiveElements & part : *some)
+    for (LiveElements & one : *some)
     {
-      pick(part.vertices, kept.vertices);
-      pick(part.edges, kept.edges);
-      pick(part.faces, kept.faces);
+      pick(one.vertices, kept.vertices);
+      pick(one.edges, kept.edges);
+      pick(one.faces, kept.faces);
     }
   }
   EdgePoints                 nearest;
   std::vector<std::uint32_t> names(points.size(), 0);
+  std::uint64_t              ends = 0;
   for (const ElementIndex edge : kept.edges)
   {
     for (const std::uint32_t point : edgePoints.Of(edge))
     {
       names[point] = 1;
+      ++ends;
     }
   }
+  nearest.points.reserve(ends);
+  nearest.offsets.reserve(kept.edges.size() + 1);
   std::vector<LatticePoint> named;
   for (std::size_t point = 0; point < points.size(); ++point)
   {
@@ -184,6 +188,7 @@ KeepToRefine(const Vector3 &             spacing,
   }
   edgePoints = std::move(nearest);
   points = std::move(named);
+  return part;
 }
 
 } // namespace voxelcore

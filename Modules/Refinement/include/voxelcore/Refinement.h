@@ -70,11 +70,12 @@ LeftToRefine(const MedialComplex &       core,
              bool                        byTolerance,
              const ProgressCallback &    progress = {});
 
-/** Drops of a whole core, of what is nearest to its edges and of these boundary vertices what is not needed to refine
- *  parts of it, and names the rest anew, in the parts, too. What is refined of them stays the same to the last bit. */
-void
+/** What of a whole core is needed to refine parts of it. Drops the rest of what is nearest to its edges and of these
+ *  boundary vertices, and names what stays anew, in the parts, too. What is refined of them stays the same to the last
+ *  bit. */
+MedialComplex
 KeepToRefine(const Vector3 &             spacing,
-             MedialComplex &             core,
+             const MedialComplex &       core,
              EdgePoints &                edgePoints,
              std::vector<LatticePoint> & points,
              std::vector<LiveElements> & left,
