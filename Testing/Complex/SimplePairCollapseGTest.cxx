@@ -308,10 +308,19 @@ TEST(SimplePairCollapse, TopologyIsKeptAndOrderToo)
     const Measures     measures = RandomMeasures(complex, generator, 10, seed % 2 == 0);
     SimplePairCollapse collapse(complex, measures.vertex, measures.edge, measures.face);
     collapse.CollapseBelow(seed % 3 == 0 ? kAll : 6);
-    std::vector<ElementIndex> vertexIds;
-    std::vector<ElementIndex> edgeIds;
-    std::vector<ElementIndex> faceIds;
-    const CellComplex         left = ExtractLive(complex, collapse.Live(), vertexIds, edgeIds, faceIds);
+    std::vector<ElementIndex>                vertexIds;
+    std::vector<ElementIndex>                edgeIds;
+    std::vector<ElementIndex>                faceIds;
+    const CellComplex                        left = ExtractLive(complex, collapse.Live(), vertexIds, edgeIds, faceIds);
+    CellComplex                              inPlace = complex;
+    std::array<std::vector<ElementIndex>, 3> ids;
+    KeepLive(inPlace, collapse.Live(), ids[0], ids[1], ids[2]);
+    EXPECT_EQ(ids, (std::array<std::vector<ElementIndex>, 3>{ vertexIds, edgeIds, faceIds }));
+    EXPECT_EQ(inPlace.vertexCount, left.vertexCount);
+    EXPECT_EQ(inPlace.edges, left.edges);
+    EXPECT_EQ(inPlace.faceOffsets, left.faceOffsets);
+    EXPECT_EQ(inPlace.faceVertices, left.faceVertices);
+    EXPECT_EQ(inPlace.faceEdges, left.faceEdges);
     // The live elements are a complex with the same numbers as the whole, by the slow sure way.
     TopologyNumbers before = DenseTopology(complex);
     TopologyNumbers after = DenseTopology(left);

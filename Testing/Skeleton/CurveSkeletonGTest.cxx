@@ -32,7 +32,26 @@ TEST(CurveSkeleton, VoxelsThatTouchInAnEdgeOrACornerAreTwoPoints)
   }
 }
 
-TEST(CurveSkeleton, SurfaceThatIsUsedUpHasTheSameSkeleton)
+void
+ExpectSameSkeleton(const CurveSkeleton & spent, const CurveSkeleton & kept)
+{
+  EXPECT_EQ(spent.complex.cells.vertexCount, kept.complex.cells.vertexCount);
+  EXPECT_EQ(spent.complex.cells.edges, kept.complex.cells.edges);
+  EXPECT_EQ(spent.complex.cells.faceOffsets, kept.complex.cells.faceOffsets);
+  EXPECT_EQ(spent.complex.cells.faceVertices, kept.complex.cells.faceVertices);
+  EXPECT_EQ(spent.complex.cells.faceEdges, kept.complex.cells.faceEdges);
+  EXPECT_EQ(spent.complex.positions, kept.complex.positions);
+  EXPECT_EQ(spent.complex.radius, kept.complex.radius);
+  EXPECT_EQ(spent.places, kept.places);
+  EXPECT_EQ(spent.erosionThickness, kept.erosionThickness);
+  EXPECT_EQ(spent.branchThickness, kept.branchThickness);
+  EXPECT_EQ(spent.closedFace, kept.closedFace);
+  EXPECT_EQ(spent.inSurface.vertices, kept.inSurface.vertices);
+  EXPECT_EQ(spent.inSurface.edges, kept.inSurface.edges);
+  EXPECT_EQ(spent.inSurface.faces, kept.inSurface.faces);
+}
+
+TEST(CurveSkeleton, SurfaceThatIsUsedUpOrGivenBackHasTheSameSkeleton)
 {
   VoxelShape hollow(VoxelBox{ { 0, 0, 0 }, { 14, 12, 9 } });
   for (std::int32_t z = 0; z < 9; ++z)
@@ -60,23 +79,25 @@ TEST(CurveSkeleton, SurfaceThatIsUsedUpHasTheSameSkeleton)
       options.sampling = 1.5;
       options.voxel = 1;
       const CurveSkeleton kept = ComputeCurveSkeleton(surface, options);
+      const MedialComplex before = surface;
       options.spent = &surface;
-      const CurveSkeleton spent = ComputeCurveSkeleton(surface, options);
+      options.givesBack = true;
+      ExpectSameSkeleton(ComputeCurveSkeleton(surface, options), kept);
+      ExpectSameCore(surface, before);
+
+      options.givesBack = false;
+      ExpectSameSkeleton(ComputeCurveSkeleton(surface, options), kept);
       EXPECT_TRUE(surface.positions.empty());
-      EXPECT_EQ(spent.complex.cells.vertexCount, kept.complex.cells.vertexCount);
-      EXPECT_EQ(spent.complex.cells.edges, kept.complex.cells.edges);
-      EXPECT_EQ(spent.complex.cells.faceOffsets, kept.complex.cells.faceOffsets);
-      EXPECT_EQ(spent.complex.cells.faceVertices, kept.complex.cells.faceVertices);
-      EXPECT_EQ(spent.complex.cells.faceEdges, kept.complex.cells.faceEdges);
-      EXPECT_EQ(spent.complex.positions, kept.complex.positions);
-      EXPECT_EQ(spent.complex.radius, kept.complex.radius);
-      EXPECT_EQ(spent.places, kept.places);
-      EXPECT_EQ(spent.erosionThickness, kept.erosionThickness);
-      EXPECT_EQ(spent.branchThickness, kept.branchThickness);
-      EXPECT_EQ(spent.closedFace, kept.closedFace);
-      EXPECT_EQ(spent.inSurface.vertices, kept.inSurface.vertices);
-      EXPECT_EQ(spent.inSurface.edges, kept.inSurface.edges);
-      EXPECT_EQ(spent.inSurface.faces, kept.inSurface.faces);
+      EXPECT_TRUE(surface.cells.edges.empty());
+
+      surface = before;
+      SimplePairCollapse collapse(before.cells, before.vertexLambda, before.edgeLambda, before.faceLambda);
+      collapse.CollapseBelow(1.2);
+      options.spent = nullptr;
+      const CurveSkeleton ofPart = ComputeCurveSkeleton(surface, &collapse.Live(), options);
+      options.spent = &surface;
+      ExpectSameSkeleton(ComputeCurveSkeleton(surface, &collapse.Live(), options), ofPart);
+      EXPECT_TRUE(surface.positions.empty());
       faces += kept.complex.cells.FaceCount();
     }
   }

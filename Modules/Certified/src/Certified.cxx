@@ -438,16 +438,18 @@ private:
   SpendsWhole() const
   {
     const auto isWhole = [](double threshold) { return threshold == 0; };
-    return m_WholeIsSpare ||
-           (m_Request.spendsCores && m_Request.tolerances.empty() && !m_Request.thickness && !Refines(m_Request) &&
-            std::all_of(m_Thresholds.begin(), m_Thresholds.end(), isWhole));
+    return m_WholeIsSpare || (m_Request.spendsCores && m_Request.tolerances.empty() && !m_Request.thickness &&
+                              !Refines(m_Request) && std::all_of(m_Thresholds.begin(), m_Thresholds.end(), isWhole));
   }
 
   void
-  Burn(const MedialComplex & core, const LiveElements * part = nullptr, MedialComplex * spent = nullptr)
+  Burn(const MedialComplex & core,
+       const LiveElements *  part = nullptr,
+       MedialComplex *       spent = nullptr,
+       bool                  givesBack = false)
   {
     Stopwatch watch;
-    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), spent);
+    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), spent, givesBack);
     m_Result.seconds.skeleton += watch.Lap();
   }
 
@@ -459,7 +461,7 @@ private:
     MedialComplex * const spent = SpendsWhole() ? &core : nullptr;
     if (BurnsWhole(m_Request))
     {
-      Burn(core, nullptr, spent);
+      Burn(core, nullptr, &core, !SpendsWhole());
       return;
     }
     const LiveElements left = PartToBurn(core, m_Result.shape, *m_Request.skeleton);
@@ -496,7 +498,7 @@ private:
   std::optional<TopologyNumbers> m_Topology;   ///< of the whole core, once it was found to be the shape's
   CertifiedCore                  m_Whole;
   bool                           m_WholeIsSpare = false; ///< what is left to do with it is to burn it
-  std::vector<MedialComplex>     m_Pruned; ///< by lambda, ascending
+  std::vector<MedialComplex>     m_Pruned;               ///< by lambda, ascending
   std::optional<BurnedCurves>    m_Curves;
   ThicknessBracket               m_Bracket;
   CertifiedResult                m_Result;

@@ -148,7 +148,8 @@ BurnToCurves(const MedialComplex &    core,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
              const ProgressCallback & progress,
-             MedialComplex *          spent)
+             MedialComplex *          spent,
+             bool                     givesBack)
 {
   RequireLengthsIn(shape.geometry.unit, request);
   const Vector3 & spacing = shape.geometry.spacing;
@@ -162,6 +163,7 @@ BurnToCurves(const MedialComplex &    core,
   curves.geometry = shape.geometry;
   curves.voxel = VoxelSide(spacing);
   curves.spent = spent;
+  curves.givesBack = givesBack;
   BurnedCurves burned;
   burned.curves = ComputeCurveSkeleton(core, part, curves, progress);
   burned.topology = ComputeComplexTopology(burned.curves.complex.cells);

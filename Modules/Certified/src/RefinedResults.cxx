@@ -218,8 +218,8 @@ RefineAndCertify(const VoxelShape &       voxels,
 {
   const std::vector<double> thresholdsMm = ThresholdsOf(task);
   const std::vector<double> ascending = AscendingBeyond(-HUGE_VAL, thresholdsMm);
-  std::vector<RefinedCore> refined;
-  bool                     ofLabels = false;
+  std::vector<RefinedCore>  refined;
+  bool                      ofLabels = false;
   {
     const auto      surface = source(voxels, PartOfProgress(progress, "surface", 0.05, 0.35));
     RefinementInput input{ &voxels,

@@ -36,8 +36,8 @@ KeepAsked(const Vector3 &          spacing,
           RefinementParts &        parts,
           const ProgressCallback & progress);
 
-/** A result for each core of the task, for which KeepAsked() has kept the parts. \throws CertificateError when the topology is no longer the shape's, or a vertex
- *  has left it; Cancelled */
+/** A result for each core of the task, for which KeepAsked() has kept the parts.
+ *  \throws CertificateError when the topology is no longer the shape's, or a vertex has left it; Cancelled */
 std::vector<CertifiedCore>
 RefineAndCertify(const VoxelShape &       voxels,
                  const CertifiedShape &   shape,

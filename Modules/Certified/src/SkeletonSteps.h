@@ -19,8 +19,8 @@ struct BurnedCurves
 LiveElements
 PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request);
 
-/** Of a part of the core, in the fire of all of it, unless that is null. `spent`: the core, where nobody needs it
- *  afterwards, or null (CurveOptions::spent).
+/** Of a part of the core, in the fire of all of it, unless that is null. `spent` (the core, or null) and `givesBack` as
+ *  in CurveOptions.
  *  \throws CertificateError when the curves do not have the shape's topology; Cancelled */
 BurnedCurves
 BurnToCurves(const MedialComplex &    core,
@@ -28,7 +28,8 @@ BurnToCurves(const MedialComplex &    core,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
              const ProgressCallback & progress,
-             MedialComplex *          spent = nullptr);
+             MedialComplex *          spent = nullptr,
+             bool                     givesBack = false);
 
 /** Branches, and how wide the body in `voxels` is around them. \throws CertificateError when they do not have the
  *  topology of the curves. */

@@ -66,17 +66,22 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
               progress);
 }
 
-CellComplex
-ExtractLive(const CellComplex &         complex,
-            const LiveElements &        live,
-            std::vector<ElementIndex> & vertexIds,
-            std::vector<ElementIndex> & edgeIds,
-            std::vector<ElementIndex> & faceIds)
+namespace
 {
-  const bool                worthIt = complex.FaceCount() > 10000;
-  std::vector<ElementIndex> vertexNumbers;
-  std::vector<ElementIndex> edgeNumbers;
-  CellComplex               result;
+
+/** `to` may be `from` itself: each element then moves to where it was or before that. */
+void
+TakeLive(const CellComplex &         from,
+         const LiveElements &        live,
+         CellComplex &               to,
+         std::vector<ElementIndex> & vertexIds,
+         std::vector<ElementIndex> & edgeIds,
+         std::vector<ElementIndex> & faceIds)
+{
+  const bool                 worthIt = from.FaceCount() > 10000;
+  std::vector<ElementIndex>  vertexNumbers;
+  std::vector<ElementIndex>  edgeNumbers;
+  std::vector<std::uint64_t> offsets{ 0 };
   RunBoth(
     worthIt,
     [&] {
@@ -87,44 +92,71 @@ ExtractLive(const CellComplex &         complex,
       CollectLive(live.vertices, vertexIds);
       vertexNumbers = NumbersOf(vertexIds, live.vertices.size());
       CollectLive(live.faces, faceIds);
-      result.faceOffsets.reserve(faceIds.size() + 1);
+      offsets.reserve(faceIds.size() + 1);
       std::uint64_t corners = 0;
       for (const ElementIndex face : faceIds)
       {
-        corners += complex.faceOffsets[face + 1] - complex.faceOffsets[face];
-        result.faceOffsets.push_back(corners);
+        corners += from.faceOffsets[face + std::size_t{ 1 }] - from.faceOffsets[face];
+        offsets.push_back(corners);
       }
     });
-  result.vertexCount = vertexIds.size();
+  const auto fit = [](auto & values, std::size_t count) {
+    if (values.size() < count)
+    {
+      values.resize(count);
+    }
+  };
+  const auto takeSides = [&](const auto & sides, const auto & numbers, auto & taken) {
+    fit(taken, offsets.back());
+    std::size_t at = 0;
+    for (const ElementIndex face : faceIds)
+    {
+      for (std::uint64_t i = from.faceOffsets[face]; i < from.faceOffsets[face + std::size_t{ 1 }]; ++i)
+      {
+        taken[at++] = numbers[sides[i]];
+      }
+    }
+    taken.resize(offsets.back());
+  };
   RunBoth(
     worthIt,
     [&] {
-      result.edges.reserve(edgeIds.size());
-      for (const ElementIndex edge : edgeIds)
+      fit(to.edges, edgeIds.size());
+      for (std::size_t i = 0; i < edgeIds.size(); ++i)
       {
-        const auto & ends = complex.edges[edge];
-        result.edges.push_back({ vertexNumbers[ends[0]], vertexNumbers[ends[1]] });
+        const auto ends = from.edges[edgeIds[i]];
+        to.edges[i] = { vertexNumbers[ends[0]], vertexNumbers[ends[1]] };
       }
-      result.faceVertices.reserve(result.faceOffsets.back());
-      for (const ElementIndex face : faceIds)
-      {
-        for (const ElementIndex vertex : complex.FaceVertices(face))
-        {
-          result.faceVertices.push_back(vertexNumbers[vertex]);
-        }
-      }
+      to.edges.resize(edgeIds.size());
+      takeSides(from.faceVertices, vertexNumbers, to.faceVertices);
     },
-    [&] {
-      result.faceEdges.reserve(result.faceOffsets.back());
-      for (const ElementIndex face : faceIds)
-      {
-        for (const ElementIndex edge : complex.FaceEdges(face))
-        {
-          result.faceEdges.push_back(edgeNumbers[edge]);
-        }
-      }
-    });
+    [&] { takeSides(from.faceEdges, edgeNumbers, to.faceEdges); });
+  to.faceOffsets = std::move(offsets);
+  to.vertexCount = vertexIds.size();
+}
+
+} // namespace
+
+CellComplex
+ExtractLive(const CellComplex &         complex,
+            const LiveElements &        live,
+            std::vector<ElementIndex> & vertexIds,
+            std::vector<ElementIndex> & edgeIds,
+            std::vector<ElementIndex> & faceIds)
+{
+  CellComplex result;
+  TakeLive(complex, live, result, vertexIds, edgeIds, faceIds);
   return result;
+}
+
+void
+KeepLive(CellComplex &               complex,
+         const LiveElements &        live,
+         std::vector<ElementIndex> & vertexIds,
+         std::vector<ElementIndex> & edgeIds,
+         std::vector<ElementIndex> & faceIds)
+{
+  TakeLive(complex, live, complex, vertexIds, edgeIds, faceIds);
 }
 
 } // namespace voxelcore

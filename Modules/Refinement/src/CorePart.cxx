@@ -11,18 +11,25 @@ PartOf(const CellComplex & cells, const LiveElements & live)
   return part;
 }
 
-CorePart
-CollapsePart(const CorePart &            part,
-             const std::vector<double> & vertexMeasure,
-             const std::vector<double> & edgeMeasure,
-             const std::vector<double> & faceMeasure,
-             double                      threshold)
+void
+KeepLive(CorePart & part, const LiveElements & live)
+{
+  PartElements kept;
+  KeepLive(part.cells, live, kept.vertices, kept.edges, kept.faces);
+  NameInWhole(part, kept);
+  static_cast<PartElements &>(part) = std::move(kept);
+}
+
+LiveElements
+CollapsePart(const CorePart &    part,
+             std::vector<double> vertexMeasure,
+             std::vector<double> edgeMeasure,
+             std::vector<double> faceMeasure,
+             double              threshold)
 {
   SimplePairCollapse collapse(part.cells, vertexMeasure, edgeMeasure, faceMeasure);
   collapse.CollapseBelow(threshold);
-  CorePart left = PartOf(part.cells, collapse.Live());
-  NameInWhole(part, left);
-  return left;
+  return std::move(collapse).TakeLive();
 }
 
 } // namespace voxelcore

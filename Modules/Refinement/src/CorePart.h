@@ -16,12 +16,17 @@ struct CorePart : PartElements
 CorePart
 PartOf(const CellComplex & cells, const LiveElements & live);
 
-/** What is left of a part when simple pairs below a threshold have gone, by measures of the part's own elements. */
-CorePart
-CollapsePart(const CorePart &            part,
-             const std::vector<double> & vertexMeasure,
-             const std::vector<double> & edgeMeasure,
-             const std::vector<double> & faceMeasure,
-             double                      threshold);
+/** Keeps of a part, with the names of its elements, what is live of it. */
+void
+KeepLive(CorePart & part, const LiveElements & live);
+
+/** What is left of a part when simple pairs below a threshold have gone, by measures of the part's own elements, which
+ *  are freed. */
+LiveElements
+CollapsePart(const CorePart &    part,
+             std::vector<double> vertexMeasure,
+             std::vector<double> edgeMeasure,
+             std::vector<double> faceMeasure,
+             double              threshold);
 
 } // namespace voxelcore

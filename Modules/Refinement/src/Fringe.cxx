@@ -17,13 +17,13 @@ WidestFringe(const Vector3 & spacing)
 }
 
 CorePart
-RemoveFringe(const RefinementInput & input, const FootPointFinder & finder, const CorePart & part)
+RemoveFringe(const RefinementInput & input, const FootPointFinder & finder, CorePart part)
 {
   constexpr double      stays = std::numeric_limits<double>::infinity();
   const double          widest = WidestFringe(input.spacing);
   const MedialComplex & core = *input.core;
   const CellComplex &   cells = part.cells;
-  const auto            pairs = PairsOfFaces(*input.edgePoints, cells, part.edges);
+  auto                  pairs = PairsOfFaces(*input.edgePoints, cells, part.edges);
   const auto            meet = [&](const PointPair & pair, std::span<const ElementIndex> corners) {
     return std::all_of(corners.begin(), corners.end(), [&](ElementIndex corner) {
       return finder.Meet(Times(core.positions[part.vertices[corner]], input.spacing), pair);
@@ -65,7 +65,9 @@ RemoveFringe(const RefinementInput & input, const FootPointFinder & finder, cons
       vertexMeasure[end] = std::max(vertexMeasure[end], edgeMeasure[edge]);
     }
   }
-  return CollapsePart(part, vertexMeasure, edgeMeasure, faceMeasure, widest);
+  std::vector<PointPair>().swap(pairs);
+  KeepLive(part, CollapsePart(part, std::move(vertexMeasure), std::move(edgeMeasure), std::move(faceMeasure), widest));
+  return part;
 }
 
 } // namespace voxelcore

@@ -15,6 +15,6 @@ WidestFringe(const Vector3 & spacing);
  *  boundary vertices the estimated surface is so flat that it has one nearest point alone. Only simple pairs go.
  *  \throws CertificateError where a face has no two nearest boundary vertices. */
 CorePart
-RemoveFringe(const RefinementInput & input, const FootPointFinder & finder, const CorePart & part);
+RemoveFringe(const RefinementInput & input, const FootPointFinder & finder, CorePart part);
 
 } // namespace voxelcore

@@ -142,7 +142,7 @@ KeepToRefine(const Vector3 &             spacing,
   }
   PartElements  kept;
   MedialComplex part = ExtractPart(core, NeededFor(core, all, WidestFringe(spacing)), kept);
-  const auto pick = [](std::vector<std::uint8_t> & flags, const std::vector<ElementIndex> & indices) {
+  const auto    pick = [](std::vector<std::uint8_t> & flags, const std::vector<ElementIndex> & indices) {
     std::vector<std::uint8_t> some(indices.size());
     std::transform(indices.begin(), indices.end(), some.begin(), [&](ElementIndex index) { return flags[index]; });
     flags = std::move(some);

@@ -96,7 +96,7 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
     }
     else
     {
-      refine(RemoveFringe(input, finder, part), thresholds[i]);
+      refine(RemoveFringe(input, finder, std::move(part)), thresholds[i]);
     }
   }
   for (const LiveElements & part : input.parts)

@@ -69,6 +69,7 @@ RefinementState::RefinementState(const RefinementInput & input, CorePart part)
   , m_VertexIds(std::move(part.vertices))
 {
   const MedialComplex & core = *input.core;
+  m_Positions.reserve(m_VertexIds.size());
   for (const ElementIndex vertex : m_VertexIds)
   {
     m_Positions.push_back(core.positions[vertex]);
@@ -254,7 +255,7 @@ RefinementState::LendAll()
 
 // Below the threshold the greater radius stays, not the greater measure: beside the axis of a tube all foot points
 // meet, and measures no longer tell what is nearest to it. So a line that topology holds is the one in the middle.
-CorePart
+LiveElements
 RefinementState::Collapse(const CorePart & part, double threshold) const
 {
   auto         vertexMeasure = Pick(m_VertexMeasure, part.vertices);
@@ -286,7 +287,7 @@ RefinementState::Collapse(const CorePart & part, double threshold) const
   {
     order(faceMeasure[face], part.cells.FaceVertices(face));
   }
-  return CollapsePart(part, vertexMeasure, edgeMeasure, faceMeasure, threshold);
+  return CollapsePart(part, std::move(vertexMeasure), std::move(edgeMeasure), std::move(faceMeasure), threshold);
 }
 
 // What has moved is guarded, and then measured where it is: so more may go, and what held it back with it.
@@ -295,7 +296,7 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
 {
   MeasureElements();
   CorePart all = LendAll();
-  CorePart part = Collapse(all, threshold);
+  CorePart part = PartOf(all.cells, Collapse(all, threshold));
   m_Cells = std::move(all.cells);
   all = CorePart();
   std::vector<Vector3> wanted = m_Displacement;
@@ -326,7 +327,7 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
       MeasureElements();
       changed.clear();
       const std::size_t before = part.vertices.size() + part.edges.size();
-      part = Collapse(part, threshold);
+      KeepLive(part, Collapse(part, threshold));
       again = part.vertices.size() + part.edges.size() < before;
     }
   };

@@ -75,7 +75,7 @@ private:
   MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted);
   CorePart
   LendAll();
-  CorePart
+  LiveElements
   Collapse(const CorePart & part, double threshold) const;
 
   const RefinementInput &   m_Input;

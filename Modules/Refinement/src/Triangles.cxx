@@ -84,18 +84,20 @@ TriangleComplex
 CutIntoTriangles(const CellComplex & cells, const std::vector<Vector3> & positions, const Vector3 & spacing)
 {
   using Edge = std::array<ElementIndex, 2>;
+  const std::size_t corners = cells.faceVertices.size();
   std::vector<Cut>  triangles;
-  std::vector<Edge> edges = cells.edges;
+  std::vector<Edge> edges;
+  triangles.reserve(corners - 2 * cells.FaceCount());
+  edges.reserve(cells.edges.size() + corners - 3 * cells.FaceCount());
+  edges = cells.edges;
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
-    const auto        corners = cells.FaceVertices(face);
-    const std::size_t count = corners.size();
-    const std::size_t apex = count > 3 ? BestApex(positions, corners, spacing) : 0;
+    const auto        around = cells.FaceVertices(face);
+    const std::size_t count = around.size();
+    const std::size_t apex = count > 3 ? BestApex(positions, around, spacing) : 0;
     for (std::size_t i = 1; i + 1 < count; ++i)
     {
-      std::array<ElementIndex, 3> triangle{ corners[apex],
-                                            corners[(apex + i) % count],
-                                            corners[(apex + i + 1) % count] };
+      std::array<ElementIndex, 3> triangle{ around[apex], around[(apex + i) % count], around[(apex + i + 1) % count] };
       if (i > 1)
       {
         edges.push_back({ std::min(triangle[0], triangle[1]), std::max(triangle[0], triangle[1]) });
@@ -118,6 +120,10 @@ CutIntoTriangles(const CellComplex & cells, const std::vector<Vector3> & positio
   TriangleComplex cut;
   cut.cells.vertexCount = cells.vertexCount;
   cut.cells.edges = std::move(edges);
+  cut.cells.faceVertices.reserve(3 * triangles.size());
+  cut.cells.faceEdges.reserve(3 * triangles.size());
+  cut.cells.faceOffsets.reserve(triangles.size() + 1);
+  cut.polygons.reserve(triangles.size());
   for (const Cut & triangle : triangles)
   {
     for (std::size_t i = 0; i < 3; ++i)

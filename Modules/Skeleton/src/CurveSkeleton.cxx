@@ -138,12 +138,21 @@ TipsOf(const MedialComplex &              surface,
   return tips;
 }
 
-/** Gives back what a surface that has been turned is no longer asked for. */
+/** Frees what a surface that has been turned is no longer asked for, or what can be made of that again. */
 void
-KeepPositions(MedialComplex & surface)
+FreeTurned(MedialComplex & surface, bool givesBack)
 {
   MedialComplex kept;
-  kept.positions = std::move(surface.positions);
+  if (givesBack)
+  {
+    kept = std::move(surface);
+    kept.cells = CellComplex();
+    std::vector<double>().swap(kept.radius);
+  }
+  else
+  {
+    kept.positions = std::move(surface.positions);
+  }
   surface = std::move(kept);
 }
 
@@ -173,7 +182,7 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   TurnedSurface     turned = TurnSurface(surface, options.geometry, options.spent != nullptr);
   if (options.spent != nullptr)
   {
-    KeepPositions(*options.spent);
+    FreeTurned(*options.spent, options.givesBack);
   }
   StagePlan plan(progress, { 0.9, 0.06, 0.04 });
   BurnTimes times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
@@ -244,7 +253,15 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
       skeleton.complex.positions.push_back(surface.positions[vertex]);
       skeleton.complex.radius.push_back(radius[vertex]);
     }
-    *options.spent = MedialComplex();
+    if (options.givesBack)
+    {
+      options.spent->cells = CellsBefore(turned);
+      options.spent->radius = radius;
+    }
+    else
+    {
+      *options.spent = MedialComplex();
+    }
   }
   for (const ElementIndex vertex : skeleton.inSurface.vertices)
   {

@@ -45,6 +45,10 @@ struct PlaceBefore
   {}
 };
 
+/** All cells of a surface as they were before it was turned. */
+CellComplex
+CellsBefore(const TurnedSurface & turned);
+
 /** The cells that are left of a surface, as ExtractLive() would take them out of it as it was before it was turned.
  *  `left` is by turned index; `elements` receives what each was in the surface. */
 CellComplex

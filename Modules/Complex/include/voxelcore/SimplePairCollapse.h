@@ -73,4 +73,12 @@ ExtractLive(const CellComplex &         complex,
             std::vector<ElementIndex> & edgeIds,
             std::vector<ElementIndex> & faceIds);
 
+/** The same in place. */
+void
+KeepLive(CellComplex &               complex,
+         const LiveElements &        live,
+         std::vector<ElementIndex> & vertexIds,
+         std::vector<ElementIndex> & edgeIds,
+         std::vector<ElementIndex> & faceIds);
+
 } // namespace voxelcore

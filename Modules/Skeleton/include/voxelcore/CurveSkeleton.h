@@ -31,9 +31,10 @@ struct CurveOptions
 
   double voxel = 0; ///< side of the cube with a voxel's diagonal: by about so much shapes end beyond their last ball
 
-  /** The surface, where nobody needs it afterwards: it is used up, so that its memory serves the fire. The complex of
-   *  the skeleton then has no measures. */
+  /** The surface, where nobody needs it meanwhile: its cells and radii are freed, so that their memory serves the fire.
+   *  The complex of the skeleton then has no measures. */
   MedialComplex * spent = nullptr;
+  bool            givesBack = false; ///< the surface is made as it was in the end; else it is used up. Not of a part
 };
 
 /** A part of a medial surface that the surface collapses to: vertices, edges, and the faces that stay. */
