@@ -189,6 +189,20 @@ IsByTolerance(const RefinementTask & task)
   return !task.asked.empty() && task.asked.front().tolerance.has_value();
 }
 
+/** Of a core by tolerance it will be asked which heights its cells have. */
+void
+FreeWhatIsRefined(RefinementParts & parts, bool byTolerance)
+{
+  parts.edgePoints = EdgePoints();
+  MedialComplex asked;
+  if (byTolerance)
+  {
+    asked.cells = std::move(parts.core.cells);
+    asked.tolerances = std::move(parts.core.tolerances);
+  }
+  parts.core = std::move(asked);
+}
+
 } // namespace
 
 // Each threshold goes on from where the last one stopped.
@@ -231,11 +245,11 @@ RefineAndCertify(const VoxelShape &       voxels,
                            IsByTolerance(task),
                            std::move(parts.curves),
                            std::move(parts.left),
-                           &parts.boundary };
+                           &parts.boundary,
+                           [&] { FreeWhatIsRefined(parts, IsByTolerance(task)); } };
     ofLabels = surface->IsOfLabels();
     refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.35, 1));
   }
-  parts.edgePoints = EdgePoints();
   std::vector<CertifiedCore> results;
   for (std::size_t i = 0; i < task.asked.size(); ++i)
   {

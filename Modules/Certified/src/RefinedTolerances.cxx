@@ -68,19 +68,25 @@ private:
 ToleranceValues
 TolerancesOfTriangles(const CellComplex & triangles, const MedialComplex & whole, double height)
 {
-  const MedialComplex polygons = ExtractPart(whole, LeftByTolerance(whole, height));
-  if (polygons.cells.vertexCount != triangles.vertexCount)
+  PartElements      left;
+  const CellComplex polygons =
+    ExtractLive(whole.cells, LeftByTolerance(whole, height), left.vertices, left.edges, left.faces);
+  if (polygons.vertexCount != triangles.vertexCount)
   {
     throw Error("a refined core has other vertices than its tolerance leaves");
   }
   ToleranceValues       values;
-  const FacesAtVertices faces(polygons.cells);
-  values.vertices = polygons.tolerances.vertices;
+  const FacesAtVertices faces(polygons);
+  values.vertices.reserve(left.vertices.size());
+  for (const ElementIndex vertex : left.vertices)
+  {
+    values.vertices.push_back(whole.tolerances.vertices[vertex]);
+  }
   values.faces.resize(triangles.FaceCount());
   values.edges.resize(triangles.edges.size());
   for (std::size_t face = 0; face < values.faces.size(); ++face)
   {
-    values.faces[face] = polygons.tolerances.faces[faces.WithCorners(triangles.FaceVertices(face))];
+    values.faces[face] = whole.tolerances.faces[left.faces[faces.WithCorners(triangles.FaceVertices(face))]];
     for (const ElementIndex edge : triangles.FaceEdges(face))
     {
       values.edges[edge] = values.faces[face];
@@ -88,17 +94,17 @@ TolerancesOfTriangles(const CellComplex & triangles, const MedialComplex & whole
   }
   // Those that are no cuts are edges of the core.
   std::size_t edge = 0;
-  for (std::size_t own = 0; own < polygons.cells.edges.size(); ++own)
+  for (std::size_t own = 0; own < polygons.edges.size(); ++own)
   {
-    while (edge < values.edges.size() && triangles.edges[edge] < polygons.cells.edges[own])
+    while (edge < values.edges.size() && triangles.edges[edge] < polygons.edges[own])
     {
       ++edge;
     }
-    if (edge == values.edges.size() || triangles.edges[edge] != polygons.cells.edges[own])
+    if (edge == values.edges.size() || triangles.edges[edge] != polygons.edges[own])
     {
       throw Error("a refined core lacks an edge that its tolerance leaves");
     }
-    values.edges[edge] = polygons.tolerances.edges[own];
+    values.edges[edge] = whole.tolerances.edges[left.edges[own]];
   }
   return values;
 }

@@ -74,8 +74,13 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   const std::vector<LiveElements> & left = input.left.empty() ? found : input.left;
   FootPointFinder                   finder(input, progress);
   const PointTree                   boundary(input.Boundary(), input.spacing);
+  std::size_t                       ahead = thresholds.size() + input.parts.size();
   const auto                        refine = [&](CorePart part, double threshold, std::optional<double> height = {}) {
     RefinementState working(input, std::move(part));
+    if (--ahead == 0 && input.onLast)
+    {
+      input.onLast();
+    }
     finder.FindBends(working.GreatestRadii());
     working.Move(finder, progress);
     FormerBalls former;

@@ -58,7 +58,7 @@ RefinementState::MeasureVertex(const FootPointFinder & finder, std::size_t verte
   const auto pairs = Pairs(vertex);
   if (pairs.empty())
   {
-    m_Radius[vertex] = m_Input.core->radius[m_VertexIds[vertex]];
+    m_Radius[vertex] = m_FormerRadius[vertex];
     return;
   }
   finder.Settle(Place(vertex), pairs, footPoints);
@@ -117,11 +117,11 @@ MeasureOf(std::span<const double> widths)
 
 // Measures do not fall from faces to edges to vertices.
 void
-RefinementState::MeasureElements()
+RefinementState::MeasureElements(const CellComplex & cells)
 {
   m_VertexMeasure.assign(m_Positions.size(), 0);
-  m_EdgeMeasure.assign(m_Cells.edges.size(), 0);
-  m_FaceMeasure.assign(m_Cells.FaceCount(), 0);
+  m_EdgeMeasure.assign(cells.edges.size(), 0);
+  m_FaceMeasure.assign(cells.FaceCount(), 0);
   const auto vertices = static_cast<std::ptrdiff_t>(m_Positions.size());
   const auto faces = static_cast<std::ptrdiff_t>(m_FaceMeasure.size());
 #pragma omp parallel if (faces > 4096)
@@ -132,8 +132,8 @@ RefinementState::MeasureElements()
       const auto vertex = static_cast<std::size_t>(i);
       const auto first = m_Widths.begin() + static_cast<std::ptrdiff_t>(m_Pairs.First(vertex));
       const auto count = static_cast<std::ptrdiff_t>(Pairs(vertex).size());
-      m_VertexMeasure[vertex] = count == 0 ? m_Input.core->vertexLambda[m_VertexIds[vertex]]
-                                           : std::max(0.0, *std::max_element(first, first + count));
+      m_VertexMeasure[vertex] =
+        count == 0 ? m_FormerLambda[vertex] : std::max(0.0, *std::max_element(first, first + count));
     }
 #pragma omp for schedule(static)
     for (std::ptrdiff_t face = 0; face < faces; ++face)
@@ -148,26 +148,24 @@ RefinementState::MeasureElements()
   }
   for (std::size_t face = 0; face < m_FaceMeasure.size(); ++face)
   {
-    for (const ElementIndex edge : m_Cells.FaceEdges(face))
+    for (const ElementIndex edge : cells.FaceEdges(face))
     {
       m_EdgeMeasure[edge] = std::max(m_EdgeMeasure[edge], m_FaceMeasure[face]);
     }
   }
-  std::vector<PointPair> pairs;
-  for (const auto & [edge, whole] : m_LooseEdges)
+  std::size_t at = 0;
+  for (const auto & [edge, end] : m_LooseEdges)
   {
-    pairs.clear();
-    AddPairsAround(m_Input.edgePoints->Of(whole), pairs);
-    for (const PointPair & pair : pairs)
+    for (; at < end; ++at)
     {
-      const std::array<double, 2> widths{ WidthAt(m_Cells.edges[edge][0], pair),
-                                          WidthAt(m_Cells.edges[edge][1], pair) };
+      const PointPair &           pair = m_LoosePairs[at];
+      const std::array<double, 2> widths{ WidthAt(cells.edges[edge][0], pair), WidthAt(cells.edges[edge][1], pair) };
       m_EdgeMeasure[edge] = std::max(m_EdgeMeasure[edge], MeasureOf(widths));
     }
   }
-  for (std::size_t edge = 0; edge < m_Cells.edges.size(); ++edge)
+  for (std::size_t edge = 0; edge < cells.edges.size(); ++edge)
   {
-    for (const ElementIndex end : m_Cells.edges[edge])
+    for (const ElementIndex end : cells.edges[edge])
     {
       m_VertexMeasure[end] = std::max(m_VertexMeasure[end], m_EdgeMeasure[edge]);
     }

@@ -66,15 +66,16 @@ Pick(const std::vector<double> & values, const std::vector<ElementIndex> & ids)
 
 RefinementState::RefinementState(const RefinementInput & input, CorePart part)
   : m_Input(input)
-  , m_VertexIds(std::move(part.vertices))
+  , m_Pairs(*input.core, *input.edgePoints, part.cells, part.vertices, part.edges)
 {
   const MedialComplex & core = *input.core;
-  m_Positions.reserve(m_VertexIds.size());
-  for (const ElementIndex vertex : m_VertexIds)
+  m_Positions.reserve(part.vertices.size());
+  for (const ElementIndex vertex : part.vertices)
   {
     m_Positions.push_back(core.positions[vertex]);
   }
-  m_Pairs = VertexPairs(core, *input.edgePoints, part.cells, m_VertexIds, part.edges);
+  m_FormerRadius = Pick(core.radius, part.vertices);
+  m_FormerLambda = Pick(core.vertexLambda, part.vertices);
   m_Displacement.assign(m_Positions.size(), Vector3{ 0, 0, 0 });
   TriangleComplex cut = CutIntoTriangles(part.cells, m_Positions, input.spacing);
   m_Cells = std::move(cut.cells);
@@ -94,7 +95,8 @@ RefinementState::RefinementState(const RefinementInput & input, CorePart part)
   for (const ElementIndex edge : m_Pairs.LooseEdges())
   {
     const auto found = std::lower_bound(m_Cells.edges.begin(), m_Cells.edges.end(), part.cells.edges[edge]);
-    m_LooseEdges.emplace_back(static_cast<ElementIndex>(found - m_Cells.edges.begin()), part.edges[edge]);
+    AddPairsAround(input.edgePoints->Of(part.edges[edge]), m_LoosePairs);
+    m_LooseEdges.emplace_back(static_cast<ElementIndex>(found - m_Cells.edges.begin()), m_LoosePairs.size());
   }
 }
 
@@ -104,7 +106,7 @@ RefinementState::GreatestRadii() const
   std::vector<double> radii(m_Input.points->size(), 0.0);
   for (std::size_t vertex = 0; vertex < m_Positions.size(); ++vertex)
   {
-    const double radius = m_Input.core->radius[m_VertexIds[vertex]];
+    const double radius = m_FormerRadius[vertex];
     for (const PointPair & pair : Pairs(vertex))
     {
       for (const std::uint32_t point : pair)
@@ -294,11 +296,15 @@ RefinementState::Collapse(const CorePart & part, double threshold) const
 RefinedCore
 RefinementState::Finish(const FootPointFinder & finder, double threshold, FormerBalls & former)
 {
-  MeasureElements();
-  CorePart all = LendAll();
-  CorePart part = PartOf(all.cells, Collapse(all, threshold));
-  m_Cells = std::move(all.cells);
-  all = CorePart();
+  const bool stays = !(threshold > 0); // no measure is below
+  CorePart   part = LendAll();
+  if (!stays)
+  {
+    CorePart all = std::move(part);
+    MeasureElements(all.cells);
+    part = PartOf(all.cells, Collapse(all, threshold));
+    m_Cells = std::move(all.cells);
+  }
   std::vector<Vector3> wanted = m_Displacement;
   RefinedCore          refined;
   const auto           settle = [&](std::vector<ElementIndex> changed) {
@@ -324,8 +330,12 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
       std::sort(changed.begin(), changed.end());
       changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
       MeasureVertices(finder, changed);
-      MeasureElements();
+      MeasureElements(stays ? part.cells : m_Cells);
       changed.clear();
+      if (stays)
+      {
+        return;
+      }
       const std::size_t before = part.vertices.size() + part.edges.size();
       KeepLive(part, Collapse(part, threshold));
       again = part.vertices.size() + part.edges.size() < before;
@@ -352,7 +362,7 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
   for (const ElementIndex vertex : part.vertices)
   {
     former.positions.push_back(m_Positions[vertex]);
-    former.radius.push_back(m_Input.core->radius[m_VertexIds[vertex]]);
+    former.radius.push_back(m_FormerRadius[vertex]);
   }
   refined.core.vertexLambda = Pick(m_VertexMeasure, part.vertices);
   refined.core.edgeLambda = Pick(m_EdgeMeasure, part.edges);
@@ -379,7 +389,7 @@ RefinementState::MeasureAgain(const FootPointFinder &           finder,
     m_Displacement[vertex] = refined.displacement[vertex];
   }
   MeasureVertices(finder, moved);
-  MeasureElements();
+  MeasureElements(refined.core.cells);
   refined.core.vertexLambda = m_VertexMeasure;
   refined.core.edgeLambda = m_EdgeMeasure;
   refined.core.faceLambda = m_FaceMeasure;

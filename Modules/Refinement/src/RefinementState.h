@@ -31,7 +31,7 @@ public:
   void
   Move(const FootPointFinder & finder, const ProgressCallback & progress);
 
-  /** What is left at a threshold, and where its balls were before they were moved. */
+  /** What is left at a threshold in mm (0: all), and where its balls were before they were moved. */
   RefinedCore
   Finish(const FootPointFinder & finder, double threshold, FormerBalls & former);
 
@@ -70,7 +70,7 @@ private:
   double
   WidthAt(ElementIndex vertex, const PointPair & pair) const;
   void
-  MeasureElements();
+  MeasureElements(const CellComplex & cells);
   std::vector<ElementIndex>
   MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted);
   CorePart
@@ -78,21 +78,23 @@ private:
   LiveElements
   Collapse(const CorePart & part, double threshold) const;
 
-  const RefinementInput &   m_Input;
-  CellComplex               m_Cells;
-  std::vector<ElementIndex> m_VertexIds;
-  VertexPairs               m_Pairs;
-  std::vector<Vector3>      m_Positions;
-  std::vector<Vector3>      m_Displacement;
+  const RefinementInput & m_Input; ///< core and edgePoints are asked for in the constructor alone
+  CellComplex             m_Cells; ///< lent to what is refined as it is
+  VertexPairs             m_Pairs;
+  std::vector<Vector3>    m_Positions;
+  std::vector<Vector3>    m_Displacement;
+  std::vector<double>     m_FormerRadius;
+  std::vector<double>     m_FormerLambda;
 
-  std::vector<double>                                m_Widths;       ///< of each pair of each vertex, mm
-  std::vector<std::uint32_t>                         m_CornerWidths; ///< whose each corner of each triangle's is
-  std::vector<double>                                m_Radius;
-  std::vector<double>                                m_Swelling; ///< by how much of a radius walls are too thick, mm
-  std::vector<double>                                m_VertexMeasure;
-  std::vector<double>                                m_EdgeMeasure;
-  std::vector<double>                                m_FaceMeasure;
-  std::vector<std::pair<ElementIndex, ElementIndex>> m_LooseEdges; ///< here, and in the whole core
+  std::vector<double>                               m_Widths;       ///< of each pair of each vertex, mm
+  std::vector<std::uint32_t>                        m_CornerWidths; ///< whose each corner of each triangle's is
+  std::vector<double>                               m_Radius;
+  std::vector<double>                               m_Swelling; ///< by how much of a radius walls are too thick, mm
+  std::vector<double>                               m_VertexMeasure;
+  std::vector<double>                               m_EdgeMeasure;
+  std::vector<double>                               m_FaceMeasure;
+  std::vector<std::pair<ElementIndex, std::size_t>> m_LooseEdges; ///< with where its pairs end in m_LoosePairs
+  std::vector<PointPair>                            m_LoosePairs;
 };
 
 } // namespace voxelcore

@@ -11,6 +11,7 @@
 #include "voxelcore/SurfaceEstimate.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct RefinementInput
   std::vector<LiveElements>         parts{};             ///< of the core, refined as they are
   std::vector<LiveElements>         left{};              ///< LeftToRefine(), if it is known
   const std::vector<LatticePoint> * boundary = nullptr;  ///< all boundary vertices, where `points` are some of them
+  std::function<void()>             onLast{}; ///< called when core and edgePoints are asked for no more: may free them
 
   const std::vector<LatticePoint> &
   Boundary() const
