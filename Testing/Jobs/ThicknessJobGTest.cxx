@@ -100,13 +100,23 @@ TEST_F(ThicknessJob, BoundsStandBesideTheMap)
   const auto            map = Map("map.nrrd").values;
   const auto            lower = Map("map_lower.nrrd").values;
   const auto            upper = Map("map_upper.nrrd").values;
-  EXPECT_EQ(map, lower) << "without refinement the map is of balls that lie in the voxels";
+  double                width = 0;
   for (std::size_t i = 0; i < map.size(); ++i)
   {
+    ASSERT_LE(map[i], lower[i]) << "without refinement the map is of balls that lie in the voxels";
     ASSERT_LE(lower[i], upper[i]);
+    width += upper[i] - lower[i];
     ASSERT_EQ(lower[i] > 0, map[i] > 0);
   }
   EXPECT_LE(*result.thickness[0].meanLower, *result.thickness[0].meanUpper);
+  EXPECT_LT(width, 0.1 * static_cast<double>(std::count_if(map.begin(), map.end(), [](float v) { return v > 0; })));
+  EXPECT_EQ(result.thickness[0].parts, (std::array<std::int32_t, 3>{ 3, 3, 3 }));
+  const auto alone = Thickness("alone.nrrd", { { "refine", "off" }, { "report", At("r.json") } });
+  EXPECT_EQ(Map("alone.nrrd").values, map) << "bounds change nothing of the map";
+  EXPECT_EQ(nlohmann::json::parse(Bytes("r.json"))["thickness"][0].count("bounds"), 0U);
+  Thickness("again.nrrd", { { "bounds", "true" }, { "report", At("b.json") } });
+  EXPECT_EQ(nlohmann::json::parse(Bytes("b.json"))["thickness"][0]["bounds"]["voxels_cut"],
+            nlohmann::json({ 3, 3, 3 }));
 }
 
 TEST_F(ThicknessJob, AFolderGetsAMapPerLabel)

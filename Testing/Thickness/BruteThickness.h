@@ -4,10 +4,12 @@
 #include "VoxelCoreTesting/Shapes.h"
 
 #include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/CoreThickness.h"
 #include "voxelcore/LocalThickness.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace voxelcore::testing
@@ -35,35 +37,53 @@ struct ShapeCells
   DelaunayCells             cells;
 };
 
-/** Distance of a place to all that is not in, in mm: by all voxels of the box and of a layer around it. */
+/** Distance of a place to all that is not in, in mm: of the voxels around, layer by layer, until no farther one can be
+ *  nearer. */
 inline double
 BruteDepth(const ShapeCells & of, const Vector3 & place)
 {
-  const auto & box = of.shape.Box();
-  double       least = 1e300;
-  for (std::int32_t z = -1; z <= box.size[2]; ++z)
+  Size3  at{};
+  double shortest = 1e300;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    for (std::int32_t y = -1; y <= box.size[1]; ++y)
+    at[axis] = static_cast<std::int32_t>(std::floor(place[axis]));
+    shortest = std::min(shortest, static_cast<double>(of.weights.weight[axis]) * of.weights.unit);
+  }
+  double     least = 1e300;
+  const auto look = [&](const Size3 & voxel) {
+    if (of.shape.Contains(voxel[0], voxel[1], voxel[2]))
     {
-      for (std::int32_t x = -1; x <= box.size[0]; ++x)
+      return;
+    }
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double beyond = std::max(std::abs(place[axis] - voxel[axis] - 0.5) - 0.5, 0.0) *
+                            static_cast<double>(of.weights.weight[axis]) * of.weights.unit;
+      squared += beyond * beyond;
+    }
+    least = std::min(least, squared);
+  };
+  for (std::int32_t layer = 0;; ++layer)
+  {
+    // The voxels of this layer have at least layer - 1 whole ones between them and the place.
+    const double nearest = std::max(layer - 1, 0) * shortest;
+    if (layer > 0 && nearest * nearest >= least)
+    {
+      return std::sqrt(least);
+    }
+    for (std::int32_t z = -layer; z <= layer; ++z)
+    {
+      for (std::int32_t y = -layer; y <= layer; ++y)
       {
-        const Size3 voxel{ box.lower[0] + x, box.lower[1] + y, box.lower[2] + z };
-        if (of.shape.Contains(voxel[0], voxel[1], voxel[2]))
+        const bool isSide = std::abs(z) == layer || std::abs(y) == layer;
+        for (std::int32_t x = -layer; x <= layer; x += isSide || layer == 0 ? 1 : 2 * layer)
         {
-          continue;
+          look({ at[0] + x, at[1] + y, at[2] + z });
         }
-        double squared = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          const double beyond = std::max(std::abs(place[axis] - voxel[axis] - 0.5) - 0.5, 0.0) *
-                                static_cast<double>(of.weights.weight[axis]) * of.weights.unit;
-          squared += beyond * beyond;
-        }
-        least = std::min(least, squared);
       }
     }
   }
-  return std::sqrt(least);
 }
 
 /** The centres of the voxels that are in, in scan order. */
@@ -90,12 +110,12 @@ VoxelCentres(const VoxelShape & shape)
 
 /** Gives each centre the value of a ball that holds it, if that is greater. */
 inline void
-PaintByBrute(const ShapeCells &           of,
-             const std::vector<Vector3> & centres,
-             const Vector3 &              ball,
-             double                       radius,
-             double                       value,
-             std::vector<double> &        greatest)
+PaintByBrute(const ShapeCells &       of,
+             std::span<const Vector3> centres,
+             const Vector3 &          ball,
+             double                   radius,
+             double                   value,
+             std::span<double>        greatest)
 {
   for (std::size_t i = 0; i < centres.size(); ++i)
   {
@@ -117,16 +137,34 @@ PaintByBrute(const ShapeCells &           of,
 inline std::vector<double>
 BruteThickness(const ShapeCells & of)
 {
-  const std::vector<Vector3> centres = VoxelCentres(of.shape);
-  std::vector<double>        greatest(centres.size(), 0);
-  const auto                 take = [&](const Vector3 & place) {
+  const auto &        box = of.shape.Box();
+  const VoxelRanks    ranks(of.shape);
+  std::vector<double> greatest(of.shape.CountVoxels(), 0);
+  const auto          take = [&](const Vector3 & place) {
     const double depth = BruteDepth(of, place);
-    if (depth > 0)
+    Size3        first{};
+    Size3        last{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      PaintByBrute(of, centres, place, depth, 2 * depth, greatest);
+      const double reach = depth / (static_cast<double>(of.weights.weight[axis]) * of.weights.unit) + 1e-6;
+      first[axis] = static_cast<std::int32_t>(std::ceil(place[axis] - reach - 0.5));
+      last[axis] = static_cast<std::int32_t>(std::floor(place[axis] + reach - 0.5));
+    }
+    for (std::int32_t z = first[2]; z <= last[2] && depth > 0; ++z)
+    {
+      for (std::int32_t y = first[1]; y <= last[1]; ++y)
+      {
+        for (std::int32_t x = first[0]; x <= last[0]; ++x)
+        {
+          if (of.shape.Contains(x, y, z))
+          {
+            const Vector3 centre{ x + 0.5, y + 0.5, z + 0.5 };
+            PaintByBrute(of, { &centre, 1 }, place, depth, 2 * depth, { &greatest[ranks.At(x, y, z)], 1 });
+          }
+        }
+      }
     }
   };
-  const auto & box = of.shape.Box();
   for (std::int32_t z = 1; z < 4 * box.size[2]; ++z)
   {
     for (std::int32_t y = 1; y < 4 * box.size[1]; ++y)

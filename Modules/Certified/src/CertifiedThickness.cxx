@@ -1,6 +1,7 @@
 #include "voxelcore/CertifiedThickness.h"
 
 #include "CertificateText.h"
+#include "voxelcore/FineBracket.h"
 #include "voxelcore/FittedBalls.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
@@ -37,7 +38,8 @@ ThicknessOf(const CertifiedCore &    core,
   {
     centre = PhysicalToLattice(shape.geometry, centre);
   }
-  StagePlan plan(progress, { refined ? 0.5 : 0.0, 0.5 });
+  const bool bounds = !result.bracket.upper.values.empty();
+  StagePlan  plan(progress, { refined ? 0.5 : 0.0, 0.5, bounds ? 4.0 : 0.0 });
   if (const ProgressCallback fitting = plan.Next(); refined)
   {
     FitBalls(result.shape, weights, core.core.core.cells, result.balls, fitting);
@@ -55,6 +57,14 @@ ThicknessOf(const CertifiedCore &    core,
       std::any_of(values.begin(), values.end(), [](float value) { return !(value > 0); }))
   {
     RefuseResult(shape.name, "a voxel has no thickness");
+  }
+  if (bounds)
+  {
+    result.parts = PartsForBounds(result.shape, weights);
+    if (const ProgressCallback tightening = plan.Next(); result.parts != decltype(result.parts){ 1, 1, 1 })
+    {
+      TightenBracket(result.shape, weights, result.parts, result.bracket, tightening);
+    }
   }
   for (std::size_t i = 0; i < result.bracket.upper.values.size(); ++i)
   {

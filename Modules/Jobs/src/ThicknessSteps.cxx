@@ -88,6 +88,7 @@ Summarize(const CertifiedThickness & found,
   {
     record.meanLower = MeanOf(found.bracket.lower.values);
     record.meanUpper = MeanOf(found.bracket.upper.values);
+    record.parts = found.parts;
   }
 }
 
@@ -119,7 +120,9 @@ WithThickness(std::string report, const ThicknessResult & result)
     }
     if (record.meanLower)
     {
-      one["bounds"] = { { "lower_mean_mm", *record.meanLower }, { "upper_mean_mm", *record.meanUpper } };
+      one["bounds"] = { { "lower_mean_mm", *record.meanLower },
+                        { "upper_mean_mm", *record.meanUpper },
+                        { "voxels_cut", record.parts } };
     }
     all.push_back(std::move(one));
   }

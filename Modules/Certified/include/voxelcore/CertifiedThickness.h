@@ -4,6 +4,7 @@
 #include "voxelcore/CertifiedCore.h"
 #include "voxelcore/CoreThickness.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -17,7 +18,7 @@ struct ThicknessRequest
 };
 
 /** The estimate is that of the first core asked for: of a refined one the diameters of its balls (CoreThickness.h),
- *  else the lower bound, which is that of truly inscribed balls. */
+ *  else of the truly inscribed balls about places of the whole core, which lower bounds of finer lattices exceed. */
 struct CertifiedThickness
 {
   VoxelShape         shape;
@@ -26,6 +27,8 @@ struct CertifiedThickness
   VoxelValues        map;        ///< the estimate, mm
   ThicknessBracket   bracket;    ///< both empty where they were not asked for
   std::vector<float> atVertices; ///< the map's value at each vertex of the first core, mm
+
+  std::array<std::int32_t, 3> parts{ 1, 1, 1 }; ///< into which voxels were cut for the bounds (FineBracket.h)
 };
 
 /** The map of a certified core. `bracket` is that of the shape, or empty; of a core that is not refined it holds the

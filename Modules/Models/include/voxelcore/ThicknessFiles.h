@@ -5,6 +5,7 @@
 #include "voxelcore/SpatialUnit.h"
 #include "voxelcore/ThicknessNumbers.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -28,6 +29,8 @@ struct ThicknessRecord
   bool                  withoutBorder = false; ///< whether `numbers` leaves out those at the border
   std::optional<double> meanLower;             ///< of the proven bounds, where these were asked for
   std::optional<double> meanUpper;
+
+  std::array<std::int32_t, 3> parts{ 1, 1, 1 }; ///< of a voxel along each axis, for these bounds (FineBracket.h)
 };
 
 /** A row per record. \throws OutputError */
