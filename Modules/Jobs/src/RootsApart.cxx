@@ -148,14 +148,20 @@ TellRootsApart(LabelShape &             mask,
                const CoreOptions &      core,
                const RootRules &        rules,
                const ApartRequest &     request,
+               RootEditing &            editing,
                const ProgressCallback & progress)
 {
-  if (Has(ComputeShapeTopology(mask.shape), request.topology))
+  const TopologyNumbers numbers = ComputeShapeTopology(mask.shape);
+  if (Has(numbers, request.topology))
   {
     return std::nullopt;
   }
-  SkeletonGraph     graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
-  RootHierarchy     roots = FindRoots(graph, rules);
+  SkeletonGraph graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
+  RootHierarchy roots = FindRoots(graph, rules);
+  if (numbers.betti[0] == 1)
+  {
+    roots = editing(graph, roots);
+  }
   const VoxelShape  walls = ContactWalls(mask.shape, geometry, graph, roots);
   const LatticeBall ball = BallOfDepth(request.depth, geometry);
   RootsTopology     topology;

@@ -1,6 +1,8 @@
 #pragma once
 // Roots that touch are told apart and cut apart, so that the mask of a plant is a tree, too.
 
+#include "RootAnnotations.h"
+
 #include "voxelcore/RootsJob.h"
 
 namespace voxelcore
@@ -18,6 +20,7 @@ struct ApartRequest
 /** Finds the roots in the mask as it is, and simplifies its topology with cuts where they touch (RootContacts.h). What
  *  a change costs is its grey values' distance to the shape's level where `core` reads a grey scan, else its distance
  *  to the boundary. The mask, one label of a scan, is left with its changes done; `core` says how a skeleton is made.
+ *  Roots of one piece are edited before walls are drawn between them.
  *  Gives nothing where the mask has the topology asked for.
  *  \throws CertificateError, InputError, Cancelled */
 std::optional<RootsTopology>
@@ -26,6 +29,7 @@ TellRootsApart(LabelShape &             mask,
                const CoreOptions &      core,
                const RootRules &        rules,
                const ApartRequest &     request,
+               RootEditing &            editing,
                const ProgressCallback & progress);
 
 /** What was cut and filled, with the voxels, as a file that --change-voxels reads. */

@@ -12,6 +12,7 @@
 #include "voxelcore/ReadInput.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/Text.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <chrono>
@@ -31,9 +32,13 @@ namespace
 constexpr std::array<const char *, 6> kDirections{ "x+", "x-", "y+", "y-", "z+", "z-" };
 
 /** What is written besides pictures. */
-constexpr std::array<const char *, 12> kFiles{ "mask.nrrd",    "medial.vtp",  "skeleton.vtp", "roots.rsml",
-                                               "roots.csv",    "levels.csv",  "plant.csv",    "profile.csv",
-                                               "columns.json", "changes.txt", "report.json",  "page.html" };
+constexpr std::array<const char *, 14> kFiles{ "annotations.csv", "annotations.mrk.json",
+                                               "mask.nrrd",       "medial.vtp",
+                                               "skeleton.vtp",    "roots.rsml",
+                                               "roots.csv",       "levels.csv",
+                                               "plant.csv",       "profile.csv",
+                                               "columns.json",    "changes.txt",
+                                               "report.json",     "page.html" };
 
 CoreOptions
 CoreOptionsOf(const RootsOptions & options)
@@ -298,6 +303,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   CheckCoreTargets(core, transaction);
 
   RootsResult result;
+  RootEditing editing(options.annotations, options.rules);
   ReportProgress(context.progress, "looking", 0);
   // Loops of touching roots are cut where the roots say so, not as an edit that knows no roots.
   const bool            cuts = !options.asIs && !options.keepLoops && !core.edits.change;
@@ -321,6 +327,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
                                      core,
                                      options.rules,
                                      { depth, request, options.kernel, options.neighbourhood },
+                                     editing,
                                      PartOfProgress(context.progress, 0, 0.35));
   }
   if (result.topology)
@@ -357,13 +364,18 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   else
   {
     result.model.graph = std::move(skeleton.parts.at(0).graph);
-    result.model.roots = FindRoots(result.model.graph, options.rules);
+    result.model.roots = editing(result.model.graph, FindRoots(result.model.graph, options.rules));
     if (result.topology)
     {
       RecallContacts(*result.topology, result.model);
     }
   }
   result.model.traits = MeasureRoots(result.model.graph, result.model.roots, options.soilDepth);
+  if (!editing.edits.empty())
+  {
+    result.notes.push_back(Counted(editing.edits.size(), "root", "roots") + " edited or named as " +
+                           options.annotations.string() + " says");
+  }
   AddRemarks(result);
 
   ReportProgress(context.progress, "writing", draws ? 0.75 : 0.95);
@@ -378,6 +390,11 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   WriteRootProfileCsv(transaction.Stage(options.Place("profile.csv")), result.model);
   WriteTextFile(transaction.Stage(options.Place("columns.json")), RootColumnsJson(result.model.unit));
   WriteTextFile(transaction.Stage(options.Place("changes.txt")), RootChangesText(result.topology, result.model.unit));
+  WriteRootAnnotations(transaction.Stage(options.Place("annotations.csv")),
+                       transaction.Stage(options.Place("annotations.mrk.json")),
+                       result.model.graph,
+                       editing,
+                       result.model.unit);
   if (draws)
   {
     DrawRoots(result.model, mask.shape, geometry, options, transaction, PartOfProgress(context.progress, 0.8, 1));
@@ -389,7 +406,9 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   result.report.seconds.total = total.Lap();
   result.report.peakMemoryMb = PeakMemoryMb();
   std::string json = ReportJson(result.report);
-  json.replace(json.rfind("\n}"), std::string::npos, RootsJson(result.model, result.topology, volume));
+  json.replace(json.rfind("\n}"),
+               std::string::npos,
+               RootsJson(result.model, result.topology, volume, RootEditsJson(editing.edits)));
   WriteTextFile(transaction.Stage(options.Place("report.json")), json);
   Finish(transaction, context);
   return result;

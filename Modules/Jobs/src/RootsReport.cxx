@@ -71,7 +71,10 @@ TopologyJson(const RootsTopology & topology)
 } // namespace
 
 std::string
-RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology, double volume)
+RootsJson(const RootModel &                    model,
+          const std::optional<RootsTopology> & topology,
+          double                               volume,
+          const std::string &                  edits)
 {
   const RootTraits & traits = model.traits;
   std::string        json =
@@ -81,7 +84,7 @@ RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology
     ",\n    \"stems\": " + std::to_string(traits.stems) +
     ",\n    \"total_length\": " + JsonNumber(traits.levels.empty() ? 0 : traits.levels.back().totalLength) +
     ",\n    \"whorls\": " + std::to_string(traits.whorls) + ",\n    \"plant\": " + PlantJson(model, volume) +
-    ",\n    \"contacts\": [";
+    ",\n    \"edits\": " + edits + ",\n    \"contacts\": [";
   for (std::size_t i = 0; i < model.roots.meetings.size(); ++i)
   {
     const RootMeeting & meeting = model.roots.meetings[i];

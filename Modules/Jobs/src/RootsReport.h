@@ -10,8 +10,11 @@ namespace voxelcore
 {
 
 /** The part of the report that is about roots; goes before the last brace of the core's. `volume`: of the voxels,
- *  mm^3. */
+ *  mm^3; `edits`: as JSON. */
 std::string
-RootsJson(const RootModel & model, const std::optional<RootsTopology> & topology, double volume);
+RootsJson(const RootModel &                    model,
+          const std::optional<RootsTopology> & topology,
+          double                               volume,
+          const std::string &                  edits);
 
 } // namespace voxelcore

@@ -121,6 +121,10 @@ constexpr auto kRootColumns = std::to_array<ValueColumn<RootRow>>({
   { "tip_z", "mm", "tip, LPS", [](const RootRow & r) { return r.record.tip[2]; } },
 });
 
+constexpr auto kRootNames = std::to_array<ValueColumn<RootRow>>({
+  { "name", "", "given to the root by --edits", nullptr },
+});
+
 constexpr auto kLevelColumns = std::to_array<ValueColumn<RootLevelRecord>>({
   { "count", "", "number of roots", [](const RootLevelRecord & r) { return static_cast<double>(r.count); } },
   { "total_length", "mm", "sum over roots", [](const RootLevelRecord & r) { return r.totalLength; } },
@@ -277,10 +281,19 @@ void
 WriteRootCsv(const std::filesystem::path & path, const RootModel & model)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kRootColumns);
+  for (const auto & column : kRootColumns)
+  {
+    file << column.name << ",";
+  }
+  WriteHead(file, kRootNames);
   for (std::size_t root = 0; root < model.traits.roots.size(); ++root)
   {
-    WriteRow(file, kRootColumns, RootRow{ root, model.roots.axes[root], model.traits.roots[root] });
+    const RootRow row{ root, model.roots.axes[root], model.traits.roots[root] };
+    for (const auto & column : kRootColumns)
+    {
+      file << column.value(row) << ",";
+    }
+    file << CsvField(row.axis.name) << "\n";
   }
   file.Finish();
 }
@@ -355,7 +368,10 @@ RootColumnsJson(SpatialUnit unit)
   std::string levels = ColumnsJson(kLevelHead, unit);
   levels.replace(levels.rfind("\n  }"), std::string::npos, ",");
   levels += ColumnsJson(kLevelColumns, unit).substr(1);
-  return "{\n  \"roots\": " + ColumnsJson(kRootColumns, unit) + ",\n  \"levels\": " + levels +
+  std::string roots = ColumnsJson(kRootColumns, unit);
+  roots.replace(roots.rfind("\n  }"), std::string::npos, ",");
+  roots += ColumnsJson(kRootNames, unit).substr(1);
+  return "{\n  \"roots\": " + roots + ",\n  \"levels\": " + levels +
          ",\n  \"plant\": " + ColumnsJson(kPlantColumns, unit) +
          ",\n  \"profile\": " + ColumnsJson(kProfileColumns, unit) + "\n}\n";
 }

@@ -116,8 +116,9 @@ private:
     const RootAxis &   axis = m_Model.roots.axes[number];
     const RootRecord & record = m_Model.traits.roots[number];
     const std::string  indent(static_cast<std::size_t>(2 * depth), ' ');
-    m_File << indent << "<root ID=\"root-" << number << "\" label=\"" << (axis.level == 0 ? "stem" : "root") << " "
-           << number << "\" po:accession=\"" << (axis.level == 0 ? "PO:0020127" : "PO:0020121") << "\">\n";
+    m_File << indent << "<root ID=\"root-" << number << "\" label=\""
+           << (axis.name.empty() ? (axis.level == 0 ? "stem " : "root ") + std::to_string(number) : XmlText(axis.name))
+           << "\" po:accession=\"" << (axis.level == 0 ? "PO:0020127" : "PO:0020121") << "\">\n";
     m_File << indent << "  <properties>\n";
     Property(indent, "level", axis.level);
     Property(indent, "length", record.length);

@@ -134,8 +134,9 @@ Examples:
 
 constexpr std::string_view kRootsFooter =
   R"(OUTDIR gets roots.rsml, roots.csv (a row per root), levels.csv, plant.csv, profile.csv, columns.json (what the
-columns mean), page.html (a summary), roots.html (3-D), roots.png, mask.nrrd, medial.vtp, skeleton.vtp and
-report.json. All of it is written, or nothing.
+columns mean), page.html (a summary), roots.html (3-D), roots.png, mask.nrrd, medial.vtp, skeleton.vtp, changes.txt
+(cuts and fills), annotations.csv and annotations.mrk.json (for --edits), and report.json. All of it is written,
+or nothing.
 
 A grey scan without --threshold gets one halfway between background and roots, which is reported. Where roots
 touch, those that go on straight and as thick are the same root; contacts that may be read otherwise are listed.
@@ -144,6 +145,7 @@ Guide: roots.md
 Examples:
   voxelcore roots slices/ --spacing 0.5,0.5,0.5 --threshold 15:inf -o maize/
   voxelcore roots root.nii.gz --up z- -o root/
+  voxelcore roots root.nii.gz --up z- --edits root/annotations.csv -o edited/
   voxelcore roots root.nrrd --close 5vox --stems auto --soil-depth 30 -o crown/)";
 
 constexpr std::string_view kThicknessFooter =

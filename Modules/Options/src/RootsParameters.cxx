@@ -29,6 +29,7 @@ RootsOptionsFrom(const ParameterValues & values)
   options.stage.lambda.text = "0";
   options.rules.up = ParseUp(reader.Text("up"));
   options.rules.stems = reader.Text("stems") == "auto" ? 0 : static_cast<int>(reader.Whole("stems", 1, 1000));
+  options.annotations = reader.FileIfGiven("edits").value_or("");
   options.soilDepth = reader.Real("soil-depth");
   options.prefix = reader.Text("prefix");
   // It stands in links of the page, too.

@@ -1,9 +1,9 @@
 #include "voxelcore/RootHierarchy.h"
 
 #include "ContactPairing.h"
+#include "RootWhorls.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace voxelcore
 {
@@ -62,7 +62,7 @@ public:
       }
       Grow(done);
     }
-    SortByLevel();
+    SortByLevel(m_Roots);
   }
 
 private:
@@ -123,18 +123,9 @@ private:
     }
     if (parent != kNoRoot)
     {
-      const auto &    line = m_Roots.axes[parent].points;
-      const Vector3 & base = m_Branches.Graph().positions[axis.points.front()];
-      double          nearest = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < line.size(); ++i)
-      {
-        const double away = Distance(m_Branches.Graph().positions[line[i]], base);
-        if (away < nearest)
-        {
-          nearest = away;
-          axis.parentPoint = i;
-        }
-      }
+      axis.parentPoint = NearestPoint(m_Branches.Graph(),
+                                      m_Roots.axes[parent].points,
+                                      m_Branches.Graph().positions[axis.points.front()]);
     }
     m_Roots.axes.push_back(std::move(axis));
     m_Chains.push_back(std::move(chain));
@@ -151,36 +142,6 @@ private:
     m_LastHub = m_Branches.HubOf(from.Other());
   }
 
-  void
-  SortByLevel()
-  {
-    std::vector<ElementIndex> order(m_Roots.axes.size());
-    for (ElementIndex i = 0; i < order.size(); ++i)
-    {
-      order[i] = i;
-    }
-    std::stable_sort(order.begin(), order.end(), [&](ElementIndex a, ElementIndex b) {
-      return m_Roots.axes[a].level < m_Roots.axes[b].level;
-    });
-    std::vector<ElementIndex> place(order.size());
-    std::vector<RootAxis>     sorted;
-    for (ElementIndex i = 0; i < order.size(); ++i)
-    {
-      place[order[i]] = i;
-      sorted.push_back(std::move(m_Roots.axes[order[i]]));
-    }
-    for (RootAxis & axis : sorted)
-    {
-      axis.parent = axis.parent == kNoRoot ? kNoRoot : place[axis.parent];
-      axis.stem = place[axis.stem];
-    }
-    for (ElementIndex & root : m_Roots.rootOf)
-    {
-      root = root == kNoRoot ? kNoRoot : place[root];
-    }
-    m_Roots.axes = std::move(sorted);
-  }
-
   const RootBranches &                   m_Branches;
   const RootFlow &                       m_Flow;
   const RootPairing &                    m_Pairing;
@@ -189,56 +150,6 @@ private:
   std::vector<std::vector<ElementIndex>> m_Chains;   ///< per axis its branches
   ElementIndex                           m_LastHub = 0;
 };
-
-/** Laterals of each stem, gathered by where they spring from it. */
-void
-FindWhorls(const SkeletonGraph & graph, const RootRules & rules, RootHierarchy & roots)
-{
-  const std::vector<double> & radii = SectionRadii(graph);
-  for (ElementIndex stem = 0; stem < roots.axes.size() && roots.axes[stem].level == 0; ++stem)
-  {
-    const auto &        line = roots.axes[stem].points;
-    std::vector<double> way(line.size(), 0);
-    for (std::size_t i = 1; i < line.size(); ++i)
-    {
-      way[i] = way[i - 1] + Distance(graph.positions[line[i - 1]], graph.positions[line[i]]);
-    }
-    std::vector<std::pair<double, ElementIndex>> laterals;
-    for (ElementIndex axis = 0; axis < roots.axes.size(); ++axis)
-    {
-      if (roots.axes[axis].parent == stem)
-      {
-        laterals.emplace_back(way[roots.axes[axis].parentPoint], axis);
-      }
-    }
-    std::sort(laterals.begin(), laterals.end());
-    for (std::size_t first = 0; first < laterals.size();)
-    {
-      RootWhorl   whorl{ stem, 0, {}, {} };
-      std::size_t last = first;
-      for (;; ++last)
-      {
-        const auto [along, axis] = laterals[last];
-        const ElementIndex point = line[roots.axes[axis].parentPoint];
-        whorl.roots.push_back(axis);
-        whorl.along += along;
-        whorl.position = AddScaled(whorl.position, 1, graph.positions[point]);
-        if (last + 1 == laterals.size() || laterals[last + 1].first - along > rules.whorlGap * radii[point])
-        {
-          break;
-        }
-      }
-      const auto count = static_cast<double>(whorl.roots.size());
-      whorl.along /= count;
-      whorl.position = { whorl.position[0] / count, whorl.position[1] / count, whorl.position[2] / count };
-      if (whorl.roots.size() >= static_cast<std::size_t>(rules.whorlSize))
-      {
-        roots.whorls.push_back(std::move(whorl));
-      }
-      first = last + 1;
-    }
-  }
-}
 
 } // namespace
 

@@ -33,6 +33,7 @@ struct RootsOptions
   std::optional<double>              neighbourhood;     ///< none below is filled
   SkeletonRequest                    stage;
   RootRules                          rules;
+  std::filesystem::path              annotations;     ///< what is said of single roots (RootEdits.h); may be empty
   std::optional<double>              soilDepth;       ///< mm below the base of the first stem
   std::filesystem::path              output;          ///< a folder
   std::string                        prefix;          ///< of the names of all files in it
@@ -98,8 +99,9 @@ CleanForRoots(ShapeEditOptions & edits);
 /** Reads, proposes a threshold where grey values come without one (HalfwayThreshold), cleans, cuts roots apart where
  *  they touch so that pieces, loops and cavities are as few as can be or as asked for, computes a certified medial
  *  surface and skeleton, finds the roots, measures them. Writes into the folder: mask.nrrd, medial.vtp, skeleton.vtp,
- *  roots.rsml, roots.csv, levels.csv, plant.csv, profile.csv, columns.json, changes.txt (cuts and fills), report.json
- *  and page.html (the summary); with pictures roots.png and roots.html (3-D), too. Everything is written or nothing.
+ *  roots.rsml, roots.csv, levels.csv, plant.csv, profile.csv, columns.json, changes.txt (cuts and fills),
+ *  annotations.csv and annotations.mrk.json (what is said of each root), report.json and page.html (the summary); with
+ *  pictures roots.png and roots.html (3-D), too. Everything is written or nothing.
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 RootsResult
 RunRootsJob(const RootsOptions & options, const JobContext & context = {});

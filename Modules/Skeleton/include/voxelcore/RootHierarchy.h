@@ -27,6 +27,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace voxelcore
@@ -57,6 +58,7 @@ struct RootAxis
   bool                      undecided = false;     ///< goes through a contact that is marked
   bool                      loose = false;         ///< of a piece without a stem
   std::int32_t              children = 0;
+  std::string               name{}; ///< given by a person (RootEdits.h)
 };
 
 /** Where roots touch. */
