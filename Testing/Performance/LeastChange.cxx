@@ -1,0 +1,432 @@
+#include "LeastChange.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+
+namespace voxelcore::testing
+{
+
+namespace
+{
+
+using Place = std::array<std::int32_t, 3>;
+
+/** The voxels of a case by number. */
+class Grid
+{
+public:
+  explicit Grid(const GreyCase & grey)
+    : m_Grey(grey)
+  {}
+
+  std::size_t
+  Count() const
+  {
+    return m_Grey.grey.size();
+  }
+
+  Place
+  At(std::size_t voxel) const
+  {
+    const auto x = static_cast<std::size_t>(m_Grey.size[0]);
+    const auto y = static_cast<std::size_t>(m_Grey.size[1]);
+    return { static_cast<std::int32_t>(voxel % x),
+             static_cast<std::int32_t>(voxel / x % y),
+             static_cast<std::int32_t>(voxel / x / y) };
+  }
+
+  /** Calls visit(other) for neighbours that share at most `corners` + 1 coordinates' steps: 1 faces, 3 corners. */
+  template <typename TVisit>
+  void
+  VisitAround(std::size_t voxel, int steps, const TVisit & visit) const
+  {
+    const Place at = At(voxel);
+    for (int k = 0; k < 27; ++k)
+    {
+      const Place step{ k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1 };
+      const int   length = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]);
+      if (length == 0 || length > steps)
+      {
+        continue;
+      }
+      const Place next{ at[0] + step[0], at[1] + step[1], at[2] + step[2] };
+      bool        isIn = true;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        isIn = isIn && next[axis] >= 0 && next[axis] < m_Grey.size[axis];
+      }
+      if (isIn)
+      {
+        visit((static_cast<std::size_t>(next[2]) * static_cast<std::size_t>(m_Grey.size[1]) +
+               static_cast<std::size_t>(next[1])) *
+                static_cast<std::size_t>(m_Grey.size[0]) +
+              static_cast<std::size_t>(next[0]));
+      }
+    }
+  }
+
+private:
+  const GreyCase & m_Grey;
+};
+
+/** The least sum of weights of voxels that part `from` from `to` over faces, among voxels with `weight` above 0 (Dinic
+ *  1970, each voxel an edge from its way in to its way out). */
+class VertexCut
+{
+public:
+  VertexCut(const Grid &                       grid,
+            const std::vector<char> &          from,
+            const std::vector<char> &          to,
+            const std::vector<std::uint64_t> & weight)
+  {
+    const std::size_t count = grid.Count();
+    m_Source = 2 * count;
+    m_Sink = m_Source + 1;
+    m_First.assign(m_Sink + 1, kNone);
+    for (std::size_t voxel = 0; voxel < count; ++voxel)
+    {
+      const bool isEnd = from[voxel] != 0 || to[voxel] != 0;
+      if (!isEnd && weight[voxel] == 0)
+      {
+        continue;
+      }
+      Add(2 * voxel, 2 * voxel + 1, isEnd ? kLots : weight[voxel]);
+      if (from[voxel] != 0)
+      {
+        Add(m_Source, 2 * voxel, kLots);
+      }
+      if (to[voxel] != 0)
+      {
+        Add(2 * voxel + 1, m_Sink, kLots);
+      }
+      grid.VisitAround(voxel, 1, [&](std::size_t other) {
+        if (from[other] != 0 || to[other] != 0 || weight[other] > 0)
+        {
+          Add(2 * voxel + 1, 2 * other, kLots);
+        }
+      });
+    }
+  }
+
+  std::uint64_t
+  Run()
+  {
+    std::uint64_t flow = 0;
+    while (Level())
+    {
+      m_Now = m_First;
+      for (std::uint64_t more = Push(m_Source, kLots); more > 0; more = Push(m_Source, kLots))
+      {
+        flow += more;
+      }
+    }
+    return flow;
+  }
+
+private:
+  static constexpr std::size_t   kNone = std::numeric_limits<std::size_t>::max();
+  static constexpr std::uint64_t kLots = std::uint64_t{ 1 } << 50;
+
+  struct Arc
+  {
+    std::size_t   to;
+    std::size_t   next;
+    std::uint64_t room;
+  };
+
+  void
+  Add(std::size_t from, std::size_t to, std::uint64_t room)
+  {
+    m_Arcs.push_back({ to, m_First[from], room });
+    m_First[from] = m_Arcs.size() - 1;
+    m_Arcs.push_back({ from, m_First[to], 0 });
+    m_First[to] = m_Arcs.size() - 1;
+  }
+
+  bool
+  Level()
+  {
+    m_Level.assign(m_First.size(), kNone);
+    m_Level[m_Source] = 0;
+    std::queue<std::size_t> waiting({ m_Source });
+    for (; !waiting.empty(); waiting.pop())
+    {
+      const std::size_t node = waiting.front();
+      for (std::size_t arc = m_First[node]; arc != kNone; arc = m_Arcs[arc].next)
+      {
+        if (m_Arcs[arc].room > 0 && m_Level[m_Arcs[arc].to] == kNone)
+        {
+          m_Level[m_Arcs[arc].to] = m_Level[node] + 1;
+          waiting.push(m_Arcs[arc].to);
+        }
+      }
+    }
+    return m_Level[m_Sink] != kNone;
+  }
+
+  std::uint64_t
+  Push(std::size_t node, std::uint64_t most)
+  {
+    if (node == m_Sink)
+    {
+      return most;
+    }
+    for (std::size_t & arc = m_Now[node]; arc != kNone; arc = m_Arcs[arc].next)
+    {
+      Arc & one = m_Arcs[arc];
+      if (one.room > 0 && m_Level[one.to] == m_Level[node] + 1)
+      {
+        const std::uint64_t done = Push(one.to, std::min(most, one.room));
+        if (done > 0)
+        {
+          one.room -= done;
+          m_Arcs[arc ^ 1U].room += done;
+          return done;
+        }
+      }
+    }
+    return 0;
+  }
+
+  std::size_t              m_Source = 0;
+  std::size_t              m_Sink = 0;
+  std::vector<Arc>         m_Arcs;
+  std::vector<std::size_t> m_First;
+  std::vector<std::size_t> m_Now;
+  std::vector<std::size_t> m_Level;
+};
+
+/** The least sum of weights over voxels with a weight above 0 on a way from `from` to `to`, which weigh nothing. */
+std::uint64_t
+CheapestWay(const Grid &                       grid,
+            const std::vector<char> &          from,
+            const std::vector<char> &          to,
+            const std::vector<std::uint64_t> & weight,
+            int                                steps)
+{
+  using Waiting = std::pair<std::uint64_t, std::size_t>;
+  std::vector<std::uint64_t> way(grid.Count(), std::numeric_limits<std::uint64_t>::max());
+  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting;
+  for (std::size_t voxel = 0; voxel < grid.Count(); ++voxel)
+  {
+    if (from[voxel] != 0)
+    {
+      way[voxel] = 0;
+      waiting.emplace(0, voxel);
+    }
+  }
+  while (!waiting.empty())
+  {
+    const auto [cost, voxel] = waiting.top();
+    waiting.pop();
+    if (to[voxel] != 0)
+    {
+      return cost;
+    }
+    if (cost == way[voxel])
+    {
+      grid.VisitAround(voxel, steps, [&](std::size_t other) {
+        const bool isOpen = to[other] != 0 || weight[other] > 0;
+        const auto next = cost + (to[other] != 0 ? 0 : weight[other]);
+        if (isOpen && next < way[other])
+        {
+          way[other] = next;
+          waiting.emplace(next, other);
+        }
+      });
+    }
+  }
+  return std::numeric_limits<std::uint64_t>::max();
+}
+
+/** A case of `size` voxels; value(place) gives grey values. Levels are 50, 100, 200. */
+template <typename TValue>
+GreyCase
+Make(const Size3 & size, const TValue & value)
+{
+  GreyCase grey{ size, {}, { 50, 100, 200 } };
+  for (std::int32_t z = 0; z < size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < size[1]; ++y)
+    {
+      for (std::int32_t x = 0; x < size[0]; ++x)
+      {
+        grey.grey.push_back(value(Place{ x, y, z }));
+      }
+    }
+  }
+  return grey;
+}
+
+std::vector<std::uint64_t>
+Weights(const GreyCase & grey, const std::function<bool(std::size_t)> & isOpen)
+{
+  const Grid                 grid(grey);
+  std::vector<std::uint64_t> weight(grid.Count(), 0);
+  for (std::size_t voxel = 0; voxel < grid.Count(); ++voxel)
+  {
+    const Place at = grid.At(voxel);
+    weight[voxel] = isOpen(voxel) ? grey.Cost(at[0], at[1], at[2]) : 0;
+  }
+  return weight;
+}
+
+std::vector<char>
+Where(const GreyCase & grey, const std::function<bool(const Place &, std::uint32_t)> & isIn)
+{
+  const Grid        grid(grey);
+  std::vector<char> result(grid.Count());
+  for (std::size_t voxel = 0; voxel < grid.Count(); ++voxel)
+  {
+    result[voxel] = isIn(grid.At(voxel), grey.grey[voxel]) ? 1 : 0;
+  }
+  return result;
+}
+
+/** Two balls of kernel with a bar between them whose values are `low` to `high`. */
+GreyCase
+TwoBalls(Random & random, std::int64_t low, std::int64_t high, double noise)
+{
+  const auto   length = static_cast<double>(random.Between(8, 16));
+  const double radius = static_cast<double>(random.Between(15, 45)) / 10;
+  const double slope = static_cast<double>(random.Between(-10, 10)) / 40;
+  const Size3  size{ 32, 15, 15 };
+  const auto   middle = static_cast<double>(random.Between(13, 17));
+  return Make(size, [&](const Place & at) {
+    const double x = at[0];
+    const double away = std::hypot(at[1] - 7.0, at[2] - 7.0 - slope * (x - 15));
+    const bool   isBall = std::hypot(x - 15 + length / 2 + 4, at[1] - 7.0, at[2] - 7.0) <= 5.5 ||
+                        std::hypot(x - 15 - length / 2 - 4, at[1] - 7.0, at[2] - 7.0) <= 5.5;
+    if (isBall)
+    {
+      return 250U;
+    }
+    if (away > radius)
+    {
+      return 10U;
+    }
+    // Weakest near its middle, with noise.
+    const double range = static_cast<double>(high - low);
+    const double value = static_cast<double>(low) + range * std::min(1.0, std::abs(x - middle) / length) * (1 - noise) +
+                         range * noise * static_cast<double>(random.Between(0, 1000)) / 1000;
+    return static_cast<std::uint32_t>(std::min(value, static_cast<double>(high)));
+  });
+}
+
+LeastChangeCase
+Neck(std::uint64_t seed)
+{
+  Random          random(seed);
+  LeastChangeCase one{ TwoBalls(random, 105, 195, 0.5), {}, 2, 0 };
+  one.request.pieces = 2;
+  one.request.loops = 0;
+  one.request.cavities = 0;
+  const Grid grid(one.grey);
+  one.least = VertexCut(grid,
+                        Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] < 15; }),
+                        Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] > 15; }),
+                        Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 100; }))
+                .Run();
+  return one;
+}
+
+LeastChangeCase
+Gap(std::uint64_t seed)
+{
+  Random          random(seed);
+  LeastChangeCase one{ TwoBalls(random, 52, 98, 0.8), {}, 1, 0 };
+  const Grid      grid(one.grey);
+  one.least =
+    CheapestWay(grid,
+                Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] < 15; }),
+                Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] > 15; }),
+                Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 50 && one.grey.grey[v] < 100; }),
+                1);
+  return one;
+}
+
+LeastChangeCase
+WeakRing(std::uint64_t seed)
+{
+  Random       random(seed);
+  const double thick = static_cast<double>(random.Between(15, 32)) / 10;
+  const auto   arc = static_cast<std::int32_t>(random.Between(3, 6));
+  const auto   isWeak = [&](const Place & at) { return at[0] > 12 && std::abs(at[1] - 12) < arc; };
+  const auto   value = [&](const Place & at) {
+    const double away = std::hypot(std::hypot(at[0] - 12, at[1] - 12) - 8, at[2] - 4);
+    return away > thick ? 10U : isWeak(at) ? static_cast<std::uint32_t>(random.Between(105, 195)) : 250U;
+  };
+  LeastChangeCase one{ Make({ 25, 25, 9 }, value), {}, 1, 0 };
+  one.least =
+    VertexCut(Grid(one.grey),
+              Where(one.grey, [&](const Place & at, std::uint32_t v) { return v == 250 && at[1] < 12; }),
+              Where(one.grey, [&](const Place & at, std::uint32_t v) { return v == 250 && at[1] > 12; }),
+              Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 100 && one.grey.grey[v] < 200; }))
+      .Run();
+  return one;
+}
+
+LeastChangeCase
+Cavity(std::uint64_t seed)
+{
+  Random       random(seed);
+  const double inner = static_cast<double>(random.Between(10, 24)) / 10;
+  const double outer = inner + static_cast<double>(random.Between(15, 40)) / 10;
+  const auto   value = [&](const Place & at) {
+    const double radius = std::hypot(at[0] - 8, at[1] - 8, at[2] - 8);
+    return radius > outer
+               ? 10U
+               : static_cast<std::uint32_t>(radius > inner ? random.Between(105, 195) : random.Between(60, 98));
+  };
+  LeastChangeCase one{ Make({ 17, 17, 17 }, value), {}, 1, 0 };
+  // Nothing is kernel, but growth begins at the costliest voxel, which stays; the way may not need it.
+  const auto    way = CheapestWay(Grid(one.grey),
+                               Where(one.grey, [](const Place &, std::uint32_t v) { return v >= 50 && v < 100; }),
+                               Where(one.grey, [](const Place &, std::uint32_t v) { return v < 50; }),
+                               Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 100; }),
+                               3);
+  std::uint64_t all = 0;
+  for (const std::uint64_t weight :
+       Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 50 && one.grey.grey[v] < 100; }))
+  {
+    all += weight;
+  }
+  one.least = std::min(way, all);
+  return one;
+}
+
+} // namespace
+
+std::vector<std::pair<const char *, LeastChangeCase (*)(std::uint64_t)>>
+LeastChangeKinds()
+{
+  return { { "neck cut", &Neck },
+           { "gap bridged", &Gap },
+           { "ring cut", &WeakRing },
+           { "cavity opened or filled", &Cavity } };
+}
+
+bool
+StaysBetween(const GreyCase & grey, const VoxelShape & result)
+{
+  for (std::int32_t z = 0; z < grey.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < grey.size[1]; ++y)
+    {
+      for (std::int32_t x = 0; x < grey.size[0]; ++x)
+      {
+        const std::uint32_t value = grey.At(x, y, z);
+        if (result.Contains(x, y, z) ? value < grey.levels[0] : value >= grey.levels[2])
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+} // namespace voxelcore::testing
