@@ -23,9 +23,10 @@ namespace
 constexpr double kNearInRadii = 0.5;
 constexpr double kNearInVoxels = 2;
 
-// A branch that leaves is nothing but itself so many of its radii outside the junction's ball, the one it leaves so
-// many of them and a voxel from the junction.
+// A branch that leaves is nothing but itself so many of its radii less half a voxel outside the junction's ball, the
+// one it leaves so many of them and a voxel from the junction.
 constexpr double kApartInRadii = 1.5;
+constexpr double kSoonerInVoxels = 0.5;
 constexpr double kThroughInRadii = 1.5;
 
 // Over what ways axes are fitted: radii of the branch that leaves, at least four voxels.
@@ -34,13 +35,14 @@ constexpr double kThroughAxisInRadii = 1.5;
 constexpr double kAxisInVoxels = 4;
 constexpr double kShortestInVoxels = 2;
 
-// From no to yes, in degrees: by how much the branch that goes through is straighter than any way into one that leaves;
-// how much it bends at most; how large the angle is at which the axes meet.
-constexpr std::array<double, 2> kStraighter{ 10, 25 };
+// From no to yes, in degrees: how much the branch that goes through bends at most; by how much its axes are straighter
+// than those of any way into one that leaves; how large the angle is at which the axes meet.
 constexpr std::array<double, 2> kBend{ 70, 40 };
-constexpr std::array<double, 2> kMeetingAngle{ 30, 50 };
+constexpr std::array<double, 2> kStraighter{ 10, 20 };
+constexpr std::array<double, 2> kMeetingAngle{ 25, 40 };
 
-// So many of the ball's radii the axes meet away from the junction, and pass each other, at most.
+// So many radii of the ball and a voxel the axes meet away from the junction, and pass each other, at most: bodies a
+// voxel apart are one in the voxels.
 constexpr std::array<double, 2> kMove{ 2.5, 1.5 };
 constexpr std::array<double, 2> kGap{ 1.5, 0.5 };
 
@@ -48,6 +50,13 @@ double
 Degrees(double cosine)
 {
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+/** By how many degrees a way bends that comes out of one direction and goes on into the other, both outwards. */
+double
+Bend(const Vector3 & a, const Vector3 & b)
+{
+  return Degrees(-Dot(a, b));
 }
 
 /** 0 at and before the first, 1 at and behind the second. */
@@ -101,6 +110,7 @@ public:
     {
       return std::nullopt;
     }
+    yes *= FromNoToYes(kStraighter, StraighterBy(arms));
     double meeting = 0;
     for (std::size_t k = 2; k < arms.size(); ++k)
     {
@@ -165,7 +175,7 @@ private:
   static double
   PutThroughFirst(std::vector<Arm> & arms)
   {
-    const auto bend = [&](std::size_t i, std::size_t k) { return Degrees(-Dot(arms[i].direction, arms[k].direction)); };
+    const auto bend = [&](std::size_t i, std::size_t k) { return Bend(arms[i].direction, arms[k].direction); };
     std::pair<std::size_t, std::size_t> best{ 0, 1 };
     for (std::size_t i = 0; i < arms.size(); ++i)
     {
@@ -176,12 +186,23 @@ private:
     }
     std::swap(arms[0], arms[best.first]);
     std::swap(arms[1], arms[best.second]);
-    double next = 180;
+    return FromNoToYes(kBend, bend(0, 1));
+  }
+
+  /** By how many degrees the way through bends less than any into a branch that leaves. Where bodies run together
+   *  curves tell little of that, so it is their axes that are compared. */
+  static double
+  StraighterBy(const std::vector<Arm> & arms)
+  {
+    const Vector3 before = AxisOf(arms[0]).direction;
+    const Vector3 behind = AxisOf(arms[1]).direction;
+    double        next = 180;
     for (std::size_t k = 2; k < arms.size(); ++k)
     {
-      next = std::min({ next, bend(0, k), bend(1, k) });
+      const Vector3 leaving = AxisOf(arms[k]).direction;
+      next = std::min({ next, Bend(before, leaving), Bend(behind, leaving) });
     }
-    return FromNoToYes(kStraighter, next - bend(0, 1)) * FromNoToYes(kBend, bend(0, 1));
+    return next - Bend(before, behind);
   }
 
   /** False where an arm is too short to have one. */
@@ -204,7 +225,7 @@ private:
       }
       else
       {
-        arm.from = arm.leaves + kApartInRadii * arm.radius;
+        arm.from = arm.leaves + kApartInRadii * arm.radius - kSoonerInVoxels * m_Voxel;
         length = kAxisInRadii * arm.radius;
       }
       arm.to = std::min(arm.from + std::max(length, kAxisInVoxels * m_Voxel), arm.free);
@@ -222,7 +243,8 @@ private:
   Meeting(const ThroughAxis & through, const Axis & axis, double ball) const
   {
     constexpr int kSteps = 200;
-    const double  reach = kMove[0] * ball;
+    const double  most = ball + m_Voxel;
+    const double  reach = kMove[0] * most;
     double        gap = std::numeric_limits<double>::infinity();
     double        at = 0;
     for (int step = 0; step <= kSteps; ++step)
@@ -238,7 +260,7 @@ private:
     }
     const double angle = Degrees(std::abs(Dot(through.DirectionAt(at), axis.direction)));
     return { at,
-             FromNoToYes(kMove, std::abs(at) / ball) * FromNoToYes(kGap, gap / (ball + m_Voxel)) *
+             FromNoToYes(kMove, std::abs(at) / most) * FromNoToYes(kGap, gap / most) *
                FromNoToYes(kMeetingAngle, angle) };
   }
 
