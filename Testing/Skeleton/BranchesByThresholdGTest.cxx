@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -251,6 +252,33 @@ TEST(BranchesByThreshold, AThinStubOnAThickStemIsABranchOnEverySide)
       EXPECT_EQ(MeasureBranches(graph).numbers.tips, 3) << "radius " << radius << ", side " << side;
     }
   }
+}
+
+/** A thin tube that goes on for a few voxels behind where another one leaves it. */
+TEST(BranchesByThreshold, TheShortEndOfAThinTubeBehindAFork)
+{
+  int found = 0;
+  int runs = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+  {
+    Random         random(seed);
+    const Spacing3 along = RandomDirection(random);
+    Spacing3       out = RandomDirection(random);
+    const double   dot = out[0] * along[0] + out[1] * along[1] + out[2] * along[2];
+    out = Moved(out, along, 0.5 - dot); // obliquely forwards
+    const double length = Distance(out, { 0, 0, 0 });
+    if (length < 0.8)
+    {
+      continue;
+    }
+    const std::vector<Rod> rods{ { Moved({}, along, -30), Moved({}, along, 5), 1.6 },
+                                 { {}, Moved({}, out, 22 / length), 1.6 } };
+    ++runs;
+    found += MeasureBranches(GraphOf(BodyOf(rods))).numbers.tips == 3 ? 1 : 0;
+  }
+  std::cout << found << " of " << runs << " have three tips\n";
+  EXPECT_GE(runs, 20);
+  EXPECT_GE(found, 0.9 * runs);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -21,6 +22,12 @@ constexpr double kRunsAlongTheMiddle = 0.5;
 // that of a box by 0.58.
 constexpr double kThinWindow = 6;
 constexpr double kThinGrowth = 0.3;
+
+// A tube that ends a little behind where another leaves it is as wide at its tip as at its foot, over a way too short
+// for the rules above. It stands out of a body of its own width, so it is a branch with a part of what others need.
+constexpr double kTubeWindow = 3;
+constexpr double kTubeGrowth = 0.15;
+constexpr double kTubeStandOut = 0.6;
 
 // Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much
 // further to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of
@@ -51,9 +58,26 @@ public:
   {
     return FindFrom(m_Scale.window, [this](std::size_t start, std::size_t end) { return RunsAlong(start, end); }) ||
            FindFrom(std::min(m_Scale.window, kThinWindow * m_Scale.voxel), [this](std::size_t start, std::size_t end) {
-             const double growth = m_Surface.radius[m_Path[end]] - m_Surface.radius[m_Path[start]];
-             return RunsAlong(start, end) && growth <= kThinGrowth * Way(start, end);
+             return RunsAlong(start, end) && Growth(start, end) <= kThinGrowth * Way(start, end);
            });
+  }
+
+  /** Whether the curve is the axis of a tube all along; false for one that joins another sooner than the window. */
+  bool
+  RunAsTube()
+  {
+    std::size_t end = 0;
+    while (GoesOn(end))
+    {
+      ++end;
+    }
+    const double way = Way(0, end);
+    if (way < kTubeWindow * m_Scale.voxel || !RunsAlong(0, end) || std::abs(Growth(0, end)) > kTubeGrowth * way)
+    {
+      return false;
+    }
+    CapCentre(0, kTubeWindow * m_Scale.voxel);
+    return true;
   }
 
 private:
@@ -61,6 +85,12 @@ private:
   Way(std::size_t from, std::size_t to) const
   {
     return Distance(m_Surface.positions[m_Path[from]], m_Surface.positions[m_Path[to]]);
+  }
+
+  double
+  Growth(std::size_t from, std::size_t to) const
+  {
+    return m_Surface.radius[m_Path[to]] - m_Surface.radius[m_Path[from]];
   }
 
   double
@@ -236,7 +266,7 @@ StandingBranches(const MedialComplex &       surface,
   for (ElementIndex number = 0; number < all.size(); ++number)
   {
     Candidate & candidate = all[number];
-    if (candidate.standOut < standOut)
+    if (candidate.standOut < kTubeStandOut * standOut)
     {
       continue;
     }
@@ -246,12 +276,14 @@ StandingBranches(const MedialComplex &       surface,
     {
       branch.path.push_back(Across(surface.cells, fire.nextEdge[branch.path.back()], branch.path.back()));
     }
-    const bool isFound = EndSearch(surface, fire, surfaceTime, scale, branch).Run();
+    EndSearch  search(surface, fire, surfaceTime, scale, branch);
+    const bool standsOut = candidate.standOut >= standOut;
+    const bool isFound = (standsOut && search.Run()) || search.RunAsTube();
     if (!isFound)
     {
       branch.end = branch.path.size() - 1;
     }
-    candidate.isStanding = isFound || candidate.isAxis;
+    candidate.isStanding = isFound || (standsOut && candidate.isAxis);
     branches.push_back(std::move(branch));
     numbers.push_back(number);
   }
