@@ -92,6 +92,61 @@ TEST(BranchTips, OfStraightTubesLieAtTheCentresOfTheirCaps)
   EXPECT_LT(after, before) << "seed " << seed;
 }
 
+TEST(BranchTips, OfAThickStemLieAtTheCentresOfItsCapsWhereAThinBranchLeavesIt)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64                        random(seed);
+  std::uniform_real_distribution<double> part(0, 1);
+  const double                           radius = 11;
+  const double                           side = 96;
+  double                                 squares = 0;
+  int                                    bodies = 0;
+  for (int k = 0; k < 8; ++k)
+  {
+    const Curve    stem = AnyLine(64, side, { 1, 1, 1 }, random);
+    const Spacing3 foot =
+      stem[static_cast<std::size_t>((0.35 + 0.3 * part(random)) * static_cast<double>(stem.size()))];
+    const Spacing3 other = AnyDirection(random);
+    Spacing3       out{}; // across the stem
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::size_t i = (axis + 1) % 3;
+      const std::size_t j = (axis + 2) % 3;
+      out[axis] = other[i] * (stem.back()[j] - stem.front()[j]) - other[j] * (stem.back()[i] - stem.front()[i]);
+    }
+    const double length = Distance(out, { 0, 0, 0 });
+    const Curve  branch = SampleCurve(
+      [&](double t) {
+        const double far = 20 * t / length;
+        return Spacing3{ foot[0] + far * out[0], foot[1] + far * out[1], foot[2] + far * out[2] };
+      },
+      80);
+    const VoxelShape thick = Tube(stem, radius, { side, side, side });
+    const VoxelShape thin = Tube(branch, 2.3, { side, side, side });
+    const auto       n = static_cast<std::int32_t>(side);
+    const auto       placed = PlaceTipsOf(
+      ShapeWhere({ n, n, n }, [&](int x, int y, int z) { return thick.Contains(x, y, z) || thin.Contains(x, y, z); }));
+    if (placed.after.BranchCount() != 3)
+    {
+      continue;
+    }
+    ++bodies;
+    for (const Spacing3 & end : { stem.front(), stem.back() })
+    {
+      double nearest = side;
+      for (const ElementIndex point : placed.after.nodePoints)
+      {
+        nearest = std::min(nearest, Distance(placed.after.positions[point], end));
+      }
+      squares += nearest * nearest;
+    }
+  }
+  std::cout << std::sqrt(squares / (2 * bodies)) << " voxels off, " << bodies << " bodies\n";
+  EXPECT_GE(bodies, 6) << "seed " << seed;
+  EXPECT_LT(std::sqrt(squares / (2 * bodies)), 0.38) << "voxels, seed " << seed;
+}
+
 TEST(BranchTips, OfAFlatEndLieTwoThirdsOfARadiusBeforeIt)
 {
   // A rod along x from 10 to 70 of radius 6: its ends are planes of the grid.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace voxelcore
 {
@@ -16,6 +18,13 @@ namespace
 // The ends of balls may be off by so much: steps of the grid, and bumps on the cap.
 constexpr double kMostDiagonals = 2;
 constexpr double kMostRadii = 0.3;
+
+// A branch thinner than this part of a body leaves it as it is. One whose radius differs by no more than this part of
+// the body's is the body itself, going on.
+constexpr double kThinPart = 0.35;
+
+// Beyond so many of these the body is not looked at.
+constexpr int kMostJoints = 4;
 
 /** A branch from a tip on, and where that tip shall lie. */
 struct Move
@@ -34,25 +43,47 @@ public:
     , m_Shape(shape)
     , m_Geometry(geometry)
     , m_Diagonal(Length(geometry.spacing))
-  {}
+    , m_EndsAt(graph.nodePoints.size())
+  {
+    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+    {
+      for (const std::size_t end : { 0, 1 })
+      {
+        m_EndsAt[graph.branchNodes[branch][end]].emplace_back(branch, end);
+      }
+    }
+  }
 
   std::optional<Move>
   Of(std::size_t branch, std::size_t end) const
   {
     Move move;
-    move.points.assign(m_Graph.Branch(branch).begin(), m_Graph.Branch(branch).end());
-    if (end == 1)
-    {
-      std::reverse(move.points.begin(), move.points.end());
-    }
+    move.points = PointsFrom({ branch, end });
     WayLine line;
     for (const ElementIndex point : move.points)
     {
       line.Add(OnGrid(m_Graph.positions[point]));
     }
-    const ElementIndex other = m_Graph.branchNodes[branch][1 - end];
+    std::vector<ElementIndex> points = move.points;
+    BranchEnd                 last{ branch, 1 - end };
+    for (int step = 0; step < kMostJoints; ++step)
+    {
+      const auto next = GoesOn(last);
+      if (!next)
+      {
+        break;
+      }
+      const auto more = PointsFrom(*next);
+      for (std::size_t i = 1; i < more.size(); ++i)
+      {
+        points.push_back(more[i]);
+        line.Add(OnGrid(m_Graph.positions[more[i]]));
+      }
+      last = { next->first, 1 - next->second };
+    }
+    const ElementIndex other = NodeOf(last);
     const double       free = FreeWay(line, other);
-    const double       radius = RadiusNear(move.points, line, free) + kMeanExcess * m_Diagonal;
+    const double       radius = RadiusNear(points, line, free) + kMeanExcess * m_Diagonal;
     // Where a branch leaves obliquely the other body reaches further along it.
     const double margin = m_Graph.nodeKinds[other] == NodeKind::Tip ? 0 : radius;
     const auto   place = FindEndByVolume(m_Shape, m_Geometry.spacing, line, free - margin, radius);
@@ -63,11 +94,74 @@ public:
     move.tip = LatticeToPhysical(m_Geometry, Over(*place, m_Geometry.spacing));
     const double by = Distance(move.tip, m_Graph.positions[move.points[0]]);
     move.reach = std::max(radius, 2 * by) + m_Diagonal;
+    line.way.resize(move.points.size());
     move.way = std::move(line.way);
     return by <= kMostDiagonals * m_Diagonal + kMostRadii * radius ? std::optional(std::move(move)) : std::nullopt;
   }
 
 private:
+  using BranchEnd = std::pair<std::size_t, std::size_t>; ///< a branch and which of its ends
+
+  ElementIndex
+  NodeOf(const BranchEnd & end) const
+  {
+    return m_Graph.branchNodes[end.first][end.second];
+  }
+
+  std::vector<ElementIndex>
+  PointsFrom(const BranchEnd & end) const
+  {
+    const auto                points = m_Graph.Branch(end.first);
+    std::vector<ElementIndex> from(points.begin(), points.end());
+    if (end.second == 1)
+    {
+      std::reverse(from.begin(), from.end());
+    }
+    return from;
+  }
+
+  /** The radius in the middle of what leaves the ball of a node; 0 where nothing does. */
+  double
+  RadiusBehind(const BranchEnd & end) const
+  {
+    const auto         points = PointsFrom(end);
+    const ElementIndex centre = m_Graph.nodePoints[NodeOf(end)];
+    std::size_t        out = 0;
+    while (out < points.size() &&
+           Distance(m_Graph.positions[points[out]], m_Graph.positions[centre]) <= m_Graph.radius[centre])
+    {
+      ++out;
+    }
+    return out < points.size() ? m_Graph.radius[points[(out + points.size()) / 2]] : 0;
+  }
+
+  /** The branch in which a body goes on that ends in a junction, where all others are thin beside it. */
+  std::optional<BranchEnd>
+  GoesOn(const BranchEnd & here) const
+  {
+    const ElementIndex node = NodeOf(here);
+    if (m_Graph.nodeKinds[node] != NodeKind::Junction)
+    {
+      return std::nullopt;
+    }
+    const double             ball = m_Graph.radius[m_Graph.nodePoints[node]];
+    std::optional<BranchEnd> onwards;
+    for (const BranchEnd & end : m_EndsAt[node])
+    {
+      const double radius = RadiusBehind(end);
+      if (end == here || (radius > 0 && radius <= kThinPart * ball))
+      {
+        continue;
+      }
+      if (onwards || std::abs(radius - ball) > kThinPart * ball)
+      {
+        return std::nullopt;
+      }
+      onwards = end;
+    }
+    return onwards;
+  }
+
   Vector3
   OnGrid(const Vector3 & place) const
   {
@@ -116,6 +210,8 @@ private:
   const VoxelShape &    m_Shape;
   const ImageGeometry & m_Geometry;
   const double          m_Diagonal;
+
+  std::vector<std::vector<BranchEnd>> m_EndsAt; ///< per node
 };
 
 } // namespace
