@@ -23,8 +23,10 @@ constexpr double kRunsAlongTheMiddle = 0.5;
 constexpr double kThinWindow = 6;
 constexpr double kThinGrowth = 0.3;
 
-// A tube that ends a little behind where another leaves it is as wide at its tip as at its foot, over a way too short
-// for the rules above. It stands out of a body of its own width, so it is a branch with a part of what others need.
+// A thin tube that ends a little behind where another leaves it is as wide at its tip as at its foot, over a way too
+// short for the rules above. It stands out of a body of its own width, so it needs a part of what others need. Thicker
+// ones are not told so: in the webs of forks are ridges as even as they.
+constexpr double kTubeRadius = 2;
 constexpr double kTubeWindow = 3;
 constexpr double kTubeGrowth = 0.15;
 constexpr double kTubeStandOut = 0.6;
@@ -72,7 +74,9 @@ public:
       ++end;
     }
     const double way = Way(0, end);
-    if (way < kTubeWindow * m_Scale.voxel || !RunsAlong(0, end) || std::abs(Growth(0, end)) > kTubeGrowth * way)
+    const bool   isThin = m_Surface.radius[m_Path[end]] <= kTubeRadius * m_Scale.voxel;
+    if (!isThin || way < kTubeWindow * m_Scale.voxel || !RunsAlong(0, end) ||
+        std::abs(Growth(0, end)) > kTubeGrowth * way)
     {
       return false;
     }
