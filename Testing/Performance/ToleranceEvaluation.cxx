@@ -2,11 +2,11 @@
 // rotations, three resolutions and two spacings, clean and rough. Half of the seeds were for tuning; the other half
 // shows what is worth of it elsewhere. README.md has the table and what the columns mean.
 //
-//     VoxelCoreToleranceEvaluation [--seeds tuned|aside] [--rotations N] [--body NAME] [--noise SD] [--mend-shape]
+//     VoxelCoreToleranceEvaluation [--seeds tuned|aside|N] [--rotations N] [--body NAME] [--noise SD] [--mend-shape]
 //                             [--smooth-shape] [--tolerance H,H..] [--each] [--quick] [--keep FILE] [--defaults]
 //
-// With --defaults what could be the default: lambda 1.5vox, tolerances 1diag and 1.2diag, each also refined from the
-// labels, and refined but for parts below about three voxels in radius.
+// Seeds of a number are fresh ones, from it on. With --defaults what could be the default: lambda 1.5vox, tolerances
+// 1diag and 1.2diag, each also refined from the labels, and refined but for parts below about three voxels in radius.
 // With --keep each body at each spacing is written to FILE when it is done, and not done again by the next run with the
 // same options: a run that is interrupted goes on where it was.
 
@@ -47,7 +47,7 @@ Seconds()
 
 struct Options
 {
-  bool                     aside = false;
+  std::string              seeds = "tuned";
   int                      rotations = 3;
   std::string              body;
   double                   noise = 0;
@@ -64,7 +64,8 @@ struct Options
   Seed(int rotation) const
   {
     // 2, 4 and 6 were aside once and have been looked at.
-    return (aside ? 1002 : 1) + 2 * static_cast<std::uint64_t>(rotation);
+    const std::uint64_t first = seeds == "tuned" ? 1 : seeds == "aside" ? 1002 : std::stoull(seeds);
+    return first + 2 * static_cast<std::uint64_t>(rotation);
   }
   std::vector<double>
   Resolutions() const
@@ -79,7 +80,7 @@ struct Options
     std::snprintf(text,
                   sizeof(text),
                   "%s, %d rotations, %zu resolutions, noise %g%s%s%s, tolerances %s",
-                  aside ? "aside" : "tuned",
+                  seeds.c_str(),
                   rotations,
                   Resolutions().size(),
                   noise,
@@ -261,7 +262,7 @@ ReadOptions(int argc, char ** argv)
     }
     else if (option == "--seeds")
     {
-      options.aside = value() == "aside";
+      options.seeds = value();
     }
     else if (option == "--rotations")
     {

@@ -29,6 +29,9 @@ constexpr double kSamplesPerRadius = 12;
 // How far the number of voxels in a body is off its volume, per square root of the voxels at its surface.
 constexpr double kCountNoise = 0.3;
 
+// A slope of three standard deviations counts half: rough walls vary along the way, not from bin to bin alone.
+constexpr double kSlopePrior = 9;
+
 constexpr double kPointed = 0.3; ///< growth of the radius along the way, from which on an end is no tube's
 
 /** Least squares of values over one variable. */
@@ -332,7 +335,7 @@ private:
     // A slope that noise may have made counts little: that of the bins, at least that of voxels.
     const double voxels = kCountNoise * std::sqrt(2 * std::numbers::pi * radius * bin) * m_Voxel * m_Voxel / bin;
     const double noise = std::max(residual / (kBins - 2), voxels * voxels) / heights.Spread();
-    slope *= slope * slope / (slope * slope + 4 * noise);
+    slope *= slope * slope / (slope * slope + kSlopePrior * noise);
     const double growth = slope / (2 * std::numbers::pi * radius);
     if (!(std::abs(growth) < kPointed))
     {
