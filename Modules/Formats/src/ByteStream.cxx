@@ -1,8 +1,9 @@
 #include "PlainStream.h"
 #include "voxelcore/TextFields.h"
 
+#include <algorithm>
 #include <array>
-#include <sys/stat.h>
+#include <system_error>
 
 namespace voxelcore
 {
@@ -127,21 +128,22 @@ LargestExpansion(Packing packing)
 std::uint64_t
 FileSize(const std::filesystem::path & path)
 {
-  struct ::stat status
-  {};
-  if (::stat(path.c_str(), &status) != 0)
+  std::error_code error;
+  const auto      status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
   {
-    if (errno == ENOENT || errno == ENOTDIR)
-    {
-      RefuseInput(path, "no such file", "check the name");
-    }
-    RefuseInput(path, Text("cannot be opened (", std::strerror(errno), ")"), "check its name and permissions");
+    RefuseInput(path, "no such file", "check the name");
   }
-  if (!S_ISREG(status.st_mode))
+  if (!error && !std::filesystem::is_regular_file(status))
   {
     RefuseInput(path, "not a regular file", "name a file that holds a scan");
   }
-  return static_cast<std::uint64_t>(status.st_size);
+  const auto size = error ? 0 : std::filesystem::file_size(path, error);
+  if (error)
+  {
+    RefuseInput(path, Text("cannot be opened (", error.message(), ")"), "check its name and permissions");
+  }
+  return size;
 }
 
 Packing

@@ -1,9 +1,8 @@
-// In the place of what reads and writes TIFF, where VoxelCore is built without libtiff (VOXELCORE_TIFF).
+// In the place of what reads TIFF, where VoxelCore is built without libtiff (VOXELCORE_TIFF).
 
 #include "TiffFile.h"
-#include "voxelcore/Error.h"
 #include "voxelcore/FormatOpeners.h"
-#include "voxelcore/VolumeWriters.h"
+#include "voxelcore/TextFields.h"
 
 namespace voxelcore
 {
@@ -25,12 +24,6 @@ OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
 {
   InspectTiff(path, options);
   return {};
-}
-
-void
-WriteTiff(const std::filesystem::path & path, const VolumeToWrite &)
-{
-  throw OutputError(path.string() + ": this VoxelCore is built without TIFF; write .nrrd or .nii");
 }
 
 } // namespace voxelcore

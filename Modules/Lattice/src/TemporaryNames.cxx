@@ -1,14 +1,11 @@
 #include "voxelcore/TemporaryNames.h"
 
+#include "voxelcore/SystemCalls.h"
+
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <string_view>
-#include <unistd.h>
 
 namespace voxelcore
 {
@@ -20,15 +17,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kMark = ".part-";
 constexpr std::size_t      kLongestName = 255; // of Linux's file systems
 
-std::string
-FirstLine(const char * path)
-{
-  std::ifstream file(path);
-  std::string   line;
-  std::getline(file, line);
-  return line;
-}
-
 /** FNV-1a: the same on every machine. */
 std::uint32_t
 Digest(std::string_view text)
@@ -39,35 +27,6 @@ Digest(std::string_view text)
     digest = (digest ^ static_cast<unsigned char>(c)) * 16777619U;
   }
   return digest;
-}
-
-struct ProcessState
-{
-  char          state = '?';
-  std::uint64_t start = 0;
-};
-
-/** What /proc says of a process; none where it does not show it. */
-std::optional<ProcessState>
-StateOf(std::int64_t process)
-{
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string   text;
-  if (!std::getline(file, text) || text.rfind(')') == std::string::npos)
-  {
-    return std::nullopt;
-  }
-  // The name, which may hold anything, ends at the last bracket; the start is the 22nd field of all.
-  std::istringstream fields(text.substr(text.rfind(')') + 1));
-  ProcessState       state;
-  std::string        skipped;
-  fields >> state.state;
-  for (int field = 4; field < 22; ++field)
-  {
-    fields >> skipped;
-  }
-  fields >> state.start;
-  return fields ? std::optional(state) : std::nullopt;
 }
 
 template <typename Number>
@@ -84,20 +43,8 @@ TakeNumber(std::string_view & text, Number & number, int base)
 WriterIdentity
 ThisWriter()
 {
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  const std::string boot = FirstLine("/proc/sys/kernel/random/boot_id");
-  std::string       machine = FirstLine("/etc/machine-id");
-  machine = machine.empty() ? boot : machine; // containers have none: then each boot is a machine of its own
-  std::error_code   ignored;
-  const std::string space = fs::read_symlink("/proc/self/ns/pid", ignored).string();
-  WriterIdentity    writer;
-  writer.machine = Digest(host.data() + ("/" + machine));
-  writer.space = Digest(boot + "/" + space);
-  writer.process = getpid();
-  const auto state = StateOf(writer.process);
-  writer.start = state ? state->start : 0;
-  return writer;
+  const ProcessFacts facts = ThisProcess();
+  return { Digest(facts.machine), Digest(facts.space), facts.process, facts.start };
 }
 
 fs::path
@@ -170,12 +117,7 @@ HasEnded(const WriterIdentity & writer)
   {
     return false;
   }
-  if (kill(static_cast<pid_t>(writer.process), 0) != 0 && errno == ESRCH)
-  {
-    return true;
-  }
-  const auto state = StateOf(writer.process);
-  return state && (state->start != writer.start || state->state == 'Z' || state->state == 'X');
+  return HasProcessEnded(writer.process, writer.start);
 }
 
 void

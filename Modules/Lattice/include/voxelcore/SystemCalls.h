@@ -1,0 +1,59 @@
+#pragma once
+// What only the operating system can do or tell. src/LinuxSystem.cxx is for Linux; src/PortableSystem.cxx, taken with
+// VOXELCORE_PORTABLE, does what can be done with the C++ standard library alone.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace voxelcore
+{
+
+/** This process among all others. */
+struct ProcessFacts
+{
+  std::string   machine; ///< tells this machine from others
+  std::string   space;   ///< tells this boot, and this space of process ids, from others
+  std::int64_t  process = 0;
+  std::uint64_t start = 0; ///< when it began, in clock ticks since the boot
+};
+
+/** The portable half draws a number for each process, as if it were alone on a machine of its own. */
+ProcessFacts
+ThisProcess();
+
+/** Whether a process of this machine and space, which began at `start`, is certain to have ended. The portable half is
+ *  certain of nothing. */
+bool
+HasProcessEnded(std::int64_t process, std::uint64_t start);
+
+/** A file to read from. Of its errors errno says the reason. */
+class SystemFile
+{
+public:
+  /** Opens it, at its beginning. */
+  explicit SystemFile(const std::filesystem::path & path);
+  ~SystemFile();
+  SystemFile(const SystemFile &) = delete;
+  SystemFile &
+  operator=(const SystemFile &) = delete;
+
+  bool
+  IsOpen() const;
+
+  /** How many bytes came, fewer than `count` only at the end of the file; -1: an error. */
+  std::int64_t
+  Read(std::byte * to, std::size_t count);
+
+  /** Goes on so many bytes, also beyond the end. */
+  void
+  Skip(std::uint64_t count);
+
+private:
+  struct Handle;
+  std::unique_ptr<Handle> m_Handle;
+};
+
+} // namespace voxelcore
