@@ -46,8 +46,8 @@ Combine(float *              values,
     {
       const Flags isIn = (single & in[row]) != 0;
       const Flags isOut = (single & out[row]) != 0;
-      sum = isIn & (sum < zero) ? zero : sum;
-      sum = isOut & (sum > zero) ? zero : sum;
+      sum = (isIn & (sum < zero)) ? zero : sum;
+      sum = (isOut & (sum > zero)) ? zero : sum;
     }
     *reinterpret_cast<Eight *>(values + i) = sum;
   }

@@ -91,14 +91,14 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
   // From near to far, as long as what is farther may still be less; has(d): whether anything is so far away.
   using Eight = float __attribute__((vector_size(32), aligned(4), may_alias));
   using Words = std::uint64_t __attribute__((vector_size(32)));
-  constexpr std::size_t parts = Count / 8;
   const auto lowerAll = [](float * to, const auto & from, float square, const auto & has) __attribute__((always_inline))
   {
     const auto part = [](const float * row, std::size_t i) __attribute__((always_inline))
     {
       return reinterpret_cast<const Eight *>(row) + i;
     };
-    Eight nearest[parts];
+    constexpr std::size_t parts = Count / 8;
+    Eight                 nearest[parts];
     for (std::size_t i = 0; i < parts; ++i)
     {
       nearest[i] = *part(from(0), i);
@@ -219,7 +219,10 @@ ForTiles(const BrickGrid & grid, const std::vector<std::uint8_t> & needed, TUse 
 #pragma omp for schedule(dynamic, 2)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
-      const auto & [z, y, x] = tiles[static_cast<std::size_t>(i)];
+      const auto & tile = tiles[static_cast<std::size_t>(i)];
+      const auto   x = tile[2];
+      const auto   y = tile[1];
+      const auto   z = tile[0];
       use(BrickGrid::Brick{ x, y, z }, *cube, [&](auto useBrick) {
         for (std::int32_t n = 0; n < 8; ++n)
         {

@@ -106,7 +106,9 @@ SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius, std::
   constexpr double  inCell = 1; // how much nearer a cell may seem than the voxel in it
   constexpr double  other = 3;  // what is farther from the boundary is asked on its own side alone
   const BrickGrid & grid = depth.Grid();
-  const auto & [in, out] = depth.CentresOf(which);
+  const auto &      centres = depth.CentresOf(which);
+  const auto &      in = std::get<0>(centres); // clang takes no structured bindings into parallel regions
+  const auto &      out = std::get<1>(centres);
   if (std::all_of(in.begin(), in.end(), [](const BrickGrid::Flags & flags) { return flags == BrickGrid::Flags{}; }))
   {
     return;
