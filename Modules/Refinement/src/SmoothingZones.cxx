@@ -107,8 +107,8 @@ SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius, std::
   constexpr double  other = 3;  // what is farther from the boundary is asked on its own side alone
   const BrickGrid & grid = depth.Grid();
   const auto &      centres = depth.CentresOf(which);
-  const auto &      in = std::get<0>(centres); // clang takes no structured bindings into parallel regions
-  const auto &      out = std::get<1>(centres);
+  const auto &      in = centres.inside; // clang takes no structured bindings into parallel regions
+  const auto &      out = centres.outside;
   if (std::all_of(in.begin(), in.end(), [](const BrickGrid::Flags & flags) { return flags == BrickGrid::Flags{}; }))
   {
     return;
