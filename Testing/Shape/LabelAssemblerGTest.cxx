@@ -50,14 +50,14 @@ TYPED_TEST(LabelAssemblerOf, EachValueHasItsShapeInItsTightBox)
   }
   if constexpr (std::is_floating_point_v<TypeParam>)
   {
-    for (const auto & [value, words] : std::vector<std::pair<TypeParam, const char *>>{
+    for (const auto & refused : std::vector<std::pair<TypeParam, const char *>>{
            { TypeParam(0.9999999), "is a fraction" },
            { std::numeric_limits<TypeParam>::quiet_NaN(), "is no number" },
            { TypeParam(1e17), "is too large" } })
     {
       EXPECT_NE(MessageOf([&] {
-                  LabelsOf(std::vector<TypeParam>{ 1, value }, SizedGeometry(2, 1, 1));
-                }).find(words),
+                  LabelsOf(std::vector<TypeParam>{ 1, refused.first }, SizedGeometry(2, 1, 1));
+                }).find(refused.second),
                 std::string::npos);
     }
   }

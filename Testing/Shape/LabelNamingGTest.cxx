@@ -79,8 +79,10 @@ TEST(LabelNaming, NoTwoValuesOfLayersHaveOneNumber)
         order.insert(order.begin() + random.Between(0, static_cast<std::int64_t>(order.size())), { layer, value });
       }
     }
-    for (const auto & [layer, value] : order)
+    for (const auto & one : order)
     {
+      const auto layer = one.first;
+      const auto value = one.second;
       const auto label = naming.Identify(layer, value);
       EXPECT_TRUE(numbers.insert(label.value).second) << "seed " << seed << ": " << label.value << " twice";
       const auto segment = std::find_if(segments.begin(), segments.end(), [&](const Segment & s) {

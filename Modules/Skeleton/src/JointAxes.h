@@ -87,7 +87,6 @@ AxisOf(const Arm & arm)
 {
   double  count = 0;
   double  sum = 0;
-  double  squares = 0;
   Vector3 places{};
   Vector3 products{};
   for (std::size_t i = 0; i < arm.points.size(); ++i)
@@ -97,7 +96,6 @@ AxisOf(const Arm & arm)
     {
       ++count;
       sum += way;
-      squares += way * way;
       places = AddScaled(places, 1, arm.line.places[i]);
       products = AddScaled(products, way, arm.line.places[i]);
     }
