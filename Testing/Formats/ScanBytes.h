@@ -25,6 +25,9 @@ namespace voxelcore::testing
 class TempFolder : public TemporaryFolder
 {
 public:
+  TempFolder()
+  {} // clang 14 wants it for a const member
+
   /** Writes a file and returns its path. */
   std::filesystem::path
   Write(const std::string & name, std::string_view bytes) const;
