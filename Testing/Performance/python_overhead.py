@@ -10,6 +10,7 @@ work disturbs less.
 """
 import argparse
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -54,6 +55,7 @@ def main():
             array = numpy.frombuffer(data, numpy.uint8).reshape((options.size,) * 3, order="F")
 
         def by_program():
+            shutil.rmtree(f"{work}/program", ignore_errors=True)  # labels that are there are not computed again
             subprocess.run([
                 program, "core", scan, "-o", f"{work}/{where}", "--threads",
                 str(options.threads), "--force", "-q"
