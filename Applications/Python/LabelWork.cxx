@@ -3,6 +3,7 @@
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyScan.h"
+#include "voxelcore/LabelLoop.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Parameters.h"
@@ -201,27 +202,27 @@ MakeCores(const ArrayView &        array,
   EditedLabels &        edited = read.edited;
   const ImageGeometry & place = report.input.geometry;
 
-  std::vector<std::shared_ptr<CoreOfLabel>> results;
-  for (std::size_t i = 0; i < edited.labels.size(); ++i)
+  std::vector<std::shared_ptr<const PackedShape>> shapes;
+  for (const EditedLabel & one : edited.labels)
   {
-    const auto share = [&](std::size_t done) {
-      return kEditEnds + (1 - kEditEnds) * static_cast<double>(done) / static_cast<double>(edited.labels.size());
-    };
-    const auto                      shape = std::make_shared<const PackedShape>(Pack(edited.labels[i].label.shape));
-    LabelOutcome                    outcome = ProcessLabel(std::move(edited.labels[i]),
-                                        place,
-                                        RequestOf(options, read.surface),
-                                        PartOfProgress(progress, share(i), share(i + 1)));
+    shapes.push_back(std::make_shared<const PackedShape>(Pack(one.label.shape)));
+  }
+  std::vector<std::shared_ptr<CoreOfLabel>> results;
+  std::size_t                               next = 0;
+  StageSeconds                              seconds;
+  const auto                                take = [&](LabelOutcome outcome) {
     const std::vector<PrunedRecord> pruned = std::move(outcome.record.pruned);
     report.parameters.labels = { outcome.record.label };
     report.labels = { std::move(outcome.record) };
     for (auto & result : ResultsOf(report, pruned, std::move(outcome.parts)))
     {
       result->refined = options.refine.surface;
-      result->shape = shape;
+      result->shape = shapes[next];
       results.push_back(std::move(result));
     }
-  }
+    ++next;
+  };
+  ProcessLabels(edited.labels, options, place, read.surface, PartOfProgress(progress, kEditEnds, 1), take, seconds);
   return results;
 }
 

@@ -6,7 +6,7 @@
 #include "NoisyLabels.h"
 #include "FolderLabels.h"
 #include "JobTools.h"
-#include "LabelLoop.h"
+#include "voxelcore/LabelLoop.h"
 #include "ResultFiles.h"
 #include "voxelcore/SkeletonFiles.h"
 #include "voxelcore/CostModel.h"

@@ -1,4 +1,4 @@
-#include "LabelLoop.h"
+#include "voxelcore/LabelLoop.h"
 
 #include "JobTools.h"
 #include "LabelGroups.h"
