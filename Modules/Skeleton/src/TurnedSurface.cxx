@@ -134,7 +134,8 @@ PickTurning(const Places & places, const std::vector<double> & radius, const Vec
 {
   std::array<std::size_t, 3> axes{ 0, 1, 2 };
   const auto                 key = [&](std::size_t axis) {
-    return std::make_pair(spacing[axis], (places.high[axis] - places.low[axis]) / kFraction);
+    const std::int64_t length = places.steps.empty() ? 0 : places.high[axis] - places.low[axis];
+    return std::make_pair(spacing[axis], length / kFraction);
   };
   std::sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) { return key(a) > key(b); });
   const auto           first = axes;
