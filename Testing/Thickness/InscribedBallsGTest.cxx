@@ -16,7 +16,7 @@ using testing::ShapeCells;
 ThicknessBalls
 BallsOf(const ShapeCells & of)
 {
-  return FindThicknessBalls(of.shape, of.points, of.cells, of.weights, true);
+  return FindThicknessBalls(of.shape, of.points, of.cells, of.weights, 1.0 / 32);
 }
 
 TEST(InscribedBalls, OfARandomShapeReachItsBoundaryAndGoNoFarther)

@@ -170,7 +170,7 @@ TEST(LocalThickness, LowerBoundsAreInscribedBalls)
   {
     SCOPED_TRACE(volume.Describe());
     const ShapeCells           of(volume.shape, volume.spacing);
-    const ThicknessBalls       balls = FindThicknessBalls(of.shape, of.points, of.cells, of.weights, false);
+    const ThicknessBalls       balls = FindThicknessBalls(of.shape, of.points, of.cells, of.weights, 0);
     const std::vector<Vector3> centres = VoxelCentres(of.shape);
     std::vector<double>        painted(centres.size(), 0);
     for (std::size_t i = 0; i < balls.inscribed.Count(); ++i)

@@ -2,6 +2,7 @@
 
 #include "JobTools.h"
 #include "LabelGroups.h"
+#include "LabelReading.h"
 #include "voxelcore/BlockJob.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
@@ -44,10 +45,7 @@ AddSeconds(StageSeconds & seconds, const std::vector<LabelOutcome> & outcomes, d
   StageSeconds sum;
   for (const LabelOutcome & outcome : outcomes)
   {
-    sum.shape += outcome.seconds.shape;
-    sum.delaunay += outcome.seconds.delaunay;
-    sum.core += outcome.seconds.core;
-    sum.prune += outcome.seconds.prune;
+    AddComputing(sum, outcome.seconds);
     sum.skeleton += outcome.seconds.skeleton;
   }
   const double all = sum.shape + sum.delaunay + sum.core + sum.prune + sum.skeleton;
@@ -144,8 +142,7 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
     Stopwatch                 watch;
     if (end - first == 1)
     {
-      const std::string which = labels.size() == 1 ? "" : " (" + std::to_string(end) + of;
-      outcomes.push_back(work(first, NamedPartOfProgress(progress, name + which, from, share())));
+      outcomes.push_back(work(first, ProgressOfLabel(progress, name, first, labels.size(), from, share())));
     }
     else
     {

@@ -18,8 +18,8 @@ struct ScanLabels
   std::vector<std::string> warnings; ///< about the scan
 };
 
-/** Reads and edits the labels that `options` choose, and puts into a report what it is told of: command, input with its
- *  digest, parameters, and the time taken. Two steps of the plan. \throws InputError, UsageError, Cancelled */
+/** Reads and edits the labels that `options` choose. Fills in the report's command, input with its digest,
+ *  parameters and reading time. Takes two steps of the plan. \throws InputError, UsageError, Cancelled */
 ScanLabels
 ReadScanLabels(const CoreOptions & options, StagePlan & plan, CoreReport & report);
 

@@ -30,7 +30,7 @@ Combine(float *              values,
         const std::uint8_t * out,
         const float *        parts)
 {
-  using Eight __attribute__((vector_size(32), aligned(4), may_alias)) = float; // clang drops aligned() after =
+  using Eight = EightFloats;
   using Flags = std::int32_t __attribute__((vector_size(32)));
   constexpr Flags single{ 1, 2, 4, 8, 16, 32, 64, 128 };
   const auto      at = [](auto * from, std::size_t i) __attribute__((always_inline))

@@ -14,7 +14,7 @@ namespace
 
 constexpr std::size_t kCube = BrickGrid::kSide;
 constexpr std::size_t kMostRows = 3 * kCube;
-using Eight __attribute__((vector_size(32), aligned(4), may_alias)) = float; // clang drops aligned() after =
+using Eight = EightFloats;
 using Lines = std::array<float, kMostRows * kCube * kCube>;
 
 // Eight voxels that lie beside each other along x, `along` apart in a column of bricks, after one another in `to`.

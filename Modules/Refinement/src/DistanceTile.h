@@ -3,6 +3,7 @@
 
 #include "BrickGrid.h"
 
+#include "voxelcore/EightLanes.h"
 #include "voxelcore/ImageGeometry.h"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
 {
   constexpr std::int32_t side = Rows<Count, Margin>::kSide;
   // From near to far, as long as what is farther may still be less; has(d): whether anything is so far away.
-  using Eight __attribute__((vector_size(32), aligned(4), may_alias)) = float; // clang drops aligned() after =
+  using Eight = EightFloats;
   using Words = std::uint64_t __attribute__((vector_size(32)));
   const auto lowerAll = [](float * to, const auto & from, float square, const auto & has) __attribute__((always_inline))
   {

@@ -18,7 +18,7 @@ namespace
 // What distances in single precision are off by at most, as part of how far all that is compared is from the middle.
 constexpr double kRounding = 1.0 / (1 << 18);
 
-using Eight __attribute__((vector_size(32), aligned(4), may_alias)) = float; // clang drops aligned() after =
+using Eight = EightFloats;
 
 Vector3
 NearestOnSegment(const Vector3 & place, const Vector3 & a, const Vector3 & b)

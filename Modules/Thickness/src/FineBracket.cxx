@@ -15,7 +15,8 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::uint64_t kMostToCutAll = 1'000'000; ///< boundary vertices; cut, they are nine times as many
+constexpr double        kCutBoundingStep = 1.0 / 4; ///< of a box's shortest side: there are more balls than need be
+constexpr std::uint64_t kMostToCutAll = 250'000;    ///< boundary vertices; cut, they are nine times as many
 
 /** The balls of the cut lattice in the coordinates of the whole voxels. */
 void
@@ -135,7 +136,7 @@ TightenBracket(const VoxelShape &                  shape,
     const SpacingWeights            fine = CutWeights(weights, parts);
     const std::vector<LatticePoint> points = BoundaryVertices(cut);
     const DelaunayCells cells = ComputeDelaunayCells(cut, points, fine, Engine::Auto, plan.Next("thickness"));
-    balls = FindThicknessBalls(cut, points, cells, fine, true, plan.Next("thickness"));
+    balls = FindThicknessBalls(cut, points, cells, fine, kCutBoundingStep, plan.Next("thickness"));
   }
   MoveToVoxels(balls.inscribed, parts);
   MoveToVoxels(balls.bounding, parts);

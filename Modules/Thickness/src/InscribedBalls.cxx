@@ -20,9 +20,8 @@ namespace voxelcore
 namespace
 {
 
-// How much longer a radius is, or a bound greater, at the far end of a piece of an edge: of a voxel's shortest side.
+// How much longer a radius is at the far end of a piece of an edge: of a voxel's shortest side.
 constexpr double kInscribedStep = 1.0 / 8;
-constexpr double kBoundingStep = 1.0 / 32;
 // A piece may be so long where the ball of its end sticks out of the one before by no more than this.
 constexpr double kCoarseStep = 1.0 / 2;
 constexpr double kNoMore = 1.0 / 64;
@@ -60,15 +59,15 @@ public:
   }
 
   ThicknessBalls
-  Find(bool bounding, const ProgressCallback & progress)
+  Find(double boundingStep, const ProgressCallback & progress)
   {
     ThicknessBalls balls;
     FindInscribed(balls.inscribed, progress);
     m_Squares.clear();
-    if (bounding)
+    if (boundingStep > 0)
     {
       FindVertexBounds();
-      CutEdges(kBoundingStep * m_Least);
+      CutEdges(boundingStep * m_Least);
       balls.bounding.centres = m_Cells.centres;
       balls.bounding.radius = m_Radius;
       balls.bounding.value = m_Bound;
@@ -429,11 +428,11 @@ FindThicknessBalls(const VoxelShape &            shape,
                    std::span<const LatticePoint> points,
                    const DelaunayCells &         cells,
                    const SpacingWeights &        weights,
-                   bool                          bounding,
+                   double                        boundingStep,
                    const ProgressCallback &      progress)
 {
   ReportProgress(progress, "thickness", 0);
-  return Finder(shape, points, cells, weights).Find(bounding, progress);
+  return Finder(shape, points, cells, weights).Find(boundingStep, progress);
 }
 
 } // namespace voxelcore

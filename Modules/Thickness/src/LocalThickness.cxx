@@ -228,6 +228,13 @@ FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, Voxel
   }
 }
 
+namespace
+{
+
+constexpr double kBoundingStep = 1.0 / 32; ///< of a voxel's shortest side
+
+} // namespace
+
 ThicknessBracket
 BracketThickness(const VoxelShape &            shape,
                  std::span<const LatticePoint> points,
@@ -236,8 +243,9 @@ BracketThickness(const VoxelShape &            shape,
                  bool                          upper,
                  const ProgressCallback &      progress)
 {
-  StagePlan        plan(progress, { 0.4, upper ? 0.3 : 0.6, upper ? 0.3 : 0.0 });
-  ThicknessBalls   balls = FindThicknessBalls(shape, points, cells, weights, upper, plan.Next("thickness"));
+  StagePlan      plan(progress, { 0.4, upper ? 0.3 : 0.6, upper ? 0.3 : 0.0 });
+  ThicknessBalls balls =
+    FindThicknessBalls(shape, points, cells, weights, upper ? kBoundingStep : 0, plan.Next("thickness"));
   ThicknessBracket bracket;
   bracket.lower = ZeroAtVoxels<float>(shape);
   PaintThickness(shape, weights, balls.inscribed, bracket.lower, plan.Next("thickness"));

@@ -18,7 +18,8 @@ struct ThicknessRequest
 };
 
 /** The estimate is that of the first core asked for: of a refined one the diameters of its balls (CoreThickness.h),
- *  else of the truly inscribed balls about places of the whole core, which lower bounds of finer lattices exceed. */
+ *  else those of the truly inscribed balls about places of the whole core. Lower bounds may be greater: they also come
+ *  from a finer lattice. */
 struct CertifiedThickness
 {
   VoxelShape         shape;

@@ -10,6 +10,14 @@
 #    define VOXELCORE_SANITIZED
 #  endif
 #endif
+namespace voxelcore
+{
+
+/** Eight floats, which may lie wherever a float may. After the = of an alias clang drops aligned(). */
+using EightFloats __attribute__((vector_size(32), aligned(4), may_alias)) = float;
+
+} // namespace voxelcore
+
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(VOXELCORE_SANITIZED)
 #  define VOXELCORE_EIGHT_LANES __attribute__((target_clones("avx2", "default")))
 #else

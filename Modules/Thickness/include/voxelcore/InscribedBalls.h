@@ -72,7 +72,8 @@ struct ThicknessBalls
 
 /** The balls of a shape, whose boundary vertices, as BoundaryVertices() gives them, are `points` and whose cells are
  *  `cells`. Lengths are those of the weights' lattice, in mm. Edges of the core are cut into pieces along which no ball
- *  grows by more than an eighth of a voxel's shortest side; for bounds, by a 32nd. Inscribed balls that stick out of a
+ *  grows by more than an eighth of a voxel's shortest side; for bounds, by `boundingStep` of it, where 0 asks for
+ *  no bounds. Inscribed balls that stick out of a
  *  neighbour's by nothing are left out, and those of a 64th at most where that grows by less than half a side.
  *  The same for every number of threads. \throws Cancelled */
 ThicknessBalls
@@ -80,7 +81,7 @@ FindThicknessBalls(const VoxelShape &            shape,
                    std::span<const LatticePoint> points,
                    const DelaunayCells &         cells,
                    const SpacingWeights &        weights,
-                   bool                          bounding,
+                   double                        boundingStep,
                    const ProgressCallback &      progress = {});
 
 } // namespace voxelcore
