@@ -1,0 +1,339 @@
+#include "CertifiedWork.h"
+
+#include "BoundaryCoverage.h"
+#include "PruneStages.h"
+#include "RequestStages.h"
+#include "WholeCore.h"
+#include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
+#include "voxelcore/Stopwatch.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** What becomes of one request. */
+class Work
+{
+public:
+  Work(VoxelShape               voxels,
+       const ImageGeometry &    geometry,
+       const CertifiedRequest & request,
+       const ProgressCallback & progress)
+    : m_Voxels(std::move(voxels))
+    , m_Request(request)
+    , m_Weights(ComputeLatticeWeights(geometry))
+    , m_Plan(progress, StageTimes(request))
+  {
+    RequireLengthsIn(geometry.unit, request);
+    m_Result.shape = { request.name, {}, m_Voxels.Box(), geometry };
+    for (const Lambda & lambda : request.lambdas)
+    {
+      m_Thresholds.push_back(LambdaInMillimetres(lambda, m_Weights, geometry.spacing, m_Voxels.Box()));
+    }
+  }
+
+  CertifiedResult
+  Run()
+  {
+    m_Whole = MakeWholeCore(m_Voxels, m_Request, m_Weights, m_Thresholds.front(), m_Plan, m_Result);
+    CertifyWhole();
+    if (BurnsBeforePruning(m_Request))
+    {
+      BurnBeforePruning();
+    }
+    Stopwatch watch;
+    MakeResults();
+    m_Result.seconds.prune += watch.Lap();
+    if (m_Request.skeleton)
+    {
+      if (!BurnsBeforePruning(m_Request))
+      {
+        Burn(CoreToBurn());
+      }
+      Measure();
+    }
+    if (m_Request.thickness)
+    {
+      Stopwatch thickness;
+      m_Result.thickness = ThicknessOf(m_Result.cores.front(),
+                                       m_Result.shape,
+                                       std::move(m_Voxels),
+                                       std::move(m_Whole.bracket),
+                                       m_Plan.Next());
+      m_Result.seconds.thickness += thickness.Lap();
+    }
+    return std::move(m_Result);
+  }
+
+private:
+  /** Keeps of the whole core what will be refined, and of the places it had in the lattice no others. */
+  void
+  KeepToRefineLater(const ProgressCallback & progress)
+  {
+    if (RefinesCores(m_Request))
+    {
+      m_Refinement.asked = Asked();
+    }
+    if (RefinesCurves(m_Request))
+    {
+      m_Refinement.curves = &*m_Curves;
+    }
+    const Vector3 & spacing = m_Result.shape.geometry.spacing;
+    MedialComplex   former = std::move(m_Whole.kept.core);
+    MedialComplex & whole = m_Whole.core.core.core;
+    if (IsLeftHanded(m_Result.shape.geometry))
+    {
+      KeepAsked(spacing, former, m_Refinement, m_Whole.kept, progress);
+      return;
+    }
+    whole.positions.swap(former.positions);
+    KeepAsked(spacing, whole, m_Refinement, m_Whole.kept, progress);
+    whole.positions.swap(former.positions);
+  }
+
+  /** Prunes by lambda at the same time: neither changes the core, and each is work for one processor. */
+  void
+  CertifyWhole()
+  {
+    Stopwatch              watch;
+    const ProgressCallback prune = m_Plan.Next(RefinesCores(m_Request) ? "core" : "prune");
+    ReportProgress(prune, "", 0);
+    const MedialComplex & core = m_Whole.core.core.core;
+    RunBoth(
+      core.cells.FaceCount() > 10000,
+      [&] {
+        if (m_Request.tolerances.empty() && !RefinesCores(m_Request))
+        {
+          m_Pruned = PruneAscending(core, 0, m_Thresholds, prune);
+        }
+      },
+      [&] {
+        if (!m_Whole.topology)
+        {
+          m_Whole.topology = RequireTopologyOf(core, m_Result.shape);
+        }
+        // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last
+        // bit.
+        m_Whole.core.numbers.complex = DescribeComplex(core, *m_Whole.topology);
+      });
+    m_Result.whole = m_Whole.core.numbers.complex;
+    if (RefinesCores(m_Request) && !RefinesCurves(m_Request))
+    {
+      KeepToRefineLater(PartOfProgress(prune, "core", 0.5, 1));
+      m_WholeIsSpare = true;
+    }
+    else if (!RefinesCores(m_Request) && !m_Request.tolerances.empty())
+    {
+      MakePruned();
+      m_WholeIsSpare = !Refines(m_Request);
+    }
+    if (m_WholeIsSpare && !BurnsBeforePruning(m_Request))
+    {
+      m_Whole.core = CertifiedCore();
+    }
+    m_Result.seconds.prune += watch.Lap();
+  }
+
+  /** The cores by tolerance that are not refined. */
+  void
+  MakePruned()
+  {
+    m_Whole.core.numbers.lambda = m_Request.lambdas.front().text;
+    m_Whole.core.numbers.lambdaMm = m_Thresholds.front();
+    m_Result.cores = PruneCertified(m_Whole.core, m_Result.shape, m_Request.tolerances);
+  }
+
+  /** The results asked for; the whole core is used up. */
+  void
+  MakeResults()
+  {
+    if (Refines(m_Request))
+    {
+      const ProgressCallback refine = m_Plan.Next();
+      if (RefinesCurves(m_Request))
+      {
+        KeepToRefineLater(PartOfProgress(refine, "refine", 0, 0.05));
+      }
+      if (RefinesCores(m_Request))
+      {
+        m_Whole.core = CertifiedCore();
+      }
+      std::vector<CertifiedCore> refined = RefineAndCertify(m_Voxels,
+                                                            m_Result.shape,
+                                                            std::move(m_Whole.kept),
+                                                            *m_Request.surface,
+                                                            std::move(m_Refinement),
+                                                            refine);
+      if (RefinesCores(m_Request))
+      {
+        m_Result.cores = std::move(refined);
+      }
+    }
+    if (RefinesCores(m_Request))
+    {
+      CertifyCoverages();
+    }
+    else if (m_Request.tolerances.empty())
+    {
+      if (!m_Request.skeleton && !m_Request.thickness)
+      {
+        m_Voxels = VoxelShape();
+      }
+      m_Result.cores = CertifyPruned(std::move(m_Whole.core),
+                                     std::move(m_Pruned),
+                                     {},
+                                     m_Result.shape,
+                                     m_Request.lambdas,
+                                     m_Thresholds,
+                                     m_Plan.Next("certificate"));
+    }
+    else
+    {
+      m_Whole.core = CertifiedCore();
+      CertifyCoverages();
+    }
+  }
+
+  /** How each result is pruned. */
+  std::vector<CoreNumbers>
+  Asked() const
+  {
+    std::vector<CoreNumbers> asked;
+    for (std::size_t i = 0; i < m_Request.lambdas.size(); ++i)
+    {
+      asked.emplace_back();
+      asked.back().lambda = m_Request.lambdas[i].text;
+      asked.back().lambdaMm = m_Thresholds[i];
+    }
+    if (m_Request.tolerances.empty())
+    {
+      return asked;
+    }
+    asked.resize(m_Request.tolerances.size(), asked.front());
+    for (std::size_t i = 0; i < asked.size(); ++i)
+    {
+      asked[i].tolerance = DescribeTolerance(m_Request.tolerances[i], m_Result.shape.geometry);
+    }
+    return asked;
+  }
+
+  void
+  CertifyCoverages()
+  {
+    if (m_Request.tolerances.empty())
+    {
+      return;
+    }
+    const ProgressCallback coverage = m_Plan.Next("certificate");
+    for (std::size_t i = 0; i < m_Result.cores.size(); ++i)
+    {
+      ReportProgress(coverage, "", static_cast<double>(i) / static_cast<double>(m_Result.cores.size()));
+      if (CertifyCoverage(m_Result.cores[i], m_Voxels, m_Result.shape))
+      {
+        m_Result.covered = true;
+      }
+    }
+  }
+
+  const MedialComplex &
+  CoreToBurn() const
+  {
+    for (std::size_t i = 0; i < m_Request.lambdas.size(); ++i)
+    {
+      if (m_Request.lambdas[i].text == m_Request.skeleton->lambda.text)
+      {
+        return m_Result.cores[i].core.core;
+      }
+    }
+    throw UsageError(m_Request.name + ": a skeleton is asked for of a core that is not: lambda " +
+                     m_Request.skeleton->lambda.text);
+  }
+
+  /** Whether the whole core is asked for no more once it has burned. */
+  bool
+  SpendsWhole() const
+  {
+    const auto isWhole = [](double threshold) { return threshold == 0; };
+    return m_WholeIsSpare || (m_Request.spendsCores && m_Request.tolerances.empty() && !m_Request.thickness &&
+                              !Refines(m_Request) && std::all_of(m_Thresholds.begin(), m_Thresholds.end(), isWhole));
+  }
+
+  void
+  Burn(const MedialComplex & core,
+       const LiveElements *  part = nullptr,
+       MedialComplex *       spent = nullptr,
+       bool                  givesBack = false)
+  {
+    Stopwatch watch;
+    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), spent, givesBack);
+    m_Result.seconds.skeleton += watch.Lap();
+  }
+
+  /** Curves that know their places in the whole core: they may be refined. */
+  void
+  BurnBeforePruning()
+  {
+    MedialComplex &       core = m_Whole.core.core.core;
+    MedialComplex * const spent = SpendsWhole() ? &core : nullptr;
+    if (BurnsWhole(m_Request))
+    {
+      Burn(core, nullptr, &core, !SpendsWhole());
+      return;
+    }
+    const LiveElements left = PartToBurn(core, m_Result.shape, *m_Request.skeleton);
+    if (m_Request.skeleton->tolerance)
+    {
+      Burn(core, &left, spent);
+      return;
+    }
+    PartElements  part;
+    MedialComplex burns = ExtractPart(core, left, part);
+    if (spent != nullptr)
+    {
+      *spent = MedialComplex();
+    }
+    Burn(burns, nullptr, &burns);
+    NameInWhole(part, m_Curves->curves.inSurface);
+  }
+
+  void
+  Measure()
+  {
+    Stopwatch watch;
+    m_Result.skeleton = MeasureCurves(*m_Curves, m_Voxels, m_Result.shape, *m_Request.skeleton);
+    m_Result.seconds.skeleton += watch.Lap();
+  }
+
+  VoxelShape                  m_Voxels;
+  const CertifiedRequest &    m_Request;
+  SpacingWeights              m_Weights;
+  StagePlan                   m_Plan;
+  std::vector<double>         m_Thresholds;           ///< mm
+  WholeCore                   m_Whole;                ///< its core is used up along the way
+  RefinementTask              m_Refinement;           ///< once m_Whole.kept is kept for it
+  bool                        m_WholeIsSpare = false; ///< what is left to do with it is to burn it
+  std::vector<MedialComplex>  m_Pruned;               ///< by lambda, ascending
+  std::optional<BurnedCurves> m_Curves;
+  CertifiedResult             m_Result;
+};
+
+} // namespace
+
+CertifiedResult
+RunCertified(VoxelShape               shape,
+             const ImageGeometry &    geometry,
+             const CertifiedRequest & request,
+             const ProgressCallback & progress)
+{
+  return Work(std::move(shape), geometry, request, progress).Run();
+}
+
+} // namespace voxelcore

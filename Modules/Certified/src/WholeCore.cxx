@@ -1,0 +1,153 @@
+#include "WholeCore.h"
+
+#include "CertificateText.h"
+#include "CrossCheck.h"
+#include "PruneStages.h"
+#include "RequestStages.h"
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/ParallelTasks.h"
+#include "voxelcore/ShapeTopology.h"
+#include "voxelcore/Stopwatch.h"
+#include "voxelcore/VoxelCore.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+/** As ended in files: what never goes, and what would go beyond the scan's diagonal, has that height. */
+void
+EndTolerances(ToleranceValues & values, const ImageGeometry & geometry)
+{
+  const double end = ScanDiagonal(geometry);
+  for (auto * one : { &values.vertices, &values.edges, &values.faces })
+  {
+    RunInParts(one->size() > 10000, one->size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        (*one)[i] = std::min((*one)[i], end);
+      }
+    });
+  }
+}
+
+void
+RequireEnclosed(const MedialComplex & core, const VoxelShape & voxels, const std::string & name)
+{
+  if (!IsEnclosed(core, voxels))
+  {
+    RefuseResult(name, "a vertex of the core lies outside the shape");
+  }
+}
+
+/** Where nothing but its positions will change, these are enough to take it back to the lattice. */
+void
+KeepPlaces(const MedialComplex & core, const ImageGeometry & geometry, RefinementParts & kept)
+{
+  if (IsLeftHanded(geometry)) // polygons are turned round, too
+  {
+    kept.core = core;
+  }
+  else
+  {
+    kept.core.positions = core.positions;
+  }
+}
+
+DelaunayCells
+CellsOf(const VoxelShape &                voxels,
+        const std::vector<LatticePoint> & points,
+        const CertifiedRequest &          request,
+        const SpacingWeights &            weights,
+        const ProgressCallback &          progress)
+{
+  if (request.cells)
+  {
+    return request.cells(points, progress);
+  }
+  return request.crossCheck ? CrossCheckedCells(voxels, points, weights, request.engine, request.name, progress)
+                            : ComputeDelaunayCells(voxels, points, weights, request.engine, progress);
+}
+
+} // namespace
+
+TopologyNumbers
+RequireTopologyOf(const MedialComplex & core, const CertifiedShape & shape)
+{
+  const TopologyNumbers topology = ComputeComplexTopology(core.cells);
+  RequireEqualTopology(shape.topology, topology, "its core", shape.name);
+  return topology;
+}
+
+WholeCore
+MakeWholeCore(const VoxelShape &       voxels,
+              const CertifiedRequest & request,
+              const SpacingWeights &   weights,
+              double                   lambdaMm,
+              StagePlan &              plan,
+              CertifiedResult &        result)
+{
+  Stopwatch          watch;
+  CertifiedSeconds & seconds = result.seconds;
+  const bool         byTolerance = !request.tolerances.empty();
+  WholeCore          whole;
+  MedialComplex      core;
+  {
+    ReportProgress(plan.Next("shape"), "", 0);
+    result.shape.topology = ComputeShapeTopology(voxels);
+    result.fine = FindFineTopology(voxels, result.shape.topology);
+    std::vector<LatticePoint> points = BoundaryVertices(voxels);
+    result.boundaryVertices = points.size();
+    seconds.shape += watch.Lap();
+
+    DelaunayCells cells = CellsOf(voxels, points, request, weights, plan.Next("delaunay"));
+    seconds.delaunay += watch.Lap();
+    if (NeedsBracket(request))
+    {
+      whole.bracket =
+        BracketThickness(voxels, points, cells, weights, request.thickness->bounds, plan.Next("thickness"));
+      seconds.thickness += watch.Lap();
+    }
+
+    const ProgressCallback building = plan.Next("core");
+    ReportProgress(building, "", 0);
+    TouchingBalls touching = byTolerance ? LargestTouchingBalls(cells, points, weights) : TouchingBalls();
+    if (Refines(request))
+    {
+      whole.kept.edgePoints = NearestToEdges(cells);
+    }
+    ReportProgress(building, "", 0.1);
+    core = BuildVoxelCore(voxels, points, std::move(cells), weights);
+    RequireEnclosed(core, voxels, request.name);
+    seconds.core += watch.Lap();
+    if (byTolerance)
+    {
+      core.tolerances =
+        ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, plan.Next("prune"), [&] {
+          whole.topology = RequireTopologyOf(core, result.shape);
+        });
+      EndTolerances(core.tolerances, result.shape.geometry);
+      seconds.prune += watch.Lap();
+    }
+    if (Refines(request))
+    {
+      whole.kept.boundary = std::move(points);
+    }
+  }
+  if (Refines(request))
+  {
+    KeepPlaces(core, result.shape.geometry, whole.kept);
+  }
+  whole.core.core = ToPhysical(std::move(core), result.shape.geometry, 0);
+  whole.core.numbers.lambda = "0";
+  seconds.core += watch.Lap();
+  return whole;
+}
+
+} // namespace voxelcore
