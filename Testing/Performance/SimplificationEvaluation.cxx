@@ -2,11 +2,9 @@
 // the least change, which another method finds (a minimal vertex cut by maximal flow, a cheapest way by Dijkstra).
 // usage: VoxelCoreSimplificationEvaluation [VOLUMES [PHANTOMS [SEED]]]
 
-#include "LeastChange.h"
-
 #include "CandidateChoice.h"
 
-#include "../Shape/GreyCase.h"
+#include "../Shape/LeastChange.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "voxelcore/TopologySimplification.h"
 
-#include "GreyCase.h"
+#include "LeastChange.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/ShapeTopology.h"
@@ -134,7 +134,11 @@ TEST(TopologySimplification, CutsOrFillsALoopWhicheverIsCheaper)
   const auto cut = Ring(110, 10).Run();
   EXPECT_EQ(cut.after.betti, (Betti{ 1, 0, 0 }));
   EXPECT_EQ(cut.voxelsAdded, 0U);
-  EXPECT_EQ(cut.voxelsRemoved, 13U) << "one cross section: the lattice points within 2.2";
+  // The cross section where the ring is weakest has 13 voxels at 11. The outermost one has no neighbour from y = 3 on, so
+  // that a wall which leans towards it goes around it, with 12: (6, 0), (7, 0), (8, 1), (9, 2) from the axis on in the
+  // middle, (7, 0), (8, 0), (9, 1) above and below it, and one at 8 beyond.
+  EXPECT_EQ(cut.voxelsRemoved, 12U);
+  EXPECT_EQ(cut.cost, 12U * 11U + 1 + 2 + 2 * 1);
   const auto fill = Ring(180, 99).Run();
   EXPECT_EQ(fill.after.betti, (Betti{ 1, 0, 0 }));
   EXPECT_EQ(fill.voxelsRemoved, 0U);
@@ -169,6 +173,24 @@ TEST(TopologySimplification, FillsACavityOrOpensIt)
   EXPECT_EQ(opened.after.betti, (Betti{ 1, 0, 0 }));
   EXPECT_EQ(opened.voxelsAdded, 0U) << "a hole through the wall at 51 a voxel, not 33 voxels at 40";
   EXPECT_LE(opened.voxelsRemoved, 3U) << "no wider than one voxel";
+}
+
+TEST(TopologySimplification, AChangeIsOneAndCostsAtMostATenthMoreThanTheLeastKnown)
+{
+  for (const auto & [name, make] : LeastChangeKinds())
+  {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed)
+    {
+      const LeastChangeCase one = make(seed);
+      const SimplifiedShape result = one.grey.Run(one.request);
+      const auto [pieces, loops, cavities] = ComputeShapeTopology(result.shape).betti;
+      ASSERT_EQ(pieces + loops + cavities, one.numbers) << name << " " << seed;
+      EXPECT_TRUE(StaysBetween(one.grey, result.shape)) << name << " " << seed;
+      EXPECT_LE(10 * result.cost, 11 * one.least) << name << " " << seed;
+      EXPECT_EQ(result.cost, CostOf(one.grey, one.grey.Level(1), result.shape)) << name << " " << seed;
+      EXPECT_EQ(result.changes.size(), 1U) << name << " " << seed;
+    }
+  }
 }
 
 TEST(TopologySimplification, RefusesWhatIsNotNested)

@@ -381,9 +381,7 @@ ChooseCandidates(const CandidateGraph &   graph,
   {
     chosen = CombineGreedily(all, wanted);
   }
-  CandidateChoice result{ std::vector<char>(graph.candidates.size()),
-                          {},
-                          std::vector<TopologyShift>(graph.candidates.size()) };
+  CandidateChoice result{ std::vector<char>(graph.candidates.size()), {} };
   for (std::size_t i = 0; i < clusters.size(); ++i)
   {
     const CandidateCluster & cluster = clusters[i];
@@ -392,21 +390,42 @@ ChooseCandidates(const CandidateGraph &   graph,
     for (std::size_t k = 0; k < isIn.size(); ++k)
     {
       isIn[k] = !graph.candidates[cluster.candidates[k]].isFill;
+      result.isIn[cluster.candidates[k]] = chosen[i]->isIn[k];
     }
-    const TopologyShift base = numbers(isIn);
-    isIn = chosen[i]->isIn;
-    const TopologyShift now = numbers(isIn);
-    result.shift = Sum(result.shift, Less(now, base));
-    for (std::size_t k = 0; k < isIn.size(); ++k)
+    result.shift = Sum(result.shift, Less(numbers(chosen[i]->isIn), numbers(isIn)));
+  }
+  return result;
+}
+
+std::vector<TopologyShift>
+GroupDifferences(const CandidateGraph &             graph,
+                 const CandidateChoice &            choice,
+                 const std::vector<std::uint32_t> & group,
+                 std::size_t                        groups)
+{
+  std::vector<TopologyShift> result(groups, TopologyShift{ 0, 0, 0 });
+  for (const CandidateCluster & cluster : FindClusters(graph))
+  {
+    ClusterNumbers                                    numbers(cluster);
+    std::vector<char>                                 isIn;
+    std::map<std::uint32_t, std::vector<std::size_t>> members;
+    for (std::size_t k = 0; k < cluster.candidates.size(); ++k)
     {
-      const std::uint32_t candidate = cluster.candidates[k];
-      result.isIn[candidate] = isIn[k];
-      if ((isIn[k] != 0) == graph.candidates[candidate].isFill)
+      isIn.push_back(choice.isIn[cluster.candidates[k]]);
+      if (group[cluster.candidates[k]] != kNoCandidate)
       {
-        isIn[k] = !isIn[k];
-        result.difference[candidate] = Less(now, numbers(isIn));
-        isIn[k] = !isIn[k];
+        members[group[cluster.candidates[k]]].push_back(k);
       }
+    }
+    const TopologyShift now = numbers(isIn);
+    for (const auto & [which, who] : members)
+    {
+      auto without = isIn;
+      for (const std::size_t k : who)
+      {
+        without[k] = static_cast<char>(1 - without[k]);
+      }
+      result[which] = Sum(result[which], Less(now, numbers(without)));
     }
   }
   return result;

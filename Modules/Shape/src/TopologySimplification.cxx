@@ -2,6 +2,7 @@
 
 #include "CandidateChoice.h"
 #include "CandidateGraph.h"
+#include "ChangeRefinement.h"
 #include "ShapeRuns.h"
 #include "SimpleFlips.h"
 
@@ -136,51 +137,89 @@ CostliestVoxel(const VoxelShape & shape, const PaddedCost & cost)
   return result;
 }
 
+/** Which candidates make one cut or fill: a wall that is cut hangs together over edges and corners, too, so that it is
+ *  many candidates. Those of which nothing is changed are in no group. */
+std::vector<std::uint32_t>
+GroupChanges(const CandidateGraph & graph, const PaddedShape & changed, std::size_t & groups)
+{
+  constexpr std::uint32_t    none = kNoCandidate;
+  std::vector<std::uint32_t> parent(graph.candidates.size(), none);
+  const auto                 find = [&](std::uint32_t at) {
+    while (parent[at] != at)
+    {
+      at = parent[at] = parent[parent[at]];
+    }
+    return at;
+  };
+  std::vector<std::pair<Voxel, std::uint32_t>> cut;
+  for (std::size_t i = 0; i < graph.voxels.size(); ++i)
+  {
+    const std::uint32_t owner = graph.owner[i];
+    if (changed.Contains(graph.voxels[i]))
+    {
+      parent[owner] = owner;
+      if (!graph.candidates[owner].isFill)
+      {
+        cut.emplace_back(graph.voxels[i], owner);
+      }
+    }
+  }
+  std::ranges::sort(cut);
+  for (const auto & [at, owner] : cut)
+  {
+    for (std::int32_t k = 14; k < 27; ++k) // half of the neighbours
+    {
+      const Voxel next{ at[0] + k / 9 - 1, at[1] + k / 3 % 3 - 1, at[2] + k % 3 - 1 };
+      const auto  found = std::ranges::lower_bound(cut, next, {}, [](const auto & one) { return one.first; });
+      if (found != cut.end() && found->first == next)
+      {
+        parent[std::max(find(owner), find(found->second))] = std::min(find(owner), find(found->second));
+      }
+    }
+  }
+  std::vector<std::uint32_t> group(parent.size(), none);
+  groups = 0;
+  for (std::uint32_t i = 0; i < parent.size(); ++i)
+  {
+    if (parent[i] != none)
+    {
+      group[i] = find(i) == i ? static_cast<std::uint32_t>(groups++) : group[find(i)];
+    }
+  }
+  return group;
+}
+
 /** Cuts and fills of a choice, with what is still changed of each after the clean-up. */
 void
 ListChanges(const CandidateGraph &  graph,
             const CandidateChoice & choice,
             const PaddedShape &     changed,
             const VoxelBox &        box,
-            const PaddedCost &      cost,
             SimplifiedShape &       result)
 {
-  std::vector<TopologyChange> changes(graph.candidates.size());
+  std::size_t                 groups = 0;
+  const auto                  group = GroupChanges(graph, changed, groups);
+  const auto                  differences = GroupDifferences(graph, choice, group, groups);
+  std::vector<TopologyChange> changes(groups);
   for (std::size_t i = 0; i < graph.voxels.size(); ++i)
   {
     const Voxel & at = graph.voxels[i];
     if (changed.Contains(at))
     {
-      TopologyChange & change = changes[graph.owner[i]];
-      ++change.voxels;
-      change.cost += cost(at);
+      TopologyChange & change = changes[group[graph.owner[i]]];
+      change.isFill = graph.candidates[graph.owner[i]].isFill;
       std::array<std::int32_t, 3> & place = change.where.emplace_back();
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
         place[axis] = at[axis] - PaddedShape::kRoom + box.lower[axis];
-        change.centre[axis] += at[axis];
       }
     }
   }
-  for (std::size_t i = 0; i < changes.size(); ++i)
+  for (std::size_t i = 0; i < groups; ++i)
   {
-    TopologyChange & change = changes[i];
-    if (change.voxels == 0)
-    {
-      continue;
-    }
-    change.isFill = graph.candidates[i].isFill;
-    change.difference = choice.difference[i];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      change.centre[axis] =
-        change.centre[axis] / static_cast<double>(change.voxels) - PaddedShape::kRoom + box.lower[axis];
-    }
-    (change.isFill ? result.voxelsAdded : result.voxelsRemoved) += change.voxels;
-    result.cost += change.cost;
-    result.changes.push_back(change);
+    changes[i].difference = differences[i];
   }
-  std::ranges::stable_sort(result.changes, std::ranges::greater{}, &TopologyChange::cost);
+  result.changes = std::move(changes);
 }
 
 void
@@ -214,9 +253,11 @@ SimplifyTopology(const VoxelShape &       kernel,
   VoxelShape       inner = InBox(kernel, box);
   RequireNested(inner, whole);
   RequireNested(whole, neighbourhood);
-  if (inner.CountVoxels() == 0)
+  const bool       isKernelGiven = inner.CountVoxels() > 0;
+  const VoxelShape costliest = isKernelGiven ? VoxelShape() : CostliestVoxel(whole, costAt);
+  if (!isKernelGiven)
   {
-    inner = CostliestVoxel(whole, costAt);
+    inner = costliest;
   }
   PaddedShape grown(inner);
   PaddedShape cuts(Without(whole, inner));
@@ -245,8 +286,14 @@ SimplifyTopology(const VoxelShape &       kernel,
       changed.Flip(graph.voxels[i]);
     }
   }
-  FlipSimpleVoxels(grown, changed, costAt, PartOfProgress(progress, 0.9, 1));
-  ListChanges(graph, choice, changed, box, costAt, result);
+  FlipSimpleVoxels(grown, changed, costAt, PartOfProgress(progress, 0.9, 0.95));
+  ListChanges(graph, choice, changed, box, result);
+  RefineChanges(grown,
+                box,
+                { isKernelGiven ? kernel : costliest, shape, neighbourhood },
+                costAt,
+                result,
+                PartOfProgress(progress, 0.95, 1));
   result.shape = std::move(grown).Release();
   result.after = ComputeShapeTopology(result.shape);
   TopologyNumbers foreseen = result.before;

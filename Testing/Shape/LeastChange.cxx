@@ -1,5 +1,7 @@
 #include "LeastChange.h"
 
+#include "voxelcore/ShapeTopology.h"
+
 #include <array>
 #include <cmath>
 #include <functional>
@@ -199,8 +201,14 @@ private:
   std::vector<std::size_t> m_Level;
 };
 
+struct CheapWay
+{
+  std::uint64_t            cost = std::numeric_limits<std::uint64_t>::max();
+  std::vector<std::size_t> voxels; ///< between its ends
+};
+
 /** The least sum of weights over voxels with a weight above 0 on a way from `from` to `to`, which weigh nothing. */
-std::uint64_t
+CheapWay
 CheapestWay(const Grid &                       grid,
             const std::vector<char> &          from,
             const std::vector<char> &          to,
@@ -209,6 +217,7 @@ CheapestWay(const Grid &                       grid,
 {
   using Waiting = std::pair<std::uint64_t, std::size_t>;
   std::vector<std::uint64_t> way(grid.Count(), std::numeric_limits<std::uint64_t>::max());
+  std::vector<std::size_t>   last(grid.Count(), 0);
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting;
   for (std::size_t voxel = 0; voxel < grid.Count(); ++voxel)
   {
@@ -224,7 +233,12 @@ CheapestWay(const Grid &                       grid,
     waiting.pop();
     if (to[voxel] != 0)
     {
-      return cost;
+      CheapWay result{ cost, {} };
+      for (std::size_t at = last[voxel]; from[at] == 0; at = last[at])
+      {
+        result.voxels.push_back(at);
+      }
+      return result;
     }
     if (cost == way[voxel])
     {
@@ -234,12 +248,44 @@ CheapestWay(const Grid &                       grid,
         if (isOpen && next < way[other])
         {
           way[other] = next;
+          last[other] = voxel;
           waiting.emplace(next, other);
         }
       });
     }
   }
-  return std::numeric_limits<std::uint64_t>::max();
+  return {};
+}
+
+/** Of the shape with a cavity: one voxel, or two that touch, whose loss leaves one piece with neither loop nor cavity at
+ *  the least cost, by trying all. */
+std::uint64_t
+CheapestOpening(const GreyCase & grey, const std::vector<std::uint64_t> & weight)
+{
+  const Grid       grid(grey);
+  const VoxelShape shape = grey.Level(1);
+  const auto       isOpened = [&](std::size_t a, std::size_t b) {
+    const VoxelShape opened = ShapeWhere(grey.size, [&](int x, int y, int z) {
+      const Place at{ x, y, z };
+      return shape.Contains(x, y, z) && at != grid.At(a) && at != grid.At(b);
+    });
+    return ComputeShapeTopology(opened).betti == std::array<std::int64_t, 3>{ 1, 0, 0 };
+  };
+  std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+  for (std::size_t a = 0; a < weight.size(); ++a)
+  {
+    if (weight[a] > 0 && weight[a] < least && isOpened(a, a))
+    {
+      least = weight[a];
+    }
+    grid.VisitAround(a, 3, [&](std::size_t b) {
+      if (b > a && weight[a] > 0 && weight[b] > 0 && weight[a] + weight[b] < least && isOpened(a, b))
+      {
+        least = weight[a] + weight[b];
+      }
+    });
+  }
+  return least;
 }
 
 /** A case of `size` voxels; value(place) gives grey values. Levels are 50, 100, 200. */
@@ -344,7 +390,8 @@ Gap(std::uint64_t seed)
                 Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] < 15; }),
                 Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] > 15; }),
                 Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 50 && one.grey.grey[v] < 100; }),
-                1);
+                1)
+      .cost;
   return one;
 }
 
@@ -382,11 +429,12 @@ Cavity(std::uint64_t seed)
                : static_cast<std::uint32_t>(radius > inner ? random.Between(105, 195) : random.Between(60, 98));
   };
   LeastChangeCase one{ Make({ 17, 17, 17 }, value), {}, 1, 0 };
-  // Nothing is kernel, but growth begins at the costliest voxel, which stays; the way may not need it.
+  // A voxel that opens the cavity may open a second hole over its edges: then all openings of one or two are tried.
+  const auto    walls = Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 100; });
   const auto    way = CheapestWay(Grid(one.grey),
                                Where(one.grey, [](const Place &, std::uint32_t v) { return v >= 50 && v < 100; }),
                                Where(one.grey, [](const Place &, std::uint32_t v) { return v < 50; }),
-                               Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 100; }),
+                               walls,
                                3);
   std::uint64_t all = 0;
   for (const std::uint64_t weight :
@@ -394,7 +442,7 @@ Cavity(std::uint64_t seed)
   {
     all += weight;
   }
-  one.least = std::min(way, all);
+  one.least = std::min(way.voxels.size() <= 2 ? CheapestOpening(one.grey, walls) : way.cost, all);
   return one;
 }
 
