@@ -1,6 +1,8 @@
 // `voxelcore roots` on grey phantoms of hollow, touching, noisy roots whose truth is known: one table. Beside it the
 // hierarchy as it was, a tree of the thickest branches, on the same skeletons.
-// usage: VoxelCoreRootEvaluation [SEEDS [BREAKS]]     SIMPLIFY=D in the environment adds --simplify-topology D
+// usage: VoxelCoreRootEvaluation [SEEDS [BREAKS [FIRST [ONLY]]]]
+// FIRST is the first seed; ONLY a part of the names of the lines to run. In the environment, SIMPLIFY=D adds
+// --simplify-topology D, and VERBOSE=1 prints each phantom.
 
 #include "RootScores.h"
 #include "VoxelCoreTesting/TemporaryFolder.h"
@@ -13,6 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <string>
 
 namespace voxelcore::testing
 {
@@ -140,7 +143,7 @@ Print(const char * name, const Sum & sum)
 {
   const RootScores & s = sum.scores;
   const auto         percent = [](double part, double whole) { return whole > 0 ? 100 * part / whole : 0; };
-  std::printf("%-22s %4d %9d %9d %9.2f %10.2f %7.2f %7.2f %9.2f %9.2f %8.2f %7.2f %7zu %9zu %7.2f\n",
+  std::printf("%-30s %4d %9d %9d %9.2f %10.2f %7.2f %7.2f %9.2f %9.2f %8.2f %7.2f %7zu %9zu %7.2f\n",
               name,
               sum.phantoms,
               sum.spheres,
@@ -159,22 +162,45 @@ Print(const char * name, const Sum & sum)
   std::fflush(stdout);
 }
 
+struct Kind
+{
+  const char * name;
+  int          contacts;
+  double       hollow;
+  double       noise;
+  double       rings;
+};
+
+constexpr Kind kKinds[]{ { "hollow", 0, 0.65, 0.08, 0.03 },
+                         { "hollow, 5 contacts", 5, 0.65, 0.08, 0.03 },
+                         { "hollow, 10 contacts", 10, 0.65, 0.08, 0.03 },
+                         { "solid, 5 contacts", 5, 0, 0, 0 },
+                         { "solid, noisy", 0, 0, 0.16, 0.06 } };
+
 void
-Evaluate(int seeds, int breaks)
+Evaluate(int seeds, int breaks, int first, const std::string & only)
 {
   std::printf(
-    "                       runs b=(1,0,0) but for   tips     spurious  length off %%   level     before   "
-    "angle off, deg  contacts undecided seconds\n"
-    "                                      contacts  found %%  %%          mean    worst  right %%   right %% "
-    "  mean     bias\n");
-  for (const int contacts : { 0, 5, 10 })
+    "                              runs  (1,0,0) tree but     tips spurious   length    worst    level   before   "
+    "angles     bias contacts undecided seconds\n"
+    "                                                 for    found %%        %%    off %%    off %%  right %%  right "
+    "%%  "
+    "off deg      deg    there\n"
+    "                                            contacts\n");
+  for (const Kind & kind : kKinds)
   {
     for (const double slice : { 1.0, 2.0 })
     {
       for (const double voxel : { 1.0, 0.75, 0.5 })
       {
+        char name[64];
+        std::snprintf(name, sizeof(name), "%s %g 1:1:%g", kind.name, voxel, slice);
+        if (std::string(name).find(only) == std::string::npos)
+        {
+          continue;
+        }
         Sum sum;
-        for (int seed = 1; seed <= seeds; ++seed)
+        for (int seed = first; seed < first + seeds; ++seed)
         {
           const TemporaryFolder folder;
           PhantomJobOptions     phantom;
@@ -186,18 +212,16 @@ Evaluate(int seeds, int breaks)
           phantom.phantom.detail = 1.1;
           phantom.phantom.laterals = 14;
           phantom.phantom.subLaterals = 2;
-          phantom.phantom.contacts = contacts;
+          phantom.phantom.contacts = kind.contacts;
           phantom.scan.emplace();
-          phantom.scan->hollow = 0.65;
-          phantom.scan->holes = 6;
+          phantom.scan->hollow = kind.hollow;
+          phantom.scan->holes = kind.hollow > 0 ? 6 : 0;
           phantom.scan->breaks = breaks;
-          phantom.scan->noise = 0.08;
-          phantom.scan->rings = 0.03;
+          phantom.scan->noise = kind.noise;
+          phantom.scan->rings = kind.rings;
           phantom.output = folder.Path() / "scan.nrrd";
           RunOne(phantom, folder.Path(), sum);
         }
-        char name[64];
-        std::snprintf(name, sizeof(name), "%d contacts %g 1:1:%g", contacts, voxel, slice);
         Print(name, sum);
       }
     }
@@ -213,7 +237,8 @@ main(int argc, char ** argv)
 {
   try
   {
-    voxelcore::testing::Evaluate(argc > 1 ? std::atoi(argv[1]) : 3, argc > 2 ? std::atoi(argv[2]) : 0);
+    const auto number = [&](int at, int otherwise) { return argc > at ? std::atoi(argv[at]) : otherwise; };
+    voxelcore::testing::Evaluate(number(1, 2), number(2, 0), number(3, 1), argc > 4 ? argv[4] : "");
     return 0;
   }
   catch (const std::exception & error)

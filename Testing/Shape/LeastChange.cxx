@@ -257,8 +257,8 @@ CheapestWay(const Grid &                       grid,
   return {};
 }
 
-/** Of the shape with a cavity: one voxel, or two that touch, whose loss leaves one piece with neither loop nor cavity at
- *  the least cost, by trying all. */
+/** Of the shape with a cavity: one voxel, or two that touch, whose loss leaves one piece with neither loop nor cavity
+ *  at the least cost, by trying all. */
 std::uint64_t
 CheapestOpening(const GreyCase & grey, const std::vector<std::uint64_t> & weight)
 {

@@ -1,5 +1,6 @@
 #pragma once
-// Grey phantoms whose least change is known, or one near it, by methods that have nothing to do with how VoxelCore finds its own.
+// Grey phantoms whose least change is known, or one near it, by methods that have nothing to do with how VoxelCore
+// finds its own.
 
 #include "GreyCase.h"
 

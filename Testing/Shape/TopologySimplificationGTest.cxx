@@ -134,9 +134,9 @@ TEST(TopologySimplification, CutsOrFillsALoopWhicheverIsCheaper)
   const auto cut = Ring(110, 10).Run();
   EXPECT_EQ(cut.after.betti, (Betti{ 1, 0, 0 }));
   EXPECT_EQ(cut.voxelsAdded, 0U);
-  // The cross section where the ring is weakest has 13 voxels at 11. The outermost one has no neighbour from y = 3 on, so
-  // that a wall which leans towards it goes around it, with 12: (6, 0), (7, 0), (8, 1), (9, 2) from the axis on in the
-  // middle, (7, 0), (8, 0), (9, 1) above and below it, and one at 8 beyond.
+  // The cross section where the ring is weakest has 13 voxels at 11. The outermost one has no neighbour from y = 3 on,
+  // so that a wall which leans towards it goes around it, with 12: (6, 0), (7, 0), (8, 1), (9, 2) from the axis on in
+  // the middle, (7, 0), (8, 0), (9, 1) above and below it, and (8, 0) beyond.
   EXPECT_EQ(cut.voxelsRemoved, 12U);
   EXPECT_EQ(cut.cost, 12U * 11U + 1 + 2 + 2 * 1);
   const auto fill = Ring(180, 99).Run();

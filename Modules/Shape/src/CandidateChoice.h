@@ -22,8 +22,8 @@ ChooseCandidates(const CandidateGraph &   graph,
                  const TopologyRequest &  request,
                  const ProgressCallback & progress);
 
-/** What the changes of each group of candidates make together, all else being as chosen; candidates that are in no group
- *  are `kNoCandidate`. */
+/** What the changes of each group of candidates make together, all else being as chosen; candidates that are in no
+ *  group are `kNoCandidate`. */
 std::vector<TopologyShift>
 GroupDifferences(const CandidateGraph &             graph,
                  const CandidateChoice &            choice,

@@ -8,9 +8,10 @@
 // Topology numbers of every choice are sums over a small graph, so choices are compared exactly: candidates that cannot
 // affect each other apart, all choices of up to twelve, up to eight neighbouring candidates at a time in greater
 // clusters (three, and one, in still greater ones), so that these need not get the least change. Then every changed
-// voxel that may go back without a change of topology goes back, the costliest first; and each cut and fill is made anew
-// where it costs least, by a least vertex cut or a cheapest way within some voxels of it, all else staying. The numbers
-// of the result are counted anew from its voxels.
+// voxel that may go back without a change of topology goes back, the costliest first. What touches is one change: a
+// wall that is cut hangs together over edges and corners. Each change is made anew where it costs least, by a least
+// vertex cut or a cheapest way within some voxels of it, all else staying. The numbers of the result are counted anew
+// from its voxels.
 //
 // The same result on every run. Equal costs are told apart by the order in which voxels are reached, so a turned or
 // mirrored scan gives the turned result where costs differ.
