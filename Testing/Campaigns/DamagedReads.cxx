@@ -4,16 +4,11 @@
 // usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FILE FIRST_SEED COUNT
 // The damaged file stands in /dev/shm while it is read, and stays where something is found. Prints "READ REFUSED".
 
+#include "ReadByKind.h"
+
 #include "VoxelCoreTesting/Random.h"
 
 #include "voxelcore/Error.h"
-#include "voxelcore/LabelVolume.h"
-#include "voxelcore/Manifest.h"
-#include "voxelcore/MedialModel.h"
-#include "voxelcore/PlainSurface.h"
-#include "voxelcore/ReadMesh.h"
-#include "voxelcore/SkeletonModel.h"
-#include "voxelcore/VoxelChanges.h"
 
 #include <csignal>
 #include <cstdio>
@@ -27,6 +22,7 @@
 
 using namespace voxelcore;
 using voxelcore::testing::Random;
+using voxelcore::testing::ReadByKind;
 
 namespace
 {
@@ -99,36 +95,6 @@ Damaged(std::string bytes, std::uint64_t seed)
   return bytes;
 }
 
-void
-Read(const std::string & kind, const std::filesystem::path & path)
-{
-  if (kind == "scan")
-  {
-    ReadLabelVolume(path);
-  }
-  else if (kind == "mesh")
-  {
-    ReadMesh(path);
-  }
-  else if (kind == "model")
-  {
-    ReadPlainSurface(path);
-    ReadModel(path, Precision::AsSaved);
-  }
-  else if (kind == "skeleton")
-  {
-    ReadSkeletonVtp(path);
-  }
-  else if (kind == "manifest")
-  {
-    ReadManifest(path);
-  }
-  else
-  {
-    ReadVoxelChanges(path);
-  }
-}
-
 } // namespace
 
 int
@@ -153,7 +119,7 @@ main(int argc, char ** argv)
   {
     std::signal(signal, OnSignal);
   }
-  Read(kind, seed); // whole, it must be taken
+  ReadByKind(kind, seed); // whole, it must be taken
   std::uint64_t refused = 0;
   int           found = 0;
   for (std::uint64_t at = first; at < first + count; ++at)
@@ -164,7 +130,7 @@ main(int argc, char ** argv)
     std::string trouble;
     try
     {
-      Read(kind, path);
+      ReadByKind(kind, path);
     }
     catch (const InputError & error)
     {

@@ -1,7 +1,8 @@
 // A library to preload, in which one call fails: the FAULT_AT-th of the kind FAULT_CALL that concerns a file under
 // FAULT_PATHS, or asks for FAULT_SIZE bytes of memory or more. Calls are counted over a whole tree of processes.
 //
-//   FAULT_CALL     open read write close rename sync mkdir map memory
+//   FAULT_CALL     open read write close rename sync mkdir map memory; clock: from that call on, the time of day is
+//                  FAULT_ERROR seconds off, and again as much with each call
 //   FAULT_AT       which call, from 1; 0 only counts
 //   FAULT_ERROR    errno it gives; 0 with read and write: half of what was asked for is done
 //   FAULT_PATHS    prefix of absolute paths
@@ -19,8 +20,10 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/time.h>
 #include <sys/types.h>
 #include <sys/uio.h>
+#include <time.h>
 #include <unistd.h>
 
 extern void * __libc_malloc(size_t);
@@ -358,4 +361,55 @@ posix_memalign(void ** to, size_t alignment, size_t size)
   }
   *to = memory;
   return 0;
+}
+
+/** How far off the time of day is by now, in seconds. */
+static long
+Jump(void)
+{
+  if (!s_Call || strcmp("clock", s_Call) != 0 || s_At == 0)
+  {
+    return 0;
+  }
+  const long calls = (long)__atomic_add_fetch(&s_Counter[0], 1, __ATOMIC_SEQ_CST);
+  if (calls < s_At)
+  {
+    return 0;
+  }
+  __atomic_store_n(&s_Counter[1], 1, __ATOMIC_SEQ_CST);
+  return (calls - s_At + 1) * (long)s_Error;
+}
+
+int
+clock_gettime(clockid_t clock, struct timespec * now)
+{
+  const int result = (int)syscall(SYS_clock_gettime, clock, now);
+  if (result == 0 && clock == CLOCK_REALTIME)
+  {
+    now->tv_sec += Jump();
+  }
+  return result;
+}
+
+int
+gettimeofday(struct timeval * restrict now, void * restrict zone)
+{
+  const int result = (int)syscall(SYS_gettimeofday, now, zone);
+  if (result == 0)
+  {
+    now->tv_sec += Jump();
+  }
+  return result;
+}
+
+time_t
+time(time_t * to)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_REALTIME, &now);
+  if (to)
+  {
+    *to = now.tv_sec;
+  }
+  return now.tv_sec;
 }

@@ -97,6 +97,7 @@ class Faults:
         self.program, self.layer, self.totals = program, layer, totals
         self.i, self.o = os.path.join(folder, "in"), os.path.join(folder, "out")
         self.counter = os.path.join(folder, "counter")
+        self.out = ""
         os.mkdir(self.i)
         inputs(program, self.i)
 
@@ -111,24 +112,28 @@ class Faults:
                        "FAULT_PATHS": {"i": self.i, "o": self.o}.get(where, "/nowhere"), "FAULT_COUNTER": self.counter,
                        "FAULT_SIZE": "65536" if kind == "memory" else "1000000000000", "OMP_NUM_THREADS": "1"}
         threads = [] if name in ("info", "phantom", "measure") else ["--threads", "1"]
-        code, _, said, seconds = run([self.program, *arguments, *quiet, *threads], environment)
+        code, self.out, said, _ = run([self.program, *arguments, *quiet, *threads], environment)
         with open(self.counter, "rb") as file:
             calls, failed = struct.unpack("<QQ", file.read(16))
         return code, said, calls, failed
 
     def reference(self, name):
-        """What the command writes, and which of that is always the same."""
+        """What the command writes, and which of that is always the same. What `verify` and `info` say counts as a
+        file, too."""
         results = []
         for _ in range(2):
             code, said, _, _ = self.attempt(name)
             if code != 0:
                 raise SystemExit(f"{name}: exit {code}: {said}")
-            results.append(digests(self.o))
+            results.append(self.results(name))
         return {key: value if results[1].get(key) == value else None for key, value in results[0].items()}
+
+    def results(self, name):
+        return {**digests(self.o), **({"stdout": self.out} if name in ("verify", "info") and self.out else {})}
 
     def wrong(self, name, code, said, expected):
         """What is wrong with what a run left; None: nothing."""
-        left = digests(self.o)
+        left = self.results(name)
         lines = [line for line in said.split("\n") if line]
         if code is None:
             return "it hangs"
@@ -152,6 +157,7 @@ class Faults:
         if "terminate" in said or "std::" in said or "basic_" in said:
             return f"exit {code}, but no user understands {said!r}"
         # Into folders, each result that is there is whole and stays: the same command goes on from there.
+        left.pop("stdout", None)
         stay = name in ("core-folder", "block")
         bad = [key for key, value in left.items()
                if not (stay and (key.endswith("_finished.jsonl") or expected.get(key) == value))]

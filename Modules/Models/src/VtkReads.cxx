@@ -5,6 +5,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/ModelPolyData.h"
+#include "voxelcore/TextFields.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -16,13 +17,22 @@ namespace voxelcore
 bool
 RequireVtkReads(const std::filesystem::path & path, const MedialModel & model)
 {
+  if (LowerCase(path.extension().string()) == ".vtk")
+  {
+    return false;
+  }
   try
   {
     const VtpFile file(path); // every count checked, on which VTK's reader relies
   }
-  catch (const UnfitFile &)
+  catch (const OtherForm &)
   {
     return false; // another program saved it, in a form where nobody checked
+  }
+  catch (const UnfitFile & unfit) // it was fit a moment ago: the disk fails, or somebody writes to it
+  {
+    throw InputError("cannot read '" + path.string() + "' once more: " + unfit.reason +
+                     "; see whether its disk fails or another program writes to it");
   }
   std::string trouble;
   {

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Looks through the sources of modules without running them. Non-zero when something is found that is neither mended nor
+# on the kept list: cppcheck.txt, and for clang-tidy .clang-tidy and NOLINT beside the line, each with its reason.
+# usage: analyse.sh cppcheck|clang-tidy BUILD_DIR [MODULE...]    all modules by default; exit 77: a tool is missing
+set -euo pipefail
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+kind=$1
+mkdir -p "$2"
+build=$(cd "$2" && pwd)
+shift 2
+cd "$source"
+modules=("$@")
+if [ ${#modules[@]} -eq 0 ]; then
+  for folder in Modules/*/src; do
+    modules+=("$(basename "$(dirname "$folder")")")
+  done
+fi
+folders=()
+for module in "${modules[@]}"; do
+  [ -d "Modules/$module" ] || { echo "analyse.sh: there is no module $module" >&2; exit 2; }
+  folders+=("Modules/$module")
+done
+# One processor fewer than there are, and never in the way of others.
+jobs=$(($(nproc) > 1 ? $(nproc) - 1 : 1))
+
+case "$kind" in
+  cppcheck)
+    command -v cppcheck >/dev/null || { echo "analyse.sh: no cppcheck here" >&2; exit 77; }
+    include=()
+    for folder in Modules/*/; do
+      include+=(-I "${folder}include" -I "${folder}src")
+    done
+    nice cppcheck -q -j "$jobs" --std=c++20 --language=c++ --enable=warning,performance,portability --inline-suppr \
+      --suppressions-list=Testing/Analysis/cppcheck.txt --template='{file}:{line}: {severity} {id}: {message}' \
+      --cppcheck-build-dir="$build" --error-exitcode=1 "${include[@]}" "${folders[@]}"
+    ;;
+  clang-tidy)
+    if ! { command -v clang-tidy && command -v clang++; } >/dev/null; then
+      echo "analyse.sh: no clang-tidy here" >&2
+      exit 77
+    fi
+    # Debian's ITK headers know no compiler but GCC.
+    cmake -S . -B "$build" -G Ninja -DBUILD_TESTING=OFF -DVOXELCORE_UNITY=OFF -DVOXELCORE_ITK=OFF \
+      -DCMAKE_BUILD_TYPE=Debug -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_C_COMPILER=clang \
+      -DCMAKE_CXX_COMPILER=clang++ >/dev/null
+    # What is compiled; sources of the parts that are left out have no command.
+    python3 - "$build/compile_commands.json" "${folders[@]}" >"$build/sources" <<'PYTHON'
+import json, os, sys
+for entry in json.load(open(sys.argv[1])):
+    path = os.path.relpath(entry["file"])
+    if any(path.startswith(folder + "/src/") for folder in sys.argv[2:]):
+        print(path)
+PYTHON
+    nice xargs -P "$jobs" -n 1 clang-tidy -p "$build" --quiet <"$build/sources"
+    ;;
+  *)
+    echo "analyse.sh: unknown kind '$kind'; there are cppcheck and clang-tidy" >&2
+    exit 2
+    ;;
+esac
+echo "Nothing found that is not known."
