@@ -101,7 +101,7 @@ OnCrash(int)
   _exit(1);
 }
 
-// Libraries end a program, too: Xlib where its server is gone.
+// Libraries end a program, too: Xlib where its server is gone. Whatever code they give, even 0, the job has failed.
 void
 OnExit()
 {
@@ -111,6 +111,7 @@ OnExit()
     SayWhatIsLeft();
     Say("\n");
     temporaries.load()->RemoveAllNow();
+    _exit(1);
   }
 }
 

@@ -1,8 +1,9 @@
 // A library to preload, in which one call fails: the FAULT_AT-th of the kind FAULT_CALL that concerns a file under
 // FAULT_PATHS, or asks for FAULT_SIZE bytes of memory or more. Calls are counted over a whole tree of processes.
 //
-//   FAULT_CALL     open read write close rename sync mkdir map memory; clock: from that call on, the time of day is
-//                  FAULT_ERROR seconds off, and again as much with each call
+//   FAULT_CALL     open read write close rename sync mkdir map memory; exit: a read or write, in which the program
+//                  is ended with FAULT_ERROR, as libraries do; clock: from that call on, the time of day is FAULT_ERROR
+//                  seconds off, and again as much with each call
 //   FAULT_AT       which call, from 1; 0 only counts
 //   FAULT_ERROR    errno it gives; 0 with read and write: half of what was asked for is done
 //   FAULT_PATHS    prefix of absolute paths
@@ -65,6 +66,16 @@ Begin(void)
 static int
 Fails(const char * call)
 {
+  if (s_Call && strcmp(s_Call, "exit") == 0)
+  {
+    const int isMeant = strcmp(call, "read") == 0 || strcmp(call, "write") == 0;
+    if (isMeant && __atomic_add_fetch(&s_Counter[0], 1, __ATOMIC_SEQ_CST) == (uint64_t)s_At)
+    {
+      __atomic_add_fetch(&s_Counter[1], 1, __ATOMIC_SEQ_CST);
+      exit(s_Error);
+    }
+    return 0;
+  }
   if (!s_Call || strcmp(call, s_Call) != 0)
   {
     return 0;

@@ -48,12 +48,12 @@ COMMANDS = {
     "batch": "batch {i}/cases -o {o}/b --jobs 1",
 }
 
-# Where, kind of call, error.
+# Where, kind of call, error; exit: a library ends the program in that call, with that code.
 KINDS = [("o", "open", errno.EACCES), ("o", "write", errno.ENOSPC), ("o", "write", errno.EIO), ("o", "write", 0),
          ("o", "close", errno.EIO), ("o", "rename", errno.EACCES), ("o", "mkdir", errno.EACCES),
          ("o", "read", errno.EIO), ("o", "sync", errno.EIO), ("o", "map", errno.ENOMEM),
          ("i", "open", errno.EACCES), ("i", "read", errno.EIO), ("i", "read", 0), ("i", "map", errno.ENOMEM),
-         ("-", "memory", errno.ENOMEM)]
+         ("-", "memory", errno.ENOMEM), ("o", "exit", 2), ("o", "exit", 0)]
 
 
 def make_png(path, rows):
