@@ -12,7 +12,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr ElementIndex none = 0xFFFFFFFFU;
+constexpr ElementIndex kOnSeam = 0xFFFFFFFFU; // as a count: what stands beside it is the number of a seam
 
 // Removes free faces until every edge has no live face or at least two: a 2-cycle cannot contain them. Returns the
 // flags of the faces left; `cofaces` is of all faces at first, then of those left.
@@ -111,40 +111,37 @@ SecondBetti(const CellComplex & complex)
 {
   std::vector<Cofaces>            cofaces = CountEdgeCofaces(complex);
   const std::vector<std::uint8_t> live = DropFreeFaces(complex, cofaces);
+  if (std::ranges::find(live, std::uint8_t{ 1 }) == live.end()) // as in most shapes without cavities
+  {
+    return 0;
+  }
 
   // Two faces that alone share an edge are in a cycle together or not at all: they form one sheet, one unknown.
-  UnionFind                 sheets(complex.FaceCount());
-  std::vector<ElementIndex> seamOf(complex.edges.size(), none);
-  std::vector<Equation>     seams;
-  std::int64_t              unknowns = 0;
+  UnionFind             sheets(complex.FaceCount());
+  std::vector<Equation> seams;
   for (std::size_t face = 0; face < complex.FaceCount(); ++face)
   {
     if (!live[face])
     {
       continue;
     }
-    ++unknowns;
     for (const ElementIndex edge : complex.FaceEdges(face))
     {
-      if (cofaces[edge].count == 2)
+      Cofaces & own = cofaces[edge];
+      if (own.count == 2)
       {
-        sheets.Unite(face, face ^ cofaces[edge].exclusiveOr);
+        sheets.Unite(face, face ^ own.exclusiveOr);
+        continue;
       }
-      else
+      if (own.count != kOnSeam)
       {
-        if (seamOf[edge] == none)
-        {
-          seamOf[edge] = static_cast<ElementIndex>(seams.size());
-          seams.emplace_back();
-        }
-        seams[seamOf[edge]].push_back(static_cast<ElementIndex>(face));
+        own = { kOnSeam, static_cast<ElementIndex>(seams.size()) };
+        seams.emplace_back();
       }
+      seams[own.exclusiveOr].push_back(static_cast<ElementIndex>(face));
     }
   }
-  if (unknowns == 0)
-  {
-    return 0;
-  }
+  std::vector<Cofaces>().swap(cofaces);
 
   // Each seam edge is an equation on sheets. One with a single sheet makes it zero, one with two unites them, and both
   // may shorten others; what is left is small.
@@ -175,7 +172,7 @@ SecondBetti(const CellComplex & complex)
     std::sort(seams.begin(), seams.end());
     seams.erase(std::unique(seams.begin(), seams.end()), seams.end());
   }
-  unknowns = 0;
+  std::int64_t unknowns = 0;
   for (std::size_t face = 0; face < complex.FaceCount(); ++face)
   {
     unknowns += live[face] && sheets.Find(face) == face && !zero[face];

@@ -1,6 +1,7 @@
 #include "CurveFire.h"
 
 #include "TimeHeap.h"
+#include "voxelcore/Prefetch.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -15,6 +16,37 @@ namespace
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+// Where the fire that burned a vertex last had its way measured: from this vertex on, at this time, at this length.
+struct Anchor
+{
+  ElementIndex vertex;
+  double       time;
+  double       length;
+};
+
+// All that fire asks of a vertex: it jumps about, and so finds it in a few lines of memory.
+struct Node
+{
+  Cofaces      edges; // the live ones at it
+  double       time = 0;
+  double       prominence = 0;
+  double       way = 0; // what goes on as a branch is decided by the whole way along the edges: straight lines from the
+                        // tips of twigs that stand across a branch grow so slowly along it that each next twig would
+                        // seem to have come as far
+  double       runnerUpWay = 0;
+  double       length = 0;
+  ElementIndex nextEdge = kNoEdge;
+  ElementIndex winner = kNoEdge;
+  Anchor       anchor{};
+  Anchor       longest{ kNoEdge, 0, 0 }; // the same for the fire that has come the longest way: short twigs at a right
+                                         // angle to it often win by a hair, and from their anchors the next step would
+                                         // seem to take no time
+  double       pushed = kNever;
+  ElementIndex runnerUp = kNoEdge;
+  bool         isPinned = false;
+  bool         hasBurned = false;
+};
+
 } // namespace
 
 CurveFire
@@ -26,22 +58,14 @@ BurnCurves(const MedialComplex &       surface,
   const CellComplex & cells = surface.cells;
   const std::size_t   count = cells.vertexCount;
   CurveFire           fire;
-  fire.nextEdge.assign(count, kNoEdge);
-  fire.time.assign(count, 0);
-  fire.length.assign(count, 0);
-  fire.prominence.assign(count, 0);
-  fire.winner.assign(count, kNoEdge);
-  fire.runnerUp.assign(count, kNoEdge);
-
-  std::vector<Cofaces>      degrees(count); // of the live edges at each vertex
-  std::vector<std::uint8_t> pinned(count, 0);
+  std::vector<Node> nodes(count);
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
     if (live.edges[edge])
     {
       for (const ElementIndex vertex : cells.edges[edge])
       {
-        degrees[vertex].Add(edge);
+        nodes[vertex].edges.Add(edge);
       }
     }
   }
@@ -51,153 +75,137 @@ BurnCurves(const MedialComplex &       surface,
     {
       for (const ElementIndex vertex : cells.FaceVertices(face))
       {
-        pinned[vertex] = 1;
+        nodes[vertex].isPinned = true;
       }
     }
   }
-
-  // Where the fire that burned a vertex last had its way measured: from this vertex on, at this time, at this length.
-  struct Anchor
-  {
-    ElementIndex vertex;
-    double       time;
-    double       length;
-  };
-  std::vector<Anchor> anchors(count);
-  // The same for the fire that has come the longest way. Short twigs at a right angle to it often win by a hair, and
-  // from their anchors the next step would seem to take no time.
-  std::vector<Anchor> longest(count, { kNoEdge, 0, 0 });
-  // What goes on as a branch is decided by the whole way along the edges: straight lines from the tips of twigs that
-  // stand across a branch grow so slowly along it that each next twig would seem to have come as far.
-  std::vector<double> way(count, 0);
-  std::vector<double> runnerUpWay(count, 0);
-  std::vector<double> pushed(count, kNever);
-  TimeHeap            heap(FireBucket(surface.radius));
-  const auto          push = [&](ElementIndex vertex) {
-    pushed[vertex] = fire.time[vertex];
-    heap.Push({ fire.time[vertex], vertex });
-  };
+  TimeHeap   heap(FireBucket(surface.radius));
   const auto kindle = [&](ElementIndex vertex) {
-    const double late = fire.time[vertex] - surfaceTime[vertex];
-    if (late < 0 || fire.winner[vertex] == kNoEdge)
+    Node &         node = nodes[vertex];
+    const double   time = surfaceTime[vertex];
+    const double   late = node.time - time;
+    const Vector3 & place = surface.positions[vertex];
+    if (late < 0 || node.winner == kNoEdge)
     {
       // The surface burned later than the way along the curve says: its fire counts.
-      fire.time[vertex] = surfaceTime[vertex];
-      way[vertex] = surfaceTime[vertex];
-      anchors[vertex] = { vertex, surfaceTime[vertex], fire.length[vertex] };
+      node.time = time;
+      node.way = time;
+      node.anchor = { vertex, time, node.length };
     }
-    else if (Distance(surface.positions[anchors[vertex].vertex], surface.positions[vertex]) > chord)
+    else if (Distance(surface.positions[node.anchor.vertex], place) > chord)
     {
-      anchors[vertex] = { vertex, fire.time[vertex], fire.length[vertex] };
+      node.anchor = { vertex, node.time, node.length };
     }
-    Anchor & far = longest[vertex];
-    if (far.vertex == kNoEdge || anchors[vertex].vertex == vertex)
+    Anchor & far = node.longest;
+    if (far.vertex == kNoEdge || node.anchor.vertex == vertex)
     {
-      far = anchors[vertex];
+      far = node.anchor;
     }
-    else if (Distance(surface.positions[far.vertex], surface.positions[vertex]) > chord)
+    else if (const double step = Distance(surface.positions[far.vertex], place); step > chord)
     {
-      far = { vertex,
-              fire.time[vertex],
-              far.length + Distance(surface.positions[far.vertex], surface.positions[vertex]) };
+      far = { vertex, node.time, far.length + step };
     }
-    fire.prominence[vertex] = std::max(fire.prominence[vertex], fire.time[vertex] - surfaceTime[vertex]);
+    node.prominence = std::max(node.prominence, node.time - time);
+    node.pushed = node.time;
+    heap.Push({ node.time, vertex });
   };
   for (ElementIndex vertex = 0; vertex < count; ++vertex)
   {
-    if (live.vertices[vertex] && degrees[vertex].count <= 1 && !pinned[vertex])
+    if (live.vertices[vertex] && nodes[vertex].edges.count <= 1 && !nodes[vertex].isPinned)
     {
       kindle(vertex);
-      push(vertex);
     }
   }
-  const auto   due = [&](ElementIndex vertex) { return pushed[vertex]; };
+  const auto   due = [&](ElementIndex vertex) { return nodes[vertex].pushed; };
   TimedElement item;
   while (heap.Pop(due, item))
   {
-    if (const ElementIndex ahead = heap.Ahead(8); ahead != TimeHeap::none)
+    if (const ElementIndex ahead = heap.Ahead(12); ahead != TimeHeap::none)
     {
-      __builtin_prefetch(&degrees[ahead], 1);
-      __builtin_prefetch(&fire.nextEdge[ahead], 1);
-      __builtin_prefetch(&fire.time[ahead], 1);
-      __builtin_prefetch(&fire.prominence[ahead], 1);
-      __builtin_prefetch(&anchors[ahead], 1);
-      __builtin_prefetch(&longest[ahead], 1);
-      __builtin_prefetch(&surface.positions[ahead]);
+      FetchLine(&nodes[ahead]);
+      FetchLine(&nodes[ahead].anchor);
+      FetchLine(&surface.positions[ahead]);
     }
-    if (const ElementIndex ahead = heap.Ahead(4); ahead != TimeHeap::none && degrees[ahead].count > 0)
+    if (const ElementIndex ahead = heap.Ahead(8); ahead != TimeHeap::none && nodes[ahead].edges.count > 0)
     {
-      __builtin_prefetch(&cells.edges[degrees[ahead].exclusiveOr]);
+      FetchLine(&cells.edges[nodes[ahead].edges.exclusiveOr]);
+    }
+    if (const ElementIndex ahead = heap.Ahead(4); ahead != TimeHeap::none && nodes[ahead].edges.count > 0)
+    {
+      const auto &       ends = cells.edges[nodes[ahead].edges.exclusiveOr];
+      const ElementIndex beyond = ends[0] ^ ends[1] ^ ahead;
+      FetchLine(&nodes[beyond]);
+      FetchLine(&nodes[beyond].anchor);
+      FetchLine(&surface.positions[beyond]);
+      FetchLine(&surfaceTime[beyond]);
     }
     const ElementIndex vertex = item.element;
+    Node &             node = nodes[vertex];
     fire.order.push_back(vertex);
-    if (degrees[vertex].count == 0)
+    if (node.edges.count == 0)
     {
       continue; // the last of its component
     }
-    const ElementIndex edge = degrees[vertex].exclusiveOr;
+    const ElementIndex edge = node.edges.exclusiveOr;
     const ElementIndex next = cells.edges[edge][0] ^ cells.edges[edge][1] ^ vertex;
-    fire.nextEdge[vertex] = edge;
-    degrees[vertex].count = 0;
-    degrees[next].Remove(edge);
+    Node &             beyond = nodes[next];
+    node.nextEdge = edge;
+    node.edges.count = 0;
+    beyond.edges.Remove(edge);
 
-    const Anchor & anchor = anchors[vertex];
-    const Anchor & far = longest[vertex];
-    const double   step = Distance(surface.positions[anchor.vertex], surface.positions[next]);
-    const double   farStep = Distance(surface.positions[far.vertex], surface.positions[next]);
-    const double   arrival = std::max({ fire.time[vertex], anchor.time + step, far.time + farStep });
-    if (longest[next].vertex == kNoEdge ||
-        far.length + farStep >
-          longest[next].length + Distance(surface.positions[longest[next].vertex], surface.positions[next]))
+    const Vector3 & place = surface.positions[next];
+    const Anchor &  anchor = node.anchor;
+    const Anchor &  far = node.longest;
+    const double    step = Distance(surface.positions[anchor.vertex], place);
+    const double    farStep = Distance(surface.positions[far.vertex], place);
+    const double    arrival = std::max({ node.time, anchor.time + step, far.time + farStep });
+    if (beyond.longest.vertex == kNoEdge ||
+        far.length + farStep > beyond.longest.length + Distance(surface.positions[beyond.longest.vertex], place))
     {
-      longest[next] = far;
+      beyond.longest = far;
     }
-    const double whole = way[vertex] + Distance(surface.positions[vertex], surface.positions[next]);
-    if (fire.winner[next] == kNoEdge || whole > way[next])
+    const double whole = node.way + Distance(surface.positions[vertex], place);
+    if (beyond.winner == kNoEdge || whole > beyond.way)
     {
-      fire.runnerUp[next] = fire.winner[next];
-      runnerUpWay[next] = way[next];
-      fire.winner[next] = edge;
-      way[next] = whole;
-      fire.length[next] = anchor.length + step;
-      anchors[next] = anchor;
+      beyond.runnerUp = beyond.winner;
+      beyond.runnerUpWay = beyond.way;
+      beyond.winner = edge;
+      beyond.way = whole;
+      beyond.length = anchor.length + step;
+      beyond.anchor = anchor;
     }
-    else if (fire.runnerUp[next] == kNoEdge || whole > runnerUpWay[next])
+    else if (beyond.runnerUp == kNoEdge || whole > beyond.runnerUpWay)
     {
-      fire.runnerUp[next] = edge;
-      runnerUpWay[next] = whole;
+      beyond.runnerUp = edge;
+      beyond.runnerUpWay = whole;
     }
-    fire.time[next] = std::max(fire.time[next], arrival);
+    beyond.time = std::max(beyond.time, arrival);
     // What came in counts for what goes out, or the part of a branch behind a shorter one could be cut off.
-    fire.prominence[vertex] = std::max(fire.prominence[vertex], arrival - surfaceTime[next]);
-    fire.prominence[next] = std::max(fire.prominence[next], fire.prominence[vertex]);
-    if (pinned[next])
-    {
-      continue;
-    }
-    if (degrees[next].count == 1)
+    node.prominence = std::max(node.prominence, arrival - surfaceTime[next]);
+    beyond.prominence = std::max(beyond.prominence, node.prominence);
+    // Where no edge is left two fires met on this one, and `next` waits in the heap already.
+    if (!beyond.isPinned && beyond.edges.count == 1)
     {
       kindle(next);
-      push(next);
-    }
-    else if (degrees[next].count == 0)
-    {
-      // Two fires met on this edge; `next` waits in the heap already.
-      fire.prominence[next] = std::max(fire.prominence[next], fire.prominence[vertex]);
     }
   }
-  std::vector<std::uint8_t> burned(count, 0);
   for (const ElementIndex vertex : fire.order)
   {
-    burned[vertex] = 1;
+    nodes[vertex].hasBurned = true;
   }
-  for (std::size_t vertex = 0; vertex < count; ++vertex)
-  {
-    if (!burned[vertex])
+  const auto give = [&](auto & values, auto valueOf) {
+    values.reserve(count);
+    for (const Node & node : nodes)
     {
-      fire.time[vertex] = kNever;
+      values.push_back(valueOf(node));
     }
-  }
+  };
+  give(fire.nextEdge, [](const Node & node) { return node.nextEdge; });
+  give(fire.time, [](const Node & node) { return node.hasBurned ? node.time : kNever; });
+  give(fire.length, [](const Node & node) { return node.length; });
+  give(fire.prominence, [](const Node & node) { return node.prominence; });
+  give(fire.winner, [](const Node & node) { return node.winner; });
+  give(fire.runnerUp, [](const Node & node) { return node.runnerUp; });
   return fire;
 }
 

@@ -103,13 +103,47 @@ private:
   Open(const Due & due)
   {
     const std::vector<std::uint32_t> elements = std::exchange(m_Buckets[++m_Present], {});
-    m_Sorted.clear();
     m_Next = 0;
+    m_Unsorted.clear();
     for (const std::uint32_t element : elements)
     {
-      m_Sorted.push_back({ due(element), element });
+      m_Unsorted.push_back({ due(element), element });
     }
-    std::sort(m_Sorted.begin(), m_Sorted.end());
+    SortIntoSlots();
+    for (std::size_t slot = 0, first = 0; first < m_Sorted.size(); ++slot)
+    {
+      const auto own = m_Sorted.begin() + static_cast<std::ptrdiff_t>(first);
+      std::sort(own, m_Sorted.begin() + m_SlotEnds[slot]);
+      first = m_SlotEnds[slot];
+    }
+  }
+
+  /** Lays the present bucket down in slots that follow each other, of few elements each: next to nothing is left to
+   *  compare. */
+  void
+  SortIntoSlots()
+  {
+    const std::size_t slots = m_Unsorted.size() / 2 + 1;
+    const double      start = static_cast<double>(m_Present) / m_PerTime;
+    const double      perTime = m_PerTime * static_cast<double>(slots);
+    const auto        slotOf = [&](double time) {
+      const double slot = (time - start) * perTime;
+      return slot < static_cast<double>(slots - 1) ? static_cast<std::size_t>(std::max(slot, 0.0)) : slots - 1;
+    };
+    m_SlotEnds.assign(slots + 1, 0); // one place behind while it is filled, so that starts become ends
+    for (const TimedElement & item : m_Unsorted)
+    {
+      ++m_SlotEnds[slotOf(item.time) + 1];
+    }
+    for (std::size_t slot = 1; slot <= slots; ++slot)
+    {
+      m_SlotEnds[slot] += m_SlotEnds[slot - 1];
+    }
+    m_Sorted.resize(m_Unsorted.size());
+    for (const TimedElement & item : m_Unsorted)
+    {
+      m_Sorted[m_SlotEnds[slotOf(item.time)]++] = item;
+    }
   }
 
   /** Four children a node: half as deep as a binary heap, and siblings share a cache line. */
@@ -159,7 +193,9 @@ private:
 
   double                                  m_PerTime;
   std::vector<std::vector<std::uint32_t>> m_Buckets; ///< to come; those up to m_Present are empty
-  std::vector<TimedElement>               m_Sorted;  ///< the present bucket, from m_Next on
+  std::vector<TimedElement>               m_Unsorted; ///< the present bucket, as it came
+  std::vector<TimedElement>               m_Sorted;   ///< the present bucket, from m_Next on
+  std::vector<std::uint32_t>              m_SlotEnds; ///< of its slots
   std::vector<TimedElement>               m_Heap;    ///< came in when their bucket was present or past
   std::size_t                             m_Present = 0;
   std::size_t                             m_Next = 0;

@@ -263,6 +263,19 @@ RimFire::Burn(std::size_t level)
   }
 }
 
+void
+RimFire::KeepLevelsOnly()
+{
+  for (std::size_t face = 0; face < m_Cells.FaceCount(); ++face)
+  {
+    m_Faces[face] = m_Faces[m_Cells.faceOffsets[face]]; // no face has fewer than two places
+  }
+  m_Faces.resize(m_Cells.FaceCount());
+  m_Faces.shrink_to_fit();
+  std::vector<ElementIndex>().swap(m_Open);
+  std::vector<std::vector<ElementIndex>>().swap(m_Turns);
+}
+
 std::vector<double>
 RimFire::TakeFaceHeights()
 {
@@ -270,7 +283,7 @@ RimFire::TakeFaceHeights()
   RunInParts(heights.size() > 10000, heights.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t face = first; face < last; ++face)
     {
-      const Word level = m_Faces[m_Cells.faceOffsets[face]];
+      const Word level = m_Faces[face];
       heights[face] = level == kThere         ? std::numeric_limits<double>::infinity()
                       : level == kFloorTookIt ? kBelowFloor
                                               : m_Levels.Height(level);

@@ -51,7 +51,11 @@ public:
     return { m_Burnt.data() + first, end - first };
   }
 
-  /** At which height each face burnt, infinity where it did not. */
+  /** Frees what is asked for no more once nothing is left to burn. */
+  void
+  KeepLevelsOnly();
+
+  /** At which height each face burnt, infinity where it did not; after KeepLevelsOnly(). */
   std::vector<double>
   TakeFaceHeights();
   /** The same of edges. */

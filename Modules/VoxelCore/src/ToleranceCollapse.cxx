@@ -157,12 +157,13 @@ ComputeTolerances(const MedialComplex &             core,
         isOut = fire->IsOut();
       }
       stages.FinishAll();
+      fire->KeepLevelsOnly();
+      if (beside) // loose ends take longer than fire
+      {
+        beside();
+      }
     },
     [&] {
-      if (beside)
-      {
-        beside(); // while there is room
-      }
       LooseEnds ends(cells, left, points, scale, touching.largest, levels, balls);
       std::vector<ElementIndex>().swap(touching.largest);
       std::size_t done = 0;
