@@ -143,13 +143,14 @@ PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const Skel
 }
 
 BurnedCurves
-BurnToCurves(const MedialComplex &    core,
-             const LiveElements *     part,
-             const CertifiedShape &   shape,
-             const SkeletonRequest &  request,
-             const ProgressCallback & progress,
-             MedialComplex *          spent,
-             bool                     givesBack)
+BurnToCurves(const MedialComplex &                            core,
+             const LiveElements *                             part,
+             const CertifiedShape &                           shape,
+             const SkeletonRequest &                          request,
+             const ProgressCallback &                         progress,
+             MedialComplex *                                  spent,
+             bool                                             givesBack,
+             const std::function<void(const CellComplex &)> & beside)
 {
   RequireLengthsIn(shape.geometry.unit, request);
   const Vector3 & spacing = shape.geometry.spacing;
@@ -164,6 +165,7 @@ BurnToCurves(const MedialComplex &    core,
   curves.voxel = VoxelSide(spacing);
   curves.spent = spent;
   curves.givesBack = givesBack;
+  curves.beside = beside;
   BurnedCurves burned;
   burned.curves = ComputeCurveSkeleton(core, part, curves, progress);
   burned.topology = ComputeComplexTopology(burned.curves.complex.cells);

@@ -1,6 +1,7 @@
 #include "CertifiedWork.h"
 
 #include "BoundaryCoverage.h"
+#include "CertificateText.h"
 #include "PruneStages.h"
 #include "RequestStages.h"
 #include "WholeCore.h"
@@ -116,13 +117,14 @@ private:
         }
       },
       [&] {
-        if (!m_Whole.topology)
+        // All of a core that burns is counted meanwhile.
+        if (!m_Whole.topology && !BurnsWhole(m_Request))
         {
-          m_Whole.topology = RequireTopologyOf(core, m_Result.shape);
+          m_Whole.topology = RequireTopologyOf(core.cells, m_Result.shape);
         }
         // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last
         // bit.
-        m_Whole.core.numbers.complex = DescribeComplex(core, *m_Whole.topology);
+        m_Whole.core.numbers.complex = DescribeComplex(core, m_Result.shape.topology);
       });
     m_Result.whole = m_Whole.core.numbers.complex;
     if (RefinesCores(m_Request) && !RefinesCurves(m_Request))
@@ -272,8 +274,18 @@ private:
        MedialComplex *       spent = nullptr,
        bool                  givesBack = false)
   {
-    Stopwatch watch;
-    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), spent, givesBack);
+    Stopwatch  watch;
+    const auto beside = [&](const CellComplex & cells) {
+      if (!m_Whole.topology) // of all there is
+      {
+        m_Whole.topology = RequireTopologyOf(cells, m_Result.shape);
+      }
+    };
+    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), spent, givesBack, beside);
+    if (!m_Whole.topology)
+    {
+      RefuseResult(m_Request.name, "its core was not counted");
+    }
     m_Result.seconds.skeleton += watch.Lap();
   }
 

@@ -20,16 +20,17 @@ LiveElements
 PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request);
 
 /** Of a part of the core, in the fire of all of it, unless that is null. `spent` (the core, or null) and `givesBack` as
- *  in CurveOptions.
+ *  in CurveOptions, and `beside`.
  *  \throws CertificateError when the curves do not have the shape's topology; Cancelled */
 BurnedCurves
-BurnToCurves(const MedialComplex &    core,
-             const LiveElements *     part,
-             const CertifiedShape &   shape,
-             const SkeletonRequest &  request,
-             const ProgressCallback & progress,
-             MedialComplex *          spent = nullptr,
-             bool                     givesBack = false);
+BurnToCurves(const MedialComplex &                            core,
+             const LiveElements *                             part,
+             const CertifiedShape &                           shape,
+             const SkeletonRequest &                          request,
+             const ProgressCallback &                         progress,
+             MedialComplex *                                  spent = nullptr,
+             bool                                             givesBack = false,
+             const std::function<void(const CellComplex &)> & beside = {});
 
 /** Branches, and how wide the body in `voxels` is around them. \throws CertificateError when they do not have the
  *  topology of the curves. */

@@ -78,9 +78,9 @@ CellsOf(const VoxelShape &                voxels,
 } // namespace
 
 TopologyNumbers
-RequireTopologyOf(const MedialComplex & core, const CertifiedShape & shape)
+RequireTopologyOf(const CellComplex & cells, const CertifiedShape & shape)
 {
-  const TopologyNumbers topology = ComputeComplexTopology(core.cells);
+  const TopologyNumbers topology = ComputeComplexTopology(cells);
   RequireEqualTopology(shape.topology, topology, "its core", shape.name);
   return topology;
 }
@@ -130,7 +130,7 @@ MakeWholeCore(const VoxelShape &       voxels,
     {
       core.tolerances =
         ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, plan.Next("prune"), [&] {
-          whole.topology = RequireTopologyOf(core, result.shape);
+          whole.topology = RequireTopologyOf(core.cells, result.shape);
         });
       EndTolerances(core.tolerances, result.shape.geometry);
       seconds.prune += watch.Lap();

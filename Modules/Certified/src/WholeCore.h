@@ -35,6 +35,6 @@ MakeWholeCore(const VoxelShape &       voxels,
 
 /** Counts the topology of a whole core. \throws CertificateError when it is not the shape's */
 TopologyNumbers
-RequireTopologyOf(const MedialComplex & core, const CertifiedShape & shape);
+RequireTopologyOf(const CellComplex & cells, const CertifiedShape & shape);
 
 } // namespace voxelcore

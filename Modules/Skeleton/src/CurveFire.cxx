@@ -58,7 +58,7 @@ BurnCurves(const MedialComplex &       surface,
   const CellComplex & cells = surface.cells;
   const std::size_t   count = cells.vertexCount;
   CurveFire           fire;
-  std::vector<Node> nodes(count);
+  std::vector<Node>   nodes(count);
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
     if (live.edges[edge])
@@ -138,6 +138,8 @@ BurnCurves(const MedialComplex &       surface,
       FetchLine(&nodes[beyond].anchor);
       FetchLine(&surface.positions[beyond]);
       FetchLine(&surfaceTime[beyond]);
+      FetchLine(&surface.positions[nodes[ahead].anchor.vertex]);
+      FetchLine(&surface.positions[nodes[ahead].longest.vertex]);
     }
     const ElementIndex vertex = item.element;
     Node &             node = nodes[vertex];

@@ -5,6 +5,7 @@
 #include "PartOfCurves.h"
 #include "SurfaceCollapse.h"
 #include "TurnedSurface.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
 #include "voxelcore/Vectors.h"
 
@@ -188,10 +189,23 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   BurnTimes times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
   ReportProgress(plan.Next("collapsing"), "", 0);
   std::vector<std::uint8_t> closed;
-  LiveElements              live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
-  ReportProgress(plan.Next("curves"), "", 0);
-  const double          chord = kChordInEdges * MeanEdgeLength(turned.surface);
-  CurveFire             fire = BurnCurves(turned.surface, live, times.vertices, chord);
+  LiveElements              live;
+  CurveFire                 fire;
+  double                    chord = 0;
+  RunBoth(
+    faceCount > 10000,
+    [&] {
+      live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
+      ReportProgress(plan.Next("curves"), "", 0);
+      chord = kChordInEdges * MeanEdgeLength(turned.surface);
+      fire = BurnCurves(turned.surface, live, times.vertices, chord);
+    },
+    [&] {
+      if (options.beside)
+      {
+        options.beside(turned.surface.cells);
+      }
+    });
   std::vector<EndPlace> ends;
   if (options.branchThreshold > 0)
   {

@@ -42,6 +42,8 @@ SurfaceFire::CutBlocks()
       i + 1 == count ? m_Cells.edges.size() : static_cast<std::size_t>(last - m_Cells.edges.begin());
     block.firstSample = m_Network.edgeFirst[firstEdge].point;
     block.lastSample = m_Network.edgeFirst[lastEdge].point;
+    block.firstEdge = static_cast<ElementIndex>(firstEdge);
+    block.lastEdge = static_cast<ElementIndex>(lastEdge);
     firstEdge = lastEdge;
     m_Blocks.push_back(std::move(block));
   }

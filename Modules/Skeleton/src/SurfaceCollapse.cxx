@@ -141,9 +141,10 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
   TimedElement next;
   // Free edges burn all over the surface in turn: what the next ones need is fetched meanwhile, step by step.
   const auto fetch = [&] {
-    if (const ElementIndex edge = heap.Ahead(16); edge != TimeHeap::none)
+    if (const ElementIndex edge = heap.Ahead(24); edge != TimeHeap::none)
     {
       cofaces.Fetch(edge);
+      FetchLine(&cells.edges[edge]);
     }
     const auto fetchFace = [&](std::size_t steps, auto && what) {
       if (const ElementIndex edge = heap.Ahead(steps); edge != TimeHeap::none && cofaces.IsFree(edge))
@@ -151,13 +152,33 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
         what(cofaces.OnlyFace(edge));
       }
     };
-    fetchFace(12, [&](ElementIndex face) { FetchLine(&cells.faceOffsets[face]); });
-    fetchFace(8, [&](ElementIndex face) { FetchLine(&cells.faceEdges[cells.faceOffsets[face]]); });
-    fetchFace(4, [&](ElementIndex face) {
+    fetchFace(18, [&](ElementIndex face) { FetchLine(&cells.faceOffsets[face]); });
+    fetchFace(14, [&](ElementIndex face) { FetchLine(&cells.faceEdges[cells.faceOffsets[face]]); });
+    fetchFace(10, [&](ElementIndex face) {
       for (const ElementIndex side : cells.FaceEdges(face))
       {
         cofaces.Fetch(side);
         FetchLine(&edgeTimes[side]);
+      }
+    });
+    // Lengths are asked for where another side is free, too.
+    const auto fetchFree = [&](std::size_t steps, auto && what) {
+      fetchFace(steps, [&](ElementIndex face) {
+        for (const ElementIndex side : cells.FaceEdges(face))
+        {
+          if (cofaces.IsFree(side))
+          {
+            what(side);
+          }
+        }
+      });
+    };
+    fetchFree(6, [&](ElementIndex side) { FetchLine(&cells.edges[side]); });
+    fetchFree(3, [&](ElementIndex side) {
+      for (const ElementIndex end : cells.edges[side])
+      {
+        FetchLine(&surface.positions[end]);
+        FetchLine(&times.vertices[end]);
       }
     });
   };

@@ -31,13 +31,18 @@ SurfaceFire::SurfaceFire(const MedialComplex & complex, double sampling)
 void
 SurfaceFire::Ignite()
 {
+  RunEach(m_Blocks.size(), [&](std::size_t i) { Ignite(m_Blocks[i]); });
+}
+
+void
+SurfaceFire::Ignite(Block & block)
+{
   const auto ignite = [&](std::uint32_t sector, std::uint32_t point, double radius) {
     SetTime(sector, radius);
-    Block & block = m_Blocks[OwnerOf(point)];
     block.waiting.push_back(point);
     block.next = std::min(block.next, radius);
   };
-  for (std::uint32_t vertex = 0; vertex < m_Cells.vertexCount; ++vertex)
+  for (std::uint32_t vertex = block.firstVertex; vertex < block.lastVertex; ++vertex)
   {
     const SectorRange range = m_Network.Sectors(vertex);
     for (std::uint32_t sector = range.first; sector < range.first + range.count; ++sector)
@@ -48,7 +53,7 @@ SurfaceFire::Ignite()
       }
     }
   }
-  for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
+  for (ElementIndex edge = block.firstEdge; edge < block.lastEdge; ++edge)
   {
     if (m_Network.EdgeFaceCount(edge) == 1)
     {

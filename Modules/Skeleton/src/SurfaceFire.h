@@ -65,6 +65,8 @@ private:
     std::uint32_t              lastVertex;
     std::uint32_t              firstSample;
     std::uint32_t              lastSample;
+    ElementIndex               firstEdge; ///< those the samples are on
+    ElementIndex               lastEdge;
     double                     next = kNever; ///< nothing here burns before
     std::vector<std::uint32_t> waiting;       ///< points to burn when their window comes
     std::vector<Arrival>       out;
@@ -120,6 +122,8 @@ private:
 
   void
   Ignite();
+  void
+  Ignite(Block & block);
 
   std::size_t
   OwnerOf(std::uint32_t point) const;

@@ -349,8 +349,10 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool 
   {
     to.faceOffsets[i + 1] = to.faceOffsets[i] + cells.FaceVertices(turned.faces[i]).size();
   }
-  to.faceVertices.resize(cells.faceVertices.size());
-  to.faceEdges.resize(cells.faceEdges.size());
+  RunBoth( // new memory is cleared first
+    worthIt,
+    [&] { to.faceVertices.resize(cells.faceVertices.size()); },
+    [&] { to.faceEdges.resize(cells.faceEdges.size()); });
   turned.starts.resize(withStarts ? faceCount : 0);
   RunInParts(worthIt, faceCount, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)

@@ -9,6 +9,7 @@
 #include "voxelcore/SimplePairCollapse.h"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct CurveOptions
    *  The complex of the skeleton then has no measures. */
   MedialComplex * spent = nullptr;
   bool            givesBack = false; ///< the surface is made as it was in the end; else it is used up. Not of a part
+
+  /** Other work on the surface's cells, in another order, for a second thread while they collapse. */
+  std::function<void(const CellComplex & cells)> beside;
 };
 
 /** A part of a medial surface that the surface collapses to: vertices, edges, and the faces that stay. */
