@@ -27,12 +27,12 @@ struct Anchor
 // All that fire asks of a vertex: it jumps about, and so finds it in a few lines of memory.
 struct Node
 {
-  Cofaces      edges; // the live ones at it
-  double       time = 0;
-  double       prominence = 0;
-  double       way = 0; // what goes on as a branch is decided by the whole way along the edges: straight lines from the
-                        // tips of twigs that stand across a branch grow so slowly along it that each next twig would
-                        // seem to have come as far
+  Cofaces edges; // the live ones at it
+  double  time = 0;
+  double  prominence = 0;
+  double  way = 0; // what goes on as a branch is decided by the whole way along the edges: straight lines from the
+                   // tips of twigs that stand across a branch grow so slowly along it that each next twig would
+                   // seem to have come as far
   double       runnerUpWay = 0;
   double       length = 0;
   ElementIndex nextEdge = kNoEdge;
@@ -81,9 +81,9 @@ BurnCurves(const MedialComplex &       surface,
   }
   TimeHeap   heap(FireBucket(surface.radius));
   const auto kindle = [&](ElementIndex vertex) {
-    Node &         node = nodes[vertex];
-    const double   time = surfaceTime[vertex];
-    const double   late = node.time - time;
+    Node &          node = nodes[vertex];
+    const double    time = surfaceTime[vertex];
+    const double    late = node.time - time;
     const Vector3 & place = surface.positions[vertex];
     if (late < 0 || node.winner == kNoEdge)
     {

@@ -192,11 +192,11 @@ private:
   }
 
   double                                  m_PerTime;
-  std::vector<std::vector<std::uint32_t>> m_Buckets; ///< to come; those up to m_Present are empty
+  std::vector<std::vector<std::uint32_t>> m_Buckets;  ///< to come; those up to m_Present are empty
   std::vector<TimedElement>               m_Unsorted; ///< the present bucket, as it came
   std::vector<TimedElement>               m_Sorted;   ///< the present bucket, from m_Next on
   std::vector<std::uint32_t>              m_SlotEnds; ///< of its slots
-  std::vector<TimedElement>               m_Heap;    ///< came in when their bucket was present or past
+  std::vector<TimedElement>               m_Heap;     ///< came in when their bucket was present or past
   std::size_t                             m_Present = 0;
   std::size_t                             m_Next = 0;
 };
