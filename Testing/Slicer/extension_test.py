@@ -57,7 +57,6 @@ def test_catalog_entry_holds_its_schema():
     assert faultsOfEntry(entry) == []
     assert entry["$schema"].endswith("slicer-extension-catalog-entry-schema-v1.0.1.json#")
     assert entry["category"] == cmakeVariable("EXTENSION_CATEGORY")
-    assert entry["scm_url"] == cmakeVariable("VOXELCORE_URL") + ".git"
     # The check finds each kind of fault.
     for change in ({"tier": 2}, {"tier": "1"}, {"scm_type": "svn"}, {"homepage": "x"}, {"build_dependencies": "NA"},
                    {"build_dependencies": [1]}, {"enabled": "yes"}):
@@ -88,6 +87,30 @@ def test_extension_configures_and_what_it_copies_can_be_imported(source, tmp_pat
     done = subprocess.run([sys.executable, "-B", "-c", code], capture_output=True, text=True, env=environment)
     assert done.returncode == 0, done.stderr
     assert done.stdout.count(str(copied)) == 2
+
+
+def test_address_of_the_repository_stands_in_one_place(tmp_path):
+    """In the catalog entry; home page, icon and screenshot follow, and lead to files of the repository."""
+    repository = tmp_path / "repository"
+    shutil.copytree(EXTENSION, repository / "Applications/slicer/Extension")
+    shutil.copytree(MODULE, repository / "Applications/slicer/VoxelCore")
+    for name in ("LICENSE", "README.md"):
+        shutil.copy(os.path.join(ROOT, name), repository)
+    path = repository / "Applications/slicer/Extension/VoxelCore.json"
+    entry = json.loads(path.read_text())
+    assert re.fullmatch(r"https://[a-z-]+\.invalid/voxelcore\.git", entry["scm_url"]), "a name nobody can own"
+    for url, said in ((entry["scm_url"], True), ("https://git.host/lab/core.git", False), ("https://a.b/c", False)):
+        path.write_text(json.dumps({**entry, "scm_url": url}, indent=2))
+        build = tmp_path / "build"
+        done = subprocess.run(
+            ["cmake", "-S", str(path.parent), "-B", str(build), f"-DSlicer_DIR={os.path.join(HERE, 'stub', 'cmake')}"],
+            capture_output=True, text=True)  # fmt: skip
+        assert done.returncode == 0 and ("put that of the repository" in done.stderr) == said, done.stderr
+        home, icon, screenshot = (build / "addresses.txt").read_text().split()
+        assert home == url.removesuffix(".git")
+        for address in (icon, screenshot):
+            assert address.startswith(home + "/raw/main/")
+            assert os.path.isfile(os.path.join(ROOT, address[len(home + "/raw/main/"):]))
 
 
 def test_panel_has_every_widget_the_code_names_and_no_other():

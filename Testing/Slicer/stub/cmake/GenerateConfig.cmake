@@ -8,3 +8,5 @@ if(NOT PROJECT_NAME STREQUAL "VoxelCore")
   message(FATAL_ERROR "the extension's name is that of the project, and of its catalog entry")
 endif()
 file(APPEND "${CMAKE_BINARY_DIR}/called.txt" "config ")
+file(WRITE "${CMAKE_BINARY_DIR}/addresses.txt"
+  "${EXTENSION_HOMEPAGE}\n${EXTENSION_ICONURL}\n${EXTENSION_SCREENSHOTURLS}\n")
