@@ -1,8 +1,12 @@
 #include "ArrayLabels.h"
 
+#include "voxelcore/Error.h"
+
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 
 namespace voxelcore
 {
@@ -100,7 +104,78 @@ IsPlain(const ArrayView & array)
          reinterpret_cast<std::uintptr_t>(array.data) % array.pixel.bytes == 0;
 }
 
+template <typename TValue>
+float
+ValueAt(const std::byte * place, bool swapped)
+{
+  std::array<std::byte, sizeof(TValue)> bytes;
+  std::memcpy(bytes.data(), place, bytes.size());
+  if (swapped)
+  {
+    std::reverse(bytes.begin(), bytes.end());
+  }
+  TValue value;
+  std::memcpy(&value, bytes.data(), bytes.size());
+  return static_cast<float>(static_cast<double>(value));
+}
+
+using ReadValue = float (*)(const std::byte *, bool);
+
+ReadValue
+ReaderOf(const LabelAssembler::Pixel & pixel)
+{
+  const auto whole = [&pixel](ReadValue ofSigned, ReadValue ofUnsigned) {
+    return pixel.isSigned ? ofSigned : ofUnsigned;
+  };
+  switch (pixel.bytes)
+  {
+    case 1:
+      return whole(ValueAt<std::int8_t>, ValueAt<std::uint8_t>);
+    case 2:
+      return whole(ValueAt<std::int16_t>, ValueAt<std::uint16_t>);
+    case 4:
+      return pixel.isReal ? ValueAt<float> : whole(ValueAt<std::int32_t>, ValueAt<std::uint32_t>);
+    default:
+      return pixel.isReal ? ValueAt<double> : whole(ValueAt<std::int64_t>, ValueAt<std::uint64_t>);
+  }
+}
+
 } // namespace
+
+void
+ReadRow(const ArrayView & array, std::int32_t i, std::int32_t j, std::int32_t k, std::span<float> values)
+{
+  const ReadValue   read = ReaderOf(array.pixel);
+  const std::byte * from = array.data + i * array.stride[0] + j * array.stride[1] + k * array.stride[2];
+  for (std::size_t n = 0; n < values.size(); ++n)
+  {
+    values[n] = read(from + static_cast<std::ptrdiff_t>(n) * array.stride[0], array.swapped);
+  }
+}
+
+void
+RequireFiniteValues(const ArrayView & array, const VoxelBox & part)
+{
+  if (!array.pixel.isReal)
+  {
+    return;
+  }
+  std::vector<float> row(static_cast<std::size_t>(part.size[0]));
+  for (std::int32_t k = part.lower[2]; k < part.lower[2] + part.size[2]; ++k)
+  {
+    for (std::int32_t j = part.lower[1]; j < part.lower[1] + part.size[1]; ++j)
+    {
+      ReadRow(array, part.lower[0], j, k, row);
+      const auto at = std::find_if(row.begin(), row.end(), [](float value) { return !std::isfinite(value); });
+      if (at != row.end())
+      {
+        throw InputError("the array: at (" + std::to_string(part.lower[0] + (at - row.begin())) + ", " +
+                         std::to_string(j) + ", " + std::to_string(k) +
+                         ") its value is no finite number, so there is no surface at a grey value");
+      }
+    }
+  }
+}
 
 std::vector<LabelShape>
 LabelsOf(const ArrayView &        array,

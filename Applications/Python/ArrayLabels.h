@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace voxelcore
@@ -29,5 +30,13 @@ LabelsOf(const ArrayView &        array,
          const ImageGeometry &    geometry,
          const LabelChoice &      options,
          const ProgressCallback & progress = {});
+
+/** Values along i, from element (i, j, k) on. Thread-safe. */
+void
+ReadRow(const ArrayView & array, std::int32_t i, std::int32_t j, std::int32_t k, std::span<float> values);
+
+/** \throws InputError for a value within this part that is no finite number */
+void
+RequireFiniteValues(const ArrayView & array, const VoxelBox & part);
 
 } // namespace voxelcore

@@ -127,6 +127,15 @@ SpreadOver(const std::array<std::int64_t, 3> & size,
 
 constexpr double kEditEnds = 0.1; ///< of the progress
 
+/** The array must outlive it. */
+auto
+GreyRowsOf(const ArrayView & array)
+{
+  return [array](std::int32_t i, std::int32_t j, std::int32_t k, std::span<float> values) {
+    ReadRow(array, i, j, k, values);
+  };
+}
+
 /** What is read of an array. */
 struct ReadArray
 {
@@ -148,10 +157,13 @@ Read(const ArrayView &        array,
   report.input.format = "array";
   report.input.geometry = CheckedGeometry("the array", geometry, options.reading.orthonormalize);
 
-  if (options.refine.surface == "grey" || options.refine.surface == "mesh")
+  if (options.refine.surface == "mesh")
   {
-    throw UsageError("--refine " + options.refine.surface +
-                     ": expected labels; the others need files, so use the program");
+    throw UsageError("--refine mesh: expected labels or grey; for a mesh use the program");
+  }
+  if (options.refine.surface == "grey" && !options.reading.threshold)
+  {
+    throw UsageError("--refine grey: expected --threshold LO:HI, to say which grey values are the shape");
   }
 
   constexpr double readEnds = 0.05;
@@ -172,6 +184,10 @@ Read(const ArrayView &        array,
   {
     map.crop = ResolveCrop(options.reading.crop, map.geometry.size, "the array");
   }
+  if (options.refine.surface == "grey")
+  {
+    RequireFiniteValues(array, PartRead(map));
+  }
   if (!values.contains("labels"))
   {
     RequireOneLabel(map.labels);
@@ -182,6 +198,7 @@ Read(const ArrayView &        array,
                            options.reading.labels != "all",
                            "the array",
                            PartOfProgress(progress, "reading", readEnds, kEditEnds));
+  map.greyRows = GreyRowsOf(array);
   read.surface = MakeSurfaceSource(options.refine, options.scan, options.reading, map);
   report.parameters = DescribeParameters(options, map, read.edited, ComputeLatticeWeights(map.geometry));
   return read;
@@ -377,7 +394,7 @@ Verify(const CoreOfLabel &      core,
        const ImageGeometry &    geometry,
        const ProgressCallback & progress)
 {
-  if (core.refined == "grey" || core.refined == "mesh")
+  if (core.refined == "mesh" || core.report.parameters.refine.greyRange)
   {
     throw UsageError("the core is refined to a surface that the array does not hold (" + core.refined +
                      "); verify its file with the program");
@@ -392,6 +409,7 @@ Verify(const CoreOfLabel &      core,
   InputScan volume;
   volume.geometry = CheckedGeometry(names.scan.string(), geometry, reading.orthonormalize);
   volume.labels = LabelsOf(array, volume.geometry, reading, PartOfProgress(progress, "reading", 0, 0.05));
+  volume.greyRows = GreyRowsOf(array);
   if (reading.crop)
   {
     volume.crop = ResolveCrop(reading.crop, volume.geometry.size, names.scan.string());

@@ -12,7 +12,7 @@ case "${1:-}" in
     # Packages of Java, which VTK's brings along, put a link here; small Debians have no such folder.
     mkdir -p /usr/share/man/man1
     bash "$(dirname "$(realpath "$0")")/../install-packages.sh" build python
-    apt-get install -y -q --no-install-recommends dpkg-dev
+    apt-get install -y -q --no-install-recommends dpkg-dev file # cpack asks file which libraries a package needs
     ;;
   packages)
     source=$(realpath "$2")

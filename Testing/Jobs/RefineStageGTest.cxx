@@ -1,7 +1,9 @@
 #include "JobFolder.h"
 
+#include "voxelcore/GreyVolume.h"
 #include "voxelcore/RefineStage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -66,6 +68,37 @@ TEST_F(RefineStage, LabelsAndGreyValuesGiveASurfaceForAShape)
   other.grey = At("grey.nrrd");
   other.greyRange = { 100, 255 };
   EXPECT_TRUE(Source(other, "labels.nrrd")(shape, {}));
+}
+
+TEST_F(RefineStage, GreyValuesInMemoryAreThoseOfTheFile)
+{
+  GreyBall("grey.nrrd");
+  ReadOptions reading;
+  reading.threshold = { 100, std::numeric_limits<double>::infinity() };
+  reading.crop = CropRange{ { 1, 2, 0 }, { 19, 20, 20 } };
+  const VoxelShape    shape = ReadLabelVolume(At("grey.nrrd"), reading).labels.at(0).shape;
+  const SurfaceSource ofFile = Source(From("grey"), "grey.nrrd", reading);
+  InputScan           scan = ReadScanOrMesh(At("grey.nrrd"), reading, {});
+  const VoxelBox      part = PartRead(scan);
+  EXPECT_EQ(part.lower, (std::array<std::int32_t, 3>{ 1, 2, 0 }));
+  EXPECT_EQ(part.size, (std::array<std::int32_t, 3>{ 18, 18, 20 }));
+  const GreyVolume values = ReadGreyVolume(At("grey.nrrd"), part, reading);
+  scan.greyRows = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> row) {
+    ASSERT_GE(x, part.lower[0]);
+    ASSERT_LE(x + static_cast<std::int32_t>(row.size()), part.lower[0] + part.size[0]);
+    std::copy_n(values.Row(x, y, z), row.size(), row.begin());
+  };
+  const SurfaceSource ofMemory = MakeSurfaceSource(From("grey"), "no such file", reading, scan);
+  const auto          one = ofFile(shape, {}), other = ofMemory(shape, {});
+  int                 known = 0;
+  for (double x = 2; x < 18; x += 1.7)
+  {
+    const SurfacePoint found = one->Project({ x, 9, 4.5 }, 3), again = other->Project({ x, 9, 4.5 }, 3);
+    EXPECT_EQ(found.found, again.found) << x;
+    EXPECT_EQ(found.position, again.position) << x;
+    known += found.found ? 1 : 0;
+  }
+  EXPECT_GT(known, 2);
 }
 
 TEST_F(RefineStage, WhatTheInputDoesNotHaveIsRefused)

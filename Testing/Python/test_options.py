@@ -1,6 +1,7 @@
 """Every option of the command line that arrays can have is an argument, and gives the same bits: edits, crop,
 refinement, several labels, components."""
 
+import csv
 import inspect
 
 import numpy
@@ -128,9 +129,69 @@ def test_labels_and_components_come_by_their_names(tmp_path, scan):
 
 def test_what_arrays_cannot_have_is_refused(scan):
     volume, _ = scan
-    with pytest.raises(ValueError, match="refine='grey': expected labels"):
+    with pytest.raises(ValueError, match=r"refine='grey': expected threshold=\(LO, HI\)"):
         voxelcore.core(volume, label=3, refine="grey")
+    with pytest.raises(ValueError, match="refine='mesh': expected labels or grey"):
+        voxelcore.core(volume, label=3, refine="mesh")
     with pytest.raises(ValueError, match="label='all'"):
         voxelcore.core(volume)
     with pytest.raises(ValueError, match="give one label"):
         voxelcore.skeleton(volume, label="all")
+
+
+@pytest.fixture(scope="module")
+def grey():
+    """A bent tube with a wall, blurred: values of int16, its shape where they are at least 500."""
+    i, j, k = numpy.indices((36, 34, 22)) * numpy.reshape(SPACING, (3, 1, 1, 1))
+    middle = numpy.array(SPACING) * (36, 34, 22) / 2
+    away = numpy.hypot(i - middle[0] - 0.2 * (k - middle[2]), j - middle[1])
+    return (1000 * numpy.clip(0.5 + (1.6 - abs(away - 0.3 * middle.min() - 2)) / 1.1, 0, 1)).astype(numpy.int16)
+
+
+@pytest.mark.parametrize("turn", [
+    lambda array: array,
+    lambda array: array.astype(">f4"),
+    lambda array: numpy.asfortranarray(array.astype(numpy.float64)),
+    lambda array: numpy.repeat(array.astype(numpy.int32), 2, axis=1)[:, ::2],
+    lambda array: array[::-1, :, ::-1].copy()[::-1, :, ::-1].astype(numpy.uint16),
+], ids=["int16", "swapped", "fortran", "strided", "uint16"])  # fmt: skip
+def test_grey_values_of_an_array_refine_as_those_of_a_file_do(tmp_path, grey, turn):
+    write_nrrd(tmp_path / "grey.nrrd", grey, SPACING)
+    given = dict(spacing=SPACING, threshold=(500, numpy.inf), refine="grey")
+    words = "--threshold", "500:inf", "--refine", "grey"
+    assert run("core", tmp_path / "grey.nrrd", "-o", tmp_path / "cli.vtp", *words).returncode == 0
+    array = turn(grey)
+    core = voxelcore.core(array, **given)
+    assert same(core, tmp_path / "cli.vtp", tmp_path)
+    labels = voxelcore.core(array, **dict(given, refine="labels"))
+    assert not numpy.array_equal(core.radius, labels.radius)
+
+
+def test_what_was_refined_from_grey_values_is_measured_and_verified(tmp_path, grey):
+    write_nrrd(tmp_path / "grey.nrrd", grey, SPACING)
+    given = dict(spacing=SPACING, threshold=(500, numpy.inf), refine="grey", crop="2:34,:,:")
+    words = "--threshold", "500:inf", "--refine", "grey", "--crop", "2:34,:,:"
+    core = voxelcore.core(grey, **given)
+    verified = core.verify(grey)
+    assert verified.passed and not any("not made again" in note for note in verified.notes), verified
+    other = grey.copy()
+    other[grey > 500] += (30 * numpy.random.default_rng(1).random((grey > 500).sum())).astype(numpy.int16)
+    assert not core.verify(other).passed, "the same voxels of other grey values"
+    outputs = "-o", tmp_path / "map.nrrd", "--table", tmp_path / "table.csv"
+    done = run("thickness", tmp_path / "grey.nrrd", *outputs, *words)
+    assert done.returncode == 0, done.stderr
+    (told,) = csv.DictReader((tmp_path / "table.csv").open())
+    assert voxelcore.thickness(grey, **given).numbers[1]["mean"] == pytest.approx(float(told["mean"]), rel=1e-6)
+    core.save(tmp_path / "python.vtp")
+    again = run("verify", tmp_path / "grey.nrrd", tmp_path / "python.vtp")
+    assert again.returncode == 0, again.stdout + again.stderr
+
+
+def test_grey_values_that_are_missing_are_refused(grey):
+    given = dict(spacing=SPACING, threshold=(500, 2000), refine="grey")
+    holed = grey.astype(numpy.float32)
+    holed[holed == 0] = numpy.nan
+    with pytest.raises(ValueError, match="no finite number"):
+        voxelcore.core(holed, **given)
+    with pytest.raises(ValueError, match="masked voxels have no grey values"):
+        voxelcore.core(numpy.ma.masked_less(grey, 10), **given)

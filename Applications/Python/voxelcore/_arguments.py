@@ -78,6 +78,8 @@ def of_array(function, rows, options, array, spacing, axes, label, threshold, or
         given["binary"] = "true"
     elif label is not None:
         given["labels"] = labels(label)
+    if given.get("refine") == "grey" and numpy.ma.getmaskarray(array).any():
+        raise ValueError("refine='grey': masked voxels have no grey values; give an array without a mask")
     return voxels(array, spacing, axes, origin, direction, limits), given
 
 

@@ -124,6 +124,19 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
   }
 }
 
+VoxelBox
+PartRead(const LabelMap & volume)
+{
+  VoxelBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = volume.crop ? volume.crop->first[axis] : 0;
+    const auto end = volume.crop ? volume.crop->end[axis] : static_cast<std::int32_t>(volume.geometry.size[axis]);
+    box.size[axis] = end - box.lower[axis];
+  }
+  return box;
+}
+
 InputScan
 ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,

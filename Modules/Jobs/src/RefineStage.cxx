@@ -15,20 +15,6 @@ namespace voxelcore
 namespace
 {
 
-/** The part of a scan that was read. */
-VoxelBox
-BoxOf(const LabelMap & volume)
-{
-  VoxelBox box;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    box.lower[axis] = volume.crop ? volume.crop->first[axis] : 0;
-    const auto end = volume.crop ? volume.crop->end[axis] : static_cast<std::int32_t>(volume.geometry.size[axis]);
-    box.size[axis] = end - box.lower[axis];
-  }
-  return box;
-}
-
 /** As far around a shape as the estimate looks. */
 VoxelBox
 AroundShape(const VoxelBox & shape, const VoxelBox & scan)
@@ -102,6 +88,25 @@ GreySource(const RefineOptions &         options,
   {
     throw UsageError("--refine grey: the range of grey values has no end, so there is no surface at one");
   }
+  const VoxelBox whole = PartRead(input);
+  // Positive within the shape.
+  const auto within = [range](std::span<float> values) {
+    for (float & value : values)
+    {
+      value = static_cast<float>(std::min(value - range.first, range.second - value));
+    }
+  };
+  if (!other && input.greyRows)
+  {
+    const auto rows = [take = input.greyRows,
+                       within](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
+      take(x, y, z, values);
+      within(values);
+    };
+    return [=, spacing = input.geometry.spacing](const VoxelShape & shape, const ProgressCallback & progress) {
+      return std::shared_ptr<const SurfaceEstimate>(SurfaceFromGrey(shape, spacing, whole, rows, progress));
+    };
+  }
   ReadOptions how = reading;
   if (other)
   {
@@ -110,7 +115,6 @@ GreySource(const RefineOptions &         options,
     how.level.reset();
     how.raw.reset();
   }
-  const VoxelBox      whole = BoxOf(input);
   const ImageGeometry geometry = input.geometry;
   const auto          path = other ? options.grey : scan;
   const auto          greyValues = std::make_shared<GreyValues>(path, how, whole);
@@ -120,9 +124,8 @@ GreySource(const RefineOptions &         options,
     RequireSamePlace(grey.geometry, geometry, "--grey", path);
     const auto rows = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
       const float * from = grey.Row(x, y, z);
-      std::transform(from, from + values.size(), values.begin(), [&](float value) {
-        return static_cast<float>(std::min(value - range.first, range.second - value));
-      });
+      std::copy(from, from + values.size(), values.begin());
+      within(values);
     };
     return SurfaceFromGrey(shape, geometry.spacing, whole, rows, progress);
   };

@@ -7,8 +7,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,9 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
 struct InputScan : LabelMap
 {
   std::shared_ptr<const TriangleMesh> mesh; ///< of which the voxels were made; none of a scan
+
+  /** Of a scan in memory, where somebody may ask for them: values along x, from (x, y, z) on. Thread-safe. */
+  std::function<void(std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values)> greyRows{};
 };
 
 /** ReadLabelVolume, or for the path of a mesh VoxelizeMeshFile with the spacing of `options`.
@@ -50,6 +55,10 @@ ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,
                const std::optional<std::int64_t> & resolution,
                const ProgressCallback &            progress = {});
+
+/** The part of a scan that was read, in its indices. */
+VoxelBox
+PartRead(const LabelMap & scan);
 
 /** How the scan was read when a file was made. */
 ReadOptions
