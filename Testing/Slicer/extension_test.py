@@ -106,9 +106,9 @@ def test_address_of_the_repository_stands_in_one_place(tmp_path):
             ["cmake", "-S", str(path.parent), "-B", str(build), f"-DSlicer_DIR={os.path.join(HERE, 'stub', 'cmake')}"],
             capture_output=True, text=True)  # fmt: skip
         assert done.returncode == 0 and ("put that of the repository" in done.stderr) == said, done.stderr
-        home, icon, screenshot = (build / "addresses.txt").read_text().split()
-        assert home == url.removesuffix(".git")
-        for address in (icon, screenshot):
+        home, *pictures = (build / "addresses.txt").read_text().split()
+        assert home == url.removesuffix(".git") and len(pictures) == 3
+        for address in pictures:
             assert address.startswith(home + "/raw/main/")
             assert os.path.isfile(os.path.join(ROOT, address[len(home + "/raw/main/"):]))
 

@@ -5,6 +5,7 @@ import re
 import textwrap
 import time
 
+import numpy
 import pytest
 import slicer
 from conftest import MODULE, PROGRAM, ROOT, body, run, segmentationOf, writeLabels
@@ -176,6 +177,21 @@ def test_script_of_the_guide_runs(scene):
     names = {"slicer": slicer}
     exec(textwrap.dedent(lines), names)
     assert {"surface", "skeleton", "thickness"} <= {node.GetAttribute(Scene.ROLE) for node in names["nodes"]}
+
+
+def test_picture_in_the_guide_is_that_of_todays_panel(scene, tmp_path):
+    import panel_picture
+    from PyQt5.QtGui import QImage
+
+    panel_picture.draw(tmp_path / "panel.png")
+    today, shown = (QImage(str(path)).convertToFormat(QImage.Format_Grayscale8) for path in (
+        tmp_path / "panel.png", os.path.join(ROOT, "Applications/manual/guide/slicer-panel.png")))
+    sides = today.width(), today.height()
+    assert sides == (shown.width(), shown.height()), "run panel_picture.py, and look at the picture"
+    values = [numpy.frombuffer(image.constBits().asstring(image.sizeInBytes()), numpy.uint8).reshape(sides[1], -1)
+              for image in (today, shown)]
+    assert (abs(values[0].astype(int) - values[1]) > 60).mean() < 0.005
+    assert (values[0] < 100).mean() > 0.01, "there is text"
 
 
 def test_module_says_what_it_is():
