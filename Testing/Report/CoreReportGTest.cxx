@@ -169,6 +169,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   report.parameters.reading.component = 2;
   report.parameters.edits = { MedianWidth{ 5 },
                               true,
+                              true,
                               ParseGapWidth("4vox"),
                               ParseGapWidth("2.5mm"),
                               SliceAxis::J,
@@ -192,6 +193,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               5,
                               6,
                               EditRecord::Filtered{ 29, 30 },
+                              EditRecord::Filtered{ 39, 40 },
                               EditRecord::Mended{ 7, 8, 9, 10, 11 },
                               EditRecord::Filled{ 21, 22, 0 },
                               EditRecord::Filled{ 23, 24, 25 },

@@ -20,7 +20,7 @@ smallest voxel spacing; diag, times a voxel's diagonal; % is of the longest side
   For thick slices, give mm: about 1.5 times the slice distance.
 A --lambda given with --tolerance is applied first. Guide: choosing-the-pruning.md
 
-Shape edits run label by label in this order: --median, --mend-shape, --close, --fill-hollows, --fill-slices,
+Shape edits run label by label in this order: --median, --denoise, --mend-shape, --close, --fill-hollows, --fill-slices,
 --fill-cavities, --min-voxels, --largest, --smooth-shape, --simplify-topology, --split-components. Components are
 6-connected.
 --mend-shape and all that fill or close also remove true holes. Guide: noisy-masks.md

@@ -93,10 +93,12 @@ EditRecordJson(const EditRecord & edits, bool inFile)
              { "components_joined", edits.componentsJoined },
              { "components_removed", edits.componentsRemoved },
              { "voxels_removed", edits.voxelsRemoved } };
-  if (edits.filtered)
+  for (const auto & [name, filtered] : { std::pair("median", &edits.filtered), std::pair("denoised", &edits.denoised) })
   {
-    json["median"] = { { "voxels_added", edits.filtered->voxelsAdded },
-                       { "voxels_removed", edits.filtered->voxelsRemoved } };
+    if (*filtered)
+    {
+      json[name] = { { "voxels_added", (*filtered)->voxelsAdded }, { "voxels_removed", (*filtered)->voxelsRemoved } };
+    }
   }
   if (edits.mended)
   {

@@ -186,8 +186,8 @@ bool
 IsOfSome(std::string_view name)
 {
   return name == "resolution" || name == "level" || name == "raw" || name == "close" || name == "fill_hollows" ||
-         name == "fill_slices" || name == "median" || name == "simplify_topology" || name == "pieces" ||
-         name == "loops" || name == "cavities" || name == "change_voxels";
+         name == "fill_slices" || name == "median" || name == "denoise" || name == "simplify_topology" ||
+         name == "pieces" || name == "loops" || name == "cavities" || name == "change_voxels";
 }
 
 /** Writes fields. */
@@ -203,7 +203,7 @@ public:
   operator()(const char * name, const T & value) const
   {
     const Json json = ValueJson(value);
-    if (!IsOfSome(name) || !json.is_null())
+    if (!IsOfSome(name) || !(json.is_null() || json == false))
     {
       m_Json[name] = json;
     }

@@ -60,7 +60,9 @@ ReadEditRecord(const Json & json)
   json.at("components_joined").get_to(edits.componentsJoined);
   json.at("components_removed").get_to(edits.componentsRemoved);
   json.at("voxels_removed").get_to(edits.voxelsRemoved);
-  for (const auto & [name, filtered] : { std::pair("median", &edits.filtered), std::pair("changed", &edits.changed) })
+  for (const auto & [name, filtered] : { std::pair("median", &edits.filtered),
+                                         std::pair("denoised", &edits.denoised),
+                                         std::pair("changed", &edits.changed) })
   {
     if (json.contains(name))
     {

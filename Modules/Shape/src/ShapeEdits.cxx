@@ -5,6 +5,7 @@
 
 #include "voxelcore/DepthSimplification.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/ShapeDenoising.h"
 #include "voxelcore/ShapeOperations.h"
 #include "voxelcore/ShapeSmoothing.h"
 #include "voxelcore/StagePlan.h"
@@ -68,6 +69,7 @@ EditShape(VoxelShape &             shape,
   // Mended before anything is dropped: pieces torn off belong to what they were torn from.
   StagePlan              plan(progress,
                  { options.median ? 0.3 : 0.0,
+                   options.denoise ? 0.5 : 0.0,
                    options.mend ? 2.0 : 0.0,
                    options.close ? 0.5 : 0.0,
                    options.fillHollows ? 0.5 : 0.0,
@@ -80,6 +82,12 @@ EditShape(VoxelShape &             shape,
   {
     EditedShape filtered = take(MedianShape(shape, *options.median, filtering));
     record.filtered = { filtered.voxelsAdded, filtered.voxelsRemoved };
+  }
+  const ProgressCallback denoising = plan.Next();
+  if (options.denoise)
+  {
+    EditedShape denoised = take(DenoiseShape(shape, geometry.spacing, denoising));
+    record.denoised = { denoised.voxelsAdded, denoised.voxelsRemoved };
   }
   const ProgressCallback mending = plan.Next();
   if (options.mend)
@@ -179,11 +187,15 @@ Add(const EditRecord & record, EditRecord & sum)
   sum.componentsJoined += record.componentsJoined;
   sum.componentsRemoved += record.componentsRemoved;
   sum.voxelsRemoved += record.voxelsRemoved;
-  if (record.filtered)
+  for (auto EditRecord::*const member : { &EditRecord::filtered, &EditRecord::denoised })
   {
-    EditRecord::Filtered & filtered = sum.filtered ? *sum.filtered : sum.filtered.emplace(EditRecord::Filtered());
-    filtered.voxelsAdded += record.filtered->voxelsAdded;
-    filtered.voxelsRemoved += record.filtered->voxelsRemoved;
+    if (const auto & one = record.*member)
+    {
+      auto & all = sum.*member;
+      all = all.value_or(EditRecord::Filtered());
+      all->voxelsAdded += one->voxelsAdded;
+      all->voxelsRemoved += one->voxelsRemoved;
+    }
   }
   if (record.changed)
   {
@@ -242,6 +254,11 @@ Describe(const EditRecord & sum, const ShapeEditOptions & options)
     notes.push_back("median of " + std::to_string(options.median->voxels) +
                     " voxels: " + Counted(sum.filtered->voxelsAdded, "voxel", "voxels") + " added, " +
                     std::to_string(sum.filtered->voxelsRemoved) + " removed");
+  }
+  if (sum.denoised)
+  {
+    notes.push_back("denoised: " + Counted(sum.denoised->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.denoised->voxelsRemoved) + " removed");
   }
   if (sum.mended)
   {

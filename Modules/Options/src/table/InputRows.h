@@ -177,6 +177,15 @@ inline constexpr auto kShapeEditRows = std::to_array<Parameter>({
     kReads,
     "Take the majority in the cube of N voxels (3, 5, ...) around each voxel: removes salt-and-pepper noise, and parts "
     "less than N voxels thick" },
+  { "denoise",
+    "--denoise",
+    Flag,
+    "",
+    "",
+    false,
+    kReads,
+    "Remove noise at boundaries: a majority weighted over about three voxels, in mm along each axis, so that thin and "
+    "curved parts keep their size" },
   { "mend-shape",
     "--mend-shape",
     Flag,

@@ -23,6 +23,7 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("nifti_form", options.reading.niftiForm);
   visit("crop", options.reading.crop);
   visit("median", options.edits.median);
+  visit("denoise", options.edits.denoise);
   visit("mend_shape", options.edits.mend);
   visit("close", options.edits.close);
   visit("fill_hollows", options.edits.fillHollows);

@@ -25,6 +25,7 @@ namespace voxelcore
 struct ShapeEditOptions
 {
   std::optional<MedianWidth>   median;
+  bool                         denoise = false;
   bool                         mend = false; ///< what flips of single voxels have torn or pierced
   std::optional<GapWidth>      close;        ///< gaps up to so wide
   std::optional<GapWidth>      fillHollows;  ///< lumens that open only through holes up to so wide
@@ -41,8 +42,8 @@ struct ShapeEditOptions
   bool
   AreAsked() const
   {
-    return median || mend || close || fillHollows || fillSlices || fillCavities || minVoxels || largest || smooth ||
-           simplify || change || splitComponents;
+    return median || denoise || mend || close || fillHollows || fillSlices || fillCavities || minVoxels || largest ||
+           smooth || simplify || change || splitComponents;
   }
 };
 
@@ -55,7 +56,7 @@ struct EditRecord
   std::uint64_t componentsRemoved = 0;
   std::uint64_t voxelsRemoved = 0; ///< with these components
 
-  /** What MedianShape changed. */
+  /** What MedianShape or DenoiseShape changed. */
   struct Filtered
   {
     std::uint64_t voxelsAdded = 0;
@@ -112,7 +113,8 @@ struct EditRecord
     std::vector<Change> changes; ///< the costliest first; reports have them, provenance in files does not
   };
 
-  std::optional<Filtered>   filtered;   ///< when asked
+  std::optional<Filtered>   filtered;   ///< when asked: by MedianShape
+  std::optional<Filtered>   denoised;   ///< when asked
   std::optional<Mended>     mended;     ///< when asked
   std::optional<Filled>     closed;     ///< when asked
   std::optional<Filled>     hollows;    ///< when asked
