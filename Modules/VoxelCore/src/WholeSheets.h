@@ -21,9 +21,9 @@ namespace voxelcore
  *  ball sees them. It goes on across edges of two faces, and straight on across seams.
  *
  *  What lies between the staircase and the end of the measured heights is then collapsed anew by the raised heights,
- *  simple pairs only. All of it goes by that end, as it did before: in complexes of faces a pair that is simple stays so
- *  until one of the two goes. So topology and nesting hold. No height falls: at each more is left, and coverage holds,
- *  too. */
+ *  simple pairs only. All of it goes by that end, as it did before: in complexes of faces a pair that is simple stays
+ *  so until one of the two goes. So topology and nesting hold. No height falls: at each more is left, and coverage
+ *  holds, too. */
 void
 KeepSheetsWhole(const MedialComplex &         core,
                 const std::vector<CoreBall> & balls,
