@@ -62,8 +62,8 @@ if command -v ccache >/dev/null; then
   volumes=(--volume "$cache:/root/.cache/ccache")
   [ ! -d "$HOME/.config/ccache" ] || volumes+=(--volume "$HOME/.config/ccache:/root/.config/ccache:ro")
 fi
-# buildah may hang where a step fails.
-(cd "$source" && timeout 4800 "${storage[@]}" bud --build-arg BASE=localhost/debian:12-slim \
+# When its steps are done, buildah takes minutes to remove what they left.
+(cd "$source" && "${storage[@]}" bud --build-arg BASE=localhost/debian:12-slim \
   --build-arg OPTIONS=-DVOXELCORE_WERROR=ON --pull-never \
   "${volumes[@]}" -f Applications/container/Containerfile -t voxelcore . >"$scratch/build.log" 2>&1) ||
   { tail -n 30 "$scratch/build.log" >&2; fail "the image cannot be built"; }
