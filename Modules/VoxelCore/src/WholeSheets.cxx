@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 namespace voxelcore
 {
@@ -14,9 +15,10 @@ namespace voxelcore
 namespace
 {
 
-constexpr double kStaircase = 0.8; ///< voxel diagonals
-constexpr double kWide = 0.65;     ///< of the radius
-constexpr double kStraight = -0.5; ///< cosine between the directions of two faces away from their edge, at most
+constexpr double kStaircase = 0.8;   ///< voxel diagonals
+constexpr double kWide = 0.643;      ///< of the radius
+constexpr double kStraight = -0.743; ///< cosine between the directions of two faces away from their edge, at most
+constexpr double kTie = 1e-6;        ///< cosines that differ by less are equal: neither is the straightest
 
 using Level = std::uint16_t;
 
@@ -154,10 +156,10 @@ private:
   void
   ConnectFaces(const CellComplex & cells, const std::vector<double> & heights);
   void
-  UniteAtSeam(const MedialComplex &         core,
-              const std::vector<CoreBall> & balls,
-              std::span<const Meeting>      seam,
-              UnionFind &                   sheets) const;
+  UniteStraightest(const MedialComplex &         core,
+                   const std::vector<CoreBall> & balls,
+                   std::span<const Meeting>      seam,
+                   UnionFind &                   sheets) const;
 
   struct Turn
   {
@@ -272,21 +274,23 @@ Strip::ConnectFaces(const CellComplex & cells, const std::vector<double> & heigh
   });
 }
 
-// Two faces are one sheet if there are no more; else pairs that are the straightest for both.
+// Pairs go on as one sheet that are the straightest for both.
 void
-Strip::UniteAtSeam(const MedialComplex &         core,
-                   const std::vector<CoreBall> & balls,
-                   std::span<const Meeting>      seam,
-                   UnionFind &                   sheets) const
+Strip::UniteStraightest(const MedialComplex &         core,
+                        const std::vector<CoreBall> & balls,
+                        std::span<const Meeting>      seam,
+                        UnionFind &                   sheets) const
 {
   std::vector<BallCentre> directions;
+  directions.reserve(seam.size());
   for (const Meeting & meeting : seam)
   {
     directions.push_back(Outwards(core.cells, balls, meeting.face, meeting.edge));
   }
   const auto straightest = [&](std::size_t i) {
     std::size_t best = i;
-    double      least = seam.size() == 2 ? 2 : kStraight;
+    double      least = kStraight;
+    double      second = kStraight;
     for (std::size_t j = 0; j < seam.size(); ++j)
     {
       const BallCentre & a = directions[i];
@@ -294,11 +298,15 @@ Strip::UniteAtSeam(const MedialComplex &         core,
       const double       cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
       if (j != i && cosine < least)
       {
-        least = cosine;
+        second = std::exchange(least, cosine);
         best = j;
       }
+      else if (j != i)
+      {
+        second = std::min(second, cosine);
+      }
     }
-    return best;
+    return least < second - kTie ? best : i;
   };
   for (std::size_t i = 0; i < seam.size(); ++i)
   {
@@ -326,7 +334,9 @@ Strip::RaiseSheets(const MedialComplex & core, const std::vector<CoreBall> & bal
       const ElementIndex other = m_FacesAt[edge].exclusiveOr ^ face;
       if (m_FacesAt[edge].count == 2 && face < other && wide[face] != 0 && wide[other] != 0)
       {
-        sheets.Unite(face, other);
+        const std::array<Meeting, 2> pair{ { { m_Edges[edge], m_Faces[face], face },
+                                             { m_Edges[edge], m_Faces[other], other } } };
+        UniteStraightest(core, balls, pair, sheets);
       }
     }
   }
@@ -336,7 +346,7 @@ Strip::RaiseSheets(const MedialComplex & core, const std::vector<CoreBall> & bal
     {
       ++last;
     }
-    UniteAtSeam(core, balls, std::span(m_Meetings).subspan(first, last - first), sheets);
+    UniteStraightest(core, balls, std::span(m_Meetings).subspan(first, last - first), sheets);
   }
   std::vector<Level> sheetLevels(m_Faces.size() + 1, 0);
   sheetLevels[sheets.Find(Staying())] = static_cast<Level>(highest);

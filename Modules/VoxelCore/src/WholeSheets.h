@@ -17,8 +17,8 @@ namespace voxelcore
  *  Fire enters sheets at their rims. At a height h it has taken a strip from each that stands for no bump: of a flat
  *  one it is nearly h wide, and wider where the radius falls towards the rim. Here such strips get the height of the
  *  last face of their sheet. A sheet is made of faces above the staircase of the voxels (0.8 of a voxel's diagonal)
- *  whose nearest boundary points lie wide apart: measure at least 0.65 of the radius, 81 degrees as the centre of the
- *  ball sees them. It goes on across edges of two faces, and straight on across seams.
+ *  whose nearest boundary points lie wide apart: measure at least 0.643 of the radius, 80 degrees as the centre of the
+ *  ball sees them. It goes on across edges where it bends by 42 degrees at most.
  *
  *  What lies between the staircase and the end of the measured heights is then collapsed anew by the raised heights,
  *  simple pairs only. All of it goes by that end, as it did before: in complexes of faces a pair that is simple stays
