@@ -24,6 +24,7 @@ COMMANDS = {
     "core-folder": "core {i}/labels.nii.gz -o {o}/d/ --lambda 0,1vox --keep-edges",
     "core-vtk": "core {i}/scan.mha -o {o}/a.vtk --lambda 0",
     "core-ply": "core {i}/scan.tif --spacing 1,1,1 -o {o}/a.ply --lambda 0",
+    "core-mhd": "core {i}/scan.mhd -o {o}/a.vtp --lambda 0",
     "core-obj": "core {i}/scan.nrrd -o {o}/a.obj --lambda 0",
     "core-stl": "core {i}/scan.nrrd -o {o}/a.stl --lambda 0",
     "core-ma": "core {i}/scan.nrrd -o {o}/a.ma --lambda 0",
@@ -35,6 +36,7 @@ COMMANDS = {
     "prune": "prune {i}/core.vtp --lambda 1vox,2vox -o {o}/p.vtp",
     "verify": "verify {i}/scan.nrrd {i}/core.vtp",
     "info": "info {i}/scan.nrrd",
+    "info-tif": "info {i}/scan.tif --spacing 1,1,1",
     "thickness": "thickness {i}/scan.nrrd -o {o}/t.nii.gz --table {o}/t.csv",
     "sheets": "sheets {i}/scan.nrrd -o {o}/s.vtp --table {o}/s.csv --graph {o}/s.graphml --voxels {o}/v.nrrd",
     "reconstruct": "reconstruct {i}/core.vtp -o {o}/r.mha --scan {i}/scan.nrrd --report {o}/r.json",
@@ -47,6 +49,9 @@ COMMANDS = {
     "html": "core {i}/scan.nrrd -o {o}/a.vtp --html {o}/a.html",
     "batch": "batch {i}/cases -o {o}/b --jobs 1",
 }
+
+# Their results are what they say.
+SPEAKING = ("verify", "info", "info-tif")
 
 # Where, kind of call, error; exit: a library ends the program in that call, with that code.
 KINDS = [("o", "open", errno.EACCES), ("o", "write", errno.ENOSPC), ("o", "write", errno.EIO), ("o", "write", 0),
@@ -74,6 +79,7 @@ def inputs(program, folder):
     path = lambda name: os.path.join(folder, name)
     make("phantom", "torus", "--size", "12", "-o", path("scan.nrrd"))
     make("phantom", "torus", "--size", "12", "-o", path("scan.mha"))
+    make("phantom", "torus", "--size", "12", "-o", path("scan.mhd"))
     make("phantom", "torus", "--size", "12", "-o", path("scan.tif"))
     make("phantom", "torus", "--size", "12", "-o", path("labels.nii.gz"))
     make("phantom", "root", "--size", "24", "-o", path("root.nrrd"))
@@ -107,11 +113,11 @@ class Faults:
         with open(self.counter, "wb") as file:
             file.write(bytes(16))
         arguments = [a.format(i=self.i, o=self.o) for a in COMMANDS[name].split()]
-        quiet = ["--progress", "none"] if name not in ("verify", "info") else []
+        quiet = ["--progress", "none"] if name not in SPEAKING else []
         environment = {"LD_PRELOAD": self.layer, "FAULT_CALL": kind, "FAULT_AT": str(at), "FAULT_ERROR": str(error),
                        "FAULT_PATHS": {"i": self.i, "o": self.o}.get(where, "/nowhere"), "FAULT_COUNTER": self.counter,
                        "FAULT_SIZE": "65536" if kind == "memory" else "1000000000000", "OMP_NUM_THREADS": "1"}
-        threads = [] if name in ("info", "phantom", "measure") else ["--threads", "1"]
+        threads = [] if name in ("info", "info-tif", "phantom", "measure") else ["--threads", "1"]
         code, self.out, said, _ = run([self.program, *arguments, *quiet, *threads], environment)
         with open(self.counter, "rb") as file:
             calls, failed = struct.unpack("<QQ", file.read(16))
@@ -129,7 +135,7 @@ class Faults:
         return {key: value if results[1].get(key) == value else None for key, value in results[0].items()}
 
     def results(self, name):
-        return {**digests(self.o), **({"stdout": self.out} if name in ("verify", "info") and self.out else {})}
+        return {**digests(self.o), **({"stdout": self.out} if name in SPEAKING and self.out else {})}
 
     def wrong(self, name, code, said, expected):
         """What is wrong with what a run left; None: nothing."""

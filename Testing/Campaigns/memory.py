@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 from campaign import Totals, run
-from faults import COMMANDS, Faults
+from faults import COMMANDS, Faults, SPEAKING
 
 
 class Limits(Faults):
@@ -25,8 +25,8 @@ class Limits(Faults):
         shutil.rmtree(self.o, ignore_errors=True)
         os.mkdir(self.o)
         arguments = [a.format(i=self.i, o=self.o) for a in COMMANDS[name].split()]
-        quiet = ["--progress", "none"] if name not in ("verify", "info") else []
-        threads = [] if name in ("info", "phantom", "measure") else ["--threads", self.threads]
+        quiet = ["--progress", "none"] if name not in SPEAKING else []
+        threads = [] if name in ("info", "info-tif", "phantom", "measure") else ["--threads", self.threads]
         less = ["prlimit", f"--as={limit}"] if limit else []
         code, self.out, said, _ = run([*less, self.program, *arguments, *quiet, *threads],
                                       {"OMP_NUM_THREADS": self.threads})
