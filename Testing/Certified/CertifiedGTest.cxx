@@ -86,6 +86,31 @@ TEST(Certified, ARequestThatSaysNothingIsPrunedAtTheUsualToleranceAndRefinedFrom
   EXPECT_GT(silent.cores[0].numbers.refined->radiusMargin.value().max, 0.4);
 }
 
+TEST(Certified, WhatWasPrunedByLambdaFirstIsPromisedNothing)
+{
+  for (const double spacing : { 1.0, 0.01 })
+  {
+    CertifiedRequest request = Lambdas({ "3vox" });
+    request.tolerances = { ParseTolerance("0.1diag") };
+    request.surface = SurfaceSource();
+    const CertifiedResult result = ComputeCertified(Box(14, 11, 8), Grid({ spacing, spacing, spacing }), request);
+    const auto &          tolerance = *result.cores[0].numbers.tolerance;
+    EXPECT_FALSE(result.covered.has_value());
+    EXPECT_GT(tolerance.boundaryGapMm.value(), tolerance.heightMm);
+    // A whole core is, however small its voxels are.
+    request.lambdas = { ParseLambda("0") };
+    EXPECT_TRUE(ComputeCertified(Box(14, 11, 8), Grid({ spacing, spacing, spacing }), request).covered.value_or(false));
+  }
+}
+
+TEST(Certified, TheMarginOfACoreWithoutFacesIsANumber)
+{
+  const CertifiedResult result = ComputeCertified(Box(1, 1, 1), Grid({ 1, 1, 1 }), {});
+  ASSERT_EQ(result.cores[0].core.core.cells.FaceCount(), 0U);
+  ASSERT_TRUE(result.cores[0].numbers.refined.has_value());
+  EXPECT_EQ(result.cores[0].numbers.refined->radiusMargin.value().mean, 0);
+}
+
 TEST(Certified, WhatIsAskedForByLambdaOrToBePrunedOnStaysExact)
 {
   CertifiedRequest lambda = Lambdas({ "1.5vox" });

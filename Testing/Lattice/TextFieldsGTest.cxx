@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace voxelcore::testing
 {
 namespace
@@ -56,9 +60,29 @@ TEST(TextFields, ARefusalSaysFileFaultAndRemedy)
 TEST(TextFields, UnitsOfLengthAreKnown)
 {
   EXPECT_EQ(MillimetresIn(" Microns "), 1e-3);
-  EXPECT_EQ(MillimetresIn("\xC2\xB5m"), 1e-3);
-  EXPECT_EQ(MillimetresIn("inch"), 25.4);
-  EXPECT_FALSE(MillimetresIn("furlong"));
+  const std::vector<std::pair<double, std::vector<std::string>>> known{
+    { 1.0, { "mm", "millimeter", "millimeters", "millimetre", "millimetres", "MM" } },
+    { 1e-3, { "um", "micron", "microns", "micrometer", "micrometers", "micrometre", "micrometres" } },
+    { 1e-3, { "\xC2\xB5m", "\xCE\xBCm", "\xB5m" } },
+    { 1e-6, { "nm", "nanometer", "nanometers", "nanometre", "nanometres" } },
+    { 10.0, { "cm", "centimeter", "centimeters", "centimetre", "centimetres" } },
+    { 100.0, { "dm" } },
+    { 1000.0, { "m", "meter", "meters", "metre", "metres" } },
+    { 25.4, { "inch", "inches", "in" } },
+    { 1e-7, { "angstrom", "\xC3\x85", "\xC3\xA5" } },
+    { 1e-9, { "pm" } },
+  };
+  for (const auto & [millimetres, units] : known)
+  {
+    for (const std::string & unit : units)
+    {
+      EXPECT_EQ(MillimetresIn(unit), millimetres) << unit;
+    }
+  }
+  for (const char * unit : { "furlong", "", "mmm", "km", "voxel" })
+  {
+    EXPECT_FALSE(MillimetresIn(unit)) << unit;
+  }
   EXPECT_EQ(Counted(1, "voxel", "voxels"), "1 voxel");
   EXPECT_EQ(Counted(0, "voxel", "voxels"), "0 voxels");
 }

@@ -174,6 +174,33 @@ TEST_F(RootEdits, ATornOffPieceIsHungOrGoesOnFromWhicheverEndIsNearer)
   EXPECT_EQ(MeasureRoots(graph, edited.roots).stems, 2);
 }
 
+TEST_F(RootEdits, ATornOffPieceThatIsTurnedRoundKeepsItsLateralsWhereTheyAre)
+{
+  for (const bool isBeyond : { true, false })
+  {
+    GraphBuilder builder = SmallRoot();
+    // Thick at one end or the other, so that it begins there by itself.
+    builder.Line({ 60, 0, 40 }, { 50, 0, 40 }, isBeyond ? 1.5 : 1);
+    builder.Line({ 50, 0, 40 }, { 34, 0, 40 }, isBeyond ? 1 : 1.5);
+    builder.Line({ 50, 0, 40 }, { 50, 8, 40 }, 0.5);
+    const SkeletonGraph graph = builder.Graph();
+    const RootHierarchy roots = FindRoots(graph);
+    const ElementIndex  small = RootTo(graph, roots, { 50, 8, 40 });
+    const ElementIndex  piece = roots.axes[small].parent;
+    ASSERT_TRUE(roots.axes[piece].loose);
+    for (const Kind kind : { Kind::Continues, Kind::Parent })
+    {
+      const RootEdit    edit{ piece, kind, RootTo(graph, roots, { 30, 0, 40 }) };
+      const EditedRoots edited = EditRoots(graph, roots, { &edit, 1 });
+      ExpectSound(graph, edited.roots);
+      const RootAxis & lateral = edited.roots.axes[RootTo(graph, edited.roots, { 50, 8, 40 })];
+      const RootAxis & parent = edited.roots.axes[lateral.parent];
+      EXPECT_EQ(graph.positions[parent.points.back()], (Spacing3{ 60, 0, 40 }));
+      EXPECT_EQ(graph.positions[parent.points[lateral.parentPoint]], (Spacing3{ 50, 0, 40 }));
+    }
+  }
+}
+
 TEST_F(RootEdits, NamesStayWithTheirRoots)
 {
   const std::vector<RootEdit> edits{ { m_Small, Kind::None, kNoRoot, "the small one" }, { m_Side, Kind::Remove } };
