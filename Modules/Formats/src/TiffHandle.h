@@ -19,7 +19,7 @@ namespace voxelcore
 {
 
 /** A file opened with handlers of its own: libtiff prints nothing, and no global state is touched. It is read by calls
- *  of its own, too: where the system cannot read the place of the next page, libtiff takes the page before for the last. */
+ *  of its own, too: where the system cannot read where the next page is, libtiff takes the page before for the last. */
 class TiffHandle
 {
 public:
