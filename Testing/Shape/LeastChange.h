@@ -1,6 +1,6 @@
 #pragma once
-// Grey phantoms whose least change is known, or one near it, by methods that have nothing to do with how VoxelCore
-// finds its own.
+// Grey phantoms whose least change is known, or one near it, by code that shares nothing with VoxelCore's own: whole
+// volumes at once, where VoxelCore grows candidates and looks into windows.
 
 #include "GreyCase.h"
 

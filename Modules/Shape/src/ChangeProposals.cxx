@@ -16,7 +16,6 @@ namespace
 constexpr std::size_t kMostLinks = 1000000; // of a graph that is cut
 constexpr char        kBeyond = 2;          // what is too far away to be looked at
 
-
 class Proposer
 {
 public:

@@ -1,8 +1,9 @@
 #include "voxelcore/ShapeDenoising.h"
 
+#include "FilteredShape.h"
+
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -272,7 +273,7 @@ private:
 EditedShape
 DenoiseShape(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress)
 {
-  EditedShape     edited{ VoxelShape(shape.Box()) };
+  VoxelShape      result(shape.Box());
   const auto      size = shape.Box().size;
   const Denoising denoising(shape, spacing);
   for (std::int32_t z = 0; z < size[2]; z += kTile)
@@ -286,26 +287,12 @@ DenoiseShape(const VoxelShape & shape, const Vector3 & spacing, const ProgressCa
       {
         for (std::size_t word = 0; word < shape.WordsPerRow(); ++word)
         {
-          denoising.Tile(y, z, word, memory, edited.shape);
+          denoising.Tile(y, z, word, memory, result);
         }
       }
     }
   }
-  for (std::int32_t z = 0; z < size[2]; ++z)
-  {
-    for (std::int32_t y = 0; y < size[1]; ++y)
-    {
-      const auto from = shape.Row(y, z);
-      const auto to = std::as_const(edited.shape).Row(y, z);
-      for (std::size_t word = 0; word < from.size(); ++word)
-      {
-        edited.voxelsAdded += static_cast<std::uint64_t>(std::popcount(to[word] & ~from[word]));
-        edited.voxelsRemoved += static_cast<std::uint64_t>(std::popcount(from[word] & ~to[word]));
-      }
-    }
-  }
-  edited.shape = CropToVoxels(std::move(edited.shape));
-  return edited;
+  return FilteredShape(shape, std::move(result));
 }
 
 } // namespace voxelcore

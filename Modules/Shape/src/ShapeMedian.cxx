@@ -1,5 +1,7 @@
 #include "voxelcore/ShapeMedian.h"
 
+#include "FilteredShape.h"
+
 #include "voxelcore/Error.h"
 
 #include <algorithm>
@@ -133,37 +135,29 @@ EditedShape
 MedianShape(const VoxelShape & shape, MedianWidth width, const ProgressCallback & progress)
 {
   RequireOdd(width);
-  EditedShape            edited{ VoxelShape(shape.Box()) };
+  VoxelShape             result(shape.Box());
   const auto             reach = width.voxels / 2;
   const auto             size = shape.Box().size;
-  std::int64_t           added = 0;
-  std::int64_t           removed = 0;
   constexpr std::int32_t slab = 32;
   for (std::int32_t first = 0; first < size[2]; first += slab)
   {
     ReportProgress(progress, "median", static_cast<double>(first) / size[2]);
     const std::int32_t last = std::min(size[2], first + slab);
-#pragma omp parallel for schedule(dynamic, 1) reduction(+ : added, removed)
+#pragma omp parallel for schedule(dynamic, 1)
     for (std::int32_t z = first; z < last; ++z)
     {
       for (std::int32_t y = 0; y < size[1]; ++y)
       {
         const RowsAround around(shape, y, z, reach);
-        const auto       from = shape.Row(y, z);
-        const auto       to = edited.shape.Row(y, z);
+        const auto       to = result.Row(y, z);
         for (std::size_t word = 0; word < to.size(); ++word)
         {
           to[word] = around.Median(word);
-          added += std::popcount(to[word] & ~from[word]);
-          removed += std::popcount(from[word] & ~to[word]);
         }
       }
     }
   }
-  edited.voxelsAdded = static_cast<std::uint64_t>(added);
-  edited.voxelsRemoved = static_cast<std::uint64_t>(removed);
-  edited.shape = CropToVoxels(std::move(edited.shape));
-  return edited;
+  return FilteredShape(shape, std::move(result));
 }
 
 } // namespace voxelcore

@@ -9,6 +9,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/StagePlan.h"
+#include "voxelcore/UnionFind.h"
 
 #include <algorithm>
 #include <string>
@@ -142,22 +143,15 @@ CostliestVoxel(const VoxelShape & shape, const PaddedCost & cost)
 std::vector<std::uint32_t>
 GroupChanges(const CandidateGraph & graph, const PaddedShape & changed, std::size_t & groups)
 {
-  constexpr std::uint32_t    none = kNoCandidate;
-  std::vector<std::uint32_t> parent(graph.candidates.size(), none);
-  const auto                 find = [&](std::uint32_t at) {
-    while (parent[at] != at)
-    {
-      at = parent[at] = parent[parent[at]];
-    }
-    return at;
-  };
+  UnionFind                                    together(graph.candidates.size());
+  std::vector<char>                            isChanged(graph.candidates.size(), 0);
   std::vector<std::pair<Voxel, std::uint32_t>> cut;
   for (std::size_t i = 0; i < graph.voxels.size(); ++i)
   {
     const std::uint32_t owner = graph.owner[i];
     if (changed.Contains(graph.voxels[i]))
     {
-      parent[owner] = owner;
+      isChanged[owner] = 1;
       if (!graph.candidates[owner].isFill)
       {
         cut.emplace_back(graph.voxels[i], owner);
@@ -173,17 +167,18 @@ GroupChanges(const CandidateGraph & graph, const PaddedShape & changed, std::siz
       const auto  found = std::ranges::lower_bound(cut, next, {}, [](const auto & one) { return one.first; });
       if (found != cut.end() && found->first == next)
       {
-        parent[std::max(find(owner), find(found->second))] = std::min(find(owner), find(found->second));
+        together.Unite(owner, found->second);
       }
     }
   }
-  std::vector<std::uint32_t> group(parent.size(), none);
+  std::vector<std::uint32_t> group(graph.candidates.size(), kNoCandidate);
   groups = 0;
-  for (std::uint32_t i = 0; i < parent.size(); ++i)
+  for (std::uint32_t i = 0; i < group.size(); ++i)
   {
-    if (parent[i] != none)
+    if (isChanged[i] != 0)
     {
-      group[i] = find(i) == i ? static_cast<std::uint32_t>(groups++) : group[find(i)];
+      const std::uint32_t first = together.Find(i);
+      group[i] = first == i ? static_cast<std::uint32_t>(groups++) : group[first];
     }
   }
   return group;

@@ -19,6 +19,8 @@ namespace voxelcore
 namespace
 {
 
+constexpr double kBoundingStep = 1.0 / 32; ///< of a voxel's shortest side
+
 Vector3
 WeightsOf(const SpacingWeights & weights)
 {
@@ -227,13 +229,6 @@ FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, Voxel
     }
   }
 }
-
-namespace
-{
-
-constexpr double kBoundingStep = 1.0 / 32; ///< of a voxel's shortest side
-
-} // namespace
 
 ThicknessBracket
 BracketThickness(const VoxelShape &            shape,

@@ -72,9 +72,9 @@ struct ThicknessBalls
 
 /** The balls of a shape, whose boundary vertices, as BoundaryVertices() gives them, are `points` and whose cells are
  *  `cells`. Lengths are those of the weights' lattice, in mm. Edges of the core are cut into pieces along which no ball
- *  grows by more than an eighth of a voxel's shortest side; for bounds, by `boundingStep` of it, where 0 asks for
- *  no bounds. Inscribed balls that stick out of a
- *  neighbour's by nothing are left out, and those of a 64th at most where that grows by less than half a side.
+ *  grows by more than an eighth of a voxel's shortest side; for bounds, by `boundingStep` of it, where 0 asks for no
+ *  bounds. Inscribed balls that stick out of a neighbour's by nothing are left out, and those of a 64th at most where
+ *  that grows by less than half a side.
  *  The same for every number of threads. \throws Cancelled */
 ThicknessBalls
 FindThicknessBalls(const VoxelShape &            shape,
