@@ -71,6 +71,9 @@ def main():
         tree = xml.parse(path / "out/roots.rsml").getroot()
         with open(path / "out/roots.csv", newline="") as file:
             table = list(csv.DictReader(file))
+        with open(path / "out/roots.swc") as file:
+            points = [[float(word) for word in line.split()] for line in file if not line.startswith("#")]
+        graph = xml.parse(path / "out/roots.graphml").getroot()
     check(tree.tag == "rsml", "it begins with " + tree.tag)
     metadata = tree.find("metadata")
     properties = {d.find("label").text: d.find("type").text for d in metadata.iter("property-definition")}
@@ -82,6 +85,7 @@ def main():
     check(len(identifiers) == len(set(identifiers)), "an ID stands twice")
 
     seen = 0
+    polylines = []
 
     def visit(root, parent, parent_number, level):
         nonlocal seen
@@ -89,6 +93,7 @@ def main():
         number = int(root.get("ID").split("-")[1])
         row = table[number]
         line = [tuple(float(p.get(axis)) for axis in "xyz") for p in root.find("geometry/polyline")]
+        polylines.append(line)
         function, = root.find("functions")
         check(function.get("name") in functions and function.get("domain") == "polyline", "an unknown function")
         diameters = [float(sample.get("value")) for sample in function]
@@ -119,6 +124,29 @@ def main():
             visit(root, None, None, 0)
     check(seen == len(table) > 10, f"{seen} roots, {len(table)} in the table")
     print(f"RSML holds the {seen} roots of the table.")
+
+    # The same lines, in SWC and GraphML.
+    lines = sum(distance(a, b) for line in polylines for a, b in zip(line, line[1:]))
+    places = {int(row[0]): [1e-3 * at for at in row[2:5]] for row in points}
+    swc = sum(distance(places[int(row[0])], places[int(row[6])]) for row in points if row[6] > 0)
+    check(all(row[6] < row[0] for row in points) and sum(row[6] < 0 for row in points) == len(tree.findall(".//plant")),
+          "roots.swc is no forest of the plants")
+    check(abs(swc - lines) < 0.01 * lines, f"roots.swc is {swc} long, roots.rsml {lines}")
+    levels = {int(row[1]) - 5 for row in points}
+    check(levels == {int(row["level"]) for row in table}, f"roots.swc has the levels {levels}")
+    space = "{http://graphml.graphdrawing.org/xmlns}"
+    edges = [{d.get("key"): d.text for d in edge} | edge.attrib for edge in graph.iter(space + "edge")]
+    nodes = {node.get("id") for node in graph.iter(space + "node")}
+    check(all(edge["source"] in nodes and edge["target"] in nodes for edge in edges), "an edge has no node")
+    targets = [edge["target"] for edge in edges]
+    check(len(set(targets)) == len(targets) == len(nodes) - len(tree.findall(".//plant")), "GraphML has no forest")
+    for number, row in enumerate(table):
+        own = [edge for edge in edges if int(edge["root"]) == number]
+        check({edge.get("parent", "") for edge in own} == {row["parent"]}, f"GraphML: parent of {number}")
+        check({edge["level"] for edge in own} == {row["level"]}, f"GraphML: level of {number}")
+    graphml = sum(float(edge["length"]) for edge in edges)
+    check(abs(graphml - swc) < 1e-3 * swc, f"roots.graphml is {graphml} long, roots.swc {swc}")
+    print(f"So do SWC and GraphML: {len(points)} points, {len(edges)} edges, {swc:.1f} mm.")
 
 
 main()

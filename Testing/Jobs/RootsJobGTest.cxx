@@ -21,7 +21,8 @@ const std::set<std::string> kTables{ "annotations.csv", "annotations.mrk.json",
                                      "roots.csv",       "levels.csv",
                                      "plant.csv",       "profile.csv",
                                      "columns.json",    "changes.txt",
-                                     "report.json",     "page.html" };
+                                     "report.json",     "page.html",
+                                     "roots.swc",       "roots.graphml" };
 
 class RootsJob : public JobFolder
 {

@@ -1,6 +1,7 @@
 // Root System Markup Language: metadata, then scene > plant > root, nested.
 
 #include "TextFile.h"
+#include "XmlText.h"
 
 #include "voxelcore/RootFiles.h"
 
@@ -11,21 +12,6 @@ namespace voxelcore
 
 namespace
 {
-
-std::string
-XmlText(const std::string & text)
-{
-  std::string escaped;
-  for (const char c : text)
-  {
-    escaped += c == '&'   ? std::string("&amp;")
-               : c == '<' ? std::string("&lt;")
-               : c == '>' ? std::string("&gt;")
-               : c == '"' ? std::string("&quot;")
-                          : std::string(1, c);
-  }
-  return escaped;
-}
 
 struct Definition
 {

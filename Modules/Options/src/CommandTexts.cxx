@@ -133,10 +133,10 @@ Examples:
   voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp)";
 
 constexpr std::string_view kRootsFooter =
-  R"(OUTDIR gets roots.rsml, roots.csv (a row per root), levels.csv, plant.csv, profile.csv, columns.json (what the
-columns mean), page.html (a summary), roots.html (3-D), roots.png, mask.nrrd, medial.vtp, skeleton.vtp, changes.txt
-(cuts and fills), annotations.csv and annotations.mrk.json (for --edits), and report.json. All of it is written,
-or nothing.
+  R"(OUTDIR gets roots.rsml, roots.swc, roots.graphml, roots.csv (a row per root), levels.csv, plant.csv, profile.csv,
+columns.json (what the columns mean), page.html (a summary), roots.html (3-D), roots.png, mask.nrrd, medial.vtp,
+skeleton.vtp, changes.txt (cuts and fills), annotations.csv and annotations.mrk.json (for --edits), and report.json.
+All of it is written, or nothing.
 
 A grey scan without --threshold gets one halfway between background and roots, which is reported. Where roots
 touch, those that go on straight and as thick are the same root; contacts that may be read otherwise are listed.

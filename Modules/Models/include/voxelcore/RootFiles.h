@@ -36,6 +36,20 @@ struct RsmlOptions
 void
 WriteRsml(const std::filesystem::path & path, const RootModel & model, const RsmlOptions & options);
 
+/** The roots as a forest of points, each root by itself from its base on: where roots touch, a point is there for each
+ *  of them. A lateral's first point has its parent's point, the nearest to it, as parent. Micrometres, or voxels; the
+ *  type is 5 and the level, radii are those of round cross-sections. Comments name each root with its level and
+ *  parent. \throws OutputError */
+void
+WriteRootSwc(const std::filesystem::path & path, const RootModel & model);
+
+/** The same as a directed graph, from bases to tips: a node at each base of a stem, each place where a lateral
+ *  springs, and each tip; an edge between those that follow each other along a root, and one from a lateral's parent
+ *  to its first node, with the root, its level, parent and name, and length and mean radius of the stretch. \throws
+ *  OutputError */
+void
+WriteRootGraphMl(const std::filesystem::path & path, const RootModel & model);
+
 /** A row per root. \throws OutputError */
 void
 WriteRootCsv(const std::filesystem::path & path, const RootModel & model);
