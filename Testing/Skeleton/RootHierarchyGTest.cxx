@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace voxelcore::testing
 {
 namespace
@@ -48,6 +50,68 @@ TipOf(const SkeletonGraph & graph, const RootAxis & axis)
 }
 
 } // namespace
+
+/** A stem, a lateral that is torn between `from` and `to` and beyond that hangs on another, thinner by `likeness`. */
+SkeletonGraph
+TornRoot(const Spacing3 & from, const Spacing3 & to, double likeness)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 120 }, { 0, 0, 100 }, 4);
+  builder.Line({ 0, 0, 100 }, { 0, 0, 40 }, 4);
+  builder.Line({ 0, 0, 40 }, { 0, 0, 0 }, 3);
+  builder.Line({ 0, 0, 100 }, from, 1.5);
+  builder.Line(to, { 60, 0, 100 }, 1.5 * likeness);
+  builder.Line({ 0, 0, 40 }, { 60, 0, 100 }, 1.5);
+  builder.Line({ 60, 0, 100 }, { 80, 0, 120 }, 1.5);
+  return builder.Graph();
+}
+
+TEST(RootHierarchy, ATornRootIsOneAgain)
+{
+  SkeletonGraph graph = TornRoot({ 30, 0, 100 }, { 34, 1, 100 }, 0.9);
+  EXPECT_EQ(Levels(FindRoots(graph)), (std::vector<std::int32_t>{ 0, 1, 1, 2 })) << "its end springs from the other";
+  const auto gaps = JoinTornRoots(graph);
+  ASSERT_EQ(gaps.size(), 1U);
+  EXPECT_DOUBLE_EQ(gaps[0], std::sqrt(17.0));
+  const RootHierarchy roots = FindRoots(graph);
+  EXPECT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 1 }));
+  EXPECT_EQ(roots.meetings.size(), 1U) << "where it touches the other";
+  EXPECT_TRUE(JoinTornRoots(graph).empty()) << "once is enough";
+}
+
+TEST(RootHierarchy, TipsThatDoNotFaceEachOtherNearAndAlikeStayApart)
+{
+  RootRules none;
+  none.tornGap = 0;
+  const auto joins = [](SkeletonGraph graph, const RootRules & rules) { return JoinTornRoots(graph, rules).size(); };
+  EXPECT_EQ(joins(TornRoot({ 30, 0, 100 }, { 34, 0, 100 }, 1), {}), 1U);
+  EXPECT_EQ(joins(TornRoot({ 30, 0, 100 }, { 34, 0, 100 }, 1), none), 0U);
+  EXPECT_EQ(joins(TornRoot({ 30, 0, 100 }, { 37, 0, 100 }, 1), {}), 0U) << "more than twice the sum of radii";
+  EXPECT_EQ(joins(TornRoot({ 30, 0, 100 }, { 32, 4, 100 }, 1), {}), 0U) << "beside it";
+  EXPECT_EQ(joins(TornRoot({ 30, 0, 100 }, { 27, 0, 100 }, 1), {}), 0U) << "past it";
+  EXPECT_EQ(joins(TornRoot({ 30, 0, 100 }, { 33, 0, 100 }, 0.4), {}), 0U) << "much thinner";
+  EXPECT_EQ(joins(SmallRoot().Graph(), {}), 0U);
+}
+
+TEST(RootHierarchy, AStretchWhoseCrossSectionIsSharedOutIsAsThickAsItsBalls)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 60 }, { 0, 0, 40 }, 3);
+  builder.Line({ 0, 0, 40 }, { 0, 0, 36 }, 3);
+  builder.Line({ 0, 0, 36 }, { 0, 0, 0 }, 3);
+  builder.Line({ 0, 0, 40 }, { 8, 0, 8 }, 1.5);
+  builder.Line({ 0, 0, 36 }, { -8, 0, 4 }, 1.5);
+  SkeletonGraph graph = builder.Graph();
+  graph.sectionRadius = graph.radius;
+  for (std::size_t point = 0; point < graph.positions.size(); ++point)
+  {
+    const Spacing3 & at = graph.positions[point];
+    graph.sectionRadius[point] = at[0] == 0 && at[2] > 36.5 && at[2] < 39.5 ? 0.3 : graph.radius[point];
+  }
+  const RootHierarchy roots = FindRoots(graph);
+  EXPECT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 1 }));
+  EXPECT_EQ(TipOf(graph, roots.axes[0]), (Spacing3{ 0, 0, 0 }));
+}
 
 TEST(RootHierarchy, ATreeHasItsStemLateralsAndTheirs)
 {

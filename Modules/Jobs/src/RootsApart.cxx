@@ -157,6 +157,7 @@ TellRootsApart(LabelShape &             mask,
     return std::nullopt;
   }
   SkeletonGraph graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
+  auto          torn = JoinTornRoots(graph, rules);
   RootHierarchy roots = FindRoots(graph, rules);
   if (numbers.betti[0] == 1)
   {
@@ -246,6 +247,7 @@ TellRootsApart(LabelShape &             mask,
   std::ranges::stable_sort(topology.parts, std::ranges::greater{}, &RootsChange::cost);
   topology.graph = std::move(graph);
   topology.roots = std::move(roots);
+  topology.torn = std::move(torn);
   mask.shape = std::move(simplified.shape);
   mask.voxels = mask.shape.CountVoxels();
   return topology;

@@ -32,13 +32,14 @@ namespace
 constexpr std::array<const char *, 6> kDirections{ "x+", "x-", "y+", "y-", "z+", "z-" };
 
 /** What is written besides pictures. */
-constexpr std::array<const char *, 14> kFiles{ "annotations.csv", "annotations.mrk.json",
+constexpr std::array<const char *, 16> kFiles{ "annotations.csv", "annotations.mrk.json",
                                                "mask.nrrd",       "medial.vtp",
                                                "skeleton.vtp",    "roots.rsml",
                                                "roots.csv",       "levels.csv",
                                                "plant.csv",       "profile.csv",
                                                "columns.json",    "changes.txt",
-                                               "report.json",     "page.html" };
+                                               "report.json",     "page.html",
+                                               "roots.swc",       "roots.graphml" };
 
 CoreOptions
 CoreOptionsOf(const RootsOptions & options)
@@ -355,15 +356,18 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   SkeletonModel skeleton = ReadSkeletonVtp(StagedName(transaction, core.skeletonOutput));
   result.model.name = ScanName(options.scan);
   result.model.unit = result.report.input.geometry.unit;
+  std::vector<double> torn;
   if (result.topology && result.topology->before.betti[0] == 1)
   {
     // Two roots that cross cannot both be whole in a tree of voxels: they are followed where they still touched.
     result.model.graph = result.topology->graph;
     result.model.roots = result.topology->roots;
+    torn = result.topology->torn;
   }
   else
   {
     result.model.graph = std::move(skeleton.parts.at(0).graph);
+    torn = JoinTornRoots(result.model.graph, options.rules);
     result.model.roots = editing(result.model.graph, FindRoots(result.model.graph, options.rules));
     if (result.topology)
     {
@@ -371,6 +375,13 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
     }
   }
   result.model.traits = MeasureRoots(result.model.graph, result.model.roots, options.soilDepth);
+  if (!torn.empty())
+  {
+    const LengthUnit unit = LengthUnit::For(result.model.traits.depth, result.model.unit);
+    result.notes.push_back(Counted(torn.size(), "gap", "gaps") + " of up to " + unit.Text(std::ranges::max(torn)) +
+                           " " + unit.Name() +
+                           " bridged, where two ends of a torn root face each other; the mask has them still");
+  }
   if (!editing.edits.empty())
   {
     result.notes.push_back(Counted(editing.edits.size(), "root", "roots") + " edited or named as " +
@@ -384,6 +395,8 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   WriteRsml(transaction.Stage(options.Place("roots.rsml")),
             result.model,
             { ModificationTime(options.scan), "VoxelCore " + VoxelCoreVersion(), result.report.input.sha256 });
+  WriteRootSwc(transaction.Stage(options.Place("roots.swc")), result.model);
+  WriteRootGraphMl(transaction.Stage(options.Place("roots.graphml")), result.model);
   WriteRootCsv(transaction.Stage(options.Place("roots.csv")), result.model);
   WriteRootLevelCsv(transaction.Stage(options.Place("levels.csv")), result.model);
   WritePlantCsv(transaction.Stage(options.Place("plant.csv")), result.model, volume);

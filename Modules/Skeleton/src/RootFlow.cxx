@@ -81,7 +81,8 @@ RootBranches::RootBranches(const SkeletonGraph & graph)
         outside = outside && (!IsJunction(HubOf({ branch, last })) ||
                               Distance(graph.positions[point], graph.positions[end]) > 1.2 * balls[last]);
       }
-      sums[outside] += radii[point];
+      // Of a short stretch between laterals the cross-section may be shared out wrongly; the ball lies within it.
+      sums[outside] += std::max(radii[point], graph.radius[point]);
       ++counts[outside];
     }
     const int which = counts[1] > 0 ? 1 : 0;

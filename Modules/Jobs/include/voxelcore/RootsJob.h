@@ -70,6 +70,7 @@ struct RootsTopology
   std::optional<GreyLevels> levels;  ///< of a grey scan; nothing at or above the kernel's was cut
   SkeletonGraph             graph;   ///< of the mask before; loops where roots touch
   RootHierarchy             roots;   ///< in it, each going on through its contacts
+  std::vector<double>       torn;    ///< gaps in it that were bridged, mm
 };
 
 struct RootsResult
@@ -99,9 +100,9 @@ CleanForRoots(ShapeEditOptions & edits);
 /** Reads, proposes a threshold where grey values come without one (HalfwayThreshold), cleans, cuts roots apart where
  *  they touch so that pieces, loops and cavities are as few as can be or as asked for, computes a certified medial
  *  surface and skeleton, finds the roots, measures them. Writes into the folder: mask.nrrd, medial.vtp, skeleton.vtp,
- *  roots.rsml, roots.csv, levels.csv, plant.csv, profile.csv, columns.json, changes.txt (cuts and fills),
- *  annotations.csv and annotations.mrk.json (what is said of each root), report.json and page.html (the summary); with
- *  pictures roots.png and roots.html (3-D), too. Everything is written or nothing.
+ *  roots.rsml, roots.swc, roots.graphml, roots.csv, levels.csv, plant.csv, profile.csv, columns.json, changes.txt
+ *  (cuts and fills), annotations.csv and annotations.mrk.json (what is said of each root), report.json and page.html
+ *  (the summary); with pictures roots.png and roots.html (3-D), too. Everything is written or nothing.
  *  \throws UsageError, InputError, OutputError, CertificateError, Cancelled */
 RootsResult
 RunRootsJob(const RootsOptions & options, const JobContext & context = {});

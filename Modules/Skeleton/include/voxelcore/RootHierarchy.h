@@ -39,6 +39,7 @@ struct RootRules
   int                    stems = 1;          ///< 0: found
   double                 bridgeLength = 1.6; ///< longest bridge between roots that touch, in sums of their radii
   double                 sharedLength = 4;   ///< longest stretch that two roots share, in sums of their radii
+  double                 tornGap = 2;        ///< longest gap in a torn root, in sums of the radii at its ends; 0: none
   double                 undecided = 0.15;   ///< margin below which a contact is marked
   double                 whorlGap = 1;       ///< in radii of the stem
   int                    whorlSize = 3;
@@ -91,6 +92,13 @@ struct RootHierarchy
   std::vector<RootWhorl>    whorls; ///< from the base of each stem on
   std::vector<ElementIndex> rootOf; ///< per branch of the graph its axis; kNoRoot for a bridge between roots that touch
 };
+
+/** Joins what is torn: two tips that face each other, of which the thinner has at least half of the other's radius,
+ *  get a straight line between them where the gap is short enough (RootRules::tornGap) and neither way turns by more
+ *  than 60 degrees into it, nor by more than 45 from one into the other; always the nearest first. A thin root may be
+ *  lost for a voxel or two where slices are thick or noise is strong. Gives the gaps, in mm. */
+std::vector<double>
+JoinTornRoots(SkeletonGraph & graph, const RootRules & rules = {});
 
 /** The axes of a skeleton. The graph need not be a tree. */
 RootHierarchy
