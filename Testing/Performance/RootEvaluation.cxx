@@ -174,7 +174,7 @@ struct Kind
 constexpr Kind kKinds[]{ { "hollow", 0, 0.65, 0.08, 0.03 },
                          { "hollow, 5 contacts", 5, 0.65, 0.08, 0.03 },
                          { "hollow, 10 contacts", 10, 0.65, 0.08, 0.03 },
-                         { "solid, 5 contacts", 5, 0, 0, 0 },
+                         { "solid, 5 contacts", 5, 0, 0.02, 0 },
                          { "solid, noisy", 0, 0, 0.16, 0.06 } };
 
 void

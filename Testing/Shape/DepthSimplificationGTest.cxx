@@ -77,6 +77,39 @@ TEST(DepthSimplification, TwoBlocksAreJoinedAcrossAGapWithinTheDepthAndNotBeyond
             "and 0 cavities");
 }
 
+TEST(DepthSimplification, AVesselTreeLosesItsFalseBridgesAndKeepsBranchesAndTrueRing)
+{
+  // An upright vessel with three branches, a ring at its foot, and bridges a voxel thick from branch to branch.
+  const auto isBridge = [](int x, int y, int z) {
+    return y == 12 && ((x == 30 && z >= 16 && z <= 28) || (x == 2 && z >= 20 && z <= 40));
+  };
+  const auto isVessel = [](int x, int y, int z) {
+    const double aside = y - 12;
+    return (z >= 8 && std::hypot(x - 16, aside) <= 3.5) ||  // upright
+           (x >= 16 && std::hypot(aside, z - 14) <= 2.2) || // branches to the right
+           (x >= 16 && std::hypot(aside, z - 30 + (x - 16) * 0.1) <= 2.2) ||
+           (x <= 16 && std::hypot(aside, z - 20) <= 1.8) || // and to the left
+           (x <= 16 && std::hypot(aside, z - 40) <= 1.8) ||
+           std::hypot(std::hypot(x - 16, aside) - 7, z - 6) <= 2.2 ||       // the ring
+           (z >= 4 && z <= 8 && std::abs(aside) <= 2 && x >= 9 && x <= 16); // tied to the vessel
+  };
+  const auto shape =
+    ShapeWhere({ 34, 24, 46 }, [&](int x, int y, int z) { return isVessel(x, y, z) || isBridge(x, y, z); });
+  ASSERT_EQ(ComputeShapeTopology(shape).betti, (Betti{ 1, 3, 0 }));
+  const DepthSimplified result = SimplifyWithin(shape, Depth("3vox"), { 1, 1, 0 });
+  EXPECT_TRUE(result.simplified.asAsked);
+  EXPECT_EQ(result.simplified.voxelsAdded, 0U);
+  EXPECT_EQ(result.simplified.voxelsRemoved, 2U) << "a voxel of each bridge";
+  for (const TopologyChange & change : result.simplified.changes)
+  {
+    EXPECT_FALSE(change.isFill);
+    for (const auto & [x, y, z] : change.where)
+    {
+      EXPECT_TRUE(isBridge(x, y, z) && !isVessel(x, y, z)) << x << " " << y << " " << z;
+    }
+  }
+}
+
 TEST(DepthSimplification, ABridgeIsCutAndTheRingBesideItStays)
 {
   // A ring with a hole of 9 x 9 voxels and walls of 5, and a bridge one voxel thick across the hole.
