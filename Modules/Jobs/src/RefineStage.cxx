@@ -8,27 +8,14 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <vector>
 
 namespace voxelcore
 {
 
 namespace
 {
-
-/** As far around a shape as the estimate looks. */
-VoxelBox
-AroundShape(const VoxelBox & shape, const VoxelBox & scan)
-{
-  constexpr std::int32_t margin = 24; // two bricks of 8 around those within 7 voxels of the boundary
-  VoxelBox               box;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    box.lower[axis] = std::max(scan.lower[axis], shape.lower[axis] - margin);
-    box.size[axis] =
-      std::min(scan.lower[axis] + scan.size[axis], shape.lower[axis] + shape.size[axis] + margin) - box.lower[axis];
-  }
-  return box;
-}
 
 /** The grey values around labels. When a second label asks, all are read and kept, if they are not too many. */
 class GreyValues
@@ -40,8 +27,9 @@ public:
     , m_Whole(whole)
   {}
 
-  std::shared_ptr<const GreyVolume>
-  Around(const VoxelBox & box, const ProgressCallback & progress)
+  /** Gives the rows of a box, in order, and the geometry of the whole scan. */
+  ImageGeometry
+  Visit(const VoxelBox & box, const GreyRow & take, const ProgressCallback & progress)
   {
     constexpr double most = 512e6 / sizeof(float); // voxels
     double           voxels = 1;
@@ -53,22 +41,30 @@ public:
     if (m_Labels++ == 0 || voxels > most)
     {
       lock.unlock();
-      return std::make_shared<const GreyVolume>(ReadGreyVolume(m_Path, box, m_Options, progress));
+      return VisitGreyRows(m_Path, box, m_Options, take, progress);
     }
     if (!m_Values)
     {
-      m_Values = std::make_shared<const GreyVolume>(ReadGreyVolume(m_Path, m_Whole, m_Options, progress));
+      m_Values.emplace(ReadGreyVolume(m_Path, m_Whole, m_Options, progress));
     }
-    return m_Values;
+    lock.unlock();
+    for (std::int32_t z = box.lower[2]; z < box.lower[2] + box.size[2]; ++z)
+    {
+      for (std::int32_t y = box.lower[1]; y < box.lower[1] + box.size[1]; ++y)
+      {
+        take(y, z, { m_Values->Row(box.lower[0], y, z), static_cast<std::size_t>(box.size[0]) });
+      }
+    }
+    return m_Values->geometry;
   }
 
 private:
-  std::filesystem::path             m_Path;
-  ReadOptions                       m_Options;
-  VoxelBox                          m_Whole;
-  std::mutex                        m_Mutex;
-  std::size_t                       m_Labels = 0; ///< asked for so far
-  std::shared_ptr<const GreyVolume> m_Values;
+  std::filesystem::path     m_Path;
+  ReadOptions               m_Options;
+  VoxelBox                  m_Whole;
+  std::mutex                m_Mutex;
+  std::size_t               m_Labels = 0; ///< asked for so far
+  std::optional<GreyVolume> m_Values;
 };
 
 SurfaceSource
@@ -90,18 +86,15 @@ GreySource(const RefineOptions &         options,
   }
   const VoxelBox whole = PartRead(input);
   // Positive within the shape.
-  const auto within = [range](std::span<float> values) {
-    for (float & value : values)
-    {
-      value = static_cast<float>(std::min(value - range.first, range.second - value));
-    }
+  const auto within = [range](float value) {
+    return static_cast<float>(std::min(value - range.first, range.second - value));
   };
   if (!other && input.greyRows)
   {
     const auto rows = [take = input.greyRows,
                        within](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
       take(x, y, z, values);
-      within(values);
+      std::ranges::transform(values, values.begin(), within);
     };
     return [=, spacing = input.geometry.spacing](const VoxelShape & shape, const ProgressCallback & progress) {
       return std::shared_ptr<const SurfaceEstimate>(SurfaceFromGrey(shape, spacing, whole, rows, progress));
@@ -119,15 +112,16 @@ GreySource(const RefineOptions &         options,
   const auto          path = other ? options.grey : scan;
   const auto          greyValues = std::make_shared<GreyValues>(path, how, whole);
   return [=](const VoxelShape & shape, const ProgressCallback & progress) -> std::shared_ptr<const SurfaceEstimate> {
-    const std::shared_ptr<const GreyVolume> read = greyValues->Around(AroundShape(shape.Box(), whole), progress);
-    const GreyVolume &                      grey = *read;
-    RequireSamePlace(grey.geometry, geometry, "--grey", path);
-    const auto rows = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
-      const float * from = grey.Row(x, y, z);
-      std::copy(from, from + values.size(), values.begin());
-      within(values);
+    const VoxelBox box = GreyBoxAround(shape.Box(), whole);
+    const auto     visit = [&](const GreyRowTaker & take) {
+      std::vector<float> inside(static_cast<std::size_t>(box.size[0]));
+      const auto         takeRow = [&](std::int32_t y, std::int32_t z, std::span<const float> values) {
+        std::ranges::transform(values, inside.begin(), within);
+        take(y, z, inside);
+      };
+      RequireSamePlace(greyValues->Visit(box, takeRow, progress), geometry, "--grey", path);
     };
-    return SurfaceFromGrey(shape, geometry.spacing, whole, rows, progress);
+    return SurfaceFromGrey(shape, geometry.spacing, whole, GreyBoxRows{ box, visit }, progress);
   };
 }
 

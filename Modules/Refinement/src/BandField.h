@@ -48,7 +48,7 @@ public:
 
   /** Grey values; Far() becomes their mean magnitude. */
   void
-  FillGrey(const VoxelBox & scan, const GreyRows & rows);
+  FillGrey(const VoxelBox & scan, const GreyBoxRows & grey);
 
   /** K = (1 + w) G - w G G. With w = 1, in frequencies 1 - (sigma k)^4 / 4 + ..., bends of a linear field are
    *  flattened, and what is curved evenly keeps its place. Then 0 where the sign contradicts the label. With zones as

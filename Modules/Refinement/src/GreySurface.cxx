@@ -61,11 +61,25 @@ private:
 
 } // namespace
 
+VoxelBox
+GreyBoxAround(const VoxelBox & shape, const VoxelBox & scan)
+{
+  constexpr std::int32_t margin = 24;
+  VoxelBox               box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = std::max(scan.lower[axis], shape.lower[axis] - margin);
+    box.size[axis] =
+      std::min(scan.lower[axis] + scan.size[axis], shape.lower[axis] + shape.size[axis] + margin) - box.lower[axis];
+  }
+  return box;
+}
+
 std::unique_ptr<SurfaceEstimate>
 SurfaceFromGrey(const VoxelShape &       shape,
                 const Vector3 &          spacing,
                 const VoxelBox &         scan,
-                const GreyRows &         rows,
+                const GreyBoxRows &      grey,
                 const ProgressCallback & progress)
 {
   constexpr Vector3 sides{ 1, 1, 1 };
@@ -73,7 +87,7 @@ SurfaceFromGrey(const VoxelShape &       shape,
   constexpr double  close = 0.03;
   constexpr int     reach = 7;
   BandField         field(shape, BoundaryVertices(shape), sides, 1.5, reach);
-  field.FillGrey(scan, rows);
+  field.FillGrey(scan, grey);
   const auto smoothed = [&](BandField one, double sigma) {
     one.SetWidth(sigma);
     one.FindCoefficients(BandField::StepWeight(sigma));
@@ -84,6 +98,28 @@ SurfaceFromGrey(const VoxelShape &       shape,
   FieldSurface narrow = smoothed(field, 1.0);
   ReportProgress(progress, "surface", 0.6);
   return std::make_unique<GreySurface>(smoothed(std::move(field), 1.5), std::move(narrow), spacing);
+}
+
+std::unique_ptr<SurfaceEstimate>
+SurfaceFromGrey(const VoxelShape &       shape,
+                const Vector3 &          spacing,
+                const VoxelBox &         scan,
+                const GreyRows &         rows,
+                const ProgressCallback & progress)
+{
+  const VoxelBox box = GreyBoxAround(shape.Box(), scan);
+  const auto     visit = [&](const GreyRowTaker & take) {
+    std::vector<float> values(static_cast<std::size_t>(box.size[0]));
+    for (std::int32_t z = box.lower[2]; z < box.lower[2] + box.size[2]; ++z)
+    {
+      for (std::int32_t y = box.lower[1]; y < box.lower[1] + box.size[1]; ++y)
+      {
+        rows(box.lower[0], y, z, values);
+        take(y, z, values);
+      }
+    }
+  };
+  return SurfaceFromGrey(shape, spacing, scan, GreyBoxRows{ box, visit }, progress);
 }
 
 } // namespace voxelcore

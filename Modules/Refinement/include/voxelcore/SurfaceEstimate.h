@@ -61,6 +61,21 @@ public:
  *  within it, made such that the shape is where they are positive. Thread-safe. */
 using GreyRows = std::function<void(std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values)>;
 
+/** Takes values as GreyRows has them, of a row of a box. */
+using GreyRowTaker = std::function<void(std::int32_t y, std::int32_t z, std::span<const float> values)>;
+
+/** The same of a box, where they come from a file. */
+struct GreyBoxRows
+{
+  VoxelBox                                       box;   ///< within the scan
+  std::function<void(const GreyRowTaker & take)> visit; ///< gives each of its rows once; nothing of it is kept
+};
+
+/** As far around a shape's box, within the scan, as SurfaceFromGrey() asks for values: two bricks of 8 voxels around
+ *  those within 7 voxels of the boundary. */
+VoxelBox
+GreyBoxAround(const VoxelBox & shape, const VoxelBox & scan);
+
 /** From the labels alone: of all surfaces that part the centres of the voxels that are in from those that are out, one
  *  that bends little. `spacing` in mm. Memory follows the boundary. The shape must outlive the call, not the result.
  *  \throws Cancelled when the callback says so. */
@@ -69,8 +84,15 @@ SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const Progr
 
 /** From grey values: where they are 0 after smoothing that keeps curvature, little where more would move a wall of a
  *  thin part or round an edge. `scan` is the box that has values; beyond it
- *  they are mirrored with their sign turned, as the scan's border is the shape's.
+ *  they are mirrored with their sign turned, as the scan's border is the shape's. `grey` holds GreyBoxAround().
  *  \throws Cancelled when the callback says so. */
+std::unique_ptr<SurfaceEstimate>
+SurfaceFromGrey(const VoxelShape &       shape,
+                const Vector3 &          spacing,
+                const VoxelBox &         scan,
+                const GreyBoxRows &      grey,
+                const ProgressCallback & progress = {});
+
 std::unique_ptr<SurfaceEstimate>
 SurfaceFromGrey(const VoxelShape &       shape,
                 const Vector3 &          spacing,
