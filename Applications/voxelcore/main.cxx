@@ -1,6 +1,7 @@
 // The program voxelcore: parses, calls Options and its jobs, prints.
 
 #include "Commands.h"
+#include "MainStack.h"
 #include "Signals.h"
 #include "voxelcore/Admission.h"
 #include "voxelcore/Error.h"
@@ -124,6 +125,7 @@ GoesOn(int argc, char ** argv)
 int
 main(int argc, char ** argv)
 {
+  ReserveMainStack();
   static TemporaryRegistry temporaries; // a signal may come during exit, too
   const Console            console;
   const char * const       whatIsLeft =

@@ -4,7 +4,9 @@
 #include "Program.h"
 #include "Scans.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <unistd.h>
@@ -356,6 +358,28 @@ TEST_F(BadOutput, DiskFull)
   const Unmount unmount{ disk };
   ExpectUnwritable(disk / "out.vtp", { "out.vtp" });
   EXPECT_TRUE(std::filesystem::is_empty(disk));
+}
+
+// A stack that has to grow when memory is used up ends the program without a word.
+TEST_F(BadOutput, TheStackHasItsRoomBeforeMemoryIsUsedUp)
+{
+  std::size_t most = 0;
+  EXPECT_EQ(RunProgram({ "phantom", "noise", "--size", "64", "-o", m_Folder / "noise.nrrd" },
+                       {},
+                       [&most](pid_t process, const std::string &) {
+                         std::ifstream status("/proc/" + std::to_string(process) + "/status");
+                         for (std::string word; status >> word;)
+                         {
+                           std::size_t kilobytes = 0;
+                           if (word == "VmStk:" && status >> kilobytes)
+                           {
+                             most = std::max(most, kilobytes);
+                           }
+                         }
+                       })
+              .code,
+            0);
+  EXPECT_GE(most, 1024U);
 }
 
 TEST_F(BadOutput, NotEnoughMemory)
