@@ -5,10 +5,12 @@
 #include "Program.h"
 #include "Scans.h"
 
+#include <algorithm>
 #include <csignal>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 namespace voxelcore::testing
@@ -18,6 +20,21 @@ namespace
 
 using Json = nlohmann::json;
 using ::testing::HasSubstr;
+
+/** A field of a row of CSV without quoted fields before it. */
+std::string
+Field(const std::string & head, const std::string & line, const std::string & name)
+{
+  const auto         before = ("," + head).substr(0, ("," + head + ",").find("," + name + ",") + 1);
+  auto               skip = std::count(before.begin(), before.end(), ',') - 1;
+  std::istringstream fields(line);
+  std::string        field;
+  for (std::getline(fields, field, ','); skip > 0; --skip)
+  {
+    std::getline(fields, field, ',');
+  }
+  return field;
+}
 
 class BatchCommand : public ::testing::Test
 {
@@ -102,29 +119,84 @@ TEST_F(BatchCommand, ASeasonOfRootsIsComparedByTraitsAndTheOddPlantIsMarked)
   std::istringstream lines(ReadAll(m_Folder / "out/labels.csv"));
   std::string        head;
   std::getline(lines, head);
-  const auto column = [&](const std::string & line, const std::string & name) {
-    const auto         before = head.substr(0, head.find("," + name + ",") + 1);
-    auto               skip = std::count(before.begin(), before.end(), ',');
-    std::istringstream fields(line);
-    std::string        field;
-    for (std::getline(fields, field, ','); skip > 0; --skip)
-    {
-      std::getline(fields, field, ',');
-    }
-    return field;
-  };
   int number = 0;
   for (std::string line; std::getline(lines, line);)
   {
     ++number;
-    EXPECT_NEAR(std::stod(column(line, "plant_total_length_mm")),
+    EXPECT_NEAR(std::stod(Field(head, line, "plant_total_length_mm")),
                 plant(number).at("plant").at("total_length_mm").get<double>(),
                 1e-6);
-    EXPECT_EQ(column(line, "outliers").find("plant_total_length_mm+") != std::string::npos, number == 6) << number;
+    EXPECT_EQ(Field(head, line, "outliers").find("plant_total_length_mm+") != std::string::npos, number == 6) << number;
   }
   EXPECT_EQ(number, 6);
   EXPECT_THAT(ReadAll(m_Folder / "out/index.html"), HasSubstr("stem diameter mm"));
   EXPECT_THAT(Batch({ "--roots", "--up", "z+", m_Folder / "season/m.csv" }).output, HasSubstr("6 of them before"));
+}
+
+TEST_F(BatchCommand, ThicknessOfManyScansHasTheNumbersOfEachAndTheOddOneIsMarked)
+{
+  std::filesystem::create_directory(m_Folder / "bones");
+  for (int bone = 1; bone <= 6; ++bone)
+  {
+    RunProgram({ "phantom",
+                 "porous",
+                 "--size",
+                 "24",
+                 "--density",
+                 "0.4",
+                 "--period",
+                 bone == 6 ? "12" : "6",
+                 "--seed",
+                 std::to_string(bone),
+                 "-o",
+                 m_Folder / ("bones/b" + std::to_string(bone) + ".nrrd"),
+                 "-q" });
+  }
+  const std::vector<std::string> command{ "--thickness", "--separation", "box", m_Folder / "bones" };
+  const ProgramResult            result = Batch(command);
+  EXPECT_EQ(result.code, 0) << result.error;
+  for (const char * file :
+       { "thickness.nrrd", "thickness_separation.nrrd", "thickness.csv", "thickness_histogram.csv" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(m_Folder / ("out/sub-b6/sub-b6_" + std::string(file)))) << file;
+  }
+  EXPECT_FALSE(std::filesystem::exists(m_Folder / "out/sub-b6/sub-b6_medial.vtp"));
+  std::istringstream lines(ReadAll(m_Folder / "out/labels.csv"));
+  std::string        head;
+  std::getline(lines, head);
+  int rows = 0;
+  for (std::string line; std::getline(lines, line); ++rows)
+  {
+    const std::string folder = Field(head, line, "folder");
+    const bool        isSeparation = Field(head, line, "name") == "separation";
+    const Json        numbers = Json::parse(ReadAll(m_Folder / ("out/" + folder + "/" + folder + "_report.json")))
+                           .at("thickness")
+                           .at(isSeparation ? 1 : 0);
+    EXPECT_NEAR(std::stod(Field(head, line, "thickness_mean_mm")), numbers.at("mean_mm").get<double>(), 1e-6);
+    std::istringstream counts(Field(head, line, "thickness_histogram"));
+    std::uint64_t      sum = 0;
+    for (std::uint64_t count = 0; counts >> count;)
+    {
+      sum += count;
+    }
+    EXPECT_EQ(sum, numbers.at("voxels").get<std::uint64_t>());
+    if (!isSeparation)
+    {
+      EXPECT_EQ(Field(head, line, "outliers").find("thickness_mean_mm+") != std::string::npos, folder == "sub-b6");
+    }
+  }
+  EXPECT_EQ(rows, 12);
+  EXPECT_THAT(ReadAll(m_Folder / "out/index.html"), HasSubstr("mean thickness mm"));
+  EXPECT_THAT(Batch(command).output, HasSubstr("6 of them before"));
+}
+
+TEST_F(BatchCommand, OptionsOfACommandThatIsNotRunAreRefused)
+{
+  WriteTinyScans(m_Folder.Path(), 1);
+  ExpectRefusal(Batch({ "--border", "drop", m_Folder.Path() }), 2, { "'voxelcore thickness'", "--thickness" });
+  ExpectRefusal(Batch({ "--thickness", "--lambda", "1vox", m_Folder.Path() }), 2, { "--lambda", "no option" });
+  ExpectRefusal(Batch({ "--thickness", "--roots", m_Folder.Path() }), 2, { "--roots", "--thickness" });
+  ExpectRefusal(Batch({ "--thickness", "--no-skeleton", m_Folder.Path() }), 2, { "--no-skeleton", "--thickness" });
 }
 
 TEST_F(BatchCommand, OnlyWhatIsNotDoneIsDone)

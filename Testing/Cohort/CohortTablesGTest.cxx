@@ -1,6 +1,7 @@
 #include "CaseTable.h"
 #include "CohortPage.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string_view>
@@ -93,13 +94,36 @@ TEST(CohortTables, ThePageShowsLengthsInOneUnitThatSuitsItsLargestBody)
   EXPECT_NEAR(values[1].get<double>(), 3, 1e-9);
   EXPECT_NEAR(values[2].get<double>(), 0.5, 1e-9);
   EXPECT_EQ(values[4], 7);
-  EXPECT_TRUE(values[9].is_null());
+  EXPECT_EQ(data["columns"].size(), 6U);
   EXPECT_NEAR(data["cases"][0]["labels"][1]["values"][0].get<double>(), 1e-3, 1e-9);
   // Of bodies that one would measure in mm nothing changes.
   data = PageData(Volumes({ 1234.5, 8e-9 }));
   EXPECT_EQ(data["columns"][0], "volume mm³");
   EXPECT_EQ(data["cases"][0]["labels"][0]["values"][0], 1234.5);
   EXPECT_EQ(data["cases"][0]["labels"][1]["values"][0], 8e-9);
+}
+
+TEST(CohortTables, HistogramsOfThicknessGoWithTheirUnitAndColumnsThatNoCaseHasAreLeftOut)
+{
+  auto rows = Volumes({ 8e-9, 1e-9 });
+  rows[0]["thickness_mean_mm"] = 5e-4;
+  rows[0]["thickness_bin_width_mm"] = 2.5e-4;
+  rows[0]["thickness_histogram"] = "0 3 12";
+  rows[0]["certificate_passed"] = false;
+  const Row data = PageData(rows);
+  const Row columns = data["columns"];
+  EXPECT_EQ(std::count(columns.begin(), columns.end(), "mean thickness µm"), 1);
+  EXPECT_EQ(std::count(columns.begin(), columns.end(), "branches"), 0);
+  EXPECT_EQ(std::count(columns.begin(), columns.end(), "whorls"), 0);
+  const Row & first = data["cases"][0]["labels"][0];
+  EXPECT_EQ(first["histogram"]["unit"], "µm");
+  EXPECT_NEAR(first["histogram"]["width"].get<double>(), 0.25, 1e-12);
+  EXPECT_EQ(first["histogram"]["counts"], Row({ 0, 3, 12 }));
+  EXPECT_EQ(first["certificate"], false);
+  // Rows without a certificate, as that of the separation, are not said to have failed it.
+  const Row & second = data["cases"][0]["labels"][1];
+  EXPECT_TRUE(second["histogram"].is_null());
+  EXPECT_TRUE(second["certificate"].is_null());
 }
 
 TEST(CohortTables, NothingOfACaseIsMarkupOnThePage)

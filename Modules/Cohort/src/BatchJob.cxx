@@ -85,32 +85,43 @@ AvailableMemoryMb()
 bool
 DescribesACase(const Parameter & parameter)
 {
-  return BelongsTo(parameter, CommandId::Batch) &&
-         (BelongsTo(parameter, CommandId::Core) || BelongsTo(parameter, CommandId::Roots)) &&
-         parameter.kind != ParameterKind::Output && parameter.name != "force" && parameter.name != "progress" &&
+  return IsOptionOfCases(parameter) && parameter.name != "force" && parameter.name != "progress" &&
          parameter.name != "quiet" && parameter.name != "threads";
 }
 
-/** Whether the command that a batch runs takes this option. */
+std::string
+NameOf(CommandId command)
+{
+  const auto found = std::ranges::find(Commands(), command, &Command::id);
+  return std::string(found->name);
+}
+
+/** Whether the command that a batch runs takes this option. It may stand in the table once for each command. */
 bool
 IsTaken(std::string_view name, CommandId command)
 {
   return std::ranges::any_of(Parameters(), [&](const Parameter & parameter) {
-    return parameter.name == name && BelongsTo(parameter, CommandId::Batch) && BelongsTo(parameter, command);
+    return parameter.name == name && BelongsTo(parameter, command);
   });
 }
 
-/** \throws UsageError for options of the command that is not run */
+/** \throws UsageError for options of a command that is not run */
 void
-RequireTaken(const ParameterValues & values, bool roots, const std::string & where)
+RequireTaken(const ParameterValues & values, CommandId command, const std::string & where)
 {
   for (const auto & [name, value] : values)
   {
-    if (!IsTaken(name, roots ? CommandId::Roots : CommandId::Core) && name != "with-skeleton" && name != "also")
+    if (IsTaken(name, command) || name == "with-skeleton" || name == "also")
     {
-      throw UsageError(where + (roots ? "--" + name + " is no option of 'voxelcore roots', which --roots runs"
-                                      : "--" + name + " is an option of 'voxelcore roots'; give --roots, too"));
+      continue;
     }
+    if (command != CommandId::Core)
+    {
+      const std::string run = NameOf(command);
+      throw UsageError(where + "--" + name + " is no option of 'voxelcore " + run + "', which --" + run + " runs");
+    }
+    const std::string owner = NameOf(IsTaken(name, CommandId::Roots) ? CommandId::Roots : CommandId::Thickness);
+    throw UsageError(where + "--" + name + " is an option of 'voxelcore " + owner + "'; give --" + owner + ", too");
   }
 }
 
@@ -128,9 +139,9 @@ JobOf(const CohortCase & one, const BatchOptions & options)
   CaseJob job{ one, options.output / one.folder, {}, {} };
   auto    values = one.values;
   values.insert(options.values.begin(), options.values.end()); // those of the case stay
-  RequireTaken(values, options.roots, one.scan.string() + ": ");
+  RequireTaken(values, options.command, one.scan.string() + ": ");
   const std::string stem = (job.folder / one.folder).string();
-  if (options.roots)
+  if (options.command == CommandId::Roots)
   {
     job.arguments = { "voxelcore", "roots",          PlainPath(one.scan), "-o",         job.folder.string() + "/",
                       "--prefix",  one.folder + "_", "--force",           "--progress", "none" };
@@ -139,6 +150,22 @@ JobOf(const CohortCase & one, const BatchOptions & options)
     {
       job.arguments.push_back("--no-pictures");
     }
+  }
+  else if (options.command == CommandId::Thickness)
+  {
+    job.arguments = { "voxelcore",
+                      "thickness",
+                      PlainPath(one.scan),
+                      "-o",
+                      stem + "_thickness.nrrd",
+                      "--table",
+                      stem + "_thickness.csv",
+                      "--report",
+                      stem + "_report.json",
+                      "--force",
+                      "--progress",
+                      "none" };
+    job.options = "thickness\n";
   }
   else
   {
@@ -171,7 +198,7 @@ JobOf(const CohortCase & one, const BatchOptions & options)
   }
   if (options.pages)
   {
-    if (!options.roots)
+    if (options.command != CommandId::Roots)
     {
       job.arguments.push_back("--html=" + stem + "_view.html");
     }
@@ -257,12 +284,23 @@ BatchOptionsFrom(const ParameterValues & values)
       ? 0
       : NumberWithUnit("--timeout", timeout, std::array<Unit, 3>{ { { "s", 1 }, { "m", 60 }, { "h", 3600 } } });
   options.skeletons = !values.contains("no-skeleton");
-  options.roots = values.contains("roots");
-  if (options.roots && !options.skeletons)
+  for (const CommandId command : { CommandId::Roots, CommandId::Thickness })
   {
-    throw UsageError("--no-skeleton does not go with --roots");
+    if (!values.contains(NameOf(command)))
+    {
+      continue;
+    }
+    if (options.command != CommandId::Core)
+    {
+      throw UsageError("--roots does not go with --thickness");
+    }
+    if (!options.skeletons)
+    {
+      throw UsageError("--no-skeleton does not go with --" + NameOf(command));
+    }
+    options.command = command;
   }
-  RequireTaken(options.values, options.roots, "");
+  RequireTaken(options.values, options.command, "");
   options.pages = values.contains("html");
   if (options.pages)
   {

@@ -24,11 +24,11 @@ std::string
 CsvTable(const std::vector<Row> & rows);
 
 /** Marks what stands out in a cohort. Rows of one label (`label` and `name`) are compared in volume, area, greatest
- *  radius, length, mean radius and numbers of branches, tips and junctions, plants also in their traits. A value is an
- *  outlier when it lies more
- *  than 3.5 robust standard deviations (1.4826 times the median distance from the median; where that is 0, 1.2533 times
- *  the mean distance) from the median of at least five values (Iglewicz and Hoaglin 1993). Each row gets the key
- *  `outliers`: the names of these columns, each with + or -, separated by blanks. */
+ *  radius, length, mean radius and numbers of branches, tips and junctions, plants also in their traits, maps also in
+ *  their thickness. A value is an outlier when it lies more than 3.5 robust standard deviations (1.4826 times the
+ *  median distance from the median; where that is 0, 1.2533 times the mean distance) from the median of at least five
+ *  values (Iglewicz and Hoaglin 1993). Each row gets the key `outliers`: the names of these columns, each with + or -,
+ *  separated by blanks. */
 void
 FindOutliers(std::vector<Row> & rows);
 

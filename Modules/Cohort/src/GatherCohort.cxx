@@ -122,6 +122,36 @@ LabelRow(const std::string & folder, const CaseRecord & record, const Json & lab
   return row;
 }
 
+/** Adds the numbers of `voxelcore thickness` to the labels' rows, and a row for the separation.
+ *  \throws Json::exception, InputError when they are not as reports have them */
+void
+AddThickness(const std::string & folder, const CaseRecord & record, const Json & thickness, std::vector<Row> & labels)
+{
+  for (std::size_t i = 0; i < thickness.size(); ++i)
+  {
+    const Json & numbers = thickness.at(i);
+    if (numbers.at("of") == "separation")
+    {
+      Row row;
+      row["id"] = record.id;
+      row["folder"] = folder;
+      row["label"] = 0;
+      row["name"] = numbers.at("name");
+      labels.push_back(std::move(row));
+    }
+    if (i >= labels.size())
+    {
+      throw InputError("thickness of more labels than there are");
+    }
+    Row & row = labels[i]; // labels in their order, the separation last
+    Flatten(numbers,
+            "thickness",
+            { "thickness_label", "thickness_component", "thickness_name", "thickness_of", "thickness_histogram" },
+            row);
+    row["thickness_histogram"] = Joined(numbers.at("histogram"));
+  }
+}
+
 /** Adds what a report says to its case's row; returns a row a label. \throws Json::exception when it is damaged */
 std::vector<Row>
 TakeReport(const std::string & folder, const CaseRecord & record, const Json & report, Row & row)
@@ -143,8 +173,12 @@ TakeReport(const std::string & folder, const CaseRecord & record, const Json & r
     }
   }
   row["labels"] = labels.size();
+  if (report.contains("thickness"))
+  {
+    AddThickness(folder, record, report.at("thickness"), labels);
+  }
   row["parameters_labels"] = Joined(report.at("parameters").value("labels", Json::array()));
-  Flatten(report, "", { "labels", "parameters_labels", "parameters_change_voxels", "roots" }, row);
+  Flatten(report, "", { "labels", "parameters_labels", "parameters_change_voxels", "roots", "thickness" }, row);
   return labels;
 }
 
@@ -191,7 +225,8 @@ GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, 
   const CaseLock lock = WaitForTables(folder, context.progress);
   for (auto & [name, record] : FindRecords(folder, expected))
   {
-    Row row = CaseRow(name, record);
+    Row  row = CaseRow(name, record);
+    bool isDamaged = false;
     if (record.done)
     {
       try
@@ -202,10 +237,18 @@ GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, 
       }
       catch (const Json::exception &)
       {
-        record.done = false;
-        record.reason = "its report is missing or damaged; run the batch again";
-        row = CaseRow(name, record);
+        isDamaged = true;
       }
+      catch (const InputError &)
+      {
+        isDamaged = true;
+      }
+    }
+    if (isDamaged)
+    {
+      record.done = false;
+      record.reason = "its report is missing or damaged; run the batch again";
+      row = CaseRow(name, record);
     }
     if (!record.done)
     {

@@ -93,10 +93,7 @@ RoleOf(const std::string & head, const std::string & where)
   std::vector<std::string_view> names{ "id", "scan", "note" };
   for (const Parameter & parameter : Parameters())
   {
-    // What the batch has in common with `core` or `roots` describes a case.
-    if (BelongsTo(parameter, CommandId::Batch) &&
-        (BelongsTo(parameter, CommandId::Core) || BelongsTo(parameter, CommandId::Roots)) &&
-        parameter.kind != ParameterKind::Output && !IsOfTheBatch(parameter.name))
+    if (IsOptionOfCases(parameter) && !IsOfTheBatch(parameter.name))
     {
       if (parameter.name == name)
       {
@@ -216,6 +213,14 @@ CaseFrom(const CsvRow &                  row,
 }
 
 } // namespace
+
+bool
+IsOptionOfCases(const Parameter & parameter)
+{
+  return BelongsTo(parameter, CommandId::Batch) && parameter.kind != ParameterKind::Output &&
+         (BelongsTo(parameter, CommandId::Core) || BelongsTo(parameter, CommandId::Roots) ||
+          BelongsTo(parameter, CommandId::Thickness));
+}
 
 std::string
 CaseFolder(const std::string & id)

@@ -5,6 +5,7 @@
 #include "JobTools.h"
 #include "LabelReading.h"
 #include "ThicknessSteps.h"
+#include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/LengthUnit.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <omp.h>
 #include <utility>
 
 namespace voxelcore
@@ -143,9 +145,26 @@ private:
     m_Geometry = read.geometry;
     m_Surface = std::move(read.surface);
     m_Edited = std::move(read.edited);
+    if (m_Context.admit)
+    {
+      const CostPrediction core = PredictJob(CountBoundaries(m_Edited.labels), m_Options.core, omp_get_max_threads());
+      m_Context.admit(1e-6 * static_cast<double>(core.memoryBytes) + MapMb());
+    }
     m_Shown.AddScan(m_Edited.labels, m_Geometry);
     m_Result.warnings = std::move(read.warnings);
     m_Result.notes = m_Edited.notes;
+  }
+
+  /** Values at the voxels of all labels, which stay until they are written together. */
+  double
+  MapMb() const
+  {
+    std::uint64_t voxels = 0;
+    for (const EditedLabel & one : m_Edited.labels)
+    {
+      voxels += one.label.voxels;
+    }
+    return 1e-6 * static_cast<double>(sizeof(float) * voxels);
   }
 
   LabelOutcome

@@ -212,6 +212,9 @@ gets a folder sub-<id>/ per case, cases.csv, labels.csv, and index.html, which o
 With --roots each case is one of 'voxelcore roots': a season of plants. labels.csv then holds their traits
 (plant_...), and plants that stand out are marked.
 
+With --thickness each case is one of 'voxelcore thickness'. Its folder gets the map; labels.csv holds the numbers
+(thickness_...), and index.html shows them with a histogram.
+
 On a cluster, run 'batch manifest.csv -o OUT --case $SLURM_ARRAY_TASK_ID' for each case, then 'batch
 manifest.csv -o OUT --gather'. Applications/Snakemake does both.
 
@@ -219,7 +222,8 @@ Examples:
   voxelcore batch scans/ -o results --lambda 2vox
   voxelcore batch cohort.csv -o results --jobs 4 --memory 12GB --timeout 30m
   voxelcore batch 'scans/*.nii.gz' -o results --no-skeleton
-  voxelcore batch season.csv --roots --up z+ -o season/)";
+  voxelcore batch season.csv --roots --up z+ -o season/
+  voxelcore batch bones/ --thickness --separation hull -o thickness/)";
 
 constexpr std::array<Command, 14> kCommands{ {
   { CommandId::Core, "core", "Compute the medial surface of one, several or all labels of a scan", kCoreFooter },

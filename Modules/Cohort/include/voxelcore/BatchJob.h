@@ -19,8 +19,8 @@ struct BatchOptions
   std::vector<std::filesystem::path> inputs; ///< as FindCases takes them; may be empty for `gather`
   std::filesystem::path              output; ///< the folder; made when it is not there
   ParameterValues                    values; ///< options of the command for all cases; a case's own come first
+  CommandId                          command = CommandId::Core; ///< or Roots, or Thickness: what each case is
   bool                               skeletons = true;
-  bool                               roots = false;  ///< `voxelcore roots` instead; values are its options
   bool                               pages = false;  ///< a page per case that shows it in 3-D (`core --html`)
   bool                               force = false;  ///< what is done is done again
   int                                jobs = 1;       ///< cases side by side

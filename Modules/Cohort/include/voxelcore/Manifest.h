@@ -16,8 +16,12 @@ struct CohortCase
   std::string           id;     ///< as given, or made of the scan's name
   std::string           folder; ///< "sub-..." below the output folder, CaseFolder() of the id
   std::filesystem::path scan;
-  ParameterValues       values; ///< options of `voxelcore core` that hold for this case alone
+  ParameterValues       values; ///< options of its command that hold for this case alone
 };
+
+/** Whether a batch passes this option on to the command that a case is: `core`, `roots` or `thickness`. */
+bool
+IsOptionOfCases(const Parameter & parameter);
 
 /** The folder of a case: "sub-" and the id, which keeps its letters, digits, "-" and "_". An id with other characters,
  *  or more than 64, loses these ("/" becomes "_") and gets "x" and eight digits of its SHA-256, so that different ids
@@ -26,9 +30,9 @@ std::string
 CaseFolder(const std::string & id);
 
 /** A manifest: CSV (or .tsv) whose first row names the columns `id` (or `participant_id`), `scan`, and any option of
- *  `voxelcore core` without its dashes; `note` is passed over. An empty field means the option is not given; flags take
- *  yes/no, true/false or 1/0. Relative scans are looked for from the manifest's folder. Whether a scan exists, and
- *  whether a value has sense, shows when its case runs.
+ *  `voxelcore core`, `roots` or `thickness` without its dashes; `note` is passed over. An empty field means the option
+ *  is not given; flags take yes/no, true/false or 1/0. Relative scans are looked for from the manifest's folder.
+ *  Whether a scan exists, and whether a value has sense, shows when its case runs.
  *  \throws InputError naming file and line: a column missing, unknown or doubled, an id or scan empty or an id doubled,
  *  a row of another length, what ParseCsv refuses, no row at all. */
 std::vector<CohortCase>
