@@ -310,6 +310,55 @@ TEST(MedialSheets, ARodThatHardlyStandsOutOfASheetIsPartOfIt)
   EXPECT_EQ(twigs.pieceOfVertex, std::vector<std::uint32_t>(twigs.pieceOfVertex.size(), 0U));
 }
 
+TEST(MedialSheets, AHandleOfRodsThatHardlyStandsOutOfASheetIsPartOfItAndAHighOneIsNot)
+{
+  for (const int height : { 1, 6 })
+  {
+    Builder plate;
+    plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
+    plate.Rod({ 1, 3, 0 }, { 0, 0, 1 }, height);
+    plate.Rod({ 1, 3, static_cast<double>(height) }, { 1, 0, 0 }, 3);
+    plate.Rod({ 4, 3, 0 }, { 0, 0, 1 }, height);
+    const MedialSheets cut = CutIntoSheets(plate.Core(), 3);
+    // From a foot to the middle of the handle it is two and a half long, or seven and a half.
+    EXPECT_EQ(CountsOf(cut), height == 1 ? (Counts{ 1, 0, 0, 0 }) : (Counts{ 1, 0, 1, 2 }));
+    if (height == 1)
+    {
+      EXPECT_EQ(cut.pieceOfVertex, std::vector<std::uint32_t>(cut.pieceOfVertex.size(), 0U));
+    }
+  }
+}
+
+TEST(MedialSheets, AShortRodBetweenTwoSheetsMakesNoJunction)
+{
+  Builder plates;
+  plates.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
+  plates.Plate({ 0, 0, 2 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
+  plates.Rod({ 3, 3, 0 }, { 0, 0, 1 }, 2);
+  EXPECT_EQ(CountsOf(CutIntoSheets(plates.Core(), 3)), (Counts{ 2, 0, 0, 0 }));
+  EXPECT_EQ(CountsOf(CutIntoSheets(plates.Core(), 0.5)), (Counts{ 2, 0, 1, 2 }));
+}
+
+TEST(MedialSheets, APocketInASheetMakesNoSeam)
+{
+  // A plate, of which four squares are doubled by a lid that stands out by less than a sliver.
+  for (const double height : { 1.0, 9.0 })
+  {
+    Builder plate;
+    plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 8, { 0, 1, 0 }, 8);
+    const ElementIndex top = plate.At({ 4, 4, height });
+    const Vector3      ring[] = { { 3, 3, 0 }, { 4, 3, 0 }, { 5, 3, 0 }, { 5, 4, 0 },
+                                  { 5, 5, 0 }, { 4, 5, 0 }, { 3, 5, 0 }, { 3, 4, 0 } };
+    for (std::size_t i = 0; i < 8; ++i)
+    {
+      plate.Face({ plate.At(ring[i]), plate.At(ring[(i + 1) % 8]), top });
+    }
+    const MedialSheets cut = CutIntoSheets(plate.Core(), 3);
+    EXPECT_EQ(CountsOf(cut).seams, height < 3 ? 0U : 1U);
+    EXPECT_EQ(CountsOf(cut).sheets, height < 3 ? 1U : 2U);
+  }
+}
+
 TEST(MedialSheets, ShortRodsThatMeetAloneDoNotGoAltogether)
 {
   Builder y;
