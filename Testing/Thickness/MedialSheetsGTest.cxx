@@ -329,14 +329,24 @@ TEST(MedialSheets, AHandleOfRodsThatHardlyStandsOutOfASheetIsPartOfItAndAHighOne
   }
 }
 
-TEST(MedialSheets, AShortRodBetweenTwoSheetsMakesNoJunction)
+TEST(MedialSheets, ARodBetweenTwoSheetsIsOneWhereItIsLongerThanThickAndThanASliver)
 {
-  Builder plates;
-  plates.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
-  plates.Plate({ 0, 0, 2 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
-  plates.Rod({ 3, 3, 0 }, { 0, 0, 1 }, 2);
-  EXPECT_EQ(CountsOf(CutIntoSheets(plates.Core(), 3)), (Counts{ 2, 0, 0, 0 }));
-  EXPECT_EQ(CountsOf(CutIntoSheets(plates.Core(), 0.5)), (Counts{ 2, 0, 1, 2 }));
+  for (const double length : { 2.0, 3.5, 8.0 })
+  {
+    for (const double radius : { 0.5, 2.0 })
+    {
+      Builder plates;
+      plates.At({ 3, 3, 0 }, radius);
+      plates.At({ 3, 3, length / 2 }, radius);
+      plates.At({ 3, 3, length }, radius);
+      plates.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
+      plates.Plate({ 0, 0, length }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
+      plates.Rod({ 3, 3, 0 }, { 0, 0, length / 2 }, 2);
+      const bool isRod = length > 3 && length > 2 * radius;
+      EXPECT_EQ(CountsOf(CutIntoSheets(plates.Core(), 3)), isRod ? (Counts{ 2, 0, 1, 2 }) : (Counts{ 2, 0, 0, 0 }))
+        << length << " long, radius " << radius;
+    }
+  }
 }
 
 TEST(MedialSheets, APocketInASheetMakesNoSeam)

@@ -1,11 +1,10 @@
 #include "SeamChains.h"
 
+#include "ShortRods.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <queue>
 #include <set>
 #include <utility>
 
@@ -128,80 +127,6 @@ SeamChains::FindSeamEdges()
   });
 }
 
-void
-SeamChains::PassOverShortRods()
-{
-  std::map<ElementIndex, std::vector<ElementIndex>> around; // rods at a vertex
-  for (const auto & [edge, curve] : m_Edges)
-  {
-    if (curve.isRod)
-    {
-      around[m_Cells.edges[edge][0]].push_back(edge);
-      around[m_Cells.edges[edge][1]].push_back(edge);
-    }
-  }
-  using Entry = std::pair<double, ElementIndex>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  struct Reached
-  {
-    double       way = 0; // less the radius at the foot
-    ElementIndex from = 0;
-  };
-  std::map<ElementIndex, Reached> ways;
-  std::vector<ElementIndex>       order;                      // as they are reached
-  UnionFind                       nets(m_Cells.edges.size()); // without what sheets part
-  for (const auto & [vertex, edges] : around)
-  {
-    if (HasFaces(vertex))
-    {
-      ways[vertex] = { -m_Core.radius[vertex], vertex };
-      queue.emplace(-m_Core.radius[vertex], vertex);
-      continue;
-    }
-    for (const ElementIndex edge : edges)
-    {
-      nets.Unite(edges.front(), edge);
-    }
-  }
-  std::map<std::uint32_t, double> standOut; // of nets that hang on sheets
-  while (!queue.empty())
-  {
-    const auto [way, vertex] = queue.top();
-    queue.pop();
-    if (way > ways.at(vertex).way)
-    {
-      continue;
-    }
-    order.push_back(vertex);
-    for (const ElementIndex edge : around.at(vertex))
-    {
-      double & height = standOut.try_emplace(nets.Find(edge), 0).first->second;
-      height = std::max(height, way + m_Core.radius[vertex]);
-      const auto &       ends = m_Cells.edges[edge];
-      const ElementIndex next = ends[0] ^ ends[1] ^ vertex;
-      const double       further = way + m_Pieces.EdgeLength(edge);
-      const auto [place, isNew] = ways.try_emplace(next, Reached{ further, vertex });
-      if (isNew || further < place->second.way)
-      {
-        place->second = { further, vertex };
-        queue.emplace(further, next);
-      }
-    }
-  }
-  const auto isShort = [&](ElementIndex edge) {
-    const auto net = standOut.find(nets.Find(edge));
-    return net != standOut.end() && net->second < m_Sliver;
-  };
-  // The farthest first, as spurs go.
-  std::for_each(order.rbegin(), order.rend(), [&](ElementIndex vertex) {
-    if (!HasFaces(vertex) && isShort(around.at(vertex).front()))
-    {
-      m_Spurs.push_back({ ways.at(vertex).from, vertex });
-    }
-  });
-  std::erase_if(m_Edges, [&](const auto & one) { return one.second.isRod && isShort(one.first); });
-}
-
 bool
 SeamChains::HasFaces(ElementIndex vertex) const
 {
@@ -227,7 +152,7 @@ SeamChains::IsSpur(const CurveRecord & rod)
                             Distance(m_Core.positions[ends[foot]], m_Core.positions[vertex]) + m_Core.radius[vertex] -
                               m_Core.radius[ends[foot]]);
       }
-      if (standOut >= m_Sliver)
+      if (standOut >= std::max(m_Sliver, rod.thickness))
       {
         return false;
       }
@@ -254,7 +179,12 @@ SeamChains::Find()
       m_Edges[edge].isRod = true;
     }
   }
-  PassOverShortRods();
+  ShortRods rods(m_Core, m_Pieces, m_SheetOfFace, m_Sliver);
+  for (const ElementIndex edge : rods.Edges())
+  {
+    m_Edges.erase(edge);
+  }
+  m_Spurs = rods.Steps();
   for (bool changed = true; changed;)
   {
     changed = false;

@@ -62,9 +62,6 @@ private:
   FindSeamEdges();
   bool
   HasFaces(ElementIndex vertex) const;
-  /** Rods that hang together and on sheets, and that nowhere stand out of these. */
-  void
-  PassOverShortRods();
   /** Whether a rod that hangs on a sheet, or on other rods, by one end hardly stands out. */
   bool
   IsSpur(const CurveRecord & rod);

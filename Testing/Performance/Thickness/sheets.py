@@ -95,7 +95,7 @@ with tempfile.TemporaryDirectory() as folder:
     for kind, known in KNOWN.items():
         random = np.random.default_rng([SEED, len(kind)])
         cells = []
-        for scale, noise, more in ((1, 0, []), (2, 0, []), (1, 0.5, ["--mend-shape", "--smooth-shape"])):
+        for scale, noise, more in ((1, 0, []), (2, 0, []), (1, 0.5, ["--denoise"])):
             found = collections.Counter()
             for _ in range(TURNS if scale == 1 else max(1, TURNS // 4)):
                 side = 64 * scale
