@@ -16,8 +16,8 @@
 // along it are one, in which all sheets about it meet. Seams of the same sheets that touch are one.
 // What lies between seams, is a sliver, and has one sheet about it, is a pocket in that sheet and makes no seam.
 // A rod is longer than it is thick: rods that hang together and on sheets, and nowhere stand out of these by `sliver`,
-// nor by their own thickness, are part of them; so is a rod that hangs on rods, ends freely and stands out by less. What
-// leads from one sheet to another stands out by its whole length.
+// nor by their own thickness, are part of them; so is a rod that hangs on rods, ends freely and stands out by less.
+// What leads from one sheet to another stands out by its whole length.
 // A seam shorter than `sliver` that ends on the way or in a junction is drawn together into one junction.
 
 #include "voxelcore/CoreThickness.h"
