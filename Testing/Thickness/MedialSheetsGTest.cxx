@@ -349,6 +349,30 @@ TEST(MedialSheets, ARodBetweenTwoSheetsIsOneWhereItIsLongerThanThickAndThanASliv
   }
 }
 
+TEST(MedialSheets, ASmallFlakeThatHangsByARodOrAPointIsPartOfItsSheet)
+{
+  for (const int size : { 1, 7 })
+  {
+    for (const double gap : { 0.0, 0.5 })
+    {
+      Builder plates;
+      plates.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 9, { 0, 1, 0 }, 9);
+      plates.Plate({ 9 + gap, 9, 0 }, { 1, 0, 0 }, size, { 0, 1, 0 }, size);
+      if (gap > 0)
+      {
+        plates.Rod({ 9, 9, 0 }, { gap, 0, 0 }, 1);
+      }
+      const MedialSheets cut = CutIntoSheets(plates.Core(), 3);
+      EXPECT_EQ(CountsOf(cut), (Counts{ size == 1 ? 1U : 2U, 0, 0, 0 })) << size << " wide, " << gap << " off";
+    }
+  }
+  // Alone it stays.
+  Builder alone;
+  alone.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 9, { 0, 1, 0 }, 9);
+  alone.Plate({ 20, 0, 0 }, { 1, 0, 0 }, 1, { 0, 1, 0 }, 1);
+  EXPECT_EQ(CountsOf(CutIntoSheets(alone.Core(), 3)), (Counts{ 2, 0, 0, 0 }));
+}
+
 TEST(MedialSheets, APocketInASheetMakesNoSeam)
 {
   // A plate, of which four squares are doubled by a lid that stands out by less than a sliver.

@@ -1,5 +1,6 @@
 #include "voxelcore/MedialSheets.h"
 
+#include "LooseFlakes.h"
 #include "SeamChains.h"
 #include "SheetPieces.h"
 
@@ -121,7 +122,8 @@ private:
   void
   NumberSheets()
   {
-    std::vector<std::uint32_t>      pieces = m_Pieces.PieceOfFaces();
+    std::vector<std::uint32_t> pieces = m_Pieces.PieceOfFaces();
+    JoinLooseFlakes(m_Core, m_Pieces, m_Sliver, pieces);
     std::map<std::uint32_t, double> areas;
     for (ElementIndex face = 0; face < pieces.size(); ++face)
     {

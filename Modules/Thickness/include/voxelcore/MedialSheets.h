@@ -15,6 +15,8 @@
 // that is nearer than `sliver` and the radius there. What lies between seams and is a sliver belongs to them: those
 // along it are one, in which all sheets about it meet. Seams of the same sheets that touch are one.
 // What lies between seams, is a sliver, and has one sheet about it, is a pocket in that sheet and makes no seam.
+// A piece that shares no edge with another and hangs on one by rods or a point is part of it where it stands out by
+// less than `sliver`, or than it is thick; the largest of all that hangs together stays.
 // A rod is longer than it is thick: rods that hang together and on sheets, and nowhere stand out of these by `sliver`,
 // nor by their own thickness, are part of them; so is a rod that hangs on rods, ends freely and stands out by less.
 // What leads from one sheet to another stands out by its whole length.
