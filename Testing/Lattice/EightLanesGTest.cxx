@@ -10,6 +10,7 @@
 #include <cstring>
 #include <iostream>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace voxelcore::testing
@@ -35,6 +36,17 @@ DistancesInLanes(const std::int32_t * x, const std::int32_t * y, std::int32_t * 
     const std::int32_t d = x[i] * x[i] + y[i] * y[i];
     out[i] = d > out[i] ? d : out[i];
   }
+}
+
+/** The eight after the next `shift` added to those at `to`, by pointers whose type is deduced. */
+VOXELCORE_EIGHT_LANES void
+AddEights(const float * from, std::size_t shift, float * to)
+{
+  const auto at = [](auto * place, std::size_t i) __attribute__((always_inline))
+  {
+    return EightAt(place + i);
+  };
+  at(to, 0)->lanes = at(from, shift)->lanes + at(to, 0)->lanes;
 }
 
 namespace
@@ -116,6 +128,26 @@ TEST(EightLanes, AProductIsRoundedBeforeItIsAdded)
   for (const float value : out)
   {
     EXPECT_EQ(std::bit_cast<std::uint32_t>(value), std::bit_cast<std::uint32_t>(expected));
+  }
+}
+
+TEST(EightLanes, EightFloatsAreReadAndWrittenWhereverAFloatMayLie)
+{
+  alignas(64) std::array<float, 40> from{};
+  std::iota(from.begin(), from.end(), 1.0F);
+  for (std::size_t shift = 0; shift < 17; ++shift)
+  {
+    for (std::size_t begin = 0; begin < 17; ++begin)
+    {
+      alignas(64) std::array<float, 40> to{};
+      to.fill(-2);
+      AddEights(from.data(), shift, to.data() + begin);
+      for (std::size_t i = 0; i < to.size(); ++i)
+      {
+        const bool added = i >= begin && i < begin + 8;
+        ASSERT_EQ(to[i], added ? from[i - begin + shift] - 2 : -2) << shift << ' ' << begin << ' ' << i;
+      }
+    }
   }
 }
 

@@ -33,15 +33,12 @@ Combine(float *              values,
   using Eight = EightFloats;
   using Flags = std::int32_t __attribute__((vector_size(32)));
   constexpr Flags single{ 1, 2, 4, 8, 16, 32, 64, 128 };
-  const auto      at = [](auto * from, std::size_t i) __attribute__((always_inline))
-  {
-    return reinterpret_cast<const Eight *>(from + i);
-  };
   constexpr Eight zero{};
   for (std::size_t row = 0, i = 0; i < kVoxels; ++row, i += kSide)
   {
-    const Eight smoothed = (1 + weight) * *at(once, i) - weight * *at(twice, i);
-    Eight       sum = parts == nullptr ? smoothed : *at(values, i) + *at(parts, i) * (smoothed - *at(values, i));
+    const Eight smoothed = (1 + weight) * EightAt(once + i)->lanes - weight * EightAt(twice + i)->lanes;
+    const Eight former = EightAt(values + i)->lanes;
+    Eight       sum = parts == nullptr ? smoothed : former + EightAt(parts + i)->lanes * (smoothed - former);
     if (in != nullptr)
     {
       const Flags isIn = (single & in[row]) != 0;
@@ -49,7 +46,7 @@ Combine(float *              values,
       sum = (isIn & (sum < zero)) ? zero : sum;
       sum = (isOut & (sum > zero)) ? zero : sum;
     }
-    *reinterpret_cast<Eight *>(values + i) = sum;
+    EightAt(values + i)->lanes = sum;
   }
 }
 

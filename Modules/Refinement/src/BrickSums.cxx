@@ -30,7 +30,7 @@ SumColumn(const std::array<const float *, 3> & from,
   for (std::size_t i = 0; i < kCube + 2 * Radius; ++i)
   {
     const std::size_t layer = i + kCube - Radius;
-    column[i] = *reinterpret_cast<const Eight *>(from[layer / kCube] + (layer % kCube) * along);
+    column[i] = EightAt(from[layer / kCube] + (layer % kCube) * along)->lanes;
   }
   for (std::size_t i = 0; i < kCube; ++i)
   {
@@ -39,7 +39,7 @@ SumColumn(const std::array<const float *, 3> & from,
     {
       sum += weights[k] * (column[i + Radius - k] + column[i + Radius + k]);
     }
-    *reinterpret_cast<Eight *>(to + i * apart) = sum;
+    EightAt(to + i * apart)->lanes = sum;
   }
 }
 
@@ -61,11 +61,11 @@ SumRowsOf(const std::array<const float *, 3> & from, const float * weights, floa
     Eight row[3];
     for (std::size_t part = 0; part < from.size(); ++part)
     {
-      row[part] = *reinterpret_cast<const Eight *>(from[part] + at);
+      row[part] = EightAt(from[part] + at)->lanes;
     }
     Eight sum = weights[0] * row[1];
     (AddBeside<Less + 1>(row, weights[Less + 1], sum, std::make_index_sequence<kCube>{}), ...);
-    *reinterpret_cast<Eight *>(to + at) = sum;
+    EightAt(to + at)->lanes = sum;
   }
 }
 

@@ -94,15 +94,11 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
   using Words = std::uint64_t __attribute__((vector_size(32)));
   const auto lowerAll = [](float * to, const auto & from, float square, const auto & has) __attribute__((always_inline))
   {
-    const auto part = [](const float * row, std::size_t i) __attribute__((always_inline))
-    {
-      return reinterpret_cast<const Eight *>(row) + i;
-    };
     constexpr std::size_t parts = Count / 8;
     Eight                 nearest[parts];
     for (std::size_t i = 0; i < parts; ++i)
     {
-      nearest[i] = *part(from(0), i);
+      nearest[i] = EightAt(from(0) + 8 * i)->lanes;
     }
     for (std::int32_t d = 1; d <= Margin; ++d)
     {
@@ -124,13 +120,15 @@ FindSquaredDistances(const Rows<Count, Margin> & rows, const std::array<float, 3
       const float * const after = from(d);
       for (std::size_t i = 0; i < parts; ++i)
       {
-        const Eight nearer = (*part(before, i) < *part(after, i) ? *part(before, i) : *part(after, i)) + more;
+        const Eight one = EightAt(before + 8 * i)->lanes;
+        const Eight other = EightAt(after + 8 * i)->lanes;
+        const Eight nearer = (one < other ? one : other) + more;
         nearest[i] = nearer < nearest[i] ? nearer : nearest[i];
       }
     }
     for (std::size_t i = 0; i < parts; ++i)
     {
-      *(reinterpret_cast<Eight *>(to) + i) = nearest[i];
+      EightAt(to + 8 * i)->lanes = nearest[i];
     }
   };
   // By x alone, of a layer; by x and y.

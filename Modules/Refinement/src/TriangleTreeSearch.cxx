@@ -113,12 +113,9 @@ struct TriangleTree::Search
   {
     const auto find = [&](std::size_t i, Eight & beyond) __attribute__((always_inline))
     {
-      const auto & plane = leaf.planes[i];
-      const auto   of = [&](std::size_t k) __attribute__((always_inline))
-      {
-        return reinterpret_cast<const Eight *>(plane[k].data());
-      };
-      beyond = *of(0) * at[0] + *of(1) * at[1] + (*of(2) * at[2] + *of(3));
+      const auto & [x, y, z, behind] = leaf.planes[i];
+      beyond = EightAt(x.data())->lanes * at[0] + EightAt(y.data())->lanes * at[1] +
+               (EightAt(z.data())->lanes * at[2] + EightAt(behind.data())->lanes);
     };
     Eight off;
     Eight beside{};
@@ -152,8 +149,8 @@ struct TriangleTree::Search
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const Eight zero{};
-      const Eight before = *reinterpret_cast<const Eight *>(boxes.lower[axis].data()) - at[axis];
-      const Eight behind = at[axis] - *reinterpret_cast<const Eight *>(boxes.upper[axis].data());
+      const Eight before = EightAt(boxes.lower[axis].data())->lanes - at[axis];
+      const Eight behind = at[axis] - EightAt(boxes.upper[axis].data())->lanes;
       Eight       gap = before > behind ? before : behind;
       gap = gap > zero ? gap : zero;
       squared += gap * gap;

@@ -13,8 +13,27 @@
 namespace voxelcore
 {
 
-/** Eight floats, which may lie wherever a float may. After the = of an alias clang drops aligned(). */
-using EightFloats __attribute__((vector_size(32), aligned(4), may_alias)) = float;
+using EightFloats = float __attribute__((vector_size(32)));
+
+/** Eight floats that may lie wherever a float may. A structure, as both compilers drop aligned() of an alias: clang after
+ *  the =, GCC where a type is deduced, such as what a lambda returns. */
+struct [[gnu::packed, gnu::may_alias]] EightAnywhere
+{
+  EightFloats lanes;
+};
+static_assert(alignof(EightAnywhere) == 1 && sizeof(EightAnywhere) == 8 * sizeof(float));
+
+/** The eight that begin there. */
+inline const EightAnywhere *
+EightAt(const float * from)
+{
+  return reinterpret_cast<const EightAnywhere *>(from);
+}
+inline EightAnywhere *
+EightAt(float * from)
+{
+  return reinterpret_cast<EightAnywhere *>(from);
+}
 
 } // namespace voxelcore
 
