@@ -7,8 +7,8 @@ usage: faults.py BUILD_DIR [--count 200] [--seed S] [--jobs 2] [--modules A,B..]
 A fault is a sign, a comparison, a constant, an index or a bound changed, or a check dropped, on one line of
 Modules/{Lattice,Complex,Delaunay,VoxelCore,Skeleton,Certified}. All faults of a run are built into one copy of the tree
 in BUILD_DIR, each behind a switch (switch.h); lines that do not compile so are left out. A first run of the default
-tests tells which tests come past which fault; then, for each fault, these tests run with it, the quick ones first,
-until one fails, crashes or takes ten times the processor time. With the same seed and sources the faults are the same.
+tests of the modules and of the program's recorded runs (Testing/Results) tells which come past which fault; then, for
+each fault, these run with it, the quick ones first, until one fails, crashes or takes ten times the processor time. With the same seed and sources the faults are the same.
 What is known to change no result stands in explained.txt: path, the line, what it became, and why. --again runs those
 that an earlier run left unnoticed, and keeps what it found of the others. Exit code 1: over 3 % went unnoticed and are
 not explained there; those explained are counted apart, not as noticed.
@@ -30,7 +30,7 @@ import threading
 SOURCE = os.path.realpath(f"{os.path.dirname(os.path.abspath(__file__))}/../..")
 SEEDED = ["Lattice", "Complex", "Delaunay", "VoxelCore", "Skeleton", "Certified"]
 TESTED = ["Lattice", "Shape", "Complex", "Delaunay", "Blocks", "VoxelCore", "Refinement", "Skeleton", "Thickness",
-          "Phantom", "Verification", "Certified"]
+          "Phantom", "Verification", "Certified", "Jobs"]
 LEFT_OUT = re.compile("heavy|sanitizer|browser|package|cluster|fuzz")
 
 # What becomes what, by kind; each is tried at each place of an expression where it fits.
@@ -185,6 +185,19 @@ def tests_of(folder):
     return tests
 
 
+def recorded_runs(tree, folder):
+    """As tests_of(): the program's runs whose every output is recorded, each with those whose outputs it reads."""
+    with open(f"{tree}/Testing/Results/runs.txt", encoding="utf-8") as file:
+        runs = dict(line.split(None, 1) for line in file if line.strip() and not line.startswith("#"))
+
+    def needed(name):
+        return {name}.union(*(needed(earlier) for earlier in re.findall(r"\{p\}/([\w-]+)/", runs[name])))
+
+    script = f"{tree}/Testing/Results/same_results.py"
+    return {f"run {name}": ([sys.executable, script, f"{folder}/bin/voxelcore", tree, "--only",
+                             ",".join(sorted(needed(name)))], {}, folder) for name in runs}
+
+
 def run(test, limits, **more):
     """(passed, processor seconds) of one test; over the limits of processor and other seconds it has not passed."""
     command, environment, folder = test
@@ -248,15 +261,15 @@ def main():
                                 if (fault.path, fault.text, fault.before, fault.after) in open_ones))
     subprocess.run(["cmake", "-S", tree, "-B", binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                     "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",
-                    "-DBUILD_TESTING=ON", "-DVOXELCORE_MODULES=" + ";".join(TESTED),
+                    "-DBUILD_TESTING=ON",
                     f"-DCMAKE_CXX_FLAGS=-include {tree}/Testing/Mutation/switch.h"], check=True,
                    stdout=subprocess.DEVNULL)
-    targets = [f"VoxelCore{module}Tests" for module in TESTED]
+    targets = [f"VoxelCore{module}Tests" for module in TESTED] + ["voxelcore"]
     build(tree, binary, faults, targets, options.jobs)
     chosen = dict(list(faults.items())[:options.count])
     print(f"{len(every)} places; {len(chosen)} faults built in", flush=True)
 
-    tests = tests_of(binary)
+    tests = {**tests_of(binary), **recorded_runs(tree, binary)}
     seconds, passing = {}, collections.defaultdict(list)
 
     def first(name):
