@@ -54,6 +54,16 @@ TEST(CertifiedCore, PruningLaterByToleranceGivesWhatAskingForItGives)
   EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseLambda("2vox") }), UsageError);
 }
 
+TEST(CertifiedCore, ACoreOfNothingIsPrunedToNothing)
+{
+  const CertifiedResult whole = ComputeCertified(Box(5, 4, 3), Grid({ 1, 1, 1 }), Lambdas({ "0" }));
+  EXPECT_THROW(PruneCertified(whole.cores[0], whole.shape, { ParseTolerance("1diag") }), UsageError)
+    << "it has no tolerances";
+  const auto pruned = PruneCertified(CertifiedCore(), CertifiedShape(), { ParseTolerance("1diag") });
+  ASSERT_EQ(pruned.size(), 1U);
+  EXPECT_EQ(pruned[0].core.core.cells.vertexCount, 0U);
+}
+
 TEST(CertifiedCore, ACoreWithOtherNumbersThanItsShapeIsRefused)
 {
   CertifiedResult result = ComputeCertified(Box(5, 4, 3), Grid({ 1, 1, 1 }), Lambdas({ "0" }));

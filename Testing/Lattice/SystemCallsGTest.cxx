@@ -8,7 +8,16 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
 #include <vector>
+
+#if defined(__linux__)
+#  include <pthread.h>
+#  include <sys/stat.h>
+#endif
 
 namespace voxelcore
 {
@@ -73,6 +82,34 @@ TEST(SystemCalls, WhatCannotBeOpenedOrReadSaysWhy)
   EXPECT_TRUE(!own.IsOpen() || own.Read(&one, 1) == -1);
   EXPECT_NE(errno, 0);
 }
+
+#if defined(__linux__)
+TEST(SystemCalls, ASignalDoesNotEndARead)
+{
+  const TemporaryFolder folder;
+  const auto            path = folder.Path() / "pipe";
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  struct sigaction heard = {};
+  struct sigaction before = {};
+  heard.sa_handler = [](int) {}; // and no SA_RESTART: a read that waits ends with EINTR
+  ASSERT_EQ(::sigaction(SIGUSR1, &heard, &before), 0);
+  const ::pthread_t         reader = ::pthread_self();
+  std::thread               writer([&] {
+    std::ofstream pipe(path, std::ios::binary);
+    for (int i = 0; i < 20; ++i)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      ::pthread_kill(reader, SIGUSR1);
+    }
+    pipe << "voxels";
+  });
+  SystemFile                file(path);
+  std::array<std::byte, 16> bytes{};
+  EXPECT_EQ(file.Read(bytes.data(), bytes.size()), 6);
+  writer.join();
+  ::sigaction(SIGUSR1, &before, nullptr);
+}
+#endif
 
 } // namespace
 } // namespace voxelcore

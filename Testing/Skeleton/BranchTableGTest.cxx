@@ -2,6 +2,9 @@
 
 #include "voxelcore/BranchTable.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace voxelcore::testing
 {
 
@@ -65,6 +68,41 @@ TEST(BranchTable, NumbersOfAStraightBranch)
   EXPECT_NEAR(branch.volume, 3.14159265358979 * 4 * 50, 1e-6);
   EXPECT_NEAR(branch.surface, 3.14159265358979 * 4 * 50, 1e-6);
   EXPECT_EQ(branch.type, BranchType::TipToTip);
+}
+
+TEST(BranchTable, WhatIsOutsideTheBallsAtBothEndsIsFree)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 0 }, { 20, 0, 0 }, 3);
+  for (const double x : { 0.0, 20.0 })
+  {
+    builder.Line({ x, 0, 0 }, { x, 12, 0 }, 1);
+    builder.Line({ x, 0, 0 }, { x, -12, 0 }, 1);
+  }
+  const BranchTable table = MeasureBranches(builder.Graph());
+  const auto        middle = std::find_if(table.branches.begin(), table.branches.end(), [](const auto & branch) {
+    return branch.type == BranchType::JunctionToJunction;
+  });
+  ASSERT_NE(middle, table.branches.end());
+  EXPECT_NEAR(middle->length, 20, 1e-12);
+  EXPECT_LE(middle->freeLength, 20 - 2 * 3 + 1e-12);
+  EXPECT_GE(middle->freeLength, 20 - 2 * 4 - 1e-12); // points are 1 mm apart
+}
+
+TEST(BranchTable, TheDirectionOfABranchWithinABallLeadsToItsTip)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 60 }, { 0, 0, 30 }, 3);
+  builder.Line({ 0, 0, 30 }, { 0, 0, 0 }, 3);
+  builder.Line({ 0, 0, 30 }, { 1, 0, 30 }, 1);
+  builder.Line({ 1, 0, 30 }, { 1, 0, 28 }, 1);
+  MeasureOptions options;
+  options.root.kind = RootChoice::Kind::Top;
+  const BranchTable table = MeasureBranches(builder.Graph(), options);
+  const auto        stub =
+    std::find_if(table.branches.begin(), table.branches.end(), [](const auto & branch) { return branch.length < 10; });
+  ASSERT_NE(stub, table.branches.end());
+  EXPECT_NEAR(stub->parentAngle, std::atan2(1.0, 2.0) * 180 / M_PI, 1e-6);
 }
 
 TEST(BranchTable, CyclesAreCutAtTheirThinnestBranch)

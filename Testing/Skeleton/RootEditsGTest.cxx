@@ -135,6 +135,26 @@ TEST_F(RootEdits, AtAJunctionAnotherBranchGoesOnAndTheFormerOneBecomesItsLateral
   EXPECT_EQ(edited.now[m_Small], whole) << "it is part of the other";
 }
 
+TEST_F(RootEdits, WhatWasLooseAndGoesOnFromARootIsLooseNoMore)
+{
+  GraphBuilder builder = SmallRoot();
+  builder.Line({ 15, 0, 42 }, { 15, 0, 58 }, 1); // above the middle of a lateral, whose rest then springs from it
+  const SkeletonGraph graph = builder.Graph();
+  const RootHierarchy roots = FindRoots(graph);
+  const auto          piece = std::ranges::find_if(roots.axes, [](const RootAxis & axis) { return axis.loose; });
+  ASSERT_NE(piece, roots.axes.end());
+  const RootEdit    edit{ static_cast<ElementIndex>(piece - roots.axes.begin()),
+                       Kind::Continues,
+                       RootTo(graph, roots, { 30, 0, 40 }) };
+  const EditedRoots edited = EditRoots(graph, roots, { &edit, 1 });
+  ExpectSound(graph, edited.roots);
+  EXPECT_EQ(edited.roots.axes.size(), roots.axes.size());
+  for (const RootAxis & axis : edited.roots.axes)
+  {
+    EXPECT_FALSE(axis.loose);
+  }
+}
+
 TEST_F(RootEdits, TheStemGoesOnElsewhereAndLateralsFollow)
 {
   const RootEdit    edit{ m_Side, Kind::Continues, 0 };

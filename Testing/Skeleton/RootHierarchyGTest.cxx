@@ -289,6 +289,60 @@ TEST(RootHierarchy, WhorlsAreLateralsFromOnePlace)
   EXPECT_NEAR(roots.whorls[1].along, 50.5, 1e-9);
 }
 
+TEST(RootHierarchy, ABranchGoesOnByItsTurnAndTwiceItsLikeness)
+{
+  // Straight on and .6 as thick is 1 + 1.2; at 60 degrees it has to be more than .85 as thick.
+  for (const double bent : { 1.6, 2.0 })
+  {
+    GraphBuilder builder;
+    builder.Line({ 0, 0, 100 }, { 0, 0, 60 }, 2);
+    builder.Line({ 0, 0, 60 }, { 0, 0, 0 }, 1.2);
+    builder.Line({ 0, 0, 60 }, { 30 * std::sqrt(3.0), 0, 30 }, bent);
+    const SkeletonGraph graph = builder.Graph();
+    RootRules           rules;
+    rules.up = Vector3{ 0, 0, 1 };
+    const RootHierarchy roots = FindRoots(graph, rules);
+    ASSERT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1 }));
+    EXPECT_EQ(TipOf(graph, roots.axes[0])[2], bent > 1.7 ? 30 : 0);
+  }
+}
+
+// Where a root comes back to itself it goes on as what it was before; the loop does not close on itself.
+TEST(RootHierarchy, ARootThatTouchesItselfIsOneRoot)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 120 }, { 0, 0, 100 }, 4);
+  builder.Line({ 0, 0, 100 }, { 0, 0, 0 }, 4);
+  builder.Line({ 0, 0, 100 }, { 50, 0, 100 }, 2);
+  builder.Line({ 50, 0, 100 }, { 50, 30, 100 }, 2); // round, and back to (50, 0, 100) the way it left
+  builder.Line({ 50, 30, 100 }, { 50, 30, 60 }, 2);
+  builder.Line({ 50, 30, 60 }, { 50, -30, 60 }, 2);
+  builder.Line({ 50, -30, 60 }, { 50, -30, 100 }, 2);
+  builder.Line({ 50, -30, 100 }, { 50, 0, 100 }, 2);
+  builder.Line({ 50, 0, 100 }, { 110, 0, 100 }, 2);
+  const SkeletonGraph graph = builder.Graph();
+  const RootHierarchy roots = FindRoots(graph);
+  for (const RootMeeting & meeting : roots.meetings)
+  {
+    for (const auto & pair : meeting.pairs)
+    {
+      EXPECT_NE(pair[0], pair[1]);
+    }
+  }
+  for (const RootAxis & axis : roots.axes)
+  {
+    EXPECT_TRUE(axis.level == 0 || axis.parent != kNoRoot);
+  }
+}
+
+TEST(RootHierarchy, TheReachOfAMeetingAtOneJunctionIsItsBallAndAFifth)
+{
+  const RootHierarchy roots = FindRoots(TouchingRoots({ 0, 0, 0 }).Graph());
+  ASSERT_EQ(roots.meetings.size(), 1U);
+  EXPECT_EQ(roots.meetings[0].radius, 2);
+  EXPECT_DOUBLE_EQ(roots.meetings[0].reach, 2.4);
+}
+
 TEST(RootHierarchy, NothingHasNoRoots)
 {
   EXPECT_TRUE(FindRoots(SkeletonGraph()).axes.empty());

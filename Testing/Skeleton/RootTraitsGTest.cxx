@@ -114,4 +114,21 @@ TEST(RootTraits, VolumeAndSurfaceAreThoseOfRoundCones)
   EXPECT_EQ(traits.roots[0].minDiameter, 4);
 }
 
+TEST(RootTraits, ATaperingRootIsOneCone)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 2);
+  SkeletonGraph graph = builder.Graph();
+  for (std::size_t point = 0; point < graph.positions.size(); ++point)
+  {
+    graph.radius[point] = 1 + graph.positions[point][2] / 25;
+  }
+  const RootTraits traits = MeasureRoots(graph, FindRoots(graph));
+  EXPECT_NEAR(traits.roots[0].volume, M_PI * 50 / 3 * (1 + 3 + 9), 1e-6);
+  EXPECT_NEAR(traits.roots[0].surface, M_PI * (1 + 3) * std::hypot(50, 2), 1e-6);
+  EXPECT_NEAR(traits.roots[0].meanDiameter, 4, 1e-9);
+  EXPECT_EQ(traits.roots[0].minDiameter, 2);
+  EXPECT_EQ(traits.roots[0].maxDiameter, 6);
+}
+
 } // namespace voxelcore::testing

@@ -1,0 +1,164 @@
+#include "RootFlow.h"
+
+#include "GraphBuilder.h"
+
+#include <gtest/gtest.h>
+
+namespace voxelcore::testing
+{
+namespace
+{
+
+/** The end of a branch that lies there, of the branch that also ends at `other`. */
+BranchEnd
+EndAt(const SkeletonGraph & graph, const Spacing3 & place, const Spacing3 & other)
+{
+  for (ElementIndex branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto       points = graph.Branch(branch);
+    const Spacing3 & first = graph.positions[points.front()];
+    const Spacing3 & last = graph.positions[points.back()];
+    if ((first == place && last == other) || (last == place && first == other))
+    {
+      return { branch, static_cast<std::uint8_t>(first == place ? 0 : 1) };
+    }
+  }
+  ADD_FAILURE() << "no branch leads there";
+  return {};
+}
+
+// Thickness is that over a tenth of the diagonal, so a short swelling at a tip makes no stem.
+TEST(RootFlow, AStemIsThickOverATenthOfTheDiagonal)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 0 }, { 2, 0, 0 }, 6);
+  builder.Line({ 2, 0, 0 }, { 60, 0, 0 }, 1);
+  builder.Line({ 60, 0, 0 }, { 120, 0, 0 }, 3);
+  builder.Line({ 2, 0, 0 }, { 2, 10, 0 }, 0.5);
+  builder.Line({ 60, 0, 0 }, { 60, 10, 0 }, 0.5);
+  const SkeletonGraph graph = builder.Graph();
+  const RootBranches  branches(graph);
+  const auto          stems = FindStems(branches, std::nullopt, 1);
+  ASSERT_EQ(stems.size(), 1U);
+  EXPECT_EQ(graph.positions[branches.PointFrom(stems[0], 0)], (Spacing3{ 120, 0, 0 }));
+}
+
+// Thickness counts as part of the greatest, height as part of the plant's: in any unit as much as each other.
+TEST(RootFlow, AThickStemIsTakenBeforeAHigherThinOneInAnyUnit)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 50 }, { 0, 0, 100 }, 1);
+  builder.Line({ 0, 0, 50 }, { 30, 0, 60 }, 3);
+  builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 1);
+  for (const double unit : { 1.0 / 1024, 1.0, 1024.0 })
+  {
+    SkeletonGraph graph = builder.Graph();
+    for (std::size_t point = 0; point < graph.positions.size(); ++point)
+    {
+      const Spacing3 & at = graph.positions[point];
+      graph.positions[point] = { unit * at[0], unit * at[1], unit * at[2] };
+      graph.radius[point] *= unit;
+    }
+    const RootBranches branches(graph);
+    const auto         stems = FindStems(branches, Vector3{ 0, 0, 1 }, 1);
+    ASSERT_EQ(stems.size(), 1U);
+    EXPECT_EQ(graph.positions[branches.PointFrom(stems[0], 0)][2], 60 * unit);
+  }
+}
+
+TEST(RootFlow, ADirectionIsThatOutsideTheBallAtAJunction)
+{
+  // The ball reaches 4.2, directions begin at 1.2 times that: right at the bend after 5.
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 0 }, { -20, 0, 0 }, 4.2);
+  builder.Line({ 0, 0, 0 }, { 0, 0, -20 }, 4.2);
+  builder.Line({ 0, 0, 0 }, { 5, 0, 0 }, 1);
+  builder.Line({ 5, 0, 0 }, { 5, 30, 0 }, 1);
+  const SkeletonGraph graph = builder.Graph();
+  const RootBranches  branches(graph);
+  const Vector3       way = branches.DirectionFrom(EndAt(graph, { 0, 0, 0 }, { 5, 30, 0 }));
+  EXPECT_DOUBLE_EQ(way[0], 0);
+  EXPECT_DOUBLE_EQ(way[1], 1);
+  EXPECT_DOUBLE_EQ(way[2], 0);
+}
+
+TEST(RootFlow, TheDirectionOfAShortBranchLeadsFromItsEnd)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 0 }, { 1, 1, 0 }, 5);
+  builder.Line({ 1, 1, 0 }, { 2, 0, 0 }, 5);
+  const SkeletonGraph graph = builder.Graph();
+  ASSERT_EQ(graph.BranchCount(), 1U);
+  const RootBranches branches(graph);
+  EXPECT_EQ(branches.DirectionFrom(EndAt(graph, { 0, 0, 0 }, { 2, 0, 0 })), (Vector3{ 1, 0, 0 }));
+  EXPECT_EQ(branches.DirectionFrom(EndAt(graph, { 2, 0, 0 }, { 0, 0, 0 })), (Vector3{ -1, 0, 0 }));
+}
+
+// Going straight on costs nothing however many laterals spring on the way; a lateral costs once.
+TEST(RootFlow, AStraightStemIsRunThroughFromItsBaseWhateverLeavesIt)
+{
+  constexpr int last = 10;
+  const auto    at = [](int k) { return Spacing3{ 0, 0, 120.0 - 10 * k }; };
+  GraphBuilder  builder;
+  builder.Line({ 0, 0, 130 }, at(0), 3);
+  for (int k = 0; k < last; ++k)
+  {
+    builder.Line(at(k), at(k + 1), 3);
+    if (k > 0)
+    {
+      builder.Line(at(k), { k % 2 == 0 ? 15.0 : -15.0, 0, at(k)[2] }, 0.5);
+    }
+  }
+  builder.Line(at(last), { 0, 0, 0 }, 3);
+  // A root that leaves the stem at its first junction and touches it again at the last.
+  builder.Line(at(0), { 0, 40, 70 }, 1);
+  builder.Line({ 0, 40, 70 }, at(last), 1);
+  const SkeletonGraph graph = builder.Graph();
+  const RootBranches  branches(graph);
+  const RootFlow      flow = FlowFrom(branches, { EndAt(graph, { 0, 0, 130 }, at(0)) });
+  ElementIndex        before = EndAt(graph, { 0, 0, 130 }, at(0)).branch;
+  EXPECT_EQ(flow.before[before], kNoRoot);
+  for (int k = 0; k <= last; ++k)
+  {
+    const BranchEnd base = EndAt(graph, at(k), k < last ? at(k + 1) : Spacing3{ 0, 0, 0 });
+    EXPECT_EQ(flow.base[base.branch], base.last) << k;
+    EXPECT_EQ(flow.before[base.branch], before) << k;
+    before = base.branch;
+  }
+}
+
+// Levels, parents and places do not depend on where a plant stands, which way it is turned and in what unit it is.
+TEST(RootFlow, RootsAreTheSameMovedTurnedAndInAnotherUnit)
+{
+  const SkeletonGraph graph = SmallRoot().Graph();
+  const RootHierarchy roots = FindRoots(graph);
+  for (const double unit : { 1.0, 1.0 / 1024, 1024.0 })
+  {
+    for (const double away : { 0.0, -4096.0, 512.0 })
+    {
+      for (std::size_t turn = 0; turn < 3; ++turn)
+      {
+        SkeletonGraph other = graph;
+        for (std::size_t point = 0; point < graph.positions.size(); ++point)
+        {
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            other.positions[point][(axis + turn) % 3] = unit * (graph.positions[point][axis] + away);
+          }
+          other.radius[point] *= unit;
+        }
+        const RootHierarchy found = FindRoots(other);
+        ASSERT_EQ(found.axes.size(), roots.axes.size()) << unit << ' ' << away << ' ' << turn;
+        EXPECT_EQ(found.up[(2 + turn) % 3], 1);
+        for (std::size_t axis = 0; axis < roots.axes.size(); ++axis)
+        {
+          EXPECT_EQ(found.axes[axis].points, roots.axes[axis].points) << unit << ' ' << away << ' ' << turn;
+          EXPECT_EQ(found.axes[axis].parent, roots.axes[axis].parent);
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace voxelcore::testing
