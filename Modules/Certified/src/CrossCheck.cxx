@@ -58,7 +58,7 @@ FirstDifference(const DelaunayCells & lattice, const DelaunayCells & tetgen)
   const std::size_t cells = std::min(lattice.CellCount(), tetgen.CellCount());
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
-    // Bits, not values: -0 is not 0 in a file.
+    // Bits, not values: -0 is not 0 in a file. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-*)
     if (std::memcmp(&lattice.centres[cell], &tetgen.centres[cell], sizeof(lattice.centres[cell])) != 0)
     {
       return Differ("centre of cell " + std::to_string(cell),

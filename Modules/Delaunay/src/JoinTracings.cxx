@@ -21,23 +21,26 @@ JoinTracings(std::vector<Tracing> parts)
     {
       to = std::move(from);
     }
-    RunBoth(
-      true,
-      [&] {
-        to.tetrahedra.insert(to.tetrahedra.end(), from.tetrahedra.begin(), from.tetrahedra.end());
-        to.facetPoints.insert(to.facetPoints.end(), from.facetPoints.begin(), from.facetPoints.end());
-      },
-      [&] {
-        for (const auto & sides : from.facetCells)
-        {
-          to.facetCells.push_back(
-            { sides[0] < kOpen ? sides[0] + cellShift : sides[0], sides[1] < kOpen ? sides[1] + cellShift : sides[1] });
-        }
-        for (std::size_t i = 1; i < from.facetOffsets.size(); ++i)
-        {
-          to.facetOffsets.push_back(from.facetOffsets[i] + pointShift);
-        }
-      });
+    else
+    {
+      RunBoth(
+        true,
+        [&] {
+          to.tetrahedra.insert(to.tetrahedra.end(), from.tetrahedra.begin(), from.tetrahedra.end());
+          to.facetPoints.insert(to.facetPoints.end(), from.facetPoints.begin(), from.facetPoints.end());
+        },
+        [&] {
+          for (const auto & sides : from.facetCells)
+          {
+            to.facetCells.push_back({ sides[0] < kOpen ? sides[0] + cellShift : sides[0],
+                                      sides[1] < kOpen ? sides[1] + cellShift : sides[1] });
+          }
+          for (std::size_t i = 1; i < from.facetOffsets.size(); ++i)
+          {
+            to.facetOffsets.push_back(from.facetOffsets[i] + pointShift);
+          }
+        });
+    }
     from = {};
     const auto join = [&](const std::vector<std::uint32_t> & facets, std::vector<std::uint32_t> & joinedFacets) {
       for (const std::uint32_t facet : facets)

@@ -285,6 +285,7 @@ OpenMeta(const std::filesystem::path & path,
   const std::string         dimSize = header.Field({ "dimsize" });
   const auto                words = Words(dimSize);
   std::vector<std::int64_t> sizes;
+  sizes.reserve(words.size());
   for (const auto word : words)
   {
     sizes.push_back(ParseInteger(word).value_or(0));

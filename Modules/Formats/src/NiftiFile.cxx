@@ -203,7 +203,7 @@ Partner(const std::filesystem::path & path, std::string_view extension)
   const std::string upper = extension == ".hdr" ? ".HDR" : ".IMG";
   for (const std::string & ending : { std::string(extension), Text(extension, ".gz"), upper })
   {
-    const auto      candidate = path.parent_path() / (name + ending);
+    auto            candidate = path.parent_path() / (name + ending);
     std::error_code ignored;
     if (std::filesystem::exists(candidate, ignored))
     {

@@ -156,6 +156,7 @@ private:
   bool
   Guarded(const Work & work) noexcept
   {
+    // NOLINTNEXTLINE(cert-err52-cpp): the only way that libpng has to fail
     if (setjmp(png_jmpbuf(m_Png)) != 0)
     {
       return false;

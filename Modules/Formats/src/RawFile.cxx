@@ -156,7 +156,7 @@ DataOf(const fs::path & dat)
   }
   for (const char * extension : { ".raw", ".vol", ".bin" })
   {
-    if (const fs::path data = fs::path(dat).replace_extension(extension); fs::is_regular_file(data, ignored))
+    if (fs::path data = fs::path(dat).replace_extension(extension); fs::is_regular_file(data, ignored))
     {
       return data;
     }

@@ -98,7 +98,7 @@ private:
     if (error.empty())
     {
       std::array<char, 400> text{};
-      std::vsnprintf(text.data(), text.size(), format, arguments);
+      (void)std::vsnprintf(text.data(), text.size(), format, arguments);
       error = Printable(text.data(), 120);
     }
     return 1;

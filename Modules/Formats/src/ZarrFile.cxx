@@ -69,6 +69,7 @@ RequireSomeChunks(const std::filesystem::path & path, const ZarrVolume & volume,
   double              there = 0;
   const std::uint64_t sideJ = grid.end[1] - grid.first[1];
   const std::uint64_t sideI = grid.end[2] - grid.first[2];
+  // NOLINTNEXTLINE(cert-flp30-c): whole numbers below 2^53
   for (double look = 0; look < looks && there < needed; ++look)
   {
     const double number = std::floor(look * (count / looks));
@@ -117,7 +118,7 @@ PlaceZarr(const ZarrImage & image, const ReadOptions & options, ScanFile & scan)
     {
       origin[c] += image.axes[n][c] * image.translation[axis] * millimetres.value_or(1);
     }
-    scale = Number(image.scale[axis]) + (scale.empty() ? "" : ",") + scale;
+    scale.insert(0, Number(image.scale[axis]) + (scale.empty() ? "" : ","));
   }
   if (unknown > 0 && !options.spacing)
   {

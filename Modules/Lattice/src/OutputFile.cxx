@@ -84,14 +84,14 @@ OutputFile::OutputFile(const std::filesystem::path & path)
   : m_Path(path)
   , m_File(OpenForWriting(path))
 {
-  std::setvbuf(m_File, nullptr, _IOFBF, std::size_t{ 1 } << 20);
+  (void)std::setvbuf(m_File, nullptr, _IOFBF, std::size_t{ 1 } << 20);
 }
 
 OutputFile::~OutputFile()
 {
   if (m_File)
   {
-    std::fclose(m_File);
+    (void)std::fclose(m_File);
     RemoveRegularFile(m_Path);
   }
 }
@@ -102,7 +102,7 @@ OutputFile::Fail(int errorNumber)
   if (std::FILE * file = m_File)
   {
     m_File = nullptr;
-    std::fclose(file);
+    (void)std::fclose(file);
   }
   FailOutput(m_Path, errorNumber);
 }

@@ -51,20 +51,20 @@ fs::path
 TemporaryName(const fs::path & target, const WriterIdentity & writer)
 {
   std::array<char, 80> suffix{};
-  std::snprintf(suffix.data(),
-                suffix.size(),
-                "%s%08x-%08x-%lld-%llx",
-                kMark.data(),
-                writer.machine,
-                writer.space,
-                static_cast<long long>(writer.process),
-                static_cast<unsigned long long>(writer.start));
+  (void)std::snprintf(suffix.data(),
+                      suffix.size(),
+                      "%s%08x-%08x-%lld-%llx",
+                      kMark.data(),
+                      writer.machine,
+                      writer.space,
+                      static_cast<long long>(writer.process),
+                      static_cast<unsigned long long>(writer.start));
   std::string       name = target.filename().string();
   const std::size_t room = kLongestName - std::string_view(suffix.data()).size();
   if (name.size() > room)
   {
     std::array<char, 12> digest{};
-    std::snprintf(digest.data(), digest.size(), "~%08x", Digest(name));
+    (void)std::snprintf(digest.data(), digest.size(), "~%08x", Digest(name));
     name = name.substr(0, room - std::string_view(digest.data()).size()) + digest.data();
   }
   return target.parent_path() / (name + suffix.data());

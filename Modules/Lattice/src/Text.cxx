@@ -33,7 +33,7 @@ std::string
 DecimalText(double value, int decimals)
 {
   char text[400];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  (void)std::snprintf(text, sizeof(text), "%.*f", decimals, value);
   return text;
 }
 
@@ -57,7 +57,7 @@ std::string
 ShortText(double value, int digits)
 {
   char text[40];
-  std::snprintf(text, sizeof(text), "%.*g", digits, value);
+  (void)std::snprintf(text, sizeof(text), "%.*g", digits, value);
   return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <type_traits>
+#include <utility>
 
 namespace voxelcore
 {
@@ -45,7 +46,7 @@ public:
   std::string
   TakeHeader()
   {
-    return std::move(m_Header);
+    return std::exchange(m_Header, {});
   }
 
   const std::string &

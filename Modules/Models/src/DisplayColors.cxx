@@ -101,6 +101,7 @@ MakePalette()
   for (int code = 0; code < kSteps * kSteps * kSteps; ++code)
   {
     Candidate one;
+    // NOLINTNEXTLINE(bugprone-integer-division): a digit of the code
     one.color = { (code / (kSteps * kSteps)) / (kSteps - 1.0),
                   (code / kSteps % kSteps) / (kSteps - 1.0),
                   (code % kSteps) / (kSteps - 1.0) };

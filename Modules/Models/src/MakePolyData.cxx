@@ -131,7 +131,7 @@ private:
 vtkSmartPointer<vtkPolyData>
 MakePolyData(const MedialModel & model, bool keepEdges)
 {
-  const auto   data = vtkSmartPointer<vtkPolyData>::New();
+  auto         data = vtkSmartPointer<vtkPolyData>::New();
   PolyDataSink sink(*data);
   WriteParts(model, keepEdges, sink);
   return data;

@@ -45,6 +45,7 @@ LoadNumber(const char * bytes, NumberType type, bool isBigEndian, bool finite = 
     return static_cast<Value>(bits);
   }
   const auto unused = static_cast<unsigned>(64 - 8 * type.bytes);
+  // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): arrays of no numbers are refused before
   return static_cast<Value>(static_cast<std::int64_t>(bits << unused) >> unused);
 }
 

@@ -342,7 +342,7 @@ PlantJson(const RootModel & model, double volume)
     std::string unit = InUnit(column.unit, model.unit);
     std::erase(unit, '^');
     char text[40];
-    std::snprintf(text, sizeof(text), "%.9g", value);
+    (void)std::snprintf(text, sizeof(text), "%.9g", value);
     json +=
       (json.empty() ? "\"" : ", \"") + std::string(column.name) + (unit.empty() ? "" : "_" + unit) + "\": " + text;
   }

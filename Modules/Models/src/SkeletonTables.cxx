@@ -90,9 +90,9 @@ std::string
 CsvField(const std::string & given)
 {
   // What a spreadsheet would take for a formula becomes text.
-  const bool        isFormula = !given.empty() && (std::string_view("=+-@").find(given[0]) != std::string_view::npos ||
+  const bool  isFormula = !given.empty() && (std::string_view("=+-@").find(given[0]) != std::string_view::npos ||
                                             static_cast<unsigned char>(given[0]) < 0x20U);
-  const std::string text = (isFormula ? "'" : "") + given;
+  std::string text = (isFormula ? "'" : "") + given;
   if (text.find_first_of(",\"\n\r") == std::string::npos)
   {
     return text;

@@ -130,6 +130,7 @@ BurnNetwork::PlaceSamples(double sampling)
       continue;
     }
     const double ideal = sampling > 0 ? std::min(std::max(length / sampling - 1, 1.0), 1000.0) : 1.0;
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): 1 to 1000, halves upwards
     points += static_cast<std::uint32_t>(ideal + 0.5);
     RequireIndexable(points, "sample points");
   }

@@ -80,6 +80,7 @@ SurfaceFire::Run(const ProgressCallback & progress)
   const auto points = static_cast<double>(std::max<std::size_t>(1, m_Network.PointCount()));
   double     start = 0;
   double     end = 0;
+  // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter,cert-flp30-c): a time, not a count
   for (double next = HandOver(active); next < kNever; next = HandOver(active))
   {
     if (next >= end)

@@ -175,7 +175,7 @@ Prune(const MedialComplex &                    core,
     }
     else
     {
-      take(std::move(collapse).TakeLive());
+      take(std::move(collapse).TakeLive()); // NOLINT(bugprone-use-after-move): the last round
     }
   }
   return pruned;
