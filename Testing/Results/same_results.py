@@ -45,6 +45,8 @@ def content(path, folder):
     if path.suffix in (".csv", ".mrml", ".swc"):
         text = data.decode().replace(str(folder), "OUT")
         return re.sub(r"VoxelCore [0-9.]+", "VoxelCore", text).encode()
+    if path.suffix == ".rsml":  # says when the scan was written
+        data = re.sub(rb"<last-modified>[^<]*", b"<last-modified>", data)
     return re.sub(rb'("version": ?"|VoxelCore )[0-9.]+', rb"\1", data)
 
 

@@ -15,8 +15,8 @@ namespace voxelcore
 
 using EightFloats = float __attribute__((vector_size(32)));
 
-/** Eight floats that may lie wherever a float may. A structure, as both compilers drop aligned() of an alias: clang after
- *  the =, GCC where a type is deduced, such as what a lambda returns. */
+/** Eight floats that may lie wherever a float may. A structure, as both compilers drop aligned() of an alias: clang
+ *  after the =, GCC where a type is deduced, such as what a lambda returns. */
 struct [[gnu::packed, gnu::may_alias]] EightAnywhere
 {
   EightFloats lanes;
