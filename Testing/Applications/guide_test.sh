@@ -29,6 +29,8 @@ make_inputs() {
   voxelcore phantom root --size 40 -o vessels.nrrd -q
   mv vessels.nrrd vessels.seg.nrrd
   printf 'id,scan,lambda\nsub1,scan.nii.gz,1vox\nsub2,root.nii.gz,\n' >cohort.csv
+  mkdir bones
+  voxelcore phantom porous --size 20 -o bones/femur.nrrd -q
   printf 'id,scan,stems\nmaize1,root.nii.gz,1\n' >season.csv
   awk 'BEGIN {
     print "NRRD0004\ntype: short\ndimension: 3\nsizes: 20 20 20\nspace: left-posterior-superior"

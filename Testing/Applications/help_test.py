@@ -94,6 +94,8 @@ def write_inputs(program):
     Path("scans").mkdir()
     shutil.copy("scan.nii.gz", "scans")
     Path("cohort.csv").write_text("id,scan,lambda\na,scan.nii.gz,1vox\nb,bone.nrrd,\n")
+    Path("bones").mkdir()
+    shutil.copy("bone.nrrd", "bones/femur.nrrd")
     Path("season.csv").write_text("id,scan,stems\nmaize1,root.nii.gz,1\n")
 
 
