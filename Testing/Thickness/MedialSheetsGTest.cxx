@@ -232,6 +232,32 @@ TEST(MedialSheets, ANarrowStripBetweenSeamsJoinsTheSheetItContinues)
   EXPECT_DOUBLE_EQ(cut.curves[0].length, 12);
 }
 
+TEST(MedialSheets, WhereTheStripOfACrossingEndsBeforeTheRimFourSheetsMeetStill)
+{
+  // Beyond its tip, at y = 10, the two upper walls are one bent sheet, and the two lower ones.
+  Builder    x;
+  const auto wall = [&](const Vector3 & out, double side, double height) {
+    const auto at = [&](int y, int k) {
+      const Vector3 foot{ y < 10 ? side : 1, static_cast<double>(y), y > 10 ? height : 0 };
+      return x.At(AddScaled(foot, k, out));
+    };
+    for (int y = 0; y < 12; ++y)
+    {
+      for (int k = 0; k < 7; ++k)
+      {
+        x.Face({ at(y, k), at(y, k + 1), at(y + 1, k + 1), at(y + 1, k) });
+      }
+    }
+  };
+  wall({ -0.6, 0, 0.8 }, 0, 0.3);
+  wall({ 0.6, 0, 0.8 }, 2, 0.3);
+  wall({ -0.6, 0, -0.8 }, 0, -0.3);
+  wall({ 0.6, 0, -0.8 }, 2, -0.3);
+  x.Plate({ 0, 0, 0 }, { 2, 0, 0 }, 1, { 0, 1, 0 }, 9);
+  x.Face({ x.At({ 0, 9, 0 }), x.At({ 2, 9, 0 }), x.At({ 1, 10, 0 }) });
+  EXPECT_EQ(CountsOf(CutIntoSheets(x.Core(), 3)), (Counts{ 4, 1, 0, 0 }));
+}
+
 TEST(MedialSheets, OfATripleOfPlatesOnAPlateMeetInAJunction)
 {
   // A floor, and the three plates that stand on it: a Y in the floor.

@@ -3,82 +3,89 @@
 #include "SheetPieces.h"
 
 #include "voxelcore/UnionFind.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <functional>
 #include <map>
 #include <queue>
+#include <set>
 #include <utility>
 
 namespace voxelcore
 {
+
+namespace
+{
+
+constexpr double kTip = 0.5;    ///< cosine of the greatest angle at which a seam turns back on itself
+constexpr double kFlat = 0.866; ///< and of the least bend of a crease
+
+} // namespace
 
 void
 SheetPieces::DrawSeamsOn(double reach)
 {
   const auto & edges = m_Core.cells.edges;
   // Seams that hang together have one number.
-  UnionFind                  sets(m_Core.cells.vertexCount);
-  std::vector<std::uint32_t> seams(m_Core.cells.vertexCount,
-                                   0); ///< edges of seams at a vertex
+  UnionFind         sets(m_Core.cells.vertexCount);
+  std::vector<char> onSeam(m_Core.cells.vertexCount, 0);
   for (ElementIndex edge = 0; edge < edges.size(); ++edge)
   {
     if (m_Live[edge] > 2)
     {
       sets.Unite(edges[edge][0], edges[edge][1]);
-      ++seams[edges[edge][0]];
-      ++seams[edges[edge][1]];
+      onSeam[edges[edge][0]] = onSeam[edges[edge][1]] = 1;
     }
   }
   std::vector<std::uint32_t> chains(m_Core.cells.vertexCount, kNoPiece);
   for (ElementIndex vertex = 0; vertex < chains.size(); ++vertex)
   {
-    chains[vertex] = seams[vertex] > 0 ? sets.Find(vertex) : kNoPiece;
+    chains[vertex] = onSeam[vertex] != 0 ? sets.Find(vertex) : kNoPiece;
   }
-  for (ElementIndex edge = 0; edge < edges.size(); ++edge)
+  std::vector<SeamEnd> ends;
+  std::vector<char>    isEnd(m_Core.cells.vertexCount, 0);
+  for (ElementIndex vertex = 0; vertex < chains.size(); ++vertex)
   {
-    for (const ElementIndex end : edges[edge])
+    for (SeamEnd & end : EndsAt(vertex, reach))
     {
-      if (m_Live[edge] > 2 && seams[end] == 1)
-      {
-        DrawOn(end, edge, chains, reach + m_Core.radius[end]);
-      }
+      ends.push_back(std::move(end));
+      isEnd[vertex] = 1;
     }
+  }
+  for (const SeamEnd & end : ends)
+  {
+    DrawOn(end, chains, isEnd, reach + m_Core.radius[end.vertex]);
   }
 }
 
-void
-SheetPieces::DrawOn(ElementIndex end, ElementIndex seam, const std::vector<std::uint32_t> & chains, double reach)
+std::vector<SheetPieces::Sector>
+SheetPieces::SectorsAt(ElementIndex vertex, ElementIndex seam) const
 {
-  const auto & edges = m_Core.cells.edges;
-  // The edges at the end that lie between two of the seam's faces, round it.
-  std::vector<ElementIndex> first;
+  const auto &        edges = m_Core.cells.edges;
+  std::vector<Sector> sectors;
   for (const ElementIndex begin : FacesOf(seam))
   {
-    std::vector<ElementIndex> passed;
-    ElementIndex              face = m_Alive[begin] != 0 ? begin : kNoPiece;
-    ElementIndex              from = seam;
+    Sector       sector{ begin, begin, {}, kNoPiece };
+    ElementIndex face = m_Alive[begin] != 0 ? begin : kNoPiece;
+    ElementIndex from = seam;
     while (face != kNoPiece)
     {
       ElementIndex edge = kNoPiece;
       for (const ElementIndex one : m_Core.cells.FaceEdges(face))
       {
-        if (one != from && (edges[one][0] == end || edges[one][1] == end))
+        if (one != from && (edges[one][0] == vertex || edges[one][1] == vertex))
         {
           edge = one;
         }
       }
-      if (edge == seam)
-      {
-        first.insert(first.end(), passed.begin(),
-                     passed.end()); // came back: what it passed lies between
-        break;
-      }
-      if (edge == kNoPiece || m_Live[edge] != 2)
+      sector.last = edge;
+      sector.end = face;
+      if (edge == kNoPiece || edge == seam || m_Live[edge] != 2)
       {
         break;
       }
-      passed.push_back(edge);
+      sector.edges.push_back(edge);
       ElementIndex other = kNoPiece;
       for (const ElementIndex one : FacesOf(edge))
       {
@@ -87,12 +94,130 @@ SheetPieces::DrawOn(ElementIndex end, ElementIndex seam, const std::vector<std::
       from = edge;
       face = other;
     }
+    if (sector.last != kNoPiece)
+    {
+      sectors.push_back(std::move(sector));
+    }
   }
+  return sectors;
+}
+
+std::vector<ElementIndex>
+SheetPieces::SeamsAt(ElementIndex vertex) const
+{
+  std::vector<ElementIndex> seams;
+  for (std::uint64_t i = m_AroundOffsets[vertex]; i < m_AroundOffsets[vertex + 1]; ++i)
+  {
+    if (m_Live[m_Around[i]] > 2)
+    {
+      seams.push_back(m_Around[i]);
+    }
+  }
+  return seams;
+}
+
+std::vector<SheetPieces::SeamEnd>
+SheetPieces::EndsAt(ElementIndex vertex, double reach) const
+{
+  const std::vector<ElementIndex> seams = SeamsAt(vertex);
+  std::vector<SeamEnd>            ends;
+  for (const ElementIndex seam : seams)
+  {
+    SeamEnd end{ vertex, {} };
+    for (const Sector & sector : SectorsAt(vertex, seam))
+    {
+      if (sector.last == seam) // came back
+      {
+        end.ways.insert(end.ways.end(), sector.edges.begin(), sector.edges.end());
+      }
+    }
+    if (!end.ways.empty())
+    {
+      ends.push_back(std::move(end));
+    }
+  }
+  if (seams.size() != 2 || !ends.empty())
+  {
+    return ends;
+  }
+  // Tips may be blunt.
+  const auto along = [&](ElementIndex edge) {
+    ElementIndex at = vertex;
+    double       length = 0;
+    for (bool goesOn = true; goesOn;)
+    {
+      at = m_Core.cells.edges[edge][0] ^ m_Core.cells.edges[edge][1] ^ at;
+      length += EdgeLength(edge);
+      const auto next = SeamsAt(at);
+      goesOn = length < reach && next.size() == 2 && at != vertex;
+      edge = goesOn ? next[next[0] == edge ? 1 : 0] : edge;
+    }
+    return Minus(m_Core.positions[at], m_Core.positions[vertex]);
+  };
+  const Vector3 one = along(seams[0]);
+  const Vector3 other = along(seams[1]);
+  if (Dot(one, other) < kTip * Length(one) * Length(other))
+  {
+    return ends;
+  }
+  bool isTip = false;
+  for (const Sector & sector : SectorsAt(vertex, seams[0]))
+  {
+    if (sector.last != seams[1])
+    {
+      continue;
+    }
+    const bool isStrip = m_Pieces[m_PieceOf[sector.begin]].standOut < reach;
+    isTip = isTip || isStrip;
+    // A sheet that goes round a strip's tip has a crease there; about a pocket it is flat.
+    const Vector3 first = Cross(one, Inwards(sector.begin, seams[0]));
+    const Vector3 second = Cross(Inwards(sector.end, seams[1]), other);
+    const bool    isFlat = Dot(first, second) > kFlat * Length(first) * Length(second);
+    if (!isStrip && !isFlat && !sector.edges.empty())
+    {
+      ends.push_back({ vertex, sector.edges });
+    }
+  }
+  return isTip && ends.size() > 1 ? ends : std::vector<SeamEnd>();
+}
+
+std::set<ElementIndex>
+SheetPieces::NearAlongSeams(ElementIndex from, double reach) const
+{
+  using Entry = std::pair<double, ElementIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  std::set<ElementIndex>                                         near;
+  queue.emplace(0, from);
+  while (!queue.empty())
+  {
+    const auto [way, vertex] = queue.top();
+    queue.pop();
+    for (const ElementIndex edge : near.insert(vertex).second ? SeamsAt(vertex) : std::vector<ElementIndex>())
+    {
+      if (way + EdgeLength(edge) < reach)
+      {
+        queue.emplace(way + EdgeLength(edge), m_Core.cells.edges[edge][0] ^ m_Core.cells.edges[edge][1] ^ vertex);
+      }
+    }
+  }
+  return near;
+}
+
+void
+SheetPieces::DrawOn(const SeamEnd &                    from,
+                    const std::vector<std::uint32_t> & chains,
+                    const std::vector<char> &          isEnd,
+                    double                             reach)
+{
+  const auto &                                            edges = m_Core.cells.edges;
+  const ElementIndex                                      end = from.vertex;
   std::map<ElementIndex, std::pair<double, ElementIndex>> reached; // way, and the edge it came by
   using Entry = std::pair<double, ElementIndex>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const auto go = [&](ElementIndex from, double way, ElementIndex edge) {
-    const ElementIndex other = edges[edge][0] ^ edges[edge][1] ^ from;
+  // Both ends of a strip are no gap in its seam.
+  const std::set<ElementIndex> near = NearAlongSeams(end, 2 * reach);
+  const auto                   go = [&](ElementIndex vertex, double way, ElementIndex edge) {
+    const ElementIndex other = edges[edge][0] ^ edges[edge][1] ^ vertex;
     const double       further = way + EdgeLength(edge);
     const auto         place = reached.find(other);
     if (further < reach && other != end && (place == reached.end() || further < place->second.first))
@@ -101,7 +226,7 @@ SheetPieces::DrawOn(ElementIndex end, ElementIndex seam, const std::vector<std::
       queue.emplace(further, other);
     }
   };
-  for (const ElementIndex edge : first)
+  for (const ElementIndex edge : from.ways)
   {
     go(end, 0, edge);
   }
@@ -116,7 +241,9 @@ SheetPieces::DrawOn(ElementIndex end, ElementIndex seam, const std::vector<std::
     const std::span<const ElementIndex> around{ m_Around.data() + m_AroundOffsets[vertex],
                                                 m_Around.data() + m_AroundOffsets[vertex + 1] };
     const bool isRim = std::any_of(around.begin(), around.end(), [&](ElementIndex edge) { return m_Live[edge] == 1; });
-    if (isRim || (chains[vertex] != kNoPiece && chains[vertex] != chains[end]))
+    const bool isOnSeam = chains[vertex] != kNoPiece;
+    const bool isTarget = isRim || (isOnSeam && (chains[vertex] != chains[end] || isEnd[vertex] != 0));
+    if (isTarget && !near.contains(vertex))
     {
       for (ElementIndex at = vertex; at != end;)
       {
@@ -126,7 +253,7 @@ SheetPieces::DrawOn(ElementIndex end, ElementIndex seam, const std::vector<std::
       }
       return;
     }
-    if (chains[vertex] == chains[end])
+    if (isOnSeam)
     {
       continue;
     }

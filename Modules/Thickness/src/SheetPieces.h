@@ -5,6 +5,7 @@
 #include "voxelcore/MedialSheets.h"
 
 #include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -91,8 +92,35 @@ public:
 private:
   void
   Measure();
+  /** Faces round a vertex, from a seam's edge to the next seam's. */
+  struct Sector
+  {
+    ElementIndex              begin; ///< face
+    ElementIndex              end;   ///< face
+    std::vector<ElementIndex> edges; ///< passed
+    ElementIndex              last;  ///< edge
+  };
+  /** Where a seam ends, or turns back round the tip of a strip, and edges beyond. */
+  struct SeamEnd
+  {
+    ElementIndex              vertex;
+    std::vector<ElementIndex> ways;
+  };
+  std::vector<Sector>
+  SectorsAt(ElementIndex vertex, ElementIndex seam) const;
+  /** Edges. */
+  std::vector<ElementIndex>
+  SeamsAt(ElementIndex vertex) const;
+  /** Vertices of seams that these lead to by less than `reach`. */
+  std::set<ElementIndex>
+  NearAlongSeams(ElementIndex from, double reach) const;
+  std::vector<SeamEnd>
+  EndsAt(ElementIndex vertex, double reach) const;
   void
-  DrawOn(ElementIndex end, ElementIndex seam, const std::vector<std::uint32_t> & chains, double reach);
+  DrawOn(const SeamEnd &                    from,
+         const std::vector<std::uint32_t> & chains,
+         const std::vector<char> &          isEnd,
+         double                             reach);
   /** Which pieces are fins; of pieces that hang together one stays. */
   std::vector<std::uint8_t>
   FinsBelow(double height) const;
