@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -15,8 +16,11 @@
 #include <vector>
 
 #if defined(__linux__)
+#  include <fcntl.h>
 #  include <pthread.h>
+#  include <sys/mman.h>
 #  include <sys/stat.h>
+#  include <unistd.h>
 #endif
 
 namespace voxelcore
@@ -68,6 +72,71 @@ TEST(SystemCalls, AFileIsReadFromAnyPlaceToItsEnd)
   file.Skip(1000); // beyond the end there is nothing, and no error
   EXPECT_EQ(file.Read(bytes.data(), 1), 0);
 }
+
+TEST(SystemCalls, PiecesThatAreAnnouncedHaveTheSameBytes)
+{
+  const TemporaryFolder folder;
+  std::string           text;
+  for (int i = 0; i < 300000; ++i)
+  {
+    text += static_cast<char>('a' + (i + i / 26) % 26);
+  }
+  const auto path = folder.Path() / "file";
+  WriteAll(path, text);
+  SystemFile  file(path);
+  std::string got(500, '?');
+  file.Announce(7000, 500);
+  file.Announce(7000 + 80000, 500);
+  for (const std::size_t at : { 7000, 87000 })
+  {
+    file.Skip(at == 7000 ? 7000 : 80000 - 500);
+    ASSERT_EQ(file.Read(reinterpret_cast<std::byte *>(got.data()), got.size()), 500);
+    EXPECT_EQ(got, text.substr(at, 500));
+  }
+  file.Announce(1U << 20, 500); // what is not there may be announced
+  std::vector<std::byte> rest(text.size());
+  EXPECT_EQ(file.Read(rest.data(), rest.size()), 300000 - 87500); // as may what is read otherwise
+  EXPECT_EQ(text.compare(87500, std::string::npos, reinterpret_cast<const char *>(rest.data()), 300000 - 87500), 0);
+}
+
+#ifdef __linux__
+/** How many pages of a file the system holds. */
+std::size_t
+PagesHeld(const std::filesystem::path & path, std::size_t size)
+{
+  const int    descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  void * const memory = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, descriptor, 0);
+  ::close(descriptor);
+  std::vector<unsigned char> pages((size + 4095) / 4096);
+  EXPECT_EQ(::mincore(memory, size, pages.data()), 0);
+  ::munmap(memory, size);
+  return static_cast<std::size_t>(std::ranges::count_if(pages, [](unsigned char page) { return (page & 1U) != 0; }));
+}
+
+TEST(SystemCalls, BetweenPiecesThatAreAnnouncedNothingIsRead)
+{
+  // A file of holes takes no disk, and the system holds none of its pages yet.
+  constexpr std::size_t size = std::size_t{ 16 } << 20;
+  constexpr std::size_t step = 65536;
+  const TemporaryFolder folder;
+  const auto            path = folder.Path() / "file";
+  WriteAll(path, "");
+  std::filesystem::resize_file(path, size);
+  ASSERT_EQ(PagesHeld(path, size), 0U);
+  SystemFile                 file(path);
+  std::array<std::byte, 500> piece{};
+  for (std::size_t i = 0; i < size / step; ++i)
+  {
+    file.Announce(i * step, piece.size());
+  }
+  for (std::size_t i = 0; i < size / step; ++i)
+  {
+    ASSERT_EQ(file.Read(piece.data(), piece.size()), 500);
+    file.Skip(step - piece.size());
+  }
+  EXPECT_LE(PagesHeld(path, size), size / step);
+}
+#endif
 
 TEST(SystemCalls, WhatCannotBeOpenedOrReadSaysWhy)
 {

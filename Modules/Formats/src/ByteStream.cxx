@@ -70,6 +70,15 @@ public:
     ByteStream::Skip(count);
   }
 
+  void
+  Announce(std::uint64_t from, std::uint64_t count) override
+  {
+    if (from < m_Left) // of the file that is open
+    {
+      m_Current->Announce(from, std::min(count, m_Left - from));
+    }
+  }
+
   bool
   Finish() override
   {

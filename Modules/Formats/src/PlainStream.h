@@ -43,6 +43,12 @@ public:
     m_File.Skip(count);
   }
 
+  void
+  Announce(std::uint64_t from, std::uint64_t count) override
+  {
+    m_File.Announce(from, count);
+  }
+
   bool
   Finish() override
   {

@@ -195,6 +195,10 @@ void
 SlabReader::ReadPartOfRows(Slab & slab, std::size_t count)
 {
   slab.bytes.resize(std::max(slab.bytes.size(), slab.used + count * m_RowBytes));
+  for (std::size_t row = 0; row < count; ++row) // all at a time, so that a disk need not be waited for row by row
+  {
+    m_Scan.voxels->Announce(row * m_RowBytes + m_PartStart, m_PartBytes);
+  }
   for (std::size_t row = 0; row < count; ++row, slab.used += m_RowBytes)
   {
     m_Scan.voxels->Skip(m_PartStart);

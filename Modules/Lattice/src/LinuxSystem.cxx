@@ -89,7 +89,8 @@ HasProcessEnded(std::int64_t process, std::uint64_t start)
 
 struct SystemFile::Handle
 {
-  int descriptor = -1;
+  int  descriptor = -1;
+  bool isInPieces = false;
 };
 
 SystemFile::SystemFile(const std::filesystem::path & path)
@@ -144,6 +145,25 @@ void
 SystemFile::Skip(std::uint64_t count)
 {
   ::lseek(m_Handle->descriptor, static_cast<off_t>(count), SEEK_CUR);
+}
+
+void
+SystemFile::Announce(std::uint64_t from, std::uint64_t count)
+{
+  // Advice only: where it is not taken, all is read as before.
+  if (!m_Handle->isInPieces)
+  {
+    ::posix_fadvise(m_Handle->descriptor, 0, 0, POSIX_FADV_RANDOM);
+    m_Handle->isInPieces = true;
+  }
+  const off_t here = ::lseek(m_Handle->descriptor, 0, SEEK_CUR);
+  if (here >= 0)
+  {
+    ::posix_fadvise(m_Handle->descriptor,
+                    here + static_cast<off_t>(from),
+                    static_cast<off_t>(count),
+                    POSIX_FADV_WILLNEED);
+  }
 }
 
 } // namespace voxelcore

@@ -85,4 +85,8 @@ SystemFile::Skip(std::uint64_t count)
   m_Handle->buffer.pubseekoff(static_cast<std::streamoff>(count), std::ios::cur, std::ios::in);
 }
 
+void
+SystemFile::Announce(std::uint64_t, std::uint64_t)
+{}
+
 } // namespace voxelcore

@@ -29,6 +29,12 @@ public:
   virtual void
   Skip(std::uint64_t count);
 
+  /** Tells that the `count` bytes `from` bytes on will be read, and of what lies between such pieces little, so that
+   *  whoever reads a file ahead reads no more. It changes no byte. */
+  virtual void
+  Announce(std::uint64_t /*from*/, std::uint64_t /*count*/)
+  {}
+
   /** To be called when all that is needed has been read: checks what checksum there is. Returns whether data were left
    *  over. \throws InputError when the end is missing or the checksum is wrong. */
   virtual bool

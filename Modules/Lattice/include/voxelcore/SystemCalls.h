@@ -51,6 +51,11 @@ public:
   void
   Skip(std::uint64_t count);
 
+  /** Tells that the `count` bytes `from` bytes on will be read, and of what lies between such pieces little: from the
+   *  first call on the system reads ahead what is announced, and nothing else. It changes no byte. */
+  void
+  Announce(std::uint64_t from, std::uint64_t count);
+
 private:
   struct Handle;
   std::unique_ptr<Handle> m_Handle;
