@@ -1,6 +1,7 @@
 #include "ChildProcess.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <stdexcept>
 
 #include <sys/resource.h>
@@ -11,7 +12,7 @@ namespace voxelcore::performance
 {
 
 ChildResult
-RunChild(const std::vector<std::string> & command)
+RunChild(const std::vector<std::string> & command, const std::string & preloaded)
 {
   std::vector<char *> arguments;
   for (const std::string & argument : command)
@@ -36,6 +37,10 @@ RunChild(const std::vector<std::string> & command)
     dup2(ends[1], STDOUT_FILENO);
     close(ends[0]);
     close(ends[1]);
+    if (!preloaded.empty())
+    {
+      setenv("LD_PRELOAD", preloaded.c_str(), 1);
+    }
     execv(arguments[0], arguments.data());
     _exit(127);
   }

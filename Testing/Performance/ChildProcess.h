@@ -15,9 +15,9 @@ struct ChildResult
   std::string output;            ///< standard output
 };
 
-/** Runs command[0], a path, with its arguments.
+/** Runs command[0], a path, with its arguments; `preloaded`, where given, is a library that takes functions over in it.
  *  \throws std::runtime_error when it cannot be started or does not end with 0. */
 ChildResult
-RunChild(const std::vector<std::string> & command);
+RunChild(const std::vector<std::string> & command, const std::string & preloaded = "");
 
 } // namespace voxelcore::performance

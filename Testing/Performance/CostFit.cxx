@@ -1,7 +1,9 @@
 // Fits the constants of CostModel to phantoms on this machine, prints them as they stand in CostModel.cxx, and then how
 // far they miss on shapes they were not fitted to, and on scans named on the command line.
-// usage: VoxelCoreCostFit [--further] [--seconds N] [--rounds N] FOLDER [SCAN...]
+// usage: VoxelCoreCostFit [--further] [--busy] [--seconds N] [--rounds N] FOLDER [SCAN...]
 // --further: the constants of skeletons and pages instead of those of cores.
+// --busy: processor time instead of elapsed, for a machine with other work to do; one thread only, so that what more
+// threads gain is not fitted.
 // FOLDER: for volumes and results, about 100 MB, and for what was measured: a call that ends after N seconds is taken
 // up by the next with the same FOLDER.
 
@@ -25,6 +27,7 @@ namespace
 {
 
 using namespace voxelcore;
+using performance::CostJob;
 using performance::CostSamples;
 using performance::CostTask;
 using performance::CountScan;
@@ -103,17 +106,31 @@ struct Misses
   }
 };
 
+CoreOptions
+OptionsOf(CostJob job)
+{
+  CoreOptions options;
+  options.lambdas = ParseLambdas("1.5vox");
+  options.output = "core.vtp";
+  if (job != CostJob::Core)
+  {
+    options.tolerances = ParseTolerances("1.2diag");
+  }
+  if (job == CostJob::Refined)
+  {
+    options.refine.surface = "labels";
+  }
+  return options;
+}
+
 void
 PrintRow(const CostTask & task, const JobCost & measured, const CostConstants & constants, Misses & misses)
 {
   // What `info` prints is to a tenth of a second; less says nothing about the model.
   constexpr double worthTelling = 0.25;
-  CoreOptions      options;
-  options.lambdas = ParseLambdas("1.5vox");
-  options.output = "core.vtp";
-  const auto    counts = CountScan(task.scan);
-  const auto    foretold = PredictJob(counts, options, task.threads, constants);
-  std::uint64_t vertices = 0;
+  const auto       counts = CountScan(task.scan);
+  const auto       foretold = PredictJob(counts, OptionsOf(task.job), task.threads, constants);
+  std::uint64_t    vertices = 0;
   for (const BoundaryCounts & one : counts)
   {
     vertices += one.vertices;
@@ -202,56 +219,114 @@ FitConstants(const std::vector<CostTask> & ofOne, const std::vector<CostTask> & 
   }
   constants.bytes = FitRatios(withoutCaches, bytes);
   constants.seconds = FitRatios(terms, seconds);
-  constants.serial = FitSerial(ofTwo, samples);
+  constants.serial = ofTwo.empty() ? FittedCosts().serial : FitSerial(ofTwo, samples);
   return constants;
 }
 
+/** What a job takes beyond another one, in the terms' order; the program itself is in both. */
 void
-MeasureFitAndPrint(const fs::path & folder, double limit, int rounds, const std::vector<fs::path> & scans)
+FitMore(const std::vector<CostTask> & ofOne,
+        CostJob                       job,
+        const CostSamples &           samples,
+        const CostConstants &         constants,
+        Terms &                       moreBytes,
+        Terms &                       moreSeconds)
 {
-  std::vector<CostTask> ofOne;
-  std::vector<CostTask> ofTwo;
-  std::vector<CostTask> shapes;
-  std::vector<CostTask> files;
+  std::vector<Terms>  terms;
+  std::vector<Terms>  withoutCaches;
+  std::vector<double> bytes;
+  std::vector<double> byteScales;
+  std::vector<double> seconds;
+  std::vector<double> secondScales;
+  for (CostTask task : ofOne)
+  {
+    task.job = job;
+    const JobCost cost = samples.Cost(task);
+    const auto    counts = CountScan(task.scan);
+    const auto    foretold = PredictJob(counts, OptionsOf(job), 1, constants); // without what is to be fitted
+    terms.push_back(ComputeCostTerms(counts.at(0), constants).values);
+    terms.back().front() = 0;
+    withoutCaches.push_back(terms.back());
+    withoutCaches.back().back() = 0;
+    bytes.push_back(cost.bytes - static_cast<double>(foretold.memoryBytes));
+    byteScales.push_back(cost.bytes);
+    seconds.push_back(cost.seconds - foretold.seconds);
+    secondScales.push_back(cost.seconds);
+  }
+  moreBytes = Fit(withoutCaches, bytes, byteScales);
+  moreSeconds = Fit(terms, seconds, secondScales);
+}
+
+void
+MeasureFitAndPrint(const fs::path & folder, double limit, int rounds, const std::vector<fs::path> & scans, bool busy)
+{
+  constexpr std::array<CostJob, 3> jobs{ CostJob::Core, CostJob::Tolerance, CostJob::Refined };
+  std::vector<CostTask>            ofOne;
+  std::vector<CostTask>            ofTwo;
+  std::vector<CostTask>            shapes;
+  std::vector<CostTask>            files;
   for (const Phantom & phantom : fitted)
   {
     ofOne.push_back(TaskOf(phantom, folder, 1));
-    if (phantom.atTwo)
+    if (phantom.atTwo && !busy)
     {
       ofTwo.push_back(TaskOf(phantom, folder, 2));
     }
   }
-  for (const int threads : { 1, 2 })
+  for (const CostJob job : jobs)
   {
-    for (const Phantom & phantom : heldOut)
+    for (int threads = 1; threads <= (busy ? 1 : 2); ++threads)
     {
-      shapes.push_back(TaskOf(phantom, folder, threads));
+      for (const Phantom & phantom : heldOut)
+      {
+        shapes.push_back(TaskOf(phantom, folder, threads, job));
+      }
+      for (const fs::path & scan : scans)
+      {
+        files.push_back({ ScanName(scan), scan, threads, job });
+      }
     }
-    for (const fs::path & scan : scans)
+  }
+  std::vector<CostTask> own; // those fitted, in all jobs
+  for (CostTask task : ofOne)
+  {
+    for (const CostJob job : jobs)
     {
-      files.push_back({ ScanName(scan), scan, threads });
+      task.job = job;
+      own.push_back(task);
     }
   }
   std::vector<CostTask> all;
-  for (const auto * tasks : { &ofOne, &shapes, &ofTwo, &files })
+  for (const auto * tasks : { &own, &shapes, &ofTwo, &files })
   {
     all.insert(all.end(), tasks->begin(), tasks->end());
   }
-  CostSamples samples(folder, VOXELCORE_PROGRAM);
+  CostSamples samples(folder, VOXELCORE_PROGRAM, busy ? VOXELCORE_CLOCK : "");
   samples.Measure(all, TaskOf(performance::kReference, folder, 1).scan, rounds, limit);
-  if (const std::size_t missing = samples.Missing(all); missing > 0)
+  const std::size_t missing = samples.Missing(all);
+  if (missing > 0)
   {
-    std::printf("%zu of %zu jobs have not run yet: call again with the same folder\n", missing, all.size());
+    std::printf("%zu of %zu jobs have not run yet: call again with the same folder\n\n", missing, all.size());
+  }
+  if (samples.Missing(own) + samples.Missing(ofTwo) > 0)
+  {
     return;
   }
 
-  const CostConstants constants = FitConstants(ofOne, ofTwo, samples);
+  CostConstants constants = FitConstants(ofOne, ofTwo, samples);
+  FitMore(ofOne, CostJob::Tolerance, samples, constants, constants.toleranceBytes, constants.toleranceSeconds);
+  FitMore(ofOne, CostJob::Refined, samples, constants, constants.refineBytes, constants.refineSeconds);
   std::printf("constexpr CostConstants kFitted{\n");
   PrintConstants(constants.cells);
   PrintConstants(constants.edges);
   PrintConstants(constants.bytes);
   PrintConstants(constants.seconds);
-  std::printf("  %.2g,\n};\n\n", constants.serial);
+  std::printf("  %.2g,\n", constants.serial);
+  PrintConstants(constants.toleranceBytes);
+  PrintConstants(constants.toleranceSeconds);
+  PrintConstants(constants.refineBytes);
+  PrintConstants(constants.refineSeconds);
+  std::printf("};\n\n");
   std::printf("%s takes %.2f s, 1 thread\n\n", NameOf(performance::kReference).c_str(), samples.ReferenceSeconds());
   const auto table = [&](const CostConstants & with, const std::vector<CostTask> & tasks) {
     Misses misses;
@@ -260,20 +335,28 @@ MeasureFitAndPrint(const fs::path & folder, double limit, int rounds, const std:
       "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
     for (const CostTask & task : tasks)
     {
-      PrintRow(task, samples.Cost(task), with, misses);
+      if (samples.Missing({ task }) == 0)
+      {
+        PrintRow(task, samples.Cost(task), with, misses);
+      }
     }
     std::printf("\n");
     return misses;
   };
-  std::printf("With the constants above, shapes not fitted to, and scans\n\n");
+  std::printf("With the constants above, the shapes fitted to\n\n");
+  const Misses ofOwn = table(constants, own);
+  std::printf("Shapes not fitted to, and scans\n\n");
   const Misses ofShapes = table(constants, shapes);
   const Misses ofFiles = table(constants, files);
   std::printf("With the constants compiled in\n\n");
+  const Misses ofOwnNow = table(FittedCosts(), own);
   const Misses ofShapesNow = table(FittedCosts(), shapes);
   const Misses ofFilesNow = table(FittedCosts(), files);
-  ofShapes.Print("one label, constants above");
+  ofOwn.Print("shapes fitted to, constants above");
+  ofShapes.Print("other shapes, constants above");
   ofFiles.Print("scans, constants above");
-  ofShapesNow.Print("one label, constants compiled in");
+  ofOwnNow.Print("shapes fitted to, constants compiled in");
+  ofShapesNow.Print("other shapes, constants compiled in");
   ofFilesNow.Print("scans, constants compiled in");
 }
 
@@ -287,11 +370,13 @@ main(int argc, char ** argv)
   int                      rounds = 3;
   try
   {
-    const bool further = !arguments.empty() && arguments.front() == "--further";
-    if (further)
-    {
-      arguments.erase(arguments.begin());
-    }
+    const auto take = [&](const char * word) {
+      const bool isThere = !arguments.empty() && arguments.front() == word;
+      arguments.erase(arguments.begin(), arguments.begin() + (isThere ? 1 : 0));
+      return isThere;
+    };
+    const bool further = take("--further");
+    const bool busy = take("--busy");
     while (arguments.size() > 1 && arguments.front().rfind("--", 0) == 0)
     {
       if (arguments[0] == "--seconds")
@@ -311,12 +396,20 @@ main(int argc, char ** argv)
     }
     if (arguments.empty())
     {
-      std::fprintf(stderr, "usage: VoxelCoreCostFit [--further] [--seconds N] [--rounds N] FOLDER [SCAN...]\n");
+      std::fprintf(stderr,
+                   "usage: VoxelCoreCostFit [--further] [--busy] [--seconds N] [--rounds N] FOLDER [SCAN...]\n");
       return 2;
     }
     fs::create_directories(arguments.front());
-    const auto fit = further ? performance::FitSkeletonsAndPages : MeasureFitAndPrint;
-    fit(arguments.front(), limit, rounds, { arguments.begin() + 1, arguments.end() });
+    const std::vector<fs::path> scans(arguments.begin() + 1, arguments.end());
+    if (further)
+    {
+      performance::FitSkeletonsAndPages(arguments.front(), limit, rounds, scans, busy);
+    }
+    else
+    {
+      MeasureFitAndPrint(arguments.front(), limit, rounds, scans, busy);
+    }
   }
   catch (const std::exception & error)
   {

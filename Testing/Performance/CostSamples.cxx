@@ -35,10 +35,11 @@ BuildOf(const fs::path & program)
 
 } // namespace
 
-CostSamples::CostSamples(const fs::path & folder, const std::string & program)
+CostSamples::CostSamples(const fs::path & folder, const std::string & program, const std::string & clock)
   : m_Folder(folder)
   , m_File(folder / "samples.jsonl")
   , m_Program(program)
+  , m_Clock(clock)
 {
   const std::string build = BuildOf(program);
   std::ifstream     file(m_File);
@@ -75,9 +76,13 @@ CostSamples::Run(const fs::path & scan, int threads, CostJob job) const
                                     std::to_string(threads),
                                     "--force",
                                     "-q" };
-  if (job != CostJob::Skeleton)
+  if (job == CostJob::Core || job == CostJob::Page)
   {
-    command.insert(command.end(), { "--refine", "off" }); // which has constants of its own
+    command.insert(command.end(), { "--lambda", "1.5vox" });
+  }
+  if (job != CostJob::Skeleton && job != CostJob::Refined)
+  {
+    command.insert(command.end(), { "--refine", "off" });
   }
   if (job == CostJob::Page)
   {
@@ -87,7 +92,7 @@ CostSamples::Run(const fs::path & scan, int threads, CostJob job) const
   // Of short runs the better of two: what other programs do only adds.
   for (int i = 0; i < 2 && (i == 0 || best.seconds < 0.5); ++i)
   {
-    RunChild(command);
+    RunChild(command, m_Clock);
     std::ifstream file(report);
     const auto    json = nlohmann::json::parse(file);
     const auto &  stages = json.at("seconds");

@@ -1,6 +1,8 @@
 #pragma once
 // What runs of `voxelcore core` and `skeleton` took, kept in a file so that several calls on a busy machine add up.
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,7 +13,9 @@ namespace voxelcore::performance
 
 enum class CostJob
 {
-  Core,
+  Core,      ///< pruned at 1.5vox
+  Tolerance, ///< `core` pruned as without options
+  Refined,   ///< `core` without options
   Skeleton,
   Page ///< `core` with its page
 };
@@ -27,10 +31,9 @@ struct CostTask
   std::string
   Key() const
   {
-    return std::string(job == CostJob::Skeleton ? "skeleton of "
-                       : job == CostJob::Page   ? "page of "
-                                                : "") +
-           name + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+    static constexpr std::array<const char *, 5> words{ "", "by tolerance ", "refined ", "skeleton of ", "page of " };
+    return words[static_cast<std::size_t>(job)] + name + ", " + std::to_string(threads) +
+           (threads == 1 ? " thread" : " threads");
   }
 };
 
@@ -49,8 +52,8 @@ struct JobCost
 class CostSamples
 {
 public:
-  /** Takes up what FOLDER/samples.jsonl holds, if it is of this build of the program. */
-  CostSamples(const std::filesystem::path & folder, const std::string & program);
+  /** Takes up what FOLDER/samples.jsonl holds, if it is of this build of the program. `clock`: preloaded into it. */
+  CostSamples(const std::filesystem::path & folder, const std::string & program, const std::string & clock = "");
 
   /** Runs the tasks in turn, those with the fewest samples first, until each has `rounds` of them or `seconds` have
    *  passed. */
@@ -85,6 +88,7 @@ private:
   std::filesystem::path                      m_Folder;
   std::filesystem::path                      m_File;
   std::string                                m_Program;
+  std::string                                m_Clock;
   std::map<std::string, std::vector<Sample>> m_Samples; ///< by task
 };
 

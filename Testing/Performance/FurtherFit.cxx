@@ -197,7 +197,7 @@ PrintTable(const char *                  what,
 } // namespace
 
 void
-FitSkeletonsAndPages(const fs::path & folder, double limit, int rounds, const std::vector<fs::path> & scans)
+FitSkeletonsAndPages(const fs::path & folder, double limit, int rounds, const std::vector<fs::path> & scans, bool busy)
 {
   std::vector<CostTask> all;
   std::vector<CostTask> skeletons;
@@ -223,7 +223,10 @@ FitSkeletonsAndPages(const fs::path & folder, double limit, int rounds, const st
     for (const fs::path & scan : scans)
     {
       add({ ScanName(scan), scan, 1, job });
-      add({ ScanName(scan), scan, 2, job });
+      if (!busy)
+      {
+        add({ ScanName(scan), scan, 2, job });
+      }
     }
   }
   for (const auto * phantoms : { &fitted, &fittedMany })
@@ -233,7 +236,7 @@ FitSkeletonsAndPages(const fs::path & folder, double limit, int rounds, const st
       all.push_back(TaskOf(phantom, folder, 1));
     }
   }
-  CostSamples samples(folder, VOXELCORE_PROGRAM);
+  CostSamples samples(folder, VOXELCORE_PROGRAM, busy ? VOXELCORE_CLOCK : "");
   samples.Measure(all, TaskOf(kReference, folder, 1).scan, rounds, limit);
   if (const std::size_t missing = samples.Missing(all); missing > 0)
   {

@@ -13,6 +13,7 @@ void
 FitSkeletonsAndPages(const std::filesystem::path &              folder,
                      double                                     limit,
                      int                                        rounds,
-                     const std::vector<std::filesystem::path> & scans);
+                     const std::vector<std::filesystem::path> & scans,
+                     bool                                       busy);
 
 } // namespace voxelcore::performance

@@ -22,11 +22,15 @@ namespace
 
 // Printed by VoxelCoreCostFit.
 constexpr CostConstants kFitted{
-  { 0.5, 1.26, 1.38, 0.993 },
-  { 0.975, 1.95, 3.68, 1.23 },
-  { 3.24e7, 62.2, 176, 0, 312, 0 },
-  { 0, 0, 2.83e-6, 2.82e-6, 5.17e-6, 1.14e-7 },
+  { 0.5, 1.34, 1.34, 0.997 },
+  { 0.988, 2.58, 3.27, 1.29 },
+  { 3.9e7, 37.1, 188, 0, 317, 0 },
+  { 0, 5.24e-7, 1.23e-6, 7.98e-7, 2.39e-6, 1.77e-8 },
   0.6,
+  { 0, 0, 32.8, 0, 0, 0 },
+  { 0, 0, 0, 9.3e-8, 5.02e-8, 3.34e-8 },
+  { 0, 24.3, 73, 0, 0, 0 },
+  { 0, 9.5e-7, 3.53e-6, 0, 3.93e-6, 1.54e-8 },
   // By VoxelCoreCostFit --further.
   { 3.54e7, 0, 483, 116, 13.8, 0 },
   { 0, 0, 0, 0, 0, 2.34e-7 },
@@ -42,13 +46,9 @@ constexpr double kWholeCoreBytes = 200; // a boundary vertex: of a whole core ke
 constexpr double kPrunedBytes = 97;     // an edge of a pruned core, kept likewise
 constexpr double kFurtherBytes = 50;    // of each further result at the peak of a label
 constexpr double kEdgeBytes = 40;       // of --keep-edges
-constexpr double kToleranceBytes = 70;  // of tolerances
 constexpr double kTetgenBytes = 1050;   // TetGen's mesh
 constexpr double kTetgenSeconds = 6e-5;
 constexpr double kFurtherSeconds = 8e-7; // of each further result
-constexpr double kToleranceSeconds = 3e-6;
-constexpr double kRefineBytes = 180; // the band of the field, and what is kept of the whole core
-constexpr double kRefineSeconds = 1.3e-5;
 
 template <std::size_t n>
 double
@@ -112,13 +112,13 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const Co
   }
   if (!options.tolerances.empty())
   {
-    cost.bytes += border * kToleranceBytes;
-    cost.seconds += border * kToleranceSeconds;
+    cost.bytes += Sum(terms.values, constants.toleranceBytes);
+    cost.seconds += Sum(terms.values, constants.toleranceSeconds);
   }
   if (!options.refine.surface.empty())
   {
-    cost.bytes += border * kRefineBytes;
-    cost.seconds += border * kRefineSeconds;
+    cost.bytes += Sum(terms.values, constants.refineBytes);
+    cost.seconds += Sum(terms.values, constants.refineSeconds);
   }
   if (tetgen)
   {

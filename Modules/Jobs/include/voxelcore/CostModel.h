@@ -44,6 +44,11 @@ struct CostConstants
   std::array<double, CostTerms::kSize> bytes{};    ///< at the peak of one label, one thread
   std::array<double, CostTerms::kSize> seconds{};  ///< one thread, without reading
   double                               serial = 0; ///< part of the seconds that more threads do not shorten
+  // Of pruning by tolerance instead of by lambda, and of refinement from labels beside it: what they add.
+  std::array<double, CostTerms::kSize> toleranceBytes{};
+  std::array<double, CostTerms::kSize> toleranceSeconds{};
+  std::array<double, CostTerms::kSize> refineBytes{};
+  std::array<double, CostTerms::kSize> refineSeconds{};
 
   // More threads do several labels at a time, but make no single label of a page faster.
   std::array<double, CostTerms::kSize> skeletonBytes{};   ///< at the peak of a job with a skeleton of one label
