@@ -165,64 +165,30 @@ Half(size_t size)
   return size > 1 ? size / 2 : size;
 }
 
-ssize_t
-write(int file, const void * from, size_t size)
-{
-  NEXT(write)
-  if (IsMeantFile(file) && Fails("write"))
-  {
-    return s_Error ? -1 : next(file, from, Half(size));
+/** Reads and writes: the one that is meant fails, or does half. */
+#define TRANSFER(name, call, parameters, whole, half) \
+  ssize_t name parameters                             \
+  {                                                   \
+    NEXT(name)                                        \
+    if (IsMeantFile(file) && Fails(call))             \
+    {                                                 \
+      return s_Error ? -1 : next half;                \
+    }                                                 \
+    return next whole;                                \
   }
-  return next(file, from, size);
-}
-
-ssize_t
-writev(int file, const struct iovec * parts, int count)
-{
-  NEXT(writev)
-  if (IsMeantFile(file) && Fails("write"))
-  {
-    return s_Error ? -1 : next(file, parts, count > 1 ? 1 : count);
-  }
-  return next(file, parts, count);
-}
-
-#define PWRITE(name, type)                                        \
-  ssize_t name(int file, const void * from, size_t size, type at) \
-  {                                                               \
-    NEXT(name)                                                    \
-    if (IsMeantFile(file) && Fails("write"))                      \
-    {                                                             \
-      return s_Error ? -1 : next(file, from, Half(size), at);     \
-    }                                                             \
-    return next(file, from, size, at);                            \
-  }
-PWRITE(pwrite, off_t)
-PWRITE(pwrite64, off64_t)
-
-ssize_t
-read(int file, void * to, size_t size)
-{
-  NEXT(read)
-  if (IsMeantFile(file) && Fails("read"))
-  {
-    return s_Error ? -1 : next(file, to, Half(size));
-  }
-  return next(file, to, size);
-}
-
-#define PREAD(name, type)                                   \
-  ssize_t name(int file, void * to, size_t size, type at)   \
-  {                                                         \
-    NEXT(name)                                              \
-    if (IsMeantFile(file) && Fails("read"))                 \
-    {                                                       \
-      return s_Error ? -1 : next(file, to, Half(size), at); \
-    }                                                       \
-    return next(file, to, size, at);                        \
-  }
-PREAD(pread, off_t)
-PREAD(pread64, off64_t)
+// clang-format off
+TRANSFER(write, "write", (int file, const void * from, size_t size), (file, from, size), (file, from, Half(size)))
+TRANSFER(writev, "write", (int file, const struct iovec * parts, int count), (file, parts, count),
+         (file, parts, count > 1 ? 1 : count))
+TRANSFER(pwrite, "write", (int file, const void * from, size_t size, off_t at), (file, from, size, at),
+         (file, from, Half(size), at))
+TRANSFER(pwrite64, "write", (int file, const void * from, size_t size, off64_t at), (file, from, size, at),
+         (file, from, Half(size), at))
+TRANSFER(read, "read", (int file, void * to, size_t size), (file, to, size), (file, to, Half(size)))
+TRANSFER(pread, "read", (int file, void * to, size_t size, off_t at), (file, to, size, at), (file, to, Half(size), at))
+TRANSFER(pread64, "read", (int file, void * to, size_t size, off64_t at), (file, to, size, at),
+         (file, to, Half(size), at))
+// clang-format on
 
 // What the C library buffers reaches the system from within itself, where no other library is asked.
 
@@ -233,29 +199,19 @@ MarkBad(FILE * stream)
   stream->_flags |= 0x20; // _IO_ERR_SEEN
 }
 
-size_t
-fwrite(const void * from, size_t size, size_t count, FILE * stream)
-{
-  NEXT(fwrite)
-  if (size != 0 && count != 0 && s_Error != 0 && IsMeantFile(fileno(stream)) && Fails("write"))
-  {
-    MarkBad(stream);
-    return 0;
+#define ITEMS(name, call, pointer)                                                             \
+  size_t name(pointer items, size_t size, size_t count, FILE * stream)                         \
+  {                                                                                            \
+    NEXT(name)                                                                                 \
+    if (size != 0 && count != 0 && s_Error != 0 && IsMeantFile(fileno(stream)) && Fails(call)) \
+    {                                                                                          \
+      MarkBad(stream);                                                                         \
+      return 0;                                                                                \
+    }                                                                                          \
+    return next(items, size, count, stream);                                                   \
   }
-  return next(from, size, count, stream);
-}
-
-size_t
-fread(void * to, size_t size, size_t count, FILE * stream)
-{
-  NEXT(fread)
-  if (size != 0 && count != 0 && s_Error != 0 && IsMeantFile(fileno(stream)) && Fails("read"))
-  {
-    MarkBad(stream);
-    return 0;
-  }
-  return next(to, size, count, stream);
-}
+ITEMS(fwrite, "write", const void *)
+ITEMS(fread, "read", void *)
 
 int
 fflush(FILE * stream)

@@ -92,6 +92,25 @@ TEST(BranchTips, OfStraightTubesLieAtTheCentresOfTheirCaps)
   EXPECT_LT(after, before) << "seed " << seed;
 }
 
+// Each end may look along its own part of a tube only: of a short one nothing is left between its caps.
+TEST(BranchTips, OfATubeAsShortAsItsCapsStayWhereTheyWere)
+{
+  const auto place = [](double length) {
+    const Curve   line = SampleCurve([&](double t) { return Spacing3{ 9.3 + t * length, 9.6, 9.4 }; }, 100);
+    const auto    shape = Tube(line, 4, { length + 20, 20, 20 });
+    SkeletonGraph graph = GraphOfSurface(SurfaceOf(shape));
+    return PlaceTips(graph, shape, GridFromOrigin({ 1, 1, 1 }));
+  };
+  for (const double length : { 11.0, 12.0, 13.0 })
+  {
+    EXPECT_EQ(place(length), 0U) << length;
+  }
+  for (const double length : { 17.0, 24.0 })
+  {
+    EXPECT_EQ(place(length), 2U) << length;
+  }
+}
+
 TEST(BranchTips, OfAThickStemLieAtTheCentresOfItsCapsWhereAThinBranchLeavesIt)
 {
   const auto seed = std::random_device{}();

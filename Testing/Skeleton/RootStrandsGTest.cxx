@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace voxelcore::testing
 {
 namespace
@@ -54,6 +56,40 @@ TEST(RootStrands, StraightRootsGoOnStraightThroughTheirContact)
     least = std::min(least, SquaredDistance(place, strands[1].line));
   }
   EXPECT_GT(least, 1);
+}
+
+TEST(RootStrands, ARootRunThroughTheOtherWayRoundGivesWayTheSame)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 120 }, { 0, 0, 100 }, 4);
+  builder.Line({ 0, 0, 100 }, { 0, 0, 40 }, 4);
+  builder.Line({ 0, 0, 40 }, { 0, 0, 0 }, 4);
+  builder.Line({ 0, 0, 100 }, { 40, 0, 70 }, 2);
+  builder.Line({ 40, 0, 70 }, { 80, 20, 60 }, 2); // both bend where they touch
+  builder.Line({ 0, 0, 40 }, { 40, 0, 70 }, 2);
+  builder.Line({ 40, 0, 70 }, { 70, -25, 100 }, 2);
+  const SkeletonGraph graph = builder.Graph();
+  RootHierarchy       roots = FindRoots(graph);
+  ASSERT_EQ(roots.meetings.size(), 1U);
+  const auto strands = TraceStrands(graph, roots, roots.meetings[0]);
+  ASSERT_EQ(strands.size(), 2U);
+  std::ranges::reverse(roots.axes[strands[0].axis].points);
+  const auto turned = TraceStrands(graph, roots, roots.meetings[0]);
+  ASSERT_EQ(turned.size(), 2U);
+  ASSERT_LT(strands[0].curveFrom, strands[0].curveTo);
+  for (std::size_t which = 0; which < 2; ++which)
+  {
+    auto line = turned[which].line;
+    ASSERT_EQ(line.size(), strands[which].line.size());
+    if (which == 0)
+    {
+      std::ranges::reverse(line);
+    }
+    for (std::size_t i = 0; i < line.size(); ++i)
+    {
+      EXPECT_LT(Distance(line[i], strands[which].line[i]), 1e-9) << which << ' ' << i;
+    }
+  }
 }
 
 // Where roots touch, radii are those of parts of a cross section: the strand's is that before and behind.

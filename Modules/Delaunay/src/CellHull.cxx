@@ -89,6 +89,7 @@ AppendFacet(std::span<const LatticePoint> points, std::uint16_t from, std::uint1
 
 // A directed side of the hull at point 0 to start from: every cospherical point is a corner, so some plane through
 // point 0 and two others has all points behind it.
+// NOLINTBEGIN(bugprone-too-small-loop-variable): a sphere within a box of 64 meets its 2^12 columns twice at most
 template <typename TNumber>
 std::array<std::uint16_t, 2>
 FirstSide(std::span<const LatticePoint> points)
@@ -121,6 +122,7 @@ FirstSide(std::span<const LatticePoint> points)
   }
   throw Error("a Delaunay cell is flat; please report this input");
 }
+// NOLINTEND(bugprone-too-small-loop-variable)
 
 // Gift wrapping: sides of known facets whose other facet is still missing.
 template <typename TNumber>

@@ -163,7 +163,6 @@ private:
     second.points = std::move(tail);
     second.parent = before;
     second.parentPoint = at;
-    second.loose = false;
     m_IsGone[next] = isStub ? 1 : m_IsGone[next];
     for (ElementIndex & is : m_Is)
     {

@@ -198,7 +198,7 @@ FindUp(const RootBranches & branches, const BranchEnd & stem)
 }
 
 RootFlow
-FlowFrom(const RootBranches & branches, std::vector<BranchEnd> stems)
+FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems)
 {
   const std::size_t count = branches.Graph().BranchCount();
   RootFlow          flow;

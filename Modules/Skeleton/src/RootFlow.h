@@ -125,6 +125,6 @@ Vector3
 FindUp(const RootBranches & branches, const BranchEnd & stem);
 
 RootFlow
-FlowFrom(const RootBranches & branches, std::vector<BranchEnd> stems);
+FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems);
 
 } // namespace voxelcore
