@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
+
 namespace voxelcore
 {
 
@@ -14,6 +16,15 @@ namespace
 {
 
 using Json = nlohmann::ordered_json;
+
+/** As emplace(), which clang 14 does not find for a structure within a structure. */
+template <typename Value>
+Value &
+MakeNew(std::optional<Value> & to)
+{
+  to = Value();
+  return *to;
+}
 
 TopologyNumbers
 ReadTopology(const Json & json)
@@ -66,15 +77,15 @@ ReadEditRecord(const Json & json)
   {
     if (json.contains(name))
     {
-      filtered->emplace();
-      json.at(name).at("voxels_added").get_to((*filtered)->voxelsAdded);
-      json.at(name).at("voxels_removed").get_to((*filtered)->voxelsRemoved);
+      EditRecord::Filtered & made = MakeNew(*filtered);
+      json.at(name).at("voxels_added").get_to(made.voxelsAdded);
+      json.at(name).at("voxels_removed").get_to(made.voxelsRemoved);
     }
   }
   if (json.contains("mended"))
   {
     const Json &         from = json.at("mended");
-    EditRecord::Mended & mended = edits.mended.emplace();
+    EditRecord::Mended & mended = MakeNew(edits.mended);
     from.at("pieces_joined").get_to(mended.piecesJoined);
     from.at("loops_closed").get_to(mended.loopsClosed);
     from.at("cavities_filled").get_to(mended.cavitiesFilled);
@@ -87,17 +98,17 @@ ReadEditRecord(const Json & json)
   {
     if (json.contains(name))
     {
-      const Json & from = json.at(name);
-      filled->emplace();
-      from.at("holes").get_to((*filled)->holes);
-      from.at("voxels_added").get_to((*filled)->voxelsAdded);
-      from.at("components_joined").get_to((*filled)->componentsJoined);
+      const Json &         from = json.at(name);
+      EditRecord::Filled & made = MakeNew(*filled);
+      from.at("holes").get_to(made.holes);
+      from.at("voxels_added").get_to(made.voxelsAdded);
+      from.at("components_joined").get_to(made.componentsJoined);
     }
   }
   if (json.contains("smoothed"))
   {
     const Json &           from = json.at("smoothed");
-    EditRecord::Smoothed & smoothed = edits.smoothed.emplace();
+    EditRecord::Smoothed & smoothed = MakeNew(edits.smoothed);
     from.at("voxels_added").get_to(smoothed.voxelsAdded);
     from.at("voxels_removed").get_to(smoothed.voxelsRemoved);
     from.at("largest_shift_voxels").get_to(smoothed.largestShift);
@@ -105,7 +116,7 @@ ReadEditRecord(const Json & json)
   if (json.contains("topology_simplified"))
   {
     const Json &             from = json.at("topology_simplified");
-    EditRecord::Simplified & simplified = edits.simplified.emplace();
+    EditRecord::Simplified & simplified = MakeNew(edits.simplified);
     simplified.before = ReadTopology(from.at("before"));
     simplified.after = ReadTopology(from.at("after"));
     from.at("as_asked").get_to(simplified.asAsked);

@@ -239,7 +239,8 @@ private:
     }
     while (!waiting.empty())
     {
-      const auto [cost, number] = waiting.top();
+      const auto cost = waiting.top().first; // clang 14 lets no lambda see a structured binding
+      const auto number = waiting.top().second;
       waiting.pop();
       if (labels[number] != ChangeWindow::kNone && labels[number] != start)
       {

@@ -173,10 +173,10 @@ Prune(const MedialComplex &                    core,
     {
       take(collapse.Live());
     }
-    else
-    {
-      take(std::move(collapse).TakeLive()); // NOLINT(bugprone-use-after-move): the last round
-    }
+  }
+  if (!thresholds.empty())
+  {
+    take(std::move(collapse).TakeLive());
   }
   return pruned;
 }
