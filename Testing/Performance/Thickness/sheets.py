@@ -61,11 +61,13 @@ def body(kind, p, half):
         along = out * np.cos(turn / 2) + p[2] * np.sin(turn / 2)
         across = p[2] * np.cos(turn / 2) - out * np.sin(turn / 2)
         return np.maximum(np.abs(across), np.abs(along) - 0.26 * half + 2.5)
-    if kind == "gyroid":
+    if kind.startswith("gyroid"):
         t = 2 * np.pi / (0.9 * half)
         x, y, z = p[0] * t, p[1] * t, p[2] * t
         value = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
-        return np.maximum(np.abs(value) / t / 1.73, np.sqrt(p[0] ** 2 + p[1] ** 2 + p[2] ** 2) - half + 2.5)
+        across, out = np.abs(value) / t / 1.73, np.sqrt(p[0] ** 2 + p[1] ** 2 + p[2] ** 2) - half + 2.5
+        # Cut by a sphere its rim is a wedge, with holes where that is thinner than a voxel.
+        return np.hypot(across, np.maximum(0, out + 2.5)) if kind == "gyroid, round rim" else np.maximum(across, out)
     raise ValueError(kind)
 
 
@@ -74,6 +76,7 @@ KNOWN = {
     "closed shell": (1, 0, 0),
     "Moebius band": (1, 0, 0),
     "gyroid": (1, 0, 0),
+    "gyroid, round rim": (1, 0, 0),
     "Y of three walls": (3, 1, 0),
     "X of four walls": (4, 1, 0),
     "four cells": (6, 4, 1),
