@@ -59,6 +59,26 @@ TEST(GreyScan, TheHalfwayThresholdFindsAHundredthOfTheVoxelsThatOtsuMisses)
   EXPECT_EQ(HalfwayThreshold(std::vector<double>{ 7, 7, 7 }), 7);
 }
 
+TEST(GreyScan, TheHalfwayThresholdIsHalfwayWhereNoiseReachesBeyondIt)
+{
+  for (const unsigned seed : { 1U, 2U, 3U })
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937        random(seed);
+    std::vector<double> values;
+    // Half of the contrast is 3.1 deviations of the noise, as in a poor scan; a third of the bright voxels are partial.
+    std::normal_distribution<double>       noise(0, 320);
+    std::uniform_real_distribution<double> part(0.3, 1);
+    for (int i = 0; i < 400000; ++i)
+    {
+      const double root = i % 200 != 0 ? 0 : i % 600 == 0 ? part(random) : 1;
+      values.push_back(1000 + 2000 * root + noise(random));
+    }
+    std::sort(values.begin(), values.end());
+    EXPECT_NEAR(HalfwayThreshold(values), 2000, 100);
+  }
+}
+
 /** A dark and a bright class, both noisy. */
 std::vector<std::uint8_t>
 TwoClasses(std::uint64_t seed)

@@ -93,6 +93,21 @@ TEST(RootHierarchy, TipsThatDoNotFaceEachOtherNearAndAlikeStayApart)
   EXPECT_EQ(joins(SmallRoot().Graph(), {}), 0U);
 }
 
+TEST(RootHierarchy, TipsThatOverlapFaceEachOther)
+{
+  // A gap shorter than a radius has no direction: one tip may lie beside the other, or a little past it.
+  const auto joins = [](const Spacing3 & to) {
+    SkeletonGraph graph = TornRoot({ 30, 0, 100 }, to, 1);
+    return JoinTornRoots(graph).size();
+  };
+  EXPECT_EQ(joins({ 30, 0.6, 100 }), 1U);
+  EXPECT_EQ(joins({ 29.6, 0.3, 100 }), 1U);
+  RootRules rules;
+  rules.tornSlack = 3;
+  SkeletonGraph graph = TornRoot({ 30, 0, 100 }, { 37, 0, 100 }, 1);
+  EXPECT_EQ(JoinTornRoots(graph, rules).size(), 1U) << "thick slices";
+}
+
 TEST(RootHierarchy, AStretchWhoseCrossSectionIsSharedOutIsAsThickAsItsBalls)
 {
   GraphBuilder builder;

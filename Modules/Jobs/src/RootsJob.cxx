@@ -53,6 +53,10 @@ CoreOptionsOf(const RootsOptions & options)
   if (!options.asIs)
   {
     CleanForRoots(core.edits);
+    if (options.rules.tornGap > 0)
+    {
+      core.edits.joinTorn = options.rules.tornGap;
+    }
   }
   core.further = options.further;
   CompletePruning(core.lambdas, core.tolerances);
@@ -321,12 +325,14 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
     throw UsageError(options.scan.string() + ": " + std::to_string(clean.edited.labels.size()) +
                      " labels; choose one with --labels, or take all as one with --binary");
   }
+  RootRules rules = options.rules;
+  rules.tornSlack = std::ranges::max(clean.geometry.spacing);
   if (cuts)
   {
     result.topology = TellRootsApart(clean.edited.labels.front().label,
                                      clean.geometry,
                                      core,
-                                     options.rules,
+                                     rules,
                                      { depth, request, options.kernel, options.neighbourhood },
                                      editing,
                                      PartOfProgress(context.progress, 0, 0.35));
@@ -367,8 +373,8 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   else
   {
     result.model.graph = std::move(skeleton.parts.at(0).graph);
-    torn = JoinTornRoots(result.model.graph, options.rules);
-    result.model.roots = editing(result.model.graph, FindRoots(result.model.graph, options.rules));
+    torn = JoinTornRoots(result.model.graph, rules);
+    result.model.roots = editing(result.model.graph, FindRoots(result.model.graph, rules));
     if (result.topology)
     {
       RecallContacts(*result.topology, result.model);

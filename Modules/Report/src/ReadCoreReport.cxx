@@ -94,7 +94,8 @@ ReadEditRecord(const Json & json)
   }
   for (const auto & [name, filled] : { std::pair("closed", &edits.closed),
                                        std::pair("hollows_filled", &edits.hollows),
-                                       std::pair("slices_filled", &edits.slices) })
+                                       std::pair("slices_filled", &edits.slices),
+                                       std::pair("torn_pieces_joined", &edits.torn) })
   {
     if (json.contains(name))
     {

@@ -381,11 +381,13 @@ HalfwayThreshold(std::span<const double> sorted)
       part = brighter;
       continue;
     }
-    double threshold = least;
-    for (int i = 0; i < 10; ++i)
+    // Noise may reach beyond half of what is bright: above three deviations it is still a seldom thing.
+    const double lowest = background + 3 * deviation;
+    double       threshold = least;
+    for (int i = 0; i < 20; ++i)
     {
       const auto bright = above(part, threshold);
-      threshold = bright.empty() ? threshold : std::max(least, (background + at(bright, 0.75)) / 2);
+      threshold = bright.empty() ? threshold : std::max(lowest, (background + at(bright, 0.75)) / 2);
     }
     return threshold;
   }

@@ -1,5 +1,4 @@
 #include "voxelcore/ShapeEdits.h"
-#include "ShapeBits.h"
 
 #include "ShapeBits.h"
 
@@ -10,6 +9,7 @@
 #include "voxelcore/ShapeSmoothing.h"
 #include "voxelcore/StagePlan.h"
 #include "voxelcore/TextFields.h"
+#include "voxelcore/TornPieces.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -126,6 +126,12 @@ EditShape(VoxelShape &             shape,
     record.voxelsAdded = filled.voxelsAdded;
     record.componentsJoined = filled.componentsJoined;
   }
+  if (options.joinTorn)
+  {
+    TornPieces torn = JoinTornPieces(std::move(shape), geometry.spacing, *options.joinTorn);
+    shape = std::move(torn.shape);
+    record.torn = { torn.voxelsAdded, torn.piecesJoined, 0 };
+  }
   if (options.minVoxels)
   {
     takeRemoved(RemoveSmallComponents(std::move(shape), *options.minVoxels));
@@ -210,7 +216,8 @@ Add(const EditRecord & record, EditRecord & sum)
     mended.loopsClosed += record.mended->loopsClosed;
     mended.cavitiesFilled += record.mended->cavitiesFilled;
   }
-  for (auto EditRecord::*const member : { &EditRecord::closed, &EditRecord::hollows, &EditRecord::slices })
+  for (auto EditRecord::*const member :
+       { &EditRecord::closed, &EditRecord::hollows, &EditRecord::slices, &EditRecord::torn })
   {
     if (const auto & one = record.*member)
     {
@@ -283,6 +290,11 @@ Describe(const EditRecord & sum, const ShapeEditOptions & options)
     notes.push_back(Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
                     Counted(sum.voxelsAdded, "voxel", "voxels") + ", " +
                     Counted(sum.componentsJoined, "component", "components") + " in them joined to what is around");
+  }
+  if (sum.torn && sum.torn->componentsJoined > 0)
+  {
+    notes.push_back(Counted(sum.torn->componentsJoined, "torn piece", "torn pieces") + " joined with " +
+                    Counted(sum.torn->voxelsAdded, "voxel", "voxels"));
   }
   if (options.minVoxels || options.largest)
   {

@@ -79,13 +79,14 @@ JoinTornRoots(SkeletonGraph & graph, const RootRules & rules)
       const Vector3 & to = graph.positions[other.point];
       const double    gap = Distance(from, to);
       const auto [thin, thick] = std::minmax(one.radius, other.radius);
-      if (one.branch == other.branch || gap > rules.tornGap * (thin + thick) || thin < kLeastLikeness * thick)
+      const double longest = rules.tornGap > 0 ? rules.tornGap * (thin + thick) + rules.tornSlack : 0;
+      if (one.branch == other.branch || gap > longest || thin < kLeastLikeness * thick)
       {
         continue;
       }
       const Vector3 across = Unit({ to[0] - from[0], to[1] - from[1], to[2] - from[2] });
-      if (Dot(one.way, across) >= kLeastInto && -Dot(other.way, across) >= kLeastInto &&
-          -Dot(one.way, other.way) >= kLeastOnward)
+      const bool    isInto = Dot(one.way, across) >= kLeastInto && -Dot(other.way, across) >= kLeastInto;
+      if ((isInto || gap <= thin) && -Dot(one.way, other.way) >= kLeastOnward)
       {
         gaps.push_back({ gap, a, b });
       }

@@ -28,8 +28,9 @@ struct GreyScan
 /** Halfway between a scan's background and what little is brighter in it, such as roots, which Otsu's method misses
  *  when they are a hundredth of the voxels. The background is the median; what lies five standard deviations above it
  *  (by the dark side) is brighter, and counts as its upper quartile. Where that is more than 0.3 of the voxels, it is
- *  looked at in the same way by itself: then the dark is the air around a pot, say. Values in ascending order; their
- *  last where nothing is brighter. */
+ *  looked at in the same way by itself: then the dark is the air around a pot, say. With strong noise the halfway value
+ *  may lie below five deviations; it is never below three. Values in ascending order; their last where nothing is
+ *  brighter. */
 double
 HalfwayThreshold(std::span<const double> sorted);
 

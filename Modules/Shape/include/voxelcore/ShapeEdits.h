@@ -31,6 +31,7 @@ struct ShapeEditOptions
   std::optional<GapWidth>      fillHollows;  ///< lumens that open only through holes up to so wide
   std::optional<SliceAxis>     fillSlices;   ///< holes of the slices across this axis
   bool                         fillCavities = false;
+  std::optional<double>        joinTorn;  ///< torn pieces, over gaps of so many diameters (TornPieces.h)
   std::optional<std::uint64_t> minVoxels; ///< components (6-connected) of fewer voxels are removed
   std::optional<std::uint64_t> largest;   ///< so many components are kept
   bool                         smooth = false;
@@ -42,8 +43,8 @@ struct ShapeEditOptions
   bool
   AreAsked() const
   {
-    return median || denoise || mend || close || fillHollows || fillSlices || fillCavities || minVoxels || largest ||
-           smooth || simplify || change || splitComponents;
+    return median || denoise || mend || close || fillHollows || fillSlices || fillCavities || joinTorn || minVoxels ||
+           largest || smooth || simplify || change || splitComponents;
   }
 };
 
@@ -81,12 +82,12 @@ struct EditRecord
     double        largestShift = 0; ///< voxels
   };
 
-  /** What CloseShape, FillHollows or FillSlices changed. */
+  /** What CloseShape, FillHollows, FillSlices or JoinTornPieces changed. */
   struct Filled
   {
     std::uint64_t voxelsAdded = 0;
     std::uint64_t componentsJoined = 0;
-    std::uint64_t holes = 0; ///< lumens, or holes over all slices; of closing 0
+    std::uint64_t holes = 0; ///< lumens, or holes over all slices; of others 0
   };
 
   /** One cut or fill of SimplifyWithin. */
@@ -119,6 +120,7 @@ struct EditRecord
   std::optional<Filled>     closed;     ///< when asked
   std::optional<Filled>     hollows;    ///< when asked
   std::optional<Filled>     slices;     ///< when asked
+  std::optional<Filled>     torn;       ///< when asked: pieces joined
   std::optional<Smoothed>   smoothed;   ///< when asked
   std::optional<Simplified> simplified; ///< when asked
   std::optional<Filtered>   changed;    ///< when asked: by ChangeVoxels

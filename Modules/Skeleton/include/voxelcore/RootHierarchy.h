@@ -40,6 +40,7 @@ struct RootRules
   double                 bridgeLength = 1.6; ///< longest bridge between roots that touch, in sums of their radii
   double                 sharedLength = 4;   ///< longest stretch that two roots share, in sums of their radii
   double                 tornGap = 2;        ///< longest gap in a torn root, in sums of the radii at its ends; 0: none
+  double                 tornSlack = 0;      ///< mm: so much longer where slices are so thick
   double                 undecided = 0.15;   ///< margin below which a contact is marked
   double                 whorlGap = 1;       ///< in radii of the stem
   int                    whorlSize = 3;
@@ -95,7 +96,8 @@ struct RootHierarchy
 
 /** Joins what is torn: two tips that face each other, of which the thinner has at least half of the other's radius,
  *  get a straight line between them where the gap is short enough (RootRules::tornGap) and neither way turns by more
- *  than 60 degrees into it, nor by more than 45 from one into the other; always the nearest first. A thin root may be
+ *  than 60 degrees into it, nor by more than 45 from one into the other; always the nearest first. A gap shorter than a
+ *  radius has no direction of its own. A thin root may be
  *  lost for a voxel or two where slices are thick or noise is strong. Gives the gaps, in mm. */
 std::vector<double>
 JoinTornRoots(SkeletonGraph & graph, const RootRules & rules = {});
