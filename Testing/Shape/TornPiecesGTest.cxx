@@ -95,9 +95,12 @@ TEST(TornPieces, WhatIsFarOrRoundOrBesideOrSmallStaysApart)
   EXPECT_EQ(with([](const Place & p) { return IsInLateral(p, 0, 0, 9); }), 1U);
   EXPECT_EQ(with([](const Place & p) { return IsInLateral(p, 0, 0, 15); }), 0U) << "far";
   EXPECT_EQ(with([](const Place & p) { return std::hypot(p[0] - 19, p[1] - 20, p[2] - 30) <= 2; }), 0U) << "round";
-  EXPECT_EQ(with([](const Place & p) { return std::hypot(p[0] - 19, p[1] - 20) <= 1.5 && std::abs(p[2] - 30) < 10; }),
+  EXPECT_EQ(joined([](const Place & p) {
+              return (IsInStem(p) && std::abs(p[2] - 30) < 8) ||
+                     (std::hypot(p[0] - 19, p[1] - 20) <= 1.5 && std::abs(p[2] - 30) < 14);
+            }),
             0U)
-    << "beside the stem, along it";
+    << "beside the stem, with ends that lead away from it";
   EXPECT_EQ(
     with([](const Place & p) { return p[0] > 17 && p[0] < 21 && p[1] > 20 && p[1] < 21 && p[2] > 30 && p[2] < 31; }),
     0U)

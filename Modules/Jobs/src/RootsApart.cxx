@@ -8,6 +8,7 @@
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/ReadInput.h"
+#include "voxelcore/RootCentring.h"
 #include "voxelcore/RootContacts.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/TextFields.h"
@@ -111,6 +112,42 @@ ReadBand(const CoreOptions & core, VoxelShape around, const ProgressCallback & p
     [&](std::int32_t y, std::int32_t z, std::span<const float> row) { values.SetRow(y, z, row); },
     progress);
   return values;
+}
+
+double
+MedianOf(std::vector<float> values, double otherwise)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return values.empty() ? otherwise : *middle;
+}
+
+void
+CentreByValues(const ImageGeometry & geometry,
+               const CoreOptions &   core,
+               const BandValues &    values,
+               const RootHierarchy & roots,
+               SkeletonGraph &       graph)
+{
+  if (std::isfinite(core.reading.threshold->second))
+  {
+    return; // what is brighter is no root
+  }
+  const double       level = core.reading.threshold->first;
+  std::vector<float> dark;
+  std::vector<float> bright;
+  for (const float value : values.All())
+  {
+    (value < level ? dark : bright).push_back(value);
+  }
+  const double background = MedianOf(std::move(dark), level);
+  const double root = MedianOf(std::move(bright), level);
+  if (root > background)
+  {
+    CentreRoots(graph, roots, geometry, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+      return values.Band().Contains(x, y, z) ? (values.At(x, y, z) - background) / (root - background) : 0.0;
+    });
+  }
 }
 
 /** One cut or fill with its voxels as runs. */
@@ -245,12 +282,30 @@ TellRootsApart(LabelShape &             mask,
     topology.parts.push_back(std::move(one));
   }
   std::ranges::stable_sort(topology.parts, std::ranges::greater{}, &RootsChange::cost);
+  if (values)
+  {
+    CentreByValues(geometry, core, *values, roots, graph);
+  }
   topology.graph = std::move(graph);
   topology.roots = std::move(roots);
   topology.torn = std::move(torn);
   mask.shape = std::move(simplified.shape);
   mask.voxels = mask.shape.CountVoxels();
   return topology;
+}
+
+void
+CentreRootsByGrey(const VoxelShape &    mask,
+                  const ImageGeometry & geometry,
+                  const CoreOptions &   core,
+                  const GapWidth &      depth,
+                  const RootHierarchy & roots,
+                  SkeletonGraph &       graph)
+{
+  if (const auto values = ReadBand(core, VoxelsAround(mask, BallOfDepth(depth, geometry)), {}))
+  {
+    CentreByValues(geometry, core, *values, roots, graph);
+  }
 }
 
 std::string

@@ -32,6 +32,17 @@ TellRootsApart(LabelShape &             mask,
                RootEditing &            editing,
                const ProgressCallback & progress);
 
+/** Where `core` reads a grey scan of bright roots, puts the curves of thin ones where the values say that their middle
+ *  is (RootCentring.h). `mask` is the scan's, `depth` how far from it values are looked at. TellRootsApart() has done so
+ *  with the graph it gives. */
+void
+CentreRootsByGrey(const VoxelShape &    mask,
+                  const ImageGeometry & geometry,
+                  const CoreOptions &   core,
+                  const GapWidth &      depth,
+                  const RootHierarchy & roots,
+                  SkeletonGraph &       graph);
+
 /** What was cut and filled, with the voxels, as a file that --change-voxels reads. */
 std::string
 RootChangesText(const std::optional<RootsTopology> & topology, SpatialUnit unit);

@@ -63,7 +63,7 @@ constexpr auto kRootColumns = std::to_array<ValueColumn<RootRow>>({
   { "surface", "mm^2", "of their sides", [](const RootRow & r) { return r.record.surface; } },
   { "emergence_angle",
     "deg",
-    "between its parent's direction and its own where it leaves the parent",
+    "between its parent's direction and its own from one to four diameters behind its base",
     [](const RootRow & r) { return r.record.emergenceAngle; } },
   { "midpoint_angle",
     "deg",

@@ -59,7 +59,7 @@ struct Piece
 
 struct Gap
 {
-  double      length = 0;
+  double      length = 0; ///< longer where the piece's way has to turn, by 1 / cos
   std::size_t piece = 0;
   std::size_t other = 0;
   Voxel       from{};
@@ -192,7 +192,8 @@ private:
           const Voxel   at{ x, y, z };
           const Vector3 across = Minus(Place(at), tip);
           const double  away = Length(across);
-          if (away > reach || (best && away >= best->length) || Dot(way, across) < kLeastCosine * Length(way) * away ||
+          const double  cosine = Dot(way, across) / (Length(way) * away);
+          if (away > reach || !(cosine >= kLeastCosine) || (best && away / cosine >= best->length) ||
               !m_Shape.Contains(x, y, z))
           {
             continue;
@@ -200,7 +201,7 @@ private:
           const auto other = PieceAt(at);
           if (other && *other != number)
           {
-            best = Gap{ away, number, *other, end, at };
+            best = Gap{ away / cosine, number, *other, end, at };
           }
         }
       }

@@ -169,8 +169,8 @@ private:
       }
       return at;
     };
-    const std::size_t near = awayFromBase(3);
-    const std::size_t bend = awayFromBase(0.5) < near ? awayFromBase(0.5) : first;
+    const std::size_t near = awayFromBase(4);
+    const std::size_t bend = awayFromBase(1) < near ? awayFromBase(1) : first;
     std::size_t       middle = first;
     while (middle + 1 < points.size() && way[middle] - way[first] < 0.5 * record.length)
     {
