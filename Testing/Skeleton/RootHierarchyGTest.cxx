@@ -108,6 +108,33 @@ TEST(RootHierarchy, TipsThatOverlapFaceEachOther)
   EXPECT_EQ(JoinTornRoots(graph, rules).size(), 1U) << "thick slices";
 }
 
+TEST(RootHierarchy, ATipThatRunsIntoTheSideOfARootGoesOnBeyondIt)
+{
+  // A lateral that is lost before another, thinner than a slice, and comes out of it on the other side.
+  const auto graphWith = [](double gap) {
+    GraphBuilder builder;
+    builder.Line({ 0, 0, 120 }, { 0, 0, 100 }, 4);
+    builder.Line({ 0, 0, 100 }, { 0, 0, 40 }, 4);
+    builder.Line({ 0, 0, 40 }, { 0, 0, 0 }, 3);
+    builder.Line({ 0, 0, 100 }, { 40 - gap, 0, 80 }, 1);
+    builder.Line({ 0, 0, 40 }, { 41, 0, 79.5 }, 1);
+    builder.Line({ 41, 0, 79.5 }, { 60, 0, 98 }, 1);
+    builder.Line({ 41, 0, 79.5 }, { 80, 0, 60 }, 1);
+    return builder.Graph();
+  };
+  RootRules rules;
+  rules.tornSlack = 2;
+  SkeletonGraph graph = graphWith(3);
+  ASSERT_EQ(JoinTornRoots(graph, rules).size(), 1U);
+  const RootHierarchy roots = FindRoots(graph, rules);
+  EXPECT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 1 }));
+  EXPECT_EQ(roots.meetings.size(), 1U);
+  graph = graphWith(8);
+  EXPECT_TRUE(JoinTornRoots(graph, rules).empty()) << "it ends before it";
+  graph = graphWith(3);
+  EXPECT_TRUE(JoinTornRoots(graph).empty()) << "a skeleton without slices";
+}
+
 TEST(RootHierarchy, AStretchWhoseCrossSectionIsSharedOutIsAsThickAsItsBalls)
 {
   GraphBuilder builder;
