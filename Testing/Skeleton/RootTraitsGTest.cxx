@@ -131,4 +131,28 @@ TEST(RootTraits, ATaperingRootIsOneCone)
   EXPECT_EQ(traits.roots[0].maxDiameter, 6);
 }
 
+TEST(RootTraits, ASectionThatIsTooSmallForTheBallIsWidened)
+{
+  SkeletonGraph graph;
+  for (int i = 0; i < 100; ++i)
+  {
+    graph.positions.push_back({ 0, 0, 1.0 * i });
+    graph.radius.push_back(5.3);
+    graph.sectionRadius.push_back(i < 30 ? 3 : i < 40 ? 6 : 5); // shared out wrongly, beside a lateral, as it is
+  }
+  WidenToBalls(graph);
+  for (std::size_t i = 0; i < 100; ++i)
+  {
+    EXPECT_DOUBLE_EQ(graph.sectionRadius[i], i >= 30 && i < 40 ? 6 : 5) << i;
+  }
+  // Sections greater than balls say nothing of balls.
+  graph.radius.assign(100, 4);
+  const std::vector<double> before = graph.sectionRadius;
+  WidenToBalls(graph);
+  EXPECT_EQ(graph.sectionRadius, before);
+  graph.sectionRadius.clear();
+  WidenToBalls(graph);
+  EXPECT_TRUE(graph.sectionRadius.empty());
+}
+
 } // namespace voxelcore::testing

@@ -381,6 +381,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
       RecallContacts(*result.topology, result.model);
     }
   }
+  WidenToBalls(result.model.graph);
   result.model.traits = MeasureRoots(result.model.graph, result.model.roots, options.soilDepth);
   if (!torn.empty())
   {

@@ -411,6 +411,27 @@ private:
 
 } // namespace
 
+void
+WidenToBalls(SkeletonGraph & graph)
+{
+  if (graph.sectionRadius.empty())
+  {
+    return;
+  }
+  std::vector<double> excess(graph.radius.size());
+  for (std::size_t point = 0; point < excess.size(); ++point)
+  {
+    excess[point] = graph.radius[point] - graph.sectionRadius[point];
+  }
+  const auto middle = excess.begin() + static_cast<std::ptrdiff_t>(excess.size() / 2);
+  std::nth_element(excess.begin(), middle, excess.end());
+  const double usual = std::max(0.0, *middle);
+  for (std::size_t point = 0; point < excess.size(); ++point)
+  {
+    graph.sectionRadius[point] = std::max(graph.sectionRadius[point], graph.radius[point] - usual);
+  }
+}
+
 RootTraits
 MeasureRoots(const SkeletonGraph & graph, const RootHierarchy & roots, std::optional<double> soilDepth)
 {

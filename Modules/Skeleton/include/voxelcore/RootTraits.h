@@ -111,6 +111,12 @@ struct RootTraits
   std::int64_t          whorlsBelowSoil = 0;
 };
 
+/** Raises `sectionRadius` where the ball does not fit into it. Of a stem between laterals cross-sections may be shared
+ *  out wrongly, but the ball lies within it, greater than it by as much as balls are elsewhere (the median): they reach
+ *  to the nearest corners of voxels. Nothing where the graph has no cross-sections. */
+void
+WidenToBalls(SkeletonGraph & graph);
+
 /** `soilDepth`: how far below the base of the first stem the soil begins, where that is known. */
 RootTraits
 MeasureRoots(const SkeletonGraph & graph, const RootHierarchy & roots, std::optional<double> soilDepth = {});
