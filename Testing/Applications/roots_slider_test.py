@@ -1,6 +1,6 @@
-"""The slider over grey levels in the summary of `voxelcore roots`, in headless Chromium: at each level it shows the cuts
-and fills that are still needed. What is needed is counted here from the voxels of changes.txt and the scan's own values.
-usage: roots_slider_test.py VOXELCORE [FOLDER FOR SCREENSHOTS]    exit 77: no Chromium"""
+"""The slider over grey levels in the summary of `voxelcore roots`, in headless Chromium: at each level it shows the
+cuts and fills that are still needed. What is needed is counted here from the voxels of changes.txt and the scan's own
+values. usage: roots_slider_test.py VOXELCORE [FOLDER FOR SCREENSHOTS]    exit 77: no Chromium"""
 import json
 import re
 import sys
@@ -66,8 +66,8 @@ def main():
         shots.mkdir(parents=True, exist_ok=True)
         scan = folder / "scan.nrrd"
         run(program, "phantom", "root", "--size", "112", "--seed", "5", "--radius", "6", "--laterals", "8",
-             "--sub-laterals", "1", "--contacts", "5", "--grey-values", "--hollow", "0.65", "--holes", "6", "--noise-level",
-             "0.12", "--rings", "0.03", "-o", scan, "-q")
+             "--sub-laterals", "1", "--contacts", "5", "--grey-values", "--hollow", "0.65", "--holes", "6",
+             "--noise-level", "0.12", "--rings", "0.03", "-o", scan, "-q")
         run(program, "roots", scan, "--threshold", "23500:inf", "--fill-hollows", "2.5vox", "-o", folder / "out",
              "--no-pictures", "-q")
         cuts, fills = changes_of(folder / "out" / "changes.txt", *values_of(scan))
