@@ -33,8 +33,8 @@ TellRootsApart(LabelShape &             mask,
                const ProgressCallback & progress);
 
 /** Where `core` reads a grey scan of bright roots, puts the curves of thin ones where the values say that their middle
- *  is (RootCentring.h). `mask` is the scan's, `depth` how far from it values are looked at. TellRootsApart() has done so
- *  with the graph it gives. */
+ *  is (RootCentring.h). `mask` is the scan's, `depth` how far from it values are looked at. TellRootsApart() has done
+ *  so with the graph it gives. */
 void
 CentreRootsByGrey(const VoxelShape &    mask,
                   const ImageGeometry & geometry,

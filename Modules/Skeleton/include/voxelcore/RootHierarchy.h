@@ -97,9 +97,9 @@ struct RootHierarchy
 /** Joins what is torn: two tips that face each other, of which the thinner has at least half of the other's radius,
  *  get a straight line between them where the gap is short enough (RootRules::tornGap) and neither way turns by more
  *  than 60 degrees into it, nor by more than 45 from one into the other; always the nearest first. A gap shorter than a
- *  radius has no direction of its own. With `tornSlack` a tip that is left and runs into the side of a branch not joined
- *  to its own, less than that from body to body, ends there: beyond it the root may share the other's voxels. A thin root
- *  may be lost for a voxel or two where slices are thick or noise is strong. Gives the gaps, in mm. */
+ *  radius has no direction of its own. With `tornSlack` a tip that is left and runs into the side of a branch not
+ *  joined to its own, less than that from body to body, ends there: beyond it the root may share the other's voxels. A
+ *  thin root may be lost for a voxel or two where slices are thick or noise is strong. Gives the gaps, in mm. */
 std::vector<double>
 JoinTornRoots(SkeletonGraph & graph, const RootRules & rules = {});
 
