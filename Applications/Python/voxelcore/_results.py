@@ -275,8 +275,7 @@ class Core(_Result):
         --------
         >>> for layer in core(numpy.ones((9, 9, 3), bool)).to_napari():
         ...     layer[2], [part.shape for part in layer[0]]
-        ('surface', [(29, 3), (32, 3), (29,)])
-        ('shapes', [(2, 3), (2, 3), (2, 3), (2, 3)])
+        ('surface', [(49, 3), (72, 3), (49,)])
         """
         return _exchange.napari_of_core(self)
 

@@ -2,6 +2,7 @@
 
 #include "LooseEnds.h"
 #include "RimFire.h"
+#include "WholeSheets.h"
 
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SimplePairCollapse.h"
@@ -177,7 +178,6 @@ ComputeTolerances(const MedialComplex &             core,
       values.vertices = ends.TakeVertexHeights();
       edgesOfEnds = ends.TakeGone();
     });
-  std::vector<CoreBall>().swap(balls);
   values.faces = fire->TakeFaceHeights();
   values.edges = fire->TakeEdgeHeights();
   RunInParts(edgesOfEnds.size() > 10000, edgesOfEnds.size(), [&](std::size_t first, std::size_t last) {
@@ -186,6 +186,7 @@ ComputeTolerances(const MedialComplex &             core,
       values.edges[edgesOfEnds[i].first] = values.vertices[edgesOfEnds[i].second];
     }
   });
+  KeepSheetsWhole(core, balls, levels, values);
   return values;
 }
 

@@ -85,6 +85,8 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *  - A vertex at the loose end of an edge goes when each of the boundary vertices it keeps, at first those of which its
  *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on. Beyond
  *    four voxel diagonals h is an upper bound of that, along the path the end has gone.
+ *  - Up to four voxel diagonals a sheet that stays keeps its rims: what fire took from them has the height of the
+ *    sheet's last face. Beyond, sheets draw back as fire goes.
  *
  *  With `floor` (mm) > 0 what PruneByLambda(core, {floor}) takes goes first, whatever bump it stands for: its value is
  *  -1, and the boundary vertices of its balls are no longer looked at, so that nothing is promised of them.
