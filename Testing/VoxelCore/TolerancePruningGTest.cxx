@@ -6,7 +6,6 @@
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LambdaPruning.h"
-#include "voxelcore/PolygonArea.h"
 
 #include <gtest/gtest.h>
 
@@ -212,72 +211,6 @@ TEST(TolerancePruning, DoesNotTearASheet)
   // Rims lie 2.5 from the sides and shrink by no more than the height; nothing is missing within.
   EXPECT_GE(std::abs(area), (25 - 3.0) * (19 - 3.0));
   EXPECT_EQ(rest.cells.vertexCount + rest.cells.FaceCount(), rest.cells.edges.size() + 1);
-}
-
-/** A slab of radius 5 around a rectangle of 26 by 18, turned. */
-MedialComplex
-TurnedSlab(int turn)
-{
-  const double a = 0.37 * turn;
-  const double b = 0.61 * turn;
-  return testing::CoreWithTolerancesOf(testing::ShapeWhere({ 48, 48, 48 }, [&](int i, int j, int k) {
-    const double x = i + 0.5 - 24.2;
-    const double y = j + 0.5 - 23.9;
-    const double z = k + 0.5 - 24.1;
-    const double u = std::cos(a) * x + std::sin(a) * y;
-    const double v = std::cos(b) * (std::cos(a) * y - std::sin(a) * x) + std::sin(b) * z;
-    const double w = std::cos(b) * z - std::sin(b) * (std::cos(a) * y - std::sin(a) * x);
-    const double du = std::max(0.0, std::abs(u) - 13);
-    const double dv = std::max(0.0, std::abs(v) - 9);
-    return du * du + dv * dv + w * w <= 5 * 5;
-  }));
-}
-
-double
-AreaOf(const MedialComplex & core)
-{
-  double area = 0;
-  for (std::size_t face = 0; face < core.cells.FaceCount(); ++face)
-  {
-    area += PolygonArea(core.positions, core.cells.FaceVertices(face));
-  }
-  return area;
-}
-
-// Loose ends along the rim of a slab: a ball beside them often keeps what theirs kept.
-TEST(TolerancePruning, LeavesFewLooseEndsAlongARim)
-{
-  std::size_t all = 0;
-  for (int turn = 1; turn <= 4; ++turn)
-  {
-    const MedialComplex rest = PruneByTolerance(TurnedSlab(turn), 1.2 * std::sqrt(3.0));
-    std::vector<int>    edgesAt(rest.cells.vertexCount, 0);
-    for (const auto & edge : rest.cells.edges)
-    {
-      ++edgesAt[edge[0]];
-      ++edgesAt[edge[1]];
-    }
-    all += static_cast<std::size_t>(std::count(edgesAt.begin(), edgesAt.end(), 1));
-    EXPECT_GT(rest.cells.FaceCount(), 50U) << "the sheet is gone";
-  }
-  std::cout << all << " loose ends on four slabs\n";
-  EXPECT_LE(all, 4U);
-}
-
-// Fire from its rims would take a fifth of it at the first height, and half at the last.
-TEST(TolerancePruning, KeepsASheetToItsRimsUpToFourDiagonals)
-{
-  for (int turn = 1; turn <= 4; ++turn)
-  {
-    const MedialComplex core = TurnedSlab(turn);
-    for (const double diagonals : { 1.0, 1.2, 2.0, 3.9 })
-    {
-      const double area = AreaOf(PruneByTolerance(core, diagonals * std::sqrt(3.0)));
-      std::cout << "turn " << turn << ", " << diagonals << " diagonals: " << area / (26 * 18) << '\n';
-      EXPECT_GT(area, 0.93 * 26 * 18);
-      EXPECT_LT(area, 1.12 * 26 * 18);
-    }
-  }
 }
 
 // What a floor takes goes whatever bump it stands for; of the rest nothing goes before its height.
