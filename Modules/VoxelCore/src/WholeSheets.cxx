@@ -25,6 +25,7 @@ constexpr double kWide = 0.643;     ///< of the radius
 constexpr double kStraight = -0.82; ///< cosine between the directions of two faces away from their edge, at most
 constexpr double kTie = 1e-6;       ///< cosines that differ by less are equal: neither is the straightest
 constexpr double kTooth = 0.5;      ///< of the way round a face
+constexpr int    kQuarters = 3;     ///< of its height, up to which a sheet is whole that is to go
 
 bool
 IsWide(const MedialComplex & core, ElementIndex face)
@@ -85,7 +86,8 @@ public:
     SortJoins();
   }
 
-  // Of each face that of the last of its sheet, but that of its own on teeth.
+  // Of each face that of the last of its sheet, or three quarters of it where the sheet goes, but its own where that is
+  // higher, and on teeth.
   std::vector<Level>
   Levels(Level highest) const;
 
@@ -255,9 +257,12 @@ Sheets::Levels(Level highest) const
   std::vector<Level>        levels;
   std::vector<ElementIndex> raised;
   levels.reserve(own.size());
+  const std::uint32_t staying = sheets.Find(m_Strip.Staying());
   for (ElementIndex node = 0; node < own.size(); ++node)
   {
-    levels.push_back(ofSheets[sheets.Find(node)]);
+    const std::uint32_t sheet = sheets.Find(node);
+    const int           level = sheet == staying ? ofSheets[sheet] : ofSheets[sheet] * kQuarters / 4;
+    levels.push_back(std::max(own[node], static_cast<Level>(level)));
     if (levels[node] != own[node])
     {
       raised.push_back(node);
