@@ -111,7 +111,7 @@ TEST(WholeSheets, RimsAreHardlyLongerThanTheyMustBe)
   }
 }
 
-// Beyond the middle of a plate 6 thick its sheet splits in two, which go to the edges at 45 degrees, where balls vanish.
+// Near the sides of a plate its sheet splits in two, which go to the edges at 45 degrees, where balls vanish.
 TEST(WholeSheets, KeepsNoSheetInTheCornersOfAPlate)
 {
   for (int turn = 1; turn <= 4; ++turn)
