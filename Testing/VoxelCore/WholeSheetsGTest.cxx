@@ -93,7 +93,7 @@ TEST(WholeSheets, KeepsASheetToItsRimsUpToFourDiagonals)
   }
 }
 
-// Teeth make it longer: once and a half as long as the rectangle's where faces are kept one by one.
+// Teeth make it longer.
 TEST(WholeSheets, RimsAreHardlyLongerThanTheyMustBe)
 {
   for (int turn = 1; turn <= 4; ++turn)
