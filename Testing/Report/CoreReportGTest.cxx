@@ -174,6 +174,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               ParseGapWidth("2.5mm"),
                               SliceAxis::J,
                               true,
+                              std::nullopt, // of `roots`, which says so itself
                               50,
                               3,
                               true,
@@ -198,6 +199,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               EditRecord::Filled{ 21, 22, 0 },
                               EditRecord::Filled{ 23, 24, 25 },
                               EditRecord::Filled{ 26, 27, 28 },
+                              EditRecord::Filled{ 41, 0, 42 },
                               EditRecord::Smoothed{ 12, 13, 1 },
                               simplified,
                               EditRecord::Filtered{ 37, 38 } };
