@@ -1,7 +1,9 @@
 #include "JobFolder.h"
 
 #include "voxelcore/GreyVolume.h"
+#include "voxelcore/MedialModel.h"
 #include "voxelcore/RootsJob.h"
+#include "voxelcore/VerifyJob.h"
 
 #include <nlohmann/json.hpp>
 
@@ -422,6 +424,21 @@ TEST_F(RootsJob, AnnotationsThatFitNoRootAreRefused)
   refused("a.mrk.json", "{", "point list");
   refused("a.mrk.json", R"({"markups":[{"controlPoints":[{"position":[0,0]}]}]})", "point list");
   refused("a.mrk.json", R"({"markups":[{"controlPoints":[{"position":[0,0,0],"description":"x"}]}]})", "point 1");
+}
+
+TEST_F(RootsJob, TheMedialSurfaceOfATornRootIsRecheckedAgainstTheScan)
+{
+  PhantomJobOptions options = Scan("root.nrrd");
+  options.scan->breaks = 3;
+  options.output = At("torn.nrrd");
+  RunPhantomJob(options);
+  Roots("torn.nrrd", "torn/");
+  const auto provenance = ReadModel(At("torn/medial.vtp")).provenance;
+  EXPECT_NE(provenance.find("join_torn"), std::string::npos);
+  VerifyOptions verify;
+  verify.scan = At("torn.nrrd");
+  verify.core = At("torn/medial.vtp");
+  EXPECT_TRUE(RunVerifyJob(verify).passed);
 }
 
 TEST_F(RootsJob, UpsideDownItIsTheSamePlant)

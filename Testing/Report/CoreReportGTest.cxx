@@ -174,7 +174,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               ParseGapWidth("2.5mm"),
                               SliceAxis::J,
                               true,
-                              std::nullopt, // of `roots`, which says so itself
+                              1.25,
                               50,
                               3,
                               true,

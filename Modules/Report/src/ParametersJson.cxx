@@ -181,13 +181,15 @@ ReadValue(const Json & json, std::optional<T> & value)
   }
 }
 
+constexpr const char * kJoinTorn = "join_torn"; // no option: `roots` asks for it by itself
+
 /** Written only where they are set: what meshes or some formats alone have, and what few ask for. */
 bool
 IsOfSome(std::string_view name)
 {
   return name == "resolution" || name == "level" || name == "raw" || name == "close" || name == "fill_hollows" ||
          name == "fill_slices" || name == "median" || name == "denoise" || name == "simplify_topology" ||
-         name == "pieces" || name == "loops" || name == "cavities" || name == "change_voxels";
+         name == "pieces" || name == "loops" || name == "cavities" || name == "change_voxels" || name == kJoinTorn;
 }
 
 /** Writes fields. */
@@ -252,6 +254,7 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
   const JsonFieldWriter write(json);
   json["labels"] = parameters.labels;
   VisitScanFields(parameters, write);
+  write(kJoinTorn, parameters.edits.joinTorn);
   json["lambda"] = parameters.lambda;
   if (!parameters.tolerances.empty())
   {
@@ -302,6 +305,7 @@ ReadParameters(const nlohmann::ordered_json & json)
   }
   read("labels", parameters.labels);
   VisitScanFields(parameters, read);
+  read(kJoinTorn, parameters.edits.joinTorn);
   read("lambda", parameters.lambda);
   parameters.tolerances = json.value("tolerance", std::vector<std::string>());
   parameters.refine.surface = json.value("refine", std::string());
