@@ -73,6 +73,24 @@ TEST(SystemCalls, AFileIsReadFromAnyPlaceToItsEnd)
   EXPECT_EQ(file.Read(bytes.data(), 1), 0);
 }
 
+TEST(SystemCalls, AFileIsReadForwardsAndBackwardsAndBeyondItsEndIsNothing)
+{
+  const TemporaryFolder folder;
+  const auto            path = folder.Path() / "file";
+  WriteAll(path, "0123456789");
+  SystemFile file(path);
+  const auto at = [&](std::uint64_t place) {
+    std::byte byte{};
+    file.MoveTo(place);
+    const std::int64_t count = file.Read(&byte, 1);
+    return count == 1 ? static_cast<char>(byte) : count == 0 ? 'e' : '?';
+  };
+  EXPECT_EQ(at(7), '7');
+  EXPECT_EQ(at(2), '2');
+  EXPECT_EQ(at(1000), 'e');
+  EXPECT_EQ(at(0), '0');
+}
+
 TEST(SystemCalls, PiecesThatAreAnnouncedHaveTheSameBytes)
 {
   const TemporaryFolder folder;

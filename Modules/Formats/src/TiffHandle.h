@@ -2,6 +2,7 @@
 // libtiff's handle as an object.
 
 #include "voxelcore/ScanFile.h"
+#include "voxelcore/SystemCalls.h"
 #include "voxelcore/TextFields.h"
 
 #include <tiffio.h>
@@ -11,9 +12,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <limits>
 
 namespace voxelcore
 {
@@ -25,13 +24,17 @@ class TiffHandle
 public:
   explicit TiffHandle(const std::filesystem::path & path)
     : m_Path(path)
-    , m_File{ open(path.c_str(), O_RDONLY | O_CLOEXEC) }
+    , m_File(path)
   {
+    m_SystemError = m_File.IsOpen() ? 0 : errno;
+    std::error_code error;
+    m_Size = std::filesystem::file_size(path, error);
+    m_SystemError = m_SystemError == 0 && error ? error.value() : m_SystemError;
     TIFFOpenOptions * options = TIFFOpenOptionsAlloc();
     TIFFOpenOptionsSetErrorHandlerExtR(options, &TiffHandle::OnError, this);
     TIFFOpenOptionsSetWarningHandlerExtR(options, &TiffHandle::OnWarning, this);
     // m: no memory mapping, where a file cut short meanwhile would end the process.
-    m_Tiff = Noted(m_File.number) < 0
+    m_Tiff = m_SystemError != 0
                ? nullptr
                : TIFFClientOpenExt(path.c_str(), "rm", this, Read, Write, Seek, Close, Size, nullptr, nullptr, options);
     TIFFOpenOptionsFree(options);
@@ -114,36 +117,17 @@ private:
     return 1;
   }
 
-  template <typename Result>
-  Result
-  Noted(Result result)
-  {
-    if (result < 0 && m_SystemError == 0)
-    {
-      m_SystemError = errno;
-    }
-    return result;
-  }
   static tmsize_t
   Read(thandle_t self, void * bytes, tmsize_t count)
   {
-    auto &   handle = *static_cast<TiffHandle *>(self);
-    tmsize_t done = 0;
-    while (done < count)
+    auto &     handle = *static_cast<TiffHandle *>(self);
+    const auto got = handle.m_File.Read(static_cast<std::byte *>(bytes), static_cast<std::size_t>(count));
+    if (got < 0 && handle.m_SystemError == 0)
     {
-      const ssize_t now =
-        read(handle.m_File.number, static_cast<char *>(bytes) + done, static_cast<std::size_t>(count - done));
-      if (now < 0 && errno == EINTR)
-      {
-        continue;
-      }
-      if (handle.Noted(now) <= 0)
-      {
-        return now < 0 ? now : done;
-      }
-      done += now;
+      handle.m_SystemError = errno;
     }
-    return done;
+    handle.m_Place += got > 0 ? static_cast<std::uint64_t>(got) : 0;
+    return static_cast<tmsize_t>(got);
   }
   static tmsize_t
   Write(thandle_t, void *, tmsize_t)
@@ -153,7 +137,16 @@ private:
   static toff_t
   Seek(thandle_t self, toff_t offset, int from)
   {
-    return static_cast<toff_t>(lseek(static_cast<TiffHandle *>(self)->m_File.number, static_cast<off_t>(offset), from));
+    auto &              handle = *static_cast<TiffHandle *>(self);
+    const std::uint64_t start = from == SEEK_SET ? 0 : from == SEEK_CUR ? handle.m_Place : handle.m_Size;
+    const std::uint64_t place = start + offset; // damaged files ask for places that no file has
+    if (place > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+    {
+      return static_cast<toff_t>(-1);
+    }
+    handle.m_File.MoveTo(place);
+    handle.m_Place = place;
+    return place;
   }
   static int
   Close(thandle_t)
@@ -163,26 +156,13 @@ private:
   static toff_t
   Size(thandle_t self)
   {
-    auto &      handle = *static_cast<TiffHandle *>(self);
-    struct stat status = {};
-    return handle.Noted(fstat(handle.m_File.number, &status)) == 0 ? static_cast<toff_t>(status.st_size) : toff_t{ 0 };
+    return static_cast<TiffHandle *>(self)->m_Size;
   }
 
-  struct File
-  {
-    int number;
-
-    ~File()
-    {
-      if (number >= 0)
-      {
-        close(number);
-      }
-    }
-  };
-
   std::filesystem::path m_Path;
-  File                  m_File;
+  SystemFile            m_File;
+  std::uint64_t         m_Size = 0;
+  std::uint64_t         m_Place = 0; ///< in the file
   int                   m_SystemError = 0;
   TIFF *                m_Tiff = nullptr;
   std::string           m_Error;

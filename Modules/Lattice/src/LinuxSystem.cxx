@@ -148,6 +148,12 @@ SystemFile::Skip(std::uint64_t count)
 }
 
 void
+SystemFile::MoveTo(std::uint64_t place)
+{
+  ::lseek(m_Handle->descriptor, static_cast<off_t>(place), SEEK_SET);
+}
+
+void
 SystemFile::Announce(std::uint64_t from, std::uint64_t count)
 {
   // Advice only: where it is not taken, all is read as before.

@@ -86,6 +86,12 @@ SystemFile::Skip(std::uint64_t count)
 }
 
 void
+SystemFile::MoveTo(std::uint64_t place)
+{
+  m_Handle->buffer.pubseekpos(static_cast<std::streamoff>(place), std::ios::in);
+}
+
+void
 SystemFile::Announce(std::uint64_t, std::uint64_t)
 {}
 

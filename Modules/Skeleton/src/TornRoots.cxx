@@ -172,7 +172,7 @@ JoinTornRoots(SkeletonGraph & graph, const RootRules & rules)
       auto &     at = splits[branch];
       at.push_back(points.size() - 1);
       std::ranges::sort(at);
-      at.erase(std::ranges::unique(at).begin(), at.end());
+      at.erase(std::unique(at.begin(), at.end()), at.end());
       std::size_t from = 0;
       for (const std::size_t to : at)
       {

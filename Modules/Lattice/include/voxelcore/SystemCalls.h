@@ -51,6 +51,10 @@ public:
   void
   Skip(std::uint64_t count);
 
+  /** Goes to this byte of the file, also beyond the end. */
+  void
+  MoveTo(std::uint64_t place);
+
   /** Tells that the `count` bytes `from` bytes on will be read, and of what lies between such pieces little: from the
    *  first call on the system reads ahead what is announced, and nothing else. It changes no byte. */
   void
