@@ -43,5 +43,6 @@ done
 # from a living one's; what is read through ITK is refused; of long rows more is read than is needed.
 left='^(TemporaryNames|OutputStream|Layers|Mirrors|Style)\.|Tiff|TIFF|Itk|Dicom'
 left+='|^(VolumeWriters|WriteLabelVolume)\.EveryFormat|^WriteLabelVolume\.AFullDisk|^Crop\.OfLongRows'
+left+='|^SystemCalls\.BetweenPieces'
 ctest --test-dir "$build" -LE "heavy|sanitizer|package" -j "$(nproc)" --output-on-failure --no-tests=error \
   -E "$left" </dev/null

@@ -229,7 +229,8 @@ CheapestWay(const Grid &                       grid,
   }
   while (!waiting.empty())
   {
-    const auto [cost, voxel] = waiting.top();
+    const auto cost = waiting.top().first;
+    const auto voxel = waiting.top().second;
     waiting.pop();
     if (to[voxel] != 0)
     {

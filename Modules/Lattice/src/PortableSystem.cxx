@@ -76,7 +76,8 @@ SystemFile::Read(std::byte * to, std::size_t count)
     errno = errno == 0 ? EIO : errno;
     return -1;
   }
-  return done < count && errno != 0 ? -1 : static_cast<std::int64_t>(done);
+  // After a signal libstdc++ reads on, and leaves errno as it is.
+  return done < count && errno != 0 && errno != EINTR ? -1 : static_cast<std::int64_t>(done);
 }
 
 void
