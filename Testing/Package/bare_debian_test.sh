@@ -90,7 +90,7 @@ inside sh -euc 'cd /given
   consumer-build/UsesCore
   consumer-build/UsesFiles torus.nrrd files.vtp
   consumer-build/UsesJobs torus.nrrd jobs.vtp
-  voxelcore core torus.nrrd -o program.vtp -q
+  voxelcore core torus.nrrd --lambda 1.5vox -o program.vtp -q
   cmp jobs.vtp program.vtp' >"$scratch/consumer.log" 2>&1 ||
     { tail -n 30 "$scratch/consumer.log" >&2; fail "no project can be built"; }
 echo "bare Debian: works"

@@ -75,7 +75,7 @@ case "$how" in
     scan_into "$scratch"
     "$scratch/all/UsesFiles" "$scratch/torus.nrrd" "$scratch/files.vtp"
     "$scratch/all/UsesJobs" "$scratch/torus.nrrd" "$scratch/jobs.vtp"
-    "$build/bin/voxelcore" core "$scratch/torus.nrrd" -o "$scratch/program.vtp" -q
+    "$build/bin/voxelcore" core "$scratch/torus.nrrd" --lambda 1.5vox -o "$scratch/program.vtp" -q
     cmp "$scratch/jobs.vtp" "$scratch/program.vtp"
     bash "$source/Testing/Package/symbols_test.sh" "$scratch/all/libPlugin.so" PluginMakesCore
     "$scratch/all/UsesPlugin" "$scratch/all/libPlugin.so" "$scratch/torus.nrrd" "$scratch/plugin.vtp"
