@@ -4,9 +4,9 @@
 namespace voxelcore
 {
 
-/** Makes the main thread's stack a megabyte now, or a quarter of what the system allows. It grows by itself else, and
- *  where memory is limited and used up, its growing ends the program without a word, while an array that finds no
- *  place is an error that can be told. */
+/** Makes the main thread's stack a megabyte now, or a quarter of what the system allows. Otherwise it
+ *  grows when it must, and where memory is used up that ends the program without a word. An array that finds no room
+ *  is an error that can be reported. */
 void
 ReserveMainStack();
 

@@ -123,27 +123,22 @@ LabelRow(const std::string & folder, const CaseRecord & record, const Json & lab
 }
 
 /** Adds the numbers of `voxelcore thickness` to the labels' rows, and a row for the separation.
- *  \throws Json::exception, InputError when they are not as reports have them */
+ *  \throws Json::exception when they are not as reports have them */
 void
-AddThickness(const std::string & folder, const CaseRecord & record, const Json & thickness, std::vector<Row> & labels)
+AddThickness(const std::string & folder, const CaseRecord & record, const Json & report, std::vector<Row> & labels)
 {
+  const Json & thickness = report.at("thickness");
   for (std::size_t i = 0; i < thickness.size(); ++i)
   {
     const Json & numbers = thickness.at(i);
-    if (numbers.at("of") == "separation")
+    // Labels in their order, the separation last.
+    if (i == labels.size())
     {
-      Row row;
-      row["id"] = record.id;
-      row["folder"] = folder;
-      row["label"] = 0;
-      row["name"] = numbers.at("name");
-      labels.push_back(std::move(row));
+      const Json separation = { { "label", 0 }, { "name", numbers.at("name") } };
+      labels.push_back(
+        LabelRow(folder, record, numbers.at("of") == "separation" ? separation : report.at("labels").at(i)));
     }
-    if (i >= labels.size())
-    {
-      throw InputError("thickness of more labels than there are");
-    }
-    Row & row = labels[i]; // labels in their order, the separation last
+    Row & row = labels[i];
     Flatten(numbers,
             "thickness",
             { "thickness_label", "thickness_component", "thickness_name", "thickness_of", "thickness_histogram" },
@@ -175,7 +170,7 @@ TakeReport(const std::string & folder, const CaseRecord & record, const Json & r
   row["labels"] = labels.size();
   if (report.contains("thickness"))
   {
-    AddThickness(folder, record, report.at("thickness"), labels);
+    AddThickness(folder, record, report, labels);
   }
   row["parameters_labels"] = Joined(report.at("parameters").value("labels", Json::array()));
   Flatten(report, "", { "labels", "parameters_labels", "parameters_change_voxels", "roots", "thickness" }, row);
@@ -225,8 +220,7 @@ GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, 
   const CaseLock lock = WaitForTables(folder, context.progress);
   for (auto & [name, record] : FindRecords(folder, expected))
   {
-    Row  row = CaseRow(name, record);
-    bool isDamaged = false;
+    Row row = CaseRow(name, record);
     if (record.done)
     {
       try
@@ -237,18 +231,10 @@ GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, 
       }
       catch (const Json::exception &)
       {
-        isDamaged = true;
+        record.done = false;
+        record.reason = "its report is missing or damaged; run the batch again";
+        row = CaseRow(name, record);
       }
-      catch (const InputError &)
-      {
-        isDamaged = true;
-      }
-    }
-    if (isDamaged)
-    {
-      record.done = false;
-      record.reason = "its report is missing or damaged; run the batch again";
-      row = CaseRow(name, record);
     }
     if (!record.done)
     {

@@ -17,8 +17,8 @@
 namespace voxelcore
 {
 
-/** A file opened with handlers of its own: libtiff prints nothing, and no global state is touched. It is read by calls
- *  of its own, too: where the system cannot read where the next page is, libtiff takes the page before for the last. */
+/** A file opened with handlers of its own: libtiff prints nothing, and no global state is touched. It is read by
+ *  calls of ours that note errors: of a page whose successor cannot be read, libtiff says that it is the last. */
 class TiffHandle
 {
 public:
