@@ -1,3 +1,4 @@
+#include "GraphBuilder.h"
 #include "TubeShapes.h"
 
 #include "voxelcore/BranchTips.h"
@@ -164,6 +165,36 @@ TEST(BranchTips, OfAThickStemLieAtTheCentresOfItsCapsWhereAThinBranchLeavesIt)
   std::cout << std::sqrt(squares / (2 * bodies)) << " voxels off, " << bodies << " bodies\n";
   EXPECT_GE(bodies, 6) << "seed " << seed;
   EXPECT_LT(std::sqrt(squares / (2 * bodies)), 0.38) << "voxels, seed " << seed;
+}
+
+// A body is followed through a joint where thin branches leave it. A branch that the joint's ball holds altogether may be
+// anything, so that the body is not followed there.
+TEST(BranchTips, AreNotPlacedBeyondAJointWithABranchWithinItsBall)
+{
+  const Spacing3 joint{ 29.5, 20.2, 19.7 };
+  const auto     shape = Tube(
+    SampleCurve([](double t) { return Spacing3{ 15.5 + 50 * t, 20.2, 19.7 }; }, 200), 8, { 80, 40, 40 });
+  const auto tipPlaced = [&](bool within) {
+    GraphBuilder builder;
+    builder.Line({ 17.5, 20.2, 19.7 }, joint, 8);
+    builder.Line(joint, { 64.5, 20.2, 19.7 }, 8);
+    builder.Line(joint, { 29.5, 38.2, 19.7 }, 1); // thin
+    if (within)
+    {
+      builder.Line(joint, { 29.5, 20.2, 16.7 }, 1);
+    }
+    SkeletonGraph graph = builder.Graph();
+    graph.medial = graph.positions;
+    PlaceTips(graph, shape, GridFromOrigin({ 1, 1, 1 }));
+    double least = 80;
+    for (const Spacing3 & place : graph.positions)
+    {
+      least = std::min(least, place[0]);
+    }
+    return least;
+  };
+  EXPECT_NEAR(tipPlaced(false), 15.5, 0.6);
+  EXPECT_EQ(tipPlaced(true), 17.5);
 }
 
 TEST(BranchTips, OfAFlatEndLieTwoThirdsOfARadiusBeforeIt)

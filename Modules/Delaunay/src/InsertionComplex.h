@@ -178,7 +178,7 @@ public:
         rim.push_back({ t, static_cast<std::uint32_t>(face), u });
       }
     }
-    // Each rim face and the point make a tetrahedron; they take the places of the cavity's first.
+    // Each rim face and the point make a tetrahedron, in places that earlier cavities have left or that are new.
     const std::size_t room = by.free.size() + (by.owner == all ? rim.size() : by.end - by.next);
     if (rim.size() > room)
     {
@@ -222,7 +222,7 @@ public:
       Tetrahedron &       own = made[i];
       const std::uint32_t place = by.places[i];
       Tetrahedron &       beyond = m_Tetrahedra[rim[i].outer];
-      beyond.neighbour[FaceBetween(beyond, rim[i].inner, own, p)] = place;
+      beyond.neighbour[FaceTowards(beyond, rim[i].inner)] = place;
       for (std::uint32_t j = 0; j < 4; ++j)
       {
         if (own.vertex[j] == p || own.neighbour[j] != none)
@@ -350,36 +350,13 @@ private:
     }
   }
 
-  // Where `beyond` still has the cavity's tetrahedron `inner` as neighbour across the face that it shares with `own`.
-  std::size_t
-  FaceBetween(const Tetrahedron & beyond, std::uint32_t inner, const Tetrahedron & own, std::uint32_t p) const
+  // Where `beyond` has the cavity's tetrahedron `inner` as neighbour. That is one face: two tetrahedra that share two
+  // faces have the same vertices, and the cavity's places are not taken before it is closed.
+  static std::size_t
+  FaceTowards(const Tetrahedron & beyond, std::uint32_t inner)
   {
-    const auto &      neighbour = beyond.neighbour;
-    const std::size_t first = neighbour[0] == inner ? 0 : neighbour[1] == inner ? 1 : neighbour[2] == inner ? 2 : 3;
-    // Nearly always it is a neighbour once.
-    for (std::size_t j = first + 1; j < 4; ++j)
-    {
-      if (neighbour[j] == inner && SharesFace(beyond, j, own, p))
-      {
-        return j;
-      }
-    }
-    return first;
-  }
-
-  // Two tetrahedra can meet the same cavity cell at one face only, unless both faces are the cell's; compare vertices.
-  bool
-  SharesFace(const Tetrahedron & beyond, std::size_t opposite, const Tetrahedron & own, std::uint32_t p) const
-  {
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-      if (k != opposite && (beyond.vertex[k] == p ||
-                            std::find(own.vertex.begin(), own.vertex.end(), beyond.vertex[k]) == own.vertex.end()))
-      {
-        return false;
-      }
-    }
-    return true;
+    const auto & neighbour = beyond.neighbour;
+    return neighbour[0] == inner ? 0 : neighbour[1] == inner ? 1 : neighbour[2] == inner ? 2 : 3;
   }
 
   std::uint32_t

@@ -24,6 +24,10 @@ struct Rows
   const std::array<Parameter, N> & rows;
 };
 
+/** Said, as Clang 14 does not deduce it. */
+template <std::size_t N>
+Rows(ParameterGroup, const std::array<Parameter, N> &) -> Rows<N>;
+
 template <std::size_t... N>
 constexpr auto
 JoinedRows(const Rows<N> &... parts)
