@@ -131,7 +131,8 @@ def main():
                   "FAULT_PATHS": o, "FAULT_ERROR": "5", "FAULT_COUNTER": counter}
         batch = [program, "batch", cases, "-o", f"{o}/b", *words]
         os.mkdir(o)
-        process = subprocess.Popen(batch, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        nothing = subprocess.DEVNULL
+        process = subprocess.Popen(batch, stdin=nothing, stdout=nothing, stderr=nothing,
                                    env={**os.environ, **faults}, start_new_session=True)
         seen = watch(process, draw, totals)
         time.sleep(0.5)
@@ -142,8 +143,9 @@ def main():
         grown = sum(memory[-tenth:]) / tenth - sum(memory[:tenth]) / tenth
         if grown > KB_A_CASE * count + 4096:
             totals.found(f"seed {options.seed}: memory grows by {grown:.0f} kB over {count} cases")
-        if max(descriptors[-tenth:]) > max(descriptors[:tenth]) + 2:
-            totals.found(f"seed {options.seed}: {max(descriptors[:tenth])} descriptors, then {max(descriptors[-tenth:])}")
+        first, last = max(descriptors[:tenth]), max(descriptors[-tenth:])
+        if last > first + 2:
+            totals.found(f"seed {options.seed}: {first} descriptors, then {last}")
         if processes_of(process.pid):
             totals.found(f"seed {options.seed}: processes are left: {processes_of(process.pid)}")
         if process.returncode not in (0, 1, 3):
@@ -159,8 +161,9 @@ def main():
                          f"{wrong[:5]} differ, {left[:5]} left: {said}"[:600])
         totals.ran()
         totals.save()
-        print(f"{count} cases, {seen[-1][0] / 60:.1f} minutes, memory {memory[0] / 1024:.1f} to {memory[-1] / 1024:.1f} MB, "
-              f"{descriptors[0]} to {descriptors[-1]} descriptors, one {call} failed; {totals.of['counts']}")
+        print(f"{count} cases, {seen[-1][0] / 60:.1f} minutes, memory {memory[0] / 1024:.1f} to "
+              f"{memory[-1] / 1024:.1f} MB, at most {first}, then {last} descriptors, one {call} failed; "
+              f"{totals.of['counts']}")
     sys.exit(1 if len(totals.of["found"]) > before else 0)
 
 

@@ -167,14 +167,14 @@ TEST(BranchTips, OfAThickStemLieAtTheCentresOfItsCapsWhereAThinBranchLeavesIt)
   EXPECT_LT(std::sqrt(squares / (2 * bodies)), 0.38) << "voxels, seed " << seed;
 }
 
-// A body is followed through a joint where thin branches leave it. A branch that the joint's ball holds altogether may be
-// anything, so that the body is not followed there.
+// A body is followed through a joint where thin branches leave it. A branch that the joint's ball holds altogether may
+// be anything, so that the body is not followed there.
 TEST(BranchTips, AreNotPlacedBeyondAJointWithABranchWithinItsBall)
 {
   const Spacing3 joint{ 29.5, 20.2, 19.7 };
-  const auto     shape = Tube(
-    SampleCurve([](double t) { return Spacing3{ 15.5 + 50 * t, 20.2, 19.7 }; }, 200), 8, { 80, 40, 40 });
-  const auto tipPlaced = [&](bool within) {
+  const Curve    line = SampleCurve([](double t) { return Spacing3{ 15.5 + 50 * t, 20.2, 19.7 }; }, 200);
+  const auto     shape = Tube(line, 8, { 80, 40, 40 });
+  const auto     tipPlaced = [&](bool within) {
     GraphBuilder builder;
     builder.Line({ 17.5, 20.2, 19.7 }, joint, 8);
     builder.Line(joint, { 64.5, 20.2, 19.7 }, 8);

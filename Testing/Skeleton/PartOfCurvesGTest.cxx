@@ -27,11 +27,11 @@ struct TwoTrees
 TwoTrees
 RandomTrees(std::mt19937_64 & random)
 {
-  TwoTrees           trees;
-  CellComplex &      cells = trees.surface.cells;
-  const ElementIndex sizes[]{ 1 + static_cast<ElementIndex>(random() % 30), 1 + static_cast<ElementIndex>(random() % 9) };
-  for (const ElementIndex size : sizes)
+  TwoTrees      trees;
+  CellComplex & cells = trees.surface.cells;
+  for (const unsigned most : { 30, 9 })
   {
+    const auto size = 1 + static_cast<ElementIndex>(random() % most);
     const auto first = static_cast<ElementIndex>(cells.vertexCount);
     for (ElementIndex i = 0; i < size; ++i, ++cells.vertexCount)
     {
@@ -103,9 +103,10 @@ TEST(PartOfCurves, KeepsTheWaysBetweenThePointsNearestToTipsOfEqualsTheFirst)
     // At least one a tree: a tree without tips would come down to any one of its vertices.
     for (int k = 0; k < 2 + static_cast<int>(random() % 5); ++k)
     {
-      tips.push_back({ { static_cast<double>(random() % 9) / 2, static_cast<double>(random() % 9) / 2, 1 },
-                       k == 0 ? trees.components.front() : k == 1 ? trees.components.back()
-                                                                  : trees.components[random() % trees.components.size()] });
+      const std::size_t count = trees.components.size();
+      const std::size_t of = k == 0 ? 0 : k == 1 ? count - 1 : random() % count;
+      tips.push_back(
+        { { static_cast<double>(random() % 9) / 2, static_cast<double>(random() % 9) / 2, 1 }, trees.components[of] });
     }
     const auto expected = WaysByDefinition(tips, trees);
     KeepWaysBetween(tips, trees.surface, trees.components, trees.fire, trees.live);
