@@ -101,6 +101,26 @@ ExpectTheSameAfterKills(unsigned cases, int kills, unsigned seed)
   }
 }
 
+// As systems do that run out of memory: one case's end is not the batch's.
+TEST(BatchKill, ACaseInterruptedFromOutsideFailsAlone)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "in");
+  ASSERT_EQ(RunProgram({ "phantom", "gyroid", "--size", "256", "-o", folder / "in/large.nrrd" }).code, 0);
+  WriteTinyScans(folder / "in", 2);
+  bool       sent = false;
+  const auto result = RunProgram({ "batch", folder / "in", "-o", folder / "out", "--jobs", "1" },
+                                 {},
+                                 [&](pid_t process, const std::string &) {
+                                   const auto children = ChildrenOf(process);
+                                   // The large scan's is the first case, and takes seconds.
+                                   sent = sent || (!children.empty() && kill(children.front(), SIGTERM) == 0);
+                                 });
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.output.find("2 of 3 cases done"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("large: interrupted from outside"), std::string::npos) << result.output;
+}
+
 TEST(BatchKill, FiveKillsChangeNothing)
 {
   ExpectTheSameAfterKills(8, 5, 20261121);

@@ -79,6 +79,10 @@ ReasonOf(const ChildEnd & end, const std::string & killed)
   {
     return "killed from outside (signal 9), most likely for want of memory; run fewer --jobs, or on a larger machine";
   }
+  if (end.code == kInterrupted || end.signal == SIGTERM)
+  {
+    return "interrupted from outside, as some systems do for want of memory; run the batch again, with fewer --jobs";
+  }
   if (end.signal != 0)
   {
     return "crashed with signal " + std::to_string(end.signal);
@@ -286,7 +290,7 @@ Scheduler::Finish(Running & running)
   std::string     reason = ReasonOf(end, running.killed);
   if (end.code == kInterrupted)
   {
-    throw Cancelled(); // the terminal's interrupt reaches the cases, too
+    Report(); // throws where the batch was interrupted, too: a terminal's interrupt reaches both
   }
   if (reason.empty())
   {
