@@ -49,7 +49,7 @@ case "$kind" in
 esac
 
 # -O1: quick enough to run, and stack traces still name every function.
-cmake -S "$source" -B "$build" -G Ninja -DBUILD_TESTING=ON -DVOXELCORE_UNITY=OFF \
+cmake -S "$source" -B "$build" -G Ninja -DBUILD_TESTING=ON \
   -DCMAKE_BUILD_TYPE=Sanitizer \
   -DCMAKE_CXX_FLAGS="-O1 -g1 -fno-omit-frame-pointer $flags" -DVOXELCORE_MODULES="$configured" "${options[@]}"
 
