@@ -1,12 +1,13 @@
 #include "voxelcore/ShapeSmoothing.h"
 
+#include "MendingWindow.h"
 #include "ShapeField.h"
 #include "ShapeRuns.h"
 #include "voxelcore/StagePlan.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace voxelcore
@@ -14,126 +15,6 @@ namespace voxelcore
 
 namespace
 {
-
-constexpr std::int32_t kReach = 10; ///< voxels within which two ends of a tunnel must meet
-
-/** The part of a shape, or of its background, within reach of a voxel, which itself is left out. */
-class Window
-{
-public:
-  Window(const PaddedShape & shape, const Voxel & centre, bool background)
-    : m_Background(background)
-  {
-    // What lies beyond the room is background.
-    const Voxel &      size = shape.Size();
-    const std::int32_t first = std::max(0, centre[0] - kReach);
-    const std::int32_t end = std::min(size[0], centre[0] + kReach + 1);
-    for (std::int32_t row = 0; row < kSide * kSide; ++row)
-    {
-      const std::int32_t y = centre[1] - kReach + row % kSide;
-      const std::int32_t z = centre[2] - kReach + row / kSide;
-      std::uint32_t      bits = 0;
-      if (y >= 0 && y < size[1] && z >= 0 && z < size[2])
-      {
-        bits = shape.Bits(first, y, z, static_cast<unsigned>(end - first)) << (first + kReach - centre[0]);
-      }
-      m_Set[static_cast<std::size_t>(row)] = background ? ~bits & ((1U << kSide) - 1) : bits;
-    }
-    m_Set[Row(kReach, kReach)] &= ~(1U << kReach);
-  }
-
-  /** Whether all pieces around the centre hang together here. */
-  bool
-  Connects(const Pieces & pieces)
-  {
-    Put(pieces.sets[0]);
-    for (bool grows = true; grows && !Reaches(pieces);)
-    {
-      grows = false;
-      for (std::int32_t i = 0; i < kSide * kSide; ++i)
-      {
-        grows = Grow(i / kSide, i % kSide) || grows;
-      }
-      for (std::int32_t i = kSide * kSide - 1; i >= 0; --i)
-      {
-        grows = Grow(i / kSide, i % kSide) || grows;
-      }
-    }
-    return Reaches(pieces);
-  }
-
-private:
-  static constexpr std::int32_t kSide = 2 * kReach + 1;
-
-  static std::size_t
-  Row(std::int32_t y, std::int32_t z)
-  {
-    return static_cast<std::size_t>(z * kSide + y);
-  }
-
-  template <typename TVisit>
-  static void
-  ForRows(Neighbourhood piece, const TVisit & visit)
-  {
-    for (std::int32_t k = 0; k < 9; ++k)
-    {
-      visit(Row(kReach - 1 + k % 3, kReach - 1 + k / 3), (piece >> (3 * k) & 7U) << (kReach - 1));
-    }
-  }
-
-  void
-  Put(Neighbourhood piece)
-  {
-    m_Reached.fill(0);
-    ForRows(piece, [&](std::size_t row, std::uint32_t bits) { m_Reached[row] |= bits; });
-  }
-
-  bool
-  Reaches(const Pieces & pieces) const
-  {
-    bool all = true;
-    for (std::size_t i = 0; i < pieces.count; ++i)
-    {
-      bool any = false;
-      ForRows(pieces.sets[i], [&](std::size_t row, std::uint32_t bits) { any = any || (m_Reached[row] & bits) != 0; });
-      all = all && any;
-    }
-    return all;
-  }
-
-  bool
-  Grow(std::int32_t y, std::int32_t z)
-  {
-    const std::size_t row = Row(y, z);
-    const auto        spread = [](std::uint32_t bits) { return bits | bits << 1 | bits >> 1; };
-    std::uint32_t     from = m_Reached[row];
-    for (std::int32_t dz = -1; dz <= 1; ++dz)
-    {
-      for (std::int32_t dy = -1; dy <= 1; ++dy)
-      {
-        const bool isNear = m_Background || dy == 0 || dz == 0;
-        if (isNear && y + dy >= 0 && y + dy < kSide && z + dz >= 0 && z + dz < kSide)
-        {
-          const std::uint32_t bits = m_Reached[Row(y + dy, z + dz)];
-          from |= m_Background ? spread(bits) : bits;
-        }
-      }
-    }
-    std::uint32_t reached = from & m_Set[row];
-    for (std::uint32_t before = 0; before != reached;)
-    {
-      before = reached;
-      reached = spread(reached) & m_Set[row];
-    }
-    const bool grows = reached != m_Reached[row];
-    m_Reached[row] = reached;
-    return grows;
-  }
-
-  bool                                     m_Background;
-  std::array<std::uint32_t, kSide * kSide> m_Set{};
-  std::array<std::uint32_t, kSide * kSide> m_Reached{};
-};
 
 class Mending
 {
@@ -208,7 +89,7 @@ private:
       return false;
     }
     const auto components = ComponentsOf(voxel, shape);
-    if (!components || (background.count > 1 && !Window(m_Shape, voxel, true).Connects(background)))
+    if (!components || (background.count > 1 && !HangTogether(m_Shape, voxel, background, true)))
     {
       return false;
     }
@@ -221,7 +102,7 @@ private:
     {
       m_Components.Unite(components->front(), component);
     }
-    m_Added[voxel] = components->front();
+    m_Added[Index(voxel)] = components->front();
     return true;
   }
 
@@ -231,7 +112,7 @@ private:
     const Neighbourhood around = m_Shape.Around(voxel);
     const Pieces        shape = ShapePieces(around);
     if (shape.count < 2 || BackgroundPieces(around).count != 1 || FieldAround(m_Shape, voxel) >= kFieldHalf ||
-        !StandsOnSomethingThick(voxel) || !Window(m_Shape, voxel, false).Connects(shape))
+        !StandsOnSomethingThick(voxel) || !HangTogether(m_Shape, voxel, shape, false))
     {
       return false;
     }
@@ -274,7 +155,7 @@ private:
   std::uint32_t
   RunOf(const Voxel & voxel) const
   {
-    if (const auto added = m_Added.find(voxel); added != m_Added.end())
+    if (const auto added = m_Added.find(Index(voxel)); added != m_Added.end())
     {
       return added->second;
     }
@@ -286,11 +167,22 @@ private:
     return static_cast<std::uint32_t>(std::upper_bound(first, last, voxel[0] - room) - m_Runs.begin.begin() - 1);
   }
 
-  PaddedShape                    m_Shape;
-  Runs                           m_Runs;
-  UnionFind                      m_Components; ///< of runs
-  std::map<Voxel, std::uint32_t> m_Added;      ///< voxels put in, with a run of their component
-  MendedShape                    m_Result;
+  std::uint64_t
+  Index(const Voxel & voxel) const
+  {
+    const Voxel & size = m_Shape.Size();
+    return (static_cast<std::uint64_t>(voxel[2]) * static_cast<std::uint64_t>(size[1]) +
+            static_cast<std::uint64_t>(voxel[1])) *
+             static_cast<std::uint64_t>(size[0]) +
+           static_cast<std::uint64_t>(voxel[0]);
+  }
+
+  PaddedShape m_Shape;
+  Runs        m_Runs;
+  UnionFind   m_Components; ///< of runs
+  MendedShape m_Result;
+
+  std::unordered_map<std::uint64_t, std::uint32_t> m_Added; ///< voxels put in, with a run of their component
 };
 
 } // namespace
