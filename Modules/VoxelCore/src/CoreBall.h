@@ -26,6 +26,7 @@ struct alignas(64) CoreBall
   ElementIndex uphill = kNobody;    ///< the neighbour towards which the radius grows most steeply; itself at a top;
                                     ///< kNobody: not asked
   std::uint32_t lastKept = kNobody; ///< of the ring of boundary vertices it keeps
+  std::uint32_t seen = 0;           ///< number of the last look around that came by
 };
 static_assert(sizeof(CoreBall) == 64);
 

@@ -209,14 +209,17 @@ void
 LooseEnds::CollectAround(ElementIndex vertex)
 {
   m_Around.assign(1, m_Heir);
+  m_Balls[m_Heir].seen = ++m_Look;
+  m_Balls[vertex].seen = m_Look;
   for (std::size_t i = 0; i < m_Around.size() && m_Around.size() < kAround; ++i)
   {
     const ElementIndex centre = m_Around[i];
     for (std::uint32_t j = m_FirstNeighbour[centre]; j < m_FirstNeighbour[centre + 1]; ++j)
     {
       const ElementIndex other = m_Neighbours[j];
-      if (other != vertex && IsLive(other) && std::find(m_Around.begin(), m_Around.end(), other) == m_Around.end())
+      if (m_Balls[other].seen != m_Look && IsLive(other))
       {
+        m_Balls[other].seen = m_Look;
         m_Around.push_back(other);
       }
     }

@@ -125,6 +125,7 @@ private:
   double                    m_HeirGap = 0;
   std::vector<ElementIndex> m_Candidates;
   std::vector<ElementIndex> m_Around;
+  std::uint32_t             m_Look = 0; // number of the last look around
   std::vector<Home>         m_NewHomes; // per kept boundary vertex in the order of the ring
 };
 

@@ -1,5 +1,7 @@
 #include "RimStrip.h"
 
+#include "voxelcore/ParallelTasks.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -53,23 +55,31 @@ RimStrip::RimStrip(const CellComplex &     cells,
                    const ToleranceLevels & levels,
                    double                  low,
                    double                  high)
-  : m_Faces(Between(values.faces, low, high))
-  , m_Edges(Between(values.edges, low, high))
-  , m_Vertices(Between(values.vertices, low, high))
-  , m_FaceLevels(LevelsOf(m_Faces, values.faces, levels))
-  , m_EdgeLevels(LevelsOf(m_Edges, values.edges, levels))
-  , m_VertexLevels(LevelsOf(m_Vertices, values.vertices, levels))
-  , m_FacesAt(m_Edges.size())
-  , m_EdgesAt(m_Vertices.size())
-  , m_Ends(m_Edges.size(), { kNobody, kNobody })
 {
-  ConnectEdges(cells);
-  ConnectFaces(cells, values.faces, high);
+  const bool worthThreads = cells.FaceCount() > 10000;
+  RunBoth(
+    worthThreads,
+    [&] {
+      m_Edges = Between(values.edges, low, high);
+      m_EdgeLevels = LevelsOf(m_Edges, values.edges, levels);
+    },
+    [&] {
+      m_Faces = Between(values.faces, low, high);
+      m_FaceLevels = LevelsOf(m_Faces, values.faces, levels);
+      m_Vertices = Between(values.vertices, low, high);
+      m_VertexLevels = LevelsOf(m_Vertices, values.vertices, levels);
+    });
+  RunBoth(
+    worthThreads,
+    [&] { ConnectFaces(cells, values.faces, high); },
+    [&] { ConnectEdges(cells); });
 }
 
 void
 RimStrip::ConnectEdges(const CellComplex & cells)
 {
+  m_EdgesAt.resize(m_Vertices.size());
+  m_Ends.assign(m_Edges.size(), { kNobody, kNobody });
   const std::vector<ElementIndex> numbers = NumbersOf(m_Vertices, cells.vertexCount);
   for (std::size_t edge = 0; edge < m_Edges.size(); ++edge)
   {
@@ -88,6 +98,7 @@ RimStrip::ConnectEdges(const CellComplex & cells)
 void
 RimStrip::ConnectFaces(const CellComplex & cells, const std::vector<double> & heights, double high)
 {
+  m_FacesAt.resize(m_Edges.size());
   constexpr ElementIndex    kBorder = kNobody - 1; // an edge that stays, of a face that is here
   std::vector<ElementIndex> numbers = NumbersOf(m_Edges, cells.edges.size());
   for (std::size_t face = 0; face < m_Faces.size(); ++face)

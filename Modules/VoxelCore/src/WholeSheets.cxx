@@ -2,6 +2,7 @@
 
 #include "RimStrip.h"
 
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>
@@ -27,6 +28,8 @@ constexpr double kTie = 1e-6;       ///< cosines that differ by less are equal: 
 constexpr double kTooth = 0.5;      ///< of the way round a face
 constexpr int    kQuarters = 3;     ///< of its height, up to which a sheet is whole that is to go
 
+constexpr std::size_t kPart = 8192; ///< faces that a thread takes at a time
+
 bool
 IsWide(const MedialComplex & core, ElementIndex face)
 {
@@ -39,9 +42,15 @@ IsWide(const MedialComplex & core, ElementIndex face)
   return core.faceLambda[face] * static_cast<double>(corners.size()) >= kWide * sum;
 }
 
-// Away from one of its edges, within the face.
+double
+Dot(const BallCentre & a, const BallCentre & b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Away from one of its edges, within the face, of any length.
 BallCentre
-Outwards(const CellComplex & cells, const std::vector<CoreBall> & balls, ElementIndex face, ElementIndex edge)
+Away(const CellComplex & cells, const std::vector<CoreBall> & balls, ElementIndex face, ElementIndex edge)
 {
   const BallCentre & p = balls[cells.edges[edge][0]].centre;
   const BallCentre & q = balls[cells.edges[edge][1]].centre;
@@ -51,17 +60,21 @@ Outwards(const CellComplex & cells, const std::vector<CoreBall> & balls, Element
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      away[axis] += (balls[corner].centre[axis] - p[axis]) / static_cast<double>(corners.size());
+      away[axis] += balls[corner].centre[axis] - p[axis];
     }
   }
-  const double along =
-    (away[0] * (q[0] - p[0]) + away[1] * (q[1] - p[1]) + away[2] * (q[2] - p[2])) / SquaredDistance(p, q);
+  const double along = Dot(away, { q[0] - p[0], q[1] - p[1], q[2] - p[2] }) / SquaredDistance(p, q);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     away[axis] -= along * (q[axis] - p[axis]);
   }
-  const double length = std::sqrt(away[0] * away[0] + away[1] * away[1] + away[2] * away[2]);
-  return { away[0] / length, away[1] / length, away[2] / length };
+  return away;
+}
+
+double
+Cosine(const BallCentre & a, const BallCentre & b)
+{
+  return Dot(a, b) / std::sqrt(Dot(a, a) * Dot(b, b));
 }
 
 // A face and one of its sheet beside it.
@@ -106,6 +119,11 @@ private:
   void
   JoinPairs();
   void
+  JoinPairsOf(ElementIndex                      first,
+              ElementIndex                      end,
+              const std::vector<std::uint8_t> & wide,
+              std::vector<Join> &               joins) const;
+  void
   JoinSeams();
   void
   JoinStraightest(std::span<const RimStrip::Meeting> seam);
@@ -125,22 +143,53 @@ void
 Sheets::JoinPairs()
 {
   const std::vector<ElementIndex> & faces = m_Strip.Faces();
-  std::vector<std::uint8_t>         wide;
-  wide.reserve(faces.size());
-  for (const ElementIndex face : faces)
+  std::vector<std::uint8_t>         wide(faces.size());
+  std::vector<std::vector<Join>>    parts((faces.size() + kPart - 1) / kPart);
+  const auto                        forParts = [&](const auto & work) {
+    const auto one = [&](std::size_t part) {
+      work(part,
+           static_cast<ElementIndex>(part * kPart),
+           static_cast<ElementIndex>(std::min((part + 1) * kPart, faces.size())));
+    };
+    parts.size() > 1 ? RunEach(parts.size(), one) : one(0);
+  };
+  forParts([&](std::size_t, ElementIndex first, ElementIndex end) {
+    for (ElementIndex face = first; face < end; ++face)
+    {
+      wide[face] = IsWide(m_Core, faces[face]) ? 1 : 0;
+    }
+  });
+  forParts([&](std::size_t part, ElementIndex first, ElementIndex end) { JoinPairsOf(first, end, wide, parts[part]); });
+  for (std::vector<Join> & part : parts)
   {
-    wide.push_back(IsWide(m_Core, face) ? 1 : 0);
+    m_Joins.insert(m_Joins.end(), part.begin(), part.end());
+    std::vector<Join>().swap(part);
   }
-  for (ElementIndex face = 0; face < faces.size(); ++face)
+}
+
+// Of two faces alone at an edge each is the straightest for the other, if straight enough.
+void
+Sheets::JoinPairsOf(ElementIndex                      first,
+                    ElementIndex                      end,
+                    const std::vector<std::uint8_t> & wide,
+                    std::vector<Join> &               joins) const
+{
+  const std::vector<ElementIndex> & faces = m_Strip.Faces();
+  for (ElementIndex face = first; face < end; ++face)
   {
     for (const ElementIndex edge : m_Strip.EdgesOf(face))
     {
       const ElementIndex other = m_Strip.FacesAt(edge).exclusiveOr ^ face;
       if (m_Strip.FacesAt(edge).count == 2 && face < other && wide[face] != 0 && wide[other] != 0)
       {
-        const ElementIndex                     at = m_Strip.EdgeOfCore(edge);
-        const std::array<RimStrip::Meeting, 2> pair{ { { at, faces[face], face }, { at, faces[other], other } } };
-        JoinStraightest(pair);
+        const ElementIndex at = m_Strip.EdgeOfCore(edge);
+        const BallCentre   one = Away(m_Core.cells, m_Balls, faces[face], at);
+        if (Cosine(one, Away(m_Core.cells, m_Balls, faces[other], at)) < kStraight - kTie)
+        {
+          const double length = Length(at);
+          joins.push_back({ face, other, length });
+          joins.push_back({ other, face, length });
+        }
       }
     }
   }
@@ -168,7 +217,7 @@ Sheets::JoinStraightest(std::span<const RimStrip::Meeting> seam)
   directions.reserve(seam.size());
   for (const RimStrip::Meeting & meeting : seam)
   {
-    directions.push_back(Outwards(m_Core.cells, m_Balls, meeting.face, meeting.edge));
+    directions.push_back(Away(m_Core.cells, m_Balls, meeting.face, meeting.edge));
   }
   const auto straightest = [&](std::size_t i) {
     std::size_t best = i;
@@ -176,9 +225,7 @@ Sheets::JoinStraightest(std::span<const RimStrip::Meeting> seam)
     double      second = kStraight;
     for (std::size_t j = 0; j < seam.size(); ++j)
     {
-      const BallCentre & a = directions[i];
-      const BallCentre & b = directions[j];
-      const double       cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+      const double cosine = Cosine(directions[i], directions[j]);
       if (j != i && cosine < least)
       {
         second = std::exchange(least, cosine);
