@@ -144,7 +144,7 @@ Sheets::JoinPairs()
 {
   const std::vector<ElementIndex> & faces = m_Strip.Faces();
   std::vector<std::uint8_t>         wide(faces.size());
-  std::vector<std::vector<Join>>    parts((faces.size() + kPart - 1) / kPart);
+  std::vector<std::vector<Join>>    parts(faces.size() / kPart + 1);
   const auto                        forParts = [&](const auto & work) {
     const auto one = [&](std::size_t part) {
       work(part,
