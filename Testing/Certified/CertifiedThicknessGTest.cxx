@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace voxelcore
 {
@@ -62,6 +63,43 @@ TEST(CertifiedThickness, WithoutRefinementIsOfInscribedBallsAndBoundsAreFoundOnl
   }
 }
 
+TEST(CertifiedThickness, AloneIsTheSameMapWithoutACore)
+{
+  CertifiedRequest request = ThicknessOfAll(true, false);
+  const auto       with = ComputeCertified(Box(14, 9, 8), Grid({ 1, 1, 2 }), request);
+  request.thickness->alone = true;
+  const auto alone = ComputeCertified(Box(14, 9, 8), Grid({ 1, 1, 2 }), request);
+  EXPECT_TRUE(alone.cores.empty());
+  EXPECT_EQ(alone.thickness->map.values, with.thickness->map.values);
+  EXPECT_EQ(alone.thickness->owners.values, with.thickness->owners.values);
+  EXPECT_EQ(alone.thickness->balls.centres, with.thickness->balls.centres);
+  EXPECT_EQ(alone.thickness->bracket.lower.values, with.thickness->bracket.lower.values);
+  EXPECT_EQ(alone.thickness->bracket.upper.values, with.thickness->bracket.upper.values);
+  EXPECT_EQ(alone.thickness->parts, with.thickness->parts);
+}
+
+TEST(CertifiedThickness, EachValueIsTheDiameterOfTheBallThatHoldsTheVoxel)
+{
+  const CertifiedResult      result = ComputeCertified(Box(14, 9, 8), Grid({ 1, 1, 1 }), ThicknessOfAll(false, false));
+  const CertifiedThickness & found = *result.thickness;
+  std::size_t                at = 0;
+  for (std::int32_t z = 0; z < 8; ++z)
+  {
+    for (std::int32_t y = 0; y < 9; ++y)
+    {
+      for (std::int32_t x = 0; x < 14; ++x, ++at)
+      {
+        const std::uint32_t owner = found.owners.values[at];
+        ASSERT_GT(owner, 0U);
+        const Vector3 & centre = found.balls.centres[owner - 1];
+        ASSERT_LE(std::hypot(centre[0] - x - 2.5, centre[1] - y - 3.5, centre[2] - z - 4.5),
+                  found.balls.radius[owner - 1] + 1e-9);
+        ASSERT_EQ(found.map.values[at], static_cast<float>(2 * found.balls.radius[owner - 1]));
+      }
+    }
+  }
+}
+
 TEST(CertifiedThickness, LeavesTheCoresAsTheyAre)
 {
   CertifiedRequest plain;
@@ -77,6 +115,8 @@ TEST(CertifiedThickness, BoundsThatContradictEachOtherAreRefused)
   const CertifiedResult result = ComputeCertified(Box(9, 7, 5), Grid({ 1, 1, 1 }), ThicknessOfAll(true, false));
   CertifiedThickness    found = *result.thickness;
   CertifiedShape        shape = result.shape;
+  found.bracket.balls = found.balls;
+  found.bracket.owners = found.owners;
   EXPECT_NO_THROW(ThicknessOf(result.cores[0], shape, found.shape, found.bracket));
   ThicknessBracket wrong = found.bracket;
   wrong.upper.values[17] = 0.5F * wrong.lower.values[17];

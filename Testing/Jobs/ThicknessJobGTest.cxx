@@ -144,6 +144,57 @@ TEST_F(ThicknessJob, VoxelsWhoseBallTouchesTheBorderAreCountedApart)
   EXPECT_EQ(dropped.numbers.voxels, all.inner.voxels);
 }
 
+TEST_F(ThicknessJob, WhatMemoryDoesNotHoldIsMeasuredInBlocks)
+{
+  RunPhantomJob(PhantomOptionsFrom({ { "kind", "porous" },
+                                     { "output", At("a.nrrd") },
+                                     { "size", "140,30,30" },
+                                     { "density", "0.4" },
+                                     { "period", "9" } }));
+  const VoxelBox all{ { 0, 0, 0 }, { 140, 30, 30 } };
+  for (const char * refine : { "off", "labels" })
+  {
+    const ParameterValues options{ { "refine", refine }, { "separation", "box" } };
+    const ThicknessResult whole = Thickness("whole.nrrd", options);
+    ParameterValues       less = options;
+    less.insert({ { "memory", "100kB" }, { "report", At("r.json") } });
+    const ThicknessResult parts = Thickness("parts.nrrd", less);
+    EXPECT_EQ(whole.blocks, 0U);
+    EXPECT_GE(parts.blocks, 4U) << "two of the label, two of what separates it";
+    ASSERT_EQ(parts.thickness.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      const std::string  name = i == 0 ? "" : "_separation";
+      std::vector<float> expected = ReadGreyVolume(At("whole" + name + ".nrrd"), all).values;
+      std::vector<float> found = ReadGreyVolume(At("parts" + name + ".nrrd"), all).values;
+      const bool         refined = refine == std::string("labels");
+      double             sum = 0;
+      for (std::size_t voxel = 0; voxel < found.size(); ++voxel)
+      {
+        ASSERT_EQ(found[voxel] > 0, expected[voxel] > 0);
+        sum += std::abs(found[voxel] - expected[voxel]);
+      }
+      EXPECT_LE(sum / static_cast<double>(whole.thickness[i].numbers.voxels), refined ? 0.02 : 0.0);
+      EXPECT_EQ(parts.thickness[i].label, whole.thickness[i].label);
+      EXPECT_EQ(parts.thickness[i].isSeparation, i == 1);
+      EXPECT_NEAR(parts.thickness[i].numbers.mean, whole.thickness[i].numbers.mean, refined ? 0.02 : 0.0);
+      EXPECT_NEAR(static_cast<double>(parts.thickness[i].borderVoxels),
+                  static_cast<double>(whole.thickness[i].borderVoxels),
+                  refined ? 200 : 0);
+    }
+    EXPECT_NE(parts.notes.back().find("measured in 2 blocks"), std::string::npos);
+    const auto label = nlohmann::json::parse(Bytes("r.json"))["labels"][0];
+    EXPECT_EQ(label.count("core"), 0U) << "none was made of the whole";
+    EXPECT_EQ(label.count("certificate"), 0U);
+    EXPECT_EQ(label["voxels"], whole.thickness[0].numbers.voxels);
+    std::filesystem::remove(At("r.json"));
+    std::filesystem::remove(At("whole_separation.nrrd"));
+    std::filesystem::remove(At("parts_separation.nrrd"));
+    std::filesystem::remove(At("whole.nrrd"));
+    std::filesystem::remove(At("parts.nrrd"));
+  }
+}
+
 TEST_F(ThicknessJob, TheSeparationIsThatOfTheBackgroundInTheBoxOfAllLabels)
 {
   TwoLabels();

@@ -2,6 +2,7 @@
 
 #include "BoundaryCoverage.h"
 #include "CertificateText.h"
+#include "InscribedThickness.h"
 #include "PruneStages.h"
 #include "RequestStages.h"
 #include "WholeCore.h"
@@ -82,6 +83,7 @@ private:
     if (RefinesCores(m_Request))
     {
       m_Refinement.asked = Asked();
+      m_Refinement.margins = !m_Request.thickness || !m_Request.thickness->alone;
     }
     if (RefinesCurves(m_Request))
     {
@@ -337,6 +339,21 @@ private:
   CertifiedResult             m_Result;
 };
 
+CertifiedResult
+MapAlone(const VoxelShape &       shape,
+         const ImageGeometry &    geometry,
+         const CertifiedRequest & request,
+         const ProgressCallback & progress)
+{
+  RequireLengthsIn(geometry.unit, request);
+  Stopwatch       watch;
+  CertifiedResult result;
+  result.shape = { request.name, {}, shape.Box(), geometry };
+  result.thickness = InscribedThickness(shape, nullptr, geometry, request, progress);
+  result.seconds.thickness = watch.Lap();
+  return result;
+}
+
 } // namespace
 
 CertifiedResult
@@ -345,6 +362,10 @@ RunCertified(VoxelShape               shape,
              const CertifiedRequest & request,
              const ProgressCallback & progress)
 {
+  if (IsMapAlone(request))
+  {
+    return MapAlone(shape, geometry, request, progress);
+  }
   return Work(std::move(shape), geometry, request, progress).Run();
 }
 

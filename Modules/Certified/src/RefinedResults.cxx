@@ -55,7 +55,7 @@ MovesInLps(const RefinedCore & refined, const ImageGeometry & geometry)
   return moves;
 }
 
-/** Also tells how far radii may be off where the surface is `ofLabels`. */
+/** Also tells how far radii may be off where the surface is `ofLabels`, and that is wanted. */
 CertifiedCore
 CertifyRefined(RefinedCore            refined,
                const MedialComplex &  whole,
@@ -247,7 +247,7 @@ RefineAndCertify(const VoxelShape &       voxels,
                            std::move(parts.left),
                            &parts.boundary,
                            [&] { FreeWhatIsRefined(parts, IsByTolerance(task)); } };
-    ofLabels = surface->IsOfLabels();
+    ofLabels = surface->IsOfLabels() && task.margins;
     refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.35, 1));
   }
   std::vector<CertifiedCore> results;

@@ -71,6 +71,13 @@ NeedsBracket(const CertifiedRequest & request)
   return request.thickness && (request.thickness->bounds || !RefinesCores(request));
 }
 
+bool
+IsMapAlone(const CertifiedRequest & request)
+{
+  return request.thickness && request.thickness->alone && !Refines(request) && !request.skeleton && !request.cells &&
+         !request.crossCheck;
+}
+
 std::vector<double>
 StageTimes(const CertifiedRequest & request)
 {

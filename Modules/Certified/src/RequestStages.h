@@ -36,6 +36,10 @@ BurnsBeforePruning(const CertifiedRequest & request);
 bool
 NeedsBracket(const CertifiedRequest & request);
 
+/** Whether a map of thickness is all that comes out, and needs no core. */
+bool
+IsMapAlone(const CertifiedRequest & request);
+
 /** Shares of the time of the stages, in the order in which they follow: shape, Delaunay cells, bracket of thickness,
  *  core, tolerances, whole core's certificate, skeleton, refinement, coverage or pruned cores' certificates, skeleton,
  *  thickness. */

@@ -67,17 +67,12 @@ CountFrom(const ParameterValues & values, std::string_view name, std::size_t mos
   return value;
 }
 
-/** What the machine can give now, with a tenth kept back. */
 double
-AvailableMemoryMb()
+MemoryThereIsMb()
 {
-  std::ifstream file("/proc/meminfo");
-  for (std::string line; std::getline(file, line);)
+  if (const auto available = AvailableMemoryMb())
   {
-    if (line.starts_with("MemAvailable:"))
-    {
-      return 0.9 * std::stod(line.substr(13)) * 1024 / kMegabyte;
-    }
+    return *available;
   }
   throw Error("cannot tell how much memory there is; give --memory");
 }
@@ -273,7 +268,7 @@ BatchOptionsFrom(const ParameterValues & values)
     static_cast<int>(threads > 0 ? threads : std::max<std::size_t>(1, cores / static_cast<std::size_t>(options.jobs)));
   const std::string memory = ValueOf(values, CommandId::Batch, "memory");
   options.memoryMb =
-    memory.empty() ? AvailableMemoryMb()
+    memory.empty() ? MemoryThereIsMb()
                    : NumberWithUnit("--memory",
                                     memory,
                                     std::array<Unit, 4>{

@@ -23,6 +23,23 @@ RequestOf(const CoreOptions & options, SurfaceSource surface)
   return request;
 }
 
+LabelRecord
+DescribeLabel(const EditedLabel & edited, const ImageGeometry & geometry)
+{
+  LabelRecord        record;
+  const LabelShape & label = edited.label;
+  record.label = label.value;
+  record.component = edited.component;
+  record.edits = edited.edits;
+  record.hollow = edited.hollow;
+  record.name = label.name;
+  record.voxels = label.voxels;
+  record.volumeMm3 =
+    static_cast<double>(label.voxels) * (geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2]);
+  record.box = label.shape.Box();
+  return record;
+}
+
 LabelOutcome
 ProcessLabel(EditedLabel              edited,
              const ImageGeometry &    geometry,
@@ -33,15 +50,7 @@ ProcessLabel(EditedLabel              edited,
   LabelOutcome  outcome;
   LabelRecord & record = outcome.record;
   LabelShape &  label = edited.label;
-  record.label = label.value;
-  record.component = edited.component;
-  record.edits = edited.edits;
-  record.hollow = edited.hollow;
-  record.name = label.name;
-  record.voxels = label.voxels;
-  record.volumeMm3 =
-    static_cast<double>(label.voxels) * (geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2]);
-  record.box = label.shape.Box();
+  record = DescribeLabel(edited, geometry);
   request.name = LabelText(label.value, label.name);
   CertifiedResult result = ComputeCertified(std::move(label.shape), geometry, request, progress);
   record.boundaryVertices = result.boundaryVertices;

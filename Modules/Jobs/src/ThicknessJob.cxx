@@ -4,6 +4,7 @@
 #include "DisplayFiles.h"
 #include "JobTools.h"
 #include "LabelReading.h"
+#include "ThicknessPlan.h"
 #include "ThicknessSteps.h"
 #include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
@@ -11,9 +12,11 @@
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReportTable.h"
+#include "voxelcore/ShapeTopology.h"
 #include "voxelcore/Text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <omp.h>
 #include <utility>
@@ -60,11 +63,11 @@ public:
     for (std::size_t i = 0; i < count; ++i)
     {
       const std::string name = m_Edited.labels[i].label.name;
-      LabelOutcome      outcome =
-        Compute(std::move(m_Edited.labels[i]), ProgressOfLabel(computing, name, i, count, share(i), share(i + 1)));
-      Keep(outcome);
-      Take(outcome, BallsAtSides(outcome.thickness->balls, m_Geometry, WholeScan()), false);
-      report.labels.push_back(std::move(outcome.record));
+      const auto        part = ProgressOfLabel(computing, name, i, count, share(i), share(i + 1));
+      const BallTest    atBorder = [&](const PaintingBalls & balls) {
+        return BallsAtSides(balls, m_Geometry, WholeScan());
+      };
+      report.labels.push_back(Measure(std::move(m_Edited.labels[i]), atBorder, false, part));
       if (m_ToFolder)
       {
         WriteVolumes(i);
@@ -167,14 +170,84 @@ private:
     return 1e-6 * static_cast<double>(sizeof(float) * voxels);
   }
 
-  LabelOutcome
-  Compute(EditedLabel edited, const ProgressCallback & progress) const
+  /** Whether something is asked for besides the map and its numbers that needs the core of a whole label. */
+  bool
+  ShowsCores() const
+  {
+    const DisplayTargets & shown = m_Options.core.display;
+    return m_Options.surface || m_Options.medial || shown.html || shown.scene;
+  }
+
+  /** What may be taken while a label is measured. */
+  double
+  BytesToUse() const
+  {
+    const std::optional<double> available = m_Context.admit ? std::nullopt : AvailableMemoryMb();
+    double                      kept = 0;
+    for (const CertifiedThickness & found : m_Found)
+    {
+      kept += static_cast<double>(sizeof(float) * found.map.values.size());
+    }
+    return m_Options.core.memory ? static_cast<double>(*m_Options.core.memory) - kept
+           : available           ? 1e6 * *available
+                                 : HUGE_VAL;
+  }
+
+  /** One label, as a whole or in blocks. */
+  LabelRecord
+  Measure(EditedLabel edited, const BallTest & atBorder, bool isSeparation, const ProgressCallback & progress)
   {
     CertifiedRequest request = RequestOf(m_Options.core, m_Surface);
     request.refineCores = static_cast<bool>(m_Surface);
-    request.thickness = ThicknessRequest{ m_Options.bounds };
+    request.thickness = ThicknessRequest{ m_Options.bounds, !ShowsCores() && !m_Options.core.report };
     RequireLengthsOf(m_Options.core.scan, m_Geometry.unit, request);
-    return ProcessLabel(std::move(edited), m_Geometry, std::move(request), progress);
+    if (!ShowsCores() && !m_Options.bounds)
+    {
+      const std::vector<VoxelBox> blocks =
+        PlanThickness(edited.label.shape, m_Geometry, request, m_Options, BytesToUse());
+      if (blocks.size() > 1)
+      {
+        return MeasureInBlocks(std::move(edited), std::move(request), blocks, atBorder, isSeparation, progress);
+      }
+    }
+    LabelOutcome outcome = ProcessLabel(std::move(edited), m_Geometry, std::move(request), progress);
+    outcome.record.hasCore = !outcome.parts.empty();
+    if (!isSeparation && outcome.record.hasCore)
+    {
+      Keep(outcome);
+    }
+    Take(outcome, atBorder(outcome.thickness->balls), isSeparation);
+    return std::move(outcome.record);
+  }
+
+  LabelRecord
+  MeasureInBlocks(EditedLabel                   edited,
+                  CertifiedRequest              request,
+                  const std::vector<VoxelBox> & blocks,
+                  const BallTest &              atBorder,
+                  bool                          isSeparation,
+                  const ProgressCallback &      progress)
+  {
+    LabelRecord record = DescribeLabel(edited, m_Geometry);
+    record.hasCore = false;
+    request.name = LabelText(record.label, record.name);
+    Stopwatch        watch;
+    BlockedThickness blocked =
+      ThicknessInBlocks(edited.label.shape, m_Geometry, request, blocks, atBorder, progress);
+    record.seconds = watch.Lap();
+    record.shape = ComputeShapeTopology(edited.label.shape);
+    m_Result.blocks += blocked.computed;
+    m_Result.notes.push_back(request.name + ": measured in " + std::to_string(blocks.size()) +
+                             " blocks, as memory does not hold the whole" +
+                             (m_Surface ? "; near their sides values may differ from those of the whole" : ""));
+    ThicknessRecord numbers = RecordOf(record, isSeparation);
+    SummarizeMap(blocked.map, m_Geometry, blocked.atBorder, m_Options.border, numbers);
+    m_Result.thickness.push_back(std::move(numbers));
+    CertifiedThickness found;
+    found.shape = std::move(edited.label.shape);
+    found.map = std::move(blocked.map);
+    m_Found.push_back(std::move(found));
+    return record;
   }
 
   /** What is shown of a label, and surfaces that are files. */
@@ -232,16 +305,23 @@ private:
   {
     AddComputing(m_Result.report.seconds, outcome.seconds);
     CertifiedThickness & found = *outcome.thickness;
-    ThicknessRecord      record;
-    record.label = outcome.record.label;
-    record.component = outcome.record.component;
-    record.name = outcome.record.name;
-    record.isSeparation = isSeparation;
+    ThicknessRecord      record = RecordOf(outcome.record, isSeparation);
     Summarize(found, m_Geometry, touches, m_Options.border, record);
     m_Result.thickness.push_back(std::move(record));
     found.owners = VoxelOwners();
     found.balls = PaintingBalls();
     m_Found.push_back(std::move(found));
+  }
+
+  static ThicknessRecord
+  RecordOf(const LabelRecord & label, bool isSeparation)
+  {
+    ThicknessRecord record;
+    record.label = isSeparation ? 0 : label.label;
+    record.component = label.component;
+    record.name = label.name;
+    record.isSeparation = isSeparation;
+    return record;
   }
 
   VoxelBox
@@ -266,13 +346,11 @@ private:
                        ": --separation: there is no background where it is to be measured");
     }
     between.label.name = "separation";
-    LabelOutcome outcome = Compute(std::move(between), plan.Next());
-    outcome.record.label = 0;
-    const PaintingBalls & balls = outcome.thickness->balls;
-    Take(outcome,
-         m_Options.separation == SeparationRegion::Box ? BallsAtSides(balls, m_Geometry, region.Box())
-                                                       : BallsAtRegion(balls, m_Geometry, region, shapes),
-         true);
+    const BallTest atBorder = [&](const PaintingBalls & balls) {
+      return m_Options.separation == SeparationRegion::Box ? BallsAtSides(balls, m_Geometry, region.Box())
+                                                           : BallsAtRegion(balls, m_Geometry, region, shapes);
+    };
+    Measure(std::move(between), atBorder, true, plan.Next());
   }
 
   fs::path

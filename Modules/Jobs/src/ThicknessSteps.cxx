@@ -59,31 +59,48 @@ BallsAtSides(const PaintingBalls & balls, const ImageGeometry & geometry, const 
 }
 
 void
+SummarizeMap(const VoxelValues &   map,
+             const ImageGeometry & geometry,
+             std::span<const char> atBorder,
+             BorderRule            border,
+             ThicknessRecord &     record)
+{
+  const double bin = *std::min_element(geometry.spacing.begin(), geometry.spacing.end()) / 2;
+  record.voxelVolume = geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2];
+  record.borderVoxels = static_cast<std::uint64_t>(std::count(atBorder.begin(), atBorder.end(), char{ 1 }));
+  record.withoutBorder = border == BorderRule::Drop;
+  if (border != BorderRule::Keep)
+  {
+    std::vector<float> inner;
+    inner.reserve(map.values.size() - record.borderVoxels);
+    for (std::size_t i = 0; i < map.values.size(); ++i)
+    {
+      if (atBorder[i] == 0)
+      {
+        inner.push_back(map.values[i]);
+      }
+    }
+    record.inner = SummarizeThickness(std::move(inner), bin);
+  }
+  record.numbers =
+    record.withoutBorder || (record.borderVoxels == 0 && border != BorderRule::Keep) ? record.inner
+                                                                                      : SummarizeThickness(map.values, bin);
+}
+
+void
 Summarize(const CertifiedThickness & found,
           const ImageGeometry &      geometry,
           std::span<const char>      touches,
           BorderRule                 border,
           ThicknessRecord &          record)
 {
-  std::vector<float> inner;
-  for (std::size_t i = 0; i < found.map.values.size(); ++i)
+  std::vector<char> atBorder(found.owners.values.size(), 0);
+  for (std::size_t i = 0; i < atBorder.size(); ++i)
   {
     const std::uint32_t owner = found.owners.values[i];
-    if (owner == 0 || touches[owner - 1] == 0)
-    {
-      inner.push_back(found.map.values[i]);
-    }
+    atBorder[i] = owner == 0 ? char{ 0 } : touches[owner - 1];
   }
-  const double bin = *std::min_element(geometry.spacing.begin(), geometry.spacing.end()) / 2;
-  record.voxelVolume = geometry.spacing[0] * geometry.spacing[1] * geometry.spacing[2];
-  record.borderVoxels = found.map.values.size() - inner.size();
-  record.inner = SummarizeThickness(std::move(inner), bin);
-  record.withoutBorder = border == BorderRule::Drop;
-  record.numbers = record.withoutBorder ? record.inner : SummarizeThickness(found.map.values, bin);
-  if (border == BorderRule::Keep)
-  {
-    record.inner = ThicknessNumbers();
-  }
+  SummarizeMap(found.map, geometry, atBorder, border, record);
   if (!found.bracket.upper.values.empty())
   {
     record.meanLower = MeanOf(found.bracket.lower.values);

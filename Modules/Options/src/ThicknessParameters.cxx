@@ -80,6 +80,10 @@ ThicknessOptionsFrom(const ParameterValues & values)
   options.surface = reader.FileIfGiven("surface");
   options.medial = reader.FileIfGiven("medial");
   options.core.display = DisplayTargetsFrom(values, command);
+  if (reader.IsGiven("memory"))
+  {
+    options.core.memory = ParseMemory(reader.Text("memory"));
+  }
   return options;
 }
 

@@ -170,6 +170,10 @@ LabelJson(const LabelRecord & label, bool inFile)
                                                      { "pieces_a_voxel_apart", label.fine->joined },
                                                      { "pieces_below_27_voxels", label.fine->specks } };
   }
+  if (!label.hasCore)
+  {
+    return json;
+  }
   json["core"] = Json::object();
   AddComplex(json["core"], label.core);
   json["pruned"] = Json::array();
@@ -408,6 +412,20 @@ PeakMemoryMb()
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::optional<double>
+AvailableMemoryMb()
+{
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);)
+  {
+    if (line.starts_with("MemAvailable:"))
+    {
+      return 0.9 * std::stod(line.substr(13)) * 1024 / 1e6;
+    }
+  }
+  return std::nullopt;
 }
 
 } // namespace voxelcore

@@ -306,4 +306,31 @@ CountBoundary(const VoxelShape & shape)
   return counter.Counts();
 }
 
+// Six for each voxel less two for each inner face.
+std::uint64_t
+CountBoundarySquares(const VoxelShape & shape)
+{
+  const auto &  size = shape.Box().size;
+  std::uint64_t squares = 0;
+  for (std::int32_t z = 0; z < size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < size[1]; ++y)
+    {
+      const auto    row = shape.Row(y, z);
+      std::uint64_t before = 0;
+      for (std::size_t word = 0; word < row.size(); ++word)
+      {
+        const std::uint64_t bits = row[word];
+        const std::uint64_t left = bits << 1 | before >> 63;
+        squares += 6 * static_cast<std::uint64_t>(std::popcount(bits));
+        squares -= 2 * static_cast<std::uint64_t>(std::popcount(bits & left));
+        squares -= y == 0 ? 0 : 2 * static_cast<std::uint64_t>(std::popcount(bits & shape.Row(y - 1, z)[word]));
+        squares -= z == 0 ? 0 : 2 * static_cast<std::uint64_t>(std::popcount(bits & shape.Row(y, z - 1)[word]));
+        before = bits;
+      }
+    }
+  }
+  return squares;
+}
+
 } // namespace voxelcore

@@ -99,13 +99,11 @@ RemoveComponents(VoxelShape shape, const Components & components, const std::vec
   return edited;
 }
 
-} // namespace
-
-EditedShape
-CropToBox(VoxelShape shape, const VoxelBox & box)
+/** What two boxes have in common. */
+VoxelBox
+CommonBox(const VoxelBox & all, const VoxelBox & box)
 {
-  const VoxelBox & all = shape.Box();
-  VoxelBox         common;
+  VoxelBox common;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::int64_t low = std::max<std::int64_t>(all.lower[axis], box.lower[axis]);
@@ -113,14 +111,28 @@ CropToBox(VoxelShape shape, const VoxelBox & box)
                                        std::int64_t{ box.lower[axis] } + std::max(box.size[axis], 0));
     if (high <= low)
     {
-      common = { all.lower, { 0, 0, 0 } };
-      break;
+      return { all.lower, { 0, 0, 0 } };
     }
     common.lower[axis] = static_cast<std::int32_t>(low);
     common.size[axis] = static_cast<std::int32_t>(high - low);
   }
-  EditedShape edited;
-  if (common.size == all.size)
+  return common;
+}
+
+} // namespace
+
+VoxelShape
+VoxelsWithin(const VoxelShape & shape, const VoxelBox & box)
+{
+  return Tightened(CopyBox(shape, CommonBox(shape.Box(), box)));
+}
+
+EditedShape
+CropToBox(VoxelShape shape, const VoxelBox & box)
+{
+  const VoxelBox common = CommonBox(shape.Box(), box);
+  EditedShape    edited;
+  if (common.size == shape.Box().size)
   {
     edited.shape = Tightened(std::move(shape));
     return edited;

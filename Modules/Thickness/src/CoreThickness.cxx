@@ -234,14 +234,7 @@ ThicknessOfOwners(const VoxelShape &     shape,
                   const PaintingBalls &  balls,
                   const VoxelOwners &    owners)
 {
-  VoxelValues map{ owners.box, owners.rowStarts, std::vector<float>(owners.values.size(), 0.0F) };
-  for (std::size_t i = 0; i < map.values.size(); ++i)
-  {
-    if (const std::uint32_t owner = owners.values[i]; owner != 0)
-    {
-      map.values[i] = static_cast<float>(2 * balls.value[owner - 1]);
-    }
-  }
+  VoxelValues map = DiametersOfOwners(balls, owners);
   FillWithOwnBalls(shape, weights, map);
   return map;
 }

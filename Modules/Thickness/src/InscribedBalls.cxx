@@ -1,7 +1,7 @@
 #include "voxelcore/InscribedBalls.h"
 
 #include "OctantAxes.h"
-#include "SquareTree.h"
+#include "NearSquares.h"
 
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
@@ -36,7 +36,7 @@ public:
     : m_Points(points)
     , m_Cells(cells)
     , m_Unit(weights.unit)
-    , m_Tree(shape, weights)
+    , m_NearSquares(shape, weights)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -62,6 +62,10 @@ public:
   Find(double boundingStep, const ProgressCallback & progress)
   {
     ThicknessBalls balls;
+    for (const double radius : m_Radius)
+    {
+      balls.reach = std::max(balls.reach, radius * m_Unit);
+    }
     FindInscribed(balls.inscribed, progress);
     m_Squares.clear();
     if (boundingStep > 0)
@@ -128,12 +132,31 @@ private:
     return greatest;
   }
 
+  /** Of each cell the first of its points: distances to others may be rounded otherwise. */
+  std::vector<std::uint32_t>
+  FirstPoints() const
+  {
+    std::vector<std::uint32_t> first(m_Cells.CellCount(), kOutside);
+    for (std::size_t facet = 0; facet < m_Cells.FacetCount(); ++facet)
+    {
+      for (const std::uint32_t cell : m_Cells.facetCells[facet])
+      {
+        if (cell != kOutside)
+        {
+          first[cell] = std::min(first[cell], m_Cells.FacetPoints(facet)[0]);
+        }
+      }
+    }
+    return first;
+  }
+
   void
   FindRadii()
   {
     constexpr std::size_t                   chunk = 4096;
     const std::size_t                       cells = m_Cells.CellCount();
-    std::vector<std::vector<std::uint32_t>> found((cells + chunk - 1) / chunk);
+    const std::vector<std::uint32_t>        first = FirstPoints();
+    std::vector<std::vector<BoundarySquare>> found((cells + chunk - 1) / chunk);
     m_Radius.resize(cells);
     m_Inscribed.resize(cells);
     m_SquaresBegin.assign(cells + 1, 0);
@@ -141,16 +164,16 @@ private:
       for (std::size_t cell = i * chunk; cell < std::min((i + 1) * chunk, cells); ++cell)
       {
         const std::size_t before = found[i].size();
-        m_Radius[cell] = ToPoint(m_Cells.tetrahedra[cell][0], m_Cells.centres[cell]);
-        m_Tree.Nearer(m_Cells.centres[cell], m_Radius[cell], found[i]);
+        m_Radius[cell] = ToPoint(first[cell], m_Cells.centres[cell]);
+        m_NearSquares.Find(m_Cells.centres[cell], m_Radius[cell], found[i]);
         m_Inscribed[cell] =
-          m_Tree.DistanceTo(std::span(found[i]).subspan(before), m_Cells.centres[cell], m_Radius[cell]);
+          m_NearSquares.DistanceTo(std::span(found[i]).subspan(before), m_Cells.centres[cell], m_Radius[cell]);
         m_SquaresBegin[cell + 1] = found[i].size() - before;
       }
     });
     std::partial_sum(m_SquaresBegin.begin(), m_SquaresBegin.end(), m_SquaresBegin.begin());
     m_Squares.reserve(m_SquaresBegin.back());
-    for (std::vector<std::uint32_t> & part : found)
+    for (std::vector<BoundarySquare> & part : found)
     {
       m_Squares.insert(m_Squares.end(), part.begin(), part.end());
       part = {};
@@ -241,6 +264,20 @@ private:
     return std::sqrt(squared) + radius - otherRadius;
   }
 
+  /** Whether a ball may hold the middle of a voxel; the nearest is that of the voxel its centre is in. */
+  bool
+  HoldsMiddle(const Vector3 & centre, double radius) const
+  {
+    constexpr double rounding = 1e-6;
+    double           squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double d = (centre[axis] - std::floor(centre[axis]) - 0.5) * m_Weights[axis];
+      squared += d * d;
+    }
+    return squared <= radius * radius * (1 + rounding);
+  }
+
   void
   FindInscribed(PaintingBalls & inscribed, const ProgressCallback & progress)
   {
@@ -261,7 +298,7 @@ private:
     }
     for (std::size_t cell = 0; cell < m_Cells.CellCount(); ++cell)
     {
-      if (needless[cell] == 0)
+      if (needless[cell] == 0 && HoldsMiddle(m_Cells.centres[cell], m_Inscribed[cell]))
       {
         inscribed.Add(m_Cells.centres[cell], m_Inscribed[cell] * m_Unit, m_Inscribed[cell] * m_Unit);
       }
@@ -279,6 +316,14 @@ private:
         }
       }
     });
+    std::size_t all = inscribed.Count();
+    for (const PaintingBalls & part : found)
+    {
+      all += part.Count();
+    }
+    inscribed.centres.reserve(all);
+    inscribed.radius.reserve(all);
+    inscribed.value.reserve(all);
     for (PaintingBalls & part : found)
     {
       inscribed.centres.insert(inscribed.centres.end(), part.centres.begin(), part.centres.end());
@@ -305,14 +350,17 @@ private:
     {
       const Vector3 centre = Between(m_Cells.centres[from], m_Cells.centres[to], static_cast<double>(piece) / pieces);
       double        radius = ToPoint(m_Cells.FacetPoints(facet)[0], centre);
-      radius = m_Tree.DistanceTo(SquaresOf(from), centre, radius);
-      radius = m_Tree.DistanceTo(SquaresOf(to), centre, radius);
+      radius = m_NearSquares.DistanceTo(SquaresOf(from), centre, radius);
+      radius = m_NearSquares.DistanceTo(SquaresOf(to), centre, radius);
       const double sticksOut = SticksOut(centre, radius, lastCentre, lastRadius);
       const bool   isThere =
         radius <= lastRadius && sticksOut <= (lastRadius - radius < kCoarseStep * m_Least ? kNoMore * m_Least : 0.0);
       if (!isThere && SticksOut(centre, radius, m_Cells.centres[to], m_Inscribed[to]) > 0)
       {
-        balls.Add(centre, radius * m_Unit, radius * m_Unit);
+        if (HoldsMiddle(centre, radius))
+        {
+          balls.Add(centre, radius * m_Unit, radius * m_Unit);
+        }
         lastCentre = centre;
         lastRadius = radius;
       }
@@ -320,7 +368,7 @@ private:
   }
 
   /** The squares that stick into the ball through the boundary vertices about a core vertex. */
-  std::span<const std::uint32_t>
+  std::span<const BoundarySquare>
   SquaresOf(std::uint32_t cell) const
   {
     return { m_Squares.data() + m_SquaresBegin[cell], m_Squares.data() + m_SquaresBegin[cell + 1] };
@@ -409,7 +457,7 @@ private:
   std::span<const LatticePoint> m_Points;
   const DelaunayCells &         m_Cells;
   double                        m_Unit;
-  SquareTree                    m_Tree;
+  NearSquares                   m_NearSquares;
   Vector3                       m_Weights{};
   double                        m_Least = 0; ///< of the weights
   std::vector<std::uint8_t>     m_Axes;      ///< of each boundary vertex: A, as bits
@@ -418,7 +466,7 @@ private:
   std::vector<double>           m_Bound;     ///< of each core vertex
   std::vector<Sample>           m_Samples;
   std::vector<std::size_t>      m_SquaresBegin;
-  std::vector<std::uint32_t>    m_Squares; ///< of each core vertex: those nearer than R
+  std::vector<BoundarySquare>   m_Squares; ///< of each core vertex: those nearer than R
 };
 
 } // namespace

@@ -63,20 +63,36 @@ public:
   std::vector<PaintedBall>
   InOrder(std::size_t tile) const
   {
-    std::vector<std::pair<double, std::uint32_t>> order;
+    // Single precision keeps the order but for equals, and is sorted as whole numbers: values are not negative.
+    std::vector<std::uint64_t> order;
     order.reserve(m_Begin[tile + 1] - m_Begin[tile]);
     for (std::size_t i = m_Begin[tile]; i < m_Begin[tile + 1]; ++i)
     {
-      order.emplace_back(-m_Balls.value[m_Indices[i]], m_Indices[i]);
+      const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(m_Balls.value[m_Indices[i]]));
+      order.push_back(std::uint64_t{ ~bits } << 32U | m_Indices[i]);
     }
     std::sort(order.begin(), order.end());
+    const auto valueOf = [&](std::uint64_t key) { return m_Balls.value[static_cast<std::uint32_t>(key)]; };
+    const auto isBefore = [&](std::uint64_t a, std::uint64_t b) { return valueOf(a) > valueOf(b); };
+    for (auto first = order.begin(); first != order.end();)
+    {
+      const auto end = std::find_if(first, order.end(), [&](std::uint64_t key) { return key >> 32U != *first >> 32U; });
+      if (!std::is_sorted(first, end, isBefore))
+      {
+        std::stable_sort(first, end, isBefore);
+      }
+      first = end;
+    }
     std::vector<PaintedBall> balls;
     balls.reserve(order.size());
-    for (const auto & [value, index] : order)
+    for (const std::uint64_t key : order)
     {
+      const auto      index = static_cast<std::uint32_t>(key);
       const Vector3 & at = m_Balls.centres[index];
-      balls.push_back(
-        { { at[0] - m_Box.lower[0], at[1] - m_Box.lower[1], at[2] - m_Box.lower[2] }, RadiusOf(index), -value, index });
+      balls.push_back({ { at[0] - m_Box.lower[0], at[1] - m_Box.lower[1], at[2] - m_Box.lower[2] },
+                        RadiusOf(index),
+                        m_Balls.value[index],
+                        index });
     }
     return balls;
   }
@@ -197,13 +213,16 @@ PaintOwners(const VoxelShape &       shape,
 }
 
 void
-FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, VoxelValues & map)
+FillWithOwnBalls(const VoxelShape &     shape,
+                 const SpacingWeights & weights,
+                 VoxelValues &          map,
+                 const VoxelShape *     around)
 {
   if (std::find(map.values.begin(), map.values.end(), 0.0F) == map.values.end())
   {
     return;
   }
-  const SquareTree tree(shape, weights);
+  const SquareTree tree(around != nullptr ? *around : shape, weights);
   const auto &     box = shape.Box();
   const double     far = std::numeric_limits<double>::infinity();
   for (std::int32_t z = 0; z < box.size[2]; ++z)
@@ -230,26 +249,76 @@ FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, Voxel
   }
 }
 
+namespace
+{
+
+/** Drops the balls that no voxel is of. */
+void
+KeepOwners(PaintingBalls & balls, VoxelOwners & owners)
+{
+  std::vector<std::uint32_t> names(balls.Count() + 1, 0);
+  for (const std::uint32_t owner : owners.values)
+  {
+    names[owner] = 1;
+  }
+  PaintingBalls kept;
+  names[0] = 0;
+  for (std::size_t i = 0; i < balls.Count(); ++i)
+  {
+    if (names[i + 1] != 0)
+    {
+      kept.Add(balls.centres[i], balls.radius[i], balls.value[i]);
+      names[i + 1] = static_cast<std::uint32_t>(kept.Count());
+    }
+  }
+  balls = std::move(kept);
+  for (std::uint32_t & owner : owners.values)
+  {
+    owner = names[owner];
+  }
+}
+
+} // namespace
+
+VoxelValues
+DiametersOfOwners(const PaintingBalls & balls, const VoxelOwners & owners)
+{
+  VoxelValues map{ owners.box, owners.rowStarts, std::vector<float>(owners.values.size(), 0.0F) };
+  for (std::size_t i = 0; i < map.values.size(); ++i)
+  {
+    if (const std::uint32_t owner = owners.values[i]; owner != 0)
+    {
+      map.values[i] = static_cast<float>(2 * balls.value[owner - 1]);
+    }
+  }
+  return map;
+}
+
 ThicknessBracket
 BracketThickness(const VoxelShape &            shape,
                  std::span<const LatticePoint> points,
                  const DelaunayCells &         cells,
                  const SpacingWeights &        weights,
                  bool                          upper,
-                 const ProgressCallback &      progress)
+                 const ProgressCallback &      progress,
+                 const VoxelShape *            part)
 {
+  const VoxelShape & asked = part != nullptr ? *part : shape;
   StagePlan      plan(progress, { 0.4, upper ? 0.3 : 0.6, upper ? 0.3 : 0.0 });
   ThicknessBalls balls =
     FindThicknessBalls(shape, points, cells, weights, upper ? kBoundingStep : 0, plan.Next("thickness"));
   ThicknessBracket bracket;
-  bracket.lower = ZeroAtVoxels<float>(shape);
-  PaintThickness(shape, weights, balls.inscribed, bracket.lower, plan.Next("thickness"));
-  FillWithOwnBalls(shape, weights, bracket.lower);
+  bracket.reach = balls.reach;
+  bracket.owners = ZeroAtVoxels<std::uint32_t>(asked);
+  PaintOwners(asked, weights, balls.inscribed, bracket.owners, plan.Next("thickness"));
+  bracket.balls = std::move(balls.inscribed);
+  KeepOwners(bracket.balls, bracket.owners);
+  bracket.lower = DiametersOfOwners(bracket.balls, bracket.owners);
+  FillWithOwnBalls(asked, weights, bracket.lower, &shape);
   if (upper)
   {
-    balls.inscribed = PaintingBalls();
-    bracket.upper = ZeroAtVoxels<float>(shape);
-    PaintThickness(shape, weights, balls.bounding, bracket.upper, plan.Next("thickness"));
+    bracket.upper = ZeroAtVoxels<float>(asked);
+    PaintThickness(asked, weights, balls.bounding, bracket.upper, plan.Next("thickness"));
   }
   return bracket;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <span>
 
 namespace voxelcore
 {
@@ -37,7 +36,7 @@ SquareTree::SquareTree(const VoxelShape & shape, const SpacingWeights & weights)
       const auto    before = shape.RowAnywhere(y - 1, z);
       const auto    below = shape.RowAnywhere(y, z - 1);
       std::uint64_t carry = 0;
-      const auto    add = [&](std::uint64_t bits, std::size_t word, const Square & offset) {
+      const auto    add = [&](std::uint64_t bits, std::size_t word, const BoundarySquare & offset) {
         for (; bits != 0; bits &= bits - 1)
         {
           const auto x = static_cast<std::int32_t>(64 * word) + std::countr_zero(bits);
@@ -65,8 +64,8 @@ SquareTree::SquareTree(const VoxelShape & shape, const SpacingWeights & weights)
 void
 SquareTree::Build(std::size_t node, std::size_t first, std::size_t last)
 {
-  Square least = m_Squares[first];
-  Square greatest = least;
+  BoundarySquare least = m_Squares[first];
+  BoundarySquare greatest = least;
   for (std::size_t i = first; i < last; ++i)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -93,7 +92,7 @@ SquareTree::Build(std::size_t node, std::size_t first, std::size_t last)
   }
   const std::size_t middle = MiddleOf(first, last);
   const auto        at = [&](std::size_t i) { return m_Squares.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(first), at(middle), at(last), [longest](const Square & a, const Square & b) {
+  std::nth_element(at(first), at(middle), at(last), [longest](const BoundarySquare & a, const BoundarySquare & b) {
     return a[longest] < b[longest];
   });
   Build(2 * node + 1, first, middle);
@@ -115,19 +114,6 @@ SquareTree::ToBounds(const Bounds & bounds, const Vector3 & place) const
   return squared;
 }
 
-double
-SquareTree::ToSquare(const Square & square, const Vector3 & place) const
-{
-  double squared = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double half = (square[axis] & 1) != 0 ? 0.5 : 0.0;
-    const double beyond = std::max(std::abs(place[axis] - 0.5 * square[axis]) - half, 0.0) * m_Weights[axis];
-    squared += beyond * beyond;
-  }
-  return squared;
-}
-
 void
 SquareTree::Descend(std::size_t node, std::size_t first, std::size_t last, const Vector3 & place, double & least) const
 {
@@ -135,7 +121,7 @@ SquareTree::Descend(std::size_t node, std::size_t first, std::size_t last, const
   {
     for (std::size_t i = first; i < last; ++i)
     {
-      least = std::min(least, ToSquare(m_Squares[i], place));
+      least = std::min(least, SquaredDistance(m_Squares[i], place, m_Weights));
     }
     return;
   }
@@ -162,56 +148,6 @@ SquareTree::Descend(std::size_t node, std::size_t first, std::size_t last, const
   {
     Descend(2 * node + 1, first, middle, place, least);
   }
-}
-
-void
-SquareTree::Collect(std::size_t                  node,
-                    std::size_t                  first,
-                    std::size_t                  last,
-                    const Vector3 &              place,
-                    double                       squared,
-                    std::vector<std::uint32_t> & squares) const
-{
-  if (last - first <= kLeaf)
-  {
-    for (std::size_t i = first; i < last; ++i)
-    {
-      if (ToSquare(m_Squares[i], place) < squared)
-      {
-        squares.push_back(static_cast<std::uint32_t>(i));
-      }
-    }
-    return;
-  }
-  const std::size_t middle = MiddleOf(first, last);
-  if (ToBounds(m_Bounds[2 * node + 1], place) < squared)
-  {
-    Collect(2 * node + 1, first, middle, place, squared, squares);
-  }
-  if (ToBounds(m_Bounds[2 * node + 2], place) < squared)
-  {
-    Collect(2 * node + 2, middle, last, place, squared, squares);
-  }
-}
-
-void
-SquareTree::Nearer(const Vector3 & place, double within, std::vector<std::uint32_t> & squares) const
-{
-  if (!m_Squares.empty())
-  {
-    Collect(0, 0, m_Squares.size(), place, within * within, squares);
-  }
-}
-
-double
-SquareTree::DistanceTo(std::span<const std::uint32_t> squares, const Vector3 & place, double within) const
-{
-  double least = within * within;
-  for (const std::uint32_t square : squares)
-  {
-    least = std::min(least, ToSquare(m_Squares[square], place));
-  }
-  return std::min(std::sqrt(least), within);
 }
 
 double

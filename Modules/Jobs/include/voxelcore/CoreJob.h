@@ -88,6 +88,10 @@ struct LabelOutcome
   std::string                       failure; ///< why its certificate failed, where other labels go on
 };
 
+/** What a record says of a label before anything is computed. */
+LabelRecord
+DescribeLabel(const EditedLabel & edited, const ImageGeometry & geometry);
+
 /** Everything between reading and writing for one label: what ComputeCertified() gives, told as a record.
  *  \throws what ComputeCertified() throws; the errors name the label */
 LabelOutcome

@@ -42,6 +42,8 @@ struct ThicknessOptions
   std::optional<std::filesystem::path> medial;  ///< .vtp: the medial surface with it
   std::optional<std::filesystem::path> table;   ///< .csv; a histogram and a data dictionary go beside
 };
+// Where core.memory, or else what the machine has, is not enough for a label as a whole, it is measured block by block
+// (ThicknessInBlocks.h). Bounds and what shows the core need it whole.
 
 struct ThicknessResult
 {
@@ -49,6 +51,7 @@ struct ThicknessResult
   std::vector<ThicknessRecord> thickness; ///< per label of the report; then the separation, where it was asked for
   std::vector<std::string>     warnings;
   std::vector<std::string>     notes;
+  std::size_t                  blocks = 0; ///< windows that were computed where labels were measured block by block
 };
 
 /** The volumes have the scan's grid, float32, mm (voxels where the scan has no voxel size), and 0 outside. Each label
@@ -61,7 +64,15 @@ RunThicknessJob(const ThicknessOptions & options, const JobContext & context = {
 std::vector<char>
 BallsAtSides(const PaintingBalls & balls, const ImageGeometry & geometry, const VoxelBox & box);
 
-/** The numbers of a map. `touches`: per ball, whether it meets the border, where it may have been larger. */
+/** The numbers of a map. `atBorder`: per voxel, whether its ball meets the border, where it may have been larger. */
+void
+SummarizeMap(const VoxelValues &   map,
+             const ImageGeometry & geometry,
+             std::span<const char> atBorder,
+             BorderRule            border,
+             ThicknessRecord &     record);
+
+/** The same, and the bounds. `touches`: per ball, whether it meets the border. */
 void
 Summarize(const CertifiedThickness & found,
           const ImageGeometry &      geometry,

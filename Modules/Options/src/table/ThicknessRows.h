@@ -9,6 +9,14 @@ namespace voxelcore::table
 {
 
 inline constexpr auto kThicknessRows = std::to_array<Parameter>({
+  { "memory",
+    "--memory",
+    Text,
+    "8GB",
+    "",
+    false,
+    kThickness,
+    "Measure block by block what would need more memory than this; default: what the machine has" },
   { "bounds",
     "--bounds",
     Flag,

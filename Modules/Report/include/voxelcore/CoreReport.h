@@ -94,6 +94,7 @@ struct LabelRecord
   std::uint64_t                 boundaryVertices = 0;
   TopologyNumbers               shape;
   std::optional<FineTopology>   fine; ///< where much of the shape's topology is; in reports, not in files
+  bool                          hasCore = true; ///< false: none was made, or of parts alone; not in files
   ComplexRecord                 core;
   std::vector<PrunedRecord>     pruned; ///< one per lambda or tolerance, in the order given
   bool                          topologyEqual = false;
@@ -179,5 +180,9 @@ ParseLabelRecord(const std::string & json);
 /** The most memory this process has had resident, in 2^20 bytes. */
 double
 PeakMemoryMb();
+
+/** What the machine can give now, with a tenth kept back, MB of 1e6 bytes; none where it does not say. */
+std::optional<double>
+AvailableMemoryMb();
 
 } // namespace voxelcore

@@ -27,4 +27,8 @@ struct BoundaryCounts
 BoundaryCounts
 CountBoundary(const VoxelShape & shape);
 
+/** Faces between a voxel that is in and one that is not. */
+std::uint64_t
+CountBoundarySquares(const VoxelShape & shape);
+
 } // namespace voxelcore

@@ -26,6 +26,10 @@ struct EditedShape
 EditedShape
 CropToBox(VoxelShape shape, const VoxelBox & box);
 
+/** The same voxels, of a shape that stays as it is. */
+VoxelShape
+VoxelsWithin(const VoxelShape & shape, const VoxelBox & box);
+
 /** Without the components of fewer than `minVoxels` voxels. */
 EditedShape
 RemoveSmallComponents(VoxelShape shape, std::uint64_t minVoxels);

@@ -68,14 +68,15 @@ struct ThicknessBalls
 {
   PaintingBalls inscribed; ///< value = radius: the exact distance to the nearest boundary square
   PaintingBalls bounding;  ///< as said above; empty where they were not asked for
+  double        reach = 0; ///< the greatest R of a core vertex, mm
 };
 
 /** The balls of a shape, whose boundary vertices, as BoundaryVertices() gives them, are `points` and whose cells are
  *  `cells`. Lengths are those of the weights' lattice, in mm. Edges of the core are cut into pieces along which no ball
  *  grows by more than an eighth of a voxel's shortest side; for bounds, by `boundingStep` of it, where 0 asks for no
  *  bounds. Inscribed balls that stick out of a neighbour's by nothing are left out, and those of a 64th at most where
- *  that grows by less than half a side.
- *  The same for every number of threads. \throws Cancelled */
+ *  that grows by less than half a side; so are those that hold no voxel's centre.
+ *  The same for every number of threads, and for every order of a cell's points. \throws Cancelled */
 ThicknessBalls
 FindThicknessBalls(const VoxelShape &            shape,
                    std::span<const LatticePoint> points,

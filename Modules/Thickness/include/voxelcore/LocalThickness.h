@@ -75,25 +75,38 @@ PaintOwners(const VoxelShape &       shape,
             VoxelOwners &            owners,
             const ProgressCallback & progress = {});
 
-/** Gives each voxel that still has zero the diameter of the largest inscribed ball about its centre. */
+/** The thickness that each voxel's owner gives it, mm; 0 where there is none. */
+VoxelValues
+DiametersOfOwners(const PaintingBalls & balls, const VoxelOwners & owners);
+
+/** Gives each voxel that still has zero the diameter of the largest inscribed ball about its centre. `around`: the
+ *  shape that the balls lie in, where the map is of a part of its voxels, `shape`. */
 void
-FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, VoxelValues & map);
+FillWithOwnBalls(const VoxelShape &     shape,
+                 const SpacingWeights & weights,
+                 VoxelValues &          map,
+                 const VoxelShape *     around = nullptr);
 
 /** A truly inscribed ball of the first diameter holds the centre of a voxel, none of more than the second does. */
 struct ThicknessBracket
 {
   VoxelValues lower; ///< mm
   VoxelValues upper; ///< mm; empty where it was not asked for
+
+  PaintingBalls balls;     ///< those that the lower bounds are of
+  VoxelOwners   owners;    ///< among them; 0: the voxel has the ball about its own centre
+  double        reach = 0; ///< no centre of a ball is farther from the nearest boundary vertex, mm
 };
 
-/** The local thickness of a shape from its Delaunay cells (InscribedBalls.h). The same for every number of threads.
- *  \throws Cancelled */
+/** The local thickness of a shape from its Delaunay cells (InscribedBalls.h), or at a part of its voxels, `part`. The
+ *  same for every number of threads. \throws Cancelled */
 ThicknessBracket
 BracketThickness(const VoxelShape &            shape,
                  std::span<const LatticePoint> points,
                  const DelaunayCells &         cells,
                  const SpacingWeights &        weights,
                  bool                          upper,
-                 const ProgressCallback &      progress = {});
+                 const ProgressCallback &      progress = {},
+                 const VoxelShape *            part = nullptr);
 
 } // namespace voxelcore

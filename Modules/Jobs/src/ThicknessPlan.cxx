@@ -1,0 +1,101 @@
+#include "ThicknessPlan.h"
+
+#include "voxelcore/CostModel.h"
+#include "voxelcore/ShapeOperations.h"
+
+#include <algorithm>
+#include <omp.h>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+// Of the voxels as they are, measured on shells and porous volumes.
+constexpr double       kInscribedBytes = 1300; ///< a boundary vertex
+constexpr std::int32_t kSmallest = 64;        ///< side of a block, voxels
+
+class Planner
+{
+public:
+  Planner(const VoxelShape &       shape,
+          const ImageGeometry &    geometry,
+          const CertifiedRequest & request,
+          const ThicknessOptions & options,
+          double                   bytes)
+    : m_Shape(shape)
+    , m_Geometry(geometry)
+    , m_Request(request)
+    , m_Options(options)
+    , m_Bytes(bytes)
+  {}
+
+  void
+  Divide(const VoxelBox & block, std::vector<VoxelBox> & blocks) const
+  {
+    std::size_t longest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      longest = block.size[axis] > block.size[longest] ? axis : longest;
+    }
+    if (block.size[longest] < 2 * kSmallest || Fits(block))
+    {
+      blocks.push_back(block);
+      return;
+    }
+    VoxelBox first = block;
+    VoxelBox second = block;
+    first.size[longest] = block.size[longest] / 2;
+    second.lower[longest] += first.size[longest];
+    second.size[longest] -= first.size[longest];
+    Divide(first, blocks);
+    Divide(second, blocks);
+  }
+
+private:
+  bool
+  Fits(const VoxelBox & block) const
+  {
+    const double   reach = GuessReach(VoxelsWithin(m_Shape, WindowOf(block, kNear, m_Shape.Box())), m_Geometry);
+    const VoxelBox window = WindowOf(block, MarginOfBlocks(m_Request, m_Geometry, reach), m_Shape.Box());
+    return ThicknessBytes(CountBoundary(VoxelsWithin(m_Shape, window)), m_Options) <= m_Bytes;
+  }
+
+  static constexpr std::array<std::int32_t, 3> kNear{ 16, 16, 16 };
+
+  const VoxelShape &       m_Shape;
+  const ImageGeometry &    m_Geometry;
+  const CertifiedRequest & m_Request;
+  const ThicknessOptions & m_Options;
+  double                   m_Bytes;
+};
+
+} // namespace
+
+double
+ThicknessBytes(const BoundaryCounts & counts, const ThicknessOptions & options)
+{
+  const bool refined = !options.core.refine.surface.empty();
+  const auto values = static_cast<double>(counts.voxels) * (sizeof(float) + sizeof(std::uint32_t));
+  return values + (refined ? static_cast<double>(PredictJob({ counts }, options.core, omp_get_max_threads()).memoryBytes)
+                           : kInscribedBytes * static_cast<double>(counts.vertices));
+}
+
+std::vector<VoxelBox>
+PlanThickness(const VoxelShape &       shape,
+              const ImageGeometry &    geometry,
+              const CertifiedRequest & request,
+              const ThicknessOptions & options,
+              double                   bytes)
+{
+  if (ThicknessBytes(CountBoundary(shape), options) <= bytes)
+  {
+    return { shape.Box() };
+  }
+  std::vector<VoxelBox> blocks;
+  Planner(shape, geometry, request, options, bytes).Divide(shape.Box(), blocks);
+  return blocks;
+}
+
+} // namespace voxelcore
