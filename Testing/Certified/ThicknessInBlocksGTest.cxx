@@ -144,9 +144,8 @@ TEST(ThicknessInBlocks, OfRandomVoxelsIsThatOfTheWholeBitForBit)
 TEST(ThicknessInBlocks, ABallGreaterThanAnyBlockIsNotCut)
 {
   // What is left of a block's first window says nothing of how far the ball reaches.
-  const VoxelShape ball = ShapeWhere({ 60, 60, 60 }, [](int x, int y, int z) {
-    return std::hypot(x - 29.5, y - 29.5, z - 29.5) < 28;
-  });
+  const VoxelShape ball =
+    ShapeWhere({ 60, 60, 60 }, [](int x, int y, int z) { return std::hypot(x - 29.5, y - 29.5, z - 29.5) < 28; });
   ExpectTheSame(ball, { 1, 1, 1 }, { 10, 60, 60 });
   const ImageGeometry    geometry = GridAround(ball, { 1, 1, 1 });
   const BlockedThickness parts =
@@ -181,7 +180,8 @@ TEST(ThicknessInBlocks, OfTheRefinedShapeDifferLittleFromTheWhole)
     const ImageGeometry      geometry = GridAround(shape, spacing);
     const CertifiedRequest   request = MapRequest(spacing, true);
     const CertifiedThickness whole = *ComputeCertified(shape, geometry, request).thickness;
-    const BlockedThickness   parts = ThicknessInBlocks(shape, geometry, request, Blocks(shape.Box(), { 26, 40, 40 }), AtLowX);
+    const auto               blocks = Blocks(shape.Box(), { 26, 40, 40 });
+    const BlockedThickness   parts = ThicknessInBlocks(shape, geometry, request, blocks, AtLowX);
     double                   sum = 0;
     for (std::size_t i = 0; i < whole.map.values.size(); ++i)
     {

@@ -45,9 +45,8 @@ RequireThickness(const CertifiedThickness & found, const std::string & name)
 void
 RequireSquares(const VoxelShape & shape, const DelaunayCells & cells, const std::string & name)
 {
-  const auto outer = std::count_if(cells.facetCells.begin(), cells.facetCells.end(), [](const auto & of) {
-    return of[1] == kOutside;
-  });
+  const auto outer =
+    std::count_if(cells.facetCells.begin(), cells.facetCells.end(), [](const auto & of) { return of[1] == kOutside; });
   if (static_cast<std::uint64_t>(outer) != CountBoundarySquares(shape))
   {
     RefuseResult(name, "its Delaunay cells do not end at its boundary");

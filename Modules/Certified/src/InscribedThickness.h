@@ -6,7 +6,7 @@
 namespace voxelcore
 {
 
-/** The map of a shape, or of a part of its voxels, `part`, which has no bounds then. Nothing in the result is of a core.
+/** The map of a shape, or of a part of its voxels, `part`, which has no bounds then. Nothing in it is of a core.
  *  \throws CertificateError when the cells do not end at the shape's boundary or a voxel has no thickness; what
  *  ComputeDelaunayCells throws */
 CertifiedThickness

@@ -9,9 +9,7 @@
 #include "voxelcore/CostModel.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
-#include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
-#include "voxelcore/ReportTable.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/Text.h"
 
@@ -232,8 +230,7 @@ private:
     record.hasCore = false;
     request.name = LabelText(record.label, record.name);
     Stopwatch        watch;
-    BlockedThickness blocked =
-      ThicknessInBlocks(edited.label.shape, m_Geometry, request, blocks, atBorder, progress);
+    BlockedThickness blocked = ThicknessInBlocks(edited.label.shape, m_Geometry, request, blocks, atBorder, progress);
     record.seconds = watch.Lap();
     record.shape = ComputeShapeTopology(edited.label.shape);
     m_Result.blocks += blocked.computed;
@@ -446,38 +443,6 @@ RunThicknessJob(const ThicknessOptions & options, const JobContext & given)
 {
   const JobContext context = ForwardOnly(given);
   return Work(options, context).Run();
-}
-
-std::string
-ThicknessText(const ThicknessResult & result)
-{
-  double longest = 0;
-  for (const ThicknessRecord & record : result.thickness)
-  {
-    longest = std::max(longest, record.numbers.greatest);
-  }
-  const SpatialUnit                     spatial = result.report.input.geometry.unit;
-  const LengthUnit                      unit = LengthUnit::For(longest, spatial);
-  std::vector<std::vector<std::string>> rows{
-    { "label", "name", "voxels", "mean " + unit.Name(), "sd", "median", "5 %", "95 %", "max", "at border" }
-  };
-  for (const ThicknessRecord & record : result.thickness)
-  {
-    const ThicknessNumbers & n = record.numbers;
-    const std::uint64_t      all = record.withoutBorder ? n.voxels + record.borderVoxels : n.voxels;
-    const double percent = all == 0 ? 0 : 100 * static_cast<double>(record.borderVoxels) / static_cast<double>(all);
-    rows.push_back({ record.isSeparation ? "-" : std::to_string(record.label),
-                     record.name,
-                     std::to_string(n.voxels),
-                     unit.Text(n.mean, 1, 3),
-                     unit.Text(n.deviation, 1, 3),
-                     unit.Text(n.median, 1, 3),
-                     unit.Text(n.quantile5, 1, 3),
-                     unit.Text(n.quantile95, 1, 3),
-                     unit.Text(n.greatest, 1, 3),
-                     FixedText(percent, 1) + " %" });
-  }
-  return FormatTable(rows);
 }
 
 } // namespace voxelcore

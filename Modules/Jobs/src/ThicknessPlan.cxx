@@ -14,7 +14,7 @@ namespace
 
 // Of the voxels as they are, measured on shells and porous volumes.
 constexpr double       kInscribedBytes = 1300; ///< a boundary vertex
-constexpr std::int32_t kSmallest = 64;        ///< side of a block, voxels
+constexpr std::int32_t kSmallest = 64;         ///< side of a block, voxels
 
 class Planner
 {
@@ -76,10 +76,12 @@ private:
 double
 ThicknessBytes(const BoundaryCounts & counts, const ThicknessOptions & options)
 {
-  const bool refined = !options.core.refine.surface.empty();
-  const auto values = static_cast<double>(counts.voxels) * (sizeof(float) + sizeof(std::uint32_t));
-  return values + (refined ? static_cast<double>(PredictJob({ counts }, options.core, omp_get_max_threads()).memoryBytes)
-                           : kInscribedBytes * static_cast<double>(counts.vertices));
+  const double values = static_cast<double>(counts.voxels) * (sizeof(float) + sizeof(std::uint32_t));
+  if (options.core.refine.surface.empty())
+  {
+    return values + kInscribedBytes * static_cast<double>(counts.vertices);
+  }
+  return values + static_cast<double>(PredictJob({ counts }, options.core, omp_get_max_threads()).memoryBytes);
 }
 
 std::vector<VoxelBox>

@@ -1,5 +1,9 @@
 #include "ThicknessSteps.h"
 
+#include "voxelcore/LengthUnit.h"
+#include "voxelcore/ReportTable.h"
+#include "voxelcore/Text.h"
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -82,9 +86,8 @@ SummarizeMap(const VoxelValues &   map,
     }
     record.inner = SummarizeThickness(std::move(inner), bin);
   }
-  record.numbers =
-    record.withoutBorder || (record.borderVoxels == 0 && border != BorderRule::Keep) ? record.inner
-                                                                                      : SummarizeThickness(map.values, bin);
+  const bool isInner = record.withoutBorder || (border == BorderRule::Flag && record.borderVoxels == 0);
+  record.numbers = isInner ? record.inner : SummarizeThickness(map.values, bin);
 }
 
 void
@@ -147,6 +150,38 @@ WithThickness(std::string report, const ThicknessResult & result)
     KeysInUnit(all, result.report.input.geometry.unit).dump(2, ' ', false, Json::error_handler_t::replace);
   report.replace(report.rfind("\n}"), std::string::npos, ",\n  \"thickness\": " + text + "\n}\n");
   return report;
+}
+
+std::string
+ThicknessText(const ThicknessResult & result)
+{
+  double longest = 0;
+  for (const ThicknessRecord & record : result.thickness)
+  {
+    longest = std::max(longest, record.numbers.greatest);
+  }
+  const SpatialUnit                     spatial = result.report.input.geometry.unit;
+  const LengthUnit                      unit = LengthUnit::For(longest, spatial);
+  std::vector<std::vector<std::string>> rows{
+    { "label", "name", "voxels", "mean " + unit.Name(), "sd", "median", "5 %", "95 %", "max", "at border" }
+  };
+  for (const ThicknessRecord & record : result.thickness)
+  {
+    const ThicknessNumbers & n = record.numbers;
+    const std::uint64_t      all = record.withoutBorder ? n.voxels + record.borderVoxels : n.voxels;
+    const double percent = all == 0 ? 0 : 100 * static_cast<double>(record.borderVoxels) / static_cast<double>(all);
+    rows.push_back({ record.isSeparation ? "-" : std::to_string(record.label),
+                     record.name,
+                     std::to_string(n.voxels),
+                     unit.Text(n.mean, 1, 3),
+                     unit.Text(n.deviation, 1, 3),
+                     unit.Text(n.median, 1, 3),
+                     unit.Text(n.quantile5, 1, 3),
+                     unit.Text(n.quantile95, 1, 3),
+                     unit.Text(n.greatest, 1, 3),
+                     FixedText(percent, 1) + " %" });
+  }
+  return FormatTable(rows);
 }
 
 } // namespace voxelcore

@@ -153,9 +153,9 @@ private:
   void
   FindRadii()
   {
-    constexpr std::size_t                   chunk = 4096;
-    const std::size_t                       cells = m_Cells.CellCount();
-    const std::vector<std::uint32_t>        first = FirstPoints();
+    constexpr std::size_t                    chunk = 4096;
+    const std::size_t                        cells = m_Cells.CellCount();
+    const std::vector<std::uint32_t>         first = FirstPoints();
     std::vector<std::vector<BoundarySquare>> found((cells + chunk - 1) / chunk);
     m_Radius.resize(cells);
     m_Inscribed.resize(cells);

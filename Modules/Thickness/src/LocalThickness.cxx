@@ -213,10 +213,7 @@ PaintOwners(const VoxelShape &       shape,
 }
 
 void
-FillWithOwnBalls(const VoxelShape &     shape,
-                 const SpacingWeights & weights,
-                 VoxelValues &          map,
-                 const VoxelShape *     around)
+FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, VoxelValues & map, const VoxelShape * around)
 {
   if (std::find(map.values.begin(), map.values.end(), 0.0F) == map.values.end())
   {
@@ -304,8 +301,8 @@ BracketThickness(const VoxelShape &            shape,
                  const VoxelShape *            part)
 {
   const VoxelShape & asked = part != nullptr ? *part : shape;
-  StagePlan      plan(progress, { 0.4, upper ? 0.3 : 0.6, upper ? 0.3 : 0.0 });
-  ThicknessBalls balls =
+  StagePlan          plan(progress, { 0.4, upper ? 0.3 : 0.6, upper ? 0.3 : 0.0 });
+  ThicknessBalls     balls =
     FindThicknessBalls(shape, points, cells, weights, upper ? kBoundingStep : 0, plan.Next("thickness"));
   ThicknessBracket bracket;
   bracket.reach = balls.reach;

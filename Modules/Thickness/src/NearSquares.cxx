@@ -187,7 +187,7 @@ NearSquares::AddAtEdge(std::size_t axis, Voxel voxel, std::vector<BoundarySquare
   const std::size_t c = (axis + 2) % 3;
   // The four voxels around the edge, in their order around it.
   constexpr std::array<std::array<std::int32_t, 2>, 4> around{ { { 0, 0 }, { -1, 0 }, { -1, -1 }, { 0, -1 } } };
-  std::array<bool, 4>                                   isIn{};
+  std::array<bool, 4>                                  isIn{};
   for (std::size_t i = 0; i < 4; ++i)
   {
     Voxel one = voxel;

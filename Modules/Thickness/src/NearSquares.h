@@ -5,9 +5,9 @@
 // place of Q is no corner. If it is within Q, then Q lies across the line through c along Q's normal, and as the
 // corners are not in the ball, no nearer than the root of R^2 - s^2, s being the distance of that line to the nearest
 // of the lattice's corners. If it is on an edge of Q, then c lies between the ends of that edge along it, which as the
-// nearer end is not in the ball leaves an annulus of lattice corners across the edge: from the root of R^2 - m^2 to R, m
-// being the distance from c to that end along the edge. This annulus has an area of at most a square's, so that of each
-// direction there is about one edge to look at, wherever the boundary is.
+// nearer end is not in the ball leaves an annulus of lattice corners across the edge: from the root of R^2 - m^2 to R,
+// m being the distance from c to that end along the edge. This annulus has an area of at most a square's, so that of
+// each direction there is about one edge to look at, wherever the boundary is.
 
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/SpacingWeights.h"

@@ -35,7 +35,8 @@ struct CertifiedThickness
 };
 
 /** The map of a certified core. `bracket` is that of the shape, or empty; of a core that is not refined it holds the
- *  lower bound and its balls. \throws CertificateError when bounds contradict each other or a voxel has no thickness; Cancelled */
+ *  lower bound and its balls.
+ *  \throws CertificateError when bounds contradict each other or a voxel has no thickness; Cancelled */
 CertifiedThickness
 ThicknessOf(const CertifiedCore &    core,
             const CertifiedShape &   shape,

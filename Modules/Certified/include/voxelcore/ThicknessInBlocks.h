@@ -10,10 +10,10 @@
 //  1. Boundary vertices of the shape and of the window's voxels are the same but at the sides that cut, and beyond.
 //  2. Let a place p be at most a away from the block, with D > a + 2 rho + 1, and p in a ball about c through the
 //     boundary vertices nearest to c, in the whole shape. Then its radius is at most rho: else take q from p towards c,
-//     so that |p - q| = t is above rho, but by less than 1. The ball about q through p lies in that about c: the nearest
-//     boundary vertex of the shape is at least t from q, and so is that of the window, whose sides are at least D - a - t
-//     away. q lies in the shape, as no place between c and it is so near to a square (half the diagonal of a square is
-//     at most rho), so in a cell of the window, and no place in a cell is farther from its corners than its R.
+//     so that |p - q| = t is above rho, but by less than 1/2. The ball about q through p lies in that about c: the
+//     nearest boundary vertex of the shape is at least t from q, and so is that of the window, whose sides are at least
+//     D - a - t away. q lies in the shape, as no place between c and it is so near to a square (half the diagonal of
+//     one is at most rho), so in a cell of the window, and no place in a cell is farther from its corners than its R.
 //  3. So the balls that reach the block have their centres within rho of it. Where such a centre lies on an edge of the
 //     core, the boundary vertices about the edge are within 2 rho, and those of the balls at its ends are among them:
 //     these ends are within 3 rho (2 with a = 2 rho).
@@ -44,10 +44,10 @@ using BallTest = std::function<std::vector<char>(const PaintingBalls &)>;
 
 struct BlockedThickness
 {
-  VoxelValues       map;           ///< of the whole shape, mm
-  std::vector<char> atBorder;      ///< per value, whether its ball meets the border
-  double            reach = 0;     ///< the radius of the greatest ball, mm
-  std::size_t       computed = 0;  ///< windows, those that were computed again included
+  VoxelValues       map;          ///< of the whole shape, mm
+  std::vector<char> atBorder;     ///< per value, whether its ball meets the border
+  double            reach = 0;    ///< the radius of the greatest ball, mm
+  std::size_t       computed = 0; ///< windows, those that were computed again included
 };
 
 /** Voxels around a block that its window needs where no ball is greater than `reach` mm. */

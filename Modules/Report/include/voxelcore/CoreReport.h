@@ -93,7 +93,7 @@ struct LabelRecord
   VoxelBox                      box; ///< tight
   std::uint64_t                 boundaryVertices = 0;
   TopologyNumbers               shape;
-  std::optional<FineTopology>   fine; ///< where much of the shape's topology is; in reports, not in files
+  std::optional<FineTopology>   fine;           ///< where much of the shape's topology is; in reports, not in files
   bool                          hasCore = true; ///< false: none was made, or of parts alone; not in files
   ComplexRecord                 core;
   std::vector<PrunedRecord>     pruned; ///< one per lambda or tolerance, in the order given
