@@ -32,6 +32,9 @@ constexpr double kCountNoise = 0.3;
 // A slope of three standard deviations counts half: rough walls vary along the way, not from bin to bin alone.
 constexpr double kSlopePrior = 9;
 
+// The tube is measured up to so many voxels below where its cap begins.
+constexpr double kBelowCap = 0.5;
+
 constexpr double kPointed = 0.3; ///< growth of the radius along the way, from which on an end is no tube's
 
 /** Least squares of values over one variable. */
@@ -296,9 +299,20 @@ private:
   std::optional<double>
   Height() const
   {
+    // What lies above where the tube is measured is all that may tell where it ends, and bumps of the wall there count
+    // as those of the cap do. So the tube is measured again, up to the cap that was found.
+    const double bottom = m_Skip - m_Total;
+    const double deep = m_Skip - m_Deep;
+    const auto   first = HeightAbove(deep, bottom);
+    const double top = first ? *first - kBelowCap * m_Voxel : deep;
+    return top > deep ? HeightAbove(top, bottom) : first;
+  }
+
+  /** The same by a tube measured from the bottom to a top. */
+  std::optional<double>
+  HeightAbove(double top, double bottom) const
+  {
     constexpr int kBins = 8;
-    const double  top = m_Skip - m_Deep;
-    const double  bottom = m_Skip - m_Total;
     const double  bin = (top - bottom) / kBins;
     const double  content = VolumeAbove(top);
     double        areas[kBins];
