@@ -110,7 +110,7 @@ public:
     {
       return std::nullopt;
     }
-    yes *= FromNoToYes(kStraighter, StraighterBy(arms));
+    yes *= IsStraighter(arms);
     double meeting = 0;
     for (std::size_t k = 2; k < arms.size(); ++k)
     {
@@ -189,20 +189,26 @@ private:
     return FromNoToYes(kBend, bend(0, 1));
   }
 
-  /** By how many degrees the way through bends less than any into a branch that leaves. Where bodies run together
-   *  curves tell little of that, so it is their axes that are compared. */
-  static double
-  StraighterBy(const std::vector<Arm> & arms)
+  /** Whether the way through bends so much less than any into a branch that leaves that there is no doubt about it, from
+   *  0 to 1. Where bodies run together curves tell little of that, so it is their axes that are compared: straight on,
+   *  or as they bend, as those of a ring do. */
+  double
+  IsStraighter(const std::vector<Arm> & arms) const
   {
-    const Vector3 before = AxisOf(arms[0]).direction;
-    const Vector3 behind = AxisOf(arms[1]).direction;
-    double        next = 180;
-    for (std::size_t k = 2; k < arms.size(); ++k)
-    {
-      const Vector3 leaving = AxisOf(arms[k]).direction;
-      next = std::min({ next, Bend(before, leaving), Bend(behind, leaving) });
-    }
-    return next - Bend(before, behind);
+    const auto straighterBy = [&](const auto & directionOf) {
+      const Vector3 before = directionOf(arms[0]);
+      const Vector3 behind = directionOf(arms[1]);
+      double        next = 180;
+      for (std::size_t k = 2; k < arms.size(); ++k)
+      {
+        const Vector3 leaving = directionOf(arms[k]);
+        next = std::min({ next, Bend(before, leaving), Bend(behind, leaving) });
+      }
+      return next - Bend(before, behind);
+    };
+    const double straight = straighterBy([](const Arm & arm) { return AxisOf(arm).direction; });
+    const double bent = straighterBy([&](const Arm & arm) { return DirectionAtJoint(arm, m_Voxel); });
+    return FromNoToYes(kStraighter, std::max(straight, bent));
   }
 
   /** False where an arm is too short to have one. */

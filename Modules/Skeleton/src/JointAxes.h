@@ -108,4 +108,47 @@ AxisOf(const Arm & arm)
   return { AddScaled({}, 1 / count, places), Unit(AddScaled(AddScaled({}, count, products), -sum, places)) };
 }
 
+/** The direction in which an arm leaves its junction, as it bends from `from` on over twice its axis: that of its axis,
+ *  turned back. A bend that noise may have made counts little. */
+inline Vector3
+DirectionAtJoint(const Arm & arm, double voxel)
+{
+  // Points along a curve are as independent as one in two voxels; a bend of two standard deviations counts half.
+  constexpr double kIndependent = 2;
+  constexpr double kBendPrior = 4;
+  const double     length = std::min(2 * (arm.to - arm.from), arm.free - arm.from);
+  const Vector3    straight = AxisOf(arm).direction;
+  const auto       isUsed = [&](double way) { return way >= arm.from && way <= arm.from + length; };
+  ParabolaFit      fit;
+  for (std::size_t i = 0; i < arm.points.size(); ++i)
+  {
+    if (isUsed(arm.line.way[i]))
+    {
+      fit.Add((arm.line.way[i] - arm.from) / length, 1, arm.line.places[i]);
+    }
+  }
+  Vector3      factors[3]{};
+  const double independent = length / (kIndependent * voxel);
+  if (independent <= 3 || !fit.Coefficients(factors))
+  {
+    return straight;
+  }
+  double squares = 0;
+  for (std::size_t i = 0; i < arm.points.size(); ++i)
+  {
+    if (isUsed(arm.line.way[i]))
+    {
+      const double  u = (arm.line.way[i] - arm.from) / length;
+      const Vector3 on = AddScaled(AddScaled(factors[0], u, factors[1]), u * u, factors[2]);
+      squares += Dot(Minus(arm.line.places[i], on), Minus(arm.line.places[i], on)) / fit.moments[0];
+    }
+  }
+  // Of places spread evenly over 0 to 1 the variance of what stands before u^2 is 180 times theirs over their number.
+  const double noise = 180 * squares / (independent - 3);
+  const double bend = Dot(factors[2], factors[2]);
+  const double part = bend > 0 ? bend / (bend + kBendPrior * noise) : 0;
+  // The middle of the way has the mean slope.
+  return Unit(AddScaled(AddScaled(factors[1], 1, factors[2]), -part * (2 * arm.from / length + 1), factors[2]));
+}
+
 } // namespace voxelcore
