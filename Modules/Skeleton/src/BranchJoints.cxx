@@ -101,7 +101,7 @@ public:
       }
     }
     double yes = PutThroughFirst(arms);
-    if (!(yes > 0) || !PlaceAxes(arms))
+    if (!(yes > 0))
     {
       return std::nullopt;
     }
@@ -110,7 +110,6 @@ public:
     {
       return std::nullopt;
     }
-    yes *= IsStraighter(arms);
     double meeting = 0;
     for (std::size_t k = 2; k < arms.size(); ++k)
     {
@@ -171,44 +170,64 @@ private:
     return arm;
   }
 
-  /** The two arms of the branch that goes through to the front. Gives whether there is one, from 0 to 1. */
-  static double
-  PutThroughFirst(std::vector<Arm> & arms)
+  /** The two arms of the branch that goes through to the front, with all axes. Gives whether there is one, from 0 to 1.
+   *  Directions near the junction alone tell little of it: that lies to one side, or the branch that leaves would need no
+   *  other place. They say what is tried first. */
+  double
+  PutThroughFirst(std::vector<Arm> & arms) const
   {
-    const auto bend = [&](std::size_t i, std::size_t k) { return Bend(arms[i].direction, arms[k].direction); };
-    std::pair<std::size_t, std::size_t> best{ 0, 1 };
+    std::vector<std::array<std::size_t, 2>> pairs;
     for (std::size_t i = 0; i < arms.size(); ++i)
     {
       for (std::size_t k = i + 1; k < arms.size(); ++k)
       {
-        best = bend(i, k) < bend(best.first, best.second) ? std::pair{ i, k } : best;
+        pairs.push_back({ i, k });
       }
     }
-    std::swap(arms[0], arms[best.first]);
-    std::swap(arms[1], arms[best.second]);
-    return FromNoToYes(kBend, bend(0, 1));
+    const auto bend = [&](const auto & pair) { return Bend(arms[pair[0]].direction, arms[pair[1]].direction); };
+    std::stable_sort(pairs.begin(), pairs.end(), [&](const auto & a, const auto & b) { return bend(a) < bend(b); });
+    double           best = 0;
+    std::vector<Arm> ordered;
+    for (const auto & [i, k] : pairs)
+    {
+      std::vector<Arm> tried = arms;
+      std::swap(tried[0], tried[i]);
+      std::swap(tried[1], tried[k]);
+      const double yes = PlaceAxes(tried) ? GoesThrough(tried) : 0;
+      if (yes > best)
+      {
+        best = yes;
+        ordered = std::move(tried);
+      }
+    }
+    arms = best > 0 ? std::move(ordered) : std::move(arms);
+    return best;
   }
 
-  /** Whether the way through bends so much less than any into a branch that leaves that there is no doubt about it, from
-   *  0 to 1. Where bodies run together curves tell little of that, so it is their axes that are compared: straight on,
-   *  or as they bend, as those of a ring do. */
+  /** Whether the first two arms are one branch: it bends little, and so much less than any way into a branch that leaves
+   *  that there is no doubt about it. Where bodies run together curves tell little of that, so it is their axes that are
+   *  compared: straight on, or as they bend, as those of a ring do. */
   double
-  IsStraighter(const std::vector<Arm> & arms) const
+  GoesThrough(const std::vector<Arm> & arms) const
   {
-    const auto straighterBy = [&](const auto & directionOf) {
+    double     least = Bend(arms[0].direction, arms[1].direction);
+    double     straighterBy = 0;
+    const auto compare = [&](const auto & directionOf) {
       const Vector3 before = directionOf(arms[0]);
       const Vector3 behind = directionOf(arms[1]);
+      const double  through = Bend(before, behind);
       double        next = 180;
       for (std::size_t k = 2; k < arms.size(); ++k)
       {
         const Vector3 leaving = directionOf(arms[k]);
         next = std::min({ next, Bend(before, leaving), Bend(behind, leaving) });
       }
-      return next - Bend(before, behind);
+      least = std::min(least, through);
+      straighterBy = std::max(straighterBy, next - through);
     };
-    const double straight = straighterBy([](const Arm & arm) { return AxisOf(arm).direction; });
-    const double bent = straighterBy([&](const Arm & arm) { return DirectionAtJoint(arm, m_Voxel); });
-    return FromNoToYes(kStraighter, std::max(straight, bent));
+    compare([](const Arm & arm) { return AxisOf(arm).direction; });
+    compare([&](const Arm & arm) { return DirectionAtJoint(arm, m_Voxel); });
+    return FromNoToYes(kBend, least) * FromNoToYes(kStraighter, straighterBy);
   }
 
   /** False where an arm is too short to have one. */
