@@ -41,6 +41,11 @@ constexpr std::array<double, 2> kBend{ 70, 40 };
 constexpr std::array<double, 2> kStraighter{ 10, 20 };
 constexpr std::array<double, 2> kMeetingAngle{ 25, 40 };
 
+// From no to yes: by how many degrees a way that seems straight is straighter as its arms bend; how much alike the arms of
+// a way bend that does not seem straight.
+constexpr std::array<double, 2> kNotCrooked{ -20, -10 };
+constexpr std::array<double, 2> kAlike{ 0.2, 0.5 };
+
 // So many radii of the ball and a voxel the axes meet away from the junction, and pass each other, at most: bodies a
 // voxel apart are one in the voxels.
 constexpr std::array<double, 2> kMove{ 2.5, 1.5 };
@@ -204,30 +209,39 @@ private:
     return best;
   }
 
+  /** By how many degrees the way through the first two arms bends less than any into a branch that leaves. */
+  static double
+  StraighterBy(const std::vector<Vector3> & directions)
+  {
+    double next = 180;
+    for (std::size_t k = 2; k < directions.size(); ++k)
+    {
+      next = std::min({ next, Bend(directions[0], directions[k]), Bend(directions[1], directions[k]) });
+    }
+    return next - Bend(directions[0], directions[1]);
+  }
+
   /** Whether the first two arms are one branch: it bends little, and so much less than any way into a branch that leaves
    *  that there is no doubt about it. Where bodies run together curves tell little of that, so it is their axes that are
-   *  compared: straight on, or as they bend, as those of a ring do. */
+   *  compared: straight on, unless they bend otherwise; or as they bend, if both do so alike, as those of a ring. */
   double
   GoesThrough(const std::vector<Arm> & arms) const
   {
-    double     least = Bend(arms[0].direction, arms[1].direction);
-    double     straighterBy = 0;
-    const auto compare = [&](const auto & directionOf) {
-      const Vector3 before = directionOf(arms[0]);
-      const Vector3 behind = directionOf(arms[1]);
-      const double  through = Bend(before, behind);
-      double        next = 180;
-      for (std::size_t k = 2; k < arms.size(); ++k)
-      {
-        const Vector3 leaving = directionOf(arms[k]);
-        next = std::min({ next, Bend(before, leaving), Bend(behind, leaving) });
-      }
-      least = std::min(least, through);
-      straighterBy = std::max(straighterBy, next - through);
-    };
-    compare([](const Arm & arm) { return AxisOf(arm).direction; });
-    compare([&](const Arm & arm) { return DirectionAtJoint(arm, m_Voxel); });
-    return FromNoToYes(kBend, least) * FromNoToYes(kStraighter, straighterBy);
+    std::vector<Vector3> straight;
+    std::vector<Vector3> bent;
+    std::vector<ArmBend> bends;
+    for (const Arm & arm : arms)
+    {
+      bends.push_back(BendOf(arm, m_Voxel));
+      straight.push_back(AxisOf(arm).direction);
+      bent.push_back(bends.back().direction);
+    }
+    const double asTheyBend = StraighterBy(bent);
+    const double isStraight = FromNoToYes(kStraighter, StraighterBy(straight)) * FromNoToYes(kNotCrooked, asTheyBend);
+    const double isBent = FromNoToYes(kStraighter, asTheyBend) * FromNoToYes(kAlike, BendAlike(bends[0], bends[1]));
+    const double bend = std::min(
+      { Bend(arms[0].direction, arms[1].direction), Bend(straight[0], straight[1]), Bend(bent[0], bent[1]) });
+    return FromNoToYes(kBend, bend) * std::max(isStraight, isBent);
   }
 
   /** False where an arm is too short to have one. */

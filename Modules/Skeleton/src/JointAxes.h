@@ -108,16 +108,21 @@ AxisOf(const Arm & arm)
   return { AddScaled({}, 1 / count, places), Unit(AddScaled(AddScaled({}, count, products), -sum, places)) };
 }
 
-/** The direction in which an arm leaves its junction, as it bends from `from` on over twice its axis: that of its axis,
- *  turned back. A bend that noise may have made counts little. */
-inline Vector3
-DirectionAtJoint(const Arm & arm, double voxel)
+/** How an arm bends from `from` on, over twice its axis. A bend that noise may have made counts little. */
+struct ArmBend
 {
-  // Points along a curve are as independent as one in two voxels; a bend of two standard deviations counts half.
+  Vector3 direction{}; ///< in which it leaves its junction, if it bends there as much
+  Vector3 turn{};      ///< across the plane in which it bends, as long as it does
+};
+
+inline ArmBend
+BendOf(const Arm & arm, double voxel)
+{
+  // Points along a curve are as independent as one in two voxels; a bend of three standard deviations counts half.
   constexpr double kIndependent = 2;
-  constexpr double kBendPrior = 4;
+  constexpr double kBendPrior = 9;
   const double     length = std::min(2 * (arm.to - arm.from), arm.free - arm.from);
-  const Vector3    straight = AxisOf(arm).direction;
+  ArmBend          result{ AxisOf(arm).direction, {} };
   const auto       isUsed = [&](double way) { return way >= arm.from && way <= arm.from + length; };
   ParabolaFit      fit;
   for (std::size_t i = 0; i < arm.points.size(); ++i)
@@ -131,7 +136,7 @@ DirectionAtJoint(const Arm & arm, double voxel)
   const double independent = length / (kIndependent * voxel);
   if (independent <= 3 || !fit.Coefficients(factors))
   {
-    return straight;
+    return result;
   }
   double squares = 0;
   for (std::size_t i = 0; i < arm.points.size(); ++i)
@@ -147,8 +152,19 @@ DirectionAtJoint(const Arm & arm, double voxel)
   const double noise = 180 * squares / (independent - 3);
   const double bend = Dot(factors[2], factors[2]);
   const double part = bend > 0 ? bend / (bend + kBendPrior * noise) : 0;
-  // The middle of the way has the mean slope.
-  return Unit(AddScaled(AddScaled(factors[1], 1, factors[2]), -part * (2 * arm.from / length + 1), factors[2]));
+  // In the middle of the way the slope is its mean.
+  const Vector3 middle = AddScaled(factors[1], 1, factors[2]);
+  result.direction = Unit(AddScaled(middle, -part * (2 * arm.from / length + 1), factors[2]));
+  result.turn = AddScaled({}, part / (length * length), Cross(Unit(middle), factors[2]));
+  return result;
+}
+
+/** From 0 to 1: whether two arms bend as much, in the same plane, as parts of one curve. */
+inline double
+BendAlike(const ArmBend & a, const ArmBend & b)
+{
+  const double most = std::max(Dot(a.turn, a.turn), Dot(b.turn, b.turn));
+  return most > 0 ? std::max(0.0, -Dot(a.turn, b.turn) / most) : 0;
 }
 
 } // namespace voxelcore
