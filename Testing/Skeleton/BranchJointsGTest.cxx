@@ -123,6 +123,46 @@ TEST(BranchJoints, OfLateralsLieWhereTheAxesMeet)
   EXPECT_LT(length / count, 2) << "seed " << seed;
 }
 
+// Both ways from a ring's joint bend away from the straight line, as far as a corner would.
+TEST(BranchJoints, OfArmsOfRingsLieOnTheRing)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64 random(seed);
+  double          before = 0;
+  double          after = 0;
+  int             near = 0;
+  for (const double bend : { 9.0, 11.0, 13.0 })
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Spacing3 centre = AnyCentre(random);
+      const Spacing3 out = AnyDirection(random);
+      const Spacing3 side = AtAngle(out, 90, random);
+      const Spacing3 joint = Along(centre, bend, out);
+      const Curve    ring = SampleCurve(
+        [&](double t) {
+          const double angle = 2 * std::numbers::pi * t;
+          return Along(Along(centre, bend * std::cos(angle), out), bend * std::sin(angle), side);
+        },
+        300);
+      const Spacing3   box{ kSide, kSide, kSide };
+      const VoxelShape shape = Union(Tube(ring, 3, box), Tube(Line(joint, Along(joint, 20, out)), 3, box));
+      std::size_t         moved = 0;
+      const SkeletonGraph as = GraphOfSurface(SurfaceOf(shape));
+      const SkeletonGraph placed = WithJoints(as, shape, { 1, 1, 1 }, moved);
+      before += std::pow(Distance(Junction(as), joint), 2);
+      after += std::pow(Distance(Junction(placed), joint), 2);
+      near += moved == 1 && Distance(Junction(placed), joint) < 0.7;
+    }
+  }
+  before = std::sqrt(before / 9);
+  after = std::sqrt(after / 9);
+  std::cout << "off " << before << " -> " << after << " mm\n";
+  EXPECT_GE(near, 7) << "of 9, seed " << seed;
+  EXPECT_LT(after, 0.6 * before) << "seed " << seed;
+}
+
 TEST(BranchJoints, OfForksStay)
 {
   const auto seed = std::random_device{}();
