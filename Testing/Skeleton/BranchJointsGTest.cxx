@@ -146,8 +146,8 @@ TEST(BranchJoints, OfArmsOfRingsLieOnTheRing)
           return Along(Along(centre, bend * std::cos(angle), out), bend * std::sin(angle), side);
         },
         300);
-      const Spacing3   box{ kSide, kSide, kSide };
-      const VoxelShape shape = Union(Tube(ring, 3, box), Tube(Line(joint, Along(joint, 20, out)), 3, box));
+      const Spacing3      box{ kSide, kSide, kSide };
+      const VoxelShape    shape = Union(Tube(ring, 3, box), Tube(Line(joint, Along(joint, 20, out)), 3, box));
       std::size_t         moved = 0;
       const SkeletonGraph as = GraphOfSurface(SurfaceOf(shape));
       const SkeletonGraph placed = WithJoints(as, shape, { 1, 1, 1 }, moved);

@@ -41,8 +41,8 @@ constexpr std::array<double, 2> kBend{ 70, 40 };
 constexpr std::array<double, 2> kStraighter{ 10, 20 };
 constexpr std::array<double, 2> kMeetingAngle{ 25, 40 };
 
-// From no to yes: by how many degrees a way that seems straight is straighter as its arms bend; how much alike the arms of
-// a way bend that does not seem straight.
+// From no to yes: by how many degrees a way that seems straight is straighter as its arms bend; how much alike the arms
+// of a way bend that does not seem straight.
 constexpr std::array<double, 2> kNotCrooked{ -20, -10 };
 constexpr std::array<double, 2> kAlike{ 0.2, 0.5 };
 
@@ -176,8 +176,8 @@ private:
   }
 
   /** The two arms of the branch that goes through to the front, with all axes. Gives whether there is one, from 0 to 1.
-   *  Directions near the junction alone tell little of it: that lies to one side, or the branch that leaves would need no
-   *  other place. They say what is tried first. */
+   *  Directions near the junction alone tell little of it: that lies to one side, or it would need no other place. They
+   *  say what is tried first. */
   double
   PutThroughFirst(std::vector<Arm> & arms) const
   {
@@ -221,9 +221,10 @@ private:
     return next - Bend(directions[0], directions[1]);
   }
 
-  /** Whether the first two arms are one branch: it bends little, and so much less than any way into a branch that leaves
-   *  that there is no doubt about it. Where bodies run together curves tell little of that, so it is their axes that are
-   *  compared: straight on, unless they bend otherwise; or as they bend, if both do so alike, as those of a ring. */
+  /** Whether the first two arms are one branch: it bends little, and so much less than any way into a branch that
+   *  leaves that there is no doubt about it. Where bodies run together curves tell little of that, so it is their axes
+   *  that are compared: straight on, unless they bend otherwise; or as they bend, if both do so alike, as those of a
+   *  ring. */
   double
   GoesThrough(const std::vector<Arm> & arms) const
   {
@@ -239,8 +240,8 @@ private:
     const double asTheyBend = StraighterBy(bent);
     const double isStraight = FromNoToYes(kStraighter, StraighterBy(straight)) * FromNoToYes(kNotCrooked, asTheyBend);
     const double isBent = FromNoToYes(kStraighter, asTheyBend) * FromNoToYes(kAlike, BendAlike(bends[0], bends[1]));
-    const double bend = std::min(
-      { Bend(arms[0].direction, arms[1].direction), Bend(straight[0], straight[1]), Bend(bent[0], bent[1]) });
+    const double bend =
+      std::min({ Bend(arms[0].direction, arms[1].direction), Bend(straight[0], straight[1]), Bend(bent[0], bent[1]) });
     return FromNoToYes(kBend, bend) * std::max(isStraight, isBent);
   }
 
