@@ -173,23 +173,20 @@ TEST(ThicknessInBlocks, AreTheSameForEveryNumberOfThreads)
 
 TEST(ThicknessInBlocks, OfTheRefinedShapeDifferLittleFromTheWhole)
 {
-  for (std::uint64_t seed = 1; seed <= 2; ++seed)
+  const VoxelShape         shape = Porous(1, { 130, 40, 40 }, 0.8);
+  const Vector3            spacing{ 1, 1, 1 };
+  const ImageGeometry      geometry = GridAround(shape, spacing);
+  const CertifiedRequest   request = MapRequest(spacing, true);
+  const CertifiedThickness whole = *ComputeCertified(shape, geometry, request).thickness;
+  const auto               blocks = Blocks(shape.Box(), { 26, 40, 40 });
+  const BlockedThickness   parts = ThicknessInBlocks(shape, geometry, request, blocks, AtLowX);
+  double                   sum = 0;
+  for (std::size_t i = 0; i < whole.map.values.size(); ++i)
   {
-    const VoxelShape         shape = Porous(seed, { 130, 40, 40 }, 0.8);
-    const Vector3            spacing{ 1, 1, 1 };
-    const ImageGeometry      geometry = GridAround(shape, spacing);
-    const CertifiedRequest   request = MapRequest(spacing, true);
-    const CertifiedThickness whole = *ComputeCertified(shape, geometry, request).thickness;
-    const auto               blocks = Blocks(shape.Box(), { 26, 40, 40 });
-    const BlockedThickness   parts = ThicknessInBlocks(shape, geometry, request, blocks, AtLowX);
-    double                   sum = 0;
-    for (std::size_t i = 0; i < whole.map.values.size(); ++i)
-    {
-      sum += std::abs(parts.map.values[i] - whole.map.values[i]);
-    }
-    EXPECT_LT(sum / static_cast<double>(whole.map.values.size()), 0.02) << "seed " << seed << ", voxels";
-    EXPECT_EQ(parts.computed, 5U);
+    sum += std::abs(parts.map.values[i] - whole.map.values[i]);
   }
+  EXPECT_LT(sum / static_cast<double>(whole.map.values.size()), 0.02) << "voxels";
+  EXPECT_EQ(parts.computed, 5U);
 }
 
 TEST(ThicknessInBlocks, StopWhenAsked)
