@@ -87,7 +87,7 @@ RunOne(const PhantomJobOptions & phantom, const std::filesystem::path & folder, 
   options.stage.lambda.text = "0";
   options.stage.standOut = ParseLambda("3vox");
   options.stage.smooth = ParseLambda("6vox");
-  options.stage.branches.pruneRadii = 1;
+  options.stage.branches.pruneRadii = 0.5;
   options.pictures = false;
   options.output = folder / "out/";
   options.force = true;

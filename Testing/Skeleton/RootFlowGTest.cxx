@@ -94,6 +94,25 @@ TEST(RootFlow, TheDirectionOfAShortBranchLeadsFromItsEnd)
   EXPECT_EQ(branches.DirectionFrom(EndAt(graph, { 2, 0, 0 }, { 0, 0, 0 })), (Vector3{ -1, 0, 0 }));
 }
 
+// A junction of four branches may come as two a fraction of a millimetre apart, one behind the other.
+TEST(RootFlow, TheDirectionOfAPieceWithinABallIsThatOfWhatItLeadsTo)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 0 }, { 0, 0, 40 }, 5);
+  builder.Line({ 0, 0, 0 }, { 30, 0, -20 }, 2);
+  builder.Line({ 0, 0, 0 }, { 0, 0.1, 0.2 }, 5); // backwards
+  builder.Line({ 0, 0.1, 0.2 }, { -30, 0, -20 }, 2);
+  builder.Line({ 0, 0.1, 0.2 }, { 0, 0, -40 }, 5);
+  const SkeletonGraph graph = builder.Graph();
+  const RootBranches  branches(graph);
+  EXPECT_LT(branches.DirectionFrom(EndAt(graph, { 0, 0, 0 }, { 0, 0.1, 0.2 }))[2], -0.99);
+  EXPECT_GT(branches.DirectionFrom(EndAt(graph, { 0, 0.1, 0.2 }, { 0, 0, 0 }))[2], 0.99);
+  RootRules rules;
+  rules.up = Vector3{ 0, 0, 1 };
+  EXPECT_EQ(FindRoots(graph, rules).axes.size(), 3U);
+  EXPECT_EQ(graph.positions[FindRoots(graph, rules).axes[0].points.back()], (Spacing3{ 0, 0, -40 }));
+}
+
 // Going straight on costs nothing however many laterals spring on the way; a lateral costs once.
 TEST(RootFlow, AStraightStemIsRunThroughFromItsBaseWhateverLeavesIt)
 {

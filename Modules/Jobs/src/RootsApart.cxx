@@ -150,6 +150,24 @@ CentreByValues(const ImageGeometry & geometry,
   }
 }
 
+/** The roots by directions of curves that lie where values say that the middle of roots is; the graph is as before. */
+RootHierarchy
+RootsByValues(const ImageGeometry &             geometry,
+              const CoreOptions &               core,
+              const std::optional<BandValues> & values,
+              const RootRules &                 rules,
+              const SkeletonGraph &             graph)
+{
+  RootHierarchy roots = FindRoots(graph, rules);
+  if (values)
+  {
+    SkeletonGraph centred = graph;
+    CentreByValues(geometry, core, *values, roots, centred);
+    roots = FindRoots(centred, rules);
+  }
+  return roots;
+}
+
 /** One cut or fill with its voxels as runs. */
 RootsChange
 ChangeOf(const TopologyChange & change, const ImageGeometry & geometry)
@@ -195,17 +213,17 @@ TellRootsApart(LabelShape &             mask,
   }
   SkeletonGraph graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
   auto          torn = JoinTornRoots(graph, rules);
-  RootHierarchy roots = FindRoots(graph, rules);
-  if (numbers.betti[0] == 1)
-  {
-    roots = editing(graph, roots);
-  }
-  const VoxelShape  walls = ContactWalls(mask.shape, geometry, graph, roots);
   const LatticeBall ball = BallOfDepth(request.depth, geometry);
   RootsTopology     topology;
   VoxelShape        kernel(mask.shape.Box());
   VoxelShape        neighbourhood = VoxelsAround(mask.shape, ball);
   const auto        values = ReadBand(core, neighbourhood, PartOfProgress(progress, 0.5, 0.6));
+  RootHierarchy     roots = RootsByValues(geometry, core, values, rules, graph);
+  if (numbers.betti[0] == 1)
+  {
+    roots = editing(graph, roots);
+  }
+  const VoxelShape walls = ContactWalls(mask.shape, geometry, graph, roots);
   ChangeCost        inVoxels = DepthCost(mask.shape, ball);
   // Of a change in a wall, of another; and that which is reported.
   std::function<double(std::int32_t, std::int32_t, std::int32_t)> cost =
@@ -294,18 +312,22 @@ TellRootsApart(LabelShape &             mask,
   return topology;
 }
 
-void
-CentreRootsByGrey(const VoxelShape &    mask,
-                  const ImageGeometry & geometry,
-                  const CoreOptions &   core,
-                  const GapWidth &      depth,
-                  const RootHierarchy & roots,
-                  SkeletonGraph &       graph)
+RootHierarchy
+FindRootsByGrey(const VoxelShape &    mask,
+                const ImageGeometry & geometry,
+                const CoreOptions &   core,
+                const RootRules &     rules,
+                const GapWidth &      depth,
+                RootEditing &         editing,
+                SkeletonGraph &       graph)
 {
-  if (const auto values = ReadBand(core, VoxelsAround(mask, BallOfDepth(depth, geometry)), {}))
+  const auto    values = ReadBand(core, VoxelsAround(mask, BallOfDepth(depth, geometry)), {});
+  RootHierarchy roots = editing(graph, RootsByValues(geometry, core, values, rules, graph));
+  if (values)
   {
     CentreByValues(geometry, core, *values, roots, graph);
   }
+  return roots;
 }
 
 std::string

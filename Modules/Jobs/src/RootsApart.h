@@ -32,16 +32,17 @@ TellRootsApart(LabelShape &             mask,
                RootEditing &            editing,
                const ProgressCallback & progress);
 
-/** Where `core` reads a grey scan of bright roots, puts the curves of thin ones where the values say that their middle
- *  is (RootCentring.h). `mask` is the scan's, `depth` how far from it values are looked at. TellRootsApart() has done
- *  so with the graph it gives. */
-void
-CentreRootsByGrey(const VoxelShape &    mask,
-                  const ImageGeometry & geometry,
-                  const CoreOptions &   core,
-                  const GapWidth &      depth,
-                  const RootHierarchy & roots,
-                  SkeletonGraph &       graph);
+/** The roots of a skeleton. Where `core` reads a grey scan of bright roots, the curves of thin ones are put where the
+ *  values say that their middle is (RootCentring.h), and directions are those of such curves. `mask` is the scan's,
+ *  `depth` how far from it values are looked at. TellRootsApart() has done so with the graph it gives. */
+RootHierarchy
+FindRootsByGrey(const VoxelShape &    mask,
+                const ImageGeometry & geometry,
+                const CoreOptions &   core,
+                const RootRules &     rules,
+                const GapWidth &      depth,
+                RootEditing &         editing,
+                SkeletonGraph &       graph);
 
 /** What was cut and filled, with the voxels, as a file that --change-voxels reads. */
 std::string

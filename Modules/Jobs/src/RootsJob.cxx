@@ -374,8 +374,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   {
     result.model.graph = std::move(skeleton.parts.at(0).graph);
     torn = JoinTornRoots(result.model.graph, rules);
-    result.model.roots = editing(result.model.graph, FindRoots(result.model.graph, rules));
-    CentreRootsByGrey(mask.shape, geometry, core, depth, result.model.roots, result.model.graph);
+    result.model.roots = FindRootsByGrey(mask.shape, geometry, core, rules, depth, editing, result.model.graph);
     if (result.topology)
     {
       RecallContacts(*result.topology, result.model);

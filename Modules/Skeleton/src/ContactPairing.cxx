@@ -1,5 +1,7 @@
 #include "ContactPairing.h"
 
+#include "ContactMatching.h"
+
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>
@@ -13,115 +15,19 @@ namespace voxelcore
 namespace
 {
 
-/** One choice of partners: per arriving arm the number of the leaving one, -1 for none. */
-struct Matching
-{
-  std::vector<int> partner;
-  double           value = 0;
-};
-
-/** The best and the next best value of a sum over pairs; no pair counts below 0. */
-class Matcher
-{
-public:
-  explicit Matcher(std::vector<std::vector<double>> values)
-    : m_Values(std::move(values))
-    , m_Taken(m_Values.empty() ? 0 : m_Values.front().size(), 0)
-  {
-    m_Now.partner.assign(m_Values.size(), -1);
-    best.value = -1;
-    if (m_Values.size() <= 5 && m_Taken.size() <= 7)
-    {
-      Try(0);
-    }
-    else
-    {
-      Greedy();
-    }
-  }
-
-  Matching best;
-  double   second = -1;
-
-private:
-  void
-  Try(std::size_t row)
-  {
-    if (row == m_Values.size())
-    {
-      if (m_Now.value > best.value)
-      {
-        second = best.value;
-        best = m_Now;
-      }
-      else
-      {
-        second = std::max(second, m_Now.value);
-      }
-      return;
-    }
-    for (std::size_t column = 0; column < m_Taken.size(); ++column)
-    {
-      if (m_Taken[column] || !(m_Values[row][column] > 0))
-      {
-        continue;
-      }
-      m_Taken[column] = 1;
-      m_Now.partner[row] = static_cast<int>(column);
-      m_Now.value += m_Values[row][column];
-      Try(row + 1);
-      m_Now.value -= m_Values[row][column];
-      m_Now.partner[row] = -1;
-      m_Taken[column] = 0;
-    }
-    Try(row + 1);
-  }
-
-  void
-  Greedy()
-  {
-    best = m_Now;
-    best.value = 0;
-    for (;;)
-    {
-      double      most = 0;
-      std::size_t bestRow = 0;
-      std::size_t bestColumn = 0;
-      for (std::size_t row = 0; row < m_Values.size(); ++row)
-      {
-        for (std::size_t column = 0; column < m_Taken.size(); ++column)
-        {
-          if (best.partner[row] < 0 && !m_Taken[column] && m_Values[row][column] > most)
-          {
-            most = m_Values[row][column];
-            bestRow = row;
-            bestColumn = column;
-          }
-        }
-      }
-      if (!(most > 0))
-      {
-        return;
-      }
-      best.partner[bestRow] = static_cast<int>(bestColumn);
-      m_Taken[bestColumn] = 1;
-      best.value += most;
-    }
-  }
-
-  std::vector<std::vector<double>> m_Values; ///< arriving x leaving
-  std::vector<std::uint8_t>        m_Taken;
-  Matching                         m_Now;
-};
+constexpr double kLeastBackwards = 0.3; // value of a pair across a stretch run through in opposite directions
+constexpr double kOfLength = 0.25;      // of the longest way beyond, where thickness says nothing
 
 class Pairer
 {
 public:
-  Pairer(const RootBranches & branches, const RootFlow & flow, const RootRules & rules)
+  Pairer(const RootBranches & branches, const RootFlow & flow, const RootRules & rules, bool isTurned)
     : m_Branches(branches)
     , m_Flow(flow)
     , m_Rules(rules)
+    , m_IsTurned(isTurned)
     , m_Clusters(branches.HubCount())
+    , m_Beyond(LengthsBeyond(branches, flow))
   {
     const std::size_t count = branches.Graph().BranchCount();
     m_Pairing.next.assign(count, kNoRoot);
@@ -145,7 +51,8 @@ public:
     std::vector<std::vector<ElementIndex>> members(m_Branches.HubCount());
     for (ElementIndex hub = 0; hub < m_Branches.HubCount(); ++hub)
     {
-      members[m_Clusters.Find(hub)].push_back(hub);
+      m_Pairing.contact.push_back(static_cast<ElementIndex>(m_Clusters.Find(hub)));
+      members[m_Pairing.contact.back()].push_back(hub);
     }
     // Branches with both ends in one contact lie within it, however they came to.
     for (ElementIndex branch = 0; branch < m_Pairing.next.size(); ++branch)
@@ -228,6 +135,44 @@ private:
         m_Clusters.Unite(hub, other);
       }
     }
+    if (m_IsTurned)
+    {
+      GatherBackwards(hub, leaving);
+    }
+  }
+
+  /** Two roots may share a stretch that they run through in opposite directions: what arrives here goes on from where
+   *  the stretch begins. */
+  void
+  GatherBackwards(ElementIndex hub, const std::vector<BranchEnd> & leavingHere)
+  {
+    const auto & arrivals = m_Flow.arrivals[hub];
+    for (const BranchEnd & shared : arrivals)
+    {
+      const ElementIndex other = m_Branches.HubOf(shared.Other());
+      for (const BranchEnd & end : arrivals)
+      {
+        const double thick = m_Branches.Radius(shared.branch);
+        const double thin = m_Branches.Radius(end.branch);
+        if (end.branch == shared.branch || other == hub || thin < kThinBeside * thick ||
+            m_Branches.LengthOf(shared.branch) > m_Rules.sharedLength * (thick + thin))
+        {
+          continue;
+        }
+        double best = kLeastBackwards;
+        for (const BranchEnd & next : leavingHere)
+        {
+          best = std::max(best, m_Branches.PairValue(end, next));
+        }
+        for (const BranchEnd & next : m_Branches.EndsAt(other))
+        {
+          if (next.branch != shared.branch && m_Flow.base[next.branch] == next.last && m_Branches.PairValue(end, next) > best)
+          {
+            m_Clusters.Unite(hub, other);
+          }
+        }
+      }
+    }
   }
 
   /** Whether `branch` is `later` or comes before it on its way from the stem. */
@@ -278,8 +223,10 @@ private:
       {
         if (!IsBefore(leaving[k].branch, arriving[i].branch))
         {
-          values[i][k] = m_Branches.Straightness(arriving[i], leaving[k]) +
-                         m_Branches.Likeness(arriving[i].branch, leaving[k].branch) - 1;
+          // Thin roots to both sides of a thick one rather spring from it.
+          const double thick = m_Branches.Radius(arriving.front().branch);
+          const bool   passes = m_Branches.Radius(arriving[i].branch) < kThinBeside * thick;
+          values[i][k] = m_Branches.PairValue(arriving[i], leaving[k]) - (passes ? kOfPassing : 0);
         }
       }
     }
@@ -344,13 +291,21 @@ private:
   void
   ContinueBest(const BranchEnd & from, const std::vector<BranchEnd> & leaving, const std::vector<ElementIndex> & hubs)
   {
-    std::size_t heir = leaving.size();
-    double      best = -std::numeric_limits<double>::infinity();
+    double              farthest = 0;
+    std::vector<double> radii{ 0 };
+    for (const BranchEnd & end : leaving)
+    {
+      farthest = std::max(farthest, m_Beyond[end.branch]);
+      radii.push_back(m_Branches.Radius(end.branch));
+    }
+    std::ranges::sort(radii, std::ranges::greater{});
+    const double likeness = radii[0] > 0 ? radii[1] / radii[0] : 1;
+    const double ofLength = farthest > 0 ? kOfLength * likeness * likeness / farthest : 0;
+    std::size_t  heir = leaving.size();
+    double       best = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < leaving.size(); ++k)
     {
-      const double ratio =
-        std::min(1.0, m_Branches.Radius(leaving[k].branch) / std::max(1e-300, m_Branches.Radius(from.branch)));
-      const double value = m_Branches.Straightness(from, leaving[k]) + 2 * ratio;
+      const double value = m_Branches.Onward(from, leaving[k]) + ofLength * m_Beyond[leaving[k].branch];
       if (value > best)
       {
         best = value;
@@ -428,16 +383,18 @@ private:
   const RootBranches & m_Branches;
   const RootFlow &     m_Flow;
   const RootRules &    m_Rules;
+  bool                 m_IsTurned;
   UnionFind            m_Clusters; ///< hubs of one contact
+  std::vector<double>  m_Beyond;   ///< per branch
   RootPairing          m_Pairing;
 };
 
 } // namespace
 
 RootPairing
-PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules)
+PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules, bool isTurned)
 {
-  return Pairer(branches, flow, rules).Pair();
+  return Pairer(branches, flow, rules, isTurned).Pair();
 }
 
 } // namespace voxelcore

@@ -6,6 +6,10 @@
 namespace voxelcore
 {
 
+// Thin roots to both sides of a thick one rather spring from it than pass it: a pair of such is worth less.
+constexpr double kThinBeside = 0.6; // of the thick one's radius
+constexpr double kOfPassing = 0.6;
+
 /** How branches follow each other. */
 struct RootPairing
 {
@@ -15,10 +19,13 @@ struct RootPairing
   std::vector<std::vector<ElementIndex>> ways;   ///< per branch: the branches of the contact on the way to the next
   std::vector<std::uint8_t>              undecided;     ///< per branch: next was chosen in a contact that is marked
   std::vector<std::uint8_t>              endsAtMeeting; ///< per branch
+  std::vector<ElementIndex>              contact;       ///< per hub: the same number for those of one contact
   std::vector<RootMeeting>               meetings;
 };
 
+/** `isTurned`: roots that were run through backwards are turned (RootTurning.h), and may go on over a stretch that
+ *  another runs through in the opposite direction. */
 RootPairing
-PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules);
+PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules, bool isTurned);
 
 } // namespace voxelcore

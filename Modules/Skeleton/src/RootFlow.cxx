@@ -12,6 +12,8 @@ namespace voxelcore
 namespace
 {
 
+constexpr std::size_t kMostPieces = 4;
+
 Vector3
 UnitVector(const Vector3 & a)
 {
@@ -93,15 +95,49 @@ RootBranches::RootBranches(const SkeletonGraph & graph)
 Vector3
 RootBranches::DirectionFrom(const BranchEnd & end, double skip) const
 {
-  const auto      points = m_Graph.Branch(end.branch);
   const Vector3 & start = m_Graph.positions[PointFrom(end, 0)];
   const double    near = IsJunction(HubOf(end)) ? 1.2 * BallAt(end) + skip : 0;
-  const double    far = near + 5 * m_Radius[end.branch];
-  std::size_t     first = 0;
-  std::size_t     last = 1;
+  // A junction of many branches may come as several, a short piece apart within the ball: the piece leads where the
+  // thickest branch does that leaves its other end.
+  std::vector<BranchEnd> pieces{ end };
+  while (pieces.size() < kMostPieces)
+  {
+    const BranchEnd          far = pieces.back().Other();
+    std::optional<BranchEnd> next;
+    if (IsJunction(HubOf(far)) && Distance(start, m_Graph.positions[PointFrom(far, 0)]) < BallAt(end))
+    {
+      for (const BranchEnd & other : EndsAt(HubOf(far)))
+      {
+        const bool isNew =
+          std::ranges::none_of(pieces, [&](const BranchEnd & piece) { return piece.branch == other.branch; });
+        if (isNew && HubOf(other.Other()) != HubOf(end) &&
+            (!next || m_Radius[other.branch] > m_Radius[next->branch]))
+        {
+          next = other;
+        }
+      }
+    }
+    if (!next)
+    {
+      break;
+    }
+    pieces.push_back(*next);
+  }
+  std::vector<ElementIndex> points;
+  for (const BranchEnd & piece : pieces)
+  {
+    for (std::size_t i = points.empty() ? 0 : 1; i < m_Graph.Branch(piece.branch).size(); ++i)
+    {
+      points.push_back(PointFrom(piece, i));
+    }
+  }
+  const double radius = m_Radius[pieces.back().branch];
+  const double far = near + 5 * radius;
+  std::size_t  first = 0;
+  std::size_t  last = 1;
   for (std::size_t i = 1; i < points.size(); ++i)
   {
-    const double away = Distance(start, m_Graph.positions[PointFrom(end, i)]);
+    const double away = Distance(start, m_Graph.positions[points[i]]);
     first = first + 1 == i && away < near ? i : first;
     last = i;
     if (away >= far)
@@ -109,10 +145,10 @@ RootBranches::DirectionFrom(const BranchEnd & end, double skip) const
       break;
     }
   }
-  const Vector3 & to = m_Graph.positions[PointFrom(end, last)];
+  const Vector3 & to = m_Graph.positions[points[last]];
   // Too short to have much outside: from the end itself.
-  const Vector3 & from = m_Graph.positions[PointFrom(end, first)];
-  return UnitVector(Distance(from, to) < 2 * m_Radius[end.branch] ? Minus(to, start) : Minus(to, from));
+  const Vector3 & from = m_Graph.positions[points[first]];
+  return UnitVector(Distance(from, to) < 2 * radius ? Minus(to, start) : Minus(to, from));
 }
 
 double
@@ -120,6 +156,19 @@ RootBranches::Likeness(ElementIndex a, ElementIndex b) const
 {
   const double most = std::max(m_Radius[a], m_Radius[b]);
   return most > 0 ? std::min(m_Radius[a], m_Radius[b]) / most : 1;
+}
+
+double
+RootBranches::Onward(const BranchEnd & arrives, const BranchEnd & leaves) const
+{
+  const double ratio = std::min(1.0, m_Radius[leaves.branch] / std::max(1e-300, m_Radius[arrives.branch]));
+  return Straightness(arrives, leaves) + 2 * ratio;
+}
+
+double
+RootBranches::PairValue(const BranchEnd & arrives, const BranchEnd & leaves) const
+{
+  return Straightness(arrives, leaves) + Likeness(arrives.branch, leaves.branch) - 1;
 }
 
 std::vector<BranchEnd>
@@ -212,12 +261,13 @@ FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems)
   }
   std::vector<std::uint8_t> settled(count, 0);
 
-  using Entry = std::tuple<double, ElementIndex, std::uint8_t, ElementIndex>; // cost, branch, its base, from where
+  // Cost, branch, its base, from where, whether it springs there.
+  using Entry = std::tuple<double, ElementIndex, std::uint8_t, ElementIndex, bool>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto                                                     spread = [&] {
     while (!queue.empty())
     {
-      const auto [cost, branch, base, before] = queue.top();
+      const auto [cost, branch, base, before, springs] = queue.top();
       queue.pop();
       if (settled[branch])
       {
@@ -228,6 +278,20 @@ FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems)
       flow.before[branch] = before;
       const BranchEnd far = BranchEnd{ branch, base }.Other();
       flow.arrivals[branches.HubOf(far)].push_back(far);
+      // A piece within the root it springs from: what springs there springs from that root.
+      const bool isStub = springs && branches.LengthOf(branch) < branches.BallAt({ branch, base });
+      // Which of them it goes on as; the others spring from it.
+      ElementIndex heir = kNoRoot;
+      double       best = -std::numeric_limits<double>::infinity();
+      for (const BranchEnd & next : branches.EndsAt(branches.HubOf(far)))
+      {
+        const double value = branches.Onward(far, next);
+        if (!settled[next.branch] && value > best)
+        {
+          best = value;
+          heir = next.branch;
+        }
+      }
       for (const BranchEnd & next : branches.EndsAt(branches.HubOf(far)))
       {
         if (settled[next.branch])
@@ -237,15 +301,18 @@ FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems)
         const double turn = 0.5 * (1 - branches.Straightness(far, next));
         const double thinning = 1 - branches.Likeness(branch, next.branch);
         const bool   thickens = branches.Radius(next.branch) > 1.5 * branches.Radius(branch);
-        const double step = std::min(1.0, turn + 0.5 * thinning) + (thickens ? 1 : 0);
-        queue.emplace(cost + step + 0.5 * branches.LengthOf(next.branch) / total, next.branch, next.last, branch);
+        const double crooked = std::min(1.0, turn + 0.5 * thinning);
+        const bool   springsNext = next.branch != heir && !isStub;
+        const double step = (springsNext ? 1 : crooked * crooked) + (thickens ? 1 : 0);
+        queue.emplace(
+          cost + step + 0.5 * branches.LengthOf(next.branch) / total, next.branch, next.last, branch, springsNext);
       }
     }
   };
   const auto start = [&](const BranchEnd & end, bool isLoose) {
     flow.sources.push_back(end);
     flow.loose.push_back(isLoose);
-    queue.emplace(0.0, end.branch, end.last, kNoRoot);
+    queue.emplace(0.0, end.branch, end.last, kNoRoot, false);
   };
   for (const BranchEnd & stem : stems)
   {
@@ -279,6 +346,37 @@ FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems)
     spread();
   }
   return flow;
+}
+
+std::vector<double>
+LengthsBeyond(const RootBranches & branches, const RootFlow & flow)
+{
+  const std::size_t        count = flow.before.size();
+  std::vector<double>      beyond(count, 0);
+  std::vector<std::size_t> open(count, 0); // branches that follow and are not done
+  for (const ElementIndex before : flow.before)
+  {
+    if (before != kNoRoot)
+    {
+      ++open[before];
+    }
+  }
+  for (ElementIndex tip = 0; tip < count; ++tip)
+  {
+    // From where nothing follows back to where something still has to be done.
+    for (ElementIndex branch = tip; branch != kNoRoot && open[branch] == 0; branch = flow.before[branch])
+    {
+      beyond[branch] += branches.LengthOf(branch);
+      open[branch] = count; // done
+      const ElementIndex before = flow.before[branch];
+      if (before != kNoRoot)
+      {
+        beyond[before] = std::max(beyond[before], beyond[branch]);
+        --open[before];
+      }
+    }
+  }
+  return beyond;
 }
 
 } // namespace voxelcore

@@ -88,6 +88,12 @@ public:
   {
     return -Dot(DirectionFrom(arrives), DirectionFrom(leaves));
   }
+  /** How well a branch that arrives goes on as one that leaves: cos(turn) + 2 (thinner / thicker). */
+  double
+  Onward(const BranchEnd & arrives, const BranchEnd & leaves) const;
+  /** How well they go with each other in a contact: cos(turn) + (thinner / thicker) - 1. */
+  double
+  PairValue(const BranchEnd & arrives, const BranchEnd & leaves) const;
   /** Thinner radius over thicker. */
   double
   Likeness(ElementIndex a, ElementIndex b) const;
@@ -124,7 +130,12 @@ FindStems(const RootBranches & branches, const std::optional<Vector3> & up, int 
 Vector3
 FindUp(const RootBranches & branches, const BranchEnd & stem);
 
+/** Going on costs little, the less it turns and thins; springing from a side costs 1, wherever along a root it is. */
 RootFlow
 FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems);
+
+/** Per branch the length of the longest way from its base on, in mm. */
+std::vector<double>
+LengthsBeyond(const RootBranches & branches, const RootFlow & flow);
 
 } // namespace voxelcore

@@ -1,6 +1,6 @@
 #include "voxelcore/RootHierarchy.h"
 
-#include "ContactPairing.h"
+#include "RootTurning.h"
 #include "RootWhorls.h"
 
 #include <algorithm>
@@ -10,6 +10,8 @@ namespace voxelcore
 
 namespace
 {
+
+constexpr int kMostTurns = 8;
 
 /** Puts branches together to axes. */
 class AxisBuilder
@@ -174,8 +176,13 @@ FindRoots(const SkeletonGraph & graph, const RootRules & rules)
     roots.up = FindUp(branches, stems.front());
     stems = FindStems(branches, roots.up, rules.stems);
   }
-  const RootFlow flow = FlowFrom(branches, stems);
-  RootPairing    pairing = PairBranches(branches, flow, rules);
+  RootFlow    flow = FlowFrom(branches, stems);
+  RootPairing pairing = PairBranches(branches, flow, rules, false);
+  for (int round = 0; round < kMostTurns && TurnBackRoots(branches, rules, pairing, flow) > 0; ++round)
+  {
+    pairing = PairBranches(branches, flow, rules, false);
+  }
+  pairing = PairBranches(branches, flow, rules, true);
   AxisBuilder(branches, flow, pairing, roots).Build();
   roots.meetings = std::move(pairing.meetings);
   FindWhorls(graph, rules, roots);
