@@ -177,8 +177,7 @@ TEST(RootTurning, ThinRootsToBothSidesOfAThickOneSpringFromIt)
       const bool isFirst = graph.positions[graph.Branch(branch).front()] == place;
       return BranchEnd{ branch, static_cast<std::uint8_t>(isFirst ? 0 : 1) };
     };
-    const RootFlow flow =
-      FlowFrom(branches, { endAt(stem, { 0, 0, 100 }), endAt(arriving, { 40, 0, 50 }) });
+    const RootFlow     flow = FlowFrom(branches, { endAt(stem, { 0, 0, 100 }), endAt(arriving, { 40, 0, 50 }) });
     const RootPairing  pairing = PairBranches(branches, flow, {}, true);
     const ElementIndex leaving = BranchOf(graph, { 0, 0, 50 }, { -20, 34, 50 });
     EXPECT_EQ(pairing.next[stem], BranchOf(graph, { 0, 0, 50 }, { 0, 0, 0 }));

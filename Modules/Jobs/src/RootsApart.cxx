@@ -211,8 +211,8 @@ TellRootsApart(LabelShape &             mask,
   {
     return std::nullopt;
   }
-  SkeletonGraph graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
-  auto          torn = JoinTornRoots(graph, rules);
+  SkeletonGraph     graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
+  auto              torn = JoinTornRoots(graph, rules);
   const LatticeBall ball = BallOfDepth(request.depth, geometry);
   RootsTopology     topology;
   VoxelShape        kernel(mask.shape.Box());
@@ -224,7 +224,7 @@ TellRootsApart(LabelShape &             mask,
     roots = editing(graph, roots);
   }
   const VoxelShape walls = ContactWalls(mask.shape, geometry, graph, roots);
-  ChangeCost        inVoxels = DepthCost(mask.shape, ball);
+  ChangeCost       inVoxels = DepthCost(mask.shape, ball);
   // Of a change in a wall, of another; and that which is reported.
   std::function<double(std::int32_t, std::int32_t, std::int32_t)> cost =
     [&](std::int32_t x, std::int32_t y, std::int32_t z) { return inVoxels(x, y, z) / kCostOfOneVoxel; };

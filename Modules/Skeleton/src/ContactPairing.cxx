@@ -166,7 +166,8 @@ private:
         }
         for (const BranchEnd & next : m_Branches.EndsAt(other))
         {
-          if (next.branch != shared.branch && m_Flow.base[next.branch] == next.last && m_Branches.PairValue(end, next) > best)
+          if (next.branch != shared.branch && m_Flow.base[next.branch] == next.last &&
+              m_Branches.PairValue(end, next) > best)
           {
             m_Clusters.Unite(hub, other);
           }

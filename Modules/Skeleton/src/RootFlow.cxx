@@ -110,8 +110,7 @@ RootBranches::DirectionFrom(const BranchEnd & end, double skip) const
       {
         const bool isNew =
           std::ranges::none_of(pieces, [&](const BranchEnd & piece) { return piece.branch == other.branch; });
-        if (isNew && HubOf(other.Other()) != HubOf(end) &&
-            (!next || m_Radius[other.branch] > m_Radius[next->branch]))
+        if (isNew && HubOf(other.Other()) != HubOf(end) && (!next || m_Radius[other.branch] > m_Radius[next->branch]))
         {
           next = other;
         }
@@ -304,8 +303,11 @@ FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems)
         const double crooked = std::min(1.0, turn + 0.5 * thinning);
         const bool   springsNext = next.branch != heir && !isStub;
         const double step = (springsNext ? 1 : crooked * crooked) + (thickens ? 1 : 0);
-        queue.emplace(
-          cost + step + 0.5 * branches.LengthOf(next.branch) / total, next.branch, next.last, branch, springsNext);
+        queue.emplace(cost + step + 0.5 * branches.LengthOf(next.branch) / total,
+                      next.branch,
+                      next.last,
+                      branch,
+                      springsNext);
       }
     }
   };

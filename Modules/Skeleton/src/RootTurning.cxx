@@ -142,12 +142,12 @@ private:
     }
     const BranchEnd here = m_Flow.Base(before).Other();
     const BranchEnd there = m_Flow.Base(parent).Other();
-    const double    now = m_Branches.PairValue(stop, m_Flow.Base(next)) +
-                       kOfSpringing * (m_Branches.Straightness(here, start) +
-                                       m_Branches.Straightness(here, m_Flow.Base(heir)));
-    const double turned = m_Branches.PairValue(start, m_Flow.Base(heir)) - OfPassing(start) +
-                          kOfSpringing * (m_Branches.Straightness(there, stop) +
-                                          m_Branches.Straightness(there, m_Flow.Base(next)));
+    const double    now =
+      m_Branches.PairValue(stop, m_Flow.Base(next)) +
+      kOfSpringing * (m_Branches.Straightness(here, start) + m_Branches.Straightness(here, m_Flow.Base(heir)));
+    const double turned =
+      m_Branches.PairValue(start, m_Flow.Base(heir)) - OfPassing(start) +
+      kOfSpringing * (m_Branches.Straightness(there, stop) + m_Branches.Straightness(there, m_Flow.Base(next)));
     if (turned < now + kMoreWorth)
     {
       return false;
@@ -187,7 +187,7 @@ private:
     {
       const BranchEnd base = m_Flow.Base(*branch);
       auto &          left = m_Flow.arrivals[m_Branches.HubOf(base.Other())];
-      std::erase_if(left, [&](const BranchEnd & end) { return end.branch == *branch && end.last == base.Other().last; });
+      std::erase_if(left, [&](const BranchEnd & end) { return end.branch == *branch && end.last != base.last; });
       m_Flow.arrivals[m_Branches.HubOf(base)].push_back(base);
       // What springs on the way comes from the other side now.
       for (const BranchEnd & end : m_Branches.EndsAt(m_Branches.HubOf(base.Other())))
@@ -252,7 +252,7 @@ private:
   {
     const ElementIndex before = m_Flow.before[start.branch];
     return before != kNoRoot && m_Branches.Radius(start.branch) < kThinBeside * m_Branches.Radius(before) ? kOfPassing
-                                                                                                            : 0;
+                                                                                                          : 0;
   }
 
   /** What goes on as this piece does when it is turned: a root that seems to spring at the contact, or one that another
@@ -338,7 +338,7 @@ private:
   const RootPairing &                    m_Pairing;
   RootFlow &                             m_Flow;
   const RootRules &                      m_Rules;
-  std::vector<std::uint8_t>              m_Turned; ///< per branch: it, or what follows it, was turned
+  std::vector<std::uint8_t>              m_Turned;  ///< per branch: it, or what follows it, was turned
   std::vector<ElementIndex>              m_Partner; ///< per branch the one that goes on as it
   std::vector<std::vector<ElementIndex>> m_Members; ///< per contact its hubs
 };

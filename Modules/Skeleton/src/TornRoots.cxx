@@ -15,7 +15,7 @@ namespace
 constexpr double kLeastInto = 0.5;     // cos(60 degrees)
 constexpr double kLeastOnward = 0.707; // cos(45 degrees)
 constexpr double kLeastLikeness = 0.5;
-constexpr double kTipReach = 4;       // radii over which a tip's direction is taken
+constexpr double kTipReach = 4;    // radii over which a tip's direction is taken
 constexpr double kSlicesAlong = 3; // at least
 
 struct TornEnd
@@ -35,7 +35,8 @@ EndAt(const SkeletonGraph & graph, ElementIndex branch, bool isLast, double slic
   TornEnd      end{ at(0), branch, radii[at(0)], {} };
   double       along = 0;
   std::size_t  i = 0;
-  for (double sum = radii[at(0)]; i + 1 < line.size() && along < std::max(kTipReach * end.radius, kSlicesAlong * slice);)
+  for (double sum = radii[at(0)];
+       i + 1 < line.size() && along < std::max(kTipReach * end.radius, kSlicesAlong * slice);)
   {
     ++i;
     along += Distance(graph.positions[at(i - 1)], graph.positions[at(i)]);

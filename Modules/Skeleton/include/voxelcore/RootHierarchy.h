@@ -9,15 +9,19 @@
 //    More are taken as asked; to find how many there are, those with 0.6 of its thickness that lie in the upper quarter
 //    count.
 // 3. Flow. Every branch is run through in the direction in which the way from a stem is cheapest: going on costs
-//    little, the less it turns and thins; springing from a side costs 1; what goes into a much thicker branch costs
-//    more. Where a branch arrives at a junction that another reached before, there is a loop: two roots touch.
+//    little, the less it turns and thins; springing from a side costs 1, wherever along a root; what goes into a much
+//    thicker branch costs more. Where a branch arrives at a junction that another reached before, there is a loop: two
+//    roots touch. A piece that was reached from a contact, and ends where it meets its parent or goes on there as
+//    another lateral, is turned if it then goes on better at the contact.
 // 4. Contacts. A bridge between the two, or a stretch they share, if it is short against their radii, is part of the
 //    contact. The arms that arrive and those that leave are paired so that the sum over pairs of
-//    cos(turn) + (thinner radius / thicker radius) - 1 is greatest; a pair below 0 is not made. Directions are measured
-//    outside the contact. An arm that arrives and has no partner ends there; one that leaves and has none is a lateral.
-//    Where the next best pairing is worse by less than `undecided`, the contact is marked.
-// 5. Junctions. Elsewhere the branch goes on that is best by cos(turn) + 2 (thinner / thicker); the others are its
-//    laterals, a level further out. The stem has level 0.
+//    cos(turn) + (thinner radius / thicker radius) - 1 is greatest, less 0.6 for those thinner than 0.6 of a root that
+//    goes through beside them; a pair below 0 is not made. Directions are measured outside the contact. An arm that
+//    arrives and has no partner ends there; one that leaves and has none is a lateral. Where the next best pairing is
+//    worse by less than `undecided`, the contact is marked.
+// 5. Junctions. Elsewhere the branch goes on that is best by cos(turn) + 2 (thinner / thicker), and by up to 0.25 for
+//    the longest way beyond where they are alike in thickness; the others are its laterals, a level further out. The
+//    stem has level 0.
 // 6. Whorls. Laterals of a stem whose places along it follow each other by less than `whorlGap` stem radii form one if
 //    there are `whorlSize` of them or more.
 // Pieces that hang together with no stem have a stem of their own, found by thickness; they are marked as loose.
