@@ -258,6 +258,57 @@ TEST(MedialSheets, WhereTheStripOfACrossingEndsBeforeTheRimFourSheetsMeetStill)
   EXPECT_EQ(CountsOf(CutIntoSheets(x.Core(), 3)), (Counts{ 4, 1, 0, 0 }));
 }
 
+TEST(MedialSheets, ASeamThatIsShorterThanItsBallsAreWideIsAJunction)
+{
+  const auto counts = [](double radius) {
+    Builder    two;
+    const auto plate = [&](const Vector3 & corner, const Vector3 & along, int n, const Vector3 & up, int m) {
+      for (int i = 0; i < n; ++i)
+      {
+        for (int j = 0; j < m; ++j)
+        {
+          const auto at = [&](int a, int b) { return two.At(AddScaled(AddScaled(corner, a, along), b, up), radius); };
+          two.Face({ at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) });
+        }
+      }
+    };
+    // A wall; on one side of it one more up to z = 12, on the other side one from z = 8.
+    plate({ -12, 0, 0 }, { 1, 0, 0 }, 12, { 0, 0, 1 }, 20);
+    plate({ 0, 0, 0 }, { 1, 0, 0 }, 12, { 0, 0, 1 }, 20);
+    plate({ 0, 0, 0 }, { 0, 1, 0 }, 12, { 0, 0, 1 }, 12);
+    plate({ 0, 0, 8 }, { 0, -1, 0 }, 12, { 0, 0, 1 }, 12);
+    return CountsOf(CutIntoSheets(two.Core(), 1));
+  };
+  EXPECT_EQ(counts(0.5), (Counts{ 4, 3, 0, 2 })) << "the middle seam, of four walls, is four long";
+  EXPECT_EQ(counts(2.5), (Counts{ 4, 2, 0, 1 })) << "balls are five wide";
+}
+
+TEST(MedialSheets, ThatHangTogetherOnlyWithinTheBallsOfTheirSeamArePartedThere)
+{
+  // The third wall leaves a way of three round the end of its seam; the other two are bent there.
+  const auto counts = [](double radius) {
+    Builder    y;
+    const auto wall = [&](const Vector3 & along, int n, int height) {
+      for (int i = 0; i < n; ++i)
+      {
+        for (int j = 0; j < height; ++j)
+        {
+          const auto at = [&](int a, int b) {
+            return y.At({ a * along[0], a * along[1], static_cast<double>(b) }, radius);
+          };
+          y.Face({ at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) });
+        }
+      }
+    };
+    wall({ 1, 0, 0 }, 14, 20);
+    wall({ -0.5, 0.866, 0 }, 12, 20);
+    wall({ -0.5, -0.866, 0 }, 10, 17);
+    return CountsOf(CutIntoSheets(y.Core(), 0.5));
+  };
+  EXPECT_EQ(counts(1), (Counts{ 2, 1, 0, 0 }));
+  EXPECT_EQ(counts(2), (Counts{ 3, 1, 0, 0 })) << "balls are wider than the way";
+}
+
 TEST(MedialSheets, OfATripleOfPlatesOnAPlateMeetInAJunction)
 {
   // A floor, and the three plates that stand on it: a Y in the floor.
@@ -399,6 +450,39 @@ TEST(MedialSheets, ASmallFlakeThatHangsByARodOrAPointIsPartOfItsSheet)
   EXPECT_EQ(CountsOf(CutIntoSheets(alone.Core(), 3)), (Counts{ 2, 0, 0, 0 }));
 }
 
+TEST(MedialSheets, AFlakeWhereRodsMeetIsTheirJunctionAndALargeOneIsASheet)
+{
+  const auto cutOf = [](int side) {
+    Builder rods;
+    rods.Plate({ 0, 0, 0 }, { 1, 0, 0 }, side, { 0, 1, 0 }, side);
+    rods.Rod({ 0, 0, 0 }, { -1, 0, 0 }, 10);
+    rods.Rod({ 0, 0, 0 }, { 0, -1, 0 }, 11);
+    rods.Rod({ 1.0 * side, 1.0 * side, 0 }, { 0, 0, 1 }, 12);
+    return CutIntoSheets(rods.Core(), 3);
+  };
+  const MedialSheets small = cutOf(2);
+  EXPECT_EQ(CountsOf(small), (Counts{ 0, 0, 3, 1 }));
+  EXPECT_TRUE(
+    std::all_of(small.sheetOfFace.begin(), small.sheetOfFace.end(), [](std::uint32_t piece) { return piece < 3; }))
+    << "part of a rod";
+  EXPECT_EQ(CountsOf(cutOf(9)), (Counts{ 1, 0, 3, 2 }));
+}
+
+TEST(MedialSheets, ARodBetweenJunctionsThatIsShorterThanThickIsAJunction)
+{
+  const auto counts = [](int middle) {
+    Builder rods;
+    rods.Rod({ 0, 0, 0 }, { 1, 0, 0 }, middle);
+    rods.Rod({ 0, 0, 0 }, { -0.7, 0.7, 0 }, 10);
+    rods.Rod({ 0, 0, 0 }, { -0.7, -0.7, 0 }, 10);
+    rods.Rod({ 1.0 * middle, 0, 0 }, { 0.7, 0, 0.7 }, 10);
+    rods.Rod({ 1.0 * middle, 0, 0 }, { 0.7, 0, -0.7 }, 10);
+    return CountsOf(CutIntoSheets(rods.Core(), 0.5));
+  };
+  EXPECT_EQ(counts(1), (Counts{ 0, 0, 4, 1 })) << "balls are two wide";
+  EXPECT_EQ(counts(3), (Counts{ 0, 0, 5, 2 }));
+}
+
 TEST(MedialSheets, APocketInASheetMakesNoSeam)
 {
   // A plate, of which four squares are doubled by a lid that stands out by less than a sliver.
@@ -479,9 +563,10 @@ TEST(MedialSheets, AndRodsGetEveryVoxelOfRandomShapes)
     const SpacingWeights weights = ComputeSpacingWeights(volume.spacing);
     const MedialComplex  core = ComputeVoxelCore(volume.shape, weights);
     const MedialSheets   cut = CutIntoSheets(core, 2);
-    for (const std::uint32_t sheet : cut.sheetOfFace)
+    for (const std::uint32_t piece : cut.sheetOfFace)
     {
-      ASSERT_LT(sheet, cut.sheets.size());
+      ASSERT_LT(piece, cut.sheets.size() + cut.curves.size());
+      ASSERT_TRUE(piece < cut.sheets.size() || cut.curves[piece - cut.sheets.size()].isRod);
     }
     std::uint64_t voxels = 0;
     for (const std::uint32_t piece : PiecesOfVoxels(cut, OwnersAmong(BallsOfCore(core), volume.shape, weights)).values)

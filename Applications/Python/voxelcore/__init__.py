@@ -407,7 +407,8 @@ def sheets(source, sliver="3vox", *, threads=0, progress=None, **options):
     -------
     dict
         core: the Core that was cut, of f faces and m edges.
-        sheet_of_face: int64, shape (f,), an index of sheets, the largest first.
+        sheet_of_face: int64, shape (f,), an index of sheets, the largest first; or len(sheets) + the index of a rod
+            in curves, of whose junction the face is part.
         curve_of_edge: int64, shape (m,), an index of curves; -1: none.
         sheets: list of dict: area (mm^2), thickness and thickness_sd (mm), normal, flatness, free_border and
         seam_border (mm), neighbours.

@@ -179,7 +179,8 @@ WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model)
     const std::int64_t firstSheet = sheets > 0 ? model.SheetId(p, 0) : 0;
     for (std::size_t face = 0; face < cut.sheetOfFace.size(); ++face)
     {
-      add(2, core.cells.FaceVertices(face), firstSheet + cut.sheetOfFace[face], 0, 0);
+      const std::uint32_t piece = cut.sheetOfFace[face];
+      add(2, core.cells.FaceVertices(face), piece < sheets ? firstSheet + piece : model.SheetId(p, piece), 0, 0);
     }
     first += static_cast<std::int64_t>(core.positions.size());
   }

@@ -63,6 +63,13 @@ MeasurePieces(const MedialComplex & core, const SheetPieces & cut, const std::ve
       }
     }
   }
+  return pieces;
+}
+
+/** Of all that hangs together the largest is not loose. */
+void
+KeepLargest(Pieces & pieces)
+{
   std::map<std::uint32_t, Piece *> largest; // of each part
   for (auto & [number, piece] : pieces)
   {
@@ -73,57 +80,42 @@ MeasurePieces(const MedialComplex & core, const SheetPieces & cut, const std::ve
   {
     piece->isLoose = false;
   }
-  return pieces;
 }
 
-/** From the pieces that are not loose along rods and the edges of loose ones. */
-void
-MeasureLooseOnes(const MedialComplex &              core,
-                 const SheetPieces &                cut,
-                 const std::vector<std::uint32_t> & pieceOfFace,
-                 Pieces &                           pieces)
+struct Reached
 {
-  struct Reached
-  {
-    double        way = std::numeric_limits<double>::infinity(); ///< less the radius where it began
-    std::uint32_t from = kNoPiece;
-  };
-  const CellComplex &                               cells = core.cells;
+  double        way = std::numeric_limits<double>::infinity(); ///< less the radius where it began
+  std::uint32_t from = kNoPiece;
+};
+
+/** The shortest ways from `starts` along some edges. */
+std::map<ElementIndex, Reached>
+WaysAlong(const MedialComplex &             core,
+          const SheetPieces &               cut,
+          const std::vector<ElementIndex> & edges,
+          std::map<ElementIndex, Reached>   starts)
+{
   std::map<ElementIndex, std::vector<ElementIndex>> around;
-  for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
+  for (const ElementIndex edge : edges)
   {
-    const auto faces = cut.FacesOf(edge);
-    if (faces.empty() || pieces.at(pieceOfFace[faces.front()]).isLoose)
-    {
-      around[cells.edges[edge][0]].push_back(edge);
-      around[cells.edges[edge][1]].push_back(edge);
-    }
-  }
-  std::map<ElementIndex, Reached> ways;
-  for (ElementIndex face = 0; face < pieceOfFace.size(); ++face)
-  {
-    for (const ElementIndex vertex : cells.FaceVertices(face))
-    {
-      if (!pieces.at(pieceOfFace[face]).isLoose && around.contains(vertex))
-      {
-        ways.try_emplace(vertex, Reached{ -core.radius[vertex], pieceOfFace[face] });
-      }
-    }
+    around[core.cells.edges[edge][0]].push_back(edge);
+    around[core.cells.edges[edge][1]].push_back(edge);
   }
   using Entry = std::pair<double, ElementIndex>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (const auto & [vertex, reached] : ways)
+  for (const auto & [vertex, reached] : starts)
   {
     queue.emplace(reached.way, vertex);
   }
+  std::map<ElementIndex, Reached> ways = std::move(starts);
   while (!queue.empty())
   {
     const auto [way, vertex] = queue.top();
     queue.pop();
     const Reached reached = ways.at(vertex);
-    for (const ElementIndex edge : way > reached.way ? std::vector<ElementIndex>() : around.at(vertex))
+    for (const ElementIndex edge : way > reached.way ? std::vector<ElementIndex>() : around[vertex])
     {
-      const auto &       ends = cells.edges[edge];
+      const auto &       ends = core.cells.edges[edge];
       const ElementIndex next = ends[0] ^ ends[1] ^ vertex;
       const double       further = way + cut.EdgeLength(edge);
       Reached &          there = ways[next];
@@ -134,10 +126,20 @@ MeasureLooseOnes(const MedialComplex &              core,
       }
     }
   }
+  return ways;
+}
+
+/** How far loose pieces stand out of where the ways began, and what they hang on. */
+void
+MeasureLooseOnes(const MedialComplex &              core,
+                 const std::vector<std::uint32_t> & pieceOfFace,
+                 std::map<ElementIndex, Reached>    ways,
+                 Pieces &                           pieces)
+{
   for (ElementIndex face = 0; face < pieceOfFace.size(); ++face)
   {
     Piece & piece = pieces.at(pieceOfFace[face]);
-    for (const ElementIndex vertex : piece.isLoose ? cells.FaceVertices(face) : std::span<const ElementIndex>())
+    for (const ElementIndex vertex : piece.isLoose ? core.cells.FaceVertices(face) : std::span<const ElementIndex>())
     {
       const Reached reached = ways[vertex];
       piece.standOut = std::max(piece.standOut, reached.way + core.radius[vertex]);
@@ -150,6 +152,26 @@ MeasureLooseOnes(const MedialComplex &              core,
   }
 }
 
+/** Of loose pieces and, where that is asked for, of rods. */
+std::vector<ElementIndex>
+LooseEdges(const SheetPieces &                cut,
+           const std::vector<std::uint32_t> & pieceOfFace,
+           const Pieces &                     pieces,
+           ElementIndex                       edges,
+           bool                               withRods)
+{
+  std::vector<ElementIndex> found;
+  for (ElementIndex edge = 0; edge < edges; ++edge)
+  {
+    const auto faces = cut.FacesOf(edge);
+    if (faces.empty() ? withRods : pieces.at(pieceOfFace[faces.front()]).isLoose)
+    {
+      found.push_back(edge);
+    }
+  }
+  return found;
+}
+
 } // namespace
 
 void
@@ -159,17 +181,77 @@ JoinLooseFlakes(const MedialComplex &        core,
                 std::vector<std::uint32_t> & pieceOfFace)
 {
   Pieces found = MeasurePieces(core, pieces, pieceOfFace);
+  KeepLargest(found);
   if (std::none_of(found.begin(), found.end(), [](const auto & one) { return one.second.isLoose; }))
   {
     return;
   }
-  MeasureLooseOnes(core, pieces, pieceOfFace, found);
+  const auto                edgeCount = static_cast<ElementIndex>(core.cells.edges.size());
+  std::vector<ElementIndex> edges = LooseEdges(pieces, pieceOfFace, found, edgeCount, true);
+  std::vector<char>         isOnWay(core.cells.vertexCount, 0);
+  for (const ElementIndex edge : edges)
+  {
+    isOnWay[core.cells.edges[edge][0]] = isOnWay[core.cells.edges[edge][1]] = 1;
+  }
+  std::map<ElementIndex, Reached> starts;
+  for (ElementIndex face = 0; face < pieceOfFace.size(); ++face)
+  {
+    for (const ElementIndex vertex : core.cells.FaceVertices(face))
+    {
+      if (!found.at(pieceOfFace[face]).isLoose && isOnWay[vertex] != 0)
+      {
+        starts.try_emplace(vertex, Reached{ -core.radius[vertex], pieceOfFace[face] });
+      }
+    }
+  }
+  MeasureLooseOnes(core, pieceOfFace, WaysAlong(core, pieces, edges, std::move(starts)), found);
   for (std::uint32_t & piece : pieceOfFace)
   {
     const Piece & one = found.at(piece);
     if (one.isLoose && one.hangsOn != kNoPiece && one.standOut < std::max(sliver, one.thickness / one.area))
     {
       piece = one.hangsOn;
+    }
+  }
+}
+
+void
+DropFlakesOfRods(const MedialComplex &        core,
+                 const SheetPieces &          pieces,
+                 const ShortRods &            shortRods,
+                 double                       sliver,
+                 std::vector<std::uint32_t> & pieceOfFace)
+{
+  const auto                      edgeCount = static_cast<ElementIndex>(core.cells.edges.size());
+  std::vector<char>               isShort(edgeCount, 0);
+  std::map<ElementIndex, Reached> starts;
+  for (const ElementIndex edge : shortRods.Edges())
+  {
+    isShort[edge] = 1;
+  }
+  for (ElementIndex edge = 0; edge < edgeCount; ++edge)
+  {
+    for (const ElementIndex end : core.cells.edges[edge])
+    {
+      if (isShort[edge] == 0 && pieces.FacesOf(edge).empty())
+      {
+        starts.try_emplace(end, Reached{ -core.radius[end], 0 });
+      }
+    }
+  }
+  if (starts.empty() || pieceOfFace.empty())
+  {
+    return;
+  }
+  Pieces                          found = MeasurePieces(core, pieces, pieceOfFace);
+  const std::vector<ElementIndex> edges = LooseEdges(pieces, pieceOfFace, found, edgeCount, false);
+  MeasureLooseOnes(core, pieceOfFace, WaysAlong(core, pieces, edges, std::move(starts)), found);
+  for (std::uint32_t & piece : pieceOfFace)
+  {
+    const Piece & one = found.at(piece);
+    if (one.isLoose && one.standOut < std::max(sliver, one.thickness / one.area))
+    {
+      piece = kNoPiece;
     }
   }
 }

@@ -3,6 +3,7 @@
 #include "LooseFlakes.h"
 #include "SeamChains.h"
 #include "SheetPieces.h"
+#include "ShortRods.h"
 
 #include "voxelcore/PolygonArea.h"
 #include "voxelcore/Vectors.h"
@@ -10,8 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <queue>
 #include <utility>
 
 namespace voxelcore
@@ -101,34 +105,50 @@ public:
   MedialSheets
   Cut()
   {
-    for (int step = 1; step <= kFinSteps; ++step)
+    RemoveFins();
+    do
     {
-      m_Pieces.RemoveFins(m_Sliver * step / kFinSteps);
-    }
-    m_Pieces.Find();
-    m_Pieces.DrawSeamsOn(m_Sliver);
-    m_Pieces.Find();
+      m_Pieces.DrawSeamsOn(m_Sliver);
+      m_Pieces.Find();
+      m_Pieces.DrawThroughNecks(m_Sliver);
+      m_Pieces.Find();
+    } while (RemoveFins()); // fins that hung on a sheet round the ends of their seams
     m_Pieces.JoinStrips(m_Sliver);
-    NumberSheets();
-    SeamChains seams(m_Core, m_Pieces, m_Result.sheetOfFace, m_Sliver);
+    std::vector<std::uint32_t> pieces = m_Pieces.PieceOfFaces();
+    JoinLooseFlakes(m_Core, m_Pieces, m_Sliver, pieces);
+    const ShortRods shortRods(m_Core, m_Pieces, pieces, m_Sliver);
+    DropFlakesOfRods(m_Core, m_Pieces, shortRods, m_Sliver, pieces);
+    NumberSheets(std::move(pieces));
+    SeamChains seams(m_Core, m_Pieces, shortRods, m_Result.sheetOfFace, m_Sliver);
     seams.Find();
     seams.Number(m_Result);
     MeasureSheets();
-    FindPiecesOfVertices(seams.Spurs());
+    FindPiecesOfVertices();
+    GiveFlakesToRods();
     return std::move(m_Result);
   }
 
 private:
-  void
-  NumberSheets()
+  bool
+  RemoveFins()
   {
-    std::vector<std::uint32_t> pieces = m_Pieces.PieceOfFaces();
-    JoinLooseFlakes(m_Core, m_Pieces, m_Sliver, pieces);
+    bool removed = false;
+    for (int step = 1; step <= kFinSteps; ++step)
+    {
+      removed = m_Pieces.RemoveFins(m_Sliver, static_cast<double>(step) / kFinSteps) || removed;
+    }
+    return removed;
+  }
+
+  void
+  NumberSheets(std::vector<std::uint32_t> pieces)
+  {
     std::map<std::uint32_t, double> areas;
     for (ElementIndex face = 0; face < pieces.size(); ++face)
     {
       areas[pieces[face]] += PolygonArea(m_Core.positions, m_Cells.FaceVertices(face));
     }
+    areas.erase(kNoPiece);
     std::vector<std::pair<double, std::uint32_t>> order;
     for (const auto & [piece, area] : areas)
     {
@@ -142,7 +162,7 @@ private:
     }
     for (std::uint32_t & piece : pieces)
     {
-      piece = numbers.at(piece);
+      piece = piece != kNoPiece ? numbers.at(piece) : kNoPiece;
     }
     m_Result.sheetOfFace = std::move(pieces);
     m_Result.sheets.resize(numbers.size());
@@ -160,10 +180,14 @@ private:
     for (ElementIndex face = 0; face < m_Result.sheetOfFace.size(); ++face)
     {
       const std::uint32_t number = m_Result.sheetOfFace[face];
-      SheetRecord &       sheet = m_Result.sheets[number];
-      const auto          corners = m_Cells.FaceVertices(face);
-      const double        area = PolygonArea(m_Core.positions, corners);
-      double              thickness = 0;
+      if (number == kNoPiece)
+      {
+        continue;
+      }
+      SheetRecord & sheet = m_Result.sheets[number];
+      const auto    corners = m_Cells.FaceVertices(face);
+      const double  area = PolygonArea(m_Core.positions, corners);
+      double        thickness = 0;
       for (const ElementIndex corner : corners)
       {
         thickness += 2 * m_Core.radius[corner] / static_cast<double>(corners.size());
@@ -198,7 +222,7 @@ private:
     {
       for (const ElementIndex face : m_Pieces.FacesOf(edge))
       {
-        if (m_Pieces.IsLive(face))
+        if (m_Pieces.IsLive(face) && m_Result.sheetOfFace[face] != kNoPiece)
         {
           SheetRecord & sheet = m_Result.sheets[m_Result.sheetOfFace[face]];
           sheet.freeBorder += m_Pieces.LiveCount(edge) == 1 ? m_Pieces.EdgeLength(edge) : 0.0;
@@ -228,7 +252,7 @@ private:
   }
 
   void
-  FindPiecesOfVertices(const std::vector<std::vector<ElementIndex>> & spurs)
+  FindPiecesOfVertices()
   {
     auto & pieces = m_Result.pieceOfVertex;
     pieces.assign(m_Cells.vertexCount, kNoPiece);
@@ -238,7 +262,10 @@ private:
     {
       for (const ElementIndex vertex : m_Cells.FaceVertices(face))
       {
-        at.emplace_back(vertex, m_Result.sheetOfFace[face]);
+        if (m_Result.sheetOfFace[face] != kNoPiece)
+        {
+          at.emplace_back(vertex, m_Result.sheetOfFace[face]);
+        }
       }
     }
     std::sort(at.begin(), at.end());
@@ -271,14 +298,57 @@ private:
         }
       }
     }
-    // The last that went first: its foot has a piece.
-    std::for_each(spurs.rbegin(), spurs.rend(), [&](const std::vector<ElementIndex> & spur) {
-      const std::uint32_t foot = pieces[spur.front()] != kNoPiece ? pieces[spur.front()] : pieces[spur.back()];
-      for (const ElementIndex vertex : spur)
+    // What was passed over is part of what the balls at its ends belong to.
+    using Entry = std::pair<double, ElementIndex>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    std::vector<double>                    ways(m_Cells.vertexCount, std::numeric_limits<double>::infinity());
+    std::vector<std::vector<ElementIndex>> around(m_Cells.vertexCount);
+    for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
+    {
+      const auto & ends = m_Cells.edges[edge];
+      for (const ElementIndex end : ends)
       {
-        pieces[vertex] = pieces[vertex] == kNoPiece ? foot : pieces[vertex];
+        if (pieces[ends[0]] == kNoPiece || pieces[ends[1]] == kNoPiece)
+        {
+          around[end].push_back(edge);
+          if (pieces[end] != kNoPiece && ways[end] > 0)
+          {
+            ways[end] = -m_Core.radius[end];
+            queue.emplace(ways[end], end);
+          }
+        }
       }
-    });
+    }
+    while (!queue.empty())
+    {
+      const auto [way, vertex] = queue.top();
+      queue.pop();
+      for (const ElementIndex edge : way > ways[vertex] ? std::vector<ElementIndex>() : around[vertex])
+      {
+        const auto &       ends = m_Cells.edges[edge];
+        const ElementIndex next = ends[0] ^ ends[1] ^ vertex;
+        const double       further = way + m_Pieces.EdgeLength(edge);
+        if (further < ways[next])
+        {
+          ways[next] = further;
+          pieces[next] = pieces[vertex];
+          queue.emplace(further, next);
+        }
+      }
+    }
+  }
+
+  void
+  GiveFlakesToRods()
+  {
+    for (ElementIndex face = 0; face < m_Result.sheetOfFace.size(); ++face)
+    {
+      std::uint32_t & piece = m_Result.sheetOfFace[face];
+      for (const ElementIndex vertex : piece == kNoPiece ? m_Cells.FaceVertices(face) : std::span<const ElementIndex>())
+      {
+        piece = std::min(piece, m_Result.pieceOfVertex[vertex]);
+      }
+    }
   }
 
   const MedialComplex & m_Core;

@@ -1,6 +1,5 @@
 #include "SeamChains.h"
 
-#include "ShortRods.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -25,11 +24,13 @@ SortOnce(std::vector<std::uint32_t> & numbers)
 
 SeamChains::SeamChains(const MedialComplex &              core,
                        const SheetPieces &                pieces,
+                       const ShortRods &                  shortRods,
                        const std::vector<std::uint32_t> & sheetOfFace,
                        double                             sliver)
   : m_Core(core)
   , m_Cells(core.cells)
   , m_Pieces(pieces)
+  , m_ShortRods(shortRods)
   , m_SheetOfFace(sheetOfFace)
   , m_Sliver(sliver)
   , m_Nodes(core.cells.vertexCount)
@@ -38,7 +39,8 @@ SeamChains::SeamChains(const MedialComplex &              core,
 bool
 SeamChains::IsSeam(ElementIndex edge) const
 {
-  return m_Pieces.LiveCount(edge) > 2 || m_Pieces.IsDrawn(edge);
+  const auto faces = m_Pieces.FacesOf(edge);
+  return (m_Pieces.LiveCount(edge) > 2 || m_Pieces.IsDrawn(edge)) && m_SheetOfFace[faces.front()] != kNoPiece;
 }
 
 template <typename TVisit>
@@ -133,43 +135,24 @@ SeamChains::HasFaces(ElementIndex vertex) const
   return m_FacesAt[vertex] != 0;
 }
 
-bool
-SeamChains::IsSpur(const CurveRecord & rod)
-{
-  const std::array<ElementIndex, 2> ends{ rod.vertices.front(), rod.vertices.back() };
-  for (std::size_t foot = 0; foot < 2 && rod.isRod; ++foot)
-  {
-    const ElementIndex tip = ends[1 - foot];
-    // Of rods that meet alone two stay, so that nothing goes altogether.
-    const std::uint32_t node = m_Nodes.Find(ends[foot]);
-    const bool          hangs = HasFaces(ends[foot]) || m_EdgesAt.at(node).size() - m_Gone[node] > 2;
-    if (hangs && !HasFaces(tip) && m_EdgesAt.at(m_Nodes.Find(tip)).size() == 1)
-    {
-      double standOut = 0;
-      for (const ElementIndex vertex : rod.vertices)
-      {
-        standOut = std::max(standOut,
-                            Distance(m_Core.positions[ends[foot]], m_Core.positions[vertex]) + m_Core.radius[vertex] -
-                              m_Core.radius[ends[foot]]);
-      }
-      if (standOut >= std::max(m_Sliver, rod.thickness))
-      {
-        return false;
-      }
-      ++m_Gone[node];
-      return true;
-    }
-  }
-  return false;
-}
-
 void
 SeamChains::Find()
 {
   m_FacesAt.assign(m_Cells.vertexCount, 0);
-  for (const ElementIndex vertex : m_Cells.faceVertices)
+  for (ElementIndex face = 0; face < m_SheetOfFace.size(); ++face)
   {
-    ++m_FacesAt[vertex];
+    const auto corners = m_Cells.FaceVertices(face);
+    for (const ElementIndex vertex : corners)
+    {
+      if (m_SheetOfFace[face] == kNoPiece)
+      {
+        m_Nodes.Unite(corners.front(), vertex);
+      }
+      else
+      {
+        ++m_FacesAt[vertex];
+      }
+    }
   }
   FindSeamEdges();
   for (ElementIndex edge = 0; edge < m_Cells.edges.size(); ++edge)
@@ -179,42 +162,15 @@ SeamChains::Find()
       m_Edges[edge].isRod = true;
     }
   }
-  ShortRods rods(m_Core, m_Pieces, m_SheetOfFace, m_Sliver);
-  for (const ElementIndex edge : rods.Edges())
+  for (const ElementIndex edge : m_ShortRods.Edges())
   {
     m_Edges.erase(edge);
   }
-  m_Spurs = rods.Steps();
-  for (bool changed = true; changed;)
+  do
   {
-    changed = false;
     FindChains();
     GroupChains();
-    m_Gone.clear();
-    for (const auto & chain : m_Chains)
-    {
-      if (IsSpur(chain.record))
-      {
-        changed = true;
-        for (const ElementIndex edge : chain.edges)
-        {
-          m_Edges.erase(edge);
-        }
-        m_Spurs.push_back(chain.record.vertices);
-        continue;
-      }
-      if (chain.record.isRod || chain.record.length >= m_Sliver)
-      {
-        continue;
-      }
-      changed = true;
-      for (const ElementIndex edge : chain.edges)
-      {
-        m_Nodes.Unite(m_Cells.edges[edge][0], m_Cells.edges[edge][1]);
-        m_Edges.erase(edge);
-      }
-    }
-  }
+  } while (RemoveShortOnes());
 }
 
 bool

@@ -2,6 +2,7 @@
 // Seams, rods and junctions of a complex whose faces are in pieces.
 
 #include "SheetPieces.h"
+#include "ShortRods.h"
 
 #include "voxelcore/MedialSheets.h"
 #include "voxelcore/UnionFind.h"
@@ -13,12 +14,14 @@
 namespace voxelcore
 {
 
-/** Chains of edges with three faces or more, or with none; rules as in MedialSheets.h. All is borrowed. */
+/** Chains of edges with three faces or more, or with none; rules as in MedialSheets.h. Faces of no sheet are a part of
+ *  the rods that end at them. All is borrowed. */
 class SeamChains
 {
 public:
   SeamChains(const MedialComplex &              core,
              const SheetPieces &                pieces,
+             const ShortRods &                  shortRods,
              const std::vector<std::uint32_t> & sheetOfFace,
              double                             sliver);
 
@@ -28,13 +31,6 @@ public:
   /** Fills in curves, junctions and curveOfEdge. */
   void
   Number(MedialSheets & result);
-
-  /** Rods that were passed over, in the order they went: one of the ends of each is on what it hung on. */
-  const std::vector<std::vector<ElementIndex>> &
-  Spurs() const
-  {
-    return m_Spurs;
-  }
 
 private:
   /** A seam's edge, or a rod's. */
@@ -62,6 +58,18 @@ private:
   FindSeamEdges();
   bool
   HasFaces(ElementIndex vertex) const;
+  /** Draws together what a rod or a seam joins. */
+  void
+  DrawTogether(const Chain & chain);
+  /** Passes over curves that are too short to tell; whether there were any. */
+  bool
+  RemoveShortOnes();
+  /** Whether a seam is shorter than the balls there are wide, or a rod between junctions. */
+  bool
+  IsJunction(const Chain & chain);
+  /** Whether three curves or more end at a seam that is the border of strips alone. */
+  bool
+  IsPatch(const Chain & chain);
   /** Whether a rod that hangs on a sheet, or on other rods, by one end hardly stands out. */
   bool
   IsSpur(const CurveRecord & rod);
@@ -80,15 +88,15 @@ private:
   const MedialComplex &                              m_Core;
   const CellComplex &                                m_Cells;
   const SheetPieces &                                m_Pieces;
+  const ShortRods &                                  m_ShortRods;
   const std::vector<std::uint32_t> &                 m_SheetOfFace;
   double                                             m_Sliver;
-  UnionFind                                          m_Nodes; ///< of vertices: what was drawn together
-  std::vector<std::uint32_t>                         m_FacesAt;
+  UnionFind                                          m_Nodes;   ///< of vertices: what was drawn together
+  std::vector<std::uint32_t>                         m_FacesAt; ///< of sheets, at a vertex or a node
   std::map<ElementIndex, CurveEdge>                  m_Edges;
   std::map<std::uint32_t, std::vector<ElementIndex>> m_EdgesAt; ///< by node
   std::map<std::uint32_t, std::size_t>               m_Gone;    ///< edges that spurs took from a node
   std::vector<Chain>                                 m_Chains;
-  std::vector<std::vector<ElementIndex>>             m_Spurs;
 };
 
 } // namespace voxelcore

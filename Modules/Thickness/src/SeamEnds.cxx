@@ -27,6 +27,7 @@ void
 SheetPieces::DrawSeamsOn(double reach)
 {
   const auto & edges = m_Core.cells.edges;
+  m_Drawn.assign(edges.size(), 0);
   // Seams that hang together have one number.
   UnionFind         sets(m_Core.cells.vertexCount);
   std::vector<char> onSeam(m_Core.cells.vertexCount, 0);
@@ -55,7 +56,7 @@ SheetPieces::DrawSeamsOn(double reach)
   }
   for (const SeamEnd & end : ends)
   {
-    DrawOn(end, chains, isEnd, reach + m_Core.radius[end.vertex]);
+    DrawOn(end, chains, isEnd, m_Core.radius[end.vertex] + std::max(reach, m_Core.radius[end.vertex]));
   }
 }
 

@@ -18,7 +18,8 @@ namespace voxelcore
 namespace
 {
 
-constexpr double kFreeShare = 0.25; ///< of a fin's border that is free, at least
+constexpr double kFreeShare = 0.25;  ///< of a fin's border that is free, at least
+constexpr double kBevel = 1.0 / 3.0; ///< of the balls' width at its seams a fin may always stand out
 
 } // namespace
 
@@ -92,8 +93,7 @@ SheetPieces::Find()
       m_Pieces[piece].area += PolygonArea(m_Core.positions, cells.FaceVertices(face));
       for (const ElementIndex edge : cells.FaceEdges(face))
       {
-        const bool leads = m_Live[edge] == 2 && m_Drawn[edge] == 0;
-        for (const ElementIndex other : leads ? FacesOf(edge) : std::span<const ElementIndex>())
+        for (const ElementIndex other : IsInner(edge) ? FacesOf(edge) : std::span<const ElementIndex>())
         {
           if (m_Alive[other] != 0 && m_PieceOf[other] == kNoPiece)
           {
@@ -134,13 +134,12 @@ SheetPieces::Measure()
   for (std::size_t piece = 0; piece < m_Pieces.size(); ++piece)
   {
     const std::span<const ElementIndex> own{ faces.data() + starts[piece], faces.data() + starts[piece + 1] };
-    SheetPiece &                        one = m_Pieces[piece];
-    one.standOut = StandOut(own, one.freeBorder, one.seamBorder);
+    MeasureStandOut(own, m_Pieces[piece]);
   }
 }
 
-double
-SheetPieces::StandOut(std::span<const ElementIndex> faces, double & freeBorder, double & seamBorder)
+void
+SheetPieces::MeasureStandOut(std::span<const ElementIndex> faces, SheetPiece & piece)
 {
   const CellComplex &       cells = m_Core.cells;
   std::vector<ElementIndex> vertices;
@@ -157,15 +156,18 @@ SheetPieces::StandOut(std::span<const ElementIndex> faces, double & freeBorder, 
     }
     for (const ElementIndex edge : cells.FaceEdges(face))
     {
-      const std::uint32_t live = m_Live[edge];
-      freeBorder += live == 1 ? EdgeLength(edge) : 0.0;
-      seamBorder += live > 2 || m_Drawn[edge] != 0 ? EdgeLength(edge) : 0.0;
+      const double length = EdgeLength(edge);
+      const auto & ends = cells.edges[edge];
+      piece.freeBorder += m_Live[edge] == 1 ? length : 0.0;
+      piece.seamBorder += IsBorder(edge) ? length : 0.0;
+      piece.seamWidth += IsBorder(edge) ? length * (m_Core.radius[ends[0]] + m_Core.radius[ends[1]]) : 0.0;
       edges.push_back(edge);
     }
   }
-  double standOut = std::numeric_limits<double>::infinity();
-  if (seamBorder > 0)
+  piece.standOut = std::numeric_limits<double>::infinity();
+  if (piece.seamBorder > 0)
   {
+    piece.seamWidth /= piece.seamBorder;
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     std::vector<std::uint32_t> starts(vertices.size() + 1, 0);
@@ -188,14 +190,14 @@ SheetPieces::StandOut(std::span<const ElementIndex> faces, double & freeBorder, 
       {
         const std::uint32_t local = m_Local[end];
         around[at[local]++] = edge;
-        if ((m_Live[edge] > 2 || m_Drawn[edge] != 0) && reached[local] > -m_Core.radius[end])
+        if (IsBorder(edge) && reached[local] > -m_Core.radius[end])
         {
           reached[local] = -m_Core.radius[end];
           queue.emplace(reached[local], local);
         }
       }
     }
-    standOut = 0;
+    piece.standOut = 0;
     while (!queue.empty())
     {
       const auto [way, local] = queue.top();
@@ -205,7 +207,7 @@ SheetPieces::StandOut(std::span<const ElementIndex> faces, double & freeBorder, 
         continue;
       }
       const ElementIndex vertex = vertices[local];
-      standOut = std::max(standOut, way + m_Core.radius[vertex]);
+      piece.standOut = std::max(piece.standOut, way + m_Core.radius[vertex]);
       for (std::uint32_t i = starts[local]; i < starts[local + 1]; ++i)
       {
         const auto &        ends = cells.edges[around[i]];
@@ -223,11 +225,10 @@ SheetPieces::StandOut(std::span<const ElementIndex> faces, double & freeBorder, 
   {
     m_Local[vertex] = kNoPiece;
   }
-  return standOut;
 }
 
 std::vector<std::uint8_t>
-SheetPieces::FinsBelow(double height) const
+SheetPieces::FinsBelow(double sliver, double share) const
 {
   UnionFind sets(m_Pieces.size());
   for (ElementIndex edge = 0; edge < m_Live.size(); ++edge)
@@ -248,6 +249,7 @@ SheetPieces::FinsBelow(double height) const
   for (std::uint32_t piece = 0; piece < m_Pieces.size(); ++piece)
   {
     const SheetPiece & one = m_Pieces[piece];
+    const double       height = share * std::max(sliver, kBevel * one.seamWidth);
     fins[piece] = one.standOut < height && one.freeBorder >= kFreeShare * (one.freeBorder + one.seamBorder) ? 1 : 0;
     std::uint32_t & stays = kept[sets.Find(piece)];
     if (stays == kNoPiece || one.standOut > m_Pieces[stays].standOut || (fins[stays] != 0 && fins[piece] == 0))
@@ -265,20 +267,21 @@ SheetPieces::FinsBelow(double height) const
   return fins;
 }
 
-void
-SheetPieces::RemoveFins(double height)
+bool
+SheetPieces::RemoveFins(double sliver, double share)
 {
+  bool any = false;
   for (bool removed = true; removed;)
   {
     Find();
-    const std::vector<std::uint8_t> fins = FinsBelow(height);
+    const std::vector<std::uint8_t> fins = FinsBelow(sliver, share);
     removed = false;
     for (ElementIndex face = 0; face < m_PieceOf.size(); ++face)
     {
       if (m_PieceOf[face] != kNoPiece && fins[m_PieceOf[face]] != 0)
       {
         m_Alive[face] = 0;
-        removed = true;
+        removed = any = true;
         for (const ElementIndex edge : m_Core.cells.FaceEdges(face))
         {
           --m_Live[edge];
@@ -286,6 +289,7 @@ SheetPieces::RemoveFins(double height)
       }
     }
   }
+  return any;
 }
 
 Vector3
@@ -325,7 +329,7 @@ SheetPieces::JoinStrips(double height)
   }
   for (ElementIndex edge = 0; edge < m_Live.size(); ++edge)
   {
-    if (m_Live[edge] < 3 && m_Drawn[edge] == 0)
+    if (!IsBorder(edge))
     {
       continue;
     }

@@ -18,6 +18,7 @@ struct SheetPiece
   double standOut = 0; ///< infinite without seams
   double freeBorder = 0;
   double seamBorder = 0;
+  double seamWidth = 0; ///< mean of twice the radius at its seams
   double area = 0;
 };
 
@@ -26,10 +27,10 @@ class SheetPieces
 public:
   explicit SheetPieces(const MedialComplex & core);
 
-  /** Passes over fins that stand out by less than this, until there are none.
-   */
-  void
-  RemoveFins(double height);
+  /** Passes over fins that stand out by less than this share of `sliver`, or of what a rim's bevels may, until there
+   *  are none; whether there were any. */
+  bool
+  RemoveFins(double sliver, double share);
 
   /** Finds the pieces of the faces that are left. */
   void
@@ -37,9 +38,15 @@ public:
 
   /** Draws seams that end on the way on to the nearest border, or to another
    * seam, through what goes round their end: by edges of together less than
-   * `reach` plus the radius there. Pieces are parted there, too. */
+   * the radius there and `reach`, or that radius if it is more. Pieces are
+   * parted there, too. */
   void
   DrawSeamsOn(double reach);
+
+  /** Parts pieces that hang together only by what lies within the balls of their seams; parts that stand out of these
+   *  by less than this are no reason to. Pieces have to be found before and after. */
+  void
+  DrawThroughNecks(double height);
 
   /** Whether an edge parts two pieces where a seam was drawn on. */
   bool
@@ -90,8 +97,23 @@ public:
   EdgeLength(ElementIndex edge) const;
 
 private:
+  /** Of a piece, where it hangs together. */
+  bool
+  IsInner(ElementIndex edge) const
+  {
+    return m_Live[edge] == 2 && m_Drawn[edge] == 0;
+  }
+  /** Of pieces, on a seam. */
+  bool
+  IsBorder(ElementIndex edge) const
+  {
+    return m_Live[edge] > 2 || (m_Drawn[edge] != 0 && m_Live[edge] == 2);
+  }
   void
   Measure();
+  /** Of each vertex the way along faces to a seam's, less the radius there. */
+  std::vector<double>
+  WaysFromSeams() const;
   /** Faces round a vertex, from a seam's edge to the next seam's. */
   struct Sector
   {
@@ -123,9 +145,10 @@ private:
          double                             reach);
   /** Which pieces are fins; of pieces that hang together one stays. */
   std::vector<std::uint8_t>
-  FinsBelow(double height) const;
-  double
-  StandOut(std::span<const ElementIndex> faces, double & freeBorder, double & seamBorder);
+  FinsBelow(double sliver, double share) const;
+  /** Fills in all but the area. */
+  void
+  MeasureStandOut(std::span<const ElementIndex> faces, SheetPiece & piece);
   /** Within a face, square to an edge of it, unit length. */
   Vector3
   Inwards(ElementIndex face, ElementIndex edge) const;

@@ -25,12 +25,6 @@ ShortRods::ShortRods(const MedialComplex &              core,
     return net != m_Hanging.end() &&
            net->second.standOut < std::max(sliver, net->second.thickness / net->second.length);
   };
-  std::for_each(m_Order.rbegin(), m_Order.rend(), [&](ElementIndex vertex) {
-    if (!IsFoot(vertex) && isShort(m_Around.at(vertex).front()))
-    {
-      m_Steps.push_back({ m_Ways.at(vertex).from, vertex });
-    }
-  });
   for (ElementIndex edge = 0; edge < core.cells.edges.size(); ++edge)
   {
     if (pieces.FacesOf(edge).empty() && isShort(edge))
@@ -88,7 +82,7 @@ ShortRods::MeasureFromFeet()
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (const auto & [vertex, sheets] : m_SheetsAt)
   {
-    m_Ways[vertex] = { -m_Core.radius[vertex], vertex, vertex };
+    m_Ways[vertex] = { -m_Core.radius[vertex], vertex };
     queue.emplace(-m_Core.radius[vertex], vertex);
   }
   while (!queue.empty())
@@ -99,7 +93,6 @@ ShortRods::MeasureFromFeet()
     {
       continue;
     }
-    m_Order.push_back(vertex);
     const ElementIndex foot = m_Ways.at(vertex).foot;
     for (const ElementIndex edge : m_Around.at(vertex))
     {
@@ -111,10 +104,10 @@ ShortRods::MeasureFromFeet()
       net.standOut = std::max(net.standOut, way + m_Core.radius[vertex]);
       net.length += length / 2; // it comes from both ends
       net.thickness += length * m_Core.radius[vertex];
-      const auto [place, isNew] = m_Ways.try_emplace(next, Reached{ further, vertex, foot });
+      const auto [place, isNew] = m_Ways.try_emplace(next, Reached{ further, foot });
       if (isNew || further < place->second.way)
       {
-        place->second = { further, vertex, foot };
+        place->second = { further, foot };
         queue.emplace(further, next);
       }
     }

@@ -29,18 +29,11 @@ public:
   {
     return m_Edges;
   }
-  /** Of each vertex of a short net the one before it on the way from a sheet, and itself; the farthest first. */
-  const std::vector<std::vector<ElementIndex>> &
-  Steps() const
-  {
-    return m_Steps;
-  }
 
 private:
   struct Reached
   {
     double       way = 0; // less the radius at the foot
-    ElementIndex from = 0;
     ElementIndex foot = 0;
   };
   struct Net
@@ -70,9 +63,7 @@ private:
   UnionFind                                          m_Nets;     ///< of edges
   std::map<std::uint32_t, Net>                       m_Hanging;  ///< nets that hang on sheets
   std::map<ElementIndex, Reached>                    m_Ways;
-  std::vector<ElementIndex>                          m_Order; ///< as they are reached
   std::vector<ElementIndex>                          m_Edges;
-  std::vector<std::vector<ElementIndex>>             m_Steps;
 };
 
 } // namespace voxelcore

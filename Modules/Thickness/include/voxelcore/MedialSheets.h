@@ -9,19 +9,26 @@
 // stands out by less than a length `sliver` is a sliver, in two kinds:
 //  - A fin, at least a quarter of whose border is free, is passed over: where two faces are left, what it parted is one
 //    sheet. Fins go in four steps of rising height, so that a rib that fins have cut up is whole before it is judged.
+//    A fin may stand out by a third of what the balls at its seams are wide, too: bevels of a square rim do by a fifth.
 //  - Else it lies between seams, and is joined to the neighbour it continues: the one with the greatest sum, over the
 //    common edges, of length times the cosine of the bend; the smallest piece first.
 // A seam that ends on the way is drawn on to the border of the sheets that go round its end, or to another seam, where
-// that is nearer than `sliver` and the radius there; so is one that turns back round the tip of a sliver at which those
-// sheets have creases. What lies between seams and is a sliver belongs to them: those along it are one, in which all
-// sheets about it meet. Seams of the same sheets that touch are one.
+// that is nearer than the radius there and `sliver`, or than twice that radius; so is one that turns back round the tip
+// of a sliver at which those sheets have creases. What hangs together only within the balls of its seams is parted, if
+// both parts stand out of these by `sliver`. Fins that come off so are passed over, too. What lies between seams and is
+// a sliver belongs to them: those along it are one, in which all sheets about it meet. Seams of the same sheets that
+// touch are one.
 // What lies between seams, is a sliver, and has one sheet about it, is a pocket in that sheet and makes no seam.
 // A piece that shares no edge with another and hangs on one by rods or a point is part of it where it stands out by
 // less than `sliver`, or than it is thick; the largest of all that hangs together stays.
 // A rod is longer than it is thick: rods that hang together and on sheets, and nowhere stand out of these by `sliver`,
 // nor by their own thickness, are part of them; so is a rod that hangs on rods, ends freely and stands out by less.
 // What leads from one sheet to another stands out by its whole length.
-// A seam shorter than `sliver` that ends on the way or in a junction is drawn together into one junction.
+// A sheet that touches no other and stands out by less than `sliver`, or than it is thick, of rods that end at it and
+// are no part of it, is part of these: their junction, if they are more than two.
+// Within the balls nothing can be told: a seam that is shorter than `sliver`, or than its balls are wide, is drawn
+// together into one junction, and so is a rod between two, unless both lie on sheets. Where the border of what lies
+// between seams is all of a seam and three others end at it, it is measured round, against the girth of the balls.
 
 #include "voxelcore/CoreThickness.h"
 #include "voxelcore/MedialComplex.h"
@@ -61,7 +68,7 @@ struct CurveRecord
 
 struct MedialSheets
 {
-  std::vector<std::uint32_t> sheetOfFace;
+  std::vector<std::uint32_t> sheetOfFace; ///< or, behind the sheets, the rod whose junction or end a face is part of
   std::vector<std::uint32_t> curveOfEdge; ///< kNoPiece for the others
   std::vector<SheetRecord>   sheets;      ///< the largest first
   std::vector<CurveRecord>   curves;      ///< seams, then rods, the longest first

@@ -1,0 +1,152 @@
+// Sheets that hang together only within the balls of their seams are parted.
+
+#include "SheetPieces.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace voxelcore
+{
+
+std::vector<double>
+SheetPieces::WaysFromSeams() const
+{
+  const auto &        edges = m_Core.cells.edges;
+  std::vector<double> ways(m_Core.cells.vertexCount, std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, ElementIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (ElementIndex edge = 0; edge < edges.size(); ++edge)
+  {
+    for (const ElementIndex end : edges[edge])
+    {
+      if (IsBorder(edge) && ways[end] > -m_Core.radius[end])
+      {
+        ways[end] = -m_Core.radius[end];
+        queue.emplace(ways[end], end);
+      }
+    }
+  }
+  while (!queue.empty())
+  {
+    const auto [way, vertex] = queue.top();
+    queue.pop();
+    for (std::uint64_t i = m_AroundOffsets[vertex]; way == ways[vertex] && i < m_AroundOffsets[vertex + 1]; ++i)
+    {
+      const ElementIndex edge = m_Around[i];
+      const ElementIndex other = edges[edge][0] ^ edges[edge][1] ^ vertex;
+      const double       further = way + EdgeLength(edge);
+      if (m_Live[edge] > 0 && further < ways[other])
+      {
+        ways[other] = further;
+        queue.emplace(further, other);
+      }
+    }
+  }
+  return ways;
+}
+
+void
+SheetPieces::DrawThroughNecks(double height)
+{
+  const CellComplex &       cells = m_Core.cells;
+  const std::vector<double> ways = WaysFromSeams();
+  const auto                next = [&](ElementIndex face, auto && visit) {
+    for (const ElementIndex edge : cells.FaceEdges(face))
+    {
+      for (const ElementIndex other : IsInner(edge) ? FacesOf(edge) : std::span<const ElementIndex>())
+      {
+        if (m_Alive[other] != 0)
+        {
+          visit(other);
+        }
+      }
+    }
+  };
+  std::vector<double> depth(cells.FaceCount(), -std::numeric_limits<double>::infinity());
+  for (ElementIndex face = 0; face < cells.FaceCount(); ++face)
+  {
+    if (m_Alive[face] != 0)
+    {
+      const auto corners = cells.FaceVertices(face);
+      const auto least = std::min_element(corners.begin(), corners.end(), [&](ElementIndex a, ElementIndex b) {
+        return ways[a] < ways[b];
+      });
+      depth[face] = ways[*least];
+    }
+  }
+  // Bodies: faces outside the balls of seams that hang together and stand out.
+  std::vector<std::uint32_t> bodyOf(cells.FaceCount(), kNoPiece);
+  std::vector<char>          seen(cells.FaceCount(), 0);
+  std::vector<std::uint32_t> bodiesIn(m_Pieces.size(), 0);
+  std::uint32_t              bodies = 0;
+  std::vector<ElementIndex>  group;
+  using Entry = std::pair<double, ElementIndex>;
+  std::priority_queue<Entry> queue; // the deepest first
+  for (ElementIndex first = 0; first < cells.FaceCount(); ++first)
+  {
+    if (seen[first] != 0 || depth[first] < 0)
+    {
+      continue;
+    }
+    seen[first] = 1;
+    group.assign(1, first);
+    double standOut = 0;
+    for (std::size_t i = 0; i < group.size(); ++i)
+    {
+      for (const ElementIndex vertex : cells.FaceVertices(group[i]))
+      {
+        standOut = std::max(standOut, ways[vertex] + m_Core.radius[vertex]);
+      }
+      next(group[i], [&](ElementIndex other) {
+        if (seen[other] == 0 && depth[other] >= 0)
+        {
+          seen[other] = 1;
+          group.push_back(other);
+        }
+      });
+    }
+    if (standOut >= height)
+    {
+      ++bodiesIn[m_PieceOf[first]];
+      for (const ElementIndex face : group)
+      {
+        bodyOf[face] = bodies;
+        queue.emplace(depth[face], face);
+      }
+      ++bodies;
+    }
+  }
+  // They grow together where the way to the seams is longest.
+  while (!queue.empty())
+  {
+    const ElementIndex face = queue.top().second;
+    queue.pop();
+    if (bodiesIn[m_PieceOf[face]] > 1)
+    {
+      next(face, [&](ElementIndex other) {
+        if (bodyOf[other] == kNoPiece)
+        {
+          bodyOf[other] = bodyOf[face];
+          queue.emplace(depth[other], other);
+        }
+      });
+    }
+  }
+  for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    std::uint32_t one = kNoPiece;
+    for (const ElementIndex face : IsInner(edge) ? FacesOf(edge) : std::span<const ElementIndex>())
+    {
+      if (m_Alive[face] != 0 && bodiesIn[m_PieceOf[face]] > 1)
+      {
+        m_Drawn[edge] = one != kNoPiece && bodyOf[face] != one ? 1 : m_Drawn[edge];
+        one = bodyOf[face];
+      }
+    }
+  }
+}
+
+} // namespace voxelcore
