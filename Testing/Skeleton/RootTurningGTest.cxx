@@ -45,7 +45,7 @@ StemOf(const SkeletonGraph & graph)
 
 /** The root that ends at a tip. */
 const RootAxis &
-RootTo(const SkeletonGraph & graph, const RootHierarchy & roots, const Spacing3 & tip)
+AxisTo(const SkeletonGraph & graph, const RootHierarchy & roots, const Spacing3 & tip)
 {
   for (const RootAxis & axis : roots.axes)
   {
@@ -107,10 +107,10 @@ TEST(RootTurning, ALateralThatTouchesAnotherSpringsWhereItMeetsItsParent)
   const SkeletonGraph graph = LateralOfALateralThatTouches();
   const RootHierarchy roots = RootsOf(graph);
   EXPECT_EQ(roots.axes.size(), 5U);
-  const RootAxis & lateral = RootTo(graph, roots, { 40, -10, 100 });
+  const RootAxis & lateral = AxisTo(graph, roots, { 40, -10, 100 });
   EXPECT_EQ(graph.positions[lateral.points.front()], (Spacing3{ 40, 10, 20 }));
   EXPECT_EQ(lateral.level, 2);
-  EXPECT_EQ(RootTo(graph, roots, { 80, 0, 20 }).level, 1);
+  EXPECT_EQ(AxisTo(graph, roots, { 80, 0, 20 }).level, 1);
   EXPECT_EQ(roots.meetings.size(), 1U);
 }
 
@@ -154,7 +154,7 @@ TEST(RootTurning, ARootGoesOnFromTheOtherEndOfAStretchThatItSharesBackwards)
   const SkeletonGraph graph = builder.Graph();
   const RootHierarchy roots = RootsOf(graph);
   EXPECT_EQ(roots.axes.size(), 3U);
-  const RootAxis & root = RootTo(graph, roots, { 6, -30, 120 });
+  const RootAxis & root = AxisTo(graph, roots, { 6, -30, 120 });
   EXPECT_EQ(root.level, 1);
   EXPECT_EQ(graph.positions[root.points.front()], (Spacing3{ 0, 0, 20 }));
 }
