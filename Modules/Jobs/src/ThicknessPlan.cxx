@@ -91,12 +91,17 @@ PlanThickness(const VoxelShape &       shape,
               const ThicknessOptions & options,
               double                   bytes)
 {
-  if (ThicknessBytes(CountBoundary(shape), options) <= bytes)
+  const BoundaryCounts counts = CountBoundary(shape);
+  if (ThicknessBytes(counts, options) <= bytes)
   {
     return { shape.Box() };
   }
+  // The whole's map, with what is at the border, and its voxels stay in memory beside each block.
+  const double beside =
+    static_cast<double>(counts.voxels) * (sizeof(float) + sizeof(char)) +
+    static_cast<double>(shape.WordsPerRow()) * sizeof(std::uint64_t) * shape.Box().size[1] * shape.Box().size[2];
   std::vector<VoxelBox> blocks;
-  Planner(shape, geometry, request, options, bytes).Divide(shape.Box(), blocks);
+  Planner(shape, geometry, request, options, bytes - beside).Divide(shape.Box(), blocks);
   return blocks;
 }
 

@@ -157,8 +157,8 @@ none of them takes the thickness of the nearest voxel that does. With --refine o
 the voxels, which makes oblique walls thinner. --bounds adds two maps: the largest of the balls that truly lie in the
 voxels, and a proven upper bound. The local thickness of the voxels as they are is between them.
 
-Each label is measured by itself. One that memory does not hold is measured block by block, each with what lies around
-it. With --refine off the values are those of the whole; else some differ a little. Guide: thickness.md
+Each label is measured by itself. One too large for memory is measured block by block. With --refine off the map is that
+of the whole; refined, a few voxels differ. Guide: thickness.md
 
 Examples:
   voxelcore thickness bone.nrrd -o bone-thickness.nrrd --table bone.csv

@@ -16,7 +16,7 @@ inline constexpr auto kThicknessRows = std::to_array<Parameter>({
     "",
     false,
     kThickness,
-    "Measure block by block what would need more memory than this; default: what the machine has",
+    "Measure labels block by block if they need more memory than this; default: the machine's memory",
     "-" },
   { "bounds",
     "--bounds",
