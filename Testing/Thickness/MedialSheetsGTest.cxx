@@ -468,6 +468,18 @@ TEST(MedialSheets, AFlakeWhereRodsMeetIsTheirJunctionAndALargeOneIsASheet)
   EXPECT_EQ(CountsOf(cutOf(9)), (Counts{ 1, 0, 3, 2 }));
 }
 
+TEST(MedialSheets, TwoFlakesThatAShortRodJoinsAreOneJunction)
+{
+  Builder rods;
+  rods.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 2, { 0, 1, 0 }, 2);
+  rods.Rod({ 0, 0, 0 }, { -1, 0, 0 }, 10);
+  rods.Rod({ 0, 0, 0 }, { 0, -1, 0 }, 11);
+  rods.Rod({ 2, 2, 0 }, { 0, 0, 1 }, 1);
+  rods.Plate({ 2, 2, 1 }, { 1, 0, 0 }, 1, { 0, 1, 0 }, 1);
+  rods.Rod({ 3, 3, 1 }, { 0, 0, 1 }, 12);
+  EXPECT_EQ(CountsOf(CutIntoSheets(rods.Core(), 4.5)), (Counts{ 0, 0, 3, 1 }));
+}
+
 TEST(MedialSheets, ARodBetweenJunctionsThatIsShorterThanThickIsAJunction)
 {
   const auto counts = [](int middle) {

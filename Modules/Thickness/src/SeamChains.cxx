@@ -162,10 +162,7 @@ SeamChains::Find()
       m_Edges[edge].isRod = true;
     }
   }
-  for (const ElementIndex edge : m_ShortRods.Edges())
-  {
-    m_Edges.erase(edge);
-  }
+  RemoveShortRods();
   do
   {
     FindChains();

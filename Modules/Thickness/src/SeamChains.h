@@ -56,6 +56,9 @@ private:
   /** What lies between seams is taken for a part of them: all sheets about it meet in one seam, along all its sides. */
   void
   FindSeamEdges();
+  /** Short ones, of which those that hang on what is no sheet are drawn together with it. */
+  void
+  RemoveShortRods();
   bool
   HasFaces(ElementIndex vertex) const;
   /** Draws together what a rod or a seam joins. */

@@ -12,6 +12,39 @@
 namespace voxelcore
 {
 
+void
+SeamChains::RemoveShortRods()
+{
+  std::vector<char> isOnFlake(m_Cells.vertexCount, 0);
+  for (ElementIndex face = 0; face < m_SheetOfFace.size(); ++face)
+  {
+    for (const ElementIndex vertex :
+         m_SheetOfFace[face] == kNoPiece ? m_Cells.FaceVertices(face) : std::span<const ElementIndex>())
+    {
+      isOnFlake[vertex] = 1;
+    }
+  }
+  const auto &            edges = m_ShortRods.Edges();
+  const auto &            nets = m_ShortRods.NetsOfEdges();
+  std::set<std::uint32_t> onFlakes;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    const auto & ends = m_Cells.edges[edges[i]];
+    if (isOnFlake[ends[0]] != 0 || isOnFlake[ends[1]] != 0)
+    {
+      onFlakes.insert(nets[i]);
+    }
+  }
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    if (onFlakes.contains(nets[i]))
+    {
+      DrawTogether({ {}, { edges[i] } });
+    }
+    m_Edges.erase(edges[i]);
+  }
+}
+
 bool
 SeamChains::IsSpur(const CurveRecord & rod)
 {

@@ -30,6 +30,7 @@ ShortRods::ShortRods(const MedialComplex &              core,
     if (pieces.FacesOf(edge).empty() && isShort(edge))
     {
       m_Edges.push_back(edge);
+      m_NetsOfEdges.push_back(m_Nets.Find(edge));
     }
   }
 }

@@ -29,6 +29,12 @@ public:
   {
     return m_Edges;
   }
+  /** Of each of these edges the number of its net. */
+  const std::vector<std::uint32_t> &
+  NetsOfEdges() const
+  {
+    return m_NetsOfEdges;
+  }
 
 private:
   struct Reached
@@ -64,6 +70,7 @@ private:
   std::map<std::uint32_t, Net>                       m_Hanging;  ///< nets that hang on sheets
   std::map<ElementIndex, Reached>                    m_Ways;
   std::vector<ElementIndex>                          m_Edges;
+  std::vector<std::uint32_t>                         m_NetsOfEdges;
 };
 
 } // namespace voxelcore
