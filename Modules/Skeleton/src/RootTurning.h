@@ -6,10 +6,9 @@
 namespace voxelcore
 {
 
-/** A way from the stem may reach a contact, and go back from there along another root sooner than that root's own way
- *  comes to it. Then the root seems to spring at the contact and to end where it meets its parent, and another seems to
- *  spring at the contact that is its continuation. Turns such pieces, after which pairs are to be found anew; gives
- *  their number. */
+/** The cheapest way from a stem may reach a contact and run back along the other root before that root's own way gets
+ *  there. The other root then seems to spring at the contact and to end at its parent, and its continuation beyond the
+ *  contact seems to be a root of its own. Turns such pieces and gives their number; pairs must be found anew then. */
 std::size_t
 TurnBackRoots(const RootBranches & branches, const RootRules & rules, const RootPairing & pairing, RootFlow & flow);
 

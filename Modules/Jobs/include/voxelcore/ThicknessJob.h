@@ -42,8 +42,8 @@ struct ThicknessOptions
   std::optional<std::filesystem::path> medial;  ///< .vtp: the medial surface with it
   std::optional<std::filesystem::path> table;   ///< .csv; a histogram and a data dictionary go beside
 };
-// Where core.memory, or else what the machine has, is not enough for a label as a whole, it is measured block by block
-// (ThicknessInBlocks.h). Bounds and what shows the core need it whole.
+// A label that needs more than core.memory, or else than the machine has, is measured block by block
+// (ThicknessInBlocks.h). Bounds, and outputs that show the core, need the whole label.
 
 struct ThicknessResult
 {
