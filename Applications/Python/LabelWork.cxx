@@ -4,13 +4,9 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyScan.h"
 #include "voxelcore/LabelLoop.h"
-#include "voxelcore/OutputNames.h"
-#include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/RefineStage.h"
 #include "voxelcore/ResultRecords.h"
-#include "voxelcore/StagedModel.h"
-#include "voxelcore/SkeletonFiles.h"
 #include "voxelcore/SkeletonJob.h"
 
 #include <optional>
@@ -101,11 +97,6 @@ RequirePrunable(const CoreOfLabel & core, const PruneOptions & options)
     }
   }
 }
-
-} // namespace
-
-namespace
-{
 
 /** Writes the values of a shape's voxels into a volume, i fastest. */
 void
@@ -420,88 +411,6 @@ Verify(const CoreOfLabel &      core,
   model.hasEdges = core.hasEdges;
   model.refined = core.refined;
   return VerifyModel(std::move(model), made, std::move(volume), names, progress);
-}
-
-void
-Save(const CoreOfLabel &           core,
-     const std::filesystem::path & path,
-     const ModelOptions &          options,
-     bool                          force,
-     const ProgressCallback &      progress)
-{
-  if (!IsModelPath(path))
-  {
-    throw UsageError(path.string() + ": unknown extension; use .vtp .vtk .ply .obj .stl or .ma");
-  }
-  OutputTransaction transaction(force);
-  MedialModel       model;
-  CoreReport        report = core.report;
-  report.parameters.model = options;
-  model.unit = report.input.geometry.unit;
-  model.parts = { core.part };
-  model.hasEdges = core.hasEdges;
-  model.refined = core.refined;
-  model.provenance = ProvenanceJson(report, { 0 }, 0);
-  std::vector<std::string> notes;
-  WriteStagedModel(transaction, path, model, options, notes);
-  ReportProgress(progress, "writing", 1);
-  transaction.Commit();
-}
-
-void
-Save(const SkeletonOfLabel &       skeleton,
-     const std::filesystem::path & path,
-     const std::string &           also,
-     bool                          force,
-     const ProgressCallback &      progress)
-{
-  OutputTransaction transaction(force);
-  CoreReport        report = skeleton.report;
-  SkeletonTargets   targets;
-  targets.also = also.empty() ? std::vector<std::string>() : ParseAlso(also);
-  if (IsFolderOutput(path))
-  {
-    throw UsageError(path.string() + ": give a file, .vtp or .csv");
-  }
-  SkeletonFiles            files(path, "the array", targets, transaction);
-  std::vector<std::string> notes;
-  files.Add(report, 0, skeleton.part, files.NeedsSurface() ? skeleton.surface->part : ModelPart(), notes);
-  files.Finish(report, notes);
-  ReportProgress(progress, "writing", 1);
-  transaction.Commit();
-}
-
-void
-SaveSwc(const SkeletonOfLabel &       skeleton,
-        const std::filesystem::path & path,
-        bool                          force,
-        const ProgressCallback &      progress)
-{
-  OutputTransaction transaction(force);
-  transaction.CheckTarget(path);
-  SkeletonModel model;
-  model.unit = skeleton.report.input.geometry.unit;
-  model.parts = { skeleton.part };
-  WriteSwc(transaction.Stage(path), model, { skeleton.report.skeleton->branches.root });
-  ReportProgress(progress, "writing", 1);
-  transaction.Commit();
-}
-
-std::shared_ptr<CoreOfLabel>
-ReadCore(const std::filesystem::path & path)
-{
-  MedialModel model = ReadModel(path);
-  auto        result = std::make_shared<CoreOfLabel>();
-  result->report = ParseProvenance(model.provenance, path.string());
-  if (model.parts.size() != 1 || result->report.labels.size() != 1)
-  {
-    throw InputError(path.string() + ": holds " + std::to_string(model.parts.size()) +
-                     " labels; give a file with one, as 'voxelcore core -o FOLDER/' writes them");
-  }
-  result->part = std::move(model.parts.front());
-  result->hasEdges = model.hasEdges;
-  result->refined = model.refined;
-  return result;
 }
 
 } // namespace voxelcore

@@ -1,5 +1,6 @@
 // Functions of the Python module: arguments in, work in a thread of its own, results out.
 
+#include "LabelFiles.h"
 #include "LabelWork.h"
 #include "ModuleParts.h"
 #include "OwnThread.h"

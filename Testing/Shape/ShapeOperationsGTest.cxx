@@ -57,6 +57,21 @@ TEST(ShapeOperations, CropWorksAtTheEdgesOfWords)
   }
 }
 
+TEST(ShapeOperations, CountOfBitsIsThatOfEachBitOfAnyRange)
+{
+  const VoxelShape shape = ShapeWhere({ 200, 1, 1 }, [](int x, int, int) { return x % 3 != 1; });
+  const auto       row = shape.Row(0, 0);
+  for (std::int32_t begin = 0; begin <= 200; ++begin)
+  {
+    std::int32_t count = 0;
+    for (std::int32_t end = begin; end <= 200; ++end)
+    {
+      ASSERT_EQ(CountBits(row, begin, end), count) << begin << " to " << end;
+      count += end % 3 != 1 ? 1 : 0;
+    }
+  }
+}
+
 TEST(ShapeOperations, DustGoesAndWhatIsLargeEnoughStays)
 {
   // A bar of 5, a bar of 3, a voxel that touches the first along an edge only, and a voxel by itself.

@@ -7,7 +7,6 @@
 #include "voxelcore/StagePlan.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <string>
 
@@ -41,17 +40,7 @@ CountBefore(const VoxelShape & shape, std::int32_t x, std::int32_t y, std::int32
 {
   const VoxelBox & box = shape.Box();
   const auto       row = shape.Row(y - box.lower[1], z - box.lower[2]);
-  const auto       bits = static_cast<std::size_t>(std::clamp(x - box.lower[0], 0, box.size[0]));
-  std::size_t      count = 0;
-  for (std::size_t word = 0; word < bits / 64; ++word)
-  {
-    count += static_cast<std::size_t>(std::popcount(row[word]));
-  }
-  if (bits % 64 != 0)
-  {
-    count += static_cast<std::size_t>(std::popcount(row[bits / 64] & ((std::uint64_t{ 1 } << bits % 64) - 1)));
-  }
-  return count;
+  return static_cast<std::size_t>(CountBits(row, 0, std::clamp(x - box.lower[0], 0, box.size[0])));
 }
 
 template <typename T>

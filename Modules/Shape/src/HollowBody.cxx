@@ -8,10 +8,10 @@
 #include "ShapeRuns.h"
 
 #include "voxelcore/ParallelTasks.h"
+#include "voxelcore/ShapeOperations.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -29,26 +29,6 @@ constexpr double kLeastOwn = 0.8;   // of it as it is
 constexpr double kLeastShare = 0.1; // of the body's volume
 constexpr double kMostOfBox = 0.79; // of the background in the body's box: round tubes leave the corners, 1 - pi / 4
 constexpr double kLeastLeft = 0.2;  // of lumens, once holes in walls are stopped: what is narrower is a gap
-
-/** The bits begin to end of a row, counted. */
-std::int32_t
-CountBits(const ConstShapeRow & row, std::int32_t begin, std::int32_t end)
-{
-  const auto          first = static_cast<std::size_t>(begin) / 64;
-  const auto          last = static_cast<std::size_t>(end - 1) / 64;
-  const std::uint64_t from = ~std::uint64_t{ 0 } << (static_cast<unsigned>(begin) & 63U);
-  const std::uint64_t to = ~std::uint64_t{ 0 } >> (63U - (static_cast<unsigned>(end - 1) & 63U));
-  if (first == last)
-  {
-    return std::popcount(row[first] & from & to);
-  }
-  std::int32_t count = std::popcount(row[first] & from) + std::popcount(row[last] & to);
-  for (std::size_t word = first + 1; word < last; ++word)
-  {
-    count += std::popcount(row[word]);
-  }
-  return count;
-}
 
 /** work(run, y, z) for each run of a box of that size. */
 template <typename TWork>

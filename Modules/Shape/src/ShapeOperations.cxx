@@ -4,6 +4,7 @@
 #include "ShapeRuns.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -240,6 +241,29 @@ SplitComponents(const VoxelShape & shape)
     part.Compact();
   }
   return parts;
+}
+
+std::int32_t
+CountBits(const ConstShapeRow & row, std::int32_t begin, std::int32_t end)
+{
+  if (begin >= end)
+  {
+    return 0;
+  }
+  const auto          first = static_cast<std::size_t>(begin) / 64;
+  const auto          last = static_cast<std::size_t>(end - 1) / 64;
+  const std::uint64_t from = ~std::uint64_t{ 0 } << (static_cast<unsigned>(begin) & 63U);
+  const std::uint64_t to = ~std::uint64_t{ 0 } >> (63U - (static_cast<unsigned>(end - 1) & 63U));
+  if (first == last)
+  {
+    return std::popcount(row[first] & from & to);
+  }
+  std::int32_t count = std::popcount(row[first] & from) + std::popcount(row[last] & to);
+  for (std::size_t word = first + 1; word < last; ++word)
+  {
+    count += std::popcount(row[word]);
+  }
+  return count;
 }
 
 } // namespace voxelcore
