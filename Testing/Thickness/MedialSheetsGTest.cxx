@@ -180,6 +180,17 @@ TEST(MedialSheets, ASeamThatEndsJustBeforeTheRimIsDrawnOnToIt)
   EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 0.5)), (Counts{ 2, 1, 0, 0 })) << "two and no radius more";
 }
 
+TEST(MedialSheets, ASeamThatEndsIsDrawnOnAlongTheFootOfAFinHoweverLong)
+{
+  Builder y;
+  y.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 10, { 0, 0, 1 }, 24);
+  y.Plate({ 0, 0, 0 }, { -0.5, 0.866, 0 }, 8, { 0, 0, 1 }, 24);
+  y.Plate({ 0, 0, 0 }, { -0.5, -0.866, 0 }, 7, { 0, 0, 1 }, 12);
+  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (Counts{ 2, 1, 0, 0 })) << "twelve to the rim";
+  y.Plate({ 0, 0, 13 }, { -0.5, -0.866, 0 }, 2, { 0, 0, 1 }, 9);
+  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (Counts{ 3, 1, 0, 0 })) << "one to the fin, two to the rim";
+}
+
 TEST(MedialSheets, ASeamWithAGapIsOne)
 {
   Builder y;

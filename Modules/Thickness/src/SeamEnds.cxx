@@ -219,8 +219,9 @@ SheetPieces::DrawOn(const SeamEnd &                    from,
   const std::set<ElementIndex> near = NearAlongSeams(end, 2 * reach);
   const auto                   go = [&](ElementIndex vertex, double way, ElementIndex edge) {
     const ElementIndex other = edges[edge][0] ^ edges[edge][1] ^ vertex;
-    const double       further = way + EdgeLength(edge);
-    const auto         place = reached.find(other);
+    // Where a fin stood, the surface itself says how the seam went on.
+    const double further = way + (FacesOf(edge).size() > 2 ? 0 : EdgeLength(edge));
+    const auto   place = reached.find(other);
     if (further < reach && other != end && (place == reached.end() || further < place->second.first))
     {
       reached[other] = { further, edge };
