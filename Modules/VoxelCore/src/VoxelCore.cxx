@@ -36,8 +36,11 @@ KeepInnerFacets(DelaunayCells & cells, std::vector<double> & measures)
   cells.facetCells.shrink_to_fit();
   measures.resize(kept);
   measures.shrink_to_fit();
+  // They wait beside the faces, where a core needs most memory.
   cells.facetOffsets.resize(kept + 1);
+  cells.facetOffsets.shrink_to_fit();
   cells.facetPoints.resize(end);
+  cells.facetPoints.shrink_to_fit();
 }
 
 } // namespace
