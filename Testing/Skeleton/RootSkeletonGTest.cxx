@@ -98,9 +98,7 @@ TEST(HeavyRootSkeleton, HasTheTrueTipsLengthAndRadiusOverSeedsAndResolutions)
                 << 5 * score.sumOfLengths << " % on average, " << 100 * score.worstLength
                 << " % at worst; mean radius off by " << score.worstRadius << " voxels at worst\n";
       EXPECT_EQ(score.missed, 0U);
-      // Where a lateral ends soon behind its own last one, in slices thicker than both, no label tells the two ends
-      // apart: a root loses up to 4 % of its length so.
-      EXPECT_LE(score.worstLength, 0.045);
+      EXPECT_LE(score.worstLength, 0.035); // one root of slices in sixty is off by more than 3 %
       EXPECT_LE(score.worstRadius, 0.5);
       EXPECT_LE(static_cast<double>(score.spurious), 0.05 * static_cast<double>(score.found));
     }
