@@ -24,13 +24,9 @@ Save(const CoreOfLabel &           core,
     throw UsageError(path.string() + ": unknown extension; use .vtp .vtk .ply .obj .stl or .ma");
   }
   OutputTransaction transaction(force);
-  MedialModel       model;
+  MedialModel       model = ModelOf(core);
   CoreReport        report = core.report;
   report.parameters.model = options;
-  model.unit = report.input.geometry.unit;
-  model.parts = { core.part };
-  model.hasEdges = core.hasEdges;
-  model.refined = core.refined;
   model.provenance = ProvenanceJson(report, { 0 }, 0);
   std::vector<std::string> notes;
   WriteStagedModel(transaction, path, model, options, notes);

@@ -197,6 +197,17 @@ Read(const ArrayView &        array,
 
 } // namespace
 
+MedialModel
+ModelOf(const CoreOfLabel & core)
+{
+  MedialModel model;
+  model.unit = core.report.input.geometry.unit;
+  model.parts = { core.part };
+  model.hasEdges = core.hasEdges;
+  model.refined = core.refined;
+  return model;
+}
+
 std::vector<std::shared_ptr<CoreOfLabel>>
 MakeCores(const ArrayView &        array,
           const ImageGeometry &    geometry,
@@ -405,12 +416,7 @@ Verify(const CoreOfLabel &      core,
   {
     volume.crop = ResolveCrop(reading.crop, volume.geometry.size, names.scan.string());
   }
-  MedialModel model;
-  model.unit = core.report.input.geometry.unit;
-  model.parts = { core.part };
-  model.hasEdges = core.hasEdges;
-  model.refined = core.refined;
-  return VerifyModel(std::move(model), made, std::move(volume), names, progress);
+  return VerifyModel(ModelOf(core), made, std::move(volume), names, progress);
 }
 
 } // namespace voxelcore

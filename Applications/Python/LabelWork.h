@@ -30,6 +30,10 @@ struct CoreOfLabel
   std::shared_ptr<const PackedShape> shape{}; ///< what it is the core of; none when it was read from a file
 };
 
+/** Without provenance. */
+MedialModel
+ModelOf(const CoreOfLabel & core);
+
 /** A certified skeleton; the surface it was made of is kept for files that hold both. */
 struct SkeletonOfLabel
 {

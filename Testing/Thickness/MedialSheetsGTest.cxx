@@ -1,3 +1,4 @@
+#include "SheetBuilder.h"
 #include "VoxelCoreTesting/Random.h"
 #include "VoxelCoreTesting/Shapes.h"
 
@@ -9,128 +10,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <set>
 
-namespace voxelcore
+namespace voxelcore::testing
 {
 namespace
 {
 
-/** A complex of squares and lines over places that are welded where they are equal; every ball has one radius, unless
- *  it is said otherwise. */
-class Builder
-{
-public:
-  ElementIndex
-  At(const Vector3 & place, double radius = 1)
-  {
-    const std::array<long, 3> key{ std::lround(place[0] * 1000),
-                                   std::lround(place[1] * 1000),
-                                   std::lround(place[2] * 1000) };
-    const auto [entry, isNew] = m_Vertices.try_emplace(key, static_cast<ElementIndex>(m_Core.positions.size()));
-    if (isNew)
-    {
-      m_Core.positions.push_back(place);
-      m_Core.radius.push_back(radius);
-      ++m_Core.cells.vertexCount;
-    }
-    return entry->second;
-  }
-
-  ElementIndex
-  Edge(ElementIndex a, ElementIndex b)
-  {
-    const std::array<ElementIndex, 2> ends{ std::min(a, b), std::max(a, b) };
-    const auto [entry, isNew] = m_Edges.try_emplace(ends, static_cast<ElementIndex>(m_Core.cells.edges.size()));
-    if (isNew)
-    {
-      m_Core.cells.edges.push_back(ends);
-    }
-    return entry->second;
-  }
-
-  void
-  Face(const std::vector<ElementIndex> & corners)
-  {
-    for (std::size_t i = 0; i < corners.size(); ++i)
-    {
-      m_Core.cells.faceVertices.push_back(corners[i]);
-      m_Core.cells.faceEdges.push_back(Edge(corners[i], corners[(i + 1) % corners.size()]));
-    }
-    m_Core.cells.faceOffsets.push_back(m_Core.cells.faceVertices.size());
-  }
-
-  /** n x m squares from `corner` along two sides. */
-  void
-  Plate(const Vector3 & corner, const Vector3 & along, int n, const Vector3 & up, int m)
-  {
-    const auto at = [&](int i, int j) { return At(AddScaled(AddScaled(corner, i, along), j, up)); };
-    for (int i = 0; i < n; ++i)
-    {
-      for (int j = 0; j < m; ++j)
-      {
-        Face({ at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) });
-      }
-    }
-  }
-
-  void
-  Rod(const Vector3 & from, const Vector3 & step, int n)
-  {
-    for (int i = 0; i < n; ++i)
-    {
-      Edge(At(AddScaled(from, i, step)), At(AddScaled(from, i + 1, step)));
-    }
-  }
-
-  const MedialComplex &
-  Core() const
-  {
-    return m_Core;
-  }
-
-private:
-  MedialComplex                                       m_Core;
-  std::map<std::array<long, 3>, ElementIndex>         m_Vertices;
-  std::map<std::array<ElementIndex, 2>, ElementIndex> m_Edges;
-};
-
-struct Counts
-{
-  std::size_t sheets = 0;
-  std::size_t seams = 0;
-  std::size_t rods = 0;
-  std::size_t junctions = 0;
-
-  bool
-  operator==(const Counts & other) const = default;
-};
-
-Counts
-CountsOf(const MedialSheets & cut)
-{
-  Counts counts{ cut.sheets.size(), 0, 0, cut.junctions.size() };
-  for (const CurveRecord & curve : cut.curves)
-  {
-    ++(curve.isRod ? counts.rods : counts.seams);
-  }
-  return counts;
-}
-
-std::ostream &
-operator<<(std::ostream & to, const Counts & counts)
-{
-  return to << counts.sheets << " sheets, " << counts.seams << " seams, " << counts.rods << " rods, "
-            << counts.junctions << " junctions";
-}
-
 /** Three plates about a line along z. */
-Builder
+SheetBuilder
 ThreePlates()
 {
-  Builder y;
+  SheetBuilder y;
   y.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 10, { 0, 0, 1 }, 12);
   y.Plate({ 0, 0, 0 }, { -0.5, 0.866, 0 }, 8, { 0, 0, 1 }, 12);
   y.Plate({ 0, 0, 0 }, { -0.5, -0.866, 0 }, 6, { 0, 0, 1 }, 12);
@@ -139,10 +30,10 @@ ThreePlates()
 
 TEST(MedialSheets, OfAPlateAreOne)
 {
-  Builder plate;
+  SheetBuilder plate;
   plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 7, { 0, 1, 0 }, 5);
   const MedialSheets cut = CutIntoSheets(plate.Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 0, 0 }));
+  EXPECT_EQ(CountsOf(cut), (SheetCounts{ 1, 0, 0, 0 }));
   const SheetRecord & sheet = cut.sheets[0];
   EXPECT_DOUBLE_EQ(sheet.area, 35);
   EXPECT_DOUBLE_EQ(sheet.thickness, 2);
@@ -157,7 +48,7 @@ TEST(MedialSheets, OfAPlateAreOne)
 TEST(MedialSheets, ThatMeetInALineHaveASeamThatEndsFreely)
 {
   const MedialSheets cut = CutIntoSheets(ThreePlates().Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 3, 1, 0, 0 }));
+  EXPECT_EQ(CountsOf(cut), (SheetCounts{ 3, 1, 0, 0 }));
   EXPECT_NEAR(cut.sheets[0].area, 120, 1e-9);
   EXPECT_NEAR(cut.sheets[2].area, 72, 0.01);
   EXPECT_DOUBLE_EQ(cut.curves[0].length, 12);
@@ -172,28 +63,28 @@ TEST(MedialSheets, ThatMeetInALineHaveASeamThatEndsFreely)
 TEST(MedialSheets, ASeamThatEndsJustBeforeTheRimIsDrawnOnToIt)
 {
   // The third plate ends two squares before the rim, round which the other two hang together.
-  Builder y;
+  SheetBuilder y;
   y.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 10, { 0, 0, 1 }, 14);
   y.Plate({ 0, 0, 0 }, { -0.5, 0.866, 0 }, 8, { 0, 0, 1 }, 14);
   y.Plate({ 0, 0, 0 }, { -0.5, -0.866, 0 }, 7, { 0, 0, 1 }, 12);
-  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (Counts{ 3, 1, 0, 0 }));
-  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 0.5)), (Counts{ 2, 1, 0, 0 })) << "two and no radius more";
+  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (SheetCounts{ 3, 1, 0, 0 }));
+  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 0.5)), (SheetCounts{ 2, 1, 0, 0 })) << "two and no radius more";
 }
 
 TEST(MedialSheets, ASeamThatEndsIsDrawnOnAlongTheFootOfAFinHoweverLong)
 {
-  Builder y;
+  SheetBuilder y;
   y.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 10, { 0, 0, 1 }, 24);
   y.Plate({ 0, 0, 0 }, { -0.5, 0.866, 0 }, 8, { 0, 0, 1 }, 24);
   y.Plate({ 0, 0, 0 }, { -0.5, -0.866, 0 }, 7, { 0, 0, 1 }, 12);
-  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (Counts{ 2, 1, 0, 0 })) << "twelve to the rim";
+  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (SheetCounts{ 2, 1, 0, 0 })) << "twelve to the rim";
   y.Plate({ 0, 0, 13 }, { -0.5, -0.866, 0 }, 2, { 0, 0, 1 }, 9);
-  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (Counts{ 3, 1, 0, 0 })) << "one to the fin, two to the rim";
+  EXPECT_EQ(CountsOf(CutIntoSheets(y.Core(), 3)), (SheetCounts{ 3, 1, 0, 0 })) << "one to the fin, two to the rim";
 }
 
 TEST(MedialSheets, ASeamWithAGapIsOne)
 {
-  Builder y;
+  SheetBuilder y;
   y.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 10, { 0, 0, 1 }, 22);
   y.Plate({ 0, 0, 0 }, { -0.5, 0.866, 0 }, 8, { 0, 0, 1 }, 22);
   y.Plate({ 0, 0, 0 }, { -0.5, -0.866, 0 }, 7, { 0, 0, 1 }, 10);
@@ -206,38 +97,38 @@ TEST(MedialSheets, ASeamWithAGapIsOne)
 
 TEST(MedialSheets, AFinThatHardlyStandsOutIsPassedOver)
 {
-  Builder plate;
+  SheetBuilder plate;
   plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 12, { 0, 1, 0 }, 10);
   plate.Plate({ 6, 0, 0 }, { 0, 0, 1 }, 2, { 0, 1, 0 }, 10);
   const MedialSheets cut = CutIntoSheets(plate.Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 0, 0 }));
+  EXPECT_EQ(CountsOf(cut), (SheetCounts{ 1, 0, 0, 0 }));
   EXPECT_DOUBLE_EQ(cut.sheets[0].area, 140) << "the fin is part of the sheet it hangs on";
-  EXPECT_EQ(CountsOf(CutIntoSheets(plate.Core(), 1)), (Counts{ 3, 1, 0, 0 }));
+  EXPECT_EQ(CountsOf(CutIntoSheets(plate.Core(), 1)), (SheetCounts{ 3, 1, 0, 0 }));
 }
 
 TEST(MedialSheets, ARibThatFinsCutUpIsWhole)
 {
-  Builder plate;
+  SheetBuilder plate;
   plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 12, { 0, 1, 0 }, 12);
   plate.Plate({ 6, 0, 0 }, { 0, 0, 1 }, 8, { 0, 1, 0 }, 12);
   for (int at = 2; at < 8; at += 2) // small fins on the rib
   {
     plate.Plate({ 6, 0, static_cast<double>(at) }, { 1, 0, 0 }, 1, { 0, 1, 0 }, 12);
   }
-  EXPECT_EQ(CountsOf(CutIntoSheets(plate.Core(), 3)), (Counts{ 3, 1, 0, 0 }));
+  EXPECT_EQ(CountsOf(CutIntoSheets(plate.Core(), 3)), (SheetCounts{ 3, 1, 0, 0 }));
 }
 
 TEST(MedialSheets, ANarrowStripBetweenSeamsJoinsTheSheetItContinues)
 {
   // Two plates that bend up by 60 degrees from the ends of a strip, and the strip's own plane goes on to the left.
-  Builder x;
+  SheetBuilder x;
   x.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 2, { 0, 1, 0 }, 12);   // the strip
   x.Plate({ 0, 0, 0 }, { -1, 0, 0 }, 10, { 0, 1, 0 }, 12); // goes on
   x.Plate({ 0, 0, 0 }, { -0.5, 0, 0.866 }, 7, { 0, 1, 0 }, 12);
   x.Plate({ 2, 0, 0 }, { 0.5, 0, 0.866 }, 8, { 0, 1, 0 }, 12);
   x.Plate({ 2, 0, 0 }, { 0.5, 0, -0.866 }, 9, { 0, 1, 0 }, 12);
   const MedialSheets cut = CutIntoSheets(x.Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 4, 1, 0, 0 })) << "both its sides are one seam";
+  EXPECT_EQ(CountsOf(cut), (SheetCounts{ 4, 1, 0, 0 })) << "both its sides are one seam";
   EXPECT_NEAR(cut.sheets[0].area, 144, 1e-9) << "ten and two wide";
   EXPECT_EQ(cut.curves[0].sheets, (std::vector<std::uint32_t>{ 0, 1, 2, 3 }));
   EXPECT_DOUBLE_EQ(cut.curves[0].length, 12);
@@ -246,8 +137,8 @@ TEST(MedialSheets, ANarrowStripBetweenSeamsJoinsTheSheetItContinues)
 TEST(MedialSheets, WhereTheStripOfACrossingEndsBeforeTheRimFourSheetsMeetStill)
 {
   // Beyond its tip, at y = 10, the two upper walls are one bent sheet, and the two lower ones.
-  Builder    x;
-  const auto wall = [&](const Vector3 & out, double side, double height) {
+  SheetBuilder x;
+  const auto   wall = [&](const Vector3 & out, double side, double height) {
     const auto at = [&](int y, int k) {
       const Vector3 foot{ y < 10 ? side : 1, static_cast<double>(y), y > 10 ? height : 0 };
       return x.At(AddScaled(foot, k, out));
@@ -266,14 +157,14 @@ TEST(MedialSheets, WhereTheStripOfACrossingEndsBeforeTheRimFourSheetsMeetStill)
   wall({ 0.6, 0, -0.8 }, 2, -0.3);
   x.Plate({ 0, 0, 0 }, { 2, 0, 0 }, 1, { 0, 1, 0 }, 9);
   x.Face({ x.At({ 0, 9, 0 }), x.At({ 2, 9, 0 }), x.At({ 1, 10, 0 }) });
-  EXPECT_EQ(CountsOf(CutIntoSheets(x.Core(), 3)), (Counts{ 4, 1, 0, 0 }));
+  EXPECT_EQ(CountsOf(CutIntoSheets(x.Core(), 3)), (SheetCounts{ 4, 1, 0, 0 }));
 }
 
 TEST(MedialSheets, ASeamThatIsShorterThanItsBallsAreWideIsAJunction)
 {
   const auto counts = [](double radius) {
-    Builder    two;
-    const auto plate = [&](const Vector3 & corner, const Vector3 & along, int n, const Vector3 & up, int m) {
+    SheetBuilder two;
+    const auto   plate = [&](const Vector3 & corner, const Vector3 & along, int n, const Vector3 & up, int m) {
       for (int i = 0; i < n; ++i)
       {
         for (int j = 0; j < m; ++j)
@@ -290,16 +181,16 @@ TEST(MedialSheets, ASeamThatIsShorterThanItsBallsAreWideIsAJunction)
     plate({ 0, 0, 8 }, { 0, -1, 0 }, 12, { 0, 0, 1 }, 12);
     return CountsOf(CutIntoSheets(two.Core(), 1));
   };
-  EXPECT_EQ(counts(0.5), (Counts{ 4, 3, 0, 2 })) << "the middle seam, of four walls, is four long";
-  EXPECT_EQ(counts(2.5), (Counts{ 4, 2, 0, 1 })) << "balls are five wide";
+  EXPECT_EQ(counts(0.5), (SheetCounts{ 4, 3, 0, 2 })) << "the middle seam, of four walls, is four long";
+  EXPECT_EQ(counts(2.5), (SheetCounts{ 4, 2, 0, 1 })) << "balls are five wide";
 }
 
 TEST(MedialSheets, ThatHangTogetherOnlyWithinTheBallsOfTheirSeamArePartedThere)
 {
   // The third wall leaves a way of three round the end of its seam; the other two are bent there.
   const auto counts = [](double radius) {
-    Builder    y;
-    const auto wall = [&](const Vector3 & along, int n, int height) {
+    SheetBuilder y;
+    const auto   wall = [&](const Vector3 & along, int n, int height) {
       for (int i = 0; i < n; ++i)
       {
         for (int j = 0; j < height; ++j)
@@ -316,14 +207,14 @@ TEST(MedialSheets, ThatHangTogetherOnlyWithinTheBallsOfTheirSeamArePartedThere)
     wall({ -0.5, -0.866, 0 }, 10, 17);
     return CountsOf(CutIntoSheets(y.Core(), 0.5));
   };
-  EXPECT_EQ(counts(1), (Counts{ 2, 1, 0, 0 }));
-  EXPECT_EQ(counts(2), (Counts{ 3, 1, 0, 0 })) << "balls are wider than the way";
+  EXPECT_EQ(counts(1), (SheetCounts{ 2, 1, 0, 0 }));
+  EXPECT_EQ(counts(2), (SheetCounts{ 3, 1, 0, 0 })) << "balls are wider than the way";
 }
 
 TEST(MedialSheets, OfATripleOfPlatesOnAPlateMeetInAJunction)
 {
   // A floor, and the three plates that stand on it: a Y in the floor.
-  Builder      y = ThreePlates();
+  SheetBuilder y = ThreePlates();
   const double reach = 14;
   // A fan of triangles about the foot of the line; the feet of the plates are edges of it.
   const auto ring = [&](const Vector3 & along, int n, const Vector3 & next, int m) {
@@ -349,7 +240,7 @@ TEST(MedialSheets, OfATripleOfPlatesOnAPlateMeetInAJunction)
   ring({ -0.5, -0.866, 0 }, 6, { 1, 0, 0 }, 10);
   const MedialSheets cut = CutIntoSheets(y.Core(), 3);
   // The floor is one sheet, as its thirds meet beyond the ends of the plates' feet.
-  EXPECT_EQ(CountsOf(cut), (Counts{ 4, 4, 0, 1 }));
+  EXPECT_EQ(CountsOf(cut), (SheetCounts{ 4, 4, 0, 1 }));
   for (const CurveRecord & curve : cut.curves)
   {
     EXPECT_EQ(std::count(curve.junctions.begin(), curve.junctions.end(), 0U), 1) << "one end in the junction";
@@ -363,155 +254,12 @@ TEST(MedialSheets, OfATripleOfPlatesOnAPlateMeetInAJunction)
   EXPECT_EQ(twice, 3U);
 }
 
-TEST(MedialSheets, RodsAreCutWhereTheyMeetAndWhereTheyReachASheet)
-{
-  Builder rods;
-  rods.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
-  rods.Rod({ 3, 3, 0 }, { 0, 0, 1 }, 10);
-  rods.Rod({ 3, 3, 10 }, { 0.7, 0, 0.7 }, 5);
-  rods.Rod({ 3, 3, 10 }, { -0.7, 0, 0.7 }, 4);
-  const MedialSheets cut = CutIntoSheets(rods.Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 3, 2 }));
-  EXPECT_DOUBLE_EQ(cut.curves[0].length, 10);
-  EXPECT_NE(cut.curves[0].junctions[0], kNoPiece);
-  EXPECT_NE(cut.curves[0].junctions[1], kNoPiece);
-  EXPECT_TRUE((cut.curves[1].junctions[0] == kNoPiece) != (cut.curves[1].junctions[1] == kNoPiece));
-  EXPECT_TRUE(cut.curves[0].sheets.empty());
-  // The rod's foot is the sheet's.
-  EXPECT_EQ(cut.pieceOfVertex[cut.junctions[0]] < 1 || cut.pieceOfVertex[cut.junctions[1]] < 1, true);
-}
-
-TEST(MedialSheets, ARodThatHardlyStandsOutOfASheetIsPartOfIt)
-{
-  Builder rods;
-  rods.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
-  rods.Rod({ 3, 3, 0 }, { 0, 0, 1 }, 2);
-  const MedialSheets cut = CutIntoSheets(rods.Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 1, 0, 0, 0 }));
-  EXPECT_EQ(cut.pieceOfVertex, std::vector<std::uint32_t>(cut.pieceOfVertex.size(), 0U));
-  EXPECT_EQ(CountsOf(CutIntoSheets(rods.Core(), 1)), (Counts{ 1, 0, 1, 1 }));
-  // Two twigs at its end change nothing.
-  rods.Rod({ 3, 3, 2 }, { 0.7, 0, 0.7 }, 1);
-  rods.Rod({ 3, 3, 2 }, { -0.7, 0, 0.7 }, 1);
-  const MedialSheets twigs = CutIntoSheets(rods.Core(), 3);
-  EXPECT_EQ(CountsOf(twigs), (Counts{ 1, 0, 0, 0 }));
-  EXPECT_EQ(twigs.pieceOfVertex, std::vector<std::uint32_t>(twigs.pieceOfVertex.size(), 0U));
-}
-
-TEST(MedialSheets, AHandleOfRodsThatHardlyStandsOutOfASheetIsPartOfItAndAHighOneIsNot)
-{
-  for (const int height : { 1, 6 })
-  {
-    Builder plate;
-    plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
-    plate.Rod({ 1, 3, 0 }, { 0, 0, 1 }, height);
-    plate.Rod({ 1, 3, static_cast<double>(height) }, { 1, 0, 0 }, 3);
-    plate.Rod({ 4, 3, 0 }, { 0, 0, 1 }, height);
-    const MedialSheets cut = CutIntoSheets(plate.Core(), 3);
-    // From a foot to the middle of the handle it is two and a half long, or seven and a half.
-    EXPECT_EQ(CountsOf(cut), height == 1 ? (Counts{ 1, 0, 0, 0 }) : (Counts{ 1, 0, 1, 2 }));
-    if (height == 1)
-    {
-      EXPECT_EQ(cut.pieceOfVertex, std::vector<std::uint32_t>(cut.pieceOfVertex.size(), 0U));
-    }
-  }
-}
-
-TEST(MedialSheets, ARodBetweenTwoSheetsIsOneWhereItIsLongerThanThickAndThanASliver)
-{
-  for (const double length : { 2.0, 3.5, 8.0 })
-  {
-    for (const double radius : { 0.5, 2.0 })
-    {
-      Builder plates;
-      plates.At({ 3, 3, 0 }, radius);
-      plates.At({ 3, 3, length / 2 }, radius);
-      plates.At({ 3, 3, length }, radius);
-      plates.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
-      plates.Plate({ 0, 0, length }, { 1, 0, 0 }, 6, { 0, 1, 0 }, 6);
-      plates.Rod({ 3, 3, 0 }, { 0, 0, length / 2 }, 2);
-      const bool isRod = length > 3 && length > 2 * radius;
-      EXPECT_EQ(CountsOf(CutIntoSheets(plates.Core(), 3)), isRod ? (Counts{ 2, 0, 1, 2 }) : (Counts{ 2, 0, 0, 0 }))
-        << length << " long, radius " << radius;
-    }
-  }
-}
-
-TEST(MedialSheets, ASmallFlakeThatHangsByARodOrAPointIsPartOfItsSheet)
-{
-  for (const int size : { 1, 7 })
-  {
-    for (const double gap : { 0.0, 0.5 })
-    {
-      Builder plates;
-      plates.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 9, { 0, 1, 0 }, 9);
-      plates.Plate({ 9 + gap, 9, 0 }, { 1, 0, 0 }, size, { 0, 1, 0 }, size);
-      if (gap > 0)
-      {
-        plates.Rod({ 9, 9, 0 }, { gap, 0, 0 }, 1);
-      }
-      const MedialSheets cut = CutIntoSheets(plates.Core(), 3);
-      EXPECT_EQ(CountsOf(cut), (Counts{ size == 1 ? 1U : 2U, 0, 0, 0 })) << size << " wide, " << gap << " off";
-    }
-  }
-  // Alone it stays.
-  Builder alone;
-  alone.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 9, { 0, 1, 0 }, 9);
-  alone.Plate({ 20, 0, 0 }, { 1, 0, 0 }, 1, { 0, 1, 0 }, 1);
-  EXPECT_EQ(CountsOf(CutIntoSheets(alone.Core(), 3)), (Counts{ 2, 0, 0, 0 }));
-}
-
-TEST(MedialSheets, AFlakeWhereRodsMeetIsTheirJunctionAndALargeOneIsASheet)
-{
-  const auto cutOf = [](int side) {
-    Builder rods;
-    rods.Plate({ 0, 0, 0 }, { 1, 0, 0 }, side, { 0, 1, 0 }, side);
-    rods.Rod({ 0, 0, 0 }, { -1, 0, 0 }, 10);
-    rods.Rod({ 0, 0, 0 }, { 0, -1, 0 }, 11);
-    rods.Rod({ 1.0 * side, 1.0 * side, 0 }, { 0, 0, 1 }, 12);
-    return CutIntoSheets(rods.Core(), 3);
-  };
-  const MedialSheets small = cutOf(2);
-  EXPECT_EQ(CountsOf(small), (Counts{ 0, 0, 3, 1 }));
-  EXPECT_TRUE(
-    std::all_of(small.sheetOfFace.begin(), small.sheetOfFace.end(), [](std::uint32_t piece) { return piece < 3; }))
-    << "part of a rod";
-  EXPECT_EQ(CountsOf(cutOf(9)), (Counts{ 1, 0, 3, 2 }));
-}
-
-TEST(MedialSheets, TwoFlakesThatAShortRodJoinsAreOneJunction)
-{
-  Builder rods;
-  rods.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 2, { 0, 1, 0 }, 2);
-  rods.Rod({ 0, 0, 0 }, { -1, 0, 0 }, 10);
-  rods.Rod({ 0, 0, 0 }, { 0, -1, 0 }, 11);
-  rods.Rod({ 2, 2, 0 }, { 0, 0, 1 }, 1);
-  rods.Plate({ 2, 2, 1 }, { 1, 0, 0 }, 1, { 0, 1, 0 }, 1);
-  rods.Rod({ 3, 3, 1 }, { 0, 0, 1 }, 12);
-  EXPECT_EQ(CountsOf(CutIntoSheets(rods.Core(), 4.5)), (Counts{ 0, 0, 3, 1 }));
-}
-
-TEST(MedialSheets, ARodBetweenJunctionsThatIsShorterThanThickIsAJunction)
-{
-  const auto counts = [](int middle) {
-    Builder rods;
-    rods.Rod({ 0, 0, 0 }, { 1, 0, 0 }, middle);
-    rods.Rod({ 0, 0, 0 }, { -0.7, 0.7, 0 }, 10);
-    rods.Rod({ 0, 0, 0 }, { -0.7, -0.7, 0 }, 10);
-    rods.Rod({ 1.0 * middle, 0, 0 }, { 0.7, 0, 0.7 }, 10);
-    rods.Rod({ 1.0 * middle, 0, 0 }, { 0.7, 0, -0.7 }, 10);
-    return CountsOf(CutIntoSheets(rods.Core(), 0.5));
-  };
-  EXPECT_EQ(counts(1), (Counts{ 0, 0, 4, 1 })) << "balls are two wide";
-  EXPECT_EQ(counts(3), (Counts{ 0, 0, 5, 2 }));
-}
-
 TEST(MedialSheets, APocketInASheetMakesNoSeam)
 {
   // A plate, of which four squares are doubled by a lid that stands out by less than a sliver.
   for (const double height : { 1.0, 9.0 })
   {
-    Builder plate;
+    SheetBuilder plate;
     plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 8, { 0, 1, 0 }, 8);
     const ElementIndex top = plate.At({ 4, 4, height });
     const Vector3      ring[] = { { 3, 3, 0 }, { 4, 3, 0 }, { 5, 3, 0 }, { 5, 4, 0 },
@@ -526,39 +274,9 @@ TEST(MedialSheets, APocketInASheetMakesNoSeam)
   }
 }
 
-TEST(MedialSheets, ShortRodsThatMeetAloneDoNotGoAltogether)
-{
-  Builder y;
-  y.Rod({ 0, 0, 0 }, { 1, 0, 0 }, 2);
-  y.Rod({ 0, 0, 0 }, { -0.5, 0.8, 0 }, 2);
-  y.Rod({ 0, 0, 0 }, { -0.5, -0.8, 0 }, 2);
-  const MedialSheets cut = CutIntoSheets(y.Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 0, 0, 1, 0 }));
-  EXPECT_EQ(cut.pieceOfVertex, std::vector<std::uint32_t>(7, 0U));
-}
-
-TEST(MedialSheets, AClosedRodAndALonePointAreRods)
-{
-  Builder ring;
-  for (int i = 0; i < 12; ++i)
-  {
-    const auto at = [](int k) {
-      return Vector3{ 5 * std::cos(k * std::acos(-1.0) / 6), 5 * std::sin(k * std::acos(-1.0) / 6), 0 };
-    };
-    ring.Edge(ring.At(at(i)), ring.At(at((i + 1) % 12)));
-  }
-  ring.At({ 40, 0, 0 });
-  const MedialSheets cut = CutIntoSheets(ring.Core(), 3);
-  EXPECT_EQ(CountsOf(cut), (Counts{ 0, 0, 2, 0 }));
-  EXPECT_TRUE(cut.curves[0].isClosed);
-  EXPECT_EQ(cut.curves[0].vertices.size(), 12U);
-  EXPECT_EQ(cut.curves[1].length, 0);
-  EXPECT_EQ(cut.pieceOfVertex[12], 1U);
-}
-
 TEST(MedialSheets, AMoebiusBandIsOneSheetWithoutSeam)
 {
-  Builder      band;
+  SheetBuilder band;
   const int    n = 40;
   const double turn = 2 * std::acos(-1.0);
   const auto   at = [&](int i, int j) {
@@ -575,12 +293,12 @@ TEST(MedialSheets, AMoebiusBandIsOneSheetWithoutSeam)
       band.Face({ band.At(at(i, j)), band.At(at(i + 1, j)), band.At(at(i + 1, j + 1)), band.At(at(i, j + 1)) });
     }
   }
-  EXPECT_EQ(CountsOf(CutIntoSheets(band.Core(), 3)), (Counts{ 1, 0, 0, 0 }));
+  EXPECT_EQ(CountsOf(CutIntoSheets(band.Core(), 3)), (SheetCounts{ 1, 0, 0, 0 }));
 }
 
 TEST(MedialSheets, AndRodsGetEveryVoxelOfRandomShapes)
 {
-  for (const testing::RandomVolume & volume : testing::RandomVolumes(8500, 60))
+  for (const RandomVolume & volume : RandomVolumes(8500, 60))
   {
     SCOPED_TRACE(volume.Describe());
     const SpacingWeights weights = ComputeSpacingWeights(volume.spacing);
@@ -611,4 +329,4 @@ TEST(MedialSheets, AndRodsGetEveryVoxelOfRandomShapes)
 }
 
 } // namespace
-} // namespace voxelcore
+} // namespace voxelcore::testing

@@ -36,7 +36,7 @@ KeepInnerFacets(DelaunayCells & cells, std::vector<double> & measures)
   cells.facetCells.shrink_to_fit();
   measures.resize(kept);
   measures.shrink_to_fit();
-  // They wait beside the faces, where a core needs most memory.
+  // These stay while faces are collected, where a core needs the most memory.
   cells.facetOffsets.resize(kept + 1);
   cells.facetOffsets.shrink_to_fit();
   cells.facetPoints.resize(end);

@@ -50,7 +50,8 @@ FillCavities(VoxelShape shape);
 std::vector<VoxelShape>
 SplitComponents(const VoxelShape & shape);
 
-/** How many of the bits begin, begin + 1, .., end - 1 of a row are set; 0 <= begin, end <= 64 row.size(). */
+/** How many of the bits begin, begin + 1, .., end - 1 of a row are set: none where end <= begin. begin >= 0,
+ *  end <= 64 row.size(). */
 std::int32_t
 CountBits(const ConstShapeRow & row, std::int32_t begin, std::int32_t end);
 

@@ -13,11 +13,12 @@
 //  - Else it lies between seams, and is joined to the neighbour it continues: the one with the greatest sum, over the
 //    common edges, of length times the cosine of the bend; the smallest piece first.
 // A seam that ends on the way is drawn on to the border of the sheets that go round its end, or to another seam, where
-// that is nearer than the radius there and `sliver`, or than twice that radius, ways along the feet of fins not
-// counted; so is one that turns back round the tip of a sliver at which those sheets have creases. What hangs together
-// only within the balls of its seams is parted, if both parts stand out of these by `sliver`. Fins that come off so are
-// passed over, too. What lies between seams and is a sliver belongs to them: those along it are one, in which all
-// sheets about it meet. Seams of the same sheets that touch are one.
+// that is nearer than the radius there plus `sliver`, or than twice that radius. Ways along the feet of fins do not
+// count: there the surface itself says how the seam went on. A seam that turns back round the tip of a sliver, at which
+// those sheets have creases, is drawn on likewise. What hangs together only within the balls of its seams is parted, if
+// both parts stand out of these by `sliver`. Fins that come off so are passed over, too. What lies between seams and is
+// a sliver belongs to them: those along it are one, in which all sheets about it meet. Seams of the same sheets that
+// touch are one.
 // What lies between seams, is a sliver, and has one sheet about it, is a pocket in that sheet and makes no seam.
 // A piece that shares no edge with another and hangs on one by rods or a point is part of it where it stands out by
 // less than `sliver`, or than it is thick; the largest of all that hangs together stays.
