@@ -31,6 +31,10 @@ constexpr double kTubeWindow = 3;
 constexpr double kTubeGrowth = 0.15;
 constexpr double kTubeStandOut = 0.6;
 
+// So long is the line of voxels, from face to face, that such a tube leaves at least: bumps that noise makes are three
+// voxels long or shorter.
+constexpr double kTubeLine = 3.25;
+
 // Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much
 // further to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of
 // voxels, half of it; a thick one begins in the centre. Measured on tubes and tapering roots at all angles; voxels.
@@ -69,13 +73,15 @@ public:
   RunAsTube()
   {
     std::size_t end = 0;
+    double      voxels = 0;
     while (GoesOn(end))
     {
+      voxels += Way(end, end + 1) / m_Scale.voxel;
       ++end;
     }
     const double way = Way(0, end);
     const bool   isThin = m_Surface.radius[m_Path[end]] <= kTubeRadius * m_Scale.voxel;
-    if (!isThin || way < kTubeWindow * m_Scale.voxel || !RunsAlong(0, end) ||
+    if (!isThin || voxels < kTubeLine || !RunsAlong(0, end) ||
         std::abs(Growth(0, end)) > kTubeGrowth * way)
     {
       return false;
