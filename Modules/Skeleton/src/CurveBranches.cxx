@@ -81,8 +81,7 @@ public:
     }
     const double way = Way(0, end);
     const bool   isThin = m_Surface.radius[m_Path[end]] <= kTubeRadius * m_Scale.voxel;
-    if (!isThin || voxels < kTubeLine || !RunsAlong(0, end) ||
-        std::abs(Growth(0, end)) > kTubeGrowth * way)
+    if (!isThin || voxels < kTubeLine || !RunsAlong(0, end) || std::abs(Growth(0, end)) > kTubeGrowth * way)
     {
       return false;
     }
