@@ -31,15 +31,22 @@ constexpr double kTubeWindow = 3;
 constexpr double kTubeGrowth = 0.15;
 constexpr double kTubeStandOut = 0.6;
 
-// So long is the line of voxels, from face to face, that such a tube leaves at least: bumps that noise makes are three
-// voxels long or shorter.
+// A shorter way will do where the line of voxels is longer, from face to face, than those that noise makes, and the body
+// behind is no thicker: a bump on a thicker one is as thin as the thinnest tube.
 constexpr double kTubeLine = 3.25;
+constexpr double kTubeBody = 1.16;
 
 // Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much
 // further to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of
 // voxels, half of it; a thick one begins in the centre. Measured on tubes and tapering roots at all angles; voxels.
 constexpr double kCornerBeyondBall = 1.25;
 constexpr double kLineBeyondBall = 0.6;
+
+ElementIndex
+Across(const CellComplex & cells, ElementIndex edge, ElementIndex vertex)
+{
+  return cells.edges[edge][0] ^ cells.edges[edge][1] ^ vertex;
+}
 
 /** Looks for the end of the body along the path of a branch. */
 class EndSearch
@@ -80,8 +87,11 @@ public:
       ++end;
     }
     const double way = Way(0, end);
-    const bool   isThin = m_Surface.radius[m_Path[end]] <= kTubeRadius * m_Scale.voxel;
-    if (!isThin || voxels < kTubeLine || !RunsAlong(0, end) || std::abs(Growth(0, end)) > kTubeGrowth * way)
+    const double radius = m_Surface.radius[m_Path[end]];
+    const bool   isThin = radius <= kTubeRadius * m_Scale.voxel;
+    const bool   isLong =
+      way >= kTubeWindow * m_Scale.voxel || (voxels >= kTubeLine && RadiusBehind() <= kTubeBody * radius);
+    if (!isThin || !isLong || !RunsAlong(0, end) || std::abs(Growth(0, end)) > kTubeGrowth * way)
     {
       return false;
     }
@@ -100,6 +110,24 @@ private:
   Growth(std::size_t from, std::size_t to) const
   {
     return m_Surface.radius[m_Path[to]] - m_Surface.radius[m_Path[from]];
+  }
+
+  /** The greatest radius where the fire goes on from the path's last place. */
+  double
+  RadiusBehind() const
+  {
+    double greatest = 0;
+    for (ElementIndex at = m_Path.back();
+         Distance(m_Surface.positions[at], m_Surface.positions[m_Path.back()]) <= kTubeWindow * m_Scale.voxel;
+         at = Across(m_Surface.cells, m_Fire.nextEdge[at], at))
+    {
+      greatest = std::max(greatest, m_Surface.radius[at]);
+      if (m_Fire.nextEdge[at] == kNoEdge)
+      {
+        break;
+      }
+    }
+    return greatest;
   }
 
   double
@@ -198,12 +226,6 @@ private:
   CurveBranch &                     m_Branch;
   const std::vector<ElementIndex> & m_Path;
 };
-
-ElementIndex
-Across(const CellComplex & cells, ElementIndex edge, ElementIndex vertex)
-{
-  return cells.edges[edge][0] ^ cells.edges[edge][1] ^ vertex;
-}
 
 /** What a branch is before its end is looked for. */
 struct Candidate
