@@ -1,3 +1,4 @@
+#include "GraphBuilder.h"
 #include "TubeShapes.h"
 
 #include <iostream>
@@ -246,6 +247,21 @@ TEST(BranchFit, RoughWallsAddLittleToTheLengthOfAThickTube)
     FitBranches(rough, 0, HalfAVoxel());
     EXPECT_GT(rough.BranchLength(0), 1.02 * smooth.BranchLength(0)) << "it would be a test of nothing";
   }
+}
+
+TEST(BranchFit, NoCurveTurnsBackAtItsEnds)
+{
+  GraphBuilder builder;
+  builder.Line({ 20, 20, 20 }, { 60, 20, 20 }, 3);
+  SkeletonGraph graph = builder.Graph();
+  graph.medial = graph.positions;
+  const auto points = graph.Branch(0);
+  for (std::size_t i = 2; i < 10; ++i)
+  {
+    graph.medial[points[i]][0] = 19.2; // the first beside the node is ahead of it, those behind it are not
+  }
+  FitBranches(graph, 6, HalfAVoxel());
+  EXPECT_NEAR(graph.BranchLength(0), 40, 0.2);
 }
 
 TEST(BranchFit, WindowZeroLeavesTheMedialSurface)

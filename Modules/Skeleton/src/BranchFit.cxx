@@ -173,7 +173,7 @@ FitOnce(const MedialLine &           line,
   }
 }
 
-/** Points that came to lie behind a node, which stays where it is, are put between it and the first that did not: no
+/** Points up to the last that came to lie behind a node, which stays where it is, are put between it and the next: no
  *  curve turns back at its ends. `node` is the first or the last point of an open line. */
 void
 KeepBefore(std::size_t node, const MedialLine & line, double window, std::vector<Vector3> & places)
@@ -188,10 +188,10 @@ KeepBefore(std::size_t node, const MedialLine & line, double window, std::vector
     ++ahead;
   }
   const Vector3 onwards = Minus(places[at(ahead)], end);
-  std::size_t   first = 1;
-  while (first < ahead && Dot(Minus(places[at(first)], end), onwards) <= 0)
+  std::size_t   first = ahead;
+  while (first > 1 && Dot(Minus(places[at(first - 1)], end), onwards) > 0)
   {
-    ++first;
+    --first;
   }
   for (std::size_t i = 1; i < first; ++i)
   {

@@ -1,5 +1,6 @@
 #include "voxelcore/BranchJoints.h"
 
+#include "ForkPlace.h"
 #include "JointAxes.h"
 #include "voxelcore/Vectors.h"
 
@@ -9,7 +10,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,10 +18,6 @@ namespace voxelcore
 
 namespace
 {
-
-// Directions are taken so far outside a junction's ball: half a radius, and two voxels, or steps of the grid tell.
-constexpr double kNearInRadii = 0.5;
-constexpr double kNearInVoxels = 2;
 
 // A branch that leaves is nothing but itself so many of its radii less half a voxel outside the junction's ball, the
 // one it leaves so many of them and a voxel from the junction.
@@ -50,6 +46,7 @@ constexpr std::array<double, 2> kAlike{ 0.2, 0.5 };
 // voxel apart are one in the voxels.
 constexpr std::array<double, 2> kMove{ 2.5, 1.5 };
 constexpr std::array<double, 2> kGap{ 1.5, 0.5 };
+constexpr std::array<double, 2> kForkMove{ 2.5, 1.5 };
 
 double
 Degrees(double cosine)
@@ -64,19 +61,8 @@ Bend(const Vector3 & a, const Vector3 & b)
   return Degrees(-Dot(a, b));
 }
 
-/** 0 at and before the first, 1 at and behind the second. */
-double
-FromNoToYes(const std::array<double, 2> & range, double value)
-{
-  const double t = std::clamp((value - range[0]) / (range[1] - range[0]), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-/** The points of a joint and where they shall lie. */
-struct JointMove
-{
-  std::vector<std::pair<ElementIndex, Vector3>> places;
-};
+/** The points of a joint and by how much each shall move. */
+using JointMove = std::vector<std::pair<ElementIndex, Vector3>>;
 
 class JointPlacing
 {
@@ -89,90 +75,69 @@ public:
     , m_Voxel(m_Diagonal / std::sqrt(3.0))
   {}
 
-  /** Of a junction and the branches that end there, each with which of its ends. */
-  std::optional<JointMove>
+  /** Of a junction and the branches that end there, each with which of its ends: as far as no branch goes through, it
+   *  may be a fork. */
+  JointMove
   Of(ElementIndex node, const std::vector<std::pair<std::size_t, std::size_t>> & ends) const
   {
     const ElementIndex point = m_Graph.nodePoints[node];
-    const Vector3 &    junction = m_Graph.positions[point];
-    const double       ball = m_Graph.radius[point];
     std::vector<Arm>   arms;
     for (const auto & [branch, end] : ends)
     {
-      arms.push_back(ArmOf(branch, end, ball));
+      arms.push_back(ArmOf(m_Graph, branch, end, m_Diagonal));
       if (arms.back().leaves <= 0)
       {
-        return std::nullopt;
+        return {};
       }
     }
-    double yes = PutThroughFirst(arms);
-    if (!(yes > 0))
-    {
-      return std::nullopt;
-    }
+    std::vector<Arm> forked = arms;
+    const auto       fork = PlaceFork(forked, m_Voxel);
+    JointMove        moves = fork ? OfFork(std::move(forked), *fork, point) : JointMove();
+    const double     isFork = moves.empty() ? 0 : fork->isSo;
+    const double     through = isFork < 1 ? (1 - isFork) * PutThroughFirst(arms) : 0;
+    const JointMove  more = through > 0 ? OfThrough(arms, through, point) : JointMove();
+    moves.insert(moves.end(), more.begin(), more.end());
+    return moves;
+  }
+
+private:
+  JointMove
+  OfThrough(const std::vector<Arm> & arms, double yes, ElementIndex point) const
+  {
     ThroughAxis through;
-    if (!through.Fit(arms[0], arms[1], junction))
+    if (!through.Fit(arms[0], arms[1], m_Graph.positions[point]))
     {
-      return std::nullopt;
+      return {};
     }
     double meeting = 0;
     for (std::size_t k = 2; k < arms.size(); ++k)
     {
-      const auto [way, isSo] = Meeting(through, AxisOf(arms[k]), ball);
+      const auto [way, isSo] = Meeting(through, AxisOf(arms[k]), m_Graph.radius[point]);
       meeting += way / static_cast<double>(arms.size() - 2);
       yes *= isSo;
     }
-    return yes > 0 ? Moved(arms, through, meeting, yes, point) : std::nullopt;
+    return yes > 0 ? Moved(arms, through, meeting, yes, point) : JointMove();
   }
 
-private:
-  Arm
-  ArmOf(std::size_t branch, std::size_t end, double ball) const
+  JointMove
+  OfFork(std::vector<Arm> arms, const ForkPlace & fork, ElementIndex point) const
   {
-    Arm arm;
-    arm.points.assign(m_Graph.Branch(branch).begin(), m_Graph.Branch(branch).end());
-    if (end == 1)
+    const double most = m_Graph.radius[point] + m_Voxel;
+    const double far = Distance(fork.place, m_Graph.positions[point]);
+    arms[0].from = std::min(arms[0].leaves + far, arms[0].free);
+    const double yes = fork.isSo * FromNoToYes(kForkMove, far / most);
+    JointMove    move;
+    AddMove(move, point, fork.place, yes);
+    for (const Arm & arm : arms)
     {
-      std::reverse(arm.points.begin(), arm.points.end());
-    }
-    for (const ElementIndex point : arm.points)
-    {
-      arm.line.Add(m_Graph.positions[point]);
-    }
-    const auto & [places, way] = arm.line;
-    std::size_t out = 0;
-    while (out < places.size() && Distance(places[out], places[0]) <= ball)
-    {
-      ++out;
-    }
-    if (out == places.size())
-    {
-      return arm;
-    }
-    arm.leaves = way[out];
-    // The middle radius of those behind the ball.
-    std::vector<double> radii;
-    for (std::size_t i = out; i < places.size() && way[i] <= way[out] + std::max(ball, 3 * m_Voxel); ++i)
-    {
-      radii.push_back(m_Graph.radius[arm.points[i]]);
-    }
-    std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
-    arm.radius = radii[radii.size() / 2] + kMeanExcess * m_Diagonal;
-    const ElementIndex other = m_Graph.branchNodes[branch][1 - end];
-    arm.free = way.back();
-    if (m_Graph.nodeKinds[other] != NodeKind::Tip)
-    {
-      const double reach = m_Graph.radius[m_Graph.nodePoints[other]];
-      std::size_t  near = out;
-      while (near < places.size() && (way[near] <= 0.5 * way.back() || Distance(places[near], places.back()) > reach))
+      const auto & [places, way] = arm.line;
+      const std::size_t last = FirstFrom(arm);
+      for (std::size_t i = 1; i < last; ++i)
       {
-        ++near;
+        AddMove(move, arm.points[i], AddScaled(fork.place, way[i] / way[last], Minus(places[last], fork.place)), yes);
       }
-      arm.free = near < places.size() ? way[near] : way.back();
     }
-    const double there = std::min(way[out] + std::max(kNearInRadii * arm.radius, kNearInVoxels * m_Voxel), arm.free);
-    arm.direction = Unit(Minus(arm.line.At(there), places[0]));
-    return arm;
+    return yes > 0 && StaysIn(move) ? move : JointMove();
   }
 
   /** The two arms of the branch that goes through to the front, with all axes. Gives whether there is one, from 0 to 1.
@@ -205,7 +170,10 @@ private:
         ordered = std::move(tried);
       }
     }
-    arms = best > 0 ? std::move(ordered) : std::move(arms);
+    if (best > 0)
+    {
+      arms = std::move(ordered);
+    }
     return best;
   }
 
@@ -304,22 +272,17 @@ private:
                FromNoToYes(kMeetingAngle, angle) };
   }
 
-  std::optional<JointMove>
+  JointMove
   Moved(const std::vector<Arm> & arms, const ThroughAxis & through, double meeting, double yes, ElementIndex point)
     const
   {
     const Vector3 to = through.At(meeting);
     JointMove     move;
-    const auto    add = [&](ElementIndex moved, const Vector3 & place) {
-      const Vector3 & before = m_Graph.positions[moved];
-      move.places.emplace_back(moved, AddScaled(before, yes, Minus(place, before)));
-    };
-    add(point, to);
+    AddMove(move, point, to, yes);
     for (std::size_t k = 0; k < arms.size(); ++k)
     {
       const auto & [places, way] = arms[k].line;
-      const auto first = static_cast<std::size_t>(std::lower_bound(way.begin(), way.end(), arms[k].from) - way.begin());
-      const std::size_t last = std::min(first, way.size() - 1);
+      const std::size_t last = FirstFrom(arms[k]);
       const double      end = (k == 0 ? -1 : 1) * Distance(places[last], places[0]);
       for (std::size_t i = 1; i < last; ++i)
       {
@@ -328,17 +291,39 @@ private:
         {
           // Along the parabola, which the points behind the joint do not meet exactly.
           const Vector3 on = through.At(meeting + part * (end - meeting));
-          add(arms[k].points[i], AddScaled(on, part, Minus(places[last], through.At(end))));
+          AddMove(move, arms[k].points[i], AddScaled(on, part, Minus(places[last], through.At(end))), yes);
         }
         else
         {
-          add(arms[k].points[i], AddScaled(to, part, Minus(places[last], to)));
+          AddMove(move, arms[k].points[i], AddScaled(to, part, Minus(places[last], to)), yes);
         }
       }
     }
-    const bool staysIn =
-      std::all_of(move.places.begin(), move.places.end(), [&](const auto & moved) { return IsIn(moved.second); });
-    return staysIn ? std::optional(std::move(move)) : std::nullopt;
+    return StaysIn(move) ? move : JointMove();
+  }
+
+  /** The point from which on an arm is nothing but itself. */
+  static std::size_t
+  FirstFrom(const Arm & arm)
+  {
+    const auto & way = arm.line.way;
+    const auto   first = static_cast<std::size_t>(std::lower_bound(way.begin(), way.end(), arm.from) - way.begin());
+    return std::min(first, way.size() - 1);
+  }
+
+  /** A point goes so much of the way to a place. */
+  void
+  AddMove(JointMove & move, ElementIndex point, const Vector3 & place, double part) const
+  {
+    move.emplace_back(point, AddScaled({}, part, Minus(place, m_Graph.positions[point])));
+  }
+
+  bool
+  StaysIn(const JointMove & move) const
+  {
+    return std::all_of(move.begin(), move.end(), [&](const auto & moved) {
+      return IsIn(AddScaled(m_Graph.positions[moved.first], 1, moved.second));
+    });
   }
 
   bool
@@ -375,18 +360,19 @@ PlaceJoints(SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry
   {
     if (graph.nodeKinds[node] == NodeKind::Junction && ends[node].size() > 2)
     {
-      if (auto move = placing.Of(static_cast<ElementIndex>(node), ends[node]))
+      JointMove move = placing.Of(static_cast<ElementIndex>(node), ends[node]);
+      if (!move.empty())
       {
-        moves.push_back(std::move(*move));
+        moves.push_back(std::move(move));
       }
     }
   }
   for (const JointMove & move : moves)
   {
-    for (const auto & [point, place] : move.places)
+    for (const auto & [point, by] : move)
     {
-      graph.positions[point] = place;
-      graph.medial[point] = place;
+      graph.positions[point] = AddScaled(graph.positions[point], 1, by);
+      graph.medial[point] = graph.positions[point];
     }
   }
   return moves.size();

@@ -8,12 +8,21 @@
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace voxelcore
 {
+
+/** 0 at and before the first, 1 at and behind the second. */
+inline double
+FromNoToYes(const std::array<double, 2> & range, double value)
+{
+  const double t = std::clamp((value - range[0]) / (range[1] - range[0]), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
 
 /** A branch from a junction on. */
 struct Arm
@@ -27,6 +36,10 @@ struct Arm
   double                    from = 0; ///< of the axis
   double                    to = 0;
 };
+
+/** One whose branch ends with `end` at a junction; it never leaves the junction's ball where `leaves` is 0. */
+Arm
+ArmOf(const SkeletonGraph & graph, std::size_t branch, std::size_t end, double diagonal);
 
 /** A straight line. */
 struct Axis
