@@ -249,6 +249,20 @@ TEST(BranchFit, RoughWallsAddLittleToTheLengthOfAThickTube)
   }
 }
 
+// Parabolas over the same window left 1 % and more.
+TEST(BranchFit, RoughWallsAddLittleToTheLengthOfAThinTube)
+{
+  for (const Spacing3 & to : { Spacing3{ 70, 62, 48 }, Spacing3{ 66, 40, 74 }, Spacing3{ 30, 74, 40 } })
+  {
+    const Spacing3      from{ 18, 20, 22 };
+    const SkeletonGraph rough = GraphOf(RoughTube(from, to, 3.2, 0.45, 90));
+    ASSERT_EQ(rough.BranchCount(), 1U);
+    const auto   points = rough.Branch(0);
+    const double chord = Distance(rough.positions[points.front()], rough.positions[points.back()]);
+    EXPECT_LT(rough.BranchLength(0), 1.006 * chord);
+  }
+}
+
 TEST(BranchFit, NoCurveTurnsBackAtItsEnds)
 {
   GraphBuilder builder;

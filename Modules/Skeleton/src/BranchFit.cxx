@@ -1,4 +1,4 @@
-#include "ParabolaFit.h"
+#include "PolynomialFit.h"
 #include "voxelcore/SkeletonGraph.h"
 #include "voxelcore/Vectors.h"
 
@@ -15,6 +15,11 @@ namespace
 // Rough walls move the curve of a thick body by more than a voxel, over ways as long as the body is wide. So where the
 // radius is more than the window, that grows by as many times what is more, and points may move by as much more.
 constexpr double kWindowGrowth = 3;
+
+// What parabolas leave of rough walls makes curves longer: a fourth degree over so many windows bends as a parabola
+// over one does, and leaves a fifth of it. A line shorter than so many windows has not enough points for it.
+constexpr double kQuarticWindows = 2.5;
+constexpr double kQuarticFrom = 3;
 
 // Nodes stay where they are, so a curve near one must heed it more than it heeds another point.
 constexpr double kNodeWeight = 4;
@@ -69,7 +74,7 @@ struct MedialLine
   }
 };
 
-/** One round: each point to the value of its parabola, where ways are as long as between the places `along`; with a
+/** One round: each point to the value of its polynomial, where ways are as long as between the places `along`; with a
  *  reach no further from the line. */
 void
 FitOnce(const MedialLine &           line,
@@ -85,13 +90,21 @@ FitOnce(const MedialLine &           line,
   {
     way[i] = way[i - 1] + Distance(along[i - 1], along[i]);
   }
+  const auto wideAt = [&](std::size_t i) { return window + kWindowGrowth * std::max(0.0, line.radius[i] - window); };
+  double     mean = 0;
+  for (std::size_t i = 0; i <= last; ++i)
+  {
+    mean += wideAt(i) / static_cast<double>(last + 1);
+  }
+  const bool isLong = way[last] >= kQuarticFrom * mean;
   // A closed curve goes on where it began; at most half of it lies before and half behind a point.
   for (std::size_t i = isLoop ? 0 : 1; i < last; ++i)
   {
-    const double wide = window + kWindowGrowth * std::max(0.0, line.radius[i] - window);
-    const double half = isLoop ? std::min(wide, 0.5 * way[last]) : wide;
-    ParabolaFit  fit;
-    const auto   add = [&](std::size_t j, double shift) {
+    const double  wide = wideAt(i);
+    const double  longer = isLong ? kQuarticWindows * wide : wide;
+    const double  half = isLoop ? std::min(longer, 0.5 * way[last]) : longer;
+    PolynomialFit fit;
+    const auto    add = [&](std::size_t j, double shift) {
       const double u = (way[j] + shift - way[i]) / half;
       if (std::abs(u) >= 1)
       {
@@ -138,7 +151,7 @@ FitOnce(const MedialLine &           line,
       firstUsed = std::min(firstUsed, j);
     }
     Vector3 value{};
-    if (!fit.Value(value))
+    if (!fit.Value(isLong ? 4 : 2, value))
     {
       to[i] = line.points[i];
       continue;
