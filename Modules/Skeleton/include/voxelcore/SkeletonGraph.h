@@ -88,8 +88,8 @@ using VoxelReach = std::array<std::array<double, 3>, 3>;
  *  best, but no further than `reach` from the branch as it lies on the medial surface. That is one of the fourth degree
  *  over 2.5 times `window` mm before and behind the point, or in branches shorter than three windows a parabola over
  *  one. Where the radius is more than the window, that grows by three times the difference, and the reach in
- *  proportion. Nodes stay, and no curve turns back at one. A window of 0 puts the points back on the medial surface. Curved lines
- *  keep their length to second order, where averaging would shorten them. */
+ *  proportion. Nodes stay, and no curve turns back at one. A window of 0 puts the points back on the medial surface. Curved
+ *  lines keep their length to second order, where averaging would shorten them. */
 void
 FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach);
 
