@@ -21,6 +21,9 @@ constexpr double kWindowGrowth = 3;
 constexpr double kQuarticWindows = 2.5;
 constexpr double kQuarticFrom = 3;
 
+// Rough walls break what is thinner than so many windows.
+constexpr double kQuarticRadius = 0.25;
+
 // Nodes stay where they are, so a curve near one must heed it more than it heeds another point.
 constexpr double kNodeWeight = 4;
 
@@ -96,7 +99,12 @@ FitOnce(const MedialLine &           line,
   {
     mean += wideAt(i) / static_cast<double>(last + 1);
   }
-  const bool isLong = way[last] >= kQuarticFrom * mean;
+  double radius = 0;
+  for (const double one : line.radius)
+  {
+    radius += one / static_cast<double>(last + 1);
+  }
+  const bool isLong = way[last] >= kQuarticFrom * mean && radius >= kQuarticRadius * window;
   // A closed curve goes on where it began; at most half of it lies before and half behind a point.
   for (std::size_t i = isLoop ? 0 : 1; i < last; ++i)
   {
