@@ -22,7 +22,8 @@ struct ForkPlace
  *  Where bodies part a voxel may tell, and with it where fire on the surface between them meets. So the place is told
  *  by axes fitted behind that and drawn on straight: they are apart there by the sum of radii times 1 - 1.5 T, T being
  *  the tangent of half their angle. Fire meets at 1 - T, measured at forks of 20 to 60 degrees; but the arms go
- *  straight from the place to their axes, which is shorter, and so much nearer to the stem lengths are what they were. */
+ *  straight from the place to their axes, which is shorter, and so much nearer to the stem lengths are as they
+ *  were. */
 std::optional<ForkPlace>
 PlaceFork(std::vector<Arm> & arms, double voxel);
 
