@@ -53,4 +53,39 @@ Protrusion(const CoreBall & x, const CoreBall & y)
   return std::sqrt(SquaredDistance(x.centre, y.centre)) + (x.radius - y.radius);
 }
 
+/** Two lengths that are computed side by side, each as it would be alone. */
+using TwoLengths = double __attribute__((vector_size(16)));
+
+/** What is asked of two balls at once. */
+struct TwoBalls
+{
+  TwoBalls(const CoreBall & a, const CoreBall & b)
+    : x{ a.centre[0], b.centre[0] }
+    , y{ a.centre[1], b.centre[1] }
+    , z{ a.centre[2], b.centre[2] }
+    , radius{ a.radius, b.radius }
+  {}
+  TwoLengths x;
+  TwoLengths y;
+  TwoLengths z;
+  TwoLengths radius;
+};
+
+inline TwoLengths
+Larger(const TwoLengths & a, const TwoLengths & b)
+{
+  return a < b ? b : a;
+}
+
+/** Protrusion() of each out of the ball of y. */
+inline TwoLengths
+Protrusions(const TwoBalls & balls, const CoreBall & y)
+{
+  const TwoLengths dx = balls.x - y.centre[0];
+  const TwoLengths dy = balls.y - y.centre[1];
+  const TwoLengths dz = balls.z - y.centre[2];
+  const TwoLengths squared = dx * dx + dy * dy + dz * dz;
+  return TwoLengths{ std::sqrt(squared[0]), std::sqrt(squared[1]) } + (balls.radius - y.radius);
+}
+
 } // namespace voxelcore

@@ -131,7 +131,7 @@ RimFire::OfferAll()
     const std::size_t last = std::min(m_Edges.size(), first + kChunk);
 #pragma omp parallel if (last - first > 4096)
     {
-      std::vector<Reached> reached;
+      ReachedVertices reached;
 #pragma omp for schedule(static)
       for (std::size_t edge = first; edge < last; ++edge)
       {
@@ -155,58 +155,51 @@ RimFire::OfferAll()
   }
 }
 
+// Which corners lie between two sides of which one is free, by bits.
+std::uint64_t
+RimFire::MeetingCorners(std::uint32_t place, std::size_t count) const
+{
+  const std::uint64_t free = m_Faces[place + 2];
+  return free | free << 1U | free >> (count - 1);
+}
+
 // When fire that comes over a free edge has crossed its face.
 double
-RimFire::CostOf(ElementIndex edge, std::vector<Reached> & reached) const
+RimFire::CostOf(ElementIndex edge, ReachedVertices & reached) const
 {
   const std::uint32_t place = m_Edges[edge].Coface();
   const auto          here = static_cast<std::size_t>(m_Edges[edge].Side());
   const auto          corners = VerticesAt(place);
-  const auto [a, c] = std::minmax(corners[here], corners[here + 1 == corners.size() ? 0 : here + 1]);
+  const std::size_t   count = corners.size();
+  const auto [a, c] = std::minmax(corners[here], corners[here + 1 == count ? 0 : here + 1]);
   const CoreBall & atA = m_Balls[a];
   const CoreBall & atC = m_Balls[c];
   // The witness must not stick out, and neither must the end that fire comes from: else fire that came in along one
   // sheet would run out again along the next one, towards balls beside its witness.
-  const bool       ownA = atA.witness == a;
-  const bool       ownC = atC.witness == c;
-  const CoreBall & fireA = m_Balls[atA.witness];
-  const CoreBall & fireC = m_Balls[atC.witness];
-  double           cost = std::max(atA.burnt, atC.burnt);
-  bool             isFreeBefore = IsSideFree(place, corners.size() - 1);
-  reached.clear();
-  for (std::size_t i = 0; i < corners.size(); ++i)
+  const TwoBalls ends(atA, atC);
+  const TwoBalls witnesses(m_Balls[atA.witness], m_Balls[atC.witness]);
+  // The edge before a corner and that after it meet there. Where one of them is free, fire comes from there, too, and
+  // the two meet.
+  const bool          areNoted = count <= kNoted;
+  const std::uint64_t meeting = areNoted ? MeetingCorners(place, count) : 0;
+  double              cost = std::max(atA.burnt, atC.burnt);
+  if (reached.list.size() < count)
   {
-    const bool isFree = IsSideFree(place, i);
-    const bool meets = isFreeBefore || isFree;
-    isFreeBefore = isFree;
-    const ElementIndex corner = corners[i];
-    if (corner == a || corner == c)
-    {
-      continue;
-    }
-    const CoreBall & w = m_Balls[corner];
-    double           fromA = Protrusion(atA, w);
-    double           fromC = Protrusion(atC, w);
-    if (!ownA)
-    {
-      fromA = std::max(fromA, Protrusion(fireA, w));
-    }
-    if (!ownC)
-    {
-      fromC = std::max(fromC, Protrusion(fireC, w));
-    }
-    const double across = std::max(kMargin * std::min(fromA, fromC), w.burnt);
-    // The edge before the corner and that after it meet there. Where one of them is free, fire comes from there, too,
-    // and the two meet.
-    if (meets)
-    {
-      cost = std::max(cost, (w.burnt + across) / 2);
-    }
-    else
-    {
-      cost = std::max(cost, across);
-      reached.push_back({ corner, fromC < fromA ? atC.witness : atA.witness, across });
-    }
+    reached.list.resize(count);
+  }
+  reached.count = 0;
+  std::size_t i = here + 1 == count ? 0 : here + 1;
+  for (std::size_t others = count - 2; others > 0; --others)
+  {
+    const std::size_t before = i;
+    i = i + 1 == count ? 0 : i + 1;
+    const CoreBall & w = m_Balls[corners[i]];
+    const TwoLengths from = Larger(Protrusions(ends, w), Protrusions(witnesses, w));
+    const double     across = std::max(kMargin * std::min(from[0], from[1]), w.burnt);
+    const bool       meets = areNoted ? (meeting >> i & 1U) != 0 : IsSideFree(place, before) || IsSideFree(place, i);
+    cost = std::max(cost, meets ? (w.burnt + across) / 2 : across);
+    reached.list[reached.count] = { corners[i], from[1] < from[0] ? atC.witness : atA.witness, across };
+    reached.count += meets ? 0 : 1;
   }
   return cost;
 }
@@ -215,8 +208,9 @@ void
 RimFire::Remove(ElementIndex edge, std::size_t level)
 {
   const std::uint32_t place = m_Edges[edge].Coface();
-  for (const Reached & reached : m_Reached)
+  for (std::size_t i = 0; i < m_Reached.count; ++i)
   {
+    const Reached & reached = m_Reached.list[i];
     m_Balls[reached.vertex].burnt = reached.time;
     m_Balls[reached.vertex].witness = reached.witness;
   }

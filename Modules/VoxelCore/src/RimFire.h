@@ -76,6 +76,11 @@ private:
     ElementIndex witness;
     double       time;
   };
+  struct ReachedVertices
+  {
+    std::vector<Reached> list; ///< as long as the largest face asks for
+    std::size_t          count = 0;
+  };
 
   bool
   IsSideFree(std::uint32_t place, std::size_t side) const
@@ -106,7 +111,9 @@ private:
   void
   OfferAll();
   double
-  CostOf(ElementIndex edge, std::vector<Reached> & reached) const;
+  CostOf(ElementIndex edge, ReachedVertices & reached) const;
+  std::uint64_t
+  MeetingCorners(std::uint32_t place, std::size_t count) const;
   void
   Remove(ElementIndex edge, std::size_t level);
   void
@@ -128,7 +135,7 @@ private:
   std::vector<std::vector<ElementIndex>> m_Turns; // edges by level
   std::size_t                            m_Waiting = 0;
   std::vector<ElementIndex>              m_Open; // free edges, wave after wave
-  std::vector<Reached>                   m_Reached;
+  ReachedVertices                        m_Reached;
   std::vector<ElementIndex>              m_Burnt; // never moves
 };
 
