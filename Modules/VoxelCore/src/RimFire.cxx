@@ -17,6 +17,8 @@ namespace
 // that the loose edges a burnt face leaves behind still find keepers; without it sheets grow hair along their rims.
 constexpr double kMargin = 1.25;
 
+constexpr std::size_t kCachedBalls = std::size_t{ 1 } << 14; // so many stay in the cache with what is asked around them
+
 constexpr std::size_t kChunk = std::size_t{ 1 } << 16; // what is computed side by side waits here for its turn
 
 // Levels of faces that have not burnt.
@@ -75,6 +77,7 @@ RimFire::RimFire(const CellComplex &     cells,
   : m_Cells(cells)
   , m_Levels(levels)
   , m_Balls(balls)
+  , m_FetchesAhead(balls.size() > kCachedBalls)
   , m_Edges(cells.edges.size())
   , m_Turns(levels.Count())
 {
@@ -135,7 +138,7 @@ RimFire::OfferAll()
 #pragma omp for schedule(static)
       for (std::size_t edge = first; edge < last; ++edge)
       {
-        if (const std::size_t ahead = edge + 12; ahead < m_Edges.size() && m_Edges[ahead].IsFree())
+        if (const std::size_t ahead = edge + 12; m_FetchesAhead && ahead < m_Edges.size() && m_Edges[ahead].IsFree())
         {
           FetchFace(m_Edges[ahead].Coface());
         }
@@ -238,7 +241,10 @@ RimFire::Burn(std::size_t level)
   m_Waiting -= m_Open.size();
   for (std::size_t at = 0; at < m_Open.size(); ++at)
   {
-    FetchAhead(at);
+    if (m_FetchesAhead)
+    {
+      FetchAhead(at);
+    }
     const ElementIndex edge = m_Open[at];
     if (!m_Edges[edge].IsFree())
     {

@@ -130,6 +130,7 @@ private:
   const CellComplex &                    m_Cells;
   const ToleranceLevels &                m_Levels;
   std::vector<CoreBall> &                m_Balls;
+  bool                                   m_FetchesAhead;
   std::vector<RemainingElements>         m_Edges;
   std::vector<Word>                      m_Faces;
   std::vector<std::vector<ElementIndex>> m_Turns; // edges by level
