@@ -3,8 +3,8 @@
 #include "LooseEnds.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 
 namespace voxelcore
 {
@@ -83,53 +83,39 @@ LooseEnds::Uphill(ElementIndex vertex)
   return from.uphill;
 }
 
+// Uphill from both, then what is around both; each once.
 void
 LooseEnds::CollectKeepers(ElementIndex vertex, ElementIndex other)
 {
-  m_Candidates.clear();
-  // Uphill from both. Where the second way meets the first they are one.
-  std::array<ElementIndex, kUphillSteps> way{};
-  std::size_t                            length = 0;
-  ElementIndex                           at = vertex;
-  while (length < kUphillSteps && Uphill(at) != at)
-  {
-    at = Uphill(at);
-    way[length++] = at;
-    if (IsLive(at))
-    {
-      m_Candidates.push_back(at);
-    }
-  }
-  std::size_t same = length; // where on the first way the second is
-  at = other;
-  if (const auto start = std::find(way.begin(), way.begin() + length, other); start != way.begin() + length)
-  {
-    same = static_cast<std::size_t>(start - way.begin());
-  }
-  for (std::size_t step = 0; step < kUphillSteps && Uphill(at) != at; ++step)
-  {
-    at = Uphill(at);
-    same = same < length ? same + 1
-                         : static_cast<std::size_t>(std::find(way.begin(), way.begin() + length, at) - way.begin());
-    if (same >= length && at != vertex && IsLive(at))
-    {
-      m_Candidates.push_back(at);
-    }
-  }
-  const auto add = [&](ElementIndex keeper) {
-    if (keeper != vertex && IsLive(keeper) &&
-        std::find(m_Candidates.begin(), m_Candidates.end(), keeper) == m_Candidates.end())
-    {
-      m_Candidates.push_back(keeper);
-    }
+  const auto neighboursOf = [&](ElementIndex of) {
+    return std::span(m_Neighbours).subspan(m_FirstNeighbour[of], m_FirstNeighbour[of + 1] - m_FirstNeighbour[of]);
   };
-  for (const ElementIndex centre : { vertex, other })
+  m_Candidates.Clear();
+  m_Candidates.MakeRoom(2 * kUphillSteps + neighboursOf(vertex).size() + neighboursOf(other).size());
+  m_Look += 2; // CollectAround() counts one on
+  m_Balls[vertex].seen = m_Look;
+  m_Balls[other].seen = m_Look;
+  const auto add = [&](ElementIndex keeper) {
+    std::uint32_t & seen = m_Balls[keeper].seen;
+    m_Candidates.AddIf(keeper, IsLive(keeper) & (seen != m_Look));
+    seen = m_Look;
+  };
+  for (const ElementIndex start : { vertex, other })
   {
-    for (std::uint32_t i = m_FirstNeighbour[centre]; i < m_FirstNeighbour[centre + 1]; ++i)
+    ElementIndex at = start;
+    for (int step = 0; step < kUphillSteps; ++step)
     {
-      add(m_Neighbours[i]);
+      const ElementIndex next = Uphill(at);
+      if (next == at)
+      {
+        break;
+      }
+      at = next;
+      add(at);
     }
   }
+  std::ranges::for_each(neighboursOf(vertex), add);
+  std::ranges::for_each(neighboursOf(other), add);
 }
 
 double
@@ -152,14 +138,25 @@ LooseEnds::CostOf(ElementIndex vertex)
     return m_HeirGap;
   }
   double        farthest = 0;
+  std::uint32_t before = loose.lastKept;
   std::uint32_t point = loose.lastKept;
   do
   {
-    point = m_NextKept[point];
-    farthest = std::max(farthest, SquaredDistance(PlaceOf(point), heir.centre));
+    const std::uint32_t next = m_NextKept[point];
+    if (const double squared = SquaredDistance(PlaceOf(next), heir.centre); squared > farthest)
+    {
+      farthest = squared;
+      before = point;
+    }
+    point = next;
   } while (point != loose.lastKept);
   m_HeirGap = std::sqrt(farthest) - heir.radius;
-  return m_HeirGap <= m_Height ? m_HeirGap : FindHomes(vertex);
+  if (m_HeirGap <= m_Height)
+  {
+    return m_HeirGap;
+  }
+  m_Balls[vertex].lastKept = before; // the farthest comes first
+  return FindHomes(vertex);
 }
 
 double
@@ -171,33 +168,36 @@ LooseEnds::FindHomes(ElementIndex vertex)
   double              cost = 0;
   const std::uint32_t last = m_Balls[vertex].lastKept;
   std::uint32_t       point = last;
-  const auto          look = [&](const BallCentre & place, Home & home, std::size_t first) {
-    for (std::size_t i = first; i < m_Candidates.size() && home.gap > m_Height; ++i)
+  // Beyond the height nothing counts but what is farthest, and a ball as near as that will do for all others.
+  const auto look = [&](const BallCentre & place, Home & home) {
+    const double enough = std::max(m_Height, cost);
+    while (home.gap > enough && home.next < m_Candidates.Count())
     {
-      const double gap = Gap(place, m_Balls[m_Candidates[i]]);
-      home = gap < home.gap ? Home{ m_Candidates[i], gap } : home;
+      const ElementIndex candidate = m_Candidates[home.next++];
+      if (const double gap = Gap(place, m_Balls[candidate]); gap < home.gap)
+      {
+        home.vertex = candidate;
+        home.gap = gap;
+      }
     }
+    cost = std::max(cost, home.gap);
   };
   do
   {
     point = m_NextKept[point];
     const BallCentre place = PlaceOf(point);
-    Home             home{ m_Heir, Gap(place, m_Balls[m_Heir]) };
-    look(place, home, 0);
-    m_NewHomes.push_back(home);
-    cost = std::max(cost, home.gap);
+    m_NewHomes.push_back({ m_Heir, 0, Gap(place, m_Balls[m_Heir]) });
+    look(place, m_NewHomes.back());
   } while (point != last);
   // Below a voxel's diagonal that hardly changes anything, and most are.
   if (cost > std::max(m_Height, m_Levels.Diagonal()))
   {
-    const std::size_t first = m_Candidates.size();
     CollectAround(vertex);
     cost = 0;
     for (Home & home : m_NewHomes)
     {
       point = m_NextKept[point];
-      look(PlaceOf(point), home, first);
-      cost = std::max(cost, home.gap);
+      look(PlaceOf(point), home);
     }
   }
   return cost;
@@ -208,23 +208,28 @@ LooseEnds::FindHomes(ElementIndex vertex)
 void
 LooseEnds::CollectAround(ElementIndex vertex)
 {
-  m_Around.assign(1, m_Heir);
-  m_Balls[m_Heir].seen = ++m_Look;
+  const std::uint32_t known = m_Look++;
+  m_Around.Clear();
+  m_Around.MakeRoom(1);
+  m_Around.AddIf(m_Heir, true);
+  m_Balls[m_Heir].seen = m_Look;
   m_Balls[vertex].seen = m_Look;
-  for (std::size_t i = 0; i < m_Around.size() && m_Around.size() < kAround; ++i)
+  for (std::size_t i = 0; i < m_Around.Count() && m_Around.Count() < kAround; ++i)
   {
-    const ElementIndex centre = m_Around[i];
-    for (std::uint32_t j = m_FirstNeighbour[centre]; j < m_FirstNeighbour[centre + 1]; ++j)
+    const ElementIndex  centre = m_Around[i];
+    const std::uint32_t end = m_FirstNeighbour[centre + 1];
+    m_Around.MakeRoom(end - m_FirstNeighbour[centre]);
+    m_Candidates.MakeRoom(end - m_FirstNeighbour[centre]);
+    for (std::uint32_t j = m_FirstNeighbour[centre]; j < end; ++j)
     {
       const ElementIndex other = m_Neighbours[j];
-      if (m_Balls[other].seen != m_Look && IsLive(other))
-      {
-        m_Balls[other].seen = m_Look;
-        m_Around.push_back(other);
-      }
+      std::uint32_t &    seen = m_Balls[other].seen;
+      const bool         isNew = IsLive(other) & (seen != m_Look);
+      m_Candidates.AddIf(other, isNew & (seen != known));
+      m_Around.AddIf(other, isNew);
+      seen = m_Look;
     }
   }
-  m_Candidates.insert(m_Candidates.end(), m_Around.begin(), m_Around.end());
 }
 
 } // namespace voxelcore

@@ -57,8 +57,49 @@ public:
 private:
   struct Home
   {
-    ElementIndex vertex;
-    double       gap;
+    ElementIndex  vertex;
+    std::uint32_t next; ///< of the candidates
+    double        gap;
+  };
+
+  /** A list that is added to without branches. */
+  class Vertices
+  {
+  public:
+    void
+    Clear()
+    {
+      m_Count = 0;
+    }
+    std::size_t
+    Count() const
+    {
+      return m_Count;
+    }
+    ElementIndex
+    operator[](std::size_t i) const
+    {
+      return m_List[i];
+    }
+    /** Before so many are added. */
+    void
+    MakeRoom(std::size_t more)
+    {
+      if (m_List.size() < m_Count + more)
+      {
+        m_List.resize(2 * (m_Count + more));
+      }
+    }
+    void
+    AddIf(ElementIndex vertex, bool isWanted)
+    {
+      m_List[m_Count] = vertex;
+      m_Count += isWanted ? 1 : 0;
+    }
+
+  private:
+    std::vector<ElementIndex> m_List;
+    std::size_t               m_Count = 0;
   };
 
   BallCentre
@@ -120,13 +161,13 @@ private:
   double                                             m_Height = 0;
 
   // What the last cost was made of: Remove() follows a cost computed in the same state.
-  ElementIndex              m_Heir = 0;       // the other end of a loose vertex' edge
-  bool                      m_ToHeir = false; // to which all goes, none farther from it than m_HeirGap
-  double                    m_HeirGap = 0;
-  std::vector<ElementIndex> m_Candidates;
-  std::vector<ElementIndex> m_Around;
-  std::uint32_t             m_Look = 0; // number of the last look around
-  std::vector<Home>         m_NewHomes; // per kept boundary vertex in the order of the ring
+  ElementIndex      m_Heir = 0;       // the other end of a loose vertex' edge
+  bool              m_ToHeir = false; // to which all goes, none farther from it than m_HeirGap
+  double            m_HeirGap = 0;
+  Vertices          m_Candidates;
+  Vertices          m_Around;
+  std::uint32_t     m_Look = 0; // number of the last look around
+  std::vector<Home> m_NewHomes; // per kept boundary vertex in the order of the ring
 };
 
 } // namespace voxelcore
