@@ -11,7 +11,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::size_t kLeafBalls = 8;
+constexpr std::size_t kLeafBalls = 16;
 constexpr std::size_t kWorthThreads = 10000; ///< balls
 constexpr int         kHalvings = 4;
 
@@ -213,6 +213,13 @@ BallTree::FindWithin(const std::array<double, 3> & place, double most, std::vect
     }
   }
   std::sort(found.begin(), found.end());
+}
+
+bool
+BallTree::IsWithin(const std::array<double, 3> & place, double most, std::size_t number) const
+{
+  return number < m_Balls.size() &&
+         GapTo({ m_Scale[0] * place[0], m_Scale[1] * place[1], m_Scale[2] * place[2] }, number) < most;
 }
 
 double

@@ -58,6 +58,7 @@ LargestBoundaryGap(const VoxelShape &                     shape,
 {
   const std::vector<LatticePoint> points = BoundaryVertices(shape);
   const BallTree                  tree(positions, radius, weights);
+  const auto                      width = static_cast<std::size_t>(shape.Box().size[0]) + 1;
   Farthest                        farthest;
   // What lies nearer than the farthest so far needs no closer look: a few places from everywhere come first.
   for (const std::size_t step : { std::size_t{ 16 }, std::size_t{ 1 } })
@@ -70,16 +71,30 @@ LargestBoundaryGap(const VoxelShape &                     shape,
       const std::size_t last = std::min(count, first + chunk);
 #pragma omp parallel if (last - first > 4096)
       {
-        Farthest    own = farthest;
-        std::size_t nearest = 0;
+        Farthest                 own = farthest;
+        std::size_t              nearest = 0;
+        std::vector<std::size_t> below(width, 0); // what was nearest in the row before
 #pragma omp for schedule(dynamic, 512)
         for (std::size_t i = first; i < last; ++i)
         {
-          const LatticePoint & p = points[i * step];
-          own.Take(tree.Gap({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) },
-                            own.gap,
-                            nearest),
-                   i * step);
+          const LatticePoint &        p = points[i * step];
+          const std::array<double, 3> place{ static_cast<double>(p.x),
+                                             static_cast<double>(p.y),
+                                             static_cast<double>(p.z) };
+          std::size_t &               other = below[static_cast<std::size_t>(p.x - shape.Box().lower[0])];
+          if (tree.IsWithin(place, own.gap, nearest))
+          {
+            other = nearest;
+          }
+          else if (tree.IsWithin(place, own.gap, other))
+          {
+            nearest = other;
+          }
+          else
+          {
+            own.Take(tree.Gap(place, own.gap, nearest), i * step);
+            other = nearest;
+          }
         }
 #pragma omp critical(voxelcoreFarthest)
         farthest.Take(own.gap, own.point);

@@ -31,6 +31,10 @@ public:
   double
   Gap(const std::array<double, 3> & place, double enough, std::size_t & nearest) const;
 
+  /** Whether the gap to a ball, by the tree's own number, is less than `most`. Thread-safe. */
+  bool
+  IsWithin(const std::array<double, 3> & place, double most, std::size_t number) const;
+
   /** Which ball the tree's own number is of. */
   std::uint32_t
   BallOf(std::size_t number) const
