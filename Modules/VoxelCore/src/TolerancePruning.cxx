@@ -157,14 +157,10 @@ LargestTouchingBalls(const DelaunayCells &             cells,
   RunInParts(cells.FacetCount() > 10000, cells.FacetCount(), [&](std::size_t first, std::size_t last) {
     for (std::size_t facet = first; facet < last; ++facet)
     {
-      const auto facetPoints = cells.FacetPoints(facet);
-      for (const std::uint32_t cell : cells.facetCells[facet])
-      {
-        if (cell != kOutside)
-        {
-          std::ranges::for_each(facetPoints, [&](std::uint32_t point) { offer(cell, point); });
-        }
-      }
+      // Of its two balls the larger one is enough.
+      const auto [one, other] = cells.facetCells[facet];
+      const ElementIndex larger = other == kOutside || isLarger(one, other) ? one : other;
+      std::ranges::for_each(cells.FacetPoints(facet), [&](std::uint32_t point) { offer(larger, point); });
     }
   });
   return balls;
