@@ -58,10 +58,10 @@ LargestBoundaryGap(const VoxelShape &                     shape,
 {
   const std::vector<LatticePoint> points = BoundaryVertices(shape);
   const BallTree                  tree(positions, radius, weights);
-  const auto                      width = static_cast<std::size_t>(shape.Box().size[0]) + 1;
+  const auto                      width = static_cast<std::size_t>(shape.Box().size[0]) + 3;
   Farthest                        farthest;
   // What lies nearer than the farthest so far needs no closer look: a few places from everywhere come first.
-  for (const std::size_t step : { std::size_t{ 16 }, std::size_t{ 1 } })
+  for (const std::size_t step : { std::size_t{ 64 }, std::size_t{ 1 } })
   {
     const std::size_t     count = (points.size() + step - 1) / step;
     constexpr std::size_t chunk = std::size_t{ 1 } << 16;
@@ -73,7 +73,7 @@ LargestBoundaryGap(const VoxelShape &                     shape,
       {
         Farthest                 own = farthest;
         std::size_t              nearest = 0;
-        std::vector<std::size_t> below(width, 0); // what was nearest in the row before
+        std::vector<std::size_t> below(width, 0); // what was nearest at each x, and one x before and behind
 #pragma omp for schedule(dynamic, 512)
         for (std::size_t i = first; i < last; ++i)
         {
@@ -81,20 +81,23 @@ LargestBoundaryGap(const VoxelShape &                     shape,
           const std::array<double, 3> place{ static_cast<double>(p.x),
                                              static_cast<double>(p.y),
                                              static_cast<double>(p.z) };
-          std::size_t &               other = below[static_cast<std::size_t>(p.x - shape.Box().lower[0])];
-          if (tree.IsWithin(place, own.gap, nearest))
+          // Around it in the row before, then along its own row.
+          std::size_t * const at = &below[static_cast<std::size_t>(p.x - shape.Box().lower[0])];
+          bool                isNear = false;
+          for (const std::size_t ball : { at[1], nearest, at[0], at[2] })
           {
-            other = nearest;
+            if (tree.IsWithin(place, own.gap, ball))
+            {
+              nearest = ball;
+              isNear = true;
+              break;
+            }
           }
-          else if (tree.IsWithin(place, own.gap, other))
-          {
-            nearest = other;
-          }
-          else
+          if (!isNear)
           {
             own.Take(tree.Gap(place, own.gap, nearest), i * step);
-            other = nearest;
           }
+          at[1] = nearest;
         }
 #pragma omp critical(voxelcoreFarthest)
         farthest.Take(own.gap, own.point);
