@@ -71,6 +71,13 @@ TEST(BallTree, FindsTheBallsThatLookingAtAllFinds)
       std::vector<std::uint32_t> found;
       tree.FindWithin(at, 2, found);
       ASSERT_EQ(found, within);
+      for (std::size_t number = 0; number < radius.size(); ++number)
+      {
+        const std::uint32_t ball = tree.BallOf(number);
+        ASSERT_EQ(tree.IsWithin(at, 2, number),
+                  BallTree({ &positions[ball], 1 }, { &radius[ball], 1 }, weights).Gap(at) < 2);
+      }
+      ASSERT_FALSE(tree.IsWithin(at, 2, radius.size()));
     }
   }
 }
