@@ -68,7 +68,8 @@ private:
   // corners are, and what a cost needs of the edges around it lies in one place.
   using Word = std::uint16_t;
 
-  static constexpr std::size_t kNoted = 16; ///< sides that are noted as free
+  static constexpr std::size_t kNoted = 16;     ///< sides that are noted as free
+  static constexpr std::size_t kUsualTurn = 32; ///< edges that wait for a level
 
   struct Reached
   {
@@ -123,7 +124,12 @@ private:
   void
   Wait(ElementIndex edge, double cost)
   {
-    m_Turns[m_Levels.LevelOf(cost)].push_back(edge);
+    std::vector<ElementIndex> & turn = m_Turns[m_Levels.LevelOf(cost)];
+    if (turn.capacity() == 0)
+    {
+      turn.reserve(kUsualTurn);
+    }
+    turn.push_back(edge);
     ++m_Waiting;
   }
 

@@ -95,11 +95,21 @@ private:
     ElementIndex element;
   };
   void
+  Offer(Level level, const Turn & offered)
+  {
+    std::vector<Turn> & turn = m_Turns[std::max(m_Level, std::size_t{ level })];
+    if (turn.capacity() == 0)
+    {
+      turn.reserve(kUsualTurn);
+    }
+    turn.push_back(offered);
+  }
+  void
   OfferEdge(ElementIndex edge)
   {
     if (m_EdgeLevels[edge] != kGone && m_FacesAt[edge].count == 1)
     {
-      m_Turns[std::max(m_Level, std::size_t{ m_EdgeLevels[edge] })].push_back({ true, edge });
+      Offer(m_EdgeLevels[edge], { true, edge });
     }
   }
   void
@@ -108,7 +118,7 @@ private:
     if (vertex != kNobody && m_VertexLevels[vertex] != kGone && m_EdgesAt[vertex].count == 1 &&
         m_FacesAt[m_EdgesAt[vertex].exclusiveOr].count == 0)
     {
-      m_Turns[std::max(m_Level, std::size_t{ m_VertexLevels[vertex] })].push_back({ false, vertex });
+      Offer(m_VertexLevels[vertex], { false, vertex });
     }
   }
   void
@@ -116,7 +126,8 @@ private:
   void
   RemoveVertex(ElementIndex vertex, double height, ToleranceValues & values);
 
-  static constexpr Level kGone = 0xFFFF;
+  static constexpr Level       kGone = 0xFFFF;
+  static constexpr std::size_t kUsualTurn = 32; ///< elements offered at a level
 
   std::vector<ElementIndex>                m_Faces;
   std::vector<ElementIndex>                m_Edges;
