@@ -111,6 +111,18 @@ TEST(MedialSheets, ASmallFlakeThatHangsByARodOrAPointIsPartOfItsSheet)
   EXPECT_EQ(CountsOf(CutIntoSheets(alone.Core(), 3)), (SheetCounts{ 2, 0, 0, 0 }));
 }
 
+TEST(MedialSheets, AFlakeAtTheTipOfARodIsPartOfTheSheetIfTheRodIs)
+{
+  for (const double radius : { 1.0, 3.0 })
+  {
+    SheetBuilder plate;
+    plate.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 15, { 0, 1, 0 }, 15, 3);
+    plate.Rod({ 15, 15, 0 }, { 1, 0, 0 }, 4, radius);
+    plate.Plate({ 19, 15, 0 }, { 1, 0, 0 }, 1, { 0, 1, 0 }, 1, 1);
+    EXPECT_EQ(CutIntoSheets(plate.Core(), 0.5).sheets.size(), radius < 3 ? 2U : 1U) << "stands out by four";
+  }
+}
+
 TEST(MedialSheets, AFlakeWhereRodsMeetIsTheirJunctionAndALargeOneIsASheet)
 {
   const auto cutOf = [](int side) {

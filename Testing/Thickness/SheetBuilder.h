@@ -60,9 +60,9 @@ public:
 
   /** n x m squares from `corner` along two sides. */
   void
-  Plate(const Vector3 & corner, const Vector3 & along, int n, const Vector3 & up, int m)
+  Plate(const Vector3 & corner, const Vector3 & along, int n, const Vector3 & up, int m, double radius = 1)
   {
-    const auto at = [&](int i, int j) { return At(AddScaled(AddScaled(corner, i, along), j, up)); };
+    const auto at = [&](int i, int j) { return At(AddScaled(AddScaled(corner, i, along), j, up), radius); };
     for (int i = 0; i < n; ++i)
     {
       for (int j = 0; j < m; ++j)
@@ -73,11 +73,11 @@ public:
   }
 
   void
-  Rod(const Vector3 & from, const Vector3 & step, int n)
+  Rod(const Vector3 & from, const Vector3 & step, int n, double radius = 1)
   {
     for (int i = 0; i < n; ++i)
     {
-      Edge(At(AddScaled(from, i, step)), At(AddScaled(from, i + 1, step)));
+      Edge(At(AddScaled(from, i, step), radius), At(AddScaled(from, i + 1, step), radius));
     }
   }
 

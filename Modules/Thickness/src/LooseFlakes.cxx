@@ -25,6 +25,7 @@ struct Piece
   double        standOut = 0;
   double        nearest = std::numeric_limits<double>::infinity();
   std::uint32_t hangsOn = kNoPiece; ///< where `nearest` leads
+  double        hangsBy = 0;        ///< thickness of the rods on that way
 };
 
 using Pieces = std::map<std::uint32_t, Piece>;
@@ -86,6 +87,8 @@ struct Reached
 {
   double        way = std::numeric_limits<double>::infinity(); ///< less the radius where it began
   std::uint32_t from = kNoPiece;
+  double        length = 0;    ///< of rods on the way
+  double        thickness = 0; ///< of these, times length
 };
 
 /** The shortest ways from `starts` along some edges. */
@@ -118,10 +121,14 @@ WaysAlong(const MedialComplex &             core,
       const auto &       ends = core.cells.edges[edge];
       const ElementIndex next = ends[0] ^ ends[1] ^ vertex;
       const double       further = way + cut.EdgeLength(edge);
+      const double       length = cut.FacesOf(edge).empty() ? cut.EdgeLength(edge) : 0.0;
       Reached &          there = ways[next];
       if (further < there.way)
       {
-        there = { further, reached.from };
+        there = { further,
+                  reached.from,
+                  reached.length + length,
+                  reached.thickness + length * (core.radius[vertex] + core.radius[next]) };
         queue.emplace(further, next);
       }
     }
@@ -147,6 +154,7 @@ MeasureLooseOnes(const MedialComplex &              core,
       {
         piece.nearest = reached.way;
         piece.hangsOn = reached.from;
+        piece.hangsBy = reached.length > 0 ? reached.thickness / reached.length : 0;
       }
     }
   }
@@ -208,7 +216,9 @@ JoinLooseFlakes(const MedialComplex &        core,
   for (std::uint32_t & piece : pieceOfFace)
   {
     const Piece & one = found.at(piece);
-    if (one.isLoose && one.hangsOn != kNoPiece && one.standOut < std::max(sliver, one.thickness / one.area))
+    // At the tip of a rod it is no less part of a sheet than the rod alone would be.
+    const double height = std::max({ sliver, one.thickness / one.area, one.hangsBy });
+    if (one.isLoose && one.hangsOn != kNoPiece && one.standOut < height)
     {
       piece = one.hangsOn;
     }
