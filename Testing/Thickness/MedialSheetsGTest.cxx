@@ -134,81 +134,51 @@ TEST(MedialSheets, ANarrowStripBetweenSeamsJoinsTheSheetItContinues)
   EXPECT_DOUBLE_EQ(cut.curves[0].length, 12);
 }
 
-TEST(MedialSheets, WhereTheStripOfACrossingEndsBeforeTheRimFourSheetsMeetStill)
+TEST(MedialSheets, WhereTheSeamOrTheStripOfACrossingEndsBeforeTheRimFourSheetsMeetStill)
 {
-  // Beyond its tip, at y = 10, the two upper walls are one bent sheet, and the two lower ones.
-  SheetBuilder x;
-  const auto   wall = [&](const Vector3 & out, double side, double height) {
-    const auto at = [&](int y, int k) {
-      const Vector3 foot{ y < 10 ? side : 1, static_cast<double>(y), y > 10 ? height : 0 };
-      return x.At(AddScaled(foot, k, out));
-    };
-    for (int y = 0; y < 12; ++y)
-    {
-      for (int k = 0; k < 7; ++k)
+  // Beyond its end, at y = 10, the two upper walls are one bent sheet, and the two lower ones.
+  for (const double width : { 0.0, 2.0 })
+  {
+    SheetBuilder x;
+    const auto   wall = [&](const Vector3 & out, double side, double height) {
+      const auto at = [&](int y, int k) {
+        const Vector3 foot{ y < 10 ? side : width / 2, static_cast<double>(y), y > 10 ? height : 0 };
+        return x.At(AddScaled(foot, k, out));
+      };
+      for (int y = 0; y < 12; ++y)
       {
-        x.Face({ at(y, k), at(y, k + 1), at(y + 1, k + 1), at(y + 1, k) });
+        for (int k = 0; k < 7; ++k)
+        {
+          x.Face({ at(y, k), at(y, k + 1), at(y + 1, k + 1), at(y + 1, k) });
+        }
       }
+    };
+    wall({ -0.6, 0, 0.8 }, 0, 0.3);
+    wall({ 0.6, 0, 0.8 }, width, 0.3);
+    wall({ -0.6, 0, -0.8 }, 0, -0.3);
+    wall({ 0.6, 0, -0.8 }, width, -0.3);
+    if (width > 0)
+    {
+      x.Plate({ 0, 0, 0 }, { 2, 0, 0 }, 1, { 0, 1, 0 }, 9);
+      x.Face({ x.At({ 0, 9, 0 }), x.At({ 2, 9, 0 }), x.At({ 1, 10, 0 }) });
     }
-  };
-  wall({ -0.6, 0, 0.8 }, 0, 0.3);
-  wall({ 0.6, 0, 0.8 }, 2, 0.3);
-  wall({ -0.6, 0, -0.8 }, 0, -0.3);
-  wall({ 0.6, 0, -0.8 }, 2, -0.3);
-  x.Plate({ 0, 0, 0 }, { 2, 0, 0 }, 1, { 0, 1, 0 }, 9);
-  x.Face({ x.At({ 0, 9, 0 }), x.At({ 2, 9, 0 }), x.At({ 1, 10, 0 }) });
-  EXPECT_EQ(CountsOf(CutIntoSheets(x.Core(), 3)), (SheetCounts{ 4, 1, 0, 0 }));
+    EXPECT_EQ(CountsOf(CutIntoSheets(x.Core(), 3)), (SheetCounts{ 4, 1, 0, 0 })) << width;
+  }
 }
 
 TEST(MedialSheets, ASeamThatIsShorterThanItsBallsAreWideIsAJunction)
 {
   const auto counts = [](double radius) {
     SheetBuilder two;
-    const auto   plate = [&](const Vector3 & corner, const Vector3 & along, int n, const Vector3 & up, int m) {
-      for (int i = 0; i < n; ++i)
-      {
-        for (int j = 0; j < m; ++j)
-        {
-          const auto at = [&](int a, int b) { return two.At(AddScaled(AddScaled(corner, a, along), b, up), radius); };
-          two.Face({ at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) });
-        }
-      }
-    };
     // A wall; on one side of it one more up to z = 12, on the other side one from z = 8.
-    plate({ -12, 0, 0 }, { 1, 0, 0 }, 12, { 0, 0, 1 }, 20);
-    plate({ 0, 0, 0 }, { 1, 0, 0 }, 12, { 0, 0, 1 }, 20);
-    plate({ 0, 0, 0 }, { 0, 1, 0 }, 12, { 0, 0, 1 }, 12);
-    plate({ 0, 0, 8 }, { 0, -1, 0 }, 12, { 0, 0, 1 }, 12);
+    two.Plate({ -12, 0, 0 }, { 1, 0, 0 }, 12, { 0, 0, 1 }, 20, radius);
+    two.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 12, { 0, 0, 1 }, 20, radius);
+    two.Plate({ 0, 0, 0 }, { 0, 1, 0 }, 12, { 0, 0, 1 }, 12, radius);
+    two.Plate({ 0, 0, 8 }, { 0, -1, 0 }, 12, { 0, 0, 1 }, 12, radius);
     return CountsOf(CutIntoSheets(two.Core(), 1));
   };
   EXPECT_EQ(counts(0.5), (SheetCounts{ 4, 3, 0, 2 })) << "the middle seam, of four walls, is four long";
   EXPECT_EQ(counts(2.5), (SheetCounts{ 4, 2, 0, 1 })) << "balls are five wide";
-}
-
-TEST(MedialSheets, ThatHangTogetherOnlyWithinTheBallsOfTheirSeamArePartedThere)
-{
-  // The third wall leaves a way of three round the end of its seam; the other two are bent there.
-  const auto counts = [](double radius) {
-    SheetBuilder y;
-    const auto   wall = [&](const Vector3 & along, int n, int height) {
-      for (int i = 0; i < n; ++i)
-      {
-        for (int j = 0; j < height; ++j)
-        {
-          const auto at = [&](int a, int b) {
-            return y.At({ a * along[0], a * along[1], static_cast<double>(b) }, radius);
-          };
-          y.Face({ at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1) });
-        }
-      }
-    };
-    wall({ 1, 0, 0 }, 14, 20);
-    wall({ -0.5, 0.866, 0 }, 12, 20);
-    wall({ -0.5, -0.866, 0 }, 10, 17);
-    return CountsOf(CutIntoSheets(y.Core(), 0.5));
-  };
-  EXPECT_EQ(counts(1), (SheetCounts{ 2, 1, 0, 0 }));
-  EXPECT_EQ(counts(2), (SheetCounts{ 3, 1, 0, 0 })) << "balls are wider than the way";
 }
 
 TEST(MedialSheets, OfATripleOfPlatesOnAPlateMeetInAJunction)

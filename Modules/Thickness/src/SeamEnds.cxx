@@ -124,17 +124,13 @@ SheetPieces::EndsAt(ElementIndex vertex, double reach) const
   std::vector<SeamEnd>            ends;
   for (const ElementIndex seam : seams)
   {
-    SeamEnd end{ vertex, {} };
-    for (const Sector & sector : SectorsAt(vertex, seam))
+    for (Sector & sector : SectorsAt(vertex, seam))
     {
-      if (sector.last == seam) // came back
+      // Came back; the other way round it does, too. Where four walls end two and two go round.
+      if (sector.last == seam && sector.begin < sector.end && !sector.edges.empty())
       {
-        end.ways.insert(end.ways.end(), sector.edges.begin(), sector.edges.end());
+        ends.push_back({ vertex, std::move(sector.edges) });
       }
-    }
-    if (!end.ways.empty())
-    {
-      ends.push_back(std::move(end));
     }
   }
   if (seams.size() != 2 || !ends.empty())

@@ -56,11 +56,12 @@ SheetPieces::DrawThroughNecks(double height)
   const auto                next = [&](ElementIndex face, auto && visit) {
     for (const ElementIndex edge : cells.FaceEdges(face))
     {
+      const auto & ends = cells.edges[edge];
       for (const ElementIndex other : IsInner(edge) ? FacesOf(edge) : std::span<const ElementIndex>())
       {
         if (m_Alive[other] != 0)
         {
-          visit(other);
+          visit(other, std::max(ways[ends[0]], ways[ends[1]]));
         }
       }
     }
@@ -71,13 +72,14 @@ SheetPieces::DrawThroughNecks(double height)
     if (m_Alive[face] != 0)
     {
       const auto corners = cells.FaceVertices(face);
-      const auto least = std::min_element(corners.begin(), corners.end(), [&](ElementIndex a, ElementIndex b) {
+      const auto deepest = std::max_element(corners.begin(), corners.end(), [&](ElementIndex a, ElementIndex b) {
         return ways[a] < ways[b];
       });
-      depth[face] = ways[*least];
+      depth[face] = ways[*deepest];
     }
   }
-  // Bodies: faces outside the balls of seams that hang together and stand out.
+  // Bodies: faces that hang together outside the balls of seams, and stand out. Only by what lies within these all
+  // along they are parted, however large faces are.
   std::vector<std::uint32_t> bodyOf(cells.FaceCount(), kNoPiece);
   std::vector<char>          seen(cells.FaceCount(), 0);
   std::vector<std::uint32_t> bodiesIn(m_Pieces.size(), 0);
@@ -100,8 +102,8 @@ SheetPieces::DrawThroughNecks(double height)
       {
         standOut = std::max(standOut, ways[vertex] + m_Core.radius[vertex]);
       }
-      next(group[i], [&](ElementIndex other) {
-        if (seen[other] == 0 && depth[other] >= 0)
+      next(group[i], [&](ElementIndex other, double through) {
+        if (seen[other] == 0 && through >= 0)
         {
           seen[other] = 1;
           group.push_back(other);
@@ -126,7 +128,7 @@ SheetPieces::DrawThroughNecks(double height)
     queue.pop();
     if (bodiesIn[m_PieceOf[face]] > 1)
     {
-      next(face, [&](ElementIndex other) {
+      next(face, [&](ElementIndex other, double) {
         if (bodyOf[other] == kNoPiece)
         {
           bodyOf[other] = bodyOf[face];

@@ -15,13 +15,14 @@
 // A seam that ends on the way is drawn on to the border of the sheets that go round its end, or to another seam, where
 // that is nearer than the radius there plus `sliver`, or than twice that radius. Ways along the feet of fins do not
 // count: there the surface itself says how the seam went on. A seam that turns back round the tip of a sliver, at which
-// those sheets have creases, is drawn on likewise. What hangs together only within the balls of its seams is parted, if
-// both parts stand out of these by `sliver`. Fins that come off so are passed over, too. What lies between seams and is
-// a sliver belongs to them: those along it are one, in which all sheets about it meet. Seams of the same sheets that
-// touch are one.
+// those sheets have creases, is drawn on likewise. Where four sheets end, so that two go round on either side, both
+// pairs are parted. What hangs together only within the balls of its seams, along a line of edges that lies in them, is
+// parted, if both parts stand out of these by `sliver`. Fins that come off so are passed over, too. What lies between
+// seams and is a sliver belongs to them: those along it are one, in which all sheets about it meet. Seams of the same
+// sheets that touch are one.
 // What lies between seams, is a sliver, and has one sheet about it, is a pocket in that sheet and makes no seam.
 // A piece that shares no edge with another and hangs on one by rods or a point is part of it where it stands out by
-// less than `sliver`, or than it is thick; the largest of all that hangs together stays.
+// less than `sliver`, or than it or the rods it hangs by are thick; the largest of all that hangs together stays.
 // A rod is longer than it is thick: rods that hang together and on sheets, and nowhere stand out of these by `sliver`,
 // nor by their own thickness, are part of them; so is a rod that hangs on rods, ends freely and stands out by less.
 // What leads from one sheet to another stands out by its whole length.
