@@ -134,6 +134,21 @@ TEST(MedialSheets, ANarrowStripBetweenSeamsJoinsTheSheetItContinues)
   EXPECT_DOUBLE_EQ(cut.curves[0].length, 12);
 }
 
+TEST(MedialSheets, AStripIsOneTooIfItStandsOutByLessThanTheRadiusAtItsSeams)
+{
+  const auto counts = [](double radius) {
+    SheetBuilder x;
+    x.Plate({ 0, 0, 0 }, { 1, 0, 0 }, 4, { 0, 1, 0 }, 24, radius);
+    x.Plate({ 0, 0, 0 }, { -0.6, 0, 0.8 }, 17, { 0, 1, 0 }, 24, radius);
+    x.Plate({ 0, 0, 0 }, { -0.6, 0, -0.8 }, 18, { 0, 1, 0 }, 24, radius);
+    x.Plate({ 4, 0, 0 }, { 0.6, 0, 0.8 }, 19, { 0, 1, 0 }, 24, radius);
+    x.Plate({ 4, 0, 0 }, { 0.6, 0, -0.8 }, 20, { 0, 1, 0 }, 24, radius);
+    return CountsOf(CutIntoSheets(x.Core(), 1));
+  };
+  EXPECT_EQ(counts(1.5), (SheetCounts{ 5, 2, 0, 0 })) << "by two";
+  EXPECT_EQ(counts(2.5), (SheetCounts{ 4, 1, 0, 0 }));
+}
+
 TEST(MedialSheets, WhereTheSeamOrTheStripOfACrossingEndsBeforeTheRimFourSheetsMeetStill)
 {
   // Beyond its end, at y = 10, the two upper walls are one bent sheet, and the two lower ones.

@@ -31,8 +31,8 @@ constexpr double kTubeWindow = 3;
 constexpr double kTubeGrowth = 0.15;
 constexpr double kTubeStandOut = 0.6;
 
-// A shorter way will do where the line of voxels is longer, from face to face, than those that noise makes, and the body
-// behind is no thicker: a bump on a thicker one is as thin as the thinnest tube.
+// A shorter way will do where the line of voxels is longer, from face to face, than those that noise makes, and the
+// body behind is no thicker: a bump on a thicker one is as thin as the thinnest tube.
 constexpr double kTubeLine = 3.25;
 constexpr double kTubeBody = 1.16;
 

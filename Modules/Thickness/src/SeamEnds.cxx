@@ -146,7 +146,7 @@ SheetPieces::EndsAt(ElementIndex vertex, double reach) const
       at = m_Core.cells.edges[edge][0] ^ m_Core.cells.edges[edge][1] ^ at;
       length += EdgeLength(edge);
       const auto next = SeamsAt(at);
-      goesOn = length < reach && next.size() == 2 && at != vertex;
+      goesOn = length < std::max(reach, m_Core.radius[vertex]) && next.size() == 2 && at != vertex;
       edge = goesOn ? next[next[0] == edge ? 1 : 0] : edge;
     }
     return Minus(m_Core.positions[at], m_Core.positions[vertex]);
@@ -164,7 +164,7 @@ SheetPieces::EndsAt(ElementIndex vertex, double reach) const
     {
       continue;
     }
-    const bool isStrip = m_Pieces[m_PieceOf[sector.begin]].standOut < reach;
+    const bool isStrip = IsSliver(m_Pieces[m_PieceOf[sector.begin]], reach);
     isTip = isTip || isStrip;
     // A sheet that goes round a strip's tip has a crease there; about a pocket it is flat.
     const Vector3 first = Cross(one, Inwards(sector.begin, seams[0]));

@@ -12,10 +12,11 @@ namespace voxelcore
 {
 
 std::vector<double>
-SheetPieces::WaysFromSeams() const
+SheetPieces::WaysFromSeams(std::vector<double> & radii) const
 {
   const auto &        edges = m_Core.cells.edges;
   std::vector<double> ways(m_Core.cells.vertexCount, std::numeric_limits<double>::infinity());
+  radii = m_Core.radius;
   using Entry = std::pair<double, ElementIndex>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (ElementIndex edge = 0; edge < edges.size(); ++edge)
@@ -41,6 +42,7 @@ SheetPieces::WaysFromSeams() const
       if (m_Live[edge] > 0 && further < ways[other])
       {
         ways[other] = further;
+        radii[other] = radii[vertex];
         queue.emplace(further, other);
       }
     }
@@ -52,7 +54,8 @@ void
 SheetPieces::DrawThroughNecks(double height)
 {
   const CellComplex &       cells = m_Core.cells;
-  const std::vector<double> ways = WaysFromSeams();
+  std::vector<double>       radii;
+  const std::vector<double> ways = WaysFromSeams(radii);
   const auto                next = [&](ElementIndex face, auto && visit) {
     for (const ElementIndex edge : cells.FaceEdges(face))
     {
@@ -95,12 +98,12 @@ SheetPieces::DrawThroughNecks(double height)
     }
     seen[first] = 1;
     group.assign(1, first);
-    double standOut = 0;
+    bool standsOut = false;
     for (std::size_t i = 0; i < group.size(); ++i)
     {
       for (const ElementIndex vertex : cells.FaceVertices(group[i]))
       {
-        standOut = std::max(standOut, ways[vertex] + m_Core.radius[vertex]);
+        standsOut = standsOut || ways[vertex] + m_Core.radius[vertex] >= std::max(height, radii[vertex]);
       }
       next(group[i], [&](ElementIndex other, double through) {
         if (seen[other] == 0 && through >= 0)
@@ -110,7 +113,7 @@ SheetPieces::DrawThroughNecks(double height)
         }
       });
     }
-    if (standOut >= height)
+    if (standsOut)
     {
       ++bodiesIn[m_PieceOf[first]];
       for (const ElementIndex face : group)
@@ -137,12 +140,30 @@ SheetPieces::DrawThroughNecks(double height)
       });
     }
   }
+  // What borders seams by less than their balls are wide is a corner of a sheet, however narrow its foot.
+  std::vector<double> seamBorder(bodies, 0);
+  std::vector<double> seamWidth(bodies, 0); // times length
+  for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    for (const ElementIndex face : IsBorder(edge) ? FacesOf(edge) : std::span<const ElementIndex>())
+    {
+      if (bodyOf[face] != kNoPiece)
+      {
+        const auto & ends = cells.edges[edge];
+        seamBorder[bodyOf[face]] += EdgeLength(edge);
+        seamWidth[bodyOf[face]] += EdgeLength(edge) * (m_Core.radius[ends[0]] + m_Core.radius[ends[1]]);
+      }
+    }
+  }
+  const auto isCorner = [&](std::uint32_t body) {
+    return seamBorder[body] < height || seamBorder[body] * seamBorder[body] < seamWidth[body];
+  };
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
     std::uint32_t one = kNoPiece;
     for (const ElementIndex face : IsInner(edge) ? FacesOf(edge) : std::span<const ElementIndex>())
     {
-      if (m_Alive[face] != 0 && bodiesIn[m_PieceOf[face]] > 1)
+      if (m_Alive[face] != 0 && bodiesIn[m_PieceOf[face]] > 1 && !isCorner(bodyOf[face]))
       {
         m_Drawn[edge] = one != kNoPiece && bodyOf[face] != one ? 1 : m_Drawn[edge];
         one = bodyOf[face];

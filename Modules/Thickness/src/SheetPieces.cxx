@@ -317,7 +317,7 @@ SheetPieces::JoinStrips(double height)
   std::vector<std::uint32_t>                   strips;
   for (std::uint32_t piece = 0; piece < m_Pieces.size(); ++piece)
   {
-    if (m_Pieces[piece].standOut < height)
+    if (IsSliver(m_Pieces[piece], height))
     {
       m_Strip[piece] = 1;
       strips.push_back(piece);
@@ -335,7 +335,7 @@ SheetPieces::JoinStrips(double height)
     }
     for (const ElementIndex one : FacesOf(edge))
     {
-      if (m_Alive[one] == 0 || !(m_Pieces[m_PieceOf[one]].standOut < height))
+      if (m_Alive[one] == 0 || m_Strip[m_PieceOf[one]] == 0)
       {
         continue;
       }

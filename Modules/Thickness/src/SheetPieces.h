@@ -4,6 +4,7 @@
 #include "voxelcore/MedialComplex.h"
 #include "voxelcore/MedialSheets.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <set>
 #include <span>
@@ -44,7 +45,7 @@ public:
   DrawSeamsOn(double reach);
 
   /** Parts pieces that hang together only by what lies within the balls of their seams; parts that stand out of these
-   *  by less than this are no reason to. Pieces have to be found before and after. */
+   *  by less than this, or than their radius, are no reason to. Pieces have to be found before and after. */
   void
   DrawThroughNecks(double height);
 
@@ -68,7 +69,7 @@ public:
     return m_PieceOf[face];
   }
 
-  /** Joins pieces that lie between seams and stand out by less than this. */
+  /** Joins pieces that lie between seams and are slivers. */
   void
   JoinStrips(double height);
 
@@ -109,11 +110,17 @@ private:
   {
     return m_Live[edge] > 2 || (m_Drawn[edge] != 0 && m_Live[edge] == 2);
   }
+  /** Whether a piece stands out of its seams by less than this, or than half of what their balls are wide. */
+  static bool
+  IsSliver(const SheetPiece & piece, double height)
+  {
+    return piece.standOut < std::max(height, piece.seamWidth / 2);
+  }
   void
   Measure();
-  /** Of each vertex the way along faces to a seam's, less the radius there. */
+  /** Of each vertex the way along faces to a seam's, less the radius there, which `radii` gets. */
   std::vector<double>
-  WaysFromSeams() const;
+  WaysFromSeams(std::vector<double> & radii) const;
   /** Faces round a vertex, from a seam's edge to the next seam's. */
   struct Sector
   {
