@@ -17,10 +17,10 @@
 // that is nearer than the radius there plus `sliver`, or than twice that radius. Ways along the feet of fins do not
 // count: there the surface itself says how the seam went on. A seam that turns back round the tip of a sliver, at which
 // those sheets have creases, is drawn on likewise. Where four sheets end, so that two go round on either side, both
-// pairs are parted. What hangs together only within the balls of its seams, along a line of edges that lies in them, is
-// parted, if both parts stand out of these by `sliver` and by the radius there, and border seams by as much as the balls
-// are wide. Fins that come off so are passed over, too. What lies between seams and is a sliver belongs to them: those
-// along it are one, in which all sheets about it meet. Seams of the same sheets that touch are one.
+// pairs are parted. What hangs together only within the balls of its seams, along a line of edges that lies in them,
+// is parted, if both parts stand out of these by `sliver` and by the radius there, and border seams by as much as the
+// balls are wide. Fins that come off so are passed over, too. What lies between seams and is a sliver belongs to them:
+// those along it are one, in which all sheets about it meet. Seams of the same sheets that touch are one.
 // What lies between seams, is a sliver, and has one sheet about it, is a pocket in that sheet and makes no seam.
 // A piece that shares no edge with another and hangs on one by rods or a point is part of it where it stands out by
 // less than `sliver`, or than it or the rods it hangs by are thick; the largest of all that hangs together stays.
