@@ -1,11 +1,14 @@
 #include "JobFolder.h"
 
 #include "voxelcore/GreyVolume.h"
+#include "voxelcore/PlainSurface.h"
+#include "voxelcore/RenderJob.h"
 #include "voxelcore/ThicknessJob.h"
 #include "voxelcore/VoxelHull.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -126,6 +129,41 @@ TEST_F(ThicknessJob, AFolderGetsAMapPerLabel)
   EXPECT_EQ(Names(), (std::set<std::string>{ "a.nrrd", "maps" }));
   EXPECT_NEAR(*Map("maps/a_label-1_thickness.nrrd").Row(20, 20, 7), 6, 0.2);
   EXPECT_EQ(*Map("maps/a_label-2_thickness.nrrd").Row(20, 20, 7), 0);
+}
+
+TEST_F(ThicknessJob, TheSurfaceIsReadAgainLabelByLabelAndDrawnByItsThickness)
+{
+  TwoLabels();
+  Thickness("t.nrrd", { { "surface", At("s.vtp") }, { "medial", At("m.vtp") } });
+  const auto read = ReadMeasuredSurfaces(At("s.vtp"));
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->surfaces.size(), 2U);
+  for (const MeasuredSurface & one : read->surfaces)
+  {
+    ASSERT_EQ(one.thickness.size(), one.plain.surface.cells.vertexCount);
+    EXPECT_FALSE(one.plain.hasRadius);
+    // A slab of 6 voxels, a ball of diameter 10.
+    const double middle = *std::max_element(one.thickness.begin(), one.thickness.end());
+    EXPECT_NEAR(middle, one.label == 1 ? 6 : 10, 0.7) << "label " << one.label;
+  }
+  EXPECT_FALSE(ReadMeasuredSurfaces(At("m.vtp"))) << "medial surfaces have radii";
+  EXPECT_FALSE(ReadMeasuredSurfaces(At("a.nrrd")));
+  if (HasDisplay())
+  {
+    RenderJobOptions options;
+    options.files = { At("s.vtp") };
+    options.output = At("s.png");
+    options.width = 200;
+    options.height = 200;
+    RunRenderJob(options);
+    EXPECT_TRUE(Names().contains("s.png"));
+    options.force = true;
+    options.coloring = "Lambda";
+    EXPECT_THROW(RunRenderJob(options), UsageError);
+    options.coloring = "Radius";
+    options.files.push_back(At("m.vtp"));
+    EXPECT_THROW(RunRenderJob(options), UsageError) << "surfaces of labels are drawn alone";
+  }
 }
 
 TEST_F(ThicknessJob, VoxelsWhoseBallTouchesTheBorderAreCountedApart)

@@ -160,6 +160,11 @@ private:
       AddSheets(path, std::move(*sheets));
       return;
     }
+    if (auto measured = ReadMeasuredSurfaces(path))
+    {
+      AddMeasured(path, std::move(*measured));
+      return;
+    }
     std::string   provenance;
     MedialModel   surfaces;
     SkeletonModel skeletons;
@@ -257,6 +262,33 @@ private:
         label.medial.label = sheet.id;
         label.medial.core = std::move(sheet.plain.surface);
         label.medial.thickness = std::move(sheet.thickness);
+      }
+    }
+  }
+
+  /** Surfaces of labels, which have a thickness and no radius. */
+  void
+  AddMeasured(const std::filesystem::path & path, MeasuredSurfaces && read)
+  {
+    if (m_Sources.files.size() > 1 || m_Sources.scan)
+    {
+      throw UsageError(path.string() + ": surfaces of labels are drawn alone; give no other file and no --scan");
+    }
+    m_Report = ParseProvenance(read.provenance, path.string());
+    for (MeasuredSurface & one : read.surfaces)
+    {
+      const auto & records = m_Report->labels;
+      const auto   record = std::find_if(records.begin(), records.end(), [&](const LabelRecord & candidate) {
+        return candidate.label == one.label && candidate.component == one.component;
+      });
+      RequireFittingProvenance(record != records.end(), path);
+      if (m_Selection.Take(one.label, record->name))
+      {
+        DisplayLabel & label = LabelOf(one.label, one.component, record->name);
+        label.medial.label = one.label;
+        label.medial.core = std::move(one.plain.surface);
+        label.medial.thickness = std::move(one.thickness);
+        label.hasRadius = false;
       }
     }
   }

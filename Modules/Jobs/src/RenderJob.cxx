@@ -114,7 +114,7 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & given)
       if (label.medial.core.cells.vertexCount != label.medial.thickness.size())
       {
         throw UsageError("--color Thickness: '" + label.name +
-                         "' was not measured; give a file of 'voxelcore thickness --medial' or 'voxelcore sheets'");
+                         "' was not measured; give a file of 'voxelcore thickness' or 'voxelcore sheets'");
       }
       if (!label.curves.positions.empty())
       {
@@ -125,11 +125,18 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & given)
   PictureOptions picture = PictureOptionsOf(options);
   if (std::any_of(content.labels.begin(), content.labels.end(), [](const auto & label) { return !label.hasRadius; }))
   {
-    if (options.coloring != "Radius" && options.coloring != "Label")
+    const bool isMeasured = std::all_of(content.labels.begin(), content.labels.end(), [](const auto & label) {
+      return !label.medial.thickness.empty();
+    });
+    if (options.coloring == "Radius")
     {
-      throw UsageError("--color " + options.coloring + ": needs files with an array Radius; use Label");
+      picture.coloring = isMeasured ? PictureColoring::Thickness : PictureColoring::Label;
     }
-    picture.coloring = PictureColoring::Label;
+    else if (options.coloring != "Label" && options.coloring != "Thickness")
+    {
+      throw UsageError("--color " + options.coloring + ": needs files with an array Radius; use " +
+                       (isMeasured ? "Thickness" : "Label"));
+    }
   }
   RenderPictures(
     content,

@@ -148,6 +148,17 @@ SurfaceIn(ModelSource & file)
   return MakeSurface(points, radius, polygons, ReadCells(file, "Lines", points.size()));
 }
 
+std::vector<double>
+TakenFrom(const std::vector<double> & values, const std::vector<ElementIndex> & taken)
+{
+  std::vector<double> some;
+  for (const ElementIndex point : taken)
+  {
+    some.push_back(values[point]);
+  }
+  return some;
+}
+
 std::optional<SheetSurfaces>
 SheetsIn(ModelSource & file)
 {
@@ -178,14 +189,54 @@ SheetsIn(ModelSource & file)
   for (const auto & [id, piece] : pieces)
   {
     std::vector<ElementIndex> taken;
-    SheetSurface              sheet{ id, MakeSurface(points, radius, piece.first, piece.second, &taken), {} };
-    for (const ElementIndex point : taken)
-    {
-      sheet.thickness.push_back(thickness[point]);
-    }
-    read.sheets.push_back(std::move(sheet));
+    PlainSurface              plain = MakeSurface(points, radius, piece.first, piece.second, &taken);
+    read.sheets.push_back({ id, std::move(plain), TakenFrom(thickness, taken) });
   }
   return read;
+}
+
+std::optional<MeasuredSurfaces>
+ThicknessIn(ModelSource & file)
+{
+  if (!file.Has("PointData", "Thickness") || file.Has("PointData", "Radius") || !file.Has("FieldData", "Provenance"))
+  {
+    return {};
+  }
+  const std::vector<Vector3> points = ReadPoints(file);
+  const std::vector<double>  thickness = ReadOfPoints(file, "Thickness", points.size());
+  std::vector<Cell>          polygons = ReadCells(file, "Polys", points.size());
+  const auto                 labels = file.Read<std::int64_t>("CellData", "Label");
+  const auto                 components = file.Read<std::int64_t>("CellData", "Component");
+  RequireFit(labels.size() == polygons.size() && components.size() == polygons.size(),
+             "its array CellData/Label or CellData/Component has the wrong length");
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Cell>> pieces;
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+  {
+    pieces[{ labels[i], components[i] }].push_back(std::move(polygons[i]));
+  }
+  MeasuredSurfaces read;
+  read.provenance = file.ReadText("FieldData", "Provenance");
+  for (const auto & [key, piece] : pieces)
+  {
+    std::vector<ElementIndex> taken;
+    PlainSurface              plain = MakeSurface(points, {}, piece, {}, &taken);
+    read.surfaces.push_back({ key.first, key.second, std::move(plain), TakenFrom(thickness, taken) });
+  }
+  return read;
+}
+
+/** Only .vtp and .vtk files can have what a kind of surfaces needs. */
+template <typename Read>
+auto
+ReadOwn(const std::filesystem::path & path, const Read & read) -> decltype(read(std::declval<ModelSource &>()))
+{
+  decltype(read(std::declval<ModelSource &>())) surfaces;
+  const std::string                             extension = LowerCase(path.extension().string());
+  if (extension == ".vtp" || extension == ".vtk")
+  {
+    ReadFrom(path, Precision::AsSaved, "core", [&](ModelSource & source) { surfaces = read(source); });
+  }
+  return surfaces;
 }
 
 } // namespace
@@ -193,13 +244,13 @@ SheetsIn(ModelSource & file)
 std::optional<SheetSurfaces>
 ReadSheetSurfaces(const std::filesystem::path & path)
 {
-  std::optional<SheetSurfaces> sheets;
-  const std::string            extension = LowerCase(path.extension().string());
-  if (extension == ".vtp" || extension == ".vtk")
-  {
-    ReadFrom(path, Precision::AsSaved, "core", [&](ModelSource & source) { sheets = SheetsIn(source); });
-  }
-  return sheets;
+  return ReadOwn(path, SheetsIn);
+}
+
+std::optional<MeasuredSurfaces>
+ReadMeasuredSurfaces(const std::filesystem::path & path)
+{
+  return ReadOwn(path, ThicknessIn);
 }
 
 std::optional<PlainSurface>

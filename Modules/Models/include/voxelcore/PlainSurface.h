@@ -42,4 +42,24 @@ struct SheetSurfaces
 std::optional<SheetSurfaces>
 ReadSheetSurfaces(const std::filesystem::path & path);
 
+/** The surface of a label, or of a component of it, in a file of 'thickness --surface'. */
+struct MeasuredSurface
+{
+  std::int64_t        label = 0;
+  std::int64_t        component = 0; ///< 0 for a whole label
+  PlainSurface        plain;         ///< without radii
+  std::vector<double> thickness;     ///< per vertex
+};
+
+struct MeasuredSurfaces
+{
+  std::vector<MeasuredSurface> surfaces; ///< by label and component
+  std::string                  provenance;
+};
+
+/** Empty where the file has no point array Thickness, or has radii, as medial surfaces do. \throws InputError when it is
+ *  missing or damaged */
+std::optional<MeasuredSurfaces>
+ReadMeasuredSurfaces(const std::filesystem::path & path);
+
 } // namespace voxelcore

@@ -44,8 +44,8 @@ inline constexpr auto kInputRows = std::to_array<Parameter>({
     "",
     true,
     kRender,
-    "Medial surfaces and skeletons (.vtp .vtk) written by VoxelCore, also saved again by other programs, and meshes; "
-    "files of one label are drawn together" },
+    "Medial surfaces, skeletons, sheets and surfaces of labels (.vtp .vtk) written by VoxelCore, also saved again by "
+    "other programs, and meshes; files of one label are drawn together" },
   { "inputs", "", Inputs, "INPUT...", "", false, kBatch, "Scans, folders, quoted 'patterns*', or one manifest.csv" },
   { "kind", "", Text, "KIND", "", true, kPhantom, "Kind of shape; 'voxelcore phantom list' prints all kinds" },
   { "labels",

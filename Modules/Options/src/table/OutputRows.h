@@ -138,7 +138,7 @@ inline constexpr auto kOutputRows = std::to_array<Parameter>({
     "",
     false,
     kThickness,
-    "Write the surface of the labels with the thickness at each point" },
+    "Write the surface of the labels with the thickness at each point, which 'voxelcore render' can show" },
   { "medial",
     "--medial",
     Output,
