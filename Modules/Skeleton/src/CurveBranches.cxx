@@ -35,6 +35,7 @@ constexpr double kTubeStandOut = 0.6;
 // body behind is no thicker: a bump on a thicker one is as thin as the thinnest tube.
 constexpr double kTubeLine = 3.25;
 constexpr double kTubeBody = 1.16;
+constexpr double kTubeBehind = 6; ///< so far on
 
 // Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much
 // further to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of
@@ -118,7 +119,7 @@ private:
   {
     double greatest = 0;
     for (ElementIndex at = m_Path.back();
-         Distance(m_Surface.positions[at], m_Surface.positions[m_Path.back()]) <= kTubeWindow * m_Scale.voxel;
+         Distance(m_Surface.positions[at], m_Surface.positions[m_Path.back()]) <= kTubeBehind * m_Scale.voxel;
          at = Across(m_Surface.cells, m_Fire.nextEdge[at], at))
     {
       greatest = std::max(greatest, m_Surface.radius[at]);
