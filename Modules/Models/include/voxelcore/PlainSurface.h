@@ -57,8 +57,8 @@ struct MeasuredSurfaces
   std::string                  provenance;
 };
 
-/** Empty where the file has no point array Thickness, or has radii, as medial surfaces do. \throws InputError when it is
- *  missing or damaged */
+/** Empty where the file has no point array Thickness, or has radii, as medial surfaces do.
+ *  \throws InputError when it is missing or damaged */
 std::optional<MeasuredSurfaces>
 ReadMeasuredSurfaces(const std::filesystem::path & path);
 
