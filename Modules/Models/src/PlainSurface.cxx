@@ -225,14 +225,20 @@ ThicknessIn(ModelSource & file)
   return read;
 }
 
+bool
+IsVtkPath(const std::filesystem::path & path)
+{
+  const std::string extension = LowerCase(path.extension().string());
+  return extension == ".vtp" || extension == ".vtk";
+}
+
 /** Only .vtp and .vtk files can have what a kind of surfaces needs. */
 template <typename Read>
 auto
 ReadOwn(const std::filesystem::path & path, const Read & read) -> decltype(read(std::declval<ModelSource &>()))
 {
   decltype(read(std::declval<ModelSource &>())) surfaces;
-  const std::string                             extension = LowerCase(path.extension().string());
-  if (extension == ".vtp" || extension == ".vtk")
+  if (IsVtkPath(path))
   {
     ReadFrom(path, Precision::AsSaved, "core", [&](ModelSource & source) { surfaces = read(source); });
   }
@@ -256,12 +262,9 @@ ReadMeasuredSurfaces(const std::filesystem::path & path)
 std::optional<PlainSurface>
 ReadPlainSurface(const std::filesystem::path & path)
 {
-  const std::string extension = LowerCase(path.extension().string());
-  if (extension == ".vtp" || extension == ".vtk")
+  if (IsVtkPath(path))
   {
-    std::optional<PlainSurface> plain;
-    ReadFrom(path, Precision::AsSaved, "core", [&](ModelSource & source) { plain = SurfaceIn(source); });
-    return plain;
+    return ReadOwn(path, SurfaceIn);
   }
   const MeshFile    file = ReadMesh(path);
   std::vector<Cell> triangles;

@@ -94,17 +94,14 @@ FitOnce(const MedialLine &           line,
     way[i] = way[i - 1] + Distance(along[i - 1], along[i]);
   }
   const auto wideAt = [&](std::size_t i) { return window + kWindowGrowth * std::max(0.0, line.radius[i] - window); };
-  double     mean = 0;
+  double     meanWidth = 0;
+  double     meanRadius = 0;
   for (std::size_t i = 0; i <= last; ++i)
   {
-    mean += wideAt(i) / static_cast<double>(last + 1);
+    meanWidth += wideAt(i) / static_cast<double>(last + 1);
+    meanRadius += line.radius[i] / static_cast<double>(last + 1);
   }
-  double radius = 0;
-  for (const double one : line.radius)
-  {
-    radius += one / static_cast<double>(last + 1);
-  }
-  const bool isLong = way[last] >= kQuarticFrom * mean && radius >= kQuarticRadius * window;
+  const bool isLong = way[last] >= kQuarticFrom * meanWidth && meanRadius >= kQuarticRadius * window;
   // A closed curve goes on where it began; at most half of it lies before and half behind a point.
   for (std::size_t i = isLoop ? 0 : 1; i < last; ++i)
   {

@@ -68,8 +68,7 @@ private:
   // corners are, and what a cost needs of the edges around it lies in one place.
   using Word = std::uint16_t;
 
-  static constexpr std::size_t kNoted = 16;     ///< sides that are noted as free
-  static constexpr std::size_t kUsualTurn = 32; ///< edges that wait for a level
+  static constexpr std::size_t kNoted = 16; ///< sides that are noted as free
 
   struct Reached
   {
@@ -124,12 +123,7 @@ private:
   void
   Wait(ElementIndex edge, double cost)
   {
-    std::vector<ElementIndex> & turn = m_Turns[m_Levels.LevelOf(cost)];
-    if (turn.capacity() == 0)
-    {
-      turn.reserve(kUsualTurn);
-    }
-    turn.push_back(edge);
+    AddToTurn(m_Turns[m_Levels.LevelOf(cost)], edge);
     ++m_Waiting;
   }
 

@@ -97,12 +97,7 @@ private:
   void
   Offer(Level level, const Turn & offered)
   {
-    std::vector<Turn> & turn = m_Turns[std::max(m_Level, std::size_t{ level })];
-    if (turn.capacity() == 0)
-    {
-      turn.reserve(kUsualTurn);
-    }
-    turn.push_back(offered);
+    AddToTurn(m_Turns[std::max(m_Level, std::size_t{ level })], offered);
   }
   void
   OfferEdge(ElementIndex edge)
@@ -126,8 +121,7 @@ private:
   void
   RemoveVertex(ElementIndex vertex, double height, ToleranceValues & values);
 
-  static constexpr Level       kGone = 0xFFFF;
-  static constexpr std::size_t kUsualTurn = 32; ///< elements offered at a level
+  static constexpr Level kGone = 0xFFFF;
 
   std::vector<ElementIndex>                m_Faces;
   std::vector<ElementIndex>                m_Edges;

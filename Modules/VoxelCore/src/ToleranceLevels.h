@@ -72,4 +72,17 @@ private:
   std::vector<double> m_Heights;
 };
 
+/** Adds what is to be looked at when a level comes. Most levels get so few that growing one by one would cost more. */
+template <typename Element>
+void
+AddToTurn(std::vector<Element> & turn, const Element & element)
+{
+  constexpr std::size_t kUsual = 32;
+  if (turn.capacity() == 0)
+  {
+    turn.reserve(kUsual);
+  }
+  turn.push_back(element);
+}
+
 } // namespace voxelcore
