@@ -35,7 +35,7 @@ constexpr double kTubeStandOut = 0.6;
 // body behind is no thicker: a bump on a thicker one is as thin as the thinnest tube.
 constexpr double kTubeLine = 3.25;
 constexpr double kTubeBody = 1.16;
-constexpr double kTubeBehind = 6; ///< so far on
+constexpr double kTubeBehind = 6; ///< voxels over which the body behind is looked at
 
 // Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much
 // further to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of

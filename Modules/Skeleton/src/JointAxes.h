@@ -37,7 +37,8 @@ struct Arm
   double                    to = 0;
 };
 
-/** One whose branch ends with `end` at a junction; it never leaves the junction's ball where `leaves` is 0. */
+/** The arm of a branch that meets a junction at its end `end`, 0 or 1. Where the branch lies within the junction's
+ *  ball, `leaves` is 0. */
 Arm
 ArmOf(const SkeletonGraph & graph, std::size_t branch, std::size_t end, double diagonal);
 

@@ -85,12 +85,12 @@ SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>>
 using VoxelReach = std::array<std::array<double, 3>, 3>;
 
 /** Smooths the branches: each point goes to the value, at its own arc length, of the polynomial that fits its
- *  branch best, but no further than `reach` from the branch as it lies on the medial surface. That is one of the
- *  fourth degree over 2.5 times `window` mm before and behind the point, or in branches shorter than three windows,
- *  or thinner than a quarter of one, a parabola over one. Where the radius is more than the window, that grows by
- *  three times the difference, and the reach in proportion. Nodes stay, and no curve turns back at one. A window of
- *  0 puts the points back on the medial surface. Curved lines keep their length to second order, where averaging
- *  would shorten them. */
+ *  branch best around it, but no further than `reach` from the branch as it lies on the medial surface. In branches
+ *  of at least three windows, whose mean radius is at least a quarter of one, it is of the fourth degree and over
+ *  2.5 times `window` mm before and behind the point; in others it is a parabola over `window`. Where the radius is
+ *  more than the window, that grows by three times the difference, and the reach in proportion. Nodes stay, and no
+ *  curve turns back at one. A window of 0 puts the points back on the medial surface. Curved lines keep their
+ *  length to second order, where averaging would shorten them. */
 void
 FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach);
 
