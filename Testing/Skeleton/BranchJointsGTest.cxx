@@ -181,7 +181,8 @@ MeanAndSpread(const std::vector<double> & values)
   return { mean, std::sqrt(std::max(0.0, squares / static_cast<double>(values.size()) - mean * mean)) };
 }
 
-// Where the bodies of arms part, and with it where fire between them meets, a voxel may tell; not where axes part.
+// A single voxel may change where the bodies of arms part, and with it where fire between them meets.
+// It does not change where their axes part.
 TEST(BranchJoints, OfForksLieAtOnePlaceHoweverTheyAreTurned)
 {
   const auto seed = std::random_device{}();
@@ -189,7 +190,7 @@ TEST(BranchJoints, OfForksLieAtOnePlaceHoweverTheyAreTurned)
   std::mt19937_64     random(seed);
   std::vector<double> before;
   std::vector<double> after;
-  for (int k = 0; k < 9; ++k)
+  for (int drawn = 0; after.size() < 9; ++drawn)
   {
     // Two arms 40 degrees apart: each could be the one that goes on.
     const Spacing3   centre = AnyCentre(random);
@@ -203,6 +204,11 @@ TEST(BranchJoints, OfForksLieAtOnePlaceHoweverTheyAreTurned)
       Union(Tube(Line(centre, Along(centre, 36, one)), 4, box), Tube(Line(centre, Along(centre, 36, other)), 4, box)));
     std::size_t         moved = 0;
     const SkeletonGraph as = GraphOfSurface(SurfaceOf(shape));
+    ASSERT_LT(drawn, 12) << "seed " << seed;
+    if (as.BranchCount() != 3)
+    {
+      continue; // voxels closed the slit beyond the fork here and there, about one time in 700: a handle
+    }
     const SkeletonGraph placed = WithJoints(as, shape, { 1, 1, 1 }, moved);
     EXPECT_EQ(moved, 1U) << "seed " << seed;
     before.push_back(Distance(Junction(as), centre));

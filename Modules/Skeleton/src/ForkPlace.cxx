@@ -28,8 +28,9 @@ constexpr double kPassInRadii = 0.25;
 // From no to yes: how much the ways from the third branch into both differ in how much they bend, in degrees.
 constexpr std::array<double, 2> kAlikeBends{ 20, 10 };
 
-// From no to yes: by how many degrees an arm that bends leaves its junction off its axis, as those of a ring do.
-constexpr std::array<double, 2> kStraight{ 25, 12 };
+// From no to yes: by how many degrees an arm that bends leaves its junction off its axis. Those of rings do by 19 and
+// more, those of straight forks by less than 2.
+constexpr std::array<double, 2> kStraight{ 18, 9 };
 
 // From no to yes, in degrees: arms whose axes part slowly enough to run in one body, and fast enough to tell where.
 constexpr std::array<double, 2> kNotWide{ 90, 70 };
