@@ -1,4 +1,5 @@
 #include "voxelcore/BoundaryCounts.h"
+#include "voxelcore/CountBits.h"
 #include "voxelcore/HaloBlocks.h"
 
 #include "BlockParts.h"
@@ -10,7 +11,6 @@
 #include "voxelcore/Predicates.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 
 namespace voxelcore
@@ -144,7 +144,7 @@ private:
         for (std::int32_t word = lower[0] >> 6; word << 6 < end[0]; ++word)
         {
           const std::uint64_t both = row(y, z, word) & row(axis == 1 ? y - 1 : y, axis == 2 ? z - 1 : z, word);
-          faces += static_cast<std::uint64_t>(std::popcount(both & BoundaryBits::Between(lower[0], end[0], word)));
+          faces += CountBits(both & BoundaryBits::Between(lower[0], end[0], word));
         }
       }
     }

@@ -1,5 +1,7 @@
 #include "NearestVertex.h"
 
+#include "voxelcore/CountBits.h"
+
 namespace voxelcore
 {
 
@@ -154,10 +156,10 @@ NearestVertex::SearchRow(const std::array<std::int32_t, 3> & place,
     std::size_t before = row.firstCell;
     for (std::int32_t byte = 0; byte < x / 8; ++byte)
     {
-      before += static_cast<std::size_t>(std::popcount(m_Occupied[row.firstByte + static_cast<std::size_t>(byte)]));
+      before += CountBits(m_Occupied[row.firstByte + static_cast<std::size_t>(byte)]);
     }
     const unsigned last = m_Occupied[row.firstByte + static_cast<std::size_t>(x / 8)];
-    return before + static_cast<std::size_t>(std::popcount(last & ((1U << x % 8) - 1)));
+    return before + CountBits(last & ((1U << x % 8) - 1));
   };
   GoOutward(start, m_Cells[0], [&](std::int32_t x) {
     if (answer.squared >= 0 && gap + Gap(place, 0, x) >= answer.squared)

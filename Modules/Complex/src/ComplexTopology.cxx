@@ -1,5 +1,7 @@
 #include "voxelcore/ComplexTopology.h"
 
+#include "FreeEdges.h"
+
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/UnionFind.h"
 
@@ -28,22 +30,27 @@ DropFreeFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces)
       open.push_back(static_cast<ElementIndex>(edge));
     }
   }
-  while (!open.empty())
+  // Any order leaves the same faces; round by round it is known ahead which memory is needed.
+  std::vector<ElementIndex> freed;
+  for (; !open.empty(); open.swap(freed), freed.clear())
   {
-    const ElementIndex edge = open.back();
-    open.pop_back();
-    if (cofaces[edge].count != 1)
+    for (std::size_t next = 0; next < open.size(); ++next)
     {
-      continue;
-    }
-    const ElementIndex face = cofaces[edge].exclusiveOr;
-    live[face] = 0;
-    for (const ElementIndex side : complex.FaceEdges(face))
-    {
-      cofaces[side].Remove(face);
-      if (cofaces[side].count == 1)
+      FetchFreeEdges(complex, cofaces.data(), open, next, [&](ElementIndex edge) { FetchLine(&cofaces[edge]); });
+      const ElementIndex edge = open[next];
+      if (cofaces[edge].count != 1)
       {
-        open.push_back(side);
+        continue;
+      }
+      const ElementIndex face = cofaces[edge].exclusiveOr;
+      live[face] = 0;
+      for (const ElementIndex side : complex.FaceEdges(face))
+      {
+        cofaces[side].Remove(face);
+        if (cofaces[side].count == 1)
+        {
+          freed.push_back(side);
+        }
       }
     }
   }

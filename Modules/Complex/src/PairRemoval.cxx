@@ -1,5 +1,6 @@
 #include "PairRemoval.h"
 
+#include "FreeEdges.h"
 #include "RemovalTimes.h"
 
 #include "voxelcore/ParallelTasks.h"
@@ -143,13 +144,22 @@ private:
   void
   RemoveOpen()
   {
+    const LowerElements & edges = m_Times.Edges();
     while (!m_Edges.empty() || !m_Vertices.empty())
     {
       while (!m_Edges.empty())
       {
-        const ElementIndex edge = m_Edges.back();
-        m_Edges.pop_back();
-        ConsiderEdge(edge);
+        m_Round.swap(m_Edges);
+        for (std::size_t next = 0; next < m_Round.size(); ++next)
+        {
+          FetchFreeEdges(m_State.complex, edges.cofaces, m_Round, next, [&](ElementIndex edge) {
+            FetchLine(&edges.cofaces[edge]);
+            FetchLine(&edges.measure[edge]);
+            FetchLine(&edges.after[edge]);
+          });
+          ConsiderEdge(m_Round[next]);
+        }
+        m_Round.clear();
       }
       if (!m_Vertices.empty())
       {
@@ -169,6 +179,7 @@ private:
   bool                      m_KeepsUnsafe = false;
   std::vector<ElementIndex> m_Vertices; // that have one coface left
   std::vector<ElementIndex> m_Edges;
+  std::vector<ElementIndex> m_Round; // of them, those in turn: it is known ahead which memory they need
   std::vector<Turn>         m_Turns; // a heap
 };
 
@@ -288,10 +299,10 @@ Worker::RemoveFrom(std::size_t firstVertex, std::size_t lastVertex, std::size_t 
     // What is another's may be changing.
     if (OwnsEdge(static_cast<ElementIndex>(edge)) && m_State.edgeCofaces[edge].count == 1)
     {
-      ConsiderEdge(static_cast<ElementIndex>(edge));
-      RemoveOpen();
+      m_Edges.push_back(static_cast<ElementIndex>(edge));
     }
   }
+  RemoveOpen();
 }
 
 bool

@@ -2,6 +2,8 @@
 
 #include "VoxelCells.h"
 
+#include "voxelcore/CountBits.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -209,7 +211,7 @@ CellTracer::FindVoxelCells()
       }
       m_VoxelBits[row] = found;
       m_VoxelFirst[row] = next;
-      next += static_cast<std::uint32_t>(std::popcount(found));
+      next += CountBits(found);
     }
   }
 }
@@ -280,7 +282,7 @@ CellTracer::SeedVoxelCells()
                 const std::uint32_t below = (std::uint32_t{ 1 } << rx) - 1;
                 NewFacet(cell,
                          m_VoxelFirst[beyondRow] +
-                           static_cast<std::uint32_t>(std::popcount(m_VoxelBits[beyondRow] & below)),
+                           static_cast<std::uint32_t>(CountBits(m_VoxelBits[beyondRow] & below)),
                          m_Polygon);
               }
               continue;
@@ -297,7 +299,7 @@ CellTracer::SeedVoxelCells()
       {
         const std::int32_t x = halo + std::countr_zero(rest);
         const unsigned     mask = CornerMask(x, y, z);
-        if (std::popcount(mask) == 4)
+        if (CountBits(mask) == 4)
         {
           SeedSquare(x, y, z, mask);
         }

@@ -1,11 +1,11 @@
 #pragma once
 // A 64^3 look at the lattice around a brick of 32^3 voxels: one machine word a row.
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/LatticePoint.h"
 #include "voxelcore/VoxelShape.h"
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -75,7 +75,7 @@ private:
     word = (word + (word >> 4U)) & 0x0F0F0F0F0F0F0F0FU;
     return static_cast<std::uint32_t>(word * 0x0101010101010101U >> 56U);
 #else
-    return static_cast<std::uint32_t>(std::popcount(word));
+    return CountBits(word);
 #endif
   }
 

@@ -1,5 +1,7 @@
 #include "BrickGrid.h"
 
+#include "voxelcore/CountBits.h"
+
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -91,7 +93,7 @@ BrickGrid::ListBricks(const VoxelShape & shape)
   for (std::size_t word = 0; word < m_Bits.size(); ++word)
   {
     m_Ranks.push_back(count);
-    count += static_cast<std::uint32_t>(std::popcount(m_Bits[word]));
+    count += CountBits(m_Bits[word]);
   }
   m_Bricks.reserve(count);
   for (std::size_t word = 0; word < m_Bits.size(); ++word)

@@ -1,6 +1,7 @@
 #pragma once
 // Bricks of 8^3 cells near a shape's boundary, so that memory follows the boundary.
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/VoxelShape.h"
 
 #include <cstdint>
@@ -79,7 +80,7 @@ public:
       return kOutside;
     }
     const std::uint64_t below = m_Bits[bit >> 6] & ((std::uint64_t{ 1 } << (bit & 63)) - 1);
-    return static_cast<std::int32_t>(m_Ranks[bit >> 6]) + CountBits(below);
+    return static_cast<std::int32_t>(m_Ranks[bit >> 6] + CountBits(below));
   }
 
   /** Of a brick and those around it, by x, then y, then z: their indices, kOutside or kInside where there is none. */
@@ -110,16 +111,6 @@ private:
       bit = bit * m_Size[axis] + at;
     }
     return bit;
-  }
-
-  // Where processors may lack an instruction std::popcount is a call.
-  static std::int32_t
-  CountBits(std::uint64_t bits)
-  {
-    bits -= bits >> 1 & 0x5555555555555555;
-    bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
-    bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0F;
-    return static_cast<std::int32_t>(bits * 0x0101010101010101 >> 56);
   }
 
   int                                       m_Shift = 0; ///< of a brick's side

@@ -2,9 +2,10 @@
 
 #include "CubeCount.h"
 
+#include "voxelcore/CountBits.h"
+
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@ namespace
 std::uint64_t
 Count(Bits bits)
 {
-  return bits == 0 ? 0 : static_cast<std::uint64_t>(std::popcount(bits));
+  return bits == 0 ? 0 : CountBits(bits);
 }
 
 /** Which of 64 voxels have how many boundary vertices, from the bits of their eight corners (corner c = x + 2 y + 4
@@ -322,10 +323,10 @@ CountBoundarySquares(const VoxelShape & shape)
       {
         const std::uint64_t bits = row[word];
         const std::uint64_t left = bits << 1 | before >> 63;
-        squares += 6 * static_cast<std::uint64_t>(std::popcount(bits));
-        squares -= 2 * static_cast<std::uint64_t>(std::popcount(bits & left));
-        squares -= y == 0 ? 0 : 2 * static_cast<std::uint64_t>(std::popcount(bits & shape.Row(y - 1, z)[word]));
-        squares -= z == 0 ? 0 : 2 * static_cast<std::uint64_t>(std::popcount(bits & shape.Row(y, z - 1)[word]));
+        squares += 6 * CountBits(bits);
+        squares -= 2 * CountBits(bits & left);
+        squares -= y == 0 ? 0 : 2 * CountBits(bits & shape.Row(y - 1, z)[word]);
+        squares -= z == 0 ? 0 : 2 * CountBits(bits & shape.Row(y, z - 1)[word]);
         before = bits;
       }
     }

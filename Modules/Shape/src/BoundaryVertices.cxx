@@ -2,6 +2,8 @@
 
 #include "CornerRows.h"
 
+#include "voxelcore/CountBits.h"
+
 #include <bit>
 
 namespace voxelcore
@@ -63,7 +65,7 @@ CountBoundaryVertices(const VoxelShape & shape)
 {
   std::uint64_t count = 0;
   VisitBoundaryWords(shape, [&](std::int32_t, std::int32_t, std::size_t, std::uint64_t bits) {
-    count += static_cast<std::uint64_t>(std::popcount(bits));
+    count += CountBits(bits);
   });
   return count;
 }

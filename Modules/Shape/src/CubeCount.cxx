@@ -1,7 +1,8 @@
 #include "CubeCount.h"
 
+#include "voxelcore/CountBits.h"
+
 #include <algorithm>
-#include <bit>
 
 namespace voxelcore
 {
@@ -75,7 +76,7 @@ CubeCount::Add(const BitPlane & voxels)
     {
       all &= m_Layers[layer].Words()[word];
     }
-    m_Places += static_cast<std::uint64_t>(std::popcount(all));
+    m_Places += CountBits(all);
   }
 }
 

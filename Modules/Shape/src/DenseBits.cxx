@@ -1,9 +1,9 @@
 #include "DenseBits.h"
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <span>
 
@@ -232,7 +232,7 @@ std::uint64_t
 DenseBits::Count() const
 {
   return std::accumulate(m_Bits.begin(), m_Bits.end(), std::uint64_t{ 0 }, [](std::uint64_t sum, std::uint64_t word) {
-    return sum + static_cast<std::uint64_t>(std::popcount(word));
+    return sum + CountBits(word);
   });
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 // What a filter of voxels has changed.
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/ShapeOperations.h"
 
-#include <bit>
 #include <utility>
 
 namespace voxelcore
@@ -23,8 +23,8 @@ FilteredShape(const VoxelShape & before, VoxelShape after)
       const auto to = std::as_const(edited.shape).Row(y, z);
       for (std::size_t word = 0; word < from.size(); ++word)
       {
-        edited.voxelsAdded += static_cast<std::uint64_t>(std::popcount(to[word] & ~from[word]));
-        edited.voxelsRemoved += static_cast<std::uint64_t>(std::popcount(from[word] & ~to[word]));
+        edited.voxelsAdded += CountBits(to[word] & ~from[word]);
+        edited.voxelsRemoved += CountBits(from[word] & ~to[word]);
       }
     }
   }

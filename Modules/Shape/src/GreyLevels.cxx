@@ -1,5 +1,6 @@
 #include "voxelcore/GreyLevels.h"
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <algorithm>
@@ -146,7 +147,7 @@ BandValues::BandValues(VoxelShape band)
       for (const std::uint64_t word : std::as_const(m_Band).Row(y, z))
       {
         m_InRow.push_back(inRow);
-        inRow += static_cast<std::uint32_t>(std::popcount(word));
+        inRow += CountBits(word);
       }
       count += inRow;
     }
@@ -163,7 +164,7 @@ BandValues::Number(std::int32_t x, std::int32_t y, std::int32_t z) const
   const auto          at = static_cast<std::uint32_t>(x - box.lower[0]);
   const std::uint64_t word = m_Band.Row(y - box.lower[1], z - box.lower[2])[at / 64];
   const std::uint64_t below = word & ((std::uint64_t{ 1 } << (at % 64)) - 1);
-  return m_Before[row] + m_InRow[row * m_Band.WordsPerRow() + at / 64] + static_cast<std::size_t>(std::popcount(below));
+  return m_Before[row] + m_InRow[row * m_Band.WordsPerRow() + at / 64] + CountBits(below);
 }
 
 void

@@ -2,10 +2,10 @@
 
 #include "ShapeRuns.h"
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -207,7 +207,7 @@ PartOf(const VoxelShape & shape, const VoxelBox & part)
 std::int64_t
 EulerOf(const VoxelShape & shape, const VoxelBox & part)
 {
-  const auto   ones = [](std::uint64_t word) { return static_cast<std::int64_t>(std::popcount(word)); };
+  const auto   ones = [](std::uint64_t word) { return static_cast<std::int64_t>(CountBits(word)); };
   std::int64_t euler = 0;
   ForWordsOf(shape, part, [&](std::int32_t y, std::int32_t z, std::int32_t, std::int64_t offset, std::uint64_t own) {
     const std::array<ConstShapeRow, 4> rows{ shape.RowAnywhere(y, z),

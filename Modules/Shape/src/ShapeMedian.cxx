@@ -2,11 +2,11 @@
 
 #include "FilteredShape.h"
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <string>
 #include <system_error>
@@ -85,7 +85,7 @@ private:
       Word high = here >> (64 - reach) | after << reach;
       for (int & count : counts)
       {
-        count += std::popcount(low & window);
+        count += CountBits(low & window);
         low = low >> 1 | high << 63;
         high >>= 1;
       }

@@ -57,17 +57,21 @@ private:
   {
     const Voxel &                   size = m_Shape.Size();
     std::vector<std::vector<Voxel>> found(static_cast<std::size_t>(size[2]));
-#pragma omp parallel for schedule(dynamic, 4)
-    for (std::int32_t z = 1; z < size[2] - 1; ++z)
+#pragma omp parallel
     {
-      for (std::int32_t y = 1; y + 1 < size[1]; ++y)
+      SimpleVoxels simple;
+#pragma omp for schedule(dynamic, 4)
+      for (std::int32_t z = 1; z < size[2] - 1; ++z)
       {
-        m_Shape.VisitBoundary(y, z, [&](const Voxel & voxel) {
-          if (!IsSimpleVoxel(m_Shape.Around(voxel)))
-          {
-            found[static_cast<std::size_t>(z)].push_back(voxel);
-          }
-        });
+        for (std::int32_t y = 1; y + 1 < size[1]; ++y)
+        {
+          m_Shape.VisitBoundary(y, z, [&](const Voxel & voxel) {
+            if (!simple.IsSimple(m_Shape.Around(voxel)))
+            {
+              found[static_cast<std::size_t>(z)].push_back(voxel);
+            }
+          });
+        }
       }
     }
     std::vector<Voxel> all;

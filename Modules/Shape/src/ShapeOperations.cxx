@@ -3,8 +3,9 @@
 #include "ShapeBits.h"
 #include "ShapeRuns.h"
 
+#include "voxelcore/CountBits.h"
+
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -256,12 +257,12 @@ CountBits(const ConstShapeRow & row, std::int32_t begin, std::int32_t end)
   const std::uint64_t to = ~std::uint64_t{ 0 } >> (63U - (static_cast<unsigned>(end - 1) & 63U));
   if (first == last)
   {
-    return std::popcount(row[first] & from & to);
+    return CountBits(row[first] & from & to);
   }
-  std::int32_t count = std::popcount(row[first] & from) + std::popcount(row[last] & to);
+  std::int32_t count = CountBits(row[first] & from) + CountBits(row[last] & to);
   for (std::size_t word = first + 1; word < last; ++word)
   {
-    count += std::popcount(row[word]);
+    count += CountBits(row[word]);
   }
   return count;
 }

@@ -2,6 +2,8 @@
 
 #include "ShapeField.h"
 
+#include "voxelcore/CountBits.h"
+
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -114,7 +116,7 @@ private:
     std::int32_t in = 0;
     for (std::int32_t k = 0; k < 49; ++k)
     {
-      in += std::popcount(m_Shape.Bits(voxel[0] - 3, voxel[1] - 3 + k % 7, voxel[2] - 3 + k / 7, 7));
+      in += CountBits(m_Shape.Bits(voxel[0] - 3, voxel[1] - 3 + k % 7, voxel[2] - 3 + k / 7, 7));
     }
     return m_Shape.Contains(voxel) ? -in : in;
   }

@@ -3,7 +3,8 @@
 #include "CornerRows.h"
 #include "ShapeRuns.h"
 
-#include <bit>
+#include "voxelcore/CountBits.h"
+
 
 namespace voxelcore
 {
@@ -14,7 +15,7 @@ namespace
 std::int64_t
 Ones(std::uint64_t word)
 {
-  return std::popcount(word);
+  return CountBits(word);
 }
 
 // voxels - inner faces + inner edges - inner corners, 64 voxels at a time.

@@ -93,4 +93,24 @@ IsSimpleVoxel(Neighbourhood shape)
   return ShapePieces(shape).count == 1 && BackgroundPieces(shape).count == 1;
 }
 
+/** Remembers answers of IsSimpleVoxel: most of a boundary looks alike. */
+class SimpleVoxels
+{
+public:
+  bool
+  IsSimple(Neighbourhood shape)
+  {
+    const Neighbourhood around = shape & ~kCentre27;
+    Neighbourhood &     known = m_Known[around * 0x9E3779B1U >> 21U];
+    if ((known & ~kCentre27) != around)
+    {
+      known = around | (IsSimpleVoxel(around) ? kCentre27 : 0);
+    }
+    return (known & kCentre27) != 0;
+  }
+
+private:
+  std::array<Neighbourhood, 2048> m_Known{}; // what lies around a voxel, its own bit the answer: of nothing, no
+};
+
 } // namespace voxelcore

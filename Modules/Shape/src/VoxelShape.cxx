@@ -2,6 +2,8 @@
 
 #include "ShapeBits.h"
 
+#include "voxelcore/CountBits.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -31,7 +33,7 @@ VoxelShape::CountVoxels() const
       {
         if (row.Brick(word) != BitBricks::Out())
         {
-          count += static_cast<std::uint64_t>(std::popcount(row[word]));
+          count += CountBits(row[word]);
         }
       }
     }

@@ -1,5 +1,6 @@
 #include "voxelcore/CoreThickness.h"
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -134,7 +135,7 @@ VoxelRanks::VoxelRanks(const VoxelShape & shape)
       for (const std::uint64_t word : shape.Row(y, z))
       {
         m_Before.push_back(count);
-        count += static_cast<std::uint64_t>(std::popcount(word));
+        count += CountBits(word);
       }
     }
   }
@@ -150,7 +151,7 @@ VoxelRanks::At(std::int32_t x, std::int32_t y, std::int32_t z) const
   const auto   index = static_cast<std::size_t>(z - box.lower[2]) * static_cast<std::size_t>(box.size[1]) +
                      static_cast<std::size_t>(y - box.lower[1]);
   const std::uint64_t below = row[word] & ((std::uint64_t{ 1 } << (across & 63U)) - 1);
-  return m_Before[index * m_Shape->WordsPerRow() + word] + static_cast<std::size_t>(std::popcount(below));
+  return m_Before[index * m_Shape->WordsPerRow() + word] + CountBits(below);
 }
 
 void

@@ -3,6 +3,7 @@
 #include "SquareTree.h"
 #include "TilePainter.h"
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
 
@@ -152,7 +153,7 @@ ZeroAtVoxels(const VoxelShape & shape)
     {
       for (const std::uint64_t word : shape.Row(y, z))
       {
-        count += static_cast<std::uint64_t>(std::popcount(word));
+        count += CountBits(word);
       }
       map.rowStarts.push_back(count);
     }

@@ -1,11 +1,11 @@
 #pragma once
 // Tiles of rows of voxels painted with balls, from the greatest down, each voxel once.
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/LocalThickness.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -186,7 +186,7 @@ private:
     for (; painted != 0; painted &= painted - 1)
     {
       const std::uint64_t before = (painted & -painted) - 1;
-      m_Map.values[one.start + static_cast<std::size_t>(std::popcount(one.in & before))] = value;
+      m_Map.values[one.start + CountBits(one.in & before)] = value;
       --m_Left;
     }
   }

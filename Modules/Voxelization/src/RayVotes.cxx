@@ -2,11 +2,11 @@
 
 #include "AxisCrossings.h"
 #include "RowBits.h"
+#include "voxelcore/CountBits.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
-#include <bit>
 #include <span>
 #include <vector>
 
@@ -216,7 +216,7 @@ FillByVotes(const IndexMesh &        mesh,
                                                   falling.words[at] });
           to[w] = counts.atLeastFour;
           isSure = isSure || counts.atLeastFive != 0;
-          doubtful += static_cast<std::uint64_t>(std::popcount(counts.any & ~counts.all));
+          doubtful += CountBits(counts.any & ~counts.all);
         }
       }
     }

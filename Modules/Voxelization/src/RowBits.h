@@ -1,7 +1,8 @@
 #pragma once
 // Runs of bits in rows of 64-bit words.
 
-#include <bit>
+#include "voxelcore/CountBits.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -20,7 +21,7 @@ SetBits(const TRow & row, std::int32_t first, std::int32_t end)
     const std::int32_t  stop = end < wordEnd ? end : wordEnd;
     const std::uint64_t bits = (~std::uint64_t{ 0 } >> (64 - (stop - at))) << (at & 63);
     const auto          word = static_cast<std::size_t>(at) >> 6U;
-    added += static_cast<std::uint64_t>(std::popcount(bits & ~row[word]));
+    added += CountBits(bits & ~row[word]);
     row[word] |= bits;
     at = stop;
   }
