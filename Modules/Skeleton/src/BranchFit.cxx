@@ -1,4 +1,6 @@
 #include "PolynomialFit.h"
+
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SkeletonGraph.h"
 #include "voxelcore/Vectors.h"
 
@@ -218,6 +220,35 @@ KeepBefore(std::size_t node, const MedialLine & line, double window, std::vector
   }
 }
 
+/** The positions of a branch's own points, not of its nodes. */
+void
+FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelReach & reach)
+{
+  const auto points = graph.Branch(branch);
+  MedialLine line;
+  line.isLoop = graph.nodeKinds[graph.branchNodes[branch][0]] == NodeKind::Loop;
+  for (const ElementIndex point : points)
+  {
+    line.points.push_back(graph.medial[point]);
+    line.radius.push_back(graph.radius[point]);
+  }
+  // Zigzag makes ways longer, by a third in tubes as thin as a voxel, and so windows shorter. The second round goes by
+  // the ways of the first one's curve; that keeps no reach, as which place is nearest may be a matter of chance.
+  std::vector<Vector3> along = line.points;
+  std::vector<Vector3> to = line.points;
+  FitOnce(line, line.points, window, nullptr, along);
+  FitOnce(line, along, window, &reach, to);
+  if (!line.isLoop)
+  {
+    KeepBefore(0, line, window, to);
+    KeepBefore(line.Last(), line, window, to);
+  }
+  for (std::size_t i = line.isLoop ? 0 : 1; i < points.size() - 1; ++i)
+  {
+    graph.positions[points[i]] = to[i];
+  }
+}
+
 } // namespace
 
 void
@@ -232,36 +263,7 @@ FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach)
   {
     return;
   }
-  MedialLine           line;
-  std::vector<Vector3> along;
-  std::vector<Vector3> to;
-  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
-  {
-    const auto points = graph.Branch(branch);
-    line.isLoop = graph.nodeKinds[graph.branchNodes[branch][0]] == NodeKind::Loop;
-    line.points.clear();
-    line.radius.clear();
-    for (const ElementIndex point : points)
-    {
-      line.points.push_back(graph.medial[point]);
-      line.radius.push_back(graph.radius[point]);
-    }
-    // Zigzag makes ways longer, by a third in tubes as thin as a voxel, and so windows shorter. The second round goes
-    // by the ways of the first one's curve; that keeps no reach, as which place is nearest may be a matter of chance.
-    along = line.points;
-    to = line.points;
-    FitOnce(line, line.points, window, nullptr, along);
-    FitOnce(line, along, window, &reach, to);
-    if (!line.isLoop)
-    {
-      KeepBefore(0, line, window, to);
-      KeepBefore(line.Last(), line, window, to);
-    }
-    for (std::size_t i = line.isLoop ? 0 : 1; i < points.size() - 1; ++i)
-    {
-      graph.positions[points[i]] = to[i];
-    }
-  }
+  RunEach(graph.BranchCount(), [&](std::size_t branch) { FitBranch(graph, branch, window, reach); });
 }
 
 } // namespace voxelcore
