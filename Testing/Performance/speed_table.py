@@ -18,6 +18,8 @@ import subprocess
 import sys
 import time
 
+from memory_at_hand import have_memory_at_hand
+
 ENGINE_SHAPES = [("root", 512), ("gyroid", 256), ("ellipsoid", 512)]
 GROWTH_KINDS = ["ellipsoid", "gyroid", "root"]
 ATLASES = {"AAL, 116 labels": "/usr/share/mricron/templates/aal.nii.gz",
@@ -26,6 +28,7 @@ ATLASES = {"AAL, 116 labels": "/usr/share/mricron/templates/aal.nii.gz",
 
 def run(command):
     """Standard output of a process, its seconds and its peak memory in bytes."""
+    have_memory_at_hand()
     start = time.perf_counter()
     child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     output = child.stdout.read()

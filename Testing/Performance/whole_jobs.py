@@ -21,6 +21,8 @@ import sys
 import tempfile
 import time
 
+from memory_at_hand import have_memory_at_hand
+
 PHANTOMS = [("ellipsoid", "256"), ("gyroid", "128"), ("root", "512")]
 MARK = "lambda 1.5vox"
 JOBS = {MARK: ["core", "--lambda", "1.5vox"],
@@ -35,6 +37,7 @@ MORE_JOBS = {"refine grey": ["core", "--lambda", "1.5vox", "--refine", "grey"],
 
 def cost(command):
     """Seconds and peak memory in MB."""
+    have_memory_at_hand()
     start = time.perf_counter()
     child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(child.pid, 0)

@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/FaceName.h"
 #include "voxelcore/ParallelTasks.h"
+#include "voxelcore/Prefetch.h"
 
 #include <algorithm>
 #include <bit>
@@ -59,21 +60,32 @@ FindPlaces(const MedialComplex & surface, const ImageGeometry & geometry)
   places.steps.resize(surface.positions.size());
   places.low.fill(std::numeric_limits<std::int64_t>::max());
   places.high.fill(std::numeric_limits<std::int64_t>::min());
-  for (std::size_t vertex = 0; vertex < surface.positions.size(); ++vertex)
-  {
-    const Vector3 lattice = PhysicalToLattice(geometry, surface.positions[vertex]);
+  std::mutex guard;
+  RunInParts(places.steps.size() > 10000, places.steps.size(), [&](std::size_t first, std::size_t last) {
+    Steps low = places.low;
+    Steps high = places.high;
+    for (std::size_t vertex = first; vertex < last; ++vertex)
+    {
+      const Vector3 lattice = PhysicalToLattice(geometry, surface.positions[vertex]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        if (!(std::abs(lattice[axis]) < 0x1p31))
+        {
+          throw InputError("the medial surface lies beyond 2^31 voxels from the scan's first");
+        }
+        const std::int64_t step = std::llround(lattice[axis] * kStepsPerVoxel);
+        places.steps[vertex][axis] = step;
+        low[axis] = std::min(low[axis], step);
+        high[axis] = std::max(high[axis], step);
+      }
+    }
+    const std::scoped_lock lock(guard);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      if (!(std::abs(lattice[axis]) < 0x1p31))
-      {
-        throw InputError("the medial surface lies beyond 2^31 voxels from the scan's first");
-      }
-      const std::int64_t step = std::llround(lattice[axis] * kStepsPerVoxel);
-      places.steps[vertex][axis] = step;
-      places.low[axis] = std::min(places.low[axis], step);
-      places.high[axis] = std::max(places.high[axis], step);
+      places.low[axis] = std::min(places.low[axis], low[axis]);
+      places.high[axis] = std::max(places.high[axis], high[axis]);
     }
-  }
+  });
   return places;
 }
 
@@ -263,6 +275,38 @@ CopyFace(const CellComplex &               from,
   return static_cast<std::uint32_t>(2 * start + (back ? 1 : 0));
 }
 
+// Has memory fetched, step by step, for faces that are soon copied.
+void
+FetchFaces(const CellComplex &               from,
+           const std::vector<ElementIndex> & faces,
+           std::size_t                       next,
+           std::size_t                       end,
+           const std::vector<ElementIndex> & vertexNumber,
+           const std::vector<ElementIndex> & edgeNumber)
+{
+  if (next + 16 < end)
+  {
+    FetchLine(&from.faceOffsets[faces[next + 16]]);
+  }
+  if (next + 10 < end)
+  {
+    const std::uint64_t at = from.faceOffsets[faces[next + 10]];
+    FetchLine(&from.faceVertices[at]);
+    FetchLine(&from.faceEdges[at]);
+  }
+  if (next + 5 < end)
+  {
+    for (const ElementIndex vertex : from.FaceVertices(faces[next + 5]))
+    {
+      FetchLine(&vertexNumber[vertex]);
+    }
+    for (const ElementIndex edge : from.FaceEdges(faces[next + 5]))
+    {
+      FetchLine(&edgeNumber[edge]);
+    }
+  }
+}
+
 FaceName
 NameOfFace(const CellComplex & cells, std::size_t face, const std::vector<ElementIndex> & number)
 {
@@ -357,6 +401,7 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool 
   RunInParts(worthIt, faceCount, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
     {
+      FetchFaces(cells, turned.faces, i, last, vertexNumber, edgeNumber);
       const std::uint64_t at = to.faceOffsets[i];
       const std::uint32_t from = CopyFace(cells,
                                           turned.faces[i],
