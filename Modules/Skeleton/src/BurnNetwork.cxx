@@ -115,23 +115,31 @@ void
 BurnNetwork::PlaceSamples(double sampling)
 {
   const std::size_t edgeCount = m_Cells->edges.size();
-  std::uint64_t     points = m_Cells->vertexCount;
-  for (std::size_t edge = 0; edge < edgeCount; ++edge)
-  {
-    edgeFirst[edge].point = static_cast<std::uint32_t>(points);
+  const auto        samplesOf = [&](std::size_t edge) {
     if (EdgeFaceCount(static_cast<ElementIndex>(edge)) == 0)
     {
-      continue; // fire does not run along curves
+      return 0U; // fire does not run along curves
     }
     const auto   ends = m_Cells->edges[edge];
     const double length = Distance(m_Complex->positions[ends[0]], m_Complex->positions[ends[1]]);
     if (std::abs(m_Complex->radius[ends[0]] - m_Complex->radius[ends[1]]) > kSteep * length)
     {
-      continue;
+      return 0U;
     }
     const double ideal = sampling > 0 ? std::min(std::max(length / sampling - 1, 1.0), 1000.0) : 1.0;
     // NOLINTNEXTLINE(bugprone-incorrect-roundings): 1 to 1000, halves upwards
-    points += static_cast<std::uint32_t>(ideal + 0.5);
+    return static_cast<std::uint32_t>(ideal + 0.5);
+  };
+  RunInParts(m_Cells->vertexCount > kFewVertices, edgeCount, [&](std::size_t first, std::size_t last) {
+    for (std::size_t edge = first; edge < last; ++edge)
+    {
+      edgeFirst[edge].point = samplesOf(edge);
+    }
+  });
+  std::uint64_t points = m_Cells->vertexCount;
+  for (std::size_t edge = 0; edge < edgeCount; ++edge)
+  {
+    points += std::exchange(edgeFirst[edge].point, static_cast<std::uint32_t>(points));
     RequireIndexable(points, "sample points");
   }
   edgeFirst[edgeCount].point = static_cast<std::uint32_t>(points);
@@ -269,19 +277,21 @@ BurnNetwork::BuildSectors()
     openSector.insert(openSector.end(), part.open.begin(), part.open.end());
     seamEnds.insert(seamEnds.end(), part.seamEnds.begin(), part.seamEnds.end());
     std::vector<SeamEnd>().swap(part.seamEnds);
-    RunInParts(worthIt && firstSector > 0,
-               part.lastVertex - part.firstVertex,
-               [&](std::size_t first, std::size_t last) {
-                 for (std::size_t vertex = part.firstVertex + first; vertex < part.firstVertex + last; ++vertex)
-                 {
-                   vertexSectorOffsets[vertex] += firstSector;
-                   seamEndOffsets[vertex] += firstEnd;
-                   for (std::uint32_t i = vertexFaceOffsets[vertex]; i < vertexFaceOffsets[vertex + 1]; ++i)
-                   {
-                     sides[CornerAt(vertexFaces[i], static_cast<ElementIndex>(vertex)).corner].sector[0] += firstSector;
-                   }
-                 }
-               });
+    if (firstSector == 0)
+    {
+      continue; // so are its seam ends
+    }
+    RunInParts(worthIt, part.lastVertex - part.firstVertex, [&](std::size_t first, std::size_t last) {
+      for (std::size_t vertex = part.firstVertex + first; vertex < part.firstVertex + last; ++vertex)
+      {
+        vertexSectorOffsets[vertex] += firstSector;
+        seamEndOffsets[vertex] += firstEnd;
+        for (std::uint32_t i = vertexFaceOffsets[vertex]; i < vertexFaceOffsets[vertex + 1]; ++i)
+        {
+          sides[CornerAt(vertexFaces[i], static_cast<ElementIndex>(vertex)).corner].sector[0] += firstSector;
+        }
+      }
+    });
   }
   seamEndOffsets.back() = static_cast<std::uint32_t>(seamEnds.size());
   vertexSectorOffsets.back() = static_cast<std::uint32_t>(openSector.size());
