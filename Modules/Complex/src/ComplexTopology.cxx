@@ -1,7 +1,5 @@
 #include "voxelcore/ComplexTopology.h"
 
-#include "FreeEdges.h"
-
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/UnionFind.h"
 
@@ -30,27 +28,22 @@ DropFreeFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces)
       open.push_back(static_cast<ElementIndex>(edge));
     }
   }
-  // Any order leaves the same faces; round by round it is known ahead which memory is needed.
-  std::vector<ElementIndex> freed;
-  for (; !open.empty(); open.swap(freed), freed.clear())
+  while (!open.empty())
   {
-    for (std::size_t next = 0; next < open.size(); ++next)
+    const ElementIndex edge = open.back();
+    open.pop_back();
+    if (cofaces[edge].count != 1)
     {
-      FetchFreeEdges(complex, cofaces.data(), open, next, [&](ElementIndex edge) { FetchLine(&cofaces[edge]); });
-      const ElementIndex edge = open[next];
-      if (cofaces[edge].count != 1)
+      continue;
+    }
+    const ElementIndex face = cofaces[edge].exclusiveOr;
+    live[face] = 0;
+    for (const ElementIndex side : complex.FaceEdges(face))
+    {
+      cofaces[side].Remove(face);
+      if (cofaces[side].count == 1)
       {
-        continue;
-      }
-      const ElementIndex face = cofaces[edge].exclusiveOr;
-      live[face] = 0;
-      for (const ElementIndex side : complex.FaceEdges(face))
-      {
-        cofaces[side].Remove(face);
-        if (cofaces[side].count == 1)
-        {
-          freed.push_back(side);
-        }
+        open.push_back(side);
       }
     }
   }
