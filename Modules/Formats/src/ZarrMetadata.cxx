@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace voxelcore
 {
@@ -50,14 +51,23 @@ FillBytes(const Json & value, bool bigEndian)
   }
   else
   {
-    const double number = value.is_boolean() ? (value.get<bool>() ? 1 : 0) : value.get<double>();
-    const bool   whole = value.is_boolean() || value.is_number_integer() || number == std::floor(number);
-    if (!whole || number < static_cast<double>(std::numeric_limits<T>::min()) ||
-        number > static_cast<double>(std::numeric_limits<T>::max()))
+    if (value.is_boolean())
+    {
+      return BytesOf(static_cast<T>(value.get<bool>() ? 1 : 0), bigEndian);
+    }
+    // All digits of a whole number count; one written as a fraction is whole up to the largest that is below T's end.
+    const bool   isWhole = value.is_number_integer();
+    const double number = value.get<double>();
+    const bool   fits = value.is_number_unsigned() ? std::in_range<T>(value.get<std::uint64_t>())
+                        : isWhole                  ? std::in_range<T>(value.get<std::int64_t>())
+                                                   : number == std::floor(number) &&
+                                    number >= static_cast<double>(std::numeric_limits<T>::min()) &&
+                                    number < std::ldexp(1.0, std::numeric_limits<T>::digits);
+    if (!fits)
     {
       throw Json::other_error::create(599, "no value of its type", nullptr);
     }
-    return BytesOf(value.is_number_integer() ? value.get<T>() : static_cast<T>(number), bigEndian);
+    return BytesOf(isWhole ? value.get<T>() : static_cast<T>(number), bigEndian);
   }
 }
 
