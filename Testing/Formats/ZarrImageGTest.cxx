@@ -39,7 +39,7 @@ TEST_F(ZarrImages, WithMetadataWithoutSenseAreRefused)
          { R"({"coordinateTransformations": [{"type": "scale"}]})", "of type 'scale'" },
          { R"({"coordinateTransformations": [{"type": "scale", "scale": [1, 1]}]})", "2 numbers for 3 axes" },
          { R"({"coordinateTransformations": [{"type": "scale", "scale": 2}]})", "0 numbers for 3 axes" },
-         { R"({"coordinateTransformations": [{"type": "scale", "scale": [1, "x", 1]}]})", "is not a number },
+         { R"({"coordinateTransformations": [{"type": "scale", "scale": [1, "x", 1]}]})", "is not a number" },
          { R"({"coordinateTransformations": [{"type": "scale", "scale": [1, 0, 1]}]})", "axis j" },
          { R"({"coordinateTransformations": [3]})", "of another type" },
          { R"({"axes": ["z", "y", "x", "w"]})", "4 axes are described, the array has 3" },
