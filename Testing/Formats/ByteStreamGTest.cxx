@@ -159,3 +159,46 @@ TEST_F(ByteStreams, NoPackingStandsForMoreThanItsLargestExpansion)
   EXPECT_EQ(LargestExpansion(Packing::Plain), 1U);
   EXPECT_EQ(LargestExpansion(Packing::Hex), 1U);
 }
+
+TEST_F(ByteStreams, OfSeveralFilesPassOverWholeOnesWithoutOpeningThem)
+{
+  std::vector<std::filesystem::path> paths;
+  for (std::size_t part = 0; part < 4; ++part)
+  {
+    paths.push_back(m_Folder.Write(std::to_string(part), m_Bytes.substr(part * 1000, 1000)));
+  }
+  std::string opened;
+  const auto  stream = OpenParts(paths, 1000, [&](const std::filesystem::path & path) {
+    opened += path.filename().string();
+    return OpenBytes(path, 0, Packing::Plain);
+  });
+  std::byte   one{};
+  const auto  next = [&](std::size_t at) {
+    stream->Announce(0, 100); // changes nothing
+    stream->Read(&one, 1);
+    EXPECT_EQ(one, static_cast<std::byte>(m_Bytes[at]));
+  };
+  next(0);
+  stream->Skip(10);
+  next(11);
+  stream->Skip(2500);
+  next(2512);
+  EXPECT_EQ(opened, "02");
+  stream->Announce(2000, 5); // beyond the file that is open
+  stream->Skip(487);
+  EXPECT_FALSE(stream->Finish());
+  next(3000);
+  EXPECT_FALSE(stream->Finish()); // not at the end of a file
+  stream->Skip(999);
+  EXPECT_EQ(stream->ReadSome(&one, 1), 0U);
+  EXPECT_EQ(opened, "023");
+  EXPECT_THROW(stream->Skip(1), InputError);
+}
+
+TEST_F(ByteStreams, WhatHasNoNameOrIsNoFileIsRefused)
+{
+  EXPECT_THROW(OpenBytes(m_Folder / "nowhere", 0, Packing::Plain), InputError);
+  EXPECT_THROW(FileSize(std::string(5000, 'x')), InputError);
+  EXPECT_THROW(FileSize(m_Folder.Write("file", "x") / "below"), InputError);
+  EXPECT_THROW(FileSize("/dev/null"), InputError);
+}

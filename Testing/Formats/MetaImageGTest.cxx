@@ -140,4 +140,91 @@ TEST(MetaImage, DamagedFilesAreRefused)
   ExpectRefused(folder.Write("f.mha", Meta(With(Lines(), "ElementType", "MET_NONE"), kData)), { "MET_NONE" });
 }
 
+TEST(MetaImage, FieldsWithoutSenseAreRefused)
+{
+  const TempFolder folder;
+  const auto       refuse = [&](const std::string & field, const std::string & value, const std::string & text) {
+    SCOPED_TRACE(field + " = " + value);
+    ExpectRefused(folder.Write("a.mha", Meta(With(Lines(), field, value), kData)), { text });
+  };
+  refuse("NDims", "three", "NDims = three");
+  refuse("NDims", "0", "NDims = 0");
+  refuse("DimSize", "3 2 two", "");
+  refuse("ElementNumberOfChannels", "x", "ElementNumberOfChannels");
+  refuse("ElementNumberOfChannels", "0", "ElementNumberOfChannels");
+  refuse("ElementNumberOfChannels", "5000", "ElementNumberOfChannels");
+  refuse("ElementType", "MET_UCHAR_ARRAY", "several values a voxel");
+  refuse("ElementSpacing", "1 1", "ElementSpacing should have 3 numbers");
+  refuse("ElementSpacing", "1 1 x", "ElementSpacing should have 3 numbers");
+  refuse("Offset", "0 0 0 0", "Offset should have 3 numbers");
+  refuse("TransformMatrix", "1 0 0 0 1 0 0 0", "TransformMatrix should have 9 numbers");
+  refuse("HeaderSize", "x", "HeaderSize = x");
+  refuse("HeaderSize", "-2", "HeaderSize = -2");
+  refuse("HeaderSize", "9999999999999999", "HeaderSize");
+  for (const char * last : { "0", "-1", "2000000000", "x" })
+  {
+    ExpectRefused(
+      folder.Write("b.mha", Meta(With(With(Lines(), "NDims", "4"), "DimSize", std::string("3 2 2 ") + last), kData)),
+      { "DimSize" });
+  }
+  ReadOptions first;
+  first.volume = 0;
+  auto many = With(With(Lines(), "NDims", "6"), "DimSize", "3 2 2 1000000000 1000000000 1000000000");
+  ExpectRefused(folder.Write("c.mha", Meta(many, kData)), { "DimSize" }, first);
+  many = With(With(Lines(), "NDims", "4"), "DimSize", "3 2 2 1000");
+  ExpectRefused(folder.Write("c.mha", Meta(many, kData)), { "more volumes than its data can hold" }, first);
+  ExpectRefused(folder.Write("d.mha", "NDims = 3\nDimSize = 3 2 2\nElementType = MET_UCHAR\n"),
+                { "no ElementDataFile" });
+  ExpectRefused(folder.Write("e.mha", std::string("NDims = 3\0\n", 11)), { "not a MetaImage header" });
+  ExpectRefused(folder.Write("e.mha", "Comment = " + std::string(70000, 'x') + "\n"), { "not a MetaImage header" });
+}
+
+TEST(MetaImage, SpellingsThatProgramsWriteMeanTheSame)
+{
+  const TempFolder folder;
+  const auto       read = [&](const std::vector<std::string> & lines, const std::string & data = kData) {
+    return ReadLabelVolume(folder.Write("a.mha", Meta(lines, data)));
+  };
+  for (const char * yes : { "True", "true", "T", "1" })
+  {
+    ExpectValues(read(With(Lines(), "CompressedData", yes), Zlib(kData)));
+  }
+  for (const char * no : { "False", "0", "no", "" })
+  {
+    ExpectValues(read(With(Lines(), "CompressedData", no)));
+  }
+  auto lines = Lines();
+  lines.insert(lines.begin() + 2, { "", "  " });
+  ExpectValues(read(With(lines, "HeaderSize", "5"))); // behind a header there is none to be passed over
+  EXPECT_EQ(read(With(Lines(), "DistanceUnits", "voxel")).geometry.unit, SpatialUnit::Voxels);
+  ReadOptions given;
+  given.spacing = Vector3{ 1, 2, 3 };
+  for (const char * unit : { "voxel", "ell", "cm" })
+  {
+    const LabelMap volume =
+      ReadLabelVolume(folder.Write("b.mha", Meta(With(Lines(), "DistanceUnits", unit), kData)), given);
+    ExpectNear(volume.geometry.spacing, { 1, 2, 3 });
+    EXPECT_EQ(volume.geometry.unit, SpatialUnit::Millimetres);
+  }
+  lines = Lines();
+  std::erase_if(lines, [](const std::string & line) { return line.starts_with("ElementSpacing"); });
+  EXPECT_EQ(read(lines).geometry.unit, SpatialUnit::Voxels);
+  EXPECT_EQ(read(With(lines, "DistanceUnits", "voxel")).warnings.size(), 1U); // said once
+  ExpectNear(read(With(lines, "ElementSize", "2 3 4")).geometry.spacing, { 2, 3, 4 });
+}
+
+TEST(MetaImage, OfSeveralValuesTheOneThatIsChosenIsRead)
+{
+  const TempFolder folder;
+  std::string      mixed;
+  for (const char value : kData)
+  {
+    mixed += { '\5', value };
+  }
+  ReadOptions options;
+  options.component = 1;
+  ExpectValues(
+    ReadLabelVolume(folder.Write("a.mha", Meta(With(Lines(), "ElementNumberOfChannels", "2"), mixed)), options));
+}
+
 } // namespace voxelcore::testing::meta

@@ -112,3 +112,65 @@ TEST_F(RawFile, IsDescribedByATextInTheMannerOfMetaImage)
   m_Folder.Write("b.txt", "7 voxels wide, says my notebook\n");
   ExpectRefused(m_Folder.Write("b.raw", m_Bytes), { "bare voxels without a header", "--raw 512,512,300,uint16" });
 }
+
+TEST_F(RawFile, NamesItsTextOrTheTextItsVoxels)
+{
+  using Paths = std::vector<std::filesystem::path>;
+  const std::string dat = "Resolution: 6 5 4\nFormat: UCHAR\n";
+  for (const char * extension : { ".raw", ".vol", ".bin" })
+  {
+    SCOPED_TRACE(extension);
+    const TempFolder folder;
+    const auto       voxels = folder.Write(std::string("a") + extension, m_Bytes);
+    EXPECT_FALSE(IsRawFile(voxels));
+    EXPECT_TRUE(RawFileTexts(voxels).empty());
+    const auto text = folder.Write("a.dat", dat);
+    EXPECT_TRUE(IsRawFile(text));
+    EXPECT_TRUE(IsRawFile(voxels));
+    EXPECT_EQ(RawFileTexts(text), Paths{ voxels });
+    EXPECT_EQ(RawFileTexts(voxels), Paths{ text });
+    ExpectForeignValues(ReadLabelVolume(text));
+  }
+  // A name that leads nowhere is passed over; a .dat may be the voxels, too.
+  m_Folder.Write("b.vol", m_Bytes);
+  EXPECT_EQ(RawFileTexts(m_Folder.Write("b.dat", "ObjectFileName: gone.raw\n" + dat)), Paths{ m_Folder / "b.vol" });
+  const auto bare = m_Folder.Write("c.dat", m_Bytes);
+  EXPECT_FALSE(IsRawFile(bare));
+  m_Folder.Write("c.dat.txt", "DimSize = 6 5 4\nElementType = MET_UCHAR\n");
+  EXPECT_TRUE(IsRawFile(bare));
+  ExpectForeignValues(ReadLabelVolume(bare));
+  EXPECT_FALSE(IsRawFile(m_Folder.Write("d.dat", "Resolution: 6 5 4\n" + std::string(70000, ' '))));
+  EXPECT_FALSE(IsRawFile(m_Folder.Write("e.dat", "Format: UCHAR\nno colon here\n")));
+  EXPECT_FALSE(IsRawFile(m_Folder / "nowhere.dat"));
+  EXPECT_FALSE(IsRawFile(m_Folder.Write("f.xyz", m_Bytes)));
+}
+
+TEST_F(RawFile, OfADatWithoutSenseIsRefused)
+{
+  m_Folder.Write("a.raw", m_Bytes);
+  const auto read = [&](const std::string & more) {
+    return m_Folder.Write("a.dat", "Resolution: 6 5 4\nFormat: UCHAR\n" + more);
+  };
+  ExpectRefused(m_Folder.Write("a.dat", "Resolution: 6 5\nFormat: UCHAR\n"), { "Resolution: 6 5" });
+  for (const char * none : { "SliceThickness: 1 2\n", "SliceThickness: a b c\n", "" })
+  {
+    EXPECT_EQ(ReadLabelVolume(read(none)).geometry.unit, SpatialUnit::Voxels) << none;
+  }
+  ReadOptions options;
+  options.volume = 1;
+  ExpectRefused(read(""), { "no volume 1" }, options);
+}
+
+TEST_F(RawFile, OfATextThatSaysWhereTheVoxelsBeginIsHeldAgainstIt)
+{
+  const std::string text = "DimSize = 6 5 4\nElementType = MET_UCHAR\nHeaderSize = ";
+  const auto        path = m_Folder.Write("a.raw", "head" + m_Bytes);
+  m_Folder.Write("a.txt", text + "4\n");
+  ExpectForeignValues(ReadLabelVolume(path));
+  m_Folder.Write("a.txt", text + "-1\n");
+  ExpectForeignValues(ReadLabelVolume(path));
+  m_Folder.Write("a.txt", text + "3\n");
+  ExpectRefused(path, { "it has 124 bytes, but its text describes 123" });
+  m_Folder.Write("a.txt", "NDims = 4\n" + text + "4\n");
+  ExpectRefused(path, { "DimSize should have 4 numbers" });
+}

@@ -98,3 +98,51 @@ TEST(VolumeWriters, AFullDiskIsAnOutputErrorInEveryFormat)
     EXPECT_THROW(format.write("/nowhere/" + name, volume), OutputError) << name;
   }
 }
+
+TEST(VolumeWriters, LengthsInVoxelsAndFractionsComeBackAsSuch)
+{
+  const std::vector<float> values{ 0.5F, -1.25F, 3e10F, 0, 1, 2 };
+  VolumeToWrite            volume;
+  volume.geometry.size = { 3, 2, 1 };
+  volume.geometry.unit = SpatialUnit::Voxels;
+  volume.type = PixelType::Float32;
+  volume.slice = [&](std::int64_t) { return std::as_bytes(std::span(values)); };
+  for (const auto & [name, format] : kWriters)
+  {
+    SCOPED_TRACE(name);
+    const TempFolder folder;
+    if (name == "a.tif")
+    {
+      volume.geometry.size[2] = 2; // one page is no volume
+    }
+    format.write(folder / name, volume);
+    ScanFile scan = format.open(folder / name, {});
+    volume.geometry.size[2] = 1;
+    EXPECT_EQ(scan.type, PixelType::Float32);
+    EXPECT_EQ(scan.geometry.unit, SpatialUnit::Voxels);
+    std::vector<float> got(values.size());
+    scan.voxels->Read(reinterpret_cast<std::byte *>(got.data()), got.size() * sizeof(float));
+    EXPECT_EQ(got, values);
+  }
+}
+
+TEST(VolumeWriters, ASliceOfMoreThanAMegabyteComesBackFromEveryFormat)
+{
+  std::vector<std::uint64_t> values(600 * 600);
+  std::generate(values.begin(), values.end(), [random = std::mt19937_64(7)]() mutable { return random(); });
+  VolumeToWrite volume;
+  volume.geometry.size = { 600, 600, 2 };
+  volume.type = PixelType::UInt64;
+  volume.slice = [&](std::int64_t) { return std::as_bytes(std::span(values)); };
+  for (const auto & [name, format] : kWriters)
+  {
+    const TempFolder folder;
+    volume.compress = name == "a.mha"; // which is copied behind its header
+    format.write(folder / name, volume);
+    ScanFile                   scan = format.open(folder / name, {});
+    std::vector<std::uint64_t> got(values.size());
+    scan.voxels->Skip(values.size() * sizeof(std::uint64_t));
+    scan.voxels->Read(reinterpret_cast<std::byte *>(got.data()), got.size() * sizeof(std::uint64_t));
+    EXPECT_TRUE(got == values) << name;
+  }
+}
