@@ -3,6 +3,9 @@
 #include "ForeignBytes.h"
 #include "ScanBytes.h"
 
+#include <cmath>
+#include <limits>
+
 using namespace voxelcore;
 using namespace voxelcore::testing;
 
@@ -72,6 +75,8 @@ TEST_F(Lsm, WithoutAVoxelSizeLengthsAreInVoxels)
   layout.metres = { 0, -1, 0 };
   const LabelMap volume = Read(layout);
   EXPECT_EQ(volume.geometry.unit, SpatialUnit::Voxels);
+  layout.metres = { std::numeric_limits<double>::infinity(), 1e-7, std::nan("") };
+  EXPECT_EQ(Read(layout).geometry.unit, SpatialUnit::Voxels);
 }
 
 TEST_F(Lsm, WhatIsNoStackOrDamagedIsRefused)
@@ -94,4 +99,7 @@ TEST_F(Lsm, WhatIsNoStackOrDamagedIsRefused)
   layout = {};
   layout.width = 7;
   ExpectRefused(Write(layout), { "speaks of other pages" });
+  layout = {};
+  layout.magic = 0x0300494C; // of older microscopes
+  ExpectForeignValues(Read(layout));
 }

@@ -1,5 +1,6 @@
 #include "PngBytes.h"
 #include "ScanBytes.h"
+#include "voxelcore/FormatOpeners.h"
 
 #include <cstdlib>
 
@@ -192,6 +193,13 @@ TEST(PngSlices, DamagedOnesAreRefused)
   refuse(Png(slices[1], Zlib(PngRows(slices[1]) + "surplus")), "damaged");
   refuse(Png(slices[1], Zlib(PngRows(slices[1]).substr(1))), "damaged");
   refuse("this is no picture at all", "cannot be read");
+  // The same where all rows are read at once.
+  auto       woven = Slices(4, 8, true);
+  const auto rows = PngRows(woven[1]);
+  folder.Write("s/1.png", Png(woven[0]));
+  refuse(Png(woven[1], Zlib(rows.substr(0, rows.size() - 3))), "damaged");
+  refuse(Png(woven[1], Zlib(rows).substr(0, 12)), "damaged");
+  folder.Write("s/1.png", Png(slices[0]));
   // Sizes are held against the file before anything is allocated.
   for (const std::uint32_t side : { 1U << 20, 1U << 30, 0x7FFFFFFFU })
   {
@@ -207,4 +215,25 @@ TEST(PngSlices, DamagedOnesAreRefused)
   PngImage none = slices[1];
   none.width = 0;
   refuse(Png(none), "damaged");
+}
+
+TEST(PngSlices, PassingOverRowsLeadsToTheSameVoxels)
+{
+  const TempFolder folder;
+  const auto       slices = Slices(200, 8);
+  WriteSlices(folder, "s", slices);
+  ScanFile  scan = OpenSlices(folder / "s", {});
+  std::byte one{};
+  scan.voxels->Skip(99 + 30);
+  scan.voxels->Read(&one, 1);
+  EXPECT_EQ(one, static_cast<std::byte>(slices[1].values[30]));
+  scan.voxels->Skip(99); // leaves the second slice in the middle, which is read to its checksum
+  scan.voxels->Read(&one, 1);
+  EXPECT_EQ(one, static_cast<std::byte>(slices[2].values[31]));
+  std::string damaged = Png(slices[1]);
+  damaged[damaged.size() - 14] ^= 1;
+  folder.Write("s/s9.png", damaged);
+  ScanFile again = OpenSlices(folder / "s", {});
+  again.voxels->Skip(99 + 30);
+  EXPECT_THROW(again.voxels->Skip(99), InputError);
 }

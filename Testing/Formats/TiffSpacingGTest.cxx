@@ -125,6 +125,16 @@ TEST_F(TiffSpacing, OfOmeIsReadWithItsUnits)
                                  "PhysicalSizeYUnit='&#181;m' PhysicalSizeZ=\"5\" PhysicalSizeZUnit=\"mm\"")),
                 { 2e-4, 3e-4, 5 });
   ExpectUnknown(Pages(2, Ome(axes + "PhysicalSizeX=\"2\" PhysicalSizeXUnit=\"pixel\" PhysicalSizeY=\"3\"")));
+  // Elements within others, prefixes, and words that are none of them.
+  ExpectSpacing(Pages(2,
+                      "<ome:OME><ome:Image Name='Pixels '><Pixelset/><a b='c:Pixels '/><ome:Pixels "
+                      "PhysicalSizeX='2' PhysicalSizeY='3' PhysicalSizeZ='5'/></ome:Image></ome:OME>"),
+                { 2e-3, 3e-3, 5e-3 });
+  ExpectUnknown(Pages(2, Ome(axes + "PhysicalSizeX=\"0\" PhysicalSizeY=\"3\"")));
+  ExpectUnknown(Pages(2, Ome(axes + "PhysicalSizeX=\"inf\" PhysicalSizeY=\"3\"")));
+  ExpectUnknown(Pages(2, Ome(axes + "PhysicalSizeX=\"2\"")));
+  ExpectUnknown(Pages(2, "<OME><Pixels PhysicalSizeX=\"2"));
+  ExpectUnknown(Pages(2, "<OME><Pixels"));
   ExpectUnknown(Pages(2, "<OME"));
   ExpectUnknown(Pages(2, "<OME><Pixels PhysicalSizeX="));
 }
@@ -142,6 +152,15 @@ TEST_F(TiffSpacing, OfResolutionTagsSaysNothingAboutSlices)
   ExpectNear(Read(WithResolution(Pages(2), 2, 2540, 2540)).geometry.spacing, { 0.01, 0.01, 0.01 }, 1e-12);
 }
 
+TEST_F(TiffSpacing, OfImageJWithoutAUnitIsThatOfTheTagsWithItsDepth)
+{
+  const std::string text = "ImageJ=1.53t\nslices=2\nspacing=5.0\n";
+  ExpectSpacing(WithResolution(Pages(2, text), 3, 1000, 500), { 0.01, 0.02, 50 });
+  ExpectSpacing(WithResolution(Pages(2, text), 2, 254, 508), { 0.1, 0.05, 127 });
+  // Without a resolution a pixel is one unit wide.
+  ExpectSpacing(Pages(2, text + "unit=mm\n"), { 1, 1, 5 });
+}
+
 TEST_F(TiffSpacing, ResolutionsOfScreensAndPrintersAreNone)
 {
   for (const double dots : { 72.0, 96.0, 150.0, 300.0, 600.0 })
@@ -154,6 +173,9 @@ TEST_F(TiffSpacing, ResolutionsOfScreensAndPrintersAreNone)
   ExpectUnknown(WithResolution(Pages(2), 2, 1, 1));
   ExpectUnknown(WithResolution(Pages(2), 1, 250, 250));
   ExpectUnknown(WithResolution(Pages(2), 2, 0, 0));
+  ExpectUnknown(WithResolution(Pages(2), 2, 500, 0));
+  // One that no printer has along y is a voxel's.
+  EXPECT_EQ(Read(WithResolution(Pages(2), 2, 300, 317.5)).geometry.spacing[1], 0.08);
 }
 
 TEST_F(TiffSpacing, SurvivesOurOwnWriter)
@@ -234,6 +256,13 @@ TEST_F(TiffSpacing, HyperstacksGiveTheChannelAndFrameChosen)
   refused("ImageJ=1.53t\nimages=12\nchannels=5\nslices=2\n", { "5 channels", "12 pages" });
   refused(Ome(sizes + "DimensionOrder=\"XYQQQ\""), { "do not fit" });
   refused(Ome(sizes + "DimensionOrder=\"XYCZT\"", "<TiffData IFD=\"1\" FirstC=\"0\" FirstZ=\"1\"/>"), { "do not fit" });
+  refused(Ome(sizes + "DimensionOrder=\"X\""), { "do not fit" });
+  refused(Ome("SizeC=\"2\" SizeZ=\"7\" DimensionOrder=\"XYCZT\""), { "do not fit" });
+  refused("ImageJ=1.53t\nchannels=24\n", { "24 channels" });
+  EXPECT_EQ(
+    Read(Pages(12, Ome(sizes + "DimensionOrder=\"XYCZT\"", "<TiffData/><TiffData IFD=\"4\" FirstZ=\"2\"/>")), options)
+      .geometry.size[2],
+    3);
   refused(Ome("SizeC=\"4294967296\" SizeT=\"4294967296\""), { "do not fit" });
   refused(Ome(sizes) + Ome(sizes), { "2 images" });
 }
