@@ -193,6 +193,36 @@ DicomFile(const std::string & sopClass, const std::string & dataSet)
          dataSet;
 }
 
+std::string
+WithDicomElement(const std::string & file, std::uint16_t group, std::uint16_t element, const std::string & encoded)
+{
+  const auto number = [&file](std::size_t at, std::size_t bytes) {
+    std::size_t value = 0;
+    for (std::size_t n = bytes; n-- > 0;)
+    {
+      value = value << 8 | static_cast<unsigned char>(file.at(at + n));
+    }
+    return value;
+  };
+  const std::size_t wanted = std::size_t{ group } << 16 | element;
+  for (std::size_t at = 132;;)
+  {
+    const std::size_t tag = at < file.size() ? number(at, 2) << 16 | number(at + 2, 2) : SIZE_MAX;
+    if (tag > wanted)
+    {
+      return file.substr(0, at) + encoded + file.substr(at);
+    }
+    const std::string vr = file.substr(at + 4, 2);
+    const bool        isLong = vr == "OB" || vr == "OW" || vr == "SQ" || vr == "UN";
+    const std::size_t end = isLong ? at + 12 + number(at + 8, 4) : at + 8 + number(at + 6, 2);
+    if (tag == wanted)
+    {
+      return file.substr(0, at) + encoded + file.substr(end);
+    }
+    at = end;
+  }
+}
+
 std::map<std::string, std::string>
 DicomSeriesBytes()
 {

@@ -55,6 +55,10 @@ DicomSequence(std::uint16_t group, std::uint16_t element, const std::vector<std:
 std::string
 DicomFile(const std::string & sopClass, const std::string & dataSet);
 
+/** The file with this element of its data set replaced, put in, or, with an empty `encoded`, taken out. */
+std::string
+WithDicomElement(const std::string & file, std::uint16_t group, std::uint16_t element, const std::string & encoded);
+
 /** A CT series by file name, 0.5 x 0.75 x 2 mm. */
 std::map<std::string, std::string>
 DicomSeriesBytes();

@@ -9,8 +9,10 @@
 #include <gdcmWriter.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <type_traits>
 
 namespace voxelcore::itkreader
 {
@@ -84,6 +86,43 @@ ReadAsKnownClass(gdcm::Reader & file, std::stringstream & copy, gdcm::ImageReade
   }
   reader.SetStream(copy);
   return reader.Read();
+}
+
+/** Bits above those stored are none of the value. GDCM 3.0.21 clears them in words of 16 bits only, and ends the program
+ *  at others. */
+template <typename T>
+void
+ClearUnusedBitsAs(int unused, std::vector<char> & bytes)
+{
+  for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T))
+  {
+    T value{};
+    std::memcpy(&value, bytes.data() + at, sizeof(T));
+    value = static_cast<T>(static_cast<T>(static_cast<std::make_unsigned_t<T>>(value) << unused) >> unused);
+    std::memcpy(bytes.data() + at, &value, sizeof(T));
+  }
+}
+
+void
+ClearUnusedBits(const DicomPixels & pixels, std::vector<char> & bytes)
+{
+  const int unused = pixels.bitsAllocated - pixels.bitsStored;
+  if (unused == 0)
+  {
+    return;
+  }
+  switch (pixels.bitsAllocated)
+  {
+    case 8:
+      return pixels.isSigned ? ClearUnusedBitsAs<std::int8_t>(unused, bytes)
+                             : ClearUnusedBitsAs<std::uint8_t>(unused, bytes);
+    case 16:
+      return pixels.isSigned ? ClearUnusedBitsAs<std::int16_t>(unused, bytes)
+                             : ClearUnusedBitsAs<std::uint16_t>(unused, bytes);
+    default:
+      return pixels.isSigned ? ClearUnusedBitsAs<std::int32_t>(unused, bytes)
+                             : ClearUnusedBitsAs<std::uint32_t>(unused, bytes);
+  }
 }
 
 } // namespace
@@ -174,9 +213,11 @@ ReadPixels(const std::filesystem::path & path, const DicomPixels & pixels)
     {
       RefuseInput(path, "its pixels are truncated", "fetch the file anew");
     }
-    if (bits || (pixels.bitsStored == pixels.bitsAllocated && syntax != gdcm::TransferSyntax::ExplicitVRBigEndian))
+    if (bits || syntax != gdcm::TransferSyntax::ExplicitVRBigEndian)
     {
-      return { stored.begin(), stored.begin() + static_cast<std::ptrdiff_t>(bytes) };
+      std::vector<char> plain(stored.begin(), stored.begin() + static_cast<std::ptrdiff_t>(bytes));
+      ClearUnusedBits(pixels, plain);
+      return plain;
     }
   }
   else if (bits)
