@@ -1,6 +1,9 @@
 // Files of other formats: each refusal says what the file is and what makes a scan of it.
 
+#include "ForeignBytes.h"
 #include "ScanBytes.h"
+#include "VoxelCoreTesting/Messages.h"
+#include "voxelcore/ForeignFormats.h"
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -126,4 +129,66 @@ TEST(ForeignFormats, FoldersWithoutSlicesSayWhatTheyHold)
   ExpectRefused(folder / "a.n5", { "N5", "Fiji" });
   folder.Write("text/readme.txt", "nothing");
   ExpectRefused(folder / "text", { "no TIFF or PNG slices" });
+}
+
+// What is said where nobody reads a file, as in a build without ITK.
+TEST(ForeignFormats, RefusedSayWhatTheyAreAndWhoReadsThem)
+{
+  const TempFolder folder;
+  const auto       refusal = [](const std::filesystem::path & path) { return MessageOf([&] { RefuseForeign(path); }); };
+  const auto       holds = [](const std::string & message, const std::string & text) {
+    EXPECT_NE(message.find(text), std::string::npos) << message;
+  };
+  holds(refusal(folder.Write("a", At(128, "DICM"))), "DICOM file, which this build, without ITK, does not read");
+  holds(refusal(folder.Write("a", At(128, "DICM") + "1.2.840.10008.5.1.4.1.1.66.4")),
+        "segimage2itkimage --inputDICOM a");
+  holds(refusal(folder.Write("a", At(128, "DICM") + "1.2.840.10008.5.1.4.1.1.481.3")), "RTSTRUCT");
+  holds(refusal(folder.Write("a.czi", At(0, "ZISRAWFILE"))), "not read directly");
+  holds(refusal(folder.Write("a.b.gz", Gzip("x"))), "gzip file");
+  holds(refusal(folder.Write("a.gz", "not packed")), "gzip file");
+  holds(refusal(folder.Write("a.xyz", "")), "unknown kind of scan");
+  holds(refusal(folder / "nowhere"), "unknown kind of scan");
+  folder.Write("study/2dseq", "voxels");
+  holds(refusal(folder / "study/2dseq"), "unknown kind of scan");
+  folder.Write("study/visu_pars", "##TITLE");
+  holds(refusal(folder / "study/2dseq"), "Bruker");
+  EXPECT_NE(MessageOf([&] { RefuseForeignFolder(folder / "study"); }).find("Bruker"), std::string::npos);
+  folder.Write("series/IM0001", At(128, "DICM"));
+  for (const char * name : { "series", "series/" })
+  {
+    holds(MessageOf([&] { RefuseForeignFolder(folder / name); }), "dcm2niix -z y -o OUT series'");
+  }
+  EXPECT_NO_THROW(RefuseForeignFolder(folder / "nowhere"));
+}
+
+TEST(ForeignFormats, AFolderIsDicomByItsFirstFilesThatAreNotHidden)
+{
+  const TempFolder folder;
+  folder.Write("s/.IM0", At(128, "DICM"));
+  std::filesystem::create_directories(folder / "s/a");
+  EXPECT_FALSE(IsDicomFolder(folder / "s"));
+  folder.Write("s/z", At(128, "DICM"));
+  EXPECT_TRUE(IsDicomFolder(folder / "s"));
+  for (const char * name : { "b", "c", "d", "e", "f", "g", "h", "i" })
+  {
+    folder.Write(std::string("s/") + name, "text");
+  }
+  EXPECT_FALSE(IsDicomFolder(folder / "s"));
+  EXPECT_FALSE(IsDicomFolder(folder / "nowhere"));
+}
+
+TEST(ForeignFormats, AFileOfVtkIsAnImageByTheLineThatNamesItsDataset)
+{
+  const TempFolder folder;
+  const auto       is = [&](const std::string & name, const std::string & bytes) {
+    return IsVtkImage(folder.Write(name, bytes));
+  };
+  EXPECT_TRUE(is("a.vtk", VtkBytes(true)));
+  EXPECT_TRUE(is("a.VTK", VtkBytes(false)));
+  EXPECT_FALSE(is("a.mha", VtkBytes(true)));
+  EXPECT_FALSE(is("a.vtk", "# vtk DataFile Version 3.0\nDATASET STRUCTURED_POINTS\nASCII\nDATASET POLYDATA\n"));
+  EXPECT_FALSE(is("a.vtk", "# vtk DataFile Version 3.0\na mesh\nASCII\nDATASET\nDATASET STRUCTURED_POINTS of cells\n"));
+  EXPECT_FALSE(is("a.vtk", "# vtk DataFile Version 3.0"));
+  EXPECT_FALSE(is("a.vtk", std::string(20, '\n') + "DATASET STRUCTURED_POINTS\n"));
+  EXPECT_FALSE(IsVtkImage(folder / "nowhere.vtk"));
 }

@@ -261,3 +261,43 @@ TEST(ItkProcess, WhatIsLeftUnreadLeavesNoProcessBehind)
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
 }
+
+TEST(ItkProcess, WhatIsAskedForMustMakeSense)
+{
+  const TempFolder folder;
+  ReadOptions      options;
+  options.component = 0;
+  const auto segmentation = folder.Write("a.dcm", DicomSegmentationBytes());
+  EXPECT_THROW(OpenByItk(segmentation, ItkFormat::Dicom, options), UsageError);
+  options = {};
+  options.volume = 1;
+  ExpectRefused(folder.Write("a.gipl", GiplBytes()), { "no volume 1" }, options);
+}
+
+TEST(ItkProcess, ASizeThatTheFileCannotHoldIsRefused)
+{
+  const TempFolder folder;
+  for (const auto & [name, bytes] : DicomSeriesBytes())
+  {
+    const std::string great = DicomElement(0x0028, 0x0010, "US", "\xFF\x7F");
+    folder.Write("s/" + name,
+                 WithDicomElement(WithDicomElement(bytes, 0x0028, 0x0010, great),
+                                  0x0028,
+                                  0x0011,
+                                  DicomElement(0x0028, 0x0011, "US", "\xFF\x7F")));
+  }
+  ExpectRefused(folder / "s", { "more voxels than its data can hold" });
+}
+
+TEST(ItkProcess, AMapThatSaysItsDistancesOfOnlyTwoAxesIsCubic)
+{
+  const TempFolder folder;
+  std::string      bytes = MrcBytes();
+  bytes.replace(4 * 12, 4, Raw<float>(0)); // of the cell along z
+  const LabelMap volume = ReadLabelVolume(folder.Write("a.mrc", bytes));
+  ExpectForeignValues(volume);
+  ExpectNear(volume.geometry.spacing, { 1e-6, 2e-6, 1e-6 }, 1e-15);
+  EXPECT_TRUE(HasNote(volume.warnings, "not the distance between slices"));
+  bytes.replace(4 * 11, 4, Raw<float>(0));
+  EXPECT_EQ(ReadLabelVolume(folder.Write("a.mrc", bytes)).geometry.unit, SpatialUnit::Voxels);
+}
