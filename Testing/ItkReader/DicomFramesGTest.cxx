@@ -133,6 +133,7 @@ TEST_F(DicomFrames, WithoutAPlaceOrOfBitsAreRefused)
   Refuse(Frames({ Frame(0), Frame(2) }, Both(kEnhanced, { { 0x0028, 0x0008, "IS", "4" } })),
          "4 frames without a place");
   Refuse(Frames({ Frame(0), Frame(2) }, Both(kEnhanced, { { 0x5200, 0x9230, "" } })), "2 frames without a place");
+  Refuse(Frames({ Frame(0), Frame(2) }, Both(kEnhanced, { { 0x0028, 0x0008, "IS", "1" } })), "1 frame without a place");
   Refuse(Frames({ Frame(0), Frame(2) }, { kEnhanced.front() }), "image of bits that is no segmentation");
   Refuse(Frames({ Frame(0), Frame(2) }, Both(kEnhanced, { { 0x5200, 0x9229, "" } })), "without a place in space");
 }
@@ -159,6 +160,15 @@ TEST_F(DicomSegmentation, WithoutSenseAreRefused)
   Refuse(Frames({ Frame(0, 1), Frame(2, 1), Frame(0, 1) }), "frames 1 and 3 are of one segment at one place");
   Refuse(Frames({ Frame(0, 1), Frame(20000, 1) }), "too far apart");
   Refuse(Frames({ Frame(0, 1), Frame(2, 1), Frame(4.7, 1) }), "not equally far apart");
+}
+
+TEST_F(DicomSegmentation, OfPackedBitsIsRefused)
+{
+  using namespace std::string_literals;
+  const std::string rle = With(DicomSegmentationBytes(), { { 0x0002, 0x0010, "UI", "1.2.840.10008.1.2.5" } });
+  const std::string packed = "\xe0\x7f\x10\0OB\0\0\xff\xff\xff\xff"s + "\xfe\xff\0\xe0\0\0\0\0"s +
+                             "\xfe\xff\0\xe0\4\0\0\0abcd"s + "\xfe\xff\xdd\xe0\0\0\0\0"s;
+  Refuse(WithDicomElement(rle, 0x7fe0, 0x0010, packed), "compressed pixels of one bit");
 }
 
 TEST_F(DicomSegmentation, PlacesWithoutAFrameAreBackground)

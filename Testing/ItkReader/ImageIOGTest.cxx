@@ -163,11 +163,20 @@ TEST_F(ImageIO, TheFirstOfSeveralArraysOfVtkIsRead)
 {
   for (const bool text : { false, true })
   {
-    const auto source = Open(ItkFormat::Vtk, VtkBytes(text) + "FIELD more 1\nother 1 120 short\n");
-    EXPECT_TRUE(HasNote(source->scan.warnings, "several arrays; the first is read"));
-    EXPECT_EQ(Sent(*source), RawAll<std::int16_t>(ForeignValues()));
+    for (const char * more : { "FIELD", "SCALARS", "COLOR_SCALARS", "VECTORS", "NORMALS", "TENSORS" })
+    {
+      const auto source = Open(ItkFormat::Vtk, VtkBytes(text) + more + " other 1\n");
+      EXPECT_TRUE(HasNote(source->scan.warnings, "several arrays; the first is read")) << more;
+      EXPECT_EQ(Sent(*source), RawAll<std::int16_t>(ForeignValues()));
+    }
     EXPECT_TRUE(Open(ItkFormat::Vtk, VtkBytes(text) + "METADATA none\n")->scan.warnings.empty());
   }
+}
+
+TEST_F(ImageIO, SeveralValuesAVoxelOfVtkAreRefused)
+{
+  const auto values = RawAll<std::int16_t>(ForeignValues(), true);
+  Refuse(ItkFormat::Vtk, VtkWith(false, "short 1", "short 2") + values, "2 values a voxel");
 }
 
 TEST_F(ImageIO, FilesThatItsReaderDoesNotKnowAreRefused)
