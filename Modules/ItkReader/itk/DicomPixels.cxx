@@ -88,8 +88,8 @@ ReadAsKnownClass(gdcm::Reader & file, std::stringstream & copy, gdcm::ImageReade
   return reader.Read();
 }
 
-/** Bits above those stored are none of the value. GDCM 3.0.21 clears them in words of 16 bits only, and ends the program
- *  at others. */
+/** Bits above those stored are none of the value. GDCM 3.0.21 clears them in 16 bits only, and ends the program at
+ *  pixels of 8 or 32. */
 template <typename T>
 void
 ClearUnusedBitsAs(int unused, std::vector<char> & bytes)
