@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
 namespace voxelcore::testing
 {
@@ -63,6 +65,108 @@ TEST(SurfaceEstimate, LabelsOfABallGiveItsSurfaceBackWithinATenthOfAVoxel)
     EXPECT_LT(MeanError(shape, *SurfaceFromLabels(shape, spacing), spacing, missing), 0.1) << spacing[2];
     EXPECT_EQ(missing, 0);
   }
+}
+
+// The smoothing has as many voxels along each axis as its width in mm has.
+TEST(SurfaceEstimate, LabelsOfABallInFlatVoxelsGiveItsSurfaceBackWithinATenthOfTheirLongestSide)
+{
+  for (const Vector3 & spacing :
+       { Vector3{ 0.5, 1, 2 }, Vector3{ 2.5, 0.7, 0.7 }, Vector3{ 0.4, 2.4, 1.2 }, Vector3{ 3, 3, 0.8 } })
+  {
+    const VoxelShape shape = Ball(spacing);
+    int              missing = 0;
+    const double     longest = *std::max_element(spacing.begin(), spacing.end());
+    EXPECT_LT(MeanError(shape, *SurfaceFromLabels(shape, spacing), spacing, missing), 0.1 * longest)
+      << spacing[0] << " " << spacing[1] << " " << spacing[2];
+    EXPECT_EQ(missing, 0);
+  }
+}
+
+// Fields of many layers are made in slabs along z.
+TEST(SurfaceEstimate, LabelsOfALongRodGiveTheSameSurfaceAlongEveryAxis)
+{
+  constexpr int    length = 230;
+  constexpr double middle = 6.3;
+  constexpr double radius = 4.2;
+  const auto       rod = [&](std::size_t axis) {
+    std::array<int, 3> size{ 13, 13, 13 };
+    size[axis] = length;
+    return ShapeWhere(size, [&](int x, int y, int z) {
+      const std::array<int, 3> at{ x, y, z };
+      return std::hypot(at[(axis + 1) % 3] + 0.5 - middle, at[(axis + 2) % 3] + 0.5 - middle) <= radius;
+    });
+  };
+  std::vector<std::vector<double>> distances;
+  for (const std::size_t axis : { 0U, 2U })
+  {
+    const VoxelShape shape = rod(axis);
+    const auto       surface = SurfaceFromLabels(shape, { 1, 1, 1 });
+    distances.emplace_back();
+    for (int along = 10; along < length - 10; along += 3)
+    {
+      for (int around = 0; around < 8; ++around)
+      {
+        Vector3 place{};
+        place[axis] = along;
+        place[(axis + 1) % 3] = middle + 5 * std::cos(around);
+        place[(axis + 2) % 3] = middle + 5 * std::sin(around);
+        const SurfacePoint point = surface->Project(place, 3);
+        ASSERT_TRUE(point.found);
+        const double b = point.position[(axis + 1) % 3] - middle;
+        const double c = point.position[(axis + 2) % 3] - middle;
+        EXPECT_NEAR(std::hypot(b, c), radius, 0.25);
+        distances.back().push_back(std::hypot(b, c));
+      }
+    }
+  }
+  for (std::size_t n = 0; n < distances[0].size(); ++n)
+  {
+    EXPECT_NEAR(distances[0][n], distances[1][n], 0.02) << n;
+  }
+}
+
+TEST(SurfaceEstimate, OfNothingNoPlaceHasASurface)
+{
+  const VoxelShape none = ShapeWhere({ 3, 3, 3 }, [](int, int, int) { return false; });
+  const Vector3    one{ 1, 1, 1 };
+  EXPECT_FALSE(SurfaceFromLabels(none, one)->Project({ 1, 1, 1 }, 9).found);
+  const GreyRows zeros = [](std::int32_t, std::int32_t, std::int32_t, std::span<float> values) {
+    std::fill(values.begin(), values.end(), 0.0F);
+  };
+  EXPECT_FALSE(SurfaceFromGrey(none, one, { { 0, 0, 0 }, { 3, 3, 3 } }, zeros)->Project({ 1, 1, 1 }, 9).found);
+  EXPECT_FALSE(SurfaceFromTriangles({}, {})->Project({ 1, 1, 1 }, 9).found);
+  // A triangle without an area has no normal.
+  const std::vector<Vector3>                      corners{ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 0, 1, 0 } };
+  const std::vector<std::array<std::uint32_t, 3>> thin{ { 0, 1, 2 } };
+  const std::vector<std::array<std::uint32_t, 3>> wide{ { 0, 1, 3 } };
+  EXPECT_FALSE(SurfaceFromTriangles(corners, thin)->Project({ 1, 1, 0 }, 9).found);
+  EXPECT_TRUE(SurfaceFromTriangles(corners, wide)->Project({ 1, 1, 0 }, 9).found);
+  EXPECT_FALSE(SurfaceFromTriangles(corners, wide)->Project({ 1, 1, 30 }, 9).found);
+}
+
+TEST(SurfaceEstimate, OnlyThatOfLabelsSaysThatItIs)
+{
+  const VoxelShape shape = Ball({ 1, 1, 1 });
+  EXPECT_TRUE(SurfaceFromLabels(shape, { 1, 1, 1 })->IsOfLabels());
+  EXPECT_FALSE(SurfaceFromTriangles({}, {})->IsOfLabels());
+}
+
+TEST(SurfaceEstimate, GreyValuesThatLackARowAreAMistakeOfTheCaller)
+{
+  const VoxelShape shape = Ball({ 1, 1, 1 });
+  GreyBoxRows      grey;
+  grey.box = GreyBoxAround(shape.Box(), shape.Box());
+  grey.visit = [&](const GreyRowTaker & take) {
+    const std::vector<float> row(static_cast<std::size_t>(grey.box.size[0]), 1.0F);
+    for (std::int32_t z = 1; z < grey.box.size[2]; ++z) // the first slice is left out
+    {
+      for (std::int32_t y = 0; y < grey.box.size[1]; ++y)
+      {
+        take(grey.box.lower[1] + y, grey.box.lower[2] + z, row);
+      }
+    }
+  };
+  EXPECT_THROW(SurfaceFromGrey(shape, { 1, 1, 1 }, shape.Box(), grey), std::logic_error);
 }
 
 // Passes that flatten long terraces must not move what is curved, nor what is near a wall, however large a ball is.

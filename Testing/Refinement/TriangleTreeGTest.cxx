@@ -53,6 +53,14 @@ TEST(TriangleTree, FindsWhatTryingAllTrianglesFinds)
   }
 }
 
+TEST(TriangleTree, OfNoTrianglesFindsNone)
+{
+  const TriangleTree tree({}, {});
+  EXPECT_EQ(tree.FindNearest({ 1, 2, 3 }, 5).triangle, TriangleTree({}, {}).FindNearest({ 0, 0, 0 }, 1e9).triangle);
+  EXPECT_GT(tree.FindNearest({ 1, 2, 3 }, 5).triangle, 1000000U);
+  EXPECT_EQ(tree.FindNearest({ 1, 2, 3 }, 5).squaredDistance, 25);
+}
+
 // Many triangles, large and tiny, some as thin as a thread, far from the origin, asked for from near and far: the one
 // that is found is that of trying all, to the last bit.
 TEST(TriangleTree, FindsTheVeryTriangleThatTryingAllFinds)
