@@ -175,6 +175,7 @@ public:
       growths.emplace(cubeOf.back(), 0);
     }
     std::vector<std::pair<const Cube, double> *> items;
+    items.reserve(growths.size());
     for (auto & item : growths)
     {
       items.push_back(&item);
