@@ -63,6 +63,31 @@ TYPED_TEST(LabelAssemblerOf, EachValueHasItsShapeInItsTightBox)
   }
 }
 
+TYPED_TEST(LabelAssemblerOf, AThresholdTakesTheVoxelsBetweenItsEnds)
+{
+  // More than a word of bits a row, so that whole words and the rest of one are looked at.
+  std::vector<TypeParam> values;
+  for (int n = 0; n < 150 * 3; ++n)
+  {
+    values.push_back(TypeParam(n * 7 % 101));
+  }
+  for (const auto & [lowest, highest] : { std::pair(40.0, 80.0), std::pair(39.5, 80.5), std::pair(100.0, 1e300) })
+  {
+    LabelChoice choice;
+    choice.threshold = std::pair(lowest, highest);
+    const auto labels = LabelsOf(values, SizedGeometry(150, 3, 1), choice);
+    ASSERT_EQ(labels.size(), 1U);
+    std::uint64_t count = 0;
+    for (int n = 0; n < 150 * 3; ++n)
+    {
+      const bool isIn = n * 7 % 101 >= lowest && n * 7 % 101 <= highest;
+      count += isIn ? 1 : 0;
+      EXPECT_EQ(labels[0].shape.Contains(n % 150, n / 150, 0), isIn) << n;
+    }
+    EXPECT_EQ(labels[0].voxels, count);
+  }
+}
+
 TEST(LabelAssembler, LayersKeepTheirNumbersUnderACrop)
 {
   // Two layers, which both use 1: segments are numbered anew.
