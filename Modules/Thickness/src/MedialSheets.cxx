@@ -150,6 +150,7 @@ private:
     }
     areas.erase(kNoPiece);
     std::vector<std::pair<double, std::uint32_t>> order;
+    order.reserve(areas.size());
     for (const auto & [piece, area] : areas)
     {
       order.emplace_back(-area, piece);

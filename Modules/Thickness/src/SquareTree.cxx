@@ -79,8 +79,10 @@ SquareTree::Build(std::size_t node, std::size_t first, std::size_t last)
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     // From the first square's low side to the last one's high side; sides up to 2^23 are exact.
-    m_Bounds[node].least[axis] = static_cast<float>((least[axis] - (least[axis] & 1)) / 2);
-    m_Bounds[node].greatest[axis] = static_cast<float>((greatest[axis] + (greatest[axis] & 1)) / 2);
+    const auto low = (least[axis] - (least[axis] & 1)) / 2;
+    const auto high = (greatest[axis] + (greatest[axis] & 1)) / 2;
+    m_Bounds[node].least[axis] = static_cast<float>(low);
+    m_Bounds[node].greatest[axis] = static_cast<float>(high);
     if (m_Weights[axis] * (greatest[axis] - least[axis]) > m_Weights[longest] * (greatest[longest] - least[longest]))
     {
       longest = axis;
