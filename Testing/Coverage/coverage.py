@@ -113,8 +113,8 @@ def main():
         os.remove(counter)
     tests = subprocess.run(["ctest", "--test-dir", build, "-LE", "heavy|sanitizer|browser|package|cluster|fuzz", "-L",
                             f"^({'|'.join(options.modules)})$", f"-j{options.jobs}", "--output-on-failure",
-                            "--no-tests=error", "--timeout", "3600", "-E", options.exclude], check=False, stdin=subprocess.DEVNULL,
-                           stdout=subprocess.PIPE, text=True)
+                            "--no-tests=error", "--timeout", "3600", "-E", options.exclude], check=False,
+                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
     with open(f"{build}/tests.log", "w", encoding="utf-8") as file:
         file.write(tests.stdout)
     if tests.returncode:
