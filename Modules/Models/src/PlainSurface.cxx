@@ -152,6 +152,7 @@ std::vector<double>
 TakenFrom(const std::vector<double> & values, const std::vector<ElementIndex> & taken)
 {
   std::vector<double> some;
+  some.reserve(taken.size());
   for (const ElementIndex point : taken)
   {
     some.push_back(values[point]);
