@@ -53,8 +53,8 @@ Damage(MedialComplex & complex)
 } // namespace
 
 // NOLINTBEGIN: names as the linker has them
-#define VOXELCORE_BUILD                                                                                            \
-  "_ZN9voxelcore14BuildVoxelCoreERKNS_10VoxelShapeERKSt6vectorINS_12LatticePointESaIS4_EENS_13DelaunayCellsERKNS_" \
+#define VOXELCORE_BUILD                                                                                          \
+  "_ZN9voxelcore14BuildVoxelCoreERKNS_10VoxelShapeESt6vectorINS_12LatticePointESaIS4_EENS_13DelaunayCellsERKNS_" \
   "14SpacingWeightsE"
 #define VOXELCORE_CORE                                                                                            \
   "_ZN9voxelcore16ComputeVoxelCoreERKNS_10VoxelShapeERKNS_14SpacingWeightsENS_6EngineERKSt8functionIFbSt17basic_" \
@@ -76,21 +76,21 @@ Damage(MedialComplex & complex)
 
 MedialComplex
 TrueBuild(const VoxelShape &,
-          const std::vector<LatticePoint> &,
+          std::vector<LatticePoint>,
           DelaunayCells,
           const SpacingWeights &) asm("__real_" VOXELCORE_BUILD);
 MedialComplex
 FaultyBuild(const VoxelShape &,
-            const std::vector<LatticePoint> &,
+            std::vector<LatticePoint>,
             DelaunayCells,
             const SpacingWeights &) asm("__wrap_" VOXELCORE_BUILD);
 MedialComplex
-FaultyBuild(const VoxelShape &                shape,
-            const std::vector<LatticePoint> & points,
-            DelaunayCells                     cells,
-            const SpacingWeights &            weights)
+FaultyBuild(const VoxelShape &        shape,
+            std::vector<LatticePoint> points,
+            DelaunayCells             cells,
+            const SpacingWeights &    weights)
 {
-  MedialComplex core = TrueBuild(shape, points, std::move(cells), weights);
+  MedialComplex core = TrueBuild(shape, std::move(points), std::move(cells), weights);
   if (IsSeeded("core"))
   {
     Damage(core);

@@ -123,7 +123,8 @@ MakeWholeCore(const VoxelShape &       voxels,
       whole.kept.edgePoints = NearestToEdges(cells);
     }
     ReportProgress(building, "", 0.1);
-    core = BuildVoxelCore(voxels, points, std::move(cells), weights);
+    const bool needsPoints = byTolerance || Refines(request);
+    core = BuildVoxelCore(voxels, needsPoints ? points : std::move(points), std::move(cells), weights);
     RequireEnclosed(core, voxels, request.name);
     seconds.core += watch.Lap();
     if (byTolerance)

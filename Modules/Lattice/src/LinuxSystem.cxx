@@ -8,6 +8,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <sys/mman.h>
 #include <unistd.h>
 
 namespace voxelcore
@@ -85,6 +86,22 @@ HasProcessEnded(std::int64_t process, std::uint64_t start)
   }
   const auto state = StateOf(process);
   return state && (state->start != start || state->state == 'Z' || state->state == 'X');
+}
+
+std::size_t
+ReleaseMemory(void * memory, std::size_t size)
+{
+  // A part of a large page would stay where it is until the system finds time to take the page apart.
+  constexpr std::uintptr_t insidePage = (std::uintptr_t{ 2 } << 20) - 1;
+  const auto               begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t     first = (begin + insidePage) & ~insidePage;
+  const std::uintptr_t     end = (begin + size) & ~insidePage;
+  if (first >= end)
+  {
+    return 0;
+  }
+  madvise(reinterpret_cast<void *>(first), end - first, MADV_DONTNEED); // a wish: where it fails, memory stays
+  return end - begin;
 }
 
 struct SystemFile::Handle

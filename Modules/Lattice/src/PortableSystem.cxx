@@ -29,6 +29,12 @@ HasProcessEnded(std::int64_t, std::uint64_t)
   return false;
 }
 
+std::size_t
+ReleaseMemory(void *, std::size_t size)
+{
+  return size;
+}
+
 struct SystemFile::Handle
 {
   std::filebuf buffer;

@@ -12,9 +12,9 @@ namespace voxelcore
  *  MeasureCells() leaves them; what it holds is given back on the way.
  *  \throws CertificateError when the facets around an edge do not close. */
 void
-WriteFaces(DelaunayCells                     cells,
-           const std::vector<LatticePoint> & sortedPoints,
-           const SpacingWeights &            weights,
-           MedialComplex &                   core);
+WriteFaces(DelaunayCells             cells,
+           std::vector<LatticePoint> sortedPoints,
+           const SpacingWeights &    weights,
+           MedialComplex &           core);
 
 } // namespace voxelcore

@@ -3,7 +3,9 @@
 #include "FacetMeasure.h"
 
 #include "voxelcore/BucketSort.h"
+#include "voxelcore/Error.h"
 #include "voxelcore/Predicates.h"
+#include "voxelcore/SpentMemory.h"
 
 #include <algorithm>
 #include <atomic>
@@ -178,53 +180,77 @@ RaiseTo(double & value, double to)
   {}
 }
 
+// What is noted of a cell.
+constexpr std::uint8_t kCentreBeyond = 8; // a facet; below it a bit for the axis of each voxel's side it has
+
 // A facet on the boundary is a side of a voxel (Theorem 3.1). No lattice point lies within the ball that has its
-// diagonal for diameter, so that the centre of the cell beside it is on the cell's side.
-bool
-IsVoxelSide(const DelaunayCells & cells, std::size_t facet)
+// diagonal for diameter, so that the centre of the cell beside it is on the cell's side. Its measure, half its diagonal
+// squared, depends on its axis alone.
+std::array<double, 3>
+VoxelSideMeasures(const SpacingWeights & weights)
 {
-  return cells.facetCells[facet][1] == kOutside && cells.facetOffsets[facet + 1] - cells.facetOffsets[facet] == 4;
+  std::array<double, 3> measures{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const LatticePoint opposite{ axis == 0 ? 0 : 1, axis == 1 ? 0 : 1, axis == 2 ? 0 : 1 };
+    measures[axis] = RatioToDouble(static_cast<UInt128>(SquaredDistance({ 0, 0, 0 }, opposite, weights)), 4);
+  }
+  return measures;
 }
 
-// Its measure, half its diagonal squared. Where all sides are alike its points need not be fetched.
-class VoxelSideMeasure
+std::uint32_t
+AxisOfSide(const LatticePoint & corner, const LatticePoint & opposite)
 {
-public:
-  VoxelSideMeasure(const std::vector<LatticePoint> & points, const SpacingWeights & weights)
-    : m_Points(points)
-    , m_Weights(weights)
-    , m_AreAlike(weights.weight[0] == weights.weight[1] && weights.weight[1] == weights.weight[2])
-    , m_One(Measure({ 0, 0, 0 }, { 1, 1, 0 }))
-  {}
+  return corner.x == opposite.x ? 0 : corner.y == opposite.y ? 1 : 2;
+}
 
-  double
-  operator()(std::span<const std::uint32_t> side) const
+// From any thread.
+void
+NoteCentreBeyond(std::uint8_t & note)
+{
+  std::atomic_ref<std::uint8_t> atomic(note);
+  if ((atomic.load(std::memory_order_relaxed) & kCentreBeyond) == 0)
   {
-    return m_AreAlike ? m_One : Measure(m_Points[side[0]], m_Points[side[2]]);
+    atomic.fetch_or(kCentreBeyond, std::memory_order_relaxed);
   }
+}
 
-  void
-  Fetch(std::span<const std::uint32_t> side) const
+// Takes the facets on the boundary out and notes them with their cells.
+std::vector<std::uint8_t>
+TakeVoxelSides(const std::vector<LatticePoint> & points, const SpacingWeights & weights, DelaunayCells & cells)
+{
+  // Where all sides are alike, points need not be fetched.
+  const bool                areAlike = weights.weight[0] == weights.weight[1] && weights.weight[1] == weights.weight[2];
+  std::vector<std::uint8_t> notes(cells.CellCount(), 0);
+  std::size_t               kept = 0;
+  std::uint64_t             end = 0;
+  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
   {
-    if (!m_AreAlike)
+    const std::uint64_t first = cells.facetOffsets[facet];
+    const std::uint64_t last = cells.facetOffsets[facet + 1];
+    if (cells.facetCells[facet][1] == kOutside)
     {
-      __builtin_prefetch(&m_Points[side[0]]);
-      __builtin_prefetch(&m_Points[side[2]]);
+      if (last - first != 4)
+      {
+        throw CertificateError("a Delaunay facet on the boundary is no side of a voxel; please report this input");
+      }
+      const std::uint32_t axis =
+        areAlike ? 0 : AxisOfSide(points[cells.facetPoints[first]], points[cells.facetPoints[first + 2]]);
+      notes[cells.facetCells[facet][0]] |= static_cast<std::uint8_t>(1U << axis);
+      continue;
     }
+    for (std::uint64_t from = first; from < last; ++from)
+    {
+      cells.facetPoints[end++] = cells.facetPoints[from];
+    }
+    cells.facetCells[kept] = cells.facetCells[facet];
+    cells.facetOffsets[++kept] = end;
   }
-
-private:
-  double
-  Measure(const LatticePoint & corner, const LatticePoint & opposite) const
-  {
-    return RatioToDouble(static_cast<UInt128>(SquaredDistance(corner, opposite, m_Weights)), 4);
-  }
-
-  const std::vector<LatticePoint> & m_Points;
-  const SpacingWeights &            m_Weights;
-  bool                              m_AreAlike;
-  double                            m_One;
-};
+  CutShort(cells.facetCells, kept);
+  CutShort(cells.facetOffsets, kept + 1);
+  CutShort(cells.facetPoints, end);
+  return notes;
+}
 
 // Facets follow each other along x, points and their neighbours along z: what is met next is asked for early.
 void
@@ -236,11 +262,8 @@ FetchFacet(const DelaunayCells & cells, std::size_t facet, const std::vector<Poi
   }
   for (const std::uint32_t cell : cells.facetCells[facet])
   {
-    if (cell != kOutside)
-    {
-      __builtin_prefetch(&cells.centres[cell]);
-      __builtin_prefetch(&cells.tetrahedra[cell]);
-    }
+    __builtin_prefetch(&cells.centres[cell]);
+    __builtin_prefetch(&cells.tetrahedra[cell]);
   }
 }
 
@@ -270,6 +293,54 @@ TurnToRanks(const std::vector<PointEntry> &     entries,
   }
 }
 
+// A cell whose sphere's centre lies beyond one of its facets has the nearest point of its hull on the boundary, so
+// its smallest ball is the greatest of its facets' balls, here of its voxels' sides; else it is the sphere itself. Uses
+// the tetrahedra up.
+void
+MeasureSpheres(const std::vector<LatticePoint> & points,
+               const SpacingWeights &            weights,
+               const std::vector<std::uint8_t> & notes,
+               DelaunayCells &                   cells,
+               CellMeasures &                    result)
+{
+  const std::array<double, 3> sides = VoxelSideMeasures(weights);
+  std::array<double, 8>       greatest{}; // of the sides that a cell has
+  for (std::size_t have = 1; have < greatest.size(); ++have)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      greatest[have] = std::max(greatest[have], (have >> axis & 1U) != 0 ? sides[axis] : 0.0);
+    }
+  }
+  const std::size_t count = cells.CellCount();
+  SpentFront        tetrahedra(cells.tetrahedra);
+  result.sphere.reserve(count);
+  result.cell.reserve(count);
+  for (std::size_t done = 0; done < count;)
+  {
+    const std::size_t next = std::min(count, done + std::max<std::size_t>(count / 8, 10000));
+    result.sphere.resize(next);
+    result.cell.resize(next);
+    RunInParts(next - done > 10000, next - done, [&](std::size_t first, std::size_t last) {
+      for (std::size_t cell = done + first; cell < done + last; ++cell)
+      {
+        const auto & t = cells.tetrahedra[cell];
+        for (const std::uint32_t point : cells.tetrahedra[std::min(cell + kAhead, count - 1)])
+        {
+          __builtin_prefetch(points.data() + point);
+        }
+        result.sphere[cell] =
+          SquaredRadius(MakeCircumSphere(points[t[0]], points[t[1]], points[t[2]], points[t[3]], weights), weights);
+        const std::uint8_t note = notes[cell];
+        result.cell[cell] = (note & kCentreBeyond) != 0 ? greatest[note % greatest.size()] : result.sphere[cell];
+      }
+    });
+    tetrahedra.SpendTo(next);
+    done = next;
+  }
+  std::vector<std::array<std::uint32_t, 4>>().swap(cells.tetrahedra);
+}
+
 } // namespace
 
 CellMeasures
@@ -279,77 +350,43 @@ MeasureCells(const VoxelShape &                shape,
              DelaunayCells &                   cells,
              std::vector<LatticePoint> &       sortedPoints)
 {
-  std::vector<PointEntry> entries = MakeEntries(shape, points);
+  std::vector<std::uint8_t> notes = TakeVoxelSides(points, weights, cells);
+  std::vector<PointEntry>   entries = MakeEntries(shape, points);
   RankLexicographically(shape, points, entries, sortedPoints);
-  CellMeasures              result;
-  const auto                facets = static_cast<std::ptrdiff_t>(cells.FacetCount());
-  const auto                cellCount = static_cast<std::ptrdiff_t>(cells.CellCount());
-  std::vector<std::uint8_t> centreBeyond(cells.CellCount(), 0);
+  CellMeasures result;
   result.facet.resize(cells.FacetCount());
-  const VoxelSideMeasure measureSide(points, weights);
-  RunInParts(facets > 10000, cells.FacetCount(), [&](std::size_t first, std::size_t last) {
+  RunInParts(cells.FacetCount() > 10000, cells.FacetCount(), [&](std::size_t first, std::size_t last) {
     std::vector<LatticePoint> polygon;
     for (std::size_t facet = first; facet < last; ++facet)
     {
       if (facet + kAhead < last) // facets of others get their ranks meanwhile
       {
-        if (IsVoxelSide(cells, facet + kAhead))
-        {
-          measureSide.Fetch(cells.FacetPoints(facet + kAhead));
-        }
-        else
-        {
-          FetchFacet(cells, facet + kAhead, entries);
-        }
+        FetchFacet(cells, facet + kAhead, entries);
       }
       const std::span<std::uint32_t> own{ cells.facetPoints.data() + cells.facetOffsets[facet],
                                           cells.facetPoints.data() + cells.facetOffsets[facet + 1] };
-      if (IsVoxelSide(cells, facet)) // whose points are asked for no more
-      {
-        result.facet[facet] = measureSide(own);
-        continue;
-      }
       TurnToRanks(entries, shape.Box().lower, own, polygon);
       result.facet[facet] = MeasureFacet(polygon, weights);
       const Plane plane(polygon);
       for (int side = 0; side < 2; ++side)
       {
         const std::uint32_t cell = cells.facetCells[facet][static_cast<std::size_t>(side)];
-        if (cell != kOutside && LiesBeyond(plane, cells, cell, side, points, weights))
+        if (LiesBeyond(plane, cells, cell, side, points, weights))
         {
-          std::atomic_ref(centreBeyond[cell]).store(1, std::memory_order_relaxed);
+          NoteCentreBeyond(notes[cell]);
         }
       }
     }
   });
   std::vector<PointEntry>().swap(entries);
-
-  // A cell whose sphere's centre lies beyond one of its facets has the nearest point of its hull on the boundary, so
-  // its smallest ball is the greatest of its facets' balls; else it is the sphere itself.
-  result.sphere.resize(cells.CellCount());
-  result.cell.resize(cells.CellCount());
-#pragma omp parallel for schedule(static) if (cellCount > 10000)
-  for (std::ptrdiff_t i = 0; i < cellCount; ++i)
-  {
-    const auto   cell = static_cast<std::size_t>(i);
-    const auto & t = cells.tetrahedra[cell];
-    if (i + static_cast<std::ptrdiff_t>(kAhead) < cellCount)
-    {
-      for (const std::uint32_t point : cells.tetrahedra[cell + kAhead])
-      {
-        __builtin_prefetch(points.data() + point);
-      }
-    }
-    result.sphere[cell] =
-      SquaredRadius(MakeCircumSphere(points[t[0]], points[t[1]], points[t[2]], points[t[3]], weights), weights);
-    result.cell[cell] = centreBeyond[cell] ? 0.0 : result.sphere[cell];
-  }
+  MeasureSpheres(points, weights, notes, cells, result);
+  const auto facets = static_cast<std::ptrdiff_t>(cells.FacetCount());
 #pragma omp parallel for schedule(static) if (facets > 10000)
   for (std::ptrdiff_t i = 0; i < facets; ++i)
   {
     for (const std::uint32_t cell : cells.facetCells[static_cast<std::size_t>(i)])
     {
-      if (cell != kOutside && centreBeyond[cell])
+      if ((notes[cell] & kCentreBeyond) != 0)
       {
         RaiseTo(result.cell[cell], result.facet[static_cast<std::size_t>(i)]);
       }

@@ -15,13 +15,14 @@ struct CellMeasures
 {
   std::vector<double> sphere; ///< per cell: squared radius of its empty sphere
   std::vector<double> cell;   ///< per cell: of the smallest ball enclosing its points
-  std::vector<double> facet;  ///< per facet: of the smallest ball enclosing its points
+  std::vector<double> facet;  ///< per facet inside: of the smallest ball enclosing its points
 };
 
-/** Measures cells and facets. On the way the points of the facets inside are renumbered to their lexicographic order by
- *  (x, y, z), in which the points come back, and sides on the boundary get the mark kBoundarySide: cells and facets are
- *  in the order of their centres' x, so that what is worked on together then lies together in memory. Below 2^31
- *  points. */
+/** Measures cells and facets. On the way the facets on the boundary go, which leaves those that are dual to the core's
+ *  edges; their points are renumbered to their lexicographic order by (x, y, z), in which the points come back, and
+ *  sides on the boundary get the mark kBoundarySide: cells and facets are in the order of their centres' x, so that what
+ *  is worked on together then lies together in memory. The tetrahedra go, too. Below 2^31 points.
+ *  \throws CertificateError where a facet on the boundary is no side of a voxel */
 CellMeasures
 MeasureCells(const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,

@@ -9,47 +9,11 @@
 namespace voxelcore
 {
 
-namespace
-{
-
-// Takes the facets on the boundary out, and their measures: those that stay are dual to the core's edges.
-void
-KeepInnerFacets(DelaunayCells & cells, std::vector<double> & measures)
-{
-  std::size_t   kept = 0;
-  std::uint64_t end = 0;
-  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
-  {
-    if (cells.facetCells[facet][1] == kOutside)
-    {
-      continue;
-    }
-    for (std::uint64_t from = cells.facetOffsets[facet]; from < cells.facetOffsets[facet + 1]; ++from)
-    {
-      cells.facetPoints[end++] = cells.facetPoints[from];
-    }
-    cells.facetCells[kept] = cells.facetCells[facet];
-    measures[kept] = measures[facet];
-    cells.facetOffsets[++kept] = end;
-  }
-  cells.facetCells.resize(kept);
-  cells.facetCells.shrink_to_fit();
-  measures.resize(kept);
-  measures.shrink_to_fit();
-  // These stay while faces are collected, where a core needs the most memory.
-  cells.facetOffsets.resize(kept + 1);
-  cells.facetOffsets.shrink_to_fit();
-  cells.facetPoints.resize(end);
-  cells.facetPoints.shrink_to_fit();
-}
-
-} // namespace
-
 MedialComplex
-BuildVoxelCore(const VoxelShape &                shape,
-               const std::vector<LatticePoint> & points,
-               DelaunayCells                     cells,
-               const SpacingWeights &            weights)
+BuildVoxelCore(const VoxelShape &        shape,
+               std::vector<LatticePoint> points,
+               DelaunayCells             cells,
+               const SpacingWeights &    weights)
 {
   constexpr std::size_t most = std::size_t{ 1 } << 31;
   if (points.size() >= most)
@@ -61,8 +25,7 @@ BuildVoxelCore(const VoxelShape &                shape,
   std::vector<LatticePoint> sortedPoints;
   {
     CellMeasures measures = MeasureCells(shape, points, weights, cells, sortedPoints);
-    std::vector<std::array<std::uint32_t, 4>>().swap(cells.tetrahedra);
-    KeepInnerFacets(cells, measures.facet);
+    std::vector<LatticePoint>().swap(points);
     for (std::vector<double> * values : { &measures.sphere, &measures.cell, &measures.facet })
     {
       for (double & value : *values)
@@ -81,7 +44,7 @@ BuildVoxelCore(const VoxelShape &                shape,
   // Facets are sorted by their cells, so the edges come out in canonical order.
   core.cells.edges = std::move(cells.facetCells);
   core.positions = std::move(cells.centres);
-  WriteFaces(std::move(cells), sortedPoints, weights, core);
+  WriteFaces(std::move(cells), std::move(sortedPoints), weights, core);
   return core;
 }
 
@@ -91,8 +54,9 @@ ComputeVoxelCore(const VoxelShape &       shape,
                  Engine                   engine,
                  const ProgressCallback & progress)
 {
-  const std::vector<LatticePoint> points = BoundaryVertices(shape);
-  return BuildVoxelCore(shape, points, ComputeDelaunayCells(shape, points, weights, engine, progress), weights);
+  std::vector<LatticePoint> points = BoundaryVertices(shape);
+  DelaunayCells             cells = ComputeDelaunayCells(shape, points, weights, engine, progress);
+  return BuildVoxelCore(shape, std::move(points), std::move(cells), weights);
 }
 
 } // namespace voxelcore

@@ -29,6 +29,12 @@ ThisProcess();
 bool
 HasProcessEnded(std::int64_t process, std::uint64_t start);
 
+/** Gives memory of an array back to the system, as far as it fills large pages. Until it is written again it holds
+ *  anything. Returns how many bytes from its beginning on are done with: the next piece begins there. The portable half
+ *  keeps all. */
+std::size_t
+ReleaseMemory(void * memory, std::size_t size);
+
 /** A file to read from. Of its errors errno says the reason. */
 class SystemFile
 {

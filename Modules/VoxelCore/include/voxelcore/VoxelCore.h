@@ -9,13 +9,13 @@ namespace voxelcore
 
 /** The core as the dual of the Delaunay cells inside the shape (Definition 3.2): a vertex per cell, an edge per inner
  *  facet, a face per Delaunay edge that is not on the boundary. `points` are the boundary vertices the cells refer to.
- *  Move the cells in: their memory is given back on the way.
+ *  Move the cells in, and the points where nobody needs them later: their memory is given back on the way.
  *  \throws InputError above 2^31 edges; CertificateError when the cells do not fit together (an engine's fault). */
 MedialComplex
-BuildVoxelCore(const VoxelShape &                shape,
-               const std::vector<LatticePoint> & points,
-               DelaunayCells                     cells,
-               const SpacingWeights &            weights);
+BuildVoxelCore(const VoxelShape &        shape,
+               std::vector<LatticePoint> points,
+               DelaunayCells             cells,
+               const SpacingWeights &    weights);
 
 /** Boundary vertices, Delaunay cells and core in one call. Empty for an empty shape. */
 MedialComplex
