@@ -62,6 +62,9 @@ Damage(MedialComplex & complex)
 #define VOXELCORE_LAMBDA                                                                                   \
   "_ZN9voxelcore13PruneByLambdaERKNS_13MedialComplexERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
   "viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_SPENT_LAMBDA                                                                            \
+  "_ZN9voxelcore13PruneByLambdaEONS_13MedialComplexERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
+  "viewIcSt11char_traitsIcEEdEE"
 #define VOXELCORE_MOVED_LAMBDA                                                                                     \
   "_ZN9voxelcore13PruneByLambdaERKNS_13MedialComplexERKSt6vectorIdSaIdEERS3_IS3_IjSaIjEESaIS9_EERKSt8functionIFbS" \
   "t17basic_string_viewIcSt11char_traitsIcEEdEE"
@@ -125,6 +128,25 @@ std::vector<MedialComplex>
 FaultyLambda(const MedialComplex & core, const std::vector<double> & thresholds, const ProgressCallback & progress)
 {
   auto pruned = TrueLambda(core, thresholds, progress);
+  if (IsSeeded("pruning") && !pruned.empty())
+  {
+    Damage(pruned.back());
+  }
+  return pruned;
+}
+
+std::vector<MedialComplex>
+TrueSpentLambda(MedialComplex &&,
+                const std::vector<double> &,
+                const ProgressCallback &) asm("__real_" VOXELCORE_SPENT_LAMBDA);
+std::vector<MedialComplex>
+FaultySpentLambda(MedialComplex &&,
+                  const std::vector<double> &,
+                  const ProgressCallback &) asm("__wrap_" VOXELCORE_SPENT_LAMBDA);
+std::vector<MedialComplex>
+FaultySpentLambda(MedialComplex && core, const std::vector<double> & thresholds, const ProgressCallback & progress)
+{
+  auto pruned = TrueSpentLambda(std::move(core), thresholds, progress);
   if (IsSeeded("pruning") && !pruned.empty())
   {
     Damage(pruned.back());

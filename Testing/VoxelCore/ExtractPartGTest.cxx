@@ -56,6 +56,25 @@ TEST(ExtractPart, ElementsKeepTheirGeometryMeasuresAndOrder)
   EXPECT_EQ(ExtractPart(core, collapse.Live()).positions, part.positions);
 }
 
+TEST(ExtractPart, InPlaceOfTheWholeItIsTheSame)
+{
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 9, 6, 4 } });
+  for (std::int32_t v = 0; v < 9 * 6 * 4; ++v)
+  {
+    shape.Insert(v % 9, v / 9 % 6, v / 54);
+  }
+  MedialComplex core = CoreOf(shape);
+  core.tolerances = { core.vertexLambda, core.edgeLambda, core.faceLambda };
+  SimplePairCollapse collapse(core.cells, core.vertexLambda, core.edgeLambda, core.faceLambda);
+  collapse.CollapseBelow(1.5);
+  const MedialComplex part = ExtractPart(core, collapse.Live());
+  const MedialComplex kept = KeepPart(std::move(core), collapse.Live());
+  testing::ExpectSameCore(kept, part);
+  EXPECT_EQ(kept.tolerances.vertices, part.tolerances.vertices);
+  EXPECT_EQ(kept.tolerances.edges, part.tolerances.edges);
+  EXPECT_EQ(kept.tolerances.faces, part.tolerances.faces);
+}
+
 TEST(ExtractPart, APartsPartIsNamedInTheWhole)
 {
   const PartElements part{ { 2, 5, 7 }, { 1, 4 }, { 9 } };

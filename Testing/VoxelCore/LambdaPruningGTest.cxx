@@ -159,6 +159,24 @@ TEST(LambdaPruning, KeepsWhatMeasuresLambdaAndLeavesNoSimplePairBelow)
   }
 }
 
+TEST(LambdaPruning, OfACoreThatIsUsedUpIsTheSame)
+{
+  for (const auto & volume : testing::RandomVolumes(800, 60))
+  {
+    SCOPED_TRACE(volume.Describe());
+    testing::Random     random(volume.seed);
+    const MedialComplex core = CoreOf(volume.shape, volume.spacing);
+    const auto          thresholds = Thresholds(core, random);
+    const auto          pruned = PruneByLambda(core, thresholds);
+    const auto          inPlace = PruneByLambda(MedialComplex(core), thresholds);
+    ASSERT_EQ(inPlace.size(), pruned.size());
+    for (std::size_t i = 0; i < thresholds.size(); ++i)
+    {
+      ASSERT_NO_FATAL_FAILURE(ExpectSameCore(inPlace[i], pruned[i])) << "at " << thresholds[i];
+    }
+  }
+}
+
 TEST(LambdaPruning, OnToAGreaterLambdaEqualsPruningToTheGreater)
 {
   for (const auto & volume : testing::RandomVolumes(600, 120))

@@ -102,21 +102,20 @@ private:
     whole.positions.swap(former.positions);
   }
 
-  /** Prunes by lambda at the same time: neither changes the core, and each is work for one processor. */
+  /** What is left of a core that is asked for no more once it has been described takes its place. */
   void
   CertifyWhole()
   {
     Stopwatch              watch;
     const ProgressCallback prune = m_Plan.Next(RefinesCores(m_Request) ? "core" : "prune");
     ReportProgress(prune, "", 0);
-    const MedialComplex & core = m_Whole.core.core.core;
+    MedialComplex & core = m_Whole.core.core.core;
     RunBoth(
       core.cells.FaceCount() > 10000,
       [&] {
-        if (m_Request.tolerances.empty() && !RefinesCores(m_Request))
-        {
-          m_Pruned = PruneAscending(core, 0, m_Thresholds, prune);
-        }
+        // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last
+        // bit.
+        m_Whole.core.numbers.complex = DescribeComplex(core, m_Result.shape.topology);
       },
       [&] {
         // All of a core that burns is counted meanwhile.
@@ -124,10 +123,12 @@ private:
         {
           m_Whole.topology = RequireTopologyOf(core.cells, m_Result.shape);
         }
-        // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last
-        // bit.
-        m_Whole.core.numbers.complex = DescribeComplex(core, m_Result.shape.topology);
       });
+    if (m_Request.tolerances.empty() && !RefinesCores(m_Request))
+    {
+      m_Pruned = LambdasSpendWhole() ? PruneByLambda(std::move(core), AscendingBeyond(0, m_Thresholds), prune)
+                                     : PruneAscending(core, 0, m_Thresholds, prune);
+    }
     m_Result.whole = m_Whole.core.numbers.complex;
     if (RefinesCores(m_Request) && !RefinesCurves(m_Request))
     {
@@ -259,6 +260,14 @@ private:
     }
     throw UsageError(m_Request.name + ": a skeleton is asked for of a core that is not: lambda " +
                      m_Request.skeleton->lambda.text);
+  }
+
+  /** Whether the whole core is asked for no more once it has been pruned by lambda. */
+  bool
+  LambdasSpendWhole() const
+  {
+    const auto isPruned = [](double threshold) { return threshold > 0; };
+    return !Refines(m_Request) && !BurnsBeforePruning(m_Request) && std::ranges::all_of(m_Thresholds, isPruned);
   }
 
   /** Whether the whole core is asked for no more once it has burned. */

@@ -21,29 +21,30 @@ DropFreeFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces)
 {
   std::vector<std::uint8_t> live(complex.FaceCount(), 1);
   std::vector<ElementIndex> open;
-  for (std::size_t edge = 0; edge < cofaces.size(); ++edge)
+  for (std::size_t first = 0; first < cofaces.size(); ++first) // each with what follows from it, which lies near
   {
-    if (cofaces[edge].count == 1)
-    {
-      open.push_back(static_cast<ElementIndex>(edge));
-    }
-  }
-  while (!open.empty())
-  {
-    const ElementIndex edge = open.back();
-    open.pop_back();
-    if (cofaces[edge].count != 1)
+    if (cofaces[first].count != 1)
     {
       continue;
     }
-    const ElementIndex face = cofaces[edge].exclusiveOr;
-    live[face] = 0;
-    for (const ElementIndex side : complex.FaceEdges(face))
+    open.push_back(static_cast<ElementIndex>(first));
+    while (!open.empty())
     {
-      cofaces[side].Remove(face);
-      if (cofaces[side].count == 1)
+      const ElementIndex edge = open.back();
+      open.pop_back();
+      if (cofaces[edge].count != 1)
       {
-        open.push_back(side);
+        continue;
+      }
+      const ElementIndex face = cofaces[edge].exclusiveOr;
+      live[face] = 0;
+      for (const ElementIndex side : complex.FaceEdges(face))
+      {
+        cofaces[side].Remove(face);
+        if (cofaces[side].count == 1)
+        {
+          open.push_back(side);
+        }
       }
     }
   }

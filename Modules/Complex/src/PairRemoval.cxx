@@ -68,9 +68,8 @@ private:
   bool
   OwnsFace(ElementIndex face) const
   {
-    const auto corners = m_State.complex.FaceVertices(face);
-    return m_OwnsAll ||
-           std::all_of(corners.begin(), corners.end(), [&](ElementIndex vertex) { return OwnsVertex(vertex); });
+    const auto sides = m_State.complex.FaceEdges(face);
+    return m_OwnsAll || std::all_of(sides.begin(), sides.end(), [&](ElementIndex edge) { return OwnsEdge(edge); });
   }
 
   bool
@@ -203,7 +202,7 @@ private:
   }
 
   const CollapseState       m_State;
-  const RemovalTimes        m_Times;
+  RemovalTimes              m_Times;
   const double              m_Threshold;
   const std::size_t         m_FirstVertex;
   const std::size_t         m_VertexCount;
@@ -274,8 +273,7 @@ Worker::RemoveVertexAndEdge(const RemovalTime & time, double first, ElementIndex
 {
   const LowerElements & vertices = m_Times.Vertices();
   const ElementIndex    vertex = time.key.element;
-  vertices.after[vertex] = time.before;
-  m_Times.NoteRemoval(edge, time.before);
+  vertices.after[vertex] = m_Times.NoteRemoval(time.before);
   vertices.cofaces[vertex] = { 0, edge };
   m_State.live.vertices[vertex] = 0;
   m_State.live.edges[edge] = 0;
@@ -294,8 +292,7 @@ Worker::RemoveEdgeAndFace(const RemovalTime & time, double first, ElementIndex f
   const LowerElements & vertices = m_Times.Vertices();
   const LowerElements & edges = m_Times.Edges();
   const ElementIndex    edge = time.key.element;
-  edges.after[edge] = time.before;
-  m_Times.NoteRemoval(edge, time.before);
+  edges.after[edge] = m_Times.NoteRemoval(time.before);
   edges.cofaces[edge] = { 0, face };
   m_State.live.edges[edge] = 0;
   m_State.live.faces[face] = 0;
@@ -367,10 +364,12 @@ RemovePairs(const CollapseState & state, double threshold, const ProgressCallbac
   const std::size_t         edges = state.complex.edges.size();
   std::vector<ElementIndex> vertexAfter(vertices, kNoPair);
   std::vector<ElementIndex> edgeAfter(edges, kNoPair);
-  std::vector<TimeNode>     nodes(edges);
-  const RemovalTimes        times(state, vertexAfter.data(), edgeAfter.data(), nodes.data());
-  std::atomic<bool>         isCancelled = false;
-  const auto                report = [&] {
+  // Vertices and edges of a block are neighbours where both are in order, as those of a core are.
+  const std::size_t  blocks = edges / 1024 + 1;
+  TimeNodes          nodes(edges, blocks + 1);
+  const RemovalTimes times(state, vertexAfter.data(), edgeAfter.data(), nodes);
+  std::atomic<bool>  isCancelled = false;
+  const auto         report = [&] {
     try
     {
       ReportProgress(progress, "prune", 0.0);
@@ -381,11 +380,9 @@ RemovePairs(const CollapseState & state, double threshold, const ProgressCallbac
       throw;
     }
   };
-  // Vertices and edges of a block are neighbours where both are in order, as those of a core are.
-  const std::size_t blocks = edges / 1024 + 1;
-  const auto        vertexAt = [&](std::size_t block) { return vertices * block / blocks; };
-  const auto        edgeAt = [&](std::size_t block) { return edges * block / blocks; };
-  const auto        removeBlock = [&](Worker & worker, std::size_t block) {
+  const auto vertexAt = [&](std::size_t block) { return vertices * block / blocks; };
+  const auto edgeAt = [&](std::size_t block) { return edges * block / blocks; };
+  const auto removeBlock = [&](Worker & worker, std::size_t block) {
     worker.RemoveFrom(vertexAt(block), vertexAt(block + 1), edgeAt(block), edgeAt(block + 1));
   };
   RunInParts(blocks > 10, blocks, [&](std::size_t firstBlock, std::size_t lastBlock) {

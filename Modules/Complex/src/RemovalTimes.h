@@ -4,7 +4,9 @@
 #include "PairRemoval.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <memory>
 
 namespace voxelcore
 {
@@ -51,7 +53,7 @@ struct LowerElements
   const double * cofaceMeasure; ///< of the elements one dimension up
   Cofaces *      cofaces;       ///< live ones; of one that has gone as the lower of a pair: none, and the upper
   ElementIndex *
-    after; ///< the latest of its removers, where it can matter; once it has gone, the pair before it in its time
+    after; ///< the latest of its removers, where it can matter; once it has gone, its TimeNode, where it has one
 
   PairKey
   KeyOf(bool isEdge, ElementIndex element, ElementIndex upper) const
@@ -60,26 +62,63 @@ struct LowerElements
   }
 };
 
-/** Where a pair that has gone stands in its time. Times branch as a tree whose nodes are pairs: each follows the one
- *  before it, and what two times have in common is the way from the root to where they part. A jump leads far up, by a
- *  number of steps that depends on the depth alone, so that a place on the way is found in a number of steps
- *  logarithmic in its length (E. W. Myers: An applicative random-access stack, 1983). */
+/** Where a pair that has gone stands in its time, when that does not begin with it, as nine of ten do. Times branch as
+ *  a tree whose nodes are pairs: each follows the one before it, and what two times have in common is the way from the
+ *  root to where they part. A jump leads far up, by a number of steps that depends on the depth alone, so that a place
+ *  on the way is found in a number of steps logarithmic in its length (E. W. Myers: An applicative random-access stack,
+ *  1983). */
 struct TimeNode
 {
-  ElementIndex jump;  ///< a pair further up, or kNoPair above the first
-  ElementIndex depth; ///< keys of the time; 0 is that of kNoPair
+  ElementIndex before = kNoPair; ///< the pair before it
+  ElementIndex jump = kNoPair;   ///< a pair further up, or kNoPair above the first
+  ElementIndex depth = 1;        ///< keys of the time; 0 is that of kNoPair
 };
 
-/** What is known of the pairs that have gone, and of when others will. */
+/** The nodes of all; each thread takes chunks of its own. */
+class TimeNodes
+{
+public:
+  static constexpr ElementIndex kChunk = 4096;
+
+  TimeNodes(std::size_t mostPairs, std::size_t threads)
+    : m_Chunks(mostPairs / kChunk + threads + 1)
+  {}
+
+  const TimeNode &
+  operator[](ElementIndex node) const
+  {
+    return m_Chunks[node / kChunk][node % kChunk];
+  }
+  TimeNode &
+  operator[](ElementIndex node)
+  {
+    return m_Chunks[node / kChunk][node % kChunk];
+  }
+
+  /** Its first node. */
+  ElementIndex
+  NewChunk()
+  {
+    const ElementIndex chunk = m_Count.fetch_add(1, std::memory_order_relaxed);
+    m_Chunks[chunk] = std::make_unique<TimeNode[]>(kChunk);
+    return chunk * kChunk;
+  }
+
+private:
+  std::vector<std::unique_ptr<TimeNode[]>> m_Chunks;
+  std::atomic<ElementIndex>                m_Count = 0;
+};
+
+/** What is known of the pairs that have gone, and of when others will. Each thread has its own. */
 class RemovalTimes
 {
 public:
-  RemovalTimes(const CollapseState & state, ElementIndex * vertexAfter, ElementIndex * edgeAfter, TimeNode * nodes)
+  RemovalTimes(const CollapseState & state, ElementIndex * vertexAfter, ElementIndex * edgeAfter, TimeNodes & nodes)
     : m_Vertices{ state.vertexMeasure.data(), state.edgeMeasure.data(), state.vertexCofaces.data(), vertexAfter }
     , m_Edges{ state.edgeMeasure.data(), state.faceMeasure.data(), state.edgeCofaces.data(), edgeAfter }
     , m_Ends(state.complex.edges.data())
     , m_LiveVertices(state.live.vertices.data())
-    , m_Nodes(nodes)
+    , m_Nodes(&nodes)
   {}
 
   const LowerElements &
@@ -97,14 +136,12 @@ public:
   RemovalTime
   TimeOf(ElementIndex edge) const
   {
-    for (const ElementIndex vertex : m_Ends[edge])
+    const ElementIndex vertex = VertexOf(edge);
+    if (vertex != kNoPair)
     {
-      if (m_LiveVertices[vertex] == 0 && m_Vertices.cofaces[vertex].exclusiveOr == edge)
-      {
-        return { m_Vertices.KeyOf(false, vertex, edge), m_Vertices.after[vertex] };
-      }
+      return { m_Vertices.KeyOf(false, vertex, edge), BeforeOf(m_Vertices.after[vertex]) };
     }
-    return { m_Edges.KeyOf(true, edge, m_Edges.cofaces[edge].exclusiveOr), m_Edges.after[edge] };
+    return { m_Edges.KeyOf(true, edge, m_Edges.cofaces[edge].exclusiveOr), BeforeOf(m_Edges.after[edge]) };
   }
 
   /** Of a pair that has become simple with the removal of pair `after`, or kNoPair. */
@@ -119,7 +156,7 @@ public:
         break;
       }
       // Keys rise on the way up: where that at the end of a jump is not greater, none that it passes is.
-      const ElementIndex jump = m_Nodes[after].jump;
+      const ElementIndex jump = NodeOf(after).jump;
       after = jump != time.before && jump != kNoPair && !(key < TimeOf(jump).key) ? jump : time.before;
     }
     return { key, after };
@@ -148,8 +185,8 @@ public:
     // At equal depths jumps are equally long: up to the last pairs that are not the same.
     for (;;)
     {
-      const TimeNode & nodeA = m_Nodes[upA];
-      const TimeNode & nodeB = m_Nodes[upB];
+      const TimeNode nodeA = NodeOf(upA);
+      const TimeNode nodeB = NodeOf(upB);
       if (nodeA.jump != nodeB.jump)
       {
         upA = nodeA.jump;
@@ -167,21 +204,57 @@ public:
     }
   }
 
-  /** A pair, named by its edge, goes after pair `before` or kNoPair. */
-  void
-  NoteRemoval(ElementIndex edge, ElementIndex before) const
+  /** A pair goes after pair `before` or kNoPair. The node for it, if it needs one. */
+  ElementIndex
+  NoteRemoval(ElementIndex before)
   {
+    if (before == kNoPair)
+    {
+      return kNoPair;
+    }
     const TimeNode     node = NodeOf(before);
     const TimeNode     next = NodeOf(node.jump);
     const ElementIndex beyond = NodeOf(next.jump).depth;
-    m_Nodes[edge] = { node.depth - next.depth == next.depth - beyond ? next.jump : before, node.depth + 1 };
+    if (m_Free % TimeNodes::kChunk == 0)
+    {
+      m_Free = m_Nodes->NewChunk();
+    }
+    const bool isLong = node.depth - next.depth == next.depth - beyond;
+    (*m_Nodes)[m_Free] = { before, isLong ? next.jump : before, node.depth + 1 };
+    return m_Free++;
   }
 
 private:
+  /** The vertex with which an edge has gone; kNoPair where it went with a face. */
+  ElementIndex
+  VertexOf(ElementIndex edge) const
+  {
+    for (const ElementIndex vertex : m_Ends[edge])
+    {
+      if (m_LiveVertices[vertex] == 0 && m_Vertices.cofaces[vertex].exclusiveOr == edge)
+      {
+        return vertex;
+      }
+    }
+    return kNoPair;
+  }
+
+  ElementIndex
+  BeforeOf(ElementIndex node) const
+  {
+    return node == kNoPair ? kNoPair : (*m_Nodes)[node].before;
+  }
+
   TimeNode
   NodeOf(ElementIndex pair) const
   {
-    return pair == kNoPair ? TimeNode{ kNoPair, 0 } : m_Nodes[pair];
+    if (pair == kNoPair)
+    {
+      return { kNoPair, kNoPair, 0 };
+    }
+    const ElementIndex vertex = VertexOf(pair);
+    const ElementIndex node = vertex != kNoPair ? m_Vertices.after[vertex] : m_Edges.after[pair];
+    return node == kNoPair ? TimeNode() : (*m_Nodes)[node];
   }
 
   /** The pair that lies so deep on the way to this one. */
@@ -206,7 +279,8 @@ private:
   LowerElements                       m_Edges;
   const std::array<ElementIndex, 2> * m_Ends;
   const std::uint8_t *                m_LiveVertices;
-  TimeNode *                          m_Nodes; ///< by the edge that names the pair
+  TimeNodes *                         m_Nodes;
+  ElementIndex                        m_Free = 0; ///< where the next node comes, but at the beginning of a chunk
 };
 
 } // namespace voxelcore

@@ -3,6 +3,7 @@
 #include "PairRemoval.h"
 
 #include "voxelcore/ParallelTasks.h"
+#include "voxelcore/SpentMemory.h"
 
 #include <algorithm>
 
@@ -69,6 +70,25 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
 namespace
 {
 
+/** Each corner of a face is that which an edge shares with the one before. */
+void
+MakeCorners(CellComplex & complex)
+{
+  complex.faceVertices.resize(complex.faceEdges.size());
+  for (std::size_t face = 0; face < complex.FaceCount(); ++face)
+  {
+    const auto    sides = complex.FaceEdges(face);
+    std::uint64_t at = complex.faceOffsets[face];
+    const auto *  before = &complex.edges[sides.back()];
+    for (const ElementIndex side : sides)
+    {
+      const auto & ends = complex.edges[side];
+      complex.faceVertices[at++] = ends[0] == (*before)[0] || ends[0] == (*before)[1] ? ends[0] : ends[1];
+      before = &ends;
+    }
+  }
+}
+
 /** `to` may be `from` itself: each element then moves to where it was or before that. */
 void
 TakeLive(const CellComplex &         from,
@@ -79,6 +99,7 @@ TakeLive(const CellComplex &         from,
          std::vector<ElementIndex> & faceIds)
 {
   const bool                 worthIt = from.FaceCount() > 10000;
+  const bool                 hasCorners = from.faceVertices.size() == from.faceEdges.size();
   std::vector<ElementIndex>  vertexNumbers;
   std::vector<ElementIndex>  edgeNumbers;
   std::vector<std::uint64_t> offsets{ 0 };
@@ -116,7 +137,7 @@ TakeLive(const CellComplex &         from,
         taken[at++] = numbers[sides[i]];
       }
     }
-    taken.resize(offsets.back());
+    CutShort(taken, offsets.back());
   };
   RunBoth(
     worthIt,
@@ -127,12 +148,19 @@ TakeLive(const CellComplex &         from,
         const auto ends = from.edges[edgeIds[i]];
         to.edges[i] = { vertexNumbers[ends[0]], vertexNumbers[ends[1]] };
       }
-      to.edges.resize(edgeIds.size());
-      takeSides(from.faceVertices, vertexNumbers, to.faceVertices);
+      CutShort(to.edges, edgeIds.size());
+      if (hasCorners)
+      {
+        takeSides(from.faceVertices, vertexNumbers, to.faceVertices);
+      }
     },
     [&] { takeSides(from.faceEdges, edgeNumbers, to.faceEdges); });
   to.faceOffsets = std::move(offsets);
   to.vertexCount = vertexIds.size();
+  if (!hasCorners)
+  {
+    MakeCorners(to);
+  }
 }
 
 } // namespace

@@ -1,5 +1,9 @@
 #include "voxelcore/ExtractPart.h"
 
+#include "voxelcore/SpentMemory.h"
+
+#include <utility>
+
 namespace voxelcore
 {
 
@@ -40,6 +44,36 @@ ExtractPart(const MedialComplex & core, const LiveElements & live, PartElements 
     gather(core.tolerances.vertices, vertices, part.tolerances.vertices);
     gather(core.tolerances.edges, edges, part.tolerances.edges);
     gather(core.tolerances.faces, faces, part.tolerances.faces);
+  }
+  return part;
+}
+
+MedialComplex
+KeepPart(MedialComplex && core, const LiveElements & live)
+{
+  const bool                hasTolerances = core.HasTolerances();
+  MedialComplex             part = std::move(core);
+  std::vector<ElementIndex> vertices;
+  std::vector<ElementIndex> edges;
+  std::vector<ElementIndex> faces;
+  KeepLive(part.cells, live, vertices, edges, faces);
+  const auto keep = [](auto & values, const std::vector<ElementIndex> & ids) {
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      values[i] = values[ids[i]];
+    }
+    CutShort(values, ids.size());
+  };
+  keep(part.positions, vertices);
+  keep(part.radius, vertices);
+  keep(part.vertexLambda, vertices);
+  keep(part.edgeLambda, edges);
+  keep(part.faceLambda, faces);
+  if (hasTolerances)
+  {
+    keep(part.tolerances.vertices, vertices);
+    keep(part.tolerances.edges, edges);
+    keep(part.tolerances.faces, faces);
   }
   return part;
 }

@@ -146,10 +146,12 @@ LambdaInMillimetres(const Lambda &                lambda,
 namespace
 {
 
+/** `spent`: the core itself, where it may be used up. */
 std::vector<MedialComplex>
 Prune(const MedialComplex &                    core,
       const std::vector<double> &              thresholds,
       std::vector<std::vector<ElementIndex>> * vertices,
+      MedialComplex *                          spent,
       const ProgressCallback &                 progress)
 {
   std::vector<MedialComplex> pruned;
@@ -162,19 +164,33 @@ Prune(const MedialComplex &                    core,
       vertices->push_back(std::move(elements.vertices));
     }
   };
+  // Edges tell the corners, too: once no other result is to be taken they may go.
+  const auto dropCorners = [&](std::size_t next) {
+    if (spent != nullptr && next + 1 == thresholds.size())
+    {
+      std::vector<ElementIndex>().swap(spent->cells.faceVertices);
+    }
+  };
+  dropCorners(0);
   SimplePairCollapse collapse(core.cells, core.vertexLambda, core.edgeLambda, core.faceLambda);
   for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
     const auto at = [&](std::size_t done) {
       return static_cast<double>(done) / static_cast<double>(thresholds.size());
     };
+    dropCorners(i);
     collapse.CollapseBelow(thresholds[i], PartOfProgress(progress, at(i), at(i + 1)));
     if (i + 1 < thresholds.size())
     {
       take(collapse.Live());
     }
   }
-  if (!thresholds.empty())
+  if (spent != nullptr && !thresholds.empty())
+  {
+    const LiveElements live = std::move(collapse).TakeLive();
+    pruned.push_back(KeepPart(std::move(*spent), live));
+  }
+  else if (!thresholds.empty())
   {
     take(std::move(collapse).TakeLive());
   }
@@ -186,7 +202,13 @@ Prune(const MedialComplex &                    core,
 std::vector<MedialComplex>
 PruneByLambda(const MedialComplex & core, const std::vector<double> & thresholds, const ProgressCallback & progress)
 {
-  return Prune(core, thresholds, nullptr, progress);
+  return Prune(core, thresholds, nullptr, nullptr, progress);
+}
+
+std::vector<MedialComplex>
+PruneByLambda(MedialComplex && core, const std::vector<double> & thresholds, const ProgressCallback & progress)
+{
+  return Prune(core, thresholds, nullptr, &core, progress);
 }
 
 std::vector<MedialComplex>
@@ -196,7 +218,7 @@ PruneByLambda(const MedialComplex &                    core,
               const ProgressCallback &                 progress)
 {
   vertices.clear();
-  return Prune(core, thresholds, &vertices, progress);
+  return Prune(core, thresholds, &vertices, nullptr, progress);
 }
 
 } // namespace voxelcore

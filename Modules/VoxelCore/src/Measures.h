@@ -20,8 +20,8 @@ struct CellMeasures
 
 /** Measures cells and facets. On the way the facets on the boundary go, which leaves those that are dual to the core's
  *  edges; their points are renumbered to their lexicographic order by (x, y, z), in which the points come back, and
- *  sides on the boundary get the mark kBoundarySide: cells and facets are in the order of their centres' x, so that what
- *  is worked on together then lies together in memory. The tetrahedra go, too. Below 2^31 points.
+ *  sides on the boundary get the mark kBoundarySide: cells and facets are in the order of their centres' x, so that
+ *  what is worked on together then lies together in memory. The tetrahedra go, too. Below 2^31 points.
  *  \throws CertificateError where a facet on the boundary is no side of a voxel */
 CellMeasures
 MeasureCells(const VoxelShape &                shape,

@@ -73,7 +73,7 @@ ExtractLive(const CellComplex &         complex,
             std::vector<ElementIndex> & edgeIds,
             std::vector<ElementIndex> & faceIds);
 
-/** The same in place. */
+/** The same in place; what is left over is given back. Corners of faces may be missing: they are made of the edges. */
 void
 KeepLive(CellComplex &               complex,
          const LiveElements &        live,

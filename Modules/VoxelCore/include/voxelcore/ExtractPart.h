@@ -28,4 +28,8 @@ ExtractPart(const MedialComplex & core, const LiveElements & live, PartElements 
 MedialComplex
 ExtractPart(const MedialComplex & core, const LiveElements & live);
 
+/** The same of a core that is used up, in its place; see KeepLive(). */
+MedialComplex
+KeepPart(MedialComplex && core, const LiveElements & live);
+
 } // namespace voxelcore

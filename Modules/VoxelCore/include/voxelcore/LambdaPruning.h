@@ -52,6 +52,10 @@ PruneByLambda(const MedialComplex &       core,
               const std::vector<double> & thresholds,
               const ProgressCallback &    progress = {});
 
+/** The same of a core that is used up: the last result takes its place. */
+std::vector<MedialComplex>
+PruneByLambda(MedialComplex && core, const std::vector<double> & thresholds, const ProgressCallback & progress = {});
+
 /** The same; `vertices` receives, for each result, of each of its vertices the index in `core`. */
 std::vector<MedialComplex>
 PruneByLambda(const MedialComplex &                    core,
