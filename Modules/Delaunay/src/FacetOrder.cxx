@@ -15,12 +15,8 @@ namespace
 
 constexpr std::size_t kFacetsAhead = 16; // places from where a loop is to what it has the memory fetch
 
-// A facet under its first cell.
-struct FacetBeyond
-{
-  std::uint32_t cell; // the second; later the number of its points, so that no other array is needed
-  std::uint32_t facet;
-};
+// A facet under its first cell: its second cell, and its number, later that of its points. In the end the two cells.
+using FacetBeyond = std::array<std::uint32_t, 2>;
 
 // What one thread puts down.
 struct FacetPart
@@ -81,8 +77,8 @@ SortFacetsOfCell(const DelaunayCells & cells, std::span<FacetBeyond> own)
   {
     const FacetBeyond moved = own[i];
     const auto        isBefore = [&](const FacetBeyond & other) {
-      return moved.cell < other.cell || (moved.cell == kOutside && other.cell == kOutside &&
-                                         FirstPoints(cells, moved.facet) < FirstPoints(cells, other.facet));
+      return moved[0] < other[0] || (moved[0] == kOutside && other[0] == kOutside &&
+                                     FirstPoints(cells, moved[1]) < FirstPoints(cells, other[1]));
     };
     std::size_t at = i;
     for (; at > 0 && isBefore(own[at - 1]); --at)
@@ -128,8 +124,8 @@ OrderFacets(DelaunayCells & cells, std::vector<std::uint32_t> rank)
       return FacetBeyond{ cells.facetCells[facet][1], static_cast<std::uint32_t>(facet) };
     },
     order);
-
-  // `order` knows the cells of its facets by now, so that the list of them can be written anew where it is.
+  // `order` knows the cells of its facets by now, and becomes the list of them.
+  std::vector<std::array<std::uint32_t, 2>>().swap(cells.facetCells);
   const std::size_t      facets = order.size();
   const bool             worthIt = facets > 10000;
   std::vector<FacetPart> parts(worthIt ? static_cast<std::size_t>(omp_get_max_threads()) : 1);
@@ -145,7 +141,6 @@ OrderFacets(DelaunayCells & cells, std::vector<std::uint32_t> rank)
                     work);
     });
   };
-  cells.facetCells.resize(facets);
   forEachPart([&](FacetPart & part) {
     for (std::size_t cell = part.firstCell; cell < part.lastCell; ++cell)
     {
@@ -154,11 +149,9 @@ OrderFacets(DelaunayCells & cells, std::vector<std::uint32_t> rank)
       {
         if (i + kFacetsAhead < facets)
         {
-          __builtin_prefetch(cells.facetOffsets.data() + order[i + kFacetsAhead].facet);
+          __builtin_prefetch(cells.facetOffsets.data() + order[i + kFacetsAhead][1]);
         }
-        cells.facetCells[i] = { static_cast<std::uint32_t>(cell), order[i].cell };
-        order[i].cell = static_cast<std::uint32_t>(cells.FacetPoints(order[i].facet).size());
-        part.points += order[i].cell;
+        part.points += cells.FacetPoints(order[i][1]).size();
       }
     }
   });
@@ -168,29 +161,37 @@ OrderFacets(DelaunayCells & cells, std::vector<std::uint32_t> rank)
   }
   std::vector<std::uint32_t> facetPoints(parts.back().firstPoint + parts.back().points);
   forEachPart([&](const FacetPart & part) {
-    std::uint32_t * to = facetPoints.data() + part.firstPoint;
-    for (std::size_t i = start[part.firstCell]; i < start[part.lastCell]; ++i)
+    std::uint32_t *   to = facetPoints.data() + part.firstPoint;
+    const std::size_t end = start[part.lastCell]; // what lies beyond is being changed
+    for (std::size_t i = start[part.firstCell]; i < end; ++i)
     {
-      if (i + 2 * kFacetsAhead < facets)
+      if (i + 2 * kFacetsAhead < end)
       {
-        __builtin_prefetch(cells.facetOffsets.data() + order[i + 2 * kFacetsAhead].facet);
-        __builtin_prefetch(cells.facetPoints.data() + cells.facetOffsets[order[i + kFacetsAhead].facet]);
+        __builtin_prefetch(cells.facetOffsets.data() + order[i + 2 * kFacetsAhead][1]);
+        __builtin_prefetch(cells.facetPoints.data() + cells.facetOffsets[order[i + kFacetsAhead][1]]);
       }
-      const std::uint32_t facet = order[i].facet;
-      CopyPolygon(cells.FacetPoints(facet), (turned[facet / 64] >> facet % 64 & 1U) != 0, to);
-      to += order[i].cell;
+      const std::uint32_t facet = order[i][1];
+      const auto          polygon = cells.FacetPoints(facet);
+      CopyPolygon(polygon, (turned[facet / 64] >> facet % 64 & 1U) != 0, to);
+      order[i][1] = static_cast<std::uint32_t>(polygon.size());
+      to += polygon.size();
     }
   });
   cells.facetPoints = std::move(facetPoints);
   cells.facetOffsets.resize(facets + 1);
   forEachPart([&](const FacetPart & part) {
     std::uint64_t end = part.firstPoint;
-    for (std::size_t i = start[part.firstCell]; i < start[part.lastCell]; ++i)
+    for (std::size_t cell = part.firstCell; cell < part.lastCell; ++cell)
     {
-      end += order[i].cell;
-      cells.facetOffsets[i + 1] = end;
+      for (std::size_t i = start[cell]; i < start[cell + 1]; ++i)
+      {
+        end += order[i][1];
+        cells.facetOffsets[i + 1] = end;
+        order[i] = { static_cast<std::uint32_t>(cell), order[i][0] };
+      }
     }
   });
+  cells.facetCells = std::move(order);
 }
 
 } // namespace voxelcore
