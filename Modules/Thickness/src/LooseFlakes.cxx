@@ -54,14 +54,16 @@ MeasurePieces(const MedialComplex & core, const SheetPieces & cut, const std::ve
   }
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
-    const auto faces = cut.FacesOf(edge);
-    for (const ElementIndex face : faces)
+    std::uint32_t before = kNoPiece; // fins hold nothing
+    for (const ElementIndex face : cut.FacesOf(edge))
     {
-      if (pieceOfFace[face] != pieceOfFace[faces.front()])
+      const std::uint32_t piece = cut.IsLive(face) ? pieceOfFace[face] : kNoPiece;
+      if (piece != kNoPiece && before != kNoPiece && piece != before)
       {
-        pieces.at(pieceOfFace[face]).isLoose = false;
-        pieces.at(pieceOfFace[faces.front()]).isLoose = false;
+        pieces.at(piece).isLoose = false;
+        pieces.at(before).isLoose = false;
       }
+      before = piece != kNoPiece ? piece : before;
     }
   }
   return pieces;
@@ -172,7 +174,8 @@ LooseEdges(const SheetPieces &                cut,
   for (ElementIndex edge = 0; edge < edges; ++edge)
   {
     const auto faces = cut.FacesOf(edge);
-    if (faces.empty() ? withRods : pieces.at(pieceOfFace[faces.front()]).isLoose)
+    const auto isLoose = [&](ElementIndex face) { return pieces.at(pieceOfFace[face]).isLoose; };
+    if (faces.empty() ? withRods : std::any_of(faces.begin(), faces.end(), isLoose))
     {
       found.push_back(edge);
     }

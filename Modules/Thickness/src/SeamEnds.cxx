@@ -27,7 +27,9 @@ void
 SheetPieces::DrawSeamsOn(double reach)
 {
   const auto & edges = m_Core.cells.edges;
+  // What goes round an end is judged whole, not as the last lines drawn there cut it.
   m_Drawn.assign(edges.size(), 0);
+  Find();
   // Seams that hang together have one number.
   UnionFind         sets(m_Core.cells.vertexCount);
   std::vector<char> onSeam(m_Core.cells.vertexCount, 0);

@@ -153,6 +153,9 @@ private:
   /** Which pieces are fins; of pieces that hang together one stays. */
   std::vector<std::uint8_t>
   FinsBelow(double sliver, double share) const;
+  /** A fin by which alone two parts of the rest hang together, both larger than it, is none. */
+  void
+  KeepBridges(std::vector<std::uint8_t> & fins) const;
   /** Fills in all but the area. */
   void
   MeasureStandOut(std::span<const ElementIndex> faces, SheetPiece & piece);
