@@ -9,7 +9,7 @@ namespace voxelcore::testing
 namespace
 {
 
-TEST(SheetFins, AStripByWhichAloneTwoBentWallsHangTogetherIsNone)
+TEST(SheetFins, AStripBetweenTwoPairsOfWallsIsNoneHoweverFreeItsBorder)
 {
   // More than a quarter of its border is free.
   SheetBuilder x;

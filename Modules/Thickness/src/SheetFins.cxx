@@ -5,6 +5,8 @@
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace voxelcore
 {
@@ -40,7 +42,8 @@ SheetPieces::FinsBelow(double sliver, double share) const
   {
     const SheetPiece & one = m_Pieces[piece];
     const double       height = share * std::max(sliver, kBevel * one.seamWidth);
-    fins[piece] = one.standOut < height && one.freeBorder >= kFreeShare * (one.freeBorder + one.seamBorder) ? 1 : 0;
+    const bool         isFree = one.freeBorder >= kFreeShare * (one.freeBorder + one.seamBorder);
+    fins[piece] = one.standOut < height && isFree && 2 * one.drawnBorder <= one.seamBorder ? 1 : 0;
     std::uint32_t & stays = kept[sets.Find(piece)];
     if (stays == kNoPiece || one.standOut > m_Pieces[stays].standOut || (fins[stays] != 0 && fins[piece] == 0))
     {
@@ -54,53 +57,45 @@ SheetPieces::FinsBelow(double sliver, double share) const
       fins[piece] = 0;
     }
   }
-  KeepBridges(fins);
+  KeepStrips(fins);
   return fins;
 }
 
 void
-SheetPieces::KeepBridges(std::vector<std::uint8_t> & fins) const
+SheetPieces::KeepStrips(std::vector<std::uint8_t> & fins) const
 {
   if (std::find(fins.begin(), fins.end(), 1) == fins.end())
   {
     return;
   }
-  UnionFind           rest(m_Pieces.size()); // without fins
-  std::vector<double> areas(m_Pieces.size(), 0);
-  const auto          forBorders = [&](auto && visit) {
-    for (ElementIndex edge = 0; edge < m_Live.size(); ++edge)
+  using Pair = std::array<std::uint32_t, 2>;
+  std::map<std::uint32_t, std::map<Pair, double>> lengths; // of each fin's feet, by what it parts there
+  for (ElementIndex edge = 0; edge < m_Live.size(); ++edge)
+  {
+    std::uint32_t fin = kNoPiece;
+    Pair          others{ kNoPiece, kNoPiece };
+    for (const ElementIndex face : m_Live[edge] == 3 ? FacesOf(edge) : std::span<const ElementIndex>())
     {
-      const auto faces = IsBorder(edge) ? FacesOf(edge) : std::span<const ElementIndex>();
-      for (const ElementIndex one : faces)
+      if (m_Alive[face] != 0)
       {
-        for (const ElementIndex other : faces)
-        {
-          if (m_Alive[one] != 0 && m_Alive[other] != 0 && fins[m_PieceOf[other]] == 0)
-          {
-            visit(m_PieceOf[one], m_PieceOf[other]);
-          }
-        }
+        std::uint32_t & place = fins[m_PieceOf[face]] != 0 ? fin : others[others[0] == kNoPiece ? 0 : 1];
+        place = m_PieceOf[face];
       }
     }
-  };
-  forBorders([&](std::uint32_t one, std::uint32_t other) { fins[one] == 0 ? void(rest.Unite(one, other)) : void(); });
-  for (std::uint32_t piece = 0; piece < m_Pieces.size(); ++piece)
-  {
-    areas[rest.Find(piece)] += m_Pieces[piece].area;
-  }
-  std::vector<std::uint32_t> hangsOn(m_Pieces.size(), kNoPiece);
-  std::vector<std::uint32_t> bridges;
-  forBorders([&](std::uint32_t fin, std::uint32_t other) {
-    const std::uint32_t part = rest.Find(other);
-    if (fins[fin] != 0 && areas[part] > m_Pieces[fin].area)
+    if (fin != kNoPiece && others[1] != kNoPiece &&
+        std::min(m_Pieces[others[0]].area, m_Pieces[others[1]].area) > m_Pieces[fin].area)
     {
-      hangsOn[fin] = hangsOn[fin] == kNoPiece ? part : hangsOn[fin];
-      hangsOn[fin] != part ? bridges.push_back(fin) : void();
+      lengths[fin][{ std::min(others[0], others[1]), std::max(others[0], others[1]) }] += EdgeLength(edge);
     }
-  });
-  for (const std::uint32_t fin : bridges)
+  }
+  for (auto & [fin, pairs] : lengths)
   {
-    fins[fin] = 0;
+    std::erase_if(pairs, [&](const auto & pair) { return pair.second < kFreeShare * m_Pieces[fin].seamBorder; });
+    const Pair first = pairs.empty() ? Pair{} : pairs.begin()->first;
+    const auto isApart = [&](const auto & pair) {
+      return std::find_first_of(first.begin(), first.end(), pair.first.begin(), pair.first.end()) == first.end();
+    };
+    fins[fin] = std::any_of(pairs.begin(), pairs.end(), isApart) ? 0 : 1;
   }
 }
 

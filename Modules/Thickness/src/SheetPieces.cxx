@@ -152,6 +152,7 @@ SheetPieces::MeasureStandOut(std::span<const ElementIndex> faces, SheetPiece & p
       const auto & ends = cells.edges[edge];
       piece.freeBorder += m_Live[edge] == 1 ? length : 0.0;
       piece.seamBorder += IsBorder(edge) ? length : 0.0;
+      piece.drawnBorder += IsBorder(edge) && m_Live[edge] == 2 ? length : 0.0;
       piece.seamWidth += IsBorder(edge) ? length * (m_Core.radius[ends[0]] + m_Core.radius[ends[1]]) : 0.0;
       edges.push_back(edge);
     }

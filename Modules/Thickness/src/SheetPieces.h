@@ -19,6 +19,7 @@ struct SheetPiece
   double standOut = 0; ///< infinite without seams
   double freeBorder = 0;
   double seamBorder = 0;
+  double drawnBorder = 0; ///< of that, lines that were drawn
   double seamWidth = 0; ///< mean of twice the radius at its seams
   double area = 0;
 };
@@ -153,9 +154,9 @@ private:
   /** Which pieces are fins; of pieces that hang together one stays. */
   std::vector<std::uint8_t>
   FinsBelow(double sliver, double share) const;
-  /** A fin by which alone two parts of the rest hang together, both larger than it, is none. */
+  /** A fin that parts two pairs of larger pieces, each along a quarter of its seams, is none: it lies between these. */
   void
-  KeepBridges(std::vector<std::uint8_t> & fins) const;
+  KeepStrips(std::vector<std::uint8_t> & fins) const;
   /** Fills in all but the area. */
   void
   MeasureStandOut(std::span<const ElementIndex> faces, SheetPiece & piece);

@@ -10,7 +10,8 @@
 //  - A fin, at least a quarter of whose border is free, is passed over: where two faces are left, what it parted is one
 //    sheet. Fins go in four steps of rising height, so that a rib that fins have cut up is whole before it is judged.
 //    A fin may stand out by a third of what the balls at its seams are wide, too: bevels of a square rim do by a fifth.
-//    None is that by which alone two parts of the rest hang together, both larger than it.
+//    None is what parts two pairs of larger pieces, each along a quarter of its seams: it lies between these. Nor is
+//    that of whose border with others more than half are lines drawn, as below.
 //  - Else it lies between seams, and is joined to the neighbour it continues: the one with the greatest sum, over the
 //    common edges, of length times the cosine of the bend; the smallest piece first. Such a piece is a sliver, too,
 //    where it stands out by less than the mean radius of the balls at its seams.
