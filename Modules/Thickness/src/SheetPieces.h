@@ -20,7 +20,7 @@ struct SheetPiece
   double freeBorder = 0;
   double seamBorder = 0;
   double drawnBorder = 0; ///< of that, lines that were drawn
-  double seamWidth = 0; ///< mean of twice the radius at its seams
+  double seamWidth = 0;   ///< mean of twice the radius at its seams
   double area = 0;
 };
 
