@@ -222,9 +222,7 @@ CountOwnSquares(const VoxelShape & shape, const HaloBlock & block)
       {
         const std::uint64_t own = BoundaryBits::Between(first, end, word);
         const std::uint64_t bits = at(here, word);
-        const auto          count = [own](std::uint64_t sides) {
-          return CountBits(sides & own);
-        };
+        const auto          count = [own](std::uint64_t sides) { return CountBits(sides & own); };
         squares += count(bits ^ (bits << 1 | at(here, word - 1) >> 63)) + count(bits ^ at(south, word)) +
                    count(bits ^ at(below, word));
       }

@@ -1,9 +1,9 @@
 #include "PairRemoval.h"
 
+#include "FreeEdges.h"
 #include "RemovalTimes.h"
 
 #include "voxelcore/ParallelTasks.h"
-#include "voxelcore/Prefetch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -141,45 +141,9 @@ private:
   }
 
   void
-  FetchEdge(ElementIndex edge) const
-  {
-    const LowerElements & edges = m_Times.Edges();
-    FetchLine(&edges.cofaces[edge]);
-    FetchLine(&edges.measure[edge]);
-    FetchLine(&edges.after[edge]);
-  }
-
-  // Has memory fetched, step by step, for edges that come soon after that at a place of the round.
-  void
-  FetchAhead(std::size_t next) const
-  {
-    const CellComplex & complex = m_State.complex;
-    const auto          faceAhead = [&](std::size_t steps, auto && what) {
-      if (next + steps < m_Round.size())
-      {
-        if (const Cofaces own = m_Times.Edges().cofaces[m_Round[next + steps]]; own.count == 1)
-        {
-          what(own.exclusiveOr);
-        }
-      }
-    };
-    if (next + 24 < m_Round.size())
-    {
-      FetchEdge(m_Round[next + 24]);
-    }
-    faceAhead(16, [&](ElementIndex face) { FetchLine(&complex.faceOffsets[face]); });
-    faceAhead(12, [&](ElementIndex face) { FetchLine(&complex.faceEdges[complex.faceOffsets[face]]); });
-    faceAhead(6, [&](ElementIndex face) {
-      for (const ElementIndex edge : complex.FaceEdges(face))
-      {
-        FetchEdge(edge);
-      }
-    });
-  }
-
-  void
   RemoveOpen()
   {
+    const LowerElements & edges = m_Times.Edges();
     while (!m_Edges.empty() || !m_Vertices.empty())
     {
       while (!m_Edges.empty())
@@ -187,7 +151,11 @@ private:
         m_Round.swap(m_Edges);
         for (std::size_t next = 0; next < m_Round.size(); ++next)
         {
-          FetchAhead(next);
+          FetchFreeEdges(m_State.complex, edges.cofaces, m_Round, next, [&](ElementIndex edge) {
+            FetchLine(&edges.cofaces[edge]);
+            FetchLine(&edges.measure[edge]);
+            FetchLine(&edges.after[edge]);
+          });
           ConsiderEdge(m_Round[next]);
         }
         m_Round.clear();

@@ -64,9 +64,8 @@ std::uint64_t
 CountBoundaryVertices(const VoxelShape & shape)
 {
   std::uint64_t count = 0;
-  VisitBoundaryWords(shape, [&](std::int32_t, std::int32_t, std::size_t, std::uint64_t bits) {
-    count += CountBits(bits);
-  });
+  VisitBoundaryWords(shape,
+                     [&](std::int32_t, std::int32_t, std::size_t, std::uint64_t bits) { count += CountBits(bits); });
   return count;
 }
 
