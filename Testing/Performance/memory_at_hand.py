@@ -20,7 +20,7 @@ def have_memory_at_hand(megabytes=MEGABYTES):
 
 if __name__ == "__main__":
     size = int(sys.argv[1]) << 20
-    with mmap.mmap(-1, size) as memory:
+    with mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS) as memory:
         memory.madvise(mmap.MADV_HUGEPAGE)
         for place in range(0, size, 4096):
             memory[place] = 1
