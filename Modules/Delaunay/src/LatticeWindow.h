@@ -65,20 +65,6 @@ struct LatticeWindow
   }
 
 private:
-  // Processors from 2008 on do it in one step, but who compiles for all of them gets a call of a function.
-  static std::uint32_t
-  CountBits(std::uint64_t word)
-  {
-#if defined(__x86_64__) && !defined(__POPCNT__)
-    word -= word >> 1U & 0x5555555555555555U;
-    word = (word & 0x3333333333333333U) + (word >> 2U & 0x3333333333333333U);
-    word = (word + (word >> 4U)) & 0x0F0F0F0F0F0F0F0FU;
-    return static_cast<std::uint32_t>(word * 0x0101010101010101U >> 56U);
-#else
-    return CountBits(word);
-#endif
-  }
-
   static constexpr std::uint32_t unknown = 0xFFFFFFFFU;
 
   const VertexRows *                 m_Rows = nullptr;
