@@ -10,20 +10,20 @@
 //  - A fin, at least a quarter of whose border is free, is passed over: where two faces are left, what it parted is one
 //    sheet. Fins go in four steps of rising height, so that a rib that fins have cut up is whole before it is judged.
 //    A fin may stand out by a third of what the balls at its seams are wide, too: bevels of a square rim do by a fifth.
-//    A piece that parts two pairs of larger pieces, each along a quarter of its seams, is no fin: it lies between these.
-//    Nor is a piece whose border with others is, for more than half, lines drawn on as below.
+//    A piece that parts two pairs of larger pieces, each along a quarter of its seams, is no fin: it lies between
+//    these. Nor is a piece whose border with others is, for more than half, lines drawn on as below.
 //  - Else it lies between seams, and is joined to the neighbour it continues: the one with the greatest sum, over the
 //    common edges, of length times the cosine of the bend; the smallest piece first. Such a piece is a sliver, too,
 //    where it stands out by less than the mean radius of the balls at its seams.
 // A seam that ends on the way is drawn on to the border of the sheets that go round its end, or to another seam, where
 // that is nearer than the radius there plus `sliver`, or than twice that radius. Ways along the feet of fins do not
-// count: there the surface itself says how the seam went on. A seam that turns back round the tip of a sliver, at which
-// those sheets have creases, is drawn on likewise. All these are judged before any line is drawn. Where four sheets end,
-// so that two go round on either side, both pairs are parted. What hangs together only within the balls of its
-// seams, along a line of edges that lies in them, is parted, if both parts stand out of these by `sliver` and by the
-// radius there, and border seams by as much as the balls are wide. Fins that come off so are passed over, too. What
-// lies between seams and is a sliver belongs to them: those along it are one, in which all sheets about it meet. Seams
-// of the same sheets that touch are one.
+// count: there the surface itself says how the seam went on. A seam that turns back round the tip of a sliver, at
+// which those sheets have creases, is drawn on likewise. All these are judged before any line is drawn. Where four
+// sheets end, so that two go round on either side, both pairs are parted. What hangs together only within the balls of
+// its seams, along a line of edges that lies in them, is parted, if both parts stand out of these by `sliver` and by
+// the radius there, and border seams by as much as the balls are wide. Fins that come off so are passed over, too.
+// What lies between seams and is a sliver belongs to them: those along it are one, in which all sheets about it meet.
+// Seams of the same sheets that touch are one.
 // What lies between seams, is a sliver, and has one sheet about it, is a pocket in that sheet and makes no seam.
 // A piece that shares no edge with another but those of fins, and hangs on one by these, by rods or a point, is part of
 // it where it stands out by less than `sliver`, or than it or the rods it hangs by are thick; the largest of all that
