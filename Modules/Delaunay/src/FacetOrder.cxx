@@ -142,12 +142,13 @@ OrderFacets(DelaunayCells & cells, std::vector<std::uint32_t> rank)
     });
   };
   forEachPart([&](FacetPart & part) {
+    const std::size_t end = start[part.lastCell]; // what lies beyond is being changed
     for (std::size_t cell = part.firstCell; cell < part.lastCell; ++cell)
     {
       SortFacetsOfCell(cells, { order.data() + start[cell], order.data() + start[cell + 1] });
       for (std::size_t i = start[cell]; i < start[cell + 1]; ++i)
       {
-        if (i + kFacetsAhead < facets)
+        if (i + kFacetsAhead < end)
         {
           __builtin_prefetch(cells.facetOffsets.data() + order[i + kFacetsAhead][1]);
         }
@@ -162,7 +163,7 @@ OrderFacets(DelaunayCells & cells, std::vector<std::uint32_t> rank)
   std::vector<std::uint32_t> facetPoints(parts.back().firstPoint + parts.back().points);
   forEachPart([&](const FacetPart & part) {
     std::uint32_t *   to = facetPoints.data() + part.firstPoint;
-    const std::size_t end = start[part.lastCell]; // what lies beyond is being changed
+    const std::size_t end = start[part.lastCell];
     for (std::size_t i = start[part.firstCell]; i < end; ++i)
     {
       if (i + 2 * kFacetsAhead < end)
