@@ -186,7 +186,6 @@ RunReader(int argc, char ** argv)
   const std::filesystem::path path(argv[2]);
   std::signal(SIGINT, SIG_IGN); // whoever asked ends this
   Limit(RLIMIT_CORE, 0);
-  ::setenv("TMPDIR", "/dev/null", 1); // MINC's library leaves a file there for each volume that it cannot open
   // What libraries print belongs nowhere.
   const int refusals = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
