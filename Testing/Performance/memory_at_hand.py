@@ -3,9 +3,8 @@
 
 usage: memory_at_hand.py MEGABYTES
 
-A virtual machine may give memory that is freed back to its host, and have to ask for it again: its first touch then
-costs a second or two a gigabyte, now and not the next time. So programs that are to be compared each run after a
-process that takes memory, touches it and ends.
+A virtual machine may give freed memory back to its host. Its next first touch then costs a second or two a gigabyte.
+So each timed program runs after a process that takes memory, touches it and ends.
 """
 import mmap
 import subprocess

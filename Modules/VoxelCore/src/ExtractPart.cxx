@@ -21,12 +21,39 @@ NameInWhole(const PartElements & part, PartElements & ofPart)
   name(part.faces, ofPart.faces);
 }
 
+namespace
+{
+
+/** take(from, ids, to) for each array of a core: `from` may be `to`. */
+template <typename TTake>
+void
+TakeArrays(const MedialComplex & from,
+           const PartElements &  elements,
+           bool                  withTolerances,
+           MedialComplex &       to,
+           TTake                 take)
+{
+  const auto & [vertices, edges, faces] = elements;
+  take(from.positions, vertices, to.positions);
+  take(from.radius, vertices, to.radius);
+  take(from.vertexLambda, vertices, to.vertexLambda);
+  take(from.edgeLambda, edges, to.edgeLambda);
+  take(from.faceLambda, faces, to.faceLambda);
+  if (withTolerances)
+  {
+    take(from.tolerances.vertices, vertices, to.tolerances.vertices);
+    take(from.tolerances.edges, edges, to.tolerances.edges);
+    take(from.tolerances.faces, faces, to.tolerances.faces);
+  }
+}
+
+} // namespace
+
 MedialComplex
 ExtractPart(const MedialComplex & core, const LiveElements & live, PartElements & elements)
 {
-  auto & [vertices, edges, faces] = elements;
   MedialComplex part;
-  part.cells = ExtractLive(core.cells, live, vertices, edges, faces);
+  part.cells = ExtractLive(core.cells, live, elements.vertices, elements.edges, elements.faces);
   const auto gather = [](const auto & from, const std::vector<ElementIndex> & ids, auto & to) {
     to.reserve(ids.size());
     for (const ElementIndex id : ids)
@@ -34,47 +61,25 @@ ExtractPart(const MedialComplex & core, const LiveElements & live, PartElements 
       to.push_back(from[id]);
     }
   };
-  gather(core.positions, vertices, part.positions);
-  gather(core.radius, vertices, part.radius);
-  gather(core.vertexLambda, vertices, part.vertexLambda);
-  gather(core.edgeLambda, edges, part.edgeLambda);
-  gather(core.faceLambda, faces, part.faceLambda);
-  if (core.HasTolerances())
-  {
-    gather(core.tolerances.vertices, vertices, part.tolerances.vertices);
-    gather(core.tolerances.edges, edges, part.tolerances.edges);
-    gather(core.tolerances.faces, faces, part.tolerances.faces);
-  }
+  TakeArrays(core, elements, core.HasTolerances(), part, gather);
   return part;
 }
 
 MedialComplex
 KeepPart(MedialComplex && core, const LiveElements & live)
 {
-  const bool                hasTolerances = core.HasTolerances();
-  MedialComplex             part = std::move(core);
-  std::vector<ElementIndex> vertices;
-  std::vector<ElementIndex> edges;
-  std::vector<ElementIndex> faces;
-  KeepLive(part.cells, live, vertices, edges, faces);
-  const auto keep = [](auto & values, const std::vector<ElementIndex> & ids) {
+  const bool    hasTolerances = core.HasTolerances();
+  MedialComplex part = std::move(core);
+  PartElements  elements;
+  KeepLive(part.cells, live, elements.vertices, elements.edges, elements.faces);
+  const auto keep = [](const auto & from, const std::vector<ElementIndex> & ids, auto & to) {
     for (std::size_t i = 0; i < ids.size(); ++i)
     {
-      values[i] = values[ids[i]];
+      to[i] = from[ids[i]];
     }
-    CutShort(values, ids.size());
+    CutShort(to, ids.size());
   };
-  keep(part.positions, vertices);
-  keep(part.radius, vertices);
-  keep(part.vertexLambda, vertices);
-  keep(part.edgeLambda, edges);
-  keep(part.faceLambda, faces);
-  if (hasTolerances)
-  {
-    keep(part.tolerances.vertices, vertices);
-    keep(part.tolerances.edges, edges);
-    keep(part.tolerances.faces, faces);
-  }
+  TakeArrays(part, elements, hasTolerances, part, keep);
   return part;
 }
 

@@ -155,6 +155,10 @@ Prune(const MedialComplex &                    core,
       const ProgressCallback &                 progress)
 {
   std::vector<MedialComplex> pruned;
+  if (thresholds.empty())
+  {
+    return pruned;
+  }
   pruned.reserve(thresholds.size());
   const auto take = [&](const LiveElements & live) {
     PartElements elements;
@@ -178,21 +182,21 @@ Prune(const MedialComplex &                    core,
     const auto at = [&](std::size_t done) {
       return static_cast<double>(done) / static_cast<double>(thresholds.size());
     };
-    dropCorners(i);
     collapse.CollapseBelow(thresholds[i], PartOfProgress(progress, at(i), at(i + 1)));
     if (i + 1 < thresholds.size())
     {
       take(collapse.Live());
+      dropCorners(i + 1);
     }
   }
-  if (spent != nullptr && !thresholds.empty())
+  const LiveElements live = std::move(collapse).TakeLive();
+  if (spent != nullptr)
   {
-    const LiveElements live = std::move(collapse).TakeLive();
     pruned.push_back(KeepPart(std::move(*spent), live));
   }
-  else if (!thresholds.empty())
+  else
   {
-    take(std::move(collapse).TakeLive());
+    take(live);
   }
   return pruned;
 }
