@@ -4,6 +4,7 @@
 #include "ForeignBytes.h"
 #include "RunReader.h"
 #include "ScanBytes.h"
+#include "voxelcore/ItkProcess.h"
 
 #include <itkHDF5ImageIO.h>
 #include <itkImage.h>
@@ -11,11 +12,13 @@
 #include <itkMINCImageIO.h>
 
 #include <array>
+#include <chrono>
 #include <fcntl.h>
 #include <iostream>
 #include <random>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 using namespace voxelcore;
@@ -93,6 +96,27 @@ WrittenByItk(const TempFolder & folder, const std::string & name)
   } // which closes the file
   return ReadAll(folder / name);
 }
+
+/** Where temporary files go as long as this object lives. */
+class ScopedTemporaryFolder
+{
+public:
+  explicit ScopedTemporaryFolder(const std::filesystem::path & folder)
+    : m_Former(std::filesystem::temp_directory_path().string())
+  {
+    setenv("TMPDIR", folder.c_str(), 1);
+  }
+  ScopedTemporaryFolder(const ScopedTemporaryFolder &) = delete;
+  ScopedTemporaryFolder &
+  operator=(const ScopedTemporaryFolder &) = delete;
+  ~ScopedTemporaryFolder()
+  {
+    setenv("TMPDIR", m_Former.c_str(), 1);
+  }
+
+private:
+  std::string m_Former;
+};
 
 struct Seed
 {
@@ -187,6 +211,33 @@ Damage(int countOfEach)
 TEST(ItkReader, DamagedFilesTakeNoMoreThanTheirDue)
 {
   Damage(20);
+}
+
+TEST(ItkReader, LibrariesLeaveNoTemporaryFilesBehind)
+{
+  const TempFolder  folder;
+  const auto        temporary = folder / "temporary";
+  const std::string bytes = WrittenByItk<itk::MINCImageIO>(folder, "a.mnc");
+  const auto        path = folder / "a.mnc";
+  std::filesystem::create_directory(temporary);
+  const ScopedTemporaryFolder scope(temporary);
+  ASSERT_EQ(RunOn("minc", path).status, 0);
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
+  int refused = 0;
+  for (std::size_t length = 100; length < bytes.size(); length += bytes.size() / 10)
+  {
+    folder.Write("a.mnc", bytes.substr(0, length));
+    refused += RunOn("minc", path).status != 0 ? 1 : 0;
+    EXPECT_TRUE(std::filesystem::is_empty(temporary)) << "cut off after " << length << " bytes";
+  }
+  EXPECT_GT(refused, 0);
+  folder.Write("a.mnc", bytes);
+  OpenByItk(path, ItkFormat::Minc, {}); // kills its process, and does not wait for what is removed then
+  for (int looks = 0; looks < 1000 && !std::filesystem::is_empty(temporary); ++looks)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
 }
 
 TEST(HeavyItkReader, TenThousandDamagedFilesOfEachFormatTakeNoMoreThanTheirDue)

@@ -1,6 +1,7 @@
 #include "RunReader.h"
 
 #include "ScanSource.h"
+#include "TemporaryFiles.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/TextFields.h"
 
@@ -196,6 +197,10 @@ RunReader(int argc, char ** argv)
   std::string refusal;
   try
   {
+    if (FormatNamed(argv[1]) == ItkFormat::Minc)
+    {
+      KeepTemporaryFilesApart();
+    }
     Run(FormatNamed(argv[1]), path);
     return 0;
   }
