@@ -1,12 +1,13 @@
 #include "LeastChange.h"
 
+#include "LeastWays.h"
+
 #include "voxelcore/ShapeTopology.h"
 
 #include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <queue>
 
 namespace voxelcore::testing
 {
@@ -14,256 +15,14 @@ namespace voxelcore::testing
 namespace
 {
 
-using Place = std::array<std::int32_t, 3>;
-
-/** The voxels of a case by number. */
-class Grid
-{
-public:
-  explicit Grid(const GreyCase & grey)
-    : m_Grey(grey)
-  {}
-
-  std::size_t
-  Count() const
-  {
-    return m_Grey.grey.size();
-  }
-
-  Place
-  At(std::size_t voxel) const
-  {
-    const auto x = static_cast<std::size_t>(m_Grey.size[0]);
-    const auto y = static_cast<std::size_t>(m_Grey.size[1]);
-    return { static_cast<std::int32_t>(voxel % x),
-             static_cast<std::int32_t>(voxel / x % y),
-             static_cast<std::int32_t>(voxel / x / y) };
-  }
-
-  /** Calls visit(other) for neighbours that share at most `corners` + 1 coordinates' steps: 1 faces, 3 corners. */
-  template <typename TVisit>
-  void
-  VisitAround(std::size_t voxel, int steps, const TVisit & visit) const
-  {
-    const Place at = At(voxel);
-    for (int k = 0; k < 27; ++k)
-    {
-      const Place step{ k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1 };
-      const int   length = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]);
-      if (length == 0 || length > steps)
-      {
-        continue;
-      }
-      const Place next{ at[0] + step[0], at[1] + step[1], at[2] + step[2] };
-      bool        isIn = true;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        isIn = isIn && next[axis] >= 0 && next[axis] < m_Grey.size[axis];
-      }
-      if (isIn)
-      {
-        visit((static_cast<std::size_t>(next[2]) * static_cast<std::size_t>(m_Grey.size[1]) +
-               static_cast<std::size_t>(next[1])) *
-                static_cast<std::size_t>(m_Grey.size[0]) +
-              static_cast<std::size_t>(next[0]));
-      }
-    }
-  }
-
-private:
-  const GreyCase & m_Grey;
-};
-
-/** The least sum of weights of voxels that part `from` from `to` over faces, among voxels with `weight` above 0 (Dinic
- *  1970, each voxel an edge from its way in to its way out). */
-class VertexCut
-{
-public:
-  VertexCut(const Grid &                       grid,
-            const std::vector<char> &          from,
-            const std::vector<char> &          to,
-            const std::vector<std::uint64_t> & weight)
-  {
-    const std::size_t count = grid.Count();
-    m_Source = 2 * count;
-    m_Sink = m_Source + 1;
-    m_First.assign(m_Sink + 1, kNone);
-    for (std::size_t voxel = 0; voxel < count; ++voxel)
-    {
-      const bool isEnd = from[voxel] != 0 || to[voxel] != 0;
-      if (!isEnd && weight[voxel] == 0)
-      {
-        continue;
-      }
-      Add(2 * voxel, 2 * voxel + 1, isEnd ? kLots : weight[voxel]);
-      if (from[voxel] != 0)
-      {
-        Add(m_Source, 2 * voxel, kLots);
-      }
-      if (to[voxel] != 0)
-      {
-        Add(2 * voxel + 1, m_Sink, kLots);
-      }
-      grid.VisitAround(voxel, 1, [&](std::size_t other) {
-        if (from[other] != 0 || to[other] != 0 || weight[other] > 0)
-        {
-          Add(2 * voxel + 1, 2 * other, kLots);
-        }
-      });
-    }
-  }
-
-  std::uint64_t
-  Run()
-  {
-    std::uint64_t flow = 0;
-    while (Level())
-    {
-      m_Now = m_First;
-      for (std::uint64_t more = Push(m_Source, kLots); more > 0; more = Push(m_Source, kLots))
-      {
-        flow += more;
-      }
-    }
-    return flow;
-  }
-
-private:
-  static constexpr std::size_t   kNone = std::numeric_limits<std::size_t>::max();
-  static constexpr std::uint64_t kLots = std::uint64_t{ 1 } << 50;
-
-  struct Arc
-  {
-    std::size_t   to;
-    std::size_t   next;
-    std::uint64_t room;
-  };
-
-  void
-  Add(std::size_t from, std::size_t to, std::uint64_t room)
-  {
-    m_Arcs.push_back({ to, m_First[from], room });
-    m_First[from] = m_Arcs.size() - 1;
-    m_Arcs.push_back({ from, m_First[to], 0 });
-    m_First[to] = m_Arcs.size() - 1;
-  }
-
-  bool
-  Level()
-  {
-    m_Level.assign(m_First.size(), kNone);
-    m_Level[m_Source] = 0;
-    std::queue<std::size_t> waiting({ m_Source });
-    for (; !waiting.empty(); waiting.pop())
-    {
-      const std::size_t node = waiting.front();
-      for (std::size_t arc = m_First[node]; arc != kNone; arc = m_Arcs[arc].next)
-      {
-        if (m_Arcs[arc].room > 0 && m_Level[m_Arcs[arc].to] == kNone)
-        {
-          m_Level[m_Arcs[arc].to] = m_Level[node] + 1;
-          waiting.push(m_Arcs[arc].to);
-        }
-      }
-    }
-    return m_Level[m_Sink] != kNone;
-  }
-
-  std::uint64_t
-  Push(std::size_t node, std::uint64_t most)
-  {
-    if (node == m_Sink)
-    {
-      return most;
-    }
-    for (std::size_t & arc = m_Now[node]; arc != kNone; arc = m_Arcs[arc].next)
-    {
-      Arc & one = m_Arcs[arc];
-      if (one.room > 0 && m_Level[one.to] == m_Level[node] + 1)
-      {
-        const std::uint64_t done = Push(one.to, std::min(most, one.room));
-        if (done > 0)
-        {
-          one.room -= done;
-          m_Arcs[arc ^ 1U].room += done;
-          return done;
-        }
-      }
-    }
-    return 0;
-  }
-
-  std::size_t              m_Source = 0;
-  std::size_t              m_Sink = 0;
-  std::vector<Arc>         m_Arcs;
-  std::vector<std::size_t> m_First;
-  std::vector<std::size_t> m_Now;
-  std::vector<std::size_t> m_Level;
-};
-
-struct CheapWay
-{
-  std::uint64_t            cost = std::numeric_limits<std::uint64_t>::max();
-  std::vector<std::size_t> voxels; ///< between its ends
-};
-
-/** The least sum of weights over voxels with a weight above 0 on a way from `from` to `to`, which weigh nothing. */
-CheapWay
-CheapestWay(const Grid &                       grid,
-            const std::vector<char> &          from,
-            const std::vector<char> &          to,
-            const std::vector<std::uint64_t> & weight,
-            int                                steps)
-{
-  using Waiting = std::pair<std::uint64_t, std::size_t>;
-  std::vector<std::uint64_t> way(grid.Count(), std::numeric_limits<std::uint64_t>::max());
-  std::vector<std::size_t>   last(grid.Count(), 0);
-  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting;
-  for (std::size_t voxel = 0; voxel < grid.Count(); ++voxel)
-  {
-    if (from[voxel] != 0)
-    {
-      way[voxel] = 0;
-      waiting.emplace(0, voxel);
-    }
-  }
-  while (!waiting.empty())
-  {
-    const auto cost = waiting.top().first;
-    const auto voxel = waiting.top().second;
-    waiting.pop();
-    if (to[voxel] != 0)
-    {
-      CheapWay result{ cost, {} };
-      for (std::size_t at = last[voxel]; from[at] == 0; at = last[at])
-      {
-        result.voxels.push_back(at);
-      }
-      return result;
-    }
-    if (cost == way[voxel])
-    {
-      grid.VisitAround(voxel, steps, [&](std::size_t other) {
-        const bool isOpen = to[other] != 0 || weight[other] > 0;
-        const auto next = cost + (to[other] != 0 ? 0 : weight[other]);
-        if (isOpen && next < way[other])
-        {
-          way[other] = next;
-          last[other] = voxel;
-          waiting.emplace(next, other);
-        }
-      });
-    }
-  }
-  return {};
-}
+using Place = VoxelPlace;
 
 /** Of the shape with a cavity: one voxel, or two that touch, whose loss leaves one piece with neither loop nor cavity
  *  at the least cost, by trying all. */
 std::uint64_t
 CheapestOpening(const GreyCase & grey, const std::vector<std::uint64_t> & weight)
 {
-  const Grid       grid(grey);
+  const GreyGrid   grid(grey);
   const VoxelShape shape = grey.Level(1);
   const auto       isOpened = [&](std::size_t a, std::size_t b) {
     const VoxelShape opened = ShapeWhere(grey.size, [&](int x, int y, int z) {
@@ -311,7 +70,7 @@ Make(const Size3 & size, const TValue & value)
 std::vector<std::uint64_t>
 Weights(const GreyCase & grey, const std::function<bool(std::size_t)> & isOpen)
 {
-  const Grid                 grid(grey);
+  const GreyGrid             grid(grey);
   std::vector<std::uint64_t> weight(grid.Count(), 0);
   for (std::size_t voxel = 0; voxel < grid.Count(); ++voxel)
   {
@@ -324,7 +83,7 @@ Weights(const GreyCase & grey, const std::function<bool(std::size_t)> & isOpen)
 std::vector<char>
 Where(const GreyCase & grey, const std::function<bool(const Place &, std::uint32_t)> & isIn)
 {
-  const Grid        grid(grey);
+  const GreyGrid    grid(grey);
   std::vector<char> result(grid.Count());
   for (std::size_t voxel = 0; voxel < grid.Count(); ++voxel)
   {
@@ -371,7 +130,7 @@ Neck(std::uint64_t seed)
   one.request.pieces = 2;
   one.request.loops = 0;
   one.request.cavities = 0;
-  const Grid grid(one.grey);
+  const GreyGrid grid(one.grey);
   one.least = VertexCut(grid,
                         Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] < 15; }),
                         Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] > 15; }),
@@ -385,7 +144,7 @@ Gap(std::uint64_t seed)
 {
   Random          random(seed);
   LeastChangeCase one{ TwoBalls(random, 52, 98, 0.8), {}, 1, 0 };
-  const Grid      grid(one.grey);
+  const GreyGrid  grid(one.grey);
   one.least =
     CheapestWay(grid,
                 Where(one.grey, [](const Place & at, std::uint32_t v) { return v == 250 && at[0] < 15; }),
@@ -409,7 +168,7 @@ WeakRing(std::uint64_t seed)
   };
   LeastChangeCase one{ Make({ 25, 25, 9 }, value), {}, 1, 0 };
   one.least =
-    VertexCut(Grid(one.grey),
+    VertexCut(GreyGrid(one.grey),
               Where(one.grey, [&](const Place & at, std::uint32_t v) { return v == 250 && at[1] < 12; }),
               Where(one.grey, [&](const Place & at, std::uint32_t v) { return v == 250 && at[1] > 12; }),
               Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 100 && one.grey.grey[v] < 200; }))
@@ -432,7 +191,7 @@ Cavity(std::uint64_t seed)
   LeastChangeCase one{ Make({ 17, 17, 17 }, value), {}, 1, 0 };
   // A voxel that opens the cavity may open a second hole over its edges: then all openings of one or two are tried.
   const auto    walls = Weights(one.grey, [&](std::size_t v) { return one.grey.grey[v] >= 100; });
-  const auto    way = CheapestWay(Grid(one.grey),
+  const auto    way = CheapestWay(GreyGrid(one.grey),
                                Where(one.grey, [](const Place &, std::uint32_t v) { return v >= 50 && v < 100; }),
                                Where(one.grey, [](const Place &, std::uint32_t v) { return v < 50; }),
                                walls,
