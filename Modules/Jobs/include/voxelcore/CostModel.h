@@ -35,7 +35,7 @@ using BorderKinds = std::array<double, 4>;
  *  shown. */
 using PageTerms = std::array<double, 3>;
 
-/** The fitted constants. Seconds are those of the machine named in Testing/Performance/README.md; another may be twice
+/** The fitted constants. Seconds are those of the machine named in Testing/Performance/Forecasts.md; another may be twice
  *  as fast or half. */
 struct CostConstants
 {

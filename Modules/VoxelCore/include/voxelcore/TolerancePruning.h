@@ -39,7 +39,7 @@ struct Tolerance
 };
 
 /** What is taken where nothing is asked for: of all prunings the best by score, on bodies whose medial axes are known
- *  and on scans (Testing/Performance/README.md). */
+ *  and on scans (Testing/Performance/Pruning.md). */
 inline constexpr std::string_view kUsualTolerance = "1.2diag";
 
 /** Reads "1.5mm", "2.5vox", "1diag", "1.5" (mm). Decimal numbers, not negative, finite.
