@@ -2,6 +2,7 @@
 #include "TubeShapes.h"
 
 #include "voxelcore/BranchJoints.h"
+#include "voxelcore/ShapeTopology.h"
 
 #include <array>
 #include <cmath>
@@ -51,6 +52,13 @@ Union(const VoxelShape & a, const VoxelShape & b)
                     [&](int x, int y, int z) { return a.Contains(x, y, z) || b.Contains(x, y, z); });
 }
 
+/** Voxels close slits between arms here and there: one time in 700 of forks, in 4,000 of laterals. */
+bool
+HasHandle(const VoxelShape & shape)
+{
+  return ComputeShapeTopology(shape).betti[1] > 0;
+}
+
 Spacing3
 AnyCentre(std::mt19937_64 & random)
 {
@@ -97,7 +105,8 @@ TEST(BranchJoints, OfLateralsLieWhereTheAxesMeet)
   int                                    near = 0;
   for (const Spacing3 & spacing : { Spacing3{ 1, 1, 1 }, Spacing3{ 1, 1, 2 } })
   {
-    for (int k = 0; k < 6; ++k)
+    const int all = count + 6;
+    for (int drawn = 0; count < all; ++drawn)
     {
       const Spacing3   centre = AnyCentre(random);
       const Spacing3   way = AnyDirection(random);
@@ -105,6 +114,11 @@ TEST(BranchJoints, OfLateralsLieWhereTheAxesMeet)
       const VoxelShape shape =
         Union(Tube(Line(Along(centre, -30, way), Along(centre, 30, way)), 5, { kSide, kSide, kSide }, spacing),
               Tube(Line(centre, end), 3.2, { kSide, kSide, kSide }, spacing));
+      ASSERT_LT(drawn, 9) << "seed " << seed;
+      if (HasHandle(shape))
+      {
+        continue;
+      }
       std::size_t         moved = 0;
       const SkeletonGraph as = GraphOfSurface(SurfaceOf(shape, spacing), spacing);
       const SkeletonGraph placed = WithJoints(as, shape, spacing, moved);
@@ -202,14 +216,15 @@ TEST(BranchJoints, OfForksLieAtOnePlaceHoweverTheyAreTurned)
     const VoxelShape shape = Union(
       Tube(Line(Along(centre, -30, way), centre), 4, box),
       Union(Tube(Line(centre, Along(centre, 36, one)), 4, box), Tube(Line(centre, Along(centre, 36, other)), 4, box)));
+    ASSERT_LT(drawn, 12) << "seed " << seed;
+    if (HasHandle(shape))
+    {
+      continue;
+    }
     std::size_t         moved = 0;
     const SkeletonGraph as = GraphOfSurface(SurfaceOf(shape));
-    ASSERT_LT(drawn, 12) << "seed " << seed;
-    if (as.BranchCount() != 3)
-    {
-      continue; // voxels closed the slit beyond the fork here and there, about one time in 700: a handle
-    }
     const SkeletonGraph placed = WithJoints(as, shape, { 1, 1, 1 }, moved);
+    ASSERT_EQ(placed.BranchCount(), 3U) << "seed " << seed;
     EXPECT_EQ(moved, 1U) << "seed " << seed;
     before.push_back(Distance(Junction(as), centre));
     after.push_back(Distance(Junction(placed), centre));

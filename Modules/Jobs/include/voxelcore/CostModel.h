@@ -35,8 +35,8 @@ using BorderKinds = std::array<double, 4>;
  *  shown. */
 using PageTerms = std::array<double, 3>;
 
-/** The fitted constants. Seconds are those of the machine named in Testing/Performance/Forecasts.md; another may be twice
- *  as fast or half. */
+/** The fitted constants. Seconds are those of the machine named in Testing/Performance/Forecasts.md; another may be
+ *  twice as fast or half. */
 struct CostConstants
 {
   BorderKinds                          cells{};    ///< Delaunay cells for each border voxel of a kind
