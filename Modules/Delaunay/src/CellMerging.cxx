@@ -31,8 +31,8 @@ IsPositive(const std::array<std::uint32_t, 4> & t, const std::vector<LatticePoin
 // A triangle between two cells, or between a cell and the outside. Those of one cell with the same key are one facet.
 struct Triangle
 {
-  std::uint32_t                beyond;
   std::uint64_t                wall;
+  std::uint32_t                beyond;
   std::array<std::uint32_t, 3> points;
 
   auto
@@ -211,34 +211,33 @@ MergeTetrahedra(Tetrahedra                        tetrahedra,
     }
   }
 
-  // Triangles by the cell of smaller number; item 4 t + i is the face of tetrahedron t opposite to its corner i.
-  const bool worthIt = count > 10000;
-  const auto beyondOf = [&](std::size_t t, std::size_t i) {
-    const std::uint32_t neighbour = tetrahedra.neighbours[t][i];
-    return neighbour == kOutside ? kOutside : cellOf[neighbour];
-  };
-  std::vector<std::uint8_t>                 positive(count, 0);
-  std::vector<std::array<std::uint32_t, 4>> owner(count); // of each face, or kOutside
+  // From here on `neighbours` are the cells beyond.
+  const bool                worthIt = count > 10000;
+  std::vector<std::uint8_t> positive(count, 0);
   RunInParts(worthIt, count, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t)
     {
-      const std::uint32_t cell = cellOf[t];
-      positive[t] = cell != kOutside && IsPositive(tetrahedra.corners[t], points);
-      for (std::size_t i = 0; i < 4; ++i)
+      positive[t] = inside[t] && IsPositive(tetrahedra.corners[t], points);
+      for (std::uint32_t & beyond : tetrahedra.neighbours[t])
       {
-        owner[t][i] = cell != kOutside && beyondOf(t, i) > cell ? cell : kOutside;
+        beyond = beyond == kOutside ? kOutside : cellOf[beyond];
       }
     }
   });
+  // Triangles by the cell of smaller number; item 4 t + i is the face of tetrahedron t opposite to its corner i.
+  const auto ownerOf = [&](std::size_t item) {
+    const std::uint32_t cell = cellOf[item / 4];
+    return std::size_t{ tetrahedra.neighbours[item / 4][item % 4] > cell ? cell : kOutside };
+  };
   std::vector<Triangle>            triangles;
   const std::vector<std::uint32_t> start = SortIntoBuckets(
     4 * count,
     cells.CellCount(),
-    [&](std::size_t item) { return std::size_t{ owner[item / 4][item % 4] }; },
+    ownerOf,
     [&](std::size_t item) {
       const std::size_t t = item / 4;
       const std::size_t i = item % 4;
-      Triangle          triangle{ beyondOf(t, i), 0, {} };
+      Triangle          triangle{ 0, tetrahedra.neighbours[t][i], {} };
       for (std::size_t j = 0; j < 3; ++j)
       {
         triangle.points[positive[t] ? j : 2 - j] = tetrahedra.corners[t][tetrahedronFaces[i][j]];
@@ -250,8 +249,8 @@ MergeTetrahedra(Tetrahedra                        tetrahedra,
       return triangle;
     },
     triangles);
-  owner = {};
   tetrahedra = {};
+  cellOf = {};
 
   std::map<std::size_t, Outlines> parts;
   std::mutex                      mutex;

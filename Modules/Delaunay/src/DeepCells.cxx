@@ -2,6 +2,8 @@
 
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace voxelcore
 {
@@ -135,7 +137,7 @@ AddDeepCells(Tracing &                         tracing,
 
   // Tetrahedra, all of them positive, at the far side of an open facet are in the region, and so is what is reached
   // from them without crossing one.
-  const WallFinder                          finder(tracing, used, points.size());
+  std::optional<WallFinder>                 finder(std::in_place, tracing, used, points.size());
   const std::size_t                         count = tetrahedra.corners.size();
   std::vector<std::array<std::uint32_t, 4>> wall(count);
   std::vector<std::uint8_t>                 inside(count, 0);
@@ -162,7 +164,7 @@ AddDeepCells(Tracing &                         tracing,
     for (std::size_t i = 0; i < 4; ++i)
     {
       const auto &           f = tetrahedronFaces[i];
-      const WallFinder::Wall found = finder.Find(corners[f[0]], corners[f[1]], corners[f[2]]);
+      const WallFinder::Wall found = finder->Find(corners[f[0]], corners[f[1]], corners[f[2]]);
       wall[t][i] = found.facet;
       // The face runs counter-clockwise seen from outside its tetrahedron.
       if (found.facet != none && !found.facesRegion)
@@ -171,6 +173,7 @@ AddDeepCells(Tracing &                         tracing,
       }
     }
   }
+  finder.reset();
   for (std::size_t t = 0; t < count; ++t)
   {
     if (inside[t])
@@ -199,6 +202,8 @@ AddDeepCells(Tracing &                         tracing,
       }
     }
   }
+
+  region = {};
 
   // The walls of the region are the open facets themselves: only the cells behind them are new.
   const auto nameWall = [&](std::size_t t, std::size_t face, const std::array<std::uint32_t, 3> &) {
