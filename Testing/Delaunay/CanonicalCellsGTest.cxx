@@ -19,12 +19,14 @@ namespace
 /** A shape's cells as they come from an engine. */
 struct Answer
 {
+  VoxelShape                shape;
   std::vector<LatticePoint> points;
   SpacingWeights            weights;
   DelaunayCells             cells;
 
   explicit Answer(const RandomVolume & volume)
-    : points(BoundaryVertices(volume.shape))
+    : shape(volume.shape)
+    , points(BoundaryVertices(volume.shape))
     , weights(ComputeSpacingWeights(volume.spacing))
     , cells(ComputeDelaunayCells(volume.shape, points, weights, Engine::Lattice))
   {}
@@ -93,22 +95,29 @@ Disorder(const Answer & answer, Random & random, double sortedShare)
   return raw;
 }
 
-TEST(CanonicalCells, AreTheSameWhateverTheOrderOfWhatCameIn)
+/** Calls check(answer, random) for random volumes from a seed on. */
+template <typename TCheck>
+void
+ForAnswers(std::uint64_t firstSeed, TCheck check)
 {
-  constexpr std::uint64_t firstSeed = 4400;
   std::cout << "seeds from " << firstSeed << '\n';
   for (const RandomVolume & volume : RandomVolumes(firstSeed, 40))
   {
     SCOPED_TRACE(volume.Describe());
-    const Answer answer(volume);
-    Random       random(volume.seed);
+    Random random(volume.seed);
+    ASSERT_NO_FATAL_FAILURE(check(Answer(volume), random));
+  }
+}
+
+TEST(CanonicalCells, AreTheSameWhateverTheOrderOfWhatCameIn)
+{
+  ForAnswers(4400, [](const Answer & answer, Random & random) {
     for (const double sortedShare : { 0.0, 0.4, 1.0 })
     {
-      ASSERT_NO_FATAL_FAILURE(
-        ExpectSameCells(MakeCanonical(Disorder(answer, random, sortedShare), answer.points, answer.weights),
-                        answer.cells));
+      ExpectSameCells(MakeCanonical(Disorder(answer, random, sortedShare), answer.points, answer.weights),
+                      answer.cells);
     }
-  }
+  });
 }
 
 TEST(CanonicalCells, ThousandsAreTheSameWithAnyNumberOfThreads)
@@ -127,6 +136,53 @@ TEST(CanonicalCells, ThousandsAreTheSameWithAnyNumberOfThreads)
   }
 }
 
+/** The same cells without the facets on the boundary, which are sides of voxels. */
+DelaunayCells
+WithoutBoundary(const Answer & answer)
+{
+  const auto &  w = answer.weights.weight;
+  const bool    areAlike = w[0] == w[1] && w[1] == w[2];
+  DelaunayCells left = answer.cells;
+  left.facetCells.clear();
+  left.facetOffsets.resize(1);
+  left.facetPoints.clear();
+  left.voxelSides.assign(left.CellCount(), 0);
+  for (std::size_t facet = 0; facet < answer.cells.FacetCount(); ++facet)
+  {
+    const auto   polygon = answer.cells.FacetPoints(facet);
+    const auto & pair = answer.cells.facetCells[facet];
+    if (pair[1] == kOutside)
+    {
+      const LatticePoint & a = answer.points[polygon[0]];
+      const LatticePoint & b = answer.points[polygon[2]];
+      left.voxelSides[pair[0]] |= areAlike || a.x == b.x ? 1 : a.y == b.y ? 2 : 4;
+      continue;
+    }
+    left.facetCells.push_back(pair);
+    left.facetPoints.insert(left.facetPoints.end(), polygon.begin(), polygon.end());
+    left.facetOffsets.push_back(left.facetPoints.size());
+  }
+  return left;
+}
+
+TEST(CanonicalCells, FacetsOnTheBoundaryCanBeLeftOut)
+{
+  ForAnswers(4600, [](const Answer & answer, Random & random) {
+    const DelaunayCells expected = WithoutBoundary(answer);
+    for (const double sortedShare : { 0.0, 0.4 })
+    {
+      const DelaunayCells left =
+        MakeCanonical(Disorder(answer, random, sortedShare), answer.points, answer.weights, Facets::Inside);
+      ASSERT_NO_FATAL_FAILURE(ExpectSameCells(left, expected));
+      ASSERT_TRUE(left.voxelSides == expected.voxelSides);
+    }
+    const DelaunayCells asked =
+      ComputeDelaunayCells(answer.shape, answer.points, answer.weights, Engine::Lattice, {}, Facets::Inside);
+    ASSERT_NO_FATAL_FAILURE(ExpectSameCells(asked, expected));
+    ASSERT_TRUE(asked.voxelSides == expected.voxelSides);
+  });
+}
+
 TEST(CanonicalCells, CellsAreSortedByTheirExactCentres)
 {
   constexpr std::uint64_t firstSeed = 4500;
@@ -141,22 +197,20 @@ TEST(CanonicalCells, CellsAreSortedByTheirExactCentres)
     const auto     sorted = SortByCentre(raw.cells, first, answer.points, answer.weights);
     ASSERT_EQ(sorted.size(), raw.cells.CellCount() - first);
     std::optional<BigVector> before;
-    for (const CentredCell & entry : sorted)
+    for (const std::uint32_t cell : sorted)
     {
-      ASSERT_GE(entry.cell, first);
-      std::vector<LatticePoint> corners;
-      for (const std::uint32_t corner : raw.cells.tetrahedra[entry.cell])
-      {
-        corners.push_back(answer.points[corner]);
-      }
-      const auto centre = ExactCircumcentre(corners, answer.weights);
+      ASSERT_GE(cell, first);
+      const auto &      t = raw.cells.tetrahedra[cell];
+      const std::array  corners{ answer.points[t[0]], answer.points[t[1]], answer.points[t[2]], answer.points[t[3]] };
+      const CentredCell entry = CentreOfCorners(corners, answer.weights);
+      const auto        centre = ExactCircumcentre({ corners.begin(), corners.end() }, answer.weights);
       ASSERT_TRUE(centre.has_value());
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
         ASSERT_TRUE(IsNearestDouble(entry.centre[axis], (*centre)[axis]));
         ASSERT_LE(denominator((*centre)[axis]), BigInteger(static_cast<std::int64_t>(entry.denominator)));
       }
-      ASSERT_TRUE(!before || *before < *centre) << "cell " << entry.cell;
+      ASSERT_TRUE(!before || *before < *centre) << "cell " << cell;
       before = centre;
     }
   }

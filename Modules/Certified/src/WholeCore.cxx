@@ -71,8 +71,18 @@ CellsOf(const VoxelShape &                voxels,
   {
     return request.cells(points, progress);
   }
-  return request.crossCheck ? CrossCheckedCells(voxels, points, weights, request.engine, request.name, progress)
-                            : ComputeDelaunayCells(voxels, points, weights, request.engine, progress);
+  if (request.crossCheck)
+  {
+    return CrossCheckedCells(voxels, points, weights, request.engine, request.name, progress);
+  }
+  // A core is made of the facets between its cells.
+  const bool boundaryToo = !request.tolerances.empty() || NeedsBracket(request);
+  return ComputeDelaunayCells(voxels,
+                              points,
+                              weights,
+                              request.engine,
+                              progress,
+                              boundaryToo ? Facets::All : Facets::Inside);
 }
 
 } // namespace

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <span>
 
 namespace voxelcore
 {
@@ -18,6 +20,9 @@ namespace
 {
 
 constexpr std::size_t kAhead = 16; // places from where a loop is to what it has the memory fetch
+constexpr std::size_t kRuns = 16;  // of cells in order, of which one is at hand at a time
+
+using CentredRun = std::span<const CentredCell>;
 
 [[noreturn]] void
 FailTwins()
@@ -25,124 +30,274 @@ FailTwins()
   throw CertificateError("two Delaunay cells have the same centre; please report this input");
 }
 
-// Two lists in order, in one.
-std::vector<CentredCell>
-MergeSorted(std::vector<CentredCell> a, std::vector<CentredCell> b, const CentreOrder & order)
+/** Centres of the cells that a list names from `first` to before `last`. */
+void
+FindCentres(const DelaunayCells &              cells,
+            const std::vector<LatticePoint> &  points,
+            const SpacingWeights &             weights,
+            const std::vector<std::uint32_t> & list,
+            std::size_t                        first,
+            std::size_t                        last,
+            CentredCell *                      to)
 {
-  std::vector<CentredCell> merged(a.size() + b.size());
-  std::atomic<bool>        twins = false;
-  const auto isLess = [&](const CentredCell & x, const CentredCell & y) { return order.Compare(x, y) < 0; };
-  const auto partnerOf = [&](std::size_t i) {
-    return i == a.size() ? b.end() : i == 0 ? b.begin() : std::lower_bound(b.begin(), b.end(), a[i], isLess);
-  };
-  RunInParts(merged.size() > 10000, a.size(), [&](std::size_t first, std::size_t last) {
-    const auto from = partnerOf(first);
-    const auto to = partnerOf(last);
-    const auto at = [](auto & list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto begin = at(merged, first + static_cast<std::size_t>(from - b.begin()));
-    const auto end = std::merge(at(a, first), at(a, last), from, to, begin, isLess);
-    if (std::adjacent_find(begin, end, [&](const CentredCell & x, const CentredCell & y) {
-          return order.Compare(x, y) == 0;
-        }) != end)
-    {
-      twins = true;
-    }
-  });
-  if (twins)
+  for (std::size_t i = first; i < last; ++i)
   {
-    FailTwins();
+    // Step by step: the cell, its corners.
+    __builtin_prefetch(&cells.tetrahedra[list[std::min(i + 2 * kAhead, last - 1)]]);
+    for (const std::uint32_t corner : cells.tetrahedra[list[std::min(i + kAhead, last - 1)]])
+    {
+      __builtin_prefetch(&points[corner]);
+    }
+    *to++ = CentreOf(cells, list[i], points, weights);
   }
-  return merged;
 }
 
-} // namespace
-
-std::vector<CentredCell>
-SortByCentre(const DelaunayCells &             cells,
-             std::size_t                       firstCell,
-             const std::vector<LatticePoint> & points,
-             const SpacingWeights &            weights)
+/** Calls visit for one run after the other of the cells from `firstCell` on, by exact centre. */
+void
+VisitByCentre(const DelaunayCells &                   cells,
+              std::size_t                             firstCell,
+              const std::vector<LatticePoint> &       points,
+              const SpacingWeights &                  weights,
+              const std::function<void(CentredRun)> & visit)
 {
-  std::vector<CentredCell> entries(cells.CellCount() - firstCell);
-  const std::size_t        count = entries.size();
-  CentreBuckets            buckets(cells, points, weights);
-  RunInParts(count > 10000, count, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-    {
-      entries[i] = CentreOf(cells, static_cast<std::uint32_t>(firstCell + i), points, weights);
-    }
-  });
-  buckets.Divide(entries);
+  const std::size_t          count = cells.CellCount() - firstCell;
+  const bool                 worthIt = count > 10000;
+  const CentreBuckets        buckets(cells, points, weights, count);
   std::vector<std::uint32_t> bucketOf(count);
-  RunInParts(count > 10000, count, [&](std::size_t first, std::size_t last) {
+  RunInParts(worthIt, count, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
     {
-      bucketOf[i] = buckets.Of(entries[i]);
+      bucketOf[i] = buckets.Of(CentreOf(cells, static_cast<std::uint32_t>(firstCell + i), points, weights));
     }
   });
-  std::vector<CentredCell>         order;
+  std::vector<std::uint32_t>       order;
   const std::vector<std::uint32_t> start = SortIntoBuckets(
     count,
     buckets.Count(),
     [&](std::size_t i) { return std::size_t{ bucketOf[i] }; },
-    [&](std::size_t i) { return entries[i]; },
+    [&](std::size_t i) { return static_cast<std::uint32_t>(firstCell + i); },
     order);
-  entries = {};
   bucketOf = {};
   const CentreOrder centreOrder(cells, points, weights);
   std::atomic<bool> twins = false;
-  RunInParts(count > 10000, buckets.Count(), [&](std::size_t firstBucket, std::size_t lastBucket) {
-    const auto isLess = [&](const CentredCell & a, const CentredCell & b) { return centreOrder.Compare(a, b) < 0; };
-    for (std::size_t bucket = firstBucket; bucket < lastBucket; ++bucket)
-    {
-      const auto first = order.begin() + static_cast<std::ptrdiff_t>(start[bucket]);
-      const auto last = order.begin() + static_cast<std::ptrdiff_t>(start[bucket + 1]);
-      // Most are short, and nearly in order.
-      std::sort(first, last, isLess);
-      for (auto at = first; at != last && at + 1 != last; ++at)
+  const auto isLess = [&](const CentredCell & a, const CentredCell & b) { return centreOrder.Compare(a, b) < 0; };
+  std::vector<CentredCell> run;
+  for (std::size_t step = 0; step < kRuns; ++step)
+  {
+    const auto bucketAt = [&](std::size_t share) {
+      const auto atLeast = static_cast<std::uint32_t>(count * share / kRuns);
+      return static_cast<std::size_t>(std::lower_bound(start.begin(), start.end(), atLeast) - start.begin());
+    };
+    const std::size_t begin = bucketAt(step);
+    const std::size_t end = step + 1 == kRuns ? buckets.Count() : bucketAt(step + 1);
+    run.resize(start[end] - start[begin]);
+    RunInParts(run.size() > 10000, end - begin, [&](std::size_t firstBucket, std::size_t lastBucket) {
+      FindCentres(cells,
+                  points,
+                  weights,
+                  order,
+                  start[begin + firstBucket],
+                  start[begin + lastBucket],
+                  run.data() + (start[begin + firstBucket] - start[begin]));
+      for (std::size_t bucket = begin + firstBucket; bucket < begin + lastBucket; ++bucket)
       {
-        if (centreOrder.Compare(*at, *(at + 1)) == 0)
+        const auto first = run.begin() + static_cast<std::ptrdiff_t>(start[bucket] - start[begin]);
+        const auto last = run.begin() + static_cast<std::ptrdiff_t>(start[bucket + 1] - start[begin]);
+        // Most are short, and nearly in order.
+        std::sort(first, last, isLess);
+        for (auto at = first; at != last && at + 1 != last; ++at)
         {
-          twins = true;
+          if (centreOrder.Compare(*at, *(at + 1)) == 0)
+          {
+            twins = true;
+          }
         }
       }
+    });
+    if (twins)
+    {
+      FailTwins();
     }
-  });
-  if (twins)
-  {
-    FailTwins();
+    visit(run);
   }
+}
+
+/** Cells in their order, as they come run after run. */
+class CanonicalOrder
+{
+public:
+  CanonicalOrder(DelaunayCells &                    cells,
+                 const std::vector<std::uint32_t> & sorted,
+                 const std::vector<LatticePoint> &  points,
+                 const SpacingWeights &             weights)
+    : m_Cells(cells)
+    , m_Sorted(sorted)
+    , m_Points(points)
+    , m_Weights(weights)
+    , m_Order(cells, points, weights)
+    , m_Rank(cells.CellCount())
+    , m_Tetrahedra(cells.CellCount())
+    , m_VoxelSides(cells.voxelSides.size())
+  {
+    cells.centres.resize(cells.CellCount());
+  }
+
+  /** What comes next of those that were not sorted before. */
+  void
+  Take(CentredRun run)
+  {
+    const std::size_t most = m_Sorted.size() / kRuns + 1;
+    while (!run.empty())
+    {
+      // With a twin, which is refused.
+      const auto  isBefore = [&](std::uint32_t cell) { return m_Order.Compare(CentreOfCell(cell), run.back()) <= 0; };
+      const auto  from = m_Sorted.begin() + static_cast<std::ptrdiff_t>(m_SortedTaken);
+      const auto  before = static_cast<std::size_t>(std::partition_point(from, m_Sorted.end(), isBefore) - from);
+      std::size_t part = run.size();
+      if (before > most)
+      {
+        const CentredCell last = CentreOfCell(m_Sorted[m_SortedTaken + most - 1]);
+        part = static_cast<std::size_t>(
+          std::ranges::partition_point(run, [&](const CentredCell & own) { return m_Order.Compare(own, last) <= 0; }) -
+          run.begin());
+      }
+      Merge(std::min(before, most), run.first(part));
+      run = run.subspan(part);
+    }
+  }
+
+  /** Nothing more will come. \returns what number each cell has now */
+  std::vector<std::uint32_t>
+  Finish()
+  {
+    while (m_SortedTaken < m_Sorted.size())
+    {
+      Merge(std::min(m_Sorted.size() - m_SortedTaken, m_Sorted.size() / kRuns + 1), {});
+    }
+    m_Cells.tetrahedra.swap(m_Tetrahedra);
+    m_Cells.voxelSides.swap(m_VoxelSides);
+    return std::move(m_Rank);
+  }
+
+private:
+  CentredCell
+  CentreOfCell(std::uint32_t cell) const
+  {
+    return CentreOf(m_Cells, cell, m_Points, m_Weights);
+  }
+
+  /** A run, and the next so many of those sorted before. */
+  void
+  Merge(std::size_t count, CentredRun run)
+  {
+    if (count == 0)
+    {
+      Number(run);
+      return;
+    }
+    std::vector<CentredCell> before(count);
+    RunInParts(count > 10000, count, [&](std::size_t first, std::size_t last) {
+      FindCentres(m_Cells,
+                  m_Points,
+                  m_Weights,
+                  m_Sorted,
+                  m_SortedTaken + first,
+                  m_SortedTaken + last,
+                  before.data() + first);
+    });
+    m_SortedTaken += count;
+    std::vector<CentredCell> merged(count + run.size());
+    std::atomic<bool>        twins = false;
+    const auto isLess = [&](const CentredCell & x, const CentredCell & y) { return m_Order.Compare(x, y) < 0; };
+    const auto partnerOf = [&](std::size_t i) {
+      return i == count ? run.end()
+             : i == 0   ? run.begin()
+                        : std::lower_bound(run.begin(), run.end(), before[i], isLess);
+    };
+    RunInParts(merged.size() > 10000, count, [&](std::size_t first, std::size_t last) {
+      const auto from = partnerOf(first);
+      const auto to = partnerOf(last);
+      const auto at = [](auto & list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
+      const auto begin = at(merged, first + static_cast<std::size_t>(from - run.begin()));
+      const auto behind = std::merge(at(before, first), at(before, last), from, to, begin, isLess);
+      if (std::adjacent_find(begin, behind, [&](const CentredCell & x, const CentredCell & y) {
+            return m_Order.Compare(x, y) == 0;
+          }) != behind)
+      {
+        twins = true;
+      }
+    });
+    if (twins)
+    {
+      FailTwins();
+    }
+    Number(merged);
+  }
+
+  void
+  Number(CentredRun run)
+  {
+    RunInParts(run.size() > 10000, run.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const std::uint32_t ahead = run[std::min(i + kAhead, last - 1)].cell;
+        __builtin_prefetch(m_Rank.data() + ahead, 1);
+        __builtin_prefetch(m_Cells.tetrahedra.data() + ahead);
+        const std::uint32_t cell = run[i].cell;
+        const std::size_t   number = m_Numbered + i;
+        m_Rank[cell] = static_cast<std::uint32_t>(number);
+        m_Cells.centres[number] = run[i].centre;
+        m_Tetrahedra[number] = m_Cells.tetrahedra[cell];
+        if (!m_VoxelSides.empty())
+        {
+          m_VoxelSides[number] = m_Cells.voxelSides[cell];
+        }
+      }
+    });
+    m_Numbered += run.size();
+  }
+
+  DelaunayCells &                           m_Cells;
+  const std::vector<std::uint32_t> &        m_Sorted;
+  const std::vector<LatticePoint> &         m_Points;
+  const SpacingWeights &                    m_Weights;
+  CentreOrder                               m_Order;
+  std::vector<std::uint32_t>                m_Rank;
+  std::vector<std::array<std::uint32_t, 4>> m_Tetrahedra;
+  std::vector<std::uint8_t>                 m_VoxelSides;
+  std::size_t                               m_SortedTaken = 0;
+  std::size_t                               m_Numbered = 0;
+};
+
+} // namespace
+
+std::vector<std::uint32_t>
+SortByCentre(const DelaunayCells &             cells,
+             std::size_t                       first,
+             const std::vector<LatticePoint> & points,
+             const SpacingWeights &            weights)
+{
+  std::vector<std::uint32_t> order;
+  order.reserve(cells.CellCount() - first);
+  VisitByCentre(cells, first, points, weights, [&](CentredRun run) {
+    std::ranges::transform(run, std::back_inserter(order), &CentredCell::cell);
+  });
   return order;
 }
 
 DelaunayCells
-MakeCanonical(RawCells raw, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
+MakeCanonical(RawCells raw, const std::vector<LatticePoint> & points, const SpacingWeights & weights, Facets facets)
 {
-  DelaunayCells &            cells = raw.cells;
-  std::vector<std::uint32_t> rank(cells.CellCount());
+  DelaunayCells & cells = raw.cells;
+  if (facets == Facets::Inside)
   {
-    std::vector<CentredCell> order = SortByCentre(cells, raw.sorted.size(), points, weights);
-    if (!raw.sorted.empty())
-    {
-      order = MergeSorted(std::move(raw.sorted), std::move(order), CentreOrder(cells, points, weights));
-    }
-    std::vector<std::array<std::uint32_t, 4>> tetrahedra(order.size());
-    cells.centres.resize(order.size());
-    const auto count = static_cast<std::ptrdiff_t>(order.size());
-#pragma omp parallel for schedule(static) if (count > 10000)
-    for (std::ptrdiff_t at = 0; at < count; ++at)
-    {
-      const auto i = static_cast<std::size_t>(at);
-      if (i + kAhead < order.size())
-      {
-        __builtin_prefetch(rank.data() + order[i + kAhead].cell, 1);
-        __builtin_prefetch(cells.tetrahedra.data() + order[i + kAhead].cell);
-      }
-      rank[order[i].cell] = static_cast<std::uint32_t>(i);
-      cells.centres[i] = order[i].centre;
-      tetrahedra[i] = cells.tetrahedra[order[i].cell];
-    }
-    cells.tetrahedra.swap(tetrahedra);
+    LeaveOutBoundary(points, weights, cells);
+  }
+  std::vector<std::uint32_t> rank;
+  {
+    CanonicalOrder order(cells, raw.sorted, points, weights);
+    VisitByCentre(cells, raw.sorted.size(), points, weights, [&](CentredRun run) { order.Take(run); });
+    rank = order.Finish();
   }
   OrderFacets(cells, std::move(rank));
   return std::move(cells);

@@ -1,11 +1,10 @@
 #include "CentreBuckets.h"
 
 #include "voxelcore/Error.h"
-#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <ranges>
 
 namespace voxelcore
 {
@@ -127,42 +126,27 @@ CentreOrder::CompareExactly(const CentredCell & a, const CentredCell & b, std::s
                                   m_Weights);
 }
 
-void
-CentreBuckets::Divide(const std::vector<CentredCell> & entries)
+CentreBuckets::CentreBuckets(const DelaunayCells &             cells,
+                             const std::vector<LatticePoint> & points,
+                             const SpacingWeights &            weights,
+                             std::size_t                       count)
+  : m_Cells(cells)
+  , m_Points(points)
+  , m_Weights(weights)
 {
-  std::array<double, 2> low{ HUGE_VAL, HUGE_VAL };
-  std::array<double, 2> high{ -HUGE_VAL, -HUGE_VAL };
-  std::mutex            mutex;
-  RunInParts(entries.size() > 10000, entries.size(), [&](std::size_t first, std::size_t last) {
-    std::array<double, 2> ownLow{ HUGE_VAL, HUGE_VAL };
-    std::array<double, 2> ownHigh{ -HUGE_VAL, -HUGE_VAL };
-    for (std::size_t i = first; i < last; ++i)
-    {
-      for (std::size_t axis = 0; axis < 2; ++axis)
-      {
-        ownLow[axis] = std::min(ownLow[axis], entries[i].centre[axis]);
-        ownHigh[axis] = std::max(ownHigh[axis], entries[i].centre[axis]);
-      }
-    }
-    const std::lock_guard lock(mutex);
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      low[axis] = std::min(low[axis], ownLow[axis]);
-      high[axis] = std::max(high[axis], ownHigh[axis]);
-    }
-  });
-  if (entries.empty())
+  if (points.empty())
   {
-    m_Slabs = 0;
     return;
   }
+  const auto [lowX, highX] = std::ranges::minmax(points | std::views::transform(&LatticePoint::x));
+  const auto [lowY, highY] = std::ranges::minmax(points | std::views::transform(&LatticePoint::y));
   // A slab more before the first: what rounds to its whole x may lie below.
-  m_LowX = std::floor(low[0]) - 1.0;
-  m_LowY = low[1];
-  m_Slabs = static_cast<std::size_t>(high[0] - m_LowX) + 1;
-  const double length = high[1] - low[1];
+  m_LowX = lowX - 1.0;
+  m_LowY = lowY;
+  m_Slabs = static_cast<std::size_t>(highX - m_LowX) + 1;
+  const double length = static_cast<double>(highY) - m_LowY;
   const auto   steps = static_cast<std::size_t>(2.0 * length) + 1;
-  m_Rows = std::clamp<std::size_t>(entries.size() / (4 * m_Slabs), 1, steps);
+  m_Rows = std::clamp<std::size_t>(count / (4 * m_Slabs), 1, steps);
   m_ScaleY = length > 0.0 ? static_cast<double>(m_Rows) / length : 0.0;
   m_Parts = std::clamp<std::size_t>(m_Rows / 4, 1, 64);
   m_PerSlab = 2 * (m_Rows + m_Parts);
@@ -188,16 +172,20 @@ CentreBuckets::SideOf(const CentredCell & entry, double x) const
 std::uint32_t
 CentreBuckets::Of(const CentredCell & entry) const
 {
-  const double      x = entry.centre[0];
-  const double      whole = std::floor(x);
-  const double      half = whole + 0.5;
+  const double x = entry.centre[0];
+  const double whole = std::floor(x);
+  const double half = whole + 0.5;
+  if (whole < m_LowX || whole - m_LowX >= static_cast<double>(m_Slabs))
+  {
+    return static_cast<std::uint32_t>(whole < m_LowX ? 0 : Count() - 1); // no cell of the shape
+  }
   const std::size_t slab = m_PerSlab * static_cast<std::size_t>(whole - m_LowX);
   if (x == whole || x == half)
   {
     // Rows hold one x exactly; what lies beside it, by less than a double can tell, belongs beside them.
     const std::size_t rows = slab + (x == half ? m_Rows + m_Parts : 0);
     const int         side = SideOf(entry, x);
-    const auto        row = static_cast<std::size_t>((entry.centre[1] - m_LowY) * m_ScaleY);
+    const auto        row = static_cast<std::size_t>(std::max((entry.centre[1] - m_LowY) * m_ScaleY, 0.0));
     return static_cast<std::uint32_t>(side < 0   ? rows - 1
                                       : side > 0 ? rows + m_Rows
                                                  : rows + std::min(row, m_Rows - 1));

@@ -62,15 +62,11 @@ private:
 class CentreBuckets
 {
 public:
-  CentreBuckets(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
-    : m_Cells(cells)
-    , m_Points(points)
-    , m_Weights(weights)
-  {}
-
-  /** Chooses buckets for these centres. */
-  void
-  Divide(const std::vector<CentredCell> & entries);
+  /** For about so many cells, whose centres lie in the box of the points. */
+  CentreBuckets(const DelaunayCells &             cells,
+                const std::vector<LatticePoint> & points,
+                const SpacingWeights &            weights,
+                std::size_t                       count);
 
   std::size_t
   Count() const

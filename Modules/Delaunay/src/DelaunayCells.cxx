@@ -26,7 +26,8 @@ ComputeDelaunayCells(const VoxelShape &                shape,
                      const std::vector<LatticePoint> & points,
                      const SpacingWeights &            weights,
                      Engine                            engine,
-                     const ProgressCallback &          progress)
+                     const ProgressCallback &          progress,
+                     Facets                            facets)
 {
   if (!HasEngine(engine))
   {
@@ -56,7 +57,7 @@ ComputeDelaunayCells(const VoxelShape &                shape,
   {
     raw = LatticeCells(shape, points, weights, progress);
   }
-  DelaunayCells cells = MakeCanonical(std::move(raw), points, weights);
+  DelaunayCells cells = MakeCanonical(std::move(raw), points, weights, facets);
   ReportProgress(progress, "delaunay", 1.0);
   return cells;
 }

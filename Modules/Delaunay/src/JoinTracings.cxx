@@ -1,9 +1,37 @@
 #include "CellTracer.h"
 
 #include "voxelcore/ParallelTasks.h"
+#include "voxelcore/SpentMemory.h"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
 
 namespace voxelcore
 {
+
+namespace
+{
+
+// Gives back what has been copied while the rest is still to come.
+template <typename T, typename TChange>
+void
+AppendSpent(std::vector<T> from, std::vector<T> & to, TChange change)
+{
+  constexpr std::size_t step = std::size_t{ 1 } << 20; // elements
+  SpentFront            spent(from);
+  for (std::size_t first = 0; first < from.size(); first += step)
+  {
+    const std::size_t last = std::min(first + step, from.size());
+    std::transform(from.begin() + static_cast<std::ptrdiff_t>(first),
+                   from.begin() + static_cast<std::ptrdiff_t>(last),
+                   std::back_inserter(to),
+                   change);
+    spent.SpendTo(last);
+  }
+}
+
+} // namespace
 
 Tracing
 JoinTracings(std::vector<Tracing> parts)
@@ -26,19 +54,18 @@ JoinTracings(std::vector<Tracing> parts)
       RunBoth(
         true,
         [&] {
-          to.tetrahedra.insert(to.tetrahedra.end(), from.tetrahedra.begin(), from.tetrahedra.end());
-          to.facetPoints.insert(to.facetPoints.end(), from.facetPoints.begin(), from.facetPoints.end());
+          AppendSpent(std::move(from.tetrahedra), to.tetrahedra, std::identity());
+          AppendSpent(std::move(from.facetPoints), to.facetPoints, std::identity());
         },
         [&] {
-          for (const auto & sides : from.facetCells)
-          {
-            to.facetCells.push_back({ sides[0] < kOpen ? sides[0] + cellShift : sides[0],
-                                      sides[1] < kOpen ? sides[1] + cellShift : sides[1] });
-          }
-          for (std::size_t i = 1; i < from.facetOffsets.size(); ++i)
-          {
-            to.facetOffsets.push_back(from.facetOffsets[i] + pointShift);
-          }
+          AppendSpent(std::move(from.facetCells), to.facetCells, [&](const std::array<std::uint32_t, 2> & sides) {
+            return std::array{ sides[0] < kOpen ? sides[0] + cellShift : sides[0],
+                               sides[1] < kOpen ? sides[1] + cellShift : sides[1] };
+          });
+          to.facetOffsets.pop_back();
+          AppendSpent(std::move(from.facetOffsets), to.facetOffsets, [&](std::uint64_t offset) {
+            return offset + pointShift;
+          });
         });
     }
     from = {};

@@ -198,12 +198,6 @@ VoxelSideMeasures(const SpacingWeights & weights)
   return measures;
 }
 
-std::uint32_t
-AxisOfSide(const LatticePoint & corner, const LatticePoint & opposite)
-{
-  return corner.x == opposite.x ? 0 : corner.y == opposite.y ? 1 : 2;
-}
-
 // From any thread.
 void
 NoteCentreBeyond(std::uint8_t & note)
@@ -213,43 +207,6 @@ NoteCentreBeyond(std::uint8_t & note)
   {
     atomic.fetch_or(kCentreBeyond, std::memory_order_relaxed);
   }
-}
-
-// Takes the facets on the boundary out and notes them with their cells.
-std::vector<std::uint8_t>
-TakeVoxelSides(const std::vector<LatticePoint> & points, const SpacingWeights & weights, DelaunayCells & cells)
-{
-  // Where all sides are alike, points need not be fetched.
-  const bool                areAlike = weights.weight[0] == weights.weight[1] && weights.weight[1] == weights.weight[2];
-  std::vector<std::uint8_t> notes(cells.CellCount(), 0);
-  std::size_t               kept = 0;
-  std::uint64_t             end = 0;
-  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
-  {
-    const std::uint64_t first = cells.facetOffsets[facet];
-    const std::uint64_t last = cells.facetOffsets[facet + 1];
-    if (cells.facetCells[facet][1] == kOutside)
-    {
-      if (last - first != 4)
-      {
-        throw CertificateError("a Delaunay facet on the boundary is no side of a voxel; please report this input");
-      }
-      const std::uint32_t axis =
-        areAlike ? 0 : AxisOfSide(points[cells.facetPoints[first]], points[cells.facetPoints[first + 2]]);
-      notes[cells.facetCells[facet][0]] |= static_cast<std::uint8_t>(1U << axis);
-      continue;
-    }
-    for (std::uint64_t from = first; from < last; ++from)
-    {
-      cells.facetPoints[end++] = cells.facetPoints[from];
-    }
-    cells.facetCells[kept] = cells.facetCells[facet];
-    cells.facetOffsets[++kept] = end;
-  }
-  CutShort(cells.facetCells, kept);
-  CutShort(cells.facetOffsets, kept + 1);
-  CutShort(cells.facetPoints, end);
-  return notes;
 }
 
 // Facets follow each other along x, points and their neighbours along z: what is met next is asked for early.
@@ -350,7 +307,11 @@ MeasureCells(const VoxelShape &                shape,
              DelaunayCells &                   cells,
              std::vector<LatticePoint> &       sortedPoints)
 {
-  std::vector<std::uint8_t> notes = TakeVoxelSides(points, weights, cells);
+  if (cells.voxelSides.size() != cells.CellCount())
+  {
+    LeaveOutBoundary(points, weights, cells);
+  }
+  std::vector<std::uint8_t> notes = std::move(cells.voxelSides);
   std::vector<PointEntry>   entries = MakeEntries(shape, points);
   RankLexicographically(shape, points, entries, sortedPoints);
   CellMeasures result;

@@ -20,7 +20,7 @@ CentreOfCorners(const std::array<LatticePoint, 4> & corners, const SpacingWeight
 
 /** Cells `first` to the last one, by exact centre.
  *  \throws CertificateError when two cells have the same centre (they were not merged). */
-std::vector<CentredCell>
+std::vector<std::uint32_t>
 SortByCentre(const DelaunayCells &             cells,
              std::size_t                       first,
              const std::vector<LatticePoint> & points,
@@ -29,8 +29,8 @@ SortByCentre(const DelaunayCells &             cells,
 /** What an engine made. */
 struct RawCells
 {
-  DelaunayCells            cells;
-  std::vector<CentredCell> sorted; ///< the first of the cells, by exact centre; none, some or all of them
+  DelaunayCells              cells;
+  std::vector<std::uint32_t> sorted; ///< the first of the cells, by exact centre; none, some or all of them
 };
 
 /** Numbers cells by exact centre, orders facets and polygons as DelaunayCells promises, and fills in the centres.
@@ -38,6 +38,9 @@ struct RawCells
  *  polygon counter-clockwise seen from outside facetCells[.][0]. Facets with kOutside on both sides are left out.
  *  \throws CertificateError when two cells have the same centre (they were not merged). */
 DelaunayCells
-MakeCanonical(RawCells raw, const std::vector<LatticePoint> & points, const SpacingWeights & weights);
+MakeCanonical(RawCells                          raw,
+              const std::vector<LatticePoint> & points,
+              const SpacingWeights &            weights,
+              Facets                            facets = Facets::All);
 
 } // namespace voxelcore

@@ -35,6 +35,9 @@ struct DelaunayCells
   std::vector<std::array<std::uint32_t, 2>> facetCells;
   std::vector<std::uint64_t>                facetOffsets{ 0 }; ///< facets + 1 entries into facetPoints
   std::vector<std::uint32_t>                facetPoints;       ///< indices of boundary vertices, cyclic
+  /** Empty where facets on the boundary are there. Where they were left out, the axes of those that a cell had: per
+   *  cell bit 0, 1, 2 for x, y, z; or bit 0 for all of them, where weights are alike. */
+  std::vector<std::uint8_t> voxelSides;
 
   std::size_t
   CellCount() const
@@ -51,6 +54,13 @@ struct DelaunayCells
   {
     return { facetPoints.data() + facetOffsets[facet], facetPoints.data() + facetOffsets[facet + 1] };
   }
+};
+
+/** Which facets are asked for. */
+enum class Facets
+{
+  All,
+  Inside ///< those between two cells; of the others DelaunayCells::voxelSides is left
 };
 
 /** The Delaunay engines a build can have. */
@@ -73,6 +83,12 @@ ComputeDelaunayCells(const VoxelShape &                shape,
                      const std::vector<LatticePoint> & points,
                      const SpacingWeights &            weights,
                      Engine                            engine,
-                     const ProgressCallback &          progress = {});
+                     const ProgressCallback &          progress = {},
+                     Facets                            facets = Facets::All);
+
+/** Takes the facets on the boundary out, and those that no cell has; fills in voxelSides. The others keep their order.
+ *  \throws CertificateError where one is no side of a voxel */
+void
+LeaveOutBoundary(const std::vector<LatticePoint> & points, const SpacingWeights & weights, DelaunayCells & cells);
 
 } // namespace voxelcore
