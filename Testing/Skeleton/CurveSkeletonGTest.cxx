@@ -85,6 +85,16 @@ TEST(CurveSkeleton, SurfaceThatIsUsedUpOrGivenBackHasTheSameSkeleton)
       ExpectSameSkeleton(ComputeCurveSkeleton(surface, options), kept);
       ExpectSameCore(surface, before);
 
+      bool wereFreed = false;
+      options.positionsAgain = [&] {
+        wereFreed = surface.positions.empty();
+        return before.positions;
+      };
+      ExpectSameSkeleton(ComputeCurveSkeleton(surface, options), kept);
+      ExpectSameCore(surface, before);
+      EXPECT_TRUE(wereFreed);
+
+      options.positionsAgain = {};
       options.givesBack = false;
       ExpectSameSkeleton(ComputeCurveSkeleton(surface, options), kept);
       EXPECT_TRUE(surface.positions.empty());

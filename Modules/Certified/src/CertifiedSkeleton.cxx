@@ -143,14 +143,12 @@ PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const Skel
 }
 
 BurnedCurves
-BurnToCurves(const MedialComplex &                            core,
-             const LiveElements *                             part,
-             const CertifiedShape &                           shape,
-             const SkeletonRequest &                          request,
-             const ProgressCallback &                         progress,
-             MedialComplex *                                  spent,
-             bool                                             givesBack,
-             const std::function<void(const CellComplex &)> & beside)
+BurnToCurves(const MedialComplex &    core,
+             const LiveElements *     part,
+             const CertifiedShape &   shape,
+             const SkeletonRequest &  request,
+             const ProgressCallback & progress,
+             const BurnPlan &         plan)
 {
   RequireLengthsIn(shape.geometry.unit, request);
   const Vector3 & spacing = shape.geometry.spacing;
@@ -163,9 +161,10 @@ BurnToCurves(const MedialComplex &                            core,
   curves.sampling = 1.5 * *std::min_element(spacing.begin(), spacing.end());
   curves.geometry = shape.geometry;
   curves.voxel = VoxelSide(spacing);
-  curves.spent = spent;
-  curves.givesBack = givesBack;
-  curves.beside = beside;
+  curves.spent = plan.spent;
+  curves.givesBack = plan.givesBack;
+  curves.positionsAgain = plan.positionsAgain;
+  curves.beside = plan.beside;
   BurnedCurves burned;
   burned.curves = ComputeCurveSkeleton(core, part, curves, progress);
   burned.topology = ComputeComplexTopology(burned.curves.complex.cells);

@@ -5,7 +5,10 @@
 #include "InscribedThickness.h"
 #include "PruneStages.h"
 #include "RequestStages.h"
+#include "ShelvedTolerances.h"
 #include "WholeCore.h"
+#include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/CoreProvenance.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Stopwatch.h"
@@ -279,6 +282,31 @@ private:
                               !Refines(m_Request) && std::all_of(m_Thresholds.begin(), m_Thresholds.end(), isWhole));
   }
 
+  /** What can be made again, or is asked for no more, makes room for the fire. */
+  BurnedCurves
+  BurnAndGiveBack(const MedialComplex & core, BurnPlan plan)
+  {
+    const ImageGeometry & geometry = m_Result.shape.geometry;
+    RefinementParts &     kept = m_Whole.kept;
+    if (Refines(m_Request))
+    {
+      plan.positionsAgain = [&] {
+        MedialComplex places;
+        places.positions = kept.core.positions;
+        return PlaceInLps(std::move(places), geometry).positions;
+      };
+      std::vector<LatticePoint>().swap(kept.boundary);
+    }
+    ShelvedTolerances tolerances(std::exchange(plan.spent->tolerances, {}), LowestHeight(m_Request, geometry));
+    BurnedCurves      curves = BurnToCurves(core, nullptr, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), plan);
+    plan.spent->tolerances = std::move(tolerances).Take();
+    if (Refines(m_Request))
+    {
+      kept.boundary = BoundaryVertices(m_Voxels);
+    }
+    return curves;
+  }
+
   void
   Burn(const MedialComplex & core,
        const LiveElements *  part = nullptr,
@@ -292,7 +320,9 @@ private:
         m_Whole.topology = RequireTopologyOf(cells, m_Result.shape);
       }
     };
-    m_Curves = BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), spent, givesBack, beside);
+    const BurnPlan plan{ spent, givesBack, {}, beside };
+    m_Curves = givesBack ? BurnAndGiveBack(core, plan)
+                         : BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), plan);
     if (!m_Whole.topology)
     {
       RefuseResult(m_Request.name, "its core was not counted");

@@ -1,6 +1,10 @@
 #include "RequestStages.h"
 
+#include "PruneStages.h"
 #include "voxelcore/Error.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace voxelcore
 {
@@ -63,6 +67,17 @@ bool
 BurnsBeforePruning(const CertifiedRequest & request)
 {
   return BurnsWhole(request) || (request.skeleton && (request.skeleton->tolerance || Refines(request)));
+}
+
+double
+LowestHeight(const CertifiedRequest & request, const ImageGeometry & geometry)
+{
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Tolerance & height : request.tolerances)
+  {
+    lowest = std::min(lowest, DescribeTolerance(height, geometry).heightMm);
+  }
+  return lowest;
 }
 
 bool

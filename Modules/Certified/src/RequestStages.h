@@ -32,6 +32,10 @@ BurnsWhole(const CertifiedRequest & request);
 bool
 BurnsBeforePruning(const CertifiedRequest & request);
 
+/** In mm the least of the tolerances, no higher than the scan's diagonal; infinite where there is none. */
+double
+LowestHeight(const CertifiedRequest & request, const ImageGeometry & geometry);
+
 /** Whether the bracket of the thickness is found while the cells are there. */
 bool
 NeedsBracket(const CertifiedRequest & request);

@@ -3,6 +3,10 @@
 
 #include "voxelcore/CertifiedSkeleton.h"
 #include "voxelcore/CurveSkeleton.h"
+#include "voxelcore/Vectors.h"
+
+#include <functional>
+#include <vector>
 
 namespace voxelcore
 {
@@ -19,18 +23,24 @@ struct BurnedCurves
 LiveElements
 PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request);
 
-/** Of a part of the core, in the fire of all of it, unless that is null. `spent` (the core, or null) and `givesBack` as
- *  in CurveOptions, and `beside`.
+/** What of CurveOptions does not change the curves. */
+struct BurnPlan
+{
+  MedialComplex *                          spent = nullptr; ///< the core, or null
+  bool                                     givesBack = false;
+  std::function<std::vector<Vector3>()>    positionsAgain;
+  std::function<void(const CellComplex &)> beside;
+};
+
+/** Of a part of the core, in the fire of all of it, unless that is null.
  *  \throws CertificateError when the curves do not have the shape's topology; Cancelled */
 BurnedCurves
-BurnToCurves(const MedialComplex &                            core,
-             const LiveElements *                             part,
-             const CertifiedShape &                           shape,
-             const SkeletonRequest &                          request,
-             const ProgressCallback &                         progress,
-             MedialComplex *                                  spent = nullptr,
-             bool                                             givesBack = false,
-             const std::function<void(const CellComplex &)> & beside = {});
+BurnToCurves(const MedialComplex &    core,
+             const LiveElements *     part,
+             const CertifiedShape &   shape,
+             const SkeletonRequest &  request,
+             const ProgressCallback & progress,
+             const BurnPlan &         plan = {});
 
 /** Branches, and how wide the body in `voxels` is around them. \throws CertificateError when they do not have the
  *  topology of the curves. */

@@ -139,12 +139,13 @@ TipsOf(const MedialComplex &              surface,
   return tips;
 }
 
-/** Frees what a surface that has been turned is no longer asked for, or what can be made of that again. */
+/** Frees what a surface that has been turned is no longer asked for, or what can be made again. */
 void
-FreeTurned(MedialComplex & surface, bool givesBack)
+FreeTurned(const CurveOptions & options)
 {
-  MedialComplex kept;
-  if (givesBack)
+  MedialComplex & surface = *options.spent;
+  MedialComplex   kept;
+  if (options.givesBack)
   {
     kept = std::move(surface);
     kept.cells = CellComplex();
@@ -154,7 +155,28 @@ FreeTurned(MedialComplex & surface, bool givesBack)
   {
     kept.positions = std::move(surface.positions);
   }
+  if (options.positionsAgain)
+  {
+    std::vector<Vector3>().swap(kept.positions);
+  }
   surface = std::move(kept);
+}
+
+void
+GiveBack(const TurnedSurface & turned, const CurveOptions & options)
+{
+  MedialComplex & surface = *options.spent;
+  if (!options.givesBack)
+  {
+    surface = MedialComplex();
+    return;
+  }
+  surface.cells = CellsBefore(turned);
+  surface.radius.resize(turned.vertices.size());
+  for (std::size_t i = 0; i < turned.vertices.size(); ++i)
+  {
+    surface.radius[turned.vertices[i]] = turned.surface.radius[i];
+  }
 }
 
 } // namespace
@@ -183,7 +205,7 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   TurnedSurface     turned = TurnSurface(surface, options.geometry, options.spent != nullptr);
   if (options.spent != nullptr)
   {
-    FreeTurned(*options.spent, options.givesBack);
+    FreeTurned(options);
   }
   StagePlan plan(progress, { 0.9, 0.06, 0.04 });
   BurnTimes times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
@@ -231,6 +253,8 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   }
 
   // Back to the surface as it was.
+  std::vector<double>().swap(times.edges);
+  std::vector<double>().swap(times.faces);
   const auto back = [](const std::vector<ElementIndex> & places, const auto & values, std::size_t count) {
     auto result = values;
     result.assign(count, 0);
@@ -240,15 +264,11 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
     }
     return result;
   };
-  const std::vector<double> surfaceTime = back(turned.vertices, times.vertices, vertexCount);
-  const std::vector<double> curveTime = back(turned.vertices, fire.time, vertexCount);
-  const std::vector<double> radius = back(turned.vertices, turned.surface.radius, vertexCount);
   closed = back(turned.faces, closed, faceCount);
-  std::vector<Vector3> places = surface.positions;
-  for (const EndPlace & end : ends)
+  std::vector<ElementIndex> vertexNow(vertexCount, 0);
+  for (std::size_t i = 0; i < turned.vertices.size(); ++i)
   {
-    const EndPlace there{ turned.vertices[end.vertex], turned.vertices[end.beyond], end.part };
-    places[there.vertex] = PlaceOf(there, surface.positions);
+    vertexNow[turned.vertices[i]] = static_cast<ElementIndex>(i);
   }
 
   CurveSkeleton skeleton;
@@ -262,32 +282,44 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   else
   {
     skeleton.complex.cells = CellsBefore(turned, live, skeleton.inSurface);
+    if (options.positionsAgain)
+    {
+      options.spent->positions = options.positionsAgain();
+    }
     for (const ElementIndex vertex : skeleton.inSurface.vertices)
     {
       skeleton.complex.positions.push_back(surface.positions[vertex]);
-      skeleton.complex.radius.push_back(radius[vertex]);
+      skeleton.complex.radius.push_back(turned.surface.radius[vertexNow[vertex]]);
     }
-    if (options.givesBack)
+  }
+  skeleton.places = skeleton.complex.positions;
+  for (const EndPlace & end : ends)
+  {
+    const EndPlace there{ turned.vertices[end.vertex], turned.vertices[end.beyond], end.part };
+    const auto &   left = skeleton.inSurface.vertices;
+    const auto     at = std::ranges::lower_bound(left, there.vertex);
+    if (at != left.end() && *at == there.vertex)
     {
-      options.spent->cells = CellsBefore(turned);
-      options.spent->radius = radius;
-    }
-    else
-    {
-      *options.spent = MedialComplex();
+      skeleton.places[static_cast<std::size_t>(at - left.begin())] = PlaceOf(there, surface.positions);
     }
   }
   for (const ElementIndex vertex : skeleton.inSurface.vertices)
   {
-    skeleton.places.push_back(places[vertex]);
-    skeleton.erosionThickness.push_back(surfaceTime[vertex] - radius[vertex]);
-    skeleton.branchThickness.push_back(curveTime[vertex] < std::numeric_limits<double>::infinity()
-                                         ? std::max(0.0, curveTime[vertex] - surfaceTime[vertex])
+    const ElementIndex now = vertexNow[vertex];
+    const double       surfaceTime = times.vertices[now];
+    const double       curveTime = fire.time[now];
+    skeleton.erosionThickness.push_back(surfaceTime - turned.surface.radius[now]);
+    skeleton.branchThickness.push_back(curveTime < std::numeric_limits<double>::infinity()
+                                         ? std::max(0.0, curveTime - surfaceTime)
                                          : std::numeric_limits<double>::infinity());
   }
   for (const ElementIndex face : skeleton.inSurface.faces)
   {
     skeleton.closedFace.push_back(closed[face]);
+  }
+  if (options.spent != nullptr)
+  {
+    GiveBack(turned, options);
   }
   return skeleton;
 }

@@ -324,7 +324,7 @@ TurnedSurface
 TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool withStarts)
 {
   const CellComplex & cells = surface.cells;
-  const Places        places = FindPlaces(surface, geometry);
+  Places              places = FindPlaces(surface, geometry);
   const Turning       turning = PickTurning(places, surface.radius, geometry.spacing);
   TurnedSurface       turned;
   CellComplex &       to = turned.surface.cells;
@@ -350,6 +350,8 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool 
       vertexNumber[vertex] = static_cast<ElementIndex>(i);
     }
   });
+
+  places = Places();
 
   const auto ends = [&](std::size_t edge) {
     const auto [a, b] = std::minmax(vertexNumber[cells.edges[edge][0]], vertexNumber[cells.edges[edge][1]]);
@@ -388,6 +390,8 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool 
     index,
     turned.faces);
   SortEachBucket(start, turned.faces, [&](ElementIndex a, ElementIndex b) { return names[a] < names[b]; });
+  std::vector<FaceName>().swap(names);
+  std::vector<std::uint32_t>().swap(start);
   to.faceOffsets.resize(faceCount + 1);
   for (std::size_t i = 0; i < faceCount; ++i)
   {

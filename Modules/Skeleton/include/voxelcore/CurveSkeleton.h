@@ -37,6 +37,9 @@ struct CurveOptions
   MedialComplex * spent = nullptr;
   bool            givesBack = false; ///< the surface is made as it was in the end; else it is used up. Not of a part
 
+  /** Gives the surface's positions once more: where it is set, and the surface is spent, they are freed meanwhile. */
+  std::function<std::vector<std::array<double, 3>>()> positionsAgain;
+
   /** Other work on the surface's cells, in another order, for a second thread while they collapse. */
   std::function<void(const CellComplex & cells)> beside;
 };
