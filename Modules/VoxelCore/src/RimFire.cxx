@@ -207,10 +207,36 @@ RimFire::CostOf(ElementIndex edge, ReachedVertices & reached) const
   return cost;
 }
 
+// Of the free edges of a face the one that lies nearest to where fire set out, so that what is left of a narrow sheet
+// runs along its middle. The time of fire and the radius are, together, how far it has come and the radius at its rim.
+std::size_t
+RimFire::OuterFreeSide(std::uint32_t place, std::size_t side) const
+{
+  const auto        corners = VerticesAt(place);
+  const std::size_t count = corners.size();
+  const auto        depth = [&](std::size_t i) {
+    const CoreBall & a = m_Balls[corners[i]];
+    const CoreBall & c = m_Balls[corners[i + 1 == count ? 0 : i + 1]];
+    return (a.radius + c.radius) + (a.burnt + c.burnt) / kMargin;
+  };
+  double least = depth(side);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (IsSideFree(place, i))
+    {
+      const double other = depth(i);
+      side = other < least ? i : side;
+      least = std::min(least, other);
+    }
+  }
+  return side;
+}
+
 void
 RimFire::Remove(ElementIndex edge, std::size_t level)
 {
   const std::uint32_t place = m_Edges[edge].Coface();
+  edge = m_Cells.faceEdges[place + OuterFreeSide(place, m_Edges[edge].Side())];
   for (std::size_t i = 0; i < m_Reached.count; ++i)
   {
     const Reached & reached = m_Reached.list[i];

@@ -114,6 +114,8 @@ private:
   CostOf(ElementIndex edge, ReachedVertices & reached) const;
   std::uint64_t
   MeetingCorners(std::uint32_t place, std::size_t count) const;
+  std::size_t
+  OuterFreeSide(std::uint32_t place, std::size_t side) const;
   void
   Remove(ElementIndex edge, std::size_t level);
   void

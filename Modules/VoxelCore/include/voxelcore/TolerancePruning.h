@@ -81,7 +81,9 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *
  *  - An edge and its face burn. Fire enters sheets at their rims and is carried by the ball that burnt first there, the
  *    witness; it reaches a vertex when this ball sticks out by h. The face goes when fire has crossed it, or when fires
- *    from two sides have met on it. So a sheet shrinks evenly from its rims and does not tear.
+ *    from two sides have met on it, and with it that of its free edges which lies nearest to where fire set out. So a
+ *    sheet shrinks evenly from its rims and does not tear, and the line that is left of a narrow one runs along its
+ *    middle.
  *  - A vertex at the loose end of an edge goes when each of the boundary vertices it keeps, at first those of which its
  *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on. Beyond
  *    four voxel diagonals h is an upper bound of that, along the path the end has gone.
