@@ -16,8 +16,10 @@ namespace
 // ball in is no better than it; those further in are.
 constexpr int kUphillSteps = 32;
 
-// How many vertices around a loose end are looked at when those uphill will not do.
-constexpr std::size_t kAround = 32;
+// How many vertices around a loose end are looked at when those uphill will not do, and how often at most: each time
+// for the boundary vertex that is then the farthest from all balls.
+constexpr std::size_t kAround = 24;
+constexpr int         kSearches = 4;
 
 } // namespace
 
@@ -92,7 +94,7 @@ LooseEnds::CollectKeepers(ElementIndex vertex, ElementIndex other)
   };
   m_Candidates.Clear();
   m_Candidates.MakeRoom(2 * kUphillSteps + neighboursOf(vertex).size() + neighboursOf(other).size());
-  m_Look += 2; // CollectAround() counts one on
+  ++m_Look;
   m_Balls[vertex].seen = m_Look;
   m_Balls[other].seen = m_Look;
   const auto add = [&](ElementIndex keeper) {
@@ -160,76 +162,104 @@ LooseEnds::CostOf(ElementIndex vertex)
 }
 
 double
+LooseEnds::OfferHome(Home & home, const BallCentre & place, ElementIndex vertex) const
+{
+  const double gap = Gap(place, m_Balls[vertex]);
+  if (gap < home.gap)
+  {
+    home.vertex = vertex;
+    home.gap = gap;
+  }
+  return gap;
+}
+
+double
 LooseEnds::FindHomes(ElementIndex vertex)
 {
   m_ToHeir = false;
   m_NewHomes.clear();
   CollectKeepers(vertex, m_Heir);
-  double              cost = 0;
   const std::uint32_t last = m_Balls[vertex].lastKept;
   std::uint32_t       point = last;
-  // Beyond the height nothing counts but what is farthest, and a ball as near as that will do for all others.
-  const auto look = [&](const BallCentre & place, Home & home) {
-    const double enough = std::max(m_Height, cost);
-    while (home.gap > enough && home.next < m_Candidates.Count())
-    {
-      const ElementIndex candidate = m_Candidates[home.next++];
-      if (const double gap = Gap(place, m_Balls[candidate]); gap < home.gap)
-      {
-        home.vertex = candidate;
-        home.gap = gap;
-      }
-    }
-    cost = std::max(cost, home.gap);
-  };
   do
   {
     point = m_NextKept[point];
-    const BallCentre place = PlaceOf(point);
-    m_NewHomes.push_back({ m_Heir, 0, Gap(place, m_Balls[m_Heir]) });
-    look(place, m_NewHomes.back());
+    m_NewHomes.push_back({ m_Heir, 0, Gap(PlaceOf(point), m_Balls[m_Heir]) });
   } while (point != last);
-  // Below a voxel's diagonal that hardly changes anything, and most are.
-  if (cost > std::max(m_Height, m_Levels.Diagonal()))
+  Farthest farthest = OfferCandidates(last);
+  bool     isNear = true;
+  // Below a voxel's diagonal a search hardly changes anything, and most are.
+  for (int i = 0; i < kSearches && isNear && farthest.gap > std::max(m_Height, m_Levels.Diagonal()); ++i)
   {
-    CollectAround(vertex);
-    cost = 0;
-    for (Home & home : m_NewHomes)
-    {
-      point = m_NextKept[point];
-      look(PlaceOf(point), home);
-    }
+    Home & home = m_NewHomes[farthest.home];
+    SearchAround(vertex, farthest.place, home);
+    isNear = home.gap <= m_Height;
+    farthest = OfferCandidates(last);
   }
-  return cost;
+  return farthest.gap;
 }
 
-// Those around the next vertex, nearest first by number of edges: at the rim of a sheet balls beside the loose end are
-// as near as those further in.
-void
-LooseEnds::CollectAround(ElementIndex vertex)
+// What is kept, from the one after `last` on, is offered the candidates. Beyond the height nothing counts but what is
+// farthest, and a ball as near as that will do for all others.
+LooseEnds::Farthest
+LooseEnds::OfferCandidates(std::uint32_t last)
 {
-  const std::uint32_t known = m_Look++;
-  m_Around.Clear();
-  m_Around.MakeRoom(1);
-  m_Around.AddIf(m_Heir, true);
-  m_Balls[m_Heir].seen = m_Look;
-  m_Balls[vertex].seen = m_Look;
-  for (std::size_t i = 0; i < m_Around.Count() && m_Around.Count() < kAround; ++i)
+  Farthest      farthest{ 0, 0, {} };
+  std::uint32_t point = last;
+  for (std::size_t i = 0; i < m_NewHomes.size(); ++i)
   {
-    const ElementIndex  centre = m_Around[i];
-    const std::uint32_t end = m_FirstNeighbour[centre + 1];
-    m_Around.MakeRoom(end - m_FirstNeighbour[centre]);
-    m_Candidates.MakeRoom(end - m_FirstNeighbour[centre]);
-    for (std::uint32_t j = m_FirstNeighbour[centre]; j < end; ++j)
+    point = m_NextKept[point];
+    Home &       home = m_NewHomes[i];
+    const double enough = std::max(m_Height, farthest.gap);
+    if (home.gap > farthest.gap)
     {
-      const ElementIndex other = m_Neighbours[j];
-      std::uint32_t &    seen = m_Balls[other].seen;
-      const bool         isNew = IsLive(other) & (seen != m_Look);
-      m_Candidates.AddIf(other, isNew & (seen != known));
-      m_Around.AddIf(other, isNew);
-      seen = m_Look;
+      const BallCentre place = PlaceOf(point);
+      while (home.gap > enough && home.next < m_Candidates.Count())
+      {
+        OfferHome(home, place, m_Candidates[home.next++]);
+      }
+      if (home.gap > farthest.gap)
+      {
+        farthest = { home.gap, i, place };
+      }
     }
   }
+  return farthest;
+}
+
+// Adds candidates around the next vertex until one is near enough to a place that none is yet, always on from the
+// nearest to it so far: at the rim of a sheet balls beside the loose end are as near as those further in.
+void
+LooseEnds::SearchAround(ElementIndex vertex, const BallCentre & place, Home & home)
+{
+  const auto isFarther = [](const Near & a, const Near & b) {
+    return a.gap != b.gap ? a.gap > b.gap : a.vertex > b.vertex;
+  };
+  ++m_Look;
+  m_Balls[vertex].seen = m_Look;
+  m_Balls[m_Heir].seen = m_Look;
+  m_Around.assign(1, { 0, m_Heir });
+  for (std::size_t count = 1; count < kAround && !m_Around.empty() && home.gap > m_Height;)
+  {
+    std::ranges::pop_heap(m_Around, isFarther);
+    const ElementIndex centre = m_Around.back().vertex;
+    m_Around.pop_back();
+    const std::uint32_t end = m_FirstNeighbour[centre + 1];
+    m_Candidates.MakeRoom(end - m_FirstNeighbour[centre]);
+    for (std::uint32_t i = m_FirstNeighbour[centre]; i < end; ++i)
+    {
+      const ElementIndex other = m_Neighbours[i];
+      if (m_Balls[other].seen != m_Look && IsLive(other))
+      {
+        m_Candidates.AddIf(other, m_Balls[other].seen != m_Look - 1);
+        m_Balls[other].seen = m_Look;
+        m_Around.push_back({ OfferHome(home, place, other), other });
+        std::ranges::push_heap(m_Around, isFarther);
+        ++count;
+      }
+    }
+  }
+  home.next = static_cast<std::uint32_t>(m_Candidates.Count());
 }
 
 } // namespace voxelcore

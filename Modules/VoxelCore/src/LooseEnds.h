@@ -62,6 +62,19 @@ private:
     double        gap;
   };
 
+  /** Of what a vertex keeps. */
+  struct Farthest
+  {
+    double      gap;
+    std::size_t home;
+    BallCentre  place;
+  };
+  struct Near
+  {
+    double       gap;
+    ElementIndex vertex;
+  };
+
   /** A list that is added to without branches. */
   class Vertices
   {
@@ -128,12 +141,16 @@ private:
   CostOf(ElementIndex vertex);
   double
   FindHomes(ElementIndex vertex);
+  Farthest
+  OfferCandidates(std::uint32_t last);
+  double
+  OfferHome(Home & home, const BallCentre & place, ElementIndex vertex) const;
   ElementIndex
   Uphill(ElementIndex vertex);
   void
   CollectKeepers(ElementIndex vertex, ElementIndex other);
   void
-  CollectAround(ElementIndex vertex);
+  SearchAround(ElementIndex vertex, const BallCentre & place, Home & home);
 
   // What dropping that edge will ask for, step by step.
   void
@@ -165,7 +182,7 @@ private:
   bool              m_ToHeir = false; // to which all goes, none farther from it than m_HeirGap
   double            m_HeirGap = 0;
   Vertices          m_Candidates;
-  Vertices          m_Around;
+  std::vector<Near> m_Around;   // a heap, the nearest on top
   std::uint32_t     m_Look = 0; // number of the last look around
   std::vector<Home> m_NewHomes; // per kept boundary vertex in the order of the ring
 };
