@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -25,6 +28,18 @@ constexpr double kQuarticFrom = 3;
 
 // Rough walls break what is thinner than so many windows.
 constexpr double kQuarticRadius = 0.25;
+
+// Points of lines in smooth bodies are off their fits by so many voxels, root mean square, at most; those of thin bodies
+// with rough walls by more, as these move the lines to and fro over longer ways than windows even out. By each voxel more
+// windows are so many times wider, where such fits foretell points that are left out better. Points along a line are as
+// independent as one in so many voxels.
+constexpr double kZigzag = 0.24;
+constexpr double kWindowsOff = 20;
+constexpr double kMostWindows = 3.5;
+constexpr double kIndependent = 3;
+
+// Points may move by a voxel's half, or where that is more by so many times the middle one of all their moves.
+constexpr double kReachInMiddle = 3;
 
 // Nodes stay where they are, so a curve near one must heed it more than it heeds another point.
 constexpr double kNodeWeight = 4;
@@ -79,118 +94,185 @@ struct MedialLine
   }
 };
 
-/** One round: each point to the value of its polynomial, where ways are as long as between the places `along`; with a
- *  reach no further from the line. */
-void
-FitOnce(const MedialLine &           line,
-        const std::vector<Vector3> & along,
-        double                       window,
-        const VoxelReach *           reach,
-        std::vector<Vector3> &       to)
+/** A smooth line through the points of another. */
+struct LineFit
 {
-  const std::size_t   last = line.Last();
-  const bool          isLoop = line.isLoop;
-  std::vector<double> way(last + 1, 0);
-  for (std::size_t i = 1; i <= last; ++i)
+  std::vector<Vector3> places;
+  double               squares = 0; ///< of the ways from points to their places, mm^2
+  double               freedom = 0; ///< of how many points on their own the places would be as free
+};
+
+/** A line by the ways between the places `along` it, and the windows that go with it. */
+class LineSmoothing
+{
+public:
+  LineSmoothing(const MedialLine & line, const std::vector<Vector3> & along, double window)
+    : m_Line(line)
+    , m_Window(window)
+    , m_Way(line.Last() + 1, 0)
   {
-    way[i] = way[i - 1] + Distance(along[i - 1], along[i]);
+    const std::size_t last = line.Last();
+    for (std::size_t i = 1; i <= last; ++i)
+    {
+      m_Way[i] = m_Way[i - 1] + Distance(along[i - 1], along[i]);
+    }
+    double meanWidth = 0;
+    double meanRadius = 0;
+    for (std::size_t i = 0; i <= last; ++i)
+    {
+      meanWidth += WidthAt(i) / static_cast<double>(last + 1);
+      meanRadius += line.radius[i] / static_cast<double>(last + 1);
+    }
+    m_IsLong = m_Way[last] >= kQuarticFrom * meanWidth && meanRadius >= kQuarticRadius * window;
   }
-  const auto wideAt = [&](std::size_t i) { return window + kWindowGrowth * std::max(0.0, line.radius[i] - window); };
-  double     meanWidth = 0;
-  double     meanRadius = 0;
-  for (std::size_t i = 0; i <= last; ++i)
+
+  double
+  Length() const
   {
-    meanWidth += wideAt(i) / static_cast<double>(last + 1);
-    meanRadius += line.radius[i] / static_cast<double>(last + 1);
+    return m_Way.back();
   }
-  const bool isLong = way[last] >= kQuarticFrom * meanWidth && meanRadius >= kQuarticRadius * window;
-  // A closed curve goes on where it began; at most half of it lies before and half behind a point.
-  for (std::size_t i = isLoop ? 0 : 1; i < last; ++i)
+
+  double
+  WidthAt(std::size_t i) const
   {
-    const double  wide = wideAt(i);
-    const double  longer = isLong ? kQuarticWindows * wide : wide;
-    const double  half = isLoop ? std::min(longer, 0.5 * way[last]) : longer;
+    return m_Window + kWindowGrowth * std::max(0.0, m_Line.radius[i] - m_Window);
+  }
+
+  /** Each point to the value of its polynomial, over so many windows. */
+  LineFit
+  Fit(double windows) const
+  {
+    LineFit           fit;
+    const std::size_t last = m_Line.Last();
+    fit.places = m_Line.points;
+    for (std::size_t i = First(); i < last; ++i)
+    {
+      double leverage = 1;
+      if (SumsAround(i, HalfAt(i, windows)).Value(m_IsLong ? 4 : 2, fit.places[i], leverage))
+      {
+        const Vector3 off = Minus(fit.places[i], m_Line.points[i]);
+        fit.squares += Dot(off, off);
+      }
+      fit.freedom += leverage;
+    }
+    if (m_Line.isLoop)
+    {
+      fit.places[last] = fit.places[0];
+    }
+    return fit;
+  }
+
+  /** No place is further from the line than so many times `reach`, or where windows are wider as much more. */
+  void
+  KeepNear(const VoxelReach & reach, double times, double windows, std::vector<Vector3> & places) const
+  {
+    const std::size_t last = m_Line.Last();
+    for (std::size_t i = First(); i < last; ++i)
+    {
+      const double most = times * WidthAt(i) / m_Window;
+      Vector3      nearest = m_Line.points[i];
+      double       away = HalfVoxels(reach, Minus(places[i], nearest));
+      if (away <= most)
+      {
+        continue;
+      }
+      // Of a closed curve, too, between its ends.
+      const auto [from, to] = Around(i, HalfAt(i, windows));
+      for (std::size_t j = from; j < to && away > 0; ++j)
+      {
+        const Vector3 place = NearestOnSegment(reach, m_Line.points[j], m_Line.points[j + 1], places[i]);
+        const double  there = HalfVoxels(reach, Minus(places[i], place));
+        if (there < away)
+        {
+          away = there;
+          nearest = place;
+        }
+      }
+      const double part = away > most ? most / away : 1;
+      places[i] = AddScaled(nearest, part, Minus(places[i], nearest));
+    }
+    if (m_Line.isLoop)
+    {
+      places[last] = places[0];
+    }
+  }
+
+private:
+  std::size_t
+  First() const
+  {
+    return m_Line.isLoop ? 0 : 1;
+  }
+
+  /** A closed curve goes on where it began; at most half of it lies before and half behind a point. */
+  double
+  HalfAt(std::size_t i, double windows) const
+  {
+    const double half = windows * (m_IsLong ? kQuarticWindows : 1) * WidthAt(i);
+    return m_Line.isLoop ? std::min(half, 0.5 * Length()) : half;
+  }
+
+  PolynomialFit
+  SumsAround(std::size_t i, double half) const
+  {
     PolynomialFit fit;
-    const auto    add = [&](std::size_t j, double shift) {
-      const double u = (way[j] + shift - way[i]) / half;
+    const auto    last = static_cast<std::ptrdiff_t>(m_Line.Last());
+    // Points 0 and `last` of a closed curve are one.
+    const auto add = [&](std::ptrdiff_t k) {
+      const int    round = !m_Line.isLoop ? 0 : k < 0 ? -1 : k >= last ? 1 : 0;
+      const auto   j = static_cast<std::size_t>(k - round * last);
+      const double u = (m_Way[j] + round * Length() - m_Way[i]) / half;
       if (std::abs(u) >= 1)
       {
         return false;
       }
-      const bool isNode = !isLoop && (j == 0 || j == last);
-      fit.Add(u, (isNode ? kNodeWeight : 1) * Tricube(u), line.points[j]);
+      const bool isNode = !m_Line.isLoop && (k == 0 || k == last);
+      fit.Add(u, (isNode ? kNodeWeight : 1) * Tricube(u), m_Line.points[j]);
       return true;
     };
-    // Points 0 and `last` of a closed curve are one.
-    double      shift = 0;
-    std::size_t firstUsed = i;
-    std::size_t lastUsed = i;
-    for (std::size_t j = i; add(j, shift);)
-    {
-      lastUsed = std::max(lastUsed, j);
-      if (++j == (isLoop ? last : last + 1))
-      {
-        if (!isLoop)
-        {
-          break;
-        }
-        j = 0;
-        shift += way[last];
-      }
-    }
-    shift = 0;
-    for (std::size_t j = i;;)
-    {
-      if (j == 0)
-      {
-        if (!isLoop)
-        {
-          break;
-        }
-        j = last;
-        shift -= way[last];
-      }
-      --j;
-      if (!add(j, shift))
-      {
-        break;
-      }
-      firstUsed = std::min(firstUsed, j);
-    }
-    Vector3 value{};
-    if (!fit.Value(isLong ? 4 : 2, value))
-    {
-      to[i] = line.points[i];
-      continue;
-    }
-    to[i] = value;
-    if (reach == nullptr)
-    {
-      continue;
-    }
-    Vector3 nearest = line.points[i];
-    double  away = HalfVoxels(*reach, Minus(value, nearest));
-    for (std::size_t j = firstUsed; j < lastUsed && away > 0; ++j)
-    {
-      const Vector3 place = NearestOnSegment(*reach, line.points[j], line.points[j + 1], value);
-      const double  there = HalfVoxels(*reach, Minus(value, place));
-      if (there < away)
-      {
-        away = there;
-        nearest = place;
-      }
-    }
-    const double most = wide / window;
-    const double part = away > most ? most / away : 1;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      to[i][axis] = nearest[axis] + part * (value[axis] - nearest[axis]);
-    }
+    const auto           here = static_cast<std::ptrdiff_t>(i);
+    const std::ptrdiff_t before = m_Line.isLoop ? here - last + 1 : 0;
+    const std::ptrdiff_t behind = m_Line.isLoop ? here + last - 1 : last;
+    for (std::ptrdiff_t k = here; k <= behind && add(k); ++k)
+    {}
+    for (std::ptrdiff_t k = here - 1; k >= before && add(k); --k)
+    {}
+    return fit;
   }
-  if (isLoop)
+
+  /** The first and the last point within a way of one; of a closed curve between its ends. */
+  std::pair<std::size_t, std::size_t>
+  Around(std::size_t i, double half) const
   {
-    to[last] = to[0];
+    const auto from = std::upper_bound(m_Way.begin(), m_Way.end(), m_Way[i] - half);
+    const auto to = std::lower_bound(m_Way.begin(), m_Way.end(), m_Way[i] + half);
+    return { static_cast<std::size_t>(from - m_Way.begin()), static_cast<std::size_t>(to - m_Way.begin()) - 1 };
   }
+
+  const MedialLine &  m_Line;
+  const double        m_Window;
+  std::vector<double> m_Way;
+  bool                m_IsLong = false;
+};
+
+/** The side of the cube with a voxel's volume. */
+double
+VoxelSide(const VoxelReach & reach)
+{
+  double product = 1;
+  for (const Vector3 & row : reach)
+  {
+    product *= 0.5 * Length(row);
+  }
+  return 1 / std::cbrt(product);
+}
+
+/** By generalized cross-validation (Craven, Wahba 1979): the error to be expected at points that were left out. */
+double
+ExpectedError(const LineFit & fit, double perPoint)
+{
+  const double left = 1 - fit.freedom * perPoint;
+  return left > 0 ? fit.squares / (left * left) : std::numeric_limits<double>::infinity();
 }
 
 /** Points up to the last that came to lie behind a node, which stays where it is, are put between it and the next: no
@@ -220,6 +302,20 @@ KeepBefore(std::size_t node, const MedialLine & line, double window, std::vector
   }
 }
 
+/** How far points are from their places, the middle one of all, in half voxels. */
+double
+MiddleOff(const MedialLine & line, const VoxelReach & reach, const std::vector<Vector3> & places)
+{
+  std::vector<double> off;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    off.push_back(HalfVoxels(reach, Minus(places[i], line.points[i])));
+  }
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  std::nth_element(off.begin(), middle, off.end());
+  return *middle;
+}
+
 /** The positions of a branch's own points, not of its nodes. */
 void
 FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelReach & reach)
@@ -233,11 +329,27 @@ FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelR
     line.radius.push_back(graph.radius[point]);
   }
   // Zigzag makes ways longer, by a third in tubes as thin as a voxel, and so windows shorter. The second round goes by
-  // the ways of the first one's curve; that keeps no reach, as which place is nearest may be a matter of chance.
-  std::vector<Vector3> along = line.points;
-  std::vector<Vector3> to = line.points;
-  FitOnce(line, line.points, window, nullptr, along);
-  FitOnce(line, along, window, &reach, to);
+  // the ways of the first one's curve.
+  const LineSmoothing smoothing(line, LineSmoothing(line, line.points, window).Fit(1).places, window);
+  const double        voxel = VoxelSide(reach);
+  LineFit             best = smoothing.Fit(1);
+  const double        off = std::sqrt(best.squares / static_cast<double>(line.Last())) / voxel;
+  double              windows = std::clamp(1 + kWindowsOff * (off - kZigzag), 1.0, kMostWindows);
+  if (windows > 1)
+  {
+    LineFit      wider = smoothing.Fit(windows);
+    const double perPoint = kIndependent * voxel / smoothing.Length();
+    if (ExpectedError(wider, perPoint) < ExpectedError(best, perPoint))
+    {
+      best = std::move(wider);
+    }
+    else
+    {
+      windows = 1;
+    }
+  }
+  std::vector<Vector3> & to = best.places;
+  smoothing.KeepNear(reach, std::max(1.0, kReachInMiddle * MiddleOff(line, reach, to)), windows, to);
   if (!line.isLoop)
   {
     KeepBefore(0, line, window, to);

@@ -32,14 +32,15 @@ struct PolynomialFit
     }
   }
 
-  /** Its value at u = 0, by Cholesky's decomposition. The degree is lower where too few points define it; false when
-   *  they do not define a parabola. */
+  /** Its value at u = 0, by Cholesky's decomposition, and what a point of weight 1 there has in it. The degree is lower
+   *  where too few points define it; false when they do not define a parabola. */
   bool
-  Value(std::size_t degree, Vector3 & value) const
+  Value(std::size_t degree, Vector3 & value, double & leverage) const
   {
     constexpr double kLeastPivot = 1e-9;
     double           lower[kMostTerms][kMostTerms]{};
     Vector3          solved[kMostTerms]{};
+    double           own[kMostTerms]{}; // the same of a point there
     std::size_t      terms = 0;
     for (; terms <= degree; ++terms)
     {
@@ -59,15 +60,28 @@ struct PolynomialFit
       }
       pivot = std::sqrt(pivot);
       solved[terms] = sums[terms];
+      own[terms] = terms == 0 ? 1 : 0;
       for (std::size_t k = 0; k < terms; ++k)
       {
         solved[terms] = AddScaled(solved[terms], -lower[terms][k], solved[k]);
+        own[terms] -= lower[terms][k] * own[k];
       }
       solved[terms] = AddScaled({}, 1 / pivot, solved[terms]);
+      own[terms] /= pivot;
     }
     if (terms < 3)
     {
       return false;
+    }
+    leverage = 0;
+    for (std::size_t k = 0; k < terms; ++k)
+    {
+      leverage += own[k] * own[k];
+    }
+    leverage = 0;
+    for (std::size_t k = 0; k < terms; ++k)
+    {
+      leverage += own[k] * own[k];
     }
     for (std::size_t k = terms; k-- > 0;)
     {
