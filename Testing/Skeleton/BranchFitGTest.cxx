@@ -1,6 +1,8 @@
 #include "GraphBuilder.h"
 #include "TubeShapes.h"
 
+#include "voxelcore/Vectors.h"
+
 #include <iostream>
 #include <random>
 
@@ -194,9 +196,10 @@ TEST(BranchFit, ToriAtAnyAngleHaveTheirLength)
   }
 }
 
-/** A straight tube with round ends whose walls rise and fall by `height`, over ways of about six voxels. */
+/** A straight tube with round ends, whose walls rise by what `rise` gives for a voxel and its centre. */
+template <typename Rise>
 VoxelShape
-RoughTube(const Spacing3 & from, const Spacing3 & to, double radius, double height, std::int32_t side)
+TubeWithWalls(const Spacing3 & from, const Spacing3 & to, double radius, std::int32_t side, const Rise & rise)
 {
   VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { side, side, side } });
   double     squared = 0;
@@ -222,9 +225,7 @@ RoughTube(const Spacing3 & from, const Spacing3 & to, double radius, double heig
         {
           near[axis] = from[axis] + t * (to[axis] - from[axis]);
         }
-        const double wave = std::sin(0.9 * p[0] + 0.3 * p[1] + 1) * std::sin(0.8 * p[1] - 0.3 * p[2] + 2) +
-                            std::sin(1.0 * p[2] + 0.2 * p[0]) * std::sin(0.7 * p[0] - 0.4 * p[1]);
-        if (Distance(p, near) <= radius + height * wave)
+        if (Distance(p, near) <= radius + rise(Size3{ x, y, z }, p))
         {
           shape.Insert(x, y, z);
         }
@@ -232,6 +233,50 @@ RoughTube(const Spacing3 & from, const Spacing3 & to, double radius, double heig
     }
   }
   return shape;
+}
+
+/** Walls that rise and fall by `height`, over ways of about six voxels. */
+VoxelShape
+RoughTube(const Spacing3 & from, const Spacing3 & to, double radius, double height, std::int32_t side)
+{
+  return TubeWithWalls(from, to, radius, side, [&](const Size3 &, const Spacing3 & p) {
+    return height * (std::sin(0.9 * p[0] + 0.3 * p[1] + 1) * std::sin(0.8 * p[1] - 0.3 * p[2] + 2) +
+                     std::sin(1.0 * p[2] + 0.2 * p[0]) * std::sin(0.7 * p[0] - 0.4 * p[1]));
+  });
+}
+
+/** Noise in a cube of voxels, of standard deviation 1, over ways of two or three voxels. */
+std::vector<double>
+SmoothNoise(std::int32_t side, std::mt19937_64 & random)
+{
+  const auto                       count = static_cast<std::size_t>(side);
+  std::vector<double>              noise(count * count * count);
+  std::normal_distribution<double> normal;
+  for (double & value : noise)
+  {
+    value = normal(random);
+  }
+  for (const std::size_t step : { std::size_t{ 1 }, count, count * count })
+  {
+    for (int pass = 0; pass < 2; ++pass)
+    {
+      const std::vector<double> before = noise;
+      for (std::size_t i = step; i + step < noise.size(); ++i)
+      {
+        noise[i] = 0.25 * before[i - step] + 0.5 * before[i] + 0.25 * before[i + step];
+      }
+    }
+  }
+  double squares = 0;
+  for (const double value : noise)
+  {
+    squares += value * value / static_cast<double>(noise.size());
+  }
+  for (double & value : noise)
+  {
+    value /= std::sqrt(squares);
+  }
+  return noise;
 }
 
 TEST(BranchFit, RoughWallsAddLittleToTheLengthOfAThickTube)
@@ -261,6 +306,42 @@ TEST(BranchFit, RoughWallsAddLittleToTheLengthOfAThinTube)
     const double chord = Distance(rough.positions[points.front()], rough.positions[points.back()]);
     EXPECT_LT(rough.BranchLength(0), 1.006 * chord);
   }
+}
+
+// Windows of six voxels left half a percent and more.
+TEST(BranchFit, NoiseInWallsOfVeryThinTubesHardlyAddsToTheirLength)
+{
+  constexpr std::int32_t side = 64;
+  constexpr int          tubes = 12;
+  const auto             seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  std::mt19937_64                        random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  double                                 added = 0;
+  for (int done = 0; done < tubes;)
+  {
+    const std::vector<double> noise = SmoothNoise(side, random);
+    const Spacing3   middle{ 32 + 0.5 * uniform(random), 32 + 0.5 * uniform(random), 32 + 0.5 * uniform(random) };
+    const Spacing3   half{ 20 + 4 * uniform(random), 20 * uniform(random), 20 * uniform(random) };
+    const VoxelShape shape =
+      TubeWithWalls(AddScaled(middle, -1, half),
+                    AddScaled(middle, 1, half),
+                    2.3,
+                    side,
+                    [&](const Size3 & voxel, const Spacing3 &) {
+                      return 0.5 * noise[(static_cast<std::size_t>(voxel[2]) * side + voxel[1]) * side + voxel[0]];
+                    });
+    const SkeletonGraph graph = GraphOf(shape);
+    if (graph.BranchCount() != 1 || graph.nodeKinds[0] != NodeKind::Tip)
+    {
+      continue; // noise breaks some, and others have loose voxels or bumps
+    }
+    const auto points = graph.Branch(0);
+    added += graph.BranchLength(0) / Distance(graph.positions[points.front()], graph.positions[points.back()]) - 1;
+    ++done;
+  }
+  std::cout << added / tubes << " of the length\n";
+  EXPECT_LT(added / tubes, 0.004);
 }
 
 TEST(BranchFit, NoCurveTurnsBackAtItsEnds)

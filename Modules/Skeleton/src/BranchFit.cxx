@@ -36,7 +36,7 @@ constexpr double kQuarticRadius = 0.25;
 constexpr double kZigzag = 0.24;
 constexpr double kWindowsOff = 20;
 constexpr double kMostWindows = 3.5;
-constexpr double kIndependent = 3;
+constexpr double kIndependent = 2.5;
 
 // Points may move by a voxel's half, or where that is more by so many times the middle one of all their moves.
 constexpr double kReachInMiddle = 3;

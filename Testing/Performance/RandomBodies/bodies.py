@@ -247,7 +247,7 @@ def flipped(rng):
     body = tree(rng, 2.5)
     body.family = "flipped voxels"
     body.flips = 0.25
-    body.options = {"denoise": True, "mend_shape": True, "smooth_shape": True, "min_voxels": 27}
+    body.options = {"denoise": True, "mend_shape": True, "min_voxels": 27}
     return body
 
 
