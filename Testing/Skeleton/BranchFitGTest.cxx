@@ -312,13 +312,12 @@ TEST(BranchFit, RoughWallsAddLittleToTheLengthOfAThinTube)
 TEST(BranchFit, NoiseInWallsOfVeryThinTubesHardlyAddsToTheirLength)
 {
   constexpr std::int32_t side = 64;
-  constexpr int          tubes = 12;
   const auto             seed = std::random_device{}();
   std::cout << "seed " << seed << '\n';
   std::mt19937_64                        random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  double                                 added = 0;
-  for (int done = 0; done < tubes;)
+  std::vector<double>                    added;
+  while (added.size() < 15)
   {
     const std::vector<double> noise = SmoothNoise(side, random);
     const Spacing3   middle{ 32 + 0.5 * uniform(random), 32 + 0.5 * uniform(random), 32 + 0.5 * uniform(random) };
@@ -337,11 +336,13 @@ TEST(BranchFit, NoiseInWallsOfVeryThinTubesHardlyAddsToTheirLength)
       continue; // noise breaks some, and others have loose voxels or bumps
     }
     const auto points = graph.Branch(0);
-    added += graph.BranchLength(0) / Distance(graph.positions[points.front()], graph.positions[points.back()]) - 1;
-    ++done;
+    added.push_back(graph.BranchLength(0) / Distance(graph.positions[points.front()], graph.positions[points.back()]) -
+                    1);
   }
-  std::cout << added / tubes << " of the length\n";
-  EXPECT_LT(added / tubes, 0.004);
+  // Not the mean: a bump beside an end may bend the last voxels of a line.
+  std::sort(added.begin(), added.end());
+  std::cout << added[7] << " of the length, at most " << added.back() << '\n';
+  EXPECT_LT(added[7], 0.003);
 }
 
 TEST(BranchFit, NoCurveTurnsBackAtItsEnds)

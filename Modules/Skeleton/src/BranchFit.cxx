@@ -29,10 +29,10 @@ constexpr double kQuarticFrom = 3;
 // Rough walls break what is thinner than so many windows.
 constexpr double kQuarticRadius = 0.25;
 
-// Points of lines in smooth bodies are off their fits by so many voxels, root mean square, at most; those of thin bodies
-// with rough walls by more, as these move the lines to and fro over longer ways than windows even out. By each voxel more
-// windows are so many times wider, where such fits foretell points that are left out better. Points along a line are as
-// independent as one in so many voxels.
+// Points of lines in smooth bodies are off their fits by so many voxels, root mean square, at most; those of thin
+// bodies with rough walls by more, as these move the lines to and fro over longer ways than windows even out. By each
+// voxel more windows are so many times wider, where such fits foretell points that are left out better. Points along
+// a line are as independent as one in so many voxels.
 constexpr double kZigzag = 0.24;
 constexpr double kWindowsOff = 20;
 constexpr double kMostWindows = 3.5;

@@ -23,6 +23,10 @@ constexpr double kRunsAlongTheMiddle = 0.5;
 constexpr double kThinWindow = 6;
 constexpr double kThinGrowth = 0.3;
 
+// Ridges in the webs of forks are narrower where they leave than where they end. Of a short branch the radius falls
+// from its end on by so much of the way, at most.
+constexpr double kBulge = 0.1;
+
 // A thin tube that ends a little behind where another leaves it is as wide at its tip as at its foot, over a way too
 // short for the rules above. It stands out of a body of its own width, so it needs a part of what others need. Thicker
 // ones are not told so: in the webs of forks are ridges as even as they.
@@ -72,7 +76,8 @@ public:
   {
     return FindFrom(m_Scale.window, [this](std::size_t start, std::size_t end) { return RunsAlong(start, end); }) ||
            FindFrom(std::min(m_Scale.window, kThinWindow * m_Scale.voxel), [this](std::size_t start, std::size_t end) {
-             return RunsAlong(start, end) && Growth(start, end) <= kThinGrowth * Way(start, end);
+             return RunsAlong(start, end) && Growth(start, end) <= kThinGrowth * Way(start, end) &&
+                    !IsBulge(start, end);
            });
   }
 
@@ -131,6 +136,12 @@ private:
     return greatest;
   }
 
+  bool
+  IsBulge(std::size_t from, std::size_t to) const
+  {
+    return Growth(from, to) < -kBulge * Way(from, to);
+  }
+
   double
   FallsBehind(std::size_t start, std::size_t end) const
   {
@@ -158,7 +169,8 @@ private:
         ++end;
       }
       const double way = Way(start, end);
-      const bool   isShort = Way(0, end) < 3 * window && FallsBehind(start, end) >= kRunsAlongTheMiddle * window;
+      const bool   isShort =
+        Way(0, end) < 3 * window && FallsBehind(start, end) >= kRunsAlongTheMiddle * window && !IsBulge(start, end);
       if ((way >= window || (2 * way >= window && isShort)) && holds(start, end))
       {
         CapCentre(start, window);
