@@ -29,16 +29,16 @@ constexpr double kQuarticFrom = 3;
 // Rough walls break what is thinner than so many windows.
 constexpr double kQuarticRadius = 0.25;
 
-// Points of lines in smooth bodies are off their fits by so many voxels, root mean square, at most; those of thin
-// bodies with rough walls by more, as these move the lines to and fro over longer ways than windows even out. By each
-// voxel more windows are so many times wider, where such fits foretell points that are left out better. Points along
-// a line are as independent as one in so many voxels.
+// Points of such lines are off their fits by so many voxels at most, root mean square, in smooth bodies; in thin bodies
+// with rough walls by more, as these move the lines to and fro over longer ways than windows even out. By each voxel
+// more windows are so many times wider, where such fits foretell points that are left out better. Points along a line
+// are as independent as one in so many voxels.
 constexpr double kZigzag = 0.24;
 constexpr double kWindowsOff = 20;
 constexpr double kMostWindows = 3.5;
 constexpr double kIndependent = 2.5;
 
-// Points may move by a voxel's half, or where that is more by so many times the middle one of all their moves.
+// With wider windows points may move by so many times the middle one of all their moves, if that is more.
 constexpr double kReachInMiddle = 3;
 
 // Nodes stay where they are, so a curve near one must heed it more than it heeds another point.
@@ -123,13 +123,19 @@ public:
       meanWidth += WidthAt(i) / static_cast<double>(last + 1);
       meanRadius += line.radius[i] / static_cast<double>(last + 1);
     }
-    m_IsLong = m_Way[last] >= kQuarticFrom * meanWidth && meanRadius >= kQuarticRadius * window;
+    m_IsQuartic = m_Way[last] >= kQuarticFrom * meanWidth && meanRadius >= kQuarticRadius * window;
   }
 
   double
   Length() const
   {
     return m_Way.back();
+  }
+
+  bool
+  IsQuartic() const
+  {
+    return m_IsQuartic;
   }
 
   double
@@ -148,7 +154,7 @@ public:
     for (std::size_t i = First(); i < last; ++i)
     {
       double leverage = 1;
-      if (SumsAround(i, HalfAt(i, windows)).Value(m_IsLong ? 4 : 2, fit.places[i], leverage))
+      if (SumsAround(i, HalfAt(i, windows)).Value(m_IsQuartic ? 4 : 2, fit.places[i], leverage))
       {
         const Vector3 off = Minus(fit.places[i], m_Line.points[i]);
         fit.squares += Dot(off, off);
@@ -208,7 +214,7 @@ private:
   double
   HalfAt(std::size_t i, double windows) const
   {
-    const double half = windows * (m_IsLong ? kQuarticWindows : 1) * WidthAt(i);
+    const double half = windows * (m_IsQuartic ? kQuarticWindows : 1) * WidthAt(i);
     return m_Line.isLoop ? std::min(half, 0.5 * Length()) : half;
   }
 
@@ -252,7 +258,7 @@ private:
   const MedialLine &  m_Line;
   const double        m_Window;
   std::vector<double> m_Way;
-  bool                m_IsLong = false;
+  bool                m_IsQuartic = false;
 };
 
 /** The side of the cube with a voxel's volume. */
@@ -334,7 +340,8 @@ FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelR
   const double        voxel = VoxelSide(reach);
   LineFit             best = smoothing.Fit(1);
   const double        off = std::sqrt(best.squares / static_cast<double>(line.Last())) / voxel;
-  double              windows = std::clamp(1 + kWindowsOff * (off - kZigzag), 1.0, kMostWindows);
+  double windows = smoothing.IsQuartic() ? std::clamp(1 + kWindowsOff * (off - kZigzag), 1.0, kMostWindows) : 1;
+  double times = 1;
   if (windows > 1)
   {
     LineFit      wider = smoothing.Fit(windows);
@@ -342,6 +349,7 @@ FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelR
     if (ExpectedError(wider, perPoint) < ExpectedError(best, perPoint))
     {
       best = std::move(wider);
+      times = std::max(times, kReachInMiddle * MiddleOff(line, reach, best.places));
     }
     else
     {
@@ -349,7 +357,7 @@ FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelR
     }
   }
   std::vector<Vector3> & to = best.places;
-  smoothing.KeepNear(reach, std::max(1.0, kReachInMiddle * MiddleOff(line, reach, to)), windows, to);
+  smoothing.KeepNear(reach, times, windows, to);
   if (!line.isLoop)
   {
     KeepBefore(0, line, window, to);
