@@ -29,17 +29,18 @@ constexpr double kQuarticFrom = 3;
 // Rough walls break what is thinner than so many windows.
 constexpr double kQuarticRadius = 0.25;
 
-// Points of such lines are off their fits by so many voxels at most, root mean square, in smooth bodies; in thin bodies
-// with rough walls by more, as these move the lines to and fro over longer ways than windows even out. By each voxel
-// more windows are so many times wider, where such fits foretell points that are left out better. Points along a line
-// are as independent as one in so many voxels.
+// Points of lines as long, whose radius is more than so many windows, are off their fits by so many voxels at most,
+// root mean square, where walls are smooth; in thin bodies with rough walls by more, as these move the lines to and fro
+// over longer ways than windows even out. By each voxel more windows are so many times wider, where such fits foretell
+// points that are left out better. Points along a line are as independent as one in so many voxels.
+constexpr double kRoughRadius = 0.185;
 constexpr double kZigzag = 0.24;
 constexpr double kWindowsOff = 20;
 constexpr double kMostWindows = 3.5;
 constexpr double kIndependent = 2.5;
 
 // With wider windows points may move by so many times the middle one of all their moves, if that is more.
-constexpr double kReachInMiddle = 3;
+constexpr double kReachInMiddle = 2.5;
 
 // Nodes stay where they are, so a curve near one must heed it more than it heeds another point.
 constexpr double kNodeWeight = 4;
@@ -123,7 +124,9 @@ public:
       meanWidth += WidthAt(i) / static_cast<double>(last + 1);
       meanRadius += line.radius[i] / static_cast<double>(last + 1);
     }
-    m_IsQuartic = m_Way[last] >= kQuarticFrom * meanWidth && meanRadius >= kQuarticRadius * window;
+    const bool isLong = m_Way[last] >= kQuarticFrom * meanWidth;
+    m_IsQuartic = isLong && meanRadius >= kQuarticRadius * window;
+    m_MayWiden = isLong && meanRadius >= kRoughRadius * window;
   }
 
   double
@@ -133,9 +136,9 @@ public:
   }
 
   bool
-  IsQuartic() const
+  MayWiden() const
   {
-    return m_IsQuartic;
+    return m_MayWiden;
   }
 
   double
@@ -259,6 +262,7 @@ private:
   const double        m_Window;
   std::vector<double> m_Way;
   bool                m_IsQuartic = false;
+  bool                m_MayWiden = false;
 };
 
 /** The side of the cube with a voxel's volume. */
@@ -340,7 +344,7 @@ FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelR
   const double        voxel = VoxelSide(reach);
   LineFit             best = smoothing.Fit(1);
   const double        off = std::sqrt(best.squares / static_cast<double>(line.Last())) / voxel;
-  double windows = smoothing.IsQuartic() ? std::clamp(1 + kWindowsOff * (off - kZigzag), 1.0, kMostWindows) : 1;
+  double windows = smoothing.MayWiden() ? std::clamp(1 + kWindowsOff * (off - kZigzag), 1.0, kMostWindows) : 1;
   double times = 1;
   if (windows > 1)
   {

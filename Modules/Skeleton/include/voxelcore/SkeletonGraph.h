@@ -88,9 +88,11 @@ using VoxelReach = std::array<std::array<double, 3>, 3>;
  *  branch best around it, but no further than `reach` from the branch as it lies on the medial surface. In branches
  *  of at least three windows, whose mean radius is at least a quarter of one, it is of the fourth degree and over
  *  2.5 times `window` mm before and behind the point; in others it is a parabola over `window`. Where the radius is
- *  more than the window, that grows by three times the difference, and the reach in proportion. Nodes stay, and no
- *  curve turns back at one. A window of 0 puts the points back on the medial surface. Curved lines keep their
- *  length to second order, where averaging would shorten them. */
+ *  more than the window, that grows by three times the difference, and the reach in proportion. Branches of three
+ *  windows, thicker than two voxels, whose points are far off their fit, as rough walls make them, have windows up to
+ *  3.5 times as wide where cross-validation speaks for that. Their points may move by 2.5 times the median of all moves
+ *  where that is more than the reach. Nodes stay, and no curve turns back at one. A window of 0 puts the points back on
+ *  the medial surface. Curved lines keep their length to second order, where averaging would shorten them. */
 void
 FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach);
 
