@@ -1,5 +1,6 @@
 // Which branches a body has at which threshold: bodies of tubes at random, thin stubs on thick stems.
 
+#include "CurveBranches.h"
 #include "TubeShapes.h"
 #include "VoxelCoreTesting/Random.h"
 
@@ -287,6 +288,49 @@ TEST(BranchesByThreshold, TheShortEndOfAThinTubeBehindAFork)
 {
   EXPECT_GE(ShortEndsFound(5, 1.6, 1), 90);
   EXPECT_GE(ShortEndsFound(6, 1.3, 2), 90);
+}
+
+/** How many branches stand out of a stem of radius 5 and a short side of it, whose radius goes evenly from one to the
+ *  other. Lengths in voxels. */
+std::size_t
+BranchesBesideAStem(double radiusAtEnd, double radiusAtStem)
+{
+  constexpr ElementIndex half = 40;
+  constexpr ElementIndex side = 7;
+  MedialComplex          curve;
+  const auto             add = [&](const Spacing3 & place, double radius, ElementIndex joined) {
+    const auto vertex = static_cast<ElementIndex>(curve.positions.size());
+    curve.positions.push_back(place);
+    curve.radius.push_back(radius);
+    if (vertex > 0)
+    {
+      curve.cells.edges.push_back({ joined, vertex });
+    }
+  };
+  for (ElementIndex i = 0; i <= 2 * half; ++i)
+  {
+    add({ static_cast<double>(i), 0, 0 }, 5, i - 1);
+  }
+  for (ElementIndex i = 1; i <= side; ++i)
+  {
+    const double t = static_cast<double>(i - 1) / (side - 1);
+    add({ half, static_cast<double>(i), 0 },
+        radiusAtStem + t * (radiusAtEnd - radiusAtStem),
+        i == 1 ? half : 2 * half + i - 1);
+  }
+  curve.cells.vertexCount = static_cast<ElementIndex>(curve.positions.size());
+  const LiveElements live{ std::vector<std::uint8_t>(curve.positions.size(), 1),
+                           std::vector<std::uint8_t>(curve.cells.edges.size(), 1),
+                           {} };
+  const CurveFire    fire = BurnCurves(curve, live, curve.radius, 8);
+  return StandingBranches(curve, fire, curve.radius, { 8, 1 }, 3).size();
+}
+
+TEST(BranchesByThreshold, OfShortOnesNoneIsWiderAtItsEndThanWhereItLeaves)
+{
+  EXPECT_EQ(BranchesBesideAStem(4, 4), 3U);
+  EXPECT_EQ(BranchesBesideAStem(4, 4.5), 3U);
+  EXPECT_EQ(BranchesBesideAStem(4.8, 3.6), 2U);
 }
 
 } // namespace
