@@ -79,6 +79,21 @@ Rod(const Spacing3 & spacing, double thick, double radius)
   return body;
 }
 
+/** The same without the voxels, in another body. */
+void
+AddLine(Body & body, const Vector3 & aside, const std::function<double(int)> & radius)
+{
+  for (int i = -15; i <= 15; ++i)
+  {
+    body.AddBall(AddScaled(aside, i, kAlong), radius(i));
+    if (i > -15)
+    {
+      const auto last = static_cast<ElementIndex>(body.balls.Count() - 1);
+      body.cells.edges.push_back({ last - 1, last });
+    }
+  }
+}
+
 /** A disc of triangles 1.5 mm apart, as far off the middle of a disc that is flat at its rim. */
 Body
 Disc(const Spacing3 & spacing, double half, double radius, double off)
@@ -142,12 +157,12 @@ TEST(FittedBalls, OneBallHoldsWhatItsVoxelsDo)
 {
   for (const Spacing3 & spacing : kSpacings)
   {
-    for (const double radius : { 3.0, 6.0, 10.0 })
+    for (const double radius : { 2.0, 3.0, 6.0, 10.0 })
     {
       for (const double off : { -1.0, 0.0, 0.5 })
       {
         Body body(spacing, [&](const Vector3 & p) { return Length(p) < radius; });
-        body.AddBall({ 0, 0, 0 }, radius + off);
+        body.AddBall({ 0.3, 0, off / 2 }, radius + off);
         body.Fit();
         const double volume =
           static_cast<double>(body.shape.CountVoxels()) * body.sides[0] * body.sides[1] * body.sides[2];
@@ -171,6 +186,75 @@ TEST(FittedBalls, RodsGetTheirThicknessAndTheirEndsHaveNoSay)
       {
         EXPECT_NEAR(radius, 3.2, 0.1) << spacing[2] << ' ' << off;
       }
+    }
+  }
+}
+
+TEST(FittedBalls, ThinRodsGetTheirThicknessThoughTheirBallsAreUneven)
+{
+  for (const Spacing3 & spacing : kSpacings)
+  {
+    const double thick = 0.6 * (spacing[2] + spacing[0]);
+    Body         body(spacing, [&](const Vector3 & p) {
+      const double along = Dot(p, kAlong);
+      return std::abs(along) < 16 && Length(AddScaled(p, -along, kAlong)) < thick;
+    });
+    AddLine(body, { 0, 0, 0 }, [&](int i) { return thick - 0.3 + (i % 4 < 2 ? 0.2 : -0.2) * spacing[2]; });
+    body.Fit();
+    for (const double radius : body.balls.radius)
+    {
+      EXPECT_NEAR(radius, thick, 0.16 * spacing[2]) << spacing[2];
+    }
+  }
+}
+
+TEST(FittedBalls, RodsBesideEachOtherKeepTheirOwnThickness)
+{
+  const std::array<double, 2> thick{ 2, 3.5 };
+  for (const Spacing3 & spacing : kSpacings)
+  {
+    const auto aside = [&](std::size_t which) { return AddScaled({ 0, 0, 0 }, which == 0 ? 4 : -4, kAcross); };
+    Body       body(spacing, [&](const Vector3 & p) {
+      const double along = Dot(p, kAlong);
+      const auto   away = AddScaled(p, -along, kAlong);
+      return std::abs(along) < 16 && (Distance(away, aside(0)) < thick[0] || Distance(away, aside(1)) < thick[1]);
+    });
+    AddLine(body, aside(0), [](int) { return 2.8; });
+    AddLine(body, aside(1), [](int) { return 2.8; });
+    body.Fit();
+    for (std::size_t i = 0; i < body.balls.Count(); ++i)
+    {
+      EXPECT_NEAR(body.balls.radius[i], thick[i < 31 ? 0 : 1], 0.15) << spacing[2] << ' ' << i;
+    }
+  }
+}
+
+TEST(FittedBalls, LinesOnTheRimOfAWallAreAsThickAsTheWall)
+{
+  for (const Spacing3 & spacing : kSpacings)
+  {
+    Body       body = Disc(spacing, 3, 2.8, 0);
+    const auto count = static_cast<ElementIndex>(body.balls.Count());
+    const auto hang =
+      static_cast<ElementIndex>(std::max_element(body.balls.centres.begin(),
+                                                 body.balls.centres.end(),
+                                                 [&](const Vector3 & a, const Vector3 & b) {
+                                                   const auto out = [&](const Vector3 & p) {
+                                                     return Dot(Times(Minus(p, body.middle), body.sides), kAcross);
+                                                   };
+                                                   return out(a) < out(b);
+                                                 }) -
+                                body.balls.centres.begin());
+    for (ElementIndex i = 0; i < 2; ++i)
+    {
+      const Vector3 step = AddScaled({ 0, 0, 0 }, 12.2 + 0.2 * i, kAcross);
+      body.AddBall(step, 3.5);
+      body.cells.edges.push_back({ i == 0 ? hang : count + i - 1, count + i });
+    }
+    body.Fit();
+    for (std::size_t i = 0; i < body.balls.Count(); ++i)
+    {
+      EXPECT_NEAR(body.balls.radius[i], 3, 0.25) << spacing[2] << ' ' << i;
     }
   }
 }

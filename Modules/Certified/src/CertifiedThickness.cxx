@@ -10,6 +10,7 @@
 #include "voxelcore/StagePlan.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace voxelcore
@@ -19,8 +20,16 @@ namespace
 {
 
 // So far along a core as its noise is long; what rises as steeply as this is no noise but an edge or the way into one.
-constexpr int    kEvenings = 20;
-constexpr double kSlope = 0.4;
+constexpr std::int64_t kEvenings = 20; // of cubic voxels
+constexpr double       kSlope = 0.4;
+
+/** More in thick slices, whose terraces are longer; up to three times as many, as each takes its time. */
+int
+EveningsOf(const SpacingWeights & weights)
+{
+  const auto [shortest, longest] = std::minmax_element(weights.weight.begin(), weights.weight.end());
+  return static_cast<int>(std::min(3 * kEvenings, (kEvenings * *longest + *shortest - 1) / *shortest));
+}
 
 /** \throws CertificateError where a voxel has no thickness, or a bound contradicts another */
 void
@@ -122,7 +131,7 @@ ThicknessOf(const CertifiedCore &    core,
   StagePlan plan(progress, { refined ? 0.5 : 0.0, refined ? 0.5 : 0.0, bounds ? 4.0 : 0.0 });
   if (const ProgressCallback fitting = plan.Next("thickness"), painting = plan.Next("thickness"); refined)
   {
-    result.balls = EvenedBallsOfCore(core.core.core, kEvenings, kSlope);
+    result.balls = EvenedBallsOfCore(core.core.core, EveningsOf(weights), kSlope);
     result.balls.centres = places;
     FitBalls(result.shape, weights, core.core.core.cells, result.balls, fitting);
     result.owners = OwnersAmong(result.balls, result.shape, weights, painting);

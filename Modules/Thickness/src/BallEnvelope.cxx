@@ -111,6 +111,7 @@ BallEnvelope::Find(const Vector3 & given, std::size_t & likely) const
   }
   const Vector3 way = Minus(place, centre);
   const double  length = Length(way);
+  found.distance = length;
   found.way = length > 0 ? AddScaled({ 0, 0, 0 }, 1 / length, way) : way;
   return found;
 }

@@ -18,6 +18,7 @@ struct NearestBall
 {
   std::uint32_t vertex = 0;     ///< whose ball is the nearest of those about vertices
   double        gap = 0;        ///< to the ball's surface, below 0 inside
+  double        distance = 0;   ///< from the ball's centre
   Vector3       way{ 0, 0, 0 }; ///< unit length, from the ball's centre to the place; zero there
 };
 

@@ -1,6 +1,8 @@
 #include "voxelcore/FittedBalls.h"
 
 #include "BallEnvelope.h"
+#include "GrowthEquations.h"
+#include "RoundParts.h"
 
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
@@ -21,84 +23,21 @@ namespace
 
 constexpr std::int32_t kReach = 3; ///< cubes
 constexpr int          kStraightenings = 4;
-constexpr double       kRim = 1e-3;  ///< weight of squares at rims
-constexpr double       kStay = 1e-2; ///< what a move costs
-constexpr std::int32_t kLayers = 8;  ///< of voxels, that one thread looks through
-
-/** Normal equations of d = m . u + g, of four unknowns. */
-class Equations
-{
-public:
-  void
-  AddSquare(const Vector3 & way, double gap, double weight)
-  {
-    const std::array<double, 4> row{ way[0], way[1], way[2], 1 };
-    std::size_t                 at = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      m_Right[i] += weight * gap * row[i];
-      for (std::size_t j = 0; j <= i; ++j)
-      {
-        m_Left[at++] += weight * row[i] * row[j];
-      }
-    }
-  }
-  void
-  Add(const Equations & other, double part)
-  {
-    for (std::size_t i = 0; i < m_Left.size(); ++i)
-    {
-      m_Left[i] += part * other.m_Left[i];
-    }
-    for (std::size_t i = 0; i < m_Right.size(); ++i)
-    {
-      m_Right[i] += part * other.m_Right[i];
-    }
-  }
-  /** g, or 0 where the squares face each other's way. By elimination: with what a move costs, the matrix is positive
-   *  where weights are. */
-  double
-  Growth() const
-  {
-    const double                         area = m_Left[9];
-    std::array<std::array<double, 4>, 4> a{};
-    std::array<double, 4>                b = m_Right;
-    std::size_t                          at = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      for (std::size_t j = 0; j <= i; ++j)
-      {
-        a[i][j] = m_Left[at];
-        a[j][i] = m_Left[at++];
-      }
-      a[i][i] += i < 3 ? kStay * area : 0.0;
-    }
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      if (!(a[i][i] > 1e-6 * kStay * area))
-      {
-        return 0;
-      }
-      for (std::size_t j = i + 1; j < 4; ++j)
-      {
-        const double factor = a[j][i] / a[i][i];
-        for (std::size_t k = i; k < 4; ++k)
-        {
-          a[j][k] -= factor * a[i][k];
-        }
-        b[j] -= factor * b[i];
-      }
-    }
-    return b[3] / a[3][3];
-  }
-
-private:
-  std::array<double, 10> m_Left{}; ///< row by row up to the diagonal
-  std::array<double, 4>  m_Right{};
-};
+constexpr double       kRim = 1e-3;       ///< weight of squares at rims
+constexpr double       kPiece = 0.5;      ///< of a ball's radius: squares about it are cut into no larger pieces
+constexpr double       kLeastPiece = 0.2; ///< of the shortest side
+constexpr double       kNoise = 0.5;      ///< of the longest side: radii along a line that are alike
+constexpr std::int32_t kLayers = 8;       ///< of voxels, that one thread looks through
 
 using Cube = std::array<std::int32_t, 3>;
-using Cubes = std::map<Cube, Equations>;
+using Cubes = std::map<Cube, GrowthEquations>;
+
+/** What the squares tell. */
+struct Squares
+{
+  Cubes      cubes; ///< of balls of sheets
+  RoundParts round;
+};
 
 /** Whether balls at a vertex are round where a body may have edges: on edges with one face, ends of lines, points. */
 std::vector<std::uint8_t>
@@ -151,7 +90,9 @@ public:
   Fitter(const VoxelShape & shape, const SpacingWeights & weights, const CellComplex & cells, PaintingBalls & balls)
     : m_Shape(shape)
     , m_Balls(balls)
+    , m_Cells(cells)
     , m_Rims(FindRims(cells))
+    , m_Bends(FindBends(cells))
     , m_Envelope(cells, balls, weights)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -159,13 +100,20 @@ public:
       m_Sides[axis] = static_cast<double>(weights.weight[axis]) * weights.unit;
     }
     m_Longest = *std::max_element(m_Sides.begin(), m_Sides.end());
-    m_Cube = m_Longest + *std::min_element(m_Sides.begin(), m_Sides.end());
+    m_Shortest = *std::min_element(m_Sides.begin(), m_Sides.end());
+    m_Cube = m_Longest + m_Shortest;
+    m_Places.reserve(balls.Count());
+    for (const Vector3 & centre : balls.centres)
+    {
+      m_Places.push_back(Times(centre, m_Sides));
+    }
+    m_Ends = FindLineEnds(cells, m_Places, balls.radius);
   }
 
   void
   Fit(const ProgressCallback & progress)
   {
-    const Cubes            all = SumSquares();
+    const Squares          all = SumSquares();
     std::map<Cube, double> growths;
     std::vector<Cube>      cubeOf;
     ReportProgress(progress, "thickness", 0.8);
@@ -183,12 +131,16 @@ public:
     RunInParts(items.size() > 1000, items.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i)
       {
-        items[i]->second = GrowthAt(all, items[i]->first);
+        items[i]->second = GrowthAt(all.cubes, items[i]->first);
       }
     });
+    const std::vector<RoundRadius> round =
+      RoundRadii(m_Cells, m_Places, m_Balls.radius, all.round, { kReach * m_Cube, kNoise * m_Longest, m_Longest });
     for (std::size_t i = 0; i < m_Balls.Count(); ++i)
     {
-      const double growth = std::clamp(growths.at(cubeOf[i]), -m_Balls.radius[i] / 2, m_Longest);
+      const double around = round[i].before + growths.at(cubeOf[i]);
+      const double wanted = around + round[i].part * (round[i].after - around) - m_Balls.radius[i];
+      const double growth = std::clamp(wanted, -m_Balls.radius[i] / 2, m_Longest);
       m_Balls.radius[i] += growth;
       m_Balls.value[i] += growth;
     }
@@ -206,13 +158,13 @@ private:
     return cube;
   }
 
-  /** The equations of each cube's balls; of parts of the scan in their order, so that sums are always the same. */
-  Cubes
+  /** Of parts of the scan in their order, so that sums are always the same. */
+  Squares
   SumSquares() const
   {
-    const std::int32_t height = m_Shape.Box().size[2] + 1;
-    const auto         parts = static_cast<std::size_t>((height + kLayers - 1) / kLayers);
-    std::vector<Cubes> found(parts);
+    const std::int32_t   height = m_Shape.Box().size[2] + 1;
+    const auto           parts = static_cast<std::size_t>((height + kLayers - 1) / kLayers);
+    std::vector<Squares> found(parts);
     RunEach(parts, [&](std::size_t part) {
       const auto first = static_cast<std::int32_t>(part) * kLayers;
       for (std::int32_t z = first; z < std::min(first + kLayers, height); ++z)
@@ -220,20 +172,24 @@ private:
         AddLayer(z, found[part]);
       }
     });
-    Cubes all;
-    for (Cubes & part : found)
+    Squares all;
+    for (Squares & part : found)
     {
-      for (const auto & [cube, equations] : part)
+      for (const auto & [cube, equations] : part.cubes)
       {
-        all[cube].Add(equations, 1);
+        all.cubes[cube].Add(equations, 1);
       }
-      part.clear();
+      for (const auto & [vertex, sums] : part.round)
+      {
+        all.round[vertex].Add(sums, 1);
+      }
+      part = {};
     }
     return all;
   }
 
   void
-  AddLayer(std::int32_t z, Cubes & cubes) const
+  AddLayer(std::int32_t z, Squares & squares) const
   {
     std::size_t likely = 0;
     for (std::int32_t y = 0; y <= m_Shape.Box().size[1]; ++y)
@@ -246,7 +202,7 @@ private:
         for (; changes != 0; changes &= changes - 1)
         {
           const auto bit = static_cast<unsigned>(std::countr_zero(changes));
-          AddSquare(axis, { static_cast<std::int32_t>(64 * word + bit), y, z }, (in >> bit & 1U) != 0, likely, cubes);
+          AddSquare(axis, { static_cast<std::int32_t>(64 * word + bit), y, z }, (in >> bit & 1U) != 0, likely, squares);
         }
       };
       for (std::size_t word = 0; word < m_Shape.WordsPerRow(); ++word)
@@ -262,7 +218,7 @@ private:
 
   /** The square before a voxel along an axis; the voxel is in, or that before it is. */
   void
-  AddSquare(std::size_t axis, const Cube & voxel, bool isIn, std::size_t & likely, Cubes & cubes) const
+  AddSquare(std::size_t axis, const Cube & voxel, bool isIn, std::size_t & likely, Squares & squares) const
   {
     Vector3 middle{};
     for (std::size_t a = 0; a < 3; ++a)
@@ -270,16 +226,58 @@ private:
       middle[a] = m_Shape.Box().lower[a] + voxel[a] + (a == axis ? 0.0 : 0.5);
     }
     const NearestBall ball = m_Envelope.Find(middle, likely);
-    const double area = m_Sides[(axis + 1) % 3] * m_Sides[(axis + 2) % 3] * (m_Rims[ball.vertex] != 0 ? kRim : 1.0);
-    cubes[CubeOf(m_Balls.centres[ball.vertex])].AddSquare(ball.way,
-                                                          ball.gap,
-                                                          area * (isIn ? -ball.way[axis] : ball.way[axis]));
+    const double      area = (isIn ? -1 : 1) * m_Sides[(axis + 1) % 3] * m_Sides[(axis + 2) % 3];
+    squares.cubes[CubeOf(m_Balls.centres[ball.vertex])].AddSquare(ball.way,
+                                                                  ball.gap,
+                                                                  area * ball.way[axis] *
+                                                                    (IsSide(ball.vertex) ? 1.0 : kRim));
+    if (m_Bends[ball.vertex] != 0)
+    {
+      AddPieces(axis, middle, ball.distance, area, likely, squares.round);
+    }
+  }
+
+  bool
+  IsSide(ElementIndex vertex) const
+  {
+    return m_Bends[vertex] == 0 && m_Rims[vertex] == 0;
+  }
+
+  /** Ways change across squares as near as these. */
+  void
+  AddPieces(std::size_t     axis,
+            const Vector3 & middle,
+            double          distance,
+            double          area,
+            std::size_t &   likely,
+            RoundParts &    round) const
+  {
+    const std::size_t u = (axis + 1) % 3;
+    const std::size_t v = (axis + 2) % 3;
+    const double      piece = std::max(kPiece * distance, kLeastPiece * m_Shortest);
+    const auto        countU = static_cast<int>(std::ceil(m_Sides[u] / piece));
+    const auto        countV = static_cast<int>(std::ceil(m_Sides[v] / piece));
+    for (int i = 0; i < countU; ++i)
+    {
+      for (int j = 0; j < countV; ++j)
+      {
+        Vector3 place = middle;
+        place[u] += (i + 0.5) / countU - 0.5;
+        place[v] += (j + 0.5) / countV - 0.5;
+        const NearestBall ball = m_Envelope.Find(place, likely);
+        if (const int bends = m_Bends[ball.vertex]; bends != 0)
+        {
+          const double across = area / (countU * countV) * ball.way[axis] * (m_Ends[ball.vertex] != 0 ? kRim : 1.0);
+          round[ball.vertex].AddSquare(across, std::max(ball.distance, piece / 2), bends);
+        }
+      }
+    }
   }
 
   static double
   GrowthAt(const Cubes & all, const Cube & cube)
   {
-    Equations about;
+    GrowthEquations about;
     for (std::int32_t z = 1 - kReach; z < kReach; ++z)
     {
       for (std::int32_t y = 1 - kReach; y < kReach; ++y)
@@ -300,10 +298,15 @@ private:
 
   const VoxelShape &        m_Shape;
   PaintingBalls &           m_Balls;
+  const CellComplex &       m_Cells;
   std::vector<std::uint8_t> m_Rims;
+  std::vector<std::uint8_t> m_Bends;
+  std::vector<std::uint8_t> m_Ends;
+  std::vector<Vector3>      m_Places; ///< of centres, mm
   BallEnvelope              m_Envelope;
   Vector3                   m_Sides{}; ///< mm a lattice unit
   double                    m_Longest = 0;
+  double                    m_Shortest = 0;
   double                    m_Cube = 0; ///< side of a cube, mm
 };
 

@@ -12,23 +12,28 @@
 // fitted by least squares with weights w. Only radii change: a wall bent by smoothing towards one side has too much
 // there and too little on the other, and is no thicker for that, though its outer side is the longer one.
 //
+// That is for sheets. About lines and single vertices squares are large beside the balls, and d is no longer small. So
+// their radii are told by how much the voxels hold, and not by the balls (RoundParts.h), over pieces of squares.
+//
 // The core of a wall of one to three voxels goes up and down with its voxels, and the balls of such a core would fill
 // more than the wall has. So centres are averaged with those of their neighbours for this, four times.
 //
 // What balls never hold must not count: at the free border of a sheet and at the end of a line they are round where
 // the body may have edges. Squares there have a thousandth of their weight, so that they count where there are no
-// others.
+// others. So have those about lines for sheets: a line that hangs on a sheet lies along its rim. Nor is such a line
+// a tube as long as it lies within the balls of the sheet: there it has their radius, and grows with them.
 
 #include "voxelcore/CoreThickness.h"
 
 namespace voxelcore
 {
 
-/** Adds the growth g to the radii of a core's balls and to what they paint. Fitted over the squares whose balls lie
- *  about a cube, the side of which is a voxel's longest and shortest side together, with weights that fall to nothing
- *  at a distance of three cubes; u costs a little, so that one-sided squares grow balls. No radius shrinks by more than
- *  half, or grows by more than the longest side. Centres stay. The core's faces are triangles, its balls centred in
- *  lattice coordinates. The same for every number of threads. \throws Cancelled */
+/** Adds the growth g to the radii of a core's balls and to what they paint. Of sheets it is fitted over the squares
+ *  whose balls lie about a cube, the side of which is a voxel's longest and shortest side together, with weights that
+ *  fall to nothing at a distance of three cubes; u costs a little, so that one-sided squares grow balls. Lines are
+ *  fitted as far along themselves. No radius shrinks by more than half, or grows by more than the longest side. Centres
+ *  stay. The core's faces are triangles, its balls centred in lattice coordinates. The same for every number of
+ *  threads. \throws Cancelled */
 void
 FitBalls(const VoxelShape &       shape,
          const SpacingWeights &   weights,
