@@ -56,7 +56,7 @@ TellNoisyLabels(const CoreReport & report, std::vector<std::string> & warnings)
       (count > named ? "; and those of " + std::to_string(count - named) + " more labels" : std::string()) +
       "; unless they are real, remove them with --mend-shape --smooth-shape" +
       (hasSpecks ? " --min-voxels " + std::to_string(kSpeckVoxels) : std::string()) +
-      "; where nothing thinner than two voxels is needed, with --denoise for --smooth-shape");
+      "; where nothing thinner than two voxels is needed, give --denoise in place of --smooth-shape");
   }
 }
 

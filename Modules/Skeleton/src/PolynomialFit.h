@@ -78,11 +78,6 @@ struct PolynomialFit
     {
       leverage += own[k] * own[k];
     }
-    leverage = 0;
-    for (std::size_t k = 0; k < terms; ++k)
-    {
-      leverage += own[k] * own[k];
-    }
     for (std::size_t k = terms; k-- > 0;)
     {
       for (std::size_t j = k + 1; j < terms; ++j)
