@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace voxelcore
 {
@@ -138,13 +137,15 @@ CentreBuckets::CentreBuckets(const DelaunayCells &             cells,
   {
     return;
   }
-  const auto [lowX, highX] = std::ranges::minmax(points | std::views::transform(&LatticePoint::x));
-  const auto [lowY, highY] = std::ranges::minmax(points | std::views::transform(&LatticePoint::y));
+  const auto isLeft = [](const LatticePoint & a, const LatticePoint & b) { return a.x < b.x; };
+  const auto isBefore = [](const LatticePoint & a, const LatticePoint & b) { return a.y < b.y; };
+  const auto [lowX, highX] = std::minmax_element(points.begin(), points.end(), isLeft);
+  const auto [lowY, highY] = std::minmax_element(points.begin(), points.end(), isBefore);
   // A slab more before the first: what rounds to its whole x may lie below.
-  m_LowX = lowX - 1.0;
-  m_LowY = lowY;
-  m_Slabs = static_cast<std::size_t>(highX - m_LowX) + 1;
-  const double length = static_cast<double>(highY) - m_LowY;
+  m_LowX = lowX->x - 1.0;
+  m_LowY = lowY->y;
+  m_Slabs = static_cast<std::size_t>(highX->x - m_LowX) + 1;
+  const double length = static_cast<double>(highY->y) - m_LowY;
   const auto   steps = static_cast<std::size_t>(2.0 * length) + 1;
   m_Rows = std::clamp<std::size_t>(count / (4 * m_Slabs), 1, steps);
   m_ScaleY = length > 0.0 ? static_cast<double>(m_Rows) / length : 0.0;
