@@ -148,11 +148,10 @@ BurnToCurves(const MedialComplex &    core,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
              const ProgressCallback & progress,
-             const BurnPlan &         plan)
+             CurveOptions             curves)
 {
   RequireLengthsIn(shape.geometry.unit, request);
   const Vector3 & spacing = shape.geometry.spacing;
-  CurveOptions    curves;
   curves.branchThreshold = StandOutOn(shape, request);
   if (request.plates)
   {
@@ -161,10 +160,6 @@ BurnToCurves(const MedialComplex &    core,
   curves.sampling = 1.5 * *std::min_element(spacing.begin(), spacing.end());
   curves.geometry = shape.geometry;
   curves.voxel = VoxelSide(spacing);
-  curves.spent = plan.spent;
-  curves.givesBack = plan.givesBack;
-  curves.positionsAgain = plan.positionsAgain;
-  curves.beside = plan.beside;
   BurnedCurves burned;
   burned.curves = ComputeCurveSkeleton(core, part, curves, progress);
   burned.topology = ComputeComplexTopology(burned.curves.complex.cells);

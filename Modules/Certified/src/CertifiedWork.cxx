@@ -284,27 +284,27 @@ private:
 
   /** What can be made again, or is asked for no more, makes room for the fire. */
   BurnedCurves
-  BurnAndGiveBack(const MedialComplex & core, BurnPlan plan)
+  BurnAndGiveBack(const MedialComplex & core, CurveOptions curves)
   {
     const ImageGeometry & geometry = m_Result.shape.geometry;
     RefinementParts &     kept = m_Whole.kept;
     if (Refines(m_Request))
     {
-      plan.positionsAgain = [&] {
+      curves.positionsAgain = [&] {
         MedialComplex places;
         places.positions = kept.core.positions;
         return PlaceInLps(std::move(places), geometry).positions;
       };
       std::vector<LatticePoint>().swap(kept.boundary);
     }
-    ShelvedTolerances tolerances(std::exchange(plan.spent->tolerances, {}), LowestHeight(m_Request, geometry));
-    BurnedCurves      curves = BurnToCurves(core, nullptr, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), plan);
-    plan.spent->tolerances = std::move(tolerances).Take();
+    ShelvedTolerances tolerances(std::exchange(curves.spent->tolerances, {}), LowestHeight(m_Request, geometry));
+    BurnedCurves      burned = BurnToCurves(core, nullptr, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), curves);
+    curves.spent->tolerances = std::move(tolerances).Take();
     if (Refines(m_Request))
     {
       kept.boundary = BoundaryVertices(m_Voxels);
     }
-    return curves;
+    return burned;
   }
 
   void
@@ -320,9 +320,12 @@ private:
         m_Whole.topology = RequireTopologyOf(cells, m_Result.shape);
       }
     };
-    const BurnPlan plan{ spent, givesBack, {}, beside };
-    m_Curves = givesBack ? BurnAndGiveBack(core, plan)
-                         : BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), plan);
+    CurveOptions curves;
+    curves.spent = spent;
+    curves.givesBack = givesBack;
+    curves.beside = beside;
+    m_Curves = givesBack ? BurnAndGiveBack(core, curves)
+                         : BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), curves);
     if (!m_Whole.topology)
     {
       RefuseResult(m_Request.name, "its core was not counted");

@@ -3,10 +3,6 @@
 
 #include "voxelcore/CertifiedSkeleton.h"
 #include "voxelcore/CurveSkeleton.h"
-#include "voxelcore/Vectors.h"
-
-#include <functional>
-#include <vector>
 
 namespace voxelcore
 {
@@ -23,16 +19,8 @@ struct BurnedCurves
 LiveElements
 PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request);
 
-/** What of CurveOptions does not change the curves. */
-struct BurnPlan
-{
-  MedialComplex *                          spent = nullptr; ///< the core, or null
-  bool                                     givesBack = false;
-  std::function<std::vector<Vector3>()>    positionsAgain;
-  std::function<void(const CellComplex &)> beside;
-};
-
-/** Of a part of the core, in the fire of all of it, unless that is null.
+/** Of a part of the core, in the fire of all of it, unless that is null. Of `curves` what is spent, and what is done
+ *  beside, is the caller's; lengths come from the shape and the request.
  *  \throws CertificateError when the curves do not have the shape's topology; Cancelled */
 BurnedCurves
 BurnToCurves(const MedialComplex &    core,
@@ -40,7 +28,7 @@ BurnToCurves(const MedialComplex &    core,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
              const ProgressCallback & progress,
-             const BurnPlan &         plan = {});
+             CurveOptions             curves = {});
 
 /** Branches, and how wide the body in `voxels` is around them. \throws CertificateError when they do not have the
  *  topology of the curves. */

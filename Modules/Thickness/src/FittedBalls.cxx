@@ -107,7 +107,7 @@ public:
     {
       m_Places.push_back(Times(centre, m_Sides));
     }
-    m_Ends = FindLineEnds(cells, m_Places, balls.radius);
+    m_Ends = FindLineEnds(cells, m_Bends, m_Places, balls.radius);
   }
 
   void
@@ -134,8 +134,12 @@ public:
         items[i]->second = GrowthAt(all.cubes, items[i]->first);
       }
     });
-    const std::vector<RoundRadius> round =
-      RoundRadii(m_Cells, m_Places, m_Balls.radius, all.round, { kReach * m_Cube, kNoise * m_Longest, m_Longest });
+    const std::vector<RoundRadius> round = RoundRadii(m_Cells,
+                                                      m_Bends,
+                                                      m_Places,
+                                                      m_Balls.radius,
+                                                      all.round,
+                                                      { kReach * m_Cube, kNoise * m_Longest, m_Longest });
     for (std::size_t i = 0; i < m_Balls.Count(); ++i)
     {
       const double around = round[i].before + growths.at(cubeOf[i]);

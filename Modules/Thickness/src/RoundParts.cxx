@@ -51,11 +51,13 @@ WaysAlongLines(const CellComplex & cells, const std::vector<std::uint8_t> & bend
 } // namespace
 
 std::vector<std::uint8_t>
-FindLineEnds(const CellComplex & cells, const std::vector<Vector3> & places, const std::vector<double> & radii)
+FindLineEnds(const CellComplex &               cells,
+             const std::vector<std::uint8_t> & bends,
+             const std::vector<Vector3> &      places,
+             const std::vector<double> &       radii)
 {
-  const std::vector<std::uint8_t> bends = FindBends(cells);
-  const Ways                      next = WaysAlongLines(cells, bends);
-  std::vector<std::uint8_t>       ends(cells.vertexCount, 0);
+  const Ways                next = WaysAlongLines(cells, bends);
+  std::vector<std::uint8_t> ends(cells.vertexCount, 0);
   for (std::size_t vertex = 0; vertex < ends.size(); ++vertex)
   {
     ends[vertex] = bends[vertex] == 2 ? 1 : 0;
@@ -85,13 +87,14 @@ namespace
 class RoundFitter
 {
 public:
-  RoundFitter(const CellComplex &          cells,
-              const std::vector<Vector3> & places,
-              const std::vector<double> &  radii,
-              const RoundParts &           sums,
-              const RoundLimits &          limits)
-    : m_Bends(FindBends(cells))
-    , m_Next(WaysAlongLines(cells, m_Bends))
+  RoundFitter(const CellComplex &               cells,
+              const std::vector<std::uint8_t> & bends,
+              const std::vector<Vector3> &      places,
+              const std::vector<double> &       radii,
+              const RoundParts &                sums,
+              const RoundLimits &               limits)
+    : m_Bends(bends)
+    , m_Next(WaysAlongLines(cells, bends))
     , m_Places(places)
     , m_Radii(radii)
     , m_Sums(sums)
@@ -193,24 +196,25 @@ private:
     }
   }
 
-  std::vector<std::uint8_t>    m_Bends;
-  Ways                         m_Next;
-  const std::vector<Vector3> & m_Places;
-  const std::vector<double> &  m_Radii;
-  const RoundParts &           m_Sums;
-  const RoundLimits &          m_Limits;
+  const std::vector<std::uint8_t> & m_Bends;
+  Ways                              m_Next;
+  const std::vector<Vector3> &      m_Places;
+  const std::vector<double> &       m_Radii;
+  const RoundParts &                m_Sums;
+  const RoundLimits &               m_Limits;
 };
 
 } // namespace
 
 std::vector<RoundRadius>
-RoundRadii(const CellComplex &          cells,
-           const std::vector<Vector3> & places,
-           const std::vector<double> &  radii,
-           const RoundParts &           sums,
-           const RoundLimits &          limits)
+RoundRadii(const CellComplex &               cells,
+           const std::vector<std::uint8_t> & bends,
+           const std::vector<Vector3> &      places,
+           const std::vector<double> &       radii,
+           const RoundParts &                sums,
+           const RoundLimits &               limits)
 {
-  const RoundFitter        fitter(cells, places, radii, sums, limits);
+  const RoundFitter        fitter(cells, bends, places, radii, sums, limits);
   std::vector<RoundRadius> found(radii.size());
   RunInParts(found.size() > 1000, found.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t vertex = first; vertex < last; ++vertex)

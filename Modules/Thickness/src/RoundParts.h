@@ -23,7 +23,10 @@ FindBends(const CellComplex & cells);
 /** Flags of vertices beyond which a line does not go on though the body may: its ends, and points. Not those of spurs,
  *  which end within the balls of what they leave. Places and radii in mm. */
 std::vector<std::uint8_t>
-FindLineEnds(const CellComplex & cells, const std::vector<Vector3> & places, const std::vector<double> & radii);
+FindLineEnds(const CellComplex &               cells,
+             const std::vector<std::uint8_t> & bends,
+             const std::vector<Vector3> &      places,
+             const std::vector<double> &       radii);
 
 /** Over squares about a vertex, mm. */
 struct RoundSums
@@ -67,10 +70,11 @@ struct RoundRadius
 
 /** Per vertex; places and radii are the balls', mm. */
 std::vector<RoundRadius>
-RoundRadii(const CellComplex &          cells,
-           const std::vector<Vector3> & places,
-           const std::vector<double> &  radii,
-           const RoundParts &           sums,
-           const RoundLimits &          limits);
+RoundRadii(const CellComplex &               cells,
+           const std::vector<std::uint8_t> & bends,
+           const std::vector<Vector3> &      places,
+           const std::vector<double> &       radii,
+           const RoundParts &                sums,
+           const RoundLimits &               limits);
 
 } // namespace voxelcore
