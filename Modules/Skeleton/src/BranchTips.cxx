@@ -15,9 +15,10 @@ namespace voxelcore
 namespace
 {
 
-// The ends of balls may be off by so much: steps of the grid, and bumps on the cap.
+// The ends of balls may be off by so much: steps of the grid, and bumps on the cap. On thick rough tubes curves were
+// found to end up to half a radius short.
 constexpr double kMostDiagonals = 2;
-constexpr double kMostRadii = 0.3;
+constexpr double kMostRadii = 0.6;
 
 // A branch thinner than this part of a body leaves it as it is. One whose radius differs by no more than this part of
 // the body's is the body itself, going on.
@@ -91,12 +92,14 @@ public:
     {
       return std::nullopt;
     }
-    move.tip = LatticeToPhysical(m_Geometry, Over(*place, m_Geometry.spacing));
+    const Vector3 tip = Over(*place, m_Geometry.spacing);
+    move.tip = LatticeToPhysical(m_Geometry, tip);
     const double by = Distance(move.tip, m_Graph.positions[move.points[0]]);
     move.reach = std::max(radius, 2 * by) + m_Diagonal;
     line.way.resize(move.points.size());
     move.way = std::move(line.way);
-    return by <= kMostDiagonals * m_Diagonal + kMostRadii * radius ? std::optional(std::move(move)) : std::nullopt;
+    const bool isEnd = by <= kMostDiagonals * m_Diagonal + kMostRadii * radius && ContainsInside(m_Shape, tip);
+    return isEnd ? std::optional(std::move(move)) : std::nullopt;
   }
 
 private:

@@ -35,6 +35,12 @@ constexpr double kSlopePrior = 9;
 // The tube is measured up to so many voxels below where its cap begins.
 constexpr double kBelowCap = 0.5;
 
+// Of a stub on a thick stem there is no tube to be measured: its balls tell how thick it is, if so much of its cap is
+// free. Of thinner ones than so many voxels they do not tell it well.
+constexpr double kFreeCap = 0.6;
+constexpr double kStubRadius = 1.8;
+constexpr double kStubInVoxels = 1.5;
+
 constexpr double kPointed = 0.3; ///< growth of the radius along the way, from which on an end is no tube's
 
 /** Least squares of values over one variable. */
@@ -110,23 +116,25 @@ public:
     , m_Deep(std::max(radius, m_Voxel) + 0.5 * m_Voxel)
     , m_Total(std::min(free, m_Deep + std::max(kSlabInRadii * radius, kSlabInVoxels * m_Voxel)))
     , m_Skip(std::min(radius, 0.4 * m_Total))
+    , m_IsStub(m_Total - m_Deep < std::max(m_Radius, 2 * m_Voxel))
   {}
 
   std::optional<Vector3>
   Find()
   {
-    if (m_Total - m_Deep < std::max(m_Radius, 2 * m_Voxel) || !PlaceAxis() || !TakeSamples())
+    if ((m_IsStub && (m_Total < kFreeCap * m_Deep || m_Radius < kStubRadius * m_Voxel)) || !PlaceAxis() ||
+        !TakeSamples())
     {
       return std::nullopt;
     }
-    const auto height = Height();
+    const auto height = m_IsStub ? HeightOfStub() : Height();
     if (!height)
     {
       return std::nullopt;
     }
     // The body's own axis: that of the samples.
     PlaceRegression axis;
-    const double    from = m_Skip - m_Deep - 2 * std::max(m_Radius, 3 * m_Voxel);
+    const double    from = m_IsStub ? m_Skip - m_Total : m_Skip - m_Deep - 2 * std::max(m_Radius, 3 * m_Voxel);
     for (const Sample & sample : m_Samples)
     {
       if (sample.height > from)
@@ -308,6 +316,49 @@ private:
     return top > deep ? HeightAbove(top, bottom) : first;
   }
 
+  /** The same of a tube as thick as its balls, and then as what was found to lie below its cap. */
+  std::optional<double>
+  HeightOfStub() const
+  {
+    const double top = m_Skip - std::min(m_Deep, m_Total);
+    const double content = VolumeAbove(top);
+    const auto   radiusUpTo = [&](double height) {
+      return std::sqrt((content - VolumeAbove(height)) / (std::numbers::pi * (height - top)));
+    };
+    if (radiusUpTo(top + m_Voxel) > kRound * m_Radius + 0.25 * m_Voxel)
+    {
+      return std::nullopt;
+    }
+    const double first = HeightOfCap(top, content, [&](double) { return m_Radius; });
+    const double tube = first - kBelowCap * m_Voxel;
+    if (tube - top < kStubInVoxels * m_Voxel)
+    {
+      return first;
+    }
+    return HeightOfCap(top, content, [radius = radiusUpTo(tube)](double) { return radius; });
+  }
+
+  /** Of the cap's centre, where a tube with this radius at each height, and the cap on it, have a content above the
+   *  top. */
+  template <class RadiusAt>
+  double
+  HeightOfCap(double top, double content, const RadiusAt & radiusAt) const
+  {
+    const auto contentWith = [&](double z) {
+      const double a = radiusAt(top);
+      const double b = radiusAt(z);
+      return std::numbers::pi / 3 * (z - top) * (a * a + a * b + b * b) + 2 * std::numbers::pi / 3 * b * b * b;
+    };
+    double low = top - 2 * radiusAt(top);
+    double high = m_Beyond;
+    for (int step = 0; step < 60; ++step)
+    {
+      const double middle = 0.5 * (low + high);
+      (contentWith(middle) < content ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
   /** The same by a tube measured from the bottom to a top. */
   std::optional<double>
   HeightAbove(double top, double bottom) const
@@ -355,20 +406,7 @@ private:
     {
       return std::nullopt;
     }
-    const auto radiusAt = [&](double z) { return std::max(0.0, radius + growth * (z - heights.MeanZ())); };
-    const auto contentWith = [&](double z) {
-      const double a = radiusAt(top);
-      const double b = radiusAt(z);
-      return std::numbers::pi / 3 * (z - top) * (a * a + a * b + b * b) + 2 * std::numbers::pi / 3 * b * b * b;
-    };
-    double low = top - 2 * radius;
-    double high = m_Beyond;
-    for (int step = 0; step < 60; ++step)
-    {
-      const double middle = 0.5 * (low + high);
-      (contentWith(middle) < content ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+    return HeightOfCap(top, content, [&](double z) { return std::max(0.0, radius + growth * (z - heights.MeanZ())); });
   }
 
   const VoxelShape &   m_Shape;
@@ -379,7 +417,8 @@ private:
   const double         m_Deep;  ///< below the tip as it was: here the cap is no more
   const double         m_Total; ///< so far below it the branch is looked at
   const double         m_Skip;  ///< so far below it the curve may run off the axis
-  std::vector<Vector3> m_Axis;  ///< from beyond the end inwards; the second is the base, at height 0
+  const bool           m_IsStub;
+  std::vector<Vector3> m_Axis; ///< from beyond the end inwards; the second is the base, at height 0
   Vector3              m_Outwards{};
   double               m_Beyond = 0; ///< height of the axis' end
   int                  m_Stride = 1;
