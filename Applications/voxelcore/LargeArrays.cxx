@@ -1,4 +1,4 @@
-// Large arrays in large pages, and given back at once.
+// Large arrays in large pages, and given back at once; small ones kept for the next.
 //
 // The arrays of a core are read out of order, and with pages of 4 kB a good part of that time goes into finding pages.
 // Where the system gives large pages on request only (Debian's default), this asks for them. Programs decide that, not
@@ -18,8 +18,10 @@ constexpr std::size_t    largePage = std::size_t{ 2 } << 20;
 constexpr std::size_t    worthIt = 2 * largePage;
 constexpr std::uintptr_t insidePage = largePage - 1;
 
-// Left to itself, malloc() learns from arrays of up to 32 MB that it should keep such memory for later.
+// Left to itself, malloc() learns from arrays of up to 32 MB that it should keep such memory for later. Smaller ones it
+// should keep: many labels ask for the same again and again, and each first touch of a page is a call of the system.
 [[maybe_unused]] const int isThresholdSet = mallopt(M_MMAP_THRESHOLD, largePage);
+[[maybe_unused]] const int isTrimSet = mallopt(M_TRIM_THRESHOLD, worthIt);
 
 void
 AskForLargePages(void * memory, std::size_t size)
