@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <cstring>
+#include <span>
 
 namespace voxelcore
 {
@@ -14,10 +15,8 @@ namespace
 constexpr std::uint64_t kMostValues = 1U << 21;
 constexpr std::size_t   kMostOfARow = 1U << 16;
 constexpr std::uint64_t kFirstLook = 1U << 17;
-constexpr std::size_t   kMostDistinct = 1U << 16;
 constexpr std::size_t   kFewestGreys = 24;
 constexpr std::uint64_t kFewestNeighbours = 500;
-constexpr std::size_t   kBins = 16;
 constexpr std::uint64_t kNoRow = UINT64_MAX - 1;
 
 /** Spreads numbers that follow each other: rows taken must not keep step with what repeats in a scan. */
@@ -28,71 +27,19 @@ Mixed(std::uint64_t number)
   return (number ^ (number >> 27)) * 0x81DADEF4BC2DD44DU >> 16;
 }
 
-/** The value behind which the brighter class begins: Otsu's threshold, exactly, of ascending values. */
-double
-OtsuThreshold(const std::vector<double> & ascending)
+/** Stored values that follow each other. */
+void
+TakeValues(const StoredVoxels & scan, const std::byte * from, std::span<double> values)
 {
-  // Differences from the first value: sums stay short.
-  const double base = ascending.front();
-  double       total = 0;
-  for (const double value : ascending)
-  {
-    total += value - base;
-  }
-  const auto  count = static_cast<double>(ascending.size());
-  double      below = 0;
-  double      best = -1;
-  std::size_t split = 0; // the last of the darker class
-  for (std::size_t i = 0; i + 1 < ascending.size(); ++i)
-  {
-    below += ascending[i] - base;
-    if (ascending[i] == ascending[i + 1])
+  WithStoredType(scan.type, [&]<typename T>(T) {
+    for (std::size_t i = 0; i < values.size(); ++i)
     {
-      continue;
+      values[i] = scan.slope * StoredValue<T>(from + i * sizeof(T)) + scan.intercept;
     }
-    const double left = static_cast<double>(i + 1);
-    const double difference = below / left - (total - below) / (count - left);
-    const double between = left * (count - left) * difference * difference;
-    if (between > best)
-    {
-      best = between;
-      split = i;
-    }
-  }
-  const double last = ascending[split];
-  const double next = ascending[std::min(split + 1, ascending.size() - 1)];
-  if (last == std::floor(last) && next == std::floor(next))
-  {
-    return last + 1;
-  }
-  return last + (next - last) / 2;
-}
-
-/** With so few digits as a person would give. */
-double
-Rounded(double value)
-{
-  if (value == 0 || value == std::floor(value))
-  {
-    return value;
-  }
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3);
-  return ParseReal(Number(std::round(value / unit) * unit)).value_or(value);
+  });
 }
 
 } // namespace
-
-struct GreyTest::Neighbours
-{
-  struct OfValue
-  {
-    std::uint64_t voxels = 0;
-    std::uint64_t pairs = 0; ///< with a neighbour that is not 0, counted from the first of the two
-    std::uint64_t equal = 0;
-  };
-  std::unordered_map<double, OfValue> values;
-  std::vector<double>                 differences; ///< of neighbours that are neither 0 nor equal
-};
 
 GreyTest::GreyTest(const StoredVoxels & scan, const CropRange & part)
   : m_Scan(scan)
@@ -106,6 +53,20 @@ GreyTest::GreyTest(const StoredVoxels & scan, const CropRange & part)
   const std::uint64_t most = std::max<std::uint64_t>(2, kMostValues / m_Width);
   // Two rows at a time, to have neighbours along j.
   m_OneIn = rows <= most ? 1 : (2 * rows + most - 1) / most;
+  m_Stored.reserve(std::min(rows, most) * m_Width * PixelBytes(scan.type));
+}
+
+std::size_t
+GreyTest::ValueCount() const
+{
+  return m_Stored.size() / PixelBytes(m_Scan.type);
+}
+
+double
+GreyTest::Value(std::size_t index) const
+{
+  const std::byte * const at = m_Stored.data() + index * PixelBytes(m_Scan.type);
+  return m_Scan.slope * StoredValue(at, m_Scan.type) + m_Scan.intercept;
 }
 
 void
@@ -133,13 +94,17 @@ GreyTest::AddRows(const std::byte * rows, std::uint64_t firstRow, std::size_t ro
     }
     m_LastTaken = chosen ? row : kNoRow;
     m_Rows.push_back(row);
-    const std::byte * at = rows + r * rowBytes + begin;
-    for (std::size_t x = 0; x < m_Width; ++x, at += stride)
-    {
-      const double value = m_Scan.slope * StoredValue(at, m_Scan.type) + m_Scan.intercept;
-      m_NotZero += value != 0 ? 1 : 0;
-      m_Values.push_back(value);
-    }
+    const std::byte * const from = rows + r * rowBytes + begin;
+    const std::size_t       first = m_Stored.size();
+    m_Stored.resize(first + m_Width * bytes);
+    WithStoredType(m_Scan.type, [&]<typename T>(T) {
+      for (std::size_t x = 0; x < m_Width; ++x)
+      {
+        const std::byte * const at = from + x * stride;
+        m_NotZero += m_Scan.slope * StoredValue<T>(at) + m_Scan.intercept != 0 ? 1 : 0;
+        std::memcpy(m_Stored.data() + first + x * sizeof(T), at, sizeof(T));
+      }
+    });
   }
 }
 
@@ -173,10 +138,23 @@ GreyTest::CountNeighbours() const
   };
   Neighbours::OfValue * last = nullptr;
   double                lastValue = 0;
+  std::vector<double>   row(m_Width);
+  std::vector<double>   next(m_Width);
+  const auto            take = [&](std::size_t r, std::vector<double> & values) {
+    TakeValues(m_Scan, m_Stored.data() + r * m_Width * PixelBytes(m_Scan.type), values);
+  };
   for (std::size_t r = 0; r < m_Rows.size(); ++r)
   {
-    const double * row = m_Values.data() + r * m_Width;
-    const bool     hasNext = r + 1 < m_Rows.size() && m_Rows[r + 1] == m_Rows[r] + 1 && m_Rows[r + 1] % sizeY != 0;
+    row.swap(next);
+    if (r == 0)
+    {
+      take(r, row);
+    }
+    if (r + 1 < m_Rows.size())
+    {
+      take(r + 1, next);
+    }
+    const bool hasNext = r + 1 < m_Rows.size() && m_Rows[r + 1] == m_Rows[r] + 1 && m_Rows[r + 1] % sizeY != 0;
     for (std::size_t x = 0; x < m_Width; ++x)
     {
       const double value = row[x];
@@ -187,7 +165,7 @@ GreyTest::CountNeighbours() const
       if (last == nullptr || value != lastValue)
       {
         const auto place = found.values.find(value);
-        if (place == found.values.end() && found.values.size() == kMostDistinct)
+        if (place == found.values.end() && found.values.size() == GreyTest::kMostDistinct)
         {
           continue; // so many are no labels, or enough of them
         }
@@ -201,7 +179,7 @@ GreyTest::CountNeighbours() const
       }
       if (hasNext)
       {
-        pair(*last, value, row[x + m_Width]);
+        pair(*last, value, next[x]);
       }
     }
   }
@@ -211,14 +189,19 @@ GreyTest::CountNeighbours() const
 bool
 GreyTest::HasFewValues() const
 {
-  std::vector<double> values;
-  double              last = 0;
-  for (const double value : m_Values)
-  {
-    if (value != last && value == value && value != 0)
+  return WithStoredType(m_Scan.type, [&]<typename T>(T last) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < ValueCount(); ++i)
     {
-      last = value;
-      if (std::find(values.begin(), values.end(), value) == values.end())
+      T stored;
+      std::memcpy(&stored, m_Stored.data() + i * sizeof(T), sizeof(T));
+      if (stored == last && i > 0) // as most are
+      {
+        continue;
+      }
+      last = stored;
+      const double value = m_Scan.slope * static_cast<double>(stored) + m_Scan.intercept;
+      if (value == value && value != 0 && std::find(values.begin(), values.end(), value) == values.end())
       {
         values.push_back(value);
         if (values.size() == kFewestGreys)
@@ -227,8 +210,8 @@ GreyTest::HasFewValues() const
         }
       }
     }
-  }
-  return true;
+    return true;
+  });
 }
 
 bool
@@ -283,10 +266,10 @@ GreyTest::LooksGrey() const
   }
   // Voxels anywhere: the first half against the second.
   std::vector<double> anywhere;
-  for (std::size_t i = 0; i < m_Values.size() / 2; ++i)
+  for (std::size_t i = 0; i < ValueCount() / 2; ++i)
   {
-    const double a = m_Values[i];
-    const double b = m_Values[m_Values.size() - 1 - i];
+    const double a = Value(i);
+    const double b = Value(ValueCount() - 1 - i);
     if (a != 0 && b != 0 && std::isfinite(a - b) && a != b)
     {
       anywhere.push_back(std::abs(a - b));
@@ -298,118 +281,6 @@ GreyTest::LooksGrey() const
     return *place;
   };
   return !anywhere.empty() && middle(found.differences) < 0.25 * middle(anywhere);
-}
-
-GreyScan
-GreyTest::Describe() const
-{
-  GreyScan            grey;
-  const Neighbours    found = CountNeighbours();
-  std::vector<double> shares;
-  for (const auto & [value, of] : found.values)
-  {
-    if (of.pairs > 0)
-    {
-      shares.push_back(static_cast<double>(of.equal) / static_cast<double>(of.pairs));
-    }
-  }
-  grey.distinct = found.values.size();
-  if (!shares.empty())
-  {
-    std::nth_element(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2), shares.end());
-    grey.equal = shares[shares.size() / 2];
-  }
-  std::vector<double> values;
-  std::copy_if(m_Values.begin(), m_Values.end(), std::back_inserter(values), [](double v) { return std::isfinite(v); });
-  if (values.empty())
-  {
-    return grey;
-  }
-  std::sort(values.begin(), values.end());
-  grey.lowest = values.front();
-  grey.highest = values.back();
-  grey.otsu = Rounded(OtsuThreshold(values));
-  grey.half = Rounded(HalfwayThreshold(values));
-  // Bins between the 0.1st and 99.9th percentile, the outer ones open: a speck of metal must not flatten the rest.
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  const double low = at(0.001);
-  const double high = at(0.999);
-  for (std::size_t b = 0; b <= kBins; ++b)
-  {
-    grey.edges.push_back(low + (high - low) * static_cast<double>(b) / static_cast<double>(kBins));
-  }
-  grey.edges.front() = grey.lowest;
-  grey.edges.back() = grey.highest;
-  auto from = values.begin();
-  for (std::size_t b = 0; b < kBins; ++b)
-  {
-    const auto to = b + 1 == kBins ? values.end() : std::lower_bound(from, values.end(), grey.edges[b + 1]);
-    grey.counts.push_back(static_cast<std::uint64_t>(to - from));
-    from = to;
-  }
-  return grey;
-}
-
-double
-HalfwayThreshold(std::span<const double> sorted)
-{
-  if (sorted.empty())
-  {
-    return 0;
-  }
-  const auto at = [](std::span<const double> part, double share) {
-    return part[static_cast<std::size_t>(share * static_cast<double>(part.size() - 1))];
-  };
-  const auto above = [](std::span<const double> part, double value) {
-    return part.subspan(static_cast<std::size_t>(std::upper_bound(part.begin(), part.end(), value) - part.begin()));
-  };
-  std::span<const double> part = sorted;
-  for (;;)
-  {
-    const double background = at(part, 0.5);
-    const double deviation = background - at(part, 0.1587);
-    const double least = background + 5 * deviation;
-    const auto   brighter = above(part, least);
-    if (brighter.empty())
-    {
-      return sorted.back();
-    }
-    if (static_cast<double>(brighter.size()) > 0.3 * static_cast<double>(sorted.size()))
-    {
-      part = brighter;
-      continue;
-    }
-    // Noise may reach beyond half of what is bright: above three deviations it is still a seldom thing.
-    const double lowest = background + 3 * deviation;
-    double       threshold = least;
-    for (int i = 0; i < 20; ++i)
-    {
-      const auto bright = above(part, threshold);
-      threshold = bright.empty() ? threshold : std::max(lowest, (background + at(bright, 0.75)) / 2);
-    }
-    return threshold;
-  }
-}
-
-std::string
-OtsuRange(const GreyScan & grey)
-{
-  return Number(grey.otsu) + ":inf";
-}
-
-std::string
-GreyScanText(const GreyScan & grey)
-{
-  return Text("looks like a grey scan (",
-              grey.distinct >= kMostDistinct ? "more than " : "",
-              grey.distinct >= kMostDistinct ? kMostDistinct : grey.distinct,
-              " values from ",
-              Number(grey.lowest),
-              " to ",
-              Number(grey.highest),
-              ", neighbouring voxels are rarely equal)");
 }
 
 void

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace voxelcore
@@ -25,6 +26,8 @@ namespace voxelcore
 class GreyTest
 {
 public:
+  static constexpr std::size_t kMostDistinct = 1U << 16; ///< values that are told apart
+
   /** Of the scan only what lies in `part` is looked at. The scan must outlive the object. */
   GreyTest(const StoredVoxels & scan, const CropRange & part);
 
@@ -36,7 +39,7 @@ public:
   bool
   IsTimeToLook();
 
-  /** By what was seen so far; 16 MB of work at most. */
+  /** By what was seen so far; two million voxels at most. */
   bool
   LooksGrey() const;
 
@@ -45,11 +48,26 @@ public:
   Describe() const;
 
 private:
-  struct Neighbours;
+  struct Neighbours
+  {
+    struct OfValue
+    {
+      std::uint64_t voxels = 0;
+      std::uint64_t pairs = 0; ///< with a neighbour that is not 0, counted from the first of the two
+      std::uint64_t equal = 0;
+    };
+    std::unordered_map<double, OfValue> values;
+    std::vector<double>                 differences; ///< of neighbours that are neither 0 nor equal
+  };
+
   Neighbours
   CountNeighbours() const;
   bool
   HasFewValues() const;
+  std::size_t
+  ValueCount() const;
+  double
+  Value(std::size_t index) const;
 
   const StoredVoxels &       m_Scan;
   CropRange                  m_Part;
@@ -58,7 +76,7 @@ private:
   std::uint64_t              m_LastTaken;
   std::uint64_t              m_NextLook;
   std::uint64_t              m_NotZero = 0;
-  std::vector<double>        m_Values; ///< of the rows taken, one after the other
+  std::vector<std::byte>     m_Stored; ///< values of the rows taken, one after the other, as the scan stores them
   std::vector<std::uint64_t> m_Rows;   ///< their numbers
 };
 

@@ -97,33 +97,41 @@ StoredValue(const std::byte * at)
   return static_cast<double>(value);
 }
 
-/** In this machine's byte order; whole numbers beyond 2^53 are rounded. */
-inline double
-StoredValue(const std::byte * at, PixelType type)
+/** use(T()) with the type T of stored values. */
+template <typename TUse>
+auto
+WithStoredType(PixelType type, const TUse & use)
 {
   switch (type)
   {
     case PixelType::UInt8:
-      return StoredValue<std::uint8_t>(at);
+      return use(std::uint8_t());
     case PixelType::Int8:
-      return StoredValue<std::int8_t>(at);
+      return use(std::int8_t());
     case PixelType::UInt16:
-      return StoredValue<std::uint16_t>(at);
+      return use(std::uint16_t());
     case PixelType::Int16:
-      return StoredValue<std::int16_t>(at);
+      return use(std::int16_t());
     case PixelType::UInt32:
-      return StoredValue<std::uint32_t>(at);
+      return use(std::uint32_t());
     case PixelType::Int32:
-      return StoredValue<std::int32_t>(at);
+      return use(std::int32_t());
     case PixelType::UInt64:
-      return StoredValue<std::uint64_t>(at);
+      return use(std::uint64_t());
     case PixelType::Int64:
-      return StoredValue<std::int64_t>(at);
+      return use(std::int64_t());
     case PixelType::Float32:
-      return StoredValue<float>(at);
+      return use(float());
     default:
-      return StoredValue<double>(at);
+      return use(double());
   }
+}
+
+/** In this machine's byte order; whole numbers beyond 2^53 are rounded. */
+inline double
+StoredValue(const std::byte * at, PixelType type)
+{
+  return WithStoredType(type, [at]<typename T>(T) { return StoredValue<T>(at); });
 }
 
 } // namespace voxelcore
