@@ -237,6 +237,33 @@ TEST(SurfaceEstimate, LabelsOfALargeBoxGiveItsWallsAndEdges)
   EXPECT_LT(sum / count, 0.04);
 }
 
+// Which passes are taken goes with how thick a label is: thin, thick, thickest, in an order in which each comes after
+// another.
+TEST(SurfaceEstimate, OfManyLabelsEachHasTheSurfaceItHasAlone)
+{
+  const Vector3 spacing{ 1, 1, 1.5 };
+  const auto    surfaces = SurfacesFromLabels(spacing);
+  for (const double radius : { 4.3, 26.2, 11.7, 26.2, 4.3 })
+  {
+    const auto       side = static_cast<std::int32_t>(2 * radius) + 3;
+    const double     middle = 0.5 * side;
+    const VoxelShape shape = ShapeWhere({ side, side, side }, [&](int x, int y, int z) {
+      return std::hypot(x + 0.5 - middle, y + 0.5 - middle, spacing[2] * (z + 0.5 - middle)) <= radius;
+    });
+    const auto       one = surfaces(shape, {});
+    const auto       alone = SurfaceFromLabels(shape, spacing);
+    for (const LatticePoint & p : BoundaryVertices(shape))
+    {
+      const Vector3      place{ 1.0 * p.x, 1.0 * p.y, spacing[2] * p.z };
+      const SurfacePoint found = one->Project(place, 2);
+      const SurfacePoint expected = alone->Project(place, 2);
+      ASSERT_TRUE(found.found);
+      ASSERT_EQ(found.position, expected.position) << radius;
+    }
+    EXPECT_EQ(one->Swelling({ 3, 0, 0 }), alone->Swelling({ 3, 0, 0 }));
+  }
+}
+
 TEST(SurfaceEstimate, GreyValuesOfABallGiveItsSurfaceBackWithinAFiftiethOfAVoxel)
 {
   const Vector3    spacing{ 1, 1, 1 };

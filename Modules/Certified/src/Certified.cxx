@@ -21,9 +21,7 @@ UsualSurface(const CertifiedRequest & request, const Vector3 & spacing)
   {
     return {};
   }
-  return [spacing](const VoxelShape & shape, const ProgressCallback & progress) {
-    return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(shape, spacing, progress));
-  };
+  return SurfacesFromLabels(spacing);
 }
 
 } // namespace

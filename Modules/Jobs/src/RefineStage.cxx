@@ -139,9 +139,7 @@ MakeSurfaceSource(const RefineOptions &         options,
   }
   if (options.surface == "labels")
   {
-    return [spacing = input.geometry.spacing](const VoxelShape & shape, const ProgressCallback & progress) {
-      return std::shared_ptr<const SurfaceEstimate>(SurfaceFromLabels(shape, spacing, progress));
-    };
+    return SurfacesFromLabels(input.geometry.spacing);
   }
   if (options.surface == "grey")
   {

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 namespace voxelcore
@@ -53,16 +55,145 @@ SidesOf(const Vector3 & spacing)
   return sides;
 }
 
+// What passes weigh: the spacing alone decides that, and of each label only which of them are taken. What few labels need
+// is found when the first one asks.
+class PassWeights
+{
+public:
+  explicit PassWeights(const Vector3 & spacing)
+    : m_Sides(SidesOf(spacing))
+    // Steps of thick slices need more smoothing than steps of thin ones.
+    , m_Sigma(0.8 + 0.2 * std::max({ m_Sides[0], m_Sides[1], m_Sides[2] }))
+    , m_Profile(kClip)
+    , m_Some(Take(m_Profile, m_Sigma, kSomePasses))
+    , m_Coefficients(m_Profile.Weight(m_Sigma))
+    , m_Swelling(SwellingAfter(m_Some))
+  {}
+
+  const Vector3 &
+  Sides() const
+  {
+    return m_Sides;
+  }
+  double
+  Sigma() const
+  {
+    return m_Sigma;
+  }
+  double
+  Wider() const
+  {
+    return std::sqrt(2.0) * m_Sigma;
+  }
+  double
+  Widest() const
+  {
+    return 2 * m_Sigma;
+  }
+
+  const std::vector<float> &
+  Some() const
+  {
+    return m_Some;
+  }
+
+  /** Of the coefficients where some passes are all. */
+  float
+  Coefficients() const
+  {
+    return m_Coefficients;
+  }
+
+  const WallSwelling &
+  Swelling() const
+  {
+    return m_Swelling;
+  }
+
+  /** Wider passes, or the widest ones after them. */
+  struct Further
+  {
+    std::vector<float> passes;
+    float              last = 0;         ///< of a pass of the first width after them
+    float              coefficients = 0; ///< after that one
+  };
+
+  const Further &
+  AfterSome() const
+  {
+    std::call_once(m_HasWider, [&] { m_Wider = Find(m_Profile, Wider(), kWiderPasses, m_WiderProfile); });
+    return m_Wider;
+  }
+
+  const Further &
+  AfterWider() const
+  {
+    AfterSome();
+    std::call_once(m_HasWidest, [&] {
+      std::optional<FlatProfile> profile;
+      m_Widest = Find(*m_WiderProfile, Widest(), kWidestPasses, profile);
+    });
+    return m_Widest;
+  }
+
+private:
+  static std::vector<float>
+  Take(FlatProfile & profile, double sigma, int passes)
+  {
+    std::vector<float> weights;
+    for (int pass = 0; pass < passes; ++pass)
+    {
+      weights.push_back(profile.Smooth(sigma));
+    }
+    return weights;
+  }
+
+  Further
+  Find(FlatProfile profile, double sigma, int passes, std::optional<FlatProfile> & after) const
+  {
+    Further further;
+    further.passes = Take(profile, sigma, passes);
+    after = profile;
+    further.last = profile.Smooth(m_Sigma);
+    further.coefficients = profile.Weight(m_Sigma);
+    return further;
+  }
+
+  // Where walls are thin, there are no wider passes; the last is that of the coefficients.
+  WallSwelling
+  SwellingAfter(std::vector<float> weights) const
+  {
+    weights.push_back(weights.back());
+    return { kClip, m_Sigma, weights };
+  }
+
+  Vector3            m_Sides;
+  double             m_Sigma;
+  FlatProfile        m_Profile; ///< after some passes
+  std::vector<float> m_Some;
+  float              m_Coefficients;
+  WallSwelling       m_Swelling;
+
+  mutable std::once_flag             m_HasWider;
+  mutable std::once_flag             m_HasWidest;
+  mutable Further                    m_Wider;
+  mutable Further                    m_Widest;
+  mutable std::optional<FlatProfile> m_WiderProfile;
+};
+
 class LabelPasses
 {
 public:
-  LabelPasses(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress)
+  LabelPasses(const VoxelShape &       shape,
+              const Vector3 &          spacing,
+              const PassWeights &      weights,
+              const ProgressCallback & progress)
     : m_Shape(shape)
     , m_Spacing(spacing)
+    , m_Weights(weights)
     , m_Progress(progress)
-    , m_Sides(SidesOf(spacing))
-    // Steps of thick slices need more smoothing than steps of thin ones.
-    , m_Sigma(0.8 + 0.2 * std::max({ m_Sides[0], m_Sides[1], m_Sides[2] }))
+    , m_Sides(weights.Sides())
+    , m_Sigma(weights.Sigma())
     , m_Points(BoundaryVertices(shape))
     , m_Field(shape, m_Points, m_Sides, m_Sigma, static_cast<std::int32_t>(std::ceil(kReach * m_Sigma)))
     , m_Filled(m_Field.Grid().Count(), 0)
@@ -73,7 +204,6 @@ public:
               [&](const auto & tile, const auto & toIn, const auto & toOut) {
                 m_Field.TakeDistances(tile, toIn, toOut, kClip, m_Filled);
               })
-    , m_Profile(kClip)
   {
     m_Field.FillDistances(shape, kClip, m_Filled);
   }
@@ -81,21 +211,21 @@ public:
   FieldSurface
   Run() &&
   {
-    std::vector<float> weights;
-    for (int pass = 1; pass <= kSomePasses; ++pass)
+    const std::vector<float> & weights = m_Weights.Some();
+    for (const float one : weights)
     {
-      weights.push_back(SmoothWith(m_Field, m_Sigma, nullptr));
+      SmoothWith(m_Field, one, nullptr);
     }
+    float                              weight = m_Weights.Coefficients();
     std::optional<BandField::Snapshot> former;
     if (const SmoothingZones thick(m_Depth, kThick * m_Sigma, 0); thick.Any())
     {
       former = m_Field.Save(thick);
-      SmoothThick(thick);
+      weight = SmoothThick(thick);
     }
-    const float weight = m_Profile.Weight(m_Sigma);
     m_Depth.DropDepths();
     FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest, kClose);
-    surface.SetSwelling(SwellingAfter(weights));
+    surface.SetSwelling(m_Weights.Swelling());
     // Where labels allow no surface so smooth, a less smooth one.
     std::vector<std::uint8_t> changed;
     const auto                replace = [&](auto blend) {
@@ -134,27 +264,24 @@ public:
   }
 
 private:
-  // A pass of a field whose width is `sigma`. Returns its weight.
-  float
-  SmoothWith(BandField & field, double sigma, const SmoothingZones * zones)
+  void
+  SmoothWith(BandField & field, float weight, const SmoothingZones * zones)
   {
     constexpr double all = kSomePasses + kWiderPasses + kWidestPasses + 1;
-    const float      weight = m_Profile.Smooth(sigma);
     field.Smooth(weight, zones);
     ReportProgress(m_Progress, "surface", ++m_Passes / all);
-    return weight;
   }
 
   // What is near an edge sees it in a wider pass, and is left out of the widest. Those need no more than the means of
-  // 2^3 voxels: nothing is left that is shorter.
-  void
+  // 2^3 voxels: nothing is left that is shorter. Returns the weight of the coefficients.
+  float
   SmoothThick(const SmoothingZones & thick)
   {
-    const double wider = std::sqrt(2.0) * m_Sigma;
-    m_Field.SetWidth(wider);
-    for (int pass = 0; pass < kWiderPasses; ++pass)
+    const PassWeights::Further * further = &m_Weights.AfterSome();
+    m_Field.SetWidth(m_Weights.Wider());
+    for (const float weight : further->passes)
     {
-      SmoothWith(m_Field, wider, &thick);
+      SmoothWith(m_Field, weight, &thick);
     }
     SmoothingZones thickest(m_Depth, kThickest * m_Sigma, 1);
     if (thickest.Any())
@@ -163,23 +290,17 @@ private:
       m_Field.MarkBends(onSurface, kBend, thickest);
       thickest.LeaveOutAroundMarks(kNearBend);
       BandField halved = m_Field.Halved(m_Shape, m_Depth, thickest);
-      halved.SetWidth(2 * m_Sigma);
-      for (int pass = 0; pass < kWidestPasses; ++pass)
+      further = &m_Weights.AfterWider();
+      halved.SetWidth(m_Weights.Widest());
+      for (const float weight : further->passes)
       {
-        SmoothWith(halved, 2 * m_Sigma, &thickest);
+        SmoothWith(halved, weight, &thickest);
       }
       m_Field.AddChange(m_Shape, std::move(halved));
     }
     m_Field.SetWidth(m_Sigma);
-    SmoothWith(m_Field, m_Sigma, &thick);
-  }
-
-  // Where walls are thin, there were no wider passes; the last is that of the coefficients.
-  WallSwelling
-  SwellingAfter(std::vector<float> weights) const
-  {
-    weights.push_back(weights.back());
-    return { kClip, m_Sigma, weights };
+    SmoothWith(m_Field, further->last, &thick);
+    return further->coefficients;
   }
 
   // Boundary vertices that are far off the surface, of those in bricks that have changed, if any are named.
@@ -225,6 +346,7 @@ private:
 
   const VoxelShape &        m_Shape;
   const Vector3 &           m_Spacing;
+  const PassWeights &       m_Weights;
   const ProgressCallback &  m_Progress;
   Vector3                   m_Sides;
   double                    m_Sigma;
@@ -232,7 +354,6 @@ private:
   BandField                 m_Field;
   std::vector<std::uint8_t> m_Filled; ///< bricks whose distances the depths knew
   BoundaryDepth             m_Depth;
-  FlatProfile               m_Profile;
   int                       m_Passes = 0;
 };
 
@@ -241,7 +362,16 @@ private:
 std::unique_ptr<SurfaceEstimate>
 SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress)
 {
-  return std::make_unique<FieldSurface>(LabelPasses(shape, spacing, progress).Run());
+  return SurfacesFromLabels(spacing)(shape, progress);
+}
+
+std::function<std::unique_ptr<SurfaceEstimate>(const VoxelShape & shape, const ProgressCallback & progress)>
+SurfacesFromLabels(const Vector3 & spacing)
+{
+  const auto weights = std::make_shared<const PassWeights>(spacing);
+  return [spacing, weights](const VoxelShape & shape, const ProgressCallback & progress) {
+    return std::make_unique<FieldSurface>(LabelPasses(shape, spacing, *weights, progress).Run());
+  };
 }
 
 } // namespace voxelcore

@@ -82,6 +82,10 @@ GreyBoxAround(const VoxelBox & shape, const VoxelBox & scan);
 std::unique_ptr<SurfaceEstimate>
 SurfaceFromLabels(const VoxelShape & shape, const Vector3 & spacing, const ProgressCallback & progress = {});
 
+/** The same for many labels of one scan: what the spacing alone decides is found once. Thread-safe. */
+std::function<std::unique_ptr<SurfaceEstimate>(const VoxelShape & shape, const ProgressCallback & progress)>
+SurfacesFromLabels(const Vector3 & spacing);
+
 /** From grey values: where they are 0 after smoothing that keeps curvature, little where more would move a wall of a
  *  thin part or round an edge. `scan` is the box that has values; beyond it
  *  they are mirrored with their sign turned, as the scan's border is the shape's. `grey` holds GreyBoxAround().
