@@ -184,7 +184,7 @@ KeepToRefine(const Vector3 &             spacing,
     {
       nearest.points.push_back(names[point]);
     }
-    nearest.offsets.push_back(nearest.points.size());
+    nearest.offsets.push_back(static_cast<std::uint32_t>(nearest.points.size()));
   }
   edgePoints = std::move(nearest);
   points = std::move(named);

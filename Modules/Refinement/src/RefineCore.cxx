@@ -5,10 +5,13 @@
 #include "PointTree.h"
 #include "RefinementState.h"
 
+#include "voxelcore/Error.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace voxelcore
 {
@@ -16,16 +19,32 @@ namespace voxelcore
 EdgePoints
 NearestToEdges(const DelaunayCells & cells)
 {
-  EdgePoints edges;
-  for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
-  {
-    if (cells.facetCells[facet][1] != kOutside)
+  const auto forInner = [&](auto use) {
+    for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
     {
-      const auto polygon = cells.FacetPoints(facet);
-      edges.points.insert(edges.points.end(), polygon.begin(), polygon.end());
-      edges.offsets.push_back(edges.points.size());
+      if (cells.facetCells[facet][1] != kOutside)
+      {
+        use(cells.FacetPoints(facet));
+      }
     }
+  };
+  std::size_t count = 0;
+  std::size_t points = 0;
+  forInner([&](std::span<const std::uint32_t> polygon) {
+    ++count;
+    points += polygon.size();
+  });
+  if (points > std::numeric_limits<std::uint32_t>::max())
+  {
+    throw InputError("the core has too many edges to be refined; crop or split the shape");
   }
+  EdgePoints edges;
+  edges.offsets.reserve(count + 1);
+  edges.points.reserve(points);
+  forInner([&](std::span<const std::uint32_t> polygon) {
+    edges.points.insert(edges.points.end(), polygon.begin(), polygon.end());
+    edges.offsets.push_back(static_cast<std::uint32_t>(edges.points.size()));
+  });
   return edges;
 }
 

@@ -21,7 +21,7 @@ namespace voxelcore
 /** The boundary vertices nearest to each edge of a core: those of its dual facet. */
 struct EdgePoints
 {
-  std::vector<std::uint64_t> offsets{ 0 }; ///< edges + 1
+  std::vector<std::uint32_t> offsets{ 0 }; ///< edges + 1
   std::vector<std::uint32_t> points;       ///< indices of boundary vertices
 
   std::span<const std::uint32_t>
@@ -31,7 +31,8 @@ struct EdgePoints
   }
 };
 
-/** For the core that BuildVoxelCore() will make of these cells; to be asked before they are moved in. */
+/** For the core that BuildVoxelCore() will make of these cells; to be asked before they are moved in.
+ *  \throws InputError above 2^32 - 1 points of all edges */
 EdgePoints
 NearestToEdges(const DelaunayCells & cells);
 
