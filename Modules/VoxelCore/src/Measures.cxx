@@ -198,12 +198,13 @@ VoxelSideMeasures(const SpacingWeights & weights)
   return measures;
 }
 
-// From any thread.
+// From any thread. One facet is enough: those that come later need not look where it lies.
+template <typename TLiesBeyond>
 void
-NoteCentreBeyond(std::uint8_t & note)
+NoteCentreBeyond(std::uint8_t & note, const TLiesBeyond & liesBeyond)
 {
   std::atomic_ref<std::uint8_t> atomic(note);
-  if ((atomic.load(std::memory_order_relaxed) & kCentreBeyond) == 0)
+  if ((atomic.load(std::memory_order_relaxed) & kCentreBeyond) == 0 && liesBeyond())
   {
     atomic.fetch_or(kCentreBeyond, std::memory_order_relaxed);
   }
@@ -332,10 +333,7 @@ MeasureCells(const VoxelShape &                shape,
       for (int side = 0; side < 2; ++side)
       {
         const std::uint32_t cell = cells.facetCells[facet][static_cast<std::size_t>(side)];
-        if (LiesBeyond(plane, cells, cell, side, points, weights))
-        {
-          NoteCentreBeyond(notes[cell]);
-        }
+        NoteCentreBeyond(notes[cell], [&] { return LiesBeyond(plane, cells, cell, side, points, weights); });
       }
     }
   });
