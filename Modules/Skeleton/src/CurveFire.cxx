@@ -144,6 +144,7 @@ BurnCurves(const MedialComplex &       surface,
     const ElementIndex vertex = item.element;
     Node &             node = nodes[vertex];
     fire.order.push_back(vertex);
+    node.hasBurned = true;
     if (node.edges.count == 0)
     {
       continue; // the last of its component
@@ -191,23 +192,22 @@ BurnCurves(const MedialComplex &       surface,
       kindle(next);
     }
   }
-  for (const ElementIndex vertex : fire.order)
+  fire.nextEdge.resize(count);
+  fire.time.resize(count);
+  fire.length.resize(count);
+  fire.prominence.resize(count);
+  fire.winner.resize(count);
+  fire.runnerUp.resize(count);
+  for (std::size_t vertex = 0; vertex < count; ++vertex) // once, as nodes are long
   {
-    nodes[vertex].hasBurned = true;
+    const Node & node = nodes[vertex];
+    fire.nextEdge[vertex] = node.nextEdge;
+    fire.time[vertex] = node.hasBurned ? node.time : kNever;
+    fire.length[vertex] = node.length;
+    fire.prominence[vertex] = node.prominence;
+    fire.winner[vertex] = node.winner;
+    fire.runnerUp[vertex] = node.runnerUp;
   }
-  const auto give = [&](auto & values, auto valueOf) {
-    values.reserve(count);
-    for (const Node & node : nodes)
-    {
-      values.push_back(valueOf(node));
-    }
-  };
-  give(fire.nextEdge, [](const Node & node) { return node.nextEdge; });
-  give(fire.time, [](const Node & node) { return node.hasBurned ? node.time : kNever; });
-  give(fire.length, [](const Node & node) { return node.length; });
-  give(fire.prominence, [](const Node & node) { return node.prominence; });
-  give(fire.winner, [](const Node & node) { return node.winner; });
-  give(fire.runnerUp, [](const Node & node) { return node.runnerUp; });
   return fire;
 }
 

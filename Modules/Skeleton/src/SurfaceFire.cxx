@@ -22,8 +22,12 @@ SurfaceFire::SurfaceFire(const MedialComplex & complex, double sampling)
   , m_Cells(complex.cells)
   , m_Network(complex, sampling)
   , m_Window(kWindow * sampling)
-  , m_Times(m_Network.SectorCount(), kNever)
+  , m_Times(std::make_unique_for_overwrite<double[]>(m_Network.SectorCount()))
 {
+  const std::size_t sectors = m_Network.SectorCount();
+  RunInParts(sectors > 10000, sectors, [&](std::size_t first, std::size_t last) {
+    std::fill(m_Times.get() + first, m_Times.get() + last, kNever);
+  });
   CutBlocks();
   FindFaces();
 }

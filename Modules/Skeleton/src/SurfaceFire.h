@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace voxelcore
@@ -226,7 +227,7 @@ private:
   const CellComplex &        m_Cells;
   BurnNetwork                m_Network;
   double                     m_Window;      ///< mm
-  std::vector<double>        m_Times;       ///< per sector; when fire has spread from it, the negative of when
+  std::unique_ptr<double[]>  m_Times;       ///< per sector; when fire has spread from it, the negative of when
   std::vector<std::uint16_t> m_Small;       ///< per face: 0, or bit 2 i for corner i, 2 i + 1 for the sample behind it
   std::vector<std::uint32_t> m_FaceEntries; ///< per face; empty where no face has entries
   std::vector<Entries>       m_Entries;
