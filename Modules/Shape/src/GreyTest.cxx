@@ -31,10 +31,10 @@ Mixed(std::uint64_t number)
 void
 TakeValues(const StoredVoxels & scan, const std::byte * from, std::span<double> values)
 {
-  WithStoredType(scan.type, [&]<typename T>(T) {
+  WithStoredType(scan.type, [values, from, slope = scan.slope, intercept = scan.intercept]<typename T>(T) {
     for (std::size_t i = 0; i < values.size(); ++i)
     {
-      values[i] = scan.slope * StoredValue<T>(from + i * sizeof(T)) + scan.intercept;
+      values[i] = slope * StoredValue<T>(from + i * sizeof(T)) + intercept;
     }
   });
 }
@@ -97,14 +97,19 @@ GreyTest::AddRows(const std::byte * rows, std::uint64_t firstRow, std::size_t ro
     const std::byte * const from = rows + r * rowBytes + begin;
     const std::size_t       first = m_Stored.size();
     m_Stored.resize(first + m_Width * bytes);
-    WithStoredType(m_Scan.type, [&]<typename T>(T) {
-      for (std::size_t x = 0; x < m_Width; ++x)
-      {
-        const std::byte * const at = from + x * stride;
-        m_NotZero += m_Scan.slope * StoredValue<T>(at) + m_Scan.intercept != 0 ? 1 : 0;
-        std::memcpy(m_Stored.data() + first + x * sizeof(T), at, sizeof(T));
-      }
-    });
+    std::byte * const to = m_Stored.data() + first;
+    m_NotZero += WithStoredType(
+      m_Scan.type,
+      [from, to, stride, width = m_Width, slope = m_Scan.slope, intercept = m_Scan.intercept]<typename T>(T) {
+        std::uint64_t notZero = 0;
+        for (std::size_t x = 0; x < width; ++x)
+        {
+          const std::byte * const at = from + x * stride;
+          notZero += slope * StoredValue<T>(at) + intercept != 0 ? 1 : 0;
+          std::memcpy(to + x * sizeof(T), at, sizeof(T));
+        }
+        return notZero;
+      });
   }
 }
 
@@ -190,11 +195,13 @@ bool
 GreyTest::HasFewValues() const
 {
   return WithStoredType(m_Scan.type, [&]<typename T>(T last) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < ValueCount(); ++i)
+    std::vector<double>     values;
+    const std::size_t       count = ValueCount();
+    const std::byte * const from = m_Stored.data();
+    for (std::size_t i = 0; i < count; ++i)
     {
       T stored;
-      std::memcpy(&stored, m_Stored.data() + i * sizeof(T), sizeof(T));
+      std::memcpy(&stored, from + i * sizeof(T), sizeof(T));
       if (stored == last && i > 0) // as most are
       {
         continue;

@@ -7,11 +7,13 @@
 #include "ShapeBits.h"
 #include "ShapeRuns.h"
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/ShapeOperations.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -62,11 +64,33 @@ WalledIn(const VoxelShape & holes, const VoxelShape & body, double least)
   UnionFind            sets = UniteRuns(runs, false);
   std::vector<Surface> surfaces(runs.begin.size());
   VoxelShape           walled(holes.Box());
+  struct Beside
+  {
+    ConstShapeRow wall;
+    ConstShapeRow holes;
+  };
+  std::array<Beside, 4> beside;
+  std::size_t           rows = 0; // of them, in the box
+  std::int32_t          ofY = -1; // whose they are
+  std::int32_t          ofZ = -1;
   ForRuns(runs, size, [&](std::size_t run, std::int32_t y, std::int32_t z) {
+    const auto row = body.Row(y, z);
+    if (y != ofY || z != ofZ)
+    {
+      rows = 0;
+      for (const auto & [dy, dz] : { std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1) })
+      {
+        if (y + dy >= 0 && z + dz >= 0 && y + dy < size[1] && z + dz < size[2])
+        {
+          beside[rows++] = { body.Row(y + dy, z + dz), holes.Row(y + dy, z + dz) };
+        }
+      }
+      ofY = y;
+      ofZ = z;
+    }
     const std::int32_t begin = runs.begin[run];
     const std::int32_t end = runs.end[run];
     Surface &          surface = surfaces[sets.Find(run)];
-    const auto         row = body.Row(y, z);
     const auto         isWall = [&](std::int32_t x) {
       return x >= 0 && x < size[0] &&
              (row[static_cast<std::size_t>(x) / 64] >> (static_cast<unsigned>(x) & 63U) & 1U) != 0;
@@ -75,17 +99,17 @@ WalledIn(const VoxelShape & holes, const VoxelShape & body, double least)
     {
       isWall(x) ? ++surface.wall : ++surface.open;
     }
-    for (const auto & [dy, dz] : { std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1) })
-    {
-      if (y + dy < 0 || z + dz < 0 || y + dy >= size[1] || z + dz >= size[2])
+    std::uint32_t wall = 0;
+    std::uint32_t inside = 0; // between voxels of holes
+    ForWordsOfRun(begin, end, [&](std::size_t word, std::uint64_t own) {
+      for (std::size_t i = 0; i < rows; ++i)
       {
-        surface.open += end - begin;
-        continue;
+        wall += CountBits(beside[i].wall[word] & own);
+        inside += CountBits(beside[i].holes[word] & own);
       }
-      const std::int32_t wall = CountBits(body.Row(y + dy, z + dz), begin, end);
-      surface.wall += wall;
-      surface.open += end - begin - wall - CountBits(holes.Row(y + dy, z + dz), begin, end);
-    }
+    });
+    surface.wall += wall;
+    surface.open += std::int64_t{ 4 } * (end - begin) - wall - inside;
   });
   ForRuns(runs, size, [&](std::size_t run, std::int32_t y, std::int32_t z) {
     const Surface & surface = surfaces[sets.Find(run)];

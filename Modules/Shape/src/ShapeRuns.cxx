@@ -184,21 +184,9 @@ UniteRuns(const Runs & runs, bool diagonals)
 void
 SetRun(const ShapeRow & row, std::int32_t begin, std::int32_t end, bool in)
 {
-  const auto first = static_cast<std::size_t>(begin) / 64;
-  const auto last = static_cast<std::size_t>(end - 1) / 64;
-  for (std::size_t word = first; word <= last; ++word)
-  {
-    std::uint64_t mask = ~std::uint64_t{ 0 };
-    if (word == first)
-    {
-      mask &= ~std::uint64_t{ 0 } << (static_cast<unsigned>(begin) & 63U);
-    }
-    if (word == last)
-    {
-      mask &= ~std::uint64_t{ 0 } >> (63U - (static_cast<unsigned>(end - 1) & 63U));
-    }
-    row[word] = in ? row[word] | mask : row[word] & ~mask;
-  }
+  ForWordsOfRun(begin, end, [&](std::size_t word, std::uint64_t own) {
+    row[word] = in ? row[word] | own : row[word] & ~own;
+  });
 }
 
 } // namespace voxelcore

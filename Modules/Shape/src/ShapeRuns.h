@@ -44,6 +44,22 @@ CountComponents(const Runs & runs, bool diagonals)
   return static_cast<std::int64_t>(UniteRuns(runs, diagonals).Count());
 }
 
+/** work(word, bits) for each word of a row that has voxels of [begin, end), which are the bits. */
+template <typename TWork>
+void
+ForWordsOfRun(std::int32_t begin, std::int32_t end, const TWork & work)
+{
+  constexpr std::uint64_t all = ~std::uint64_t{ 0 };
+  const auto              first = static_cast<std::size_t>(begin) / 64;
+  const auto              last = static_cast<std::size_t>(end - 1) / 64;
+  for (std::size_t word = first; word <= last; ++word)
+  {
+    const std::uint64_t from = word == first ? all << (static_cast<unsigned>(begin) & 63U) : all;
+    const std::uint64_t to = word == last ? all >> (63U - (static_cast<unsigned>(end - 1) & 63U)) : all;
+    work(word, from & to);
+  }
+}
+
 /** Puts the voxels [begin, end) of a row in, or out. */
 void
 SetRun(const ShapeRow & row, std::int32_t begin, std::int32_t end, bool in);
