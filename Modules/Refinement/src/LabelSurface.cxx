@@ -55,8 +55,8 @@ SidesOf(const Vector3 & spacing)
   return sides;
 }
 
-// What passes weigh: the spacing alone decides that, and of each label only which of them are taken. What few labels need
-// is found when the first one asks.
+// What passes weigh: the spacing alone decides that, and of each label only which of them are taken. What few labels
+// need is found when the first one asks.
 class PassWeights
 {
 public:
