@@ -229,6 +229,107 @@ TEST(FittedBalls, RodsBesideEachOtherKeepTheirOwnThickness)
   }
 }
 
+/** A line of balls 1 mm apart. */
+void
+AddStraight(Body & body, const Vector3 & from, const Vector3 & to, double radius)
+{
+  const int count = static_cast<int>(Distance(from, to));
+  for (int i = 0; i <= count; ++i)
+  {
+    body.AddBall(AddScaled(from, static_cast<double>(i) / count, Minus(to, from)), radius);
+    if (i > 0)
+    {
+      const auto last = static_cast<ElementIndex>(body.balls.Count() - 1);
+      body.cells.edges.push_back({ last - 1, last });
+    }
+  }
+}
+
+TEST(FittedBalls, APlateThatThickSlicesCutIntoStripsIsAsThickAsItsVolumeByItsArea)
+{
+  for (const double tilt : { 0.4, 0.7 })
+  {
+    const Vector3 normal{ 0.6 * std::sin(tilt), 0.8 * std::sin(tilt), std::cos(tilt) };
+    Body          body({ 1, 1, 2.5 }, [&](const Vector3 & p) {
+      return std::abs(Dot(p, normal)) < 1 && Length(AddScaled(p, -Dot(p, normal), normal)) < 15;
+    });
+    const Vector3 level{ 0.8, -0.6, 0 };
+    const Vector3 steep = Cross(normal, level);
+    for (int slice = -2; slice <= 2; ++slice)
+    {
+      const double  height = (slice - body.middle[2] + std::floor(body.middle[2]) + 0.5) * body.sides[2];
+      const Vector3 place = AddScaled({ 0, 0, 0 }, height / steep[2], steep);
+      if (Length(place) < 13)
+      {
+        const double half = std::sqrt(169 - Dot(place, place));
+        AddStraight(body, AddScaled(place, -half, level), AddScaled(place, half, level), 1.6);
+      }
+    }
+    body.Fit();
+    double sum = 0;
+    for (const double radius : body.balls.radius)
+    {
+      EXPECT_NEAR(radius, 1, 0.2) << tilt;
+      sum += radius;
+    }
+    EXPECT_NEAR(sum / static_cast<double>(body.balls.Count()), 1, 0.1) << tilt;
+  }
+}
+
+TEST(FittedBalls, AKnobOnAThinPlateStaysThickerThanThePlate)
+{
+  Body body({ 1, 1, 2.5 },
+            [&](const Vector3 & p) { return (std::abs(p[0]) < 1 && std::hypot(p[1], p[2]) < 15) || Length(p) < 3; });
+  for (int i = -4; i <= 4; ++i)
+  {
+    AddStraight(body, { 0, 3.0 * i, -12 }, { 0, 3.0 * i, 12 }, 1.2);
+  }
+  const std::size_t knob = 4 * 25 + 12;
+  body.balls.radius[knob] = 3;
+  body.Fit();
+  EXPECT_GT(body.balls.radius[knob], 2.5);
+  EXPECT_NEAR(body.balls.radius.front(), 1, 0.1);
+}
+
+TEST(FittedBalls, ThinRodsThatMeetInThickSlicesAreNoPlate)
+{
+  const Vector3 x{ 1, 0, 0 };
+  const Vector3 y{ 0, 1, 0 };
+  const Vector3 z{ 0, 0, 1 };
+  const Vector3 other = Cross(kAlong, kAcross);
+  const auto    back = [](const Vector3 & way) { return AddScaled({ 0, 0, 0 }, -1, way); };
+  const auto    aslant = [&](double part) { return AddScaled(AddScaled({ 0, 0, 0 }, -0.5, x), part, y); };
+  const std::array<std::vector<Vector3>, 7> bodies{ {
+    { x, back(x) },
+    { kAcross, back(kAcross) },
+    { x, back(x), y, back(y) },
+    { kAcross, back(kAcross), other, back(other) },
+    { x, aslant(std::sqrt(0.75)), aslant(-std::sqrt(0.75)) },
+    { x, y, z },
+    { kAlong, back(kAlong), kAcross, back(kAcross), other, back(other) },
+  } };
+  for (const auto & rods : bodies)
+  {
+    const Vector3 between{ 0, 0, -0.5 }; // two slices
+    Body          body({ 1, 1, 2.5 }, [&](const Vector3 & p) {
+      const Vector3 from = Minus(p, between);
+      return std::any_of(rods.begin(), rods.end(), [&](const Vector3 & rod) {
+        const double along = Dot(from, rod);
+        return along > -1 && along < 16 && Length(AddScaled(from, -along, rod)) < 1.5;
+      });
+    });
+    for (const Vector3 & rod : rods)
+    {
+      AddStraight(body, between, AddScaled(between, 15, rod), 1.5);
+    }
+    body.Fit();
+    for (const double radius : body.balls.radius)
+    {
+      EXPECT_GT(radius, 1.2) << (&rods - bodies.data());
+    }
+  }
+}
+
 TEST(FittedBalls, LinesOnTheRimOfAWallAreAsThickAsTheWall)
 {
   for (const Spacing3 & spacing : kSpacings)

@@ -3,6 +3,7 @@
 #include "BallEnvelope.h"
 #include "GrowthEquations.h"
 #include "RoundParts.h"
+#include "ThinPlates.h"
 
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
@@ -89,6 +90,7 @@ class Fitter
 public:
   Fitter(const VoxelShape & shape, const SpacingWeights & weights, const CellComplex & cells, PaintingBalls & balls)
     : m_Shape(shape)
+    , m_Weights(weights)
     , m_Balls(balls)
     , m_Cells(cells)
     , m_Rims(FindRims(cells))
@@ -107,7 +109,6 @@ public:
     {
       m_Places.push_back(Times(centre, m_Sides));
     }
-    m_Ends = FindLineEnds(cells, m_Bends, m_Places, balls.radius);
   }
 
   void
@@ -140,10 +141,14 @@ public:
                                                       m_Balls.radius,
                                                       all.round,
                                                       { kReach * m_Cube, kNoise * m_Longest, m_Longest });
+    const auto                     told = [&](std::size_t i) {
+      const double around = round[i].before + growths.at(cubeOf[i]);
+      return around + round[i].part * (round[i].after - around);
+    };
+    const std::vector<double> thin = ThinPlatesAtRims(told);
     for (std::size_t i = 0; i < m_Balls.Count(); ++i)
     {
-      const double around = round[i].before + growths.at(cubeOf[i]);
-      const double wanted = around + round[i].part * (round[i].after - around) - m_Balls.radius[i];
+      const double wanted = (thin[i] > 0 ? thin[i] / 2 : told(i)) - m_Balls.radius[i];
       const double growth = std::clamp(wanted, -m_Balls.radius[i] / 2, m_Longest);
       m_Balls.radius[i] += growth;
       m_Balls.value[i] += growth;
@@ -151,6 +156,22 @@ public:
   }
 
 private:
+  /** Per vertex. Within sheets a plate's voxels have no gaps. */
+  template <typename TRadius>
+  std::vector<double>
+  ThinPlatesAtRims(TRadius radiusOf) const
+  {
+    const ThinPlates    plates(m_Shape, m_Weights);
+    std::vector<double> found(m_Balls.Count(), 0);
+    RunInParts(found.size() > 1000, found.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        found[i] = IsSide(static_cast<ElementIndex>(i)) ? 0.0 : plates.ThicknessAt(m_Balls.centres[i], radiusOf(i));
+      }
+    });
+    return found;
+  }
+
   Cube
   CubeOf(const Vector3 & place) const
   {
@@ -271,7 +292,7 @@ private:
         const NearestBall ball = m_Envelope.Find(place, likely);
         if (const int bends = m_Bends[ball.vertex]; bends != 0)
         {
-          const double across = area / (countU * countV) * ball.way[axis] * (m_Ends[ball.vertex] != 0 ? kRim : 1.0);
+          const double across = area / (countU * countV) * ball.way[axis] * (m_Rims[ball.vertex] != 0 ? kRim : 1.0);
           round[ball.vertex].AddSquare(across, std::max(ball.distance, piece / 2), bends);
         }
       }
@@ -301,11 +322,11 @@ private:
   }
 
   const VoxelShape &        m_Shape;
+  const SpacingWeights &    m_Weights;
   PaintingBalls &           m_Balls;
   const CellComplex &       m_Cells;
   std::vector<std::uint8_t> m_Rims;
   std::vector<std::uint8_t> m_Bends;
-  std::vector<std::uint8_t> m_Ends;
   std::vector<Vector3>      m_Places; ///< of centres, mm
   BallEnvelope              m_Envelope;
   Vector3                   m_Sides{}; ///< mm a lattice unit

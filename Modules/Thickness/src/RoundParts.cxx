@@ -48,42 +48,6 @@ WaysAlongLines(const CellComplex & cells, const std::vector<std::uint8_t> & bend
   return next;
 }
 
-} // namespace
-
-std::vector<std::uint8_t>
-FindLineEnds(const CellComplex &               cells,
-             const std::vector<std::uint8_t> & bends,
-             const std::vector<Vector3> &      places,
-             const std::vector<double> &       radii)
-{
-  const Ways                next = WaysAlongLines(cells, bends);
-  std::vector<std::uint8_t> ends(cells.vertexCount, 0);
-  for (std::size_t vertex = 0; vertex < ends.size(); ++vertex)
-  {
-    ends[vertex] = bends[vertex] == 2 ? 1 : 0;
-  }
-  for (const auto & [tip, beside] : next)
-  {
-    if (bends[tip] != 1 || beside.size() != 1)
-    {
-      continue;
-    }
-    ElementIndex before = tip;
-    ElementIndex at = beside.front();
-    while (bends[at] == 1 && next.at(at).size() == 2)
-    {
-      const auto & both = next.at(at);
-      before = std::exchange(at, both[0] == before ? both[1] : both[0]);
-    }
-    const bool leaves = bends[at] == 0 || next.at(at).size() > 2;
-    ends[tip] = leaves && Distance(places[tip], places[at]) < 2 * radii[at] ? 0 : 1;
-  }
-  return ends;
-}
-
-namespace
-{
-
 class RoundFitter
 {
 public:

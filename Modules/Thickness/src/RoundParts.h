@@ -20,14 +20,6 @@ namespace voxelcore
 std::vector<std::uint8_t>
 FindBends(const CellComplex & cells);
 
-/** Flags of vertices beyond which a line does not go on though the body may: its ends, and points. Not those of spurs,
- *  which end within the balls of what they leave. Places and radii in mm. */
-std::vector<std::uint8_t>
-FindLineEnds(const CellComplex &               cells,
-             const std::vector<std::uint8_t> & bends,
-             const std::vector<Vector3> &      places,
-             const std::vector<double> &       radii);
-
 /** Over squares about a vertex, mm. */
 struct RoundSums
 {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Bias and spread of `voxelcore thickness` on plates, rods, spheres and shells at random turns.
-usage: bias.py PROGRAM [TURNS [SEED]]   (python3-numpy)
+usage: bias.py PROGRAM [TURNS [SEED [KIND ...]]]   (python3-numpy)
 Prints, per kind, thickness and spacing: the mean over turns of (mean over the body - truth), the worst turn, and the
 mean standard deviation within a body, in voxels of the first axis; refined, and of the voxels as they are."""
 import subprocess
@@ -14,6 +14,7 @@ from bodies import make, read_nrrd, write_nrrd
 PROGRAM = sys.argv[1]
 TURNS = int(sys.argv[2]) if len(sys.argv) > 2 else 24
 SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 1
+KINDS = sys.argv[4:] or ["plate", "rod", "sphere", "shell"]
 CASES = [("plate", t) for t in (2, 3, 4, 5, 6, 8, 12, 20)] + [("rod", t) for t in (3, 4, 6, 8, 12, 20)] + \
         [("sphere", t) for t in (4, 6, 8, 12, 20)] + [("shell", t) for t in (3, 4, 6, 8)]
 
@@ -28,7 +29,7 @@ print("| body | spacing | refined: bias, worst, spread | voxels as they are: bia
 print("| --- | --- | --- | --- |")
 with tempfile.TemporaryDirectory() as folder:
     for kind, thickness in CASES:
-        for spacing in ((1, 1, 1), (1, 1, 2.5)):
+        for spacing in ((1, 1, 1), (1, 1, 2.5)) if kind in KINDS else ():
             random = np.random.default_rng([SEED, thickness, len(kind), int(10 * spacing[2])])
             figures = {"labels": [], "off": []}
             for _ in range(TURNS):

@@ -18,6 +18,9 @@
 // The core of a wall of one to three voxels goes up and down with its voxels, and the balls of such a core would fill
 // more than the wall has. So centres are averaged with those of their neighbours for this, four times.
 //
+// A plate thinner than a slice is left as strips, and its core as lines. It is told from rods (ThinPlates.h): balls at
+// ends of lines, along lines and at rims get its thickness, which is its volume by its area.
+//
 // What balls never hold must not count: at the free border of a sheet and at the end of a line they are round where
 // the body may have edges. Squares there have a thousandth of their weight, so that they count where there are no
 // others. So have those about lines for sheets: a line that hangs on a sheet lies along its rim. Nor is such a line
