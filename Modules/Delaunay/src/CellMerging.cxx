@@ -124,9 +124,8 @@ FindAlike(const Tetrahedra &                tetrahedra,
           const std::vector<LatticePoint> & points,
           const SpacingWeights &            weights)
 {
-  const PointPredicates<TNumber> predicates(points, weights);
-  const std::size_t              count = inside.size();
-  std::vector<std::uint8_t>      alike(count, 0);
+  const std::size_t         count = inside.size();
+  std::vector<std::uint8_t> alike(count, 0);
 #pragma omp parallel for schedule(dynamic, 4096) if (count > 10000)
   for (std::size_t t = 0; t < count; ++t)
   {
@@ -143,7 +142,10 @@ FindAlike(const Tetrahedra &                tetrahedra,
       }
       const auto & across = tetrahedra.neighbours[neighbour];
       const auto   far = static_cast<std::size_t>(std::find(across.begin(), across.end(), t) - across.begin());
-      if (predicates.InSphere(tetrahedra.corners[t], tetrahedra.corners[neighbour][far]) == 0)
+      const auto & c = tetrahedra.corners[t];
+      if (InSphere<TNumber>({ points[c[0]], points[c[1]], points[c[2]], points[c[3]] },
+                            points[tetrahedra.corners[neighbour][far]],
+                            weights) == 0)
       {
         alike[t] = static_cast<std::uint8_t>(alike[t] | 1U << i);
       }

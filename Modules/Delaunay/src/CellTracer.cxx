@@ -16,7 +16,7 @@ namespace
 constexpr std::int32_t halo = LatticeWindow::halo;
 constexpr std::int32_t brickWidth = LatticeWindow::brick;
 // Up to 14.9 a ball about a point of the brick fits the window; beyond about 7 voxels looking for a cell costs more
-// than Bowyer-Watson takes for it.
+// than DeepTracer takes for it.
 constexpr double largestRadius = 7.0;
 constexpr double unknown = -std::numeric_limits<double>::infinity();
 } // namespace
@@ -42,7 +42,13 @@ CellTracer::CellTracer(const TracingInput & input, BrickQueue & bricks, bool fro
   m_Result.facetPoints.reserve(share * 5);
   const auto & w = input.weights.weight;
   m_Wide = std::max({ w[0], w[1], w[2] }) > 1;
-  m_Limit = largestRadius * static_cast<double>(std::min({ w[0], w[1], w[2] }));
+  m_Limit = LargestRadius(input.weights);
+}
+
+double
+CellTracer::LargestRadius(const SpacingWeights & weights)
+{
+  return largestRadius * static_cast<double>(*std::min_element(weights.weight.begin(), weights.weight.end()));
 }
 
 Tracing

@@ -54,6 +54,10 @@ class CellTracer
 public:
   CellTracer(const TracingInput & input, BrickQueue & bricks, bool fromEnd);
 
+  /** Up to which it finds cells, in units of length. */
+  static double
+  LargestRadius(const SpacingWeights & weights);
+
   /** Takes bricks and starts at their own boundary. \throws Cancelled. */
   Tracing
   Trace(const ProgressCallback & progress);

@@ -49,6 +49,12 @@ public:
     m_Size = 0;
   }
 
+  std::size_t
+  Size() const
+  {
+    return m_Size;
+  }
+
   /** Takes the number stored under the key out and returns it, or none. */
   std::uint32_t
   Take(const FacetKey & key)

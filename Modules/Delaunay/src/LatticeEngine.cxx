@@ -154,15 +154,7 @@ LatticeCells(const VoxelShape &                shape,
   RawCells raw;
   if (!tracing.deep.empty())
   {
-    // Adding the last deep points leaves a thread free to sort the cells found so far. It takes about a thirtieth of a
-    // point's time for a cell: with less than half of that to wait, all threads are sooner done afterwards.
-    const auto sortFound = [&](std::size_t pointsAdded) {
-      if (threads > 1 && 60 * pointsAdded > tracing.cells.CellCount())
-      {
-        raw.sorted = SortByCentre(tracing.cells, 0, points, weights);
-      }
-    };
-    AddDeepCells(tracing, shape, points, weights, sortFound, plan.Next());
+    tracing = AddDeepCells(std::move(tracing), points, weights, plan.Next());
   }
   raw.cells = std::move(tracing.cells);
   return raw;

@@ -1,5 +1,5 @@
 #pragma once
-// The engine made for voxel shapes: small cells by tracing from the boundary, the deep rest by Bowyer-Watson.
+// The engine made for voxel shapes: small cells by tracing from the boundary, the deep rest likewise, by a tree.
 
 #include "voxelcore/CanonicalCells.h"
 
