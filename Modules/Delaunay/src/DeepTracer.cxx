@@ -17,7 +17,7 @@ namespace
 constexpr double      kStepsPerDoubling = 4.0; // of the queue
 constexpr std::size_t kSteps = 84;             // up to 2^20 times the least radius
 constexpr double      kFirstLook = 4.0;        // times the radius before it
-constexpr std::size_t kWorthRebuilding = 500;  // points
+constexpr std::size_t kWorthRebuilding = 500;  // facets
 
 // Out of the region that a facet looks into, and the longer the larger the facet.
 BallTree::Direction
@@ -84,25 +84,31 @@ DeepTracer::TouchesSlab(std::span<const std::uint32_t> polygon) const
 Tracing
 DeepTracer::Trace(const ProgressCallback & progress)
 {
-  std::vector<std::uint32_t> & walls = m_Queue[0];
+  m_OnWallsOfOthers = MarkedPoints(m_Input.points.size());
   for (std::uint32_t wall = 0; wall < m_WallCount; ++wall)
   {
-    if (TouchesSlab(m_Input.tracing.cells.FacetPoints(m_Input.tracing.deep[wall])))
+    const auto polygon = m_Input.tracing.cells.FacetPoints(m_Input.tracing.deep[wall]);
+    if (TouchesSlab(polygon))
     {
-      walls.push_back(wall);
+      m_OwnWalls.push_back(wall);
+    }
+    else
+    {
+      m_OnWallsOfOthers.Mark(polygon);
     }
   }
+  m_Queue[0] = m_OwnWalls;
   // Room for the usual number, so that arrays need not move: what is not touched costs nothing.
-  m_Cells.tetrahedra.reserve(walls.size());
-  m_Cells.facetCells.reserve(2 * walls.size());
-  m_Cells.facetOffsets.reserve(2 * walls.size());
-  m_Cells.facetPoints.reserve(7 * walls.size());
-  m_Front.Clear(walls.size());
-  for (const std::uint32_t wall : walls)
+  m_Cells.tetrahedra.reserve(m_OwnWalls.size());
+  m_Cells.facetCells.reserve(2 * m_OwnWalls.size());
+  m_Cells.facetOffsets.reserve(2 * m_OwnWalls.size());
+  m_Cells.facetPoints.reserve(7 * m_OwnWalls.size());
+  m_Front.Clear(m_OwnWalls.size());
+  for (const std::uint32_t wall : m_OwnWalls)
   {
     m_Front.Insert(KeyOf(m_Input.tracing.cells.FacetPoints(m_Input.tracing.deep[wall])), wall);
   }
-  const double all = 2.0 * static_cast<double>(walls.size() + 1);
+  const double all = 2.0 * static_cast<double>(m_OwnWalls.size() + 1);
   RebuildTree();
   for (std::size_t count = 0; m_Step < kSteps; ++count)
   {
@@ -116,7 +122,7 @@ DeepTracer::Trace(const ProgressCallback & progress)
     {
       ReportProgress(progress, "delaunay", std::min(1.0, static_cast<double>(count) / all));
     }
-    if (2 * m_Front.Size() < m_FrontThen && m_Tree.Size() > kWorthRebuilding)
+    if (2 * m_Front.Size() < m_FrontThen && m_FrontThen > kWorthRebuilding)
     {
       RebuildTree();
     }
@@ -138,21 +144,8 @@ DeepTracer::RebuildTree()
 {
 
   m_FrontThen = m_Front.Size();
-  m_InTree = MarkedPoints(m_Input.points.size());
-  const auto mark = [&](std::span<const std::uint32_t> polygon) {
-    for (const std::uint32_t p : polygon)
-    {
-      m_InTree.Mark(p);
-    }
-  };
-  for (const std::uint32_t wall : m_Input.tracing.deep)
-  {
-    if (const auto polygon = m_Input.tracing.cells.FacetPoints(wall); !TouchesSlab(polygon))
-    {
-      mark(polygon);
-    }
-  }
-  VisitFront([&] { mark(m_Polygon); });
+  m_InTree = m_OnWallsOfOthers;
+  VisitFront([&] { m_InTree.Mark(m_Polygon); });
   std::vector<BallTree::Direction> directions(m_InTree.Count());
   VisitFront([&] {
     const BallTree::Direction away = AwayFrom(m_Polygon, m_Input.points, m_Input.weights);
@@ -188,17 +181,18 @@ template <typename TVisit>
 void
 DeepTracer::VisitFront(TVisit visit)
 {
-  const auto end = static_cast<std::uint32_t>(m_WallCount + m_Cells.FacetCount());
-  for (std::uint32_t facet = 0; facet < end; ++facet)
-  {
+  const auto visitOpen = [&](std::uint32_t facet) {
     if (IsOpen(facet))
     {
       CopyPolygon(facet);
-      if (facet >= m_WallCount || TouchesSlab(m_Polygon))
-      {
-        visit();
-      }
+      visit();
     }
+  };
+  std::for_each(m_OwnWalls.begin(), m_OwnWalls.end(), visitOpen);
+  const auto end = static_cast<std::uint32_t>(m_WallCount + m_Cells.FacetCount());
+  for (std::uint32_t facet = m_WallCount; facet < end; ++facet)
+  {
+    visitOpen(facet);
   }
 }
 

@@ -91,6 +91,8 @@ private:
   std::vector<std::uint8_t>  m_IsOwn; // of several slabs: per cell
   FacetTable                 m_Front;
   std::size_t                m_FrontThen = 0; // when the tree was built
+  std::vector<std::uint32_t> m_OwnWalls;      // with a point of the slab
+  MarkedPoints               m_OnWallsOfOthers;
   MarkedPoints               m_InTree;
   std::vector<std::uint32_t> m_PlaceInTree; // by number among those
   BallTree                   m_Tree;

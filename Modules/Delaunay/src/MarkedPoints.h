@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace voxelcore
@@ -19,9 +20,12 @@ public:
   {}
 
   void
-  Mark(std::uint32_t point)
+  Mark(std::span<const std::uint32_t> points)
   {
-    m_Bits[point / 64] |= std::uint64_t{ 1 } << point % 64;
+    for (const std::uint32_t point : points)
+    {
+      m_Bits[point / 64] |= std::uint64_t{ 1 } << point % 64;
+    }
   }
   bool
   IsMarked(std::uint32_t point) const
