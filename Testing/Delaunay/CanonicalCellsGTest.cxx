@@ -43,21 +43,21 @@ Shuffle(Random & random, std::vector<T> & items)
 }
 
 /** The same cells under other numbers: facets in any order, from either side, polygons from any corner, and facets that
- *  no cell has among them; the first cells sorted already. */
-RawCells
-Disorder(const Answer & answer, Random & random, double sortedShare)
+ *  no cell has among them. */
+DelaunayCells
+Disorder(const Answer & answer, Random & random)
 {
   const DelaunayCells &      cells = answer.cells;
   std::vector<std::uint32_t> number(cells.CellCount());
   std::iota(number.begin(), number.end(), 0U);
   Shuffle(random, number);
-  RawCells raw;
-  raw.cells.tetrahedra.resize(cells.CellCount());
+  DelaunayCells raw;
+  raw.tetrahedra.resize(cells.CellCount());
   for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
   {
     std::vector<std::uint32_t> corners(cells.tetrahedra[cell].begin(), cells.tetrahedra[cell].end());
     Shuffle(random, corners);
-    std::copy(corners.begin(), corners.end(), raw.cells.tetrahedra[number[cell]].begin());
+    std::copy(corners.begin(), corners.end(), raw.tetrahedra[number[cell]].begin());
   }
   std::vector<std::size_t> order(cells.FacetCount());
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
@@ -68,9 +68,9 @@ Disorder(const Answer & answer, Random & random, double sortedShare)
     std::vector<std::uint32_t> polygon(given.begin(), given.end());
     if (random.Chance(0.1))
     {
-      raw.cells.facetCells.push_back({ kOutside, kOutside });
-      raw.cells.facetPoints.insert(raw.cells.facetPoints.end(), polygon.begin(), polygon.end());
-      raw.cells.facetOffsets.push_back(raw.cells.facetPoints.size());
+      raw.facetCells.push_back({ kOutside, kOutside });
+      raw.facetPoints.insert(raw.facetPoints.end(), polygon.begin(), polygon.end());
+      raw.facetOffsets.push_back(raw.facetPoints.size());
     }
     auto pair = cells.facetCells[facet];
     pair[0] = number[pair[0]];
@@ -83,15 +83,10 @@ Disorder(const Answer & answer, Random & random, double sortedShare)
     std::rotate(polygon.begin(),
                 polygon.begin() + random.Between(0, static_cast<std::int64_t>(polygon.size()) - 1),
                 polygon.end());
-    raw.cells.facetCells.push_back(pair);
-    raw.cells.facetPoints.insert(raw.cells.facetPoints.end(), polygon.begin(), polygon.end());
-    raw.cells.facetOffsets.push_back(raw.cells.facetPoints.size());
+    raw.facetCells.push_back(pair);
+    raw.facetPoints.insert(raw.facetPoints.end(), polygon.begin(), polygon.end());
+    raw.facetOffsets.push_back(raw.facetPoints.size());
   }
-  DelaunayCells first;
-  first.tetrahedra.assign(raw.cells.tetrahedra.begin(),
-                          raw.cells.tetrahedra.begin() +
-                            static_cast<std::ptrdiff_t>(sortedShare * static_cast<double>(cells.CellCount())));
-  raw.sorted = SortByCentre(first, 0, answer.points, answer.weights);
   return raw;
 }
 
@@ -112,11 +107,7 @@ ForAnswers(std::uint64_t firstSeed, TCheck check)
 TEST(CanonicalCells, AreTheSameWhateverTheOrderOfWhatCameIn)
 {
   ForAnswers(4400, [](const Answer & answer, Random & random) {
-    for (const double sortedShare : { 0.0, 0.4, 1.0 })
-    {
-      ExpectSameCells(MakeCanonical(Disorder(answer, random, sortedShare), answer.points, answer.weights),
-                      answer.cells);
-    }
+    ExpectSameCells(MakeCanonical(Disorder(answer, random), answer.points, answer.weights), answer.cells);
   });
 }
 
@@ -130,8 +121,8 @@ TEST(CanonicalCells, ThousandsAreTheSameWithAnyNumberOfThreads)
   ASSERT_GT(answer.cells.CellCount(), 20000U) << "enough for several threads";
   for (const int count : { 1, 3 })
   {
-    const Threads  threads(count);
-    const RawCells raw = Disorder(answer, random, 0.5);
+    const Threads       threads(count);
+    const DelaunayCells raw = Disorder(answer, random);
     ASSERT_NO_FATAL_FAILURE(ExpectSameCells(MakeCanonical(raw, answer.points, answer.weights), answer.cells));
   }
 }
@@ -169,13 +160,9 @@ TEST(CanonicalCells, FacetsOnTheBoundaryCanBeLeftOut)
 {
   ForAnswers(4600, [](const Answer & answer, Random & random) {
     const DelaunayCells expected = WithoutBoundary(answer);
-    for (const double sortedShare : { 0.0, 0.4 })
-    {
-      const DelaunayCells left =
-        MakeCanonical(Disorder(answer, random, sortedShare), answer.points, answer.weights, Facets::Inside);
-      ASSERT_NO_FATAL_FAILURE(ExpectSameCells(left, expected));
-      ASSERT_TRUE(left.voxelSides == expected.voxelSides);
-    }
+    const DelaunayCells left = MakeCanonical(Disorder(answer, random), answer.points, answer.weights, Facets::Inside);
+    ASSERT_NO_FATAL_FAILURE(ExpectSameCells(left, expected));
+    ASSERT_TRUE(left.voxelSides == expected.voxelSides);
     const DelaunayCells asked =
       ComputeDelaunayCells(answer.shape, answer.points, answer.weights, Engine::Lattice, {}, Facets::Inside);
     ASSERT_NO_FATAL_FAILURE(ExpectSameCells(asked, expected));
@@ -190,17 +177,15 @@ TEST(CanonicalCells, CellsAreSortedByTheirExactCentres)
   for (const RandomVolume & volume : RandomVolumes(firstSeed, 12))
   {
     SCOPED_TRACE(volume.Describe());
-    const Answer   answer(volume);
-    Random         random(volume.seed);
-    const RawCells raw = Disorder(answer, random, 0);
-    const auto     first = raw.cells.CellCount() / 3;
-    const auto     sorted = SortByCentre(raw.cells, first, answer.points, answer.weights);
-    ASSERT_EQ(sorted.size(), raw.cells.CellCount() - first);
+    const Answer        answer(volume);
+    Random              random(volume.seed);
+    const DelaunayCells raw = Disorder(answer, random);
+    const auto          sorted = SortByCentre(raw, answer.points, answer.weights);
+    ASSERT_EQ(sorted.size(), raw.CellCount());
     std::optional<BigVector> before;
     for (const std::uint32_t cell : sorted)
     {
-      ASSERT_GE(cell, first);
-      const auto &      t = raw.cells.tetrahedra[cell];
+      const auto &      t = raw.tetrahedra[cell];
       const std::array  corners{ answer.points[t[0]], answer.points[t[1]], answer.points[t[2]], answer.points[t[3]] };
       const CentredCell entry = CentreOfCorners(corners, answer.weights);
       const auto        centre = ExactCircumcentre({ corners.begin(), corners.end() }, answer.weights);
@@ -220,16 +205,12 @@ TEST(CanonicalCells, TwoOfOneCentreAreRefusedWhereverTheyCome)
 {
   const Answer answer(MakeRandomVolume(77, 4, 6));
   Random       random(77);
-  for (const double sortedShare : { 0.0, 0.5, 1.0 })
+  for (const bool atTheEnd : { false, true })
   {
-    for (const bool atTheEnd : { false, true })
-    {
-      RawCells   raw = Disorder(answer, random, sortedShare);
-      const auto twin = atTheEnd ? raw.cells.tetrahedra.back() : raw.cells.tetrahedra.front();
-      raw.cells.tetrahedra.push_back(twin);
-      EXPECT_THROW(MakeCanonical(std::move(raw), answer.points, answer.weights), CertificateError)
-        << sortedShare << ' ' << atTheEnd;
-    }
+    DelaunayCells raw = Disorder(answer, random);
+    const auto    twin = atTheEnd ? raw.tetrahedra.back() : raw.tetrahedra.front();
+    raw.tetrahedra.push_back(twin);
+    EXPECT_THROW(MakeCanonical(std::move(raw), answer.points, answer.weights), CertificateError) << atTheEnd;
   }
 }
 

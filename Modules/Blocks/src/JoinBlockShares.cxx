@@ -164,7 +164,7 @@ public:
     LinkOpenFacets();
     SpacingWeights weights;
     weights.weight = m_First.weight;
-    m_Joined.cells = MakeCanonical({ std::move(m_Joined.cells), {} }, m_Joined.points, weights);
+    m_Joined.cells = MakeCanonical(std::move(m_Joined.cells), m_Joined.points, weights);
     m_Joined.topology = JoinTopologyParts(m_Topology);
     return std::move(m_Joined);
   }

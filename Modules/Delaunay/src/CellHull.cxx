@@ -43,10 +43,10 @@ Dot(const Vector<TNumber> & a, const Vector<TNumber> & b)
 // behind it, then take every point on it, in order around `from`.
 template <typename TNumber>
 void
-AppendFacet(std::span<const LatticePoint> points, std::uint16_t from, std::uint16_t to, HullFacets & hull)
+AppendFacet(std::span<const LatticePoint> points, std::uint32_t from, std::uint32_t to, HullFacets & hull)
 {
   const auto      side = Between<TNumber>(points[from], points[to]);
-  std::uint16_t   third = from;
+  std::uint32_t   third = from;
   Vector<TNumber> normal{ 0, 0, 0 };
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -57,7 +57,7 @@ AppendFacet(std::span<const LatticePoint> points, std::uint16_t from, std::uint1
     const auto arm = Between<TNumber>(points[from], points[i]);
     if (third == from || Dot(normal, arm) > 0)
     {
-      third = static_cast<std::uint16_t>(i);
+      third = static_cast<std::uint32_t>(i);
       normal = Cross(side, arm);
     }
   }
@@ -68,7 +68,7 @@ AppendFacet(std::span<const LatticePoint> points, std::uint16_t from, std::uint1
   {
     if (i != from && i != to && Dot(normal, Between<TNumber>(points[from], points[i])) == 0)
     {
-      hull.corners.push_back(static_cast<std::uint16_t>(i));
+      hull.corners.push_back(static_cast<std::uint32_t>(i));
     }
   }
   // All lie on the left of from -> to in the facet's plane, so angles about `from` are less than half a turn.
@@ -78,25 +78,24 @@ AppendFacet(std::span<const LatticePoint> points, std::uint16_t from, std::uint1
     const Vector<std::int64_t> axis{ normal.x, normal.y, normal.z };
     std::sort(hull.corners.begin() + static_cast<std::ptrdiff_t>(start) + 2,
               hull.corners.end(),
-              [&](std::uint16_t a, std::uint16_t b) {
+              [&](std::uint32_t a, std::uint32_t b) {
                 return Dot(Cross(Between<std::int64_t>(points[from], points[a]),
                                  Between<std::int64_t>(points[from], points[b])),
                            axis) > 0;
               });
   }
-  hull.offsets.push_back(static_cast<std::uint16_t>(hull.corners.size()));
+  hull.offsets.push_back(static_cast<std::uint32_t>(hull.corners.size()));
 }
 
 // A directed side of the hull at point 0 to start from: every cospherical point is a corner, so some plane through
 // point 0 and two others has all points behind it.
-// NOLINTBEGIN(bugprone-too-small-loop-variable): a sphere within a box of 64 meets its 2^12 columns twice at most
 template <typename TNumber>
-std::array<std::uint16_t, 2>
+std::array<std::uint32_t, 2>
 FirstSide(std::span<const LatticePoint> points)
 {
-  for (std::uint16_t i = 1; i < points.size(); ++i)
+  for (std::uint32_t i = 1; i < points.size(); ++i)
   {
-    for (std::uint16_t j = 1; j < points.size(); ++j)
+    for (std::uint32_t j = 1; j < points.size(); ++j)
     {
       const auto normal = Cross(Between<TNumber>(points[0], points[i]), Between<TNumber>(points[0], points[j]));
       if (i != j && (normal.x != 0 || normal.y != 0 || normal.z != 0) &&
@@ -106,8 +105,8 @@ FirstSide(std::span<const LatticePoint> points)
       {
         // The facet's outline through point 0: pivoting about a chord of it would miss part of the facet, so take the
         // point in its plane that is first in counter-clockwise order.
-        std::uint16_t first = i;
-        for (std::uint16_t k = 1; k < points.size(); ++k)
+        std::uint32_t first = i;
+        for (std::uint32_t k = 1; k < points.size(); ++k)
         {
           const auto                 arm = Between<std::int64_t>(points[0], points[k]);
           const Vector<std::int64_t> axis{ normal.x, normal.y, normal.z };
@@ -122,27 +121,26 @@ FirstSide(std::span<const LatticePoint> points)
   }
   throw Error("a Delaunay cell is flat; please report this input");
 }
-// NOLINTEND(bugprone-too-small-loop-variable)
 
 // Gift wrapping: sides of known facets whose other facet is still missing.
 template <typename TNumber>
 void
 WrapHull(std::span<const LatticePoint> points, HullFacets & hull)
 {
-  std::vector<std::array<std::uint16_t, 2>> open;
+  std::vector<std::array<std::uint32_t, 2>> open;
   open.reserve(3 * points.size());
   open.push_back(FirstSide<TNumber>(points));
   std::swap(open[0][0], open[0][1]); // as if the facet beyond had run the other way
   while (!open.empty())
   {
-    const std::array<std::uint16_t, 2> side{ open.back()[1], open.back()[0] };
+    const std::array<std::uint32_t, 2> side{ open.back()[1], open.back()[0] };
     open.pop_back();
     AppendFacet<TNumber>(points, side[0], side[1], hull);
     const auto polygon = hull.Polygon(hull.Count() - 1);
     for (std::size_t i = 0; i < polygon.size(); ++i)
     {
-      const std::array<std::uint16_t, 2> own{ polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1] };
-      const std::array<std::uint16_t, 2> twin{ own[1], own[0] };
+      const std::array<std::uint32_t, 2> own{ polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1] };
+      const std::array<std::uint32_t, 2> twin{ own[1], own[0] };
       if (own == side && hull.Count() > 1) // the facet on its other side is where it came from
       {
         continue;
@@ -179,6 +177,7 @@ IsSame(const std::vector<std::uint32_t> & key, const std::uint32_t * old)
   return true;
 }
 
+// Of points in a box of 64: a sphere meets its 2^12 columns twice at most.
 void
 AppendPolygons(const HullFacets & hull, std::vector<std::uint16_t> & polygons)
 {
@@ -186,7 +185,10 @@ AppendPolygons(const HullFacets & hull, std::vector<std::uint16_t> & polygons)
   {
     const auto polygon = hull.Polygon(facet);
     polygons.push_back(static_cast<std::uint16_t>(polygon.size()));
-    polygons.insert(polygons.end(), polygon.begin(), polygon.end());
+    for (const std::uint32_t corner : polygon)
+    {
+      polygons.push_back(static_cast<std::uint16_t>(corner));
+    }
   }
 }
 

@@ -13,15 +13,15 @@ namespace voxelcore
 /** Polygons as indices into the points, each counter-clockwise seen from outside. */
 struct HullFacets
 {
-  std::vector<std::uint16_t> offsets{ 0 };
-  std::vector<std::uint16_t> corners;
+  std::vector<std::uint32_t> offsets{ 0 };
+  std::vector<std::uint32_t> corners;
 
   std::size_t
   Count() const
   {
     return offsets.size() - 1;
   }
-  std::span<const std::uint16_t>
+  std::span<const std::uint32_t>
   Polygon(std::size_t facet) const
   {
     return { corners.data() + offsets[facet], corners.data() + offsets[facet + 1] };

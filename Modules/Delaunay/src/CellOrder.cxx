@@ -52,22 +52,21 @@ FindCentres(const DelaunayCells &              cells,
   }
 }
 
-/** Calls visit for one run after the other of the cells from `firstCell` on, by exact centre. */
+/** Calls visit for one run after the other of the cells, by exact centre. */
 void
 VisitByCentre(const DelaunayCells &                   cells,
-              std::size_t                             firstCell,
               const std::vector<LatticePoint> &       points,
               const SpacingWeights &                  weights,
               const std::function<void(CentredRun)> & visit)
 {
-  const std::size_t          count = cells.CellCount() - firstCell;
+  const std::size_t          count = cells.CellCount();
   const bool                 worthIt = count > 10000;
   const CentreBuckets        buckets(cells, points, weights, count);
   std::vector<std::uint32_t> bucketOf(count);
   RunInParts(worthIt, count, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
     {
-      bucketOf[i] = buckets.Of(CentreOf(cells, static_cast<std::uint32_t>(firstCell + i), points, weights));
+      bucketOf[i] = buckets.Of(CentreOf(cells, static_cast<std::uint32_t>(i), points, weights));
     }
   });
   std::vector<std::uint32_t>       order;
@@ -75,7 +74,7 @@ VisitByCentre(const DelaunayCells &                   cells,
     count,
     buckets.Count(),
     [&](std::size_t i) { return std::size_t{ bucketOf[i] }; },
-    [&](std::size_t i) { return static_cast<std::uint32_t>(firstCell + i); },
+    [&](std::size_t i) { return static_cast<std::uint32_t>(i); },
     order);
   bucketOf = {};
   const CentreOrder centreOrder(cells, points, weights);
@@ -122,19 +121,12 @@ VisitByCentre(const DelaunayCells &                   cells,
   }
 }
 
-/** Cells in their order, as they come run after run. */
+/** Numbers cells in their order, as they come run after run. */
 class CanonicalOrder
 {
 public:
-  CanonicalOrder(DelaunayCells &                    cells,
-                 const std::vector<std::uint32_t> & sorted,
-                 const std::vector<LatticePoint> &  points,
-                 const SpacingWeights &             weights)
+  explicit CanonicalOrder(DelaunayCells & cells)
     : m_Cells(cells)
-    , m_Sorted(sorted)
-    , m_Points(points)
-    , m_Weights(weights)
-    , m_Order(cells, points, weights)
     , m_Rank(cells.CellCount())
     , m_Tetrahedra(cells.CellCount())
     , m_VoxelSides(cells.voxelSides.size())
@@ -142,100 +134,8 @@ public:
     cells.centres.resize(cells.CellCount());
   }
 
-  /** What comes next of those that were not sorted before. */
   void
   Take(CentredRun run)
-  {
-    const std::size_t most = m_Sorted.size() / kRuns + 1;
-    while (!run.empty())
-    {
-      // With a twin, which is refused.
-      const auto  isBefore = [&](std::uint32_t cell) { return m_Order.Compare(CentreOfCell(cell), run.back()) <= 0; };
-      const auto  from = m_Sorted.begin() + static_cast<std::ptrdiff_t>(m_SortedTaken);
-      const auto  before = static_cast<std::size_t>(std::partition_point(from, m_Sorted.end(), isBefore) - from);
-      std::size_t part = run.size();
-      if (before > most)
-      {
-        const CentredCell last = CentreOfCell(m_Sorted[m_SortedTaken + most - 1]);
-        part = static_cast<std::size_t>(
-          std::ranges::partition_point(run, [&](const CentredCell & own) { return m_Order.Compare(own, last) <= 0; }) -
-          run.begin());
-      }
-      Merge(std::min(before, most), run.first(part));
-      run = run.subspan(part);
-    }
-  }
-
-  /** Nothing more will come. \returns what number each cell has now */
-  std::vector<std::uint32_t>
-  Finish()
-  {
-    while (m_SortedTaken < m_Sorted.size())
-    {
-      Merge(std::min(m_Sorted.size() - m_SortedTaken, m_Sorted.size() / kRuns + 1), {});
-    }
-    m_Cells.tetrahedra.swap(m_Tetrahedra);
-    m_Cells.voxelSides.swap(m_VoxelSides);
-    return std::move(m_Rank);
-  }
-
-private:
-  CentredCell
-  CentreOfCell(std::uint32_t cell) const
-  {
-    return CentreOf(m_Cells, cell, m_Points, m_Weights);
-  }
-
-  /** A run, and the next so many of those sorted before. */
-  void
-  Merge(std::size_t count, CentredRun run)
-  {
-    if (count == 0)
-    {
-      Number(run);
-      return;
-    }
-    std::vector<CentredCell> before(count);
-    RunInParts(count > 10000, count, [&](std::size_t first, std::size_t last) {
-      FindCentres(m_Cells,
-                  m_Points,
-                  m_Weights,
-                  m_Sorted,
-                  m_SortedTaken + first,
-                  m_SortedTaken + last,
-                  before.data() + first);
-    });
-    m_SortedTaken += count;
-    std::vector<CentredCell> merged(count + run.size());
-    std::atomic<bool>        twins = false;
-    const auto isLess = [&](const CentredCell & x, const CentredCell & y) { return m_Order.Compare(x, y) < 0; };
-    const auto partnerOf = [&](std::size_t i) {
-      return i == count ? run.end()
-             : i == 0   ? run.begin()
-                        : std::lower_bound(run.begin(), run.end(), before[i], isLess);
-    };
-    RunInParts(merged.size() > 10000, count, [&](std::size_t first, std::size_t last) {
-      const auto from = partnerOf(first);
-      const auto to = partnerOf(last);
-      const auto at = [](auto & list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
-      const auto begin = at(merged, first + static_cast<std::size_t>(from - run.begin()));
-      const auto behind = std::merge(at(before, first), at(before, last), from, to, begin, isLess);
-      if (std::adjacent_find(begin, behind, [&](const CentredCell & x, const CentredCell & y) {
-            return m_Order.Compare(x, y) == 0;
-          }) != behind)
-      {
-        twins = true;
-      }
-    });
-    if (twins)
-    {
-      FailTwins();
-    }
-    Number(merged);
-  }
-
-  void
-  Number(CentredRun run)
   {
     RunInParts(run.size() > 10000, run.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i)
@@ -257,50 +157,54 @@ private:
     m_Numbered += run.size();
   }
 
+  /** Nothing more will come. \returns what number each cell has now */
+  std::vector<std::uint32_t>
+  Finish()
+  {
+    m_Cells.tetrahedra.swap(m_Tetrahedra);
+    m_Cells.voxelSides.swap(m_VoxelSides);
+    return std::move(m_Rank);
+  }
+
+private:
   DelaunayCells &                           m_Cells;
-  const std::vector<std::uint32_t> &        m_Sorted;
-  const std::vector<LatticePoint> &         m_Points;
-  const SpacingWeights &                    m_Weights;
-  CentreOrder                               m_Order;
   std::vector<std::uint32_t>                m_Rank;
   std::vector<std::array<std::uint32_t, 4>> m_Tetrahedra;
   std::vector<std::uint8_t>                 m_VoxelSides;
-  std::size_t                               m_SortedTaken = 0;
   std::size_t                               m_Numbered = 0;
 };
 
 } // namespace
 
 std::vector<std::uint32_t>
-SortByCentre(const DelaunayCells &             cells,
-             std::size_t                       first,
-             const std::vector<LatticePoint> & points,
-             const SpacingWeights &            weights)
+SortByCentre(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights)
 {
   std::vector<std::uint32_t> order;
-  order.reserve(cells.CellCount() - first);
-  VisitByCentre(cells, first, points, weights, [&](CentredRun run) {
+  order.reserve(cells.CellCount());
+  VisitByCentre(cells, points, weights, [&](CentredRun run) {
     std::ranges::transform(run, std::back_inserter(order), &CentredCell::cell);
   });
   return order;
 }
 
 DelaunayCells
-MakeCanonical(RawCells raw, const std::vector<LatticePoint> & points, const SpacingWeights & weights, Facets facets)
+MakeCanonical(DelaunayCells                     cells,
+              const std::vector<LatticePoint> & points,
+              const SpacingWeights &            weights,
+              Facets                            facets)
 {
-  DelaunayCells & cells = raw.cells;
   if (facets == Facets::Inside)
   {
     LeaveOutBoundary(points, weights, cells);
   }
   std::vector<std::uint32_t> rank;
   {
-    CanonicalOrder order(cells, raw.sorted, points, weights);
-    VisitByCentre(cells, raw.sorted.size(), points, weights, [&](CentredRun run) { order.Take(run); });
+    CanonicalOrder order(cells);
+    VisitByCentre(cells, points, weights, [&](CentredRun run) { order.Take(run); });
     rank = order.Finish();
   }
   OrderFacets(cells, std::move(rank));
-  return std::move(cells);
+  return cells;
 }
 
 } // namespace voxelcore

@@ -133,7 +133,6 @@ DeepTracer::Trace(const ProgressCallback & progress)
       TraceFacet(facet, m_Input.radius * std::exp2(static_cast<double>(m_Step + 1) / kStepsPerDoubling));
     }
   }
-
   m_Tree = BallTree();
   return TakeOwn();
 }
@@ -142,7 +141,6 @@ DeepTracer::Trace(const ProgressCallback & progress)
 void
 DeepTracer::RebuildTree()
 {
-
   m_FrontThen = m_Front.Size();
   m_InTree = m_OnWallsOfOthers;
   VisitFront([&] { m_InTree.Mark(m_Polygon); });
@@ -277,9 +275,9 @@ DeepTracer::TraceFacet(std::uint32_t facet, double radius)
     low = { std::min(low.x, at[p].x), std::min(low.y, at[p].y), std::min(low.z, at[p].z) };
     high = { std::max(high.x, at[p].x), std::max(high.y, at[p].y), std::max(high.z, at[p].z) };
   }
-  const auto add = [&](std::span<const std::uint16_t> corners) {
+  const auto add = [&](const auto & corners) {
     m_Facet.clear();
-    for (const std::uint16_t corner : corners)
+    for (const auto corner : corners)
     {
       m_Facet.push_back(m_Members[corner]);
     }

@@ -45,12 +45,12 @@ ComputeDelaunayCells(const VoxelShape &                shape,
   {
     return {};
   }
-  RawCells raw;
+  DelaunayCells raw;
   ReportProgress(progress, "delaunay", 0.0);
 #ifdef VOXELCORE_HAS_TETGEN
   if (engine == Engine::TetGen)
   {
-    raw.cells = TetGenCells(shape, points, weights, progress);
+    raw = TetGenCells(shape, points, weights, progress);
   }
   else
 #endif

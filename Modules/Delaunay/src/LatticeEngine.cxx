@@ -120,7 +120,7 @@ BrickLoad(const TracingBricks & grid, const std::vector<LatticePoint> & points)
   return load;
 }
 
-RawCells
+DelaunayCells
 LatticeCells(const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
@@ -151,13 +151,11 @@ LatticeCells(const VoxelShape &                shape,
   // Whatever tracing left, for whichever reason, is completed from the facets it left open.
   tracing.deep.insert(tracing.deep.end(), tracing.open.begin(), tracing.open.end());
   tracing.open.clear();
-  RawCells raw;
   if (!tracing.deep.empty())
   {
     tracing = AddDeepCells(std::move(tracing), points, weights, plan.Next());
   }
-  raw.cells = std::move(tracing.cells);
-  return raw;
+  return std::move(tracing.cells);
 }
 
 } // namespace voxelcore

@@ -1,14 +1,14 @@
 #pragma once
 // The engine made for voxel shapes: small cells by tracing from the boundary, the deep rest likewise, by a tree.
 
-#include "voxelcore/CanonicalCells.h"
+#include "voxelcore/DelaunayCells.h"
 
 namespace voxelcore
 {
 
 /** Merged Delaunay cells inside the shape, not yet in canonical order. Uses all OpenMP threads; the cells do not depend
  *  on their number. \throws Cancelled. */
-RawCells
+DelaunayCells
 LatticeCells(const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,

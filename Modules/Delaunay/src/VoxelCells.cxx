@@ -48,7 +48,7 @@ MakeVoxelCell(unsigned mask)
   {
     std::vector<std::uint8_t> corners;
     unsigned                  set = 0;
-    for (const std::uint16_t corner : hull.Polygon(facet))
+    for (const std::uint32_t corner : hull.Polygon(facet))
     {
       corners.push_back(names[corner]);
       set |= 1U << names[corner];

@@ -18,27 +18,17 @@ struct CentredCell
 CentredCell
 CentreOfCorners(const std::array<LatticePoint, 4> & corners, const SpacingWeights & weights);
 
-/** Cells `first` to the last one, by exact centre.
+/** Cells by exact centre.
  *  \throws CertificateError when two cells have the same centre (they were not merged). */
 std::vector<std::uint32_t>
-SortByCentre(const DelaunayCells &             cells,
-             std::size_t                       first,
-             const std::vector<LatticePoint> & points,
-             const SpacingWeights &            weights);
+SortByCentre(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights);
 
-/** What an engine made. */
-struct RawCells
-{
-  DelaunayCells              cells;
-  std::vector<std::uint32_t> sorted; ///< the first of the cells, by exact centre; none, some or all of them
-};
-
-/** Numbers cells by exact centre, orders facets and polygons as DelaunayCells promises, and fills in the centres.
+/** Of what an engine made: numbers cells by exact centre, orders facets and polygons as DelaunayCells promises, and fills in the centres.
  *  Expects tetrahedra, facetCells (any order of the two; kOutside second), facetOffsets and facetPoints with every
  *  polygon counter-clockwise seen from outside facetCells[.][0]. Facets with kOutside on both sides are left out.
  *  \throws CertificateError when two cells have the same centre (they were not merged). */
 DelaunayCells
-MakeCanonical(RawCells                          raw,
+MakeCanonical(DelaunayCells                     cells,
               const std::vector<LatticePoint> & points,
               const SpacingWeights &            weights,
               Facets                            facets = Facets::All);
