@@ -21,8 +21,8 @@ namespace voxelcore
 struct CostTerms
 {
   static constexpr std::size_t kSize = 6;
-  /** 1; boundary vertices; Delaunay cells expected; the boundary of parts so thick that their cells go through
-   *  Bowyer-Watson, and of this the flat part, which goes there with all its vertices, the rest with a fifth; the
+  /** 1; boundary vertices; Delaunay cells expected; the boundary of parts so thick that their cells are found by a
+   *  tree of points, and of this the flat part, which is there with all its vertices, the rest with a fifth; the
    *  core's edges expected times the doublings of their number over 1000, as caches miss more. */
   std::array<double, kSize> values{};
 };
