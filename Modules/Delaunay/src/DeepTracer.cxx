@@ -2,7 +2,6 @@
 
 #include "PointPredicates.h"
 
-#include "voxelcore/Predicates.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>

@@ -35,11 +35,10 @@ constexpr double kSlopePrior = 9;
 // The tube is measured up to so many voxels below where its cap begins.
 constexpr double kBelowCap = 0.5;
 
-// Of a stub on a thick stem there is no tube to be measured: its balls tell how thick it is, if so much of its cap is
-// free. Of thinner ones than so many voxels they do not tell it well.
-constexpr double kFreeCap = 0.6;
-constexpr double kStubRadius = 1.8;
-constexpr double kStubInVoxels = 1.5;
+// A stub on a thick stem is too short to be measured: its balls tell how thick it is.
+constexpr double kFreeCap = 0.6;      ///< of its cap must be free at least
+constexpr double kStubRadius = 1.8;   ///< voxels; of thinner stubs balls do not tell it well
+constexpr double kStubInVoxels = 1.5; ///< below the cap that was found, from which on the tube there is measured
 
 constexpr double kPointed = 0.3; ///< growth of the radius along the way, from which on an end is no tube's
 
@@ -122,8 +121,8 @@ public:
   std::optional<Vector3>
   Find()
   {
-    if ((m_IsStub && (m_Total < kFreeCap * m_Deep || m_Radius < kStubRadius * m_Voxel)) || !PlaceAxis() ||
-        !TakeSamples())
+    const bool isTooShort = m_IsStub && (m_Total < kFreeCap * m_Deep || m_Radius < kStubRadius * m_Voxel);
+    if (isTooShort || !PlaceAxis() || !TakeSamples())
     {
       return std::nullopt;
     }
@@ -414,11 +413,11 @@ private:
   const WayLine &      m_Line;
   const double         m_Radius;
   const double         m_Voxel;
-  const double         m_Deep;  ///< below the tip as it was: here the cap is no more
-  const double         m_Total; ///< so far below it the branch is looked at
-  const double         m_Skip;  ///< so far below it the curve may run off the axis
-  const bool           m_IsStub;
-  std::vector<Vector3> m_Axis; ///< from beyond the end inwards; the second is the base, at height 0
+  const double         m_Deep;   ///< below the tip as it was: here the cap is no more
+  const double         m_Total;  ///< so far below it the branch is looked at
+  const double         m_Skip;   ///< so far below it the curve may run off the axis
+  const bool           m_IsStub; ///< too little is left below the cap to measure the tube
+  std::vector<Vector3> m_Axis;   ///< from beyond the end inwards; the second is the base, at height 0
   Vector3              m_Outwards{};
   double               m_Beyond = 0; ///< height of the axis' end
   int                  m_Stride = 1;

@@ -22,7 +22,7 @@ struct CostTerms
 {
   static constexpr std::size_t kSize = 6;
   /** 1; boundary vertices; Delaunay cells expected; the boundary of parts so thick that their cells are found by a
-   *  tree of points, and of this the flat part, which is there with all its vertices, the rest with a fifth; the
+   *  tree of points, and of this the flat part, all of whose vertices are in the tree, of the rest a fifth; the
    *  core's edges expected times the doublings of their number over 1000, as caches miss more. */
   std::array<double, kSize> values{};
 };
