@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -40,51 +41,6 @@ using performance::PrintConstants;
 using performance::TaskOf;
 using Terms = std::array<double, CostTerms::kSize>;
 namespace fs = std::filesystem;
-
-const std::vector<Phantom> fitted{
-  { "ellipsoid", 96, {} },
-  { "ellipsoid", 320, {}, true },
-  { "torus", 192, {} },
-  { "gyroid", 96, {} },
-  { "gyroid", 176, { "--thickness", "5" }, true },
-  { "gyroid", 128, { "--thickness", "3" } },
-  { "porous", 96, {}, true },
-  { "porous", 160, { "--density", "0.2" } },
-  { "porous", 96, { "--density", "0.7" } },
-  { "root", 192, {} },
-  { "root", 448, {}, true },
-  { "shell", 160, {} },
-  { "shell", 192, { "--thickness", "12" }, true },
-  { "plate", 192, {} },
-  { "plate", 256, { "--thickness", "2" } },
-  { "plate", 320, { "--thickness", "24" } },
-  { "box", 128, {} },
-  { "noise", 80, {} },
-  { "noise", 64, { "--density", "0.1" } },
-  { "noise", 48, { "--density", "0.9" } },
-};
-
-const std::vector<Phantom> heldOut{
-  { "ball", 160, {} },
-  { "capsule", 256, {} },
-  { "tanglecube", 192, {} },
-  { "rod", 320, {} },
-  { "thick-and-thin", 256, {} },
-  { "ellipsoid", 448, {} },
-  { "gyroid", 192, { "--thickness", "4" } },
-  { "gyroid", 160, {} },
-  { "gyroid", 112, { "--period", "20" } },
-  { "porous", 144, {} },
-  { "porous", 96, { "--period", "4" } },
-  { "root", 384, { "--seed", "5" } },
-  { "root", 576, { "--seed", "3" } },
-  { "torus", 256, { "--radius", "9" } },
-  { "plate", 256, { "--thickness", "9" } },
-  { "plate", 256, { "--thickness", "40" } },
-  { "box", 144, {} },
-  { "noise", 64, { "--density", "0.3" } },
-  { "noise", 64, { "--density", "0.7" } },
-};
 
 /** Largest misses, as factors from one. */
 struct Misses
@@ -178,44 +134,66 @@ FitSerial(const std::vector<CostTask> & ofTwo, const CostSamples & samples)
   return std::clamp(serial[serial.size() / 2], 0.0, 1.0);
 }
 
+/** Of all labels together. */
+Terms
+TermsOf(const std::vector<BoundaryCounts> & labels, const CostConstants & constants)
+{
+  Terms sum{};
+  for (const BoundaryCounts & label : labels)
+  {
+    const Terms one = ComputeCostTerms(label, constants).values;
+    std::transform(sum.begin(), sum.end(), one.begin(), sum.begin(), std::plus());
+  }
+  sum.front() = 1;
+  return sum;
+}
+
 CostConstants
 FitConstants(const std::vector<CostTask> & ofOne, const std::vector<CostTask> & ofTwo, const CostSamples & samples)
 {
   // First what can be counted: neither machine nor chance is in it.
-  CostConstants               constants;
-  std::vector<BoundaryCounts> counts;
-  std::vector<BorderKinds>    kinds;
-  std::vector<double>         cells;
-  std::vector<double>         edges;
-  std::vector<double>         edgeScales;
+  CostConstants                            constants;
+  std::vector<std::vector<BoundaryCounts>> counts;
+  std::vector<BorderKinds>                 kinds;
+  std::vector<double>                      cells;
+  std::vector<double>                      edges;
+  std::vector<double>                      edgeScales;
   for (const CostTask & task : ofOne)
   {
     const JobCost cost = samples.Cost(task);
-    counts.push_back(CountScan(task.scan).at(0));
-    kinds.push_back(CountBorderKinds(counts.back()));
+    counts.push_back(CountScan(task.scan));
+    kinds.emplace_back();
+    double vertices = 0;
+    for (const BoundaryCounts & label : counts.back())
+    {
+      const BorderKinds one = CountBorderKinds(label);
+      std::transform(kinds.back().begin(), kinds.back().end(), one.begin(), kinds.back().begin(), std::plus());
+      vertices += static_cast<double>(label.vertices);
+    }
     cells.push_back(cost.cells);
     edges.push_back(cost.edges);
     // Single voxels have hardly any edges, and do not matter.
-    edgeScales.push_back(std::max(cost.edges, static_cast<double>(counts.back().vertices)));
+    edgeScales.push_back(std::max(cost.edges, vertices));
   }
   constants.cells = Fit(kinds, cells, cells);
   constants.edges = Fit(kinds, edges, edgeScales);
 
   std::vector<Terms>  terms;
+  std::vector<Terms>  withoutCaches;
   std::vector<double> bytes;
   std::vector<double> seconds;
   for (std::size_t i = 0; i < ofOne.size(); ++i)
   {
     const JobCost cost = samples.Cost(ofOne[i]);
-    terms.push_back(ComputeCostTerms(counts[i], constants).values);
-    bytes.push_back(cost.bytes);
+    terms.push_back(TermsOf(counts[i], constants));
     seconds.push_back(cost.seconds);
-  }
-  // Memory knows no caches.
-  std::vector<Terms> withoutCaches = terms;
-  for (Terms & one : withoutCaches)
-  {
-    one.back() = 0;
+    if (counts[i].size() == 1)
+    {
+      // Memory knows no caches.
+      withoutCaches.push_back(terms.back());
+      withoutCaches.back().back() = 0;
+      bytes.push_back(cost.bytes);
+    }
   }
   constants.bytes = FitRatios(withoutCaches, bytes);
   constants.seconds = FitRatios(terms, seconds);
@@ -244,12 +222,15 @@ FitMore(const std::vector<CostTask> & ofOne,
     const JobCost cost = samples.Cost(task);
     const auto    counts = CountScan(task.scan);
     const auto    foretold = PredictJob(counts, OptionsOf(job), 1, constants); // without what is to be fitted
-    terms.push_back(ComputeCostTerms(counts.at(0), constants).values);
+    terms.push_back(TermsOf(counts, constants));
     terms.back().front() = 0;
-    withoutCaches.push_back(terms.back());
-    withoutCaches.back().back() = 0;
-    bytes.push_back(cost.bytes - static_cast<double>(foretold.memoryBytes));
-    byteScales.push_back(cost.bytes);
+    if (counts.size() == 1)
+    {
+      withoutCaches.push_back(terms.back());
+      withoutCaches.back().back() = 0;
+      bytes.push_back(cost.bytes - static_cast<double>(foretold.memoryBytes));
+      byteScales.push_back(cost.bytes);
+    }
     seconds.push_back(cost.seconds - foretold.seconds);
     secondScales.push_back(cost.seconds);
   }
@@ -265,7 +246,7 @@ MeasureFitAndPrint(const fs::path & folder, double limit, int rounds, const std:
   std::vector<CostTask>            ofTwo;
   std::vector<CostTask>            shapes;
   std::vector<CostTask>            files;
-  for (const Phantom & phantom : fitted)
+  for (const Phantom & phantom : performance::kFittedPhantoms)
   {
     ofOne.push_back(TaskOf(phantom, folder, 1));
     if (phantom.atTwo && !busy)
@@ -277,7 +258,7 @@ MeasureFitAndPrint(const fs::path & folder, double limit, int rounds, const std:
   {
     for (int threads = 1; threads <= (busy ? 1 : 2); ++threads)
     {
-      for (const Phantom & phantom : heldOut)
+      for (const Phantom & phantom : performance::kOtherPhantoms)
       {
         shapes.push_back(TaskOf(phantom, folder, threads, job));
       }

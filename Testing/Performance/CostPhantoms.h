@@ -25,6 +25,10 @@ struct Phantom
 /** What every run stands between. */
 inline const Phantom kReference{ "ellipsoid", 192, {} };
 
+/** What the constants of cores are fitted to, and what tells how far these miss on others. */
+extern const std::vector<Phantom> kFittedPhantoms;
+extern const std::vector<Phantom> kOtherPhantoms;
+
 std::string
 NameOf(const Phantom & phantom);
 

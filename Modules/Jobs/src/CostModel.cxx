@@ -43,10 +43,15 @@ constexpr CostConstants kFitted{
 // fitted.
 constexpr double kThreadBytes = 2e6;    // scratch of each thread beyond the first
 constexpr double kWholeCoreBytes = 200; // a boundary vertex: of a whole core kept until it is written, and its writing
-constexpr double kPrunedBytes = 97;     // an edge of a pruned core, kept likewise
-constexpr double kFurtherBytes = 50;    // of each further result at the peak of a label
-constexpr double kEdgeBytes = 40;       // of --keep-edges
-constexpr double kTetgenBytes = 1050;   // TetGen's mesh
+// Results of one file, kept until all are written, and their writing; measured on six atlases and phantoms of many
+// labels, where these took 103 to 115, 38 to 51 and 57 to 89.
+constexpr double kPrunedBytes = 104;   // an edge of a core pruned by lambda
+constexpr double kToleranceBytes = 43; // an edge of the whole core, pruned by tolerance
+constexpr double kRefinedBytes = 73;   // likewise, refined as well
+constexpr double kLabelBytes = 8e3;
+constexpr double kFurtherBytes = 50;  // of each further result at the peak of a label
+constexpr double kEdgeBytes = 40;     // of --keep-edges
+constexpr double kTetgenBytes = 1050; // TetGen's mesh
 constexpr double kTetgenSeconds = 6e-5;
 constexpr double kFurtherSeconds = 8e-7; // of each further result
 
@@ -102,8 +107,17 @@ CostOfLabel(const BoundaryCounts & counts, const CoreOptions & options, const Co
   for (std::size_t i = 0; !options.output.empty() && i < static_cast<std::size_t>(results); ++i)
   {
     const bool whole = options.tolerances.empty() && options.lambdas[i].value == 0;
-    cost.kept +=
-      whole ? static_cast<double>(counts.vertices) * kWholeCoreBytes : PrunedEdges(counts, constants) * kPrunedBytes;
+    cost.kept += kLabelBytes;
+    if (!options.tolerances.empty())
+    {
+      cost.kept += Sum(CountBorderKinds(counts), constants.edges) *
+                   (options.refine.surface.empty() ? kToleranceBytes : kRefinedBytes);
+    }
+    else
+    {
+      cost.kept +=
+        whole ? static_cast<double>(counts.vertices) * kWholeCoreBytes : PrunedEdges(counts, constants) * kPrunedBytes;
+    }
     cost.kept += options.model.keepEdges ? border * kEdgeBytes : 0;
   }
   if (options.model.keepEdges)

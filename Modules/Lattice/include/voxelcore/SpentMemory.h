@@ -38,13 +38,23 @@ private:
   std::size_t  m_Spent = 0;
 };
 
-/** Shortens an array, and gives back what the end took up, without a copy of the rest as shrink_to_fit() makes it. */
+/** Shortens an array, and gives back what the end took up: of a large one without a copy of the rest, as
+ *  shrink_to_fit() makes it. The system takes back large pages only, so that a small one is copied. */
 template <typename T>
 void
 CutShort(std::vector<T> & array, std::size_t count)
 {
-  ReleaseMemory(array.data() + count, (array.size() - count) * sizeof(T));
-  array.resize(count);
+  constexpr std::size_t small = std::size_t{ 4 } << 20; // bytes
+  if (array.size() * sizeof(T) > small)
+  {
+    ReleaseMemory(array.data() + count, (array.size() - count) * sizeof(T));
+    array.resize(count);
+  }
+  else
+  {
+    array.resize(count);
+    array.shrink_to_fit();
+  }
 }
 
 } // namespace voxelcore
