@@ -3,6 +3,7 @@
 #include "PointPredicates.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/SpentMemory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -321,22 +322,25 @@ DeepTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon,
   }
 }
 
+// Arrays are thinned out where they are: a copy of them would be the most that is there at a time.
 Tracing
 DeepTracer::TakeOwn()
 {
-  Tracing own;
+  Tracing         own;
+  DelaunayCells & cells = own.cells;
+  cells = std::move(m_Cells);
   if (m_Input.slabs.cuts.empty())
   {
-    own.cells = std::move(m_Cells);
     return own;
   }
-  std::vector<std::uint32_t> number(m_Cells.CellCount(), kOpen);
+  std::vector<std::uint32_t> number(cells.CellCount(), kOpen);
+  std::uint32_t              cellCount = 0;
   for (std::size_t cell = 0; cell < number.size(); ++cell)
   {
     if (m_IsOwn[cell] != 0)
     {
-      number[cell] = static_cast<std::uint32_t>(own.cells.CellCount());
-      own.cells.tetrahedra.push_back(m_Cells.tetrahedra[cell]);
+      number[cell] = cellCount;
+      cells.tetrahedra[cellCount++] = cells.tetrahedra[cell];
     }
   }
   const auto numberOf = [&](std::uint32_t cell) { return cell == kOpen ? kOpen : number[cell]; };
@@ -344,29 +348,39 @@ DeepTracer::TakeOwn()
   {
     cell = numberOf(cell);
   }
-  for (std::size_t facet = 0; facet < m_Cells.FacetCount(); ++facet)
+  std::uint32_t facetCount = 0;
+  std::size_t   pointCount = 0;
+  std::size_t   begin = 0;
+  for (std::size_t facet = 0; facet < cells.facetCells.size(); ++facet)
   {
-    const std::uint32_t one = numberOf(m_Cells.facetCells[facet][0]);
-    const std::uint32_t other = numberOf(m_Cells.facetCells[facet][1]);
-    if (one == kOpen && other == kOpen)
+    const std::uint32_t one = numberOf(cells.facetCells[facet][0]);
+    const std::uint32_t other = numberOf(cells.facetCells[facet][1]);
+    const std::size_t   end = cells.facetOffsets[facet + 1];
+    if (one != kOpen || other != kOpen)
     {
-      continue;
+      std::uint32_t * const polygon = cells.facetPoints.data() + pointCount;
+      if (pointCount != begin)
+      {
+        std::copy(cells.facetPoints.data() + begin, cells.facetPoints.data() + end, polygon);
+      }
+      pointCount += end - begin;
+      if (one == kOpen) // seen from the other side
+      {
+        std::reverse(polygon, cells.facetPoints.data() + pointCount);
+      }
+      if (one == kOpen || other == kOpen)
+      {
+        own.deep.push_back(facetCount);
+      }
+      cells.facetCells[facetCount++] = { one == kOpen ? other : one, one == kOpen ? one : other };
+      cells.facetOffsets[facetCount] = pointCount;
     }
-    const auto polygon = m_Cells.FacetPoints(facet);
-    auto &     points = own.cells.facetPoints;
-    points.insert(points.end(), polygon.begin(), polygon.end());
-    if (one == kOpen) // seen from the other side
-    {
-      std::reverse(points.end() - static_cast<std::ptrdiff_t>(polygon.size()), points.end());
-    }
-    if (one == kOpen || other == kOpen)
-    {
-      own.deep.push_back(static_cast<std::uint32_t>(own.cells.FacetCount()));
-    }
-    own.cells.facetCells.push_back({ one == kOpen ? other : one, one == kOpen ? one : other });
-    own.cells.facetOffsets.push_back(points.size());
+    begin = end;
   }
-  m_Cells = {};
+  CutShort(cells.tetrahedra, cellCount);
+  CutShort(cells.facetCells, facetCount);
+  CutShort(cells.facetOffsets, facetCount + std::size_t{ 1 });
+  CutShort(cells.facetPoints, pointCount);
   return own;
 }
 
