@@ -4,6 +4,7 @@
 #include "voxelcore/BranchTips.h"
 
 #include <iostream>
+#include <numbers>
 #include <random>
 
 namespace voxelcore::testing
@@ -121,6 +122,49 @@ TEST(BranchTips, OfShortTubesLieAtTheCentresOfTheirCaps)
   EXPECT_GE(count, 12) << "seed " << seed;
   EXPECT_LT(std::sqrt(after / count), 0.3) << "voxels, seed " << seed;
   EXPECT_LT(after, 0.3 * before) << "seed " << seed;
+}
+
+// Of a short thin one balls do not say it, but its middle does.
+TEST(BranchTips, OfShortBarsLieAsFarApartAsTheirVolumeSays)
+{
+  for (const std::int32_t width : { 2, 3, 4 })
+  {
+    for (const std::int32_t length : { 10, 11, 12 })
+    {
+      const auto placed = PlaceTipsOf(Box({ length, width, width }));
+      ASSERT_EQ(placed.after.BranchCount(), 1U) << width << " x " << length;
+      const double radius = width / std::sqrt(std::numbers::pi);
+      EXPECT_NEAR(placed.after.BranchLength(0), length - 4 * radius / 3, 0.1) << width << " x " << length;
+    }
+  }
+}
+
+TEST(BranchTips, OfShortThinTubesLieNearTheCentresOfTheirCaps)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64 random(seed);
+  double          before = 0;
+  double          after = 0;
+  int             count = 0;
+  for (const double length : { 6.0, 7.0, 8.0, 9.0 })
+  {
+    for (int k = 0; k < 6; ++k)
+    {
+      const Curve line = AnyLine(length, 24, { 1, 1, 1 }, random);
+      const auto  placed = PlaceTipsOf(Tube(line, 1.4, { 24, 24, 24 }));
+      if (placed.after.BranchCount() == 1)
+      {
+        before += std::pow(TipsOff(placed.before, line), 2);
+        after += std::pow(TipsOff(placed.after, line), 2);
+        ++count;
+      }
+    }
+  }
+  std::cout << "off " << std::sqrt(before / count) << " -> " << std::sqrt(after / count) << " voxels\n";
+  EXPECT_GE(count, 20) << "seed " << seed;
+  EXPECT_LT(std::sqrt(after / count), 0.45) << "voxels, seed " << seed;
+  EXPECT_LT(after, 0.5 * before) << "seed " << seed;
 }
 
 // On a thick rough tube a curve may end far before its cap's centre.

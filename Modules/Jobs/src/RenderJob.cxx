@@ -60,7 +60,7 @@ Targets(const RenderJobOptions & options)
   std::vector<std::filesystem::path> targets;
   for (int frame = 0; frame < options.turntable; ++frame)
   {
-    char number[16];
+    char number[24];
     std::snprintf(number, sizeof(number), "_%03d.png", frame);
     targets.push_back(options.output.parent_path() / (options.output.stem().string() + number));
   }

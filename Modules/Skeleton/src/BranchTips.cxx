@@ -86,8 +86,9 @@ public:
     const double       free = FreeWay(line, other);
     const double       radius = RadiusNear(points, line, free) + kMeanExcess * m_Diagonal;
     // Where a branch leaves obliquely the other body reaches further along it.
-    const double margin = m_Graph.nodeKinds[other] == NodeKind::Tip ? 0 : radius;
-    const auto   place = FindEndByVolume(m_Shape, m_Geometry.spacing, line, free - margin, radius);
+    const bool   isBar = m_Graph.nodeKinds[other] == NodeKind::Tip;
+    const double margin = isBar ? 0 : radius;
+    const auto   place = FindEndByVolume(m_Shape, m_Geometry.spacing, line, free - margin, radius, isBar);
     if (!place)
     {
       return std::nullopt;

@@ -40,6 +40,8 @@ constexpr double kFreeCap = 0.6;      ///< of its cap must be free at least
 constexpr double kStubRadius = 1.8;   ///< voxels; of thinner stubs balls do not tell it well
 constexpr double kStubInVoxels = 1.5; ///< below the cap that was found, from which on the tube there is measured
 
+constexpr double kBarBegins = 0.25; ///< of a short bar's line: where it is measured
+
 constexpr double kPointed = 0.3; ///< growth of the radius along the way, from which on an end is no tube's
 
 /** Least squares of values over one variable. */
@@ -106,7 +108,12 @@ struct Sample
 class EndOfBranch
 {
 public:
-  EndOfBranch(const VoxelShape & shape, const Vector3 & spacing, const WayLine & line, double free, double radius)
+  EndOfBranch(const VoxelShape & shape,
+              const Vector3 &    spacing,
+              const WayLine &    line,
+              double             free,
+              double             radius,
+              bool               isBar)
     : m_Shape(shape)
     , m_Spacing(spacing)
     , m_Line(line)
@@ -116,17 +123,18 @@ public:
     , m_Total(std::min(free, m_Deep + std::max(kSlabInRadii * radius, kSlabInVoxels * m_Voxel)))
     , m_Skip(std::min(radius, 0.4 * m_Total))
     , m_IsStub(m_Total - m_Deep < std::max(m_Radius, 2 * m_Voxel))
+    , m_IsBar(isBar && m_IsStub)
   {}
 
   std::optional<Vector3>
   Find()
   {
-    const bool isTooShort = m_IsStub && (m_Total < kFreeCap * m_Deep || m_Radius < kStubRadius * m_Voxel);
+    const bool isTooShort = m_IsStub && !m_IsBar && (m_Total < kFreeCap * m_Deep || m_Radius < kStubRadius * m_Voxel);
     if (isTooShort || !PlaceAxis() || !TakeSamples())
     {
       return std::nullopt;
     }
-    const auto height = m_IsStub ? HeightOfStub() : Height();
+    const auto height = m_IsBar ? HeightOfBar() : m_IsStub ? HeightOfStub() : Height();
     if (!height)
     {
       return std::nullopt;
@@ -149,7 +157,7 @@ private:
   PlaceAxis()
   {
     const double step = std::max(m_Voxel, 0.5 * m_Radius);
-    const double last = std::min(m_Total + 2 * m_Voxel, m_Line.way.back());
+    const double last = m_IsBar ? m_Line.way.back() : std::min(m_Total + 2 * m_Voxel, m_Line.way.back());
     const int    steps = std::max(1, static_cast<int>(std::ceil((last - m_Skip) / step)));
     for (int k = 0; k <= steps; ++k)
     {
@@ -315,6 +323,13 @@ private:
     return top > deep ? HeightAbove(top, bottom) : first;
   }
 
+  /** The same of a bar with an end on either side: it is a tube in its middle at most. */
+  std::optional<double>
+  HeightOfBar() const
+  {
+    return HeightAbove(m_Skip - kBarBegins * m_Line.way.back(), m_Skip - (1 - kBarBegins) * m_Line.way.back());
+  }
+
   /** The same of a tube as thick as its balls, and then as what was found to lie below its cap. */
   std::optional<double>
   HeightOfStub() const
@@ -417,6 +432,7 @@ private:
   const double         m_Total;  ///< so far below it the branch is looked at
   const double         m_Skip;   ///< so far below it the curve may run off the axis
   const bool           m_IsStub; ///< too little is left below the cap to measure the tube
+  const bool           m_IsBar;  ///< that is so, and the other end is a tip as well
   std::vector<Vector3> m_Axis;   ///< from beyond the end inwards; the second is the base, at height 0
   Vector3              m_Outwards{};
   double               m_Beyond = 0; ///< height of the axis' end
@@ -427,9 +443,14 @@ private:
 } // namespace
 
 std::optional<Vector3>
-FindEndByVolume(const VoxelShape & shape, const Vector3 & spacing, const WayLine & line, double free, double radius)
+FindEndByVolume(const VoxelShape & shape,
+                const Vector3 &    spacing,
+                const WayLine &    line,
+                double             free,
+                double             radius,
+                bool               isBar)
 {
-  return EndOfBranch(shape, spacing, line, free, radius).Find();
+  return EndOfBranch(shape, spacing, line, free, radius, isBar).Find();
 }
 
 } // namespace voxelcore
