@@ -51,7 +51,33 @@ WallPart(std::span<const PointPair> pairs, std::span<const FootPoint> footPoints
 
 } // namespace
 
-// How wide the foot points of each pair are apart, and how far the nearest one is; they are sought from `footPoints`.
+// How wide the foot points of each pair are apart, and how far the nearest one is, which is returned; they are sought
+// from `footPoints`.
+double
+RefinementState::MeasureAt(const FootPointFinder &    finder,
+                           const Vector3 &            place,
+                           std::span<const PointPair> pairs,
+                           std::vector<FootPoint> &   footPoints,
+                           std::span<double>          widths,
+                           double &                   swelling) const
+{
+  finder.Settle(place, pairs, footPoints);
+  const FootPoint & nearest = NearestFoot(footPoints);
+  double            part = 1; // of the widths, that is the body's
+  swelling = m_Input.surface->Swelling(Minus(nearest.position, place));
+  if (swelling > 0)
+  {
+    swelling *= WallPart(pairs, footPoints);
+    part -= swelling / nearest.distance;
+  }
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+  {
+    widths[k] = part * 0.5 *
+                Distance(FootPointOf(footPoints, pairs[k][0]).position, FootPointOf(footPoints, pairs[k][1]).position);
+  }
+  return nearest.distance;
+}
+
 void
 RefinementState::MeasureVertex(const FootPointFinder & finder, std::size_t vertex, std::vector<FootPoint> & footPoints)
 {
@@ -61,21 +87,8 @@ RefinementState::MeasureVertex(const FootPointFinder & finder, std::size_t verte
     m_Radius[vertex] = m_FormerRadius[vertex];
     return;
   }
-  finder.Settle(Place(vertex), pairs, footPoints);
-  m_Radius[vertex] = NearestFoot(footPoints).distance;
-  double part = 1; // of the widths, that is the body's
-  m_Swelling[vertex] = m_Input.surface->Swelling(Minus(NearestFoot(footPoints).position, Place(vertex)));
-  if (m_Swelling[vertex] > 0)
-  {
-    m_Swelling[vertex] *= WallPart(pairs, footPoints);
-    part -= m_Swelling[vertex] / m_Radius[vertex];
-  }
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-  {
-    m_Widths[m_Pairs.First(vertex) + k] =
-      part * 0.5 *
-      Distance(FootPointOf(footPoints, pairs[k][0]).position, FootPointOf(footPoints, pairs[k][1]).position);
-  }
+  const std::span<double> widths(m_Widths.data() + m_Pairs.First(vertex), pairs.size());
+  m_Radius[vertex] = MeasureAt(finder, Place(vertex), pairs, footPoints, widths, m_Swelling[vertex]);
 }
 
 void
@@ -100,9 +113,6 @@ RefinementState::WidthAt(ElementIndex vertex, const PointPair & pair) const
   return m_Widths[m_Pairs.Find(vertex, pair)];
 }
 
-namespace
-{
-
 // Where the foot points of one corner have met there is nothing, whatever the others say.
 double
 MeasureOf(std::span<const double> widths)
@@ -112,8 +122,6 @@ MeasureOf(std::span<const double> widths)
   const double     mean = std::accumulate(widths.begin(), widths.end(), 0.0) / static_cast<double>(widths.size());
   return least > met * mean ? mean : least;
 }
-
-} // namespace
 
 // Measures do not fall from faces to edges to vertices.
 void

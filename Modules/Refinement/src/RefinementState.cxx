@@ -182,64 +182,6 @@ RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & p
   ReportProgress(progress, "refining", 0.8);
 }
 
-// Of a part that is a line the pairs of a vertex may all lie on one side: those of its neighbours lie around it.
-// Returns what was moved.
-std::vector<ElementIndex>
-RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted)
-{
-  std::vector<std::uint8_t>              onFace(part.vertices.size(), 0);
-  std::vector<std::vector<ElementIndex>> near(part.vertices.size());
-  for (const ElementIndex corner : part.cells.faceVertices)
-  {
-    onFace[corner] = 1;
-  }
-  for (const auto & edge : part.cells.edges)
-  {
-    near[edge[0]].push_back(edge[1]);
-    near[edge[1]].push_back(edge[0]);
-  }
-  std::vector<ElementIndex> lines;
-  for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
-  {
-    if (onFace[vertex] == 0 && !near[vertex].empty())
-    {
-      lines.push_back(static_cast<ElementIndex>(vertex));
-    }
-  }
-  const auto count = static_cast<std::ptrdiff_t>(lines.size());
-#pragma omp parallel if (count > 64)
-  {
-    std::vector<FootPoint> footPoints;
-    std::vector<PointPair> pairs;
-#pragma omp for schedule(dynamic, 16)
-    for (std::ptrdiff_t i = 0; i < count; ++i)
-    {
-      const ElementIndex line = lines[static_cast<std::size_t>(i)];
-      const ElementIndex vertex = part.vertices[line];
-      pairs.clear();
-      const auto add = [&](ElementIndex one) {
-        const auto own = Pairs(part.vertices[one]);
-        pairs.insert(pairs.end(), own.begin(), own.end());
-      };
-      add(line);
-      for (const ElementIndex next : near[line])
-      {
-        add(next);
-        std::for_each(near[next].begin(), near[next].end(), add);
-      }
-      std::sort(pairs.begin(), pairs.end());
-      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-      m_Displacement[vertex] = wanted[vertex];
-      MoveInPasses(finder, vertex, pairs, footPoints);
-    }
-  }
-  for (ElementIndex & vertex : lines)
-  {
-    vertex = part.vertices[vertex];
-  }
-  return lines;
-}
-
 // All of it, lent out.
 CorePart
 RefinementState::LendAll()
@@ -342,12 +284,21 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
     }
   };
   settle({});
-  std::vector<ElementIndex> lines = MoveLines(finder, part, wanted);
-  for (const ElementIndex vertex : lines)
+  const auto goOn = [&](std::vector<ElementIndex> moved) {
+    for (const ElementIndex vertex : moved)
+    {
+      wanted[vertex] = m_Displacement[vertex];
+    }
+    if (!moved.empty())
+    {
+      settle(std::move(moved));
+    }
+  };
+  if (!stays)
   {
-    wanted[vertex] = m_Displacement[vertex];
+    goOn(MoveRims(finder, part, threshold));
   }
-  settle(std::move(lines));
+  goOn(MoveLines(finder, part, wanted));
   refined.core.radius = Pick(m_Radius, part.vertices);
   std::vector<std::uint8_t> onFace(part.vertices.size(), 0); // lines are of tubes, which have no sides
   for (const ElementIndex corner : part.cells.faceVertices)

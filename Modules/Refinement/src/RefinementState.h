@@ -16,6 +16,10 @@
 namespace voxelcore
 {
 
+/** Of an element, by the widths of its corners. */
+double
+MeasureOf(std::span<const double> widths);
+
 /** The part of a core that is worked on, as triangles, and between which boundary vertices each of its elements
  *  lies. */
 class RefinementState
@@ -63,6 +67,13 @@ private:
                std::size_t                vertex,
                std::span<const PointPair> pairs,
                std::vector<FootPoint> &   footPoints);
+  double
+  MeasureAt(const FootPointFinder &    finder,
+            const Vector3 &            place,
+            std::span<const PointPair> pairs,
+            std::vector<FootPoint> &   footPoints,
+            std::span<double>          widths,
+            double &                   swelling) const;
   void
   MeasureVertex(const FootPointFinder & finder, std::size_t vertex, std::vector<FootPoint> & footPoints);
   void
@@ -73,6 +84,15 @@ private:
   MeasureElements(const CellComplex & cells);
   std::vector<ElementIndex>
   MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted);
+  std::vector<ElementIndex>
+  MoveRims(const FootPointFinder & finder, const CorePart & part, double threshold);
+  /** Whether it has moved. */
+  bool
+  MoveRimVertex(const FootPointFinder &  finder,
+                double                   threshold,
+                ElementIndex             vertex,
+                const Vector3 &          outwards,
+                std::vector<PointPair> & pairs);
   CorePart
   LendAll();
   LiveElements
