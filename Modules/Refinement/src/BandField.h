@@ -129,7 +129,7 @@ public:
 
   /** Marks the voxels at most `most` units off the surface where that has a radius of curvature under `radius`. */
   void
-  MarkBends(double most, double radius, SmoothingZones & zones) const;
+  MarkBends(double most, double radius, SmoothingZones & zones, bool convexAlone = false) const;
 
   /** Where the 8 x 4 x 4 coefficients around a place are that Evaluate() was last asked about: of places beside it they
    *  are mostly the same. For one field that does not change. */

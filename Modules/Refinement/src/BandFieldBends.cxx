@@ -9,8 +9,8 @@
 namespace voxelcore
 {
 
-// The curvatures of the level set through a voxel, root of the sum of their squares: from differences two voxels apart,
-// which see less of ripples.
+// The curvatures of the level set through a voxel, root of the sum of their squares, less than 0 where the inside is
+// convex: from differences two voxels apart, which see less of ripples.
 double
 BandField::CurvatureAt(std::size_t brick, std::size_t voxel) const
 {
@@ -65,11 +65,12 @@ BandField::CurvatureAt(std::size_t brick, std::size_t voxel) const
     const Vector3 row = AddScaled(across[k], -n[k], along);
     squares += Dot(row, row);
   }
-  return std::sqrt(squares) / length;
+  const double sum = across[0][0] + across[1][1] + across[2][2];
+  return std::copysign(std::sqrt(squares), sum) / length;
 }
 
 void
-BandField::MarkBends(double most, double radius, SmoothingZones & zones) const
+BandField::MarkBends(double most, double radius, SmoothingZones & zones, bool convexAlone) const
 {
   const auto                    count = static_cast<std::ptrdiff_t>(m_Grid.Count());
   std::vector<BrickGrid::Flags> bent(m_Grid.Count(), BrickGrid::Flags{});
@@ -79,8 +80,12 @@ BandField::MarkBends(double most, double radius, SmoothingZones & zones) const
     const auto brick = static_cast<std::size_t>(i);
     for (std::size_t voxel = 0; voxel < kVoxels; ++voxel)
     {
-      if (std::abs(m_Values[brick * kVoxels + voxel]) <= static_cast<float>(most) &&
-          CurvatureAt(brick, voxel) > 1 / radius)
+      if (std::abs(m_Values[brick * kVoxels + voxel]) > static_cast<float>(most))
+      {
+        continue;
+      }
+      const double curvature = CurvatureAt(brick, voxel);
+      if ((convexAlone ? -curvature : std::abs(curvature)) > 1 / radius)
       {
         bent[brick][voxel >> 3] |= static_cast<std::uint8_t>(1U << (voxel & 7));
       }

@@ -2,6 +2,7 @@
 
 #include "FieldSurface.h"
 #include "FlatProfile.h"
+#include "SharpEdges.h"
 #include "SmoothingZones.h"
 
 #include "voxelcore/BoundaryVertices.h"
@@ -220,8 +221,9 @@ public:
     std::optional<BandField::Snapshot> former;
     if (const SmoothingZones thick(m_Depth, kThick * m_Sigma, 0); thick.Any())
     {
-      former = m_Field.Save(thick);
-      weight = SmoothThick(thick);
+      const ZonesAtEdges zones = FindZonesAtEdges(m_Field, m_Depth, kThick * m_Sigma, thick);
+      former = m_Field.Save(zones.all);
+      weight = SmoothThick(thick, zones);
     }
     m_Depth.DropDepths();
     FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest, kClose);
@@ -272,16 +274,20 @@ private:
     ReportProgress(m_Progress, "surface", ++m_Passes / all);
   }
 
-  // What is near an edge sees it in a wider pass, and is left out of the widest. Those need no more than the means of
-  // 2^3 voxels: nothing is left that is shorter. Returns the weight of the coefficients.
+  // What is near a bend is left out of the widest passes. Those need no more than the means of 2^3 voxels: nothing is
+  // left that is shorter. Returns the weight of the coefficients.
   float
-  SmoothThick(const SmoothingZones & thick)
+  SmoothThick(const SmoothingZones & thick, const ZonesAtEdges & zones)
   {
     const PassWeights::Further * further = &m_Weights.AfterSome();
     m_Field.SetWidth(m_Weights.Wider());
+    if (zones.any)
+    {
+      m_Field.Smooth(kDrawsIn, &zones.beside);
+    }
     for (const float weight : further->passes)
     {
-      SmoothWith(m_Field, weight, &thick);
+      SmoothWith(m_Field, weight, &zones.flat);
     }
     SmoothingZones thickest(m_Depth, kThickest * m_Sigma, 1);
     if (thickest.Any())

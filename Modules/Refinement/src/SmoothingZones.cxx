@@ -100,6 +100,10 @@ GatherFlags(const BrickGrid &                     grid,
 // A ball that touches the boundary nearest to a voxel has its centre farther from it by the voxel's own distance, or
 // nearer by it on its own side.
 SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius, std::size_t which)
+  : SmoothingZones(depth, radius, which, 2)
+{}
+
+SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius, std::size_t which, double most)
   : m_Depth(&depth)
   , m_Parts(depth.Grid().Count() * kCells, 0)
 {
@@ -142,7 +146,7 @@ SmoothingZones::SmoothingZones(const BoundaryDepth & depth, double radius, std::
       {
         gap = std::max(gap, std::sqrt(static_cast<double>(toOut[cell])) + inCell - (radius + distance));
       }
-      m_Parts[brick * kCells + cell] = static_cast<std::uint8_t>(std::lround(255 * Ramp(gap, 1, 2)));
+      m_Parts[brick * kCells + cell] = static_cast<std::uint8_t>(std::lround(255 * Ramp(gap, most - 1, most)));
     }
   }
 }
@@ -192,6 +196,14 @@ SmoothingZones::LeaveOutAroundMarks(double near)
     }
   }
   m_Marks.clear();
+}
+
+void
+SmoothingZones::TakeAway(const SmoothingZones & other)
+{
+  std::transform(m_Parts.begin(), m_Parts.end(), other.m_Parts.begin(), m_Parts.begin(), [](auto own, auto taken) {
+    return static_cast<std::uint8_t>(own - std::min(own, taken));
+  });
 }
 
 const std::uint8_t *

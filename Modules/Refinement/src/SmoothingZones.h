@@ -20,6 +20,9 @@ public:
    *  where one is kept two units or more away from it, by another wall, an edge or a crease. */
   SmoothingZones(const BoundaryDepth & depth, double radius, std::size_t which);
 
+  /** The same, but none only from `most` units on. */
+  SmoothingZones(const BoundaryDepth & depth, double radius, std::size_t which, double most);
+
   bool
   Any() const;
 
@@ -27,10 +30,27 @@ public:
   void
   Mark(std::int32_t x, std::int32_t y, std::int32_t z);
 
+  bool
+  HasMarks() const
+  {
+    return !m_Marks.empty();
+  }
+
+  /** Those of other zones of the same depths, instead of its own. */
+  void
+  TakeMarks(const SmoothingZones & other)
+  {
+    m_Marks = other.m_Marks;
+  }
+
   /** Takes away what lies within `near` units of a mark, at most 8, and by degrees to 2 units farther. Marks are gone
    *  then. */
   void
   LeaveOutAroundMarks(double near);
+
+  /** Less what other zones of the same depths take. */
+  void
+  TakeAway(const SmoothingZones & other);
 
   /** The parts, 0 to 1, of a brick of 8^3 voxels (level 0) or cells (level 1), which must have depths. */
   void
