@@ -5,7 +5,7 @@
 #include "InscribedThickness.h"
 #include "PruneStages.h"
 #include "RequestStages.h"
-#include "ShelvedTolerances.h"
+#include "ShelvedCore.h"
 #include "WholeCore.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/CoreProvenance.h"
@@ -288,18 +288,18 @@ private:
   {
     const ImageGeometry & geometry = m_Result.shape.geometry;
     RefinementParts &     kept = m_Whole.kept;
+    ShelvedCore           shelved(*curves.spent, kept, LowestHeight(m_Request, geometry));
     if (Refines(m_Request))
     {
       curves.positionsAgain = [&] {
         MedialComplex places;
-        places.positions = kept.core.positions;
+        places.positions = shelved.Places();
         return PlaceInLps(std::move(places), geometry).positions;
       };
       std::vector<LatticePoint>().swap(kept.boundary);
     }
-    ShelvedTolerances tolerances(std::exchange(curves.spent->tolerances, {}), LowestHeight(m_Request, geometry));
-    BurnedCurves      burned = BurnToCurves(core, nullptr, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), curves);
-    curves.spent->tolerances = std::move(tolerances).Take();
+    BurnedCurves burned = BurnToCurves(core, nullptr, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), curves);
+    std::move(shelved).GiveBack(*curves.spent, kept);
     if (Refines(m_Request))
     {
       kept.boundary = BoundaryVertices(m_Voxels);

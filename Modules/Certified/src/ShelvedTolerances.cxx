@@ -8,26 +8,30 @@ namespace voxelcore
 ShelvedTolerances::Shelf::Shelf(std::vector<double> all, double height)
   : reaches(all.size())
 {
+  std::vector<double> some;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     if (all[i] >= height)
     {
       reaches[i] = true;
-      values.push_back(all[i]);
+      some.push_back(all[i]);
     }
   }
+  std::vector<double>().swap(all);
+  values = PackedArray<double>(std::move(some));
 }
 
 std::vector<double>
-ShelvedTolerances::Shelf::Take() const
+ShelvedTolerances::Shelf::Take() &&
 {
-  std::vector<double> all(reaches.size(), 0);
-  std::size_t         next = 0;
+  std::vector<double>       all(reaches.size(), 0);
+  const std::vector<double> some = std::move(values).Take();
+  std::size_t               next = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     if (reaches[i])
     {
-      all[i] = values[next++];
+      all[i] = some[next++];
     }
   }
   return all;
@@ -42,7 +46,7 @@ ShelvedTolerances::ShelvedTolerances(ToleranceValues values, double height)
 ToleranceValues
 ShelvedTolerances::Take() &&
 {
-  return { m_Vertices.Take(), m_Edges.Take(), m_Faces.Take() };
+  return { std::move(m_Vertices).Take(), std::move(m_Edges).Take(), std::move(m_Faces).Take() };
 }
 
 } // namespace voxelcore

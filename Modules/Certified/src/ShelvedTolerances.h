@@ -1,6 +1,8 @@
 #pragma once
 // Tolerances of a core while nobody asks for them.
 
+#include "PackedNumbers.h"
+
 #include "voxelcore/MedialComplex.h"
 
 #include <vector>
@@ -21,12 +23,12 @@ private:
   struct Shelf
   {
     std::vector<bool>   reaches; ///< per element
-    std::vector<double> values;  ///< of those that do
+    PackedArray<double> values;  ///< of those that do
 
     Shelf(std::vector<double> all, double height);
 
     std::vector<double>
-    Take() const;
+    Take() &&;
   };
 
   Shelf m_Vertices;

@@ -1,0 +1,86 @@
+#pragma once
+// Arrays of numbers while nobody asks for them.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Numbers in one or two bytes each where so few of them differ, as measures and places on a lattice do in a body that
+ *  is nowhere thick. They come back to the last bit. */
+class PackedNumbers
+{
+public:
+  PackedNumbers() = default;
+
+  /** False, and nothing is kept, where more than 2^16 differ. */
+  bool
+  Pack(std::span<const double> numbers);
+
+  /** As many as were packed. */
+  void
+  Unpack(std::span<double> numbers) const;
+
+private:
+  std::vector<double>        m_Different;
+  std::vector<std::uint8_t>  m_Short; ///< per number its place in m_Different: here where one byte is enough,
+  std::vector<std::uint16_t> m_Long;  ///< else here
+};
+
+/** An array of numbers or points, packed where that can be. */
+template <typename T>
+class PackedArray
+{
+public:
+  PackedArray() = default;
+
+  explicit PackedArray(std::vector<T> values)
+    : m_Count(values.size())
+  {
+    if (!m_Packed.Pack(NumbersOf(values)))
+    {
+      m_Plain = std::move(values);
+    }
+  }
+
+  std::vector<T>
+  Copy() const
+  {
+    if (!m_Plain.empty())
+    {
+      return m_Plain;
+    }
+    std::vector<T> values(m_Count);
+    m_Packed.Unpack(NumbersOf(values));
+    return values;
+  }
+
+  std::vector<T>
+  Take() &&
+  {
+    return m_Plain.empty() ? Copy() : std::move(m_Plain);
+  }
+
+private:
+  static std::span<double>
+  NumbersOf(std::vector<double> & values)
+  {
+    return values;
+  }
+  static std::span<double>
+  NumbersOf(std::vector<std::array<double, 3>> & points)
+  {
+    return points.empty() ? std::span<double>() : std::span(points.front().data(), 3 * points.size());
+  }
+
+  std::size_t    m_Count = 0;
+  PackedNumbers  m_Packed;
+  std::vector<T> m_Plain; ///< all of it where too many differ
+};
+
+} // namespace voxelcore
