@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace voxelcore
@@ -93,13 +95,7 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   const std::vector<LiveElements> & left = input.left.empty() ? found : input.left;
   FootPointFinder                   finder(input, progress);
   const PointTree                   boundary(input.Boundary(), input.spacing);
-  std::size_t                       ahead = thresholds.size() + input.parts.size();
-  const auto                        refine = [&](CorePart part, double threshold, std::optional<double> height = {}) {
-    RefinementState working(input, std::move(part));
-    if (--ahead == 0 && input.onLast)
-    {
-      input.onLast();
-    }
+  const auto refine = [&](RefinementState & working, double threshold, std::optional<double> height = {}) {
     finder.FindBends(working.GreatestRadii());
     working.Move(finder, progress);
     FormerBalls former;
@@ -111,21 +107,46 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
       working.MeasureAgain(finder, KeepBoundaryCovered(input, boundary, most, former, refined.back()), refined.back());
     }
   };
+  const auto end = [&] {
+    if (input.onLast)
+    {
+      input.onLast();
+    }
+  };
+  // The parts, of curves and small, take what they need of the core before the others are refined: so it can go early.
+  std::deque<RefinementState> parts;
+  for (const LiveElements & part : input.parts)
+  {
+    parts.emplace_back(input, PartOf(input.core->cells, part));
+  }
   for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
     CorePart part = PartOf(input.core->cells, left[i]);
+    if (!input.byTolerance)
+    {
+      part = RemoveFringe(input, finder, std::move(part));
+    }
+    RefinementState working(input, std::move(part));
+    if (i + 1 == thresholds.size())
+    {
+      end();
+    }
     if (input.byTolerance)
     {
-      refine(std::move(part), 0, thresholds[i]);
+      refine(working, 0, thresholds[i]);
     }
     else
     {
-      refine(RemoveFringe(input, finder, std::move(part)), thresholds[i]);
+      refine(working, thresholds[i]);
     }
   }
-  for (const LiveElements & part : input.parts)
+  if (thresholds.empty())
   {
-    refine(PartOf(input.core->cells, part), 0);
+    end();
+  }
+  for (; !parts.empty(); parts.pop_front())
+  {
+    refine(parts.front(), 0);
   }
   return refined;
 }

@@ -315,9 +315,16 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
     former.positions.push_back(m_Positions[vertex]);
     former.radius.push_back(m_FormerRadius[vertex]);
   }
-  refined.core.vertexLambda = Pick(m_VertexMeasure, part.vertices);
-  refined.core.edgeLambda = Pick(m_EdgeMeasure, part.edges);
-  refined.core.faceLambda = Pick(m_FaceMeasure, part.faces);
+  if (stays)
+  {
+    GiveMeasures(refined.core);
+  }
+  else
+  {
+    refined.core.vertexLambda = Pick(m_VertexMeasure, part.vertices);
+    refined.core.edgeLambda = Pick(m_EdgeMeasure, part.edges);
+    refined.core.faceLambda = Pick(m_FaceMeasure, part.faces);
+  }
   refined.core.cells = std::move(part.cells);
   for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
   {
@@ -340,10 +347,20 @@ RefinementState::MeasureAgain(const FootPointFinder &           finder,
     m_Displacement[vertex] = refined.displacement[vertex];
   }
   MeasureVertices(finder, moved);
+  refined.core.vertexLambda = {};
+  refined.core.edgeLambda = {};
+  refined.core.faceLambda = {};
   MeasureElements(refined.core.cells);
-  refined.core.vertexLambda = m_VertexMeasure;
-  refined.core.edgeLambda = m_EdgeMeasure;
-  refined.core.faceLambda = m_FaceMeasure;
+  GiveMeasures(refined.core);
+}
+
+// All of them are taken anew each time.
+void
+RefinementState::GiveMeasures(MedialComplex & core)
+{
+  core.vertexLambda = std::move(m_VertexMeasure);
+  core.edgeLambda = std::move(m_EdgeMeasure);
+  core.faceLambda = std::move(m_FaceMeasure);
 }
 
 } // namespace voxelcore

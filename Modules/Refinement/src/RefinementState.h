@@ -82,6 +82,8 @@ private:
   WidthAt(ElementIndex vertex, const PointPair & pair) const;
   void
   MeasureElements(const CellComplex & cells);
+  void
+  GiveMeasures(MedialComplex & core);
   std::vector<ElementIndex>
   MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted);
   std::vector<ElementIndex>
