@@ -326,11 +326,16 @@ BurnNetwork::BuildSides()
 }
 
 void
+BurnNetwork::EndIgnition()
+{
+  std::vector<std::uint8_t>().swap(openSector);
+}
+
+void
 BurnNetwork::EndFire()
 {
   std::vector<std::uint32_t>().swap(vertexFaceOffsets);
   std::vector<std::uint32_t>().swap(vertexFaces);
-  std::vector<std::uint8_t>().swap(openSector);
   std::vector<std::uint32_t>().swap(seamEndOffsets);
   std::vector<SeamEnd>().swap(seamEnds);
 }

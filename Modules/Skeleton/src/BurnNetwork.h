@@ -68,6 +68,10 @@ struct BurnNetwork
   std::vector<std::uint32_t> seamEndOffsets;      ///< vertices + 1 entries
   std::vector<SeamEnd>       seamEnds;            ///< at each vertex with several sectors, edge by edge
 
+  /** Gives back what only ignition asks for. */
+  void
+  EndIgnition();
+
   /** Gives back what only fire asks for. */
   void
   EndFire();

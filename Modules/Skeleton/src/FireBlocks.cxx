@@ -94,12 +94,24 @@ SurfaceFire::FindFaces()
   });
   if (!large.empty())
   {
-    m_FaceEntries.assign(m_Cells.FaceCount(), Entries::none);
+    std::sort(large.begin(), large.end());
+    m_EntryPlaces = EntryPlaces(large, m_Cells.FaceCount());
     m_Entries.resize(large.size());
   }
-  for (std::size_t i = 0; i < large.size(); ++i)
+}
+
+EntryPlaces::EntryPlaces(const std::vector<std::size_t> & faces, std::size_t faceCount)
+  : m_Groups(faceCount / kGroup + 1)
+{
+  for (const std::size_t face : faces)
   {
-    m_FaceEntries[large[i]] = static_cast<std::uint32_t>(i);
+    m_Groups[face / kGroup].faces |= std::uint64_t{ 1 } << face % kGroup;
+  }
+  std::uint32_t before = 0;
+  for (Group & group : m_Groups)
+  {
+    group.before = before;
+    before += CountBits(group.faces);
   }
 }
 

@@ -117,9 +117,10 @@ SurfaceFire::SpreadInFace(Block & block, Queue & queue, const Flame & flame, con
     SpreadInSmallFace(block, queue, flame, face);
     return true;
   }
-  if (!m_FaceEntries.empty() && m_FaceEntries[face] != Entries::none)
+  if (const std::uint32_t place = m_Entries.empty() ? EntryPlaces::none : m_EntryPlaces.Of(face);
+      place != EntryPlaces::none)
   {
-    Entries & entries = m_Entries[m_FaceEntries[face]];
+    Entries & entries = m_Entries[place];
     if (IsOvertaken(flame, entries))
     {
       return false;

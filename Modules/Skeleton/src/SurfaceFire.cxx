@@ -36,6 +36,7 @@ void
 SurfaceFire::Ignite()
 {
   RunEach(m_Blocks.size(), [&](std::size_t i) { Ignite(m_Blocks[i]); });
+  m_Network.EndIgnition();
 }
 
 void
@@ -69,6 +70,7 @@ SurfaceFire::Ignite(Block & block)
       }
     }
   }
+  block.waiting.shrink_to_fit();
 }
 
 BurnTimes
@@ -118,7 +120,7 @@ SurfaceFire::Run(const ProgressCallback & progress)
   }
   std::vector<Block>().swap(m_Blocks);
   std::vector<Entries>().swap(m_Entries);
-  std::vector<std::uint32_t>().swap(m_FaceEntries);
+  m_EntryPlaces = EntryPlaces();
   std::vector<std::uint16_t>().swap(m_Small);
   m_Network.EndFire();
   return Times();

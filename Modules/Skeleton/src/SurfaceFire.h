@@ -3,6 +3,7 @@
 
 #include "BurnNetwork.h"
 
+#include "voxelcore/CountBits.h"
 #include "voxelcore/ErosionThickness.h"
 #include "voxelcore/Vectors.h"
 
@@ -25,11 +26,42 @@ namespace voxelcore
 struct Entries
 {
   static constexpr std::uint32_t most = 5;
-  static constexpr std::uint32_t none = 0xFFFFFFFFU; ///< of a face that is small, or not of one block
 
   std::array<double, most>        times;
   std::array<std::uint32_t, most> points;
   std::uint32_t                   count = 0;
+};
+
+/** The faces that have entries, and their places among them: most faces are small, or not of one block, and have
+ *  none. */
+class EntryPlaces
+{
+public:
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
+
+  EntryPlaces() = default;
+
+  /** Of `faceCount` those that are named, which ascend. */
+  EntryPlaces(const std::vector<std::size_t> & faces, std::size_t faceCount);
+
+  std::uint32_t
+  Of(std::uint32_t face) const
+  {
+    const Group &       group = m_Groups[face / kGroup];
+    const std::uint64_t bit = std::uint64_t{ 1 } << face % kGroup;
+    return (group.faces & bit) == 0 ? none : group.before + CountBits(group.faces & (bit - 1));
+  }
+
+private:
+  static constexpr std::size_t kGroup = 64;
+
+  struct Group
+  {
+    std::uint64_t faces = 0;  ///< a bit each
+    std::uint32_t before = 0; ///< in groups before
+  };
+
+  std::vector<Group> m_Groups;
 };
 
 /** Burns a surface once. When a sector burns is a least bound over all ways of fire, whatever order they are looked at
@@ -226,11 +258,11 @@ private:
   const MedialComplex &      m_Complex;
   const CellComplex &        m_Cells;
   BurnNetwork                m_Network;
-  double                     m_Window;      ///< mm
-  std::unique_ptr<double[]>  m_Times;       ///< per sector; when fire has spread from it, the negative of when
-  std::vector<std::uint16_t> m_Small;       ///< per face: 0, or bit 2 i for corner i, 2 i + 1 for the sample behind it
-  std::vector<std::uint32_t> m_FaceEntries; ///< per face; empty where no face has entries
-  std::vector<Entries>       m_Entries;
+  double                     m_Window; ///< mm
+  std::unique_ptr<double[]>  m_Times;  ///< per sector; when fire has spread from it, the negative of when
+  std::vector<std::uint16_t> m_Small;  ///< per face: 0, or bit 2 i for corner i, 2 i + 1 for the sample behind it
+  EntryPlaces                m_EntryPlaces;
+  std::vector<Entries>       m_Entries; ///< empty where no face has any
   std::vector<Block>         m_Blocks;
 };
 
