@@ -1,12 +1,16 @@
 #include "CurveFire.h"
 
 #include "TimeHeap.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Prefetch.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <new>
+#include <type_traits>
 
 namespace voxelcore
 {
@@ -47,6 +51,20 @@ struct Node
   bool         hasBurned = false;
 };
 
+static_assert(std::is_trivially_destructible_v<Node>);
+
+struct ReleaseNodes
+{
+  void
+  operator()(Node * nodes) const
+  {
+    ::operator delete[](nodes);
+  }
+};
+
+// Whose memory each thread that works on a part of them is the first to touch.
+using NodeArray = std::unique_ptr<Node[], ReleaseNodes>;
+
 } // namespace
 
 CurveFire
@@ -57,18 +75,25 @@ BurnCurves(const MedialComplex &       surface,
 {
   const CellComplex & cells = surface.cells;
   const std::size_t   count = cells.vertexCount;
+  const bool          worthIt = count > 10000;
   CurveFire           fire;
-  std::vector<Node>   nodes(count);
-  for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
-  {
-    if (live.edges[edge])
+  const NodeArray     nodes(static_cast<Node *>(::operator new[](count * sizeof(Node))));
+  RunInParts(worthIt, count, [&](std::size_t first, std::size_t last) {
+    std::uninitialized_fill(nodes.get() + first, nodes.get() + last, Node());
+    for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
     {
-      for (const ElementIndex vertex : cells.edges[edge])
+      if (live.edges[edge])
       {
-        nodes[vertex].edges.Add(edge);
+        for (const ElementIndex vertex : cells.edges[edge])
+        {
+          if (vertex - first < last - first)
+          {
+            nodes[vertex].edges.Add(edge);
+          }
+        }
       }
     }
-  }
+  });
   for (std::size_t face = 0; face < cells.FaceCount(); ++face)
   {
     if (live.faces[face])
@@ -192,22 +217,30 @@ BurnCurves(const MedialComplex &       surface,
       kindle(next);
     }
   }
-  fire.nextEdge.resize(count);
-  fire.time.resize(count);
-  fire.length.resize(count);
-  fire.prominence.resize(count);
-  fire.winner.resize(count);
-  fire.runnerUp.resize(count);
-  for (std::size_t vertex = 0; vertex < count; ++vertex) // once, as nodes are long
-  {
-    const Node & node = nodes[vertex];
-    fire.nextEdge[vertex] = node.nextEdge;
-    fire.time[vertex] = node.hasBurned ? node.time : kNever;
-    fire.length[vertex] = node.length;
-    fire.prominence[vertex] = node.prominence;
-    fire.winner[vertex] = node.winner;
-    fire.runnerUp[vertex] = node.runnerUp;
-  }
+  RunBoth(
+    worthIt,
+    [&] {
+      fire.time.resize(count);
+      fire.nextEdge.resize(count);
+      fire.winner.resize(count);
+    },
+    [&] {
+      fire.length.resize(count);
+      fire.prominence.resize(count);
+      fire.runnerUp.resize(count);
+    });
+  RunInParts(worthIt, count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t vertex = first; vertex < last; ++vertex) // once, as nodes are long
+    {
+      const Node & node = nodes[vertex];
+      fire.nextEdge[vertex] = node.nextEdge;
+      fire.time[vertex] = node.hasBurned ? node.time : kNever;
+      fire.length[vertex] = node.length;
+      fire.prominence[vertex] = node.prominence;
+      fire.winner[vertex] = node.winner;
+      fire.runnerUp[vertex] = node.runnerUp;
+    }
+  });
   return fire;
 }
 

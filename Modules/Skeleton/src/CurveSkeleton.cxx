@@ -211,23 +211,16 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   BurnTimes times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
   ReportProgress(plan.Next("collapsing"), "", 0);
   std::vector<std::uint8_t> closed;
-  LiveElements              live;
-  CurveFire                 fire;
   double                    chord = 0;
-  RunBoth(
-    faceCount > 10000,
-    [&] {
-      live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
-      ReportProgress(plan.Next("curves"), "", 0);
-      chord = kChordInEdges * MeanEdgeLength(turned.surface);
-      fire = BurnCurves(turned.surface, live, times.vertices, chord);
-    },
-    [&] {
-      if (options.beside)
-      {
-        options.beside(turned.surface.cells);
-      }
-    });
+  LiveElements              live = CollapseSurface(turned.surface, times, options.plateThreshold, closed, [&] {
+    if (options.beside)
+    {
+      options.beside(turned.surface.cells);
+    }
+    chord = kChordInEdges * MeanEdgeLength(turned.surface);
+  });
+  ReportProgress(plan.Next("curves"), "", 0);
+  CurveFire             fire = BurnCurves(turned.surface, live, times.vertices, chord);
   std::vector<EndPlace> ends;
   if (options.branchThreshold > 0)
   {

@@ -1,6 +1,7 @@
 #include "SurfaceCollapse.h"
 
 #include "TimeHeap.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Prefetch.h"
 #include "voxelcore/Vectors.h"
 
@@ -17,8 +18,10 @@ namespace
 class EdgeCofaces
 {
 public:
+  EdgeCofaces() = default;
+
   explicit EdgeCofaces(const CellComplex & cells)
-    : m_Cells(cells)
+    : m_Cells(&cells)
     , m_Cofaces(CountEdgeCofaces(cells))
   {}
 
@@ -43,14 +46,14 @@ public:
   void
   Remove(ElementIndex face)
   {
-    for (const ElementIndex edge : m_Cells.FaceEdges(face))
+    for (const ElementIndex edge : m_Cells->FaceEdges(face))
     {
       m_Cofaces[edge].Remove(face);
     }
   }
 
 private:
-  const CellComplex &  m_Cells;
+  const CellComplex *  m_Cells = nullptr;
   std::vector<Cofaces> m_Cofaces;
 };
 
@@ -114,22 +117,17 @@ EdgeThatGoes(const MedialComplex &       surface,
   return goes;
 }
 
-struct RemovedPair
+/** The full collapse, pair by pair: remove(edge, face). */
+template <typename TRemove>
+void
+CollapseInOrder(const MedialComplex &       surface,
+                const std::vector<double> & vertexTimes,
+                const std::vector<double> & edgeTimes,
+                EdgeCofaces &               cofaces,
+                const TRemove &             remove)
 {
-  ElementIndex edge;
-  ElementIndex face;
-};
-
-/** The full collapse, pair by pair. */
-std::vector<RemovedPair>
-CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
-{
-  const CellComplex &       cells = surface.cells;
-  const std::vector<double> edgeTimes = TimesOfEdges(cells, times);
-  EdgeCofaces               cofaces(cells);
-  std::vector<RemovedPair>  order;
-  order.reserve(cells.FaceCount());
-  TimeHeap heap(FireBucket(surface.radius));
+  const CellComplex & cells = surface.cells;
+  TimeHeap            heap(FireBucket(surface.radius));
   for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
   {
     if (cofaces.IsFree(edge))
@@ -178,7 +176,7 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
       for (const ElementIndex end : cells.edges[side])
       {
         FetchLine(&surface.positions[end]);
-        FetchLine(&times.vertices[end]);
+        FetchLine(&vertexTimes[end]);
       }
     });
   };
@@ -191,7 +189,7 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
       continue; // its face went with another of its edges
     }
     const ElementIndex face = cofaces.OnlyFace(edge);
-    order.push_back({ EdgeThatGoes(surface, times.vertices, edgeTimes, cofaces, edge, face), face });
+    remove(EdgeThatGoes(surface, vertexTimes, edgeTimes, cofaces, edge, face), face);
     cofaces.Remove(face);
     for (const ElementIndex side : cells.FaceEdges(face))
     {
@@ -201,50 +199,62 @@ CollapseOrder(const MedialComplex & surface, const BurnTimes & times)
       }
     }
   }
-  return order;
 }
 
 } // namespace
 
 LiveElements
-CollapseSurface(const MedialComplex &       surface,
-                const BurnTimes &           times,
-                double                      plateThreshold,
-                std::vector<std::uint8_t> & closed)
+CollapseSurface(const MedialComplex &         surface,
+                const BurnTimes &             times,
+                double                        plateThreshold,
+                std::vector<std::uint8_t> &   closed,
+                const std::function<void()> & beside)
 {
-  const CellComplex &            cells = surface.cells;
-  const std::vector<RemovedPair> order = CollapseOrder(surface, times);
-  LiveElements                   live{ std::vector<std::uint8_t>(cells.vertexCount, 1),
-                     std::vector<std::uint8_t>(cells.edges.size(), 1),
-                     std::vector<std::uint8_t>(cells.FaceCount(), 1) };
-  const auto                     remove = [&](const RemovedPair & pair) {
-    live.faces[pair.face] = 0;
-    live.edges[pair.edge] = 0;
+  const CellComplex & cells = surface.cells;
+  const bool          worthIt = cells.FaceCount() > 10000;
+  const bool          hasPlates = plateThreshold < std::numeric_limits<double>::infinity();
+  LiveElements        live;
+  std::vector<double> edgeTimes;
+  EdgeCofaces         cofaces;
+  RunBoth(
+    worthIt,
+    [&] { cofaces = EdgeCofaces(cells); },
+    [&] {
+      edgeTimes = TimesOfEdges(cells, times);
+      live = { std::vector<std::uint8_t>(cells.vertexCount, 1),
+               std::vector<std::uint8_t>(cells.edges.size(), 1),
+               std::vector<std::uint8_t>(cells.FaceCount(), 1) };
+    });
+  const auto remove = [&](ElementIndex edge, ElementIndex face) {
+    live.faces[face] = 0;
+    live.edges[edge] = 0;
   };
-  if (plateThreshold == std::numeric_limits<double>::infinity())
-  {
-    std::for_each(order.begin(), order.end(), remove);
-    closed = live.faces;
-    return live;
-  }
-  closed.assign(cells.FaceCount(), 1);
-  EdgeCofaces cofaces(cells);
-  for (const RemovedPair & pair : order)
-  {
-    closed[pair.face] = 0;
-    const auto corners = cells.FaceVertices(pair.face);
-    double     radius = 0;
-    for (const ElementIndex corner : corners)
+  const auto collapse = [&] {
+    if (!hasPlates)
     {
-      radius += surface.radius[corner];
+      CollapseInOrder(surface, times.vertices, edgeTimes, cofaces, remove);
+      closed = live.faces;
+      return;
     }
-    const double thickness = times.faces[pair.face] - radius / static_cast<double>(corners.size());
-    if (thickness < plateThreshold && cofaces.IsFree(pair.edge))
-    {
-      cofaces.Remove(pair.face);
-      remove(pair);
-    }
-  }
+    closed.assign(cells.FaceCount(), 1);
+    EdgeCofaces besidePlates = cofaces;
+    CollapseInOrder(surface, times.vertices, edgeTimes, cofaces, [&](ElementIndex edge, ElementIndex face) {
+      closed[face] = 0;
+      const auto corners = cells.FaceVertices(face);
+      double     radius = 0;
+      for (const ElementIndex corner : corners)
+      {
+        radius += surface.radius[corner];
+      }
+      const double thickness = times.faces[face] - radius / static_cast<double>(corners.size());
+      if (thickness < plateThreshold && besidePlates.IsFree(edge))
+      {
+        besidePlates.Remove(face);
+        remove(edge, face);
+      }
+    });
+  };
+  RunBoth(worthIt, collapse, beside);
   return live;
 }
 
