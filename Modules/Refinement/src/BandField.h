@@ -135,16 +135,17 @@ public:
    *  are mostly the same. For one field that does not change. */
   struct Spot
   {
-    BrickGrid::Brick             home{};
-    std::int32_t                 brick = BrickGrid::kOutside; ///< at home
-    std::uint32_t                corner = 0;                  ///< which of the bricks around it begin them, and half
-    std::array<const float *, 4> low{};  ///< of two bricks along y, then z: half a brick, with the first four along x
-    std::array<const float *, 4> high{}; ///< the same of the four behind these
+    static constexpr std::uint32_t kApart = 8; ///< a corner from which the eight along x are in two bricks
+    BrickGrid::Brick               home{};
+    std::int32_t                   brick = BrickGrid::kOutside; ///< at home
+    std::uint32_t                  corner = 0;                  ///< which of the bricks around it begin them, and half
+    std::array<const float *, 4>   low{};  ///< of two bricks along y, then z: half a brick, with the first four along x
+    std::array<const float *, 4>   high{}; ///< the same of the four behind these
   };
 
   /** Value and gradient (per voxel) at a place in lattice coordinates, by cubic B-splines; false where there is no
    *  brick. What interpolates values leaves ripples a voxel long on a surface. B-splines hardly do: they are a Gaussian
-   *  of variance 1/3 nearly, which FindCoefficients() takes off its own. */
+   *  of variance 1/3 nearly, which FindCoefficients() takes off its own. In BandFieldEvaluate.h. */
   bool
   Evaluate(const Vector3 & place, Spot & spot, double & value, Vector3 & gradient) const;
 

@@ -1,13 +1,58 @@
 #include "FieldSurface.h"
 
-#include "voxelcore/Vectors.h"
+#include "BandFieldEvaluate.h"
 
+#include "voxelcore/EightLanes.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace voxelcore
 {
+
+namespace
+{
+
+// Along the slopes of the field to where it is 0.
+VOXELCORE_EIGHT_LANES void
+FindSurface(const BandField &           field,
+            const FieldSurface::Scale & scale,
+            BandField::Spot &           spot,
+            const Vector3 &             place,
+            double                      reach,
+            SurfacePoint &              point)
+{
+  constexpr int    steps = 6;
+  constexpr double longest = 1.0; // voxels a step
+  const double     close = scale.close * scale.close;
+  Vector3          at = Over(place, scale.spacing);
+  for (int step = 0; step <= steps; ++step)
+  {
+    double  value = 0;
+    Vector3 slope{};
+    if (!field.Evaluate(at, spot, value, slope) ||
+        Dot(Times(slope, slope), scale.bySides) < scale.flattest * scale.flattest)
+    {
+      return;
+    }
+    const Vector3 up = Times(slope, scale.bySpacing);
+    const double  squared = Dot(slope, up); // of the slope per mm
+    const Vector3 move = AddScaled({ 0, 0, 0 }, -value / squared, up);
+    const double  length = Dot(move, move);
+    if (length < close || step == steps)
+    {
+      point.position = Times(AddScaled(at, 1, move), scale.spacing);
+      point.normal = AddScaled({ 0, 0, 0 }, -1 / std::sqrt(squared), Times(up, scale.spacing));
+      const Vector3 way = Minus(point.position, place);
+      point.found = length < close && Dot(way, way) <= reach * reach;
+      return;
+    }
+    at = AddScaled(at, length > longest * longest ? longest / std::sqrt(length) : 1.0, move);
+  }
+}
+
+} // namespace
 
 SurfacePoint
 FieldSurface::Project(const Vector3 & place, double reach) const
@@ -24,32 +69,8 @@ FieldSurface::Project(const Vector3 & place, double reach) const
   {
     own = { m_Number.Value(), {} };
   }
-  constexpr int    steps = 6;
-  constexpr double longest = 1.0; // voxels a step
-  Vector3          at = Over(place, m_Spacing);
-  SurfacePoint     point;
-  for (int step = 0; step <= steps; ++step)
-  {
-    double  value = 0;
-    Vector3 slope{};
-    if (!m_Field.Evaluate(at, own.spot, value, slope) || Dot(Times(slope, slope), m_BySides) < m_Flattest * m_Flattest)
-    {
-      return point;
-    }
-    const Vector3 up = Times(slope, m_BySpacing);
-    const double  squared = Dot(slope, up); // of the slope per mm
-    const Vector3 move = AddScaled({ 0, 0, 0 }, -value / squared, up);
-    const double  length = Dot(move, move);
-    if (length < m_Close * m_Close || step == steps)
-    {
-      point.position = Times(AddScaled(at, 1, move), m_Spacing);
-      point.normal = AddScaled({ 0, 0, 0 }, -1 / std::sqrt(squared), Times(up, m_Spacing));
-      const Vector3 way = Minus(point.position, place);
-      point.found = length < m_Close * m_Close && Dot(way, way) <= reach * reach;
-      return point;
-    }
-    at = AddScaled(at, length > longest * longest ? longest / std::sqrt(length) : 1.0, move);
-  }
+  SurfacePoint point;
+  FindSurface(m_Field, m_Scale, own.spot, place, reach, point);
   return point;
 }
 

@@ -57,17 +57,27 @@ private:
 class FieldSurface : public SurfaceEstimate
 {
 public:
+  /** How its slopes are measured. */
+  struct Scale
+  {
+    Vector3 spacing;
+    Vector3 bySpacing; ///< 1 / spacing^2
+    Vector3 bySides;   ///< 1 / sides^2
+    double  flattest;
+    double  close;
+  };
+
   /** A field of coefficients. `spacing` in mm, `sides` those of the field. A slope (per unit of `sides`) less than
    *  `flattest` tells nothing: where labels allow no surface, the field is flat. The last step onto the surface is less
    *  than `close` voxels; what is left then goes as its square. */
   FieldSurface(BandField field, const Vector3 & spacing, const Vector3 & sides, double flattest, double close)
     : m_Field(std::move(field))
-    , m_Spacing(spacing)
-    , m_BySpacing(Over({ 1, 1, 1 }, Times(spacing, spacing)))
+    , m_Scale{ spacing,
+               Over({ 1, 1, 1 }, Times(spacing, spacing)),
+               Over({ 1, 1, 1 }, Times(sides, sides)),
+               flattest,
+               close }
     , m_Unit(Over(spacing, sides))
-    , m_BySides(Over({ 1, 1, 1 }, Times(sides, sides)))
-    , m_Flattest(flattest)
-    , m_Close(close)
   {}
 
   SurfacePoint
@@ -113,12 +123,8 @@ public:
 
 private:
   BandField m_Field;
-  Vector3   m_Spacing;
-  Vector3   m_BySpacing; ///< 1 / spacing^2
-  Vector3   m_Unit;      ///< of sides, mm; slices may be farther apart than sides say
-  Vector3   m_BySides;   ///< 1 / sides^2
-  double    m_Flattest;
-  double    m_Close;
+  Scale     m_Scale;
+  Vector3   m_Unit; ///< of sides, mm; slices may be farther apart than sides say
 
   std::optional<WallSwelling> m_Walls;
   bool                        m_IsOfLabels = false;
