@@ -1,5 +1,6 @@
 #include "voxelcore/CoreProvenance.h"
 
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/PolygonArea.h"
 
 #include <algorithm>
@@ -144,6 +145,36 @@ Dump(const Json & json)
 
 } // namespace
 
+namespace
+{
+
+/** Measured side by side, added up in the order of the faces. */
+double
+AreaOf(const MedialComplex & complex)
+{
+  constexpr std::size_t most = std::size_t{ 1 } << 16; // faces at a time
+  const std::size_t     count = complex.cells.FaceCount();
+  std::vector<double>   areas(std::min(count, most));
+  double                sum = 0;
+  for (std::size_t begin = 0; begin < count; begin += most)
+  {
+    const std::size_t some = std::min(count - begin, most);
+    RunInParts(some > 10000, some, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        areas[i] = PolygonArea(complex.positions, complex.cells.FaceVertices(begin + i));
+      }
+    });
+    for (std::size_t i = 0; i < some; ++i)
+    {
+      sum += areas[i];
+    }
+  }
+  return sum;
+}
+
+} // namespace
+
 ComplexRecord
 DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology)
 {
@@ -152,10 +183,7 @@ DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology)
   record.edges = complex.cells.edges.size();
   record.faces = complex.cells.FaceCount();
   record.topology = topology;
-  for (std::size_t face = 0; face < complex.cells.FaceCount(); ++face)
-  {
-    record.areaMm2 += PolygonArea(complex.positions, complex.cells.FaceVertices(face));
-  }
+  record.areaMm2 = AreaOf(complex);
   if (!complex.radius.empty())
   {
     record.maxRadiusMm = *std::max_element(complex.radius.begin(), complex.radius.end());

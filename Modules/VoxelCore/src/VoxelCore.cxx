@@ -5,6 +5,7 @@
 
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 
 namespace voxelcore
 {
@@ -28,10 +29,12 @@ BuildVoxelCore(const VoxelShape &        shape,
     std::vector<LatticePoint>().swap(points);
     for (std::vector<double> * values : { &measures.sphere, &measures.cell, &measures.facet })
     {
-      for (double & value : *values)
-      {
-        value = ToMillimetres(value, weights);
-      }
+      RunInParts(values->size() > 10000, values->size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          (*values)[i] = ToMillimetres((*values)[i], weights);
+        }
+      });
     }
     core.radius = std::move(measures.sphere);
     core.vertexLambda = std::move(measures.cell);
