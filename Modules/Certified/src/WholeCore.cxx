@@ -2,6 +2,7 @@
 
 #include "CertificateText.h"
 #include "CrossCheck.h"
+#include "PackedNumbers.h"
 #include "PruneStages.h"
 #include "RequestStages.h"
 #include "voxelcore/BoundaryVertices.h"
@@ -12,6 +13,7 @@
 #include "voxelcore/VoxelCore.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -85,6 +87,27 @@ CellsOf(const VoxelShape &                voxels,
                               boundaryToo ? Facets::All : Facets::Inside);
 }
 
+/** Measures of edges that are not asked for wait packed meanwhile, where there are many. */
+ToleranceValues
+TolerancesOf(MedialComplex &                   core,
+             const SpacingWeights &            weights,
+             const std::vector<LatticePoint> & points,
+             TouchingBalls                     touching,
+             double                            lambdaMm,
+             const ProgressCallback &          progress,
+             const std::function<void()> &     beside)
+{
+  constexpr std::size_t many = std::size_t{ 1 } << 19; // 4 MB
+  if (lambdaMm > 0 || core.edgeLambda.size() < many)
+  {
+    return ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, progress, beside);
+  }
+  PackedArray<double> edgeLambda(std::exchange(core.edgeLambda, {}));
+  ToleranceValues values = ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, progress, beside);
+  core.edgeLambda = std::move(edgeLambda).Take();
+  return values;
+}
+
 } // namespace
 
 TopologyNumbers
@@ -139,10 +162,9 @@ MakeWholeCore(const VoxelShape &       voxels,
     seconds.core += watch.Lap();
     if (byTolerance)
     {
-      core.tolerances =
-        ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, plan.Next("prune"), [&] {
-          whole.topology = RequireTopologyOf(core.cells, result.shape);
-        });
+      core.tolerances = TolerancesOf(core, weights, points, std::move(touching), lambdaMm, plan.Next("prune"), [&] {
+        whole.topology = RequireTopologyOf(core.cells, result.shape);
+      });
       EndTolerances(core.tolerances, result.shape.geometry);
       seconds.prune += watch.Lap();
     }

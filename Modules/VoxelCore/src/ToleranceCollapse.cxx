@@ -180,12 +180,14 @@ ComputeTolerances(const MedialComplex &             core,
     });
   values.faces = fire->TakeFaceHeights();
   values.edges = fire->TakeEdgeHeights();
+  fire.reset();
   RunInParts(edgesOfEnds.size() > 10000, edgesOfEnds.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
     {
       values.edges[edgesOfEnds[i].first] = values.vertices[edgesOfEnds[i].second];
     }
   });
+  std::vector<std::pair<ElementIndex, ElementIndex>>().swap(edgesOfEnds);
   KeepSheetsWhole(core, balls, levels, values);
   return values;
 }

@@ -91,7 +91,7 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *    sheet's last face. Beyond, sheets draw back as fire goes.
  *
  *  With `floor` (mm) > 0 what PruneByLambda(core, {floor}) takes goes first, whatever bump it stands for: its value is
- *  -1, and the boundary vertices of its balls are no longer looked at, so that nothing is promised of them.
+ *  -1, and nothing is promised of the boundary vertices of its balls. Only this asks for measures but those of faces.
  *
  *  Costs are made of +, -, *, / and sqrt of canonical doubles in a fixed order. Within a level fire comes in waves,
  *  each in the order in which the one before freed its edges; loose ends follow the burnt edges. Fire does not ask for
