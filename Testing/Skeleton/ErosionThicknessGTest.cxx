@@ -1,5 +1,6 @@
 #include "BurnNetwork.h"
 #include "SkeletonFixtures.h"
+#include "SurfaceFire.h"
 
 #include "voxelcore/ErosionThickness.h"
 
@@ -283,6 +284,17 @@ TEST(ErosionThickness, GrowsWithTheShape)
   for (std::size_t v = 0; v < one.vertices.size(); ++v)
   {
     ASSERT_EQ(2 * one.vertices[v], two.vertices[v]);
+  }
+}
+
+TEST(EntryPlaces, AreInTheOrderOfTheFaces)
+{
+  const std::vector<std::size_t> faces{ 0, 5, 63, 64, 127, 200 };
+  const EntryPlaces              places(faces, 201);
+  for (std::uint32_t face = 0, next = 0; face < 201; ++face)
+  {
+    const bool isNamed = next < faces.size() && faces[next] == face;
+    EXPECT_EQ(places.Of(face), isNamed ? next++ : EntryPlaces::none) << face;
   }
 }
 
