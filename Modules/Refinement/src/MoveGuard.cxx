@@ -161,10 +161,6 @@ GuardMoves(const VoxelShape &           shape,
            const Vector3 &              spacing,
            std::vector<Vector3> &       displacement)
 {
-  for (std::size_t vertex = 0; vertex < positions.size(); ++vertex)
-  {
-    displacement[vertex] = KeepInShape(shape, positions[vertex], displacement[vertex]);
-  }
   Guard(shape, cells, positions, spacing, displacement).Run();
 }
 

@@ -10,8 +10,8 @@ namespace voxelcore
 Vector3
 KeepInShape(const VoxelShape & shape, const Vector3 & place, const Vector3 & displacement);
 
-/** Evens out and then shortens displacements until no triangle of `cells` turns over (its normals before and after, in
- *  mm along the lattice axes, must enclose less than 90 degrees) and all hold to KeepInShape(). */
+/** Evens out and then shortens displacements that hold to KeepInShape(), until no triangle of `cells` turns over: its
+ *  normals before and after, in mm along the lattice axes, must enclose less than 90 degrees. They hold to it still. */
 void
 GuardMoves(const VoxelShape &           shape,
            const CellComplex &          cells,

@@ -51,6 +51,24 @@ WallPart(std::span<const PointPair> pairs, std::span<const FootPoint> footPoints
 
 } // namespace
 
+std::vector<double>
+RefinementState::GreatestRadii() const
+{
+  std::vector<double> radii(m_Input.points->size(), 0.0);
+  for (std::size_t vertex = 0; vertex < m_Positions.size(); ++vertex)
+  {
+    const double radius = m_FormerRadius[vertex];
+    for (const PointPair & pair : Pairs(vertex))
+    {
+      for (const std::uint32_t point : pair)
+      {
+        radii[point] = std::max(radii[point], radius);
+      }
+    }
+  }
+  return radii;
+}
+
 // How wide the foot points of each pair are apart, and how far the nearest one is, which is returned; they are sought
 // from `footPoints`.
 double

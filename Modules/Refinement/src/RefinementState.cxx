@@ -100,24 +100,6 @@ RefinementState::RefinementState(const RefinementInput & input, CorePart part)
   }
 }
 
-std::vector<double>
-RefinementState::GreatestRadii() const
-{
-  std::vector<double> radii(m_Input.points->size(), 0.0);
-  for (std::size_t vertex = 0; vertex < m_Positions.size(); ++vertex)
-  {
-    const double radius = m_FormerRadius[vertex];
-    for (const PointPair & pair : Pairs(vertex))
-    {
-      for (const std::uint32_t point : pair)
-      {
-        radii[point] = std::max(radii[point], radius);
-      }
-    }
-  }
-  return radii;
-}
-
 double
 RefinementState::MoveVertex(const FootPointFinder &    finder,
                             std::size_t                vertex,
@@ -247,6 +229,7 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
     part = PartOf(all.cells, Collapse(all, threshold));
     m_Cells = std::move(all.cells);
   }
+  bool                 measured = !stays; ///< the elements, where they are
   std::vector<Vector3> wanted = m_Displacement;
   RefinedCore          refined;
   const auto           settle = [&](std::vector<ElementIndex> changed) {
@@ -271,6 +254,11 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
       }
       std::sort(changed.begin(), changed.end());
       changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+      if (measured && changed.empty())
+      {
+        return; // nothing measures otherwise, so that nothing more goes
+      }
+      measured = true;
       MeasureVertices(finder, changed);
       MeasureElements(stays ? part.cells : m_Cells);
       changed.clear();
