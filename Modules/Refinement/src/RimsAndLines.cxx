@@ -2,6 +2,8 @@
 
 #include "RefinementState.h"
 
+#include "MoveGuard.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -261,7 +263,7 @@ RefinementState::MoveRimVertex(const FootPointFinder &  finder,
   }
   for (int i = 0; far > 0 && i < tries; ++i, far *= 0.5)
   {
-    m_Displacement[vertex] = AddScaled(former, far, way);
+    m_Displacement[vertex] = KeepInShape(*m_Input.shape, m_Positions[vertex], AddScaled(former, far, way));
     footPoints.clear();
     MoveVertex(finder, vertex, Pairs(vertex), footPoints);
     if (isAbove())

@@ -13,7 +13,7 @@ namespace
 
 // In sample distances: so little of a block that fire has come through burns again, as fire comes over its border, and
 // so rarely threads wait for each other.
-constexpr double kWindow = 3;
+constexpr double kWindow = 6;
 
 } // namespace
 
