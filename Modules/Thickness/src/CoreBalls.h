@@ -1,5 +1,6 @@
 #pragma once
-// Balls about the vertices of a whole voxel core through the boundary vertices nearest to them, and places between them.
+// Balls about the vertices of a whole voxel core through the boundary vertices nearest to them, and about places
+// between them.
 
 #include "voxelcore/DelaunayCells.h"
 #include "voxelcore/ImageGeometry.h"
