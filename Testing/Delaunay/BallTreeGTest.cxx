@@ -92,7 +92,11 @@ TEST(BallTree, FindsWhatGrowingBallsMeetFirst)
         std::array<std::uint32_t, 3> near{};
         for (std::size_t i = 0; i < 3; ++i)
         {
-          near[i] = static_cast<std::uint32_t>(random() % chosen.size());
+          // Some facets among the last points, by z, beyond which there may be none.
+          const std::size_t last = k < 20 ? at.size() - 1 - random() % 20 : at.size();
+          const auto        place = k < 20 ? std::find(chosen.begin(), chosen.end(), last) - chosen.begin()
+                                           : static_cast<std::ptrdiff_t>(random() % chosen.size());
+          near[i] = static_cast<std::uint32_t>(place);
           facet[i] = chosen[near[i]];
         }
         std::vector<std::uint32_t> beyond;
