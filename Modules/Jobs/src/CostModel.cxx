@@ -43,15 +43,15 @@ constexpr CostConstants kFitted{
 // fitted.
 constexpr double kThreadBytes = 2e6;    // scratch of each thread beyond the first
 constexpr double kWholeCoreBytes = 200; // a boundary vertex: of a whole core kept until it is written, and its writing
-// Results of one file, kept until all are written, and their writing; measured on six atlases and phantoms of many
-// labels, where these took 103 to 115, 38 to 51 and 57 to 89.
+// Results of one file, kept until all are written, and their writing. Measured on four atlases, a scan of all organs
+// and two phantoms of many labels: the first three were 103 to 115, 38 to 51 and 57 to 89 there.
 constexpr double kPrunedBytes = 104;   // an edge of a core pruned by lambda
 constexpr double kToleranceBytes = 43; // an edge of the whole core, pruned by tolerance
 constexpr double kRefinedBytes = 73;   // likewise, refined as well
-constexpr double kLabelBytes = 8e3;
-constexpr double kFurtherBytes = 50;  // of each further result at the peak of a label
-constexpr double kEdgeBytes = 40;     // of --keep-edges
-constexpr double kTetgenBytes = 1050; // TetGen's mesh
+constexpr double kLabelBytes = 8e3;    // a label, whatever its size
+constexpr double kFurtherBytes = 50;   // of each further result at the peak of a label
+constexpr double kEdgeBytes = 40;      // of --keep-edges
+constexpr double kTetgenBytes = 1050;  // TetGen's mesh
 constexpr double kTetgenSeconds = 6e-5;
 constexpr double kFurtherSeconds = 8e-7; // of each further result
 
