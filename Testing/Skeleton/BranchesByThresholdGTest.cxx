@@ -290,6 +290,12 @@ TEST(BranchesByThreshold, TheShortEndOfAThinTubeBehindAFork)
   EXPECT_GE(ShortEndsFound(6, 1.3, 2), 90);
 }
 
+TEST(BranchesByThreshold, TheShortEndOfAThickerTubeBehindAFork)
+{
+  EXPECT_GE(ShortEndsFound(6, 2.4, 1), 95);
+  EXPECT_EQ(ShortEndsFound(9, 3, 1), 100);
+}
+
 /** How many branches stand out of a stem of radius 5 and a short side of it, whose radius goes evenly from one to the
  *  other. Lengths in voxels. */
 std::size_t

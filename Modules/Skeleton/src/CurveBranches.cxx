@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace voxelcore
@@ -40,6 +41,13 @@ constexpr double kTubeStandOut = 0.6;
 constexpr double kTubeLine = 3.25;
 constexpr double kTubeBody = 1.16;
 constexpr double kTubeBehind = 6; ///< voxels over which the body behind is looked at
+
+// Beyond where a branch leaves, a thicker tube ends with balls that stand out of every other by more of their radius
+// than in the webs of forks. It is as wide at its tip as at its foot, and round: a surface burns about as soon as its
+// balls say, not only after the way into a corner of a plate.
+constexpr double kEndOfRadius = 1.5;
+constexpr double kEndRoundness = 0.8;
+constexpr double kEndOfWay = 0.7; ///< up to here: the surface between two tubes is no part of the one
 
 // Balls in a voxel shape end at the nearest corner, its caps do not. A curve that begins in a corner has so much
 // further to go than its radius grows; one that begins with the ball it keeps, when that is as thin as a line of
@@ -105,6 +113,30 @@ public:
     return true;
   }
 
+  /** Whether the curve is the axis of a round tube whose last ball stands out of all others by `standOut`:
+   *  standsOut(place, radius) says by how much it does. */
+  template <typename StandsOut>
+  bool
+  RunAsEnd(double standOut, const StandsOut & standsOut)
+  {
+    std::size_t end = 0;
+    while (GoesOn(end))
+    {
+      ++end;
+    }
+    CapCentre(0, kTubeWindow * m_Scale.voxel);
+    const std::size_t first = m_Branch.end + (m_Branch.part > 0 ? 1 : 0);
+    if (first >= end)
+    {
+      return false;
+    }
+    const double radius = m_Surface.radius[m_Path[first]];
+    const double least = std::max(standOut, kEndOfRadius * radius);
+    const double way = Way(first, end);
+    return way >= least && std::abs(Growth(first, end)) <= kTubeGrowth * way && IsRound(first, end) &&
+           standsOut(m_Surface.positions[m_Path[first]], radius) >= least;
+  }
+
 private:
   double
   Way(std::size_t from, std::size_t to) const
@@ -134,6 +166,21 @@ private:
       }
     }
     return greatest;
+  }
+
+  bool
+  IsRound(std::size_t from, std::size_t to) const
+  {
+    const double way = Way(from, to);
+    for (std::size_t at = from; at < to && Way(from, at) <= kEndOfWay * way; ++at)
+    {
+      const double radius = m_Surface.radius[m_Path[at]];
+      if (m_SurfaceTime[m_Path[at]] - radius > kEndRoundness * radius)
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
   bool
@@ -322,10 +369,23 @@ StandingBranches(const MedialComplex &       surface,
     }
     EndSearch  search(surface, fire, surfaceTime, scale, branch);
     const bool standsOut = candidate.standOut >= standOut;
-    const bool isFound = (standsOut && search.Run()) || search.RunAsTube();
+    const auto standsOutBy = [&](const Vector3 & place, double radius) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const ElementIndex vertex : fire.order)
+      {
+        if (all[branchOf[vertex]].standOut > candidate.standOut)
+        {
+          least = std::min(least, Distance(place, surface.positions[vertex]) + radius - surface.radius[vertex]);
+        }
+      }
+      return least;
+    };
+    const bool isFound = (standsOut && search.Run()) || search.RunAsTube() ||
+                         (!candidate.isAxis && search.RunAsEnd(standOut, standsOutBy));
     if (!isFound)
     {
       branch.end = branch.path.size() - 1;
+      branch.part = 0;
     }
     candidate.isStanding = isFound || (standsOut && candidate.isAxis);
     branches.push_back(std::move(branch));
