@@ -221,9 +221,9 @@ public:
     std::optional<BandField::Snapshot> former;
     if (const SmoothingZones thick(m_Depth, kThick * m_Sigma, 0); thick.Any())
     {
-      const ZonesAtEdges zones = FindZonesAtEdges(m_Field, m_Depth, kThick * m_Sigma, thick);
-      former = m_Field.Save(zones.all);
-      weight = SmoothThick(thick, zones);
+      const auto edges = FindZonesAtEdges(m_Field, m_Depth, kThick * m_Sigma, thick);
+      former = m_Field.Save(edges ? edges->all : thick);
+      weight = SmoothThick(thick, edges);
     }
     m_Depth.DropDepths();
     FieldSurface surface(std::move(m_Field), m_Spacing, m_Sides, kFlattest, kClose);
@@ -277,17 +277,17 @@ private:
   // What is near a bend is left out of the widest passes. Those need no more than the means of 2^3 voxels: nothing is
   // left that is shorter. Returns the weight of the coefficients.
   float
-  SmoothThick(const SmoothingZones & thick, const ZonesAtEdges & zones)
+  SmoothThick(const SmoothingZones & thick, const std::optional<ZonesAtEdges> & edges)
   {
     const PassWeights::Further * further = &m_Weights.AfterSome();
     m_Field.SetWidth(m_Weights.Wider());
-    if (zones.any)
+    if (edges)
     {
-      m_Field.Smooth(kDrawsIn, &zones.beside);
+      m_Field.Smooth(kDrawsIn, &edges->beside);
     }
     for (const float weight : further->passes)
     {
-      SmoothWith(m_Field, weight, &zones.flat);
+      SmoothWith(m_Field, weight, edges ? &edges->flat : &thick);
     }
     SmoothingZones thickest(m_Depth, kThickest * m_Sigma, 1);
     if (thickest.Any())

@@ -4,6 +4,8 @@
 #include "BandField.h"
 #include "SmoothingZones.h"
 
+#include <optional>
+
 namespace voxelcore
 {
 
@@ -12,14 +14,14 @@ namespace voxelcore
  *  less draws walls in by as much. Creases between walls are left as they are. */
 struct ZonesAtEdges
 {
-  SmoothingZones flat;        ///< for wider passes: without what is near an edge
-  SmoothingZones beside;      ///< what is drawn in
-  SmoothingZones all;         ///< both
-  bool           any = false; ///< whether there are edges; else `beside` is all as well
+  SmoothingZones flat;   ///< for wider passes: without what is near an edge
+  SmoothingZones beside; ///< what is drawn in
+  SmoothingZones all;    ///< both
 };
 
-/** `thick` are zones of the depths' first radius, `radius`; the field has taken its first passes. */
-ZonesAtEdges
+/** `thick` are zones of the depths' first radius, `radius`; the field has taken its first passes. None where there are
+ *  no edges. */
+std::optional<ZonesAtEdges>
 FindZonesAtEdges(const BandField & field, const BoundaryDepth & depth, double radius, const SmoothingZones & thick);
 
 /** The weight of the pass that draws in, with a Gaussian of the root of 2 sigma. */
