@@ -1,5 +1,6 @@
 // A branch from a junction on.
 
+#include "EndByVolume.h"
 #include "JointAxes.h"
 
 #include <algorithm>

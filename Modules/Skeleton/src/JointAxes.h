@@ -1,9 +1,9 @@
 #pragma once
 // The axes of branches that meet, from where their bodies are apart.
 
-#include "EndByVolume.h"
 #include "ParabolaFit.h"
 #include "UnitVector.h"
+#include "WayLine.h"
 #include "voxelcore/SkeletonGraph.h"
 #include "voxelcore/Vectors.h"
 

@@ -1,4 +1,4 @@
-#include "EndByVolume.h"
+#include "WayLine.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@ namespace voxelcore::testing
 namespace
 {
 
-TEST(EndByVolume, ALineIsStraightBetweenItsPlacesAndEndsAtTheLast)
+TEST(WayLine, ALineIsStraightBetweenItsPlacesAndEndsAtTheLast)
 {
   WayLine line;
   line.Add({ 0, 0, 0 });
