@@ -53,7 +53,7 @@ def test_docstrings_are_true():
     for result in RESULTS:
         for test in doctest.DocTestFinder().find(result, module=False, globs=names):
             runner.run(test)
-    results = doctest.testmod(voxelcore)
+    results = doctest.testmod(voxelcore, extraglobs={"numpy": numpy})
     assert runner.failures == results.failed == 0 and runner.tries + results.attempted > 30
 
 
