@@ -109,11 +109,7 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
   {
     throw UsageError("--cross-check needs TetGen, which this build lacks; configure it with -DVOXELCORE_TETGEN=ON");
   }
-  transaction.Protect(options.scan);
-  if (!options.refine.grey.empty())
-  {
-    transaction.Protect(options.refine.grey);
-  }
+  ProtectInputs(transaction, options);
   if (options.output.empty())
   {
     return;

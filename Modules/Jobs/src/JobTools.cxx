@@ -19,6 +19,16 @@ Finish(OutputTransaction & transaction, const JobContext & context)
   }
 }
 
+void
+ProtectInputs(OutputTransaction & transaction, const CoreOptions & options)
+{
+  transaction.Protect(options.scan);
+  if (!options.refine.grey.empty())
+  {
+    transaction.Protect(options.refine.grey);
+  }
+}
+
 SpacingWeights
 ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan)
 {

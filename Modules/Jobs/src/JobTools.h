@@ -1,6 +1,7 @@
 #pragma once
 // Small pieces that jobs share.
 
+#include "voxelcore/CoreJob.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/JobContext.h"
 #include "voxelcore/LabelVolume.h"
@@ -22,6 +23,10 @@ namespace voxelcore
  *  hears of them. */
 void
 Finish(OutputTransaction & transaction, const JobContext & context);
+
+/** No result may replace the scan or the grey scan beside it. */
+void
+ProtectInputs(OutputTransaction & transaction, const CoreOptions & options);
 
 /** The weights of a scan's lattice. \throws InputError that names the scan where its geometry cannot be worked on. */
 SpacingWeights

@@ -88,11 +88,7 @@ private:
   void
   CheckTargets()
   {
-    m_Transaction.Protect(m_Options.core.scan);
-    if (!m_Options.core.refine.grey.empty())
-    {
-      m_Transaction.Protect(m_Options.core.refine.grey);
-    }
+    ProtectInputs(m_Transaction, m_Options.core);
     const auto require = [&](const std::optional<fs::path> & target, const char * option, const char * extension) {
       if (target && target->extension() != extension)
       {

@@ -101,11 +101,7 @@ private:
   void
   CheckTargets()
   {
-    m_Transaction.Protect(m_Options.core.scan);
-    if (!m_Options.core.refine.grey.empty())
-    {
-      m_Transaction.Protect(m_Options.core.refine.grey);
-    }
+    ProtectInputs(m_Transaction, m_Options.core);
     if (IsMask(m_Options.within))
     {
       m_Transaction.Protect(m_Options.within);
