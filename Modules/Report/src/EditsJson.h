@@ -1,0 +1,18 @@
+#pragma once
+// Topology and edits of shapes in reports and provenance.
+
+#include "voxelcore/CoreReport.h"
+
+#include <nlohmann/json.hpp>
+
+namespace voxelcore
+{
+
+nlohmann::ordered_json
+TopologyJson(const TopologyNumbers & topology);
+
+/** `inFile`: without the list of changes. */
+nlohmann::ordered_json
+EditRecordJson(const EditRecord & edits, bool inFile);
+
+} // namespace voxelcore
