@@ -1,0 +1,152 @@
+#include "EditRecords.h"
+
+#include "voxelcore/DepthSimplification.h"
+#include "voxelcore/TextFields.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+
+namespace voxelcore
+{
+
+void
+AddEdits(const EditRecord & record, EditRecord & sum)
+{
+  sum.cavitiesFilled += record.cavitiesFilled;
+  sum.voxelsAdded += record.voxelsAdded;
+  sum.componentsJoined += record.componentsJoined;
+  sum.componentsRemoved += record.componentsRemoved;
+  sum.voxelsRemoved += record.voxelsRemoved;
+  for (auto EditRecord::*const member : { &EditRecord::filtered, &EditRecord::denoised })
+  {
+    if (const auto & one = record.*member)
+    {
+      auto & all = sum.*member;
+      all = all.value_or(EditRecord::Filtered());
+      all->voxelsAdded += one->voxelsAdded;
+      all->voxelsRemoved += one->voxelsRemoved;
+    }
+  }
+  if (record.changed)
+  {
+    sum.changed = record.changed; // of the only label
+  }
+  if (record.mended)
+  {
+    EditRecord::Mended & mended = sum.mended ? *sum.mended : sum.mended.emplace(EditRecord::Mended());
+    mended.voxelsAdded += record.mended->voxelsAdded;
+    mended.voxelsRemoved += record.mended->voxelsRemoved;
+    mended.piecesJoined += record.mended->piecesJoined;
+    mended.loopsClosed += record.mended->loopsClosed;
+    mended.cavitiesFilled += record.mended->cavitiesFilled;
+  }
+  for (auto EditRecord::*const member :
+       { &EditRecord::closed, &EditRecord::hollows, &EditRecord::slices, &EditRecord::torn })
+  {
+    if (const auto & one = record.*member)
+    {
+      auto & all = sum.*member;
+      all = all.value_or(EditRecord::Filled());
+      all->voxelsAdded += one->voxelsAdded;
+      all->componentsJoined += one->componentsJoined;
+      all->holes += one->holes;
+    }
+  }
+  if (record.smoothed)
+  {
+    EditRecord::Smoothed & smoothed = sum.smoothed ? *sum.smoothed : sum.smoothed.emplace(EditRecord::Smoothed());
+    smoothed.voxelsAdded += record.smoothed->voxelsAdded;
+    smoothed.voxelsRemoved += record.smoothed->voxelsRemoved;
+    smoothed.largestShift = std::max(smoothed.largestShift, record.smoothed->largestShift);
+  }
+  if (record.simplified)
+  {
+    auto &       all = sum.simplified ? *sum.simplified : sum.simplified.emplace(EditRecord::Simplified());
+    const auto & one = *record.simplified;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      all.before.betti[i] += one.before.betti[i];
+      all.after.betti[i] += one.after.betti[i];
+    }
+    all.cuts += one.cuts;
+    all.fills += one.fills;
+    all.voxelsAdded += one.voxelsAdded;
+    all.voxelsRemoved += one.voxelsRemoved;
+  }
+}
+
+std::vector<std::string>
+EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
+{
+  std::vector<std::string> notes;
+  if (sum.filtered)
+  {
+    notes.push_back("median of " + std::to_string(options.median->voxels) +
+                    " voxels: " + Counted(sum.filtered->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.filtered->voxelsRemoved) + " removed");
+  }
+  if (sum.denoised)
+  {
+    notes.push_back("denoised: " + Counted(sum.denoised->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.denoised->voxelsRemoved) + " removed");
+  }
+  if (sum.mended)
+  {
+    notes.push_back("mended: " + Counted(sum.mended->piecesJoined, "piece", "pieces") + " joined, " +
+                    Counted(sum.mended->loopsClosed, "loop", "loops") + " closed, " +
+                    Counted(sum.mended->cavitiesFilled, "cavity", "cavities") + " filled; " +
+                    Counted(sum.mended->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.mended->voxelsRemoved) + " removed");
+  }
+  const auto filled = [&notes](const std::string & what, const std::optional<EditRecord::Filled> & record) {
+    if (record)
+    {
+      notes.push_back(what + " with " + Counted(record->voxelsAdded, "voxel", "voxels") + ", " +
+                      Counted(record->componentsJoined, "component", "components") + " joined");
+    }
+  };
+  filled("gaps up to " + (options.close ? options.close->text : "") + " closed", sum.closed);
+  filled(Counted(sum.hollows ? sum.hollows->holes : 0, "hollow", "hollows") + " filled", sum.hollows);
+  filled(Counted(sum.slices ? sum.slices->holes : 0, "hole", "holes") + " of slices filled", sum.slices);
+  if (options.fillCavities)
+  {
+    notes.push_back(Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
+                    Counted(sum.voxelsAdded, "voxel", "voxels") + ", " +
+                    Counted(sum.componentsJoined, "component", "components") + " in them joined to what is around");
+  }
+  if (sum.torn && sum.torn->componentsJoined > 0)
+  {
+    notes.push_back(Counted(sum.torn->componentsJoined, "torn piece", "torn pieces") + " joined with " +
+                    Counted(sum.torn->voxelsAdded, "voxel", "voxels"));
+  }
+  if (options.minVoxels || options.largest)
+  {
+    notes.push_back(Counted(sum.componentsRemoved, "component", "components") + " removed, with " +
+                    Counted(sum.voxelsRemoved, "voxel", "voxels"));
+  }
+  if (sum.smoothed)
+  {
+    char shift[32];
+    std::snprintf(shift, sizeof(shift), "%.2f", sum.smoothed->largestShift);
+    notes.push_back("smoothed: " + Counted(sum.smoothed->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.smoothed->voxelsRemoved) + " removed; the boundary moved by " + shift +
+                    " voxels at most");
+  }
+  if (sum.simplified)
+  {
+    const EditRecord::Simplified & simplified = *sum.simplified;
+    notes.push_back("topology simplified: " + CountsText(simplified.before) + " became " +
+                    CountsText(simplified.after) + " by " + Counted(simplified.cuts, "cut", "cuts") + " of " +
+                    Counted(simplified.voxelsRemoved, "voxel", "voxels") + " and " +
+                    Counted(simplified.fills, "fill", "fills") + " of " + std::to_string(simplified.voxelsAdded));
+  }
+  if (sum.changed)
+  {
+    notes.push_back("voxels changed as listed: " + Counted(sum.changed->voxelsAdded, "voxel", "voxels") + " added, " +
+                    std::to_string(sum.changed->voxelsRemoved) + " removed");
+  }
+  return notes;
+}
+
+} // namespace voxelcore
