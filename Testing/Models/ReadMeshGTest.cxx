@@ -308,6 +308,32 @@ TEST(ReadMesh, NumbersThatAreNoneAndCornersThatAreNoPointsAreRefused)
   }
 }
 
+TEST(ReadMesh, PlyThatPromisesPointsWithoutCoordinatesIsRefused)
+{
+  const TemporaryFolder folder;
+  for (const char * format : { "ascii", "binary_little_endian" })
+  {
+    WriteAll(folder / "a.ply",
+             std::string("ply\nformat ") + format +
+               " 1.0\nelement vertex 858993460\nelement face 1\n"
+               "property list uchar int vertex_indices\nend_header\n" +
+               (*format == 'a' ? "3 0 1 2\n" : std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13)));
+    EXPECT_NE(Refusal(folder / "a.ply").find("vertex 0: it has no x, y and z"), std::string::npos) << format;
+  }
+}
+
+TEST(ReadMesh, PlyWithListsLongerThanTheirTypeOfCountIsRefused)
+{
+  const TemporaryFolder folder;
+  for (const char * count : { "-1", "4294967296", "9223372036854775807" })
+  {
+    WriteAll(folder / "a.ply",
+             "ply\nformat ascii 1.0\nelement other 1\nproperty list uint uchar values\nend_header\n" +
+               std::string(count) + " 1 2\n");
+    EXPECT_NE(Refusal(folder / "a.ply").find("other 0: a list of " + std::string(1, *count)), std::string::npos);
+  }
+}
+
 TEST(ReadMesh, WhatIsNoMeshIsRefusedByName)
 {
   const TemporaryFolder folder;

@@ -179,6 +179,26 @@ TEST(VtkMeshes, CountsThatTheFileDoesNotHoldAreRefused)
   EXPECT_LT(PeakMegabytes() - before, 100);
 }
 
+TEST(VtkMeshes, PiecesThatNameTheSameBytesOverAndOverAreRefused)
+{
+  const TemporaryFolder folder;
+  const long            before = PeakMegabytes();
+  constexpr int         points = 4096;
+  const std::uint64_t   length = points * 3 * sizeof(double);
+  std::string           text = "<VTKFile type='PolyData' header_type='UInt64'><PolyData>";
+  for (int piece = 0; piece < 4096; ++piece)
+  {
+    text += "<Piece NumberOfPoints='" + std::to_string(points) +
+            "'><Points><DataArray type='Float64' NumberOfComponents='3' format='appended'/></Points></Piece>";
+  }
+  text += "</PolyData><AppendedData encoding='raw'>_";
+  text.append(reinterpret_cast<const char *>(&length), sizeof(length));
+  text.append(length, '\0');
+  WriteAll(folder / "a.vtp", text + "</AppendedData></VTKFile>");
+  EXPECT_TRUE(IsRefused(folder / "a.vtp"));
+  EXPECT_LT(PeakMegabytes() - before, 100);
+}
+
 TEST(VtkMeshes, FilesThatAreCutOffAreRefused)
 {
   const TemporaryFolder folder;

@@ -1,9 +1,11 @@
 #include "MeshText.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 
 namespace voxelcore
 {
@@ -241,12 +243,14 @@ ReadOther(const Element & element, Values & values, std::int64_t pointCount, Mes
   {
     const bool holdsCorners =
       isFace && property.isList && (property.name == "vertex_indices" || property.name == "vertex_index");
-    const auto count = property.isList ? static_cast<std::int64_t>(values.Next(property.countType)) : 1;
-    if (count < 0 || (holdsCorners && count > pointCount))
+    const double count = property.isList ? values.Next(property.countType) : 1;
+    // Text holds numbers that no type of a count does.
+    if (count < 0 || count > std::numeric_limits<std::uint32_t>::max() ||
+        (holdsCorners && count > static_cast<double>(pointCount)))
     {
-      values.Fail("a list of " + std::to_string(count));
+      values.Fail("a list of " + Number(count));
     }
-    for (std::int64_t i = 0; i < count; ++i)
+    for (auto left = static_cast<std::uint32_t>(count); left > 0; --left)
     {
       const double value = values.Next(property.type);
       if (holdsCorners)
@@ -295,8 +299,9 @@ ParsePly(std::string_view bytes)
     }
     RequireFit(element.name != "tristrips", "triangle strips are not read; write it with faces");
     RequireFit(element.name != "face" || pointCount >= 0, "its faces come before its points");
-    // A number of nothings is not worth the wait.
-    for (std::int64_t i = 0; i < element.count && !element.properties.empty(); ++i)
+    // A number of nothings is not worth the wait, but points must be there.
+    const bool isRead = !element.properties.empty() || element.name == "vertex";
+    for (std::int64_t i = 0; i < element.count && isRead; ++i)
     {
       values.BeginElement(element, i);
       element.name == "vertex" ? ReadVertex(element, values, file) : ReadOther(element, values, pointCount, file);
