@@ -160,6 +160,18 @@ TEST_F(Folder, ALineCutOffByAKillIsPassedOver)
   }
 }
 
+TEST_F(Folder, ALineNestedSoDeeplyThatTheStackWouldEndIsPassedOver)
+{
+  const auto command = Command("skeleton", "out");
+  Run(command);
+  const auto whole = Results("out");
+  const auto record = m_Folder / "out/c_skeleton_finished.jsonl";
+  WriteAll(record,
+           R"({"sha256":"","x":)" + std::string(200000, '[') + std::string(200000, ']') + "}\n" + ReadAll(record));
+  Run(command);
+  ExpectSameResults("out", whole);
+}
+
 TEST_F(Folder, OtherOptionsOrAnotherScanDoEveryLabelAgainWhenForced)
 {
   Run(Command("skeleton", "out"));

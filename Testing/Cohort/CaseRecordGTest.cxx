@@ -58,6 +58,14 @@ TEST_F(CaseRecords, ARecordThatLostABitOrItsEndIsNone)
   EXPECT_TRUE(ReadCaseRecord(m_Case));
 }
 
+TEST_F(CaseRecords, ARecordNestedSoDeeplyThatTheStackWouldEndIsNone)
+{
+  std::string text = ReadAll(RecordPath(m_Case));
+  text.insert(text.find('{') + 1, "\"x\": " + std::string(200000, '[') + std::string(200000, ']') + ",");
+  WriteAll(RecordPath(m_Case), text);
+  EXPECT_FALSE(ReadCaseRecord(m_Case));
+}
+
 TEST_F(CaseRecords, ClearingTakesWhatTheCaseLeftAndNothingElse)
 {
   WriteAll(m_Case / "sub-a_medial.vtp.part77", "half");

@@ -138,9 +138,14 @@ TEST(GatherCohort, ADoneCaseWhoseReportIsGoneOrDamagedIsNotPassedOverInSilence)
 {
   const TemporaryFolder folder;
   MakeCase(folder, "a", true, ReportOf(R"({"label":1,"name":"n"})"));
-  const std::vector<std::string> damaged{
-    "{ no json", "[]", R"({"labels":[]})", ReportOf(R"({"name":"n"})"), ReportOf(R"({"label":1})"), ReportOf("3")
-  };
+  const std::string              deep = std::string(200000, '[') + std::string(200000, ']');
+  const std::vector<std::string> damaged{ "{ no json",
+                                          "[]",
+                                          R"({"labels":[]})",
+                                          ReportOf(R"({"name":"n"})"),
+                                          ReportOf(R"({"label":1})"),
+                                          ReportOf("3"),
+                                          ReportOf(R"({"label":1,"name":"n","x":)" + deep + "}") };
   for (std::size_t i = 0; i < damaged.size(); ++i)
   {
     MakeCase(folder, "b" + std::to_string(i), true, damaged[i]);

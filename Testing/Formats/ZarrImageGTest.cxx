@@ -56,6 +56,17 @@ TEST_F(ZarrImages, WithMetadataWithoutSenseAreRefused)
   ExpectRefused(Attributes("d.zarr", R"({"multiscales": 3, "ome": 4})"), { "without an image or labels" });
 }
 
+TEST_F(ZarrImages, WithMetadataNestedSoDeeplyThatTheStackWouldEndAreRefused)
+{
+  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+  const auto        image = Image("a.zarr");
+  for (const std::string & text : { R"({"multiscales": [{"datasets": [{"path": "0"}], "x": )" + deep + "}]}",
+                                    R"({"multiscales": [{"datasets": [{"path": "0"}]}], "x": )" + deep + "}" })
+  {
+    ExpectRefused(Attributes("a.zarr", text), { ".zattrs", "no JSON object" });
+  }
+}
+
 TEST_F(ZarrImages, TransformationsOfAResolutionAndOfTheImageFollowEachOther)
 {
   const LabelMap volume = ReadLabelVolume(Image("a.zarr", R"({"coordinateTransformations": [{"type": "identity"},

@@ -256,6 +256,16 @@ TEST(CoreReport, DamagedProvenanceIsRefused)
   EXPECT_THROW(ParseProvenance(missing, "a.vtp"), InputError);
 }
 
+TEST(CoreReport, ProvenanceOfMoreMembersThanCanBeSearchedIsRefused)
+{
+  std::string text = ProvenanceJson(MakeReport(), { 0 }, 0);
+  for (int i = 0; i < 5000; ++i)
+  {
+    text.insert(text.rfind('}'), ",\"k" + std::to_string(i) + "\":0");
+  }
+  EXPECT_THROW(ParseProvenance(text, "a.vtp"), InputError);
+}
+
 TEST(CoreReport, NamesThatAreNoUtf8DoNotBreakIt)
 {
   CoreReport report = MakeReport();

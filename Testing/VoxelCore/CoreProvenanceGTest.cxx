@@ -103,6 +103,9 @@ TEST(CoreProvenance, WhatIsNoRecordOfTheseLabelsGivesNone)
   Json pruned = Json::parse(ProvenanceOf("0", 0));
   pruned["labels"][0]["pruned"][0]["tolerance"] = "1diag";
   EXPECT_EQ(PrunedProvenanceJson(pruned.dump(), { pruning, pruning }), "") << "lambda no longer says what is left";
+  std::string deep = ProvenanceOf("0", 0);
+  deep.insert(deep.rfind('}'), ",\"x\":" + std::string(200000, '[') + std::string(200000, ']'));
+  EXPECT_EQ(PrunedProvenanceJson(deep, { pruning, pruning }), "") << "written by recursion, it would end the stack";
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "voxelcore/BuildFacts.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/JsonText.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/TemporaryNames.h"
@@ -124,7 +125,7 @@ ReadCaseRecord(const fs::path & folder)
   const std::string text{ std::istreambuf_iterator<char>(file), {} };
   try
   {
-    Json              json = Json::parse(text);
+    Json              json = Json::parse(PlainJson(text));
     const std::string digest = json.at("sha256").get<std::string>();
     json.erase("sha256");
     if (digest != TextSha256(Text(json)))

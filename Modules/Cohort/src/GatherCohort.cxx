@@ -6,10 +6,12 @@
 #include "voxelcore/CaseRecord.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/JsonText.h"
 #include "voxelcore/OutputTransaction.h"
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <thread>
 
@@ -88,8 +90,9 @@ Joined(const Json & values)
 Json
 ReadReport(const fs::path & path)
 {
-  std::ifstream file(path, std::ios::binary);
-  return Json::parse(file, nullptr, false);
+  std::ifstream     file(path, std::ios::binary);
+  const std::string text{ std::istreambuf_iterator<char>(file), {} };
+  return Json::parse(PlainJson(text), nullptr, false);
 }
 
 Row

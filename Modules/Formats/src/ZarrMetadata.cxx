@@ -1,6 +1,7 @@
 #include "ZarrMetadata.h"
 
 #include "voxelcore/ByteStream.h"
+#include "voxelcore/JsonText.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -225,7 +226,7 @@ ReadZarrJson(const std::filesystem::path & file)
   }
   std::string text(static_cast<std::size_t>(size), '\0');
   OpenBytes(file, 0, Packing::Plain)->Read(reinterpret_cast<std::byte *>(text.data()), text.size());
-  Json json = Json::parse(text, nullptr, false);
+  Json json = Json::parse(PlainJson(text, text.size()), nullptr, false);
   if (!json.is_object())
   {
     RefuseInput(file, "no JSON object", "the store is damaged: copy or write it anew");

@@ -2,6 +2,7 @@
 
 #include "voxelcore/BuildFacts.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/JsonText.h"
 #include "voxelcore/Sha256.h"
 
 #include <algorithm>
@@ -113,7 +114,7 @@ FinishedLabels::ParseLine(const std::string & text)
 {
   try
   {
-    Json              json = Json::parse(text);
+    Json              json = Json::parse(PlainJson(text));
     const std::string digest = json.at("sha256").get<std::string>();
     json.erase("sha256");
     if (digest != TextSha256(Dump(json)))

@@ -96,14 +96,15 @@ public:
     std::vector<RootAnnotation> result;
     try
     {
-      const Json json = Json::parse(m_Text);
-      for (const Json & list : json.at("markups"))
+      // Members in order would be searched one by one.
+      const auto json = nlohmann::json::parse(m_Text);
+      for (const auto & list : json.at("markups"))
       {
         const double sign = list.value("coordinateSystem", "LPS") == "RAS" ? -1 : 1;
-        for (const Json & point : list.at("controlPoints"))
+        for (const auto & point : list.at("controlPoints"))
         {
           m_Where = "point " + std::to_string(result.size() + 1);
-          const Json &   place = point.at("position");
+          const auto &   place = point.at("position");
           RootAnnotation one{
             m_Where,
             {},

@@ -4,6 +4,7 @@
 #include "SkeletonJson.h"
 #include "voxelcore/CoreReport.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/JsonText.h"
 
 #include <nlohmann/json.hpp>
 
@@ -210,7 +211,7 @@ ParseProvenance(const std::string & text, const std::string & where)
   }
   try
   {
-    const Json json = Json::parse(text);
+    const Json json = Json::parse(PlainJson(text));
     json.at("voxelcore").at("version").get_to(report.version);
     report.input = ReadInput(json.at("input"));
     const auto unit = UnitNamed(json.at("input").value("unit", UnitName(SpatialUnit::Millimetres)));

@@ -1,5 +1,6 @@
 #include "voxelcore/CoreProvenance.h"
 
+#include "voxelcore/JsonText.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/PolygonArea.h"
 
@@ -252,7 +253,7 @@ PrunedProvenanceJson(const std::string & text, const std::vector<CorePruning> & 
 {
   try
   {
-    Json       json = Json::parse(text);
+    Json       json = Json::parse(PlainJson(text));
     const auto unit = UnitNamed(json.at("input").value("unit", UnitName(SpatialUnit::Millimetres)));
     if (!unit)
     {
