@@ -365,6 +365,17 @@ TEST(NrrdHostile, HeadersThatClaimTooMuchAreRefusedBeforeAnythingIsAllocated)
     ExpectRefused(folder.Write("b.nrrd", Nrrd(With(With(Lines(), "sizes", sizes), "encoding", "gzip"), Gzip(data))),
                   {});
   }
+  // Axes that are not in space, whose sizes multiply to 0 or 4 where numbers end at 2^64.
+  for (const char * size : { "4611686018427387904", "4611686018427387905" })
+  {
+    for (const bool isBefore : { true, false })
+    {
+      auto lines = With(With(With(Lines(), "dimension", "5"), "space", ""), "space origin", "");
+      lines = With(With(lines, "space directions", ""), "kinds", isBefore ? "list list domain domain domain" : "");
+      lines = With(lines, "sizes", isBefore ? std::string("4 ") + size + " 3 2 2" : std::string("3 2 2 4 ") + size);
+      ExpectRefused(folder.Write("a.nrrd", Nrrd(lines, data)), { size });
+    }
+  }
   ExpectRefused(folder.Write("c.nrrd", Nrrd(With(Lines(), "type", "block"), data)), { "block" });
   ExpectRefused(folder.Write("d.nrrd", Nrrd(With(Lines(), "encoding", "zrl"), data)), { "zrl" });
   ExpectRefused(folder.Write("e.nrrd", Nrrd(With(Lines("int16"), "endian", ""), data + data)), { "endian" });

@@ -3,6 +3,7 @@
 #include "ScanBytes.h"
 
 #include <cstdlib>
+#include <sys/resource.h>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -137,6 +138,21 @@ TEST_F(TiffSpacing, OfOmeIsReadWithItsUnits)
   ExpectUnknown(Pages(2, "<OME><Pixels"));
   ExpectUnknown(Pages(2, "<OME"));
   ExpectUnknown(Pages(2, "<OME><Pixels PhysicalSizeX="));
+}
+
+TEST_F(TiffSpacing, OfOmeWithoutEndsOfElementsTakesMemoryLikeTheFile)
+{
+  std::string text = "<OME><Pixels PhysicalSizeX='2' PhysicalSizeY='3' PhysicalSizeZ='5'/>";
+  for (int i = 0; i < 20000; ++i)
+  {
+    text += "<TiffData a" + std::to_string(i) + "=''";
+  }
+  rusage before{};
+  getrusage(RUSAGE_SELF, &before);
+  ExpectSpacing(Pages(2, text), { 0.002, 0.003, 0.005 });
+  rusage after{};
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100 << 10);
 }
 
 TEST_F(TiffSpacing, OfResolutionTagsSaysNothingAboutSlices)

@@ -246,6 +246,10 @@ TEST_F(ZarrArrays, AShardWhoseIndexLeadsNowhereIsRefused)
   summed["codecs"][0]["configuration"]["index_codecs"].push_back({ { "name", "crc32c" } });
   ExpectRefused(Array3("b.zarr", summed.dump().c_str(), Shard().substr(0, 33)), { "shorter than the index" });
   ExpectRefused(Array3("b.zarr", summed.dump().c_str(), Shard()), { "another checksum" });
+  // 2^40 * 2^24 chunks are none where numbers end at 2^64.
+  Json endless = Json::parse(kSharded);
+  endless["chunk_grid"]["configuration"]["chunk_shape"] = { std::uint64_t{ 1 } << 40, 1U << 25, 3 };
+  ExpectRefused(Array3("d.zarr", endless.dump().c_str(), Shard()), { "shorter than the index" });
 }
 
 TEST_F(ZarrArrays, AGreatArrayIsOpenedOnlyWhereSomeOfItsChunksAreThere)

@@ -20,6 +20,7 @@ namespace
 {
 
 constexpr std::uint64_t kMostLayers = 4096;
+constexpr std::uint64_t kMostVolumes = 1U << 30;
 
 PixelType
 NrrdTypeOf(const std::filesystem::path & path, std::string_view text)
@@ -128,16 +129,16 @@ SortAxes(const std::filesystem::path &                           path,
                     "values of a voxel and volumes lie on neighbouring axes",
                     "permute the axes: values, space, time");
       }
+      if (size > (before ? kMostLayers : kMostVolumes) / count)
+      {
+        RefuseInput(path, Text("an axis of ", size, " values that is not in space"), "this is no label volume");
+      }
       count *= size;
       kindSoFar = kind;
     }
     else
     {
       RefuseInput(path, "its axes in space are interrupted by another axis", "permute the axes: space first");
-    }
-    if (axes.before > kMostLayers || axes.after > (1U << 30))
-    {
-      RefuseInput(path, Text("an axis of ", size, " values that is not in space"), "this is no label volume");
     }
   }
   return axes;

@@ -75,8 +75,9 @@ Elements(std::string_view xml, std::string_view name)
     {
       continue;
     }
-    const std::string_view element = xml.substr(behind, longestElement);
-    Attributes             attributes;
+    std::string_view element = xml.substr(behind, longestElement);
+    element = element.substr(0, element.find('<')); // else elements without an end would hold the attributes of others
+    Attributes attributes;
     for (std::size_t from = 0; from < element.size();)
     {
       const std::size_t equals = element.find_first_of("=>", from);

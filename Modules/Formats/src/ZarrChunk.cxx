@@ -165,18 +165,22 @@ TakeChecksum(const std::filesystem::path & file, Bytes & bytes)
 std::optional<Bytes>
 FromShard(const std::filesystem::path & file, const ZarrArray & array, const std::vector<std::uint64_t> & index)
 {
-  const auto &  shards = *array.shards;
-  std::uint64_t count = 1;
-  std::uint64_t at = 0;
+  constexpr std::uint64_t entry = 16;
+  const auto &            shards = *array.shards;
+  const std::uint64_t     size = FileSize(file);
+  std::uint64_t           count = 1;
+  std::uint64_t           at = 0;
   for (std::size_t a = 0; a < index.size(); ++a)
   {
+    if (shards.chunks[a] > size / entry / count) // before a product passes 2^64
+    {
+      RefuseChunk(file, "is shorter than the index of a shard");
+    }
     count *= shards.chunks[a];
     at = at * shards.chunks[a] + index[a] % shards.chunks[a];
   }
-  constexpr std::uint64_t entry = 16;
-  const std::uint64_t     size = FileSize(file);
-  const std::uint64_t     indexBytes = entry * count + (shards.hasChecksum ? 4 : 0);
-  if (count > size / entry || indexBytes > size)
+  const std::uint64_t indexBytes = entry * count + (shards.hasChecksum ? 4 : 0);
+  if (indexBytes > size)
   {
     RefuseChunk(file, "is shorter than the index of a shard");
   }
