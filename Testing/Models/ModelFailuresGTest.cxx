@@ -1,9 +1,11 @@
+#include "ModelCells.h"
 #include "Models/ModelFixtures.h"
 #include "VoxelCoreTesting/Messages.h"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <random>
@@ -129,6 +131,22 @@ TEST(ModelFailures, TheNameOfAnArrayStaysOnItsLine)
   WriteAll(folder / "a.vtp", bytes);
   const std::string message = MessageOf([&] { ReadModel(folder / "a.vtp"); });
   EXPECT_EQ(message.find_first_of("\n\x1b"), std::string::npos) << message;
+}
+
+TEST(ModelFailures, FacesThatAllMeetAtOneVertexTakeNoLongerThanOthers)
+{
+  constexpr ElementIndex faces = 200000;
+  CellComplex            cells;
+  cells.vertexCount = faces + 2;
+  for (ElementIndex face = 0; face < faces; ++face)
+  {
+    cells.faceVertices.insert(cells.faceVertices.end(), { 0, face + 1, face + 2 });
+    cells.faceOffsets.push_back(cells.faceVertices.size());
+  }
+  const std::clock_t begin = std::clock();
+  BuildEdges(cells, {});
+  EXPECT_LT(std::clock() - begin, 5 * CLOCKS_PER_SEC);
+  EXPECT_EQ(cells.edges.size(), 2 * std::size_t{ faces } + 1);
 }
 
 TEST(ModelFailures, FlippedBitsNeverCrashNorPrint)

@@ -4,6 +4,7 @@
 #include "voxelcore/MedialModel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -168,12 +169,12 @@ BuildEdges(CellComplex & cells, std::span<const std::array<ElementIndex, 2>> loo
 
   cells.faceEdges.resize(cells.faceVertices.size());
   forEachEdge([&](ElementIndex first, ElementIndex second, std::uint64_t corner) {
-    std::uint64_t edge = starts[first];
-    while (cells.edges[edge][1] != second)
-    {
-      ++edge;
-    }
-    cells.faceEdges[corner] = static_cast<ElementIndex>(edge);
+    // A file of others may have all its edges at one vertex.
+    const auto begin = cells.edges.begin();
+    const auto edge = std::lower_bound(begin + static_cast<std::ptrdiff_t>(starts[first]),
+                                       begin + static_cast<std::ptrdiff_t>(starts[first + std::size_t{ 1 }]),
+                                       std::array<ElementIndex, 2>{ first, second });
+    cells.faceEdges[corner] = static_cast<ElementIndex>(edge - begin);
   });
 }
 
