@@ -104,6 +104,17 @@ TEST(DefectiveMeshes, TrianglesWithoutAreaAndPointsThatAreThereTwiceDoNotMatter)
   EXPECT_EQ(Differences(result.shape, whole.shape), 0U);
 }
 
+TEST(DefectiveMeshes, PointsOfNoTriangleDoNotMatterHoweverFarTheyLie)
+{
+  const Voxelization whole = Voxelize(Ball(), kGrid);
+  for (const double far : { 1e30, 1e60, 1.7e308 })
+  {
+    TriangleMesh mesh = Ball();
+    mesh.points.push_back({ -far, far, far });
+    EXPECT_EQ(Differences(Voxelize(mesh, kGrid).shape, whole.shape), 0U) << far;
+  }
+}
+
 TEST(DefectiveMeshes, SmallHolesAreVotedShut)
 {
   const Voxelization whole = Voxelize(Ball(), kGrid);

@@ -76,13 +76,22 @@ IndexMesh::IndexMesh(const TriangleMesh & given, const VoxelGrid & grid)
   , scale(given, grid)
   , points(given.points.size())
 {
-  double farthest = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       points[i][axis] = (given.points[i][axis] - grid.origin[axis]) / grid.spacing[axis] - 0.5;
-      farthest = std::max(farthest, std::abs(points[i][axis]));
+    }
+  }
+  double farthest = 0; // not of points that belong to no triangle, which may lie anywhere
+  for (const auto & triangle : given.triangles)
+  {
+    for (const std::uint32_t corner : triangle)
+    {
+      for (const double coordinate : points[corner])
+      {
+        farthest = std::max(farthest, std::abs(coordinate));
+      }
     }
   }
   // A difference, a quotient and a difference again, each rounded once.
