@@ -3,12 +3,15 @@
 #include "voxelcore/HaloBlocks.h"
 
 #include "HaloBlocksFixture.h"
+#include "ShareCoding.h"
 
 #include "voxelcore/Error.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <sstream>
+#include <sys/resource.h>
 
 namespace voxelcore
 {
@@ -177,6 +180,37 @@ TEST_F(Shares, DamagedAnywhereAreRefused)
   std::string newer = bytes;
   newer[8] = 3;
   EXPECT_NE(MessageOf<InputError>([&] { Read(newer); }).find("version 3"), std::string::npos);
+}
+
+TEST_F(Shares, WithMoreOfAnythingThanTheirBytesCanHoldAreRefusedBeforeMemoryIsTaken)
+{
+  const std::array<std::uint64_t, 4> few{ 1, 1, 4, 12 }; // points, cells, facets, corners
+  const std::array<std::uint64_t, 4> many{ 1U << 24, 1U << 24, 1U << 24, std::uint64_t{ 1 } << 62 };
+  rusage                             before{};
+  getrusage(RUSAGE_SELF, &before);
+  for (std::size_t which = 0; which < few.size(); ++which)
+  {
+    std::ostringstream stream;
+    Encoder            to(stream);
+    for (const char c : std::string("VoxelBlk"))
+    {
+      to.Byte(static_cast<std::uint8_t>(c));
+    }
+    for (const std::uint64_t number : { 2, 7, 7, 2, 1, 1, 1, 1, 8, 6, 6 })
+    {
+      to.Number(number);
+    }
+    for (std::size_t i = 0; i < few.size(); ++i)
+    {
+      to.Number(i == which ? many[i] : few[i]);
+    }
+    to.Sum();
+    to.Flush();
+    EXPECT_NE(MessageOf<InputError>([&] { Read(stream.str()); }).find("is cut off"), std::string::npos) << which;
+  }
+  rusage after{};
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 50 << 10);
 }
 
 TEST_F(Shares, ThatCannotBeWrittenAreReported)

@@ -165,7 +165,7 @@ ReadScanPlan(std::istream & stream, const std::string & name)
   }
   if (from.Number() != kPlanVersion)
   {
-    from.Fail("is a plan of blocks of another kPlanVersion; remove it");
+    from.Fail("is a plan of blocks of another version; remove it");
   }
   ScanPlan plan;
   plan.source = ReadText(from);

@@ -9,6 +9,7 @@
 
 #include "ShareCoding.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace voxelcore
@@ -300,6 +301,9 @@ WriteBlockShare(const BlockShare & share, std::ostream & stream)
 BlockShare
 ReadBlockShare(std::istream & stream, const std::string & name)
 {
+  stream.seekg(0, std::ios::end);
+  const auto bytes = static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream.tellg()));
+  stream.seekg(0);
   Decoder from(stream, name);
   for (const std::uint8_t byte : magic)
   {
@@ -333,6 +337,11 @@ ReadBlockShare(std::istream & stream, const std::string & name)
   if (share.block >= share.blockCount || points >= kOtherBlock || cells >= kOtherBlock || facets >= kOtherBlock)
   {
     from.FailDamaged();
+  }
+  // A point and a corner take a byte or more, a cell four, a facet three. The sum is no proof of that.
+  if (corners > bytes || points + 4 * cells + 3 * facets + corners > bytes)
+  {
+    from.FailCutOff();
   }
   share.points.resize(points);
   share.isOwn.resize(points);

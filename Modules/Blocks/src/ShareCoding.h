@@ -144,12 +144,18 @@ public:
     Fail("is damaged; compute this block again");
   }
 
+  [[noreturn]] void
+  FailCutOff() const
+  {
+    Fail("is cut off; compute this block again");
+  }
+
   std::uint8_t
   Byte()
   {
     if (m_At == m_End && !Fill())
     {
-      Fail("is cut off; compute this block again");
+      FailCutOff();
     }
     const auto byte = static_cast<std::uint8_t>(m_Buffer[m_At++]);
     m_Sum.Add(byte);
