@@ -81,11 +81,14 @@ AddParameter(CLI::App & app, const Parameter & parameter, ParameterValues & valu
   }
 }
 
-/** First line only: some of CLI11's messages run on. */
+/** First line only: some of CLI11's messages run on. Of an option given twice it says how many it counted. */
 std::string
-FirstLine(const std::string & text)
+MessageOf(const CLI::ParseError & error)
 {
-  return text.substr(0, text.find('\n'));
+  const std::string text = error.what();
+  return dynamic_cast<const CLI::ArgumentMismatch *>(&error) != nullptr
+           ? text.substr(0, text.find(':')) + ": is given more than once"
+           : text.substr(0, text.find('\n'));
 }
 
 } // namespace
@@ -155,7 +158,7 @@ ParseCommandLine(int argc, char ** argv)
     {
       helpHint = "; see 'voxelcore " + chosen.front()->get_name() + " --help'";
     }
-    throw UsageError(FirstLine(error.what()) + helpHint);
+    throw UsageError(MessageOf(error) + helpHint);
   }
   for (const auto & [id, sub] : commands)
   {

@@ -1,7 +1,9 @@
 #include "Console.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
+#include <system_error>
 #include <unistd.h>
 
 namespace voxelcore
@@ -10,7 +12,8 @@ namespace voxelcore
 namespace
 {
 
-void
+/** \returns 0, or the number of the error that left some of it unwritten */
+int
 WriteAll(int descriptor, const std::string & text)
 {
   for (std::size_t done = 0; done < text.size();)
@@ -18,10 +21,11 @@ WriteAll(int descriptor, const std::string & text)
     const ssize_t written = write(descriptor, text.data() + done, text.size() - done);
     if (written <= 0)
     {
-      return; // nobody listens
+      return errno;
     }
     done += static_cast<std::size_t>(written);
   }
+  return 0;
 }
 
 } // namespace
@@ -54,7 +58,17 @@ Console::Console()
 void
 Console::Print(const std::string & text) const
 {
-  WriteAll(m_Output, text);
+  const int error = WriteAll(m_Output, text);
+  if (error != 0 && error != EPIPE && error != EBADF) // these two: nobody listens
+  {
+    m_OutputError = error;
+  }
+}
+
+std::string
+Console::OutputError() const
+{
+  return m_OutputError == 0 ? std::string() : std::system_category().message(m_OutputError);
 }
 
 void

@@ -20,6 +20,10 @@ public:
   void
   Print(const std::string & text) const;
 
+  /** Why some of what was printed is lost, such as a full disk; empty where all was taken, or nobody listens. */
+  std::string
+  OutputError() const;
+
   /** "voxelcore: <message>" on stderr, as one line whatever the message holds. */
   void
   PrintError(const std::string & message) const;
@@ -39,8 +43,9 @@ public:
   }
 
 private:
-  int m_Output;
-  int m_Error;
+  int         m_Output;
+  int         m_Error;
+  mutable int m_OutputError = 0;
 };
 
 } // namespace voxelcore

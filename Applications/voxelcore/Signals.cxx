@@ -15,11 +15,13 @@ namespace voxelcore
 namespace
 {
 
+constexpr char kNothing[] = "nothing was written";
+
 // A handler gets nothing but the signal's number, so what it needs must lie here.
 std::atomic<bool>                      interrupted{ false };
 std::atomic<const TemporaryRegistry *> temporaries{ nullptr };
 std::atomic<int>                       errorStream{ STDERR_FILENO };
-std::atomic<const char *>              leftBehind{ "" };
+std::atomic<const char *>              leftBehind{ kNothing };
 std::atomic<bool>                      onTerminal{ false };
 std::atomic<int>                       commitsWaitedFor{ 0 };
 std::atomic<bool>                      endsByItself{ false };
@@ -29,8 +31,6 @@ constexpr int  kInterrupted = 130;
 constexpr long kToStop = 500;  ///< ms for a job to stop by itself
 constexpr long kToCommit = 50; ///< ms between looks whether files have got their names
 constexpr int  kLooks = 40;    ///< then a file system hangs
-
-constexpr char kNothing[] = "nothing was written";
 
 void
 SetDeadline(long milliseconds)
@@ -46,15 +46,6 @@ Say(const char * text)
 }
 
 void
-SayWhatIsLeft()
-{
-  const char * left = leftBehind.load();
-  Say(temporaries.load()->HasCommitted() && std::strcmp(left, kNothing) == 0
-        ? "the files that have their names are complete"
-        : left);
-}
-
-void
 EndNow()
 {
   const TemporaryRegistry & registry = *temporaries.load();
@@ -66,7 +57,7 @@ EndNow()
   registry.RemoveAllNow();
   Say(onTerminal.load() ? "\r\033[K" : ""); // where a progress bar stood
   Say("voxelcore: interrupted; ");
-  SayWhatIsLeft();
+  Say(WhatIsLeft());
   Say("\n");
   _exit(kInterrupted);
 }
@@ -94,9 +85,9 @@ OnDeadline(int)
 void
 OnCrash(int)
 {
-  static constexpr char message[] =
-    "voxelcore: internal error: the program crashed; nothing was written; please report this with the scan\n";
-  static_cast<void>(!write(errorStream.load(), message, sizeof(message) - 1));
+  Say("voxelcore: internal error: the program crashed; ");
+  Say(WhatIsLeft());
+  Say("; please report this with the scan\n");
   temporaries.load()->RemoveAllNow();
   _exit(1);
 }
@@ -108,7 +99,7 @@ OnExit()
   if (!endsByItself.load())
   {
     Say("voxelcore: a library ended the program, as for lack of memory or because the X server is gone; ");
-    SayWhatIsLeft();
+    Say(WhatIsLeft());
     Say("\n");
     temporaries.load()->RemoveAllNow();
     _exit(1);
@@ -132,11 +123,10 @@ Install(int signal, void (*handler)(int), int flags)
 } // namespace
 
 void
-HandleSignals(const TemporaryRegistry & registry, int errorDescriptor, const char * whatIsLeft)
+HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
 {
   temporaries = &registry;
   errorStream = errorDescriptor;
-  leftBehind = whatIsLeft;
   onTerminal = isatty(errorDescriptor) == 1;
   std::atexit(OnExit);
   timer_create(CLOCK_MONOTONIC, nullptr, &deadline); // sends SIGALRM
@@ -164,6 +154,19 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor, const cha
     Install(signal, OnCrash, static_cast<int>(SA_RESETHAND) | SA_ONSTACK);
   }
 #endif
+}
+
+void
+SayThatIsLeft(const char * text)
+{
+  leftBehind = text;
+}
+
+const char *
+WhatIsLeft()
+{
+  const char * const left = leftBehind.load();
+  return left == kNothing && temporaries.load()->HasCommitted() ? "the files that have their names are complete" : left;
 }
 
 void

@@ -7,11 +7,11 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <new>
 #include <omp.h>
@@ -66,6 +66,15 @@ StyleOf(const CommandLine & line, bool quiet, const Console & console)
                                                                : ProgressPrinter::Style::None;
 }
 
+/** Whether the same command goes on from where this one stopped: batch does, and core and skeleton into a folder. */
+bool
+GoesOn(const CommandLine & line)
+{
+  return line.command == CommandId::Batch ||
+         ((line.command == CommandId::Core || line.command == CommandId::Skeleton) &&
+          IsFolderOutput(ValueOf(line.values, *line.command, "output")));
+}
+
 int
 Main(int argc, char ** argv, const Console & console, TemporaryRegistry & temporaries)
 {
@@ -74,6 +83,10 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
   {
     console.Print(line.text);
     return kDone;
+  }
+  if (GoesOn(line))
+  {
+    SayThatIsLeft("what is done stays, and the same command goes on from there");
   }
   const bool quiet = line.values.contains("quiet");
   const int  threads = ThreadsFrom(line.values, *line.command);
@@ -107,19 +120,6 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
   return code;
 }
 
-/** Whether the same command goes on from where this one stopped: batch does, and core and skeleton into a folder. */
-bool
-GoesOn(int argc, char ** argv)
-{
-  const std::vector<std::string> arguments(argv, argv + argc);
-  const std::string              command = argc > 1 ? arguments[1] : std::string();
-  auto                           output = std::find_if(arguments.begin(), arguments.end(), [](const std::string & one) {
-    return one == "-o" || one == "--output";
-  });
-  const bool intoFolder = output != arguments.end() && ++output != arguments.end() && IsFolderOutput(*output);
-  return command == "batch" || ((command == "core" || command == "skeleton") && intoFolder);
-}
-
 } // namespace
 
 int
@@ -128,9 +128,7 @@ main(int argc, char ** argv)
   ReserveMainStack();
   static TemporaryRegistry temporaries; // a signal may come during exit, too
   const Console            console;
-  const char * const       whatIsLeft =
-    GoesOn(argc, argv) ? "what is done stays, and the same command goes on from there" : "nothing was written";
-  HandleSignals(temporaries, console.ErrorDescriptor(), whatIsLeft);
+  HandleSignals(temporaries, console.ErrorDescriptor());
   const auto fail = [&console](int code, const std::string & message) {
     EndByItself();
     console.PrintError(message);
@@ -139,13 +137,17 @@ main(int argc, char ** argv)
   try
   {
     const int code = Main(argc, argv, console, temporaries);
+    if (const std::string error = console.OutputError(); code == kDone && !error.empty())
+    {
+      return fail(kFailed, "what was printed is cut off: " + error);
+    }
     EndByItself();
     return code;
   }
   catch (const Cancelled &)
   {
     CallOffDeadline();
-    console.PrintError(std::string("interrupted; ") + whatIsLeft);
+    console.PrintError(std::string("interrupted; ") + WhatIsLeft());
     std::_Exit(kInterrupted); // an engine's thread may still run: no destructors under its feet
   }
   catch (const UsageError & error)
@@ -163,7 +165,12 @@ main(int argc, char ** argv)
   catch (const std::bad_alloc &)
   {
     return fail(kFailed,
-                "not enough memory for this scan; nothing was written; work on single --labels, or on another machine");
+                std::string("not enough memory for this scan; ") + WhatIsLeft() +
+                  "; work on single --labels, or on another machine");
+  }
+  catch (const std::filesystem::filesystem_error & error)
+  {
+    return fail(kFailed, error.path1().string() + ": " + error.code().message());
   }
   catch (const std::exception & error)
   {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace voxelcore::testing
@@ -127,6 +128,16 @@ TEST_F(BadInput, EmptyFile)
     WriteAll(m_Folder / name, "");
     ExpectUnfit(name);
   }
+}
+
+TEST_F(BadInput, APipeIsNotWaitedFor)
+{
+  ASSERT_EQ(mkfifo((m_Folder / "a.nrrd").c_str(), 0600), 0);
+  ProgramLimits limits;
+  limits.time = std::chrono::seconds(30);
+  ExpectRefusal(RunProgram({ "core", m_Folder / "a.nrrd", "-o", m_Folder / "out.vtp" }, limits),
+                3,
+                { "a.nrrd", "not a regular file" });
 }
 
 TEST_F(BadInput, FolderWithoutSlices)
@@ -260,6 +271,7 @@ TEST_F(BadUsage, OptionsWithoutSense)
   ExpectUsageError(Core({ "--binary", "--labels", "2" }), { "--binary", "--labels" });
   ExpectUsageError(Core({ "--colour" }), { "--colour" });
   ExpectUsageError(Core({ "--lambda" }), { "--lambda" });
+  ExpectUsageError(Core({ "--lambda", "1", "--lambda", "2" }), { "--lambda: is given more than once" });
   ExpectUsageError(Core({ "surplus" }), { "surplus" });
   ExpectUsageError(Core({ "two\nlines" }), {});
 }
@@ -294,6 +306,17 @@ protected:
 TEST_F(BadOutput, FolderThatIsNotThere)
 {
   ExpectUnwritable(m_Folder / "none/out.vtp", { "none", "does not exist" });
+  EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" });
+}
+
+TEST_F(BadOutput, NamesThatAreTooLong)
+{
+  const std::string name(260, 'a');
+  ExpectUnwritable(m_Folder / (name + ".vtp"), { "cannot write: File name too long" });
+  ExpectUnwritable(m_Folder / (name + "/"), { "cannot make this folder: File name too long" });
+  ExpectUnwritable(m_Folder / (name + "/out.vtp"), { "File name too long" });
+  ExpectRefusal(RunProgram({ "batch", m_Folder / "a.nrrd", "-o", m_Folder / name }), 1, { "File name too long" });
+  ExpectRefusal(RunProgram({ "batch", m_Folder / name, "-o", m_Folder / "b" }), 3, { "File name too long" });
   EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" });
 }
 
@@ -358,6 +381,14 @@ TEST_F(BadOutput, DiskFull)
   const Unmount unmount{ disk };
   ExpectUnwritable(disk / "out.vtp", { "out.vtp" });
   EXPECT_TRUE(std::filesystem::is_empty(disk));
+}
+
+TEST_F(BadOutput, WhatIsPrintedOnAFullDisk)
+{
+  ProgramLimits limits;
+  limits.fullOutput = true;
+  ExpectRefusal(RunProgram({ "info", m_Folder / "a.nrrd", "--json" }, limits), 1, { "printed", "No space left" });
+  ExpectRefusal(RunProgram({ "--version" }, limits), 1, { "printed", "No space left" });
 }
 
 // A stack that has to grow when memory is used up ends the program without a word.

@@ -163,6 +163,27 @@ TEST_F(Interrupt, ASecondCtrlCEndsAtOnceAndStillLeavesNothing)
   EXPECT_EQ(m_Folder.Names(), Names{ "g.nrrd" });
 }
 
+TEST_F(Interrupt, AFolderIsSaidToStayHoweverItIsGiven)
+{
+  EXPECT_EQ(RunProgram({ "phantom", "gyroid", "--size", "128", "-o", m_Folder / "g.nrrd" }).code, 0);
+  for (const std::string & output : { "-o" + (m_Folder / "out/").string(), "--output=" + (m_Folder / "out/").string() })
+  {
+    bool                sent = false;
+    const ProgramResult result = RunProgram({ "core", m_Folder / "g.nrrd", output, "--progress", "plain" },
+                                            {},
+                                            [&](pid_t process, const std::string & error) {
+                                              if (!sent && error.find("delaunay") != std::string::npos)
+                                              {
+                                                kill(process, SIGINT);
+                                                sent = true;
+                                              }
+                                            });
+    EXPECT_EQ(result.code, 130);
+    EXPECT_EQ(LastLine(result.error),
+              "voxelcore: interrupted; what is done stays, and the same command goes on from there\n");
+  }
+}
+
 TEST_F(Interrupt, AKilledRunLeavesNoFileUnderItsFinalName)
 {
   for (const char * stage : { "delaunay", "writing" })

@@ -34,7 +34,7 @@ BecomeProgram(std::vector<char *> &      words,
               const ProgramLimits &      limits)
 {
   dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
-  dup2(output[1], STDOUT_FILENO);
+  dup2(limits.fullOutput ? open("/dev/full", O_WRONLY) : output[1], STDOUT_FILENO);
   dup2(error[1], STDERR_FILENO);
   for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ })
   {

@@ -37,9 +37,10 @@ WithoutHollowWarnings(const std::string & error)
 
 struct ProgramLimits
 {
-  std::optional<std::uint64_t> fileBytes;   ///< RLIMIT_FSIZE
-  std::optional<std::uint64_t> memoryBytes; ///< RLIMIT_AS
-  std::chrono::seconds         time{ 300 }; ///< then it is killed
+  std::optional<std::uint64_t> fileBytes;          ///< RLIMIT_FSIZE
+  std::optional<std::uint64_t> memoryBytes;        ///< RLIMIT_AS
+  bool                         fullOutput = false; ///< its stdout is a file on a full disk
+  std::chrono::seconds         time{ 300 };        ///< then it is killed
 };
 
 /** Called again and again while the program runs, with its process id and what it printed on stderr so far. */

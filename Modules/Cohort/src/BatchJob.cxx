@@ -206,7 +206,8 @@ MakeOutput(const BatchOptions & options)
 {
   std::error_code error;
   fs::create_directories(options.output, error);
-  if (!fs::is_directory(options.output))
+  std::error_code ignored;
+  if (!fs::is_directory(options.output, ignored))
   {
     throw OutputError(options.output.string() +
                       ": cannot make this folder: " + (error ? error.message() : std::string("it is a file")));

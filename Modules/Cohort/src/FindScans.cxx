@@ -85,6 +85,12 @@ IsManifest(const fs::path & path)
   return EndsInOneOf(path, { ".csv", ".tsv" });
 }
 
+[[noreturn]] void
+RefuseUnreadable(const fs::path & path, const std::error_code & error)
+{
+  throw InputError(path.string() + ": cannot be read (" + error.message() + "); check its name and permissions");
+}
+
 /** All scans below a folder, without those below `output`; and what is none. */
 void
 Walk(const fs::path &        folder,
@@ -104,7 +110,8 @@ Walk(const fs::path &        folder,
   }
   std::vector<fs::path> entries;
   std::vector<fs::path> images;
-  for (const auto & entry : fs::directory_iterator(folder))
+  std::error_code       error;
+  for (const auto & entry : fs::directory_iterator(folder, error))
   {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with('.'))
@@ -112,12 +119,16 @@ Walk(const fs::path &        folder,
       entries.push_back(entry.path());
     }
   }
+  if (error)
+  {
+    RefuseUnreadable(folder, error);
+  }
   std::sort(entries.begin(), entries.end());
   for (const fs::path & entry : entries)
   {
-    if (fs::is_directory(entry))
+    if (fs::is_directory(entry, error))
     {
-      if (!fs::is_symlink(entry)) // a link upwards would never end
+      if (!fs::is_symlink(entry, error)) // a link upwards would never end
       {
         Walk(entry, output, scans, passedOver);
       }
@@ -172,7 +183,8 @@ AddInput(const fs::path &        input,
          std::vector<Found> &    found,
          std::vector<fs::path> & passedOver)
 {
-  if (fs::is_directory(input))
+  std::error_code error;
+  if (fs::is_directory(input, error))
   {
     const fs::path        folder = input.has_filename() ? input : input.parent_path();
     std::vector<fs::path> scans;
@@ -187,7 +199,11 @@ AddInput(const fs::path &        input,
     }
     return;
   }
-  if (fs::exists(input))
+  if (error == std::errc::permission_denied || error == std::errc::filename_too_long)
+  {
+    RefuseUnreadable(input, error);
+  }
+  if (!error)
   {
     found.push_back({ input, ScanName(input) });
     return;

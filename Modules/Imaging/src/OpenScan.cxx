@@ -88,6 +88,13 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
 std::vector<std::filesystem::path>
 ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
 {
+  std::error_code ignored;
+  if (const auto status = std::filesystem::status(path, ignored); // to open a pipe may wait for ever
+      std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+      !std::filesystem::is_directory(status))
+  {
+    RefuseInput(path, "not a regular file", "name a file that holds a scan");
+  }
   std::vector<std::filesystem::path> files;
   switch (ScanKindOf(path))
   {
@@ -133,7 +140,6 @@ ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
     case ScanKind::Png:
       break;
   }
-  std::error_code ignored;
   std::erase_if(files, [&](const auto & file) { return !std::filesystem::is_regular_file(file, ignored); });
   std::sort(files.begin(), files.end());
   files.insert(files.begin(), path);

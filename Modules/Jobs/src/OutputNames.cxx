@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 bool
 IsFolderOutput(const fs::path & output)
 {
-  return !output.has_filename() || fs::is_directory(output);
+  std::error_code ignored; // whoever writes there says what is wrong
+  return !output.has_filename() || fs::is_directory(output, ignored);
 }
 
 std::string
@@ -98,7 +99,10 @@ ParseLengths(std::string_view text, Length (*parse)(std::string_view), const std
 std::vector<Lambda>
 ParseLambdas(std::string_view text)
 {
-  return ParseLengths<Lambda>(text, ParseLambda, "--lambda");
+  return ParseLengths<Lambda>(
+    text,
+    [](std::string_view one) { return ParseLambda(one); },
+    "--lambda");
 }
 
 std::vector<Tolerance>

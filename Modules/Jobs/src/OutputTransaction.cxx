@@ -46,6 +46,13 @@ private:
   int                 m_Exceptions = std::uncaught_exceptions();
 };
 
+/** Whether nothing else is wrong with a path that names no file. */
+bool
+IsNotThere(const std::error_code & error)
+{
+  return !error || error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
+}
+
 [[noreturn]] void
 ThrowOutputError(const fs::path & path, const std::string & why)
 {
@@ -107,13 +114,13 @@ OutputTransaction::Protect(const fs::path & input)
 void
 OutputTransaction::MakeDirectory(const fs::path & directory)
 {
-  const fs::path clean = directory.has_filename() ? directory : directory.parent_path();
-  if (clean.empty() || fs::is_directory(clean))
+  const fs::path  clean = directory.has_filename() ? directory : directory.parent_path();
+  std::error_code error;
+  if (clean.empty() || fs::is_directory(clean, error))
   {
     return;
   }
   MakeDirectory(DirectoryOf(clean));
-  std::error_code error;
   if (!fs::create_directory(clean, error))
   {
     ThrowOutputError(clean, "cannot make this folder: " + (error ? error.message() : std::string("it is a file")));
@@ -125,18 +132,25 @@ OutputTransaction::MakeDirectory(const fs::path & directory)
 void
 OutputTransaction::CheckTarget(const fs::path & target) const
 {
-  const fs::path directory = DirectoryOf(target);
-  if (!fs::is_directory(directory))
+  const fs::path  directory = DirectoryOf(target);
+  std::error_code error;
+  if (!fs::is_directory(directory, error) && IsNotThere(error))
   {
     ThrowOutputError(target, "cannot write: the folder " + directory.string() + " does not exist; make it first");
   }
-  if (fs::is_directory(target))
+  if (error || access(directory.c_str(), W_OK | X_OK) != 0)
+  {
+    ThrowOutputError(target,
+                     "cannot write into the folder " + directory.string() + ": " +
+                       (error ? error.message() : std::strerror(errno)));
+  }
+  if (fs::is_directory(target, error))
   {
     ThrowOutputError(target, "cannot write: this is a folder; give a file name");
   }
-  if (access(directory.c_str(), W_OK | X_OK) != 0)
+  if (!IsNotThere(error))
   {
-    ThrowOutputError(target, "cannot write into the folder " + directory.string() + ": " + std::strerror(errno));
+    ThrowOutputError(target, "cannot write: " + error.message());
   }
   for (const fs::path & input : m_Protected)
   {
