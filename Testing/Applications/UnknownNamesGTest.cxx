@@ -46,6 +46,28 @@ TEST_F(UnknownNames, ValuesThatLookLikeOptionsAndNamesBehindTwoDashesAreTaken)
   Run({ "core", "-qo", Path("b.vtp"), "--", Path("scan.nrrd") });
 }
 
+TEST_F(UnknownNames, LengthsThatAreNoLambdaAreNotCalledSo)
+{
+  WriteNrrd(m_Folder / "a.nrrd", ThreeBlocks());
+  ExpectRefusal(RunProgram({ "sheets", Path("a.nrrd"), "-o", Path("out.vtp"), "--sliver", "-1" }),
+                2,
+                { "--sliver: length '-1' is negative" });
+  for (const std::string option : { "--plates", "--smooth", "--stand-out", "--prune-branches" })
+  {
+    ExpectRefusal(RunProgram({ "skeleton", Path("a.nrrd"), "-o", Path("out.vtp"), option, "-1" }),
+                  2,
+                  { option + ": length '-1' is negative" });
+  }
+}
+
+TEST_F(UnknownNames, VolumesAreRefusedByTheirOwnNameBeforeAnythingIsComputed)
+{
+  const std::string refusal = Path("out.png") + ": unknown extension";
+  ExpectRefusal(RunProgram({ "phantom", "ball", "-o", Path("out.png") }), 2, { refusal });
+  ExpectRefusal(RunProgram({ "reconstruct", Path("none.vtp"), "-o", Path("out.png") }), 2, { refusal });
+  ExpectRefusal(RunProgram({ "voxelize", Path("none.stl"), "--spacing", "1", "-o", Path("out.png") }), 2, { refusal });
+}
+
 TEST_F(UnknownNames, UsageNamesTheWholeCommand)
 {
   EXPECT_NE(Run({ "core", "--help" }).find("Usage: voxelcore core [OPTIONS] SCAN -o OUT\n"), std::string::npos);

@@ -141,6 +141,7 @@ RunPhantomJob(const PhantomJobOptions & options, const JobContext & given)
 {
   const JobContext  context = ForwardOnly(given);
   OutputTransaction transaction(options.force, context.temporaries);
+  RequireVolumePath(options.output);
   transaction.CheckTarget(options.output);
   if (options.centreLines)
   {

@@ -5,6 +5,7 @@
 #include "voxelcore/BallUnion.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/GreyVolume.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/ReportTable.h"
@@ -222,6 +223,7 @@ CheckTargets(const ReconstructOptions & options, OutputTransaction & transaction
       transaction.Protect(*input);
     }
   }
+  RequireVolumePath(options.output);
   transaction.CheckTarget(options.output);
   if (options.report)
   {

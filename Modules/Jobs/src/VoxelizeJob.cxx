@@ -3,6 +3,7 @@
 #include "CoreJobSteps.h"
 #include "JobTools.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/GreyVolume.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadInput.h"
@@ -156,6 +157,7 @@ RunVoxelizeJob(const VoxelizeJobOptions & options, const JobContext & given)
   }
   for (const Run & run : runs)
   {
+    RequireVolumePath(run.target);
     transaction.CheckTarget(run.target);
   }
   if (options.report)

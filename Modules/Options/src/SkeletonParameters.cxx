@@ -21,7 +21,7 @@ namespace
 Lambda
 ParseLength(const std::string & text)
 {
-  Lambda length = ParseLambda(text);
+  Lambda length = ParseLambda(text, "length");
   if (length.value == 0)
   {
     length.text = "0";

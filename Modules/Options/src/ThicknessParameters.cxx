@@ -3,6 +3,7 @@
 #include "FieldReader.h"
 #include "ParameterReader.h"
 #include "voxelcore/Certified.h"
+#include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/Parameters.h"
 
@@ -95,7 +96,14 @@ SheetsOptionsFrom(const ParameterValues & values)
   SheetsOptions         options;
   options.core = SharedOptions(reader, values, command);
   ReadFiles(reader, options.core);
-  options.sliver = ParseLambda(reader.Text("sliver"));
+  try
+  {
+    options.sliver = ParseLambda(reader.Text("sliver"), "length");
+  }
+  catch (const UsageError & error)
+  {
+    throw UsageError("--sliver: " + std::string(error.what()));
+  }
   options.output = reader.File("output");
   options.voxels = reader.FileIfGiven("voxels");
   options.table = reader.FileIfGiven("table");

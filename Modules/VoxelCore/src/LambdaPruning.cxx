@@ -59,18 +59,18 @@ ReadDecimal(std::string_view text)
 }
 
 [[noreturn]] void
-RefuseLambda(std::string_view text, const char * why)
+RefuseLambda(std::string_view what, std::string_view text, const char * why)
 {
-  throw UsageError("lambda '" + std::string(text) + "' " + why +
+  throw UsageError(std::string(what) + " '" + std::string(text) + "' " + why +
                    "; write a number and mm, vox or %, for example 1.5mm, 2.5vox or 2.5%");
 }
 
 } // namespace
 
 Lambda
-ParseLambda(std::string_view text)
+ParseLambda(std::string_view text, std::string_view what)
 {
-  const LengthText length = ReadLength(text, [&](const char * why) { RefuseLambda(text, why); });
+  const LengthText length = ReadLength(text, [&](const char * why) { RefuseLambda(what, text, why); });
   Lambda           lambda;
   lambda.value = length.value;
   lambda.text = length.text;
@@ -89,7 +89,7 @@ ParseLambda(std::string_view text)
   }
   else
   {
-    RefuseLambda(text, "has an unknown unit");
+    RefuseLambda(what, text, "has an unknown unit");
   }
   return lambda;
 }

@@ -28,9 +28,9 @@ struct Lambda
 };
 
 /** Reads "1.5mm", "2.5vox", "2.5%", "1.5" (mm). Decimal numbers, not negative, finite.
- *  \throws UsageError that quotes the text and names the units. */
+ *  \throws UsageError that quotes the text, as a `what`, and names the units. */
 Lambda
-ParseLambda(std::string_view text);
+ParseLambda(std::string_view text, std::string_view what = "lambda");
 
 /** \throws InputError for a length in mm, unless it is 0, where lengths are in voxels. */
 void
