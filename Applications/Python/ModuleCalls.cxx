@@ -29,9 +29,14 @@ RefuseArray(const std::string & what)
 ArrayView
 ViewOf(const py::array & array)
 {
+  if (array.ndim() == 0)
+  {
+    RefuseArray("it is none; give one of three dimensions, or an image such as nibabel.load('scan.nii.gz')");
+  }
   if (array.ndim() != 3)
   {
-    RefuseArray("it has " + std::to_string(array.ndim()) + " dimensions; give three, of a single slice a[:, :, None]");
+    RefuseArray("it has " + std::to_string(array.ndim()) + " dimensions; give three, of a single slice a[:, :, None]" +
+                (array.ndim() > 3 ? ", of several volumes one, a[..., 0]" : ""));
   }
   const py::dtype type = array.dtype();
   const char      kind = type.kind();

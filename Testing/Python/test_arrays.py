@@ -78,7 +78,7 @@ def test_slabs_of_rows_join_without_a_seam(order):
     "array, words",
     [
         (numpy.zeros((3, 3), numpy.uint8), "2 dimensions"),
-        (numpy.zeros((3, 3, 3, 1), numpy.uint8), "4 dimensions"),
+        (numpy.zeros((3, 3, 3, 1), numpy.uint8), r"4 dimensions.*a\[\.\.\., 0\]"),
         (numpy.zeros((3, 0, 3), numpy.uint8), "empty"),
         (numpy.zeros((3, 3, 3), numpy.uint8), "background"),
         (numpy.full((3, 3, 3), "x"), "its type is"),
@@ -91,7 +91,8 @@ def test_slabs_of_rows_join_without_a_seam(order):
         (numpy.full((3, 3, 3), 0.5), r"0\.5"),
         (numpy.full((3, 3, 3), numpy.nan), "nan"),
         (numpy.full((3, 3, 3), -1), "-1"),
-        (7, "0 dimensions"),
+        (7, "it is none"),
+        ("scan.nii.gz", r"nibabel\.load"),
     ],
 )
 def test_what_makes_no_sense_is_refused_in_one_line(array, words):
@@ -116,6 +117,9 @@ def test_what_makes_no_sense_is_refused_in_one_line(array, words):
         (dict(label=77), "77"),
         (dict(label=1.5), r"1\.5"),
         (dict(label="one"), "one"),
+        (dict(label=numpy.nan), "label nan"),
+        (dict(label={1, 2}), "label {1, 2}"),
+        (dict(label=numpy.zeros((2, 2))), "label array"),
         (dict(axes="xyz"), "xyz"),
         (dict(engine="magic"), "magic"),
         (dict(threads=-2), "-2"),
@@ -151,6 +155,16 @@ def test_several_labels_ask_for_a_choice():
     assert same(voxelcore.core(three, label=2), voxelcore.core(three == 2))
     assert same(voxelcore.core(three, label="any"), voxelcore.core(three > 0))
     assert voxelcore.core(three, label=numpy.int16(2)).label == 2
+
+
+@pytest.mark.parametrize("form", [tuple, numpy.array, lambda values: range(values[0], values[-1] + 1)])
+def test_several_values_come_as_lists_ranges_or_arrays(form):
+    three = blobs(3, labels=3)
+    cores = voxelcore.core(three, label=form([2, 3]), lambda_=form([0, 1]))
+    listed = voxelcore.core(three, label=[2, 3], lambda_=[0, 1])
+    assert list(cores) == [2, 3]
+    assert all(same(a, b) for label in cores for a, b in zip(cores[label], listed[label]))
+    assert list(voxelcore.thickness(three, label=form([2, 3])).numbers) == [2, 3]
 
 
 @pytest.mark.parametrize("dtype", ["uint8", "int16", "float32", "bool"])

@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 
 _Length = Union[str, float]
-_Lengths = Union[List[_Length], Tuple[_Length, ...]]
+_Lengths = Union[List[_Length], Tuple[_Length, ...], range, NDArray[Any]]
+_Labels = Union[List[int], Tuple[int, ...], range, NDArray[Any]]
 _Progress = Optional[Callable[[str, float], None]]
 _Vector = Sequence[float]
 _Image = Any  # of nibabel, SimpleITK, ITK, VTK, or an xarray.DataArray
@@ -180,7 +181,7 @@ def core(
     *,
     spacing: Optional[_Vector] = ...,
     lambda_: Optional[_Length] = ...,
-    label: List[int],
+    label: _Labels,
     origin: Optional[_Vector] = ...,
     direction: Optional[ArrayLike] = ...,
     axes: Optional[str] = ...,

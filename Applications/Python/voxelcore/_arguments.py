@@ -88,17 +88,23 @@ def root(where):
     return where if isinstance(where, str) else ",".join(repr(value) for value in three("root", where))
 
 
+def several(given):
+    """A list, tuple, range or array of values as a list; None of a single value."""
+    is_array = isinstance(given, numpy.ndarray) and given.ndim == 1
+    return list(given) if is_array or isinstance(given, (list, tuple, range)) else None
+
+
 def pruning(lambda_, tolerance, unit):
     """Options for lambda_ and tolerance, of which None is not given; whether one of them asks for several results."""
     values = {}
     for name, given in (("lambda", lambda_), ("tolerance", tolerance)):
-        if isinstance(given, (list, tuple)):
-            if not given:
+        if several(given) is not None:
+            if not several(given):
                 raise ValueError(f"{name}: the list is empty")
-            values[name] = ",".join(text(value, unit) for value in given)
+            values[name] = ",".join(text(value, unit) for value in several(given))
         elif given is not None:
             values[name] = text(given, unit)
-    return values, isinstance(lambda_, (list, tuple)) or isinstance(tolerance, (list, tuple))
+    return values, several(lambda_) is not None or several(tolerance) is not None
 
 
 def share(progress, begin, end):
@@ -132,10 +138,15 @@ def labels(label):
     """Values as the command line takes them."""
     if isinstance(label, str) and label == "all":
         return label
-    values = label if isinstance(label, (list, tuple)) else [label]
-    if not values or any(isinstance(value, (bool, str)) or int(value) != value for value in values):
-        raise ValueError(f"label {label!r}: expected a whole number, a list of them, 'all', 'any' or None")
-    return ",".join(str(int(value)) for value in values)
+    try:
+        values = several(label) or [label]
+        wholes = [int(value) for value in values if not isinstance(value, (bool, str))]
+    except (TypeError, ValueError, OverflowError):
+        values, wholes = [], []
+    if not wholes or wholes != list(values):
+        shown = " ".join(repr(label).split())  # arrays take several lines
+        raise ValueError(f"label {shown}: expected a whole number, a list of them, 'all', 'any' or None")
+    return ",".join(map(str, wholes))
 
 
 def three(name, values):

@@ -33,12 +33,12 @@ def core(
     spacing : three floats, mm, optional
         Between voxels along i, j and k. None: it is not known; all lengths are then in voxels, results have the unit
         'voxel', and a length in mm is refused.
-    lambda_ : float, str or list of these, mm, optional
+    lambda_ : float, str, or list or array of these, mm, optional
         How much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
         number (of mm, or of voxels without a spacing), or text with a unit: '1.5mm', '1.5vox' (times the smallest
         spacing), '2.5%' (of the longest side of the label's box). 0 keeps the whole core. With tolerance, it is
         applied first. A list shares one computation.
-    label : int, str or list of int, optional
+    label : int, str, or list or array of int, optional
         Its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
     origin : three floats, mm, optional
         LPS place of the centre of voxel (0, 0, 0); of arrays 0, 0, 0 unless given.
@@ -97,7 +97,7 @@ that hold whole numbers)
         one = Core(data)
         by_label.setdefault((one.label, one.component) if one.component else one.label, []).append(one)
     results = {key: cores if several else cores[0] for key, cores in by_label.items()}
-    if isinstance(label, (list, tuple)) or label == "all" or values.get("split-components"):
+    if _arguments.several(label) is not None or label == "all" or values.get("split-components"):
         return results
     return next(iter(results.values()))
 
@@ -151,7 +151,7 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
         if of_array:
             raise ValueError(f"{next(iter(of_array))}: is for arrays; the core was made already")
         return Skeleton(_voxelcore.skeleton(source._data, values, progress, False))
-    if isinstance(of_array.get("lambda_"), (list, tuple)) or isinstance(of_array.get("tolerance"), (list, tuple)):
+    if any(_arguments.several(of_array.get(one)) is not None for one in ("lambda_", "tolerance")):
         raise ValueError("lambda_, tolerance: give one; a skeleton has one core")
     if of_array.get("lambda_") is None:
         of_array["lambda_"] = 0

@@ -124,7 +124,7 @@ def thickness(array, *, spacing=None, label=None, axes=None, threshold=None, pro
         As of core().
     spacing : three floats, mm, optional
         As of core().
-    label : int, str or list of int, optional
+    label : int, str, or list or array of int, optional
         As of core(), but each label is always measured by itself.
     axes : {'ijk', 'kji'}, optional
         As of core().
