@@ -194,6 +194,15 @@ TEST(SpacingWeights, DeviationsUpToAThousandthAreAccepted)
     EXPECT_NEAR(weights.deviation, deviation, 1e-12);
   }
   EXPECT_THROW(ComputeSpacingWeights({ 1, 1, 4096 * (1 + 1.001e-3) }), InputError);
+  try
+  {
+    ComputeSpacingWeights({ 1, 1, 9999 });
+    ADD_FAILURE() << "its ratio is above 4096";
+  }
+  catch (const InputError & error)
+  {
+    EXPECT_NE(std::string(error.what()).find("is off by 144 %"), std::string::npos) << error.what();
+  }
   // Ratios that no whole numbers have at all.
   for (const std::array<double, 3> & spacing :
        std::initializer_list<std::array<double, 3>>{ { 1, std::sqrt(2.0), std::acos(-1.0) },

@@ -187,7 +187,7 @@ ReadGeometry(const MetaHeader & header, std::size_t dimensions, const ReadOption
     {
       RefuseInput(scan.path,
                   Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
-                  "give the voxel spacing with --spacing x,y,z in mm");
+                  "give the voxel spacing with --spacing X,Y,Z in mm");
     }
     if (millimetres && *millimetres != 1.0)
     {

@@ -72,7 +72,7 @@ UnitsInMillimetres(std::string_view                   text,
     {
       RefuseInput(scan.path,
                   Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
-                  "give the voxel spacing with --spacing x,y,z in mm");
+                  "give the voxel spacing with --spacing X,Y,Z in mm");
     }
     scale[a] = millimetres.value_or(1.0);
   }

@@ -109,7 +109,7 @@ PlaceZarr(const ZarrImage & image, const ReadOptions & options, ScanFile & scan)
     {
       RefuseInput(scan.path,
                   Text("lengths in '", Printable(unit, 20), "', which is no unit known here"),
-                  "give the voxel spacing with --spacing x,y,z in mm");
+                  "give the voxel spacing with --spacing X,Y,Z in mm");
     }
     unknown += millimetres ? 0 : 1;
     axes[2 - n] = image.axes[n];

@@ -82,7 +82,7 @@ CheckedGeometry(const std::filesystem::path & scan,
       }
       RefuseInput(scan,
                   Text("the voxel spacing along axis ", axisName[a], " is ", Number(geometry.spacing[a])),
-                  "give the true one with --spacing x,y,z in mm");
+                  "give the true one with --spacing X,Y,Z in mm");
     }
     const double length = std::sqrt(Dot(stated.axes[a], stated.axes[a]));
     if (!std::isfinite(length) || length <= 0)

@@ -80,8 +80,8 @@ ComputeSpacingWeights(const std::array<double, 3> & spacing)
   if (!(best.deviation <= kLargestDeviation))
   {
     std::ostringstream deviation;
-    deviation.precision(2);
-    deviation << 100 * best.deviation;
+    deviation.precision(best.deviation < 0.1 ? 2 : 0);
+    deviation << (best.deviation < 0.1 ? std::defaultfloat : std::fixed) << 100 * best.deviation;
     throw InputError("the voxel spacing " + JoinedText(spacing, " x ") +
                      " mm has no ratio in whole numbers up to 4096 (the nearest, " + JoinedText(best.weight, ":") +
                      ", is off by " + deviation.str() +
