@@ -115,7 +115,7 @@ TEST_F(BlockCommand, PartsThatAreMissingDamagedOrOfAnotherScanAreRefused)
   const std::filesystem::path second = m_Folder / "parts/a_label-1_block-2-of-2.vcb";
   const std::string           whole = ReadAll(second);
   std::filesystem::remove(second);
-  ExpectRefusal(Join("a.nrrd", { "--labels", "1" }), 3, { "missing: 2" });
+  ExpectRefusal(Join("a.nrrd", { "--labels", "1" }), 3, { "missing: 2;", "with --blocks or --block-size" });
   WriteAll(second, whole.substr(0, whole.size() - 9));
   ExpectRefusal(Join("a.nrrd", { "--labels", "1" }), 3, { "block-2-of-2.vcb" });
   WriteAll(second, whole);
@@ -124,6 +124,12 @@ TEST_F(BlockCommand, PartsThatAreMissingDamagedOrOfAnotherScanAreRefused)
   other.At(2, 2, 8) = 0;
   WriteNrrd(m_Folder / "a.nrrd", other);
   ExpectRefusal(Join("a.nrrd", { "--labels", "1", "--force" }), 3, { "another scan" });
+  for (const char * part : { "a_label-1_block-1-of-2.vcb", "a_label-1_block-2-of-2.vcb" })
+  {
+    std::filesystem::remove(m_Folder / ("parts/" + std::string(part)));
+  }
+  WriteAll(m_Folder / "parts/a_label-1_block-3-of-99.vcb", whole);
+  ExpectRefusal(Join("a.nrrd", { "--labels", "1", "--force" }), 3, { "missing: 1, 2, 4, ", "12, 13, ...;" });
 }
 
 TEST_F(BlockCommand, WrongUseIsSaidInOneLine)

@@ -94,6 +94,26 @@ TEST_F(SheetsJob, TheFileIsReadAgainSheetBySheetAndDrawnInTheirColours)
   }
 }
 
+TEST_F(SheetsJob, RodsAreDrawnAsRodsAndNotAsSheets)
+{
+  Phantom("rod", "a.nrrd", "32");
+  const SheetsResult result = Sheets("s.vtp");
+  ASSERT_EQ(result.totals[0].sheets, 0U);
+  ASSERT_EQ(result.totals[0].rods, 1U);
+  RenderJobOptions options;
+  options.files = { At("s.vtp") };
+  options.output = At("s.png");
+  options.coloring = "SheetId";
+  options.labels = "sheet 1";
+  EXPECT_THROW(RunRenderJob(options), InputError);
+  if (HasDisplay())
+  {
+    options.labels = "rod 1";
+    RunRenderJob(options);
+    EXPECT_TRUE(Names().contains("s.png"));
+  }
+}
+
 TEST_F(SheetsJob, ThreeWallsAreThreeSheetsAndASeam)
 {
   ThreeWalls();

@@ -292,6 +292,15 @@ TEST_F(ThicknessJob, TheSeparationWithinALabelIsTheThicknessOfThatLabel)
   EXPECT_TRUE(result.thickness[1].isSeparation);
   EXPECT_EQ(result.thickness[1].numbers.voxels, ball.numbers.voxels);
   EXPECT_EQ(result.thickness[1].numbers.mean, ball.numbers.mean);
+  try
+  {
+    Thickness("none.nrrd", { { "labels", "2" }, { "within", "2" } });
+    ADD_FAILURE() << "a label leaves no background within itself";
+  }
+  catch (const InputError & error)
+  {
+    EXPECT_NE(std::string(error.what()).find("--within: there is no background"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(ThicknessJob, TheSeparationWithinAMaskCountsApartWhatEndsAtTheMask)

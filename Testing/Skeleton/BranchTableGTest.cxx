@@ -89,6 +89,20 @@ TEST(BranchTable, WhatIsOutsideTheBallsAtBothEndsIsFree)
   EXPECT_GE(middle->freeLength, 20 - 2 * 4 - 1e-12); // points are 1 mm apart
 }
 
+TEST(BranchTable, WhereNothingIsFreeTheMeanRadiusIsByLength)
+{
+  GraphBuilder builder;
+  for (const double x : { -2.0, 2.0 })
+  {
+    builder.Line({ 0, 0, 0 }, { x, 0, 0 }, 5);
+    builder.Line({ 0, 0, 0 }, { 0, x, 0 }, 5);
+  }
+  const BranchTable table = MeasureBranches(builder.Graph());
+  ASSERT_EQ(table.branches.size(), 4U);
+  EXPECT_EQ(table.branches[0].freeLength, 0);
+  EXPECT_NEAR(table.numbers.meanRadius, 5, 1e-12);
+}
+
 TEST(BranchTable, TheDirectionOfABranchWithinABallLeadsToItsTip)
 {
   GraphBuilder builder;

@@ -84,13 +84,15 @@ FindParts(const fs::path & folder, const std::string & start)
   }
   const auto & [count, parts] = *byCount.begin();
   std::vector<fs::path> files;
+  constexpr std::size_t shown = 12;
   std::string           missing;
   for (std::size_t block = 1; block <= count; ++block)
   {
     const auto found = parts.find(block);
     if (found == parts.end())
     {
-      missing += (missing.empty() ? "" : ", ") + std::to_string(block);
+      const std::size_t before = block - 1 - files.size();
+      missing += before < shown ? (before == 0 ? "" : ", ") + std::to_string(block) : before == shown ? ", ..." : "";
     }
     else
     {
@@ -100,8 +102,8 @@ FindParts(const fs::path & folder, const std::string & start)
   if (!missing.empty())
   {
     throw InputError(folder.string() + ": of the " + std::to_string(count) + " parts " + start +
-                     "* these are missing: " + missing + "; run 'core --blocks " + std::to_string(count) +
-                     " --block K' for them");
+                     "* these are missing: " + missing +
+                     "; run 'core --block K' for them, with --blocks or --block-size as for the others");
   }
   return files;
 }

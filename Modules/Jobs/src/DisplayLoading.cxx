@@ -255,7 +255,8 @@ private:
     m_AreSheets = true;
     for (SheetSurface & sheet : read.sheets)
     {
-      const std::string name = "sheet " + std::to_string(sheet.id);
+      const bool        isRod = sheet.plain.surface.cells.FaceCount() == 0;
+      const std::string name = (isRod ? "rod " : "sheet ") + std::to_string(sheet.id);
       if (m_Selection.Take(sheet.id, name))
       {
         DisplayLabel & label = LabelOf(sheet.id, 0, name);

@@ -336,7 +336,8 @@ private:
     if (between.label.voxels == 0)
     {
       throw InputError(m_Options.core.scan.string() +
-                       ": --separation: there is no background where it is to be measured");
+                       (m_Options.separation == SeparationRegion::Within ? ": --within" : ": --separation") +
+                       ": there is no background where it is to be measured");
     }
     between.label.name = "separation";
     const BallTest atBorder = [&](const PaintingBalls & balls) {

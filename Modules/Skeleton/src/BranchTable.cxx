@@ -70,6 +70,7 @@ SumBranches(const SkeletonGraph & graph, BranchTable & table)
     ++(closed ? numbers.closedFaces : numbers.plateFaces);
   }
   double freeLength = 0;
+  double radiusByLength = 0;
   for (const BranchRecord & branch : table.branches)
   {
     numbers.totalLength += branch.length;
@@ -78,9 +79,12 @@ SumBranches(const SkeletonGraph & graph, BranchTable & table)
     numbers.surface += branch.surface;
     freeLength += branch.freeLength;
     numbers.meanRadius += branch.freeLength * branch.meanRadius;
+    radiusByLength += branch.length * branch.meanRadius;
   }
   numbers.meanLength = numbers.branches > 0 ? numbers.totalLength / static_cast<double>(numbers.branches) : 0;
-  numbers.meanRadius = freeLength > 0 ? numbers.meanRadius / freeLength : 0;
+  numbers.meanRadius = freeLength > 0            ? numbers.meanRadius / freeLength
+                       : numbers.totalLength > 0 ? radiusByLength / numbers.totalLength
+                                                 : 0;
 }
 
 } // namespace

@@ -118,7 +118,7 @@ struct SkeletonNumbers
   double       totalLength = 0;
   double       meanLength = 0;
   double       maxLength = 0;
-  double       meanRadius = 0; ///< weighted by free length
+  double       meanRadius = 0; ///< weighted by free length; by length where no branch has any
   double       volume = 0;
   double       surface = 0;
 };
