@@ -84,7 +84,10 @@ TEST_F(Interrupt, AReaderThatNeverReturnsIsEnded)
 {
   using namespace std::chrono_literals;
   using Clock = std::chrono::steady_clock;
-  const std::string pipe = m_Folder / "endless.nrrd";
+  // Scans may not be pipes; lists of voxels may.
+  const std::string scan = m_Folder / "ball.nrrd";
+  const std::string pipe = m_Folder / "endless.txt";
+  ASSERT_EQ(RunProgram({ "phantom", "ball", "--size", "8", "-o", scan }).code, 0);
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   ProgramLimits limits;
   limits.time = 10s;
@@ -99,23 +102,24 @@ TEST_F(Interrupt, AReaderThatNeverReturnsIsEnded)
     std::optional<Clock::time_point> sent;
     const std::vector<int> &         send = signals;
 
-    const ProgramResult result =
-      RunProgram({ "core", pipe, "-o", m_Folder / "out.vtp" }, limits, [&](pid_t process, const std::string &) {
-        if (!sent && Clock::now() - start > 1500ms)
-        {
-          sent = Clock::now();
-          for (const int signal : send)
-          {
-            kill(process, signal);
-            usleep(20000);
-          }
-        }
-      });
+    const ProgramResult result = RunProgram({ "core", scan, "--change-voxels", pipe, "-o", m_Folder / "out.vtp" },
+                                            limits,
+                                            [&](pid_t process, const std::string &) {
+                                              if (!sent && Clock::now() - start > 1500ms)
+                                              {
+                                                sent = Clock::now();
+                                                for (const int signal : send)
+                                                {
+                                                  kill(process, signal);
+                                                  usleep(20000);
+                                                }
+                                              }
+                                            });
     ASSERT_TRUE(sent);
     EXPECT_EQ(result.code, 130) << strsignal(signals[0]);
     EXPECT_EQ(result.error, "voxelcore: interrupted; nothing was written\n");
     EXPECT_LT(std::chrono::duration<double>(Clock::now() - *sent).count(), most) << strsignal(signals[0]);
-    EXPECT_EQ(m_Folder.Names(), Names{ "endless.nrrd" });
+    EXPECT_EQ(m_Folder.Names(), (Names{ "ball.nrrd", "endless.txt" }));
   }
 }
 
