@@ -42,9 +42,9 @@ constexpr double kTubeLine = 3.25;
 constexpr double kTubeBody = 1.16;
 constexpr double kTubeBehind = 6; ///< voxels over which the body behind is looked at
 
-// Beyond where a branch leaves, a thicker tube ends with balls that stand out of every other by more of their radius
-// than in the webs of forks. It is as wide at its tip as at its foot, and round: a surface burns about as soon as its
-// balls say, not only after the way into a corner of a plate.
+// A thicker tube may end a little behind where a branch leaves it, too. Its last ball stands out of every other ball by
+// so much of its radius; balls in the webs of forks do not. It is as wide at its tip as at its foot, and it is round:
+// its surface burns soon after its balls, which that of a plate does not on the way into a corner.
 constexpr double kEndOfRadius = 1.5;
 constexpr double kEndRoundness = 0.8;
 constexpr double kEndOfWay = 0.7; ///< up to here: the surface between two tubes is no part of the one
