@@ -63,6 +63,21 @@ public:
     return *found;
   }
 
+  /** What parse(text) makes of the value; its errors name the option. */
+  template <typename TParse>
+  auto
+  Parsed(std::string_view name, const TParse & parse) const
+  {
+    try
+    {
+      return parse(Text(name));
+    }
+    catch (const UsageError & error)
+    {
+      throw UsageError("--" + std::string(name) + ": " + error.what());
+    }
+  }
+
   std::string
   Text(std::string_view name) const
   {

@@ -36,14 +36,7 @@ ParseLength(const std::string & text)
 Lambda
 LengthFrom(const ParameterValues & values, CommandId command, std::string_view name)
 {
-  try
-  {
-    return ParseLength(ValueOf(values, command, name));
-  }
-  catch (const UsageError & error)
-  {
-    throw UsageError("--" + std::string(name) + ": " + error.what());
-  }
+  return ParameterReader(values, command).Parsed(name, ParseLength);
 }
 
 /** Fills pruneLength or pruneRadii from "5mm", "8vox", "2%" or "1.5r". */

@@ -3,7 +3,6 @@
 #include "FieldReader.h"
 #include "ParameterReader.h"
 #include "voxelcore/Certified.h"
-#include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/Parameters.h"
 
@@ -96,14 +95,7 @@ SheetsOptionsFrom(const ParameterValues & values)
   SheetsOptions         options;
   options.core = SharedOptions(reader, values, command);
   ReadFiles(reader, options.core);
-  try
-  {
-    options.sliver = ParseLambda(reader.Text("sliver"), "length");
-  }
-  catch (const UsageError & error)
-  {
-    throw UsageError("--sliver: " + std::string(error.what()));
-  }
+  options.sliver = reader.Parsed("sliver", [](const std::string & text) { return ParseLambda(text, "length"); });
   options.output = reader.File("output");
   options.voxels = reader.FileIfGiven("voxels");
   options.table = reader.FileIfGiven("table");
