@@ -97,14 +97,17 @@ def several(given):
 def pruning(lambda_, tolerance, unit):
     """Options for lambda_ and tolerance, of which None is not given; whether one of them asks for several results."""
     values = {}
+    is_list = False
     for name, given in (("lambda", lambda_), ("tolerance", tolerance)):
-        if several(given) is not None:
-            if not several(given):
+        listed = several(given)
+        if listed is not None:
+            is_list = True
+            if not listed:
                 raise ValueError(f"{name}: the list is empty")
-            values[name] = ",".join(text(value, unit) for value in several(given))
+            values[name] = ",".join(text(value, unit) for value in listed)
         elif given is not None:
             values[name] = text(given, unit)
-    return values, several(lambda_) is not None or several(tolerance) is not None
+    return values, is_list
 
 
 def share(progress, begin, end):
