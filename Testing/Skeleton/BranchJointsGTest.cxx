@@ -236,6 +236,53 @@ TEST(BranchJoints, OfForksLieAtOnePlaceHoweverTheyAreTurned)
   EXPECT_LT(spreadAfter, 0.45) << "seed " << seed;
 }
 
+/** The junction of a stem that forks by 20 degrees, where one arm has balls of `web` mm right behind it. */
+Spacing3
+ForkWithWeb(double web)
+{
+  const Spacing3 meeting{ 30, 30, 10 };
+  const Spacing3 joint{ 30, 30, 23 };
+  const double   side = std::sin(10 * std::numbers::pi / 180);
+  const double   up = std::cos(10 * std::numbers::pi / 180);
+  GraphBuilder   builder;
+  builder.Line(joint, { 30, 30, 0 }, 3);
+  for (const double way : { -side, side })
+  {
+    const Spacing3 axis{ way, 0, up };
+    builder.Line(joint, Along(meeting, 19, axis), way < 0 ? web : 3);
+    builder.Line(Along(meeting, 19, axis), Along(meeting, 48, axis), 3);
+  }
+  SkeletonGraph graph = builder.Graph();
+  graph.medial = graph.positions;
+  const VoxelShape all = ShapeWhere({ 60, 60, 60 }, [](int, int, int) { return true; });
+  EXPECT_EQ(PlaceJoints(graph, all, GridFromOrigin({ 1, 1, 1 })), 1U);
+  return Junction(graph);
+}
+
+TEST(BranchJoints, OfForksDoNotDependOnBallsInTheWebBetweenTheArms)
+{
+  const Spacing3 even = ForkWithWeb(3);
+  EXPECT_GT(even[2], 23.5) << "the junction moves";
+  EXPECT_NEAR(ForkWithWeb(1.5)[2], even[2], 0.6);
+}
+
+TEST(BranchJoints, FarToOneSideOfTheAxisGoBackToIt)
+{
+  // The axes meet at 28, 30, 30. The junction lies where the lateral has left the stem's middle, in a small ball.
+  GraphBuilder builder;
+  builder.Line({ 33, 32, 30 }, { 33, 35, 30 }, 1.5);
+  builder.Line({ 33, 35, 30 }, { 55, 57, 30 }, 1.5);
+  builder.Line({ 6, 30, 30 }, { 30, 30, 30 }, 3);
+  builder.Line({ 30, 30, 30 }, { 33, 32, 30 }, 3);
+  builder.Line({ 33, 32, 30 }, { 36, 30, 30 }, 3);
+  builder.Line({ 36, 30, 30 }, { 58, 30, 30 }, 3);
+  SkeletonGraph graph = builder.Graph();
+  graph.medial = graph.positions;
+  const VoxelShape all = ShapeWhere({ 60, 60, 60 }, [](int, int, int) { return true; });
+  EXPECT_EQ(PlaceJoints(graph, all, GridFromOrigin({ 1, 1, 1 })), 1U);
+  EXPECT_NEAR(Distance(Junction(graph), { 28, 30, 30 }), 0, 0.5);
+}
+
 TEST(BranchJoints, WhosePointsWouldLeaveTheShapeStay)
 {
   // The graph of a lateral that enters straight, in a shape that is nothing but voxels along another way.

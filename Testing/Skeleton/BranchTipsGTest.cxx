@@ -322,6 +322,34 @@ TEST(BranchTips, WhereThereIsNoTubeStay)
   EXPECT_EQ(graph.positions, before.positions);
 }
 
+// The place itself is told by volume; how far it is off says only whether it can be the branch's end.
+TEST(BranchTips, OfCurvesThatEndShortOfTheirCapsGoOnToThem)
+{
+  const VoxelShape tube = Tube(SampleCurve(
+                                 [](double t) {
+                                   return Spacing3{ 10, 10, 10 + 40 * t };
+                                 },
+                                 200),
+                               2.6,
+                               { 20, 20, 60 });
+  const auto       tipOf = [&](double shortBy) {
+    GraphBuilder builder;
+    builder.Line({ 10, 10, 10 + shortBy }, { 10, 10, 50 }, 2.5);
+    SkeletonGraph graph = builder.Graph();
+    graph.medial = graph.positions;
+    PlaceTips(graph, tube, GridFromOrigin({ 1, 1, 1 }));
+    double least = 60;
+    for (const ElementIndex point : graph.nodePoints)
+    {
+      least = std::min(least, graph.positions[point][2]);
+    }
+    return least;
+  };
+  EXPECT_NEAR(tipOf(1), 10, 0.3);
+  EXPECT_NEAR(tipOf(5.5), 10, 0.3);
+  EXPECT_DOUBLE_EQ(tipOf(9), 19) << "some other end";
+}
+
 } // namespace
 
 } // namespace voxelcore::testing

@@ -109,10 +109,12 @@ private:
     {
       return {};
     }
-    double meeting = 0;
+    // A junction may lie far to one side, where balls are small.
+    const double body = std::max(m_Graph.radius[point], std::min(arms[0].radius, arms[1].radius));
+    double       meeting = 0;
     for (std::size_t k = 2; k < arms.size(); ++k)
     {
-      const auto [way, isSo] = Meeting(through, AxisOf(arms[k]), m_Graph.radius[point]);
+      const auto [way, isSo] = Meeting(through, AxisOf(arms[k]), body);
       meeting += way / static_cast<double>(arms.size() - 2);
       yes *= isSo;
     }

@@ -52,6 +52,23 @@ WayApart(const Arm & a, const Arm & b, double voxel)
   return std::nullopt;
 }
 
+/** The mean along an arm's axis. */
+double
+RadiusOf(const Arm & arm)
+{
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < arm.radii.size(); ++i)
+  {
+    if (arm.line.way[i] >= arm.from && arm.line.way[i] <= arm.to)
+    {
+      sum += arm.radii[i];
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : arm.radius;
+}
+
 /** The axes of the first arm and of two that fork, from where their bodies are apart; false where one is too short. */
 bool
 PlaceAxes(std::vector<Arm> & arms, double voxel, std::array<Axis, 3> & axes)
@@ -129,7 +146,9 @@ PlaceFork(std::vector<Arm> & arms, double voxel)
   }
   const Vector3 gap = Minus(at[1], at[0]);
   const Vector3 opening = Minus(slope[1], slope[0]);
-  const double  radii = arms[1].radius + arms[2].radius + kJoinedInVoxels * voxel;
+  // Balls right behind the junction tell less: some lie in the web between the arms, to one side of both.
+  const double  radius[2]{ RadiusOf(arms[1]), RadiusOf(arms[2]) };
+  const double  radii = radius[0] + radius[1] + kJoinedInVoxels * voxel;
   const double  wanted = radii * std::max(0.0, 1 - 1.5 * tangent);
   const double  closest = -Dot(gap, opening) / Dot(opening, opening);
   const double  passing = Length(AddScaled(gap, closest, opening));
@@ -139,7 +158,7 @@ PlaceFork(std::vector<Arm> & arms, double voxel)
   }
   const double height = closest + std::sqrt(std::max(0.0, wanted * wanted - passing * passing) / Dot(opening, opening));
   const double apart = std::max(wanted, passing);
-  const double part = apart > 0 ? std::clamp(0.5 + 0.5 * (arms[2].radius - arms[1].radius) / apart, 0.0, 1.0) : 0.5;
+  const double part = apart > 0 ? std::clamp(0.5 + 0.5 * (radius[1] - radius[0]) / apart, 0.0, 1.0) : 0.5;
   fork.place = AddScaled(AddScaled(at[0], part, gap), height, AddScaled(slope[0], part, opening));
   return fork;
 }

@@ -32,6 +32,7 @@ ArmOf(const SkeletonGraph & graph, std::size_t branch, std::size_t end, double d
   for (const ElementIndex point : arm.points)
   {
     arm.line.Add(graph.positions[point]);
+    arm.radii.push_back(graph.radius[point] + kMeanExcess * diagonal);
   }
   const auto & [places, way] = arm.line;
   std::size_t out = 0;
@@ -48,10 +49,10 @@ ArmOf(const SkeletonGraph & graph, std::size_t branch, std::size_t end, double d
   std::vector<double> radii;
   for (std::size_t i = out; i < places.size() && way[i] <= way[out] + std::max(ball, 3 * voxel); ++i)
   {
-    radii.push_back(graph.radius[arm.points[i]]);
+    radii.push_back(arm.radii[i]);
   }
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
-  arm.radius = radii[radii.size() / 2] + kMeanExcess * diagonal;
+  arm.radius = radii[radii.size() / 2];
   const ElementIndex other = graph.branchNodes[branch][1 - end];
   arm.free = way.back();
   if (graph.nodeKinds[other] != NodeKind::Tip)
