@@ -35,7 +35,7 @@ constexpr double kShortestInVoxels = 2;
 // than those of any way into one that leaves; how large the angle is at which the axes meet.
 constexpr std::array<double, 2> kBend{ 70, 40 };
 constexpr std::array<double, 2> kStraighter{ 10, 20 };
-constexpr std::array<double, 2> kMeetingAngle{ 25, 40 };
+constexpr std::array<double, 2> kMeetingAngle{ 15, 28 };
 
 // From no to yes: by how many degrees a way that seems straight is straighter as its arms bend; how much alike the arms
 // of a way bend that does not seem straight.
