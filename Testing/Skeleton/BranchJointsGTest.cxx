@@ -283,6 +283,23 @@ TEST(BranchJoints, FarToOneSideOfTheAxisGoBackToIt)
   EXPECT_NEAR(Distance(Junction(graph), { 28, 30, 30 }), 0, 0.5);
 }
 
+TEST(BranchJoints, NearTheEndOfTheStemGoBackToItsAxis)
+{
+  // The axes meet at 30, 30, 30; the stem goes on for five voxels.
+  GraphBuilder builder;
+  builder.Line({ 6, 30, 30 }, { 28, 30, 30 }, 1.5);
+  builder.Line({ 28, 30, 30 }, { 30.5, 31, 30 }, 1.5);
+  builder.Line({ 30.5, 31, 30 }, { 32, 30, 30 }, 1.5);
+  builder.Line({ 32, 30, 30 }, { 35, 30, 30 }, 1.5);
+  builder.Line({ 30.5, 31, 30 }, { 30, 34, 30 }, 1.5);
+  builder.Line({ 30, 34, 30 }, { 30, 52, 30 }, 1.5);
+  SkeletonGraph graph = builder.Graph();
+  graph.medial = graph.positions;
+  const VoxelShape all = ShapeWhere({ 60, 60, 60 }, [](int, int, int) { return true; });
+  EXPECT_EQ(PlaceJoints(graph, all, GridFromOrigin({ 1, 1, 1 })), 1U);
+  EXPECT_NEAR(Distance(Junction(graph), { 30, 30, 30 }), 0, 0.3);
+}
+
 TEST(BranchJoints, WhosePointsWouldLeaveTheShapeStay)
 {
   // The graph of a lateral that enters straight, in a shape that is nothing but voxels along another way.

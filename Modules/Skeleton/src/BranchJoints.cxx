@@ -240,6 +240,11 @@ private:
       }
       arm.to = std::min(arm.from + std::max(length, kAxisInVoxels * m_Voxel), arm.free);
       const bool endsInTip = arm.free == arm.line.way.back();
+      if (endsInTip)
+      {
+        // A short end has its axis as near to its tip as it can be.
+        arm.from = std::min(arm.from, std::max(arm.leaves, arm.to - kShortestInVoxels * m_Voxel));
+      }
       if (arm.to - arm.from < kShortestInVoxels * m_Voxel || (!endsInTip && arm.from > 0.5 * arm.line.way.back()))
       {
         return false;
