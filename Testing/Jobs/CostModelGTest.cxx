@@ -181,7 +181,9 @@ TEST(CostModel, MemoryIsReadWithItsUnit)
 
 TEST(CostModel, MemoryIsSaidRoundedUp)
 {
-  EXPECT_EQ(MemoryText(1), "1 MB");
+  EXPECT_EQ(MemoryText(1), "1 kB");
+  EXPECT_EQ(MemoryText(999999), "1000 kB");
+  EXPECT_EQ(MemoryText(1000000), "1 MB");
   EXPECT_EQ(MemoryText(849100000), "850 MB");
   EXPECT_EQ(MemoryText(2010000000), "2.1 GB");
 }

@@ -84,6 +84,18 @@ def test_a_value_without_sense_is_refused_by_every_option(command):
     assert refused > 4
 
 
+@pytest.mark.parametrize("given, named", [
+    ({"crop": (1, 2)}, "crop=(1, 2)"),
+    ({"close": [1, 2]}, "close=[1, 2]"),
+    ({"lambda_": numpy.ones((2, 2))}, "lambda=array"),
+    ({"tolerance": "1,2"}, "tolerance='1,2'"),
+])
+def test_the_argument_is_named_that_has_a_value_of_the_wrong_kind(given, named):
+    with pytest.raises(ValueError) as refusal:
+        voxelcore.core(numpy.ones((12, 5, 5), bool), **given)
+    assert str(refusal.value).startswith(named)
+
+
 def words(options):
     for keyword, value in options.items():
         yield "--" + keyword.strip("_").replace("_", "-")

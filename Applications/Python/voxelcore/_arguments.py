@@ -10,14 +10,14 @@ import numpy
 from . import _images, _voxelcore
 
 
-def text(value, unit="mm"):
-    """A length as the command line takes it: a number is in the unit of the spacing."""
+def text(name, value, unit="mm"):
+    """A length as the command line takes it: a number is in the unit of the spacing. Errors name the argument."""
     if isinstance(value, str):
         if "," in value:
-            raise ValueError(f"{value!r}: expected one length; for several give a list")
+            raise ValueError(f"{name}={value!r}: expected one length; for several give a list")
         return value
     if isinstance(value, (bool, numpy.bool_)) or not numpy.isscalar(value):
-        raise ValueError(f"{value!r}: expected a length such as '1.5vox' or a number")
+        raise ValueError(f"{name}={value!r}: expected a length such as '1.5vox' or a number")
     number = numpy.format_float_positional(float(value), trim="-")
     return number + "vox" if unit == "voxel" and float(value) != 0 else number
 
@@ -73,7 +73,7 @@ def of_array(function, rows, options, array, spacing, axes, label, threshold, or
             low, high = limits = tuple(threshold)
         except (TypeError, ValueError):
             raise ValueError(f"threshold {threshold!r}: expected two numbers, (lo, hi)") from None
-        given["threshold"] = f"{text(low)}:{text(high)}"
+        given["threshold"] = f"{text('threshold', low)}:{text('threshold', high)}"
     if isinstance(label, str) and label == "any":
         given["binary"] = "true"
     elif label is not None:
@@ -104,9 +104,9 @@ def pruning(lambda_, tolerance, unit):
             is_list = True
             if not listed:
                 raise ValueError(f"{name}: the list is empty")
-            values[name] = ",".join(text(value, unit) for value in listed)
+            values[name] = ",".join(text(name, value, unit) for value in listed)
         elif given is not None:
-            values[name] = text(given, unit)
+            values[name] = text(name, given, unit)
     return values, is_list
 
 
@@ -206,7 +206,9 @@ def values(function, rows, given):
             continue
         if row["is_flag"] != (value is True):
             raise ValueError(f"{keyword}={value!r}: expected " + ("True or False" if row["is_flag"] else "a value"))
-        values[row["name"]] = "true" if row["is_flag"] else value if isinstance(value, str) else text(value)
+        if not isinstance(value, str) and not numpy.isscalar(value):
+            raise ValueError(f"{keyword}={value!r}: expected a string or a number")
+        values[row["name"]] = "true" if row["is_flag"] else value if isinstance(value, str) else text(keyword, value)
     return values
 
 

@@ -142,7 +142,7 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
         _arguments.OF_SKELETON,
         dict(
             own,
-            prune_branches="0" if prune_branches is None else _arguments.text(prune_branches, unit),
+            prune_branches="0" if prune_branches is None else _arguments.text("prune_branches", prune_branches, unit),
             root=_arguments.root(root),
         ),
     )

@@ -98,7 +98,7 @@ def measure(source, *, progress=None, **options):
     if "root" in given:
         given["root"] = _arguments.root(given["root"])
     if given.get("prune_branches") is not None:
-        given["prune_branches"] = _arguments.text(given["prune_branches"], source.unit)
+        given["prune_branches"] = _arguments.text("prune_branches", given["prune_branches"], source.unit)
     values = _arguments.values("measure", _arguments.OF_MEASURE, given)
     return _voxelcore.measure(source._data, values, progress).branch_columns()
 
@@ -200,7 +200,7 @@ def sheets(source, sliver="3vox", *, threads=0, progress=None, **options):
     elif options:
         raise ValueError(f"{next(iter(options))}: is for arrays; the core was made already")
     rest = _arguments.share(progress, 0.9 if of_array else 0, 1)
-    cut = _voxelcore.sheets(source._data, _arguments.text(sliver, source.unit), int(threads), rest)
+    cut = _voxelcore.sheets(source._data, _arguments.text("sliver", sliver, source.unit), int(threads), rest)
     return dict(cut, core=source)
 
 

@@ -313,7 +313,11 @@ MemoryText(std::uint64_t bytes)
 {
   const double megabytes = static_cast<double>(bytes) / 1e6;
   char         text[40];
-  if (megabytes < 1000)
+  if (megabytes < 1)
+  {
+    std::snprintf(text, sizeof(text), "%.0f kB", std::ceil(1000 * megabytes));
+  }
+  else if (megabytes < 1000)
   {
     std::snprintf(text, sizeof(text), "%.0f MB", std::ceil(megabytes));
   }
