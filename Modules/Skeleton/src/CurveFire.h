@@ -24,6 +24,13 @@ struct CurveFire
 
 constexpr ElementIndex kNoEdge = 0xFFFFFFFFU;
 
+/** The other end of an edge. */
+inline ElementIndex
+Across(const CellComplex & cells, ElementIndex edge, ElementIndex vertex)
+{
+  return cells.edges[edge][0] ^ cells.edges[edge][1] ^ vertex;
+}
+
 /** Burns the live edges. Fire starts at an end when the surface burned there and goes on from a vertex when one live
  *  edge is left there; it never enters a vertex of a live face, nor a cycle.
  *  The way is measured by chords of about `chord`: the curve follows edges of the complex, and their zigzag must not
