@@ -236,6 +236,17 @@ TEST(BranchJoints, OfForksLieAtOnePlaceHoweverTheyAreTurned)
   EXPECT_LT(spreadAfter, 0.45) << "seed " << seed;
 }
 
+/** Where the only junction of a graph goes, in a shape that has room for all. */
+Spacing3
+PlacedJunction(GraphBuilder & builder)
+{
+  SkeletonGraph graph = builder.Graph();
+  graph.medial = graph.positions;
+  const VoxelShape all = ShapeWhere({ 60, 60, 60 }, [](int, int, int) { return true; });
+  EXPECT_EQ(PlaceJoints(graph, all, GridFromOrigin({ 1, 1, 1 })), 1U);
+  return Junction(graph);
+}
+
 /** The junction of a stem that forks by 20 degrees, where one arm has balls of `web` mm right behind it. */
 Spacing3
 ForkWithWeb(double web)
@@ -252,11 +263,7 @@ ForkWithWeb(double web)
     builder.Line(joint, Along(meeting, 19, axis), way < 0 ? web : 3);
     builder.Line(Along(meeting, 19, axis), Along(meeting, 48, axis), 3);
   }
-  SkeletonGraph graph = builder.Graph();
-  graph.medial = graph.positions;
-  const VoxelShape all = ShapeWhere({ 60, 60, 60 }, [](int, int, int) { return true; });
-  EXPECT_EQ(PlaceJoints(graph, all, GridFromOrigin({ 1, 1, 1 })), 1U);
-  return Junction(graph);
+  return PlacedJunction(builder);
 }
 
 TEST(BranchJoints, OfForksDoNotDependOnBallsInTheWebBetweenTheArms)
@@ -276,11 +283,7 @@ TEST(BranchJoints, FarToOneSideOfTheAxisGoBackToIt)
   builder.Line({ 30, 30, 30 }, { 33, 32, 30 }, 3);
   builder.Line({ 33, 32, 30 }, { 36, 30, 30 }, 3);
   builder.Line({ 36, 30, 30 }, { 58, 30, 30 }, 3);
-  SkeletonGraph graph = builder.Graph();
-  graph.medial = graph.positions;
-  const VoxelShape all = ShapeWhere({ 60, 60, 60 }, [](int, int, int) { return true; });
-  EXPECT_EQ(PlaceJoints(graph, all, GridFromOrigin({ 1, 1, 1 })), 1U);
-  EXPECT_NEAR(Distance(Junction(graph), { 28, 30, 30 }), 0, 0.5);
+  EXPECT_NEAR(Distance(PlacedJunction(builder), { 28, 30, 30 }), 0, 0.5);
 }
 
 TEST(BranchJoints, NearTheEndOfTheStemGoBackToItsAxis)
@@ -293,11 +296,7 @@ TEST(BranchJoints, NearTheEndOfTheStemGoBackToItsAxis)
   builder.Line({ 32, 30, 30 }, { 35, 30, 30 }, 1.5);
   builder.Line({ 30.5, 31, 30 }, { 30, 34, 30 }, 1.5);
   builder.Line({ 30, 34, 30 }, { 30, 52, 30 }, 1.5);
-  SkeletonGraph graph = builder.Graph();
-  graph.medial = graph.positions;
-  const VoxelShape all = ShapeWhere({ 60, 60, 60 }, [](int, int, int) { return true; });
-  EXPECT_EQ(PlaceJoints(graph, all, GridFromOrigin({ 1, 1, 1 })), 1U);
-  EXPECT_NEAR(Distance(Junction(graph), { 30, 30, 30 }), 0, 0.3);
+  EXPECT_NEAR(Distance(PlacedJunction(builder), { 30, 30, 30 }), 0, 0.3);
 }
 
 TEST(BranchJoints, WhosePointsWouldLeaveTheShapeStay)

@@ -147,11 +147,11 @@ PlaceFork(std::vector<Arm> & arms, double voxel)
   const Vector3 gap = Minus(at[1], at[0]);
   const Vector3 opening = Minus(slope[1], slope[0]);
   // Balls right behind the junction tell less: some lie in the web between the arms, to one side of both.
-  const double  radius[2]{ RadiusOf(arms[1]), RadiusOf(arms[2]) };
-  const double  radii = radius[0] + radius[1] + kJoinedInVoxels * voxel;
-  const double  wanted = radii * std::max(0.0, 1 - 1.5 * tangent);
-  const double  closest = -Dot(gap, opening) / Dot(opening, opening);
-  const double  passing = Length(AddScaled(gap, closest, opening));
+  const double radius[2]{ RadiusOf(arms[1]), RadiusOf(arms[2]) };
+  const double radii = radius[0] + radius[1] + kJoinedInVoxels * voxel;
+  const double wanted = radii * std::max(0.0, 1 - 1.5 * tangent);
+  const double closest = -Dot(gap, opening) / Dot(opening, opening);
+  const double passing = Length(AddScaled(gap, closest, opening));
   if (passing > kPassInRadii * radii)
   {
     return std::nullopt;

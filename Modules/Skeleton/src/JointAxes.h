@@ -29,7 +29,7 @@ struct Arm
 {
   std::vector<ElementIndex> points;
   WayLine                   line;
-  std::vector<double>       radii; ///< per point
+  std::vector<double>       radii;      ///< per point
   double                    leaves = 0; ///< the way on which it leaves the junction's ball
   double                    free = 0;   ///< where it comes near its other end
   double                    radius = 0;
