@@ -65,6 +65,25 @@ TEST_F(BlockJob, PartsJoinToTheCellsOfOneRun)
   EXPECT_TRUE(joined.facetPoints == whole.facetPoints);
 }
 
+TEST_F(BlockJob, PartsThatDoNotGoTogetherAreRefusedWithTheirFolder)
+{
+  Phantom("torus", "a.nrrd", "24");
+  RunBlockJob(Options(1, 2));
+  RunBlockJob(Options(2, 2));
+  std::filesystem::copy_file(At("parts/a_label-1_block-1-of-2.vcb"),
+                             At("parts/a_label-1_block-2-of-2.vcb"),
+                             std::filesystem::copy_options::overwrite_existing);
+  try
+  {
+    Join({}, {});
+    FAIL() << "one part twice was joined";
+  }
+  catch (const InputError & error)
+  {
+    EXPECT_EQ(std::string(error.what()), At("parts") + ": block 1 was given twice");
+  }
+}
+
 TEST_F(BlockJob, PartsAreNamedByScanLabelComponentAndCut)
 {
   BlockOptions options = Options(2, 5);

@@ -368,17 +368,25 @@ JoinParts(const fs::path &                  folder,
           const ProgressCallback &          progress)
 {
   const std::vector<fs::path> files = FindParts(folder, Start(scan, label, component));
-  JoinedCells                 joined = JoinBlockShares(
-    files.size(),
-    [&](std::size_t i) {
-      std::ifstream file(files[i], std::ios::binary);
-      if (!file)
-      {
-        throw InputError(files[i].string() + ": cannot read: " + std::strerror(errno));
-      }
-      return ReadBlockShare(file, files[i].string());
-    },
-    progress);
+  const auto                  read = [&](std::size_t i) {
+    std::ifstream file(files[i], std::ios::binary);
+    if (!file)
+    {
+      throw InputError(files[i].string() + ": cannot read: " + std::strerror(errno));
+    }
+    return ReadBlockShare(file, files[i].string());
+  };
+  JoinedCells joined;
+  try
+  {
+    joined = JoinBlockShares(files.size(), read, progress);
+  }
+  catch (const InputError & error)
+  {
+    // Of parts that do not go together it knows the number, and not where they lie.
+    const std::string why = error.what();
+    throw InputError(why.starts_with(folder.string()) ? why : folder.string() + ": " + why);
+  }
   if (joined.points != points)
   {
     throw InputError(folder.string() + ": the parts of label " + std::to_string(label) +
