@@ -29,6 +29,18 @@ TEST(CsvText, WindowsLineEndsAByteOrderMarkAndAMissingLastLineEndChangeNothing)
   EXPECT_THAT(rows[2].fields, ElementsAre("2", "b"));
 }
 
+TEST(CsvText, LineEndsOfOldMacsAndThoseConvertedTwiceAreLineEnds)
+{
+  for (const char * text : { "id,scan\r1,a\r2,b\r", "id,scan\r\r\n1,a\r\r\n2,b\r\r\n" })
+  {
+    const auto rows = ParseCsv(text, "x.csv");
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_THAT(rows[0].fields, ElementsAre("id", "scan"));
+    EXPECT_THAT(rows[2].fields, ElementsAre("2", "b"));
+    EXPECT_EQ(rows[2].line, 3U);
+  }
+}
+
 TEST(CsvText, WhatIsNoCsvIsRefusedWithItsLine)
 {
   const auto refusal = [](const std::string & text) -> std::string {

@@ -33,6 +33,7 @@ ParseCsv(std::string_view text, const std::string & where, char separator)
   std::size_t         line = 1;
   bool                quoted = false;    // inside quotes
   bool                wasQuoted = false; // this field had quotes
+  const bool          isOfOldMacs = text.find('\n') == std::string_view::npos;
   row.line = 1;
   const auto endField = [&] {
     row.fields.push_back(std::move(field));
@@ -76,11 +77,12 @@ ParseCsv(std::string_view text, const std::string & where, char separator)
     {
       endField();
     }
-    else if (c == '\n' || crlf)
+    else if (c == '\n' || c == '\r')
     {
       i += crlf ? 1 : 0;
       endRow();
-      row.line = ++line;
+      line += c == '\n' || crlf || isOfOldMacs ? 1 : 0; // CR CR LF: a line end that was converted twice
+      row.line = line;
     }
     else if (wasQuoted)
     {

@@ -15,8 +15,8 @@ struct CsvRow
   std::vector<std::string> fields;
 };
 
-/** Fields may be quoted, then "" is a quote and line ends belong to the field. Lines end in LF or CRLF; a byte order
- *  mark of UTF-8 and empty lines are passed over. `where` names the file in errors.
+/** Fields may be quoted, then "" is a quote and line ends belong to the field. Lines end in LF, CRLF or CR; a byte
+ *  order mark of UTF-8 and empty lines are passed over. `where` names the file in errors.
  *  \throws InputError for UTF-16, NUL bytes, a quote that is never closed or stands inside a field. */
 std::vector<CsvRow>
 ParseCsv(std::string_view text, const std::string & where, char separator = ',');
