@@ -57,6 +57,10 @@ AddParameter(CLI::App & app, const Parameter & parameter, ParameterValues & valu
     const auto join = [&values, name](const std::vector<std::string> & given) {
       for (const std::string & one : given)
       {
+        if (one.find('\n') != std::string::npos)
+        {
+          throw UsageError(one + ": a file name with a line end cannot be given; rename the file, or name its folder");
+        }
         std::string & all = values[name];
         all += (all.empty() ? "" : "\n") + one;
       }

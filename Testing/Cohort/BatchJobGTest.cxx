@@ -81,7 +81,7 @@ TEST(BatchJob, WhatIsMissingIsAskedFor)
   EXPECT_NO_THROW(BatchOptionsFrom({ { "output", "out" }, { "gather", "true" } }));
 }
 
-TEST(BatchJob, CasesAreListedByNumberFolderAndId)
+TEST(BatchJob, CasesAreListedByNumberFolderIdAndScan)
 {
   const TemporaryFolder folder;
   for (const char * name : { "b.nrrd", "a.nrrd", "notes.txt" })
@@ -94,8 +94,9 @@ TEST(BatchJob, CasesAreListedByNumberFolderAndId)
   options.output = folder / "out";
   const std::string list = CaseList(options);
   EXPECT_THAT(list, HasSubstr("1\tsub-odd"));
-  EXPECT_THAT(list, HasSubstr("\todd id\n")) << "an id with a tab does not make a column";
-  EXPECT_THAT(list, HasSubstr("2\tsub-plain\tplain\n"));
+  EXPECT_THAT(list, HasSubstr("\todd id\t" + (folder / "a.nrrd").string() + "\n"))
+    << "an id with a tab does not make a column";
+  EXPECT_THAT(list, HasSubstr("2\tsub-plain\tplain\t" + (folder / "b.nrrd").string() + "\n"));
   options.inputs = { folder.Path() / "none" };
   EXPECT_THROW(CaseList(options), InputError);
 }
@@ -138,6 +139,8 @@ TEST(BatchJob, TheTextCountsWhatIsDoneAndNamesWhatFailed)
   EXPECT_THAT(text, HasSubstr("passed over: 3 more files"));
   result.kept = 0;
   EXPECT_EQ(BatchText(result).find("before"), std::string::npos);
+  result.failed = { { "a\nb\x1B[2J", "c\rd" } };
+  EXPECT_THAT(BatchText(result), HasSubstr("\nfailed: a b [2J: c d\n")) << "a line a case, whatever its id";
 }
 
 } // namespace

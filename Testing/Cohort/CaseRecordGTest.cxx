@@ -3,7 +3,10 @@
 #include "CaseLock.h"
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
+#include "voxelcore/Error.h"
+
 #include <gtest/gtest.h>
+#include <set>
 
 namespace voxelcore::testing
 {
@@ -87,6 +90,39 @@ TEST_F(CaseRecords, TheKeyFollowsContentNamesAndOptionsButNotThePlace)
   EXPECT_NE(key, CaseKey(m_Folder / "b/s.tif", "--lambda=1"));
   WriteAll(m_Folder / "s.tif", "scam");
   EXPECT_NE(key, CaseKey(m_Folder / "s.tif", "--lambda=1"));
+}
+
+TEST_F(CaseRecords, TheKeyFollowsEveryListOfNamesThatAScanMayHaveAndTheFilesThatOptionsName)
+{
+  WriteAll(m_Folder / "s.tif", "scan");
+  WriteAll(m_Folder / "mask.tif", "mask");
+  std::set<std::string> keys{ CaseKey(m_Folder / "s.tif", "") };
+  for (const char * list : { "s.lut", "s.tif.ctab", "s.label", "s.tif.txt" })
+  {
+    WriteAll(m_Folder / list, "1 liver\n");
+    EXPECT_TRUE(keys.insert(CaseKey(m_Folder / "s.tif", "")).second) << list;
+  }
+  EXPECT_TRUE(keys.insert(CaseKey(m_Folder / "s.tif", "", {}, { m_Folder / "mask.tif" })).second);
+  WriteAll(m_Folder / "mask.tif", "musk");
+  EXPECT_TRUE(keys.insert(CaseKey(m_Folder / "s.tif", "", {}, { m_Folder / "mask.tif" })).second);
+}
+
+TEST_F(CaseRecords, AFolderThatHasGoneHasNoOutputsAndNothingToClear)
+{
+  std::filesystem::remove_all(m_Case);
+  EXPECT_TRUE(ListOutputs(m_Case).empty());
+  EXPECT_NO_THROW(ClearCase(m_Case));
+  EXPECT_FALSE(IsDone(m_Case, "k"));
+}
+
+TEST_F(CaseRecords, ALockThatCanNeverBeMadeIsAnError)
+{
+  std::filesystem::create_symlink(m_Folder / "nowhere", m_Folder / "link");
+  WriteAll(m_Folder / "file", "");
+  for (const char * folder : { "link", "file", "gone/locks" })
+  {
+    EXPECT_THROW(CaseLock::Try(m_Folder / folder / "a.lock"), OutputError) << folder;
+  }
 }
 
 TEST_F(CaseRecords, OneAtATimeHoldsALock)

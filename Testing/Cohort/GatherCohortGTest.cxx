@@ -159,6 +159,32 @@ TEST(GatherCohort, ADoneCaseWhoseReportIsGoneOrDamagedIsNotPassedOverInSilence)
   EXPECT_EQ(Table(folder / "cases.csv")[1].at("status"), "failed");
 }
 
+TEST(GatherCohort, AReportThatWasChangedIsNotPassedOverInSilence)
+{
+  const TemporaryFolder folder;
+  MakeCase(folder, "a", true, ReportOf(R"({"label":1,"name":"n","volume_mm3":3})"));
+  EXPECT_TRUE(GatherCohort(folder.Path(), {}).failed.empty());
+  for (const char * label : { R"({"label":1,"name":"n","volume_mm3":4})", R"({"label":1,"name":5})" })
+  {
+    WriteAll(folder / "sub-a/sub-a_report.json", ReportOf(label));
+    ASSERT_EQ(GatherCohort(folder.Path(), {}).failed.size(), 1U) << label;
+  }
+}
+
+TEST(GatherCohort, ACaseThatFailedAndCouldNotSaySoIsNotTakenForWhatItWasBefore)
+{
+  const TemporaryFolder folder;
+  MakeCase(folder, "a", true, ReportOf(R"({"label":1,"name":"n"})"));
+  MakeCase(folder, "b", true, ReportOf(R"({"label":1,"name":"n"})"));
+  const CohortSummary summary = GatherCohort(folder.Path(),
+                                             { Expected("a"), Expected("b") },
+                                             {},
+                                             { { "a", "no room", false }, { "b", "late", true } });
+  ASSERT_EQ(summary.failed.size(), 1U) << "another batch has done b since";
+  EXPECT_EQ(summary.failed[0].reason, "no room");
+  EXPECT_EQ(Table(folder / "cases.csv")[0].at("reason"), "no room");
+}
+
 TEST(GatherCohort, WithoutACaseThereIsNothingToGather)
 {
   const TemporaryFolder folder;

@@ -1,5 +1,6 @@
 #include "voxelcore/BatchJob.h"
 
+#include "CaseJob.h"
 #include "Scheduler.h"
 #include "voxelcore/DisplayTargets.h"
 #include "voxelcore/Error.h"
@@ -76,129 +77,24 @@ MemoryThereIsMb()
   throw Error("cannot tell how much memory there is; give --memory");
 }
 
-bool
-DescribesACase(const Parameter & parameter)
-{
-  return IsOptionOfCases(parameter) && parameter.name != "force" && parameter.name != "progress" &&
-         parameter.name != "quiet" && parameter.name != "threads";
-}
-
-std::string
-NameOf(CommandId command)
-{
-  const auto found = std::ranges::find(Commands(), command, &Command::id);
-  return std::string(found->name);
-}
-
-/** Whether the command that a batch runs takes this option. It may stand in the table once for each command. */
-bool
-IsTaken(std::string_view name, CommandId command)
-{
-  return std::ranges::any_of(Parameters(), [&](const Parameter & parameter) {
-    return parameter.name == name && BelongsTo(parameter, command);
-  });
-}
-
-/** \throws UsageError for options of a command that is not run */
+/** What all cases are asked without sense is refused once, before any runs. What a line of a manifest asks fails its
+ *  case alone. \throws UsageError */
 void
-RequireTaken(const ParameterValues & values, CommandId command, const std::string & where)
+RequireSense(const std::vector<CaseJob> & jobs, const BatchOptions & options)
 {
-  for (const auto & [name, value] : values)
+  for (const CaseJob & job : jobs)
   {
-    if (IsTaken(name, command) || name == "with-skeleton" || name == "also")
+    if (job.refusal.empty())
     {
       continue;
     }
-    if (command != CommandId::Core)
+    CohortCase plain = job.one;
+    plain.values.clear();
+    if (MakeCaseJob(plain, options).refusal == job.refusal)
     {
-      const std::string run = NameOf(command);
-      throw UsageError(where + "--" + name + " is no option of 'voxelcore " + run + "', which --" + run + " runs");
-    }
-    const std::string owner = NameOf(IsTaken(name, CommandId::Roots) ? CommandId::Roots : CommandId::Thickness);
-    throw UsageError(where + "--" + name + " is an option of 'voxelcore " + owner + "'; give --" + owner + ", too");
-  }
-}
-
-/** A path that no parser takes for an option or a command. */
-std::string
-PlainPath(const fs::path & path)
-{
-  const std::string text = path.string();
-  return text.find('/') == std::string::npos ? "./" + text : text;
-}
-
-CaseJob
-JobOf(const CohortCase & one, const BatchOptions & options)
-{
-  CaseJob job{ one, options.output / one.folder, {}, {} };
-  auto    values = one.values;
-  values.insert(options.values.begin(), options.values.end()); // those of the case stay
-  RequireTaken(values, options.command, one.scan.string() + ": ");
-  const std::string stem = (job.folder / one.folder).string();
-  if (options.command == CommandId::Roots)
-  {
-    job.arguments = { "voxelcore", "roots",          PlainPath(one.scan), "-o",         job.folder.string() + "/",
-                      "--prefix",  one.folder + "_", "--force",           "--progress", "none" };
-    job.options = "roots\n";
-    if (!options.pages)
-    {
-      job.arguments.push_back("--no-pictures");
+      throw UsageError(job.refusal);
     }
   }
-  else if (options.command == CommandId::Thickness)
-  {
-    job.arguments = { "voxelcore",
-                      "thickness",
-                      PlainPath(one.scan),
-                      "-o",
-                      stem + "_thickness.nrrd",
-                      "--table",
-                      stem + "_thickness.csv",
-                      "--report",
-                      stem + "_report.json",
-                      "--force",
-                      "--progress",
-                      "none" };
-    job.options = "thickness\n";
-  }
-  else
-  {
-    values.emplace("with-skeleton", options.skeletons ? "true" : "false");
-    if (values["with-skeleton"] == "true")
-    {
-      values.emplace("also", "csv,swc");
-    }
-    job.arguments = { "voxelcore",           "core",    PlainPath(one.scan), "-o",  stem + "_medial.vtp", "--report",
-                      stem + "_report.json", "--force", "--progress",        "none" };
-  }
-  const auto threads = values.find("threads");
-  job.arguments.push_back("--threads=" + (threads != values.end() ? threads->second : std::to_string(options.threads)));
-  for (const Parameter & parameter : Parameters())
-  {
-    const auto value = values.find(parameter.name);
-    if (!DescribesACase(parameter) || value == values.end())
-    {
-      continue;
-    }
-    const std::string flag = "--" + std::string(parameter.name);
-    const bool        isFlag = parameter.kind == ParameterKind::Flag;
-    if (!isFlag || value->second == "true")
-    {
-      const std::string argument = isFlag ? flag : flag + "=" + value->second;
-      job.arguments.push_back(argument);
-      job.options += argument + "\n";
-    }
-    values.erase(value); // an option may stand in the table once for each command
-  }
-  if (options.pages)
-  {
-    if (options.command != CommandId::Roots)
-    {
-      job.arguments.push_back("--html=" + stem + "_view.html");
-    }
-    job.options += "--html\n";
-  }
-  return job;
 }
 
 void
@@ -214,7 +110,19 @@ MakeOutput(const BatchOptions & options)
   }
 }
 
-/** Cases of this batch that were done, and whose results could not be read again for the tables, failed, too. */
+/** Names of files and ids may hold line ends, and commands for a terminal. */
+std::string
+InOneLine(std::string text)
+{
+  std::replace_if(
+    text.begin(),
+    text.end(),
+    [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; },
+    ' ');
+  return text;
+}
+
+/** Adds the cases of this batch that the tables have for failed: results of some could not be read again. */
 void
 AddLost(const std::vector<FailedCase> & lost, const std::vector<CohortCase> & cases, std::vector<FailedCase> & failed)
 {
@@ -281,7 +189,7 @@ BatchOptionsFrom(const ParameterValues & values)
   options.skeletons = !values.contains("no-skeleton");
   for (const CommandId command : { CommandId::Roots, CommandId::Thickness })
   {
-    if (!values.contains(NameOf(command)))
+    if (!values.contains(CommandName(command)))
     {
       continue;
     }
@@ -291,7 +199,7 @@ BatchOptionsFrom(const ParameterValues & values)
     }
     if (!options.skeletons)
     {
-      throw UsageError("--no-skeleton does not go with --" + NameOf(command));
+      throw UsageError("--no-skeleton does not go with --" + CommandName(command));
     }
     options.command = command;
   }
@@ -333,21 +241,30 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
   if (options.gather)
   {
     const CohortSummary summary = GatherCohort(options.output, cases, context);
-    result.cases = summary.cases;
-    result.failed = summary.failed;
+    if (options.inputs.empty())
+    {
+      result.cases = summary.cases;
+      result.failed = summary.failed;
+    }
+    else // it tells of these, as their run does; the tables hold what others have left, too
+    {
+      result.cases = cases.size();
+      AddLost(summary.failed, cases, result.failed);
+    }
     result.passedOver = std::move(passedOver);
     return result;
   }
-  MakeOutput(options);
   std::vector<CaseJob> jobs;
   for (const CohortCase & one : cases)
   {
-    jobs.push_back(JobOf(one, options));
+    jobs.push_back(MakeCaseJob(one, options));
   }
+  RequireSense(jobs, options);
+  MakeOutput(options);
   result = Scheduler(options, std::move(jobs), context.progress).Run();
   if (!options.only)
   {
-    AddLost(GatherCohort(options.output, cases, context).failed, cases, result.failed);
+    AddLost(GatherCohort(options.output, cases, context, result.failed).failed, cases, result.failed);
     result.passedOver = std::move(passedOver);
   }
   return result;
@@ -360,13 +277,8 @@ CaseList(const BatchOptions & options)
   std::size_t number = 0;
   for (const CohortCase & one : FindCases(options.inputs, options.output))
   {
-    std::string id = one.id;
-    std::replace_if(
-      id.begin(),
-      id.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 0x20U; },
-      ' ');
-    text += std::to_string(++number) + "\t" + one.folder + "\t" + id + "\n";
+    text += std::to_string(++number) + "\t" + one.folder + "\t" + InOneLine(one.id) + "\t" +
+            InOneLine(one.scan.string()) + "\n";
   }
   return text;
 }
@@ -379,12 +291,12 @@ BatchText(const BatchResult & result)
                      "\n";
   for (const FailedCase & failed : result.failed)
   {
-    text += "failed: " + failed.id + ": " + failed.reason + "\n";
+    text += "failed: " + InOneLine(failed.id + ": " + failed.reason) + "\n";
   }
   constexpr std::size_t shown = 20;
   for (std::size_t i = 0; i < std::min(shown, result.passedOver.size()); ++i)
   {
-    text += "passed over, no scan that can be read: " + result.passedOver[i].string() + "\n";
+    text += "passed over, no scan that can be read: " + InOneLine(result.passedOver[i].string()) + "\n";
   }
   if (result.passedOver.size() > shown)
   {

@@ -58,10 +58,18 @@ CaseLock::Try(const fs::path & file)
 {
   for (;;)
   {
+    const fs::path  folder = file.parent_path();
+    std::error_code error;
     std::error_code ignored;
-    fs::create_directory(file.parent_path(), ignored);
+    fs::create_directory(folder, error);
+    const auto there = fs::symlink_status(folder, ignored);
+    // Others make this folder and remove it all the time; whatever else is wrong with it stays wrong.
+    if (error && (error != std::errc::file_exists || (fs::exists(there) && !fs::is_directory(there))))
+    {
+      throw OutputError(folder.string() + ": cannot make this folder for locks: " + error.message());
+    }
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor < 0 && errno == ENOENT && fs::is_directory(file.parent_path().parent_path()))
+    if (descriptor < 0 && errno == ENOENT)
     {
       continue; // another process has just removed the empty folder
     }

@@ -31,19 +31,14 @@ Text(const Json & json)
   return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
-/** A file of label names belongs to what a result depends on. */
+/** Lists of label names belong to what a result depends on. */
 std::string
 NamesDigest(const fs::path & scan)
 {
-  fs::path plain = scan;
-  if (plain.extension() == ".gz")
-  {
-    plain.replace_extension();
-  }
   std::string digests;
-  for (fs::path names : { fs::path(plain.string() + ".txt"), fs::path(plain).replace_extension(".txt") })
+  for (const fs::path & list : LabelListFiles(scan))
   {
-    digests += fs::is_regular_file(names) ? FileSha256(names) + "\n" : "none\n";
+    digests += list.extension().string() + " " + FileSha256(list) + "\n";
   }
   return digests;
 }
@@ -53,11 +48,13 @@ FilesOf(const fs::path & folder)
 {
   std::set<fs::path> files;
   const std::string  start = folder.filename().string() + "_";
-  for (const auto & entry : fs::directory_iterator(folder))
+  std::error_code    error; // whoever removes folder or files while a case runs, costs this case alone
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
   {
-    if (entry.path().filename().string().starts_with(start) && !fs::is_directory(entry.symlink_status()))
+    std::error_code gone;
+    if (entry->path().filename().string().starts_with(start) && !fs::is_directory(entry->symlink_status(gone)))
     {
-      files.insert(entry.path());
+      files.insert(entry->path());
     }
   }
   return files;
@@ -66,9 +63,17 @@ FilesOf(const fs::path & folder)
 } // namespace
 
 std::string
-CaseKey(const fs::path & scan, const std::string & options)
+CaseKey(const fs::path &              scan,
+        const std::string &           options,
+        const ReadOptions &           reading,
+        const std::vector<fs::path> & masks)
 {
-  return TextSha256(ScanSha256(scan) + "\n" + NamesDigest(scan) + SourceDigest() + "\n" + options);
+  std::string text = ScanSha256(scan, reading) + "\n" + NamesDigest(scan) + SourceDigest() + "\n" + options;
+  for (const fs::path & mask : masks)
+  {
+    text += "mask " + ScanSha256(mask) + "\n";
+  }
+  return TextSha256(text);
 }
 
 fs::path
@@ -86,7 +91,9 @@ ListOutputs(const fs::path & folder)
     const std::string name = file.filename().string();
     if (file != RecordPath(folder) && !WriterOf(file)) // none that is being written
     {
-      outputs.push_back({ name, fs::file_size(file), FileSha256(file) });
+      std::error_code gone; // then the digest says so
+      const auto      bytes = fs::file_size(file, gone);
+      outputs.push_back({ name, bytes, FileSha256(file) });
     }
   }
   return outputs;
@@ -162,11 +169,18 @@ IsDone(const fs::path & folder, const std::string & key)
   {
     return false;
   }
-  return std::all_of(record->outputs.begin(), record->outputs.end(), [&](const RecordedFile & output) {
-    const fs::path  path = folder / fs::path(output.name).filename();
-    std::error_code missing;
-    return fs::file_size(path, missing) == output.bytes && !missing && FileSha256(path) == output.sha256;
-  });
+  try
+  {
+    return std::all_of(record->outputs.begin(), record->outputs.end(), [&](const RecordedFile & output) {
+      const fs::path  path = folder / fs::path(output.name).filename();
+      std::error_code missing;
+      return fs::file_size(path, missing) == output.bytes && !missing && FileSha256(path) == output.sha256;
+    });
+  }
+  catch (const InputError &)
+  {
+    return false; // what cannot be read is made again
+  }
 }
 
 void

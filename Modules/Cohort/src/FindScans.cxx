@@ -1,5 +1,6 @@
 // Inputs of a batch that are no manifests: scans, patterns, folders.
 
+#include "voxelcore/CaseRecord.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/FormatOpeners.h"
 #include "voxelcore/LabelVolume.h"
@@ -102,6 +103,10 @@ Walk(const fs::path &        folder,
   if (fs::equivalent(folder, output, notThere))
   {
     return;
+  }
+  if (fs::is_regular_file(RecordPath(folder), notThere))
+  {
+    return; // what a batch has made of a scan: its maps and pictures are no scans of this one
   }
   if (IsZarr(folder))
   {

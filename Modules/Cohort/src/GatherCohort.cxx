@@ -8,6 +8,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/JsonText.h"
 #include "voxelcore/OutputTransaction.h"
+#include "voxelcore/Sha256.h"
 
 #include <algorithm>
 #include <fstream>
@@ -30,26 +31,36 @@ constexpr const char * kNoResult =
 
 /** Every case that has a record or should have one, by folder. */
 std::map<std::string, CaseRecord>
-FindRecords(const fs::path & folder, const std::vector<CohortCase> & expected)
+FindRecords(const fs::path & folder, const std::vector<CohortCase> & expected, const std::vector<FailedCase> & failed)
 {
+  std::map<std::string, std::string> reasons;
+  for (const FailedCase & one : failed)
+  {
+    if (!one.recorded)
+    {
+      reasons[CaseFolder(one.id)] = one.reason;
+    }
+  }
   std::map<std::string, CaseRecord> records;
   for (const CohortCase & one : expected)
   {
     CaseRecord & record = records[one.folder];
     record.id = one.id;
     record.scan = one.scan.string();
-    record.reason = kNoResult;
+    const auto known = reasons.find(one.folder);
+    record.reason = known != reasons.end() ? known->second : kNoResult;
   }
   std::error_code error;
   for (const auto & entry : fs::directory_iterator(folder, error))
   {
-    if (!entry.path().filename().string().starts_with("sub-") || !fs::is_directory(entry.symlink_status()))
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("sub-") || !fs::is_directory(entry.symlink_status()) || reasons.contains(name))
     {
       continue;
     }
     if (auto record = ReadCaseRecord(entry.path()))
     {
-      records[entry.path().filename().string()] = std::move(*record);
+      records[name] = std::move(*record);
     }
   }
   if (error)
@@ -86,13 +97,17 @@ Joined(const Json & values)
   return text;
 }
 
-/** None when it is missing or damaged. */
+/** The report of a case as it was written; none when it is missing or another one. */
 Json
-ReadReport(const fs::path & path)
+ReadReport(const fs::path & folder, const CaseRecord & record)
 {
-  std::ifstream     file(path, std::ios::binary);
+  const std::string name = folder.filename().string() + "_report.json";
+  std::ifstream     file(folder / name, std::ios::binary);
   const std::string text{ std::istreambuf_iterator<char>(file), {} };
-  return Json::parse(PlainJson(text), nullptr, false);
+  const auto        written = std::ranges::find(record.outputs, name, &RecordedFile::name);
+  return written != record.outputs.end() && written->sha256 == TextSha256(text)
+           ? Json::parse(PlainJson(text), nullptr, false)
+           : Json();
 }
 
 Row
@@ -210,7 +225,10 @@ WaitForTables(const fs::path & folder, const ProgressCallback & progress)
 } // namespace
 
 CohortSummary
-GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, const JobContext & context)
+GatherCohort(const fs::path &                folder,
+             const std::vector<CohortCase> & expected,
+             const JobContext &              context,
+             const std::vector<FailedCase> & failed)
 {
   CohortSummary         summary;
   std::vector<Row>      caseRows;
@@ -221,15 +239,14 @@ GatherCohort(const fs::path & folder, const std::vector<CohortCase> & expected, 
     throw InputError(folder.string() + ": no such folder");
   }
   const CaseLock lock = WaitForTables(folder, context.progress);
-  for (auto & [name, record] : FindRecords(folder, expected))
+  for (auto & [name, record] : FindRecords(folder, expected, failed))
   {
     Row row = CaseRow(name, record);
     if (record.done)
     {
       try
       {
-        const std::vector<Row> labels =
-          TakeReport(name, record, ReadReport(folder / name / (name + "_report.json")), row);
+        const std::vector<Row> labels = TakeReport(name, record, ReadReport(folder / name, record), row);
         labelRows.insert(labelRows.end(), labels.begin(), labels.end());
       }
       catch (const Json::exception &)

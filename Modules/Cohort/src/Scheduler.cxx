@@ -167,32 +167,32 @@ Scheduler::Begin(std::size_t job)
   std::string key;
   try
   {
-    key = CaseKey(one.one.scan, one.options);
+    key = CaseKey(one.one.scan, one.options, one.reading, one.masks);
   }
-  catch (const InputError &)
+  catch (const std::exception &)
   {
     key.clear(); // the case itself will say what is wrong with its scan
   }
-  std::error_code ignored;
-  if (fs::is_symlink(one.folder))
-  {
-    throw OutputError(one.folder.string() +
-                      ": is a link; results are written below the output folder alone; remove it");
-  }
-  std::error_code error;
-  fs::create_directory(one.folder, error);
-  if (!fs::is_directory(one.folder, ignored))
-  {
-    throw OutputError(one.folder.string() +
-                      ": cannot make this folder: " + (error ? error.message() : std::string("it is a file")));
-  }
-  if (!m_Options.force && !key.empty() && IsDone(one.folder, key))
+  if (TroubleWith(one.folder).empty() && !m_Options.force && !key.empty() && IsDone(one.folder, key))
   {
     ++m_Finished;
     ++m_Result.kept;
     return true;
   }
-  ClearCase(one.folder);
+  if (const std::string trouble = TroubleWritingInto(one.folder); !trouble.empty())
+  {
+    Fail(job, key, trouble, 0);
+    return true;
+  }
+  try
+  {
+    ClearCase(one.folder);
+  }
+  catch (const OutputError & error)
+  {
+    Fail(job, key, error.what(), 0);
+    return true;
+  }
   const int descriptor = lock->Descriptor();
   m_Running.push_back({ job, std::move(*lock), std::move(key), ChildProcess(one.arguments, descriptor) });
   return true;
@@ -285,56 +285,83 @@ Scheduler::KillLateOnes()
 void
 Scheduler::Finish(Running & running)
 {
-  const CaseJob & job = m_Jobs[running.job];
-  const ChildEnd  end = running.process.Collect();
-  std::string     reason = ReasonOf(end, running.killed);
+  const ChildEnd end = running.process.Collect();
+  std::string    reason = ReasonOf(end, running.killed);
   if (end.code == kInterrupted)
   {
     Report(); // throws where the batch was interrupted, too: a terminal's interrupt reaches both
   }
-  if (reason.empty())
+  reason = reason.empty() ? Record(running, end) : reason;
+  if (!reason.empty())
   {
-    CaseRecord record;
-    record.id = job.one.id;
-    record.scan = job.one.scan.string();
-    record.done = true;
-    record.seconds = end.seconds;
-    record.warnings = LinesOf(end.messages);
+    Fail(running.job, running.key, reason, end.seconds);
+    return;
+  }
+  m_Seconds.push_back(WorkedSeconds(running));
+  ++m_Finished;
+}
+
+std::string
+Scheduler::Record(const Running & running, const ChildEnd & end)
+{
+  const CaseJob & job = m_Jobs[running.job];
+  CaseRecord      record;
+  record.id = job.one.id;
+  record.scan = job.one.scan.string();
+  record.done = true;
+  record.seconds = end.seconds;
+  record.warnings = LinesOf(end.messages);
+  record.key = running.key;
+  try
+  {
     record.outputs = ListOutputs(job.folder);
-    record.key = running.key;
     const std::string seen = DigestInReport(job.folder);
     if (seen.empty())
     {
-      reason = "ended well but left no report";
+      return "ended well but left no report";
     }
-    else if (seen != ScanSha256(job.one.scan) || running.key != CaseKey(job.one.scan, job.options))
+    if (seen != ScanSha256(job.one.scan, job.reading) ||
+        running.key != CaseKey(job.one.scan, job.options, job.reading, job.masks))
     {
-      reason = job.one.scan.string() + ": changed while the case ran; run the batch again";
-    }
-    else
-    {
-      WriteCaseRecord(job.folder, record);
-      m_Seconds.push_back(WorkedSeconds(running));
-      ++m_Finished;
-      return;
+      return job.one.scan.string() + ": changed while the case ran; run the batch again";
     }
   }
-  Fail(running.job, running.key, reason, end.seconds);
+  catch (const InputError & error)
+  {
+    return std::string(error.what()) + "; was it removed while the case ran?";
+  }
+  catch (const fs::filesystem_error & error)
+  {
+    return error.path1().string() + ": " + error.code().message() + "; was it removed while the case ran?";
+  }
+  WriteCaseRecord(job.folder, record);
+  return "";
 }
 
 void
 Scheduler::Fail(std::size_t job, const std::string & key, const std::string & reason, double seconds)
 {
   const CaseJob & one = m_Jobs[job];
-  ClearCase(one.folder); // a case killed in its last moment may have given some files their names
-  CaseRecord record;
+  CaseRecord      record;
   record.id = one.one.id;
   record.scan = one.one.scan.string();
   record.key = key;
   record.reason = reason;
   record.seconds = seconds;
-  WriteCaseRecord(one.folder, record);
-  m_Result.failed.push_back({ one.one.id, reason });
+  const bool canRecord = TroubleWritingInto(one.folder).empty();
+  if (canRecord)
+  {
+    try
+    {
+      ClearCase(one.folder); // a case killed in its last moment may have given some files their names
+    }
+    catch (const OutputError &)
+    {
+      // They stay, and the record says that they are no results.
+    }
+    WriteCaseRecord(one.folder, record);
+  }
+  m_Result.failed.push_back({ one.one.id, reason, canRecord });
   ++m_Finished;
 }
 

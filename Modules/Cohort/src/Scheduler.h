@@ -1,6 +1,7 @@
 #pragma once
 // Runs cases side by side within limits of memory and time.
 
+#include "CaseJob.h"
 #include "CaseLock.h"
 #include "ChildProcess.h"
 #include "voxelcore/BatchJob.h"
@@ -13,15 +14,6 @@
 
 namespace voxelcore
 {
-
-/** A case with all that its process gets. */
-struct CaseJob
-{
-  CohortCase               one;
-  std::filesystem::path    folder;
-  std::vector<std::string> arguments; ///< of its process
-  std::string              options;   ///< those that change the result, for CaseKey()
-};
 
 class Scheduler
 {
@@ -61,6 +53,9 @@ private:
   KillLateOnes();
   void
   Finish(Running & running);
+  /** Makes the record of a case whose process has done its work. Returns why it cannot; empty when it is made. */
+  std::string
+  Record(const Running & running, const ChildEnd & end);
   void
   Fail(std::size_t job, const std::string & key, const std::string & reason, double seconds);
   /** How long a case has worked, without waiting for memory. */

@@ -1,12 +1,13 @@
 #include "LabelList.h"
 
 #include "voxelcore/FormatOpeners.h"
-
+#include "voxelcore/LabelVolume.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 
 namespace voxelcore
 {
@@ -161,78 +162,116 @@ ReadByteTable(const std::filesystem::path & path)
   return labels;
 }
 
+bool
+MayBeList(const std::filesystem::path & path)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) <= kLargestList &&
+         !error;
+}
+
+std::filesystem::path
+FolderOf(const std::filesystem::path & scan)
+{
+  return scan.has_filename() ? scan.parent_path() : scan.parent_path().parent_path();
+}
+
 /** The table that FreeSurfer comes with, copied beside a scan or where it is installed. */
-std::map<std::int64_t, ListedLabel>
-ReadFreeSurferTable(const std::filesystem::path & folder)
+std::optional<std::filesystem::path>
+FreeSurferTable(const std::filesystem::path & folder)
 {
   const char * const home = std::getenv("FREESURFER_HOME");
   for (const auto & place : { folder, std::filesystem::path(home != nullptr ? home : "") })
   {
-    const auto      path = place / "FreeSurferColorLUT.txt";
-    std::error_code error;
-    if ((place != folder && place.empty()) || !std::filesystem::is_regular_file(path, error) ||
-        std::filesystem::file_size(path, error) > kLargestList)
+    const auto path = place / "FreeSurferColorLUT.txt";
+    if ((place == folder || !place.empty()) && MayBeList(path))
     {
-      continue;
+      return path;
     }
-    return ReadTextList(path);
   }
-  return {};
+  return std::nullopt;
 }
 
-} // namespace
-
-std::map<std::int64_t, ListedLabel>
-ReadLabelList(const std::filesystem::path & scan)
+/** Those of the scan's own name, the first to say something first. */
+std::vector<std::filesystem::path>
+ListsNamedAs(const std::filesystem::path & scan)
 {
   std::string whole = scan.filename().string();
   if (whole.empty()) // a folder given with a slash at its end
   {
     whole = scan.parent_path().filename().string();
   }
-  const bool isMgh = ScanKindOf(scan) == ScanKind::Mgh;
   if (LowerCase(whole).ends_with(".gz"))
   {
     whole.resize(whole.size() - 3);
   }
-  const auto        folder = scan.has_filename() ? scan.parent_path() : scan.parent_path().parent_path();
-  const std::string stem = std::filesystem::path(whole).stem().string();
-  std::map<std::int64_t, ListedLabel> labels;
-  bool                                hasNames = false;
-  bool                                hasColors = false;
+  const std::string                  stem = std::filesystem::path(whole).stem().string();
+  std::vector<std::filesystem::path> lists;
   for (const char * extension : { ".txt", ".label", ".ctab", ".lut" })
   {
     for (const std::string & name : { whole + extension, stem + extension })
     {
-      const auto      path = folder / name;
-      std::error_code error;
-      if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) > kLargestList)
+      if (MayBeList(FolderOf(scan) / name))
       {
-        continue;
+        lists.push_back(FolderOf(scan) / name);
       }
-      const bool bytes = std::string_view(extension) == ".lut" && std::filesystem::file_size(path, error) == 768;
-      const auto list = bytes ? ReadByteTable(path) : ReadTextList(path);
-      const auto some = [&list](auto has) {
-        return std::any_of(list.begin(), list.end(), [&](const auto & entry) { return has(entry.second); });
-      };
-      const bool takeNames = !hasNames && some([](const ListedLabel & one) { return !one.name.empty(); });
-      const bool takeColors = !hasColors && some([](const ListedLabel & one) { return one.color.has_value(); });
-      for (const auto & [value, one] : list)
-      {
-        if (takeNames)
-        {
-          labels[value].name = one.name;
-        }
-        if (takeColors)
-        {
-          labels[value].color = one.color;
-        }
-      }
-      hasNames = hasNames || takeNames;
-      hasColors = hasColors || takeColors;
     }
   }
-  return labels.empty() && isMgh ? ReadFreeSurferTable(folder) : labels;
+  return lists;
+}
+
+} // namespace
+
+std::vector<std::filesystem::path>
+LabelListFiles(const std::filesystem::path & scan)
+{
+  auto files = ListsNamedAs(scan);
+  if (ScanKindOf(scan) == ScanKind::Mgh)
+  {
+    if (auto table = FreeSurferTable(FolderOf(scan)))
+    {
+      files.push_back(std::move(*table));
+    }
+  }
+  return files;
+}
+
+std::map<std::int64_t, ListedLabel>
+ReadLabelList(const std::filesystem::path & scan)
+{
+  std::map<std::int64_t, ListedLabel> labels;
+  bool                                hasNames = false;
+  bool                                hasColors = false;
+  for (const std::filesystem::path & path : ListsNamedAs(scan))
+  {
+    std::error_code error;
+    const bool      bytes = path.extension() == ".lut" && std::filesystem::file_size(path, error) == 768;
+    const auto      list = bytes ? ReadByteTable(path) : ReadTextList(path);
+    const auto      some = [&list](auto has) {
+      return std::any_of(list.begin(), list.end(), [&](const auto & entry) { return has(entry.second); });
+    };
+    const bool takeNames = !hasNames && some([](const ListedLabel & one) { return !one.name.empty(); });
+    const bool takeColors = !hasColors && some([](const ListedLabel & one) { return one.color.has_value(); });
+    for (const auto & [value, one] : list)
+    {
+      if (takeNames)
+      {
+        labels[value].name = one.name;
+      }
+      if (takeColors)
+      {
+        labels[value].color = one.color;
+      }
+    }
+    hasNames = hasNames || takeNames;
+    hasColors = hasColors || takeColors;
+  }
+  if (labels.empty() && ScanKindOf(scan) == ScanKind::Mgh)
+  {
+    const auto table = FreeSurferTable(FolderOf(scan));
+    return table ? ReadTextList(*table) : labels;
+  }
+  return labels;
 }
 
 } // namespace voxelcore

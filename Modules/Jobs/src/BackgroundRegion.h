@@ -8,10 +8,6 @@
 namespace voxelcore
 {
 
-/** Whether --within names a file: it has a dot or a slash. */
-bool
-IsMask(const std::string & within);
-
 /** The voxels among which the background of some shapes is measured: the box around them, their hull, or the labels or
  *  mask of `within`. \throws InputError where a label asked for is not there, a mask has other voxels than the scan, or
  *  the hull is flat */

@@ -34,7 +34,8 @@ struct BatchOptions
 struct FailedCase
 {
   std::string id;
-  std::string reason; ///< one line
+  std::string reason;          ///< one line
+  bool        recorded = true; ///< in its folder, too
 };
 
 struct BatchResult
@@ -58,7 +59,7 @@ BatchOptionsFrom(const ParameterValues & values);
 BatchResult
 RunBatchJob(const BatchOptions & options, const JobContext & context = {});
 
-/** A line per case: its number for `--case`, its folder, its id, separated by tabs. */
+/** A line per case: its number for `--case`, its folder, its id, its scan, separated by tabs. */
 std::string
 CaseList(const BatchOptions & options);
 

@@ -1,6 +1,8 @@
 #pragma once
 // What is known of a case that was run: sub-X/sub-X_case.json. It decides what a batch that is started again has to do.
 
+#include "voxelcore/ReadOptions.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -29,18 +31,21 @@ struct CaseRecord
   double                    seconds = 0;
 };
 
-/** Digest of what a result depends on: the scan's content (and that of the label names beside it), the options that
- *  were given, and the sources of the program. Where the scan lies does not matter.
- *  \throws InputError when the scan cannot be read */
+/** Digest of what a result depends on: the scan's content, as far as it is read (and that of the lists of label names
+ *  beside it), the options that were given and the content of `masks`, files they name, and the sources of the program.
+ *  Where the scan lies does not matter. \throws InputError when a file cannot be read */
 std::string
-CaseKey(const std::filesystem::path & scan, const std::string & options);
+CaseKey(const std::filesystem::path &              scan,
+        const std::string &                        options,
+        const ReadOptions &                        reading = {},
+        const std::vector<std::filesystem::path> & masks = {});
 
 /** "<folder>/<folder's name>_case.json" */
 std::filesystem::path
 RecordPath(const std::filesystem::path & folder);
 
 /** Everything the case has left in its folder, by name, with digests; the record itself and files that were not
- *  finished are no outputs. */
+ *  finished are no outputs. None when there is no folder. \throws InputError when a file goes away meanwhile */
 std::vector<RecordedFile>
 ListOutputs(const std::filesystem::path & folder);
 

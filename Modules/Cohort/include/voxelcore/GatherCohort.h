@@ -24,11 +24,13 @@ struct CohortSummary
  *  - dataset_description.json, of BIDS derivatives;
  *  - index.html: the same for people, without anything from elsewhere.
  *  Columns: the keys of the report joined by "_"; numbers in lists from 0. Text that a spreadsheet would take for a
- *  formula has an apostrophe in front. Cases of `expected` that have left no record count as failed. Ordered by id.
+ *  formula has an apostrophe in front. Cases of `expected` that have left no record count as failed, and so do those of
+ *  `failed` that could not be recorded, whatever record they have from before. Ordered by id.
  *  \throws OutputError; InputError when there is nothing to gather */
 CohortSummary
 GatherCohort(const std::filesystem::path &   folder,
              const std::vector<CohortCase> & expected,
-             const JobContext &              context = {});
+             const JobContext &              context = {},
+             const std::vector<FailedCase> & failed = {});
 
 } // namespace voxelcore

@@ -42,8 +42,8 @@ ReadManifest(const std::filesystem::path & manifest);
  *  which each match is a scan; folders, in which scans are looked for at any depth, sorted by path. A folder that holds
  *  several .tif or .png directly is one scan, a stack of slices. The ids of scans that are not in a manifest are their
  *  names; those found below a folder have the folders between in front. The same file twice is one case. The folder
- *  `output`, where results go, is passed over. Files in folders that are neither a scan nor belong to one are added to
- *  `passedOver`.
+ *  `output`, where results go, is passed over, and so are folders of cases that any batch has left. Files in
+ *  folders that are neither a scan nor belong to one are added to `passedOver`.
  *  \throws InputError for an input that does not exist, a pattern or folder without scans, two cases with one id. */
 std::vector<CohortCase>
 FindCases(const std::vector<std::filesystem::path> & inputs,

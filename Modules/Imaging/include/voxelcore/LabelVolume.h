@@ -60,6 +60,11 @@ ReadLabelVolume(const std::filesystem::path & path,
 std::vector<std::filesystem::path>
 ScanFiles(const std::filesystem::path & path, const ReadOptions & options = {});
 
+/** The lists of names and colours that go with a scan (LabelList.h says which), those that are there: the first to say
+ *  something first. */
+std::vector<std::filesystem::path>
+LabelListFiles(const std::filesystem::path & scan);
+
 /** Writes labels as a volume: .nrrd .nii .nii.gz .mha .mhd .tif by the extension of `path`; the smallest unsigned type
  *  that holds the values. Packed when `compress` and the format can (.nii never, .nii.gz always). NIfTI keeps the
  *  geometry in single precision, TIFF the spacing alone. The file is read back before it takes its name, so a full disk

@@ -120,8 +120,8 @@ BelongsTo(const Parameter & parameter, CommandId command)
   const auto has = [&](CommandId one) { return (parameter.commands & static_cast<std::uint32_t>(one)) != 0; };
   // A path, what goes with one, a part of one scan, or its memory is not a cohort's.
   const bool ofOneRun = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output ||
-                        parameter.name == "blocks" || parameter.name == "block" || parameter.name == "memory" ||
-                        parameter.name == "grey-range";
+                        parameter.name == "blocks" || parameter.name == "block" || parameter.name == "block-size" ||
+                        parameter.name == "memory" || parameter.name == "grey-range";
   return has(command) || (command == CommandId::Batch && has(CommandId::Core) && !ofOneRun);
 }
 

@@ -37,7 +37,7 @@ inline constexpr auto kCohortRows = std::to_array<Parameter>({
     "Run 'voxelcore thickness' on each scan, with the options of that command: a map per case; compare scans by their "
     "numbers" },
   { "no-skeleton", "--no-skeleton", Flag, "", "", false, kBatch, "Compute medial surfaces only" },
-  { "list", "--list", Flag, "", "", false, kBatch, "Print each case's number, folder and id, and run nothing" },
+  { "list", "--list", Flag, "", "", false, kBatch, "Print each case's number, folder, id and scan, and run nothing" },
   { "case",
     "--case",
     Integer,
