@@ -331,7 +331,39 @@ Junction(double size, double lambda)
       body.surface);
     AddQuad({ 0, 0, -half }, at(arm, 0, -half), at(arm, 0, half), { 0, 0, half }, body.axis);
   }
-  body.pruned = body.axis;
+  // Above a roof a ball about a sheet touches both of its creases on their bends, at t, r cos t to either side. Balls of
+  // one t are on a straight line, from the roof to half a length up.
+  const double    last = std::acos(std::min(1.0, lambda / r));
+  const RoofPoint ridge = RoofAt(last, r);
+  for (const Vector3 & e : arms)
+  {
+    for (const double side : { -1.0, 1.0 })
+    {
+      const auto addUpTo = [&](int parts, auto along, auto below) {
+        AddPatch(
+          parts,
+          32,
+          [&](double u, double v) {
+            return Vector3{ along(u) * e[0], along(u) * e[1], side * v * (half - below(u)) };
+          },
+          body.pruned);
+      };
+      const auto on = [=](double u) { return RoofAt(0.5 * kPi + u * (last - 0.5 * kPi), r); };
+      addUpTo(
+        32,
+        [&](double u) { return 2 * on(u).away; },
+        [&](double u) { return on(u).below; });
+      const double end = r * std::cos(last) / std::sqrt(3.0);
+      addUpTo(
+        1,
+        [&](double u) { return 2 * ridge.away + u * (end - 2 * ridge.away); },
+        [&](double u) { return (1 - u) * ridge.below; });
+      addUpTo(
+        1,
+        [&](double u) { return end + u * (arm - end); },
+        [](double) { return 0.0; });
+    }
+  }
   const auto roofs = [&](double from, TriangleSet & set) {
     for (int k = 0; k < 3; ++k)
     {
