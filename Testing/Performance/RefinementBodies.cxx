@@ -331,8 +331,8 @@ Junction(double size, double lambda)
       body.surface);
     AddQuad({ 0, 0, -half }, at(arm, 0, -half), at(arm, 0, half), { 0, 0, half }, body.axis);
   }
-  // Above a roof a ball about a sheet touches both of its creases on their bends, at t, r cos t to either side. Balls of
-  // one t are on a straight line, from the roof to half a length up.
+  // Above a roof a ball about a sheet touches both of its creases on their bends, at t, r cos t to either side. Balls
+  // of one t are on a straight line, from the roof to half a length up.
   const double    last = std::acos(std::min(1.0, lambda / r));
   const RoofPoint ridge = RoofAt(last, r);
   for (const Vector3 & e : arms)

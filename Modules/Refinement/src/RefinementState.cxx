@@ -277,7 +277,7 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
     {
       wanted[vertex] = m_Displacement[vertex];
     }
-    if (!moved.empty())
+    if (!moved.empty() || refined.core.positions.size() != part.vertices.size())
     {
       settle(std::move(moved));
     }
@@ -285,6 +285,7 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
   if (!stays)
   {
     goOn(MoveRims(finder, part, threshold));
+    goOn(TakeBackAtRims(finder, part, threshold));
   }
   goOn(MoveLines(finder, part, wanted));
   refined.core.radius = Pick(m_Radius, part.vertices);

@@ -11,6 +11,9 @@
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/Vectors.h"
 
+#include <array>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace voxelcore
@@ -95,6 +98,37 @@ private:
                 ElementIndex             vertex,
                 const Vector3 &          outwards,
                 std::vector<PointPair> & pairs);
+  /** A vertex where it is, with what was measured there. */
+  struct Corner
+  {
+    Vector3             displacement{};
+    double              radius = 0;
+    double              swelling = 0;
+    std::vector<double> widths;
+  };
+  using FacesAt = std::function<std::span<const std::pair<ElementIndex, ElementIndex>>(ElementIndex)>;
+  Corner
+  CornerAt(ElementIndex vertex) const;
+  void
+  Put(ElementIndex vertex, const Corner & corner);
+  double
+  MeasureOfFace(ElementIndex face) const;
+  bool
+  HasTurned(ElementIndex face) const;
+  void
+  DrawIn(const FootPointFinder & finder,
+         double                  threshold,
+         ElementIndex            vertex,
+         std::uint32_t           width,
+         const Vector3 &         to);
+  bool
+  DrawIn(const FootPointFinder & finder,
+         double                  threshold,
+         ElementIndex            face,
+         const FacesAt &         facesAt,
+         std::array<Corner, 3> & drawn);
+  std::vector<ElementIndex>
+  TakeBackAtRims(const FootPointFinder & finder, CorePart & part, double threshold);
   CorePart
   LendAll();
   LiveElements

@@ -1,8 +1,8 @@
 // Rims of sheets and lines go on when it is known what is left.
 
-#include "RefinementState.h"
-
 #include "MoveGuard.h"
+#include "RefinementState.h"
+#include "Rims.h"
 
 #include <algorithm>
 #include <array>
@@ -70,11 +70,6 @@ RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part
   return lines;
 }
 
-namespace
-{
-
-// Vertices by sheets so wide that some rings of triangles can be taken off all around. Strips that are left beside the
-// axis of a tube have no rim: measures there are noise.
 std::vector<std::uint8_t>
 OnWideSheets(const CellComplex & cells, const std::vector<Cofaces> & facesAtEdges)
 {
@@ -111,6 +106,9 @@ OnWideSheets(const CellComplex & cells, const std::vector<Cofaces> & facesAtEdge
   return wide;
 }
 
+namespace
+{
+
 // A vertex of the rim of one sheet.
 struct RimVertex
 {
@@ -143,7 +141,8 @@ RimVerticesOf(const CellComplex & cells, const std::vector<Cofaces> & facesAtEdg
   return rims;
 }
 
-// The greatest part of a step that leaves a displacement within a voxel.
+} // namespace
+
 double
 PartWithinAVoxel(const Vector3 & displacement, const Vector3 & step)
 {
@@ -153,8 +152,6 @@ PartWithinAVoxel(const Vector3 & displacement, const Vector3 & step)
   const double     c = Dot(displacement, displacement) - most * most;
   return c < 0 ? std::min(1.0, (std::sqrt(b * b - a * c) - b) / a) : 0;
 }
-
-} // namespace
 
 // Triangles go as a whole, so that a rim lies up to the length of one behind the place where the measure falls below
 // the threshold. Its vertices go there, or as far as they may. Returns what was moved.
