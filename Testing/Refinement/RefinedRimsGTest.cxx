@@ -134,15 +134,5 @@ TEST(RefineCore, TakesTrianglesAcrossARimBack)
   EXPECT_LT(behind, 0.017 * all);
 }
 
-// A ball's core is a point: with no rim there is nothing for a triangle to hang on.
-TEST(RefineCore, TakesNothingBackWhereNoSheetIsLeft)
-{
-  const VoxelShape ball =
-    ShapeWhere({ 21, 21, 21 }, [](int x, int y, int z) { return std::hypot(x - 10.0, y - 10.0, z - 10.0) <= 9; });
-  const RefinedCore refined = Refine(ball, { 1, 1, 1 }, 4);
-  EXPECT_EQ(refined.core.cells.vertexCount, 1u);
-  EXPECT_EQ(refined.core.cells.FaceCount(), 0u);
-}
-
 } // namespace
 } // namespace voxelcore::testing
