@@ -81,6 +81,33 @@ operator new(std::size_t size, std::align_val_t alignment)
   return Allocate(size, [unit, whole] { return std::aligned_alloc(unit, whole); });
 }
 
+// Those that do not throw, as sorting's buffers ask for: a library may have its own, whose memory is not for free().
+void *
+operator new(std::size_t size, const std::nothrow_t &) noexcept
+{
+  try
+  {
+    return operator new(size);
+  }
+  catch (const std::bad_alloc &)
+  {
+    return nullptr;
+  }
+}
+
+void *
+operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t &) noexcept
+{
+  try
+  {
+    return operator new(size, alignment);
+  }
+  catch (const std::bad_alloc &)
+  {
+    return nullptr;
+  }
+}
+
 void
 operator delete(void * memory) noexcept
 {
@@ -101,6 +128,18 @@ operator delete(void * memory, std::align_val_t) noexcept
 
 void
 operator delete(void * memory, std::size_t, std::align_val_t) noexcept
+{
+  std::free(memory);
+}
+
+void
+operator delete(void * memory, const std::nothrow_t &) noexcept
+{
+  std::free(memory);
+}
+
+void
+operator delete(void * memory, std::align_val_t, const std::nothrow_t &) noexcept
 {
   std::free(memory);
 }
