@@ -37,6 +37,14 @@ AskForLargePages(void * memory, std::size_t size)
   }
 }
 
+// aligned_alloc() asks for sizes that are a multiple of the alignment.
+void *
+InLargePages(std::size_t size)
+{
+  void * memory = nullptr;
+  return posix_memalign(&memory, largePage, size) == 0 ? memory : nullptr;
+}
+
 // What operator new does, with memory from `allocate`.
 template <typename TAllocate>
 void *
@@ -68,9 +76,7 @@ Allocate(std::size_t size, const TAllocate & allocate)
 void *
 operator new(std::size_t size)
 {
-  return Allocate(size, [size] {
-    return size >= worthIt ? std::aligned_alloc(largePage, (size + 63) / 64 * 64) : std::malloc(size == 0 ? 1 : size);
-  });
+  return Allocate(size, [size] { return size >= worthIt ? InLargePages(size) : std::malloc(size == 0 ? 1 : size); });
 }
 
 void *
