@@ -60,8 +60,13 @@ done
 cmake --build "$build" --target "${targets[@]}"
 
 # Tests carry the name of their module as label. Left out is what asks for a time.
-ctest --test-dir "$build" -E WritingIsFastBesideComputing -L "^(${tested//;/|})\$" --output-on-failure \
-  --no-tests=error </dev/null
+run() {
+  ctest --test-dir "$build" -L "^(${tested//;/|})\$" -LE heavy --output-on-failure --no-tests=error "$@" </dev/null
+}
+# The driver of OpenGL forgets 240 bytes and is gone when leaks are looked for: what draws is not asked for them.
+draws='Render|AreDrawn|DrawnBy|Pictures|WritesAFileThatTheProgramTakes|AMissingVoxelSizeIsWarnedOf|NoOutputNamesA'
+run -E "WritingIsFastBesideComputing|$draws"
 if [ "$kind" = address ]; then
+  ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 run -R "$draws"
   ctest --test-dir "$build" -R '^HeavyHostile' --output-on-failure </dev/null
 fi
