@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace voxelcore
 {
@@ -23,6 +24,16 @@ IsSeeded(std::string_view stage)
   return wanted != nullptr && stage == wanted;
 }
 
+/** Measures that a complex does not have are empty. */
+void
+TakeLast(std::vector<double> & measures)
+{
+  if (!measures.empty())
+  {
+    measures.pop_back();
+  }
+}
+
 /** Takes the last face away, or the last edge where there is no face: another topology. */
 void
 Damage(MedialComplex & complex)
@@ -33,20 +44,14 @@ Damage(MedialComplex & complex)
     cells.faceOffsets.pop_back();
     cells.faceVertices.resize(cells.faceOffsets.back());
     cells.faceEdges.resize(cells.faceOffsets.back());
-    complex.faceLambda.pop_back();
-    if (!complex.tolerances.faces.empty())
-    {
-      complex.tolerances.faces.pop_back();
-    }
+    TakeLast(complex.faceLambda);
+    TakeLast(complex.tolerances.faces);
   }
   else if (!cells.edges.empty())
   {
     cells.edges.pop_back();
-    complex.edgeLambda.pop_back();
-    if (!complex.tolerances.edges.empty())
-    {
-      complex.tolerances.edges.pop_back();
-    }
+    TakeLast(complex.edgeLambda);
+    TakeLast(complex.tolerances.edges);
   }
 }
 
