@@ -87,7 +87,8 @@ operator new(std::size_t size, std::align_val_t alignment)
   return Allocate(size, [unit, whole] { return std::aligned_alloc(unit, whole); });
 }
 
-// Those that do not throw, as sorting's buffers ask for: a library may have its own, whose memory is not for free().
+// Those that do not throw: std::inplace_merge() has its buffers from them. A sanitizer has its own, whose memory is not
+// for free().
 void *
 operator new(std::size_t size, const std::nothrow_t &) noexcept
 {

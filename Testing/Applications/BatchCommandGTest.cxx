@@ -42,9 +42,7 @@ protected:
   ProgramResult
   Batch(const std::vector<std::string> & more, const Watcher & watcher = {})
   {
-    std::vector<std::string> arguments{ "batch", "-o", m_Folder / "out" };
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return RunProgram(arguments, {}, watcher);
+    return RunBatch(m_Folder, more, {}, watcher);
   }
   Json
   Record(const std::string & folder)

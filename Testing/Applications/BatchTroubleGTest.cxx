@@ -28,11 +28,9 @@ protected:
   ProgramResult
   Batch(const std::vector<std::string> & more, const Watcher & watcher = {})
   {
-    std::vector<std::string> arguments{ "batch", "-o", m_Folder / "out" };
-    arguments.insert(arguments.end(), more.begin(), more.end());
     ProgramLimits limits;
     limits.time = std::chrono::seconds(60);
-    return RunProgram(arguments, limits, watcher);
+    return RunBatch(m_Folder, more, limits, watcher);
   }
 
   /** Two small scans, and one that takes long enough to have something removed meanwhile. */

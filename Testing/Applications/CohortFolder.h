@@ -2,6 +2,7 @@
 // Small cohorts, and what a batch made of them.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
+#include "Program.h"
 #include "Scans.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace voxelcore::testing
 {
@@ -38,6 +40,18 @@ WriteTinyScans(const std::filesystem::path & folder, unsigned count)
   {
     WriteTinyScan(folder / ("s" + std::to_string(i) + ".nrrd"), i);
   }
+}
+
+/** Of a batch into `folder`/out. */
+inline ProgramResult
+RunBatch(const TemporaryFolder &          folder,
+         const std::vector<std::string> & more,
+         const ProgramLimits &            limits = {},
+         const Watcher &                  watcher = {})
+{
+  std::vector<std::string> arguments{ "batch", "-o", folder / "out" };
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return RunProgram(arguments, limits, watcher);
 }
 
 /** cases.csv without its last columns, those of times and memory, which hold no text. */
