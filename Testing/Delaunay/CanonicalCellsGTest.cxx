@@ -245,6 +245,43 @@ TEST(CanonicalCells, CentresAreTheExactOnesRoundedOnceHoweverFarApartTheCornersL
   }
 }
 
+TEST(CanonicalCells, CentresAreThoseOfTheirCornersWhateverCellsStandBesideThem)
+{
+  std::mt19937_64 random(25);
+  for (const SpacingWeights & weights :
+       { ComputeSpacingWeights({ 1, 1, 1 }), ComputeSpacingWeights({ 0.5, 0.7, 2.5 }) })
+  {
+    // Small cells, of which many are worked out at a time, among large ones and such far from the origin.
+    std::vector<LatticePoint> points;
+    DelaunayCells             raw;
+    for (int cell = 0; cell < 1001; ++cell)
+    {
+      const std::int32_t                          reach = cell % 7 == 3 ? 1000 : cell % 5 == 2 ? 32 : 20;
+      const std::int32_t                          away = cell % 11 == 6 ? (1 << 20) : 0;
+      std::uniform_int_distribution<std::int32_t> near(-reach, reach);
+      std::array<LatticePoint, 4>                 corners{};
+      for (LatticePoint & corner : corners)
+      {
+        corner = { near(random) + 5, near(random) - away, near(random) + 900 };
+      }
+      if (Orientation(corners[0], corners[1], corners[2], corners[3]) != 0)
+      {
+        const auto first = static_cast<std::uint32_t>(points.size());
+        points.insert(points.end(), corners.begin(), corners.end());
+        raw.tetrahedra.push_back({ first, first + 1, first + 2, first + 3 });
+      }
+    }
+    const DelaunayCells cells = MakeCanonical(std::move(raw), points, weights);
+    ASSERT_GT(cells.CellCount(), 900U);
+    for (std::size_t cell = 0; cell < cells.CellCount(); ++cell)
+    {
+      const auto & t = cells.tetrahedra[cell];
+      const auto   own = CentreOfCorners({ points[t[0]], points[t[1]], points[t[2]], points[t[3]] }, weights);
+      ASSERT_EQ(cells.centres[cell], own.centre) << cell;
+    }
+  }
+}
+
 TEST(CanonicalCells, OfNothingAreNone)
 {
   const DelaunayCells none = MakeCanonical({}, {}, ComputeSpacingWeights({ 1, 1, 1 }));

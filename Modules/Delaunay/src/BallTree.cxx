@@ -16,8 +16,6 @@ namespace voxelcore
 namespace
 {
 
-using EightIntegers = std::int32_t __attribute__((vector_size(32)));
-
 constexpr float  infinite = std::numeric_limits<float>::infinity();
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double roundings = 1e-12; // far more than a sum of squares in double precision is off by, as a share of it
@@ -35,18 +33,6 @@ double
 Dot(const std::array<double, 3> & a, const std::array<double, 3> & b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-// Bit i for each lane i that is true.
-inline std::uint32_t
-LanesOf(const EightIntegers & isTrue)
-{
-  constexpr EightIntegers bits{ 1, 2, 4, 8, 16, 32, 64, 128 };
-  EightIntegers           sum = isTrue & bits;
-  sum |= __builtin_shufflevector(sum, sum, 4, 5, 6, 7, 0, 1, 2, 3);
-  sum |= __builtin_shufflevector(sum, sum, 2, 3, 0, 1, 6, 7, 4, 5);
-  sum |= __builtin_shufflevector(sum, sum, 1, 0, 3, 2, 5, 4, 7, 6);
-  return static_cast<std::uint32_t>(sum[0]);
 }
 
 } // namespace

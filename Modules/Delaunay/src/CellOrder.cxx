@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <span>
 
 namespace voxelcore
@@ -30,28 +31,6 @@ FailTwins()
   throw CertificateError("two Delaunay cells have the same centre; please report this input");
 }
 
-/** Centres of the cells that a list names from `first` to before `last`. */
-void
-FindCentres(const DelaunayCells &              cells,
-            const std::vector<LatticePoint> &  points,
-            const SpacingWeights &             weights,
-            const std::vector<std::uint32_t> & list,
-            std::size_t                        first,
-            std::size_t                        last,
-            CentredCell *                      to)
-{
-  for (std::size_t i = first; i < last; ++i)
-  {
-    // Step by step: the cell, its corners.
-    __builtin_prefetch(&cells.tetrahedra[list[std::min(i + 2 * kAhead, last - 1)]]);
-    for (const std::uint32_t corner : cells.tetrahedra[list[std::min(i + kAhead, last - 1)]])
-    {
-      __builtin_prefetch(&points[corner]);
-    }
-    *to++ = CentreOf(cells, list[i], points, weights);
-  }
-}
-
 /** Calls visit for one run after the other of the cells, by exact centre. */
 void
 VisitByCentre(const DelaunayCells &                   cells,
@@ -64,9 +43,17 @@ VisitByCentre(const DelaunayCells &                   cells,
   const CentreBuckets        buckets(cells, points, weights, count);
   std::vector<std::uint32_t> bucketOf(count);
   RunInParts(worthIt, count, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
+    std::array<std::uint32_t, 256> list;
+    std::array<CentredCell, 256>   centred;
+    for (std::size_t begin = first; begin < last; begin += list.size())
     {
-      bucketOf[i] = buckets.Of(CentreOf(cells, static_cast<std::uint32_t>(i), points, weights));
+      const std::size_t some = std::min(list.size(), last - begin);
+      std::iota(list.begin(), list.end(), static_cast<std::uint32_t>(begin));
+      CentresOf(cells, std::span(list).first(some), points, weights, centred.data());
+      for (std::size_t i = 0; i < some; ++i)
+      {
+        bucketOf[begin + i] = buckets.Of(centred[i]);
+      }
     }
   });
   std::vector<std::uint32_t>       order;
@@ -91,13 +78,12 @@ VisitByCentre(const DelaunayCells &                   cells,
     const std::size_t end = step + 1 == kRuns ? buckets.Count() : bucketAt(step + 1);
     run.resize(start[end] - start[begin]);
     RunInParts(run.size() > 10000, end - begin, [&](std::size_t firstBucket, std::size_t lastBucket) {
-      FindCentres(cells,
-                  points,
-                  weights,
-                  order,
-                  start[begin + firstBucket],
-                  start[begin + lastBucket],
-                  run.data() + (start[begin + firstBucket] - start[begin]));
+      const std::size_t from = start[begin + firstBucket];
+      CentresOf(cells,
+                std::span(order).subspan(from, start[begin + lastBucket] - from),
+                points,
+                weights,
+                run.data() + (from - start[begin]));
       for (std::size_t bucket = begin + firstBucket; bucket < begin + lastBucket; ++bucket)
       {
         const auto first = run.begin() + static_cast<std::ptrdiff_t>(start[bucket] - start[begin]);

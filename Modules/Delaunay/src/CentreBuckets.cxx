@@ -1,9 +1,11 @@
 #include "CentreBuckets.h"
 
+#include "voxelcore/EightLanes.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace voxelcore
 {
@@ -29,14 +31,15 @@ CrossOf(const Integers3 & a, const Integers3 & b)
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
+constexpr std::int32_t kWidest = 63;        // so that sums of products below stay under 2^29 w^2,
+constexpr std::int32_t kFarthest = 1 << 20; // and denominators times places under 2^62
+
 // The centre of a small cell not far from the origin: where numerator and denominator of a coordinate are doubles,
 // their quotient is rounded once. False where they are not.
 bool
 CentreInDoubles(const std::array<LatticePoint, 4> & corners, const SpacingWeights & weights, CentredCell & entry)
 {
-  constexpr std::int64_t   widest = 63;        // so that sums of products below stay under 2^29 w^2,
-  constexpr std::int64_t   heaviest = 1024;    // under 2^49,
-  constexpr std::int64_t   farthest = 1 << 20; // and denominators times places under 2^62
+  constexpr std::int64_t   heaviest = 1024; // so that sums stay under 2^49
   std::array<Integers3, 3> side{};
   Integers3                square{};
   const Integers3          base{ corners[0].x, corners[0].y, corners[0].z };
@@ -46,7 +49,7 @@ CentreInDoubles(const std::array<LatticePoint, 4> & corners, const SpacingWeight
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const std::int64_t w = weights.weight[axis];
-      if (std::abs(side[i][axis]) > widest || w > heaviest || std::abs(base[axis]) > farthest)
+      if (std::abs(side[i][axis]) > kWidest || w > heaviest || std::abs(base[axis]) > kFarthest)
       {
         return false;
       }
@@ -75,19 +78,79 @@ CentreInDoubles(const std::array<LatticePoint, 4> & corners, const SpacingWeight
   return true;
 }
 
-} // namespace
-
-CentredCell
-CentreOf(const DelaunayCells &             cells,
-         std::uint32_t                     cell,
-         const std::vector<LatticePoint> & points,
-         const SpacingWeights &            weights)
+// The corners of cells side by side.
+constexpr std::size_t kBatch = 32;
+struct CornerLanes
 {
-  const auto & t = cells.tetrahedra[cell];
-  CentredCell  entry = CentreOfCorners({ points[t[0]], points[t[1]], points[t[2]], points[t[3]] }, weights);
-  entry.cell = cell;
-  return entry;
+  alignas(32) std::array<std::array<std::array<std::int32_t, kBatch>, 3>, 4> corner;
+};
+
+// The centres of small cells not far from the origin, where weights are 1, eight at a time: sums of products are
+// integers of 32 bits, and numerators and denominators are doubles. A bit of the result is set for each cell that is
+// another.
+VOXELCORE_EIGHT_LANES std::uint32_t
+                      SetCentres(const CornerLanes & lanes, CentredCell * to)
+{
+  using EightDoubles = double __attribute__((vector_size(64)));
+  std::uint32_t others = 0;
+  for (std::size_t first = 0; first < kBatch; first += 8)
+  {
+    const auto at = [&](std::size_t corner, std::size_t axis, EightIntegers & value) {
+      std::memcpy(&value, lanes.corner[corner][axis].data() + first, sizeof(value));
+    };
+    EightIntegers base[3];
+    EightIntegers side[3][3];
+    EightIntegers square[3];
+    EightIntegers isOther{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      at(0, axis, base[axis]);
+      isOther |= (base[axis] > kFarthest) | (base[axis] < -kFarthest);
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      square[i] = EightIntegers{};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        at(i + 1, axis, side[i][axis]);
+        side[i][axis] -= base[axis];
+        isOther |= (side[i][axis] > kWidest) | (side[i][axis] < -kWidest);
+        square[i] += side[i][axis] * side[i][axis];
+      }
+    }
+    EightIntegers det{};
+    EightIntegers n[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::size_t   j = (axis + 1) % 3;
+      const std::size_t   k = (axis + 2) % 3;
+      const EightIntegers minor = side[1][j] * side[2][k] - side[1][k] * side[2][j];
+      det += side[0][axis] * minor;
+      n[axis] = square[0] * minor + square[1] * (side[2][j] * side[0][k] - side[2][k] * side[0][j]) +
+                square[2] * (side[0][j] * side[1][k] - side[0][k] * side[1][j]);
+    }
+    isOther |= det == 0;
+    const EightDoubles q = __builtin_convertvector(2 * (det < 0 ? -det : det), EightDoubles);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const EightDoubles p = __builtin_convertvector(base[axis], EightDoubles) * q +
+                             __builtin_convertvector(det < 0 ? -n[axis] : n[axis], EightDoubles);
+      const EightDoubles centre = p / q;
+      for (std::size_t lane = 0; lane < 8; ++lane)
+      {
+        to[first + lane].centre[axis] = centre[lane];
+      }
+    }
+    for (std::size_t lane = 0; lane < 8; ++lane)
+    {
+      to[first + lane].denominator = 1.000001F * static_cast<float>(q[lane]);
+    }
+    others |= LanesOf(isOther) << first;
+  }
+  return others;
 }
+
+} // namespace
 
 CentredCell
 CentreOfCorners(const std::array<LatticePoint, 4> & corners, const SpacingWeights & weights)
@@ -114,6 +177,53 @@ CentreOfCorners(const std::array<LatticePoint, 4> & corners, const SpacingWeight
   }
   entry.denominator = 1.000001F * static_cast<float>(2.0 * static_cast<double>(sphere.det) * greatest * greatest);
   return entry;
+}
+
+void
+CentresOf(const DelaunayCells &             cells,
+          std::span<const std::uint32_t>    list,
+          const std::vector<LatticePoint> & points,
+          const SpacingWeights &            weights,
+          CentredCell *                     to)
+{
+  const bool areOnes = *std::max_element(weights.weight.begin(), weights.weight.end()) == 1;
+  const auto cornersAt = [&](std::size_t i) -> const auto &
+  {
+    return cells.tetrahedra[list[std::min(i, list.size() - 1)]];
+  };
+  CornerLanes lanes;
+  for (std::size_t first = 0; first < list.size(); first += kBatch)
+  {
+    std::array<CentredCell, kBatch> made;
+    for (std::size_t lane = 0; lane < kBatch; ++lane)
+    {
+      // Step by step: the cell, its corners.
+      __builtin_prefetch(&cornersAt(first + 2 * kBatch + lane));
+      for (const std::uint32_t corner : cornersAt(first + kBatch + lane))
+      {
+        __builtin_prefetch(&points[corner]);
+      }
+      const auto & corners = cornersAt(first + lane);
+      for (std::size_t corner = 0; corner < 4; ++corner)
+      {
+        const LatticePoint & p = points[corners[corner]];
+        lanes.corner[corner][0][lane] = p.x;
+        lanes.corner[corner][1][lane] = p.y;
+        lanes.corner[corner][2][lane] = p.z;
+      }
+    }
+    const std::uint32_t others = areOnes ? SetCentres(lanes, made.data()) : ~std::uint32_t{ 0 };
+    for (std::size_t lane = 0; lane < std::min(kBatch, list.size() - first); ++lane)
+    {
+      if ((others >> lane & 1U) != 0)
+      {
+        const auto & t = cornersAt(first + lane);
+        made[lane] = CentreOfCorners({ points[t[0]], points[t[1]], points[t[2]], points[t[3]] }, weights);
+      }
+      made[lane].cell = list[first + lane];
+      to[first + lane] = made[lane];
+    }
+  }
 }
 
 int
@@ -174,7 +284,9 @@ std::uint32_t
 CentreBuckets::Of(const CentredCell & entry) const
 {
   const double x = entry.centre[0];
-  const double whole = std::floor(x);
+  // As std::floor, which is a call where it is compiled for all processors.
+  const auto   truncated = static_cast<double>(static_cast<std::int64_t>(x));
+  const double whole = truncated > x ? truncated - 1.0 : truncated;
   const double half = whole + 0.5;
   if (whole < m_LowX || whole - m_LowX >= static_cast<double>(m_Slabs))
   {

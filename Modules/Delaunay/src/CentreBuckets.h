@@ -8,12 +8,13 @@
 namespace voxelcore
 {
 
-/** The centre of a cell, rounded once. */
-CentredCell
-CentreOf(const DelaunayCells &             cells,
-         std::uint32_t                     cell,
-         const std::vector<LatticePoint> & points,
-         const SpacingWeights &            weights);
+/** The centres of cells that a list names, each coordinate rounded once. */
+void
+CentresOf(const DelaunayCells &             cells,
+          std::span<const std::uint32_t>    list,
+          const std::vector<LatticePoint> & points,
+          const SpacingWeights &            weights,
+          CentredCell *                     to);
 
 /** Compares exact centres, x first. Rounding is monotone, so doubles decide unless they are equal. */
 class CentreOrder

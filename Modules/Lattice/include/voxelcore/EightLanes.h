@@ -3,6 +3,8 @@
 // Which one is chosen when the program starts; sanitizers are not ready that early, so that with them it is the other
 // one. Both do the same additions and products in the same order, so results are the same bits.
 
+#include <cstdint>
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #  define VOXELCORE_SANITIZED
 #elif defined(__has_feature)
@@ -14,6 +16,7 @@ namespace voxelcore
 {
 
 using EightFloats = float __attribute__((vector_size(32)));
+using EightIntegers = std::int32_t __attribute__((vector_size(32)));
 
 /** Eight floats that may lie wherever a float may. A structure, as both compilers drop aligned() of an alias: clang
  *  after the =, GCC where a type is deduced, such as what a lambda returns. */
@@ -33,6 +36,18 @@ inline EightAnywhere *
 EightAt(float * from)
 {
   return reinterpret_cast<EightAnywhere *>(from);
+}
+
+/** Bit i for each lane i that is true, which is -1. */
+inline std::uint32_t
+LanesOf(const EightIntegers & isTrue)
+{
+  constexpr EightIntegers bits{ 1, 2, 4, 8, 16, 32, 64, 128 };
+  EightIntegers           sum = isTrue & bits;
+  sum |= __builtin_shufflevector(sum, sum, 4, 5, 6, 7, 0, 1, 2, 3);
+  sum |= __builtin_shufflevector(sum, sum, 2, 3, 0, 1, 6, 7, 4, 5);
+  sum |= __builtin_shufflevector(sum, sum, 1, 0, 3, 2, 5, 4, 7, 6);
+  return static_cast<std::uint32_t>(sum[0]);
 }
 
 } // namespace voxelcore
