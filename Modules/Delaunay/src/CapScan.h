@@ -14,7 +14,7 @@ struct Cap
 {
   const std::uint64_t * rows = nullptr;  ///< of the vertices' bits at the box's corner; a layer on is 64 rows on
   unsigned              firstColumn = 0; ///< bit of the box's corner in its rows
-  std::int32_t          rowCount = 0;    ///< up to 16, of which those read are rounded up to eights
+  std::int32_t          rowCount = 0;    ///< up to 16; up to 7 more are read
   std::int32_t          layerCount = 0;  ///< up to 16
   std::array<float, 3>  centre{};        ///< of the ball
   std::array<float, 3>  weight{};
@@ -25,16 +25,13 @@ struct Cap
   float                 circle2 = 0.0F;
 };
 
-/** What a scan finds: vertex i is column x, row y and layer z of the box in place[i] = x + 16 y + 256 z. All of the
- *  cap's are among them, and some that are a rounding outside of it. */
+/** What a scan finds: vertex i is column x, row y and layer z of the box in place[i] = x + 16 y + 256 z. They are those
+ *  beyond the plane that may have the least (|q - middle|^2 - circle2) / height of the cap, which orders the spheres of
+ *  the pencil; and maybe some that are a rounding outside of it. */
 struct CapVertices
 {
   std::size_t                     count = 0;
   std::array<std::uint16_t, 4096> place;
-  /** (|q - middle|^2 - circle2) / height, which orders the spheres of the pencil, and what it is at most off by;
-   *  vertices on the plane or on its near side have infinity. */
-  std::array<float, 4096> low;
-  float                   least = 0.0F; ///< no vertex whose low is greater can be the least
 };
 
 void

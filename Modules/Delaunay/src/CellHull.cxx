@@ -165,9 +165,9 @@ WrapHull(std::span<const LatticePoint> points, HullFacets & hull)
 
 // A loop: for a dozen numbers a call to the library's comparison costs more.
 bool
-IsSame(const std::vector<std::uint32_t> & key, const std::uint32_t * old)
+IsSame(const std::uint32_t * key, const std::uint32_t * old, std::size_t size)
 {
-  for (std::size_t i = 0; i < key.size(); ++i)
+  for (std::size_t i = 0; i < size; ++i)
   {
     if (key[i] != old[i])
     {
@@ -203,21 +203,22 @@ ComputeHull(std::span<const LatticePoint> points)
 }
 
 HullMemo::Polygons
-HullMemo::Get(std::span<const LatticePoint> points)
+HullMemo::Get(std::span<const std::uint32_t> points)
 {
   // Large sets do not come back, and the table must not outgrow the caches.
-  constexpr std::size_t largestKept = 12;
-  constexpr std::size_t mostKept = 100000;
-  Slot *                slot = nullptr;
+  constexpr std::size_t                  largestKept = 12;
+  constexpr std::size_t                  mostKept = 100000;
+  std::array<std::uint32_t, largestKept> key;
+  Slot *                                 slot = nullptr;
   if (points.size() <= largestKept)
   {
-    m_Key.clear();
-    std::uint64_t hash = 0x9E3779B97F4A7C15U;
-    for (const LatticePoint & p : points)
+    // 64 keeps what y and x may be less from the bits of others.
+    const std::uint32_t from = points[0] - (64U << 7 | 64U);
+    std::uint64_t       hash = points.size();
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-      const LatticePoint & o = points[0];
-      m_Key.push_back(static_cast<std::uint32_t>(((p.x - o.x + 64) << 14) | ((p.y - o.y + 64) << 7) | (p.z - o.z)));
-      hash = (hash ^ m_Key.back()) * 0xD6E8FEB86659FD93U;
+      key[i] = points[i] - from;
+      hash = (hash ^ key[i]) * 0xD6E8FEB86659FD93U;
       hash ^= hash >> 32;
     }
     const std::size_t mask = m_Slots.size() - 1;
@@ -225,7 +226,8 @@ HullMemo::Get(std::span<const LatticePoint> points)
     for (; m_Slots[at].hullSize != 0; at = (at + 1) & mask)
     {
       const Slot & old = m_Slots[at];
-      if (old.hash == hash && old.keySize == m_Key.size() && IsSame(m_Key, m_Keys.data() + old.key))
+      if (old.hash == hash && old.keySize == points.size() &&
+          IsSame(key.data(), m_Keys.data() + old.key, points.size()))
       {
         return { m_Polygons.data() + old.hull, old.hullSize };
       }
@@ -236,8 +238,15 @@ HullMemo::Get(std::span<const LatticePoint> points)
       slot->hash = hash;
     }
   }
+  m_Points.clear();
+  for (const std::uint32_t p : points)
+  {
+    m_Points.push_back({ static_cast<std::int32_t>(p & 127U),
+                         static_cast<std::int32_t>(p >> 7 & 127U),
+                         static_cast<std::int32_t>(p >> 14) });
+  }
   m_Hull.Clear();
-  WrapHull<std::int32_t>(points, m_Hull); // 6 * 64^3 < 2^31
+  WrapHull<std::int32_t>(m_Points, m_Hull); // 6 * 64^3 < 2^31
   if (slot == nullptr)
   {
     m_Last.clear();
@@ -245,9 +254,9 @@ HullMemo::Get(std::span<const LatticePoint> points)
     return m_Last;
   }
   slot->key = static_cast<std::uint32_t>(m_Keys.size());
-  slot->keySize = static_cast<std::uint16_t>(m_Key.size());
+  slot->keySize = static_cast<std::uint16_t>(points.size());
   slot->hull = static_cast<std::uint32_t>(m_Polygons.size());
-  m_Keys.insert(m_Keys.end(), m_Key.begin(), m_Key.end());
+  m_Keys.insert(m_Keys.end(), key.begin(), key.begin() + slot->keySize);
   AppendPolygons(m_Hull, m_Polygons);
   slot->hullSize = static_cast<std::uint16_t>(m_Polygons.size() - slot->hull);
   const Polygons polygons{ m_Polygons.data() + slot->hull, slot->hullSize };

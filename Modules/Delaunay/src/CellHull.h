@@ -46,9 +46,16 @@ public:
   /** Polygons one after the other, each as the number of its corners and then the corners. */
   using Polygons = std::span<const std::uint16_t>;
 
-  /** The hull of points sorted by (z, y, x), differing by less than 64 along each axis. Holds until the next call. */
+  /** A point of a box of 64, as a number: they are in the order of z, y, x. */
+  static std::uint32_t
+  Pack(const LatticePoint & p)
+  {
+    return static_cast<std::uint32_t>(p.z << 14 | p.y << 7 | p.x);
+  }
+
+  /** The hull of packed points, ascending. Holds until the next call. */
   Polygons
-  Get(std::span<const LatticePoint> points);
+  Get(std::span<const std::uint32_t> points);
 
 private:
   struct Slot
@@ -64,7 +71,7 @@ private:
   std::size_t                m_Used = 0;
   std::vector<std::uint32_t> m_Keys;
   std::vector<std::uint16_t> m_Polygons;
-  std::vector<std::uint32_t> m_Key;
+  std::vector<LatticePoint>  m_Points;
   HullFacets                 m_Hull;
   std::vector<std::uint16_t> m_Last;
 };

@@ -12,6 +12,7 @@
 #include "CellHull.h"
 #include "FacetFront.h"
 #include "LatticeWindow.h"
+#include "Pencil.h"
 
 #include "voxelcore/DelaunayCells.h"
 
@@ -67,6 +68,9 @@ public:
   Continue(Tracing tracing, const ProgressCallback & progress);
 
 private:
+  static constexpr std::int32_t halo = LatticeWindow::halo;
+  static constexpr std::int32_t brickWidth = LatticeWindow::brick;
+
   struct Pending
   {
     std::uint32_t facet;
@@ -81,6 +85,9 @@ private:
   Finish();
   std::uint8_t
   CornerMask(std::int32_t x, std::int32_t y, std::int32_t z) const;
+  /** A bit a voxel of a row of the window: all corners of some side are boundary vertices. */
+  std::uint64_t
+  FullSides(std::int32_t y, std::int32_t z) const;
   void
   FindVoxelCells();
   void
@@ -136,7 +143,8 @@ private:
   bool          m_FromEnd;
   std::size_t   m_First;
   std::size_t   m_Last;
-  bool          m_Wide;  // weights beyond 1: numbers need 128 bits
+  bool          m_Wide; // weights beyond 1: numbers need 128 bits
+  MetricWeights m_Weights;
   double        m_Limit; // radius, in units of length
   LatticeWindow m_Window;
   std::size_t   m_Brick = 0;
@@ -152,8 +160,8 @@ private:
 
   CapVertices                m_Found;   // by the running trace
   std::vector<LatticePoint>  m_Apexes;  // the best candidates of the running trace, in window coordinates
-  std::vector<LatticePoint>  m_Points;  // of the cell being made, in window coordinates, sorted
-  std::vector<std::uint32_t> m_Indices; // of the same
+  std::vector<std::uint64_t> m_Members; // of the cell being made: packed as for its hull, and their indices below
+  std::vector<std::uint32_t> m_Packed;  // of the same
   std::vector<std::uint32_t> m_Polygon;
 
   // Voxels of the brick with a cell of their own: one bit each per row, and the number of the row's first cell.

@@ -18,6 +18,7 @@ constexpr double      kStepsPerDoubling = 4.0; // of the queue
 constexpr std::size_t kSteps = 84;             // up to 2^20 times the least radius
 constexpr double      kFirstLook = 4.0;        // times the radius before it
 constexpr std::size_t kWorthRebuilding = 500;  // facets
+constexpr std::size_t kWallsAhead = 16;        // from the one that is put into the front to one whose place is fetched
 
 // Out of the region that a facet looks into, and the longer the larger the facet.
 BallTree::Direction
@@ -104,9 +105,13 @@ DeepTracer::Trace(const ProgressCallback & progress)
   m_Cells.facetOffsets.reserve(2 * m_OwnWalls.size());
   m_Cells.facetPoints.reserve(7 * m_OwnWalls.size());
   m_Front.Clear(m_OwnWalls.size());
-  for (const std::uint32_t wall : m_OwnWalls)
+  const auto keyOf = [&](std::size_t i) {
+    return KeyOf(m_Input.tracing.cells.FacetPoints(m_Input.tracing.deep[m_OwnWalls[i]]));
+  };
+  for (std::size_t i = 0; i < m_OwnWalls.size(); ++i)
   {
-    m_Front.Insert(KeyOf(m_Input.tracing.cells.FacetPoints(m_Input.tracing.deep[wall])), wall);
+    m_Front.Fetch(keyOf(std::min(i + kWallsAhead, m_OwnWalls.size() - 1)));
+    m_Front.Insert(keyOf(i), m_OwnWalls[i]);
   }
   const double all = 2.0 * static_cast<double>(m_OwnWalls.size() + 1);
   RebuildTree();
@@ -229,6 +234,7 @@ DeepTracer::TraceFacet(std::uint32_t facet, double radius)
   {
     near[i] = m_PlaceInTree[m_InTree.NumberOf(m_Polygon[i])];
   }
+  m_Front.Fetch(KeyOf(m_Polygon)); // to be taken out when its cell is found
   m_Tree.Find(spheres, kFirstLook * radius, near, m_Apexes);
   if (m_Apexes.empty())
   {
@@ -256,8 +262,15 @@ DeepTracer::TraceFacet(std::uint32_t facet, double radius)
   if (m_Polygon.size() == 3 && m_Apexes.size() == 1)
   {
     // The facet runs counter-clockwise seen from its far side, which is within this cell.
-    for (const std::array<std::uint32_t, 3> & own :
-         { std::array{ a, c, b }, std::array{ a, b, apex }, std::array{ b, c, apex }, std::array{ c, a, apex } })
+    const std::array<std::array<std::uint32_t, 3>, 4> facets{
+      { { a, c, b }, { a, b, apex }, { b, c, apex }, { c, a, apex } }
+    };
+    // Whether a facet is met nobody can foretell: all places are on their way before the first is asked.
+    for (std::size_t i = 1; i < facets.size(); ++i)
+    {
+      m_Front.Fetch(KeyOf(facets[i]));
+    }
+    for (const auto & own : facets)
     {
       AddFacet(cell, own, step);
     }
@@ -285,7 +298,12 @@ DeepTracer::TraceFacet(std::uint32_t facet, double radius)
   };
   if (std::max({ high.x - low.x, high.y - low.y, high.z - low.z }) < 64)
   {
-    const HullMemo::Polygons polygons = m_Hulls.Get(m_Places);
+    m_Packed.clear();
+    for (const LatticePoint & p : m_Places)
+    {
+      m_Packed.push_back(HullMemo::Pack({ p.x - low.x, p.y - low.y, p.z - low.z }));
+    }
+    const HullMemo::Polygons polygons = m_Hulls.Get(m_Packed);
     for (std::size_t i = 0; i < polygons.size(); i += polygons[i] + 1U)
     {
       add(polygons.subspan(i + 1, polygons[i]));

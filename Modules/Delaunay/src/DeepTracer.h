@@ -107,6 +107,7 @@ private:
   std::vector<std::uint32_t> m_Apexes;
   std::vector<std::uint32_t> m_Members; // of the cell being made
   std::vector<LatticePoint>  m_Places;  // of the same
+  std::vector<std::uint32_t> m_Packed;  // of the same, where they are near
   std::vector<std::uint32_t> m_Facet;   // of the same
 };
 

@@ -32,6 +32,13 @@ public:
     m_Near.Clear(expected);
   }
 
+  /** Has memory fetch the place where a key will be looked for among the brick's own. */
+  void
+  Fetch(const FacetKey & key) const
+  {
+    m_Near.Fetch(key);
+  }
+
   void
   InsertFar(const FacetKey & key, std::uint32_t facet)
   {

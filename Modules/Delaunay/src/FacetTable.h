@@ -1,6 +1,8 @@
 #pragma once
 // Facets known from one side only, found again by their points when the other side turns up.
 
+#include "voxelcore/Prefetch.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,6 +20,22 @@ using FacetKey = std::array<std::uint32_t, 3>;
 inline FacetKey
 KeyOf(std::span<const std::uint32_t> polygon)
 {
+  // Nearly all have three or four: without branches that nobody can foretell.
+  if (polygon.size() == 3)
+  {
+    const std::uint32_t low = std::min(polygon[0], polygon[1]);
+    const std::uint32_t high = std::max(polygon[0], polygon[1]);
+    const std::uint32_t rest = std::max(low, polygon[2]);
+    return { std::min(low, polygon[2]), std::min(high, rest), std::max(high, rest) };
+  }
+  if (polygon.size() == 4)
+  {
+    const std::uint32_t even = std::min(polygon[0], polygon[2]);
+    const std::uint32_t odd = std::min(polygon[1], polygon[3]);
+    const std::uint32_t one = even < odd ? polygon[1] : polygon[0];
+    const std::uint32_t other = even < odd ? polygon[3] : polygon[2];
+    return { std::min(even, odd), std::min(one, other), std::max(one, other) };
+  }
   const auto least = static_cast<std::size_t>(std::min_element(polygon.begin(), polygon.end()) - polygon.begin());
   const std::uint32_t before = polygon[least == 0 ? polygon.size() - 1 : least - 1];
   const std::uint32_t behind = polygon[least + 1 == polygon.size() ? 0 : least + 1];
@@ -53,6 +71,13 @@ public:
   Size() const
   {
     return m_Size;
+  }
+
+  /** Has memory fetch the place where a key will be looked for. */
+  void
+  Fetch(const FacetKey & key) const
+  {
+    FetchLine(m_Slots.data() + Home(key));
   }
 
   /** Takes the number stored under the key out and returns it, or none. */

@@ -9,6 +9,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <bit>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -100,12 +101,13 @@ BrickLoad(const TracingBricks & grid, const std::vector<LatticePoint> & points)
   std::vector<std::uint32_t> load(grid.Size(), 0);
   for (const LatticePoint & p : points)
   {
-    const std::size_t own = grid.At(p.x, p.y, p.z);
+    const LatticePoint at{ p.x - grid.lower.x, p.y - grid.lower.y, p.z - grid.lower.z };
+    const std::size_t  own = grid.At(p.x, p.y, p.z);
     ++load[own];
     // On a lower side of its brick a point belongs to the neighbours there as well.
-    const bool sides[3] = { (p.x - grid.lower.x) % LatticeWindow::brick == 0,
-                            (p.y - grid.lower.y) % LatticeWindow::brick == 0,
-                            (p.z - grid.lower.z) % LatticeWindow::brick == 0 };
+    static_assert(std::has_single_bit(static_cast<unsigned>(LatticeWindow::brick)));
+    constexpr std::int32_t within = LatticeWindow::brick - 1;
+    const bool             sides[3] = { (at.x & within) == 0, (at.y & within) == 0, (at.z & within) == 0 };
     if (sides[0] || sides[1] || sides[2])
     {
       for (std::int32_t corner = 1; corner < 8; ++corner)

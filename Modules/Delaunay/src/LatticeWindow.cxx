@@ -77,6 +77,13 @@ private:
   bool         m_HasBefore;
 };
 
+// Of each lattice row, whether any and all of the four voxels around it in a layer are in.
+struct LayerPairs
+{
+  std::array<std::uint64_t, LatticeWindow::width> any;
+  std::array<std::uint64_t, LatticeWindow::width> all;
+};
+
 } // namespace
 
 void
@@ -87,46 +94,43 @@ LatticeWindow::Fill(const VoxelShape & shape, const VertexRows & rows, const Lat
   origin = { brickCorner.x - halo, brickCorner.y - halo, brickCorner.z - halo };
   const auto &    box = shape.Box();
   const RowReader reader(shape.WordsPerRow(), std::int64_t{ origin.x } - box.lower[0]);
-  // The two voxels at a corner's sides along x, for the rows one below the window and its 64: any and both.
-  struct Pair
-  {
-    std::uint64_t any;
-    std::uint64_t both;
-  };
-  std::array<std::array<Pair, 65>, 2> layers;
+  // Rows of the window that the box has, and the one before them.
+  const std::int32_t firstY = std::max(-1, box.lower[1] - origin.y);
+  const std::int32_t endY = std::min(width, box.lower[1] + box.size[1] - origin.y);
+  LayerPairs         pairs[2]{};
   for (std::int32_t z = -1; z < width; ++z)
   {
-    auto &             layer = layers[static_cast<std::size_t>(z & 1)];
     const std::int32_t boxZ = origin.z + z - box.lower[2];
-    for (std::int32_t y = -1; y < width; ++y)
+    // Row y of the window stands at y + 1: step after step, so that several are made at a time.
+    std::array<std::uint64_t, width + 1> here{};
+    std::array<std::uint64_t, width + 1> before{};
+    if (boxZ >= 0 && boxZ < box.size[2])
     {
-      const std::int32_t boxY = origin.y + y - box.lower[1];
-      const bool         exists = boxY >= 0 && boxZ >= 0 && boxY < box.size[1] && boxZ < box.size[2];
-      std::uint64_t      here = 0;
-      std::uint64_t      before = 0;
-      if (exists)
+      for (std::int32_t y = firstY; y < endY; ++y)
       {
-        const ConstShapeRow row = shape.Row(boxY, boxZ);
-        here = reader.Here(row);
-        before = here << 1 | reader.BitBefore(row);
-      }
-      layer[static_cast<std::size_t>(y + 1)] = { here | before, here & before };
-      if (y >= 0 && z >= 0)
-      {
-        voxel[Row(y, z)] = here;
+        const ConstShapeRow row = shape.Row(origin.y + y - box.lower[1], boxZ);
+        const auto          place = static_cast<std::size_t>(y + 1);
+        here[place] = reader.Here(row);
+        before[place] = reader.BitBefore(row);
       }
     }
-    if (z < 0)
+    LayerPairs & own = pairs[z & 1];
+    for (std::size_t y = 0; y < width; ++y)
     {
-      continue;
+      const std::uint64_t low = here[y] << 1 | before[y];
+      const std::uint64_t high = here[y + 1] << 1 | before[y + 1];
+      own.any[y] = here[y] | low | here[y + 1] | high;
+      own.all[y] = here[y] & low & here[y + 1] & high;
     }
-    const auto & below = layers[static_cast<std::size_t>((z - 1) & 1)];
-    for (std::int32_t y = 0; y < width; ++y)
+    if (z >= 0)
     {
-      const auto          i = static_cast<std::size_t>(y);
-      const std::uint64_t any = layer[i].any | layer[i + 1].any | below[i].any | below[i + 1].any;
-      const std::uint64_t all = layer[i].both & layer[i + 1].both & below[i].both & below[i + 1].both;
-      vertex[Row(y, z)] = any & ~all;
+      const LayerPairs & below = pairs[(z - 1) & 1];
+      const std::size_t  at = Row(0, z);
+      for (std::size_t y = 0; y < width; ++y)
+      {
+        voxel[at + y] = here[y + 1];
+        vertex[at + y] = (own.any[y] | below.any[y]) & ~(own.all[y] & below.all[y]);
+      }
     }
   }
 }

@@ -38,7 +38,7 @@ struct LatticeWindow
   static constexpr std::int32_t brick = 32;
 
   LatticePoint                            origin{}; ///< lattice coordinates of local (0, 0, 0)
-  std::array<std::uint64_t, 64 * 64 + 16> vertex{}; ///< boundary vertices; a scan may read 16 rows from any
+  std::array<std::uint64_t, 64 * 64 + 24> vertex{}; ///< boundary vertices; a scan may read 23 rows from any
   std::array<std::uint64_t, 64 * 64>      voxel{};  ///< voxels of the shape
 
   /** Moves the window so that its brick starts at lattice corner `brickCorner`. */

@@ -1,7 +1,6 @@
 #include "CellTracer.h"
 
 #include "CapScan.h"
-#include "Pencil.h"
 
 #include "voxelcore/Predicates.h"
 
@@ -28,19 +27,31 @@ template <typename TNumber>
 class CapMaker
 {
 public:
-  CapMaker(const Pencil<TNumber> & pencil, const SpacingWeights & weights)
+  CapMaker(const Pencil<TNumber> & pencil, const MetricWeights & weights)
     : m_Pencil(pencil)
+    , m_Weights(weights)
   {
     const double circle = std::sqrt(pencil.circle2);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      m_Weight[axis] = static_cast<double>(weights.weight[axis]);
-      m_Normal[axis] = pencil.along[axis] * m_Weight[axis];
-      m_Across[axis] = circle * std::sqrt(std::max(0.0, 1.0 - m_Normal[axis] * m_Normal[axis])) / m_Weight[axis];
-      m_Cap.weight[axis] = static_cast<float>(weights.weight[axis]);
+      m_Normal[axis] = pencil.along[axis] * weights.single[axis];
+      m_Across[axis] = circle * std::sqrt(std::max(0.0, 1.0 - m_Normal[axis] * m_Normal[axis])) * weights.inverse[axis];
+      m_Cap.weight[axis] = static_cast<float>(weights.single[axis]);
       m_Cap.normal[axis] = static_cast<float>(pencil.normal[axis]);
     }
+    // Of a plane along the lattice, what lies in it need not be looked at.
+    const std::array<double, 3> place{ static_cast<double>(pencil.a.x),
+                                       static_cast<double>(pencil.a.y),
+                                       static_cast<double>(pencil.a.z) };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (pencil.normal[(axis + 1) % 3] == 0 && pencil.normal[(axis + 2) % 3] == 0)
+      {
+        (pencil.normal[axis] > 0 ? m_From : m_To)[axis] = place[axis] + (pencil.normal[axis] > 0 ? 1.0 : -1.0);
+      }
+    }
     m_Cap.circle2 = static_cast<float>(pencil.circle2);
+    m_Blur = 1e-5 * (weights.single[0] + weights.single[1] + weights.single[2]);
   }
 
   // The cap of the ball at a distance from the circle, and the corner of its box; false where it holds no lattice
@@ -52,10 +63,12 @@ public:
     std::array<std::int32_t, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double reach = radius / m_Weight[axis];
+      const double reach = radius * m_Weights.inverse[axis];
       const double middle = m_Pencil.middle[axis];
-      const double low = from - radius * m_Normal[axis] > 0.0 ? centre[axis] - reach : middle - m_Across[axis];
-      const double high = from + radius * m_Normal[axis] > 0.0 ? centre[axis] + reach : middle + m_Across[axis];
+      const double reachesFrom = from - radius * m_Normal[axis] > 0.0 ? centre[axis] - reach : middle - m_Across[axis];
+      const double reachesTo = from + radius * m_Normal[axis] > 0.0 ? centre[axis] + reach : middle + m_Across[axis];
+      const double low = std::max(reachesFrom, m_From[axis]);
+      const double high = std::min(reachesTo, m_To[axis]);
       // Truncation rounds towards 0, and all these are positive: less than 1 added first rounds up.
       m_Corner[axis] = static_cast<std::int32_t>(std::clamp(low - margin, 0.0, 63.0) + (1.0 - margin));
       size[axis] = static_cast<std::int32_t>(std::clamp(high + margin, 0.0, 63.0)) - m_Corner[axis] + 1;
@@ -68,7 +81,7 @@ public:
     m_Cap.layerCount = size[2];
     // Coordinates from the corner are off by up to 2e-6 in single precision: grown by more than that, no vertex is
     // missed.
-    const double grown = radius + 1e-5 * (m_Weight[0] + m_Weight[1] + m_Weight[2]);
+    const double grown = radius + m_Blur;
     m_Cap.radius2 = static_cast<float>(grown * grown) * 1.0001F;
     m_Cap.cornerHeight = static_cast<float>(m_Pencil.Height({ m_Corner[0], m_Corner[1], m_Corner[2] }));
     return size[0] > 0 && size[1] > 0 && size[2] > 0;
@@ -89,9 +102,12 @@ private:
   static constexpr double margin = 1e-3;
 
   const Pencil<TNumber> &     m_Pencil;
-  std::array<double, 3>       m_Weight{};
+  const MetricWeights &       m_Weights;
+  double                      m_Blur = 0;
   std::array<double, 3>       m_Normal{}; // of length 1
   std::array<double, 3>       m_Across{}; // half the width of the circle
+  std::array<double, 3>       m_From{ 0.0, 0.0, 0.0 };
+  std::array<double, 3>       m_To{ 63.0, 63.0, 63.0 };
   std::array<std::int32_t, 3> m_Corner{};
   Cap                         m_Cap;
 };
@@ -108,18 +124,10 @@ Decide(const Pencil<TNumber> &     pencil,
   apexes.clear();
   for (std::size_t i = 0; i < found.count; ++i)
   {
-    if (found.low[i] > found.least)
-    {
-      continue;
-    }
     const LatticePoint q = caps.At(found.place[i]);
     const std::int64_t height = pencil.Height(q);
-    if (height <= 0)
-    {
-      continue; // all are, if nothing bounds them
-    }
-    const TNumber value = pencil.Value(q);
-    const TNumber difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
+    const TNumber      value = pencil.Value(q);
+    const TNumber      difference = best.height == 0 ? TNumber{ -1 } : value * best.height - best.value * height;
     if (difference < 0)
     {
       best = { value, height };
@@ -142,7 +150,13 @@ CellTracer::BrickOf(const std::array<double, 3> & centre) const
   // a centre on the border of their bricks: what is near one that is not yet this tracer's waits for it, or for the one
   // who joins. Bricks of a tracer follow each other, so that the first and the last tell for all between.
   constexpr double margin = 1e-6;
-  const auto       shifted = [&](double shift) {
+  constexpr double begin = LatticeWindow::halo + margin;
+  constexpr double end = LatticeWindow::halo + LatticeWindow::brick - margin;
+  if (std::min({ centre[0], centre[1], centre[2] }) >= begin && std::max({ centre[0], centre[1], centre[2] }) < end)
+  {
+    return m_Brick; // most are
+  }
+  const auto shifted = [&](double shift) {
     const auto voxel = [&](std::size_t axis, std::int32_t origin) {
       return origin + static_cast<std::int32_t>(std::floor(centre[axis] + shift));
     };
@@ -167,8 +181,7 @@ CellTracer::TraceFacet(Pending pending)
   const Pencil<TNumber> pencil(Local(polygon[inwards ? 2 : 0]),
                                Local(polygon[1]),
                                Local(polygon[inwards ? 0 : 2]),
-                               m_Input.weights);
-  const auto &          weights = m_Input.weights;
+                               m_Weights);
 
   const bool isFirstLook = pending.from == -std::numeric_limits<double>::infinity();
   if (isFirstLook)
@@ -198,10 +211,11 @@ CellTracer::TraceFacet(Pending pending)
     m_Deep.push_back(pending.facet);
     return;
   }
-  const double smallest = static_cast<double>(std::min({ weights.weight[0], weights.weight[1], weights.weight[2] }));
+  m_Front.Fetch(KeyOf(polygon)); // to be taken out when its cell is found
+  const double smallest = m_Weights.least;
   const double furthest = std::sqrt(m_Limit * m_Limit - pencil.circle2);
   double       step = 1.5 * smallest;
-  CapMaker     caps(pencil, weights);
+  CapMaker     caps(pencil, m_Weights);
   for (double at = pending.from;;)
   {
     if (at >= furthest)
@@ -217,7 +231,7 @@ CellTracer::TraceFacet(Pending pending)
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       centre[axis] = pencil.middle[axis] + next * pencil.along[axis];
-      const double reach = radius / static_cast<double>(weights.weight[axis]);
+      const double reach = radius * m_Weights.inverse[axis];
       fits = fits && centre[axis] - reach >= 0.0 && centre[axis] + reach <= 63.0;
     }
     if (!fits && radius <= m_Limit)
@@ -305,32 +319,49 @@ CellTracer::CreateCell(std::span<const std::uint32_t> facet, bool inwards)
     const std::array<std::array<std::uint32_t, 3>, 4> facets{
       { { a, c, b }, { a, b, apex }, { b, c, apex }, { c, a, apex } }
     };
+    // Whether a facet is met nobody can foretell: all places are on their way before the first is asked.
+    for (std::size_t i = 1; i < facets.size(); ++i)
+    {
+      m_Front.Fetch(KeyOf(facets[i]));
+    }
     for (const auto & own : facets)
     {
       AddFacet(cell, own);
     }
     return;
   }
-  m_Points.assign(m_Apexes.begin(), m_Apexes.end());
+  m_Members.clear();
+  const auto insert = [&](const LatticePoint & p, std::uint32_t index) {
+    // Few, and nearly in order.
+    const std::uint64_t member = std::uint64_t{ HullMemo::Pack(p) } << 32 | index;
+    m_Members.push_back(member);
+    std::size_t at = m_Members.size() - 1;
+    for (; at > 0 && m_Members[at - 1] > member; --at)
+    {
+      m_Members[at] = m_Members[at - 1];
+    }
+    m_Members[at] = member;
+  };
+  for (const LatticePoint & p : m_Apexes)
+  {
+    insert(p, indexOf(p));
+  }
   for (const std::uint32_t index : facet)
   {
-    m_Points.push_back(Local(index));
+    insert(Local(index), index);
   }
-  std::sort(m_Points.begin(), m_Points.end(), [](const LatticePoint & a, const LatticePoint & b) {
-    return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
-  });
-  m_Indices.clear();
-  for (const LatticePoint & p : m_Points)
+  m_Packed.clear();
+  for (const std::uint64_t member : m_Members)
   {
-    m_Indices.push_back(indexOf(p));
+    m_Packed.push_back(static_cast<std::uint32_t>(member >> 32));
   }
-  const HullMemo::Polygons polygons = m_Hulls.Get(m_Points);
+  const HullMemo::Polygons polygons = m_Hulls.Get(m_Packed);
   for (std::size_t at = 0; at < polygons.size(); at += polygons[at] + 1U)
   {
     m_Polygon.clear();
     for (const std::uint16_t corner : polygons.subspan(at + 1, polygons[at]))
     {
-      m_Polygon.push_back(m_Indices[corner]);
+      m_Polygon.push_back(static_cast<std::uint32_t>(m_Members[corner]));
     }
     AddFacet(cell, m_Polygon);
   }

@@ -44,8 +44,10 @@ struct TracingBricks
   std::size_t
   At(std::int32_t x, std::int32_t y, std::int32_t z) const
   {
+    // Bricks before the first count to it: rounded towards it, or down.
+    static_assert(LatticeWindow::brick == 1 << 5);
     const auto place = [](std::int32_t offset, std::int32_t n) {
-      return static_cast<std::size_t>(std::clamp(offset / LatticeWindow::brick, 0, n - 1));
+      return static_cast<std::size_t>(std::clamp(offset >> 5, 0, n - 1));
     };
     return (place(z - lower.z, count[2]) * static_cast<std::size_t>(count[1]) + place(y - lower.y, count[1])) *
              static_cast<std::size_t>(count[0]) +

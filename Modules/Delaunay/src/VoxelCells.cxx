@@ -44,22 +44,20 @@ MakeVoxelCell(unsigned mask)
     return cell;
   }
   const HullFacets hull = ComputeHull(points);
-  for (std::size_t facet = 0; facet < hull.Count(); ++facet)
+  for (std::size_t i = 0; i < hull.Count(); ++i)
   {
-    std::vector<std::uint8_t> corners;
-    unsigned                  set = 0;
-    for (const std::uint32_t corner : hull.Polygon(facet))
+    VoxelCell::Facet & facet = cell.facets[cell.facetCount++];
+    unsigned           set = 0;
+    for (const std::uint32_t corner : hull.Polygon(i))
     {
-      corners.push_back(names[corner]);
+      facet.corners[facet.size++] = names[corner];
       set |= 1U << names[corner];
     }
-    std::uint8_t side = 0;
-    while (side < 6 && (set & ~voxelSideMasks[side]) != 0)
+    facet.side = 0;
+    while (facet.side < 6 && (set & ~voxelSideMasks[facet.side]) != 0)
     {
-      ++side;
+      ++facet.side;
     }
-    cell.facets.push_back(corners);
-    cell.sides.push_back(side);
   }
   return cell;
 }
