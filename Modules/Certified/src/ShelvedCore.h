@@ -2,7 +2,7 @@
 // A whole core while it burns.
 
 #include "PackedEdgePoints.h"
-#include "PackedNumbers.h"
+#include "voxelcore/PackedNumbers.h"
 #include "RefinedResults.h"
 #include "ShelvedTolerances.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Tolerances of a core while nobody asks for them.
 
-#include "PackedNumbers.h"
+#include "voxelcore/PackedNumbers.h"
 
 #include "voxelcore/MedialComplex.h"
 

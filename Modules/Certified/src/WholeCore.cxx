@@ -2,7 +2,7 @@
 
 #include "CertificateText.h"
 #include "CrossCheck.h"
-#include "PackedNumbers.h"
+#include "voxelcore/PackedNumbers.h"
 #include "PruneStages.h"
 #include "RequestStages.h"
 #include "voxelcore/BoundaryVertices.h"

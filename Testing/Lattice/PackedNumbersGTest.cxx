@@ -1,4 +1,4 @@
-#include "PackedNumbers.h"
+#include "voxelcore/PackedNumbers.h"
 
 #include <gtest/gtest.h>
 
@@ -57,11 +57,64 @@ TEST(PackedNumbers, ComeBackHoweverManyDiffer)
   }
 }
 
-TEST(PackedNumbers, RefuseMoreThanTwoBytesTell)
+TEST(PackedNumbers, RefuseWhatFillsTheirTablesTooSoon)
 {
-  PackedNumbers packed;
-  EXPECT_TRUE(packed.Pack(RootsUpTo(65536, 65536)));
-  EXPECT_FALSE(packed.Pack(RootsUpTo(65537, 65537)));
+  constexpr std::size_t table = 65536;
+  PackedNumbers         packed;
+  EXPECT_TRUE(packed.Pack(RootsUpTo(table, table)));
+  EXPECT_FALSE(packed.Pack(RootsUpTo(table + 1, table + 1)));
+  std::vector<double> values(4 * table, 1.5); // the table is full with the last but one
+  for (std::size_t i = 0; i < table - 1; ++i)
+  {
+    values[3 * table + i] = std::sqrt(static_cast<double>(i) + 3.0);
+  }
+  values.back() = 2.5;
+  EXPECT_FALSE(packed.Pack(values)); // one too many comes too soon
+  values.insert(values.begin(), 1.5);
+  EXPECT_TRUE(packed.Pack(values));
+}
+
+std::vector<double>
+RootsInSteps(std::size_t count, std::size_t step)
+{
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    values.push_back(std::sqrt(static_cast<double>(i / step + i % 5)));
+  }
+  return values;
+}
+
+TEST(PackedNumbers, OfSeveralTablesComeBack)
+{
+  const std::vector<double> values = RootsInSteps(900001, 6); // 150,000 differ: three tables
+  PackedNumbers             packed;
+  ASSERT_TRUE(packed.Pack(values));
+  std::vector<double> back(values.size());
+  packed.Unpack(back);
+  EXPECT_EQ(BitsOf(back), BitsOf(values));
+}
+
+TEST(PackedNumbers, OnlyThoseNamedComeBack)
+{
+  using Points = std::vector<std::array<double, 3>>;
+  for (const std::size_t step : { 1, 6, 900000 }) // plain, of several tables, of one
+  {
+    const std::vector<double> values = RootsInSteps(900000, step);
+    Points                    points;
+    for (std::size_t i = 0; i < values.size(); i += 3)
+    {
+      points.push_back({ values[i], values[i + 1], values[i + 2] });
+    }
+    std::vector<std::uint32_t> named;
+    Points                     expected;
+    for (std::uint32_t i = 1; i < points.size(); i += 1 + i % 700)
+    {
+      named.push_back(i);
+      expected.push_back(points[i]);
+    }
+    EXPECT_EQ(PackedArray<Points::value_type>(points).Copy(named), expected) << step;
+  }
 }
 
 TEST(PackedNumbers, OfPointsComeBackInOrder)

@@ -12,13 +12,14 @@ namespace voxelcore
 {
 
 /** Numbers in one or two bytes each where so few of them differ, as measures and places on a lattice do in a body that
- *  is nowhere thick. They come back to the last bit. */
+ *  is nowhere thick. They come back to the last bit. Where a table of those that differ is full, those that follow have
+ *  another: what lies together has much in common. */
 class PackedNumbers
 {
 public:
   PackedNumbers() = default;
 
-  /** False, and nothing is kept, where more than 2^16 differ. */
+  /** False, and nothing is kept, where tables would be filled with numbers that come less than four times each. */
   bool
   Pack(std::span<const double> numbers);
 
@@ -26,9 +27,27 @@ public:
   void
   Unpack(std::span<double> numbers) const;
 
+  /** Of runs of `each` numbers those named, ascending. */
+  void
+  Unpack(std::span<const std::uint32_t> runs, std::size_t each, std::span<double> numbers) const;
+
 private:
+  std::size_t
+  TableEnd(std::size_t table) const
+  {
+    return table + 1 < m_Tables.size() ? m_Tables[table + 1].firstNumber : m_Count;
+  }
+
+  struct Table
+  {
+    std::size_t firstNumber;
+    std::size_t firstDifferent;
+  };
+
+  std::size_t                m_Count = 0;
+  std::vector<Table>         m_Tables;
   std::vector<double>        m_Different;
-  std::vector<std::uint8_t>  m_Short; ///< per number its place in m_Different: here where one byte is enough,
+  std::vector<std::uint8_t>  m_Short; ///< per number its place in its table: here where one byte is enough,
   std::vector<std::uint16_t> m_Long;  ///< else here
 };
 
@@ -57,6 +76,23 @@ public:
     }
     std::vector<T> values(m_Count);
     m_Packed.Unpack(NumbersOf(values));
+    return values;
+  }
+
+  /** Those named, ascending. */
+  std::vector<T>
+  Copy(std::span<const std::uint32_t> named) const
+  {
+    std::vector<T> values(named.size());
+    if (m_Plain.empty())
+    {
+      m_Packed.Unpack(named, sizeof(T) / sizeof(double), NumbersOf(values));
+      return values;
+    }
+    for (std::size_t i = 0; i < named.size(); ++i)
+    {
+      values[i] = m_Plain[named[i]];
+    }
     return values;
   }
 
