@@ -41,8 +41,9 @@ Damage(MedialComplex & complex)
   CellComplex & cells = complex.cells;
   if (cells.FaceCount() > 0)
   {
+    const bool hasCorners = cells.HasCorners();
     cells.faceOffsets.pop_back();
-    cells.faceVertices.resize(cells.faceOffsets.back());
+    cells.faceVertices.resize(hasCorners ? cells.faceOffsets.back() : 0);
     cells.faceEdges.resize(cells.faceOffsets.back());
     TakeLast(complex.faceLambda);
     TakeLast(complex.tolerances.faces);
@@ -60,7 +61,7 @@ Damage(MedialComplex & complex)
 // NOLINTBEGIN: names as the linker has them
 #define VOXELCORE_BUILD                                                                                          \
   "_ZN9voxelcore14BuildVoxelCoreERKNS_10VoxelShapeESt6vectorINS_12LatticePointESaIS4_EENS_13DelaunayCellsERKNS_" \
-  "14SpacingWeightsE"
+  "14SpacingWeightsENS_7CornersE"
 #define VOXELCORE_CORE                                                                                            \
   "_ZN9voxelcore16ComputeVoxelCoreERKNS_10VoxelShapeERKNS_14SpacingWeightsENS_6EngineERKSt8functionIFbSt17basic_" \
   "string_viewIcSt11char_traitsIcEEdEE"
@@ -83,22 +84,19 @@ Damage(MedialComplex & complex)
 // NOLINTEND
 
 MedialComplex
-TrueBuild(const VoxelShape &,
-          std::vector<LatticePoint>,
-          DelaunayCells,
-          const SpacingWeights &) asm("__real_" VOXELCORE_BUILD);
+TrueBuild(const VoxelShape &, std::vector<LatticePoint>, DelaunayCells, const SpacingWeights &, Corners) asm(
+  "__real_" VOXELCORE_BUILD);
 MedialComplex
-FaultyBuild(const VoxelShape &,
-            std::vector<LatticePoint>,
-            DelaunayCells,
-            const SpacingWeights &) asm("__wrap_" VOXELCORE_BUILD);
+FaultyBuild(const VoxelShape &, std::vector<LatticePoint>, DelaunayCells, const SpacingWeights &, Corners) asm(
+  "__wrap_" VOXELCORE_BUILD);
 MedialComplex
 FaultyBuild(const VoxelShape &        shape,
             std::vector<LatticePoint> points,
             DelaunayCells             cells,
-            const SpacingWeights &    weights)
+            const SpacingWeights &    weights,
+            Corners                   corners)
 {
-  MedialComplex core = TrueBuild(shape, std::move(points), std::move(cells), weights);
+  MedialComplex core = TrueBuild(shape, std::move(points), std::move(cells), weights, corners);
   if (IsSeeded("core"))
   {
     Damage(core);

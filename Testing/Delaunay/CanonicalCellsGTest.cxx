@@ -134,6 +134,7 @@ WithoutBoundary(const Answer & answer)
   const auto &  w = answer.weights.weight;
   const bool    areAlike = w[0] == w[1] && w[1] == w[2];
   DelaunayCells left = answer.cells;
+  left.centres.clear();
   left.facetCells.clear();
   left.facetOffsets.resize(1);
   left.facetPoints.clear();

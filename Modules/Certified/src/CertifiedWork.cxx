@@ -48,7 +48,8 @@ public:
   CertifiedResult
   Run()
   {
-    m_Whole = MakeWholeCore(m_Voxels, m_Request, m_Weights, m_Thresholds.front(), m_Plan, m_Result);
+    const Corners corners = LambdasSpendWhole() ? Corners::LeftOut : Corners::Written;
+    m_Whole = MakeWholeCore(m_Voxels, m_Request, m_Weights, m_Thresholds.front(), corners, m_Plan, m_Result);
     CertifyWhole();
     if (BurnsBeforePruning(m_Request))
     {
@@ -270,7 +271,8 @@ private:
   LambdasSpendWhole() const
   {
     const auto isPruned = [](double threshold) { return threshold > 0; };
-    return !Refines(m_Request) && !BurnsBeforePruning(m_Request) && std::ranges::all_of(m_Thresholds, isPruned);
+    return m_Request.tolerances.empty() && !Refines(m_Request) && !BurnsBeforePruning(m_Request) &&
+           std::ranges::all_of(m_Thresholds, isPruned);
   }
 
   /** Whether the whole core is asked for no more once it has burned. */

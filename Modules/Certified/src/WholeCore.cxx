@@ -97,8 +97,7 @@ TolerancesOf(MedialComplex &                   core,
              const ProgressCallback &          progress,
              const std::function<void()> &     beside)
 {
-  constexpr std::size_t many = std::size_t{ 1 } << 19; // 4 MB
-  if (lambdaMm > 0 || core.edgeLambda.size() < many)
+  if (lambdaMm > 0 || core.edgeLambda.size() < kManyNumbers)
   {
     return ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, progress, beside);
   }
@@ -123,6 +122,7 @@ MakeWholeCore(const VoxelShape &       voxels,
               const CertifiedRequest & request,
               const SpacingWeights &   weights,
               double                   lambdaMm,
+              Corners                  corners,
               StagePlan &              plan,
               CertifiedResult &        result)
 {
@@ -157,7 +157,7 @@ MakeWholeCore(const VoxelShape &       voxels,
     }
     ReportProgress(building, "", 0.1);
     const bool needsPoints = byTolerance || Refines(request);
-    core = BuildVoxelCore(voxels, needsPoints ? points : std::move(points), std::move(cells), weights);
+    core = BuildVoxelCore(voxels, needsPoints ? points : std::move(points), std::move(cells), weights, corners);
     RequireEnclosed(core, voxels, request.name);
     seconds.core += watch.Lap();
     if (byTolerance)

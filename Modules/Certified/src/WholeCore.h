@@ -5,6 +5,7 @@
 #include "voxelcore/Certified.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
+#include "voxelcore/VoxelCore.h"
 
 #include <optional>
 
@@ -30,6 +31,7 @@ MakeWholeCore(const VoxelShape &       voxels,
               const CertifiedRequest & request,
               const SpacingWeights &   weights,
               double                   lambdaMm,
+              Corners                  corners,
               StagePlan &              plan,
               CertifiedResult &        result);
 

@@ -3,6 +3,19 @@
 namespace voxelcore
 {
 
+void
+FindCorners(const CellComplex & complex, std::size_t face, ElementIndex * corners)
+{
+  const auto   sides = complex.FaceEdges(face);
+  const auto * before = &complex.edges[sides.back()];
+  for (const ElementIndex side : sides)
+  {
+    const auto & ends = complex.edges[side];
+    *corners++ = ends[0] == (*before)[0] || ends[0] == (*before)[1] ? ends[0] : ends[1];
+    before = &ends;
+  }
+}
+
 std::vector<Cofaces>
 CountVertexCofaces(const CellComplex & complex)
 {

@@ -70,22 +70,13 @@ SimplePairCollapse::CollapseBelow(double threshold, const ProgressCallback & pro
 namespace
 {
 
-/** Each corner of a face is that which an edge shares with the one before. */
 void
 MakeCorners(CellComplex & complex)
 {
   complex.faceVertices.resize(complex.faceEdges.size());
   for (std::size_t face = 0; face < complex.FaceCount(); ++face)
   {
-    const auto    sides = complex.FaceEdges(face);
-    std::uint64_t at = complex.faceOffsets[face];
-    const auto *  before = &complex.edges[sides.back()];
-    for (const ElementIndex side : sides)
-    {
-      const auto & ends = complex.edges[side];
-      complex.faceVertices[at++] = ends[0] == (*before)[0] || ends[0] == (*before)[1] ? ends[0] : ends[1];
-      before = &ends;
-    }
+    FindCorners(complex, face, complex.faceVertices.data() + complex.faceOffsets[face]);
   }
 }
 
@@ -99,7 +90,7 @@ TakeLive(const CellComplex &         from,
          std::vector<ElementIndex> & faceIds)
 {
   const bool                 worthIt = from.FaceCount() > 10000;
-  const bool                 hasCorners = from.faceVertices.size() == from.faceEdges.size();
+  const bool                 hasCorners = from.HasCorners();
   std::vector<ElementIndex>  vertexNumbers;
   std::vector<ElementIndex>  edgeNumbers;
   std::vector<std::uint64_t> offsets{ 0 };

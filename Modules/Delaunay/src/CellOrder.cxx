@@ -111,13 +111,14 @@ VisitByCentre(const DelaunayCells &                   cells,
 class CanonicalOrder
 {
 public:
-  explicit CanonicalOrder(DelaunayCells & cells)
+  CanonicalOrder(DelaunayCells & cells, bool writesCentres)
     : m_Cells(cells)
+    , m_WritesCentres(writesCentres)
     , m_Rank(cells.CellCount())
     , m_Tetrahedra(cells.CellCount())
     , m_VoxelSides(cells.voxelSides.size())
   {
-    cells.centres.resize(cells.CellCount());
+    cells.centres.resize(writesCentres ? cells.CellCount() : 0);
   }
 
   void
@@ -132,7 +133,10 @@ public:
         const std::uint32_t cell = run[i].cell;
         const std::size_t   number = m_Numbered + i;
         m_Rank[cell] = static_cast<std::uint32_t>(number);
-        m_Cells.centres[number] = run[i].centre;
+        if (m_WritesCentres)
+        {
+          m_Cells.centres[number] = run[i].centre;
+        }
         m_Tetrahedra[number] = m_Cells.tetrahedra[cell];
         if (!m_VoxelSides.empty())
         {
@@ -154,6 +158,7 @@ public:
 
 private:
   DelaunayCells &                           m_Cells;
+  bool                                      m_WritesCentres;
   std::vector<std::uint32_t>                m_Rank;
   std::vector<std::array<std::uint32_t, 4>> m_Tetrahedra;
   std::vector<std::uint8_t>                 m_VoxelSides;
@@ -185,7 +190,7 @@ MakeCanonical(DelaunayCells                     cells,
   }
   std::vector<std::uint32_t> rank;
   {
-    CanonicalOrder order(cells);
+    CanonicalOrder order(cells, facets == Facets::All);
     VisitByCentre(cells, points, weights, [&](CentredRun run) { order.Take(run); });
     rank = order.Finish();
   }

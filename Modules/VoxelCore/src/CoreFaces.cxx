@@ -114,7 +114,11 @@ PlaceFaces(std::vector<FoundFace> found, std::size_t vertexCount)
 
 // Writes the faces from `begin` on, whose offsets, but for the last's end, stand already.
 void
-WriteSome(std::span<const PlacedFace> faces, std::size_t begin, const std::vector<Turn> & turns, MedialComplex & core)
+WriteSome(std::span<const PlacedFace> faces,
+          std::size_t                 begin,
+          const std::vector<Turn> &   turns,
+          bool                        writesCorners,
+          MedialComplex &             core)
 {
   CellComplex & complex = core.cells;
   RunInParts(IsWorthIt(faces.size()), faces.size(), [&](std::size_t first, std::size_t last) {
@@ -123,7 +127,7 @@ WriteSome(std::span<const PlacedFace> faces, std::size_t begin, const std::vecto
       // Step by step: the turns, the edges that they name.
       __builtin_prefetch(&turns[faces[std::min(i + 2 * kFacesAhead, last - 1)].First()]);
       const PlacedFace & ahead = faces[std::min(i + kFacesAhead, last - 1)];
-      for (std::size_t side = 0; side < ahead.Sides(); ++side)
+      for (std::size_t side = 0; writesCorners && side < ahead.Sides(); ++side)
       {
         __builtin_prefetch(&complex.edges[turns[ahead.First() + side] >> 1]);
       }
@@ -132,7 +136,10 @@ WriteSome(std::span<const PlacedFace> faces, std::size_t begin, const std::vecto
       for (std::size_t side = 0; side < face.Sides(); ++side)
       {
         const Turn turn = turns[face.First() + side];
-        complex.faceVertices[at + side] = Tail(turn, complex.edges);
+        if (writesCorners)
+        {
+          complex.faceVertices[at + side] = Tail(turn, complex.edges);
+        }
         complex.faceEdges[at + side] = turn >> 1;
       }
       core.faceLambda[begin + i] = face.lambda;
@@ -159,18 +166,19 @@ FirstTurns(const PlacedFaces & placed, std::uint64_t turns)
 } // namespace
 
 void
-WriteFaces(DelaunayCells             cells,
+WriteFaces(FacetPolygons             polygons,
            std::vector<LatticePoint> sortedPoints,
            const SpacingWeights &    weights,
+           Corners                   corners,
            MedialComplex &           core)
 {
-  CellComplex & complex = core.cells;
-  FoundFaces    found = FindFaces(std::move(cells), sortedPoints, weights, complex.edges);
-  std::vector<LatticePoint>().swap(sortedPoints);
+  const bool        writesCorners = corners == Corners::Written;
+  CellComplex &     complex = core.cells;
+  FoundFaces        found = FindFaces(std::move(polygons), std::move(sortedPoints), weights, complex.edges);
   const std::size_t count = found.faces.size();
   const PlacedFaces placed = PlaceFaces(std::move(found.faces), complex.vertexCount);
   complex.faceOffsets.reserve(count + 1);
-  complex.faceVertices.reserve(found.turns.size());
+  complex.faceVertices.reserve(writesCorners ? found.turns.size() : 0);
   complex.faceEdges.reserve(found.turns.size());
   core.faceLambda.reserve(count);
   const std::vector<std::uint64_t> firstTurns = FirstTurns(placed, found.turns.size());
@@ -196,10 +204,10 @@ WriteFaces(DelaunayCells             cells,
     {
       complex.faceOffsets.push_back(complex.faceOffsets.back() + placed.faces[face].Sides());
     }
-    complex.faceVertices.resize(complex.faceOffsets.back());
+    complex.faceVertices.resize(writesCorners ? complex.faceOffsets.back() : 0);
     complex.faceEdges.resize(complex.faceOffsets.back());
     core.faceLambda.resize(end);
-    WriteSome({ placed.faces.get() + begin, end - begin }, begin, found.turns, core);
+    WriteSome({ placed.faces.get() + begin, end - begin }, begin, found.turns, writesCorners, core);
     spentFaces.SpendTo(end);
     spentTurns.SpendTo(firstTurns[step + 1]);
   }

@@ -155,15 +155,25 @@ AreaOf(const MedialComplex & complex)
 {
   constexpr std::size_t most = std::size_t{ 1 } << 16; // faces at a time
   const std::size_t     count = complex.cells.FaceCount();
+  const bool            hasCorners = complex.cells.HasCorners();
   std::vector<double>   areas(std::min(count, most));
   double                sum = 0;
   for (std::size_t begin = 0; begin < count; begin += most)
   {
     const std::size_t some = std::min(count - begin, most);
     RunInParts(some > 10000, some, [&](std::size_t first, std::size_t last) {
+      std::vector<ElementIndex> corners;
       for (std::size_t i = first; i < last; ++i)
       {
-        areas[i] = PolygonArea(complex.positions, complex.cells.FaceVertices(begin + i));
+        const std::size_t face = begin + i;
+        if (hasCorners)
+        {
+          areas[i] = PolygonArea(complex.positions, complex.cells.FaceVertices(face));
+          continue;
+        }
+        corners.resize(complex.cells.FaceEdges(face).size());
+        FindCorners(complex.cells, face, corners.data());
+        areas[i] = PolygonArea(complex.positions, corners);
       }
     });
     for (std::size_t i = 0; i < some; ++i)
@@ -203,6 +213,7 @@ PlaceInLps(MedialComplex core, const ImageGeometry & geometry)
   if (IsLeftHanded(geometry))
   {
     CellComplex & cells = core.cells;
+    const bool    hasCorners = cells.HasCorners();
     for (std::size_t face = 0; face < cells.FaceCount(); ++face)
     {
       const auto begin = static_cast<std::ptrdiff_t>(cells.faceOffsets[face]);
@@ -210,7 +221,10 @@ PlaceInLps(MedialComplex core, const ImageGeometry & geometry)
       if (begin != end)
       {
         // The first corner stays the first; edge i joins corner i and the next, so all edges turn round.
-        std::reverse(cells.faceVertices.begin() + begin + 1, cells.faceVertices.begin() + end);
+        if (hasCorners)
+        {
+          std::reverse(cells.faceVertices.begin() + begin + 1, cells.faceVertices.begin() + end);
+        }
         std::reverse(cells.faceEdges.begin() + begin, cells.faceEdges.begin() + end);
       }
     }

@@ -82,9 +82,9 @@ VisitRanges(std::span<const std::uint32_t> polygon, TVisit visit)
 }
 
 RangeFacets
-FacetsByRange(const DelaunayCells & cells, std::size_t ranges)
+FacetsByRange(const FacetPolygons & polygons, std::size_t ranges)
 {
-  const std::size_t facets = cells.facetOffsets.size() - 1;
+  const std::size_t facets = polygons.Count();
   const std::size_t threads = facets > 10000 ? static_cast<std::size_t>(omp_get_max_threads()) : 1;
   RangeFacets       result;
   result.start.assign(ranges + 1, 0);
@@ -95,7 +95,7 @@ FacetsByRange(const DelaunayCells & cells, std::size_t ranges)
   const auto visitPart = [&](std::size_t part, auto visit) {
     for (std::size_t facet = facets * part / threads; facet < facets * (part + 1) / threads; ++facet)
     {
-      visit(static_cast<std::uint32_t>(facet), cells.FacetPoints(facet));
+      visit(static_cast<std::uint32_t>(facet), polygons[facet]);
     }
   };
 #pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(threads))
@@ -190,7 +190,7 @@ ChainFace(std::span<const std::uint64_t> sides,
 // Lays down the sides of a range by p, sorts each p's by q, and makes a face of those with the same q. False when one
 // does not close.
 bool
-FindInRange(const DelaunayCells &             cells,
+FindInRange(const FacetPolygons &             polygons,
             const RangeFacets &               byRange,
             std::size_t                       range,
             const CoreEdges &                 edges,
@@ -215,7 +215,7 @@ FindInRange(const DelaunayCells &             cells,
   std::size_t met = 0;
   for (std::uint64_t i = byRange.start[range]; i < byRange.start[range + 1]; ++i)
   {
-    VisitSides(cells.FacetPoints(byRange.facet[i]), byRange.facet[i], [&](std::uint32_t p, const Side & side) {
+    VisitSides(polygons[byRange.facet[i]], byRange.facet[i], [&](std::uint32_t p, const Side & side) {
       if (RangeOf(p) == range)
       {
         work.owner[met] = static_cast<std::uint16_t>(p - low);
@@ -273,17 +273,18 @@ FirstFacets(const RangeFacets & byRange, std::size_t facets)
 } // namespace
 
 FoundFaces
-FindFaces(DelaunayCells                     cells,
-          const std::vector<LatticePoint> & sortedPoints,
-          const SpacingWeights &            weights,
-          const CoreEdges &                 edges)
+FindFaces(FacetPolygons             polygons,
+          std::vector<LatticePoint> sortedPoints,
+          const SpacingWeights &    weights,
+          const CoreEdges &         edges)
 {
   const std::size_t                ranges = (sortedPoints.size() + (std::size_t{ 1 } << kRangeBits) - 1) >> kRangeBits;
-  RangeFacets                      byRange = FacetsByRange(cells, ranges);
+  RangeFacets                      byRange = FacetsByRange(polygons, ranges);
   const std::vector<std::uint32_t> firstFacets = FirstFacets(byRange, edges.size());
   SpentFront                       lists(byRange.facet);
-  SpentFront                       offsets(cells.facetOffsets);
-  SpentFront                       points(cells.facetPoints);
+  SpentFront                       starts(polygons.Starts());
+  SpentFront                       corners(polygons.Points());
+  SpentFront                       points(sortedPoints); // the greater one of each pair lies in the range or beyond
   // A few ranges at a time; then what they alone asked for goes.
   const auto                          threads = static_cast<std::size_t>(omp_get_max_threads());
   const std::size_t                   most = std::max(2 * threads, ranges / 16);
@@ -300,7 +301,7 @@ FindFaces(DelaunayCells                     cells,
 #pragma omp parallel for schedule(dynamic) reduction(&& : closed) if (last - first > 1)
     for (std::size_t range = first; range < last; ++range)
     {
-      closed = FindInRange(cells,
+      closed = FindInRange(polygons,
                            byRange,
                            range,
                            edges,
@@ -320,8 +321,9 @@ FindFaces(DelaunayCells                     cells,
       result.faces.insert(result.faces.end(), found[range - first].begin(), found[range - first].end());
     }
     lists.SpendTo(byRange.start[last]);
-    offsets.SpendTo(firstFacets[last]);
-    points.SpendTo(cells.facetOffsets[firstFacets[last]]);
+    corners.SpendTo(polygons.Start(firstFacets[last]));
+    starts.SpendTo(firstFacets[last]);
+    points.SpendTo(last << kRangeBits);
   }
   return result;
 }

@@ -1,7 +1,10 @@
 #pragma once
 // The sides of a core's faces, found in the facets of its cells.
 
-#include "voxelcore/DelaunayCells.h"
+#include "FacetPolygons.h"
+
+#include "voxelcore/LatticePoint.h"
+#include "voxelcore/SpacingWeights.h"
 #include "voxelcore/FaceName.h"
 
 namespace voxelcore
@@ -46,13 +49,13 @@ struct FoundFaces
   std::vector<FoundFace> faces;
 };
 
-/** The faces of the core with these edges, facet i being dual to edge i; in no order of theirs. Points are as
- *  MeasureCells() leaves them. The cells are given back on the way.
+/** The faces of the core with these edges, polygon i being that of the facet dual to edge i; in no order of theirs.
+ *  Polygons and points are as MeasureCells() leaves them, and are given back on the way.
  *  \throws CertificateError when the facets around an edge do not close. */
 FoundFaces
-FindFaces(DelaunayCells                     cells,
-          const std::vector<LatticePoint> & sortedPoints,
-          const SpacingWeights &            weights,
-          const CoreEdges &                 edges);
+FindFaces(FacetPolygons             polygons,
+          std::vector<LatticePoint> sortedPoints,
+          const SpacingWeights &    weights,
+          const CoreEdges &         edges);
 
 } // namespace voxelcore

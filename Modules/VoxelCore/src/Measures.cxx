@@ -3,9 +3,10 @@
 #include "FacetMeasure.h"
 
 #include "voxelcore/BucketSort.h"
+#include "voxelcore/CanonicalCells.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Predicates.h"
-#include "voxelcore/SpentMemory.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <atomic>
@@ -71,8 +72,7 @@ MakeEntries(const VoxelShape & shape, const std::vector<LatticePoint> & points)
 void
 RankLexicographically(const VoxelShape &                shape,
                       const std::vector<LatticePoint> & points,
-                      std::vector<PointEntry> &         entries,
-                      std::vector<LatticePoint> &       sorted)
+                      std::vector<PointEntry> &         entries)
 {
   const auto &               box = shape.Box();
   std::vector<std::uint32_t> byY;
@@ -89,7 +89,6 @@ RankLexicographically(const VoxelShape &                shape,
     [&](std::size_t i) { return static_cast<std::size_t>(points[byY[i]].x - box.lower[0]); },
     [&](std::size_t i) { return byY[i]; },
     order);
-  sorted.resize(points.size());
   const auto count = static_cast<std::ptrdiff_t>(points.size());
 #pragma omp parallel for schedule(static) if (count > 10000)
   for (std::ptrdiff_t rank = 0; rank < count; ++rank)
@@ -99,12 +98,37 @@ RankLexicographically(const VoxelShape &                shape,
     if (at + kAhead < order.size())
     {
       __builtin_prefetch(&entries[order[at + kAhead]], 1);
-      __builtin_prefetch(&points[order[at + kAhead]]);
     }
     entries[i].rank = static_cast<std::uint32_t>(rank);
-    sorted[at] = points[i];
   }
 }
+
+std::vector<LatticePoint>
+SortByRank(const std::vector<PointEntry> & entries, const std::array<std::int32_t, 3> & lower)
+{
+  std::vector<LatticePoint> sorted(entries.size());
+  RunInParts(entries.size() > 10000, entries.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      __builtin_prefetch(&sorted[entries[std::min(i + kAhead, last - 1)].rank], 1);
+      sorted[entries[i].rank] = PointOf(entries[i], lower);
+    }
+  });
+  return sorted;
+}
+
+// The points by their numbers in the scan.
+struct EntryPoints
+{
+  const std::vector<PointEntry> &     entries;
+  const std::array<std::int32_t, 3> & lower;
+
+  LatticePoint
+  operator[](std::uint32_t point) const
+  {
+    return PointOf(entries[point], lower);
+  }
+};
 
 // A facet's plane, by its counter-clockwise points seen from outside its first cell.
 struct Plane
@@ -148,12 +172,12 @@ struct Plane
 
 // Whether the centre of a cell's sphere lies strictly beyond one of its facets; side 0 for the facet's first cell.
 bool
-LiesBeyond(const Plane &                     plane,
-           const DelaunayCells &             cells,
-           std::uint32_t                     cell,
-           int                               side,
-           const std::vector<LatticePoint> & points,
-           const SpacingWeights &            weights)
+LiesBeyond(const Plane &          plane,
+           const DelaunayCells &  cells,
+           std::uint32_t          cell,
+           int                    side,
+           const EntryPoints &    points,
+           const SpacingWeights & weights)
 {
   const int sign = plane.SideOf(cells.centres[cell]);
   if (sign != 0)
@@ -212,9 +236,12 @@ NoteCentreBeyond(std::uint8_t & note, const TLiesBeyond & liesBeyond)
 
 // Facets follow each other along x, points and their neighbours along z: what is met next is asked for early.
 void
-FetchFacet(const DelaunayCells & cells, std::size_t facet, const std::vector<PointEntry> & entries)
+FetchFacet(const DelaunayCells &           cells,
+           const FacetPolygons &           polygons,
+           std::size_t                     facet,
+           const std::vector<PointEntry> & entries)
 {
-  for (const std::uint32_t point : cells.FacetPoints(facet))
+  for (const std::uint32_t point : polygons[facet])
   {
     __builtin_prefetch(&entries[point]);
   }
@@ -251,15 +278,41 @@ TurnToRanks(const std::vector<PointEntry> &     entries,
   }
 }
 
+// The radii of spheres, in mm, and their centres where they are missing.
+std::vector<double>
+MeasureSpheres(const std::vector<LatticePoint> & points, const SpacingWeights & weights, DelaunayCells & cells)
+{
+  const std::size_t   count = cells.CellCount();
+  const bool          hasCentres = cells.centres.size() == count;
+  std::vector<double> radius(count);
+  cells.centres.resize(count);
+  RunInParts(count > 10000, count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t cell = first; cell < last; ++cell)
+    {
+      for (const std::uint32_t point : cells.tetrahedra[std::min(cell + kAhead, count - 1)])
+      {
+        __builtin_prefetch(points.data() + point);
+      }
+      const auto &                      t = cells.tetrahedra[cell];
+      const std::array<LatticePoint, 4> corners{ points[t[0]], points[t[1]], points[t[2]], points[t[3]] };
+      if (!hasCentres)
+      {
+        cells.centres[cell] = CentreOfCorners(corners, weights).centre;
+      }
+      const CircumSphere sphere = MakeCircumSphere(corners[0], corners[1], corners[2], corners[3], weights);
+      radius[cell] = ToMillimetres(SquaredRadius(sphere, weights), weights);
+    }
+  });
+  return radius;
+}
+
 // A cell whose sphere's centre lies beyond one of its facets has the nearest point of its hull on the boundary, so
-// its smallest ball is the greatest of its facets' balls, here of its voxels' sides; else it is the sphere itself. Uses
-// the tetrahedra up.
+// its smallest ball is the greatest of its facets' balls, or of its voxels' sides; else it is the sphere itself.
 void
-MeasureSpheres(const std::vector<LatticePoint> & points,
-               const SpacingWeights &            weights,
-               const std::vector<std::uint8_t> & notes,
-               DelaunayCells &                   cells,
-               CellMeasures &                    result)
+MeasureHulls(const std::vector<std::uint8_t> &                 notes,
+             const std::vector<std::array<std::uint32_t, 2>> & facetCells,
+             const SpacingWeights &                            weights,
+             MeasuredCells &                                   result)
 {
   const std::array<double, 3> sides = VoxelSideMeasures(weights);
   std::array<double, 8>       greatest{}; // of the sides that a cell has
@@ -267,83 +320,24 @@ MeasureSpheres(const std::vector<LatticePoint> & points,
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      greatest[have] = std::max(greatest[have], (have >> axis & 1U) != 0 ? sides[axis] : 0.0);
+      greatest[have] = std::max(greatest[have], (have >> axis & 1U) != 0 ? ToMillimetres(sides[axis], weights) : 0.0);
     }
   }
-  const std::size_t count = cells.CellCount();
-  SpentFront        tetrahedra(cells.tetrahedra);
-  result.sphere.reserve(count);
-  result.cell.reserve(count);
-  for (std::size_t done = 0; done < count;)
-  {
-    const std::size_t next = std::min(count, done + std::max<std::size_t>(count / 8, 10000));
-    result.sphere.resize(next);
-    result.cell.resize(next);
-    RunInParts(next - done > 10000, next - done, [&](std::size_t first, std::size_t last) {
-      for (std::size_t cell = done + first; cell < done + last; ++cell)
-      {
-        const auto & t = cells.tetrahedra[cell];
-        for (const std::uint32_t point : cells.tetrahedra[std::min(cell + kAhead, count - 1)])
-        {
-          __builtin_prefetch(points.data() + point);
-        }
-        result.sphere[cell] =
-          SquaredRadius(MakeCircumSphere(points[t[0]], points[t[1]], points[t[2]], points[t[3]], weights), weights);
-        const std::uint8_t note = notes[cell];
-        result.cell[cell] = (note & kCentreBeyond) != 0 ? greatest[note % greatest.size()] : result.sphere[cell];
-      }
-    });
-    tetrahedra.SpendTo(next);
-    done = next;
-  }
-  std::vector<std::array<std::uint32_t, 4>>().swap(cells.tetrahedra);
-}
-
-} // namespace
-
-CellMeasures
-MeasureCells(const VoxelShape &                shape,
-             const std::vector<LatticePoint> & points,
-             const SpacingWeights &            weights,
-             DelaunayCells &                   cells,
-             std::vector<LatticePoint> &       sortedPoints)
-{
-  if (cells.voxelSides.size() != cells.CellCount())
-  {
-    LeaveOutBoundary(points, weights, cells);
-  }
-  std::vector<std::uint8_t> notes = std::move(cells.voxelSides);
-  std::vector<PointEntry>   entries = MakeEntries(shape, points);
-  RankLexicographically(shape, points, entries, sortedPoints);
-  CellMeasures result;
-  result.facet.resize(cells.FacetCount());
-  RunInParts(cells.FacetCount() > 10000, cells.FacetCount(), [&](std::size_t first, std::size_t last) {
-    std::vector<LatticePoint> polygon;
-    for (std::size_t facet = first; facet < last; ++facet)
+  result.cell = result.sphere.Copy();
+  RunInParts(notes.size() > 10000, notes.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t cell = first; cell < last; ++cell)
     {
-      if (facet + kAhead < last) // facets of others get their ranks meanwhile
+      if ((notes[cell] & kCentreBeyond) != 0)
       {
-        FetchFacet(cells, facet + kAhead, entries);
-      }
-      const std::span<std::uint32_t> own{ cells.facetPoints.data() + cells.facetOffsets[facet],
-                                          cells.facetPoints.data() + cells.facetOffsets[facet + 1] };
-      TurnToRanks(entries, shape.Box().lower, own, polygon);
-      result.facet[facet] = MeasureFacet(polygon, weights);
-      const Plane plane(polygon);
-      for (int side = 0; side < 2; ++side)
-      {
-        const std::uint32_t cell = cells.facetCells[facet][static_cast<std::size_t>(side)];
-        NoteCentreBeyond(notes[cell], [&] { return LiesBeyond(plane, cells, cell, side, points, weights); });
+        result.cell[cell] = greatest[notes[cell] % greatest.size()];
       }
     }
   });
-  std::vector<PointEntry>().swap(entries);
-  MeasureSpheres(points, weights, notes, cells, result);
-  const auto facets = static_cast<std::ptrdiff_t>(cells.FacetCount());
+  const auto facets = static_cast<std::ptrdiff_t>(facetCells.size());
 #pragma omp parallel for schedule(static) if (facets > 10000)
   for (std::ptrdiff_t i = 0; i < facets; ++i)
   {
-    for (const std::uint32_t cell : cells.facetCells[static_cast<std::size_t>(i)])
+    for (const std::uint32_t cell : facetCells[static_cast<std::size_t>(i)])
     {
       if ((notes[cell] & kCentreBeyond) != 0)
       {
@@ -351,6 +345,53 @@ MeasureCells(const VoxelShape &                shape,
       }
     }
   }
+}
+
+} // namespace
+
+MeasuredCells
+MeasureCells(const VoxelShape &        shape,
+             std::vector<LatticePoint> points,
+             const SpacingWeights &    weights,
+             DelaunayCells &           cells)
+{
+  if (cells.voxelSides.size() != cells.CellCount())
+  {
+    LeaveOutBoundary(points, weights, cells);
+  }
+  std::vector<std::uint8_t> notes = std::move(cells.voxelSides);
+  MeasuredCells             result;
+  result.polygons = FacetPolygons(std::move(cells.facetOffsets), std::move(cells.facetPoints));
+  result.sphere = PackedArray(MeasureSpheres(points, weights, cells), kManyNumbers);
+  // What is asked of points from here on their entries tell.
+  std::vector<PointEntry> entries = MakeEntries(shape, points);
+  RankLexicographically(shape, points, entries);
+  std::vector<LatticePoint>().swap(points);
+  const auto &      lower = shape.Box().lower;
+  const EntryPoints places{ entries, lower };
+  result.facet.resize(cells.FacetCount());
+  RunInParts(cells.FacetCount() > 10000, cells.FacetCount(), [&](std::size_t first, std::size_t last) {
+    std::vector<LatticePoint> polygon;
+    for (std::size_t facet = first; facet < last; ++facet)
+    {
+      if (facet + kAhead < last) // facets of others get their ranks meanwhile
+      {
+        FetchFacet(cells, result.polygons, facet + kAhead, entries);
+      }
+      TurnToRanks(entries, lower, result.polygons[facet], polygon);
+      result.facet[facet] = ToMillimetres(MeasureFacet(polygon, weights), weights);
+      const Plane plane(polygon);
+      for (int side = 0; side < 2; ++side)
+      {
+        const std::uint32_t cell = cells.facetCells[facet][static_cast<std::size_t>(side)];
+        NoteCentreBeyond(notes[cell], [&] { return LiesBeyond(plane, cells, cell, side, places, weights); });
+      }
+    }
+  });
+  std::vector<std::array<std::uint32_t, 4>>().swap(cells.tetrahedra);
+  result.sortedPoints = SortByRank(entries, lower);
+  std::vector<PointEntry>().swap(entries);
+  MeasureHulls(notes, cells.facetCells, weights, result);
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/PackedNumbers.h"
 #include "voxelcore/ParallelTasks.h"
 
 namespace voxelcore
@@ -14,7 +15,8 @@ MedialComplex
 BuildVoxelCore(const VoxelShape &        shape,
                std::vector<LatticePoint> points,
                DelaunayCells             cells,
-               const SpacingWeights &    weights)
+               const SpacingWeights &    weights,
+               Corners                   corners)
 {
   constexpr std::size_t most = std::size_t{ 1 } << 31;
   if (points.size() >= most)
@@ -23,31 +25,34 @@ BuildVoxelCore(const VoxelShape &        shape,
   }
   MedialComplex core;
   core.cells.vertexCount = cells.CellCount();
-  std::vector<LatticePoint> sortedPoints;
-  {
-    CellMeasures measures = MeasureCells(shape, points, weights, cells, sortedPoints);
-    std::vector<LatticePoint>().swap(points);
-    for (std::vector<double> * values : { &measures.sphere, &measures.cell, &measures.facet })
-    {
-      RunInParts(values->size() > 10000, values->size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-        {
-          (*values)[i] = ToMillimetres((*values)[i], weights);
-        }
-      });
-    }
-    core.radius = std::move(measures.sphere);
-    core.vertexLambda = std::move(measures.cell);
-    core.edgeLambda = std::move(measures.facet);
-  }
+  MeasuredCells measured = MeasureCells(shape, std::move(points), weights, cells);
   if (cells.FacetCount() >= most)
   {
     throw InputError("the core has more than 2^31 edges; crop or split the shape");
   }
   // Facets are sorted by their cells, so the edges come out in canonical order.
   core.cells.edges = std::move(cells.facetCells);
-  core.positions = std::move(cells.centres);
-  WriteFaces(std::move(cells), std::move(sortedPoints), weights, core);
+  // While faces are made nobody asks for the rest.
+  PackedArray<std::array<double, 3>> positions;
+  PackedArray<double>                vertexLambda;
+  PackedArray<double>                edgeLambda;
+  const bool                         worthIt = core.cells.edges.size() > kManyNumbers;
+  RunBoth(
+    worthIt,
+    [&] { positions = PackedArray(std::move(cells.centres), kManyNumbers); },
+    [&] {
+      edgeLambda = PackedArray(std::move(measured.facet), kManyNumbers);
+      vertexLambda = PackedArray(std::move(measured.cell), kManyNumbers);
+    });
+  WriteFaces(std::move(measured.polygons), std::move(measured.sortedPoints), weights, corners, core);
+  RunBoth(
+    worthIt,
+    [&] { core.positions = std::move(positions).Take(); },
+    [&] {
+      core.edgeLambda = std::move(edgeLambda).Take();
+      core.vertexLambda = std::move(vertexLambda).Take();
+      core.radius = std::move(measured.sphere).Take();
+    });
   return core;
 }
 

@@ -15,7 +15,8 @@ using ElementIndex = std::uint32_t;
 
 /** Vertices 0 .. vertexCount-1, edges, and polygonal faces. Face f has the corners
  *  faceVertices[faceOffsets[f] .. faceOffsets[f+1]) in cyclic order and, in the same places, the edges from each
- *  corner to the next. No two edges have the same ends, no two faces the same corners. */
+ *  corner to the next. No two edges have the same ends, no two faces the same corners. Where a complex waits to be
+ *  pruned corners may be missing, which the edges tell. */
 struct CellComplex
 {
   std::size_t                              vertexCount = 0;
@@ -28,6 +29,11 @@ struct CellComplex
   FaceCount() const
   {
     return faceOffsets.size() - 1;
+  }
+  bool
+  HasCorners() const
+  {
+    return faceVertices.size() == faceEdges.size();
   }
   std::span<const ElementIndex>
   FaceVertices(std::size_t face) const
@@ -61,6 +67,10 @@ struct Cofaces
     exclusiveOr ^= coface;
   }
 };
+
+/** The corners of a face by its edges: each is what an edge shares with the one before. */
+void
+FindCorners(const CellComplex & complex, std::size_t face, ElementIndex * corners);
 
 /** The edges at each vertex. */
 std::vector<Cofaces>

@@ -27,7 +27,8 @@ inline constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
  *  Up to 2^32 - 2 cells and facets. */
 struct DelaunayCells
 {
-  /** Lattice coordinates of each cell's centre, each coordinate the exact rational rounded once. */
+  /** Lattice coordinates of each cell's centre, each coordinate the exact rational rounded once. None where facets on
+   *  the boundary were left out: BuildVoxelCore() finds them when there is more room. */
   std::vector<std::array<double, 3>> centres;
   /** Four affinely independent points of each cell: they fix its sphere. Any four; not canonical. */
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
@@ -60,7 +61,7 @@ struct DelaunayCells
 enum class Facets
 {
   All,
-  Inside ///< those between two cells; of the others DelaunayCells::voxelSides is left
+  Inside ///< those between two cells, and no centres; of the others DelaunayCells::voxelSides is left
 };
 
 /** The Delaunay engines a build can have. */

@@ -51,6 +51,9 @@ private:
   std::vector<std::uint16_t> m_Long;  ///< else here
 };
 
+/** As many as are worth the time to pack them where they wait a moment only: 4 MB. */
+inline constexpr std::size_t kManyNumbers = std::size_t{ 1 } << 19;
+
 /** An array of numbers or points, packed where that can be. */
 template <typename T>
 class PackedArray
@@ -58,10 +61,12 @@ class PackedArray
 public:
   PackedArray() = default;
 
-  explicit PackedArray(std::vector<T> values)
+  /** Fewer numbers than `least` stay as they are. */
+  explicit PackedArray(std::vector<T> values, std::size_t least = 0)
     : m_Count(values.size())
   {
-    if (!m_Packed.Pack(NumbersOf(values)))
+    const std::span<const double> numbers = NumbersOf(values);
+    if (numbers.size() < least || !m_Packed.Pack(numbers))
     {
       m_Plain = std::move(values);
     }
@@ -99,7 +104,9 @@ public:
   std::vector<T>
   Take() &&
   {
-    return m_Plain.empty() ? Copy() : std::move(m_Plain);
+    std::vector<T> values = m_Plain.empty() ? Copy() : std::move(m_Plain);
+    *this = PackedArray();
+    return values;
   }
 
 private:

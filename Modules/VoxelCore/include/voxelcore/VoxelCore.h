@@ -7,6 +7,13 @@
 namespace voxelcore
 {
 
+/** Whether faces get their corners, which edges tell, too: CellComplex::HasCorners(). */
+enum class Corners
+{
+  Written,
+  LeftOut
+};
+
 /** The core as the dual of the Delaunay cells inside the shape (Definition 3.2): a vertex per cell, an edge per inner
  *  facet, a face per Delaunay edge that is not on the boundary. `points` are the boundary vertices the cells refer to.
  *  Move the cells in, and the points where nobody needs them later: their memory is given back on the way.
@@ -15,7 +22,8 @@ MedialComplex
 BuildVoxelCore(const VoxelShape &        shape,
                std::vector<LatticePoint> points,
                DelaunayCells             cells,
-               const SpacingWeights &    weights);
+               const SpacingWeights &    weights,
+               Corners                   corners = Corners::Written);
 
 /** Boundary vertices, Delaunay cells and core in one call. Empty for an empty shape. */
 MedialComplex
