@@ -61,7 +61,7 @@ Damage(MedialComplex & complex)
 // NOLINTBEGIN: names as the linker has them
 #define VOXELCORE_BUILD                                                                                          \
   "_ZN9voxelcore14BuildVoxelCoreERKNS_10VoxelShapeESt6vectorINS_12LatticePointESaIS4_EENS_13DelaunayCellsERKNS_" \
-  "14SpacingWeightsENS_7CornersE"
+  "14SpacingWeightsENS_7CoreUseE"
 #define VOXELCORE_CORE                                                                                            \
   "_ZN9voxelcore16ComputeVoxelCoreERKNS_10VoxelShapeERKNS_14SpacingWeightsENS_6EngineERKSt8functionIFbSt17basic_" \
   "string_viewIcSt11char_traitsIcEEdEE"
@@ -94,9 +94,9 @@ FaultyBuild(const VoxelShape &        shape,
             std::vector<LatticePoint> points,
             DelaunayCells             cells,
             const SpacingWeights &    weights,
-            Corners                   corners)
+            CoreUse                   use)
 {
-  MedialComplex core = TrueBuild(shape, std::move(points), std::move(cells), weights, corners);
+  MedialComplex core = TrueBuild(shape, std::move(points), std::move(cells), weights, use);
   if (IsSeeded("core"))
   {
     Damage(core);

@@ -9,6 +9,28 @@ namespace voxelcore::testing
 namespace
 {
 
+TEST(CellComplex, CornersAreToldByTheEdges)
+{
+  std::size_t faces = 0;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed)
+  {
+    CellComplex complex = RandomCubicalComplex(seed, 3, 30, 40);
+    const bool  hasFaces = complex.FaceCount() > 0;
+    ASSERT_TRUE(complex.HasCorners());
+    for (std::size_t face = 0; face < complex.FaceCount(); ++face)
+    {
+      const auto                expected = complex.FaceVertices(face);
+      std::vector<ElementIndex> corners(expected.size());
+      FindCorners(complex, face, corners.data());
+      ASSERT_TRUE(std::ranges::equal(corners, expected)) << "seed " << seed << ", face " << face;
+      ++faces;
+    }
+    complex.faceVertices.clear();
+    ASSERT_EQ(complex.HasCorners(), !hasFaces);
+  }
+  ASSERT_GT(faces, 100U);
+}
+
 TEST(CellComplex, CofacesAreCountedAndOneAloneIsNamed)
 {
   std::size_t alone = 0;

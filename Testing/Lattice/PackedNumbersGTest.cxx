@@ -117,6 +117,36 @@ TEST(PackedNumbers, OnlyThoseNamedComeBack)
   }
 }
 
+TEST(PackedNumbers, AreLookedUpOneByOne)
+{
+  for (const std::size_t different : { 200, 60000, 65537 }) // a byte, two bytes, plain
+  {
+    const std::vector<double> values = RootsUpTo(different, 70000);
+    const PackedArray<double> packed(values);
+    ASSERT_EQ(packed.IsPacked(), different < 65537);
+    const std::optional<NumberView> view = packed.View();
+    ASSERT_TRUE(view);
+    const NumberView plain(values);
+    for (std::size_t i = 0; i < values.size(); i += 101)
+    {
+      ASSERT_EQ((*view)[i], values[i]) << different;
+      ASSERT_EQ(plain[i], values[i]);
+      ASSERT_EQ(plain.Address(i), &values[i]);
+    }
+    const auto step = static_cast<const char *>(view->Address(7)) - static_cast<const char *>(view->Address(0));
+    ASSERT_EQ(step, 7 * (different <= 256 ? 1 : different < 65537 ? 2 : 8));
+  }
+  EXPECT_FALSE(PackedArray<double>(RootsInSteps(900001, 6)).View()); // of several tables
+}
+
+TEST(PackedNumbers, StayAsTheyAreWhereTheyAreFew)
+{
+  EXPECT_FALSE(PackedArray<double>({ 1, 2, 1 }, 4).IsPacked());
+  EXPECT_TRUE(PackedArray<double>({ 1, 2, 1 }, 3).IsPacked());
+  EXPECT_FALSE(PackedArray<double>({ 1, 2, 1 }, 4).IsEmpty());
+  EXPECT_TRUE(PackedArray<double>().IsEmpty());
+}
+
 TEST(PackedNumbers, OfPointsComeBackInOrder)
 {
   const std::vector<std::array<double, 3>> points{ { 1, 2.5, 3 }, { 2.5, 1, 1 }, { 0.1, 0.2, 0.3 } };

@@ -3,10 +3,12 @@
 #include "VoxelCoreTesting/Cores.h"
 
 #include "voxelcore/ComplexTopology.h"
+#include "voxelcore/CoreProvenance.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <map>
 
@@ -175,6 +177,112 @@ TEST(LambdaPruning, OfACoreThatIsUsedUpIsTheSame)
       ASSERT_NO_FATAL_FAILURE(ExpectSameCore(inPlace[i], pruned[i])) << "at " << thresholds[i];
     }
   }
+}
+
+/** Of some 300,000 boundary vertices: arrays long enough to be packed. */
+VoxelShape
+WavySheets()
+{
+  constexpr std::int32_t side = 96;
+  VoxelShape             shape(VoxelBox{ { 0, 0, 0 }, { side, side, side } });
+  for (std::int32_t z = 0; z < side; ++z)
+  {
+    for (std::int32_t y = 0; y < side; ++y)
+    {
+      for (std::int32_t x = 0; x < side; ++x)
+      {
+        const double wave = std::sin(0.35 * x) * std::cos(0.35 * y) + std::sin(0.35 * y) * std::cos(0.35 * z) +
+                            std::sin(0.35 * z) * std::cos(0.35 * x);
+        if (std::abs(wave) < 0.5)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  return shape;
+}
+
+MedialComplex
+CoreToPrune(const VoxelShape & shape, const Spacing3 & spacing = { 1, 1, 1 })
+{
+  const SpacingWeights      weights = ComputeSpacingWeights(spacing);
+  std::vector<LatticePoint> points = BoundaryVertices(shape);
+  DelaunayCells             cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto, {}, Facets::Inside);
+  return BuildVoxelCore(shape, std::move(points), std::move(cells), weights, CoreUse::Pruning);
+}
+
+void
+ExpectSameCores(const std::vector<MedialComplex> & a, const std::vector<MedialComplex> & b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    ASSERT_NO_FATAL_FAILURE(testing::ExpectSameCore(a[i], b[i]));
+    ASSERT_TRUE(a[i].waiting.edgeLambda.IsEmpty());
+  }
+}
+
+TEST(LambdaPruning, OfACoreThatWaitsForItIsTheSame)
+{
+  const VoxelShape    shape = WavySheets();
+  const MedialComplex whole = CoreOf(shape);
+  const MedialComplex waits = CoreToPrune(shape);
+  ASSERT_TRUE(waits.waiting.edgeLambda.IsPacked());
+  ASSERT_TRUE(waits.edgeLambda.empty());
+  ASSERT_FALSE(waits.cells.HasCorners());
+  for (const std::vector<double> & thresholds : { std::vector<double>{ 1.5 }, std::vector<double>{ 1.0, 1.5, 2.5 } })
+  {
+    const std::vector<MedialComplex> expected = PruneByLambda(whole, thresholds);
+    ASSERT_LT(expected.back().cells.FaceCount(), whole.cells.FaceCount());
+    ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(MedialComplex(waits), thresholds), expected));
+  }
+}
+
+TEST(LambdaPruning, OfASmallCoreThatWaitsForItIsTheSame)
+{
+  for (const testing::RandomVolume & volume : testing::RandomVolumes(8300, 20))
+  {
+    SCOPED_TRACE(volume.Describe());
+    testing::Random                  random(volume.seed);
+    const MedialComplex              whole = CoreOf(volume.shape, volume.spacing);
+    const auto                       thresholds = Thresholds(whole, random);
+    const std::vector<MedialComplex> expected = PruneByLambda(whole, thresholds);
+    MedialComplex                    waits = CoreToPrune(volume.shape, volume.spacing);
+    ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(std::move(waits), thresholds), expected));
+  }
+}
+
+TEST(LambdaPruning, OfACoreThatWaitsInALeftHandedScanIsTheSame)
+{
+  const VoxelShape shape = WavySheets();
+  ImageGeometry    geometry;
+  geometry.size = shape.Box().size;
+  geometry.direction = { -1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  ASSERT_TRUE(IsLeftHanded(geometry));
+  const MedialComplex whole = PlaceInLps(CoreOf(shape), geometry);
+  MedialComplex       waits = PlaceInLps(CoreToPrune(shape), geometry);
+  EXPECT_EQ(DescribeComplex(waits, {}).areaMm2, DescribeComplex(whole, {}).areaMm2);
+  EXPECT_EQ(DescribeComplex(waits, {}).maxRadiusMm, DescribeComplex(whole, {}).maxRadiusMm);
+  const std::vector<MedialComplex> expected = PruneByLambda(whole, { 1.5 });
+  ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(std::move(waits), { 1.5 }), expected));
+}
+
+// More measures differ than one table tells.
+TEST(LambdaPruning, OfMeasuresThatCannotWaitPackedIsTheSame)
+{
+  const VoxelShape shape = WavySheets();
+  MedialComplex    whole = CoreOf(shape);
+  MedialComplex    waits = CoreToPrune(shape);
+  for (std::size_t edge = 0; edge < whole.edgeLambda.size(); ++edge)
+  {
+    whole.edgeLambda[edge] += static_cast<double>(edge / 6) * 1e-9;
+  }
+  waits.waiting.edgeLambda = PackedArray<double>(whole.edgeLambda);
+  ASSERT_TRUE(waits.waiting.edgeLambda.IsPacked());
+  ASSERT_FALSE(waits.waiting.edgeLambda.View());
+  const std::vector<MedialComplex> expected = PruneByLambda(whole, { 1.5 });
+  ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(std::move(waits), { 1.5 }), expected));
 }
 
 TEST(LambdaPruning, OnToAGreaterLambdaEqualsPruningToTheGreater)

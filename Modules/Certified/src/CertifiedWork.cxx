@@ -48,8 +48,8 @@ public:
   CertifiedResult
   Run()
   {
-    const Corners corners = LambdasSpendWhole() ? Corners::LeftOut : Corners::Written;
-    m_Whole = MakeWholeCore(m_Voxels, m_Request, m_Weights, m_Thresholds.front(), corners, m_Plan, m_Result);
+    const CoreUse use = LambdasSpendWhole() ? CoreUse::Pruning : CoreUse::Any;
+    m_Whole = MakeWholeCore(m_Voxels, m_Request, m_Weights, m_Thresholds.front(), use, m_Plan, m_Result);
     CertifyWhole();
     if (BurnsBeforePruning(m_Request))
     {

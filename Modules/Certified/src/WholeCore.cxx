@@ -122,7 +122,7 @@ MakeWholeCore(const VoxelShape &       voxels,
               const CertifiedRequest & request,
               const SpacingWeights &   weights,
               double                   lambdaMm,
-              Corners                  corners,
+              CoreUse                  use,
               StagePlan &              plan,
               CertifiedResult &        result)
 {
@@ -157,7 +157,7 @@ MakeWholeCore(const VoxelShape &       voxels,
     }
     ReportProgress(building, "", 0.1);
     const bool needsPoints = byTolerance || Refines(request);
-    core = BuildVoxelCore(voxels, needsPoints ? points : std::move(points), std::move(cells), weights, corners);
+    core = BuildVoxelCore(voxels, needsPoints ? points : std::move(points), std::move(cells), weights, use);
     RequireEnclosed(core, voxels, request.name);
     seconds.core += watch.Lap();
     if (byTolerance)

@@ -31,7 +31,7 @@ MakeWholeCore(const VoxelShape &       voxels,
               const CertifiedRequest & request,
               const SpacingWeights &   weights,
               double                   lambdaMm,
-              Corners                  corners,
+              CoreUse                  use,
               StagePlan &              plan,
               CertifiedResult &        result);
 

@@ -49,9 +49,9 @@ struct RemovalTime
  *  up after each flag that is written. */
 struct LowerElements
 {
-  const double * measure;
-  const double * cofaceMeasure; ///< of the elements one dimension up
-  Cofaces *      cofaces;       ///< live ones; of one that has gone as the lower of a pair: none, and the upper
+  NumberView measure;
+  NumberView cofaceMeasure; ///< of the elements one dimension up
+  Cofaces *  cofaces;       ///< live ones; of one that has gone as the lower of a pair: none, and the upper
   ElementIndex *
     after; ///< the latest of its removers, where it can matter; once it has gone, its TimeNode, where it has one
 
@@ -114,8 +114,8 @@ class RemovalTimes
 {
 public:
   RemovalTimes(const CollapseState & state, ElementIndex * vertexAfter, ElementIndex * edgeAfter, TimeNodes & nodes)
-    : m_Vertices{ state.vertexMeasure.data(), state.edgeMeasure.data(), state.vertexCofaces.data(), vertexAfter }
-    , m_Edges{ state.edgeMeasure.data(), state.faceMeasure.data(), state.edgeCofaces.data(), edgeAfter }
+    : m_Vertices{ state.vertexMeasure, state.edgeMeasure, state.vertexCofaces.data(), vertexAfter }
+    , m_Edges{ state.edgeMeasure, state.faceMeasure, state.edgeCofaces.data(), edgeAfter }
     , m_Ends(state.complex.edges.data())
     , m_LiveVertices(state.live.vertices.data())
     , m_Nodes(&nodes)

@@ -102,6 +102,17 @@ PackedNumbers::Pack(std::span<const double> numbers)
   return true;
 }
 
+std::optional<NumberView>
+PackedNumbers::View() const
+{
+  if (m_Tables.size() > 1)
+  {
+    return {};
+  }
+  return m_Long.empty() ? NumberView(m_Different.data(), m_Short.data())
+                        : NumberView(m_Different.data(), m_Long.data());
+}
+
 void
 PackedNumbers::Unpack(std::span<double> numbers) const
 {

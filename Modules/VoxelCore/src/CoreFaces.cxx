@@ -169,10 +169,10 @@ void
 WriteFaces(FacetPolygons             polygons,
            std::vector<LatticePoint> sortedPoints,
            const SpacingWeights &    weights,
-           Corners                   corners,
+           CoreUse                   use,
            MedialComplex &           core)
 {
-  const bool        writesCorners = corners == Corners::Written;
+  const bool        writesCorners = use == CoreUse::Any;
   CellComplex &     complex = core.cells;
   FoundFaces        found = FindFaces(std::move(polygons), std::move(sortedPoints), weights, complex.edges);
   const std::size_t count = found.faces.size();

@@ -15,7 +15,7 @@ void
 WriteFaces(FacetPolygons             polygons,
            std::vector<LatticePoint> sortedPoints,
            const SpacingWeights &    weights,
-           Corners                   corners,
+           CoreUse                   use,
            MedialComplex &           core);
 
 } // namespace voxelcore

@@ -5,6 +5,7 @@
 #include "Measures.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Rational.h"
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/StagePlan.h"
@@ -146,6 +147,32 @@ LambdaInMillimetres(const Lambda &                lambda,
 namespace
 {
 
+/** Packs what pruning does not ask for, and unpacks measures that cannot be looked up one by one. */
+void
+LetWait(MedialComplex & core)
+{
+  WaitingArrays & waiting = core.waiting;
+  RunBoth(
+    core.cells.vertexCount > kManyNumbers,
+    [&] { waiting.positions = PackedArray(std::move(core.positions), kManyNumbers); },
+    [&] { waiting.radius = PackedArray(std::move(core.radius), kManyNumbers); });
+  const auto unpack = [](PackedArray<double> & packed, std::vector<double> & values) {
+    if (!packed.IsEmpty() && !packed.View())
+    {
+      values = std::move(packed).Take();
+    }
+  };
+  unpack(waiting.vertexLambda, core.vertexLambda);
+  unpack(waiting.edgeLambda, core.edgeLambda);
+  unpack(waiting.faceLambda, core.faceLambda);
+}
+
+NumberView
+ViewOf(const std::vector<double> & values, const PackedArray<double> & waiting)
+{
+  return waiting.IsEmpty() ? NumberView(values) : *waiting.View();
+}
+
 /** `spent`: the core itself, where it may be used up. */
 std::vector<MedialComplex>
 Prune(const MedialComplex &                    core,
@@ -176,7 +203,15 @@ Prune(const MedialComplex &                    core,
     }
   };
   dropCorners(0);
-  SimplePairCollapse collapse(core.cells, core.vertexLambda, core.edgeLambda, core.faceLambda);
+  if (spent != nullptr)
+  {
+    LetWait(*spent);
+  }
+  const WaitingArrays & waiting = core.waiting;
+  SimplePairCollapse    collapse(core.cells,
+                              ViewOf(core.vertexLambda, waiting.vertexLambda),
+                              ViewOf(core.edgeLambda, waiting.edgeLambda),
+                              ViewOf(core.faceLambda, waiting.faceLambda));
   for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
     const auto at = [&](std::size_t done) {

@@ -16,7 +16,7 @@ BuildVoxelCore(const VoxelShape &        shape,
                std::vector<LatticePoint> points,
                DelaunayCells             cells,
                const SpacingWeights &    weights,
-               Corners                   corners)
+               CoreUse                   use)
 {
   constexpr std::size_t most = std::size_t{ 1 } << 31;
   if (points.size() >= most)
@@ -33,24 +33,30 @@ BuildVoxelCore(const VoxelShape &        shape,
   // Facets are sorted by their cells, so the edges come out in canonical order.
   core.cells.edges = std::move(cells.facetCells);
   // While faces are made nobody asks for the rest.
-  PackedArray<std::array<double, 3>> positions;
-  PackedArray<double>                vertexLambda;
-  PackedArray<double>                edgeLambda;
-  const bool                         worthIt = core.cells.edges.size() > kManyNumbers;
+  WaitingArrays waiting;
+  const bool    worthIt = core.cells.edges.size() > kManyNumbers;
   RunBoth(
     worthIt,
-    [&] { positions = PackedArray(std::move(cells.centres), kManyNumbers); },
+    [&] { waiting.positions = PackedArray(std::move(cells.centres), kManyNumbers); },
     [&] {
-      edgeLambda = PackedArray(std::move(measured.facet), kManyNumbers);
-      vertexLambda = PackedArray(std::move(measured.cell), kManyNumbers);
+      waiting.edgeLambda = PackedArray(std::move(measured.facet), kManyNumbers);
+      waiting.vertexLambda = PackedArray(std::move(measured.cell), kManyNumbers);
     });
-  WriteFaces(std::move(measured.polygons), std::move(measured.sortedPoints), weights, corners, core);
+  WriteFaces(std::move(measured.polygons), std::move(measured.sortedPoints), weights, use, core);
+  if (use == CoreUse::Pruning)
+  {
+    core.positions = std::move(waiting.positions).Take();
+    core.radius = std::move(measured.sphere).Take();
+    waiting.faceLambda = PackedArray(std::move(core.faceLambda), kManyNumbers);
+    core.waiting = std::move(waiting);
+    return core;
+  }
   RunBoth(
     worthIt,
-    [&] { core.positions = std::move(positions).Take(); },
+    [&] { core.positions = std::move(waiting.positions).Take(); },
     [&] {
-      core.edgeLambda = std::move(edgeLambda).Take();
-      core.vertexLambda = std::move(vertexLambda).Take();
+      core.edgeLambda = std::move(waiting.edgeLambda).Take();
+      core.vertexLambda = std::move(waiting.vertexLambda).Take();
       core.radius = std::move(measured.sphere).Take();
     });
   return core;

@@ -2,14 +2,58 @@
 // Arrays of numbers while nobody asks for them.
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace voxelcore
 {
+
+/** Numbers to be looked up one by one, packed or not; they must outlive it. */
+class NumberView
+{
+public:
+  NumberView() = default;
+
+  explicit(false) NumberView(std::span<const double> numbers)
+    : m_Numbers(numbers.data())
+  {}
+  explicit(false) NumberView(const std::vector<double> & numbers)
+    : m_Numbers(numbers.data())
+  {}
+  NumberView(const double * different, const std::uint8_t * places)
+    : m_Numbers(different)
+    , m_Short(places)
+  {}
+  NumberView(const double * different, const std::uint16_t * places)
+    : m_Numbers(different)
+    , m_Long(places)
+  {}
+
+  double
+  operator[](std::size_t i) const
+  {
+    return m_Numbers[m_Short != nullptr ? m_Short[i] : m_Long != nullptr ? m_Long[i] : i];
+  }
+
+  /** What has to be fetched from memory for number i. */
+  const void *
+  Address(std::size_t i) const
+  {
+    return m_Short != nullptr  ? static_cast<const void *>(m_Short + i)
+           : m_Long != nullptr ? static_cast<const void *>(m_Long + i)
+                               : static_cast<const void *>(m_Numbers + i);
+  }
+
+private:
+  const double *        m_Numbers = nullptr; ///< all, or those that differ
+  const std::uint8_t *  m_Short = nullptr;
+  const std::uint16_t * m_Long = nullptr;
+};
 
 /** Numbers in one or two bytes each where so few of them differ, as measures and places on a lattice do in a body that
  *  is nowhere thick. They come back to the last bit. Where a table of those that differ is full, those that follow have
@@ -30,6 +74,10 @@ public:
   /** Of runs of `each` numbers those named, ascending. */
   void
   Unpack(std::span<const std::uint32_t> runs, std::size_t each, std::span<double> numbers) const;
+
+  /** None where one table was not enough. */
+  std::optional<NumberView>
+  View() const;
 
 private:
   std::size_t
@@ -82,6 +130,24 @@ public:
     std::vector<T> values(m_Count);
     m_Packed.Unpack(NumbersOf(values));
     return values;
+  }
+
+  bool
+  IsEmpty() const
+  {
+    return m_Count == 0;
+  }
+  bool
+  IsPacked() const
+  {
+    return m_Count > 0 && m_Plain.empty();
+  }
+
+  /** Of numbers that can be looked up one by one. */
+  std::optional<NumberView>
+  View() const requires std::same_as<T, double>
+  {
+    return IsPacked() ? m_Packed.View() : NumberView(m_Plain);
   }
 
   /** Those named, ascending. */

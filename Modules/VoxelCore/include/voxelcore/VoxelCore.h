@@ -7,11 +7,11 @@
 namespace voxelcore
 {
 
-/** Whether faces get their corners, which edges tell, too: CellComplex::HasCorners(). */
-enum class Corners
+/** What a core is made for. */
+enum class CoreUse
 {
-  Written,
-  LeftOut
+  Any,
+  Pruning ///< by lambda, and then it is used up: without corners, and measures wait packed where there are many
 };
 
 /** The core as the dual of the Delaunay cells inside the shape (Definition 3.2): a vertex per cell, an edge per inner
@@ -23,7 +23,7 @@ BuildVoxelCore(const VoxelShape &        shape,
                std::vector<LatticePoint> points,
                DelaunayCells             cells,
                const SpacingWeights &    weights,
-               Corners                   corners = Corners::Written);
+               CoreUse                   use = CoreUse::Any);
 
 /** Boundary vertices, Delaunay cells and core in one call. Empty for an empty shape. */
 MedialComplex
