@@ -323,7 +323,7 @@ FindFaces(FacetPolygons             polygons,
     lists.SpendTo(byRange.start[last]);
     corners.SpendTo(polygons.Start(firstFacets[last]));
     starts.SpendTo(firstFacets[last]);
-    points.SpendTo(last << kRangeBits);
+    points.SpendTo(std::min(last << kRangeBits, sortedPoints.size()));
   }
   return result;
 }
