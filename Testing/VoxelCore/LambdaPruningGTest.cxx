@@ -257,7 +257,7 @@ TEST(LambdaPruning, OfACoreThatWaitsInALeftHandedScanIsTheSame)
 {
   const VoxelShape shape = WavySheets();
   ImageGeometry    geometry;
-  geometry.size = shape.Box().size;
+  geometry.size = { 96, 96, 96 };
   geometry.direction = { -1, 0, 0, 0, 1, 0, 0, 0, 1 };
   ASSERT_TRUE(IsLeftHanded(geometry));
   const MedialComplex whole = PlaceInLps(CoreOf(shape), geometry);
@@ -276,7 +276,7 @@ TEST(LambdaPruning, OfMeasuresThatCannotWaitPackedIsTheSame)
   MedialComplex    waits = CoreToPrune(shape);
   for (std::size_t edge = 0; edge < whole.edgeLambda.size(); ++edge)
   {
-    whole.edgeLambda[edge] += static_cast<double>(edge / 6) * 1e-9;
+    whole.edgeLambda[edge] = 1.0 + static_cast<double>(edge / 6) * 1e-6;
   }
   waits.waiting.edgeLambda = PackedArray<double>(whole.edgeLambda);
   ASSERT_TRUE(waits.waiting.edgeLambda.IsPacked());
