@@ -12,7 +12,8 @@ class FacetFront
 {
 public:
   explicit FacetFront(std::size_t points)
-    : m_HasFar((points + 63) / 64, 0)
+    : m_Far(true)
+    , m_HasFar((points + 63) / 64, 0)
   {}
 
   /** Starts with about so many facets of earlier bricks, which come by InsertFar(). */

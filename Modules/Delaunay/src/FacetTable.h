@@ -55,8 +55,10 @@ class FacetTable
 public:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-  FacetTable()
+  /** At most half full; where it is dense, three quarters: for many facets that are rarely asked for. */
+  explicit FacetTable(bool isDense = false)
     : m_Slots(1024, Slot{ {}, none })
+    , m_IsDense(isDense)
   {}
 
   /** Makes the table empty, with room for about `expected` entries. */
@@ -108,7 +110,7 @@ public:
         return TakeAt(at);
       }
     }
-    if (2 * (m_Size + 1) > m_Slots.size())
+    if (IsFull())
     {
       Insert(key, value);
     }
@@ -124,7 +126,7 @@ public:
   void
   Insert(const FacetKey & key, std::uint32_t value)
   {
-    if (2 * (m_Size + 1) > m_Slots.size())
+    if (IsFull())
     {
       std::vector<Slot> old(2 * m_Slots.size(), Slot{ {}, none });
       old.swap(m_Slots);
@@ -167,6 +169,12 @@ private:
     std::uint32_t value;
   };
 
+  bool
+  IsFull() const
+  {
+    return m_Size + 1 > (m_IsDense ? m_Slots.size() / 4 * 3 : m_Slots.size() / 2);
+  }
+
   std::uint32_t
   TakeAt(std::size_t at)
   {
@@ -205,6 +213,7 @@ private:
 
   std::vector<Slot> m_Slots;
   std::size_t       m_Size = 0;
+  bool              m_IsDense;
 };
 
 } // namespace voxelcore

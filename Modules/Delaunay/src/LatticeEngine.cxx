@@ -4,6 +4,7 @@
 #include "DeepCells.h"
 #include "SharedProgress.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/FreeMemory.h"
 #include "voxelcore/StagePlan.h"
 
 #include <omp.h>
@@ -150,12 +151,21 @@ LatticeCells(const VoxelShape &                shape,
   {
     tracing = TraceSideBySide(input, threads, tracingPart);
   }
+  constexpr std::size_t large = 100000; // points
+  if (points.size() > large)
+  {
+    GiveBackFreeMemory();
+  }
   // Whatever tracing left, for whichever reason, is completed from the facets it left open.
   tracing.deep.insert(tracing.deep.end(), tracing.open.begin(), tracing.open.end());
   tracing.open.clear();
   if (!tracing.deep.empty())
   {
     tracing = AddDeepCells(std::move(tracing), points, weights, plan.Next());
+    if (points.size() > large)
+    {
+      GiveBackFreeMemory();
+    }
   }
   return std::move(tracing.cells);
 }

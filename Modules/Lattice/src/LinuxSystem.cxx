@@ -1,3 +1,4 @@
+#include "voxelcore/FreeMemory.h"
 #include "voxelcore/SystemCalls.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -86,6 +88,14 @@ HasProcessEnded(std::int64_t process, std::uint64_t start)
   }
   const auto state = StateOf(process);
   return state && (state->start != start || state->state == 'Z' || state->state == 'X');
+}
+
+void
+GiveBackFreeMemory()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 std::size_t

@@ -1,3 +1,4 @@
+#include "voxelcore/FreeMemory.h"
 #include "voxelcore/SystemCalls.h"
 
 #include <algorithm>
@@ -28,6 +29,10 @@ HasProcessEnded(std::int64_t, std::uint64_t)
 {
   return false;
 }
+
+void
+GiveBackFreeMemory()
+{}
 
 std::size_t
 ReleaseMemory(void *, std::size_t size)
