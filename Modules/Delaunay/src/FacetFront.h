@@ -12,8 +12,7 @@ class FacetFront
 {
 public:
   explicit FacetFront(std::size_t points)
-    : m_Far(true)
-    , m_HasFar((points + 63) / 64, 0)
+    : m_HasFar((points + 63) / 64, 0)
   {}
 
   /** Starts with about so many facets of earlier bricks, which come by InsertFar(). */

@@ -55,10 +55,8 @@ class FacetTable
 public:
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-  /** At most half full; where it is dense, three quarters: for many facets that are rarely asked for. */
-  explicit FacetTable(bool isDense = false)
+  FacetTable()
     : m_Slots(1024, Slot{ {}, none })
-    , m_IsDense(isDense)
   {}
 
   /** Makes the table empty, with room for about `expected` entries. */
@@ -110,7 +108,7 @@ public:
         return TakeAt(at);
       }
     }
-    if (IsFull())
+    if (2 * (m_Size + 1) > m_Slots.size())
     {
       Insert(key, value);
     }
@@ -126,7 +124,7 @@ public:
   void
   Insert(const FacetKey & key, std::uint32_t value)
   {
-    if (IsFull())
+    if (2 * (m_Size + 1) > m_Slots.size())
     {
       std::vector<Slot> old(2 * m_Slots.size(), Slot{ {}, none });
       old.swap(m_Slots);
@@ -169,12 +167,6 @@ private:
     std::uint32_t value;
   };
 
-  bool
-  IsFull() const
-  {
-    return m_Size + 1 > (m_IsDense ? m_Slots.size() / 4 * 3 : m_Slots.size() / 2);
-  }
-
   std::uint32_t
   TakeAt(std::size_t at)
   {
@@ -213,7 +205,6 @@ private:
 
   std::vector<Slot> m_Slots;
   std::size_t       m_Size = 0;
-  bool              m_IsDense;
 };
 
 } // namespace voxelcore

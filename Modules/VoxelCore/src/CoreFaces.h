@@ -8,8 +8,8 @@
 namespace voxelcore
 {
 
-/** Writes the core's faces in canonical order, with their measures. Polygon i is that of the facet dual to edge i of the
- *  core, whose cells core.cells.edges already holds; polygons and points are as MeasureCells() leaves them.
+/** Writes the core's faces in canonical order, with their measures. Polygon i is that of the facet dual to edge i of
+ *  the core, whose cells core.cells.edges already holds; polygons and points are as MeasureCells() leaves them.
  *  \throws CertificateError when the facets around an edge do not close. */
 void
 WriteFaces(FacetPolygons             polygons,

@@ -19,7 +19,7 @@ struct ToleranceValues
   std::vector<double> faces;
 };
 
-/** What a core holds in little memory until it has been pruned by lambda; the arrays of the same names are empty then. */
+/** What a core holds in little memory until it has been pruned by lambda; the arrays of these names are empty then. */
 struct WaitingArrays
 {
   PackedArray<std::array<double, 3>> positions;
