@@ -24,9 +24,9 @@ std::vector<std::uint32_t>
 SortByCentre(const DelaunayCells & cells, const std::vector<LatticePoint> & points, const SpacingWeights & weights);
 
 /** Of what an engine made: numbers cells by exact centre, orders facets and polygons as DelaunayCells promises, and
- *  fills in the centres as asked. Expects tetrahedra, facetCells (any order of the two; kOutside second), facetOffsets and
- *  facetPoints with every polygon counter-clockwise seen from outside facetCells[.][0]. Facets with kOutside on both
- *  sides are left out.
+ *  fills in the centres as asked. Expects tetrahedra, facetCells (any order of the two; kOutside second),
+ *  facetOffsets and facetPoints with every polygon counter-clockwise seen from outside facetCells[.][0]. Facets with
+ *  kOutside on both sides are left out.
  *  \throws CertificateError when two cells have the same centre (they were not merged). */
 DelaunayCells
 MakeCanonical(DelaunayCells                     cells,
