@@ -6,6 +6,7 @@
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,18 @@ namespace
 constexpr double kRounding = 1.0 / (1 << 18);
 
 using Eight = EightFloats;
+
+// A bit for each of eight that is at most as great.
+[[gnu::always_inline]] inline std::uint32_t
+NotAbove(const Eight & eight, float most)
+{
+  using Flags = std::int32_t __attribute__((vector_size(32)));
+  using Half = std::int32_t __attribute__((vector_size(16)));
+  const Flags bits = (eight <= most) & Flags{ 1, 2, 4, 8, 16, 32, 64, 128 };
+  Half        sum = __builtin_shufflevector(bits, bits, 0, 1, 2, 3) | __builtin_shufflevector(bits, bits, 4, 5, 6, 7);
+  sum |= __builtin_shufflevector(sum, sum, 2, 3, 0, 1);
+  return static_cast<std::uint32_t>(sum[0] | sum[1]);
+}
 
 Vector3
 NearestOnSegment(const Vector3 & place, const Vector3 & a, const Vector3 & b)
@@ -127,12 +140,13 @@ struct TriangleTree::Search
       beside = beside > beyond ? beside : beyond;
     }
     const Eight squared = off * off + beside * beside;
-    for (std::size_t lane = 0; lane < kLanes; ++lane)
+    for (std::uint32_t near = NotAbove(squared, farthest); near != 0; near &= near - 1)
     {
-      if (squared[lane] <= farthest && leaf.triangles[lane] != kNoTriangle)
+      const std::uint32_t triangle = leaf.triangles[static_cast<std::size_t>(std::countr_zero(near))];
+      if (triangle != kNoTriangle && triangle != best.triangle)
       {
         const double before = best.squaredDistance;
-        tree.LookAt(leaf.triangles[lane], place, best);
+        tree.LookAt(triangle, place, best);
         if (best.squaredDistance < before)
         {
           Limit();
@@ -156,18 +170,16 @@ struct TriangleTree::Search
       squared += gap * gap;
     }
     const std::size_t first = count;
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane)
+    for (std::uint32_t near = NotAbove(squared, farthest); near != 0; near &= near - 1)
     {
+      const auto  lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const float gap = squared[lane];
-      if (gap <= farthest)
+      std::size_t i = count++;
+      for (; i > first && open[i - 1].squared < gap; --i)
       {
-        std::size_t i = count++;
-        for (; i > first && open[i - 1].squared < gap; --i)
-        {
-          open[i] = open[i - 1];
-        }
-        open[i] = { gap, part.level - 1, static_cast<std::uint32_t>(kLanes) * part.index + lane };
+        open[i] = open[i - 1];
       }
+      open[i] = { gap, part.level - 1, static_cast<std::uint32_t>(kLanes) * part.index + lane };
     }
   }
 
