@@ -186,5 +186,78 @@ TEST(RunEach, StopsAtWhatIsThrownAndThrowsItOn)
   }
 }
 
+TEST(RunEach, MayRunMoreWorkFromDoneAndStopItself)
+{
+  for (const int threads : { 1, 3 })
+  {
+    const testing::Threads scope(threads);
+    std::atomic<int>       ran = 0;
+    const auto             more = [&](std::size_t) {
+      RunEach(
+        2,
+        [&](std::size_t) { ++ran; },
+        [&](std::size_t) { ++ran; });
+    };
+    RunEach(
+      5,
+      [](std::size_t) {},
+      more);
+    EXPECT_EQ(ran, 5 * (2 + 2));
+  }
+}
+
+TEST(FirstFailure, IsThrownOnAfterTheLoopAndEndsIt)
+{
+  const testing::Threads scope(3);
+  FirstFailure           none;
+  none.Rethrow();
+  EXPECT_FALSE(none.HasFailed());
+
+  FirstFailure     failure;
+  std::atomic<int> ran = 0;
+  constexpr int    items = 100000;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int item = 0; item < items; ++item)
+  {
+    failure.Guard(static_cast<std::size_t>(item), [&] {
+      ++ran;
+      if (item == 5)
+      {
+        throw std::runtime_error("five");
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    });
+  }
+  EXPECT_LT(ran, items);
+  EXPECT_TRUE(failure.HasFailed());
+  EXPECT_THROW(failure.Rethrow(), std::runtime_error);
+}
+
+TEST(FirstFailure, IsThatOfTheLowestNumberOfThoseThatRan)
+{
+  const testing::Threads scope(3);
+  FirstFailure           failure;
+  std::atomic<int>       begun = 0;
+#pragma omp parallel for schedule(static, 1) num_threads(3)
+  for (int item = 0; item < 3; ++item)
+  {
+    failure.Guard(static_cast<std::size_t>(item), [&] {
+      for (++begun; begun < omp_get_num_threads();) // all are within before the first one throws
+      {}
+      throw std::runtime_error(std::to_string(item));
+    });
+  }
+  std::string text;
+  try
+  {
+    failure.Rethrow();
+  }
+  catch (const std::runtime_error & error)
+  {
+    text = error.what();
+  }
+  EXPECT_EQ(text, "0");
+}
+
 } // namespace
 } // namespace voxelcore

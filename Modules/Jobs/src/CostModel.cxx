@@ -1,5 +1,6 @@
 #include "voxelcore/CostModel.h"
 
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/ParseReal.h"
 #include "LabelGroups.h"
 #include "voxelcore/Error.h"
@@ -12,7 +13,6 @@
 #include <cstdio>
 #include <functional>
 #include <numeric>
-#include <omp.h>
 
 namespace voxelcore
 {
@@ -200,11 +200,7 @@ std::vector<BoundaryCounts>
 CountBoundaries(const std::vector<EditedLabel> & labels)
 {
   std::vector<BoundaryCounts> counts(labels.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < labels.size(); ++i)
-  {
-    counts[i] = CountBoundary(labels[i].label.shape);
-  }
+  RunEach(labels.size(), [&](std::size_t i) { counts[i] = CountBoundary(labels[i].label.shape); });
   return counts;
 }
 

@@ -6,6 +6,7 @@
 #include "voxelcore/BlockJob.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <numeric>
@@ -23,11 +24,7 @@ std::vector<std::uint64_t>
 CountVertices(const std::vector<EditedLabel> & labels)
 {
   std::vector<std::uint64_t> vertices(labels.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < labels.size(); ++i)
-  {
-    vertices[i] = CountBoundaryVertices(labels[i].label.shape);
-  }
+  RunEach(labels.size(), [&](std::size_t i) { vertices[i] = CountBoundaryVertices(labels[i].label.shape); });
   return vertices;
 }
 

@@ -3,8 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <vector>
 
 // Where there is nothing to share out no parallel region is entered, not even one of a single thread: for each region
@@ -101,36 +99,46 @@ RunInParts(bool worthIt, std::size_t count, const std::function<void(std::size_t
 }
 
 void
+FirstFailure::Keep(std::size_t number)
+{
+  const std::scoped_lock lock(m_Mutex);
+  if (!m_Exception || number < m_Number)
+  {
+    m_Exception = std::current_exception();
+    m_Number = number;
+  }
+  m_HasFailed = true;
+}
+
+void
+FirstFailure::Rethrow() const
+{
+  if (m_Exception)
+  {
+    std::rethrow_exception(m_Exception);
+  }
+}
+
+void
 RunEach(std::size_t                                     count,
         const std::function<void(std::size_t item)> &   work,
         const std::function<void(std::size_t number)> & done)
 {
-  Failures          failures(count);
-  std::atomic<bool> failed = false;
-  std::size_t       number = 0;
-  const auto        run = [&](std::size_t item) {
-    if (failed)
-    {
-      return;
-    }
-    bool finished = false;
-    failures.Guard(item, [&] {
+  FirstFailure failure;
+  std::mutex   oneAtATime; // its own: other work that runs beside this, or within done(), does not wait for it
+  std::size_t  number = 0;
+  const auto   run = [&](std::size_t item) {
+    failure.Guard(item, [&] {
       work(item);
-      finished = true;
+      if (done)
+      {
+        const std::scoped_lock lock(oneAtATime);
+        if (!failure.HasFailed())
+        {
+          done(++number);
+        }
+      }
     });
-#pragma omp critical(voxelcore_run_each)
-    if (finished && done && !failed)
-    {
-      finished = false;
-      failures.Guard(item, [&] {
-        done(++number);
-        finished = true;
-      });
-    }
-    if (!finished)
-    {
-      failed = true;
-    }
   };
   if (omp_get_max_threads() == 1)
   {
@@ -147,7 +155,7 @@ RunEach(std::size_t                                     count,
       run(item);
     }
   }
-  failures.Rethrow();
+  failure.Rethrow();
 }
 
 } // namespace voxelcore

@@ -1,6 +1,7 @@
 #pragma once
 // The makers behind MakePhantom, and what they share.
 
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Phantom.h"
 
 #include <algorithm>
@@ -92,11 +93,10 @@ ForSlabs(const PhantomOptions & options, const ProgressCallback & progress, cons
   {
     ReportProgress(progress, "sampling", static_cast<double>(first) / slabs);
     const std::int32_t end = std::min(slabs, first + atATime);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::int32_t slab = first; slab < end; ++slab)
-    {
+    RunEach(static_cast<std::size_t>(end - first), [&](std::size_t i) {
+      const std::int32_t slab = first + static_cast<std::int32_t>(i);
       work(slab * kPhantomSlab, std::min(options.size[2], (slab + 1) * kPhantomSlab));
-    }
+    });
   }
 }
 

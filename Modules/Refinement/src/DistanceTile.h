@@ -5,6 +5,7 @@
 
 #include "voxelcore/EightLanes.h"
 #include "voxelcore/ImageGeometry.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <array>
@@ -211,13 +212,19 @@ ForTiles(const BrickGrid & grid, const std::vector<std::uint8_t> & needed, TUse 
   }
   std::sort(tiles.begin(), tiles.end());
   tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-  const auto count = static_cast<std::ptrdiff_t>(tiles.size());
+  const auto   count = static_cast<std::ptrdiff_t>(tiles.size());
+  FirstFailure failure;
 #pragma omp parallel if (count > BrickGrid::kMany / 8)
   {
-    const auto cube = std::make_unique<TCube>();
+    std::unique_ptr<TCube> cube;
+    failure.Guard(0, [&] { cube = std::make_unique<TCube>(); });
 #pragma omp for schedule(dynamic, 2)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
+      if (failure.HasFailed()) // there may be no cube
+      {
+        continue;
+      }
       const auto & tile = tiles[static_cast<std::size_t>(i)];
       const auto   x = tile[2];
       const auto   y = tile[1];
@@ -235,6 +242,7 @@ ForTiles(const BrickGrid & grid, const std::vector<std::uint8_t> & needed, TUse 
       });
     }
   }
+  failure.Rethrow();
 }
 
 } // namespace voxelcore::tile

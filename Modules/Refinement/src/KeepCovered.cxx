@@ -1,6 +1,7 @@
 #include "KeepCovered.h"
 
 #include "voxelcore/BallTree.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -184,6 +185,7 @@ private:
     }
     std::vector<std::pair<std::uint32_t, int>> wanted(open.size(), { kNone, 0 });
     const auto                                 last = static_cast<std::ptrdiff_t>(open.size());
+    FirstFailure                               failure;
 #pragma omp parallel if (last > 64)
     {
       std::vector<std::uint32_t> kept;
@@ -192,7 +194,7 @@ private:
       {
         auto & [vertex, steps] = wanted[static_cast<std::size_t>(i)];
         const std::uint32_t point = open[static_cast<std::size_t>(i)];
-        m_FormerBalls->FindWithin(PlaceOf(point), m_Height, kept);
+        failure.Guard(static_cast<std::size_t>(i), [&] { m_FormerBalls->FindWithin(PlaceOf(point), m_Height, kept); });
         for (const std::uint32_t one : kept)
         {
           const int needed = m_Steps[one] > 0 ? StepsToCover(point, one) : -1;
@@ -204,6 +206,7 @@ private:
         }
       }
     }
+    failure.Rethrow();
     std::vector<int> target = m_Steps;
     for (const auto & [vertex, steps] : wanted)
     {

@@ -1,6 +1,7 @@
 // What the elements of a working core measure where they have moved to.
 
 #include "RefinementState.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -112,7 +113,8 @@ RefinementState::MeasureVertex(const FootPointFinder & finder, std::size_t verte
 void
 RefinementState::MeasureVertices(const FootPointFinder & finder, const std::vector<ElementIndex> & vertices)
 {
-  const auto count = static_cast<std::ptrdiff_t>(vertices.size());
+  const auto   count = static_cast<std::ptrdiff_t>(vertices.size());
+  FirstFailure failure;
 #pragma omp parallel if (count > 512)
   {
     std::vector<FootPoint> footPoints;
@@ -120,9 +122,11 @@ RefinementState::MeasureVertices(const FootPointFinder & finder, const std::vect
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
       footPoints.clear();
-      MeasureVertex(finder, vertices[static_cast<std::size_t>(i)], footPoints);
+      const auto at = static_cast<std::size_t>(i);
+      failure.Guard(at, [&] { MeasureVertex(finder, vertices[at], footPoints); });
     }
   }
+  failure.Rethrow();
 }
 
 double

@@ -1,6 +1,7 @@
 #include "RefinementState.h"
 
 #include "MoveGuard.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -150,6 +151,7 @@ RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & p
   m_Radius.assign(m_Positions.size(), 0);
   m_Swelling.assign(m_Positions.size(), 0);
   ReportProgress(progress, "refining", 0.2);
+  FirstFailure failure;
 #pragma omp parallel if (count > 512)
   {
     std::vector<FootPoint> footPoints;
@@ -157,10 +159,13 @@ RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & p
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
       const auto vertex = static_cast<std::size_t>(i);
-      MoveInPasses(finder, vertex, Pairs(vertex), footPoints);
-      MeasureVertex(finder, vertex, footPoints);
+      failure.Guard(vertex, [&] {
+        MoveInPasses(finder, vertex, Pairs(vertex), footPoints);
+        MeasureVertex(finder, vertex, footPoints);
+      });
     }
   }
+  failure.Rethrow();
   ReportProgress(progress, "refining", 0.8);
 }
 

@@ -3,6 +3,7 @@
 #include "MoveGuard.h"
 #include "RefinementState.h"
 #include "Rims.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,8 @@ RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part
       lines.push_back(static_cast<ElementIndex>(vertex));
     }
   }
-  const auto count = static_cast<std::ptrdiff_t>(lines.size());
+  const auto   count = static_cast<std::ptrdiff_t>(lines.size());
+  FirstFailure failure;
 #pragma omp parallel if (count > 64)
   {
     std::vector<FootPoint> footPoints;
@@ -44,25 +46,28 @@ RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part
 #pragma omp for schedule(dynamic, 16)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
-      const ElementIndex line = lines[static_cast<std::size_t>(i)];
-      const ElementIndex vertex = part.vertices[line];
-      pairs.clear();
-      const auto add = [&](ElementIndex one) {
-        const auto own = Pairs(part.vertices[one]);
-        pairs.insert(pairs.end(), own.begin(), own.end());
-      };
-      add(line);
-      for (const ElementIndex next : near[line])
-      {
-        add(next);
-        std::for_each(near[next].begin(), near[next].end(), add);
-      }
-      std::sort(pairs.begin(), pairs.end());
-      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-      m_Displacement[vertex] = wanted[vertex];
-      MoveInPasses(finder, vertex, pairs, footPoints);
+      failure.Guard(static_cast<std::size_t>(i), [&] {
+        const ElementIndex line = lines[static_cast<std::size_t>(i)];
+        const ElementIndex vertex = part.vertices[line];
+        pairs.clear();
+        const auto add = [&](ElementIndex one) {
+          const auto own = Pairs(part.vertices[one]);
+          pairs.insert(pairs.end(), own.begin(), own.end());
+        };
+        add(line);
+        for (const ElementIndex next : near[line])
+        {
+          add(next);
+          std::for_each(near[next].begin(), near[next].end(), add);
+        }
+        std::sort(pairs.begin(), pairs.end());
+        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+        m_Displacement[vertex] = wanted[vertex];
+        MoveInPasses(finder, vertex, pairs, footPoints);
+      });
     }
   }
+  failure.Rethrow();
   for (ElementIndex & vertex : lines)
   {
     vertex = part.vertices[vertex];
@@ -196,13 +201,17 @@ RefinementState::MoveRims(const FootPointFinder & finder, const CorePart & part,
   }
   std::vector<std::uint8_t> hasMoved(rims.size(), 0);
   const auto                count = static_cast<std::ptrdiff_t>(rims.size());
+  FirstFailure              failure;
 #pragma omp parallel for schedule(dynamic, 16) if (count > 64)
   for (std::ptrdiff_t i = 0; i < count; ++i)
   {
-    RimVertex & rim = rims[static_cast<std::size_t>(i)];
-    hasMoved[static_cast<std::size_t>(i)] =
-      MoveRimVertex(finder, threshold, part.vertices[rim.vertex], rim.outwards, rim.pairs) ? 1 : 0;
+    const auto at = static_cast<std::size_t>(i);
+    failure.Guard(at, [&] {
+      RimVertex & rim = rims[at];
+      hasMoved[at] = MoveRimVertex(finder, threshold, part.vertices[rim.vertex], rim.outwards, rim.pairs) ? 1 : 0;
+    });
   }
+  failure.Rethrow();
   std::vector<ElementIndex> moved;
   for (std::size_t i = 0; i < rims.size(); ++i)
   {

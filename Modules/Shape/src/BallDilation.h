@@ -1,6 +1,7 @@
 #pragma once
 // Dilation of a shape by a ball, a word of 64 voxels at a time.
 
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/ShapeClosing.h"
 #include "voxelcore/VoxelShape.h"
@@ -100,11 +101,7 @@ ForSlices(std::int32_t slices, const ProgressCallback & progress, double from, d
   {
     ReportProgress(progress, "closing", from + (to - from) * first / slices);
     const std::int32_t end = std::min(slices, first + step);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::int32_t z = first; z < end; ++z)
-    {
-      work(z);
-    }
+    RunEach(static_cast<std::size_t>(end - first), [&](std::size_t i) { work(first + static_cast<std::int32_t>(i)); });
   }
 }
 

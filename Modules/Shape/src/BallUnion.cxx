@@ -1,5 +1,7 @@
 #include "voxelcore/BallUnion.h"
 
+#include "voxelcore/ParallelTasks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -123,16 +125,14 @@ UnionOfBalls(const VoxelBox &                       box,
   for (std::int32_t first = 0; first < box.size[2]; first += slabs * thickness)
   {
     ReportProgress(progress, "balls", static_cast<double>(first) / box.size[2]);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::int32_t slab = 0; slab < slabs; ++slab)
-    {
-      const std::int32_t begin = first + slab * thickness;
+    RunEach(slabs, [&](std::size_t slab) {
+      const std::int32_t begin = first + static_cast<std::int32_t>(slab) * thickness;
       const std::int32_t end = std::min(begin + thickness, box.size[2]);
       for (std::size_t i = 0; begin < end && i < centres.size(); ++i)
       {
         Ball(shape, spacing, centres[i], radius[i]).Fill(shape, begin, end);
       }
-    }
+    });
   }
   return shape;
 }

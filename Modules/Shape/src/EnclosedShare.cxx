@@ -2,10 +2,12 @@
 
 #include "BallDilation.h"
 #include "EditedBits.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -55,14 +57,13 @@ EnclosedShare(VoxelShape between, VoxelShape enclosed, VoxelShape outside, const
   {
     ReportProgress(progress, "filling", 1);
     std::vector<Given> given;
-#pragma omp parallel
-    {
+    std::mutex         guard;
+    RunInParts(true, static_cast<std::size_t>(size[2]), [&](std::size_t first, std::size_t last) {
       std::vector<Given> own;
       BitRow             out;
       BitRow             in;
       BitRow             spare;
-#pragma omp for schedule(static) nowait
-      for (std::int32_t z = 0; z < size[2]; ++z)
+      for (auto z = static_cast<std::int32_t>(first); z < static_cast<std::int32_t>(last); ++z)
       {
         for (std::int32_t y = 0; y < size[1]; ++y)
         {
@@ -92,9 +93,9 @@ EnclosedShare(VoxelShape between, VoxelShape enclosed, VoxelShape outside, const
           }
         }
       }
-#pragma omp critical
+      const std::scoped_lock lock(guard);
       given.insert(given.end(), own.begin(), own.end());
-    }
+    });
     for (const Given & one : given)
     {
       outside.Row(one.y, one.z)[one.word] |= one.toOutside;

@@ -1,6 +1,7 @@
 #include "voxelcore/GreyLevels.h"
 
 #include "voxelcore/CountBits.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <algorithm>
@@ -226,11 +227,9 @@ ProposeLevels(const VoxelShape & shape, const BandValues & values, double level)
   {
     levels.tried.push_back({ level + part * (levels.bright - level), {} });
   }
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < levels.tried.size(); ++i)
-  {
+  RunEach(levels.tried.size(), [&](std::size_t i) {
     levels.tried[i].numbers = ComputeShapeTopology(AtLeast(shape, values, level, levels.tried[i].level));
-  }
+  });
   const auto sum = [](const LevelNumbers & one) {
     const auto & betti = one.numbers.betti;
     return betti[0] + betti[1] + betti[2];

@@ -1,6 +1,7 @@
 #include "voxelcore/ShapeDenoising.h"
 
 #include "FilteredShape.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <array>
@@ -279,18 +280,22 @@ DenoiseShape(const VoxelShape & shape, const Vector3 & spacing, const ProgressCa
   for (std::int32_t z = 0; z < size[2]; z += kTile)
   {
     ReportProgress(progress, "denoising", static_cast<double>(z) / size[2]);
+    FirstFailure failure;
 #pragma omp parallel
     {
       Denoising::Memory memory;
 #pragma omp for schedule(dynamic, 1)
       for (std::int32_t y = 0; y < size[1]; y += kTile)
       {
-        for (std::size_t word = 0; word < shape.WordsPerRow(); ++word)
-        {
-          denoising.Tile(y, z, word, memory, result);
-        }
+        failure.Guard(static_cast<std::size_t>(y), [&] {
+          for (std::size_t word = 0; word < shape.WordsPerRow(); ++word)
+          {
+            denoising.Tile(y, z, word, memory, result);
+          }
+        });
       }
     }
+    failure.Rethrow();
   }
   return FilteredShape(shape, std::move(result));
 }

@@ -5,6 +5,7 @@
 
 #include "voxelcore/DepthSimplification.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/ShapeDenoising.h"
 #include "voxelcore/ShapeOperations.h"
 #include "voxelcore/ShapeSmoothing.h"
@@ -271,11 +272,7 @@ FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_
   }
   else
   {
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t i = 0; i < labels.size(); ++i)
-    {
-      look(labels[i]);
-    }
+    RunEach(labels.size(), [&](std::size_t i) { look(labels[i]); });
   }
   std::vector<std::string> warnings;
   for (const EditedLabel & one : labels)

@@ -4,6 +4,7 @@
 
 #include "voxelcore/CountBits.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <array>
@@ -143,9 +144,8 @@ MedianShape(const VoxelShape & shape, MedianWidth width, const ProgressCallback 
   {
     ReportProgress(progress, "median", static_cast<double>(first) / size[2]);
     const std::int32_t last = std::min(size[2], first + slab);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::int32_t z = first; z < last; ++z)
-    {
+    RunEach(static_cast<std::size_t>(last - first), [&](std::size_t i) {
+      const std::int32_t z = first + static_cast<std::int32_t>(i);
       for (std::int32_t y = 0; y < size[1]; ++y)
       {
         const RowsAround around(shape, y, z, reach);
@@ -155,7 +155,7 @@ MedianShape(const VoxelShape & shape, MedianWidth width, const ProgressCallback 
           to[word] = around.Median(word);
         }
       }
-    }
+    });
   }
   return FilteredShape(shape, std::move(result));
 }

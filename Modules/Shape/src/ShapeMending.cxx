@@ -3,6 +3,7 @@
 #include "MendingWindow.h"
 #include "ShapeField.h"
 #include "ShapeRuns.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
 
 #include <algorithm>
@@ -57,23 +58,28 @@ private:
   {
     const Voxel &                   size = m_Shape.Size();
     std::vector<std::vector<Voxel>> found(static_cast<std::size_t>(size[2]));
+    FirstFailure                    failure;
 #pragma omp parallel
     {
       SimpleVoxels simple;
 #pragma omp for schedule(dynamic, 4)
       for (std::int32_t z = 1; z < size[2] - 1; ++z)
       {
-        for (std::int32_t y = 1; y + 1 < size[1]; ++y)
-        {
-          m_Shape.VisitBoundary(y, z, [&](const Voxel & voxel) {
-            if (!simple.IsSimple(m_Shape.Around(voxel)))
-            {
-              found[static_cast<std::size_t>(z)].push_back(voxel);
-            }
-          });
-        }
+        const auto slice = static_cast<std::size_t>(z);
+        failure.Guard(slice, [&] {
+          for (std::int32_t y = 1; y + 1 < size[1]; ++y)
+          {
+            m_Shape.VisitBoundary(y, z, [&](const Voxel & voxel) {
+              if (!simple.IsSimple(m_Shape.Around(voxel)))
+              {
+                found[slice].push_back(voxel);
+              }
+            });
+          }
+        });
       }
     }
+    failure.Rethrow();
     std::vector<Voxel> all;
     for (const auto & part : found)
     {

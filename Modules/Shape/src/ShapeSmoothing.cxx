@@ -3,6 +3,7 @@
 #include "ShapeField.h"
 
 #include "voxelcore/CountBits.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,19 +80,18 @@ private:
   {
     const Voxel &                       size = m_Shape.Size();
     std::vector<std::vector<Candidate>> found(static_cast<std::size_t>(size[2]));
-#pragma omp parallel for schedule(dynamic, 4)
-    for (std::int32_t z = 1; z < size[2] - 1; ++z)
-    {
+    RunEach(found.size() < 2 ? 0 : found.size() - 2, [&](std::size_t i) {
+      const auto z = static_cast<std::int32_t>(i + 1);
       for (std::int32_t y = 1; y + 1 < size[1]; ++y)
       {
         m_Shape.VisitBoundary(y, z, [&](const Voxel & voxel) {
           if (const std::int32_t gain = Gain(voxel); gain > 0)
           {
-            found[static_cast<std::size_t>(z)].push_back({ gain, WideView(voxel), voxel });
+            found[i + 1].push_back({ gain, WideView(voxel), voxel });
           }
         });
       }
-    }
+    });
     std::vector<Candidate> all;
     for (const auto & part : found)
     {

@@ -2,6 +2,7 @@
 
 #include "EditedBits.h"
 #include "ShapeRuns.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <array>
@@ -45,9 +46,8 @@ SwappedXZ(const VoxelShape & shape)
 {
   VoxelShape   swapped = EmptyWithAxes(shape, 0, 2);
   const auto & size = shape.Box().size;
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::int32_t y = 0; y < size[1]; ++y)
-  {
+  RunEach(static_cast<std::size_t>(size[1]), [&](std::size_t row) {
+    const auto                    y = static_cast<std::int32_t>(row);
     std::array<std::uint64_t, 64> block{};
     for (std::int32_t z = 0; z < size[2]; z += 64)
     {
@@ -73,7 +73,7 @@ SwappedXZ(const VoxelShape & shape)
         }
       }
     }
-  }
+  });
   return swapped;
 }
 
@@ -83,14 +83,15 @@ SwappedYZ(const VoxelShape & shape)
 {
   VoxelShape   swapped = EmptyWithAxes(shape, 1, 2);
   const auto & size = shape.Box().size;
-#pragma omp parallel for schedule(static)
-  for (std::int32_t y = 0; y < size[1]; ++y)
-  {
-    for (std::int32_t z = 0; z < size[2]; ++z)
+  RunInParts(true, static_cast<std::size_t>(size[1]), [&](std::size_t first, std::size_t last) {
+    for (auto y = static_cast<std::int32_t>(first); y < static_cast<std::int32_t>(last); ++y)
     {
-      std::ranges::copy(shape.Row(y, z), swapped.Row(z, y).begin());
+      for (std::int32_t z = 0; z < size[2]; ++z)
+      {
+        std::ranges::copy(shape.Row(y, z), swapped.Row(z, y).begin());
+      }
     }
-  }
+  });
   return swapped;
 }
 
@@ -105,15 +106,14 @@ HolesAcrossZ(const VoxelShape & shape, std::uint64_t & count, const ProgressCall
   for (std::int32_t first = 0; first < slices; first += step)
   {
     ReportProgress(progress, "filling slices", static_cast<double>(first) / slices);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::int32_t z = first; z < std::min(slices, first + step); ++z)
-    {
-      const Runs runs = SliceBackgroundRuns(shape, z);
-      UnionFind  sets = UniteRuns(runs, true);
+    RunEach(static_cast<std::size_t>(std::min(slices - first, step)), [&](std::size_t i) {
+      const std::int32_t z = first + static_cast<std::int32_t>(i);
+      const Runs         runs = SliceBackgroundRuns(shape, z);
+      UnionFind          sets = UniteRuns(runs, true);
       found += sets.Count() - 1;
       if (sets.Count() == 1)
       {
-        continue;
+        return;
       }
       for (std::int32_t y = 0; y < shape.Box().size[1]; ++y)
       {
@@ -127,7 +127,7 @@ HolesAcrossZ(const VoxelShape & shape, std::uint64_t & count, const ProgressCall
           }
         }
       }
-    }
+    });
   }
   count = found;
   return holes;

@@ -58,12 +58,14 @@ FindPlaces(const MedialComplex & surface, const ImageGeometry & geometry)
 {
   Places places;
   places.steps.resize(surface.positions.size());
-  places.low.fill(std::numeric_limits<std::int64_t>::max());
-  places.high.fill(std::numeric_limits<std::int64_t>::min());
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
+  places.low.fill(most);
+  places.high.fill(least);
   std::mutex guard;
   RunInParts(places.steps.size() > 10000, places.steps.size(), [&](std::size_t first, std::size_t last) {
-    Steps low = places.low;
-    Steps high = places.high;
+    Steps low{ most, most, most }; // not places.low, which another part may be writing
+    Steps high{ least, least, least };
     for (std::size_t vertex = first; vertex < last; ++vertex)
     {
       const Vector3 lattice = PhysicalToLattice(geometry, surface.positions[vertex]);

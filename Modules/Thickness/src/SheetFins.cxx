@@ -90,7 +90,8 @@ SheetPieces::KeepStrips(std::vector<std::uint8_t> & fins) const
   }
   for (auto & [fin, pairs] : lengths)
   {
-    std::erase_if(pairs, [&](const auto & pair) { return pair.second < kFreeShare * m_Pieces[fin].seamBorder; });
+    const double least = kFreeShare * m_Pieces[fin].seamBorder; // clang 14 takes no structured bindings into lambdas
+    std::erase_if(pairs, [least](const auto & pair) { return pair.second < least; });
     const Pair first = pairs.empty() ? Pair{} : pairs.begin()->first;
     const auto isApart = [&](const auto & pair) {
       return std::find_first_of(first.begin(), first.end(), pair.first.begin(), pair.first.end()) == first.end();

@@ -2,6 +2,7 @@
 
 #include "voxelcore/BallTree.h"
 #include "voxelcore/BoundaryVertices.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,14 +70,20 @@ LargestBoundaryGap(const VoxelShape &                     shape,
     {
       ReportProgress(progress, "coverage", static_cast<double>(first) / static_cast<double>(count));
       const std::size_t last = std::min(count, first + chunk);
+      FirstFailure      failure;
 #pragma omp parallel if (last - first > 4096)
       {
         Farthest                 own = farthest;
         std::size_t              nearest = 0;
-        std::vector<std::size_t> below(width, 0); // what was nearest at each x, and one x before and behind
+        std::vector<std::size_t> below; // what was nearest at each x, and one x before and behind
+        failure.Guard(first, [&] { below.assign(width, 0); });
 #pragma omp for schedule(dynamic, 512)
         for (std::size_t i = first; i < last; ++i)
         {
+          if (below.empty())
+          {
+            continue; // there was no memory for it
+          }
           const LatticePoint &        p = points[i * step];
           const std::array<double, 3> place{ static_cast<double>(p.x),
                                              static_cast<double>(p.y),
@@ -102,6 +109,7 @@ LargestBoundaryGap(const VoxelShape &                     shape,
 #pragma omp critical(voxelcoreFarthest)
         farthest.Take(own.gap, own.point);
       }
+      failure.Rethrow();
     }
   }
   BoundaryGap result;

@@ -1,6 +1,7 @@
 // Whether edges and faces are dual to facets and edges of the Delaunay cells, and polygons are planar, convex,
 // oriented.
 #include "Checks.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <numbers>
 
@@ -125,6 +126,7 @@ FindDualEdges(Subject & subject)
 {
   const CellComplex & cells = subject.cells;
   subject.dualEdges.assign(cells.FaceCount(), { kNoPoint, kNoPoint });
+  FirstFailure failure;
 #pragma omp parallel if (cells.FaceCount() > 4096)
   {
     std::vector<std::uint32_t> common;
@@ -132,20 +134,23 @@ FindDualEdges(Subject & subject)
 #pragma omp for schedule(dynamic, 1024)
     for (std::size_t f = 0; f < cells.FaceCount(); ++f)
     {
-      const auto corners = cells.FaceVertices(f);
-      const auto first = subject.sets.Of(corners[0]);
-      common.assign(first.begin(), first.end());
-      for (const ElementIndex v : corners.subspan(1))
-      {
-        Intersect(common, subject.sets.Of(v), next);
-        common.swap(next);
-      }
-      if (common.size() == 2)
-      {
-        subject.dualEdges[f] = { common[0], common[1] };
-      }
+      failure.Guard(f, [&] {
+        const auto corners = cells.FaceVertices(f);
+        const auto first = subject.sets.Of(corners[0]);
+        common.assign(first.begin(), first.end());
+        for (const ElementIndex v : corners.subspan(1))
+        {
+          Intersect(common, subject.sets.Of(v), next);
+          common.swap(next);
+        }
+        if (common.size() == 2)
+        {
+          subject.dualEdges[f] = { common[0], common[1] };
+        }
+      });
     }
   }
+  failure.Rethrow();
 }
 
 void

@@ -1,5 +1,6 @@
 // Whether vertices lie inside the shape, as far from the boundary vertices as they say.
 #include "Checks.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <cmath>
 #include <limits>
@@ -98,15 +99,17 @@ CheckTrueSpacing(VerificationReport & report, const Subject & subject)
   const BoundaryTree        tree(subject.tree.Points(), spacing);
   const std::size_t         vertices = subject.cells.vertexCount;
   std::vector<double>       nearest(vertices);
+  FirstFailure              failure;
 #pragma omp parallel if (vertices > 4096)
   {
     std::vector<BoundaryTree::Candidate> found;
 #pragma omp for schedule(dynamic, 1024)
     for (std::size_t v = 0; v < vertices; ++v)
     {
-      nearest[v] = tree.FindNearest(input.positions[v], 0, found);
+      failure.Guard(v, [&] { nearest[v] = tree.FindNearest(input.positions[v], 0, found); });
     }
   }
+  failure.Rethrow();
   // Whatever deviation the weights admit to, lengths that are off by more are wrong.
   const double relative = std::min(input.weights.deviation, kLargestDeviation) + kMeasureTolerance;
   const double reach = subject.tolerance * Length(spacing);

@@ -3,6 +3,7 @@
 
 #include "NearestSets.h"
 #include "Vectors.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Verification.h"
 
 #include <algorithm>
@@ -34,22 +35,26 @@ struct Subject
 inline constexpr std::uint32_t kNoPoint = 0xFFFFFFFFU;
 
 /** Runs `offends(i)` for i below count, in parallel, and adds a check with the number of i for which it holds and
- *  `describe(i)` of the smallest. Both must be thread-safe and must not throw. */
+ *  `describe(i)` of the smallest. Both must be thread-safe. */
 template <typename Offends, typename Describe>
 void
 AddCheck(VerificationReport & report, std::string name, std::size_t count, Offends && offends, Describe && describe)
 {
   std::uint64_t offenders = 0;
   std::uint64_t first = count;
+  FirstFailure  failure;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : offenders) reduction(min : first) if (count > 4096)
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (offends(i))
+    bool is = false;
+    failure.Guard(i, [&] { is = offends(i); });
+    if (is)
     {
       ++offenders;
       first = std::min<std::uint64_t>(first, i);
     }
   }
+  failure.Rethrow();
   VerificationCheck check{ std::move(name), offenders == 0, offenders, {} };
   if (offenders != 0)
   {

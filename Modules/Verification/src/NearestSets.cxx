@@ -1,6 +1,7 @@
 #include "NearestSets.h"
 
 #include "Vectors.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -188,6 +189,7 @@ FindNearestSets(const BoundaryTree &                   tree,
     const std::size_t                       blocks = (last - first + blockSize - 1) / blockSize;
     std::vector<std::vector<std::uint32_t>> points(blocks);
     std::vector<std::vector<std::size_t>>   sizes(blocks);
+    FirstFailure                            failure;
 #pragma omp parallel if (blocks > 4)
     {
       SetFinder                  finder(tree, weights, tolerance);
@@ -195,15 +197,18 @@ FindNearestSets(const BoundaryTree &                   tree,
 #pragma omp for schedule(dynamic)
       for (std::size_t block = 0; block < blocks; ++block)
       {
-        const std::size_t begin = first + block * blockSize;
-        for (std::size_t v = begin; v < std::min(last, begin + blockSize); ++v)
-        {
-          sets.distance[v] = finder.Find(positions[v], set, sets.basis[v]);
-          sizes[block].push_back(set.size());
-          points[block].insert(points[block].end(), set.begin(), set.end());
-        }
+        failure.Guard(block, [&] {
+          const std::size_t begin = first + block * blockSize;
+          for (std::size_t v = begin; v < std::min(last, begin + blockSize); ++v)
+          {
+            sets.distance[v] = finder.Find(positions[v], set, sets.basis[v]);
+            sizes[block].push_back(set.size());
+            points[block].insert(points[block].end(), set.begin(), set.end());
+          }
+        });
       }
     }
+    failure.Rethrow();
     for (std::size_t block = 0; block < blocks; ++block)
     {
       for (const std::size_t size : sizes[block])

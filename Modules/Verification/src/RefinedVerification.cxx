@@ -4,6 +4,7 @@
 #include "voxelcore/BallCoverage.h"
 #include "voxelcore/BettiReduction.h"
 #include "voxelcore/OctantScan.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <array>
 #include <cmath>
@@ -180,15 +181,17 @@ CheckMoves(VerificationReport &             report,
     0.5 * std::sqrt(DotOf(input.spacing, input.spacing)) * (1 + 1e-9) + input.positionTolerance * input.weights.unit;
   const BoundaryTree  inMillimetres(tree.Points(), input.spacing);
   std::vector<double> nearest(origins.size());
+  FirstFailure        failure;
 #pragma omp parallel if (nearest.size() > 4096)
   {
     std::vector<BoundaryTree::Candidate> found;
 #pragma omp for schedule(dynamic, 1024)
     for (std::size_t v = 0; v < nearest.size(); ++v)
     {
-      nearest[v] = inMillimetres.FindNearest(input.positions[v], 0, found);
+      failure.Guard(v, [&] { nearest[v] = inMillimetres.FindNearest(input.positions[v], 0, found); });
     }
   }
+  failure.Rethrow();
   // A surface nearer than a billionth of a voxel is none.
   const double least = 1e-9 * half;
   AddCheck(

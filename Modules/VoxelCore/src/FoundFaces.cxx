@@ -3,6 +3,7 @@
 #include "Measures.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Predicates.h"
 #include "voxelcore/SpentMemory.h"
 
@@ -297,21 +298,26 @@ FindFaces(FacetPolygons             polygons,
   {
     const std::size_t last = std::min(first + most, ranges);
     result.turns.resize(byRange.sidesBefore[last]);
-    bool closed = true;
+    bool         closed = true;
+    FirstFailure failure;
 #pragma omp parallel for schedule(dynamic) reduction(&& : closed) if (last - first > 1)
     for (std::size_t range = first; range < last; ++range)
     {
-      closed = FindInRange(polygons,
-                           byRange,
-                           range,
-                           edges,
-                           sortedPoints,
-                           weights,
-                           work[static_cast<std::size_t>(omp_get_thread_num())],
-                           result.turns.data() + byRange.sidesBefore[range],
-                           found[range - first]) &&
-               closed;
+      bool isClosed = true;
+      failure.Guard(range, [&] {
+        isClosed = FindInRange(polygons,
+                               byRange,
+                               range,
+                               edges,
+                               sortedPoints,
+                               weights,
+                               work[static_cast<std::size_t>(omp_get_thread_num())],
+                               result.turns.data() + byRange.sidesBefore[range],
+                               found[range - first]);
+      });
+      closed = closed && isClosed;
     }
+    failure.Rethrow();
     if (!closed)
     {
       throw CertificateError("the Delaunay cells around an edge do not close; please report this input");

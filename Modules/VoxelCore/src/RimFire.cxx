@@ -1,5 +1,6 @@
 #include "RimFire.h"
 
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Prefetch.h"
 
 #include <algorithm>
@@ -132,6 +133,7 @@ RimFire::OfferAll()
   for (std::size_t first = 0; first < m_Edges.size(); first += kChunk)
   {
     const std::size_t last = std::min(m_Edges.size(), first + kChunk);
+    FirstFailure      failure;
 #pragma omp parallel if (last - first > 4096)
     {
       ReachedVertices reached;
@@ -144,10 +146,11 @@ RimFire::OfferAll()
         }
         if (m_Edges[edge].IsFree())
         {
-          costs[edge - first] = CostOf(static_cast<ElementIndex>(edge), reached);
+          failure.Guard(edge, [&] { costs[edge - first] = CostOf(static_cast<ElementIndex>(edge), reached); });
         }
       }
     }
+    failure.Rethrow();
     for (std::size_t edge = first; edge < last; ++edge)
     {
       if (m_Edges[edge].IsFree())

@@ -7,6 +7,7 @@
 #include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -165,19 +166,17 @@ FillByVotes(const IndexMesh &        mesh,
 
   RisingSlice up(perRow, rows);
   RisingSlice down(perRow, rows);
-  const auto  slabs = static_cast<std::int64_t>(alongZ.SlabCount());
-#pragma omp parallel for schedule(dynamic)
-  for (std::int64_t slab = 0; slab < slabs; ++slab)
-  {
-    const auto planes = alongZ.Runs(static_cast<std::size_t>(slab));
-#pragma omp critical(VoxelCoreRisingSlices)
+  std::mutex  guard;
+  RunEach(alongZ.SlabCount(), [&](std::size_t slab) {
+    const auto             planes = alongZ.Runs(slab);
+    const std::scoped_lock lock(guard);
     for (std::size_t i = 0; i < planes.size(); ++i)
     {
-      const auto row = static_cast<std::int32_t>(slab * AxisCrossings::kSlab + static_cast<std::int64_t>(i));
+      const auto row = static_cast<std::int32_t>(slab * AxisCrossings::kSlab + i);
       up.Add(planes[i].in, row, grid.size[2]);
       down.Add(planes[i].inBack, row, grid.size[2]);
     }
-  }
+  });
   up.Sort();
   down.Sort();
 

@@ -4,6 +4,7 @@
 #include "RayVotes.h"
 #include "RowBits.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <omp.h>
@@ -26,23 +27,27 @@ FillByRows(const AxisCrossings & crossings, VoxelShape & shape, const ProgressCa
   {
     ReportProgress(progress, "voxelize", static_cast<double>(begin) / static_cast<double>(slabs));
     const std::int64_t end = std::min(slabs, begin + batch);
+    FirstFailure       failure;
 #pragma omp parallel for schedule(dynamic) reduction(+ : several)
     for (std::int64_t slab = begin; slab < end; ++slab)
     {
-      const auto planes = crossings.Runs(static_cast<std::size_t>(slab));
-      for (std::size_t i = 0; i < planes.size(); ++i)
-      {
-        const auto z = static_cast<std::int32_t>(slab * AxisCrossings::kSlab + static_cast<std::int64_t>(i));
-        for (const RayRun & run : planes[i].in)
+      failure.Guard(static_cast<std::size_t>(slab), [&] {
+        const auto planes = crossings.Runs(static_cast<std::size_t>(slab));
+        for (std::size_t i = 0; i < planes.size(); ++i)
         {
-          SetBits(shape.Row(run.inner, z), run.first, run.end);
+          const auto z = static_cast<std::int32_t>(slab * AxisCrossings::kSlab + static_cast<std::int64_t>(i));
+          for (const RayRun & run : planes[i].in)
+          {
+            SetBits(shape.Row(run.inner, z), run.first, run.end);
+          }
+          for (const RayRun & run : planes[i].several)
+          {
+            several += static_cast<std::uint64_t>(run.end - run.first);
+          }
         }
-        for (const RayRun & run : planes[i].several)
-        {
-          several += static_cast<std::uint64_t>(run.end - run.first);
-        }
-      }
+      });
     }
+    failure.Rethrow();
   }
   return several;
 }
