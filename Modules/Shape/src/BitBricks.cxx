@@ -105,9 +105,11 @@ BitBricks::NewBrick()
   }
   if (m_ChunkUsed == m_ChunkSize)
   {
-    // As much again as there is, so that small shapes stay small.
-    m_ChunkSize = std::clamp<std::size_t>(2 * m_ChunkSize, 1, greatestChunk);
-    m_Chunks.push_back(std::make_unique_for_overwrite<Brick[]>(m_ChunkSize));
+    // As much again as there is, so that small shapes stay small. Where there is no memory, all stays as it was: other
+    // threads may ask for more before they hear of it.
+    const std::size_t size = std::clamp<std::size_t>(2 * m_ChunkSize, 1, greatestChunk);
+    m_Chunks.push_back(std::make_unique_for_overwrite<Brick[]>(size));
+    m_ChunkSize = size;
     m_ChunkUsed = 0;
   }
   return m_Chunks.back()[m_ChunkUsed++].bits.data();
