@@ -5,8 +5,8 @@
 #
 # address: AddressSanitizer with its leak check, and UndefinedBehaviorSanitizer, with the compiler at hand (CXX).
 # thread:  ThreadSanitizer with clang and LLVM's OpenMP. GCC's own OpenMP is not built for it and every barrier would
-# look
-#          like a race; LLVM's tells ThreadSanitizer of its barriers through the tool libarcher (package libomp-dev).
+#          look like a race; LLVM's tells ThreadSanitizer of its barriers through the tool libarcher (package libomp-dev).
+#          What it says goes to files, as the program under test keeps what libraries write to standard error.
 set -euo pipefail
 
 kind=$1
@@ -38,9 +38,12 @@ case "$kind" in
     options+=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DVOXELCORE_ITK=OFF)
     export OMP_TOOL_LIBRARIES=$archer
     # Debian's libraries are not built for ThreadSanitizer: what they do among themselves is not looked at.
-    export TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1:second_deadlock_stack=1
-    # More threads than processors, so that they interleave also on a small machine.
-    export OMP_NUM_THREADS=4
+    mkdir -p "$build"
+    reports=$(realpath "$build")/race
+    rm -f "$reports".*
+    export TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1:second_deadlock_stack=1:log_path=$reports
+    # More threads than processors, so that they interleave also on a small machine; those that wait leave it to others.
+    export OMP_NUM_THREADS=4 KMP_BLOCKTIME=0
     ;;
   *)
     echo "sanitize.sh: unknown kind '$kind'; there are address and thread" >&2

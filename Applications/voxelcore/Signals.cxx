@@ -1,5 +1,7 @@
 #include "Signals.h"
 
+#include "voxelcore/EightLanes.h"
+
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -144,7 +146,7 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
   }
   Install(SIGPIPE, SIG_IGN, 0);
   Install(SIGXFSZ, SIG_IGN, 0);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef VOXELCORE_SANITIZED // a sanitizer tells of crashes itself
   // A stack that ran over has no room for the handler.
   static char   room[65536];
   const stack_t stack{ room, 0, sizeof(room) };

@@ -39,11 +39,11 @@ ClockText(double seconds)
   const auto whole = static_cast<long>(std::ceil(seconds));
   if (whole < 3600)
   {
-    std::snprintf(text, sizeof(text), "%ld:%02ld", whole / 60, whole % 60);
+    (void)std::snprintf(text, sizeof(text), "%ld:%02ld", whole / 60, whole % 60);
   }
   else
   {
-    std::snprintf(text, sizeof(text), "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+    (void)std::snprintf(text, sizeof(text), "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
   }
   return text;
 }

@@ -159,12 +159,12 @@ public:
     {
       const Color color = LengthColor(static_cast<double>(i) / (kMapColors - 1));
       char        code[8];
-      std::snprintf(code,
-                    sizeof(code),
-                    "#%02x%02x%02x",
-                    static_cast<unsigned>(std::lround(255 * color[0])),
-                    static_cast<unsigned>(std::lround(255 * color[1])),
-                    static_cast<unsigned>(std::lround(255 * color[2])));
+      (void)std::snprintf(code,
+                          sizeof(code),
+                          "#%02x%02x%02x",
+                          static_cast<unsigned>(std::lround(255 * color[0])),
+                          static_cast<unsigned>(std::lround(255 * color[1])),
+                          static_cast<unsigned>(std::lround(255 * color[2])));
       map.push_back(code);
     }
     const Json  json{ { "title", m_Options.title },

@@ -58,7 +58,7 @@ std::string
 ColorText(const Color & color)
 {
   char text[64];
-  std::snprintf(text, sizeof(text), "%.4g %.4g %.4g", color[0], color[1], color[2]);
+  (void)std::snprintf(text, sizeof(text), "%.4g %.4g %.4g", color[0], color[1], color[2]);
   return text;
 }
 

@@ -311,15 +311,15 @@ MemoryText(std::uint64_t bytes)
   char         text[40];
   if (megabytes < 1)
   {
-    std::snprintf(text, sizeof(text), "%.0f kB", std::ceil(1000 * megabytes));
+    (void)std::snprintf(text, sizeof(text), "%.0f kB", std::ceil(1000 * megabytes));
   }
   else if (megabytes < 1000)
   {
-    std::snprintf(text, sizeof(text), "%.0f MB", std::ceil(megabytes));
+    (void)std::snprintf(text, sizeof(text), "%.0f MB", std::ceil(megabytes));
   }
   else
   {
-    std::snprintf(text, sizeof(text), "%.1f GB", std::ceil(megabytes / 100) / 10);
+    (void)std::snprintf(text, sizeof(text), "%.1f GB", std::ceil(megabytes / 100) / 10);
   }
   return text;
 }

@@ -36,9 +36,12 @@ TellFacelessLabels(const CoreReport &                 report,
       if (++count <= named)
       {
         char radius[32];
-        std::snprintf(radius, sizeof(radius), "%.3g", label.core.maxRadiusMm);
-        text += (count > 1 ? ", " : "") + LabelText(label.label, label.name) + " with a largest radius of " + radius +
-                InUnit(" mm", report.input.geometry.unit);
+        (void)std::snprintf(radius, sizeof(radius), "%.3g", label.core.maxRadiusMm);
+        text += count > 1 ? ", " : "";
+        text += LabelText(label.label, label.name);
+        text += " with a largest radius of ";
+        text += radius;
+        text += InUnit(" mm", report.input.geometry.unit);
       }
     }
     if (count > 0)

@@ -88,11 +88,11 @@ HistogramText(const GreyScan & grey)
   for (std::size_t b = 0; b < grey.counts.size(); ++b)
   {
     char line[64];
-    std::snprintf(line,
-                  sizeof(line),
-                  "%10.4g  %5.1f %%  ",
-                  grey.edges[b],
-                  100 * static_cast<double>(grey.counts[b]) / all);
+    (void)std::snprintf(line,
+                        sizeof(line),
+                        "%10.4g  %5.1f %%  ",
+                        grey.edges[b],
+                        100 * static_cast<double>(grey.counts[b]) / all);
     text += line + std::string((grey.counts[b] * longest + most - 1) / most, '#') + "\n";
   }
   return text;

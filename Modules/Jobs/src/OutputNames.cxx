@@ -115,6 +115,7 @@ std::vector<std::string>
 ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<Tolerance> & tolerances)
 {
   std::vector<std::string> suffixes;
+  suffixes.reserve(tolerances.empty() ? lambdas.size() : tolerances.size());
   for (const Tolerance & height : tolerances)
   {
     suffixes.push_back("_tolerance-" + height.text);

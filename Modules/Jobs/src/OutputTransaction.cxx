@@ -194,7 +194,7 @@ OutputTransaction::Stage(const fs::path & target)
   RefuseSecondUse(clean);
   CheckTarget(clean);
   ClearAbandoned(DirectoryOf(clean));
-  const fs::path temporary = TemporaryName(clean);
+  fs::path temporary = TemporaryName(clean);
   Remember(temporary); // before the file exists, so that no moment is left in which a signal would miss it
   m_Items.push_back({ temporary, clean, false });
   return temporary;

@@ -42,16 +42,16 @@ CentreLinesText(const PhantomOptions & options, const ImageGeometry & geometry)
   {
     const Vector3 p = LatticeToPhysical(geometry, lines[i].position);
     char          row[200];
-    std::snprintf(row,
-                  sizeof(row),
-                  "%zu %d %.9g %.9g %.9g %.9g %lld\n",
-                  i + 1,
-                  static_cast<int>(lines[i].order),
-                  kMicrometres * p[0],
-                  kMicrometres * p[1],
-                  kMicrometres * p[2],
-                  kMicrometres * lines[i].radius,
-                  static_cast<long long>(lines[i].parent < 0 ? -1 : lines[i].parent + 1));
+    (void)std::snprintf(row,
+                        sizeof(row),
+                        "%zu %d %.9g %.9g %.9g %.9g %lld\n",
+                        i + 1,
+                        static_cast<int>(lines[i].order),
+                        kMicrometres * p[0],
+                        kMicrometres * p[1],
+                        kMicrometres * p[2],
+                        kMicrometres * lines[i].radius,
+                        static_cast<long long>(lines[i].parent < 0 ? -1 : lines[i].parent + 1));
     text += row;
   }
   return text;

@@ -158,7 +158,7 @@ MakeSurfaceSource(const RefineOptions &         options,
       point[axis] *= input.geometry.spacing[axis];
     }
   }
-  const std::shared_ptr<const SurfaceEstimate> surface = SurfaceFromTriangles(mesh.points, mesh.triangles);
+  std::shared_ptr<const SurfaceEstimate> surface = SurfaceFromTriangles(mesh.points, mesh.triangles);
   return [surface](const VoxelShape &, const ProgressCallback &) { return surface; };
 }
 

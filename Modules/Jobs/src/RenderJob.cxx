@@ -61,7 +61,7 @@ Targets(const RenderJobOptions & options)
   for (int frame = 0; frame < options.turntable; ++frame)
   {
     char number[24];
-    std::snprintf(number, sizeof(number), "_%03d.png", frame);
+    (void)std::snprintf(number, sizeof(number), "_%03d.png", frame);
     targets.push_back(options.output.parent_path() / (options.output.stem().string() + number));
   }
   return targets;

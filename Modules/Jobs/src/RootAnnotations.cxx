@@ -329,9 +329,15 @@ WriteRootAnnotations(const fs::path &      csv,
     const std::string number = std::to_string(root);
     const std::string edit = RootEditText(said[root]);
     char              place[120];
-    std::snprintf(place, sizeof(place), "%.7g,%.7g,%.7g", tip[0], tip[1], tip[2]);
-    text += number + "," + (edited.now[root] == kNoRoot ? "" : std::to_string(edited.now[root])) + "," + place + "," +
-            edit + "," + CsvField(said[root].name) + "\n";
+    (void)std::snprintf(place, sizeof(place), "%.7g,%.7g,%.7g", tip[0], tip[1], tip[2]);
+    const std::string now = edited.now[root] == kNoRoot ? "" : std::to_string(edited.now[root]);
+    for (const std::string & field : { number, now, std::string(place), edit })
+    {
+      text += field;
+      text += ',';
+    }
+    text += CsvField(said[root].name);
+    text += '\n';
     points.push_back({ { "id", std::to_string(root + 1) },
                        { "label", "root " + number + (said[root].name.empty() ? "" : ": " + said[root].name) },
                        { "description", edit },

@@ -18,7 +18,7 @@ std::string
 ShortNumber(double value)
 {
   char text[40];
-  std::snprintf(text, sizeof(text), std::abs(value) >= 999.5 ? "%.0f" : "%.3g", value);
+  (void)std::snprintf(text, sizeof(text), std::abs(value) >= 999.5 ? "%.0f" : "%.3g", value);
   return std::isfinite(value) ? text : "";
 }
 

@@ -17,7 +17,7 @@ std::string
 JsonNumber(double value)
 {
   char text[40];
-  std::snprintf(text, sizeof(text), "%.9g", value);
+  (void)std::snprintf(text, sizeof(text), "%.9g", value);
   return std::isfinite(value) ? text : "null";
 }
 
@@ -104,7 +104,7 @@ RootsText(const RootsResult & result)
   const LengthUnit   unit = LengthUnit::For(traits.depth, result.model.unit);
   const auto         angle = [](double value) {
     char text[24];
-    std::snprintf(text, sizeof(text), "%.0f", value);
+    (void)std::snprintf(text, sizeof(text), "%.0f", value);
     return std::isfinite(value) ? std::string(text) : std::string("-");
   };
   std::vector<std::vector<std::string>> rows{ { "level",

@@ -34,7 +34,7 @@ RadiiText(const MedialModel & surfaces)
     for (std::size_t v = 0; v < part.core.positions.size(); ++v)
     {
       const auto & p = part.core.positions[v];
-      std::snprintf(line, sizeof(line), "%.17g %.17g %.17g %.17g\n", p[0], p[1], p[2], part.core.radius[v]);
+      (void)std::snprintf(line, sizeof(line), "%.17g %.17g %.17g %.17g\n", p[0], p[1], p[2], part.core.radius[v]);
       text += line;
     }
   }

@@ -271,7 +271,7 @@ std::string
 NumberText(const Output & output)
 {
   char text[40];
-  std::snprintf(text, sizeof(text), output.whole ? "%.0f" : "%.9g", output.value);
+  (void)std::snprintf(text, sizeof(text), output.whole ? "%.0f" : "%.9g", output.value);
   return text;
 }
 

@@ -175,19 +175,19 @@ LabelTableCsv(const CoreReport & report)
     {
       const ComplexRecord & complex = pruned.complex;
       char                  numbers[400];
-      std::snprintf(numbers,
-                    sizeof(numbers),
-                    "%llu,%.9g,%llu,%llu,%llu,%.9g,%.9g,%lld,%lld,%lld\n",
-                    static_cast<unsigned long long>(label.voxels),
-                    label.volumeMm3,
-                    static_cast<unsigned long long>(complex.vertices),
-                    static_cast<unsigned long long>(complex.edges),
-                    static_cast<unsigned long long>(complex.faces),
-                    complex.areaMm2,
-                    complex.maxRadiusMm,
-                    static_cast<long long>(complex.topology.betti[0]),
-                    static_cast<long long>(complex.topology.betti[1]),
-                    static_cast<long long>(complex.topology.betti[2]));
+      (void)std::snprintf(numbers,
+                          sizeof(numbers),
+                          "%llu,%.9g,%llu,%llu,%llu,%.9g,%.9g,%lld,%lld,%lld\n",
+                          static_cast<unsigned long long>(label.voxels),
+                          label.volumeMm3,
+                          static_cast<unsigned long long>(complex.vertices),
+                          static_cast<unsigned long long>(complex.edges),
+                          static_cast<unsigned long long>(complex.faces),
+                          complex.areaMm2,
+                          complex.maxRadiusMm,
+                          static_cast<long long>(complex.topology.betti[0]),
+                          static_cast<long long>(complex.topology.betti[1]),
+                          static_cast<long long>(complex.topology.betti[2]));
       text += std::to_string(label.label) + "," + CsvField(label.name) + "," + std::to_string(label.component) + "," +
               CsvField(pruned.tolerance ? pruned.tolerance->height : pruned.lambda) + "," + numbers;
     }

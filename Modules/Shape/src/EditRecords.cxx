@@ -128,7 +128,7 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
   if (sum.smoothed)
   {
     char shift[32];
-    std::snprintf(shift, sizeof(shift), "%.2f", sum.smoothed->largestShift);
+    (void)std::snprintf(shift, sizeof(shift), "%.2f", sum.smoothed->largestShift);
     notes.push_back("smoothed: " + Counted(sum.smoothed->voxelsAdded, "voxel", "voxels") + " added, " +
                     std::to_string(sum.smoothed->voxelsRemoved) + " removed; the boundary moved by " + shift +
                     " voxels at most");

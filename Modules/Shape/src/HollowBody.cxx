@@ -356,7 +356,7 @@ std::string
 HollowText(const HollowBody & body)
 {
   char share[32];
-  std::snprintf(share, sizeof(share), "%.2g", body.share);
+  (void)std::snprintf(share, sizeof(share), "%.2g", body.share);
   std::string text = "looks hollow: it walls in " + std::string(share) + " times its own volume (" +
                      Counted(body.voxels, "voxel", "voxels") + " of background), and its core follows the walls; ";
   return text + (body.holes == 0

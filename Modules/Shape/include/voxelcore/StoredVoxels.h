@@ -102,7 +102,7 @@ template <typename TUse>
 auto
 WithStoredType(PixelType type, const TUse & use)
 {
-  switch (type)
+  switch (type) // NOLINT(bugprone-branch-clone): the types differ
   {
     case PixelType::UInt8:
       return use(std::uint8_t());
