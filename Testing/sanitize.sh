@@ -5,7 +5,7 @@
 #
 # address: AddressSanitizer with its leak check, and UndefinedBehaviorSanitizer, with the compiler at hand (CXX).
 # thread:  ThreadSanitizer with clang and LLVM's OpenMP. GCC's own OpenMP is not built for it and every barrier would
-#          look like a race; LLVM's tells ThreadSanitizer of its barriers through the tool libarcher (package libomp-dev).
+#          look like a race; LLVM's tells ThreadSanitizer of its barriers by the tool libarcher (package libomp-dev).
 #          What it says goes to files, as the program under test keeps what libraries write to standard error.
 set -euo pipefail
 

@@ -4,12 +4,17 @@
 // Where the system gives large pages on request only (Debian's default), this asks for them. Programs decide that, not
 // libraries, so that this stands here.
 
+#include "voxelcore/EightLanes.h"
+
 #include <cstdint>
 #include <cstdlib>
 #include <new>
 
 #include <malloc.h>
 #include <sys/mman.h>
+
+// The operators of clang's sanitizers cannot be replaced.
+#if !defined(VOXELCORE_SANITIZED) || !defined(__clang__)
 
 namespace
 {
@@ -150,3 +155,5 @@ operator delete(void * memory, std::align_val_t, const std::nothrow_t &) noexcep
 {
   std::free(memory);
 }
+
+#endif
