@@ -145,9 +145,12 @@ RootsChanges(const RootModel & model, const RootsTopology & topology)
     const std::string data =
       " data-kind=\"" + kind + "\"" + (topology.levels ? " data-value=\"" + ShortNumber(value) + "\"" : "");
     html += "<circle" + data + view.Place(change.centre, " cx=\"", "\" cy=\"") + "\" r=\"4\" fill=\"" +
-            (change.isFill ? "#1f6fb2" : "#c33") + "\" fill-opacity=\"0.75\"><title>" + kind + ", " +
-            std::to_string(change.voxels) + " voxels</title></circle>\n";
-    rows += "<tr" + data + "><th>" + kind + "</th>";
+            (change.isFill ? "#1f6fb2" : "#c33") + "\" fill-opacity=\"0.75\"><title>";
+    html += kind;
+    html += ", " + std::to_string(change.voxels) + " voxels</title></circle>\n";
+    rows += "<tr" + data + "><th>";
+    rows += kind;
+    rows += "</th>";
     for (const double number : { change.centre[0],
                                  change.centre[1],
                                  change.centre[2],

@@ -164,7 +164,7 @@ ModificationTime(const fs::path & path)
   std::tm parts{};
   gmtime_r(&seconds, &parts);
   char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%S", &parts);
+  (void)std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%S", &parts);
   return text;
 }
 

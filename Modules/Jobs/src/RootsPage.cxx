@@ -61,8 +61,9 @@ BarChart(const std::string & title, const std::vector<Bar> & bars)
     const std::string base = std::to_string(y + 9);
     svg += "<text x=\"64\" y=\"" + base + "\" text-anchor=\"end\">" + Escaped(bars[i].label) +
            "</text><rect x=\"70\" y=\"" + std::to_string(y) + "\" width=\"" + NumberText(width) +
-           "\" height=\"11\" fill=\"#a8703a\"/><text x=\"" + NumberText(74 + width) + "\" y=\"" + base + "\">" +
-           NumberText(bars[i].value) + "</text>\n";
+           "\" height=\"11\" fill=\"#a8703a\"/><text x=\"" + NumberText(74 + width) + "\" y=\"";
+    svg += base;
+    svg += "\">" + NumberText(bars[i].value) + "</text>\n";
   }
   return svg + "</svg></figure>\n";
 }

@@ -102,9 +102,9 @@ template <typename TUse>
 auto
 WithStoredType(PixelType type, const TUse & use)
 {
-  switch (type) // NOLINT(bugprone-branch-clone): the types differ
+  switch (type)
   {
-    case PixelType::UInt8:
+    case PixelType::UInt8: // NOLINT(bugprone-branch-clone): the types differ
       return use(std::uint8_t());
     case PixelType::Int8:
       return use(std::int8_t());
