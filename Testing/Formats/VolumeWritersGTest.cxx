@@ -2,8 +2,10 @@
 #include "ScanBytes.h"
 #include "voxelcore/FormatOpeners.h"
 
+#include <fstream>
 #include <map>
 #include <random>
+#include <string>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -61,6 +63,31 @@ TEST(VolumeWriters, EveryFormatAndTypeGivesItsBytesBackInOrder)
         EXPECT_FALSE(scan.voxels->Finish());
       }
     }
+  }
+}
+
+TEST(VolumeWriters, NrrdNamesItsTypesAsOtherReadersOfTheFormatDo)
+{
+  // Of the names that Teem, and so 3D Slicer and ITK, takes. There is no "float32".
+  const std::map<PixelType, std::string> names{ { PixelType::UInt8, "uint8" },
+                                                { PixelType::UInt16, "uint16" },
+                                                { PixelType::UInt32, "uint32" },
+                                                { PixelType::UInt64, "uint64" },
+                                                { PixelType::Float32, "float" } };
+  for (const auto & [type, name] : names)
+  {
+    const TempFolder folder;
+    VolumeToWrite    volume;
+    volume.geometry.size = { 1, 1, 1 };
+    volume.type = type;
+    const std::vector<std::byte> bytes(PixelBytes(type));
+    volume.slice = [&](std::int64_t) { return std::span<const std::byte>(bytes); };
+    WriteNrrd(folder / "a.nrrd", volume);
+    std::ifstream file(folder / "a.nrrd", std::ios::binary);
+    std::string   line;
+    while (std::getline(file, line) && !line.starts_with("type: "))
+    {}
+    EXPECT_EQ(line, "type: " + name);
   }
 }
 

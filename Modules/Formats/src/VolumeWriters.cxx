@@ -188,6 +188,13 @@ private:
   std::array<std::byte, 352> m_Bytes{};
 };
 
+/** The format knows int8 and uint32, but no float32. */
+std::string
+NrrdTypeName(PixelType type)
+{
+  return type == PixelType::Float32 ? "float" : type == PixelType::Float64 ? "double" : PixelName(type);
+}
+
 } // namespace
 
 void
@@ -209,7 +216,7 @@ WriteNrrd(const std::filesystem::path & path, const VolumeToWrite & volume)
     Text("NRRD0004\n# Complete NRRD file format specification at:\n"
          "# http://teem.sourceforge.net/nrrd/format.html\n",
          "type: ",
-         PixelName(volume.type),
+         NrrdTypeName(volume.type),
          volume.layers > 1 ? "\ndimension: 4" : "\ndimension: 3",
          "\nspace: left-posterior-superior\n",
          "sizes: ",
