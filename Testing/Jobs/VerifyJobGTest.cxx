@@ -1,5 +1,7 @@
 #include "JobFolder.h"
 
+#include "voxelcore/MedialModel.h"
+#include "voxelcore/ThicknessJob.h"
 #include "voxelcore/VerifyJob.h"
 
 namespace voxelcore::testing
@@ -37,6 +39,27 @@ TEST_F(VerifyJob, WhatCoreWroteFromTheScanPassesLabelByLabel)
       EXPECT_EQ(result.labels[i].lambdaMm, made.report.labels[i].pruned.at(0).lambdaMm);
       EXPECT_EQ(result.labels[i].pruningTolerance, how.contains("tolerance") ? "1diag" : "");
     }
+  }
+}
+
+TEST_F(VerifyJob, WhatThicknessWroteFromTheScanPassesAndOtherValuesFail)
+{
+  Phantom("ball", "a.nrrd", "16");
+  for (const std::string refine : { "labels", "off" })
+  {
+    SCOPED_TRACE(refine);
+    RunThicknessJob(ThicknessOptionsFrom({ { "scan", At("a.nrrd") },
+                                           { "output", At("map.nrrd") },
+                                           { "medial", At("medial.vtp") },
+                                           { "refine", refine },
+                                           { "force", "true" } }));
+    const VerifyResult result = Verify("a.nrrd", "medial.vtp");
+    EXPECT_TRUE(result.passed) << VerifyText(result);
+    MedialModel model = ReadModel(At("medial.vtp"));
+    ASSERT_FALSE(model.parts.at(0).thickness.empty());
+    model.parts[0].thickness[0] *= 1.01;
+    WriteModel(At("other.vtp"), At("other.vtp"), model, {});
+    EXPECT_FALSE(Verify("a.nrrd", "other.vtp").passed);
   }
 }
 

@@ -55,7 +55,10 @@ MadeAgain::MadeAgain(const CoreReport &            made,
 }
 
 ModelPart
-MadeAgain::MakeAgain(const LabelShape & label, const PrunedRecord & pruned, const ProgressCallback & progress) const
+MadeAgain::MakeAgain(const LabelShape &       label,
+                     const PrunedRecord &     pruned,
+                     bool                     thickness,
+                     const ProgressCallback & progress) const
 {
   // A refined core may have been pruned further than it was when it was refined.
   const RefinedAt & at = m_Made.parameters.refine.at.value_or(
@@ -67,8 +70,16 @@ MadeAgain::MakeAgain(const LabelShape & label, const PrunedRecord & pruned, cons
     request.tolerances = { ParseTolerance(at.tolerance) };
   }
   request.surface = m_Surface;
+  if (thickness)
+  {
+    request.thickness = ThicknessRequest{};
+  }
   LabelOutcome outcome = ProcessLabel({ label, 0, {} }, m_Geometry, std::move(request), progress);
   ModelPart    again = std::move(outcome.parts.front());
+  if (thickness)
+  {
+    again.thickness.assign(outcome.thickness->atVertices.begin(), outcome.thickness->atVertices.end());
+  }
   if (m_Made.parameters.refine.at)
   {
     const CertifiedShape shape{ label.name, outcome.record.shape, outcome.record.box, m_Geometry };
@@ -90,7 +101,7 @@ MadeAgain::Check(const ModelPart &        part,
   {
     return std::nullopt;
   }
-  ModelPart       again = MakeAgain(label, pruned, progress);
+  ModelPart       again = MakeAgain(label, pruned, !part.thickness.empty(), progress);
   MedialComplex & core = again.core;
   again.component = part.component;
   if (m_Made.parameters.model.triangles)
@@ -108,7 +119,10 @@ MadeAgain::Check(const ModelPart &        part,
   VerificationCheck check{ "made again", true, 0, {} };
   if (!SameBits(part, again))
   {
-    check = { "made again", false, 1, "the scan gives other places, radii, measures or tolerances than the file has." };
+    check = { "made again",
+              false,
+              1,
+              "the scan gives other places, radii, measures, tolerances or thickness than the file has." };
   }
   return check;
 }

@@ -33,7 +33,10 @@ public:
 
 private:
   ModelPart
-  MakeAgain(const LabelShape & label, const PrunedRecord & pruned, const ProgressCallback & progress) const;
+  MakeAgain(const LabelShape &       label,
+            const PrunedRecord &     pruned,
+            bool                     thickness, ///< with the array of that name
+            const ProgressCallback & progress) const;
 
   const CoreReport &    m_Made;
   const ImageGeometry & m_Geometry;
