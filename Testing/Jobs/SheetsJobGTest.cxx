@@ -7,8 +7,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <set>
 
 namespace voxelcore::testing
 {
@@ -151,6 +155,37 @@ TEST_F(SheetsJob, ThreeWallsAreThreeSheetsAndASeam)
     sum += voxels[sheet];
   }
   EXPECT_EQ(sum + result.totals[0].rodVoxels, result.report.labels[0].voxels);
+}
+
+TEST_F(SheetsJob, VoxelsOfAnUnrefinedLabelBelongToTheSheetOfTheirWall)
+{
+  ThreeWalls();
+  for (const char * tolerance : { "1.2diag", "0.5diag" })
+  {
+    SCOPED_TRACE(tolerance);
+    const std::string        name = std::string("v") + tolerance + ".nrrd";
+    const SheetsResult       result = Sheets(std::string("s") + tolerance + ".vtp",
+                                       { { "voxels", At(name) }, { "refine", "off" }, { "tolerance", tolerance } });
+    const std::vector<float> numbers = ReadGreyVolume(At(name), VoxelBox{ { 0, 0, 0 }, { 64, 64, 40 } }).values;
+    EXPECT_EQ(static_cast<std::uint64_t>(std::ranges::count_if(numbers, [](float one) { return one > 0; })),
+              result.report.labels[0].voxels);
+    std::set<float> ofWalls;
+    for (int k = 0; k < 3; ++k)
+    {
+      // In the middle of the wall, from beyond the balls of the seam to its rim.
+      const double    turn = 0.3 + k * 2 * std::acos(-1.0) / 3;
+      std::set<float> found;
+      for (double along = 8; along < 22; along += 0.5)
+      {
+        const auto x = static_cast<std::size_t>(std::lround(31.5 + along * std::cos(turn)));
+        const auto y = static_cast<std::size_t>(std::lround(31.5 + along * std::sin(turn)));
+        found.insert(numbers[(std::size_t{ 20 } * 64 + y) * 64 + x]);
+      }
+      ASSERT_EQ(found.size(), 1U) << "wall " << k;
+      ofWalls.insert(*found.begin());
+    }
+    EXPECT_EQ(ofWalls.size(), 3U);
+  }
 }
 
 TEST_F(SheetsJob, ACoresFileGivesTheSheetsOfItsScan)

@@ -3,6 +3,7 @@
 #include "JobTools.h"
 #include "LabelReading.h"
 #include "ThicknessSteps.h"
+#include "voxelcore/CoreThickness.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/LengthUnit.h"
@@ -124,19 +125,37 @@ private:
     return InMeanVoxels(m_Options.sliver, report.parameters.weights, report.input.geometry.spacing, record.box);
   }
 
+  /** Among the vertices of the core. The map of the voxels as they are is that of balls about other places. */
+  VoxelOwners
+  OwnersIn(const ModelPart & core, CertifiedThickness & found) const
+  {
+    if (!core.displacement.empty())
+    {
+      return std::move(found.owners);
+    }
+    const ImageGeometry & geometry = m_Result.report.input.geometry;
+    PaintingBalls         balls = BallsOfCore(core.core);
+    for (Vector3 & centre : balls.centres)
+    {
+      centre = PhysicalToLattice(geometry, centre);
+    }
+    return OwnersAmong(balls, found.shape, ComputeLatticeWeights(geometry));
+  }
+
   void
   Take(LabelRecord record, ModelPart core, CertifiedThickness * found)
   {
     SheetPart part;
     part.name = record.name;
     part.sheets = CutIntoSheets(core.core, Sliver(record));
+    VoxelOwners owners = found != nullptr ? OwnersIn(core, *found) : VoxelOwners();
     part.core = std::move(core);
     if (found != nullptr)
     {
       const Vector3 & spacing = m_Result.report.input.geometry.spacing;
       part.voxelVolume = spacing[0] * spacing[1] * spacing[2];
       part.thickness = std::move(found->atVertices);
-      VoxelOwners pieces = PiecesOfVoxels(part.sheets, found->owners);
+      VoxelOwners pieces = PiecesOfVoxels(part.sheets, owners);
       part.voxels.assign(part.sheets.sheets.size() + part.sheets.curves.size(), 0);
       for (const std::uint32_t piece : pieces.values)
       {
