@@ -200,6 +200,30 @@ TEST_F(SheetsJob, ACoresFileGivesTheSheetsOfItsScan)
   EXPECT_THROW(Sheets("x.vtp", { { "scan", At("core.vtp") }, { "voxels", At("v.nrrd") } }), UsageError);
 }
 
+TEST_F(SheetsJob, ACoresFileRefusesOptionsOfScans)
+{
+  ThreeWalls();
+  Core("core.vtp", { { "refine", "labels" } });
+  for (const auto & [option, value] : ParameterValues{ { "labels", "1" },
+                                                       { "binary", "true" },
+                                                       { "tolerance", "2diag" },
+                                                       { "refine", "off" },
+                                                       { "median", "3" },
+                                                       { "spacing", "1,1,2" } })
+  {
+    try
+    {
+      Sheets("s.vtp", { { "scan", At("core.vtp") }, { option, value } });
+      ADD_FAILURE() << option << " is passed over";
+    }
+    catch (const UsageError & error)
+    {
+      EXPECT_NE(std::string(error.what()).find("the scan to 'voxelcore sheets'"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_FALSE(Names().contains("s.vtp"));
+}
+
 TEST_F(SheetsJob, RefusesWhatMakesNoSenseAndLeavesNothingWhenStopped)
 {
   ThreeWalls();

@@ -154,8 +154,9 @@ constexpr std::string_view kThicknessFooter =
 
 The balls are those of the medial surface of the smooth shape that the voxels stand for. A voxel whose centre lies in
 none of them takes the thickness of the nearest voxel that does. With --refine off they are balls that truly lie in
-the voxels, which makes oblique walls thinner. --bounds adds two maps: the largest of the balls that truly lie in the
-voxels, and a proven upper bound. The local thickness of the voxels as they are is between them.
+the voxels, whatever the --tolerance, which makes oblique walls thinner. --bounds adds two maps: the largest of the
+balls that truly lie in the voxels, and a proven upper bound. The local thickness of the voxels as they are is between
+them.
 
 Each label is measured by itself. One too large for memory is measured block by block. With --refine off the map is that
 of the whole; refined, a few voxels differ. Guide: thickness.md

@@ -102,13 +102,14 @@ StageFrom(const ParameterValues & values, CommandId command)
   return stage;
 }
 
-/** A finished core was read, edited and pruned already. */
+} // namespace
+
 void
-RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & input)
+RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & input, CommandId command)
 {
   for (const Parameter & parameter : Parameters())
   {
-    const bool ofScans = BelongsTo(parameter, CommandId::Skeleton) &&
+    const bool ofScans = BelongsTo(parameter, command) &&
                          (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" ||
                           parameter.name == "tolerance" || parameter.name == "engine" || parameter.name == "refine" ||
                           parameter.name == "grey" || parameter.name == "grey-range") &&
@@ -116,14 +117,12 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
                          parameter.name != "quiet";
     if (ofScans && values.contains(parameter.name))
     {
-      throw UsageError(
-        "--" + std::string(parameter.name) + ": needs a scan, but " + input.string() +
-        " is a medial surface; give the option to 'voxelcore core', or the scan to 'voxelcore skeleton'");
+      throw UsageError("--" + std::string(parameter.name) + ": needs a scan, but " + input.string() +
+                       " is a medial surface; give the option to 'voxelcore core', or the scan to 'voxelcore " +
+                       std::string(std::ranges::find(Commands(), command, &Command::id)->name) + "'");
     }
   }
 }
-
-} // namespace
 
 SkeletonRequest
 BurningFrom(const ParameterValues & values, CommandId command)
@@ -185,7 +184,7 @@ SkeletonOptionsFrom(const ParameterValues & values)
   options.input = reader.Text("scan");
   if (options.input.extension() == ".vtp" && !reader.FirstResolution())
   {
-    RefuseScanOptions(values, options.input);
+    RefuseScanOptions(values, options.input, command);
   }
   ReadScanFields(reader, options);
   options.further = FurtherOptions(reader);

@@ -3,11 +3,17 @@
 
 #include "voxelcore/Parameters.h"
 
+#include <filesystem>
+
 namespace voxelcore
 {
 
 /** --stand-out, --smooth and --prune-branches; lambda is 0. \throws UsageError, naming the option */
 SkeletonRequest
 BurningFrom(const ParameterValues & values, CommandId command);
+
+/** A finished core was read, edited and pruned already. \throws UsageError, naming an option given that is of scans */
+void
+RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & input, CommandId command);
 
 } // namespace voxelcore

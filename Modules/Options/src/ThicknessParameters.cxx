@@ -2,6 +2,7 @@
 
 #include "FieldReader.h"
 #include "ParameterReader.h"
+#include "SkeletonValues.h"
 #include "voxelcore/Certified.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/Parameters.h"
@@ -56,9 +57,13 @@ ThicknessOptionsWithoutFiles(const ParameterValues & values)
   options.separation = separation == "box"    ? SeparationRegion::Box
                        : separation == "hull" ? SeparationRegion::Hull
                                               : SeparationRegion::None;
-  options.within = reader.IsGiven("within") ? reader.Text("within") : std::string();
-  if (!options.within.empty())
+  if (reader.IsGiven("within"))
   {
+    options.within = reader.Text("within");
+    if (options.within.empty())
+    {
+      reader.ThrowUsageError("within", "a label of the scan, or the file of a mask");
+    }
     if (options.separation != SeparationRegion::None)
     {
       reader.ThrowUsageError("within", "no --separation beside it");
@@ -93,6 +98,10 @@ SheetsOptionsFrom(const ParameterValues & values)
   constexpr CommandId   command = CommandId::Sheets;
   const ParameterReader reader(values, command);
   SheetsOptions         options;
+  if (std::filesystem::path(reader.Text("scan")).extension() == ".vtp" && !reader.FirstResolution())
+  {
+    RefuseScanOptions(values, reader.Text("scan"), command);
+  }
   options.core = SharedOptions(reader, values, command);
   ReadFiles(reader, options.core);
   options.sliver = reader.Parsed("sliver", [](const std::string & text) { return ParseLambda(text, "length"); });
