@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace voxelcore::testing
 {
@@ -73,6 +75,18 @@ StoppingAfter(int calls)
 {
   JobContext context;
   context.progress = [calls](std::string_view, double) mutable { return calls-- > 0; };
+  return context;
+}
+
+/** Notes how far the job came. */
+inline JobContext
+Noting(double & fraction)
+{
+  JobContext context;
+  context.progress = [&fraction](std::string_view, double now) {
+    fraction = std::max(fraction, now);
+    return true;
+  };
   return context;
 }
 

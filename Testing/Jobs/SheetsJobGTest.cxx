@@ -224,6 +224,21 @@ TEST_F(SheetsJob, ACoresFileRefusesOptionsOfScans)
   EXPECT_FALSE(Names().contains("s.vtp"));
 }
 
+TEST_F(SheetsJob, NamesThatCannotBeHadAreFoundBeforeAnythingIsComputed)
+{
+  ThreeWalls();
+  for (const std::string name : { "t_seams.csv", "t_columns.json" })
+  {
+    std::ofstream(At(name)) << "mine";
+    double came = 0;
+    EXPECT_THROW(Sheets("s.vtp", { { "table", At("t.csv") } }, Noting(came)), OutputError) << name;
+    EXPECT_EQ(came, 0) << name;
+    EXPECT_EQ(Bytes(name), "mine");
+    std::filesystem::remove(At(name));
+  }
+  EXPECT_THROW(Sheets("s.vtp", { { "table", At("t.csv") }, { "report", At("t_columns.json") } }), UsageError);
+}
+
 TEST_F(SheetsJob, RefusesWhatMakesNoSenseAndLeavesNothingWhenStopped)
 {
   ThreeWalls();

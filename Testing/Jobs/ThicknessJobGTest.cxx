@@ -10,6 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <numeric>
 
 namespace voxelcore::testing
@@ -131,6 +134,14 @@ TEST_F(ThicknessJob, AFolderGetsAMapPerLabel)
   EXPECT_EQ(*Map("maps/a_label-2_thickness.nrrd").Row(20, 20, 7), 0);
 }
 
+TEST_F(ThicknessJob, ThePageMayGoIntoTheFolderThatIsMade)
+{
+  TwoLabels();
+  Thickness("maps/", { { "html", At("maps/a.html") }, { "table", At("maps/t.csv") } });
+  EXPECT_TRUE(std::filesystem::exists(At("maps/a.html")));
+  EXPECT_TRUE(std::filesystem::exists(At("maps/a_label-2_thickness.nrrd")));
+}
+
 TEST_F(ThicknessJob, TheSurfaceIsReadAgainLabelByLabelAndDrawnByItsThickness)
 {
   TwoLabels();
@@ -180,6 +191,48 @@ TEST_F(ThicknessJob, VoxelsWhoseBallTouchesTheBorderAreCountedApart)
   const ThicknessRecord dropped = Thickness("map3.nrrd", { { "border", "drop" } }).thickness[0];
   EXPECT_EQ(dropped.numbers.mean, all.inner.mean);
   EXPECT_EQ(dropped.numbers.voxels, all.inner.voxels);
+}
+
+TEST_F(ThicknessJob, WhatACropCutsOffIsAtTheBorderLikeWhatTheScanCutsOff)
+{
+  // A bar of 20 voxels, of which a crop and a smaller scan hold the same 12.
+  const auto write = [&](const std::string & name, std::int32_t first, std::int32_t length, std::int64_t size) {
+    VoxelShape bar(VoxelBox{ { first, 4, 4 }, { length, 5, 5 } });
+    for (std::int32_t i = 0; i < length * 25; ++i)
+    {
+      bar.Insert(first + i % length, 4 + i / length % 5, 4 + i / length / 5);
+    }
+    ImageGeometry geometry;
+    geometry.size = { size, 13, 13 };
+    WriteLabelVolume(At(name), geometry, { { 1, "bar", static_cast<std::uint64_t>(length) * 25, std::move(bar) } });
+  };
+  write("a.nrrd", 4, 20, 28);
+  write("cut.nrrd", 4, 12, 16);
+  const ThicknessRecord cropped = Thickness("map.nrrd", { { "crop", "0:16,:,:" } }).thickness[0];
+  const ThicknessRecord cut = Thickness("other.nrrd", { { "scan", At("cut.nrrd") } }).thickness[0];
+  EXPECT_GT(cut.borderVoxels, 0U);
+  EXPECT_EQ(cropped.borderVoxels, cut.borderVoxels);
+  EXPECT_EQ(cropped.inner.mean, cut.inner.mean);
+  EXPECT_EQ(Thickness("whole.nrrd").thickness[0].borderVoxels, 0U);
+}
+
+TEST_F(ThicknessJob, WhereAllVoxelsAreLeftOutNoNumberIsGiven)
+{
+  VoxelShape all(VoxelBox{ { 0, 0, 0 }, { 6, 6, 4 } });
+  for (std::int32_t i = 0; i < 144; ++i)
+  {
+    all.Insert(i % 6, i / 6 % 6, i / 36);
+  }
+  ImageGeometry geometry;
+  geometry.size = { 6, 6, 4 };
+  WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "all", 144, std::move(all) } });
+  const ThicknessResult result =
+    Thickness("map.nrrd", { { "border", "drop" }, { "table", At("t.csv") }, { "report", At("r.json") } });
+  EXPECT_EQ(result.thickness[0].numbers.voxels, 0U);
+  EXPECT_EQ(result.thickness[0].borderVoxels, 144U);
+  EXPECT_NE(Bytes("t.csv").find("\n1,label-1,0,thickness,0,0,,,,,,,,,,144,,,,\n"), std::string::npos) << Bytes("t.csv");
+  EXPECT_TRUE(nlohmann::json::parse(Bytes("r.json"))["thickness"][0]["mean_mm"].is_null());
+  EXPECT_EQ(ThicknessText(result).find("0.000"), std::string::npos) << ThicknessText(result);
 }
 
 TEST_F(ThicknessJob, WhatMemoryDoesNotHoldIsMeasuredInBlocks)
@@ -299,7 +352,9 @@ TEST_F(ThicknessJob, TheSeparationWithinALabelIsTheThicknessOfThatLabel)
   }
   catch (const InputError & error)
   {
-    EXPECT_NE(std::string(error.what()).find("--within: there is no background"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("--within 2: all of it is in the labels that are measured"),
+              std::string::npos)
+      << error.what();
   }
 }
 
@@ -355,12 +410,121 @@ TEST_F(ThicknessJob, LeavesNothingWhenItIsStopped)
   }
 }
 
+TEST_F(ThicknessJob, NamesThatCannotBeHadAreFoundBeforeAnythingIsMeasured)
+{
+  TwoLabels();
+  constexpr double      read = 0.08; // of the job's progress
+  const ParameterValues all{ { "table", At("t.csv") }, { "bounds", "true" }, { "separation", "box" } };
+  for (const std::string name : { "t_histogram.csv",
+                                  "t_columns.json",
+                                  "map_lower.nrrd",
+                                  "map_upper.nrrd",
+                                  "map_separation.nrrd",
+                                  "maps/a_label-2_thickness_upper.nrrd",
+                                  "maps/a_separation.nrrd" })
+  {
+    std::filesystem::create_directory(At("maps"));
+    std::ofstream(At(name)) << "mine";
+    double came = 0;
+    EXPECT_THROW(Thickness(name.starts_with("maps") ? "maps/" : "map.nrrd", all, Noting(came)), OutputError) << name;
+    EXPECT_LT(came, read) << name;
+    EXPECT_EQ(Bytes(name), "mine");
+    std::filesystem::remove(At(name));
+  }
+  double came = 0;
+  EXPECT_THROW(Thickness("m.nrrd", { { "report", At("t_columns.json") }, { "table", At("t.csv") } }, Noting(came)),
+               UsageError);
+  EXPECT_THROW(Thickness("m.nrrd", { { "surface", At("s.vtp") }, { "medial", At("s.vtp") } }, Noting(came)),
+               UsageError);
+  EXPECT_THROW(Thickness("m.nrrd", { { "report", At("m_lower.nrrd") }, { "bounds", "true" } }, Noting(came)),
+               UsageError);
+  EXPECT_EQ(came, 0);
+}
+
+TEST_F(ThicknessJob, AFormatThatCannotHoldTheMapIsRefusedByItsNameBeforeAnythingIsMeasured)
+{
+  VoxelShape square(VoxelBox{ { 2, 2, 0 }, { 4, 4, 1 } });
+  for (std::int32_t i = 0; i < 16; ++i)
+  {
+    square.Insert(2 + i % 4, 2 + i / 4, 0);
+  }
+  ImageGeometry geometry;
+  geometry.size = { 8, 8, 1 };
+  WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "square", 16, std::move(square) } });
+  double came = 0;
+  try
+  {
+    Thickness("map.tif", {}, Noting(came));
+    ADD_FAILURE() << "one page is no volume";
+  }
+  catch (const UsageError & error)
+  {
+    EXPECT_TRUE(std::string(error.what()).starts_with(At("map.tif") + ": ")) << error.what();
+  }
+  EXPECT_LT(came, 0.08);
+}
+
+TEST_F(ThicknessJob, TheReportSaysWhereTheBackgroundWasMeasured)
+{
+  TwoLabels();
+  const std::map<std::string, ParameterValues> regions{ { "box", { { "separation", "box" } } },
+                                                        { "hull", { { "separation", "hull" } } },
+                                                        { "within 2", { { "within", "2" }, { "labels", "1" } } } };
+  for (auto [region, more] : regions)
+  {
+    more.insert({ { "report", At("r.json") }, { "force", "true" } });
+    Thickness("map.nrrd", more);
+    const auto report = nlohmann::json::parse(Bytes("r.json"));
+    EXPECT_EQ(report["thickness"].back()["region"], region);
+    EXPECT_FALSE(report["thickness"].front().contains("region"));
+  }
+}
+
+TEST_F(ThicknessJob, AMaskIsReadWithTheAxesOfTheScan)
+{
+  // Axes 0.1 degrees off a right angle, as of a scan resampled by hand.
+  std::string header =
+    "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 12 12 12\n"
+    "space directions: (1,0,0) (0.002,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n\n";
+  std::string voxels(12 * 12 * 12, '\0');
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+  {
+    const std::size_t z = i / 144;
+    voxels[i] = z < 3 || z > 8 ? '\1' : '\0';
+  }
+  std::ofstream(At("a.nrrd"), std::ios::binary) << header << voxels;
+  std::ofstream(At("mask.nrrd"), std::ios::binary) << header << std::string(voxels.size(), '\1');
+  EXPECT_THROW(Thickness("m.nrrd", { { "within", At("mask.nrrd") } }), InputError) << "the scan is skewed";
+  const ThicknessResult result = Thickness("m.nrrd", { { "within", At("mask.nrrd") }, { "orthonormalize", "true" } });
+  EXPECT_EQ(result.thickness.back().numbers.voxels, 144U * 6);
+}
+
+TEST_F(ThicknessJob, AMemoryLimitThatBlocksCannotKeepIsTold)
+{
+  VoxelShape block(VoxelBox{ { 1, 1, 1 }, { 140, 8, 8 } });
+  for (std::int32_t i = 0; i < 140 * 64; ++i)
+  {
+    block.Insert(1 + i % 140, 1 + i / 140 % 8, 1 + i / 1120);
+  }
+  ImageGeometry geometry;
+  geometry.size = { 142, 10, 10 };
+  WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "block", 140 * 64, std::move(block) } });
+  const ThicknessResult inBlocks = Thickness("m.nrrd", { { "memory", "1MB" } });
+  ASSERT_GT(inBlocks.blocks, 1U);
+  const ThicknessResult whole = Thickness("w.nrrd", { { "memory", "1MB" }, { "medial", At("w.vtp") } });
+  EXPECT_EQ(whole.blocks, 0U);
+  ASSERT_EQ(whole.notes.size(), 1U);
+  EXPECT_NE(whole.notes[0].find("measured as a whole"), std::string::npos);
+  EXPECT_TRUE(Thickness("x.nrrd", { { "memory", "8GB" }, { "medial", At("x.vtp") } }).notes.empty());
+}
+
 TEST_F(ThicknessJob, RefusesWhatMakesNoSense)
 {
   TwoLabels();
   EXPECT_THROW(Thickness("map.nrrd", { { "border", "left" } }), UsageError);
   EXPECT_THROW(Thickness("map.nrrd", { { "separation", "ball" } }), UsageError);
   EXPECT_THROW(Thickness("map.nrrd", { { "separation", "box" }, { "within", "2" } }), UsageError);
+  EXPECT_THROW(Thickness("map.nrrd", { { "within", "" } }), UsageError);
   EXPECT_THROW(Thickness("map.nrrd", { { "threshold", "1:2" }, { "within", "2" } }), UsageError);
   EXPECT_THROW(Thickness("map.nrrd", { { "labels", "1" }, { "within", "5" } }), InputError);
   EXPECT_THROW(Thickness("map.nrrd", { { "tolerance", "1diag,2diag" } }), UsageError);

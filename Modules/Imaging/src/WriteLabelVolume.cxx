@@ -263,9 +263,10 @@ OneLine(std::string text)
 
 /** \throws UsageError for a size the format cannot hold. */
 void
-RequireSize(const std::filesystem::path & path, Kind kind, const std::array<std::int64_t, 3> & size)
+RequireSize(const std::filesystem::path & staged, Kind kind, const std::array<std::int64_t, 3> & size)
 {
-  const auto longest = std::max({ size[0], size[1], size[2] });
+  const std::filesystem::path path = FinalName(staged);
+  const auto                  longest = std::max({ size[0], size[1], size[2] });
   if (std::min({ size[0], size[1], size[2] }) < 1 || longest > (std::int64_t{ 1 } << 30))
   {
     throw UsageError(Text(path.string(), ": a volume of ", size[0], " x ", size[1], " x ", size[2], " voxels"));
@@ -408,6 +409,12 @@ void
 RequireVolumePath(const std::filesystem::path & path)
 {
   KindOf(path);
+}
+
+void
+RequireVolumeFits(const std::filesystem::path & path, const std::array<std::int64_t, 3> & size)
+{
+  RequireSize(path, KindOf(path), size);
 }
 
 } // namespace voxelcore

@@ -122,6 +122,8 @@ ReadWithin(const ThicknessOptions & options, const ImageGeometry & geometry, con
   mask.binary = true;
   mask.crop = reading.crop;
   mask.spacing = reading.spacing;
+  mask.orthonormalize = reading.orthonormalize;
+  mask.niftiForm = reading.niftiForm;
   LabelMap map = ReadLabelVolume(within, mask, progress);
   RequireSamePlace(map.geometry, geometry, "--within", within);
   return map;

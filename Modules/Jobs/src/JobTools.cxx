@@ -4,6 +4,7 @@
 #include "voxelcore/SpacingWeights.h"
 
 #include <cmath>
+#include <set>
 
 namespace voxelcore
 {
@@ -26,6 +27,20 @@ ProtectInputs(OutputTransaction & transaction, const CoreOptions & options)
   if (!options.refine.grey.empty())
   {
     transaction.Protect(options.refine.grey);
+  }
+}
+
+void
+CheckTargets(const OutputTransaction & transaction, const std::vector<std::filesystem::path> & targets)
+{
+  std::set<std::filesystem::path> names;
+  for (const std::filesystem::path & target : targets)
+  {
+    if (!names.insert(target.lexically_normal()).second)
+    {
+      throw UsageError(target.string() + ": two results would be written under this name");
+    }
+    transaction.CheckTarget(target);
   }
 }
 

@@ -28,6 +28,10 @@ Finish(OutputTransaction & transaction, const JobContext & context);
 void
 ProtectInputs(OutputTransaction & transaction, const CoreOptions & options);
 
+/** Before anything is computed. \throws OutputError where one cannot be written, UsageError where two are one */
+void
+CheckTargets(const OutputTransaction & transaction, const std::vector<std::filesystem::path> & targets);
+
 /** The weights of a scan's lattice. \throws InputError that names the scan where its geometry cannot be worked on. */
 SpacingWeights
 ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan);

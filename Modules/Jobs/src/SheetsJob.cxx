@@ -59,8 +59,7 @@ public:
       const fs::path & table = *m_Options.table;
       WriteSheetCsv(m_Transaction.Stage(table), m_Result.model);
       WriteSeamCsv(m_Transaction.Stage(Beside(table, "_seams")), m_Result.model);
-      WriteTextFile(m_Transaction.Stage(table.parent_path() / (table.stem().string() + "_columns.json")),
-                    SheetColumnsJson(m_Result.model.unit));
+      WriteTextFile(m_Transaction.Stage(ColumnsBeside(table)), SheetColumnsJson(m_Result.model.unit));
     }
     if (m_Options.graph)
     {
@@ -95,18 +94,10 @@ private:
       {
         throw UsageError(std::string(option) + " " + target->string() + ": unknown extension; give " + extension);
       }
-      if (target)
-      {
-        m_Transaction.CheckTarget(*target);
-      }
     };
     require(m_Options.output, "--output", ".vtp");
     require(m_Options.table, "--table", ".csv");
     require(m_Options.graph, "--graph", ".graphml");
-    if (m_Options.core.report)
-    {
-      m_Transaction.CheckTarget(*m_Options.core.report);
-    }
     if (m_Options.voxels)
     {
       if (m_FromCore)
@@ -114,8 +105,20 @@ private:
         throw UsageError("--voxels needs a scan; " + m_Options.core.scan.string() + " is a medial surface");
       }
       RequireVolumePath(*m_Options.voxels);
-      m_Transaction.CheckTarget(*m_Options.voxels);
     }
+    std::vector<fs::path> targets{ m_Options.output };
+    for (const auto & target : { m_Options.core.report, m_Options.table, m_Options.graph, m_Options.voxels })
+    {
+      if (target)
+      {
+        targets.push_back(*target);
+      }
+    }
+    if (m_Options.table)
+    {
+      targets.insert(targets.end(), { Beside(*m_Options.table, "_seams"), ColumnsBeside(*m_Options.table) });
+    }
+    voxelcore::CheckTargets(m_Transaction, targets);
   }
 
   double
@@ -182,6 +185,10 @@ private:
     const CoreOptions & options = m_Options.core;
     CoreReport &        report = m_Result.report;
     ScanLabels          read = ReadScanLabels(options, plan, report);
+    if (m_Options.voxels)
+    {
+      RequireVolumeFits(*m_Options.voxels, read.geometry.size);
+    }
     m_Result.warnings = std::move(read.warnings);
     m_Result.notes = read.edited.notes;
     CertifiedRequest request = RequestOf(options, read.surface);
@@ -280,6 +287,10 @@ private:
         { "junctions", t.junctions },    { "area_mm2", t.area }, { "seam_length_mm", t.seamLength },
         { "rod_length_mm", t.rodLength }
       };
+      if (part.core.component > 0)
+      {
+        one["component"] = part.core.component;
+      }
       if (!part.voxels.empty())
       {
         one["sheet_voxels"] = t.sheetVoxels;

@@ -6,7 +6,9 @@
 #include "LabelReading.h"
 #include "ThicknessPlan.h"
 #include "ThicknessSteps.h"
+#include "ThicknessTargets.h"
 #include "voxelcore/CostModel.h"
+#include "voxelcore/CropRange.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
 #include "voxelcore/OutputNames.h"
@@ -34,7 +36,7 @@ public:
     : m_Options(options)
     , m_Context(context)
     , m_Transaction(options.core.force, context.temporaries)
-    , m_ToFolder(IsFolderOutput(options.output))
+    , m_ToFolder(MakesFolder(m_Transaction, options.output))
     , m_Shown(options.core.display, options.core.scan, m_Transaction)
   {
     CheckTargets();
@@ -63,7 +65,7 @@ public:
       const std::string name = m_Edited.labels[i].label.name;
       const auto        part = ProgressOfLabel(computing, name, i, count, share(i), share(i + 1));
       const BallTest    atBorder = [&](const PaintingBalls & balls) {
-        return BallsAtSides(balls, m_Geometry, WholeScan());
+        return BallsAtSides(balls, m_Geometry, PartRead());
       };
       report.labels.push_back(Measure(std::move(m_Edited.labels[i]), atBorder, false, part));
       if (m_ToFolder)
@@ -91,13 +93,26 @@ public:
     report.peakMemoryMb = PeakMemoryMb();
     if (m_Options.core.report)
     {
-      WriteTextFile(m_Transaction.Stage(*m_Options.core.report), WithThickness(ReportJson(report), m_Result));
+      WriteTextFile(m_Transaction.Stage(*m_Options.core.report),
+                    WithThickness(ReportJson(report), m_Result, m_Options));
     }
     Finish(m_Transaction, m_Context);
     return std::move(m_Result);
   }
 
 private:
+  /** Before any other file is looked for, as it may be in this folder, too. */
+  static bool
+  MakesFolder(OutputTransaction & transaction, const fs::path & output)
+  {
+    if (!IsFolderOutput(output))
+    {
+      return false;
+    }
+    transaction.MakeDirectory(output);
+    return true;
+  }
+
   void
   CheckTargets()
   {
@@ -106,33 +121,7 @@ private:
     {
       m_Transaction.Protect(m_Options.within);
     }
-    if (m_ToFolder)
-    {
-      m_Transaction.MakeDirectory(m_Options.output);
-    }
-    else
-    {
-      RequireVolumePath(m_Options.output);
-      m_Transaction.CheckTarget(m_Options.output);
-    }
-    if (m_Options.table && m_Options.table->extension() != ".csv")
-    {
-      throw UsageError("--table " + m_Options.table->string() + ": unknown extension; give .csv");
-    }
-    for (const auto & target : { m_Options.surface, m_Options.medial })
-    {
-      if (target && target->extension() != ".vtp")
-      {
-        throw UsageError(target->string() + ": unknown extension; give .vtp");
-      }
-    }
-    for (const auto & target : { m_Options.core.report, m_Options.table, m_Options.surface, m_Options.medial })
-    {
-      if (target)
-      {
-        m_Transaction.CheckTarget(*target);
-      }
-    }
+    CheckThicknessTargets(m_Options, m_Transaction);
   }
 
   void
@@ -142,6 +131,7 @@ private:
     m_Geometry = read.geometry;
     m_Surface = std::move(read.surface);
     m_Edited = std::move(read.edited);
+    CheckThicknessVolumes(m_Options, m_Geometry, m_Edited.labels, m_Transaction);
     if (m_Context.admit)
     {
       const CostPrediction core = PredictJob(CountBoundaries(m_Edited.labels), m_Options.core, omp_get_max_threads());
@@ -195,14 +185,17 @@ private:
     request.refineCores = static_cast<bool>(m_Surface);
     request.thickness = ThicknessRequest{ m_Options.bounds, !ShowsCores() && !m_Options.core.report };
     RequireLengthsOf(m_Options.core.scan, m_Geometry.unit, request);
-    if (!ShowsCores() && !m_Options.bounds)
+    const std::vector<VoxelBox> blocks =
+      PlanThickness(edited.label.shape, m_Geometry, request, m_Options, BytesToUse());
+    if (blocks.size() > 1 && !ShowsCores() && !m_Options.bounds)
     {
-      const std::vector<VoxelBox> blocks =
-        PlanThickness(edited.label.shape, m_Geometry, request, m_Options, BytesToUse());
-      if (blocks.size() > 1)
-      {
-        return MeasureInBlocks(std::move(edited), std::move(request), blocks, atBorder, isSeparation, progress);
-      }
+      return MeasureInBlocks(std::move(edited), std::move(request), blocks, atBorder, isSeparation, progress);
+    }
+    if (blocks.size() > 1)
+    {
+      m_Result.notes.push_back(LabelText(edited.label.value, edited.label.name) +
+                               ": measured as a whole, which may need more memory than is allowed; --bounds, "
+                               "--surface, --medial, --html and --scene cannot do with blocks");
     }
     LabelOutcome outcome = ProcessLabel(std::move(edited), m_Geometry, std::move(request), progress);
     outcome.record.hasCore = !outcome.parts.empty();
@@ -317,11 +310,17 @@ private:
     return record;
   }
 
+  /** What is read of the scan: a crop cuts bodies off as the scan's sides do. */
   VoxelBox
-  WholeScan() const
+  PartRead() const
   {
-    VoxelBox box;
-    std::copy(m_Geometry.size.begin(), m_Geometry.size.end(), box.size.begin());
+    const CropRange part = ResolveCrop(m_Options.core.reading.crop, m_Geometry.size, m_Options.core.scan);
+    VoxelBox        box;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      box.lower[axis] = part.first[axis];
+      box.size[axis] = part.end[axis] - part.first[axis];
+    }
     return box;
   }
 
@@ -336,8 +335,11 @@ private:
     if (between.label.voxels == 0)
     {
       throw InputError(m_Options.core.scan.string() +
-                       (m_Options.separation == SeparationRegion::Within ? ": --within" : ": --separation") +
-                       ": there is no background where it is to be measured");
+                       (m_Options.separation == SeparationRegion::Within
+                          ? ": --within " + m_Options.within +
+                              ": all of it is in the labels that are measured; leave those out with --labels that are "
+                              "to count as background"
+                          : ": --separation: there is no background where it is to be measured"));
     }
     between.label.name = "separation";
     const BallTest atBorder = [&](const PaintingBalls & balls) {
@@ -345,17 +347,6 @@ private:
                                                            : BallsAtRegion(balls, m_Geometry, region, shapes);
     };
     Measure(std::move(between), atBorder, true, plan.Next());
-  }
-
-  fs::path
-  VolumePath(std::size_t label, const std::string & what) const
-  {
-    if (!m_ToFolder)
-    {
-      return what.empty() ? m_Options.output : Beside(m_Options.output, what);
-    }
-    const LabelRecord & record = m_Result.report.labels[label];
-    return VolumeFolderPath(m_Options.output, m_Options.core.scan, record.label, record.component, "thickness" + what);
   }
 
   /** Of a folder those of one label, which then go; else those of all. */
@@ -370,7 +361,7 @@ private:
         volume.shapes.push_back(&m_Found[i].shape);
         volume.values.push_back(&valuesOf(m_Found[i]));
       }
-      WriteOne(VolumePath(first, what), volume);
+      WriteOne(ThicknessPath(m_Options, m_Result.report.labels[first], what), volume);
     };
     write("", [](const CertifiedThickness & found) -> const VoxelValues & { return found.map; });
     if (m_Options.bounds)
@@ -392,9 +383,7 @@ private:
       return;
     }
     const VolumeOfLabels<float> volume{ { &m_Found.back().shape }, { &m_Found.back().map } };
-    WriteOne(m_ToFolder ? m_Options.output / (ScanName(m_Options.core.scan) + "_separation.nrrd")
-                        : Beside(m_Options.output, "_separation"),
-             volume);
+    WriteOne(SeparationPath(m_Options), volume);
   }
 
   void
@@ -413,10 +402,9 @@ private:
       return;
     }
     const fs::path & table = *m_Options.table;
-    const fs::path   columns = table.parent_path() / (table.stem().string() + "_columns.json");
     WriteThicknessCsv(m_Transaction.Stage(table), m_Result.thickness);
     WriteThicknessHistogramCsv(m_Transaction.Stage(Beside(table, "_histogram")), m_Result.thickness);
-    WriteTextFile(m_Transaction.Stage(columns), ThicknessColumnsJson(m_Geometry.unit));
+    WriteTextFile(m_Transaction.Stage(ColumnsBeside(table)), ThicknessColumnsJson(m_Geometry.unit));
   }
 
   const ThicknessOptions &        m_Options;

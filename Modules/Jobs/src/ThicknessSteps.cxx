@@ -43,6 +43,12 @@ Beside(const std::filesystem::path & output, const std::string & what)
   return output.parent_path() / (name.substr(0, end) + what + name.substr(end));
 }
 
+std::filesystem::path
+ColumnsBeside(const std::filesystem::path & table)
+{
+  return table.parent_path() / (table.stem().string() + "_columns.json");
+}
+
 std::vector<char>
 BallsAtSides(const PaintingBalls & balls, const ImageGeometry & geometry, const VoxelBox & box)
 {
@@ -113,7 +119,7 @@ Summarize(const CertifiedThickness & found,
 }
 
 std::string
-WithThickness(std::string report, const ThicknessResult & result)
+WithThickness(std::string report, const ThicknessResult & result, const ThicknessOptions & options)
 {
   Json all = Json::array();
   for (const ThicknessRecord & record : result.thickness)
@@ -129,6 +135,12 @@ WithThickness(std::string report, const ThicknessResult & result)
     }
     one["name"] = record.name;
     one["of"] = record.isSeparation ? "separation" : "thickness";
+    if (record.isSeparation)
+    {
+      one["region"] = options.separation == SeparationRegion::Box    ? "box"
+                      : options.separation == SeparationRegion::Hull ? "hull"
+                                                                     : "within " + options.within;
+    }
     one["all_voxels_count"] = !record.withoutBorder;
     one.update(NumbersJson(record.numbers));
     one["border_voxels"] = record.borderVoxels;
@@ -158,7 +170,7 @@ ThicknessText(const ThicknessResult & result)
   double longest = 0;
   for (const ThicknessRecord & record : result.thickness)
   {
-    longest = std::max(longest, record.numbers.greatest);
+    longest = std::max(longest, record.numbers.voxels > 0 ? record.numbers.greatest : 0.0);
   }
   const SpatialUnit                     spatial = result.report.input.geometry.unit;
   const LengthUnit                      unit = LengthUnit::For(longest, spatial);
@@ -170,15 +182,16 @@ ThicknessText(const ThicknessResult & result)
     const ThicknessNumbers & n = record.numbers;
     const std::uint64_t      all = record.withoutBorder ? n.voxels + record.borderVoxels : n.voxels;
     const double percent = all == 0 ? 0 : 100 * static_cast<double>(record.borderVoxels) / static_cast<double>(all);
+    const auto   length = [&](double value) { return n.voxels > 0 ? unit.Text(value, 1, 3) : std::string("-"); };
     rows.push_back({ record.isSeparation ? "-" : std::to_string(record.label),
                      record.name,
                      std::to_string(n.voxels),
-                     unit.Text(n.mean, 1, 3),
-                     unit.Text(n.deviation, 1, 3),
-                     unit.Text(n.median, 1, 3),
-                     unit.Text(n.quantile5, 1, 3),
-                     unit.Text(n.quantile95, 1, 3),
-                     unit.Text(n.greatest, 1, 3),
+                     length(n.mean),
+                     length(n.deviation),
+                     length(n.median),
+                     length(n.quantile5),
+                     length(n.quantile95),
+                     length(n.greatest),
                      FixedText(percent, 1) + " %" });
   }
   return FormatTable(rows);

@@ -15,6 +15,10 @@ namespace voxelcore
 std::filesystem::path
 Beside(const std::filesystem::path & output, const std::string & what);
 
+/** "OUT_columns.json" for "OUT.csv". */
+std::filesystem::path
+ColumnsBeside(const std::filesystem::path & table);
+
 /** A volume that several labels share. */
 template <typename T>
 struct VolumeOfLabels
@@ -47,6 +51,6 @@ FillSlice(const VolumeOfLabels<T> & volume, const ImageGeometry & geometry, std:
 
 /** The report with what was measured as its last member. */
 std::string
-WithThickness(std::string report, const ThicknessResult & result);
+WithThickness(std::string report, const ThicknessResult & result, const ThicknessOptions & options);
 
 } // namespace voxelcore

@@ -76,4 +76,8 @@ WriteNumberVolume(const std::filesystem::path & path, const ImageGeometry & geom
 void
 RequireVolumePath(const std::filesystem::path & path);
 
+/** \throws UsageError where the path's format cannot hold a volume of this size, or as above */
+void
+RequireVolumeFits(const std::filesystem::path & path, const std::array<std::int64_t, 3> & size);
+
 } // namespace voxelcore
