@@ -77,6 +77,24 @@ TEST_F(Manifest, DecimalCommasOfSemicolonTablesAreNotTakenForTwoValues)
   EXPECT_EQ(Read("id,scan,lambda\na,b,\"1,5vox\"\n")[0].values.at("lambda"), "1,5vox");
 }
 
+TEST_F(Manifest, MasksAreLookedForFromItsFolderAsScansAre)
+{
+  const std::string text = "id,scan,within\na,x.nii,m/roi.nrrd\nb,x.nii,/data/roi.nrrd\nc,x.nii,2\nd,x.nii,./roi\n";
+  const auto        cases = Read(text);
+  ASSERT_EQ(cases.size(), 4U);
+  EXPECT_EQ(cases[0].values.at("within"), m_Folder / "m/roi.nrrd");
+  EXPECT_EQ(cases[1].values.at("within"), "/data/roi.nrrd");
+  EXPECT_EQ(cases[2].values.at("within"), "2") << "a label";
+  EXPECT_EQ(cases[3].values.at("within"), m_Folder / "roi");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(m_Folder.Path());
+  const auto here = ReadManifest("m.csv");
+  std::filesystem::current_path(before);
+  EXPECT_EQ(here[0].values.at("within"), "m/roi.nrrd");
+  EXPECT_EQ(here[2].values.at("within"), "2");
+  EXPECT_EQ(here[3].values.at("within"), "./roi") << "no label";
+}
+
 TEST_F(Manifest, MistypedColumnsSuggestTheNearest)
 {
   EXPECT_THAT(Refusal("id,scan,lamda\na,b,1\n"), HasSubstr("'lamda' is not known; did you mean 'lambda'?"));

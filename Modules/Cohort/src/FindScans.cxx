@@ -224,6 +224,20 @@ AddInput(const fs::path &        input,
   }
 }
 
+fs::path
+Normal(const fs::path & path)
+{
+  std::error_code error; // of no path at all
+  return fs::absolute(path, error).lexically_normal();
+}
+
+/** The id with the file's whole name. */
+std::string
+WithFileName(const Found & one)
+{
+  return (fs::path(one.id).parent_path() / one.scan.filename()).string();
+}
+
 /** Scans of one name get their file's whole name, then the folders above, until they differ. */
 void
 TellApart(std::vector<Found> & found)
@@ -246,12 +260,49 @@ TellApart(std::vector<Found> & found)
   };
   for (const std::size_t i : doubled())
   {
-    const fs::path before = fs::path(found[i].id).parent_path();
-    found[i].id = (before / found[i].scan.filename()).string();
+    found[i].id = WithFileName(found[i]);
   }
   for (const std::size_t i : doubled())
   {
-    found[i].id = fs::absolute(found[i].scan).lexically_normal().string();
+    found[i].id = Normal(found[i].scan).string();
+  }
+}
+
+/** A scan that has results in `output` under a name that it could bear keeps that name, whatever others have come. */
+void
+KeepNames(std::vector<Found> &            found,
+          const std::vector<Found> &      plain,
+          const std::vector<CohortCase> & named,
+          const fs::path &                output)
+{
+  std::set<std::string> taken;
+  for (const CohortCase & one : named)
+  {
+    taken.insert(one.folder);
+  }
+  for (const Found & one : found)
+  {
+    taken.insert(CaseFolder(one.id));
+  }
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    const fs::path scan = Normal(found[i].scan);
+    const auto     isItsOwn = [&](const std::string & id) {
+      const auto record = ReadCaseRecord(output / CaseFolder(id));
+      return record && Normal(record->scan) == scan;
+    };
+    if (isItsOwn(found[i].id))
+    {
+      continue;
+    }
+    for (const std::string & id : { plain[i].id, WithFileName(plain[i]), scan.string() })
+    {
+      if (!taken.contains(CaseFolder(id)) && isItsOwn(id))
+      {
+        found[i].id = id;
+        break;
+      }
+    }
   }
 }
 
@@ -276,13 +327,17 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::ve
       AddInput(input, output, found, others);
     }
   }
-  std::erase_if(found,
-                [&](const Found & one) { return !known.insert(fs::absolute(one.scan).lexically_normal()).second; });
+  std::erase_if(found, [&](const Found & one) { return !known.insert(Normal(one.scan)).second; });
   if (passedOver != nullptr)
   {
     *passedOver = std::move(others);
   }
+  const std::vector<Found> plain = found;
   TellApart(found);
+  if (!output.empty())
+  {
+    KeepNames(found, plain, cases, output);
+  }
   for (Found & one : found)
   {
     cases.push_back({ one.id, CaseFolder(one.id), one.scan, {} });

@@ -4,6 +4,7 @@
 #include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Sha256.h"
+#include "voxelcore/ThicknessJob.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -137,6 +138,14 @@ RolesOf(const CsvRow & head, const std::string & where)
   return roles;
 }
 
+/** A relative path of a mask, from the folder of the manifest; without one it still looks like a path. */
+std::string
+MaskFrom(const fs::path & folder, const std::string & text)
+{
+  const std::string path = (folder / text).lexically_normal().string();
+  return NamesMask("within", path) ? path : "./" + path;
+}
+
 /** A field of a flag; empty text for "not given". */
 std::string
 FlagValue(const std::string & text, const std::string & where)
@@ -200,8 +209,10 @@ CaseFrom(const CsvRow &                  row,
       {
         RefuseDecimalComma(std::string(option.name), text, where);
       }
-      one.values[std::string(option.name)] =
-        option.kind == ParameterKind::Flag ? FlagValue(text, where + ": " + std::string(option.name)) : text;
+      one.values[std::string(option.name)] = option.kind == ParameterKind::Flag
+                                               ? FlagValue(text, where + ": " + std::string(option.name))
+                                             : NamesMask(option.name, text) ? MaskFrom(folder, text)
+                                                                            : text;
     }
   }
   if (one.id.empty() || one.scan.empty())
@@ -220,6 +231,12 @@ IsOptionOfCases(const Parameter & parameter)
   return BelongsTo(parameter, CommandId::Batch) && parameter.kind != ParameterKind::Output &&
          (BelongsTo(parameter, CommandId::Core) || BelongsTo(parameter, CommandId::Roots) ||
           BelongsTo(parameter, CommandId::Thickness));
+}
+
+bool
+NamesMask(std::string_view option, const std::string & value)
+{
+  return option == "within" && IsMask(value);
 }
 
 std::string
