@@ -115,6 +115,17 @@ TEST_F(CaseRecords, AFolderThatHasGoneHasNoOutputsAndNothingToClear)
   EXPECT_FALSE(IsDone(m_Case, "k"));
 }
 
+TEST_F(CaseRecords, AFolderThatHasGoneIsNotTakenForOneThatTakesNoFiles)
+{
+  EXPECT_TRUE(WriteRecordIfThere(m_Case, {}));
+  std::filesystem::remove(RecordPath(m_Case));
+  std::filesystem::create_directories(RecordPath(m_Case) / "in the way");
+  EXPECT_THROW(WriteRecordIfThere(m_Case, {}), OutputError);
+  std::filesystem::remove_all(m_Case);
+  EXPECT_FALSE(WriteRecordIfThere(m_Case, {}));
+  EXPECT_FALSE(std::filesystem::exists(m_Case));
+}
+
 TEST_F(CaseRecords, ALockThatCanNeverBeMadeIsAnError)
 {
   std::filesystem::create_symlink(m_Folder / "nowhere", m_Folder / "link");

@@ -2,10 +2,12 @@
 
 #include "CaseJob.h"
 #include "Scheduler.h"
+#include "voxelcore/CaseRecord.h"
 #include "voxelcore/DisplayTargets.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GatherCohort.h"
 #include "voxelcore/OutputTransaction.h"
+#include "voxelcore/Sha256.h"
 
 #include <algorithm>
 #include <array>
@@ -120,6 +122,53 @@ InOneLine(std::string text)
     [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; },
     ' ');
   return text;
+}
+
+/** Why a run would do a case again that is done; empty when it would not. \throws InputError */
+std::string
+WhyDoneAgain(const CaseJob & job, const std::string & keyThen)
+{
+  const std::string digest = ScanSha256(job.one.scan, job.reading);
+  const std::string key = KeyOf(job, digest);
+  if (IsDone(job.folder, key))
+  {
+    return "";
+  }
+  const std::string seen = ScanDigestOfResults(job.folder);
+  return std::string(seen.empty() || key == keyThen ? "its results are missing or were changed"
+                     : seen != digest               ? "its scan has changed since"
+                                      : "it was done with other options, masks or label names, or by another version") +
+         "; run the batch again";
+}
+
+/** The done cases that a run would do again. */
+std::vector<FailedCase>
+Outdated(const std::vector<CaseJob> & jobs, const JobContext & context)
+{
+  std::vector<FailedCase> outdated;
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+  {
+    ReportProgress(context.progress, "checking", static_cast<double>(i) / static_cast<double>(jobs.size()));
+    const auto record = ReadCaseRecord(jobs[i].folder);
+    if (!record || !record->done)
+    {
+      continue; // GatherCohort() says so
+    }
+    std::string why;
+    try
+    {
+      why = WhyDoneAgain(jobs[i], record->key);
+    }
+    catch (const std::exception & error) // it would fail its case
+    {
+      why = error.what();
+    }
+    if (!why.empty())
+    {
+      outdated.push_back({ jobs[i].one.id, why, false });
+    }
+  }
+  return outdated;
 }
 
 /** Adds the cases of this batch that the tables have for failed: results of some could not be read again. */
@@ -237,10 +286,16 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     }
     cases = { cases[*options.only - 1] };
   }
+  std::vector<CaseJob> jobs;
+  for (const CohortCase & one : cases)
+  {
+    jobs.push_back(MakeCaseJob(one, options));
+  }
+  RequireSense(jobs, options);
   BatchResult result;
   if (options.gather)
   {
-    const CohortSummary summary = GatherCohort(options.output, cases, context);
+    const CohortSummary summary = GatherCohort(options.output, cases, context, Outdated(jobs, context));
     if (options.inputs.empty())
     {
       result.cases = summary.cases;
@@ -254,12 +309,6 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     result.passedOver = std::move(passedOver);
     return result;
   }
-  std::vector<CaseJob> jobs;
-  for (const CohortCase & one : cases)
-  {
-    jobs.push_back(MakeCaseJob(one, options));
-  }
-  RequireSense(jobs, options);
   MakeOutput(options);
   result = Scheduler(options, std::move(jobs), context.progress).Run();
   if (!options.only)

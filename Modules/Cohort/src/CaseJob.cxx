@@ -1,5 +1,6 @@
 #include "CaseJob.h"
 
+#include "voxelcore/CaseRecord.h"
 #include "voxelcore/Error.h"
 
 #include <algorithm>
@@ -175,7 +176,7 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
     {
       const std::string argument = isFlag ? flag : flag + "=" + value->second;
       job.arguments.push_back(argument);
-      job.options += argument + "\n";
+      job.options += (NamesMask(parameter.name, value->second) ? flag : argument) + "\n"; // a mask is its content
       given.insert(*value);
     }
     values.erase(value); // an option may stand in the table once for each command
@@ -190,6 +191,12 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
   }
   Understand(job, std::move(given), options.command);
   return job;
+}
+
+std::string
+KeyOf(const CaseJob & job, const std::string & digest)
+{
+  return CaseKeyOf(digest, job.one.scan, job.options, job.masks);
 }
 
 std::string

@@ -25,6 +25,10 @@ struct CaseJob
 CaseJob
 MakeCaseJob(const CohortCase & one, const BatchOptions & options);
 
+/** CaseKey() of the case, whose scan has this ScanSha256(). \throws InputError */
+std::string
+KeyOf(const CaseJob & job, const std::string & digest);
+
 /** "core", "roots", ... */
 std::string
 CommandName(CommandId command);

@@ -68,7 +68,16 @@ CaseKey(const fs::path &              scan,
         const ReadOptions &           reading,
         const std::vector<fs::path> & masks)
 {
-  std::string text = ScanSha256(scan, reading) + "\n" + NamesDigest(scan) + SourceDigest() + "\n" + options;
+  return CaseKeyOf(ScanSha256(scan, reading), scan, options, masks);
+}
+
+std::string
+CaseKeyOf(const std::string &           digest,
+          const fs::path &              scan,
+          const std::string &           options,
+          const std::vector<fs::path> & masks)
+{
+  std::string text = digest + "\n" + NamesDigest(scan) + SourceDigest() + "\n" + options;
   for (const fs::path & mask : masks)
   {
     text += "mask " + ScanSha256(mask) + "\n";
@@ -125,6 +134,25 @@ WriteCaseRecord(const fs::path & folder, const CaseRecord & record)
   transaction.Commit();
 }
 
+bool
+WriteRecordIfThere(const fs::path & folder, const CaseRecord & record)
+{
+  try
+  {
+    WriteCaseRecord(folder, record);
+    return true;
+  }
+  catch (const OutputError &)
+  {
+    std::error_code error;
+    if (fs::is_directory(folder, error))
+    {
+      throw;
+    }
+    return false;
+  }
+}
+
 std::optional<CaseRecord>
 ReadCaseRecord(const fs::path & folder)
 {
@@ -158,6 +186,21 @@ ReadCaseRecord(const fs::path & folder)
   catch (const nlohmann::json::exception &)
   {
     return std::nullopt;
+  }
+}
+
+std::string
+ScanDigestOfResults(const fs::path & folder)
+{
+  std::ifstream     file(folder / (folder.filename().string() + "_report.json"), std::ios::binary);
+  const std::string text{ std::istreambuf_iterator<char>(file), {} };
+  try
+  {
+    return Json::parse(PlainJson(text)).at("input").at("sha256").get<std::string>();
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    return "";
   }
 }
 

@@ -10,8 +10,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <poll.h>
 #include <utility>
 
@@ -95,21 +93,6 @@ ReasonOf(const ChildEnd & end, const std::string & killed)
   return lines.empty() ? "ended with exit code " + std::to_string(end.code) : lines.back();
 }
 
-/** The digest of the scan that the case has seen. */
-std::string
-DigestInReport(const fs::path & folder)
-{
-  std::ifstream file(folder / (folder.filename().string() + "_report.json"));
-  try
-  {
-    return nlohmann::json::parse(file).at("input").at("sha256").get<std::string>();
-  }
-  catch (const nlohmann::json::exception &)
-  {
-    return "";
-  }
-}
-
 } // namespace
 
 Scheduler::Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, ProgressCallback progress)
@@ -167,7 +150,7 @@ Scheduler::Begin(std::size_t job)
   std::string key;
   try
   {
-    key = CaseKey(one.one.scan, one.options, one.reading, one.masks);
+    key = KeyOf(one, ScanSha256(one.one.scan, one.reading));
   }
   catch (const std::exception &)
   {
@@ -315,13 +298,13 @@ Scheduler::Record(const Running & running, const ChildEnd & end)
   try
   {
     record.outputs = ListOutputs(job.folder);
-    const std::string seen = DigestInReport(job.folder);
+    const std::string seen = ScanDigestOfResults(job.folder);
     if (seen.empty())
     {
       return "ended well but left no report";
     }
-    if (seen != ScanSha256(job.one.scan, job.reading) ||
-        running.key != CaseKey(job.one.scan, job.options, job.reading, job.masks))
+    const std::string digest = ScanSha256(job.one.scan, job.reading);
+    if (seen != digest || running.key != KeyOf(job, digest))
     {
       return job.one.scan.string() + ": changed while the case ran; run the batch again";
     }
@@ -334,8 +317,7 @@ Scheduler::Record(const Running & running, const ChildEnd & end)
   {
     return error.path1().string() + ": " + error.code().message() + "; was it removed while the case ran?";
   }
-  WriteCaseRecord(job.folder, record);
-  return "";
+  return WriteRecordIfThere(job.folder, record) ? "" : job.folder.string() + ": was removed while the case ran";
 }
 
 void
@@ -348,7 +330,7 @@ Scheduler::Fail(std::size_t job, const std::string & key, const std::string & re
   record.key = key;
   record.reason = reason;
   record.seconds = seconds;
-  const bool canRecord = TroubleWritingInto(one.folder).empty();
+  bool canRecord = TroubleWritingInto(one.folder).empty();
   if (canRecord)
   {
     try
@@ -359,7 +341,7 @@ Scheduler::Fail(std::size_t job, const std::string & key, const std::string & re
     {
       // They stay, and the record says that they are no results.
     }
-    WriteCaseRecord(one.folder, record);
+    canRecord = WriteRecordIfThere(one.folder, record);
   }
   m_Result.failed.push_back({ one.one.id, reason, canRecord });
   ++m_Finished;

@@ -40,6 +40,13 @@ CaseKey(const std::filesystem::path &              scan,
         const ReadOptions &                        reading = {},
         const std::vector<std::filesystem::path> & masks = {});
 
+/** The same key where the scan has been read: `digest` is its ScanSha256(). */
+std::string
+CaseKeyOf(const std::string &                        digest,
+          const std::filesystem::path &              scan,
+          const std::string &                        options,
+          const std::vector<std::filesystem::path> & masks);
+
 /** "<folder>/<folder's name>_case.json" */
 std::filesystem::path
 RecordPath(const std::filesystem::path & folder);
@@ -53,9 +60,18 @@ ListOutputs(const std::filesystem::path & folder);
 void
 WriteCaseRecord(const std::filesystem::path & folder, const CaseRecord & record);
 
+/** The same for a folder that somebody may have removed: false when it has gone.
+ *  \throws OutputError for other reasons */
+bool
+WriteRecordIfThere(const std::filesystem::path & folder, const CaseRecord & record);
+
 /** None when there is none or it is damaged: a record ends in its own digest. */
 std::optional<CaseRecord>
 ReadCaseRecord(const std::filesystem::path & folder);
+
+/** The digest of the scan that a case has seen, by its report; empty when there is none. */
+std::string
+ScanDigestOfResults(const std::filesystem::path & folder);
 
 /** Whether the case is done with this key and every file is there as it was written, to the last bit. Asking the files
  *  themselves holds after a loss of power too, which may lose what was written before what was renamed. */

@@ -53,7 +53,7 @@ inline constexpr auto kCohortRows = std::to_array<Parameter>({
     "",
     false,
     kBatch,
-    "Write tables and page from the results in OUTDIR, and run nothing" },
+    "Write tables and page from the results in OUTDIR, and run nothing; give the options of that run" },
 });
 
 } // namespace voxelcore::table
