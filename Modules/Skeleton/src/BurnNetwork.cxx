@@ -2,6 +2,7 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/ParallelTasks.h"
+#include "voxelcore/UnionFind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,12 +78,12 @@ struct BurnNetwork::Fan
   {
     std::array<Side, 2> sides; ///< before and after
     std::uint32_t       at;
-    std::uint32_t       label; ///< smallest corner (position in the list) of its sector
     std::uint32_t       rank;
   };
 
-  std::vector<Corner>                                 corners;
-  std::vector<std::pair<ElementIndex, std::uint32_t>> seamEnds; ///< edges and sectors
+  std::vector<Corner>                                 corners;   ///< by face
+  UnionFind                                           sets{ 0 }; ///< of corners, by position in the list: sectors
+  std::vector<std::pair<ElementIndex, std::uint32_t>> seamEnds;  ///< edges and sectors
 };
 
 BurnNetwork::BurnNetwork(const MedialComplex & complex, double sampling)
@@ -177,6 +178,7 @@ BurnNetwork::FindSectors(std::size_t firstVertex, std::size_t lastVertex)
     const std::uint32_t first = vertexFaceOffsets[vertex];
     const std::uint32_t count = vertexFaceOffsets[vertex + 1] - first;
     fan.corners.resize(count);
+    fan.sets.Reset(count);
     for (std::uint32_t i = 0; i < count; ++i)
     {
       const FaceCorner at = CornerAt(vertexFaces[first + i], static_cast<ElementIndex>(vertex));
@@ -185,34 +187,31 @@ BurnNetwork::FindSectors(std::size_t firstVertex, std::size_t lastVertex)
       const ElementIndex before = m_Cells->faceEdges[SideBefore(at)];
       const ElementIndex after = m_Cells->faceEdges[at.corner];
       corner.sides = { Fan::Side{ before, EdgeFaceCount(before) }, Fan::Side{ after, EdgeFaceCount(after) } };
-      corner.label = i;
-      // Join the corners seen before that lie across an edge with two faces.
-      for (std::uint32_t j = 0; j < i; ++j)
+      // Join what was seen before across an edge with two faces.
+      for (const Fan::Side & side : corner.sides)
       {
-        const Fan::Corner & other = fan.corners[j];
-        const auto          shares = [&](const Fan::Side & side) {
-          return side.faces == 2 && (other.sides[0].edge == side.edge || other.sides[1].edge == side.edge);
-        };
-        if (other.label != corner.label && (shares(corner.sides[0]) || shares(corner.sides[1])))
+        if (side.faces == 2)
         {
-          const std::uint32_t low = std::min(corner.label, other.label);
-          const std::uint32_t high = std::max(corner.label, other.label);
-          for (std::uint32_t k = 0; k <= i; ++k)
+          const std::uint32_t * both = edgeFaces.data() + edgeFirst[side.edge].face;
+          const std::uint32_t   other = both[0] == at.face ? both[1] : both[0];
+          const auto            faces = vertexFaces.begin() + first;
+          if (other < at.face)
           {
-            fan.corners[k].label = fan.corners[k].label == high ? low : fan.corners[k].label;
+            fan.sets.Unite(i, static_cast<std::size_t>(std::lower_bound(faces, faces + i, other) - faces));
           }
         }
       }
     }
     for (std::uint32_t i = 0; i < count; ++i)
     {
-      Fan::Corner & corner = fan.corners[i];
-      if (corner.label == i)
+      Fan::Corner &       corner = fan.corners[i];
+      const std::uint32_t smallest = fan.sets.Find(i);
+      if (smallest == i)
       {
         corner.rank = static_cast<std::uint32_t>(part.open.size());
         part.open.push_back(0);
       }
-      corner.rank = fan.corners[corner.label].rank;
+      corner.rank = fan.corners[smallest].rank;
       sides[corner.at].sector[0] = corner.rank;
       if (corner.sides[0].faces == 1 || corner.sides[1].faces == 1)
       {

@@ -14,9 +14,16 @@ class UnionFind
 {
 public:
   explicit UnionFind(std::size_t size)
-    : m_Parent(size)
-    , m_Count(size)
   {
+    Reset(size);
+  }
+
+  /** Sets of one element each, in the memory there is. */
+  void
+  Reset(std::size_t size)
+  {
+    m_Parent.resize(size);
+    m_Count = size;
     std::iota(m_Parent.begin(), m_Parent.end(), std::uint32_t{ 0 });
   }
 
@@ -55,7 +62,7 @@ public:
 
 private:
   std::vector<std::uint32_t> m_Parent;
-  std::size_t                m_Count;
+  std::size_t                m_Count = 0;
 };
 
 } // namespace voxelcore
