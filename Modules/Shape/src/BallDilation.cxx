@@ -1,16 +1,14 @@
 #include "BallDilation.h"
 
+#include "BallDistances.h"
+
 #include <cmath>
 
 namespace voxelcore
 {
 
-namespace
-{
-
-/** The largest n with (weight n)^2 <= squared. */
 std::int32_t
-Reach(std::int64_t squared, std::int64_t weight)
+LatticeReach(std::int64_t squared, std::int64_t weight)
 {
   auto n = static_cast<std::int64_t>(std::sqrt(static_cast<double>(squared)) / static_cast<double>(weight));
   n += (n + 1) * (n + 1) * weight * weight <= squared ? 1 : 0;
@@ -18,13 +16,12 @@ Reach(std::int64_t squared, std::int64_t weight)
   return static_cast<std::int32_t>(n);
 }
 
-} // namespace
-
-BallRows::BallRows(const LatticeBall & ball)
+BallRows::BallRows(const LatticeBall & of)
+  : ball(of)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    reach[axis] = Reach(ball.squaredRadius, ball.weight[axis]);
+    reach[axis] = LatticeReach(ball.squaredRadius, ball.weight[axis]);
   }
   ofHalfLength.resize(static_cast<std::size_t>(reach[0]) + 1);
   for (std::int32_t z = -reach[2]; z <= reach[2]; ++z)
@@ -35,7 +32,7 @@ BallRows::BallRows(const LatticeBall & ball)
         ball.squaredRadius - ball.weight[1] * ball.weight[1] * y * y - ball.weight[2] * ball.weight[2] * z * z;
       if (left >= 0)
       {
-        ofHalfLength[static_cast<std::size_t>(Reach(left, ball.weight[0]))].push_back({ y, z });
+        ofHalfLength[static_cast<std::size_t>(LatticeReach(left, ball.weight[0]))].push_back({ y, z });
       }
     }
   }
@@ -44,11 +41,16 @@ BallRows::BallRows(const LatticeBall & ball)
 VoxelShape
 Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback & progress, double from, double to)
 {
-  const VoxelBox &          box = shape.Box();
-  const auto                margin = ball.Room();
-  const auto                room = static_cast<std::size_t>(margin[0] / 64);
-  const VoxelBox            grown = Grown(box, margin);
-  VoxelShape                dilated(grown);
+  const VoxelBox & box = shape.Box();
+  const auto       margin = ball.Room();
+  const auto       room = static_cast<std::size_t>(margin[0] / 64);
+  const VoxelBox   grown = Grown(box, margin);
+  VoxelShape       dilated(grown);
+  if (DistancesAreFaster(ball, box))
+  {
+    DilateByDistances(shape, ball, dilated, progress, from, to);
+    return dilated;
+  }
   std::vector<std::uint8_t> holds(static_cast<std::size_t>(box.size[1]) * static_cast<std::size_t>(box.size[2]));
   const auto                rowOf = [&](std::int32_t y, std::int32_t z) {
     return static_cast<std::size_t>(z) * static_cast<std::size_t>(box.size[1]) + static_cast<std::size_t>(y);

@@ -14,6 +14,10 @@
 namespace voxelcore
 {
 
+/** The largest n with (weight n)^2 <= squared. */
+std::int32_t
+LatticeReach(std::int64_t squared, std::int64_t weight);
+
 /** The rows of a ball along x: each is 2 h + 1 voxels long, and they are kept by h. */
 struct BallRows
 {
@@ -22,10 +26,11 @@ struct BallRows
     std::int32_t y;
     std::int32_t z;
   };
+  LatticeBall                      ball;
   std::vector<std::vector<Offset>> ofHalfLength;
   std::array<std::int32_t, 3>      reach;
 
-  explicit BallRows(const LatticeBall & ball);
+  explicit BallRows(const LatticeBall & of);
 
   bool
   IsOneVoxel() const

@@ -1,6 +1,7 @@
 #include "voxelcore/ShapeClosing.h"
 
 #include "BallDilation.h"
+#include "BallDistances.h"
 #include "EditedBits.h"
 #include "voxelcore/LengthText.h"
 #include "voxelcore/SpacingWeights.h"
@@ -76,7 +77,15 @@ Close(VoxelShape & shape, const LatticeBall & ball, const ProgressCallback & pro
   const BallRows rows(ball);
   if (!rows.IsOneVoxel() && shape.Box().size[0] > 0)
   {
-    AddEroded(Dilated(shape, rows, progress, 0, 0.5), rows, shape, progress);
+    const VoxelShape dilated = Dilated(shape, rows, progress, 0, 0.5);
+    if (DistancesAreFaster(rows, shape.Box()))
+    {
+      ErodeByDistances(dilated, rows, shape, progress, 0.5, 1);
+    }
+    else
+    {
+      AddEroded(dilated, rows, shape, progress);
+    }
   }
 }
 

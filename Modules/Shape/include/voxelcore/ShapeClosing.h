@@ -12,7 +12,8 @@
 // - Between flat walls along the grid, gaps of up to D close where D is an even number of voxels; an odd D acts as the
 //   even number below it, as balls are centred on voxels. So one voxel needs D = 2 voxels. A hole through a wall
 //   thinner than it is wide needs more, as balls bulge into it from both sides; FillHollows() does not.
-// Time: proportional to the box and to the number of voxels in the ball's largest disc, a word of 64 voxels at a time.
+// Time: proportional to the box that the balls have room in and to the number of voxels in the ball's largest disc, a
+// word of 64 voxels at a time; of more than a thousand, which go by distances, no longer to that number.
 // Memory: a bit a voxel more. The same on any number of threads.
 
 #include "voxelcore/ImageGeometry.h"
