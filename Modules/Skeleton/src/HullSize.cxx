@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace voxelcore
 {
@@ -44,6 +45,32 @@ ConvexHullSize(const std::vector<Vector3> & points)
     hull.volume += Dot(normal, Minus(a, points[0])) / 6;
   }
   return hull;
+}
+
+double
+WidthAcross(const Vector3 & direction, const std::vector<Vector3> & places)
+{
+  constexpr double halfTurn = 3.14159265358979323846;
+  Vector3          across = std::abs(direction[0]) < 0.9 ? Vector3{ 1, 0, 0 } : Vector3{ 0, 1, 0 };
+  across = AddScaled(across, -Dot(across, direction), direction);
+  across = AddScaled({ 0, 0, 0 }, 1 / Length(across), across);
+  const Vector3 other = Cross(direction, across);
+  double        width = 0;
+  for (int side = 0; side < 180 && !places.empty(); ++side)
+  {
+    const double  turn = side * halfTurn / 180;
+    const Vector3 towards = AddScaled(AddScaled({ 0, 0, 0 }, std::cos(turn), across), std::sin(turn), other);
+    double        least = std::numeric_limits<double>::infinity();
+    double        most = -least;
+    for (const Vector3 & place : places)
+    {
+      const double at = Dot(place, towards);
+      least = std::min(least, at);
+      most = std::max(most, at);
+    }
+    width = std::max(width, most - least);
+  }
+  return width;
 }
 
 } // namespace voxelcore

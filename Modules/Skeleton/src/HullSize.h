@@ -1,5 +1,5 @@
 #pragma once
-// How large the convex hull of points in space is.
+// How large the convex hull of points in space is, and how wide they lie.
 
 #include "voxelcore/Vectors.h"
 
@@ -16,5 +16,9 @@ struct HullSize
 
 HullSize
 ConvexHullSize(const std::vector<Vector3> & points);
+
+/** The greatest distance between places across a direction of length 1, up to a thousandth: seen from 180 sides. */
+double
+WidthAcross(const Vector3 & direction, const std::vector<Vector3> & places);
 
 } // namespace voxelcore

@@ -1,6 +1,8 @@
 #include "voxelcore/RootTraits.h"
 
 #include "HullSize.h"
+#include "MeanOfKnown.h"
+#include "RootLevels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,30 +17,6 @@ namespace
 constexpr double      kNotKnown = std::numeric_limits<double>::quiet_NaN();
 constexpr double      kPi = 3.14159265358979323846;
 constexpr std::size_t kClasses = 20;
-
-/** The mean of what is known. */
-class Mean
-{
-public:
-  void
-  Add(double value, double weight = 1)
-  {
-    if (std::isfinite(value))
-    {
-      m_Sum += weight * value;
-      m_Weight += weight;
-    }
-  }
-  double
-  Value() const
-  {
-    return m_Weight > 0 ? m_Sum / m_Weight : kNotKnown;
-  }
-
-private:
-  double m_Sum = 0;
-  double m_Weight = 0;
-};
 
 class Measurer
 {
@@ -80,7 +58,7 @@ public:
     {
       traits.roots.push_back(MeasureRoot(axis));
     }
-    SumLevels(traits);
+    traits.levels = SumLevels(m_Roots, traits.roots);
     MeasureStems(traits);
     MeasureExtent(traits);
     FillClasses(traits);
@@ -147,7 +125,7 @@ private:
     record.tipDepth = DepthOf(record.tip);
     record.minDiameter = 2 * m_Radii[points[first]];
     record.maxDiameter = record.minDiameter;
-    Mean diameter;
+    MeanOfKnown diameter;
     for (std::size_t i = first + 1; i < points.size(); ++i)
     {
       const double a = m_Radii[points[i - 1]];
@@ -196,70 +174,9 @@ private:
   }
 
   void
-  SumLevels(RootTraits & traits) const
-  {
-    using Kind = RootLevelRecord::Kind;
-    std::int32_t deepest = -1;
-    for (const RootAxis & axis : m_Roots.axes)
-    {
-      deepest = std::max(deepest, axis.level);
-    }
-    for (std::int32_t level = 0; level <= deepest; ++level)
-    {
-      traits.levels.push_back(SumUp(traits, Kind::Level, level));
-    }
-    traits.levels.push_back(SumUp(traits, Kind::Laterals, 0));
-    traits.levels.push_back(SumUp(traits, Kind::All, 0));
-  }
-
-  RootLevelRecord
-  SumUp(const RootTraits & traits, RootLevelRecord::Kind kind, std::int32_t level) const
-  {
-    using Kind = RootLevelRecord::Kind;
-    RootLevelRecord sum;
-    sum.kind = kind;
-    sum.level = level;
-    Mean length, diameter, tortuosity, emergence, midpoint, tip, emergenceDown, midpointDown, tipDown, children;
-    for (std::size_t axis = 0; axis < traits.roots.size(); ++axis)
-    {
-      const std::int32_t of = m_Roots.axes[axis].level;
-      const RootRecord & root = traits.roots[axis];
-      if ((kind == Kind::Level && of != level) || (kind == Kind::Laterals && of == 0))
-      {
-        continue;
-      }
-      ++sum.count;
-      sum.totalLength += root.length;
-      sum.volume += root.volume;
-      sum.surface += root.surface;
-      length.Add(root.length);
-      diameter.Add(root.meanDiameter, root.length);
-      tortuosity.Add(root.tortuosity);
-      emergence.Add(root.emergenceAngle);
-      midpoint.Add(root.midpointAngle);
-      tip.Add(root.tipAngle);
-      emergenceDown.Add(root.emergenceFromDown);
-      midpointDown.Add(root.midpointFromDown);
-      tipDown.Add(root.tipFromDown);
-      children.Add(root.children);
-    }
-    sum.meanLength = length.Value();
-    sum.meanDiameter = diameter.Value();
-    sum.meanTortuosity = tortuosity.Value();
-    sum.meanEmergenceAngle = emergence.Value();
-    sum.meanMidpointAngle = midpoint.Value();
-    sum.meanTipAngle = tip.Value();
-    sum.meanEmergenceFromDown = emergenceDown.Value();
-    sum.meanMidpointFromDown = midpointDown.Value();
-    sum.meanTipFromDown = tipDown.Value();
-    sum.meanChildren = children.Value();
-    return sum;
-  }
-
-  void
   MeasureStems(RootTraits & traits) const
   {
-    Mean diameter;
+    MeanOfKnown diameter;
     for (std::size_t axis = 0; axis < traits.roots.size(); ++axis)
     {
       if (m_Roots.axes[axis].level == 0 && !m_Roots.axes[axis].loose)
@@ -271,7 +188,7 @@ private:
     }
     traits.stemDiameter = diameter.Value();
     traits.whorls = static_cast<std::int64_t>(m_Roots.whorls.size());
-    Mean between;
+    MeanOfKnown between;
     for (std::size_t i = 1; i < m_Roots.whorls.size(); ++i)
     {
       if (m_Roots.whorls[i].stem == m_Roots.whorls[i - 1].stem)
@@ -280,32 +197,6 @@ private:
       }
     }
     traits.meanWhorlDistance = between.Value();
-  }
-
-  /** The greatest distance across down between places, up to a thousandth: seen from 180 sides. */
-  double
-  WidthOf(const std::vector<Vector3> & places) const
-  {
-    Vector3 across = std::abs(m_Down[0]) < 0.9 ? Vector3{ 1, 0, 0 } : Vector3{ 0, 1, 0 };
-    across = AddScaled(across, -Dot(across, m_Down), m_Down);
-    across = AddScaled({ 0, 0, 0 }, 1 / Length(across), across);
-    const Vector3 other = Cross(m_Down, across);
-    double        width = 0;
-    for (int side = 0; side < 180 && !places.empty(); ++side)
-    {
-      const double  turn = side * kPi / 180;
-      const Vector3 direction = AddScaled(AddScaled({ 0, 0, 0 }, std::cos(turn), across), std::sin(turn), other);
-      double        least = std::numeric_limits<double>::infinity();
-      double        most = -least;
-      for (const Vector3 & place : places)
-      {
-        const double at = Dot(place, direction);
-        least = std::min(least, at);
-        most = std::max(most, at);
-      }
-      width = std::max(width, most - least);
-    }
-    return width;
   }
 
   void
@@ -331,7 +222,7 @@ private:
     traits.hullVolume = hull.volume;
     traits.hullSurface = hull.surface;
     traits.depth = deepest - highest;
-    traits.width = WidthOf(places);
+    traits.width = WidthAcross(m_Down, places);
     std::vector<std::vector<Vector3>> slices(kClasses);
     const auto                        sliceOf = [&](const Vector3 & place) {
       const double part = traits.depth > 0 ? (DepthOf(place) - highest) / traits.depth : 0;
@@ -354,7 +245,7 @@ private:
     for (std::size_t slice = 0; slice < kClasses; ++slice)
     {
       traits.depths[slice].depth = highest + (static_cast<double>(slice) + 0.5) / kClasses * traits.depth;
-      traits.depths[slice].width = WidthOf(slices[slice]);
+      traits.depths[slice].width = WidthAcross(m_Down, slices[slice]);
     }
   }
 
