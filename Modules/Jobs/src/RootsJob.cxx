@@ -5,12 +5,10 @@
 #include "RootsApart.h"
 #include "RootsDisplay.h"
 #include "RootsReport.h"
+#include "RootsScan.h"
 #include "voxelcore/Error.h"
-#include "voxelcore/GreyScan.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
-#include "voxelcore/ReadInput.h"
-#include "voxelcore/ShapeTopology.h"
 #include "voxelcore/Text.h"
 #include "voxelcore/TextFields.h"
 
@@ -18,7 +16,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <limits>
 #include <utility>
 
 namespace voxelcore
@@ -68,87 +65,6 @@ CoreOptionsOf(const RootsOptions & options)
   core.force = options.force;
   core.command = options.command;
   return core;
-}
-
-/** A mask as it is before roots are told apart. */
-struct CleanMask
-{
-  ImageGeometry geometry;
-  EditedLabels  edited;
-};
-
-/** Edits by the width in voxels up to which holes are closed, of those tried that with the fewest pieces, loops and
- *  cavities left; the least of equals. Puts it into `core`. */
-EditedLabels
-EditByBestWidth(const LabelMap & volume, CoreOptions & core)
-{
-  // In voxels of the greatest spacing. Lumens must be wider than that to be found, holes narrower to be closed.
-  const Vector3 & spacing = volume.geometry.spacing;
-  const auto [least, most] = std::minmax({ spacing[0], spacing[1], spacing[2] });
-  EditedLabels            best;
-  std::optional<GapWidth> bestWidth;
-  std::int64_t            fewest = 0;
-  for (const double holes : { 2.5, 4.0, 6.0 })
-  {
-    ShapeEditOptions edits = core.edits;
-    edits.simplify.reset(); // it would cut the loops by which widths are compared
-    edits.change.reset();
-    edits.fillHollows = ParseGapWidth(RoundTripText(std::round(10 * holes * most / least) / 10) + "vox");
-    EditedLabels edited =
-      EditLabels(volume.labels, volume.geometry, edits, core.reading.labels != "all", core.scan.string());
-    std::int64_t left = 0;
-    for (const EditedLabel & one : edited.labels)
-    {
-      const auto betti = ComputeShapeTopology(one.label.shape).betti;
-      left += betti[0] - 1 + betti[1] + betti[2];
-    }
-    if (!bestWidth || left < fewest)
-    {
-      bestWidth = edits.fillHollows;
-      best = std::move(edited);
-      fewest = left;
-    }
-    if (fewest == 0)
-    {
-      break;
-    }
-  }
-  core.edits.fillHollows = bestWidth;
-  return best;
-}
-
-/** Chooses the threshold of grey values that come without one, and how hollows are filled. */
-CleanMask
-LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
-{
-  LabelMap volume;
-  try
-  {
-    volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
-  }
-  catch (const GreyScanError & error)
-  {
-    core.reading.threshold = std::pair(error.grey.half, std::numeric_limits<double>::infinity());
-    core.reading.refuseGrey = false;
-    notes.push_back(
-      core.scan.string() + ": " + GreyScanText(error.grey) + "; threshold " + RoundTripText(error.grey.half) +
-      ":inf, halfway between background and roots (Otsu: " + OtsuRange(error.grey) + "); for another give --threshold");
-    volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
-  }
-  CleanMask mask{ volume.geometry, {} };
-  if (!asIs && !core.edits.close && !core.edits.fillHollows && !core.edits.fillSlices)
-  {
-    mask.edited = EditByBestWidth(volume, core);
-    notes.push_back("hollows are filled where they open through holes up to " + core.edits.fillHollows->text +
-                    " wide; for another width give --fill-hollows");
-    if (!core.edits.simplify && !core.edits.change)
-    {
-      return mask;
-    }
-  }
-  mask.edited =
-    EditLabels(std::move(volume.labels), volume.geometry, core.edits, core.reading.labels != "all", core.scan.string());
-  return mask;
 }
 
 /** yyyy-mm-ddThh:mm:ss, UTC: when a file was changed last. */
@@ -274,17 +190,6 @@ UpText(const Vector3 & up)
     axis = std::abs(up[other]) > std::abs(up[axis]) ? other : axis;
   }
   return kDirections[2 * axis + (up[axis] < 0 ? 1 : 0)];
-}
-
-void
-CleanForRoots(ShapeEditOptions & edits)
-{
-  edits.mend = true;
-  edits.fillCavities = true;
-  if (!edits.largest && !edits.minVoxels)
-  {
-    edits.largest = 1;
-  }
 }
 
 RootsResult
