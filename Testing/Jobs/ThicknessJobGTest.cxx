@@ -441,6 +441,32 @@ TEST_F(ThicknessJob, NamesThatCannotBeHadAreFoundBeforeAnythingIsMeasured)
   EXPECT_EQ(came, 0);
 }
 
+TEST_F(ThicknessJob, AHeadersVoxelsAreFoundBeforeAnythingIsMeasured)
+{
+  TwoLabels();
+  std::ofstream(At("map.zraw")) << "mine";
+  double came = 0;
+  EXPECT_THROW(Thickness("map.mhd", {}, Noting(came)), OutputError);
+  EXPECT_EQ(came, 0);
+  EXPECT_EQ(Bytes("map.zraw"), "mine");
+}
+
+TEST_F(ThicknessJob, WhatTiffLeavesOutOfThePlaceIsTold)
+{
+  TwoLabels();
+  EXPECT_TRUE(Thickness("map.tif").notes.empty()) << "there is nothing to leave out";
+  VoxelShape    cube(VoxelBox{ { 2, 2, 2 }, { 1, 1, 1 } });
+  ImageGeometry geometry;
+  cube.Insert(2, 2, 2);
+  geometry.size = { 6, 6, 6 };
+  geometry.origin = { 10, 0, 0 };
+  WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "cube", 1, std::move(cube) } });
+  const ThicknessResult result = Thickness("map.tif", { { "force", "true" } });
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_NE(result.notes[0].find("map.tif: TIFF holds no origin"), std::string::npos);
+  EXPECT_TRUE(Thickness("map.nii.gz").notes.empty());
+}
+
 TEST_F(ThicknessJob, AFormatThatCannotHoldTheMapIsRefusedByItsNameBeforeAnythingIsMeasured)
 {
   VoxelShape square(VoxelBox{ { 2, 2, 0 }, { 4, 4, 1 } });

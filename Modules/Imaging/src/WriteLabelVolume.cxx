@@ -411,6 +411,17 @@ RequireVolumePath(const std::filesystem::path & path)
   KindOf(path);
 }
 
+std::string
+WhatIsLeftOut(const std::filesystem::path & path, const ImageGeometry & geometry)
+{
+  const ImageGeometry plain;
+  if (KindOf(path) != Kind::Tiff || (geometry.origin == plain.origin && geometry.direction == plain.direction))
+  {
+    return {};
+  }
+  return path.string() + ": TIFF holds no origin and no directions of axes; .nrrd holds everything";
+}
+
 void
 RequireVolumeFits(const std::filesystem::path & path, const std::array<std::int64_t, 3> & size)
 {

@@ -41,6 +41,10 @@ CheckTargets(const OutputTransaction & transaction, const std::vector<std::files
       throw UsageError(target.string() + ": two results would be written under this name");
     }
     transaction.CheckTarget(target);
+    if (target.extension() == ".mhd")
+    {
+      transaction.CheckTarget(std::filesystem::path(target).replace_extension(".zraw")); // its voxels
+    }
   }
 }
 

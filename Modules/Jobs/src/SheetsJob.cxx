@@ -191,6 +191,10 @@ private:
     }
     m_Result.warnings = std::move(read.warnings);
     m_Result.notes = read.edited.notes;
+    if (const std::string note = m_Options.voxels ? WhatIsLeftOut(*m_Options.voxels, read.geometry) : ""; !note.empty())
+    {
+      m_Result.notes.push_back(note);
+    }
     CertifiedRequest request = RequestOf(options, read.surface);
     request.refineCores = static_cast<bool>(read.surface);
     request.thickness = ThicknessRequest{ false };

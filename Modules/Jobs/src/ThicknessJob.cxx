@@ -140,6 +140,16 @@ private:
     m_Shown.AddScan(m_Edited.labels, m_Geometry);
     m_Result.warnings = std::move(read.warnings);
     m_Result.notes = m_Edited.notes;
+    NoteWhatIsLeftOut(m_ToFolder ? std::string() : WhatIsLeftOut(m_Options.output, m_Geometry));
+  }
+
+  void
+  NoteWhatIsLeftOut(const std::string & note)
+  {
+    if (!note.empty())
+    {
+      m_Result.notes.push_back(note);
+    }
   }
 
   /** Values at the voxels of all labels, which stay until they are written together. */

@@ -30,7 +30,7 @@ constexpr auto kNumberColumns = std::to_array<Column>({
   { "max", "mm", "greatest" },
   { "border_voxels",
     "",
-    "voxels whose ball touches the border of the scan, where what is cut off may have been thicker" },
+    "voxels whose ball touches the border of the scan, or of the crop, where what is cut off may have been thicker" },
   { "inner_mean", "mm", "mean without these" },
   { "inner_sd", "mm", "standard deviation without these" },
   { "lower_mean", "mm", "mean of the lower bound, with --bounds: balls that truly lie in the voxels" },

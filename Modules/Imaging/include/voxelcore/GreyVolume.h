@@ -80,4 +80,8 @@ RequireVolumePath(const std::filesystem::path & path);
 void
 RequireVolumeFits(const std::filesystem::path & path, const std::array<std::int64_t, 3> & size);
 
+/** What of the geometry the path's format cannot hold, as a note; empty where it holds all. */
+std::string
+WhatIsLeftOut(const std::filesystem::path & path, const ImageGeometry & geometry);
+
 } // namespace voxelcore
