@@ -129,12 +129,12 @@ ClosedByTrying(const VoxelShape & shape, const LatticeBall & ball)
 
 TEST(BallDistances, LargeBallsCloseWhatTheDefinitionSays)
 {
-  for (std::uint64_t seed = 1; seed <= 8; ++seed)
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random            random(seed);
     const auto &      spacing = TestSpacings()[seed % 3];
-    const VoxelShape  shape = RandomShape(random, { 9, 7, 8 }, 0.05 + 0.02 * static_cast<double>(seed));
+    const VoxelShape  shape = RandomShape(random, { 7, 5, 6 }, 0.05 + 0.02 * static_cast<double>(seed));
     const auto        least = ComputeSpacingWeights(spacing).weight[0];
     const LatticeBall ball{ ComputeSpacingWeights(spacing).weight,
                             least * least * static_cast<std::int64_t>(random.Between(40 * 40, 45 * 45)) };
