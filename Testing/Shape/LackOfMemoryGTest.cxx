@@ -66,25 +66,26 @@ operator new(std::size_t size, std::align_val_t alignment)
   return Take(whole, size, static_cast<std::size_t>(alignment));
 }
 
-void
+// Where one is inlined and its counterpart is not, GCC takes them for two that do not belong together.
+[[gnu::noinline]] void
 operator delete(void * memory) noexcept
 {
   std::free(memory);
 }
 
-void
+[[gnu::noinline]] void
 operator delete(void * memory, std::size_t) noexcept
 {
   std::free(memory);
 }
 
-void
+[[gnu::noinline]] void
 operator delete(void * memory, std::align_val_t) noexcept
 {
   std::free(memory);
 }
 
-void
+[[gnu::noinline]] void
 operator delete(void * memory, std::size_t, std::align_val_t) noexcept
 {
   std::free(memory);
