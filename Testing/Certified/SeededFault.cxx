@@ -84,10 +84,10 @@ Damage(MedialComplex & complex)
 // NOLINTEND
 
 MedialComplex
-TrueBuild(const VoxelShape &, std::vector<LatticePoint>, DelaunayCells, const SpacingWeights &, Corners) asm(
+TrueBuild(const VoxelShape &, std::vector<LatticePoint>, DelaunayCells, const SpacingWeights &, CoreUse) asm(
   "__real_" VOXELCORE_BUILD);
 MedialComplex
-FaultyBuild(const VoxelShape &, std::vector<LatticePoint>, DelaunayCells, const SpacingWeights &, Corners) asm(
+FaultyBuild(const VoxelShape &, std::vector<LatticePoint>, DelaunayCells, const SpacingWeights &, CoreUse) asm(
   "__wrap_" VOXELCORE_BUILD);
 MedialComplex
 FaultyBuild(const VoxelShape &        shape,
