@@ -283,6 +283,8 @@ TEST(CoreReport, DescribesAreaAndRadius)
   complex.cells.vertexCount = 5;
   complex.cells.faceOffsets = { 0, 4, 7 };
   complex.cells.faceVertices = { 0, 1, 2, 3, 0, 1, 4 };
+  complex.cells.edges = { { 0, 1 }, { 0, 3 }, { 0, 4 }, { 1, 2 }, { 1, 4 }, { 2, 3 } };
+  complex.cells.faceEdges = { 0, 3, 5, 1, 0, 4, 2 };
   const ComplexRecord record = DescribeComplex(complex, { 1, { 1, 0, 0 } });
   EXPECT_DOUBLE_EQ(record.areaMm2, 3);
   EXPECT_EQ(record.maxRadiusMm, 3);
