@@ -347,8 +347,8 @@ private:
       throw InputError(m_Options.core.scan.string() +
                        (m_Options.separation == SeparationRegion::Within
                           ? ": --within " + m_Options.within +
-                              ": all of it is in the labels that are measured; leave those out with --labels that are "
-                              "to count as background"
+                              ": all of it is in the labels that are measured; give --labels without those that "
+                              "count as background"
                           : ": --separation: there is no background where it is to be measured"));
     }
     between.label.name = "separation";
