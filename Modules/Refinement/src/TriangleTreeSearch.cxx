@@ -21,18 +21,6 @@ constexpr double kRounding = 1.0 / (1 << 18);
 
 using Eight = EightFloats;
 
-// A bit for each of eight that is at most as great.
-[[gnu::always_inline]] inline std::uint32_t
-NotAbove(const Eight & eight, float most)
-{
-  using Flags = std::int32_t __attribute__((vector_size(32)));
-  using Half = std::int32_t __attribute__((vector_size(16)));
-  const Flags bits = (eight <= most) & Flags{ 1, 2, 4, 8, 16, 32, 64, 128 };
-  Half        sum = __builtin_shufflevector(bits, bits, 0, 1, 2, 3) | __builtin_shufflevector(bits, bits, 4, 5, 6, 7);
-  sum |= __builtin_shufflevector(sum, sum, 2, 3, 0, 1);
-  return static_cast<std::uint32_t>(sum[0] | sum[1]);
-}
-
 Vector3
 NearestOnSegment(const Vector3 & place, const Vector3 & a, const Vector3 & b)
 {
@@ -140,7 +128,7 @@ struct TriangleTree::Search
       beside = beside > beyond ? beside : beyond;
     }
     const Eight squared = off * off + beside * beside;
-    for (std::uint32_t near = NotAbove(squared, farthest); near != 0; near &= near - 1)
+    for (std::uint32_t near = LanesOf(squared <= farthest); near != 0; near &= near - 1)
     {
       const std::uint32_t triangle = leaf.triangles[static_cast<std::size_t>(std::countr_zero(near))];
       if (triangle != kNoTriangle && triangle != best.triangle)
@@ -170,7 +158,7 @@ struct TriangleTree::Search
       squared += gap * gap;
     }
     const std::size_t first = count;
-    for (std::uint32_t near = NotAbove(squared, farthest); near != 0; near &= near - 1)
+    for (std::uint32_t near = LanesOf(squared <= farthest); near != 0; near &= near - 1)
     {
       const auto  lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const float gap = squared[lane];
