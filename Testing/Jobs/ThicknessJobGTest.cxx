@@ -1,9 +1,7 @@
-#include "JobFolder.h"
+#include "ThicknessFolder.h"
 
-#include "voxelcore/GreyVolume.h"
 #include "voxelcore/PlainSurface.h"
 #include "voxelcore/RenderJob.h"
-#include "voxelcore/ThicknessJob.h"
 #include "voxelcore/VoxelHull.h"
 
 #include <nlohmann/json.hpp>
@@ -20,54 +18,8 @@ namespace voxelcore::testing
 namespace
 {
 
-class ThicknessJob : public JobFolder
-{
-protected:
-  ThicknessResult
-  Thickness(const std::string & output, ParameterValues more = {}, const JobContext & context = {}) const
-  {
-    more.insert({ { "scan", At("a.nrrd") }, { "output", At(output) } });
-    return RunThicknessJob(ThicknessOptionsFrom(more), context);
-  }
-
-  /** A slab of 6 voxels across z, and a ball of radius 5, as labels 1 and 2. */
-  void
-  TwoLabels(const Vector3 & spacing = { 1, 1, 1 }) const
-  {
-    VoxelShape slab(VoxelBox{ { 4, 4, 4 }, { 32, 32, 6 } });
-    VoxelShape ball(VoxelBox{ { 10, 10, 20 }, { 12, 12, 12 } });
-    for (std::int32_t z = 0; z < 12; ++z)
-    {
-      for (std::int32_t y = 0; y < 32; ++y)
-      {
-        for (std::int32_t x = 0; x < 32; ++x)
-        {
-          if (z < 6)
-          {
-            slab.Insert(4 + x, 4 + y, 4 + z);
-          }
-          if (x < 12 && y < 12 && std::hypot(x - 5.5, y - 5.5, z - 5.5) < 5)
-          {
-            ball.Insert(10 + x, 10 + y, 20 + z);
-          }
-        }
-      }
-    }
-    ImageGeometry geometry;
-    geometry.size = { 40, 40, 36 };
-    geometry.spacing = spacing;
-    const std::uint64_t voxels = ball.CountVoxels();
-    WriteLabelVolume(At("a.nrrd"),
-                     geometry,
-                     { { 1, "slab", 32 * 32 * 6, std::move(slab) }, { 2, "ball", voxels, std::move(ball) } });
-  }
-
-  GreyVolume
-  Map(const std::string & name) const
-  {
-    return ReadGreyVolume(At(name), VoxelBox{ { 0, 0, 0 }, { 40, 40, 36 } });
-  }
-};
+class ThicknessJob : public ThicknessFolder
+{};
 
 TEST_F(ThicknessJob, WritesALengthAtEachVoxelAndZeroOutside)
 {
@@ -408,86 +360,6 @@ TEST_F(ThicknessJob, LeavesNothingWhenItIsStopped)
     EXPECT_THROW(Thickness("maps/", {}, StoppingAfter(calls)), Cancelled);
     EXPECT_EQ(Names(), (std::set<std::string>{ "a.nrrd" })) << calls;
   }
-}
-
-TEST_F(ThicknessJob, NamesThatCannotBeHadAreFoundBeforeAnythingIsMeasured)
-{
-  TwoLabels();
-  constexpr double      read = 0.08; // of the job's progress
-  const ParameterValues all{ { "table", At("t.csv") }, { "bounds", "true" }, { "separation", "box" } };
-  for (const std::string name : { "t_histogram.csv",
-                                  "t_columns.json",
-                                  "map_lower.nrrd",
-                                  "map_upper.nrrd",
-                                  "map_separation.nrrd",
-                                  "maps/a_label-2_thickness_upper.nrrd",
-                                  "maps/a_separation.nrrd" })
-  {
-    std::filesystem::create_directory(At("maps"));
-    std::ofstream(At(name)) << "mine";
-    double came = 0;
-    EXPECT_THROW(Thickness(name.starts_with("maps") ? "maps/" : "map.nrrd", all, Noting(came)), OutputError) << name;
-    EXPECT_LT(came, read) << name;
-    EXPECT_EQ(Bytes(name), "mine");
-    std::filesystem::remove(At(name));
-  }
-  double came = 0;
-  EXPECT_THROW(Thickness("m.nrrd", { { "report", At("t_columns.json") }, { "table", At("t.csv") } }, Noting(came)),
-               UsageError);
-  EXPECT_THROW(Thickness("m.nrrd", { { "surface", At("s.vtp") }, { "medial", At("s.vtp") } }, Noting(came)),
-               UsageError);
-  EXPECT_THROW(Thickness("m.nrrd", { { "report", At("m_lower.nrrd") }, { "bounds", "true" } }, Noting(came)),
-               UsageError);
-  EXPECT_EQ(came, 0);
-}
-
-TEST_F(ThicknessJob, AHeadersVoxelsAreFoundBeforeAnythingIsMeasured)
-{
-  TwoLabels();
-  std::ofstream(At("map.zraw")) << "mine";
-  double came = 0;
-  EXPECT_THROW(Thickness("map.mhd", {}, Noting(came)), OutputError);
-  EXPECT_EQ(came, 0);
-  EXPECT_EQ(Bytes("map.zraw"), "mine");
-}
-
-TEST_F(ThicknessJob, WhatTiffLeavesOutOfThePlaceIsTold)
-{
-  TwoLabels();
-  EXPECT_TRUE(Thickness("map.tif").notes.empty()) << "there is nothing to leave out";
-  VoxelShape    cube(VoxelBox{ { 2, 2, 2 }, { 1, 1, 1 } });
-  ImageGeometry geometry;
-  cube.Insert(2, 2, 2);
-  geometry.size = { 6, 6, 6 };
-  geometry.origin = { 10, 0, 0 };
-  WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "cube", 1, std::move(cube) } });
-  const ThicknessResult result = Thickness("map.tif", { { "force", "true" } });
-  ASSERT_EQ(result.notes.size(), 1U);
-  EXPECT_NE(result.notes[0].find("map.tif: TIFF holds no origin"), std::string::npos);
-  EXPECT_TRUE(Thickness("map.nii.gz").notes.empty());
-}
-
-TEST_F(ThicknessJob, AFormatThatCannotHoldTheMapIsRefusedByItsNameBeforeAnythingIsMeasured)
-{
-  VoxelShape square(VoxelBox{ { 2, 2, 0 }, { 4, 4, 1 } });
-  for (std::int32_t i = 0; i < 16; ++i)
-  {
-    square.Insert(2 + i % 4, 2 + i / 4, 0);
-  }
-  ImageGeometry geometry;
-  geometry.size = { 8, 8, 1 };
-  WriteLabelVolume(At("a.nrrd"), geometry, { { 1, "square", 16, std::move(square) } });
-  double came = 0;
-  try
-  {
-    Thickness("map.tif", {}, Noting(came));
-    ADD_FAILURE() << "one page is no volume";
-  }
-  catch (const UsageError & error)
-  {
-    EXPECT_TRUE(std::string(error.what()).starts_with(At("map.tif") + ": ")) << error.what();
-  }
-  EXPECT_LT(came, 0.08);
 }
 
 TEST_F(ThicknessJob, TheReportSaysWhereTheBackgroundWasMeasured)
