@@ -205,7 +205,7 @@ private:
     {
       m_Result.notes.push_back(LabelText(edited.label.value, edited.label.name) +
                                ": measured as a whole, which may need more memory than is allowed; --bounds, "
-                               "--surface, --medial, --html and --scene cannot do with blocks");
+                               "--surface, --medial, --html and --scene do not work in blocks");
     }
     LabelOutcome outcome = ProcessLabel(std::move(edited), m_Geometry, std::move(request), progress);
     outcome.record.hasCore = !outcome.parts.empty();

@@ -14,7 +14,7 @@ namespace voxelcore
 namespace
 {
 
-// What pieces of work throw, as exceptions must not leave a thread.
+// What pieces of work throw that are all done, whichever of them fails: FirstFailure leaves out those that follow.
 class Failures
 {
 public:

@@ -11,8 +11,8 @@
 namespace voxelcore
 {
 
-/** Polygons one after the other. Where each begins takes four bytes: it is told from where its block of polygons does.
- *  They are points of a lattice on a circle, so that none has so many of them that those of a block were too many. */
+/** Polygons one after the other. Where each begins takes four bytes, as it is counted from where its block of polygons
+ *  begins. The points of a polygon are points of a lattice on one circle; these are few, so four bytes are enough. */
 class FacetPolygons
 {
 public:
