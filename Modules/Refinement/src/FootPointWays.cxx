@@ -151,33 +151,48 @@ FootPointFinder::Descend(const Vector3 & place, FootPoint & begin) const
     distance += rise;
     return true;
   };
+  Vector3       slide{};
+  double        length = 0;
+  bool          slopes = false;
+  bool          known = false;
+  DistanceBends bends;
+  // Of both ways down whether all of them has failed from this foot: it would again with any stride that is as long.
+  bool hasFailed = false;
+  bool isNew = true;
   for (int step = 0; step < steps && stride >= shortest * m_Voxel; ++step)
   {
-    const Vector3 slide = SlideOf(place, foot);
-    const double  length = Length(slide);
-    const bool    slopes = length >= m_Close * m_Voxel;
-    DistanceBends bends;
-    const bool known = bySlopes && BendsAt(place, { begin.point, foot.position, distance, foot.normal, true }, bends);
-    flat = flat || (known && bends.bends[0] > ofFlatRise);
+    if (isNew)
+    {
+      slide = SlideOf(place, foot);
+      length = Length(slide);
+      slopes = length >= m_Close * m_Voxel;
+      known = bySlopes && BendsAt(place, { begin.point, foot.position, distance, foot.normal, true }, bends);
+      flat = flat || (known && bends.bends[0] > ofFlatRise);
+      hasFailed = false;
+    }
     if (flat && !slopes)
     {
       break;
     }
+    isNew = true;
     if (known && slopes)
     {
       const Vector3 way = Stretched(slide, bends, [&](double bend) { return 1 / std::max(bend, leastBend); });
-      if (descends(std::min(1.0, stride / Length(way)), way))
+      const double  far = Length(way);
+      if (!(hasFailed && far <= stride) && descends(std::min(1.0, stride / far), way))
       {
         stride = std::min(longest, 2 * stride);
         continue;
       }
     }
-    const double part = (flat || bySlopes ? std::min(stride, length) : stride) / length;
-    if ((bySlopes ? slopes : length > 0) && descends(part, slide))
+    const bool   atMost = flat || bySlopes;
+    const double part = (atMost ? std::min(stride, length) : stride) / length;
+    if ((bySlopes ? slopes : length > 0) && !(hasFailed && length <= stride) && descends(part, slide))
     {
       stride = std::min(longest, 2 * stride);
       continue;
     }
+    hasFailed = atMost;
     if (!flat)
     {
       const std::array<Vector3, 2> ways = TangentsOf(foot.normal, slide);
@@ -202,6 +217,7 @@ FootPointFinder::Descend(const Vector3 & place, FootPoint & begin) const
       }
       flat = flat || (!bySlopes && least > ofFlatRiseOfTwo * stride * stride / (2 * distance));
     }
+    isNew = false;
     stride *= 0.5;
   }
   begin = { begin.point, foot.position, distance, foot.normal, true };
