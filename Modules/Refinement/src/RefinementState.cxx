@@ -277,22 +277,23 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
     }
   };
   settle({});
-  const auto goOn = [&](std::vector<ElementIndex> moved) {
+  const auto goOn = [&](std::vector<ElementIndex> moved, bool areMeasured) {
     for (const ElementIndex vertex : moved)
     {
       wanted[vertex] = m_Displacement[vertex];
     }
     if (!moved.empty() || refined.core.positions.size() != part.vertices.size())
     {
-      settle(std::move(moved));
+      measured = measured && moved.empty();
+      settle(areMeasured ? std::vector<ElementIndex>{} : std::move(moved));
     }
   };
   if (!stays)
   {
-    goOn(MoveRims(finder, part, threshold));
-    goOn(TakeBackAtRims(finder, part, threshold));
+    goOn(MoveRims(finder, part, threshold), false);
+    goOn(TakeBackAtRims(finder, part, threshold), true);
   }
-  goOn(MoveLines(finder, part, wanted));
+  goOn(MoveLines(finder, part, wanted), false);
   refined.core.radius = Pick(m_Radius, part.vertices);
   std::vector<std::uint8_t> onFace(part.vertices.size(), 0); // lines are of tubes, which have no sides
   for (const ElementIndex corner : part.cells.faceVertices)

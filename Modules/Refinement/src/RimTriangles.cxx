@@ -185,8 +185,11 @@ RefinementState::DrawIn(const FootPointFinder & finder,
   const double           most = std::min(farthest, PartWithinAVoxel(former, way));
   std::vector<FootPoint> footPoints;
   const PointPair &      pair = m_Pairs.All()[width];
-  const auto             isAboveAt = [&](double part) {
+  const auto             goTo = [&](double part) {
     m_Displacement[vertex] = KeepInShape(*m_Input.shape, m_Positions[vertex], AddScaled(former, part, way));
+  };
+  const auto isAboveAt = [&](double part) {
+    goTo(part);
     double apart = 0;
     double swelling = 0;
     MeasureAt(finder, Place(vertex), { &pair, 1 }, footPoints, { &apart, 1 }, swelling);
@@ -201,7 +204,7 @@ RefinementState::DrawIn(const FootPointFinder & finder,
       part -= isAboveAt(part - step) ? step : 0;
     }
   }
-  isAboveAt(part);
+  goTo(part);
   footPoints.clear();
   MoveVertex(finder, vertex, { &pair, 1 }, footPoints);
   footPoints.clear();
@@ -267,7 +270,7 @@ RefinementState::DrawIn(const FootPointFinder & finder,
 
 // A rim vertex may go on by a voxel at most, while triangles are up to several voxels long. So those that were not
 // left, hang on a rim and measure enough at one corner at least come back with the others drawn in. Returns what was
-// moved or is new.
+// moved or is new, which is measured where it is.
 std::vector<ElementIndex>
 RefinementState::TakeBackAtRims(const FootPointFinder & finder, CorePart & part, double threshold)
 {
