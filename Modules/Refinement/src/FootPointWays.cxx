@@ -179,6 +179,11 @@ FootPointFinder::Descend(const Vector3 & place, FootPoint & begin) const
     {
       const Vector3 way = Stretched(slide, bends, [&](double bend) { return 1 / std::max(bend, leastBend); });
       const double  far = Length(way);
+      // All of the way falls by so much. Bends tell it so well that half of the least is not worth a try.
+      if (flat && Dot(slide, way) < shallowest * distance)
+      {
+        break;
+      }
       if (!(hasFailed && far <= stride) && descends(std::min(1.0, stride / far), way))
       {
         stride = std::min(longest, 2 * stride);
