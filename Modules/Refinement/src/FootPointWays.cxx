@@ -118,6 +118,7 @@ FootPointFinder::Descend(const Vector3 & place, FootPoint & begin) const
   const double     shortest = Ripples() > 0 ? 0.3 : 0.1; // voxels
   constexpr double ofRadius = 0.25;
   constexpr double ofFlatRise = 0.2;
+  constexpr double ofFlatRiseAfar = 0.5; // where bends are not so well known
   constexpr double leastBend = 0.25;
   constexpr double ofFlatRiseOfTwo = 0.6; // on two ways at right angles: then at least 0.2 on all
   SurfacePoint     foot{ begin.position, begin.normal, begin.found };
@@ -166,8 +167,10 @@ FootPointFinder::Descend(const Vector3 & place, FootPoint & begin) const
       slide = SlideOf(place, foot);
       length = Length(slide);
       slopes = length >= m_Close * m_Voxel;
-      known = bySlopes && BendsAt(place, { begin.point, foot.position, distance, foot.normal, true }, bends);
-      flat = flat || (known && bends.bends[0] > ofFlatRise);
+      const FootPoint at{ begin.point, foot.position, distance, foot.normal, true };
+      known = bySlopes && BendsAt(place, at, 1, bends);
+      flat = flat || (known && bends.bends[0] > ofFlatRise) ||
+             (!known && bySlopes && BendsAt(place, at, 2, bends) && bends.bends[0] > ofFlatRiseAfar);
       hasFailed = false;
     }
     if (flat && !slopes)
@@ -251,7 +254,7 @@ FootPointFinder::Slide(const Vector3 & place, double most, FootPoint & begin) co
   SurfacePoint next;
   // As far as those steps would lead on a surface that bends as this one does.
   DistanceBends bends;
-  bool          stretched = BendsAt(place, begin, bends);
+  bool          stretched = BendsAt(place, begin, 1, bends);
   for (int step = 0; step < steps && shorter >= shortest; ++step)
   {
     const Vector3 left = SlideOf(place, foot);

@@ -45,13 +45,14 @@ FootPointFinder::FindBends(const std::vector<double> & radii)
   }
 }
 
-// Where the surface passes a boundary vertex and its bends are known: those of the distance from `place` to it.
+// Within so many strides of where the surface passes a boundary vertex and its bends are known: those of the distance
+// from `place` to it.
 bool
-FootPointFinder::BendsAt(const Vector3 & place, const FootPoint & foot, DistanceBends & bends) const
+FootPointFinder::BendsAt(const Vector3 & place, const FootPoint & foot, double strides, DistanceBends & bends) const
 {
   const SurfaceBend &  bend = m_Bends[foot.point];
   const SurfacePoint & anchor = m_Anchors[foot.point];
-  if (!(bend.stride > 0) || Distance(foot.position, anchor.position) > bend.stride)
+  if (!(bend.stride > 0) || Distance(foot.position, anchor.position) > strides * bend.stride)
   {
     return false;
   }

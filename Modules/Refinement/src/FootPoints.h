@@ -65,7 +65,7 @@ private:
   void
   Begin(std::span<const PointPair> pairs, std::vector<FootPoint> & footPoints) const;
   bool
-  BendsAt(const Vector3 & place, const FootPoint & foot, DistanceBends & bends) const;
+  BendsAt(const Vector3 & place, const FootPoint & foot, double strides, DistanceBends & bends) const;
   double
   TryFoot(const Vector3 & place, const Vector3 & to, const SurfacePoint & foot, double distance, SurfacePoint & next)
     const;
