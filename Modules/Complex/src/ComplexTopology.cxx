@@ -1,10 +1,12 @@
 #include "voxelcore/ComplexTopology.h"
 
 #include "voxelcore/ParallelTasks.h"
+#include "voxelcore/Prefetch.h"
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 namespace voxelcore
 {
@@ -14,40 +16,114 @@ namespace
 
 constexpr ElementIndex kOnSeam = 0xFFFFFFFFU; // as a count: what stands beside it is the number of a seam
 
+// Faces with a free edge that wait to be dropped, first come, first served: it is known ahead which memory they need.
+class OpenFaces
+{
+public:
+  OpenFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces, std::vector<std::uint8_t> & live)
+    : m_Complex(complex)
+    , m_Cofaces(cofaces.data())
+    , m_Live(live.data())
+  {}
+
+  // A face may come several times.
+  void
+  Add(ElementIndex face)
+  {
+    MakeRoom(1);
+    m_Faces[m_End++] = face;
+  }
+
+  // Drops them and those that become free then, until so many are left: of these it is known what to fetch.
+  void
+  DropTo(std::size_t few)
+  {
+    while (m_End - m_Next > few)
+    {
+      FetchAhead();
+      const ElementIndex face = m_Faces[m_Next++];
+      if (m_Live[face] == 0)
+      {
+        continue;
+      }
+      m_Live[face] = 0;
+      const auto sides = m_Complex.FaceEdges(face);
+      MakeRoom(sides.size());
+      for (const ElementIndex side : sides)
+      {
+        Cofaces & own = m_Cofaces[side];
+        own.Remove(face);
+        m_Faces[m_End] = own.exclusiveOr; // without a jump, which would be hard to foretell
+        m_End += own.count == 1 ? 1 : 0;
+      }
+    }
+  }
+
+private:
+  void
+  MakeRoom(std::size_t count)
+  {
+    if (m_End + count <= m_Faces.size())
+    {
+      return;
+    }
+    std::copy(m_Faces.begin() + static_cast<std::ptrdiff_t>(m_Next),
+              m_Faces.begin() + static_cast<std::ptrdiff_t>(m_End),
+              m_Faces.begin());
+    m_End -= std::exchange(m_Next, 0);
+    if (2 * (m_End + count) > m_Faces.size())
+    {
+      m_Faces.resize(2 * (m_End + count));
+    }
+  }
+
+  void
+  FetchAhead() const
+  {
+    const auto ahead = [&](std::size_t steps, auto && fetch) {
+      if (m_Next + steps < m_End)
+      {
+        fetch(m_Faces[m_Next + steps]);
+      }
+    };
+    ahead(24, [&](ElementIndex face) {
+      FetchLine(&m_Complex.faceOffsets[face]);
+      FetchLine(m_Live + face);
+    });
+    ahead(16, [&](ElementIndex face) { FetchLine(&m_Complex.faceEdges[m_Complex.faceOffsets[face]]); });
+    ahead(8, [&](ElementIndex face) {
+      for (const ElementIndex side : m_Complex.FaceEdges(face))
+      {
+        FetchLine(m_Cofaces + side);
+      }
+    });
+  }
+
+  const CellComplex &       m_Complex;
+  Cofaces *                 m_Cofaces;
+  std::uint8_t *            m_Live;
+  std::vector<ElementIndex> m_Faces = std::vector<ElementIndex>(4096);
+  std::size_t               m_Next = 0;
+  std::size_t               m_End = 0;
+};
+
 // Removes free faces until every edge has no live face or at least two: a 2-cycle cannot contain them. Returns the
 // flags of the faces left; `cofaces` is of all faces at first, then of those left.
 std::vector<std::uint8_t>
 DropFreeFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces)
 {
+  constexpr std::size_t     few = 32;
   std::vector<std::uint8_t> live(complex.FaceCount(), 1);
-  std::vector<ElementIndex> open;
-  for (std::size_t first = 0; first < cofaces.size(); ++first) // each with what follows from it, which lies near
+  OpenFaces                 open(complex, cofaces, live);
+  for (const Cofaces & own : cofaces) // each with what follows from it, which lies near
   {
-    if (cofaces[first].count != 1)
+    if (own.count == 1)
     {
-      continue;
-    }
-    open.push_back(static_cast<ElementIndex>(first));
-    while (!open.empty())
-    {
-      const ElementIndex edge = open.back();
-      open.pop_back();
-      if (cofaces[edge].count != 1)
-      {
-        continue;
-      }
-      const ElementIndex face = cofaces[edge].exclusiveOr;
-      live[face] = 0;
-      for (const ElementIndex side : complex.FaceEdges(face))
-      {
-        cofaces[side].Remove(face);
-        if (cofaces[side].count == 1)
-        {
-          open.push_back(side);
-        }
-      }
+      open.Add(own.exclusiveOr);
+      open.DropTo(few);
     }
   }
+  open.DropTo(0);
   return live;
 }
 
