@@ -51,7 +51,7 @@ private:
   struct Turn
   {
     RemovalTime time;
-    double      first; // measure of its first key
+    PairKey     first;
   };
 
   bool
@@ -75,11 +75,12 @@ private:
   bool
   GoesLater(const Turn & a, const Turn & b) const
   {
-    return a.first != b.first ? a.first > b.first : m_Times.IsEarlier(b.time, a.time);
+    // Most times begin with keys of their own; to look further would take memory from here and there.
+    return b.first < a.first || (!(a.first < b.first) && m_Times.IsEarlier(b.time, a.time));
   }
 
   void
-  Wait(const RemovalTime & time, double first)
+  Wait(const RemovalTime & time, const PairKey & first)
   {
     if (m_KeepsUnsafe)
     {
@@ -205,7 +206,7 @@ Worker::ConsiderVertex(ElementIndex vertex)
   }
   else
   {
-    Wait(time, first.measure);
+    Wait(time, first);
   }
 }
 
@@ -232,7 +233,7 @@ Worker::ConsiderEdge(ElementIndex edge)
   }
   else
   {
-    Wait(time, first.measure);
+    Wait(time, first);
   }
 }
 
@@ -243,6 +244,7 @@ Worker::RemoveVertexAndEdge(const RemovalTime & time, double first, ElementIndex
   const ElementIndex    vertex = time.key.element;
   vertices.after[vertex] = m_Times.NoteRemoval(time.before);
   vertices.cofaces[vertex] = { 0, edge };
+  m_Times.Edges().cofaces[edge] = { kWithVertex, vertex };
   m_State.live.vertices[vertex] = 0;
   m_State.live.edges[edge] = 0;
   for (const ElementIndex other : m_State.complex.edges[edge])
@@ -317,7 +319,7 @@ Worker::RemoveNext()
   if (cofaces.count == 1) // else its coface has gone with another element
   {
     (this->*(key.isEdge ? &Worker::RemoveEdgeAndFace
-                        : &Worker::RemoveVertexAndEdge))(turn.time, turn.first, cofaces.exclusiveOr);
+                        : &Worker::RemoveVertexAndEdge))(turn.time, turn.first.measure, cofaces.exclusiveOr);
     RemoveOpen();
   }
   return true;

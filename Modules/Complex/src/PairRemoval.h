@@ -25,7 +25,8 @@ namespace voxelcore
 {
 
 /** A complex, its measures, and what is left of it. Of an element that has been removed as the lower one of a pair, the
- *  cofaces are none, and their exclusiveOr is the upper one. */
+ *  cofaces are none, and their exclusiveOr is the upper one. An edge that has gone with a vertex names it: kWithVertex
+ *  in RemovalTimes.h. */
 struct CollapseState
 {
   const CellComplex &    complex;

@@ -13,6 +13,9 @@ namespace voxelcore
 
 inline constexpr ElementIndex kNoPair = std::numeric_limits<ElementIndex>::max();
 
+/** In place of the number of cofaces: this edge has gone with a vertex, which is the exclusiveOr. */
+inline constexpr ElementIndex kWithVertex = std::numeric_limits<ElementIndex>::max();
+
 /** By this pairs are ordered; no two are equal. A pair is named by its lower element e: a vertex, whose only edge goes
  *  with it, or an edge with its only face. */
 struct PairKey
@@ -71,6 +74,7 @@ struct TimeNode
 {
   ElementIndex before = kNoPair; ///< the pair before it
   ElementIndex jump = kNoPair;   ///< a pair further up, or kNoPair above the first
+  ElementIndex first = kNoPair;  ///< the pair with which the time begins
   ElementIndex depth = 1;        ///< keys of the time; 0 is that of kNoPair
 };
 
@@ -116,8 +120,6 @@ public:
   RemovalTimes(const CollapseState & state, ElementIndex * vertexAfter, ElementIndex * edgeAfter, TimeNodes & nodes)
     : m_Vertices{ state.vertexMeasure, state.edgeMeasure, state.vertexCofaces.data(), vertexAfter }
     , m_Edges{ state.edgeMeasure, state.faceMeasure, state.edgeCofaces.data(), edgeAfter }
-    , m_Ends(state.complex.edges.data())
-    , m_LiveVertices(state.live.vertices.data())
     , m_Nodes(&nodes)
   {}
 
@@ -165,7 +167,12 @@ public:
   PairKey
   FirstKey(const RemovalTime & time) const
   {
-    return time.before == kNoPair ? time.key : TimeOf(AtDepth(time.before, 1)).key;
+    if (time.before == kNoPair)
+    {
+      return time.key;
+    }
+    const ElementIndex first = NodeOf(time.before).first;
+    return TimeOf(first == kNoPair ? time.before : first).key;
   }
 
   bool
@@ -220,7 +227,10 @@ public:
       m_Free = m_Nodes->NewChunk();
     }
     const bool isLong = node.depth - next.depth == next.depth - beyond;
-    (*m_Nodes)[m_Free] = { before, isLong ? next.jump : before, node.depth + 1 };
+    (*m_Nodes)[m_Free] = { before,
+                           isLong ? next.jump : before,
+                           node.first == kNoPair ? before : node.first,
+                           node.depth + 1 };
     return m_Free++;
   }
 
@@ -229,14 +239,8 @@ private:
   ElementIndex
   VertexOf(ElementIndex edge) const
   {
-    for (const ElementIndex vertex : m_Ends[edge])
-    {
-      if (m_LiveVertices[vertex] == 0 && m_Vertices.cofaces[vertex].exclusiveOr == edge)
-      {
-        return vertex;
-      }
-    }
-    return kNoPair;
+    const Cofaces & own = m_Edges.cofaces[edge];
+    return own.count == kWithVertex ? own.exclusiveOr : kNoPair;
   }
 
   ElementIndex
@@ -250,7 +254,7 @@ private:
   {
     if (pair == kNoPair)
     {
-      return { kNoPair, kNoPair, 0 };
+      return { kNoPair, kNoPair, kNoPair, 0 };
     }
     const ElementIndex vertex = VertexOf(pair);
     const ElementIndex node = vertex != kNoPair ? m_Vertices.after[vertex] : m_Edges.after[pair];
@@ -275,12 +279,10 @@ private:
     return NodeOf(time.before).depth == count ? time.key : TimeOf(AtDepth(time.before, count + 1)).key;
   }
 
-  LowerElements                       m_Vertices;
-  LowerElements                       m_Edges;
-  const std::array<ElementIndex, 2> * m_Ends;
-  const std::uint8_t *                m_LiveVertices;
-  TimeNodes *                         m_Nodes;
-  ElementIndex                        m_Free = 0; ///< where the next node comes, but at the beginning of a chunk
+  LowerElements m_Vertices;
+  LowerElements m_Edges;
+  TimeNodes *   m_Nodes;
+  ElementIndex  m_Free = 0; ///< where the next node comes, but at the beginning of a chunk
 };
 
 } // namespace voxelcore
