@@ -11,8 +11,9 @@ namespace
 {
 // Up to 14.9 a ball about a point of the brick fits the window; beyond about 7 voxels looking for a cell costs more
 // than DeepTracer takes for it.
-constexpr double largestRadius = 7.0;
-constexpr double unknown = -std::numeric_limits<double>::infinity();
+constexpr double      largestRadius = 7.0;
+constexpr std::size_t facetsAhead = 16; // from the one that is put into the front to one whose place is fetched
+constexpr double      unknown = -std::numeric_limits<double>::infinity();
 } // namespace
 
 CellTracer::CellTracer(const TracingInput & input, BrickQueue & bricks, bool fromEnd)
@@ -72,9 +73,11 @@ CellTracer::Continue(Tracing tracing, const ProgressCallback & progress)
   m_Front.Clear(tracing.open.size() + m_Deep.size() + tracing.unmet.size());
   for (const auto * list : { &tracing.open, &m_Deep, &tracing.unmet })
   {
-    for (const std::uint32_t facet : *list)
+    const auto keyOf = [&](std::size_t i) { return KeyOf(m_Result.FacetPoints((*list)[i])); };
+    for (std::size_t i = 0; i < list->size(); ++i)
     {
-      m_Front.InsertFar(KeyOf(m_Result.FacetPoints(facet)), facet);
+      m_Front.FetchFar(keyOf(std::min(i + facetsAhead, list->size() - 1)));
+      m_Front.InsertFar(keyOf(i), (*list)[i]);
     }
   }
   for (const std::uint32_t facet : tracing.open)

@@ -42,9 +42,10 @@ struct Tracing
   std::vector<std::uint32_t> unmet; ///< complete boundary squares whose voxel lies in a brick of someone else
 };
 
-/** Puts the tracings of disjoint sets of bricks together: facets that two of them left open may close each other. */
+/** Puts the tracings of disjoint sets of bricks together, of a shape with so many points: facets that two of them left
+ *  open may close each other. */
 Tracing
-JoinTracings(std::vector<Tracing> parts);
+JoinTracings(std::vector<Tracing> parts, std::size_t points);
 
 /** Finds the cells of radius up to 7 times the smallest weight whose centres lie in the bricks it takes from a queue,
  *  ascending from its start or descending from its end, as far as they can be reached within them. Which bricks it gets

@@ -126,7 +126,7 @@ AddDeepCells(Tracing                           tracing,
     return sides[0] != kOpen && sides[1] != kOpen;
   });
   parts[0] = std::move(tracing);
-  Tracing joined = JoinTracings(std::move(parts));
+  Tracing joined = JoinTracings(std::move(parts), points.size());
   if (!joined.deep.empty())
   {
     throw CertificateError("the deep Delaunay cells do not close; please report this input");

@@ -39,6 +39,13 @@ public:
     m_Near.Fetch(key);
   }
 
+  /** The same among those of earlier bricks. */
+  void
+  FetchFar(const FacetKey & key) const
+  {
+    m_Far.Fetch(key);
+  }
+
   void
   InsertFar(const FacetKey & key, std::uint32_t facet)
   {

@@ -1,4 +1,5 @@
 #include "CellTracer.h"
+#include "MarkedPoints.h"
 
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SpentMemory.h"
@@ -31,13 +32,45 @@ AppendSpent(std::vector<T> from, std::vector<T> & to, TChange change)
   }
 }
 
+// The points of facets of two tracings at least: one that closes another has no other points.
+MarkedPoints
+PointsOfSeveral(const std::vector<Tracing> & parts, std::size_t points)
+{
+  MarkedPoints before(points);
+  MarkedPoints several(points);
+  for (const Tracing & part : parts)
+  {
+    const auto visit = [&](auto visitPolygon) {
+      for (const auto * list : { &part.open, &part.deep, &part.unmet })
+      {
+        for (const std::uint32_t facet : *list)
+        {
+          visitPolygon(part.cells.FacetPoints(facet));
+        }
+      }
+    };
+    visit([&](std::span<const std::uint32_t> polygon) {
+      for (const std::uint32_t point : polygon)
+      {
+        if (before.IsMarked(point))
+        {
+          several.Mark({ &point, 1 });
+        }
+      }
+    });
+    visit([&](std::span<const std::uint32_t> polygon) { before.Mark(polygon); });
+  }
+  return several;
+}
+
 } // namespace
 
 Tracing
-JoinTracings(std::vector<Tracing> parts)
+JoinTracings(std::vector<Tracing> parts, std::size_t points)
 {
-  Tracing    joined;
-  FacetTable table;
+  const MarkedPoints several = PointsOfSeveral(parts, points);
+  Tracing            joined;
+  FacetTable         table;
   for (Tracing & part : parts)
   {
     DelaunayCells & to = joined.cells;
@@ -73,7 +106,13 @@ JoinTracings(std::vector<Tracing> parts)
       for (const std::uint32_t facet : facets)
       {
         const std::uint32_t own = facet + facetShift;
-        const FacetKey      key = KeyOf(to.FacetPoints(own));
+        const auto          polygon = to.FacetPoints(own);
+        if (!std::ranges::all_of(polygon, [&](std::uint32_t point) { return several.IsMarked(point); }))
+        {
+          joinedFacets.push_back(own);
+          continue;
+        }
+        const FacetKey      key = KeyOf(polygon);
         const std::uint32_t met = table.Take(key);
         if (met == FacetTable::none)
         {

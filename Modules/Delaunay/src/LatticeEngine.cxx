@@ -91,7 +91,7 @@ TraceSideBySide(const TracingInput & input, std::size_t threads, const ProgressC
     throw Cancelled();
   }
   BrickQueue all(0, input.grid.Size());
-  return CellTracer(input, all, false).Continue(JoinTracings(std::move(parts)), progress);
+  return CellTracer(input, all, false).Continue(JoinTracings(std::move(parts), input.points.size()), progress);
 }
 
 } // namespace
