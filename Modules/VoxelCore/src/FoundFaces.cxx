@@ -5,6 +5,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Predicates.h"
+#include "voxelcore/Prefetch.h"
 #include "voxelcore/SpentMemory.h"
 
 #include <omp.h>
@@ -24,6 +25,8 @@ struct Side
   std::uint32_t q;
   Turn          turn;
 };
+
+constexpr std::size_t kPointsAhead = 3; // from the one worked on to one whose edges are fetched
 
 // Consecutive points are worked on together: their sides fit the caches.
 constexpr std::size_t kRangeBits = 14; // at most 16
@@ -236,6 +239,10 @@ FindInRange(const FacetPolygons &             polygons,
   faces.clear();
   for (std::size_t p = 0; p < size; ++p)
   {
+    for (std::size_t i = start[std::min(p + kPointsAhead, size)]; i < start[std::min(p + kPointsAhead + 1, size)]; ++i)
+    {
+      FetchLine(&edges[static_cast<Turn>(work.sides[i]) >> 1]);
+    }
     const auto own = std::span(work.sides).subspan(start[p], start[p + 1] - start[p]);
     std::sort(own.begin(), own.end());
     for (std::size_t first = 0, last = 0; first < own.size(); first = last)

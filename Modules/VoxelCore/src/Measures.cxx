@@ -7,6 +7,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/Predicates.h"
 #include "voxelcore/ParallelTasks.h"
+#include "voxelcore/Prefetch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -243,12 +244,12 @@ FetchFacet(const DelaunayCells &           cells,
 {
   for (const std::uint32_t point : polygons[facet])
   {
-    __builtin_prefetch(&entries[point]);
+    FetchLine(&entries[point]);
   }
   for (const std::uint32_t cell : cells.facetCells[facet])
   {
-    __builtin_prefetch(&cells.centres[cell]);
-    __builtin_prefetch(&cells.tetrahedra[cell]);
+    FetchLine(&cells.centres[cell]);
+    FetchLine(&cells.tetrahedra[cell]);
   }
 }
 
