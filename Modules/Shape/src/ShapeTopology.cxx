@@ -4,7 +4,7 @@
 #include "ShapeRuns.h"
 
 #include "voxelcore/CountBits.h"
-
+#include "voxelcore/ParallelTasks.h"
 
 namespace voxelcore
 {
@@ -62,9 +62,14 @@ TopologyNumbers
 ComputeShapeTopology(const VoxelShape & shape)
 {
   TopologyNumbers numbers;
-  numbers.euler = EulerNumber(shape);
-  numbers.betti[0] = CountComponents(VoxelRuns(shape), false);
-  numbers.betti[2] = CountComponents(BackgroundRuns(shape), true) - 1;
+  const auto &    size = shape.Box().size;
+  RunBoth(
+    shape.WordsPerRow() * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]) > 10000,
+    [&] {
+      numbers.euler = EulerNumber(shape);
+      numbers.betti[0] = CountComponents(VoxelRuns(shape), false);
+    },
+    [&] { numbers.betti[2] = CountComponents(BackgroundRuns(shape), true) - 1; });
   numbers.betti[1] = numbers.betti[0] + numbers.betti[2] - numbers.euler;
   return numbers;
 }
