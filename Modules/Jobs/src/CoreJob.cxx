@@ -273,8 +273,9 @@ StageCoreJob(const CoreOptions & options,
       }
       const std::size_t notesBefore = result.notes.size();
       // A core that is only a step on the way to a skeleton is not shown.
+      const ModelPart nothing;
       shown.AddLabel(outcome.record,
-                     options.output.empty() ? ModelPart() : outcome.parts.front(),
+                     options.output.empty() ? nothing : outcome.parts.front(),
                      outcome.skeleton ? &*outcome.skeleton : nullptr);
       const ModelPart surface = skeletons && skeletons->NeedsSurface() ? outcome.parts.front() : ModelPart();
       files.Add(std::move(outcome.record), std::move(outcome.parts));
