@@ -74,31 +74,69 @@ ThicknessError(const Wall & wall, const Spacing3 & spacing, std::mt19937_64 & ge
   return { mean, std::sqrt(std::max(0.0, squares / count - mean * mean)) };
 }
 
-TEST(RefineCore, TellsTheThicknessOfObliqueWallsWithinAnEighthOfAVoxel)
+// Labels show an oblique plane as terraces on planes of the lattice. Of a wall with terraces about as long as what is
+// looked at they leave its thickness open by as much as these planes are apart, on either side: of 87 walls with
+// terraces longer than twelve voxels the worst is off by 0.19. Planes less than a fifth of a voxel apart leave too
+// little open to matter.
+bool
+HasShortTerraces(const Vector3 & normal, const Spacing3 & spacing, double voxel)
 {
+  constexpr double longest = 6; // voxels
+  constexpr double least = 0.2; // voxels apart
+  constexpr int    most = 4;
+  for (int x = -most; x <= most; ++x)
+  {
+    for (int y = -most; y <= most; ++y)
+    {
+      for (int z = -most; z <= most; ++z)
+      {
+        const Vector3 across{ x / spacing[0], y / spacing[1], z / spacing[2] };
+        const double  length = std::sqrt(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
+        if (length * least * voxel > 1 || length == 0)
+        {
+          continue;
+        }
+        const double cosine = (across[0] * normal[0] + across[1] * normal[1] + across[2] * normal[2]) / length;
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+        if (std::abs(cosine) > sine * longest * length * voxel) // terraces are cosine / (sine length) long
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+// Of 6500 such walls the worst was off by 0.128 voxel in the mean, and the greatest standard deviation was 0.115. Thin
+// walls swell by .4 voxel in smoothing, which is taken off: in the mean they come out 0.02 too thick, and 0.06 too thin
+// if the model of it forgets that labels hold walls back.
+TEST(RefineCore, TellsTheThicknessOfObliqueWalls)
+{
+  constexpr double    bound = 0.15; // voxels
+  constexpr double    thin = 7.5;
   const std::uint64_t seed = std::random_device{}();
   std::mt19937_64     generator(seed);
+  double              sum = 0; ///< of errors of thin walls
+  int                 count = 0;
   for (const Spacing3 & spacing : { Spacing3{ 1, 1, 1 }, Spacing3{ 0.8, 0.8, 1.2 } })
   {
     const double voxel = std::cbrt(spacing[0] * spacing[1] * spacing[2]);
-    for (double thickness = 4; thickness < 14; thickness += 1.75)
+    for (const double thickness : { 4.0, 5.0, 6.0, 7.0, 9.0, 11.0, 13.0 })
     {
       Wall wall{ {}, thickness * voxel };
-      // Labels do not tell the thickness of walls along planes of the grid, nor nearly of those near them.
-      const auto isOblique = [](const Vector3 & n) {
-        std::array<double, 3> parts{ std::abs(n[0]), std::abs(n[1]), std::abs(n[2]) };
-        std::sort(parts.begin(), parts.end());
-        return parts[0] > 0.15 && parts[1] - parts[0] > 0.1 && parts[2] - parts[1] > 0.1;
-      };
       do
       {
         wall.normal = AnyDirection(generator);
-      } while (!isOblique(wall.normal));
+      } while (!HasShortTerraces(wall.normal, spacing, voxel));
       const auto [mean, deviation] = ThicknessError(wall, spacing, generator);
-      EXPECT_LT(std::abs(mean), 0.15 * voxel) << thickness << ", seed " << seed;
-      EXPECT_LT(deviation, 0.15 * voxel) << thickness << ", seed " << seed;
+      EXPECT_LT(std::abs(mean), bound * voxel) << thickness << ", seed " << seed;
+      EXPECT_LT(deviation, bound * voxel) << thickness << ", seed " << seed;
+      sum += thickness < thin ? mean / voxel : 0;
+      count += thickness < thin ? 1 : 0;
     }
   }
+  EXPECT_LT(std::abs(sum / count), 0.05) << "seed " << seed;
 }
 
 } // namespace

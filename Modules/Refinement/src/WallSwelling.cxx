@@ -12,7 +12,8 @@ namespace voxelcore
 namespace
 {
 
-// Where the profile of a wall of half thickness `half` is 0 after smoothing; as `half` where it is nowhere.
+// Where the profile of a wall of half thickness `half` is 0 after smoothing; as `half` where it is nowhere. After each
+// pass but the last, values that contradict labels are 0, which holds the wall back.
 double
 SmoothedHalf(double half, double clip, double sigma, const std::vector<float> & weights)
 {
@@ -24,13 +25,19 @@ SmoothedHalf(double half, double clip, double sigma, const std::vector<float> & 
   }
   const double              width = sigma / kProfileStep;
   const std::vector<double> gauss = GaussWeights(width * width, static_cast<std::size_t>(std::ceil(5 * width)));
-  for (const double weight : weights)
+  const auto                isIn = [&](std::size_t i) {
+    return std::abs(static_cast<double>(static_cast<std::ptrdiff_t>(i) - middle)) * kProfileStep < half;
+  };
+  for (std::size_t pass = 0; pass < weights.size(); ++pass)
   {
+    const double              weight = weights[pass];
     const std::vector<double> once = ConvolveProfile(values, gauss);
     const std::vector<double> twice = ConvolveProfile(once, gauss);
     for (std::size_t i = 0; i < values.size(); ++i)
     {
-      values[i] = (1 + weight) * once[i] - weight * twice[i];
+      const double sum = (1 + weight) * once[i] - weight * twice[i];
+      const bool   fits = pass + 1 == weights.size() || (sum > 0) == isIn(i);
+      values[i] = fits ? sum : 0;
     }
   }
   for (auto i = static_cast<std::size_t>(middle); i + 1 < values.size(); ++i)
@@ -52,9 +59,10 @@ WallSwelling::WallSwelling(double clip, double sigma, const std::vector<float> &
   // more they are thick.
   constexpr double thinnest = 1.0; // in sigmas
   constexpr double thin = 2.25;
-  constexpr double step = 0.25;
   m_Walls.emplace_back(thinnest * sigma, 0.0);
-  for (double half = thin * sigma; half < clip + 4 * sigma; half += step)
+  // Sides lie midway between two values: as many voxels' centres are just in as just out.
+  for (double half = (std::floor(thin * sigma / kProfileStep) + 0.5) * kProfileStep; half < clip + 4 * sigma;
+       half += kProfileStep)
   {
     const double found = SmoothedHalf(half, clip, sigma, weights);
     if (found > m_Walls.back().first)

@@ -13,7 +13,7 @@ class WallSwelling
 {
 public:
   /** Distances end at +-clip and are smoothed by (1 + w) G - w G G for each weight w, with a Gaussian G of width
-   *  `sigma`. */
+   *  `sigma`, held to labels after each but the last. */
   WallSwelling(double clip, double sigma, const std::vector<float> & weights);
 
   /** Of each side of a wall whose sides are found twice `half` apart. */
