@@ -1,8 +1,8 @@
 // One whole file, damaged in memory again and again, and read: thousands a second. What is no InputError of one line, a
 // crash, more than ten seconds or 2 GB is found.
 //
-// usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FILE FIRST_SEED COUNT
-// The damaged file stands in /dev/shm while it is read, and stays where something is found. Prints "READ REFUSED".
+// usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FOLDER NAME FIRST_SEED COUNT
+// The damaged file stands in /dev/shm while it is read; its seed makes it again. Prints "READ REFUSED".
 
 #include "ReadByKind.h"
 
@@ -23,6 +23,7 @@
 using namespace voxelcore;
 using voxelcore::testing::Random;
 using voxelcore::testing::ReadByKind;
+using voxelcore::testing::StagedFile;
 
 namespace
 {
@@ -100,37 +101,38 @@ Damaged(std::string bytes, std::uint64_t seed)
 int
 main(int argc, char ** argv)
 {
-  if (argc != 5)
+  if (argc != 6)
   {
-    std::cerr << "usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FILE FIRST_SEED COUNT\n";
+    std::cerr << "usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FOLDER NAME FIRST_SEED COUNT\n";
     return 2;
   }
   const std::string           kind = argv[1];
-  const std::filesystem::path seed = argv[2];
-  std::ifstream               file(seed, std::ios::binary);
+  const std::filesystem::path folder = argv[2];
+  const std::filesystem::path name = argv[3];
+  std::ifstream               file(folder / name, std::ios::binary);
   const std::string           whole{ std::istreambuf_iterator<char>(file), {} };
-  const std::uint64_t         first = std::strtoull(argv[3], nullptr, 10);
-  const std::uint64_t         count = std::strtoull(argv[4], nullptr, 10);
-  const std::filesystem::path path = "/dev/shm/voxelcore-damaged-" + std::to_string(getpid()) + "-" +
-                                     seed.filename().string(); // the whole name: .nii.gz, .seg.nrrd
-  const rlimit memory{ rlim_t{ 2 } << 30, rlim_t{ 2 } << 30 };
+  const std::uint64_t         first = std::strtoull(argv[4], nullptr, 10);
+  const std::uint64_t         count = std::strtoull(argv[5], nullptr, 10);
+  const StagedFile            staged(folder, name);
+  const rlimit                memory{ rlim_t{ 2 } << 30, rlim_t{ 2 } << 30 };
   setrlimit(RLIMIT_AS, &memory);
   for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM })
   {
     std::signal(signal, OnSignal);
   }
-  ReadByKind(kind, seed); // whole, it must be taken
+  ReadByKind(kind, staged.Read()); // whole, it must be taken
   std::uint64_t refused = 0;
   int           found = 0;
   for (std::uint64_t at = first; at < first + count; ++at)
   {
     s_Seed = at;
-    std::ofstream(path, std::ios::binary | std::ios::trunc) << Damaged(whole, at);
+    const std::string damaged = Damaged(whole, at);
+    staged.Write(damaged.data(), damaged.size());
     alarm(10);
     std::string trouble;
     try
     {
-      ReadByKind(kind, path);
+      ReadByKind(kind, staged.Read());
     }
     catch (const InputError & error)
     {
@@ -148,10 +150,6 @@ main(int argc, char ** argv)
       std::cout << "seed " << at << ": " << trouble << std::endl;
       ++found;
     }
-  }
-  if (found == 0)
-  {
-    std::filesystem::remove(path);
   }
   std::cout << count - refused << " " << refused << std::endl;
   return found > 0 ? 1 : 0;

@@ -1,6 +1,6 @@
 // What libFuzzer calls with the bytes of a file that it made up; fuzz.py builds and runs it. VOXELCORE_FUZZ is
-// KIND:NAME, as in scan:a.nrrd: how the bytes are read, and the name they stand under meanwhile. Found is any end but a
-// file read or an InputError of one line.
+// KIND:FOLDER:NAME, as in scan:/tmp/whole:a.nrrd: how the bytes are read, and the whole file they stand in for. Found
+// is any end but a file read or an InputError of one line.
 
 #include "ReadByKind.h"
 
@@ -10,39 +10,31 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <memory>
 #include <string>
-#include <unistd.h>
 
 namespace
 {
 
 struct Target
 {
-  std::string           kind;
-  std::filesystem::path path;
+  std::string                                     kind;
+  std::unique_ptr<voxelcore::testing::StagedFile> file;
 
   Target()
   {
     const char *      given = std::getenv("VOXELCORE_FUZZ");
     const std::string text = given == nullptr ? "" : given;
-    const std::size_t colon = text.find(':');
-    if (colon == std::string::npos)
+    const std::size_t first = text.find(':');
+    const std::size_t last = text.rfind(':');
+    if (first == last)
     {
-      std::fputs("VOXELCORE_FUZZ must be KIND:NAME\n", stderr);
+      std::fputs("VOXELCORE_FUZZ must be KIND:FOLDER:NAME\n", stderr);
       std::exit(2);
     }
-    kind = text.substr(0, colon);
-    // A folder of its own: what lies beside a scan may be read with it.
-    path = std::filesystem::path("/dev/shm") / ("voxelcore-fuzz-" + std::to_string(getpid())) / text.substr(colon + 1);
-    std::filesystem::create_directory(path.parent_path());
-  }
-
-  ~Target()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(path.parent_path(), ignored);
+    kind = text.substr(0, first);
+    file =
+      std::make_unique<voxelcore::testing::StagedFile>(text.substr(first + 1, last - first - 1), text.substr(last + 1));
   }
 };
 
@@ -52,13 +44,10 @@ extern "C" int
 LLVMFuzzerTestOneInput(const std::uint8_t * data, std::size_t size)
 {
   static const Target target;
-  {
-    std::ofstream file(target.path, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char *>(data), static_cast<std::streamsize>(size));
-  }
+  target.file->Write(reinterpret_cast<const char *>(data), size);
   try
   {
-    voxelcore::testing::ReadByKind(target.kind, target.path);
+    voxelcore::testing::ReadByKind(target.kind, target.file->Read());
   }
   catch (const voxelcore::InputError & error)
   {

@@ -8,11 +8,58 @@
 #include "voxelcore/SkeletonModel.h"
 #include "voxelcore/VoxelChanges.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <system_error>
+#include <unistd.h>
 
 namespace voxelcore::testing
 {
+
+/** A file that is made up again and again, in memory, in a folder of its own: what lies beside a scan may be read with
+ *  it. A name with folders is part of a scan that is the first of them, which is copied. */
+class StagedFile
+{
+public:
+  StagedFile(const std::filesystem::path & folder, const std::filesystem::path & name)
+    : m_Folder("/dev/shm/voxelcore-staged-" + std::to_string(getpid()))
+    , m_Read(m_Folder / *name.begin())
+    , m_File(m_Folder / name)
+  {
+    std::filesystem::create_directory(m_Folder);
+    std::filesystem::copy(folder / *name.begin(), m_Read, std::filesystem::copy_options::recursive);
+  }
+
+  StagedFile(const StagedFile &) = delete;
+  StagedFile &
+  operator=(const StagedFile &) = delete;
+
+  ~StagedFile()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(m_Folder, ignored);
+  }
+
+  void
+  Write(const char * bytes, std::size_t size) const
+  {
+    std::ofstream(m_File, std::ios::binary | std::ios::trunc).write(bytes, static_cast<std::streamsize>(size));
+  }
+
+  /** What is read: the file, or the folder it is part of. */
+  const std::filesystem::path &
+  Read() const
+  {
+    return m_Read;
+  }
+
+private:
+  std::filesystem::path m_Folder;
+  std::filesystem::path m_Read;
+  std::filesystem::path m_File;
+};
 
 /** Reads a file as a user's command would: kind is scan, mesh, model, skeleton, manifest or changes. Throws InputError
  *  for a file that is not as it should be. */

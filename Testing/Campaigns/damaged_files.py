@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 
+import foreign_seeds
 from campaign import Totals, checked
 from faults import make_png
 
@@ -124,6 +125,7 @@ class Seeds:
             self.make("core", scan, "--blocks", "2", "--block", block, "-o", self.path("parts/"))
         parts = [os.path.join("parts", name) for name in sorted(os.listdir(self.path("parts")))]
         self.add("block parts", ["core", "scan.nrrd", "--join", "parts", "-o", "OUT/j.vtp"], parts, (0, 3, 4))
+        foreign_seeds.make(folder)
         self.write("edits.txt", "+1,2,3\n-4,5,6x2\n+2,2,2\n")
         self.add("voxel edits", ["core", "scan.nrrd", "--change-voxels", "edits.txt", "-o", "OUT/c.vtp"],
                  ["edits.txt"], (0, 3))

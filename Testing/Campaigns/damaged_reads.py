@@ -17,7 +17,11 @@ from damaged_files import Seeds
 FORMATS = {"scan.nrrd": "scan", "gz.nrrd": "scan", "raw.nrrd": "scan", "text.nrrd": "scan", "mask.nii.gz": "scan",
            "a.nii": "scan", "a.mha": "scan", "a.tif": "scan", "a.off": "mesh", "a.obj": "mesh", "a.ply": "mesh",
            "a.stl": "mesh", "a.vtk": "mesh", "core.vtp": "model", "core.vtk": "model", "edges.vtp": "model",
-           "edges_skeleton.vtp": "skeleton", "manifest.csv": "manifest", "edits.txt": "changes"}
+           "edges_skeleton.vtp": "skeleton", "manifest.csv": "manifest", "edits.txt": "changes",
+           # A name with a folder is part of the scan that is the folder.
+           "a.mgh": "scan", "a.mgz": "scan", "a.lsm": "scan", "a.ome.tif": "scan", "slices/s1.png": "scan",
+           "a.zarr/.zattrs": "scan", "a.zarr/0/.zarray": "scan", "a.zarr/0/0/0/0": "scan", "b.zarr/zarr.json": "scan",
+           "b.zarr/c/0/0/0": "scan"}
 
 
 def main():
@@ -39,7 +43,7 @@ def main():
             for name in options.formats.split(","):
                 first = totals.place(name)
                 code, out, error, _ = run([os.path.join(options.programs, "VoxelCoreDamagedReads"), FORMATS[name],
-                                           seeds.path(name), first, options.chunk], limit=3600)
+                                           folder, name, first, options.chunk], limit=3600)
                 *lines, last = out.splitlines() or [""]
                 if code == 0:
                     read, refused = map(int, last.split())

@@ -2,9 +2,12 @@
 written?
 
 usage: faults.py VOXELCORE LAYER.so [--totals FILE] [--minutes M] [--commands a,b] [--step N] [--most N] [--kind K]
+       [--threads N] [--size S]
 
 LAYER.so is FaultLayer.c, built as a library. --step N: only each N-th call, --most N: no more than N of a kind,
---kind K: only those (o-open, say: opening files of results), for a quick look. Exit 1: something was found."""
+--kind K: only those (o-open, say: opening files of results), for a quick look. --threads N: which thread meets a fault
+is then chance, and what may be there is the same. --size S: side of the scans (12); most loops share their work among
+threads from sides of some 40 on. Exit 1: something was found."""
 
 import argparse
 import errno
@@ -22,6 +25,7 @@ from campaign import Totals, checked, digests, run
 COMMANDS = {
     "core": "core {i}/scan.nrrd -o {o}/a.vtp --report {o}/a.json --table {o}/a.csv --with-skeleton",
     "core-folder": "core {i}/labels.nii.gz -o {o}/d/ --lambda 0,1vox --keep-edges",
+    "core-refined": "core {i}/labels.nii.gz -o {o}/d/ --with-skeleton",
     "core-vtk": "core {i}/scan.mha -o {o}/a.vtk --lambda 0",
     "core-ply": "core {i}/scan.tif --spacing 1,1,1 -o {o}/a.ply --lambda 0",
     "core-mhd": "core {i}/scan.mhd -o {o}/a.vtp --lambda 0",
@@ -72,17 +76,14 @@ def make_png(path, rows):
                    + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + bytes(row) for row in rows))) + chunk(b"IEND", b""))
 
 
-def inputs(program, folder):
+def inputs(program, folder, size=12):
     def make(*arguments):
         checked([program, *arguments, "-q"])
 
     path = lambda name: os.path.join(folder, name)
-    make("phantom", "torus", "--size", "12", "-o", path("scan.nrrd"))
-    make("phantom", "torus", "--size", "12", "-o", path("scan.mha"))
-    make("phantom", "torus", "--size", "12", "-o", path("scan.mhd"))
-    make("phantom", "torus", "--size", "12", "-o", path("scan.tif"))
-    make("phantom", "torus", "--size", "12", "-o", path("labels.nii.gz"))
-    make("phantom", "root", "--size", "24", "-o", path("root.nrrd"))
+    for name in ("scan.nrrd", "scan.mha", "scan.mhd", "scan.tif", "labels.nii.gz"):
+        make("phantom", "torus", "--size", str(size), "-o", path(name))
+    make("phantom", "root", "--size", str(2 * size), "-o", path("root.nrrd"))
     make("core", path("scan.nrrd"), "--lambda", "0", "--keep-edges", "-o", path("core.vtp"), "--with-skeleton")
     with open(path("mesh.off"), "w") as file:
         file.write("OFF\n8 6 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 3) for y in (0, 4) for x in (0, 5))
@@ -99,13 +100,13 @@ def inputs(program, folder):
 
 
 class Faults:
-    def __init__(self, program, layer, folder, totals):
-        self.program, self.layer, self.totals = program, layer, totals
+    def __init__(self, program, layer, folder, totals, threads=1, size=12):
+        self.program, self.layer, self.totals, self.threads = program, layer, totals, str(threads)
         self.i, self.o = os.path.join(folder, "in"), os.path.join(folder, "out")
         self.counter = os.path.join(folder, "counter")
         self.out = ""
         os.mkdir(self.i)
-        inputs(program, self.i)
+        inputs(program, self.i, size)
 
     def attempt(self, name, where="o", kind="none", error=0, at=0):
         shutil.rmtree(self.o, ignore_errors=True)
@@ -116,8 +117,9 @@ class Faults:
         quiet = ["--progress", "none"] if name not in SPEAKING else []
         environment = {"LD_PRELOAD": self.layer, "FAULT_CALL": kind, "FAULT_AT": str(at), "FAULT_ERROR": str(error),
                        "FAULT_PATHS": {"i": self.i, "o": self.o}.get(where, "/nowhere"), "FAULT_COUNTER": self.counter,
-                       "FAULT_SIZE": "65536" if kind == "memory" else "1000000000000", "OMP_NUM_THREADS": "1"}
-        threads = [] if name in ("info", "info-tif", "phantom", "measure") else ["--threads", "1"]
+                       "FAULT_SIZE": "65536" if kind == "memory" else "1000000000000",
+                       "OMP_NUM_THREADS": self.threads}
+        threads = [] if name in ("info", "info-tif", "phantom", "measure") else ["--threads", self.threads]
         code, self.out, said, _ = run([self.program, *arguments, *quiet, *threads], environment)
         with open(self.counter, "rb") as file:
             calls, failed = struct.unpack("<QQ", file.read(16))
@@ -172,7 +174,7 @@ class Faults:
             return f"exit {code}, but no user understands {said!r}"
         # Into folders, each result that is there is whole and stays: the same command goes on from there.
         left.pop("stdout", None)
-        stay = name in ("core-folder", "block")
+        stay = name in ("core-folder", "core-refined", "block")
         bad = [key for key, value in left.items()
                if not (stay and (key.endswith("_finished.jsonl") or expected.get(key) == value))]
         return f"exit {code}, but there is {sorted(bad)}" if bad else None
@@ -223,12 +225,16 @@ def main():
     parser.add_argument("--step", type=int, default=1)
     parser.add_argument("--most", type=int, default=10**9)
     parser.add_argument("--kind")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--size", type=int, default=12)
     options = parser.parse_args()
-    totals = Totals(options.totals, "faults")
+    of = "" if (options.threads, options.size) == (1, 12) else f", {options.threads} threads, side {options.size}"
+    totals = Totals(options.totals, "faults" + of)
     before = len(totals.of["found"])
     with tempfile.TemporaryDirectory(prefix="voxelcore-faults-") as folder:
         kinds = [kind for kind in KINDS if options.kind in (None, f"{kind[0]}-{kind[1]}")]
-        faults = Faults(os.path.abspath(options.program), os.path.abspath(options.layer), folder, totals)
+        faults = Faults(os.path.abspath(options.program), os.path.abspath(options.layer), folder, totals,
+                        options.threads, options.size)
         ended = faults.go(options.commands.split(","), kinds, options.step, options.most,
                           time.monotonic() + 60 * options.minutes)
     totals.save()

@@ -51,13 +51,14 @@ def main():
     with tempfile.TemporaryDirectory(prefix="voxelcore-fuzz-") as folder:
         seeds = Seeds(os.path.abspath(options.program), folder)
         for name in options.formats.split(","):
-            corpus = os.path.join(options.corpus, name)
+            kept = name.replace("/", "_")
+            corpus = os.path.join(options.corpus, kept)
             os.makedirs(corpus, exist_ok=True)
             shutil.copy(seeds.path(name), os.path.join(corpus, "whole"))
             done = subprocess.run(
                 [harness, corpus, f"-max_total_time={int(60 * options.minutes)}", "-timeout=10", "-rss_limit_mb=2048",
-                 "-malloc_limit_mb=1024", "-max_len=65536", "-print_final_stats=1", f"-artifact_prefix={bad}/{name}-"],
-                env={**os.environ, "VOXELCORE_FUZZ": f"{FORMATS[name]}:{name}", "OMP_NUM_THREADS": "1",
+                 "-malloc_limit_mb=1024", "-max_len=65536", "-print_final_stats=1", f"-artifact_prefix={bad}/{kept}-"],
+                env={**os.environ, "VOXELCORE_FUZZ": f"{FORMATS[name]}:{folder}:{name}", "OMP_NUM_THREADS": "1",
                      "UBSAN_OPTIONS": "print_stacktrace=1"},
                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                 errors="replace", check=False)
@@ -69,11 +70,11 @@ def main():
             totals.count(f"{name}, minutes", options.minutes)
             print(f"{name}: {runs} files, {reached} places reached, exit {done.returncode}", flush=True)
             if done.returncode:
-                with open(f"{bad}/{name}.log", "w", encoding="utf-8") as file:
+                with open(f"{bad}/{kept}.log", "w", encoding="utf-8") as file:
                     file.write(done.stderr)
                 said = re.findall(r"^(?:==\d+==\s*ERROR.*|SUMMARY.*|not one line.*|.*runtime error.*|.*terminate.*)$",
                                   done.stderr, re.M)
-                totals.found(f"{name}: {' '.join(said)[:400]}; see {bad}/{name}.log")
+                totals.found(f"{name}: {' '.join(said)[:400]}; see {bad}/{kept}.log")
             totals.save()
     sys.exit(1 if len(totals.of["found"]) > before else 0)
 

@@ -1,5 +1,5 @@
-"""Kills at random instants of core, skeleton, batch and --join: nothing partial or wrong under a final name, and what
-is done again ends with the bytes of an undisturbed run.
+"""Kills at random instants of core, skeleton, thickness, batch, --block and --join: nothing partial or wrong under a
+final name, and what is done again ends with the bytes of an undisturbed run.
 
 usage: kills.py VOXELCORE [--totals FILE] [--minutes M] [--first SEED]"""
 
@@ -20,6 +20,9 @@ COMMANDS = {
     "core-file": "core {i}/scan.nrrd -o {o}/a.vtp --with-skeleton --table {o}/a.csv",
     "skeleton": "skeleton {i}/scan.nrrd -o {o}/s.vtp --also csv,swc,mrk.json,graphml,ma",
     "batch": "batch {i}/cases -o {o}/b --jobs 2",
+    "refined": "core {i}/labels.nrrd -o {o}/r/ --with-skeleton",
+    "thickness": "thickness {i}/scan.nrrd -o {o}/t.nii.gz --table {o}/t.csv",
+    "block": "core {i}/scan.nrrd --blocks 2 --block 1 -o {o}/parts/",
     "join": "core {i}/scan.nrrd --join {i}/parts -o {o}/j.vtp",
 }
 
@@ -95,7 +98,7 @@ def main():
                 if process.returncode == 0:
                     break
             totals.count(f"{name}, killed", hits)
-            again = words(name) + (["--force"] if name in ("core-file", "skeleton", "join") else [])
+            again = words(name) + (["--force"] if name in ("core-file", "skeleton", "thickness", "join") else [])
             code, _, said, _ = run(again, limit=300)
             left = digests(o)
             wrong = [key for key, value in expected[name].items() if key not in left or value and left[key] != value]

@@ -18,8 +18,7 @@ from faults import COMMANDS, Faults, SPEAKING
 
 class Limits(Faults):
     def __init__(self, program, folder, totals, threads):
-        super().__init__(program, "", folder, totals)
-        self.threads = str(threads)
+        super().__init__(program, "", folder, totals, threads)
 
     def attempt(self, name, limit=None, *_):
         shutil.rmtree(self.o, ignore_errors=True)
