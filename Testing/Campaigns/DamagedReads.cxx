@@ -1,5 +1,5 @@
 // One whole file, damaged in memory again and again, and read: thousands a second. What is no InputError of one line, a
-// crash, more than ten seconds or 2 GB is found.
+// crash, more than ten seconds of processor time, two minutes or 2 GB is found.
 //
 // usage: DamagedReads scan|mesh|model|skeleton|manifest|changes FOLDER NAME FIRST_SEED COUNT
 // The damaged file stands in /dev/shm while it is read; its seed makes it again. Prints "READ REFUSED".
@@ -18,6 +18,7 @@
 #include <iterator>
 #include <string>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 using namespace voxelcore;
@@ -38,6 +39,15 @@ OnSignal(int signal)
     std::snprintf(text, sizeof(text), "seed %llu: signal %d\n", static_cast<unsigned long long>(s_Seed), signal);
   static_cast<void>(!write(STDOUT_FILENO, text, static_cast<std::size_t>(length)));
   _exit(1);
+}
+
+/** A signal ends the process after these seconds; 0: not any more. Processor time first: others may use the machine. */
+void
+Limit(unsigned ofProcessor, unsigned ofTime)
+{
+  const itimerval when{ { 0, 0 }, { static_cast<time_t>(ofProcessor), 0 } };
+  setitimer(ITIMER_PROF, &when, nullptr);
+  alarm(ofTime);
 }
 
 /** One to four changes; half of them where headers are. */
@@ -116,7 +126,7 @@ main(int argc, char ** argv)
   const StagedFile            staged(folder, name);
   const rlimit                memory{ rlim_t{ 2 } << 30, rlim_t{ 2 } << 30 };
   setrlimit(RLIMIT_AS, &memory);
-  for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM })
+  for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGPROF })
   {
     std::signal(signal, OnSignal);
   }
@@ -128,7 +138,7 @@ main(int argc, char ** argv)
     s_Seed = at;
     const std::string damaged = Damaged(whole, at);
     staged.Write(damaged.data(), damaged.size());
-    alarm(10);
+    Limit(10, 120);
     std::string trouble;
     try
     {
@@ -144,7 +154,7 @@ main(int argc, char ** argv)
     {
       trouble = std::string("no InputError, but ") + error.what();
     }
-    alarm(0);
+    Limit(0, 0);
     if (!trouble.empty())
     {
       std::cout << "seed " << at << ": " << trouble << std::endl;

@@ -2,10 +2,12 @@
 UndefinedBehaviorSanitizer: a format at a time.
 
 usage: fuzz.py VOXELCORE BUILD_DIR --corpus DIR [--minutes M] [--formats a,b] [--totals FILE] [--jobs N]
+       [--timeout S]
 
 VOXELCORE, the program, writes the first files. Builds with clang in BUILD_DIR. --minutes: for each format (10).
---corpus: a folder a format, of files that reached something new; the next run goes on from them. A file that brings the
-readers down stays in DIR/found. Exit 1: something was found."""
+--timeout: seconds a file may take (10); more where others use the machine. --corpus: a folder a format, of files that
+reached something new; the next run goes on from them. A file that brings the readers down stays in DIR/found. Exit 1:
+something was found."""
 
 import argparse
 import os
@@ -41,6 +43,7 @@ def main():
     parser.add_argument("--minutes", type=float, default=10)
     parser.add_argument("--formats", default=",".join(FORMATS))
     parser.add_argument("--totals")
+    parser.add_argument("--timeout", type=int, default=10)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
     harness = build(os.path.realpath(options.build), options.jobs)
@@ -56,8 +59,9 @@ def main():
             os.makedirs(corpus, exist_ok=True)
             shutil.copy(seeds.path(name), os.path.join(corpus, "whole"))
             done = subprocess.run(
-                [harness, corpus, f"-max_total_time={int(60 * options.minutes)}", "-timeout=10", "-rss_limit_mb=2048",
-                 "-malloc_limit_mb=1024", "-max_len=65536", "-print_final_stats=1", f"-artifact_prefix={bad}/{kept}-"],
+                [harness, corpus, f"-max_total_time={int(60 * options.minutes)}", f"-timeout={options.timeout}",
+                 "-rss_limit_mb=2048", "-malloc_limit_mb=1024", "-max_len=65536", "-print_final_stats=1",
+                 f"-artifact_prefix={bad}/{kept}-"],
                 env={**os.environ, "VOXELCORE_FUZZ": f"{FORMATS[name]}:{folder}:{name}", "OMP_NUM_THREADS": "1",
                      "UBSAN_OPTIONS": "print_stacktrace=1"},
                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,

@@ -5,6 +5,7 @@
 #include "voxelcore/FormatOpeners.h"
 
 #include <cmath>
+#include <fstream>
 #include <zstd.h>
 
 namespace voxelcore::testing::zarr
@@ -18,10 +19,10 @@ class ZarrArrays : public Stores
 protected:
   /** The bytes of all voxels as they are given out. */
   static std::string
-  Voxels(const std::filesystem::path & path)
+  Voxels(const std::filesystem::path & path, std::size_t count = 12)
   {
     ScanFile    scan = OpenZarr(path, {});
-    std::string bytes(12 * PixelBytes(scan.type), '?');
+    std::string bytes(count * PixelBytes(scan.type), '?');
     scan.voxels->Read(reinterpret_cast<std::byte *>(bytes.data()), bytes.size());
     return bytes;
   }
@@ -34,6 +35,34 @@ protected:
     return (index.empty() ? table : index) + kBytes.substr(6) + kBytes.substr(0, 6);
   }
 };
+
+/** CRC-32C of RFC 3720, bit by bit, as a file has it. */
+std::string
+Crc32c(const std::string & bytes)
+{
+  std::uint32_t sum = ~0U;
+  for (const char byte : bytes)
+  {
+    sum ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit)
+    {
+      sum = (sum >> 1U) ^ ((sum & 1U) != 0 ? 0x82F63B78U : 0U);
+    }
+  }
+  return Raw<std::uint32_t>(~sum);
+}
+
+/** Bytes that this process has asked the system for so far. */
+std::uint64_t
+BytesRead()
+{
+  std::ifstream file("/proc/self/io");
+  std::string   name;
+  std::uint64_t count = 0;
+  file >> name >> count;
+  EXPECT_EQ(name, "rchar:");
+  return count;
+}
 
 constexpr const char * kSharded = R"({"codecs": [{"name": "sharding_indexed", "configuration": {
   "chunk_shape": [1, 2, 3], "codecs": [{"name": "bytes"}], "index_location": "start",
@@ -230,6 +259,33 @@ TEST_F(ZarrArrays, AShardIsReadByItsIndexWhereverThatStands)
   const auto path =
     Array3("c.zarr", kSharded, Shard(RawAll<std::uint64_t>(std::vector<std::uint64_t>{ 38, 6, ~0ULL, ~0ULL })));
   EXPECT_EQ(Voxels(path), kBytes.substr(0, 6) + std::string(6, '\0'));
+}
+
+TEST_F(ZarrArrays, TheIndexOfAShardIsNotReadAnewForEachOfItsChunks)
+{
+  // 13,824 chunks of a voxel each, of which one is there: with the whole index for each, 3 GB are read.
+  constexpr std::uint64_t    side = 24;
+  constexpr std::uint64_t    count = side * side * side;
+  constexpr std::uint64_t    middle = count / 2 + side / 2;
+  std::vector<std::uint64_t> index(2 * count, ~0ULL);
+  index[2 * middle] = 0;
+  index[2 * middle + 1] = 1;
+  Json json = Json::parse(kSharded);
+  json["shape"] = { side, side, side };
+  json["chunk_grid"]["configuration"]["chunk_shape"] = { side, side, side };
+  json["codecs"][0]["configuration"]["chunk_shape"] = { 1, 1, 1 };
+  json["codecs"][0]["configuration"].erase("index_location");
+  std::string expected(count, '\0');
+  expected[middle] = '\1';
+  const std::string table = RawAll<std::uint64_t>(index);
+  for (const std::string & sum : { std::string(), Crc32c(table) })
+  {
+    const auto path = Array3("a.zarr", json.dump().c_str(), "\1" + table + sum);
+    const auto before = BytesRead();
+    EXPECT_EQ(Voxels(path, count), expected);
+    EXPECT_LT(BytesRead() - before, 4 * table.size());
+    json["codecs"][0]["configuration"]["index_codecs"].push_back({ { "name", "crc32c" } });
+  }
 }
 
 TEST_F(ZarrArrays, AShardWhoseIndexLeadsNowhereIsRefused)

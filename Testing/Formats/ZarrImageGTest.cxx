@@ -130,6 +130,10 @@ TEST_F(ZarrImages, TheOnlyOneWithinAStoreIsMeantAndSeveralAreNamed)
   ExpectRefused(Attributes("d.zarr", R"({"labels": ["..", "cells"]})"), { "several images", ".., cells" });
   ExpectRefused(Attributes("d.zarr", R"({"labels": [".."]})"), { "does not lie in it" });
   ExpectRefused(Attributes("d.zarr", R"({"labels": [5]})"), { "does not lie in it" });
+  for (const char * itself : { ".", "./", "cells/..", "./." })
+  {
+    ExpectRefused(Attributes("d.zarr", R"({"labels": [")" + std::string(itself) + "\"]}"), { "the folder itself" });
+  }
   std::string many = R"({"labels": [)";
   for (int n = 0; n < 30; ++n)
   {

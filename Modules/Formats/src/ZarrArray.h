@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -73,8 +74,11 @@ ZarrArray
 ReadZarrArray(const std::filesystem::path & folder);
 
 /** The values of a chunk, unpacked; nothing when it is not there. Takes as much memory as the chunk's metadata say, but
- *  no more than its file can stand for. \throws InputError when it is damaged */
+ *  no more than its file can stand for. `checkedShards`: files whose index has the checksum it says; those that are
+ *  checked here are added. \throws InputError when it is damaged */
 std::optional<std::vector<std::byte>>
-ReadZarrChunk(const ZarrArray & array, const std::vector<std::uint64_t> & index);
+ReadZarrChunk(const ZarrArray &                  array,
+              const std::vector<std::uint64_t> & index,
+              std::set<std::filesystem::path> &  checkedShards);
 
 } // namespace voxelcore

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstring>
+#include <set>
 
 namespace voxelcore
 {
@@ -161,9 +162,20 @@ TakeChecksum(const std::filesystem::path & file, Bytes & bytes)
   bytes.resize(bytes.size() - length);
 }
 
+Bytes
+ReadPart(const std::filesystem::path & file, std::uint64_t offset, std::uint64_t length)
+{
+  Bytes bytes(static_cast<std::size_t>(length));
+  OpenBytes(file, offset, Packing::Plain)->Read(bytes.data(), bytes.size());
+  return bytes;
+}
+
 /** The packed bytes of a chunk in a shard; nothing when the shard lacks it. */
 std::optional<Bytes>
-FromShard(const std::filesystem::path & file, const ZarrArray & array, const std::vector<std::uint64_t> & index)
+FromShard(const std::filesystem::path &      file,
+          const ZarrArray &                  array,
+          const std::vector<std::uint64_t> & index,
+          std::set<std::filesystem::path> &  checked)
 {
   constexpr std::uint64_t entry = 16;
   const auto &            shards = *array.shards;
@@ -184,14 +196,17 @@ FromShard(const std::filesystem::path & file, const ZarrArray & array, const std
   {
     RefuseChunk(file, "is shorter than the index of a shard");
   }
-  Bytes table(static_cast<std::size_t>(indexBytes));
-  OpenBytes(file, shards.atEnd ? size - indexBytes : 0, Packing::Plain)->Read(table.data(), table.size());
-  if (shards.hasChecksum)
+  const std::uint64_t start = shards.atEnd ? size - indexBytes : 0;
+  // Once for all chunks: the time would grow with their square.
+  if (shards.hasChecksum && !checked.contains(file))
   {
+    Bytes table = ReadPart(file, start, indexBytes);
     TakeChecksum(file, table);
+    checked.insert(file);
   }
-  const auto offset = LittleEndian<std::uint64_t>(table.data() + entry * at);
-  const auto length = LittleEndian<std::uint64_t>(table.data() + entry * at + 8);
+  const Bytes place = ReadPart(file, start + entry * at, entry);
+  const auto  offset = LittleEndian<std::uint64_t>(place.data());
+  const auto  length = LittleEndian<std::uint64_t>(place.data() + 8);
   if (offset == UINT64_MAX && length == UINT64_MAX)
   {
     return std::nullopt;
@@ -200,15 +215,15 @@ FromShard(const std::filesystem::path & file, const ZarrArray & array, const std
   {
     RefuseChunk(file, "has an index that leads beyond its end");
   }
-  Bytes packed(static_cast<std::size_t>(length));
-  OpenBytes(file, offset, Packing::Plain)->Read(packed.data(), packed.size());
-  return packed;
+  return ReadPart(file, offset, length);
 }
 
 } // namespace
 
 std::optional<Bytes>
-ReadZarrChunk(const ZarrArray & array, const std::vector<std::uint64_t> & index)
+ReadZarrChunk(const ZarrArray &                  array,
+              const std::vector<std::uint64_t> & index,
+              std::set<std::filesystem::path> &  checkedShards)
 {
   const auto      file = array.ChunkFile(index);
   std::error_code missing;
@@ -219,7 +234,7 @@ ReadZarrChunk(const ZarrArray & array, const std::vector<std::uint64_t> & index)
   Bytes bytes;
   if (array.shards)
   {
-    auto packed = FromShard(file, array, index);
+    auto packed = FromShard(file, array, index, checkedShards);
     if (!packed)
     {
       return std::nullopt;
@@ -234,8 +249,7 @@ ReadZarrChunk(const ZarrArray & array, const std::vector<std::uint64_t> & index)
     {
       RefuseChunk(file, "is a file of more than 2 GB");
     }
-    bytes.resize(static_cast<std::size_t>(size));
-    OpenBytes(file, 0, Packing::Plain)->Read(bytes.data(), bytes.size());
+    bytes = ReadPart(file, 0, size);
   }
   for (std::size_t i = array.codecs.size(); i-- > 0;)
   {

@@ -89,6 +89,10 @@ ImageWithin(const fs::path & folder)
                 names.empty() ? "name the folder of one" : Text("name the folder of one within: ", list));
   }
   const fs::path only = Within(folder, names.front());
+  if (*fs::path(names.front()).lexically_normal().begin() == ".") // one would look into it for ever
+  {
+    RefuseInput(folder, "its metadata name the folder itself as the labels in it", "the store is damaged");
+  }
   return IsImage(only) || IsZarrArray(only) ? only : ImageWithin(only);
 }
 

@@ -144,7 +144,7 @@ ZarrStream::Chunk(const ZarrTriple & at)
       m_Held += one.second.size();
     }
   }
-  auto chunk = ReadZarrChunk(m_Volume.image.array, m_Volume.ChunkIndex(at));
+  auto chunk = ReadZarrChunk(m_Volume.image.array, m_Volume.ChunkIndex(at), m_CheckedShards);
   m_Held += chunk ? bytes : 0;
   return m_Chunks.emplace(at, chunk ? std::move(*chunk) : Bytes()).first->second;
 }

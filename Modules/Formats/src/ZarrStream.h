@@ -7,6 +7,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 
 namespace voxelcore
 {
@@ -129,6 +130,7 @@ private:
   std::uint64_t                                m_Layer = UINT64_MAX; ///< of the chunks held, along k
   std::map<ZarrTriple, std::vector<std::byte>> m_Chunks;
   std::uint64_t                                m_Held = 0; ///< bytes in m_Chunks
+  std::set<std::filesystem::path>              m_CheckedShards;
 };
 
 } // namespace voxelcore
