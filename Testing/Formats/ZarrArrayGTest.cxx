@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sys/resource.h>
 #include <zstd.h>
 
 namespace voxelcore::testing::zarr
@@ -50,6 +51,15 @@ Crc32c(const std::string & bytes)
     }
   }
   return Raw<std::uint32_t>(~sum);
+}
+
+/** The most memory that this process has held so far, in bytes. */
+std::uint64_t
+MostMemory()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 /** Bytes that this process has asked the system for so far. */
@@ -286,6 +296,23 @@ TEST_F(ZarrArrays, TheIndexOfAShardIsNotReadAnewForEachOfItsChunks)
     EXPECT_LT(BytesRead() - before, 4 * table.size());
     json["codecs"][0]["configuration"]["index_codecs"].push_back({ { "name", "crc32c" } });
   }
+}
+
+TEST_F(ZarrArrays, WhatFillsChunksUpBeyondTheVolumeTakesNoMemory)
+{
+  // A row of 65,536 voxels in 16 chunks of 16 MB each, which some 500 bytes of zstd stand for.
+  const std::string values(std::size_t{ 1 } << 24U, '\3');
+  std::string       packed(ZSTD_compressBound(values.size()), '\0');
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), values.data(), values.size(), 1));
+  const auto path =
+    Array2("a.zarr", R"({"shape": [1, 1, 65536], "chunks": [64, 64, 4096], "compressor": {"id": "zstd"}})", packed);
+  for (int i = 1; i < 16; ++i)
+  {
+    m_Folder.Write("a.zarr/0.0." + std::to_string(i), packed);
+  }
+  const std::uint64_t before = MostMemory();
+  EXPECT_EQ(Voxels(path, 65536), std::string(65536, '\3'));
+  EXPECT_LT(MostMemory() - before, 8 * values.size());
 }
 
 TEST_F(ZarrArrays, AShardWhoseIndexLeadsNowhereIsRefused)

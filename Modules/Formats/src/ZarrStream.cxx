@@ -76,32 +76,19 @@ ZarrStream::FillRow(std::uint64_t k, std::uint64_t j)
   {
     return;
   }
-  const ZarrArray &   array = m_Volume.image.array;
-  const auto &        spatial = m_Volume.image.spatial;
-  const std::uint64_t step = array.strides[spatial[2]];
   for (std::uint64_t i = m_Grid.first[2]; i < m_Grid.end[2]; ++i)
   {
-    const Bytes &       chunk = Chunk({ k / m_Grid.side[0], j / m_Grid.side[1], i });
-    const std::uint64_t firstX = i * m_Grid.side[2];
-    const std::uint64_t count = std::min(m_Grid.side[2], m_Size[2] - firstX);
-    std::byte *         to = m_Row.data() + firstX * m_Width;
+    const ZarrTriple at{ k / m_Grid.side[0], j / m_Grid.side[1], i };
+    const ZarrTriple sides = SidesOf(at);
+    const Bytes &    chunk = Chunk(at);
+    std::byte *      to = m_Row.data() + i * m_Grid.side[2] * m_Width;
     if (chunk.empty())
     {
-      FillValues(to, count);
+      FillValues(to, sides[2]);
       continue;
     }
-    const std::byte * from = chunk.data() + (m_Offset + k % m_Grid.side[0] * array.strides[spatial[0]] +
-                                             j % m_Grid.side[1] * array.strides[spatial[1]]) *
-                                              m_Width;
-    if (step == 1)
-    {
-      std::memcpy(to, from, count * m_Width);
-      continue;
-    }
-    for (std::uint64_t x = 0; x < count; ++x, to += m_Width, from += step * m_Width)
-    {
-      std::memcpy(to, from, m_Width);
-    }
+    const std::uint64_t row = k % m_Grid.side[0] * sides[1] + j % m_Grid.side[1];
+    std::memcpy(to, chunk.data() + row * sides[2] * m_Width, sides[2] * m_Width);
   }
 }
 
@@ -121,6 +108,50 @@ ZarrStream::FillValues(std::byte * to, std::uint64_t count) const
   }
 }
 
+ZarrTriple
+ZarrStream::SidesOf(const ZarrTriple & at) const
+{
+  ZarrTriple sides{};
+  for (std::size_t n = 0; n < 3; ++n)
+  {
+    sides[n] = std::min(m_Grid.side[n], m_Size[n] - at[n] * m_Grid.side[n]);
+  }
+  return sides;
+}
+
+Bytes
+ZarrStream::VoxelsOf(Bytes chunk, const ZarrTriple & sides) const
+{
+  const auto &      strides = m_Volume.image.array.strides;
+  const auto &      spatial = m_Volume.image.spatial;
+  const ZarrTriple  step{ strides[spatial[0]], strides[spatial[1]], strides[spatial[2]] };
+  const std::size_t size = sides[0] * sides[1] * sides[2] * m_Width;
+  if (size == chunk.size() && step == ZarrTriple{ sides[1] * sides[2], sides[2], 1 })
+  {
+    return chunk;
+  }
+  Bytes       voxels(size);
+  std::byte * to = voxels.data();
+  for (std::uint64_t k = 0; k < sides[0]; ++k)
+  {
+    for (std::uint64_t j = 0; j < sides[1]; ++j)
+    {
+      const std::byte * from = chunk.data() + (m_Offset + k * step[0] + j * step[1]) * m_Width;
+      if (step[2] == 1)
+      {
+        std::memcpy(to, from, sides[2] * m_Width);
+        to += sides[2] * m_Width;
+        continue;
+      }
+      for (std::uint64_t i = 0; i < sides[2]; ++i, to += m_Width, from += step[2] * m_Width)
+      {
+        std::memcpy(to, from, m_Width);
+      }
+    }
+  }
+  return voxels;
+}
+
 const Bytes &
 ZarrStream::Chunk(const ZarrTriple & at)
 {
@@ -128,7 +159,8 @@ ZarrStream::Chunk(const ZarrTriple & at)
   {
     return found->second;
   }
-  const std::uint64_t bytes = m_Volume.image.array.ChunkBytes();
+  const ZarrTriple    sides = SidesOf(at);
+  const std::uint64_t bytes = sides[0] * sides[1] * sides[2] * m_Width;
   if (at[0] != m_Layer)
   {
     m_Chunks.clear();
@@ -146,7 +178,7 @@ ZarrStream::Chunk(const ZarrTriple & at)
   }
   auto chunk = ReadZarrChunk(m_Volume.image.array, m_Volume.ChunkIndex(at), m_CheckedShards);
   m_Held += chunk ? bytes : 0;
-  return m_Chunks.emplace(at, chunk ? std::move(*chunk) : Bytes()).first->second;
+  return m_Chunks.emplace(at, chunk ? VoxelsOf(std::move(*chunk), sides) : Bytes()).first->second;
 }
 
 } // namespace voxelcore

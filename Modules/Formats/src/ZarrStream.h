@@ -114,9 +114,16 @@ private:
   FillRow(std::uint64_t k, std::uint64_t j);
   void
   FillValues(std::byte * to, std::uint64_t count) const;
-  /** Empty when it is not there. */
+  /** The voxels of a chunk. Empty when it is not there. */
   const std::vector<std::byte> &
   Chunk(const ZarrTriple & at);
+  /** Of what lies of a chunk in the volume. */
+  ZarrTriple
+  SidesOf(const ZarrTriple & at) const;
+  /** What lies of it in the volume, row by row. The rest, which fills it up or belongs to other volumes, may take any
+   *  amount of memory: 64 KB of zstd stand for 2 GB. */
+  std::vector<std::byte>
+  VoxelsOf(std::vector<std::byte> chunk, const ZarrTriple & sides) const;
 
   ZarrVolume                                   m_Volume;
   ZarrTriple                                   m_Size;
