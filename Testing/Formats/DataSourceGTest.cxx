@@ -77,7 +77,7 @@ TEST_F(DataSources, LinesAndBytesInFrontOfTheDataArePassedOver)
   const auto lines = With(With(Lines(), "line skip", "2"), "byte skip", "3");
   ExpectValues(ReadLabelVolume(Write(lines, "first line\nsecond\nxyz" + kData)));
   ExpectRefused(Write(lines, "first line\nsecond\nx" + kData), { "truncated" });
-  ExpectRefused(Write(lines, "no line ends here"), { "too early" });
+  ExpectRefused(Write(lines, "no line ends here"), { "ends before the lines" });
   ExpectValues(ReadLabelVolume(Write(With(lines, "encoding", "gzip"), "1\n2\n" + Gzip("xyz" + kData))));
   // Data that end with the file, however much is in front; what is packed is unpacked to see how much.
   const auto atEnd = With(Lines(), "byte skip", "-1");
@@ -121,6 +121,9 @@ TEST_F(DataSources, PatternsAndListsWithoutSenseAreRefused)
                                 "s%d.raw 1 two 1",
                                 "s%d.raw 1 2 three",
                                 "s%d.raw -2000000 0 1",
+                                "s%d.raw -9223372036854775808 0 -1", // ended the program
+                                "s%d.raw 0 -9223372036854775808 -1",
+                                "s%d.raw 1 2 -9223372036854775808",
                                 "s%d.raw 1 2 2000000",
                                 "s%33d.raw 1 2 1",
                                 "s%999999999999d.raw 1 2 1",

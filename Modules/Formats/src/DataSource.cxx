@@ -2,7 +2,7 @@
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -158,13 +158,22 @@ private:
 std::uint64_t
 SkipLines(const std::filesystem::path & path, std::uint64_t offset, std::uint64_t lines)
 {
-  const auto file = OpenBytes(path, offset, Packing::Plain);
-  char       c = 0;
+  const auto                   file = OpenBytes(path, offset, Packing::Plain);
+  std::array<std::byte, 65536> buffer;
   while (lines > 0)
   {
-    file->Read(reinterpret_cast<std::byte *>(&c), 1);
-    ++offset;
-    lines -= c == '\n' ? 1 : 0;
+    const std::size_t got = file->ReadSome(buffer.data(), buffer.size());
+    if (got == 0)
+    {
+      RefuseInput(path,
+                  "it ends before the lines that its header skips",
+                  "the file is truncated: fetch or write it anew");
+    }
+    for (std::size_t at = 0; at < got && lines > 0; ++at)
+    {
+      ++offset;
+      lines -= buffer[at] == std::byte{ '\n' } ? 1 : 0;
+    }
   }
   return offset;
 }
@@ -253,8 +262,10 @@ FilesOfPattern(const std::filesystem::path & headerPath, std::string_view text)
   }
   const bool zeros = percent + 1 < name.size() && name[percent + 1] == '0';
   const bool known = d < name.size() && (name[d] == 'd' || name[d] == 'i' || name[d] == 'u') && width < 20;
-  if (!first || !last || !step || !known || *step == 0 || std::abs(*first) > kMostParts ||
-      std::abs(*last) > kMostParts || std::abs(*step) > kMostParts || (*last - *first) / *step < 0)
+  const auto fits = [](const std::optional<std::int64_t> & number) { // the least of all has no absolute value
+    return number && *number >= -kMostParts && *number <= kMostParts;
+  };
+  if (!fits(first) || !fits(last) || !fits(step) || !known || *step == 0 || (*last - *first) / *step < 0)
   {
     RefuseInput(headerPath,
                 Text("the pattern of its data files makes no sense ('", Printable(text), "')"),
