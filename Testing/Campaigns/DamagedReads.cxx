@@ -54,10 +54,23 @@ Limit(unsigned ofProcessor, unsigned ofTime)
 std::string
 Damaged(std::string bytes, std::uint64_t seed)
 {
-  static const std::string numbers[] = { "-1",         "0",          "1",          "7",
-                                         "255",        "65536",      "2147483647", "2147483648",
-                                         "4294967295", "4294967296", "1e308",      "9223372036854775807",
-                                         "nan",        "inf",        "",           "18446744073709551616" };
+  static const std::string numbers[] = { "-1",
+                                         "0",
+                                         "1",
+                                         "7",
+                                         "255",
+                                         "65536",
+                                         "2147483647",
+                                         "2147483648",
+                                         "4294967295",
+                                         "4294967296",
+                                         "1e308",
+                                         "9223372036854775807",
+                                         "nan",
+                                         "inf",
+                                         "",
+                                         "18446744073709551616",
+                                         "-9223372036854775808" };
   Random                   random(seed);
   const auto               below = [&](std::size_t most) {
     return static_cast<std::size_t>(random.Between(0, static_cast<std::int64_t>(most) - 1));

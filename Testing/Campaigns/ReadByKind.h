@@ -19,17 +19,17 @@ namespace voxelcore::testing
 {
 
 /** A file that is made up again and again, in memory, in a folder of its own: what lies beside a scan may be read with
- *  it. A name with folders is part of a scan that is the first of them, which is copied. */
+ *  it. Of a name with folders the first is copied. It is the scan that the file is part of, but for headers. */
 class StagedFile
 {
 public:
   StagedFile(const std::filesystem::path & folder, const std::filesystem::path & name)
     : m_Folder("/dev/shm/voxelcore-staged-" + std::to_string(getpid()))
-    , m_Read(m_Folder / *name.begin())
+    , m_Scan(m_Folder / *name.begin())
     , m_File(m_Folder / name)
   {
     std::filesystem::create_directory(m_Folder);
-    std::filesystem::copy(folder / *name.begin(), m_Read, std::filesystem::copy_options::recursive);
+    std::filesystem::copy(folder / *name.begin(), m_Scan, std::filesystem::copy_options::recursive);
   }
 
   StagedFile(const StagedFile &) = delete;
@@ -52,12 +52,12 @@ public:
   const std::filesystem::path &
   Read() const
   {
-    return m_Read;
+    return m_File.extension() == ".nhdr" || m_File.extension() == ".mhd" ? m_File : m_Scan;
   }
 
 private:
   std::filesystem::path m_Folder;
-  std::filesystem::path m_Read;
+  std::filesystem::path m_Scan;
   std::filesystem::path m_File;
 };
 

@@ -22,8 +22,9 @@ from campaign import Totals, checked
 from faults import make_png
 
 NUMBERS = [b"-1", b"0", b"1", b"7", b"255", b"65536", b"2147483647", b"2147483648", b"4294967295", b"4294967296",
-           b"9223372036854775807", b"18446744073709551615", b"99999999999999999999999", b"1e308", b"1e999", b"nan",
-           b"inf", b"", b"../../etc/passwd", b"%s%n", b"\xff\xfe"]
+           b"9223372036854775807", b"-9223372036854775808", b"18446744073709551615",
+           b"99999999999999999999999", b"1e308", b"1e999", b"nan", b"inf", b"", b"../../etc/passwd", b"%s%n",
+           b"\xff\xfe"]
 MEGABYTES = 1500  # of address space; a small run maps half of it
 
 

@@ -18,10 +18,10 @@ FORMATS = {"scan.nrrd": "scan", "gz.nrrd": "scan", "raw.nrrd": "scan", "text.nrr
            "a.nii": "scan", "a.mha": "scan", "a.tif": "scan", "a.off": "mesh", "a.obj": "mesh", "a.ply": "mesh",
            "a.stl": "mesh", "a.vtk": "mesh", "core.vtp": "model", "core.vtk": "model", "edges.vtp": "model",
            "edges_skeleton.vtp": "skeleton", "manifest.csv": "manifest", "edits.txt": "changes",
-           # A name with a folder is part of the scan that is the folder.
+           # A name with a folder is part of the scan that is the folder, but for headers.
            "a.mgh": "scan", "a.mgz": "scan", "a.lsm": "scan", "a.ome.tif": "scan", "slices/s1.png": "scan",
            "a.zarr/.zattrs": "scan", "a.zarr/0/.zarray": "scan", "a.zarr/0/0/0/0": "scan", "b.zarr/zarr.json": "scan",
-           "b.zarr/c/0/0/0": "scan"}
+           "b.zarr/c/0/0/0": "scan", "a.seg.nrrd": "scan", "numbered/a.nhdr": "scan", "numbered/a.mhd": "scan"}
 
 
 def main():

@@ -1,5 +1,6 @@
 """Small whole files of formats that VoxelCore reads and does not write, laid out byte by byte: FreeSurfer's, LSM,
-OME-TIFF, Zarr of both versions with and without shards."""
+OME-TIFF, Zarr of both versions with and without shards; headers of NRRD and MetaImage that number their data files, and
+a segmentation of 3D Slicer."""
 
 import gzip
 import json
@@ -51,6 +52,13 @@ def lsm():
     return tiff({34412: (1, block.ljust(512, b"\0"))})
 
 
+def nrrd(more):
+    lines = ["NRRD0004", "type: uint8", "dimension: 3", f"sizes: {SIDE} {SIDE} {SIDE}", "encoding: raw",
+             "space: left-posterior-superior", "space directions: (1,0,0) (0,1,0) (0,0,2)",
+             "space origin: (1,2,3)", *more]
+    return "\n".join(lines).encode() + b"\n"
+
+
 def array2(zlib_packed):
     return {"zarr_format": 2, "shape": [SIDE] * 3, "chunks": [3, 6, 6], "dtype": "|u1", "order": "C", "filters": None,
             "compressor": {"id": "zlib", "level": 1} if zlib_packed else None, "fill_value": 0,
@@ -70,6 +78,18 @@ def make(folder):
     write(folder, "a.mgz", gzip.compress(mgh()))
     write(folder, "a.lsm", lsm())
     write(folder, "a.ome.tif", tiff({270: (2, OME.encode() + b"\0")}))
+    write(folder, "a.seg.nrrd", nrrd([
+        "Segment0_ID:=Segment_1", "Segment0_Name:=cube", "Segment0_LabelValue:=1", "Segment0_Layer:=0",
+        "Segment0_Color:=0.5 0.25 1", "Segment0_Extent:=1 4 1 4 1 4", "Segment1_ID:=Segment_2", "Segment1_Name:=none",
+        "Segment1_LabelValue:=2", "Segment1_Layer:=0", "Segmentation_MasterRepresentation:=Binary labelmap"])
+          + b"\n" + VALUES)
+    write(folder, "numbered/a.nhdr", nrrd(["data file: s%02d.raw 1 6 1"]))
+    write(folder, "numbered/a.mhd", "\n".join([
+        "ObjectType = Image", "NDims = 3", "BinaryData = True", "TransformMatrix = 1 0 0 0 1 0 0 0 1",
+        "Offset = 0 0 0", "ElementSpacing = 1 1 2", f"DimSize = {SIDE} {SIDE} {SIDE}", "ElementType = MET_UCHAR",
+        "ElementDataFile = s%02d.raw 1 6 1"]).encode() + b"\n")
+    for k in range(SIDE):
+        write(folder, f"numbered/s{k + 1:02}.raw", VALUES[36 * k:36 * k + 36])
     axes = [{"name": name, "type": "space", "unit": "millimeter"} for name in "zyx"]
     image = {"version": "0.4", "axes": axes, "datasets": [
         {"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [3, 2, 1]},
