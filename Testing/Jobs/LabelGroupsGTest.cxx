@@ -95,7 +95,8 @@ TEST(ProcessSideBySide, TheFirstLabelThatFailsDecides)
       catch (const CertificateError & error)
       {
         EXPECT_STREQ(error.what(), "label 2") << count << " threads";
-        EXPECT_GE(ran, 4) << "0, 1, 2 and the largest";
+        // And the largest, unless another thread has found label 2 to fail before it begins.
+        EXPECT_GE(ran, count == 1 ? 4 : 3) << "0, 1 and 2";
       }
     }
   }
