@@ -58,7 +58,8 @@ def main():
         for spacing in (1, 1, 1), (1, 1, 2.5):
             for thickness in THICKNESSES:
                 errors = [error(program, pathlib.Path(folder), random, thickness, spacing) for _ in range(walls)]
-                print(f"| {spacing} | {thickness} | {numpy.mean(errors):+.3f} | {max(errors, key=abs):+.3f} |", flush=True)
+                mean, worst = numpy.mean(errors), max(errors, key=abs)
+                print(f"| {spacing} | {thickness} | {mean:+.3f} | {worst:+.3f} |", flush=True)
 
 
 if __name__ == "__main__":
