@@ -44,12 +44,12 @@ ExpectAsByRows(std::uint64_t firstSeed, int count)
     const LatticeBall lattice = BallUpTo(4, random, volume.spacing);
     const BallRows    ball(lattice);
     ASSERT_FALSE(DistancesAreFaster(ball, shape.Box()));
-    const VoxelShape byRows = Dilated(shape, ball, {}, 0, 1);
+    const VoxelShape byRows = Dilated(shape, ball, {});
     VoxelShape       dilated(byRows.Box());
-    DilateByDistances(shape, ball, dilated, {}, 0, 1);
+    DilateByDistances(shape, ball, dilated, {});
     ASSERT_EQ(VoxelsOf(dilated), VoxelsOf(byRows));
     VoxelShape closed = shape;
-    ErodeByDistances(dilated, ball, closed, {}, 0, 1);
+    ErodeByDistances(dilated, ball, closed, {});
     ASSERT_EQ(VoxelsOf(closed), VoxelsOf(CloseShape(shape, lattice).shape));
   }
   omp_set_num_threads(threads);

@@ -39,7 +39,7 @@ BallRows::BallRows(const LatticeBall & of)
 }
 
 VoxelShape
-Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback & progress, double from, double to)
+Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback & progress)
 {
   const VoxelBox & box = shape.Box();
   const auto       margin = ball.Room();
@@ -48,7 +48,7 @@ Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback 
   VoxelShape       dilated(grown);
   if (DistancesAreFaster(ball, box))
   {
-    DilateByDistances(shape, ball, dilated, progress, from, to);
+    DilateByDistances(shape, ball, dilated, progress);
     return dilated;
   }
   std::vector<std::uint8_t> holds(static_cast<std::size_t>(box.size[1]) * static_cast<std::size_t>(box.size[2]));
@@ -62,7 +62,7 @@ Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback 
       holds[rowOf(y, z)] = std::ranges::any_of(shape.Row(y, z), [](std::uint64_t word) { return word != 0; }) ? 1 : 0;
     }
   }
-  ForSlices(grown.size[2], progress, from, to, [&](std::int32_t z) {
+  ForSlices(grown.size[2], progress, [&](std::int32_t z) {
     BitRow row(dilated.WordsPerRow());
     BitRow spare(row.size());
     for (std::int32_t y = 0; y < grown.size[1]; ++y)

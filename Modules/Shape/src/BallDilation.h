@@ -99,12 +99,12 @@ Grown(VoxelBox box, const std::array<std::int32_t, 3> & room)
 /** Calls work(z) for all slices on all threads, and reports between them. */
 template <typename TWork>
 void
-ForSlices(std::int32_t slices, const ProgressCallback & progress, double from, double to, const TWork & work)
+ForSlices(std::int32_t slices, const ProgressCallback & progress, const TWork & work)
 {
   constexpr std::int32_t step = 32;
   for (std::int32_t first = 0; first < slices; first += step)
   {
-    ReportProgress(progress, "closing", from + (to - from) * first / slices);
+    ReportProgress(progress, "closing", static_cast<double>(first) / slices);
     const std::int32_t end = std::min(slices, first + step);
     RunEach(static_cast<std::size_t>(end - first), [&](std::size_t i) { work(first + static_cast<std::int32_t>(i)); });
   }
@@ -112,6 +112,6 @@ ForSlices(std::int32_t slices, const ProgressCallback & progress, double from, d
 
 /** All places within the ball's reach of a voxel, in the shape's box grown by the ball's room. */
 VoxelShape
-Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback & progress, double from, double to);
+Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback & progress);
 
 } // namespace voxelcore

@@ -4,6 +4,8 @@
 #include "NearestAlongZ.h"
 #include "ShapeRuns.h"
 
+#include "voxelcore/StagePlan.h"
+
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -38,11 +40,11 @@ LeftOver(const LatticeBall & ball, std::int64_t used, std::size_t axis)
 /** Calls work(first, end) for a few slices at a time, and reports before. */
 template <typename TWork>
 void
-ForBatches(std::int32_t slices, const ProgressCallback & progress, double from, double to, const TWork & work)
+ForBatches(std::int32_t slices, const ProgressCallback & progress, const TWork & work)
 {
   for (std::int32_t first = 0; first < slices; first += kBatch)
   {
-    ReportProgress(progress, "closing", from + (to - from) * first / slices);
+    ReportProgress(progress, "closing", static_cast<double>(first) / slices);
     work(first, std::min(slices, first + kBatch));
   }
 }
@@ -211,9 +213,7 @@ void
 DilateByDistances(const VoxelShape &       shape,
                   const BallRows &         ball,
                   VoxelShape &             dilated,
-                  const ProgressCallback & progress,
-                  double                   from,
-                  double                   to)
+                  const ProgressCallback & progress)
 {
   const auto &             size = shape.Box().size;
   const auto               width = static_cast<std::size_t>(size[0]);
@@ -223,7 +223,7 @@ DilateByDistances(const VoxelShape &       shape,
   const auto &             weight = ball.ball.weight;
   NearestAlongZ            nearest(shape, -room[2]);
   std::vector<SliceNumber> ways(kBatch * area); // along z to the nearest voxel
-  ForBatches(dilated.Box().size[2], progress, from, to, [&](std::int32_t first, std::int32_t end) {
+  ForBatches(dilated.Box().size[2], progress, [&](std::int32_t first, std::int32_t end) {
     nearest.Next(end - first, ball.reach[2], ways);
 #pragma omp parallel
     {
@@ -267,9 +267,7 @@ void
 ErodeByDistances(const VoxelShape &       dilated,
                  const BallRows &         ball,
                  VoxelShape &             shape,
-                 const ProgressCallback & progress,
-                 double                   from,
-                 double                   to)
+                 const ProgressCallback & progress)
 {
   const auto &              size = shape.Box().size;
   const auto                width = static_cast<std::size_t>(size[0]);
@@ -279,9 +277,9 @@ ErodeByDistances(const VoxelShape &       dilated,
   std::vector<SliceNumber>  reach(kBatch * area);
   std::vector<std::int32_t> until(area);
   // Of the balls about background in the slices so far, that which reaches farthest: upwards, then downwards.
-  const auto sweep = [&](std::int32_t start, std::int32_t direction, double part) {
+  const auto sweep = [&](std::int32_t start, std::int32_t direction, const ProgressCallback & part) {
     std::ranges::fill(until, std::numeric_limits<std::int32_t>::min());
-    ForBatches(size[2] + room, progress, part, part + 0.5 * (to - from), [&](std::int32_t first, std::int32_t end) {
+    ForBatches(size[2] + room, part, [&](std::int32_t first, std::int32_t end) {
 #pragma omp parallel
       {
         SliceReach one(ball, shape.Box());
@@ -313,8 +311,8 @@ ErodeByDistances(const VoxelShape &       dilated,
       }
     });
   };
-  sweep(-room, 1, from);
-  sweep(size[2] - 1 + room, -1, 0.5 * (from + to));
+  sweep(-room, 1, PartOfProgress(progress, 0, 0.5));
+  sweep(size[2] - 1 + room, -1, PartOfProgress(progress, 0.5, 1));
   for (std::int32_t z = 0; z < size[2]; ++z)
   {
     for (std::int32_t y = 0; y < size[1]; ++y)

@@ -19,17 +19,13 @@ void
 DilateByDistances(const VoxelShape &       shape,
                   const BallRows &         ball,
                   VoxelShape &             dilated,
-                  const ProgressCallback & progress,
-                  double                   from,
-                  double                   to);
+                  const ProgressCallback & progress);
 
 /** Puts in each voxel of the shape's box about which the ball lies in what was dilated by it. */
 void
 ErodeByDistances(const VoxelShape &       dilated,
                  const BallRows &         ball,
                  VoxelShape &             shape,
-                 const ProgressCallback & progress,
-                 double                   from,
-                 double                   to);
+                 const ProgressCallback & progress);
 
 } // namespace voxelcore

@@ -7,6 +7,7 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/ShapeTopology.h"
+#include "voxelcore/StagePlan.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -145,8 +146,9 @@ VoxelShape
 VoxelsAround(const VoxelShape & shape, const LatticeBall & ball, const ProgressCallback & progress)
 {
   const BallRows rows(ball);
-  return rows.IsOneVoxel() || shape.Box().size[0] == 0 ? shape
-                                                       : CopyBox(Dilated(shape, rows, progress, 0, 0), shape.Box());
+  return rows.IsOneVoxel() || shape.Box().size[0] == 0
+           ? shape
+           : CopyBox(Dilated(shape, rows, PartOfProgress(progress, 0, 0)), shape.Box());
 }
 
 ChangeCost
@@ -166,7 +168,8 @@ SimplifyWithin(const VoxelShape &       shape,
   VoxelShape     neighbourhood = VoxelsAround(shape, ball, progress);
   if (!rows.IsOneVoxel() && shape.Box().size[0] > 0)
   {
-    const VoxelShape nearBackground = CopyBox(Dilated(BackgroundAround(shape), rows, progress, 0, 0), shape.Box());
+    const VoxelShape nearBackground =
+      CopyBox(Dilated(BackgroundAround(shape), rows, PartOfProgress(progress, 0, 0)), shape.Box());
     ForWords(kernel, nearBackground, [](std::uint64_t & word, std::uint64_t near) { word &= ~near; });
   }
   const DistanceCost cost(shape, ball);

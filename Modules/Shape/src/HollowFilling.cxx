@@ -1,6 +1,7 @@
 // FillHollows of ShapeClosing.h.
 
 #include "voxelcore/ShapeClosing.h"
+#include "voxelcore/StagePlan.h"
 
 #include "BallDilation.h"
 #include "EditedBits.h"
@@ -68,7 +69,7 @@ FillHollows(VoxelShape shape, const LatticeBall & ball, const ProgressCallback &
   {
     // Where the ball's centre cannot be. A place that is enclosed lies in the shape's own box: from one beside it, all
     // ways lead on outwards.
-    const VoxelShape dilated = Dilated(shape, rows, progress, 0, 0.5);
+    const VoxelShape dilated = Dilated(shape, rows, PartOfProgress(progress, 0, 0.5));
     background = BackgroundOf(dilated, box);
     reached = CopyBox(dilated, box);
   }

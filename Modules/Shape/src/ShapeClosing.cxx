@@ -4,6 +4,7 @@
 #include "BallDistances.h"
 #include "EditedBits.h"
 #include "voxelcore/LengthText.h"
+#include "voxelcore/StagePlan.h"
 #include "voxelcore/SpacingWeights.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ void
 AddEroded(const VoxelShape & dilated, const BallRows & ball, VoxelShape & shape, const ProgressCallback & progress)
 {
   const auto room = static_cast<std::size_t>(ball.Room()[0] / 64);
-  ForSlices(shape.Box().size[2], progress, 0.5, 1, [&](std::int32_t z) {
+  ForSlices(shape.Box().size[2], progress, [&](std::int32_t z) {
     BitRow row(dilated.WordsPerRow());
     BitRow spare(row.size());
     for (std::int32_t y = 0; y < shape.Box().size[1]; ++y)
@@ -77,14 +78,15 @@ Close(VoxelShape & shape, const LatticeBall & ball, const ProgressCallback & pro
   const BallRows rows(ball);
   if (!rows.IsOneVoxel() && shape.Box().size[0] > 0)
   {
-    const VoxelShape dilated = Dilated(shape, rows, progress, 0, 0.5);
+    const VoxelShape dilated = Dilated(shape, rows, PartOfProgress(progress, 0, 0.5));
+    const auto       second = PartOfProgress(progress, 0.5, 1);
     if (DistancesAreFaster(rows, shape.Box()))
     {
-      ErodeByDistances(dilated, rows, shape, progress, 0.5, 1);
+      ErodeByDistances(dilated, rows, shape, second);
     }
     else
     {
-      AddEroded(dilated, rows, shape, progress);
+      AddEroded(dilated, rows, shape, second);
     }
   }
 }
