@@ -1,6 +1,7 @@
 // `voxelcore batch` where folders are in the way, files go away while cases run, and what a case reads is changed.
 
 #include "CohortFolder.h"
+#include "VoxelCoreTesting/ProcessUse.h"
 #include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
 #include "Scans.h"
@@ -169,17 +170,6 @@ WriteLargeScan(const fs::path & path, int side, int slices)
   }
   WriteAll(path, head + box);
   fs::resize_file(path, head.size() + row * row * static_cast<std::size_t>(slices));
-}
-
-/** Bytes that this process and those it has waited for have read. */
-std::uint64_t
-BytesRead()
-{
-  std::ifstream file("/proc/self/io");
-  std::string   word;
-  std::uint64_t bytes = 0;
-  file >> word >> bytes;
-  return word == "rchar:" ? bytes : 0;
 }
 
 TEST_F(BatchTrouble, AScanIsReadOnceBeforeAndOnceAfterItsCase)

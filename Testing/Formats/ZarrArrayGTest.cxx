@@ -2,11 +2,10 @@
 // What other programs write, zarr_test.py reads.
 
 #include "ZarrStores.h"
+#include "VoxelCoreTesting/ProcessUse.h"
 #include "voxelcore/FormatOpeners.h"
 
 #include <cmath>
-#include <fstream>
-#include <sys/resource.h>
 #include <zstd.h>
 
 namespace voxelcore::testing::zarr
@@ -51,27 +50,6 @@ Crc32c(const std::string & bytes)
     }
   }
   return Raw<std::uint32_t>(~sum);
-}
-
-/** The most memory that this process has held so far, in bytes. */
-std::uint64_t
-MostMemory()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-/** Bytes that this process has asked the system for so far. */
-std::uint64_t
-BytesRead()
-{
-  std::ifstream file("/proc/self/io");
-  std::string   name;
-  std::uint64_t count = 0;
-  file >> name >> count;
-  EXPECT_EQ(name, "rchar:");
-  return count;
 }
 
 constexpr const char * kSharded = R"({"codecs": [{"name": "sharding_indexed", "configuration": {
@@ -292,6 +270,7 @@ TEST_F(ZarrArrays, TheIndexOfAShardIsNotReadAnewForEachOfItsChunks)
   {
     const auto path = Array3("a.zarr", json.dump().c_str(), "\1" + table + sum);
     const auto before = BytesRead();
+    ASSERT_GT(before, 0U) << "the system does not say";
     EXPECT_EQ(Voxels(path, count), expected);
     EXPECT_LT(BytesRead() - before, 4 * table.size());
     json["codecs"][0]["configuration"]["index_codecs"].push_back({ { "name", "crc32c" } });
@@ -310,9 +289,9 @@ TEST_F(ZarrArrays, WhatFillsChunksUpBeyondTheVolumeTakesNoMemory)
   {
     m_Folder.Write("a.zarr/0.0." + std::to_string(i), packed);
   }
-  const std::uint64_t before = MostMemory();
+  const std::uint64_t before = PeakBytes();
   EXPECT_EQ(Voxels(path, 65536), std::string(65536, '\3'));
-  EXPECT_LT(MostMemory() - before, 8 * values.size());
+  EXPECT_LT(PeakBytes() - before, 8 * values.size());
 }
 
 TEST_F(ZarrArrays, AShardWhoseIndexLeadsNowhereIsRefused)

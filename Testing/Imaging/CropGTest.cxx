@@ -2,6 +2,7 @@
 
 #include "PngBytes.h"
 #include "ScanBytes.h"
+#include "VoxelCoreTesting/ProcessUse.h"
 
 #include "voxelcore/ShapeOperations.h"
 
@@ -324,18 +325,11 @@ TEST(Crop, OfLongRowsTheRestIsNotRead)
   std::fstream(path, std::ios::in | std::ios::out | std::ios::binary)
     .seekp(static_cast<std::streamoff>(header.size() + std::size_t{ 200000 } * 50 * 10 + 1000))
     .put(1);
-  const auto bytesRead = [] {
-    std::ifstream io("/proc/self/io");
-    std::string   word;
-    std::uint64_t count = 0;
-    io >> word >> count; // rchar: all that was asked for
-    return count;
-  };
   ReadOptions options;
   options.crop = CropRange{ { 900, 0, 0 }, { 1100, 50, 20 } };
-  const std::uint64_t before = bytesRead();
+  const std::uint64_t before = BytesRead();
   const LabelMap      map = ReadLabelVolume(path, options);
-  EXPECT_LT(bytesRead() - before, 3000000U) << "of 200 MB; the part has 200000 bytes";
+  EXPECT_LT(BytesRead() - before, 3000000U) << "of 200 MB; the part has 200000 bytes";
   ASSERT_EQ(map.labels.size(), 1U);
   EXPECT_TRUE(map.labels[0].shape.Contains(1000, 0, 10));
   EXPECT_EQ(map.labels[0].voxels, 1U);

@@ -3,6 +3,7 @@
 
 #include "PngBytes.h"
 #include "ScanBytes.h"
+#include "VoxelCoreTesting/ProcessUse.h"
 
 #include <chrono>
 #include <ctime>
@@ -10,7 +11,6 @@
 #include <map>
 #include <optional>
 #include <random>
-#include <sys/resource.h>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -182,22 +182,6 @@ Seeds()
            { "strips.tif", Tiff(strips), nullptr, {}, {} },
            { "bits.tif", Tiff(bits, { true, false }), nullptr, {}, {} },
            { "tiles.tif", Tiff(tiles, { false, true }), nullptr, {}, {} } };
-}
-
-long
-PeakMegabytes()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
-}
-
-double
-ProcessorSeconds()
-{
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 void

@@ -3,32 +3,16 @@
 
 #include "ForeignBytes.h"
 #include "ScanBytes.h"
+#include "VoxelCoreTesting/ProcessUse.h"
 
-#include <ctime>
 #include <iostream>
 #include <random>
-#include <sys/resource.h>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
 
 namespace
 {
-
-/** Processor time of this process and its ended children. */
-double
-ProcessorSeconds()
-{
-  double seconds = 0;
-  for (const auto who : { RUSAGE_SELF, RUSAGE_CHILDREN })
-  {
-    rusage usage{};
-    getrusage(who, &usage);
-    seconds += static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-               1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-  }
-  return seconds;
-}
 
 void
 ReadMutations(int countOfEach)

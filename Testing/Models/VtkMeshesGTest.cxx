@@ -3,6 +3,7 @@
 
 #include "Models/ModelFixtures.h"
 #include "Models/VtkMeshForms.h"
+#include "VoxelCoreTesting/ProcessUse.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/ReadMesh.h"
@@ -10,12 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <random>
-#include <sys/resource.h>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -71,22 +69,6 @@ TEST(VtkMeshes, PiecesOfAFileAreOneMesh)
   EXPECT_EQ(read.mesh.points.size(), 6U);
   ASSERT_EQ(read.mesh.triangles.size(), 2U);
   EXPECT_EQ(read.mesh.triangles[1], (std::array<std::uint32_t, 3>{ 3, 4, 5 }));
-}
-
-long
-PeakMegabytes()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
-}
-
-double
-ProcessorSeconds()
-{
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /** Reads what may be damaged; whether it was refused. It must be so in one line and in time, or read as a mesh that
