@@ -74,8 +74,8 @@ ZarrArray
 ReadZarrArray(const std::filesystem::path & folder);
 
 /** The values of a chunk, unpacked; nothing when it is not there. Takes as much memory as the chunk's metadata say, but
- *  no more than its file can stand for. `checkedShards`: files whose index has the checksum it says; those that are
- *  checked here are added. \throws InputError when it is damaged */
+ *  no more than its file can stand for. `checkedShards`: files whose index is known to have its checksum; a shard
+ *  that is checked here joins them. \throws InputError when it is damaged */
 std::optional<std::vector<std::byte>>
 ReadZarrChunk(const ZarrArray &                  array,
               const std::vector<std::uint64_t> & index,

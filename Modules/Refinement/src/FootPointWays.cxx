@@ -157,7 +157,7 @@ FootPointFinder::Descend(const Vector3 & place, FootPoint & begin) const
   bool          slopes = false;
   bool          known = false;
   DistanceBends bends;
-  // Of both ways down whether all of them has failed from this foot: it would again with any stride that is as long.
+  // Whole steps down have failed from this foot, and would again with any stride that is as long as they are.
   bool hasFailed = false;
   bool isNew = true;
   for (int step = 0; step < steps && stride >= shortest * m_Voxel; ++step)
