@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -80,8 +82,11 @@ TEST(Phantom, LengthsAreHeeded)
   options.thickness = 2;
   EXPECT_NEAR(Volume(options) / (4 * kPi / 3 * (1000 - 512)), 1, 0.01);
   options.kind = "plate";
+  options.radius.reset();
   EXPECT_EQ(MakePhantom(options).CountVoxels(), 72U * 72 * 4);
   options.kind = "rod";
+  options.thickness.reset();
+  options.radius = 10;
   EXPECT_NEAR(Volume(options) / (kPi * 100 * 36), 1, 0.01);
   options.kind = "torus";
   options.radius = 5;
@@ -286,4 +291,57 @@ TEST(Phantom, ValuesWithoutSenseAreRefused)
   EXPECT_THROW(MakePhantom(options), UsageError);
   EXPECT_THROW(MakePhantom(Options("root", { 2, 2, 2 })), UsageError);
   EXPECT_THROW(RootCentreLines(Options("ball", { 80, 80, 80 })), UsageError);
+}
+
+// Otherwise an ellipsoid would keep its size without a word when it is given a radius.
+TEST(Phantom, OptionsOfOtherKindsAreRefused)
+{
+  const auto takes = [](const std::string & kind, auto set) {
+    PhantomOptions options = Options(kind, { 40, 40, 40 });
+    set(options);
+    try
+    {
+      (void)MakePhantom(options);
+      return true;
+    }
+    catch (const UsageError &)
+    {
+      return false;
+    }
+  };
+  const auto radius = [](PhantomOptions & options) { options.radius = 8; };
+  const auto thickness = [](PhantomOptions & options) { options.thickness = 3; };
+  const auto period = [](PhantomOptions & options) { options.period = 9; };
+  const auto density = [](PhantomOptions & options) { options.density = 0.4; };
+  const auto laterals = [](PhantomOptions & options) { options.laterals = 4; };
+  const auto cells = [](PhantomOptions & options) { options.cells = 9; };
+  for (const PhantomKind & kind : PhantomKinds())
+  {
+    const std::string name(kind.name);
+    EXPECT_EQ(
+      takes(name, radius),
+      (std::set<std::string>{ "ball", "capsule", "rod", "torus", "shell", "thick-and-thin", "root" }.count(name) == 1))
+      << name;
+    EXPECT_EQ(takes(name, thickness),
+              (std::set<std::string>{ "plate", "shell", "gyroid", "thick-and-thin" }.count(name) == 1))
+      << name;
+    EXPECT_EQ(takes(name, period), name == "gyroid" || name == "porous") << name;
+    EXPECT_EQ(takes(name, density), name == "porous" || name == "noise") << name;
+    EXPECT_EQ(takes(name, laterals), name == "root") << name;
+    EXPECT_EQ(takes(name, cells), name == "cells") << name;
+  }
+}
+
+TEST(Phantom, PeriodsThatNoGridShowsAreRefused)
+{
+  for (const char * kind : { "gyroid", "porous" })
+  {
+    PhantomOptions options = Options(kind, { 16, 16, 16 }, { 0.5, 0.5, 1 });
+    options.period = 1;
+    EXPECT_NO_THROW(MakePhantom(options)) << kind;
+    options.period = 0.99;
+    EXPECT_THROW(MakePhantom(options), UsageError) << kind;
+    options.period = 1e-300; // so many grains that no memory would hold them
+    EXPECT_THROW(MakePhantom(options), UsageError) << kind;
+  }
 }

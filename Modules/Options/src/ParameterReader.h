@@ -103,8 +103,9 @@ public:
     const Parameter & parameter = Describe(name);
     const auto        comma = parameter.flags.find(',');
     const auto        flag = comma == std::string_view::npos ? parameter.flags : parameter.flags.substr(comma + 1);
-    throw UsageError((flag.empty() ? std::string(parameter.placeholder) : std::string(flag)) + " " + Text(name) +
-                     ": expected " + expected);
+    const std::string given = Text(name);
+    throw UsageError((flag.empty() ? std::string(parameter.placeholder) : std::string(flag)) +
+                     (given.empty() ? "" : " " + given) + ": expected " + expected);
   }
 
   std::int64_t

@@ -107,6 +107,10 @@ PhantomOptionsFrom(const ParameterValues & values)
   {
     options.centreLines = reader.Text("centre-lines");
   }
+  if (!reader.IsGiven("output")) // 'phantom list' needs none
+  {
+    throw UsageError("--output is required; see 'voxelcore phantom --help'");
+  }
   options.output = reader.File("output");
   options.force = reader.IsSet("force");
   return options;

@@ -56,6 +56,47 @@ CheckLength(const std::optional<double> & value, const char * name)
   }
 }
 
+const PhantomKind &
+KindNamed(const std::string & name)
+{
+  std::string                   list;
+  std::vector<std::string_view> names;
+  for (const PhantomKind & kind : kKinds)
+  {
+    if (kind.name == name)
+    {
+      return kind;
+    }
+    list += (list.empty() ? "" : ", ") + std::string(kind.name);
+    names.push_back(kind.name);
+  }
+  throw UsageError("there is no phantom '" + name + "'; the kinds are " + list + DidYouMean(name, names));
+}
+
+/** Another kind's option would be passed over without a word. */
+void
+CheckKindTakes(const PhantomOptions & options)
+{
+  const PhantomKind & kind = KindNamed(options.kind);
+  const auto          check = [&](bool given, const char * name) {
+    if (given && kind.options.find(name) == std::string_view::npos)
+    {
+      throw UsageError("the phantom " + options.kind + " takes no " + name +
+                       (kind.options.empty() ? "" : "; it takes " + std::string(kind.options)));
+    }
+  };
+  check(options.radius.has_value(), "radius");
+  check(options.thickness.has_value(), "thickness");
+  check(options.period.has_value(), "period");
+  check(options.density.has_value(), "density");
+  check(options.detail.has_value(), "detail");
+  check(options.laterals.has_value(), "laterals");
+  check(options.subLaterals.has_value(), "sub-laterals");
+  check(options.whorls.has_value(), "whorls");
+  check(options.contacts.has_value(), "contacts");
+  check(options.cells.has_value(), "cells");
+}
+
 VoxelShape
 Union(const PhantomOptions & options, const std::vector<VoxelShape> & bodies)
 {
@@ -103,6 +144,11 @@ CheckPhantomOptions(const PhantomOptions & options)
   CheckLength(options.thickness, "thickness");
   CheckLength(options.period, "period");
   CheckLength(options.detail, "detail");
+  CheckKindTakes(options);
+  if (options.period && *options.period < 2 * *std::min_element(options.spacing.begin(), options.spacing.end()))
+  {
+    throw UsageError("the period of a phantom must be at least two voxels");
+  }
   if (options.density && !(*options.density >= 0 && *options.density <= 1))
   {
     throw UsageError("the density of a phantom must be between 0 and 1");
@@ -146,19 +192,7 @@ MakePhantom(const PhantomOptions & options, const ProgressCallback & progress)
   {
     return MakeRoot(options, progress);
   }
-  if (options.kind == "cells")
-  {
-    return Union(options, MakeCells(options, progress));
-  }
-  std::string                   list;
-  std::vector<std::string_view> names;
-  for (const PhantomKind & kind : kKinds)
-  {
-    list += (list.empty() ? "" : ", ") + std::string(kind.name);
-    names.push_back(kind.name);
-  }
-  throw UsageError("there is no phantom '" + options.kind + "'; the kinds are " + list +
-                   DidYouMean(options.kind, names));
+  return Union(options, MakeCells(options, progress));
 }
 
 std::vector<VoxelShape>
