@@ -157,6 +157,15 @@ WithoutBoundary(const Answer & answer)
   return left;
 }
 
+void
+ExpectInside(const Answer & answer, const DelaunayCells & expected)
+{
+  const DelaunayCells asked =
+    ComputeDelaunayCells(answer.shape, answer.points, answer.weights, Engine::Lattice, {}, Facets::Inside);
+  ASSERT_NO_FATAL_FAILURE(ExpectSameCells(asked, expected));
+  ASSERT_TRUE(asked.voxelSides == expected.voxelSides);
+}
+
 TEST(CanonicalCells, FacetsOnTheBoundaryCanBeLeftOut)
 {
   ForAnswers(4600, [](const Answer & answer, Random & random) {
@@ -164,11 +173,26 @@ TEST(CanonicalCells, FacetsOnTheBoundaryCanBeLeftOut)
     const DelaunayCells left = MakeCanonical(Disorder(answer, random), answer.points, answer.weights, Facets::Inside);
     ASSERT_NO_FATAL_FAILURE(ExpectSameCells(left, expected));
     ASSERT_TRUE(left.voxelSides == expected.voxelSides);
-    const DelaunayCells asked =
-      ComputeDelaunayCells(answer.shape, answer.points, answer.weights, Engine::Lattice, {}, Facets::Inside);
-    ASSERT_NO_FATAL_FAILURE(ExpectSameCells(asked, expected));
-    ASSERT_TRUE(asked.voxelSides == expected.voxelSides);
+    ASSERT_NO_FATAL_FAILURE(ExpectInside(answer, expected));
   });
+}
+
+TEST(CanonicalCells, FacetsOnTheBoundaryAreLeftOutOfDeepCellsOnSeveralThreads)
+{
+  for (const double thick : { 1.0, 2.0 })
+  {
+    RandomVolume volume;
+    volume.shape = Ellipsoid(192);
+    volume.spacing = { 1, 1, thick };
+    const Answer answer(volume);
+    ASSERT_GT(answer.points.size(), 60000U) << "enough for three threads";
+    const DelaunayCells expected = WithoutBoundary(answer);
+    for (const int count : { 1, 2, 3 })
+    {
+      const Threads threads(count);
+      ASSERT_NO_FATAL_FAILURE(ExpectInside(answer, expected));
+    }
+  }
 }
 
 TEST(CanonicalCells, CellsAreSortedByTheirExactCentres)

@@ -184,7 +184,7 @@ MakeCanonical(DelaunayCells                     cells,
               const SpacingWeights &            weights,
               Facets                            facets)
 {
-  if (facets == Facets::Inside)
+  if (facets == Facets::Inside && cells.voxelSides.size() != cells.CellCount()) // else the engine has
   {
     LeaveOutBoundary(points, weights, cells);
   }

@@ -1,5 +1,7 @@
 #include "CellTracer.h"
 
+#include "VoxelSides.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -174,13 +176,23 @@ CellTracer::Drain()
     {
       m_Wide ? TraceFacet<__int128>(pending) : TraceFacet<std::int64_t>(pending);
     }
+    NoteVoxelSide(pending.facet);
   }
 }
 
 std::uint32_t
 CellTracer::NewFacet(std::uint32_t first, std::uint32_t second, std::span<const std::uint32_t> polygon)
 {
-  const std::uint32_t facet = NextFacet();
+  const std::uint32_t facet = NextFacet(polygon.size());
+  if (facet < m_Result.FacetCount())
+  {
+    m_FreeSquares.pop_back();
+    m_Result.facetCells[facet] = { first, second };
+    std::copy_n(polygon.begin(),
+                4,
+                m_Result.facetPoints.begin() + static_cast<std::ptrdiff_t>(m_Result.facetOffsets[facet]));
+    return facet;
+  }
   m_Result.facetCells.push_back({ first, second });
   for (const std::uint32_t point : polygon) // three or four: cheaper than a copy of unknown length
   {
@@ -190,10 +202,48 @@ CellTracer::NewFacet(std::uint32_t first, std::uint32_t second, std::span<const 
   return facet;
 }
 
+std::uint32_t
+CellTracer::NewCell(const std::array<std::uint32_t, 4> & tetrahedron)
+{
+  const auto cell = static_cast<std::uint32_t>(m_Result.CellCount());
+  m_Result.tetrahedra.push_back(tetrahedron);
+  if (m_Input.facets == Facets::Inside)
+  {
+    m_Result.voxelSides.push_back(0);
+  }
+  return cell;
+}
+
+void
+CellTracer::AddVoxelSide(std::uint32_t cell, std::size_t axis, std::span<const std::uint32_t> square)
+{
+  if (m_Input.facets == Facets::Inside)
+  {
+    m_Result.voxelSides[cell] |= VoxelSide(axis, m_Input.weights);
+    return;
+  }
+  NewFacet(cell, kOutside, square);
+}
+
+void
+CellTracer::NoteVoxelSide(std::uint32_t facet)
+{
+  auto & sides = m_Result.facetCells[facet];
+  if (m_Input.facets == Facets::All || sides[1] != kOutside || sides[0] >= kOpen)
+  {
+    return;
+  }
+  const auto square = m_Result.FacetPoints(facet);
+  m_Result.voxelSides[sides[0]] |=
+    VoxelSide(AxisAcross(m_Input.points[square[0]], m_Input.points[square[2]]), m_Input.weights);
+  sides[0] = kOutside;
+  m_FreeSquares.push_back(facet);
+}
+
 void
 CellTracer::AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon)
 {
-  const std::uint32_t met = m_Front.TakeOrInsert(KeyOf(polygon), NextFacet());
+  const std::uint32_t met = m_Front.TakeOrInsert(KeyOf(polygon), NextFacet(polygon.size()));
   if (met != FacetTable::none)
   {
     Close(met, cell);

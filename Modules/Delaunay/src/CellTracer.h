@@ -31,9 +31,11 @@ struct TracingInput
   const VertexRows &                 rows;
   const TracingBricks &              grid;
   const std::vector<std::uint32_t> & load; ///< per brick: boundary vertices that it or a side of it holds
+  Facets                             facets;
 };
 
-/** Cells and facets in any order, centres not filled in; and what is still to be found. */
+/** Cells and facets in any order, centres not filled in; and what is still to be found. Where facets on the boundary
+ *  are not asked for, most are but noted in voxelSides, and facets without a cell may stand among the others. */
 struct Tracing
 {
   DelaunayCells              cells;
@@ -106,14 +108,25 @@ private:
   AddFacet(std::uint32_t cell, std::span<const std::uint32_t> polygon);
   bool
   IsBoundarySquare(std::span<const std::uint32_t> polygon) const;
-  /** The number of the facet that NewFacet() makes. */
+  /** The number of the facet that NewFacet() makes, of so many corners. */
   std::uint32_t
-  NextFacet() const
+  NextFacet(std::size_t corners) const
   {
-    return static_cast<std::uint32_t>(m_Result.FacetCount());
+    return corners == 4 && !m_FreeSquares.empty() ? m_FreeSquares.back()
+                                                  : static_cast<std::uint32_t>(m_Result.FacetCount());
   }
   std::uint32_t
   NewFacet(std::uint32_t first, std::uint32_t second, std::span<const std::uint32_t> polygon);
+  /** Makes the cell of a set of points that affinely span space; its facets come by AddFacet(). */
+  std::uint32_t
+  NewCell(const std::array<std::uint32_t, 4> & tetrahedron);
+  /** A side of the cell that lies on the boundary, across an axis. */
+  void
+  AddVoxelSide(std::uint32_t cell, std::size_t axis, std::span<const std::uint32_t> square);
+  /** Where facets on the boundary are not asked for, only notes this one, once its cell is known, so that another facet
+   *  may have its place. Not for one that waits to be looked across. */
+  void
+  NoteVoxelSide(std::uint32_t facet);
   void
   Close(std::uint32_t facet, std::uint32_t cell)
   {
@@ -158,6 +171,7 @@ private:
   std::vector<std::uint8_t>         m_Done;    // per brick of the queue: this tracer has been through it
   std::vector<std::size_t>          m_Revisit;
   std::vector<std::uint32_t>        m_Deep;
+  std::vector<std::uint32_t>        m_FreeSquares; // facets of four corners without a cell
 
   CapVertices                m_Found;   // by the running trace
   std::vector<LatticePoint>  m_Apexes;  // the best candidates of the running trace, in window coordinates

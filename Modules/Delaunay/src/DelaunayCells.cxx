@@ -55,7 +55,7 @@ ComputeDelaunayCells(const VoxelShape &                shape,
   else
 #endif
   {
-    raw = LatticeCells(shape, points, weights, progress);
+    raw = LatticeCells(shape, points, weights, progress, facets);
   }
   DelaunayCells cells = MakeCanonical(std::move(raw), points, weights, facets);
   ReportProgress(progress, "delaunay", 1.0);

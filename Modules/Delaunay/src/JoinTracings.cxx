@@ -73,11 +73,12 @@ JoinTracings(std::vector<Tracing> parts, std::size_t points)
   FacetTable         table;
   for (Tracing & part : parts)
   {
-    DelaunayCells & to = joined.cells;
-    DelaunayCells & from = part.cells;
-    const auto      cellShift = static_cast<std::uint32_t>(to.CellCount());
-    const auto      facetShift = static_cast<std::uint32_t>(to.FacetCount());
-    const auto      pointShift = static_cast<std::uint64_t>(to.facetPoints.size());
+    DelaunayCells &   to = joined.cells;
+    DelaunayCells &   from = part.cells;
+    const auto        cellShift = static_cast<std::uint32_t>(to.CellCount());
+    const auto        facetShift = static_cast<std::uint32_t>(to.FacetCount());
+    const std::size_t cells = from.CellCount();
+    const auto        pointShift = static_cast<std::uint64_t>(to.facetPoints.size());
     if (cellShift == 0 && facetShift == 0)
     {
       to = std::move(from);
@@ -89,6 +90,13 @@ JoinTracings(std::vector<Tracing> parts, std::size_t points)
         [&] {
           AppendSpent(std::move(from.tetrahedra), to.tetrahedra, std::identity());
           AppendSpent(std::move(from.facetPoints), to.facetPoints, std::identity());
+          // Deep cells have no side on the boundary but walls.
+          if (!to.voxelSides.empty() || !from.voxelSides.empty())
+          {
+            to.voxelSides.resize(cellShift, 0);
+            from.voxelSides.resize(cells, 0);
+            AppendSpent(std::move(from.voxelSides), to.voxelSides, std::identity());
+          }
         },
         [&] {
           AppendSpent(std::move(from.facetCells), to.facetCells, [&](const std::array<std::uint32_t, 2> & sides) {

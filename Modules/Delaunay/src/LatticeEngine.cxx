@@ -3,6 +3,7 @@
 #include "CellTracer.h"
 #include "DeepCells.h"
 #include "SharedProgress.h"
+#include "VoxelSides.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/FreeMemory.h"
 #include "voxelcore/StagePlan.h"
@@ -127,12 +128,13 @@ DelaunayCells
 LatticeCells(const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,
              const SpacingWeights &            weights,
-             const ProgressCallback &          progress)
+             const ProgressCallback &          progress,
+             Facets                            facets)
 {
   const VertexRows                 rows(shape, points);
   const TracingBricks              grid(shape.Box());
   const std::vector<std::uint32_t> load = BrickLoad(grid, points);
-  const TracingInput               input{ shape, points, weights, rows, grid, load };
+  const TracingInput               input{ shape, points, weights, rows, grid, load, facets };
 
   constexpr std::size_t worthAThread = 20000; // points
   const std::size_t     threads =
@@ -166,6 +168,10 @@ LatticeCells(const VoxelShape &                shape,
     {
       GiveBackFreeMemory();
     }
+  }
+  if (facets == Facets::Inside)
+  {
+    NoteBoundary(points, weights, tracing.cells);
   }
   return std::move(tracing.cells);
 }

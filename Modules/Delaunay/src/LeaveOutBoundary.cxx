@@ -1,7 +1,10 @@
-#include "voxelcore/DelaunayCells.h"
+#include "VoxelSides.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SpentMemory.h"
+
+#include <atomic>
 
 namespace voxelcore
 {
@@ -9,10 +12,13 @@ namespace voxelcore
 namespace
 {
 
-std::uint32_t
-AxisOfSide(const LatticePoint & corner, const LatticePoint & opposite)
+void
+RequireSquare(std::size_t corners)
 {
-  return corner.x == opposite.x ? 0 : corner.y == opposite.y ? 1 : 2;
+  if (corners != 4)
+  {
+    throw CertificateError("a Delaunay facet on the boundary is no side of a voxel; please report this input");
+  }
 }
 
 } // namespace
@@ -20,8 +26,7 @@ AxisOfSide(const LatticePoint & corner, const LatticePoint & opposite)
 void
 LeaveOutBoundary(const std::vector<LatticePoint> & points, const SpacingWeights & weights, DelaunayCells & cells)
 {
-  // Where all sides are alike, points need not be fetched.
-  const bool areAlike = weights.weight[0] == weights.weight[1] && weights.weight[1] == weights.weight[2];
+  const bool areAlike = AreAlike(weights);
   cells.voxelSides.assign(cells.CellCount(), 0);
   // Pointers: after a write the compiler would have to read where each vector begins again.
   const std::size_t              facets = cells.FacetCount();
@@ -47,18 +52,37 @@ LeaveOutBoundary(const std::vector<LatticePoint> & points, const SpacingWeights 
     }
     else if (one != kOutside)
     {
-      if (last - first != 4)
-      {
-        throw CertificateError("a Delaunay facet on the boundary is no side of a voxel; please report this input");
-      }
-      const std::uint32_t axis = areAlike ? 0 : AxisOfSide(points[corners[first]], points[corners[first + 2]]);
-      sides[one] |= static_cast<std::uint8_t>(1U << axis);
+      RequireSquare(last - first);
+      // Where all sides are alike, points need not be fetched.
+      sides[one] |= areAlike ? std::uint8_t{ 1 }
+                             : VoxelSide(AxisAcross(points[corners[first]], points[corners[first + 2]]), weights);
     }
     first = last;
   }
   CutShort(cells.facetCells, kept);
   CutShort(cells.facetOffsets, kept + 1);
   CutShort(cells.facetPoints, end);
+}
+
+void
+NoteBoundary(const std::vector<LatticePoint> & points, const SpacingWeights & weights, DelaunayCells & cells)
+{
+  cells.voxelSides.resize(cells.CellCount(), 0);
+  RunInParts(cells.FacetCount() > 10000, cells.FacetCount(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t facet = begin; facet < end; ++facet)
+    {
+      auto & [one, other] = cells.facetCells[facet];
+      if (other != kOutside || one == kOutside)
+      {
+        continue;
+      }
+      const auto square = cells.FacetPoints(facet);
+      RequireSquare(square.size());
+      const std::uint8_t side = VoxelSide(AxisAcross(points[square[0]], points[square[2]]), weights);
+      std::atomic_ref<std::uint8_t>(cells.voxelSides[one]).fetch_or(side, std::memory_order_relaxed);
+      one = kOutside;
+    }
+  });
 }
 
 } // namespace voxelcore

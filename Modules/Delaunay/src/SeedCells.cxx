@@ -78,9 +78,8 @@ CellTracer::SeedVoxelCells()
             index[c + 1] = index[c] + (mask >> c & 1U);
           }
         }
-        const auto   cell = static_cast<std::uint32_t>(m_Result.CellCount());
-        const auto & t = shape.tetrahedron;
-        m_Result.tetrahedra.push_back({ index[t[0]], index[t[1]], index[t[2]], index[t[3]] });
+        const auto &        t = shape.tetrahedron;
+        const std::uint32_t cell = NewCell({ index[t[0]], index[t[1]], index[t[2]], index[t[3]] });
         for (const VoxelCell::Facet & facet : shape.Facets())
         {
           std::array<std::uint32_t, 4> corners;
@@ -100,7 +99,7 @@ CellTracer::SeedVoxelCells()
           const std::int32_t bz = z + beyondStep[side][2];
           if (((m_Window.voxel[LatticeWindow::Row(by, bz)] >> bx) & 1U) == 0)
           {
-            NewFacet(cell, kOutside, polygon);
+            AddVoxelSide(cell, side / 2U, polygon);
             continue;
           }
           const std::int32_t rx = bx - halo;
@@ -187,9 +186,10 @@ CellTracer::SeedSquare(std::int32_t x, std::int32_t y, std::int32_t z, unsigned 
       });
     }
   }
-  if (m_Front.TakeOrInsert(KeyOf(square), NextFacet()) != FacetTable::none)
+  if (const std::uint32_t met = m_Front.TakeOrInsert(KeyOf(square), NextFacet(square.size())); met != FacetTable::none)
   {
-    return; // a cell found earlier has this square, and knows that it is on the boundary
+    NoteVoxelSide(met); // a cell found earlier has this square, and knows that it is on the boundary
+    return;
   }
   const std::uint32_t facet = NewFacet(kOpen, kOutside, square);
   m_Stack.push_back({ facet, 0.0 }); // the square's smallest sphere is empty

@@ -306,9 +306,8 @@ CellTracer::CreateCell(std::span<const std::uint32_t> facet, bool inwards)
   {
     return; // the cell of a single voxel, which its brick makes from the table
   }
-  const auto cell = static_cast<std::uint32_t>(m_Result.CellCount());
-  const auto indexOf = [&](const LatticePoint & p) { return m_Window.IndexOf(p.x, p.y, p.z); };
-  m_Result.tetrahedra.push_back({ facet[0], facet[1], facet[2], indexOf(m_Apexes[0]) });
+  const auto          indexOf = [&](const LatticePoint & p) { return m_Window.IndexOf(p.x, p.y, p.z); };
+  const std::uint32_t cell = NewCell({ facet[0], facet[1], facet[2], indexOf(m_Apexes[0]) });
   if (facet.size() == 3 && m_Apexes.size() == 1)
   {
     // A tetrahedron: seen from outside it, the facet runs the other way.
