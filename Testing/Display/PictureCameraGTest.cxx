@@ -106,5 +106,18 @@ TEST(PictureOverlay, TicksAreRoundAndWithinTheRange)
   }
 }
 
+TEST(PictureOverlay, WhereNoNumberLiesBetweenTheEndsThereIsOneTick)
+{
+  for (const double low : { 1.0, -3.0, 0.013, 1e17, 5e-324 })
+  {
+    const double next = std::nextafter(low, 1e300);
+    EXPECT_EQ(RoundTicks(low, next, 5), (std::vector<double>{ low })) << low;
+  }
+  const double close = 1 + 1e-14; // some tens of numbers
+  const auto   ticks = RoundTicks(1, close, 5);
+  EXPECT_GE(ticks.size(), 3U);
+  EXPECT_LE(ticks.size(), 11U);
+}
+
 } // namespace
 } // namespace voxelcore::testing

@@ -61,12 +61,15 @@ RoundDown(double value)
 std::vector<double>
 RoundTicks(double low, double high, int parts)
 {
-  if (!(high > low))
+  // From 2^53 steps on, the next number of steps is the same to a double: nothing lies between.
+  constexpr double most = 9007199254740992;
+  const double     step = high > low ? RoundDown((high - low) / parts * 1.5) : 0;
+  if (!(std::max(std::abs(low), std::abs(high)) < most * step))
   {
     return { low };
   }
-  const double        step = RoundDown((high - low) / parts * 1.5);
   std::vector<double> ticks;
+  // NOLINTNEXTLINE(cert-flp30-c): whole numbers below 2^53
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
   {
     ticks.push_back(k * step);
