@@ -43,6 +43,8 @@ case "$kind" in
     cmake -S . -B "$build" -G Ninja -DBUILD_TESTING=OFF -DVOXELCORE_UNITY=OFF -DVOXELCORE_ITK=OFF \
       -DCMAKE_BUILD_TYPE=Debug -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_C_COMPILER=clang \
       -DCMAKE_CXX_COMPILER=clang++ >/dev/null
+    # A header that the build makes: without it a source is read in part, and what is found is wrong.
+    cmake "-DMODULES=$source/Modules" "-DOUT=$build/Modules/Report/SourceDigest.h" -P Modules/CMake/SourceDigest.cmake
     # What is compiled; sources of the parts that are left out have no command.
     python3 - "$build/compile_commands.json" "${folders[@]}" >"$build/sources" <<'PYTHON'
 import json, os, sys
