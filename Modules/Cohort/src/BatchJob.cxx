@@ -287,6 +287,7 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     cases = { cases[*options.only - 1] };
   }
   std::vector<CaseJob> jobs;
+  jobs.reserve(cases.size());
   for (const CohortCase & one : cases)
   {
     jobs.push_back(MakeCaseJob(one, options));

@@ -2,6 +2,7 @@
 
 #include "voxelcore/CaseRecord.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -123,10 +124,10 @@ RequireTaken(const ParameterValues & values, CommandId command, const std::strin
     if (command != CommandId::Core)
     {
       const std::string run = CommandName(command);
-      throw UsageError(where + "--" + name + " is no option of 'voxelcore " + run + "', which --" + run + " runs");
+      throw UsageError(Text(where, "--", name, " is no option of 'voxelcore ", run, "', which --", run, " runs"));
     }
     const std::string owner = CommandName(IsTaken(name, CommandId::Roots) ? CommandId::Roots : CommandId::Thickness);
-    throw UsageError(where + "--" + name + " is an option of 'voxelcore " + owner + "'; give --" + owner + ", too");
+    throw UsageError(Text(where, "--", name, " is an option of 'voxelcore ", owner, "'; give --", owner, ", too"));
   }
 }
 

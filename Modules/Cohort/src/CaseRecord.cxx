@@ -26,7 +26,7 @@ namespace
 using Json = nlohmann::ordered_json;
 
 std::string
-Text(const Json & json)
+RecordText(const Json & json)
 {
   return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
@@ -127,10 +127,10 @@ WriteCaseRecord(const fs::path & folder, const CaseRecord & record)
   }
   json["seconds"] = record.seconds;
   // What was replaced (bytes that are no UTF-8) must be what the digest is of.
-  json = Json::parse(Text(json));
-  json["sha256"] = TextSha256(Text(json));
+  json = Json::parse(RecordText(json));
+  json["sha256"] = TextSha256(RecordText(json));
   OutputTransaction transaction(true);
-  WriteTextFile(transaction.Stage(RecordPath(folder)), Text(json) + "\n");
+  WriteTextFile(transaction.Stage(RecordPath(folder)), RecordText(json) + "\n");
   transaction.Commit();
 }
 
@@ -163,7 +163,7 @@ ReadCaseRecord(const fs::path & folder)
     Json              json = Json::parse(PlainJson(text));
     const std::string digest = json.at("sha256").get<std::string>();
     json.erase("sha256");
-    if (digest != TextSha256(Text(json)))
+    if (digest != TextSha256(RecordText(json)))
     {
       return std::nullopt;
     }

@@ -2,6 +2,7 @@
 
 #include "voxelcore/CsvText.h"
 #include "voxelcore/SkeletonModel.h"
+#include "voxelcore/TextFields.h"
 
 #include <map>
 
@@ -18,7 +19,7 @@ Flatten(const nlohmann::ordered_json & json,
   for (const auto & [key, value] : json.items())
   {
     const std::string own = json.is_array() ? std::to_string(number++) : key;
-    const std::string name = prefix.empty() ? own : prefix + "_" + own;
+    const std::string name = prefix.empty() ? own : Text(prefix, "_", own);
     if (leaveOut.contains(name))
     {
       continue;

@@ -4,6 +4,7 @@
 #include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Sha256.h"
+#include "voxelcore/TextFields.h"
 #include "voxelcore/ThicknessJob.h"
 
 #include <algorithm>
@@ -124,7 +125,7 @@ RolesOf(const CsvRow & head, const std::string & where)
                                                          : "";
     if (!key.empty() && ++seen[key] > 1)
     {
-      throw InputError(where + ": column '" + key + "' is there twice");
+      throw InputError(Text(where, ": column '", key, "' is there twice"));
     }
   }
   for (const char * needed : { "id", "scan" })

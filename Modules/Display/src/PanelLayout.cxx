@@ -10,8 +10,8 @@ std::array<double, 2>
 PanelLayout::Corner(std::size_t panel, const PanelRequest & request) const
 {
   const auto   column = static_cast<double>(panel % static_cast<std::size_t>(columns));
-  const auto   row = static_cast<double>(panel / static_cast<std::size_t>(columns));
-  const double top = height - request.top - row * (panelHeight + request.title);
+  const auto   row = panel / static_cast<std::size_t>(columns);
+  const double top = height - request.top - static_cast<double>(row) * (panelHeight + request.title);
   return { request.left + column * panelWidth, top - request.title - panelHeight };
 }
 

@@ -58,7 +58,7 @@ BecomeServer(int numberPipe, pid_t parent)
   setpgid(0, 0);
   for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGPIPE })
   {
-    std::signal(signal, SIG_DFL);
+    static_cast<void>(std::signal(signal, SIG_DFL));
   }
   const int nowhere = open("/dev/null", O_RDWR);
   dup2(nowhere, STDIN_FILENO);

@@ -10,6 +10,7 @@
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SlicerScene.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -243,7 +244,8 @@ DisplayFiles::State::AddSkeletons(const CoreReport &                            
       }
       SortBranches(graph, { line }, false);
       const std::string number = std::to_string(branch);
-      scene.curves.push_back({ part.name + " branch " + number, name + "_branch-" + number + ".mrk.json", color });
+      scene.curves.push_back(
+        { Text(part.name, " branch ", number), Text(name, "_branch-", number, ".mrk.json"), color });
       WriteMarkups(stage(scene.curves.back().file), one);
     }
   }
@@ -261,7 +263,7 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
   }
   const std::string folder = IsArchive() ? std::string(kDataFolder) : DataFolder().filename().string();
   const auto        stage = [&](const std::string & name) {
-    const fs::path path = StageData(name);
+    fs::path path = StageData(name);
     files.emplace_back(root + "/" + folder + "/" + name, path);
     return path;
   };

@@ -2,6 +2,8 @@
 
 #include "JobTools.h"
 
+#include "voxelcore/TextFields.h"
+
 #include <cstdio>
 
 namespace voxelcore
@@ -47,9 +49,11 @@ TellFacelessLabels(const CoreReport &                 report,
     if (count > 0)
     {
       (isFar ? warnings : notes)
-        .push_back(threshold + " leaves no face, only curves or a point, of " + text +
-                   (count > named ? ", and " + std::to_string(count - named) + " more labels" : std::string()) +
-                   "; for surfaces give a smaller value");
+        .push_back(Text(threshold,
+                        " leaves no face, only curves or a point, of ",
+                        text,
+                        count > named ? Text(", and ", count - named, " more labels") : "",
+                        "; for surfaces give a smaller value"));
     }
   }
 }

@@ -142,7 +142,7 @@ public:
   std::string
   Choice(std::string_view name) const
   {
-    const std::string             text = Text(name);
+    std::string                   text = Text(name);
     const std::string_view        all = Describe(name).placeholder;
     std::vector<std::string_view> words;
     for (std::size_t at = 0; at < all.size();)

@@ -1,6 +1,7 @@
 #include "voxelcore/SlicerModule.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <array>
@@ -320,9 +321,9 @@ SlicerXml(CommandId command)
   for (const Output & output : Outputs(command, none))
   {
     const std::string tag = output.whole ? "integer" : "double";
-    xml += "    <" + tag + ">\n" + Element("name", output.name) + Element("label", output.label) +
-           Element("description", output.label) + Element("default", "0") + Element("channel", "output") + "    </" +
-           tag + ">\n";
+    xml += Text("    <", tag, ">\n");
+    xml += Element("name", output.name) + Element("label", output.label) + Element("description", output.label);
+    xml += Element("default", "0") + Element("channel", "output") + Text("    </", tag, ">\n");
   }
   return xml + "  </parameters>\n</executable>\n";
 }

@@ -178,7 +178,8 @@ private:
     ConeEnd      end{ sprout.place, sprout.radius };
     Vector3      direction = sprout.direction;
     double       swelling = 0;
-    for (double done = 0; done < sprout.length && IsInside(end.position); done += step)
+    double       done = 0;
+    while (done < sprout.length && IsInside(end.position))
     {
       direction = Direction(AddScaled(direction, 0.45, RandomInBall(random)));
       swelling = 0.8 * swelling + random.Uniform(-0.25, 0.25); // within 1.25
@@ -193,6 +194,7 @@ private:
                             sprout.length * random.Uniform(0.15, 0.6),
                             sprout.order + 1 });
       }
+      done += step;
     }
   }
 

@@ -112,7 +112,7 @@ MakePorous(const PhantomOptions & options, const ProgressCallback & progress)
     }
   }
   const double  voxels = static_cast<double>(options.size[0]) * options.size[1] * options.size[2];
-  const auto    wanted = static_cast<std::uint64_t>(options.density.value_or(0.5) * voxels + 0.5);
+  const auto    wanted = static_cast<std::uint64_t>(std::llround(options.density.value_or(0.5) * voxels));
   std::size_t   threshold = bins;
   std::uint64_t inside = 0;
   while (threshold > 0 && inside < wanted)

@@ -111,7 +111,8 @@ private:
           order == 1 ? 0.04 + 0.9 * (i + random.Uniform()) / count : 0.2 + 0.7 * (i + random.Uniform()) / count;
         if (order == 1 && m_Whorls > 0)
         {
-          along = 0.08 + 0.7 * (static_cast<double>(i * m_Whorls / count) + 0.5) / m_Whorls;
+          const int whorl = i * m_Whorls / count;
+          along = 0.08 + 0.7 * (whorl + 0.5) / m_Whorls;
         }
         const std::size_t origin = std::min(parent.last - 1, parent.first + static_cast<std::size_t>(along * points));
         const Growth      growth = GrowthAt(origin, along, order, random);

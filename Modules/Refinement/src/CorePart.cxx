@@ -20,12 +20,14 @@ KeepLive(CorePart & part, const LiveElements & live)
   static_cast<PartElements &>(part) = std::move(kept);
 }
 
+// NOLINTBEGIN(performance-unnecessary-value-param): taken, so that they are gone before more is made of what is left
 LiveElements
 CollapsePart(const CorePart &    part,
              std::vector<double> vertexMeasure,
              std::vector<double> edgeMeasure,
              std::vector<double> faceMeasure,
              double              threshold)
+// NOLINTEND(performance-unnecessary-value-param)
 {
   SimplePairCollapse collapse(part.cells, vertexMeasure, edgeMeasure, faceMeasure);
   collapse.CollapseBelow(threshold);

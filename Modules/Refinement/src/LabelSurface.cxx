@@ -142,6 +142,7 @@ private:
   Take(FlatProfile & profile, double sigma, int passes)
   {
     std::vector<float> weights;
+    weights.reserve(static_cast<std::size_t>(passes));
     for (int pass = 0; pass < passes; ++pass)
     {
       weights.push_back(profile.Smooth(sigma));

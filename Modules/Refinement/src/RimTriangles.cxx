@@ -199,9 +199,10 @@ RefinementState::DrawIn(const FootPointFinder & finder,
   if (isAboveAt(part))
   {
     double step = 0.5 * most;
-    for (int halving = 0; halving < halvings; ++halving, step *= 0.5)
+    for (int halving = 0; halving < halvings; ++halving)
     {
       part -= isAboveAt(part - step) ? step : 0;
+      step *= 0.5;
     }
   }
   goTo(part);

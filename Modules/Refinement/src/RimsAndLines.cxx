@@ -262,12 +262,13 @@ RefinementState::MoveRimVertex(const FootPointFinder &  finder,
   if (isAbove())
   {
     double step = most;
-    for (int halving = 0; far < most && halving <= halvings; ++halving, step *= 0.5)
+    for (int halving = 0; far < most && halving <= halvings; ++halving)
     {
       far += goTo(far + step) ? step : 0;
+      step *= 0.5;
     }
   }
-  for (int i = 0; far > 0 && i < tries; ++i, far *= 0.5)
+  for (int i = 0; far > 0 && i < tries; ++i)
   {
     m_Displacement[vertex] = KeepInShape(*m_Input.shape, m_Positions[vertex], AddScaled(former, far, way));
     footPoints.clear();
@@ -276,6 +277,7 @@ RefinementState::MoveRimVertex(const FootPointFinder &  finder,
     {
       return true;
     }
+    far *= 0.5;
   }
   m_Displacement[vertex] = former;
   return false;

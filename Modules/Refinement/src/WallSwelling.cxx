@@ -61,9 +61,11 @@ WallSwelling::WallSwelling(double clip, double sigma, const std::vector<float> &
   constexpr double thin = 2.25;
   m_Walls.emplace_back(thinnest * sigma, 0.0);
   // Sides lie midway between two values: as many voxels' centres are just in as just out.
-  for (double half = (std::floor(thin * sigma / kProfileStep) + 0.5) * kProfileStep; half < clip + 4 * sigma;
-       half += kProfileStep)
+  const double first = (std::floor(thin * sigma / kProfileStep) + 0.5) * kProfileStep;
+  const auto   halfAt = [&](int i) { return first + i * kProfileStep; };
+  for (int i = 0; halfAt(i) < clip + 4 * sigma; ++i)
   {
+    const double half = halfAt(i);
     const double found = SmoothedHalf(half, clip, sigma, weights);
     if (found > m_Walls.back().first)
     {

@@ -67,6 +67,7 @@ CombineGreedily(const std::vector<ClusterOptions> & all, const TopologyShift & w
 {
   using Choice = ClusterOptions::const_iterator;
   std::vector<Choice> chosen;
+  chosen.reserve(all.size());
   for (const ClusterOptions & options : all)
   {
     chosen.push_back(options.find(TopologyShift{}));
@@ -103,6 +104,7 @@ CombineGreedily(const std::vector<ClusterOptions> & all, const TopologyShift & w
     chosen[where] = how;
   }
   std::vector<const ClusterOption *> result;
+  result.reserve(chosen.size());
   for (const Choice & choice : chosen)
   {
     result.push_back(&choice->second);

@@ -100,6 +100,7 @@ LabelNaming::RefuseMissing(const std::filesystem::path & path,
     constexpr std::size_t         shown = 12;
     std::string                   list;
     std::vector<std::string_view> names;
+    names.reserve(present.size());
     for (const Label & label : present)
     {
       names.emplace_back(label.name);

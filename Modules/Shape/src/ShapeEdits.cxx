@@ -51,6 +51,7 @@ EditShape(VoxelShape &             shape,
           const ProgressCallback & progress)
 {
   EditRecord record;
+  const auto give = [&shape] { return std::exchange(shape, VoxelShape()); };
   const auto take = [&shape](EditedShape edited) {
     shape = std::move(edited.shape);
     edited.shape = VoxelShape();
@@ -103,41 +104,41 @@ EditShape(VoxelShape &             shape,
   const ProgressCallback closing = plan.Next();
   if (options.close)
   {
-    record.closed = takeFilled(CloseShape(std::move(shape), BallOfDiameter(*options.close, geometry), closing));
+    record.closed = takeFilled(CloseShape(give(), BallOfDiameter(*options.close, geometry), closing));
   }
   const ProgressCallback hollows = plan.Next();
   if (options.fillHollows)
   {
-    record.hollows = takeFilled(FillHollows(std::move(shape), BallOfDiameter(*options.fillHollows, geometry), hollows));
+    record.hollows = takeFilled(FillHollows(give(), BallOfDiameter(*options.fillHollows, geometry), hollows));
   }
   const ProgressCallback slices = plan.Next();
   if (options.fillSlices)
   {
-    record.slices = takeFilled(FillSlices(std::move(shape), *options.fillSlices, slices));
+    record.slices = takeFilled(FillSlices(give(), *options.fillSlices, slices));
   }
   ReportProgress(plan.Next("editing"), "", 0);
   // Filled before counting: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any
   // longer.
   if (options.fillCavities)
   {
-    const EditedShape filled = take(FillCavities(std::move(shape)));
+    const EditedShape filled = take(FillCavities(give()));
     record.cavitiesFilled = filled.cavitiesFilled;
     record.voxelsAdded = filled.voxelsAdded;
     record.componentsJoined = filled.componentsJoined;
   }
   if (options.joinTorn)
   {
-    TornPieces torn = JoinTornPieces(std::move(shape), geometry.spacing, *options.joinTorn);
+    TornPieces torn = JoinTornPieces(give(), geometry.spacing, *options.joinTorn);
     shape = std::move(torn.shape);
     record.torn = { torn.voxelsAdded, torn.piecesJoined, 0 };
   }
   if (options.minVoxels)
   {
-    takeRemoved(RemoveSmallComponents(std::move(shape), *options.minVoxels));
+    takeRemoved(RemoveSmallComponents(give(), *options.minVoxels));
   }
   if (options.largest)
   {
-    takeRemoved(KeepLargestComponents(std::move(shape), *options.largest));
+    takeRemoved(KeepLargestComponents(give(), *options.largest));
   }
   const ProgressCallback smoothing = plan.Next();
   if (options.smooth && shape.Box().size[0] > 0)

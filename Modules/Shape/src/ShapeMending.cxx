@@ -30,12 +30,14 @@ public:
   Run(const ProgressCallback & progress)
   {
     // What is mended may let a neighbour be mended. Every change lowers a topology number, so this ends.
-    double done =
-      0; // each pass takes half of what is left: how many there will be nobody knows, and the first is most work
-    for (bool changes = true; changes; done = 0.5 * (1 + done))
+    // Each pass takes half of the progress left: how many there will be nobody knows, and the first is most work.
+    double done = 0;
+    for (bool changes = true; changes;)
     {
       changes = false;
-      const ProgressCallback pass = PartOfProgress(progress, done, 0.5 * (1 + done));
+      const double           next = 0.5 * (1 + done);
+      const ProgressCallback pass = PartOfProgress(progress, done, next);
+      done = next;
       ReportProgress(pass, "mending", 0);
       const std::vector<Voxel> voxels = NotSimple();
       for (std::size_t i = 0; i < voxels.size(); ++i)
