@@ -127,6 +127,8 @@ def steady(watch, name, totals):
     """Says whether memory and descriptors of a batch stay what they are once the first minute has filled what is
     filled once."""
     seen = watch.seen
+    if not seen:  # there was nothing left to do
+        return
     settled = [entry for entry in seen if entry[0] > min(60, seen[-1][0] / 4)]
     memory, descriptors = [entry[1] for entry in settled], [entry[2] for entry in settled]
     tenth = max(1, len(settled) // 10)

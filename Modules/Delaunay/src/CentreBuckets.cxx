@@ -109,12 +109,19 @@ VOXELCORE_EIGHT_LANES std::uint32_t
     }
     for (std::size_t i = 0; i < 3; ++i)
     {
-      square[i] = EightIntegers{};
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
         at(i + 1, axis, side[i][axis]);
         side[i][axis] -= base[axis];
         isOther |= (side[i][axis] > kWidest) | (side[i][axis] < -kWidest);
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      square[i] = EightIntegers{};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        side[i][axis] &= ~isOther; // of a large cell, sums of products would overflow
         square[i] += side[i][axis] * side[i][axis];
       }
     }
