@@ -127,7 +127,7 @@ def steady(watch, name, totals):
     """Says whether memory and descriptors of a batch stay what they are once the first minute has filled what is
     filled once."""
     seen = watch.seen
-    if not seen:  # there was nothing left to do
+    if len(watch.lives) < 300:  # few cases say nothing of growth
         return
     settled = [entry for entry in seen if entry[0] > min(60, seen[-1][0] / 4)]
     memory, descriptors = [entry[1] for entry in settled], [entry[2] for entry in settled]
@@ -243,6 +243,8 @@ def main():
     parser.add_argument("--totals")
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(1 << 30))
     options = parser.parse_args()
+    if not os.path.exists(options.layer):  # the loader would pass over it
+        parser.error(f"{options.layer} is not there")
     totals = Totals(options.totals, "soak")
     before = len(totals.of["found"])
     print("seed", options.seed, flush=True)
