@@ -2,6 +2,7 @@
 
 #include "CentreBuckets.h"
 #include "FacetOrder.h"
+#include "VoxelSides.h"
 
 #include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"
@@ -184,9 +185,9 @@ MakeCanonical(DelaunayCells                     cells,
               const SpacingWeights &            weights,
               Facets                            facets)
 {
-  if (facets == Facets::Inside && cells.voxelSides.size() != cells.CellCount()) // else the engine has
+  if (facets == Facets::Inside)
   {
-    LeaveOutBoundary(points, weights, cells);
+    NoteBoundary(points, weights, cells); // OrderFacets() leaves out what has no cell
   }
   std::vector<std::uint32_t> rank;
   {

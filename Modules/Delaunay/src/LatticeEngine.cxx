@@ -3,7 +3,6 @@
 #include "CellTracer.h"
 #include "DeepCells.h"
 #include "SharedProgress.h"
-#include "VoxelSides.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/FreeMemory.h"
 #include "voxelcore/StagePlan.h"
@@ -168,10 +167,6 @@ LatticeCells(const VoxelShape &                shape,
     {
       GiveBackFreeMemory();
     }
-  }
-  if (facets == Facets::Inside)
-  {
-    NoteBoundary(points, weights, tracing.cells);
   }
   return std::move(tracing.cells);
 }

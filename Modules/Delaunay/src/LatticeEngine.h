@@ -7,8 +7,8 @@ namespace voxelcore
 {
 
 /** Merged Delaunay cells inside the shape, not yet in canonical order. Uses all OpenMP threads; the cells do not depend
- *  on their number. Where facets on the boundary are not asked for, they are noted, and facets without a cell may stand
- *  among the others. \throws Cancelled. */
+ *  on their number. Where facets on the boundary are not asked for, most are noted in voxelSides instead, and facets
+ *  without a cell may stand among the others. \throws Cancelled. */
 DelaunayCells
 LatticeCells(const VoxelShape &                shape,
              const std::vector<LatticePoint> & points,
