@@ -66,6 +66,34 @@ operator new(std::size_t size, std::align_val_t alignment)
   return Take(whole, size, static_cast<std::size_t>(alignment));
 }
 
+// Those that do not throw: std::stable_sort() has its buffers from them. A sanitizer has its own, whose memory is not for
+// free().
+void *
+operator new(std::size_t size, const std::nothrow_t &) noexcept
+{
+  try
+  {
+    return operator new(size);
+  }
+  catch (const std::bad_alloc &)
+  {
+    return nullptr;
+  }
+}
+
+void *
+operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t &) noexcept
+{
+  try
+  {
+    return operator new(size, alignment);
+  }
+  catch (const std::bad_alloc &)
+  {
+    return nullptr;
+  }
+}
+
 // Where one is inlined and its counterpart is not, GCC takes them for two that do not belong together.
 [[gnu::noinline]] void
 operator delete(void * memory) noexcept
@@ -87,6 +115,18 @@ operator delete(void * memory, std::align_val_t) noexcept
 
 [[gnu::noinline]] void
 operator delete(void * memory, std::size_t, std::align_val_t) noexcept
+{
+  std::free(memory);
+}
+
+[[gnu::noinline]] void
+operator delete(void * memory, const std::nothrow_t &) noexcept
+{
+  std::free(memory);
+}
+
+[[gnu::noinline]] void
+operator delete(void * memory, std::align_val_t, const std::nothrow_t &) noexcept
 {
   std::free(memory);
 }
