@@ -84,7 +84,7 @@ OnDeadline(int)
   EndNow();
 }
 
-void
+[[maybe_unused]] void // a sanitizer tells of crashes itself
 OnCrash(int)
 {
   Say("voxelcore: internal error: the program crashed; ");
@@ -146,7 +146,7 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
   }
   Install(SIGPIPE, SIG_IGN, 0);
   Install(SIGXFSZ, SIG_IGN, 0);
-#ifndef VOXELCORE_SANITIZED // a sanitizer tells of crashes itself
+#ifndef VOXELCORE_SANITIZED
   // A stack that ran over has no room for the handler.
   static char   room[65536];
   const stack_t stack{ room, 0, sizeof(room) };
