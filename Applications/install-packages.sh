@@ -2,9 +2,9 @@
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
 # usage: install-packages.sh GROUP...     groups: build, python (the module), wheel (the same for pip), demo
 # (a real scan), picture (to render where there is no screen), guide (to build the guide's site), test, package (to make
-# and test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), browser (tests of
-# pages), cluster (workflows, and the tests on a cluster), container (to test the image), reproduction (the paper's
-# figures, Testing/Reproduction), bench (Testing/Performance)
+# and test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), analysis (what
+# reads the sources, and valgrind), browser (tests of pages), cluster (workflows, and the tests on a cluster), container
+# (to test the image), reproduction (the paper's figures, Testing/Reproduction), bench (Testing/Performance)
 set -euo pipefail
 
 packages_of() {
@@ -24,6 +24,7 @@ packages_of() {
                python3-tifffile python3-zarr python3-matplotlib python3-pyqt5 xauth mricron-data ;;
     package) echo dpkg-dev file debootstrap doxygen graphviz groff mkdocs mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
+    analysis) echo clang clang-tidy cppcheck valgrind ;;
     browser) echo chromium chromium-headless-shell python3 ;;
     container) echo buildah podman runc debootstrap mricron-data ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
@@ -31,7 +32,7 @@ packages_of() {
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \
-            "package, sanitizer, browser, cluster, container, reproduction and bench" >&2
+            "package, sanitizer, analysis, browser, cluster, container, reproduction and bench" >&2
        return 2 ;;
   esac
 }

@@ -12,7 +12,7 @@ case "${1:-}" in
   "") ;;
   --heavy)
     leave_out=()
-    groups+=(sanitizer package browser)
+    groups+=(sanitizer analysis package browser)
     ;;
   *) echo "run.sh: unknown option '$1'; there is --heavy" >&2; exit 2 ;;
 esac

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Looks through the sources of modules without running them. Non-zero when something is found that is neither mended nor
-# on the kept list: cppcheck.txt, and for clang-tidy .clang-tidy and NOLINT beside the line, each with its reason.
-# usage: analyse.sh cppcheck|clang-tidy BUILD_DIR [MODULE...]    all modules by default; exit 77: a tool is missing
+# Looks through the sources of modules and programs without running them. Non-zero when something is found that is
+# neither mended nor on the kept list: cppcheck.txt, and for clang-tidy .clang-tidy and NOLINT beside the line, each with
+# its reason.
+# usage: analyse.sh cppcheck|clang-tidy BUILD_DIR [FOLDER...]    say Modules/Lattice; all of Modules and Applications by
+# default; exit 77: a tool is missing
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 kind=$1
@@ -9,16 +11,12 @@ mkdir -p "$2"
 build=$(cd "$2" && pwd)
 shift 2
 cd "$source"
-modules=("$@")
-if [ ${#modules[@]} -eq 0 ]; then
-  for folder in Modules/*/src; do
-    modules+=("$(basename "$(dirname "$folder")")")
-  done
+folders=("$@")
+if [ ${#folders[@]} -eq 0 ]; then
+  folders=(Modules Applications)
 fi
-folders=()
-for module in "${modules[@]}"; do
-  [ -d "Modules/$module" ] || { echo "analyse.sh: there is no module $module" >&2; exit 2; }
-  folders+=("Modules/$module")
+for folder in "${folders[@]}"; do
+  [ -d "$folder" ] || { echo "analyse.sh: there is no $folder" >&2; exit 2; }
 done
 # One processor fewer than there are, and never in the way of others.
 jobs=$(($(nproc) > 1 ? $(nproc) - 1 : 1))
@@ -39,21 +37,22 @@ case "$kind" in
       echo "analyse.sh: no clang-tidy here" >&2
       exit 77
     fi
-    # Debian's ITK headers know no compiler but GCC.
-    cmake -S . -B "$build" -G Ninja -DBUILD_TESTING=OFF -DVOXELCORE_UNITY=OFF -DVOXELCORE_ITK=OFF \
+    # Debian's ITK headers know no compiler but GCC. Several sources at a time, as headers are most of the work.
+    cmake -S . -B "$build" -G Ninja -DBUILD_TESTING=OFF -DVOXELCORE_UNITY=ON -DVOXELCORE_ITK=OFF \
       -DCMAKE_BUILD_TYPE=Debug -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_C_COMPILER=clang \
       -DCMAKE_CXX_COMPILER=clang++ >/dev/null
     # A header that the build makes: without it a source is read in part, and what is found is wrong.
     cmake "-DMODULES=$source/Modules" "-DOUT=$build/Modules/Report/SourceDigest.h" -P Modules/CMake/SourceDigest.cmake
-    # What is compiled; sources of the parts that are left out have no command.
-    python3 - "$build/compile_commands.json" "${folders[@]}" >"$build/sources" <<'PYTHON'
+    # What is compiled, also by the build itself; sources of the parts that are left out have no command.
+    python3 - "$source" "$build" "${folders[@]}" >"$build/sources" <<'PYTHON'
 import json, os, sys
-for entry in json.load(open(sys.argv[1])):
-    path = os.path.relpath(entry["file"])
-    if any(path.startswith(folder + "/src/") for folder in sys.argv[2:]):
+source, build, *folders = sys.argv[1:]
+for path in sorted({entry["file"] for entry in json.load(open(f"{build}/compile_commands.json"))}):
+    within = os.path.relpath(path, build if path.startswith(build + "/") else source)
+    if any(within.startswith(folder + "/") for folder in folders):
         print(path)
 PYTHON
-    nice xargs -P "$jobs" -n 1 clang-tidy -p "$build" --quiet <"$build/sources"
+    nice xargs -P "$jobs" -n 1 clang-tidy -p "$build" --config-file=.clang-tidy --quiet <"$build/sources"
     ;;
   *)
     echo "analyse.sh: unknown kind '$kind'; there are cppcheck and clang-tidy" >&2
