@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Holds the house together: each module includes only headers of the modules it may use (Modules/README.md), and only
 # module ITK and the helper program (Modules/ItkReader/itk) know ITK and GDCM, only Models and Display know VTK, only
-# Display its rendering.
+# Display its rendering. And no type of one name in two headers: all are of one namespace, so the linker would take the
+# functions of either for those of both.
 # usage: layers.sh [FOLDER WITH Modules/]
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
@@ -67,5 +68,10 @@ for folder in Modules/*/; do
     fi
   done < <(grep -rnE '^ *# *include' "$folder" --include='*.h' --include='*.hxx' --include='*.cxx')
 done
+while read -r name; do
+  complain "$name is defined in two headers: $(grep -rlE "^(class|struct) $name( .*[^;])?\$" Modules --include='*.h' |
+    tr '\n' ' ')"
+done < <(grep -rhE '^(class|struct) [A-Z][A-Za-z0-9]*( .*[^;])?$' Modules --include='*.h' | awk '{print $2}' | sort |
+  uniq -d)
 [ "$bad" -eq 0 ] && echo "All includes point the right way."
 exit "$bad"

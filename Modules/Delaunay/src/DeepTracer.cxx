@@ -21,7 +21,7 @@ constexpr std::size_t kWorthRebuilding = 500;  // facets
 constexpr std::size_t kWallsAhead = 16;        // from the one that is put into the front to one whose place is fetched
 
 // Out of the region that a facet looks into, and the longer the larger the facet.
-BallTree::Direction
+GrowingBallTree::Direction
 AwayFrom(const std::vector<std::uint32_t> & polygon,
          const std::vector<LatticePoint> &  points,
          const SpacingWeights &             weights)
@@ -35,7 +35,7 @@ AwayFrom(const std::vector<std::uint32_t> & polygon,
                 static_cast<float>((to.y - from.y) * weights.weight[1]),
                 static_cast<float>((to.z - from.z) * weights.weight[2]) };
   }
-  BallTree::Direction away;
+  GrowingBallTree::Direction away;
   for (std::size_t i = 0; i < 3; ++i)
   {
     const std::size_t j = (i + 1) % 3;
@@ -138,7 +138,7 @@ DeepTracer::Trace(const ProgressCallback & progress)
       TraceFacet(facet, m_Input.radius * std::exp2(static_cast<double>(m_Step + 1) / kStepsPerDoubling));
     }
   }
-  m_Tree = BallTree();
+  m_Tree = GrowingBallTree();
   return TakeOwn();
 }
 
@@ -149,9 +149,9 @@ DeepTracer::RebuildTree()
   m_FrontThen = m_Front.Size();
   m_InTree = m_OnWallsOfOthers;
   VisitFront([&] { m_InTree.Mark(m_Polygon); });
-  std::vector<BallTree::Direction> directions(m_InTree.Count());
+  std::vector<GrowingBallTree::Direction> directions(m_InTree.Count());
   VisitFront([&] {
-    const BallTree::Direction away = AwayFrom(m_Polygon, m_Input.points, m_Input.weights);
+    const GrowingBallTree::Direction away = AwayFrom(m_Polygon, m_Input.points, m_Input.weights);
     for (const std::uint32_t p : m_Polygon)
     {
       auto & to = directions[m_InTree.NumberOf(p)].to;
@@ -161,8 +161,8 @@ DeepTracer::RebuildTree()
       }
     }
   });
-  std::vector<std::uint32_t>       chosen;
-  std::vector<BallTree::Direction> outwards;
+  std::vector<std::uint32_t>              chosen;
+  std::vector<GrowingBallTree::Direction> outwards;
   chosen.reserve(directions.size());
   outwards.reserve(directions.size());
   m_PlaceInTree.resize(directions.size());

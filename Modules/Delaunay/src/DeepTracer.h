@@ -1,7 +1,7 @@
 #pragma once
 // The cells beyond the reach of CellTracer, found one from another across their facets.
 
-#include "BallTree.h"
+#include "GrowingBallTree.h"
 #include "CellHull.h"
 #include "CellTracer.h"
 #include "FacetTable.h"
@@ -95,7 +95,7 @@ private:
   MarkedPoints               m_OnWallsOfOthers;
   MarkedPoints               m_InTree;
   std::vector<std::uint32_t> m_PlaceInTree; // by number among those
-  BallTree                   m_Tree;
+  GrowingBallTree            m_Tree;
   HullMemo                   m_Hulls;
 
   // Facets to look across, by the radius of the ball before it: so that points which only small balls touch are behind

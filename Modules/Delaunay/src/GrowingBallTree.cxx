@@ -1,4 +1,4 @@
-#include "BallTree.h"
+#include "GrowingBallTree.h"
 
 #include "voxelcore/EightLanes.h"
 #include "voxelcore/Error.h"
@@ -99,7 +99,7 @@ FacetSpheres::SquaredRadius(const LatticePoint & q) const
 }
 
 // A ball that grows smaller with what is found, and what is found.
-struct BallTree::Look
+struct GrowingBallTree::Look
 {
   const FacetSpheres &         spheres;
   std::array<double, 3>        weight;
@@ -161,7 +161,7 @@ struct BallTree::Look
 };
 
 VOXELCORE_EIGHT_LANES void
-BallTree::Descend(const std::array<std::uint32_t, 3> & near, Look & look) const
+GrowingBallTree::Descend(const std::array<std::uint32_t, 3> & near, Look & look) const
 {
   struct Branch
   {
@@ -227,10 +227,10 @@ BallTree::Descend(const std::array<std::uint32_t, 3> & near, Look & look) const
 }
 
 void
-BallTree::Find(const FacetSpheres &                 spheres,
-               double                               radius,
-               const std::array<std::uint32_t, 3> & near,
-               std::vector<std::uint32_t> &         first)
+GrowingBallTree::Find(const FacetSpheres &                 spheres,
+                      double                               radius,
+                      const std::array<std::uint32_t, 3> & near,
+                      std::vector<std::uint32_t> &         first)
 {
   Look look{ spheres, m_Weight, {}, {}, m_Extent, m_Met, m_Low };
   look.corner = { spheres.a.x - m_Origin.x, spheres.a.y - m_Origin.y, spheres.a.z - m_Origin.z };
@@ -249,6 +249,7 @@ BallTree::Find(const FacetSpheres &                 spheres,
     throw InputError("the shape is too thick for exact arithmetic; crop it"); // a ball of 30,000 voxels
   }
   look.base = static_cast<float>(base - 4.0 * blur * m_Extent);
+  // NOLINTNEXTLINE(cert-flp30-c): doubling is exact
   for (const double widest = 1e3 * m_Extent; m_Size > 0; radius *= 2.0)
   {
     m_Met.clear();
@@ -276,10 +277,10 @@ BallTree::Find(const FacetSpheres &                 spheres,
 }
 
 void
-BallTree::Build(const std::vector<LatticePoint> & points,
-                std::span<const std::uint32_t>    chosen,
-                std::span<const Direction>        outwards,
-                const SpacingWeights &            weights)
+GrowingBallTree::Build(const std::vector<LatticePoint> & points,
+                       std::span<const std::uint32_t>    chosen,
+                       std::span<const Direction>        outwards,
+                       const SpacingWeights &            weights)
 {
   m_Size = chosen.size();
   m_Leaves.resize((m_Size + lanes - 1) / lanes);
@@ -335,7 +336,11 @@ BallTree::Build(const std::vector<LatticePoint> & points,
 }
 
 void
-BallTree::SetBox(Boxes & boxes, std::size_t lane, std::size_t from, std::size_t to, std::span<const Direction> outwards)
+GrowingBallTree::SetBox(Boxes &                    boxes,
+                        std::size_t                lane,
+                        std::size_t                from,
+                        std::size_t                to,
+                        std::span<const Direction> outwards)
 {
   std::array<double, 3> low{ unbounded, unbounded, unbounded };
   std::array<double, 3> high{ -unbounded, -unbounded, -unbounded };

@@ -35,7 +35,7 @@ struct FacetSpheres
 };
 
 /** Boundary vertices, each with the direction in which the surface faces outwards there. */
-class BallTree
+class GrowingBallTree
 {
 public:
   struct Direction

@@ -1,4 +1,4 @@
-#include "BallTree.h"
+#include "GrowingBallTree.h"
 #include "HilbertOrder.h"
 #include "PointPredicates.h"
 
@@ -49,7 +49,7 @@ Height(const LatticePoint & a, const LatticePoint & b, const LatticePoint & c, c
 }
 
 // Coordinates of few values make many points cospherical, long boxes thin triangles and large spheres.
-TEST(BallTree, FindsWhatGrowingBallsMeetFirst)
+TEST(GrowingBallTree, FindsWhatGrowingBallsMeetFirst)
 {
   const auto seed = std::random_device{}();
   std::cout << "seed " << seed << "\n";
@@ -79,12 +79,12 @@ TEST(BallTree, FindsWhatGrowingBallsMeetFirst)
       std::vector<std::uint32_t> chosen(at.size());
       std::iota(chosen.begin(), chosen.end(), 0);
       SortAlongCurve(at, chosen);
-      std::vector<BallTree::Direction> outwards(chosen.size());
-      for (BallTree::Direction & one : outwards)
+      std::vector<GrowingBallTree::Direction> outwards(chosen.size());
+      for (GrowingBallTree::Direction & one : outwards)
       {
         one.to = { static_cast<float>(any(4) - 2), static_cast<float>(any(4) - 2), static_cast<float>(any(4) - 2) };
       }
-      BallTree tree;
+      GrowingBallTree tree;
       tree.Build(at, chosen, outwards, weights);
       for (int k = 0; k < 200; ++k)
       {
