@@ -67,7 +67,7 @@ RunCore(const Run & run)
   const CoreResult result = RunCoreJob(options, run.context);
   if (run.context.admit)
   {
-    PaintCase(result.report); // for the batch's page
+    PaintCase(result.report, run.context.temporaries); // for the batch's page
   }
   PrintCore(run, result);
   return kDone;
@@ -181,7 +181,7 @@ RunRoots(const Run & run)
   const RootsResult result = RunRootsJob(options, run.context);
   if (run.context.admit)
   {
-    PaintCase(result.report); // for the batch's page
+    PaintCase(result.report, run.context.temporaries); // for the batch's page
   }
   run.Warn(result.warnings);
   run.Print(RootsText(result));

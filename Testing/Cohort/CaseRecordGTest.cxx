@@ -4,6 +4,7 @@
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/OutputTransaction.h"
 
 #include <gtest/gtest.h>
 #include <set>
@@ -124,6 +125,13 @@ TEST_F(CaseRecords, AFolderThatHasGoneIsNotTakenForOneThatTakesNoFiles)
   std::filesystem::remove_all(m_Case);
   EXPECT_FALSE(WriteRecordIfThere(m_Case, {}));
   EXPECT_FALSE(std::filesystem::exists(m_Case));
+}
+
+TEST_F(CaseRecords, WhoeverEndsTheProgramKnowsOfAFileThatIsNotYetARecord)
+{
+  TemporaryRegistry temporaries;
+  WriteCaseRecord(m_Case, {}, &temporaries);
+  EXPECT_TRUE(temporaries.HasCommitted());
 }
 
 TEST_F(CaseRecords, ALockThatCanNeverBeMadeIsAnError)

@@ -311,7 +311,7 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     return result;
   }
   MakeOutput(options);
-  result = Scheduler(options, std::move(jobs), context.progress).Run();
+  result = Scheduler(options, std::move(jobs), context).Run();
   if (!options.only)
   {
     AddLost(GatherCohort(options.output, cases, context, result.failed).failed, cases, result.failed);

@@ -109,7 +109,7 @@ ListOutputs(const fs::path & folder)
 }
 
 void
-WriteCaseRecord(const fs::path & folder, const CaseRecord & record)
+WriteCaseRecord(const fs::path & folder, const CaseRecord & record, TemporaryRegistry * temporaries)
 {
   Json json;
   json["id"] = record.id;
@@ -129,17 +129,17 @@ WriteCaseRecord(const fs::path & folder, const CaseRecord & record)
   // What was replaced (bytes that are no UTF-8) must be what the digest is of.
   json = Json::parse(RecordText(json));
   json["sha256"] = TextSha256(RecordText(json));
-  OutputTransaction transaction(true);
+  OutputTransaction transaction(true, temporaries);
   WriteTextFile(transaction.Stage(RecordPath(folder)), RecordText(json) + "\n");
   transaction.Commit();
 }
 
 bool
-WriteRecordIfThere(const fs::path & folder, const CaseRecord & record)
+WriteRecordIfThere(const fs::path & folder, const CaseRecord & record, TemporaryRegistry * temporaries)
 {
   try
   {
-    WriteCaseRecord(folder, record);
+    WriteCaseRecord(folder, record, temporaries);
     return true;
   }
   catch (const OutputError &)

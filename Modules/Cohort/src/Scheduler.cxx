@@ -95,10 +95,11 @@ ReasonOf(const ChildEnd & end, const std::string & killed)
 
 } // namespace
 
-Scheduler::Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, ProgressCallback progress)
+Scheduler::Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, const JobContext & context)
   : m_Options(options)
   , m_Jobs(std::move(jobs))
-  , m_Progress(std::move(progress))
+  , m_Progress(context.progress)
+  , m_Temporaries(context.temporaries)
 {
   for (std::size_t job = 0; job < m_Jobs.size(); ++job)
   {
@@ -317,7 +318,9 @@ Scheduler::Record(const Running & running, const ChildEnd & end)
   {
     return error.path1().string() + ": " + error.code().message() + "; was it removed while the case ran?";
   }
-  return WriteRecordIfThere(job.folder, record) ? "" : job.folder.string() + ": was removed while the case ran";
+  return WriteRecordIfThere(job.folder, record, m_Temporaries)
+           ? ""
+           : job.folder.string() + ": was removed while the case ran";
 }
 
 void
@@ -341,7 +344,7 @@ Scheduler::Fail(std::size_t job, const std::string & key, const std::string & re
     {
       // They stay, and the record says that they are no results.
     }
-    canRecord = WriteRecordIfThere(one.folder, record);
+    canRecord = WriteRecordIfThere(one.folder, record, m_Temporaries);
   }
   m_Result.failed.push_back({ one.one.id, reason, canRecord });
   ++m_Finished;

@@ -18,7 +18,7 @@ namespace voxelcore
 class Scheduler
 {
 public:
-  Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, ProgressCallback progress);
+  Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, const JobContext & context);
 
   /** Works until every case is done or has failed. \throws Cancelled, OutputError */
   BatchResult
@@ -67,6 +67,7 @@ private:
   const BatchOptions &    m_Options;
   std::vector<CaseJob>    m_Jobs;
   ProgressCallback        m_Progress;
+  TemporaryRegistry *     m_Temporaries;
   std::deque<std::size_t> m_Waiting;
   std::deque<std::size_t> m_Elsewhere; ///< another process works on them
   std::list<Running>      m_Running;

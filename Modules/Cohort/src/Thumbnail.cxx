@@ -302,7 +302,7 @@ WriteThumbnail(const std::filesystem::path & path, const Thumbnail & picture)
 }
 
 void
-PaintCase(const CoreReport & report)
+PaintCase(const CoreReport & report, TemporaryRegistry * temporaries)
 {
   constexpr int kPixels = 144;
   if (report.labels.empty() || report.labels.front().pruned.empty())
@@ -316,7 +316,7 @@ PaintCase(const CoreReport & report)
   {
     return;
   }
-  OutputTransaction transaction(true);
+  OutputTransaction transaction(true, temporaries);
   WriteThumbnail(transaction.Stage(surface.parent_path() / (name.substr(0, mark) + "_thumbnail.png")),
                  PaintModel(ReadModel(surface), kPixels));
   transaction.Commit();

@@ -50,9 +50,10 @@ TemporaryRegistry::Forget(const fs::path & path)
   const std::string name = fs::absolute(path).string();
   for (Entry * entry = m_Head.load(); entry != nullptr; entry = entry->next)
   {
-    if (entry->path == name)
+    if (entry->live && entry->path == name) // mostly one of the youngest: a batch adds thousands
     {
       entry->live = false;
+      return;
     }
   }
 }

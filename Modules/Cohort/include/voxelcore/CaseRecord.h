@@ -12,6 +12,8 @@
 namespace voxelcore
 {
 
+class TemporaryRegistry;
+
 struct RecordedFile
 {
   std::string   name; ///< in the case's folder
@@ -56,14 +58,19 @@ RecordPath(const std::filesystem::path & folder);
 std::vector<RecordedFile>
 ListOutputs(const std::filesystem::path & folder);
 
-/** Writes the record, all at once. \throws OutputError */
+/** Writes the record, all at once; who ends the program meanwhile knows its temporary file from `temporaries`.
+ *  \throws OutputError */
 void
-WriteCaseRecord(const std::filesystem::path & folder, const CaseRecord & record);
+WriteCaseRecord(const std::filesystem::path & folder,
+                const CaseRecord &            record,
+                TemporaryRegistry *           temporaries = nullptr);
 
 /** The same for a folder that somebody may have removed: false when it has gone.
  *  \throws OutputError for other reasons */
 bool
-WriteRecordIfThere(const std::filesystem::path & folder, const CaseRecord & record);
+WriteRecordIfThere(const std::filesystem::path & folder,
+                   const CaseRecord &            record,
+                   TemporaryRegistry *           temporaries = nullptr);
 
 /** None when there is none or it is damaged: a record ends in its own digest. */
 std::optional<CaseRecord>

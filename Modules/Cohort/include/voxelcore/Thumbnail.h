@@ -12,6 +12,8 @@
 namespace voxelcore
 {
 
+class TemporaryRegistry;
+
 /** Red, green and blue, row by row from the top. */
 struct Thumbnail
 {
@@ -32,6 +34,6 @@ WriteThumbnail(const std::filesystem::path & path, const Thumbnail & picture);
 /** Paints the first medial surface of a report of `voxelcore core` beside it: "X_thumbnail.png" for "X_medial.vtp". A
  *  model that is not written as .vtp gets none. \throws InputError, OutputError */
 void
-PaintCase(const CoreReport & report);
+PaintCase(const CoreReport & report, TemporaryRegistry * temporaries = nullptr);
 
 } // namespace voxelcore
