@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace voxelcore::testing
 {
@@ -47,9 +49,8 @@ GoodRefined()
 }
 
 std::vector<std::string>
-FailuresOf(const RefinedCase & subject, std::optional<double> tolerance = {})
+FailuresOf(const RefinedCase & subject, std::optional<double> tolerance = {}, RefinedVerificationInput input = {})
 {
-  RefinedVerificationInput input;
   input.shape = &subject.shape;
   input.weights = subject.weights;
   input.spacing = subject.spacing;
@@ -135,6 +136,32 @@ TEST(RefinedVerification, AToleranceThatTheBallsDoNotKeepIsSeen)
   EXPECT_NE(std::find(failed.begin(), failed.end(), "radius"), failed.end());
 }
 
+/** A face of four corners around the first edge that joins two triangles. */
+void
+AddQuadrangle(MedialComplex & core)
+{
+  CellComplex &                       cells = core.cells;
+  std::map<ElementIndex, std::size_t> before; // place of an edge in faceEdges
+  const auto next = [](std::size_t place, std::size_t steps) { return place - place % 3 + (place + steps) % 3; };
+  for (std::size_t place = 0; place < cells.faceEdges.size(); ++place)
+  {
+    const auto [other, isNew] = before.emplace(cells.faceEdges[place], place);
+    const std::size_t first = other->second;
+    if (!isNew && cells.faceVertices[first] == cells.faceVertices[next(place, 1)])
+    {
+      for (const std::size_t corner : { next(first, 1), next(first, 2), next(place, 1), next(place, 2) })
+      {
+        cells.faceVertices.push_back(cells.faceVertices[corner]);
+        cells.faceEdges.push_back(cells.faceEdges[corner]);
+      }
+      cells.faceOffsets.push_back(cells.faceVertices.size());
+      core.faceLambda.push_back(0);
+      return;
+    }
+  }
+  ADD_FAILURE() << "no two triangles meet";
+}
+
 TEST(RefinedVerification, EachDamageIsSeenByTheCheckOfItsName)
 {
   struct Damage
@@ -161,6 +188,32 @@ TEST(RefinedVerification, EachDamageIsSeenByTheCheckOfItsName)
     { "radius", [](RefinedCore & r, std::size_t at) { r.core.radius[at] = 0; } },
     { "measures", [](RefinedCore & r, std::size_t at) { r.core.vertexLambda[at] *= 100; } },
     { "measures", [](RefinedCore & r, std::size_t) { r.core.faceLambda[0] *= 1.5; } },
+    { "measures",
+      [](RefinedCore & r, std::size_t) { r.core.edgeLambda[r.core.cells.faceEdges[0]] = 0.9 * r.core.faceLambda[0]; } },
+    { "measures", [](RefinedCore & r, std::size_t) { r.core.edgeLambda[r.core.cells.faceEdges[0]] = 1000; } },
+    // Where it was is beyond its face's opposite side.
+    { "faces not turned over",
+      [](RefinedCore & r, std::size_t at) {
+        const CellComplex &cells = r.core.cells;
+        for (std::size_t f = 0; f < cells.FaceCount(); ++f)
+        {
+          const auto corners = cells.FaceVertices(f);
+          if (std::find(corners.begin(), corners.end(), at) != corners.end())
+          {
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+              double sum = 0;
+              for (const ElementIndex corner : corners)
+              {
+                sum += r.core.positions[corner][k];
+              }
+              r.displacement[at][k] = 3 * r.core.positions[at][k] - sum;
+            }
+            return;
+          }
+        }
+      } },
+    { "triangles", [](RefinedCore & r, std::size_t) { AddQuadrangle(r.core); } },
     { "topology",
       [](RefinedCore & r, std::size_t) {
         CellComplex &cells = r.core.cells;
@@ -177,6 +230,31 @@ TEST(RefinedVerification, EachDamageIsSeenByTheCheckOfItsName)
     const auto failures = FailuresOf(damaged);
     EXPECT_TRUE(std::find(failures.begin(), failures.end(), damage.check) != failures.end()) << damage.check;
   }
+}
+
+TEST(RefinedVerification, WhatCannotBeCheckedIsNamedAsFailed)
+{
+  RefinedCase damaged = WithTolerances(11);
+  damaged.refined.displacement.pop_back();
+  const auto names = [&](std::optional<double> tolerance, std::optional<double> threshold) {
+    RefinedVerificationInput input;
+    input.threshold = threshold;
+    const auto failures = FailuresOf(damaged, tolerance, input);
+    return std::set<std::string>(failures.begin(), failures.end());
+  };
+  const auto all = names(10, {});
+  EXPECT_TRUE(all.count("topology") == 1 && all.count("tolerances") == 1 && all.count("coverage") == 1);
+  const auto pruned = names(10, 1);
+  EXPECT_TRUE(pruned.count("tolerances") == 1 && pruned.count("coverage") == 0);
+  const auto without = names({}, {});
+  EXPECT_TRUE(without.count("topology") == 1 && without.count("tolerances") == 0 && without.count("coverage") == 0);
+}
+
+TEST(RefinedVerification, PrunedOnTheMovesCountForTheBoundary)
+{
+  RefinedVerificationInput input;
+  input.prunedOn = true;
+  EXPECT_EQ(FailuresOf(WithTolerances(10), 10, input), std::vector<std::string>{});
 }
 
 TEST(RefinedVerification, TheCoreOfAnotherShapeFails)

@@ -77,5 +77,26 @@ TEST_F(ToleranceChecks, SeeHeightsBelowTheWholesOrOutOfOrder)
   EXPECT_EQ(testing::FailedChecks(Verify(kHeight)), Names{ "tolerances" });
 }
 
+TEST_F(ToleranceChecks, AreNamedAsFailedWhereWhatTheyBuildOnIsDamaged)
+{
+  m_Case.core.radius.pop_back();
+  const Names failed = testing::FailedChecks(Verify(kHeight));
+  for (const char * name : { "tolerances", "coverage", "topology" })
+  {
+    EXPECT_EQ(std::count(failed.begin(), failed.end(), name), 1) << name;
+  }
+  EXPECT_EQ(std::count(failed.begin(), failed.end(), "completeness"), 0);
+}
+
+TEST_F(ToleranceChecks, PromiseNothingOfTheBoundaryOncePrunedByLambda)
+{
+  m_Case.threshold = 1;
+  const VerificationReport report = Verify(0.1);
+  EXPECT_TRUE(std::none_of(report.checks.begin(), report.checks.end(), [](const VerificationCheck & check) {
+    return check.name == "coverage";
+  }));
+  EXPECT_TRUE(report.boundaryGap.has_value());
+}
+
 } // namespace
 } // namespace voxelcore
