@@ -11,6 +11,7 @@
 #include <pybind11/stl.h>
 
 #include <string>
+#include <utility>
 
 namespace py = pybind11;
 using namespace voxelcore; // NOLINT: the module speaks its library's language
@@ -89,7 +90,7 @@ TranslateErrors(const py::module_ & module)
   py::register_exception_translator([](std::exception_ptr pointer) {
     try
     {
-      std::rethrow_exception(pointer);
+      std::rethrow_exception(std::move(pointer));
     }
     catch (const CertificateError & error)
     {

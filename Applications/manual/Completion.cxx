@@ -86,8 +86,9 @@ BashCompletion()
                                  : "COMPREPLY=($(compgen -W '" + Joined(WordsOf(parameter), " ") + "' -- \"$word\"))";
       values += "        " + Joined(own, "|") + ") " + what + "; return ;;\n";
     }
-    cases += "    " + std::string(command.name) + ")\n      case \"$before\" in\n" + values +
-             "      esac\n      flags='" + flags + "'\n" +
+    cases += "    " + std::string(command.name) + ")\n      case \"$before\" in\n";
+    cases += values;
+    cases += "      esac\n      flags='" + flags + "'\n" +
              (takesPaths ? "      [[ $word == -* ]] || { _voxelcore_paths; return; }\n" : "") + "      ;;\n";
   }
   return "# bash completion for voxelcore\n"

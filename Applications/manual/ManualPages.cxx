@@ -141,7 +141,8 @@ CommandManual(const Command & command)
       std::string names;
       for (const std::string & flag : flags)
       {
-        names += (names.empty() ? "" : ", ") + ("\\fB" + Roff(flag)) + "\\fR";
+        names += names.empty() ? "\\fB" : ", \\fB";
+        names += Roff(flag) + "\\fR";
       }
       options += names + (value.empty() ? "" : " \\fI" + value + "\\fR") + "\n";
       if (parameter.required)

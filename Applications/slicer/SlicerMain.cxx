@@ -40,7 +40,7 @@ public:
     {
       m_Step = step;
       char text[64];
-      std::snprintf(text, sizeof(text), "<filter-progress>%.2f</filter-progress>\n", step / 100.0);
+      static_cast<void>(std::snprintf(text, sizeof(text), "<filter-progress>%.2f</filter-progress>\n", step / 100.0));
       m_Console.Print(text);
     }
   }
@@ -49,11 +49,11 @@ public:
   End(double seconds)
   {
     char text[160];
-    std::snprintf(
+    static_cast<void>(std::snprintf(
       text,
       sizeof(text),
       "<filter-end>\n<filter-name>VoxelCore</filter-name>\n<filter-time>%.3f</filter-time>\n</filter-end>\n",
-      seconds);
+      seconds));
     m_Console.Print(text);
   }
 

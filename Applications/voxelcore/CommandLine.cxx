@@ -130,6 +130,8 @@ ParseCommandLine(int argc, char ** argv)
   }
   std::vector<std::string> arguments;
   std::vector<char *>      renamed;
+  arguments.reserve(static_cast<std::size_t>(argc));
+  renamed.reserve(static_cast<std::size_t>(argc));
   for (int i = 0; i < argc; ++i)
   {
     arguments.push_back(WithoutFormerName(argv[i]));

@@ -38,7 +38,7 @@ AskForLargePages(void * memory, std::size_t size)
   if (first < end)
   {
     // A wish only: where it is not granted, all goes on as before.
-    madvise(reinterpret_cast<void *>(first), end - first, MADV_HUGEPAGE);
+    madvise(static_cast<char *>(memory) + (first - begin), end - first, MADV_HUGEPAGE);
   }
 }
 

@@ -35,7 +35,7 @@ ProgressPrinter::Show(std::string_view stage, double fraction)
     return;
   }
   char percent[16];
-  std::snprintf(percent, sizeof(percent), "%3d %%  ", static_cast<int>(fraction * 100));
+  static_cast<void>(std::snprintf(percent, sizeof(percent), "%3d %%  ", static_cast<int>(fraction * 100)));
   m_Console.PrintProgress(percent + m_Stage + "\n");
 }
 
@@ -54,7 +54,7 @@ ProgressPrinter::ShowBar(std::string_view stage, double fraction)
   constexpr std::size_t width = 30;
   const auto            done = std::min(width, static_cast<std::size_t>(fraction * static_cast<double>(width)));
   char                  percent[16];
-  std::snprintf(percent, sizeof(percent), "] %3d %%  ", static_cast<int>(fraction * 100));
+  static_cast<void>(std::snprintf(percent, sizeof(percent), "] %3d %%  ", static_cast<int>(fraction * 100)));
   m_Console.PrintProgress("\r[" + std::string(done, '#') + std::string(width - done, '.') + percent +
                           std::string(stage.substr(0, 35)) + "\x1b[K");
 }

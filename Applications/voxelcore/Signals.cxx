@@ -130,7 +130,7 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
   temporaries = &registry;
   errorStream = errorDescriptor;
   onTerminal = isatty(errorDescriptor) == 1;
-  std::atexit(OnExit);
+  static_cast<void>(std::atexit(OnExit));            // there is room for 32
   timer_create(CLOCK_MONOTONIC, nullptr, &deadline); // sends SIGALRM
   Install(SIGALRM, OnDeadline, SA_RESTART);
   const rlimit noCore{ 0, 0 };

@@ -45,7 +45,7 @@ WrittenText(const std::vector<std::filesystem::path> & files, bool withTime, dou
     }
   }
   char time[80];
-  std::snprintf(time, sizeof(time), "%.2f s, peak memory %.0f MB\n", seconds, PeakMemoryMb());
+  static_cast<void>(std::snprintf(time, sizeof(time), "%.2f s, peak memory %.0f MB\n", seconds, PeakMemoryMb()));
   return text + (withTime ? time : "");
 }
 

@@ -52,7 +52,8 @@ for path in sorted({entry["file"] for entry in json.load(open(f"{build}/compile_
     if any(within.startswith(folder + "/") for folder in folders):
         print(path)
 PYTHON
-    nice xargs -P "$jobs" -n 1 clang-tidy -p "$build" --config-file=.clang-tidy --quiet <"$build/sources"
+    nice xargs -P "$jobs" -n 1 clang-tidy -p "$build" --config-file=.clang-tidy \
+      --checks=-bugprone-suspicious-include --quiet <"$build/sources"
     ;;
   *)
     echo "analyse.sh: unknown kind '$kind'; there are cppcheck and clang-tidy" >&2

@@ -56,6 +56,7 @@ WriteAll(const EdgePoints & plain, const TWrite & write)
 
 } // namespace
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): taken, so that it is gone once packed
 PackedEdgePoints::PackedEdgePoints(EdgePoints plain)
   : m_Edges(plain.offsets.size() - 1)
   , m_Points(plain.points.size())

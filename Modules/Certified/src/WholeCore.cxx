@@ -162,6 +162,7 @@ MakeWholeCore(const VoxelShape &       voxels,
     seconds.core += watch.Lap();
     if (byTolerance)
     {
+      // NOLINTNEXTLINE(bugprone-use-after-move): moved only where tolerance does not need them
       core.tolerances = TolerancesOf(core, weights, points, std::move(touching), lambdaMm, plan.Next("prune"), [&] {
         whole.topology = RequireTopologyOf(core.cells, result.shape);
       });

@@ -110,7 +110,8 @@ ReleaseMemory(void * memory, std::size_t size)
   {
     return 0;
   }
-  madvise(reinterpret_cast<void *>(first), end - first, MADV_DONTNEED); // a wish: where it fails, memory stays
+  // A wish: where it fails, memory stays.
+  madvise(static_cast<char *>(memory) + (first - begin), end - first, MADV_DONTNEED);
   return end - begin;
 }
 

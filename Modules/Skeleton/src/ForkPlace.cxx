@@ -42,6 +42,7 @@ WayApart(const Arm & a, const Arm & b, double voxel)
 {
   const double apart = a.radius + b.radius + kApartInVoxels * voxel;
   const double last = std::min(a.free, b.free);
+  // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter,cert-flp30-c): a length, not a count
   for (double way = 0; way <= last; way += 0.5 * voxel)
   {
     if (Distance(a.line.At(way), b.line.At(way)) >= apart)

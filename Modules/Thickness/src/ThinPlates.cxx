@@ -23,6 +23,7 @@ constexpr double kBent = 0.5;      ///< root mean square of distances from a pla
 constexpr double kNarrow = 0.75;   ///< and along it from their middle, where it is narrowest
 
 constexpr int    kCells = 5;            ///< squares a row, each as wide as a voxel's longest and shortest side
+constexpr int    kMiddle = kCells / 2;  ///< the square in the middle
 constexpr double kReach = kCells / 2.0; ///< squares that a plane is laid through
 constexpr double kLeast = 0.5;          ///< of the mean around, in each square of a plate
 
@@ -96,12 +97,12 @@ public:
   void
   Add(double u, double v, double volume)
   {
-    const double i = std::floor(u + kCells / 2 + 1);
-    const double j = std::floor(v + kCells / 2 + 1);
+    const double i = std::floor(u + kMiddle + 1);
+    const double j = std::floor(v + kMiddle + 1);
     if (i >= 0 && j >= 0 && i <= kCells && j <= kCells)
     {
-      const double restU = u + kCells / 2 + 1 - i;
-      const double restV = v + kCells / 2 + 1 - j;
+      const double restU = u + kMiddle + 1 - i;
+      const double restV = v + kMiddle + 1 - j;
       const auto   column = static_cast<std::size_t>(i);
       const auto   row = static_cast<std::size_t>(j);
       m_Volumes[row][column] += (1 - restU) * (1 - restV) * volume;

@@ -157,6 +157,7 @@ public:
     std::vector<T> values(named.size());
     if (m_Plain.empty())
     {
+      // NOLINTNEXTLINE(bugprone-sizeof-expression): a T is one double or several
       m_Packed.Unpack(named, sizeof(T) / sizeof(double), NumbersOf(values));
       return values;
     }
