@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Looks through the sources of modules and programs without running them. Non-zero when something is found that is
-# neither mended nor on the kept list: cppcheck.txt, and for clang-tidy .clang-tidy and NOLINT beside the line, each with
-# its reason.
+# neither mended nor on the kept list: cppcheck.txt, and for clang-tidy .clang-tidy and NOLINT beside the line, each
+# with its reason.
 # usage: analyse.sh cppcheck|clang-tidy BUILD_DIR [FOLDER...]    say Modules/Lattice; all of Modules and Applications by
 # default; exit 77: a tool is missing
 set -euo pipefail

@@ -66,8 +66,8 @@ operator new(std::size_t size, std::align_val_t alignment)
   return Take(whole, size, static_cast<std::size_t>(alignment));
 }
 
-// Those that do not throw: std::stable_sort() has its buffers from them. A sanitizer has its own, whose memory is not for
-// free().
+// Those that do not throw: std::stable_sort() has its buffers from them. A sanitizer has its own, whose memory is not
+// for free().
 void *
 operator new(std::size_t size, const std::nothrow_t &) noexcept
 {
