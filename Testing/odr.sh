@@ -117,7 +117,9 @@ check_program() {
 # objects_in FOLDER...: of these folders of the build; the helper program, with a main of its own, apart.
 objects_in() { find "${@/#/$build/}" -path '*.dir/*' -name '*.cxx.o' "${filter[@]}" | sort; }
 filter=(-not -path '*itk_reader*')
-mapfile -t objects < <(objects_in Modules Applications/voxelcore)
+# A build that went on may hold modules that the program does not.
+mapfile -t modules < <(ninja -C "$build" -t commands voxelcore | tail -1 | grep -oE '\bModules/[A-Za-z]+' | sort -u)
+mapfile -t objects < <(objects_in "${modules[@]}" Applications/voxelcore)
 check_program voxelcore "${objects[@]}"
 if [ -e "$build/Modules/ItkReader/CMakeFiles/voxelcore_itk_reader.dir" ]; then
   mapfile -t objects < <(objects_in Modules/Lattice Modules/Shape)
