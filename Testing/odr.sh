@@ -97,6 +97,7 @@ for kind in "${!words[@]}"; do
 done
 
 bash "$source/Testing/debug.sh" "$build" voxelcore
+ninja -C "$build" -t cleandead >/dev/null # objects of sources that are gone
 
 # check_program TARGET OBJECTS...: with what the program is linked with apart from our own objects and archives.
 check_program() {

@@ -144,7 +144,8 @@ CommandManual(const Command & command)
         names += names.empty() ? "\\fB" : ", \\fB";
         names += Roff(flag) + "\\fR";
       }
-      options += names + (value.empty() ? "" : " \\fI" + value + "\\fR") + "\n";
+      options += names;
+      options += value.empty() ? "\n" : " \\fI" + value + "\\fR\n";
       if (parameter.required)
       {
         synopsis += "\\fB" + Roff(flags.front()) + "\\fR \\fI" + value + "\\fR\n";

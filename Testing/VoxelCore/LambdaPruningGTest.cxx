@@ -1,6 +1,7 @@
 #include "voxelcore/LambdaPruning.h"
 
 #include "VoxelCoreTesting/Cores.h"
+#include "VoxelCoreTesting/Shapes.h"
 
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CoreProvenance.h"
@@ -19,6 +20,7 @@ namespace
 
 using testing::CoreOf;
 using testing::ExpectSameCore;
+using testing::Spacing3;
 
 // A free element and its only coface, both below lambda, by looking at all of them; empty when there is none.
 std::string
