@@ -3,6 +3,8 @@
 #include "ForeignBytes.h"
 #include "ScanBytes.h"
 
+#include "voxelcore/FormatOpeners.h"
+
 using namespace voxelcore;
 using namespace voxelcore::testing;
 
