@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Holds the house together: each module includes only headers of the modules it may use (Modules/README.md), and only
 # module ITK and the helper program (Modules/ItkReader/itk) know ITK and GDCM, only Models and Display know VTK, only
-# Display its rendering. And no type of one name in two headers: all are of one namespace, so the linker would take the
-# functions of either for those of both.
+# Display its rendering. No two headers define a type of one name: all share a namespace, so the linker
+# would take the functions of one for those of both.
 # usage: layers.sh [FOLDER WITH Modules/]
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"

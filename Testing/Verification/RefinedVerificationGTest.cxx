@@ -136,6 +136,23 @@ TEST(RefinedVerification, AToleranceThatTheBallsDoNotKeepIsSeen)
   EXPECT_NE(std::find(failed.begin(), failed.end(), "radius"), failed.end());
 }
 
+/** Lets a vertex come from beyond the opposite side of its first face. */
+void
+MirrorOrigin(RefinedCore & refined, std::size_t vertex)
+{
+  const CellComplex & cells = refined.core.cells;
+  const auto          place = std::find(cells.faceVertices.begin(), cells.faceVertices.end(), vertex);
+  const auto          corners = cells.FaceVertices(static_cast<std::size_t>(place - cells.faceVertices.begin()) / 3);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    refined.displacement[vertex][k] = 3 * refined.core.positions[vertex][k];
+    for (const ElementIndex corner : corners)
+    {
+      refined.displacement[vertex][k] -= refined.core.positions[corner][k];
+    }
+  }
+}
+
 /** A face of four corners around the first edge that joins two triangles. */
 void
 AddQuadrangle(MedialComplex & core)
@@ -191,28 +208,7 @@ TEST(RefinedVerification, EachDamageIsSeenByTheCheckOfItsName)
     { "measures",
       [](RefinedCore & r, std::size_t) { r.core.edgeLambda[r.core.cells.faceEdges[0]] = 0.9 * r.core.faceLambda[0]; } },
     { "measures", [](RefinedCore & r, std::size_t) { r.core.edgeLambda[r.core.cells.faceEdges[0]] = 1000; } },
-    // Where it was is beyond its face's opposite side.
-    { "faces not turned over",
-      [](RefinedCore & r, std::size_t at) {
-        const CellComplex &cells = r.core.cells;
-        for (std::size_t f = 0; f < cells.FaceCount(); ++f)
-        {
-          const auto corners = cells.FaceVertices(f);
-          if (std::find(corners.begin(), corners.end(), at) != corners.end())
-          {
-            for (std::size_t k = 0; k < 3; ++k)
-            {
-              double sum = 0;
-              for (const ElementIndex corner : corners)
-              {
-                sum += r.core.positions[corner][k];
-              }
-              r.displacement[at][k] = 3 * r.core.positions[at][k] - sum;
-            }
-            return;
-          }
-        }
-      } },
+    { "faces not turned over", MirrorOrigin },
     { "triangles", [](RefinedCore & r, std::size_t) { AddQuadrangle(r.core); } },
     { "topology",
       [](RefinedCore & r, std::size_t) {

@@ -58,8 +58,8 @@ RecordPath(const std::filesystem::path & folder);
 std::vector<RecordedFile>
 ListOutputs(const std::filesystem::path & folder);
 
-/** Writes the record, all at once; who ends the program meanwhile knows its temporary file from `temporaries`.
- *  \throws OutputError */
+/** Writes the record, all at once. `temporaries`, where given, names the temporary file meanwhile, so that it is
+ *  removed if the program is ended. \throws OutputError */
 void
 WriteCaseRecord(const std::filesystem::path & folder,
                 const CaseRecord &            record,
