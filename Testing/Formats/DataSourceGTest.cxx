@@ -146,6 +146,33 @@ TEST_F(DataSources, OutsideTheHeadersFolderAreWarnedOf)
   EXPECT_TRUE(ReadLabelVolume(Write(With(Lines(), "data file", "d/../all.raw"))).warnings.empty());
 }
 
+TEST_F(DataSources, OutsideTheHeadersFolderThroughALinkAreWarnedOf)
+{
+  namespace fs = std::filesystem;
+  m_Folder.Write("away/all.raw", kData);
+  m_Folder.Write("d/own.raw", kData);
+  const auto warned = [&](const std::string & header, const std::string & data) {
+    const auto path = m_Folder.Write(header, Nrrd(With(Lines(), "data file", data), {}));
+    return HasNote(ReadLabelVolume(path).warnings, "outside the header's folder");
+  };
+  fs::create_symlink("../away/all.raw", m_Folder / "d/link.raw");
+  fs::create_directory_symlink("../away", m_Folder / "d/folder");
+  fs::create_symlink("own.raw", m_Folder / "d/within.raw");
+  EXPECT_TRUE(warned("d/a.nhdr", "link.raw"));
+  EXPECT_TRUE(warned("d/a.nhdr", "folder/all.raw"));
+  EXPECT_TRUE(warned("d/a.nhdr", "folder/../away/all.raw"));
+  EXPECT_FALSE(warned("d/a.nhdr", "within.raw"));
+  EXPECT_FALSE(warned("d/a.nhdr", "own.raw"));
+  // The folder itself may be reached through a link.
+  fs::create_directory_symlink("d", m_Folder / "also");
+  EXPECT_FALSE(warned("also/a.nhdr", "own.raw"));
+  EXPECT_FALSE(warned("also/a.nhdr", (m_Folder / "d/own.raw").string()));
+  m_Folder.Write("d/a.mhd",
+                 "NDims = 3\nDimSize = 3 2 2\nElementSpacing = 1 1 1\nElementType = MET_UCHAR\n"
+                 "ElementDataFile = link.raw\n");
+  EXPECT_TRUE(HasNote(ReadLabelVolume(m_Folder / "d/a.mhd").warnings, "outside the header's folder"));
+}
+
 TEST_F(DataSources, OfSeveralFilesGiveTheVolumeThatIsChosen)
 {
   auto lines = With(With(Lines(), "dimension", "4"), "sizes", "3 2 2 2");

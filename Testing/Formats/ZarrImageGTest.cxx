@@ -186,6 +186,31 @@ TEST_F(ZarrImages, NamesAndColoursOfLabelsAreTakenWhereTheyMakeSense)
   ExpectRefused(Attributes("a.zarr", attributes.dump()), { "of another type" });
 }
 
+TEST_F(ZarrImages, ALinkThatLeadsOutOfTheStoreIsRefused)
+{
+  namespace fs = std::filesystem;
+  const fs::path other = Image("other.zarr");
+  const auto     refused = [&](const fs::path & part) { // a file or folder of a store, which is moved out of it
+    const fs::path store = Image("a.zarr");
+    ExpectRead(store);
+    fs::remove_all(m_Folder / "moved");
+    fs::rename(store / part, m_Folder / "moved");
+    fs::create_symlink(m_Folder / "moved", store / part);
+    ExpectRefused(store, { "leads out of the store" });
+    fs::remove_all(store);
+  };
+  refused("0/0.0.0");
+  refused("0/.zarray");
+  refused(".zattrs");
+  refused("0");
+  // Within the store a link may lead anywhere, and the store itself may be a link.
+  const fs::path store = Image("b.zarr");
+  fs::rename(store / "0/0.0.0", store / "0/chunk");
+  fs::create_symlink("chunk", store / "0/0.0.0");
+  fs::create_directory_symlink(store, m_Folder / "linked.zarr");
+  ExpectRead(m_Folder / "linked.zarr");
+}
+
 TEST_F(ZarrImages, FilesAreMetadataAndThoseChunksThatThePartLiesIn)
 {
   using Paths = std::vector<std::filesystem::path>;

@@ -1,4 +1,6 @@
 #include "DataSource.h"
+
+#include "ResolvedPaths.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -346,11 +348,11 @@ FilesNamed(const std::filesystem::path & headerPath, std::string_view text, cons
 void
 WarnOfFilesElsewhere(ScanFile & scan, const DataSource & source)
 {
-  const auto folder = std::filesystem::absolute(scan.path).lexically_normal().parent_path();
+  // A link beside the header leads where it leads: where the bytes come from counts, not what the header calls it.
+  const ResolvedFolder folder(scan.path.parent_path());
   for (const auto & file : source.files)
   {
-    const auto from = std::filesystem::absolute(file).lexically_normal().lexically_relative(folder);
-    if (from.empty() || *from.begin() == "..")
+    if (!folder.Holds(file))
     {
       scan.warnings.push_back(
         Text("its voxels are read from '", Printable(file.string(), 300), "', which is outside the header's folder"));

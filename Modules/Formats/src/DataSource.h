@@ -34,8 +34,8 @@ LargestData(const DataSource & source, PixelType type);
 std::vector<std::filesystem::path>
 FilesNamed(const std::filesystem::path & headerPath, std::string_view text, const std::vector<std::string> & list);
 
-/** Warns of a data file that is not in the header's folder or below: a header of unknown origin could name any file of
- *  the user's. */
+/** Warns of a data file that is not in the header's folder or below, links followed: a header of unknown origin could
+ *  name any file of the user's, or come with a link to it. */
 void
 WarnOfFilesElsewhere(ScanFile & scan, const DataSource & source);
 

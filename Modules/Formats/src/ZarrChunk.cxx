@@ -2,6 +2,7 @@
 
 #include "voxelcore/ByteStream.h"
 #include "ZarrArray.h"
+#include "ZarrMetadata.h"
 #include "voxelcore/TextFields.h"
 
 #include <blosc.h>
@@ -231,6 +232,7 @@ ReadZarrChunk(const ZarrArray &                  array,
   {
     return std::nullopt;
   }
+  RequireInStore(array.folder, file);
   Bytes bytes;
   if (array.shards)
   {

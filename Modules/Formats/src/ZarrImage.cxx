@@ -1,5 +1,7 @@
 #include "ZarrImage.h"
 
+#include "ZarrMetadata.h"
+
 #include "voxelcore/Error.h"
 #include "voxelcore/TextFields.h"
 
@@ -49,6 +51,7 @@ Within(const fs::path & folder, const std::string & name)
   {
     RefuseInput(folder, Text("it names '", Printable(name, 60), "', which does not lie in it"), "the store is damaged");
   }
+  RequireInStore(folder, folder / relative);
   return folder / relative;
 }
 
@@ -67,7 +70,7 @@ ImageWithin(const fs::path & folder)
   }
   else if (IsZarr(folder / "labels"))
   {
-    return ImageWithin(folder / "labels");
+    return ImageWithin(Within(folder, "labels"));
   }
   else
   {

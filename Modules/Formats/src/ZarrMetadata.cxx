@@ -1,5 +1,7 @@
 #include "ZarrMetadata.h"
 
+#include "ResolvedPaths.h"
+
 #include "voxelcore/ByteStream.h"
 #include "voxelcore/JsonText.h"
 #include "voxelcore/TextFields.h"
@@ -211,6 +213,15 @@ ZarrCodecOf(const std::filesystem::path & folder, std::string name)
   return found->second;
 }
 
+void
+RequireInStore(const std::filesystem::path & folder, const std::filesystem::path & part)
+{
+  if (!ResolvedFolder(folder).Holds(part))
+  {
+    RefuseInput(part, "a link that leads out of the store", "copy what it leads to into the store, if you trust it");
+  }
+}
+
 Json
 ReadZarrJson(const std::filesystem::path & file)
 {
@@ -219,6 +230,7 @@ ReadZarrJson(const std::filesystem::path & file)
   {
     return nullptr;
   }
+  RequireInStore(file.parent_path(), file);
   const std::uint64_t size = FileSize(file);
   if (size > kLongestJson)
   {

@@ -17,6 +17,11 @@ RefuseMetadata(const std::filesystem::path & folder, const std::string & what);
 [[noreturn]] void
 RefuseCodec(const std::filesystem::path & folder, const std::string & name);
 
+/** A store holds all that is read of it: what is of a folder lies in it or below once links are followed. The folder
+ *  that the user names may be a link itself. \throws InputError */
+void
+RequireInStore(const std::filesystem::path & folder, const std::filesystem::path & part);
+
 /** A member of an object, one that is a text, and one that is a list of sides. */
 const nlohmann::json &
 Member(const std::filesystem::path & folder, const nlohmann::json & json, const char * key);
