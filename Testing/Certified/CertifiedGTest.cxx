@@ -1,6 +1,5 @@
 #include "CertifiedFixtures.h"
 
-#include "RefinedResults.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Refinement.h"
 
@@ -137,23 +136,6 @@ TEST(Certified, ARequestThatContradictsItselfIsRefused)
   other.skeleton = Skeleton();
   other.skeleton->lambda = ParseLambda("2vox");
   EXPECT_THROW(ComputeCertified(Box(2, 2, 2), Grid({ 1, 1, 1 }), other), UsageError);
-}
-
-TEST(Certified, AVertexOnTheBoundaryOrOutsideIsSeen)
-{
-  const VoxelShape shape = Box(2, 1, 1); // [2,4] x [3,4] x [4,5]
-  MedialComplex    core;
-  const auto       at = [&](double x, double y, double z) {
-    core.positions = { { x, y, z } };
-    return IsEnclosed(core, shape);
-  };
-  EXPECT_TRUE(at(2.5, 3.5, 4.5));
-  EXPECT_TRUE(at(3, 3.5, 4.5)) << "on the inner face";
-  EXPECT_FALSE(at(2, 3.5, 4.5)) << "on an outer face";
-  EXPECT_FALSE(at(3, 3, 4.5)) << "on an outer edge";
-  EXPECT_FALSE(at(4, 4, 5)) << "on a corner";
-  EXPECT_FALSE(at(1.5, 3.5, 4.5)) << "outside";
-  EXPECT_FALSE(at(2.5, -3.5, 4.5)) << "outside";
 }
 
 } // namespace

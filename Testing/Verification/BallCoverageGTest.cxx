@@ -1,14 +1,15 @@
 #include "voxelcore/BallCoverage.h"
 
+#include "VoxelCoreTesting/BruteShape.h"
 #include "VoxelCoreTesting/Cores.h"
+#include "VoxelCoreTesting/Threads.h"
 
-#include "voxelcore/BallTree.h"
-#include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/TolerancePruning.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <limits>
 
@@ -16,6 +17,38 @@ namespace voxelcore
 {
 namespace
 {
+
+/** Every boundary vertex, found by its eight voxels, against every ball. */
+BoundaryGap
+GapByLookingAtAll(const VoxelShape &                         shape,
+                  const SpacingWeights &                     weights,
+                  const std::vector<std::array<double, 3>> & positions,
+                  const std::vector<double> &                radius)
+{
+  std::array<double, 3> scale{};
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    scale[a] = weights.unit * static_cast<double>(weights.weight[a]);
+  }
+  BoundaryGap largest{ -std::numeric_limits<double>::infinity(), {} };
+  for (const LatticePoint & p : testing::BruteBoundaryVertices(shape))
+  {
+    double gap = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < radius.size(); ++i)
+    {
+      const double x = scale[0] * p.x - scale[0] * positions[i][0];
+      const double y = scale[1] * p.y - scale[1] * positions[i][1];
+      const double z = scale[2] * p.z - scale[2] * positions[i][2];
+      gap = std::min(gap, std::sqrt(x * x + y * y + z * z) - radius[i]);
+    }
+    if (gap > largest.largest)
+    {
+      largest = { gap, { p.x, p.y, p.z } };
+    }
+  }
+  largest.largest = std::max(largest.largest, 0.0);
+  return largest;
+}
 
 TEST(RefinedGapBound, IsTheHeightOrHalfADiagonalAndMoreOnlyForWhatWasPrunedOn)
 {
@@ -68,21 +101,39 @@ TEST(BoundaryGap, IsThatOfTheFirstOfTheFarthestPoints)
   {
     const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
     const MedialComplex  rest = PruneByTolerance(testing::CoreWithTolerancesOf(shape), 1.5);
-    const BallTree       tree(rest.positions, rest.radius, weights);
-    BoundaryGap          expected;
-    bool                 isFirst = true;
-    for (const LatticePoint & p : BoundaryVertices(shape))
-    {
-      const double gap = tree.Gap({ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) });
-      if (isFirst || gap > expected.largest)
-      {
-        expected = { gap, { p.x, p.y, p.z } };
-      }
-      isFirst = false;
-    }
-    const BoundaryGap gap = LargestBoundaryGap(shape, weights, rest.positions, rest.radius);
-    EXPECT_EQ(gap.largest, std::max(0.0, expected.largest));
+    const BoundaryGap    expected = GapByLookingAtAll(shape, weights, rest.positions, rest.radius);
+    const BoundaryGap    gap = LargestBoundaryGap(shape, weights, rest.positions, rest.radius);
+    EXPECT_EQ(gap.largest, expected.largest);
     EXPECT_EQ(gap.place, expected.place);
+  }
+}
+
+// Balls that touch nothing, hold one another, lie at one place or are negative, in every spacing: none may be missed.
+TEST(BoundaryGap, IsWhatLookingAtAllFinds)
+{
+  std::cout << "seeds from 400\n";
+  const testing::Threads threads(3);
+  for (std::uint64_t seed = 400; seed < 480; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    testing::Random      random(seed);
+    const VoxelShape     shape = testing::RandomShape(random, { 70, 9, 8 }, 0.3 + 0.1 * static_cast<double>(seed % 7));
+    const SpacingWeights weights = ComputeSpacingWeights(testing::TestSpacings()[seed % 6]);
+    std::vector<std::array<double, 3>> positions;
+    std::vector<double>                radius;
+    const double                       grid = seed % 2 == 0 ? 1 : 1e-3;
+    const auto                         along = [&](double side) {
+      return grid * static_cast<double>(random.Between(0, static_cast<std::int64_t>(side / grid)));
+    };
+    for (std::int64_t i = random.Between(1, seed % 5 == 0 ? 3000 : 90); i > 0; --i)
+    {
+      positions.push_back({ seed % 3 == 0 ? 7 : along(70), along(9), seed % 8 == 0 ? 2 : along(8) });
+      radius.push_back((random.Chance(0.1) ? 6 : 1) * random.Unit() - (random.Chance(0.1) ? 0.5 : 0));
+    }
+    const BoundaryGap expected = GapByLookingAtAll(shape, weights, positions, radius);
+    const BoundaryGap gap = LargestBoundaryGap(shape, weights, positions, radius);
+    ASSERT_EQ(gap.largest, expected.largest);
+    ASSERT_EQ(gap.place, expected.place);
   }
 }
 

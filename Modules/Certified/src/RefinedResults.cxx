@@ -4,13 +4,12 @@
 #include "PruneStages.h"
 #include "RefinedTolerances.h"
 #include "voxelcore/ComplexTopology.h"
-#include "voxelcore/ParallelTasks.h"
+#include "voxelcore/Enclosure.h"
 #include "voxelcore/RadiusMargin.h"
 #include "voxelcore/StagePlan.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -34,7 +33,7 @@ RequireRefined(const RefinedCore & refined,
     moved.maxDisplacement = std::max(moved.maxDisplacement, length);
     moved.meanDisplacement += length / static_cast<double>(refined.displacement.size());
   }
-  if (!IsEnclosed(refined.core, voxels) || moved.maxDisplacement > 1)
+  if (!LieInside(voxels, refined.core.positions) || moved.maxDisplacement > 1)
   {
     RefuseResult(name, "a vertex of " + what + " lies outside the shape or was moved by more than a voxel");
   }
@@ -270,22 +269,6 @@ RefineAndCertify(const VoxelShape &       voxels,
     MoveCurves(refined.back(), voxels, shape, *task.curves);
   }
   return results;
-}
-
-bool
-IsEnclosed(const MedialComplex & core, const VoxelShape & voxels)
-{
-  std::atomic<bool> enclosed = true;
-  RunInParts(core.positions.size() > 10000, core.positions.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t vertex = first; vertex < last && enclosed; ++vertex)
-    {
-      if (!ContainsInside(voxels, core.positions[vertex]))
-      {
-        enclosed = false;
-      }
-    }
-  });
-  return enclosed;
 }
 
 } // namespace voxelcore

@@ -47,8 +47,5 @@ RefineAndCertify(const VoxelShape &       voxels,
                  RefinementTask           task,
                  const ProgressCallback & progress);
 
-/** Whether every vertex lies strictly inside the open shape; positions in lattice coordinates. */
-bool
-IsEnclosed(const MedialComplex & core, const VoxelShape & voxels);
 
 } // namespace voxelcore

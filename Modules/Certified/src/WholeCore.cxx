@@ -7,6 +7,7 @@
 #include "RequestStages.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/ComplexTopology.h"
+#include "voxelcore/Enclosure.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/Stopwatch.h"
@@ -42,7 +43,7 @@ EndTolerances(ToleranceValues & values, const ImageGeometry & geometry)
 void
 RequireEnclosed(const MedialComplex & core, const VoxelShape & voxels, const std::string & name)
 {
-  if (!IsEnclosed(core, voxels))
+  if (!LieInside(voxels, core.positions))
   {
     RefuseResult(name, "a vertex of the core lies outside the shape");
   }

@@ -16,11 +16,47 @@ namespace
 
 constexpr ElementIndex kOnSeam = 0xFFFFFFFFU; // as a count: what stands beside it is the number of a seam
 
+// What lies at an edge. Of its own: a collapse has other counts, and a fault in these must not cancel out here.
+struct FacesAtEdge
+{
+  ElementIndex count = 0;
+  ElementIndex faces = 0; // exclusive or: the face, where there is one
+
+  void
+  Remove(ElementIndex face)
+  {
+    --count;
+    faces ^= face;
+  }
+};
+
+std::vector<FacesAtEdge>
+CountFacesAtEdges(const CellComplex & complex)
+{
+  constexpr std::size_t    ahead = 32;
+  std::vector<FacesAtEdge> at(complex.edges.size());
+  std::size_t              side = 0;
+  for (std::size_t face = 0; face < complex.FaceCount(); ++face)
+  {
+    for (; side < complex.faceOffsets[face + 1]; ++side)
+    {
+      if (side + ahead < complex.faceEdges.size())
+      {
+        FetchLine(&at[complex.faceEdges[side + ahead]]);
+      }
+      FacesAtEdge & own = at[complex.faceEdges[side]];
+      ++own.count;
+      own.faces ^= static_cast<ElementIndex>(face);
+    }
+  }
+  return at;
+}
+
 // Faces with a free edge that wait to be dropped, first come, first served: it is known ahead which memory they need.
 class OpenFaces
 {
 public:
-  OpenFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces, std::vector<std::uint8_t> & live)
+  OpenFaces(const CellComplex & complex, std::vector<FacesAtEdge> & cofaces, std::vector<std::uint8_t> & live)
     : m_Complex(complex)
     , m_Cofaces(cofaces.data())
     , m_Live(live.data())
@@ -51,9 +87,9 @@ public:
       MakeRoom(sides.size());
       for (const ElementIndex side : sides)
       {
-        Cofaces & own = m_Cofaces[side];
+        FacesAtEdge & own = m_Cofaces[side];
         own.Remove(face);
-        m_Faces[m_End] = own.exclusiveOr; // without a jump, which would be hard to foretell
+        m_Faces[m_End] = own.faces; // without a jump, which would be hard to foretell
         m_End += own.count == 1 ? 1 : 0;
       }
     }
@@ -100,7 +136,7 @@ private:
   }
 
   const CellComplex &       m_Complex;
-  Cofaces *                 m_Cofaces;
+  FacesAtEdge *             m_Cofaces;
   std::uint8_t *            m_Live;
   std::vector<ElementIndex> m_Faces = std::vector<ElementIndex>(4096);
   std::size_t               m_Next = 0;
@@ -110,16 +146,16 @@ private:
 // Removes free faces until every edge has no live face or at least two: a 2-cycle cannot contain them. Returns the
 // flags of the faces left; `cofaces` is of all faces at first, then of those left.
 std::vector<std::uint8_t>
-DropFreeFaces(const CellComplex & complex, std::vector<Cofaces> & cofaces)
+DropFreeFaces(const CellComplex & complex, std::vector<FacesAtEdge> & cofaces)
 {
   constexpr std::size_t     few = 32;
   std::vector<std::uint8_t> live(complex.FaceCount(), 1);
   OpenFaces                 open(complex, cofaces, live);
-  for (const Cofaces & own : cofaces) // each with what follows from it, which lies near
+  for (const FacesAtEdge & own : cofaces) // each with what follows from it, which lies near
   {
     if (own.count == 1)
     {
-      open.Add(own.exclusiveOr);
+      open.Add(own.faces);
       open.DropTo(few);
     }
   }
@@ -186,7 +222,7 @@ Rank(std::vector<Equation> & equations)
 std::int64_t
 SecondBetti(const CellComplex & complex)
 {
-  std::vector<Cofaces>            cofaces = CountEdgeCofaces(complex);
+  std::vector<FacesAtEdge>        cofaces = CountFacesAtEdges(complex);
   const std::vector<std::uint8_t> live = DropFreeFaces(complex, cofaces);
   if (std::ranges::find(live, std::uint8_t{ 1 }) == live.end()) // as in most shapes without cavities
   {
@@ -204,10 +240,10 @@ SecondBetti(const CellComplex & complex)
     }
     for (const ElementIndex edge : complex.FaceEdges(face))
     {
-      Cofaces & own = cofaces[edge];
+      FacesAtEdge & own = cofaces[edge];
       if (own.count == 2)
       {
-        sheets.Unite(face, face ^ own.exclusiveOr);
+        sheets.Unite(face, face ^ own.faces);
         continue;
       }
       if (own.count != kOnSeam)
@@ -215,10 +251,10 @@ SecondBetti(const CellComplex & complex)
         own = { kOnSeam, static_cast<ElementIndex>(seams.size()) };
         seams.emplace_back();
       }
-      seams[own.exclusiveOr].push_back(static_cast<ElementIndex>(face));
+      seams[own.faces].push_back(static_cast<ElementIndex>(face));
     }
   }
-  std::vector<Cofaces>().swap(cofaces);
+  std::vector<FacesAtEdge>().swap(cofaces);
 
   // Each seam edge is an equation on sheets. One with a single sheet makes it zero, one with two unites them, and both
   // may shorten others; what is left is small.

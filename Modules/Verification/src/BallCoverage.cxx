@@ -1,7 +1,7 @@
 #include "voxelcore/BallCoverage.h"
 
-#include "voxelcore/BallTree.h"
-#include "voxelcore/BoundaryVertices.h"
+#include "BallBoxes.h"
+#include "voxelcore/OctantScan.h"
 #include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
@@ -57,8 +57,8 @@ LargestBoundaryGap(const VoxelShape &                     shape,
                    std::span<const double>                radius,
                    const ProgressCallback &               progress)
 {
-  const std::vector<LatticePoint> points = BoundaryVertices(shape);
-  const BallTree                  tree(positions, radius, weights);
+  const std::vector<LatticePoint> points = ScanOctants(shape).boundary;
+  const verification::BallBoxes   balls(positions, radius, weights);
   const auto                      width = static_cast<std::size_t>(shape.Box().size[0]) + 3;
   Farthest                        farthest;
   // What lies nearer than the farthest so far needs no closer look: a few places from everywhere come first.
@@ -93,7 +93,7 @@ LargestBoundaryGap(const VoxelShape &                     shape,
           bool                isNear = false;
           for (const std::size_t ball : { at[1], nearest, at[0], at[2] })
           {
-            if (tree.IsWithin(place, own.gap, ball))
+            if (balls.IsNearer(place, own.gap, ball))
             {
               nearest = ball;
               isNear = true;
@@ -102,7 +102,7 @@ LargestBoundaryGap(const VoxelShape &                     shape,
           }
           if (!isNear)
           {
-            own.Take(tree.Gap(place, own.gap, nearest), i * step);
+            own.Take(balls.SmallestGap(place, own.gap, nearest), i * step);
           }
           at[1] = nearest;
         }

@@ -1,5 +1,8 @@
 #include "voxelcore/OctantScan.h"
 
+#include "voxelcore/ParallelTasks.h"
+
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -49,16 +52,13 @@ MakeTable()
 constexpr std::array<int, 256> kEightfoldEuler = MakeTable();
 static_assert(kEightfoldEuler[0] == 0 && kEightfoldEuler[255] == 0 && kEightfoldEuler[1] == 1);
 
-} // namespace
-
-OctantScan
-ScanOctants(const VoxelShape & shape)
+/** Adds the layers first to last - 1 of corners. */
+void
+ScanLayers(const VoxelShape & shape, std::int32_t first, std::int32_t last, OctantScan & scan)
 {
-  OctantScan        scan;
   const VoxelBox &  box = shape.Box();
   const std::size_t words = shape.WordsPerRow();
-  std::int64_t      sum = 0;
-  for (std::int32_t z = 0; z <= box.size[2]; ++z)
+  for (std::int32_t z = first; z < last; ++z)
   {
     for (std::int32_t y = 0; y <= box.size[1]; ++y)
     {
@@ -70,41 +70,57 @@ ScanOctants(const VoxelShape & shape)
         const std::int32_t rz = z - 1 + static_cast<std::int32_t>(side >> 1U);
         rows[side] = shape.RowAnywhere(ry, rz);
       }
-      unsigned lower = 0; // the four voxels on the lower side along x, at bits 0, 2, 4, 6
+      std::array<std::uint64_t, 4> before{}; // the voxel on the lower side of the word's first corner, at bit 0
       for (std::size_t word = 0; word <= words; ++word)
       {
-        std::array<std::uint64_t, 4> bits{};
+        std::array<std::uint64_t, 4> upper{}; // of each corner the voxel on its upper side
+        std::array<std::uint64_t, 4> lower{};
+        std::uint64_t                any = 0;
+        std::uint64_t                all = ~std::uint64_t{ 0 };
         for (std::size_t side = 0; side < 4; ++side)
         {
-          bits[side] = word < words ? rows[side][word] : 0;
+          upper[side] = word < words ? rows[side][word] : 0;
+          lower[side] = upper[side] << 1U | before[side];
+          before[side] = upper[side] >> 63U;
+          any |= upper[side] | lower[side];
+          all &= upper[side] & lower[side];
         }
-        const bool allOut = (bits[0] | bits[1] | bits[2] | bits[3]) == 0 && lower == 0;
-        const bool allIn = (bits[0] & bits[1] & bits[2] & bits[3]) == ~std::uint64_t{ 0 } && lower == 0x55U;
-        if (allOut || allIn)
+        const auto start = static_cast<std::int32_t>(64 * word);
+        for (std::uint64_t mixed = any & ~all; mixed != 0; mixed &= mixed - 1)
         {
-          continue;
-        }
-        const auto start = static_cast<std::int64_t>(word) * 64;
-        for (std::int64_t bit = 0; bit < 64 && start + bit <= box.size[0]; ++bit)
-        {
-          unsigned upper = 0;
+          const int bit = std::countr_zero(mixed);
+          unsigned  mask = 0;
           for (std::size_t side = 0; side < 4; ++side)
           {
-            upper |= static_cast<unsigned>((bits[side] >> bit) & 1U) << (2 * side);
+            mask |= static_cast<unsigned>((lower[side] >> bit & 1U) | (upper[side] >> bit & 1U) << 1U) << (2 * side);
           }
-          const unsigned mask = lower | (upper << 1U);
-          if (mask != 0 && mask != 0xFFU)
-          {
-            sum += kEightfoldEuler[mask];
-            scan.boundary.push_back(
-              { box.lower[0] + static_cast<std::int32_t>(start + bit), box.lower[1] + y, box.lower[2] + z });
-          }
-          lower = upper;
+          scan.euler += kEightfoldEuler[mask];
+          scan.boundary.push_back({ box.lower[0] + start + bit, box.lower[1] + y, box.lower[2] + z });
         }
       }
     }
   }
-  scan.euler = sum / 8;
+}
+
+} // namespace
+
+OctantScan
+ScanOctants(const VoxelShape & shape)
+{
+  constexpr std::int32_t  layers = 8; // that a thread takes at a time
+  const std::int32_t      count = shape.Box().size[2] + 1;
+  std::vector<OctantScan> parts(static_cast<std::size_t>((count + layers - 1) / layers));
+  RunEach(parts.size(), [&](std::size_t part) {
+    const std::int32_t first = static_cast<std::int32_t>(part) * layers;
+    ScanLayers(shape, first, std::min(first + layers, count), parts[part]);
+  });
+  OctantScan scan;
+  for (const OctantScan & part : parts)
+  {
+    scan.euler += part.euler;
+    scan.boundary.insert(scan.boundary.end(), part.boundary.begin(), part.boundary.end());
+  }
+  scan.euler /= 8;
   return scan;
 }
 
