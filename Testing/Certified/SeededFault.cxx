@@ -1,9 +1,11 @@
 // For tests of the promise: what the rooms below Certified give is damaged on its way up, where the environment
 // variable VOXELCORE_SEEDED_FAULT names the stage. The linker's --wrap puts these functions in their place.
 
+#include "voxelcore/BallTree.h"
 #include "voxelcore/TolerancePruning.h"
 #include "voxelcore/CurveSkeleton.h"
 #include "voxelcore/LambdaPruning.h"
+#include "voxelcore/LocalThickness.h"
 #include "voxelcore/Refinement.h"
 #include "voxelcore/VoxelCore.h"
 
@@ -56,6 +58,28 @@ Damage(MedialComplex & complex)
   }
 }
 
+/** What may be wrong with a core that is made, each against another promise. */
+void
+DamageCore(MedialComplex & core)
+{
+  if (IsSeeded("core"))
+  {
+    Damage(core);
+  }
+  if (IsSeeded("enclosure") && !core.positions.empty())
+  {
+    core.positions.back()[0] -= 1000;
+  }
+  if (IsSeeded("radius") && !core.radius.empty())
+  {
+    core.radius.back() *= 1.1;
+  }
+  if (IsSeeded("measure") && !core.faceLambda.empty())
+  {
+    core.faceLambda.back() *= 1.1;
+  }
+}
+
 } // namespace
 
 // NOLINTBEGIN: names as the linker has them
@@ -81,6 +105,11 @@ Damage(MedialComplex & complex)
 #define VOXELCORE_CURVES                                                                                             \
   "_ZN9voxelcore20ComputeCurveSkeletonERKNS_13MedialComplexEPKNS_12LiveElementsERKNS_12CurveOptionsERKSt8functionIF" \
   "bSt17basic_string_viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_GAP "_ZNK9voxelcore8BallTree3GapERKSt5arrayIdLm3EEd"
+#define VOXELCORE_NEAREST_GAP VOXELCORE_GAP "Rm"
+#define VOXELCORE_BRACKET                                                                                      \
+  "_ZN9voxelcore16BracketThicknessERKNS_10VoxelShapeESt4spanIKNS_12LatticePointELm18446744073709551615EERKNS_" \
+  "13DelaunayCellsERKNS_14SpacingWeightsEbRKSt8functionIFbSt17basic_string_viewIcSt11char_traitsIcEEdEEPS1_"
 // NOLINTEND
 
 MedialComplex
@@ -97,10 +126,7 @@ FaultyBuild(const VoxelShape &        shape,
             CoreUse                   use)
 {
   MedialComplex core = TrueBuild(shape, std::move(points), std::move(cells), weights, use);
-  if (IsSeeded("core"))
-  {
-    Damage(core);
-  }
+  DamageCore(core);
   return core;
 }
 
@@ -112,10 +138,7 @@ MedialComplex
 FaultyCore(const VoxelShape & shape, const SpacingWeights & weights, Engine engine, const ProgressCallback & progress)
 {
   MedialComplex core = TrueCore(shape, weights, engine, progress);
-  if (IsSeeded("core"))
-  {
-    Damage(core);
-  }
+  DamageCore(core);
   return core;
 }
 
@@ -188,7 +211,7 @@ FaultyTolerance(const MedialComplex &, double, std::vector<ElementIndex> &) asm(
 MedialComplex
 FaultyTolerance(const MedialComplex & core, double height, std::vector<ElementIndex> & vertices)
 {
-  MedialComplex pruned = TrueTolerance(core, height, vertices);
+  MedialComplex pruned = TrueTolerance(core, IsSeeded("height") ? 3 * height : height, vertices);
   if (IsSeeded("tolerance"))
   {
     Damage(pruned);
@@ -211,6 +234,10 @@ FaultyRefine(const RefinementInput & input, const std::vector<double> & threshol
   if (IsSeeded("refinement") && !refined.empty())
   {
     Damage(refined.back().core);
+  }
+  if (IsSeeded("moves") && !refined.empty() && !refined.back().core.positions.empty())
+  {
+    refined.back().core.positions.back()[0] -= 1000;
   }
   return refined;
 }
@@ -237,6 +264,69 @@ FaultyCurves(const MedialComplex &    surface,
     Damage(skeleton.complex);
   }
   return skeleton;
+}
+
+ThicknessBracket
+TrueBracket(const VoxelShape &,
+            std::span<const LatticePoint>,
+            const DelaunayCells &,
+            const SpacingWeights &,
+            bool,
+            const ProgressCallback &,
+            const VoxelShape *) asm("__real_" VOXELCORE_BRACKET);
+ThicknessBracket
+FaultyBracket(const VoxelShape &,
+              std::span<const LatticePoint>,
+              const DelaunayCells &,
+              const SpacingWeights &,
+              bool,
+              const ProgressCallback &,
+              const VoxelShape *) asm("__wrap_" VOXELCORE_BRACKET);
+ThicknessBracket
+FaultyBracket(const VoxelShape &            shape,
+              std::span<const LatticePoint> points,
+              const DelaunayCells &         cells,
+              const SpacingWeights &        weights,
+              bool                          upper,
+              const ProgressCallback &      progress,
+              const VoxelShape *            part)
+{
+  ThicknessBracket bracket = TrueBracket(shape, points, cells, weights, upper, progress, part);
+  if (IsSeeded("bounds"))
+  {
+    for (float & bound : bracket.upper.values)
+    {
+      bound *= 0.5F;
+    }
+  }
+  return bracket;
+}
+
+// Refinement keeps the boundary covered by these; a certificate that asked them, too, saw nothing.
+double
+TrueGap(const BallTree *, const std::array<double, 3> &, double) asm("__real_" VOXELCORE_GAP);
+double
+FaultyGap(const BallTree *, const std::array<double, 3> &, double) asm("__wrap_" VOXELCORE_GAP);
+double
+FaultyGap(const BallTree * tree, const std::array<double, 3> & place, double enough)
+{
+  return (IsSeeded("gap") ? 0.6 : 1) * TrueGap(tree, place, enough);
+}
+
+double
+TrueNearestGap(const BallTree *,
+               const std::array<double, 3> &,
+               double,
+               std::size_t &) asm("__real_" VOXELCORE_NEAREST_GAP);
+double
+FaultyNearestGap(const BallTree *,
+                 const std::array<double, 3> &,
+                 double,
+                 std::size_t &) asm("__wrap_" VOXELCORE_NEAREST_GAP);
+double
+FaultyNearestGap(const BallTree * tree, const std::array<double, 3> & place, double enough, std::size_t & nearest)
+{
+  return (IsSeeded("gap") ? 0.6 : 1) * TrueNearestGap(tree, place, enough, nearest);
 }
 
 } // namespace voxelcore

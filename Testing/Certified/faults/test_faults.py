@@ -7,6 +7,15 @@ import voxelcore
 ROD = numpy.pad(numpy.ones((20, 7, 6), numpy.uint8), 2)
 
 
+def thick_and_thin():
+    """A ball of radius 9 on a rod of radius 2.5, with a spot of noise: refinement must take balls back to cover it."""
+    x, y, z = numpy.mgrid[:40, :24, :24] + 0.5
+    axis = numpy.hypot(y - 12, z - 12)
+    body = (numpy.hypot(x - 12, axis) < 9) | ((axis < 2.5) & (x > 12) & (x < 37))
+    body[34:36, 14:17, 11:13] = 1
+    return body.astype(numpy.uint8)
+
+
 def cores_from(path):
     """What is made from a core that was saved without a fault."""
     return {
@@ -25,6 +34,8 @@ FROM_ARRAY = {
     "refined": lambda: voxelcore.core(ROD, lambda_=0, refine="labels"),
     "skeleton": lambda: voxelcore.skeleton(ROD),
     "table": lambda: voxelcore.measure(ROD),
+    "usual": lambda: voxelcore.core(thick_and_thin()),
+    "thickness": lambda: voxelcore.thickness(ROD, refine="off", bounds=True),
 }
 
 
@@ -55,6 +66,11 @@ def refuses(monkeypatch, stage, make):
         ("refinement", "refined"),
         ("skeleton", "skeleton"),
         ("skeleton", "table"),
+        ("enclosure", "core"),
+        ("moves", "usual"),
+        ("gap", "usual"),
+        ("height", "by tolerance"),
+        ("bounds", "thickness"),
     ],
 )
 def test_a_fault_below_an_array_is_refused(monkeypatch, stage, what):
