@@ -5,6 +5,7 @@
 #include "Scans.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -278,6 +279,51 @@ TEST_F(BadUsage, MissingOrUnknownParts)
   ExpectUsageError({ "phantom", "ball", "-o", m_Folder / "out.xyz" }, { "out.xyz" });
   ExpectUsageError({ "phantom", "ball" }, { "--output" });
   ExpectUsageError({ "prune", m_Folder / "a.nrrd", "-o", m_Folder / "out.vtp" }, { "--lambda" });
+}
+
+/** Puts another number at the place of the first value of an array that VTK wrote as appended doubles. */
+void
+SetFirst(const std::filesystem::path & from, const std::filesystem::path & to, const std::string & name, double value)
+{
+  std::string       bytes = ReadAll(from);
+  const std::string mark = "Name=\"" + name + "\"";
+  const auto        array = bytes.find(mark);
+  ASSERT_NE(array, std::string::npos);
+  const auto        offset = bytes.find("offset=\"", array);
+  const auto        begin = bytes.find('_', bytes.find("<AppendedData")) + 1;
+  const std::size_t at = begin + std::stoul(bytes.substr(offset + 8)) + 8; // behind the count of bytes
+  bytes.replace(at, sizeof(value), reinterpret_cast<const char *>(&value), sizeof(value));
+  WriteAll(to, bytes);
+}
+
+TEST_F(BadInput, ACoreOrSkeletonWithANumberThatCannotBeIsRefusedByEveryCommand)
+{
+  TestScan ball({ 12, 11, 10 });
+  ball.Fill({ 2, 2, 2 }, { 9, 8, 6 }, 1);
+  WriteNrrd(m_Folder / "a.nrrd", ball);
+  ASSERT_EQ(RunProgram({ "core", m_Folder / "a.nrrd", "--lambda", "0", "--keep-edges", "-o", m_Folder / "a.vtp" }).code,
+            0);
+  ASSERT_EQ(RunProgram({ "skeleton", m_Folder / "a.nrrd", "-o", m_Folder / "s.vtp" }).code, 0);
+  for (const double value : { 1e17, -1.0, std::nan("") })
+  {
+    SetFirst(m_Folder / "a.vtp", m_Folder / "bad.vtp", "Radius", value);
+    SetFirst(m_Folder / "s.vtp", m_Folder / "bent.vtp", "Radius", -1);
+    const Names before = m_Folder.Names();
+    const auto  refused = [&](const std::vector<std::string> & arguments, const char * file) {
+      ExpectRefusal(RunProgram(arguments), 3, { file });
+      EXPECT_EQ(m_Folder.Names(), before) << arguments[0];
+    };
+    refused({ "skeleton", m_Folder / "bad.vtp", "-o", m_Folder / "o.vtp" }, "bad.vtp");
+    refused({ "sheets", m_Folder / "bad.vtp", "-o", m_Folder / "o.vtp" }, "bad.vtp");
+    refused({ "reconstruct", m_Folder / "bad.vtp", "-o", m_Folder / "o.nrrd" }, "bad.vtp");
+    refused({ "prune", m_Folder / "bad.vtp", "--lambda", "2vox", "-o", m_Folder / "o.vtp" }, "bad.vtp");
+    refused({ "verify", m_Folder / "a.nrrd", m_Folder / "bad.vtp" }, "bad.vtp");
+    refused({ "measure", m_Folder / "bent.vtp", "-o", m_Folder / "o.csv" }, "bent.vtp");
+#ifdef VOXELCORE_HAS_DISPLAY
+    refused({ "render", m_Folder / "bad.vtp", "-o", m_Folder / "o.png" }, "bad.vtp");
+    refused({ "render", m_Folder / "bent.vtp", "-o", m_Folder / "o.png" }, "bent.vtp");
+#endif
+  }
 }
 
 } // namespace

@@ -1,14 +1,18 @@
 #include "ModelCells.h"
 #include "Models/ModelFixtures.h"
 #include "VoxelCoreTesting/Messages.h"
+#include "voxelcore/SkeletonModel.h"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <ctime>
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <limits>
 #include <random>
+#include <utility>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -115,6 +119,67 @@ TEST(ModelFailures, MissingArraysAndWrongSpaceAreRefused)
     WriteAll(folder / "b.vtp", Replaced(bytes, what, with));
     ExpectUnreadable(folder / "b.vtp");
   }
+}
+
+TEST(ModelFailures, NumbersThatNoShapeHasAreRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  const auto            refused = [&](const std::function<void(ModelPart &)> & change) {
+    MedialModel model = MixedModel();
+    change(model.parts.front());
+    for (const char * name : { "b.vtp", "b.vtk" })
+    {
+      WriteModel(folder / name, name, model, { .triangles = false, .keepEdges = true });
+      ExpectUnreadable(folder / name);
+    }
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double value : { -0.25, 1e17, nan, infinity, -infinity })
+  {
+    SCOPED_TRACE(value);
+    refused([&](ModelPart & part) { part.core.radius[2] = value; });
+    if (value != 1e17)
+    {
+      refused([&](ModelPart & part) { part.core.vertexLambda[2] = value; });
+      refused([&](ModelPart & part) { part.core.faceLambda[1] = value; });
+    }
+    if (value != -0.25)
+    {
+      refused([&](ModelPart & part) { part.core.positions[5][1] = value; }); // alone
+      refused([&](ModelPart & part) { part.core.positions[2][0] = value; });
+    }
+  }
+}
+
+TEST(ModelFailures, NumbersThatNoSkeletonHasAreRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  SkeletonModel         model;
+  model.parts.emplace_back();
+  SkeletonGraph & graph = model.parts.front().graph;
+  graph.positions = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } };
+  graph.radius = { 1, 1, 1 };
+  graph.sectionRadius = { 1, 1, 1 };
+  graph.erosionThickness = { 0, 0, std::numeric_limits<double>::infinity() };
+  SortBranches(graph, { { 0, 1, 2 } }, false);
+  WriteSkeletonVtp(folder / "a.vtp", model);
+  EXPECT_EQ(ReadSkeletonVtp(folder / "a.vtp").parts.front().graph.radius, graph.radius);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : { -1.0, nan, -std::numeric_limits<double>::infinity() })
+  {
+    SCOPED_TRACE(value);
+    for (auto * values : { &graph.radius, &graph.sectionRadius, &graph.erosionThickness })
+    {
+      const double before = std::exchange(values->at(1), value);
+      WriteSkeletonVtp(folder / "b.vtp", model);
+      EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError);
+      values->at(1) = before;
+    }
+  }
+  graph.positions[1][2] = nan;
+  WriteSkeletonVtp(folder / "b.vtp", model);
+  EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError);
 }
 
 TEST(ModelFailures, TheNameOfAnArrayStaysOnItsLine)

@@ -104,6 +104,10 @@ RandomModel(std::uint64_t seed, int n, int parts)
     model.parts.push_back(
       { 5 * p - 2,
         MakeCore(static_cast<std::size_t>(n * n * n), edges, faces, static_cast<double>(random() % 1000) / 7) });
+    for (double & radius : model.parts.back().core.radius)
+    {
+      radius += n * n; // neighbours in the grid are far apart
+    }
   }
   model.provenance = "{}";
   return model;

@@ -293,6 +293,17 @@ TEST_F(VtkFilters, ReportWhatIsWrongOnceAndLeaveNothing)
   EXPECT_TRUE(refused(m_Pruned, "no medial surface of VoxelCore"));
   m_Pruned->SetInputData(MakePolyData(Expected(0), false));
   EXPECT_TRUE(refused(m_Pruned, "--keep-edges"));
+  for (const double value : { -1.0, std::nan(""), std::numeric_limits<double>::infinity() })
+  {
+    MedialModel damaged = Expected(0);
+    damaged.parts.front().core.radius.front() = value;
+    m_Pruned->SetInputData(MakePolyData(damaged, true));
+    EXPECT_TRUE(refused(m_Pruned, "point 0 has the Radius")) << value;
+    damaged = Expected(0);
+    damaged.parts.front().core.faceLambda.front() = value;
+    m_Pruned->SetInputData(MakePolyData(damaged, true));
+    EXPECT_TRUE(refused(m_Pruned, "a measure Lambda of its faces")) << value;
+  }
 }
 
 TEST_F(VtkFilters, AreWithoutErrorAgainAfterAFault)

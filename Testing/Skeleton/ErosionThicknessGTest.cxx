@@ -171,6 +171,35 @@ TEST(ErosionThickness, CurvesAndPointsBurnAtTheirRadius)
   EXPECT_EQ(ComputeBurnTimes(builder.Surface(), 1).vertices, builder.Surface().radius);
 }
 
+TEST(ErosionThickness, FireComesToAnEndHoweverFarItsTimesAreApart)
+{
+  for (const double far : { 1e16, 1e17, 1e300, std::numeric_limits<double>::max() })
+  {
+    SurfaceBuilder builder;
+    builder.Point(0, 0, 0, far); // of the rim: a window is less than a bit of its time
+    builder.Sheet({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 6, 5, 2.5);
+    int             windows = 0;
+    const BurnTimes times =
+      ComputeBurnTimes(builder.Surface(), 1, [&](std::string_view, double) { return ++windows < 1000; });
+    EXPECT_EQ(times.vertices.front(), far);
+    EXPECT_EQ(*std::max_element(times.vertices.begin() + 1, times.vertices.end()), 4.5);
+  }
+}
+
+TEST(ErosionThickness, WhatIsNoTimeIsRefused)
+{
+  for (const double value : { -1.0, kInfinity, std::numeric_limits<double>::quiet_NaN() })
+  {
+    SurfaceBuilder builder;
+    builder.Point(0, 0, 0, value);
+    builder.Sheet({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, 3, 2);
+    EXPECT_THROW(ComputeBurnTimes(builder.Surface(), 1), InputError) << value;
+  }
+  SurfaceBuilder builder;
+  builder.Point(0, 0, kInfinity);
+  EXPECT_THROW(ComputeBurnTimes(builder.Surface(), 1), InputError);
+}
+
 TEST(ErosionThickness, ClosedSurfaceNeverBurns)
 {
   SurfaceBuilder builder;

@@ -4,6 +4,7 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/MedialModel.h"
+#include "voxelcore/SoundCore.h"
 
 #include <algorithm>
 #include <array>
@@ -244,6 +245,27 @@ ReadValues(ModelSource & file, const char * section, const char * name, std::int
   return values;
 }
 
+/** Further numbers of a core: finite and, unless a direction, not below 0. */
+void
+RequireFinite(const std::vector<double> & values, double least, const char * reason)
+{
+  RequireFit(
+    std::all_of(values.begin(), values.end(), [&](double value) { return std::isfinite(value) && value >= least; }),
+    reason);
+}
+
+/** How far the places of a file that lost digits may be off: text may have kept three. */
+double
+RoundingOf(const std::vector<double> & positions)
+{
+  double largest = 0;
+  for (const double x : positions)
+  {
+    largest = std::max(largest, std::abs(x));
+  }
+  return 1e-3 * largest;
+}
+
 /** Label and component of each cell. */
 std::vector<PartKey>
 ReadKeys(ModelSource & file, std::int64_t cellCount)
@@ -330,9 +352,14 @@ ReadParts(ModelSource & file, bool anywhere)
   };
   const std::vector<double> thickness = readIfThere("Thickness");
   const std::vector<double> margin = readIfThere("RadiusMargin");
-  const bool                isRounded = !file.Rounded().empty();
-  std::size_t               edgesRead = 0;
-  bool                      edgesMissing = false;
+  constexpr double          lowest = std::numeric_limits<double>::lowest();
+  RequireFinite(displacement, lowest, "a Displacement is no finite number");
+  RequireFinite(thickness, 0, "a Thickness is below 0 or no finite number");
+  RequireFinite(margin, 0, "a RadiusMargin is below 0 or no finite number");
+  const bool   isRounded = !file.Rounded().empty();
+  const double rounding = isRounded ? RoundingOf(positions) : 0;
+  std::size_t  edgesRead = 0;
+  bool         edgesMissing = false;
   for (const auto & [key, range] : FindParts(kinds, keys, pointCount))
   {
     ModelPart       part{ key.first, {}, key.second };
@@ -401,6 +428,10 @@ ReadParts(ModelSource & file, bool anywhere)
           "EdgeVertices are not the edges of its polygons");
         core.edgeLambda[edge] = edgeLambda[edgesRead++];
       }
+    }
+    if (const std::string fault = FaultOfNumbers(core, { hasDisplacement, rounding, first }); !fault.empty())
+    {
+      throw UnfitFile{ fault };
     }
     model.parts.push_back(std::move(part));
   }

@@ -8,6 +8,7 @@
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <span>
@@ -108,6 +109,8 @@ ReadPoints(ModelSource & file)
   {
     points[i] = { numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2] };
   }
+  RequireFit(std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }),
+             "a coordinate is no finite number");
   RequireFit(points.size() == file.PieceCount("NumberOfPoints") &&
                points.size() < std::numeric_limits<ElementIndex>::max(),
              "its number of points is damaged");

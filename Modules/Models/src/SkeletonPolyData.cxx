@@ -5,6 +5,8 @@
 #include "voxelcore/SkeletonModel.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 namespace voxelcore
@@ -50,6 +52,17 @@ ReadSkeleton(ModelSource & file)
   const std::size_t         count = positions.size() / 3;
   RequireFit(radius.size() == count && sections.size() == count && thickness.size() == count && count < 0xFFFFFFFFU,
              "its arrays differ in length");
+  const auto areLengths = [](const std::vector<double> & values, double most) {
+    return std::all_of(values.begin(), values.end(), [&](double value) { return value >= 0 && value <= most; });
+  };
+  constexpr double largest = std::numeric_limits<double>::max();
+  RequireFit(std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); }),
+             "a coordinate is no finite number");
+  RequireFit(areLengths(radius, largest) && areLengths(sections, largest),
+             "a Radius or SectionRadius is below 0 or no finite number");
+  // Of closed surfaces it is infinite.
+  RequireFit(areLengths(thickness, std::numeric_limits<double>::infinity()),
+             "an ErosionThickness is below 0 or no number");
   const auto read = [&](const char * section) {
     return CellsOf({ file.ReadIndices(section, "offsets"), file.ReadIndices(section, "connectivity") }, count);
   };

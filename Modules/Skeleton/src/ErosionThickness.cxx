@@ -90,6 +90,13 @@ SurfaceFire::Times() const
 BurnTimes
 ComputeBurnTimes(const MedialComplex & complex, double sampling, const ProgressCallback & progress)
 {
+  const auto isLength = [](double value) { return value >= 0 && std::isfinite(value); };
+  const auto isPlace = [](const Vector3 & place) { return std::isfinite(place[0] + place[1] + place[2]); };
+  if (!std::all_of(complex.radius.begin(), complex.radius.end(), isLength) ||
+      !std::all_of(complex.positions.begin(), complex.positions.end(), isPlace))
+  {
+    throw InputError("a radius of the medial surface is below 0, or a radius or place is no finite number");
+  }
   return SurfaceFire(complex, sampling).Run(progress);
 }
 

@@ -98,7 +98,7 @@ SurfaceFire::Run(const ProgressCallback & progress)
       }
       ReportProgress(progress, "burning", std::min(1.0, static_cast<double>(burned) / points));
       start = next;
-      end = next + m_Window;
+      end = std::max(next + m_Window, std::nextafter(next, kNever)); // what is next burns, however far it is off
     }
     active.clear();
     for (std::size_t i = 0; i < m_Blocks.size(); ++i)

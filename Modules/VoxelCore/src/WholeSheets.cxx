@@ -4,6 +4,7 @@
 
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/UnionFind.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -40,12 +41,6 @@ IsWide(const MedialComplex & core, ElementIndex face)
     sum += core.radius[corner];
   }
   return core.faceLambda[face] * static_cast<double>(corners.size()) >= kWide * sum;
-}
-
-double
-Dot(const BallCentre & a, const BallCentre & b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // Away from one of its edges, within the face, of any length.

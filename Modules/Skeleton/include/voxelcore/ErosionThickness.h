@@ -27,7 +27,7 @@ struct BurnTimes
  *  fire runs straight from any point on its sides to any other. A computed time is at least the true one; paths over
  *  sample points are a few percent longer than straight ones. On as many threads as OpenMP gives.
  *  Positions and radii in mm. Only + - * / and sqrt in a fixed order: the same bits everywhere.
- *  \throws InputError above 2^32 - 2 sample points; Cancelled when the callback says so. */
+ *  \throws InputError above 2^32 - 2 sample points, or where a number is no length; Cancelled when told so. */
 BurnTimes
 ComputeBurnTimes(const MedialComplex & complex, double sampling, const ProgressCallback & progress = {});
 
