@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <random>
 #include <sstream>
 
 namespace voxelcore::testing
@@ -56,15 +57,66 @@ Model()
 
 TEST(SheetFiles, NumbersRunOverAllPartsAndRodsComeBehindTheSheets)
 {
-  const SheetModel model = Model();
+  const SheetModel   model = Model();
+  const SheetNumbers numbers(model);
   ASSERT_EQ(model.parts[0].sheets.sheets.size(), 3U);
   ASSERT_EQ(model.parts[0].sheets.curves.size(), 2U);
-  EXPECT_EQ(model.SheetId(0, 0), 1);
-  EXPECT_EQ(model.SheetId(1, 2), 6);
-  EXPECT_EQ(model.SheetId(0, 4), 7);
-  EXPECT_EQ(model.SheetId(1, 4), 8);
-  EXPECT_EQ(model.SeamId(1, 0), 3);
-  EXPECT_EQ(model.JunctionId(1, 0), 2);
+  EXPECT_EQ(numbers.SheetId(0, 0), 1);
+  EXPECT_EQ(numbers.SheetId(1, 2), 6);
+  EXPECT_EQ(numbers.SheetId(0, 4), 7);
+  EXPECT_EQ(numbers.SheetId(1, 4), 8);
+  EXPECT_EQ(numbers.SeamId(1, 0), 3);
+  EXPECT_EQ(numbers.JunctionId(1, 0), 2);
+}
+
+// One by one, as they stand in tables: each number is found from its part's alone, so a hundred thousand rods are no more
+// work each than one.
+TEST(SheetFiles, NumbersAreThoseCountedOneByOne)
+{
+  std::mt19937_64 random(20261128);
+  SheetModel      model;
+  for (int p = 0; p < 40; ++p)
+  {
+    SheetPart & part = model.parts.emplace_back();
+    part.sheets.sheets.resize(random() % 5);
+    part.sheets.curves.resize(random() % 7);
+    const std::size_t seams = part.sheets.curves.empty() ? 0 : random() % (part.sheets.curves.size() + 1);
+    for (std::size_t c = seams; c < part.sheets.curves.size(); ++c)
+    {
+      part.sheets.curves[c].isRod = true;
+    }
+    part.sheets.junctions.resize(random() % 4);
+  }
+  const SheetNumbers numbers(model);
+  std::int64_t       sheet = 0;
+  std::int64_t       seam = 0;
+  std::int64_t       junction = 0;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+  {
+    for (std::uint32_t i = 0; i < model.parts[p].sheets.sheets.size(); ++i)
+    {
+      EXPECT_EQ(numbers.SheetId(p, i), ++sheet);
+    }
+    for (std::uint32_t i = 0; i < model.parts[p].sheets.curves.size(); ++i)
+    {
+      EXPECT_EQ(numbers.SeamId(p, i), ++seam);
+    }
+    for (std::uint32_t i = 0; i < model.parts[p].sheets.junctions.size(); ++i)
+    {
+      EXPECT_EQ(numbers.JunctionId(p, i), ++junction);
+    }
+  }
+  for (std::size_t p = 0; p < model.parts.size(); ++p) // rods behind the sheets of all parts
+  {
+    const MedialSheets & cut = model.parts[p].sheets;
+    for (std::uint32_t i = 0; i < cut.curves.size(); ++i)
+    {
+      if (cut.curves[i].isRod)
+      {
+        EXPECT_EQ(numbers.SheetId(p, static_cast<std::uint32_t>(cut.sheets.size()) + i), ++sheet);
+      }
+    }
+  }
 }
 
 TEST(SheetFiles, VtkReadsFacesSeamsAndRodsWithTheirNumbers)

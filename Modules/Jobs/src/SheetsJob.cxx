@@ -254,6 +254,7 @@ private:
   WriteVoxels()
   {
     VolumeOfLabels<std::uint32_t> volume;
+    const SheetNumbers            known(m_Result.model);
     for (std::size_t i = 0; i < m_Shapes.size(); ++i)
     {
       const SheetPart &          part = m_Result.model.parts[i];
@@ -262,7 +263,7 @@ private:
       {
         const bool isSeam =
           piece >= part.sheets.sheets.size() && !part.sheets.curves[piece - part.sheets.sheets.size()].isRod;
-        numbers.push_back(isSeam ? 0 : static_cast<std::uint32_t>(m_Result.model.SheetId(i, piece)));
+        numbers.push_back(isSeam ? 0 : static_cast<std::uint32_t>(known.SheetId(i, piece)));
       }
       for (std::uint32_t & value : m_Pieces[i].values)
       {

@@ -77,52 +77,31 @@ WriteVoxels(TextFile & file, const SheetPart & part, std::size_t piece)
 
 } // namespace
 
-std::int64_t
-SheetModel::SheetId(std::size_t part, std::uint32_t piece) const
+SheetNumbers::SheetNumbers(const SheetModel & model)
 {
-  const std::size_t own = parts[part].sheets.sheets.size();
-  std::size_t       sheets = 0;
-  std::size_t       before = 0;
-  std::size_t       rods = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  Part next;
+  for (const SheetPart & part : model.parts)
   {
-    sheets += parts[i].sheets.sheets.size();
-    before += i < part ? parts[i].sheets.sheets.size() : 0;
-    rods += i < part ? CountRods(parts[i]) : 0;
+    const auto curves = static_cast<std::int64_t>(part.sheets.curves.size());
+    const auto rods = static_cast<std::int64_t>(CountRods(part));
+    next.sheets = static_cast<std::int64_t>(part.sheets.sheets.size());
+    next.rodsFrom = next.sheets + curves - rods;
+    m_Parts.push_back(next);
+    next.firstSheet += next.sheets;
+    next.firstRod += rods;
+    next.firstCurve += curves;
+    next.firstJunction += static_cast<std::int64_t>(part.sheets.junctions.size());
   }
-  if (piece < own)
+  for (Part & part : m_Parts)
   {
-    return static_cast<std::int64_t>(before + piece + 1);
+    part.firstRod += next.firstSheet;
   }
-  const std::size_t seams = parts[part].sheets.curves.size() - CountRods(parts[part]);
-  return static_cast<std::int64_t>(sheets + rods + (piece - own - seams) + 1);
-}
-
-std::int64_t
-SheetModel::SeamId(std::size_t part, std::uint32_t curve) const
-{
-  std::size_t before = 0;
-  for (std::size_t i = 0; i < part; ++i)
-  {
-    before += parts[i].sheets.curves.size();
-  }
-  return static_cast<std::int64_t>(before + curve + 1);
-}
-
-std::int64_t
-SheetModel::JunctionId(std::size_t part, std::uint32_t junction) const
-{
-  std::size_t before = 0;
-  for (std::size_t i = 0; i < part; ++i)
-  {
-    before += parts[i].sheets.junctions.size();
-  }
-  return static_cast<std::int64_t>(before + junction + 1);
 }
 
 void
 WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model)
 {
+  const SheetNumbers numbers(model);
   struct Names
   {
     std::vector<std::int64_t> sheet, seam, junction, label, component;
@@ -158,14 +137,14 @@ WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model)
     const auto sheets = static_cast<std::uint32_t>(cut.sheets.size());
     for (std::uint32_t junction = 0; junction < cut.junctions.size(); ++junction)
     {
-      add(0, std::array{ cut.junctions[junction] }, 0, 0, model.JunctionId(p, junction));
+      add(0, std::array{ cut.junctions[junction] }, 0, 0, numbers.JunctionId(p, junction));
     }
     for (std::uint32_t curve = 0; curve < cut.curves.size(); ++curve)
     {
       const CurveRecord & one = cut.curves[curve];
       if (one.vertices.size() == 1)
       {
-        add(0, one.vertices, model.SheetId(p, sheets + curve), model.SeamId(p, curve), 0);
+        add(0, one.vertices, numbers.SheetId(p, sheets + curve), numbers.SeamId(p, curve), 0);
       }
     }
     for (std::size_t edge = 0; edge < cut.curveOfEdge.size(); ++edge)
@@ -173,14 +152,14 @@ WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model)
       if (const std::uint32_t curve = cut.curveOfEdge[edge]; curve != kNoPiece)
       {
         const bool isRod = cut.curves[curve].isRod;
-        add(1, core.cells.edges[edge], isRod ? model.SheetId(p, sheets + curve) : 0, model.SeamId(p, curve), 0);
+        add(1, core.cells.edges[edge], isRod ? numbers.SheetId(p, sheets + curve) : 0, numbers.SeamId(p, curve), 0);
       }
     }
-    const std::int64_t firstSheet = sheets > 0 ? model.SheetId(p, 0) : 0;
+    const std::int64_t firstSheet = sheets > 0 ? numbers.SheetId(p, 0) : 0;
     for (std::size_t face = 0; face < cut.sheetOfFace.size(); ++face)
     {
       const std::uint32_t piece = cut.sheetOfFace[face];
-      add(2, core.cells.FaceVertices(face), piece < sheets ? firstSheet + piece : model.SheetId(p, piece), 0, 0);
+      add(2, core.cells.FaceVertices(face), piece < sheets ? firstSheet + piece : numbers.SheetId(p, piece), 0, 0);
     }
     first += static_cast<std::int64_t>(core.positions.size());
   }
@@ -205,7 +184,8 @@ WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model)
 void
 WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model)
 {
-  TextFile file(path, tableDigits);
+  const SheetNumbers numbers(model);
+  TextFile           file(path, tableDigits);
   WriteHead(file, kSheetColumns);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
   {
@@ -215,12 +195,12 @@ WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model)
     {
       const SheetRecord & sheet = part.sheets.sheets[i];
       WriteNames(file, part);
-      file << model.SheetId(p, i) << ",sheet," << sheet.area << ",," << sheet.thickness << ","
+      file << numbers.SheetId(p, i) << ",sheet," << sheet.area << ",," << sheet.thickness << ","
            << sheet.thicknessDeviation << "," << sheet.normal[0] << "," << sheet.normal[1] << "," << sheet.normal[2]
            << "," << sheet.flatness << ",";
       for (std::size_t n = 0; n < sheet.neighbours.size(); ++n)
       {
-        file << (n > 0 ? " " : "") << model.SheetId(p, sheet.neighbours[n]);
+        file << (n > 0 ? " " : "") << numbers.SheetId(p, sheet.neighbours[n]);
       }
       file << "," << sheet.freeBorder << "," << sheet.seamBorder << ",";
       WriteVoxels(file, part, i);
@@ -231,7 +211,7 @@ WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model)
       if (rod.isRod)
       {
         WriteNames(file, part);
-        file << model.SheetId(p, sheets + i) << ",rod,," << rod.length << "," << rod.thickness << ",,,,,,,,,";
+        file << numbers.SheetId(p, sheets + i) << ",rod,," << rod.length << "," << rod.thickness << ",,,,,,,,,";
         WriteVoxels(file, part, sheets + i);
       }
     }
@@ -242,7 +222,8 @@ WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model)
 void
 WriteSeamCsv(const std::filesystem::path & path, const SheetModel & model)
 {
-  TextFile file(path, tableDigits);
+  const SheetNumbers numbers(model);
+  TextFile           file(path, tableDigits);
   WriteHead(file, kSeamColumns);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
   {
@@ -251,17 +232,18 @@ WriteSeamCsv(const std::filesystem::path & path, const SheetModel & model)
     {
       const CurveRecord & curve = part.sheets.curves[i];
       WriteNames(file, part);
-      file << model.SeamId(p, i) << (curve.isRod ? ",rod," : ",seam,") << curve.length << "," << curve.thickness << ",";
+      file << numbers.SeamId(p, i) << (curve.isRod ? ",rod," : ",seam,") << curve.length << "," << curve.thickness
+           << ",";
       for (std::size_t n = 0; n < curve.sheets.size(); ++n)
       {
-        file << (n > 0 ? " " : "") << model.SheetId(p, curve.sheets[n]);
+        file << (n > 0 ? " " : "") << numbers.SheetId(p, curve.sheets[n]);
       }
       for (const std::uint32_t junction : curve.junctions)
       {
         file << ",";
         if (junction != kNoPiece)
         {
-          file << model.JunctionId(p, junction);
+          file << numbers.JunctionId(p, junction);
         }
       }
       file << "," << (curve.isClosed ? 1 : 0) << "\n";
@@ -273,7 +255,8 @@ WriteSeamCsv(const std::filesystem::path & path, const SheetModel & model)
 void
 WriteSheetGraphMl(const std::filesystem::path & path, const SheetModel & model)
 {
-  TextFile file(path, 9);
+  const SheetNumbers numbers(model);
+  TextFile           file(path, 9);
   file << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n";
   const auto key = [&](const char * id, const char * of, const char * type) {
     file << "  <key id=\"" << id << "\" for=\"" << of << "\" attr.name=\"" << id << "\" attr.type=\"" << type
@@ -301,7 +284,7 @@ WriteSheetGraphMl(const std::filesystem::path & path, const SheetModel & model)
     };
     for (std::uint32_t i = 0; i < sheets; ++i)
     {
-      node("s", model.SheetId(p, i), "sheet");
+      node("s", numbers.SheetId(p, i), "sheet");
       data("area", part.sheets.sheets[i].area);
       data("thickness", part.sheets.sheets[i].thickness);
       if (!part.voxels.empty())
@@ -313,7 +296,7 @@ WriteSheetGraphMl(const std::filesystem::path & path, const SheetModel & model)
     for (std::uint32_t i = 0; i < part.sheets.curves.size(); ++i)
     {
       const CurveRecord & curve = part.sheets.curves[i];
-      node("c", model.SeamId(p, i), curve.isRod ? "rod" : "seam");
+      node("c", numbers.SeamId(p, i), curve.isRod ? "rod" : "seam");
       data("length", curve.length);
       data("thickness", curve.thickness);
       if (curve.isRod && !part.voxels.empty())
@@ -325,7 +308,7 @@ WriteSheetGraphMl(const std::filesystem::path & path, const SheetModel & model)
     for (std::uint32_t i = 0; i < part.sheets.junctions.size(); ++i)
     {
       const Vector3 & place = part.core.core.positions[part.sheets.junctions[i]];
-      node("j", model.JunctionId(p, i), "junction");
+      node("j", numbers.JunctionId(p, i), "junction");
       data("x", place[0]);
       data("y", place[1]);
       data("z", place[2]);
@@ -334,17 +317,17 @@ WriteSheetGraphMl(const std::filesystem::path & path, const SheetModel & model)
     for (std::uint32_t i = 0; i < part.sheets.curves.size(); ++i)
     {
       const auto edge = [&](const char * letter, std::int64_t id) {
-        file << "    <edge source=\"c" << model.SeamId(p, i) << "\" target=\"" << letter << id << "\"/>\n";
+        file << "    <edge source=\"c" << numbers.SeamId(p, i) << "\" target=\"" << letter << id << "\"/>\n";
       };
       for (const std::uint32_t sheet : part.sheets.curves[i].sheets)
       {
-        edge("s", model.SheetId(p, sheet));
+        edge("s", numbers.SheetId(p, sheet));
       }
       for (const std::uint32_t junction : part.sheets.curves[i].junctions)
       {
         if (junction != kNoPiece)
         {
-          edge("j", model.JunctionId(p, junction));
+          edge("j", numbers.JunctionId(p, junction));
         }
       }
     }

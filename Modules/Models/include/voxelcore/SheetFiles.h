@@ -23,20 +23,53 @@ struct SheetPart
   double                     voxelVolume = 0; ///< mm^3
 };
 
-/** Numbers run over all parts: sheets from 1, the rods behind them; curves (seams, rods) from 1, junctions from 1. */
 struct SheetModel
 {
   std::vector<SheetPart> parts;
   std::string            provenance;
   SpatialUnit            unit = SpatialUnit::Millimetres;
+};
+
+/** Numbers over all parts of a model: sheets from 1, the rods behind them; curves (seams, rods) from 1, junctions from
+ *  1. Found once for each part, so that each number is a sum. */
+class SheetNumbers
+{
+public:
+  explicit SheetNumbers(const SheetModel & model);
 
   /** The number of a part's sheet (from 0) or, behind its sheets, of its curve, if that is a rod. */
   std::int64_t
-  SheetId(std::size_t part, std::uint32_t piece) const;
+  SheetId(std::size_t part, std::uint32_t piece) const
+  {
+    const Part & own = m_Parts[part];
+    return 1 + (piece < own.sheets ? own.firstSheet : own.firstRod - own.rodsFrom) + piece;
+  }
+
   std::int64_t
-  SeamId(std::size_t part, std::uint32_t curve) const;
+  SeamId(std::size_t part, std::uint32_t curve) const
+  {
+    return 1 + m_Parts[part].firstCurve + curve;
+  }
+
   std::int64_t
-  JunctionId(std::size_t part, std::uint32_t junction) const;
+  JunctionId(std::size_t part, std::uint32_t junction) const
+  {
+    return 1 + m_Parts[part].firstJunction + junction;
+  }
+
+private:
+  /** How many there are before a part's own, over all parts. */
+  struct Part
+  {
+    std::int64_t sheets = 0; ///< its own
+    std::int64_t firstSheet = 0;
+    std::int64_t firstRod = 0; ///< all sheets counted
+    std::int64_t rodsFrom = 0; ///< the piece of its own that is its first rod: sheets and seams stand before
+    std::int64_t firstCurve = 0;
+    std::int64_t firstJunction = 0;
+  };
+
+  std::vector<Part> m_Parts;
 };
 
 /** .vtp: faces and, edge by edge, seams and rods; junctions and points that stand alone as vertices. Cell arrays
