@@ -1,10 +1,15 @@
 #include "CertifiedFixtures.h"
 
+#include "VoxelCoreTesting/Shapes.h"
+#include "voxelcore/BoundaryVertices.h"
+
 #include "voxelcore/Error.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace voxelcore
 {
@@ -74,6 +79,41 @@ TEST(CertifiedSkeleton, OfARodIsOneBranchAlongItsAxis)
     // Voxels (2,3,4) to (32,5,6) of 2 mm.
     EXPECT_NEAR(position[1], 8, 1e-9);
     EXPECT_NEAR(position[2], 10, 1e-9);
+  }
+}
+
+TEST(CertifiedSkeleton, ItsPointsLieInTheShapeAndRadiiAreTheirs)
+{
+  for (const testing::RandomVolume & volume : testing::RandomVolumes(5500, 60))
+  {
+    const ImageGeometry grid = Grid(volume.spacing);
+    CertifiedRequest    request = Lambdas({ "0" });
+    request.skeleton = Skeleton();
+    ASSERT_GT(request.skeleton->smooth.value, 0);
+    const CertifiedResult result = ComputeCertified(volume.shape, grid, request);
+    const SkeletonGraph & graph = result.skeleton->skeleton.graph;
+    const auto            boundary = BoundaryVertices(volume.shape);
+    for (std::size_t point = 0; point < graph.positions.size(); ++point)
+    {
+      EXPECT_TRUE(ContainsInside(volume.shape, PhysicalToLattice(grid, graph.positions[point]))) << volume.seed;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const LatticePoint & p : boundary)
+      {
+        const Vector3 at{ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) };
+        nearest = std::min(nearest, Distance(graph.positions[point], LatticeToPhysical(grid, at)));
+      }
+      EXPECT_NEAR(graph.radius[point], nearest, 1e-4 * nearest) << volume.seed;
+    }
+    if (volume.spacing != testing::TestSpacings().front()) // balls bulge through the large faces of flat voxels
+    {
+      continue;
+    }
+    // Of a core alone, too.
+    const CertifiedSkeleton again = SkeletonOf(result.cores[0].core, result.shape, *request.skeleton);
+    for (const Vector3 & place : again.skeleton.graph.positions)
+    {
+      EXPECT_TRUE(ContainsInside(volume.shape, PhysicalToLattice(grid, place))) << volume.seed;
+    }
   }
 }
 

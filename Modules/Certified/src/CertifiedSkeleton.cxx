@@ -8,9 +8,11 @@
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CrossSections.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/OpenShape.h"
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +62,40 @@ StandOutOn(const CertifiedShape & shape, const SkeletonRequest & request)
 {
   const Vector3 & spacing = shape.geometry.spacing;
   return InMeanVoxels(request.standOut, ComputeSpacingWeights(spacing), spacing, shape.box);
+}
+
+/** How far the places of ends lie, at most, from the vertices they are of, where radii are measured. */
+double
+FarthestEnd(const CurveSkeleton & curves)
+{
+  double farthest = 0;
+  for (std::size_t v = 0; v < curves.places.size(); ++v)
+  {
+    farthest = std::max(farthest, Distance(curves.places[v], curves.complex.positions[v]));
+  }
+  return farthest;
+}
+
+/** A loop of two branches without points between their ends is cut in the middle of one, which may lie outside: points
+ *  from `first` on go back towards their neighbours. Whether any did. */
+bool
+TakeInside(SkeletonGraph & graph, std::size_t first, const OpenShape & inside)
+{
+  bool isTaken = false;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto points = graph.Branch(branch);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      Vector3 & place = graph.positions[points[i]];
+      if (points[i] >= first && !inside.Holds(place))
+      {
+        place = inside.Towards(graph.positions[points[i > 0 ? i - 1 : i + 1]], place);
+        isTaken = true;
+      }
+    }
+  }
+  return isTaken;
 }
 
 /** The voxels in the balls of a core. */
@@ -180,12 +216,13 @@ MeasureCurves(const BurnedCurves &    burned,
   graph = BuildSkeletonGraph(burned.curves);
   const double     window = InMeanVoxels(request.smooth, ComputeSpacingWeights(spacing), spacing, shape.box);
   const VoxelReach reach = HalfAVoxel(shape.geometry);
-  FitBranches(graph, window, reach);
+  const OpenShape  inside(voxels, shape.geometry);
+  FitBranches(graph, window, reach, inside);
   const BranchRequest & branches = request.branches;
   const double          limit = branches.pruneLength ? LengthOn(shape, *branches.pruneLength) : 0;
   if (PruneBranches(graph, { limit, branches.pruneRadii }) > 0)
   {
-    FitBranches(graph, window, reach);
+    FitBranches(graph, window, reach, inside);
   }
   const SkeletonNumbers numbers = MeasureBranches(graph).numbers;
   if (graph.FaceCount() == 0 &&
@@ -193,17 +230,39 @@ MeasureCurves(const BurnedCurves &    burned,
   {
     RefuseResult(shape.name, "the branches do not have the shape's topology");
   }
+  const std::vector<Vector3> measured = graph.medial; // where the radii are those of balls
   if (window > 0 && PlaceTips(graph, voxels, shape.geometry) > 0)
   {
-    FitBranches(graph, window, reach);
+    FitBranches(graph, window, reach, inside);
   }
   if (window > 0 && PlaceJoints(graph, voxels, shape.geometry) > 0)
   {
-    FitBranches(graph, window, reach);
+    FitBranches(graph, window, reach, inside);
   }
   graph.sectionRadius = CrossSectionRadii(graph, voxels, shape.geometry);
+  if (!request.refined) // else balls are those of the smooth surface, which is not known here
+  {
+    MeasureBallsAnew(graph, measured, FarthestEnd(burned.curves), inside);
+  }
+  const std::size_t points = graph.positions.size();
   CutAndMeasure(result, request.branches, StandOutOn(shape, request));
+  if (TakeInside(graph, points, inside))
+  {
+    result.skeleton.table = MeasureBranches(graph, { request.branches.root });
+  }
   return result;
+}
+
+void
+RequireEnclosed(const SkeletonGraph & graph, const VoxelShape & voxels, const CertifiedShape & shape)
+{
+  const bool isEnclosed = std::all_of(graph.positions.begin(), graph.positions.end(), [&](const Vector3 & place) {
+    return ContainsInside(voxels, PhysicalToLattice(shape.geometry, place));
+  });
+  if (!isEnclosed)
+  {
+    RefuseResult(shape.name, "a point of its skeleton lies outside it");
+  }
 }
 
 CertifiedSkeleton

@@ -367,6 +367,7 @@ private:
   {
     Stopwatch watch;
     m_Result.skeleton = MeasureCurves(*m_Curves, m_Voxels, m_Result.shape, *m_Request.skeleton);
+    RequireEnclosed(m_Result.skeleton->skeleton.graph, m_Voxels, m_Result.shape);
     m_Result.seconds.skeleton += watch.Lap();
   }
 

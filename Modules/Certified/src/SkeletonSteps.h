@@ -38,4 +38,8 @@ MeasureCurves(const BurnedCurves &    burned,
               const CertifiedShape &  shape,
               const SkeletonRequest & request);
 
+/** \throws CertificateError unless every point of a skeleton lies in its shape. */
+void
+RequireEnclosed(const SkeletonGraph & graph, const VoxelShape & voxels, const CertifiedShape & shape);
+
 } // namespace voxelcore

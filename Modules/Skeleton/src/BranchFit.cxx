@@ -1,12 +1,15 @@
 #include "PolynomialFit.h"
 
+#include "voxelcore/OpenShape.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SkeletonGraph.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -44,6 +47,9 @@ constexpr double kReachInMiddle = 2.5;
 
 // Nodes stay where they are, so a curve near one must heed it more than it heeds another point.
 constexpr double kNodeWeight = 4;
+
+// Where a segment leaves the shape its ends go back by half, by half of that, and then to the medial surface.
+constexpr std::array<double, 3> kPartsBack{ 0.5, 0.5, 0 };
 
 double
 Tricube(double u)
@@ -326,9 +332,49 @@ MiddleOff(const MedialLine & line, const VoxelReach & reach, const std::vector<V
   return *middle;
 }
 
+/** Takes places back towards the line until they, and the segments between them, lie in the shape. */
+void
+KeepInside(const MedialLine & line, const OpenShape & inside, std::vector<Vector3> & places)
+{
+  const std::size_t last = line.Last();
+  const auto        isOwn = [&](std::size_t i) { return line.isLoop || (i > 0 && i < last); };
+  const auto        take = [&](std::size_t i, double part) {
+    if (isOwn(i))
+    {
+      places[i] = inside.Towards(line.points[i], AddScaled(line.points[i], part, Minus(places[i], line.points[i])));
+    }
+  };
+  for (std::size_t i = 0; i <= last; ++i)
+  {
+    take(i, 1);
+  }
+  for (const double part : kPartsBack)
+  {
+    std::vector<std::uint8_t> leaves(last + 1, 0); // a segment at the point
+    for (std::size_t i = 0; i < last; ++i)
+    {
+      if (!inside.HoldsSegment(places[i], places[i + 1]))
+      {
+        leaves[i] = leaves[i + 1] = 1;
+      }
+    }
+    if (line.isLoop) // whose first point is its last
+    {
+      leaves[0] = leaves[last] = leaves[0] | leaves[last];
+    }
+    for (std::size_t i = 0; i <= last; ++i)
+    {
+      if (leaves[i] != 0)
+      {
+        take(i, part);
+      }
+    }
+  }
+}
+
 /** The positions of a branch's own points, not of its nodes. */
 void
-FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelReach & reach)
+FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelReach & reach, const OpenShape * inside)
 {
   const auto points = graph.Branch(branch);
   MedialLine line;
@@ -367,16 +413,18 @@ FitBranch(SkeletonGraph & graph, std::size_t branch, double window, const VoxelR
     KeepBefore(0, line, window, to);
     KeepBefore(line.Last(), line, window, to);
   }
+  if (inside != nullptr)
+  {
+    KeepInside(line, *inside, to);
+  }
   for (std::size_t i = line.isLoop ? 0 : 1; i < points.size() - 1; ++i)
   {
     graph.positions[points[i]] = to[i];
   }
 }
 
-} // namespace
-
 void
-FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach)
+FitAll(SkeletonGraph & graph, double window, const VoxelReach & reach, const OpenShape * inside)
 {
   if (graph.medial.empty())
   {
@@ -387,7 +435,21 @@ FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach)
   {
     return;
   }
-  RunEach(graph.BranchCount(), [&](std::size_t branch) { FitBranch(graph, branch, window, reach); });
+  RunEach(graph.BranchCount(), [&](std::size_t branch) { FitBranch(graph, branch, window, reach, inside); });
+}
+
+} // namespace
+
+void
+FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach)
+{
+  FitAll(graph, window, reach, nullptr);
+}
+
+void
+FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach, const OpenShape & inside)
+{
+  FitAll(graph, window, reach, &inside);
 }
 
 } // namespace voxelcore

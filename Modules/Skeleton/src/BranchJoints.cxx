@@ -2,6 +2,7 @@
 
 #include "ForkPlace.h"
 #include "JointAxes.h"
+#include "voxelcore/OpenShape.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -336,9 +337,7 @@ private:
   bool
   IsIn(const Vector3 & place) const
   {
-    const Vector3 on = PhysicalToLattice(m_Geometry, place);
-    const auto    voxel = [&](std::size_t axis) { return static_cast<std::int32_t>(std::floor(on[axis])); };
-    return m_Shape.Contains(voxel(0), voxel(1), voxel(2));
+    return OpenShape(m_Shape, m_Geometry).Holds(place);
   }
 
   const SkeletonGraph & m_Graph;
@@ -374,11 +373,13 @@ PlaceJoints(SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry
       }
     }
   }
+  const OpenShape inside(shape, geometry);
   for (const JointMove & move : moves)
   {
     for (const auto & [point, by] : move)
     {
-      graph.positions[point] = AddScaled(graph.positions[point], 1, by);
+      // Two moves of one point may lead out where neither does.
+      graph.positions[point] = inside.Towards(graph.medial[point], AddScaled(graph.positions[point], 1, by));
       graph.medial[point] = graph.positions[point];
     }
   }

@@ -1,6 +1,7 @@
 #include "voxelcore/BranchTips.h"
 
 #include "EndByVolume.h"
+#include "voxelcore/OpenShape.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -238,6 +239,7 @@ PlaceTips(SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry &
       }
     }
   }
+  const OpenShape inside(shape, geometry);
   for (const Move & move : moves)
   {
     // Bumps on the cap pull the curve this way and that: it goes straight on to the tip.
@@ -250,7 +252,8 @@ PlaceTips(SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry &
     for (std::size_t i = 0; i < last; ++i)
     {
       const double  part = move.way[i] / move.way[last];
-      const Vector3 place = AddScaled(move.tip, part, Minus(to, move.tip));
+      const Vector3 place =
+        inside.Towards(graph.medial[move.points[i]], AddScaled(move.tip, part, Minus(to, move.tip)));
       graph.positions[move.points[i]] = place;
       graph.medial[move.points[i]] = place;
     }

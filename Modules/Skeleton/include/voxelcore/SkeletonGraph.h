@@ -28,7 +28,7 @@ struct SkeletonGraph
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<double, 3>>
                       medial;           ///< where the points lay on the medial surface before fitting; may be empty
-  std::vector<double> radius;           ///< of the largest ball in the shape around `medial`
+  std::vector<double> radius;           ///< of the largest ball in the shape around `medial`; MeasureBallsAnew()
   std::vector<double> sectionRadius;    ///< as CrossSectionRadii() gives it; may be empty
   std::vector<double> erosionThickness; ///< infinite on closed surfaces
 
