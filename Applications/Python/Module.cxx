@@ -10,6 +10,8 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -111,9 +113,8 @@ TranslateErrors(const py::module_ & module)
   });
 }
 
-} // namespace
-
-PYBIND11_MODULE(_voxelcore, module)
+void
+Define(py::module_ & module)
 {
   TranslateErrors(module);
   module.attr("__version__") = VoxelCoreVersion();
@@ -130,8 +131,58 @@ PYBIND11_MODULE(_voxelcore, module)
     }
     return SkeletonColumnsJson(*named);
   });
-  module.def("await_left_behind", &AwaitLeftBehind);
+  module.def("end_all", &EndAll);
   module.def("forget_left_behind", &ForgetLeftBehind);
   module.def("in_python_words", &InPythonWords);
   module.def("option_table", &OptionTable);
+}
+
+// pybind11 keeps what it knows for one interpreter, and takes the lock of the main one for it: in another it would wait
+// for ever. So each interpreter asks (PEP 489), and all but the main one are refused.
+PyObject *
+CreateModule(PyObject * /*spec*/, PyModuleDef * /*definition*/)
+{
+  static PyObject * made = nullptr;
+  if (PyInterpreterState_Get() != PyInterpreterState_Main())
+  {
+    PyErr_SetString(PyExc_ImportError,
+                    "voxelcore works in the main interpreter only, not in a sub-interpreter; use a process of its own "
+                    "(multiprocessing, concurrent.futures.ProcessPoolExecutor)");
+    return nullptr;
+  }
+  try
+  {
+    if (made == nullptr) // else it was taken out of sys.modules: types cannot be made twice
+    {
+      static PyModuleDef definition;
+      py::detail::get_internals();
+      auto module = py::module_::create_extension_module("voxelcore._voxelcore", nullptr, &definition);
+      Define(module);
+      made = module.ptr();
+    }
+  }
+  catch (py::error_already_set & error)
+  {
+    py::raise_from(error, PyExc_ImportError, "voxelcore cannot be initialized");
+    return nullptr;
+  }
+  catch (const std::exception & error)
+  {
+    PyErr_SetString(PyExc_ImportError, error.what());
+    return nullptr;
+  }
+  Py_INCREF(made);
+  return made;
+}
+
+} // namespace
+
+extern "C" PYBIND11_EXPORT PyObject *
+PyInit__voxelcore()
+{
+  static std::array<PyModuleDef_Slot, 2> slots{ { { Py_mod_create, reinterpret_cast<void *>(&CreateModule) },
+                                                  { 0, nullptr } } };
+  static PyModuleDef                     definition{ PyModuleDef_HEAD_INIT, "_voxelcore", nullptr, 0,      nullptr,
+                                 slots.data(),          nullptr,      nullptr, nullptr };
+  return PyModuleDef_Init(&definition);
 }

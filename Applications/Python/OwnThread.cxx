@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cxxabi.h>
 #include <omp.h>
+#include <unistd.h>
 #include <vector>
 
 namespace py = pybind11;
@@ -32,11 +34,86 @@ AllLeftBehind()
   return *all;
 }
 
+/** Work that a call waits for, by the thread that waits. */
+struct Running
+{
+  Errand *        errand;
+  std::thread::id caller;
+};
+
+/** Guarded by the interpreter's lock. */
+std::vector<Running> &
+AllRunning()
+{
+  static auto * all = new std::vector<Running>;
+  return *all;
+}
+
+/** Whoever ends the interpreter; guarded by its lock. */
+std::optional<std::thread::id> g_Ender; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+[[noreturn]] void
+WaitForEver()
+{
+  for (;;)
+  {
+    pause();
+  }
+}
+
+/** Lets other Python threads run. Once the interpreter ends, Python (before 3.14) does not give its lock to a daemon
+ *  again but ends the thread by unwinding its stack, which no destructor survives and which would release objects
+ *  without the lock. Such a thread waits here instead, as from Python 3.14 on, until the process is gone. */
+class WithoutLock
+{
+public:
+  WithoutLock()
+    : m_State(PyEval_SaveThread())
+  {}
+  WithoutLock(const WithoutLock &) = delete;
+  WithoutLock &
+  operator=(const WithoutLock &) = delete;
+  ~WithoutLock()
+  {
+    try
+    {
+      PyEval_RestoreThread(m_State);
+    }
+    catch (abi::__forced_unwind &) // NOLINT(bugprone-empty-catch): it is not left
+    {
+      WaitForEver();
+    }
+  }
+
+private:
+  PyThreadState * m_State;
+};
+
 bool
 EndsWithin(Errand & errand, std::chrono::milliseconds time)
 {
-  const py::gil_scoped_release release;
+  const WithoutLock others;
   return errand.WaitFor(time);
+}
+
+/** Called with the lock. */
+void
+WaitWhileAbandoned(Errand & errand)
+{
+  if (errand.IsAbandoned())
+  {
+    const WithoutLock others;
+    WaitForEver();
+  }
+}
+
+/** The same for the thread that waits for an errand. */
+bool
+EndsForCaller(Errand & errand, std::chrono::milliseconds time)
+{
+  const bool ends = EndsWithin(errand, time);
+  WaitWhileAbandoned(errand);
+  return ends;
 }
 
 void
@@ -51,7 +128,7 @@ HandlePythonSignals()
 void
 Join(std::thread & worker)
 {
-  const py::gil_scoped_release release;
+  const WithoutLock others;
   worker.join();
 }
 
@@ -118,15 +195,33 @@ Errand::Rethrow()
 }
 
 void
+Errand::Abandon()
+{
+  const std::scoped_lock lock(m_Mutex);
+  m_Abandoned = true;
+}
+
+bool
+Errand::IsAbandoned()
+{
+  const std::scoped_lock lock(m_Mutex);
+  return m_Abandoned;
+}
+
+void
 AwaitErrand(const std::shared_ptr<Errand> & errand,
             std::thread                     worker,
             const py::object &              listener,
             const py::object &              kept)
 {
   std::erase_if(AllLeftBehind(), [](const LeftBehind & one) { return one.errand->WaitFor(0ms); });
+  AllRunning().push_back({ errand.get(), std::this_thread::get_id() });
+  const auto noteEnd = [&] {
+    std::erase_if(AllRunning(), [&](const Running & one) { return one.errand == errand.get(); });
+  };
   try
   {
-    while (!EndsWithin(*errand, kBetweenLooks))
+    while (!EndsForCaller(*errand, kBetweenLooks))
     {
       HandlePythonSignals();
       if (!listener.is_none())
@@ -142,7 +237,9 @@ AwaitErrand(const std::shared_ptr<Errand> & errand,
   catch (...)
   {
     errand->Stop();
-    if (EndsWithin(*errand, kTimeToStop))
+    const bool ends = EndsForCaller(*errand, kTimeToStop);
+    noteEnd();
+    if (ends)
     {
       Join(worker);
     }
@@ -153,6 +250,7 @@ AwaitErrand(const std::shared_ptr<Errand> & errand,
     }
     throw;
   }
+  noteEnd();
   Join(worker);
   errand->Rethrow();
   if (!listener.is_none())
@@ -174,9 +272,42 @@ AwaitLeftBehind()
 }
 
 void
+EndAll()
+{
+  g_Ender = std::this_thread::get_id();
+  std::vector<Running> others = AllRunning(); // their callers go on no more, and so keep what these point to
+  std::erase_if(others, [](const Running & one) { return one.caller == g_Ender; });
+  for (const Running & one : others)
+  {
+    one.errand->Abandon();
+    one.errand->Stop();
+  }
+  for (const Running & one : others)
+  {
+    while (!EndsWithin(*one.errand, kBetweenLooks))
+    {
+      HandlePythonSignals();
+    }
+  }
+  AwaitLeftBehind();
+}
+
+void
+WaitAtTheEnd()
+{
+  if (g_Ender && g_Ender != std::this_thread::get_id())
+  {
+    const WithoutLock others;
+    WaitForEver();
+  }
+}
+
+void
 ForgetLeftBehind()
 {
   AllLeftBehind().clear();
+  AllRunning().clear();
+  g_Ender.reset();
 }
 
 int

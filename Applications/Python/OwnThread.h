@@ -47,6 +47,13 @@ public:
   void
   Rethrow();
 
+  /** The interpreter ends: nobody will come for what the work finds. */
+  void
+  Abandon();
+
+  bool
+  IsAbandoned();
+
 private:
   std::mutex              m_Mutex;
   std::condition_variable m_Changed;
@@ -54,6 +61,7 @@ private:
   double                  m_Fraction = 0;
   bool                    m_Stopped = false;
   bool                    m_Ended = false;
+  bool                    m_Abandoned = false;
   std::exception_ptr      m_Failure;
 };
 
@@ -66,11 +74,21 @@ AwaitErrand(const std::shared_ptr<Errand> & errand,
             const pybind11::object &        listener,
             const pybind11::object &        kept);
 
-/** Waits for work that was left behind, so that the process can end in order. */
+/** Waits for work that was left behind, which may still hold names of files. */
 void
 AwaitLeftBehind();
 
-/** In a child after a fork: the threads left behind are the parent's. */
+/** To be called when the interpreter is about to end: stops the work of all other threads, which are daemons, and waits
+ *  for its end and for what was left behind, so that the process can end in order. These threads, and those that call
+ *  later, wait for ever; the end of the process ends them. */
+void
+EndAll();
+
+/** Never comes back in a thread other than the one that called EndAll(). */
+void
+WaitAtTheEnd();
+
+/** In a child after a fork: threads that work, and those left behind, are the parent's. */
 void
 ForgetLeftBehind();
 
@@ -92,6 +110,7 @@ RunInOwnThread(int threads, const pybind11::object & listener, const pybind11::o
     TWork                 work;
     std::optional<Result> result;
   };
+  WaitAtTheEnd();
   const auto  job = std::make_shared<Job>(std::move(work));
   std::thread worker(
     [job, count = ThreadsToUse(threads)] { job->Run(count, [&] { job->result = job->work(job->Callback()); }); });

@@ -1,8 +1,15 @@
 #include "Pickling.h"
 
+#include "voxelcore/SoundCore.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/SoundComplex.h"
+#include "voxelcore/SoundSkeleton.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <pybind11/stl.h>
@@ -18,6 +25,23 @@ namespace voxelcore
 
 namespace
 {
+
+/** A pickle may have been damaged, or made by hand: what is not as a result of this version has it would lead out of
+ *  its arrays later. */
+[[noreturn]] void
+RefuseDamaged()
+{
+  throw UsageError("this pickle is damaged; make it anew, or save results with save()");
+}
+
+void
+RequireWhole(bool condition)
+{
+  if (!condition)
+  {
+    RefuseDamaged();
+  }
+}
 
 [[noreturn]] void
 RefuseState()
@@ -105,10 +129,7 @@ public:
     }
     const auto             bytes = m_Arrays[m_Next++].template cast<py::bytes>();
     const std::string_view text = bytes;
-    if (text.size() % sizeof(TValue) != 0)
-    {
-      RefuseState();
-    }
+    RequireWhole(text.size() % sizeof(TValue) == 0);
     values.resize(text.size() / sizeof(TValue));
     if (!values.empty())
     {
@@ -191,16 +212,78 @@ ReadShape(ArrayReader & arrays)
   {
     return nullptr;
   }
+  RequireWhole(boxes.size() == 1);
   shape.box = boxes.front();
-  const auto & size = shape.box.size;
-  const auto   rows = static_cast<std::uint64_t>(size[1]) * static_cast<std::uint64_t>(size[2]);
-  if (shape.words.size() != shape.counts.size() ||
-      std::accumulate(shape.counts.begin(), shape.counts.end(), std::uint64_t{ 0 }) !=
-        rows * ((static_cast<std::uint64_t>(size[0]) + 63) / 64))
+  // As VoxelShape has them; a box of no more rows than numbers of 64 bits can count.
+  std::uint64_t words = 1;
+  for (std::size_t a = 0; a < 3; ++a)
   {
-    RefuseState();
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    const std::int64_t     size = shape.box.size[a];
+    RequireWhole(size > 0 && shape.box.lower[a] + size <= most);
+    words *= static_cast<std::uint64_t>(a == 0 ? (size + 63) / 64 : size);
+    RequireWhole(words <= std::uint64_t{ 1 } << 38U);
   }
+  RequireWhole(shape.words.size() == shape.counts.size() &&
+               std::find(shape.counts.begin(), shape.counts.end(), 0U) == shape.counts.end() &&
+               std::accumulate(shape.counts.begin(), shape.counts.end(), std::uint64_t{ 0 }) == words);
   return std::make_shared<const PackedShape>(std::move(shape));
+}
+
+/** As ReadModel finds every core. */
+bool
+IsWhole(const CoreOfLabel & core)
+{
+  const MedialComplex & complex = core.part.core;
+  const CellComplex &   cells = complex.cells;
+  const std::size_t     vertices = cells.vertexCount;
+  const auto &          tolerances = complex.tolerances;
+  const auto            areLengths = [](const std::vector<double> & values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return value >= 0; });
+  };
+  const bool hasNone = tolerances.vertices.empty() && tolerances.edges.empty() && tolerances.faces.empty();
+  const bool sizesFit =
+    vertices > 0 && complex.radius.size() == vertices && complex.vertexLambda.size() == vertices &&
+    complex.edgeLambda.size() == cells.edges.size() && IsComplex(cells) &&
+    complex.faceLambda.size() == cells.FaceCount() &&
+    (hasNone || (tolerances.vertices.size() == vertices && tolerances.edges.size() == cells.edges.size() &&
+                 tolerances.faces.size() == cells.FaceCount())) &&
+    core.part.displacement.size() == (core.refined.empty() ? 0 : vertices) &&
+    (core.part.radiusMargin.empty() || core.part.radiusMargin.size() == vertices);
+  const bool edgesFit = !core.hasEdges || std::none_of(complex.edgeLambda.begin(),
+                                                       complex.edgeLambda.end(),
+                                                       [](double measure) { return std::isnan(measure); });
+  const bool labelFits = core.report.labels.size() == 1 && core.report.labels.front().label == core.part.label &&
+                         core.report.labels.front().component == core.part.component && core.part.component >= 0;
+  return sizesFit && edgesFit && labelFits && FaultOfNumbers(complex, { .isRefined = !core.refined.empty() }).empty() &&
+         areLengths(tolerances.vertices) && areLengths(tolerances.edges) && areLengths(tolerances.faces) &&
+         areLengths(core.part.radiusMargin) &&
+         std::all_of(core.part.displacement.begin(), core.part.displacement.end(), [](const Vector3 & move) {
+           return std::isfinite(move[0]) && std::isfinite(move[1]) && std::isfinite(move[2]);
+         });
+}
+
+/** Reads a state: whatever is not as StateOf() makes it is a damaged pickle. */
+template <typename TRead>
+auto
+ReadState(TRead && read)
+{
+  try
+  {
+    return read();
+  }
+  catch (const Error &)
+  {
+    throw;
+  }
+  catch (const std::bad_alloc &)
+  {
+    throw;
+  }
+  catch (const std::exception &) // of pybind11's casts, of JSON, of an optional without a value
+  {
+    RefuseDamaged();
+  }
 }
 
 } // namespace
@@ -220,8 +303,11 @@ StateOf(const CoreOfLabel & core)
                         arrays.Take());
 }
 
+namespace
+{
+
 std::shared_ptr<CoreOfLabel>
-CoreFromState(const py::tuple & state)
+CoreOf(const py::tuple & state)
 {
   RequireState(state, 7);
   auto core = std::make_shared<CoreOfLabel>();
@@ -234,7 +320,16 @@ CoreFromState(const py::tuple & state)
   VisitCore(core->part, arrays);
   core->shape = ReadShape(arrays);
   core->part.core.cells.vertexCount = core->part.core.positions.size();
+  RequireWhole(IsWhole(*core));
   return core;
+}
+
+} // namespace
+
+std::shared_ptr<CoreOfLabel>
+CoreFromState(const py::tuple & state)
+{
+  return ReadState([&] { return CoreOf(state); });
 }
 
 py::tuple
@@ -253,13 +348,16 @@ StateOf(const SkeletonOfLabel & skeleton)
                         arrays.Take());
 }
 
+namespace
+{
+
 std::shared_ptr<SkeletonOfLabel>
-SkeletonFromState(const py::tuple & state)
+SkeletonOf(const py::tuple & state)
 {
   RequireState(state, 7);
   auto skeleton = std::make_shared<SkeletonOfLabel>();
   skeleton->report = ReportFrom(state[1]);
-  skeleton->surface = CoreFromState(state[2]);
+  skeleton->surface = CoreOf(state[2]);
   SkeletonPart & part = skeleton->part;
   part.label = state[3].cast<std::int64_t>();
   part.component = state[4].cast<std::int64_t>();
@@ -268,10 +366,21 @@ SkeletonFromState(const py::tuple & state)
   ArrayReader      arrays(state[6]);
   VisitGraph(part.graph, arrays);
   arrays(record.cuts);
+  RequireWhole(IsSkeleton(part.graph) && std::all_of(record.cuts.begin(), record.cuts.end(), [](const LoopCut & cut) {
+                 return std::isfinite(cut.position[0] + cut.position[1] + cut.position[2]) && cut.radius >= 0;
+               }));
   const CoreReport & report = skeleton->report;
   part.table = MeasureBranches(part.graph, { report.skeleton.value().branches.root });
   record.numbers = part.table.numbers;
   return skeleton;
+}
+
+} // namespace
+
+std::shared_ptr<SkeletonOfLabel>
+SkeletonFromState(const py::tuple & state)
+{
+  return ReadState([&] { return SkeletonOf(state); });
 }
 
 } // namespace voxelcore

@@ -15,7 +15,8 @@ StateOf(const CoreOfLabel & core);
 pybind11::tuple
 StateOf(const SkeletonOfLabel & skeleton);
 
-/** The inverse. \throws UsageError for what StateOf of this version did not make */
+/** The inverse. Everything is checked as when a file is read: a pickle may be damaged.
+ *  \throws UsageError, InputError for what StateOf of this version did not make */
 std::shared_ptr<CoreOfLabel>
 CoreFromState(const pybind11::tuple & state);
 

@@ -3,6 +3,7 @@
 import copy
 import os
 import pickle
+import random
 import signal
 import subprocess
 import sys
@@ -162,3 +163,100 @@ def test_a_pickle_of_another_version_is_refused(volume):
     for wrong in (("0.0.0", *state[1:]), state[:-1], (*state[:-1], state[-1][:-1])):
         with pytest.raises(ValueError, match="not made by voxelcore"):
             make(wrong)
+
+
+DAEMON = """
+import sys, threading, time
+import numpy, voxelcore
+array = numpy.ones((160, 160, 160), numpy.uint8)
+array[::7] = 0
+array[:, ::5] = 0
+threading.Thread(target=lambda: voxelcore.core(array), daemon=True).start()
+time.sleep(float(sys.argv[1]))
+"""
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.05, 0.4])
+def test_the_interpreter_ends_while_a_daemon_computes(seconds):
+    words = [sys.executable, "-B", "-c", DAEMON, str(seconds)]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_sub_interpreter_is_told_to_be_a_process():
+    words = """
+import _xxsubinterpreters as interpreters, sys
+%s
+one = interpreters.create()
+try:
+    interpreters.run_string(one, "import sys; sys.path[:] = %%r\\nimport voxelcore" %% sys.path)
+except interpreters.RunFailedError as error:
+    print(error)
+"""
+    for before in ("", "import voxelcore"):
+        done = subprocess.run([sys.executable, "-B", "-c", words % before], capture_output=True, text=True, timeout=60)
+        assert "ImportError" in done.stdout and "main interpreter only" in done.stdout, done
+
+
+def use(result):
+    """All that would follow a wrong index out of its array."""
+    repr(result)
+    for name in dir(type(result)):
+        if isinstance(getattr(type(result), name), property):
+            getattr(result, name)
+    if isinstance(result, voxelcore.Core):
+        result.skeleton()
+        result.prune("3vox")
+
+
+def damaged(random, data):
+    """The pickle with some bytes changed, a part left out, doubled or cut off."""
+    data = bytearray(data)
+    at = random.randrange(len(data))
+    kind = random.randrange(4)
+    if kind == 0:
+        for _ in range(random.randrange(1, 9)):
+            data[random.randrange(len(data))] = random.randrange(256)
+    elif kind == 1:
+        del data[at : at + random.choice([1, 4, 8, 16])]
+    elif kind == 2:
+        data[at:at] = data[at : at + random.choice([4, 8, 16])]
+    else:
+        data[at : at + 8] = random.choice([b"\0" * 8, b"\xff" * 8, bytes(7) + b"\xc3"])
+    return bytes(data)
+
+
+def with_damaged_arrays(random, state):
+    """A state whose frame is whole: only an array is not, as damage in the middle of a large pickle leaves it."""
+    places = [i for i, array in enumerate(state[-1]) if len(array) > 8]
+    which = random.choice(places)
+    arrays = list(state[-1])
+    arrays[which] = damaged(random, arrays[which])
+    return (*state[:-1], tuple(arrays))
+
+
+def test_damaged_pickles_are_refused_or_hold_what_can_be_used(volume):
+    seed = random.SystemRandom().randrange(1 << 32)
+    print("seed", seed)
+    rng = random.Random(seed)
+    whole = voxelcore.core(volume, lambda_=0)
+    refused = 0
+    for result in (whole, whole.skeleton()):
+        make, (state,) = result.__reduce__()
+        data = pickle.dumps(result)
+        for number in range(160):
+            try:
+                if number % 2 == 0:
+                    again = make(with_damaged_arrays(rng, state))
+                else:
+                    again = pickle.loads(damaged(rng, data))
+            except Exception as error:  # of pickle itself anything
+                refused += 1
+                assert number % 2 == 1 or isinstance(error, ValueError), repr(error)
+                continue
+            try:
+                if isinstance(again, (voxelcore.Core, voxelcore.Skeleton)):
+                    use(again)
+            except (ValueError, RuntimeError, OSError, MemoryError):
+                pass
+    assert refused > 100

@@ -53,6 +53,7 @@ for _thing in (core, skeleton, prune, verify, measure, read, thickness, sheets, 
     _thing.__module__ = __name__
 del _thing
 
-# Threads that Ctrl-C left behind belong to the parent, and must have ended before the process takes itself apart.
+# Threads that work for daemons, or that Ctrl-C left behind, belong to the parent, and must have ended before the
+# process takes itself apart.
 os.register_at_fork(after_in_child=_voxelcore.forget_left_behind)
-atexit.register(_voxelcore.await_left_behind)
+atexit.register(_voxelcore.end_all)
