@@ -296,3 +296,22 @@ TEST(ItkShapeFilter, RefusesASourceThatBringsLessThanItWasAskedFor)
   EXPECT_NE(ThrownBy([&] { filter->Update(); }).find("did not bring the region"), std::string::npos);
   EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
 }
+
+TEST(ItkShapeFilter, RefusesAnImageThatWasNotAllocated)
+{
+  using ImageType = ByteFilter::InputImageType;
+  const auto image = ImageType::New();
+  image->SetRegions(ImageType::SizeType{ { 4, 5, 6 } });
+  auto filter = ByteFilter::New();
+  filter->SetInput(image);
+  EXPECT_NE(ThrownBy([&] { filter->Update(); }).find("the input has no pixels"), std::string::npos);
+  EXPECT_TRUE(filter->GetOutput()->GetLabels().empty());
+  // Nor one whose memory is for another region.
+  image->Allocate();
+  image->FillBuffer(1);
+  image->SetRegions(ImageType::SizeType{ { 40, 50, 60 } });
+  EXPECT_NE(ThrownBy([&] { filter->Update(); }).find("the input has no pixels"), std::string::npos);
+  image->SetRegions(ImageType::SizeType{ { 4, 5, 6 } });
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetLabels().size(), 1U);
+}

@@ -154,3 +154,13 @@ TEST(ItkThicknessFilter, StopsWhenAskedAndRefusesInOneLine)
   EXPECT_THROW(itk::LocalThicknessImageFilter::New()->Update(), itk::ExceptionObject); // no input
   EXPECT_NE(Printed(*filter).find("Tolerance: 1.2diag"), std::string::npos);
 }
+
+TEST(ItkThicknessFilter, RefusesShapesBeyondTheirImage)
+{
+  const auto    shapes = TwoShapes();
+  ImageGeometry smaller = shapes->GetGeometry();
+  smaller.size = { 5, 5, 5 }; // set after the labels, which do not lie in it
+  shapes->SetGeometry(smaller);
+  const auto filter = FilterOf(shapes);
+  EXPECT_NE(ThrownBy([&] { filter->Update(); }).find("reaches beyond the image"), std::string::npos);
+}

@@ -176,6 +176,12 @@ LabelImageToVoxelShapeFilter<TInputImage>::StreamedGenerateData(unsigned int num
   {
     itkExceptionMacro("the input did not bring the region it was asked for: " << slab);
   }
+  // A region says what would be there; an image that was not allocated has no pixels of it.
+  const auto * pixelsThere = image->GetPixelContainer();
+  if (pixelsThere == nullptr || pixelsThere->Size() < image->GetBufferedRegion().GetNumberOfPixels())
+  {
+    itkExceptionMacro("the input has no pixels; call its Allocate() and fill it");
+  }
   const auto rowsBefore = [&whole](const typename InputImageType::IndexType & index) {
     return static_cast<std::uint64_t>(index[1] - whole.GetIndex(1)) +
            static_cast<std::uint64_t>(index[2] - whole.GetIndex(2)) * whole.GetSize(1);

@@ -46,6 +46,10 @@ public:
     return *m_Labels;
   }
 
+  /** \throws ExceptionObject when a label's box reaches beyond the size of the geometry, which was set after it. */
+  void
+  RequireWithinGeometry() const;
+
   bool
   HasLabel(LabelType value) const;
 
@@ -70,6 +74,9 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  void
+  RequireWithinGeometry(const LabelContainer & labels) const;
+
   std::shared_ptr<const LabelContainer> m_Labels; ///< never null
 };
 

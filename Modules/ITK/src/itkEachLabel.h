@@ -31,9 +31,11 @@ RequestOf(const voxelcore::LabelShape & label, const std::optional<voxelcore::To
 /** Calls `each` with every label and its part of the filter's progress. */
 template <typename TEach>
 void
-EachLabel(ProcessObject * filter, const VoxelShapeObject::LabelContainer & labels, const TEach & each)
+EachLabel(ProcessObject * filter, const VoxelShapeObject & shapes, const TEach & each)
 {
-  double total = 0;
+  shapes.RequireWithinGeometry(); // which may have been set anew after the labels
+  const VoxelShapeObject::LabelContainer & labels = shapes.GetLabels();
+  double                                   total = 0;
   for (const voxelcore::LabelShape & label : labels)
   {
     total += 1 + static_cast<double>(label.voxels);

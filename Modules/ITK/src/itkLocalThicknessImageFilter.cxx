@@ -101,7 +101,7 @@ LocalThicknessImageFilter::GenerateData()
   output.SetBufferedRegion(output.GetLargestPossibleRegion());
   output.Allocate(true);
   WithItkErrors(this->GetNameOfClass(), [&] {
-    EachLabel(this, input.GetLabels(), [&](const voxelcore::LabelShape & label, const auto & progress) {
+    EachLabel(this, input, [&](const voxelcore::LabelShape & label, const auto & progress) {
       auto request = RequestOf(label, m_Tolerance, m_Refine);
       request.thickness = voxelcore::ThicknessRequest{};
       const auto result = voxelcore::ComputeCertified(label.shape, geometry, request, progress);

@@ -73,7 +73,7 @@ VoxelCoreFilter::GenerateData()
   const InputType &         input = *this->GetInput();
   OutputType::PartContainer parts;
   WithItkErrors(this->GetNameOfClass(), [&] {
-    EachLabel(this, input.GetLabels(), [&](const voxelcore::LabelShape & label, const auto & progress) {
+    EachLabel(this, input, [&](const voxelcore::LabelShape & label, const auto & progress) {
       auto request = RequestOf(label, m_WholeCore ? std::nullopt : std::optional(m_Tolerance), m_Refine);
       request.engine = m_Engine;
       auto result = voxelcore::ComputeCertified(label.shape, input.GetGeometry(), request, progress);

@@ -32,18 +32,32 @@ VoxelShapeObject::SetLabels(LabelContainer labels)
     {
       itkExceptionMacro("label " << labels[i].value << " is given twice");
     }
-    const voxelcore::VoxelBox & box = labels[i].shape.Box();
+  }
+  this->RequireWithinGeometry(labels);
+  m_Labels = std::make_shared<const LabelContainer>(std::move(labels));
+  this->Modified();
+}
+
+void
+VoxelShapeObject::RequireWithinGeometry() const
+{
+  this->RequireWithinGeometry(*m_Labels);
+}
+
+void
+VoxelShapeObject::RequireWithinGeometry(const LabelContainer & labels) const
+{
+  for (const LabelShapeType & label : labels)
+  {
+    const voxelcore::VoxelBox & box = label.shape.Box();
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       if (box.lower[axis] < 0 || std::int64_t{ box.lower[axis] } + box.size[axis] > this->GetGeometry().size[axis])
       {
-        itkExceptionMacro("the shape of label " << labels[i].value
-                                                << " reaches beyond the image; set its geometry first");
+        itkExceptionMacro("the shape of label " << label.value << " reaches beyond the image; set its geometry first");
       }
     }
   }
-  m_Labels = std::make_shared<const LabelContainer>(std::move(labels));
-  this->Modified();
 }
 
 bool
