@@ -1,5 +1,7 @@
 #include "Console.h"
 
+#include "voxelcore/PlainText.h"
+
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
@@ -58,7 +60,8 @@ Console::Console()
 void
 Console::Print(const std::string & text) const
 {
-  const int error = WriteAll(m_Output, text);
+  // What is read by a program comes through as it is, as names of files do.
+  const int error = WriteAll(m_Output, isatty(m_Output) == 1 ? PlainText(text, true) : text);
   if (error != 0 && error != EPIPE && error != EBADF) // these two: nobody listens
   {
     m_OutputError = error;
@@ -83,7 +86,7 @@ Console::PrintError(const std::string & message) const
     }
   }
   line.erase(line.find_last_not_of(' ') + 1);
-  WriteAll(m_Error, line + "\n");
+  WriteAll(m_Error, PlainText(line) + "\n");
 }
 
 void

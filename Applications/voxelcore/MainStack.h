@@ -1,5 +1,7 @@
 #pragma once
-// Room on the main thread's stack.
+// Room on the stacks of threads.
+
+#include <functional>
 
 namespace voxelcore
 {
@@ -9,5 +11,11 @@ namespace voxelcore
  *  is an error that can be reported. */
 void
 ReserveMainStack();
+
+/** Calls `work`, in a thread of its own where the system gives the main thread less than threads need, and sees to it
+ *  that threads begun from now on have as much. \throws UsageError where OMP_STACKSIZE gives OpenMP's threads less,
+ *  which cannot be changed any more. */
+int
+RunWithStack(const std::function<int()> & work);
 
 } // namespace voxelcore

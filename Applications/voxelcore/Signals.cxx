@@ -108,6 +108,16 @@ OnExit()
   }
 }
 
+// Before there is anything to remove or to wait for.
+void
+OnEarlyInterrupt(int)
+{
+  Say("voxelcore: interrupted; ");
+  Say(kNothing);
+  Say("\n");
+  _exit(kInterrupted);
+}
+
 void
 Install(int signal, void (*handler)(int), int flags)
 {
@@ -122,6 +132,31 @@ Install(int signal, void (*handler)(int), int flags)
   sigaction(signal, &action, nullptr);
 }
 
+/** nohup, or a script's background job, has a signal ignored. */
+void
+InstallUnlessIgnored(void (*handler)(int))
+{
+  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN)
+    {
+      Install(signal, handler, SA_RESTART);
+    }
+  }
+}
+
+void
+HandleEarlySignals(int, char **, char **)
+{
+  InstallUnlessIgnored(OnEarlyInterrupt);
+}
+
+// Libraries take most of the time before main() to set themselves up; the loader calls this before any of them.
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const kBeforeLibraries)(int, char **, char **) = &HandleEarlySignals;
+
 } // namespace
 
 void
@@ -135,15 +170,7 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
   Install(SIGALRM, OnDeadline, SA_RESTART);
   const rlimit noCore{ 0, 0 };
   setrlimit(RLIMIT_CORE, &noCore);
-  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
-  {
-    struct sigaction before = {};
-    sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) // nohup, or a script's background job
-    {
-      Install(signal, OnInterrupt, SA_RESTART);
-    }
-  }
+  InstallUnlessIgnored(OnInterrupt);
   Install(SIGPIPE, SIG_IGN, 0);
   Install(SIGXFSZ, SIG_IGN, 0);
 #ifndef VOXELCORE_SANITIZED

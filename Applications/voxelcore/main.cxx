@@ -136,7 +136,7 @@ main(int argc, char ** argv)
   };
   try
   {
-    const int code = Main(argc, argv, console, temporaries);
+    const int code = RunWithStack([&] { return Main(argc, argv, console, temporaries); });
     if (const std::string error = console.OutputError(); code == kDone && !error.empty())
     {
       return fail(kFailed, "what was printed is cut off: " + error);

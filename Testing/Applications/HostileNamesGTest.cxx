@@ -12,20 +12,25 @@ namespace
 
 using HostileNames = CommandFixture;
 
+// From the mark on a terminal writes from right to left.
+const std::string kTurn = "\xE2\x80\xAE";
+const std::string kTurned = "liver" + kTurn + "nirt\xE2\x81\xA6";
+
 const std::vector<std::string> kNames{ "=HYPERLINK(\"http://a.example\",\"b\")",
                                        "</script><script>alert(1)</script>",
                                        "\"><img src=x onerror=alert(1)>",
                                        "\x1b]0;owned\x07\x1b[2J",
                                        "$(touch owned) `touch owned` ; touch owned #",
                                        "../../../../tmp/owned",
-                                       "%s%n%s%n {config} {0}" };
+                                       "%s%n%s%n {config} {0}",
+                                       kTurned };
 
 /** A segmentation with a block for each name. */
 void
 WriteSegments(const std::filesystem::path & path)
 {
   std::string header =
-    "type: uint8\ndimension: 3\nsizes: 28 6 6\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) "
+    "type: uint8\ndimension: 3\nsizes: 32 6 6\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) "
     "(0,0,1)\nspace origin: (0,0,0)\nkinds: domain domain domain\n";
   for (std::size_t i = 0; i < kNames.size(); ++i)
   {
@@ -33,12 +38,12 @@ WriteSegments(const std::filesystem::path & path)
     header += segment + "ID:=Segment_" + std::to_string(i) + "\n" + segment + "Name:=" + kNames[i] + "\n" + segment +
               "LabelValue:=" + std::to_string(i + 1) + "\n" + segment + "Layer:=0\n";
   }
-  std::string voxels(28 * 6 * 6, '\0');
+  std::string voxels(32 * 6 * 6, '\0');
   for (std::size_t i = 0; i < voxels.size(); ++i)
   {
-    const std::size_t x = i % 28;
-    const std::size_t y = i / 28 % 6;
-    const std::size_t z = i / 168;
+    const std::size_t x = i % 32;
+    const std::size_t y = i / 32 % 6;
+    const std::size_t z = i / 192;
     const bool        isIn = x % 4 < 3 && y > 0 && y < 5 && z > 0 && z < 5;
     voxels[i] = isIn ? static_cast<char>(1 + x / 4) : '\0';
   }
@@ -54,6 +59,7 @@ ExpectPlain(const std::string & text)
     EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
       << static_cast<int>(c) << " in " << text;
   }
+  EXPECT_EQ(text.find(kTurn), std::string::npos) << text;
 }
 
 TEST_F(HostileNames, AreTextInAllThatIsWritten)
@@ -104,6 +110,7 @@ TEST_F(HostileNames, AreTextInAllThatIsWritten)
       continue;
     }
     const std::string bytes = ReadAll(entry.path());
+    EXPECT_EQ(bytes.find(kTurn), std::string::npos) << entry.path();
     if (extension == ".csv")
     {
       ++tables;
@@ -130,7 +137,7 @@ TEST_F(HostileNames, AreTextInAllThatIsWritten)
 
 TEST_F(HostileNames, OfFilesAreShownWithoutCommandsForTheTerminal)
 {
-  const std::string name = "a\x1b[2J\nb;$(touch owned).nrrd";
+  const std::string name = "a\x1b[2J\nb;$(touch owned)" + kTurn + "txt.nrrd";
   WriteNrrd(Path(name), ThreeBlocks());
   std::filesystem::create_directory(Path("out"));
   const ProgramResult done =

@@ -146,6 +146,23 @@ TEST_F(Interrupt, SigtermWhileTwoFilesAreWrittenLeavesNeither)
   EXPECT_EQ(m_Folder.Names(), Names{});
 }
 
+#ifdef VOXELCORE_EARLY_SIGNAL
+// A library that is loaded with the program sends it the signal as it sets itself up, before main().
+TEST_F(Interrupt, ASignalWhileLibrariesAreLoadedEndsWithTheCodeOfAnInterruption)
+{
+  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  {
+    setenv("LD_PRELOAD", VOXELCORE_EARLY_SIGNAL, 1);
+    setenv("VOXELCORE_TEST_SIGNAL", std::to_string(signal).c_str(), 1);
+    const ProgramResult result = RunProgram({ "phantom", "ball", "--size", "8", "-o", m_Folder / "ball.nrrd" });
+    unsetenv("LD_PRELOAD");
+    EXPECT_EQ(result.code, 130) << strsignal(signal) << " " << result.signal;
+    EXPECT_EQ(result.error, "voxelcore: interrupted; nothing was written\n");
+    EXPECT_EQ(m_Folder.Names(), Names{});
+  }
+}
+#endif
+
 TEST_F(Interrupt, CtrlCDuringPruningLeavesNothing)
 {
   const ProgramResult result = StopAt("prune", { SIGINT });

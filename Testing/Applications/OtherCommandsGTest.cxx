@@ -48,6 +48,36 @@ TEST_F(OtherCommands, HelpHasExamplesUnitsAndExitCodes)
   EXPECT_EQ(version.find("tetgen") != std::string::npos, version.find("AGPL") != std::string::npos);
 }
 
+#ifdef VOXELCORE_EARLY_SIGNAL // without a sanitizer, which needs stacks of its own size
+TEST_F(OtherCommands, SmallStacksAreServedAndSmallerOnesOfOpenMPRefused)
+{
+  ASSERT_EQ(RunProgram({ "phantom", "gyroid", "--size", "40", "-o", Path("g.nrrd") }).code, 0);
+  ProgramLimits limits;
+  limits.stackBytes = 128 << 10;
+  for (const std::vector<std::string> & command :
+       std::vector<std::vector<std::string>>{ { "core", Path("g.nrrd"), "-o" },
+                                              { "skeleton", Path("g.nrrd"), "-o" },
+                                              { "sheets", Path("g.nrrd"), "-o" } })
+  {
+    auto plain = command;
+    auto small = command;
+    plain.push_back(Path(command[0] + ".vtp"));
+    small.push_back(Path(command[0] + "_small.vtp"));
+    EXPECT_EQ(RunProgram(plain).code, 0);
+    const ProgramResult result = RunProgram(small, limits);
+    EXPECT_EQ(result.code, 0) << command[0] << ": " << result.error;
+    EXPECT_TRUE(ReadAll(plain.back()) == ReadAll(small.back())) << command[0];
+  }
+  setenv("OMP_STACKSIZE", "128k", 1);
+  const ProgramResult refused = RunProgram({ "core", Path("g.nrrd"), "-o", Path("no.vtp") });
+  setenv("OMP_STACKSIZE", "4M", 1);
+  const ProgramResult taken = RunProgram({ "core", Path("g.nrrd"), "-o", Path("yes.vtp") });
+  unsetenv("OMP_STACKSIZE");
+  ExpectRefusal(refused, 2, { "OMP_STACKSIZE=128k", "unset it" });
+  EXPECT_EQ(taken.code, 0) << taken.error;
+}
+#endif
+
 TEST_F(OtherCommands, InfoCountsWhatIsThere)
 {
   WriteNrrd(m_Folder / "a.nrrd", ThreeBlocks());

@@ -42,6 +42,7 @@ BecomeProgram(std::vector<char *> &      words,
   }
   Limit(RLIMIT_FSIZE, limits.fileBytes);
   Limit(RLIMIT_AS, limits.memoryBytes);
+  Limit(RLIMIT_STACK, limits.stackBytes);
   execv(words[0], words.data());
   _exit(127);
 }

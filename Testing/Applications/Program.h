@@ -39,6 +39,7 @@ struct ProgramLimits
 {
   std::optional<std::uint64_t> fileBytes;          ///< RLIMIT_FSIZE
   std::optional<std::uint64_t> memoryBytes;        ///< RLIMIT_AS
+  std::optional<std::uint64_t> stackBytes;         ///< RLIMIT_STACK
   bool                         fullOutput = false; ///< its stdout is a file on a full disk
   std::chrono::seconds         time{ 300 };        ///< then it is killed
 };

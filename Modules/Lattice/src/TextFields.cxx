@@ -1,6 +1,7 @@
 #include "voxelcore/TextFields.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/PlainText.h"
 
 #include <charconv>
 #include <cmath>
@@ -85,21 +86,8 @@ ParseReals(std::string_view text)
 std::string
 Printable(std::string_view text, std::size_t longest)
 {
-  std::string out;
-  for (std::size_t at = 0; at < text.size(); ++at)
-  {
-    if (out.size() >= longest)
-    {
-      out += "...";
-      break;
-    }
-    const auto byte = static_cast<unsigned char>(text[at]);
-    // In UTF-8 some terminals take U+0080 to U+009F for commands, too.
-    const bool isCommand = byte == 0xC2 && at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) < 0xA0;
-    out += (byte < 0x20 || byte == 0x7F || isCommand) ? '?' : text[at];
-    at += isCommand ? 1 : 0;
-  }
-  return out;
+  const std::string plain = PlainText(text);
+  return plain.size() <= longest ? plain : plain.substr(0, longest) + "...";
 }
 
 std::string
