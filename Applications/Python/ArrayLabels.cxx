@@ -1,12 +1,14 @@
 #include "ArrayLabels.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <unistd.h>
 
 namespace voxelcore
 {
@@ -140,6 +142,25 @@ ReaderOf(const LabelAssembler::Pixel & pixel)
   }
 }
 
+/** numpy can show a few bytes as an array of any size (strides of 0), which would take days to read. A voxel of a shape
+ *  takes a bit. */
+void
+RequireWithinMemory(const ArrayView & array)
+{
+  double voxels = 1;
+  for (const std::int64_t size : array.size)
+  {
+    voxels *= static_cast<double>(size);
+  }
+  const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (voxels / 8 > bytes)
+  {
+    throw InputError("the array: has " + Number(voxels) +
+                     " voxels, more than this machine has bits of memory; give a " +
+                     "part of it, or an array of its own size");
+  }
+}
+
 } // namespace
 
 void
@@ -183,6 +204,7 @@ LabelsOf(const ArrayView &        array,
          const LabelChoice &      options,
          const ProgressCallback & progress)
 {
+  RequireWithinMemory(array);
   LabelAssembler         assembler("the array", geometry, array.pixel, options);
   const auto             rowsAtATime = static_cast<std::int64_t>(assembler.RowsAtATime());
   const std::int64_t     stepJ = std::min(array.size[1], rowsAtATime);

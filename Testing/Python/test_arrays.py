@@ -1,6 +1,7 @@
 """Whatever the array looks like in memory, the core is that of its values; or there is one clear line."""
 
 import re
+import time
 
 import numpy
 import pytest
@@ -211,3 +212,14 @@ def test_geometry_without_exact_lengths_is_refused(volume, place):
 def test_a_micrometre_a_kilometre_away_is_a_place(volume):
     core = voxelcore.core(volume, spacing=(0.001, 0.001, 0.001), origin=(1e6, 1e6, 1e6))
     assert core.topology == voxelcore.core(volume).topology
+
+
+@pytest.mark.parametrize("make", [voxelcore.core, voxelcore.skeleton, voxelcore.thickness, voxelcore.sheets])
+def test_a_byte_shown_as_more_voxels_than_memory_has_bits_is_refused_at_once(make):
+    endless = numpy.broadcast_to(numpy.uint8(1), (100_000, 100_000, 100_000))
+    began = time.monotonic()
+    with pytest.raises(ValueError, match="1000000000000000 voxels, more than this machine has bits of memory; give a part"):
+        make(endless)
+    assert time.monotonic() - began < 2
+    shown = numpy.broadcast_to(numpy.uint8(1), (9, 8, 7))
+    assert voxelcore.core(shown).voxels == 9 * 8 * 7

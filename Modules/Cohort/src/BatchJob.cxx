@@ -5,6 +5,7 @@
 #include "voxelcore/CaseRecord.h"
 #include "voxelcore/DisplayTargets.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/PlainText.h"
 #include "voxelcore/GatherCohort.h"
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/Sha256.h"
@@ -82,10 +83,11 @@ MemoryThereIsMb()
 /** What all cases are asked without sense is refused once, before any runs. What a line of a manifest asks fails its
  *  case alone. \throws UsageError */
 void
-RequireSense(const std::vector<CaseJob> & jobs, const BatchOptions & options)
+RequireSense(const std::vector<CohortCase> & cases, const BatchOptions & options)
 {
-  for (const CaseJob & job : jobs)
+  for (const CohortCase & one : cases)
   {
+    const CaseJob job = MakeCaseJob(one, options);
     if (job.refusal.empty())
     {
       continue;
@@ -121,7 +123,7 @@ InOneLine(std::string text)
     text.end(),
     [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; },
     ' ');
-  return text;
+  return PlainText(text);
 }
 
 /** Why a run would do a case again that is done; empty when it would not. \throws InputError */
@@ -143,13 +145,14 @@ WhyDoneAgain(const CaseJob & job, const std::string & keyThen)
 
 /** The done cases that a run would do again. */
 std::vector<FailedCase>
-Outdated(const std::vector<CaseJob> & jobs, const JobContext & context)
+Outdated(const std::vector<CohortCase> & cases, const BatchOptions & options, const JobContext & context)
 {
   std::vector<FailedCase> outdated;
-  for (std::size_t i = 0; i < jobs.size(); ++i)
+  for (std::size_t i = 0; i < cases.size(); ++i)
   {
-    ReportProgress(context.progress, "checking", static_cast<double>(i) / static_cast<double>(jobs.size()));
-    const auto record = ReadCaseRecord(jobs[i].folder);
+    ReportProgress(context.progress, "checking", static_cast<double>(i) / static_cast<double>(cases.size()));
+    const CaseJob job = MakeCaseJob(cases[i], options);
+    const auto    record = ReadCaseRecord(job.folder);
     if (!record || !record->done)
     {
       continue; // GatherCohort() says so
@@ -157,7 +160,7 @@ Outdated(const std::vector<CaseJob> & jobs, const JobContext & context)
     std::string why;
     try
     {
-      why = WhyDoneAgain(jobs[i], record->key);
+      why = WhyDoneAgain(job, record->key);
     }
     catch (const std::exception & error) // it would fail its case
     {
@@ -165,7 +168,7 @@ Outdated(const std::vector<CaseJob> & jobs, const JobContext & context)
     }
     if (!why.empty())
     {
-      outdated.push_back({ jobs[i].one.id, why, false });
+      outdated.push_back({ job.one.id, why, false });
     }
   }
   return outdated;
@@ -286,17 +289,11 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     }
     cases = { cases[*options.only - 1] };
   }
-  std::vector<CaseJob> jobs;
-  jobs.reserve(cases.size());
-  for (const CohortCase & one : cases)
-  {
-    jobs.push_back(MakeCaseJob(one, options));
-  }
-  RequireSense(jobs, options);
+  RequireSense(cases, options);
   BatchResult result;
   if (options.gather)
   {
-    const CohortSummary summary = GatherCohort(options.output, cases, context, Outdated(jobs, context));
+    const CohortSummary summary = GatherCohort(options.output, cases, context, Outdated(cases, options, context));
     if (options.inputs.empty())
     {
       result.cases = summary.cases;
@@ -311,7 +308,7 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     return result;
   }
   MakeOutput(options);
-  result = Scheduler(options, std::move(jobs), context).Run();
+  result = Scheduler(options, cases, context).Run();
   if (!options.only)
   {
     AddLost(GatherCohort(options.output, cases, context, result.failed).failed, cases, result.failed);

@@ -95,24 +95,24 @@ ReasonOf(const ChildEnd & end, const std::string & killed)
 
 } // namespace
 
-Scheduler::Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, const JobContext & context)
+Scheduler::Scheduler(const BatchOptions & options, const std::vector<CohortCase> & cases, const JobContext & context)
   : m_Options(options)
-  , m_Jobs(std::move(jobs))
+  , m_Cases(cases)
   , m_Progress(context.progress)
   , m_Temporaries(context.temporaries)
 {
-  for (std::size_t job = 0; job < m_Jobs.size(); ++job)
+  for (std::size_t job = 0; job < m_Cases.size(); ++job)
   {
     m_Waiting.push_back(job);
   }
-  m_Result.cases = m_Jobs.size();
+  m_Result.cases = m_Cases.size();
 }
 
 BatchResult
 Scheduler::Run()
 {
   Report();
-  while (m_Finished < m_Jobs.size())
+  while (m_Finished < m_Cases.size())
   {
     StartWhatCan();
     Wait();
@@ -142,8 +142,8 @@ Scheduler::StartWhatCan()
 bool
 Scheduler::Begin(std::size_t job)
 {
-  const CaseJob & one = m_Jobs[job];
-  auto            lock = CaseLock::Try(m_Options.output / ".voxelcore" / (one.one.folder + ".lock"));
+  const CaseJob one = JobOf(job);
+  auto          lock = CaseLock::Try(m_Options.output / ".voxelcore" / (one.one.folder + ".lock"));
   if (!lock)
   {
     return false;
@@ -288,8 +288,8 @@ Scheduler::Finish(Running & running)
 std::string
 Scheduler::Record(const Running & running, const ChildEnd & end)
 {
-  const CaseJob & job = m_Jobs[running.job];
-  CaseRecord      record;
+  const CaseJob job = JobOf(running.job);
+  CaseRecord    record;
   record.id = job.one.id;
   record.scan = job.one.scan.string();
   record.done = true;
@@ -326,8 +326,8 @@ Scheduler::Record(const Running & running, const ChildEnd & end)
 void
 Scheduler::Fail(std::size_t job, const std::string & key, const std::string & reason, double seconds)
 {
-  const CaseJob & one = m_Jobs[job];
-  CaseRecord      record;
+  const CaseJob one = JobOf(job);
+  CaseRecord    record;
   record.id = one.one.id;
   record.scan = one.one.scan.string();
   record.key = key;
@@ -360,7 +360,7 @@ Scheduler::WorkedSeconds(const Running & running)
 void
 Scheduler::Report()
 {
-  std::string text = std::to_string(m_Finished - m_Result.failed.size()) + " of " + std::to_string(m_Jobs.size()) +
+  std::string text = std::to_string(m_Finished - m_Result.failed.size()) + " of " + std::to_string(m_Cases.size()) +
                      " done, " + std::to_string(m_Running.size()) + " running, " +
                      std::to_string(m_Result.failed.size()) + " failed";
   std::vector<double> running;
@@ -368,13 +368,13 @@ Scheduler::Report()
   {
     running.push_back(WorkedSeconds(one));
   }
-  const std::size_t waiting = m_Jobs.size() - m_Finished - running.size();
+  const std::size_t waiting = m_Cases.size() - m_Finished - running.size();
   const auto        left = SecondsLeft(m_Seconds, running, waiting, static_cast<std::size_t>(m_Options.jobs));
   if (left && *left > 0)
   {
     text += ", " + ClockText(*left) + " left";
   }
-  ReportProgress(m_Progress, text, static_cast<double>(m_Finished) / static_cast<double>(m_Jobs.size()));
+  ReportProgress(m_Progress, text, static_cast<double>(m_Finished) / static_cast<double>(m_Cases.size()));
 }
 
 } // namespace voxelcore

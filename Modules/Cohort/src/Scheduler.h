@@ -18,7 +18,8 @@ namespace voxelcore
 class Scheduler
 {
 public:
-  Scheduler(const BatchOptions & options, std::vector<CaseJob> jobs, const JobContext & context);
+  /** `cases` must outlive it. What a case's process gets is made when its turn comes: it is several times as long. */
+  Scheduler(const BatchOptions & options, const std::vector<CohortCase> & cases, const JobContext & context);
 
   /** Works until every case is done or has failed. \throws Cancelled, OutputError */
   BatchResult
@@ -40,6 +41,11 @@ private:
     std::string       killed = {}; ///< why it was
   };
 
+  CaseJob
+  JobOf(std::size_t number) const
+  {
+    return MakeCaseJob(m_Cases[number], m_Options);
+  }
   void
   StartWhatCan();
   /** False when another process has the case. */
@@ -64,8 +70,10 @@ private:
   void
   Report();
 
-  const BatchOptions &    m_Options;
-  std::vector<CaseJob>    m_Jobs;
+  const BatchOptions & m_Options;
+
+  const std::vector<CohortCase> & m_Cases;
+
   ProgressCallback        m_Progress;
   TemporaryRegistry *     m_Temporaries;
   std::deque<std::size_t> m_Waiting;

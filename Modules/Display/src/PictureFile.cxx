@@ -4,6 +4,7 @@
 #include "voxelcore/OutputFile.h"
 #include "voxelcore/TemporaryNames.h"
 
+#include <algorithm>
 #include <png.h>
 
 namespace voxelcore
@@ -28,16 +29,23 @@ WritePng(const std::filesystem::path & path, const Picture & picture)
 }
 
 Picture
-MeanPicture(const unsigned char * drawn, int width, int height, int part)
+BlankPicture(int width, int height)
 {
   Picture picture{ width, height, {} };
   picture.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+  return picture;
+}
+
+void
+SetMeans(Picture & picture, const unsigned char * drawn, int left, int bottom, int width, int height, int part)
+{
   const std::size_t rowBytes = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(part);
   const int         count = part * part;
-  bool              blank = true;
-  std::uint8_t *    to = picture.pixels.data();
   for (int y = 0; y < height; ++y)
   {
+    const auto     above = static_cast<std::size_t>(picture.height - 1 - (bottom + y));
+    std::uint8_t * to =
+      picture.pixels.data() + 3 * (above * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(left));
     for (int x = 0; x < width; ++x)
     {
       for (int c = 0; c < 3; ++c, ++to)
@@ -45,20 +53,24 @@ MeanPicture(const unsigned char * drawn, int width, int height, int part)
         int sum = 0;
         for (int k = 0; k < count; ++k)
         {
-          const auto row = static_cast<std::size_t>((height - 1 - y) * part + k / part);
+          const auto row = static_cast<std::size_t>(y * part + k / part);
           const auto column = static_cast<std::size_t>(x * part + k % part);
           sum += drawn[row * rowBytes + 3 * column + static_cast<std::size_t>(c)];
         }
         *to = static_cast<std::uint8_t>((sum + count / 2) / count);
-        blank = blank && *to == picture.pixels.front();
       }
     }
   }
-  if (blank)
+}
+
+void
+RequireDrawn(const Picture & picture)
+{
+  const auto isFirst = [&](std::uint8_t value) { return value == picture.pixels.front(); };
+  if (std::all_of(picture.pixels.begin(), picture.pixels.end(), isFirst))
   {
     throw OutputError("cannot draw: the picture came out empty; does OpenGL 3.2 work on this display?");
   }
-  return picture;
 }
 
 } // namespace voxelcore

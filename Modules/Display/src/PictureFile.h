@@ -6,9 +6,17 @@
 namespace voxelcore
 {
 
-/** A picture of `width` x `height` pixels, each the mean of `part` x `part` drawn ones, which are three bytes each,
- *  rows from the bottom. \throws OutputError when all are of one colour. */
+/** A picture without pixels set. */
 Picture
-MeanPicture(const unsigned char * drawn, int width, int height, int part);
+BlankPicture(int width, int height);
+
+/** Sets `width` x `height` pixels of a picture, from (left, bottom) on, counted from its lower left: each is the mean
+ *  of `part` x `part` drawn ones, which are three bytes each, rows from the bottom. */
+void
+SetMeans(Picture & picture, const unsigned char * drawn, int left, int bottom, int width, int height, int part);
+
+/** \throws OutputError when all pixels are of one colour. */
+void
+RequireDrawn(const Picture & picture);
 
 } // namespace voxelcore

@@ -33,7 +33,7 @@ PictureOverlay::AddText(const std::string & words, double x, double y, double si
   style->SetColor(m_Ink[0], m_Ink[1], m_Ink[2]);
   style->SetJustification(align < 0 ? VTK_TEXT_LEFT : align > 0 ? VTK_TEXT_RIGHT : VTK_TEXT_CENTERED);
   style->SetVerticalJustificationToCentered();
-  actor->SetPosition(x, y);
+  actor->SetPosition(x - m_Origin[0], y - m_Origin[1]);
   m_Renderer->AddActor2D(actor);
 }
 
@@ -45,7 +45,7 @@ PictureOverlay::AddPolygon(const std::vector<std::array<double, 2>> & corners, c
   cells->InsertNextCell(static_cast<int>(corners.size()));
   for (const auto & corner : corners)
   {
-    cells->InsertCellPoint(points->InsertNextPoint(corner[0], corner[1], 0));
+    cells->InsertCellPoint(points->InsertNextPoint(corner[0] - m_Origin[0], corner[1] - m_Origin[1], 0));
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
@@ -91,7 +91,9 @@ PictureOverlay::AddColorBar(const ColorBar & bar, double x, double y, double hei
   {
     for (const auto & [right, up] : { std::pair{ 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } })
     {
-      points->InsertNextPoint(x + right * width, y + height * static_cast<double>(step + up) / kSteps, 0);
+      points->InsertNextPoint(x + right * width - m_Origin[0],
+                              y + height * static_cast<double>(step + up) / kSteps - m_Origin[1],
+                              0);
     }
     cells->InsertNextCell({ 4 * step, 4 * step + 1, 4 * step + 2, 4 * step + 3 });
     for (const double part : LengthColor((static_cast<double>(step) + 0.5) / kSteps))

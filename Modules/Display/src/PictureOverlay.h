@@ -13,12 +13,14 @@ class vtkRenderer;
 namespace voxelcore
 {
 
-/** Draws into a renderer that covers the whole picture; places in pixels from the lower left, text sizes in pixels. */
+/** Draws into a renderer that covers the picture, or a tile of it whose lower left is `origin`; places in pixels from
+ *  the lower left of the picture, text sizes in pixels. */
 class PictureOverlay
 {
 public:
-  PictureOverlay(vtkRenderer * renderer, bool dark)
+  PictureOverlay(vtkRenderer * renderer, bool dark, const std::array<double, 2> & origin = { 0, 0 })
     : m_Renderer(renderer)
+    , m_Origin(origin)
     , m_Ink(dark ? Color{ 1, 1, 1 } : Color{ 0, 0, 0 })
   {}
 
@@ -56,8 +58,9 @@ private:
   void
   AddLine(double x0, double y0, double x1, double y1, double width);
 
-  vtkRenderer * m_Renderer;
-  Color         m_Ink;
+  vtkRenderer *         m_Renderer;
+  std::array<double, 2> m_Origin;
+  Color                 m_Ink;
 };
 
 } // namespace voxelcore

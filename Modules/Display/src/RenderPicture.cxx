@@ -21,7 +21,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
+#include <string>
 
 namespace voxelcore
 {
@@ -93,7 +95,6 @@ public:
     m_Window->SetMultiSamples(0);
     m_Window->SetAlphaBitPlanes(1);
     m_Window->SetNumberOfLayers(2);
-    m_Window->SetSize(m_Layout.width, m_Layout.height);
     Furnish();
   }
 
@@ -101,26 +102,69 @@ public:
   Take(double radians)
   {
     const PictureAxes axes = Turned(m_Axes, radians);
-    for (vtkRenderer * renderer : m_Renderers)
+    const int         side = kOversampling * std::max(m_Options.tile, 1);
+    Picture           picture = BlankPicture(m_Layout.width / kOversampling, m_Layout.height / kOversampling);
+    for (int bottom = 0; bottom < m_Layout.height; bottom += side)
     {
-      Aim(renderer, axes);
+      for (int left = 0; left < m_Layout.width; left += side)
+      {
+        TakeTile({ left, bottom, std::min(side, m_Layout.width - left), std::min(side, m_Layout.height - bottom) },
+                 axes,
+                 picture);
+      }
     }
-    m_Overlay->RemoveAllViewProps();
-    DrawOverlay(axes);
-    m_Window->Render();
-    vtkNew<vtkUnsignedCharArray> drawn;
-    m_Window->GetPixelData(0, 0, m_Layout.width - 1, m_Layout.height - 1, 0, drawn);
-    if (drawn->GetNumberOfValues() != 3LL * m_Layout.width * m_Layout.height)
-    {
-      throw OutputError("cannot draw: OpenGL gives no picture on this display");
-    }
-    return MeanPicture(drawn->GetPointer(0),
-                       m_Layout.width / kOversampling,
-                       m_Layout.height / kOversampling,
-                       kOversampling);
+    RequireDrawn(picture);
+    return picture;
   }
 
 private:
+  /** Pixels drawn, from the lower left of all of them. */
+  struct Tile
+  {
+    int left;
+    int bottom;
+    int width;
+    int height;
+  };
+
+  void
+  TakeTile(const Tile & tile, const PictureAxes & axes, Picture & picture)
+  {
+    m_Window->SetSize(tile.width, tile.height);
+    for (std::size_t i = 0; i < m_Renderers.size(); ++i)
+    {
+      Aim(m_Renderers[i], axes, Part(i), tile);
+    }
+    m_Overlay->RemoveAllViewProps();
+    DrawOverlay(axes, tile);
+    m_Window->Render();
+    vtkNew<vtkUnsignedCharArray> drawn;
+    m_Window->GetPixelData(0, 0, tile.width - 1, tile.height - 1, 0, drawn);
+    if (drawn->GetNumberOfValues() != 3LL * tile.width * tile.height)
+    {
+      throw OutputError("cannot draw: OpenGL gives no picture on this display");
+    }
+    SetMeans(picture,
+             drawn->GetPointer(0),
+             tile.left / kOversampling,
+             tile.bottom / kOversampling,
+             tile.width / kOversampling,
+             tile.height / kOversampling,
+             kOversampling);
+  }
+
+  /** The pixels of a panel. */
+  Tile
+  Part(std::size_t panel) const
+  {
+    const auto [left, bottom] = m_Layout.Corner(panel, m_Request);
+    const auto whole = [](double x) { return static_cast<int>(std::lround(x)); };
+    return { whole(left),
+             whole(bottom),
+             whole(left + m_Layout.panelWidth) - whole(left),
+             whole(bottom + m_Layout.panelHeight) - whole(bottom) };
+  }
+
   void
   FindContent()
   {
@@ -233,16 +277,11 @@ private:
     m_Window->AddRenderer(blank);
     for (std::size_t i = 0; i < m_Panels.size(); ++i)
     {
-      const auto [left, bottom] = m_Layout.Corner(i, m_Request);
       vtkNew<vtkRenderer> renderer;
-      renderer->SetViewport(left / m_Layout.width,
-                            bottom / m_Layout.height,
-                            (left + m_Layout.panelWidth) / m_Layout.width,
-                            (bottom + m_Layout.panelHeight) / m_Layout.height);
       renderer->SetBackground(background, background, background);
       renderer->SetUseDepthPeeling(1);
       renderer->SetMaximumNumberOfPeels(4);
-      renderer->SetOcclusionRatio(0.01);
+      renderer->SetOcclusionRatio(0); // else what is peeled depends on how many pixels there are
       vtkNew<vtkLightKit> lights;
       constexpr double    kWhite = 0.5; // colours stay those of the bar
       lights->SetKeyLightWarmth(kWhite);
@@ -269,9 +308,25 @@ private:
     m_Window->AddRenderer(m_Overlay);
   }
 
+  /** At the part of a panel that lies in a tile. */
   void
-  Aim(vtkRenderer * renderer, const PictureAxes & axes)
+  Aim(vtkRenderer * renderer, const PictureAxes & axes, const Tile & panel, const Tile & tile) const
   {
+    const int  left = std::max(panel.left, tile.left);
+    const int  right = std::min(panel.left + panel.width, tile.left + tile.width);
+    const int  bottom = std::max(panel.bottom, tile.bottom);
+    const int  top = std::min(panel.bottom + panel.height, tile.bottom + tile.height);
+    const bool isSeen = left < right && bottom < top;
+    renderer->SetDraw(isSeen ? 1 : 0);
+    if (!isSeen)
+    {
+      return;
+    }
+    const auto share = [](int part, int all) { return static_cast<double>(part) / all; };
+    renderer->SetViewport(share(left - tile.left, tile.width),
+                          share(bottom - tile.bottom, tile.height),
+                          share(right - tile.left, tile.width),
+                          share(top - tile.bottom, tile.height));
     vtkCamera * const camera = renderer->GetActiveCamera();
     const double      away = 4 * (m_Frame.halfWidth + m_Frame.halfHeight + m_Frame.halfDepth) + 1;
     camera->ParallelProjectionOn();
@@ -280,14 +335,19 @@ private:
                         m_Frame.center[1] + away * axes.back[1],
                         m_Frame.center[2] + away * axes.back[2]);
     camera->SetViewUp(axes.up.data());
-    camera->SetParallelScale(m_Layout.mmPerPixel * m_Layout.panelHeight / 2);
+    camera->SetParallelScale(m_Layout.mmPerPixel * m_Layout.panelHeight / 2 * share(top - bottom, panel.height));
+    // How far the middle of what is seen is from that of the panel, in halves of it.
+    camera->SetWindowCenter(share(left + right - 2 * panel.left - panel.width, right - left),
+                            share(bottom + top - 2 * panel.bottom - panel.height, top - bottom));
     renderer->ResetCameraClippingRange();
   }
 
   void
-  DrawOverlay(const PictureAxes & axes)
+  DrawOverlay(const PictureAxes & axes, const Tile & tile)
   {
-    PictureOverlay overlay(m_Overlay, m_Options.dark);
+    PictureOverlay overlay(m_Overlay,
+                           m_Options.dark,
+                           { static_cast<double>(tile.left), static_cast<double>(tile.bottom) });
     const double   x = m_Layout.width - m_Request.right + m_Text;
     if (m_Scale.IsShown())
     {
@@ -345,11 +405,19 @@ RenderPictures(const DisplayContent &                                  content,
                const ProgressCallback &                                progress)
 {
   ReportProgress(progress, "drawing", 0);
-  Stage stage(content, options);
-  for (int frame = 0; frame < options.frames; ++frame)
+  try
   {
-    take(frame, stage.Take(2 * std::numbers::pi * frame / options.frames));
-    ReportProgress(progress, "drawing", static_cast<double>(frame + 1) / options.frames);
+    Stage stage(content, options);
+    for (int frame = 0; frame < options.frames; ++frame)
+    {
+      take(frame, stage.Take(2 * std::numbers::pi * frame / options.frames));
+      ReportProgress(progress, "drawing", static_cast<double>(frame + 1) / options.frames);
+    }
+  }
+  catch (const std::bad_alloc &)
+  {
+    throw OutputError("not enough memory for a picture of " + std::to_string(options.width) + "x" +
+                      std::to_string(options.height) + " pixels; ask for a smaller one with --size");
   }
 }
 

@@ -35,6 +35,7 @@ struct PictureOptions
   bool                                 anatomical = true; ///< whether the axes are the patient's: else no letters
   bool                                 eachLabel = false; ///< the map runs over each label's own range
   int                                  frames = 1;        ///< of a full turn around the vertical
+  int                                  tile = 2048;       ///< pixels along each side that are drawn at a time
 };
 
 /** Red, green, blue, a byte each; rows from the top. */
@@ -48,8 +49,9 @@ struct Picture
 /** Draws each frame and hands it to `take`. Parallel projection, so that the scale bar holds everywhere; a colour bar
  *  that names its unit and says what lies beyond its ends, or the names of up to a dozen labels; a cross with the
  *  directions of the patient. The surface is translucent where something is in it. Where there is no display that can
- *  be used, Xvfb is started for the time being. \throws UsageError when nothing is there to be shown; OutputError when
- *  there is neither a display nor Xvfb; Cancelled */
+ *  be used, Xvfb is started for the time being. Large pictures are drawn tile by tile, so that memory grows with the
+ *  pixels of the picture alone, three bytes each. \throws UsageError when nothing is there to be shown; OutputError
+ *  when there is neither a display nor Xvfb, or too little memory for so many pixels; Cancelled */
 void
 RenderPictures(const DisplayContent &                                  content,
                const PictureOptions &                                  options,
