@@ -7,6 +7,7 @@
 #include "voxelcore/BranchTips.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CrossSections.h"
+#include "voxelcore/Enclosure.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OpenShape.h"
 #include "voxelcore/SimplePairCollapse.h"
@@ -256,10 +257,12 @@ MeasureCurves(const BurnedCurves &    burned,
 void
 RequireEnclosed(const SkeletonGraph & graph, const VoxelShape & voxels, const CertifiedShape & shape)
 {
-  const bool isEnclosed = std::all_of(graph.positions.begin(), graph.positions.end(), [&](const Vector3 & place) {
-    return ContainsInside(voxels, PhysicalToLattice(shape.geometry, place));
-  });
-  if (!isEnclosed)
+  std::vector<Vector3> places = graph.positions;
+  for (Vector3 & place : places)
+  {
+    place = PhysicalToLattice(shape.geometry, place);
+  }
+  if (!LieInside(voxels, places))
   {
     RefuseResult(shape.name, "a point of its skeleton lies outside it");
   }
