@@ -69,8 +69,8 @@ TEST(SheetFiles, NumbersRunOverAllPartsAndRodsComeBehindTheSheets)
   EXPECT_EQ(numbers.JunctionId(1, 0), 2);
 }
 
-// One by one, as they stand in tables: each number is found from its part's alone, so a hundred thousand rods are no more
-// work each than one.
+// One by one, as they stand in tables: a number is found from its part alone, so each of many rods is no more work than
+// the only one.
 TEST(SheetFiles, NumbersAreThoseCountedOneByOne)
 {
   std::mt19937_64 random(20261128);

@@ -218,7 +218,7 @@ def test_a_micrometre_a_kilometre_away_is_a_place(volume):
 def test_a_byte_shown_as_more_voxels_than_memory_has_bits_is_refused_at_once(make):
     endless = numpy.broadcast_to(numpy.uint8(1), (100_000, 100_000, 100_000))
     began = time.monotonic()
-    with pytest.raises(ValueError, match="1000000000000000 voxels, more than this machine has bits of memory; give a part"):
+    with pytest.raises(ValueError, match="1000000000000000 voxels, more than this machine has bits of memory"):
         make(endless)
     assert time.monotonic() - began < 2
     shown = numpy.broadcast_to(numpy.uint8(1), (9, 8, 7))
