@@ -5,8 +5,8 @@
 #include "ModuleParts.h"
 #include "OwnThread.h"
 #include "voxelcore/CertifiedSkeleton.h"
+#include "voxelcore/CertifiedThickness.h"
 #include "voxelcore/Error.h"
-#include "voxelcore/MedialSheets.h"
 #include "voxelcore/Progress.h"
 
 #include <pybind11/numpy.h>
@@ -121,7 +121,7 @@ SheetsOfCore(const std::shared_ptr<CoreOfLabel> & core,
   const double mm =
     InMeanVoxels(length, core->report.parameters.weights, core->report.input.geometry.spacing, record.box);
   const MedialSheets cut = RunInOwnThread(threads, listener, py::none(), [=](const ProgressCallback &) {
-    return CutIntoSheets(core->part.core, mm);
+    return SheetsOf(core->part, RecordedShape(core->report, core->report.labels.front()), mm);
   });
   const auto         numbers = [](const std::vector<std::uint32_t> & values) {
     py::array_t<std::int64_t> array(static_cast<py::ssize_t>(values.size()));

@@ -136,31 +136,6 @@ TEST(CoreThickness, AValueIsFoundJustOutsideToo)
   EXPECT_EQ(ValueNear(shape, ranks, map, { 9.2, 3.5, 3.5 }), 0.0F);
 }
 
-TEST(CoreThickness, EveningLeavesWhatIsEvenAndTheEndsOfLinesAndTakesOutSingleErrors)
-{
-  MedialComplex core;
-  for (int i = 0; i < 7; ++i)
-  {
-    core.positions.push_back({ static_cast<double>(i), 0, 0 });
-    core.radius.push_back(i == 3 ? 2.3 : 2.0);
-    if (i > 0)
-    {
-      core.cells.edges.push_back({ static_cast<ElementIndex>(i - 1), static_cast<ElementIndex>(i) });
-    }
-  }
-  core.cells.vertexCount = 7;
-  constexpr double far = 10;
-  EXPECT_EQ(EvenedBallsOfCore(core, 0, far).radius, core.radius);
-  const PaintingBalls once = EvenedBallsOfCore(core, 1, far);
-  EXPECT_NEAR(once.radius[3], 2.1, 1e-12);
-  EXPECT_NEAR(once.radius[2], 2.1, 1e-12);
-  EXPECT_EQ(once.radius[0], 2);
-  EXPECT_EQ(once.value, once.radius);
-  EXPECT_EQ(EvenedBallsOfCore(core, 1, 0.25).radius, core.radius); // that is a bulge
-  core.radius.assign(7, 2);
-  EXPECT_EQ(EvenedBallsOfCore(core, 5, far).radius, core.radius);
-}
-
 TEST(CoreThickness, OwnersAreTheSameForEveryNumberOfThreads)
 {
   const VoxelShape     shape = testing::Ellipsoid(40);

@@ -1,6 +1,7 @@
 #include "voxelcore/Certified.h"
 
 #include "CertifiedWork.h"
+#include "Frames.h"
 #include "RequestStages.h"
 #include "voxelcore/StagePlan.h"
 
@@ -9,22 +10,6 @@
 
 namespace voxelcore
 {
-
-namespace
-{
-
-/** From the labels alone. */
-SurfaceSource
-UsualSurface(const CertifiedRequest & request, const Vector3 & spacing)
-{
-  if (!RefinesUsually(request.tolerances))
-  {
-    return {};
-  }
-  return SurfacesFromLabels(spacing);
-}
-
-} // namespace
 
 void
 CompletePruning(std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances)
@@ -69,15 +54,34 @@ ComputeCertified(VoxelShape               shape,
                  const CertifiedRequest & request,
                  const ProgressCallback & progress)
 {
-  CertifiedRequest complete = request;
-  CompletePruning(complete.lambdas, complete.tolerances);
-  if (!complete.surface)
+  CertifiedRequest complete = CompleteRequest(request, geometry.spacing);
+  if (!IsMapAlone(complete))
   {
-    complete.surface = UsualSurface(complete, geometry.spacing);
+    RequireDistinctPositions(geometry);
   }
-  RequireSense(complete);
   const ProgressCallback forward = ForwardOnly(progress);
-  CertifiedResult        result = RunCertified(std::move(shape), geometry, complete, forward);
+  shape = CropToVoxels(std::move(shape));
+  const BodyFrame frame(geometry, shape.Box());
+  shape = MovedTo({ 0, 0, 0 }, shape);
+  const RootChoice root = complete.skeleton ? complete.skeleton->branches.root : RootChoice();
+  CertifiedResult  result = RunCertified(std::move(shape),
+                                        frame.Geometry(),
+                                        InFrame(std::move(complete), frame, ComputeLatticeWeights(geometry)),
+                                        forward);
+  result.shape.box = frame.Leave(result.shape.box);
+  result.shape.geometry = geometry;
+  for (CertifiedCore & core : result.cores)
+  {
+    LeaveFrame(frame, core.core);
+  }
+  if (result.skeleton)
+  {
+    LeaveFrame(frame, root, *result.skeleton);
+  }
+  if (result.thickness)
+  {
+    LeaveFrame(frame, *result.thickness);
+  }
   ReportProgress(forward, "done", 1);
   return result;
 }

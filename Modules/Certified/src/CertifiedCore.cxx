@@ -2,6 +2,7 @@
 
 #include "CertificateText.h"
 #include "PruneStages.h"
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
@@ -40,6 +41,17 @@ SetMoves(RefinedVertices moves, PlacedCore & core)
 {
   core.displacement = std::move(moves.displacement);
   core.radiusMargin = std::move(moves.radiusMargin);
+}
+
+/** As where it was made, so that what is pruned later gets the same figures to the last bit. */
+ComplexRecord
+DescribeInFrame(MedialComplex & core, const TopologyNumbers & topology, const CertifiedShape & shape)
+{
+  std::vector<Vector3> placed = core.positions;
+  BodyFrame(shape.geometry, shape.box).Enter(core.positions);
+  const ComplexRecord record = DescribeComplex(core, topology);
+  core.positions.swap(placed);
+  return record;
 }
 
 void
@@ -136,7 +148,7 @@ CertifyPruned(CertifiedCore                whole,
     result.numbers.lambdaMm = threshold;
     result.numbers.refined = whole.numbers.refined;
     DescribeMarginsLeft(result);
-    result.numbers.complex = unchanged ? whole.numbers.complex : DescribeComplex(result.core.core, topology);
+    result.numbers.complex = unchanged ? whole.numbers.complex : DescribeInFrame(result.core.core, topology, shape);
   }
   return results;
 }
@@ -200,21 +212,21 @@ PruneCertified(CertifiedCore               core,
 }
 
 double
-ScanDiagonal(const ImageGeometry & geometry)
+BodyDiagonal(const CertifiedShape & shape)
 {
   double squared = 0;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const double side = static_cast<double>(geometry.size[k]) * geometry.spacing[k];
+    const double side = static_cast<double>(shape.box.size[k]) * shape.geometry.spacing[k];
     squared += side * side;
   }
   return std::sqrt(squared);
 }
 
 ToleranceNumbers
-DescribeTolerance(const Tolerance & height, const ImageGeometry & geometry)
+DescribeTolerance(const Tolerance & height, const CertifiedShape & shape)
 {
-  return { height.text, std::min(ToleranceInMillimetres(height, geometry.spacing), ScanDiagonal(geometry)), {} };
+  return { height.text, std::min(ToleranceInMillimetres(height, shape.geometry.spacing), BodyDiagonal(shape)), {} };
 }
 
 std::vector<CertifiedCore>
@@ -223,9 +235,8 @@ PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const s
   std::vector<CertifiedCore> results(heights.size());
   for (std::size_t i = 0; i < heights.size(); ++i)
   {
-    const ImageGeometry & geometry = shape.geometry;
-    RequireLengthIn(geometry.unit, heights[i]);
-    ToleranceNumbers tolerance = DescribeTolerance(heights[i], geometry);
+    RequireLengthIn(shape.geometry.unit, heights[i]);
+    ToleranceNumbers tolerance = DescribeTolerance(heights[i], shape);
     const double     height = tolerance.heightMm;
     if (!core.core.core.HasTolerances() && core.core.core.cells.vertexCount > 0)
     {
@@ -248,7 +259,7 @@ PruneCertified(const CertifiedCore & core, const CertifiedShape & shape, const s
     result.numbers = core.numbers;
     result.numbers.tolerance = std::move(tolerance);
     DescribeMarginsLeft(result);
-    result.numbers.complex = DescribeComplex(result.core.core, topology);
+    result.numbers.complex = DescribeInFrame(result.core.core, topology, shape);
   }
   return results;
 }

@@ -1,6 +1,7 @@
 #include "voxelcore/CertifiedSkeleton.h"
 
 #include "CertificateText.h"
+#include "Frames.h"
 #include "SkeletonSteps.h"
 #include "voxelcore/BallUnion.h"
 #include "voxelcore/BranchJoints.h"
@@ -78,11 +79,10 @@ FarthestEnd(const CurveSkeleton & curves)
 }
 
 /** A loop of two branches without points between their ends is cut in the middle of one, which may lie outside: points
- *  from `first` on go back towards their neighbours. Whether any did. */
-bool
+ *  from `first` on go back towards their neighbours. */
+void
 TakeInside(SkeletonGraph & graph, std::size_t first, const OpenShape & inside)
 {
-  bool isTaken = false;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
     const auto points = graph.Branch(branch);
@@ -92,11 +92,9 @@ TakeInside(SkeletonGraph & graph, std::size_t first, const OpenShape & inside)
       if (points[i] >= first && !inside.Holds(place))
       {
         place = inside.Towards(graph.positions[points[i > 0 ? i - 1 : i + 1]], place);
-        isTaken = true;
       }
     }
   }
-  return isTaken;
 }
 
 /** The voxels in the balls of a core. */
@@ -120,8 +118,11 @@ InMeanVoxels(const Lambda & length, const SpacingWeights & weights, const Vector
                                             : LambdaInMillimetres(length, weights, spacing, shapeBox);
 }
 
+namespace
+{
+
 void
-CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, double standOut)
+Cut(CertifiedSkeleton & skeleton, const BranchRequest & request, double standOut)
 {
   SkeletonGraph & graph = skeleton.skeleton.graph;
   if (request.cutLoops)
@@ -133,7 +134,15 @@ CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, doubl
   {
     SplitAtJunctions(graph);
   }
-  skeleton.skeleton.table = MeasureBranches(graph, { request.root });
+}
+
+} // namespace
+
+void
+CutAndMeasure(CertifiedSkeleton & skeleton, const BranchRequest & request, double standOut)
+{
+  Cut(skeleton, request, standOut);
+  skeleton.skeleton.table = MeasureBranches(skeleton.skeleton.graph, { request.root });
 }
 
 void
@@ -246,11 +255,8 @@ MeasureCurves(const BurnedCurves &    burned,
     MeasureBallsAnew(graph, measured, FarthestEnd(burned.curves), inside);
   }
   const std::size_t points = graph.positions.size();
-  CutAndMeasure(result, request.branches, StandOutOn(shape, request));
-  if (TakeInside(graph, points, inside))
-  {
-    result.skeleton.table = MeasureBranches(graph, { request.branches.root });
-  }
+  Cut(result, request.branches, StandOutOn(shape, request));
+  TakeInside(graph, points, inside);
   return result;
 }
 
@@ -275,10 +281,19 @@ SkeletonOf(const PlacedCore &       core,
            const ProgressCallback & progress,
            const VoxelShape *       body)
 {
-  StagePlan          plan(progress, { 0.98, 0.02 });
-  const BurnedCurves burned = BurnToCurves(core.core, nullptr, shape, request, plan.Next());
+  StagePlan            plan(progress, { 0.98, 0.02 });
+  const BodyFrame      frame(shape.geometry, shape.box);
+  const CertifiedShape there = InFrame(shape, frame);
+  MedialComplex        surface = core.core;
+  frame.Enter(surface.positions);
+  const BurnedCurves burned = BurnToCurves(surface, nullptr, there, request, plan.Next());
   ReportProgress(plan.Next("branches"), "", 0);
-  CertifiedSkeleton result = MeasureCurves(burned, body != nullptr ? *body : BodyOf(core.core, shape), shape, request);
+  CertifiedSkeleton result =
+    MeasureCurves(burned,
+                  body != nullptr ? MovedTo(frame.Enter(body->Box()).lower, *body) : BodyOf(surface, there),
+                  there,
+                  request);
+  LeaveFrame(frame, request.branches.root, result);
   result.skeleton.label = core.label;
   result.skeleton.component = core.component;
   return result;

@@ -2,10 +2,11 @@
 
 #include "CertificateText.h"
 #include "InscribedThickness.h"
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/BoundaryCounts.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/FineBracket.h"
-#include "voxelcore/FittedBalls.h"
+#include "voxelcore/SmoothBalls.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
 
@@ -18,18 +19,6 @@ namespace voxelcore
 
 namespace
 {
-
-// So far along a core as its noise is long; what rises as steeply as this is no noise but an edge or the way into one.
-constexpr std::int64_t kEvenings = 20; // of cubic voxels
-constexpr double       kSlope = 0.4;
-
-/** More in thick slices, whose terraces are longer; up to three times as many, as each takes its time. */
-int
-EveningsOf(const SpacingWeights & weights)
-{
-  const auto [shortest, longest] = std::minmax_element(weights.weight.begin(), weights.weight.end());
-  return static_cast<int>(std::min(3 * kEvenings, (kEvenings * *longest + *shortest - 1) / *shortest));
-}
 
 /** \throws CertificateError where a voxel has no thickness, or a bound contradicts another */
 void
@@ -83,6 +72,30 @@ TakeInscribed(CertifiedThickness & found)
 
 } // namespace
 
+MedialSheets
+SheetsOf(const PlacedCore & core, const CertifiedShape & shape, double sliver)
+{
+  MedialComplex there = core.core;
+  BodyFrame(shape.geometry, shape.box).Enter(there.positions);
+  return CutIntoSheets(there, sliver);
+}
+
+VoxelOwners
+OwnersInCore(const PlacedCore & core, const CertifiedShape & shape, const VoxelShape & voxels)
+{
+  const BodyFrame frame(shape.geometry, shape.box);
+  PaintingBalls   balls = BallsOfCore(core.core);
+  frame.Enter(balls.centres);
+  for (Vector3 & centre : balls.centres)
+  {
+    centre = PhysicalToLattice(frame.Geometry(), centre);
+  }
+  VoxelOwners owners =
+    OwnersAmong(balls, MovedTo(frame.Enter(voxels.Box()).lower, voxels), ComputeLatticeWeights(shape.geometry));
+  owners.box = voxels.Box();
+  return owners;
+}
+
 CertifiedThickness
 InscribedThickness(const VoxelShape &       voxels,
                    const VoxelShape *       part,
@@ -110,46 +123,74 @@ InscribedThickness(const VoxelShape &       voxels,
   return found;
 }
 
+SurfaceSource::Estimate
+SurfaceForThickness(const CertifiedRequest & request, const VoxelShape & voxels, const ProgressCallback & progress)
+{
+  return request.surface->IsOfShape() ? nullptr : (*request.surface)(voxels, {}, progress);
+}
+
 CertifiedThickness
-ThicknessOf(const CertifiedCore &    core,
-            const CertifiedShape &   shape,
+SmoothThickness(VoxelShape               voxels,
+                const SpacingWeights &   weights,
+                const SurfaceEstimate *  surface,
+                bool                     bounds,
+                const std::string &      name,
+                const ProgressCallback & progress)
+{
+  StagePlan          plan(progress, { 0.7, 0.3, bounds ? 4.0 : 0.0 });
+  CertifiedThickness found;
+  found.shape = std::move(voxels);
+  found.balls = SmoothBalls(found.shape, weights, surface, plan.Next("thickness"));
+  found.owners = OwnersAmong(found.balls, found.shape, weights, plan.Next("thickness"));
+  KeepOwners(found.balls, found.owners);
+  if (!LieInVoxels(found.balls, found.shape, weights))
+  {
+    RefuseResult(name, "a ball in its surface reaches too far beyond its voxels");
+  }
+  found.map = ThicknessOfOwners(found.shape, weights, found.balls, found.owners);
+  if (const ProgressCallback bracketing = plan.Next("thickness"); bounds)
+  {
+    found.parts = PartsForBounds(found.shape, weights);
+    found.bracket = SmoothBracket(found.shape, weights, bracketing);
+    RequireThickness(found, name);
+    // The map is that of one surface among those that are allowed: bounds that leave room for it are bounds, too.
+    for (std::size_t i = 0; i < found.map.values.size(); ++i)
+    {
+      found.bracket.lower.values[i] = std::min(found.bracket.lower.values[i], found.map.values[i]);
+      found.bracket.upper.values[i] = std::max(found.bracket.upper.values[i], found.map.values[i]);
+    }
+  }
+  RequireThickness(found, name);
+  return found;
+}
+
+std::vector<float>
+ThicknessAt(const CertifiedThickness & found, const std::vector<Vector3> & positions, const ImageGeometry & geometry)
+{
+  const VoxelRanks   ranks(found.shape);
+  std::vector<float> values;
+  values.reserve(positions.size());
+  for (const Vector3 & position : positions)
+  {
+    values.push_back(ValueNear(found.shape, ranks, found.map, PhysicalToLattice(geometry, position)));
+  }
+  return values;
+}
+
+CertifiedThickness
+ThicknessOf(const CertifiedShape &   shape,
             VoxelShape               voxels,
             ThicknessBracket         bracket,
             const ProgressCallback & progress)
 {
-  const SpacingWeights weights = ComputeLatticeWeights(shape.geometry);
-  CertifiedThickness   result;
+  CertifiedThickness result;
   result.shape = std::move(voxels);
   result.bracket = std::move(bracket);
-  const bool           refined = core.numbers.refined.has_value();
-  const bool           bounds = !result.bracket.upper.values.empty();
-  std::vector<Vector3> places = core.core.core.positions;
-  for (Vector3 & place : places)
+  const bool bounds = !result.bracket.upper.values.empty();
+  TakeInscribed(result);
+  if (bounds)
   {
-    place = PhysicalToLattice(shape.geometry, place);
-  }
-  StagePlan plan(progress, { refined ? 0.5 : 0.0, refined ? 0.5 : 0.0, bounds ? 4.0 : 0.0 });
-  if (const ProgressCallback fitting = plan.Next("thickness"), painting = plan.Next("thickness"); refined)
-  {
-    result.balls = EvenedBallsOfCore(core.core.core, EveningsOf(weights), kSlope);
-    result.balls.centres = places;
-    FitBalls(result.shape, weights, core.core.core.cells, result.balls, fitting);
-    result.owners = OwnersAmong(result.balls, result.shape, weights, painting);
-    result.map = ThicknessOfOwners(result.shape, weights, result.balls, result.owners);
-  }
-  else
-  {
-    TakeInscribed(result);
-  }
-  const VoxelRanks ranks(result.shape);
-  result.atVertices.reserve(places.size());
-  for (const Vector3 & place : places)
-  {
-    result.atVertices.push_back(ValueNear(result.shape, ranks, result.map, place));
-  }
-  if (const ProgressCallback tightening = plan.Next("thickness"); bounds)
-  {
-    Tighten(result, weights, tightening);
+    Tighten(result, ComputeLatticeWeights(shape.geometry), progress);
   }
   RequireThickness(result, shape.name);
   return result;

@@ -24,6 +24,22 @@ namespace voxelcore
 namespace
 {
 
+CertifiedThickness
+SmoothThicknessOf(VoxelShape               voxels,
+                  const SpacingWeights &   weights,
+                  const CertifiedRequest & request,
+                  const ProgressCallback & progress)
+{
+  StagePlan  plan(progress, { request.surface->IsOfShape() ? 0.0 : 0.5, 1.0 });
+  const auto surface = SurfaceForThickness(request, voxels, plan.Next("surface"));
+  return SmoothThickness(std::move(voxels),
+                         weights,
+                         surface.get(),
+                         request.thickness->bounds,
+                         request.name,
+                         plan.Next("thickness"));
+}
+
 /** What becomes of one request. */
 class Work
 {
@@ -68,12 +84,13 @@ public:
     }
     if (m_Request.thickness)
     {
-      Stopwatch thickness;
-      m_Result.thickness = ThicknessOf(m_Result.cores.front(),
-                                       m_Result.shape,
-                                       std::move(m_Voxels),
-                                       std::move(m_Whole.bracket),
-                                       m_Plan.Next());
+      Stopwatch              thickness;
+      const ProgressCallback progress = m_Plan.Next();
+      m_Result.thickness = RefinesCores(m_Request)
+                             ? SmoothThicknessOf(std::move(m_Voxels), m_Weights, m_Request, progress)
+                             : ThicknessOf(m_Result.shape, std::move(m_Voxels), std::move(m_Whole.bracket), progress);
+      m_Result.thickness->atVertices =
+        ThicknessAt(*m_Result.thickness, m_Result.cores.front().core.core.positions, m_Result.shape.geometry);
       m_Result.seconds.thickness += thickness.Lap();
     }
     return std::move(m_Result);
@@ -87,7 +104,6 @@ private:
     if (RefinesCores(m_Request))
     {
       m_Refinement.asked = Asked();
-      m_Refinement.margins = !m_Request.thickness || !m_Request.thickness->alone;
     }
     if (RefinesCurves(m_Request))
     {
@@ -116,11 +132,7 @@ private:
     MedialComplex & core = m_Whole.core.core.core;
     RunBoth(
       core.cells.FaceCount() > 10000,
-      [&] {
-        // Described in LPS mm, as it stands in the file, so that a file pruned later gets the same figures to the last
-        // bit.
-        m_Whole.core.numbers.complex = DescribeComplex(core, m_Result.shape.topology);
-      },
+      [&] { m_Whole.core.numbers.complex = DescribeComplex(core, m_Result.shape.topology); },
       [&] {
         // All of a core that burns is counted meanwhile.
         if (!m_Whole.topology && !BurnsWhole(m_Request))
@@ -229,7 +241,7 @@ private:
     asked.resize(m_Request.tolerances.size(), asked.front());
     for (std::size_t i = 0; i < asked.size(); ++i)
     {
-      asked[i].tolerance = DescribeTolerance(m_Request.tolerances[i], m_Result.shape.geometry);
+      asked[i].tolerance = DescribeTolerance(m_Request.tolerances[i], m_Result.shape);
     }
     return asked;
   }
@@ -290,7 +302,7 @@ private:
   {
     const ImageGeometry & geometry = m_Result.shape.geometry;
     RefinementParts &     kept = m_Whole.kept;
-    ShelvedCore           shelved(*curves.spent, kept, LowestHeight(m_Request, geometry));
+    ShelvedCore           shelved(*curves.spent, kept, LowestHeight(m_Request, m_Result.shape));
     if (Refines(m_Request))
     {
       curves.positionsAgain = [&] {
@@ -394,7 +406,9 @@ MapAlone(const VoxelShape &       shape,
   Stopwatch       watch;
   CertifiedResult result;
   result.shape = { request.name, {}, shape.Box(), geometry };
-  result.thickness = InscribedThickness(shape, nullptr, geometry, request, progress);
+  result.thickness = RefinesCores(request)
+                       ? SmoothThicknessOf(shape, ComputeLatticeWeights(geometry), request, progress)
+                       : InscribedThickness(shape, nullptr, geometry, request, progress);
   result.seconds.thickness = watch.Lap();
   return result;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The thickness of the voxels as they are, for which no core is needed.
+// The thickness of the voxels as they are, and of the smooth surface they stand for: no core is needed for either.
 
 #include "voxelcore/Certified.h"
 
@@ -15,5 +15,19 @@ InscribedThickness(const VoxelShape &       voxels,
                    const ImageGeometry &    geometry,
                    const CertifiedRequest & request,
                    const ProgressCallback & progress);
+
+/** Of the smooth surface that the labels stand for, or that the estimate tells, where there is one.
+ *  \throws CertificateError when a ball reaches too far beyond the voxels, or a voxel has no thickness; Cancelled */
+CertifiedThickness
+SmoothThickness(VoxelShape               voxels,
+                const SpacingWeights &   weights,
+                const SurfaceEstimate *  surface,
+                bool                     bounds,
+                const std::string &      name,
+                const ProgressCallback & progress);
+
+/** What SmoothThickness() needs of a request's source; none of labels. */
+SurfaceSource::Estimate
+SurfaceForThickness(const CertifiedRequest & request, const VoxelShape & voxels, const ProgressCallback & progress);
 
 } // namespace voxelcore

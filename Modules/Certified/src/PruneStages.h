@@ -42,12 +42,12 @@ CertifyPruned(CertifiedCore                whole,
 MarginNumbers
 DescribeMargins(const PlacedCore & placed);
 
-/** How a core pruned to a height is described; no height is greater than the scan's diagonal. */
+/** How a core pruned to a height is described; no height is greater than the diagonal of the body's box. */
 ToleranceNumbers
-DescribeTolerance(const Tolerance & height, const ImageGeometry & geometry);
+DescribeTolerance(const Tolerance & height, const CertifiedShape & shape);
 
-/** The diagonal of a scan in mm: no bump is higher. */
+/** The diagonal of a body's box in mm: no bump is higher. */
 double
-ScanDiagonal(const ImageGeometry & geometry);
+BodyDiagonal(const CertifiedShape & shape);
 
 } // namespace voxelcore

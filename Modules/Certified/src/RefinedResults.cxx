@@ -54,7 +54,7 @@ MovesInLps(const RefinedCore & refined, const ImageGeometry & geometry)
   return moves;
 }
 
-/** Also tells how far radii may be off where the surface is `ofLabels`, and that is wanted. */
+/** Also tells how far radii may be off where the surface is `ofLabels`. */
 CertifiedCore
 CertifyRefined(RefinedCore            refined,
                const MedialComplex &  whole,
@@ -234,7 +234,7 @@ RefineAndCertify(const VoxelShape &       voxels,
   std::vector<RefinedCore>  refined;
   bool                      ofLabels = false;
   {
-    const auto      surface = source(voxels, PartOfProgress(progress, "surface", 0.05, 0.35));
+    const auto      surface = source(voxels, {}, PartOfProgress(progress, "surface", 0.05, 0.35));
     RefinementInput input{ &voxels,
                            &parts.points,
                            &parts.core,
@@ -246,7 +246,7 @@ RefineAndCertify(const VoxelShape &       voxels,
                            std::move(parts.left),
                            &parts.boundary,
                            [&] { FreeWhatIsRefined(parts, IsByTolerance(task)); } };
-    ofLabels = surface->IsOfLabels() && task.margins;
+    ofLabels = surface->IsOfLabels();
     refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.35, 1));
   }
   std::vector<CertifiedCore> results;

@@ -26,7 +26,6 @@ struct RefinementTask
 {
   std::vector<CoreNumbers> asked;            ///< cores, as they are pruned: by lambda, or all by tolerance
   BurnedCurves *           curves = nullptr; ///< of the whole core; points and radii are moved
-  bool                     margins = true;   ///< whether radii are to have margins where the surface is of labels
 };
 
 /** Keeps of a whole core in lattice coordinates, whose parts these are, what the task needs. */

@@ -24,7 +24,16 @@ constexpr double kSkeletonTime = 1.1;
 constexpr double kBracketTime = 1.0;
 constexpr double kThicknessTime = 0.4;
 
-} // namespace
+/** From the labels alone. */
+SurfaceSource
+UsualSurface(const CertifiedRequest & request, const Vector3 & spacing)
+{
+  if (!RefinesUsually(request.tolerances))
+  {
+    return {};
+  }
+  return SurfacesFromLabels(spacing);
+}
 
 void
 RequireSense(const CertifiedRequest & request)
@@ -37,6 +46,20 @@ RequireSense(const CertifiedRequest & request)
   {
     throw UsageError(request.name + ": a refined skeleton needs an estimate of the surface");
   }
+}
+
+} // namespace
+
+CertifiedRequest
+CompleteRequest(CertifiedRequest request, const Vector3 & spacing)
+{
+  CompletePruning(request.lambdas, request.tolerances);
+  if (!request.surface)
+  {
+    request.surface = UsualSurface(request, spacing);
+  }
+  RequireSense(request);
+  return request;
 }
 
 bool
@@ -70,12 +93,12 @@ BurnsBeforePruning(const CertifiedRequest & request)
 }
 
 double
-LowestHeight(const CertifiedRequest & request, const ImageGeometry & geometry)
+LowestHeight(const CertifiedRequest & request, const CertifiedShape & shape)
 {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Tolerance & height : request.tolerances)
   {
-    lowest = std::min(lowest, DescribeTolerance(height, geometry).heightMm);
+    lowest = std::min(lowest, DescribeTolerance(height, shape).heightMm);
   }
   return lowest;
 }
@@ -83,14 +106,14 @@ LowestHeight(const CertifiedRequest & request, const ImageGeometry & geometry)
 bool
 NeedsBracket(const CertifiedRequest & request)
 {
-  return request.thickness && (request.thickness->bounds || !RefinesCores(request));
+  return request.thickness && !RefinesCores(request);
 }
 
 bool
 IsMapAlone(const CertifiedRequest & request)
 {
-  return request.thickness && request.thickness->alone && !Refines(request) && !request.skeleton && !request.cells &&
-         !request.crossCheck;
+  return request.thickness && request.thickness->alone && !RefinesCurves(request) && !request.skeleton &&
+         !request.cells && !request.crossCheck;
 }
 
 std::vector<double>

@@ -8,9 +8,10 @@
 namespace voxelcore
 {
 
-/** \throws UsageError for a request that contradicts itself. */
-void
-RequireSense(const CertifiedRequest & request);
+/** With what is usual where nothing is said: pruning, and the surface that cores are refined to.
+ *  \throws UsageError for a request that contradicts itself. */
+CertifiedRequest
+CompleteRequest(CertifiedRequest request, const Vector3 & spacing);
 
 /** Whether the cores that come out are refined. */
 bool
@@ -32,11 +33,11 @@ BurnsWhole(const CertifiedRequest & request);
 bool
 BurnsBeforePruning(const CertifiedRequest & request);
 
-/** In mm the least of the tolerances, no higher than the scan's diagonal; infinite where there is none. */
+/** In mm the least of the tolerances, no higher than the diagonal of the body's box; infinite where there is none. */
 double
-LowestHeight(const CertifiedRequest & request, const ImageGeometry & geometry);
+LowestHeight(const CertifiedRequest & request, const CertifiedShape & shape);
 
-/** Whether the bracket of the thickness is found while the cells are there. */
+/** Whether the thickness is that of the voxels as they are, which is found while the cells are there. */
 bool
 NeedsBracket(const CertifiedRequest & request);
 

@@ -30,8 +30,8 @@ BurnToCurves(const MedialComplex &    core,
              const ProgressCallback & progress,
              CurveOptions             curves = {});
 
-/** Branches, and how wide the body in `voxels` is around them. \throws CertificateError when they do not have the
- *  topology of the curves. */
+/** Branches, and how wide the body in `voxels` is around them; no table of them yet.
+ *  \throws CertificateError when they do not have the topology of the curves. */
 CertifiedSkeleton
 MeasureCurves(const BurnedCurves &    burned,
               const VoxelShape &      voxels,

@@ -1,9 +1,11 @@
 #include "voxelcore/ThicknessInBlocks.h"
 
 #include "CertificateText.h"
+#include "Frames.h"
 #include "InscribedThickness.h"
 #include "RequestStages.h"
 #include "voxelcore/ShapeOperations.h"
+#include "voxelcore/SmoothBalls.h"
 #include "voxelcore/StagePlan.h"
 
 #include <algorithm>
@@ -113,7 +115,13 @@ private:
     {
       return InscribedThickness(window, &part, m_Geometry, m_Request, progress);
     }
-    return std::move(*ComputeCertified(std::move(window), m_Geometry, m_Request, progress).thickness);
+    const SurfaceSource::Estimate surface = SurfaceForThickness(m_Request, window, progress);
+    return SmoothThickness(std::move(window),
+                           ComputeLatticeWeights(m_Geometry),
+                           surface.get(),
+                           false,
+                           m_Request.name,
+                           progress);
   }
 
   double
@@ -173,7 +181,7 @@ MarginOfBlocks(const CertifiedRequest & request, const ImageGeometry & geometry,
   {
     longest = std::max(longest, static_cast<double>(weight) * weights.unit);
   }
-  const double needed = Refines(request) ? 2 * reach + kRefinedMargin * longest : 4 * reach;
+  const double needed = 4 * reach + (Refines(request) ? kSmoothReach * longest : 0);
   Margin       margin{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -252,16 +260,24 @@ ThicknessInBlocks(const VoxelShape &        shape,
                   const BallTest &          isAtBorder,
                   const ProgressCallback &  progress)
 {
-  CertifiedRequest complete = request;
-  CompletePruning(complete.lambdas, complete.tolerances);
-  Work work(shape, geometry, complete, isAtBorder);
+  const BodyFrame  frame(geometry, CropToVoxels(shape).Box());
+  const VoxelShape moved = MovedTo(frame.Enter(shape.Box()).lower, shape);
+  const BallTest   isAtBorderThere = [&](PaintingBalls balls) {
+    LeaveFrame(frame, balls);
+    return isAtBorder(balls);
+  };
+  const CertifiedRequest complete =
+    InFrame(CompleteRequest(request, geometry.spacing), frame, ComputeLatticeWeights(geometry));
+  Work work(moved, frame.Geometry(), complete, isAtBorderThere);
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
     const auto share = [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(blocks.size()); };
     const std::string name = "block " + std::to_string(i + 1) + " of " + std::to_string(blocks.size());
-    work.Compute(blocks[i], NamedPartOfProgress(progress, name, share(i), share(i + 1)));
+    work.Compute(frame.Enter(blocks[i]), NamedPartOfProgress(progress, name, share(i), share(i + 1)));
   }
-  return work.Finish();
+  BlockedThickness found = work.Finish();
+  found.map.box = frame.Leave(found.map.box);
+  return found;
 }
 
 } // namespace voxelcore

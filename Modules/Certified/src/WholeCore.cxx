@@ -24,11 +24,11 @@ namespace voxelcore
 namespace
 {
 
-/** As ended in files: what never goes, and what would go beyond the scan's diagonal, has that height. */
+/** As ended in files: what never goes, and what would go beyond the diagonal of the body's box, has that height. */
 void
-EndTolerances(ToleranceValues & values, const ImageGeometry & geometry)
+EndTolerances(ToleranceValues & values, const CertifiedShape & shape)
 {
-  const double end = ScanDiagonal(geometry);
+  const double end = BodyDiagonal(shape);
   for (auto * one : { &values.vertices, &values.edges, &values.faces })
   {
     RunInParts(one->size() > 10000, one->size(), [&](std::size_t first, std::size_t last) {
@@ -167,7 +167,7 @@ MakeWholeCore(const VoxelShape &       voxels,
       core.tolerances = TolerancesOf(core, weights, points, std::move(touching), lambdaMm, plan.Next("prune"), [&] {
         whole.topology = RequireTopologyOf(core.cells, result.shape);
       });
-      EndTolerances(core.tolerances, result.shape.geometry);
+      EndTolerances(core.tolerances, result.shape);
       seconds.prune += watch.Lap();
     }
     if (Refines(request))

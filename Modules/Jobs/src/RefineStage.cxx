@@ -1,6 +1,7 @@
 #include "voxelcore/RefineStage.h"
 
 #include "JobTools.h"
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
 
@@ -67,6 +68,17 @@ private:
   std::optional<GreyVolume> m_Values;
 };
 
+/** A box of the scan as it lies around the voxel `place`. */
+VoxelBox
+LookedAtFrom(const SurfaceSource::Place & place, VoxelBox box)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] -= place[axis];
+  }
+  return box;
+}
+
 SurfaceSource
 GreySource(const RefineOptions &         options,
            const std::filesystem::path & scan,
@@ -96,8 +108,13 @@ GreySource(const RefineOptions &         options,
       take(x, y, z, values);
       std::ranges::transform(values, values.begin(), within);
     };
-    return [=, spacing = input.geometry.spacing](const VoxelShape & shape, const ProgressCallback & progress) {
-      return std::shared_ptr<const SurfaceEstimate>(SurfaceFromGrey(shape, spacing, whole, rows, progress));
+    return [=, spacing = input.geometry.spacing](const VoxelShape &           shape,
+                                                 const SurfaceSource::Place & place,
+                                                 const ProgressCallback &     progress) {
+      const auto rowsThere = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
+        rows(x + place[0], y + place[1], z + place[2], values);
+      };
+      return SurfaceSource::Estimate(SurfaceFromGrey(shape, spacing, LookedAtFrom(place, whole), rowsThere, progress));
     };
   }
   ReadOptions how = reading;
@@ -111,17 +128,21 @@ GreySource(const RefineOptions &         options,
   const ImageGeometry geometry = input.geometry;
   const auto          path = other ? options.grey : scan;
   const auto          greyValues = std::make_shared<GreyValues>(path, how, whole);
-  return [=](const VoxelShape & shape, const ProgressCallback & progress) -> std::shared_ptr<const SurfaceEstimate> {
-    const VoxelBox box = GreyBoxAround(shape.Box(), whole);
+  return [=](const VoxelShape &           shape,
+             const SurfaceSource::Place & place,
+             const ProgressCallback &     progress) -> SurfaceSource::Estimate {
+    const VoxelBox scanned = LookedAtFrom(place, whole);
+    const VoxelBox box = GreyBoxAround(shape.Box(), scanned);
     const auto     visit = [&](const GreyRowTaker & take) {
       std::vector<float> inside(static_cast<std::size_t>(box.size[0]));
       const auto         takeRow = [&](std::int32_t y, std::int32_t z, std::span<const float> values) {
         std::ranges::transform(values, inside.begin(), within);
-        take(y, z, inside);
+        take(y - place[1], z - place[2], inside);
       };
-      RequireSamePlace(greyValues->Visit(box, takeRow, progress), geometry, "--grey", path);
+      const VoxelBox inScan = LookedAtFrom({ -place[0], -place[1], -place[2] }, box);
+      RequireSamePlace(greyValues->Visit(inScan, takeRow, progress), geometry, "--grey", path);
     };
-    return SurfaceFromGrey(shape, geometry.spacing, whole, GreyBoxRows{ box, visit }, progress);
+    return SurfaceFromGrey(shape, geometry.spacing, scanned, GreyBoxRows{ box, visit }, progress);
   };
 }
 
@@ -149,17 +170,24 @@ MakeSurfaceSource(const RefineOptions &         options,
   {
     throw UsageError("--refine mesh: " + scan.string() + " is no mesh; a scan has labels or grey values");
   }
-  TriangleMesh mesh = *input.mesh;
-  for (Vector3 & point : mesh.points)
+  const auto mesh = std::make_shared<TriangleMesh>(*input.mesh);
+  for (Vector3 & point : mesh->points)
   {
-    point = PhysicalToLattice(input.geometry, point);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      point[axis] *= input.geometry.spacing[axis];
-    }
+    point = OnPlaces(PhysicalToLattice(input.geometry, point));
   }
-  std::shared_ptr<const SurfaceEstimate> surface = SurfaceFromTriangles(mesh.points, mesh.triangles);
-  return [surface](const VoxelShape &, const ProgressCallback &) { return surface; };
+  return [mesh, spacing = input.geometry.spacing](const VoxelShape &,
+                                                  const SurfaceSource::Place & place,
+                                                  const ProgressCallback &) {
+    std::vector<Vector3> points = mesh->points;
+    for (Vector3 & point : points)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        point[axis] = (point[axis] - place[axis]) * spacing[axis];
+      }
+    }
+    return SurfaceSource::Estimate(SurfaceFromTriangles(points, mesh->triangles));
+  };
 }
 
 } // namespace voxelcore

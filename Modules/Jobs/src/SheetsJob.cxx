@@ -128,30 +128,15 @@ private:
     return InMeanVoxels(m_Options.sliver, report.parameters.weights, report.input.geometry.spacing, record.box);
   }
 
-  /** Among the vertices of the core. The map of the voxels as they are is that of balls about other places. */
-  VoxelOwners
-  OwnersIn(const ModelPart & core, CertifiedThickness & found) const
-  {
-    if (!core.displacement.empty())
-    {
-      return std::move(found.owners);
-    }
-    const ImageGeometry & geometry = m_Result.report.input.geometry;
-    PaintingBalls         balls = BallsOfCore(core.core);
-    for (Vector3 & centre : balls.centres)
-    {
-      centre = PhysicalToLattice(geometry, centre);
-    }
-    return OwnersAmong(balls, found.shape, ComputeLatticeWeights(geometry));
-  }
 
   void
   Take(LabelRecord record, ModelPart core, CertifiedThickness * found)
   {
     SheetPart part;
     part.name = record.name;
-    part.sheets = CutIntoSheets(core.core, Sliver(record));
-    VoxelOwners owners = found != nullptr ? OwnersIn(core, *found) : VoxelOwners();
+    const CertifiedShape shape = RecordedShape(m_Result.report, record);
+    part.sheets = SheetsOf(core, shape, Sliver(record));
+    const VoxelOwners owners = found != nullptr ? OwnersInCore(core, shape, found->shape) : VoxelOwners();
     part.core = std::move(core);
     if (found != nullptr)
     {

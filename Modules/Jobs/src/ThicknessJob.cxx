@@ -233,9 +233,9 @@ private:
     record.seconds = watch.Lap();
     record.shape = ComputeShapeTopology(edited.label.shape);
     m_Result.blocks += blocked.computed;
-    m_Result.notes.push_back(request.name + ": measured in " + std::to_string(blocks.size()) +
-                             " blocks, as memory does not hold the whole" +
-                             (m_Surface ? "; near their sides values may differ from those of the whole" : ""));
+    m_Result.notes.push_back(
+      request.name + ": measured in " + std::to_string(blocks.size()) + " blocks, as memory does not hold the whole" +
+      (m_Surface && !m_Surface.IsOfShape() ? "; near their sides values may differ from those of the whole" : ""));
     ThicknessRecord numbers = RecordOf(record, isSeparation);
     SummarizeMap(blocked.map, m_Geometry, blocked.atBorder, m_Options.border, numbers);
     m_Result.thickness.push_back(std::move(numbers));

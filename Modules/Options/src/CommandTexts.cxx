@@ -152,14 +152,14 @@ constexpr std::string_view kThicknessFooter =
   R"(The map holds, at each voxel, the diameter of the largest ball inside the label that holds the voxel's centre
 (Hildebrand, Rueegsegger 1997), in mm, and 0 outside. Slices of any thickness are measured as they are.
 
-The balls are those of the medial surface of the smooth shape that the voxels stand for. A voxel whose centre lies in
-none of them takes the thickness of the nearest voxel that does. With --refine off they are balls that truly lie in
-the voxels, whatever the --tolerance, which makes oblique walls thinner. --bounds adds two maps: the largest of the
-balls that truly lie in the voxels, and a proven upper bound. The local thickness of the voxels as they are is between
-them.
+The balls are inscribed in the smooth surface that the voxels stand for. A voxel whose centre lies in none of them
+takes the thickness of the nearest voxel that does. With --refine off they are balls that truly lie in the voxels, steps
+and all, which makes everything thinner. Pruning changes neither. --bounds adds two maps: every smooth surface that the
+labels allow is at least as thick as the first tells, and at most as the second. With --refine off they are bounds of
+the voxels as they are.
 
-Each label is measured by itself. One too large for memory is measured block by block. With --refine off the map is that
-of the whole; refined, a few voxels differ. Guide: thickness.md
+Each label is measured by itself. One too large for memory is measured block by block, with the same map. Guide:
+thickness.md
 
 Examples:
   voxelcore thickness bone.nrrd -o bone-thickness.nrrd --table bone.csv

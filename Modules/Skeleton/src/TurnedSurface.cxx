@@ -1,5 +1,6 @@
 #include "TurnedSurface.h"
 
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/BucketSort.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/FaceName.h"
@@ -75,7 +76,10 @@ FindPlaces(const MedialComplex & surface, const ImageGeometry & geometry)
         {
           throw InputError("the medial surface lies beyond 2^31 voxels from the scan's first");
         }
-        const std::int64_t step = std::llround(lattice[axis] * kStepsPerVoxel);
+        // Places are multiples of kPlaceStep: they are found again whatever rounding did to them, halves included,
+        // which go to even steps from either side.
+        const std::int64_t step =
+          std::llrint(std::nearbyint(lattice[axis] / kPlaceStep) * (kPlaceStep * kStepsPerVoxel));
         places.steps[vertex][axis] = step;
         low[axis] = std::min(low[axis], step);
         high[axis] = std::max(high[axis], step);

@@ -92,36 +92,6 @@ BallsOfCore(const MedialComplex & core)
   return { core.positions, core.radius, core.radius };
 }
 
-PaintingBalls
-EvenedBallsOfCore(const MedialComplex & core, int rounds, double slope)
-{
-  PaintingBalls              balls = BallsOfCore(core);
-  std::vector<double>        sums(balls.Count());
-  std::vector<std::uint32_t> counts(balls.Count());
-  for (int round = 0; round < rounds; ++round)
-  {
-    sums = balls.value;
-    std::fill(counts.begin(), counts.end(), 1U);
-    for (const auto & ends : core.cells.edges)
-    {
-      const double along = Distance(core.positions[ends[0]], core.positions[ends[1]]);
-      if (std::abs(balls.value[ends[0]] - balls.value[ends[1]]) < slope * along)
-      {
-        sums[ends[0]] += balls.value[ends[1]];
-        sums[ends[1]] += balls.value[ends[0]];
-        ++counts[ends[0]];
-        ++counts[ends[1]];
-      }
-    }
-    for (std::size_t i = 0; i < sums.size(); ++i)
-    {
-      balls.value[i] = counts[i] > 2 ? sums[i] / counts[i] : balls.value[i];
-    }
-  }
-  balls.radius = balls.value;
-  return balls;
-}
-
 VoxelRanks::VoxelRanks(const VoxelShape & shape)
   : m_Shape(&shape)
 {

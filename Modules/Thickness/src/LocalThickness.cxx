@@ -247,10 +247,6 @@ FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, Voxel
   }
 }
 
-namespace
-{
-
-/** Drops the balls that no voxel is of. */
 void
 KeepOwners(PaintingBalls & balls, VoxelOwners & owners)
 {
@@ -275,8 +271,6 @@ KeepOwners(PaintingBalls & balls, VoxelOwners & owners)
     owner = names[owner];
   }
 }
-
-} // namespace
 
 VoxelValues
 DiametersOfOwners(const PaintingBalls & balls, const VoxelOwners & owners)

@@ -3,6 +3,7 @@
 #include "Checks.h"
 #include "voxelcore/BettiReduction.h"
 #include "voxelcore/OctantScan.h"
+#include "voxelcore/PlaceStep.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <cmath>
@@ -213,7 +214,7 @@ double
 PositionTolerance(const ImageGeometry & geometry)
 {
   const double finest = *std::min_element(geometry.spacing.begin(), geometry.spacing.end());
-  return 64 * std::numeric_limits<double>::epsilon() * LargestCoordinate(geometry) / finest;
+  return 0.5 * kPlaceStep + 64 * std::numeric_limits<double>::epsilon() * LargestCoordinate(geometry) / finest;
 }
 
 VerificationReport

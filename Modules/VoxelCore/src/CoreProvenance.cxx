@@ -1,5 +1,6 @@
 #include "voxelcore/CoreProvenance.h"
 
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/JsonText.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/PolygonArea.h"
@@ -208,7 +209,7 @@ PlaceInLps(MedialComplex core, const ImageGeometry & geometry)
   RequireDistinctPositions(geometry);
   for (auto & position : core.positions)
   {
-    position = LatticeToPhysical(geometry, position);
+    position = LatticeToPhysical(geometry, OnPlaces(position));
   }
   if (IsLeftHanded(geometry))
   {

@@ -46,7 +46,8 @@ def addPointArray(model, name, values):
 
 def toleranceRange(model):
     """What a slider can run over, mm: from the tolerance the model was made with to the last that takes anything away.
-    None without the array `Tolerance`. What never goes has the length of the scan's diagonal, the greatest value."""
+    None without the array `Tolerance`. What never goes has the diagonal of its label's box, the greatest
+    value."""
     values = array(model.GetCellData(), "Tolerance")
     if values is None or len(values) == 0:
         return None

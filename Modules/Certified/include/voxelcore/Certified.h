@@ -15,11 +15,14 @@
 #include "voxelcore/Progress.h"
 #include "voxelcore/SurfaceEstimate.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -29,9 +32,60 @@ namespace voxelcore
 using CellSource =
   std::function<DelaunayCells(const std::vector<LatticePoint> & points, const ProgressCallback & progress)>;
 
-/** Gives the estimate of a shape's smooth surface. Thread-safe. */
-using SurfaceSource =
-  std::function<std::shared_ptr<const SurfaceEstimate>(const VoxelShape & shape, const ProgressCallback & progress)>;
+/** Gives the estimate of a shape's smooth surface. Thread-safe. The shape's voxel (0,0,0) is voxel `place` of the scan,
+ *  which a source that looks at the scan needs to know (BodyFrame.h); of labels alone it makes no difference. */
+class SurfaceSource
+{
+public:
+  using Estimate = std::shared_ptr<const SurfaceEstimate>;
+  using Place = std::array<std::int32_t, 3>;
+  using Function = std::function<Estimate(const VoxelShape & shape, const Place & place, const ProgressCallback &)>;
+  using OfShape = std::function<Estimate(const VoxelShape & shape, const ProgressCallback &)>;
+
+  SurfaceSource() = default;
+
+  template <typename TFunction>
+  requires(std::is_constructible_v<Function, TFunction> || std::is_constructible_v<OfShape, TFunction>) &&
+    (!std::is_same_v<std::remove_cvref_t<TFunction>, SurfaceSource>)
+      SurfaceSource(TFunction && source) // NOLINT(google-explicit-constructor): what is given is a function
+  {
+    if constexpr (std::is_constructible_v<Function, TFunction>)
+    {
+      m_Source = Function(std::forward<TFunction>(source));
+    }
+    else
+    {
+      m_IsOfShape = true;
+      m_Source = [ofShape = OfShape(std::forward<TFunction>(source))](const VoxelShape & shape,
+                                                                      const Place &,
+                                                                      const ProgressCallback & progress) {
+        return ofShape(shape, progress);
+      };
+    }
+  }
+
+  explicit operator bool() const
+  {
+    return static_cast<bool>(m_Source);
+  }
+
+  /** Whether the shape is all it looks at. */
+  bool
+  IsOfShape() const
+  {
+    return m_IsOfShape;
+  }
+
+  Estimate
+  operator()(const VoxelShape & shape, const Place & place, const ProgressCallback & progress) const
+  {
+    return m_Source(shape, place, progress);
+  }
+
+private:
+  Function m_Source;
+  bool     m_IsOfShape = false;
+};
 
 /** What is asked of one shape; CompletePruning() fills in what is not said of lambdas and tolerances. */
 struct CertifiedRequest
@@ -92,7 +146,10 @@ void
 RequireLengthsIn(SpatialUnit unit, const CertifiedRequest & request);
 
 /** Everything from a shape to its certified cores and skeleton; positions are in LPS mm of `geometry`, the shape lies
- *  in its voxels. The same bits for every engine and number of threads (OpenMP's).
+ *  in its voxels. The same bits for every engine and number of threads (OpenMP's), and wherever in the grid the shape
+ *  lies: places in lattice coordinates, less the first voxel of its box, and all that is measured along them, are the
+ *  same bits however the scan is cropped or padded (BodyFrame.h). Only what is measured of a skeleton as it stands in
+ *  LPS mm (CertifiedSkeleton::skeleton.table) may differ by the rounding of these.
  *  \throws CertificateError, which names the shape; InputError for a shape or spacing that is beyond exact numbers;
  *  UsageError for a request that contradicts itself; Cancelled */
 CertifiedResult

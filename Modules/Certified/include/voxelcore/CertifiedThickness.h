@@ -3,6 +3,7 @@
 
 #include "voxelcore/CertifiedCore.h"
 #include "voxelcore/CoreThickness.h"
+#include "voxelcore/MedialSheets.h"
 
 #include <array>
 #include <cstdint>
@@ -15,13 +16,14 @@ namespace voxelcore
 struct ThicknessRequest
 {
   bool bounds = false; ///< the bracket, too
-  bool alone = false;  ///< nothing else is wanted: where the map needs no core, none is made, and the result has none;
-                       ///< a refined one has no radiusMargin
+  bool alone = false;  ///< nothing else is wanted: no core is made, and the result has none
 };
 
-/** The estimate is that of the first core asked for: of a refined one the diameters of its balls (CoreThickness.h),
- *  else those of the truly inscribed balls about places of the whole core: each radius is the distance to the nearest
- *  square of the boundary, measured in the voxels. Lower bounds may be greater: they also come from a finer lattice. */
+/** Where cores are refined, the map is that of balls inscribed in the smooth surface that the voxels stand for
+ *  (SmoothBalls.h), and bounds are those of all smooth surfaces that the labels allow (SmoothBracket()). Else it is
+ *  that of the truly inscribed balls about places of the whole core: each radius is the distance to the nearest square
+ *  of the boundary, measured in the voxels. Lower bounds may be greater: they also come from a finer lattice. Neither
+ *  asks how a core is pruned. */
 struct CertifiedThickness
 {
   VoxelShape         shape;
@@ -34,14 +36,24 @@ struct CertifiedThickness
   std::array<std::int32_t, 3> parts{ 1, 1, 1 }; ///< into which voxels were cut for the bounds (FineBracket.h)
 };
 
-/** The map of a certified core. `bracket` is that of the shape, or empty; of a core that is not refined it holds the
- *  lower bound and its balls.
+/** The sheets of a core as it stands in a file, the same wherever its shape lies (BodyFrame.h); `sliver` in mm. */
+MedialSheets
+SheetsOf(const PlacedCore & core, const CertifiedShape & shape, double sliver);
+
+/** To which of the balls about a core's vertices each voxel belongs; also the same wherever the shape lies. */
+VoxelOwners
+OwnersInCore(const PlacedCore & core, const CertifiedShape & shape, const VoxelShape & voxels);
+
+/** The map of the voxels as they are. `bracket` is that of the shape, or holds only the lower bound and its balls.
  *  \throws CertificateError when bounds contradict each other or a voxel has no thickness; Cancelled */
 CertifiedThickness
-ThicknessOf(const CertifiedCore &    core,
-            const CertifiedShape &   shape,
+ThicknessOf(const CertifiedShape &   shape,
             VoxelShape               voxels,
             ThicknessBracket         bracket,
             const ProgressCallback & progress = {});
+
+/** The map's values at places in LPS mm of the geometry. */
+std::vector<float>
+ThicknessAt(const CertifiedThickness & found, const std::vector<Vector3> & positions, const ImageGeometry & geometry);
 
 } // namespace voxelcore

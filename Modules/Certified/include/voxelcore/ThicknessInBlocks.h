@@ -22,9 +22,9 @@
 //     squares. What the window has elsewhere does not reach the block, as rho bounds its balls, too.
 // D is chosen, rho found, and where D is not enough the block is computed again with a greater one.
 //
-// Refined, no distance ends what the pruning around a voxel depends on: sheets are kept or dropped as a whole, and a
-// window cuts them. The margin is kRefinedMargin beyond the balls; how maps then differ from those of the whole is
-// measured (Testing/Performance/Thickness). Each window's core is certified against the window's voxels.
+// Of the smooth surface that labels stand for the bits are the same, too: what gives a voxel its thickness lies within
+// the margin that SmoothBalls() says, 4 rho + kSmoothReach. Where grey values or a mesh tell the surface, it is
+// estimated in each window by itself.
 
 #include "voxelcore/Certified.h"
 
@@ -35,9 +35,6 @@
 
 namespace voxelcore
 {
-
-/** Of a refined core so many of a voxel's longest sides around each block. */
-inline constexpr double kRefinedMargin = 24;
 
 /** Per ball, whether it meets the border of what is measured. */
 using BallTest = std::function<std::vector<char>(const PaintingBalls &)>;
@@ -63,7 +60,7 @@ double
 GuessReach(const VoxelShape & shape, const ImageGeometry & geometry);
 
 /** The map of a request for thickness without bounds. `blocks` part the shape's box; some may be empty. The same bits
- *  for every number of threads and, without refinement, for all blocks.
+ *  for every number of threads and, without grey values or a mesh, for all blocks.
  *  \throws as ComputeCertified() */
 BlockedThickness
 ThicknessInBlocks(const VoxelShape &        shape,

@@ -1,10 +1,8 @@
 #pragma once
-// Local thickness from a finished core: what a continuum would have, where the core is refined.
+// Voxels given to balls: those of a core, or those inscribed in a smooth surface (SmoothBalls.h).
 //
-// The balls of a refined core, pruned of the staircase, touch the smooth surface that the voxels stand for. At each
-// voxel the thickness is the diameter of the largest of them that holds its centre. Where none does (the centre lies
-// beyond the smooth surface, or in a bump that pruning took for noise) the ball of the nearest voxel that has one
-// counts, so that no spur has a say.
+// Each voxel belongs to the largest ball that holds its centre. Where none does (the centre lies beyond the smooth
+// surface, or in a bump that pruning took for noise) the ball of the nearest voxel that has one counts.
 
 #include "voxelcore/LocalThickness.h"
 #include "voxelcore/MedialComplex.h"
@@ -18,13 +16,6 @@ namespace voxelcore
 /** The balls of a core's vertices, in their order; positions in lattice coordinates. */
 PaintingBalls
 BallsOfCore(const MedialComplex & core);
-
-/** The same with radii that are averaged with those of the vertices around, so many times: the greatest of many radii
- *  that err this way and that would be too great. Radii do not mix along an edge on which
- *  they change by `slope` of its length or more: that is no error but the body's. An end of a line keeps its own. The
- *  core's positions are in mm along any axes. */
-PaintingBalls
-EvenedBallsOfCore(const MedialComplex & core, int rounds, double slope);
 
 /** Finds the values of a field by voxel. The shape must outlive it. */
 class VoxelRanks

@@ -98,6 +98,10 @@ struct ThicknessBracket
   double        reach = 0; ///< no centre of a ball is farther from the nearest boundary vertex, mm
 };
 
+/** Drops the balls that no voxel is of. */
+void
+KeepOwners(PaintingBalls & balls, VoxelOwners & owners);
+
 /** The local thickness of a shape from its Delaunay cells (InscribedBalls.h), or at a part of its voxels, `part`. The
  *  same for every number of threads. \throws Cancelled */
 ThicknessBracket

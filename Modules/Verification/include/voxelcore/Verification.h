@@ -74,7 +74,8 @@ struct VerificationReport
  *  a dozen roundings (about 1e-15); the slack is for another order of operations in the unit of length. */
 inline constexpr double kMeasureTolerance = 1e-10;
 
-/** Error bound, in lattice units, of positions that went to LPS mm and back. Each way multiplies and adds a dozen
+/** Error bound, in lattice units, of positions that went to LPS mm and back. They are rounded to OnPlaces() before, by
+ *  half a kPlaceStep at most. Each way multiplies and adds a dozen
  *  numbers no larger than M, the largest coordinate in mm met on the way (origin plus extent), so an error stays below
  *  64 eps M in mm, divided by the smallest spacing. For a scan of a metre at 0.5 mm: 6e-11 of a voxel. */
 double

@@ -32,8 +32,8 @@ struct ComplexRecord
 ComplexRecord
 DescribeComplex(const MedialComplex & complex, const TopologyNumbers & topology);
 
-/** Moves a core from lattice coordinates to LPS mm; reverses polygons when the geometry is left-handed, so that their
- *  normals still point from the smaller to the greater of their boundary vertices.
+/** Moves a core from lattice coordinates, rounded to OnPlaces(), to LPS mm; reverses polygons when the geometry is
+ *  left-handed, so that their normals still point from the smaller to the greater of their boundary vertices.
  *  \throws InputError as RequireDistinctPositions does */
 MedialComplex
 PlaceInLps(MedialComplex core, const ImageGeometry & geometry);
