@@ -60,14 +60,14 @@ TEST_F(RefineStage, LabelsAndGreyValuesGiveASurfaceForAShape)
   {
     const SurfaceSource source = Source(From(surface), "grey.nrrd", reading);
     ASSERT_TRUE(source) << surface;
-    EXPECT_TRUE(source(shape, {})) << surface;
+    EXPECT_TRUE(source(shape, {}, {})) << surface;
   }
   // Grey values of another file around labels.
   Phantom("ball", "labels.nrrd");
   RefineOptions other = From("grey");
   other.grey = At("grey.nrrd");
   other.greyRange = { 100, 255 };
-  EXPECT_TRUE(Source(other, "labels.nrrd")(shape, {}));
+  EXPECT_TRUE(Source(other, "labels.nrrd")(shape, {}, {}));
 }
 
 TEST_F(RefineStage, GreyValuesInMemoryAreThoseOfTheFile)
@@ -89,7 +89,7 @@ TEST_F(RefineStage, GreyValuesInMemoryAreThoseOfTheFile)
     std::copy_n(values.Row(x, y, z), row.size(), row.begin());
   };
   const SurfaceSource ofMemory = MakeSurfaceSource(From("grey"), "no such file", reading, scan);
-  const auto          one = ofFile(shape, {}), other = ofMemory(shape, {});
+  const auto          one = ofFile(shape, {}, {}), other = ofMemory(shape, {}, {});
   int                 known = 0;
   for (double x = 2; x < 18; x += 1.7)
   {
@@ -129,23 +129,33 @@ TEST_F(RefineStage, AGreyScanElsewhereIsRefused)
     const SurfaceSource source = Source(options, "a.nrrd");
     if (fits)
     {
-      EXPECT_NO_THROW(source(shape, {})) << origin;
+      EXPECT_NO_THROW(source(shape, {}, {})) << origin;
     }
     else
     {
-      EXPECT_THROW(source(shape, {}), InputError) << origin;
+      EXPECT_THROW(source(shape, {}, {}), InputError) << origin;
     }
   }
 }
 
-TEST_F(RefineStage, AMeshIsTheSurfaceOfEveryShapeOfIt)
+TEST_F(RefineStage, AMeshIsTheSurfaceOfEveryShapeOfItWhereverThatIsLookedAtFrom)
 {
   BoxMesh("part.off");
   const InputScan input = ReadScanOrMesh(At("part.off"), {}, 12);
   const auto      source = MakeSurfaceSource(From("mesh"), At("part.off"), {}, input);
-  const auto      surface = source(input.labels.at(0).shape, {});
+  const auto      surface = source(input.labels.at(0).shape, {}, {});
+  const auto      moved = source(VoxelShape(), { 1, 2, 3 }, {});
   ASSERT_TRUE(surface);
-  EXPECT_EQ(source(VoxelShape(), {}), surface) << "made once";
+  ASSERT_TRUE(moved);
+  const Vector3 &    spacing = input.geometry.spacing;
+  const auto &       first = input.labels.at(0).shape.Box().lower;
+  const Vector3      corner{ first[0] * spacing[0], (first[1] + 5) * spacing[1], (first[2] + 5) * spacing[2] };
+  const SurfacePoint here = surface->Project(corner, 2 * spacing[0]);
+  const SurfacePoint there =
+    moved->Project({ corner[0] - spacing[0], corner[1] - 2 * spacing[1], corner[2] - 3 * spacing[2] }, 2 * spacing[0]);
+  ASSERT_TRUE(here.found);
+  ASSERT_TRUE(there.found);
+  EXPECT_NEAR(there.position[0] + spacing[0], here.position[0], 1e-9);
 }
 
 } // namespace
