@@ -111,7 +111,7 @@ TEST_F(OtherCommands, InfoTellsComponentsOfBothConnectivities)
   EXPECT_EQ(info["labels"][0]["components_26"], 1);
   const std::string surprise =
     "note: label 3 (label-3): 2 pieces; voxels that touch only at edges or corners count as "
-    "apart, else there would be 1\n";
+    "apart, else there would be 1: --connectivity 26 joins them\n";
   const std::string text = Run({ "info", m_Folder / "a.nrrd" });
   EXPECT_NE(text.find(surprise), std::string::npos) << text;
   scan.At(1, 2, 1) = 3; // now they are one either way

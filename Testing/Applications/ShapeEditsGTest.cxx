@@ -1,5 +1,5 @@
 // --crop, --mend-shape, --fill-cavities, --min-voxels, --largest, --smooth-shape, --simplify-topology,
-// --split-components as a user gives them.
+// --tree, --connectivity, --split-components as a user gives them.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 #include "Program.h"
@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <fstream>
 
 namespace voxelcore::testing
 {
@@ -376,6 +378,30 @@ TEST_F(ShapeEdits, MendingComesBeforeDustIsRemoved)
   EXPECT_EQ(report["labels"][0]["edits"]["mended"]["voxels_added"], 1);
   EXPECT_EQ(report["labels"][0]["edits"]["components_removed"], 0);
   Run({ "skeleton", m_Folder / "a.nrrd", "--mend-shape", "--smooth-shape", "-o", m_Folder / "s.vtp" });
+}
+
+TEST_F(ShapeEdits, VoxelsThatTouchOverCornersAreJoinedAndTheirListMakesTheSameShape)
+{
+  TestScan scan({ 12, 12, 12 });
+  for (int i = 1; i < 10; ++i)
+  {
+    scan.At(i, i, i) = 1;
+  }
+  WriteNrrd(m_Folder / "a.nrrd", scan);
+  EXPECT_EQ(First(Core({})), (Numbers{ 9, 9, 0, 0 }));
+  const Json report = Core({ "--connectivity", "26" });
+  EXPECT_EQ(First(report), (Numbers{ 25, 1, 0, 0 }));
+  EXPECT_EQ(report["parameters"]["connectivity"], 26);
+  const Json & made = report["labels"][0]["edits"]["connected"];
+  EXPECT_EQ(made["closed_mask"]["betti"], (Json{ 1, 0, 0 }));
+  EXPECT_EQ(made["pieces_joined"], 8);
+  EXPECT_EQ(made["voxels_added"], 16);
+  EXPECT_EQ(made["voxels_removed"], 0);
+  std::ofstream(m_Folder / "changes.txt") << made["changes"].get<std::string>();
+  const Json again = Core({ "--change-voxels", m_Folder / "changes.txt" });
+  EXPECT_EQ(First(again), (Numbers{ 25, 1, 0, 0 }));
+  EXPECT_EQ(again["labels"][0]["core"], report["labels"][0]["core"]);
+  EXPECT_EQ(Core({ "--tree" })["labels"][0]["shape"]["betti"], (Json{ 1, 0, 0 }));
 }
 
 TEST_F(ShapeEdits, TheTopologyAskedForIsMadeAndItsChangesAreListed)

@@ -296,6 +296,25 @@ TEST(Parameters, NumbersOfATopologyNeedTheDepthOfItsChanges)
   EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "simplify-topology", "0" } })), UsageError);
 }
 
+TEST(Parameters, ATreeIsOnePieceWithoutLoopsAndCavities)
+{
+  const ShapeEditOptions edits = CoreOptionsFrom(CoreValues({ { "tree", "true" } })).edits;
+  EXPECT_EQ(edits.simplify->text, "3vox");
+  EXPECT_EQ(edits.topology.pieces, 1);
+  EXPECT_EQ(edits.topology.loops, 0);
+  EXPECT_EQ(edits.topology.cavities, 0);
+  const auto deeper = CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "simplify-topology", "5vox" } })).edits;
+  EXPECT_EQ(deeper.simplify->text, "5vox");
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "loops", "1" } })), UsageError);
+}
+
+TEST(Parameters, AMaskIsReadByFacesUnlessCornersAreAskedFor)
+{
+  EXPECT_EQ(CoreOptionsFrom(CoreValues({})).edits.connectivity, Connectivity::Six);
+  EXPECT_EQ(CoreOptionsFrom(CoreValues({ { "connectivity", "26" } })).edits.connectivity, Connectivity::TwentySix);
+  EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "connectivity", "18" } })), UsageError);
+}
+
 TEST(Parameters, WhatToReadArrivesWhereItBelongs)
 {
   const ParameterValues given{ { "crop", "1:2,3:4,5:6" }, { "component", "2" }, { "volume", "3" } };

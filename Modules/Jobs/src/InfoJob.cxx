@@ -68,7 +68,7 @@ NotableLabels(const std::vector<LabelInfo> & labels)
     }
     lines.push_back(LabelText(label.label, label.name) + ": " + std::to_string(label.topology.betti[0]) +
                     " pieces; voxels that touch only at edges or corners count as apart, else there would be " +
-                    std::to_string(label.components26));
+                    std::to_string(label.components26) + ": --connectivity 26 joins them");
   }
   if (more > 0)
   {

@@ -21,8 +21,8 @@ smallest voxel spacing; diag, times a voxel's diagonal; % is of the longest side
 A --lambda given with --tolerance is applied first. Guide: choosing-the-pruning.md
 
 Shape edits run label by label in this order: --median, --denoise, --mend-shape, --close, --fill-hollows, --fill-slices,
---fill-cavities, --min-voxels, --largest, --smooth-shape, --simplify-topology, --split-components. Components are
-6-connected.
+--connectivity, --fill-cavities, --min-voxels, --largest, --smooth-shape, --simplify-topology, --split-components.
+Components are 6-connected: voxels that touch over edges or corners are joined by --connectivity 26.
 --mend-shape and all that fill or close also remove true holes. Guide: noisy-masks.md
 
 What a tolerance leaves is refined from the labels: moved by up to a voxel to the axis of the smooth shape behind

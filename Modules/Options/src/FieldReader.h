@@ -8,6 +8,7 @@
 #include "voxelcore/ReadInput.h"
 #include "voxelcore/RefineStage.h"
 #include "voxelcore/ShapeClosing.h"
+#include "voxelcore/ShapeConnectivity.h"
 #include "voxelcore/ShapeMedian.h"
 #include "voxelcore/SliceHoles.h"
 #include "voxelcore/VoxelChanges.h"
@@ -55,6 +56,12 @@ private:
   Read(const Parameter & row, std::string & value) const
   {
     value = m_Reader.Choice(row.name);
+  }
+
+  void
+  Read(const Parameter & row, Connectivity & value) const
+  {
+    value = m_Reader.Choice(row.name) == "26" ? Connectivity::TwentySix : Connectivity::Six;
   }
 
   template <typename T>
@@ -151,6 +158,16 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
   if ((reading.labels != "all" ? 1 : 0) + (reading.binary ? 1 : 0) + (reading.threshold ? 1 : 0) > 1)
   {
     throw UsageError("give only one of --labels, --binary and --threshold");
+  }
+  if (reader.Find("tree") != nullptr && reader.IsSet("tree"))
+  {
+    TopologyRequest & topology = options.edits.topology;
+    if (topology.IsGiven())
+    {
+      throw UsageError("--tree is --pieces 1 --loops 0 --cavities 0; give either");
+    }
+    topology = { 1, 0, 0 };
+    options.edits.simplify = options.edits.simplify ? options.edits.simplify : ParseGapWidth("3vox");
   }
   constexpr bool simplifiesAnyhow = requires
   {

@@ -81,6 +81,17 @@ EditRecordJson(const EditRecord & edits, bool inFile)
                      { "components_joined", (*filled)->componentsJoined } };
     }
   }
+  if (edits.connected)
+  {
+    json["connected"] = { { "closed_mask", TopologyJson(edits.connected->closed) },
+                          { "pieces_joined", edits.connected->piecesJoined },
+                          { "voxels_added", edits.connected->voxelsAdded },
+                          { "voxels_removed", edits.connected->voxelsRemoved } };
+    if (!inFile)
+    {
+      json["connected"]["changes"] = VoxelChangesText(edits.connected->changes);
+    }
+  }
   if (edits.smoothed)
   {
     json["smoothed"] = { { "voxels_added", edits.smoothed->voxelsAdded },

@@ -85,6 +85,13 @@ ValueJson(SliceAxis axis)
   return SliceAxisName(axis);
 }
 
+/** Only where it is not that of a voxel shape. */
+Json
+ValueJson(Connectivity connectivity)
+{
+  return connectivity == Connectivity::Six ? Json(nullptr) : Json(static_cast<int>(connectivity));
+}
+
 template <typename T>
 Json
 ValueJson(const std::optional<T> & value)
@@ -171,6 +178,16 @@ ReadValue(const Json & json, SliceAxis & axis)
   axis = *named;
 }
 
+void
+ReadValue(const Json & json, Connectivity & connectivity)
+{
+  if (json.get<int>() != static_cast<int>(Connectivity::TwentySix))
+  {
+    throw InputError("its connectivity is none");
+  }
+  connectivity = Connectivity::TwentySix;
+}
+
 template <typename T>
 void
 ReadValue(const Json & json, std::optional<T> & value)
@@ -188,8 +205,9 @@ bool
 IsOfSome(std::string_view name)
 {
   return name == "resolution" || name == "level" || name == "raw" || name == "close" || name == "fill_hollows" ||
-         name == "fill_slices" || name == "median" || name == "denoise" || name == "simplify_topology" ||
-         name == "pieces" || name == "loops" || name == "cavities" || name == "change_voxels" || name == kJoinTorn;
+         name == "fill_slices" || name == "connectivity" || name == "median" || name == "denoise" ||
+         name == "simplify_topology" || name == "pieces" || name == "loops" || name == "cavities" ||
+         name == "change_voxels" || name == kJoinTorn;
 }
 
 /** Writes fields. */

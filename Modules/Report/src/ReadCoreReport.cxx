@@ -107,6 +107,15 @@ ReadEditRecord(const Json & json)
       from.at("components_joined").get_to(made.componentsJoined);
     }
   }
+  if (json.contains("connected"))
+  {
+    const Json &            from = json.at("connected");
+    EditRecord::Connected & connected = MakeNew(edits.connected);
+    connected.closed = ReadTopology(from.at("closed_mask"));
+    from.at("pieces_joined").get_to(connected.piecesJoined);
+    from.at("voxels_added").get_to(connected.voxelsAdded);
+    from.at("voxels_removed").get_to(connected.voxelsRemoved);
+  }
   if (json.contains("smoothed"))
   {
     const Json &           from = json.at("smoothed");

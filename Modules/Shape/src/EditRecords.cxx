@@ -53,6 +53,19 @@ AddEdits(const EditRecord & record, EditRecord & sum)
       all->holes += one->holes;
     }
   }
+  if (record.connected)
+  {
+    auto &       all = sum.connected ? *sum.connected : sum.connected.emplace(EditRecord::Connected());
+    const auto & one = *record.connected;
+    all.closed.euler += one.closed.euler;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      all.closed.betti[i] += one.closed.betti[i];
+    }
+    all.piecesJoined += one.piecesJoined;
+    all.voxelsAdded += one.voxelsAdded;
+    all.voxelsRemoved += one.voxelsRemoved;
+  }
   if (record.smoothed)
   {
     EditRecord::Smoothed & smoothed = sum.smoothed ? *sum.smoothed : sum.smoothed.emplace(EditRecord::Smoothed());
@@ -109,6 +122,14 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
   filled("gaps up to " + (options.close ? options.close->text : "") + " closed", sum.closed);
   filled(Counted(sum.hollows ? sum.hollows->holes : 0, "hollow", "hollows") + " filled", sum.hollows);
   filled(Counted(sum.slices ? sum.slices->holes : 0, "hole", "holes") + " of slices filled", sum.slices);
+  if (sum.connected && sum.connected->voxelsAdded + sum.connected->voxelsRemoved > 0)
+  {
+    notes.push_back(
+      "voxels that touch over edges and corners joined: " +
+      Counted(static_cast<std::uint64_t>(std::max<std::int64_t>(0, sum.connected->piecesJoined)), "piece", "pieces") +
+      " fewer; " + Counted(sum.connected->voxelsAdded, "voxel", "voxels") + " added, " +
+      std::to_string(sum.connected->voxelsRemoved) + " removed");
+  }
   if (options.fillCavities)
   {
     notes.push_back(Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +

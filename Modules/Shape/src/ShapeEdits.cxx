@@ -9,7 +9,9 @@
 #include "voxelcore/ShapeDenoising.h"
 #include "voxelcore/ShapeOperations.h"
 #include "voxelcore/ShapeSmoothing.h"
+#include "voxelcore/ShapeTopology.h"
 #include "voxelcore/StagePlan.h"
+#include "voxelcore/TextFields.h"
 #include "voxelcore/TornPieces.h"
 
 #include <utility>
@@ -44,10 +46,45 @@ RecordOf(const DepthSimplified & result, const ImageGeometry & geometry)
   return record;
 }
 
+/** Makes the shape one with the topology of the closed mask, which is counted apart from that, and says what changed.
+ *  \throws InputError, which names `label`, where there is none; CertificateError where the numbers differ */
+EditRecord::Connected
+Connect(VoxelShape & shape, const std::string & label, const ProgressCallback & progress)
+{
+  EditRecord::Connected record;
+  record.closed = ComputeClosedTopology(shape);
+  ConnectedShape connected = ConnectOverCorners(shape, progress);
+  if (!connected.left.empty())
+  {
+    const auto &      first = connected.left.front();
+    const std::size_t count = connected.left.size();
+    throw InputError(label + ": at " + Counted(count, "place", "places") + ", the first by voxel " +
+                     std::to_string(first[0]) + "," + std::to_string(first[1]) + "," + std::to_string(first[2]) +
+                     ", the mask is too rough for voxels that touch over edges and corners to be joined and nothing "
+                     "else; clean it with --denoise or --mend-shape, or give --connectivity 6");
+  }
+  const TopologyNumbers after = ComputeShapeTopology(connected.shape);
+  if (!(after == record.closed))
+  {
+    throw CertificateError(label + ": the shape made of voxels that touch over edges and corners has " +
+                           CountsText(after) + ", and the mask " + CountsText(record.closed));
+  }
+  record.voxelsAdded = connected.voxelsAdded;
+  record.voxelsRemoved = connected.voxelsRemoved;
+  if (record.voxelsAdded + record.voxelsRemoved > 0)
+  {
+    record.piecesJoined = ComputeShapeTopology(shape).betti[0] - after.betti[0];
+    record.changes = ChangesBetween(shape, connected.shape);
+    shape = std::move(connected.shape);
+  }
+  return record;
+}
+
 EditRecord
 EditShape(VoxelShape &             shape,
           const ImageGeometry &    geometry,
           const ShapeEditOptions & options,
+          const std::string &      label,
           const ProgressCallback & progress)
 {
   EditRecord record;
@@ -74,6 +111,7 @@ EditShape(VoxelShape &             shape,
                    options.close ? 0.5 : 0.0,
                    options.fillHollows ? 0.5 : 0.0,
                    options.fillSlices ? 0.2 : 0.0,
+                   options.connectivity == Connectivity::TwentySix ? 0.3 : 0.0,
                    0.1,
                    options.smooth ? 1.0 : 0.0,
                    options.simplify ? 3.0 : 0.0 });
@@ -115,6 +153,12 @@ EditShape(VoxelShape &             shape,
   if (options.fillSlices)
   {
     record.slices = takeFilled(FillSlices(give(), *options.fillSlices, slices));
+  }
+  // After what repairs the mask, and before its pieces and cavities are looked at.
+  const ProgressCallback connecting = plan.Next();
+  if (options.connectivity == Connectivity::TwentySix)
+  {
+    record.connected = Connect(shape, label, connecting);
   }
   ReportProgress(plan.Next("editing"), "", 0);
   // Filled before counting: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any
@@ -220,6 +264,7 @@ EditLabels(std::vector<LabelShape>  labels,
       EditShape(label.shape,
                 geometry,
                 options,
+                where + ": " + LabelText(label.value, label.name),
                 PartOfProgress(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     AddEdits(record, sum);
     if (record.simplified && !record.simplified->asAsked)

@@ -160,6 +160,15 @@ inline constexpr auto kInputRows = std::to_array<Parameter>({
 });
 
 inline constexpr auto kShapeEditRows = std::to_array<Parameter>({
+  { "connectivity",
+    "--connectivity",
+    Choice,
+    "6|26",
+    "6",
+    false,
+    kReads,
+    "Which voxels hang together: 6, those that share a face; 26, those that touch over edges and corners, too. With 26 "
+    "the least change makes them share faces and alters no piece, loop or cavity of the mask" },
   { "smooth-shape",
     "--smooth-shape",
     Flag,
@@ -248,6 +257,15 @@ inline constexpr auto kShapeEditRows = std::to_array<Parameter>({
     "With --simplify-topology: pieces wanted; numbers not given stay as they are" },
   { "loops", "--loops", Integer, "N", "", false, kReads, "With --simplify-topology: loops wanted" },
   { "cavities", "--cavities", Integer, "N", "", false, kReads, "With --simplify-topology: cavities wanted" },
+  { "tree",
+    "--tree",
+    Flag,
+    "",
+    "",
+    false,
+    kCore | kInfo | kSkeleton | kMaps,
+    "Make one piece without loops and cavities of each label, by the least change: --simplify-topology 3vox --pieces 1 "
+    "--loops 0 --cavities 0" },
   { "change-voxels",
     "--change-voxels",
     Input,

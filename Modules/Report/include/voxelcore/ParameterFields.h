@@ -28,6 +28,7 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("close", options.edits.close);
   visit("fill_hollows", options.edits.fillHollows);
   visit("fill_slices", options.edits.fillSlices);
+  visit("connectivity", options.edits.connectivity);
   visit("fill_cavities", options.edits.fillCavities);
   visit("min_voxels", options.edits.minVoxels);
   visit("largest", options.edits.largest);

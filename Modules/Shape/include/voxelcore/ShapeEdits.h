@@ -6,6 +6,7 @@
 #include "voxelcore/LabelMap.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/ShapeClosing.h"
+#include "voxelcore/ShapeConnectivity.h"
 #include "voxelcore/ShapeMedian.h"
 #include "voxelcore/SliceHoles.h"
 #include "voxelcore/TopologyNumbers.h"
@@ -26,10 +27,11 @@ struct ShapeEditOptions
 {
   std::optional<MedianWidth>   median;
   bool                         denoise = false;
-  bool                         mend = false; ///< what flips of single voxels have torn or pierced
-  std::optional<GapWidth>      close;        ///< gaps up to so wide
-  std::optional<GapWidth>      fillHollows;  ///< lumens that open only through holes up to so wide
-  std::optional<SliceAxis>     fillSlices;   ///< holes of the slices across this axis
+  bool                         mend = false;                     ///< what flips of single voxels have torn or pierced
+  std::optional<GapWidth>      close;                            ///< gaps up to so wide
+  std::optional<GapWidth>      fillHollows;                      ///< lumens that open only through holes up to so wide
+  std::optional<SliceAxis>     fillSlices;                       ///< holes of the slices across this axis
+  Connectivity                 connectivity = Connectivity::Six; ///< by which the mask is read
   bool                         fillCavities = false;
   std::optional<double>        joinTorn;  ///< torn pieces, over gaps of so many diameters (TornPieces.h)
   std::optional<std::uint64_t> minVoxels; ///< components (6-connected) of fewer voxels are removed
@@ -43,8 +45,8 @@ struct ShapeEditOptions
   bool
   AreAsked() const
   {
-    return median || denoise || mend || close || fillHollows || fillSlices || fillCavities || joinTorn || minVoxels ||
-           largest || smooth || simplify || change || splitComponents;
+    return median || denoise || mend || close || fillHollows || fillSlices || connectivity == Connectivity::TwentySix ||
+           fillCavities || joinTorn || minVoxels || largest || smooth || simplify || change || splitComponents;
   }
 };
 
@@ -90,6 +92,16 @@ struct EditRecord
     std::uint64_t holes = 0; ///< lumens, or holes over all slices; of others 0
   };
 
+  /** What ConnectOverCorners changed. */
+  struct Connected
+  {
+    TopologyNumbers closed; ///< of the closed mask, and so of the shape
+    std::int64_t    piecesJoined = 0;
+    std::uint64_t   voxelsAdded = 0;
+    std::uint64_t   voxelsRemoved = 0;
+    VoxelChanges    changes; ///< all of them; reports have them, provenance in files does not
+  };
+
   /** One cut or fill of SimplifyWithin. */
   struct Change
   {
@@ -120,6 +132,7 @@ struct EditRecord
   std::optional<Filled>     closed;     ///< when asked
   std::optional<Filled>     hollows;    ///< when asked
   std::optional<Filled>     slices;     ///< when asked
+  std::optional<Connected>  connected;  ///< when asked: mask read by 26-connectivity
   std::optional<Filled>     torn;       ///< when asked: pieces joined
   std::optional<Smoothed>   smoothed;   ///< when asked
   std::optional<Simplified> simplified; ///< when asked

@@ -1,5 +1,5 @@
 #pragma once
-// Topology numbers of the open voxel shape, from its voxels alone.
+// Topology numbers of the open voxel shape, and of the closed one, from its voxels alone.
 
 #include "voxelcore/TopologyNumbers.h"
 #include "voxelcore/VoxelShape.h"
@@ -12,6 +12,11 @@ namespace voxelcore
  *  b1 = b0 + b2 - euler. */
 TopologyNumbers
 ComputeShapeTopology(const VoxelShape & shape);
+
+/** The same of the closed union of the voxels: b0 = 26-connected components; b2 = 6-connected components of the
+ *  background - 1; Euler number = corners - edges + faces - voxels, each that touches a voxel; b1 = b0 + b2 - euler. */
+TopologyNumbers
+ComputeClosedTopology(const VoxelShape & shape);
 
 /** Number of 26-connected components of the voxels: what a reader used to 26-connectivity would count. */
 std::int64_t
