@@ -303,6 +303,9 @@ TEST(Parameters, ATreeIsOnePieceWithoutLoopsAndCavities)
   EXPECT_EQ(edits.topology.pieces, 1);
   EXPECT_EQ(edits.topology.loops, 0);
   EXPECT_EQ(edits.topology.cavities, 0);
+  EXPECT_EQ(edits.connectivity, Connectivity::TwentySix);
+  const auto byFaces = CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "connectivity", "6" } })).edits;
+  EXPECT_EQ(byFaces.connectivity, Connectivity::Six);
   const auto deeper = CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "simplify-topology", "5vox" } })).edits;
   EXPECT_EQ(deeper.simplify->text, "5vox");
   EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "loops", "1" } })), UsageError);
