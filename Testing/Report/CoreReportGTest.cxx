@@ -173,6 +173,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               ParseGapWidth("4vox"),
                               ParseGapWidth("2.5mm"),
                               SliceAxis::J,
+                              Connectivity::TwentySix,
                               true,
                               1.25,
                               50,
@@ -199,6 +200,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               EditRecord::Filled{ 21, 22, 0 },
                               EditRecord::Filled{ 23, 24, 25 },
                               EditRecord::Filled{ 26, 27, 28 },
+                              EditRecord::Connected{ { 2, { 3, 2, 1 } }, 43, 44, 45, {} },
                               EditRecord::Filled{ 41, 0, 42 },
                               EditRecord::Smoothed{ 12, 13, 1 },
                               simplified,
@@ -222,6 +224,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   EXPECT_EQ(json["labels"][0]["edits"]["voxels_added"], 3);
   EXPECT_EQ(json["labels"][0]["edits"]["mended"]["pieces_joined"], 9);
   EXPECT_EQ(json["labels"][0]["edits"]["smoothed"]["voxels_removed"], 13);
+  EXPECT_EQ(json["labels"][0]["edits"]["connected"]["pieces_joined"], 43);
   EXPECT_EQ(json["labels"][0]["edits"]["closed"]["components_joined"], 22);
   EXPECT_EQ(read.labels[1].edits->slices->holes, 28U);
   const auto & found = *read.labels[1].edits->simplified;

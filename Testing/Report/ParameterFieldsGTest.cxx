@@ -69,6 +69,11 @@ SetOther(std::optional<VoxelChanges> & field)
   field = ParseVoxelChanges("-1,2,3x4 +5,6,7");
 }
 void
+SetOther(Connectivity & field)
+{
+  field = Connectivity::TwentySix;
+}
+void
 SetOther(std::optional<SliceAxis> & field)
 {
   field = SliceAxis::J;
