@@ -20,8 +20,8 @@ namespace
 
 constexpr std::int32_t kRoom = PaddedShape::kRoom;
 
-// Of the walk. One step in eight goes anywhere near: with none, one in five random masks of 16^3 voxels at 5 % was left,
-// with one in eight none of twenty up to 30 %. A step takes about a microsecond.
+// Of the walk. One step in eight goes anywhere near: with none, one in five random masks of 16^3 voxels at 5 % was
+// left, with one in eight none of twenty up to 30 %. A step takes about a microsecond.
 constexpr std::size_t   kWander = 8;
 constexpr std::uint64_t kLeastSteps = 100000;
 constexpr std::uint64_t kStepsOfAPlace = 2000;
