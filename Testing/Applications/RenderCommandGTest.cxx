@@ -241,14 +241,15 @@ TEST_F(RenderCommand, LooseLinesAreAboutOnePixelWideAndCurvesThicker)
   const auto width = [this](const std::string & file, const std::string & ground) {
     const Image image = Draw({ m_Folder / file, "--view", "front", "--background", ground });
     const Spot  spot = Find(image, [&](const auto & c) { return std::abs(c[0] - c[1]) > 20; });
-    double      sum = 0; // of green, of which the line has none
+    double      sum = 0; // of the colour of which a line has least
     const int   from = spot.left + (spot.right - spot.left) / 4;
     const int   to = spot.right - (spot.right - spot.left) / 4;
     for (int x = from; x < to; ++x)
     {
       for (int y = 0; y < image.height; ++y)
       {
-        sum += ground == "white" ? (255 - image.At(x, y)[1]) / 255.0 : image.At(x, y)[0] / 180.0;
+        const auto & c = image.At(x, y);
+        sum += ground == "white" ? (255 - std::min({ c[0], c[1], c[2] })) / 255.0 : c[0] / 180.0;
       }
     }
     return sum / (to - from);

@@ -32,7 +32,7 @@ TEST(BodyFrame, BeginsAtTheBodysBox)
 {
   const BodyFrame frame(TurnedScan(), kBody);
   EXPECT_EQ(frame.Lower(), kBody.lower);
-  EXPECT_EQ(frame.Geometry().size, kBody.size);
+  EXPECT_EQ(frame.Geometry().size, (std::array<std::int64_t, 3>{ 20, 5, 9 }));
   EXPECT_EQ(frame.Geometry().origin, (Vector3{ 0, 0, 0 }));
   EXPECT_EQ(frame.Enter(kBody).lower, (std::array<std::int32_t, 3>{ 0, 0, 0 }));
   EXPECT_EQ(frame.Leave(frame.Enter(kBody)).lower, kBody.lower);

@@ -93,6 +93,16 @@ TEST(CoreProvenance, PruningFurtherReplacesTheLambdaAndPruningLessDoesNot)
   EXPECT_EQ(lambdaAfter("1vox", 0.5), "2vox");
 }
 
+TEST(CoreProvenance, SaysWhereBodiesLie)
+{
+  const std::vector<BodyPlace> places = RecordedPlaces(ProvenanceOf("2vox", 1));
+  ASSERT_FALSE(places.empty());
+  EXPECT_EQ(places[0].geometry.spacing, (Vector3{ 0.5, 0.5, 2 }));
+  EXPECT_EQ(places[0].box.size, (std::array<std::int32_t, 3>{ 4, 5, 6 }));
+  EXPECT_TRUE(RecordedPlaces("{}").empty());
+  EXPECT_TRUE(RecordedPlaces("no JSON").empty());
+}
+
 TEST(CoreProvenance, WhatIsNoRecordOfTheseLabelsGivesNone)
 {
   const CorePruning pruning{ "3vox", 1.5, Record({}) };

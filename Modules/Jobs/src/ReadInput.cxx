@@ -77,7 +77,7 @@ AsVolume(const std::filesystem::path & path, const MeshFile & file, const VoxelG
   volume.format = file.format + " mesh";
   volume.pixelType = "uint1";
   Describe(file, made, volume);
-  volume.labels.push_back({ 1, ScanName(path), made.voxels, std::move(made.shape) });
+  volume.labels.push_back({ 1, ScanName(path), made.voxels, CropToVoxels(std::move(made.shape)) });
   return volume;
 }
 

@@ -44,11 +44,18 @@ vtkLambdaPruningFilter::RequestData(vtkInformation *, vtkInformationVector ** in
                                     voxelcore::RoundTripText(this->Lambda) + "mm" };
     const double                        share = 1 / static_cast<double>(std::max<std::size_t>(model.parts.size(), 1));
     double                              before = 0;
-    for (voxelcore::ModelPart & part : model.parts)
+    // What an image's core was compared with is in its Provenance, if it has one; pruning keeps the topology it has.
+    const std::vector<voxelcore::BodyPlace> places = voxelcore::RecordedPlaces(model.provenance);
+    for (std::size_t i = 0; i < model.parts.size(); ++i)
     {
-      // What an image's core was compared with is in its Provenance, if it has one; pruning keeps the topology it has.
+      voxelcore::ModelPart &    part = model.parts[i];
       voxelcore::CertifiedShape shape;
       shape.name = "label " + std::to_string(part.label);
+      if (places.size() == model.parts.size())
+      {
+        shape.geometry = places[i].geometry;
+        shape.box = places[i].box;
+      }
       shape.topology = voxelcore::ComputeComplexTopology(part.core.cells);
       voxelcore::CertifiedCore whole;
       whole.numbers.complex = voxelcore::DescribeComplex(part.core, shape.topology);

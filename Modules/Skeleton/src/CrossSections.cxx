@@ -89,7 +89,9 @@ public:
     std::vector<double> radii = m_Graph.radius;
     for (std::size_t point = 0; point < radii.size(); ++point)
     {
-      radii[point] += std::isnan(m_Excess[point]) ? 0 : m_Excess[point];
+      const double radius = radii[point] + m_Excess[point];
+      // What sections elsewhere are smaller than their balls may be more than a small ball has.
+      radii[point] = radius > 0 ? radius : radii[point];
     }
     return radii;
   }

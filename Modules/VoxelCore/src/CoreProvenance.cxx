@@ -316,4 +316,31 @@ PrunedProvenanceJson(const std::string & text, const std::vector<CorePruning> & 
   }
 }
 
+std::vector<BodyPlace>
+RecordedPlaces(const std::string & text)
+{
+  try
+  {
+    const Json    json = Json::parse(PlainJson(text));
+    const Json &  input = json.at("input");
+    ImageGeometry geometry;
+    input.at("size").get_to(geometry.size);
+    AtLength(input, "spacing_mm").get_to(geometry.spacing);
+    AtLength(input, "origin_mm").get_to(geometry.origin);
+    input.at("direction").get_to(geometry.direction);
+    std::vector<BodyPlace> places;
+    for (const Json & label : json.at("labels"))
+    {
+      BodyPlace & place = places.emplace_back(BodyPlace{ geometry, {} });
+      label.at("bounding_box").at("lower").get_to(place.box.lower);
+      label.at("bounding_box").at("size").get_to(place.box.size);
+    }
+    return places;
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    return {};
+  }
+}
+
 } // namespace voxelcore

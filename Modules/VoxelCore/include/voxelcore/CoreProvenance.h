@@ -77,4 +77,15 @@ CoreProvenanceJson(const ImageGeometry &            geometry,
 std::string
 PrunedProvenanceJson(const std::string & json, const std::vector<CorePruning> & prunings);
 
+/** Where a body lies: its scan's geometry, and its tight box in voxels. */
+struct BodyPlace
+{
+  ImageGeometry geometry;
+  VoxelBox      box;
+};
+
+/** Of each label of a record, in its order; empty when `json` is no record. */
+std::vector<BodyPlace>
+RecordedPlaces(const std::string & json);
+
 } // namespace voxelcore
