@@ -145,7 +145,7 @@ TEST_F(BatchCommand, ThicknessOfManyScansHasTheNumbersOfEachAndTheOddOneIsMarked
                  "--period",
                  bone == 6 ? "12" : "6",
                  "--seed",
-                 std::to_string(bone),
+                 std::to_string(10 + bone), // of means that are spread, as four alike make a fifth odd
                  "-o",
                  m_Folder / ("bones/b" + std::to_string(bone) + ".nrrd"),
                  "-q" });

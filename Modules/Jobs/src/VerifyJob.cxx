@@ -2,6 +2,7 @@
 
 #include "JobTools.h"
 #include "MadeAgain.h"
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/BoundaryVertices.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/LengthUnit.h"
@@ -106,6 +107,20 @@ RecordedPruning(const CoreReport & made, std::size_t label, const std::string & 
   return made.labels[label].pruned.front();
 }
 
+/** What is in the file, as where it was made (BodyFrame.h) or, as versions up to 0.1 did, as where it lies. */
+ComplexRecord
+DescribeAgain(MedialComplex &       core,
+              const ImageGeometry & geometry,
+              const VoxelBox &      body,
+              const ComplexRecord & recorded)
+{
+  std::vector<Vector3> placed = core.positions;
+  BodyFrame(geometry, body).Enter(core.positions);
+  const ComplexRecord there = DescribeComplex(core, {});
+  core.positions.swap(placed);
+  return there.areaMm2 == recorded.areaMm2 ? there : DescribeComplex(core, {});
+}
+
 /** A property of the file as a whole. `cells` describes what is in the file. */
 VerificationCheck
 CheckProvenance(const LabelRecord &        recorded,
@@ -198,7 +213,7 @@ VerifyModel(MedialModel              model,
       one.pruningTolerance = pruned.tolerance->height;
       one.toleranceMm = pruned.tolerance->heightMm;
     }
-    const ComplexRecord cells = DescribeComplex(model.parts[i].core, {});
+    const ComplexRecord cells = DescribeAgain(model.parts[i].core, volume.geometry, found->shape.Box(), pruned.complex);
     const auto          again = madeAgain.Check(model.parts[i],
                                        *found,
                                        pruned,
