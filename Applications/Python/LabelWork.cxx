@@ -241,7 +241,7 @@ MakeCores(const ArrayView &        array,
     }
     ++next;
   };
-  ProcessLabels(edited.labels, options, place, read.surface, PartOfProgress(progress, kEditEnds, 1), take, seconds);
+  ProcessLabels(edited.labels, options, place, read.surface, {}, PartOfProgress(progress, kEditEnds, 1), take, seconds);
   return results;
 }
 
@@ -336,6 +336,21 @@ Prune(const CoreOfLabel & core, const ParameterValues & values, const ProgressCa
   return results;
 }
 
+namespace
+{
+
+/** What was taken of the array that a report is of. */
+VoxelBox
+ReadBox(const CoreReport & report)
+{
+  LabelMap map;
+  map.geometry = report.input.geometry;
+  map.crop = report.parameters.reading.crop;
+  return PartRead(map);
+}
+
+} // namespace
+
 std::shared_ptr<SkeletonOfLabel>
 MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
                const ParameterValues &            values,
@@ -359,17 +374,36 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
   {
     voxels = Unpack(*core->shape);
   }
-  if (ofArray && voxels && stage.tolerance && core->refined.empty())
+  const bool isOfVoxels = ofArray && voxels && (core->refined.empty() || core->refined == "labels");
+  if (!isOfVoxels)
+  {
+    stage.border = BorderEnds::Closed;
+  }
+  const VoxelBox border = ReadBox(core->report);
+  const bool     isCut = isOfVoxels && GoesBeyondBorder(*voxels, border, shape.geometry.spacing, stage.border);
+  if (isOfVoxels && (isCut || (stage.tolerance && core->refined.empty())))
   {
     CertifiedRequest request;
-    request.surface = SurfaceSource(); // nothing is refined
+    request.surface = core->refined.empty() ? SurfaceSource() : SurfacesFromLabels(shape.geometry.spacing);
+    request.refineCores = false;
     request.name = shape.name;
     request.lambdas = { stage.lambda };
-    request.tolerances = { *stage.tolerance };
+    if (stage.tolerance)
+    {
+      request.tolerances = { *stage.tolerance };
+    }
     request.skeleton = stage;
-    result->part =
-      TakeSkeleton(std::move(*ComputeCertified(std::move(*voxels), shape.geometry, request, progress).skeleton),
-                   record);
+    request.scan = border;
+    request.spendsCores = isCut;
+    CertifiedResult made = ComputeCertified(std::move(*voxels), shape.geometry, request, progress);
+    if (isCut)
+    {
+      // As in a file of the program: the core that was burned is that of the body beyond the border.
+      record.boundaryVertices = made.boundaryVertices;
+      record.core = made.whole;
+      record.pruned.front() = { made.cores.front().numbers };
+    }
+    result->part = TakeSkeleton(std::move(*made.skeleton), record);
   }
   else
   {

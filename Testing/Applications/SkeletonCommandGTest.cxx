@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace voxelcore::testing
 {
@@ -17,7 +18,8 @@ using Json = nlohmann::json;
 class SkeletonCommand : public ::testing::Test
 {
 protected:
-  /** Runs `skeleton` on a scan with all further files and `core --with-skeleton` beside; gives the report's labels. */
+  /** Runs `skeleton` on a scan with all further files and `core --with-skeleton` beside; gives the report's labels.
+   *  Bodies are as they are, and end where their voxels do. */
   Json
   Labels(const TestScan & scan, const std::vector<std::string> & more = {})
   {
@@ -32,8 +34,16 @@ protected:
     };
     const Json beside =
       run({ "core", m_Folder / "scan.nrrd", "-o", m_Folder / "b.vtp", "--with-skeleton", "--refine", "off" });
-    const Json labels =
-      run({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "a.vtp", "--also", "csv,swc,mrk.json,graphml,ma" });
+    const Json labels = run({ "skeleton",
+                              m_Folder / "scan.nrrd",
+                              "-o",
+                              m_Folder / "a.vtp",
+                              "--also",
+                              "csv,swc,mrk.json,graphml,ma",
+                              "--border",
+                              "closed",
+                              "--cavities",
+                              "keep" });
     EXPECT_EQ(ReadAll(m_Folder / "a.vtp"), ReadAll(m_Folder / "b_skeleton.vtp"));
     for (std::size_t i = 0; i < labels.size(); ++i)
     {
@@ -49,6 +59,23 @@ protected:
     EXPECT_EQ(measured.code, 0) << measured.error;
     EXPECT_EQ(ReadAll(m_Folder / "m_branches.csv"), ReadAll(m_Folder / "a_branches.csv"));
     return labels;
+  }
+
+  /** The report of `skeleton` with a few options alone. */
+  Json
+  ReportOf(const TestScan & scan, const std::vector<std::string> & options, std::string * said = nullptr)
+  {
+    WriteNrrd(m_Folder / "scan.nrrd", scan);
+    std::vector<std::string> arguments{ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "s.vtp", "--force",
+                                        "--report", m_Folder / "s.json" };
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = RunProgram(arguments);
+    EXPECT_EQ(result.code, 0) << result.error;
+    if (said != nullptr)
+    {
+      *said = result.output;
+    }
+    return Json::parse(ReadAll(m_Folder / "s.json"));
   }
 
   TemporaryFolder m_Folder;
@@ -122,8 +149,74 @@ TEST_F(SkeletonCommand, AClosedShellStaysASurfaceAndThatIsSaid)
     RunProgram({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "c.vtp", "--fill-cavities" });
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.output.find("closed surfaces"), std::string::npos) << result.output;
-  const ProgramResult said = RunProgram({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "d.vtp" });
+  const ProgramResult said =
+    RunProgram({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "d.vtp", "--cavities", "keep" });
   EXPECT_NE(said.output.find("faces of closed surfaces stay"), std::string::npos) << said.output;
+}
+
+TEST_F(SkeletonCommand, CavitiesAreFilledUnlessTheyAreKept)
+{
+  // A ball in a shell in a shell.
+  TestScan scan({ 24, 24, 24 });
+  for (const auto & [first, last, value] :
+       { std::tuple(2, 21, 1), { 5, 18, 0 }, { 7, 16, 1 }, { 9, 14, 0 }, { 11, 12, 1 } })
+  {
+    const auto low = static_cast<std::size_t>(first);
+    const auto high = static_cast<std::size_t>(last);
+    scan.Fill({ low, low, low }, { high, high, high }, static_cast<std::uint8_t>(value));
+  }
+  std::string said;
+  const Json  label = ReportOf(scan, {}, &said).at("labels").at(0);
+  EXPECT_EQ(label.at("shape").at("betti"), Json({ 1, 0, 0 }));
+  EXPECT_EQ(label.at("skeleton").at("betti"), Json({ 1, 0, 0 }));
+  EXPECT_EQ(label.at("skeleton").at("closed_faces"), 0);
+  EXPECT_EQ(label.at("edits").at("cavities_filled"), 2);
+  EXPECT_NE(said.find("2 cavities filled"), std::string::npos) << said;
+  EXPECT_NE(said.find("--cavities keep"), std::string::npos) << said;
+  const Json kept = ReportOf(scan, { "--cavities", "keep" }).at("labels").at(0);
+  EXPECT_EQ(kept.at("shape").at("betti"), Json({ 3, 0, 2 }));
+  EXPECT_GT(kept.at("skeleton").at("closed_faces"), 0);
+  // Of a body without any nothing is said.
+  TestScan rod({ 20, 8, 8 });
+  rod.Fill({ 2, 2, 2 }, { 17, 5, 5 }, 1);
+  ReportOf(rod, {}, &said);
+  EXPECT_EQ(said.find("cavit"), std::string::npos) << said;
+  // A number is for --simplify-topology.
+  EXPECT_EQ(RunProgram({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "x.vtp", "--cavities", "1" }).code, 2);
+  EXPECT_EQ(RunProgram({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "x.vtp", "--cavities", "some" }).code, 2);
+}
+
+TEST_F(SkeletonCommand, ABodyThatTheBorderCutsRunsUpToIt)
+{
+  TestScan scan({ 40, 13, 13 });
+  scan.Fill({ 0, 2, 2 }, { 39, 10, 10 }, 1);
+  std::string said;
+  const Json  report = ReportOf(scan, {}, &said);
+  EXPECT_EQ(report.at("skeleton").at("border"), "open");
+  const Json & open = report.at("labels").at(0).at("skeleton");
+  EXPECT_NEAR(open.at("total_length_mm").get<double>(), 40, 0.01);
+  EXPECT_NEAR(open.at("volume_mm3").get<double>(), 40 * 81, 0.02 * 40 * 81);
+  EXPECT_EQ(open.at("border").at("ends"), 2);
+  ASSERT_EQ(open.at("border").at("sections").size(), 2U);
+  EXPECT_EQ(open.at("border").at("sections").at(0).at("side"), "i-");
+  EXPECT_EQ(open.at("border").at("sections").at(1).at("side"), "i+");
+  EXPECT_NE(said.find("the border of the scan cuts 1 body (i+, i-); 2 branches run up to it"), std::string::npos)
+    << said;
+  const Json closed = ReportOf(scan, { "--border", "closed" });
+  EXPECT_FALSE(closed.at("skeleton").contains("border"));
+  EXPECT_LT(closed.at("labels").at(0).at("skeleton").at("total_length_mm"), 36);
+  const Json overlap = ReportOf(scan, { "--border", "overlap" });
+  EXPECT_NEAR(overlap.at("labels").at(0).at("skeleton").at("total_length_mm").get<double>(), 39, 0.05);
+  // The side of a crop is a border, too.
+  const Json cropped = ReportOf(scan, { "--crop", "10:30,:,:" });
+  EXPECT_NEAR(cropped.at("labels").at(0).at("skeleton").at("total_length_mm").get<double>(), 20, 0.01);
+  // A core ends at the border, and that is said.
+  ASSERT_EQ(RunProgram({ "core", m_Folder / "scan.nrrd", "-o", m_Folder / "c.vtp" }).code, 0);
+  const ProgramResult fromCore = RunProgram({ "skeleton", m_Folder / "c.vtp", "-o", m_Folder / "cs.vtp" });
+  EXPECT_NE(fromCore.output.find("1 body at the border of the scan ends there"), std::string::npos) << fromCore.output;
+  EXPECT_EQ(
+    RunProgram({ "skeleton", m_Folder / "c.vtp", "-o", m_Folder / "cs.vtp", "--force", "--border", "open" }).code,
+    2);
 }
 
 TEST_F(SkeletonCommand, RootsAndRingsKeepWhatTheOptionsSay)

@@ -4,12 +4,19 @@
 #include "voxelcore/BoundaryVertices.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/ShapeOperations.h"
+#include "voxelcore/ShapeTopology.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
+#include <iostream>
+#include <numbers>
+#include <random>
+#include <string>
 
 namespace voxelcore
 {
@@ -363,6 +370,232 @@ TEST(CertifiedSkeleton, CanBeStopped)
   const CertifiedResult whole = WholeOf(Frame(15, 3));
   EXPECT_THROW(SkeletonOf(whole.cores[0].core, whole.shape, Skeleton(), [](std::string_view, double) { return false; }),
                Cancelled);
+}
+
+/** A tube cut by both sides of a scan along z, `degrees` off that axis, and its length between them. */
+struct CutTube
+{
+  VoxelShape    shape;
+  VoxelBox      scan;
+  ImageGeometry grid;
+  double        length = 0;
+};
+
+CutTube
+TubeThroughScan(double radius, double degrees, double wide, const Vector3 & spacing)
+{
+  const double angle = degrees * std::numbers::pi / 180;
+  CutTube      tube;
+  const auto   count = [&](double size, std::size_t axis) {
+    return static_cast<std::int32_t>(std::lround(std::ceil(size / spacing[axis])));
+  };
+  tube.scan.size = { count(wide * std::tan(angle) + 2 * radius / std::cos(angle) + 6, 0),
+                     count(2 * radius + 6, 1),
+                     count(wide, 2) };
+  tube.grid.spacing = spacing;
+  Vector3 centre{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    tube.grid.size[axis] = tube.scan.size[axis];
+    centre[axis] = 0.5 * tube.scan.size[axis] * spacing[axis];
+  }
+  tube.length = 2 * centre[2] / std::cos(angle);
+  tube.shape = VoxelShape(tube.scan);
+  for (std::int32_t z = 0; z < tube.scan.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < tube.scan.size[1]; ++y)
+    {
+      for (std::int32_t x = 0; x < tube.scan.size[0]; ++x)
+      {
+        const Vector3 off = Minus(Times({ x + 0.5, y + 0.5, z + 0.5 }, spacing), centre);
+        if (std::hypot(off[0] * std::cos(angle) - off[2] * std::sin(angle), off[1]) <= radius)
+        {
+          tube.shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  tube.shape = CropToVoxels(tube.shape);
+  return tube;
+}
+
+CertifiedRequest
+UpToBorder(const VoxelBox & scan, BorderEnds ends)
+{
+  CertifiedRequest request = Lambdas({ "0" });
+  request.surface = SurfaceSource();
+  request.scan = scan;
+  request.spendsCores = true;
+  request.skeleton = Skeleton();
+  request.skeleton->branches.pruneRadii = 1;
+  request.skeleton->border = ends;
+  return request;
+}
+
+void
+ExpectTubeUpToBorder(double radius, double degrees, double wide, const Vector3 & spacing)
+{
+  const CutTube           tube = TubeThroughScan(radius, degrees, wide, spacing);
+  const CertifiedResult   result = ComputeCertified(tube.shape, tube.grid, UpToBorder(tube.scan, BorderEnds::Open));
+  const SkeletonNumbers & numbers = result.skeleton->skeleton.table.numbers;
+  const std::string       which = std::to_string(radius) + " mm, " + std::to_string(degrees) + " degrees, slices of " +
+                            std::to_string(spacing[2]) + " mm";
+  EXPECT_EQ(numbers.branches, 1U) << which;
+  EXPECT_EQ(result.skeleton->border->ends, 2U) << which;
+  EXPECT_NEAR(numbers.totalLength, tube.length, 0.5) << which;
+  const double volume = static_cast<double>(tube.shape.CountVoxels()) * spacing[0] * spacing[1] * spacing[2];
+  EXPECT_NEAR(numbers.volume, volume, 0.02 * volume) << which;
+}
+
+TEST(CertifiedSkeleton, ATubeCutByTheBorderIsAsLongAsItIs)
+{
+  ExpectTubeUpToBorder(5, 0, 24, { 1, 1, 1 });
+  ExpectTubeUpToBorder(5, 30, 24, { 1, 1, 1 });
+  ExpectTubeUpToBorder(5, 0, 25, { 1, 1, 2.5 });
+}
+
+TEST(HeavyCertifiedSkeleton, TubesCutByTheBorderAreAsLongAsTheyAre)
+{
+  for (const double slice : { 1.0, 2.5 })
+  {
+    for (const double radius : { 5.0, 8.0, 12.0 })
+    {
+      for (const double degrees : { 0.0, 15.0, 30.0, 45.0, 60.0 })
+      {
+        ExpectTubeUpToBorder(radius, degrees, 60, { 1, 1, slice });
+      }
+    }
+  }
+}
+
+TEST(CertifiedSkeleton, WhatGoesOnBeyondTheBorderHasTheTopologyOfTheBodyWithin)
+{
+  // A frame of which two sides are cut away: two legs that leave the scan.
+  const VoxelShape      frame = VoxelsWithin(Frame(9, 5), { { 0, 3, 0 }, { 19, 16, 5 } });
+  const VoxelBox        scan{ { 0, 3, -4 }, { 19, 16, 14 } };
+  const CertifiedResult result = ComputeCertified(frame, Grid({ 1, 1, 1 }), UpToBorder(scan, BorderEnds::Open));
+  EXPECT_EQ(result.skeleton->topology, result.shape.topology);
+  for (const Vector3 & position : result.skeleton->skeleton.graph.positions)
+  {
+    EXPECT_GE(position[1], 3 - 0.5 - 1e-9); // lattice 0 lies half a voxel before the origin
+  }
+}
+
+TEST(CertifiedSkeleton, CoresAskedForBesideAreThoseOfTheBodyWithin)
+{
+  const CutTube         tube = TubeThroughScan(4, 0, 16, { 1, 1, 1 });
+  CertifiedRequest      request = UpToBorder(tube.scan, BorderEnds::Open);
+  const CertifiedResult spent = ComputeCertified(tube.shape, tube.grid, request);
+  request.spendsCores = false;
+  const CertifiedResult kept = ComputeCertified(tube.shape, tube.grid, request);
+  EXPECT_EQ(kept.skeleton->skeleton.graph.positions, spent.skeleton->skeleton.graph.positions);
+  request.skeleton->border = BorderEnds::Closed;
+  const CertifiedResult closed = ComputeCertified(tube.shape, tube.grid, request);
+  EXPECT_EQ(kept.cores[0].core.core.positions, closed.cores[0].core.core.positions);
+  EXPECT_EQ(kept.boundaryVertices, closed.boundaryVertices);
+  EXPECT_FALSE(closed.skeleton->border);
+}
+
+/** Balls along random ways, in a box. */
+VoxelShape
+RandomTubes(const VoxelBox & box, std::mt19937_64 & random)
+{
+  std::uniform_real_distribution<double> part(0, 1);
+  std::normal_distribution<double>       turn(0, 0.25);
+  VoxelShape                             shape(box);
+  for (int tube = 0; tube < 3; ++tube)
+  {
+    Vector3      place{ 30 * part(random), 30 * part(random), 30 * part(random) };
+    Vector3      way{ turn(random), turn(random), turn(random) };
+    const double radius = 1.2 + 3 * part(random);
+    for (int step = 0; step < 60; ++step)
+    {
+      way = AddScaled(way, 1, { turn(random), turn(random), turn(random) });
+      way = AddScaled({}, 1 / Length(way), way);
+      place = AddScaled(place, 0.7, way);
+      for (std::int32_t z = 0; z < box.size[2]; ++z)
+      {
+        for (std::int32_t y = 0; y < box.size[1]; ++y)
+        {
+          for (std::int32_t x = 0; x < box.size[0]; ++x)
+          {
+            if (Distance({ x + 0.5, y + 0.5, z + 0.5 }, place) <= radius)
+            {
+              shape.Insert(x, y, z);
+            }
+          }
+        }
+      }
+    }
+  }
+  return CropToVoxels(shape);
+}
+
+/** The points of a part's skeleton in the middle of the layer it shares, each at the centre of a section there. */
+void
+ExpectEndsInSections(const VoxelShape &  shape,
+                     const VoxelBox &    part,
+                     std::size_t         axis,
+                     bool                isUpper,
+                     std::size_t         sections,
+                     const std::string & which)
+{
+  const VoxelShape      within = VoxelsWithin(shape, part);
+  const CertifiedResult result = ComputeCertified(within, Grid({ 1, 1, 1 }), UpToBorder(part, BorderEnds::Overlap));
+  std::size_t           found = 0;
+  for (const BorderSection & section : result.skeleton->border->sections)
+  {
+    if (section.axis != axis || section.isUpper != isUpper)
+    {
+      continue;
+    }
+    const Vector3 centre = LatticeToPhysical(Grid({ 1, 1, 1 }), section.centre);
+    const auto &  points = result.skeleton->skeleton.graph.positions;
+    const bool    isThere =
+      std::any_of(points.begin(), points.end(), [&](const Vector3 & point) { return Distance(point, centre) < 1e-9; });
+    found += isThere ? 1 : 0;
+  }
+  EXPECT_EQ(found, sections) << which;
+}
+
+void
+ExpectPartsMeet(int bodies)
+{
+  const std::uint64_t seed = std::random_device()();
+  std::cout << "seed " << seed << '\n';
+  std::mt19937_64 random(seed);
+  const VoxelBox  box{ { 0, 0, 0 }, { 30, 30, 30 } };
+  for (int round = 0; round < bodies; ++round)
+  {
+    const VoxelShape   shape = RandomTubes(box, random);
+    const auto         axis = static_cast<std::size_t>(round % 3);
+    const std::int32_t cut = 5 + static_cast<std::int32_t>(random() % 20); // the layer that both parts have
+    VoxelBox           lower = box;
+    VoxelBox           upper = box;
+    lower.size[axis] = cut + 1;
+    upper.lower[axis] = cut;
+    upper.size[axis] -= cut;
+    VoxelBox layer = upper;
+    layer.size[axis] = 1;
+    const auto shared = static_cast<std::size_t>(ComputeShapeTopology(VoxelsWithin(shape, layer)).betti[0]);
+    if (shared == 0)
+    {
+      continue;
+    }
+    const std::string which = "body " + std::to_string(round) + ", cut at " + std::to_string(cut);
+    ExpectEndsInSections(shape, lower, axis, true, shared, which + " below");
+    ExpectEndsInSections(shape, upper, axis, false, shared, which + " above");
+  }
+}
+
+TEST(CertifiedSkeleton, PartsThatShareALayerHaveTheirEndsInItAtTheSamePlaces)
+{
+  ExpectPartsMeet(6);
+}
+
+TEST(HeavyCertifiedSkeleton, PartsThatShareALayerHaveTheirEndsInItAtTheSamePlaces)
+{
+  ExpectPartsMeet(200);
 }
 
 } // namespace

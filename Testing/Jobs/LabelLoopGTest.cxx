@@ -50,6 +50,7 @@ Outcomes(int threads)
     geometry,
     {},
     {},
+    {},
     [&](LabelOutcome outcome) { outcomes.push_back(std::move(outcome)); },
     seconds);
   return outcomes;

@@ -68,7 +68,9 @@ TEST_F(SkeletonJob, ScanItsWholeCoreAndTheCoreCommandGiveTheSameBytes)
                               { "root", "top" },
                               { "prune-branches", "4vox" },
                               { "stand-out", "2%" } };
-  Skeleton("root.nrrd", "a.vtp", more);
+  ParameterValues       asInCore = more;
+  asInCore.insert({ { "border", "closed" }, { "cavities", "keep" } });
+  Skeleton("root.nrrd", "a.vtp", asInCore);
   ParameterValues core = more;
   core.insert({ { "scan", At("root.nrrd").string() },
                 { "lambda", "0,1.5vox" },
@@ -184,9 +186,10 @@ TEST_F(SkeletonJob, WrittenFilesSayHowTheyWereMade)
              { "crop", ":,:,0:48" },
              { "prune-branches", "0.5r" } });
   const Json made = Json::parse(ReadSkeletonVtp(At("a.vtp")).provenance);
-  EXPECT_EQ(made.at("skeleton").dump(),
-            R"({"lambda":"0","stand_out":"3vox","plates":null,"smooth":"0","prune_branches":null,)"
-            R"("prune_branches_radii":0.5,"cut_loops":true,"split_at_junctions":false,"root":"1.5,-2,3"})");
+  EXPECT_EQ(
+    made.at("skeleton").dump(),
+    R"({"lambda":"0","stand_out":"3vox","plates":null,"smooth":"0","prune_branches":null,)"
+    R"("prune_branches_radii":0.5,"cut_loops":true,"split_at_junctions":false,"root":"1.5,-2,3","border":"open"})");
   EXPECT_EQ(made.at("parameters").at("crop").dump(), "[[0,48],[0,48],[0,48]]");
   EXPECT_EQ(made.at("labels").at(0).at("skeleton").at("cuts").size(), 1U);
   EXPECT_EQ(made.at("labels").at(0).at("skeleton").at("betti").dump(), "[1,1,0]");

@@ -175,6 +175,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               SliceAxis::J,
                               Connectivity::TwentySix,
                               true,
+                              false,
                               1.25,
                               50,
                               3,

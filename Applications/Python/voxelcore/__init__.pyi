@@ -195,6 +195,7 @@ def skeleton(
     *,
     prune_branches: Optional[_Length] = ...,
     root: Union[str, _Vector] = ...,
+    cavities: Union[str, int] = ...,
     threads: int = ...,
     progress: _Progress = ...,
     **options: Any,

@@ -102,7 +102,9 @@ that hold whole numbers)
     return next(iter(results.values()))
 
 
-def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progress=None, **options):
+def skeleton(
+    source, *, prune_branches="1r", root="thickest", cavities="fill", threads=0, progress=None, **options
+):
     """The curve skeleton of a label, with the topology of its voxels.
 
     Parameters
@@ -116,6 +118,9 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
         None: none.
     root : str or three floats, mm, default 'thickest'
         Where the hierarchy of branches begins: 'thickest', 'top', 'bottom', or a point (x, y, z), LPS.
+    cavities : {'fill', 'keep'} or int, default 'fill'
+        Of an array: whether cavities are filled, so that the skeleton is curves, or surfaces around them are kept; with
+        simplify_topology, a number of them to be left. A Core has the cavities it was made with.
     threads : int, default 0
         Processors to use; 0 means all.
     progress : callable, optional
@@ -150,12 +155,18 @@ def skeleton(source, *, prune_branches="1r", root="thickest", threads=0, progres
     if isinstance(source, Core):
         if of_array:
             raise ValueError(f"{next(iter(of_array))}: is for arrays; the core was made already")
+        if own.get("border", "closed") != "closed":
+            raise ValueError("border: a core ends at the border; give the array")
         return Skeleton(_voxelcore.skeleton(source._data, values, progress, False))
     if any(_arguments.several(of_array.get(one)) is not None for one in ("lambda_", "tolerance")):
         raise ValueError("lambda_, tolerance: give one; a skeleton has one core")
     if of_array.get("lambda_") is None:
         of_array["lambda_"] = 0
     of_array.setdefault("refine", "off")
+    if cavities not in ("fill", "keep"):
+        of_array["cavities"] = cavities
+    elif cavities == "fill":
+        of_array.setdefault("fill_cavities", True)
     of_array.update(threads=threads, progress=_arguments.share(progress, 0, 0.5))
     whole = core(source, **of_array)
     if not isinstance(whole, Core):

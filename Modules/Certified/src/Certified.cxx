@@ -3,13 +3,71 @@
 #include "CertifiedWork.h"
 #include "Frames.h"
 #include "RequestStages.h"
+#include "voxelcore/ShapeTopology.h"
+#include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
+#include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace voxelcore
 {
+
+namespace
+{
+
+/** The skeleton is that of a body that goes on where the scan's border cuts it; all else that is asked for is of the
+ *  body within. */
+CertifiedResult
+RunUpToBorder(VoxelShape               shape,
+              const ImageGeometry &    geometry,
+              const CertifiedRequest & request,
+              const ProgressCallback & progress)
+{
+  const BorderEnds ends = request.skeleton->border;
+  const Vector3 &  spacing = geometry.spacing;
+  // So long that the branches of the thinnest bodies stand out.
+  const double clear =
+    InMeanVoxels(request.skeleton->standOut, ComputeSpacingWeights(spacing), spacing, shape.Box()) + Length(spacing);
+  ExtendedShape extended = ExtendBeyondBorder(shape, *request.scan, spacing, { ends, clear });
+  if (extended.shape.Box().size == shape.Box().size)
+  {
+    CertifiedResult result = RunCertified(std::move(shape), geometry, request, progress);
+    if (!extended.sections.empty())
+    {
+      result.skeleton->border = { std::move(extended.sections), 0 };
+    }
+    return result;
+  }
+  const BeyondBorder goesOn{ *request.scan,
+                             shape.Box(),
+                             ComputeShapeTopology(shape),
+                             ends,
+                             std::move(extended.sections) };
+  CertifiedRequest   curves = request;
+  curves.refineCores = false;
+  curves.thickness.reset();
+  curves.spendsCores = true;
+  if (request.spendsCores && !request.thickness)
+  {
+    return RunCertified(std::move(extended.shape), geometry, curves, progress, &goesOn);
+  }
+  CertifiedRequest within = request;
+  within.skeleton.reset();
+  StagePlan       plan(progress, { 0.5, 0.5 });
+  CertifiedResult result = RunCertified(std::move(shape), geometry, within, plan.Next());
+  CertifiedResult beyond = RunCertified(std::move(extended.shape), geometry, curves, plan.Next(), &goesOn);
+  result.skeleton = std::move(beyond.skeleton);
+  result.seconds.shape += beyond.seconds.shape;
+  result.seconds.delaunay += beyond.seconds.delaunay;
+  result.seconds.core += beyond.seconds.core;
+  result.seconds.prune += beyond.seconds.prune;
+  result.seconds.skeleton += beyond.seconds.skeleton;
+  return result;
+}
+
+} // namespace
 
 void
 CompletePruning(std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances)
@@ -63,11 +121,11 @@ ComputeCertified(VoxelShape               shape,
   shape = CropToVoxels(std::move(shape));
   const BodyFrame frame(geometry, shape.Box());
   shape = MovedTo({ 0, 0, 0 }, shape);
-  const RootChoice root = complete.skeleton ? complete.skeleton->branches.root : RootChoice();
-  CertifiedResult  result = RunCertified(std::move(shape),
-                                        frame.Geometry(),
-                                        InFrame(std::move(complete), frame, ComputeLatticeWeights(geometry)),
-                                        forward);
+  const RootChoice       root = complete.skeleton ? complete.skeleton->branches.root : RootChoice();
+  const CertifiedRequest there = InFrame(std::move(complete), frame, ComputeLatticeWeights(geometry));
+  const bool             mayBeCut = there.scan && there.skeleton && there.skeleton->border != BorderEnds::Closed;
+  CertifiedResult        result = mayBeCut ? RunUpToBorder(std::move(shape), frame.Geometry(), there, forward)
+                                           : RunCertified(std::move(shape), frame.Geometry(), there, forward);
   result.shape.box = frame.Leave(result.shape.box);
   result.shape.geometry = geometry;
   for (CertifiedCore & core : result.cores)

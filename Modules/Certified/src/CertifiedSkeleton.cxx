@@ -4,6 +4,7 @@
 #include "Frames.h"
 #include "SkeletonSteps.h"
 #include "voxelcore/BallUnion.h"
+#include "voxelcore/BorderCut.h"
 #include "voxelcore/BranchJoints.h"
 #include "voxelcore/BranchTips.h"
 #include "voxelcore/ComplexTopology.h"
@@ -107,6 +108,16 @@ BodyOf(const MedialComplex & core, const CertifiedShape & shape)
     centre = PhysicalToLattice(shape.geometry, centre);
   }
   return UnionOfBalls(shape.box, shape.geometry.spacing, centres, core.radius);
+}
+
+void
+RequireTopologyOf(const SkeletonGraph & graph, const TopologyNumbers & topology, const std::string & name)
+{
+  const SkeletonNumbers numbers = MeasureBranches(graph).numbers;
+  if (graph.FaceCount() == 0 && (numbers.components != topology.betti[0] || numbers.cycles != topology.betti[1]))
+  {
+    RefuseResult(name, "the branches do not have the shape's topology");
+  }
 }
 
 } // namespace
@@ -217,7 +228,8 @@ CertifiedSkeleton
 MeasureCurves(const BurnedCurves &    burned,
               const VoxelShape &      voxels,
               const CertifiedShape &  shape,
-              const SkeletonRequest & request)
+              const SkeletonRequest & request,
+              const BeyondBorder *    goesOn)
 {
   const Vector3 &   spacing = shape.geometry.spacing;
   CertifiedSkeleton result;
@@ -234,12 +246,7 @@ MeasureCurves(const BurnedCurves &    burned,
   {
     FitBranches(graph, window, reach, inside);
   }
-  const SkeletonNumbers numbers = MeasureBranches(graph).numbers;
-  if (graph.FaceCount() == 0 &&
-      (numbers.components != result.topology.betti[0] || numbers.cycles != result.topology.betti[1]))
-  {
-    RefuseResult(shape.name, "the branches do not have the shape's topology");
-  }
+  RequireTopologyOf(graph, result.topology, shape.name);
   const std::vector<Vector3> measured = graph.medial; // where the radii are those of balls
   if (window > 0 && PlaceTips(graph, voxels, shape.geometry) > 0)
   {
@@ -254,7 +261,14 @@ MeasureCurves(const BurnedCurves &    burned,
   {
     MeasureBallsAnew(graph, measured, FarthestEnd(burned.curves), inside);
   }
-  const std::size_t points = graph.positions.size();
+  if (goesOn != nullptr)
+  {
+    const std::size_t ends = CutAtBorder(graph, voxels, goesOn->scan, shape.geometry, goesOn->ends, goesOn->sections);
+    RequireTopologyOf(graph, result.topology, shape.name);
+    result.border = { goesOn->sections, ends };
+  }
+  // A place where a branch crosses the border lies between two within the body, but may be in none.
+  const std::size_t points = goesOn != nullptr ? 0 : graph.positions.size();
   Cut(result, request.branches, StandOutOn(shape, request));
   TakeInside(graph, points, inside);
   return result;

@@ -47,17 +47,19 @@ public:
   Work(VoxelShape               voxels,
        const ImageGeometry &    geometry,
        const CertifiedRequest & request,
-       const ProgressCallback & progress)
+       const ProgressCallback & progress,
+       const BeyondBorder *     goesOn)
     : m_Voxels(std::move(voxels))
+    , m_GoesOn(goesOn)
     , m_Request(request)
     , m_Weights(ComputeLatticeWeights(geometry))
     , m_Plan(progress, StageTimes(request))
   {
     RequireLengthsIn(geometry.unit, request);
-    m_Result.shape = { request.name, {}, m_Voxels.Box(), geometry };
+    m_Result.shape = { request.name, {}, goesOn != nullptr ? goesOn->box : m_Voxels.Box(), geometry };
     for (const Lambda & lambda : request.lambdas)
     {
-      m_Thresholds.push_back(LambdaInMillimetres(lambda, m_Weights, geometry.spacing, m_Voxels.Box()));
+      m_Thresholds.push_back(LambdaInMillimetres(lambda, m_Weights, geometry.spacing, m_Result.shape.box));
     }
   }
 
@@ -66,6 +68,10 @@ public:
   {
     const CoreUse use = LambdasSpendWhole() ? CoreUse::Pruning : CoreUse::Any;
     m_Whole = MakeWholeCore(m_Voxels, m_Request, m_Weights, m_Thresholds.front(), use, m_Plan, m_Result);
+    if (m_GoesOn != nullptr)
+    {
+      RequireEqualTopology(m_GoesOn->topology, m_Result.shape.topology, "it beyond the scan's border", m_Request.name);
+    }
     CertifyWhole();
     if (BurnsBeforePruning(m_Request))
     {
@@ -378,12 +384,13 @@ private:
   Measure()
   {
     Stopwatch watch;
-    m_Result.skeleton = MeasureCurves(*m_Curves, m_Voxels, m_Result.shape, *m_Request.skeleton);
+    m_Result.skeleton = MeasureCurves(*m_Curves, m_Voxels, m_Result.shape, *m_Request.skeleton, m_GoesOn);
     RequireEnclosed(m_Result.skeleton->skeleton.graph, m_Voxels, m_Result.shape);
     m_Result.seconds.skeleton += watch.Lap();
   }
 
   VoxelShape                  m_Voxels;
+  const BeyondBorder *        m_GoesOn; ///< null: nothing was added to the voxels
   const CertifiedRequest &    m_Request;
   SpacingWeights              m_Weights;
   StagePlan                   m_Plan;
@@ -419,13 +426,14 @@ CertifiedResult
 RunCertified(VoxelShape               shape,
              const ImageGeometry &    geometry,
              const CertifiedRequest & request,
-             const ProgressCallback & progress)
+             const ProgressCallback & progress,
+             const BeyondBorder *     goesOn)
 {
   if (IsMapAlone(request))
   {
     return MapAlone(shape, geometry, request, progress);
   }
-  return Work(std::move(shape), geometry, request, progress).Run();
+  return Work(std::move(shape), geometry, request, progress, goesOn).Run();
 }
 
 } // namespace voxelcore

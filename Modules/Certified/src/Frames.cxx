@@ -54,6 +54,10 @@ InFrame(CertifiedRequest request, const BodyFrame & frame, const SpacingWeights 
       return cells;
     };
   }
+  if (request.scan)
+  {
+    request.scan = frame.Enter(*request.scan);
+  }
   return request;
 }
 
@@ -101,6 +105,13 @@ LeaveFrame(const BodyFrame & frame, const RootChoice & root, CertifiedSkeleton &
   for (LoopCut & cut : skeleton.cuts)
   {
     cut.position = frame.Leave(cut.position);
+  }
+  if (skeleton.border)
+  {
+    for (BorderSection & section : skeleton.border->sections)
+    {
+      section.centre = frame.LeaveLattice(section.centre);
+    }
   }
   skeleton.skeleton.table = MeasureBranches(graph, { root });
 }

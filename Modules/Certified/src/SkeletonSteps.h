@@ -14,6 +14,16 @@ struct BurnedCurves
   TopologyNumbers topology;
 };
 
+/** Of a shape that was made to go on beyond the border of its scan, what it was. */
+struct BeyondBorder
+{
+  VoxelBox                   scan;
+  VoxelBox                   box; ///< of the shape within
+  TopologyNumbers            topology;
+  BorderEnds                 ends = BorderEnds::Open;
+  std::vector<BorderSection> sections;
+};
+
 /** What lambda or tolerance of the request leave of the whole core. \throws UsageError for a tolerance where the core
  *  has none */
 LiveElements
@@ -30,13 +40,15 @@ BurnToCurves(const MedialComplex &    core,
              const ProgressCallback & progress,
              CurveOptions             curves = {});
 
-/** Branches, and how wide the body in `voxels` is around them; no table of them yet.
+/** Branches, and how wide the body in `voxels` is around them; no table of them yet. Where the body `goesOn` beyond a
+ *  border, they are cut in it.
  *  \throws CertificateError when they do not have the topology of the curves. */
 CertifiedSkeleton
 MeasureCurves(const BurnedCurves &    burned,
               const VoxelShape &      voxels,
               const CertifiedShape &  shape,
-              const SkeletonRequest & request);
+              const SkeletonRequest & request,
+              const BeyondBorder *    goesOn = nullptr);
 
 /** \throws CertificateError unless every point of a skeleton lies in its shape. */
 void

@@ -126,8 +126,17 @@ RequireTaken(const ParameterValues & values, CommandId command, const std::strin
       const std::string run = CommandName(command);
       throw UsageError(Text(where, "--", name, " is no option of 'voxelcore ", run, "', which --", run, " runs"));
     }
-    const std::string owner = CommandName(IsTaken(name, CommandId::Roots) ? CommandId::Roots : CommandId::Thickness);
-    throw UsageError(Text(where, "--", name, " is an option of 'voxelcore ", owner, "'; give --", owner, ", too"));
+    std::string owners;
+    std::string flags;
+    for (const CommandId owner : { CommandId::Roots, CommandId::Thickness })
+    {
+      if (IsTaken(name, owner))
+      {
+        owners += (owners.empty() ? "'voxelcore " : " and of 'voxelcore ") + CommandName(owner) + "'";
+        flags += (flags.empty() ? "--" : " or --") + CommandName(owner);
+      }
+    }
+    throw UsageError(Text(where, "--", name, " is an option of ", owners, "; give ", flags, ", too"));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "voxelcore/CoreJob.h"
 
+#include "BorderNotes.h"
 #include "CoreJobSteps.h"
 #include "DisplayFiles.h"
 #include "FacelessLabels.h"
@@ -214,7 +215,8 @@ StageCoreJob(const CoreOptions & options,
     context.admit(1e-6 * static_cast<double>(
                            PredictJob(CountBoundaries(edited.labels), options, omp_get_max_threads()).memoryBytes));
   }
-  const SurfaceSource estimates = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
+  const SurfaceSource           estimates = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
+  const std::optional<VoxelBox> border = BorderOf(volume);
   volume.mesh.reset();
   shown.AddScan(edited.labels, volume.geometry);
   report.command = options.command;
@@ -255,6 +257,7 @@ StageCoreJob(const CoreOptions & options,
     options,
     volume.geometry,
     estimates,
+    border,
     plan.Next(),
     [&](LabelOutcome outcome) {
       if (digest.valid())
@@ -337,6 +340,7 @@ StageCoreJob(const CoreOptions & options,
   }
   TellFacelessLabels(report, faces, result.notes, result.warnings);
   TellNoisyLabels(report, result.warnings);
+  TellBorderCuts(report, result.notes);
   report.seconds.total = total.Lap();
   report.peakMemoryMb = PeakMemoryMb();
   if (options.report)

@@ -61,6 +61,7 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
               const CoreOptions &                       options,
               const ImageGeometry &                     geometry,
               const SurfaceSource &                     surface,
+              const std::optional<VoxelBox> &           scan,
               const ProgressCallback &                  progress,
               const std::function<void(LabelOutcome)> & take,
               StageSeconds &                            seconds,
@@ -103,6 +104,7 @@ ProcessLabels(std::vector<EditedLabel> &                labels,
       topology = ComputeShapeTopology(one.label.shape);
     }
     CertifiedRequest request = RequestOf(options, surface);
+    request.scan = scan;
     request.cells = options.join.empty() ? CellSource() : join;
     return ProcessLabel(std::move(one), geometry, std::move(request), part);
   };

@@ -137,6 +137,12 @@ PartRead(const LabelMap & volume)
   return box;
 }
 
+std::optional<VoxelBox>
+BorderOf(const InputScan & scan)
+{
+  return scan.mesh ? std::nullopt : std::optional(PartRead(scan));
+}
+
 InputScan
 ReadScanOrMesh(const std::filesystem::path &       path,
                const ReadOptions &                 options,

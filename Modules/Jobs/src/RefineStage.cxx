@@ -6,6 +6,7 @@
 #include "voxelcore/GreyVolume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -79,6 +80,70 @@ LookedAtFrom(const SurfaceSource::Place & place, VoxelBox box)
   return box;
 }
 
+/** The box of two. */
+VoxelBox
+Hull(const VoxelBox & a, const VoxelBox & b)
+{
+  VoxelBox hull;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    hull.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
+    hull.size[axis] = std::max(a.lower[axis] + a.size[axis], b.lower[axis] + b.size[axis]) - hull.lower[axis];
+  }
+  return hull;
+}
+
+/** Of a shape that goes on beyond the scan: the values at the border go on with it, and where a body ends at the border
+ *  their sign is turned. `rows` gives those within. */
+std::unique_ptr<SurfaceEstimate>
+SurfaceBeyondScan(const VoxelShape &       shape,
+                  const Vector3 &          spacing,
+                  const VoxelBox &         scan,
+                  const GreyRows &         rows,
+                  const ProgressCallback & progress)
+{
+  const auto nearest = [&scan](std::int32_t at, std::size_t axis) {
+    return std::clamp(at, scan.lower[axis], scan.lower[axis] + scan.size[axis] - 1);
+  };
+  const auto goOn = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
+    const std::int32_t first = nearest(x, 0);
+    const std::int32_t last = nearest(x + static_cast<std::int32_t>(values.size()) - 1, 0);
+    std::vector<float> within(static_cast<std::size_t>(last - first + 1));
+    rows(first, nearest(y, 1), nearest(z, 2), within);
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      const std::int32_t at = x + static_cast<std::int32_t>(i);
+      const bool         isBeyond = at != nearest(at, 0) || y != nearest(y, 1) || z != nearest(z, 2);
+      values[i] = within[static_cast<std::size_t>(nearest(at, 0) - first)];
+      if (isBeyond && values[i] > 0 && !shape.Contains(at, y, z))
+      {
+        values[i] = -values[i];
+      }
+    }
+  };
+  return SurfaceFromGrey(shape, spacing, Hull(scan, shape.Box()), GreyRows(goOn), progress);
+}
+
+/** Rows of a box kept in memory. */
+GreyRows
+KeptRows(const GreyBoxRows & grey)
+{
+  const VoxelBox & box = grey.box;
+  const auto       size = std::array{ static_cast<std::size_t>(box.size[0]), static_cast<std::size_t>(box.size[1]) };
+  auto       values = std::make_shared<std::vector<float>>(size[0] * size[1] * static_cast<std::size_t>(box.size[2]));
+  const auto placeOf = [box, size](std::int32_t x, std::int32_t y, std::int32_t z) {
+    return (static_cast<std::size_t>(z - box.lower[2]) * size[1] + static_cast<std::size_t>(y - box.lower[1])) *
+             size[0] +
+           static_cast<std::size_t>(x - box.lower[0]);
+  };
+  grey.visit([&](std::int32_t y, std::int32_t z, std::span<const float> row) {
+    std::ranges::copy(row, values->begin() + static_cast<std::ptrdiff_t>(placeOf(box.lower[0], y, z)));
+  });
+  return [values, placeOf](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> row) {
+    std::copy_n(values->begin() + static_cast<std::ptrdiff_t>(placeOf(x, y, z)), row.size(), row.begin());
+  };
+}
+
 SurfaceSource
 GreySource(const RefineOptions &         options,
            const std::filesystem::path & scan,
@@ -114,7 +179,10 @@ GreySource(const RefineOptions &         options,
       const auto rowsThere = [&](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
         rows(x + place[0], y + place[1], z + place[2], values);
       };
-      return SurfaceSource::Estimate(SurfaceFromGrey(shape, spacing, LookedAtFrom(place, whole), rowsThere, progress));
+      const VoxelBox scanned = LookedAtFrom(place, whole);
+      return SurfaceSource::Estimate(Hull(scanned, shape.Box()).size != scanned.size
+                                       ? SurfaceBeyondScan(shape, spacing, scanned, rowsThere, progress)
+                                       : SurfaceFromGrey(shape, spacing, scanned, GreyRows(rowsThere), progress));
     };
   }
   ReadOptions how = reading;
@@ -142,6 +210,10 @@ GreySource(const RefineOptions &         options,
       const VoxelBox inScan = LookedAtFrom({ -place[0], -place[1], -place[2] }, box);
       RequireSamePlace(greyValues->Visit(inScan, takeRow, progress), geometry, "--grey", path);
     };
+    if (Hull(scanned, shape.Box()).size != scanned.size)
+    {
+      return SurfaceBeyondScan(shape, geometry.spacing, scanned, KeptRows({ box, visit }), progress);
+    }
     return SurfaceFromGrey(shape, geometry.spacing, scanned, GreyBoxRows{ box, visit }, progress);
   };
 }

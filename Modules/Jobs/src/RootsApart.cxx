@@ -49,15 +49,18 @@ Has(const TopologyNumbers & numbers, const TopologyRequest & request)
 }
 
 SkeletonGraph
-SkeletonOfMask(const LabelShape &       mask,
-               const ImageGeometry &    geometry,
-               const CoreOptions &      core,
-               const ProgressCallback & progress)
+SkeletonOfMask(const LabelShape &              mask,
+               const ImageGeometry &           geometry,
+               const std::optional<VoxelBox> & scan,
+               const CoreOptions &             core,
+               const ProgressCallback &        progress)
 {
   CertifiedRequest request;
   request.name = LabelText(mask.value, mask.name);
   request.skeleton = core.skeleton;
+  request.scan = scan;
   request.lambdas = { core.skeleton->lambda };
+  request.spendsCores = true;
   request.engine = core.engine;
   CertifiedResult result = ComputeCertified(mask.shape, geometry, request, progress);
   return std::move(result.skeleton->skeleton.graph);
@@ -211,7 +214,7 @@ TellRootsApart(LabelShape &             mask,
   {
     return std::nullopt;
   }
-  SkeletonGraph     graph = SkeletonOfMask(mask, geometry, core, PartOfProgress(progress, 0, 0.5));
+  SkeletonGraph     graph = SkeletonOfMask(mask, geometry, request.scan, core, PartOfProgress(progress, 0, 0.5));
   auto              torn = JoinTornRoots(graph, rules);
   const LatticeBall ball = BallOfDepth(request.depth, geometry);
   RootsTopology     topology;

@@ -11,10 +11,11 @@ namespace voxelcore
 /** How the topology of a plant is made what was asked for. */
 struct ApartRequest
 {
-  GapWidth              depth;    ///< farther from the boundary nothing is filled
-  TopologyRequest       topology; ///< none: as few as can be
-  std::optional<double> kernel;
-  std::optional<double> neighbourhood;
+  GapWidth                depth;    ///< farther from the boundary nothing is filled
+  TopologyRequest         topology; ///< none: as few as can be
+  std::optional<double>   kernel;
+  std::optional<double>   neighbourhood;
+  std::optional<VoxelBox> scan; ///< at whose border roots may be cut
 };
 
 /** Finds the roots in the mask as it is, and simplifies its topology with cuts where they touch (RootContacts.h). What

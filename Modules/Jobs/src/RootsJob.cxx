@@ -238,7 +238,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
                                      clean.geometry,
                                      core,
                                      rules,
-                                     { depth, request, options.kernel, options.neighbourhood },
+                                     { depth, request, options.kernel, options.neighbourhood, clean.scan },
                                      editing,
                                      PartOfProgress(context.progress, 0, 0.35));
   }

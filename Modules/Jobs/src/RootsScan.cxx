@@ -74,7 +74,7 @@ CleanForRoots(ShapeEditOptions & edits)
 CleanMask
 LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
 {
-  LabelMap volume;
+  InputScan volume;
   try
   {
     volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
@@ -88,7 +88,7 @@ LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
       ":inf, halfway between background and roots (Otsu: " + OtsuRange(error.grey) + "); for another give --threshold");
     volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
   }
-  CleanMask mask{ volume.geometry, {} };
+  CleanMask mask{ volume.geometry, BorderOf(volume), {} };
   if (!asIs && !core.edits.close && !core.edits.fillHollows && !core.edits.fillSlices)
   {
     mask.edited = EditByBestWidth(volume, core);

@@ -3,6 +3,7 @@
 
 #include "voxelcore/CoreJob.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace voxelcore
 /** A mask as it is before roots are told apart. */
 struct CleanMask
 {
-  ImageGeometry geometry;
-  EditedLabels  edited;
+  ImageGeometry           geometry;
+  std::optional<VoxelBox> scan; ///< what was read; none of a mesh
+  EditedLabels            edited;
 };
 
 /** Chooses the threshold of grey values that come without one, and how hollows are filled. */

@@ -1,5 +1,6 @@
 #include "voxelcore/SkeletonJob.h"
 
+#include "BorderNotes.h"
 #include "DisplayFiles.h"
 #include "JobTools.h"
 #include "voxelcore/ComplexTopology.h"
@@ -75,6 +76,7 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   report.skeleton = options.stage;
   report.skeleton->lambda = ParseLambda(report.parameters.lambda.front());
   report.skeleton->refined = !model.refined.empty();
+  report.skeleton->border = BorderEnds::Closed;
   if (!report.parameters.tolerances.empty())
   {
     const Tolerance height = ParseTolerance(report.parameters.tolerances.front());
@@ -111,6 +113,7 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
     result.notes.push_back(options.input.string() + " is pruned at tolerance " + report.skeleton->tolerance->text +
                            ": tips are that much shorter; for all of them make the core with --lambda 0");
   }
+  TellClosedBorder(report, result.notes);
   ReportProgress(context.progress, "writing", 0.95);
   files.Finish(report, result.notes);
   shown.Finish(report, result.notes, PartOfProgress(context.progress, 0.95, 1));

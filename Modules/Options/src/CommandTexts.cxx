@@ -109,9 +109,10 @@ constexpr std::string_view kPhantomFooter = R"(Examples:
   voxelcore phantom root --size 256,256,512 --spacing 0.1,0.1,0.1 --seed 7 -o root.nii.gz)";
 
 constexpr std::string_view kSkeletonFooter =
-  R"(The skeleton has the same components and cycles as the shape, which is checked. Surfaces around cavities cannot
-become curves; they stay, and the command says so. By default the core is not pruned first, so that parts two
-voxels thick keep their branches. Radii in tables are those of the scanned body. Guide: skeletons.md
+  R"(The skeleton has the same components and cycles as the shape, which is checked. Cavities are filled first, as
+surfaces around them cannot become curves; --cavities keep leaves them. Branches of bodies that the scan's border
+cuts run up to the border. By default the core is not pruned first, so that parts two voxels thick keep their
+branches. Radii in tables are those of the scanned body. Guide: skeletons.md
 
 --also writes beside OUT.vtp:
   csv       OUT_branches.csv, OUT_summary.csv, and OUT_columns.json, which explains the columns

@@ -68,10 +68,17 @@ private:
   void
   Read(const Parameter & row, std::optional<T> & value) const
   {
-    if (m_Reader.IsGiven(row.name))
+    if (m_Reader.IsGiven(row.name) && !IsWord(row))
     {
       value = Given<T>(row);
     }
+  }
+
+  /** Of --cavities, which may be a number. */
+  bool
+  IsWord(const Parameter & row) const
+  {
+    return row.name == "cavities" && (m_Reader.Text(row.name) == "fill" || m_Reader.Text(row.name) == "keep");
   }
 
   template <typename T>
@@ -80,7 +87,7 @@ private:
   {
     if constexpr (std::is_integral_v<T>)
     {
-      return row.kind == ParameterKind::Integer
+      return row.kind == ParameterKind::Integer || row.name == "cavities"
                ? static_cast<T>(
                    m_Reader.Whole(row.name, std::is_unsigned_v<T> ? 1 : 0, std::numeric_limits<std::int64_t>::max()))
                : static_cast<T>(*m_Reader.FirstResolution());

@@ -26,6 +26,7 @@ RootsOptionsFrom(const ParameterValues & values)
   options.neighbourhood = reader.Real("neighborhood");
   options.keepLoops = reader.IsSet("keep-loops");
   options.stage = BurningFrom(values, command);
+  options.stage.border = BorderFrom(reader);
   options.stage.lambda.text = "0";
   options.rules.up = ParseUp(reader.Text("up"));
   options.rules.stems = reader.Text("stems") == "auto" ? 0 : static_cast<int>(reader.Whole("stems", 1, 1000));

@@ -84,6 +84,19 @@ BranchRequestFrom(const ParameterValues & values, CommandId command)
   return options;
 }
 
+/** Curves cannot go around cavities: these are filled where nothing else is asked for. */
+void
+ReadCavities(const ParameterReader & reader, ShapeEditOptions & edits)
+{
+  const std::string cavities = reader.Text("cavities");
+  if (cavities == "keep" && edits.fillCavities)
+  {
+    throw UsageError("give only one of --fill-cavities and --cavities keep");
+  }
+  edits.fillUnasked = cavities == "fill" && !edits.fillCavities;
+  edits.fillCavities = edits.fillCavities || edits.fillUnasked;
+}
+
 /** What StageFrom() reads. */
 constexpr std::array<const char *, 8> kStageOptions{ "stand-out",      "plates",    "smooth",
                                                      "prune-branches", "cut-loops", "split-at-junctions",
@@ -109,12 +122,13 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
 {
   for (const Parameter & parameter : Parameters())
   {
-    const bool ofScans = BelongsTo(parameter, command) &&
-                         (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" ||
-                          parameter.name == "tolerance" || parameter.name == "engine" || parameter.name == "refine" ||
-                          parameter.name == "grey" || parameter.name == "grey-range") &&
-                         parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
-                         parameter.name != "quiet";
+    const bool ofScans =
+      BelongsTo(parameter, command) &&
+      (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" || parameter.name == "tolerance" ||
+       parameter.name == "engine" || parameter.name == "refine" || parameter.name == "grey" ||
+       parameter.name == "grey-range" || parameter.name == "border" || parameter.name == "cavities") &&
+      parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
+      parameter.name != "quiet";
     if (ofScans && values.contains(parameter.name))
     {
       throw UsageError("--" + std::string(parameter.name) + ": needs a scan, but " + input.string() +
@@ -122,6 +136,12 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
                        std::string(std::ranges::find(Commands(), command, &Command::id)->name) + "'");
     }
   }
+}
+
+BorderEnds
+BorderFrom(const ParameterReader & reader)
+{
+  return ParseBorder(reader.Choice("border"));
 }
 
 SkeletonRequest
@@ -172,7 +192,9 @@ CoreSkeletonFrom(const ParameterValues & values)
 SkeletonRequest
 SkeletonRequestFrom(const ParameterValues & values)
 {
-  return StageFrom(values, CommandId::Skeleton);
+  SkeletonRequest stage = StageFrom(values, CommandId::Skeleton);
+  stage.border = BorderFrom(ParameterReader(values, CommandId::Skeleton));
+  return stage;
 }
 
 SkeletonOptions
@@ -187,8 +209,9 @@ SkeletonOptionsFrom(const ParameterValues & values)
     RefuseScanOptions(values, options.input, command);
   }
   ReadScanFields(reader, options);
+  ReadCavities(reader, options.edits);
   options.further = FurtherOptions(reader);
-  options.stage = StageFrom(values, command);
+  options.stage = SkeletonRequestFrom(values);
   options.stage.lambda = LengthFrom(values, command, "lambda");
   options.refine = RefineFrom(reader);
   options.stage.refined = !options.refine.surface.empty();

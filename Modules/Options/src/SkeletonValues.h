@@ -1,6 +1,7 @@
 #pragma once
 // How a core is burned to curves, from the values given.
 
+#include "ParameterReader.h"
 #include "voxelcore/Parameters.h"
 
 #include <filesystem>
@@ -11,6 +12,10 @@ namespace voxelcore
 /** --stand-out, --smooth and --prune-branches; lambda is 0. \throws UsageError, naming the option */
 SkeletonRequest
 BurningFrom(const ParameterValues & values, CommandId command);
+
+/** --border */
+BorderEnds
+BorderFrom(const ParameterReader & reader);
 
 /** A finished core was read, edited and pruned already. \throws UsageError, naming an option given that is of scans */
 void

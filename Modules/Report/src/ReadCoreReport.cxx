@@ -287,6 +287,7 @@ ParseLabelRecord(const std::string & text)
     if (label.skeleton)
     {
       label.skeleton->cuts = ReadLoopCuts(json.at("skeleton"));
+      label.skeleton->border = ReadBorderNumbers(json.at("skeleton"));
     }
     return label;
   }

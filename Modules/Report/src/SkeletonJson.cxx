@@ -23,6 +23,23 @@ ReadLength(const Json & json)
   return json.is_null() ? std::nullopt : std::optional<Lambda>(ParseLambda(json.get<std::string>()));
 }
 
+/** How many ends lie in the border, and the sections of the body there. Centres are indices of voxels. */
+Json
+BorderJson(const BorderNumbers & border)
+{
+  Json json{ { "ends", border.ends }, { "sections", Json::array() } };
+  for (const BorderSection & section : border.sections)
+  {
+    const Vector3 & at = section.centre;
+    json["sections"].push_back({ { "side", BorderSideText(section) },
+                                 { "cut", section.isCut },
+                                 { "voxels", section.voxels },
+                                 { "centre_index", { at[0] - 0.5, at[1] - 0.5, at[2] - 0.5 } },
+                                 { "radius_mm", section.radius } });
+  }
+  return json;
+}
+
 } // namespace
 
 Json
@@ -46,6 +63,10 @@ SkeletonStageJson(const SkeletonRequest & stage)
   {
     json["refined"] = true;
   }
+  if (stage.border != BorderEnds::Closed)
+  {
+    json["border"] = BorderText(stage.border);
+  }
   return json;
 }
 
@@ -59,6 +80,7 @@ ReadSkeletonStage(const Json & json)
     stage.tolerance = ParseTolerance(json.at("tolerance").get<std::string>());
   }
   stage.refined = json.value("refined", false);
+  stage.border = ParseBorder(json.value("border", BorderText(BorderEnds::Closed)));
   stage.standOut = ParseLambda(json.at("stand_out").get<std::string>());
   stage.plates = ReadLength(json.at("plates"));
   stage.smooth = ParseLambda(json.at("smooth").get<std::string>());
@@ -96,6 +118,10 @@ SkeletonRecordJson(const SkeletonRecord & skeleton, bool inFile)
   {
     json["cuts"].push_back({ { "position_mm", cut.position }, { "radius_mm", cut.radius } });
   }
+  if (skeleton.border)
+  {
+    json["border"] = BorderJson(*skeleton.border);
+  }
   if (!inFile)
   {
     json["output"] = skeleton.output;
@@ -114,6 +140,30 @@ ReadLoopCuts(const Json & json)
     AtLength(one, "radius_mm").get_to(cut.radius);
   }
   return cuts;
+}
+
+std::optional<BorderNumbers>
+ReadBorderNumbers(const Json & json)
+{
+  if (!json.contains("border"))
+  {
+    return std::nullopt;
+  }
+  BorderNumbers border;
+  json.at("border").at("ends").get_to(border.ends);
+  for (const Json & one : json.at("border").at("sections"))
+  {
+    BorderSection &   section = border.sections.emplace_back();
+    const std::string side = one.at("side").get<std::string>();
+    section.axis = side.starts_with('i') ? 0 : side.starts_with('j') ? 1 : 2;
+    section.isUpper = side.ends_with('+');
+    one.at("cut").get_to(section.isCut);
+    one.at("voxels").get_to(section.voxels);
+    one.at("centre_index").get_to(section.centre);
+    section.centre = { section.centre[0] + 0.5, section.centre[1] + 0.5, section.centre[2] + 0.5 };
+    AtLength(one, "radius_mm").get_to(section.radius);
+  }
+  return border;
 }
 
 SkeletonRecord

@@ -24,6 +24,10 @@ SkeletonRecordJson(const SkeletonRecord & skeleton, bool inFile);
 std::vector<LoopCut>
 ReadLoopCuts(const nlohmann::ordered_json & json);
 
+/** The same; none where there was none. How far sections reach is not told. */
+std::optional<BorderNumbers>
+ReadBorderNumbers(const nlohmann::ordered_json & json);
+
 /** The part that measuring does not find again: the topology. */
 SkeletonRecord
 ReadSkeletonRecord(const nlohmann::ordered_json & json);

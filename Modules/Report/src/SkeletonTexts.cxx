@@ -5,6 +5,7 @@
 #include "voxelcore/ParseReal.h"
 #include "voxelcore/Text.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -57,6 +58,36 @@ RootText(const RootChoice & root)
     text += (text.empty() ? "" : ",") + RoundTripText(coordinate);
   }
   return text;
+}
+
+namespace
+{
+
+constexpr std::array<std::string_view, 3> kBorders{ "closed", "open", "overlap" }; // as BorderEnds
+
+} // namespace
+
+BorderEnds
+ParseBorder(const std::string & text)
+{
+  const auto found = std::find(kBorders.begin(), kBorders.end(), text);
+  if (found == kBorders.end())
+  {
+    throw UsageError("--border " + text + ": expected open, closed or overlap" + DidYouMean(text, kBorders));
+  }
+  return static_cast<BorderEnds>(found - kBorders.begin());
+}
+
+std::string
+BorderText(BorderEnds ends)
+{
+  return std::string(kBorders[static_cast<std::size_t>(ends)]);
+}
+
+std::string
+BorderSideText(const BorderSection & section)
+{
+  return std::string(1, "ijk"[section.axis]) + (section.isUpper ? "+" : "-");
 }
 
 } // namespace voxelcore

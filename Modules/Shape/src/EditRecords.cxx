@@ -130,11 +130,13 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
       " fewer; " + Counted(sum.connected->voxelsAdded, "voxel", "voxels") + " added, " +
       std::to_string(sum.connected->voxelsRemoved) + " removed");
   }
-  if (options.fillCavities)
+  if (options.fillCavities && !(options.fillUnasked && sum.cavitiesFilled == 0))
   {
-    notes.push_back(Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
-                    Counted(sum.voxelsAdded, "voxel", "voxels") + ", " +
-                    Counted(sum.componentsJoined, "component", "components") + " in them joined to what is around");
+    notes.push_back(
+      Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
+      Counted(sum.voxelsAdded, "voxel", "voxels") + ", " + Counted(sum.componentsJoined, "component", "components") +
+      " in them joined to what is around" +
+      (options.fillUnasked ? ", so that curves are left; to keep surfaces around them: --cavities keep" : ""));
   }
   if (sum.torn && sum.torn->componentsJoined > 0)
   {

@@ -1,6 +1,6 @@
 // Branches that go because they are short, or because they hang loose after a cut.
 
-#include "voxelcore/SkeletonGraph.h"
+#include "GraphLines.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -18,51 +18,6 @@ namespace voxelcore
 
 namespace
 {
-
-using Lines = std::vector<std::vector<ElementIndex>>;
-
-/** Keeps the points with a flag, in their order. */
-void
-KeepPoints(SkeletonGraph & graph, Lines & lines, const std::vector<std::uint8_t> & keep)
-{
-  std::vector<ElementIndex> number(keep.size(), 0);
-  std::size_t               kept = 0;
-  for (std::size_t point = 0; point < keep.size(); ++point)
-  {
-    if (keep[point])
-    {
-      number[point] = static_cast<ElementIndex>(kept);
-      graph.positions[kept] = graph.positions[point];
-      graph.radius[kept] = graph.radius[point];
-      graph.erosionThickness[kept] = graph.erosionThickness[point];
-      if (!graph.sectionRadius.empty())
-      {
-        graph.sectionRadius[kept] = graph.sectionRadius[point];
-      }
-      if (!graph.medial.empty())
-      {
-        graph.medial[kept] = graph.medial[point];
-      }
-      ++kept;
-    }
-  }
-  graph.positions.resize(kept);
-  graph.radius.resize(kept);
-  graph.erosionThickness.resize(kept);
-  graph.medial.resize(graph.medial.empty() ? 0 : kept);
-  graph.sectionRadius.resize(graph.sectionRadius.empty() ? 0 : kept);
-  for (auto & line : lines)
-  {
-    for (ElementIndex & point : line)
-    {
-      point = number[point];
-    }
-  }
-  for (ElementIndex & point : graph.faceVertices)
-  {
-    point = number[point];
-  }
-}
 
 /** Takes off branches that end in a tip one by one, the one with the smallest key first, and joins what then meets in
  *  twos. The order does not depend on where it stops: a higher limit takes the same branches and more. */
@@ -219,7 +174,7 @@ private:
       }
     }
     std::sort(stay.begin(), stay.end());
-    Lines lines;
+    GraphLines lines;
     for (const ElementIndex branch : stay)
     {
       const auto points = m_Graph.Branch(branch);

@@ -1,4 +1,4 @@
-#include "voxelcore/SkeletonGraph.h"
+#include "GraphLines.h"
 #include "voxelcore/UnionFind.h"
 #include "voxelcore/Vectors.h"
 
@@ -9,43 +9,6 @@
 
 namespace voxelcore
 {
-
-namespace
-{
-
-using Lines = std::vector<std::vector<ElementIndex>>;
-
-Lines
-LinesOf(const SkeletonGraph & graph)
-{
-  Lines lines;
-  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
-  {
-    const auto points = graph.Branch(branch);
-    lines.emplace_back(points.begin(), points.end());
-  }
-  return lines;
-}
-
-ElementIndex
-CopyPoint(SkeletonGraph & graph, ElementIndex point)
-{
-  const auto copy = static_cast<ElementIndex>(graph.positions.size());
-  graph.positions.push_back(graph.positions[point]);
-  graph.radius.push_back(graph.radius[point]);
-  graph.erosionThickness.push_back(graph.erosionThickness[point]);
-  if (!graph.medial.empty())
-  {
-    graph.medial.push_back(graph.medial[point]);
-  }
-  if (!graph.sectionRadius.empty())
-  {
-    graph.sectionRadius.push_back(graph.sectionRadius[point]);
-  }
-  return copy;
-}
-
-} // namespace
 
 std::vector<LoopCut>
 CutLoops(SkeletonGraph & graph)
@@ -81,7 +44,7 @@ CutLoops(SkeletonGraph & graph)
     }
   }
   std::vector<LoopCut> cuts;
-  Lines                lines;
+  GraphLines           lines;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
     std::vector<ElementIndex> line(graph.Branch(branch).begin(), graph.Branch(branch).end());
@@ -138,7 +101,7 @@ CutLoops(SkeletonGraph & graph)
 void
 SplitAtJunctions(SkeletonGraph & graph)
 {
-  Lines                     lines = LinesOf(graph);
+  GraphLines                lines = LinesOf(graph);
   std::vector<std::uint8_t> used(graph.positions.size(), 0);
   for (auto & line : lines)
   {

@@ -100,6 +100,7 @@ struct CertifiedRequest
   bool                            refineCores = true; ///< where there is a surface; false: skeletons alone are refined
   std::optional<SkeletonRequest>  skeleton;  ///< of the whole core, or of one asked for as it is before refinement
   std::optional<ThicknessRequest> thickness; ///< by the first core
+  std::optional<VoxelBox>         scan;      ///< what was read of a scan; none: there is no border
   bool spendsCores = false; ///< the skeleton is all that is wanted: whole cores may come described but empty, so that
                             ///< less memory is needed
 
@@ -119,6 +120,8 @@ struct CertifiedSeconds
   double thickness = 0;
 };
 
+/** Where cores are spent, and a skeleton goes up to the scan's border, those described are of the body that goes on
+ *  beyond it, and so are the boundary vertices. */
 struct CertifiedResult
 {
   CertifiedShape                    shape;

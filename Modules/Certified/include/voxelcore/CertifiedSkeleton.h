@@ -1,6 +1,7 @@
 #pragma once
 // A certified, measured curve skeleton of a certified medial surface.
 
+#include "voxelcore/BorderExtension.h"
 #include "voxelcore/CertifiedCore.h"
 #include "voxelcore/MeasuredSkeleton.h"
 
@@ -23,12 +24,13 @@ struct BranchRequest
 /** From a core to a curve skeleton. */
 struct SkeletonRequest
 {
-  Lambda                   lambda;          ///< of the core to burn
-  std::optional<Tolerance> tolerance;       ///< of the core to burn, above 0
-  Lambda                   standOut;        ///< CurveOptions::branchThreshold, by InMeanVoxels()
-  std::optional<Lambda>    plates;          ///< CurveOptions::plateThreshold
-  Lambda                   smooth;          ///< window of FitBranches, by InMeanVoxels()
-  bool                     refined = false; ///< points and radii are those of CertifiedRequest::surface
+  Lambda                   lambda;                      ///< of the core to burn
+  std::optional<Tolerance> tolerance;                   ///< of the core to burn, above 0
+  Lambda                   standOut;                    ///< CurveOptions::branchThreshold, by InMeanVoxels()
+  std::optional<Lambda>    plates;                      ///< CurveOptions::plateThreshold
+  Lambda                   smooth;                      ///< window of FitBranches, by InMeanVoxels()
+  bool                     refined = false;             ///< points and radii are those of CertifiedRequest::surface
+  BorderEnds               border = BorderEnds::Closed; ///< of CertifiedRequest::scan
   BranchRequest            branches;
 };
 
@@ -43,11 +45,20 @@ RequireLengthsIn(SpatialUnit unit, const BranchRequest & request);
 void
 RequireLengthsIn(SpatialUnit unit, const SkeletonRequest & request);
 
+/** What a scan's border does to a body. */
+struct BorderNumbers
+{
+  std::vector<BorderSection> sections; ///< where it lies at the border
+  std::size_t                ends = 0; ///< of branches, in the border
+};
+
 struct CertifiedSkeleton
 {
   MeasuredSkeleton     skeleton;
   TopologyNumbers      topology; ///< counted in the skeleton before loops were cut
   std::vector<LoopCut> cuts;
+
+  std::optional<BorderNumbers> border{}; ///< of a body at the border of its scan, where that is not closed
 };
 
 /** Burns the core to curves; lambda, tolerance and refinement of the request only say what `core` is. The body that is

@@ -60,6 +60,10 @@ ReadScanOrMesh(const std::filesystem::path &       path,
 VoxelBox
 PartRead(const LabelMap & scan);
 
+/** The same where bodies at its border may be cut by it: that of a mesh's box cuts nothing. */
+std::optional<VoxelBox>
+BorderOf(const InputScan & scan);
+
 /** How the scan was read when a file was made. */
 ReadOptions
 RecordedReading(const ParameterRecord & parameters);

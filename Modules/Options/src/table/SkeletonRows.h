@@ -84,6 +84,16 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
     kStages | kRoots,
     "Smooth branches over a window of L to each side, more in thick parts; points move by at most half a voxel in thin "
     "parts; 0 turns it off" },
+  { "border",
+    "--border",
+    Choice,
+    "open|closed|overlap",
+    "open",
+    false,
+    kSkeleton | kRoots,
+    "Bodies cut by the scan's border: run on to it (open), end as if their voxels were all (closed), or, in parts of "
+    "one "
+    "volume that share a layer of voxels, end at the same place in both parts (overlap)" },
   { "cut-loops",
     "--cut-loops",
     Flag,

@@ -78,6 +78,8 @@ struct SkeletonRecord
   SkeletonNumbers      numbers; ///< as written: after cutting and splitting
   std::vector<LoopCut> cuts;
   std::string          output; ///< the file
+
+  std::optional<BorderNumbers> border{}; ///< where it is not closed, and the body lies at it
 };
 
 /** One label, or one of its components where these are split. */

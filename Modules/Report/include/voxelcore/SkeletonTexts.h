@@ -16,4 +16,16 @@ ParseRoot(const std::string & text);
 std::string
 RootText(const RootChoice & root);
 
+/** "open", "closed" or "overlap". \throws UsageError */
+BorderEnds
+ParseBorder(const std::string & text);
+
+/** The inverse of ParseBorder. */
+std::string
+BorderText(BorderEnds ends);
+
+/** "i-", "i+", "j-", ..: the beginning or the end of a voxel axis. */
+std::string
+BorderSideText(const BorderSection & section);
+
 } // namespace voxelcore

@@ -33,9 +33,10 @@ struct ShapeEditOptions
   std::optional<SliceAxis>     fillSlices;                       ///< holes of the slices across this axis
   Connectivity                 connectivity = Connectivity::Six; ///< by which the mask is read
   bool                         fillCavities = false;
-  std::optional<double>        joinTorn;  ///< torn pieces, over gaps of so many diameters (TornPieces.h)
-  std::optional<std::uint64_t> minVoxels; ///< components (6-connected) of fewer voxels are removed
-  std::optional<std::uint64_t> largest;   ///< so many components are kept
+  bool                         fillUnasked = false; ///< cavities go because a curve cannot: told where there are some
+  std::optional<double>        joinTorn;            ///< torn pieces, over gaps of so many diameters (TornPieces.h)
+  std::optional<std::uint64_t> minVoxels;           ///< components (6-connected) of fewer voxels are removed
+  std::optional<std::uint64_t> largest;             ///< so many components are kept
   bool                         smooth = false;
   std::optional<GapWidth>      simplify; ///< topology, by changes so deep (DepthSimplification.h)
   TopologyRequest              topology; ///< what `simplify` is to reach

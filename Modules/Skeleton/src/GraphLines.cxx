@@ -1,0 +1,80 @@
+#include "GraphLines.h"
+
+#include <cstddef>
+
+namespace voxelcore
+{
+
+GraphLines
+LinesOf(const SkeletonGraph & graph)
+{
+  GraphLines lines;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto points = graph.Branch(branch);
+    lines.emplace_back(points.begin(), points.end());
+  }
+  return lines;
+}
+
+ElementIndex
+CopyPoint(SkeletonGraph & graph, ElementIndex point)
+{
+  const auto copy = static_cast<ElementIndex>(graph.positions.size());
+  graph.positions.push_back(graph.positions[point]);
+  graph.radius.push_back(graph.radius[point]);
+  graph.erosionThickness.push_back(graph.erosionThickness[point]);
+  if (!graph.medial.empty())
+  {
+    graph.medial.push_back(graph.medial[point]);
+  }
+  if (!graph.sectionRadius.empty())
+  {
+    graph.sectionRadius.push_back(graph.sectionRadius[point]);
+  }
+  return copy;
+}
+
+void
+KeepPoints(SkeletonGraph & graph, GraphLines & lines, const std::vector<std::uint8_t> & keep)
+{
+  std::vector<ElementIndex> number(keep.size(), 0);
+  std::size_t               kept = 0;
+  for (std::size_t point = 0; point < keep.size(); ++point)
+  {
+    if (keep[point])
+    {
+      number[point] = static_cast<ElementIndex>(kept);
+      graph.positions[kept] = graph.positions[point];
+      graph.radius[kept] = graph.radius[point];
+      graph.erosionThickness[kept] = graph.erosionThickness[point];
+      if (!graph.sectionRadius.empty())
+      {
+        graph.sectionRadius[kept] = graph.sectionRadius[point];
+      }
+      if (!graph.medial.empty())
+      {
+        graph.medial[kept] = graph.medial[point];
+      }
+      ++kept;
+    }
+  }
+  graph.positions.resize(kept);
+  graph.radius.resize(kept);
+  graph.erosionThickness.resize(kept);
+  graph.medial.resize(graph.medial.empty() ? 0 : kept);
+  graph.sectionRadius.resize(graph.sectionRadius.empty() ? 0 : kept);
+  for (auto & line : lines)
+  {
+    for (ElementIndex & point : line)
+    {
+      point = number[point];
+    }
+  }
+  for (ElementIndex & point : graph.faceVertices)
+  {
+    point = number[point];
+  }
+}
+
+} // namespace voxelcore
