@@ -173,6 +173,13 @@ TEST_F(DataSources, OutsideTheHeadersFolderThroughALinkAreWarnedOf)
   EXPECT_TRUE(HasNote(ReadLabelVolume(m_Folder / "d/a.mhd").warnings, "outside the header's folder"));
 }
 
+TEST_F(DataSources, AScanInOneFileIsReadThroughALinkWithoutAWord)
+{
+  m_Folder.Write("d/whole.nrrd", Nrrd(Lines(), kData));
+  std::filesystem::create_symlink("d/whole.nrrd", m_Folder / "link.nrrd");
+  EXPECT_TRUE(ReadLabelVolume(m_Folder / "link.nrrd").warnings.empty());
+}
+
 TEST_F(DataSources, OfSeveralFilesGiveTheVolumeThatIsChosen)
 {
   auto lines = With(With(Lines(), "dimension", "4"), "sizes", "3 2 2 2");

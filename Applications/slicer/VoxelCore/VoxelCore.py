@@ -370,7 +370,9 @@ class VoxelCoreTest(ScriptedLoadableModuleTest):
         roles = {node.GetAttribute(Scene.ROLE): node for node in nodes}
         map = slicer.util.arrayFromVolume(roles["thickness"])
         inside = map[map > 0]
-        self.assertLess(abs(float(inside.mean()) - 6 * 0.75), 0.2)  # the slab is six slices of 0.75 mm thick
+        # The slab is six slices of 0.75 mm thick; the largest balls that reach into its edges and corners are smaller.
+        self.assertLess(abs(float(numpy.median(inside)) - 6 * 0.75), 0.01)
+        self.assertLess(abs(float(inside.mean()) - 4.26), 0.1)
         points = slicer.util.arrayFromModelPoints(roles["surface"])
         middle = 20 + 0.75 * (2 + 7) / 2
         self.assertLess(numpy.median(abs(points[:, 2] - middle)), 0.05)

@@ -352,7 +352,8 @@ WarnOfFilesElsewhere(ScanFile & scan, const DataSource & source)
   const ResolvedFolder folder(scan.path.parent_path());
   for (const auto & file : source.files)
   {
-    if (!folder.Holds(file))
+    // A header that holds its voxels is the file that was asked for, through a link or not.
+    if (file != scan.path && !folder.Holds(file))
     {
       scan.warnings.push_back(
         Text("its voxels are read from '", Printable(file.string(), 300), "', which is outside the header's folder"));
