@@ -44,6 +44,7 @@ Save(const SkeletonOfLabel &       skeleton,
   OutputTransaction transaction(force);
   CoreReport        report = skeleton.report;
   SkeletonTargets   targets;
+  targets.network = skeleton.part.network.has_value();
   targets.also = also.empty() ? std::vector<std::string>() : ParseAlso(also);
   if (IsFolderOutput(path))
   {

@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyScan.h"
 #include "voxelcore/LabelLoop.h"
+#include "voxelcore/NetworkLabels.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/RefineStage.h"
 #include "voxelcore/ResultRecords.h"
@@ -133,6 +134,8 @@ struct ReadArray
   CoreReport    report;
   EditedLabels  edited;
   SurfaceSource surface;
+
+  std::optional<NetworkLabels> network; ///< where a network is asked for
 };
 
 ReadArray
@@ -179,7 +182,12 @@ Read(const ArrayView &        array,
   {
     RequireFiniteValues(array, PartRead(map));
   }
-  if (!values.contains("labels"))
+  if (options.skeleton && options.skeleton->network)
+  {
+    std::vector<std::string> notes;
+    read.network.emplace(map.labels, "the array", notes);
+  }
+  else if (!values.contains("labels"))
   {
     RequireOneLabel(map.labels);
   }
@@ -189,6 +197,10 @@ Read(const ArrayView &        array,
                            options.reading.labels != "all",
                            "the array",
                            PartOfProgress(progress, "reading", readEnds, kEditEnds));
+  if (read.network)
+  {
+    read.network->Fit(read.edited.labels.front(), map.geometry, PartRead(map), *options.skeleton);
+  }
   map.greyRows = GreyRowsOf(array);
   read.surface = MakeSurfaceSource(options.refine, options.scan, options.reading, map);
   report.parameters = DescribeParameters(options, map, read.edited, ComputeLatticeWeights(map.geometry));
@@ -411,6 +423,59 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
   }
   result->report.skeleton = std::move(stage);
   result->surface = std::move(core);
+  return result;
+}
+
+std::shared_ptr<SkeletonOfLabel>
+MakeNetworkOf(const ArrayView &        array,
+              const ImageGeometry &    geometry,
+              const ParameterValues &  coreValues,
+              const ParameterValues &  skeletonValues,
+              const ProgressCallback & progress)
+{
+  CoreOptions options = CoreOptionsWithoutFiles(coreValues);
+  options.scan = "the array";
+  if (options.lambdas.size() != 1 || options.tolerances.size() > 1)
+  {
+    throw UsageError("lambda_, tolerance: give one; a skeleton has one core");
+  }
+  SkeletonRequest stage = SkeletonRequestFrom(skeletonValues);
+  stage.network = true;
+  stage.refined = !options.refine.surface.empty();
+  stage.lambda = options.lambdas.front();
+  if (!options.tolerances.empty() && options.tolerances.front().value > 0)
+  {
+    stage.tolerance = options.tolerances.front();
+  }
+  options.skeleton = stage;
+  ReadArray             read = Read(array, geometry, options, coreValues, progress);
+  const ImageGeometry & place = read.report.input.geometry;
+  auto                  result = std::make_shared<SkeletonOfLabel>();
+  StageSeconds          seconds;
+  const auto            shape = std::make_shared<const PackedShape>(Pack(read.edited.labels.front().label.shape));
+  const auto            take = [&](LabelOutcome outcome) {
+    std::vector<std::string> notes;
+    read.network->Take(outcome, stage, read.report, notes);
+    CoreReport report = read.report;
+    report.labels = { outcome.record };
+    report.labels.front().skeleton.reset();
+    auto surface = ResultsOf(report, outcome.record.pruned, std::move(outcome.parts)).front();
+    surface->refined = options.refine.surface;
+    surface->shape = shape;
+    result->part = std::move(*outcome.skeleton);
+    result->surface = std::move(surface);
+    result->report = std::move(report);
+    result->report.labels = { std::move(outcome.record) };
+    result->report.skeleton = stage;
+  };
+  ProcessLabels(read.edited.labels,
+                options,
+                place,
+                read.surface,
+                ReadBox(read.report),
+                PartOfProgress(progress, kEditEnds, 1),
+                take,
+                seconds);
   return result;
 }
 

@@ -82,6 +82,15 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
                bool                               ofArray,
                const ProgressCallback &           progress);
 
+/** The skeleton of several labels of an array taken as one body; of `coreValues` labels say which, all but 0 unless
+ *  given. \throws as MakeCores() */
+std::shared_ptr<SkeletonOfLabel>
+MakeNetworkOf(const ArrayView &        array,
+              const ImageGeometry &    geometry,
+              const ParameterValues &  coreValues,
+              const ParameterValues &  skeletonValues,
+              const ProgressCallback & progress);
+
 /** A finished skeleton cut and measured anew; `values` are options of `voxelcore measure`. \throws UsageError */
 std::shared_ptr<SkeletonOfLabel>
 Remeasure(const SkeletonOfLabel & skeleton, const ParameterValues & values);

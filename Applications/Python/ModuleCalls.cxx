@@ -73,6 +73,18 @@ GeometryOf(const ArrayView & view, const std::optional<std::array<double, 3>> & 
   return geometry;
 }
 
+ImageGeometry
+PlacedGeometry(const ArrayView &                            view,
+               const std::optional<std::array<double, 3>> & spacing,
+               const std::array<double, 3> &                origin,
+               const std::array<double, 9> &                direction)
+{
+  ImageGeometry geometry = GeometryOf(view, spacing);
+  geometry.origin = origin;
+  geometry.direction = direction;
+  return geometry;
+}
+
 /** `values` are options of the command line. */
 std::vector<std::shared_ptr<CoreOfLabel>>
 CoresOfArray(const py::array &                            array,
@@ -82,10 +94,8 @@ CoresOfArray(const py::array &                            array,
              const ParameterValues &                      values,
              const py::object &                           listener)
 {
-  const ArrayView view = ViewOf(array);
-  ImageGeometry   geometry = GeometryOf(view, spacing);
-  geometry.origin = origin;
-  geometry.direction = direction;
+  const ArrayView     view = ViewOf(array);
+  const ImageGeometry geometry = PlacedGeometry(view, spacing, origin, direction);
   return RunInOwnThread(ThreadsFrom(values, CommandId::Core), listener, array, [=](const ProgressCallback & progress) {
     return MakeCores(view, geometry, values, progress);
   });
@@ -97,8 +107,8 @@ ThicknessOfAnArray(const py::array &                            array,
                    const ParameterValues &                      values,
                    const py::object &                           listener)
 {
-  const ArrayView view = ViewOf(array);
-  ImageGeometry   geometry = GeometryOf(view, spacing);
+  const ArrayView     view = ViewOf(array);
+  const ImageGeometry geometry = GeometryOf(view, spacing);
   return RunInOwnThread(
     ThreadsFrom(values, CommandId::Thickness),
     listener,
@@ -247,6 +257,25 @@ SkeletonOfCore(const std::shared_ptr<CoreOfLabel> & core,
     [=](const ProgressCallback & progress) { return MakeSkeletonOf(core, values, ofArray, progress); });
 }
 
+std::shared_ptr<SkeletonOfLabel>
+NetworkOfArray(const py::array &                            array,
+               const std::optional<std::array<double, 3>> & spacing,
+               const std::array<double, 3> &                origin,
+               const std::array<double, 9> &                direction,
+               const ParameterValues &                      coreValues,
+               const ParameterValues &                      skeletonValues,
+               const py::object &                           listener)
+{
+  const ArrayView     view = ViewOf(array);
+  const ImageGeometry geometry = PlacedGeometry(view, spacing, origin, direction);
+  return RunInOwnThread(ThreadsFrom(coreValues, CommandId::Core),
+                        listener,
+                        array,
+                        [=](const ProgressCallback & progress) {
+                          return MakeNetworkOf(view, geometry, coreValues, skeletonValues, progress);
+                        });
+}
+
 /** Paths arrive as bytes, so that any file name will do. Work left behind may still hold the same temporary name. */
 void
 SaveCore(const std::shared_ptr<CoreOfLabel> & core,
@@ -301,6 +330,7 @@ voxelcore::DefineCalls(py::module_ & module)
   module.def("measure", &MeasureSkeleton);
   module.def("verify", &VerifyCore);
   module.def("skeleton", &SkeletonOfCore);
+  module.def("network", &NetworkOfArray);
   module.def("save_core", &SaveCore);
   module.def("save_skeleton", &SaveSkeleton);
   module.def("save_swc", &SaveSwcFile);

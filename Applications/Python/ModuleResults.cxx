@@ -233,6 +233,42 @@ DefineThickness(py::module_ & module)
     });
 }
 
+/** A dict for each contact of a network; none where it is none. */
+py::list
+ContactsOf(const SkeletonPart & part)
+{
+  py::list all;
+  if (!part.network)
+  {
+    return all;
+  }
+  for (const NetworkContact & contact : part.network->contacts)
+  {
+    py::list nodes;
+    for (const auto & place : contact.places)
+    {
+      for (std::size_t node = 0; node < part.graph.nodePoints.size(); ++node)
+      {
+        const ElementIndex point = part.graph.nodePoints[node];
+        if (part.graph.contact[point] != 0 && part.graph.positions[point] == place)
+        {
+          nodes.append(node);
+          break;
+        }
+      }
+    }
+    py::dict one;
+    one["labels"] = py::make_tuple(contact.labels[0], contact.labels[1]);
+    one["area"] = contact.areaMm2;
+    one["faces"] = contact.faces;
+    one["voxels"] = contact.voxels;
+    one["centre"] = py::make_tuple(contact.centre[0], contact.centre[1], contact.centre[2]);
+    one["nodes"] = nodes;
+    all.append(one);
+  }
+  return all;
+}
+
 void
 DefineSkeleton(py::module_ & module)
 {
@@ -255,6 +291,17 @@ DefineSkeleton(py::module_ & module)
                            })
     .def_property_readonly("face_offsets", [graph](const Handle & s) { return View(s, graph(s).faceOffsets); })
     .def_property_readonly("face_vertices", [graph](const Handle & s) { return View(s, graph(s).faceVertices); })
+    .def_property_readonly("point_labels", [graph](const Handle & s) { return View(s, graph(s).labels); })
+    .def_property_readonly("branch_labels",
+                           [](const Handle & s) {
+                             std::vector<std::int64_t> labels;
+                             for (std::size_t branch = 0; branch < s->part.graph.BranchCount(); ++branch)
+                             {
+                               labels.push_back(s->part.network ? s->part.graph.BranchLabel(branch) : s->part.label);
+                             }
+                             return py::array_t<std::int64_t>(static_cast<py::ssize_t>(labels.size()), labels.data());
+                           })
+    .def_property_readonly("contacts", [](const Handle & s) { return ContactsOf(s->part); })
     .def_property_readonly("label", [](const Handle & s) { return s->part.label; })
     .def_property_readonly("component", [](const Handle & s) { return s->report.labels.front().component; })
     .def_property_readonly(

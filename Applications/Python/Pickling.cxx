@@ -89,6 +89,8 @@ VisitGraph(TGraph & graph, TVisit && visit)
   visit(graph.faceOffsets);
   visit(graph.faceVertices);
   visit(graph.closedFace);
+  visit(graph.labels);
+  visit(graph.contact);
 }
 
 class ArrayWriter
@@ -366,7 +368,9 @@ SkeletonOf(const py::tuple & state)
   ArrayReader      arrays(state[6]);
   VisitGraph(part.graph, arrays);
   arrays(record.cuts);
-  RequireWhole(IsSkeleton(part.graph) && std::all_of(record.cuts.begin(), record.cuts.end(), [](const LoopCut & cut) {
+  part.network = record.network;
+  RequireWhole(IsSkeleton(part.graph) && part.network.has_value() == !part.graph.labels.empty() &&
+               std::all_of(record.cuts.begin(), record.cuts.end(), [](const LoopCut & cut) {
                  return std::isfinite(cut.position[0] + cut.position[1] + cut.position[2]) && cut.radius >= 0;
                }));
   const CoreReport & report = skeleton->report;

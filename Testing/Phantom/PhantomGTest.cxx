@@ -221,13 +221,30 @@ TEST(Phantom, EveryMachineMakesTheseVoxels)
     { "box", 0xEE44623386A16B9CU },       { "plate", 0x8F3A28FF1F6995EFU },  { "rod", 0xA182397CC4FD875DU },
     { "torus", 0x76C3AEDE46AB6958U },     { "shell", 0x3EC19E6949DB46BU },   { "tanglecube", 0x8F8B8CADCB2393D3U },
     { "gyroid", 0x7BB1A13E3FFFA720U },    { "porous", 0xBB79E2D8A2E9EA71U }, { "noise", 0x6DEFC85B03AB347BU },
-    { "cells", 0xA7E47228BE244CA6U },     { "root", 0x5E15F5D3A943DC5DU },   { "thick-and-thin", 0x81620A29FF719EB9U }
+    { "cells", 0xA7E47228BE244CA6U },     { "root", 0x5E15F5D3A943DC5DU },   { "thick-and-thin", 0x81620A29FF719EB9U },
+    { "vessels", 0x49AAF1008C7FA2D4U },
   };
   ASSERT_EQ(known.size(), PhantomKinds().size());
   for (const auto & [kind, fingerprint] : known)
   {
     EXPECT_EQ(Fingerprint(MakePhantom(Options(kind, { 70, 50, 61 }, { 0.8, 1, 0.9 }))), fingerprint) << kind;
   }
+}
+
+TEST(Phantom, VesselsAreTwelveBodiesInOneRing)
+{
+  const PhantomOptions          options = Options("vessels", { 64, 64, 64 }, { 1, 1, 1 });
+  const std::vector<VoxelShape> bodies = MakePhantomBodies(options);
+  EXPECT_EQ(bodies.size(), 12U);
+  std::uint64_t voxels = 0;
+  for (const VoxelShape & body : bodies)
+  {
+    voxels += body.CountVoxels();
+  }
+  const VoxelShape all = MakePhantom(options);
+  EXPECT_EQ(all.CountVoxels(), voxels); // none is of two bodies
+  const TopologyNumbers numbers = ComputeShapeTopology(all);
+  EXPECT_EQ(numbers.betti, (std::array<std::int64_t, 3>{ 1, 1, 0 }));
 }
 
 TEST(Phantom, EveryKindListedCanBeMade)

@@ -3,6 +3,7 @@
 import gc
 import json
 import os
+import pickle
 import threading
 import time
 
@@ -127,6 +128,49 @@ def test_the_topology_is_that_of_the_voxels():
     shell[4, 4, 4] = False
     assert voxelcore.core(shell).topology == {"euler": 2, "betti": (1, 0, 1)}
     assert voxelcore.skeleton(ring).numbers["cycles"] == 1
+
+
+def vessels():
+    """A stem of label 2 and arms of labels 5 and 9, which meet in a fork."""
+    volume = numpy.zeros((64, 60, 12), numpy.uint8)
+    i, j, k = numpy.indices(volume.shape)
+    for label, (a, b) in {9: ((32, 30), (58, 55)), 5: ((32, 30), (6, 55)), 2: ((32, 4), (32, 29))}.items():
+        along = numpy.array([b[0] - a[0], b[1] - a[1]], float)
+        part = numpy.clip(((i - a[0]) * along[0] + (j - a[1]) * along[1]) / (along @ along), 0, 1)
+        away = (i - a[0] - part * along[0]) ** 2 + (j - a[1] - part * along[1]) ** 2 + (k - 5.5) ** 2
+        volume[away <= 16] = label
+    return volume
+
+
+def test_a_network_has_the_bits_of_the_command_line(tmp_path):
+    volume, place = vessels(), PLACES[1]
+    write_nrrd(tmp_path / "scan.nrrd", volume, **place)
+    done = run("skeleton", tmp_path / "scan.nrrd", "--network", "-o", tmp_path / "cli.vtp", "--also", "csv")
+    assert done.returncode == 0, done.stderr
+    network = voxelcore.skeleton(volume, network=True, **place)
+    network.save(tmp_path / "python.vtp", also="csv")
+    assert arrays(polydata(tmp_path / "python.vtp")) == arrays(polydata(tmp_path / "cli.vtp"))
+    for table in ("branches", "summary", "contacts"):
+        assert (tmp_path / f"python_{table}.csv").read_text() == (tmp_path / f"cli_{table}.csv").read_text()
+    drawn, written = arrays(network.to_polydata()), arrays(polydata(tmp_path / "cli.vtp"))
+    assert all(drawn[name] == written[name] for name in drawn)
+
+
+def test_a_network_names_labels_and_contacts():
+    network = voxelcore.skeleton(vessels(), network=True, spacing=(0.5, 0.5, 0.5))
+    assert set(network.branch_labels) == set(network.point_labels) == {2, 5, 9}
+    assert [contact["labels"] for contact in network.contacts] == [(2, 5), (2, 9), (5, 9)]
+    for contact in network.contacts:
+        (node,) = contact["nodes"]
+        meeting = network.branch_labels[(network.branch_nodes == node).any(axis=1)]
+        assert set(contact["labels"]) <= set(meeting) and contact["area"] == 0.25 * contact["faces"] > 0
+    again = pickle.loads(pickle.dumps(network))
+    assert numpy.array_equal(again.point_labels, network.point_labels) and again.contacts == network.contacts
+    assert voxelcore.skeleton(vessels(), network=True, label=[2, 5]).numbers["branches"] == 2
+    with pytest.raises(ValueError, match="several labels"):
+        voxelcore.skeleton(vessels() > 0, network=True)
+    with pytest.raises(ValueError, match="network: is for arrays"):
+        voxelcore.skeleton(voxelcore.core(vessels() > 0), network=True)
 
 
 def test_branches_are_counted_from_either_end():

@@ -112,6 +112,12 @@ class Skeleton(_Result):
     @property
     def node_kinds(self) -> NDArray[numpy.uint8]: ...
     @property
+    def point_labels(self) -> NDArray[numpy.int64]: ...
+    @property
+    def branch_labels(self) -> NDArray[numpy.int64]: ...
+    @property
+    def contacts(self) -> List[Dict[str, Any]]: ...
+    @property
     def face_offsets(self) -> NDArray[numpy.uint64]: ...
     @property
     def face_vertices(self) -> NDArray[numpy.uint32]: ...
@@ -196,6 +202,7 @@ def skeleton(
     prune_branches: Optional[_Length] = ...,
     root: Union[str, _Vector] = ...,
     cavities: Union[str, int] = ...,
+    network: bool = ...,
     threads: int = ...,
     progress: _Progress = ...,
     **options: Any,

@@ -103,7 +103,15 @@ that hold whole numbers)
 
 
 def skeleton(
-    source, *, prune_branches="1r", root="thickest", cavities="fill", threads=0, progress=None, **options
+    source,
+    *,
+    prune_branches="1r",
+    root="thickest",
+    cavities="fill",
+    network=False,
+    threads=0,
+    progress=None,
+    **options,
 ):
     """The curve skeleton of a label, with the topology of its voxels.
 
@@ -121,6 +129,10 @@ def skeleton(
     cavities : {'fill', 'keep'} or int, default 'fill'
         Of an array: whether cavities are filled, so that the skeleton is curves, or surfaces around them are kept; with
         simplify_topology, a number of them to be left. A Core has the cavities it was made with.
+    network : bool, default False
+        Of an array: one skeleton of several labels taken as one body, such as the vessels of a circle of Willis. Each
+        point has its label (point_labels), and branches are cut where labels meet (contacts). label says which labels;
+        None: all but 0.
     threads : int, default 0
         Processors to use; 0 means all.
     progress : callable, optional
@@ -138,6 +150,10 @@ def skeleton(
     >>> curve = skeleton(rod, spacing=(0.1, 0.1, 0.1))
     >>> curve.numbers["branches"], curve.numbers["tips"], curve.topology["betti"]
     (1, 2, (1, 0, 0))
+    >>> rod[20:38, 2:7, 2:7] = 9
+    >>> vessels = skeleton(rod, network=True)
+    >>> list(vessels.branch_labels), [(one["labels"], one["area"]) for one in vessels.contacts]
+    ([7, 9], [((7, 9), 25.0)])
     """
     own = {keyword: value for keyword, value in options.items() if keyword in _arguments.OF_SKELETON}
     of_array = {keyword: value for keyword, value in options.items() if keyword not in own}
@@ -153,8 +169,8 @@ def skeleton(
     )
     values["threads"] = str(int(threads))
     if isinstance(source, Core):
-        if of_array:
-            raise ValueError(f"{next(iter(of_array))}: is for arrays; the core was made already")
+        if of_array or network:
+            raise ValueError(f"{next(iter(of_array), 'network')}: is for arrays; the core was made already")
         if own.get("border", "closed") != "closed":
             raise ValueError("border: a core ends at the border; give the array")
         return Skeleton(_voxelcore.skeleton(source._data, values, progress, False))
@@ -167,11 +183,37 @@ def skeleton(
         of_array["cavities"] = cavities
     elif cavities == "fill":
         of_array.setdefault("fill_cavities", True)
+    if network:
+        return _network_of(source, values, progress, threads=threads, **of_array)
     of_array.update(threads=threads, progress=_arguments.share(progress, 0, 0.5))
     whole = core(source, **of_array)
     if not isinstance(whole, Core):
         raise ValueError("label, split_components: give one label; make cores first, then the skeleton of each")
     return Skeleton(_voxelcore.skeleton(whole._data, values, _arguments.share(progress, 0.5, 1), True))
+
+
+def _network_of(
+    array,
+    values,
+    progress,
+    *,
+    lambda_,
+    spacing=None,
+    label=None,
+    origin=None,
+    direction=None,
+    axes=None,
+    tolerance=None,
+    **options,
+):
+    if isinstance(label, str) and label == "any":
+        raise ValueError("label='any': makes one label of all; for a network leave it out, or list labels")
+    taken, of_core = _arguments.of_array(
+        "skeleton", _arguments.OF_CORE, options, array, spacing, axes, label, None, origin, direction
+    )
+    of_core.update(_arguments.pruning(lambda_, tolerance, "voxel" if taken.spacing is None else "mm")[0])
+    place = (taken.spacing, taken.origin or [0.0] * 3, taken.direction or [1.0, 0, 0, 0, 1, 0, 0, 0, 1])
+    return Skeleton(_voxelcore.network(taken.array, *place, of_core, values, progress))
 
 
 def prune(core, lambda_=None, *, tolerance=None, threads=0, progress=None):

@@ -73,5 +73,11 @@ def of_skeleton(skeleton):
     numbers = numpy.full(len(alone) + branches + faces, -1, numpy.int64)
     numbers[len(alone) : len(alone) + branches] = numpy.arange(branches)
     _add(data.GetCellData(), "BranchId", numbers)
-    _add(data.GetCellData(), "Label", numpy.full(len(numbers), skeleton.label, numpy.int64))
+    labels = numpy.full(len(numbers), skeleton.label, numpy.int64)
+    if len(skeleton.point_labels):  # of a network
+        _add(data.GetPointData(), "Label", skeleton.point_labels)
+        labels[: len(alone)] = skeleton.point_labels[alone]
+        labels[len(alone) : len(alone) + branches] = skeleton.branch_labels
+        labels[len(alone) + branches :] = skeleton.point_labels[skeleton.face_vertices[skeleton.face_offsets[:-1]]]
+    _add(data.GetCellData(), "Label", labels)
     return data

@@ -59,8 +59,25 @@ class Skeleton(Result):
 
     @property
     def node_kinds(self):
-        """(k,) uint8: 0 tip, 1 junction, 2 where a closed curve begins, 3 isolated point, 4 where a surface stays."""
+        """(k,) uint8: 0 tip, 1 junction, 2 where a closed curve begins, 3 isolated point, 4 where a surface stays,
+        5 where labels of a network meet."""
         return self._data.node_kinds
+
+    @property
+    def point_labels(self):
+        """(n,) int64: of a network the label of each point; otherwise empty."""
+        return self._data.point_labels
+
+    @property
+    def branch_labels(self):
+        """(b,) int64: the label of each branch."""
+        return self._data.branch_labels
+
+    @property
+    def contacts(self):
+        """Of a network: the places where two labels touch, as dicts: labels, area (mm^2, of the voxel faces between
+        them), faces, voxels, centre (LPS mm), and nodes, where their branches meet there."""
+        return self._data.contacts
 
     @property
     def face_offsets(self):

@@ -25,12 +25,7 @@ RunUpToBorder(VoxelShape               shape,
               const CertifiedRequest & request,
               const ProgressCallback & progress)
 {
-  const BorderEnds ends = request.skeleton->border;
-  const Vector3 &  spacing = geometry.spacing;
-  // So long that the branches of the thinnest bodies stand out.
-  const double clear =
-    InMeanVoxels(request.skeleton->standOut, ComputeSpacingWeights(spacing), spacing, shape.Box()) + Length(spacing);
-  ExtendedShape extended = ExtendBeyondBorder(shape, *request.scan, spacing, { ends, clear });
+  ExtendedShape extended = UpToBorder(shape, geometry, *request.scan, *request.skeleton);
   if (extended.shape.Box().size == shape.Box().size)
   {
     CertifiedResult result = RunCertified(std::move(shape), geometry, request, progress);
@@ -43,7 +38,7 @@ RunUpToBorder(VoxelShape               shape,
   const BeyondBorder goesOn{ *request.scan,
                              shape.Box(),
                              ComputeShapeTopology(shape),
-                             ends,
+                             request.skeleton->border,
                              std::move(extended.sections) };
   CertifiedRequest   curves = request;
   curves.refineCores = false;

@@ -182,6 +182,19 @@ RequireLengthsIn(SpatialUnit unit, const SkeletonRequest & request)
   RequireLengthsIn(unit, request.branches);
 }
 
+ExtendedShape
+UpToBorder(const VoxelShape &      shape,
+           const ImageGeometry &   geometry,
+           const VoxelBox &        scan,
+           const SkeletonRequest & request)
+{
+  const Vector3 & spacing = geometry.spacing;
+  // So long that the branches of the thinnest bodies stand out.
+  const double clear =
+    InMeanVoxels(request.standOut, ComputeSpacingWeights(spacing), spacing, shape.Box()) + Length(spacing);
+  return ExtendBeyondBorder(shape, scan, spacing, { request.border, clear });
+}
+
 LiveElements
 PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request)
 {

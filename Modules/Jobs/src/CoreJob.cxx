@@ -4,6 +4,7 @@
 #include "CoreJobSteps.h"
 #include "DisplayFiles.h"
 #include "FacelessLabels.h"
+#include "voxelcore/NetworkLabels.h"
 #include "NoisyLabels.h"
 #include "FolderLabels.h"
 #include "JobTools.h"
@@ -195,6 +196,11 @@ StageCoreJob(const CoreOptions & options,
   InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   RequireLengths(options, volume.geometry.unit);
+  std::optional<NetworkLabels> network;
+  if (options.skeleton && options.skeleton->network)
+  {
+    network.emplace(volume.labels, options.scan.string(), result.notes);
+  }
   EditedLabels edited = EditLabels(std::move(volume.labels),
                                    volume.geometry,
                                    options.edits,
@@ -218,13 +224,21 @@ StageCoreJob(const CoreOptions & options,
   const SurfaceSource           estimates = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
   const std::optional<VoxelBox> border = BorderOf(volume);
   volume.mesh.reset();
-  shown.AddScan(edited.labels, volume.geometry);
+  if (network)
+  {
+    network->Fit(edited.labels.front(), volume.geometry, border, *options.skeleton);
+    shown.AddNetwork(network->Labels(), volume.geometry);
+  }
+  else
+  {
+    shown.AddScan(edited.labels, volume.geometry);
+  }
   report.command = options.command;
   report.input = DescribeInput(options, volume);
   report.parameters = DescribeParameters(options, volume, edited, weights);
   result.warnings = volume.warnings;
   result.warnings.insert(result.warnings.end(), hollow.begin(), hollow.end());
-  result.notes = edited.notes;
+  result.notes.insert(result.notes.end(), edited.notes.begin(), edited.notes.end());
   report.seconds.read = watch.Lap();
 
   report.skeleton = options.skeleton;
@@ -275,6 +289,10 @@ StageCoreJob(const CoreOptions & options,
         }
       }
       const std::size_t notesBefore = result.notes.size();
+      if (network)
+      {
+        network->Take(outcome, *options.skeleton, report, result.notes);
+      }
       // A core that is only a step on the way to a skeleton is not shown.
       const ModelPart nothing;
       shown.AddLabel(outcome.record,

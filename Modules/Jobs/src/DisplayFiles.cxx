@@ -67,8 +67,9 @@ struct DisplayFiles::State
   std::vector<LabelShape>   scan;       ///< the edited labels; of components each
   std::vector<std::int64_t> components; ///< of `scan`
   std::vector<ModelPart>    surfaces;
-  std::vector<SkeletonPart> skeletons;
-  fs::path                  archive; ///< where the archive comes to be; empty for a .mrml
+  std::vector<SkeletonPart> skeletons; ///< each with its label
+  std::vector<std::size_t>  records;   ///< of both, in the report
+  fs::path                  archive;   ///< where the archive comes to be; empty for a .mrml
 
   bool
   IsArchive() const
@@ -123,7 +124,7 @@ struct DisplayFiles::State
 };
 
 DisplayFiles::DisplayFiles(const DisplayTargets & targets, const fs::path & input, OutputTransaction & transaction)
-  : m_State(new State{ targets, input, transaction, {}, {}, {}, {}, {}, {} })
+  : m_State(new State{ targets, input, transaction, {}, {}, {}, {}, {}, {}, {} })
 {
   if (targets.scene)
   {
@@ -175,20 +176,41 @@ DisplayFiles::AddScan(const std::vector<EditedLabel> & labels, const ImageGeomet
 }
 
 void
+DisplayFiles::AddNetwork(const std::vector<LabelShape> & labels, const ImageGeometry & geometry)
+{
+  std::vector<EditedLabel> apart;
+  for (std::size_t i = 0; AreAsked() && i < labels.size(); ++i)
+  {
+    apart.push_back({ labels[i], 0, std::nullopt });
+  }
+  AddScan(apart, geometry);
+}
+
+void
 DisplayFiles::AddLabel(const LabelRecord & record, const ModelPart & surface, const SkeletonPart * skeleton)
 {
   if (!AreAsked())
   {
     return;
   }
+  const std::size_t number = m_State->records.empty() ? 0 : m_State->records.back() + 1;
+  if (skeleton != nullptr && skeleton->network)
+  {
+    for (SkeletonPart & part : PartsByLabel(*skeleton))
+    {
+      m_State->surfaces.emplace_back();
+      m_State->skeletons.push_back(std::move(part));
+      m_State->records.push_back(number);
+    }
+    return;
+  }
   m_State->surfaces.push_back(surface);
   m_State->skeletons.push_back(skeleton != nullptr ? *skeleton : SkeletonPart());
-  for (auto * part : { &m_State->skeletons.back() })
-  {
-    part->label = record.label;
-    part->component = record.component;
-    part->name = record.name;
-  }
+  m_State->records.push_back(number);
+  SkeletonPart & part = m_State->skeletons.back();
+  part.label = record.label;
+  part.component = record.component;
+  part.name = record.name;
 }
 
 void
@@ -221,7 +243,7 @@ DisplayFiles::State::AddSkeletons(const CoreReport &                            
       SkeletonModel model;
       model.parts = { part };
       model.unit = report.input.geometry.unit;
-      model.provenance = SkeletonProvenanceJson(report, { i });
+      model.provenance = SkeletonProvenanceJson(report, { records[i] });
       scene.models.push_back({ part.name + " skeleton", name + "_skeleton.vtp", color });
       WriteSkeletonVtp(stage(scene.models.back().file), model);
       continue;
@@ -275,7 +297,7 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
     const ModelPart &   part = surfaces[i];
-    const LabelRecord & record = report.labels.at(i);
+    const LabelRecord & record = report.labels.at(records[i]);
     if (part.core.cells.vertexCount == 0)
     {
       continue;
@@ -284,7 +306,7 @@ DisplayFiles::State::WriteScene(const CoreReport & report, std::vector<std::stri
     model.parts = { part };
     model.unit = report.input.geometry.unit;
     model.refined = part.displacement.empty() ? std::string() : report.parameters.refine.surface;
-    model.provenance = ProvenanceJson(report, { i }, 0);
+    model.provenance = ProvenanceJson(report, { records[i] }, 0);
     scene.models.push_back({ record.name + " medial surface",
                              PartName(record.label, record.component) + "_medial.vtp",
                              ColorOf(record.label, record.component) });
@@ -343,12 +365,12 @@ DisplayFiles::State::Content(const CoreReport & report, const ProgressCallback &
   RunEach(
     surfaces.size(),
     [&](std::size_t i) {
-      const LabelRecord & record = report.labels.at(i);
-      DisplayLabel &      label = content.labels[i];
-      label.label = record.label;
-      label.component = record.component;
-      label.name = record.name;
-      label.color = ColorOf(record.label, record.component);
+      const SkeletonPart & part = skeletons[i];
+      DisplayLabel &       label = content.labels[i];
+      label.label = part.label;
+      label.component = part.component;
+      label.name = part.name;
+      label.color = ColorOf(part.label, part.component);
       label.medial = surfaces[i];
       label.curves = skeletons[i].graph;
       if (label.medial.core.cells.vertexCount > 0)
@@ -357,7 +379,7 @@ DisplayFiles::State::Content(const CoreReport & report, const ProgressCallback &
       }
       for (std::size_t k = 0; k < scan.size(); ++k)
       {
-        if (scan[k].value == record.label && components[k] == record.component)
+        if (scan[k].value == part.label && components[k] == part.component)
         {
           label.surface = LabelSurface(scan[k].shape, geometry);
         }

@@ -37,7 +37,11 @@ public:
   void
   AddScan(const std::vector<EditedLabel> & labels, const ImageGeometry & geometry);
 
-  /** Either part may be empty. */
+  /** The same for the labels of a network. */
+  void
+  AddNetwork(const std::vector<LabelShape> & labels, const ImageGeometry & geometry);
+
+  /** Either part may be empty; a network is shown label by label. */
   void
   AddLabel(const LabelRecord & record, const ModelPart & surface, const SkeletonPart * skeleton);
 

@@ -48,6 +48,10 @@ DisplayFiles::AddScan(const std::vector<EditedLabel> &, const ImageGeometry &)
 {}
 
 void
+DisplayFiles::AddNetwork(const std::vector<LabelShape> &, const ImageGeometry &)
+{}
+
+void
 DisplayFiles::AddLabel(const LabelRecord &, const ModelPart &, const SkeletonPart *)
 {}
 

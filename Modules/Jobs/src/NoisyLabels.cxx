@@ -33,10 +33,12 @@ NumbersText(const LabelRecord & label)
 void
 TellNoisyLabels(const CoreReport & report, std::vector<std::string> & warnings)
 {
-  constexpr std::size_t named = 5;
-  std::size_t           count = 0;
-  bool                  hasSpecks = false;
-  std::string           text;
+  constexpr std::size_t   named = 5;
+  constexpr std::uint64_t least = 50; // advice that may remove more than one voxel in so many says so
+  std::size_t             count = 0;
+  bool                    hasSpecks = false;
+  bool                    isMuch = false;
+  std::string             text;
   for (const LabelRecord & label : report.labels)
   {
     if (!label.fine)
@@ -44,6 +46,7 @@ TellNoisyLabels(const CoreReport & report, std::vector<std::string> & warnings)
       continue;
     }
     hasSpecks = hasSpecks || label.fine->specks > 0;
+    isMuch = isMuch || least * label.fine->specks * (kSpeckVoxels - 1) > label.voxels;
     if (++count <= named)
     {
       text += (count > 1 ? "; " : "") + LabelText(label.label, label.name) + ": " + NumbersText(label);
@@ -55,8 +58,12 @@ TellNoisyLabels(const CoreReport & report, std::vector<std::string> & warnings)
       "less than three voxels wide, as noise makes them: " + text +
       (count > named ? "; and those of " + std::to_string(count - named) + " more labels" : std::string()) +
       "; unless they are real, remove them with --mend-shape --smooth-shape" +
-      (hasSpecks ? " --min-voxels " + std::to_string(kSpeckVoxels) : std::string()) +
-      "; where nothing thinner than two voxels is needed, give --denoise in place of --smooth-shape");
+      (hasSpecks && !isMuch ? " --min-voxels " + std::to_string(kSpeckVoxels) : std::string()) +
+      "; where nothing thinner than two voxels is needed, give --denoise in place of --smooth-shape" +
+      (isMuch ? "; pieces of fewer than " + std::to_string(kSpeckVoxels) +
+                  " voxels may be more than 2 % of the voxels, and may touch at edges and corners: look at them with "
+                  "'voxelcore info' before you remove them"
+              : std::string()));
   }
 }
 

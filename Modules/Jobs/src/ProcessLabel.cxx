@@ -16,6 +16,12 @@ RequestOf(const CoreOptions & options, SurfaceSource surface)
   request.surface = std::move(surface); // empty: nothing is refined
   request.refineCores = !options.output.empty() || !options.skeleton;
   request.skeleton = options.skeleton;
+  if (request.skeleton && request.skeleton->network)
+  {
+    // Only when its points have labels: TakeNetwork().
+    request.skeleton->branches.cutLoops = false;
+    request.skeleton->branches.splitAtJunctions = false;
+  }
   const std::vector<std::string> & also = options.skeletonTargets.also;
   request.spendsCores = options.output.empty() && options.skeleton && std::ranges::find(also, "ma") == also.end();
   request.engine = options.engine;

@@ -71,6 +71,10 @@ SkeletonFiles::SkeletonFiles(fs::path output, fs::path input, SkeletonTargets wa
   {
     m_Targets.also.insert(m_Targets.also.begin(), "csv");
   }
+  if (m_ToFolder && m_Targets.network)
+  {
+    throw UsageError(m_Output.string() + ": a network is one file; give .vtp, or .csv for tables alone");
+  }
   m_Transaction.Protect(m_Input);
   if (m_Targets.table)
   {
@@ -107,7 +111,12 @@ SkeletonFiles::Beside(const fs::path & output, const std::string & ending) const
   const std::string stem = (output.parent_path() / output.stem()).string();
   if (ending == "csv")
   {
-    return { stem + "_branches.csv", stem + "_summary.csv", stem + "_columns.json" };
+    std::vector<fs::path> tables{ stem + "_branches.csv", stem + "_summary.csv", stem + "_columns.json" };
+    if (m_Targets.network)
+    {
+      tables.emplace_back(stem + "_contacts.csv");
+    }
+    return tables;
   }
   if (ending == "ma")
   {
@@ -194,7 +203,11 @@ SkeletonFiles::WriteTables(const fs::path & output, const SkeletonModel & model)
     WriteBranchCsv(m_Transaction.Stage(tables[0]), model);
   }
   WriteSummaryCsv(m_Transaction.Stage(tables[1]), model);
-  WriteTextFile(m_Transaction.Stage(tables[2]), SkeletonColumnsJson(model.unit));
+  WriteTextFile(m_Transaction.Stage(tables[2]), SkeletonColumnsJson(model.unit, m_Targets.network));
+  if (tables.size() > 3)
+  {
+    WriteContactsCsv(m_Transaction.Stage(tables[3]), model);
+  }
 }
 
 void

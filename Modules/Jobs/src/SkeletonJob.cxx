@@ -50,6 +50,11 @@ FromScan(const SkeletonOptions & options, const JobContext & context)
 SkeletonResult
 FromCore(const SkeletonOptions & options, const JobContext & given)
 {
+  if (options.stage.network)
+  {
+    throw UsageError("--network: needs a scan, but " + options.input.string() +
+                     " is a medial surface; give the scan to 'voxelcore skeleton'");
+  }
   const JobContext  context = ForwardOnly(given);
   Stopwatch         total;
   Stopwatch         watch;
@@ -168,12 +173,14 @@ MeasureAgain(std::vector<SkeletonPart> &   parts,
     LabelRecord &  record = report.labels[i];
     RequireFittingProvenance(part.label == record.label && part.component == record.component && record.skeleton, name);
     part.name = record.name;
+    part.network = record.skeleton->network;
+    RequireFittingProvenance(part.network.has_value() == !part.graph.labels.empty(), name);
     const auto & length = now.pruneLength;
     const auto   inMm = [&](const Lambda & of) {
       return LambdaInMillimetres(of, report.parameters.weights, spacing, record.box);
     };
     PruneBranches(part.graph, { length ? inMm(*length) : 0, now.pruneRadii });
-    CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {} };
+    CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {}, std::move(record.skeleton->border) };
     CutAndMeasure(skeleton,
                   now,
                   InMeanVoxels(report.skeleton->standOut, report.parameters.weights, spacing, record.box));
@@ -196,12 +203,14 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   {
     throw UsageError(options.output.string() + ": give a file, .csv or .vtp");
   }
-  SkeletonFiles files(options.output, options.skeleton, options.targets, transaction);
   ReportProgress(context.progress, "reading", 0);
   SkeletonModel model = ReadSkeletonVtp(options.skeleton);
   WarnOfRounding(options.skeleton, model.rounded, result.warnings);
   CoreReport & report = result.report;
   report = ParseProvenance(model.provenance, options.skeleton.string());
+  SkeletonTargets targets = options.targets;
+  targets.network = report.skeleton && report.skeleton->network;
+  SkeletonFiles files(options.output, options.skeleton, targets, transaction);
   MeasureAgain(model.parts, options.branches, report, options.skeleton);
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {

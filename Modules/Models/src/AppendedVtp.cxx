@@ -81,17 +81,17 @@ WriteVtp(const std::filesystem::path & path, const VtpContent & content)
   arrays.Tag("/FieldData");
   const std::string fields = arrays.TakeHeader();
   arrays.Tag("PointData");
-  for (const auto & [name, values] : content.pointArrays)
-  {
-    arrays.Add(name, values);
-  }
+  const auto addAll = [&](const std::vector<std::pair<std::string, VtpValues>> & list) {
+    for (const auto & [name, values] : list)
+    {
+      const std::string & called = name;
+      std::visit([&](const auto & numbers) { arrays.Add(called, numbers); }, values);
+    }
+  };
+  addAll(content.pointArrays);
   arrays.Tag("/PointData");
   arrays.Tag("CellData");
-  for (const auto & [name, values] : content.cellArrays)
-  {
-    const std::string & called = name;
-    std::visit([&](const auto & list) { arrays.Add(called, list); }, values);
-  }
+  addAll(content.cellArrays);
   arrays.Tag("/CellData");
   arrays.Tag("Points");
   arrays.Add("Points", content.positions, 3);

@@ -21,11 +21,11 @@ using VtpValues = std::variant<std::vector<std::int64_t>, std::vector<double>>;
 
 struct VtpContent
 {
-  std::vector<std::pair<std::string, std::string>>         texts; ///< field data
-  std::vector<double>                                      positions;
-  std::vector<std::pair<std::string, std::vector<double>>> pointArrays;
-  VtpCells                                                 cells[3]; ///< verts, lines, polys
-  std::vector<std::pair<std::string, VtpValues>>           cellArrays;
+  std::vector<std::pair<std::string, std::string>> texts; ///< field data
+  std::vector<double>                              positions;
+  std::vector<std::pair<std::string, VtpValues>>   pointArrays;
+  VtpCells                                         cells[3]; ///< verts, lines, polys
+  std::vector<std::pair<std::string, VtpValues>>   cellArrays;
 };
 
 /** \throws OutputError */

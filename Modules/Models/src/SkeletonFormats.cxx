@@ -26,8 +26,29 @@ KindName(NodeKind kind)
       return "isolated";
     case NodeKind::Surface:
       return "surface";
+    case NodeKind::Contact:
+      return "contact";
   }
   return "";
+}
+
+constexpr std::size_t kFirstSwcType = 5; // lower ones mean parts of neurons
+
+/** A name in a comment. */
+std::string
+SingleLine(std::string text)
+{
+  std::ranges::replace_if(
+    text,
+    [](char c) { return static_cast<unsigned char>(c) < 0x20U; },
+    ' ');
+  return text;
+}
+
+std::int64_t
+LabelOfBranch(const SkeletonPart & part, std::size_t branch)
+{
+  return part.network ? part.graph.BranchLabel(branch) : part.label;
 }
 
 } // namespace
@@ -46,7 +67,27 @@ WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const 
     SkeletonGraph graph = part.graph;
     const auto    cuts = CutLoops(graph);
     const auto    table = MeasureBranches(graph, options);
-    file << "# label " << part.label << "\n";
+    if (!part.network)
+    {
+      file << "# label " << part.label << "\n";
+    }
+    else
+    {
+      file << "# network of labels; the type is " << kFirstSwcType << " and the label's place in this list\n";
+      for (const NetworkLabel & label : part.network->labels)
+      {
+        file << "# label " << label.value << " " << SingleLine(label.name) << "\n";
+      }
+    }
+    const auto typeOf = [&](ElementIndex point) -> std::size_t {
+      if (!part.network)
+      {
+        return 0;
+      }
+      const auto & labels = part.network->labels;
+      const auto   own = std::ranges::find(labels, graph.labels[point], &NetworkLabel::value);
+      return kFirstSwcType + static_cast<std::size_t>(own - labels.begin());
+    };
     for (const LoopCut & cut : cuts)
     {
       file << "# a cycle was cut at " << scale * cut.position[0] << " " << scale * cut.position[1] << " "
@@ -55,7 +96,7 @@ WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const 
     std::vector<std::uint64_t> ids(graph.positions.size(), 0);
     const auto                 write = [&](ElementIndex point, std::uint64_t parent) {
       ids[point] = next++;
-      file << ids[point] << " 0";
+      file << ids[point] << " " << typeOf(point);
       for (const double coordinate : graph.positions[point])
       {
         file << " " << scale * coordinate;
@@ -115,8 +156,8 @@ WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model)
   {
     for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch)
     {
-      file << (first ? "\n" : ",\n") << "    {\"type\": \"Curve\", \"name\": \"label " << part.label << " branch "
-           << branch << "\", \"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"" << unit
+      file << (first ? "\n" : ",\n") << "    {\"type\": \"Curve\", \"name\": \"label " << LabelOfBranch(part, branch)
+           << " branch " << branch << "\", \"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"" << unit
            << "\",\n     \"controlPoints\": [";
       first = false;
       std::uint64_t id = 0;
@@ -185,7 +226,7 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
       data("radius", SectionRadii(part.graph)[point]);
       data("ball_radius", part.graph.radius[point]);
       data("kind", std::string_view(KindName(part.graph.nodeKinds[node])));
-      data("label", part.label);
+      data("label", part.network ? part.graph.labels[point] : part.label);
       file << "</node>\n";
     }
     for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch)
@@ -193,7 +234,7 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
       const BranchRecord & record = part.table.branches[branch];
       file << "    <edge source=\"p" << p << "n" << part.graph.branchNodes[branch][0] << "\" target=\"p" << p << "n"
            << part.graph.branchNodes[branch][1] << "\">";
-      data("label", part.label);
+      data("label", LabelOfBranch(part, branch));
       data("length", record.length);
       data("chord", record.chord);
       data("mean_radius", record.meanRadius);

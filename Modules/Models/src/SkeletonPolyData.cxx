@@ -73,13 +73,27 @@ ReadSkeleton(ModelSource & file)
                closed.size() == labels.size(),
              "its arrays differ in length");
 
+  // Of a network all is one part, whatever label.
+  const bool                isNetwork = file.Has("PointData", "Label") && file.Has("PointData", "Contact");
+  std::vector<std::int64_t> pointLabels;
+  std::vector<std::int64_t> contacts;
+  if (isNetwork)
+  {
+    pointLabels = file.Read<std::int64_t>("PointData", "Label");
+    contacts = file.Read<std::int64_t>("PointData", "Contact");
+    RequireFit(pointLabels.size() == count && contacts.size() == count, "its arrays differ in length");
+  }
+  const auto keyOf = [&](std::size_t cell) {
+    return std::pair(isNetwork ? std::int64_t{ 1 } : labels[cell], components[cell]);
+  };
+
   // A point belongs to the part of its cells.
   SkeletonModel model;
   model.unit = *unit;
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> partOf;
   for (std::size_t cell = 0; cell < labels.size(); ++cell)
   {
-    partOf.try_emplace({ labels[cell], components[cell] }, 0);
+    partOf.try_emplace(keyOf(cell), 0);
   }
   for (auto & [key, index] : partOf)
   {
@@ -96,7 +110,7 @@ ReadSkeleton(ModelSource & file)
     {
       for (const auto & points : *list)
       {
-        visit(list, points, cell, partOf.at({ labels[cell], components[cell] }));
+        visit(list, points, cell, partOf.at(keyOf(cell)));
         ++cell;
       }
     }
@@ -119,6 +133,11 @@ ReadSkeleton(ModelSource & file)
     graph.radius.push_back(radius[point]);
     graph.sectionRadius.push_back(sections[point]);
     graph.erosionThickness.push_back(thickness[point]);
+    if (isNetwork)
+    {
+      graph.labels.push_back(pointLabels[point]);
+      graph.contact.push_back(contacts[point] != 0 ? 1 : 0);
+    }
   }
   std::vector<std::vector<std::vector<ElementIndex>>> branches(model.parts.size());
   forCells([&](const auto * list, const auto & points, std::size_t cell, std::size_t part) {
@@ -171,6 +190,10 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
                        auto &&              points,
                        std::int64_t         closed,
                        std::int64_t         id) {
+    const SkeletonGraph & graph = part.graph;
+    const std::int64_t    label = !part.network ? part.label
+                                  : id >= 0     ? graph.BranchLabel(static_cast<std::size_t>(id))
+                                                : graph.labels[*std::begin(points)];
     for (const ElementIndex point : points)
     {
       cells[kind].points.push_back(firstPoint + point);
@@ -178,7 +201,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
     cells[kind].offsets.push_back(static_cast<std::int64_t>(cells[kind].points.size()));
     CellData & to = data[kind];
     to.branchId.push_back(id);
-    to.label.push_back(part.label);
+    to.label.push_back(label);
     to.component.push_back(part.component);
     to.closed.push_back(closed);
     const BranchRecord * branch = id >= 0 ? &part.table.branches[static_cast<std::size_t>(id)] : nullptr;
@@ -187,10 +210,22 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
     to.length.push_back(branch ? branch->length : 0);
     to.tortuosity.push_back(branch ? branch->tortuosity : 0);
   };
-  std::int64_t firstPoint = 0;
+  std::int64_t              firstPoint = 0;
+  std::vector<std::int64_t> pointLabels;
+  std::vector<std::int64_t> contacts;
+  std::string               names;
   for (const SkeletonPart & part : model.parts)
   {
     const SkeletonGraph & graph = part.graph;
+    if (part.network)
+    {
+      pointLabels.insert(pointLabels.end(), graph.labels.begin(), graph.labels.end());
+      contacts.insert(contacts.end(), graph.contact.begin(), graph.contact.end());
+      for (const NetworkLabel & label : part.network->labels)
+      {
+        names += std::to_string(label.value) + " " + label.name + "\n";
+      }
+    }
     for (const auto & position : graph.positions)
     {
       positions.insert(positions.end(), position.begin(), position.end());
@@ -225,6 +260,12 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
                           { "MaximumInscribedSphereRadius", radius },
                           { "SectionRadius", sections },
                           { "ErosionThickness", thickness } };
+  if (!pointLabels.empty())
+  {
+    content.texts.emplace_back("LabelNames", names);
+    content.pointArrays.emplace_back("Label", std::move(pointLabels));
+    content.pointArrays.emplace_back("Contact", std::move(contacts));
+  }
   const auto addCells = [&](const char * name, auto member) {
     auto all = data[0].*member;
     for (const int kind : { 1, 2 })

@@ -2,6 +2,7 @@
 
 #include "voxelcore/SkeletonModel.h"
 
+#include <algorithm>
 #include <array>
 
 namespace voxelcore
@@ -84,6 +85,52 @@ constexpr auto kSummaryColumns = std::to_array<Column>({
   { "surface", "mm^2", "sum over branches" },
 });
 
+constexpr auto kContactColumns = std::to_array<Column>({
+  { "contact_id", "", "number of the contact, from 1; empty where labels follow each other without touching" },
+  { "label_a", "", "value of one label" },
+  { "name_a", "", "its name" },
+  { "label_b", "", "value of the other" },
+  { "name_b", "", "its name" },
+  { "area", "mm^2", "of the voxel faces between them; 0 where only edges and corners touch" },
+  { "faces", "", "number of these faces" },
+  { "voxels", "", "voxels of both that touch the other over faces, edges or corners" },
+  { "centre_x", "mm", "middle of the contact, LPS" },
+  { "centre_y", "mm", "" },
+  { "centre_z", "mm", "" },
+  { "nodes", "", "nodes at which their branches meet there; 0: the network does not pass" },
+  { "node_id", "", "the node; where there are several, a row for each" },
+  { "radius", "mm", "of a round cross-section there" },
+  { "node_x", "mm", "the node, LPS" },
+  { "node_y", "mm", "" },
+  { "node_z", "mm", "" },
+});
+
+std::string
+NameIn(const SkeletonNetwork & network, std::int64_t value)
+{
+  const auto own = std::ranges::find(network.labels, value, &NetworkLabel::value);
+  return own == network.labels.end() ? std::string() : own->name;
+}
+
+void
+AddSummary(TextFile & file, const SkeletonPart & part)
+{
+  const SkeletonNumbers & n = part.table.numbers;
+  const auto head = [&] { file << part.label << "," << CsvField(part.name) << "," << part.component << ","; };
+  head();
+  file << "all," << n.branches << "," << n.totalLength << "," << n.meanLength << "," << n.meanRadius << ",,,,,,"
+       << n.components << "," << n.tips << "," << n.junctions << "," << n.triplePoints << "," << n.quadruplePoints
+       << "," << n.cycles << "," << n.isolatedLoops << "," << n.isolatedPoints << "," << n.closedFaces << ","
+       << n.plateFaces << "," << n.maxLength << "," << n.volume << "," << n.surface << "\n";
+  for (const LevelRecord & level : part.table.levels)
+  {
+    head();
+    file << level.level << "," << level.count << "," << level.totalLength << "," << level.meanLength << ","
+         << level.meanRadius << "," << level.meanTortuosity << "," << level.meanEmergenceAngle << ","
+         << level.meanMidpointAngle << "," << level.meanTipAngle << "," << level.meanChildren << ",,,,,,,,,,,,,\n";
+  }
+}
+
 } // namespace
 
 std::string
@@ -116,11 +163,13 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
     {
       const BranchRecord & r = part.table.branches[branch];
       const auto &         nodes = part.graph.branchNodes[branch];
-      file << part.label << "," << CsvField(part.name) << "," << part.component << "," << branch << "," << r.component
-           << "," << nodes[0] << "," << nodes[1] << "," << static_cast<int>(r.type) << "," << r.length << "," << r.chord
-           << "," << r.tortuosity << "," << r.freeLength << "," << r.meanRadius << "," << r.minRadius << ","
-           << r.maxRadius << "," << r.sdRadius << "," << r.meanBallRadius << "," << r.minBallRadius << ","
-           << r.maxBallRadius << "," << r.volume << "," << r.surface << ",";
+      const std::int64_t   label = part.network ? part.graph.BranchLabel(branch) : part.label;
+      const std::string    name = part.network ? NameIn(*part.network, label) : part.name;
+      file << label << "," << CsvField(name) << "," << part.component << "," << branch << "," << r.component << ","
+           << nodes[0] << "," << nodes[1] << "," << static_cast<int>(r.type) << "," << r.length << "," << r.chord << ","
+           << r.tortuosity << "," << r.freeLength << "," << r.meanRadius << "," << r.minRadius << "," << r.maxRadius
+           << "," << r.sdRadius << "," << r.meanBallRadius << "," << r.minBallRadius << "," << r.maxBallRadius << ","
+           << r.volume << "," << r.surface << ",";
       if (r.parent != kNoBranch)
       {
         file << r.parent;
@@ -147,29 +196,100 @@ WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model)
   WriteHead(file, kSummaryColumns);
   for (const SkeletonPart & part : model.parts)
   {
-    const SkeletonNumbers & n = part.table.numbers;
-    const auto head = [&] { file << part.label << "," << CsvField(part.name) << "," << part.component << ","; };
-    head();
-    file << "all," << n.branches << "," << n.totalLength << "," << n.meanLength << "," << n.meanRadius << ",,,,,,"
-         << n.components << "," << n.tips << "," << n.junctions << "," << n.triplePoints << "," << n.quadruplePoints
-         << "," << n.cycles << "," << n.isolatedLoops << "," << n.isolatedPoints << "," << n.closedFaces << ","
-         << n.plateFaces << "," << n.maxLength << "," << n.volume << "," << n.surface << "\n";
-    for (const LevelRecord & level : part.table.levels)
+    if (!part.network)
     {
-      head();
-      file << level.level << "," << level.count << "," << level.totalLength << "," << level.meanLength << ","
-           << level.meanRadius << "," << level.meanTortuosity << "," << level.meanEmergenceAngle << ","
-           << level.meanMidpointAngle << "," << level.meanTipAngle << "," << level.meanChildren << ",,,,,,,,,,,,,\n";
+      AddSummary(file, part);
+      continue;
+    }
+    SkeletonPart whole;
+    whole.name = "network";
+    whole.table = part.table;
+    AddSummary(file, whole);
+    for (const SkeletonPart & label : PartsByLabel(part))
+    {
+      AddSummary(file, label);
+    }
+  }
+  file.Finish();
+}
+
+void
+WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model)
+{
+  TextFile file(path, tableDigits);
+  WriteHead(file, kContactColumns);
+  const auto addPlace = [&](const std::array<double, 3> & place) {
+    for (const double coordinate : place)
+    {
+      file << "," << coordinate;
+    }
+  };
+  for (const SkeletonPart & part : model.parts)
+  {
+    if (!part.network)
+    {
+      continue;
+    }
+    const auto addLabels = [&](const std::array<std::int64_t, 2> & labels) {
+      for (const std::int64_t label : labels)
+      {
+        file << "," << label << "," << CsvField(NameIn(*part.network, label));
+      }
+    };
+    const auto addNode = [&](const std::array<double, 3> & place) {
+      const auto & points = part.graph.nodePoints;
+      const auto   node = std::ranges::find_if(points, [&](ElementIndex point) {
+        return part.graph.contact[point] && part.graph.positions[point] == place;
+      });
+      if (node == points.end()) // pruned
+      {
+        file << ",,";
+      }
+      else
+      {
+        file << "," << node - points.begin() << "," << SectionRadii(part.graph)[*node];
+      }
+      addPlace(place);
+      file << "\n";
+    };
+    std::size_t number = 0;
+    for (const NetworkContact & contact : part.network->contacts)
+    {
+      ++number;
+      const auto addContact = [&] {
+        file << number;
+        addLabels(contact.labels);
+        file << "," << contact.areaMm2 << "," << contact.faces << "," << contact.voxels;
+        addPlace(contact.centre);
+        file << "," << contact.places.size();
+      };
+      if (contact.places.empty())
+      {
+        addContact();
+        file << ",,,,,\n";
+      }
+      for (const auto & place : contact.places)
+      {
+        addContact();
+        addNode(place);
+      }
+    }
+    for (const NetworkGap & gap : part.network->gaps)
+    {
+      addLabels(gap.labels);
+      file << ",0,0,0,,,,1";
+      addNode(gap.place);
     }
   }
   file.Finish();
 }
 
 std::string
-SkeletonColumnsJson(SpatialUnit unit)
+SkeletonColumnsJson(SpatialUnit unit, bool network)
 {
   return "{\n  \"branches\": " + ColumnsJson(kBranchColumns, unit) +
-         ",\n  \"summary\": " + ColumnsJson(kSummaryColumns, unit) + "\n}\n";
+         ",\n  \"summary\": " + ColumnsJson(kSummaryColumns, unit) +
+         (network ? ",\n  \"contacts\": " + ColumnsJson(kContactColumns, unit) : std::string()) + "\n}\n";
 }
 
 } // namespace voxelcore

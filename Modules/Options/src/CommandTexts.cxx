@@ -115,7 +115,8 @@ cuts run up to the border. By default the core is not pruned first, so that part
 branches. Radii in tables are those of the scanned body. Guide: skeletons.md
 
 --also writes beside OUT.vtp:
-  csv       OUT_branches.csv, OUT_summary.csv, and OUT_columns.json, which explains the columns
+  csv       OUT_branches.csv, OUT_summary.csv, and OUT_columns.json, which explains the columns;
+            with --network OUT_contacts.csv, too
   swc       OUT.swc, in micrometres; cycles are cut
   mrk.json  OUT.mrk.json, curves for 3D Slicer
   graphml   OUT.graphml
@@ -131,6 +132,7 @@ Examples:
   voxelcore skeleton core.vtp -o skeleton.vtp --report skeleton.json
   voxelcore skeleton atlas.nii.gz -o skeletons/ --also csv
   voxelcore skeleton vessels.seg.nrrd --prune-branches 1.5r --also mrk.json -o vessels.vtp
+  voxelcore skeleton circle-of-willis.nii.gz --network --also csv -o network.vtp
   voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp)";
 
 constexpr std::string_view kRootsFooter =

@@ -216,6 +216,19 @@ SkeletonOptionsFrom(const ParameterValues & values)
   options.refine = RefineFrom(reader);
   options.stage.refined = !options.refine.surface.empty();
   options.targets = TargetsFrom(values, command);
+  options.stage.network = values.contains("network");
+  options.targets.network = options.stage.network;
+  if (options.stage.network)
+  {
+    for (const char * other : { "binary", "threshold", "split-components", "plates" })
+    {
+      if (values.contains(other))
+      {
+        throw UsageError("--network takes the labels as one body and gives curves; it does not go with --" +
+                         std::string(other));
+      }
+    }
+  }
   if (values.contains("tolerance"))
   {
     const auto heights = ParseTolerances(ValueOf(values, command, "tolerance"));

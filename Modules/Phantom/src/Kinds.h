@@ -128,6 +128,10 @@ MakeRoot(const PhantomOptions & options, const ProgressCallback & progress);
 std::vector<VoxelShape>
 MakeCells(const PhantomOptions & options, const ProgressCallback & progress);
 
+/** Those of the kind vessels. */
+std::vector<VoxelShape>
+MakeVessels(const PhantomOptions & options, const ProgressCallback & progress);
+
 std::vector<CentreLinePoint>
 CentreLinesOfRoot(const PhantomOptions & options);
 

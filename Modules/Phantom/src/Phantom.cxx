@@ -14,7 +14,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::array<PhantomKind, 15> kKinds{ {
+constexpr std::array<PhantomKind, 16> kKinds{ {
   { "ellipsoid", "an ellipsoid with semi-axes 0.45, 0.30 and 0.20 of the sides", "" },
   { "ball", "a ball", "radius (0.45 of the shortest side)" },
   { "capsule", "a straight rod along x with round ends", "radius (0.15 of the shortest side)" },
@@ -45,6 +45,9 @@ constexpr std::array<PhantomKind, 15> kKinds{ {
     "a volume full of touching bodies, a label each, as in connectomics: branching neurites, bodies between them, "
     "fragments",
     "cells (2000), seed" },
+  { "vessels",
+    "twelve vessels, a label each, that meet in a ring as those at the base of the brain do: one loop",
+    "radius of the stem (0.035 of the shortest side)" },
 } };
 
 void
@@ -192,16 +195,20 @@ MakePhantom(const PhantomOptions & options, const ProgressCallback & progress)
   {
     return MakeRoot(options, progress);
   }
-  return Union(options, MakeCells(options, progress));
+  return Union(options, MakePhantomBodies(options, progress));
 }
 
 std::vector<VoxelShape>
 MakePhantomBodies(const PhantomOptions & options, const ProgressCallback & progress)
 {
+  CheckPhantomOptions(options);
   if (options.kind == "cells")
   {
-    CheckPhantomOptions(options);
     return MakeCells(options, progress);
+  }
+  if (options.kind == "vessels")
+  {
+    return MakeVessels(options, progress);
   }
   std::vector<VoxelShape> one;
   one.push_back(CropToVoxels(MakePhantom(options, progress)));

@@ -12,7 +12,8 @@ TakeSkeleton(CertifiedSkeleton skeleton, LabelRecord & record)
   part.label = record.label;
   part.component = record.component;
   part.name = record.name;
-  record.skeleton = { skeleton.topology, part.table.numbers, std::move(skeleton.cuts), {}, std::move(skeleton.border) };
+  record.skeleton = { skeleton.topology,          part.table.numbers, std::move(skeleton.cuts), {},
+                      std::move(skeleton.border), part.network };
   return part;
 }
 

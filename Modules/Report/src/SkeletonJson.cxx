@@ -40,6 +40,64 @@ BorderJson(const BorderNumbers & border)
   return json;
 }
 
+Json
+NetworkJson(const SkeletonNetwork & network)
+{
+  Json json{ { "labels", Json::array() }, { "contacts", Json::array() }, { "gaps", Json::array() } };
+  for (const NetworkLabel & label : network.labels)
+  {
+    json["labels"].push_back({ { "label", label.value },
+                               { "name", label.name },
+                               { "voxels", label.voxels },
+                               { "volume_mm3", label.volumeMm3 } });
+  }
+  for (const NetworkContact & contact : network.contacts)
+  {
+    json["contacts"].push_back({ { "labels", contact.labels },
+                                 { "voxels", contact.voxels },
+                                 { "faces", contact.faces },
+                                 { "area_mm2", contact.areaMm2 },
+                                 { "centre_mm", contact.centre },
+                                 { "nodes_mm", contact.places } });
+  }
+  for (const NetworkGap & gap : network.gaps)
+  {
+    json["gaps"].push_back({ { "labels", gap.labels }, { "node_mm", gap.place } });
+  }
+  return json;
+}
+
+SkeletonNetwork
+ReadNetwork(const Json & json)
+{
+  SkeletonNetwork network;
+  for (const Json & one : json.at("labels"))
+  {
+    NetworkLabel & label = network.labels.emplace_back();
+    one.at("label").get_to(label.value);
+    one.at("name").get_to(label.name);
+    one.at("voxels").get_to(label.voxels);
+    AtLength(one, "volume_mm3").get_to(label.volumeMm3);
+  }
+  for (const Json & one : json.at("contacts"))
+  {
+    NetworkContact & contact = network.contacts.emplace_back();
+    one.at("labels").get_to(contact.labels);
+    one.at("voxels").get_to(contact.voxels);
+    one.at("faces").get_to(contact.faces);
+    AtLength(one, "area_mm2").get_to(contact.areaMm2);
+    AtLength(one, "centre_mm").get_to(contact.centre);
+    AtLength(one, "nodes_mm").get_to(contact.places);
+  }
+  for (const Json & one : json.at("gaps"))
+  {
+    NetworkGap & gap = network.gaps.emplace_back();
+    one.at("labels").get_to(gap.labels);
+    AtLength(one, "node_mm").get_to(gap.place);
+  }
+  return network;
+}
+
 } // namespace
 
 Json
@@ -67,6 +125,10 @@ SkeletonStageJson(const SkeletonRequest & stage)
   {
     json["border"] = BorderText(stage.border);
   }
+  if (stage.network)
+  {
+    json["network"] = true;
+  }
   return json;
 }
 
@@ -81,6 +143,7 @@ ReadSkeletonStage(const Json & json)
   }
   stage.refined = json.value("refined", false);
   stage.border = ParseBorder(json.value("border", BorderText(BorderEnds::Closed)));
+  stage.network = json.value("network", false);
   stage.standOut = ParseLambda(json.at("stand_out").get<std::string>());
   stage.plates = ReadLength(json.at("plates"));
   stage.smooth = ParseLambda(json.at("smooth").get<std::string>());
@@ -121,6 +184,10 @@ SkeletonRecordJson(const SkeletonRecord & skeleton, bool inFile)
   if (skeleton.border)
   {
     json["border"] = BorderJson(*skeleton.border);
+  }
+  if (skeleton.network)
+  {
+    json["network"] = NetworkJson(*skeleton.network);
   }
   if (!inFile)
   {
@@ -172,6 +239,10 @@ ReadSkeletonRecord(const Json & json)
   SkeletonRecord skeleton;
   json.at("euler").get_to(skeleton.topology.euler);
   json.at("betti").get_to(skeleton.topology.betti);
+  if (json.contains("network"))
+  {
+    skeleton.network = ReadNetwork(json.at("network"));
+  }
   return skeleton;
 }
 

@@ -100,6 +100,12 @@ private:
     return m_Graph.nodeKinds[node] == NodeKind::Tip;
   }
 
+  bool
+  IsContact(ElementIndex node) const
+  {
+    return !m_Graph.contact.empty() && m_Graph.contact[m_Graph.nodePoints[node]] != 0;
+  }
+
   std::optional<Candidate>
   CandidateOf(ElementIndex number) const
   {
@@ -137,7 +143,7 @@ private:
   JoinAt(ElementIndex node)
   {
     auto & lines = m_LinesAt[node];
-    if (m_Graph.nodeKinds[node] == NodeKind::Surface || lines.size() != 2 || lines[0] == lines[1])
+    if (m_Graph.nodeKinds[node] == NodeKind::Surface || IsContact(node) || lines.size() != 2 || lines[0] == lines[1])
     {
       return;
     }

@@ -82,6 +82,11 @@ CutLoops(SkeletonGraph & graph)
       {
         graph.sectionRadius[middle] = 0.5 * (graph.sectionRadius[line[0]] + graph.sectionRadius[line[1]]);
       }
+      if (!graph.labels.empty())
+      {
+        graph.labels[middle] = graph.BranchLabel(branch);
+        graph.contact[middle] = 0;
+      }
       line.insert(line.begin() + 1, middle);
     }
     const auto at = std::min_element(line.begin() + 1, line.end() - 1, [&](ElementIndex a, ElementIndex b) {

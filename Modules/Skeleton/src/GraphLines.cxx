@@ -32,6 +32,11 @@ CopyPoint(SkeletonGraph & graph, ElementIndex point)
   {
     graph.sectionRadius.push_back(graph.sectionRadius[point]);
   }
+  if (!graph.labels.empty())
+  {
+    graph.labels.push_back(graph.labels[point]);
+    graph.contact.push_back(graph.contact[point]);
+  }
   return copy;
 }
 
@@ -56,6 +61,11 @@ KeepPoints(SkeletonGraph & graph, GraphLines & lines, const std::vector<std::uin
       {
         graph.medial[kept] = graph.medial[point];
       }
+      if (!graph.labels.empty())
+      {
+        graph.labels[kept] = graph.labels[point];
+        graph.contact[kept] = graph.contact[point];
+      }
       ++kept;
     }
   }
@@ -64,6 +74,8 @@ KeepPoints(SkeletonGraph & graph, GraphLines & lines, const std::vector<std::uin
   graph.erosionThickness.resize(kept);
   graph.medial.resize(graph.medial.empty() ? 0 : kept);
   graph.sectionRadius.resize(graph.sectionRadius.empty() ? 0 : kept);
+  graph.labels.resize(graph.labels.empty() ? 0 : kept);
+  graph.contact.resize(graph.contact.empty() ? 0 : kept);
   for (auto & line : lines)
   {
     for (ElementIndex & point : line)

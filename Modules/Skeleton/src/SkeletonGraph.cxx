@@ -125,6 +125,14 @@ SkeletonGraph::BranchLength(std::size_t branch) const
   return length;
 }
 
+std::int64_t
+SkeletonGraph::BranchLabel(std::size_t branch) const
+{
+  const auto points = Branch(branch);
+  const auto own = std::find_if(points.begin(), points.end(), [&](ElementIndex point) { return !contact[point]; });
+  return labels[own == points.end() ? points.front() : *own];
+}
+
 void
 SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>> & lines, bool join)
 {
@@ -143,10 +151,11 @@ SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>>
       onLine[point] = 1;
     }
   }
+  const auto isContact = [&](std::size_t point) { return !graph.contact.empty() && graph.contact[point] != 0; };
   std::vector<std::uint8_t> stop(count, 0);
   for (std::size_t point = 0; point < count; ++point)
   {
-    stop[point] = ends.count[point] != 0 && (ends.count[point] != 2 || onFace[point] || !join);
+    stop[point] = ends.count[point] != 0 && (ends.count[point] != 2 || onFace[point] || !join || isContact(point));
   }
   std::vector<std::vector<ElementIndex>> branches;
   std::vector<std::uint8_t>              taken(lines.size(), 0);
@@ -172,7 +181,8 @@ SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>>
   // A loop of a single line that begins and ends in a point of its own.
   for (const auto & branch : branches)
   {
-    if (branch.front() == branch.back() && ends.count[branch.front()] == 2 && !onFace[branch.front()])
+    if (branch.front() == branch.back() && ends.count[branch.front()] == 2 && !onFace[branch.front()] &&
+        !isContact(branch.front()))
     {
       loopStart[branch.front()] = 1;
     }
@@ -188,11 +198,12 @@ SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>>
     {
       nodeOf[point] = static_cast<ElementIndex>(graph.nodePoints.size());
       graph.nodePoints.push_back(static_cast<ElementIndex>(point));
-      graph.nodeKinds.push_back(isIsolated               ? NodeKind::Isolated
-                                : loopStart[point]       ? NodeKind::Loop
-                                : onFace[point]          ? NodeKind::Surface
-                                : ends.count[point] == 1 ? NodeKind::Tip
-                                                         : NodeKind::Junction);
+      graph.nodeKinds.push_back(isIsolated                                   ? NodeKind::Isolated
+                                : loopStart[point]                           ? NodeKind::Loop
+                                : onFace[point]                              ? NodeKind::Surface
+                                : isContact(point) && ends.count[point] <= 2 ? NodeKind::Contact
+                                : ends.count[point] == 1                     ? NodeKind::Tip
+                                                                             : NodeKind::Junction);
     }
   }
   AddBranches(graph, std::move(branches), nodeOf);

@@ -31,11 +31,12 @@ IsSkeleton(const SkeletonGraph & graph)
   const bool pointsFit = graph.radius.size() == points && graph.erosionThickness.size() == points &&
                          (graph.medial.empty() || graph.medial.size() == points) &&
                          (graph.sectionRadius.empty() || graph.sectionRadius.size() == points) &&
-                         arePlaces(graph.positions) && arePlaces(graph.medial) && areLengths(graph.radius) &&
-                         areLengths(graph.sectionRadius) &&
+                         (graph.labels.empty() || graph.labels.size() == points) &&
+                         graph.contact.size() == graph.labels.size() && arePlaces(graph.positions) &&
+                         arePlaces(graph.medial) && areLengths(graph.radius) && areLengths(graph.sectionRadius) &&
                          std::ranges::all_of(graph.erosionThickness, [](double value) { return value >= 0; });
   const bool nodesFit = graph.nodeKinds.size() == nodes && areBelow(graph.nodePoints, points) &&
-                        std::ranges::all_of(graph.nodeKinds, [](NodeKind kind) { return kind <= NodeKind::Surface; });
+                        std::ranges::all_of(graph.nodeKinds, [](NodeKind kind) { return kind <= NodeKind::Contact; });
   const bool facesFit = areOffsets(graph.faceOffsets, graph.closedFace.size(), graph.faceVertices.size()) &&
                         areBelow(graph.faceVertices, points) &&
                         std::ranges::all_of(graph.closedFace, [](std::uint8_t closed) { return closed <= 1; });

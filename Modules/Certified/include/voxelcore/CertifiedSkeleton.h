@@ -31,6 +31,7 @@ struct SkeletonRequest
   Lambda                   smooth;                      ///< window of FitBranches, by InMeanVoxels()
   bool                     refined = false;             ///< points and radii are those of CertifiedRequest::surface
   BorderEnds               border = BorderEnds::Closed; ///< of CertifiedRequest::scan
+  bool                     network = false;             ///< of all labels taken as one body, each point with its label
   BranchRequest            branches;
 };
 
@@ -60,6 +61,13 @@ struct CertifiedSkeleton
 
   std::optional<BorderNumbers> border{}; ///< of a body at the border of its scan, where that is not closed
 };
+
+/** A body as it is taken to go on beyond the border of its scan, so far that its curves run up to it. */
+ExtendedShape
+UpToBorder(const VoxelShape &      shape,
+           const ImageGeometry &   geometry,
+           const VoxelBox &        scan,
+           const SkeletonRequest & request);
 
 /** Burns the core to curves; lambda, tolerance and refinement of the request only say what `core` is. The body that is
  *  measured around them is `body`; without it the union of the core's balls: of a whole core of cubic voxels the

@@ -15,9 +15,10 @@ namespace voxelcore
 {
 
 /** Takes the labels' skeletons, then writes all files. Names beside "OUT.vtp": OUT_branches.csv, OUT_summary.csv and
- *  OUT_columns.json for csv (with --table that file takes the place of OUT_branches.csv); OUT.swc, OUT.mrk.json,
- *  OUT.graphml, OUT.ma with OUT.r for the others. In a folder there is an OUT for each label, SkeletonFolderPath(); the
- *  tables, all labels in one, are called <scan>_skeleton_branches.csv and so on. */
+ *  OUT_columns.json for csv (with --table that file takes the place of OUT_branches.csv), of a network
+ *  OUT_contacts.csv; OUT.swc, OUT.mrk.json, OUT.graphml, OUT.ma with OUT.r for the others. In a folder there is an OUT
+ *  for each label, SkeletonFolderPath(); the tables, all labels in one, are called <scan>_skeleton_branches.csv and so
+ *  on. */
 class SkeletonFiles
 {
 public:

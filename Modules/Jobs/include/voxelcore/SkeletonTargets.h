@@ -13,6 +13,7 @@ struct SkeletonTargets
 {
   std::optional<std::filesystem::path> table; ///< .csv, a row per branch
   std::vector<std::string>             also;  ///< further files beside the result: csv, swc, mrk.json, graphml, ma
+  bool                                 network = false; ///< of a network: tables have that of its contacts, too
 };
 
 /** Comma-separated endings for `also`. \throws UsageError for one that is not known */

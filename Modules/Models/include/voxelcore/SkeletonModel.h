@@ -25,7 +25,9 @@ struct SkeletonModel
 /** XML polydata: isolated points as verts, a poly line per branch, polygons of faces that stay. Point arrays Radius,
  *  MaximumInscribedSphereRadius (the same under VMTK's name), SectionRadius, ErosionThickness; cell arrays BranchId
  *  (per part, from 0; -1 for verts and polygons), Label, Component, Closed (1 for faces of closed surfaces), and of
- *  branches Length, Tortuosity, Level, Strahler (0 elsewhere). Equal models give equal bytes. \throws OutputError */
+ *  branches Length, Tortuosity, Level, Strahler (0 elsewhere). Of a network Label is that of each branch; there are the
+ *  point arrays Label and Contact (1 where labels meet), too, and the field array LabelNames, a line "value name" a
+ *  label. Equal models give equal bytes. \throws OutputError */
 void
 WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model);
 
@@ -52,17 +54,22 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model);
 void
 WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model);
 
-/** A row per label and level of the hierarchy; level "all" sums up a label. \throws OutputError */
+/** A row per label and level of the hierarchy; level "all" sums up a label. Of a network there are rows for each of its
+ *  labels, and rows of label 0, called "network", for the whole. \throws OutputError */
 void
 WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model);
+
+/** A row per contact of labels of networks, or gap between them. \throws OutputError */
+void
+WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model);
 
 /** A text as a field of a .csv: quoted where it has to be, with an apostrophe in front where a spreadsheet would take
  *  it for a formula (it begins with one of = + - @ or a control character). */
 std::string
 CsvField(const std::string & text);
 
-/** The data dictionary of both tables as JSON: meaning and unit of each column. */
+/** The data dictionary of the tables as JSON: meaning and unit of each column. `network`: with that of contacts. */
 std::string
-SkeletonColumnsJson(SpatialUnit unit);
+SkeletonColumnsJson(SpatialUnit unit, bool network = false);
 
 } // namespace voxelcore

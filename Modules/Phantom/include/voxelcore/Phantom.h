@@ -52,13 +52,14 @@ struct PhantomOptions
   std::optional<int>          cells;       ///< cells: number of bodies
 };
 
-/** The voxels, in a box that begins at 0 and has the given size; of cells, those of all bodies.
+/** The voxels, in a box that begins at 0 and has the given size; of cells and vessels, those of all bodies.
  *  \throws UsageError for an unknown kind or a value without sense; Cancelled when the callback says so. */
 VoxelShape
 MakePhantom(const PhantomOptions & options, const ProgressCallback & progress = {});
 
-/** The bodies of a phantom, each in its tight box: one, or those of `cells`, which fill the volume without overlap. A
- *  body that lies wholly within others' share is left out, so that there may be a few less than were asked for.
+/** The bodies of a phantom, each in its tight box: one, or those of `cells`, which fill the volume, and of `vessels`;
+ *  none overlap. A body that lies wholly within others' share is left out, so that there may be a few less than were
+ *  asked for.
  *  \throws as MakePhantom */
 std::vector<VoxelShape>
 MakePhantomBodies(const PhantomOptions & options, const ProgressCallback & progress = {});

@@ -79,7 +79,8 @@ struct SkeletonRecord
   std::vector<LoopCut> cuts;
   std::string          output; ///< the file
 
-  std::optional<BorderNumbers> border{}; ///< where it is not closed, and the body lies at it
+  std::optional<BorderNumbers>   border{};  ///< where it is not closed, and the body lies at it
+  std::optional<SkeletonNetwork> network{}; ///< of several labels
 };
 
 /** One label, or one of its components where these are split. */

@@ -17,7 +17,8 @@ enum class NodeKind : std::uint8_t
   Junction, ///< end of three branches or more (a branch that begins and ends here counts twice)
   Loop,     ///< where a closed curve without junctions is taken to begin
   Isolated, ///< a point by itself
-  Surface   ///< where curves meet faces that stay
+  Surface,  ///< where curves meet faces that stay
+  Contact   ///< of a network: where labels meet, and no more than two branches
 };
 
 /** Flat arrays; lengths in mm. A branch is a poly line of points from one node to another, or back to the same; only
@@ -31,6 +32,9 @@ struct SkeletonGraph
   std::vector<double> radius;           ///< of the largest ball in the shape around `medial`; MeasureBallsAnew()
   std::vector<double> sectionRadius;    ///< as CrossSectionRadii() gives it; may be empty
   std::vector<double> erosionThickness; ///< infinite on closed surfaces
+
+  std::vector<std::int64_t> labels;  ///< of a network (LabelNetwork.h): value of each point's label; else empty
+  std::vector<std::uint8_t> contact; ///< of a network: 1 where labels meet, at ends of branches alone; else empty
 
   std::vector<ElementIndex> nodePoints;
   std::vector<NodeKind>     nodeKinds;
@@ -60,6 +64,10 @@ struct SkeletonGraph
   }
   double
   BranchLength(std::size_t branch) const;
+
+  /** Of a network: the label of a branch, which is that of all its points but those where labels meet. */
+  std::int64_t
+  BranchLabel(std::size_t branch) const;
 };
 
 /** What is measured as a radius: `sectionRadius`, or that of the balls where there is none. */
@@ -74,7 +82,7 @@ SkeletonGraph
 BuildSkeletonGraph(const CurveSkeleton & skeleton);
 
 /** Poly lines and faces over points, as they stand in a file, put in order: branches that meet in a point with no other
- *  stay apart, unless `join` is set. Each poly line has two points or more.
+ *  stay apart, unless `join` is set; where labels meet they always do. Each poly line has two points or more.
  *  Points on no poly line and no face are isolated nodes. Fills nodes and branches of `graph` anew. */
 void
 SortBranches(SkeletonGraph & graph, const std::vector<std::vector<ElementIndex>> & lines, bool join);
