@@ -29,10 +29,10 @@ namespace fs = std::filesystem;
 namespace
 {
 
-class Work
+class ThicknessWork
 {
 public:
-  Work(const ThicknessOptions & options, const JobContext & context)
+  ThicknessWork(const ThicknessOptions & options, const JobContext & context)
     : m_Options(options)
     , m_Context(context)
     , m_Transaction(options.core.force, context.temporaries)
@@ -437,7 +437,7 @@ ThicknessResult
 RunThicknessJob(const ThicknessOptions & options, const JobContext & given)
 {
   const JobContext context = ForwardOnly(given);
-  return Work(options, context).Run();
+  return ThicknessWork(options, context).Run();
 }
 
 } // namespace voxelcore
