@@ -87,7 +87,7 @@ def write_inputs(program):
         file.writelines("v %g %g %g\n" % (x, 20 * y, 20 * z) for x, y, z in CORNERS)
         file.writelines("f %d %d %d\n" % tuple(c + 1 for c in triangle) for triangle in TRIANGLES)
     for name, kind in (("scan.nii.gz", "torus"), ("root.nii.gz", "root"), ("root.nrrd", "root"), ("huge.nrrd", "root"),
-                       ("bone.nrrd", "tanglecube")):
+                       ("bone.nrrd", "tanglecube"), ("circle-of-willis.nii.gz", "vessels")):
         run(program, "phantom", kind, "--size", 32, "-o", name, "-q")
     run(program, "core", "root.nrrd", "--lambda", 0, "-o", "core.vtp", "-q")
     run(program, "core", "atlas.nii.gz", "-o", "atlas.vtp", "-q")

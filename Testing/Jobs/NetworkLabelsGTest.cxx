@@ -61,8 +61,8 @@ TEST_F(NetworkLabelsJob, VesselsAreOneRingWithANodeAtEachContact)
 {
   Phantom("vessels", "a.nrrd", "64");
   const SkeletonResult network =
-    Skeleton("n.vtp", { { "network", "" }, { "also", "csv,swc,graphml,mrk.json" }, { "report", At("n.json") } });
-  const SkeletonResult whole = Skeleton("w.vtp", { { "binary", "" } });
+    Skeleton("n.vtp", { { "network", "true" }, { "also", "csv,swc,graphml,mrk.json" }, { "report", At("n.json") } });
+  const SkeletonResult whole = Skeleton("w.vtp", { { "binary", "true" } });
   const auto &         record = *network.report.labels.at(0).skeleton;
   EXPECT_EQ(record.numbers.cycles, 1);
   EXPECT_EQ(record.numbers.components, 1);
@@ -128,7 +128,7 @@ TEST_F(NetworkLabelsJob, VesselsAreOneRingWithANodeAtEachContact)
 TEST_F(NetworkLabelsJob, MeasuringAFinishedNetworkGivesItsTablesAgain)
 {
   Phantom("vessels", "a.nrrd", "40");
-  Skeleton("n.vtp", { { "network", "" }, { "also", "csv" } });
+  Skeleton("n.vtp", { { "network", "true" }, { "also", "csv" } });
   RunMeasureJob(MeasureOptionsFrom({ { "skeleton", At("n.vtp") }, { "output", At("m.csv") } }));
   for (const char * table : { "_branches.csv", "_summary.csv", "_contacts.csv", "_columns.json" })
   {
@@ -150,9 +150,9 @@ TEST_F(NetworkLabelsJob, MeasuringAFinishedNetworkGivesItsTablesAgain)
 TEST_F(NetworkLabelsJob, WhatDoesNotGoTogetherIsRefused)
 {
   Phantom("ball", "a.nrrd");
-  EXPECT_THROW(Skeleton("n.vtp", { { "network", "" } }), InputError); // one label
+  EXPECT_THROW(Skeleton("n.vtp", { { "network", "true" } }), InputError); // one label
   Phantom("vessels", "b.nrrd", "40");
-  const ParameterValues network{ { "network", "" }, { "scan", At("b.nrrd") } };
+  const ParameterValues network{ { "network", "true" }, { "scan", At("b.nrrd") } };
   for (const char * other : { "binary", "split-components", "plates" })
   {
     ParameterValues both = network;

@@ -337,7 +337,8 @@ TEST(Phantom, OptionsOfOtherKindsAreRefused)
     const std::string name(kind.name);
     EXPECT_EQ(
       takes(name, radius),
-      (std::set<std::string>{ "ball", "capsule", "rod", "torus", "shell", "thick-and-thin", "root" }.count(name) == 1))
+      (std::set<std::string>{ "ball", "capsule", "rod", "torus", "shell", "thick-and-thin", "root", "vessels" }.count(
+         name) == 1))
       << name;
     EXPECT_EQ(takes(name, thickness),
               (std::set<std::string>{ "plate", "shell", "gyroid", "thick-and-thin" }.count(name) == 1))

@@ -159,7 +159,7 @@ TEST(LabelContacts, AreThoseOfAFloodOverTouchingPairs)
     ASSERT_EQ(contacts, expected) << "seed " << seed;
     found += contacts.size();
   }
-  EXPECT_GT(found, 300U);
+  EXPECT_GT(found, 200U); // or the bodies drawn say little
 }
 
 TEST(LabelContacts, AVoxelOfSeveralLabelsBecomesTheFirstOnes)

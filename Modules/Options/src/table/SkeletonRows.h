@@ -26,8 +26,7 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
     false,
     kSkeleton,
     "Make one skeleton of all labels together, such as the vessels of a circle of Willis: each point has its label, "
-    "and branches are cut where labels meet",
-    "-" },
+    "and branches are cut where labels meet" },
   { "also",
     "--also",
     Text,
