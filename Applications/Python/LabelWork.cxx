@@ -448,6 +448,7 @@ MakeNetworkOf(const ArrayView &        array,
     stage.tolerance = options.tolerances.front();
   }
   options.skeleton = stage;
+  options.skeletonTargets.also = { "ma" }; // a skeleton here knows its core
   ReadArray             read = Read(array, geometry, options, coreValues, progress);
   const ImageGeometry & place = read.report.input.geometry;
   auto                  result = std::make_shared<SkeletonOfLabel>();
