@@ -401,7 +401,20 @@ TEST_F(ShapeEdits, VoxelsThatTouchOverCornersAreJoinedAndTheirListMakesTheSameSh
   const Json again = Core({ "--change-voxels", m_Folder / "changes.txt" });
   EXPECT_EQ(First(again), (Numbers{ 25, 1, 0, 0 }));
   EXPECT_EQ(again["labels"][0]["core"], report["labels"][0]["core"]);
-  EXPECT_EQ(First(Core({ "--tree" })), (Numbers{ 25, 1, 0, 0 })) << "joined, not removed";
+  for (const Texts & options : { Texts{ "--tree" },
+                                 Texts{ "--simplify-topology", "2vox", "--pieces", "1" },
+                                 Texts{ "--mend-shape" },
+                                 Texts{ "--close", "3vox" } })
+  {
+    EXPECT_EQ(First(Core(options)), (Numbers{ 25, 1, 0, 0 })) << options[0] << ": joined, not removed";
+  }
+  EXPECT_EQ(First(Core({ "--simplify-topology", "2vox", "--pieces", "4" })), (Numbers{ 19, 4, 0, 0 }));
+  const Json tree = Core({ "--tree" })["labels"][0]["edits"]["topology_simplified"];
+  EXPECT_EQ(tree["before"]["betti"], (Json{ 9, 0, 0 }));
+  EXPECT_EQ(tree["fills"], 8);
+  EXPECT_EQ(tree["voxels_added"], 16);
+  EXPECT_EQ(tree["changes"][0]["voxels"], 2);
+  EXPECT_EQ(tree["changes"][0]["pieces"], -1);
 }
 
 TEST_F(ShapeEdits, TheTopologyAskedForIsMadeAndItsChangesAreListed)

@@ -303,9 +303,9 @@ TEST(Parameters, ATreeIsOnePieceWithoutLoopsAndCavities)
   EXPECT_EQ(edits.topology.pieces, 1);
   EXPECT_EQ(edits.topology.loops, 0);
   EXPECT_EQ(edits.topology.cavities, 0);
-  EXPECT_EQ(edits.connectivity, Connectivity::TwentySix);
-  const auto byFaces = CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "connectivity", "6" } })).edits;
-  EXPECT_EQ(byFaces.connectivity, Connectivity::Six);
+  EXPECT_EQ(edits.connectivity, Connectivity::Six) << "what touches is joined where pieces would fall apart alone";
+  const auto byCorners = CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "connectivity", "26" } })).edits;
+  EXPECT_EQ(byCorners.connectivity, Connectivity::TwentySix);
   const auto deeper = CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "simplify-topology", "5vox" } })).edits;
   EXPECT_EQ(deeper.simplify->text, "5vox");
   EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "tree", "true" }, { "loops", "1" } })), UsageError);

@@ -2,10 +2,12 @@
 
 #include "ContactPlaces.h"
 #include "SimpleVoxel.h"
+#include "TouchingPieces.h"
 
 #include "VoxelCoreTesting/BruteShape.h"
 #include "VoxelCoreTesting/Shapes.h"
 
+#include "voxelcore/ShapeOperations.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/VoxelChanges.h"
 
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <bit>
 #include <bitset>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -337,6 +340,103 @@ TEST(ShapeConnectivity, WhatIsNoPathStaysOpen)
   EXPECT_EQ(ComputeShapeTopology(connected.shape), ComputeClosedTopology(shape));
 }
 
+/** For each voxel the number of its 26-connected piece, by flooding. */
+std::map<Size3, int>
+PiecesByTouch(const VoxelShape & mask)
+{
+  const auto &         size = mask.Box().size;
+  std::map<Size3, int> pieces;
+  int                  count = 0;
+  for (std::int32_t i = 0; i < size[0] * size[1] * size[2]; ++i)
+  {
+    std::vector<Size3> front{ { i % size[0], i / size[0] % size[1], i / size[0] / size[1] } };
+    count += pieces.contains(front[0]) ? 0 : 1;
+    while (!front.empty())
+    {
+      const Size3 at = front.back();
+      front.pop_back();
+      if (!mask.Contains(at[0], at[1], at[2]) || !pieces.emplace(at, count).second)
+      {
+        continue;
+      }
+      for (int k = 0; k < 27; ++k)
+      {
+        front.push_back({ at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1 });
+      }
+    }
+  }
+  return pieces;
+}
+
+TEST(ShapeConnectivity, PiecesThatTouchAreJoinedAndNothingElseChanges)
+{
+  Random random(2111);
+  int    joined = 0;
+  int    apart = 0;
+  for (int i = 0; i < 100; ++i)
+  {
+    const VoxelShape mask = RandomShape(random, { 6, 70, 5 }, 0.01 * static_cast<double>(random.Between(1, 30)));
+    if (mask.CountVoxels() == 0)
+    {
+      continue;
+    }
+    const auto         before = ComputeShapeTopology(mask).betti;
+    const auto         touching = CountComponents26(mask);
+    const auto         byTouch = PiecesByTouch(mask);
+    const std::int64_t least = i % 3 == 0 ? random.Between(1, before[0]) : 1;
+    const JoinedPieces made = JoinTouchingPieces(mask, least);
+    const auto         after = ComputeShapeTopology(made.shape).betti;
+    EXPECT_EQ(after[0], before[0] - static_cast<std::int64_t>(made.PiecesJoined())) << "mask " << i;
+    EXPECT_EQ(after[1], before[1]) << "mask " << i;
+    EXPECT_EQ(after[2], before[2]) << "mask " << i;
+    for (const VoxelShape & piece : SplitComponents(made.shape))
+    {
+      std::set<int> numbers;
+      for (const auto & [at, number] : byTouch)
+      {
+        if (piece.Contains(at[0], at[1], at[2]))
+        {
+          numbers.insert(number);
+        }
+      }
+      EXPECT_EQ(numbers.size(), 1U) << "mask " << i << ": pieces that do not touch were joined";
+    }
+    EXPECT_GE(after[0], std::min(before[0], least));
+    EXPECT_EQ(made.shape.CountVoxels(), mask.CountVoxels() + made.VoxelsAdded());
+    EXPECT_LE(made.VoxelsAdded(), 2 * made.PiecesJoined());
+    for (const JoinedPieces::Joint & joint : made.joints)
+    {
+      for (const auto & [x, y, z] : joint.voxels)
+      {
+        EXPECT_FALSE(mask.Contains(x, y, z));
+        EXPECT_TRUE(made.shape.Contains(x, y, z));
+      }
+    }
+    joined += static_cast<int>(made.PiecesJoined());
+    apart += least == 1 ? static_cast<int>(after[0] - touching) : 0;
+  }
+  EXPECT_GT(joined, 1000);
+  EXPECT_LT(apart, joined / 20) << "crowded places are left";
+}
+
+TEST(ShapeConnectivity, PiecesAreJoinedByTheFewestVoxels)
+{
+  const VoxelShape corners = ShapeWhere({ 9, 9, 9 }, [](int x, int y, int z) { return x == y && y == z; });
+  EXPECT_EQ(JoinTouchingPieces(corners).VoxelsAdded(), 16U);
+  EXPECT_EQ(JoinTouchingPieces(corners, 4).PiecesJoined(), 5U);
+  const VoxelShape edges = ShapeWhere({ 9, 9, 1 }, [](int x, int y, int) { return x == y; });
+  EXPECT_EQ(JoinTouchingPieces(edges).VoxelsAdded(), 8U);
+  // Two bows that meet in two places are joined at one: no loop is made.
+  const VoxelShape bows = ShapeWhere({ 6, 6, 1 }, [](int x, int y, int) {
+    return ((x == 0 || x == 5) && y >= 1 && y <= 2) || (y == 0 && x >= 1 && x <= 4) || (y == 3 && x >= 1 && x <= 4);
+  });
+  ASSERT_EQ(ComputeShapeTopology(bows).betti[0], 4);
+  const JoinedPieces one = JoinTouchingPieces(bows);
+  EXPECT_EQ(one.VoxelsAdded(), 3U);
+  EXPECT_EQ(ComputeShapeTopology(one.shape), (TopologyNumbers{ 1, { 1, 0, 0 } }));
+  EXPECT_EQ(JoinTouchingPieces(VoxelShape()).PiecesJoined(), 0U);
+}
+
 TEST(ShapeConnectivity, ATurnedOrShiftedMaskGivesTheTurnedResult)
 {
   Random random(2107);
@@ -348,6 +448,7 @@ TEST(ShapeConnectivity, ATurnedOrShiftedMaskGivesTheTurnedResult)
       continue;
     }
     const VoxelShape wanted = ConnectOverCorners(mask).shape;
+    const VoxelShape joined = JoinTouchingPieces(mask).shape;
     const auto       axis = static_cast<std::size_t>(random.Between(0, 2));
     const auto       next = (axis + 1 + static_cast<std::size_t>(random.Between(0, 1))) % 3;
     const auto       last = 3 - axis - next;
@@ -377,6 +478,7 @@ TEST(ShapeConnectivity, ATurnedOrShiftedMaskGivesTheTurnedResult)
       return turned;
     };
     EXPECT_TRUE(ChangesBetween(ConnectOverCorners(turn(mask)).shape, turn(wanted)).empty()) << "mask " << i;
+    EXPECT_TRUE(ChangesBetween(JoinTouchingPieces(turn(mask)).shape, turn(joined)).empty()) << "mask " << i;
   }
 }
 

@@ -49,6 +49,17 @@ TEST(ShapeMending, JoinsARodThatWasCut)
   EXPECT_EQ(mended.shape.CountVoxels(), 21U);
 }
 
+TEST(ShapeMending, JoinsWhatMeetsAtACorner)
+{
+  const VoxelShape cubes = ShapeWhere({ 8, 8, 8 }, [](int x, int y, int z) {
+    return (x < 4 && y < 4 && z < 4) || (x >= 4 && y >= 4 && z >= 4);
+  });
+  const auto       mended = MendShape(cubes);
+  EXPECT_EQ(mended.piecesJoined, 1U);
+  EXPECT_EQ(mended.voxelsAdded, 2U);
+  EXPECT_EQ(ComputeShapeTopology(mended.shape).betti, (std::array<std::int64_t, 3>{ 1, 0, 0 }));
+}
+
 TEST(ShapeMending, DoesNotCloseARingThatIsOpen)
 {
   // Joining the two ends would make a loop.

@@ -174,11 +174,6 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
       throw UsageError("--tree is --pieces 1 --loops 0 --cavities 0; give either");
     }
     topology = { 1, 0, 0 };
-    // Joined first: a piece that hangs by a corner would cost less to remove than to join.
-    if (!reader.IsGiven("connectivity"))
-    {
-      options.edits.connectivity = Connectivity::TwentySix;
-    }
     options.edits.simplify = options.edits.simplify ? options.edits.simplify : ParseGapWidth("3vox");
   }
   constexpr bool simplifiesAnyhow = requires

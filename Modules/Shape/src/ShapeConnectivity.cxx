@@ -1,7 +1,10 @@
 #include "voxelcore/ShapeConnectivity.h"
 
 #include "ContactPlaces.h"
+#include "GrowingPieces.h"
 #include "PaddedShape.h"
+#include "TouchingPieces.h"
+
 
 #include <algorithm>
 #include <bit>
@@ -167,6 +170,20 @@ TurningOf(const VoxelShape & shape, const std::vector<Voxel> & contacts)
   return picked;
 }
 
+/** Whether a voxel, with the room around it counted, lies in a box of this size. */
+bool
+IsInBox(const Voxel & size, const Voxel & at)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (at[axis] < kRoom || at[axis] >= kRoom + size[axis])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 class Connecting
 {
 public:
@@ -235,19 +252,6 @@ private:
   Key(const Voxel & corner) const
   {
     return { m_Turning({ 2 * corner[0] - 1, 2 * corner[1] - 1, 2 * corner[2] - 1 }), corner };
-  }
-
-  bool
-  IsInBox(const Voxel & at) const
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      if (at[axis] < kRoom || at[axis] >= kRoom + m_Size[axis])
-      {
-        return false;
-      }
-    }
-    return true;
   }
 
   void
@@ -346,7 +350,7 @@ Connecting::FlipsAt(const Voxel & corner, bool removes, std::int32_t reach)
     const Voxel at{ corner[0] - 1 - reach + i % side,
                     corner[1] - 1 - reach + i / side % side,
                     corner[2] - 1 - reach + i / (side * side) };
-    if (!IsInBox(at))
+    if (!IsInBox(m_Size, at))
     {
       continue;
     }
@@ -548,6 +552,222 @@ Connecting::Release(const VoxelBox & box) &&
   return result;
 }
 
+/** Pieces that touch, joined one by one. */
+class Joining
+{
+public:
+  Joining(const VoxelShape & mask, const std::vector<Voxel> & contacts, std::int64_t least)
+    : m_Shape(mask)
+    , m_Pieces(mask)
+    , m_Touching(m_Pieces.Touching())
+    , m_Size(mask.Box().size)
+    , m_Turning(TurningOf(mask, contacts))
+    , m_Contacts(contacts)
+    , m_Least(least)
+  {
+    for (Voxel & contact : m_Contacts)
+    {
+      contact = { contact[0] + kRoom, contact[1] + kRoom, contact[2] + kRoom };
+    }
+  }
+
+  JoinedPieces
+  Run(const VoxelBox & box) &&
+  {
+    while (JoinBest(Singles()) || JoinBest(Pairs()))
+    {}
+    for (JoinedPieces::Joint & joint : m_Joints)
+    {
+      for (Voxel & at : joint.voxels)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          at[axis] += box.lower[axis] - kRoom;
+        }
+      }
+    }
+    return { std::move(m_Shape).Release(), std::move(m_Joints) };
+  }
+
+private:
+  /** One fill or two that join; the best come first: those that join most and lie deepest. */
+  struct Joint
+  {
+    int                joined = 0;
+    int                around = 0; ///< voxels in among the 26
+    std::vector<Voxel> turned;
+    std::vector<Voxel> voxels;
+  };
+
+  /** Whether pieces, by one run of each, touch in the mask, or are held together by others that do. */
+  bool
+  Touch(const std::vector<std::uint32_t> & pieces)
+  {
+    return std::ranges::all_of(pieces, [&](std::uint32_t one) {
+      return m_Touching.Find(one) == m_Touching.Find(pieces.front());
+    });
+  }
+
+  /** How many pieces a voxel put in makes one; 0 where it makes none one, or changes anything else. */
+  int
+  PiecesAt(const Voxel & at)
+  {
+    const Neighbourhood around = m_Shape.Around(at);
+    if ((around & kCentre27) != 0 || !IsInBox(m_Size, at))
+    {
+      return 0;
+    }
+    const Pieces pieces = ShapePieces(around);
+    if (pieces.count < 2 || BackgroundPieces(around).count != 1 ||
+        m_Pieces.Count() - static_cast<std::int64_t>(pieces.count) + 1 < m_Least)
+    {
+      return 0;
+    }
+    const auto apart = m_Pieces.Apart(at, pieces);
+    return apart && Touch(*apart) ? static_cast<int>(pieces.count) : 0;
+  }
+
+  /** Whether a voxel put in changes nothing. */
+  bool
+  CanGoFirst(const Voxel & at) const
+  {
+    return !m_Shape.Contains(at) && IsInBox(m_Size, at) && IsSimpleVoxel(m_Shape.Around(at));
+  }
+
+  void
+  Fill(const Voxel & at)
+  {
+    const auto pieces = m_Pieces.Apart(at, ShapePieces(m_Shape.Around(at)));
+    m_Shape.Flip(at);
+    m_Pieces.Join(at, *pieces);
+  }
+
+  static std::array<Voxel, 8>
+  Block(const Voxel & corner)
+  {
+    std::array<Voxel, 8> block;
+    for (std::int32_t i = 0; i < 8; ++i)
+    {
+      block[static_cast<std::size_t>(i)] = { corner[0] - 1 + (i & 1),
+                                             corner[1] - 1 + (i >> 1 & 1),
+                                             corner[2] - 1 + (i >> 2) };
+    }
+    return block;
+  }
+
+  /** Forgets contacts of one piece with itself. */
+  void
+  KeepContactsOfTwo()
+  {
+    std::erase_if(m_Contacts, [&](const Voxel & contact) {
+      std::set<std::uint32_t> pieces;
+      for (const Voxel & at : Block(contact))
+      {
+        if (m_Shape.Contains(at))
+        {
+          pieces.insert(m_Pieces.Of(at));
+        }
+      }
+      return pieces.size() < 2;
+    });
+  }
+
+  std::vector<Joint>
+  Singles()
+  {
+    KeepContactsOfTwo();
+    std::vector<Joint> joints;
+    for (const Voxel & contact : m_Contacts)
+    {
+      for (const Voxel & at : Block(contact))
+      {
+        if (const int joined = PiecesAt(at); joined > 0)
+        {
+          joints.push_back({ joined, std::popcount(m_Shape.Around(at)), { m_Turning(at) }, { at } });
+        }
+      }
+    }
+    return joints;
+  }
+
+  /** The first of the two is simple, and so it alters nothing by itself. */
+  std::vector<Joint>
+  Pairs()
+  {
+    std::vector<Joint> joints;
+    for (const Voxel & contact : m_Contacts)
+    {
+      for (const Voxel & first : Block(contact))
+      {
+        if (!CanGoFirst(first))
+        {
+          continue;
+        }
+        Fill(first);
+        for (const Voxel & second : Block(contact))
+        {
+          if (const int joined = PiecesAt(second); joined > 0)
+          {
+            joints.push_back({ joined,
+                               std::popcount(m_Shape.Around(first)) + std::popcount(m_Shape.Around(second)),
+                               { m_Turning(first), m_Turning(second) },
+                               { first, second } });
+          }
+        }
+        m_Shape.Flip(first);
+        m_Pieces.Forget(first);
+      }
+    }
+    return joints;
+  }
+
+  /** Makes them in their order where they still join. */
+  bool
+  JoinBest(std::vector<Joint> joints)
+  {
+    std::ranges::sort(joints, [](const Joint & a, const Joint & b) {
+      return std::tuple(-a.joined, -a.around, a.turned) < std::tuple(-b.joined, -b.around, b.turned);
+    });
+    bool moves = false;
+    for (const Joint & joint : joints)
+    {
+      const Voxel & first = joint.voxels.front();
+      const Voxel & last = joint.voxels.back();
+      const bool    isPair = joint.voxels.size() > 1;
+      if (isPair && !CanGoFirst(first))
+      {
+        continue;
+      }
+      if (isPair)
+      {
+        Fill(first);
+      }
+      if (const int pieces = PiecesAt(last); pieces > 0)
+      {
+        Fill(last);
+        m_Joints.push_back({ pieces, joint.voxels });
+        moves = true;
+      }
+      else if (isPair)
+      {
+        m_Shape.Flip(first);
+        m_Pieces.Forget(first);
+      }
+    }
+    return moves;
+  }
+
+  PaddedShape        m_Shape;
+  GrowingPieces      m_Pieces;
+  UnionFind          m_Touching; ///< its runs, of the mask
+  Voxel              m_Size;     ///< of the mask's box
+  GridTurning        m_Turning;
+  std::vector<Voxel> m_Contacts; ///< corners
+  std::int64_t       m_Least;
+
+  std::vector<JoinedPieces::Joint> m_Joints;
+};
+
 } // namespace
 
 ConnectedShape
@@ -563,6 +783,18 @@ ConnectOverCorners(const VoxelShape & shape, const ProgressCallback & progress)
   connecting.Settle(progress);
   connecting.TakeBack();
   return std::move(connecting).Release(mask.Box());
+}
+
+JoinedPieces
+JoinTouchingPieces(const VoxelShape & shape, std::int64_t least)
+{
+  const VoxelShape         mask = CropToVoxels(shape);
+  const std::vector<Voxel> contacts = FindContacts(mask);
+  if (contacts.empty())
+  {
+    return { mask, {} };
+  }
+  return Joining(mask, contacts, least).Run(mask.Box());
 }
 
 } // namespace voxelcore

@@ -2,6 +2,7 @@
 
 #include "EditRecords.h"
 #include "ShapeBits.h"
+#include "TouchingPieces.h"
 
 #include "voxelcore/DepthSimplification.h"
 #include "voxelcore/Error.h"
@@ -14,6 +15,8 @@
 #include "voxelcore/TextFields.h"
 #include "voxelcore/TornPieces.h"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace voxelcore
@@ -22,16 +25,45 @@ namespace voxelcore
 namespace
 {
 
+EditRecord::Change
+ChangeOf(const JoinedPieces::Joint & joint, const ImageGeometry & geometry)
+{
+  EditRecord::Change change;
+  change.isFill = true;
+  change.voxels = joint.voxels.size();
+  change.cost = static_cast<double>(change.voxels); // each next to the shape
+  change.difference = { 1 - joint.pieces, 0, 0 };
+  Vector3 mean{ 0, 0, 0 };
+  for (const auto & at : joint.voxels)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      mean[axis] += (at[axis] + 0.5) / static_cast<double>(change.voxels);
+    }
+  }
+  change.centre = LatticeToPhysical(geometry, mean);
+  return change;
+}
+
 EditRecord::Simplified
-RecordOf(const DepthSimplified & result, const ImageGeometry & geometry)
+RecordOf(const DepthSimplified & result,
+         const JoinedPieces &    joined,
+         const TopologyNumbers & before,
+         const ImageGeometry &   geometry)
 {
   const SimplifiedShape & simplified = result.simplified;
   EditRecord::Simplified  record;
-  record.before = simplified.before;
+  record.before = before;
+  for (const JoinedPieces::Joint & joint : joined.joints)
+  {
+    ++record.fills;
+    record.voxelsAdded += joint.voxels.size();
+    record.changes.push_back(ChangeOf(joint, geometry));
+  }
   record.after = simplified.after;
   record.asAsked = simplified.asAsked;
   record.reason = result.reason;
-  record.voxelsAdded = simplified.voxelsAdded;
+  record.voxelsAdded += simplified.voxelsAdded;
   record.voxelsRemoved = simplified.voxelsRemoved;
   for (const TopologyChange & change : simplified.changes)
   {
@@ -43,6 +75,7 @@ RecordOf(const DepthSimplified & result, const ImageGeometry & geometry)
                                static_cast<double>(change.cost) / kCostOfOneVoxel,
                                change.difference });
   }
+  std::ranges::stable_sort(record.changes, std::greater(), &EditRecord::Change::cost);
   return record;
 }
 
@@ -78,6 +111,20 @@ Connect(VoxelShape & shape, const std::string & label, const ProgressCallback & 
     shape = std::move(connected.shape);
   }
   return record;
+}
+
+/** Joins pieces that touch before a simplification that would take away the lesser of them: of a line of voxels over
+ *  corners, one after the other. As many stay apart as were asked for. */
+JoinedPieces
+JoinTouching(VoxelShape & shape, const TopologyRequest & request)
+{
+  JoinedPieces joined;
+  if (!request.IsGiven() || request.pieces) // else pieces stay as many as they are
+  {
+    joined = JoinTouchingPieces(shape, std::max<std::int64_t>(1, request.pieces.value_or(1)));
+    shape = std::move(joined.shape);
+  }
+  return joined;
 }
 
 EditRecord
@@ -143,6 +190,11 @@ EditShape(VoxelShape &             shape,
   if (options.close)
   {
     record.closed = takeFilled(CloseShape(give(), BallOfDiameter(*options.close, geometry), closing));
+    // A ball leaves apart what meets at a corner alone.
+    JoinedPieces joined = JoinTouchingPieces(shape);
+    record.closed->voxelsAdded += joined.VoxelsAdded();
+    record.closed->componentsJoined += joined.PiecesJoined();
+    shape = std::move(joined.shape);
   }
   const ProgressCallback hollows = plan.Next();
   if (options.fillHollows)
@@ -194,9 +246,11 @@ EditShape(VoxelShape &             shape,
   // Last: nothing that comes after changes the topology asked for.
   if (options.simplify && shape.Box().size[0] > 0)
   {
-    DepthSimplified result =
-      SimplifyWithin(shape, BallOfDepth(*options.simplify, geometry), options.topology, plan.Next());
-    record.simplified = RecordOf(result, geometry);
+    const LatticeBall     ball = BallOfDepth(*options.simplify, geometry);
+    const TopologyNumbers before = ComputeShapeTopology(shape);
+    const JoinedPieces    joined = JoinTouching(shape, options.topology);
+    DepthSimplified       result = SimplifyWithin(shape, ball, options.topology, plan.Next());
+    record.simplified = RecordOf(result, joined, before, geometry);
     shape = Tightened(std::move(result.simplified.shape));
   }
   if (options.change)

@@ -1,14 +1,13 @@
 #include "voxelcore/ShapeSmoothing.h"
 
+#include "GrowingPieces.h"
 #include "MendingWindow.h"
 #include "ShapeField.h"
-#include "ShapeRuns.h"
+#include "TouchingPieces.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
 
 #include <algorithm>
-#include <optional>
-#include <unordered_map>
 #include <vector>
 
 namespace voxelcore
@@ -22,8 +21,7 @@ class Mending
 public:
   explicit Mending(const VoxelShape & shape)
     : m_Shape(shape)
-    , m_Runs(VoxelRuns(shape))
-    , m_Components(UniteRuns(m_Runs, false))
+    , m_Components(shape)
   {}
 
   MendedShape
@@ -49,7 +47,11 @@ public:
         changes = (m_Shape.Contains(voxels[i]) ? TakeOut(voxels[i]) : PutIn(voxels[i])) || changes;
       }
     }
-    m_Result.shape = std::move(m_Shape).Release();
+    // Two that meet at a corner alone take two voxels.
+    JoinedPieces joined = JoinTouchingPieces(std::move(m_Shape).Release());
+    m_Result.voxelsAdded += joined.VoxelsAdded();
+    m_Result.piecesJoined += joined.PiecesJoined();
+    m_Result.shape = std::move(joined.shape);
     return std::move(m_Result);
   }
 
@@ -100,7 +102,7 @@ private:
     {
       return false;
     }
-    const auto components = ComponentsOf(voxel, shape);
+    const auto components = m_Components.Apart(voxel, shape);
     if (!components || (background.count > 1 && !HangTogether(m_Shape, voxel, background, true)))
     {
       return false;
@@ -110,11 +112,7 @@ private:
     m_Result.piecesJoined += shape.count - 1;
     m_Result.loopsClosed += background.count > 1 ? background.count - 1 : 0;
     m_Result.cavitiesFilled += background.count == 0 ? 1 : 0;
-    for (const std::uint32_t component : *components)
-    {
-      m_Components.Unite(components->front(), component);
-    }
-    m_Added[Index(voxel)] = components->front();
+    m_Components.Join(voxel, *components);
     return true;
   }
 
@@ -144,57 +142,9 @@ private:
     });
   }
 
-  /** One run of the component of each piece; none when two are of the same. */
-  std::optional<std::vector<std::uint32_t>>
-  ComponentsOf(const Voxel & voxel, const Pieces & pieces)
-  {
-    std::vector<std::uint32_t> components;
-    for (std::size_t piece = 0; piece < pieces.count; ++piece)
-    {
-      const auto   faces = FaceNeighbours(voxel);
-      const auto * next = std::find_if(faces.begin(), faces.end(), [&](const Voxel & face) {
-        return pieces.sets[piece] >>
-                 (face[0] - voxel[0] + 1 + 3 * (face[1] - voxel[1] + 1) + 9 * (face[2] - voxel[2] + 1)) &
-               1U;
-      });
-      components.push_back(m_Components.Find(RunOf(*next)));
-    }
-    std::vector<std::uint32_t> sorted = components;
-    std::sort(sorted.begin(), sorted.end());
-    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end() ? std::optional(components) : std::nullopt;
-  }
-
-  std::uint32_t
-  RunOf(const Voxel & voxel) const
-  {
-    if (const auto added = m_Added.find(Index(voxel)); added != m_Added.end())
-    {
-      return added->second;
-    }
-    constexpr std::int32_t room = PaddedShape::kRoom;
-    const auto             row = static_cast<std::size_t>(voxel[2] - room) * static_cast<std::size_t>(m_Runs.rowsY) +
-                     static_cast<std::size_t>(voxel[1] - room);
-    const auto first = m_Runs.begin.begin() + static_cast<std::ptrdiff_t>(m_Runs.rowStart[row]);
-    const auto last = m_Runs.begin.begin() + static_cast<std::ptrdiff_t>(m_Runs.rowStart[row + 1]);
-    return static_cast<std::uint32_t>(std::upper_bound(first, last, voxel[0] - room) - m_Runs.begin.begin() - 1);
-  }
-
-  std::uint64_t
-  Index(const Voxel & voxel) const
-  {
-    const Voxel & size = m_Shape.Size();
-    return (static_cast<std::uint64_t>(voxel[2]) * static_cast<std::uint64_t>(size[1]) +
-            static_cast<std::uint64_t>(voxel[1])) *
-             static_cast<std::uint64_t>(size[0]) +
-           static_cast<std::uint64_t>(voxel[0]);
-  }
-
-  PaddedShape m_Shape;
-  Runs        m_Runs;
-  UnionFind   m_Components; ///< of runs
-  MendedShape m_Result;
-
-  std::unordered_map<std::uint64_t, std::uint32_t> m_Added; ///< voxels put in, with a run of their component
+  PaddedShape   m_Shape;
+  GrowingPieces m_Components;
+  MendedShape   m_Result;
 };
 
 } // namespace

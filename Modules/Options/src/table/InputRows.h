@@ -280,8 +280,8 @@ inline constexpr auto kShapeEditRows = std::to_array<Parameter>({
     "",
     false,
     kCore | kInfo | kSkeleton | kMaps,
-    "Make one piece without loops and cavities of each label: --connectivity 26 --simplify-topology 3vox --pieces 1 "
-    "--loops 0 --cavities 0" },
+    "Make one piece without loops and cavities of each label: --simplify-topology 3vox --pieces 1 --loops 0 "
+    "--cavities 0" },
   { "change-voxels",
     "--change-voxels",
     Input,
