@@ -4,9 +4,11 @@
 #include "voxelcore/BallTree.h"
 #include "voxelcore/TolerancePruning.h"
 #include "voxelcore/CurveSkeleton.h"
+#include "voxelcore/FineBracket.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/LocalThickness.h"
 #include "voxelcore/Refinement.h"
+#include "voxelcore/SmoothBalls.h"
 #include "voxelcore/VoxelCore.h"
 
 #include <cstdlib>
@@ -110,6 +112,12 @@ DamageCore(MedialComplex & core)
 #define VOXELCORE_BRACKET                                                                                      \
   "_ZN9voxelcore16BracketThicknessERKNS_10VoxelShapeESt4spanIKNS_12LatticePointELm18446744073709551615EERKNS_" \
   "13DelaunayCellsERKNS_14SpacingWeightsEbRKSt8functionIFbSt17basic_string_viewIcSt11char_traitsIcEEdEEPS1_"
+#define VOXELCORE_SMOOTH_BALLS                                                                                       \
+  "_ZN9voxelcore11SmoothBallsERKNS_10VoxelShapeERKNS_14SpacingWeightsEPKNS_15SurfaceEstimateERKSt8functionIFbSt17ba" \
+  "sic_string_viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_SMOOTH_BRACKET                                                                                  \
+  "_ZN9voxelcore13SmoothBracketERKNS_10VoxelShapeERKNS_14SpacingWeightsERKSt8functionIFbSt17basic_string_viewIcS" \
+  "t11char_traitsIcEEdEE"
 // NOLINTEND
 
 MedialComplex
@@ -298,6 +306,55 @@ FaultyBracket(const VoxelShape &            shape,
     {
       bound *= 0.5F;
     }
+  }
+  return bracket;
+}
+
+PaintingBalls
+TrueSmoothBalls(const VoxelShape &,
+                const SpacingWeights &,
+                const SurfaceEstimate *,
+                const ProgressCallback &) asm("__real_" VOXELCORE_SMOOTH_BALLS);
+PaintingBalls
+FaultySmoothBalls(const VoxelShape &,
+                  const SpacingWeights &,
+                  const SurfaceEstimate *,
+                  const ProgressCallback &) asm("__wrap_" VOXELCORE_SMOOTH_BALLS);
+PaintingBalls
+FaultySmoothBalls(const VoxelShape &       shape,
+                  const SpacingWeights &   weights,
+                  const SurfaceEstimate *  surface,
+                  const ProgressCallback & progress)
+{
+  PaintingBalls balls = TrueSmoothBalls(shape, weights, surface, progress);
+  const double  part = IsSeeded("thick") ? 1.6 : IsSeeded("thin") ? 0.4 : 1;
+  for (std::size_t i = 0; i < balls.Count(); ++i)
+  {
+    balls.radius[i] *= part;
+    balls.value[i] *= part;
+  }
+  return balls;
+}
+
+ThicknessBracket
+TrueSmoothBracket(const VoxelShape &,
+                  const SpacingWeights &,
+                  const ProgressCallback &) asm("__real_" VOXELCORE_SMOOTH_BRACKET);
+ThicknessBracket
+FaultySmoothBracket(const VoxelShape &,
+                    const SpacingWeights &,
+                    const ProgressCallback &) asm("__wrap_" VOXELCORE_SMOOTH_BRACKET);
+ThicknessBracket
+FaultySmoothBracket(const VoxelShape & shape, const SpacingWeights & weights, const ProgressCallback & progress)
+{
+  ThicknessBracket bracket = TrueSmoothBracket(shape, weights, progress);
+  for (float & bound : bracket.upper.values)
+  {
+    bound *= IsSeeded("bounds") ? 0.5F : 1;
+  }
+  for (float & bound : bracket.lower.values)
+  {
+    bound *= IsSeeded("lower") ? 1.8F : 1;
   }
   return bracket;
 }

@@ -5,11 +5,11 @@ usage: faults.py BUILD_DIR [--count 200] [--seed S] [--jobs 2] [--modules A,B..]
        faults.py BUILD_DIR --again FILE.json [--jobs 2] [--results FILE.json]
 
 A fault is a sign, a comparison, a constant, an index or a bound changed, or a check dropped, on one line of
-Modules/{Lattice,Complex,Delaunay,VoxelCore,Skeleton,Certified}. All faults of a run are built into one copy of the tree
-in BUILD_DIR, each behind a switch (switch.h); lines that do not compile so are left out. A first run of the default
-tests of the modules and of the program's recorded runs (Testing/Results) tells which come past which fault; then, for
-each fault, these run with it, the quick ones first, until one fails, crashes or takes ten times the processor time.
-With the same seed and sources the faults are the same.
+Modules/{Lattice,Shape,Complex,Delaunay,VoxelCore,Skeleton,Certified}. All faults of a run are built into one copy of
+the tree in BUILD_DIR, each behind a switch (switch.h); lines that do not compile so are left out. A first run of the
+default tests of the modules and of the program's recorded runs (Testing/Results) tells which come past which fault;
+then, for each fault, these run with it, the quick ones first, until one fails, crashes or takes ten times the
+processor time. With the same seed and sources the faults are the same.
 What is known to change no result stands in explained.txt: path, the line, what it became, and why. --again runs those
 that an earlier run left unnoticed, and keeps what it found of the others. Exit code 1: over 3 % went unnoticed and are
 not explained there; those explained are counted apart, not as noticed.
@@ -29,7 +29,7 @@ import tempfile
 import threading
 
 SOURCE = os.path.realpath(f"{os.path.dirname(os.path.abspath(__file__))}/../..")
-SEEDED = ["Lattice", "Complex", "Delaunay", "VoxelCore", "Skeleton", "Certified"]
+SEEDED = ["Lattice", "Shape", "Complex", "Delaunay", "VoxelCore", "Skeleton", "Certified"]
 TESTED = ["Lattice", "Shape", "Complex", "Delaunay", "Blocks", "VoxelCore", "Refinement", "Skeleton", "Thickness",
           "Phantom", "Verification", "Certified", "Jobs"]
 LEFT_OUT = re.compile("heavy|sanitizer|browser|package|cluster|fuzz")

@@ -49,7 +49,7 @@ VoxelValues
 MapOf(const Body & body)
 {
   const PaintingBalls balls = SmoothBalls(body.shape, body.weights);
-  return ThicknessOfOwners(body.shape, body.weights, balls, OwnersAmong(balls, body.shape, body.weights));
+  return SmoothThicknessOf(body.shape, body.weights, balls, OwnersAmong(balls, body.shape, body.weights));
 }
 
 struct Errors
@@ -133,6 +133,41 @@ TEST(SmoothBalls, LieInTheVoxelsButForWhatASurfaceMayBeOff)
     EXPECT_TRUE(LieInVoxels(balls, volume.shape, weights));
     balls.radius.back() += 2.1 * MostBeyondVoxels(weights);
     EXPECT_FALSE(LieInVoxels(balls, volume.shape, weights));
+  }
+}
+
+// The bounds know nothing of the balls, and nothing widens them for the map.
+TEST(SmoothBalls, MakeNoVoxelThinnerOrThickerThanLabelsAllow)
+{
+  for (const RandomVolume & volume : RandomVolumes(8410, 20))
+  {
+    SCOPED_TRACE(volume.Describe());
+    const Body             body{ volume.shape, ComputeSpacingWeights(volume.spacing) };
+    const VoxelValues      map = MapOf(body);
+    const ThicknessBracket bracket = SmoothBracket(body.shape, body.weights);
+    for (std::size_t i = 0; i < map.values.size(); ++i)
+    {
+      ASSERT_LE(bracket.lower.values[i], map.values[i]) << i;
+      ASSERT_LE(map.values[i], bracket.upper.values[i]) << i;
+    }
+  }
+}
+
+// A spike holds no place of the ball it sits on: the ball next to it had given it 16.
+TEST(SmoothBalls, DoNotMakeASpikeAsThickAsWhatItSitsOn)
+{
+  for (const Vector3 & spacing : kTwoSpacings)
+  {
+    const Body        body = BodyWhere(40, spacing, [](const Vector3 & p) {
+      const bool isSpike = std::abs(p[0]) < 0.5 && std::abs(p[1]) < 0.5 && p[2] > 0 && p[2] < 15;
+      return isSpike ? -1 : std::hypot(p[0], p[1], p[2]) - 8;
+    });
+    const VoxelValues map = MapOf(body);
+    // The last two voxels in scan order stick out of the ball.
+    for (std::size_t i = 1; i <= 2; ++i)
+    {
+      EXPECT_LT(map.values[map.values.size() - i], 4 * spacing[2]) << "at " << spacing[2];
+    }
   }
 }
 

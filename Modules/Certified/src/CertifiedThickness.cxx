@@ -51,6 +51,20 @@ RequireSquares(const VoxelShape & shape, const DelaunayCells & cells, const std:
   }
 }
 
+VoxelsOutside
+OutsideBounds(const VoxelValues & map, const ThicknessBracket & bracket)
+{
+  VoxelsOutside outside;
+  for (std::size_t i = 0; i < map.values.size(); ++i)
+  {
+    const double value = map.values[i];
+    const double beyond = std::max(bracket.lower.values[i] - value, value - bracket.upper.values[i]);
+    outside.voxels += beyond > 0 ? 1 : 0;
+    outside.farthest = std::max(outside.farthest, beyond);
+  }
+  return outside;
+}
+
 void
 Tighten(CertifiedThickness & found, const SpacingWeights & weights, const ProgressCallback & progress)
 {
@@ -147,17 +161,16 @@ SmoothThickness(VoxelShape               voxels,
   {
     RefuseResult(name, "a ball in its surface reaches too far beyond its voxels");
   }
-  found.map = ThicknessOfOwners(found.shape, weights, found.balls, found.owners);
+  found.map = SmoothThicknessOf(found.shape, weights, found.balls, found.owners);
   if (const ProgressCallback bracketing = plan.Next("thickness"); bounds)
   {
     found.parts = PartsForBounds(found.shape, weights);
     found.bracket = SmoothBracket(found.shape, weights, bracketing);
     RequireThickness(found, name);
-    // The map is that of one surface among those that are allowed: bounds that leave room for it are bounds, too.
-    for (std::size_t i = 0; i < found.map.values.size(); ++i)
+    found.outside = OutsideBounds(found.map, found.bracket);
+    if (found.outside.voxels > 0 && surface == nullptr)
     {
-      found.bracket.lower.values[i] = std::min(found.bracket.lower.values[i], found.map.values[i]);
-      found.bracket.upper.values[i] = std::max(found.bracket.upper.values[i], found.map.values[i]);
+      RefuseResult(name, "a voxel is thinner or thicker than its labels allow");
     }
   }
   RequireThickness(found, name);

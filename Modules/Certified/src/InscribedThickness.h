@@ -17,7 +17,8 @@ InscribedThickness(const VoxelShape &       voxels,
                    const ProgressCallback & progress);
 
 /** Of the smooth surface that the labels stand for, or that the estimate tells, where there is one.
- *  \throws CertificateError when a ball reaches too far beyond the voxels, or a voxel has no thickness; Cancelled */
+ *  \throws CertificateError when a ball reaches too far beyond the voxels, a voxel has no thickness, or by labels
+ *  one outside the bounds; Cancelled */
 CertifiedThickness
 SmoothThickness(VoxelShape               voxels,
                 const SpacingWeights &   weights,

@@ -115,6 +115,8 @@ Summarize(const CertifiedThickness & found,
     record.meanLower = MeanOf(found.bracket.lower.values);
     record.meanUpper = MeanOf(found.bracket.upper.values);
     record.parts = found.parts;
+    record.outside = found.outside.voxels;
+    record.farthestOutside = found.outside.farthest;
   }
 }
 
@@ -154,6 +156,8 @@ WithThickness(std::string report, const ThicknessResult & result, const Thicknes
     {
       one["bounds"] = { { "lower_mean_mm", *record.meanLower },
                         { "upper_mean_mm", *record.meanUpper },
+                        { "voxels_outside", record.outside },
+                        { "farthest_outside_mm", record.farthestOutside },
                         { "voxels_cut", record.parts } };
     }
     all.push_back(std::move(one));
@@ -194,7 +198,17 @@ ThicknessText(const ThicknessResult & result)
                      length(n.greatest),
                      FixedText(percent, 1) + " %" });
   }
-  return FormatTable(rows);
+  std::string text = FormatTable(rows);
+  for (const ThicknessRecord & record : result.thickness)
+  {
+    if (record.outside > 0)
+    {
+      text += record.name + ": " + std::to_string(record.outside) + " voxels lie outside the bounds, by up to " +
+              unit.Text(record.farthestOutside, 1, 3) + " " + unit.Name() +
+              ": the surface is none that the labels allow; compare with --refine labels\n";
+    }
+  }
+  return text;
 }
 
 } // namespace voxelcore

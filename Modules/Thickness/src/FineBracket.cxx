@@ -149,7 +149,13 @@ FineParts(const SpacingWeights & weights, double longest)
 std::array<std::int32_t, 3>
 PartsForBounds(const VoxelShape & shape, const SpacingWeights & weights)
 {
-  return FineParts(weights, CountBoundary(shape).vertices <= kMostToCutAll ? 0.99 : 1.01);
+  return CountBoundary(shape).vertices <= kMostToCutAll ? PartsForBounds(weights) : FineParts(weights, 1.01);
+}
+
+std::array<std::int32_t, 3>
+PartsForBounds(const SpacingWeights & weights)
+{
+  return FineParts(weights, 0.99);
 }
 
 VoxelShape

@@ -4,14 +4,17 @@
 #include "SquareTree.h"
 #include "SurfacePlaces.h"
 #include "voxelcore/CoreThickness.h"
+#include "voxelcore/FineBracket.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/StagePlan.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace voxelcore
 {
@@ -31,6 +34,7 @@ constexpr double kReachBeyond = 1;
 constexpr double kNearlyTouches = 0.5; ///< of VoxelSize(), more than places err
 constexpr double kTouches = 1e-9;      ///< of a radius: rounding
 constexpr int    kMostSteps = 64;      ///< of shrinking; about four are taken
+constexpr double kLess = 15.0 / 16;    ///< of a radius that is too great for the labels: the next to be tried
 
 /** Side of the cube with a voxel's diagonal, mm. */
 double
@@ -173,6 +177,120 @@ BallsAt(const SurfacePlaces &    places,
   return balls;
 }
 
+/** The boxes between eight centres of which one is in, the voxel that a box is named for the last of them. */
+VoxelShape
+BetweenCentres(const VoxelShape & shape)
+{
+  const VoxelBox & box = shape.Box();
+  VoxelShape       between({ box.lower, { box.size[0] + 1, box.size[1] + 1, box.size[2] + 1 } });
+  for (std::int32_t z = 0; z < between.Box().size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < between.Box().size[1]; ++y)
+    {
+      const auto to = between.Row(y, z);
+      for (std::int32_t from = 0; from < 4; ++from)
+      {
+        const std::int32_t fromY = y - from % 2;
+        const std::int32_t fromZ = z - from / 2;
+        if (fromY < 0 || fromZ < 0 || fromY >= box.size[1] || fromZ >= box.size[2])
+        {
+          continue;
+        }
+        const auto    row = shape.Row(fromY, fromZ);
+        std::uint64_t carried = 0;
+        for (std::size_t word = 0; word < to.size(); ++word)
+        {
+          const std::uint64_t in = word < row.size() ? row[word] : 0;
+          to[word] |= in | in << 1U | carried;
+          carried = in >> 63U;
+        }
+      }
+    }
+    if (z % 8 == 7)
+    {
+      between.Compact(z - 7, z + 1);
+    }
+  }
+  between.Compact();
+  return between;
+}
+
+/** What the smooth surfaces that labels allow can have inside. */
+class AllowedBody
+{
+public:
+  AllowedBody(const VoxelShape & shape, const SpacingWeights & weights)
+    : m_Boxes(BetweenCentres(shape))
+    , m_Tree(m_Boxes, weights)
+    , m_Unit(weights.unit)
+    , m_More(MoreThanBetween(weights))
+  {}
+
+  /** Of the greatest ball in it about a place, mm; `most` where that is less, 0 outside. */
+  double
+  RadiusAt(const Vector3 & place, double most) const
+  {
+    const Vector3 there{ place[0] + 0.5, place[1] + 0.5, place[2] + 0.5 };
+    const auto    index = [&](std::size_t axis) { return static_cast<std::int32_t>(std::floor(there[axis])); };
+    return m_Boxes.Contains(index(0), index(1), index(2))
+             ? std::min(most, m_Unit * m_Tree.Distance(there, most / m_Unit) + m_More)
+             : 0;
+  }
+
+private:
+  /** By so much at least, mm, SmoothBracket() lets surfaces reach beyond these boxes: half a part of a voxel. */
+  static double
+  MoreThanBetween(const SpacingWeights & weights)
+  {
+    const std::array<std::int32_t, 3> parts = PartsForBounds(weights);
+    const Vector3                     sides = SidesOf(weights);
+    double                            least = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      least = std::min(least, 0.5 * sides[axis] / parts[axis]);
+    }
+    return least;
+  }
+
+  VoxelShape m_Boxes;
+  SquareTree m_Tree;
+  double     m_Unit;
+  double     m_More;
+};
+
+void
+KeepToLabels(PaintingBalls & balls, const VoxelShape & shape, const SpacingWeights & weights)
+{
+  const AllowedBody body(shape, weights);
+  RunInParts(balls.Count() > 1000, balls.Count(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      balls.radius[i] = body.RadiusAt(balls.centres[i], balls.radius[i]);
+      balls.value[i] = balls.radius[i];
+    }
+  });
+}
+
+/** The radius of a ball in the body that holds a place, at most that of the ball it is towards, mm: that ball, pushed
+ *  on to the place, made smaller until it lies in the body there. */
+double
+PushedRadius(const AllowedBody & body,
+             const Vector3 &     place,
+             const Vector3 &     towards,
+             double              most,
+             const Vector3 &     sides)
+{
+  const Vector3 way = Minus(towards, place);
+  const double  length = Length(Times(way, sides));
+  double        radius = std::min(most, length);
+  const double  least = 0.5 * *std::min_element(sides.begin(), sides.end());
+  while (radius > least && body.RadiusAt(AddScaled(place, radius / length, way), radius) < radius)
+  {
+    radius *= kLess;
+  }
+  return std::max(radius, least);
+}
+
 } // namespace
 
 PaintingBalls
@@ -191,7 +309,9 @@ SmoothBalls(const VoxelShape &       shape,
   {
     StagePlan           plan(progress, { 0.5, 0.5 });
     const SurfacePlaces places = PlacesOn(*surface, squares, sides, plan.Next("thickness"));
-    return BallsAt(places, shape, sides, plan.Next("thickness"));
+    PaintingBalls       balls = BallsAt(places, shape, sides, plan.Next("thickness"));
+    KeepToLabels(balls, shape, weights);
+    return balls;
   }
   StagePlan           plan(progress, { 0.2, 0.2, 0.1, 0.3, 0.2 });
   const LabelPlaces   labels(squares, sides);
@@ -211,7 +331,56 @@ SmoothBalls(const VoxelShape &       shape,
     }
   }
   const SurfacePlaces places = labels.Find(reaches, plan.Next("thickness"));
-  return BallsAt(places, shape, sides, plan.Next("thickness"));
+  PaintingBalls       balls = BallsAt(places, shape, sides, plan.Next("thickness"));
+  KeepToLabels(balls, shape, weights);
+  return balls;
+}
+
+VoxelValues
+SmoothThicknessOf(const VoxelShape &     shape,
+                  const SpacingWeights & weights,
+                  const PaintingBalls &  balls,
+                  const VoxelOwners &    owners)
+{
+  const Vector3              sides = SidesOf(weights);
+  const VoxelBox &           box = shape.Box();
+  VoxelValues                map = ThicknessOfOwners(shape, weights, balls, owners);
+  std::optional<AllowedBody> body;
+  std::size_t                at = 0;
+  const auto                 mend = [&](const Vector3 & place) {
+    const std::uint32_t owner = owners.values[at];
+    if (owner == 0)
+    {
+      return;
+    }
+    const Vector3 & centre = balls.centres[owner - 1];
+    const double    radius = balls.radius[owner - 1];
+    if (Length(Times(Minus(centre, place), sides)) <= radius * (1 + kTouches))
+    {
+      return;
+    }
+    if (!body)
+    {
+      body.emplace(shape, weights);
+    }
+    map.values[at] = static_cast<float>(2 * PushedRadius(*body, place, centre, radius, sides));
+  };
+  for (std::int32_t z = 0; z < box.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
+    {
+      const auto bits = shape.Row(y, z);
+      for (std::size_t word = 0; word < bits.size(); ++word)
+      {
+        for (std::uint64_t rest = bits[word]; rest != 0; rest &= rest - 1, ++at)
+        {
+          const auto x = static_cast<std::int32_t>(64 * word) + std::countr_zero(rest);
+          mend({ box.lower[0] + x + 0.5, box.lower[1] + y + 0.5, box.lower[2] + z + 0.5 });
+        }
+      }
+    }
+  }
+  return map;
 }
 
 double

@@ -61,11 +61,16 @@ refused moves 4 "$program" core scan.nrrd -o out.vtp
 # Coverage: more is pruned than was asked for, or refinement does not see where it uncovers the boundary.
 refused height 4 "$program" core scan.nrrd --refine off -o out.vtp
 refused gap 4 "$program" core scan.nrrd -o out.vtp
-[ ! -e "$atlas" ] || for label in 37 38 41; do
+[ ! -e "$atlas" ] || for label in 37 71 95 108; do
   refused gap 4 "$program" core "$atlas" --labels $label -o out.vtp
 done
 # Bounds of thickness
 refused bounds 4 "$program" thickness scan.nrrd --refine off --bounds -o out.nrrd
+for fault in bounds lower thick thin; do
+  refused $fault 4 "$program" thickness scan.nrrd --bounds -o out.nrrd
+done
+# Balls that reach far out of the voxels are refused without bounds, too.
+refused thick 4 "$program" thickness scan.nrrd -o out.nrrd
 # Radii and measures, of which a certificate says nothing. When stand-out of branches is promised, its fault goes here.
 verified radius "$program" core scan.nrrd --lambda 0 --keep-edges -o out.vtp
 verified radius "$program" core scan.nrrd --tolerance 0 --keep-edges -o out.vtp

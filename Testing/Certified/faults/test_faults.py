@@ -36,6 +36,7 @@ FROM_ARRAY = {
     "table": lambda: voxelcore.measure(ROD),
     "usual": lambda: voxelcore.core(thick_and_thin()),
     "thickness": lambda: voxelcore.thickness(ROD, refine="off", bounds=True),
+    "usual thickness": lambda: voxelcore.thickness(thick_and_thin(), bounds=True),
 }
 
 
@@ -71,6 +72,10 @@ def refuses(monkeypatch, stage, make):
         ("gap", "usual"),
         ("height", "by tolerance"),
         ("bounds", "thickness"),
+        ("bounds", "usual thickness"),
+        ("lower", "usual thickness"),
+        ("thick", "usual thickness"),
+        ("thin", "usual thickness"),
     ],
 )
 def test_a_fault_below_an_array_is_refused(monkeypatch, stage, what):

@@ -19,8 +19,17 @@ struct ThicknessRequest
   bool alone = false;  ///< nothing else is wanted: no core is made, and the result has none
 };
 
+/** Of a map beside its bounds. */
+struct VoxelsOutside
+{
+  std::uint64_t voxels = 0;
+  double        farthest = 0; ///< mm
+};
+
 /** Where cores are refined, the map is that of balls inscribed in the smooth surface that the voxels stand for
- *  (SmoothBalls.h), and bounds are those of all smooth surfaces that the labels allow (SmoothBracket()). Else it is
+ *  (SmoothBalls.h), and bounds are those of all smooth surfaces that the labels allow (SmoothBracket()),
+ *  which know nothing of these balls: what is outside is refused, or counted where grey values or a mesh tell the
+ *  surface, which may be none that the labels allow. Else it is
  *  that of the truly inscribed balls about places of the whole core: each radius is the distance to the nearest square
  *  of the boundary, measured in the voxels. Lower bounds may be greater: they also come from a finer lattice. Neither
  *  asks how a core is pruned. */
@@ -31,6 +40,7 @@ struct CertifiedThickness
   VoxelOwners        owners;     ///< among these balls; 0: the ball about the voxel's own centre
   VoxelValues        map;        ///< the estimate, mm
   ThicknessBracket   bracket;    ///< both empty where they were not asked for
+  VoxelsOutside      outside;    ///< of these; only where the map is of a smooth surface
   std::vector<float> atVertices; ///< the map's value at each vertex of the first core, mm
 
   std::array<std::int32_t, 3> parts{ 1, 1, 1 }; ///< into which voxels were cut for the bounds (FineBracket.h)

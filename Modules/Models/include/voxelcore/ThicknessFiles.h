@@ -29,6 +29,8 @@ struct ThicknessRecord
   bool                  withoutBorder = false; ///< whether `numbers` leaves out those at the border
   std::optional<double> meanLower;             ///< of the proven bounds, where these were asked for
   std::optional<double> meanUpper;
+  std::uint64_t         outside = 0;         ///< voxels outside these bounds, where these are of smooth surfaces
+  double                farthestOutside = 0; ///< how far at most
 
   std::array<std::int32_t, 3> parts{ 1, 1, 1 }; ///< of a voxel along each axis, for these bounds (FineBracket.h)
 };

@@ -25,6 +25,10 @@ FineParts(const SpacingWeights & weights, double longest);
 std::array<std::int32_t, 3>
 PartsForBounds(const VoxelShape & shape, const SpacingWeights & weights);
 
+/** The most that any shape's voxels are cut into for these. */
+std::array<std::int32_t, 3>
+PartsForBounds(const SpacingWeights & weights);
+
 /** Each voxel as that many boxes. */
 VoxelShape
 CutVoxels(const VoxelShape & shape, const std::array<std::int32_t, 3> & parts);

@@ -12,6 +12,10 @@
 // How far around a square the labels are fitted follows the thickness: what is thin must not be mixed with what is
 // near it, and what is thick needs more squares, as the least of many places that err is too small. So the map is made
 // twice, with one reach for all first.
+//
+// Whatever the places say, no ball reaches by more than half a part (FineBracket.h) into what lies between eight
+// centres of voxels that are out: no surface that the labels allow has that inside. So no map of these balls is above
+// the upper bound of SmoothBracket().
 
 #include "voxelcore/LocalThickness.h"
 #include "voxelcore/SurfaceEstimate.h"
@@ -30,6 +34,15 @@ SmoothBalls(const VoxelShape &       shape,
 
 /** In longest sides of a voxel: beyond balls, labels are looked at so far around a voxel to tell its thickness. */
 inline constexpr double kSmoothReach = 16;
+
+/** Local thickness of the smooth surface, mm, by the balls that voxels belong to (OwnersAmong()). A voxel that its ball
+ *  does not hold has that ball's thickness where the labels allow one so great to hold it, or else as much of it as
+ *  they allow, by steps of a sixteenth. */
+VoxelValues
+SmoothThicknessOf(const VoxelShape &     shape,
+                  const SpacingWeights & weights,
+                  const PaintingBalls &  balls,
+                  const VoxelOwners &    owners);
 
 /** By how much a ball may be greater than its centre is far from the voxels' boundary, mm: half a voxel's diagonal that
  *  a place may lie off its square's middle, half a square's diagonal from there, and what a ball nearly touches. */
